@@ -1,0 +1,1 @@
+//! Shared drawing code of the examples.

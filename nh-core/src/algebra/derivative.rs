@@ -1,0 +1,158 @@
+//! Derivatives on the graph, memoised: each distinct subexpression is differentiated once.
+
+use super::graph::{Function, Function2, Graph, Node};
+use super::number::Rational;
+use crate::id::{ExprId, SymbolId};
+use rustc_hash::FxHashMap;
+
+/// A derivation: the linear map with the Leibniz rule that sends each symbol to its seed.
+///
+/// With one seed 1 it is a partial derivative; with seeds `ẋ^i` it is the derivative along a
+/// vector field. Symbols without a seed are constants.
+///
+/// ```
+/// use nh_core::algebra::{Derivation, Graph};
+/// let mut g = Graph::new();
+/// let x = g.new_symbol("x");
+/// let e = { let x = g.symbol(x); g.square(x) };
+/// let de = Derivation::partial(&mut g, x).apply(&mut g, e);
+/// assert_eq!(g.text(de), "2*x");
+/// ```
+#[derive(Clone, Debug)]
+pub struct Derivation {
+    seeds: FxHashMap<SymbolId, ExprId>,
+    known: FxHashMap<ExprId, ExprId>,
+}
+
+impl Derivation {
+    /// The derivation with the given seeds.
+    #[must_use]
+    pub fn new(seeds: impl IntoIterator<Item = (SymbolId, ExprId)>) -> Self {
+        Self { seeds: seeds.into_iter().collect(), known: FxHashMap::default() }
+    }
+
+    /// `∂/∂symbol`.
+    #[must_use]
+    pub fn partial(graph: &mut Graph, symbol: SymbolId) -> Self {
+        let one = graph.one();
+        Self::new([(symbol, one)])
+    }
+
+    /// The derivative of `expression`.
+    pub fn apply(&mut self, graph: &mut Graph, expression: ExprId) -> ExprId {
+        if let Some(&known) = self.known.get(&expression) {
+            return known;
+        }
+        for id in graph.reachable(&[expression]) {
+            if !self.known.contains_key(&id) {
+                let derivative = self.of_node(graph, id);
+                self.known.insert(id, derivative);
+            }
+        }
+        self.known[&expression]
+    }
+
+    /// The derivative of a node whose operands are known.
+    fn of_node(&self, graph: &mut Graph, id: ExprId) -> ExprId {
+        match graph.node(id).clone() {
+            Node::Number(_) | Node::Pi => graph.zero(),
+            Node::Symbol(symbol) => match self.seeds.get(&symbol) {
+                Some(&seed) => seed,
+                None => graph.zero(),
+            },
+            Node::Sum { terms, .. } => {
+                let summands: Vec<_> = terms.iter().map(|(term, c)| (c.clone(), self.known[term])).collect();
+                graph.linear_combination(&summands)
+            }
+            Node::Product { factors, .. } => self.of_product(graph, id, &factors),
+            Node::Apply(function, x) => {
+                let dx = self.known[&x];
+                if graph.is_literal_zero(dx) {
+                    return dx;
+                }
+                let outer = graph.derivative_of_function(function, x, id);
+                graph.mul(outer, dx)
+            }
+            Node::Apply2(function, x, y) => self.of_pair(graph, function, x, y),
+        }
+    }
+
+    /// `d(c Π b^e) = Σ (c Π b^e) · e · db / b`.
+    fn of_product(&self, graph: &mut Graph, id: ExprId, factors: &[(ExprId, Rational)]) -> ExprId {
+        let mut summands = Vec::new();
+        for (base, exponent) in factors {
+            let derivative = self.known[base];
+            if !graph.is_literal_zero(derivative) {
+                let rest = graph.div(id, *base);
+                summands.push((exponent.clone(), graph.mul(rest, derivative)));
+            }
+        }
+        graph.linear_combination(&summands)
+    }
+
+    fn of_pair(&self, graph: &mut Graph, function: Function2, x: ExprId, y: ExprId) -> ExprId {
+        let (dx, dy) = (self.known[&x], self.known[&y]);
+        if graph.is_literal_zero(dx) && graph.is_literal_zero(dy) {
+            return graph.zero();
+        }
+        match function {
+            // d atan2(y, x) with the arguments in that order
+            Function2::Atan2 => {
+                let (a, b) = (graph.mul(y, dx), graph.mul(x, dy));
+                let numerator = graph.sub(a, b);
+                let (xx, yy) = (graph.square(x), graph.square(y));
+                let radius = graph.add(xx, yy);
+                graph.div(numerator, radius)
+            }
+            // the one-sided mean where the two agree
+            Function2::Min | Function2::Max => {
+                let gap = graph.sub(x, y);
+                let side = graph.apply(Function::Sign, gap);
+                let side = if function == Function2::Max { side } else { graph.neg(side) };
+                let (sum, difference) = (graph.add(dx, dy), graph.sub(dx, dy));
+                let turned = graph.mul(side, difference);
+                graph.linear_combination(&[(Rational::new(1, 2), sum), (Rational::new(1, 2), turned)])
+            }
+        }
+    }
+}
+
+impl Graph {
+    /// `f'(x)`, where `value` is `f(x)`.
+    fn derivative_of_function(&mut self, function: Function, x: ExprId, value: ExprId) -> ExprId {
+        let one = self.one();
+        match function {
+            Function::Sin => self.cos(x),
+            Function::Cos => {
+                let sin = self.sin(x);
+                self.neg(sin)
+            }
+            Function::Sinh => self.apply(Function::Cosh, x),
+            Function::Cosh => self.apply(Function::Sinh, x),
+            Function::Tanh => {
+                let squared = self.square(value);
+                self.sub(one, squared)
+            }
+            Function::Exp => value,
+            Function::Ln => self.div(one, x),
+            Function::Asin | Function::Acos => {
+                let squared = self.square(x);
+                let rest = self.sub(one, squared);
+                let derivative = self.pow(rest, Rational::new(-1, 2));
+                if function == Function::Asin { derivative } else { self.neg(derivative) }
+            }
+            Function::Atan => {
+                let squared = self.square(x);
+                let sum = self.add(one, squared);
+                self.div(one, sum)
+            }
+            Function::Abs => self.apply(Function::Sign, x),
+            Function::Sign => self.zero(),
+        }
+    }
+
+    /// `∂expression/∂symbol`.
+    pub fn partial(&mut self, expression: ExprId, symbol: SymbolId) -> ExprId {
+        Derivation::partial(self, symbol).apply(self, expression)
+    }
+}

@@ -1,0 +1,201 @@
+//! Expressions as text, in the syntax of the declaration: what is printed can be typed.
+
+use super::graph::{Function2, Graph, Node};
+use super::number::Rational;
+use crate::id::ExprId;
+
+/// How tightly the surroundings bind.
+#[derive(Clone, Copy, PartialEq, PartialOrd)]
+enum Level {
+    Sum,
+    Term,
+    Power,
+}
+
+struct Printer<'a> {
+    graph: &'a Graph,
+    text: String,
+    limit: usize,
+}
+
+impl Graph {
+    /// The expression as text.
+    #[must_use]
+    pub fn text(&self, id: ExprId) -> String {
+        self.text_within(id, usize::MAX)
+    }
+
+    /// The expression as text, cut with `…` where it would be much longer than `limit` bytes.
+    #[must_use]
+    pub fn text_within(&self, id: ExprId, limit: usize) -> String {
+        let mut printer = Printer { graph: self, text: String::new(), limit };
+        printer.expression(id, Level::Sum);
+        printer.text
+    }
+}
+
+impl Printer<'_> {
+    fn expression(&mut self, id: ExprId, level: Level) {
+        if self.text.len() > self.limit {
+            if !self.text.ends_with('…') {
+                self.text.push('…');
+            }
+            return;
+        }
+        match self.graph.node(id) {
+            Node::Number(value) => self.number(value, level),
+            Node::Pi => self.text.push_str("pi"),
+            Node::Symbol(symbol) => self.text.push_str(&self.graph.symbols()[*symbol]),
+            Node::Sum { constant, terms } => self.sum(constant, terms, level),
+            Node::Product { coefficient, factors } => self.product(coefficient, factors, level),
+            Node::Apply(function, x) => self.call(function.name(), &[*x]),
+            Node::Apply2(function, x, y) => {
+                debug_assert!(*function != Function2::Atan2 || function.name() == "atan2");
+                self.call(function.name(), &[*x, *y]);
+            }
+        }
+    }
+
+    fn number(&mut self, value: &Rational, level: Level) {
+        let bare = value.is_integer() && !value.is_negative();
+        let fits = bare || level == Level::Sum || (level == Level::Term && !value.is_negative());
+        self.parenthesised(!fits, |p| p.text.push_str(&value.to_string()));
+    }
+
+    fn parenthesised(&mut self, wrap: bool, print: impl FnOnce(&mut Self)) {
+        if wrap {
+            self.text.push('(');
+        }
+        print(self);
+        if wrap {
+            self.text.push(')');
+        }
+    }
+
+    fn call(&mut self, name: &str, arguments: &[ExprId]) {
+        self.text.push_str(name);
+        self.text.push('(');
+        for (index, argument) in arguments.iter().enumerate() {
+            if index > 0 {
+                self.text.push_str(", ");
+            }
+            self.expression(*argument, Level::Sum);
+        }
+        self.text.push(')');
+    }
+
+    /// A positive summand comes first, so that no sum starts with a minus needlessly.
+    fn sum(&mut self, constant: &Rational, terms: &[(ExprId, Rational)], level: Level) {
+        self.parenthesised(level > Level::Sum, |p| {
+            let first = terms.iter().position(|(_, c)| !c.is_negative()).unwrap_or(0);
+            let rest = (0..terms.len()).filter(|index| *index != first);
+            for (position, index) in std::iter::once(first).chain(rest).enumerate() {
+                let (term, coefficient) = &terms[index];
+                p.sign(coefficient.is_negative(), position == 0);
+                p.scaled(&coefficient.abs(), *term);
+            }
+            if !constant.is_zero() {
+                p.sign(constant.is_negative(), false);
+                p.text.push_str(&constant.abs().to_string());
+            }
+        });
+    }
+
+    fn sign(&mut self, negative: bool, first: bool) {
+        self.text.push_str(match (negative, first) {
+            (true, true) => "-",
+            (false, true) => "",
+            (true, false) => " - ",
+            (false, false) => " + ",
+        });
+    }
+
+    fn scaled(&mut self, coefficient: &Rational, term: ExprId) {
+        match self.graph.node(term) {
+            Node::Product { factors, .. } => self.product(coefficient, factors, Level::Sum),
+            _ => self.product(coefficient, &[(term, Rational::ONE)], Level::Sum),
+        }
+    }
+
+    /// Numerator factors, then `/` and the denominators.
+    fn product(&mut self, coefficient: &Rational, factors: &[(ExprId, Rational)], level: Level) {
+        let (below, above): (Vec<_>, Vec<_>) =
+            factors.iter().partition(|(_, exponent)| exponent.is_negative());
+        let lone_power = coefficient.is_one() && factors.len() == 1 && below.is_empty();
+        self.parenthesised(level == Level::Power && !(lone_power && factors[0].1.is_one()), |p| {
+            p.sign(coefficient.is_negative(), true);
+            let magnitude = coefficient.abs();
+            let (numerator, denominator) = (magnitude.numerator(), magnitude.denominator());
+            let mut started = false;
+            if numerator != 1.into() || above.is_empty() {
+                p.text.push_str(&numerator.to_string());
+                started = true;
+            }
+            for (base, exponent) in above {
+                if started {
+                    p.text.push('*');
+                }
+                p.power(*base, exponent);
+                started = true;
+            }
+            if denominator != 1.into() {
+                p.text.push('/');
+                p.text.push_str(&denominator.to_string());
+            }
+            for (base, exponent) in below {
+                p.text.push('/');
+                p.power(*base, &exponent.abs());
+            }
+        });
+    }
+
+    fn power(&mut self, base: ExprId, exponent: &Rational) {
+        if exponent.is_one() {
+            return self.expression(base, Level::Power);
+        }
+        if *exponent == Rational::new(1, 2) {
+            return self.call("sqrt", &[base]);
+        }
+        self.expression(base, Level::Power);
+        self.text.push('^');
+        self.number(exponent, Level::Power);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn reads_like_a_declaration() {
+        let mut g = Graph::new();
+        let names = ["m", "a", "omega", "x"].map(|name| g.new_symbol(name));
+        let [m, a, omega, x] = names.map(|symbol| g.symbol(symbol));
+        let aa = g.square(a);
+        let inertia = g.mul(m, aa);
+        let e = g.mul(inertia, omega);
+        let half = g.scale(Rational::new(-1, 2), e);
+        assert_eq!(g.text(half), "-m*a^2*omega/2");
+        let s = g.sub(half, x);
+        let q = g.div(x, s);
+        assert_eq!(g.text(q), "-x/(x + m*a^2*omega/2)");
+        let root = g.sqrt(s);
+        assert_eq!(g.text(root), "sqrt(-x - m*a^2*omega/2)");
+        let negative_power = g.pow(x, Rational::new(-2, 3));
+        assert_eq!(g.text(negative_power), "1/x^(2/3)");
+    }
+
+    #[test]
+    fn long_text_is_cut() {
+        let mut g = Graph::new();
+        let x = g.new_symbol("x");
+        let mut e = g.symbol(x);
+        for _ in 0..200 {
+            let one = g.one();
+            let sum = g.add(e, one);
+            let sin = g.sin(sum);
+            e = g.mul(sin, sum);
+        }
+        assert!(g.text_within(e, 80).len() < 2000);
+    }
+}

@@ -1,0 +1,364 @@
+//! Exact rational numbers, with a fast path for the small ones that nearly all are.
+
+use num_bigint::BigInt;
+use num_integer::Integer;
+use num_rational::Ratio;
+use num_traits::{One, Pow, Signed, ToPrimitive, Zero};
+use std::cmp::Ordering;
+use std::fmt;
+
+type Big = Ratio<BigInt>;
+
+/// An exact rational number in lowest terms with a positive denominator.
+///
+/// ```
+/// use nh_core::algebra::Rational;
+/// let third = Rational::new(2, 6);
+/// assert_eq!((third.clone() + Rational::from(1)).to_string(), "4/3");
+/// ```
+#[derive(Clone, Debug, PartialEq, Eq, Hash)]
+pub struct Rational(Repr);
+
+/// `Large` holds only what does not fit `Small`, so that equality is structural.
+#[derive(Clone, Debug, PartialEq, Eq, Hash)]
+enum Repr {
+    Small(i64, i64),
+    Large(Box<Big>),
+}
+
+impl Rational {
+    /// Zero.
+    pub const ZERO: Self = Self(Repr::Small(0, 1));
+    /// One.
+    pub const ONE: Self = Self(Repr::Small(1, 1));
+    /// Minus one.
+    pub const MINUS_ONE: Self = Self(Repr::Small(-1, 1));
+
+    /// `numerator / denominator`, reduced.
+    ///
+    /// # Panics
+    /// If the denominator is zero.
+    #[must_use]
+    pub fn new(numerator: i64, denominator: i64) -> Self {
+        assert!(denominator != 0, "a rational number has a non-zero denominator");
+        Self::from_wide(i128::from(numerator), i128::from(denominator))
+    }
+
+    /// `numerator / denominator` of any size; `None` if the denominator is zero.
+    #[must_use]
+    pub fn from_big(numerator: BigInt, denominator: BigInt) -> Option<Self> {
+        (!denominator.is_zero()).then(|| Self::normal(Big::new(numerator, denominator)))
+    }
+
+    fn from_wide(numerator: i128, denominator: i128) -> Self {
+        let divisor = numerator.gcd(&denominator).max(1);
+        let sign = denominator.signum();
+        let (n, d) = (numerator / divisor * sign, denominator / divisor * sign);
+        match (i64::try_from(n), i64::try_from(d)) {
+            (Ok(n), Ok(d)) => Self(Repr::Small(n, d)),
+            _ => Self(Repr::Large(Box::new(Big::new_raw(n.into(), d.into())))),
+        }
+    }
+
+    fn normal(big: Big) -> Self {
+        match (big.numer().to_i64(), big.denom().to_i64()) {
+            (Some(n), Some(d)) => Self(Repr::Small(n, d)),
+            _ => Self(Repr::Large(Box::new(big))),
+        }
+    }
+
+    fn big(&self) -> Big {
+        match &self.0 {
+            Repr::Small(n, d) => Big::new_raw((*n).into(), (*d).into()),
+            Repr::Large(big) => (**big).clone(),
+        }
+    }
+
+    /// The numerator.
+    #[must_use]
+    pub fn numerator(&self) -> BigInt {
+        self.big().numer().clone()
+    }
+
+    /// The denominator, positive.
+    #[must_use]
+    pub fn denominator(&self) -> BigInt {
+        self.big().denom().clone()
+    }
+
+    /// The value if it is an integer that fits.
+    #[must_use]
+    pub fn to_i64(&self) -> Option<i64> {
+        match self.0 {
+            Repr::Small(n, 1) => Some(n),
+            _ => None,
+        }
+    }
+
+    /// Numerator and denominator if both fit.
+    #[must_use]
+    pub fn to_small(&self) -> Option<(i64, i64)> {
+        match self.0 {
+            Repr::Small(n, d) => Some((n, d)),
+            Repr::Large(_) => None,
+        }
+    }
+
+    /// The nearest `f64`; infinite or zero beyond its range.
+    #[must_use]
+    #[allow(clippy::cast_precision_loss, reason = "the rounding is wanted; exact below 2^53")]
+    pub fn to_f64(&self) -> f64 {
+        match &self.0 {
+            Repr::Small(n, d) if n.unsigned_abs() < 1 << 53 && *d < 1 << 53 => *n as f64 / *d as f64,
+            _ => nearest(&self.big()),
+        }
+    }
+
+    /// Whether this is 0.
+    #[must_use]
+    pub fn is_zero(&self) -> bool {
+        matches!(self.0, Repr::Small(0, _))
+    }
+
+    /// Whether this is 1.
+    #[must_use]
+    pub fn is_one(&self) -> bool {
+        matches!(self.0, Repr::Small(1, 1))
+    }
+
+    /// Whether the denominator is 1.
+    #[must_use]
+    pub fn is_integer(&self) -> bool {
+        match &self.0 {
+            Repr::Small(_, d) => *d == 1,
+            Repr::Large(big) => big.is_integer(),
+        }
+    }
+
+    /// Whether the numerator is odd.
+    #[must_use]
+    pub fn has_odd_numerator(&self) -> bool {
+        match &self.0 {
+            Repr::Small(n, _) => n % 2 != 0,
+            Repr::Large(big) => big.numer().is_odd(),
+        }
+    }
+
+    /// Whether this is below 0.
+    #[must_use]
+    pub fn is_negative(&self) -> bool {
+        match &self.0 {
+            Repr::Small(n, _) => *n < 0,
+            Repr::Large(big) => big.is_negative(),
+        }
+    }
+
+    /// The absolute value.
+    #[must_use]
+    pub fn abs(&self) -> Self {
+        if self.is_negative() { -self.clone() } else { self.clone() }
+    }
+
+    /// The reciprocal; `None` for zero.
+    #[must_use]
+    pub fn recip(&self) -> Option<Self> {
+        match &self.0 {
+            Repr::Small(0, _) => None,
+            Repr::Small(n, d) => Some(Self::from_wide(i128::from(*d), i128::from(*n))),
+            Repr::Large(big) => Some(Self::normal(big.recip())),
+        }
+    }
+
+    /// The integer power; `None` for a negative power of zero, and where the result would have
+    /// more than [`Self::MAX_BITS`] bits.
+    #[must_use]
+    pub fn pow(&self, exponent: i64) -> Option<Self> {
+        if self.is_one() || exponent == 0 {
+            return Some(Self::ONE);
+        }
+        if *self == Self::MINUS_ONE {
+            return Some(if exponent % 2 == 0 { Self::ONE } else { Self::MINUS_ONE });
+        }
+        if self.is_zero() {
+            return (exponent > 0).then_some(Self::ZERO);
+        }
+        let times = u32::try_from(exponent.unsigned_abs()).ok()?;
+        if self.bits().checked_mul(u64::from(times))? > Self::MAX_BITS {
+            return None;
+        }
+        let base = if exponent < 0 { self.recip()? } else { self.clone() };
+        Some(Self::normal(Pow::pow(base.big(), times)))
+    }
+
+    /// Powers and literals are kept below this many bits.
+    pub const MAX_BITS: u64 = 4096;
+
+    /// The bits of numerator and denominator together.
+    #[must_use]
+    pub fn bits(&self) -> u64 {
+        let big = self.big();
+        big.numer().bits() + big.denom().bits()
+    }
+
+    /// The greatest rational of which both are integer multiples; zero for two zeros.
+    #[must_use]
+    pub fn gcd(&self, other: &Self) -> Self {
+        let (a, b) = (self.big(), other.big());
+        let numerator = (a.numer() * b.denom()).gcd(&(b.numer() * a.denom()));
+        Self::normal(Big::new(numerator, a.denom() * b.denom()))
+    }
+
+    /// The square root, if it is rational.
+    #[must_use]
+    pub fn sqrt(&self) -> Option<Self> {
+        if self.is_negative() {
+            return None;
+        }
+        let (n, d) = (self.numerator(), self.denominator());
+        let (rn, rd) = (n.sqrt(), d.sqrt());
+        (&rn * &rn == n && &rd * &rd == d).then(|| Self::normal(Big::new(rn, rd)))
+    }
+}
+
+/// The quotient to 66 bits and a sticky one, so that the conversion rounds only once.
+#[allow(clippy::cast_precision_loss, reason = "the rounding is wanted")]
+fn nearest(value: &Big) -> f64 {
+    let (numerator, denominator) = (value.numer().magnitude(), value.denom().magnitude());
+    let bits = |n: &num_bigint::BigUint| i64::try_from(n.bits()).unwrap_or(i64::MAX / 4);
+    let shift = 66 - (bits(numerator) - bits(denominator));
+    let (up, down) = (shift.max(0), (-shift).max(0));
+    let (quotient, rest) = (numerator << up).div_rem(&(denominator << down));
+    let sticky = u128::from(!rest.is_zero());
+    let mut result = (quotient.to_u128().unwrap_or(u128::MAX) | sticky) as f64;
+    let mut left = -shift;
+    while left != 0 && result != 0.0 && result.is_finite() {
+        let step = left.clamp(-1000, 1000);
+        result *= 2f64.powi(i32::try_from(step).unwrap_or(0));
+        left -= step;
+    }
+    if value.is_negative() { -result } else { result }
+}
+
+impl From<i64> for Rational {
+    fn from(value: i64) -> Self {
+        Self(Repr::Small(value, 1))
+    }
+}
+
+impl std::ops::Add for Rational {
+    type Output = Self;
+    fn add(self, other: Self) -> Self {
+        match (&self.0, &other.0) {
+            (Repr::Small(a, 1), Repr::Small(b, 1)) => Self::from_wide(i128::from(*a) + i128::from(*b), 1),
+            (Repr::Small(a, b), Repr::Small(c, d)) => {
+                let (a, b, c, d) = (i128::from(*a), i128::from(*b), i128::from(*c), i128::from(*d));
+                match (a * d).checked_add(c * b) {
+                    Some(numerator) => Self::from_wide(numerator, b * d),
+                    None => Self::normal(self.big() + other.big()),
+                }
+            }
+            _ => Self::normal(self.big() + other.big()),
+        }
+    }
+}
+
+impl std::ops::Neg for Rational {
+    type Output = Self;
+    fn neg(self) -> Self {
+        match self.0 {
+            Repr::Small(n, d) => Self::from_wide(-i128::from(n), i128::from(d)),
+            Repr::Large(big) => Self::normal(-*big),
+        }
+    }
+}
+
+impl std::ops::Sub for Rational {
+    type Output = Self;
+    fn sub(self, other: Self) -> Self {
+        self + -other
+    }
+}
+
+impl std::ops::Mul for Rational {
+    type Output = Self;
+    fn mul(self, other: Self) -> Self {
+        match (&self.0, &other.0) {
+            (Repr::Small(a, b), Repr::Small(c, d)) => {
+                Self::from_wide(i128::from(*a) * i128::from(*c), i128::from(*b) * i128::from(*d))
+            }
+            _ => Self::normal(self.big() * other.big()),
+        }
+    }
+}
+
+impl PartialOrd for Rational {
+    fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
+        Some(self.cmp(other))
+    }
+}
+
+impl Ord for Rational {
+    fn cmp(&self, other: &Self) -> Ordering {
+        match (&self.0, &other.0) {
+            (Repr::Small(a, b), Repr::Small(c, d)) => {
+                (i128::from(*a) * i128::from(*d)).cmp(&(i128::from(*c) * i128::from(*b)))
+            }
+            _ => self.big().cmp(&other.big()),
+        }
+    }
+}
+
+impl fmt::Display for Rational {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let big = self.big();
+        if big.denom().is_one() {
+            write!(f, "{}", big.numer())
+        } else {
+            write!(f, "{}/{}", big.numer(), big.denom())
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn stays_reduced_and_small_when_it_can() {
+        assert_eq!(Rational::new(6, -4), Rational::new(-3, 2));
+        let large = Rational::from(i64::MAX) * Rational::from(i64::MAX);
+        let back = large.clone() * large.recip().unwrap() * Rational::from(7);
+        assert_eq!(back, Rational::from(7));
+        assert_eq!(Rational::from(i64::MIN).abs().to_string(), "9223372036854775808");
+    }
+
+    #[test]
+    fn overflow_of_the_fast_path_is_exact() {
+        let a = Rational::new(i64::MAX, i64::MAX - 1);
+        let b = Rational::new(i64::MAX - 2, i64::MAX - 3);
+        let sum = a.clone() + b.clone();
+        assert_eq!(sum - b, a);
+    }
+
+    #[test]
+    fn conversion_rounds_to_nearest() {
+        let tenth = Rational::from_big(BigInt::from(10).pow(40u32), BigInt::from(10).pow(41u32)).unwrap();
+        assert_eq!(tenth.to_f64().to_bits(), 0.1f64.to_bits());
+        let long: BigInt = "314159265358979323846264338327950288".parse().unwrap();
+        let pi = Rational::from_big(long, BigInt::from(10).pow(35u32)).unwrap();
+        assert_eq!(pi.to_f64().to_bits(), std::f64::consts::PI.to_bits());
+        let huge = Rational::from(10).pow(400).unwrap();
+        assert!(huge.to_f64().is_infinite());
+        assert!(huge.recip().unwrap().to_f64() == 0.0);
+    }
+
+    #[test]
+    fn powers_and_roots() {
+        assert_eq!(Rational::new(2, 3).pow(-3), Some(Rational::new(27, 8)));
+        assert_eq!(Rational::ZERO.pow(-1), None);
+        assert_eq!(Rational::from(10).pow(1_000_000), None);
+        assert_eq!(Rational::new(9, 4).sqrt(), Some(Rational::new(3, 2)));
+        assert_eq!(Rational::from(2).sqrt(), None);
+        assert_eq!(Rational::new(4, 3).gcd(&Rational::new(2, 9)), Rational::new(2, 9));
+    }
+}

@@ -1,0 +1,308 @@
+//! Products and powers. Automatic identities:
+//!
+//! | identity | condition |
+//! |---|---|
+//! | `x^a · x^b = x^(a+b)`, `x^0 = 1` | where the left side is defined; this only removes divisions and roots |
+//! | `(x^a)^b = x^(ab)` | `b` an integer, or the numerator of `a` odd |
+//! | `(c·x·y)^b = c^b x^b y^b` | `b` an integer; otherwise only `c > 0` is taken out, if its root is rational |
+//! | `c · (a + b) = ca + cb` | `c` a number |
+//! | `(2a + 2b)^n · x = 2^n (a + b)^n x` | sums among factors are primitive, their first coefficient positive; `n` an integer, or `2` a positive number with a rational root |
+
+use super::graph::{Graph, Node};
+use super::number::Rational;
+use crate::id::ExprId;
+
+/// Factors collected while a product is built.
+struct Factors {
+    coefficient: Rational,
+    powers: Vec<(ExprId, Rational)>,
+}
+
+impl Graph {
+    /// `a · b`.
+    pub fn mul(&mut self, a: ExprId, b: ExprId) -> ExprId {
+        self.product(&[(a, Rational::ONE), (b, Rational::ONE)])
+    }
+
+    /// `a / b`. Division by the number 0 is kept as `0^−1`, which the checks refuse.
+    pub fn div(&mut self, a: ExprId, b: ExprId) -> ExprId {
+        self.product(&[(a, Rational::ONE), (b, Rational::MINUS_ONE)])
+    }
+
+    /// `base^exponent`.
+    pub fn pow(&mut self, base: ExprId, exponent: Rational) -> ExprId {
+        self.product(&[(base, exponent)])
+    }
+
+    /// `base²`.
+    pub fn square(&mut self, base: ExprId) -> ExprId {
+        self.pow(base, Rational::from(2))
+    }
+
+    /// `√x`.
+    pub fn sqrt(&mut self, x: ExprId) -> ExprId {
+        self.pow(x, Rational::new(1, 2))
+    }
+
+    /// `coefficient · x`, distributed over a sum.
+    pub fn scale(&mut self, coefficient: Rational, x: ExprId) -> ExprId {
+        if coefficient.is_one() {
+            return x;
+        }
+        if coefficient.is_zero() {
+            return self.zero();
+        }
+        match self.node(x).clone() {
+            Node::Number(value) => self.number(coefficient * value),
+            Node::Sum { constant, terms } => {
+                let terms = terms.iter().map(|(id, c)| (*id, c.clone() * coefficient.clone())).collect();
+                self.intern(Node::Sum { constant: constant * coefficient.clone(), terms })
+            }
+            Node::Product { coefficient: inner, factors } => {
+                self.finish_product(coefficient * inner, factors.into())
+            }
+            _ => self.intern(Node::Product { coefficient, factors: Box::new([(x, Rational::ONE)]) }),
+        }
+    }
+
+    /// A product as its number and the rest; anything else with the number 1.
+    pub fn split_coefficient(&mut self, id: ExprId) -> (Rational, ExprId) {
+        match self.node(id).clone() {
+            Node::Product { coefficient, factors } if !coefficient.is_one() => {
+                let rest = self.finish_product(Rational::ONE, factors.into());
+                (coefficient, rest)
+            }
+            _ => (Rational::ONE, id),
+        }
+    }
+
+    /// `Π base^exponent`.
+    pub fn product(&mut self, factors: &[(ExprId, Rational)]) -> ExprId {
+        let mut collected = Factors { coefficient: Rational::ONE, powers: Vec::with_capacity(factors.len()) };
+        for (base, exponent) in factors {
+            self.collect_factor(*base, exponent, &mut collected);
+        }
+        self.merge(&mut collected);
+        self.finish_product(collected.coefficient, collected.powers)
+    }
+
+    /// Takes `base^exponent` apart as far as the identities allow.
+    fn collect_factor(&mut self, base: ExprId, exponent: &Rational, into: &mut Factors) {
+        if exponent.is_zero() {
+            return;
+        }
+        match self.node(base).clone() {
+            Node::Number(value) => self.collect_number(&value, exponent, into),
+            Node::Product { coefficient, factors } if exponent.is_integer() => {
+                self.collect_number(&coefficient, exponent, into);
+                for (inner, power) in factors {
+                    // an integer power of a root can uncover a number or a product again
+                    let power = power * exponent.clone();
+                    if power.is_integer() && !matches!(self.node(inner), Node::Symbol(_)) {
+                        self.collect_factor(inner, &power, into);
+                    } else {
+                        into.powers.push((inner, power));
+                    }
+                }
+            }
+            Node::Product { coefficient, factors } => {
+                self.collect_root_of_product(coefficient, &factors, exponent, into);
+            }
+            Node::Sum { .. } => self.collect_sum(base, exponent, into),
+            _ => into.powers.push((base, exponent.clone())),
+        }
+    }
+
+    fn collect_number(&mut self, value: &Rational, exponent: &Rational, into: &mut Factors) {
+        if value.is_one() {
+            return;
+        }
+        if let Some(power) = rational_power(value, exponent) {
+            into.coefficient = into.coefficient.clone() * power;
+        } else {
+            let base = self.number(value.clone());
+            into.powers.push((base, exponent.clone()));
+        }
+    }
+
+    /// A fractional power of a product with a coefficient or several factors.
+    fn collect_root_of_product(
+        &mut self,
+        coefficient: Rational,
+        factors: &[(ExprId, Rational)],
+        exponent: &Rational,
+        into: &mut Factors,
+    ) {
+        let (outside, inside) = match rational_power(&coefficient, exponent) {
+            Some(root) => (root, Rational::ONE),
+            None => (Rational::ONE, coefficient),
+        };
+        into.coefficient = into.coefficient.clone() * outside;
+        match factors {
+            [(inner, power)] if inside.is_one() && power.has_odd_numerator() => {
+                into.powers.push((*inner, power.clone() * exponent.clone()));
+            }
+            _ => {
+                let base = self.finish_product(inside, factors.to_vec());
+                into.powers.push((base, exponent.clone()));
+            }
+        }
+    }
+
+    /// Takes the content out of a sum, so that equal sums up to a number become one base.
+    fn collect_sum(&mut self, base: ExprId, exponent: &Rational, into: &mut Factors) {
+        let content = self.content(base);
+        let outside = if exponent.is_integer() { content } else { content.abs() };
+        match rational_power(&outside, exponent).zip(outside.recip()) {
+            Some((power, inverse)) => {
+                into.coefficient = into.coefficient.clone() * power;
+                let primitive = self.scale(inverse, base);
+                into.powers.push((primitive, exponent.clone()));
+            }
+            None => into.powers.push((base, exponent.clone())),
+        }
+    }
+
+    /// The greatest common divisor of a sum's coefficients with the sign of the first term's.
+    #[must_use]
+    pub fn content(&self, id: ExprId) -> Rational {
+        let Node::Sum { constant, terms } = self.node(id) else { return Rational::ONE };
+        let mut content = constant.abs();
+        for (_, coefficient) in terms {
+            content = content.gcd(coefficient);
+        }
+        let first_negative = terms.first().is_some_and(|(_, coefficient)| coefficient.is_negative());
+        if first_negative { -content } else { content }
+    }
+
+    /// Adds the exponents of equal bases.
+    fn merge(&mut self, factors: &mut Factors) {
+        loop {
+            factors.powers.sort_by_key(|(base, _)| *base);
+            let mut merged: Vec<(ExprId, Rational)> = Vec::with_capacity(factors.powers.len());
+            let mut reopened: Vec<(ExprId, Rational)> = Vec::new();
+            for (base, exponent) in std::mem::take(&mut factors.powers) {
+                match merged.last_mut() {
+                    Some((last, sum)) if *last == base => *sum = sum.clone() + exponent,
+                    _ => merged.push((base, exponent)),
+                }
+            }
+            merged.retain(|(base, exponent)| {
+                // roots that have become integer powers are taken apart again
+                let again = exponent.is_integer()
+                    && !exponent.is_zero()
+                    && match self.node(*base) {
+                        Node::Product { .. } => true,
+                        Node::Number(value) => rational_power(value, exponent).is_some(),
+                        _ => false,
+                    };
+                if again {
+                    reopened.push((*base, exponent.clone()));
+                }
+                !again && !exponent.is_zero()
+            });
+            factors.powers = merged;
+            if reopened.is_empty() {
+                return;
+            }
+            for (base, exponent) in reopened {
+                self.collect_factor(base, &exponent, factors);
+            }
+        }
+    }
+
+    /// Stores `coefficient · Π powers`, which are merged already.
+    fn finish_product(&mut self, coefficient: Rational, powers: Vec<(ExprId, Rational)>) -> ExprId {
+        if coefficient.is_zero() {
+            return self.zero();
+        }
+        match powers.as_slice() {
+            [] => self.number(coefficient),
+            [(base, exponent)] if exponent.is_one() => {
+                let base = *base;
+                match self.node(base) {
+                    Node::Sum { .. } => self.scale(coefficient, base),
+                    _ if coefficient.is_one() => base,
+                    _ => self.intern(Node::Product { coefficient, factors: powers.into() }),
+                }
+            }
+            _ => self.intern(Node::Product { coefficient, factors: powers.into() }),
+        }
+    }
+}
+
+/// `value^exponent` where that is rational.
+fn rational_power(value: &Rational, exponent: &Rational) -> Option<Rational> {
+    if value.is_one() {
+        return Some(Rational::ONE);
+    }
+    match exponent.to_small()? {
+        (n, 1) => value.pow(n),
+        (n, 2) => value.sqrt()?.pow(n),
+        _ => None,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn symbols(g: &mut Graph) -> (ExprId, ExprId) {
+        let (x, y) = (g.new_symbol("x"), g.new_symbol("y"));
+        (g.symbol(x), g.symbol(y))
+    }
+
+    #[test]
+    fn powers_merge() {
+        let mut g = Graph::new();
+        let (x, y) = symbols(&mut g);
+        let a = g.mul(x, y);
+        let b = g.div(a, x);
+        assert_eq!(b, y);
+        let root = g.sqrt(a);
+        assert_eq!(g.mul(root, root), a);
+        let third = g.pow(x, Rational::new(1, 3));
+        assert_eq!(g.pow(third, Rational::from(3)), x);
+    }
+
+    #[test]
+    fn the_root_of_a_square_is_not_the_number() {
+        let mut g = Graph::new();
+        let (x, _) = symbols(&mut g);
+        let squared = g.square(x);
+        assert_ne!(g.sqrt(squared), x);
+        let four = g.scale(Rational::from(4), squared);
+        let (two, root) = (g.sqrt(four), g.sqrt(squared));
+        assert_eq!(two, g.scale(Rational::from(2), root));
+    }
+
+    #[test]
+    fn sums_in_products_are_primitive() {
+        let mut g = Graph::new();
+        let (x, y) = symbols(&mut g);
+        let (d, e) = (g.sub(x, y), g.sub(y, x));
+        let ratio = g.div(d, e);
+        assert_eq!(g.as_number(ratio), Some(&Rational::MINUS_ONE));
+        let twice = g.scale(Rational::from(2), d);
+        let a = g.mul(twice, x);
+        let b = g.mul(d, x);
+        assert_eq!(a, g.scale(Rational::from(2), b));
+    }
+
+    #[test]
+    fn a_division_by_zero_is_kept_for_the_checks() {
+        let mut g = Graph::new();
+        let (x, _) = symbols(&mut g);
+        let zero = g.zero();
+        let poison = g.div(x, zero);
+        assert!(matches!(g.node(poison), Node::Product { .. }));
+    }
+
+    #[test]
+    fn number_radicals_combine() {
+        let mut g = Graph::new();
+        let two = g.number(2);
+        let root = g.sqrt(two);
+        assert_eq!(g.mul(root, root), two);
+    }
+}

@@ -1,0 +1,80 @@
+//! Simultaneous substitution of expressions for symbols.
+
+use super::graph::{Graph, Node};
+use crate::id::{ExprId, SymbolId};
+use rustc_hash::FxHashMap;
+
+/// Replaces symbols by expressions, all at once; each distinct subexpression is rebuilt once.
+#[derive(Clone, Debug)]
+pub struct Substitution {
+    images: FxHashMap<SymbolId, ExprId>,
+    known: FxHashMap<ExprId, ExprId>,
+}
+
+impl Substitution {
+    /// The substitution with the given images; other symbols stay.
+    #[must_use]
+    pub fn new(images: impl IntoIterator<Item = (SymbolId, ExprId)>) -> Self {
+        Self { images: images.into_iter().collect(), known: FxHashMap::default() }
+    }
+
+    /// The image of `expression`.
+    pub fn apply(&mut self, graph: &mut Graph, expression: ExprId) -> ExprId {
+        if self.images.is_empty() {
+            return expression;
+        }
+        if let Some(&known) = self.known.get(&expression) {
+            return known;
+        }
+        for id in graph.reachable(&[expression]) {
+            if !self.known.contains_key(&id) {
+                let image = self.of_node(graph, id);
+                self.known.insert(id, image);
+            }
+        }
+        self.known[&expression]
+    }
+
+    /// The image of a node whose operands are known.
+    fn of_node(&self, graph: &mut Graph, id: ExprId) -> ExprId {
+        let node = graph.node(id).clone();
+        if let Node::Symbol(symbol) = node {
+            return self.images.get(&symbol).copied().unwrap_or(id);
+        }
+        if node.operands().all(|operand| self.known[&operand] == operand) {
+            return id;
+        }
+        match node {
+            Node::Number(_) | Node::Pi | Node::Symbol(_) => id,
+            Node::Sum { constant, terms } => {
+                let one = graph.one();
+                let mut summands: Vec<_> =
+                    terms.iter().map(|(term, c)| (c.clone(), self.known[term])).collect();
+                summands.push((constant, one));
+                graph.linear_combination(&summands)
+            }
+            Node::Product { coefficient, factors } => {
+                let factors: Vec<_> = factors.iter().map(|(base, e)| (self.known[base], e.clone())).collect();
+                let product = graph.product(&factors);
+                graph.scale(coefficient, product)
+            }
+            Node::Apply(function, x) => graph.apply(function, self.known[&x]),
+            Node::Apply2(function, x, y) => graph.apply2(function, self.known[&x], self.known[&y]),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn is_simultaneous() {
+        let mut g = Graph::new();
+        let (x, y) = (g.new_symbol("x"), g.new_symbol("y"));
+        let (ex, ey) = (g.symbol(x), g.symbol(y));
+        let e = g.div(ex, ey);
+        let swapped = Substitution::new([(x, ey), (y, ex)]).apply(&mut g, e);
+        assert_eq!(swapped, g.div(ey, ex));
+    }
+}

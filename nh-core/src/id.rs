@@ -1,0 +1,135 @@
+//! Typed indices, so that a coordinate can never be mistaken for a section.
+
+use std::marker::PhantomData;
+use std::ops::{Index, IndexMut};
+
+/// A typed index into a [`Table`].
+pub trait Id: Copy + Eq + Ord + 'static {
+    /// The id of the entry at `index`.
+    fn from_index(index: usize) -> Self;
+    /// The position of the entry.
+    fn index(self) -> usize;
+}
+
+macro_rules! ids {
+    ($($(#[$doc:meta])* $name:ident;)*) => {$(
+        $(#[$doc])*
+        #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+        pub struct $name(u32);
+
+        impl Id for $name {
+            fn from_index(index: usize) -> Self {
+                Self(u32::try_from(index).expect("fewer than 2^32 entries"))
+            }
+            fn index(self) -> usize {
+                self.0 as usize
+            }
+        }
+    )*};
+}
+
+ids! {
+    /// A node of the expression graph. Operands have smaller ids than what is built from them.
+    ExprId;
+    /// A name that stands for a number: a coordinate, velocity, parameter, input or the time.
+    SymbolId;
+    /// A base coordinate `x^i`.
+    CoordId;
+    /// A section `e_α` of the declared basis, and its quasi-velocity `y^α`.
+    SectionId;
+    /// A scalar parameter: a field of the struct, or one entry of an array field.
+    ParamId;
+    /// A control input `u`.
+    InputId;
+    /// A declared constraint.
+    ConstraintId;
+    /// A place in the declaration, known only to the front end.
+    Origin;
+}
+
+/// A vector indexed by one kind of id.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Table<I, T> {
+    entries: Vec<T>,
+    kind: PhantomData<I>,
+}
+
+impl<I, T> Default for Table<I, T> {
+    fn default() -> Self {
+        Self { entries: Vec::new(), kind: PhantomData }
+    }
+}
+
+impl<I: Id, T> Table<I, T> {
+    /// An empty table.
+    #[must_use]
+    pub fn new() -> Self {
+        Self::default()
+    }
+
+    /// Appends an entry and returns its id.
+    pub fn push(&mut self, entry: T) -> I {
+        self.entries.push(entry);
+        I::from_index(self.entries.len() - 1)
+    }
+
+    /// The number of entries.
+    #[must_use]
+    pub fn len(&self) -> usize {
+        self.entries.len()
+    }
+
+    /// Whether there is no entry.
+    #[must_use]
+    pub fn is_empty(&self) -> bool {
+        self.entries.is_empty()
+    }
+
+    /// The ids, in order.
+    pub fn ids(&self) -> impl DoubleEndedIterator<Item = I> + ExactSizeIterator + use<I, T> {
+        (0..self.entries.len()).map(I::from_index)
+    }
+
+    /// The entries, in order.
+    pub fn iter(&self) -> std::slice::Iter<'_, T> {
+        self.entries.iter()
+    }
+
+    /// Ids with their entries, in order.
+    pub fn iter_ids(&self) -> impl Iterator<Item = (I, &T)> {
+        self.entries.iter().enumerate().map(|(index, entry)| (I::from_index(index), entry))
+    }
+
+    /// The entry, if the id belongs to this table.
+    #[must_use]
+    pub fn get(&self, id: I) -> Option<&T> {
+        self.entries.get(id.index())
+    }
+}
+
+impl<I: Id, T> Index<I> for Table<I, T> {
+    type Output = T;
+    fn index(&self, id: I) -> &T {
+        &self.entries[id.index()]
+    }
+}
+
+impl<I: Id, T> IndexMut<I> for Table<I, T> {
+    fn index_mut(&mut self, id: I) -> &mut T {
+        &mut self.entries[id.index()]
+    }
+}
+
+impl<I, T> FromIterator<T> for Table<I, T> {
+    fn from_iter<S: IntoIterator<Item = T>>(entries: S) -> Self {
+        Self { entries: entries.into_iter().collect(), kind: PhantomData }
+    }
+}
+
+impl<'a, I, T> IntoIterator for &'a Table<I, T> {
+    type Item = &'a T;
+    type IntoIter = std::slice::Iter<'a, T>;
+    fn into_iter(self) -> Self::IntoIter {
+        self.entries.iter()
+    }
+}

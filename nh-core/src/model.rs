@@ -1,0 +1,193 @@
+//! A declared system with its names resolved: what the front end hands over.
+//!
+//! Nothing is proved yet. Positions in the declaration are opaque [`Origin`]s.
+
+use crate::algebra::Graph;
+use crate::id::{ConstraintId, CoordId, ExprId, InputId, Origin, ParamId, SectionId, SymbolId, Table};
+
+/// A declaration with its names resolved.
+#[derive(Clone, Debug)]
+pub struct Model {
+    /// The expressions of the declaration.
+    pub graph: Graph,
+    /// The name of the annotated struct.
+    pub name: String,
+    /// Where the name of the struct stands: blamed when a section is missing.
+    pub origin: Origin,
+    /// The time `t`.
+    pub time: SymbolId,
+    /// Scalar parameters, array fields entry by entry.
+    pub parameters: Table<ParamId, Parameter>,
+    /// Coordinates `x^i` on the base M.
+    pub coordinates: Table<CoordId, Coordinate>,
+    /// The declared basis of sections `e_α`.
+    pub sections: Table<SectionId, Section>,
+    /// Control inputs.
+    pub inputs: Table<InputId, Input>,
+    /// How the anchor is given.
+    pub kinematics: Kinematics,
+    /// Declared brackets; known algebras are expanded by [`crate::geometry::known_algebra`].
+    pub brackets: Vec<BracketDecl>,
+    /// Whether a `brackets` section stands in the declaration, even an empty one.
+    pub brackets_declared: bool,
+    /// Whether the Jacobi identity is waived (`almost;`).
+    pub almost: bool,
+    /// The Lagrangian L(t, x, y); rates ẋ^i may occur in it.
+    pub lagrangian: Located,
+    /// Constraints φ = 0.
+    pub constraints: Table<ConstraintId, ConstraintDecl>,
+    /// Generalized forces.
+    pub forces: Vec<ForceDecl>,
+    /// Named observables.
+    pub outputs: Vec<OutputDecl>,
+    /// The velocities that the user wants the adapted state to keep.
+    pub independent: Option<Vec<(SectionId, Origin)>>,
+    /// The formulation that the user asks for.
+    pub formulation: Option<(Formulation, Origin)>,
+}
+
+/// An expression and where it stands.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Located {
+    /// The expression.
+    pub value: ExprId,
+    /// Where it stands.
+    pub origin: Origin,
+}
+
+/// A scalar parameter.
+#[derive(Clone, Debug)]
+pub struct Parameter {
+    /// `m`, or `I[0][1]`.
+    pub name: String,
+    /// Its symbol.
+    pub symbol: SymbolId,
+    /// Where it is declared.
+    pub origin: Origin,
+}
+
+/// A base coordinate.
+#[derive(Clone, Debug)]
+pub struct Coordinate {
+    /// `theta`, or `theta[0]`.
+    pub name: String,
+    /// The coordinate x^i.
+    pub symbol: SymbolId,
+    /// The rate ẋ^i, written `der(x)`. Where E = TM this is the velocity of its section.
+    pub rate: SymbolId,
+    /// Where it is declared.
+    pub origin: Origin,
+}
+
+/// A section of the declared basis.
+#[derive(Clone, Debug)]
+pub struct Section {
+    /// `omega`, or `w[0]`; `x_dot` where E = TM.
+    pub name: String,
+    /// The quasi-velocity y^α.
+    pub symbol: SymbolId,
+    /// Where it is declared.
+    pub origin: Origin,
+}
+
+/// A control input.
+#[derive(Clone, Debug)]
+pub struct Input {
+    /// The name.
+    pub name: String,
+    /// Its symbol.
+    pub symbol: SymbolId,
+    /// Where it is declared.
+    pub origin: Origin,
+}
+
+/// How the anchor ρ is given.
+#[derive(Clone, Debug)]
+pub enum Kinematics {
+    /// E = TM: section `i` is ∂/∂x^i, and its velocity symbol is the rate of coordinate `i`.
+    Tangent,
+    /// `anchor { der(x) = …; }`: the rate of each coordinate, in the quasi-velocities.
+    Anchor(Vec<AnchorDecl>),
+    /// `velocities { w = …; }`: each quasi-velocity in the rates, one line per section, in the
+    /// order of the sections.
+    Coframe(Vec<Located>),
+}
+
+/// One line `der(x) = …` of the anchor.
+#[derive(Clone, Copy, Debug)]
+pub struct AnchorDecl {
+    /// The coordinate.
+    pub coordinate: CoordId,
+    /// Its rate in the quasi-velocities.
+    pub rate: ExprId,
+    /// Where the line stands.
+    pub origin: Origin,
+}
+
+/// One declared bracket `[e_α, e_β] = Σ c^γ e_γ`.
+#[derive(Clone, Debug)]
+pub struct BracketDecl {
+    /// α.
+    pub left: SectionId,
+    /// β.
+    pub right: SectionId,
+    /// The right-hand side with the velocity symbol of `e_γ` standing for the section `e_γ`.
+    pub value: ExprId,
+    /// Where it stands.
+    pub origin: Origin,
+    /// Whether it comes from a known algebra; an explicit line for the same pair is then an error.
+    pub known: Option<&'static str>,
+}
+
+/// One constraint `lhs = rhs`, as φ = lhs − rhs.
+#[derive(Clone, Debug)]
+pub struct ConstraintDecl {
+    /// The user's label.
+    pub label: Option<String>,
+    /// φ(t, x, y); rates may occur in it.
+    pub residual: ExprId,
+    /// The left-hand side, if it is a velocity or `der(x)` alone that is absent on the right.
+    pub solved_for: Option<SymbolId>,
+    /// Where it stands.
+    pub origin: Origin,
+}
+
+/// One generalized force.
+#[derive(Clone, Copy, Debug)]
+pub struct ForceDecl {
+    /// What it acts along.
+    pub direction: ForceDirection,
+    /// Its value; t, x, y, rates and inputs may occur in it.
+    pub value: ExprId,
+    /// Where it stands.
+    pub origin: Origin,
+}
+
+/// What a generalized force acts along.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum ForceDirection {
+    /// Υ_α along a section.
+    Section(SectionId),
+    /// Q_i along a base coordinate, pulled back by the anchor (CNS section 3).
+    Coordinate(CoordId),
+}
+
+/// A named observable.
+#[derive(Clone, Debug)]
+pub struct OutputDecl {
+    /// The name.
+    pub name: String,
+    /// Its value; t, x, y, rates and inputs may occur in it.
+    pub value: ExprId,
+    /// Where it stands.
+    pub origin: Origin,
+}
+
+/// The form of the equations.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Formulation {
+    /// Reduced state (x, v) with y = B v: mathematics (8), CLMM (3.5).
+    Adapted,
+    /// Full state (x, y) with multipliers: the saddle form (9).
+    Projected,
+}
