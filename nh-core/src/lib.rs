@@ -10,4 +10,8 @@
 pub mod algebra;
 pub mod geometry;
 pub mod id;
+pub mod mechanics;
 pub mod model;
+pub mod program;
+pub mod system;
+pub mod violation;

@@ -178,7 +178,7 @@ mod tests {
         assert_eq!(g.text(half), "-m*a^2*omega/2");
         let s = g.sub(half, x);
         let q = g.div(x, s);
-        assert_eq!(g.text(q), "-x/(x + m*a^2*omega/2)");
+        assert_eq!(g.text(q), "-2*x/(2*x + m*a^2*omega)");
         let root = g.sqrt(s);
         assert_eq!(g.text(root), "sqrt(-x - m*a^2*omega/2)");
         let negative_power = g.pow(x, Rational::new(-2, 3));

@@ -1,0 +1,5 @@
+//! Lagrangian mechanics on a Lie algebroid.
+
+mod procedure;
+
+pub use procedure::{Definition, Procedure};

@@ -1,0 +1,55 @@
+//! What a generated function computes, before it is scheduled.
+
+use crate::algebra::Graph;
+use crate::id::{ExprId, SymbolId};
+
+/// An intermediate result with a symbol of its own, which later expressions use.
+///
+/// Intermediate results are barriers: the algebra does not merge what is inside with what is
+/// outside, so that the order of the arithmetic of a factorisation is the one written down.
+#[derive(Clone, Debug)]
+pub enum Definition {
+    /// `symbol = value`.
+    Value {
+        /// The intermediate result.
+        symbol: SymbolId,
+        /// Its value.
+        value: ExprId,
+    },
+    /// The unknowns solve `matrix · unknowns = right`, with numerical pivoting.
+    Solve {
+        /// The intermediate results.
+        unknowns: Vec<SymbolId>,
+        /// The rows of the square matrix.
+        matrix: Vec<Vec<ExprId>>,
+        /// The right-hand side.
+        right: Vec<ExprId>,
+    },
+}
+
+/// A function: intermediate results in order, then outputs in terms of symbols and them.
+#[derive(Clone, Debug, Default)]
+pub struct Procedure {
+    /// Intermediate results, each in terms of symbols and earlier ones.
+    pub definitions: Vec<Definition>,
+    /// The results.
+    pub outputs: Vec<ExprId>,
+}
+
+impl Procedure {
+    /// A function without intermediate results.
+    #[must_use]
+    pub fn of(outputs: Vec<ExprId>) -> Self {
+        Self { definitions: Vec::new(), outputs }
+    }
+
+    /// Names `value`, unless it is a number or a symbol already.
+    pub fn define(&mut self, graph: &mut Graph, name: &str, value: ExprId) -> ExprId {
+        if graph.as_number(value).is_some() || graph.as_symbol(value).is_some() {
+            return value;
+        }
+        let symbol = graph.new_symbol(name);
+        self.definitions.push(Definition::Value { symbol, value });
+        graph.symbol(symbol)
+    }
+}

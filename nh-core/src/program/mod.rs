@@ -1,0 +1,1 @@
+//! Straight-line programs: what is emitted, and what the interpreter runs.

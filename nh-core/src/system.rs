@@ -1,0 +1,39 @@
+//! A verified system: what the derivation hands to the back end.
+
+use crate::id::{ExprId, SectionId};
+use crate::mechanics::Procedure;
+use crate::model::{Formulation, Model};
+
+/// A system that has passed every check, with its functions derived.
+#[derive(Clone, Debug)]
+pub struct System {
+    /// The declaration; its graph holds every derived expression.
+    pub model: Model,
+    /// The form of the equations.
+    pub formulation: Formulation,
+    /// The velocities in the state, in declared order: all of them in the projected formulation.
+    pub state_velocities: Vec<SectionId>,
+    /// Outputs: ẋ^i for each coordinate, then v̇ for each velocity in the state.
+    pub derivative: Procedure,
+    /// One output: E_L.
+    pub energy: Procedure,
+    /// Outputs: y^α for every section.
+    pub velocity: Procedure,
+    /// Outputs: the declared observables.
+    pub observables: Procedure,
+    /// What `validate` checks beyond finite parameters.
+    pub parameter_checks: Vec<ParameterCheck>,
+    /// What was derived, as text.
+    pub report: String,
+    /// The equations of motion as lines of text for the documentation of the struct.
+    pub equations: Vec<String>,
+}
+
+/// An expression of parameters alone by which the equations divide.
+#[derive(Clone, Debug)]
+pub struct ParameterCheck {
+    /// The expression that must not vanish.
+    pub nonzero: ExprId,
+    /// Its text in the declaration's syntax.
+    pub text: String,
+}

@@ -1,0 +1,67 @@
+//! What is wrong with a declaration, in the words of the field.
+
+use crate::id::Origin;
+
+/// The law that a declaration breaks.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+#[non_exhaustive]
+pub enum Law {
+    /// Every declared expression is defined.
+    Defined,
+    /// The anchor is linear and homogeneous in the quasi-velocities, a line per coordinate.
+    Anchor,
+    /// A coframe is square, linear and invertible.
+    Coframe,
+    /// Brackets are declared where they cannot be derived, consistently.
+    Brackets,
+    /// The anchor is a homomorphism of brackets, mathematics (2): CLMM (2.1), CNS (6).
+    Homomorphism,
+    /// The Jacobi identity, mathematics (3): CLMM (2.1), CNS (7).
+    Jacobi,
+    /// The Lagrangian is smooth.
+    Smooth,
+    /// The shape of a constraint.
+    Constraint,
+    /// Constraints are independent, and fewer than the sections.
+    Independence,
+    /// The choice of the independent velocities.
+    Choice,
+    /// The mass matrix is regular on the constraint distribution: CLMM Theorem 3.12.
+    Regularity,
+    /// A force acts along a declared direction and depends on what it may.
+    Force,
+    /// A question that the algebra could not decide.
+    Decidable,
+}
+
+/// One broken law: what is wrong, the evidence, and a way out.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Violation {
+    /// Which law.
+    pub law: Law,
+    /// Where it is broken.
+    pub origin: Origin,
+    /// What is wrong.
+    pub what: String,
+    /// The offending symbol and the expression that should have been zero; may be empty.
+    pub evidence: String,
+    /// What the user can do.
+    pub way_out: String,
+}
+
+impl Violation {
+    /// What is wrong, evidence and way out, a line each.
+    #[must_use]
+    pub fn message(&self) -> String {
+        let mut text = self.what.clone();
+        if !self.evidence.is_empty() {
+            text.push('\n');
+            text.push_str(&self.evidence);
+        }
+        if !self.way_out.is_empty() {
+            text.push_str("\nhelp: ");
+            text.push_str(&self.way_out);
+        }
+        text
+    }
+}
