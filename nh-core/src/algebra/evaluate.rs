@@ -1,0 +1,170 @@
+//! Evaluation in floating point, with a bound on the rounding error of every value.
+
+use super::graph::{Function, Function2, Graph, Node};
+use crate::id::{ExprId, SymbolId};
+use rustc_hash::FxHashMap;
+
+/// A floating-point value and a bound on how far it is from the exact one (to first order).
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Bounded {
+    /// The computed value.
+    pub value: f64,
+    /// The bound on its absolute error.
+    pub error: f64,
+}
+
+impl Bounded {
+    fn exact(value: f64) -> Self {
+        Self { value, error: 0.0 }
+    }
+
+    /// Adds the rounding of the operation that produced the value.
+    fn rounded(value: f64, error: f64) -> Self {
+        Self { value, error: error + 2.0 * f64::EPSILON * value.abs() }
+    }
+
+    /// Whether the exact value certainly differs from zero.
+    #[must_use]
+    pub fn is_certainly_nonzero(self) -> bool {
+        self.value.is_finite()
+            && self.error.is_finite()
+            && self.value.abs() > 4.0 * self.error
+            && self.value != 0.0
+    }
+
+    /// Whether the value is zero as far as its error bound tells.
+    #[must_use]
+    pub fn may_be_zero(self) -> bool {
+        self.value.is_finite() && self.value.abs() <= 4.0 * self.error
+    }
+}
+
+impl Graph {
+    /// Evaluates `roots` with the given values of the symbols.
+    pub fn evaluate(&self, roots: &[ExprId], value: impl Fn(SymbolId) -> f64) -> Vec<Bounded> {
+        let mut known: FxHashMap<ExprId, Bounded> = FxHashMap::default();
+        for id in self.reachable(roots) {
+            let result = self.evaluate_node(id, &known, &value);
+            known.insert(id, result);
+        }
+        roots.iter().map(|root| known[root]).collect()
+    }
+
+    fn evaluate_node(
+        &self,
+        id: ExprId,
+        known: &FxHashMap<ExprId, Bounded>,
+        value: &impl Fn(SymbolId) -> f64,
+    ) -> Bounded {
+        match self.node(id) {
+            Node::Number(number) => Bounded::rounded(number.to_f64(), 0.0),
+            Node::Pi => Bounded::rounded(std::f64::consts::PI, 0.0),
+            Node::Symbol(symbol) => Bounded::exact(value(*symbol)),
+            Node::Sum { constant, terms } => {
+                let mut sum = constant.to_f64();
+                let mut error = sum.abs() * f64::EPSILON;
+                for (term, coefficient) in terms {
+                    let coefficient = coefficient.to_f64();
+                    let x = known[term];
+                    sum += coefficient * x.value;
+                    error += coefficient.abs() * (x.error + 2.0 * f64::EPSILON * x.value.abs())
+                        + f64::EPSILON * sum.abs();
+                }
+                Bounded { value: sum, error }
+            }
+            Node::Product { coefficient, factors } => {
+                let mut product = coefficient.to_f64();
+                let mut relative = 2.0 * f64::EPSILON;
+                for (base, exponent) in factors {
+                    let x = known[base];
+                    let exponent = exponent.to_f64();
+                    product *= real_power(x.value, exponent);
+                    relative += exponent.abs() * x.error / x.value.abs().max(f64::MIN_POSITIVE)
+                        + (2.0 + exponent.abs()) * f64::EPSILON;
+                }
+                let error =
+                    if product == 0.0 { power_error(coefficient.to_f64(), factors, known) } else { 0.0 };
+                Bounded { value: product, error: error + product.abs() * relative }
+            }
+            Node::Apply(function, x) => apply(*function, known[x]),
+            Node::Apply2(function, x, y) => apply2(*function, known[x], known[y]),
+        }
+    }
+}
+
+/// The error of a product that vanished: its factors moved by their errors.
+fn power_error(
+    coefficient: f64,
+    factors: &[(ExprId, super::number::Rational)],
+    known: &FxHashMap<ExprId, Bounded>,
+) -> f64 {
+    factors.iter().fold(coefficient.abs(), |product, (base, exponent)| {
+        let x = known[base];
+        product * real_power(x.value.abs() + x.error, exponent.to_f64())
+    })
+}
+
+fn real_power(x: f64, exponent: f64) -> f64 {
+    if exponent == 1.0 {
+        x
+    } else if exponent == 2.0 {
+        x * x
+    } else if exponent == 0.5 {
+        x.sqrt()
+    } else if exponent == -1.0 {
+        x.recip()
+    } else {
+        x.powf(exponent)
+    }
+}
+
+fn apply(function: Function, x: Bounded) -> Bounded {
+    let v = x.value;
+    let (value, slope) = match function {
+        Function::Sin => (v.sin(), 1.0),
+        Function::Cos => (v.cos(), 1.0),
+        Function::Asin => (v.asin(), 1.0 / (1.0 - v * v).sqrt()),
+        Function::Acos => (v.acos(), 1.0 / (1.0 - v * v).sqrt()),
+        Function::Atan => (v.atan(), 1.0),
+        Function::Sinh => (v.sinh(), v.cosh()),
+        Function::Cosh => (v.cosh(), v.sinh().abs()),
+        Function::Tanh => (v.tanh(), 1.0),
+        Function::Exp => (v.exp(), v.exp()),
+        Function::Ln => (v.ln(), 1.0 / v.abs()),
+        Function::Abs => (v.abs(), 1.0),
+        Function::Sign => (if v == 0.0 { 0.0 } else { v.signum() }, 0.0),
+    };
+    Bounded::rounded(value, slope * x.error)
+}
+
+fn apply2(function: Function2, x: Bounded, y: Bounded) -> Bounded {
+    match function {
+        Function2::Atan2 => {
+            let radius = x.value.hypot(y.value);
+            Bounded::rounded(x.value.atan2(y.value), (x.error + y.error) / radius)
+        }
+        Function2::Min => Bounded { value: x.value.min(y.value), error: x.error.max(y.error) },
+        Function2::Max => Bounded { value: x.value.max(y.value), error: x.error.max(y.error) },
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_bound_covers_cancellation() {
+        let mut g = Graph::new();
+        let x = g.new_symbol("x");
+        let ex = g.symbol(x);
+        let (sin, cos) = (g.sin(ex), g.cos(ex));
+        let (ss, cc) = (g.square(sin), g.square(cos));
+        let one = g.one();
+        let sum = g.add(ss, cc);
+        let defect = g.sub(sum, one);
+        for value in [0.3, 1.1, 2.7, 1e3] {
+            assert!(g.evaluate(&[defect], |_| value)[0].may_be_zero());
+            assert!(g.evaluate(&[sum], |_| value)[0].is_certainly_nonzero());
+        }
+    }
+}

@@ -1,0 +1,207 @@
+//! Arithmetic in the prime field of the zero test.
+//!
+//! `P = 2^61 − 636873` is prime, `P ≡ 7 (mod 8)`, and every prime below 61 is a square modulo P
+//! (checked in the tests). So −1 is not a square, which makes the rational parametrisation of the
+//! circle regular everywhere, and the square roots of small integers exist.
+
+use super::number::Rational;
+use num_bigint::BigInt;
+use num_integer::Integer;
+use num_traits::ToPrimitive;
+
+const BITS: u32 = 61;
+const MASK: u64 = (1 << BITS) - 1;
+const SHORTFALL: u64 = 636_873;
+const P: u64 = (1 << BITS) - SHORTFALL;
+
+/// An element of the field.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub struct Residue(u64);
+
+impl Residue {
+    /// Zero.
+    pub const ZERO: Self = Self(0);
+    /// One.
+    pub const ONE: Self = Self(1);
+
+    /// The residue of an arbitrary word.
+    #[must_use]
+    pub fn of_word(word: u64) -> Self {
+        Self(word % P)
+    }
+
+    /// The representative below P.
+    #[must_use]
+    pub fn word(self) -> u64 {
+        self.0
+    }
+
+    /// The residue of an integer.
+    #[must_use]
+    fn of_integer(n: &BigInt) -> Self {
+        Self(n.mod_floor(&BigInt::from(P)).to_u64().unwrap_or(0))
+    }
+
+    /// The residue of a rational number; `None` where P divides the denominator.
+    #[must_use]
+    pub fn of(value: &Rational) -> Option<Self> {
+        if let Some((n, d)) = value.to_small() {
+            let magnitude = Self::of_word(n.unsigned_abs());
+            let numerator = if n < 0 { -magnitude } else { magnitude };
+            return if d == 1 {
+                Some(numerator)
+            } else {
+                Some(numerator * Self::of_word(d.unsigned_abs()).inverse()?)
+            };
+        }
+        Some(Self::of_integer(&value.numerator()) * Self::of_integer(&value.denominator()).inverse()?)
+    }
+
+    /// The power with a non-negative exponent.
+    #[must_use]
+    pub fn pow(self, mut exponent: u64) -> Self {
+        let (mut base, mut result) = (self, Self::ONE);
+        while exponent > 0 {
+            if exponent & 1 == 1 {
+                result = result * base;
+            }
+            base = base * base;
+            exponent >>= 1;
+        }
+        result
+    }
+
+    /// The inverse, by the extended Euclidean algorithm; `None` for zero.
+    #[must_use]
+    pub fn inverse(self) -> Option<Self> {
+        if self.0 == 0 {
+            return None;
+        }
+        let (mut r0, mut r1) = (i128::from(P), i128::from(self.0));
+        let (mut s0, mut s1) = (0i128, 1i128);
+        while r1 != 0 {
+            let quotient = r0 / r1;
+            (r0, r1) = (r1, r0 - quotient * r1);
+            (s0, s1) = (s1, s0 - quotient * s1);
+        }
+        u64::try_from(s0.rem_euclid(i128::from(P))).ok().map(Self)
+    }
+
+    /// The integer power; `None` for a negative power of zero.
+    #[must_use]
+    pub fn integer_power(self, exponent: i64) -> Option<Self> {
+        let base = if exponent < 0 { self.inverse()? } else { self };
+        Some(base.pow(exponent.unsigned_abs()))
+    }
+
+    /// The square root that is itself a square; `None` if there is none. This choice is
+    /// multiplicative: the root of a product is the product of the roots.
+    #[must_use]
+    pub fn sqrt(self) -> Option<Self> {
+        let root = self.pow(P.div_ceil(4));
+        (root * root == self).then_some(root)
+    }
+
+    /// A word that a seed and a number determine, well mixed (the finaliser of `SplitMix64`).
+    #[must_use]
+    pub fn mixed(seed: u64, number: u64) -> Self {
+        let mut z =
+            seed.wrapping_mul(0x9E37_79B9_7F4A_7C15).wrapping_add(number).wrapping_add(0x9E37_79B9_7F4A_7C15);
+        z = (z ^ (z >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
+        z = (z ^ (z >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);
+        Self::of_word(z ^ (z >> 31))
+    }
+}
+
+/// Brings a value below 2^123 under P.
+#[allow(clippy::cast_possible_truncation, reason = "the folds leave less than 2^63")]
+fn reduce(wide: u128) -> u64 {
+    let once = (wide & u128::from(MASK)) + (wide >> BITS) * u128::from(SHORTFALL);
+    let twice = (once & u128::from(MASK)) + (once >> BITS) * u128::from(SHORTFALL);
+    let mut value = twice as u64;
+    while value >= P {
+        value -= P;
+    }
+    value
+}
+
+impl std::ops::Add for Residue {
+    type Output = Self;
+    fn add(self, other: Self) -> Self {
+        let sum = self.0 + other.0;
+        Self(if sum >= P { sum - P } else { sum })
+    }
+}
+
+impl std::ops::Neg for Residue {
+    type Output = Self;
+    fn neg(self) -> Self {
+        Self(if self.0 == 0 { 0 } else { P - self.0 })
+    }
+}
+
+impl std::ops::Sub for Residue {
+    type Output = Self;
+    fn sub(self, other: Self) -> Self {
+        self + -other
+    }
+}
+
+impl std::ops::Mul for Residue {
+    type Output = Self;
+    fn mul(self, other: Self) -> Self {
+        Self(reduce(u128::from(self.0) * u128::from(other.0)))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Miller–Rabin with the bases that decide every 64-bit number.
+    fn is_prime(n: u64) -> bool {
+        let power = |mut base: u128, mut exponent: u64| {
+            let (modulus, mut result) = (u128::from(n), 1);
+            while exponent > 0 {
+                if exponent & 1 == 1 {
+                    result = result * base % modulus;
+                }
+                base = base * base % modulus;
+                exponent >>= 1;
+            }
+            result
+        };
+        let twos = (n - 1).trailing_zeros();
+        [2, 3, 5, 7, 11, 13, 17, 19, 23, 29, 31, 37u128].into_iter().all(|base| {
+            let mut x = power(base, (n - 1) >> twos);
+            x == 1
+                || (0..twos).any(|_| {
+                    let minus_one = x == u128::from(n - 1);
+                    x = x * x % u128::from(n);
+                    minus_one
+                })
+        })
+    }
+
+    #[test]
+    fn the_modulus_is_as_stated() {
+        assert!(is_prime(P));
+        assert_eq!(P % 8, 7);
+        for prime in (2..61).filter(|n| (2..*n).all(|d| n % d != 0)) {
+            assert!(Residue::of_word(prime).sqrt().is_some(), "{prime}");
+        }
+    }
+
+    #[test]
+    fn arithmetic_is_that_of_a_field() {
+        for word in [1, 2, 12_345_678_901, P - 1, P / 2] {
+            let x = Residue::of_word(word);
+            assert_eq!(x * x.inverse().unwrap(), Residue::ONE);
+            assert_eq!(x + -x, Residue::ZERO);
+            assert_eq!((x * x).sqrt().map(|root| root * root), Some(x * x));
+            let exact = u128::from(word) * u128::from(P - 2) % u128::from(P);
+            assert_eq!(u128::from((x * Residue::of_word(P - 2)).0), exact);
+        }
+        assert_eq!(Residue::of(&Rational::new(-1, 2)).unwrap() * Residue::of_word(2), -Residue::ONE);
+    }
+}

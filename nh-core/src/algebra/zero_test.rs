@@ -1,0 +1,270 @@
+//! The one zero test. Nothing else in the project compares an expression with zero.
+//!
+//! `Zero` is proved by random points of a large prime field: a non-zero rational function of
+//! degree d vanishes at one with probability at most d/P < 2⁻⁴⁰ for any d that occurs, so two
+//! points leave less than 2⁻⁸⁰ (Schwartz–Zippel). A square root has two branches, between which
+//! the field chooses by chance; expressions with roots are tested at 80 points.
+//! `NonZero` is proved in floating point, at a point where the value exceeds its error bound.
+
+use super::graph::{Graph, Node};
+use super::modular::{FieldPoint, NoValue};
+use crate::id::{ExprId, SymbolId};
+
+/// A point where an expression is not zero.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Witness {
+    /// The values of the symbols in the expression.
+    pub point: Vec<(SymbolId, f64)>,
+    /// The value there.
+    pub value: f64,
+}
+
+impl Witness {
+    /// `x = 0.7, m = 1.2`.
+    #[must_use]
+    pub fn place(&self, graph: &Graph) -> String {
+        let entries: Vec<_> = self
+            .point
+            .iter()
+            .map(|(symbol, value)| format!("{} = {value}", graph.symbols()[*symbol]))
+            .collect();
+        entries.join(", ")
+    }
+}
+
+/// The answer of the zero test.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Verdict {
+    /// The expression vanishes wherever it is defined.
+    Zero,
+    /// It does not, and here is where.
+    NonZero(Witness),
+    /// It could not be decided, and why.
+    Unknown(String),
+}
+
+impl Verdict {
+    /// Whether the expression is proved to vanish.
+    #[must_use]
+    pub fn is_zero(&self) -> bool {
+        matches!(self, Self::Zero)
+    }
+
+    /// Whether the expression is proved not to vanish identically.
+    #[must_use]
+    pub fn is_nonzero(&self) -> bool {
+        matches!(self, Self::NonZero(_))
+    }
+}
+
+/// Points of the field at which an expression without roots is tested.
+const POINTS: u64 = 2;
+/// Points for an expression with square roots.
+const POINTS_WITH_ROOTS: u64 = 80;
+/// Failed points (poles, roots outside the field) before giving up, per point wanted.
+const PATIENCE: u64 = 24;
+/// Points tried for a witness.
+const WITNESSES: u64 = 24;
+
+impl Graph {
+    /// Decides whether `expression` vanishes identically.
+    #[must_use]
+    pub fn zero_test(&self, expression: ExprId) -> Verdict {
+        match self.as_number(expression) {
+            Some(number) if number.is_zero() => return Verdict::Zero,
+            Some(number) => return Verdict::NonZero(Witness { point: Vec::new(), value: number.to_f64() }),
+            None => {}
+        }
+        match self.vanishes_in_field(expression) {
+            Ok(true) => self.confirmed_zero(expression),
+            Ok(false) => self.witness(expression).map_or_else(
+                || {
+                    Verdict::Unknown(
+                        "it is zero at every point tried, but not by any identity known here".into(),
+                    )
+                },
+                Verdict::NonZero,
+            ),
+            Err(reason) => self.witness(expression).map_or(Verdict::Unknown(reason), Verdict::NonZero),
+        }
+    }
+
+    /// With square roots, the sign of a root on the reals has the last word: `sqrt(x^2) − x`.
+    fn confirmed_zero(&self, expression: ExprId) -> Verdict {
+        if !self.has_roots(expression) {
+            return Verdict::Zero;
+        }
+        self.witness(expression).map_or(Verdict::Zero, Verdict::NonZero)
+    }
+
+    fn has_roots(&self, expression: ExprId) -> bool {
+        self.reachable(&[expression]).into_iter().any(|id| match self.node(id) {
+            Node::Product { factors, .. } => factors.iter().any(|(_, exponent)| !exponent.is_integer()),
+            _ => false,
+        })
+    }
+
+    /// Whether the expression vanishes at every point tried of the field.
+    fn vanishes_in_field(&self, expression: ExprId) -> Result<bool, String> {
+        let wanted = if self.has_roots(expression) { POINTS_WITH_ROOTS } else { POINTS };
+        let mut seen = 0;
+        for seed in 0..wanted * PATIENCE {
+            match self.evaluate_in_field(&[expression], &FieldPoint::random(seed)) {
+                Ok(values) if values[0] != super::field::Residue::ZERO => return Ok(false),
+                Ok(_) => seen += 1,
+                Err(NoValue::Here) => {}
+                Err(NoValue::Ever(reason)) => return Err(reason),
+            }
+            if seen == wanted {
+                return Ok(true);
+            }
+        }
+        Err("it has no value at the points tried (a division by zero, or the root of a negative number)"
+            .into())
+    }
+
+    /// A point with short numbers where the expression is certainly not zero.
+    #[must_use]
+    pub fn witness(&self, expression: ExprId) -> Option<Witness> {
+        let symbols = self.symbols_in(&[expression]);
+        for attempt in 0..WITNESSES {
+            let point: Vec<(SymbolId, f64)> =
+                symbols.iter().enumerate().map(|(i, symbol)| (*symbol, sample(attempt, i))).collect();
+            let lookup =
+                |symbol| point.iter().find(|(s, _)| *s == symbol).map_or(f64::NAN, |(_, value)| *value);
+            let result = self.evaluate(&[expression], lookup)[0];
+            if result.is_certainly_nonzero() {
+                return Some(Witness { value: result.value, point });
+            }
+        }
+        None
+    }
+}
+
+/// Values of one or two digits: first positive and of order one, then smaller, then of both signs.
+pub(super) fn sample(attempt: u64, index: usize) -> f64 {
+    let word = super::field::Residue::mixed(attempt, index as u64).word();
+    let tenths = f64::from(u16::try_from(word % 16).unwrap_or(0));
+    match attempt % 4 {
+        0 => (tenths + 5.0) / 10.0,
+        1 => (tenths + 1.0) / 20.0,
+        2 => (tenths - 7.5) / 5.0,
+        _ => (tenths + 1.0) / 4.0,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::algebra::{Function, Rational};
+
+    fn symbols<const N: usize>(g: &mut Graph, names: [&str; N]) -> [ExprId; N] {
+        names.map(|name| {
+            let symbol = g.new_symbol(name);
+            g.symbol(symbol)
+        })
+    }
+
+    #[test]
+    fn addition_theorems() {
+        let mut g = Graph::new();
+        let [a, b] = symbols(&mut g, ["a", "b"]);
+        let half = g.scale(Rational::new(1, 2), b);
+        let sum = g.add(a, half);
+        let left = g.sin(sum);
+        let (sa, ca, sb, cb) = (g.sin(a), g.cos(a), g.sin(half), g.cos(half));
+        let (x, y) = (g.mul(sa, cb), g.mul(ca, sb));
+        let right = g.add(x, y);
+        let defect = g.sub(left, right);
+        assert_eq!(g.zero_test(defect), Verdict::Zero);
+        let wrong = g.sub(x, y);
+        let defect = g.sub(left, wrong);
+        assert!(g.zero_test(defect).is_nonzero());
+    }
+
+    #[test]
+    fn half_angles() {
+        let mut g = Graph::new();
+        let [b] = symbols(&mut g, ["b"]);
+        let half = g.scale(Rational::new(1, 2), b);
+        let (sb, ch, sh) = (g.sin(b), g.cos(half), g.sin(half));
+        let product = g.mul(sh, ch);
+        let defect = g.linear_combination(&[(Rational::ONE, sb), (Rational::from(-2), product)]);
+        assert_eq!(g.zero_test(defect), Verdict::Zero);
+    }
+
+    #[test]
+    fn angles_are_compared_by_value() {
+        let mut g = Graph::new();
+        let [x, y, z] = symbols(&mut g, ["x", "y", "z"]);
+        let sum = g.add(y, z);
+        let factored = g.mul(x, sum);
+        let (xy, xz) = (g.mul(x, y), g.mul(x, z));
+        let expanded = g.add(xy, xz);
+        let (a, b) = (g.cos(factored), g.cos(expanded));
+        let defect = g.sub(a, b);
+        assert_eq!(g.zero_test(defect), Verdict::Zero);
+    }
+
+    #[test]
+    fn hyperbolic_functions_and_exponentials() {
+        let mut g = Graph::new();
+        let [x] = symbols(&mut g, ["x"]);
+        let (c, s) = (g.apply(Function::Cosh, x), g.apply(Function::Sinh, x));
+        let (cc, ss) = (g.square(c), g.square(s));
+        let one = g.one();
+        let defect =
+            g.linear_combination(&[(Rational::ONE, cc), (-Rational::ONE, ss), (-Rational::ONE, one)]);
+        assert_eq!(g.zero_test(defect), Verdict::Zero);
+        let e = g.apply(Function::Exp, x);
+        let sum = g.add(c, s);
+        let defect = g.sub(e, sum);
+        assert_eq!(g.zero_test(defect), Verdict::Zero);
+    }
+
+    #[test]
+    fn roots_keep_their_sign() {
+        let mut g = Graph::new();
+        let [x, y] = symbols(&mut g, ["x", "y"]);
+        let squared = g.square(x);
+        let root = g.sqrt(squared);
+        let defect = g.sub(root, x);
+        assert!(!g.zero_test(defect).is_zero());
+        let yy = g.square(y);
+        let sum = g.add(squared, yy);
+        let r = g.sqrt(sum);
+        let rr = g.div(sum, r);
+        let defect = g.sub(rr, r);
+        assert_eq!(g.zero_test(defect), Verdict::Zero);
+        let (two, three, six) = (g.number(2), g.number(3), g.number(6));
+        let (r2, r3, r6) = (g.sqrt(two), g.sqrt(three), g.sqrt(six));
+        let product = g.mul(r2, r3);
+        let defect = g.sub(product, r6);
+        assert_eq!(g.zero_test(defect), Verdict::Zero);
+    }
+
+    #[test]
+    fn what_cannot_be_decided_is_unknown() {
+        let mut g = Graph::new();
+        let [x, y] = symbols(&mut g, ["x", "y"]);
+        let product = g.mul(x, y);
+        let (lx, ly, lxy) =
+            (g.apply(Function::Ln, x), g.apply(Function::Ln, y), g.apply(Function::Ln, product));
+        let defect =
+            g.linear_combination(&[(Rational::ONE, lxy), (-Rational::ONE, lx), (-Rational::ONE, ly)]);
+        assert!(matches!(g.zero_test(defect), Verdict::Unknown(_)));
+        let zero = g.zero();
+        let poison = g.div(x, zero);
+        assert!(matches!(g.zero_test(poison), Verdict::Unknown(_)));
+    }
+
+    #[test]
+    fn a_near_miss_is_not_zero() {
+        let mut g = Graph::new();
+        let [x] = symbols(&mut g, ["x"]);
+        let tiny = g.number(Rational::new(1, 1_000_000_000_000));
+        let sum = g.add(x, tiny);
+        let defect = g.sub(sum, x);
+        assert!(g.zero_test(defect).is_nonzero());
+    }
+}
