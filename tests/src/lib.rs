@@ -1,1 +1,4 @@
-//! The catalogue of reference systems.
+//! The catalogue of reference systems, and how generated code is compared with reference data.
+
+pub mod reference;
+pub mod values;
