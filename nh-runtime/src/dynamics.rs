@@ -1,0 +1,202 @@
+//! What a system is to an integrator.
+
+use crate::error::{InputFault, ParameterError, ProjectionError, StateFault};
+use crate::{Dim, Scalar};
+
+/// A point of the phase space: a plain struct with one named field per component.
+///
+/// Derivatives have the same type; the field `x` of a derivative is ẋ.
+pub trait State: Copy + 'static {
+    /// The type of the components.
+    type Scalar: Scalar;
+    /// The number of components: `D<N>`.
+    type Dim: Dim;
+
+    /// The components in order: base coordinates, then velocities.
+    fn to_array(&self) -> <Self::Dim as Dim>::Vec<Self::Scalar>;
+    /// The state with these components.
+    fn from_array(components: <Self::Dim as Dim>::Vec<Self::Scalar>) -> Self;
+    /// The names of the components in order, for messages.
+    fn names() -> <Self::Dim as Dim>::Vec<&'static str>;
+}
+
+/// The numbers that a system computes with.
+pub type ScalarOf<S> = <<S as Dynamics>::State as State>::Scalar;
+/// The dimension of a system's state.
+pub type DimOf<S> = <<S as Dynamics>::State as State>::Dim;
+/// The components of a system's state as an array.
+pub type VecOf<S> = <DimOf<S> as Dim>::Vec<ScalarOf<S>>;
+/// A square matrix of the size of a system's state, as an array of rows.
+pub type MatOf<S> = <DimOf<S> as Dim>::Mat<ScalarOf<S>>;
+
+/// A system of ordinary differential equations ẋ = f(t, x, u).
+///
+/// Implemented by `#[nonholonomic]`, or by hand as at the head of the [crate]. The state must be
+/// everything that `derivative` depends on: a method evaluates it at points and times of its
+/// choice, rejected ones included. Within a step the input is constant.
+pub trait Dynamics {
+    /// A point of the phase space.
+    type State: State;
+    /// The control inputs; `()` if there are none.
+    type Input: Copy + Default;
+
+    /// The time derivative of the state: f(t, x, u).
+    fn derivative(&self, t: ScalarOf<Self>, state: &Self::State, input: &Self::Input) -> Self::State;
+
+    /// Checks the parameters; an integrator does so before its first step.
+    ///
+    /// # Errors
+    /// The first parameter that is not finite, breaks an assumption or makes a pivot zero.
+    #[inline]
+    fn validate(&self) -> Result<(), ParameterError> {
+        Ok(())
+    }
+
+    /// Checks a state that a user gives, beyond that it is finite: the identities that embedded
+    /// coordinates have to satisfy. An integrator does so before it steps from such a state.
+    ///
+    /// # Errors
+    /// The first identity that does not hold, with its residual.
+    #[inline]
+    fn check_state(&self, t: ScalarOf<Self>, state: &Self::State) -> Result<(), StateFault> {
+        let _ = (t, state);
+        Ok(())
+    }
+
+    /// Checks an input that a user gives. An integrator does so before it steps with it.
+    ///
+    /// # Errors
+    /// The first input that is not finite.
+    #[inline]
+    fn check_input(&self, input: &Self::Input) -> Result<(), InputFault> {
+        let _ = input;
+        Ok(())
+    }
+}
+
+impl<S: Dynamics + ?Sized> Dynamics for &S {
+    type State = S::State;
+    type Input = S::Input;
+
+    #[inline]
+    fn derivative(&self, t: ScalarOf<S>, state: &S::State, input: &S::Input) -> S::State {
+        (**self).derivative(t, state, input)
+    }
+    #[inline]
+    fn validate(&self) -> Result<(), ParameterError> {
+        (**self).validate()
+    }
+    #[inline]
+    fn check_state(&self, t: ScalarOf<S>, state: &S::State) -> Result<(), StateFault> {
+        (**self).check_state(t, state)
+    }
+    #[inline]
+    fn check_input(&self, input: &S::Input) -> Result<(), InputFault> {
+        (**self).check_input(input)
+    }
+}
+
+/// A system with an energy.
+pub trait Energy: Dynamics {
+    /// E(t, x) = yᵅ ∂L/∂yᵅ − L, which is conserved where the system is autonomous, its constraints
+    /// are homogeneous in the velocities, and no forces act.
+    fn energy(&self, t: ScalarOf<Self>, state: &Self::State) -> ScalarOf<Self>;
+}
+
+impl<S: Energy + ?Sized> Energy for &S {
+    #[inline]
+    fn energy(&self, t: ScalarOf<S>, state: &S::State) -> ScalarOf<S> {
+        (**self).energy(t, state)
+    }
+}
+
+/// A system with named observables.
+pub trait Observed: Dynamics {
+    /// The observables, one named field each.
+    type Outputs;
+
+    /// The observables at a state.
+    fn outputs(&self, t: ScalarOf<Self>, state: &Self::State, input: &Self::Input) -> Self::Outputs;
+}
+
+impl<S: Observed + ?Sized> Observed for &S {
+    type Outputs = S::Outputs;
+
+    #[inline]
+    fn outputs(&self, t: ScalarOf<S>, state: &S::State, input: &S::Input) -> S::Outputs {
+        (**self).outputs(t, state, input)
+    }
+}
+
+/// A system whose derivative has a derivative.
+pub trait Jacobian: Dynamics {
+    /// The number of scalar inputs: `D<M>`.
+    type InputDim: Dim;
+
+    /// A = ∂f/∂x: in row i, the derivatives of component i of ẋ by the components of the state.
+    fn state_jacobian(&self, t: ScalarOf<Self>, state: &Self::State, input: &Self::Input) -> MatOf<Self>;
+
+    /// B = ∂f/∂u: in row i, the derivatives of component i of ẋ by the inputs.
+    fn input_jacobian(
+        &self,
+        t: ScalarOf<Self>,
+        state: &Self::State,
+        input: &Self::Input,
+    ) -> <DimOf<Self> as Dim>::Vec<<Self::InputDim as Dim>::Vec<ScalarOf<Self>>>;
+}
+
+impl<S: Jacobian + ?Sized> Jacobian for &S {
+    type InputDim = S::InputDim;
+
+    #[inline]
+    fn state_jacobian(&self, t: ScalarOf<S>, state: &S::State, input: &S::Input) -> MatOf<S> {
+        (**self).state_jacobian(t, state, input)
+    }
+    #[inline]
+    fn input_jacobian(
+        &self,
+        t: ScalarOf<S>,
+        state: &S::State,
+        input: &S::Input,
+    ) -> <DimOf<S> as Dim>::Vec<<S::InputDim as Dim>::Vec<ScalarOf<S>>> {
+        (**self).input_jacobian(t, state, input)
+    }
+}
+
+/// A system whose state has to satisfy equations that a numerical solution drifts away from: the
+/// constraints of the projected formulation.
+pub trait Constrained: Dynamics {
+    /// The number of equations: `D<M>`.
+    type Constraints: Dim;
+
+    /// φ(t, x), which is zero on the constraint manifold.
+    fn constraint_residual(
+        &self,
+        t: ScalarOf<Self>,
+        state: &Self::State,
+    ) -> <Self::Constraints as Dim>::Vec<ScalarOf<Self>>;
+
+    /// Moves the state to the constraint manifold, along the kinetic energy's orthogonal complement
+    /// of the constraint distribution.
+    ///
+    /// # Errors
+    /// If the manifold is not reached; the state is then as it was.
+    fn project(&self, t: ScalarOf<Self>, state: &mut Self::State) -> Result<(), ProjectionError>;
+}
+
+impl<S: Constrained + ?Sized> Constrained for &S {
+    type Constraints = S::Constraints;
+
+    #[inline]
+    fn constraint_residual(
+        &self,
+        t: ScalarOf<S>,
+        state: &S::State,
+    ) -> <S::Constraints as Dim>::Vec<ScalarOf<S>> {
+        (**self).constraint_residual(t, state)
+    }
+    #[inline]
+    fn project(&self, t: ScalarOf<S>, state: &mut S::State) -> Result<(), ProjectionError> {
+        (**self).project(t, state)
+    }
+}

@@ -1,0 +1,272 @@
+//! What can go wrong, with the numbers that show it and a way out.
+
+use core::error::Error;
+use core::fmt::{self, Display, Formatter};
+
+/// A parameter that a system cannot be integrated with.
+///
+/// ```
+/// use nh_runtime::{ParameterError, ParameterFault};
+///
+/// let error = ParameterError {
+///     parameter: "m",
+///     value: -1.0,
+///     fault: ParameterFault::Assumption { text: "m > 0" },
+/// };
+/// assert_eq!(
+///     error.to_string(),
+///     "the parameter `m` is -1.0, but the declaration assumes `m > 0`: \
+///      give a value that satisfies it, or change the assumption"
+/// );
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ParameterError {
+    /// The parameter as it is written in the declaration: `m`, `I[0][1]`.
+    pub parameter: &'static str,
+    /// Its value.
+    pub value: f64,
+    /// What is wrong with it.
+    pub fault: ParameterFault,
+}
+
+/// What is wrong with a parameter.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum ParameterFault {
+    /// It is infinite or not a number.
+    NotFinite,
+    /// It breaks an assumption of the declaration.
+    Assumption {
+        /// The assumption as it is written there.
+        text: &'static str,
+    },
+    /// It makes an expression zero that the equations divide by.
+    ZeroPivot {
+        /// The expression.
+        expression: &'static str,
+    },
+}
+
+impl Display for ParameterError {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        let Self { parameter, value, fault } = self;
+        write!(f, "the parameter `{parameter}` is {value:?}, but ")?;
+        match fault {
+            ParameterFault::NotFinite => {
+                write!(f, "parameters have to be finite: check how it is computed")
+            }
+            ParameterFault::Assumption { text } => write!(
+                f,
+                "the declaration assumes `{text}`: give a value that satisfies it, or change the \
+                 assumption"
+            ),
+            ParameterFault::ZeroPivot { expression } => write!(
+                f,
+                "the equations divide by `{expression}`, which it makes zero: give another value, \
+                 or choose other velocities with `independent {{ … }}`"
+            ),
+        }
+    }
+}
+
+impl Error for ParameterError {}
+
+/// An input that a system cannot be integrated with.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct InputFault {
+    /// The input as it is written in the declaration.
+    pub input: &'static str,
+    /// Its value, which is not finite.
+    pub value: f64,
+}
+
+/// A state that a system cannot start from.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct StateFault {
+    /// The identity that it does not satisfy, as it is written in the declaration.
+    pub identity: &'static str,
+    /// Left-hand side less right-hand side.
+    pub residual: f64,
+}
+
+/// A state that could not be moved to the constraint manifold.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ProjectionError {
+    /// The iterations done.
+    pub iterations: u32,
+    /// The largest constraint residual that was left.
+    pub residual: f64,
+}
+
+impl Display for ProjectionError {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        let Self { iterations, residual } = self;
+        write!(
+            f,
+            "the projection to the constraints left a residual of {residual:?} after \
+             {iterations} iterations: start nearer to the constraints, or take smaller steps"
+        )
+    }
+}
+
+impl Error for ProjectionError {}
+
+/// Why an integration stopped. The integrator keeps the last good state and its time, and can go on
+/// from there.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
+pub enum IntegrationError {
+    /// A parameter of the system is invalid.
+    Parameter(ParameterError),
+    /// A setting of the method is invalid.
+    Setting {
+        /// The setting: `step`, `rtol`, ….
+        setting: &'static str,
+        /// Its value.
+        value: f64,
+        /// What it has to be.
+        expected: &'static str,
+    },
+    /// A given state is infinite or not a number.
+    NonFiniteState {
+        /// The first such component.
+        component: &'static str,
+        /// Its value.
+        value: f64,
+    },
+    /// A given state does not satisfy the identities of its coordinates.
+    InvalidState(StateFault),
+    /// A given input is infinite or not a number.
+    Input(InputFault),
+    /// A given time is infinite or not a number, or the time has outgrown its type.
+    NonFiniteTime {
+        /// The time.
+        time: f64,
+    },
+    /// A derivative is infinite or not a number.
+    NonFiniteDerivative {
+        /// The first component whose derivative that is.
+        component: &'static str,
+        /// The time at which it was evaluated.
+        time: f64,
+        /// Its value.
+        value: f64,
+    },
+    /// A step from finite derivatives has led to an infinite state.
+    NonFiniteStep {
+        /// The first infinite component.
+        component: &'static str,
+        /// The time at the start of the step.
+        time: f64,
+        /// The length of the step.
+        step: f64,
+    },
+    /// The step that the tolerance asks for is shorter than the time can resolve.
+    StepUnderflow {
+        /// The time at the start of the step.
+        time: f64,
+        /// The length of the last step tried.
+        step: f64,
+        /// Its error estimate, in units of the tolerance.
+        error: f64,
+    },
+    /// The equations of an implicit method were not solved.
+    NoConvergence {
+        /// The time at the start of the step.
+        time: f64,
+        /// The length of the step.
+        step: f64,
+        /// The iterations done.
+        iterations: u32,
+        /// The size of the last correction, in units of the tolerance.
+        residual: f64,
+    },
+    /// The target was not reached within the permitted number of steps.
+    TooManySteps {
+        /// The time reached.
+        time: f64,
+        /// The time to reach.
+        target: f64,
+        /// The permitted number of steps.
+        limit: u64,
+    },
+    /// A state was asked for at a time outside the last step.
+    OutsideLastStep {
+        /// The time asked for.
+        time: f64,
+        /// The start of the last step.
+        from: f64,
+        /// The end of the last step.
+        to: f64,
+    },
+}
+
+impl Display for IntegrationError {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        match *self {
+            Self::Parameter(error) => error.fmt(f),
+            Self::Setting { setting, value, expected } => {
+                write!(f, "the setting `{setting}` of the method is {value:?}, but has to be {expected}")
+            }
+            Self::NonFiniteState { component, value } => {
+                write!(f, "the component `{component}` of the given state is {value:?}: give finite numbers")
+            }
+            Self::InvalidState(StateFault { identity, residual }) => write!(
+                f,
+                "the given state does not satisfy `{identity}`, by {residual:?}: normalize it first"
+            ),
+            Self::Input(InputFault { input, value }) => {
+                write!(f, "the input `{input}` is {value:?}: give finite numbers")
+            }
+            Self::NonFiniteTime { time } => {
+                write!(f, "the time {time:?} cannot be reached: times have to be finite")
+            }
+            Self::NonFiniteDerivative { component, time, value } => write!(
+                f,
+                "the derivative of `{component}` is {value:?} at t = {time:?}: the equations are \
+                 singular there, or an input or parameter makes them so"
+            ),
+            Self::NonFiniteStep { component, time, step } => write!(
+                f,
+                "the step of length {step:?} from t = {time:?} makes `{component}` infinite: the \
+                 solution grows too fast, take a smaller step"
+            ),
+            Self::StepUnderflow { time, step, error } => write!(
+                f,
+                "at t = {time:?} a step of length {step:?} still has {error:?} times the permitted \
+                 error, and the time resolves no shorter one: the solution is singular near there, \
+                 or the tolerance too small"
+            ),
+            Self::NoConvergence { time, step, iterations, residual } => write!(
+                f,
+                "the step of length {step:?} from t = {time:?} was not solved in {iterations} \
+                 iterations, the last correction being {residual:?} times the tolerance: take a \
+                 smaller step"
+            ),
+            Self::TooManySteps { time, target, limit } => write!(
+                f,
+                "{limit} steps have led to t = {time:?} and not to {target:?}: permit more with \
+                 `max_steps`, take longer steps, or an implicit method if the system is stiff"
+            ),
+            Self::OutsideLastStep { time, from, to } => write!(
+                f,
+                "there is no state at t = {time:?}, since the last step went from {from:?} to \
+                 {to:?}: ask within it"
+            ),
+        }
+    }
+}
+
+impl Error for IntegrationError {
+    fn source(&self) -> Option<&(dyn Error + 'static)> {
+        match self {
+            Self::Parameter(error) => Some(error),
+            _ => None,
+        }
+    }
+}
+
+impl From<ParameterError> for IntegrationError {
+    fn from(error: ParameterError) -> Self {
+        Self::Parameter(error)
+    }
+}

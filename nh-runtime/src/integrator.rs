@@ -1,0 +1,343 @@
+//! Carrying a state through time.
+
+use core::fmt;
+
+use crate::arrays::{all_finite, first_non_finite};
+use crate::methods::{Arrival, Method, Start, component, non_finite_derivative};
+use crate::{Dynamics, IntegrationError, Real, Scalar, ScalarOf, State};
+
+/// What an integration has cost.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[non_exhaustive]
+pub struct Statistics {
+    /// The steps taken.
+    pub steps: u64,
+    /// The steps tried and rejected, because of the error estimate or a stage that is not finite.
+    pub rejected: u64,
+    /// The evaluations of the derivative, those for Jacobians included.
+    pub evaluations: u64,
+    /// The Jacobians formed.
+    pub jacobians: u64,
+    /// The factorizations of matrices.
+    pub factorizations: u64,
+    /// The iterations of implicit methods.
+    pub iterations: u64,
+}
+
+/// A system, a method, and a state that moves through time.
+///
+/// The system is owned or borrowed: `Integrator::new(sleigh, …)` and `Integrator::new(&sleigh, …)`
+/// both work. After an error the state and the time are those of the last good step, and the
+/// integration can go on, say with another input.
+///
+/// ```
+/// # use nh_runtime::prelude::*;
+/// # use nh_runtime::D;
+/// # #[derive(Clone, Copy)] struct Car;
+/// # #[derive(Clone, Copy)] struct CarState { x: f64, v: f64 }
+/// # #[derive(Clone, Copy, Default)] struct CarInput { force: f64 }
+/// # impl State for CarState {
+/// #     type Scalar = f64;
+/// #     type Dim = D<2>;
+/// #     fn to_array(&self) -> [f64; 2] { [self.x, self.v] }
+/// #     fn from_array([x, v]: [f64; 2]) -> Self { Self { x, v } }
+/// #     fn names() -> [&'static str; 2] { ["x", "v"] }
+/// # }
+/// # impl Dynamics for Car {
+/// #     type State = CarState;
+/// #     type Input = CarInput;
+/// #     fn derivative(&self, _t: f64, s: &CarState, u: &CarInput) -> CarState { CarState { x: s.v, v: u.force } }
+/// # }
+/// # fn main() -> Result<(), IntegrationError> {
+/// let mut sim = Integrator::new(Car, Rk4::new(0.01), 0.0, CarState { x: 0.0, v: 0.0 });
+/// sim.set_input(CarInput { force: 2.0 });
+/// sim.advance_to(1.0)?;
+/// assert!((sim.state().x - 1.0).abs() < 1e-12);
+/// sim.set_input(CarInput { force: -2.0 });
+/// sim.advance_to(2.0)?;
+/// assert!(sim.state().v.abs() < 1e-12);
+/// assert_eq!(sim.statistics().steps, 200);
+/// # Ok(())
+/// # }
+/// ```
+pub struct Integrator<S: Dynamics, M: Method<S>> {
+    system: S,
+    method: M,
+    memory: M::Memory,
+    input: S::Input,
+    time: ScalarOf<S>,
+    state: S::State,
+    /// Where the last step came from.
+    origin: Option<Origin<S>>,
+    statistics: Statistics,
+    max_steps: u64,
+    /// Whether the parameters and settings have been checked.
+    validated: bool,
+    /// Whether the state, the time and the input as the user gave them have been checked.
+    admitted: bool,
+}
+
+/// The start of a step, with the input that acted during it.
+struct Origin<S: Dynamics> {
+    time: ScalarOf<S>,
+    state: S::State,
+    input: S::Input,
+}
+
+impl<S: Dynamics> Clone for Origin<S> {
+    fn clone(&self) -> Self {
+        *self
+    }
+}
+impl<S: Dynamics> Copy for Origin<S> {}
+
+impl<S: Dynamics, M: Method<S>> Integrator<S, M> {
+    /// The integration of `system` by `method` from `state` at time `t0`, with the default input.
+    ///
+    /// Everything given is checked when the first step is taken.
+    pub fn new(system: S, method: M, t0: ScalarOf<S>, state: S::State) -> Self {
+        let memory = method.memory();
+        Self {
+            system,
+            method,
+            memory,
+            input: S::Input::default(),
+            time: t0,
+            state,
+            origin: None,
+            statistics: Statistics::default(),
+            max_steps: 10_000_000,
+            validated: false,
+            admitted: false,
+        }
+    }
+
+    /// Permits at most `limit` steps in one call of [`advance_to`](Self::advance_to); ten million
+    /// if not given.
+    #[must_use]
+    pub fn max_steps(mut self, limit: u64) -> Self {
+        self.max_steps = limit;
+        self
+    }
+
+    /// Gives the input that acts from now on, and drops what the method has stored of the old one.
+    pub fn set_input(&mut self, input: S::Input) {
+        self.input = input;
+        self.admitted = false;
+        self.method.forget(&mut self.memory);
+    }
+
+    /// Starts anew from another state and time, with the same system, method and input. The
+    /// statistics start anew too.
+    pub fn reset(&mut self, t0: ScalarOf<S>, state: S::State) {
+        self.time = t0;
+        self.state = state;
+        self.memory = self.method.memory();
+        self.origin = None;
+        self.statistics = Statistics::default();
+        self.admitted = false;
+    }
+
+    /// The state now.
+    #[inline]
+    #[must_use]
+    pub fn state(&self) -> &S::State {
+        &self.state
+    }
+
+    /// The time now.
+    #[inline]
+    #[must_use]
+    pub fn time(&self) -> ScalarOf<S> {
+        self.time
+    }
+
+    /// The input that acts.
+    #[inline]
+    #[must_use]
+    pub fn input(&self) -> &S::Input {
+        &self.input
+    }
+
+    /// The system.
+    #[inline]
+    #[must_use]
+    pub fn system(&self) -> &S {
+        &self.system
+    }
+
+    /// The method.
+    #[inline]
+    #[must_use]
+    pub fn method(&self) -> &M {
+        &self.method
+    }
+
+    /// What the integration has cost since it was started or [`reset`](Self::reset).
+    #[inline]
+    #[must_use]
+    pub fn statistics(&self) -> Statistics {
+        self.statistics
+    }
+}
+
+impl<S: Dynamics, M: Method<S>> Integrator<S, M>
+where
+    ScalarOf<S>: Real,
+{
+    /// Takes one step forwards in time, of the length that the method chooses.
+    ///
+    /// # Errors
+    /// What was given is not valid, or there is no good step; state and time are then unchanged.
+    #[inline]
+    pub fn step(&mut self) -> Result<(), IntegrationError> {
+        self.admit()?;
+        self.advance(None)
+    }
+
+    /// Takes one step towards `target`, forwards or backwards in time, and lands on it exactly
+    /// rather than passing it. At the target already, it does nothing.
+    ///
+    /// # Errors
+    /// As [`step`](Self::step).
+    #[inline]
+    pub fn step_towards(&mut self, target: ScalarOf<S>) -> Result<(), IntegrationError> {
+        self.admit()?;
+        check_time(target)?;
+        if self.time == target {
+            return Ok(());
+        }
+        self.advance(Some(target))
+    }
+
+    /// Takes as many steps as lead to `target`, forwards or backwards in time, and lands on it
+    /// exactly: afterwards [`time`](Self::time) equals it. A method of fixed step shortens its last
+    /// step for that.
+    ///
+    /// # Errors
+    /// As [`step`](Self::step), and [`IntegrationError::TooManySteps`]. State and time are those of
+    /// the last good step; a further call continues from there.
+    #[inline]
+    pub fn advance_to(&mut self, target: ScalarOf<S>) -> Result<(), IntegrationError> {
+        self.admit()?;
+        check_time(target)?;
+        let mut steps = 0;
+        while self.time != target {
+            if steps == self.max_steps {
+                return Err(IntegrationError::TooManySteps {
+                    time: self.time.to_f64(),
+                    target: target.to_f64(),
+                    limit: steps,
+                });
+            }
+            self.advance(Some(target))?;
+            steps += 1;
+        }
+        Ok(())
+    }
+
+    /// The state at a time within the last step (dense output).
+    ///
+    /// At the ends of the step it is exactly the state there; between them it is the method's
+    /// continuous extension: of order 4 for `Dopri5`, and for methods of fixed step the cubic
+    /// Hermite interpolant, for which the derivatives at both ends are evaluated anew. The input is
+    /// the one that acted during the step, whatever has been set since. Before the first step, and
+    /// after a [`reset`](Self::reset), only the current time is within.
+    ///
+    /// # Errors
+    /// [`IntegrationError::OutsideLastStep`], also for a time that is NaN;
+    /// [`IntegrationError::NonFiniteDerivative`] if a derivative at an end is not finite.
+    pub fn at(&self, time: ScalarOf<S>) -> Result<S::State, IntegrationError> {
+        if time == self.time {
+            return Ok(self.state);
+        }
+        let from = self.origin.as_ref().map_or(self.time, |origin| origin.time);
+        let within = (from <= time && time <= self.time) || (self.time <= time && time <= from);
+        let (true, Some(origin)) = (within, &self.origin) else {
+            return Err(IntegrationError::OutsideLastStep {
+                time: time.to_f64(),
+                from: from.to_f64(),
+                to: self.time.to_f64(),
+            });
+        };
+        if time == origin.time {
+            return Ok(origin.state);
+        }
+        let start =
+            Start { system: &self.system, input: &origin.input, time: origin.time, state: &origin.state };
+        let arrival = Arrival { time: self.time, state: self.state };
+        let state = self.method.interpolate(&self.memory, &start, &arrival, time);
+        match first_non_finite(state.to_array().as_ref()) {
+            None => Ok(state),
+            Some(found) => Err(non_finite_derivative::<S::State>(found, time.to_f64())),
+        }
+    }
+
+    /// Checks what the user gave, unless that has been done.
+    #[inline]
+    fn admit(&mut self) -> Result<(), IntegrationError> {
+        if self.admitted { Ok(()) } else { self.check() }
+    }
+
+    #[cold]
+    fn check(&mut self) -> Result<(), IntegrationError> {
+        if !self.validated {
+            self.system.validate()?;
+            self.method.check()?;
+            self.validated = true;
+        }
+        check_time(self.time)?;
+        let x = self.state.to_array();
+        if !all_finite(&x)
+            && let Some((index, value)) = first_non_finite(x.as_ref())
+        {
+            let component = component::<S::State>(index);
+            return Err(IntegrationError::NonFiniteState { component, value });
+        }
+        self.system.check_input(&self.input).map_err(IntegrationError::Input)?;
+        if self.origin.is_none() {
+            let checked = self.system.check_state(self.time, &self.state);
+            checked.map_err(IntegrationError::InvalidState)?;
+        }
+        self.admitted = true;
+        Ok(())
+    }
+
+    /// Takes a step from an admitted state.
+    #[inline]
+    fn advance(&mut self, target: Option<ScalarOf<S>>) -> Result<(), IntegrationError> {
+        let start = Start { system: &self.system, input: &self.input, time: self.time, state: &self.state };
+        let Arrival { time, state } =
+            self.method.advance(&start, target, &mut self.memory, &mut self.statistics)?;
+        self.origin = Some(Origin { time: self.time, state: self.state, input: self.input });
+        self.time = time;
+        self.state = state;
+        self.statistics.steps += 1;
+        Ok(())
+    }
+}
+
+/// Refuses a time that cannot be reached.
+#[inline]
+fn check_time<T: Scalar>(time: T) -> Result<(), IntegrationError> {
+    if time.is_finite() { Ok(()) } else { Err(IntegrationError::NonFiniteTime { time: time.to_f64() }) }
+}
+
+impl<S: Dynamics + Clone, M: Method<S> + Clone> Clone for Integrator<S, M> {
+    fn clone(&self) -> Self {
+        Self { system: self.system.clone(), method: self.method.clone(), ..*self }
+    }
+}
+
+impl<S: Dynamics, M: Method<S>> fmt::Debug for Integrator<S, M>
+where
+    S::State: fmt::Debug,
+{
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("Integrator")
+            .field("time", &self.time)
+            .field("state", &self.state)
+            .field("statistics", &self.statistics)
+            .finish_non_exhaustive()
+    }
+}

@@ -1,0 +1,176 @@
+//! Small dense linear systems on the stack, by Gaussian elimination with scaled partial pivoting
+//! (Golub, Van Loan, Matrix Computations, 3.4.4 and 3.5.2).
+//!
+//! Rows are exchanged as they pass rather than after a search: no index depends on data, so there
+//! is nothing that could be out of bounds, and the same code works for lanes that pivot differently.
+
+use crate::arrays::Array;
+use crate::{Dim, Real, Scalar};
+
+/// The largest absolute value of a row, inverted.
+#[inline]
+fn scale<T: Scalar>(row: &[T]) -> T {
+    row.iter().fold(T::ZERO, |largest, x| largest.max(x.abs())).recip()
+}
+
+/// Solves a x = b. A singular matrix gives a solution with components that are not finite.
+///
+/// Works lane by lane: there is no branch on a number.
+#[inline]
+#[must_use]
+pub fn solve_pivoted<T: Scalar, const N: usize>(mut a: [[T; N]; N], mut b: [T; N]) -> [T; N] {
+    let mut scales = [T::ZERO; N];
+    for (s, row) in scales.iter_mut().zip(&a) {
+        *s = scale(row);
+    }
+    for k in 0..N {
+        for i in k + 1..N {
+            let (ours, theirs) = (a[k][k].abs() * scales[k], a[i][k].abs() * scales[i]);
+            let exchanged = |x: T, y: T| (theirs.select_gt(ours, y, x), theirs.select_gt(ours, x, y));
+            for j in k..N {
+                (a[k][j], a[i][j]) = exchanged(a[k][j], a[i][j]);
+            }
+            (b[k], b[i]) = exchanged(b[k], b[i]);
+            (scales[k], scales[i]) = exchanged(scales[k], scales[i]);
+        }
+        for i in k + 1..N {
+            let factor = a[i][k] / a[k][k];
+            for j in k + 1..N {
+                a[i][j] -= factor * a[k][j];
+            }
+            let reduced = factor * b[k];
+            b[i] -= reduced;
+        }
+    }
+    for k in (0..N).rev() {
+        let mut sum = b[k];
+        for j in k + 1..N {
+            sum -= a[k][j] * b[j];
+        }
+        b[k] = sum / a[k][k];
+    }
+    b
+}
+
+/// A factorization P A = L U: L below the diagonal of `lu`, U on and above it.
+#[derive(Clone, Copy)]
+pub(crate) struct Factors<Dm: Dim, T: Scalar> {
+    lu: Dm::Mat<T>,
+    /// The row of A that each row of L U stands for.
+    rows: Dm::Vec<usize>,
+}
+
+impl<Dm: Dim, T: Real> Factors<Dm, T> {
+    /// Factorizes `a`. A singular matrix gives solutions with components that are not finite.
+    pub(crate) fn new(a: &Dm::Mat<T>) -> Self {
+        let mut lu = *a;
+        let mut rows = Dm::vec(0_usize);
+        let mut scales = Dm::vec(T::ZERO);
+        let numbered = rows.as_mut().iter_mut().zip(scales.as_mut());
+        for (i, ((row, s), a)) in numbered.zip(a.as_ref()).enumerate() {
+            *row = i;
+            *s = scale(a.as_ref());
+        }
+        for k in 0..Dm::N {
+            let mut below = lu.as_mut().iter_mut().skip(k);
+            let mut rows_below = rows.as_mut().iter_mut().skip(k);
+            let mut scales_below = scales.as_mut().iter_mut().skip(k);
+            let (Some(pivot), Some(row), Some(s)) = (below.next(), rows_below.next(), scales_below.next())
+            else {
+                break;
+            };
+            // bring the largest entry of the column, relative to its row, to the pivot
+            for ((other, other_row), other_s) in below.zip(rows_below).zip(scales_below) {
+                if entry(other, k).abs() * *other_s > entry(pivot, k).abs() * *s {
+                    core::mem::swap(pivot, other);
+                    core::mem::swap(row, other_row);
+                    core::mem::swap(s, other_s);
+                }
+            }
+            let pivot = *pivot;
+            for other in lu.as_mut().iter_mut().skip(k + 1) {
+                let factor = entry(other, k) / entry(&pivot, k);
+                let mut tail = other.as_mut().iter_mut().zip(pivot.as_ref()).skip(k);
+                if let Some((head, _)) = tail.next() {
+                    *head = factor;
+                }
+                for (x, p) in tail {
+                    *x -= factor * *p;
+                }
+            }
+        }
+        Self { lu, rows }
+    }
+
+    /// The solution of A x = b.
+    pub(crate) fn solve(&self, b: &Dm::Vec<T>) -> Dm::Vec<T> {
+        let mut x = Dm::vec(T::ZERO);
+        for (i, (lu, &row)) in self.lu.as_ref().iter().zip(self.rows.as_ref()).enumerate() {
+            let known = lu.as_ref().iter().zip(x.as_ref()).take(i);
+            let sum = known.fold(entry(b, row), |sum, (l, x)| sum - *l * *x);
+            if let Some(x) = x.as_mut().get_mut(i) {
+                *x = sum;
+            }
+        }
+        for (i, lu) in self.lu.as_ref().iter().enumerate().rev() {
+            let known = lu.as_ref().iter().zip(x.as_ref()).skip(i + 1);
+            let sum = known.fold(entry(&x, i), |sum, (u, x)| sum - *u * *x);
+            if let Some(x) = x.as_mut().get_mut(i) {
+                *x = sum / entry(lu, i);
+            }
+        }
+        x
+    }
+}
+
+/// The component of an array; there is always one.
+#[inline]
+fn entry<T: Scalar, V: Array<T>>(v: &V, i: usize) -> T {
+    v.as_ref().get(i).copied().unwrap_or(T::ZERO)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::D;
+
+    /// A reproducible number in [−1, 1).
+    fn random(seed: &mut u64) -> f64 {
+        *seed = seed.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+        f64::from((*seed >> 32) as u32) / 2_147_483_648.0 - 1.0
+    }
+
+    #[test]
+    fn both_solvers_solve() {
+        let mut seed = 1;
+        for _ in 0..200 {
+            let a: [[f64; 6]; 6] = core::array::from_fn(|_| core::array::from_fn(|_| random(&mut seed)));
+            let x: [f64; 6] = core::array::from_fn(|_| random(&mut seed));
+            let b = a.map(|row| row.iter().zip(&x).map(|(a, x)| a * x).sum::<f64>());
+            for solution in [solve_pivoted(a, b), Factors::<D<6>, f64>::new(&a).solve(&b)] {
+                for (s, x) in solution.iter().zip(&x) {
+                    assert!((s - x).abs() < 1e-9, "{s} {x}");
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn saddle_systems_and_bad_scales_need_pivots() {
+        let a = [[0.0, 1.0, 2.0], [1.0, 0.0, 0.0], [1e20, 1e20, -1e20]];
+        let b = [8.0, 1.0, 0.0];
+        for x in [solve_pivoted(a, b), Factors::<D<3>, f64>::new(&a).solve(&b)] {
+            assert!((x[0] - 1.0).abs() < 1e-14, "{x:?}");
+            assert!((x[1] - 2.0).abs() < 1e-14 && (x[2] - 3.0).abs() < 1e-14, "{x:?}");
+        }
+    }
+
+    #[test]
+    fn singular_matrices_are_not_hidden() {
+        for a in [[[1.0, 2.0], [2.0, 4.0]], [[0.0, 0.0], [1.0, 1.0]], [[0.0, 1.0], [0.0, 2.0]]] {
+            for x in [solve_pivoted(a, [1.0, 1.0]), Factors::<D<2>, f64>::new(&a).solve(&[0.0, 0.0])] {
+                assert!(x.iter().any(|x: &f64| !x.is_finite()), "{a:?} {x:?}");
+            }
+        }
+    }
+}

@@ -1,0 +1,316 @@
+//! The implicit midpoint rule.
+
+use super::fixed::{self, Grid};
+use super::{Arrival, Method, Start, explain_non_finite};
+use crate::arrays::{all_finite, displaced};
+use crate::linear::Factors;
+use crate::{
+    Dim, DimOf, Dynamics, IntegrationError, MatOf, Real, Scalar, ScalarOf, State, Statistics, VecOf,
+};
+
+/// The implicit midpoint rule x₁ = x₀ + h f(t₀ + h/2, (x₀ + x₁)/2) with fixed steps, of order 2.
+///
+/// Symmetric and A-stable; it keeps every quadratic invariant (Hairer, Lubich, Wanner, Geometric
+/// Numerical Integration, theorem IV.2.1) to the accuracy to which its equations are solved. They
+/// are solved by Newton's iteration, with a Jacobian from difference quotients that is kept as long
+/// as it converges well, until the corrections vanish or stagnate in round-off.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ImplicitMidpoint<T> {
+    step: T,
+    tolerance: T,
+}
+
+impl<T: Real> ImplicitMidpoint<T> {
+    /// The method with steps of length `step`, which has to be positive and finite.
+    #[must_use]
+    pub fn new(step: T) -> Self {
+        Self { step, tolerance: T::from_f64(1e3) * T::EPSILON }
+    }
+
+    /// The largest correction, relative to 1 + |x| in each component, at which the iteration may
+    /// stagnate; 1000 rounding units if not given. A larger one does not make it stop earlier.
+    #[must_use]
+    pub fn tolerance(mut self, tolerance: T) -> Self {
+        self.tolerance = tolerance;
+        self
+    }
+
+    /// One step of length `dt` as a pure function: the state at `t + dt`.
+    ///
+    /// # Errors
+    /// [`IntegrationError::NoConvergence`] if the equations are not solved,
+    /// [`IntegrationError::NonFiniteDerivative`] if the derivative at `state` is not finite.
+    pub fn step<S>(
+        system: &S,
+        t: T,
+        dt: T,
+        state: &S::State,
+        input: &S::Input,
+    ) -> Result<S::State, IntegrationError>
+    where
+        S: Dynamics,
+        S::State: State<Scalar = T>,
+    {
+        let start = Start { system, input, time: t, state };
+        let method = Self::new(dt.abs());
+        method.solve(&start, dt, &mut None, &mut Statistics::default())
+    }
+
+    /// Solves d = h/2 f(t₀ + h/2, x₀ + d) for half the increment.
+    fn solve<S>(
+        &self,
+        start: &Start<'_, S>,
+        length: T,
+        stored: &mut Option<Newton<S>>,
+        statistics: &mut Statistics,
+    ) -> Result<S::State, IntegrationError>
+    where
+        S: Dynamics,
+        S::State: State<Scalar = T>,
+    {
+        let half = length * T::from_f64(0.5);
+        let middle = start.time + half;
+        let x = start.state.to_array();
+        let mut newton = stored.filter(|newton| newton.half == half);
+        let mut half_increment = DimOf::<S>::vec(T::ZERO);
+        let mut preceding: Option<T> = None;
+        // a stored matrix that fails gets one chance more with a new one
+        let mut retry = newton.is_some();
+        let mut iterations = 0;
+        let mut residual;
+        loop {
+            let slope = start.derivative_at(middle, displaced(&x, T::ONE, &half_increment));
+            statistics.evaluations += 1;
+            let factors = match newton {
+                Some(newton) => newton,
+                None => {
+                    let point = displaced(&x, T::ONE, &half_increment);
+                    *newton.insert(Newton::new(start, half, point, &slope, statistics))
+                }
+            };
+            let mut defect = slope;
+            for (r, d) in defect.as_mut().iter_mut().zip(half_increment.as_ref()) {
+                *r = half * *r - *d;
+            }
+            let correction = factors.factors.solve(&defect);
+            half_increment = displaced(&half_increment, T::ONE, &correction);
+            iterations += 1;
+            statistics.iterations += 1;
+            residual = size(&correction, &x) / self.tolerance;
+            if vanishes(&correction, &x, &half_increment) {
+                break;
+            }
+            let ratio = preceding.map(|preceding| residual / preceding);
+            let stagnates = ratio.is_some_and(|ratio| ratio >= T::from_f64(0.5));
+            if stagnates && residual <= T::ONE {
+                break;
+            }
+            if !residual.is_finite() || iterations >= MOST_ITERATIONS {
+                if !retry {
+                    let reached = displaced(&x, T::from_f64(2.0), &half_increment);
+                    return Err(refusal(start, length, iterations, residual, reached.as_ref()));
+                }
+                retry = false;
+                half_increment = DimOf::<S>::vec(T::ZERO);
+                newton = None;
+                preceding = None;
+                iterations = 0;
+                continue;
+            }
+            if ratio.is_some_and(|ratio| ratio >= T::from_f64(SLOW)) && residual > T::ONE {
+                newton = None;
+            }
+            preceding = Some(residual);
+        }
+        *stored = newton;
+        Ok(S::State::from_array(displaced(&x, T::from_f64(2.0), &half_increment)))
+    }
+}
+
+/// The iterations after which a solution is given up.
+const MOST_ITERATIONS: u32 = 50;
+/// The ratio of successive corrections from which a new Jacobian is formed.
+const SLOW: f64 = 0.1;
+
+/// The largest correction, relative to 1 + |x|; NaN if there is one.
+fn size<T: Real, V: AsRef<[T]>>(correction: &V, x: &V) -> T {
+    correction
+        .as_ref()
+        .iter()
+        .zip(x.as_ref())
+        .fold(T::ZERO, |largest, (c, x)| largest.max(c.abs() / (T::ONE + x.abs())))
+}
+
+/// Whether a correction is below half a rounding unit in every component.
+fn vanishes<T: Real, V: AsRef<[T]>>(correction: &V, x: &V, increment: &V) -> bool {
+    let half_unit = T::EPSILON * T::from_f64(0.5);
+    let terms = correction.as_ref().iter().zip(x.as_ref().iter().zip(increment.as_ref()));
+    terms.fold(true, |all, (c, (x, d))| all & (c.abs() <= half_unit * (x.abs() + d.abs())))
+}
+
+/// Explains why the equations were not solved.
+#[cold]
+fn refusal<S: Dynamics>(
+    start: &Start<'_, S>,
+    length: ScalarOf<S>,
+    iterations: u32,
+    residual: ScalarOf<S>,
+    reached: &[ScalarOf<S>],
+) -> IntegrationError
+where
+    ScalarOf<S>: Real,
+{
+    let explained = explain_non_finite(start, length, reached);
+    if matches!(explained, IntegrationError::NonFiniteDerivative { .. }) {
+        return explained;
+    }
+    IntegrationError::NoConvergence {
+        time: start.time.to_f64(),
+        step: length.to_f64(),
+        iterations,
+        residual: residual.to_f64(),
+    }
+}
+
+/// The factorized matrix 1 − h/2 ∂f/∂x of Newton's iteration.
+pub(super) struct Newton<S: Dynamics> {
+    half: ScalarOf<S>,
+    factors: Factors<DimOf<S>, ScalarOf<S>>,
+}
+
+impl<S: Dynamics> Clone for Newton<S> {
+    fn clone(&self) -> Self {
+        *self
+    }
+}
+impl<S: Dynamics> Copy for Newton<S> {}
+
+impl<S: Dynamics> Newton<S>
+where
+    ScalarOf<S>: Real,
+{
+    /// Forms the matrix at a point with its derivative `slope`.
+    fn new(
+        start: &Start<'_, S>,
+        half: ScalarOf<S>,
+        point: VecOf<S>,
+        slope: &VecOf<S>,
+        statistics: &mut Statistics,
+    ) -> Self {
+        let mut matrix: MatOf<S> = DimOf::<S>::mat(ScalarOf::<S>::ZERO);
+        for j in 0..DimOf::<S>::N {
+            let Some(&x) = point.as_ref().get(j) else { break };
+            // the increment of the code RADAU5 (Hairer, Wanner II, section IV.8)
+            let least = ScalarOf::<S>::from_f64(1e-5);
+            let delta = (ScalarOf::<S>::EPSILON * x.abs().max(least)).sqrt();
+            let mut ahead = quotient(start, half, &point, slope, j, delta);
+            if !all_finite::<ScalarOf<S>, _>(&ahead) {
+                ahead = quotient(start, half, &point, slope, j, -delta);
+                statistics.evaluations += 1;
+            }
+            for (i, (row, q)) in matrix.as_mut().iter_mut().zip(ahead.as_ref()).enumerate() {
+                if let Some(entry) = row.as_mut().get_mut(j) {
+                    let one = ScalarOf::<S>::ONE;
+                    *entry = if i == j { one - half * *q } else { -(half * *q) };
+                }
+            }
+            statistics.evaluations += 1;
+        }
+        statistics.jacobians += 1;
+        statistics.factorizations += 1;
+        Self { half, factors: Factors::new(&matrix) }
+    }
+}
+
+/// The difference quotient of f in direction `j`.
+fn quotient<S: Dynamics>(
+    start: &Start<'_, S>,
+    half: ScalarOf<S>,
+    point: &VecOf<S>,
+    slope: &VecOf<S>,
+    j: usize,
+    delta: ScalarOf<S>,
+) -> VecOf<S>
+where
+    ScalarOf<S>: Real,
+{
+    let mut moved = *point;
+    let mut really = delta;
+    if let Some(x) = moved.as_mut().get_mut(j) {
+        let before = *x;
+        *x += delta;
+        // the distance that rounding has left
+        really = *x - before;
+    }
+    let mut ahead = start.derivative_at(start.time + half, moved);
+    for (a, f) in ahead.as_mut().iter_mut().zip(slope.as_ref()) {
+        *a = (*a - *f) / really;
+    }
+    ahead
+}
+
+/// What the method remembers: the grid of times, and the matrix while it serves.
+pub struct Memory<S: Dynamics> {
+    grid: Grid<ScalarOf<S>>,
+    newton: Option<Newton<S>>,
+}
+
+impl<S: Dynamics> Clone for Memory<S> {
+    fn clone(&self) -> Self {
+        *self
+    }
+}
+impl<S: Dynamics> Copy for Memory<S> {}
+
+impl<T: Real, S: Dynamics> Method<S> for ImplicitMidpoint<T>
+where
+    S::State: State<Scalar = T>,
+{
+    type Memory = Memory<S>;
+
+    fn memory(&self) -> Memory<S> {
+        Memory { grid: Grid::new(), newton: None }
+    }
+
+    #[inline]
+    fn forget(&self, memory: &mut Memory<S>) {
+        memory.newton = None;
+    }
+
+    fn check(&self) -> Result<(), IntegrationError> {
+        fixed::check_step(self.step)?;
+        if self.tolerance > T::ZERO && self.tolerance.is_finite() {
+            return Ok(());
+        }
+        Err(IntegrationError::Setting {
+            setting: "tolerance",
+            value: self.tolerance.to_f64(),
+            expected: "positive and finite",
+        })
+    }
+
+    fn advance(
+        &self,
+        start: &Start<'_, S>,
+        target: Option<T>,
+        memory: &mut Memory<S>,
+        statistics: &mut Statistics,
+    ) -> Result<Arrival<S>, IntegrationError> {
+        let leg = memory.grid.next(start.time, self.step, target);
+        let mut newton = memory.newton;
+        let state = self.solve(start, leg.length, &mut newton, statistics)?;
+        let arrival = fixed::arrive(start, &leg, state)?;
+        *memory = Memory { grid: leg.grid, newton };
+        Ok(arrival)
+    }
+
+    fn interpolate(
+        &self,
+        _memory: &Memory<S>,
+        start: &Start<'_, S>,
+        arrival: &Arrival<S>,
+        time: T,
+    ) -> S::State {
+        fixed::interpolate(start, arrival, time)
+    }
+}

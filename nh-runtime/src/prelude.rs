@@ -1,0 +1,6 @@
+//! Everything that a model and its simulation name: `use nh_runtime::prelude::*;`.
+
+pub use crate::{
+    Constrained, Dopri5, Dynamics, Energy, Euler, ImplicitMidpoint, IntegrationError, Integrator, Jacobian,
+    Observed, ParameterError, Real, Rk4, Scalar, State, Statistics,
+};
