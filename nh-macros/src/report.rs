@@ -40,40 +40,50 @@ impl Extent {
 pub(crate) struct Diagnostic {
     /// Where it points.
     pub(crate) extent: Extent,
-    /// What is wrong.
-    pub(crate) what: String,
-    /// What shows it.
-    pub(crate) evidence: Option<String>,
-    /// How to go on.
-    pub(crate) way_out: Option<String>,
+    /// Boxed: results that carry an error stay small, and so does the stack of the parser.
+    message: Box<Message>,
+}
+
+/// What an error says.
+#[derive(Clone, Debug)]
+struct Message {
+    what: String,
+    evidence: Option<String>,
+    way_out: Option<String>,
 }
 
 impl Diagnostic {
     /// Something is wrong here.
     pub(crate) fn new(extent: Extent, what: impl Into<String>) -> Self {
-        Self { extent, what: what.into(), evidence: None, way_out: None }
+        let message = Message { what: what.into(), evidence: None, way_out: None };
+        Self { extent, message: Box::new(message) }
     }
 
     /// And this shows it.
     pub(crate) fn evidence(mut self, evidence: impl Into<String>) -> Self {
-        self.evidence = Some(evidence.into());
+        self.message.evidence = Some(evidence.into());
         self
     }
 
     /// And this is what to do.
     pub(crate) fn way_out(mut self, way_out: impl Into<String>) -> Self {
-        self.way_out = Some(way_out.into());
+        self.message.way_out = Some(way_out.into());
         self
+    }
+
+    /// And this is what to do, unless something better was said already.
+    pub(crate) fn or_way_out(self, way_out: impl Into<String>) -> Self {
+        if self.message.way_out.is_some() { self } else { self.way_out(way_out) }
     }
 }
 
 impl fmt::Display for Diagnostic {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(&self.what)?;
-        if let Some(evidence) = &self.evidence {
+        f.write_str(&self.message.what)?;
+        if let Some(evidence) = &self.message.evidence {
             write!(f, "\n{evidence}")?;
         }
-        if let Some(way_out) = &self.way_out {
+        if let Some(way_out) = &self.message.way_out {
             write!(f, "\nhelp: {way_out}")?;
         }
         Ok(())

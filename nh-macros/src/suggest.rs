@@ -5,18 +5,14 @@ const LONGEST: usize = 64;
 
 /// The candidate nearest to `word`, if it is near enough to be what was meant. The first one wins
 /// among equals.
-pub(crate) fn nearest<'a>(
-    word: &str,
-    candidates: impl IntoIterator<Item = &'a str>,
-) -> Option<&'a str> {
+pub(crate) fn nearest<'a>(word: &str, candidates: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
     let letters: Vec<char> = word.chars().flat_map(char::to_lowercase).take(LONGEST + 1).collect();
     if letters.len() > LONGEST {
         return None;
     }
     let mut best: Option<(usize, &str)> = None;
     for candidate in candidates {
-        let other: Vec<char> =
-            candidate.chars().flat_map(char::to_lowercase).take(LONGEST + 1).collect();
+        let other: Vec<char> = candidate.chars().flat_map(char::to_lowercase).take(LONGEST + 1).collect();
         if other.len() > LONGEST || candidate == word {
             continue;
         }
@@ -31,10 +27,7 @@ pub(crate) fn nearest<'a>(
 }
 
 /// The question to append to an error, or nothing.
-pub(crate) fn did_you_mean<'a>(
-    word: &str,
-    candidates: impl IntoIterator<Item = &'a str>,
-) -> Option<String> {
+pub(crate) fn did_you_mean<'a>(word: &str, candidates: impl IntoIterator<Item = &'a str>) -> Option<String> {
     nearest(word, candidates).map(|meant| format!("did you mean `{meant}`?"))
 }
 
@@ -76,9 +69,7 @@ mod tests {
 
     #[test]
     fn distances() {
-        let of = |a: &str, b: &str| {
-            distance(&a.chars().collect::<Vec<_>>(), &b.chars().collect::<Vec<_>>())
-        };
+        let of = |a: &str, b: &str| distance(&a.chars().collect::<Vec<_>>(), &b.chars().collect::<Vec<_>>());
         assert_eq!(of("", ""), 0);
         assert_eq!(of("abc", ""), 3);
         assert_eq!(of("ab", "ba"), 1);

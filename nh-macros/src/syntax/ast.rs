@@ -3,8 +3,11 @@
 //! Scope of a `let`: from its line to the end of the section, or of the `for` block, that it
 //! stands in. The variable of a `for`, of a `sum` and of an indexed `let` is seen in its body.
 
+mod expr;
+
 use proc_macro2::{Ident, TokenStream};
 
+pub(crate) use self::expr::{Expr, ExprKind, Factor, Number, Sign};
 use crate::report::Extent;
 
 /// A whole declaration: the struct and the sections of the attribute.
@@ -12,6 +15,13 @@ use crate::report::Extent;
 pub(crate) struct SystemDecl {
     /// The struct that carries the attribute: its fields are the parameters.
     pub(crate) structure: StructDecl,
+    /// What the attribute says.
+    pub(crate) sections: Sections,
+}
+
+/// The sections of the attribute, each where it was given.
+#[derive(Debug, Default)]
+pub(crate) struct Sections {
     /// `base`: the coordinates x^i.
     pub(crate) base: Option<Section<Vec<Declared>>>,
     /// `on`: identities that embedded base coordinates satisfy.
@@ -63,7 +73,7 @@ pub(crate) struct SystemDecl {
 }
 
 /// A section: its keyword and what stands in its braces.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub(crate) struct Section<T> {
     /// The keyword, where errors about the whole section point.
     pub(crate) keyword: Name,
@@ -72,7 +82,6 @@ pub(crate) struct Section<T> {
 }
 
 /// The struct under the attribute.
-#[derive(Debug)]
 pub(crate) struct StructDecl {
     /// The item as it is emitted: verbatim, except for its `#[nh(…)]` attributes.
     pub(crate) item: TokenStream,
@@ -227,7 +236,7 @@ pub(crate) enum Subscript {
     /// `[2]` or `[i]`: one entry of the family.
     Entry(Expr),
     /// `[i in 0..4]`: every entry at once.
-    Each(Binder),
+    Each(Box<Binder>),
 }
 
 /// `der(x) = expr`.
@@ -359,72 +368,4 @@ pub(crate) struct MethodDerivative {
     pub(crate) method: Name,
     /// One method per argument.
     pub(crate) derivatives: Vec<Name>,
-}
-
-/// An expression.
-#[derive(Clone, Debug)]
-pub(crate) struct Expr {
-    /// What it is.
-    pub(crate) kind: ExprKind,
-    /// Where it stands.
-    pub(crate) extent: Extent,
-}
-
-/// What an expression is. Sums and products are flat, so that long ones are not deep.
-#[derive(Clone, Debug)]
-pub(crate) enum ExprKind {
-    /// An exact number.
-    Number(Number),
-    /// A name, a whole family, an array; `pi` and `t` too.
-    Name(Name),
-    /// An entry, `I[0]` or `A[i][j]`: at most two indices.
-    Index(Box<Expr>, Vec<Expr>),
-    /// `der(x)`.
-    Der(Place),
-    /// `f(a, b)`: a function of the vocabulary, `dot` and `cross` included; any other name is
-    /// still in here.
-    Call(Name, Vec<Expr>),
-    /// `self.motor(a, b)`.
-    Method(Name, Vec<Expr>),
-    /// `sum(i in 0..4: expr)`.
-    Sum(Vec<Binder>, Box<Expr>),
-    /// `[a, b, c]`.
-    Vector(Vec<Expr>),
-    /// `-a`.
-    Negate(Box<Expr>),
-    /// `a + b - c`: at least two terms, the first one with a plus.
-    Add(Vec<(Sign, Expr)>),
-    /// `a * b / c`: at least two factors, the first one a multiplication.
-    Multiply(Vec<(Factor, Expr)>),
-    /// `a ^ b`.
-    Power(Box<Expr>, Box<Expr>),
-}
-
-/// How a term enters a sum.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Sign {
-    /// Added.
-    Plus,
-    /// Subtracted.
-    Minus,
-}
-
-/// How a factor enters a product.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Factor {
-    /// Multiplied.
-    Times,
-    /// Divided by.
-    Over,
-}
-
-/// An exact number: digits · 10^exponent.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub(crate) struct Number {
-    /// The literal as it was written.
-    pub(crate) text: String,
-    /// Its decimal digits without leading zeros; `0` for zero.
-    pub(crate) digits: String,
-    /// The power of ten; 0 for zero.
-    pub(crate) exponent: i32,
 }

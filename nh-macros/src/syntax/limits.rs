@@ -1,7 +1,7 @@
 //! Limits that no honest declaration reaches, so that no other one hangs or overflows.
 
 /// Nesting of expressions: parentheses, calls, exponents, signs.
-pub(crate) const DEPTH: u32 = 128;
+pub(crate) const DEPTH: u32 = 64;
 /// Digits of a number.
 pub(crate) const DIGITS: usize = 1000;
 /// Magnitude of a number's power of ten.

@@ -30,8 +30,8 @@ pub(crate) const SECTIONS: [&str; 24] = [
 
 /// Functions of one number (`atan2`, `min` and `max` take two).
 pub(crate) const FUNCTIONS: [&str; 18] = [
-    "sin", "cos", "tan", "asin", "acos", "atan", "atan2", "sinh", "cosh", "tanh", "exp", "ln",
-    "sqrt", "abs", "sign", "min", "max", "der",
+    "sin", "cos", "tan", "asin", "acos", "atan", "atan2", "sinh", "cosh", "tanh", "exp", "ln", "sqrt", "abs",
+    "sign", "min", "max", "der",
 ];
 
 /// Names that mean something already and cannot be declared, beside the functions.
@@ -45,11 +45,11 @@ pub(crate) const ALGEBRAS: [&str; 4] = ["so", "se", "sl", "heisenberg"];
 
 /// Words that Rust keeps for itself: as a field they would not compile.
 const KEYWORDS: [&str; 54] = [
-    "_", "Self", "abstract", "as", "async", "await", "become", "box", "break", "const", "continue",
-    "crate", "do", "dyn", "else", "enum", "extern", "false", "final", "fn", "for", "gen", "if",
-    "impl", "in", "let", "loop", "macro", "match", "mod", "move", "mut", "override", "priv", "pub",
-    "ref", "return", "self", "static", "struct", "super", "trait", "true", "try", "type", "typeof",
-    "unsafe", "unsized", "use", "virtual", "where", "while", "yield", "$crate",
+    "_", "Self", "abstract", "as", "async", "await", "become", "box", "break", "const", "continue", "crate",
+    "do", "dyn", "else", "enum", "extern", "false", "final", "fn", "for", "gen", "if", "impl", "in", "let",
+    "loop", "macro", "match", "mod", "move", "mut", "override", "priv", "pub", "ref", "return", "self",
+    "static", "struct", "super", "trait", "true", "try", "type", "typeof", "unsafe", "unsized", "use",
+    "virtual", "where", "while", "yield", "$crate",
 ];
 
 /// Whether Rust keeps the word for itself.

@@ -1,0 +1,160 @@
+//! Rules about which sections there are and which go together; sections to come.
+
+use super::ast::{Name, SystemDecl};
+use crate::report::{Diagnostic, Errors, Extent};
+
+/// After this point the sections are supported, and none contradicts another.
+pub(crate) fn check(declaration: SystemDecl) -> Result<SystemDecl, Vec<Diagnostic>> {
+    let mut errors = Errors::new();
+    refuse_sections_to_come(&declaration, &mut errors);
+    require_lagrangian(&declaration, &mut errors);
+    require_motion(&declaration, &mut errors);
+    refuse_two_frames(&declaration, &mut errors);
+    require_basis(&declaration, &mut errors);
+    errors.finish(declaration)
+}
+
+/// Sections of a later release. To enable one is to delete its line.
+fn refuse_sections_to_come(declaration: &SystemDecl, errors: &mut Errors) {
+    let s = &declaration.sections;
+    let keep_out = "leave the section out";
+    let to_come: [(Option<&Name>, &str); 9] = [
+        (s.on.as_ref().map(|s| &s.keyword), "choose coordinates of a chart as `base`"),
+        (s.frame.as_ref().map(|s| &s.keyword), "declare these sections as `basis`, with their `brackets`"),
+        (s.distribution.as_ref().map(|s| &s.keyword), "write the same distribution as `constraints`"),
+        (s.conserved.as_ref().map(|s| &s.keyword), "watch the quantity as one of the `outputs`"),
+        (s.symmetries.as_ref().map(|s| &s.keyword), keep_out),
+        (s.assume.as_ref().map(|s| &s.keyword), keep_out),
+        (s.emit.as_ref().map(|s| &s.keyword), keep_out),
+        (s.track.as_ref().map(|s| &s.keyword), keep_out),
+        (s.derivative.as_ref().map(|s| &s.keyword), keep_out),
+    ];
+    for (keyword, way_out) in to_come {
+        if let Some(keyword) = keyword {
+            errors.push(
+                Diagnostic::new(keyword.extent(), format!("`{}` is not supported yet", keyword.text))
+                    .way_out(way_out),
+            );
+        }
+    }
+}
+
+/// Without a Lagrangian there is no system.
+fn require_lagrangian(declaration: &SystemDecl, errors: &mut Errors) {
+    if declaration.sections.lagrangian.is_none() {
+        let name = &declaration.structure.name;
+        errors.push(
+            Diagnostic::new(Extent::at(name.span()), format!("`{name}` has no Lagrangian"))
+                .way_out("add `lagrangian { … }`: kinetic minus potential energy"),
+        );
+    }
+}
+
+/// Something has to move.
+fn require_motion(declaration: &SystemDecl, errors: &mut Errors) {
+    let s = &declaration.sections;
+    if s.base.is_none() && s.basis.is_none() && s.velocities.is_none() {
+        let name = &declaration.structure.name;
+        errors.push(
+            Diagnostic::new(
+                Extent::at(name.span()),
+                format!("`{name}` has neither coordinates nor velocities"),
+            )
+            .way_out("add `base { x, y }` for coordinates, `basis { omega }` for quasi-velocities"),
+        );
+    }
+}
+
+/// Quasi-velocities come from a basis with its anchor, or from a coframe.
+fn refuse_two_frames(declaration: &SystemDecl, errors: &mut Errors) {
+    let s = &declaration.sections;
+    let Some(velocities) = &s.velocities else { return };
+    for other in [s.basis.as_ref().map(|s| &s.keyword), s.anchor.as_ref().map(|s| &s.keyword)] {
+        let Some(other) = other else { continue };
+        errors.push(
+            Diagnostic::new(other.extent(), format!("`{}` and `velocities` in one declaration", other.text))
+                .evidence("both say what the quasi-velocities are")
+                .way_out("keep either `basis` with `anchor`, or `velocities`"),
+        );
+    }
+    if s.base.is_none() {
+        errors.push(
+            Diagnostic::new(velocities.keyword.extent(), "`velocities` without `base`")
+                .evidence("velocities are defined by derivatives of base coordinates")
+                .way_out("add `base { x, y }`"),
+        );
+    }
+}
+
+/// Anchors and brackets speak about the sections of a basis.
+fn require_basis(declaration: &SystemDecl, errors: &mut Errors) {
+    let s = &declaration.sections;
+    if s.basis.is_some() || s.velocities.is_some() {
+        return;
+    }
+    let anchor = s.anchor.iter().map(|s| &s.keyword);
+    for keyword in anchor.chain(s.brackets.iter().map(|s| &s.keyword)) {
+        errors.push(
+            Diagnostic::new(keyword.extent(), format!("`{}` without `basis`", keyword.text))
+                .evidence("there are no quasi-velocities but the derivatives of the base coordinates")
+                .way_out("add `basis { omega, v1 }`, or leave the section out"),
+        );
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::syntax::testing::messages;
+
+    #[test]
+    fn sections_to_come_are_refused() {
+        for section in [
+            "on { dot(x, x) = 1; }",
+            "frame { s = l * cos(phi) * xi; }",
+            "distribution { s, dpsi }",
+            "conserved { spin = J * w; }",
+            "symmetries { spin: omega; }",
+            "assume { m > 0; 1 >= J }",
+            "emit { jacobian, multipliers }",
+            "track { omega, der(x) }",
+            "derivative { motor: [self.motor_d1, self.motor_d2]; }",
+        ] {
+            let found = messages(&format!("base {{ x }} lagrangian {{ x }} {section}"), "struct S;");
+            assert_eq!(found.len(), 1, "{section}: {found:?}");
+            let keyword = section.split(' ').next().unwrap();
+            assert!(found[0].starts_with(&format!("`{keyword}` is not supported yet\nhelp: ")), "{found:?}");
+        }
+    }
+
+    #[test]
+    fn what_is_needed_is_asked_for() {
+        assert_eq!(
+            messages("base { x }", "struct S;"),
+            ["`S` has no Lagrangian\nhelp: add `lagrangian { … }`: kinetic minus potential energy"]
+        );
+        assert_eq!(
+            messages("lagrangian { 1 }", "struct S;"),
+            ["`S` has neither coordinates nor velocities\nhelp: add `base { x, y }` for coordinates, \
+              `basis { omega }` for quasi-velocities"]
+        );
+        assert_eq!(
+            messages("lagrangian { w^2 } velocities { w = 1 }", "struct S;"),
+            ["`velocities` without `base`\nvelocities are defined by derivatives of base \
+              coordinates\nhelp: add `base { x, y }`"]
+        );
+    }
+
+    #[test]
+    fn contradicting_sections_are_refused() {
+        assert_eq!(
+            messages("base { x } basis { w } velocities { w = der(x) } lagrangian { w^2 }", "struct S;"),
+            ["`basis` and `velocities` in one declaration\nboth say what the quasi-velocities \
+              are\nhelp: keep either `basis` with `anchor`, or `velocities`"]
+        );
+        assert_eq!(
+            messages("base { x } anchor { der(x) = v; } lagrangian { 1 }", "struct S;"),
+            ["`anchor` without `basis`\nthere are no quasi-velocities but the derivatives of the base \
+              coordinates\nhelp: add `basis { omega, v1 }`, or leave the section out"]
+        );
+    }
+}

@@ -1,0 +1,211 @@
+//! The lines of sections: equations, definitions, anchor lines, brackets, forces, comparisons.
+
+use proc_macro2::{Delimiter, TokenTree};
+
+use super::ast::{
+    AnchorLine, BracketLine, Comparison, Definition, Equation, Force, MethodDerivative, Place, Relation,
+    Renaming, Subscript, Symmetry,
+};
+use super::habits;
+use super::items::END;
+use super::names::is_mark;
+use super::stream::Stream;
+use super::vocabulary::TYPES;
+use crate::report::{Diagnostic, Extent};
+use crate::suggest::did_you_mean;
+
+impl Stream {
+    /// Consumes the `=` of an equation; `reads` shows how it should look.
+    pub(crate) fn equals(&mut self, reads: &str) -> Result<(), Diagnostic> {
+        if self.at_marks("=") && !self.at_marks("==") && !self.at_marks("=>") {
+            self.advance();
+            return Ok(());
+        }
+        Err(habits::unexpected(self, "`=`").or_way_out(reads))
+    }
+
+    /// Consumes the `:` behind a label or a direction.
+    fn colon(&mut self, reads: &str) -> Result<(), Diagnostic> {
+        if self.eat(":") {
+            return Ok(());
+        }
+        Err(self.expected("`:`").way_out(reads))
+    }
+
+    /// `label: left = right`
+    pub(crate) fn equation(&mut self) -> Result<Equation, Diagnostic> {
+        let docs = self.docs()?;
+        let labelled = matches!(self.peek(), Some(TokenTree::Ident(_)))
+            && self.peek_at(1).is_some_and(|token| is_mark(token, ':'))
+            && !self.peek_at(2).is_some_and(|token| is_mark(token, ':'));
+        let label = if labelled { Some(self.name("a label")?) } else { None };
+        self.eat(if labelled { ":" } else { "" });
+        let start = self.position();
+        let left = self.expression()?;
+        self.equals("this is an equation: `left = right`, where the right may be `0`")?;
+        let right = self.last_expression(END)?;
+        Ok(Equation { docs, label, left, right, extent: self.since(start) })
+    }
+
+    /// `name = expr`, `name[0] = expr`, `name[i in 0..4] = expr`
+    pub(crate) fn definition(&mut self) -> Result<Definition, Diagnostic> {
+        let docs = self.docs()?;
+        let start = self.position();
+        let name = self.name("the name that is defined")?;
+        let mut subscripts = Vec::new();
+        while let Some(group) = self.eat_group(Delimiter::Bracket) {
+            let mut inner = Self::inside(&group);
+            if matches!(inner.peek_at(1), Some(TokenTree::Ident(word)) if word == "in") {
+                subscripts.extend(inner.binders()?.into_iter().map(|each| Subscript::Each(Box::new(each))));
+            } else {
+                subscripts.push(Subscript::Entry(inner.expression()?));
+            }
+            inner.end("`]`")?;
+            if subscripts.len() > 2 {
+                return Err(Diagnostic::new(Extent::at(group.span()), "a third index")
+                    .way_out("families have one or two indices"));
+            }
+        }
+        let extent = self.since(start);
+        self.equals("a definition reads `name = …;`")?;
+        let value = self.last_expression(END)?;
+        Ok(Definition { docs, name, subscripts, value, extent })
+    }
+
+    /// `der(x) = expr`
+    pub(crate) fn anchor_line(&mut self) -> Result<AnchorLine, Diagnostic> {
+        let reads = "a line of the anchor reads `der(x) = …;`, with a base coordinate `x`";
+        self.docs()?;
+        let Some((coordinate, extent)) = self.der()? else {
+            return Err(self.expected("`der(…)`").way_out(reads));
+        };
+        self.equals(reads)?;
+        let value = self.last_expression(END)?;
+        Ok(AnchorLine { coordinate, value, extent })
+    }
+
+    /// `[a, b] = expr`
+    pub(crate) fn bracket_line(&mut self) -> Result<BracketLine, Diagnostic> {
+        let reads = "a bracket reads `[a, b] = …;`, with two sections of the basis";
+        self.docs()?;
+        let start = self.position();
+        let Some(pair) = self.eat_group(Delimiter::Bracket) else {
+            return Err(self.expected("a pair of sections").way_out(reads));
+        };
+        let mut inner = Self::inside(&pair);
+        let (first, second) = inner.pair().map_err(|error| error.or_way_out(reads))?;
+        let extent = self.since(start);
+        self.equals(reads)?;
+        let value = self.last_expression(END)?;
+        Ok(BracketLine { first, second, value, extent })
+    }
+
+    /// `a, b`
+    fn pair(&mut self) -> Result<(Place, Place), Diagnostic> {
+        let first = self.place("a section")?;
+        if !self.eat(",") {
+            return Err(self.expected("`,` and a second section"));
+        }
+        let second = self.place("a section")?;
+        self.eat(",");
+        self.end("`]`")?;
+        Ok((first, second))
+    }
+
+    /// `name: expr`
+    pub(crate) fn force(&mut self) -> Result<Force, Diagnostic> {
+        let reads = "a force reads `name: …;`, with a section or a base coordinate";
+        self.docs()?;
+        if let Some((place, extent)) = self.der()? {
+            return Err(Diagnostic::new(extent, "a force along `der(…)`")
+                .way_out(format!("a force along a base coordinate is written `{}: …;`", place.name.text)));
+        }
+        let along = self.place("the direction of a force")?;
+        self.colon(reads)?;
+        let value = self.last_expression(END)?;
+        Ok(Force { along, value })
+    }
+
+    /// `label: expr`
+    pub(crate) fn symmetry(&mut self) -> Result<Symmetry, Diagnostic> {
+        let docs = self.docs()?;
+        let label = self.name("a label")?;
+        self.colon("a symmetry reads `label: …;`")?;
+        let value = self.last_expression(END)?;
+        Ok(Symmetry { docs, label, value })
+    }
+
+    /// `a < b`
+    pub(crate) fn comparison(&mut self) -> Result<Comparison, Diagnostic> {
+        const RELATIONS: [(&str, Relation); 5] = [
+            ("<=", Relation::LessOrEqual),
+            (">=", Relation::GreaterOrEqual),
+            ("!=", Relation::NotEqual),
+            ("<", Relation::Less),
+            (">", Relation::Greater),
+        ];
+        self.docs()?;
+        let start = self.position();
+        let left = self.expression()?;
+        let Some((written, relation)) = RELATIONS.iter().find(|(written, _)| self.at_marks(written)) else {
+            let reads = "an assumption reads `m > 0;`, with one of `< <= > >= !=`";
+            return Err(if self.at_marks("=") {
+                Diagnostic::new(self.here(), "an assumption is not an equation").way_out(reads)
+            } else {
+                habits::unexpected(self, "a comparison").or_way_out(reads)
+            });
+        };
+        self.eat(written);
+        let right = self.expression()?;
+        if self.at_marks("<") || self.at_marks(">") {
+            return Err(Diagnostic::new(self.since(start), "a chain of comparisons")
+                .way_out("write one comparison per line: `0 < a; a < b;`"));
+        }
+        self.end(END)?;
+        Ok(Comparison { left, relation: *relation, right, extent: self.since(start) })
+    }
+
+    /// `state = RobotState`
+    pub(crate) fn renaming(&mut self) -> Result<Renaming, Diagnostic> {
+        self.docs()?;
+        let reads = "a type is renamed by `state = RobotState;`";
+        let role = self.name("a generated type")?;
+        if !TYPES.contains(&role.text.as_str()) {
+            let all = TYPES.map(|word| format!("`{word}`")).join(", ");
+            let error = Diagnostic::new(role.extent(), format!("there is no generated type `{}`", role.text));
+            let known = format!("types that can be renamed: {all}");
+            return Err(match did_you_mean(&role.text, TYPES) {
+                Some(question) => error.evidence(known).way_out(question),
+                None => error.way_out(known),
+            });
+        }
+        self.equals(reads)?;
+        let name = self.name("the new name of the type")?;
+        self.end(END)?;
+        Ok(Renaming { role, name })
+    }
+
+    /// `motor: [self.d1, self.d2]`
+    pub(crate) fn method_derivative(&mut self) -> Result<MethodDerivative, Diagnostic> {
+        let reads = "derivatives of a method read `motor: [self.motor_d1, self.motor_d2];`";
+        self.docs()?;
+        let method = self.name("a method")?;
+        self.colon(reads)?;
+        let Some(group) = self.eat_group(Delimiter::Bracket) else {
+            return Err(self.expected("a list of methods in brackets").way_out(reads));
+        };
+        self.end(END)?;
+        let mut inner = Self::inside(&group);
+        let mut derivatives = Vec::new();
+        while !inner.is_empty() {
+            if !(inner.eat_word("self") && inner.eat(".")) {
+                return Err(inner.expected("`self.` and a method").way_out(reads));
+            }
+            derivatives.push(inner.name("a method")?);
+            if !inner.eat(",") && !inner.is_empty() {
+                return Err(inner.expected("`,` or `]`").way_out(reads));
+            }
+        }
+        Ok(MethodDerivative { method, derivatives })
+    }
+}

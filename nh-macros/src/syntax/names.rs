@@ -1,0 +1,191 @@
+//! Names where they are declared and where lists and left-hand sides use them; ranges.
+
+use proc_macro2::{Delimiter, Group, TokenStream, TokenTree};
+
+use super::ast::{Binder, Declared, Place, Velocity};
+use super::limits;
+use super::number::number;
+use super::stream::Stream;
+use crate::report::{Diagnostic, Errors, Extent};
+
+/// The entries of `{ a, b, c }`: every wrong one is reported, the right ones are kept.
+pub(crate) fn list<T>(
+    body: &Group,
+    errors: &mut Errors,
+    entry: impl Fn(&mut Stream) -> Result<T, Diagnostic>,
+) -> Vec<T> {
+    let stream = Stream::inside(body);
+    let mut found = Vec::new();
+    let chunks: Vec<_> = stream.tokens().split(|token| is_mark(token, ',')).collect();
+    let count = chunks.len();
+    for (k, chunk) in chunks.into_iter().enumerate() {
+        if chunk.is_empty() {
+            if k + 1 < count {
+                errors.push(Diagnostic::new(
+                    Extent::at(body.span()),
+                    "a comma with nothing before it in this list",
+                ));
+            }
+            continue;
+        }
+        let mut chunk = Stream::over(chunk.to_vec(), stream.whole());
+        let parsed = entry(&mut chunk).and_then(|value| list_end(&chunk).map(|()| value));
+        found.extend(errors.keep(parsed));
+    }
+    found
+}
+
+/// Behind an entry of a list nothing but a comma may follow.
+fn list_end(stream: &Stream) -> Result<(), Diagnostic> {
+    match stream.peek() {
+        None => Ok(()),
+        Some(TokenTree::Punct(mark)) if mark.as_char() == ';' => {
+            Err(Diagnostic::new(stream.here(), "names in a list are not separated by `;`")
+                .way_out("write commas"))
+        }
+        Some(TokenTree::Ident(_)) => {
+            Err(Diagnostic::new(stream.here(), "a comma is missing before this name"))
+        }
+        Some(_) => Err(stream.expected("`,` or the end of the list")),
+    }
+}
+
+/// Whether the token is this mark.
+pub(crate) fn is_mark(token: &TokenTree, mark: char) -> bool {
+    matches!(token, TokenTree::Punct(punct) if punct.as_char() == mark)
+}
+
+impl Stream {
+    /// Doc comments before a name or an item.
+    pub(crate) fn docs(&mut self) -> Result<TokenStream, Diagnostic> {
+        let start = self.position();
+        while let (true, Some(TokenTree::Group(group))) = (self.at_marks("#"), self.peek_at(1)) {
+            let word = group.stream().into_iter().next();
+            let is_doc = group.delimiter() == Delimiter::Bracket
+                && matches!(word, Some(TokenTree::Ident(ident)) if ident == "doc");
+            if !is_doc {
+                let at = self.here().to(Extent::at(group.span()));
+                return Err(Diagnostic::new(at, "attributes have no place in a declaration")
+                    .way_out("only doc comments may stand before a name"));
+            }
+            self.advance();
+            self.advance();
+        }
+        Ok(self.consumed(start).iter().cloned().collect())
+    }
+
+    /// A declared name with its lengths: `x`, `theta[4]`, `R[3][3]`.
+    pub(crate) fn declared(&mut self) -> Result<Declared, Diagnostic> {
+        let docs = self.docs()?;
+        let start = self.position();
+        let name = self.name("a name")?;
+        let mut lengths = Vec::new();
+        while let Some(group) = self.eat_group(Delimiter::Bracket) {
+            if lengths.len() == 2 {
+                return Err(Diagnostic::new(Extent::at(group.span()), "a third index")
+                    .way_out("families have one or two indices"));
+            }
+            let mut inner = Stream::inside(&group);
+            let length = inner.integer("the number of entries")?;
+            if !inner.is_empty() {
+                return Err(inner.expected("`]`"));
+            }
+            lengths.push(length);
+        }
+        let extent = self.since(start);
+        check_lengths(&lengths, extent)?;
+        Ok(Declared { docs, name, lengths, extent })
+    }
+
+    /// An integer literal.
+    pub(crate) fn integer(&mut self, wanted: &str) -> Result<u32, Diagnostic> {
+        let Some(TokenTree::Literal(literal)) = self.peek() else {
+            return Err(self.expected(&format!("{wanted}, an integer")));
+        };
+        let extent = self.here();
+        let value = number(&literal.to_string(), extent)?;
+        let integer = match value.exponent {
+            0 => value.digits.parse().ok(),
+            _ => None,
+        };
+        let Some(integer) = integer else {
+            return Err(Diagnostic::new(extent, format!("expected {wanted}, an integer"))
+                .evidence(format!("`{}` is none, or too large", value.text)));
+        };
+        self.advance();
+        Ok(integer)
+    }
+
+    /// A use of a name: `x`, `w[0]`, `R[i][j]`.
+    pub(crate) fn place(&mut self, role: &str) -> Result<Place, Diagnostic> {
+        let start = self.position();
+        let name = self.name(role)?;
+        let mut indices = Vec::new();
+        self.indices(&mut indices)?;
+        Ok(Place { name, indices, extent: self.since(start) })
+    }
+
+    /// A velocity: `v1`, `w[0]`, `der(x)`.
+    pub(crate) fn velocity(&mut self) -> Result<Velocity, Diagnostic> {
+        match self.der()? {
+            Some((place, extent)) => Ok(Velocity::Der(place, extent)),
+            None => Ok(Velocity::Named(self.place("the name of a velocity")?)),
+        }
+    }
+
+    /// `der(x)`, if that is next.
+    pub(crate) fn der(&mut self) -> Result<Option<(Place, Extent)>, Diagnostic> {
+        let start = self.position();
+        if !self.eat_word("der") {
+            return Ok(None);
+        }
+        let Some(group) = self.eat_group(Delimiter::Parenthesis) else {
+            return Err(self.expected("a base coordinate in parentheses"));
+        };
+        let place = self.differentiated(&group)?;
+        Ok(Some((place, self.since(start))))
+    }
+
+    /// `i in 0..4, j in 0..3`: up to whatever follows.
+    pub(crate) fn binders(&mut self) -> Result<Vec<Binder>, Diagnostic> {
+        let mut binders = vec![self.binder()?];
+        while self.eat(",") {
+            binders.push(self.binder()?);
+        }
+        Ok(binders)
+    }
+
+    /// `i in 0..4`
+    pub(crate) fn binder(&mut self) -> Result<Binder, Diagnostic> {
+        let way_out = "a range reads `i in 0..4`";
+        let start = self.position();
+        let name = self.name("a variable").map_err(|error| error.or_way_out(way_out))?;
+        if !self.eat_word("in") {
+            return Err(self.expected("`in` and a range").way_out(way_out));
+        }
+        let from = self.expression()?;
+        if self.at_marks("..=") {
+            let at = Extent::of(&self.rest()[..3]).unwrap_or(self.here());
+            return Err(
+                Diagnostic::new(at, "a range leaves out its end").way_out("write `0..4` for 0, 1, 2, 3")
+            );
+        }
+        if !self.eat("..") {
+            return Err(self.expected("`..` and the end of the range").way_out(way_out));
+        }
+        let to = self.expression()?;
+        Ok(Binder { name, from, to, extent: self.since(start) })
+    }
+}
+
+/// Families have entries, and not too many.
+pub(crate) fn check_lengths(lengths: &[u32], extent: Extent) -> Result<(), Diagnostic> {
+    if lengths.contains(&0) {
+        return Err(Diagnostic::new(extent, "this has no entries").way_out("leave it out"));
+    }
+    let entries = lengths.iter().fold(1_u32, |entries, length| entries.saturating_mul(*length));
+    if entries > limits::FAMILY {
+        return Err(Diagnostic::new(extent, format!("this has more than {} entries", limits::FAMILY)));
+    }
+    Ok(())
+}
