@@ -1,6 +1,6 @@
 //! Tokens as a person would write them, for messages.
 
-use proc_macro2::{Delimiter, TokenStream, TokenTree};
+use proc_macro2::{Delimiter, Punct, Spacing, TokenStream, TokenTree};
 
 /// Messages quote this much and no more.
 const LONGEST: usize = 60;
@@ -27,7 +27,7 @@ pub(crate) fn render(tokens: &[TokenTree]) -> String {
                 text.push_str(open);
                 stack.push((group.stream().into_iter(), close));
             }
-            Some(TokenTree::Punct(punct)) => push_punct(&mut text, punct.as_char()),
+            Some(TokenTree::Punct(punct)) => push_punct(&mut text, &punct),
             Some(word) => {
                 if text.ends_with(|c: char| c.is_alphanumeric() || c == '_') {
                     text.push(' ');
@@ -44,9 +44,12 @@ pub(crate) fn render(tokens: &[TokenTree]) -> String {
 }
 
 /// A mark with the blanks that are usual around it.
-fn push_punct(text: &mut String, mark: char) {
+fn push_punct(text: &mut String, punct: &Punct) {
+    let mark = punct.as_char();
+    let mark_joins = punct.spacing() == Spacing::Joint;
     let after_value = text.ends_with(|c: char| c.is_alphanumeric() || "_)]".contains(c));
     match mark {
+        ':' if mark_joins || text.ends_with(':') => text.push(mark),
         ',' | ';' | ':' => {
             text.push(mark);
             text.push(' ');
@@ -81,6 +84,7 @@ mod tests {
         assert_eq!(rendered("I [0] . sin ()"), "I[0].sin()");
         assert_eq!(rendered("der ( x ) = y"), "der(x) = y");
         assert_eq!(rendered("sin x"), "sin x");
+        assert_eq!(rendered("w : :: a :: b"), "w: ::a::b");
         assert_eq!(rendered("a == b"), "a == b");
         assert_eq!(rendered("base{x}"), "base{ x }");
     }

@@ -28,7 +28,7 @@ pub(crate) const SECTIONS: [&str; 24] = [
     "crate",
 ];
 
-/// Functions of one number (`atan2`, `min` and `max` take two).
+/// Functions of one number (`atan2`, `min` and `max` take two), and the derivative of a coordinate.
 pub(crate) const FUNCTIONS: [&str; 18] = [
     "sin", "cos", "tan", "asin", "acos", "atan", "atan2", "sinh", "cosh", "tanh", "exp", "ln", "sqrt", "abs",
     "sign", "min", "max", "der",
