@@ -10,40 +10,100 @@
 
 use crate::catalogue::Entry;
 use crate::reference::Sample;
-use crate::values::Values;
+use crate::values::{Moving, Reading, Values};
 
 /// A difference that is this small relative to the expected number passes.
 const RELATIVE: f64 = 1e-12;
 /// How often the error that rounding of the inputs explains is allowed: the evaluation itself
 /// rounds too, in each of its operations.
 const MULTIPLE: f64 = 8.0;
-/// What rounding may explain at most, relative to the largest number of the same kind.
+/// What rounding may explain at most, relative to the largest of the numbers that are compared.
 const VOID: f64 = 1e-5;
+/// Near an equilibrium all numbers are small differences: none counts as smaller than this.
+const EQUILIBRIUM: f64 = 1e-8;
 
-/// The three things that are compared at a state.
-const KINDS: [&str; 3] = ["derivative", "energy", "velocity"];
+/// A generated number and what it should be.
+#[derive(Clone, Copy, Debug)]
+pub struct Pair {
+    /// What the generated code computes.
+    pub generated: f64,
+    /// What it should compute.
+    pub expected: f64,
+}
 
 /// The worst of many comparisons.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Worst {
-    /// The largest difference relative to the expected number's kind.
+    /// The largest difference relative to the largest expected number it was compared with.
     pub relative: f64,
-    /// The largest difference relative to what rounding of the inputs explains.
+    /// Among the differences above 1e-12, the largest in units of what rounding explains.
     pub explained: f64,
 }
 
 impl Worst {
-    fn include(&mut self, other: Self) {
+    /// The worse of the two, in each respect.
+    pub fn include(&mut self, other: Self) {
         self.relative = self.relative.max(other.relative);
         self.explained = self.explained.max(other.explained);
     }
 }
 
-/// Compares an entry with the reference at every sample of every parameter set.
+/// Compares numbers that depend on inputs which have been rounded.
 ///
 /// # Errors
 /// The differences that rounding does not explain, one line each.
-pub fn compare(entry: &dyn Entry) -> Result<Worst, String> {
+pub fn compare(
+    what: &str,
+    inputs: &[f64],
+    pairs: impl Fn(&[f64]) -> Vec<Pair>,
+) -> Result<Worst, Vec<String>> {
+    let at = pairs(inputs);
+    let explained = explained_by_rounding(inputs, &at, &pairs);
+    let largest = at.iter().fold(EQUILIBRIUM, |m, pair| m.max(pair.expected.abs()));
+    let mut worst = Worst::default();
+    let mut failures = Vec::new();
+    for (i, (pair, bound)) in at.iter().zip(explained).enumerate() {
+        let error = (pair.generated - pair.expected).abs();
+        let exact = error <= RELATIVE * pair.expected.abs();
+        // written so that a NaN fails
+        let sound = exact || (error <= MULTIPLE * bound && bound <= VOID * largest);
+        if !sound {
+            failures.push(format!(
+                "{what} [{i}]: generated {:e}, expected {:e}, rounding explains {bound:e}",
+                pair.generated, pair.expected,
+            ));
+        }
+        let explained = if exact { 0.0 } else { error / bound };
+        worst.include(Worst { relative: error / largest, explained });
+    }
+    if failures.is_empty() { Ok(worst) } else { Err(failures) }
+}
+
+/// Half the sum of the changes that moving each input by one unit in its last place makes.
+fn explained_by_rounding(inputs: &[f64], at: &[Pair], pairs: impl Fn(&[f64]) -> Vec<Pair>) -> Vec<f64> {
+    let mut sum = vec![0.0; at.len()];
+    let mut moved = inputs.to_vec();
+    for (position, input) in inputs.iter().enumerate() {
+        let [up, down] = [input.next_up(), input.next_down()].map(|neighbour| {
+            moved[position] = neighbour;
+            pairs(&moved)
+        });
+        moved[position] = *input;
+        for (i, total) in sum.iter_mut().enumerate() {
+            let error = |pair: &Pair| pair.generated - pair.expected;
+            let change = |pair: &Pair| (error(pair) - error(&at[i])).abs();
+            *total += change(&up[i]).max(change(&down[i]));
+        }
+    }
+    sum.into_iter().map(|sum| sum / 2.0).collect()
+}
+
+/// Compares an entry with the reference at every sample of every parameter set: the derivative, the
+/// energy and all quasi-velocities.
+///
+/// # Errors
+/// The differences that rounding does not explain, one line each.
+pub fn compare_with_reference(entry: &dyn Entry) -> Result<Worst, String> {
     let mut worst = Worst::default();
     let mut failures = Vec::new();
     for set in &entry.reference().parameter_sets {
@@ -52,114 +112,69 @@ pub fn compare(entry: &dyn Entry) -> Result<Worst, String> {
         }
         let along = set.trajectories.iter().flatten();
         for sample in set.samples.iter().chain(along) {
-            match compare_at(entry, &set.values, sample) {
-                Ok(here) => worst.include(here),
-                Err(lines) => failures
-                    .extend(lines.into_iter().map(|line| format!("{}, {}: {line}", entry.name(), set.name))),
+            for (kind, pairs) in KINDS {
+                let what = format!("{} ({}, t = {}): {kind}", entry.name(), set.name, sample.t);
+                let inputs = flattened(&set.values, &sample.state);
+                let at = |inputs: &[f64]| {
+                    let (values, state) = unflattened(inputs, &set.values, &sample.state);
+                    pairs(entry, &values, sample, &state)
+                };
+                match compare(&what, &inputs, at) {
+                    Ok(here) => worst.include(here),
+                    Err(lines) => failures.extend(lines),
+                }
             }
         }
     }
     if failures.is_empty() { Ok(worst) } else { Err(failures.join("\n")) }
 }
 
-fn compare_at(entry: &dyn Entry, values: &Values, sample: &Sample) -> Result<Worst, Vec<String>> {
-    let difference = differences(entry, values, sample);
-    let explained = explained_by_rounding(entry, values, sample, &difference);
-    let mut worst = Worst::default();
-    let mut failures = Vec::new();
-    for (kind, what) in KINDS.iter().enumerate() {
-        let largest = difference[kind].iter().fold(0.0, |m: f64, d| m.max(d.expected.abs()));
-        for (i, d) in difference[kind].iter().enumerate() {
-            let error = (d.generated - d.expected).abs();
-            let bound = explained[kind][i];
-            let void = bound > VOID * largest.max(f64::MIN_POSITIVE) && bound > f64::EPSILON;
-            // written so that a NaN fails
-            let passes = error <= RELATIVE * d.expected.abs() || error <= MULTIPLE * bound;
-            if !passes || void {
-                failures.push(format!(
-                    "{what} [{i}] at t = {}: generated {:e}, expected {:e}, rounding explains {bound:e}",
-                    sample.t, d.generated, d.expected,
-                ));
-            }
-            if error > 0.0 {
-                worst.include(Worst {
-                    relative: error / largest.max(f64::MIN_POSITIVE),
-                    explained: if error <= RELATIVE * d.expected.abs() { 0.0 } else { error / bound },
-                });
-            }
-        }
-    }
-    if failures.is_empty() { Ok(worst) } else { Err(failures) }
+type Pairs = fn(&dyn Entry, &Values, &Sample, &Reading) -> Vec<Pair>;
+
+/// What is compared at a sample.
+const KINDS: [(&str, Pairs); 3] =
+    [("derivative", derivatives), ("energy", energies), ("velocity", velocities)];
+
+fn derivatives(entry: &dyn Entry, values: &Values, sample: &Sample, reading: &Reading) -> Vec<Pair> {
+    let moving = entry.state(reading);
+    let generated = entry.derivative(values, sample.t, &values_of(&moving));
+    paired(&generated, moving.iter().map(|x| x.rate))
 }
 
-#[derive(Clone, Copy, Debug)]
-struct Pair {
-    generated: f64,
-    expected: f64,
+fn energies(entry: &dyn Entry, values: &Values, sample: &Sample, reading: &Reading) -> Vec<Pair> {
+    let generated = entry.energy(values, sample.t, &values_of(&entry.state(reading)));
+    vec![Pair { generated, expected: sample.energy }]
 }
 
-fn pairs(generated: Vec<f64>, expected: impl Iterator<Item = f64>) -> Vec<Pair> {
-    generated.into_iter().zip(expected).map(|(generated, expected)| Pair { generated, expected }).collect()
+fn velocities(entry: &dyn Entry, values: &Values, sample: &Sample, reading: &Reading) -> Vec<Pair> {
+    let state = values_of(&entry.state(reading));
+    let generated = entry.generated_velocities(values, sample.t, &state);
+    paired(&generated, entry.velocities(reading).iter().map(|x| x.value))
 }
 
-fn differences(entry: &dyn Entry, values: &Values, sample: &Sample) -> [Vec<Pair>; 3] {
-    let moving = entry.state(&sample.state);
-    let state: Vec<f64> = moving.iter().map(|x| x.value).collect();
-    let derivative = entry.derivative(values, sample.t, &state);
-    let energy = entry.energy(values, sample.t, &state);
-    let velocity = entry.generated_velocities(values, sample.t, &state);
-    [
-        pairs(derivative, moving.iter().map(|x| x.rate)),
-        pairs(vec![energy], std::iter::once(sample.energy)),
-        pairs(velocity, entry.velocities(&sample.state).iter().map(|x| x.value)),
-    ]
+/// Each generated number with the expected one.
+///
+/// # Panics
+/// If there are not as many.
+pub fn paired(generated: &[f64], expected: impl ExactSizeIterator<Item = f64>) -> Vec<Pair> {
+    assert_eq!(generated.len(), expected.len(), "as many numbers as expected");
+    generated.iter().zip(expected).map(|(&generated, expected)| Pair { generated, expected }).collect()
 }
 
-/// Half the sum of the changes that moving each input by one unit in its last place makes.
-fn explained_by_rounding(
-    entry: &dyn Entry,
-    values: &Values,
-    sample: &Sample,
-    at: &[Vec<Pair>; 3],
-) -> [Vec<f64>; 3] {
-    let mut sum = at.each_ref().map(|kind| vec![0.0; kind.len()]);
-    for position in 0..values.len() {
-        let moved = [f64::next_up, f64::next_down].map(|step| {
-            let mut values = values.clone();
-            let value = values.at_mut(position);
-            *value = step(*value);
-            differences(entry, &values, sample)
-        });
-        add_larger_change(&mut sum, at, &moved);
-    }
-    for position in 0..sample.state.len() {
-        let moved = [f64::next_up, f64::next_down].map(|step| {
-            let mut sample = sample.clone();
-            let moving = sample.state.at_mut(position);
-            moving.value = step(moving.value);
-            differences(entry, values, &sample)
-        });
-        add_larger_change(&mut sum, at, &moved);
-        let moved = [f64::next_up, f64::next_down].map(|step| {
-            let mut sample = sample.clone();
-            let moving = sample.state.at_mut(position);
-            moving.rate = step(moving.rate);
-            differences(entry, values, &sample)
-        });
-        add_larger_change(&mut sum, at, &moved);
-    }
-    sum.map(|kind| kind.into_iter().map(|sum| sum / 2.0).collect())
+/// The numbers without their rates.
+#[must_use]
+pub fn values_of(moving: &[Moving]) -> Vec<f64> {
+    moving.iter().map(|x| x.value).collect()
 }
 
-fn add_larger_change(sum: &mut [Vec<f64>; 3], at: &[Vec<Pair>; 3], moved: &[[Vec<Pair>; 3]; 2]) {
-    for (kind, sums) in sum.iter_mut().enumerate() {
-        for (i, total) in sums.iter_mut().enumerate() {
-            let here = at[kind][i];
-            let change = |there: &[Vec<Pair>; 3]| {
-                let there = there[kind][i];
-                ((there.generated - here.generated) - (there.expected - here.expected)).abs()
-            };
-            *total += change(&moved[0]).max(change(&moved[1]));
-        }
-    }
+/// Everything that was read for a state: parameters, the state, its rate.
+fn flattened(values: &Values, state: &Reading) -> Vec<f64> {
+    let numbers = values.iter().copied();
+    numbers.chain(state.iter().flat_map(|x| [x.value, x.rate])).collect()
+}
+
+fn unflattened(inputs: &[f64], values: &Values, state: &Reading) -> (Values, Reading) {
+    let (parameters, moving) = inputs.split_at(values.len());
+    let state = state.renewed(moving.chunks_exact(2).map(|x| Moving { value: x[0], rate: x[1] }));
+    (values.renewed(parameters.iter().copied()), state)
 }

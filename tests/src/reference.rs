@@ -6,6 +6,9 @@ use serde_json::Value;
 
 use crate::values::{Moving, Reading, Values};
 
+/// Numbers that are smaller than this, relative to the largest of their kind, stand for zero.
+const NOISE: f64 = 1e-25;
+
 /// A reference system.
 #[derive(Clone, Debug)]
 pub struct System {
@@ -79,12 +82,10 @@ fn parameter_set(value: &Value) -> ParameterSet {
 }
 
 fn sample(value: &Value) -> Sample {
-    let rates: Values = numbers(&value["derivative"]);
+    let values = without_noise(&numbers(&value["state"]));
+    let rates = without_noise(&numbers(&value["derivative"]));
     let state = entries(&value["state"])
-        .map(|(name, value)| {
-            let moving = Moving { value: number(value), rate: rates[name] };
-            (name.to_owned(), moving)
-        })
+        .map(|(name, _)| (name.to_owned(), Moving { value: values[name], rate: rates[name] }))
         .collect();
     Sample {
         t: number(&value["t"]),
@@ -94,6 +95,12 @@ fn sample(value: &Value) -> Sample {
         power: number(&value["power"]["dE_dt"]),
         work: value.get("work_done").map(number),
     }
+}
+
+/// Zero in place of what is below the digits that the data carry.
+fn without_noise(values: &Values) -> Values {
+    let largest = values.iter().fold(0.0_f64, |largest, x| largest.max(x.abs()));
+    values.renewed(values.iter().map(|&x| if x.abs() < NOISE * largest { 0.0 } else { x }))
 }
 
 fn list(value: &Value) -> impl Iterator<Item = &Value> {

@@ -25,12 +25,15 @@ impl<T> Named<T> {
         self.0.is_empty()
     }
 
-    /// The number at a position, to be changed.
-    ///
-    /// # Panics
-    /// If there are fewer numbers.
-    pub fn at_mut(&mut self, position: usize) -> &mut T {
-        &mut self.0[position].1
+    /// The numbers in order.
+    pub fn iter(&self) -> impl Iterator<Item = &T> {
+        self.0.iter().map(|(_, value)| value)
+    }
+
+    /// The same names with other numbers.
+    #[must_use]
+    pub fn renewed(&self, numbers: impl IntoIterator<Item = T>) -> Self {
+        self.0.iter().zip(numbers).map(|((name, _), number)| (name.clone(), number)).collect()
     }
 }
 

@@ -1,0 +1,231 @@
+//! Declarations in surroundings that take every common name for themselves: they have to compile
+//! without a warning, and to compute what they compute elsewhere.
+#![deny(warnings, missing_docs, clippy::pedantic)]
+
+/// Shadows the prelude, the standard crates, elementary functions and short names.
+#[allow(non_snake_case, non_upper_case_globals, non_camel_case_types, unused_macros, clippy::all)]
+#[allow(clippy::pedantic, reason = "the surroundings are odd on purpose; generated code is not excused")]
+pub mod shadowed {
+    macro_rules! shadowing {
+        ($($name:ident)*) => { $(macro_rules! $name { ($d:tt) => { compile_error!("not this macro") } })* };
+    }
+    shadowing! { matches vec assert assert_eq debug_assert panic write format unreachable todo }
+
+    /// Not the standard one.
+    pub struct Option;
+    /// Not the standard one.
+    pub struct Some;
+    /// Not the standard one.
+    pub struct None;
+    /// Not the standard one.
+    pub struct Result;
+    /// Not the standard one.
+    pub struct Ok;
+    /// Not the standard one.
+    pub struct Err;
+    /// Not the standard one.
+    pub struct Vec;
+    /// Not the standard one.
+    pub struct String;
+    /// Not the standard one.
+    pub struct Box;
+    /// Not the primitive.
+    pub struct f32;
+    /// Not the primitive.
+    pub struct usize;
+    /// Not the primitive.
+    pub struct bool;
+    /// Not the primitive.
+    pub struct str;
+    /// Not the standard one.
+    pub trait Default {}
+    /// Not the standard one.
+    pub trait Clone {}
+    /// Not the standard one.
+    pub trait Copy {}
+    /// Not the standard one.
+    pub trait From {}
+    /// Not the standard one.
+    pub trait Into {}
+    /// Not the standard one.
+    pub trait Fn {}
+    /// Not the standard one.
+    pub trait Send {}
+    /// Not the standard one.
+    pub trait Sized {}
+    /// Not the standard one.
+    pub trait Iterator {}
+    /// Not the runtime's.
+    pub trait Dynamics {}
+    /// Not the runtime's.
+    pub trait State {}
+    /// Not the runtime's.
+    pub trait Energy {}
+    /// Not the runtime's.
+    pub trait Scalar {}
+    /// Not the crate.
+    pub mod core {}
+    /// Not the crate.
+    pub mod std {}
+    /// Not the crate.
+    pub mod alloc {}
+    /// Not the crate.
+    pub mod nh_runtime {}
+    /// Not the crate.
+    pub mod nalgebra {}
+    /// Not a sine.
+    pub fn sin() {}
+    /// Not a cosine.
+    pub fn cos() {}
+    /// Not a root.
+    pub fn sqrt() {}
+    /// Not a conversion.
+    pub fn from() {}
+    /// Not a fused multiplication.
+    pub fn mul_add() {}
+    /// Takes a name that generated code may bind.
+    pub const x: u8 = 0;
+    /// Takes a name that generated code may bind.
+    pub const t: u8 = 0;
+    /// Takes a name that generated code may bind.
+    pub const u: u8 = 0;
+    /// Takes a name that generated code may bind.
+    pub const state: u8 = 0;
+    /// Takes a name that generated code may bind.
+    pub const input: u8 = 0;
+    /// Takes a name that generated code may bind.
+    pub const result: u8 = 0;
+    /// Takes a name that generated code may bind.
+    pub const v0: u8 = 0;
+    /// Takes a name that generated code may bind.
+    pub const v1: u8 = 0;
+    /// Takes a name that generated code may bind.
+    pub const theta: u8 = 0;
+    /// Takes a name that generated code may bind.
+    pub const J: u8 = 0;
+
+    /// Offers methods under the names of elementary functions.
+    pub trait Loud {
+        /// Not a sine.
+        fn sin(&self) {}
+        /// Not both.
+        fn sin_cos(&self) {}
+        /// Not a root.
+        fn sqrt(&self) {}
+        /// Not a power.
+        fn powi(&self) {}
+        /// Not a reciprocal.
+        fn recip(&self) {}
+        /// Not a conversion.
+        fn into(&self) {}
+        /// Not a test.
+        fn is_finite(&self) {}
+        /// Not a fused multiplication.
+        fn mul_add(&self) {}
+    }
+    impl Loud for f64 {}
+
+    pub use declared::{Sleigh, SleighInput, SleighState, SleighVelocity};
+
+    #[deny(warnings, missing_docs, clippy::pedantic)]
+    mod declared {
+        #[allow(unused_imports, clippy::wildcard_imports, reason = "brings the shadows in")]
+        use super::*;
+
+        /// A sleigh with a parameter that no equation needs.
+        #[::nh_runtime::nonholonomic(
+            base   { theta, x, y }
+            basis  { omega, v1, v2 }
+            anchor {
+                der(theta) = omega;
+                der(x) = v1 * cos(theta) - v2 * sin(theta);
+                der(y) = v1 * sin(theta) + v2 * cos(theta);
+            }
+            lagrangian  { (J + I * a^2) / 2 * omega^2 + I / 2 * (v1^2 + v2^2) + I * a * omega * v2 + 0 * unused }
+            constraints { v2 = 0; }
+            forces      { omega: torque - r#type * omega; v1: -sqrt(1 + t^2) * v1 * r#type; }
+            inputs      { torque }
+        )]
+        #[derive(Clone, Copy, Debug)]
+        #[allow(non_snake_case, reason = "as in mechanics")]
+        pub struct Sleigh {
+            /// Moment of inertia about the centre of mass.
+            pub J: f64,
+            /// Mass.
+            pub I: f64,
+            /// Offset of the centre of mass.
+            pub a: f64,
+            /// Friction.
+            pub r#type: f64,
+            /// Nothing depends on it.
+            pub unused: f64,
+        }
+    }
+}
+
+/// Names that generated code may want for itself, taken by a declaration.
+pub mod colliding {
+    use nh_runtime::nonholonomic;
+
+    /// A particle on a line in odd coordinates.
+    #[nonholonomic(
+        base { state, input, result, out, value }
+        lagrangian {
+            system / 2 * (der(state)^2 + der(input)^2 + der(result)^2 + der(out)^2 + der(value)^2)
+                - f / 2 * (state^2 + velocity * input^2) - h * sin(result) - array * out - c0 * value
+        }
+    )]
+    #[derive(Clone, Copy, Debug)]
+    pub struct Odd {
+        /// A mass.
+        pub system: f64,
+        /// A stiffness.
+        pub f: f64,
+        /// A ratio.
+        pub velocity: f64,
+        /// A force.
+        pub h: f64,
+        /// A force.
+        pub array: f64,
+        /// A force.
+        pub c0: f64,
+    }
+}
+
+/// Items of narrow visibility, of which the user needs only a part.
+pub mod narrow {
+    use nh_runtime::{Dynamics, nonholonomic};
+
+    #[nonholonomic(
+        base { angle }
+        lagrangian { der(angle)^2 / 2 + ratio * cos(angle) }
+    )]
+    struct Pendulum {
+        ratio: f64,
+    }
+
+    /// The angular acceleration of a pendulum.
+    #[must_use]
+    pub fn acceleration(angle: f64, ratio: f64) -> f64 {
+        let start = PendulumState { angle, angle_dot: 0.0 };
+        Pendulum { ratio }.derivative(0.0, &start, &()).angle_dot
+    }
+
+    /// The same for an oscillator that is declared in a function, by a macro of the user.
+    #[must_use]
+    pub fn oscillation(position: f64) -> f64 {
+        macro_rules! oscillator {
+            ($name:ident, $state:ident, $stiffness:literal, $kinetic:expr) => {
+                #[nonholonomic(
+                                    names { state = $state; }
+                                    base { q }
+                                    lagrangian { $kinetic - $stiffness / 2 * q^2 }
+                                )]
+                struct $name {}
+            };
+        }
+        oscillator!(Oscillator, OscillatorState, 3, der(q) * der(q) / 2);
+        let start = OscillatorState { q: position, q_dot: 0.0 };
+        Oscillator {}.derivative(0.0, &start, &()).q_dot
+    }
+}

@@ -1,0 +1,43 @@
+//! Declarations compute the right thing in surroundings that shadow what generated code relies on.
+//! That they compile there, without a warning, is the greater half of the check.
+
+use nh_runtime::{Dynamics, Energy};
+use nh_tests::hygiene::colliding::{Odd, OddState};
+use nh_tests::hygiene::narrow::{acceleration, oscillation};
+use nh_tests::hygiene::shadowed::{Sleigh, SleighInput, SleighState};
+
+const EXACT: f64 = 1e-14;
+
+#[test]
+fn shadowed_names_are_not_picked_up() {
+    let sleigh = Sleigh { J: 1.0, I: 2.0, a: 0.5, r#type: 0.1, unused: 7.0 };
+    let state = SleighState { theta: 0.3, x: 0.0, y: 0.0, omega: 0.8, v1: 0.4 };
+    let rate = sleigh.derivative(0.0, &state, &SleighInput { torque: 0.2 });
+    let inertia = 1.0 + 2.0 * 0.25;
+    let omega_dot = (0.2 - 0.1 * 0.8 - 2.0 * 0.5 * 0.8 * 0.4) / inertia;
+    let v1_dot = 0.5 * 0.8 * 0.8 - 0.1 * 0.4 / 2.0;
+    assert!((rate.omega - omega_dot).abs() < EXACT, "{rate:?}");
+    assert!((rate.v1 - v1_dot).abs() < EXACT, "{rate:?}");
+    assert!((rate.x - 0.4 * 0.3_f64.cos()).abs() < EXACT, "{rate:?}");
+    let energy = Energy::energy(&sleigh, 0.0, &state);
+    assert!((energy - (inertia / 2.0 * 0.64 + 0.16)).abs() < EXACT, "{energy}");
+    assert!((sleigh.velocity(0.0, &state).v2).abs() < EXACT);
+}
+
+#[test]
+fn declared_names_do_not_collide_with_generated_ones() {
+    let odd = Odd { system: 2.0, f: 3.0, velocity: 0.5, h: 0.7, array: 1.1, c0: 1.3 };
+    let state = OddState { state: 1.0, input: 1.0, result: 0.2, out_dot: 4.0, ..OddState::default() };
+    let rate = odd.derivative(0.0, &state, &());
+    assert!((rate.state_dot + 1.5).abs() < EXACT, "{rate:?}");
+    assert!((rate.input_dot + 0.75).abs() < EXACT, "{rate:?}");
+    assert!((rate.result_dot + 0.35 * 0.2_f64.cos()).abs() < EXACT, "{rate:?}");
+    assert!((rate.out - 4.0).abs() < EXACT, "{rate:?}");
+    assert!((rate.value_dot + 0.65).abs() < EXACT, "{rate:?}");
+}
+
+#[test]
+fn narrow_items_and_user_macros_work() {
+    assert!((acceleration(0.4, 9.0) + 9.0 * 0.4_f64.sin()).abs() < EXACT);
+    assert!((oscillation(2.0) + 6.0).abs() < EXACT);
+}
