@@ -1,5 +1,17 @@
 //! Lagrangian mechanics on a Lie algebroid.
 
+mod adapted;
+mod definiteness;
+mod energy;
+mod euler_lagrange;
 mod procedure;
+mod projected;
+mod symmetric_solve;
 
+pub use adapted::{ReducedEquations, reduced_equations};
+pub use definiteness::definiteness;
+pub use energy::energy;
+pub use euler_lagrange::{ForceBalance, LagrangianSystem};
 pub use procedure::{Definition, Procedure};
+pub use projected::{SaddleEquations, saddle_equations};
+pub use symmetric_solve::{Definiteness, Factorisation, solve_symmetric};

@@ -1,0 +1,191 @@
+//! Denominators: exact division of numerators, and common denominators where they help.
+
+use super::polynomial::{Exponent, Factor, Kind, Monomial, Polynomial};
+use super::reader::Reader;
+use crate::algebra::graph::{Function, Node};
+use crate::algebra::number::Rational;
+use std::collections::BTreeMap;
+
+/// Sums of more fractions than this are not brought over a common denominator.
+const FRACTIONS: usize = 6;
+
+/// Numerators by denominator, the latter as a monomial with negative exponents.
+type Fractions = BTreeMap<Monomial, Polynomial>;
+
+impl Reader<'_> {
+    /// The quotient, if the division of polynomials leaves no remainder.
+    pub(super) fn quotient(&mut self, dividend: &Polynomial, divisor: &Polynomial) -> Option<Polynomial> {
+        let (leading, coefficient) = divisor.leading()?;
+        let inverse = coefficient.recip()?;
+        // the exponents of the quotient lie in a box, which ends the division if it is not exact
+        let lowest = dividend.meet().over(&divisor.meet())?;
+        let highest = inverted(dividend)?.meet().inverse().over(&inverted(divisor)?.meet().inverse())?;
+        if lowest.meet(&highest) != lowest {
+            return None;
+        }
+        let (mut rest, mut quotient) = (dividend.clone(), Polynomial::default());
+        while let Some((monomial, coefficient)) = rest.leading() {
+            let monomial = monomial.over(leading)?;
+            let coefficient = coefficient.clone() * inverse.clone();
+            if lowest.meet(&monomial) != lowest || monomial.meet(&highest) != monomial {
+                return None;
+            }
+            self.spend(divisor.len())?;
+            rest.add_scaled(&divisor.shifted(&monomial)?, &-coefficient.clone());
+            quotient.add_term(monomial, coefficient);
+        }
+        Some(quotient)
+    }
+
+    /// Removes the denominators that divide their numerators.
+    pub(super) fn cancel(&mut self, polynomial: Polynomial) -> Option<Polynomial> {
+        let mut current = polynomial;
+        loop {
+            let fractions = self.fractions(&current, false)?;
+            if fractions.keys().all(Monomial::is_unit) && !self.has_trigonometric_denominator(&current) {
+                return Some(current);
+            }
+            if let Some(next) = self.divided(&fractions)? {
+                current = self.reduce(&next)?;
+                continue;
+            }
+            match self.joined(&current)? {
+                Some(next) => current = next,
+                None => return Some(current),
+            }
+        }
+    }
+
+    fn has_trigonometric_denominator(&self, polynomial: &Polynomial) -> bool {
+        polynomial.0.keys().flat_map(|monomial| &monomial.0).any(|factor| self.is_trigonometric_denominator(factor))
+    }
+
+    fn is_trigonometric_denominator(&self, factor: &Factor) -> bool {
+        use Function::{Cos, Cosh, Sin, Sinh};
+        factor.exponent.is_negative()
+            && matches!(self.graph.node(factor.atom), Node::Apply(Sin | Cos | Sinh | Cosh, _))
+    }
+
+    /// The terms by their denominators: sums, and on request sines and cosines.
+    fn fractions(&self, polynomial: &Polynomial, trigonometric: bool) -> Option<Fractions> {
+        let mut fractions = Fractions::new();
+        for (monomial, coefficient) in &polynomial.0 {
+            let (below, above) = monomial.split(|factor| {
+                (factor.kind == Kind::Sum && factor.exponent.is_negative())
+                    || (trigonometric && self.is_trigonometric_denominator(factor))
+            });
+            fractions.entry(below).or_default().add_term(above, coefficient.clone());
+        }
+        Some(fractions)
+    }
+
+    fn together(&mut self, fractions: &Fractions) -> Option<Polynomial> {
+        let mut sum = Polynomial::default();
+        for (below, above) in fractions {
+            let factor = Polynomial::term(below.clone(), Rational::ONE);
+            let fraction = self.multiply(above, &factor)?;
+            sum.add_scaled(&fraction, &Rational::ONE);
+        }
+        Some(sum)
+    }
+
+    /// Divides one numerator by a sum in its denominator, if any can be.
+    fn divided(&mut self, fractions: &Fractions) -> Option<Option<Polynomial>> {
+        for (below, above) in fractions {
+            for factor in &below.0 {
+                let meaning = self.meaning(factor.atom)?;
+                let Some(quotient) = self.quotient_of_either_form(above, &meaning)? else { continue };
+                let mut others = fractions.clone();
+                others.remove(below);
+                let mut sum = self.together(&others)?;
+                let raised = below.times(&Monomial::of(factor.atom, factor.kind, Exponent::ONE))?;
+                let fraction = self.multiply(&quotient, &Polynomial::term(raised, Rational::ONE))?;
+                sum.add_scaled(&fraction, &Rational::ONE);
+                return Some(Some(sum));
+            }
+        }
+        Some(None)
+    }
+
+    /// The quotient with the squares of cosines or of sines eliminated, whichever is exact.
+    /// The outer option is the budget.
+    fn quotient_of_either_form(&mut self, above: &Polynomial, below: &Polynomial) -> Option<Option<Polynomial>> {
+        if let Some(quotient) = self.quotient(above, below) {
+            return Some(Some(quotient));
+        }
+        for cosine in [true, false] {
+            let (n, d) = (self.reduced_to(above, cosine)?, self.reduced_to(below, cosine)?);
+            if n != *above || d != *below {
+                if let Some(quotient) = self.quotient(&n, &d) {
+                    return Some(Some(quotient));
+                }
+            }
+        }
+        self.spend(1)?;
+        Some(None)
+    }
+
+    /// Adds fractions over their common denominator where that leaves fewer monomials. Every
+    /// denominator of the sum was a denominator before.
+    fn joined(&mut self, polynomial: &Polynomial) -> Option<Option<Polynomial>> {
+        let fractions = self.fractions(polynomial, true)?;
+        if fractions.len() < 2 || fractions.len() > FRACTIONS {
+            return Some(None);
+        }
+        let entries: Vec<_> = fractions.iter().collect();
+        let mut subsets = vec![(0..entries.len()).collect::<Vec<_>>()];
+        if entries.len() > 2 {
+            for second in 1..entries.len() {
+                subsets.extend((0..second).map(|first| vec![first, second]));
+            }
+        }
+        for subset in subsets {
+            let below = subset.iter().fold(Monomial::default(), |meet, i| meet.meet(entries[*i].0));
+            let mut above = Polynomial::default();
+            for index in &subset {
+                let raised = self.cleared(entries[*index].1, &entries[*index].0.over(&below)?)?;
+                above.add_scaled(&raised, &Rational::ONE);
+            }
+            let above = self.reduce(&above)?;
+            let before: usize = subset.iter().map(|i| entries[*i].1.len()).sum();
+            if above.len() < before {
+                let mut rest = fractions.clone();
+                rest.retain(|key, _| !subset.iter().any(|i| entries[*i].0 == key));
+                let mut sum = self.together(&rest)?;
+                let fraction = self.multiply(&above, &Polynomial::term(below, Rational::ONE))?;
+                sum.add_scaled(&fraction, &Rational::ONE);
+                return Some(Some(sum));
+            }
+        }
+        Some(None)
+    }
+
+    /// A numerator times denominators, sums multiplied out.
+    fn cleared(&mut self, above: &Polynomial, by: &Monomial) -> Option<Polynomial> {
+        let mut product = above.clone();
+        for factor in &by.0 {
+            let power = match (factor.kind, factor.exponent.integer()) {
+                (Kind::Sum, Some(times)) => {
+                    let meaning = self.meaning(factor.atom)?;
+                    let mut power = Polynomial::one();
+                    for _ in 0..times {
+                        power = self.multiply(&power, &meaning)?;
+                    }
+                    power
+                }
+                _ => Polynomial::term(Monomial(vec![*factor]), Rational::ONE),
+            };
+            product = self.multiply(&product, &power)?;
+        }
+        Some(product)
+    }
+}
+
+/// The polynomial in the reciprocals of its atoms, whose lowest exponents are the highest here.
+fn inverted(polynomial: &Polynomial) -> Option<Polynomial> {
+    let mut result = Polynomial::default();
+    for (monomial, coefficient) in &polynomial.0 {
+        result.add_term(monomial.inverse(), coefficient.clone());
+    }
+    Some(result)
+}

@@ -1,0 +1,215 @@
+//! The choice of the independent velocities.
+
+use super::pivot::{PivotSetting, PivotZeros};
+use crate::algebra::{FieldPoint, Graph, Residue, determinant_in_field};
+use crate::id::{ExprId, Id, SectionId};
+
+/// Which velocities the constraints are solved for.
+#[derive(Clone, Debug)]
+pub struct Choice {
+    /// The velocities to eliminate.
+    pub dependent: Vec<SectionId>,
+    /// Expressions of parameters that must not vanish.
+    pub conditions: Vec<ExprId>,
+    /// Where the choice breaks down although the constraints are independent; empty unless the
+    /// user made the choice.
+    pub breaks_down: Vec<ExprId>,
+}
+
+/// Why there is no choice valid everywhere.
+#[derive(Clone, Debug, Default)]
+pub struct NoChoice {
+    /// For the choices tried, the velocities to eliminate and the factor of the pivot that may
+    /// vanish.
+    pub tried: Vec<(Vec<SectionId>, ExprId)>,
+}
+
+/// How many sets of velocities are considered.
+const LIMIT: usize = 4096;
+/// For how many of them the zeros of the pivot are studied.
+const STUDIED: usize = 24;
+
+/// The values of Φ at two points that differ in everything.
+struct Samples(Vec<Vec<Vec<Residue>>>);
+
+impl Samples {
+    fn of(graph: &Graph, setting: &PivotSetting<'_>) -> Result<Self, String> {
+        [5_000, 6_000]
+            .into_iter()
+            .map(|start| graph.matrix_in_field(setting.annihilator, |seed| FieldPoint::random(start + seed)))
+            .collect::<Result<_, _>>()
+            .map(Self)
+    }
+
+    /// Whether the columns are independent at generic points.
+    fn are_independent(&self, columns: &[SectionId]) -> bool {
+        self.0.iter().any(|rows| {
+            let minor = rows.iter().map(|row| columns.iter().map(|c| row[c.index()]).collect()).collect();
+            determinant_in_field(minor) != Residue::ZERO
+        })
+    }
+}
+
+/// Judges the user's choice: `None` if the constraints do not determine these velocities.
+///
+/// # Errors
+/// The reason, where the algebra cannot evaluate the constraints.
+pub fn judge(
+    graph: &mut Graph,
+    setting: &PivotSetting<'_>,
+    dependent: &[SectionId],
+) -> Result<Option<Choice>, String> {
+    if !Samples::of(graph, setting)?.are_independent(dependent) {
+        return Ok(None);
+    }
+    let mut choice =
+        Choice { dependent: dependent.to_vec(), conditions: Vec::new(), breaks_down: Vec::new() };
+    for pivot in pivots(graph, setting, dependent) {
+        match setting.zeros(graph, pivot) {
+            PivotZeros::None(conditions) => choice.conditions.extend(conditions),
+            PivotZeros::Perhaps(factor) => choice.breaks_down.push(factor),
+        }
+    }
+    Ok(Some(choice))
+}
+
+/// Searches for velocities whose pivot vanishes nowhere that the constraints are independent, the
+/// last declared first; those in `preferred` are eliminated if any such choice contains them.
+///
+/// # Errors
+/// The reason, where the algebra cannot evaluate the constraints.
+pub fn search(
+    graph: &mut Graph,
+    setting: &PivotSetting<'_>,
+    preferred: &[SectionId],
+    rank: usize,
+) -> Result<Result<Choice, NoChoice>, String> {
+    let samples = Samples::of(graph, setting)?;
+    let mut failure = NoChoice::default();
+    let rounds: &[&[SectionId]] = if preferred.is_empty() { &[&[]] } else { &[preferred, &[]] };
+    for required in rounds {
+        let mut studied = 0;
+        for dependent in Subsets::of(rank, setting.annihilator.len()).take(LIMIT) {
+            if !required.iter().all(|section| dependent.contains(section))
+                || !samples.are_independent(&dependent)
+            {
+                continue;
+            }
+            studied += 1;
+            if studied > STUDIED {
+                break;
+            }
+            match study(graph, setting, &dependent) {
+                Ok(conditions) => {
+                    return Ok(Ok(Choice { dependent, conditions, breaks_down: Vec::new() }));
+                }
+                Err(factor) => failure.tried.push((dependent, factor)),
+            }
+        }
+    }
+    Ok(Err(failure))
+}
+
+fn study(
+    graph: &mut Graph,
+    setting: &PivotSetting<'_>,
+    dependent: &[SectionId],
+) -> Result<Vec<ExprId>, ExprId> {
+    let mut all = Vec::new();
+    for pivot in pivots(graph, setting, dependent) {
+        match setting.zeros(graph, pivot) {
+            PivotZeros::None(conditions) => all.extend(conditions),
+            PivotZeros::Perhaps(factor) => return Err(factor),
+        }
+    }
+    Ok(all)
+}
+
+/// The block determinants of the columns.
+fn pivots(graph: &mut Graph, setting: &PivotSetting<'_>, dependent: &[SectionId]) -> Vec<ExprId> {
+    let matrix: Vec<Vec<ExprId>> =
+        setting.annihilator.iter().map(|row| dependent.iter().map(|c| row[c.index()]).collect()).collect();
+    let nothing: Vec<Vec<ExprId>> = vec![Vec::new(); matrix.len()];
+    graph.solve_linear(&matrix, &nothing).map(|solution| solution.divisors).unwrap_or_default()
+}
+
+/// The subsets of a given size, those of the last elements first.
+struct Subsets {
+    rank: usize,
+    next: Option<Vec<usize>>,
+}
+
+impl Subsets {
+    fn of(rank: usize, size: usize) -> Self {
+        Self { rank, next: (size <= rank).then(|| (rank - size..rank).rev().collect()) }
+    }
+}
+
+impl Iterator for Subsets {
+    type Item = Vec<SectionId>;
+
+    /// Members descend; the successor lowers the last member that can be lowered.
+    fn next(&mut self) -> Option<Self::Item> {
+        let current = self.next.take()?;
+        let size = current.len();
+        let lowered = (0..size).rev().find(|position| current[*position] > size - 1 - position);
+        self.next = lowered.map(|position| {
+            let mut following = current.clone();
+            let top = following[position] - 1;
+            for (step, member) in following[position..].iter_mut().enumerate() {
+                *member = top - step;
+            }
+            following
+        });
+        debug_assert!(current.iter().all(|member| *member < self.rank));
+        let mut members: Vec<SectionId> = current.into_iter().map(SectionId::from_index).collect();
+        members.sort_unstable();
+        Some(members)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::algebra::Facts;
+
+    #[test]
+    fn subsets_start_with_the_last() {
+        let all: Vec<Vec<usize>> =
+            Subsets::of(4, 2).map(|set| set.into_iter().map(Id::index).collect()).collect();
+        assert_eq!(all, [[2, 3], [1, 3], [0, 3], [1, 2], [0, 2], [0, 1]]);
+        assert_eq!(Subsets::of(3, 0).count(), 1);
+        assert_eq!(Subsets::of(2, 3).count(), 0);
+    }
+
+    #[test]
+    fn a_pivot_may_vanish_where_the_constraints_are_dependent() {
+        // the snakeboard's wheels in the body frame: velocities theta, u1, u2
+        let mut g = Graph::new();
+        let (phi, l) = (g.new_symbol("phi"), g.new_symbol("l"));
+        let (ephi, el) = (g.symbol(phi), g.symbol(l));
+        let (s, c) = (g.sin(ephi), g.cos(ephi));
+        let (ms, lc) = (g.neg(s), g.mul(el, c));
+        let mlc = g.neg(lc);
+        let annihilator = vec![vec![mlc, ms, c], vec![lc, s, c]];
+        let facts = Facts::default();
+        let setting = PivotSetting { annihilator: &annihilator, parameters: &[l], facts: &facts };
+        let choice = search(&mut g, &setting, &[], 3).unwrap().unwrap();
+        assert_eq!(choice.dependent, [SectionId::from_index(0), SectionId::from_index(2)]);
+        assert_eq!(choice.conditions, [el]);
+    }
+
+    #[test]
+    fn a_knife_edge_has_no_choice() {
+        let mut g = Graph::new();
+        let theta = g.new_symbol("theta");
+        let theta = g.symbol(theta);
+        let (s, c) = (g.sin(theta), g.cos(theta));
+        let minus = g.neg(c);
+        let annihilator = vec![vec![s, minus]];
+        let facts = Facts::default();
+        let setting = PivotSetting { annihilator: &annihilator, parameters: &[], facts: &facts };
+        let failure = search(&mut g, &setting, &[], 2).unwrap().unwrap_err();
+        assert_eq!(failure.tried.len(), 2);
+    }
+}

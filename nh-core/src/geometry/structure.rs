@@ -1,0 +1,114 @@
+//! Structure functions C^γ_{αβ}: the bracket of a Lie algebroid in a local basis of sections.
+
+use crate::algebra::Graph;
+use crate::id::{ExprId, Id, SectionId};
+
+/// The functions of `[e_α, e_β] = C^γ_{αβ}(x) e_γ`.
+///
+/// Stored for α < β only, so that antisymmetry is in the type. For a moving frame on TQ they are
+/// Hamel's transpositional symbols.
+#[derive(Clone, Debug)]
+pub struct StructureFunctions {
+    rank: usize,
+    /// The components of each bracket, pairs in lexicographic order.
+    brackets: Vec<Vec<ExprId>>,
+}
+
+impl StructureFunctions {
+    /// All brackets zero.
+    pub fn commuting(graph: &mut Graph, rank: usize) -> Self {
+        let zero = graph.zero();
+        Self { rank, brackets: vec![vec![zero; rank]; rank * rank.saturating_sub(1) / 2] }
+    }
+
+    /// The rank of the bundle.
+    #[must_use]
+    pub fn rank(&self) -> usize {
+        self.rank
+    }
+
+    /// The position of the pair α < β.
+    fn position(&self, alpha: usize, beta: usize) -> usize {
+        alpha * self.rank - alpha * (alpha + 1) / 2 + beta - alpha - 1
+    }
+
+    /// Sets `[e_α, e_β]`, and with it `[e_β, e_α]`. The bracket of a section with itself stays 0.
+    pub fn set(&mut self, graph: &mut Graph, alpha: SectionId, beta: SectionId, components: Vec<ExprId>) {
+        let (a, b) = (alpha.index(), beta.index());
+        if a < b {
+            let position = self.position(a, b);
+            self.brackets[position] = components;
+        } else if b < a {
+            let position = self.position(b, a);
+            self.brackets[position] = components.into_iter().map(|c| graph.neg(c)).collect();
+        }
+    }
+
+    /// C^γ_{αβ}.
+    pub fn get(&self, graph: &mut Graph, gamma: SectionId, alpha: SectionId, beta: SectionId) -> ExprId {
+        let (a, b) = (alpha.index(), beta.index());
+        match a.cmp(&b) {
+            std::cmp::Ordering::Less => self.brackets[self.position(a, b)][gamma.index()],
+            std::cmp::Ordering::Equal => graph.zero(),
+            std::cmp::Ordering::Greater => {
+                let entry = self.brackets[self.position(b, a)][gamma.index()];
+                graph.neg(entry)
+            }
+        }
+    }
+
+    /// The non-zero brackets with α < β.
+    pub fn nonzero<'a>(
+        &'a self,
+        graph: &'a Graph,
+    ) -> impl Iterator<Item = (SectionId, SectionId, &'a [ExprId])> + 'a {
+        let pairs = (0..self.rank).flat_map(move |a| (a + 1..self.rank).map(move |b| (a, b)));
+        pairs
+            .zip(&self.brackets)
+            .filter(|(_, components)| components.iter().any(|c| !graph.is_literal_zero(*c)))
+            .map(|((a, b), components)| {
+                (SectionId::from_index(a), SectionId::from_index(b), components.as_slice())
+            })
+    }
+
+    /// `C^γ_{αβ} y^β p_γ` for each α: the bracket term of the Euler–Lagrange equations,
+    /// mathematics (6), CLMM (2.7).
+    pub fn bracket_term(&self, graph: &mut Graph, velocity: &[ExprId], momenta: &[ExprId]) -> Vec<ExprId> {
+        let mut summands: Vec<Vec<ExprId>> = vec![Vec::new(); self.rank];
+        for a in 0..self.rank {
+            for b in a + 1..self.rank {
+                let components = &self.brackets[self.position(a, b)];
+                if components.iter().all(|c| graph.is_literal_zero(*c)) {
+                    continue;
+                }
+                let momentum = graph.inner_product(components, momenta);
+                let first = graph.mul(momentum, velocity[b]);
+                let second = graph.mul(momentum, velocity[a]);
+                summands[a].push(first);
+                summands[b].push(graph.neg(second));
+            }
+        }
+        summands.iter().map(|list| graph.sum(list)).collect()
+    }
+
+    /// `[σ, τ]^γ` without the derivative terms: `C^γ_{αβ} σ^α τ^β`.
+    pub fn contract(&self, graph: &mut Graph, sigma: &[ExprId], tau: &[ExprId]) -> Vec<ExprId> {
+        let mut summands: Vec<Vec<ExprId>> = vec![Vec::new(); self.rank];
+        for a in 0..self.rank {
+            for b in a + 1..self.rank {
+                let components = &self.brackets[self.position(a, b)];
+                if components.iter().all(|c| graph.is_literal_zero(*c)) {
+                    continue;
+                }
+                let (st, ts) = (graph.mul(sigma[a], tau[b]), graph.mul(sigma[b], tau[a]));
+                let wedge = graph.sub(st, ts);
+                for (list, component) in summands.iter_mut().zip(components) {
+                    if !graph.is_literal_zero(*component) {
+                        list.push(graph.mul(*component, wedge));
+                    }
+                }
+            }
+        }
+        summands.iter().map(|list| graph.sum(list)).collect()
+    }
+}

@@ -1,0 +1,71 @@
+//! Lagrange–d'Alembert equations in a basis of D: mathematics (8), CLMM (3.5) and (3.7).
+
+use super::euler_lagrange::LagrangianSystem;
+use crate::algebra::{Graph, Matrix};
+use crate::geometry::ConstraintDistribution;
+use crate::id::{ExprId, SymbolId};
+
+/// `mass · v̇ = force` in the velocities v of D.
+#[derive(Clone, Debug)]
+pub struct ReducedEquations {
+    /// C_{ab} = B^α_a W_{αβ} B^β_b.
+    pub mass: Matrix,
+    /// −B^α_a ( W (Ḃ v + ẏ₀) + h − Υ )_α.
+    pub force: Vec<ExprId>,
+    /// ẋ^i = ρ^i_α (B v + y₀)^α.
+    pub rates: Vec<ExprId>,
+    /// y = B v + y₀.
+    pub velocity: Vec<ExprId>,
+    /// The velocities v.
+    pub independent: Vec<SymbolId>,
+}
+
+/// Derives the equations.
+///
+/// The momenta are restricted to the constraint manifold first, p̂_α(t, x, v) = p_α(t, x, Bv + y₀).
+/// Then d/dt p̂_α holds every term of (8): ∂p̂_α/∂v^b v̇^b = W_{αβ} B^β_b v̇^b, and the derivative of
+/// p̂ along the full ẋ at fixed v is W (Ḃ v + ẏ₀) together with the first term of h.
+pub fn reduced_equations(
+    graph: &mut Graph,
+    system: &LagrangianSystem,
+    distribution: &ConstraintDistribution,
+) -> ReducedEquations {
+    let velocities = &system.algebroid.velocities;
+    let velocity = distribution.velocity(graph, velocities);
+    let mut restriction = distribution.restriction(graph, velocities);
+    let balance = system.force_balance(graph, &velocity, &mut restriction);
+    let independent: Vec<SymbolId> =
+        distribution.independent.iter().map(|section| velocities[crate::id::Id::index(*section)]).collect();
+
+    // ∂p̂_α/∂v^b
+    let mut columns: Matrix = Vec::with_capacity(independent.len());
+    for symbol in &independent {
+        columns.push(balance.momenta.iter().map(|p| graph.partial(*p, *symbol)).collect());
+    }
+    let sections: Matrix = (0..distribution.rank()).map(|a| distribution.section(a)).collect();
+    let mut mass: Matrix = Vec::with_capacity(sections.len());
+    for (a, section) in sections.iter().enumerate() {
+        // C is symmetric: the lower triangle repeats the upper
+        let row: Vec<ExprId> = (0..columns.len())
+            .map(|b| {
+                if b < a {
+                    return mass[b][a];
+                }
+                let entry = graph.inner_product(section, &columns[b]);
+                graph.simplify(entry)
+            })
+            .collect();
+        mass.push(row);
+    }
+    let force = sections
+        .iter()
+        .map(|section| {
+            let projected = graph.inner_product(section, &balance.rest);
+            let force = graph.neg(projected);
+            graph.simplify(force)
+        })
+        .collect();
+    let rates = system.algebroid.rates(graph, &velocity);
+    let rates = rates.into_iter().map(|rate| graph.simplify(rate)).collect();
+    ReducedEquations { mass, force, rates, velocity, independent }
+}

@@ -1,0 +1,82 @@
+//! Whether a mass matrix is definite for physical parameters.
+
+use super::symmetric_solve::Definiteness;
+use crate::algebra::{Graph, Residue};
+use crate::id::{ExprId, Id, SymbolId};
+use std::collections::BTreeMap;
+
+/// Parameter sets tried.
+const PARAMETER_SETS: u64 = 120;
+/// Configurations at which the matrix has to be definite.
+const CONFIGURATIONS: u64 = 12;
+
+/// Samples: definite if there are parameters for which the matrix is definite, of one sign, at
+/// every configuration tried.
+///
+/// Parameters that violate this can make a pivot vanish; then the result is not finite, which the
+/// integrators report. A wrong answer here never makes a finite result wrong.
+#[must_use]
+pub fn definiteness(graph: &Graph, matrix: &[Vec<ExprId>], parameters: &[SymbolId]) -> Definiteness {
+    if matrix.is_empty() {
+        return Definiteness::Definite;
+    }
+    for set in 0..PARAMETER_SETS {
+        let signs = [1.0, -1.0].map(|sign| {
+            (0..CONFIGURATIONS).all(|configuration| {
+                is_positive_at(graph, matrix, sign, |symbol| {
+                    if parameters.contains(&symbol) {
+                        parameter_sample(set, symbol)
+                    } else {
+                        configuration_sample(configuration, symbol)
+                    }
+                })
+            })
+        });
+        if signs.contains(&true) {
+            return Definiteness::Definite;
+        }
+    }
+    Definiteness::Unknown
+}
+
+/// Between 1/16 and 8, evenly on a logarithmic scale.
+fn parameter_sample(set: u64, symbol: SymbolId) -> f64 {
+    2f64.powf(unit(set, symbol) * 7.0 - 4.0)
+}
+
+/// Between −3 and 3.
+fn configuration_sample(configuration: u64, symbol: SymbolId) -> f64 {
+    unit(1_000 + configuration, symbol) * 6.0 - 3.0
+}
+
+/// A number in [0, 1) that the seed and the symbol determine.
+#[allow(clippy::cast_precision_loss, reason = "a sample needs no more digits")]
+fn unit(seed: u64, symbol: SymbolId) -> f64 {
+    let word = Residue::mixed(seed, symbol.index() as u64).word();
+    (word % (1 << 20)) as f64 / (1u64 << 20) as f64
+}
+
+/// Whether `sign · matrix` is positive definite at a point: Cholesky in floating point.
+fn is_positive_at(graph: &Graph, matrix: &[Vec<ExprId>], sign: f64, value: impl Fn(SymbolId) -> f64) -> bool {
+    let n = matrix.len();
+    let entries: Vec<ExprId> = matrix.iter().flatten().copied().collect();
+    let values: Vec<f64> = graph.evaluate(&entries, value).into_iter().map(|b| sign * b.value).collect();
+    let mut factor: BTreeMap<(usize, usize), f64> = BTreeMap::new();
+    for j in 0..n {
+        for i in j..n {
+            let sum: f64 = (0..j).map(|k| factor[&(i, k)] * factor[&(j, k)]).sum();
+            let rest = values[i * n + j] - sum;
+            let entry = if i == j {
+                // also refuses NaN
+                if !(rest > values[j * n + j].abs() * 1e-12) {
+                    return false;
+                }
+                rest.sqrt()
+            } else {
+                rest / factor[&(j, j)]
+            };
+            factor.insert((i, j), entry);
+        }
+    }
+    true
+}

@@ -1,0 +1,84 @@
+//! The Euler–Lagrange side of the equations: momenta and the force balance without ẏ.
+
+use crate::algebra::{Derivation, Graph, Substitution};
+use crate::geometry::Algebroid;
+use crate::id::{ExprId, SymbolId};
+
+/// A Lagrangian system on an algebroid, before constraints.
+#[derive(Clone, Debug)]
+pub struct LagrangianSystem {
+    /// E with its anchor and bracket.
+    pub algebroid: Algebroid,
+    /// L(t, x, y).
+    pub lagrangian: ExprId,
+    /// The generalized force Υ_α(t, x, y, u), a component for each section.
+    pub forces: Vec<ExprId>,
+    /// The time t.
+    pub time: SymbolId,
+}
+
+/// The Euler–Lagrange equations along curves with velocity `ŷ(t, x, v)`:
+/// `d/dt p_α |_{v̇ = 0} + C^γ_{αβ} ŷ^β p_γ − ρ^i_α ∂_iL − Υ_α`, and the momenta.
+#[derive(Clone, Debug)]
+pub struct ForceBalance {
+    /// p_α = ∂L/∂y^α at y = ŷ.
+    pub momenta: Vec<ExprId>,
+    /// What is left of δL_α − Υ_α when the terms with v̇ are taken away.
+    pub rest: Vec<ExprId>,
+}
+
+impl LagrangianSystem {
+    /// p_α = ∂L/∂y^α.
+    pub fn momenta(&self, graph: &mut Graph) -> Vec<ExprId> {
+        self.algebroid
+            .velocities
+            .iter()
+            .map(|velocity| {
+                let momentum = graph.partial(self.lagrangian, *velocity);
+                graph.simplify(momentum)
+            })
+            .collect()
+    }
+
+    /// ∂_iL.
+    fn base_gradient(&self, graph: &mut Graph) -> Vec<ExprId> {
+        let coordinates = self.algebroid.anchor.coordinates.clone();
+        coordinates.iter().map(|symbol| graph.partial(self.lagrangian, *symbol)).collect()
+    }
+
+    /// The force balance on curves whose velocity is `velocity`; `restriction` puts that velocity
+    /// into functions on E. Mathematics (6) and (8), CLMM (2.7).
+    pub fn force_balance(
+        &self,
+        graph: &mut Graph,
+        velocity: &[ExprId],
+        restriction: &mut Substitution,
+    ) -> ForceBalance {
+        let momenta = self.momenta(graph);
+        let momenta: Vec<ExprId> = momenta.into_iter().map(|p| restriction.apply(graph, p)).collect();
+        let gradient = self.base_gradient(graph);
+        let gradient: Vec<ExprId> = gradient.into_iter().map(|g| restriction.apply(graph, g)).collect();
+
+        // 1. ρ^i_β y^β ∂p_α/∂x^i + ∂p_α/∂t
+        let mut along: Derivation = self.algebroid.along(graph, velocity, self.time);
+        let drift: Vec<ExprId> = momenta.iter().map(|p| along.apply(graph, *p)).collect();
+        // 2. C^γ_{αβ} y^β p_γ
+        let bracket = self.algebroid.structure.bracket_term(graph, velocity, &momenta);
+        // 3. ρ^i_α ∂_iL
+        let potential = self.algebroid.anchor.pull_back(graph, &gradient);
+        // 4. Υ_α
+        let forces: Vec<ExprId> = self.forces.iter().map(|f| restriction.apply(graph, *f)).collect();
+
+        let rest = (0..momenta.len())
+            .map(|alpha| {
+                graph.linear_combination(&[
+                    (1.into(), drift[alpha]),
+                    (1.into(), bracket[alpha]),
+                    ((-1).into(), potential[alpha]),
+                    ((-1).into(), forces[alpha]),
+                ])
+            })
+            .collect();
+        ForceBalance { momenta, rest }
+    }
+}

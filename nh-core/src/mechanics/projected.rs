@@ -1,0 +1,169 @@
+//! Lagrange–d'Alembert equations with multipliers on all of E: the saddle form, mathematics (9).
+
+use super::euler_lagrange::LagrangianSystem;
+use super::procedure::{Definition, Procedure};
+use super::symmetric_solve::{Definiteness, Factorisation, solve_symmetric};
+use crate::algebra::{Graph, Matrix, Substitution};
+use crate::id::{ExprId, SymbolId};
+
+/// `W ẏ − Jᵀ λ = force`, `J ẏ = bias`.
+#[derive(Clone, Debug)]
+pub struct SaddleEquations {
+    /// W_{αβ} = ∂²L/∂y^α∂y^β.
+    pub mass: Matrix,
+    /// Υ − h.
+    pub force: Vec<ExprId>,
+    /// J^A_α = ∂φ^A/∂y^α: a row for each constraint.
+    pub jacobian: Matrix,
+    /// −(ρ y)^i ∂_iφ − ∂_tφ.
+    pub bias: Vec<ExprId>,
+    /// ẋ^i = ρ^i_α y^α.
+    pub rates: Vec<ExprId>,
+}
+
+/// Derives the equations for constraints φ^A(t, x, y) = 0.
+pub fn saddle_equations(
+    graph: &mut Graph,
+    system: &LagrangianSystem,
+    residuals: &[ExprId],
+) -> SaddleEquations {
+    let velocity = system.algebroid.velocity(graph);
+    let balance = system.force_balance(graph, &velocity, &mut Substitution::new([]));
+    let velocities = system.algebroid.velocities.clone();
+    let mut mass: Matrix = Vec::with_capacity(velocities.len());
+    for (alpha, momentum) in balance.momenta.iter().enumerate() {
+        let row: Vec<ExprId> = velocities
+            .iter()
+            .enumerate()
+            .map(|(beta, symbol)| {
+                // W is symmetric: the lower triangle repeats the upper
+                if beta < alpha {
+                    return mass[beta][alpha];
+                }
+                let entry = graph.partial(*momentum, *symbol);
+                graph.simplify(entry)
+            })
+            .collect();
+        mass.push(row);
+    }
+    let force = negated(graph, &balance.rest);
+    let jacobian: Matrix = residuals
+        .iter()
+        .map(|residual| {
+            velocities
+                .iter()
+                .map(|symbol| {
+                    let entry = graph.partial(*residual, *symbol);
+                    graph.simplify(entry)
+                })
+                .collect()
+        })
+        .collect();
+    let mut along = system.algebroid.along(graph, &velocity, system.time);
+    let change: Vec<ExprId> = residuals.iter().map(|residual| along.apply(graph, *residual)).collect();
+    let bias = negated(graph, &change);
+    let rates = system.algebroid.rates(graph, &velocity);
+    let rates = rates.into_iter().map(|rate| graph.simplify(rate)).collect();
+    SaddleEquations { mass, force, jacobian, bias, rates }
+}
+
+fn negated(graph: &mut Graph, list: &[ExprId]) -> Vec<ExprId> {
+    list.iter()
+        .map(|entry| {
+            let negative = graph.neg(*entry);
+            graph.simplify(negative)
+        })
+        .collect()
+}
+
+impl SaddleEquations {
+    /// The saddle matrix [[W, −Jᵀ], [J, 0]], whose regularity is that of the system
+    /// (CLMM (7.5) where W is invertible).
+    pub fn matrix(&self, graph: &mut Graph) -> Matrix {
+        let zero = graph.zero();
+        let constraints = self.jacobian.len();
+        let mut rows: Matrix = Vec::new();
+        for (alpha, row) in self.mass.iter().enumerate() {
+            let mut row = row.clone();
+            row.extend(self.jacobian.iter().map(|constraint| graph.neg(constraint[alpha])));
+            rows.push(row);
+        }
+        for constraint in &self.jacobian {
+            let mut row = constraint.clone();
+            row.extend(std::iter::repeat_n(zero, constraints));
+            rows.push(row);
+        }
+        rows
+    }
+
+    /// ẏ and λ, as intermediate results of the procedure.
+    ///
+    /// Where W is definite, by (10): λ = (J W⁻¹ Jᵀ)⁻¹ (bias − J W⁻¹ force), with one factorisation
+    /// of W; else the saddle system is solved with numerical pivoting.
+    pub fn solve(
+        &self,
+        graph: &mut Graph,
+        definiteness: Definiteness,
+        procedure: &mut Procedure,
+    ) -> (Vec<ExprId>, Vec<ExprId>) {
+        match definiteness {
+            Definiteness::Definite => self.solve_by_complement(graph, procedure),
+            Definiteness::Unknown => self.solve_pivoted(graph, procedure),
+        }
+    }
+
+    fn solve_by_complement(
+        &self,
+        graph: &mut Graph,
+        procedure: &mut Procedure,
+    ) -> (Vec<ExprId>, Vec<ExprId>) {
+        // 1. W = factorised
+        let factors = Factorisation::of(graph, &self.mass, procedure, "w");
+        // 2. free = W⁻¹ force, reach = W⁻¹ Jᵀ
+        let free = factors.solve(graph, &self.force, procedure, "free");
+        if self.jacobian.is_empty() {
+            return (free, Vec::new());
+        }
+        let reach: Matrix =
+            self.jacobian.iter().map(|row| factors.solve(graph, row, procedure, "reach")).collect();
+        // 3. (J W⁻¹ Jᵀ) λ = bias − J free
+        let mut complement: Matrix = Vec::with_capacity(reach.len());
+        for (a, row) in self.jacobian.iter().enumerate() {
+            let entries: Vec<ExprId> = (0..reach.len())
+                .map(|b| if b < a { complement[b][a] } else { graph.inner_product(row, &reach[b]) })
+                .collect();
+            complement.push(entries);
+        }
+        let right: Vec<ExprId> = self
+            .jacobian
+            .iter()
+            .zip(&self.bias)
+            .map(|(row, bias)| {
+                let reached = graph.inner_product(row, &free);
+                graph.sub(*bias, reached)
+            })
+            .collect();
+        let multipliers =
+            solve_symmetric(graph, &complement, &right, Definiteness::Definite, procedure, "lambda");
+        // 4. ẏ = free + W⁻¹ Jᵀ λ
+        let accelerations = (0..free.len())
+            .map(|alpha| {
+                let column: Vec<ExprId> = reach.iter().map(|row| row[alpha]).collect();
+                let reaction = graph.inner_product(&column, &multipliers);
+                graph.add(free[alpha], reaction)
+            })
+            .collect();
+        (accelerations, multipliers)
+    }
+
+    fn solve_pivoted(&self, graph: &mut Graph, procedure: &mut Procedure) -> (Vec<ExprId>, Vec<ExprId>) {
+        let matrix = self.matrix(graph);
+        let right = self.force.iter().chain(&self.bias).copied().collect();
+        let unknowns: Vec<SymbolId> =
+            (0..matrix.len()).map(|index| graph.new_symbol(format!("saddle{index}"))).collect();
+        let mut solution: Vec<ExprId> = unknowns.iter().map(|symbol| graph.symbol(*symbol)).collect();
+        procedure.definitions.push(Definition::Solve { unknowns, matrix, right });
+        let multipliers = solution.split_off(self.mass.len());
+        (solution, multipliers)
+    }
+}
