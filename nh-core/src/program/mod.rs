@@ -1,1 +1,27 @@
 //! Straight-line programs: what is emitted, and what the interpreter runs.
+//!
+//! [`schedule`] takes a procedure through these steps, each of which keeps its value:
+//!
+//! 1. `import`: what the outputs depend on becomes n-ary sums and products with integer exponents.
+//! 2. `factor`: common factors are taken out of sums, and signs out of products.
+//! 3. `powers`: denominators are gathered or inverted once.
+//! 4. `pairs`: pairs of operands that several sums or products share are computed once.
+//! 5. `lower`: binary steps in an order in which every value precedes its uses.
+
+mod cost;
+mod factor;
+mod import;
+mod interpret;
+mod lower;
+mod nary;
+mod pairs;
+mod powers;
+mod schedule;
+mod step;
+#[cfg(test)]
+mod tests;
+
+pub use cost::Cost;
+pub use interpret::{Arithmetic, interpret, interpret_in};
+pub use schedule::{schedule, schedule_grouping};
+pub use step::{Program, Step, Value};

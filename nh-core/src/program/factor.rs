@@ -1,0 +1,185 @@
+//! Takes common factors out of sums, and signs out of products, where that saves operations.
+
+use super::nary::{Arena, Nary, Term};
+use crate::id::Id;
+use rustc_hash::FxHashMap;
+
+/// How much a product counts that other terms use too: it has to be computed for them anyway.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Sharing {
+    /// Nothing.
+    Ignored,
+    /// Its part among its users.
+    Divided,
+}
+
+/// The savings of one multiplication, in units that small counts of users divide.
+const ONE: u32 = 12;
+
+/// `a·x + b·x = (a + b)·x`, the factor that saves most first, inner sums in turn.
+pub(super) fn factor(arena: &mut Arena, sharing: Sharing) {
+    let mut uses = arena.uses();
+    let mut open: Vec<Term> = Arena::live(&uses);
+    open.reverse();
+    while let Some(term) = open.pop() {
+        while let Some((base, exponent)) = best_factor(arena, &uses, term, sharing) {
+            let before = arena.len();
+            let inner = take_out(arena, &mut uses, term, base, exponent);
+            if inner.index() >= before {
+                open.push(inner);
+            }
+        }
+    }
+    flatten(arena);
+    absorb_signs(arena);
+}
+
+/// The factors of one operand of a sum.
+fn factors(arena: &Arena, operand: Term) -> Vec<(Term, i32)> {
+    match arena.get(operand) {
+        Nary::Product(factors) => factors.clone(),
+        _ => vec![(operand, 1)],
+    }
+}
+
+/// The power that most operands share, if taking it out pays.
+fn best_factor(arena: &Arena, uses: &[u32], sum: Term, sharing: Sharing) -> Option<(Term, i32)> {
+    struct Candidate {
+        savings: u32,
+        operands: usize,
+        exponent: i32,
+    }
+    let Nary::Sum(operands) = arena.get(sum) else { return None };
+    let mut candidates: FxHashMap<(Term, bool), Candidate> = FxHashMap::default();
+    for (operand, _) in operands {
+        let users = uses[operand.index()].max(1);
+        let worth = match (arena.get(*operand), sharing) {
+            (Nary::Product(_), Sharing::Divided) => ONE / users.min(ONE),
+            (Nary::Product(_), Sharing::Ignored) if users == 1 => ONE,
+            _ => 0,
+        };
+        for (base, exponent) in factors(arena, *operand) {
+            let candidate = candidates.entry((base, exponent < 0)).or_insert(Candidate {
+                savings: 0,
+                operands: 0,
+                exponent,
+            });
+            candidate.savings += worth;
+            candidate.operands += 1;
+            if exponent.unsigned_abs() < candidate.exponent.unsigned_abs() {
+                candidate.exponent = exponent;
+            }
+        }
+    }
+    // the product with what is left is one new multiplication
+    let paying = candidates.into_iter().filter(|(_, c)| c.operands > 1 && c.savings > ONE);
+    let best = paying.min_by_key(|(key, c)| (std::cmp::Reverse(c.savings), *key));
+    best.map(|((base, _), c)| (base, c.exponent))
+}
+
+/// Replaces the operands that contain `base^exponent` by one product, and returns its inner sum.
+fn take_out(arena: &mut Arena, uses: &mut Vec<u32>, sum: Term, base: Term, exponent: i32) -> Term {
+    let Nary::Sum(operands) = arena.get(sum).clone() else { return sum };
+    let mut rest = Vec::new();
+    let mut inside = Vec::new();
+    for (operand, negative) in operands {
+        let mut factors = factors(arena, operand);
+        if factors.iter().any(|(b, e)| *b == base && (*e < 0) == (exponent < 0)) {
+            factors.push((base, exponent.saturating_neg()));
+            inside.push((arena.product(factors), negative));
+            uses[operand.index()] = uses[operand.index()].saturating_sub(1);
+        } else {
+            rest.push((operand, negative));
+        }
+    }
+    let (inner, negative) = arena.sum(inside.clone());
+    let product = arena.product(vec![(inner, 1), (base, exponent)]);
+    uses.resize(arena.len(), 0);
+    for (operand, _) in inside {
+        uses[operand.index()] += 1;
+    }
+    uses[inner.index()] += 1;
+    if rest.is_empty() {
+        let whole = if negative { Nary::Neg(product) } else { arena.get(product).clone() };
+        uses[product.index()] += u32::from(negative);
+        arena.rewrite(sum, whole);
+    } else {
+        uses[product.index()] += 1;
+        rest.push((product, negative));
+        rest.sort_unstable();
+        arena.rewrite(sum, Nary::Sum(rest));
+    }
+    inner
+}
+
+/// Products within products that nothing else uses become one.
+fn flatten(arena: &mut Arena) {
+    let uses = arena.uses();
+    for term in arena.operands_first(&arena.outputs) {
+        let Nary::Product(factors) = arena.get(term).clone() else { continue };
+        let mut flat = Vec::with_capacity(factors.len());
+        let mut changed = false;
+        for (base, exponent) in factors {
+            match arena.get(base) {
+                Nary::Product(inner) if uses[base.index()] == 1 => {
+                    let powers = inner.iter().map(|(b, e)| Some((*b, e.checked_mul(exponent)?)));
+                    if let Some(powers) = powers.collect::<Option<Vec<_>>>() {
+                        flat.extend(powers);
+                        changed = true;
+                        continue;
+                    }
+                    flat.push((base, exponent));
+                }
+                _ => flat.push((base, exponent)),
+            }
+        }
+        if changed {
+            let form = arena.product_form(flat);
+            arena.rewrite(term, form);
+        }
+    }
+}
+
+/// `−(2·x) = (−2)·x` and `−(a − b)·x = (b − a)·x`.
+fn absorb_signs(arena: &mut Arena) {
+    let uses = arena.uses();
+    for term in Arena::live(&uses) {
+        let Nary::Neg(inner) = *arena.get(term) else { continue };
+        if uses[inner.index()] > 1 {
+            continue;
+        }
+        if let Some(form) = negated(arena, &uses, inner) {
+            arena.rewrite(term, form);
+        }
+    }
+}
+
+/// The negative at no cost, if there is one.
+fn negated(arena: &mut Arena, uses: &[u32], term: Term) -> Option<Nary> {
+    let flip = |operands: &[(Term, bool)]| operands.iter().map(|(o, negative)| (*o, !negative)).collect();
+    match arena.get(term).clone() {
+        Nary::Sum(operands) if operands.iter().any(|(_, negative)| *negative) => {
+            Some(Nary::Sum(flip(&operands)))
+        }
+        Nary::Product(mut factors) => {
+            for index in 0..factors.len() {
+                let (base, exponent) = factors[index];
+                let image = match arena.get(base).clone() {
+                    Nary::Number(value) if exponent == 1 => Nary::Number(-value),
+                    Nary::Sum(operands)
+                        if exponent % 2 != 0
+                            && uses.get(base.index()) == Some(&1)
+                            && operands.iter().any(|(_, negative)| *negative) =>
+                    {
+                        Nary::Sum(flip(&operands))
+                    }
+                    _ => continue,
+                };
+                factors[index].0 = arena.intern(image);
+                return Some(arena.product_form(factors));
+            }
+            None
+        }
+        _ => None,
+    }
+}

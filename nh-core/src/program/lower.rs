@@ -1,0 +1,257 @@
+//! From n-ary terms to binary steps.
+
+use super::nary::{Arena, Nary, Source, Term};
+use super::step::{Program, Step, Value};
+use crate::algebra::{Function, Rational};
+use crate::id::{Id, Table};
+use rustc_hash::FxHashMap;
+
+/// Longer sums are split in halves, which do not wait for each other.
+const LONGEST_CHAIN: usize = 8;
+
+/// The program of an arena without powers in its products.
+///
+/// Sines and cosines come first, since they take longest; everything else comes right before what
+/// needs it first. Parameters are combined with each other before they meet anything that varies.
+pub(super) fn lower(arena: &Arena) -> Program {
+    let uses = arena.uses();
+    let is_used = |term: &Term| uses[term.index()] > 0;
+    let angles: Vec<Term> = Arena::live(&uses)
+        .into_iter()
+        .filter(|term| matches!(arena.get(*term), Nary::Apply(Function::Sin | Function::Cos, _)))
+        .collect();
+    let roots: Vec<Term> = angles.into_iter().chain(arena.outputs.iter().copied()).collect();
+    let mut lowering = Lowering {
+        arena,
+        steps: Table::new(),
+        known: FxHashMap::default(),
+        values: vec![None; arena.len()],
+        fixed: vec![false; arena.len()],
+    };
+    for term in arena.operands_first(&roots) {
+        lowering.fixed[term.index()] = lowering.is_fixed(term);
+        let value = lowering.term(term, &is_used);
+        lowering.values[term.index()] = Some(value);
+    }
+    let outputs = arena.outputs.iter().map(|output| lowering.value(*output)).collect();
+    without_dead_steps(&Program { steps: lowering.steps, outputs })
+}
+
+struct Lowering<'a> {
+    arena: &'a Arena,
+    steps: Table<Value, Step>,
+    known: FxHashMap<Step, Value>,
+    values: Vec<Option<Value>>,
+    /// Which terms are made of numbers and parameters alone.
+    fixed: Vec<bool>,
+}
+
+impl Lowering<'_> {
+    fn is_fixed(&self, term: Term) -> bool {
+        let by_operands = || self.arena.dependencies(term).iter().all(|operand| self.fixed[operand.index()]);
+        match self.arena.get(term) {
+            Nary::Symbol(symbol) if !self.arena.sources.contains_key(symbol) => {
+                self.arena.parameters.contains(symbol)
+            }
+            _ => by_operands(),
+        }
+    }
+
+    /// The value of a term that comes earlier.
+    fn value(&self, term: Term) -> Value {
+        self.values[term.index()].expect("operands are lowered first")
+    }
+
+    fn push(&mut self, step: Step) -> Value {
+        let key = match step {
+            Step::Add(a, b) => Step::Add(a.min(b), a.max(b)),
+            Step::Mul(a, b) => Step::Mul(a.min(b), a.max(b)),
+            _ => step.clone(),
+        };
+        if let Some(&value) = self.known.get(&key) {
+            return value;
+        }
+        let value = self.steps.push(step);
+        self.known.insert(key, value);
+        value
+    }
+
+    fn term(&mut self, term: Term, is_used: &impl Fn(&Term) -> bool) -> Value {
+        match self.arena.get(term) {
+            Nary::Number(value) => self.push(Step::Constant(value.clone())),
+            Nary::Pi => self.push(Step::Pi),
+            Nary::Symbol(symbol) => match self.arena.sources.get(symbol) {
+                None => self.push(Step::Load(*symbol)),
+                Some(Source::Value(value)) => self.value(*value),
+                Some(Source::Unknown { system, component }) => self.unknown(*system, *component),
+            },
+            Nary::Sum(operands) => self.sum(operands),
+            Nary::Product(factors) => self.product(factors),
+            Nary::Quotient(a, b) => self.push(Step::Div(self.value(*a), self.value(*b))),
+            Nary::Power(base, exponent) => self.power(self.value(*base), *exponent),
+            Nary::Neg(a) => self.negative(self.value(*a)),
+            Nary::Recip(a) => self.reciprocal(self.value(*a)),
+            Nary::Sqrt(a) => self.push(Step::Sqrt(self.value(*a))),
+            Nary::Cbrt(a) => self.push(Step::Cbrt(self.value(*a))),
+            Nary::PowReal(a, exponent) => self.push(Step::PowReal(self.value(*a), exponent.clone())),
+            Nary::Apply(Function::Sin, angle) => self.sin_or_cos(Function::Sin, *angle, is_used),
+            Nary::Apply(Function::Cos, angle) => self.sin_or_cos(Function::Cos, *angle, is_used),
+            Nary::Apply(function, a) => self.push(Step::Apply(*function, self.value(*a))),
+            Nary::Apply2(function, a, b) => {
+                self.push(Step::Apply2(*function, self.value(*a), self.value(*b)))
+            }
+        }
+    }
+
+    fn unknown(&mut self, system: usize, component: usize) -> Value {
+        let system = &self.arena.systems[system];
+        let of = |terms: &Vec<Term>| terms.iter().map(|term| self.value(*term)).collect();
+        let solve = Step::Solve { matrix: system.matrix.iter().map(of).collect(), right: of(&system.right) };
+        let solve = self.push(solve);
+        self.push(Step::Component(solve, component))
+    }
+
+    fn sin_or_cos(&mut self, function: Function, angle: Term, is_used: &impl Fn(&Term) -> bool) -> Value {
+        let other = if function == Function::Sin { Function::Cos } else { Function::Sin };
+        let other = self.arena.find(&Nary::Apply(other, angle)).filter(is_used);
+        let angle = self.value(angle);
+        if other.is_none() {
+            return self.push(Step::Apply(function, angle));
+        }
+        let pair = self.push(Step::SinCos(angle));
+        self.push(if function == Function::Sin { Step::SinOf(pair) } else { Step::CosOf(pair) })
+    }
+
+    fn negative(&mut self, value: Value) -> Value {
+        let step = match &self.steps[value] {
+            Step::Constant(number) => Step::Constant(-number.clone()),
+            _ => Step::Neg(value),
+        };
+        self.push(step)
+    }
+
+    fn reciprocal(&mut self, value: Value) -> Value {
+        let step = match &self.steps[value] {
+            Step::Constant(number) => number.recip().map_or(Step::Recip(value), Step::Constant),
+            _ => Step::Recip(value),
+        };
+        self.push(step)
+    }
+
+    fn sum(&mut self, operands: &[(Term, bool)]) -> Value {
+        let of = |(term, negative): &(Term, bool)| (self.value(*term), *negative);
+        let (fixed, varying): (Vec<_>, Vec<_>) =
+            operands.iter().partition(|(term, _)| self.fixed[term.index()]);
+        let (value, negative) = if fixed.len() > 1 && !varying.is_empty() {
+            let (fixed, varying): (Vec<_>, Vec<_>) =
+                (fixed.into_iter().map(of).collect(), varying.into_iter().map(of).collect());
+            let first = self.signed_sum(&fixed);
+            let all: Vec<_> = std::iter::once(first).chain(varying).collect();
+            self.signed_sum(&all)
+        } else {
+            let all: Vec<_> = operands.iter().map(of).collect();
+            self.signed_sum(&all)
+        };
+        if negative { self.negative(value) } else { value }
+    }
+
+    /// The sum up to a sign: something added comes first, if there is such.
+    fn signed_sum(&mut self, operands: &[(Value, bool)]) -> (Value, bool) {
+        if operands.len() > LONGEST_CHAIN {
+            let (left, right) = operands.split_at(operands.len() / 2);
+            let halves = [self.signed_sum(left), self.signed_sum(right)];
+            return self.signed_sum(&halves);
+        }
+        let first = operands.iter().position(|(_, negative)| !negative);
+        let all_negative = first.is_none();
+        let first = first.unwrap_or(0);
+        let mut sum = operands[first].0;
+        for (position, (value, negative)) in operands.iter().enumerate() {
+            if position != first {
+                let subtract = *negative && !all_negative;
+                sum = self.push(if subtract { Step::Sub(sum, *value) } else { Step::Add(sum, *value) });
+            }
+        }
+        (sum, all_negative)
+    }
+
+    /// Numbers, then parameters, then what varies.
+    fn product(&mut self, factors: &[(Term, i32)]) -> Value {
+        let class = |term: Term| match self.arena.get(term) {
+            Nary::Number(_) | Nary::Pi => 0,
+            _ if self.fixed[term.index()] => 1,
+            _ => 2,
+        };
+        let mut ordered = factors.to_vec();
+        ordered.sort_by_key(|(term, _)| class(*term));
+        let mut product = None;
+        for (term, exponent) in ordered {
+            let power = self.power(self.value(term), exponent.unsigned_abs());
+            product = Some(match product {
+                None => power,
+                Some(before) => self.push(Step::Mul(before, power)),
+            });
+        }
+        product.unwrap_or_else(|| self.push(Step::Constant(Rational::ONE)))
+    }
+
+    /// By squaring; intermediate powers are shared.
+    fn power(&mut self, base: Value, exponent: u32) -> Value {
+        let mut power = base;
+        for bit in (0..exponent.ilog2()).rev() {
+            power = self.push(Step::Mul(power, power));
+            if exponent >> bit & 1 == 1 {
+                power = self.push(Step::Mul(power, base));
+            }
+        }
+        power
+    }
+}
+
+/// Keeps what outputs depend on.
+fn without_dead_steps(program: &Program) -> Program {
+    let mut live = vec![false; program.steps.len()];
+    for output in &program.outputs {
+        live[output.index()] = true;
+    }
+    for value in program.steps.ids().rev().filter(|value| value.index() < program.steps.len()) {
+        if live[value.index()] {
+            for operand in program.steps[value].operands() {
+                live[operand.index()] = true;
+            }
+        }
+    }
+    let mut renamed: Vec<Option<Value>> = vec![None; program.steps.len()];
+    let mut steps = Table::new();
+    for (value, step) in program.steps.iter_ids().filter(|(value, _)| live[value.index()]) {
+        let step = rename(step, &|old: Value| renamed[old.index()].unwrap_or(old));
+        renamed[value.index()] = Some(steps.push(step));
+    }
+    let outputs = program.outputs.iter().filter_map(|output| renamed[output.index()]).collect();
+    Program { steps, outputs }
+}
+
+fn rename(step: &Step, new: &impl Fn(Value) -> Value) -> Step {
+    let all = |list: &Vec<Value>| list.iter().map(|value| new(*value)).collect::<Vec<_>>();
+    match step {
+        Step::Constant(_) | Step::Pi | Step::Load(_) => step.clone(),
+        Step::Add(a, b) => Step::Add(new(*a), new(*b)),
+        Step::Sub(a, b) => Step::Sub(new(*a), new(*b)),
+        Step::Mul(a, b) => Step::Mul(new(*a), new(*b)),
+        Step::Div(a, b) => Step::Div(new(*a), new(*b)),
+        Step::Neg(a) => Step::Neg(new(*a)),
+        Step::Recip(a) => Step::Recip(new(*a)),
+        Step::Sqrt(a) => Step::Sqrt(new(*a)),
+        Step::Cbrt(a) => Step::Cbrt(new(*a)),
+        Step::PowReal(a, exponent) => Step::PowReal(new(*a), exponent.clone()),
+        Step::SinCos(a) => Step::SinCos(new(*a)),
+        Step::SinOf(a) => Step::SinOf(new(*a)),
+        Step::CosOf(a) => Step::CosOf(new(*a)),
+        Step::Apply(function, a) => Step::Apply(*function, new(*a)),
+        Step::Apply2(function, a, b) => Step::Apply2(*function, new(*a), new(*b)),
+        Step::Solve { matrix, right } => {
+            Step::Solve { matrix: matrix.iter().map(all).collect(), right: all(right) }
+        }
+        Step::Component(a, index) => Step::Component(new(*a), *index),
+    }
+}

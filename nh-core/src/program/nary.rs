@@ -1,0 +1,227 @@
+//! Sums and products of any number of operands, on which the search for shared work runs.
+
+use crate::algebra::{Function, Function2, Rational};
+use crate::id::{Id, SymbolId, Table};
+use rustc_hash::{FxHashMap, FxHashSet};
+
+/// An expression of the arena.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub(super) struct Term(u32);
+
+impl Id for Term {
+    fn from_index(index: usize) -> Self {
+        Self(u32::try_from(index).expect("fewer than 2^32 terms"))
+    }
+    fn index(self) -> usize {
+        self.0 as usize
+    }
+}
+
+/// What a term is made of.
+#[derive(Clone, Debug, PartialEq, Eq, Hash)]
+pub(super) enum Nary {
+    Number(Rational),
+    Pi,
+    /// A symbol; one with a definition is an opaque operand.
+    Symbol(SymbolId),
+    /// Operands ascend; the flag says that one is subtracted.
+    Sum(Vec<(Term, bool)>),
+    /// Bases ascend, exponents are not zero; after the denominators are gathered, they are positive.
+    /// A numeric coefficient is a base like any other.
+    Product(Vec<(Term, i32)>),
+    /// `numerator / denominator`, after the denominators are gathered.
+    Quotient(Term, Term),
+    /// `base^exponent` with a high exponent, after the denominators are gathered.
+    Power(Term, u32),
+    Neg(Term),
+    Recip(Term),
+    Sqrt(Term),
+    Cbrt(Term),
+    PowReal(Term, Rational),
+    Apply(Function, Term),
+    Apply2(Function2, Term, Term),
+}
+
+/// Where a symbol with a definition gets its value.
+#[derive(Clone, Copy, Debug)]
+pub(super) enum Source {
+    /// The value of a term.
+    Value(Term),
+    /// An unknown of a linear system.
+    Unknown { system: usize, component: usize },
+}
+
+/// A linear system.
+#[derive(Clone, Debug)]
+pub(super) struct System {
+    pub(super) matrix: Vec<Vec<Term>>,
+    pub(super) right: Vec<Term>,
+}
+
+/// The terms of one procedure.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Arena {
+    terms: Table<Term, Nary>,
+    known: FxHashMap<Nary, Term>,
+    pub(super) sources: FxHashMap<SymbolId, Source>,
+    pub(super) systems: Vec<System>,
+    pub(super) outputs: Vec<Term>,
+    /// Symbols that do not change while a system moves.
+    pub(super) parameters: FxHashSet<SymbolId>,
+}
+
+impl Arena {
+    pub(super) fn intern(&mut self, nary: Nary) -> Term {
+        if let Some(&term) = self.known.get(&nary) {
+            return term;
+        }
+        let term = self.terms.push(nary.clone());
+        self.known.insert(nary, term);
+        term
+    }
+
+    pub(super) fn find(&self, nary: &Nary) -> Option<Term> {
+        self.known.get(nary).copied()
+    }
+
+    pub(super) fn get(&self, term: Term) -> &Nary {
+        &self.terms[term]
+    }
+
+    pub(super) fn len(&self) -> usize {
+        self.terms.len()
+    }
+
+    /// Gives a term another form of the same value.
+    pub(super) fn rewrite(&mut self, term: Term, nary: Nary) {
+        self.known.entry(nary.clone()).or_insert(term);
+        self.terms[term] = nary;
+    }
+
+    pub(super) fn number(&mut self, value: Rational) -> Term {
+        self.intern(Nary::Number(value))
+    }
+
+    /// `Π base^exponent`; bases may repeat.
+    pub(super) fn product(&mut self, factors: Vec<(Term, i32)>) -> Term {
+        match self.product_form(factors) {
+            Nary::Product(factors) if matches!(*factors, [(_, 1)]) => factors[0].0,
+            nary => self.intern(nary),
+        }
+    }
+
+    /// The form of a product: equal bases are merged, coefficients multiplied.
+    pub(super) fn product_form(&mut self, mut factors: Vec<(Term, i32)>) -> Nary {
+        let mut coefficient = Rational::ONE;
+        factors.retain(|(base, exponent)| match self.as_number(*base) {
+            Some(value) if *exponent == 1 => {
+                coefficient = coefficient.clone() * value.clone();
+                false
+            }
+            _ => true,
+        });
+        if factors.is_empty() {
+            return Nary::Number(coefficient);
+        }
+        if !coefficient.is_one() {
+            factors.push((self.number(coefficient), 1));
+        }
+        factors.sort_unstable_by_key(|(base, _)| *base);
+        let mut merged: Vec<(Term, i32)> = Vec::with_capacity(factors.len());
+        for (base, exponent) in factors {
+            match merged.last_mut() {
+                // two powers whose exponents together overflow stay apart
+                Some((last, sum)) if *last == base && sum.checked_add(exponent).is_some() => *sum += exponent,
+                _ => merged.push((base, exponent)),
+            }
+        }
+        merged.retain(|(_, exponent)| *exponent != 0);
+        if merged.is_empty() { Nary::Number(Rational::ONE) } else { Nary::Product(merged) }
+    }
+
+    /// The sum of signed operands, at least one and all different, up to the sign in front, which is
+    /// taken out so that the first operand is added.
+    pub(super) fn sum(&mut self, mut operands: Vec<(Term, bool)>) -> (Term, bool) {
+        operands.sort_unstable();
+        let negative = operands[0].1;
+        if let [(only, _)] = *operands {
+            return (only, negative);
+        }
+        for operand in &mut operands {
+            operand.1 ^= negative;
+        }
+        (self.intern(Nary::Sum(operands)), negative)
+    }
+
+    pub(super) fn as_number(&self, term: Term) -> Option<&Rational> {
+        match self.get(term) {
+            Nary::Number(value) => Some(value),
+            _ => None,
+        }
+    }
+
+    /// What has to be computed before a term, definitions of symbols included.
+    pub(super) fn dependencies(&self, term: Term) -> Vec<Term> {
+        match self.get(term) {
+            Nary::Number(_) | Nary::Pi => Vec::new(),
+            Nary::Symbol(symbol) => match self.sources.get(symbol) {
+                None => Vec::new(),
+                Some(Source::Value(value)) => vec![*value],
+                Some(Source::Unknown { system, .. }) => {
+                    let System { matrix, right } = &self.systems[*system];
+                    matrix.iter().flatten().chain(right).copied().collect()
+                }
+            },
+            Nary::Sum(operands) => operands.iter().map(|(operand, _)| *operand).collect(),
+            Nary::Product(factors) => factors.iter().map(|(base, _)| *base).collect(),
+            Nary::Quotient(a, b) | Nary::Apply2(_, a, b) => vec![*a, *b],
+            Nary::Power(a, _)
+            | Nary::Neg(a)
+            | Nary::Recip(a)
+            | Nary::Sqrt(a)
+            | Nary::Cbrt(a)
+            | Nary::PowReal(a, _)
+            | Nary::Apply(_, a) => vec![*a],
+        }
+    }
+
+    /// Which terms the outputs depend on, and by how many others (or outputs) each is used.
+    pub(super) fn uses(&self) -> Vec<u32> {
+        let mut uses = vec![0; self.len()];
+        let mut open: Vec<Term> = Vec::new();
+        let mut visit = |list: &[Term], open: &mut Vec<Term>| {
+            for term in list {
+                uses[term.index()] += 1;
+                if uses[term.index()] == 1 {
+                    open.push(*term);
+                }
+            }
+        };
+        visit(&self.outputs, &mut open);
+        while let Some(term) = open.pop() {
+            visit(&self.dependencies(term), &mut open);
+        }
+        uses
+    }
+
+    /// `roots` and the terms that they depend on, each after its operands.
+    pub(super) fn operands_first(&self, roots: &[Term]) -> Vec<Term> {
+        let mut seen = vec![false; self.len()];
+        let mut order = Vec::new();
+        let mut open: Vec<(Term, bool)> = roots.iter().rev().map(|term| (*term, false)).collect();
+        while let Some((term, ready)) = open.pop() {
+            if ready {
+                order.push(term);
+            } else if !std::mem::replace(&mut seen[term.index()], true) {
+                open.push((term, true));
+                open.extend(self.dependencies(term).into_iter().rev().map(|operand| (operand, false)));
+            }
+        }
+        order
+    }
+
+    /// The terms in order of their ids that are used, by a count of [`Self::uses`].
+    pub(super) fn live(uses: &[u32]) -> Vec<Term> {
+        (0..uses.len()).filter(|index| uses[*index] > 0).map(Term::from_index).collect()
+    }
+}

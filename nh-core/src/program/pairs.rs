@@ -1,0 +1,211 @@
+//! Pairs of operands that several sums, or several products, share are computed once.
+//!
+//! Greedy: the pair with the most users first, then with the smallest ids. Extracting a pair that n
+//! terms use saves n − 1 operations, whatever else is extracted.
+
+use super::nary::{Arena, Nary, Term};
+use rustc_hash::FxHashMap;
+use std::cmp::Reverse;
+use std::collections::BinaryHeap;
+
+/// Which terms to search.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Kind {
+    /// The weight of an operand is its sign.
+    Sums,
+    /// The weight of an operand is its exponent, which is positive.
+    Products,
+}
+
+/// Operands of longer lists are paired with so many neighbours only, so that time stays linear.
+const WINDOW: usize = 24;
+
+/// Two operands, the smaller first, and whether their signs differ. Both are the same for a square.
+type Pair = (Term, Term, bool);
+
+/// What the heap is ordered by: most users, then most constant, then smallest.
+type Entry = (usize, Reverse<u8>, Reverse<Pair>);
+
+/// The operands of a term with their weights, in order.
+type List = Vec<(Term, i32)>;
+
+struct Search<'a> {
+    arena: &'a mut Arena,
+    kind: Kind,
+    /// The terms that are searched, with their operands.
+    lists: Vec<(Term, List)>,
+    /// The lists in which a pair has occurred, as often as it has.
+    places: FxHashMap<Pair, Vec<usize>>,
+    heap: BinaryHeap<Entry>,
+}
+
+/// Extracts shared pairs until none is left.
+pub(super) fn share_pairs(arena: &mut Arena, kind: Kind) {
+    let lists = lists(arena, kind);
+    let mut search = Search { arena, kind, lists, places: FxHashMap::default(), heap: BinaryHeap::new() };
+    for index in 0..search.lists.len() {
+        let operands = search.lists[index].1.clone();
+        for (position, first) in operands.iter().enumerate() {
+            for second in operands[position..].iter().take(WINDOW) {
+                search.note(index, *first, *second);
+            }
+        }
+    }
+    search.fill_heap();
+    while let Some((users, _, Reverse(pair))) = search.heap.pop() {
+        let places = search.places_of(pair);
+        let current = places.iter().map(|(_, times)| times).sum();
+        if current == users {
+            search.extract(pair, &places);
+        } else if current > 1 {
+            let entry = search.entry(pair, current);
+            search.heap.push(entry);
+        }
+    }
+}
+
+fn lists(arena: &Arena, kind: Kind) -> Vec<(Term, List)> {
+    let uses = arena.uses();
+    let mut lists = Vec::new();
+    for term in Arena::live(&uses) {
+        match (arena.get(term), kind) {
+            (Nary::Sum(operands), Kind::Sums) => {
+                let weight = |negative| if negative { -1 } else { 1 };
+                lists.push((term, operands.iter().map(|(o, negative)| (*o, weight(*negative))).collect()));
+            }
+            (Nary::Product(factors), Kind::Products) => lists.push((term, factors.clone())),
+            _ => {}
+        }
+    }
+    lists
+}
+
+impl Search<'_> {
+    /// Two operands of a list as a pair, and how often they form it.
+    fn pair(&self, a: (Term, i32), b: (Term, i32)) -> (Pair, usize) {
+        let ends = (a.0.min(b.0), a.0.max(b.0));
+        match self.kind {
+            Kind::Sums => ((ends.0, ends.1, a.1 != b.1), usize::from(a.0 != b.0)),
+            Kind::Products => {
+                let times = if a.0 == b.0 { a.1 / 2 } else { a.1.min(b.1) };
+                ((ends.0, ends.1, false), usize::try_from(times).unwrap_or(0))
+            }
+        }
+    }
+
+    /// Records that list `index` contains two operands; returns how often the pair occurs anywhere.
+    fn note(&mut self, index: usize, a: (Term, i32), b: (Term, i32)) -> (Pair, usize) {
+        let (pair, times) = self.pair(a, b);
+        if times == 0 {
+            return (pair, 0);
+        }
+        let places = self.places.entry(pair).or_default();
+        places.extend(std::iter::repeat_n(index, times));
+        (pair, places.len())
+    }
+
+    /// Puts all pairs with several users on the heap.
+    fn fill_heap(&mut self) {
+        let several = self.places.iter().filter(|(_, places)| places.len() > 1);
+        let entries: Vec<Entry> = several.map(|(pair, places)| self.entry(*pair, places.len())).collect();
+        self.heap = entries.into();
+    }
+
+    fn entry(&self, pair: Pair, users: usize) -> Entry {
+        let varying = u8::from(!self.is_parameter(pair.0)) + u8::from(!self.is_parameter(pair.1));
+        (users, Reverse(varying), Reverse(pair))
+    }
+
+    fn is_parameter(&self, term: Term) -> bool {
+        match self.arena.get(term) {
+            Nary::Number(_) | Nary::Pi => true,
+            Nary::Symbol(symbol) => self.arena.parameters.contains(symbol),
+            _ => false,
+        }
+    }
+
+    /// An operand of a list.
+    fn operand(&self, index: usize, operand: Term) -> Option<(Term, i32)> {
+        let operands = &self.lists[index].1;
+        let position = operands.binary_search_by_key(&operand, |(term, _)| *term).ok()?;
+        Some(operands[position])
+    }
+
+    /// The lists that contain the pair now, and how often.
+    fn places_of(&self, pair: Pair) -> Vec<(usize, usize)> {
+        let mut places = self.places.get(&pair).cloned().unwrap_or_default();
+        places.sort_unstable();
+        places.dedup();
+        let times = |index: usize| {
+            let (found, times) = self.pair(self.operand(index, pair.0)?, self.operand(index, pair.1)?);
+            (found == pair && times > 0).then_some((index, times))
+        };
+        places.into_iter().filter_map(times).collect()
+    }
+
+    /// Computes the pair once and replaces it in every list.
+    fn extract(&mut self, pair: Pair, places: &[(usize, usize)]) {
+        let (whole, sign) = self.whole(pair, places);
+        for &(index, times) in places {
+            if self.lists[index].0 == whole {
+                continue;
+            }
+            let times = i32::try_from(times).unwrap_or(1);
+            let weight = match self.kind {
+                Kind::Sums => sign * self.operand(index, pair.0).map_or(1, |(_, weight)| weight),
+                Kind::Products => times,
+            };
+            let operands = &mut self.lists[index].1;
+            match self.kind {
+                Kind::Sums => operands.retain(|(operand, _)| *operand != pair.0 && *operand != pair.1),
+                Kind::Products => {
+                    for end in [pair.0, pair.1] {
+                        operands.iter_mut().filter(|(o, _)| *o == end).for_each(|(_, e)| *e -= times);
+                    }
+                    operands.retain(|(_, exponent)| *exponent > 0);
+                }
+            }
+            let position = operands.partition_point(|(operand, _)| *operand < whole);
+            operands.insert(position, (whole, weight));
+            for other in operands.clone().into_iter().take(WINDOW) {
+                let (pair, users) = self.note(index, other, (whole, weight));
+                if users > 1 {
+                    let entry = self.entry(pair, users);
+                    self.heap.push(entry);
+                }
+            }
+            self.store(index);
+        }
+    }
+
+    /// The term that is the pair, and its sign: −1 if it is `b − a`.
+    fn whole(&mut self, (a, b, opposite): Pair, places: &[(usize, usize)]) -> (Term, i32) {
+        // a list that is nothing but the pair stays as it is, and the others use it
+        let alone = places.iter().map(|(index, _)| &self.lists[*index]).find(|(_, list)| match self.kind {
+            Kind::Sums => list.len() == 2 && list.iter().any(|(_, weight)| *weight > 0),
+            Kind::Products => list.iter().map(|(_, exponent)| exponent).sum::<i32>() == 2,
+        });
+        if let Some((term, list)) = alone {
+            return (*term, if self.kind == Kind::Sums { list[0].1 } else { 1 });
+        }
+        let nary = match self.kind {
+            Kind::Sums => Nary::Sum(vec![(a, false), (b, opposite)]),
+            Kind::Products if a == b => Nary::Product(vec![(a, 2)]),
+            Kind::Products => Nary::Product(vec![(a, 1), (b, 1)]),
+        };
+        (self.arena.intern(nary), 1)
+    }
+
+    /// Writes a list back to the arena.
+    fn store(&mut self, index: usize) {
+        let (term, operands) = &self.lists[index];
+        let nary = match (self.kind, operands.as_slice()) {
+            // equal up to the sign to what it uses
+            (Kind::Sums, [(only, -1)]) => Nary::Neg(*only),
+            (Kind::Sums, [(only, _)]) => Nary::Product(vec![(*only, 1)]),
+            (Kind::Sums, _) => Nary::Sum(operands.iter().map(|(o, weight)| (*o, *weight < 0)).collect()),
+            (Kind::Products, _) => Nary::Product(operands.clone()),
+        };
+        self.arena.rewrite(*term, nary);
+    }
+}

@@ -1,0 +1,126 @@
+//! The instructions of a straight-line program.
+
+use crate::algebra::{Function, Function2, Rational};
+use crate::id::{Id, SymbolId, Table};
+
+/// The result of a step.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub struct Value(u32);
+
+impl Id for Value {
+    fn from_index(index: usize) -> Self {
+        Self(u32::try_from(index).expect("fewer than 2^32 steps"))
+    }
+    fn index(self) -> usize {
+        self.0 as usize
+    }
+}
+
+/// One instruction. Operands are results of earlier steps.
+#[derive(Clone, Debug, PartialEq, Eq, Hash)]
+pub enum Step {
+    /// A number.
+    Constant(Rational),
+    /// The number π.
+    Pi,
+    /// The value of a coordinate, velocity, parameter, input, or the time.
+    Load(SymbolId),
+    /// The sum.
+    Add(Value, Value),
+    /// The first less the second.
+    Sub(Value, Value),
+    /// The product.
+    Mul(Value, Value),
+    /// The first over the second.
+    Div(Value, Value),
+    /// The negative.
+    Neg(Value),
+    /// One over the operand.
+    Recip(Value),
+    /// The square root.
+    Sqrt(Value),
+    /// The real cube root.
+    Cbrt(Value),
+    /// A real power with a positive exponent that is neither an integer nor a half or third of one.
+    PowReal(Value, Rational),
+    /// Sine and cosine of one angle together, to be taken apart by `SinOf` and `CosOf`.
+    SinCos(Value),
+    /// The sine out of a `SinCos`.
+    SinOf(Value),
+    /// The cosine out of a `SinCos`.
+    CosOf(Value),
+    /// A function of one argument; `Sin` or `Cos` only if the other one is not needed.
+    Apply(Function, Value),
+    /// A function of two arguments.
+    Apply2(Function2, Value, Value),
+    /// The solution of a linear system by elimination with pivoting, to be taken apart by
+    /// `Component`.
+    Solve {
+        /// The rows of the square matrix.
+        matrix: Vec<Vec<Value>>,
+        /// The right-hand side.
+        right: Vec<Value>,
+    },
+    /// One unknown of a `Solve`.
+    Component(Value, usize),
+}
+
+impl Step {
+    /// The operands in order.
+    #[must_use]
+    pub fn operands(&self) -> Vec<Value> {
+        match self {
+            Self::Constant(_) | Self::Pi | Self::Load(_) => Vec::new(),
+            Self::Add(a, b) | Self::Sub(a, b) | Self::Mul(a, b) | Self::Div(a, b) | Self::Apply2(_, a, b) => {
+                vec![*a, *b]
+            }
+            Self::Neg(a)
+            | Self::Recip(a)
+            | Self::Sqrt(a)
+            | Self::Cbrt(a)
+            | Self::PowReal(a, _)
+            | Self::SinCos(a)
+            | Self::SinOf(a)
+            | Self::CosOf(a)
+            | Self::Apply(_, a)
+            | Self::Component(a, _) => vec![*a],
+            Self::Solve { matrix, right } => matrix.iter().flatten().chain(right).copied().collect(),
+        }
+    }
+
+    /// Whether this only names a number: nothing is computed.
+    #[must_use]
+    pub fn is_leaf(&self) -> bool {
+        matches!(self, Self::Constant(_) | Self::Pi | Self::Load(_))
+    }
+}
+
+/// A function as a list of steps without branches.
+///
+/// Every operand precedes its use, no step occurs twice, and every step is needed by an output.
+#[derive(Clone, Debug, Default)]
+pub struct Program {
+    /// The steps in order of execution.
+    pub steps: Table<Value, Step>,
+    /// The results.
+    pub outputs: Vec<Value>,
+}
+
+impl Program {
+    /// How often each value is used, as an operand or an output.
+    #[must_use]
+    pub fn uses(&self) -> Table<Value, usize> {
+        let mut uses: Table<Value, usize> = self.steps.iter().map(|_| 0).collect();
+        for value in self.steps.iter().flat_map(Step::operands).chain(self.outputs.iter().copied()) {
+            uses[value] += 1;
+        }
+        uses
+    }
+
+    /// The symbols that are loaded, in the order of their first use.
+    #[must_use]
+    pub fn symbols(&self) -> Vec<SymbolId> {
+        let load = |step: &Step| if let Step::Load(symbol) = step { Some(*symbol) } else { None };
+        self.steps.iter().filter_map(load).collect()
+    }
+}

@@ -1,0 +1,294 @@
+//! A program has the value of its procedure, and the known cases cost what they should.
+
+use super::{Cost, Program, Step, interpret, schedule, schedule_grouping};
+use crate::algebra::{Function, Function2, Graph, Node, Rational};
+use crate::id::{ExprId, Id, SymbolId};
+use crate::mechanics::{Definition, Procedure};
+use proptest::prelude::*;
+use std::collections::HashMap;
+
+/// The value of a procedure, node by node.
+fn evaluate(graph: &Graph, procedure: &Procedure, symbol: impl Fn(SymbolId) -> f64) -> Vec<f64> {
+    let mut defined: HashMap<SymbolId, f64> = HashMap::new();
+    let value = |defined: &HashMap<SymbolId, f64>, root: ExprId| {
+        let mut values: HashMap<ExprId, f64> = HashMap::new();
+        for id in graph.reachable(&[root]) {
+            let result = match graph.node(id) {
+                Node::Number(number) => number.to_f64(),
+                Node::Pi => std::f64::consts::PI,
+                Node::Symbol(s) => defined.get(s).copied().unwrap_or_else(|| symbol(*s)),
+                Node::Sum { constant, terms } => {
+                    constant.to_f64() + terms.iter().map(|(t, c)| values[t] * c.to_f64()).sum::<f64>()
+                }
+                Node::Product { coefficient, factors } => {
+                    let power = |(base, e): &(ExprId, Rational)| match e.to_i64() {
+                        Some(e) => values[base].powi(i32::try_from(e).unwrap()),
+                        None => values[base].powf(e.to_f64()),
+                    };
+                    coefficient.to_f64() * factors.iter().map(power).product::<f64>()
+                }
+                Node::Apply(f, x) => super::Arithmetic::apply(&values[x], *f),
+                Node::Apply2(f, x, y) => super::Arithmetic::apply2(&values[x], *f, &values[y]),
+            };
+            values.insert(id, result);
+        }
+        values[&root]
+    };
+    for definition in &procedure.definitions {
+        if let Definition::Value { symbol, value: expression } = definition {
+            let result = value(&defined, *expression);
+            defined.insert(*symbol, result);
+        }
+    }
+    procedure.outputs.iter().map(|output| value(&defined, *output)).collect()
+}
+
+/// Instructions from which an expression is built: an operation and two earlier results.
+fn random() -> impl Strategy<Value = (Vec<(u8, usize, usize)>, Vec<f64>)> {
+    let instructions = prop::collection::vec((0u8..16, 0usize..1000, 0usize..1000), 1..60);
+    (instructions, prop::collection::vec(0.2f64..2.0, 5))
+}
+
+fn build(graph: &mut Graph, instructions: &[(u8, usize, usize)]) -> Procedure {
+    let symbols: Vec<SymbolId> = ["a", "b", "x", "y", "z"].map(|name| graph.new_symbol(name)).into();
+    let mut procedure = Procedure::default();
+    let mut pool: Vec<ExprId> = symbols.iter().map(|s| graph.symbol(*s)).collect();
+    for (operation, i, j) in instructions {
+        let (x, y) = (pool[i % pool.len()], pool[j % pool.len()]);
+        let coefficient = Rational::new(i64::try_from(i % 7).unwrap() - 3, 1 + i64::try_from(j % 3).unwrap());
+        let result = match operation {
+            0..=2 => graph.add(x, y),
+            3 => graph.sub(x, y),
+            4..=6 => graph.mul(x, y),
+            7 => graph.linear_combination(&[(coefficient.clone(), x), (-coefficient, y)]),
+            8 => graph.sin(x),
+            9 => graph.cos(x),
+            10 => {
+                let (square, one) = (graph.square(y), graph.one());
+                let positive = graph.add(square, one);
+                graph.div(x, positive)
+            }
+            11 => graph.square(x),
+            12 => {
+                let (square, one) = (graph.square(x), graph.one());
+                let positive = graph.add(square, one);
+                graph.pow(positive, Rational::new(i64::try_from(j % 9).unwrap() - 4, 2))
+            }
+            13 => graph.apply(Function::Tanh, x),
+            14 => graph.apply2(Function2::Atan2, x, y),
+            _ => procedure.define(graph, "d", x),
+        };
+        pool.push(result);
+    }
+    procedure.outputs = pool.iter().rev().take(4).copied().collect();
+    procedure
+}
+
+fn assert_well_formed(program: &Program) {
+    let uses = program.uses();
+    for (value, step) in program.steps.iter_ids() {
+        assert!(step.operands().iter().all(|operand| *operand < value), "operands come first");
+        assert!(uses[value] > 0, "no dead step {value:?}: {step:?}");
+    }
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(400))]
+
+    #[test]
+    fn a_program_has_the_value_of_its_procedure((instructions, values) in random()) {
+        let mut graph = Graph::new();
+        let procedure = build(&mut graph, &instructions);
+        let program = schedule_grouping(&graph, &procedure, &[SymbolId::from_index(0)]);
+        assert_well_formed(&program);
+        let symbol = |s: SymbolId| values[s.index()];
+        let expected = evaluate(&graph, &procedure, symbol);
+        let found = interpret(&program, symbol);
+        prop_assert_eq!(found.len(), expected.len());
+        let size = expected.iter().fold(1.0f64, |m, v| m.max(v.abs()));
+        for (found, expected) in found.iter().zip(&expected) {
+            prop_assume!(expected.is_finite() && size < 1e12);
+            prop_assert!((found - expected).abs() <= 1e-6 * size, "{} for {}", found, expected);
+        }
+    }
+}
+
+/// A graph with symbols, and an expression parser small enough for tests.
+fn symbols<const N: usize>(graph: &mut Graph, names: [&str; N]) -> [ExprId; N] {
+    names.map(|name| {
+        let symbol = graph.new_symbol(name);
+        graph.symbol(symbol)
+    })
+}
+
+fn cost(graph: &Graph, outputs: &[ExprId]) -> Cost {
+    let program = schedule(graph, &Procedure::of(outputs.to_vec()));
+    assert_well_formed(&program);
+    Cost::of(&program)
+}
+
+fn count(additions: usize, multiplications: usize, divisions: usize) -> Cost {
+    Cost { additions, multiplications, divisions, ..Cost::default() }
+}
+
+#[test]
+fn the_kinetic_energy_is_factored() {
+    let mut g = Graph::new();
+    let [m, v1, v2, v3] = symbols(&mut g, ["m", "v1", "v2", "v3"]);
+    let squares = [v1, v2, v3].map(|v| g.square(v));
+    let terms = squares.map(|s| g.mul(m, s));
+    let sum = g.sum(&terms);
+    let energy = g.scale(Rational::new(1, 2), sum);
+    // m/2 (v1² + v2² + v3²)
+    assert_eq!(cost(&g, &[energy]), count(2, 5, 0));
+}
+
+#[test]
+fn a_polynomial_takes_horners_form() {
+    let mut g = Graph::new();
+    let [x, a, b, c, d] = symbols(&mut g, ["x", "a", "b", "c", "d"]);
+    let mut sum = d;
+    for (power, coefficient) in [(1, c), (2, b), (3, a)] {
+        let power = g.pow(x, Rational::from(power));
+        let term = g.mul(coefficient, power);
+        sum = g.add(sum, term);
+    }
+    assert_eq!(cost(&g, &[sum]), count(3, 3, 0));
+}
+
+#[test]
+fn powers_share_their_chain() {
+    let mut g = Graph::new();
+    let [x] = symbols(&mut g, ["x"]);
+    let powers = [2, 3, 4].map(|n| g.pow(x, Rational::from(n)));
+    assert_eq!(cost(&g, &powers), count(0, 3, 0));
+    let inverse = g.pow(x, Rational::from(-3));
+    assert_eq!(cost(&g, &[inverse]), count(0, 2, 1));
+}
+
+#[test]
+fn one_reciprocal_per_shared_denominator() {
+    let mut g = Graph::new();
+    let [a, b, c, x, y] = symbols(&mut g, ["a", "b", "c", "x", "y"]);
+    let denominator = g.add(x, y);
+    let quotients = [a, b, c].map(|n| g.div(n, denominator));
+    assert_eq!(cost(&g, &quotients), count(1, 3, 1));
+    let lone = g.div(a, denominator);
+    assert_eq!(cost(&g, &[lone]), count(1, 0, 1));
+    let xy = g.mul(x, y);
+    let nested = g.div(a, xy);
+    assert_eq!(cost(&g, &[nested]), count(0, 1, 1));
+    let both = [a, b].map(|n| g.div(n, xy));
+    assert_eq!(cost(&g, &both), count(0, 3, 1));
+}
+
+#[test]
+fn halves_of_powers_are_roots() {
+    let mut g = Graph::new();
+    let [x] = symbols(&mut g, ["x"]);
+    let powers = [1, 3, -1].map(|n| g.pow(x, Rational::new(n, 2)));
+    let expected = Cost { multiplications: 1, divisions: 1, square_roots: 1, ..Cost::default() };
+    assert_eq!(cost(&g, &powers), expected);
+}
+
+#[test]
+fn differences_share_up_to_the_sign() {
+    let mut g = Graph::new();
+    let [x, y, z, w] = symbols(&mut g, ["x", "y", "z", "w"]);
+    let a = g.sum(&[x, y, z]);
+    let negative = g.neg(y);
+    let (nx, nz) = (g.neg(x), g.neg(z));
+    let b = g.sum(&[w, nx, negative, nz]);
+    // w − (x + y + z)
+    assert_eq!(cost(&g, &[a, b]), count(3, 0, 0));
+    let (d, e) = (g.sub(x, y), g.sub(y, x));
+    assert_eq!(cost(&g, &[d, e]), count(2, 0, 0));
+}
+
+#[test]
+fn sine_and_cosine_of_one_angle_come_together() {
+    let mut g = Graph::new();
+    let [x] = symbols(&mut g, ["x"]);
+    let both = [g.sin(x), g.cos(x)];
+    let program = schedule(&g, &Procedure::of(both.to_vec()));
+    assert_eq!(program.steps.iter().filter(|s| matches!(s, Step::SinCos(_))).count(), 1);
+    let alone = schedule(&g, &Procedure::of(vec![both[0]]));
+    assert!(alone.steps.iter().any(|s| matches!(s, Step::Apply(Function::Sin, _))));
+}
+
+#[test]
+fn parameters_meet_first() {
+    let mut g = Graph::new();
+    let [x, m, y, l] = symbols(&mut g, ["x", "m", "y", "l"]);
+    let product = g.product(&[x, m, y, l].map(|f| (f, Rational::ONE)));
+    let parameters: Vec<_> = [m, l].iter().filter_map(|id| g.as_symbol(*id)).collect();
+    let program = schedule_grouping(&g, &Procedure::of(vec![product]), &parameters);
+    let first = program.steps.iter().find(|step| matches!(step, Step::Mul(..))).unwrap();
+    let loads = first.operands().into_iter().map(|v| program.steps[v].clone()).collect::<Vec<_>>();
+    assert_eq!(loads, parameters.iter().map(|s| Step::Load(*s)).collect::<Vec<_>>());
+}
+
+/// The Chaplygin sleigh, CLMM section 6.1.
+#[test]
+fn the_sleigh_is_as_cheap_as_by_hand() {
+    let mut g = Graph::new();
+    let [m, j, a, theta, omega, v] = symbols(&mut g, ["m", "J", "a", "theta", "omega", "v"]);
+    let (sin, cos) = (g.sin(theta), g.cos(theta));
+    let (dx, dy) = (g.mul(v, cos), g.mul(v, sin));
+    let aa = g.square(a);
+    let maa = g.mul(m, aa);
+    let inertia = g.add(j, maa);
+    let numerator = g.product(&[m, a, omega, v].map(|f| (f, Rational::ONE)));
+    let quotient = g.div(numerator, inertia);
+    let (domega, omega2) = (g.neg(quotient), g.square(omega));
+    let dv = g.mul(a, omega2);
+    let cost = cost(&g, &[omega, dx, dy, domega, dv]);
+    // J + (m a) a; −((m a) (ω v)) / …; a ω²
+    assert_eq!(cost, Cost { additions: 2, multiplications: 8, divisions: 1, sin_cos: 1, ..Cost::default() });
+}
+
+#[test]
+fn definitions_and_linear_systems_are_computed_once() {
+    let mut g = Graph::new();
+    let [x, y] = symbols(&mut g, ["x", "y"]);
+    let mut procedure = Procedure::default();
+    let sum = g.add(x, y);
+    let s = procedure.define(&mut g, "s", sum);
+    let square = g.square(s);
+    let (two, one) = (g.number(2), g.one());
+    let unknowns = vec![g.new_symbol("p"), g.new_symbol("q")];
+    let (p, q) = (g.symbol(unknowns[0]), g.symbol(unknowns[1]));
+    let matrix = vec![vec![two, one], vec![one, two]];
+    procedure.definitions.push(Definition::Solve { unknowns, matrix, right: vec![x, y] });
+    procedure.outputs = vec![square, p, q];
+    let program = schedule(&g, &procedure);
+    assert_well_formed(&program);
+    assert_eq!(program.steps.iter().filter(|s| matches!(s, Step::Solve { .. })).count(), 1);
+    let found = interpret(&program, |symbol| if symbol.index() == 0 { 4.0 } else { 5.0 });
+    for (found, expected) in found.iter().zip([81.0, 1.0, 2.0]) {
+        assert!((found - expected).abs() < 1e-14);
+    }
+}
+
+#[test]
+fn large_procedures_schedule_in_linear_time() {
+    let mut g = Graph::new();
+    let names: Vec<String> = (0..300).map(|i| format!("x{i}")).collect();
+    let x: Vec<ExprId> = names
+        .iter()
+        .map(|name| {
+            let symbol = g.new_symbol(name.clone());
+            g.symbol(symbol)
+        })
+        .collect();
+    let mut outputs = Vec::new();
+    for i in 0..300 {
+        let products: Vec<ExprId> =
+            (0..12).map(|k| g.mul(x[(i + k) % 300], x[(i * 7 + k * k) % 300])).collect();
+        outputs.push(g.sum(&products));
+    }
+    let start = std::time::Instant::now();
+    let program = schedule(&g, &Procedure::of(outputs));
+    assert!(start.elapsed().as_secs() < 10, "{:?}", start.elapsed());
+    assert_well_formed(&program);
+}
