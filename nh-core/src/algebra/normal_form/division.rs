@@ -57,7 +57,11 @@ impl Reader<'_> {
     }
 
     fn has_trigonometric_denominator(&self, polynomial: &Polynomial) -> bool {
-        polynomial.0.keys().flat_map(|monomial| &monomial.0).any(|factor| self.is_trigonometric_denominator(factor))
+        polynomial
+            .0
+            .keys()
+            .flat_map(|monomial| &monomial.0)
+            .any(|factor| self.is_trigonometric_denominator(factor))
     }
 
     fn is_trigonometric_denominator(&self, factor: &Factor) -> bool {
@@ -109,7 +113,11 @@ impl Reader<'_> {
 
     /// The quotient with the squares of cosines or of sines eliminated, whichever is exact.
     /// The outer option is the budget.
-    fn quotient_of_either_form(&mut self, above: &Polynomial, below: &Polynomial) -> Option<Option<Polynomial>> {
+    fn quotient_of_either_form(
+        &mut self,
+        above: &Polynomial,
+        below: &Polynomial,
+    ) -> Option<Option<Polynomial>> {
         if let Some(quotient) = self.quotient(above, below) {
             return Some(Some(quotient));
         }

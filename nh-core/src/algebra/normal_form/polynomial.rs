@@ -162,9 +162,7 @@ impl Monomial {
 
     /// Every exponent multiplied.
     pub(super) fn power(&self, exponent: Exponent) -> Option<Self> {
-        let scaled = |factor: &Factor| {
-            Some(Factor { exponent: factor.exponent.times(exponent)?, ..*factor })
-        };
+        let scaled = |factor: &Factor| Some(Factor { exponent: factor.exponent.times(exponent)?, ..*factor });
         self.0.iter().map(scaled).collect::<Option<Vec<_>>>().map(Self)
     }
 

@@ -139,9 +139,7 @@ impl<'g> Reader<'g> {
         match self.graph.node(value).clone() {
             Node::Number(number) => Some(Polynomial::constant(number)),
             Node::Apply(..) | Node::Apply2(..) | Node::Symbol(_) | Node::Pi => Some(plain(value)),
-            Node::Product { coefficient, factors }
-                if factors.len() == 1 && factors[0].1.is_one() =>
-            {
+            Node::Product { coefficient, factors } if factors.len() == 1 && factors[0].1.is_one() => {
                 Some(Polynomial::term(Monomial::of(factors[0].0, Kind::Plain, Exponent::ONE), coefficient))
             }
             _ if self.depth < DEPTH => {
@@ -195,9 +193,7 @@ impl<'g> Reader<'g> {
             let rest = Polynomial::term(Monomial::of(factor.atom, factor.kind, rest), Rational::ONE);
             let power = match factor.kind {
                 Kind::Plain => return None,
-                Kind::Number => {
-                    Polynomial::constant(self.graph.as_number(factor.atom)?.pow(whole.into())?)
-                }
+                Kind::Number => Polynomial::constant(self.graph.as_number(factor.atom)?.pow(whole.into())?),
                 Kind::Product | Kind::Sum => {
                     let base = self.composites.get(&factor.atom)?.clone();
                     self.power(&base, Exponent::whole(whole))?
@@ -312,11 +308,11 @@ impl<'g> Reader<'g> {
         let numerator = self.multiply(&base, &inverse)?;
         let numerator = self.reduce(&numerator)?;
         let (_, leading) = numerator.leading()?;
-        let content =
-            if leading.is_negative() { -numerator.content() } else { numerator.content() };
+        let content = if leading.is_negative() { -numerator.content() } else { numerator.content() };
         let mut product = self.power_of_monomial(&common, &content, exponent)?;
         let mut rest = numerator.scaled(&content.recip()?);
-        let known: Vec<_> = self.composites.iter().take(FACTORS_TRIED).map(|(a, p)| (*a, p.clone())).collect();
+        let known: Vec<_> =
+            self.composites.iter().take(FACTORS_TRIED).map(|(a, p)| (*a, p.clone())).collect();
         for (atom, meaning) in known {
             while rest.len() > 1 && meaning.len() > 1 && meaning.len() <= rest.len() {
                 let Some(quotient) = self.quotient(&rest, &meaning) else { break };

@@ -102,8 +102,7 @@ impl Reader<'_> {
             _ => (coefficient.clone(), 1),
         };
         let angle = self.graph.scale(part, term);
-        let names =
-            if circular { [Function::Cos, Function::Sin] } else { [Function::Cosh, Function::Sinh] };
+        let names = if circular { [Function::Cos, Function::Sin] } else { [Function::Cosh, Function::Sinh] };
         let [cos, sin] = names.map(|name| self.graph.apply(name, angle));
         let base = (self.read_value(cos)?, self.read_value(sin)?);
         let mut turned = base.clone();
@@ -179,10 +178,7 @@ impl Reader<'_> {
     /// Leaves at most first powers of the cosine (or else the sine) of an angle.
     fn eliminate(&mut self, polynomial: &Polynomial, angle: Angle, cosine: bool) -> Option<Polynomial> {
         let (gone, kept) = if cosine { (angle.cos, angle.sin) } else { (angle.sin, angle.cos) };
-        let mut square = Polynomial::term(
-            Monomial::of(kept, Kind::Plain, Exponent::whole(2)),
-            angle.sign(),
-        );
+        let mut square = Polynomial::term(Monomial::of(kept, Kind::Plain, Exponent::whole(2)), angle.sign());
         square.add_term(Monomial::default(), if cosine { Rational::ONE } else { -angle.sign() });
         let mut result = Polynomial::default();
         for (monomial, coefficient) in &polynomial.0 {

@@ -1,0 +1,107 @@
+//! What an expression costs to evaluate, roughly.
+
+use crate::algebra::graph::{Function, Function2, Graph, Node};
+use crate::algebra::number::Rational;
+use crate::id::ExprId;
+use rustc_hash::FxHashSet;
+
+const DIVISION: u64 = 5;
+const ROOT: u64 = 6;
+const FUNCTION: u64 = 20;
+
+impl Graph {
+    /// The weighted number of distinct operations in `roots`, in units of one addition or
+    /// multiplication.
+    ///
+    /// A sum costs its terms less one and its coefficients, a product its factors less one, a
+    /// power its chain of multiplications, a root 6, all denominators of a product together one
+    /// division for 5, a function 20 – sine and cosine of one angle together once. Whatever
+    /// occurs several times counts once.
+    #[must_use]
+    pub fn operation_count(&self, roots: &[ExprId]) -> u64 {
+        self.operation_count_within(roots, usize::MAX).unwrap_or(u64::MAX)
+    }
+
+    /// The cost, if there are at most `limit` distinct expressions.
+    pub(super) fn operation_count_within(&self, roots: &[ExprId], limit: usize) -> Option<u64> {
+        let mut tally = Tally::default();
+        let mut seen: FxHashSet<ExprId> = FxHashSet::default();
+        let mut open = roots.to_vec();
+        while let Some(id) = open.pop() {
+            if seen.insert(id) {
+                if seen.len() > limit {
+                    return None;
+                }
+                tally.count(self.node(id));
+                open.extend(self.node(id).operands());
+            }
+        }
+        Some(tally.cost)
+    }
+}
+
+#[derive(Default)]
+struct Tally {
+    cost: u64,
+    powers: FxHashSet<(ExprId, Rational)>,
+    angles: FxHashSet<(bool, ExprId)>,
+}
+
+impl Tally {
+    fn count(&mut self, node: &Node) {
+        match node {
+            Node::Number(_) | Node::Pi | Node::Symbol(_) => {}
+            Node::Sum { constant, terms } => {
+                self.cost += count(terms.len()) - 1 + u64::from(!constant.is_zero());
+                self.cost += count(terms.iter().filter(|(_, c)| !is_unit(c)).count());
+            }
+            Node::Product { coefficient, factors } => {
+                let divided = factors.iter().any(|(_, exponent)| exponent.is_negative());
+                let (above, below): (Vec<_>, Vec<_>) =
+                    factors.iter().partition(|(_, exponent)| !exponent.is_negative());
+                let above = count(above.len()) + u64::from(!is_unit(coefficient));
+                self.cost += above.saturating_sub(1) + count(below.len()).saturating_sub(1);
+                self.cost += if divided { DIVISION } else { 0 };
+                for (base, exponent) in factors {
+                    let exponent = exponent.abs();
+                    if !exponent.is_one() && self.powers.insert((*base, exponent.clone())) {
+                        self.cost += power(&exponent);
+                    }
+                }
+            }
+            Node::Apply(Function::Abs | Function::Sign, _)
+            | Node::Apply2(Function2::Min | Function2::Max, ..) => self.cost += 1,
+            Node::Apply(Function::Sin | Function::Cos, x) => self.angle(true, *x),
+            Node::Apply(Function::Sinh | Function::Cosh, x) => self.angle(false, *x),
+            Node::Apply(..) | Node::Apply2(..) => self.cost += FUNCTION,
+        }
+    }
+
+    fn angle(&mut self, circular: bool, x: ExprId) {
+        if self.angles.insert((circular, x)) {
+            self.cost += FUNCTION;
+        }
+    }
+}
+
+fn is_unit(coefficient: &Rational) -> bool {
+    coefficient.is_one() || *coefficient == Rational::MINUS_ONE
+}
+
+fn power(exponent: &Rational) -> u64 {
+    match exponent.to_small() {
+        Some((n, 1)) => chain(n),
+        Some((n, 2)) => ROOT + chain(n),
+        _ => FUNCTION,
+    }
+}
+
+/// Multiplications of a binary chain.
+fn chain(n: i64) -> u64 {
+    let n = n.unsigned_abs().max(1);
+    u64::from(n.ilog2()) + u64::from(n.count_ones()) - 1
+}
+
+fn count(n: usize) -> u64 {
+    u64::try_from(n).unwrap_or(u64::MAX / 4)
+}

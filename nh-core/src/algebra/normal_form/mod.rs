@@ -1,0 +1,220 @@
+//! Normal forms, and simplification by them.
+//!
+//! An expression is read as a Laurent polynomial over atoms (`reader.rs`), angles by the addition
+//! theorems (`trigonometry.rs`), denominators are cancelled (`division.rs`), and the polynomial is
+//! written back (`rebuild.rs`). Identities beyond those of construction:
+//!
+//! | identity | condition |
+//! |---|---|
+//! | `a (b + c) = ab + ac` | – |
+//! | addition theorems of `sin`, `cos`, `sinh`, `cosh`, `exp` | – |
+//! | `cos² + sin² = 1`, `cosh² − sinh² = 1` | – |
+//! | `(xa + xb)^n = x^n (a + b)^n`, `(a/x + b)^−1 = x (a + bx)^−1` | `n` an integer; only removes divisions |
+//! | `PQ / Q = P` | an exact division of polynomials; only removes a division |
+//! | `a/p + b/q = (aq + bp) / (pq)` | both were divisors before |
+//! | `√(ab) = √a √b` | positive numbers |
+//!
+//! What exceeds the budget is left as it is: nothing here grows without bound.
+
+mod cost;
+mod division;
+mod polynomial;
+mod reader;
+mod rebuild;
+mod trigonometry;
+
+use super::graph::Function::{Cos, Cosh, Exp, Sin, Sinh};
+use super::graph::{Graph, Node};
+use crate::id::ExprId;
+use reader::{Reader, Style};
+use rustc_hash::FxHashMap;
+
+/// Most monomials that a normal form, or a polynomial on the way to it, may have.
+const MONOMIALS: usize = 2000;
+/// Most multiplications of monomials for one normal form.
+const WORK: usize = 40_000;
+/// Most multiplications of monomials for one attempt at simplification.
+const ATTEMPT: usize = 4000;
+/// Most multiplications of monomials for all subexpressions of one simplification.
+const SUBEXPRESSIONS: usize = 30_000;
+/// Expressions made of more distinct ones are not attempted as a whole.
+const CONE: usize = 1500;
+/// Times that the common denominators of angles may grow.
+const ROUNDS: usize = 3;
+
+const CANONICAL: Style = Style { expand: true, angles: true, canonical: true };
+
+/// The forms among which simplification chooses, besides the canonical one.
+const STYLES: [Style; 3] = [
+    Style { expand: false, angles: false, canonical: false },
+    Style { expand: true, angles: false, canonical: false },
+    CANONICAL,
+];
+
+impl Graph {
+    /// The canonical form: equal rational functions of the same symbols, angles, exponentials and
+    /// roots mostly become the same expression. `None` beyond the budget, and for expressions
+    /// that divide by zero.
+    pub fn normal_form(&mut self, e: ExprId) -> Option<ExprId> {
+        let (canonical, _) = self.forms(e, CANONICAL, WORK).0?;
+        Some(canonical)
+    }
+
+    /// An equal expression that costs at most as much ([`Graph::operation_count`]).
+    pub fn simplify(&mut self, e: ExprId) -> ExprId {
+        Simplifier::new().apply(self, e)
+    }
+
+    /// The expression in a style, in canonical and in factored form, and the work it took.
+    fn forms(&mut self, e: ExprId, style: Style, work: usize) -> (Option<(ExprId, ExprId)>, usize) {
+        let mut reader = Reader::new(self, style, work, MONOMIALS);
+        let mut forms = None;
+        for _ in 0..ROUNDS {
+            reader.restart();
+            let polynomial = reader.read(e).and_then(|polynomial| reader.tidy(&polynomial));
+            let Some(polynomial) = polynomial else { return (None, work - reader.work) };
+            forms = Some((reader.expression(&polynomial), reader.factored(&polynomial)));
+            if !reader.stale {
+                break;
+            }
+        }
+        (forms, work - reader.work)
+    }
+}
+
+/// Simplifies expressions and remembers what became of them.
+#[derive(Clone, Debug, Default)]
+pub struct Simplifier {
+    known: FxHashMap<ExprId, Image>,
+}
+
+/// What became of an expression, and what could be simplified in anything that contains it.
+#[derive(Clone, Copy, Debug)]
+struct Image {
+    id: ExprId,
+    has_sum: bool,
+    has_angle: bool,
+}
+
+impl Simplifier {
+    /// A simplifier that knows nothing yet.
+    #[must_use]
+    pub fn new() -> Self {
+        Self::default()
+    }
+
+    /// An equal expression that costs at most as much, its subexpressions simplified first.
+    pub fn apply(&mut self, graph: &mut Graph, e: ExprId) -> ExprId {
+        if let Some(image) = self.known.get(&e) {
+            return image.id;
+        }
+        let mut work = SUBEXPRESSIONS;
+        let mut open = vec![e];
+        while let Some(&id) = open.last() {
+            if self.known.contains_key(&id) {
+                open.pop();
+                continue;
+            }
+            let before = open.len();
+            open.extend(graph.node(id).operands().filter(|operand| !self.known.contains_key(operand)));
+            if open.len() == before {
+                let image = self.of_node(graph, id, id == e, &mut work);
+                self.known.insert(id, image);
+            }
+        }
+        let image = self.known[&e].id;
+        // the parts became cheaper one by one; the whole may have lost what they shared
+        if image != e && graph.operation_count(&[image]) > graph.operation_count(&[e]) {
+            self.known.entry(e).and_modify(|image| image.id = e);
+        }
+        self.known[&e].id
+    }
+
+    /// A node whose operands are simplified.
+    fn of_node(&self, graph: &mut Graph, id: ExprId, is_root: bool, work: &mut usize) -> Image {
+        let node = graph.node(id).clone();
+        let mut image = Image { id, has_sum: false, has_angle: false };
+        for operand in node.operands() {
+            image.has_sum |= self.known[&operand].has_sum;
+            image.has_angle |= self.known[&operand].has_angle;
+        }
+        let rebuilt = self.rebuilt(graph, id, &node);
+        let is_sum = matches!(node, Node::Sum { .. });
+        let attempted = (is_sum || (is_root && matches!(node, Node::Product { .. })))
+            && (image.has_sum || image.has_angle);
+        if attempted || rebuilt != id {
+            let budget = if is_root { (*work).max(2 * ATTEMPT) } else { *work };
+            let styles: &[Style] = match (attempted, image.has_angle) {
+                (false, _) => &[],
+                (true, false) => &STYLES[..2],
+                (true, true) => &STYLES,
+            };
+            let (cheapest, spent) = cheapest(graph, id, rebuilt, styles, budget);
+            *work = work.saturating_sub(spent);
+            image.id = cheapest;
+        }
+        image.has_sum |= is_sum;
+        image.has_angle |= matches!(node, Node::Apply(Sin | Cos | Sinh | Cosh | Exp, _));
+        image
+    }
+
+    fn rebuilt(&self, graph: &mut Graph, id: ExprId, node: &Node) -> ExprId {
+        if node.operands().all(|operand| self.known[&operand].id == operand) {
+            return id;
+        }
+        match node {
+            Node::Number(_) | Node::Pi | Node::Symbol(_) => id,
+            Node::Sum { constant, terms } => {
+                let one = graph.one();
+                let mut summands: Vec<_> =
+                    terms.iter().map(|(term, c)| (c.clone(), self.known[term].id)).collect();
+                summands.push((constant.clone(), one));
+                graph.linear_combination(&summands)
+            }
+            Node::Product { coefficient, factors } => {
+                let factors: Vec<_> =
+                    factors.iter().map(|(base, e)| (self.known[base].id, e.clone())).collect();
+                let product = graph.product(&factors);
+                graph.scale(coefficient.clone(), product)
+            }
+            Node::Apply(function, x) => graph.apply(*function, self.known[x].id),
+            Node::Apply2(function, x, y) => graph.apply2(*function, self.known[x].id, self.known[y].id),
+        }
+    }
+}
+
+/// The cheapest among an expression, the same with simplified operands, and the forms of the
+/// latter in the given styles; and the work it took.
+fn cheapest(
+    graph: &mut Graph,
+    id: ExprId,
+    rebuilt: ExprId,
+    styles: &[Style],
+    work: usize,
+) -> (ExprId, usize) {
+    let cone = CONE.min(work);
+    let Some(mut cost) = graph.operation_count_within(&[id], cone) else { return (rebuilt, cone) };
+    let (mut best, mut spent) = (id, 0);
+    let mut consider = |graph: &Graph, candidate: ExprId| {
+        if candidate != best
+            && let Some(candidate_cost) = graph.operation_count_within(&[candidate], cone)
+            && candidate_cost < cost
+        {
+            (best, cost) = (candidate, candidate_cost);
+        }
+    };
+    consider(graph, rebuilt);
+    for style in styles {
+        let left = work.saturating_sub(spent).min(ATTEMPT);
+        let (forms, taken) = graph.forms(rebuilt, *style, left);
+        spent += taken;
+        if let Some((expression, factored)) = forms {
+            consider(graph, expression);
+            consider(graph, factored);
+        }
+    }
+    (best, spent + usize::try_from(cost).unwrap_or(cone))
+}
+
+#[cfg(test)]
+mod tests;
