@@ -66,8 +66,3 @@ elementary! { single, f32;
     ln(x) = ln, logf;
     powf(x, y) = powf, powf;
 }
-
-/// Whether a multiplication and an addition fuse into one instruction on this target. Elsewhere a
-/// correctly rounded `mul_add` is a slow function call.
-pub(crate) const FUSED: bool =
-    cfg!(feature = "std") && (cfg!(target_feature = "fma") || cfg!(target_arch = "aarch64"));

@@ -82,6 +82,9 @@ pub use integrator::{Integrator, Statistics};
 pub use methods::{Dopri5, Euler, ImplicitMidpoint, Method, Rk4};
 pub use scalar::{Real, Scalar};
 
+#[cfg(feature = "macros")]
+pub use nh_macros::nonholonomic;
+
 /// What generated code names. Not part of the public interface: it may change in any release.
 #[doc(hidden)]
 pub mod __private {

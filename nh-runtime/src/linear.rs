@@ -18,6 +18,7 @@ fn scale<T: Scalar>(row: &[T]) -> T {
 /// Works lane by lane: there is no branch on a number.
 #[inline]
 #[must_use]
+#[allow(clippy::needless_range_loop)] // the indices of the formulas, all below N
 pub fn solve_pivoted<T: Scalar, const N: usize>(mut a: [[T; N]; N], mut b: [T; N]) -> [T; N] {
     let mut scales = [T::ZERO; N];
     for (s, row) in scales.iter_mut().zip(&a) {

@@ -4,3 +4,6 @@ pub use crate::{
     Constrained, Dopri5, Dynamics, Energy, Euler, ImplicitMidpoint, IntegrationError, Integrator, Jacobian,
     Observed, ParameterError, Real, Rk4, Scalar, State, Statistics,
 };
+
+#[cfg(feature = "macros")]
+pub use nh_macros::nonholonomic;

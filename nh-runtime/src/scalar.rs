@@ -3,7 +3,7 @@
 use core::fmt::Debug;
 use core::ops::{Add, AddAssign, Div, Mul, MulAssign, Neg, Sub, SubAssign};
 
-use crate::elementary::{self, FUSED};
+use crate::elementary;
 
 /// A number: `f32`, `f64`, a pack of lanes of them, or a user's newtype with its own `sin_cos`.
 ///
@@ -216,11 +216,15 @@ macro_rules! primitive {
             }
             #[inline]
             fn mul_add(self, factor: Self, summand: Self) -> Self {
-                #[cfg(feature = "std")]
-                if FUSED {
-                    return $float::mul_add(self, factor, summand);
+                // elsewhere a correctly rounded one is a slow function call
+                #[cfg(all(feature = "std", any(target_feature = "fma", target_arch = "aarch64")))]
+                {
+                    $float::mul_add(self, factor, summand)
                 }
-                self * factor + summand
+                #[cfg(not(all(feature = "std", any(target_feature = "fma", target_arch = "aarch64"))))]
+                {
+                    self * factor + summand
+                }
             }
             #[inline]
             fn is_finite(self) -> bool {
@@ -271,6 +275,7 @@ primitive!(f64, double, 1e-6);
 primitive!(f32, single, 1e-4);
 
 #[cfg(test)]
+#[allow(clippy::float_cmp)] // exact values are meant
 mod tests {
     use super::*;
 

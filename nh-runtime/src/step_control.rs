@@ -86,7 +86,7 @@ impl<T: Real> StepControl<T> {
     }
 
     /// The length of the step after an accepted one, after (4.13) with the PI term of section IV.2:
-    /// h · 0.9 · err^(−1/q + 3β/4) · err_old^β. `order` is q: one more than that of the estimate.
+    /// `h · 0.9 · err^(−1/q + 3β/4) · err_old^β`. `order` is q: one more than that of the estimate.
     #[inline]
     pub(crate) fn after_success(&self, h: T, error: T, preceding: T, order: u32) -> T {
         let beta = T::from_f64(BETA);
@@ -132,6 +132,7 @@ impl<T: Real> StepControl<T> {
 }
 
 #[cfg(test)]
+#[allow(clippy::float_cmp)] // exact values are meant
 mod tests {
     use super::*;
 

@@ -146,7 +146,7 @@ where
             return Ok(Arrival { time: leg.time, state: S::State::from_array(attempt.state) });
         }
         statistics.rejected += 1;
-        if length <= shortest {
+        if h <= shortest {
             return Err(refusal(method, start, leg.length, &attempt));
         }
         rejected = true;

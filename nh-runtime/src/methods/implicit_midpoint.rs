@@ -81,18 +81,17 @@ impl<T: Real> ImplicitMidpoint<T> {
         loop {
             let slope = start.derivative_at(middle, displaced(&x, T::ONE, &half_increment));
             statistics.evaluations += 1;
-            let factors = match newton {
-                Some(newton) => newton,
-                None => {
-                    let point = displaced(&x, T::ONE, &half_increment);
-                    *newton.insert(Newton::new(start, half, point, &slope, statistics))
-                }
+            let current = if let Some(newton) = newton {
+                newton
+            } else {
+                let point = displaced(&x, T::ONE, &half_increment);
+                *newton.insert(Newton::new(start, half, &point, &slope, statistics))
             };
             let mut defect = slope;
             for (r, d) in defect.as_mut().iter_mut().zip(half_increment.as_ref()) {
                 *r = half * *r - *d;
             }
-            let correction = factors.factors.solve(&defect);
+            let correction = current.factors.solve(&defect);
             half_increment = displaced(&half_increment, T::ONE, &correction);
             iterations += 1;
             statistics.iterations += 1;
@@ -193,7 +192,7 @@ where
     fn new(
         start: &Start<'_, S>,
         half: ScalarOf<S>,
-        point: VecOf<S>,
+        point: &VecOf<S>,
         slope: &VecOf<S>,
         statistics: &mut Statistics,
     ) -> Self {
@@ -203,9 +202,9 @@ where
             // the increment of the code RADAU5 (Hairer, Wanner II, section IV.8)
             let least = ScalarOf::<S>::from_f64(1e-5);
             let delta = (ScalarOf::<S>::EPSILON * x.abs().max(least)).sqrt();
-            let mut ahead = quotient(start, half, &point, slope, j, delta);
+            let mut ahead = quotient(start, half, point, slope, j, delta);
             if !all_finite::<ScalarOf<S>, _>(&ahead) {
-                ahead = quotient(start, half, &point, slope, j, -delta);
+                ahead = quotient(start, half, point, slope, j, -delta);
                 statistics.evaluations += 1;
             }
             for (i, (row, q)) in matrix.as_mut().iter_mut().zip(ahead.as_ref()).enumerate() {

@@ -1,0 +1,10 @@
+//! The integrators on small systems written by hand.
+
+// exact values are meant
+#![allow(clippy::float_cmp)]
+
+mod conservation;
+mod errors;
+mod landing;
+mod orders;
+mod systems;
