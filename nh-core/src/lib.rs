@@ -8,10 +8,13 @@
 //! anholonomic frames*) and M (Marrero, *Nonholonomic mechanics: a Lie algebroid perspective*).
 
 pub mod algebra;
+pub mod check;
+pub mod compile;
 pub mod geometry;
 pub mod id;
 pub mod mechanics;
 pub mod model;
 pub mod program;
+pub mod report;
 pub mod system;
 pub mod violation;

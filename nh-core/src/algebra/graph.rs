@@ -4,6 +4,7 @@
 //! (`sum.rs`, `product.rs`, `transcendental.rs` list them). Operands are created before what is
 //! built from them, so ascending ids are a topological order and no pass needs recursion.
 
+use super::normal_form::Simplifier;
 use super::number::Rational;
 use crate::id::{ExprId, Id, SymbolId, Table};
 use rustc_hash::FxHashMap;
@@ -120,6 +121,8 @@ pub struct Graph {
     nodes: Table<ExprId, Node>,
     known: FxHashMap<Node, ExprId>,
     symbols: Table<SymbolId, String>,
+    /// What simplification has found so far.
+    pub(super) simplifier: Simplifier,
 }
 
 impl Graph {
@@ -238,6 +241,12 @@ impl Graph {
             self.reachable(roots).into_iter().filter_map(|id| self.as_symbol(id)).collect();
         found.sort_unstable();
         found
+    }
+
+    /// Whether `symbol` occurs in any of `expressions`.
+    #[must_use]
+    pub fn depends_on_any(&self, expressions: &[ExprId], symbol: SymbolId) -> bool {
+        self.symbols_in(expressions).contains(&symbol)
     }
 
     /// Whether any of `symbols` occurs in `expression`.

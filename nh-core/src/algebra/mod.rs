@@ -26,7 +26,6 @@ pub use linear_form::{LinearForm, NotLinear};
 pub use linear_system::Solution;
 pub use matrix::{Echelon, Matrix, determinant_in_field};
 pub use modular::{FieldPoint, NoValue};
-pub use normal_form::Simplifier;
 pub use number::Rational;
 pub use range::{Facts, Range};
 pub use substitute::Substitution;

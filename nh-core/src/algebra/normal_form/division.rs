@@ -9,6 +9,12 @@ use std::collections::BTreeMap;
 /// Sums of more fractions than this are not brought over a common denominator.
 const FRACTIONS: usize = 6;
 
+/// What an attempt within the budget has come to.
+enum Step {
+    To(Polynomial),
+    Nothing,
+}
+
 /// Numerators by denominator, the latter as a monomial with negative exponents.
 type Fractions = BTreeMap<Monomial, Polynomial>;
 
@@ -19,7 +25,7 @@ impl Reader<'_> {
         let inverse = coefficient.recip()?;
         // the exponents of the quotient lie in a box, which ends the division if it is not exact
         let lowest = dividend.meet().over(&divisor.meet())?;
-        let highest = inverted(dividend)?.meet().inverse().over(&inverted(divisor)?.meet().inverse())?;
+        let highest = inverted(dividend).meet().inverse().over(&inverted(divisor).meet().inverse())?;
         if lowest.meet(&highest) != lowest {
             return None;
         }
@@ -41,17 +47,17 @@ impl Reader<'_> {
     pub(super) fn cancel(&mut self, polynomial: Polynomial) -> Option<Polynomial> {
         let mut current = polynomial;
         loop {
-            let fractions = self.fractions(&current, false)?;
+            let fractions = self.fractions(&current, false);
             if fractions.keys().all(Monomial::is_unit) && !self.has_trigonometric_denominator(&current) {
                 return Some(current);
             }
-            if let Some(next) = self.divided(&fractions)? {
+            if let Step::To(next) = self.divided(&fractions)? {
                 current = self.reduce(&next)?;
                 continue;
             }
             match self.joined(&current)? {
-                Some(next) => current = next,
-                None => return Some(current),
+                Step::To(next) => current = next,
+                Step::Nothing => return Some(current),
             }
         }
     }
@@ -71,7 +77,7 @@ impl Reader<'_> {
     }
 
     /// The terms by their denominators: sums, and on request sines and cosines.
-    fn fractions(&self, polynomial: &Polynomial, trigonometric: bool) -> Option<Fractions> {
+    fn fractions(&self, polynomial: &Polynomial, trigonometric: bool) -> Fractions {
         let mut fractions = Fractions::new();
         for (monomial, coefficient) in &polynomial.0 {
             let (below, above) = monomial.split(|factor| {
@@ -80,7 +86,7 @@ impl Reader<'_> {
             });
             fractions.entry(below).or_default().add_term(above, coefficient.clone());
         }
-        Some(fractions)
+        fractions
     }
 
     fn together(&mut self, fractions: &Fractions) -> Option<Polynomial> {
@@ -94,51 +100,46 @@ impl Reader<'_> {
     }
 
     /// Divides one numerator by a sum in its denominator, if any can be.
-    fn divided(&mut self, fractions: &Fractions) -> Option<Option<Polynomial>> {
+    fn divided(&mut self, fractions: &Fractions) -> Option<Step> {
         for (below, above) in fractions {
             for factor in &below.0 {
                 let meaning = self.meaning(factor.atom)?;
-                let Some(quotient) = self.quotient_of_either_form(above, &meaning)? else { continue };
+                let Step::To(quotient) = self.quotient_of_either_form(above, &meaning)? else { continue };
                 let mut others = fractions.clone();
                 others.remove(below);
                 let mut sum = self.together(&others)?;
                 let raised = below.times(&Monomial::of(factor.atom, factor.kind, Exponent::ONE))?;
                 let fraction = self.multiply(&quotient, &Polynomial::term(raised, Rational::ONE))?;
                 sum.add_scaled(&fraction, &Rational::ONE);
-                return Some(Some(sum));
+                return Some(Step::To(sum));
             }
         }
-        Some(None)
+        Some(Step::Nothing)
     }
 
     /// The quotient with the squares of cosines or of sines eliminated, whichever is exact.
-    /// The outer option is the budget.
-    fn quotient_of_either_form(
-        &mut self,
-        above: &Polynomial,
-        below: &Polynomial,
-    ) -> Option<Option<Polynomial>> {
+    fn quotient_of_either_form(&mut self, above: &Polynomial, below: &Polynomial) -> Option<Step> {
         if let Some(quotient) = self.quotient(above, below) {
-            return Some(Some(quotient));
+            return Some(Step::To(quotient));
         }
         for cosine in [true, false] {
             let (n, d) = (self.reduced_to(above, cosine)?, self.reduced_to(below, cosine)?);
-            if n != *above || d != *below {
-                if let Some(quotient) = self.quotient(&n, &d) {
-                    return Some(Some(quotient));
-                }
+            if (n != *above || d != *below)
+                && let Some(quotient) = self.quotient(&n, &d)
+            {
+                return Some(Step::To(quotient));
             }
         }
         self.spend(1)?;
-        Some(None)
+        Some(Step::Nothing)
     }
 
     /// Adds fractions over their common denominator where that leaves fewer monomials. Every
     /// denominator of the sum was a denominator before.
-    fn joined(&mut self, polynomial: &Polynomial) -> Option<Option<Polynomial>> {
-        let fractions = self.fractions(polynomial, true)?;
+    fn joined(&mut self, polynomial: &Polynomial) -> Option<Step> {
+        let fractions = self.fractions(polynomial, true);
         if fractions.len() < 2 || fractions.len() > FRACTIONS {
-            return Some(None);
+            return Some(Step::Nothing);
         }
         let entries: Vec<_> = fractions.iter().collect();
         let mut subsets = vec![(0..entries.len()).collect::<Vec<_>>()];
@@ -162,10 +163,10 @@ impl Reader<'_> {
                 let mut sum = self.together(&rest)?;
                 let fraction = self.multiply(&above, &Polynomial::term(below, Rational::ONE))?;
                 sum.add_scaled(&fraction, &Rational::ONE);
-                return Some(Some(sum));
+                return Some(Step::To(sum));
             }
         }
-        Some(None)
+        Some(Step::Nothing)
     }
 
     /// A numerator times denominators, sums multiplied out.
@@ -190,10 +191,10 @@ impl Reader<'_> {
 }
 
 /// The polynomial in the reciprocals of its atoms, whose lowest exponents are the highest here.
-fn inverted(polynomial: &Polynomial) -> Option<Polynomial> {
+fn inverted(polynomial: &Polynomial) -> Polynomial {
     let mut result = Polynomial::default();
     for (monomial, coefficient) in &polynomial.0 {
         result.add_term(monomial.inverse(), coefficient.clone());
     }
-    Some(result)
+    result
 }

@@ -62,7 +62,10 @@ impl Graph {
 
     /// An equal expression that costs at most as much ([`Graph::operation_count`]).
     pub fn simplify(&mut self, e: ExprId) -> ExprId {
-        Simplifier::new().apply(self, e)
+        let mut simplifier = std::mem::take(&mut self.simplifier);
+        let image = simplifier.apply(self, e);
+        self.simplifier = simplifier;
+        image
     }
 
     /// The expression in a style, in canonical and in factored form, and the work it took.
@@ -84,7 +87,7 @@ impl Graph {
 
 /// Simplifies expressions and remembers what became of them.
 #[derive(Clone, Debug, Default)]
-pub struct Simplifier {
+pub(super) struct Simplifier {
     known: FxHashMap<ExprId, Image>,
 }
 
@@ -94,19 +97,17 @@ struct Image {
     id: ExprId,
     has_sum: bool,
     has_angle: bool,
+    /// Whether it had the budget of a whole expression.
+    is_whole: bool,
 }
 
 impl Simplifier {
-    /// A simplifier that knows nothing yet.
-    #[must_use]
-    pub fn new() -> Self {
-        Self::default()
-    }
-
     /// An equal expression that costs at most as much, its subexpressions simplified first.
-    pub fn apply(&mut self, graph: &mut Graph, e: ExprId) -> ExprId {
-        if let Some(image) = self.known.get(&e) {
-            return image.id;
+    fn apply(&mut self, graph: &mut Graph, e: ExprId) -> ExprId {
+        match self.known.get(&e) {
+            Some(image) if image.is_whole => return image.id,
+            Some(_) => _ = self.known.remove(&e),
+            None => {}
         }
         let mut work = SUBEXPRESSIONS;
         let mut open = vec![e];
@@ -133,7 +134,7 @@ impl Simplifier {
     /// A node whose operands are simplified.
     fn of_node(&self, graph: &mut Graph, id: ExprId, is_root: bool, work: &mut usize) -> Image {
         let node = graph.node(id).clone();
-        let mut image = Image { id, has_sum: false, has_angle: false };
+        let mut image = Image { id, has_sum: false, has_angle: false, is_whole: is_root };
         for operand in node.operands() {
             image.has_sum |= self.known[&operand].has_sum;
             image.has_angle |= self.known[&operand].has_angle;

@@ -1,0 +1,212 @@
+//! The formulation, and the velocities that the adapted state keeps.
+
+use super::evidence::{listed, shown};
+use crate::algebra::Facts;
+use crate::geometry::choice::{Choice, NoChoice, judge, search};
+use crate::geometry::{ConstraintDistribution, LinearConstraints, PivotSetting};
+use crate::id::{ExprId, Id, Origin, SectionId, SymbolId};
+use crate::model::{Formulation, Model};
+use crate::violation::{Law, Violation};
+
+/// The outcome of the choice.
+#[derive(Clone, Debug)]
+pub enum Chosen {
+    /// A basis of D, valid wherever the conditions hold.
+    Adapted {
+        /// D.
+        distribution: ConstraintDistribution,
+        /// Expressions of parameters that must not vanish.
+        conditions: Vec<ExprId>,
+        /// What to say of the choice in the report.
+        reason: String,
+    },
+    /// All velocities are kept, with multipliers.
+    Projected {
+        /// What to say of the choice in the report.
+        reason: String,
+    },
+}
+
+/// Chooses as the declaration asks, else an adapted basis valid everywhere, else the projected
+/// formulation.
+///
+/// # Errors
+/// A choice of the user that the constraints do not allow.
+pub fn choose_formulation(model: &mut Model, constraints: LinearConstraints) -> Result<Chosen, Vec<Violation>> {
+    let rank = model.sections.len();
+    let forced = model.formulation;
+    if let (Some((Formulation::Projected, origin)), Some(_)) = (forced, &model.independent) {
+        return Err(vec![contradictory(origin)]);
+    }
+    if let Some((Formulation::Projected, _)) = forced {
+        return Ok(Chosen::Projected { reason: "the declaration asks for it".into() });
+    }
+    if constraints.annihilator.is_empty() {
+        if let Some(named) = model.independent.clone() {
+            dependent_of(model, &named, 0)?;
+        }
+        let distribution = ConstraintDistribution::unconstrained(&mut model.graph, rank);
+        return Ok(Chosen::Adapted {
+            distribution,
+            conditions: Vec::new(),
+            reason: "there are no constraints: D is all of E".into(),
+        });
+    }
+    let parameters: Vec<SymbolId> = model.parameters.iter().map(|parameter| parameter.symbol).collect();
+    let facts = Facts::default();
+    let setting =
+        PivotSetting { annihilator: &constraints.annihilator, parameters: &parameters, facts: &facts };
+    match model.independent.clone() {
+        Some(named) => named_choice(model, &setting, &named, &constraints),
+        None => searched_choice(model, &setting, forced, &constraints),
+    }
+}
+
+fn contradictory(origin: Origin) -> Violation {
+    Violation {
+        law: Law::Choice,
+        origin,
+        what: "`independent` has no meaning in the projected formulation".into(),
+        evidence: "there every velocity is part of the state".into(),
+        way_out: "leave out `independent`, or `formulation`".into(),
+    }
+}
+
+/// The velocities to eliminate, if as many are named as there have to be.
+fn dependent_of(
+    model: &Model,
+    named: &[(SectionId, Origin)],
+    constraints: usize,
+) -> Result<Vec<SectionId>, Vec<Violation>> {
+    let wanted = model.sections.len() - constraints;
+    if named.len() == wanted {
+        return Ok(model.sections.ids().filter(|id| named.iter().all(|(section, _)| section != id)).collect());
+    }
+    Err(vec![Violation {
+        law: Law::Choice,
+        origin: named.first().map_or(model.origin, |(_, origin)| *origin),
+        what: format!("{} independent velocities are named, but there are {wanted}", named.len()),
+        evidence: format!("{} velocities less {constraints} constraints", model.sections.len()),
+        way_out: format!("name {wanted}, or leave `independent` out"),
+    }])
+}
+
+fn names(model: &Model, sections: &[SectionId]) -> Vec<String> {
+    sections.iter().map(|section| format!("`{}`", model.sections[*section].name)).collect()
+}
+
+fn undecided(model: &Model, why: String) -> Vec<Violation> {
+    vec![Violation {
+        law: Law::Decidable,
+        origin: model.constraints.iter().next().map_or(model.origin, |constraint| constraint.origin),
+        what: "the constraints could not be solved for any velocities".into(),
+        evidence: why,
+        way_out: "write them without roots of negative numbers and divisions by zero".into(),
+    }]
+}
+
+fn named_choice(
+    model: &mut Model,
+    setting: &PivotSetting<'_>,
+    named: &[(SectionId, Origin)],
+    constraints: &LinearConstraints,
+) -> Result<Chosen, Vec<Violation>> {
+    let dependent = dependent_of(model, named, constraints.annihilator.len())?;
+    let judged = judge(&mut model.graph, setting, &dependent).map_err(|why| undecided(model, why))?;
+    let Some(choice) = judged else {
+        return Err(vec![Violation {
+            law: Law::Choice,
+            origin: named.first().map_or(model.origin, |(_, origin)| *origin),
+            what: "these velocities are not independent on the constraints".into(),
+            evidence: format!("the constraints do not determine {}", listed(&names(model, &dependent))),
+            way_out: "name others, or leave `independent` out and let them be chosen".into(),
+        }]);
+    };
+    let reason = if choice.breaks_down.is_empty() {
+        "the declaration names the independent velocities".to_owned()
+    } else {
+        let where_: Vec<String> =
+            choice.breaks_down.iter().map(|factor| format!("{} = 0", shown(&model.graph, *factor))).collect();
+        format!("the declaration names the independent velocities; they break down where {}", where_.join(" or "))
+    };
+    adapted(model, choice, constraints, reason)
+}
+
+fn searched_choice(
+    model: &mut Model,
+    setting: &PivotSetting<'_>,
+    forced: Option<(Formulation, Origin)>,
+    constraints: &LinearConstraints,
+) -> Result<Chosen, Vec<Violation>> {
+    let preferred = solved_for(model);
+    let rank = model.sections.len();
+    let found =
+        search(&mut model.graph, setting, &preferred, rank).map_err(|why| undecided(model, why))?;
+    match (found, forced) {
+        (Ok(choice), _) => {
+            let eliminated = listed(&names(model, &choice.dependent));
+            let reason = format!("{eliminated} can be eliminated wherever the constraints are independent");
+            adapted(model, choice, constraints, reason)
+        }
+        (Err(failure), Some((_, origin))) => Err(vec![Violation {
+            law: Law::Choice,
+            origin,
+            what: "no choice of independent velocities is valid everywhere".into(),
+            evidence: tried(model, &failure),
+            way_out: "name them in `independent { … }` and accept where they break down, or leave \
+                      `formulation` out for the projected one"
+                .into(),
+        }]),
+        (Err(failure), None) => Ok(Chosen::Projected {
+            reason: format!("no choice of independent velocities is valid everywhere: {}", tried(model, &failure)),
+        }),
+    }
+}
+
+/// Velocities alone on the left of a constraint, each once.
+fn solved_for(model: &Model) -> Vec<SectionId> {
+    let mut sections: Vec<SectionId> = Vec::new();
+    for symbol in model.constraints.iter().filter_map(|constraint| constraint.solved_for) {
+        let section = model.sections.iter_ids().find(|(_, section)| section.symbol == symbol).map(|(id, _)| id);
+        if let Some(section) = section.filter(|section| !sections.contains(section)) {
+            sections.push(section);
+        }
+    }
+    sections
+}
+
+fn tried(model: &Model, failure: &NoChoice) -> String {
+    const SHOWN: usize = 3;
+    let mut parts: Vec<String> = failure
+        .tried
+        .iter()
+        .take(SHOWN)
+        .map(|(dependent, factor)| {
+            let eliminated = listed(&names(model, dependent));
+            format!("eliminating {eliminated} divides by {}", shown(&model.graph, *factor))
+        })
+        .collect();
+    if failure.tried.len() > SHOWN {
+        parts.push("and so on".into());
+    }
+    parts.join("; ")
+}
+
+fn adapted(
+    model: &mut Model,
+    choice: Choice,
+    constraints: &LinearConstraints,
+    reason: String,
+) -> Result<Chosen, Vec<Violation>> {
+    let rank = model.sections.len();
+    let solved =
+        ConstraintDistribution::solved_for(&mut model.graph, constraints.clone(), &choice.dependent, rank);
+    match solved {
+        Some(distribution) => Ok(Chosen::Adapted { distribution, conditions: choice.conditions, reason }),
+        None => {
+            let list = listed(&names(model, &choice.dependent));
+            debug_assert!(choice.dependent.iter().all(|section| section.index() < rank));
+            Err(undecided(model, format!("no solution for {list} was found")))
+        }
+    }
+}

@@ -1,0 +1,43 @@
+//! The wording of evidence, shared by the checks.
+
+use crate::algebra::{Graph, Witness};
+use crate::id::ExprId;
+
+/// Longest expression shown in a message, in bytes.
+const SHOWN: usize = 160;
+
+/// The expression as shown in messages.
+pub(super) fn shown(graph: &Graph, expression: ExprId) -> String {
+    graph.text_within(expression, SHOWN)
+}
+
+/// What should have been zero, and where it is not.
+pub(super) fn not_zero(graph: &Graph, defect: ExprId, witness: &Witness) -> String {
+    let place = witness.place(graph);
+    let at = if place.is_empty() { String::new() } else { format!(" at {place}") };
+    let shown = shown(graph, defect);
+    if place.is_empty() {
+        format!("{shown} should be 0")
+    } else {
+        format!("{shown} should be 0, but is {}{at}", short(witness.value))
+    }
+}
+
+/// A number with four digits.
+fn short(value: f64) -> String {
+    let text = format!("{value:.4}");
+    let trimmed = text.trim_end_matches('0').trim_end_matches('.');
+    if trimmed == "0" || trimmed == "-0" { format!("{value:.3e}") } else { trimmed.to_owned() }
+}
+
+/// `a`, `a and b`, `a, b and c`.
+pub(super) fn listed<S: AsRef<str>>(names: &[S]) -> String {
+    match names {
+        [] => String::new(),
+        [only] => only.as_ref().to_owned(),
+        [first @ .., last] => {
+            let first: Vec<&str> = first.iter().map(AsRef::as_ref).collect();
+            format!("{} and {}", first.join(", "), last.as_ref())
+        }
+    }
+}

@@ -1,0 +1,80 @@
+//! Regularity: the equations determine the accelerations (CLMM Theorem 3.12, (7.5)).
+
+use super::evidence::listed;
+use crate::algebra::{Echelon, FieldPoint, Graph, Matrix, Residue};
+use crate::mechanics::{ReducedEquations, SaddleEquations};
+use crate::model::Model;
+use crate::violation::{Law, Violation};
+
+/// C_{ab} is non-singular at generic points of the constraint manifold.
+#[must_use]
+pub fn reduced_regularity(model: &Model, equations: &ReducedEquations) -> Option<Violation> {
+    let names: Vec<&str> = equations
+        .independent
+        .iter()
+        .map(|symbol| model.graph.symbols()[*symbol].as_str())
+        .collect();
+    let size = names.len();
+    judge(model, &equations.mass, size, |vector| {
+        let moving: Vec<&str> =
+            vector.iter().zip(&names).filter(|(c, _)| **c != Residue::ZERO).map(|(_, name)| *name).collect();
+        direction(&moving)
+    })
+}
+
+/// The saddle matrix is non-singular at generic points.
+#[must_use]
+pub fn saddle_regularity(model: &mut Model, equations: &SaddleEquations) -> Option<Violation> {
+    let matrix = equations.matrix(&mut model.graph);
+    let names: Vec<&str> = model.sections.iter().map(|section| section.name.as_str()).collect();
+    judge(model, &matrix, matrix.len(), |vector| {
+        let moving: Vec<&str> =
+            vector.iter().zip(&names).filter(|(c, _)| **c != Residue::ZERO).map(|(_, name)| *name).collect();
+        direction(&moving)
+    })
+}
+
+fn direction(moving: &[&str]) -> String {
+    match moving {
+        [only] => format!("the velocity `{only}` carries no inertia that the constraints leave"),
+        [] => "the constraint forces are not determined".into(),
+        several => format!("a combination of the velocities {} carries no inertia", listed(several)),
+    }
+}
+
+fn judge(
+    model: &Model,
+    matrix: &Matrix,
+    size: usize,
+    evidence: impl Fn(&[Residue]) -> String,
+) -> Option<Violation> {
+    let graph: &Graph = &model.graph;
+    let origin = model.lagrangian.origin;
+    let rows = match graph.matrix_in_field(matrix, |seed| FieldPoint::random(9_000 + seed)) {
+        Ok(rows) => rows,
+        Err(why) => {
+            return Some(Violation {
+                law: Law::Decidable,
+                origin,
+                what: "whether the mass matrix is regular could not be decided".into(),
+                evidence: why,
+                way_out: "write the Lagrangian without roots of negative numbers and divisions by zero".into(),
+            });
+        }
+    };
+    let echelon = Echelon::of(rows);
+    if echelon.rank() == size || graph.generic_rank(matrix) == Ok(size) {
+        return None;
+    }
+    let evidence = echelon.kernel_vector(size).map_or_else(String::new, |vector| evidence(&vector));
+    Some(Violation {
+        law: Law::Regularity,
+        origin,
+        what: format!(
+            "the mass matrix is singular on the constraint distribution: its rank is {} of {size}",
+            echelon.rank()
+        ),
+        evidence,
+        way_out: "give that motion a kinetic energy in the Lagrangian, or constrain it".into(),
+    })
+}

@@ -1,0 +1,179 @@
+//! The structure equations of a Lie algebroid, mathematics (2) and (3).
+
+use super::evidence::{listed, not_zero, shown};
+use crate::algebra::{Graph, Verdict};
+use crate::geometry::{Algebroid, hamel};
+use crate::id::{CoordId, ExprId, Id, Origin, SectionId};
+use crate::model::Model;
+use crate::violation::{Law, Violation};
+
+/// At most so many broken instances of one law are reported.
+const REPORTED: usize = 3;
+
+/// Proves that the anchor is a homomorphism of brackets and, unless `almost` is declared, the
+/// Jacobi identity. Where the first fails the second is not reported as well.
+pub fn structure_equations(model: &mut Model, algebroid: &Algebroid) -> Vec<Violation> {
+    let mut violations = homomorphism(model, algebroid);
+    if violations.is_empty() && !model.almost {
+        violations = jacobi(model, algebroid);
+    }
+    violations
+}
+
+/// Where the bracket of a pair stands, or else the later of its sections.
+fn origin_of_pair(model: &Model, alpha: SectionId, beta: SectionId) -> Origin {
+    let matches = |left, right| (left, right) == (alpha, beta) || (left, right) == (beta, alpha);
+    model
+        .brackets
+        .iter()
+        .find(|declaration| matches(declaration.left, declaration.right))
+        .map_or(model.sections[beta].origin, |declaration| declaration.origin)
+}
+
+/// Mathematics (2): `ρ^j_α ∂_jρ^i_β − ρ^j_β ∂_jρ^i_α = ρ^i_γ C^γ_{αβ}`.
+fn homomorphism(model: &mut Model, algebroid: &Algebroid) -> Vec<Violation> {
+    let mut violations = Vec::new();
+    for alpha in algebroid.sections() {
+        for beta in algebroid.sections().filter(|beta| alpha < *beta) {
+            if violations.len() == REPORTED {
+                return violations;
+            }
+            violations.extend(homomorphism_of_pair(model, algebroid, alpha, beta));
+        }
+    }
+    violations
+}
+
+fn homomorphism_of_pair(
+    model: &mut Model,
+    algebroid: &Algebroid,
+    alpha: SectionId,
+    beta: SectionId,
+) -> Option<Violation> {
+    let graph = &mut model.graph;
+    let commutator = hamel::commutator(graph, &algebroid.anchor, alpha, beta);
+    let bracket = bracket_of(graph, algebroid, alpha, beta);
+    let image = algebroid.anchor.vector_field(graph, &bracket);
+    for (index, (left, right)) in commutator.into_iter().zip(image).enumerate() {
+        let defect = graph.sub(left, right);
+        let verdict = graph.zero_test(defect);
+        if verdict.is_zero() {
+            continue;
+        }
+        let (left, right, defect) = (graph.simplify(left), graph.simplify(right), graph.simplify(defect));
+        let (a, b) = (&model.sections[alpha].name, &model.sections[beta].name);
+        let x = &model.coordinates[CoordId::from_index(index)].name;
+        let graph = &model.graph;
+        let evidence = format!(
+            "along `{x}`: [rho({a}), rho({b})] is {}, but rho([{a}, {b}]) is {}; the difference {}",
+            shown(graph, left),
+            shown(graph, right),
+            defect_text(graph, defect, &verdict),
+        );
+        let derivable = model.brackets.is_empty();
+        let way_out = if derivable {
+            "no bracket of the declared sections exists: their vector fields do not close; \
+             add the missing section to the basis"
+                .to_owned()
+        } else {
+            format!(
+                "correct the bracket [{a}, {b}] or the anchor; where the anchor is injective, leave `brackets` \
+                 out and they are derived"
+            )
+        };
+        return Some(Violation {
+            law: Law::Homomorphism,
+            origin: origin_of_pair(model, alpha, beta),
+            what: format!("the anchor is not a homomorphism of brackets on the pair [{a}, {b}]"),
+            evidence,
+            way_out,
+        });
+    }
+    None
+}
+
+fn bracket_of(graph: &mut Graph, algebroid: &Algebroid, alpha: SectionId, beta: SectionId) -> Vec<ExprId> {
+    algebroid.sections().map(|gamma| algebroid.structure.get(graph, gamma, alpha, beta)).collect()
+}
+
+fn defect_text(graph: &Graph, defect: ExprId, verdict: &Verdict) -> String {
+    match verdict {
+        Verdict::Zero => "is 0".into(),
+        Verdict::NonZero(witness) => not_zero(graph, defect, witness),
+        Verdict::Unknown(why) => format!("{} could not be decided to be 0: {why}", shown(graph, defect)),
+    }
+}
+
+/// Mathematics (3): `Σ_cyclic [ ρ^i_α ∂_iC^ν_{βγ} + C^μ_{βγ} C^ν_{αμ} ] = 0`.
+fn jacobi(model: &mut Model, algebroid: &Algebroid) -> Vec<Violation> {
+    let sections: Vec<SectionId> = algebroid.sections().collect();
+    let mut violations = Vec::new();
+    for (i, alpha) in sections.iter().enumerate() {
+        for (j, beta) in sections.iter().enumerate().skip(i + 1) {
+            for gamma in sections.iter().skip(j + 1) {
+                if violations.len() == REPORTED {
+                    return violations;
+                }
+                violations.extend(jacobi_of_triple(model, algebroid, [*alpha, *beta, *gamma]));
+            }
+        }
+    }
+    violations
+}
+
+fn jacobi_of_triple(model: &mut Model, algebroid: &Algebroid, triple: [SectionId; 3]) -> Option<Violation> {
+    let defect = jacobiator(&mut model.graph, algebroid, triple);
+    let graph = &mut model.graph;
+    for (index, component) in defect.into_iter().enumerate() {
+        let verdict = graph.zero_test(component);
+        if verdict.is_zero() {
+            continue;
+        }
+        let component = graph.simplify(component);
+        let names = triple.map(|section| model.sections[section].name.as_str());
+        let [a, b, c] = names;
+        let along = &model.sections[SectionId::from_index(index)].name;
+        let graph = &model.graph;
+        let evidence = format!(
+            "[{a}, [{b}, {c}]] + [{b}, [{c}, {a}]] + [{c}, [{a}, {b}]] along `{along}`: {}",
+            defect_text(graph, component, &verdict)
+        );
+        let origin = declared_among(model, triple);
+        return Some(Violation {
+            law: Law::Jacobi,
+            origin,
+            what: format!("the brackets of {} break the Jacobi identity", listed(&names)),
+            evidence,
+            way_out: "correct a bracket; or write `almost;` if an almost Lie algebroid is meant".into(),
+        });
+    }
+    None
+}
+
+/// The last declared bracket among three sections, or else the last of them.
+fn declared_among(model: &Model, triple: [SectionId; 3]) -> Origin {
+    model
+        .brackets
+        .iter()
+        .rev()
+        .find(|declaration| triple.contains(&declaration.left) && triple.contains(&declaration.right))
+        .map_or(model.sections[triple[2]].origin, |declaration| declaration.origin)
+}
+
+fn jacobiator(graph: &mut Graph, algebroid: &Algebroid, triple: [SectionId; 3]) -> Vec<ExprId> {
+    let (zero, one) = (graph.zero(), graph.one());
+    let unit = |section: SectionId| -> Vec<ExprId> {
+        algebroid.sections().map(|other| if other == section { one } else { zero }).collect()
+    };
+    let mut total = vec![zero; algebroid.rank()];
+    for shift in 0..3 {
+        let [alpha, beta, gamma] = [0, 1, 2].map(|position| triple[(position + shift) % 3]);
+        let inner = bracket_of(graph, algebroid, beta, gamma);
+        if inner.iter().all(|component| graph.is_literal_zero(*component)) {
+            continue;
+        }
+        let outer = algebroid.bracket(graph, &unit(alpha), &inner);
+        total = total.into_iter().zip(outer).map(|(a, b)| graph.add(a, b)).collect();
+    }
+    total
+}

@@ -1,0 +1,89 @@
+//! What kind of system it is.
+
+use super::{Derived, shown};
+use crate::check::Motion;
+use crate::id::{ExprId, SymbolId};
+use crate::mechanics::LagrangianSystem;
+use crate::model::{Kinematics, Model};
+
+/// The classification, a line for each property.
+pub(super) fn lines(
+    model: &mut Model,
+    motion: &Motion,
+    system: &LagrangianSystem,
+    derived: &Derived<'_>,
+    reason: &str,
+) -> Vec<String> {
+    let mut lines = vec![algebroid(model, system), constraints(model, system, derived)];
+    let (name, size) = match derived {
+        Derived::Adapted { distribution, .. } => ("adapted", distribution.rank()),
+        Derived::Projected { .. } => ("projected", model.sections.len()),
+    };
+    let coordinates = model.coordinates.len();
+    lines.push(format!("formulation: {name}, {coordinates} coordinates and {size} velocities; {reason}"));
+    for divisor in &motion.divisors {
+        if model.graph.as_number(*divisor).is_none() {
+            let text = shown(&model.graph, *divisor);
+            lines.push(format!("the quasi-velocities are a chart only where {text} != 0"));
+        }
+    }
+    lines
+}
+
+/// The kind of algebroid.
+fn algebroid(model: &mut Model, system: &LagrangianSystem) -> String {
+    let (n, s) = (model.coordinates.len(), model.sections.len());
+    let anchor = &system.algebroid.anchor;
+    let rank = model.graph.generic_rank(&anchor.entries).unwrap_or(0);
+    let constant = is_constant(model, system);
+    let kind = match &model.kinematics {
+        Kinematics::Tangent => "the tangent bundle TM in its coordinate frame".to_owned(),
+        Kinematics::Coframe(_) => "the tangent bundle TM in an anholonomic frame, by its coframe".to_owned(),
+        Kinematics::Anchor(_) if n == 0 => "a Lie algebra".to_owned(),
+        Kinematics::Anchor(_) if n == s && rank == n => "the tangent bundle TM in an anholonomic frame".to_owned(),
+        Kinematics::Anchor(_) if rank == n => {
+            format!("a transitive Lie algebroid (Atiyah type) with isotropy of rank {}", s - n)
+        }
+        Kinematics::Anchor(_) if constant => "an action Lie algebroid: constant structure functions".to_owned(),
+        Kinematics::Anchor(_) => "a Lie algebroid".to_owned(),
+    };
+    let almost = if model.almost { ", almost: the Jacobi identity is not demanded" } else { "" };
+    format!("algebroid: {kind}, rank {s} over a base of dimension {n}{almost}")
+}
+
+fn is_constant(model: &Model, system: &LagrangianSystem) -> bool {
+    let entries: Vec<ExprId> =
+        system.algebroid.structure.nonzero(&model.graph).flat_map(|(.., c)| c.to_vec()).collect();
+    let coordinates: Vec<SymbolId> = model.coordinates.iter().map(|c| c.symbol).collect();
+    entries.iter().all(|entry| !model.graph.depends_on(*entry, &coordinates))
+}
+
+fn constraints(model: &mut Model, system: &LagrangianSystem, derived: &Derived<'_>) -> String {
+    let count = model.constraints.len();
+    if count == 0 {
+        return "constraints: none".into();
+    }
+    let distribution = match derived {
+        Derived::Adapted { distribution, .. } => *distribution,
+        Derived::Projected { .. } => return format!("constraints: {count}, linear in the velocities"),
+    };
+    let holonomic = match distribution.is_holonomic(&mut model.graph, &system.algebroid) {
+        Some(true) => ", holonomic: D is closed under the bracket",
+        Some(false) => ", nonholonomic",
+        None => "",
+    };
+    format!("constraints: {count}, linear in the velocities{holonomic}")
+}
+
+/// What is conserved by the theorems that need no search.
+pub(super) fn conserved(model: &Model, system: &LagrangianSystem) -> Vec<String> {
+    let graph = &model.graph;
+    let autonomous = |expressions: &[ExprId]| !graph.depends_on_any(expressions, model.time);
+    let residuals: Vec<ExprId> = model.constraints.iter().map(|constraint| constraint.residual).collect();
+    let free = system.forces.iter().all(|force| graph.zero_test(*force).is_zero());
+    if free && autonomous(&[system.lagrangian]) && autonomous(&residuals) {
+        vec!["the energy (CLMM Theorem 3.4: autonomous, linear constraints, no forces)".into()]
+    } else {
+        Vec::new()
+    }
+}

@@ -1,0 +1,75 @@
+//! The equations of motion as lines of text.
+
+use super::{Derived, shown};
+use crate::algebra::Graph;
+use crate::id::{ConstraintId, ExprId, Id};
+use crate::model::Model;
+
+/// One line for each kinematic and each dynamic equation, and for each dependent velocity.
+#[must_use]
+pub fn equations_of_motion(model: &Model, derived: &Derived<'_>) -> Vec<String> {
+    let graph = &model.graph;
+    let rates = match derived {
+        Derived::Adapted { equations, .. } => &equations.rates,
+        Derived::Projected { equations, .. } => &equations.rates,
+    };
+    let mut lines: Vec<String> = model
+        .coordinates
+        .iter()
+        .zip(rates)
+        .map(|(coordinate, rate)| format!("der({}) = {}", coordinate.name, shown(graph, *rate)))
+        .collect();
+    match derived {
+        Derived::Adapted { equations, distribution } => {
+            let names: Vec<&str> =
+                distribution.independent.iter().map(|section| model.sections[*section].name.as_str()).collect();
+            for (row, force) in equations.mass.iter().zip(&equations.force) {
+                lines.push(format!("{} = {}", accelerations(graph, row, &names), shown(graph, *force)));
+            }
+            for section in &distribution.dependent {
+                let value = shown(graph, equations.velocity[section.index()]);
+                lines.push(format!("{} = {value}", model.sections[*section].name));
+            }
+        }
+        Derived::Projected { equations, .. } => {
+            let names: Vec<&str> = model.sections.iter().map(|section| section.name.as_str()).collect();
+            for (alpha, (row, force)) in equations.mass.iter().zip(&equations.force).enumerate() {
+                let reactions = reactions(model, &equations.jacobian, alpha);
+                let left = accelerations(graph, row, &names);
+                lines.push(format!("{left} = {}{reactions}", shown(graph, *force)));
+            }
+            for (row, bias) in equations.jacobian.iter().zip(&equations.bias) {
+                lines.push(format!("{} = {}", accelerations(graph, row, &names), shown(graph, *bias)));
+            }
+        }
+    }
+    lines
+}
+
+/// `(m)*der(v1) + …`.
+fn accelerations(graph: &Graph, row: &[ExprId], names: &[&str]) -> String {
+    let terms: Vec<String> = row
+        .iter()
+        .zip(names)
+        .filter(|(entry, _)| !graph.is_literal_zero(**entry))
+        .map(|(entry, name)| match graph.as_number(*entry) {
+            Some(number) if number.is_one() => format!("der({name})"),
+            _ => format!("({})*der({name})", shown(graph, *entry)),
+        })
+        .collect();
+    if terms.is_empty() { "0".into() } else { terms.join(" + ") }
+}
+
+/// ` + (…)*lambda_name` for each constraint.
+fn reactions(model: &Model, jacobian: &[Vec<ExprId>], alpha: usize) -> String {
+    jacobian
+        .iter()
+        .enumerate()
+        .filter(|(_, row)| !model.graph.is_literal_zero(row[alpha]))
+        .map(|(index, row)| {
+            let constraint = &model.constraints[ConstraintId::from_index(index)];
+            let name = constraint.label.clone().unwrap_or_else(|| format!("{}", index + 1));
+            format!(" + ({})*lambda_{name}", shown(&model.graph, row[alpha]))
+        })
+        .collect()
+}

@@ -1,0 +1,152 @@
+//! What was derived, as text: the `REPORT` of a system, and the equations in its documentation.
+
+mod classification;
+mod equations;
+
+use crate::algebra::Graph;
+use crate::check::Motion;
+use crate::geometry::{ConstraintDistribution, LinearConstraints};
+use crate::id::{ExprId, Id};
+use crate::mechanics::{LagrangianSystem, ReducedEquations, SaddleEquations};
+use crate::model::Model;
+
+pub use equations::equations_of_motion;
+
+/// The derived objects that the report shows.
+#[derive(Clone, Copy, Debug)]
+pub enum Derived<'a> {
+    /// In a basis of D.
+    Adapted {
+        /// D.
+        distribution: &'a ConstraintDistribution,
+        /// Its equations.
+        equations: &'a ReducedEquations,
+    },
+    /// On all of E, with multipliers.
+    Projected {
+        /// The constraints.
+        constraints: &'a LinearConstraints,
+        /// The equations.
+        equations: &'a SaddleEquations,
+    },
+}
+
+/// Longest expression shown, in bytes.
+const SHOWN: usize = 400;
+
+fn shown(graph: &Graph, expression: ExprId) -> String {
+    graph.text_within(expression, SHOWN)
+}
+
+/// The report of a derived system.
+pub fn report(
+    model: &mut Model,
+    motion: &Motion,
+    system: &LagrangianSystem,
+    derived: &Derived<'_>,
+    reason: &str,
+    conditions: &[ExprId],
+) -> String {
+    let mut text = format!("{}\n", model.name);
+    let mut section = |title: &str, lines: Vec<String>| {
+        if !lines.is_empty() {
+            text.push_str(&format!("\n{title}\n"));
+            for line in lines {
+                text.push_str(&format!("  {line}\n"));
+            }
+        }
+    };
+    section("Classification", classification::lines(model, motion, system, derived, reason));
+    section("Conditions on the parameters", nonzero(&model.graph, conditions));
+    section("Anchor (kinematic equations)", anchor(model, system));
+    section("Structure functions", structure_functions(model, system));
+    section("Constraint distribution", distribution(model, derived));
+    section("Mass matrix", mass_matrix(model, derived));
+    section("Equations of motion", equations_of_motion(model, derived));
+    section("Conserved quantities", classification::conserved(model, system));
+    text
+}
+
+fn nonzero(graph: &Graph, conditions: &[ExprId]) -> Vec<String> {
+    conditions.iter().map(|condition| format!("{} != 0", shown(graph, *condition))).collect()
+}
+
+fn section_names(model: &Model) -> Vec<String> {
+    model.sections.iter().map(|section| section.name.clone()).collect()
+}
+
+/// `coefficient*name + …`.
+fn combination(graph: &Graph, coefficients: &[ExprId], names: &[String]) -> String {
+    let terms: Vec<String> = coefficients
+        .iter()
+        .zip(names)
+        .filter(|(coefficient, _)| !graph.is_literal_zero(**coefficient))
+        .map(|(coefficient, name)| match graph.as_number(*coefficient) {
+            Some(number) if number.is_one() => name.clone(),
+            _ => format!("({})*{name}", shown(graph, *coefficient)),
+        })
+        .collect();
+    if terms.is_empty() { "0".into() } else { terms.join(" + ") }
+}
+
+fn anchor(model: &Model, system: &LagrangianSystem) -> Vec<String> {
+    let names = section_names(model);
+    let rows = system.algebroid.anchor.entries.iter();
+    model
+        .coordinates
+        .iter()
+        .zip(rows)
+        .map(|(coordinate, row)| format!("der({}) = {}", coordinate.name, combination(&model.graph, row, &names)))
+        .collect()
+}
+
+fn structure_functions(model: &Model, system: &LagrangianSystem) -> Vec<String> {
+    let names = section_names(model);
+    let structure = &system.algebroid.structure;
+    let lines: Vec<String> = structure
+        .nonzero(&model.graph)
+        .map(|(alpha, beta, components)| {
+            let value = combination(&model.graph, components, &names);
+            format!("[{}, {}] = {value}", names[alpha.index()], names[beta.index()])
+        })
+        .collect();
+    if lines.is_empty() { vec!["all brackets vanish".into()] } else { lines }
+}
+
+fn distribution(model: &Model, derived: &Derived<'_>) -> Vec<String> {
+    let names = section_names(model);
+    match derived {
+        Derived::Adapted { distribution, .. } if distribution.dependent.is_empty() => Vec::new(),
+        Derived::Adapted { distribution, .. } => (0..distribution.rank())
+            .map(|a| {
+                let name = &names[distribution.independent[a].index()];
+                let section = distribution.section(a);
+                format!("along {name}: {}", combination(&model.graph, &section, &names))
+            })
+            .collect(),
+        Derived::Projected { constraints, .. } => constraints
+            .annihilator
+            .iter()
+            .map(|row| format!("{} = 0", combination(&model.graph, row, &names)))
+            .collect(),
+    }
+}
+
+fn mass_matrix(model: &Model, derived: &Derived<'_>) -> Vec<String> {
+    let (matrix, names): (_, Vec<String>) = match derived {
+        Derived::Adapted { equations, distribution } => (
+            &equations.mass,
+            distribution.independent.iter().map(|section| model.sections[*section].name.clone()).collect(),
+        ),
+        Derived::Projected { equations, .. } => (&equations.mass, section_names(model)),
+    };
+    let mut lines = Vec::new();
+    for (a, row) in matrix.iter().enumerate() {
+        for (b, entry) in row.iter().enumerate().skip(a) {
+            if !model.graph.is_literal_zero(*entry) {
+                lines.push(format!("({}, {}): {}", names[a], names[b], shown(&model.graph, *entry)));
+            }
+        }
+    }
+    lines
+}
