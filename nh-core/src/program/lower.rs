@@ -3,8 +3,9 @@
 use super::nary::{Arena, Nary, Source, Term};
 use super::step::{Program, Step, Value};
 use crate::algebra::{Function, Rational};
-use crate::id::{Id, Table};
+use crate::id::{Id, SymbolId, Table};
 use rustc_hash::FxHashMap;
+use std::collections::BTreeMap;
 
 /// Longer sums are split in halves, which do not wait for each other.
 const LONGEST_CHAIN: usize = 8;
@@ -27,14 +28,18 @@ pub(super) fn lower(arena: &Arena) -> Program {
         known: FxHashMap::default(),
         values: vec![None; arena.len()],
         fixed: vec![false; arena.len()],
+        names: BTreeMap::new(),
     };
     for term in arena.operands_first(&roots) {
         lowering.fixed[term.index()] = lowering.is_fixed(term);
         let value = lowering.term(term, &is_used);
+        if let Nary::Symbol(symbol) = arena.get(term) {
+            lowering.note_name(value, *symbol);
+        }
         lowering.values[term.index()] = Some(value);
     }
     let outputs = arena.outputs.iter().map(|output| lowering.value(*output)).collect();
-    without_dead_steps(&Program { steps: lowering.steps, outputs })
+    without_dead_steps(&Program { steps: lowering.steps, outputs, names: lowering.names })
 }
 
 struct Lowering<'a> {
@@ -44,6 +49,7 @@ struct Lowering<'a> {
     values: Vec<Option<Value>>,
     /// Which terms are made of numbers and parameters alone.
     fixed: Vec<bool>,
+    names: BTreeMap<Value, SymbolId>,
 }
 
 impl Lowering<'_> {
@@ -60,6 +66,13 @@ impl Lowering<'_> {
     /// The value of a term that comes earlier.
     fn value(&self, term: Term) -> Value {
         self.values[term.index()].expect("operands are lowered first")
+    }
+
+    /// The first definition of a value names it.
+    fn note_name(&mut self, value: Value, symbol: SymbolId) {
+        if !self.steps[value].is_leaf() {
+            self.names.entry(value).or_insert(symbol);
+        }
     }
 
     fn push(&mut self, step: Step) -> Value {
@@ -228,7 +241,9 @@ fn without_dead_steps(program: &Program) -> Program {
         renamed[value.index()] = Some(steps.push(step));
     }
     let outputs = program.outputs.iter().filter_map(|output| renamed[output.index()]).collect();
-    Program { steps, outputs }
+    let names = program.names.iter().filter_map(|(value, symbol)| Some((renamed[value.index()]?, *symbol)));
+    let names = names.collect();
+    Program { steps, outputs, names }
 }
 
 fn rename(step: &Step, new: &impl Fn(Value) -> Value) -> Step {

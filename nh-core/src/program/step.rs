@@ -2,6 +2,7 @@
 
 use crate::algebra::{Function, Function2, Rational};
 use crate::id::{Id, SymbolId, Table};
+use std::collections::BTreeMap;
 
 /// The result of a step.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -104,6 +105,8 @@ pub struct Program {
     pub steps: Table<Value, Step>,
     /// The results.
     pub outputs: Vec<Value>,
+    /// The symbols of definitions, for the values that they name, in order.
+    pub names: BTreeMap<Value, SymbolId>,
 }
 
 impl Program {
