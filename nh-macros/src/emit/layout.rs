@@ -1,0 +1,142 @@
+//! What the emitted items are called and how they are laid out: the names and tokens of a
+//! declaration, where the verified system has only ids.
+//!
+//! Families stand in the order of their declaration. Their entries, row by row, one family after
+//! the other, are in the order of the ids of the model: coordinates in that of `CoordId`, sections
+//! in that of `SectionId`, parameters in that of `ParamId`, inputs in that of `InputId`, outputs in
+//! that of `System::observables`.
+
+use proc_macro2::{Ident, Span, TokenStream};
+use quote::{format_ident, quote};
+
+use crate::syntax::ast;
+
+/// The names and tokens of a declaration.
+#[derive(Clone, Debug)]
+pub(crate) struct Layout {
+    /// The attribute's tokens, for the macro that hands the declaration on.
+    pub(crate) attribute: TokenStream,
+    /// The struct as it is emitted: verbatim, except for its `#[nh(…)]` attributes.
+    pub(crate) item: TokenStream,
+    /// The struct's name.
+    pub(crate) name: Ident,
+    /// Its visibility, which generated items take over.
+    pub(crate) visibility: syn::Visibility,
+    /// Its generics with bounds and `where` clause.
+    pub(crate) generics: syn::Generics,
+    /// The scalar type.
+    pub(crate) scalar: ast::Scalar,
+    /// The path of the runtime: `::nh_runtime`, unless the declaration says otherwise.
+    pub(crate) runtime: TokenStream,
+    /// The names of the generated types.
+    pub(crate) types: TypeNames,
+    /// The fields that are parameters, in order.
+    pub(crate) parameters: Vec<Family>,
+    /// The base coordinates.
+    pub(crate) coordinates: Vec<Family>,
+    /// The quasi-velocities; `x_dot` where E = TM.
+    pub(crate) velocities: Vec<Family>,
+    /// The control inputs.
+    pub(crate) inputs: Vec<Family>,
+    /// The observables.
+    pub(crate) outputs: Vec<Family>,
+}
+
+/// The names of the generated types.
+#[derive(Clone, Debug)]
+pub(crate) struct TypeNames {
+    /// `SleighState`
+    pub(crate) state: Ident,
+    /// `SleighVelocity`
+    pub(crate) velocity: Ident,
+    /// `SleighInput`
+    pub(crate) input: Ident,
+    /// `SleighMultipliers`
+    pub(crate) multipliers: Ident,
+    /// `SleighOutputs`
+    pub(crate) outputs: Ident,
+}
+
+impl TypeNames {
+    /// The names that the types of a struct have if the declaration does not rename them.
+    pub(crate) fn of(name: &Ident) -> Self {
+        Self {
+            state: format_ident!("{name}State"),
+            velocity: format_ident!("{name}Velocity"),
+            input: format_ident!("{name}Input"),
+            multipliers: format_ident!("{name}Multipliers"),
+            outputs: format_ident!("{name}Outputs"),
+        }
+    }
+}
+
+/// A declared name that becomes a field: a number, an array, or an array of arrays.
+#[derive(Clone, Debug)]
+pub(crate) struct Family {
+    /// The identifier of the field, raw where it has to be, with its span.
+    pub(crate) ident: Ident,
+    /// The length of every index: none for a number, at most two.
+    pub(crate) lengths: Vec<u32>,
+    /// The user's doc comments, as attributes; may be empty.
+    pub(crate) docs: TokenStream,
+}
+
+impl Family {
+    /// The indices of the entries, row by row.
+    pub(crate) fn entries(&self) -> Vec<Vec<u32>> {
+        let mut entries = vec![Vec::new()];
+        for length in &self.lengths {
+            let extended = |entry: &Vec<u32>| {
+                let entry = entry.clone();
+                (0..*length).map(move |index| [entry.as_slice(), &[index]].concat())
+            };
+            entries = entries.iter().flat_map(extended).collect();
+        }
+        entries
+    }
+}
+
+impl From<&ast::Declared> for Family {
+    fn from(declared: &ast::Declared) -> Self {
+        Self {
+            ident: declared.name.ident.clone(),
+            lengths: declared.lengths.clone(),
+            docs: declared.docs.clone(),
+        }
+    }
+}
+
+impl Layout {
+    /// The layout of a struct of which only the struct is known: what stubs can be made of.
+    pub(crate) fn of_struct(structure: &ast::StructDecl, attribute: TokenStream) -> Self {
+        Self {
+            attribute,
+            item: structure.item.clone(),
+            name: structure.name.clone(),
+            visibility: structure.visibility.clone(),
+            generics: structure.generics.clone(),
+            scalar: structure.scalar.clone(),
+            runtime: quote!(::nh_runtime),
+            types: TypeNames::of(&structure.name),
+            parameters: structure.parameters.iter().map(Family::from).collect(),
+            coordinates: Vec::new(),
+            velocities: Vec::new(),
+            inputs: Vec::new(),
+            outputs: Vec::new(),
+        }
+    }
+
+    /// The scalar type as tokens.
+    pub(super) fn scalar_type(&self) -> TokenStream {
+        match &self.scalar {
+            ast::Scalar::F64 => quote!(::core::primitive::f64),
+            ast::Scalar::F32 => quote!(::core::primitive::f32),
+            ast::Scalar::Parameter(ident) => quote!(#ident),
+        }
+    }
+}
+
+/// A local name of generated code.
+pub(super) fn local(name: &str) -> Ident {
+    Ident::new(name, Span::mixed_site())
+}
