@@ -152,7 +152,8 @@ impl Monomial {
                     if !exponent.is_zero() {
                         factors.push(Factor { exponent, ..**a });
                     }
-                    (left.next(), right.next());
+                    left.next();
+                    right.next();
                 }
                 (Some(a), b) if b.is_none_or(|b| a.atom < b.atom) => factors.extend(left.next()),
                 _ => factors.extend(right.next()),

@@ -321,12 +321,11 @@ impl<'g> Reader<'g> {
                 rest = quotient;
             }
         }
-        let last = match rest.single() {
-            Some((monomial, coefficient)) => self.power_of_monomial(monomial, coefficient, exponent)?,
-            None => {
-                let atom = self.atom_of_sum(rest);
-                Polynomial::term(Monomial::of(atom, Kind::Sum, exponent), Rational::ONE)
-            }
+        let last = if let Some((monomial, coefficient)) = rest.single() {
+            self.power_of_monomial(monomial, coefficient, exponent)?
+        } else {
+            let atom = self.atom_of_sum(rest);
+            Polynomial::term(Monomial::of(atom, Kind::Sum, exponent), Rational::ONE)
         };
         self.multiply(&product, &last)
     }

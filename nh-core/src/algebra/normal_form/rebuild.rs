@@ -85,8 +85,7 @@ impl Reader<'_> {
     fn factored_within(&mut self, polynomial: &Polynomial, nesting: usize) -> ExprId {
         let (common, mut rest) = without_common_factor(polynomial);
         let mut summands = Vec::new();
-        while nesting > 0 {
-            let Some(factor) = most_frequent(&rest) else { break };
+        while let Some(factor) = most_frequent(&rest).filter(|_| nesting > 0) {
             let (mut inside, mut outside) = (Polynomial::default(), Polynomial::default());
             for (monomial, coefficient) in rest.0 {
                 let target = if shares(&monomial, &factor) { &mut inside } else { &mut outside };
