@@ -52,8 +52,6 @@ elementary! { double, f64;
 elementary! { single, f32;
     sqrt(x) = sqrt, sqrtf;
     cbrt(x) = cbrt, cbrtf;
-    sin(x) = sin, sinf;
-    cos(x) = cos, cosf;
     tan(x) = tan, tanf;
     asin(x) = asin, asinf;
     acos(x) = acos, acosf;
@@ -65,4 +63,65 @@ elementary! { single, f32;
     exp(x) = exp, expf;
     ln(x) = ln, logf;
     powf(x, y) = powf, powf;
+}
+
+/// Sine and cosine of `f32`, from the platform or in single precision alone.
+pub(crate) mod single_angle {
+    /// Sine and cosine.
+    #[inline]
+    pub(crate) fn sin_cos(x: f32) -> (f32, f32) {
+        #[cfg(feature = "std")]
+        {
+            x.sin_cos()
+        }
+        #[cfg(not(feature = "std"))]
+        {
+            use crate::single_trig::{RANGE, sin_cos};
+            if x.abs() <= RANGE {
+                return sin_cos(x);
+            }
+            #[cfg(feature = "libm")]
+            {
+                libm::sincosf(x)
+            }
+            #[cfg(not(feature = "libm"))]
+            {
+                (x, x)
+            }
+        }
+    }
+
+    /// The sine.
+    #[inline]
+    pub(crate) fn sin(x: f32) -> f32 {
+        sin_cos(x).0
+    }
+
+    /// The cosine.
+    #[inline]
+    pub(crate) fn cos(x: f32) -> f32 {
+        sin_cos(x).1
+    }
+}
+
+/// Sine and cosine of `f64`.
+pub(crate) mod double_angle {
+    pub(crate) use super::double::{cos, sin};
+
+    /// Sine and cosine.
+    #[inline]
+    pub(crate) fn sin_cos(x: f64) -> (f64, f64) {
+        #[cfg(feature = "std")]
+        {
+            x.sin_cos()
+        }
+        #[cfg(all(not(feature = "std"), feature = "libm"))]
+        {
+            libm::sincos(x)
+        }
+        #[cfg(not(any(feature = "std", feature = "libm")))]
+        {
+            (x, x)
+        }
+    }
 }

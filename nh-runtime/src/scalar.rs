@@ -174,7 +174,7 @@ pub trait Real: Scalar + PartialOrd {
 
 /// Implements [`Scalar`] and [`Real`] for a primitive floating-point type.
 macro_rules! primitive {
-    ($float:ident, $functions:ident, $tolerance:literal) => {
+    ($float:ident, $functions:ident, $angle:ident, $tolerance:literal) => {
         impl Scalar for $float {
             const ZERO: Self = 0.0;
             const ONE: Self = 1.0;
@@ -188,8 +188,20 @@ macro_rules! primitive {
             fn to_f64(self) -> f64 {
                 f64::from(self)
             }
+            #[inline]
+            fn sin(self) -> Self {
+                elementary::$angle::sin(self)
+            }
+            #[inline]
+            fn cos(self) -> Self {
+                elementary::$angle::cos(self)
+            }
+            #[inline]
+            fn sin_cos(self) -> (Self, Self) {
+                elementary::$angle::sin_cos(self)
+            }
             primitive! { @forward $functions;
-                sqrt() cbrt() sin() cos() tan() asin() acos() atan() atan2(x) sinh() cosh() tanh()
+                sqrt() cbrt() tan() asin() acos() atan() atan2(x) sinh() cosh() tanh()
                 exp() ln() powf(exponent)
             }
             #[inline]
@@ -271,8 +283,8 @@ macro_rules! primitive {
     };
 }
 
-primitive!(f64, double, 1e-6);
-primitive!(f32, single, 1e-4);
+primitive!(f64, double, double_angle, 1e-6);
+primitive!(f32, single, single_angle, 1e-4);
 
 #[cfg(test)]
 #[allow(clippy::float_cmp)] // exact values are meant

@@ -23,17 +23,17 @@ const GROW: f64 = 10.0;
 const SAFETY: f64 = 0.9;
 /// The weight β of the preceding error (PI control after Gustafsson, section IV.2).
 const BETA: f64 = 0.04;
-/// The preceding error is taken to be at least this.
-const LEAST_ERROR: f64 = 1e-4;
+/// The preceding error is taken to be at least 10⁻⁴, whose logarithm this is.
+const LEAST_LOG_ERROR: f64 = -9.210_340_371_976_182;
 
 impl<T: Real> StepControl<T> {
     pub(crate) fn new() -> Self {
         Self { rtol: T::DEFAULT_TOLERANCE, atol: None, first_step: None, max_step: None }
     }
 
-    /// The preceding error to begin with.
-    pub(crate) fn first_error() -> T {
-        T::from_f64(LEAST_ERROR)
+    /// The logarithm of the preceding error, to begin with.
+    pub(crate) fn first_log_error() -> T {
+        T::from_f64(LEAST_LOG_ERROR)
     }
 
     pub(crate) fn check(&self) -> Result<(), IntegrationError> {
@@ -76,7 +76,9 @@ impl<T: Real> StepControl<T> {
         let mut sum = T::ZERO;
         let mut count = T::ZERO;
         for (&e, (x0, x1)) in e.as_ref().iter().zip(x0.as_ref().iter().zip(x1.as_ref())) {
-            let ratio = e / self.rtol.mul_add(x0.abs().max(x1.abs()), atol);
+            // not `max`, which would take care of NaN: an end that is not finite is refused anyway
+            let larger = x0.abs().select_gt(x1.abs(), x0.abs(), x1.abs());
+            let ratio = e / self.rtol.mul_add(larger, atol);
             // 0/0: a component that is exactly zero, with a relative tolerance only
             let ratio = if e == T::ZERO { T::ZERO } else { ratio };
             sum += ratio * ratio;
@@ -86,21 +88,16 @@ impl<T: Real> StepControl<T> {
     }
 
     /// The length of the step after an accepted one, after (4.13) with the PI term of section IV.2:
-    /// `h · 0.9 · err^(−1/q + 3β/4) · err_old^β`. `order` is q: one more than that of the estimate.
+    /// `h · 0.9 · err^(−1/q + 3β/4) · err_old^β`; and the logarithm of the error, for the next time.
+    /// `order` is q: one more than that of the estimate.
     #[inline]
-    pub(crate) fn after_success(&self, h: T, error: T, preceding: T, order: u32) -> T {
+    pub(crate) fn after_success(&self, h: T, error: T, preceding: T, order: u32) -> (T, T) {
         let beta = T::from_f64(BETA);
         let exponent = T::from_u32(order).recip() - T::from_f64(0.75 * BETA);
-        let error = error.max(T::MIN_POSITIVE);
-        let factor = T::from_f64(SAFETY) * (beta * preceding.ln() - exponent * error.ln()).exp();
+        let log_error = error.max(T::MIN_POSITIVE).ln();
+        let factor = T::from_f64(SAFETY) * (beta * preceding - exponent * log_error).exp();
         let next = h * factor.max(T::from_f64(SHRINK)).min(T::from_f64(GROW));
-        self.limited(next)
-    }
-
-    /// The error to remember of an accepted step.
-    #[inline]
-    pub(crate) fn remembered(error: T) -> T {
-        error.max(T::from_f64(LEAST_ERROR))
+        (self.limited(next), log_error.max(T::from_f64(LEAST_LOG_ERROR)))
     }
 
     /// The length of the step after a rejected one, without the PI term: h · 0.9 · err^(−1/q), and
@@ -171,8 +168,8 @@ mod tests {
     #[test]
     fn steps_change_within_bounds() {
         let control = StepControl::<f64> { max_step: Some(3.0), ..StepControl::new() };
-        assert_eq!(control.after_success(0.1, 0.0, 1e-4, 5), 1.0);
-        assert_eq!(control.after_success(1.0, 0.0, 1e-4, 5), 3.0);
+        assert_eq!(control.after_success(0.1, 0.0, -9.0, 5).0, 1.0);
+        assert_eq!(control.after_success(1.0, 0.0, -9.0, 5).0, 3.0);
         assert!((StepControl::after_rejection(1.0, f64::NAN, 5) - 0.2).abs() < 1e-15);
         assert!(StepControl::after_rejection(1.0_f64, 1.0 + 1e-12, 5) <= 0.9);
     }

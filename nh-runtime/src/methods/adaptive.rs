@@ -53,8 +53,8 @@ pub(super) struct Attempt<S: Dynamics, Stages> {
 pub struct Memory<S: Dynamics, Bulge> {
     /// The length proposed for the next step.
     proposed: Option<ScalarOf<S>>,
-    /// The error of the last step.
-    error: ScalarOf<S>,
+    /// The logarithm of the error of the last step.
+    log_error: ScalarOf<S>,
     /// The derivatives at both ends of the last step.
     pub(super) ends: (VecOf<S>, VecOf<S>),
     /// The rest of its dense output.
@@ -79,7 +79,7 @@ where
         let zero = DimOf::<S>::vec(ScalarOf::<S>::ZERO);
         Self {
             proposed: None,
-            error: StepControl::first_error(),
+            log_error: StepControl::first_log_error(),
             ends: (zero, zero),
             bulge: None,
             current: false,
@@ -88,7 +88,7 @@ where
 
     pub(super) fn forget(&mut self) {
         self.current = false;
-        self.error = StepControl::first_error();
+        self.log_error = StepControl::first_log_error();
     }
 }
 
@@ -132,13 +132,13 @@ where
         let length = leg.length.abs();
         if attempt.error <= ScalarOf::<S>::ONE && all_finite::<ScalarOf<S>, _>(&attempt.state) {
             let (last, bulge) = method.conclude(start, &first, leg.length, &attempt);
-            let next = control.after_success(length, attempt.error, memory.error, M::ORDER);
+            let (next, log_error) = control.after_success(length, attempt.error, memory.log_error, M::ORDER);
             // no growth right after a rejection; no loss from a step that a target cut short
             let next = if rejected { next.min(length) } else { next };
             let next = if leg.cut && !rejected { next.max(proposed) } else { next };
             *memory = Memory {
                 proposed: Some(next),
-                error: StepControl::remembered(attempt.error),
+                log_error,
                 ends: (first, last),
                 bulge: Some(bulge),
                 current: true,

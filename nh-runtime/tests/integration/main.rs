@@ -6,5 +6,6 @@
 mod conservation;
 mod errors;
 mod landing;
+mod lanes;
 mod orders;
 mod systems;
