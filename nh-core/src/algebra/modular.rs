@@ -2,8 +2,9 @@
 //!
 //! Sine and cosine of an angle go through the rational parametrisation of the circle, one random
 //! parameter for each term of the angle's normal form, so that the addition theorems and
-//! `sin² + cos² = 1` hold. `exp` likewise through one random unit for each term. Square roots are
-//! roots in the field; other functions are independent kernels of their argument's value.
+//! `sin² + cos² = 1` hold; multiples of π/12 have their exact values. `exp` likewise through one
+//! random unit for each term. Square roots are roots in the field; other functions are independent
+//! kernels of their argument's value.
 
 use super::field::Residue;
 use super::graph::{Function, Function2, Graph, Node};
@@ -268,7 +269,14 @@ impl Pass<'_> {
     /// `(cos x, sin x)`.
     fn circle(&self, x: ExprId) -> Result<(Residue, Residue), NoValue> {
         let mut turned = (Residue::ONE, Residue::ZERO);
+        let pi = self.random(Stream::Pi, 0);
         for (symbol, value, coefficient) in self.normal_terms(x) {
+            if value == pi
+                && let Some(twelfths) = (coefficient.clone() * Rational::from(12)).to_i64()
+            {
+                turned = rotate(turned, circle_power(twelfth_of_pi()?, twelfths));
+                continue;
+            }
             let times = self.multiple(&coefficient)?;
             let chosen = symbol.and_then(|symbol| self.point.circle.get(&symbol));
             let (unit, times) = match chosen {
@@ -304,6 +312,14 @@ impl Pass<'_> {
     fn multiple(&self, coefficient: &Rational) -> Result<i64, NoValue> {
         (coefficient.clone() * Rational::from(self.division)).to_i64().ok_or(NoValue::Here)
     }
+}
+
+/// `(cos π/12, sin π/12)`. Either choice of either root gives a point whose sixth power is (0, 1).
+fn twelfth_of_pi() -> Result<(Residue, Residue), NoValue> {
+    let root = |n| Residue::of_word(n).sqrt().ok_or(NoValue::Here);
+    let (r2, r6) = (root(2)?, root(6)?);
+    let quarter = Residue::of_word(4).inverse().ok_or(NoValue::Here)?;
+    Ok(((r6 + r2) * quarter, (r6 - r2) * quarter))
 }
 
 fn rotate(a: (Residue, Residue), b: (Residue, Residue)) -> (Residue, Residue) {

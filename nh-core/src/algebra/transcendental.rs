@@ -4,6 +4,7 @@
 //! |---|---|
 //! | `sin(−x) = −sin x`, `cos(−x) = cos x`, likewise for the other odd and even functions | – |
 //! | `sin(x + kπ/2)`, `cos(x + kπ/2)` | `k` an integer |
+//! | `sin x = cos(π/2 − x)` | `x` contains a part of a quarter turn |
 //! | sine and cosine of multiples of π/6 and π/4 | – |
 //! | `tan x = sin x / cos x` | – |
 //! | `sin(asin x) = x`, `cos(asin x) = √(1−x²)` and their kin | where `asin x` is defined |
@@ -16,24 +17,22 @@ use crate::id::ExprId;
 impl Graph {
     /// `sin x`.
     pub fn sin(&mut self, x: ExprId) -> ExprId {
-        let (quarter_turns, rest) = self.split_quarter_turns(x);
-        match quarter_turns {
-            0 => self.sin_of_rest(rest),
-            1 => self.cos_of_rest(rest),
-            2 => self.negated(Self::sin_of_rest, rest),
-            _ => self.negated(Self::cos_of_rest, rest),
-        }
+        self.sin_ahead(x, 0)
     }
 
     /// `cos x`.
     pub fn cos(&mut self, x: ExprId) -> ExprId {
-        let (quarter_turns, rest) = self.split_quarter_turns(x);
-        match quarter_turns {
-            0 => self.cos_of_rest(rest),
-            1 => self.negated(Self::sin_of_rest, rest),
-            2 => self.negated(Self::cos_of_rest, rest),
-            _ => self.sin_of_rest(rest),
-        }
+        self.sin_ahead(x, 1)
+    }
+
+    /// `sin(x + k·π/2)` for `k` quarter turns.
+    fn sin_ahead(&mut self, x: ExprId, quarter_turns: u8) -> ExprId {
+        let (more, rest) = self.split_quarter_turns(x);
+        let (is_reflected, rest) = self.reflected(rest);
+        let turns = (quarter_turns + more) % 4;
+        let value =
+            if (turns % 2 == 0) == is_reflected { self.cos_of_rest(rest) } else { self.sin_of_rest(rest) };
+        if turns < 2 { value } else { self.neg(value) }
     }
 
     /// `tan x`, as a quotient.
@@ -42,27 +41,50 @@ impl Graph {
         self.div(sin, cos)
     }
 
-    fn negated(&mut self, f: fn(&mut Self, ExprId) -> ExprId, x: ExprId) -> ExprId {
-        let value = f(self, x);
-        self.neg(value)
+    /// The coefficient of π among the terms of `x`.
+    fn multiple_of_pi(&mut self, x: ExprId) -> Rational {
+        let pi = self.pi();
+        let coefficient = match self.node(x) {
+            Node::Pi => Some(Rational::ONE),
+            Node::Product { coefficient, factors } if **factors == [(pi, Rational::ONE)] => {
+                Some(coefficient.clone())
+            }
+            Node::Sum { terms, .. } => terms.iter().find(|(term, _)| *term == pi).map(|(_, c)| c.clone()),
+            _ => None,
+        };
+        coefficient.unwrap_or(Rational::ZERO)
     }
 
     /// Writes `x = k·π/2 + rest` with `k` in 0..4 and the multiple of π in `rest` in [0, 1/2).
     fn split_quarter_turns(&mut self, x: ExprId) -> (u8, ExprId) {
         let pi = self.pi();
-        let (_, terms) = match self.node(x) {
-            Node::Product { coefficient, factors } if **factors == [(pi, Rational::ONE)] => {
-                (Rational::ZERO, vec![(pi, coefficient.clone())])
-            }
-            _ => self.as_linear(x),
-        };
-        let Some((_, multiple)) = terms.iter().find(|(term, _)| *term == pi) else { return (0, x) };
-        let doubled = multiple.clone() * Rational::from(2);
+        let multiple = self.multiple_of_pi(x);
+        if multiple.is_zero() {
+            return (0, x);
+        }
+        let doubled = multiple * Rational::from(2);
         let floor = num_integer::Integer::div_floor(&doubled.numerator(), &doubled.denominator());
         let quarter = num_integer::Integer::mod_floor(&floor, &4.into());
         let Some(whole) = Rational::from_big(floor, 1.into()) else { return (0, x) };
         let rest = self.linear_combination(&[(Rational::ONE, x), (-whole * Rational::new(1, 2), pi)]);
         (num_traits::ToPrimitive::to_u8(&quarter).unwrap_or(0), rest)
+    }
+
+    /// Chooses between `x` and `π/2 − x`, which swaps sine and cosine, for angles with a part of a
+    /// quarter turn: the rest leads positive, or is below π/4 if there is no rest.
+    fn reflected(&mut self, x: ExprId) -> (bool, ExprId) {
+        let pi = self.pi();
+        let multiple = self.multiple_of_pi(x);
+        if multiple.is_zero() {
+            return (false, x);
+        }
+        let rest = self.linear_combination(&[(Rational::ONE, x), (-multiple.clone(), pi)]);
+        let is_beyond = self.is_literal_zero(rest) && multiple > Rational::new(1, 4);
+        if !is_beyond && !self.leads_negative(rest) {
+            return (false, x);
+        }
+        let reflection = [(Rational::new(1, 2), pi), (Rational::MINUS_ONE, x)];
+        (true, self.linear_combination(&reflection))
     }
 
     fn sin_of_rest(&mut self, x: ExprId) -> ExprId {
@@ -230,6 +252,23 @@ mod tests {
         assert_eq!(cos, half);
         let tan = g.tan(pi);
         assert!(g.is_literal_zero(tan));
+    }
+
+    #[test]
+    fn parts_of_a_quarter_turn_have_one_form() {
+        let mut g = Graph::new();
+        let a = g.new_symbol("a");
+        let (a, pi) = (g.symbol(a), g.pi());
+        for n in 1..8 {
+            let n = Rational::new(n, 7);
+            let left = g.linear_combination(&[(n.clone(), pi), (Rational::MINUS_ONE, a)]);
+            let right = g.linear_combination(&[(Rational::ONE - n.clone(), pi), (Rational::ONE, a)]);
+            assert_eq!(g.sin(left), g.sin(right));
+            let cos = g.cos(right);
+            assert_eq!(g.cos(left), g.neg(cos));
+        }
+        let (fifth, rest) = (g.scale(Rational::new(1, 5), pi), g.scale(Rational::new(3, 10), pi));
+        assert_eq!(g.sin(fifth), g.cos(rest));
     }
 
     #[test]

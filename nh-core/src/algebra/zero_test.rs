@@ -183,6 +183,23 @@ mod tests {
     }
 
     #[test]
+    fn parts_of_a_turn() {
+        let mut g = Graph::new();
+        let [a] = symbols(&mut g, ["a"]);
+        let pi = g.pi();
+        for n in 1..12 {
+            let part = g.scale(Rational::new(n, 12), pi);
+            let shifted = g.add(a, part);
+            let (left, s, c) = (g.sin(shifted), g.sin(a), g.cos(a));
+            let (sp, cp) = (g.sin(part), g.cos(part));
+            let (x, y) = (g.mul(s, cp), g.mul(c, sp));
+            let right = g.add(x, y);
+            let defect = g.sub(left, right);
+            assert_eq!(g.zero_test(defect), Verdict::Zero, "{}", g.text(defect));
+        }
+    }
+
+    #[test]
     fn half_angles() {
         let mut g = Graph::new();
         let [b] = symbols(&mut g, ["b"]);
