@@ -29,7 +29,7 @@ pub fn compile(mut model: Model) -> Result<System, Vec<Violation>> {
     let broken = check::structure_equations(&mut model, &algebroid);
     let constraints = both(broken, check::linear_constraints(&mut model, &mut motion, &algebroid))?;
     // 5. the formulation: a basis of D valid everywhere, or multipliers
-    let chosen = check::choose_formulation(&mut model, constraints.clone())?;
+    let chosen = check::choose_formulation(&mut model, &constraints)?;
     // 6. the Lagrangian system on E
     let system = lagrangian_system(&mut model, &mut motion, algebroid);
     // 7. the equations, proved regular
@@ -69,8 +69,11 @@ fn lagrangian_system(model: &mut Model, motion: &mut Motion, algebroid: Algebroi
         *slot = graph.add(*slot, value);
     }
     let pulled_back = algebroid.anchor.pull_back(graph, &along_base);
-    let forces =
-        along_sections.into_iter().zip(pulled_back).map(|(direct, pulled)| graph.add(direct, pulled)).collect();
+    let forces = along_sections
+        .into_iter()
+        .zip(pulled_back)
+        .map(|(direct, pulled)| graph.add(direct, pulled))
+        .collect();
     LagrangianSystem { algebroid, lagrangian, forces, time: model.time }
 }
 

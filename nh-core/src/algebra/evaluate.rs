@@ -1,6 +1,7 @@
 //! Evaluation in floating point, with a bound on the rounding error of every value.
 
 use super::graph::{Function, Function2, Graph, Node};
+use super::number::Rational;
 use crate::id::{ExprId, SymbolId};
 use rustc_hash::FxHashMap;
 
@@ -77,8 +78,8 @@ impl Graph {
                 let mut relative = 2.0 * f64::EPSILON;
                 for (base, exponent) in factors {
                     let x = known[base];
-                    let exponent = exponent.to_f64();
                     product *= real_power(x.value, exponent);
+                    let exponent = exponent.to_f64();
                     relative += exponent.abs() * x.error / x.value.abs().max(f64::MIN_POSITIVE)
                         + (2.0 + exponent.abs()) * f64::EPSILON;
                 }
@@ -95,26 +96,23 @@ impl Graph {
 /// The error of a product that vanished: its factors moved by their errors.
 fn power_error(
     coefficient: f64,
-    factors: &[(ExprId, super::number::Rational)],
+    factors: &[(ExprId, Rational)],
     known: &FxHashMap<ExprId, Bounded>,
 ) -> f64 {
     factors.iter().fold(coefficient.abs(), |product, (base, exponent)| {
         let x = known[base];
-        product * real_power(x.value.abs() + x.error, exponent.to_f64())
+        product * real_power(x.value.abs() + x.error, exponent)
     })
 }
 
-fn real_power(x: f64, exponent: f64) -> f64 {
-    if exponent == 1.0 {
-        x
-    } else if exponent == 2.0 {
-        x * x
-    } else if exponent == 0.5 {
-        x.sqrt()
-    } else if exponent == -1.0 {
-        x.recip()
-    } else {
-        x.powf(exponent)
+/// `x^exponent`, by the correctly rounded operation where there is one.
+fn real_power(x: f64, exponent: &Rational) -> f64 {
+    match exponent.to_small() {
+        Some((1, 1)) => x,
+        Some((2, 1)) => x * x,
+        Some((1, 2)) => x.sqrt(),
+        Some((-1, 1)) => x.recip(),
+        _ => x.powf(exponent.to_f64()),
     }
 }
 

@@ -36,7 +36,8 @@ impl Graph {
         let mut values = vec![vec![zero; columns]; n];
         let mut divisors = Vec::new();
         for block in blocks(&pattern, &row_of) {
-            let rows: Vec<usize> = block.iter().map(|unknown| row_of[*unknown]).collect();
+            let mut rows: Vec<usize> = block.iter().map(|unknown| row_of[*unknown]).collect();
+            rows.sort_unstable();
             let inner: Matrix =
                 rows.iter().map(|row| block.iter().map(|unknown| matrix[*row][*unknown]).collect()).collect();
             let reduced: Matrix = rows

@@ -95,11 +95,10 @@ impl Range {
     fn function(self, function: Function) -> Self {
         match function {
             Function::Sin | Function::Cos => Self::UNIT,
-            Function::Tanh => Self { nonzero: self.nonzero, ..Self::UNIT },
             Function::Exp => Self { nonzero: true, ..Self::new(self.low.exp(), self.high.exp(), true) },
             Function::Cosh => Self::new(1.0, f64::INFINITY, true),
             Function::Abs => Self::new(0.0, self.low.abs().max(self.high.abs()), self.nonzero),
-            Function::Sign => Self { nonzero: self.nonzero, ..Self::UNIT },
+            Function::Sign | Function::Tanh => Self { nonzero: self.nonzero, ..Self::UNIT },
             Function::Atan => Self::new(self.low.atan(), self.high.atan(), self.nonzero),
             Function::Sinh => Self::new(self.low.sinh(), self.high.sinh(), self.nonzero),
             Function::Asin => Self { low: -1.6, high: 1.6, nonzero: self.nonzero },

@@ -31,7 +31,7 @@ impl Graph {
         let (is_reflected, rest) = self.reflected(rest);
         let turns = (quarter_turns + more) % 4;
         let value =
-            if (turns % 2 == 0) == is_reflected { self.cos_of_rest(rest) } else { self.sin_of_rest(rest) };
+            if turns.is_multiple_of(2) == is_reflected { self.cos_of_rest(rest) } else { self.sin_of_rest(rest) };
         if turns < 2 { value } else { self.neg(value) }
     }
 

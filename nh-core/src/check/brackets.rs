@@ -147,7 +147,8 @@ fn components(model: &mut Model, declaration: &BracketDecl) -> Result<Vec<ExprId
     if let Some(stranger) = graph.symbols_in(&form.coefficients).into_iter().find(|s| !base.contains(s)) {
         return Err(blame(
             format!("the bracket {pair} depends on `{}`", graph.symbols()[stranger]),
-            "structure functions are functions on the base: of the base coordinates and the parameters".into(),
+            "structure functions are functions on the base: of the base coordinates and the parameters"
+                .into(),
             "use base coordinates and parameters only",
         ));
     }

@@ -4,7 +4,7 @@ use super::evidence::{listed, shown};
 use crate::algebra::Facts;
 use crate::geometry::choice::{Choice, NoChoice, judge, search};
 use crate::geometry::{ConstraintDistribution, LinearConstraints, PivotSetting};
-use crate::id::{ExprId, Id, Origin, SectionId, SymbolId};
+use crate::id::{ExprId, Origin, SectionId, SymbolId};
 use crate::model::{Formulation, Model};
 use crate::violation::{Law, Violation};
 
@@ -32,7 +32,10 @@ pub enum Chosen {
 ///
 /// # Errors
 /// A choice of the user that the constraints do not allow.
-pub fn choose_formulation(model: &mut Model, constraints: LinearConstraints) -> Result<Chosen, Vec<Violation>> {
+pub fn choose_formulation(
+    model: &mut Model,
+    constraints: &LinearConstraints,
+) -> Result<Chosen, Vec<Violation>> {
     let rank = model.sections.len();
     let forced = model.formulation;
     if let (Some((Formulation::Projected, origin)), Some(_)) = (forced, &model.independent) {
@@ -57,8 +60,8 @@ pub fn choose_formulation(model: &mut Model, constraints: LinearConstraints) -> 
     let setting =
         PivotSetting { annihilator: &constraints.annihilator, parameters: &parameters, facts: &facts };
     match model.independent.clone() {
-        Some(named) => named_choice(model, &setting, &named, &constraints),
-        None => searched_choice(model, &setting, forced, &constraints),
+        Some(named) => named_choice(model, &setting, &named, constraints),
+        None => searched_choice(model, &setting, forced, constraints),
     }
 }
 
@@ -80,7 +83,11 @@ fn dependent_of(
 ) -> Result<Vec<SectionId>, Vec<Violation>> {
     let wanted = model.sections.len() - constraints;
     if named.len() == wanted {
-        return Ok(model.sections.ids().filter(|id| named.iter().all(|(section, _)| section != id)).collect());
+        return Ok(model
+            .sections
+            .ids()
+            .filter(|id| named.iter().all(|(section, _)| section != id))
+            .collect());
     }
     Err(vec![Violation {
         law: Law::Choice,
@@ -127,7 +134,10 @@ fn named_choice(
     } else {
         let where_: Vec<String> =
             choice.breaks_down.iter().map(|factor| format!("{} = 0", shown(&model.graph, *factor))).collect();
-        format!("the declaration names the independent velocities; they break down where {}", where_.join(" or "))
+        format!(
+            "the declaration names the independent velocities; they break down where {}",
+            where_.join(" or ")
+        )
     };
     adapted(model, choice, constraints, reason)
 }
@@ -140,8 +150,7 @@ fn searched_choice(
 ) -> Result<Chosen, Vec<Violation>> {
     let preferred = solved_for(model);
     let rank = model.sections.len();
-    let found =
-        search(&mut model.graph, setting, &preferred, rank).map_err(|why| undecided(model, why))?;
+    let found = search(&mut model.graph, setting, &preferred, rank).map_err(|why| undecided(model, why))?;
     match (found, forced) {
         (Ok(choice), _) => {
             let eliminated = listed(&names(model, &choice.dependent));
@@ -158,7 +167,10 @@ fn searched_choice(
                 .into(),
         }]),
         (Err(failure), None) => Ok(Chosen::Projected {
-            reason: format!("no choice of independent velocities is valid everywhere: {}", tried(model, &failure)),
+            reason: format!(
+                "no choice of independent velocities is valid everywhere: {}",
+                tried(model, &failure)
+            ),
         }),
     }
 }
@@ -167,7 +179,8 @@ fn searched_choice(
 fn solved_for(model: &Model) -> Vec<SectionId> {
     let mut sections: Vec<SectionId> = Vec::new();
     for symbol in model.constraints.iter().filter_map(|constraint| constraint.solved_for) {
-        let section = model.sections.iter_ids().find(|(_, section)| section.symbol == symbol).map(|(id, _)| id);
+        let section =
+            model.sections.iter_ids().find(|(_, section)| section.symbol == symbol).map(|(id, _)| id);
         if let Some(section) = section.filter(|section| !sections.contains(section)) {
             sections.push(section);
         }
@@ -201,12 +214,9 @@ fn adapted(
     let rank = model.sections.len();
     let solved =
         ConstraintDistribution::solved_for(&mut model.graph, constraints.clone(), &choice.dependent, rank);
-    match solved {
-        Some(distribution) => Ok(Chosen::Adapted { distribution, conditions: choice.conditions, reason }),
-        None => {
-            let list = listed(&names(model, &choice.dependent));
-            debug_assert!(choice.dependent.iter().all(|section| section.index() < rank));
-            Err(undecided(model, format!("no solution for {list} was found")))
-        }
+    if let Some(distribution) = solved {
+        return Ok(Chosen::Adapted { distribution, conditions: choice.conditions, reason });
     }
+    let list = listed(&names(model, &choice.dependent));
+    Err(undecided(model, format!("no solution for {list} was found")))
 }

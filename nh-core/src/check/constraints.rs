@@ -32,7 +32,10 @@ pub fn linear_constraints(
     if violations.is_empty() {
         violations.extend(dependent(model, &constraints));
     }
-    if violations.is_empty() && !model.constraints.is_empty() && model.constraints.len() >= model.sections.len() {
+    if violations.is_empty()
+        && !model.constraints.is_empty()
+        && model.constraints.len() >= model.sections.len()
+    {
         violations.push(too_many(model));
     }
     if violations.is_empty() { Ok(constraints) } else { Err(violations) }
@@ -74,7 +77,9 @@ fn linear_row(
         Ok(form) => form,
         Err(NotLinear::Curved(..)) => {
             return Err(blame(
-                format!("{name} is not linear in the velocities; nonlinear constraints are not supported yet"),
+                format!(
+                    "{name} is not linear in the velocities; nonlinear constraints are not supported yet"
+                ),
                 shown(graph, residual),
                 "write a constraint that is linear in the velocities".into(),
             ));
@@ -141,7 +146,9 @@ fn too_many(model: &Model) -> Violation {
     Violation {
         law: Law::Independence,
         origin: last,
-        what: format!("as many independent constraints as sections ({constraints} of {sections}): nothing can move"),
+        what: format!(
+            "as many independent constraints as sections ({constraints} of {sections}): nothing can move"
+        ),
         evidence: "the constraint distribution has rank 0".into(),
         way_out: "leave a constraint out, or add the velocities that it leaves free".into(),
     }
@@ -207,7 +214,8 @@ fn combination(graph: &mut Graph, constraints: &LinearConstraints, index: usize)
     let earlier = &constraints.annihilator[..index];
     let sampled = graph.matrix_in_field(earlier, |seed| FieldPoint::random(8_000 + seed)).ok()?;
     let columns = Echelon::of(sampled).pivots;
-    let matrix: Matrix = columns.iter().map(|column| earlier.iter().map(|row| row[*column]).collect()).collect();
+    let matrix: Matrix =
+        columns.iter().map(|column| earlier.iter().map(|row| row[*column]).collect()).collect();
     let right: Matrix = columns.iter().map(|column| vec![constraints.annihilator[index][*column]]).collect();
     let solution = graph.solve_linear(&matrix, &right)?;
     Some(solution.values.into_iter().map(|row| graph.simplify(row[0])).collect())

@@ -69,7 +69,10 @@ fn declared_anchor(model: &mut Model, lines: &[AnchorDecl]) -> Result<Motion, Ve
                 origin: coordinate.origin,
                 what: format!("the anchor has no line for the coordinate `{}`", coordinate.name),
                 evidence: "the kinematic equations give the rate of every base coordinate".into(),
-                way_out: format!("add `der({0}) = …;`, or `der({0}) = 0;` if it never changes", coordinate.name),
+                way_out: format!(
+                    "add `der({0}) = …;`, or `der({0}) = 0;` if it never changes",
+                    coordinate.name
+                ),
             });
         }
     }
@@ -91,7 +94,8 @@ fn homogeneous_row(
     origin: Origin,
     law: Law,
 ) -> Result<Vec<ExprId>, Violation> {
-    let blame = |what: String, evidence: String, way_out: String| Violation { law, origin, what, evidence, way_out };
+    let blame =
+        |what: String, evidence: String, way_out: String| Violation { law, origin, what, evidence, way_out };
     let graph = &mut model.graph;
     let form = graph.linear_form(expression, variables).map_err(|error| match error {
         NotLinear::Curved(first, second) => {
@@ -100,7 +104,8 @@ fn homogeneous_row(
             blame(
                 format!("{subject} is not linear in the velocities"),
                 format!("`{}` has a term like {term}", shown(graph, expression)),
-                "an anchor is a linear map; a velocity with a nonlinear relation belongs in `constraints`".into(),
+                "an anchor is a linear map; a velocity with a nonlinear relation belongs in `constraints`"
+                    .into(),
             )
         }
         NotLinear::Unknown(why) => blame(

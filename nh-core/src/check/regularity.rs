@@ -9,11 +9,8 @@ use crate::violation::{Law, Violation};
 /// C_{ab} is non-singular at generic points of the constraint manifold.
 #[must_use]
 pub fn reduced_regularity(model: &Model, equations: &ReducedEquations) -> Option<Violation> {
-    let names: Vec<&str> = equations
-        .independent
-        .iter()
-        .map(|symbol| model.graph.symbols()[*symbol].as_str())
-        .collect();
+    let names: Vec<&str> =
+        equations.independent.iter().map(|symbol| model.graph.symbols()[*symbol].as_str()).collect();
     let size = names.len();
     judge(model, &equations.mass, size, |vector| {
         let moving: Vec<&str> =
@@ -58,7 +55,8 @@ fn judge(
                 origin,
                 what: "whether the mass matrix is regular could not be decided".into(),
                 evidence: why,
-                way_out: "write the Lagrangian without roots of negative numbers and divisions by zero".into(),
+                way_out: "write the Lagrangian without roots of negative numbers and divisions by zero"
+                    .into(),
             });
         }
     };

@@ -2,6 +2,7 @@
 
 mod algebroid;
 mod anchor;
+mod change_of_basis;
 pub mod choice;
 mod distribution;
 pub mod hamel;
@@ -11,6 +12,7 @@ mod structure;
 
 pub use algebroid::Algebroid;
 pub use anchor::Anchor;
+pub use change_of_basis::ChangeOfBasis;
 pub use distribution::{ConstraintDistribution, LinearConstraints};
 pub use known_algebra::{KnownAlgebra, KnownBracket};
 pub use pivot::{PivotSetting, PivotZeros};

@@ -67,8 +67,7 @@ fn is_positive_at(graph: &Graph, matrix: &[Vec<ExprId>], sign: f64, value: impl 
             let sum: f64 = (0..j).map(|k| factor[&(i, k)] * factor[&(j, k)]).sum();
             let rest = values[i * n + j] - sum;
             let entry = if i == j {
-                // also refuses NaN
-                if !(rest > values[j * n + j].abs() * 1e-12) {
+                if rest.is_nan() || rest <= values[j * n + j].abs() * 1e-12 {
                     return false;
                 }
                 rest.sqrt()

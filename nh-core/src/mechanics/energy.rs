@@ -1,7 +1,7 @@
 //! The energy E_L = y^α ∂L/∂y^α − L.
 
 use super::euler_lagrange::LagrangianSystem;
-use crate::algebra::{Graph, Node, Rational};
+use crate::algebra::{Graph, Rational};
 use crate::id::{ExprId, SymbolId};
 
 /// E_L, summand by summand: a summand homogeneous of degree d in the velocities contributes
@@ -9,19 +9,15 @@ use crate::id::{ExprId, SymbolId};
 pub fn energy(graph: &mut Graph, system: &LagrangianSystem) -> ExprId {
     let velocities = system.algebroid.velocities.clone();
     let one = graph.one();
-    let (constant, terms): (Rational, Vec<(ExprId, Rational)>) = match graph.node(system.lagrangian).clone() {
-        Node::Sum { constant, terms } => (constant, terms.into_vec()),
-        _ => (Rational::ZERO, vec![(system.lagrangian, Rational::ONE)]),
-    };
+    let (constant, terms) = graph.as_linear(system.lagrangian);
     let mut summands = vec![(-constant, one)];
     for (term, coefficient) in terms {
         let fibre = fibre_derivative(graph, term, &velocities);
-        match degree(graph, term, fibre) {
-            Some(degree) => summands.push((coefficient * Rational::from(degree - 1), term)),
-            None => {
-                summands.push((coefficient.clone(), fibre));
-                summands.push((-coefficient, term));
-            }
+        if let Some(degree) = degree(graph, term, fibre) {
+            summands.push((coefficient * Rational::from(degree - 1), term));
+        } else {
+            summands.push((coefficient.clone(), fibre));
+            summands.push((-coefficient, term));
         }
     }
     let energy = graph.linear_combination(&summands);

@@ -206,9 +206,9 @@ impl Ldl {
         let n = right.len();
         // L z = right
         let mut forward: Vec<ExprId> = Vec::with_capacity(n);
-        for i in 0..n {
+        for (i, entry) in right.iter().enumerate() {
             let known = graph.inner_product(&self.lower[i][..i], &forward);
-            let value = graph.sub(right[i], known);
+            let value = graph.sub(*entry, known);
             forward.push(procedure.define(graph, &format!("{name}_z{i}"), value));
         }
         // Lᵀ x = D⁻¹ z

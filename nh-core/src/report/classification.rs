@@ -40,11 +40,15 @@ fn algebroid(model: &mut Model, system: &LagrangianSystem) -> String {
         Kinematics::Tangent => "the tangent bundle TM in its coordinate frame".to_owned(),
         Kinematics::Coframe(_) => "the tangent bundle TM in an anholonomic frame, by its coframe".to_owned(),
         Kinematics::Anchor(_) if n == 0 => "a Lie algebra".to_owned(),
-        Kinematics::Anchor(_) if n == s && rank == n => "the tangent bundle TM in an anholonomic frame".to_owned(),
+        Kinematics::Anchor(_) if n == s && rank == n => {
+            "the tangent bundle TM in an anholonomic frame".to_owned()
+        }
         Kinematics::Anchor(_) if rank == n => {
             format!("a transitive Lie algebroid (Atiyah type) with isotropy of rank {}", s - n)
         }
-        Kinematics::Anchor(_) if constant => "an action Lie algebroid: constant structure functions".to_owned(),
+        Kinematics::Anchor(_) if constant => {
+            "an action Lie algebroid: constant structure functions".to_owned()
+        }
         Kinematics::Anchor(_) => "a Lie algebroid".to_owned(),
     };
     let almost = if model.almost { ", almost: the Jacobi identity is not demanded" } else { "" };

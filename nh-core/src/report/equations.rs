@@ -21,8 +21,11 @@ pub fn equations_of_motion(model: &Model, derived: &Derived<'_>) -> Vec<String> 
         .collect();
     match derived {
         Derived::Adapted { equations, distribution } => {
-            let names: Vec<&str> =
-                distribution.independent.iter().map(|section| model.sections[*section].name.as_str()).collect();
+            let names: Vec<&str> = distribution
+                .independent
+                .iter()
+                .map(|section| model.sections[*section].name.as_str())
+                .collect();
             for (row, force) in equations.mass.iter().zip(&equations.force) {
                 lines.push(format!("{} = {}", accelerations(graph, row, &names), shown(graph, *force)));
             }
@@ -62,14 +65,11 @@ fn accelerations(graph: &Graph, row: &[ExprId], names: &[&str]) -> String {
 
 /// ` + (…)*lambda_name` for each constraint.
 fn reactions(model: &Model, jacobian: &[Vec<ExprId>], alpha: usize) -> String {
-    jacobian
-        .iter()
-        .enumerate()
-        .filter(|(_, row)| !model.graph.is_literal_zero(row[alpha]))
-        .map(|(index, row)| {
-            let constraint = &model.constraints[ConstraintId::from_index(index)];
-            let name = constraint.label.clone().unwrap_or_else(|| format!("{}", index + 1));
-            format!(" + ({})*lambda_{name}", shown(&model.graph, row[alpha]))
-        })
-        .collect()
+    let mut text = String::new();
+    for (index, row) in jacobian.iter().enumerate().filter(|(_, row)| !model.graph.is_literal_zero(row[alpha])) {
+        let constraint = &model.constraints[ConstraintId::from_index(index)];
+        let name = constraint.label.clone().unwrap_or_else(|| format!("{}", index + 1));
+        text.extend([" + (", &shown(&model.graph, row[alpha]), ")*lambda_", &name]);
+    }
+    text
 }

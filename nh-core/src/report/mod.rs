@@ -50,9 +50,9 @@ pub fn report(
     let mut text = format!("{}\n", model.name);
     let mut section = |title: &str, lines: Vec<String>| {
         if !lines.is_empty() {
-            text.push_str(&format!("\n{title}\n"));
+            text.extend(["\n", title, "\n"]);
             for line in lines {
-                text.push_str(&format!("  {line}\n"));
+                text.extend(["  ", &line, "\n"]);
             }
         }
     };
@@ -96,7 +96,9 @@ fn anchor(model: &Model, system: &LagrangianSystem) -> Vec<String> {
         .coordinates
         .iter()
         .zip(rows)
-        .map(|(coordinate, row)| format!("der({}) = {}", coordinate.name, combination(&model.graph, row, &names)))
+        .map(|(coordinate, row)| {
+            format!("der({}) = {}", coordinate.name, combination(&model.graph, row, &names))
+        })
         .collect()
 }
 

@@ -1,0 +1,157 @@
+//! The derived equations of a few systems against formulas worked out by hand.
+
+use crate::systems;
+
+use nh_core::compile::compile;
+use nh_core::id::Id;
+use nh_core::model::{Formulation, Model};
+use nh_core::program::{interpret, schedule};
+use nh_core::system::System;
+use nh_core::violation::Law;
+
+/// The derivative of a system at named values.
+fn derivative(system: &System, values: &[(&str, f64)]) -> Vec<f64> {
+    let graph = &system.model.graph;
+    interpret(&schedule(graph, &system.derivative), |symbol| {
+        let name = &graph.symbols()[symbol];
+        values.iter().find(|(n, _)| n == name).unwrap_or_else(|| panic!("no value for {name}")).1
+    })
+}
+
+fn compiled(model: Model) -> System {
+    compile(model).unwrap_or_else(|violations| panic!("{violations:#?}"))
+}
+
+fn assert_close(found: &[f64], expected: &[f64]) {
+    assert_eq!(found.len(), expected.len());
+    for (a, b) in found.iter().zip(expected) {
+        assert!((a - b).abs() <= 1e-13 * (1.0 + b.abs()), "{found:?} is not {expected:?}");
+    }
+}
+
+#[test]
+fn sleigh_keeps_two_velocities() {
+    let system = compiled(systems::sleigh());
+    assert_eq!(system.formulation, Formulation::Adapted);
+    assert_eq!(system.state_velocities.len(), 2);
+    let (m, j, a, b, omega, v1, theta) = (1.3, 0.7, 0.4, 0.0, 0.9, -1.1, 0.6f64);
+    let values =
+        [("m", m), ("J", j), ("a", a), ("b", b), ("omega", omega), ("v1", v1), ("theta", theta), ("t", 0.0)];
+    let found = derivative(&system, &values);
+    // CLMM section 6.1 with b = 0
+    let omega_dot = -m * a * omega * v1 / (j + m * a * a);
+    let v1_dot = a * omega * omega;
+    assert_close(&found, &[omega, v1 * theta.cos(), v1 * theta.sin(), omega_dot, v1_dot]);
+}
+
+#[test]
+fn a_knife_edge_on_the_plane_is_projected_and_agrees() {
+    let reduced = compiled(systems::sleigh());
+    let full = compiled(systems::sleigh_on_the_plane());
+    assert_eq!(full.formulation, Formulation::Projected);
+    for theta in [0.0, 0.6, std::f64::consts::FRAC_PI_2, 3.0] {
+        let (omega, v1) = (0.9, -1.1);
+        let common = [("m", 1.3), ("J", 0.7), ("a", 0.4), ("b", 0.2), ("theta", theta), ("t", 0.0)];
+        let mut values = common.to_vec();
+        values.extend([("omega", omega), ("v1", v1)]);
+        let small = derivative(&reduced, &values);
+        let (s, c) = f64::sin_cos(theta);
+        let mut values = common.to_vec();
+        values.extend([("theta_dot", omega), ("x_dot", v1 * c), ("y_dot", v1 * s)]);
+        let large = derivative(&full, &values);
+        let expected =
+            [omega, v1 * c, v1 * s, small[3], small[4] * c - v1 * omega * s, small[4] * s + v1 * omega * c];
+        assert_close(&large, &expected);
+    }
+}
+
+#[test]
+fn robot_eliminates_the_last_declared_first() {
+    let system = compiled(systems::robot());
+    let names: Vec<&str> =
+        system.state_velocities.iter().map(|s| system.model.sections[*s].name.as_str()).collect();
+    assert_eq!(names, ["theta_dot", "psi1_dot"]);
+    let checks: Vec<&str> = system.parameter_checks.iter().map(|check| check.text.as_str()).collect();
+    assert_eq!(checks, ["R"]);
+}
+
+#[test]
+fn robot_keeps_its_wheels_when_asked() {
+    let mut model = systems::robot();
+    model.independent = Some([3, 4].map(|index| (Id::from_index(index), systems::origin())).to_vec());
+    let system = compiled(model);
+    assert_eq!(system.formulation, Formulation::Adapted);
+    let names: Vec<&str> =
+        system.state_velocities.iter().map(|s| system.model.sections[*s].name.as_str()).collect();
+    assert_eq!(names, ["psi1_dot", "psi2_dot"]);
+    let checks: Vec<&str> = system.parameter_checks.iter().map(|check| check.text.as_str()).collect();
+    assert_eq!(checks, ["c"]);
+    // mathematics section 9: psi1'' = −U (psi2' − psi1')(P psi2' + S psi1')/(P² − S²)
+    let (m0, m1, l, j, j2, c, r) = (0.8, 1.9, 0.3, 0.6, 0.05, 0.4, 0.25);
+    let (d1, d2, theta) = (1.2, -0.7, 0.9);
+    let p = r * r / (4.0 * c * c) * (m1 * c * c + j) + j2;
+    let s = r * r / (4.0 * c * c) * (m1 * c * c - j);
+    let u = r * r * r / (4.0 * c * c) * m0 * l;
+    let values = [
+        ("m0", m0),
+        ("m1", m1),
+        ("l", l),
+        ("J", j),
+        ("J2", j2),
+        ("c", c),
+        ("R", r),
+        ("theta", theta),
+        ("psi1_dot", d1),
+        ("psi2_dot", d2),
+        ("t", 0.0),
+    ];
+    let found = derivative(&system, &values);
+    let determinant = p * p - s * s;
+    let expected1 = -u * (d2 - d1) * (p * d2 + s * d1) / determinant;
+    let expected2 = u * (d2 - d1) * (p * d1 + s * d2) / determinant;
+    assert_close(&found[5..], &[expected1, expected2]);
+}
+
+#[test]
+fn veselova_is_finite_at_the_poles() {
+    let system = compiled(systems::veselova());
+    assert_eq!(system.formulation, Formulation::Projected);
+    for g in [[0.6, 0.0, 0.8], [0.0, 0.0, 1.0], [0.48, -0.8, 0.36], [1.0, 0.0, 0.0]] {
+        // w orthogonal to g
+        let seed = [0.3, -0.7, 0.5];
+        let along: f64 = g.iter().zip(&seed).map(|(a, b)| a * b).sum();
+        let w: Vec<f64> = g.iter().zip(&seed).map(|(g, s)| s - along * g).collect();
+        let inertia = [1.1, 2.3, 1.7];
+        let mut values = vec![("t", 0.0)];
+        values.extend(["g1", "g2", "g3"].into_iter().zip(g));
+        values.extend(["w1", "w2", "w3"].into_iter().zip(w.iter().copied()));
+        values.extend(["I1", "I2", "I3"].into_iter().zip(inertia));
+        let found = derivative(&system, &values);
+        // I w' = I w × w + λ g with g·w' = 0 (CLMM (6.12), V = 0; g' = g × w is orthogonal to w)
+        let cross = |a: &[f64], b: &[f64]| {
+            [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
+        };
+        let momentum: Vec<f64> = inertia.iter().zip(&w).map(|(i, w)| i * w).collect();
+        let torque = cross(&momentum, &w);
+        let top: f64 = (0..3).map(|i| g[i] * torque[i] / inertia[i]).sum();
+        let bottom: f64 = (0..3).map(|i| g[i] * g[i] / inertia[i]).sum();
+        let expected: Vec<f64> = (0..3).map(|i| (torque[i] - top / bottom * g[i]) / inertia[i]).collect();
+        assert_close(&found[..3], &cross(&g, &w));
+        assert_close(&found[3..], &expected);
+    }
+}
+
+#[test]
+fn broken_laws_are_named() {
+    let mut b = systems::Builder::new(&[], &[], &["w1", "w2", "w3"]);
+    b.bracket(0, 1, &[(1, 1, "w3")]);
+    b.bracket(1, 2, &[(1, 1, "w2")]);
+    b.lagrangian(&[(1, 2, "w1*w1"), (1, 2, "w2*w2"), (1, 2, "w3*w3")]);
+    let violations = compile(b.model).unwrap_err();
+    assert_eq!(violations.iter().map(|v| v.law).collect::<Vec<_>>(), [Law::Jacobi]);
+
+    let mut model = systems::sleigh();
+    model.constraints.push(model.constraints.iter().next().unwrap().clone());
+    let violations = compile(model).unwrap_err();
+    assert_eq!(violations[0].law, Law::Independence);
+}

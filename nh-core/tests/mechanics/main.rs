@@ -1,0 +1,6 @@
+//! Derivations checked as wholes: equations against hand-worked ones, and different forms of the
+//! theory against each other.
+
+mod adapted_frame;
+mod derivation;
+mod systems;

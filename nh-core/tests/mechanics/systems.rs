@@ -1,0 +1,228 @@
+//! A few systems as resolved models, built by hand.
+
+use nh_core::algebra::{Graph, Rational};
+use nh_core::id::{ExprId, Id, Origin, SymbolId, Table};
+use nh_core::model::{
+    AnchorDecl, BracketDecl, ConstraintDecl, Coordinate, Kinematics, Located, Model, Parameter, Section,
+};
+
+pub(crate) fn origin() -> Origin {
+    Origin::from_index(0)
+}
+
+/// A model without anything but names.
+pub(crate) struct Builder {
+    pub(crate) model: Model,
+}
+
+impl Builder {
+    pub(crate) fn new(parameters: &[&str], coordinates: &[&str], sections: &[&str]) -> Self {
+        let mut graph = Graph::new();
+        let time = graph.new_symbol("t");
+        let parameters = parameters
+            .iter()
+            .map(|name| Parameter { name: (*name).into(), symbol: graph.new_symbol(*name), origin: origin() })
+            .collect();
+        let tangent = sections.is_empty();
+        let coordinates: Table<_, Coordinate> = coordinates
+            .iter()
+            .map(|name| Coordinate {
+                name: (*name).into(),
+                symbol: graph.new_symbol(*name),
+                rate: graph.new_symbol(format!("{name}_dot")),
+                origin: origin(),
+            })
+            .collect();
+        let sections = if tangent {
+            coordinates
+                .iter()
+                .map(|c| Section { name: format!("{}_dot", c.name), symbol: c.rate, origin: origin() })
+                .collect()
+        } else {
+            sections
+                .iter()
+                .map(|name| Section {
+                    name: (*name).into(),
+                    symbol: graph.new_symbol(*name),
+                    origin: origin(),
+                })
+                .collect()
+        };
+        let zero = graph.zero();
+        let model = Model {
+            graph,
+            name: "Test".into(),
+            origin: origin(),
+            time,
+            parameters,
+            coordinates,
+            sections,
+            inputs: Table::new(),
+            kinematics: if tangent { Kinematics::Tangent } else { Kinematics::Anchor(Vec::new()) },
+            brackets: Vec::new(),
+            brackets_declared: false,
+            almost: false,
+            lagrangian: Located { value: zero, origin: origin() },
+            constraints: Table::new(),
+            forces: Vec::new(),
+            outputs: Vec::new(),
+            independent: None,
+            formulation: None,
+        };
+        Self { model }
+    }
+
+    /// The symbol called `name`.
+    pub(crate) fn symbol(&self, name: &str) -> SymbolId {
+        self.model
+            .graph
+            .symbols()
+            .iter_ids()
+            .find(|(_, n)| *n == name)
+            .map(|(id, _)| id)
+            .expect("a known name")
+    }
+
+    /// A polynomial in names and their sines and cosines: `"m*w*w"` or `"sin(theta)*x_dot"`.
+    pub(crate) fn term(&mut self, factor: Rational, text: &str) -> ExprId {
+        let factors: Vec<(ExprId, Rational)> = text
+            .split('*')
+            .map(|word| {
+                let inner =
+                    word.strip_prefix("sin(").or(word.strip_prefix("cos(")).map(|w| w.trim_end_matches(')'));
+                let symbol = self.symbol(inner.unwrap_or(word));
+                let value = self.model.graph.symbol(symbol);
+                let value = match &word[..3.min(word.len())] {
+                    "sin" => self.model.graph.sin(value),
+                    "cos" => self.model.graph.cos(value),
+                    _ => value,
+                };
+                (value, Rational::ONE)
+            })
+            .collect();
+        let product = self.model.graph.product(&factors);
+        self.model.graph.scale(factor, product)
+    }
+
+    pub(crate) fn sum(&mut self, terms: &[(i64, i64, &str)]) -> ExprId {
+        let terms: Vec<ExprId> =
+            terms.iter().map(|(n, d, text)| self.term(Rational::new(*n, *d), text)).collect();
+        self.model.graph.sum(&terms)
+    }
+
+    pub(crate) fn anchor(&mut self, lines: &[&[(i64, i64, &str)]]) {
+        let lines: Vec<ExprId> = lines.iter().map(|line| self.sum(line)).collect();
+        let lines = lines.into_iter().enumerate().map(|(index, rate)| AnchorDecl {
+            coordinate: Id::from_index(index),
+            rate,
+            origin: origin(),
+        });
+        self.model.kinematics = Kinematics::Anchor(lines.collect());
+    }
+
+    pub(crate) fn bracket(&mut self, left: usize, right: usize, value: &[(i64, i64, &str)]) {
+        let value = self.sum(value);
+        self.model.brackets_declared = true;
+        self.model.brackets.push(BracketDecl {
+            left: Id::from_index(left),
+            right: Id::from_index(right),
+            value,
+            origin: origin(),
+            known: None,
+        });
+    }
+
+    pub(crate) fn lagrangian(&mut self, terms: &[(i64, i64, &str)]) {
+        self.model.lagrangian.value = self.sum(terms);
+    }
+
+    pub(crate) fn constraint(&mut self, terms: &[(i64, i64, &str)]) {
+        let residual = self.sum(terms);
+        self.model.constraints.push(ConstraintDecl {
+            label: None,
+            residual,
+            solved_for: None,
+            origin: origin(),
+        });
+    }
+}
+
+/// The Chaplygin sleigh with its position; CLMM section 6.1.
+pub(crate) fn sleigh() -> Model {
+    let mut b = Builder::new(&["m", "J", "a", "b"], &["theta", "x", "y"], &["omega", "v1", "v2"]);
+    b.anchor(&[
+        &[(1, 1, "omega")],
+        &[(1, 1, "v1*cos(theta)"), (-1, 1, "v2*sin(theta)")],
+        &[(1, 1, "v1*sin(theta)"), (1, 1, "v2*cos(theta)")],
+    ]);
+    b.lagrangian(&[
+        (1, 2, "J*omega*omega"),
+        (1, 2, "m*a*a*omega*omega"),
+        (1, 2, "m*b*b*omega*omega"),
+        (1, 2, "m*v1*v1"),
+        (1, 2, "m*v2*v2"),
+        (-1, 1, "m*b*omega*v1"),
+        (1, 1, "m*a*omega*v2"),
+    ]);
+    b.constraint(&[(1, 1, "v2")]);
+    b.model
+}
+
+/// The same on TQ in the coordinates of the plane: no pivot is valid everywhere.
+pub(crate) fn sleigh_on_the_plane() -> Model {
+    let mut b = Builder::new(&["m", "J", "a", "b"], &["theta", "x", "y"], &[]);
+    b.lagrangian(&[
+        (1, 2, "J*theta_dot*theta_dot"),
+        (1, 2, "m*a*a*theta_dot*theta_dot"),
+        (1, 2, "m*b*b*theta_dot*theta_dot"),
+        (1, 2, "m*x_dot*x_dot"),
+        (1, 2, "m*y_dot*y_dot"),
+        (-1, 1, "m*b*theta_dot*x_dot*cos(theta)"),
+        (-1, 1, "m*b*theta_dot*y_dot*sin(theta)"),
+        (1, 1, "m*a*theta_dot*y_dot*cos(theta)"),
+        (-1, 1, "m*a*theta_dot*x_dot*sin(theta)"),
+    ]);
+    b.constraint(&[(1, 1, "y_dot*cos(theta)"), (-1, 1, "x_dot*sin(theta)")]);
+    b.model
+}
+
+/// The two-wheeled robot on TQ; CLMM section 6.4.
+pub(crate) fn robot() -> Model {
+    let parameters = ["m0", "m1", "l", "J", "J2", "c", "R"];
+    let mut b = Builder::new(&parameters, &["x", "y", "theta", "psi1", "psi2"], &[]);
+    b.lagrangian(&[
+        (1, 2, "m1*x_dot*x_dot"),
+        (1, 2, "m1*y_dot*y_dot"),
+        (1, 1, "m0*l*theta_dot*y_dot*cos(theta)"),
+        (-1, 1, "m0*l*theta_dot*x_dot*sin(theta)"),
+        (1, 2, "J*theta_dot*theta_dot"),
+        (1, 2, "J2*psi1_dot*psi1_dot"),
+        (1, 2, "J2*psi2_dot*psi2_dot"),
+    ]);
+    b.constraint(&[(1, 1, "x_dot*sin(theta)"), (-1, 1, "y_dot*cos(theta)")]);
+    for (sign, wheel) in [(1, "R*psi1_dot"), (-1, "R*psi2_dot")] {
+        b.constraint(&[
+            (1, 1, "x_dot*cos(theta)"),
+            (1, 1, "y_dot*sin(theta)"),
+            (sign, 1, "c*theta_dot"),
+            (1, 1, wheel),
+        ]);
+    }
+    b.model
+}
+
+/// The Veselova system without potential, on the action algebroid; CLMM section 6.2.
+pub(crate) fn veselova() -> Model {
+    let mut b = Builder::new(&["I1", "I2", "I3"], &["g1", "g2", "g3"], &["w1", "w2", "w3"]);
+    b.anchor(&[
+        &[(1, 1, "g2*w3"), (-1, 1, "g3*w2")],
+        &[(1, 1, "g3*w1"), (-1, 1, "g1*w3")],
+        &[(1, 1, "g1*w2"), (-1, 1, "g2*w1")],
+    ]);
+    b.bracket(0, 1, &[(1, 1, "w3")]);
+    b.bracket(1, 2, &[(1, 1, "w1")]);
+    b.bracket(2, 0, &[(1, 1, "w2")]);
+    b.lagrangian(&[(1, 2, "I1*w1*w1"), (1, 2, "I2*w2*w2"), (1, 2, "I3*w3*w3")]);
+    b.constraint(&[(1, 1, "g1*w1"), (1, 1, "g2*w2"), (1, 1, "g3*w3")]);
+    b.model
+}
