@@ -94,11 +94,7 @@ impl Graph {
 }
 
 /// The error of a product that vanished: its factors moved by their errors.
-fn power_error(
-    coefficient: f64,
-    factors: &[(ExprId, Rational)],
-    known: &FxHashMap<ExprId, Bounded>,
-) -> f64 {
+fn power_error(coefficient: f64, factors: &[(ExprId, Rational)], known: &FxHashMap<ExprId, Bounded>) -> f64 {
     factors.iter().fold(coefficient.abs(), |product, (base, exponent)| {
         let x = known[base];
         product * real_power(x.value.abs() + x.error, exponent)

@@ -1,5 +1,6 @@
 //! Symbolic algebra: a hash-consed expression graph, its derivatives, and the one zero test.
 
+mod accuracy;
 mod derivative;
 mod display;
 mod evaluate;

@@ -30,8 +30,11 @@ impl Graph {
         let (more, rest) = self.split_quarter_turns(x);
         let (is_reflected, rest) = self.reflected(rest);
         let turns = (quarter_turns + more) % 4;
-        let value =
-            if turns.is_multiple_of(2) == is_reflected { self.cos_of_rest(rest) } else { self.sin_of_rest(rest) };
+        let value = if turns.is_multiple_of(2) == is_reflected {
+            self.cos_of_rest(rest)
+        } else {
+            self.sin_of_rest(rest)
+        };
         if turns < 2 { value } else { self.neg(value) }
     }
 

@@ -71,7 +71,14 @@ pub fn solve_symmetric(
     solution
 }
 
+/// Systems whose entries have more operations than this are not simplified as a whole.
+const SIMPLIFIED_WHOLE: u64 = 240;
+
 /// Two equations by Cramer's rule.
+///
+/// Terms of the determinant often cancel identically (the sleigh's m²b², say). Where the solution
+/// simplified as a whole takes no more operations than the arithmetic of the rule, it is used: it
+/// is cheaper, and nothing is lost to that cancellation. A form with more rounding error is not.
 fn solve_pair(
     graph: &mut Graph,
     matrix: &[Vec<ExprId>],
@@ -79,17 +86,35 @@ fn solve_pair(
     procedure: &mut Procedure,
     name: &str,
 ) -> Vec<ExprId> {
-    let entries: Vec<ExprId> = matrix
+    let entries: Vec<ExprId> = matrix.iter().flatten().chain(right).copied().collect();
+    let written_out = graph.operation_count(&entries) + PAIR_OPERATIONS;
+    if written_out <= SIMPLIFIED_WHOLE {
+        let rule = cramer(graph, &entries);
+        let whole: Vec<ExprId> = rule.iter().map(|value| graph.simplify(*value)).collect();
+        let accurate = whole.iter().zip(&rule).all(|(new, old)| graph.error_growth(*new, *old) <= GROWTH);
+        if accurate && graph.operation_count(&whole) <= written_out {
+            return whole;
+        }
+    }
+    let named: Vec<ExprId> = entries
         .iter()
-        .flatten()
-        .chain(right)
         .enumerate()
         .map(|(index, entry)| procedure.define(graph, &format!("{name}_entry{index}"), *entry))
         .collect();
-    let [a, b, c, d, f, g] = entries[..] else { return right.to_vec() };
+    cramer(graph, &named)
+}
+
+/// What the rule costs on top of the entries: six products, three differences and two quotients,
+/// in the units of `operation_count`.
+const PAIR_OPERATIONS: u64 = 21;
+/// How many times more rounding error is accepted for fewer operations.
+const GROWTH: f64 = 4.0;
+
+/// The solution of `a x + b y = f`, `c x + d y = g`.
+fn cramer(graph: &mut Graph, entries: &[ExprId]) -> Vec<ExprId> {
+    let [a, b, c, d, f, g] = *entries else { return Vec::new() };
     let determinant = difference_of_products(graph, (a, d), (b, c));
     let determinant = graph.simplify(determinant);
-    let determinant = procedure.define(graph, &format!("{name}_det"), determinant);
     let first = difference_of_products(graph, (d, f), (b, g));
     let second = difference_of_products(graph, (a, g), (c, f));
     vec![graph.div(first, determinant), graph.div(second, determinant)]

@@ -66,7 +66,9 @@ fn accelerations(graph: &Graph, row: &[ExprId], names: &[&str]) -> String {
 /// ` + (…)*lambda_name` for each constraint.
 fn reactions(model: &Model, jacobian: &[Vec<ExprId>], alpha: usize) -> String {
     let mut text = String::new();
-    for (index, row) in jacobian.iter().enumerate().filter(|(_, row)| !model.graph.is_literal_zero(row[alpha])) {
+    for (index, row) in
+        jacobian.iter().enumerate().filter(|(_, row)| !model.graph.is_literal_zero(row[alpha]))
+    {
         let constraint = &model.constraints[ConstraintId::from_index(index)];
         let name = constraint.label.clone().unwrap_or_else(|| format!("{}", index + 1));
         text.extend([" + (", &shown(&model.graph, row[alpha]), ")*lambda_", &name]);

@@ -27,7 +27,8 @@ fn stages(model: &mut Model) -> (LagrangianSystem, ConstraintDistribution) {
 
 /// Accelerations by solving the mass matrix in floating point.
 fn accelerations(graph: &Graph, mass: &[Vec<ExprId>], force: &[ExprId]) -> Vec<f64> {
-    let value = |symbol: SymbolId| 0.3 + f64::from(u8::try_from((symbol.index() * 7919) % 13).unwrap()) / 11.0;
+    let value =
+        |symbol: SymbolId| 0.3 + f64::from(u8::try_from((symbol.index() * 7919) % 13).unwrap()) / 11.0;
     let n = force.len();
     let entries: Vec<ExprId> = mass.iter().flatten().chain(force).copied().collect();
     let values: Vec<f64> = graph.evaluate(&entries, value).iter().map(|b| b.value).collect();

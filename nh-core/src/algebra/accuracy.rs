@@ -1,0 +1,62 @@
+//! Whether rewriting an expression costs digits.
+
+use super::field::Residue;
+use super::graph::Graph;
+use crate::id::{ExprId, Id, SymbolId};
+
+/// Points at which two forms are compared.
+const POINTS: u64 = 24;
+
+impl Graph {
+    /// How many times larger the rounding error of `candidate` is than that of `reference`, an
+    /// expression of the same value, at the worst of some points whose coordinates range over six
+    /// decades with both signs.
+    ///
+    /// An error below a few units in the last place of the value counts as that.
+    #[must_use]
+    pub fn error_growth(&self, candidate: ExprId, reference: ExprId) -> f64 {
+        let mut worst: f64 = 0.0;
+        for point in 0..POINTS {
+            let values = self.evaluate(&[candidate, reference], |symbol| wide_sample(point, symbol));
+            let floor = 8.0 * f64::EPSILON * values[1].value.abs();
+            let growth = values[0].error / values[1].error.max(floor);
+            if values[1].error.is_finite() && values[1].value != 0.0 {
+                worst = if growth.is_nan() { f64::INFINITY } else { worst.max(growth) };
+            }
+        }
+        worst
+    }
+}
+
+/// A number between 10⁻³ and 10³ in magnitude that the point and the symbol determine.
+#[allow(clippy::cast_precision_loss, reason = "a sample needs no more digits")]
+fn wide_sample(point: u64, symbol: SymbolId) -> f64 {
+    let word = Residue::mixed(11_000 + point, symbol.index() as u64).word();
+    let unit = (word >> 1 & 0xF_FFFF) as f64 / f64::from(1 << 20);
+    let magnitude = 10f64.powf(6.0 * unit - 3.0);
+    if word & 1 == 0 { magnitude } else { -magnitude }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::algebra::Rational;
+
+    #[test]
+    fn expanding_a_power_of_a_difference_costs_digits() {
+        let mut g = Graph::new();
+        let (x, y) = (g.new_symbol("x"), g.new_symbol("y"));
+        let (x, y) = (g.symbol(x), g.symbol(y));
+        let difference = g.sub(x, y);
+        let power = g.pow(difference, Rational::from(4));
+        let terms: Vec<(Rational, ExprId)> = [(0, 1), (1, -4), (2, 6), (3, -4), (4, 1)]
+            .into_iter()
+            .map(|(k, c)| {
+                (Rational::from(c), g.product(&[(x, Rational::from(4 - k)), (y, Rational::from(k))]))
+            })
+            .collect();
+        let expanded = g.linear_combination(&terms);
+        assert!(g.error_growth(expanded, power) > 4.0 * g.error_growth(power, expanded));
+        assert!(g.error_growth(power, power) <= 1.0);
+    }
+}
