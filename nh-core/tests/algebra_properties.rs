@@ -6,7 +6,7 @@ use nh_core::algebra::{Bounded, Derivation, Graph, Rational, Substitution, Verdi
 use nh_core::id::{ExprId, Id, SymbolId};
 use proptest::prelude::*;
 use support::parser::parse;
-use support::tree::{Dual, SYMBOLS, tree};
+use support::tree::{Dual, SYMBOLS, fraction, tree};
 
 /// A graph with the symbols of the trees.
 fn graph() -> (Graph, Vec<SymbolId>) {
@@ -155,11 +155,32 @@ proptest! {
     fn near_misses_are_not_zero(tree in tree(), which in 0..SYMBOLS, denominator in 1000..100_000i64) {
         let (mut g, symbols) = graph();
         let (e, f) = (tree.build(&mut g), tree.build_expanded(&mut g));
+        // the witness is sought in floating point
+        prop_assume!([e, f].iter().all(|e| evaluate(&g, *e, &[2.0; SYMBOLS]).error < 1e-8));
         let symbol = g.symbol(symbols[which]);
         let defect = g.linear_combination(&[
             (1.into(), e), ((-1).into(), f), (Rational::new(1, denominator), symbol),
         ]);
         let verdict = g.zero_test(defect);
         prop_assert!(verdict.is_nonzero(), "{} and {}: {verdict:?}", g.text(e), g.text(f));
+    }
+
+    #[test]
+    fn no_division_is_introduced(tree in fraction()) {
+        let (mut g, _) = graph();
+        let e = tree.build(&mut g);
+        let mut forms = vec![g.simplify(e)];
+        forms.extend(g.normal_form(e));
+        for code in 0..27u8 {
+            let point = [code % 3, code / 3 % 3, code / 9].map(|digit| f64::from(digit) - 1.0);
+            let before = evaluate(&g, e, &point);
+            for form in &forms {
+                let after = evaluate(&g, *form, &point);
+                prop_assert!(
+                    !before.value.is_finite() || close(after, before.value) && after.value.is_finite(),
+                    "{} became {}: {before:?} {after:?} at {point:?}", g.text(e), g.text(*form)
+                );
+            }
+        }
     }
 }

@@ -243,12 +243,6 @@ impl Graph {
         found
     }
 
-    /// Whether `symbol` occurs in any of `expressions`.
-    #[must_use]
-    pub fn depends_on_any(&self, expressions: &[ExprId], symbol: SymbolId) -> bool {
-        self.symbols_in(expressions).contains(&symbol)
-    }
-
     /// Whether any of `symbols` occurs in `expression`.
     #[must_use]
     pub fn depends_on(&self, expression: ExprId, symbols: &[SymbolId]) -> bool {

@@ -95,15 +95,8 @@ fn linear_row(
     if form.coefficients.iter().all(|coefficient| graph.zero_test(*coefficient).is_zero()) {
         return Err(position_constraint(model, algebroid, residual, &name, declaration.origin));
     }
-    if !graph.zero_test(form.rest).is_zero() {
-        return Err(blame(
-            format!("{name} has a drift: it is affine in the velocities, which is not supported yet"),
-            format!("where every velocity is 0 it reads {} = 0", shown(graph, form.rest)),
-            "write a constraint that is homogeneous in the velocities".into(),
-        ));
-    }
     let row = form.coefficients.into_iter().map(|coefficient| graph.simplify(coefficient)).collect();
-    let drift = graph.zero();
+    let drift = if graph.zero_test(form.rest).is_zero() { graph.zero() } else { graph.simplify(form.rest) };
     Ok((row, drift))
 }
 
@@ -200,12 +193,31 @@ fn dependency(model: &mut Model, constraints: &LinearConstraints, index: usize) 
     } else {
         format!("{name} = {}", terms.join(" + "))
     };
+    let drifts: Vec<ExprId> = constraints.drift[..index].to_vec();
+    let contradiction = combination.and_then(|coefficients| {
+        let combined = graph.inner_product(&coefficients, &drifts);
+        let left_over = graph.sub(constraints.drift[index], combined);
+        let left_over = graph.simplify(left_over);
+        (!graph.zero_test(left_over).is_zero()).then_some(left_over)
+    });
+    let (what, evidence, way_out) = match contradiction {
+        None => (
+            format!("{name} follows from the constraints before it"),
+            evidence,
+            "leave it out: the constraints of a system are independent",
+        ),
+        Some(left_over) => (
+            format!("{name} contradicts the constraints before it"),
+            format!("in the velocities {evidence}, but then {} = 0 is left", shown(graph, left_over)),
+            "change or leave out one of them",
+        ),
+    };
     Violation {
         law: Law::Independence,
         origin: model.constraints[id].origin,
-        what: format!("{name} follows from the constraints before it"),
+        what,
         evidence,
-        way_out: "leave it out: the constraints of a system are independent".into(),
+        way_out: way_out.into(),
     }
 }
 

@@ -1,6 +1,7 @@
 //! What kind of system it is.
 
 use super::{Derived, shown};
+use crate::algebra::Graph;
 use crate::check::Motion;
 use crate::id::{ExprId, SymbolId};
 use crate::mechanics::LagrangianSystem;
@@ -67,25 +68,34 @@ fn constraints(model: &mut Model, system: &LagrangianSystem, derived: &Derived<'
     if count == 0 {
         return "constraints: none".into();
     }
+    let kind = if is_homogeneous(derived, &model.graph) { "linear" } else { "affine" };
     let distribution = match derived {
         Derived::Adapted { distribution, .. } => *distribution,
-        Derived::Projected { .. } => return format!("constraints: {count}, linear in the velocities"),
+        Derived::Projected { .. } => return format!("constraints: {count}, {kind} in the velocities"),
     };
     let holonomic = match distribution.is_holonomic(&mut model.graph, &system.algebroid) {
-        Some(true) => ", holonomic: D is closed under the bracket",
-        Some(false) => ", nonholonomic",
+        Some(true) => "; D is closed under the bracket (holonomic)",
+        Some(false) => "; D is not closed under the bracket (nonholonomic)",
         None => "",
     };
-    format!("constraints: {count}, linear in the velocities{holonomic}")
+    format!("constraints: {count}, {kind} in the velocities{holonomic}")
+}
+
+/// Whether no constraint has a drift.
+fn is_homogeneous(derived: &Derived<'_>, graph: &Graph) -> bool {
+    let drift = match derived {
+        Derived::Adapted { distribution, .. } => &distribution.constraints.drift,
+        Derived::Projected { constraints, .. } => &constraints.drift,
+    };
+    drift.iter().all(|drift| graph.zero_test(*drift).is_zero())
 }
 
 /// What is conserved by the theorems that need no search.
-pub(super) fn conserved(model: &Model, system: &LagrangianSystem) -> Vec<String> {
+pub(super) fn conserved(model: &Model, system: &LagrangianSystem, derived: &Derived<'_>) -> Vec<String> {
     let graph = &model.graph;
-    let autonomous = |expressions: &[ExprId]| !graph.depends_on_any(expressions, model.time);
-    let residuals: Vec<ExprId> = model.constraints.iter().map(|constraint| constraint.residual).collect();
+    let autonomous = !graph.depends_on(system.lagrangian, &[model.time]);
     let free = system.forces.iter().all(|force| graph.zero_test(*force).is_zero());
-    if free && autonomous(&[system.lagrangian]) && autonomous(&residuals) {
+    if free && autonomous && is_homogeneous(derived, graph) {
         vec!["the energy (CLMM Theorem 3.4: autonomous, linear constraints, no forces)".into()]
     } else {
         Vec::new()

@@ -63,7 +63,7 @@ pub fn report(
     section("Constraint distribution", distribution(model, derived));
     section("Mass matrix", mass_matrix(model, derived));
     section("Equations of motion", equations_of_motion(model, derived));
-    section("Conserved quantities", classification::conserved(model, system));
+    section("Conserved quantities", classification::conserved(model, system, derived));
     text
 }
 

@@ -142,6 +142,44 @@ fn veselova_is_finite_at_the_poles() {
 }
 
 #[test]
+fn affine_constraints_keep_the_drift_in_every_term() {
+    let system = compiled(systems::ball_on_rotating_table());
+    assert_eq!(system.formulation, Formulation::Adapted);
+    let (r, k2, omega) = (0.7, 0.3, 1.9);
+    let (x, y, dx, dy) = (0.4, -1.2, 0.8, 0.5);
+    // the state keeps dx, dy and w1..w3 less two: ζ̈ = iΩ k²/(k² + r²) ζ̇ in every choice
+    let (w1, w2, w3) = ((omega * x - dy) / r, (dx + omega * y) / r, 0.6);
+    let values = [
+        ("r", r),
+        ("k2", k2),
+        ("Omega", omega),
+        ("x", x),
+        ("y", y),
+        ("dx", dx),
+        ("dy", dy),
+        ("w1", w1),
+        ("w2", w2),
+        ("w3", w3),
+        ("t", 0.0),
+    ];
+    let rate = omega * k2 / (k2 + r * r);
+    let (ddx, ddy) = (-rate * dy, rate * dx);
+    let all = [ddx, ddy, (omega * dx - ddy) / r, (ddx + omega * dy) / r, 0.0];
+    let mut expected = vec![dx, dy];
+    expected.extend(system.state_velocities.iter().map(|section| all[section.index()]));
+    assert_close(&derivative(&system, &values), &expected);
+}
+
+#[test]
+fn constraints_may_depend_on_time() {
+    let system = compiled(systems::steered_blade());
+    let (t, v) = (0.7, 1.3);
+    // m (ẍ + t (t ẍ + ẋ)) = 0
+    let found = derivative(&system, &[("t", t), ("m", 2.0), ("x_dot", v), ("x", 0.0), ("y", 0.0)]);
+    assert_close(&found, &[v, t * v, -t * v / (1.0 + t * t)]);
+}
+
+#[test]
 fn broken_laws_are_named() {
     let mut b = systems::Builder::new(&[], &[], &["w1", "w2", "w3"]);
     b.bracket(0, 1, &[(1, 1, "w3")]);

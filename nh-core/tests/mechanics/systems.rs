@@ -226,3 +226,31 @@ pub(crate) fn veselova() -> Model {
     b.constraint(&[(1, 1, "g1*w1"), (1, 1, "g2*w2"), (1, 1, "g3*w3")]);
     b.model
 }
+
+/// A ball on a table that rotates with angular velocity Omega, on TR² × so(3); CLMM section 7.4.
+/// `k2` is the square of the radius of gyration; the angular velocity is spatial.
+pub(crate) fn ball_on_rotating_table() -> Model {
+    let mut b = Builder::new(&["r", "k2", "Omega"], &["x", "y"], &["dx", "dy", "w1", "w2", "w3"]);
+    b.anchor(&[&[(1, 1, "dx")], &[(1, 1, "dy")]]);
+    b.bracket(2, 3, &[(-1, 1, "w3")]);
+    b.bracket(3, 4, &[(-1, 1, "w1")]);
+    b.bracket(4, 2, &[(-1, 1, "w2")]);
+    b.lagrangian(&[
+        (1, 2, "dx*dx"),
+        (1, 2, "dy*dy"),
+        (1, 2, "k2*w1*w1"),
+        (1, 2, "k2*w2*w2"),
+        (1, 2, "k2*w3*w3"),
+    ]);
+    b.constraint(&[(1, 1, "dx"), (-1, 1, "r*w2"), (1, 1, "Omega*y")]);
+    b.constraint(&[(1, 1, "dy"), (1, 1, "r*w1"), (-1, 1, "Omega*x")]);
+    b.model
+}
+
+/// A particle in the plane that slides along a direction of slope t: ẏ = t ẋ.
+pub(crate) fn steered_blade() -> Model {
+    let mut b = Builder::new(&["m"], &["x", "y"], &[]);
+    b.lagrangian(&[(1, 2, "m*x_dot*x_dot"), (1, 2, "m*y_dot*y_dot")]);
+    b.constraint(&[(1, 1, "y_dot"), (-1, 1, "x_dot*t")]);
+    b.model
+}

@@ -83,6 +83,26 @@ pub(crate) fn tree() -> impl Strategy<Value = Tree> {
     })
 }
 
+/// Rational functions whose denominators vanish here and there.
+pub(crate) fn fraction() -> impl Strategy<Value = Tree> {
+    let leaf = prop_oneof![
+        6 => (0..SYMBOLS).prop_map(Symbol),
+        2 => (-2..=2i64).prop_map(|n| Number(n.into())),
+        1 => (0..SYMBOLS).prop_map(|symbol| Apply(Function::Sin, Box::new(Symbol(symbol)))),
+        1 => (0..SYMBOLS).prop_map(|symbol| Apply(Function::Cos, Box::new(Symbol(symbol)))),
+    ];
+    leaf.prop_recursive(4, 20, 3, |inner| {
+        prop_oneof![
+            4 => prop::collection::vec(inner.clone(), 2..4).prop_map(Sum),
+            2 => prop::collection::vec(inner.clone(), 2..4).prop_map(Product),
+            1 => (inner.clone(), 1..3i64).prop_map(|(x, n)| Power(Box::new(x), n.into())),
+            4 => (inner.clone(), inner).prop_map(|(x, y)| {
+                Product(vec![x, Power(Box::new(y), Rational::MINUS_ONE)])
+            }),
+        ]
+    })
+}
+
 /// A number with the operations of the trees.
 pub(crate) trait Value: Copy {
     fn constant(value: f64) -> Self;

@@ -99,17 +99,27 @@ impl Reader<'_> {
         Some(sum)
     }
 
-    /// Divides one numerator by a sum in its denominator, if any can be.
+    /// Divides one numerator by a sum in its denominator, or the other way round, if any can be.
     fn divided(&mut self, fractions: &Fractions) -> Option<Step> {
         for (below, above) in fractions {
             for factor in &below.0 {
                 let meaning = self.meaning(factor.atom)?;
-                let Step::To(quotient) = self.quotient_of_either_form(above, &meaning)? else { continue };
+                let one = Monomial::of(factor.atom, factor.kind, Exponent::ONE);
+                let raised = Polynomial::term(below.times(&one)?, Rational::ONE);
+                let quotient = match self.quotient_of_either_form(above, &meaning)? {
+                    Step::To(quotient) => quotient,
+                    Step::Nothing if above.len() > 1 && above.len() < meaning.len() => {
+                        match self.quotient_of_either_form(&meaning, above)? {
+                            Step::To(inverse) => self.power(&inverse, Exponent::whole(-1))?,
+                            Step::Nothing => continue,
+                        }
+                    }
+                    Step::Nothing => continue,
+                };
                 let mut others = fractions.clone();
                 others.remove(below);
                 let mut sum = self.together(&others)?;
-                let raised = below.times(&Monomial::of(factor.atom, factor.kind, Exponent::ONE))?;
-                let fraction = self.multiply(&quotient, &Polynomial::term(raised, Rational::ONE))?;
+                let fraction = self.multiply(&quotient, &raised)?;
                 sum.add_scaled(&fraction, &Rational::ONE);
                 return Some(Step::To(sum));
             }

@@ -99,6 +99,8 @@ struct Image {
     has_angle: bool,
     /// Whether it had the budget of a whole expression.
     is_whole: bool,
+    /// The styles in which some part of it was beyond the budget, so that it is, too.
+    beyond: [bool; STYLES.len()],
 }
 
 impl Simplifier {
@@ -134,10 +136,15 @@ impl Simplifier {
     /// A node whose operands are simplified.
     fn of_node(&self, graph: &mut Graph, id: ExprId, is_root: bool, work: &mut usize) -> Image {
         let node = graph.node(id).clone();
-        let mut image = Image { id, has_sum: false, has_angle: false, is_whole: is_root };
+        let mut image =
+            Image { id, has_sum: false, has_angle: false, is_whole: is_root, beyond: [false; STYLES.len()] };
         for operand in node.operands() {
-            image.has_sum |= self.known[&operand].has_sum;
-            image.has_angle |= self.known[&operand].has_angle;
+            let part = self.known[&operand];
+            image.has_sum |= part.has_sum;
+            image.has_angle |= part.has_angle;
+            for (whole, part) in image.beyond.iter_mut().zip(part.beyond) {
+                *whole |= part;
+            }
         }
         let rebuilt = self.rebuilt(graph, id, &node);
         let is_sum = matches!(node, Node::Sum { .. });
@@ -145,14 +152,19 @@ impl Simplifier {
             && (image.has_sum || image.has_angle);
         if attempted || rebuilt != id {
             let budget = if is_root { (*work).max(2 * ATTEMPT) } else { *work };
-            let styles: &[Style] = match (attempted, image.has_angle) {
-                (false, _) => &[],
-                (true, false) => &STYLES[..2],
-                (true, true) => &STYLES,
+            let styles = match (attempted, image.has_angle) {
+                (false, _) => 0,
+                (true, false) => 2,
+                (true, true) => STYLES.len(),
             };
-            let (cheapest, spent) = cheapest(graph, id, rebuilt, styles, budget);
-            *work = work.saturating_sub(spent);
-            image.id = cheapest;
+            let mut choice = Choice::new(graph, id, rebuilt, budget);
+            for (style, beyond) in STYLES.iter().zip(&mut image.beyond).take(styles) {
+                if !*beyond {
+                    *beyond = choice.is_beyond(graph, *style);
+                }
+            }
+            *work = work.saturating_sub(budget - choice.work);
+            image.id = choice.best;
         }
         image.has_sum |= is_sum;
         image.has_angle |= matches!(node, Node::Apply(Sin | Cos | Sinh | Cosh | Exp, _));
@@ -184,37 +196,53 @@ impl Simplifier {
     }
 }
 
-/// The cheapest among an expression, the same with simplified operands, and the forms of the
-/// latter in the given styles; and the work it took.
-fn cheapest(
-    graph: &mut Graph,
-    id: ExprId,
+/// The cheapest form of an expression so far.
+struct Choice {
+    best: ExprId,
+    cost: u64,
+    /// The same with simplified operands, from which the other forms come.
     rebuilt: ExprId,
-    styles: &[Style],
+    /// What is left of the budget.
     work: usize,
-) -> (ExprId, usize) {
-    let cone = CONE.min(work);
-    let Some(mut cost) = graph.operation_count_within(&[id], cone) else { return (rebuilt, cone) };
-    let (mut best, mut spent) = (id, 0);
-    let mut consider = |graph: &Graph, candidate: ExprId| {
-        if candidate != best
-            && let Some(candidate_cost) = graph.operation_count_within(&[candidate], cone)
-            && candidate_cost < cost
+}
+
+impl Choice {
+    /// Between an expression and the same with simplified operands. The latter it is for
+    /// expressions too large to be counted.
+    fn new(graph: &Graph, id: ExprId, rebuilt: ExprId, work: usize) -> Self {
+        let Some(cost) = graph.operation_count_within(&[id], CONE.min(work)) else {
+            return Self { best: rebuilt, cost: 0, rebuilt, work: work.saturating_sub(CONE) };
+        };
+        let counted = usize::try_from(cost).unwrap_or(CONE);
+        let mut choice = Self { best: id, cost, rebuilt, work: work.saturating_sub(counted) };
+        choice.consider(graph, rebuilt);
+        choice
+    }
+
+    fn consider(&mut self, graph: &Graph, candidate: ExprId) {
+        if candidate != self.best
+            && let Some(cost) = graph.operation_count_within(&[candidate], CONE)
+            && cost < self.cost
         {
-            (best, cost) = (candidate, candidate_cost);
-        }
-    };
-    consider(graph, rebuilt);
-    for style in styles {
-        let left = work.saturating_sub(spent).min(ATTEMPT);
-        let (forms, taken) = graph.forms(rebuilt, *style, left);
-        spent += taken;
-        if let Some((expression, factored)) = forms {
-            consider(graph, expression);
-            consider(graph, factored);
+            (self.best, self.cost) = (candidate, cost);
         }
     }
-    (best, spent + usize::try_from(cost).unwrap_or(cone))
+
+    /// Considers the forms of a style; whether that is beyond the budget of any attempt.
+    fn is_beyond(&mut self, graph: &mut Graph, style: Style) -> bool {
+        if self.cost == 0 {
+            return false;
+        }
+        let budget = self.work.min(ATTEMPT);
+        let (forms, spent) = graph.forms(self.rebuilt, style, budget);
+        self.work -= spent;
+        if let Some((expression, factored)) = forms {
+            self.consider(graph, expression);
+            self.consider(graph, factored);
+            return false;
+        }
+        budget == ATTEMPT
+    }
 }
 
 #[cfg(test)]

@@ -77,6 +77,21 @@ fn fractions_cancel() {
 }
 
 #[test]
+fn a_numerator_may_divide_its_denominator() {
+    let mut g = Graph::new();
+    let [a, b] = symbols(&mut g, ["a", "b"]);
+    let (aa, bb) = (g.square(a), g.square(b));
+    let (below, above) = (g.sub(aa, bb), g.sub(a, b));
+    let e = g.div(above, below);
+    assert_eq!(simplified(&mut g, e), "1/(a + b)");
+    let (s, c) = (g.sin(a), g.cos(a));
+    let one = g.one();
+    let (ss, below) = (g.square(s), g.add(one, c));
+    let e = g.div(ss, below);
+    assert_eq!(simplified(&mut g, e), "-cos(a) + 1");
+}
+
+#[test]
 fn roots_of_sums() {
     let mut g = Graph::new();
     let [x, y] = symbols(&mut g, ["x", "y"]);

@@ -77,8 +77,7 @@ impl Reader<'_> {
             self.stale |= before.is_some();
             self.divisions.insert(term, division);
         }
-        let times = numerator.checked_mul(division / denominator)?;
-        (times.abs() <= MULTIPLE).then_some((division, times))
+        numerator.checked_mul(division / denominator).map(|times| (division, times))
     }
 
     fn exponential(&mut self, monomial: &Monomial, coefficient: &Rational) -> Option<Polynomial> {
@@ -98,7 +97,9 @@ impl Reader<'_> {
         let term = self.monomial_expression(monomial, &Rational::ONE);
         let (part, times) = match self.multiple(term, coefficient) {
             // multiples of π have values of their own
-            Some((division, times)) if term != self.graph.pi() => (Rational::new(1, division), times),
+            Some((division, times)) if times.abs() <= MULTIPLE && term != self.graph.pi() => {
+                (Rational::new(1, division), times)
+            }
             _ => (coefficient.clone(), 1),
         };
         let angle = self.graph.scale(part, term);
