@@ -12,7 +12,7 @@ use quote::{format_ident, quote};
 use crate::syntax::ast;
 
 /// The names and tokens of a declaration.
-#[derive(Clone, Debug)]
+#[derive(Clone)]
 pub(crate) struct Layout {
     /// The attribute's tokens, for the macro that hands the declaration on.
     pub(crate) attribute: TokenStream,

@@ -1,0 +1,180 @@
+//! What every emitter needs: paths, generics, and the shapes of the generated structs.
+
+use nh_core::id::{Id, SectionId};
+use proc_macro2::{Group, Ident, Span, TokenStream, TokenTree};
+use quote::{ToTokens, quote};
+use syn::{GenericParam, Generics};
+
+use super::layout::{Family, Layout, local};
+use super::record::{Field, Record};
+use crate::syntax::ast;
+
+/// What every emitter needs.
+pub(super) struct Context<'a> {
+    pub(super) layout: &'a Layout,
+    /// `::nh_runtime::__private`
+    pub(super) runtime: TokenStream,
+    /// `::core::primitive::f64`, or the type parameter.
+    pub(super) scalar: TokenStream,
+    /// The struct's visibility, with spans that belong to the macro.
+    pub(super) visibility: TokenStream,
+    /// The struct's generics, with the scalar bound.
+    pub(super) generics: Generics,
+    pub(super) state: Record,
+    pub(super) velocity: Record,
+    /// `None` without inputs: then the type is `()`.
+    pub(super) input: Option<Record>,
+    /// `None` without outputs.
+    pub(super) outputs: Option<Record>,
+    pub(super) locals: Locals,
+}
+
+/// The parameters of generated functions.
+pub(super) struct Locals {
+    pub(super) t: Ident,
+    pub(super) state: Ident,
+    pub(super) input: Ident,
+}
+
+impl<'a> Context<'a> {
+    /// `kept` are the velocities in the state.
+    pub(super) fn new(layout: &'a Layout, kept: &[SectionId]) -> Self {
+        let path = &layout.runtime;
+        let runtime = quote!(#path::__private);
+        let mut generics = layout.generics.clone();
+        if let ast::Scalar::Parameter(ident) = &layout.scalar {
+            let predicates = &mut generics.make_where_clause().predicates;
+            if let Ok(predicate) = syn::parse2(quote!(#ident: #runtime::Scalar)) {
+                predicates.push(predicate);
+            }
+        }
+        let name = layout.name.to_string();
+        let fields = |families: &[Family], what: &str| -> Vec<Field> {
+            families.iter().map(|family| Field::of(family, what)).collect()
+        };
+        let mut in_state = fields(&layout.coordinates, "coordinate");
+        in_state.extend(kept_fields(&layout.velocities, kept));
+        let some = |record: Record| (!record.fields.is_empty()).then_some(record);
+        Self {
+            scalar: layout.scalar_type(),
+            visibility: respan(layout.visibility.to_token_stream()),
+            generics,
+            state: Record {
+                name: layout.types.state.clone(),
+                doc: format!("The state of [`{name}`]: base coordinates, then velocities."),
+                fields: in_state,
+            },
+            velocity: Record {
+                name: layout.types.velocity.clone(),
+                doc: format!("The quasi-velocities of [`{name}`]."),
+                fields: fields(&layout.velocities, "quasi-velocity"),
+            },
+            input: some(Record {
+                name: layout.types.input.clone(),
+                doc: format!("The control inputs of [`{name}`]."),
+                fields: fields(&layout.inputs, "input"),
+            }),
+            outputs: some(Record {
+                name: layout.types.outputs.clone(),
+                doc: format!("The observables of [`{name}`]."),
+                fields: fields(&layout.outputs, "output"),
+            }),
+            locals: Locals { t: local("t"), state: local("state"), input: local("input") },
+            layout,
+            runtime,
+        }
+    }
+
+    /// The type parameter, if the scalar is one.
+    pub(super) fn parameter(&self) -> Option<&Ident> {
+        match &self.layout.scalar {
+            ast::Scalar::Parameter(ident) => Some(ident),
+            ast::Scalar::F64 | ast::Scalar::F32 => None,
+        }
+    }
+
+    /// `SleighState`, or `SleighState<T>`.
+    pub(super) fn type_of(&self, record: &Record) -> TokenStream {
+        let name = &record.name;
+        match self.parameter() {
+            None => quote!(#name),
+            Some(parameter) => quote!(#name<#parameter>),
+        }
+    }
+
+    /// The input's type.
+    pub(super) fn input_type(&self) -> TokenStream {
+        self.input.as_ref().map_or_else(|| quote!(()), |record| self.type_of(record))
+    }
+
+    /// `<T>` as a record declares it, with the default that the struct gives it.
+    pub(super) fn record_generics(&self) -> TokenStream {
+        let Some(parameter) = self.parameter() else { return TokenStream::new() };
+        let default = self.layout.generics.params.iter().find_map(|param| match param {
+            GenericParam::Type(param) if param.ident == *parameter => param.default.clone(),
+            _ => None,
+        });
+        match default {
+            None => quote!(<#parameter>),
+            Some((_, default)) => quote!(<#parameter = #default>),
+        }
+    }
+
+    /// `<T: Scalar>` for the impls of a record.
+    pub(super) fn record_impl_generics(&self) -> TokenStream {
+        let runtime = &self.runtime;
+        self.parameter()
+            .map_or_else(TokenStream::new, |parameter| quote!(<#parameter: #runtime::Scalar>))
+    }
+
+    /// `impl … Trait for Sleigh { body }`.
+    pub(super) fn implement(&self, of: &TokenStream, body: &TokenStream) -> TokenStream {
+        let name = &self.layout.name;
+        let (impl_generics, ty_generics, where_clause) = self.generics.split_for_impl();
+        quote! {
+            #[automatically_derived]
+            impl #impl_generics #of for #name #ty_generics #where_clause { #body }
+        }
+    }
+
+    /// `impl Sleigh { body }`.
+    pub(super) fn inherent(&self, body: &TokenStream) -> TokenStream {
+        let name = &self.layout.name;
+        let (impl_generics, ty_generics, where_clause) = self.generics.split_for_impl();
+        quote! {
+            impl #impl_generics #name #ty_generics #where_clause { #body }
+        }
+    }
+}
+
+/// The fields of the velocities in the state. A family that is kept in part becomes one field for
+/// each entry that is kept.
+fn kept_fields(families: &[Family], kept: &[SectionId]) -> Vec<Field> {
+    let mut fields = Vec::new();
+    let mut section = 0;
+    for family in families {
+        let entries = family.entries();
+        let is_kept = |offset: &usize| kept.contains(&SectionId::from_index(section + offset));
+        let offsets: Vec<usize> = (0..entries.len()).filter(is_kept).collect();
+        section += entries.len();
+        if offsets.len() == entries.len() {
+            fields.push(Field::of(family, "quasi-velocity"));
+        } else {
+            let entries = offsets.iter().map(|offset| &entries[*offset]);
+            fields.extend(entries.map(|entry| Field::of_entry(family, entry, "quasi-velocity")));
+        }
+    }
+    fields
+}
+
+/// The tokens with spans that belong to the macro, so that lints know generated code.
+pub(super) fn respan(tokens: TokenStream) -> TokenStream {
+    let respanned = tokens.into_iter().map(|mut token| {
+        if let TokenTree::Group(group) = &token {
+            token = Group::new(group.delimiter(), respan(group.stream())).into();
+        }
+        token.set_span(Span::call_site());
+        token
+    });
+    respanned.collect()
+}

@@ -1,0 +1,75 @@
+//! The time derivative of the state, and the system as the integrators see it.
+
+use nh_core::program::Program;
+use proc_macro2::TokenStream;
+use quote::quote;
+
+use super::context::Context;
+use super::function::Head;
+use super::layout::local;
+use super::program::body;
+use super::scope::Scope;
+
+/// The head of `derivative`.
+pub(super) fn head(context: &Context) -> Head {
+    Head {
+        name: "derivative",
+        doc: &[" The time derivative of the state: the field `x` of the result is ẋ."],
+        takes_input: true,
+        returns: context.type_of(&context.state),
+    }
+}
+
+/// The inherent method `derivative`.
+pub(super) fn method(context: &Context, scope: &Scope, program: &Program) -> TokenStream {
+    let body = body(context, scope, program);
+    let name = &context.state.name;
+    let result = context.state.construct(&quote!(#name), &body.outputs);
+    let statements = &body.statements;
+    head(context).with_body(context, &body.used, &quote!(#statements #result))
+}
+
+/// `impl Dynamics for Sleigh`.
+pub(super) fn implementation(context: &Context) -> TokenStream {
+    let Context { runtime, scalar, .. } = context;
+    let (t, state, input) = (&context.locals.t, &context.locals.state, &context.locals.input);
+    let state_type = context.type_of(&context.state);
+    let input_type = context.input_type();
+    let check_input = check_input(context);
+    let body = quote! {
+        type State = #state_type;
+        type Input = #input_type;
+        #[inline]
+        fn derivative(&self, #t: #scalar, #state: &#state_type, #input: &#input_type) -> #state_type {
+            Self::derivative(self, #t, #state, #input)
+        }
+        #[inline]
+        fn validate(&self) -> ::core::result::Result<(), #runtime::ParameterError> {
+            Self::validate(self)
+        }
+        #check_input
+    };
+    context.implement(&quote!(#runtime::Dynamics), &body)
+}
+
+/// Refuses inputs that are not finite.
+fn check_input(context: &Context) -> TokenStream {
+    let Context { runtime, .. } = context;
+    let Some(record) = &context.input else { return TokenStream::new() };
+    let (input, input_type) = (&context.locals.input, context.input_type());
+    let (name, value) = (local("name"), local("value"));
+    let pairs = record.names().zip(record.places(input)).map(|(name, place)| quote!((#name, #place)));
+    quote! {
+        fn check_input(&self, #input: &#input_type) -> ::core::result::Result<(), #runtime::InputFault> {
+            for (#name, #value) in [#(#pairs),*] {
+                if !#runtime::Scalar::is_finite(#value) {
+                    return ::core::result::Result::Err(#runtime::InputFault {
+                        input: #name,
+                        value: #runtime::Scalar::to_f64(#value),
+                    });
+                }
+            }
+            ::core::result::Result::Ok(())
+        }
+    }
+}

@@ -1,0 +1,67 @@
+//! The inherent methods that programs become.
+
+use std::collections::BTreeSet;
+
+use nh_core::id::SymbolId;
+use nh_core::mechanics::Procedure;
+use nh_core::model::Model;
+use nh_core::program::{Program, schedule_grouping};
+use proc_macro2::{Ident, Span, TokenStream};
+use quote::quote;
+
+use super::context::Context;
+use super::scope::Argument;
+
+/// The head of a method of time, state, and perhaps input.
+pub(super) struct Head {
+    pub(super) name: &'static str,
+    /// Its documentation, a line each.
+    pub(super) doc: &'static [&'static str],
+    pub(super) takes_input: bool,
+    pub(super) returns: TokenStream,
+}
+
+impl Head {
+    /// The method; arguments that are not in `used` are dropped first.
+    pub(super) fn with_body(
+        &self,
+        context: &Context,
+        used: &BTreeSet<Argument>,
+        body: &TokenStream,
+    ) -> TokenStream {
+        let Context { visibility, scalar, .. } = context;
+        let (t, state, input) = (&context.locals.t, &context.locals.state, &context.locals.input);
+        let state_type = context.type_of(&context.state);
+        let input_type = context.input_type();
+        let input_parameter = self.takes_input.then(|| quote!(, #input: &#input_type));
+        let all = [
+            (Argument::This, quote!(self)),
+            (Argument::Time, quote!(#t)),
+            (Argument::State, quote!(#state)),
+            (Argument::Input, quote!(#input)),
+        ];
+        let unused = all.iter().filter(|(argument, _)| {
+            !used.contains(argument) && (self.takes_input || *argument != Argument::Input)
+        });
+        let drops = unused.map(|(_, place)| quote!(_ = #place;));
+        let name = Ident::new(self.name, Span::call_site());
+        let Self { doc, returns, .. } = self;
+        quote! {
+            #(#[doc = #doc])*
+            #[must_use]
+            #[inline]
+            #visibility fn #name(
+                &self, #t: #scalar, #state: &#state_type #input_parameter
+            ) -> #returns {
+                #(#drops)*
+                #body
+            }
+        }
+    }
+}
+
+/// The program of a procedure, with operations among parameters kept together.
+pub(super) fn program(model: &Model, procedure: &Procedure) -> Program {
+    let parameters: Vec<SymbolId> = model.parameters.iter().map(|parameter| parameter.symbol).collect();
+    schedule_grouping(&model.graph, procedure, &parameters)
+}

@@ -1,0 +1,208 @@
+//! Straight-line programs as statements: a `let` for every value that is used several times, has a
+//! name, or would make an expression too long; everything else nested where it is used.
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use nh_core::id::Table;
+use nh_core::program::{Program, Step, Value};
+use proc_macro2::{Ident, Literal, TokenStream};
+use quote::quote;
+
+use super::context::Context;
+use super::expression::Expression;
+use super::names::{Names, unknowns};
+use super::number;
+use super::scope::{Argument, Scope};
+
+/// The operations in one expression at most.
+const LONGEST: usize = 10;
+
+/// The statements of a program.
+pub(super) struct Body {
+    /// `let`s in order.
+    pub(super) statements: TokenStream,
+    /// The values of the outputs.
+    pub(super) outputs: Vec<TokenStream>,
+    /// The arguments that are read.
+    pub(super) used: BTreeSet<Argument>,
+}
+
+/// Turns a program into statements.
+pub(super) fn body(context: &Context, scope: &Scope, program: &Program) -> Body {
+    let mut writer = Writer {
+        context,
+        scope,
+        program,
+        names: Names::new(),
+        expressions: Table::new(),
+        pairs: BTreeMap::new(),
+        systems: BTreeMap::new(),
+        statements: TokenStream::new(),
+        used: BTreeSet::new(),
+    };
+    let uses = program.uses();
+    for (value, step) in program.steps.iter_ids() {
+        let expression = writer.step(value, step);
+        let shared = uses[value] > 1 || program.names.contains_key(&value);
+        let expression = if writer.is_stored(step) && (shared || expression.size >= LONGEST) {
+            let name = writer.names.of(program, value, scope);
+            writer.bind(&name, &expression)
+        } else {
+            expression
+        };
+        writer.expressions.push(expression);
+    }
+    let outputs = program.outputs.iter().map(|output| writer.expressions[*output].tokens.clone()).collect();
+    Body { statements: writer.statements, outputs, used: writer.used }
+}
+
+struct Writer<'a> {
+    context: &'a Context<'a>,
+    scope: &'a Scope<'a>,
+    program: &'a Program,
+    names: Names,
+    expressions: Table<Value, Expression>,
+    /// The variables of each sine and cosine.
+    pairs: BTreeMap<Value, (Ident, Ident)>,
+    /// The variables of each linear system; none where a component is not needed.
+    systems: BTreeMap<Value, Vec<Option<Ident>>>,
+    statements: TokenStream,
+    used: BTreeSet<Argument>,
+}
+
+impl Writer<'_> {
+    /// Whether a step may need a variable: not if it is one already, or as short as one.
+    fn is_stored(&self, step: &Step) -> bool {
+        match step {
+            Step::Load(_)
+            | Step::SinCos(_)
+            | Step::SinOf(_)
+            | Step::CosOf(_)
+            | Step::Solve { .. }
+            | Step::Component(..) => false,
+            // conversions are done once
+            Step::Constant(_) | Step::Pi => self.context.parameter().is_some(),
+            _ => true,
+        }
+    }
+
+    fn bind(&mut self, name: &Ident, expression: &Expression) -> Expression {
+        let (tokens, scalar) = (&expression.tokens, &self.context.scalar);
+        let type_of = expression.literal.then(|| quote!(: #scalar));
+        self.statements.extend(quote!(let #name #type_of = #tokens;));
+        Expression::atom(quote!(#name), 0)
+    }
+
+    fn step(&mut self, value: Value, step: &Step) -> Expression {
+        let of = |operand: &Value| &self.expressions[*operand];
+        match step {
+            Step::Constant(number) if self.context.parameter().is_some() => {
+                Expression::atom(number::converted(self.context, number), 0)
+            }
+            Step::Constant(number) => number::literal(self.context, number),
+            Step::Pi => number::pi(self.context),
+            Step::Load(symbol) => match self.scope.place(*symbol) {
+                Some((argument, place)) => {
+                    self.used.insert(*argument);
+                    Expression::atom(place.clone(), 0)
+                }
+                None => {
+                    let message = format!("`{}` is not known here", self.scope.name(*symbol));
+                    Expression::atom(quote!(::core::compile_error!(#message)), 0)
+                }
+            },
+            Step::Add(a, b) => of(a).add(of(b)),
+            Step::Sub(a, b) => of(a).sub(of(b)),
+            Step::Mul(a, b) => of(a).mul(of(b)),
+            Step::Div(a, b) => of(a).div(of(b)),
+            Step::Neg(a) => of(a).neg(),
+            Step::Recip(a) if self.context.parameter().is_none() => {
+                Expression::literal(quote!(1.0), false).div(of(a))
+            }
+            Step::Recip(a) => self.call("recip", &[*a]),
+            Step::Sqrt(a) => self.call("sqrt", &[*a]),
+            Step::Cbrt(a) => self.call("cbrt", &[*a]),
+            Step::PowReal(a, exponent) => {
+                let exponent = match self.context.parameter() {
+                    Some(_) => number::converted(self.context, exponent),
+                    None => number::literal(self.context, exponent).tokens,
+                };
+                self.call_with("powf", *a, &[exponent])
+            }
+            Step::SinCos(angle) => self.sin_cos(value, *angle),
+            Step::SinOf(pair) | Step::CosOf(pair) => match self.pairs.get(pair) {
+                Some((sin, _)) if matches!(step, Step::SinOf(_)) => Expression::atom(quote!(#sin), 0),
+                Some((_, cos)) => Expression::atom(quote!(#cos), 0),
+                None => Expression::atom(TokenStream::new(), 0),
+            },
+            Step::Apply(function, a) => self.call(function.name(), &[*a]),
+            Step::Apply2(function, a, b) => self.call(function.name(), &[*a, *b]),
+            Step::Solve { matrix, right } => self.solve(value, matrix, right),
+            Step::Component(system, index) => {
+                let variable = self.systems.get(system).and_then(|unknowns| unknowns.get(*index)?.as_ref());
+                Expression::atom(variable.map_or_else(TokenStream::new, |name| quote!(#name)), 0)
+            }
+        }
+    }
+
+    /// `Scalar::method(a, b)`.
+    fn call(&self, method: &str, operands: &[Value]) -> Expression {
+        let rest: Vec<_> = operands[1..].iter().map(|v| self.expressions[*v].tokens.clone()).collect();
+        let mut call = self.call_with(method, operands[0], &rest);
+        call.size = operands.iter().map(|v| self.expressions[*v].size + 1).sum();
+        call
+    }
+
+    fn call_with(&self, method: &str, receiver: Value, rest: &[TokenStream]) -> Expression {
+        let Context { runtime, scalar, .. } = self.context;
+        let receiver = &self.expressions[receiver];
+        let tokens = &receiver.tokens;
+        let method = Ident::new(method, proc_macro2::Span::call_site());
+        let path = if receiver.literal {
+            quote!(<#scalar as #runtime::Scalar>::#method)
+        } else {
+            quote!(#runtime::Scalar::#method)
+        };
+        Expression::atom(quote!(#path(#tokens #(, #rest)*)), receiver.size + 1)
+    }
+
+    fn sin_cos(&mut self, pair: Value, angle: Value) -> Expression {
+        let call = self.call("sin_cos", &[angle]).tokens;
+        let mut variable = |function: &Step| {
+            let of = self.program.steps.iter_ids().find(|(_, step)| *step == function);
+            match of {
+                Some((value, _)) => self.names.of(self.program, value, self.scope),
+                None => self.names.numbered(),
+            }
+        };
+        let (sin, cos) = (variable(&Step::SinOf(pair)), variable(&Step::CosOf(pair)));
+        self.statements.extend(quote!(let (#sin, #cos) = #call;));
+        self.pairs.insert(pair, (sin, cos));
+        Expression::atom(TokenStream::new(), 0)
+    }
+
+    fn solve(&mut self, value: Value, matrix: &[Vec<Value>], right: &[Value]) -> Expression {
+        let Context { runtime, scalar, .. } = self.context;
+        let list = |values: &[Value]| {
+            let tokens = values.iter().map(|v| &self.expressions[*v].tokens);
+            quote!([#(#tokens),*])
+        };
+        let rows: Vec<_> = matrix.iter().map(|row| list(row)).collect();
+        let right_tokens = list(right);
+        let length = Literal::usize_unsuffixed(right.len());
+        let variables: Vec<Option<Ident>> = unknowns(self.program, value, right.len())
+            .into_iter()
+            .map(|unknown| unknown.map(|v| self.names.of(self.program, v, self.scope)))
+            .collect();
+        let pattern = variables.iter().map(|name| match name {
+            Some(name) => quote!(#name),
+            None => quote!(_),
+        });
+        self.statements.extend(quote! {
+            let [#(#pattern),*] =
+                #runtime::solve_pivoted::<#scalar, #length>([#(#rows),*], #right_tokens);
+        });
+        self.systems.insert(value, variables);
+        Expression::atom(TokenStream::new(), 0)
+    }
+}

@@ -1,0 +1,240 @@
+//! Generated plain structs: the state, the velocities, inputs and outputs.
+
+use proc_macro2::{Ident, Literal, TokenStream};
+use quote::{ToTokens, format_ident, quote};
+
+use super::context::Context;
+use super::layout::{Family, local};
+use super::lint::allow_for;
+
+/// A struct of numbers and arrays of numbers.
+pub(super) struct Record {
+    pub(super) name: Ident,
+    pub(super) doc: String,
+    pub(super) fields: Vec<Field>,
+}
+
+/// One field of it.
+pub(super) struct Field {
+    pub(super) ident: Ident,
+    lengths: Vec<u32>,
+    /// Doc attributes.
+    docs: TokenStream,
+    /// The names of its components in the declaration.
+    names: Vec<String>,
+}
+
+/// Arrays beyond this length have no `Default` and no serde of their own.
+const LONG: u32 = 32;
+
+impl Field {
+    /// The field of a whole family.
+    pub(super) fn of(family: &Family, what: &str) -> Self {
+        let name = plain(&family.ident);
+        let names = family.entries().iter().map(|entry| indexed(&name, entry)).collect();
+        let docs = if family.docs.is_empty() {
+            let plural = if family.lengths.is_empty() { "" } else { "s" };
+            let what = if plural == "s" && what == "quasi-velocity" {
+                "quasi-velocities".to_owned()
+            } else {
+                format!("{what}{plural}")
+            };
+            let doc = format!(" The {what} `{name}`.");
+            quote!(#[doc = #doc])
+        } else {
+            family.docs.clone()
+        };
+        Self { ident: family.ident.clone(), lengths: family.lengths.clone(), docs, names }
+    }
+
+    /// The field of one entry of a family.
+    pub(super) fn of_entry(family: &Family, entry: &[u32], what: &str) -> Self {
+        let name = plain(&family.ident);
+        let suffix: String = entry.iter().map(|index| format!("_{index}")).collect();
+        let component = indexed(&name, entry);
+        let doc = format!(" The {what} `{component}`.");
+        let mut docs = family.docs.clone();
+        if !docs.is_empty() {
+            docs.extend(quote!(#[doc = ""]));
+        }
+        docs.extend(quote!(#[doc = #doc]));
+        Self { ident: format_ident!("{name}{suffix}"), lengths: Vec::new(), docs, names: vec![component] }
+    }
+
+    fn type_of(&self, scalar: &TokenStream) -> TokenStream {
+        self.lengths.iter().rev().fold(scalar.clone(), |inner, length| {
+            let length = Literal::u32_unsuffixed(*length);
+            quote!([#inner; #length])
+        })
+    }
+
+    /// Its value from the values of its components in order.
+    fn value(&self, components: &[TokenStream]) -> TokenStream {
+        match *self.lengths {
+            [] => components.iter().cloned().collect(),
+            [_] => quote!([#(#components),*]),
+            [_, columns, ..] => {
+                let rows = components.chunks(columns.max(1) as usize).map(|row| quote!([#(#row),*]));
+                quote!([#(#rows),*])
+            }
+        }
+    }
+
+    /// `.theta[0]` for each component.
+    fn places(&self) -> Vec<TokenStream> {
+        let ident = &self.ident;
+        let family = Family { ident: ident.clone(), lengths: self.lengths.clone(), docs: TokenStream::new() };
+        let place = |entry: &Vec<u32>| {
+            let indices = entry.iter().map(|index| Literal::u32_unsuffixed(*index));
+            quote!(.#ident #([#indices])*)
+        };
+        family.entries().iter().map(place).collect()
+    }
+}
+
+/// An identifier without `r#`.
+pub(super) fn plain(ident: &Ident) -> String {
+    let text = ident.to_string();
+    text.strip_prefix("r#").map(str::to_owned).unwrap_or(text)
+}
+
+fn indexed(name: &str, entry: &[u32]) -> String {
+    let indices: String = entry.iter().map(|index| format!("[{index}]")).collect();
+    format!("{name}{indices}")
+}
+
+impl Record {
+    /// The number of components.
+    pub(super) fn len(&self) -> usize {
+        self.fields.iter().map(|field| field.names.len()).sum()
+    }
+
+    /// The components' names in the declaration, in order.
+    pub(super) fn names(&self) -> impl Iterator<Item = &String> {
+        self.fields.iter().flat_map(|field| &field.names)
+    }
+
+    /// `base.theta[0]` for each component, in order.
+    pub(super) fn places(&self, base: &impl ToTokens) -> Vec<TokenStream> {
+        let places = self.fields.iter().flat_map(Field::places);
+        places.map(|place| quote!(#base #place)).collect()
+    }
+
+    /// `Name { theta: …, … }` from the values of its components in order.
+    pub(super) fn construct(&self, name: &TokenStream, components: &[TokenStream]) -> TokenStream {
+        let mut rest = components;
+        let mut fields = Vec::new();
+        for field in &self.fields {
+            let (own, others) = rest.split_at(field.names.len().min(rest.len()));
+            rest = others;
+            let (ident, value) = (&field.ident, field.value(own));
+            fields.push(quote!(#ident: #value));
+        }
+        quote!(#name { #(#fields),* })
+    }
+
+    /// The struct and the conversions that it has apart from any system.
+    pub(super) fn emit(&self, context: &Context) -> TokenStream {
+        let Context { visibility, scalar, .. } = context;
+        let (name, doc) = (&self.name, format!(" {}", self.doc));
+        let generics = context.record_generics();
+        let is_long = self.fields.iter().any(|field| field.lengths.iter().any(|length| *length > LONG));
+        let default = (!is_long).then(|| quote!(, ::core::default::Default));
+        let allow = allow_for(self.fields.iter().map(|field| &field.ident));
+        let fields = self.fields.iter().map(|field| {
+            let Field { ident, docs, .. } = field;
+            let type_of = field.type_of(scalar);
+            quote!(#docs pub #ident: #type_of)
+        });
+        let conversions = self.conversions(context);
+        let extra = if is_long { self.long_default(context) } else { self.serde(context) };
+        quote! {
+            #[doc = #doc]
+            #[derive(
+                ::core::clone::Clone, ::core::marker::Copy, ::core::fmt::Debug, ::core::cmp::PartialEq #default
+            )]
+            #allow
+            #visibility struct #name #generics { #(#fields,)* }
+            #conversions
+            #extra
+        }
+    }
+
+    /// To and from arrays and nalgebra's vectors.
+    fn conversions(&self, context: &Context) -> TokenStream {
+        let Context { runtime, scalar, .. } = context;
+        let generics = context.record_impl_generics();
+        let record = context.type_of(self);
+        let length = Literal::usize_unsuffixed(self.len());
+        let value = local("value");
+        let places = self.places(&value);
+        let components: Vec<_> = (0..self.len()).map(|index| local(&format!("c{index}"))).collect();
+        let tokens: Vec<_> = components.iter().map(ToTokens::to_token_stream).collect();
+        let built = self.construct(&quote!(Self), &tokens);
+        quote! {
+            #[automatically_derived]
+            impl #generics ::core::convert::From<#record> for [#scalar; #length] {
+                #[inline]
+                fn from(#value: #record) -> Self { [#(#places),*] }
+            }
+            #[automatically_derived]
+            impl #generics ::core::convert::From<[#scalar; #length]> for #record {
+                #[inline]
+                fn from([#(#components),*]: [#scalar; #length]) -> Self { #built }
+            }
+            #[automatically_derived]
+            impl #generics ::core::convert::From<#record> for #runtime::nalgebra::SVector<#scalar, #length> {
+                #[inline]
+                fn from(#value: #record) -> Self {
+                    ::core::convert::From::<[#scalar; #length]>::from(::core::convert::From::from(#value))
+                }
+            }
+            #[automatically_derived]
+            impl #generics ::core::convert::From<#runtime::nalgebra::SVector<#scalar, #length>> for #record {
+                #[inline]
+                fn from(#value: #runtime::nalgebra::SVector<#scalar, #length>) -> Self {
+                    ::core::convert::From::<[#scalar; #length]>::from(::core::convert::From::from(#value))
+                }
+            }
+        }
+    }
+
+    /// `Default` for arrays that have none.
+    fn long_default(&self, context: &Context) -> TokenStream {
+        let Context { runtime, scalar, .. } = context;
+        let (generics, record) = (context.record_impl_generics(), context.type_of(self));
+        let zero = quote!(<#scalar as #runtime::Scalar>::ZERO);
+        let fields = self.fields.iter().map(|field| {
+            let ident = &field.ident;
+            let value = field.lengths.iter().rev().fold(zero.clone(), |inner, length| {
+                let length = Literal::u32_unsuffixed(*length);
+                quote!([#inner; #length])
+            });
+            quote!(#ident: #value)
+        });
+        quote! {
+            #[automatically_derived]
+            impl #generics ::core::default::Default for #record {
+                fn default() -> Self { Self { #(#fields),* } }
+            }
+        }
+    }
+
+    /// Hands the struct to the runtime, which knows whether its `serde` feature is on.
+    fn serde(&self, context: &Context) -> TokenStream {
+        let Context { runtime, scalar, .. } = context;
+        let path = format!("{runtime}::serde").replace(' ', "");
+        let (name, text) = (&self.name, plain(&self.name));
+        let parameter = context.parameter().map(|parameter| quote!(<#parameter>));
+        let allow = allow_for(self.fields.iter().map(|field| &field.ident));
+        let fields = self.fields.iter().map(|field| {
+            let (ident, type_of) = (&field.ident, field.type_of(scalar));
+            quote!(#ident: #type_of)
+        });
+        quote! {
+            #runtime::serde_impls! {
+                #path, #text, { #allow } #name [#parameter] { #(#fields,)* }
+            }
+        }
+    }
+}

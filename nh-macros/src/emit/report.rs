@@ -1,0 +1,60 @@
+//! `REPORT`, and the equations in the documentation of the struct.
+
+use nh_core::program::{Cost, Program};
+use nh_core::system::System;
+use proc_macro2::{Delimiter, TokenStream, TokenTree};
+use quote::quote;
+
+use super::context::Context;
+use super::lint::allow_for;
+
+/// `const REPORT`, with the operation counts of the named programs.
+pub(super) fn constant(context: &Context, system: &System, programs: &[(&str, &Program)]) -> TokenStream {
+    let mut text = system.report.trim_end().to_owned();
+    text.push_str("\n\nOperations per evaluation:\n");
+    for (name, program) in programs {
+        let cost = Cost::of(program);
+        text.push_str(&format!("  {name}: {cost}\n"));
+    }
+    with_text(context, text.trim_start())
+}
+
+/// `const REPORT` with this text.
+pub(super) fn with_text(context: &Context, text: &str) -> TokenStream {
+    let visibility = &context.visibility;
+    quote! {
+        /// What was derived from the declaration, as text.
+        #visibility const REPORT: &'static ::core::primitive::str = #text;
+    }
+}
+
+/// The struct: after the user's documentation, its equations.
+pub(super) fn item(context: &Context, equations: &[String]) -> TokenStream {
+    let mut lines = Vec::new();
+    if !equations.is_empty() {
+        // a blank line behind the user's documentation
+        if context.layout.item.to_string().starts_with("# [doc") {
+            lines.push(String::new());
+        }
+        lines.extend([" # Equations of motion", "", " ```text"].map(str::to_owned));
+        lines.extend(equations.iter().map(|line| format!(" {line}").trim_end().to_owned()));
+        lines.push(" ```".to_owned());
+    }
+    let docs = quote!(#(#[doc = #lines])*);
+    let allow = allow_for(context.layout.parameters.iter().map(|family| &family.ident));
+    after_attributes(context.layout.item.clone(), quote!(#docs #allow))
+}
+
+/// Puts attributes behind those that an item has already.
+fn after_attributes(item: TokenStream, attributes: TokenStream) -> TokenStream {
+    let tokens: Vec<TokenTree> = item.into_iter().collect();
+    let mut end = 0;
+    while let [TokenTree::Punct(pound), TokenTree::Group(group), ..] = &tokens[end..] {
+        if pound.as_char() != '#' || group.delimiter() != Delimiter::Bracket {
+            break;
+        }
+        end += 2;
+    }
+    let rest = tokens[end..].to_vec();
+    tokens[..end].iter().cloned().chain(attributes).chain(rest).collect()
+}

@@ -1,0 +1,78 @@
+//! What the symbols of a program stand for in a generated function.
+
+use std::collections::BTreeMap;
+
+use nh_core::id::{Id, SectionId, SymbolId};
+use nh_core::model::Model;
+use proc_macro2::TokenStream;
+use quote::quote;
+
+use super::context::Context;
+
+/// One parameter of a generated function.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub(super) enum Argument {
+    /// `&self`
+    This,
+    /// `t`
+    Time,
+    /// `state`
+    State,
+    /// `input`
+    Input,
+}
+
+/// The tokens of every symbol, and the argument that each comes from.
+pub(super) struct Scope<'a> {
+    model: &'a Model,
+    places: BTreeMap<SymbolId, (Argument, TokenStream)>,
+}
+
+impl<'a> Scope<'a> {
+    /// `self.m`, `t`, `state.theta[0]`, `input.torque`.
+    pub(super) fn new(context: &Context, model: &'a Model, kept: &[SectionId]) -> Self {
+        let mut places = BTreeMap::new();
+        let (t, state, input) = (&context.locals.t, &context.locals.state, &context.locals.input);
+        places.insert(model.time, (Argument::Time, quote!(#t)));
+        let parameters = parameter_places(context);
+        for (parameter, place) in model.parameters.iter().zip(parameters) {
+            places.insert(parameter.symbol, (Argument::This, place));
+        }
+        let velocities = model.sections.iter_ids().filter(|(id, _)| kept.contains(id));
+        let in_state = model.coordinates.iter().map(|coordinate| coordinate.symbol);
+        let in_state = in_state.chain(velocities.map(|(_, section)| section.symbol));
+        for (symbol, place) in in_state.zip(context.state.places(state)) {
+            places.insert(symbol, (Argument::State, place));
+        }
+        if let Some(record) = &context.input {
+            for (entry, place) in model.inputs.iter().zip(record.places(input)) {
+                places.insert(entry.symbol, (Argument::Input, place));
+            }
+        }
+        Self { model, places }
+    }
+
+    /// Where a symbol's value is.
+    pub(super) fn place(&self, symbol: SymbolId) -> Option<&(Argument, TokenStream)> {
+        self.places.get(&symbol)
+    }
+
+    /// A symbol's name in the declaration.
+    pub(super) fn name(&self, symbol: SymbolId) -> &str {
+        let symbols = self.model.graph.symbols();
+        if symbol.index() < symbols.len() { &symbols[symbol] } else { "" }
+    }
+}
+
+/// `self.I[0][1]` for each scalar parameter, in order.
+pub(super) fn parameter_places(context: &Context) -> Vec<TokenStream> {
+    let parameters = context.layout.parameters.iter();
+    let places = parameters.flat_map(|family| {
+        let ident = &family.ident;
+        family.entries().into_iter().map(move |entry| {
+            let indices = entry.into_iter().map(proc_macro2::Literal::u32_unsuffixed);
+            quote!(self.#ident #([#indices])*)
+        })
+    });
+    places.collect()
+}

@@ -1,0 +1,47 @@
+//! Emitted code against golden files: `UPDATE_GOLDEN=1 cargo test -p nh-macros` writes them anew.
+
+use proc_macro2::TokenStream;
+
+use super::samples::{chain, chain_system, layout, sleigh, sleigh_system};
+use super::{emit, stubs};
+use nh_core::id::{Id, SectionId};
+
+/// Compares with a golden file, or writes it.
+fn golden(name: &str, tokens: TokenStream) {
+    let file = syn::parse2(tokens).expect("emitted code is a list of items");
+    let text = prettyplease::unparse(&file);
+    let path = format!("{}/tests/golden/{name}.rs", env!("CARGO_MANIFEST_DIR"));
+    if std::env::var_os("UPDATE_GOLDEN").is_some() {
+        std::fs::write(&path, text).expect("the golden file can be written");
+        return;
+    }
+    let expected = std::fs::read_to_string(&path).unwrap_or_default();
+    let differs = text.lines().zip(expected.lines()).position(|(new, old)| new != old);
+    let line = differs.unwrap_or_else(|| text.lines().count().min(expected.lines().count()));
+    let of = |text: &str| text.lines().nth(line).unwrap_or("(end)").to_owned();
+    assert!(
+        text == expected,
+        "{path}:{}\n  golden: {}\n  now:    {}\nrun with UPDATE_GOLDEN=1 if this is meant",
+        line + 1,
+        of(&expected),
+        of(&text),
+    );
+}
+
+#[test]
+fn a_sleigh() {
+    let layout = layout(&sleigh());
+    golden("by_hand_sleigh", emit(&sleigh_system(&layout), &layout));
+}
+
+#[test]
+fn families_and_a_type_parameter() {
+    let layout = layout(&chain());
+    golden("by_hand_chain", emit(&chain_system(&layout), &layout));
+}
+
+#[test]
+fn stubs_stand_in() {
+    let layout = layout(&sleigh());
+    golden("stubs", stubs(&layout, &[SectionId::from_index(0), SectionId::from_index(1)]));
+}

@@ -1,0 +1,286 @@
+/// # Equations of motion
+///
+/// ```text
+/// x' = …
+/// ```
+#[allow(non_snake_case)]
+pub struct Chain<T = f64> {
+    /// Inertias.
+    pub I: [[T; 2]; 2],
+    /// Mass.
+    pub r#type: T,
+}
+/// The state of [`Chain`]: base coordinates, then velocities.
+#[derive(
+    ::core::clone::Clone,
+    ::core::marker::Copy,
+    ::core::fmt::Debug,
+    ::core::cmp::PartialEq,
+    ::core::default::Default
+)]
+#[allow(non_snake_case)]
+pub struct ChainState<T = f64> {
+    /// The coordinates `q`.
+    pub q: [T; 2],
+    /// The coordinates `R`.
+    pub R: [[T; 2]; 2],
+    /// The quasi-velocity `w[0]`.
+    pub w_0: T,
+    /// The quasi-velocity `w[2]`.
+    pub w_2: T,
+}
+#[automatically_derived]
+impl<T: ::nh_runtime::__private::Scalar> ::core::convert::From<ChainState<T>>
+for [T; 8] {
+    #[inline]
+    fn from(value: ChainState<T>) -> Self {
+        [
+            value.q[0],
+            value.q[1],
+            value.R[0][0],
+            value.R[0][1],
+            value.R[1][0],
+            value.R[1][1],
+            value.w_0,
+            value.w_2,
+        ]
+    }
+}
+#[automatically_derived]
+impl<T: ::nh_runtime::__private::Scalar> ::core::convert::From<[T; 8]>
+for ChainState<T> {
+    #[inline]
+    fn from([c0, c1, c2, c3, c4, c5, c6, c7]: [T; 8]) -> Self {
+        Self {
+            q: [c0, c1],
+            R: [[c2, c3], [c4, c5]],
+            w_0: c6,
+            w_2: c7,
+        }
+    }
+}
+#[automatically_derived]
+impl<T: ::nh_runtime::__private::Scalar> ::core::convert::From<ChainState<T>>
+for ::nh_runtime::__private::nalgebra::SVector<T, 8> {
+    #[inline]
+    fn from(value: ChainState<T>) -> Self {
+        ::core::convert::From::<[T; 8]>::from(::core::convert::From::from(value))
+    }
+}
+#[automatically_derived]
+impl<
+    T: ::nh_runtime::__private::Scalar,
+> ::core::convert::From<::nh_runtime::__private::nalgebra::SVector<T, 8>>
+for ChainState<T> {
+    #[inline]
+    fn from(value: ::nh_runtime::__private::nalgebra::SVector<T, 8>) -> Self {
+        ::core::convert::From::<[T; 8]>::from(::core::convert::From::from(value))
+    }
+}
+::nh_runtime::__private::serde_impls! {
+    "::nh_runtime::__private::serde", "ChainState", { #[allow(non_snake_case)] }
+    ChainState[< T >] { q : [T; 2], R : [[T; 2]; 2], w_0 : T, w_2 : T, }
+}
+/// The quasi-velocities of [`Chain`].
+#[derive(
+    ::core::clone::Clone,
+    ::core::marker::Copy,
+    ::core::fmt::Debug,
+    ::core::cmp::PartialEq,
+    ::core::default::Default
+)]
+pub struct ChainVelocity<T = f64> {
+    /// The quasi-velocities `w`.
+    pub w: [T; 3],
+    /// The quasi-velocity `u`.
+    pub u: T,
+}
+#[automatically_derived]
+impl<T: ::nh_runtime::__private::Scalar> ::core::convert::From<ChainVelocity<T>>
+for [T; 4] {
+    #[inline]
+    fn from(value: ChainVelocity<T>) -> Self {
+        [value.w[0], value.w[1], value.w[2], value.u]
+    }
+}
+#[automatically_derived]
+impl<T: ::nh_runtime::__private::Scalar> ::core::convert::From<[T; 4]>
+for ChainVelocity<T> {
+    #[inline]
+    fn from([c0, c1, c2, c3]: [T; 4]) -> Self {
+        Self { w: [c0, c1, c2], u: c3 }
+    }
+}
+#[automatically_derived]
+impl<T: ::nh_runtime::__private::Scalar> ::core::convert::From<ChainVelocity<T>>
+for ::nh_runtime::__private::nalgebra::SVector<T, 4> {
+    #[inline]
+    fn from(value: ChainVelocity<T>) -> Self {
+        ::core::convert::From::<[T; 4]>::from(::core::convert::From::from(value))
+    }
+}
+#[automatically_derived]
+impl<
+    T: ::nh_runtime::__private::Scalar,
+> ::core::convert::From<::nh_runtime::__private::nalgebra::SVector<T, 4>>
+for ChainVelocity<T> {
+    #[inline]
+    fn from(value: ::nh_runtime::__private::nalgebra::SVector<T, 4>) -> Self {
+        ::core::convert::From::<[T; 4]>::from(::core::convert::From::from(value))
+    }
+}
+::nh_runtime::__private::serde_impls! {
+    "::nh_runtime::__private::serde", "ChainVelocity", {} ChainVelocity[< T >] { w : [T;
+    3], u : T, }
+}
+#[automatically_derived]
+impl<T: ::nh_runtime::__private::Scalar> ::nh_runtime::__private::State
+for ChainState<T> {
+    type Scalar = T;
+    type Dim = ::nh_runtime::__private::D<8>;
+    #[inline]
+    fn to_array(&self) -> [T; 8] {
+        ::core::convert::From::from(*self)
+    }
+    #[inline]
+    fn from_array(components: [T; 8]) -> Self {
+        ::core::convert::From::from(components)
+    }
+    #[inline]
+    fn names() -> [&'static ::core::primitive::str; 8] {
+        ["q[0]", "q[1]", "R[0][0]", "R[0][1]", "R[1][0]", "R[1][1]", "w[0]", "w[2]"]
+    }
+}
+#[automatically_derived]
+impl<T> ::nh_runtime::__private::Dynamics for Chain<T>
+where
+    T: ::nh_runtime::__private::Scalar,
+{
+    type State = ChainState<T>;
+    type Input = ();
+    #[inline]
+    fn derivative(&self, t: T, state: &ChainState<T>, input: &()) -> ChainState<T> {
+        Self::derivative(self, t, state, input)
+    }
+    #[inline]
+    fn validate(
+        &self,
+    ) -> ::core::result::Result<(), ::nh_runtime::__private::ParameterError> {
+        Self::validate(self)
+    }
+}
+#[automatically_derived]
+impl<T> ::nh_runtime::__private::Energy for Chain<T>
+where
+    T: ::nh_runtime::__private::Scalar,
+{
+    #[inline]
+    fn energy(&self, t: T, state: &ChainState<T>) -> T {
+        Self::energy(self, t, state)
+    }
+}
+impl<T> Chain<T>
+where
+    T: ::nh_runtime::__private::Scalar,
+{
+    /// What was derived from the declaration, as text.
+    pub const REPORT: &'static ::core::primitive::str = "Derived by hand.\n\nOperations per evaluation:\n  derivative: 6 additions, 5 multiplications, 3 divisions, 1 sin_cos, 2 functions\n  energy: 3 multiplications\n  velocity: no operations\n";
+    /// The time derivative of the state: the field `x` of the result is ẋ.
+    #[must_use]
+    #[inline]
+    pub fn derivative(&self, t: T, state: &ChainState<T>, input: &()) -> ChainState<T> {
+        _ = t;
+        _ = input;
+        let (sin, cos) = ::nh_runtime::__private::Scalar::sin_cos(
+            state.q[0] - state.q[1],
+        );
+        let e1 = <T as ::nh_runtime::__private::Scalar>::from_f64(0.3333333333333333)
+            * cos;
+        let exp_q_0 = ::nh_runtime::__private::Scalar::exp(state.q[0]);
+        let force_1 = sin / self.r#type;
+        let [a_w0, a_w2] = ::nh_runtime::__private::solve_pivoted::<
+            T,
+            2,
+        >([[self.I[0][0], self.I[0][1]], [self.I[1][0], self.I[1][1]]], [force_1, e1]);
+        ChainState {
+            q: [state.w_0, state.w_2],
+            R: [
+                [sin, e1],
+                [
+                    exp_q_0,
+                    <T as ::nh_runtime::__private::Scalar>::ONE
+                        - <T as ::nh_runtime::__private::Scalar>::from_f64(
+                            ::core::f64::consts::PI,
+                        )
+                        - ::nh_runtime::__private::Scalar::powf(
+                            exp_q_0,
+                            <T as ::nh_runtime::__private::Scalar>::from_f64(
+                                0.2857142857142857,
+                            ),
+                        ),
+                ],
+            ],
+            w_0: a_w0,
+            w_2: a_w2 + force_1,
+        }
+    }
+    /// The energy y · ∂L/∂y − L.
+    #[must_use]
+    #[inline]
+    pub fn energy(&self, t: T, state: &ChainState<T>) -> T {
+        _ = t;
+        <T as ::nh_runtime::__private::Scalar>::from_f64(0.5) * self.r#type
+            * (state.w_0 * state.w_0)
+    }
+    /// All quasi-velocities, as the constraints give them from the state.
+    #[must_use]
+    #[inline]
+    pub fn velocity(&self, t: T, state: &ChainState<T>) -> ChainVelocity<T> {
+        _ = self;
+        _ = t;
+        let e1 = <T as ::nh_runtime::__private::Scalar>::ZERO;
+        ChainVelocity {
+            w: [state.w_0, e1, state.w_2],
+            u: e1,
+        }
+    }
+    /// Checks the parameters.
+    ///
+    /// # Errors
+    /// The first parameter that is not finite, or that makes an expression zero by which the
+    /// equations divide.
+    pub fn validate(
+        &self,
+    ) -> ::core::result::Result<(), ::nh_runtime::__private::ParameterError> {
+        for (name, value) in [
+            ("I[0][0]", self.I[0][0]),
+            ("I[0][1]", self.I[0][1]),
+            ("I[1][0]", self.I[1][0]),
+            ("I[1][1]", self.I[1][1]),
+            ("type", self.r#type),
+        ] {
+            if !::nh_runtime::__private::Scalar::is_finite(value) {
+                return ::core::result::Result::Err(::nh_runtime::__private::ParameterError {
+                    parameter: name,
+                    value: ::nh_runtime::__private::Scalar::to_f64(value),
+                    fault: ::nh_runtime::__private::ParameterFault::NotFinite,
+                });
+            }
+        }
+        ::core::result::Result::Ok(())
+    }
+}
+#[doc(hidden)]
+#[macro_export]
+macro_rules! __nh_declaration_Chain_e07084d326a6c8cd {
+    () => {};
+    ($callback:path, { $($rest:tt)* }) => {
+        $callback ! { declaration { { base { q[2], R[2] [2] } basis { w[3], u }
+        lagrangian { 0 } constraints { u = 0; w[1] = 0; } } { pub struct Chain < T = f64
+        > { #[doc = " Inertias. "] pub I : [[T; 2]; 2], #[doc = " Mass. "] pub r#type : T
+        } } } $($rest)* }
+    };
+}
+#[doc(hidden)]
+pub use __nh_declaration_Chain_e07084d326a6c8cd as __nh_declaration_Chain;
+__nh_declaration_Chain! {}

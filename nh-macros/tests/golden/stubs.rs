@@ -1,0 +1,423 @@
+/// A rigid body on a plane, carried by a knife edge.
+#[derive(Clone, Copy, Debug)]
+#[allow(non_snake_case)]
+pub struct Sleigh {
+    /// Mass.
+    pub m: f64,
+    /// Inertia.
+    pub J: f64,
+    /// Offset.
+    pub a: f64,
+    /// Not used.
+    pub c: f64,
+}
+/// The state of [`Sleigh`]: base coordinates, then velocities.
+#[derive(
+    ::core::clone::Clone,
+    ::core::marker::Copy,
+    ::core::fmt::Debug,
+    ::core::cmp::PartialEq,
+    ::core::default::Default
+)]
+pub struct SleighState {
+    /// The coordinate `theta`.
+    pub theta: ::core::primitive::f64,
+    /// Along the first axis.
+    pub x: ::core::primitive::f64,
+    /// The coordinate `y`.
+    pub y: ::core::primitive::f64,
+    /// The quasi-velocity `omega`.
+    pub omega: ::core::primitive::f64,
+    /// The quasi-velocity `v1`.
+    pub v1: ::core::primitive::f64,
+}
+#[automatically_derived]
+impl ::core::convert::From<SleighState> for [::core::primitive::f64; 5] {
+    #[inline]
+    fn from(value: SleighState) -> Self {
+        [value.theta, value.x, value.y, value.omega, value.v1]
+    }
+}
+#[automatically_derived]
+impl ::core::convert::From<[::core::primitive::f64; 5]> for SleighState {
+    #[inline]
+    fn from([c0, c1, c2, c3, c4]: [::core::primitive::f64; 5]) -> Self {
+        Self {
+            theta: c0,
+            x: c1,
+            y: c2,
+            omega: c3,
+            v1: c4,
+        }
+    }
+}
+#[automatically_derived]
+impl ::core::convert::From<SleighState>
+for ::nh_runtime::__private::nalgebra::SVector<::core::primitive::f64, 5> {
+    #[inline]
+    fn from(value: SleighState) -> Self {
+        ::core::convert::From::<
+            [::core::primitive::f64; 5],
+        >::from(::core::convert::From::from(value))
+    }
+}
+#[automatically_derived]
+impl ::core::convert::From<
+    ::nh_runtime::__private::nalgebra::SVector<::core::primitive::f64, 5>,
+> for SleighState {
+    #[inline]
+    fn from(
+        value: ::nh_runtime::__private::nalgebra::SVector<::core::primitive::f64, 5>,
+    ) -> Self {
+        ::core::convert::From::<
+            [::core::primitive::f64; 5],
+        >::from(::core::convert::From::from(value))
+    }
+}
+::nh_runtime::__private::serde_impls! {
+    "::nh_runtime::__private::serde", "SleighState", {} SleighState[] { theta :
+    ::core::primitive::f64, x : ::core::primitive::f64, y : ::core::primitive::f64, omega
+    : ::core::primitive::f64, v1 : ::core::primitive::f64, }
+}
+/// The quasi-velocities of [`Sleigh`].
+#[derive(
+    ::core::clone::Clone,
+    ::core::marker::Copy,
+    ::core::fmt::Debug,
+    ::core::cmp::PartialEq,
+    ::core::default::Default
+)]
+pub struct SleighVelocity {
+    /// The quasi-velocity `omega`.
+    pub omega: ::core::primitive::f64,
+    /// The quasi-velocity `v1`.
+    pub v1: ::core::primitive::f64,
+    /// The quasi-velocity `v2`.
+    pub v2: ::core::primitive::f64,
+}
+#[automatically_derived]
+impl ::core::convert::From<SleighVelocity> for [::core::primitive::f64; 3] {
+    #[inline]
+    fn from(value: SleighVelocity) -> Self {
+        [value.omega, value.v1, value.v2]
+    }
+}
+#[automatically_derived]
+impl ::core::convert::From<[::core::primitive::f64; 3]> for SleighVelocity {
+    #[inline]
+    fn from([c0, c1, c2]: [::core::primitive::f64; 3]) -> Self {
+        Self { omega: c0, v1: c1, v2: c2 }
+    }
+}
+#[automatically_derived]
+impl ::core::convert::From<SleighVelocity>
+for ::nh_runtime::__private::nalgebra::SVector<::core::primitive::f64, 3> {
+    #[inline]
+    fn from(value: SleighVelocity) -> Self {
+        ::core::convert::From::<
+            [::core::primitive::f64; 3],
+        >::from(::core::convert::From::from(value))
+    }
+}
+#[automatically_derived]
+impl ::core::convert::From<
+    ::nh_runtime::__private::nalgebra::SVector<::core::primitive::f64, 3>,
+> for SleighVelocity {
+    #[inline]
+    fn from(
+        value: ::nh_runtime::__private::nalgebra::SVector<::core::primitive::f64, 3>,
+    ) -> Self {
+        ::core::convert::From::<
+            [::core::primitive::f64; 3],
+        >::from(::core::convert::From::from(value))
+    }
+}
+::nh_runtime::__private::serde_impls! {
+    "::nh_runtime::__private::serde", "SleighVelocity", {} SleighVelocity[] { omega :
+    ::core::primitive::f64, v1 : ::core::primitive::f64, v2 : ::core::primitive::f64, }
+}
+/// The control inputs of [`Sleigh`].
+#[derive(
+    ::core::clone::Clone,
+    ::core::marker::Copy,
+    ::core::fmt::Debug,
+    ::core::cmp::PartialEq,
+    ::core::default::Default
+)]
+pub struct SleighInput {
+    /// The input `torque`.
+    pub torque: ::core::primitive::f64,
+}
+#[automatically_derived]
+impl ::core::convert::From<SleighInput> for [::core::primitive::f64; 1] {
+    #[inline]
+    fn from(value: SleighInput) -> Self {
+        [value.torque]
+    }
+}
+#[automatically_derived]
+impl ::core::convert::From<[::core::primitive::f64; 1]> for SleighInput {
+    #[inline]
+    fn from([c0]: [::core::primitive::f64; 1]) -> Self {
+        Self { torque: c0 }
+    }
+}
+#[automatically_derived]
+impl ::core::convert::From<SleighInput>
+for ::nh_runtime::__private::nalgebra::SVector<::core::primitive::f64, 1> {
+    #[inline]
+    fn from(value: SleighInput) -> Self {
+        ::core::convert::From::<
+            [::core::primitive::f64; 1],
+        >::from(::core::convert::From::from(value))
+    }
+}
+#[automatically_derived]
+impl ::core::convert::From<
+    ::nh_runtime::__private::nalgebra::SVector<::core::primitive::f64, 1>,
+> for SleighInput {
+    #[inline]
+    fn from(
+        value: ::nh_runtime::__private::nalgebra::SVector<::core::primitive::f64, 1>,
+    ) -> Self {
+        ::core::convert::From::<
+            [::core::primitive::f64; 1],
+        >::from(::core::convert::From::from(value))
+    }
+}
+::nh_runtime::__private::serde_impls! {
+    "::nh_runtime::__private::serde", "SleighInput", {} SleighInput[] { torque :
+    ::core::primitive::f64, }
+}
+/// The observables of [`Sleigh`].
+#[derive(
+    ::core::clone::Clone,
+    ::core::marker::Copy,
+    ::core::fmt::Debug,
+    ::core::cmp::PartialEq,
+    ::core::default::Default
+)]
+#[allow(non_snake_case)]
+pub struct SleighOutputs {
+    /// The output `speed`.
+    pub speed: ::core::primitive::f64,
+    /// The output `E`.
+    pub E: ::core::primitive::f64,
+}
+#[automatically_derived]
+impl ::core::convert::From<SleighOutputs> for [::core::primitive::f64; 2] {
+    #[inline]
+    fn from(value: SleighOutputs) -> Self {
+        [value.speed, value.E]
+    }
+}
+#[automatically_derived]
+impl ::core::convert::From<[::core::primitive::f64; 2]> for SleighOutputs {
+    #[inline]
+    fn from([c0, c1]: [::core::primitive::f64; 2]) -> Self {
+        Self { speed: c0, E: c1 }
+    }
+}
+#[automatically_derived]
+impl ::core::convert::From<SleighOutputs>
+for ::nh_runtime::__private::nalgebra::SVector<::core::primitive::f64, 2> {
+    #[inline]
+    fn from(value: SleighOutputs) -> Self {
+        ::core::convert::From::<
+            [::core::primitive::f64; 2],
+        >::from(::core::convert::From::from(value))
+    }
+}
+#[automatically_derived]
+impl ::core::convert::From<
+    ::nh_runtime::__private::nalgebra::SVector<::core::primitive::f64, 2>,
+> for SleighOutputs {
+    #[inline]
+    fn from(
+        value: ::nh_runtime::__private::nalgebra::SVector<::core::primitive::f64, 2>,
+    ) -> Self {
+        ::core::convert::From::<
+            [::core::primitive::f64; 2],
+        >::from(::core::convert::From::from(value))
+    }
+}
+::nh_runtime::__private::serde_impls! {
+    "::nh_runtime::__private::serde", "SleighOutputs", { #[allow(non_snake_case)] }
+    SleighOutputs[] { speed : ::core::primitive::f64, E : ::core::primitive::f64, }
+}
+#[automatically_derived]
+impl ::nh_runtime::__private::State for SleighState {
+    type Scalar = ::core::primitive::f64;
+    type Dim = ::nh_runtime::__private::D<5>;
+    #[inline]
+    fn to_array(&self) -> [::core::primitive::f64; 5] {
+        ::core::convert::From::from(*self)
+    }
+    #[inline]
+    fn from_array(components: [::core::primitive::f64; 5]) -> Self {
+        ::core::convert::From::from(components)
+    }
+    #[inline]
+    fn names() -> [&'static ::core::primitive::str; 5] {
+        ["theta", "x", "y", "omega", "v1"]
+    }
+}
+#[automatically_derived]
+impl ::nh_runtime::__private::Dynamics for Sleigh {
+    type State = SleighState;
+    type Input = SleighInput;
+    #[inline]
+    fn derivative(
+        &self,
+        t: ::core::primitive::f64,
+        state: &SleighState,
+        input: &SleighInput,
+    ) -> SleighState {
+        Self::derivative(self, t, state, input)
+    }
+    #[inline]
+    fn validate(
+        &self,
+    ) -> ::core::result::Result<(), ::nh_runtime::__private::ParameterError> {
+        Self::validate(self)
+    }
+    fn check_input(
+        &self,
+        input: &SleighInput,
+    ) -> ::core::result::Result<(), ::nh_runtime::__private::InputFault> {
+        for (name, value) in [("torque", input.torque)] {
+            if !::nh_runtime::__private::Scalar::is_finite(value) {
+                return ::core::result::Result::Err(::nh_runtime::__private::InputFault {
+                    input: name,
+                    value: ::nh_runtime::__private::Scalar::to_f64(value),
+                });
+            }
+        }
+        ::core::result::Result::Ok(())
+    }
+}
+#[automatically_derived]
+impl ::nh_runtime::__private::Energy for Sleigh {
+    #[inline]
+    fn energy(
+        &self,
+        t: ::core::primitive::f64,
+        state: &SleighState,
+    ) -> ::core::primitive::f64 {
+        Self::energy(self, t, state)
+    }
+}
+#[automatically_derived]
+impl ::nh_runtime::__private::Observed for Sleigh {
+    type Outputs = SleighOutputs;
+    #[inline]
+    fn outputs(
+        &self,
+        t: ::core::primitive::f64,
+        state: &SleighState,
+        input: &SleighInput,
+    ) -> SleighOutputs {
+        Self::outputs(self, t, state, input)
+    }
+}
+impl Sleigh {
+    /// What was derived from the declaration, as text.
+    pub const REPORT: &'static ::core::primitive::str = "";
+    /// The time derivative of the state: the field `x` of the result is ẋ.
+    #[must_use]
+    #[inline]
+    pub fn derivative(
+        &self,
+        t: ::core::primitive::f64,
+        state: &SleighState,
+        input: &SleighInput,
+    ) -> SleighState {
+        _ = self;
+        _ = t;
+        _ = state;
+        _ = input;
+        ::core::default::Default::default()
+    }
+    /// The energy y · ∂L/∂y − L.
+    #[must_use]
+    #[inline]
+    pub fn energy(
+        &self,
+        t: ::core::primitive::f64,
+        state: &SleighState,
+    ) -> ::core::primitive::f64 {
+        _ = self;
+        _ = t;
+        _ = state;
+        <::core::primitive::f64 as ::nh_runtime::__private::Scalar>::ZERO
+    }
+    /// All quasi-velocities, as the constraints give them from the state.
+    #[must_use]
+    #[inline]
+    pub fn velocity(
+        &self,
+        t: ::core::primitive::f64,
+        state: &SleighState,
+    ) -> SleighVelocity {
+        _ = self;
+        _ = t;
+        _ = state;
+        ::core::default::Default::default()
+    }
+    /// Checks the parameters.
+    ///
+    /// # Errors
+    /// The first parameter that is not finite, or that makes an expression zero by which the
+    /// equations divide.
+    pub fn validate(
+        &self,
+    ) -> ::core::result::Result<(), ::nh_runtime::__private::ParameterError> {
+        for (name, value) in [
+            ("m", self.m),
+            ("J", self.J),
+            ("a", self.a),
+            ("c", self.c),
+        ] {
+            if !::nh_runtime::__private::Scalar::is_finite(value) {
+                return ::core::result::Result::Err(::nh_runtime::__private::ParameterError {
+                    parameter: name,
+                    value: ::nh_runtime::__private::Scalar::to_f64(value),
+                    fault: ::nh_runtime::__private::ParameterFault::NotFinite,
+                });
+            }
+        }
+        ::core::result::Result::Ok(())
+    }
+    /// The observables at a state.
+    #[must_use]
+    #[inline]
+    pub fn outputs(
+        &self,
+        t: ::core::primitive::f64,
+        state: &SleighState,
+        input: &SleighInput,
+    ) -> SleighOutputs {
+        _ = self;
+        _ = t;
+        _ = state;
+        _ = input;
+        ::core::default::Default::default()
+    }
+}
+#[doc(hidden)]
+#[macro_export]
+macro_rules! __nh_declaration_Sleigh_4d621d80cebc5a31 {
+    () => {};
+    ($callback:path, { $($rest:tt)* }) => {
+        $callback ! { declaration { { base { theta, #[doc = " Along the first axis. "] x,
+        y } basis { omega, v1, v2 } lagrangian { 0 } constraints { v2 = 0; } inputs {
+        torque } outputs { speed = v1; E = v1; } } { #[doc =
+        " A rigid body on a plane, carried by a knife edge."] #[derive(Clone, Copy,
+        Debug)] pub struct Sleigh { #[doc = " Mass. "] pub m : f64, #[doc = " Inertia. "]
+        pub J : f64, #[doc = " Offset. "] pub a : f64, #[doc = " Not used. "] pub c : f64
+        } } } $($rest)* }
+    };
+}
+#[doc(hidden)]
+pub use __nh_declaration_Sleigh_4d621d80cebc5a31 as __nh_declaration_Sleigh;
+__nh_declaration_Sleigh! {}
