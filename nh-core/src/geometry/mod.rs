@@ -7,6 +7,7 @@ pub mod choice;
 mod distribution;
 pub mod hamel;
 mod known_algebra;
+mod manifold;
 mod pivot;
 mod structure;
 
@@ -15,5 +16,6 @@ pub use anchor::Anchor;
 pub use change_of_basis::ChangeOfBasis;
 pub use distribution::{ConstraintDistribution, LinearConstraints};
 pub use known_algebra::{KnownAlgebra, KnownBracket};
+pub use manifold::Manifold;
 pub use pivot::{PivotSetting, PivotZeros};
 pub use structure::StructureFunctions;

@@ -1,0 +1,288 @@
+//! Points on a manifold: where claims that hold only there are tested.
+//!
+//! The base may be embedded (|γ| = 1, a rotation matrix), and the constraint manifold lies in E.
+//! Both are parametrised rationally where possible, by a square root where need be, so that a
+//! claim on the manifold becomes a claim about the parameters.
+
+use crate::algebra::{Graph, Matrix, Rational, Substitution, Verdict};
+use crate::id::{ExprId, SymbolId};
+
+/// A manifold, by symbols that are functions of the others.
+#[derive(Clone, Debug, Default)]
+pub struct Manifold {
+    images: Vec<(SymbolId, ExprId)>,
+}
+
+impl Manifold {
+    /// Everything: no symbol depends on another.
+    #[must_use]
+    pub fn whole() -> Self {
+        Self::default()
+    }
+
+    /// Where all `functions` vanish, solved for some of the symbols `unknowns`.
+    ///
+    /// # Errors
+    /// The index of a function that could not be solved.
+    pub fn where_zero(graph: &mut Graph, functions: &[ExprId], unknowns: &[SymbolId]) -> Result<Self, usize> {
+        if let Some(rotations) = Self::rotations(graph, functions, unknowns) {
+            return Ok(rotations);
+        }
+        let mut manifold = Self::default();
+        for (index, function) in functions.iter().enumerate() {
+            let function = manifold.restrict(graph, *function);
+            if graph.zero_test(function) == Verdict::Zero {
+                continue;
+            }
+            manifold.solve(graph, function, unknowns).ok_or(index)?;
+        }
+        Ok(manifold)
+    }
+
+    /// The intersection with a manifold that is solved for other symbols than this one, as functions
+    /// of all the rest.
+    pub fn extend(&mut self, graph: &mut Graph, other: &Self) {
+        for (symbol, image) in &other.images {
+            let image = self.restrict(graph, *image);
+            self.insert(graph, *symbol, image);
+        }
+    }
+
+    /// Whether nothing is restricted.
+    #[must_use]
+    pub fn is_whole(&self) -> bool {
+        self.images.is_empty()
+    }
+
+    /// The restriction of a function.
+    pub fn restrict(&self, graph: &mut Graph, function: ExprId) -> ExprId {
+        Substitution::new(self.images.iter().copied()).apply(graph, function)
+    }
+
+    /// The restriction of every entry of a matrix.
+    pub fn restrict_matrix(&self, graph: &mut Graph, matrix: &[Vec<ExprId>]) -> Matrix {
+        let mut substitution = Substitution::new(self.images.iter().copied());
+        matrix.iter().map(|row| row.iter().map(|entry| substitution.apply(graph, *entry)).collect()).collect()
+    }
+
+    /// Whether a function vanishes on the manifold.
+    pub fn zero_test(&self, graph: &mut Graph, function: ExprId) -> Verdict {
+        let restricted = self.restrict(graph, function);
+        graph.zero_test(restricted)
+    }
+
+    fn insert(&mut self, graph: &mut Graph, symbol: SymbolId, image: ExprId) {
+        let mut step = Substitution::new([(symbol, image)]);
+        for (_, earlier) in &mut self.images {
+            *earlier = step.apply(graph, *earlier);
+        }
+        self.images.push((symbol, image));
+    }
+
+    /// Solves one function for one unknown: on a sphere, linearly, or by a square root.
+    fn solve(&mut self, graph: &mut Graph, function: ExprId, unknowns: &[SymbolId]) -> Option<()> {
+        let present: Vec<SymbolId> = graph
+            .symbols_in(&[function])
+            .into_iter()
+            .filter(|symbol| {
+                unknowns.contains(symbol) && self.images.iter().all(|(solved, _)| solved != symbol)
+            })
+            .collect();
+        if let Some(points) = sphere(graph, function, &present) {
+            for (symbol, image) in points {
+                self.insert(graph, symbol, image);
+            }
+            return Some(());
+        }
+        // an earlier image must not come to depend on itself: its parameters are all unsolved
+        for symbol in present.iter().rev() {
+            if let Ok(form) = graph.linear_form(function, &[*symbol])
+                && graph.zero_test(form.coefficients[0]).is_nonzero()
+            {
+                let quotient = graph.div(form.rest, form.coefficients[0]);
+                let image = graph.neg(quotient);
+                self.insert(graph, *symbol, image);
+                return Some(());
+            }
+        }
+        let (symbol, image) = present.iter().rev().find_map(|s| Some((*s, root(graph, function, *s)?)))?;
+        self.insert(graph, symbol, image);
+        Some(())
+    }
+
+    /// Rotation matrices by Cayley's parameters, if that is where the functions vanish.
+    fn rotations(graph: &mut Graph, functions: &[ExprId], unknowns: &[SymbolId]) -> Option<Self> {
+        let present: Vec<SymbolId> =
+            graph.symbols_in(functions).into_iter().filter(|symbol| unknowns.contains(symbol)).collect();
+        if present.len() != 9 || functions.len() < 6 {
+            return None;
+        }
+        let entries = cayley(graph);
+        let manifold = Self { images: present.into_iter().zip(entries).collect() };
+        let all = functions.iter().all(|function| manifold.zero_test(graph, *function) == Verdict::Zero);
+        all.then_some(manifold)
+    }
+}
+
+/// `a (x_1² + … + x_m² − r²)`, m ≥ 2 with rational r: the stereographic projection.
+fn sphere(graph: &mut Graph, function: ExprId, symbols: &[SymbolId]) -> Option<Vec<(SymbolId, ExprId)>> {
+    if symbols.len() < 2 {
+        return None;
+    }
+    let scale = {
+        let first = graph.partial(function, symbols[0]);
+        let second = graph.partial(first, symbols[0]);
+        graph.as_number(second)?.clone() * Rational::new(1, 2)
+    };
+    let squares: Vec<(Rational, ExprId)> = symbols
+        .iter()
+        .map(|symbol| {
+            let x = graph.symbol(*symbol);
+            (-scale.clone(), graph.square(x))
+        })
+        .chain([(Rational::ONE, function)])
+        .collect();
+    let rest = graph.linear_combination(&squares);
+    let rest = graph.simplify(rest);
+    let radius = (-graph.as_number(rest)?.clone() * scale.recip()?).sqrt()?;
+    let (last, others) = symbols.split_last()?;
+    let parameters: Vec<ExprId> = others
+        .iter()
+        .enumerate()
+        .map(|(index, _)| {
+            let symbol = graph.new_symbol(format!("sphere{index}"));
+            graph.symbol(symbol)
+        })
+        .collect();
+    let squares: Vec<ExprId> = parameters.iter().map(|u| graph.square(*u)).collect();
+    let (sum, one) = (graph.sum(&squares), graph.one());
+    let (above, below) = (graph.sub(one, sum), graph.add(one, sum));
+    let mut points = Vec::with_capacity(symbols.len());
+    for (symbol, u) in others.iter().zip(&parameters) {
+        let quotient = graph.div(*u, below);
+        points.push((*symbol, graph.scale(radius.clone() * Rational::from(2), quotient)));
+    }
+    let quotient = graph.div(above, below);
+    points.push((*last, graph.scale(radius, quotient)));
+    Some(points)
+}
+
+/// A root of a function that is quadratic in the symbol.
+fn root(graph: &mut Graph, function: ExprId, symbol: SymbolId) -> Option<ExprId> {
+    let first = graph.partial(function, symbol);
+    let second = graph.partial(first, symbol);
+    let third = graph.partial(second, symbol);
+    if graph.zero_test(third) != Verdict::Zero || !graph.zero_test(second).is_nonzero() {
+        return None;
+    }
+    // a s² + b s + c
+    let (b, c) = (graph.at_zero(first, &[symbol]), graph.at_zero(function, &[symbol]));
+    let curvature = graph.at_zero(second, &[symbol]);
+    if graph.is_undefined(b) || graph.is_undefined(c) || graph.is_undefined(curvature) {
+        return None;
+    }
+    let (bb, ac) = (graph.square(b), graph.mul(curvature, c));
+    let discriminant = graph.linear_combination(&[(1.into(), bb), ((-2).into(), ac)]);
+    let (radical, minus_b) = (graph.sqrt(discriminant), graph.neg(b));
+    let numerator = graph.add(minus_b, radical);
+    Some(graph.div(numerator, curvature))
+}
+
+/// The entries, row by row, of the rotation with Cayley parameters (a, b, c).
+fn cayley(graph: &mut Graph) -> Vec<ExprId> {
+    let [a, b, c] = ["a", "b", "c"].map(|name| {
+        let symbol = graph.new_symbol(format!("cayley_{name}"));
+        graph.symbol(symbol)
+    });
+    let one = graph.one();
+    let [aa, bb, cc] = [a, b, c].map(|x| graph.square(x));
+    let norm = graph.sum(&[one, aa, bb, cc]);
+    let mut entry = |terms: &[(i64, ExprId)]| {
+        let terms: Vec<(Rational, ExprId)> = terms.iter().map(|(k, e)| (Rational::from(*k), *e)).collect();
+        let numerator = graph.linear_combination(&terms);
+        graph.div(numerator, norm)
+    };
+    let diagonal = |x, y, z| [(1, one), (1, x), (-1, y), (-1, z)];
+    let mut rows =
+        vec![entry(&diagonal(aa, bb, cc)), entry(&diagonal(bb, aa, cc)), entry(&diagonal(cc, aa, bb))];
+    let mut off = |x, y, z, sign: i64| {
+        let product = graph.mul(x, y);
+        let terms = [(Rational::from(2), product), (Rational::from(2 * sign), z)];
+        let numerator = graph.linear_combination(&terms);
+        graph.div(numerator, norm)
+    };
+    let (xy, xz, yz) = (off(a, b, c, -1), off(a, c, b, 1), off(b, c, a, -1));
+    let (yx, zx, zy) = (off(a, b, c, 1), off(a, c, b, -1), off(b, c, a, 1));
+    let zz = rows.remove(2);
+    let yy = rows.remove(1);
+    let xx = rows.remove(0);
+    vec![xx, xy, xz, yx, yy, yz, zx, zy, zz]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn symbols(graph: &mut Graph, names: &[&str]) -> Vec<SymbolId> {
+        names.iter().map(|name| graph.new_symbol(*name)).collect()
+    }
+
+    #[test]
+    fn the_sphere_and_a_plane_through_it() {
+        let mut g = Graph::new();
+        let all = symbols(&mut g, &["g1", "g2", "g3", "w1", "w2", "w3"]);
+        let e: Vec<ExprId> = all.iter().map(|s| g.symbol(*s)).collect();
+        let (norm, one) = (g.inner_product(&e[..3], &e[..3]), g.one());
+        let sphere = g.sub(norm, one);
+        let plane = g.inner_product(&e[..3], &e[3..]);
+        let mut manifold = Manifold::where_zero(&mut g, &[sphere], &all[..3]).unwrap();
+        let tangent = Manifold::where_zero(&mut g, &[plane], &all[3..]).unwrap();
+        manifold.extend(&mut g, &tangent);
+        // |g × w|² = |g|²|w|² − (g·w)² = |w|²
+        let mut cross = Vec::new();
+        for i in 0..3 {
+            let (j, k) = ((i + 1) % 3, (i + 2) % 3);
+            let (x, y) = (g.mul(e[j], e[3 + k]), g.mul(e[k], e[3 + j]));
+            cross.push(g.sub(x, y));
+        }
+        let (left, right) = (g.inner_product(&cross, &cross), g.inner_product(&e[3..], &e[3..]));
+        let defect = g.sub(left, right);
+        assert!(!g.zero_test(defect).is_zero());
+        assert!(manifold.zero_test(&mut g, defect).is_zero());
+        assert!(manifold.zero_test(&mut g, left).is_nonzero());
+    }
+
+    #[test]
+    fn rotation_matrices() {
+        let mut g = Graph::new();
+        let names: Vec<String> = (0..9).map(|i| format!("R{i}")).collect();
+        let all = symbols(&mut g, &names.iter().map(String::as_str).collect::<Vec<_>>());
+        let e: Vec<ExprId> = all.iter().map(|s| g.symbol(*s)).collect();
+        let column = |j: usize| [e[j], e[3 + j], e[6 + j]];
+        let one = g.one();
+        let mut identities = Vec::new();
+        for i in 0..3 {
+            for j in i..3 {
+                let product = g.inner_product(&column(i), &column(j));
+                identities.push(if i == j { g.sub(product, one) } else { product });
+            }
+        }
+        let manifold = Manifold::where_zero(&mut g, &identities, &all).unwrap();
+        // the determinant is 1
+        let matrix: Matrix = e.chunks(3).map(<[ExprId]>::to_vec).collect();
+        let determinant = g.small_determinant(&matrix);
+        let defect = g.sub(determinant, one);
+        assert!(manifold.zero_test(&mut g, defect).is_zero());
+    }
+
+    #[test]
+    fn constant_speed() {
+        let mut g = Graph::new();
+        let all = symbols(&mut g, &["x", "y", "c"]);
+        let e: Vec<ExprId> = all.iter().map(|s| g.symbol(*s)).collect();
+        let (speed, c) = (g.inner_product(&e[..2], &e[..2]), g.square(e[2]));
+        let function = g.sub(speed, c);
+        let manifold = Manifold::where_zero(&mut g, &[function], &all[..2]).unwrap();
+        assert!(manifold.zero_test(&mut g, function).is_zero());
+    }
+}
