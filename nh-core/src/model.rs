@@ -24,6 +24,8 @@ pub struct Model {
     pub sections: Table<SectionId, Section>,
     /// Control inputs.
     pub inputs: Table<InputId, Input>,
+    /// Identities f = 0 that embedded base coordinates satisfy (`on`).
+    pub identities: Vec<Located>,
     /// How the anchor is given.
     pub kinematics: Kinematics,
     /// Declared brackets; known algebras are expanded by [`crate::geometry::known_algebra`].
@@ -32,14 +34,24 @@ pub struct Model {
     pub brackets_declared: bool,
     /// Whether the Jacobi identity is waived (`almost;`).
     pub almost: bool,
+    /// New sections as combinations of the declared ones (`frame`).
+    pub frame: Vec<FrameDecl>,
     /// The Lagrangian L(t, x, y); rates ẋ^i may occur in it.
     pub lagrangian: Located,
     /// Constraints φ = 0.
     pub constraints: Table<ConstraintId, ConstraintDecl>,
+    /// Sections that span D (`distribution`), by their velocity symbols, instead of constraints.
+    pub distribution: Option<Vec<(SymbolId, Origin)>>,
     /// Generalized forces.
     pub forces: Vec<ForceDecl>,
     /// Named observables.
     pub outputs: Vec<OutputDecl>,
+    /// Claimed first integrals (`conserved`).
+    pub claims: Vec<OutputDecl>,
+    /// Facts about parameters (`assume`).
+    pub assumptions: Vec<Assumption>,
+    /// What to generate beyond the default (`emit`).
+    pub requests: Vec<(Request, Origin)>,
     /// The velocities that the user wants the adapted state to keep.
     pub independent: Option<Vec<(SectionId, Origin)>>,
     /// The formulation that the user asks for.
@@ -137,6 +149,59 @@ pub struct BracketDecl {
     pub origin: Origin,
     /// Whether it comes from a known algebra; an explicit line for the same pair is then an error.
     pub known: Option<&'static str>,
+}
+
+/// One new section of the frame, with its quasi-velocity.
+#[derive(Clone, Debug)]
+pub struct FrameDecl {
+    /// Its name.
+    pub name: String,
+    /// Its quasi-velocity.
+    pub symbol: SymbolId,
+    /// The combination, with the velocity symbol of a section standing for the section.
+    pub value: ExprId,
+    /// Where it stands.
+    pub origin: Origin,
+}
+
+/// A fact `left relation right` about parameters.
+#[derive(Clone, Debug)]
+pub struct Assumption {
+    /// The left side, an expression of parameters.
+    pub left: ExprId,
+    /// How the sides compare.
+    pub relation: Relation,
+    /// The right side, an expression of parameters.
+    pub right: ExprId,
+    /// The fact as the user wrote it.
+    pub text: String,
+    /// Where it stands.
+    pub origin: Origin,
+}
+
+/// How two sides of an assumption compare.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Relation {
+    /// `<`
+    Less,
+    /// `<=`
+    LessOrEqual,
+    /// `>`
+    Greater,
+    /// `>=`
+    GreaterOrEqual,
+    /// `!=`
+    NotEqual,
+}
+
+/// Something to generate beyond the default.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+#[non_exhaustive]
+pub enum Request {
+    /// The multipliers λ_A.
+    Multipliers,
+    /// The reaction forces λ_A ∂φ^A/∂y^α along the sections.
+    Reactions,
 }
 
 /// One constraint `lhs = rhs`, as φ = lhs − rhs.

@@ -108,7 +108,7 @@ impl Reader<'_> {
                 let raised = Polynomial::term(below.times(&one)?, Rational::ONE);
                 let quotient = match self.quotient_of_either_form(above, &meaning)? {
                     Step::To(quotient) => quotient,
-                    Step::Nothing if above.len() > 1 && above.len() < meaning.len() => {
+                    Step::Nothing if above.len() > 1 && above.len() <= meaning.len() => {
                         match self.quotient_of_either_form(&meaning, above)? {
                             Step::To(inverse) => self.power(&inverse, Exponent::whole(-1))?,
                             Step::Nothing => continue,

@@ -344,7 +344,9 @@ impl<'g> Reader<'g> {
 
     /// Reduces trigonometric functions, then cancels denominators.
     pub(super) fn tidy(&mut self, polynomial: &Polynomial) -> Option<Polynomial> {
-        if polynomial.len() < 2 {
+        if let Some((monomial, _)) = polynomial.single()
+            && !monomial.0.iter().any(|factor| factor.kind == Kind::Sum && factor.exponent.is_negative())
+        {
             return Some(polynomial.clone());
         }
         let reduced = self.reduce(polynomial)?;
