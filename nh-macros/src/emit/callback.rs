@@ -17,7 +17,8 @@ pub(super) fn emit(context: &Context) -> TokenStream {
     let name = plain(&layout.name);
     let (attribute, item) = (&layout.attribute, &layout.item);
     let is_public = matches!(layout.visibility, syn::Visibility::Public(_));
-    let export = is_public.then(|| quote!(#[macro_export]));
+    // a public struct in the body of a function is no reason to warn
+    let export = is_public.then(|| quote!(#[allow(non_local_definitions)] #[macro_export]));
     let visibility = &context.visibility;
     let hash = fingerprint(&format!("{name} {attribute} {item} {}", place()));
     let hidden = format_ident!("__nh_declaration_{name}_{hash:016x}", span = Span::call_site());

@@ -123,8 +123,7 @@ impl<'a> Context<'a> {
     /// `<T: Scalar>` for the impls of a record.
     pub(super) fn record_impl_generics(&self) -> TokenStream {
         let runtime = &self.runtime;
-        self.parameter()
-            .map_or_else(TokenStream::new, |parameter| quote!(<#parameter: #runtime::Scalar>))
+        self.parameter().map_or_else(TokenStream::new, |parameter| quote!(<#parameter: #runtime::Scalar>))
     }
 
     /// `impl … Trait for Sleigh { body }`.

@@ -29,8 +29,7 @@ pub(super) fn method(context: &Context, scope: &Scope, program: &Program) -> Tok
 /// `impl Energy for Sleigh`.
 pub(super) fn implementation(context: &Context) -> TokenStream {
     let Context { runtime, scalar, .. } = context;
-    let (t, state, state_type) =
-        (&context.locals.t, &context.locals.state, context.type_of(&context.state));
+    let (t, state, state_type) = (&context.locals.t, &context.locals.state, context.type_of(&context.state));
     let body = quote! {
         #[inline]
         fn energy(&self, #t: #scalar, #state: &#state_type) -> #scalar {

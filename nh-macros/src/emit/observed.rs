@@ -21,12 +21,7 @@ pub(super) fn head(context: &Context, outputs: &Record) -> Head {
 }
 
 /// The inherent method `outputs`.
-pub(super) fn method(
-    context: &Context,
-    outputs: &Record,
-    scope: &Scope,
-    program: &Program,
-) -> TokenStream {
+pub(super) fn method(context: &Context, outputs: &Record, scope: &Scope, program: &Program) -> TokenStream {
     let body = body(context, scope, program);
     let name = &outputs.name;
     let result = outputs.construct(&quote!(#name), &body.outputs);

@@ -140,23 +140,41 @@ impl Record {
         let generics = context.record_generics();
         let is_long = self.fields.iter().any(|field| field.lengths.iter().any(|length| *length > LONG));
         let default = (!is_long).then(|| quote!(, ::core::default::Default));
+        // derived with a parameter, linters would ask for `Eq`, which floating-point numbers have not
+        let equality = context.parameter().is_none().then(|| quote!(, ::core::cmp::PartialEq));
         let allow = allow_for(self.fields.iter().map(|field| &field.ident));
         let fields = self.fields.iter().map(|field| {
             let Field { ident, docs, .. } = field;
             let type_of = field.type_of(scalar);
             quote!(#docs pub #ident: #type_of)
         });
+        let equality_of_parameter = context.parameter().map(|_| self.equality(context));
         let conversions = self.conversions(context);
         let extra = if is_long { self.long_default(context) } else { self.serde(context) };
         quote! {
             #[doc = #doc]
             #[derive(
-                ::core::clone::Clone, ::core::marker::Copy, ::core::fmt::Debug, ::core::cmp::PartialEq #default
+                ::core::clone::Clone, ::core::marker::Copy, ::core::fmt::Debug #equality #default
             )]
             #allow
             #visibility struct #name #generics { #(#fields,)* }
+            #equality_of_parameter
             #conversions
             #extra
+        }
+    }
+
+    /// `PartialEq`, field by field.
+    fn equality(&self, context: &Context) -> TokenStream {
+        let (generics, record) = (context.record_impl_generics(), context.type_of(self));
+        let other = local("other");
+        let fields = self.fields.iter().map(|field| &field.ident);
+        quote! {
+            impl #generics ::core::cmp::PartialEq for #record {
+                fn eq(&self, #other: &Self) -> ::core::primitive::bool {
+                    true #(&& self.#fields == #other.#fields)*
+                }
+            }
         }
     }
 

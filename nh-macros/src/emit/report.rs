@@ -30,24 +30,25 @@ pub(super) fn with_text(context: &Context, text: &str) -> TokenStream {
 
 /// The struct: after the user's documentation, its equations.
 pub(super) fn item(context: &Context, equations: &[String]) -> TokenStream {
+    let (attributes, rest) = split_attributes(context.layout.item.clone());
     let mut lines = Vec::new();
     if !equations.is_empty() {
         // a blank line behind the user's documentation
-        if context.layout.item.to_string().starts_with("# [doc") {
+        if attributes.iter().any(is_doc) {
             lines.push(String::new());
         }
         lines.extend([" # Equations of motion", "", " ```text"].map(str::to_owned));
         lines.extend(equations.iter().map(|line| format!(" {line}").trim_end().to_owned()));
         lines.push(" ```".to_owned());
     }
-    let docs = quote!(#(#[doc = #lines])*);
     let allow = allow_for(context.layout.parameters.iter().map(|family| &family.ident));
-    after_attributes(context.layout.item.clone(), quote!(#docs #allow))
+    let (attributes, rest) = (attributes.into_iter(), rest.into_iter());
+    quote!(#(#attributes)* #(#[doc = #lines])* #allow #(#rest)*)
 }
 
-/// Puts attributes behind those that an item has already.
-fn after_attributes(item: TokenStream, attributes: TokenStream) -> TokenStream {
-    let tokens: Vec<TokenTree> = item.into_iter().collect();
+/// The tokens of the attributes of an item, and the others.
+fn split_attributes(item: TokenStream) -> (Vec<TokenTree>, Vec<TokenTree>) {
+    let mut tokens: Vec<TokenTree> = item.into_iter().collect();
     let mut end = 0;
     while let [TokenTree::Punct(pound), TokenTree::Group(group), ..] = &tokens[end..] {
         if pound.as_char() != '#' || group.delimiter() != Delimiter::Bracket {
@@ -55,6 +56,12 @@ fn after_attributes(item: TokenStream, attributes: TokenStream) -> TokenStream {
         }
         end += 2;
     }
-    let rest = tokens[end..].to_vec();
-    tokens[..end].iter().cloned().chain(attributes).chain(rest).collect()
+    let rest = tokens.split_off(end);
+    (tokens, rest)
+}
+
+/// Whether this is the bracket of a doc attribute.
+fn is_doc(token: &TokenTree) -> bool {
+    let TokenTree::Group(group) = token else { return false };
+    matches!(group.stream().into_iter().next(), Some(TokenTree::Ident(ident)) if ident == "doc")
 }

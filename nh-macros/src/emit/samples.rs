@@ -85,6 +85,12 @@ impl Builder {
             constraints: Table::new(),
             forces: Vec::new(),
             outputs: Vec::new(),
+            identities: Vec::new(),
+            frame: Vec::new(),
+            distribution: None,
+            claims: Vec::new(),
+            assumptions: Vec::new(),
+            requests: Vec::new(),
             independent: None,
             formulation: None,
         };
@@ -106,7 +112,12 @@ impl Builder {
         self.graph.scale(coefficient, product)
     }
 
-    pub(crate) fn system(mut self, kept: &[usize], procedures: [Procedure; 4], nonzero: &[(ExprId, &str)]) -> System {
+    pub(crate) fn system(
+        mut self,
+        kept: &[usize],
+        procedures: [Procedure; 4],
+        nonzero: &[(ExprId, &str)],
+    ) -> System {
         self.model.graph = self.graph;
         let [derivative, energy, velocity, observables] = procedures;
         System {
@@ -188,7 +199,8 @@ pub(crate) fn chain_system(layout: &Layout) -> System {
     let mut b = Builder::new(layout);
     let [w0, w2, q0, q1, mass] = ["w[0]", "w[2]", "q[0]", "q[1]", "r#type"].map(|name| b.symbol(name));
     let matrix = [["I[0][0]", "I[0][1]"], ["I[1][0]", "I[1][1]"]];
-    let matrix: Vec<Vec<ExprId>> = matrix.iter().map(|row| row.iter().map(|name| b.symbol(name)).collect()).collect();
+    let matrix: Vec<Vec<ExprId>> =
+        matrix.iter().map(|row| row.iter().map(|name| b.symbol(name)).collect()).collect();
     let angle = b.graph.sub(q0, q1);
     let (sin, cos) = (b.graph.sin(angle), b.graph.cos(angle));
     let third = b.graph.scale(Rational::new(1, 3), cos);

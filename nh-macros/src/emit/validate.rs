@@ -1,6 +1,8 @@
-//! `validate`: every parameter is finite, and no parameter pivot is zero.
+//! `validate`: every parameter is finite, assumptions hold, and no parameter pivot is zero.
 
+use nh_core::id::ExprId;
 use nh_core::mechanics::Procedure;
+use nh_core::model::{Model, Relation};
 use nh_core::system::System;
 use proc_macro2::TokenStream;
 use quote::quote;
@@ -14,23 +16,23 @@ use super::scope::{Scope, parameter_places};
 
 /// The inherent method `validate`.
 pub(super) fn method(context: &Context, scope: &Scope, system: &System) -> TokenStream {
-    let pivots = pivots(context, scope, system);
-    with_body(context, &pivots)
+    let checks = checks(context, scope, system);
+    with_body(context, &checks)
 }
 
 /// The method, with what it does after the parameters are known to be finite.
-pub(super) fn with_body(context: &Context, pivots: &TokenStream) -> TokenStream {
+pub(super) fn with_body(context: &Context, checks: &TokenStream) -> TokenStream {
     let Context { runtime, visibility, .. } = context;
     let finite = finite(context);
     quote! {
         /// Checks the parameters.
         ///
         /// # Errors
-        /// The first parameter that is not finite, or that makes an expression zero by which the
-        /// equations divide.
+        /// The first parameter that is not finite, that breaks an assumption, or that makes an
+        /// expression zero by which the equations divide.
         #visibility fn validate(&self) -> ::core::result::Result<(), #runtime::ParameterError> {
             #finite
-            #pivots
+            #checks
             ::core::result::Result::Ok(())
         }
     }
@@ -65,30 +67,75 @@ fn finite(context: &Context) -> TokenStream {
     }
 }
 
-/// No expression of parameters by which the equations divide is zero.
-fn pivots(context: &Context, scope: &Scope, system: &System) -> TokenStream {
-    let Context { runtime, scalar, .. } = context;
-    let model = &system.model;
-    let values = system.parameter_checks.iter().map(|check| check.nonzero).collect();
-    let body = body(context, scope, &program(model, &Procedure::of(values)));
-    let checks = system.parameter_checks.iter().zip(&body.outputs).map(|(check, value)| {
-        let text = &check.text;
-        let symbols = model.graph.symbols_in(&[check.nonzero]);
-        let blamed = model.parameters.iter().find(|parameter| symbols.contains(&parameter.symbol));
-        let (name, place) = match blamed.and_then(|parameter| scope.place(parameter.symbol)) {
-            Some((_, place)) => (blamed.map_or("", |parameter| &parameter.name), place.clone()),
-            None => ("", quote!(<#scalar as #runtime::Scalar>::ZERO)),
+/// Every assumption holds, and no expression of parameters by which the equations divide is zero.
+fn checks(context: &Context, scope: &Scope, system: &System) -> TokenStream {
+    let runtime = &context.runtime;
+    let assumptions = &system.model.assumptions;
+    let sides = assumptions.iter().flat_map(|assumption| [assumption.left, assumption.right]);
+    let pivots = system.parameter_checks.iter().map(|check| check.nonzero);
+    let procedure = Procedure::of(sides.chain(pivots).collect());
+    let body = body(context, scope, &program(&system.model, &procedure));
+    let (sides, pivots) = body.outputs.split_at((2 * assumptions.len()).min(body.outputs.len()));
+    let mut tokens = body.statements.clone();
+    for (assumption, sides) in assumptions.iter().zip(sides.chunks(2)) {
+        let text = &assumption.text;
+        let fault = quote!(#runtime::ParameterFault::Assumption { text: #text });
+        let [left, right] = sides else { continue };
+        let (method, first, second) = match assumption.relation {
+            Relation::Less => (quote!(all_gt), right, left),
+            Relation::LessOrEqual => (quote!(all_ge), right, left),
+            Relation::Greater => (quote!(all_gt), left, right),
+            Relation::GreaterOrEqual => (quote!(all_ge), left, right),
+            Relation::NotEqual => (quote!(all_ne), left, right),
         };
-        quote! {
-            if !<#scalar as #runtime::Scalar>::all_ne(#value, <#scalar as #runtime::Scalar>::ZERO) {
-                return ::core::result::Result::Err(#runtime::ParameterError {
-                    parameter: #name,
-                    value: #runtime::Scalar::to_f64(#place),
-                    fault: #runtime::ParameterFault::ZeroPivot { expression: #text },
-                });
-            }
+        let blamed = &[assumption.left, assumption.right];
+        tokens.extend(check(
+            context,
+            scope,
+            &system.model,
+            blamed,
+            &quote!(#method(#first, #second)),
+            &fault,
+        ));
+    }
+    let zero = zero(context);
+    for (pivot, value) in system.parameter_checks.iter().zip(pivots) {
+        let text = &pivot.text;
+        let fault = quote!(#runtime::ParameterFault::ZeroPivot { expression: #text });
+        let holds = quote!(all_ne(#value, #zero));
+        tokens.extend(check(context, scope, &system.model, &[pivot.nonzero], &holds, &fault));
+    }
+    tokens
+}
+
+/// Returns the error unless a condition holds; the first parameter in the expressions is blamed.
+fn check(
+    context: &Context,
+    scope: &Scope,
+    model: &Model,
+    blamed: &[ExprId],
+    holds: &TokenStream,
+    fault: &TokenStream,
+) -> TokenStream {
+    let Context { runtime, scalar, .. } = context;
+    let symbols = model.graph.symbols_in(blamed);
+    let found = model.parameters.iter().find(|parameter| symbols.contains(&parameter.symbol));
+    let (name, place) = match found.map(|parameter| (parameter, scope.place(parameter.symbol))) {
+        Some((parameter, Some((_, place)))) => (parameter.name.as_str(), place.clone()),
+        _ => ("", zero(context)),
+    };
+    quote! {
+        if !<#scalar as #runtime::Scalar>::#holds {
+            return ::core::result::Result::Err(#runtime::ParameterError {
+                parameter: #name,
+                value: #runtime::Scalar::to_f64(#place),
+                fault: #fault,
+            });
         }
-    });
-    let statements = &body.statements;
-    quote!(#statements #(#checks)*)
+    }
+}
+
+fn zero(context: &Context) -> TokenStream {
+    let Context { runtime, scalar, .. } = context;
+    quote!(<#scalar as #runtime::Scalar>::ZERO)
 }

@@ -15,7 +15,6 @@ pub struct Chain<T = f64> {
     ::core::clone::Clone,
     ::core::marker::Copy,
     ::core::fmt::Debug,
-    ::core::cmp::PartialEq,
     ::core::default::Default
 )]
 #[allow(non_snake_case)]
@@ -28,6 +27,12 @@ pub struct ChainState<T = f64> {
     pub w_0: T,
     /// The quasi-velocity `w[2]`.
     pub w_2: T,
+}
+impl<T: ::nh_runtime::__private::Scalar> ::core::cmp::PartialEq for ChainState<T> {
+    fn eq(&self, other: &Self) -> ::core::primitive::bool {
+        true && self.q == other.q && self.R == other.R && self.w_0 == other.w_0
+            && self.w_2 == other.w_2
+    }
 }
 #[automatically_derived]
 impl<T: ::nh_runtime::__private::Scalar> ::core::convert::From<ChainState<T>>
@@ -86,7 +91,6 @@ for ChainState<T> {
     ::core::clone::Clone,
     ::core::marker::Copy,
     ::core::fmt::Debug,
-    ::core::cmp::PartialEq,
     ::core::default::Default
 )]
 pub struct ChainVelocity<T = f64> {
@@ -94,6 +98,11 @@ pub struct ChainVelocity<T = f64> {
     pub w: [T; 3],
     /// The quasi-velocity `u`.
     pub u: T,
+}
+impl<T: ::nh_runtime::__private::Scalar> ::core::cmp::PartialEq for ChainVelocity<T> {
+    fn eq(&self, other: &Self) -> ::core::primitive::bool {
+        true && self.w == other.w && self.u == other.u
+    }
 }
 #[automatically_derived]
 impl<T: ::nh_runtime::__private::Scalar> ::core::convert::From<ChainVelocity<T>>
@@ -247,8 +256,8 @@ where
     /// Checks the parameters.
     ///
     /// # Errors
-    /// The first parameter that is not finite, or that makes an expression zero by which the
-    /// equations divide.
+    /// The first parameter that is not finite, that breaks an assumption, or that makes an
+    /// expression zero by which the equations divide.
     pub fn validate(
         &self,
     ) -> ::core::result::Result<(), ::nh_runtime::__private::ParameterError> {
@@ -271,6 +280,7 @@ where
     }
 }
 #[doc(hidden)]
+#[allow(non_local_definitions)]
 #[macro_export]
 macro_rules! __nh_declaration_Chain_e07084d326a6c8cd {
     () => {};

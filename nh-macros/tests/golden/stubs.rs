@@ -367,8 +367,8 @@ impl Sleigh {
     /// Checks the parameters.
     ///
     /// # Errors
-    /// The first parameter that is not finite, or that makes an expression zero by which the
-    /// equations divide.
+    /// The first parameter that is not finite, that breaks an assumption, or that makes an
+    /// expression zero by which the equations divide.
     pub fn validate(
         &self,
     ) -> ::core::result::Result<(), ::nh_runtime::__private::ParameterError> {
@@ -405,6 +405,7 @@ impl Sleigh {
     }
 }
 #[doc(hidden)]
+#[allow(non_local_definitions)]
 #[macro_export]
 macro_rules! __nh_declaration_Sleigh_4d621d80cebc5a31 {
     () => {};
