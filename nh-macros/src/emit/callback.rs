@@ -5,7 +5,7 @@ use proc_macro2::{Ident, Span, TokenStream};
 use quote::{format_ident, quote};
 
 use super::context::Context;
-use super::record::plain;
+use super::layout::plain;
 
 /// The macro and its alias.
 ///

@@ -94,6 +94,23 @@ impl Family {
         }
         entries
     }
+
+    /// The names of the entries in the declaration: `w[0]`.
+    pub(crate) fn names(&self) -> Vec<String> {
+        let name = plain(&self.ident);
+        self.entries().iter().map(|entry| indexed(&name, entry)).collect()
+    }
+}
+
+/// `w[0]`, for an entry of a family.
+pub(super) fn indexed(name: &str, entry: &[u32]) -> String {
+    entry.iter().fold(name.to_owned(), |text, index| format!("{text}[{index}]"))
+}
+
+/// An identifier without `r#`.
+pub(super) fn plain(ident: &Ident) -> String {
+    let text = ident.to_string();
+    text.strip_prefix("r#").map(str::to_owned).unwrap_or(text)
 }
 
 impl From<&ast::Declared> for Family {

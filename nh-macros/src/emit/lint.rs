@@ -3,7 +3,7 @@
 use proc_macro2::{Ident, TokenStream};
 use quote::quote;
 
-use super::record::plain;
+use super::layout::plain;
 
 /// Whether the compiler accepts a name for a field or a variable.
 pub(super) fn is_snake_case(name: &str) -> bool {

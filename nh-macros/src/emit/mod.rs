@@ -37,6 +37,7 @@ use scope::Scope;
 
 #[allow(unused_imports, reason = "the stage before it is on its way")]
 pub(crate) use layout::{Family, Layout, TypeNames};
+#[allow(unused_imports, reason = "the stage before it is on its way")]
 pub(crate) use stubs::stubs;
 
 /// The struct and everything that its declaration gives it.

@@ -3,7 +3,7 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use nh_core::id::Table;
+use nh_core::id::{SymbolId, Table};
 use nh_core::program::{Program, Step, Value};
 use proc_macro2::{Ident, Literal, TokenStream};
 use quote::quote;
@@ -101,16 +101,7 @@ impl Writer<'_> {
             }
             Step::Constant(number) => number::literal(self.context, number),
             Step::Pi => number::pi(self.context),
-            Step::Load(symbol) => match self.scope.place(*symbol) {
-                Some((argument, place)) => {
-                    self.used.insert(*argument);
-                    Expression::atom(place.clone(), 0)
-                }
-                None => {
-                    let message = format!("`{}` is not known here", self.scope.name(*symbol));
-                    Expression::atom(quote!(::core::compile_error!(#message)), 0)
-                }
-            },
+            Step::Load(symbol) => self.load(*symbol),
             Step::Add(a, b) => of(a).add(of(b)),
             Step::Sub(a, b) => of(a).sub(of(b)),
             Step::Mul(a, b) => of(a).mul(of(b)),
@@ -143,6 +134,15 @@ impl Writer<'_> {
                 Expression::atom(variable.map_or_else(TokenStream::new, |name| quote!(#name)), 0)
             }
         }
+    }
+
+    fn load(&mut self, symbol: SymbolId) -> Expression {
+        if let Some((argument, place)) = self.scope.place(symbol) {
+            self.used.insert(*argument);
+            return Expression::atom(place.clone(), 0);
+        }
+        let message = format!("`{}` is not known here", self.scope.name(symbol));
+        Expression::atom(quote!(::core::compile_error!(#message)), 0)
     }
 
     /// `Scalar::method(a, b)`.
@@ -194,10 +194,8 @@ impl Writer<'_> {
             .into_iter()
             .map(|unknown| unknown.map(|v| self.names.of(self.program, v, self.scope)))
             .collect();
-        let pattern = variables.iter().map(|name| match name {
-            Some(name) => quote!(#name),
-            None => quote!(_),
-        });
+        let pattern =
+            variables.iter().map(|name| name.as_ref().map_or_else(|| quote!(_), |name| quote!(#name)));
         self.statements.extend(quote! {
             let [#(#pattern),*] =
                 #runtime::solve_pivoted::<#scalar, #length>([#(#rows),*], #right_tokens);

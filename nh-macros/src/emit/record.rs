@@ -1,10 +1,10 @@
 //! Generated plain structs: the state, the velocities, inputs and outputs.
 
 use proc_macro2::{Ident, Literal, TokenStream};
-use quote::{ToTokens, format_ident, quote};
+use quote::{ToTokens, quote};
 
 use super::context::Context;
-use super::layout::{Family, local};
+use super::layout::{Family, indexed, local, plain};
 use super::lint::allow_for;
 
 /// A struct of numbers and arrays of numbers.
@@ -31,7 +31,7 @@ impl Field {
     /// The field of a whole family.
     pub(super) fn of(family: &Family, what: &str) -> Self {
         let name = plain(&family.ident);
-        let names = family.entries().iter().map(|entry| indexed(&name, entry)).collect();
+        let names = family.names();
         let docs = if family.docs.is_empty() {
             let plural = if family.lengths.is_empty() { "" } else { "s" };
             let what = if plural == "s" && what == "quasi-velocity" {
@@ -50,7 +50,7 @@ impl Field {
     /// The field of one entry of a family.
     pub(super) fn of_entry(family: &Family, entry: &[u32], what: &str) -> Self {
         let name = plain(&family.ident);
-        let suffix: String = entry.iter().map(|index| format!("_{index}")).collect();
+        let field = entry.iter().fold(name.clone(), |text, index| format!("{text}_{index}"));
         let component = indexed(&name, entry);
         let doc = format!(" The {what} `{component}`.");
         let mut docs = family.docs.clone();
@@ -58,7 +58,12 @@ impl Field {
             docs.extend(quote!(#[doc = ""]));
         }
         docs.extend(quote!(#[doc = #doc]));
-        Self { ident: format_ident!("{name}{suffix}"), lengths: Vec::new(), docs, names: vec![component] }
+        Self {
+            ident: Ident::new(&field, family.ident.span()),
+            lengths: Vec::new(),
+            docs,
+            names: vec![component],
+        }
     }
 
     fn type_of(&self, scalar: &TokenStream) -> TokenStream {
@@ -90,17 +95,6 @@ impl Field {
         };
         family.entries().iter().map(place).collect()
     }
-}
-
-/// An identifier without `r#`.
-pub(super) fn plain(ident: &Ident) -> String {
-    let text = ident.to_string();
-    text.strip_prefix("r#").map(str::to_owned).unwrap_or(text)
-}
-
-fn indexed(name: &str, entry: &[u32]) -> String {
-    let indices: String = entry.iter().map(|index| format!("[{index}]")).collect();
-    format!("{name}{indices}")
 }
 
 impl Record {

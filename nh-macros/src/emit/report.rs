@@ -14,7 +14,7 @@ pub(super) fn constant(context: &Context, system: &System, programs: &[(&str, &P
     text.push_str("\n\nOperations per evaluation:\n");
     for (name, program) in programs {
         let cost = Cost::of(program);
-        text.push_str(&format!("  {name}: {cost}\n"));
+        text.extend(["  ", name, ": ", &cost.to_string(), "\n"]);
     }
     with_text(context, text.trim_start())
 }

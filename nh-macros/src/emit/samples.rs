@@ -54,12 +54,8 @@ impl Builder {
         let time = graph.new_symbol("t");
         let mut symbols = |families: &[Family]| -> Vec<(String, SymbolId)> {
             let mut found = Vec::new();
-            for family in families {
-                for entry in family.entries() {
-                    let indices: String = entry.iter().map(|i| format!("[{i}]")).collect();
-                    let name = format!("{}{indices}", family.ident);
-                    found.push((name.clone(), graph.new_symbol(name)));
-                }
+            for name in families.iter().flat_map(Family::names) {
+                found.push((name.clone(), graph.new_symbol(name)));
             }
             found
         };
@@ -197,7 +193,7 @@ pub(crate) fn chain() -> Sample {
 /// The equations of [`chain`]: not those of a real system.
 pub(crate) fn chain_system(layout: &Layout) -> System {
     let mut b = Builder::new(layout);
-    let [w0, w2, q0, q1, mass] = ["w[0]", "w[2]", "q[0]", "q[1]", "r#type"].map(|name| b.symbol(name));
+    let [w0, w2, q0, q1, mass] = ["w[0]", "w[2]", "q[0]", "q[1]", "type"].map(|name| b.symbol(name));
     let matrix = [["I[0][0]", "I[0][1]"], ["I[1][0]", "I[1][1]"]];
     let matrix: Vec<Vec<ExprId>> =
         matrix.iter().map(|row| row.iter().map(|name| b.symbol(name)).collect()).collect();
@@ -217,7 +213,7 @@ pub(crate) fn chain_system(layout: &Layout) -> System {
     let decay = b.graph.sub(one, shifted);
     let sum = b.graph.add(a2, forced);
     derivative.outputs = vec![w0, w2, sin, third, exp, decay, a0, sum];
-    let energy = b.term(Rational::new(1, 2), &[("r#type", 1), ("w[0]", 2)]);
+    let energy = b.term(Rational::new(1, 2), &[("type", 1), ("w[0]", 2)]);
     let zero = b.graph.zero();
     let procedures = [
         derivative,

@@ -9,9 +9,8 @@ use quote::quote;
 
 use super::context::Context;
 use super::function::program;
-use super::layout::local;
+use super::layout::{Family, local};
 use super::program::body;
-use super::record::plain;
 use super::scope::{Scope, parameter_places};
 
 /// The inherent method `validate`.
@@ -42,13 +41,7 @@ pub(super) fn with_body(context: &Context, checks: &TokenStream) -> TokenStream 
 fn finite(context: &Context) -> TokenStream {
     let Context { runtime, .. } = context;
     let (name, value) = (local("name"), local("value"));
-    let names = context.layout.parameters.iter().flat_map(|family| {
-        let name = plain(&family.ident);
-        family.entries().into_iter().map(move |entry| {
-            let indices: String = entry.iter().map(|index| format!("[{index}]")).collect();
-            format!("{name}{indices}")
-        })
-    });
+    let names = context.layout.parameters.iter().flat_map(Family::names);
     let pairs: Vec<_> =
         names.zip(parameter_places(context)).map(|(text, place)| quote!((#text, #place))).collect();
     if pairs.is_empty() {
