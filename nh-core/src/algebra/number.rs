@@ -51,6 +51,11 @@ impl Rational {
     }
 
     fn from_wide(numerator: i128, denominator: i128) -> Self {
+        if denominator == 1
+            && let Ok(n) = i64::try_from(numerator)
+        {
+            return Self(Repr::Small(n, 1));
+        }
         let divisor = numerator.gcd(&denominator).max(1);
         let sign = denominator.signum();
         let (n, d) = (numerator / divisor * sign, denominator / divisor * sign);
@@ -203,6 +208,9 @@ impl Rational {
     /// The greatest rational of which both are integer multiples; zero for two zeros.
     #[must_use]
     pub fn gcd(&self, other: &Self) -> Self {
+        if let (Repr::Small(a, 1), Repr::Small(b, 1)) = (&self.0, &other.0) {
+            return Self::from_wide(i128::from(a.unsigned_abs().gcd(&b.unsigned_abs())), 1);
+        }
         let (a, b) = (self.big(), other.big());
         let numerator = (a.numer() * b.denom()).gcd(&(b.numer() * a.denom()));
         Self::normal(Big::new(numerator, a.denom() * b.denom()))

@@ -4,9 +4,9 @@
 //! |---|---|
 //! | `x^a · x^b = x^(a+b)`, `x^0 = 1` | where the left side is defined; this only removes divisions and roots |
 //! | `(x^a)^b = x^(ab)` | `b` an integer, or the numerator of `a` odd |
-//! | `(c·x·y)^b = c^b x^b y^b` | `b` an integer; otherwise only `c > 0` is taken out, if its root is rational |
+//! | `(c·x·y)^b = c^b x^b y^b` | `b` an integer; otherwise only `c > 0` is taken out, as far as its root is rational |
 //! | `c · (a + b) = ca + cb` | `c` a number |
-//! | `(2a + 2b)^n · x = 2^n (a + b)^n x` | sums among factors are primitive, their first coefficient positive; `n` an integer, or `2` a positive number with a rational root |
+//! | `(2a + 2b)^n · x = 2^n (a + b)^n x` | sums among factors are primitive, their first coefficient positive; `n` an integer, or `2` a positive number as far as its root is rational |
 
 use super::graph::{Graph, Node};
 use super::number::Rational;
@@ -117,10 +117,10 @@ impl Graph {
         if value.is_one() {
             return;
         }
-        if let Some(power) = rational_power(value, exponent) {
-            into.coefficient = into.coefficient.clone() * power;
-        } else {
-            let base = self.number(value.clone());
+        let (outside, inside) = split_power(value, exponent);
+        into.coefficient = into.coefficient.clone() * outside;
+        if !inside.is_one() {
+            let base = self.number(inside);
             into.powers.push((base, exponent.clone()));
         }
     }
@@ -133,10 +133,7 @@ impl Graph {
         exponent: &Rational,
         into: &mut Factors,
     ) {
-        let (outside, inside) = match rational_power(&coefficient, exponent) {
-            Some(root) => (root, Rational::ONE),
-            None => (Rational::ONE, coefficient),
-        };
+        let (outside, inside) = split_power(&coefficient, exponent);
         into.coefficient = into.coefficient.clone() * outside;
         match factors {
             [(inner, power)] if inside.is_one() && power.has_odd_numerator() => {
@@ -152,7 +149,7 @@ impl Graph {
     /// Takes the content out of a sum, so that equal sums up to a number become one base.
     fn collect_sum(&mut self, base: ExprId, exponent: &Rational, into: &mut Factors) {
         let content = self.content(base);
-        let outside = if exponent.is_integer() { content } else { content.abs() };
+        let outside = if exponent.is_integer() { content } else { square_divisor(&content.abs(), exponent) };
         match rational_power(&outside, exponent).zip(outside.recip()) {
             Some((power, inverse)) => {
                 into.coefficient = into.coefficient.clone() * power;
@@ -243,6 +240,39 @@ fn rational_power(value: &Rational, exponent: &Rational) -> Option<Rational> {
     }
 }
 
+/// `value^exponent` as a rational number times what is left under the root.
+fn split_power(value: &Rational, exponent: &Rational) -> (Rational, Rational) {
+    if let Some(power) = rational_power(value, exponent) {
+        return (power, Rational::ONE);
+    }
+    let square = square_divisor(value, exponent);
+    match (rational_power(&square, exponent), square.recip()) {
+        (Some(power), Some(inverse)) => (power, value.clone() * inverse),
+        _ => (Rational::ONE, value.clone()),
+    }
+}
+
+/// A square that can be taken out of a square root, the largest as far as small factors tell.
+fn square_divisor(value: &Rational, exponent: &Rational) -> Rational {
+    const TRIED: i64 = 1000;
+    let part = |n: i64| {
+        let (mut rest, mut square) = (n.saturating_abs(), 1);
+        let mut divisor = 2;
+        while divisor < TRIED && divisor * divisor <= rest {
+            while rest % (divisor * divisor) == 0 {
+                rest /= divisor * divisor;
+                square *= divisor * divisor;
+            }
+            divisor += 1;
+        }
+        if rest.isqrt() * rest.isqrt() == rest { square * rest } else { square }
+    };
+    match (value.to_small(), exponent.to_small()) {
+        (Some((n, d)), Some((_, 2))) if n != 0 => Rational::new(part(n), part(d)),
+        _ => Rational::ONE,
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -304,5 +334,24 @@ mod tests {
         let two = g.number(2);
         let root = g.sqrt(two);
         assert_eq!(g.mul(root, root), two);
+    }
+
+    #[test]
+    fn squares_leave_a_root() {
+        let mut g = Graph::new();
+        let (x, y) = symbols(&mut g);
+        let twelve = g.number(12);
+        let root = g.sqrt(twelve);
+        assert_eq!(g.text(root), "2*sqrt(3)");
+        let inverse = g.pow(twelve, Rational::new(-1, 2));
+        let product = g.mul(root, inverse);
+        assert_eq!(g.as_number(product), Some(&Rational::ONE));
+        let sum = g.linear_combination(&[(Rational::from(75), x), (Rational::new(50, 3), y)]);
+        let root = g.sqrt(sum);
+        assert_eq!(g.text(root), "5*sqrt(3*x + 2*y/3)");
+        let product = g.product(&[(x, Rational::ONE), (y, Rational::ONE)]);
+        let scaled = g.scale(Rational::from(-8), product);
+        let root = g.sqrt(scaled);
+        assert_eq!(g.text(root), "2*sqrt(-2*x*y)");
     }
 }
