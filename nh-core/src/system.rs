@@ -1,6 +1,6 @@
 //! A verified system: what the derivation hands to the back end.
 
-use crate::id::{ExprId, SectionId};
+use crate::id::{ExprId, SymbolId};
 use crate::mechanics::Procedure;
 use crate::model::{Formulation, Model};
 
@@ -12,7 +12,7 @@ pub struct System {
     /// The form of the equations.
     pub formulation: Formulation,
     /// The velocities in the state, in declared order: all of them in the projected formulation.
-    pub state_velocities: Vec<SectionId>,
+    pub state_velocities: Vec<SymbolId>,
     /// Outputs: ẋ^i for each coordinate, then v̇ for each velocity in the state.
     pub derivative: Procedure,
     /// One output: E_L.
@@ -21,6 +21,14 @@ pub struct System {
     pub velocity: Procedure,
     /// Outputs: the declared observables.
     pub observables: Procedure,
+    /// Outputs: λ_A for every constraint; if asked for.
+    pub multipliers: Option<Procedure>,
+    /// Outputs: the reaction force along every section; if asked for.
+    pub reactions: Option<Procedure>,
+    /// Outputs: φ^A for every constraint; in the projected formulation.
+    pub residual: Option<Procedure>,
+    /// The way back to the constraint manifold; in the projected formulation.
+    pub projection: Option<Projection>,
     /// What `validate` checks beyond finite parameters.
     pub parameter_checks: Vec<ParameterCheck>,
     /// What was derived, as text.
@@ -36,4 +44,14 @@ pub struct ParameterCheck {
     pub nonzero: ExprId,
     /// Its text in the declaration's syntax.
     pub text: String,
+}
+
+/// A Newton iteration for the point of the constraint manifold nearest to where it starts, in the
+/// kinetic metric.
+#[derive(Clone, Debug)]
+pub struct Projection {
+    /// The symbols of the velocities where the iteration started.
+    pub start: Vec<SymbolId>,
+    /// Outputs: the next velocities, from the present and the starting ones.
+    pub step: Procedure,
 }

@@ -18,6 +18,12 @@ pub enum Law {
     Homomorphism,
     /// The Jacobi identity, mathematics (3): CLMM (2.1), CNS (7).
     Jacobi,
+    /// Identities of embedded base coordinates, which the anchor keeps.
+    Embedding,
+    /// Facts about parameters are about parameters and do not contradict each other.
+    Assumption,
+    /// A claimed first integral is one.
+    Conservation,
     /// The Lagrangian is smooth.
     Smooth,
     /// The shape of a constraint.

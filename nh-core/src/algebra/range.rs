@@ -39,6 +39,29 @@ impl Range {
         self.low >= 0.0 && self.nonzero
     }
 
+    /// The values in both.
+    #[must_use]
+    pub fn intersection(self, other: Self) -> Self {
+        let (low, high) = (self.low.max(other.low), self.high.min(other.high));
+        Self { low, high, nonzero: self.nonzero || other.nonzero || low > 0.0 || high < 0.0 }
+    }
+
+    /// Whether there is no value.
+    #[must_use]
+    pub fn is_empty(self) -> bool {
+        self.low > self.high || (self.low == 0.0 && self.high == 0.0 && self.nonzero)
+    }
+
+    /// Every value moved.
+    #[must_use]
+    pub fn shifted(self, by: f64) -> Self {
+        if by == 0.0 {
+            return self;
+        }
+        // an excluded end point stays excluded only while it is zero, so it is included
+        Self::new(self.low + by, self.high + by, false)
+    }
+
     fn plus(self, other: Self) -> Self {
         let semidefinite = (self.low >= 0.0 && other.low >= 0.0) || (self.high <= 0.0 && other.high <= 0.0);
         Self::new(
@@ -61,7 +84,9 @@ impl Range {
         Self::new(low, high, self.nonzero && other.nonzero)
     }
 
-    fn scaled(self, factor: f64) -> Self {
+    /// Every value multiplied.
+    #[must_use]
+    pub fn scaled(self, factor: f64) -> Self {
         self.times(Self { low: factor, high: factor, nonzero: factor != 0.0 })
     }
 

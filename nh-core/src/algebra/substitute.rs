@@ -18,6 +18,11 @@ impl Substitution {
         Self { images: images.into_iter().collect(), known: FxHashMap::default() }
     }
 
+    /// Adds an image for a symbol that has not occurred so far.
+    pub fn insert(&mut self, symbol: SymbolId, image: ExprId) {
+        self.images.insert(symbol, image);
+    }
+
     /// The image of `expression`.
     pub fn apply(&mut self, graph: &mut Graph, expression: ExprId) -> ExprId {
         if self.images.is_empty() {

@@ -1,9 +1,10 @@
 //! The formulation, and the velocities that the adapted state keeps.
 
+use super::constraints::Constraints;
 use super::evidence::{listed, shown};
 use crate::algebra::Facts;
 use crate::geometry::choice::{Choice, NoChoice, judge, search};
-use crate::geometry::{ConstraintDistribution, LinearConstraints, PivotSetting};
+use crate::geometry::{ConstraintDistribution, LinearConstraints, Manifold, PivotSetting};
 use crate::id::{ExprId, Origin, SectionId, SymbolId};
 use crate::model::{Formulation, Model};
 use crate::violation::{Law, Violation};
@@ -34,9 +35,10 @@ pub enum Chosen {
 /// A choice of the user that the constraints do not allow.
 pub fn choose_formulation(
     model: &mut Model,
-    constraints: &LinearConstraints,
+    constraints: &Constraints,
+    facts: &Facts,
+    base: &Manifold,
 ) -> Result<Chosen, Vec<Violation>> {
-    let rank = model.sections.len();
     let forced = model.formulation;
     if let (Some((Formulation::Projected, origin)), Some(_)) = (forced, &model.independent) {
         return Err(vec![contradictory(origin)]);
@@ -44,11 +46,13 @@ pub fn choose_formulation(
     if let Some((Formulation::Projected, _)) = forced {
         return Ok(Chosen::Projected { reason: "the declaration asks for it".into() });
     }
+    let Some(constraints) = &constraints.linear else { return nonlinear(model) };
     if constraints.annihilator.is_empty() {
         if let Some(named) = model.independent.clone() {
             dependent_of(model, &named, 0)?;
         }
-        let distribution = ConstraintDistribution::unconstrained(&mut model.graph, rank);
+        let velocities = velocities(model);
+        let distribution = ConstraintDistribution::unconstrained(&mut model.graph, &velocities);
         return Ok(Chosen::Adapted {
             distribution,
             conditions: Vec::new(),
@@ -56,12 +60,35 @@ pub fn choose_formulation(
         });
     }
     let parameters: Vec<SymbolId> = model.parameters.iter().map(|parameter| parameter.symbol).collect();
-    let facts = Facts::default();
-    let setting =
-        PivotSetting { annihilator: &constraints.annihilator, parameters: &parameters, facts: &facts };
+    let on_base = base.restrict_matrix(&mut model.graph, &constraints.annihilator);
+    let setting = PivotSetting {
+        annihilator: &constraints.annihilator,
+        on_base: &on_base,
+        parameters: &parameters,
+        facts,
+    };
     match model.independent.clone() {
         Some(named) => named_choice(model, &setting, &named, constraints),
         None => searched_choice(model, &setting, forced, constraints),
+    }
+}
+
+/// Nonlinear constraints leave no linear space of velocities to choose a basis of.
+fn nonlinear(model: &Model) -> Result<Chosen, Vec<Violation>> {
+    let asked = model
+        .independent
+        .as_ref()
+        .and_then(|named| named.first().map(|(_, origin)| ("`independent`", *origin)))
+        .or(model.formulation.map(|(_, origin)| ("the adapted formulation", origin)));
+    match asked {
+        None => Ok(Chosen::Projected { reason: "a constraint is nonlinear in the velocities".into() }),
+        Some((what, origin)) => Err(vec![Violation {
+            law: Law::Choice,
+            origin,
+            what: format!("{what} needs constraints that are linear or affine in the velocities"),
+            evidence: "a constraint is nonlinear: the velocities that it allows are no linear space".into(),
+            way_out: "leave it out: the projected formulation keeps every velocity".into(),
+        }]),
     }
 }
 
@@ -96,6 +123,10 @@ fn dependent_of(
         evidence: format!("{} velocities less {constraints} constraints", model.sections.len()),
         way_out: format!("name {wanted}, or leave `independent` out"),
     }])
+}
+
+fn velocities(model: &Model) -> Vec<SymbolId> {
+    model.sections.iter().map(|section| section.symbol).collect()
 }
 
 fn names(model: &Model, sections: &[SectionId]) -> Vec<String> {
@@ -211,9 +242,13 @@ fn adapted(
     constraints: &LinearConstraints,
     reason: String,
 ) -> Result<Chosen, Vec<Violation>> {
-    let rank = model.sections.len();
-    let solved =
-        ConstraintDistribution::solved_for(&mut model.graph, constraints.clone(), &choice.dependent, rank);
+    let velocities = velocities(model);
+    let solved = ConstraintDistribution::solved_for(
+        &mut model.graph,
+        constraints.clone(),
+        &choice.dependent,
+        &velocities,
+    );
     if let Some(distribution) = solved {
         return Ok(Chosen::Adapted { distribution, conditions: choice.conditions, reason });
     }

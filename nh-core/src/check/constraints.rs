@@ -1,44 +1,133 @@
-//! The constraints: linear in the velocities, independent, and fewer than the sections.
+//! The constraints: independent, and fewer than the sections. Linear, affine and nonlinear ones are
+//! told apart here.
 
-use super::evidence::{listed, shown};
+use super::dependence::dependent_rows;
+use super::evidence::shown;
 use super::kinematics::Motion;
-use crate::algebra::{Echelon, FieldPoint, Graph, Matrix, NotLinear};
-use crate::geometry::{Algebroid, LinearConstraints};
-use crate::id::{ConstraintId, ExprId, Id};
+use crate::algebra::{Matrix, NotLinear};
+use crate::geometry::{Algebroid, LinearConstraints, Manifold};
+use crate::id::{ConstraintId, ExprId, Id, Origin, SymbolId};
 use crate::model::Model;
 use crate::violation::{Law, Violation};
 
-/// Reads Φ off the constraints and proves its rows independent.
+/// Constraints φ^A(t, x, y) = 0, proved independent.
+#[derive(Clone, Debug)]
+pub struct Constraints {
+    /// φ^A, in quasi-velocities.
+    pub residuals: Vec<ExprId>,
+    /// Φ and b, if every constraint is linear or affine.
+    pub linear: Option<LinearConstraints>,
+    /// The constraint manifold over the embedded base.
+    pub manifold: Manifold,
+}
+
+/// One constraint, taken apart as far as it can be.
+enum Shape {
+    Affine(Vec<ExprId>, ExprId),
+    Nonlinear,
+}
+
+/// Reads the constraints and proves them independent on the constraint manifold.
 ///
 /// # Errors
-/// Constraints of a shape that cannot be treated, dependent or inconsistent ones, and as many as
-/// there are sections.
-pub fn linear_constraints(
+/// Constraints without velocities, dependent or inconsistent ones, and as many as there are
+/// sections.
+pub fn constraints(
     model: &mut Model,
     motion: &mut Motion,
     algebroid: &Algebroid,
-) -> Result<LinearConstraints, Vec<Violation>> {
-    let mut constraints = LinearConstraints { annihilator: Vec::new(), drift: Vec::new() };
+    base: &Manifold,
+) -> Result<Constraints, Vec<Violation>> {
+    let mut residuals = Vec::new();
+    let mut shapes = Vec::new();
     let mut violations = Vec::new();
     for id in model.constraints.ids() {
-        match linear_row(model, motion, algebroid, id) {
-            Ok((row, drift)) => {
-                constraints.annihilator.push(row);
-                constraints.drift.push(drift);
-            }
+        let residual = motion.rates.apply(&mut model.graph, model.constraints[id].residual);
+        match shape(model, algebroid, base, id, residual) {
+            Ok(shape) => shapes.push(shape),
             Err(violation) => violations.push(violation),
         }
+        residuals.push(residual);
     }
-    if violations.is_empty() {
-        violations.extend(dependent(model, &constraints));
+    if !violations.is_empty() {
+        return Err(violations);
     }
+    let linear = all_affine(shapes);
+    let manifold = constraint_manifold(model, algebroid, base, &residuals).map_err(|v| vec![v])?;
+    violations.extend(if let Some(linear) = &linear {
+        dependent_rows(model, &linear.annihilator, Some(&linear.drift), base)
+    } else {
+        let jacobian = fibre_jacobian(model, algebroid, &residuals);
+        dependent_rows(model, &jacobian, None, &manifold)
+    });
     if violations.is_empty()
         && !model.constraints.is_empty()
         && model.constraints.len() >= model.sections.len()
     {
         violations.push(too_many(model));
     }
-    if violations.is_empty() { Ok(constraints) } else { Err(violations) }
+    if violations.is_empty() { Ok(Constraints { residuals, linear, manifold }) } else { Err(violations) }
+}
+
+fn all_affine(shapes: Vec<Shape>) -> Option<LinearConstraints> {
+    let mut linear = LinearConstraints { annihilator: Vec::new(), drift: Vec::new() };
+    for shape in shapes {
+        let Shape::Affine(row, drift) = shape else { return None };
+        linear.annihilator.push(row);
+        linear.drift.push(drift);
+    }
+    Some(linear)
+}
+
+/// J^A_α = ∂φ^A/∂y^α.
+fn fibre_jacobian(model: &mut Model, algebroid: &Algebroid, residuals: &[ExprId]) -> Matrix {
+    let graph = &mut model.graph;
+    residuals
+        .iter()
+        .map(|residual| algebroid.velocities.iter().map(|symbol| graph.partial(*residual, *symbol)).collect())
+        .collect()
+}
+
+/// Where the constraints hold over the embedded base: solved for velocities, or else for whatever
+/// else they can be solved for, since claims are about all parameters.
+fn constraint_manifold(
+    model: &mut Model,
+    algebroid: &Algebroid,
+    base: &Manifold,
+    residuals: &[ExprId],
+) -> Result<Manifold, Violation> {
+    let graph = &mut model.graph;
+    let others: Vec<SymbolId> = graph
+        .symbols_in(residuals)
+        .into_iter()
+        .filter(|symbol| !algebroid.velocities.contains(symbol) && base.is_free(*symbol))
+        .collect();
+    let solved = Manifold::where_zero(graph, residuals, &algebroid.velocities).or_else(|_| {
+        Manifold::where_zero(graph, residuals, &[others, algebroid.velocities.clone()].concat())
+    });
+    match solved {
+        Ok(solved) => {
+            let mut manifold = base.clone();
+            manifold.extend(graph, &solved);
+            Ok(manifold)
+        }
+        Err(index) => {
+            let id = ConstraintId::from_index(index);
+            Err(Violation {
+                law: Law::Decidable,
+                origin: model.constraints[id].origin,
+                what: format!(
+                    "no points that satisfy {} could be found, so nothing can be proved there",
+                    name_of(model, id)
+                ),
+                evidence: format!(
+                    "{} = 0 could not be solved by a division or a square root",
+                    shown(&model.graph, residuals[index])
+                ),
+                way_out: "write it as a polynomial of first or second degree in some velocity".into(),
+            })
+        }
+    }
 }
 
 /// How a constraint is called in messages.
@@ -49,55 +138,44 @@ pub(super) fn name_of(model: &Model, id: ConstraintId) -> String {
     }
 }
 
-fn linear_row(
+fn shape(
     model: &mut Model,
-    motion: &mut Motion,
     algebroid: &Algebroid,
+    base: &Manifold,
     id: ConstraintId,
-) -> Result<(Vec<ExprId>, ExprId), Violation> {
-    let declaration = model.constraints[id].clone();
+    residual: ExprId,
+) -> Result<Shape, Violation> {
+    let origin = model.constraints[id].origin;
     let name = name_of(model, id);
-    let blame = |what: String, evidence: String, way_out: String| Violation {
-        law: Law::Constraint,
-        origin: declaration.origin,
-        what,
-        evidence,
-        way_out,
-    };
     let graph = &mut model.graph;
-    let residual = motion.rates.apply(graph, declaration.residual);
-    if graph.zero_test(residual).is_zero() {
-        return Err(blame(
-            format!("{name} says nothing: its two sides are equal"),
-            String::new(),
-            "leave it out".into(),
-        ));
+    if base.zero_test(graph, residual).is_zero() {
+        return Err(Violation {
+            law: Law::Constraint,
+            origin,
+            what: format!("{name} says nothing: its two sides are equal"),
+            evidence: String::new(),
+            way_out: "leave it out".into(),
+        });
     }
     let form = match graph.linear_form(residual, &algebroid.velocities) {
         Ok(form) => form,
-        Err(NotLinear::Curved(..)) => {
-            return Err(blame(
-                format!(
-                    "{name} is not linear in the velocities; nonlinear constraints are not supported yet"
-                ),
-                shown(graph, residual),
-                "write a constraint that is linear in the velocities".into(),
-            ));
-        }
+        Err(NotLinear::Curved(..)) => return Ok(Shape::Nonlinear),
         Err(NotLinear::Unknown(why)) => {
-            return Err(blame(
-                format!("{name} could not be decided to be linear in the velocities"),
-                why,
-                "write it as a sum of velocities with coefficients on the base".into(),
-            ));
+            return Err(Violation {
+                law: Law::Decidable,
+                origin,
+                what: format!("whether {name} is linear in the velocities could not be decided"),
+                evidence: why,
+                way_out: "write it as a polynomial in the velocities".into(),
+            });
         }
     };
-    if form.coefficients.iter().all(|coefficient| graph.zero_test(*coefficient).is_zero()) {
-        return Err(position_constraint(model, algebroid, residual, &name, declaration.origin));
+    if form.coefficients.iter().all(|coefficient| base.zero_test(graph, *coefficient).is_zero()) {
+        return Err(position_constraint(model, algebroid, residual, &name, origin));
     }
     let row = form.coefficients.into_iter().map(|coefficient| graph.simplify(coefficient)).collect();
     let drift = if graph.zero_test(form.rest).is_zero() { graph.zero() } else { graph.simplify(form.rest) };
-    Ok((row, drift))
+    Ok(Shape::Affine(row, drift))
 }
 
 /// A constraint on the base alone: its derivative is what a velocity constraint would say.
@@ -106,7 +184,7 @@ fn position_constraint(
     algebroid: &Algebroid,
     residual: ExprId,
     name: &str,
-    origin: crate::id::Origin,
+    origin: Origin,
 ) -> Violation {
     let graph = &mut model.graph;
     let velocity = algebroid.velocity(graph);
@@ -145,90 +223,4 @@ fn too_many(model: &Model) -> Violation {
         evidence: "the constraint distribution has rank 0".into(),
         way_out: "leave a constraint out, or add the velocities that it leaves free".into(),
     }
-}
-
-/// The first constraint that follows from those before it, or contradicts them.
-fn dependent(model: &mut Model, constraints: &LinearConstraints) -> Option<Violation> {
-    let rows = &constraints.annihilator;
-    let mut rank = 0;
-    for count in 1..=rows.len() {
-        let found = match model.graph.generic_rank(&rows[..count]) {
-            Ok(found) => found,
-            Err(why) => return Some(undecided(model, &why)),
-        };
-        if found == rank {
-            return Some(dependency(model, constraints, count - 1));
-        }
-        rank = found;
-    }
-    None
-}
-
-fn undecided(model: &Model, why: &str) -> Violation {
-    Violation {
-        law: Law::Decidable,
-        origin: model.constraints.iter().next().map_or(model.origin, |constraint| constraint.origin),
-        what: "whether the constraints are independent could not be decided".into(),
-        evidence: why.into(),
-        way_out: "write them without roots of negative numbers and divisions by zero".into(),
-    }
-}
-
-/// Shows the combination of earlier constraints that a dependent one is.
-fn dependency(model: &mut Model, constraints: &LinearConstraints, index: usize) -> Violation {
-    let id = ConstraintId::from_index(index);
-    let name = name_of(model, id);
-    let combination = combination(&mut model.graph, constraints, index);
-    let names: Vec<String> = (0..index).map(|i| name_of(model, ConstraintId::from_index(i))).collect();
-    let graph = &mut model.graph;
-    let terms: Vec<String> = combination
-        .iter()
-        .flatten()
-        .zip(&names)
-        .filter(|(coefficient, _)| !graph.is_literal_zero(**coefficient))
-        .map(|(coefficient, name)| format!("({})·{name}", shown(graph, *coefficient)))
-        .collect();
-    let evidence = if terms.is_empty() {
-        format!("it is a combination of {}", listed(&names))
-    } else {
-        format!("{name} = {}", terms.join(" + "))
-    };
-    let drifts: Vec<ExprId> = constraints.drift[..index].to_vec();
-    let contradiction = combination.and_then(|coefficients| {
-        let combined = graph.inner_product(&coefficients, &drifts);
-        let left_over = graph.sub(constraints.drift[index], combined);
-        let left_over = graph.simplify(left_over);
-        (!graph.zero_test(left_over).is_zero()).then_some(left_over)
-    });
-    let (what, evidence, way_out) = match contradiction {
-        None => (
-            format!("{name} follows from the constraints before it"),
-            evidence,
-            "leave it out: the constraints of a system are independent",
-        ),
-        Some(left_over) => (
-            format!("{name} contradicts the constraints before it"),
-            format!("in the velocities {evidence}, but then {} = 0 is left", shown(graph, left_over)),
-            "change or leave out one of them",
-        ),
-    };
-    Violation {
-        law: Law::Independence,
-        origin: model.constraints[id].origin,
-        what,
-        evidence,
-        way_out: way_out.into(),
-    }
-}
-
-/// The coefficients c with Φ^index = Σ c_A Φ^A over earlier rows.
-fn combination(graph: &mut Graph, constraints: &LinearConstraints, index: usize) -> Option<Vec<ExprId>> {
-    let earlier = &constraints.annihilator[..index];
-    let sampled = graph.matrix_in_field(earlier, |seed| FieldPoint::random(8_000 + seed)).ok()?;
-    let columns = Echelon::of(sampled).pivots;
-    let matrix: Matrix =
-        columns.iter().map(|column| earlier.iter().map(|row| row[*column]).collect()).collect();
-    let right: Matrix = columns.iter().map(|column| vec![constraints.annihilator[index][*column]]).collect();
-    let solution = graph.solve_linear(&matrix, &right)?;
-    Some(solution.values.into_iter().map(|row| graph.simplify(row[0])).collect())
 }

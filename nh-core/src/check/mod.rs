@@ -1,18 +1,25 @@
 //! The checks: each proves one law of a declaration or says how it is broken.
 
+mod assumptions;
 mod brackets;
 mod choice;
+mod claims;
 mod constraints;
 mod declared;
+mod dependence;
+mod embedding;
 mod evidence;
 mod kinematics;
 mod regularity;
 mod structure_equations;
 
+pub use assumptions::facts;
 pub use brackets::structure_functions;
 pub use choice::{Chosen, choose_formulation};
-pub use constraints::linear_constraints;
+pub use claims::claims;
+pub use constraints::{Constraints, constraints};
 pub use declared::declared_expressions;
+pub use embedding::embedding;
 pub use kinematics::{Motion, kinematics};
 pub use regularity::{reduced_regularity, saddle_regularity};
 pub use structure_equations::structure_equations;

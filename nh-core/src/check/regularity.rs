@@ -2,27 +2,36 @@
 
 use super::evidence::listed;
 use crate::algebra::{Echelon, FieldPoint, Graph, Matrix, Residue};
+use crate::geometry::Manifold;
 use crate::mechanics::{ReducedEquations, SaddleEquations};
 use crate::model::Model;
 use crate::violation::{Law, Violation};
 
 /// C_{ab} is non-singular at generic points of the constraint manifold.
-#[must_use]
-pub fn reduced_regularity(model: &Model, equations: &ReducedEquations) -> Option<Violation> {
+pub fn reduced_regularity(
+    model: &mut Model,
+    equations: &ReducedEquations,
+    base: &Manifold,
+) -> Option<Violation> {
+    let mass = base.restrict_matrix(&mut model.graph, &equations.mass);
     let names: Vec<&str> =
         equations.independent.iter().map(|symbol| model.graph.symbols()[*symbol].as_str()).collect();
     let size = names.len();
-    judge(model, &equations.mass, size, |vector| {
+    judge(model, &mass, size, |vector| {
         let moving: Vec<&str> =
             vector.iter().zip(&names).filter(|(c, _)| **c != Residue::ZERO).map(|(_, name)| *name).collect();
         direction(&moving)
     })
 }
 
-/// The saddle matrix is non-singular at generic points.
-#[must_use]
-pub fn saddle_regularity(model: &mut Model, equations: &SaddleEquations) -> Option<Violation> {
+/// The saddle matrix is non-singular at generic points of the constraint manifold.
+pub fn saddle_regularity(
+    model: &mut Model,
+    equations: &SaddleEquations,
+    manifold: &Manifold,
+) -> Option<Violation> {
     let matrix = equations.matrix(&mut model.graph);
+    let matrix = manifold.restrict_matrix(&mut model.graph, &matrix);
     let names: Vec<&str> = model.sections.iter().map(|section| section.name.as_str()).collect();
     judge(model, &matrix, matrix.len(), |vector| {
         let moving: Vec<&str> =

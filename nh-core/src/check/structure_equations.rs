@@ -2,7 +2,7 @@
 
 use super::evidence::{listed, not_zero, shown};
 use crate::algebra::{Graph, Verdict};
-use crate::geometry::{Algebroid, hamel};
+use crate::geometry::{Algebroid, Manifold, hamel};
 use crate::id::{CoordId, ExprId, Id, Origin, SectionId};
 use crate::model::Model;
 use crate::violation::{Law, Violation};
@@ -12,10 +12,10 @@ const REPORTED: usize = 3;
 
 /// Proves that the anchor is a homomorphism of brackets and, unless `almost` is declared, the
 /// Jacobi identity. Where the first fails the second is not reported as well.
-pub fn structure_equations(model: &mut Model, algebroid: &Algebroid) -> Vec<Violation> {
-    let mut violations = homomorphism(model, algebroid);
+pub fn structure_equations(model: &mut Model, algebroid: &Algebroid, base: &Manifold) -> Vec<Violation> {
+    let mut violations = homomorphism(model, algebroid, base);
     if violations.is_empty() && !model.almost {
-        violations = jacobi(model, algebroid);
+        violations = jacobi(model, algebroid, base);
     }
     violations
 }
@@ -31,14 +31,14 @@ fn origin_of_pair(model: &Model, alpha: SectionId, beta: SectionId) -> Origin {
 }
 
 /// Mathematics (2): `ρ^j_α ∂_jρ^i_β − ρ^j_β ∂_jρ^i_α = ρ^i_γ C^γ_{αβ}`.
-fn homomorphism(model: &mut Model, algebroid: &Algebroid) -> Vec<Violation> {
+fn homomorphism(model: &mut Model, algebroid: &Algebroid, base: &Manifold) -> Vec<Violation> {
     let mut violations = Vec::new();
     for alpha in algebroid.sections() {
         for beta in algebroid.sections().filter(|beta| alpha < *beta) {
             if violations.len() == REPORTED {
                 return violations;
             }
-            violations.extend(homomorphism_of_pair(model, algebroid, alpha, beta));
+            violations.extend(homomorphism_of_pair(model, algebroid, base, alpha, beta));
         }
     }
     violations
@@ -47,6 +47,7 @@ fn homomorphism(model: &mut Model, algebroid: &Algebroid) -> Vec<Violation> {
 fn homomorphism_of_pair(
     model: &mut Model,
     algebroid: &Algebroid,
+    base: &Manifold,
     alpha: SectionId,
     beta: SectionId,
 ) -> Option<Violation> {
@@ -56,7 +57,7 @@ fn homomorphism_of_pair(
     let image = algebroid.anchor.vector_field(graph, &bracket);
     for (index, (left, right)) in commutator.into_iter().zip(image).enumerate() {
         let defect = graph.sub(left, right);
-        let verdict = graph.zero_test(defect);
+        let verdict = base.zero_test(graph, defect);
         if verdict.is_zero() {
             continue;
         }
@@ -105,7 +106,7 @@ fn defect_text(graph: &Graph, defect: ExprId, verdict: &Verdict) -> String {
 }
 
 /// Mathematics (3): `Σ_cyclic [ ρ^i_α ∂_iC^ν_{βγ} + C^μ_{βγ} C^ν_{αμ} ] = 0`.
-fn jacobi(model: &mut Model, algebroid: &Algebroid) -> Vec<Violation> {
+fn jacobi(model: &mut Model, algebroid: &Algebroid, base: &Manifold) -> Vec<Violation> {
     let sections: Vec<SectionId> = algebroid.sections().collect();
     let mut violations = Vec::new();
     for (i, alpha) in sections.iter().enumerate() {
@@ -114,18 +115,23 @@ fn jacobi(model: &mut Model, algebroid: &Algebroid) -> Vec<Violation> {
                 if violations.len() == REPORTED {
                     return violations;
                 }
-                violations.extend(jacobi_of_triple(model, algebroid, [*alpha, *beta, *gamma]));
+                violations.extend(jacobi_of_triple(model, algebroid, base, [*alpha, *beta, *gamma]));
             }
         }
     }
     violations
 }
 
-fn jacobi_of_triple(model: &mut Model, algebroid: &Algebroid, triple: [SectionId; 3]) -> Option<Violation> {
+fn jacobi_of_triple(
+    model: &mut Model,
+    algebroid: &Algebroid,
+    base: &Manifold,
+    triple: [SectionId; 3],
+) -> Option<Violation> {
     let defect = jacobiator(&mut model.graph, algebroid, triple);
     let graph = &mut model.graph;
     for (index, component) in defect.into_iter().enumerate() {
-        let verdict = graph.zero_test(component);
+        let verdict = base.zero_test(graph, component);
         if verdict.is_zero() {
             continue;
         }

@@ -30,10 +30,11 @@ impl ChangeOfBasis {
         }
         for section in &distribution.dependent {
             let row = section.index();
-            for (a, independent) in distribution.independent.iter().enumerate() {
+            let kept = (0..rank).filter(|index| distribution.dependent.iter().all(|s| s.index() != *index));
+            for (a, column) in kept.enumerate() {
                 let entry = distribution.basis[row][a];
-                sections[row][independent.index()] = entry;
-                velocities[row][independent.index()] = graph.neg(entry);
+                sections[row][column] = entry;
+                velocities[row][column] = graph.neg(entry);
             }
         }
         Self { sections, velocities }

@@ -36,7 +36,7 @@ impl Samples {
     fn of(graph: &Graph, setting: &PivotSetting<'_>) -> Result<Self, String> {
         [5_000, 6_000]
             .into_iter()
-            .map(|start| graph.matrix_in_field(setting.annihilator, |seed| FieldPoint::random(start + seed)))
+            .map(|start| graph.matrix_in_field(setting.on_base, |seed| FieldPoint::random(start + seed)))
             .collect::<Result<_, _>>()
             .map(Self)
     }
@@ -193,7 +193,12 @@ mod tests {
         let mlc = g.neg(lc);
         let annihilator = vec![vec![mlc, ms, c], vec![lc, s, c]];
         let facts = Facts::default();
-        let setting = PivotSetting { annihilator: &annihilator, parameters: &[l], facts: &facts };
+        let setting = PivotSetting {
+            annihilator: &annihilator,
+            on_base: &annihilator,
+            parameters: &[l],
+            facts: &facts,
+        };
         let choice = search(&mut g, &setting, &[], 3).unwrap().unwrap();
         assert_eq!(choice.dependent, [SectionId::from_index(0), SectionId::from_index(2)]);
         assert_eq!(choice.conditions, [el]);
@@ -208,7 +213,8 @@ mod tests {
         let minus = g.neg(c);
         let annihilator = vec![vec![s, minus]];
         let facts = Facts::default();
-        let setting = PivotSetting { annihilator: &annihilator, parameters: &[], facts: &facts };
+        let setting =
+            PivotSetting { annihilator: &annihilator, on_base: &annihilator, parameters: &[], facts: &facts };
         let failure = search(&mut g, &setting, &[], 2).unwrap().unwrap_err();
         assert_eq!(failure.tried.len(), 2);
     }

@@ -19,7 +19,7 @@ pub struct ConstraintDistribution {
     /// The constraints.
     pub constraints: LinearConstraints,
     /// The velocities v that the state keeps, in declared order.
-    pub independent: Vec<SectionId>,
+    pub independent: Vec<SymbolId>,
     /// The velocities that the constraints determine.
     pub dependent: Vec<SectionId>,
     /// B^α_a: a row for each section, a column for each independent velocity.
@@ -32,9 +32,9 @@ pub struct ConstraintDistribution {
 
 impl ConstraintDistribution {
     /// All of E.
-    pub fn unconstrained(graph: &mut Graph, rank: usize) -> Self {
+    pub fn unconstrained(graph: &mut Graph, velocities: &[SymbolId]) -> Self {
         let constraints = LinearConstraints { annihilator: Vec::new(), drift: Vec::new() };
-        let independent: Vec<SectionId> = (0..rank).map(SectionId::from_index).collect();
+        let (independent, rank) = (velocities.to_vec(), velocities.len());
         let (zero, one) = (graph.zero(), graph.one());
         let basis =
             (0..rank).map(|row| (0..rank).map(|column| if row == column { one } else { zero }).collect());
@@ -53,8 +53,9 @@ impl ConstraintDistribution {
         graph: &mut Graph,
         constraints: LinearConstraints,
         dependent: &[SectionId],
-        rank: usize,
+        velocities: &[SymbolId],
     ) -> Option<Self> {
+        let rank = velocities.len();
         let independent: Vec<SectionId> =
             (0..rank).map(SectionId::from_index).filter(|section| !dependent.contains(section)).collect();
         let columns = |sections: &[SectionId]| -> Matrix {
@@ -82,6 +83,7 @@ impl ConstraintDistribution {
             basis[section.index()] = negated;
         }
         let (dependent, pivots) = (dependent.to_vec(), solution.divisors);
+        let independent = independent.iter().map(|section| velocities[section.index()]).collect();
         Some(Self { constraints, independent, dependent, basis, offset, pivots })
     }
 
@@ -98,9 +100,8 @@ impl ConstraintDistribution {
     }
 
     /// y = B v + y₀ in the velocity symbols of the independent velocities.
-    pub fn velocity(&self, graph: &mut Graph, velocities: &[SymbolId]) -> Vec<ExprId> {
-        let independent: Vec<ExprId> =
-            self.independent.iter().map(|section| graph.symbol(velocities[section.index()])).collect();
+    pub fn velocity(&self, graph: &mut Graph) -> Vec<ExprId> {
+        let independent: Vec<ExprId> = self.independent.iter().map(|symbol| graph.symbol(*symbol)).collect();
         let linear: Vec<ExprId> =
             self.basis.iter().map(|row| graph.inner_product(row, &independent)).collect();
         linear.into_iter().zip(&self.offset).map(|(y, offset)| graph.add(y, *offset)).collect()
@@ -108,7 +109,7 @@ impl ConstraintDistribution {
 
     /// The restriction of functions on E to the constraint manifold.
     pub fn restriction(&self, graph: &mut Graph, velocities: &[SymbolId]) -> Substitution {
-        let velocity = self.velocity(graph, velocities);
+        let velocity = self.velocity(graph);
         Substitution::new(
             self.dependent.iter().map(|section| (velocities[section.index()], velocity[section.index()])),
         )

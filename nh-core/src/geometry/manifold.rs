@@ -48,6 +48,12 @@ impl Manifold {
         }
     }
 
+    /// Whether a symbol is not a function of others.
+    #[must_use]
+    pub fn is_free(&self, symbol: SymbolId) -> bool {
+        self.images.iter().all(|(solved, _)| *solved != symbol)
+    }
+
     /// Whether nothing is restricted.
     #[must_use]
     pub fn is_whole(&self) -> bool {

@@ -20,6 +20,8 @@ pub enum PivotZeros {
 pub struct PivotSetting<'a> {
     /// Φ.
     pub annihilator: &'a Matrix,
+    /// Φ on the embedded base, where independence is judged.
+    pub on_base: &'a Matrix,
     /// Symbols that do not change along a motion.
     pub parameters: &'a [SymbolId],
     /// What is known of their ranges.

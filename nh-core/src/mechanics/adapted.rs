@@ -16,6 +16,10 @@ pub struct ReducedEquations {
     pub rates: Vec<ExprId>,
     /// y = B v + y₀.
     pub velocity: Vec<ExprId>,
+    /// ∂p̂_α/∂v^b = W_{αβ} B^β_b: a row for each v^b.
+    pub inertia: Matrix,
+    /// δL_α − Υ_α without the terms in v̇.
+    pub rest: Vec<ExprId>,
     /// The velocities v.
     pub independent: Vec<SymbolId>,
 }
@@ -31,27 +35,26 @@ pub fn reduced_equations(
     distribution: &ConstraintDistribution,
 ) -> ReducedEquations {
     let velocities = &system.algebroid.velocities;
-    let velocity = distribution.velocity(graph, velocities);
+    let velocity = distribution.velocity(graph);
     let mut restriction = distribution.restriction(graph, velocities);
     let balance = system.force_balance(graph, &velocity, &mut restriction);
-    let independent: Vec<SymbolId> =
-        distribution.independent.iter().map(|section| velocities[crate::id::Id::index(*section)]).collect();
+    let independent = distribution.independent.clone();
 
     // ∂p̂_α/∂v^b
-    let mut columns: Matrix = Vec::with_capacity(independent.len());
+    let mut inertia: Matrix = Vec::with_capacity(independent.len());
     for symbol in &independent {
-        columns.push(balance.momenta.iter().map(|p| graph.partial(*p, *symbol)).collect());
+        inertia.push(balance.momenta.iter().map(|p| graph.partial(*p, *symbol)).collect());
     }
     let sections: Matrix = (0..distribution.rank()).map(|a| distribution.section(a)).collect();
     let mut mass: Matrix = Vec::with_capacity(sections.len());
     for (a, section) in sections.iter().enumerate() {
         // C is symmetric: the lower triangle repeats the upper
-        let row: Vec<ExprId> = (0..columns.len())
+        let row: Vec<ExprId> = (0..inertia.len())
             .map(|b| {
                 if b < a {
                     return mass[b][a];
                 }
-                let entry = graph.inner_product(section, &columns[b]);
+                let entry = graph.inner_product(section, &inertia[b]);
                 graph.simplify(entry)
             })
             .collect();
@@ -67,5 +70,5 @@ pub fn reduced_equations(
         .collect();
     let rates = system.algebroid.rates(graph, &velocity);
     let rates = rates.into_iter().map(|rate| graph.simplify(rate)).collect();
-    ReducedEquations { mass, force, rates, velocity, independent }
+    ReducedEquations { mass, force, rates, velocity, inertia, rest: balance.rest, independent }
 }

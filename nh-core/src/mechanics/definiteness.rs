@@ -1,7 +1,7 @@
 //! Whether a mass matrix is definite for physical parameters.
 
 use super::symmetric_solve::Definiteness;
-use crate::algebra::{Graph, Residue};
+use crate::algebra::{Facts, Graph, Range, Residue};
 use crate::id::{ExprId, Id, SymbolId};
 use std::collections::BTreeMap;
 
@@ -16,7 +16,12 @@ const CONFIGURATIONS: u64 = 12;
 /// Parameters that violate this can make a pivot vanish; then the result is not finite, which the
 /// integrators report. A wrong answer here never makes a finite result wrong.
 #[must_use]
-pub fn definiteness(graph: &Graph, matrix: &[Vec<ExprId>], parameters: &[SymbolId]) -> Definiteness {
+pub fn definiteness(
+    graph: &Graph,
+    matrix: &[Vec<ExprId>],
+    parameters: &[SymbolId],
+    facts: &Facts,
+) -> Definiteness {
     if matrix.is_empty() {
         return Definiteness::Definite;
     }
@@ -25,7 +30,7 @@ pub fn definiteness(graph: &Graph, matrix: &[Vec<ExprId>], parameters: &[SymbolI
             (0..CONFIGURATIONS).all(|configuration| {
                 is_positive_at(graph, matrix, sign, |symbol| {
                     if parameters.contains(&symbol) {
-                        parameter_sample(set, symbol)
+                        parameter_sample(set, symbol, facts)
                     } else {
                         configuration_sample(configuration, symbol)
                     }
@@ -39,9 +44,17 @@ pub fn definiteness(graph: &Graph, matrix: &[Vec<ExprId>], parameters: &[SymbolI
     Definiteness::Unknown
 }
 
-/// Between 1/16 and 8, evenly on a logarithmic scale.
-fn parameter_sample(set: u64, symbol: SymbolId) -> f64 {
-    2f64.powf(unit(set, symbol) * 7.0 - 4.0)
+/// Between 1/16 and 8, evenly on a logarithmic scale, from the bound that is known of the parameter.
+fn parameter_sample(set: u64, symbol: SymbolId, facts: &Facts) -> f64 {
+    let unit = unit(set, symbol);
+    let size = 2f64.powf(unit * 7.0 - 4.0);
+    let range = facts.symbols.get(&symbol).copied().unwrap_or(Range::ALL);
+    match (range.low.is_finite(), range.high.is_finite()) {
+        (false, false) => size,
+        (true, false) => range.low + size,
+        (false, true) => range.high - size,
+        (true, true) => range.low + (range.high - range.low) * unit,
+    }
 }
 
 /// Between −3 and 3.

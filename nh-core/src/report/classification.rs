@@ -1,21 +1,16 @@
 //! What kind of system it is.
 
 use super::{Derived, shown};
-use crate::algebra::Graph;
-use crate::check::Motion;
+use crate::check::Constraints;
+use crate::compile::Proved;
 use crate::id::{ExprId, SymbolId};
 use crate::mechanics::LagrangianSystem;
 use crate::model::{Kinematics, Model};
 
 /// The classification, a line for each property.
-pub(super) fn lines(
-    model: &mut Model,
-    motion: &Motion,
-    system: &LagrangianSystem,
-    derived: &Derived<'_>,
-    reason: &str,
-) -> Vec<String> {
-    let mut lines = vec![algebroid(model, system), constraints(model, system, derived)];
+pub(super) fn lines(proved: &mut Proved, derived: &Derived<'_>, reason: &str) -> Vec<String> {
+    let Proved { model, motion, system, constraints: declared, .. } = proved;
+    let mut lines = vec![algebroid(model, system), constraints(model, system, declared, derived)];
     let (name, size) = match derived {
         Derived::Adapted { distribution, .. } => ("adapted", distribution.rank()),
         Derived::Projected { .. } => ("projected", model.sections.len()),
@@ -63,12 +58,21 @@ fn is_constant(model: &Model, system: &LagrangianSystem) -> bool {
     entries.iter().all(|entry| !model.graph.depends_on(*entry, &coordinates))
 }
 
-fn constraints(model: &mut Model, system: &LagrangianSystem, derived: &Derived<'_>) -> String {
+fn constraints(
+    model: &mut Model,
+    system: &LagrangianSystem,
+    declared: &Constraints,
+    derived: &Derived<'_>,
+) -> String {
     let count = model.constraints.len();
     if count == 0 {
         return "constraints: none".into();
     }
-    let kind = if is_homogeneous(derived, &model.graph) { "linear" } else { "affine" };
+    let kind = match &declared.linear {
+        None => "nonlinear",
+        Some(linear) if linear.drift.iter().all(|drift| model.graph.zero_test(*drift).is_zero()) => "linear",
+        Some(_) => "affine",
+    };
     let distribution = match derived {
         Derived::Adapted { distribution, .. } => *distribution,
         Derived::Projected { .. } => return format!("constraints: {count}, {kind} in the velocities"),
@@ -81,23 +85,36 @@ fn constraints(model: &mut Model, system: &LagrangianSystem, derived: &Derived<'
     format!("constraints: {count}, {kind} in the velocities{holonomic}")
 }
 
-/// Whether no constraint has a drift.
-fn is_homogeneous(derived: &Derived<'_>, graph: &Graph) -> bool {
-    let drift = match derived {
-        Derived::Adapted { distribution, .. } => &distribution.constraints.drift,
-        Derived::Projected { constraints, .. } => &constraints.drift,
-    };
-    drift.iter().all(|drift| graph.zero_test(*drift).is_zero())
+/// What is conserved by the theorems that need no search.
+pub(super) fn conserved(proved: &mut Proved) -> Vec<String> {
+    let mut lines: Vec<String> =
+        proved.model.claims.iter().map(|claim| format!("{} (claimed, and proved)", claim.name)).collect();
+    if energy_is_conserved(proved) {
+        lines.push(
+            "the energy (CLMM Theorems 3.4 and 7.6: autonomous, no power of constraints and forces)".into(),
+        );
+    }
+    lines
 }
 
-/// What is conserved by the theorems that need no search.
-pub(super) fn conserved(model: &Model, system: &LagrangianSystem, derived: &Derived<'_>) -> Vec<String> {
-    let graph = &model.graph;
-    let autonomous = !graph.depends_on(system.lagrangian, &[model.time]);
-    let free = system.forces.iter().all(|force| graph.zero_test(*force).is_zero());
-    if free && autonomous && is_homogeneous(derived, graph) {
-        vec!["the energy (CLMM Theorem 3.4: autonomous, linear constraints, no forces)".into()]
-    } else {
-        Vec::new()
+/// dE_L/dt = Υ_α y^α + λ_A y^α ∂φ^A/∂y^α − ∂_tL, mathematics section 4: zero if every term is.
+fn energy_is_conserved(proved: &mut Proved) -> bool {
+    let Proved { model, system, constraints, .. } = proved;
+    let graph = &mut model.graph;
+    let time = graph.partial(system.lagrangian, system.time);
+    let mut terms = vec![time];
+    terms.extend(&system.forces);
+    let velocities = system.algebroid.velocities.clone();
+    for residual in constraints.residuals.clone() {
+        let power: Vec<ExprId> = velocities
+            .iter()
+            .map(|symbol| {
+                let partial = graph.partial(residual, *symbol);
+                let velocity = graph.symbol(*symbol);
+                graph.mul(velocity, partial)
+            })
+            .collect();
+        terms.push(graph.sum(&power));
     }
+    terms.into_iter().all(|term| constraints.manifold.zero_test(graph, term).is_zero())
 }

@@ -21,11 +21,8 @@ pub fn equations_of_motion(model: &Model, derived: &Derived<'_>) -> Vec<String> 
         .collect();
     match derived {
         Derived::Adapted { equations, distribution } => {
-            let names: Vec<&str> = distribution
-                .independent
-                .iter()
-                .map(|section| model.sections[*section].name.as_str())
-                .collect();
+            let names: Vec<&str> =
+                distribution.independent.iter().map(|symbol| graph.symbols()[*symbol].as_str()).collect();
             for (row, force) in equations.mass.iter().zip(&equations.force) {
                 lines.push(format!("{} = {}", accelerations(graph, row, &names), shown(graph, *force)));
             }

@@ -4,8 +4,8 @@ mod classification;
 mod equations;
 
 use crate::algebra::Graph;
-use crate::check::Motion;
-use crate::geometry::{ConstraintDistribution, LinearConstraints};
+use crate::compile::Proved;
+use crate::geometry::ConstraintDistribution;
 use crate::id::{ExprId, Id};
 use crate::mechanics::{LagrangianSystem, ReducedEquations, SaddleEquations};
 use crate::model::Model;
@@ -24,8 +24,8 @@ pub enum Derived<'a> {
     },
     /// On all of E, with multipliers.
     Projected {
-        /// The constraints.
-        constraints: &'a LinearConstraints,
+        /// φ^A.
+        residuals: &'a [ExprId],
         /// The equations.
         equations: &'a SaddleEquations,
     },
@@ -39,14 +39,15 @@ fn shown(graph: &Graph, expression: ExprId) -> String {
 }
 
 /// The report of a derived system.
-pub fn report(
-    model: &mut Model,
-    motion: &Motion,
-    system: &LagrangianSystem,
+pub(crate) fn report(
+    proved: &mut Proved,
     derived: &Derived<'_>,
     reason: &str,
     conditions: &[ExprId],
 ) -> String {
+    let classification = classification::lines(proved, derived, reason);
+    let conserved = classification::conserved(proved);
+    let (model, system) = (&proved.model, &proved.system);
     let mut text = format!("{}\n", model.name);
     let mut section = |title: &str, lines: Vec<String>| {
         if !lines.is_empty() {
@@ -56,14 +57,14 @@ pub fn report(
             }
         }
     };
-    section("Classification", classification::lines(model, motion, system, derived, reason));
+    section("Classification", classification);
     section("Conditions on the parameters", nonzero(&model.graph, conditions));
     section("Anchor (kinematic equations)", anchor(model, system));
     section("Structure functions", structure_functions(model, system));
     section("Constraint distribution", distribution(model, derived));
     section("Mass matrix", mass_matrix(model, derived));
     section("Equations of motion", equations_of_motion(model, derived));
-    section("Conserved quantities", classification::conserved(model, system, derived));
+    section("Conserved quantities", conserved);
     text
 }
 
@@ -121,16 +122,14 @@ fn distribution(model: &Model, derived: &Derived<'_>) -> Vec<String> {
         Derived::Adapted { distribution, .. } if distribution.dependent.is_empty() => Vec::new(),
         Derived::Adapted { distribution, .. } => (0..distribution.rank())
             .map(|a| {
-                let name = &names[distribution.independent[a].index()];
+                let name = &model.graph.symbols()[distribution.independent[a]];
                 let section = distribution.section(a);
                 format!("along {name}: {}", combination(&model.graph, &section, &names))
             })
             .collect(),
-        Derived::Projected { constraints, .. } => constraints
-            .annihilator
-            .iter()
-            .map(|row| format!("{} = 0", combination(&model.graph, row, &names)))
-            .collect(),
+        Derived::Projected { residuals, .. } => {
+            residuals.iter().map(|residual| format!("{} = 0", shown(&model.graph, *residual))).collect()
+        }
     }
 }
 
@@ -138,7 +137,7 @@ fn mass_matrix(model: &Model, derived: &Derived<'_>) -> Vec<String> {
     let (matrix, names): (_, Vec<String>) = match derived {
         Derived::Adapted { equations, distribution } => (
             &equations.mass,
-            distribution.independent.iter().map(|section| model.sections[*section].name.clone()).collect(),
+            distribution.independent.iter().map(|symbol| model.graph.symbols()[*symbol].clone()).collect(),
         ),
         Derived::Projected { equations, .. } => (&equations.mass, section_names(model)),
     };

@@ -3,7 +3,7 @@
 
 use crate::systems;
 
-use nh_core::algebra::{Graph, Substitution};
+use nh_core::algebra::{Facts, Graph, Substitution};
 use nh_core::check;
 use nh_core::geometry::{Algebroid, ChangeOfBasis, ConstraintDistribution};
 use nh_core::id::{ExprId, Id, SymbolId};
@@ -16,8 +16,9 @@ fn stages(model: &mut Model) -> (LagrangianSystem, ConstraintDistribution) {
     let structure = check::structure_functions(model, &motion).unwrap();
     let velocities = model.sections.iter().map(|s| s.symbol).collect();
     let algebroid = Algebroid { anchor: motion.anchor.clone(), structure, velocities };
-    let constraints = check::linear_constraints(model, &mut motion, &algebroid).unwrap();
-    let chosen = check::choose_formulation(model, &constraints).unwrap();
+    let base = check::embedding(model, &motion).unwrap();
+    let constraints = check::constraints(model, &mut motion, &algebroid, &base).unwrap();
+    let chosen = check::choose_formulation(model, &constraints, &Facts::default(), &base).unwrap();
     let check::Chosen::Adapted { distribution, .. } = chosen else { panic!("an adapted basis exists") };
     let lagrangian = motion.rates.apply(&mut model.graph, model.lagrangian.value);
     let zero = model.graph.zero();
@@ -75,12 +76,10 @@ fn both_forms_agree(mut model: Model) {
     let mut mass = Vec::new();
     let mut force = Vec::new();
     for a in &distribution.independent {
-        let row = distribution.independent.iter().map(|b| {
-            let symbol = system.algebroid.velocities[b.index()];
-            graph.partial(balance.momenta[a.index()], symbol)
-        });
+        let index = system.algebroid.velocities.iter().position(|symbol| symbol == a).unwrap();
+        let row = distribution.independent.iter().map(|b| graph.partial(balance.momenta[index], *b));
         mass.push(row.collect::<Vec<_>>());
-        force.push(graph.neg(balance.rest[a.index()]));
+        force.push(graph.neg(balance.rest[index]));
     }
     let found = accelerations(graph, &mass, &force);
     for (a, b) in found.iter().zip(&expected) {

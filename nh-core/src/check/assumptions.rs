@@ -1,0 +1,132 @@
+//! Facts about parameters, and contradictions among them.
+
+use crate::algebra::{Facts, Graph, Range};
+use crate::id::{ExprId, SymbolId};
+use crate::model::{Assumption, Model, Relation};
+use crate::violation::{Law, Violation};
+
+/// The facts that the declaration assumes.
+///
+/// # Errors
+/// Assumptions about more than parameters, and assumptions that contradict others or the numbers.
+pub fn facts(model: &mut Model) -> Result<Facts, Vec<Violation>> {
+    let mut facts = Facts::default();
+    let mut violations = Vec::new();
+    for assumption in model.assumptions.clone() {
+        if let Some(violation) = stranger(model, &assumption) {
+            violations.push(violation);
+            continue;
+        }
+        if !assume(&mut model.graph, &mut facts, &assumption) {
+            violations.push(Violation {
+                law: Law::Assumption,
+                origin: assumption.origin,
+                what: format!("the assumption `{}` is contradictory", assumption.text),
+                evidence: "no values of the parameters satisfy it together with the assumptions before it"
+                    .into(),
+                way_out: "correct or leave out one of them".into(),
+            });
+        }
+    }
+    if violations.is_empty() { Ok(facts) } else { Err(violations) }
+}
+
+fn stranger(model: &Model, assumption: &Assumption) -> Option<Violation> {
+    let parameters: Vec<SymbolId> = model.parameters.iter().map(|parameter| parameter.symbol).collect();
+    let graph = &model.graph;
+    let symbols = graph.symbols_in(&[assumption.left, assumption.right]);
+    let stranger = symbols.into_iter().find(|symbol| !parameters.contains(symbol))?;
+    let name = &graph.symbols()[stranger];
+    Some(Violation {
+        law: Law::Assumption,
+        origin: assumption.origin,
+        what: format!("the assumption `{}` is about `{name}`, which is not a parameter", assumption.text),
+        evidence: "assumptions are checked once, by `validate()`, and hold for the whole motion".into(),
+        way_out: "assume facts about the fields of the struct only".into(),
+    })
+}
+
+/// What `difference relation 0` says of the difference.
+fn demanded(relation: Relation) -> Range {
+    match relation {
+        Relation::Greater => Range::POSITIVE,
+        Relation::Less => Range { low: f64::NEG_INFINITY, high: 0.0, nonzero: true },
+        Relation::GreaterOrEqual => Range { low: 0.0, ..Range::ALL },
+        Relation::LessOrEqual => Range { high: 0.0, ..Range::ALL },
+        Relation::NotEqual => Range { nonzero: true, ..Range::ALL },
+    }
+}
+
+/// Adds a fact; false if nothing satisfies it together with those known.
+fn assume(graph: &mut Graph, facts: &mut Facts, assumption: &Assumption) -> bool {
+    let difference = graph.sub(assumption.left, assumption.right);
+    let difference = graph.simplify(difference);
+    let demanded = demanded(assumption.relation);
+    let known = graph.range(difference, facts);
+    if known.intersection(demanded).is_empty() {
+        return false;
+    }
+    // a number satisfies the relation or does not; nothing is learned
+    if graph.as_number(difference).is_some() {
+        return true;
+    }
+    learn(graph, facts, difference, demanded);
+    // c·x + d: a fact about x itself
+    let (constant, terms) = graph.as_linear(difference);
+    if let [(term, coefficient)] = terms.as_slice() {
+        let (inner, rest) = graph.split_coefficient(*term);
+        let slope = (coefficient.clone() * inner).to_f64();
+        let shifted = demanded.shifted(-constant.to_f64()).scaled(1.0 / slope);
+        learn(graph, facts, rest, shifted);
+    }
+    true
+}
+
+/// Records a range of an expression, of its negative, and of the form it has among factors.
+fn learn(graph: &mut Graph, facts: &mut Facts, expression: ExprId, range: Range) {
+    let content = graph.content(expression);
+    let mut record = |graph: &Graph, expression: ExprId, range: Range| {
+        let joined = graph.range(expression, facts).intersection(range);
+        match graph.as_symbol(expression) {
+            Some(symbol) => facts.symbols.insert(symbol, joined),
+            None => facts.expressions.insert(expression, joined),
+        };
+    };
+    record(graph, expression, range);
+    let negative = graph.neg(expression);
+    record(graph, negative, range.scaled(-1.0));
+    if let Some(inverse) = content.recip() {
+        let primitive = graph.scale(inverse.clone(), expression);
+        record(graph, primitive, range.scaled(inverse.to_f64()));
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::id::{Id, Origin};
+
+    fn assumption(left: ExprId, relation: Relation, right: ExprId) -> Assumption {
+        Assumption { left, relation, right, text: String::new(), origin: Origin::from_index(0) }
+    }
+
+    #[test]
+    fn facts_combine_and_contradict() {
+        let mut g = Graph::new();
+        let (m, a) = (g.new_symbol("m"), g.new_symbol("a"));
+        let (em, ea) = (g.symbol(m), g.symbol(a));
+        let (zero, one) = (g.zero(), g.one());
+        let mut facts = Facts::default();
+        assert!(assume(&mut g, &mut facts, &assumption(em, Relation::Greater, zero)));
+        assert!(assume(&mut g, &mut facts, &assumption(ea, Relation::Less, em)));
+        assert!(g.vanishes_nowhere(em, &facts));
+        let gap = g.sub(em, ea);
+        assert!(g.vanishes_nowhere(gap, &facts));
+        assert!(!assume(&mut g, &mut facts, &assumption(em, Relation::Less, zero)));
+        assert!(!assume(&mut g, &mut facts, &assumption(one, Relation::Less, zero)));
+        let twice = g.scale(2.into(), em);
+        assert!(assume(&mut g, &mut facts, &assumption(twice, Relation::LessOrEqual, one)));
+        let two = g.number(2);
+        assert!(!assume(&mut g, &mut facts, &assumption(em, Relation::Greater, two)));
+    }
+}

@@ -1,0 +1,100 @@
+//! Dependent constraints, with the dependency shown.
+
+use super::constraints::name_of;
+use super::evidence::{listed, shown};
+use crate::algebra::{Echelon, FieldPoint, Graph, Matrix};
+use crate::geometry::Manifold;
+use crate::id::{ConstraintId, ExprId, Id};
+use crate::model::Model;
+use crate::violation::{Law, Violation};
+
+/// The first constraint whose row (of Φ, or of ∂φ/∂y) is a combination of those before it on the
+/// manifold; with `drift` a contradiction is told from a redundancy.
+pub(super) fn dependent_rows(
+    model: &mut Model,
+    rows: &Matrix,
+    drift: Option<&[ExprId]>,
+    manifold: &Manifold,
+) -> Option<Violation> {
+    let restricted = manifold.restrict_matrix(&mut model.graph, rows);
+    let mut rank = 0;
+    for count in 1..=restricted.len() {
+        let found = match model.graph.generic_rank(&restricted[..count]) {
+            Ok(found) => found,
+            Err(why) => return Some(undecided(model, &why)),
+        };
+        if found == rank {
+            return Some(dependency(model, rows, drift, count - 1));
+        }
+        rank = found;
+    }
+    None
+}
+
+fn undecided(model: &Model, why: &str) -> Violation {
+    Violation {
+        law: Law::Decidable,
+        origin: model.constraints.iter().next().map_or(model.origin, |constraint| constraint.origin),
+        what: "whether the constraints are independent could not be decided".into(),
+        evidence: why.into(),
+        way_out: "write them without roots of negative numbers and divisions by zero".into(),
+    }
+}
+
+/// Shows the combination of earlier constraints that a dependent one is.
+fn dependency(model: &mut Model, rows: &Matrix, drift: Option<&[ExprId]>, index: usize) -> Violation {
+    let id = ConstraintId::from_index(index);
+    let name = name_of(model, id);
+    let combination = combination(&mut model.graph, rows, index);
+    let names: Vec<String> = (0..index).map(|i| name_of(model, ConstraintId::from_index(i))).collect();
+    let graph = &mut model.graph;
+    let terms: Vec<String> = combination
+        .iter()
+        .flatten()
+        .zip(&names)
+        .filter(|(coefficient, _)| !graph.is_literal_zero(**coefficient))
+        .map(|(coefficient, name)| format!("({})·{name}", shown(graph, *coefficient)))
+        .collect();
+    let evidence = if terms.is_empty() {
+        format!("it is a combination of {}", listed(&names))
+    } else {
+        format!("{name} = {}", terms.join(" + "))
+    };
+    let contradiction = combination.zip(drift).and_then(|(coefficients, drift)| {
+        let combined = graph.inner_product(&coefficients, &drift[..index]);
+        let left_over = graph.sub(drift[index], combined);
+        let left_over = graph.simplify(left_over);
+        (!graph.zero_test(left_over).is_zero()).then_some(left_over)
+    });
+    let (what, evidence, way_out) = match contradiction {
+        None => (
+            format!("{name} follows from the constraints before it"),
+            evidence,
+            "leave it out: the constraints of a system are independent",
+        ),
+        Some(left_over) => (
+            format!("{name} contradicts the constraints before it"),
+            format!("in the velocities {evidence}, but then {} = 0 is left", shown(graph, left_over)),
+            "change or leave out one of them",
+        ),
+    };
+    Violation {
+        law: Law::Independence,
+        origin: model.constraints[id].origin,
+        what,
+        evidence,
+        way_out: way_out.into(),
+    }
+}
+
+/// The coefficients c with Φ^index = Σ c_A Φ^A over earlier rows.
+fn combination(graph: &mut Graph, rows: &Matrix, index: usize) -> Option<Vec<ExprId>> {
+    let earlier = &rows[..index];
+    let sampled = graph.matrix_in_field(earlier, |seed| FieldPoint::random(8_000 + seed)).ok()?;
+    let columns = Echelon::of(sampled).pivots;
+    let matrix: Matrix =
+        columns.iter().map(|column| earlier.iter().map(|row| row[*column]).collect()).collect();
+    let right: Matrix = columns.iter().map(|column| vec![rows[index][*column]]).collect();
+    let solution = graph.solve_linear(&matrix, &right)?;
+    Some(solution.values.into_iter().map(|row| graph.simplify(row[0])).collect())
+}

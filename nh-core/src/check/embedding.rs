@@ -1,0 +1,112 @@
+//! Embedded base coordinates: the identities that they satisfy, and that the anchor keeps them.
+
+use super::evidence::{not_zero, shown};
+use super::kinematics::Motion;
+use crate::algebra::Verdict;
+use crate::geometry::Manifold;
+use crate::id::{ExprId, Id, SectionId, SymbolId};
+use crate::model::{Located, Model};
+use crate::violation::{Law, Violation};
+
+/// The embedded base: all of M where the declaration has no identities.
+///
+/// # Errors
+/// Identities that depend on more than base coordinates, that could not be parametrised, or that a
+/// section of the anchor leaves.
+pub fn embedding(model: &mut Model, motion: &Motion) -> Result<Manifold, Vec<Violation>> {
+    let coordinates: Vec<SymbolId> = model.coordinates.iter().map(|coordinate| coordinate.symbol).collect();
+    let identities = model.identities.clone();
+    let mut violations: Vec<Violation> =
+        identities.iter().filter_map(|identity| stranger(model, &coordinates, *identity)).collect();
+    if !violations.is_empty() {
+        return Err(violations);
+    }
+    let functions: Vec<ExprId> = identities.iter().map(|identity| identity.value).collect();
+    let base = Manifold::where_zero(&mut model.graph, &functions, &coordinates)
+        .map_err(|index| vec![not_parametrised(model, identities[index])])?;
+    for identity in &identities {
+        violations.extend(left_by_anchor(model, motion, &base, *identity));
+    }
+    if violations.is_empty() { Ok(base) } else { Err(violations) }
+}
+
+fn stranger(model: &Model, coordinates: &[SymbolId], identity: Located) -> Option<Violation> {
+    let graph = &model.graph;
+    let found = graph.symbols_in(&[identity.value]);
+    let blame = |what: String, evidence: String| Violation {
+        law: Law::Embedding,
+        origin: identity.origin,
+        what,
+        evidence,
+        way_out: "an identity relates base coordinates with numbers, such as `dot(g, g) = 1;`".into(),
+    };
+    if found.is_empty() {
+        return Some(blame(
+            "this identity has no base coordinate in it".into(),
+            shown(graph, identity.value),
+        ));
+    }
+    let stranger = found.into_iter().find(|symbol| !coordinates.contains(symbol))?;
+    let name = &graph.symbols()[stranger];
+    Some(blame(format!("this identity depends on `{name}`"), format!("`{name}` is not a base coordinate")))
+}
+
+fn not_parametrised(model: &Model, identity: Located) -> Violation {
+    Violation {
+        law: Law::Decidable,
+        origin: identity.origin,
+        what: "no points that satisfy this identity could be found, so nothing can be proved on it".into(),
+        evidence: format!(
+            "{} = 0 is neither a sphere, nor rotation matrices, nor solvable for a coordinate by \
+                           a division or a square root",
+            shown(&model.graph, identity.value)
+        ),
+        way_out: "write identities that define the embedding one by one, or leave them out".into(),
+    }
+}
+
+/// A section whose vector field does not annihilate the identity on the embedded base.
+fn left_by_anchor(
+    model: &mut Model,
+    motion: &Motion,
+    base: &Manifold,
+    identity: Located,
+) -> Option<Violation> {
+    for section in (0..model.sections.len()).map(SectionId::from_index) {
+        let graph = &mut model.graph;
+        let change = motion.anchor.along(section).apply(graph, identity.value);
+        let verdict = base.zero_test(graph, change);
+        if verdict.is_zero() {
+            continue;
+        }
+        let change = graph.simplify(change);
+        let name = &model.sections[section].name;
+        let evidence = match &verdict {
+            Verdict::NonZero(witness) if !has_parameters(witness, model) => {
+                format!("along `{name}` it changes at the rate {}", not_zero(&model.graph, change, witness))
+            }
+            _ => format!("along `{name}` it changes at the rate {}", shown(&model.graph, change)),
+        };
+        return Some(Violation {
+            law: Law::Embedding,
+            origin: identity.origin,
+            what: "the anchor does not keep this identity".into(),
+            evidence,
+            way_out: "correct the anchor, or the identity: every motion has to stay on the embedded base"
+                .into(),
+        });
+    }
+    None
+}
+
+/// Whether a witness is in terms of the parameters of the manifold, which mean nothing to the user.
+fn has_parameters(witness: &crate::algebra::Witness, model: &Model) -> bool {
+    let known: Vec<SymbolId> = model
+        .coordinates
+        .iter()
+        .map(|c| c.symbol)
+        .chain(model.parameters.iter().map(|p| p.symbol))
+        .chain(model.sections.iter().map(|s| s.symbol))
+        .collect();
+    witness.point.iter().any(|(symbol, _)| !known.contains(symbol))
+}

@@ -1,0 +1,98 @@
+//! The way of the data: every stage takes a value and returns a value of another type.
+
+mod adapted;
+mod projected;
+mod restricted;
+
+use crate::algebra::Facts;
+use crate::check::{self, Chosen, Constraints, Motion};
+use crate::geometry::{Algebroid, Manifold};
+use crate::id::{ExprId, Id};
+use crate::mechanics::LagrangianSystem;
+use crate::model::{ForceDirection, Model};
+use crate::system::System;
+use crate::violation::Violation;
+
+/// What the later stages share.
+pub(crate) struct Proved {
+    /// The declaration.
+    pub(crate) model: Model,
+    /// How it moves.
+    pub(crate) motion: Motion,
+    /// The embedded base.
+    pub(crate) base: Manifold,
+    /// Facts about the parameters.
+    pub(crate) facts: Facts,
+    /// The constraints.
+    pub(crate) constraints: Constraints,
+    /// The Lagrangian system without them.
+    pub(crate) system: LagrangianSystem,
+}
+
+/// Checks a declaration and derives its equations.
+///
+/// # Errors
+/// Everything found wrong in the first stage that finds something wrong.
+pub fn compile(mut model: Model) -> Result<System, Vec<Violation>> {
+    // 1. every expression is defined, and smooth where it is differentiated; facts do not contradict
+    let broken = check::declared_expressions(&model);
+    let facts = both(broken, check::facts(&mut model))?;
+    // 2. the anchor: linear and homogeneous; a coframe is inverted
+    let mut motion = check::kinematics(&mut model)?;
+    // 3. the embedded base, which the anchor keeps; the brackets, declared or derived
+    let base = check::embedding(&mut model, &motion)?;
+    let structure = check::structure_functions(&mut model, &motion)?;
+    let velocities = model.sections.iter().map(|section| section.symbol).collect();
+    let algebroid = Algebroid { anchor: motion.anchor.clone(), structure, velocities };
+    // 4. the structure equations, and the constraints
+    let broken = check::structure_equations(&mut model, &algebroid, &base);
+    let constraints = both(broken, check::constraints(&mut model, &mut motion, &algebroid, &base))?;
+    // 5. the formulation: a basis of D valid everywhere, or multipliers
+    let chosen = check::choose_formulation(&mut model, &constraints, &facts, &base)?;
+    // 6. the Lagrangian system on E
+    let system = lagrangian_system(&mut model, &mut motion, algebroid);
+    // 7. the equations, proved regular, and the claims about them
+    let proved = Proved { model, motion, base, facts, constraints, system };
+    match chosen {
+        Chosen::Adapted { distribution, conditions, reason } => {
+            adapted::derive(proved, &distribution, &conditions, &reason)
+        }
+        Chosen::Projected { reason } => projected::derive(proved, &reason),
+    }
+}
+
+fn fence(violations: Vec<Violation>) -> Result<(), Vec<Violation>> {
+    if violations.is_empty() { Ok(()) } else { Err(violations) }
+}
+
+/// Reports what two independent checks found in one go.
+fn both<T>(first: Vec<Violation>, second: Result<T, Vec<Violation>>) -> Result<T, Vec<Violation>> {
+    match second {
+        Ok(value) => fence(first).map(|()| value),
+        Err(more) => Err(first.into_iter().chain(more).collect()),
+    }
+}
+
+/// Puts ρ(y) for the rates and pulls forces along coordinates back.
+fn lagrangian_system(model: &mut Model, motion: &mut Motion, algebroid: Algebroid) -> LagrangianSystem {
+    let graph = &mut model.graph;
+    let lagrangian = motion.rates.apply(graph, model.lagrangian.value);
+    let zero = graph.zero();
+    let mut along_sections = vec![zero; algebroid.rank()];
+    let mut along_base = vec![zero; model.coordinates.len()];
+    for force in &model.forces {
+        let value = motion.rates.apply(graph, force.value);
+        let slot = match force.direction {
+            ForceDirection::Section(section) => &mut along_sections[section.index()],
+            ForceDirection::Coordinate(coordinate) => &mut along_base[coordinate.index()],
+        };
+        *slot = graph.add(*slot, value);
+    }
+    let pulled_back = algebroid.anchor.pull_back(graph, &along_base);
+    let forces: Vec<ExprId> = along_sections
+        .into_iter()
+        .zip(pulled_back)
+        .map(|(direct, pulled)| graph.add(direct, pulled))
+        .collect();
+    LagrangianSystem { algebroid, lagrangian, forces, time: model.time }
+}

@@ -1,0 +1,121 @@
+//! The functions of a system in the projected formulation.
+
+use super::restricted::{in_state, observables, requested};
+use super::{Proved, fence};
+use crate::algebra::Substitution;
+use crate::check;
+use crate::id::ExprId;
+use crate::mechanics::{
+    Definiteness, Flow, Procedure, SaddleEquations, definiteness, energy, saddle_equations,
+};
+use crate::model::{Formulation, Model, Request};
+use crate::report::{Derived, equations_of_motion, report};
+use crate::system::{Projection, System};
+use crate::violation::Violation;
+
+/// Derives everything on E, with multipliers.
+pub(super) fn derive(mut proved: Proved, reason: &str) -> Result<System, Vec<Violation>> {
+    // 1. the saddle equations, proved regular on the constraint manifold
+    let residuals = proved.constraints.residuals.clone();
+    let equations = saddle_equations(&mut proved.model.graph, &proved.system, &residuals);
+    let singular = check::saddle_regularity(&mut proved.model, &equations, &proved.constraints.manifold);
+    fence(singular.into_iter().collect())?;
+    // 2. ẏ and λ
+    let parameters: Vec<_> = proved.model.parameters.iter().map(|parameter| parameter.symbol).collect();
+    let definite = definiteness(&proved.model.graph, &equations.mass, &parameters, &proved.facts);
+    let graph = &mut proved.model.graph;
+    let mut derivative = Procedure::default();
+    let (accelerations, multipliers) = equations.solve(graph, definite, &mut derivative);
+    let reactions = (0..accelerations.len())
+        .map(|alpha| {
+            let column: Vec<ExprId> = equations.jacobian.iter().map(|row| row[alpha]).collect();
+            graph.inner_product(&column, &multipliers)
+        })
+        .collect();
+    derivative.outputs = equations.rates.iter().chain(&accelerations).copied().collect();
+    let with_definitions = |outputs| Procedure { definitions: derivative.definitions.clone(), outputs };
+    let (multipliers, reactions) = (with_definitions(multipliers), with_definitions(reactions));
+    // 3. E_L, y and the observables
+    let velocity = proved.system.algebroid.velocity(graph);
+    let energy = energy(graph, &proved.system);
+    let mut everywhere = Substitution::new([]);
+    let observables = observables(&mut proved.model, &mut proved.motion, &mut everywhere);
+    // 4. the claims, along the flow
+    let claims: Vec<ExprId> = proved
+        .model
+        .claims
+        .iter()
+        .map(|claim| in_state(&mut proved.model.graph, &mut proved.motion, &mut everywhere, claim.value))
+        .collect();
+    let velocities = proved.system.algebroid.velocities.clone();
+    let flow = Flow::of(&mut proved.model.graph, &derivative, &proved.system, &velocities);
+    fence(check::claims(&mut proved.model, &claims, flow, &proved.constraints.manifold))?;
+    // 5. the way back to the constraint manifold
+    let projection = projection(&mut proved.model, &velocities, &equations, &residuals, definite);
+    // 6. the report
+    let derived = Derived::Projected { residuals: &residuals, equations: &equations };
+    let text = report(&mut proved, &derived, reason, &[]);
+    let lines = equations_of_motion(&proved.model, &derived);
+    let model = proved.model;
+    Ok(System {
+        formulation: Formulation::Projected,
+        state_velocities: velocities,
+        derivative,
+        energy: Procedure::of(vec![energy]),
+        velocity: Procedure::of(velocity),
+        observables,
+        multipliers: requested(&model, Request::Multipliers).then_some(multipliers),
+        reactions: requested(&model, Request::Reactions).then_some(reactions),
+        residual: Some(Procedure::of(residuals)),
+        projection: Some(projection),
+        parameter_checks: Vec::new(),
+        report: text,
+        equations: lines,
+        model,
+    })
+}
+
+/// One Newton step towards the point of the constraint manifold that is nearest to y₀ in the
+/// kinetic metric: `W (y⁺ − y₀) = Jᵀ μ`, `J (y⁺ − y) = −φ(y)`.
+fn projection(
+    model: &mut Model,
+    velocities: &[crate::id::SymbolId],
+    equations: &SaddleEquations,
+    residuals: &[ExprId],
+    definite: Definiteness,
+) -> Projection {
+    let graph = &mut model.graph;
+    let start: Vec<_> =
+        velocities.iter().map(|symbol| format!("{}_start", graph.symbols()[*symbol])).collect();
+    let start: Vec<_> = start.into_iter().map(|name| graph.new_symbol(name)).collect();
+    let gaps: Vec<ExprId> = velocities
+        .iter()
+        .zip(&start)
+        .map(|(now, start)| {
+            let (now, start) = (graph.symbol(*now), graph.symbol(*start));
+            graph.sub(now, start)
+        })
+        .collect();
+    let zero = graph.zero();
+    let bias = equations
+        .jacobian
+        .iter()
+        .zip(residuals)
+        .map(|(row, residual)| {
+            let moved = graph.inner_product(row, &gaps);
+            graph.sub(moved, *residual)
+        })
+        .collect();
+    let step = SaddleEquations { force: vec![zero; velocities.len()], bias, ..equations.clone() };
+    let mut procedure = Procedure::default();
+    let (moves, _) = step.solve(graph, definite, &mut procedure);
+    procedure.outputs = moves
+        .into_iter()
+        .zip(&start)
+        .map(|(change, start)| {
+            let start = graph.symbol(*start);
+            graph.add(start, change)
+        })
+        .collect();
+    Projection { start, step: procedure }
+}

@@ -1,0 +1,49 @@
+//! What the declaration says in quasi-velocities, put into the velocities of the state.
+
+use crate::algebra::{Graph, Substitution};
+use crate::check::Motion;
+use crate::id::ExprId;
+use crate::mechanics::Procedure;
+use crate::model::{Model, Request};
+use crate::system::ParameterCheck;
+
+/// The declared observables.
+pub(super) fn observables(
+    model: &mut Model,
+    motion: &mut Motion,
+    restriction: &mut Substitution,
+) -> Procedure {
+    let graph = &mut model.graph;
+    let mut outputs = Vec::with_capacity(model.outputs.len());
+    for output in &model.outputs {
+        outputs.push(in_state(graph, motion, restriction, output.value));
+    }
+    Procedure::of(outputs)
+}
+
+/// A declared expression in the coordinates and velocities of the state.
+pub(super) fn in_state(
+    graph: &mut Graph,
+    motion: &mut Motion,
+    restriction: &mut Substitution,
+    value: ExprId,
+) -> ExprId {
+    let value = motion.rates.apply(graph, value);
+    restriction.apply(graph, value)
+}
+
+/// The conditions on the parameters, each once.
+pub(super) fn parameter_checks(model: &Model, conditions: &[ExprId]) -> Vec<ParameterCheck> {
+    let mut checks: Vec<ParameterCheck> = Vec::new();
+    for &nonzero in conditions {
+        if !checks.iter().any(|check| check.nonzero == nonzero) {
+            checks.push(ParameterCheck { nonzero, text: model.graph.text(nonzero) });
+        }
+    }
+    checks
+}
+
+/// Whether the declaration asks for something.
+pub(super) fn requested(model: &Model, request: Request) -> bool {
+    model.requests.iter().any(|(asked, _)| *asked == request)
+}
