@@ -3,25 +3,41 @@
 use proc_macro2::TokenStream;
 use quote::quote;
 
+use crate::emit::{Layout, emit, stubs};
 use crate::report::{Diagnostic, compile_errors};
+use crate::resolve::{probable_state, resolve};
 use crate::syntax;
 
-/// The expansion of the attribute. On error: the errors, and the item as if it had no attribute.
+/// The expansion of the attribute. On error: the errors, and the items that there would have been
+/// without them, as far as they are known.
 pub(crate) fn nonholonomic(attribute: TokenStream, item: TokenStream) -> TokenStream {
-    match stages(attribute, item.clone()) {
-        Ok(tokens) => tokens,
+    let declaration = match syntax::parse(attribute.clone(), item.clone()) {
+        Ok(declaration) => declaration,
         Err(errors) => {
-            let errors = compile_errors(&errors);
             let item = syntax::without_own_attributes(item);
-            quote!(#errors #item)
+            return with_errors(&errors, &item);
+        }
+    };
+    let mut layout = Layout::of_struct(&declaration.structure, attribute);
+    let resolved = match resolve(&declaration, &mut layout) {
+        Ok(resolved) => resolved,
+        Err(unresolved) => return with_errors(&unresolved.errors, &stubs(&layout, &unresolved.kept)),
+    };
+    let kept = probable_state(&resolved.model);
+    match nh_core::compile::compile(resolved.model) {
+        Ok(system) => emit(&system, &layout),
+        Err(violations) => {
+            let origins = resolved.origins;
+            let errors: Vec<_> = violations.into_iter().map(|violation| origins.diagnostic(violation)).collect();
+            with_errors(&errors, &stubs(&layout, &kept))
         }
     }
 }
 
-/// From tokens to tokens.
-fn stages(attribute: TokenStream, item: TokenStream) -> Result<TokenStream, Vec<Diagnostic>> {
-    let declaration = syntax::parse(attribute, item)?;
-    Ok(declaration.structure.item)
+/// Errors, and what stands beside them.
+fn with_errors(errors: &[Diagnostic], items: &TokenStream) -> TokenStream {
+    let errors = compile_errors(errors);
+    quote!(#errors #items)
 }
 
 #[cfg(test)]
@@ -35,13 +51,27 @@ mod tests {
 
     #[test]
     fn the_item_is_emitted_without_our_attributes() {
-        assert_eq!(
-            expanded(
-                "base { x } lagrangian { m / 2 * der(x)^2 }",
-                "#[derive(Clone)] struct S { /// mass\n m: f64, #[nh(skip)] tag: u8 }"
-            ),
-            "#[derive(Clone)]\nstruct S {\n    /// mass\n    m: f64,\n    tag: u8,\n}\n"
+        let text = expanded(
+            "base { x } lagrangian { m / 2 * der(x)^2 }",
+            "#[derive(Clone)] struct S { /// mass\n m: f64, #[nh(skip)] tag: u8 }",
         );
+        let item = "struct S {\n    /// mass\n    m: f64,\n    tag: u8,\n}\n";
+        assert!(text.contains(item), "{text}");
+        assert!(text.contains("x_dot: ::core::primitive::f64"), "{text}");
+        assert!(!text.contains("compile_error"), "{text}");
+    }
+
+    #[test]
+    fn every_stage_reports_and_leaves_stubs() {
+        for (attribute, error) in [
+            ("base { x } lagrangian { m / 2 * der(y)^2 }", "there is no base coordinate `y`"),
+            ("base { x } lagrangian { m * x }", "mass matrix"),
+        ] {
+            let text = expanded(attribute, "struct S { m: f64 }");
+            assert!(text.starts_with("::core::compile_error! {"), "{text}");
+            assert!(text.contains(error), "{text}");
+            assert!(text.contains("struct SState"), "{text}");
+        }
     }
 
     #[test]

@@ -1,10 +1,10 @@
 //! The attribute macro `#[nonholonomic(…)]`: the declaration of a nonholonomic mechanical system
 //! becomes verified code. Tokens come in and go out here; the mathematics is in `nh-core`.
 
-#[allow(dead_code, reason = "the stages before it are on their way")]
 mod emit;
 mod expand;
 mod report;
+mod resolve;
 mod suggest;
 mod syntax;
 

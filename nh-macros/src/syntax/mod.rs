@@ -8,7 +8,7 @@ mod check;
 mod expr;
 mod habits;
 mod items;
-mod limits;
+pub(crate) mod limits;
 mod lines;
 mod names;
 mod number;
@@ -16,7 +16,6 @@ mod render;
 mod sections;
 mod stream;
 mod structure;
-#[allow(dead_code, reason = "the next stage reads it")]
 pub(crate) mod vocabulary;
 
 #[cfg(test)]

@@ -1,0 +1,96 @@
+//! What the user chooses: independent velocities, the formulation, names of types, the runtime.
+
+use std::collections::BTreeSet;
+
+use nh_core::id::{Origin, SectionId};
+use nh_core::model::Formulation;
+use proc_macro2::Ident;
+use quote::quote;
+
+use super::resolver::Resolver;
+use crate::emit::{Layout, TypeNames};
+use crate::report::{Diagnostic, Extent};
+use crate::syntax::ast::{self, Renaming, Section, SystemDecl, Velocity};
+
+impl Resolver {
+    /// The velocities that the adapted state keeps, each once.
+    pub(super) fn independent(&mut self, named: &[Velocity]) -> Vec<(SectionId, Origin)> {
+        let mut found: Vec<(SectionId, Origin)> = Vec::new();
+        let mut seen = BTreeSet::new();
+        for velocity in named {
+            let Ok((sections, extent)) = self.velocities(velocity) else { continue };
+            let origin = self.origin(extent);
+            for section in sections {
+                if seen.insert(section) {
+                    found.push((section, origin));
+                } else {
+                    let name = &self.tables.sections[section].name;
+                    let error = Diagnostic::new(extent, format!("the velocity `{name}` is named twice"));
+                    self.report(velocity, error);
+                }
+            }
+        }
+        found
+    }
+
+    /// The formulation that is asked for.
+    pub(super) fn formulation(&mut self, asked: &Section<ast::Formulation>) -> (Formulation, Origin) {
+        let formulation = match asked.body {
+            ast::Formulation::Adapted => Formulation::Adapted,
+            ast::Formulation::Projected => Formulation::Projected,
+        };
+        (formulation, self.origin(asked.keyword.extent()))
+    }
+
+    /// The names of the generated types, all different, and the path of the runtime.
+    pub(super) fn surroundings(&mut self, declaration: &SystemDecl, layout: &mut Layout) {
+        if let Some(runtime) = &declaration.sections.runtime {
+            let path = &runtime.body;
+            layout.runtime = quote!(#path);
+        }
+        let Some(names) = &declaration.sections.names else { return };
+        let mut renamed = BTreeSet::new();
+        for Renaming { role, name } in &names.body {
+            if !renamed.insert(role.text.as_str()) {
+                let what = format!("the type `{}` is renamed twice", role.text);
+                self.report(role, Diagnostic::new(role.extent(), what).way_out("keep one of the names"));
+                continue;
+            }
+            if let Some(slot) = slot(&mut layout.types, &role.text) {
+                *slot = name.ident.clone();
+            }
+        }
+        let mut taken = BTreeSet::from([layout.name.to_string()]);
+        let types = layout.types.clone();
+        for name in [types.state, types.velocity, types.input, types.multipliers, types.outputs] {
+            if !taken.insert(name.to_string()) {
+                let blamed = names.body.iter().rev().find(|renaming| renaming.name.ident == name);
+                let extent = blamed.map_or(names.keyword.extent(), |renaming| renaming.name.extent());
+                let error = Diagnostic::new(extent, format!("two types are called `{name}`"))
+                    .evidence("the struct and the types generated for it need names of their own")
+                    .way_out("choose another name");
+                match blamed {
+                    Some(renaming) => self.report(renaming, error),
+                    None => self.report(&names.keyword, error),
+                };
+            }
+        }
+    }
+}
+
+/// The name that a role of `names` renames.
+fn slot<'a>(types: &'a mut TypeNames, role: &str) -> Option<&'a mut Ident> {
+    match role {
+        "state" => Some(&mut types.state),
+        "velocity" => Some(&mut types.velocity),
+        "input" => Some(&mut types.input),
+        "multipliers" => Some(&mut types.multipliers),
+        "outputs" => Some(&mut types.outputs),
+        _ => None,
+    }
+}
+
+/// Where errors about the whole declaration point.
+pub(super) fn whole(declaration: &SystemDecl) -> Extent {
+    Extent::at(declaration.structure.name.span())
+}

@@ -1,0 +1,100 @@
+//! What may be used in which section.
+
+use crate::report::{Diagnostic, Extent};
+
+/// The section whose expressions are read.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Context {
+    /// `anchor`
+    Anchor,
+    /// `velocities`
+    Velocities,
+    /// `brackets`
+    Brackets,
+    /// `lagrangian`
+    Lagrangian,
+    /// `constraints`
+    Constraints,
+    /// `forces`
+    Forces,
+    /// `outputs`
+    Outputs,
+}
+
+/// Something that not every section may use.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Usage {
+    /// A quasi-velocity.
+    Velocity,
+    /// `der(x)`.
+    Rate,
+    /// A control input.
+    Input,
+    /// `t`.
+    Time,
+    /// `abs`, `sign`, `min`, `max`.
+    Branches,
+}
+
+impl Context {
+    /// The keyword of the section.
+    pub(super) fn keyword(self) -> &'static str {
+        match self {
+            Self::Anchor => "anchor",
+            Self::Velocities => "velocities",
+            Self::Brackets => "brackets",
+            Self::Lagrangian => "lagrangian",
+            Self::Constraints => "constraints",
+            Self::Forces => "forces",
+            Self::Outputs => "outputs",
+        }
+    }
+
+    fn permits(self, usage: Usage) -> bool {
+        match self {
+            Self::Anchor | Self::Brackets => usage == Usage::Velocity,
+            Self::Velocities => usage == Usage::Rate,
+            Self::Lagrangian | Self::Constraints => !matches!(usage, Usage::Input | Usage::Branches),
+            Self::Forces | Self::Outputs => true,
+        }
+    }
+
+    /// Refuses what has no place in this section. `written` is what stands there.
+    pub(super) fn check(self, usage: Usage, written: &str, at: Extent) -> Result<(), Diagnostic> {
+        if self.permits(usage) {
+            return Ok(());
+        }
+        let keyword = self.keyword();
+        let role = match usage {
+            Usage::Velocity => "the quasi-velocity ",
+            Usage::Input => "the input ",
+            Usage::Rate | Usage::Time | Usage::Branches => "",
+        };
+        let error = Diagnostic::new(at, format!("{role}`{written}` cannot be used in `{keyword}`"));
+        Err(match (usage, self) {
+            (Usage::Velocity, _) => error
+                .evidence("a quasi-velocity is defined as a combination of the `der(…)`")
+                .way_out("write its definition out in the `der(…)`"),
+            (Usage::Rate, Self::Brackets) => error
+                .evidence("a bracket is a combination of sections with coefficients on the base")
+                .way_out("write it with the names of the sections"),
+            (Usage::Rate, _) => error
+                .evidence("the anchor gives every `der(…)` as a combination of the quasi-velocities")
+                .way_out("write it with the names of the quasi-velocities"),
+            (Usage::Input, _) => {
+                error.way_out("inputs act through `forces`, and can be watched in `outputs`; make a constant a parameter")
+            }
+            (Usage::Time, _) => error
+                .evidence("its coefficients are functions on the base: of the base coordinates and the parameters")
+                .way_out("the time has its place in `lagrangian`, `constraints`, `forces` and `outputs`"),
+            (Usage::Branches, _) => error
+                .evidence(format!(
+                    "`{written}` has no derivative where its branches meet, and the equations need one"
+                ))
+                .way_out(
+                    "use a smooth expression, such as sqrt(x^2 + eps^2) for abs(x); `abs`, `sign`, `min` and \
+                     `max` are at home in `forces` and `outputs`",
+                ),
+        })
+    }
+}

@@ -1,0 +1,172 @@
+//! Declared names: symbols, tables of the model, and the layout of generated types.
+
+use std::rc::Rc;
+
+use nh_core::id::SymbolId;
+use nh_core::model::{Coordinate, Input, Parameter, Section};
+use quote::format_ident;
+
+use super::array::Shape;
+use super::items;
+use super::reports::Outcome;
+use super::resolver::Resolver;
+use super::scope::{Meaning, Named, Role};
+use crate::emit::{Family, Layout};
+use crate::report::Diagnostic;
+use crate::syntax::ast::{self, Declared, Name, SystemDecl};
+
+/// Coordinates or velocities of a system: matrices of this size are inverted.
+const DIMENSION: usize = 512;
+
+impl Resolver {
+    /// Declares everything that lists and fields name. After this point every name is known
+    /// but those that `velocities` defines.
+    pub(super) fn declare(&mut self, declaration: &SystemDecl, layout: &mut Layout) {
+        let sections = &declaration.sections;
+        self.scope.skipped = declaration.structure.skipped.iter().map(|name| name.text.clone()).collect();
+        for declared in &declaration.structure.parameters {
+            // a family in error was reported; the others go on
+            let _ = self.family(declared, Role::Parameter);
+        }
+        layout.coordinates = self.list(sections.base.as_ref(), Role::Coordinate);
+        layout.velocities = match &sections.basis {
+            Some(_) => self.list(sections.basis.as_ref(), Role::Velocity),
+            None if sections.velocities.is_none() => self.implied_velocities(sections.base.as_ref()),
+            None => Vec::new(),
+        };
+        layout.inputs = self.list(sections.inputs.as_ref(), Role::Input);
+        let names = sections.velocities.iter().flat_map(|s| items::statements(&s.body));
+        self.scope.pending = names.map(|definition| definition.name.text.clone()).collect();
+        let names = sections.outputs.iter().flat_map(|s| items::statements(&s.body));
+        self.scope.outputs = names.map(|definition| definition.name.text.clone()).collect();
+    }
+
+    /// A list of names, and those that are in order.
+    fn list(&mut self, section: Option<&ast::Section<Vec<Declared>>>, role: Role) -> Vec<Family> {
+        let Some(section) = section else { return Vec::new() };
+        self.check_dimension(&section.keyword, section.body.iter().map(|d| Shape::of(&d.lengths).len()).sum(), role);
+        section
+            .body
+            .iter()
+            .filter_map(|declared| self.family(declared, role).map(|()| Family::from(declared)).ok())
+            .collect()
+    }
+
+    /// Refuses systems that nobody could wait for.
+    pub(super) fn check_dimension(&mut self, keyword: &Name, count: usize, role: Role) {
+        if count > DIMENSION && matches!(role, Role::Coordinate | Role::Velocity) {
+            let what = format!("`{}` declares {count} entries", keyword.text);
+            let error = Diagnostic::new(keyword.extent(), what)
+                .way_out(format!("at most {DIMENSION} can be treated; split the system"));
+            // the rest of the declaration is not worth looking at
+            self.report(keyword, error);
+            self.reports.stop();
+        }
+    }
+
+    /// One declared name.
+    fn family(&mut self, declared: &Declared, role: Role) -> Outcome<()> {
+        let checked = self.scope.check_new(&declared.name);
+        self.keep(&declared.name, checked)?;
+        let text = &declared.name.text;
+        let named = self.enter(text, Shape::of(&declared.lengths), role, declared.extent)?;
+        let outcome = self.scope.declare(&declared.name, Meaning::Named(Rc::new(named)));
+        self.keep(&declared.name, outcome)
+    }
+
+    /// Enters a family into its table of the model.
+    pub(super) fn enter(
+        &mut self,
+        text: &str,
+        shape: Shape,
+        role: Role,
+        extent: crate::report::Extent,
+    ) -> Outcome<Named> {
+        self.reports.spend(extent, shape.len())?;
+        let origin = self.origin(extent);
+        let first = match role {
+            Role::Parameter => self.tables.parameters.len(),
+            Role::Coordinate => self.tables.coordinates.len(),
+            Role::Velocity | Role::ImpliedVelocity => self.tables.sections.len(),
+            Role::Input => self.tables.inputs.len(),
+        };
+        let (mut symbols, mut rates): (Vec<SymbolId>, Vec<SymbolId>) = (Vec::new(), Vec::new());
+        for entry in 0..shape.len() {
+            let name = shape.entry_name(text, entry);
+            let symbol = self.graph.new_symbol(name.clone());
+            symbols.push(symbol);
+            match role {
+                Role::Parameter => {
+                    self.tables.parameters.push(Parameter { name, symbol, origin });
+                }
+                Role::Coordinate => {
+                    let rate = self.graph.new_symbol(format!("der({name})"));
+                    rates.push(rate);
+                    self.tables.coordinates.push(Coordinate { name, symbol, rate, origin });
+                }
+                Role::Velocity | Role::ImpliedVelocity => {
+                    self.tables.sections.push(Section { name, symbol, origin });
+                }
+                Role::Input => {
+                    self.tables.inputs.push(Input { name, symbol, origin });
+                }
+            }
+        }
+        Ok(Named { role, shape, first, symbols, rates, extent })
+    }
+
+    /// E = TM: the velocity of `x` is called `x_dot`, and is its rate.
+    fn implied_velocities(&mut self, base: Option<&ast::Section<Vec<Declared>>>) -> Vec<Family> {
+        let mut families = Vec::new();
+        for declared in base.map_or(&[][..], |base| &base.body) {
+            let Some(Meaning::Named(coordinate)) = self.scope.get(&declared.name.text).cloned() else { continue };
+            if coordinate.role != Role::Coordinate || coordinate.rates.len() != coordinate.shape.len() {
+                continue;
+            }
+            let text = format!("{}_dot", declared.name.text);
+            if self.implied_name_is_taken(declared, &text) {
+                continue;
+            }
+            let Ok(velocity) =
+                self.enter(&text, coordinate.shape, Role::ImpliedVelocity, declared.extent)
+            else {
+                continue;
+            };
+            let ids: Vec<_> = self.tables.coordinates.ids().collect();
+            for (entry, symbol) in velocity.symbols.iter().enumerate() {
+                self.tables.coordinates[ids[coordinate.first + entry]].rate = *symbol;
+            }
+            let same = Named {
+                role: Role::Coordinate,
+                shape: coordinate.shape,
+                first: coordinate.first,
+                symbols: coordinate.symbols.clone(),
+                rates: velocity.symbols.clone(),
+                extent: coordinate.extent,
+            };
+            self.scope.insert(declared.name.text.clone(), Meaning::Named(Rc::new(same)));
+            self.scope.insert(text.clone(), Meaning::Named(Rc::new(velocity)));
+            families.push(Family {
+                ident: format_ident!("{text}", span = declared.name.ident.span()),
+                lengths: declared.lengths.clone(),
+                docs: proc_macro2::TokenStream::new(),
+            });
+        }
+        families
+    }
+
+    /// Whether something else has the name of an implied velocity, which is an error.
+    fn implied_name_is_taken(&mut self, declared: &Declared, text: &str) -> bool {
+        let extent = match self.scope.get(text) {
+            None => return false,
+            Some(Meaning::Named(named)) => named.extent,
+            Some(_) => declared.extent,
+        };
+        let x = &declared.name.text;
+        let error = Diagnostic::new(extent, format!("`{text}` is declared twice"))
+            .evidence(format!("without a `basis`, the velocity of `{x}` is called `{text}` in generated code"))
+            .way_out("choose another name");
+        self.report(declared, error);
+        true
+    }
+}

@@ -1,0 +1,198 @@
+//! Definitions `name = …;` that declare their names: outputs and velocities by a coframe. The
+//! left-hand sides imply families: `w[0] = …; w[1] = …;`, `w[i in 0..3] = …;`, or a vector on the
+//! right-hand side.
+
+use std::collections::BTreeMap;
+
+use nh_core::id::ExprId;
+
+use super::array::Shape;
+use super::context::Context;
+use super::items::statements;
+use super::reports::Outcome;
+use super::resolver::Resolver;
+use super::scope::check_reserved;
+use crate::emit::Family;
+use crate::report::{Diagnostic, Extent};
+use crate::syntax::ast::{Definition, Item, Name, Subscript};
+use crate::syntax::limits;
+
+/// A family that definitions imply.
+pub(super) struct Defined<'a> {
+    /// Its name where it is first defined.
+    pub(super) name: &'a Name,
+    /// The left-hand side that defines it first.
+    pub(super) extent: Extent,
+    /// The lengths of its indices.
+    pub(super) lengths: Vec<u32>,
+    /// What its entries stand for and where, row by row.
+    pub(super) entries: Vec<(ExprId, Extent)>,
+    /// Its documentation: that of the first definition.
+    pub(super) docs: proc_macro2::TokenStream,
+}
+
+impl Defined<'_> {
+    /// Its shape.
+    pub(super) fn shape(&self) -> Shape {
+        Shape::of(&self.lengths)
+    }
+
+    /// As a field of a generated type.
+    pub(super) fn family(&self) -> Family {
+        Family { ident: self.name.ident.clone(), lengths: self.lengths.clone(), docs: self.docs.clone() }
+    }
+}
+
+/// A family while its definitions are read.
+struct Growing<'a> {
+    definition: &'a Definition,
+    entries: BTreeMap<Vec<usize>, (ExprId, Extent)>,
+    /// How many indices the entries have.
+    rank: Option<usize>,
+    broken: bool,
+}
+
+impl Resolver {
+    /// The families that a section defines, in the order of their first lines. Those in error are
+    /// left out, and named in the second list.
+    pub(super) fn definitions<'a>(
+        &mut self,
+        context: Context,
+        items: &'a [Item<Definition>],
+    ) -> (Vec<Defined<'a>>, Vec<&'a Name>) {
+        let mut order: Vec<Growing<'a>> = Vec::new();
+        let mut positions: BTreeMap<&str, usize> = BTreeMap::new();
+        for definition in statements(items) {
+            positions.entry(definition.name.text.as_str()).or_insert_with(|| {
+                order.push(Growing { definition, entries: BTreeMap::new(), rank: None, broken: false });
+                order.len() - 1
+            });
+        }
+        self.section(context, items, &mut |this, definition| {
+            let Some(position) = positions.get(definition.name.text.as_str()) else { return Ok(()) };
+            let growing = &mut order[*position];
+            let outcome = this
+                .keep(&definition.name, check_reserved(&definition.name))
+                .and_then(|()| this.define(definition, &definition.subscripts, &mut Vec::new(), growing));
+            growing.broken |= outcome.is_err();
+            outcome
+        });
+        let (mut defined, mut broken) = (Vec::new(), Vec::new());
+        for growing in order {
+            match self.grown(&growing) {
+                Ok(family) => defined.push(family),
+                Err(_) => broken.push(&growing.definition.name),
+            }
+        }
+        (defined, broken)
+    }
+
+    /// Enters the entries that one definition gives.
+    fn define(
+        &mut self,
+        definition: &Definition,
+        subscripts: &[Subscript],
+        before: &mut Vec<usize>,
+        growing: &mut Growing<'_>,
+    ) -> Outcome<()> {
+        match subscripts.split_first() {
+            None => self.enter_value(definition, before, growing),
+            Some((Subscript::Entry(expr), rest)) => {
+                before.push(self.new_index(expr, expr.extent)?);
+                let outcome = self.define(definition, rest, before, growing);
+                before.pop();
+                outcome
+            }
+            Some((Subscript::Each(binder), rest)) => {
+                let mut outcome = Ok(());
+                self.each_value(std::slice::from_ref(&**binder), &mut |this| {
+                    let each = this.new_index_of(&binder.name.text, binder).and_then(|index| {
+                        before.push(index);
+                        let each = this.define(definition, rest, before, growing);
+                        before.pop();
+                        each
+                    });
+                    outcome = outcome.and(each);
+                })?;
+                outcome
+            }
+        }
+    }
+
+    /// The index that a variable on the left-hand side stands for.
+    fn new_index_of(&mut self, name: &str, binder: &crate::syntax::ast::Binder) -> Outcome<usize> {
+        let value = match self.scope.get(name) {
+            Some(super::scope::Meaning::Index(value)) => usize::try_from(*value).ok(),
+            _ => None,
+        };
+        value.ok_or_else(|| {
+            let error = Diagnostic::new(binder.extent, "indices count from 0");
+            self.report(binder, error.way_out("let the range begin at 0"))
+        })
+    }
+
+    fn enter_value(&mut self, definition: &Definition, before: &[usize], growing: &mut Growing<'_>) -> Outcome<()> {
+        let value = self.value(&definition.value)?;
+        let whole = definition.extent.to(definition.value.extent);
+        let name = &definition.name.text;
+        for (k, entry) in value.entries.iter().enumerate() {
+            let indices = [before, &value.shape.indices(k)].concat();
+            if indices.len() > 2 {
+                let error = Diagnostic::new(whole, "a third index").way_out("families have one or two indices");
+                return Err(self.report(definition, error));
+            }
+            if *growing.rank.get_or_insert(indices.len()) != indices.len() {
+                let error = Diagnostic::new(definition.extent, format!("`{name}` has different numbers of indices"))
+                    .way_out("define all of its entries in the same way");
+                return Err(self.report(definition, error));
+            }
+            let written = indices.iter().fold(name.clone(), |text, index| format!("{text}[{index}]"));
+            if growing.entries.insert(indices, (*entry, whole)).is_some() {
+                let error = Diagnostic::new(definition.extent, format!("`{written}` is defined twice"))
+                    .way_out("keep one of the definitions");
+                return Err(self.report(definition, error));
+            }
+        }
+        Ok(())
+    }
+
+    /// A family whose entries are all there.
+    fn grown<'a>(&mut self, growing: &Growing<'a>) -> Outcome<Defined<'a>> {
+        if growing.broken {
+            return Err(super::reports::Reported);
+        }
+        let Growing { definition, entries, .. } = growing;
+        let mut lengths = vec![0_usize; growing.rank.unwrap_or(0)];
+        for indices in entries.keys() {
+            for (length, index) in lengths.iter_mut().zip(indices) {
+                *length = (*length).max(index + 1);
+            }
+        }
+        let name = &definition.name.text;
+        let count = lengths.iter().fold(1_usize, |count, length| count.saturating_mul(*length));
+        if count > limits::FAMILY as usize {
+            let what = format!("`{name}` has more than {} entries", limits::FAMILY);
+            return Err(self.report(*definition, Diagnostic::new(definition.extent, what)));
+        }
+        let lengths: Vec<u32> = lengths.iter().filter_map(|length| u32::try_from(*length).ok()).collect();
+        let shape = Shape::of(&lengths);
+        if let Some(missing) = (0..count).find(|k| !entries.contains_key(&shape.indices(*k))) {
+            let missing = shape.entry_name(name, missing);
+            let error = if entries.is_empty() {
+                Diagnostic::new(definition.extent, format!("`{name}` has no entries")).way_out("leave it out")
+            } else {
+                Diagnostic::new(definition.extent, format!("`{missing}` is not defined"))
+                    .evidence(format!("other entries of `{name}` are, and indices count from 0"))
+                    .way_out(format!("add `{missing} = …;`"))
+            };
+            return Err(self.report(*definition, error));
+        }
+        Ok(Defined {
+            name: &definition.name,
+            extent: definition.extent,
+            lengths,
+            entries: entries.values().copied().collect(),
+            docs: definition.docs.clone(),
+        })
+    }
+}

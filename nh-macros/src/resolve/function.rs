@@ -1,0 +1,199 @@
+//! Calls: elementary functions, `dot` and `cross`.
+
+use nh_core::algebra::{Function, Function2, Rational};
+use nh_core::id::ExprId;
+
+use super::array::{Array, Shape};
+use super::context::Usage;
+use super::reports::{Outcome, Reported};
+use super::resolver::Resolver;
+use crate::report::Diagnostic;
+use crate::suggest::did_you_mean;
+use crate::syntax::ast::{Expr, Name};
+use crate::syntax::vocabulary::FUNCTIONS;
+
+/// What is called by a name.
+enum Called {
+    One(Function),
+    Two(Function2),
+    Tan,
+    Sqrt,
+    Dot,
+    Cross,
+}
+
+/// What other languages call our functions, and what to write.
+const ELSEWHERE: [(&str, &str); 19] = [
+    ("log", "ln(x)"),
+    ("log10", "ln(x) / ln(10)"),
+    ("log2", "ln(x) / ln(2)"),
+    ("pow", "x^2"),
+    ("powi", "x^2"),
+    ("powf", "x^2"),
+    ("sq", "x^2"),
+    ("square", "x^2"),
+    ("cbrt", "x^(1/3)"),
+    ("norm", "sqrt(dot(v, v))"),
+    ("hypot", "sqrt(x^2 + y^2)"),
+    ("arcsin", "asin(x)"),
+    ("arccos", "acos(x)"),
+    ("arctan", "atan(x)"),
+    ("arctan2", "atan2(y, x)"),
+    ("cot", "1 / tan(x)"),
+    ("sec", "1 / cos(x)"),
+    ("fabs", "abs(x)"),
+    ("signum", "sign(x)"),
+];
+
+impl Called {
+    fn named(name: &str) -> Option<Self> {
+        Some(match name {
+            "sin" => Self::One(Function::Sin),
+            "cos" => Self::One(Function::Cos),
+            "tan" => Self::Tan,
+            "asin" => Self::One(Function::Asin),
+            "acos" => Self::One(Function::Acos),
+            "atan" => Self::One(Function::Atan),
+            "atan2" => Self::Two(Function2::Atan2),
+            "sinh" => Self::One(Function::Sinh),
+            "cosh" => Self::One(Function::Cosh),
+            "tanh" => Self::One(Function::Tanh),
+            "exp" => Self::One(Function::Exp),
+            "ln" => Self::One(Function::Ln),
+            "sqrt" => Self::Sqrt,
+            "abs" => Self::One(Function::Abs),
+            "sign" => Self::One(Function::Sign),
+            "min" => Self::Two(Function2::Min),
+            "max" => Self::Two(Function2::Max),
+            "dot" => Self::Dot,
+            "cross" => Self::Cross,
+            _ => return None,
+        })
+    }
+
+    /// How a call with the right arguments reads.
+    fn usage(&self, name: &str) -> String {
+        match self {
+            Self::One(_) | Self::Tan | Self::Sqrt => format!("{name}(x)"),
+            Self::Two(Function2::Atan2) => "atan2(y, x)".to_owned(),
+            Self::Two(_) => format!("{name}(a, b)"),
+            Self::Dot | Self::Cross => format!("{name}(u, v)"),
+        }
+    }
+
+    fn arity(&self) -> usize {
+        match self {
+            Self::One(_) | Self::Tan | Self::Sqrt => 1,
+            Self::Two(_) | Self::Dot | Self::Cross => 2,
+        }
+    }
+
+    fn branches(&self) -> bool {
+        matches!(self, Self::One(Function::Abs | Function::Sign) | Self::Two(Function2::Min | Function2::Max))
+    }
+}
+
+impl Resolver {
+    /// `f(a, b)`
+    pub(super) fn call(&mut self, expr: &Expr, name: &Name, arguments: &[Expr]) -> Outcome<Array> {
+        let Some(called) = Called::named(&name.text) else { return Err(self.not_a_function(name)) };
+        if called.branches() {
+            self.check_usage(name, Usage::Branches, &name.text, name.extent())?;
+        }
+        let values: Vec<_> = arguments.iter().map(|argument| self.value(argument)).collect();
+        if arguments.len() != called.arity() {
+            let (wanted, given) = (called.arity(), arguments.len());
+            let plural = if wanted == 1 { "argument" } else { "arguments" };
+            let error = Diagnostic::new(
+                expr.extent,
+                format!("`{}` takes {wanted} {plural}, and {given} are given", name.text),
+            )
+            .way_out(format!("write `{}`", called.usage(&name.text)));
+            return Err(self.report(expr, error));
+        }
+        let values = values.into_iter().collect::<Outcome<Vec<_>>>()?;
+        match (called, values.as_slice()) {
+            (Called::Dot, [u, v]) => self.dot(expr, u, v),
+            (Called::Cross, [u, v]) => self.cross(expr, u, v),
+            (called, values) => self.elementary(expr, &called, arguments, values),
+        }
+    }
+
+    /// A function of numbers.
+    fn elementary(
+        &mut self,
+        expr: &Expr,
+        called: &Called,
+        arguments: &[Expr],
+        values: &[Array],
+    ) -> Outcome<Array> {
+        let numbers: Vec<_> =
+            arguments.iter().zip(values).map(|(argument, value)| self.as_number(argument, value)).collect();
+        let numbers = numbers.into_iter().collect::<Outcome<Vec<_>>>()?;
+        let result = match (called, numbers.as_slice()) {
+            (Called::One(function), [x]) => self.apply(*function, *x),
+            (Called::Tan, [x]) => self.graph.tan(*x),
+            (Called::Sqrt, [x]) => return Ok(Array::number(self.product_of(expr, &[(*x, Rational::new(1, 2))])?)),
+            (Called::Two(function), [x, y]) => self.graph.apply2(*function, *x, *y),
+            _ => return Err(Reported),
+        };
+        Ok(Array::number(self.checked(expr, result)?))
+    }
+
+    fn apply(&mut self, function: Function, x: ExprId) -> ExprId {
+        match function {
+            Function::Sin => self.graph.sin(x),
+            Function::Cos => self.graph.cos(x),
+            function => self.graph.apply(function, x),
+        }
+    }
+
+    fn dot(&mut self, expr: &Expr, u: &Array, v: &Array) -> Outcome<Array> {
+        match (u.shape, v.shape) {
+            (Shape::Vector(n), Shape::Vector(m)) if n == m => {
+                Ok(Array::number(self.inner_product(expr, &u.entries, &v.entries)?))
+            }
+            (a, b) => {
+                let error = Diagnostic::new(expr.extent, "`dot` takes two vectors of the same length")
+                    .evidence(format!("these are {a} and {b}"));
+                Err(self.report(expr, error))
+            }
+        }
+    }
+
+    fn cross(&mut self, expr: &Expr, u: &Array, v: &Array) -> Outcome<Array> {
+        if (u.shape, v.shape) != (Shape::Vector(3), Shape::Vector(3)) {
+            let error = Diagnostic::new(expr.extent, "`cross` takes two vectors of 3 entries")
+                .evidence(format!("these are {} and {}", u.shape, v.shape));
+            return Err(self.report(expr, error));
+        }
+        let mut entries = Vec::with_capacity(3);
+        for (i, j) in [(1, 2), (2, 0), (0, 1)] {
+            let plus = self.times(expr, u.entries[i], v.entries[j])?;
+            let minus = self.times(expr, u.entries[j], v.entries[i])?;
+            entries.push(self.sum_of(expr, vec![(Rational::ONE, plus), (Rational::MINUS_ONE, minus)])?);
+        }
+        Ok(Array::vector(entries))
+    }
+
+    fn not_a_function(&mut self, name: &Name) -> Reported {
+        let text = &name.text;
+        let error = if self.scope.get(text).is_some() {
+            Diagnostic::new(name.extent(), format!("`{text}` is not a function"))
+                .way_out(format!("for a product write `{text} * (…)`"))
+        } else {
+            let known = FUNCTIONS.iter().copied().chain(["sum", "dot", "cross"]);
+            let elsewhere = ELSEWHERE.iter().find(|(other, _)| other == text);
+            let way_out = match elsewhere {
+                Some((_, ours)) => format!("write `{ours}`"),
+                None => did_you_mean(text, known).unwrap_or_else(|| {
+                    "functions are sin, cos, tan, asin, acos, atan, atan2, sinh, cosh, tanh, exp, ln, sqrt, dot, \
+                     cross, and in `forces` and `outputs` also abs, sign, min, max"
+                        .to_owned()
+                }),
+            };
+            Diagnostic::new(name.extent(), format!("unknown function `{text}`")).way_out(way_out)
+        };
+        self.report(name, error)
+    }
+}

@@ -1,0 +1,117 @@
+//! The lines of a section: `let` and `for` around statements.
+
+use std::rc::Rc;
+
+use super::array::{Array, Shape};
+use super::context::Context;
+use super::reports::{Outcome, Reported};
+use super::resolver::Resolver;
+use super::scope::Meaning;
+use crate::report::Diagnostic;
+use crate::syntax::ast::{Binder, Item, Let};
+
+/// The statements of a section, in order, as they are written.
+pub(super) fn statements<T>(items: &[Item<T>]) -> Vec<&T> {
+    let mut found = Vec::new();
+    for item in items {
+        match item {
+            Item::Let(_) => {}
+            Item::For(block) => found.extend(statements(&block.items)),
+            Item::One(statement) => found.push(statement),
+        }
+    }
+    found
+}
+
+impl Resolver {
+    /// Visits every statement of a section, once for all values of the variables around it.
+    pub(super) fn section<T>(
+        &mut self,
+        context: Context,
+        items: &[Item<T>],
+        visit: &mut dyn FnMut(&mut Self, &T) -> Outcome<()>,
+    ) {
+        self.context = context;
+        self.items(items, visit);
+    }
+
+    fn items<T>(&mut self, items: &[Item<T>], visit: &mut dyn FnMut(&mut Self, &T) -> Outcome<()>) {
+        let depth = self.scope.depth();
+        for item in items {
+            // an item in error was reported; the others go on
+            let _ = match item {
+                Item::Let(line) => self.abbreviation(line),
+                Item::For(block) => self.each_value(&block.binders, &mut |this| this.items(&block.items, visit)),
+                Item::One(statement) => visit(self, statement),
+            };
+        }
+        self.scope.leave(depth);
+    }
+
+    /// `let name = …;`, bound even in error, so that its uses are not reported too.
+    pub(super) fn abbreviation(&mut self, line: &Let) -> Outcome<()> {
+        let checked = self.scope.check_new(&line.name);
+        let fresh = self.keep(&line.name, checked);
+        let value = self.abbreviated(line);
+        fresh?;
+        let meaning = value.as_ref().map_or(Meaning::Broken, |value| Meaning::Value(Rc::new(value.clone())));
+        self.scope.bind(&line.name.text, meaning);
+        value.map(|_| ())
+    }
+
+    fn abbreviated(&mut self, line: &Let) -> Outcome<Array> {
+        let mut entries: Vec<(Vec<i64>, Array)> = Vec::new();
+        let mut failed = false;
+        let depth = self.scope.loop_values().len();
+        self.each_value(&line.binders, &mut |this| match this.value(&line.value) {
+            Ok(value) => entries.push((this.scope.loop_values().split_off(depth), value)),
+            Err(Reported) => failed = true,
+        })?;
+        if failed {
+            return Err(Reported);
+        }
+        self.assembled(line, entries)
+    }
+
+    /// The array whose entries stand at these indices.
+    fn assembled(&mut self, line: &Let, entries: Vec<(Vec<i64>, Array)>) -> Outcome<Array> {
+        let mut shape = entries.first().map_or(Shape::Number, |(_, first)| first.shape);
+        let lengths = self.lengths(&line.binders, &entries)?;
+        for length in lengths.iter().rev() {
+            let Some(more) = shape.times(*length) else {
+                let error = Diagnostic::new(line.extent, "a `let` has at most two indices")
+                    .way_out("leave out an index, or define single entries");
+                return Err(self.report(line, error));
+            };
+            shape = more;
+        }
+        let entries: Vec<_> = entries.into_iter().flat_map(|(_, value)| value.entries).collect();
+        if entries.len() != shape.len() {
+            let error = Diagnostic::new(line.extent, "the entries of this `let` have different shapes");
+            return Err(self.report(line, error));
+        }
+        Ok(Array { shape, entries })
+    }
+
+    /// The lengths of an array whose indices count from 0 without gaps.
+    fn lengths(&mut self, binders: &[Binder], entries: &[(Vec<i64>, Array)]) -> Outcome<Vec<usize>> {
+        let mut lengths = Vec::new();
+        for (k, binder) in binders.iter().enumerate() {
+            let values = || entries.iter().filter_map(|(indices, _)| indices.get(k).copied());
+            let (least, most) = (values().min().unwrap_or(0), values().max().map_or(0, |most| most + 1));
+            if least != 0 {
+                let error = Diagnostic::new(binder.extent, "the indices of a `let` count from 0")
+                    .way_out(format!("write `{} in 0..…`, and shift the index in the value", binder.name.text));
+                return Err(self.report(binder, error));
+            }
+            lengths.push(usize::try_from(most).unwrap_or(0));
+        }
+        if lengths.iter().product::<usize>() != entries.len() && !binders.is_empty() {
+            let binder = &binders[binders.len() - 1];
+            let error = Diagnostic::new(binder.extent, "the rows of a `let` have the same length")
+                .way_out("let the second range not depend on the first index");
+            return Err(self.report(binder, error));
+        }
+        Ok(lengths)
+    }
+}

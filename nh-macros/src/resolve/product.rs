@@ -1,0 +1,83 @@
+//! Products of numbers, vectors and matrices.
+
+use nh_core::algebra::Rational;
+use nh_core::id::ExprId;
+
+use super::array::{Array, Shape};
+use super::reports::Outcome;
+use super::resolver::Resolver;
+use crate::report::Diagnostic;
+use crate::syntax::ast::{Expr, Factor};
+
+impl Resolver {
+    /// `a * b / c`: the numbers among the factors scale the product of the others.
+    pub(super) fn product(&mut self, expr: &Expr, factors: &[(Factor, Expr)]) -> Outcome<Array> {
+        let values: Vec<_> = factors.iter().map(|(_, factor)| self.value(factor)).collect();
+        let values = values.into_iter().collect::<Outcome<Vec<_>>>()?;
+        let mut numbers: Vec<(ExprId, Rational)> = Vec::new();
+        let mut arrays: Vec<(&Expr, Array)> = Vec::new();
+        for ((kind, factor), value) in factors.iter().zip(values) {
+            match (kind, value.as_number()) {
+                (Factor::Times, Some(number)) => numbers.push((number, Rational::ONE)),
+                (Factor::Over, Some(number)) => numbers.push((number, Rational::MINUS_ONE)),
+                (Factor::Times, None) => arrays.push((factor, value)),
+                (Factor::Over, None) => {
+                    let error = Diagnostic::new(factor.extent, format!("a division by {}", value.shape))
+                        .way_out("divide by numbers only");
+                    return Err(self.report(factor, error));
+                }
+            }
+        }
+        let scale = self.product_of(expr, &numbers)?;
+        // from the right, so that matrices act on the vector behind them
+        let Some((mut right, mut product)) = arrays.pop() else { return Ok(Array::number(scale)) };
+        while let Some((left, factor)) = arrays.pop() {
+            product = self.pair(expr, (left, &factor), (right, &product))?;
+            right = left;
+        }
+        if numbers.is_empty() {
+            return Ok(product);
+        }
+        self.entrywise(product, |this, entry| this.times(expr, scale, entry))
+    }
+
+    /// The product of two arrays, none of them a number.
+    fn pair(&mut self, expr: &Expr, left: (&Expr, &Array), right: (&Expr, &Array)) -> Outcome<Array> {
+        let ((at, a), (_, b)) = (left, right);
+        match (a.shape, b.shape) {
+            (Shape::Matrix(_, columns), Shape::Vector(n)) if columns == n => {
+                let rows = a.entries.chunks(columns.max(1));
+                let entries: Outcome<Vec<_>> = rows.map(|row| self.inner_product(expr, row, &b.entries)).collect();
+                Ok(Array::vector(entries?))
+            }
+            (Shape::Matrix(rows, inner), Shape::Matrix(n, columns)) if inner == n => {
+                let mut entries = Vec::with_capacity(rows * columns);
+                let right: Vec<_> = (0..columns).map(|j| b.column(j)).collect();
+                for row in a.entries.chunks(inner.max(1)) {
+                    for column in &right {
+                        entries.push(self.inner_product(expr, row, column)?);
+                    }
+                }
+                Ok(Array { shape: Shape::Matrix(rows, columns), entries })
+            }
+            (Shape::Matrix(_, columns), Shape::Vector(n) | Shape::Matrix(n, _)) => {
+                let error = Diagnostic::new(at.extent.to(right.0.extent), "the shapes of this product do not match")
+                    .evidence(format!("{columns} columns meet {n} entries: {} times {}", a.shape, b.shape));
+                Err(self.report(at, error))
+            }
+            (Shape::Vector(_), Shape::Vector(_)) => {
+                let error = Diagnostic::new(at.extent.to(right.0.extent), "the product of two vectors")
+                    .way_out("write `dot(u, v)` or `cross(u, v)`");
+                Err(self.report(at, error))
+            }
+            _ => {
+                let error = Diagnostic::new(
+                    at.extent.to(right.0.extent),
+                    format!("{} times {}", a.shape, b.shape),
+                )
+                .way_out("write the matrix first: `A * v`");
+                Err(self.report(at, error))
+            }
+        }
+    }
+}

@@ -1,0 +1,86 @@
+//! Errors of this stage: each place in the declaration is reported once, however often `for` and
+//! `sum` come by, and whatever an error spoils is not reported again.
+
+use std::collections::BTreeSet;
+
+use crate::report::{Diagnostic, Errors, Extent};
+use crate::syntax::ast::Expr;
+
+/// Proof that the reason was reported: what depends on the value gives up without a word.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) struct Reported;
+
+/// A value, or an error that was reported.
+pub(super) type Outcome<T> = Result<T, Reported>;
+
+/// Errors after which the rest is not looked at: nobody reads more.
+const ENOUGH: usize = 200;
+
+/// Steps of resolving: a node of an expression visited, an operand of a new one. An honest
+/// declaration takes some thousands; an unoptimised macro does these in about a second.
+const STEPS: usize = 400_000;
+
+/// The errors, and the work that may still be done.
+#[derive(Debug)]
+pub(super) struct Reports {
+    errors: Errors,
+    /// Places reported already: address and size of the node, which lives as long as the stage.
+    places: BTreeSet<(usize, usize)>,
+    steps: usize,
+}
+
+impl Reports {
+    /// Nothing reported, nothing spent.
+    pub(super) fn new() -> Self {
+        Self { errors: Errors::new(), places: BTreeSet::new(), steps: STEPS }
+    }
+
+    /// Reports an error about a node of the declaration, unless there was one.
+    pub(super) fn report<T>(&mut self, node: &T, error: Diagnostic) -> Reported {
+        if self.places.insert((std::ptr::from_ref(node).addr(), size_of::<T>())) {
+            self.errors.push(error);
+        }
+        if self.places.len() >= ENOUGH {
+            self.steps = 0;
+        }
+        Reported
+    }
+
+    /// Refuses all further work: an error was reported, and the rest is not worth looking at.
+    pub(super) fn stop(&mut self) {
+        self.steps = 0;
+    }
+
+    /// Whether this stage goes wrong.
+    pub(super) fn any(&self) -> bool {
+        !self.places.is_empty()
+    }
+
+    /// Does some work, which is refused when there was too much.
+    pub(super) fn spend(&mut self, at: Extent, steps: usize) -> Outcome<()> {
+        if let Some(left) = self.steps.checked_sub(steps) {
+            self.steps = left;
+            return Ok(());
+        }
+        if self.steps > 0 || !self.any() {
+            self.steps = 0;
+            self.places.insert((0, 0));
+            self.errors.push(
+                Diagnostic::new(at, "this declaration is too large")
+                    .evidence(format!("up to here it takes more than {STEPS} steps to write out"))
+                    .way_out("shorten the ranges of `sum` and `for`, or use fewer bodies"),
+            );
+        }
+        Err(Reported)
+    }
+
+    /// Does the work of visiting an expression.
+    pub(super) fn visit(&mut self, expr: &Expr) -> Outcome<()> {
+        self.spend(expr.extent, 1)
+    }
+
+    /// The value if nothing went wrong, else the errors.
+    pub(super) fn finish<T>(self, value: T) -> Result<T, Vec<Diagnostic>> {
+        self.errors.finish(value)
+    }
+}

@@ -1,0 +1,219 @@
+//! Names and what they stand for. No name is declared twice: nothing is ever shadowed.
+
+use std::collections::{BTreeMap, BTreeSet};
+use std::rc::Rc;
+
+use nh_core::id::SymbolId;
+
+use super::array::{Array, Shape};
+use crate::report::{Diagnostic, Extent};
+use crate::suggest::did_you_mean;
+use crate::syntax::ast::Name;
+use crate::syntax::vocabulary::{FUNCTIONS, RESERVED};
+
+/// Names compared with an unknown one.
+const COMPARED: usize = 1000;
+
+/// What a declared name is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Role {
+    /// A field of the struct.
+    Parameter,
+    /// A base coordinate.
+    Coordinate,
+    /// A section and its quasi-velocity.
+    Velocity,
+    /// The velocity of a coordinate, where E = TM.
+    ImpliedVelocity,
+    /// A control input.
+    Input,
+}
+
+impl Role {
+    /// As a noun.
+    pub(super) fn noun(self) -> &'static str {
+        match self {
+            Self::Parameter => "a parameter",
+            Self::Coordinate => "a base coordinate",
+            Self::Velocity => "a quasi-velocity",
+            Self::ImpliedVelocity => "the velocity of a base coordinate",
+            Self::Input => "an input",
+        }
+    }
+}
+
+/// A declared number or family.
+#[derive(Debug)]
+pub(super) struct Named {
+    /// What it is.
+    pub(super) role: Role,
+    /// Its shape.
+    pub(super) shape: Shape,
+    /// The position of its first entry in its table of the model.
+    pub(super) first: usize,
+    /// Its symbols, row by row.
+    pub(super) symbols: Vec<SymbolId>,
+    /// Of a coordinate: the symbols of its rates.
+    pub(super) rates: Vec<SymbolId>,
+    /// Where it is declared.
+    pub(super) extent: Extent,
+}
+
+/// What a name stands for.
+#[derive(Clone, Debug)]
+pub(super) enum Meaning {
+    /// Something declared.
+    Named(Rc<Named>),
+    /// `t`
+    Time,
+    /// `pi`
+    Pi,
+    /// A `let`.
+    Value(Rc<Array>),
+    /// The value of a loop variable.
+    Index(i64),
+    /// Something that was in error, which was reported.
+    Broken,
+}
+
+impl Meaning {
+    /// What it is, for "it is … already".
+    fn noun(&self) -> &'static str {
+        match self {
+            Self::Named(named) => match named.role {
+                Role::Parameter => "a parameter (a field of the struct)",
+                Role::ImpliedVelocity => "the name of a coordinate's velocity in generated code",
+                role => role.noun(),
+            },
+            Self::Time => "the time",
+            Self::Pi => "the number π",
+            Self::Value(_) => "an abbreviation (a `let`)",
+            Self::Index(_) => "a loop variable",
+            Self::Broken => "declared",
+        }
+    }
+}
+
+/// The names that can be used.
+#[derive(Debug)]
+pub(super) struct Scope {
+    globals: BTreeMap<String, Meaning>,
+    locals: Vec<(String, Meaning)>,
+    /// Quasi-velocities that `velocities` is about to define.
+    pub(super) pending: BTreeSet<String>,
+    /// The names of outputs, which no expression can use.
+    pub(super) outputs: BTreeSet<String>,
+    /// Fields that are left alone.
+    pub(super) skipped: BTreeSet<String>,
+}
+
+impl Scope {
+    /// `t` and `pi`.
+    pub(super) fn new() -> Self {
+        let globals = [("t".to_owned(), Meaning::Time), ("pi".to_owned(), Meaning::Pi)].into();
+        Self {
+            globals,
+            locals: Vec::new(),
+            pending: BTreeSet::new(),
+            outputs: BTreeSet::new(),
+            skipped: BTreeSet::new(),
+        }
+    }
+
+    /// What a name stands for.
+    pub(super) fn get(&self, name: &str) -> Option<&Meaning> {
+        let local = self.locals.iter().rev().find(|(known, _)| known == name).map(|(_, meaning)| meaning);
+        local.or_else(|| self.globals.get(name))
+    }
+
+    /// Declares a name for the whole declaration.
+    pub(super) fn declare(&mut self, name: &Name, meaning: Meaning) -> Result<(), Diagnostic> {
+        self.check_new(name)?;
+        self.globals.insert(name.text.clone(), meaning);
+        Ok(())
+    }
+
+    /// Declares a name that is known to be new, or replaces one.
+    pub(super) fn insert(&mut self, name: String, meaning: Meaning) {
+        self.globals.insert(name, meaning);
+    }
+
+    /// Refuses names that mean something already.
+    pub(super) fn check_new(&self, name: &Name) -> Result<(), Diagnostic> {
+        check_reserved(name)?;
+        match self.get(&name.text) {
+            None => Ok(()),
+            Some(first) => Err(Diagnostic::new(name.extent(), format!("`{}` is declared twice", name.text))
+                .evidence(format!("it is {} already", first.noun()))
+                .way_out("choose another name: every name has one meaning in the whole declaration")),
+        }
+    }
+
+    /// Binds a name until [`Scope::leave`].
+    pub(super) fn bind(&mut self, name: &str, meaning: Meaning) {
+        self.locals.push((name.to_owned(), meaning));
+    }
+
+    /// How many names are bound.
+    pub(super) fn depth(&self) -> usize {
+        self.locals.len()
+    }
+
+    /// Forgets the names bound since there were `depth`.
+    pub(super) fn leave(&mut self, depth: usize) {
+        self.locals.truncate(depth);
+    }
+
+    /// The values of the loop variables, the outermost first.
+    pub(super) fn loop_values(&self) -> Vec<i64> {
+        let value = |(_, meaning): &(String, Meaning)| match meaning {
+            Meaning::Index(value) => Some(*value),
+            _ => None,
+        };
+        self.locals.iter().filter_map(value).collect()
+    }
+
+    /// An error about a name that stands for nothing.
+    pub(super) fn unknown(&self, name: &Name) -> Diagnostic {
+        let text = &name.text;
+        let error = Diagnostic::new(name.extent(), format!("unknown name `{text}`"));
+        if self.skipped.contains(text) {
+            return error
+                .evidence(format!("the field `{text}` is marked `#[nh(skip)]`"))
+                .way_out("take the mark away to make it a parameter");
+        }
+        if self.outputs.contains(text) {
+            return error
+                .evidence(format!("`{text}` is an output, and outputs are not used in expressions"))
+                .way_out("name the value with a `let`, and use that");
+        }
+        let locals = self.locals.iter().map(|(known, _)| known.as_str());
+        let globals = self.globals.keys().map(String::as_str);
+        error.way_out(did_you_mean(text, locals.chain(globals).take(COMPARED)).unwrap_or_else(|| {
+            "parameters are fields of the struct; other names are declared in `base`, `basis` or `inputs`, \
+             or by a `let` before they are used"
+                .to_owned()
+        }))
+    }
+
+    /// The known name of one of these roles that is nearest to an unknown one.
+    pub(super) fn did_you_mean(&self, name: &str, roles: &[Role]) -> Option<String> {
+        let fits = |meaning: &Meaning| matches!(meaning, Meaning::Named(named) if roles.contains(&named.role));
+        let candidates = self.globals.iter().filter(|(_, meaning)| fits(meaning)).map(|(known, _)| known.as_str());
+        did_you_mean(name, candidates.take(COMPARED))
+    }
+}
+
+/// Refuses names that belong to the language.
+pub(super) fn check_reserved(name: &Name) -> Result<(), Diagnostic> {
+    let text = name.text.as_str();
+    let meaning = match text {
+        "t" => "the time",
+        "pi" => "the number π",
+        _ if RESERVED.contains(&text) || FUNCTIONS.contains(&text) => "a function",
+        _ => return Ok(()),
+    };
+    Err(Diagnostic::new(name.extent(), format!("`{text}` is reserved"))
+        .evidence(format!("it is {meaning}"))
+        .way_out("choose another name"))
+}
