@@ -28,7 +28,8 @@ pub(crate) fn nonholonomic(attribute: TokenStream, item: TokenStream) -> TokenSt
         Ok(system) => emit(&system, &layout),
         Err(violations) => {
             let origins = resolved.origins;
-            let errors: Vec<_> = violations.into_iter().map(|violation| origins.diagnostic(violation)).collect();
+            let errors: Vec<_> =
+                violations.into_iter().map(|violation| origins.diagnostic(violation)).collect();
             with_errors(&errors, &stubs(&layout, &kept))
         }
     }

@@ -73,6 +73,7 @@ mod linear;
 pub mod methods;
 pub mod prelude;
 mod scalar;
+mod serde_impls;
 #[cfg(any(test, not(feature = "std")))]
 mod single_trig;
 mod step_control;
@@ -90,6 +91,7 @@ pub use nh_macros::nonholonomic;
 /// What generated code names. Not part of the public interface: it may change in any release.
 #[doc(hidden)]
 pub mod __private {
+    pub use crate::__nh_serde_impls as serde_impls;
     pub use crate::linear::solve_pivoted;
     pub use crate::{
         Constrained, D, Dim, Dynamics, Energy, InputFault, Jacobian, Observed, ParameterError,

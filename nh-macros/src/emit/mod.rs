@@ -28,6 +28,7 @@ mod tests;
 mod validate;
 mod velocity;
 
+use nh_core::id::SectionId;
 use nh_core::system::System;
 use proc_macro2::TokenStream;
 
@@ -42,9 +43,10 @@ pub(crate) use stubs::stubs;
 
 /// The struct and everything that its declaration gives it.
 pub(crate) fn emit(system: &System, layout: &Layout) -> TokenStream {
-    let kept = &system.state_velocities;
-    let context = &Context::new(layout, kept);
     let model = &system.model;
+    let sections = model.sections.iter_ids().filter(|(_, s)| system.state_velocities.contains(&s.symbol));
+    let kept: &Vec<SectionId> = &sections.map(|(id, _)| id).collect();
+    let context = &Context::new(layout, kept);
     let scope = &Scope::new(context, model, kept);
     let derivative = program(model, &system.derivative);
     let energy_program = program(model, &system.energy);

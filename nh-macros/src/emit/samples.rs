@@ -115,15 +115,20 @@ impl Builder {
         nonzero: &[(ExprId, &str)],
     ) -> System {
         self.model.graph = self.graph;
+        let velocities: Vec<SymbolId> = self.model.sections.iter().map(|section| section.symbol).collect();
         let [derivative, energy, velocity, observables] = procedures;
         System {
             model: self.model,
             formulation: Formulation::Adapted,
-            state_velocities: kept.iter().map(|index| SectionId::from_index(*index)).collect(),
+            state_velocities: kept.iter().map(|index| velocities[*index]).collect(),
             derivative,
             energy,
             velocity,
             observables,
+            multipliers: None,
+            reactions: None,
+            residual: None,
+            projection: None,
             parameter_checks: nonzero
                 .iter()
                 .map(|(nonzero, text)| ParameterCheck { nonzero: *nonzero, text: (*text).to_owned() })

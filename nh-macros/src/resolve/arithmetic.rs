@@ -103,7 +103,9 @@ impl Resolver {
         let (operands, bits) = match self.graph.node(built) {
             Node::Number(value) => (1, large(value)),
             Node::Sum { constant, terms } => (terms.len(), largest(terms).max(large(constant))),
-            Node::Product { coefficient, factors } => (factors.len(), largest(factors).max(large(coefficient))),
+            Node::Product { coefficient, factors } => {
+                (factors.len(), largest(factors).max(large(coefficient)))
+            }
             _ => (1, 0),
         };
         // arithmetic with long numbers takes the square of their length

@@ -52,9 +52,11 @@ impl Resolver {
             let name = name(algebra);
             let wanted = algebra.dimension();
             let plural = if count == 1 { "is" } else { "are" };
-            let error =
-                Diagnostic::new(written.extent, format!("`{name}` takes {wanted} sections, and {count} {plural} listed"))
-                    .way_out(format!("list them in the order {}", order(algebra)));
+            let error = Diagnostic::new(
+                written.extent,
+                format!("`{name}` takes {wanted} sections, and {count} {plural} listed"),
+            )
+            .way_out(format!("list them in the order {}", order(algebra)));
             return Err(self.report(written, error));
         }
         let origin = self.origin(written.extent);
@@ -94,7 +96,8 @@ impl Resolver {
                 Ok(sections) => {
                     if let Some(twice) = sections.iter().find(|section| !seen.insert(**section)) {
                         let name = &self.tables.sections[*twice].name;
-                        let error = Diagnostic::new(place.extent, format!("the section `{name}` is listed twice"));
+                        let error =
+                            Diagnostic::new(place.extent, format!("the section `{name}` is listed twice"));
                         outcome = Err(self.report(place, error));
                     }
                     listed.extend(sections);
@@ -121,14 +124,14 @@ impl Resolver {
             (None, true) => Diagnostic::new(written.extent, format!("`{text}` without its number"))
                 .way_out(format!("write `{text}({})`", if text == "so" { 3 } else { 2 })),
             (Some(order), true) => {
-                Diagnostic::new(written.extent, format!("`{text}({order})` is not a known algebra")).way_out(KNOWN)
+                Diagnostic::new(written.extent, format!("`{text}({order})` is not a known algebra"))
+                    .way_out(KNOWN)
             }
             (_, false) => Diagnostic::new(written.extent, format!("`{text}` is not a known algebra"))
                 .evidence(KNOWN)
-                .way_out(
-                    did_you_mean(text, ALGEBRAS)
-                        .unwrap_or_else(|| "give the brackets one by one: `brackets { [a, b] = c; }`".to_owned()),
-                ),
+                .way_out(did_you_mean(text, ALGEBRAS).unwrap_or_else(|| {
+                    "give the brackets one by one: `brackets { [a, b] = c; }`".to_owned()
+                })),
         };
         Err(self.report(written, error))
     }

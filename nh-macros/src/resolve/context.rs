@@ -81,11 +81,13 @@ impl Context {
             (Usage::Rate, _) => error
                 .evidence("the anchor gives every `der(…)` as a combination of the quasi-velocities")
                 .way_out("write it with the names of the quasi-velocities"),
-            (Usage::Input, _) => {
-                error.way_out("inputs act through `forces`, and can be watched in `outputs`; make a constant a parameter")
-            }
+            (Usage::Input, _) => error.way_out(
+                "inputs act through `forces`, and can be watched in `outputs`; make a constant a parameter",
+            ),
             (Usage::Time, _) => error
-                .evidence("its coefficients are functions on the base: of the base coordinates and the parameters")
+                .evidence(
+                    "its coefficients are functions on the base: of the base coordinates and the parameters",
+                )
                 .way_out("the time has its place in `lagrangian`, `constraints`, `forces` and `outputs`"),
             (Usage::Branches, _) => error
                 .evidence(format!(

@@ -44,7 +44,11 @@ impl Resolver {
     /// A list of names, and those that are in order.
     fn list(&mut self, section: Option<&ast::Section<Vec<Declared>>>, role: Role) -> Vec<Family> {
         let Some(section) = section else { return Vec::new() };
-        self.check_dimension(&section.keyword, section.body.iter().map(|d| Shape::of(&d.lengths).len()).sum(), role);
+        self.check_dimension(
+            &section.keyword,
+            section.body.iter().map(|d| Shape::of(&d.lengths).len()).sum(),
+            role,
+        );
         section
             .body
             .iter()
@@ -119,7 +123,9 @@ impl Resolver {
     fn implied_velocities(&mut self, base: Option<&ast::Section<Vec<Declared>>>) -> Vec<Family> {
         let mut families = Vec::new();
         for declared in base.map_or(&[][..], |base| &base.body) {
-            let Some(Meaning::Named(coordinate)) = self.scope.get(&declared.name.text).cloned() else { continue };
+            let Some(Meaning::Named(coordinate)) = self.scope.get(&declared.name.text).cloned() else {
+                continue;
+            };
             if coordinate.role != Role::Coordinate || coordinate.rates.len() != coordinate.shape.len() {
                 continue;
             }
@@ -127,8 +133,7 @@ impl Resolver {
             if self.implied_name_is_taken(declared, &text) {
                 continue;
             }
-            let Ok(velocity) =
-                self.enter(&text, coordinate.shape, Role::ImpliedVelocity, declared.extent)
+            let Ok(velocity) = self.enter(&text, coordinate.shape, Role::ImpliedVelocity, declared.extent)
             else {
                 continue;
             };
@@ -164,7 +169,9 @@ impl Resolver {
         };
         let x = &declared.name.text;
         let error = Diagnostic::new(extent, format!("`{text}` is declared twice"))
-            .evidence(format!("without a `basis`, the velocity of `{x}` is called `{text}` in generated code"))
+            .evidence(format!(
+                "without a `basis`, the velocity of `{x}` is called `{text}` in generated code"
+            ))
             .way_out("choose another name");
         self.report(declared, error);
         true

@@ -131,19 +131,26 @@ impl Resolver {
         })
     }
 
-    fn enter_value(&mut self, definition: &Definition, before: &[usize], growing: &mut Growing<'_>) -> Outcome<()> {
+    fn enter_value(
+        &mut self,
+        definition: &Definition,
+        before: &[usize],
+        growing: &mut Growing<'_>,
+    ) -> Outcome<()> {
         let value = self.value(&definition.value)?;
         let whole = definition.extent.to(definition.value.extent);
         let name = &definition.name.text;
         for (k, entry) in value.entries.iter().enumerate() {
             let indices = [before, &value.shape.indices(k)].concat();
             if indices.len() > 2 {
-                let error = Diagnostic::new(whole, "a third index").way_out("families have one or two indices");
+                let error =
+                    Diagnostic::new(whole, "a third index").way_out("families have one or two indices");
                 return Err(self.report(definition, error));
             }
             if *growing.rank.get_or_insert(indices.len()) != indices.len() {
-                let error = Diagnostic::new(definition.extent, format!("`{name}` has different numbers of indices"))
-                    .way_out("define all of its entries in the same way");
+                let error =
+                    Diagnostic::new(definition.extent, format!("`{name}` has different numbers of indices"))
+                        .way_out("define all of its entries in the same way");
                 return Err(self.report(definition, error));
             }
             let written = indices.iter().fold(name.clone(), |text, index| format!("{text}[{index}]"));

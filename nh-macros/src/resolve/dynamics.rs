@@ -87,7 +87,13 @@ impl Resolver {
     }
 
     /// The velocity on the left, if it stands alone and is absent on the right.
-    fn solved_for(&mut self, left: &Expr, entry: ExprId, right: ExprId, lone: &Lone) -> Outcome<Option<SymbolId>> {
+    fn solved_for(
+        &mut self,
+        left: &Expr,
+        entry: ExprId,
+        right: ExprId,
+        lone: &Lone,
+    ) -> Outcome<Option<SymbolId>> {
         if !matches!(left.kind, ExprKind::Name(_) | ExprKind::Index(..) | ExprKind::Der(_)) {
             return Ok(None);
         }

@@ -24,7 +24,10 @@ impl Resolver {
     pub(super) fn as_number(&mut self, expr: &Expr, value: &Array) -> Outcome<ExprId> {
         value.as_number().ok_or_else(|| {
             let error = Diagnostic::new(expr.extent, format!("expected a number, this is {}", value.shape));
-            self.report(expr, error.way_out("take an entry of it, as in `w[0]`, or a product such as `dot(w, w)`"))
+            self.report(
+                expr,
+                error.way_out("take an entry of it, as in `w[0]`, or a product such as `dot(w, w)`"),
+            )
         })
     }
 
@@ -57,7 +60,8 @@ impl Resolver {
                 self.entrywise(value, |this, entry| this.sum_of(expr, vec![(Rational::MINUS_ONE, entry)]))
             }
             ExprKind::Add(terms) => {
-                let values: Vec<_> = terms.iter().map(|(sign, term)| (*sign, term, self.value(term))).collect();
+                let values: Vec<_> =
+                    terms.iter().map(|(sign, term)| (*sign, term, self.value(term))).collect();
                 let values: Outcome<Vec<_>> =
                     values.into_iter().map(|(sign, term, value)| Ok((sign, term, value?))).collect();
                 self.added(expr, &values?)
@@ -173,14 +177,17 @@ impl Resolver {
                 let (what, way_out) = match meaning {
                     Meaning::Named(named) => match named.role {
                         Role::Parameter => ("a parameter, whose derivative is 0", "leave the term out"),
-                        Role::Input => ("an input", "derivatives of inputs are not known; make it a base coordinate"),
+                        Role::Input => {
+                            ("an input", "derivatives of inputs are not known; make it a base coordinate")
+                        }
                         _ => ("a velocity", "accelerations are what is derived; they cannot be used"),
                     },
                     Meaning::Time => ("the time, whose derivative is 1", "write `1`"),
                     Meaning::Pi | Meaning::Index(_) => ("a constant", "leave the term out"),
                     Meaning::Value(_) | Meaning::Broken => ("an abbreviation", "write the chain rule out"),
                 };
-                Diagnostic::new(at, format!("`der` takes a base coordinate, and `{text}` is {what}")).way_out(way_out)
+                Diagnostic::new(at, format!("`der` takes a base coordinate, and `{text}` is {what}"))
+                    .way_out(way_out)
             }
         };
         Err(self.report(place, error))
@@ -228,7 +235,8 @@ impl Resolver {
             return Err(self.report(part, error));
         }
         let Some(shape) = shape.times(parts.len()) else {
-            let error = Diagnostic::new(expr.extent, "a vector of matrices").way_out("name each of them with `let`");
+            let error =
+                Diagnostic::new(expr.extent, "a vector of matrices").way_out("name each of them with `let`");
             return Err(self.report(expr, error));
         };
         Ok(Array { shape, entries: values.into_iter().flat_map(|value| value.entries).collect() })

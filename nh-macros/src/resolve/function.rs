@@ -133,7 +133,9 @@ impl Resolver {
         let result = match (called, numbers.as_slice()) {
             (Called::One(function), [x]) => self.apply(*function, *x),
             (Called::Tan, [x]) => self.graph.tan(*x),
-            (Called::Sqrt, [x]) => return Ok(Array::number(self.product_of(expr, &[(*x, Rational::new(1, 2))])?)),
+            (Called::Sqrt, [x]) => {
+                return Ok(Array::number(self.product_of(expr, &[(*x, Rational::new(1, 2))])?));
+            }
             (Called::Two(function), [x, y]) => self.graph.apply2(*function, *x, *y),
             _ => return Err(Reported),
         };

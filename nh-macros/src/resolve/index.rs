@@ -58,7 +58,9 @@ impl Resolver {
             Some(Meaning::Named(named)) => {
                 Err(self.no_index(expr, format!("`{}` is {}", name.text, named.role.noun())))
             }
-            Some(Meaning::Time | Meaning::Pi) => Err(self.no_index(expr, format!("`{}` is no integer", name.text))),
+            Some(Meaning::Time | Meaning::Pi) => {
+                Err(self.no_index(expr, format!("`{}` is no integer", name.text)))
+            }
             None => {
                 let error = self.scope.unknown(name);
                 Err(self.report(expr, error))

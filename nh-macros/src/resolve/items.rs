@@ -41,7 +41,9 @@ impl Resolver {
             // an item in error was reported; the others go on
             let _ = match item {
                 Item::Let(line) => self.abbreviation(line),
-                Item::For(block) => self.each_value(&block.binders, &mut |this| this.items(&block.items, visit)),
+                Item::For(block) => {
+                    self.each_value(&block.binders, &mut |this| this.items(&block.items, visit))
+                }
                 Item::One(statement) => visit(self, statement),
             };
         }
@@ -100,8 +102,9 @@ impl Resolver {
             let values = || entries.iter().filter_map(|(indices, _)| indices.get(k).copied());
             let (least, most) = (values().min().unwrap_or(0), values().max().map_or(0, |most| most + 1));
             if least != 0 {
-                let error = Diagnostic::new(binder.extent, "the indices of a `let` count from 0")
-                    .way_out(format!("write `{} in 0..…`, and shift the index in the value", binder.name.text));
+                let error = Diagnostic::new(binder.extent, "the indices of a `let` count from 0").way_out(
+                    format!("write `{} in 0..…`, and shift the index in the value", binder.name.text),
+                );
                 return Err(self.report(binder, error));
             }
             lengths.push(usize::try_from(most).unwrap_or(0));

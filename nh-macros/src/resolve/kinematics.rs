@@ -135,7 +135,8 @@ impl Resolver {
             if self.keep(family.name, checked).is_err() {
                 continue;
             }
-            let Ok(named) = self.enter(&family.name.text, family.shape(), Role::Velocity, family.extent) else {
+            let Ok(named) = self.enter(&family.name.text, family.shape(), Role::Velocity, family.extent)
+            else {
                 continue;
             };
             self.scope.insert(family.name.text.clone(), Meaning::Named(Rc::new(named)));

@@ -68,8 +68,10 @@ impl Resolver {
             Velocity::Named(place) => match self.scope.get(&place.name.text).cloned() {
                 Some(Meaning::Named(named)) if named.role == Role::Coordinate => {
                     let text = &place.name.text;
-                    let error =
-                        Diagnostic::new(place.extent, format!("`{text}` is a base coordinate, not a velocity"));
+                    let error = Diagnostic::new(
+                        place.extent,
+                        format!("`{text}` is a base coordinate, not a velocity"),
+                    );
                     let error = match self.rate_sections(&named, Part { first: 0, shape: named.shape }) {
                         Some(_) => error.way_out(format!("write `der({text})`")),
                         None => error.way_out("name one of the quasi-velocities"),
@@ -128,8 +130,10 @@ impl Resolver {
                 };
                 return Ok((directions, part));
             }
-            Some(named) => Diagnostic::new(extent, format!("`{text}` is {}, not a direction", named.role.noun()))
-                .way_out("a force acts along a section of the basis or along a base coordinate"),
+            Some(named) => {
+                Diagnostic::new(extent, format!("`{text}` is {}, not a direction", named.role.noun()))
+                    .way_out("a force acts along a section of the basis or along a base coordinate")
+            }
             None => {
                 let roles = [Role::Velocity, Role::ImpliedVelocity, Role::Coordinate];
                 Diagnostic::new(extent, format!("a force along the unknown direction `{text}`")).way_out(

@@ -47,7 +47,8 @@ impl Resolver {
         match (a.shape, b.shape) {
             (Shape::Matrix(_, columns), Shape::Vector(n)) if columns == n => {
                 let rows = a.entries.chunks(columns.max(1));
-                let entries: Outcome<Vec<_>> = rows.map(|row| self.inner_product(expr, row, &b.entries)).collect();
+                let entries: Outcome<Vec<_>> =
+                    rows.map(|row| self.inner_product(expr, row, &b.entries)).collect();
                 Ok(Array::vector(entries?))
             }
             (Shape::Matrix(rows, inner), Shape::Matrix(n, columns)) if inner == n => {
@@ -61,8 +62,12 @@ impl Resolver {
                 Ok(Array { shape: Shape::Matrix(rows, columns), entries })
             }
             (Shape::Matrix(_, columns), Shape::Vector(n) | Shape::Matrix(n, _)) => {
-                let error = Diagnostic::new(at.extent.to(right.0.extent), "the shapes of this product do not match")
-                    .evidence(format!("{columns} columns meet {n} entries: {} times {}", a.shape, b.shape));
+                let error =
+                    Diagnostic::new(at.extent.to(right.0.extent), "the shapes of this product do not match")
+                        .evidence(format!(
+                            "{columns} columns meet {n} entries: {} times {}",
+                            a.shape, b.shape
+                        ));
                 Err(self.report(at, error))
             }
             (Shape::Vector(_), Shape::Vector(_)) => {
@@ -71,11 +76,9 @@ impl Resolver {
                 Err(self.report(at, error))
             }
             _ => {
-                let error = Diagnostic::new(
-                    at.extent.to(right.0.extent),
-                    format!("{} times {}", a.shape, b.shape),
-                )
-                .way_out("write the matrix first: `A * v`");
+                let error =
+                    Diagnostic::new(at.extent.to(right.0.extent), format!("{} times {}", a.shape, b.shape))
+                        .way_out("write the matrix first: `A * v`");
                 Err(self.report(at, error))
             }
         }

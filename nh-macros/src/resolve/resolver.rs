@@ -88,7 +88,13 @@ impl Resolver {
     }
 
     /// Refuses what has no place in this section.
-    pub(super) fn check_usage<N>(&mut self, node: &N, usage: Usage, written: &str, at: Extent) -> Outcome<()> {
+    pub(super) fn check_usage<N>(
+        &mut self,
+        node: &N,
+        usage: Usage,
+        written: &str,
+        at: Extent,
+    ) -> Outcome<()> {
         let checked = self.context.check(usage, written, at);
         self.keep(node, checked)
     }
@@ -121,8 +127,9 @@ impl Resolver {
         let (from, to) = (self.index(&binder.from), self.index(&binder.to));
         let (from, to) = (from?, to?);
         if to.saturating_sub(from) > i64::from(limits::FAMILY) {
-            let error = Diagnostic::new(binder.extent, format!("a range of {} values", to.saturating_sub(from)))
-                .way_out(format!("ranges have at most {} values", limits::FAMILY));
+            let error =
+                Diagnostic::new(binder.extent, format!("a range of {} values", to.saturating_sub(from)))
+                    .way_out(format!("ranges have at most {} values", limits::FAMILY));
             return Err(self.report(binder, error));
         }
         Ok(from..to)
@@ -138,7 +145,9 @@ impl Resolver {
                     Shape::Number => format!("{whole} is a number and has no entries"),
                     _ => format!("{whole} has only one index"),
                 };
-                return Err(self.report(expr, Diagnostic::new(expr.extent, what).way_out("leave this index out")));
+                return Err(
+                    self.report(expr, Diagnostic::new(expr.extent, what).way_out("leave this index out"))
+                );
             };
             match usize::try_from(index).ok().filter(|index| *index < length) {
                 Some(index) => part = Part { first: part.first + index * inner.len(), shape: inner },

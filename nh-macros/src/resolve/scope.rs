@@ -198,8 +198,10 @@ impl Scope {
 
     /// The known name of one of these roles that is nearest to an unknown one.
     pub(super) fn did_you_mean(&self, name: &str, roles: &[Role]) -> Option<String> {
-        let fits = |meaning: &Meaning| matches!(meaning, Meaning::Named(named) if roles.contains(&named.role));
-        let candidates = self.globals.iter().filter(|(_, meaning)| fits(meaning)).map(|(known, _)| known.as_str());
+        let fits =
+            |meaning: &Meaning| matches!(meaning, Meaning::Named(named) if roles.contains(&named.role));
+        let candidates =
+            self.globals.iter().filter(|(_, meaning)| fits(meaning)).map(|(known, _)| known.as_str());
         did_you_mean(name, candidates.take(COMPARED))
     }
 }

@@ -84,20 +84,40 @@ impl Reader<'_> {
 
     fn factored_within(&mut self, polynomial: &Polynomial, nesting: usize) -> ExprId {
         let (common, mut rest) = without_common_factor(polynomial);
-        let mut summands = Vec::new();
+        // Σ outer · inner; the inner ones are different
+        let mut parts: Vec<(Polynomial, Polynomial)> = Vec::new();
         while let Some(factor) = most_frequent(&rest).filter(|_| nesting > 0) {
             let (mut inside, mut outside) = (Polynomial::default(), Polynomial::default());
             for (monomial, coefficient) in rest.0 {
                 let target = if shares(&monomial, &factor) { &mut inside } else { &mut outside };
                 target.add_term(monomial, coefficient);
             }
-            summands.push(self.factored_within(&inside, nesting - 1));
+            let (outer, inner) = without_common_factor(&inside);
+            let (scale, inner) = monic(inner);
+            match parts.iter_mut().find(|part| part.1 == inner) {
+                Some(part) => part.0.add_term(outer, scale),
+                None => parts.push((Polynomial::term(outer, scale), inner)),
+            }
             rest = outside;
         }
-        summands.push(self.plain_sum(&rest));
+        let mut summands = vec![self.plain_sum(&rest)];
+        for (outer, inner) in &parts {
+            let outer = self.factored_within(outer, nesting - 1);
+            let inner = self.factored_within(inner, nesting - 1);
+            summands.push(self.graph.mul(outer, inner));
+        }
         let sum = self.graph.sum(&summands);
         let common = self.monomial_expression(&common, &Rational::ONE);
         self.graph.mul(sum, common)
+    }
+}
+
+/// The leading coefficient, and the polynomial divided by it.
+fn monic(polynomial: Polynomial) -> (Rational, Polynomial) {
+    let leading = polynomial.leading().map(|(_, coefficient)| coefficient.clone());
+    match leading.as_ref().and_then(Rational::recip) {
+        Some(inverse) => (leading.unwrap_or(Rational::ONE), polynomial.scaled(&inverse)),
+        None => (Rational::ONE, polynomial),
     }
 }
 
