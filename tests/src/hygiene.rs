@@ -84,24 +84,6 @@ pub mod shadowed {
     /// Not a fused multiplication.
     pub fn mul_add() {}
     /// Takes a name that generated code may bind.
-    pub const x: u8 = 0;
-    /// Takes a name that generated code may bind.
-    pub const t: u8 = 0;
-    /// Takes a name that generated code may bind.
-    pub const u: u8 = 0;
-    /// Takes a name that generated code may bind.
-    pub const state: u8 = 0;
-    /// Takes a name that generated code may bind.
-    pub const input: u8 = 0;
-    /// Takes a name that generated code may bind.
-    pub const result: u8 = 0;
-    /// Takes a name that generated code may bind.
-    pub const v0: u8 = 0;
-    /// Takes a name that generated code may bind.
-    pub const v1: u8 = 0;
-    /// Takes a name that generated code may bind.
-    pub const theta: u8 = 0;
-    /// Takes a name that generated code may bind.
     pub const J: u8 = 0;
 
     /// Offers methods under the names of elementary functions.
@@ -194,7 +176,7 @@ pub mod colliding {
 
 /// Items of narrow visibility, of which the user needs only a part.
 pub mod narrow {
-    use nh_runtime::{Dynamics, nonholonomic};
+    use nh_runtime::nonholonomic;
 
     #[nonholonomic(
         base { angle }

@@ -1,5 +1,10 @@
 //! The catalogue of reference systems, and how generated code is compared with reference data.
 
+pub mod catalogue;
+pub mod comparison;
+pub mod hygiene;
 pub mod random;
 pub mod reference;
+pub mod systems;
+pub mod trajectories;
 pub mod values;

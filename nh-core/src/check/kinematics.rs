@@ -46,7 +46,7 @@ fn tangent(model: &mut Model) -> Motion {
     let n = model.coordinates.len();
     let (zero, one) = (model.graph.zero(), model.graph.one());
     let entries = (0..n).map(|i| (0..n).map(|j| if i == j { one } else { zero }).collect()).collect();
-    let anchor = Anchor { entries, coordinates: coordinates(model) };
+    let anchor = Anchor { entries, coordinates: coordinates(model), rank: model.sections.len() };
     Motion { anchor, rates: Substitution::new([]), coframe: None, divisors: Vec::new() }
 }
 
@@ -79,7 +79,7 @@ fn declared_anchor(model: &mut Model, lines: &[AnchorDecl]) -> Result<Motion, Ve
     if !violations.is_empty() {
         return Err(violations);
     }
-    let anchor = Anchor { entries, coordinates: coordinates(model) };
+    let anchor = Anchor { entries, coordinates: coordinates(model), rank: model.sections.len() };
     let rates = rate_substitution(model, &anchor);
     Ok(Motion { anchor, rates, coframe: None, divisors: Vec::new() })
 }
@@ -177,7 +177,7 @@ fn inverted_coframe(model: &mut Model, rows: &[Located]) -> Result<Motion, Vec<V
     };
     let solution = if regular { model.graph.solve_linear(&coframe, &identity) } else { None };
     let Some(solution) = solution else { return Err(vec![singular_coframe(model, &coframe)]) };
-    let anchor = Anchor { entries: solution.values, coordinates: coordinates(model) };
+    let anchor = Anchor { entries: solution.values, coordinates: coordinates(model), rank: n };
     let rates = rate_substitution(model, &anchor);
     Ok(Motion { anchor, rates, coframe: Some(coframe), divisors: solution.divisors })
 }

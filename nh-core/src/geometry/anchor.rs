@@ -10,6 +10,8 @@ pub struct Anchor {
     pub entries: Matrix,
     /// The coordinates x^i.
     pub coordinates: Vec<SymbolId>,
+    /// The number of sections, also where there is no coordinate.
+    pub rank: usize,
 }
 
 impl Anchor {
@@ -33,7 +35,11 @@ impl Anchor {
 
     /// `(ρ^i_α Q_i)`: the pull-back of a covector on M, CNS section 3.
     pub fn pull_back(&self, graph: &mut Graph, covector: &[ExprId]) -> Vec<ExprId> {
-        let columns = Graph::transposed(&self.entries);
-        columns.iter().map(|column| graph.inner_product(column, covector)).collect()
+        (0..self.rank)
+            .map(|alpha| {
+                let column: Vec<ExprId> = self.entries.iter().map(|row| row[alpha]).collect();
+                graph.inner_product(&column, covector)
+            })
+            .collect()
     }
 }

@@ -50,7 +50,7 @@ impl ChangeOfBasis {
             .iter()
             .map(|row| columns.iter().map(|column| graph.inner_product(row, column)).collect())
             .collect();
-        let anchor = Anchor { entries, coordinates: old.anchor.coordinates.clone() };
+        let anchor = Anchor { entries, ..old.anchor.clone() };
         let mut structure = StructureFunctions::commuting(graph, old.rank());
         for (alpha, first) in columns.iter().enumerate() {
             for (beta, second) in columns.iter().enumerate().skip(alpha + 1) {

@@ -39,6 +39,8 @@ const ATTEMPT: usize = 4000;
 const SUBEXPRESSIONS: usize = 30_000;
 /// Expressions made of more distinct ones are not attempted as a whole.
 const CONE: usize = 1500;
+/// Expressions of a set that are exchanged one by one.
+const EXCHANGES: usize = 32;
 /// Times that the common denominators of angles may grow.
 const ROUNDS: usize = 3;
 
@@ -66,6 +68,28 @@ impl Graph {
         let image = simplifier.apply(self, e);
         self.simplifier = simplifier;
         image
+    }
+
+    /// Simplifies expressions that are computed together: what they share stays shared where that
+    /// is cheaper. Together they cost at most as much as before.
+    pub fn simplify_all(&mut self, roots: &[ExprId]) -> Vec<ExprId> {
+        let images: Vec<_> = roots.iter().map(|root| self.simplify(*root)).collect();
+        let (before, after) = (self.operation_count(roots), self.operation_count(&images));
+        let (mut chosen, mut cost) =
+            if after < before { (images.clone(), after) } else { (roots.to_vec(), before) };
+        for index in (0..roots.len()).take(EXCHANGES) {
+            let kept = chosen[index];
+            chosen[index] = if kept == images[index] { roots[index] } else { images[index] };
+            if chosen[index] != kept {
+                let exchanged = self.operation_count(&chosen);
+                if exchanged < cost {
+                    cost = exchanged;
+                } else {
+                    chosen[index] = kept;
+                }
+            }
+        }
+        chosen
     }
 
     /// The expression in a style, in canonical and in factored form, and the work it took.
@@ -148,15 +172,15 @@ impl Simplifier {
         }
         let rebuilt = self.rebuilt(graph, id, &node);
         let is_sum = matches!(node, Node::Sum { .. });
-        let attempted = (is_sum || (is_root && matches!(node, Node::Product { .. })))
-            && (image.has_sum || image.has_angle);
-        if attempted || rebuilt != id {
+        let styles = match (is_sum || (is_root && matches!(node, Node::Product { .. })), image) {
+            (false, _) => 0,
+            (true, Image { has_angle: true, .. }) => STYLES.len(),
+            (true, Image { has_sum: true, .. }) => 2,
+            // nothing to multiply out, but perhaps something to take out
+            (true, _) => 1,
+        };
+        if styles > 0 || rebuilt != id {
             let budget = if is_root { (*work).max(2 * ATTEMPT) } else { *work };
-            let styles = match (attempted, image.has_angle) {
-                (false, _) => 0,
-                (true, false) => 2,
-                (true, true) => STYLES.len(),
-            };
             let mut choice = Choice::new(graph, id, rebuilt, budget);
             for (style, beyond) in STYLES.iter().zip(&mut image.beyond).take(styles) {
                 if !*beyond {

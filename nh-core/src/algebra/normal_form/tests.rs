@@ -147,6 +147,49 @@ fn a_factored_form_is_not_multiplied_out() {
 }
 
 #[test]
+fn equal_factors_are_collected() {
+    let mut g = Graph::new();
+    let [a, b, c, d, e] = symbols(&mut g, ["a", "b", "c", "d", "e"]);
+    let mut summands = vec![e];
+    for x in [a, b] {
+        summands.extend([c, d].map(|y| g.mul(x, y)));
+    }
+    let sum = g.sum(&summands);
+    assert_eq!(simplified(&mut g, sum), "e + (a + b)*(c + d)");
+}
+
+#[test]
+fn what_is_shared_stays_shared() {
+    let mut g = Graph::new();
+    let [a, b, c, d] = symbols(&mut g, ["a", "b", "c", "d"]);
+    let products = [g.mul(a, b), g.mul(a, c), g.mul(b, c)];
+    let shared = g.sum(&products);
+    let power = g.square(shared);
+    let (first, second) = (g.mul(shared, d), g.add(power, d));
+    let roots = [shared, first, second];
+    let together = g.simplify_all(&roots);
+    assert!(g.operation_count(&together) <= g.operation_count(&roots));
+}
+
+#[test]
+fn many_large_expressions_take_bounded_time() {
+    let mut g = Graph::new();
+    let names: Vec<_> = (0..40).map(|i| g.new_symbol(format!("x{i}"))).collect();
+    let mut layer: Vec<_> = names.into_iter().map(|symbol| g.symbol(symbol)).collect();
+    for _ in 0..25 {
+        let next = |i: usize| {
+            let (a, b) = (layer[i], layer[(i + 7) % layer.len()]);
+            let (s, c) = (g.sin(a), g.cos(b));
+            let (x, y) = (g.mul(s, b), g.mul(c, a));
+            g.sum(&[x, y, a])
+        };
+        layer = (0..layer.len()).map(next).collect();
+    }
+    let simple = g.simplify_all(&layer);
+    assert!(g.operation_count(&simple) <= g.operation_count(&layer));
+}
+
+#[test]
 fn a_sum_that_would_explode_is_left_alone() {
     let mut g = Graph::new();
     let names: Vec<_> = (0..12).map(|i| g.new_symbol(format!("x{i}"))).collect();

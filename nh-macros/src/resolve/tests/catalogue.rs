@@ -1,0 +1,56 @@
+//! The reference systems, as they stand in their files, pass the stages up to here and the engine.
+
+use proc_macro2::{Delimiter, TokenStream, TokenTree};
+
+use super::{resolve, super::Resolved};
+use crate::emit::Layout;
+use crate::syntax;
+
+/// The declarations in a file: attribute and struct.
+fn declarations(text: &str) -> Vec<(TokenStream, TokenStream)> {
+    let tokens: Vec<TokenTree> = text.parse::<TokenStream>().expect("tokens").into_iter().collect();
+    let mut found = Vec::new();
+    for (k, token) in tokens.iter().enumerate() {
+        let TokenTree::Group(group) = token else { continue };
+        let mut inside = group.stream().into_iter();
+        let (Some(TokenTree::Ident(word)), Some(TokenTree::Group(attribute))) = (inside.next(), inside.next())
+        else {
+            continue;
+        };
+        if word != "nonholonomic" {
+            continue;
+        }
+        let is_body = |token: &&TokenTree| {
+            matches!(token, TokenTree::Group(group) if group.delimiter() == Delimiter::Brace)
+        };
+        let end = k + 1 + tokens[k + 1..].iter().position(|token| is_body(&token)).expect("a struct");
+        found.push((attribute.stream(), tokens[k + 1..=end].iter().cloned().collect()));
+    }
+    found
+}
+
+fn resolved(attribute: TokenStream, item: TokenStream) -> Resolved {
+    let declaration = syntax::parse(attribute.clone(), item).expect("well-formed");
+    let mut layout = Layout::of_struct(&declaration.structure, attribute);
+    resolve(&declaration, &mut layout).expect("resolved")
+}
+
+#[test]
+fn the_reference_systems_are_understood() {
+    let folder = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("../tests/src/systems");
+    // the crate may be built without its workspace
+    let Ok(files) = std::fs::read_dir(folder) else { return };
+    let mut count = 0;
+    for file in files {
+        let text = std::fs::read_to_string(file.expect("a file").path()).expect("text");
+        for (attribute, item) in declarations(&text) {
+            let system = resolved(attribute, item);
+            let name = system.model.name.clone();
+            if let Err(violations) = nh_core::compile::compile(system.model) {
+                panic!("{name}: {violations:?}");
+            }
+            count += 1;
+        }
+    }
+    assert!(count >= 25, "{count} systems");
+}

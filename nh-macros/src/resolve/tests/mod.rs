@@ -1,0 +1,49 @@
+//! Tests of this stage: the meaning of expressions, evaluated, and every error text.
+
+mod catalogue;
+
+use nh_core::id::ExprId;
+use nh_core::model::Model;
+
+use super::{Resolved, resolve};
+use crate::emit::Layout;
+use crate::report::Diagnostic;
+use crate::syntax::testing::declaration;
+
+/// The resolved declaration with its layout, or the errors of this stage.
+fn resolved(attribute: &str, item: &str) -> Result<(Resolved, Layout), Vec<Diagnostic>> {
+    let declaration = declaration(attribute, item)?;
+    let mut layout = Layout::of_struct(&declaration.structure, attribute.parse().expect("tokens"));
+    match resolve(&declaration, &mut layout) {
+        Ok(resolved) => Ok((resolved, layout)),
+        Err(unresolved) => Err(unresolved.errors),
+    }
+}
+
+/// The model of a declaration in order.
+fn model(attribute: &str, item: &str) -> Model {
+    match resolved(attribute, item) {
+        Ok((resolved, _)) => resolved.model,
+        Err(errors) => panic!("{}", errors.iter().map(ToString::to_string).collect::<Vec<_>>().join("\n")),
+    }
+}
+
+/// The texts of the errors.
+fn messages(attribute: &str, item: &str) -> Vec<String> {
+    match resolved(attribute, item) {
+        Ok(_) => Vec::new(),
+        Err(errors) => errors.iter().map(ToString::to_string).collect(),
+    }
+}
+
+/// The value of an expression when the k-th symbol of the model has the value `1 + k / 8`, and a
+/// way to ask for such values by name.
+fn evaluated(model: &Model, expression: ExprId) -> f64 {
+    model.graph.evaluate(&[expression], |symbol| of_name(&model.graph.symbols()[symbol]))[0].value
+}
+
+/// A value for every name: not the same for any two of a declaration, and never 0.
+fn of_name(name: &str) -> f64 {
+    let hash = name.bytes().fold(17_u32, |hash, byte| hash.wrapping_mul(31).wrapping_add(u32::from(byte)));
+    1.0 + f64::from(hash % 1009) / 1009.0
+}
