@@ -106,7 +106,7 @@ impl Graph {
                 }
             }
             Node::Product { coefficient, factors } => {
-                self.collect_root_of_product(coefficient, &factors, exponent, into);
+                self.collect_root_of_product(&coefficient, &factors, exponent, into);
             }
             Node::Sum { .. } => self.collect_sum(base, exponent, into),
             _ => into.powers.push((base, exponent.clone())),
@@ -128,12 +128,12 @@ impl Graph {
     /// A fractional power of a product with a coefficient or several factors.
     fn collect_root_of_product(
         &mut self,
-        coefficient: Rational,
+        coefficient: &Rational,
         factors: &[(ExprId, Rational)],
         exponent: &Rational,
         into: &mut Factors,
     ) {
-        let (outside, inside) = split_power(&coefficient, exponent);
+        let (outside, inside) = split_power(coefficient, exponent);
         into.coefficient = into.coefficient.clone() * outside;
         match factors {
             [(inner, power)] if inside.is_one() && power.has_odd_numerator() => {
