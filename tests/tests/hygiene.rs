@@ -1,7 +1,7 @@
 //! Declarations compute the right thing in surroundings that shadow what generated code relies on.
 //! That they compile there, without a warning, is the greater half of the check.
 
-use nh_runtime::{Dynamics, Energy};
+use nh_runtime::Energy;
 use nh_tests::hygiene::colliding::{Odd, OddState};
 use nh_tests::hygiene::narrow::{acceleration, oscillation};
 use nh_tests::hygiene::shadowed::{Sleigh, SleighInput, SleighState};

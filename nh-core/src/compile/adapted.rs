@@ -102,8 +102,6 @@ fn constraint_forces(
     let right: Vec<Vec<ExprId>> =
         distribution.dependent.iter().map(|section| vec![reactions[section.index()]]).collect();
     let solved = graph.solve_linear(&matrix, &right).map(|solution| solution.values).unwrap_or_default();
-    let definitions = derivative.definitions.clone();
     let multipliers = solved.into_iter().map(|row| row[0]).collect();
-    let multipliers = Procedure { definitions: definitions.clone(), outputs: multipliers };
-    (multipliers, Procedure { definitions, outputs: reactions })
+    (derivative.with_outputs(multipliers), derivative.with_outputs(reactions))
 }

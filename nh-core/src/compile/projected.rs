@@ -2,7 +2,7 @@
 
 use super::restricted::{in_state, observables, requested};
 use super::{Proved, fence};
-use crate::algebra::Substitution;
+use crate::algebra::{Graph, Matrix, Substitution};
 use crate::check;
 use crate::id::ExprId;
 use crate::mechanics::{
@@ -22,10 +22,11 @@ pub(super) fn derive(mut proved: Proved, reason: &str) -> Result<System, Vec<Vio
     fence(singular.into_iter().collect())?;
     // 2. ẏ and λ
     let parameters: Vec<_> = proved.model.parameters.iter().map(|parameter| parameter.symbol).collect();
-    let definite = definiteness(&proved.model.graph, &equations.mass, &parameters, &proved.facts);
+    let facts = proved.facts.clone();
+    let judge = |graph: &Graph, matrix: &Matrix| definiteness(graph, matrix, &parameters, &facts);
     let graph = &mut proved.model.graph;
     let mut derivative = Procedure::default();
-    let (accelerations, multipliers) = equations.solve(graph, definite, &mut derivative);
+    let (accelerations, multipliers) = equations.solve(graph, judge, &mut derivative);
     let reactions = (0..accelerations.len())
         .map(|alpha| {
             let column: Vec<ExprId> = equations.jacobian.iter().map(|row| row[alpha]).collect();
@@ -33,8 +34,7 @@ pub(super) fn derive(mut proved: Proved, reason: &str) -> Result<System, Vec<Vio
         })
         .collect();
     derivative.outputs = equations.rates.iter().chain(&accelerations).copied().collect();
-    let with_definitions = |outputs| Procedure { definitions: derivative.definitions.clone(), outputs };
-    let (multipliers, reactions) = (with_definitions(multipliers), with_definitions(reactions));
+    let (multipliers, reactions) = (derivative.with_outputs(multipliers), derivative.with_outputs(reactions));
     // 3. E_L, y and the observables
     let velocity = proved.system.algebroid.velocity(graph);
     let energy = energy(graph, &proved.system);
@@ -51,7 +51,7 @@ pub(super) fn derive(mut proved: Proved, reason: &str) -> Result<System, Vec<Vio
     let flow = Flow::of(&mut proved.model.graph, &derivative, &proved.system, &velocities);
     fence(check::claims(&mut proved.model, &claims, flow, &proved.constraints.manifold))?;
     // 5. the way back to the constraint manifold
-    let projection = projection(&mut proved.model, &velocities, &equations, &residuals, definite);
+    let projection = projection(&mut proved.model, &velocities, &equations, &residuals, judge);
     // 6. the report
     let derived = Derived::Projected { residuals: &residuals, equations: &equations };
     let text = report(&mut proved, &derived, reason, &[]);
@@ -82,7 +82,7 @@ fn projection(
     velocities: &[crate::id::SymbolId],
     equations: &SaddleEquations,
     residuals: &[ExprId],
-    definite: Definiteness,
+    judge: impl Fn(&Graph, &Matrix) -> Definiteness,
 ) -> Projection {
     let graph = &mut model.graph;
     let start: Vec<_> =
@@ -108,7 +108,7 @@ fn projection(
         .collect();
     let step = SaddleEquations { force: vec![zero; velocities.len()], bias, ..equations.clone() };
     let mut procedure = Procedure::default();
-    let (moves, _) = step.solve(graph, definite, &mut procedure);
+    let (moves, _) = step.solve(graph, judge, &mut procedure);
     procedure.outputs = moves
         .into_iter()
         .zip(&start)

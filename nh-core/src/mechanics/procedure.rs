@@ -34,18 +34,32 @@ pub struct Procedure {
     pub definitions: Vec<Definition>,
     /// The results.
     pub outputs: Vec<ExprId>,
+    /// Whether `define` puts values in place instead of naming them.
+    inline: bool,
 }
 
 impl Procedure {
     /// A function without intermediate results.
     #[must_use]
     pub fn of(outputs: Vec<ExprId>) -> Self {
-        Self { definitions: Vec::new(), outputs }
+        Self { outputs, ..Self::default() }
+    }
+
+    /// A function whose intermediate results stay in place: for expressions that are only studied.
+    #[must_use]
+    pub fn inline() -> Self {
+        Self { inline: true, ..Self::default() }
+    }
+
+    /// The same intermediate results with other outputs.
+    #[must_use]
+    pub fn with_outputs(&self, outputs: Vec<ExprId>) -> Self {
+        Self { outputs, ..self.clone() }
     }
 
     /// Names `value`, unless it is a number or a symbol already.
     pub fn define(&mut self, graph: &mut Graph, name: &str, value: ExprId) -> ExprId {
-        if graph.as_number(value).is_some() || graph.as_symbol(value).is_some() {
+        if self.inline || graph.as_number(value).is_some() || graph.as_symbol(value).is_some() {
             return value;
         }
         let symbol = graph.new_symbol(name);

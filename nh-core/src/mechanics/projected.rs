@@ -67,6 +67,12 @@ pub fn saddle_equations(
     SaddleEquations { mass, force, jacobian, bias, rates }
 }
 
+fn is_diagonal(graph: &Graph, matrix: &Matrix) -> bool {
+    let entries =
+        matrix.iter().enumerate().flat_map(|(i, row)| row.iter().enumerate().map(move |(j, e)| (i, j, e)));
+    entries.into_iter().all(|(i, j, entry)| i == j || graph.zero_test(*entry).is_zero())
+}
+
 fn negated(graph: &mut Graph, list: &[ExprId]) -> Vec<ExprId> {
     list.iter()
         .map(|entry| {
@@ -96,20 +102,69 @@ impl SaddleEquations {
         rows
     }
 
-    /// ẏ and λ, as intermediate results of the procedure.
+    /// The same equations with the constraints weighed into the mass matrix, W + Jᵀ R J and
+    /// force + Jᵀ R bias, which changes neither ẏ nor λ, because J ẏ = bias.
     ///
-    /// Where W is definite, by (10): λ = (J W⁻¹ Jᵀ)⁻¹ (bias − J W⁻¹ force), with one factorisation
-    /// of W; else the saddle system is solved with numerical pivoting.
+    /// W may be singular, or nearly so, along directions that the constraints forbid; what is
+    /// factorised here is definite wherever the kinetic energy is positive on D. The weights
+    /// R_A = 1 / Σ_α (J^A_α)² / W_αα carry the units of W.
+    pub fn augmented(&self, graph: &mut Graph, procedure: &mut Procedure) -> Self {
+        let weights: Vec<ExprId> = self
+            .jacobian
+            .iter()
+            .map(|row| {
+                let mut terms: Vec<ExprId> = Vec::new();
+                for (alpha, entry) in row.iter().enumerate() {
+                    if !graph.is_literal_zero(self.mass[alpha][alpha]) {
+                        let square = graph.square(*entry);
+                        terms.push(graph.div(square, self.mass[alpha][alpha]));
+                    }
+                }
+                let sum = graph.sum(&terms);
+                let one = graph.one();
+                let weight = if graph.zero_test(sum).is_zero() { one } else { graph.div(one, sum) };
+                procedure.define(graph, "weight", weight)
+            })
+            .collect();
+        let mut result = self.clone();
+        for ((row, weight), bias) in self.jacobian.iter().zip(weights).zip(&self.bias) {
+            for alpha in 0..row.len() {
+                let weighed = graph.mul(weight, row[alpha]);
+                let pulled = graph.mul(weighed, *bias);
+                result.force[alpha] = graph.add(result.force[alpha], pulled);
+                for beta in 0..row.len() {
+                    let product = graph.mul(weighed, row[beta]);
+                    result.mass[alpha][beta] = graph.add(result.mass[alpha][beta], product);
+                }
+            }
+        }
+        result
+    }
+
+    /// ẏ and λ, as intermediate results of the procedure; `definiteness` judges mass matrices.
+    ///
+    /// By (10): λ = (J W⁻¹ Jᵀ)⁻¹ (bias − J W⁻¹ force), with one factorisation of W where W is
+    /// diagonal and definite, of the augmented matrix where that is definite; else the saddle
+    /// system is solved with numerical pivoting.
     pub fn solve(
         &self,
         graph: &mut Graph,
-        definiteness: Definiteness,
+        definiteness: impl Fn(&Graph, &Matrix) -> Definiteness,
         procedure: &mut Procedure,
     ) -> (Vec<ExprId>, Vec<ExprId>) {
-        match definiteness {
-            Definiteness::Definite => self.solve_by_complement(graph, procedure),
-            Definiteness::Unknown => self.solve_pivoted(graph, procedure),
+        if self.jacobian.is_empty() || is_diagonal(graph, &self.mass) {
+            if definiteness(graph, &self.mass) == Definiteness::Definite {
+                return self.solve_by_complement(graph, procedure);
+            }
         }
+        let mut trial = procedure.clone();
+        let augmented = self.augmented(graph, &mut trial);
+        let written_out = self.augmented(graph, &mut Procedure::inline());
+        if definiteness(graph, &written_out.mass) == Definiteness::Definite {
+            *procedure = trial;
+            return augmented.solve_by_complement(graph, procedure);
+        }
+        self.solve_pivoted(graph, procedure)
     }
 
     fn solve_by_complement(

@@ -5,6 +5,8 @@ use crate::report::{Diagnostic, Extent};
 /// The section whose expressions are read.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Context {
+    /// `on`
+    On,
     /// `anchor`
     Anchor,
     /// `velocities`
@@ -19,6 +21,10 @@ pub(super) enum Context {
     Forces,
     /// `outputs`
     Outputs,
+    /// `conserved`
+    Conserved,
+    /// `assume`
+    Assume,
 }
 
 /// Something that not every section may use.
@@ -40,6 +46,7 @@ impl Context {
     /// The keyword of the section.
     pub(super) fn keyword(self) -> &'static str {
         match self {
+            Self::On => "on",
             Self::Anchor => "anchor",
             Self::Velocities => "velocities",
             Self::Brackets => "brackets",
@@ -47,6 +54,8 @@ impl Context {
             Self::Constraints => "constraints",
             Self::Forces => "forces",
             Self::Outputs => "outputs",
+            Self::Conserved => "conserved",
+            Self::Assume => "assume",
         }
     }
 
@@ -54,8 +63,11 @@ impl Context {
         match self {
             Self::Anchor | Self::Brackets => usage == Usage::Velocity,
             Self::Velocities => usage == Usage::Rate,
-            Self::Lagrangian | Self::Constraints => !matches!(usage, Usage::Input | Usage::Branches),
+            Self::On => false,
+            Self::Lagrangian | Self::Constraints | Self::Conserved => !matches!(usage, Usage::Input | Usage::Branches),
             Self::Forces | Self::Outputs => true,
+            // that facts are about parameters alone is a law of its own
+            Self::Assume => usage != Usage::Branches,
         }
     }
 
@@ -72,6 +84,9 @@ impl Context {
         };
         let error = Diagnostic::new(at, format!("{role}`{written}` cannot be used in `{keyword}`"));
         Err(match (usage, self) {
+            (Usage::Velocity | Usage::Rate, Self::On) => error
+                .evidence("identities are functions on the base: of the base coordinates and the parameters")
+                .way_out("relations between velocities have their place in `constraints`"),
             (Usage::Velocity, _) => error
                 .evidence("a quasi-velocity is defined as a combination of the `der(…)`")
                 .way_out("write its definition out in the `der(…)`"),

@@ -2,7 +2,6 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use nh_core::algebra::Rational;
 use nh_core::id::{ConstraintId, ExprId, SymbolId, Table};
 use nh_core::model::{AnchorDecl, ConstraintDecl, ForceDecl, Kinematics, Located, OutputDecl};
 
@@ -52,19 +51,7 @@ impl Resolver {
         lone: &Lone,
         labels: &mut BTreeSet<String>,
     ) -> Outcome<Vec<ConstraintDecl>> {
-        let (left, right) = (self.value(&equation.left), self.value(&equation.right));
-        let (left, mut right) = (left?, right?);
-        // `= 0` is said of vectors too
-        if let Some(number) = right.as_number()
-            && self.graph.is_literal_zero(number)
-        {
-            right = super::array::Array { shape: left.shape, entries: vec![number; left.shape.len()] };
-        }
-        if left.shape != right.shape {
-            let error = Diagnostic::new(equation.extent, "the two sides have different shapes")
-                .evidence(format!("on the left is {}, on the right {}", left.shape, right.shape));
-            return Err(self.report(equation, error));
-        }
+        let (left, right) = self.sides(equation)?;
         let origin = self.origin(equation.extent);
         let suffix: String = self.scope.loop_values().iter().map(|value| format!("_{value}")).collect();
         let mut found = Vec::new();
@@ -78,8 +65,7 @@ impl Resolver {
                     .way_out("choose another label");
                 return Err(self.report(name, error));
             }
-            let terms = vec![(Rational::ONE, *left_entry), (Rational::MINUS_ONE, *right_entry)];
-            let residual = self.sum_of(&equation.left, terms)?;
+            let residual = self.difference(&equation.left, *left_entry, *right_entry)?;
             let solved_for = self.solved_for(&equation.left, *left_entry, *right_entry, lone)?;
             found.push(ConstraintDecl { label, residual, solved_for, origin });
         }

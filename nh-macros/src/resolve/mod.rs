@@ -12,6 +12,7 @@ mod declare;
 mod definitions;
 mod dynamics;
 mod expression;
+mod facts;
 mod function;
 mod index;
 mod items;
@@ -70,12 +71,16 @@ impl Resolver {
     fn model(&mut self, declaration: &SystemDecl, layout: &mut Layout) -> Model {
         let sections = &declaration.sections;
         let kinematics = self.kinematics(declaration, layout);
+        let identities = sections.on.as_ref().map(|s| self.identities(&s.body)).unwrap_or_default();
         let brackets = self.brackets(&sections.brackets);
         let lagrangian = sections.lagrangian.as_ref().and_then(|s| self.lagrangian(&s.body).ok());
         let constraints =
             sections.constraints.as_ref().map(|s| self.constraints(&s.body, &kinematics)).unwrap_or_default();
         let forces = sections.forces.as_ref().map(|s| self.forces(&s.body)).unwrap_or_default();
         let outputs = sections.outputs.as_ref().map(|s| self.outputs(&s.body, layout)).unwrap_or_default();
+        let claims = sections.conserved.as_ref().map(|s| self.claims(&s.body)).unwrap_or_default();
+        let assumptions = sections.assume.as_ref().map(|s| self.assumptions(&s.body)).unwrap_or_default();
+        let requests = sections.emit.as_ref().map(|s| self.requests(&s.body)).unwrap_or_default();
         let independent = sections.independent.as_ref().map(|s| self.independent(&s.body));
         let formulation = sections.formulation.as_ref().map(|s| self.formulation(s));
         let origin = self.whole();
@@ -90,7 +95,7 @@ impl Resolver {
             coordinates: tables.coordinates,
             sections: tables.sections,
             inputs: tables.inputs,
-            identities: Vec::new(),
+            identities,
             kinematics,
             brackets,
             brackets_declared: !sections.brackets.is_empty(),
@@ -101,9 +106,9 @@ impl Resolver {
             distribution: None,
             forces,
             outputs,
-            claims: Vec::new(),
-            assumptions: Vec::new(),
-            requests: Vec::new(),
+            claims,
+            assumptions,
+            requests,
             independent,
             formulation,
         }

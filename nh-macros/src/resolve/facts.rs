@@ -1,0 +1,132 @@
+//! What is claimed about a system: identities of the base, first integrals, facts about parameters;
+//! and what is asked for beyond the default.
+
+use nh_core::algebra::Rational;
+use nh_core::id::{ExprId, Origin};
+use nh_core::model::{Assumption, Located, OutputDecl, Relation, Request};
+
+use super::array::{Array, Shape};
+use super::context::Context;
+use super::reports::Outcome;
+use super::resolver::Resolver;
+use crate::report::Diagnostic;
+use crate::suggest::did_you_mean;
+use crate::syntax::ast::{self, Comparison, Definition, Equation, Item, Name};
+
+/// What `emit` can ask for.
+const REQUESTS: [(&str, Request); 2] =
+    [("multipliers", Request::Multipliers), ("reactions", Request::Reactions)];
+
+impl Resolver {
+    /// f = 0 on the embedded base; vectors entry by entry.
+    pub(super) fn identities(&mut self, items: &[Item<Equation>]) -> Vec<Located> {
+        let mut found = Vec::new();
+        self.section(Context::On, items, &mut |this, equation| {
+            let (left, right) = this.sides(equation)?;
+            let origin = this.origin(equation.extent);
+            for (left, right) in left.entries.iter().zip(&right.entries) {
+                let value = this.difference(&equation.left, *left, *right)?;
+                found.push(Located { value, origin });
+            }
+            Ok(())
+        });
+        found
+    }
+
+    /// Both sides of an equation, in one shape. `= 0` is said of vectors too.
+    pub(super) fn sides(&mut self, equation: &Equation) -> Outcome<(Array, Array)> {
+        let (left, right) = (self.value(&equation.left), self.value(&equation.right));
+        let (left, mut right) = (left?, right?);
+        if let Some(number) = right.as_number()
+            && self.graph.is_literal_zero(number)
+        {
+            right = Array { shape: left.shape, entries: vec![number; left.shape.len()] };
+        }
+        if left.shape == right.shape {
+            return Ok((left, right));
+        }
+        let error = Diagnostic::new(equation.extent, "the two sides have different shapes")
+            .evidence(format!("on the left is {}, on the right {}", left.shape, right.shape));
+        Err(self.report(equation, error))
+    }
+
+    /// `left − right`
+    pub(super) fn difference(&mut self, at: &ast::Expr, left: ExprId, right: ExprId) -> Outcome<ExprId> {
+        self.sum_of(at, vec![(Rational::ONE, left), (Rational::MINUS_ONE, right)])
+    }
+
+    /// Claimed first integrals.
+    pub(super) fn claims(&mut self, items: &[Item<Definition>]) -> Vec<OutputDecl> {
+        let (defined, _) = self.definitions(Context::Conserved, items);
+        let mut found = Vec::new();
+        for family in &defined {
+            for (k, (value, extent)) in family.entries.iter().enumerate() {
+                let name = family.shape().entry_name(&family.name.text, k);
+                found.push(OutputDecl { name, value: *value, origin: self.origin(*extent) });
+            }
+        }
+        found
+    }
+
+    /// Facts about parameters. A number on one side is compared with every entry of the other.
+    pub(super) fn assumptions(&mut self, items: &[Item<Comparison>]) -> Vec<Assumption> {
+        let mut found = Vec::new();
+        self.section(Context::Assume, items, &mut |this, comparison| {
+            let (left, right) = (this.value(&comparison.left), this.value(&comparison.right));
+            let (left, right) = (left?, right?);
+            let shape = if left.shape == Shape::Number { right.shape } else { left.shape };
+            if [left.shape, right.shape].iter().any(|side| *side != shape && *side != Shape::Number) {
+                let error = Diagnostic::new(comparison.extent, "the two sides have different shapes")
+                    .evidence(format!("on the left is {}, on the right {}", left.shape, right.shape));
+                return Err(this.report(comparison, error));
+            }
+            let origin = this.origin(comparison.extent);
+            for k in 0..shape.len() {
+                let side = |side: &Array| side.as_number().unwrap_or_else(|| side.entries[k]);
+                let (left, right) = (side(&left), side(&right));
+                let (relation, sign) = relation(comparison.relation);
+                let text = format!("{} {sign} {}", this.graph.text(left), this.graph.text(right));
+                found.push(Assumption { left, relation, right, text, origin });
+            }
+            Ok(())
+        });
+        found
+    }
+
+    /// What to generate beyond the default.
+    pub(super) fn requests(&mut self, names: &[Name]) -> Vec<(Request, Origin)> {
+        let mut found: Vec<(Request, Origin)> = Vec::new();
+        for name in names {
+            let text = name.text.as_str();
+            let Some((_, request)) = REQUESTS.iter().find(|(known, _)| *known == text) else {
+                let all = REQUESTS.map(|(known, _)| format!("`{known}`")).join(", ");
+                let error = Diagnostic::new(name.extent(), format!("`{text}` cannot be emitted"));
+                let known = format!("what can be asked for: {all}");
+                let error = match did_you_mean(text, REQUESTS.map(|(known, _)| known)) {
+                    Some(question) => error.evidence(known).way_out(question),
+                    None => error.way_out(known),
+                };
+                self.report(name, error);
+                continue;
+            };
+            if found.iter().any(|(earlier, _)| earlier == request) {
+                self.report(name, Diagnostic::new(name.extent(), format!("`{text}` is asked for twice")));
+                continue;
+            }
+            let origin = self.origin(name.extent());
+            found.push((*request, origin));
+        }
+        found
+    }
+}
+
+/// The relation, and how it is written.
+fn relation(relation: ast::Relation) -> (Relation, &'static str) {
+    match relation {
+        ast::Relation::Less => (Relation::Less, "<"),
+        ast::Relation::LessOrEqual => (Relation::LessOrEqual, "<="),
+        ast::Relation::Greater => (Relation::Greater, ">"),
+        ast::Relation::GreaterOrEqual => (Relation::GreaterOrEqual, ">="),
+        ast::Relation::NotEqual => (Relation::NotEqual, "!="),
+    }
+}
