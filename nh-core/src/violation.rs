@@ -22,6 +22,8 @@ pub enum Law {
     Embedding,
     /// Facts about parameters are about parameters and do not contradict each other.
     Assumption,
+    /// A frame is a basis of sections at most points.
+    Frame,
     /// A claimed first integral is one.
     Conservation,
     /// The Lagrangian is smooth.

@@ -21,6 +21,15 @@ pub struct Constraints {
     pub manifold: Manifold,
 }
 
+impl Constraints {
+    /// None on an embedded base.
+    #[must_use]
+    pub fn none(base: &Manifold) -> Self {
+        let linear = LinearConstraints { annihilator: Vec::new(), drift: Vec::new() };
+        Self { residuals: Vec::new(), linear: Some(linear), manifold: base.clone() }
+    }
+}
+
 /// One constraint, taken apart as far as it can be.
 enum Shape {
     Affine(Vec<ExprId>, ExprId),

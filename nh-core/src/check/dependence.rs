@@ -98,3 +98,16 @@ fn combination(graph: &mut Graph, rows: &Matrix, index: usize) -> Option<Vec<Exp
     let solution = graph.solve_linear(&matrix, &right)?;
     Some(solution.values.into_iter().map(|row| graph.simplify(row[0])).collect())
 }
+
+/// The first of some vectors that is a combination of those before it, and what there is to say.
+pub(super) fn dependent_columns(graph: &Graph, vectors: &Matrix) -> Option<(usize, String)> {
+    let mut rank = 0;
+    for count in 1..=vectors.len() {
+        match graph.generic_rank(&vectors[..count]) {
+            Ok(found) if found > rank => rank = found,
+            Ok(_) => return Some((count - 1, format!("their span has rank {rank} only"))),
+            Err(why) => return Some((count - 1, format!("their rank could not be decided: {why}"))),
+        }
+    }
+    None
+}

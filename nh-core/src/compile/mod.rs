@@ -6,7 +6,7 @@ mod restricted;
 
 use crate::algebra::Facts;
 use crate::check::{self, Chosen, Constraints, Motion};
-use crate::geometry::{Algebroid, Manifold};
+use crate::geometry::{Algebroid, ConstraintDistribution, Manifold};
 use crate::id::{ExprId, Id};
 use crate::mechanics::LagrangianSystem;
 use crate::model::{ForceDirection, Model};
@@ -44,11 +44,18 @@ pub fn compile(mut model: Model) -> Result<System, Vec<Violation>> {
     let structure = check::structure_functions(&mut model, &motion)?;
     let velocities = model.sections.iter().map(|section| section.symbol).collect();
     let algebroid = Algebroid { anchor: motion.anchor.clone(), structure, velocities };
-    // 4. the structure equations, and the constraints
+    // 4. the structure equations, and D: by constraints or by sections, in the basis of the frame
     let broken = check::structure_equations(&mut model, &algebroid, &base);
-    let constraints = both(broken, check::constraints(&mut model, &mut motion, &algebroid, &base))?;
+    let described = describe(&mut model, &mut motion, algebroid, &base, &facts);
+    let (algebroid, constraints, spanned) = both(broken, described)?;
     // 5. the formulation: a basis of D valid everywhere, or multipliers
-    let chosen = check::choose_formulation(&mut model, &constraints, &facts, &base)?;
+    let chosen = match spanned {
+        Some(distribution) => {
+            let reason = "the declared sections span D".into();
+            Chosen::Adapted { distribution, conditions: Vec::new(), reason }
+        }
+        None => check::choose_formulation(&mut model, &constraints, &facts, &base)?,
+    };
     // 6. the Lagrangian system on E
     let system = lagrangian_system(&mut model, &mut motion, algebroid);
     // 7. the equations, proved regular, and the claims about them
@@ -59,6 +66,22 @@ pub fn compile(mut model: Model) -> Result<System, Vec<Violation>> {
         }
         Chosen::Projected { reason } => projected::derive(proved, &reason),
     }
+}
+
+/// The constraints, in the basis that the frame makes, or the distribution that sections span.
+fn describe(
+    model: &mut Model,
+    motion: &mut Motion,
+    algebroid: Algebroid,
+    base: &Manifold,
+    facts: &Facts,
+) -> Result<(Algebroid, Constraints, Option<ConstraintDistribution>), Vec<Violation>> {
+    if let Some(spanned) = check::spanned_distribution(model, &algebroid, base)? {
+        return Ok((algebroid, Constraints::none(base), Some(spanned)));
+    }
+    let algebroid = check::change_to_frame(model, motion, algebroid, base, facts)?;
+    let constraints = check::constraints(model, motion, &algebroid, base)?;
+    Ok((algebroid, constraints, None))
 }
 
 fn fence(violations: Vec<Violation>) -> Result<(), Vec<Violation>> {

@@ -107,12 +107,12 @@ impl ConstraintDistribution {
         linear.into_iter().zip(&self.offset).map(|(y, offset)| graph.add(y, *offset)).collect()
     }
 
-    /// The restriction of functions on E to the constraint manifold.
+    /// The restriction of functions on E to the constraint manifold: every quasi-velocity is
+    /// replaced by its value there.
     pub fn restriction(&self, graph: &mut Graph, velocities: &[SymbolId]) -> Substitution {
         let velocity = self.velocity(graph);
-        Substitution::new(
-            self.dependent.iter().map(|section| (velocities[section.index()], velocity[section.index()])),
-        )
+        let changed = velocities.iter().copied().zip(velocity);
+        Substitution::new(changed.filter(|(symbol, value)| graph.as_symbol(*value) != Some(*symbol)))
     }
 
     /// Whether D is closed under the bracket, that is C^A_{ab} = 0 in an adapted frame

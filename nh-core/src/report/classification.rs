@@ -64,25 +64,27 @@ fn constraints(
     declared: &Constraints,
     derived: &Derived<'_>,
 ) -> String {
-    let count = model.constraints.len();
-    if count == 0 {
-        return "constraints: none".into();
-    }
+    let (count, rank) = (model.constraints.len(), model.distribution.as_ref().map(Vec::len));
     let kind = match &declared.linear {
         None => "nonlinear",
         Some(linear) if linear.drift.iter().all(|drift| model.graph.zero_test(*drift).is_zero()) => "linear",
         Some(_) => "affine",
     };
+    let what = match (count, rank) {
+        (_, Some(rank)) => format!("constraints: D is the span of {rank} sections"),
+        (0, None) => return "constraints: none".into(),
+        (_, None) => format!("constraints: {count}, {kind} in the velocities"),
+    };
     let distribution = match derived {
         Derived::Adapted { distribution, .. } => *distribution,
-        Derived::Projected { .. } => return format!("constraints: {count}, {kind} in the velocities"),
+        Derived::Projected { .. } => return what,
     };
     let holonomic = match distribution.is_holonomic(&mut model.graph, &system.algebroid) {
         Some(true) => "; D is closed under the bracket (holonomic)",
         Some(false) => "; D is not closed under the bracket (nonholonomic)",
         None => "",
     };
-    format!("constraints: {count}, {kind} in the velocities{holonomic}")
+    format!("{what}{holonomic}")
 }
 
 /// What is conserved by the theorems that need no search.

@@ -119,7 +119,9 @@ fn structure_functions(model: &Model, system: &LagrangianSystem) -> Vec<String> 
 fn distribution(model: &Model, derived: &Derived<'_>) -> Vec<String> {
     let names = section_names(model);
     match derived {
-        Derived::Adapted { distribution, .. } if distribution.dependent.is_empty() => Vec::new(),
+        Derived::Adapted { distribution, .. } if distribution.constraints.annihilator.is_empty() => {
+            Vec::new()
+        }
         Derived::Adapted { distribution, .. } => (0..distribution.rank())
             .map(|a| {
                 let name = &model.graph.symbols()[distribution.independent[a]];

@@ -184,6 +184,64 @@ fn constraints_may_depend_on_time() {
 }
 
 #[test]
+fn a_distribution_by_span_is_that_of_the_constraints() {
+    let (by_span, by_constraints) =
+        (compiled(systems::snakeboard(true)), compiled(systems::snakeboard(false)));
+    assert_eq!(by_span.formulation, Formulation::Adapted);
+    let (phi, s, dpsi, dphi) = (0.7f64, 0.9, -0.4, 0.3);
+    let (m, l, j0, j1) = (1.4, 0.6, 0.2, 0.05);
+    let (xi1, xi3) = (-l * phi.cos() * s, phi.sin() * s);
+    let values = [
+        ("m", m),
+        ("l", l),
+        ("J0", j0),
+        ("J1", j1),
+        ("psi", 0.1),
+        ("phi", phi),
+        ("s", s),
+        ("xi1", xi1),
+        ("xi3", xi3),
+        ("dpsi", dpsi),
+        ("dphi", dphi),
+        ("t", 0.0),
+    ];
+    let spanned = derivative(&by_span, &values);
+    let constrained = derivative(&by_constraints, &values);
+    let names: Vec<&str> = by_constraints
+        .state_velocities
+        .iter()
+        .map(|v| by_constraints.model.graph.symbols()[*v].as_str())
+        .collect();
+    assert_eq!(names, ["xi1", "dpsi", "dphi"]);
+    // ξ₁ = −l cosφ s
+    let expected = (constrained[2] - l * phi.sin() * dphi * s) / (-l * phi.cos());
+    assert_close(&spanned[2..], &[expected, constrained[3], constrained[4]]);
+    // and where cosφ = 0 the span is still regular
+    let mut singular = values;
+    singular[5].1 = std::f64::consts::FRAC_PI_2;
+    assert!(derivative(&by_span, &singular).iter().all(|rate| rate.is_finite()));
+}
+
+#[test]
+fn a_frame_is_a_change_of_basis() {
+    let (framed, plain) =
+        (compiled(systems::charged_particle(true)), compiled(systems::charged_particle(false)));
+    let (m, b, x, y, d1, d2, vertical) = (1.3, 0.8, 0.2, -0.7, 0.5, 1.1, 0.4);
+    let common = [("m", m), ("b", b), ("x", x), ("y", y), ("t", 0.0), ("d2", d2)];
+    let mut values = common.to_vec();
+    values.extend([("h1", d1), ("xi", vertical)]);
+    let found = derivative(&framed, &values);
+    let mut values = common.to_vec();
+    values.extend([("d1", d1), ("xi", vertical - b * y * d1)]);
+    let expected = derivative(&plain, &values);
+    // xi in the frame is xi + b y d1
+    let vertical_rate = expected[4] + b * d2 * d1 + b * y * expected[2];
+    assert_close(&found, &[d1, d2, expected[2], expected[3], vertical_rate]);
+    // the curvature of the connection is in the brackets: [h1, d2] = b xi
+    assert!(framed.report.contains("[h1, d2] = (b)*xi"), "{}", framed.report);
+}
+
+#[test]
 fn broken_laws_are_named() {
     let mut b = systems::Builder::new(&[], &[], &["w1", "w2", "w3"]);
     b.bracket(0, 1, &[(1, 1, "w3")]);

@@ -3,7 +3,8 @@
 use nh_core::algebra::{Graph, Rational};
 use nh_core::id::{ExprId, Id, Origin, SymbolId, Table};
 use nh_core::model::{
-    AnchorDecl, BracketDecl, ConstraintDecl, Coordinate, Kinematics, Located, Model, Parameter, Section,
+    AnchorDecl, BracketDecl, ConstraintDecl, Coordinate, FrameDecl, Kinematics, Located, Model, Parameter,
+    Section,
 };
 
 pub(crate) fn origin() -> Origin {
@@ -258,5 +259,59 @@ pub(crate) fn steered_blade() -> Model {
     let mut b = Builder::new(&["m"], &["x", "y"], &[]);
     b.lagrangian(&[(1, 2, "m*x_dot*x_dot"), (1, 2, "m*y_dot*y_dot")]);
     b.constraint(&[(1, 1, "y_dot"), (-1, 1, "x_dot*t")]);
+    b.model
+}
+
+/// The snakeboard on its Atiyah algebroid: by its two constraints, or by the sections that span D.
+pub(crate) fn snakeboard(spanned: bool) -> Model {
+    let sections = ["xi1", "xi2", "xi3", "dpsi", "dphi"];
+    let mut b = Builder::new(&["m", "l", "J0", "J1"], &["psi", "phi"], &sections);
+    b.anchor(&[&[(1, 1, "dpsi")], &[(1, 1, "dphi")]]);
+    // body-frame translations xi1, xi2 and rotation xi3: [xi3, xi1] = xi2, [xi3, xi2] = −xi1
+    b.bracket(2, 0, &[(1, 1, "xi2")]);
+    b.bracket(2, 1, &[(-1, 1, "xi1")]);
+    b.lagrangian(&[
+        (1, 2, "m*xi1*xi1"),
+        (1, 2, "m*xi2*xi2"),
+        (1, 2, "m*l*l*xi3*xi3"),
+        (1, 2, "J0*dpsi*dpsi"),
+        (1, 1, "J0*dpsi*xi3"),
+        (1, 1, "J1*dphi*dphi"),
+    ]);
+    if spanned {
+        // s = −l cosφ ξ₁ + sinφ ξ₃
+        let value = b.sum(&[(-1, 1, "l*cos(phi)*xi1"), (1, 1, "sin(phi)*xi3")]);
+        let symbol = b.model.graph.new_symbol("s");
+        b.model.frame.push(FrameDecl { name: "s".into(), symbol, value, origin: origin() });
+        let symbols = [symbol, b.symbol("dpsi"), b.symbol("dphi")];
+        b.model.distribution = Some(symbols.map(|symbol| (symbol, origin())).to_vec());
+    } else {
+        b.constraint(&[(-1, 1, "sin(phi)*xi1"), (1, 1, "cos(phi)*xi2"), (-1, 1, "l*cos(phi)*xi3")]);
+        b.constraint(&[(1, 1, "sin(phi)*xi1"), (1, 1, "cos(phi)*xi2"), (1, 1, "l*cos(phi)*xi3")]);
+    }
+    b.model
+}
+
+/// A charged particle in the field of a connection A = b y dx on the plane: on TQ/S¹ with the
+/// coordinate sections d1, d2 and the vertical xi, or in the frame h1 = d1 − A xi, h2 = d2.
+pub(crate) fn charged_particle(horizontal: bool) -> Model {
+    let mut b = Builder::new(&["m", "b"], &["x", "y"], &["d1", "d2", "xi"]);
+    b.anchor(&[&[(1, 1, "d1")], &[(1, 1, "d2")]]);
+    b.model.brackets_declared = true;
+    if horizontal {
+        let value = b.sum(&[(1, 1, "d1"), (-1, 1, "b*y*xi")]);
+        let symbol = b.model.graph.new_symbol("h1");
+        b.model.frame.push(FrameDecl { name: "h1".into(), symbol, value, origin: origin() });
+        b.lagrangian(&[(1, 2, "m*h1*h1"), (1, 2, "m*d2*d2"), (1, 2, "xi*xi")]);
+    } else {
+        // the vertical velocity is xi + b y d1
+        b.lagrangian(&[
+            (1, 2, "m*d1*d1"),
+            (1, 2, "m*d2*d2"),
+            (1, 2, "xi*xi"),
+            (1, 1, "xi*b*y*d1"),
+            (1, 2, "b*b*y*y*d1*d1"),
+        ]);
+    }
     b.model
 }
