@@ -44,6 +44,8 @@ pub struct Model {
     pub distribution: Option<Vec<(SymbolId, Origin)>>,
     /// Generalized forces.
     pub forces: Vec<ForceDecl>,
+    /// Calls of methods of the struct, each with a symbol for its result.
+    pub calls: Vec<MethodCall>,
     /// Named observables.
     pub outputs: Vec<OutputDecl>,
     /// Claimed first integrals (`conserved`).
@@ -235,6 +237,19 @@ pub enum ForceDirection {
     Section(SectionId),
     /// Q_i along a base coordinate, pulled back by the anchor (CNS section 3).
     Coordinate(CoordId),
+}
+
+/// A call `self.method(arguments)` in a force or an observable.
+#[derive(Clone, Debug)]
+pub struct MethodCall {
+    /// What stands for its result.
+    pub symbol: SymbolId,
+    /// The name of the method.
+    pub method: String,
+    /// The arguments; t, x, y, rates, inputs and earlier calls may occur in them.
+    pub arguments: Vec<ExprId>,
+    /// Where it stands.
+    pub origin: Origin,
 }
 
 /// A named observable.

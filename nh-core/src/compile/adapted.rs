@@ -1,6 +1,6 @@
 //! The functions of a system in the adapted formulation.
 
-use super::restricted::{in_state, observables, parameter_checks, requested};
+use super::restricted::{calls, in_state, observables, parameter_checks, requested};
 use super::{Proved, fence};
 use crate::algebra::Graph;
 use crate::check;
@@ -28,15 +28,16 @@ pub(super) fn derive(
     // 2. v̇
     let parameters: Vec<_> = proved.model.parameters.iter().map(|parameter| parameter.symbol).collect();
     let definite = definiteness(&proved.model.graph, &equations.mass, &parameters, &proved.facts);
+    let velocities = &proved.system.algebroid.velocities;
+    let mut restriction = distribution.restriction(&mut proved.model.graph, velocities);
+    let mut derivative = calls(&mut proved.model, &mut proved.motion, &mut restriction);
     let graph = &mut proved.model.graph;
-    let mut derivative = Procedure::default();
     let accelerations =
         solve_symmetric(graph, &equations.mass, &equations.force, definite, &mut derivative, "v_dot");
     let (multipliers, reactions) =
         constraint_forces(graph, distribution, &equations, &derivative, &accelerations);
     derivative.outputs = equations.rates.iter().chain(&accelerations).copied().collect();
     // 3. E_L, y and the observables on D
-    let mut restriction = distribution.restriction(graph, &proved.system.algebroid.velocities);
     let energy = energy(graph, &proved.system);
     let energy = restriction.apply(graph, energy);
     let energy = graph.simplify(energy);

@@ -1,6 +1,6 @@
 //! The functions of a system in the projected formulation.
 
-use super::restricted::{in_state, observables, requested};
+use super::restricted::{calls, in_state, observables, requested};
 use super::{Proved, fence};
 use crate::algebra::{Graph, Matrix, Substitution};
 use crate::check;
@@ -24,8 +24,9 @@ pub(super) fn derive(mut proved: Proved, reason: &str) -> Result<System, Vec<Vio
     let parameters: Vec<_> = proved.model.parameters.iter().map(|parameter| parameter.symbol).collect();
     let facts = proved.facts.clone();
     let judge = |graph: &Graph, matrix: &Matrix| definiteness(graph, matrix, &parameters, &facts);
+    let mut everywhere = Substitution::new([]);
+    let mut derivative = calls(&mut proved.model, &mut proved.motion, &mut everywhere);
     let graph = &mut proved.model.graph;
-    let mut derivative = Procedure::default();
     let (accelerations, multipliers) = equations.solve(graph, judge, &mut derivative);
     let reactions = (0..accelerations.len())
         .map(|alpha| {
@@ -38,7 +39,6 @@ pub(super) fn derive(mut proved: Proved, reason: &str) -> Result<System, Vec<Vio
     // 3. E_L, y and the observables
     let velocity = proved.system.algebroid.velocity(graph);
     let energy = energy(graph, &proved.system);
-    let mut everywhere = Substitution::new([]);
     let observables = observables(&mut proved.model, &mut proved.motion, &mut everywhere);
     // 4. the claims, along the flow
     let claims: Vec<ExprId> = proved

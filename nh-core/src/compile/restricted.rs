@@ -3,7 +3,7 @@
 use crate::algebra::{Graph, Substitution};
 use crate::check::Motion;
 use crate::id::ExprId;
-use crate::mechanics::Procedure;
+use crate::mechanics::{Definition, Procedure};
 use crate::model::{Model, Request};
 use crate::system::ParameterCheck;
 
@@ -13,12 +13,26 @@ pub(super) fn observables(
     motion: &mut Motion,
     restriction: &mut Substitution,
 ) -> Procedure {
+    let calls = calls(model, motion, restriction);
     let graph = &mut model.graph;
     let mut outputs = Vec::with_capacity(model.outputs.len());
     for output in &model.outputs {
         outputs.push(in_state(graph, motion, restriction, output.value));
     }
-    Procedure::of(outputs)
+    calls.with_outputs(outputs)
+}
+
+/// The calls of the user's methods, with arguments in the variables of the state.
+pub(super) fn calls(model: &mut Model, motion: &mut Motion, restriction: &mut Substitution) -> Procedure {
+    let graph = &mut model.graph;
+    let mut procedure = Procedure::default();
+    for call in &model.calls {
+        let arguments =
+            call.arguments.iter().map(|value| in_state(graph, motion, restriction, *value)).collect();
+        let (symbol, method) = (call.symbol, call.method.clone());
+        procedure.definitions.push(Definition::Call { symbol, method, arguments });
+    }
+    procedure
 }
 
 /// A declared expression in the coordinates and velocities of the state.

@@ -40,6 +40,8 @@ impl Procedure {
                     let value = known.apply(graph, *value);
                     known.insert(*symbol, value);
                 }
+                // what a method returns is known to the compiled program only: it stays a symbol
+                Definition::Call { .. } => {}
                 Definition::Solve { unknowns, matrix, right } => {
                     let matrix: Matrix = matrix
                         .iter()

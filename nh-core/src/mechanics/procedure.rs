@@ -16,6 +16,15 @@ pub enum Definition {
         /// Its value.
         value: ExprId,
     },
+    /// `symbol = self.method(arguments)`, a method of the user's that is no formula.
+    Call {
+        /// The result.
+        symbol: SymbolId,
+        /// The name of the method.
+        method: String,
+        /// What it is called with.
+        arguments: Vec<ExprId>,
+    },
     /// The unknowns solve `matrix · unknowns = right`, with numerical pivoting.
     Solve {
         /// The intermediate results.

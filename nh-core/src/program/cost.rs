@@ -67,7 +67,11 @@ impl Cost {
             Step::Div(..) | Step::Recip(_) => self.divisions += 1,
             Step::Sqrt(_) => self.square_roots += 1,
             Step::SinCos(_) | Step::Apply(Function::Sin | Function::Cos, _) => self.sin_cos += 1,
-            Step::Cbrt(_) | Step::PowReal(..) | Step::Apply(..) | Step::Apply2(Function2::Atan2, ..) => {
+            Step::Cbrt(_)
+            | Step::PowReal(..)
+            | Step::Apply(..)
+            | Step::Apply2(Function2::Atan2, ..)
+            | Step::Call { .. } => {
                 self.functions += 1;
             }
             Step::Solve { right, .. } => {

@@ -1,6 +1,6 @@
 //! From the graph to the arena: only what the outputs depend on, roots taken apart from powers.
 
-use super::nary::{Arena, Nary, Source, System, Term};
+use super::nary::{Arena, Call, Nary, Source, System, Term};
 use crate::algebra::{Graph, Node, Rational};
 use crate::id::{ExprId, Id, SymbolId};
 use crate::mechanics::{Definition, Procedure};
@@ -33,6 +33,12 @@ impl Importer<'_> {
                 Definition::Value { symbol, value } => {
                     let value = self.image(*value);
                     self.arena.sources.insert(*symbol, Source::Value(value));
+                }
+                Definition::Call { symbol, method, arguments } => {
+                    let arguments = arguments.iter().map(|id| self.image(*id)).collect();
+                    let call = self.arena.calls.len();
+                    self.arena.calls.push(Call { method: method.clone(), arguments });
+                    self.arena.sources.insert(*symbol, Source::Call(call));
                 }
                 Definition::Solve { unknowns, matrix, right } => {
                     let of = |list: &Vec<ExprId>| list.iter().map(|id| self.image(*id)).collect();
@@ -133,7 +139,9 @@ fn live<'a>(graph: &Graph, procedure: &'a Procedure) -> (Vec<bool>, Vec<&'a Defi
     let mut defined: FxHashMap<SymbolId, usize> = FxHashMap::default();
     for (index, definition) in procedure.definitions.iter().enumerate() {
         match definition {
-            Definition::Value { symbol, .. } => drop(defined.insert(*symbol, index)),
+            Definition::Value { symbol, .. } | Definition::Call { symbol, .. } => {
+                defined.insert(*symbol, index);
+            }
             Definition::Solve { unknowns, .. } => defined.extend(unknowns.iter().map(|s| (*s, index))),
         }
     }
@@ -149,6 +157,7 @@ fn live<'a>(graph: &Graph, procedure: &'a Procedure) -> (Vec<bool>, Vec<&'a Defi
         if let Some(&index) = definition.filter(|index| !std::mem::replace(&mut needed[**index], true)) {
             match &procedure.definitions[index] {
                 Definition::Value { value, .. } => open.push(*value),
+                Definition::Call { arguments, .. } => open.extend(arguments),
                 Definition::Solve { matrix, right, .. } => open.extend(matrix.iter().flatten().chain(right)),
             }
         }

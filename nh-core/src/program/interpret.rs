@@ -139,6 +139,8 @@ pub fn interpret_in<A: Arithmetic>(program: &Program, mut symbol: impl FnMut(Sym
             Step::CosOf(pair) => results[*pair].apply(Function::Cos),
             Step::Apply(function, a) => results[*a].apply(*function),
             Step::Apply2(function, a, b) => results[*a].apply2(*function, &results[*b]),
+            // a method of the user's has a value in the compiled program only
+            Step::Call { .. } => zero.div(&zero),
             Step::Solve { matrix, right } => {
                 let of = |values: &Vec<Value>| values.iter().map(|v| results[*v].clone()).collect();
                 let solution = solve(matrix.iter().map(of).collect(), of(right));

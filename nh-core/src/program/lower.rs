@@ -96,6 +96,7 @@ impl Lowering<'_> {
             Nary::Symbol(symbol) => match self.arena.sources.get(symbol) {
                 None => self.push(Step::Load(*symbol)),
                 Some(Source::Value(value)) => self.value(*value),
+                Some(Source::Call(call)) => self.call(*call),
                 Some(Source::Unknown { system, component }) => self.unknown(*system, *component),
             },
             Nary::Sum(operands) => self.sum(operands),
@@ -114,6 +115,13 @@ impl Lowering<'_> {
                 self.push(Step::Apply2(*function, self.value(*a), self.value(*b)))
             }
         }
+    }
+
+    fn call(&mut self, call: usize) -> Value {
+        let call = &self.arena.calls[call];
+        let arguments = call.arguments.iter().map(|term| self.value(*term)).collect();
+        let method = call.method.clone();
+        self.push(Step::Call { method, arguments })
     }
 
     fn unknown(&mut self, system: usize, component: usize) -> Value {
@@ -264,6 +272,7 @@ fn rename(step: &Step, new: &impl Fn(Value) -> Value) -> Step {
         Step::CosOf(a) => Step::CosOf(new(*a)),
         Step::Apply(function, a) => Step::Apply(*function, new(*a)),
         Step::Apply2(function, a, b) => Step::Apply2(*function, new(*a), new(*b)),
+        Step::Call { method, arguments } => Step::Call { method: method.clone(), arguments: all(arguments) },
         Step::Solve { matrix, right } => {
             Step::Solve { matrix: matrix.iter().map(all).collect(), right: all(right) }
         }

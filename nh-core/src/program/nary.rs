@@ -47,8 +47,17 @@ pub(super) enum Nary {
 pub(super) enum Source {
     /// The value of a term.
     Value(Term),
+    /// The result of a method call.
+    Call(usize),
     /// An unknown of a linear system.
     Unknown { system: usize, component: usize },
+}
+
+/// A call of a method of the user's.
+#[derive(Clone, Debug)]
+pub(super) struct Call {
+    pub(super) method: String,
+    pub(super) arguments: Vec<Term>,
 }
 
 /// A linear system.
@@ -64,6 +73,7 @@ pub(super) struct Arena {
     terms: Table<Term, Nary>,
     known: FxHashMap<Nary, Term>,
     pub(super) sources: FxHashMap<SymbolId, Source>,
+    pub(super) calls: Vec<Call>,
     pub(super) systems: Vec<System>,
     pub(super) outputs: Vec<Term>,
     /// Symbols that do not change while a system moves.
@@ -167,6 +177,7 @@ impl Arena {
             Nary::Symbol(symbol) => match self.sources.get(symbol) {
                 None => Vec::new(),
                 Some(Source::Value(value)) => vec![*value],
+                Some(Source::Call(call)) => self.calls[*call].arguments.clone(),
                 Some(Source::Unknown { system, .. }) => {
                     let System { matrix, right } = &self.systems[*system];
                     matrix.iter().flatten().chain(right).copied().collect()

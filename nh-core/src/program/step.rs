@@ -54,6 +54,13 @@ pub enum Step {
     Apply(Function, Value),
     /// A function of two arguments.
     Apply2(Function2, Value, Value),
+    /// A method of the user's, called with values.
+    Call {
+        /// Its name.
+        method: String,
+        /// What it is called with.
+        arguments: Vec<Value>,
+    },
     /// The solution of a linear system by elimination with pivoting, to be taken apart by
     /// `Component`.
     Solve {
@@ -85,6 +92,7 @@ impl Step {
             | Self::CosOf(a)
             | Self::Apply(_, a)
             | Self::Component(a, _) => vec![*a],
+            Self::Call { arguments, .. } => arguments.clone(),
             Self::Solve { matrix, right } => matrix.iter().flatten().chain(right).copied().collect(),
         }
     }

@@ -60,6 +60,7 @@ impl Builder {
             sections,
             inputs: Table::new(),
             identities: Vec::new(),
+            calls: Vec::new(),
             frame: Vec::new(),
             distribution: None,
             claims: Vec::new(),

@@ -5,7 +5,7 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use nh_core::id::{SymbolId, Table};
 use nh_core::program::{Program, Step, Value};
-use proc_macro2::{Ident, Literal, TokenStream};
+use proc_macro2::{Ident, Literal, Span, TokenStream};
 use quote::quote;
 
 use super::context::Context;
@@ -128,6 +128,7 @@ impl Writer<'_> {
             },
             Step::Apply(function, a) => self.call(function.name(), &[*a]),
             Step::Apply2(function, a, b) => self.call(function.name(), &[*a, *b]),
+            Step::Call { method, arguments } => self.call_of_user(method, arguments),
             Step::Solve { matrix, right } => self.solve(value, matrix, right),
             Step::Component(system, index) => {
                 let variable = self.systems.get(system).and_then(|unknowns| unknowns.get(*index)?.as_ref());
@@ -143,6 +144,14 @@ impl Writer<'_> {
         }
         let message = format!("`{}` is not known here", self.scope.name(symbol));
         Expression::atom(quote!(::core::compile_error!(#message)), 0)
+    }
+
+    /// `self.method(a, b)`.
+    fn call_of_user(&mut self, method: &str, arguments: &[Value]) -> Expression {
+        self.used.insert(Argument::This);
+        let method = Ident::new(method, Span::call_site());
+        let arguments = arguments.iter().map(|value| &self.expressions[*value].tokens);
+        Expression::atom(quote!(self.#method(#(#arguments),*)), 0)
     }
 
     /// `Scalar::method(a, b)`.

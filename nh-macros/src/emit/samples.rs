@@ -85,6 +85,7 @@ impl Builder {
             frame: Vec::new(),
             distribution: None,
             claims: Vec::new(),
+            calls: Vec::new(),
             assumptions: Vec::new(),
             requests: Vec::new(),
             independent: None,

@@ -83,7 +83,7 @@ impl Resolver {
         let requests = sections.emit.as_ref().map(|s| self.requests(&s.body)).unwrap_or_default();
         let independent = sections.independent.as_ref().map(|s| self.independent(&s.body));
         let formulation = sections.formulation.as_ref().map(|s| self.formulation(s));
-        let origin = self.whole();
+        let origin = Self::whole();
         let lagrangian = lagrangian.unwrap_or(Located { value: self.time(), origin });
         let tables = std::mem::take(&mut self.tables);
         Model {
@@ -100,6 +100,7 @@ impl Resolver {
             brackets,
             brackets_declared: !sections.brackets.is_empty(),
             almost: sections.almost.is_some(),
+            calls: Vec::new(),
             frame: Vec::new(),
             lagrangian,
             constraints,
