@@ -10,31 +10,42 @@ use crate::syntax::ast::Expr;
 use crate::syntax::limits;
 
 /// Bits of a number: what a literal may have, and a result.
-const BITS: u64 = 8192;
+const BITS: u64 = 4096;
+/// Numerator and denominator of an exponent that products and powers of powers add up to.
+const STEEP: i64 = 1_000_000;
 /// Bits of the numbers that are combined in one go.
-const TOGETHER: u64 = 16_384;
+const TOGETHER: u64 = 2 * BITS;
 
 impl Resolver {
     /// `Σ coefficient · term`
     pub(super) fn sum_of(&mut self, at: &Expr, terms: Vec<(Rational, ExprId)>) -> Outcome<ExprId> {
+        let mut constant = Rational::ZERO;
         let mut chunk: Vec<(Rational, ExprId)> = Vec::new();
         let mut bits = 0;
         for (coefficient, term) in terms {
+            if let Some(number) = self.graph.as_number(term) {
+                constant = constant + coefficient * number.clone();
+                self.check_length(at, large(&constant), 1)?;
+                continue;
+            }
             let more = self.bits(term);
             if bits + more > TOGETHER {
                 let sum = self.graph.linear_combination(&chunk);
-                let sum = self.checked(at, sum)?;
+                let sum = self.checked(at, sum, chunk.len())?;
                 bits = self.bits(sum);
                 chunk = vec![(Rational::ONE, sum)];
             }
             bits += more;
             chunk.push((coefficient, term));
         }
+        if !constant.is_zero() || chunk.is_empty() {
+            chunk.push((Rational::ONE, self.graph.number(constant)));
+        }
         let sum = match chunk.as_slice() {
             [(coefficient, only)] if coefficient.is_one() => return Ok(*only),
             chunk => self.graph.linear_combination(chunk),
         };
-        self.checked(at, sum)
+        self.checked(at, sum, chunk.len())
     }
 
     /// `Σ a_i b_i`
@@ -64,7 +75,7 @@ impl Resolver {
             let more = self.bits(*base);
             if bits + more > TOGETHER {
                 let product = self.graph.product(&chunk);
-                let product = self.checked(at, product)?;
+                let product = self.checked(at, product, chunk.len())?;
                 bits = self.bits(product);
                 chunk = vec![(product, Rational::ONE)];
             }
@@ -75,7 +86,7 @@ impl Resolver {
             [(only, exponent)] if exponent.is_one() => return Ok(*only),
             chunk => self.graph.product(chunk),
         };
-        self.checked(at, product)
+        self.checked(at, product, chunk.len())
     }
 
     /// `base^exponent`, where the exponent stands at `written`.
@@ -98,26 +109,37 @@ impl Resolver {
         }
     }
 
-    /// Charges for what was built, and refuses numbers that grow without bound.
-    pub(super) fn checked(&mut self, at: &Expr, built: ExprId) -> Outcome<ExprId> {
-        let (operands, bits) = match self.graph.node(built) {
+    /// Charges for what was built of so many operands, and refuses numbers that grow without bound.
+    pub(super) fn checked(&mut self, at: &Expr, built: ExprId, operands: usize) -> Outcome<ExprId> {
+        let mut steep = false;
+        let (entries, bits) = match self.graph.node(built) {
             Node::Number(value) => (1, large(value)),
             Node::Sum { constant, terms } => (terms.len(), largest(terms).max(large(constant))),
             Node::Product { coefficient, factors } => {
-                (factors.len(), largest(factors).max(large(coefficient)))
+                steep = factors.iter().any(|(_, exponent)| is_steep(exponent));
+                (factors.len(), large(coefficient))
             }
             _ => (1, 0),
         };
-        // arithmetic with long numbers takes the square of their length
-        let words = usize::try_from(bits / 64).unwrap_or(usize::MAX >> 32);
-        self.reports.spend(at.extent, operands + words.saturating_mul(words) / 8)?;
+        self.reports.spend(at.extent, entries)?;
+        self.check_length(at, bits, operands)?;
+        if steep {
+            let error = Diagnostic::new(at.extent, "an exponent in this expression becomes too large");
+            return Err(self.report(at, error));
+        }
+        Ok(built)
+    }
+
+    /// Charges for arithmetic with long numbers, which takes the square of their length.
+    fn check_length(&mut self, at: &Expr, bits: u64, operations: usize) -> Outcome<()> {
         if bits > BITS {
             let error = Diagnostic::new(at.extent, "the numbers in this expression become too long")
                 .evidence(format!("one of them has more than {} digits", BITS * 3 / 10))
                 .way_out("round them");
             return Err(self.report(at, error));
         }
-        Ok(built)
+        let words = usize::try_from(bits / 64).unwrap_or(0);
+        self.reports.spend(at.extent, words * words * operations)
     }
 
     /// A bound on the bits that a summand or factor adds to the longest number.
@@ -132,6 +154,11 @@ impl Resolver {
             _ => 1,
         }
     }
+}
+
+/// Whether no honest expression has such an exponent.
+fn is_steep(exponent: &Rational) -> bool {
+    !exponent.to_small().is_some_and(|(n, d)| n.abs() <= STEEP && d <= STEEP)
 }
 
 /// The bits of a number, or 0 where it fits machine words.

@@ -64,7 +64,9 @@ impl Context {
             Self::Anchor | Self::Brackets => usage == Usage::Velocity,
             Self::Velocities => usage == Usage::Rate,
             Self::On => false,
-            Self::Lagrangian | Self::Constraints | Self::Conserved => !matches!(usage, Usage::Input | Usage::Branches),
+            Self::Lagrangian | Self::Constraints | Self::Conserved => {
+                !matches!(usage, Usage::Input | Usage::Branches)
+            }
             Self::Forces | Self::Outputs => true,
             // that facts are about parameters alone is a law of its own
             Self::Assume => usage != Usage::Branches,

@@ -1,5 +1,6 @@
 //! Declared names: symbols, tables of the model, and the layout of generated types.
 
+use std::collections::BTreeSet;
 use std::rc::Rc;
 
 use nh_core::id::SymbolId;
@@ -122,11 +123,12 @@ impl Resolver {
     /// E = TM: the velocity of `x` is called `x_dot`, and is its rate.
     fn implied_velocities(&mut self, base: Option<&ast::Section<Vec<Declared>>>) -> Vec<Family> {
         let mut families = Vec::new();
+        let mut seen = BTreeSet::new();
         for declared in base.map_or(&[][..], |base| &base.body) {
             let Some(Meaning::Named(coordinate)) = self.scope.get(&declared.name.text).cloned() else {
                 continue;
             };
-            if coordinate.role != Role::Coordinate || coordinate.rates.len() != coordinate.shape.len() {
+            if coordinate.role != Role::Coordinate || !seen.insert(declared.name.text.as_str()) {
                 continue;
             }
             let text = format!("{}_dot", declared.name.text);

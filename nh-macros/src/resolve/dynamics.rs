@@ -53,11 +53,13 @@ impl Resolver {
     ) -> Outcome<Vec<ConstraintDecl>> {
         let (left, right) = self.sides(equation)?;
         let origin = self.origin(equation.extent);
-        let suffix: String = self.scope.loop_values().iter().map(|value| format!("_{value}")).collect();
+        let around = self.scope.loop_values();
         let mut found = Vec::new();
         for (k, (left_entry, right_entry)) in left.entries.iter().zip(&right.entries).enumerate() {
-            let indices: String = left.shape.indices(k).iter().map(|index| format!("_{index}")).collect();
-            let label = equation.label.as_ref().map(|label| format!("{}{suffix}{indices}", label.text));
+            let label = equation
+                .label
+                .as_ref()
+                .map(|label| entry_label(&label.text, &around, &left.shape.indices(k)));
             if let (Some(text), Some(name)) = (&label, &equation.label)
                 && !labels.insert(text.clone())
             {
@@ -182,6 +184,13 @@ impl Resolver {
         }
         found
     }
+}
+
+/// The label of an entry: `roll_1` for the second of a vector, `roll_0_1` in a `for` around it.
+fn entry_label(label: &str, around: &[i64], indices: &[usize]) -> String {
+    let around = around.iter().map(ToString::to_string);
+    let parts = around.chain(indices.iter().map(ToString::to_string));
+    parts.fold(label.to_owned(), |text, part| text + "_" + &part)
 }
 
 /// Rates that are a quasi-velocity, and rates in which one occurs.

@@ -37,14 +37,14 @@ impl Resolver {
         match &expr.kind {
             ExprKind::Number(number) => self.literal(expr, number),
             ExprKind::Name(name) => self.named(expr, name, &[]),
-            ExprKind::Index(of, indices) => match &of.kind {
-                ExprKind::Name(name) => self.named(expr, name, indices),
-                _ => {
-                    let whole = self.value(of)?;
-                    let part = self.part("this", whole.shape, indices)?;
-                    Ok(whole.part(part))
+            ExprKind::Index(of, indices) => {
+                if let ExprKind::Name(name) = &of.kind {
+                    return self.named(expr, name, indices);
                 }
-            },
+                let whole = self.value(of)?;
+                let part = self.part("this", whole.shape, indices)?;
+                Ok(whole.part(part))
+            }
             ExprKind::Der(place) => self.rate(expr, place),
             ExprKind::Call(name, arguments) => self.call(expr, name, arguments),
             ExprKind::Method(name, _) => {
@@ -95,7 +95,7 @@ impl Resolver {
         }
         let power = Rational::from(10).pow(i64::from(number.exponent)).unwrap_or(Rational::ONE);
         let entry = self.graph.number(value * power);
-        Ok(Array::number(self.checked(expr, entry)?))
+        Ok(Array::number(self.checked(expr, entry, 1)?))
     }
 
     /// A name, perhaps with indices.

@@ -139,7 +139,7 @@ impl Resolver {
             (Called::Two(function), [x, y]) => self.graph.apply2(*function, *x, *y),
             _ => return Err(Reported),
         };
-        Ok(Array::number(self.checked(expr, result)?))
+        Ok(Array::number(self.checked(expr, result, 1)?))
     }
 
     fn apply(&mut self, function: Function, x: ExprId) -> ExprId {

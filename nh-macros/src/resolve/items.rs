@@ -97,22 +97,22 @@ impl Resolver {
 
     /// The lengths of an array whose indices count from 0 without gaps.
     fn lengths(&mut self, binders: &[Binder], entries: &[(Vec<i64>, Array)]) -> Outcome<Vec<usize>> {
-        let mut lengths = Vec::new();
-        for (k, binder) in binders.iter().enumerate() {
-            let values = || entries.iter().filter_map(|(indices, _)| indices.get(k).copied());
-            let (least, most) = (values().min().unwrap_or(0), values().max().map_or(0, |most| most + 1));
-            if least != 0 {
-                let error = Diagnostic::new(binder.extent, "the indices of a `let` count from 0").way_out(
-                    format!("write `{} in 0..…`, and shift the index in the value", binder.name.text),
-                );
-                return Err(self.report(binder, error));
-            }
-            lengths.push(usize::try_from(most).unwrap_or(0));
-        }
-        if lengths.iter().product::<usize>() != entries.len() && !binders.is_empty() {
-            let binder = &binders[binders.len() - 1];
-            let error = Diagnostic::new(binder.extent, "the rows of a `let` have the same length")
+        let values = |k: usize| entries.iter().filter_map(move |(indices, _)| indices.get(k).copied());
+        let bounds = |k: usize| (values(k).min().unwrap_or(0), values(k).max().map_or(0, |most| most + 1));
+        let lengths: Vec<usize> = (0..binders.len())
+            .map(bounds)
+            .map(|(least, end)| usize::try_from(end - least).unwrap_or(0))
+            .collect();
+        if let Some(last) = binders.last()
+            && lengths.iter().product::<usize>() != entries.len()
+        {
+            let error = Diagnostic::new(last.extent, "the rows of a `let` have the same length")
                 .way_out("let the second range not depend on the first index");
+            return Err(self.report(last, error));
+        }
+        if let Some((_, binder)) = binders.iter().enumerate().find(|(k, _)| bounds(*k).0 != 0) {
+            let error = Diagnostic::new(binder.extent, "the indices of a `let` count from 0")
+                .way_out(format!("write `{} in 0..…`, and shift the index in the value", binder.name.text));
             return Err(self.report(binder, error));
         }
         Ok(lengths)

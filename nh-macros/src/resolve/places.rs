@@ -30,15 +30,13 @@ impl Resolver {
     /// A single section.
     pub(super) fn single_section(&mut self, place: &Place) -> Outcome<SectionId> {
         let sections = self.sections(place)?;
-        match sections.as_slice() {
-            [only] => Ok(*only),
-            _ => {
-                let text = &place.name.text;
-                let error = Diagnostic::new(place.extent, format!("`{text}` is a family of sections"))
-                    .way_out(format!("name one of them, as in `{text}[0]`; `for` goes over all"));
-                Err(self.report(place, error))
-            }
+        if let [only] = sections.as_slice() {
+            return Ok(*only);
         }
+        let text = &place.name.text;
+        let error = Diagnostic::new(place.extent, format!("`{text}` is a family of sections"))
+            .way_out(format!("name one of them, as in `{text}[0]`; `for` goes over all"));
+        Err(self.report(place, error))
     }
 
     fn no_section(&mut self, place: &Place) -> Reported {
@@ -82,16 +80,16 @@ impl Resolver {
             },
             Velocity::Der(place, extent) => {
                 let (named, part) = self.coordinate(place)?;
-                match self.rate_sections(&named, part) {
-                    Some(sections) => Ok((sections, *extent)),
-                    None => {
-                        let what = format!("`der({})` is not one of the quasi-velocities", place.name.text);
-                        let error = Diagnostic::new(*extent, what)
-                            .evidence("the declaration has its own quasi-velocities, and the state keeps some of them")
-                            .way_out("name them as they are declared");
-                        Err(self.report(place, error))
-                    }
+                if let Some(sections) = self.rate_sections(&named, part) {
+                    return Ok((sections, *extent));
                 }
+                let what = format!("`der({})` is not one of the quasi-velocities", place.name.text);
+                let error = Diagnostic::new(*extent, what)
+                    .evidence(
+                        "the declaration has its own quasi-velocities, and the state keeps some of them",
+                    )
+                    .way_out("name them as they are declared");
+                Err(self.report(place, error))
             }
         }
     }

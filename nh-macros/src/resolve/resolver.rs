@@ -73,7 +73,7 @@ impl Resolver {
     }
 
     /// The origin of the whole declaration.
-    pub(super) fn whole(&self) -> Origin {
+    pub(super) fn whole() -> Origin {
         Origin::from_index(0)
     }
 
@@ -107,17 +107,16 @@ impl Resolver {
         };
         let range = self.range(binder)?;
         let checked = self.scope.check_new(&binder.name);
-        let mut outcome = self.keep(&binder.name, checked);
+        let outcome = self.keep(&binder.name, checked);
         let depth = self.scope.depth();
         for value in range {
             self.reports.spend(binder.extent, 1)?;
-            self.scope.bind(&binder.name.text, Meaning::Index(value));
+            // a name that has a meaning already has none in here: its uses are silent
+            let meaning = if outcome.is_ok() { Meaning::Index(value) } else { Meaning::Broken };
+            self.scope.bind(&binder.name.text, meaning);
             let inside = self.each_value(inner, body);
             self.scope.leave(depth);
-            if inside.is_err() {
-                outcome = inside;
-                break;
-            }
+            inside?;
         }
         outcome
     }

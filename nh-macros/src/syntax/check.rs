@@ -18,13 +18,10 @@ pub(crate) fn check(declaration: SystemDecl) -> Result<SystemDecl, Vec<Diagnosti
 fn refuse_sections_to_come(declaration: &SystemDecl, errors: &mut Errors) {
     let s = &declaration.sections;
     let keep_out = "leave the section out";
-    let to_come: [(Option<&Name>, &str); 9] = [
-        (s.on.as_ref().map(|s| &s.keyword), "choose coordinates of a chart as `base`"),
+    let to_come: [(Option<&Name>, &str); 6] = [
         (s.frame.as_ref().map(|s| &s.keyword), "declare these sections as `basis`, with their `brackets`"),
         (s.distribution.as_ref().map(|s| &s.keyword), "write the same distribution as `constraints`"),
-        (s.conserved.as_ref().map(|s| &s.keyword), "watch the quantity as one of the `outputs`"),
         (s.symmetries.as_ref().map(|s| &s.keyword), keep_out),
-        (s.assume.as_ref().map(|s| &s.keyword), keep_out),
         (s.emit.as_ref().map(|s| &s.keyword), keep_out),
         (s.track.as_ref().map(|s| &s.keyword), keep_out),
         (s.derivative.as_ref().map(|s| &s.keyword), keep_out),
@@ -109,12 +106,9 @@ mod tests {
     #[test]
     fn sections_to_come_are_refused() {
         for section in [
-            "on { dot(x, x) = 1; }",
             "frame { s = l * cos(phi) * xi; }",
             "distribution { s, dpsi }",
-            "conserved { spin = J * w; }",
             "symmetries { spin: omega; }",
-            "assume { m > 0; 1 >= J }",
             "emit { jacobian, multipliers }",
             "track { omega, der(x) }",
             "derivative { motor: [self.motor_d1, self.motor_d2]; }",

@@ -2,7 +2,7 @@
 
 use proc_macro2::{Delimiter, TokenStream, TokenTree};
 
-use super::{resolve, super::Resolved};
+use super::{super::Resolved, resolve};
 use crate::emit::Layout;
 use crate::syntax;
 
@@ -13,16 +13,15 @@ fn declarations(text: &str) -> Vec<(TokenStream, TokenStream)> {
     for (k, token) in tokens.iter().enumerate() {
         let TokenTree::Group(group) = token else { continue };
         let mut inside = group.stream().into_iter();
-        let (Some(TokenTree::Ident(word)), Some(TokenTree::Group(attribute))) = (inside.next(), inside.next())
+        let (Some(TokenTree::Ident(word)), Some(TokenTree::Group(attribute))) =
+            (inside.next(), inside.next())
         else {
             continue;
         };
         if word != "nonholonomic" {
             continue;
         }
-        let is_body = |token: &&TokenTree| {
-            matches!(token, TokenTree::Group(group) if group.delimiter() == Delimiter::Brace)
-        };
+        let is_body = |token: &&TokenTree| matches!(token, TokenTree::Group(group) if group.delimiter() == Delimiter::Brace);
         let end = k + 1 + tokens[k + 1..].iter().position(|token| is_body(&token)).expect("a struct");
         found.push((attribute.stream(), tokens[k + 1..=end].iter().cloned().collect()));
     }

@@ -1,6 +1,10 @@
 //! Tests of this stage: the meaning of expressions, evaluated, and every error text.
 
 mod catalogue;
+mod limits;
+mod meaning;
+mod names;
+mod sections;
 
 use nh_core::id::ExprId;
 use nh_core::model::Model;

@@ -1,0 +1,91 @@
+//! No declaration hangs the compiler: what is too large is refused, and soon.
+
+use std::time::{Duration, Instant};
+
+use super::messages;
+
+/// The texts one after the other.
+fn joined(texts: impl Iterator<Item = String>) -> String {
+    texts.collect::<Vec<_>>().concat()
+}
+
+/// The first lines of the errors. Unoptimised and beside other tests this takes its time, but not
+/// much.
+fn first_lines(attribute: &str, item: &str) -> Vec<String> {
+    let start = Instant::now();
+    let found = messages(attribute, item);
+    assert!(start.elapsed() < Duration::from_secs(20), "{:?}", start.elapsed());
+    found.iter().map(|message| message.lines().next().unwrap_or_default().to_owned()).collect()
+}
+
+fn too_large(attribute: &str, item: &str) {
+    assert_eq!(first_lines(attribute, item), ["this declaration is too large"], "{attribute}");
+}
+
+#[test]
+fn sums_and_loops() {
+    too_large("base { x } lagrangian { sum(i in 0..4096, j in 0..4096: x^i * j) }", "struct S;");
+    too_large("base { x } lagrangian { sum(i in 0..4096, j in 0..4096: 0) }", "struct S;");
+    too_large("base { x } lagrangian { x } constraints { for i in 0..4096, j in 0..4096 { } }", "struct S;");
+    too_large(
+        "base { x } lagrangian { sum(i in 0..100, j in 0..100, k in 0..100: sin(x + i * j + k)) }",
+        "struct S;",
+    );
+    let nested = (0..8).fold("x = 0;".to_owned(), |body, k| format!("for i{k} in 0..9 {{ {body} }}"));
+    too_large(&format!("base {{ x }} lagrangian {{ x }} constraints {{ {nested} }}"), "struct S;");
+}
+
+#[test]
+fn matrices() {
+    too_large("base { x } lagrangian { let B = A * A * A; x * B[0][0] }", "struct S { A: [[f64; 64]; 64] }");
+    too_large("base { x } lagrangian { let B = A * A; x * B[0][0] }", "struct S { A: [[f64; 64]; 64] }");
+}
+
+const LONG: &str = "the numbers in this expression become too long";
+
+/// Two hundred abbreviations, each made of the one before it, which is `@`.
+fn doubling(start: &str, step: &str) -> String {
+    let line = |k: i32| format!("let a{k} = {};", step.replace('@', &format!("a{}", k - 1)));
+    let lines = joined((1..200).map(line));
+    format!("base {{ x }} lagrangian {{ let a0 = {start}; {lines} a199 }}")
+}
+
+#[test]
+fn numbers_that_double() {
+    assert_eq!(first_lines(&doubling("3", "@ * @"), "struct S;"), [LONG]);
+    let steep = ["an exponent in this expression becomes too large"];
+    assert_eq!(first_lines(&doubling("3 * x + 5", "@^9"), "struct S;"), steep);
+    assert_eq!(first_lines(&doubling("x", "@ * @"), "struct S;"), steep);
+    assert!(first_lines(&doubling("x", "@ + sin(@)"), "struct S;").is_empty());
+}
+
+#[test]
+fn long_fractions() {
+    too_large("base { x } lagrangian { x * sum(i in 1..4096: 1 / i) }", "struct S;");
+    let digits = "9".repeat(900);
+    let long = joined((0..1000).map(|k| format!("+ 1 / (1{digits} - {k})")));
+    too_large(&format!("base {{ x }} lagrangian {{ x {long} }}"), "struct S;");
+    let two = format!("base {{ x }} lagrangian {{ x + 1 / {digits} + 1 / (1 + {digits}) }}");
+    assert_eq!(first_lines(&two, "struct S;"), [LONG]);
+}
+
+#[test]
+fn growing_sums() {
+    let lines = joined((1..2000).map(|k| format!("let a{k} = a{} + sin(x + {k}) * a{};", k - 1, k / 2)));
+    too_large(&format!("base {{ x }} lagrangian {{ let a0 = x; {lines} a1999 }}"), "struct S;");
+}
+
+#[test]
+fn dimensions() {
+    assert_eq!(
+        messages("base { x[4096] } lagrangian { x[0] }", "struct S;"),
+        ["`base` declares 4096 entries\nhelp: at most 512 can be treated; split the system"]
+    );
+}
+
+#[test]
+fn many_errors() {
+    let names = joined((0..5000).map(|k| format!("+ name{k}")));
+    let found = first_lines(&format!("base {{ x }} lagrangian {{ x {names} }}"), "struct S;");
+    assert_eq!(found.len(), 200);
+}
