@@ -1,19 +1,23 @@
 //! Lagrangian mechanics on a Lie algebroid.
 
 mod adapted;
+mod complete_lift;
 mod definiteness;
 mod energy;
 mod euler_lagrange;
 mod flow;
+mod moving_energy;
 mod procedure;
 mod projected;
 mod symmetric_solve;
 
 pub use adapted::{ReducedEquations, reduced_equations};
+pub use complete_lift::complete_lift;
 pub use definiteness::definiteness;
 pub use energy::energy;
 pub use euler_lagrange::{ForceBalance, LagrangianSystem};
 pub use flow::Flow;
+pub use moving_energy::moving_energy_section;
 pub use procedure::{Definition, Procedure};
 pub use projected::{SaddleEquations, saddle_equations};
 pub use symmetric_solve::{Definiteness, Factorisation, solve_symmetric};

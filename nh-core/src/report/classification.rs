@@ -1,10 +1,10 @@
 //! What kind of system it is.
 
-use super::{Derived, shown};
+use super::{Derived, combination, shown};
 use crate::check::Constraints;
 use crate::compile::Proved;
 use crate::id::{ExprId, SymbolId};
-use crate::mechanics::LagrangianSystem;
+use crate::mechanics::{LagrangianSystem, moving_energy_section};
 use crate::model::{Kinematics, Model};
 
 /// The classification, a line for each property.
@@ -92,11 +92,30 @@ pub(super) fn conserved(proved: &mut Proved) -> Vec<String> {
     let mut lines: Vec<String> =
         proved.model.claims.iter().map(|claim| format!("{} (claimed, and proved)", claim.name)).collect();
     if energy_is_conserved(proved) {
-        lines.push(
-            "the energy (CLMM Theorems 3.4 and 7.6: autonomous, no power of constraints and forces)".into(),
-        );
+        let reason = "CLMM Theorems 3.4 and 7.6: autonomous, no power of constraints and forces";
+        lines.push(format!("the energy ({reason})"));
+    } else {
+        lines.extend(moving_energy(proved));
     }
     lines
+}
+
+/// E_L − ξ^α p_α, where a section ξ for it is found (mathematics section 4).
+fn moving_energy(proved: &mut Proved) -> Option<String> {
+    let Proved { model, system, constraints, .. } = proved;
+    let linear = constraints.linear.as_ref()?;
+    let graph = &mut model.graph;
+    let autonomous = !graph.symbols_in(&constraints.residuals).contains(&system.time)
+        && !graph.depends_on(system.lagrangian, &[system.time]);
+    let free = system.forces.iter().all(|force| graph.zero_test(*force).is_zero());
+    if !autonomous || !free {
+        return None;
+    }
+    let parameters: Vec<SymbolId> = model.parameters.iter().map(|parameter| parameter.symbol).collect();
+    let section = moving_energy_section(graph, system, linear, &parameters, &constraints.manifold)?;
+    let names: Vec<String> = model.sections.iter().map(|section| section.name.clone()).collect();
+    let section = combination(&model.graph, &section, &names);
+    Some(format!("the moving energy E - xi.p with xi = {section} (Fassò, Sansonetto)"))
 }
 
 /// dE_L/dt = Υ_α y^α + λ_A y^α ∂φ^A/∂y^α − ∂_tL, mathematics section 4: zero if every term is.

@@ -175,6 +175,13 @@ fn affine_constraints_keep_the_drift_in_every_term() {
 }
 
 #[test]
+fn the_moving_energy_of_the_rotating_table_is_found() {
+    let report = compiled(systems::ball_on_rotating_table()).report;
+    assert!(report.contains("moving energy E - xi.p with xi = (-Omega*y)*dx + (Omega*x)*dy"), "{report}");
+    assert!(!report.contains("the energy (CLMM"), "{report}");
+}
+
+#[test]
 fn constraints_may_depend_on_time() {
     let system = compiled(systems::steered_blade());
     let (t, v) = (0.7, 1.3);
