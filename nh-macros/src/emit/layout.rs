@@ -53,6 +53,10 @@ pub(crate) struct TypeNames {
     pub(crate) input: Ident,
     /// `SleighMultipliers`
     pub(crate) multipliers: Ident,
+    /// `SleighReactions`
+    pub(crate) reactions: Ident,
+    /// `SleighResidual`
+    pub(crate) residual: Ident,
     /// `SleighOutputs`
     pub(crate) outputs: Ident,
 }
@@ -65,6 +69,8 @@ impl TypeNames {
             velocity: format_ident!("{name}Velocity"),
             input: format_ident!("{name}Input"),
             multipliers: format_ident!("{name}Multipliers"),
+            reactions: format_ident!("{name}Reactions"),
+            residual: format_ident!("{name}Residual"),
             outputs: format_ident!("{name}Outputs"),
         }
     }

@@ -5,6 +5,7 @@
 //! statements for all of them.
 
 mod callback;
+mod constraint;
 mod context;
 mod dynamics;
 mod energy;
@@ -16,6 +17,7 @@ mod names;
 mod number;
 mod observed;
 mod program;
+mod projection;
 mod record;
 mod report;
 #[cfg(test)]
@@ -70,6 +72,12 @@ pub(crate) fn emit(system: &System, layout: &Layout) -> TokenStream {
         methods.extend(observed::method(context, outputs, scope, &observables));
         items.extend(observed::implementation(context, outputs));
     }
+    let (of_constraints, records_of_constraints) = constraint::emit(context, scope, system);
+    methods.extend(of_constraints);
+    items.extend(records_of_constraints);
+    let (project, constrained) = projection::emit(context, kept, system);
+    methods.extend(project);
+    items.extend(constrained);
     methods.extend(validate::method(context, scope, system));
     items.extend(context.inherent(&methods));
     items.extend(callback::emit(context));

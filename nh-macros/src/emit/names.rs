@@ -18,7 +18,8 @@ pub(super) struct Names {
 
 impl Names {
     pub(super) fn new() -> Self {
-        Self { taken: ["t", "state", "input"].map(str::to_owned).into(), counter: 0 }
+        let taken = ["t", "state", "input", "start", "present"].map(str::to_owned).into();
+        Self { taken, counter: 0 }
     }
 
     /// The name, made a variable's and unique.

@@ -166,7 +166,7 @@ impl Writer<'_> {
         let Context { runtime, scalar, .. } = self.context;
         let receiver = &self.expressions[receiver];
         let tokens = &receiver.tokens;
-        let method = Ident::new(method, proc_macro2::Span::call_site());
+        let method = Ident::new(method, Span::call_site());
         let path = if receiver.literal {
             quote!(<#scalar as #runtime::Scalar>::#method)
         } else {

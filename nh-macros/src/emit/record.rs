@@ -66,6 +66,16 @@ impl Field {
         }
     }
 
+    /// The field of a number that is not declared, or of a family under documentation of its own.
+    pub(super) fn described(family: &Family, doc: &str) -> Self {
+        Self {
+            ident: family.ident.clone(),
+            lengths: family.lengths.clone(),
+            docs: quote!(#[doc = #doc]),
+            names: family.names(),
+        }
+    }
+
     fn type_of(&self, scalar: &TokenStream) -> TokenStream {
         self.lengths.iter().rev().fold(scalar.clone(), |inner, length| {
             let length = Literal::u32_unsuffixed(*length);

@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use nh_core::id::{Id, SectionId, SymbolId};
 use nh_core::model::Model;
-use proc_macro2::TokenStream;
+use proc_macro2::{Ident, Literal, TokenStream};
 use quote::quote;
 
 use super::context::Context;
@@ -20,6 +20,10 @@ pub(super) enum Argument {
     State,
     /// `input`
     Input,
+    /// `start`, where an iteration began
+    Start,
+    /// `present`, where an iteration is
+    Present,
 }
 
 /// The tokens of every symbol, and the argument that each comes from.
@@ -52,6 +56,15 @@ impl<'a> Scope<'a> {
         Self { model, places }
     }
 
+    /// The same with an array's entries for some symbols: where an iteration is, or began.
+    pub(super) fn with_array(mut self, argument: Argument, array: &Ident, symbols: &[SymbolId]) -> Self {
+        for (index, symbol) in symbols.iter().enumerate() {
+            let index = Literal::usize_unsuffixed(index);
+            self.places.insert(*symbol, (argument, quote!(#array[#index])));
+        }
+        self
+    }
+
     /// Where a symbol's value is.
     pub(super) fn place(&self, symbol: SymbolId) -> Option<&(Argument, TokenStream)> {
         self.places.get(&symbol)
@@ -70,7 +83,7 @@ pub(super) fn parameter_places(context: &Context) -> Vec<TokenStream> {
     let places = parameters.flat_map(|family| {
         let ident = &family.ident;
         family.entries().into_iter().map(move |entry| {
-            let indices = entry.into_iter().map(proc_macro2::Literal::u32_unsuffixed);
+            let indices = entry.into_iter().map(Literal::u32_unsuffixed);
             quote!(self.#ident #([#indices])*)
         })
     });

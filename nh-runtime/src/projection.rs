@@ -1,0 +1,104 @@
+//! Newton's iteration by which generated code returns to a manifold.
+
+use crate::arrays::all_finite;
+use crate::{ProjectionError, Scalar};
+
+/// The iterations after which a projection is given up.
+const MOST_ITERATIONS: u32 = 50;
+
+/// The limit of y := step(start, y) from y = start.
+///
+/// The iteration stops when a step changes y by at most four rounding units of the largest component,
+/// or when changes below 5000 of them no longer halve: where the constraints are nearly dependent,
+/// a step repeats its own round-off no better. A point where every residual is zero is returned as
+/// it is. Lanes stop together, when the last one does.
+///
+/// # Errors
+/// If the changes do not vanish, or a step is not finite.
+pub fn project<T: Scalar, const N: usize, const M: usize>(
+    start: [T; N],
+    step: impl Fn(&[T; N], &[T; N]) -> [T; N],
+    residual: impl Fn(&[T; N]) -> [T; M],
+) -> Result<[T; N], ProjectionError> {
+    if residual(&start).iter().all(|r| *r == T::ZERO) {
+        return Ok(start);
+    }
+    let mut present = start;
+    let mut scale = largest(&start);
+    let mut preceding: Option<T> = None;
+    let mut iterations = 0;
+    while iterations < MOST_ITERATIONS {
+        let next = step(&start, &present);
+        iterations += 1;
+        if !all_finite::<T, _>(&next) {
+            break;
+        }
+        let change = next.iter().zip(&present).fold(T::ZERO, |m, (a, b)| m.max((*a - *b).abs()));
+        scale = scale.max(largest(&next));
+        present = next;
+        if is_settled(change, scale, preceding) {
+            return Ok(present);
+        }
+        preceding = Some(change);
+    }
+    Err(refusal(iterations, &residual(&present)))
+}
+
+/// The largest absolute value.
+#[inline]
+pub(crate) fn largest<T: Scalar>(x: &[T]) -> T {
+    x.iter().fold(T::ZERO, |largest, x| largest.max(x.abs()))
+}
+
+/// Whether, in every lane, the change is round-off. How large that is shows in the sum with the
+/// scale: lanes have no number for it.
+#[inline]
+fn is_settled<T: Scalar>(change: T, scale: T, preceding: Option<T>) -> bool {
+    let beyond =
+        |fraction: f64, then: T| (scale + change * T::from_f64(fraction)).select_gt(scale, then, T::ZERO);
+    let still_falls = match preceding {
+        Some(preceding) => (preceding * T::from_f64(0.5)).select_gt(change, T::ONE, T::ZERO),
+        None => T::ONE,
+    };
+    let large = beyond(1e-4, T::ONE);
+    let open = beyond(0.125, still_falls.max(large));
+    T::ZERO.all_ge(open)
+}
+
+#[cold]
+fn refusal<T: Scalar>(iterations: u32, residual: &[T]) -> ProjectionError {
+    ProjectionError { iterations, residual: largest(residual).to_f64() }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_circle_is_reached_quadratically() {
+        // x := x − f ∇f / |∇f|²
+        let circle = |[x, y]: &[f64; 2]| [x * x + y * y - 1.0];
+        let step = |_: &[f64; 2], p: &[f64; 2]| {
+            let [f] = circle(p);
+            let factor = f / (2.0 * (p[0] * p[0] + p[1] * p[1]));
+            [p[0] - factor * p[0], p[1] - factor * p[1]]
+        };
+        let [x, y] = project([3.0, 4.0], step, circle).unwrap();
+        assert!((x - 0.6).abs() < 1e-15 && (y - 0.8).abs() < 1e-15, "{x} {y}");
+        assert_eq!(project([0.6, 0.8], step, |_| [0.0]), Ok([0.6, 0.8]));
+        let error = project([0.0, 0.0], step, circle).unwrap_err();
+        assert_eq!(error, ProjectionError { iterations: 1, residual: 1.0 });
+    }
+
+    #[test]
+    fn what_does_not_settle_is_given_up() {
+        let error = project([1.0_f32], |_, [x]| [-x], |_| [2.0]).unwrap_err();
+        assert_eq!(error, ProjectionError { iterations: 50, residual: 2.0 });
+    }
+
+    #[test]
+    fn round_off_that_repeats_is_accepted() {
+        let noise = |_: &[f64; 1], [x]: &[f64; 1]| [if *x > 1.0 { 1.0 - 1e-14 } else { 1.0 + 1e-14 }];
+        assert!(project([1.5], noise, |_| [1.0]).is_ok());
+    }
+}
