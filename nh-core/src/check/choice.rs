@@ -160,17 +160,17 @@ fn named_choice(
             way_out: "name others, or leave `independent` out and let them be chosen".into(),
         }]);
     };
-    let reason = if choice.breaks_down.is_empty() {
-        "the declaration names the independent velocities".to_owned()
-    } else {
-        let where_: Vec<String> =
-            choice.breaks_down.iter().map(|factor| format!("{} = 0", shown(&model.graph, *factor))).collect();
-        format!(
-            "the declaration names the independent velocities; they break down where {}",
-            where_.join(" or ")
-        )
-    };
+    let mut reason = "the declaration names the independent velocities".to_owned();
+    if !choice.breaks_down.is_empty() {
+        reason = format!("{reason}; they break down where {}", zeros(model, &choice.breaks_down));
+    }
     adapted(model, choice, constraints, reason)
+}
+
+/// `a = 0 or b = 0`.
+fn zeros(model: &Model, factors: &[ExprId]) -> String {
+    let zeros: Vec<String> = factors.iter().map(|f| format!("{} = 0", shown(&model.graph, *f))).collect();
+    zeros.join(" or ")
 }
 
 fn searched_choice(
@@ -249,6 +249,11 @@ fn adapted(
         &choice.dependent,
         &velocities,
     );
+    let reason = if choice.rank_drops.is_empty() {
+        reason
+    } else {
+        format!("{reason}; they are dependent where {}", zeros(model, &choice.rank_drops))
+    };
     if let Some(distribution) = solved {
         return Ok(Chosen::Adapted { distribution, conditions: choice.conditions, reason });
     }

@@ -11,9 +11,26 @@ pub struct Choice {
     pub dependent: Vec<SectionId>,
     /// Expressions of parameters that must not vanish.
     pub conditions: Vec<ExprId>,
+    /// Where one of these vanishes the constraints are dependent.
+    pub rank_drops: Vec<ExprId>,
     /// Where the choice breaks down although the constraints are independent; empty unless the
     /// user made the choice.
     pub breaks_down: Vec<ExprId>,
+}
+
+impl Choice {
+    fn of(dependent: Vec<SectionId>) -> Self {
+        Self { dependent, conditions: Vec::new(), rank_drops: Vec::new(), breaks_down: Vec::new() }
+    }
+
+    fn record(&mut self, conditions: Vec<ExprId>, rank_drops: Vec<ExprId>) {
+        self.conditions.extend(conditions);
+        for drop in rank_drops {
+            if !self.rank_drops.contains(&drop) {
+                self.rank_drops.push(drop);
+            }
+        }
+    }
 }
 
 /// Why there is no choice valid everywhere.
@@ -62,11 +79,10 @@ pub fn judge(
     if !Samples::of(graph, setting)?.are_independent(dependent) {
         return Ok(None);
     }
-    let mut choice =
-        Choice { dependent: dependent.to_vec(), conditions: Vec::new(), breaks_down: Vec::new() };
+    let mut choice = Choice::of(dependent.to_vec());
     for pivot in pivots(graph, setting, dependent) {
         match setting.zeros(graph, pivot) {
-            PivotZeros::None(conditions) => choice.conditions.extend(conditions),
+            PivotZeros::Harmless { conditions, rank_drops } => choice.record(conditions, rank_drops),
             PivotZeros::Perhaps(factor) => choice.breaks_down.push(factor),
         }
     }
@@ -100,9 +116,7 @@ pub fn search(
                 break;
             }
             match study(graph, setting, &dependent) {
-                Ok(conditions) => {
-                    return Ok(Ok(Choice { dependent, conditions, breaks_down: Vec::new() }));
-                }
+                Ok(choice) => return Ok(Ok(choice)),
                 Err(factor) => failure.tried.push((dependent, factor)),
             }
         }
@@ -110,19 +124,15 @@ pub fn search(
     Ok(Err(failure))
 }
 
-fn study(
-    graph: &mut Graph,
-    setting: &PivotSetting<'_>,
-    dependent: &[SectionId],
-) -> Result<Vec<ExprId>, ExprId> {
-    let mut all = Vec::new();
+fn study(graph: &mut Graph, setting: &PivotSetting<'_>, dependent: &[SectionId]) -> Result<Choice, ExprId> {
+    let mut choice = Choice::of(dependent.to_vec());
     for pivot in pivots(graph, setting, dependent) {
         match setting.zeros(graph, pivot) {
-            PivotZeros::None(conditions) => all.extend(conditions),
+            PivotZeros::Harmless { conditions, rank_drops } => choice.record(conditions, rank_drops),
             PivotZeros::Perhaps(factor) => return Err(factor),
         }
     }
-    Ok(all)
+    Ok(choice)
 }
 
 /// The block determinants of the columns.

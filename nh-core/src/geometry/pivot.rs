@@ -8,9 +8,14 @@ use crate::id::{ExprId, SymbolId};
 /// What is known of the zeros of a pivot.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum PivotZeros {
-    /// It vanishes only where the constraints are dependent, or where one of these expressions of
-    /// parameters alone does.
-    None(Vec<ExprId>),
+    /// It vanishes only where the constraints are dependent, or where an expression of parameters
+    /// alone does.
+    Harmless {
+        /// The expressions of parameters.
+        conditions: Vec<ExprId>,
+        /// Where one of these vanishes the constraints are dependent.
+        rank_drops: Vec<ExprId>,
+    },
     /// This factor of it may vanish somewhere else.
     Perhaps(ExprId),
 }
@@ -37,18 +42,20 @@ impl PivotSetting<'_> {
             Node::Product { factors, .. } => factors.to_vec(),
             _ => vec![(simple, 1.into())],
         };
-        let mut conditions = Vec::new();
+        let (mut conditions, mut rank_drops) = (Vec::new(), Vec::new());
         for (base, exponent) in factors {
             if exponent.is_negative() || graph.vanishes_nowhere(base, self.facts) {
                 continue;
             }
             if self.is_of_parameters(graph, base) {
                 conditions.push(base);
-            } else if !self.constraints_are_dependent_where(graph, base) {
+            } else if self.constraints_are_dependent_where(graph, base) {
+                rank_drops.push(base);
+            } else {
                 return PivotZeros::Perhaps(base);
             }
         }
-        PivotZeros::None(conditions)
+        PivotZeros::Harmless { conditions, rank_drops }
     }
 
     fn is_of_parameters(&self, graph: &Graph, expression: ExprId) -> bool {

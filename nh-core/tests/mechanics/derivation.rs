@@ -182,6 +182,54 @@ fn the_moving_energy_of_the_rotating_table_is_found() {
 }
 
 #[test]
+fn nonlinear_constraints_by_chetaev() {
+    // two points with parallel velocities: homogeneous, so that the energy is conserved
+    let system = compiled(systems::parallel_velocities());
+    assert_eq!(system.formulation, Formulation::Projected);
+    assert!(system.report.contains("nonlinear in the velocities"), "{}", system.report);
+    assert!(system.report.contains("the energy"), "{}", system.report);
+    // at m = 1 and g = 0 ... with gravity on the second point only: W ẏ = Υ + Jᵀλ, J ẏ = 0
+    let v = [0.6, 0.9, -0.4, -0.6];
+    let values =
+        [("x1_dot", v[0]), ("y1_dot", v[1]), ("x2_dot", v[2]), ("y2_dot", v[3]), ("g", 9.81), ("t", 0.0)];
+    let found = derivative(&system, &values);
+    // φ = ẋ₁ẏ₂ − ẋ₂ẏ₁
+    let j = [v[3], -v[2], -v[1], v[0]];
+    let force = [0.0, 0.0, 0.0, -9.81];
+    let norm: f64 = j.iter().map(|x| x * x).sum();
+    let lambda = -j.iter().zip(&force).map(|(a, b)| a * b).sum::<f64>() / norm;
+    let expected: Vec<f64> = v.into_iter().chain((0..4).map(|i| force[i] + lambda * j[i])).collect();
+    assert_close(&found, &expected);
+}
+
+#[test]
+fn a_constant_speed_is_kept_and_does_work() {
+    let system = compiled(systems::constant_speed());
+    assert!(!system.report.contains("the energy"), "{}", system.report);
+    let (vx, vy, g) = (0.6, 0.8, 9.81);
+    let found = derivative(&system, &[("x_dot", vx), ("y_dot", vy), ("c", 1.0), ("g", g), ("t", 0.0)]);
+    // the component of gravity along the velocity is taken away
+    assert_close(&found, &[vx, vy, g * vy * vx, -g + g * vy * vy]);
+}
+
+#[test]
+fn claims_are_judged_where_the_constraints_hold() {
+    let mut b = systems::Builder { model: systems::veselova() };
+    // |g|² is conserved everywhere, g·w only where it is 0, and w1 is not
+    let norm = b.sum(&[(1, 1, "g1*g1"), (1, 1, "g2*g2"), (1, 1, "g3*g3")]);
+    let along = b.sum(&[(1, 1, "g1*w1"), (1, 1, "g2*w2"), (1, 1, "g3*w3")]);
+    b.claim("norm", norm);
+    b.claim("along", along);
+    let proved = compile(b.model.clone()).unwrap();
+    assert!(proved.report.contains("norm (claimed, and proved)"));
+    let wrong = b.sum(&[(1, 1, "w1")]);
+    b.claim("wrong", wrong);
+    let violations = compile(b.model).unwrap_err();
+    assert_eq!(violations.iter().map(|v| v.law).collect::<Vec<_>>(), [Law::Conservation]);
+    assert!(violations[0].what.contains("`wrong` is not conserved"), "{violations:?}");
+}
+
+#[test]
 fn constraints_may_depend_on_time() {
     let system = compiled(systems::steered_blade());
     let (t, v) = (0.7, 1.3);
@@ -220,6 +268,11 @@ fn a_distribution_by_span_is_that_of_the_constraints() {
         .map(|v| by_constraints.model.graph.symbols()[*v].as_str())
         .collect();
     assert_eq!(names, ["xi1", "dpsi", "dphi"]);
+    assert!(
+        by_constraints.report.contains("they are dependent where cos(phi) = 0"),
+        "{}",
+        by_constraints.report
+    );
     // ξ₁ = −l cosφ s
     let expected = (constrained[2] - l * phi.sin() * dphi * s) / (-l * phi.cos());
     assert_close(&spanned[2..], &[expected, constrained[3], constrained[4]]);

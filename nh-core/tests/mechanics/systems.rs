@@ -3,8 +3,8 @@
 use nh_core::algebra::{Graph, Rational};
 use nh_core::id::{ExprId, Id, Origin, SymbolId, Table};
 use nh_core::model::{
-    AnchorDecl, BracketDecl, ConstraintDecl, Coordinate, FrameDecl, Kinematics, Located, Model, Parameter,
-    Section,
+    AnchorDecl, BracketDecl, ConstraintDecl, Coordinate, FrameDecl, Kinematics, Located, Model, OutputDecl,
+    Parameter, Section,
 };
 
 pub(crate) fn origin() -> Origin {
@@ -142,6 +142,10 @@ impl Builder {
 
     pub(crate) fn lagrangian(&mut self, terms: &[(i64, i64, &str)]) {
         self.model.lagrangian.value = self.sum(terms);
+    }
+
+    pub(crate) fn claim(&mut self, name: &str, value: ExprId) {
+        self.model.claims.push(OutputDecl { name: name.into(), value, origin: origin() });
     }
 
     pub(crate) fn constraint(&mut self, terms: &[(i64, i64, &str)]) {
@@ -314,5 +318,24 @@ pub(crate) fn charged_particle(horizontal: bool) -> Model {
             (1, 2, "b*b*y*y*d1*d1"),
         ]);
     }
+    b.model
+}
+
+/// Two points of unit mass in a vertical plane with parallel velocities; gravity on the second.
+pub(crate) fn parallel_velocities() -> Model {
+    let mut b = Builder::new(&["g"], &["x1", "y1", "x2", "y2"], &[]);
+    let squares = ["x1_dot*x1_dot", "y1_dot*y1_dot", "x2_dot*x2_dot", "y2_dot*y2_dot"];
+    let mut terms: Vec<(i64, i64, &str)> = squares.iter().map(|square| (1, 2, *square)).collect();
+    terms.push((-1, 1, "g*y2"));
+    b.lagrangian(&terms);
+    b.constraint(&[(1, 1, "x1_dot*y2_dot"), (-1, 1, "x2_dot*y1_dot")]);
+    b.model
+}
+
+/// A point of unit mass in a vertical plane whose speed is kept at c.
+pub(crate) fn constant_speed() -> Model {
+    let mut b = Builder::new(&["c", "g"], &["x", "y"], &[]);
+    b.lagrangian(&[(1, 2, "x_dot*x_dot"), (1, 2, "y_dot*y_dot"), (-1, 1, "g*y")]);
+    b.constraint(&[(1, 1, "x_dot*x_dot"), (1, 1, "y_dot*y_dot"), (-1, 1, "c*c")]);
     b.model
 }
