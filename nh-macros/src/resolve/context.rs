@@ -13,6 +13,8 @@ pub(super) enum Context {
     Velocities,
     /// `brackets`
     Brackets,
+    /// `frame`
+    Frame,
     /// `lagrangian`
     Lagrangian,
     /// `constraints`
@@ -40,6 +42,8 @@ pub(super) enum Usage {
     Time,
     /// `abs`, `sign`, `min`, `max`.
     Branches,
+    /// `self.motor(…)`.
+    Method,
 }
 
 impl Context {
@@ -50,6 +54,7 @@ impl Context {
             Self::Anchor => "anchor",
             Self::Velocities => "velocities",
             Self::Brackets => "brackets",
+            Self::Frame => "frame",
             Self::Lagrangian => "lagrangian",
             Self::Constraints => "constraints",
             Self::Forces => "forces",
@@ -63,13 +68,15 @@ impl Context {
         match self {
             Self::Anchor | Self::Brackets => usage == Usage::Velocity,
             Self::Velocities => usage == Usage::Rate,
+            // where E = TM the rates are the sections
+            Self::Frame => matches!(usage, Usage::Velocity | Usage::Rate),
             Self::On => false,
             Self::Lagrangian | Self::Constraints | Self::Conserved => {
-                !matches!(usage, Usage::Input | Usage::Branches)
+                !matches!(usage, Usage::Input | Usage::Branches | Usage::Method)
             }
             Self::Forces | Self::Outputs => true,
             // that facts are about parameters alone is a law of its own
-            Self::Assume => usage != Usage::Branches,
+            Self::Assume => !matches!(usage, Usage::Branches | Usage::Method),
         }
     }
 
@@ -82,7 +89,7 @@ impl Context {
         let role = match usage {
             Usage::Velocity => "the quasi-velocity ",
             Usage::Input => "the input ",
-            Usage::Rate | Usage::Time | Usage::Branches => "",
+            Usage::Rate | Usage::Time | Usage::Branches | Usage::Method => "",
         };
         let error = Diagnostic::new(at, format!("{role}`{written}` cannot be used in `{keyword}`"));
         Err(match (usage, self) {
@@ -106,6 +113,9 @@ impl Context {
                     "its coefficients are functions on the base: of the base coordinates and the parameters",
                 )
                 .way_out("the time has its place in `lagrangian`, `constraints`, `forces` and `outputs`"),
+            (Usage::Method, _) => error
+                .evidence("what a method computes is not known when the equations are derived")
+                .way_out("methods have their place in `forces` and `outputs`"),
             (Usage::Branches, _) => error
                 .evidence(format!(
                     "`{written}` has no derivative where its branches meet, and the equations need one"

@@ -36,7 +36,8 @@ impl Resolver {
             None => Vec::new(),
         };
         layout.inputs = self.list(sections.inputs.as_ref(), Role::Input);
-        let names = sections.velocities.iter().flat_map(|s| items::statements(&s.body));
+        let names =
+            sections.velocities.iter().chain(&sections.frame).flat_map(|s| items::statements(&s.body));
         self.scope.pending = names.map(|definition| definition.name.text.clone()).collect();
         let names = sections.outputs.iter().flat_map(|s| items::statements(&s.body));
         self.scope.outputs = names.map(|definition| definition.name.text.clone()).collect();
@@ -93,6 +94,7 @@ impl Resolver {
             Role::Parameter => self.tables.parameters.len(),
             Role::Coordinate => self.tables.coordinates.len(),
             Role::Velocity | Role::ImpliedVelocity => self.tables.sections.len(),
+            Role::FrameVelocity => self.tables.frame.len(),
             Role::Input => self.tables.inputs.len(),
         };
         let (mut symbols, mut rates): (Vec<SymbolId>, Vec<SymbolId>) = (Vec::new(), Vec::new());
@@ -112,6 +114,8 @@ impl Resolver {
                 Role::Velocity | Role::ImpliedVelocity => {
                     self.tables.sections.push(Section { name, symbol, origin });
                 }
+                // entered with their values
+                Role::FrameVelocity => {}
                 Role::Input => {
                     self.tables.inputs.push(Input { name, symbol, origin });
                 }

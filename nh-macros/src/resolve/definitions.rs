@@ -11,7 +11,7 @@ use super::context::Context;
 use super::items::statements;
 use super::reports::Outcome;
 use super::resolver::Resolver;
-use super::scope::check_reserved;
+use super::scope::{Meaning, check_reserved};
 use crate::emit::Family;
 use crate::report::{Diagnostic, Extent};
 use crate::syntax::ast::{Definition, Item, Name, Subscript};
@@ -87,6 +87,15 @@ impl Resolver {
         (defined, broken)
     }
 
+    /// Names whose definitions are in error have no meaning: their uses are silent.
+    pub(super) fn spoil(&mut self, names: &[&Name]) {
+        for name in names {
+            if self.scope.get(&name.text).is_none() {
+                self.scope.insert(name.text.clone(), Meaning::Broken);
+            }
+        }
+    }
+
     /// Enters the entries that one definition gives.
     fn define(
         &mut self,
@@ -122,7 +131,7 @@ impl Resolver {
     /// The index that a variable on the left-hand side stands for.
     fn new_index_of(&mut self, name: &str, binder: &crate::syntax::ast::Binder) -> Outcome<usize> {
         let value = match self.scope.get(name) {
-            Some(super::scope::Meaning::Index(value)) => usize::try_from(*value).ok(),
+            Some(Meaning::Index(value)) => usize::try_from(*value).ok(),
             _ => None,
         };
         value.ok_or_else(|| {

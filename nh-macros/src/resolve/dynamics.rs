@@ -88,6 +88,7 @@ impl Resolver {
         let Some(symbol) = self.graph.as_symbol(entry) else { return Ok(None) };
         let velocity = lone.velocity_of_rate.get(&symbol).copied().unwrap_or(symbol);
         let is_velocity = self.tables.sections.iter().any(|section| section.symbol == velocity)
+            || self.tables.frame.iter().any(|section| section.symbol == velocity)
             || self.tables.coordinates.iter().any(|coordinate| coordinate.rate == velocity);
         if !is_velocity {
             return Ok(None);

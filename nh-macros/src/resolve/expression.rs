@@ -47,12 +47,7 @@ impl Resolver {
             }
             ExprKind::Der(place) => self.rate(expr, place),
             ExprKind::Call(name, arguments) => self.call(expr, name, arguments),
-            ExprKind::Method(name, _) => {
-                let what = format!("`self.{}(…)`: calls of methods are not supported yet", name.text);
-                let error = Diagnostic::new(expr.extent, what)
-                    .way_out("write the expression itself, or make the value an input");
-                Err(self.report(expr, error))
-            }
+            ExprKind::Method(name, arguments) => self.method(expr, name, arguments),
             ExprKind::Sum(binders, body) => self.summation(expr, binders, body),
             ExprKind::Vector(parts) => self.vector(expr, parts),
             ExprKind::Negate(inner) => {
@@ -102,7 +97,7 @@ impl Resolver {
     fn named(&mut self, expr: &Expr, name: &Name, indices: &[Expr]) -> Outcome<Array> {
         let Some(meaning) = self.scope.get(&name.text).cloned() else {
             if self.scope.pending.contains(&name.text) {
-                self.check_usage(expr, Usage::Velocity, &name.text, name.extent())?;
+                return Err(self.not_yet_defined(expr, name));
             }
             let error = self.scope.unknown(name);
             return Err(self.report(expr, error));
@@ -118,7 +113,7 @@ impl Resolver {
         match meaning {
             Meaning::Named(named) => {
                 let usage = match named.role {
-                    Role::Velocity | Role::ImpliedVelocity => Some(Usage::Velocity),
+                    Role::Velocity | Role::ImpliedVelocity | Role::FrameVelocity => Some(Usage::Velocity),
                     Role::Input => Some(Usage::Input),
                     Role::Parameter | Role::Coordinate => None,
                 };
@@ -139,6 +134,21 @@ impl Resolver {
             Meaning::Index(value) => Ok(Array::number(self.graph.number(value))),
             Meaning::Broken => Err(Reported),
         }
+    }
+
+    /// A velocity of `velocities` or `frame` where it has no meaning yet.
+    fn not_yet_defined(&mut self, expr: &Expr, name: &Name) -> Reported {
+        let text = &name.text;
+        if self.check_usage(expr, Usage::Velocity, text, name.extent()).is_err() {
+            return Reported;
+        }
+        let error = Diagnostic::new(
+            name.extent(),
+            format!("the section `{text}` of the frame cannot be used in `{}`", self.context.keyword()),
+        )
+        .evidence("the frame is made of the sections that `basis`, `anchor` and `brackets` declare")
+        .way_out("write its definition out");
+        self.report(expr, error)
     }
 
     /// The symbols of a part of a family.

@@ -2,6 +2,7 @@
 
 use nh_core::algebra::{Function, Function2, Rational};
 use nh_core::id::ExprId;
+use nh_core::model::MethodCall;
 
 use super::array::{Array, Shape};
 use super::context::Usage;
@@ -21,6 +22,9 @@ enum Called {
     Dot,
     Cross,
 }
+
+/// Letters of an argument in the name of a call.
+const ARGUMENT: usize = 40;
 
 /// What other languages call our functions, and what to write.
 const ELSEWHERE: [(&str, &str); 19] = [
@@ -176,6 +180,25 @@ impl Resolver {
             entries.push(self.sum_of(expr, vec![(Rational::ONE, plus), (Rational::MINUS_ONE, minus)])?);
         }
         Ok(Array::vector(entries))
+    }
+
+    /// `self.motor(a, b)`: the same call is made once.
+    pub(super) fn method(&mut self, expr: &Expr, name: &Name, arguments: &[Expr]) -> Outcome<Array> {
+        self.check_usage(expr, Usage::Method, &format!("self.{}(…)", name.text), expr.extent)?;
+        let values: Vec<_> = arguments.iter().map(|argument| self.number_value(argument)).collect();
+        let arguments = values.into_iter().collect::<Outcome<Vec<_>>>()?;
+        let same = |call: &&MethodCall| call.method == name.text && call.arguments == arguments;
+        if let Some(call) = self.calls.iter().find(same) {
+            let symbol = call.symbol;
+            return Ok(Array::number(self.graph.symbol(symbol)));
+        }
+        self.reports.spend(expr.extent, self.calls.len())?;
+        let texts: Vec<_> =
+            arguments.iter().map(|argument| self.graph.text_within(*argument, ARGUMENT)).collect();
+        let symbol = self.graph.new_symbol(format!("self.{}({})", name.text, texts.join(", ")));
+        let origin = self.origin(expr.extent);
+        self.calls.push(MethodCall { symbol, method: name.text.clone(), arguments, origin });
+        Ok(Array::number(self.graph.symbol(symbol)))
     }
 
     fn not_a_function(&mut self, name: &Name) -> Reported {

@@ -120,13 +120,7 @@ impl Resolver {
     ) -> Kinematics {
         let (defined, broken) = self.definitions(Context::Velocities, &velocities.body);
         let whole = broken.is_empty();
-        for name in broken {
-            // its uses are not reported too
-            if self.scope.get(&name.text).is_none() {
-                self.scope.insert(name.text.clone(), Meaning::Broken);
-            }
-        }
-        self.scope.pending.clear();
+        self.spoil(&broken);
         let count = defined.iter().map(|family| family.entries.len()).sum();
         self.check_dimension(&velocities.keyword, count, Role::Velocity);
         let mut rows = Vec::with_capacity(count);

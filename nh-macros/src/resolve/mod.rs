@@ -13,6 +13,7 @@ mod definitions;
 mod dynamics;
 mod expression;
 mod facts;
+mod frame;
 mod function;
 mod index;
 mod items;
@@ -32,7 +33,7 @@ use nh_core::model::{Formulation, Located, Model};
 
 pub(crate) use self::origins::Origins;
 use self::resolver::Resolver;
-use crate::emit::Layout;
+use crate::emit::{Family, Layout};
 use crate::report::Diagnostic;
 use crate::syntax::ast::SystemDecl;
 
@@ -43,6 +44,9 @@ pub(crate) struct Resolved {
     pub(crate) model: Model,
     /// What the origins of the model are in the declaration.
     pub(crate) origins: Origins,
+    /// The families of the sections of the frame, with entries in the order of the model.
+    #[allow(dead_code, reason = "frames are not emitted yet")]
+    pub(crate) frame: Vec<Family>,
 }
 
 /// A declaration in error.
@@ -60,19 +64,21 @@ pub(crate) fn resolve(declaration: &SystemDecl, layout: &mut Layout) -> Result<R
     let mut resolver = Resolver::new(choices::whole(declaration));
     resolver.declare(declaration, layout);
     resolver.surroundings(declaration, layout);
-    let model = resolver.model(declaration, layout);
+    let (model, frame) = resolver.model(declaration, layout);
     let kept = probable_state(&model);
     let Resolver { origins, reports, .. } = resolver;
-    reports.finish(Resolved { model, origins }).map_err(|errors| Unresolved { errors, kept })
+    reports.finish(Resolved { model, origins, frame }).map_err(|errors| Unresolved { errors, kept })
 }
 
 impl Resolver {
-    /// The model, of which parts in error are left out.
-    fn model(&mut self, declaration: &SystemDecl, layout: &mut Layout) -> Model {
+    /// The model, of which parts in error are left out, and the families of the frame.
+    fn model(&mut self, declaration: &SystemDecl, layout: &mut Layout) -> (Model, Vec<Family>) {
         let sections = &declaration.sections;
         let kinematics = self.kinematics(declaration, layout);
         let identities = sections.on.as_ref().map(|s| self.identities(&s.body)).unwrap_or_default();
         let brackets = self.brackets(&sections.brackets);
+        let frame = sections.frame.as_ref().map(|s| self.frame(&s.body)).unwrap_or_default();
+        let distribution = sections.distribution.as_ref().map(|s| self.distribution(&s.body));
         let lagrangian = sections.lagrangian.as_ref().and_then(|s| self.lagrangian(&s.body).ok());
         let constraints =
             sections.constraints.as_ref().map(|s| self.constraints(&s.body, &kinematics)).unwrap_or_default();
@@ -86,7 +92,7 @@ impl Resolver {
         let origin = Self::whole();
         let lagrangian = lagrangian.unwrap_or(Located { value: self.time(), origin });
         let tables = std::mem::take(&mut self.tables);
-        Model {
+        let model = Model {
             graph: std::mem::take(&mut self.graph),
             name: declaration.structure.name.to_string(),
             origin,
@@ -100,11 +106,11 @@ impl Resolver {
             brackets,
             brackets_declared: !sections.brackets.is_empty(),
             almost: sections.almost.is_some(),
-            calls: Vec::new(),
-            frame: Vec::new(),
+            calls: std::mem::take(&mut self.calls),
+            frame: tables.frame,
             lagrangian,
             constraints,
-            distribution: None,
+            distribution,
             forces,
             outputs,
             claims,
@@ -112,7 +118,8 @@ impl Resolver {
             requests,
             independent,
             formulation,
-        }
+        };
+        (model, frame)
     }
 }
 

@@ -2,7 +2,7 @@
 
 use nh_core::algebra::Graph;
 use nh_core::id::{CoordId, ExprId, Id, InputId, Origin, ParamId, SectionId, SymbolId, Table};
-use nh_core::model::{Coordinate, Input, Parameter, Section};
+use nh_core::model::{Coordinate, FrameDecl, Input, MethodCall, Parameter, Section};
 
 use super::array::{Part, Shape};
 use super::context::{Context, Usage};
@@ -24,6 +24,8 @@ pub(super) struct Tables {
     pub(super) sections: Table<SectionId, Section>,
     /// Inputs.
     pub(super) inputs: Table<InputId, Input>,
+    /// Sections of the frame.
+    pub(super) frame: Vec<FrameDecl>,
 }
 
 /// Resolves one declaration.
@@ -34,6 +36,8 @@ pub(super) struct Resolver {
     pub(super) time: SymbolId,
     /// What is declared.
     pub(super) tables: Tables,
+    /// Calls of the user's methods.
+    pub(super) calls: Vec<MethodCall>,
     /// The names.
     pub(super) scope: Scope,
     /// The section that is read.
@@ -55,6 +59,7 @@ impl Resolver {
             graph,
             time,
             tables: Tables::default(),
+            calls: Vec::new(),
             scope: Scope::new(),
             context: Context::Lagrangian,
             origins,

@@ -25,6 +25,8 @@ pub(super) enum Role {
     Velocity,
     /// The velocity of a coordinate, where E = TM.
     ImpliedVelocity,
+    /// A section of the frame and its quasi-velocity.
+    FrameVelocity,
     /// A control input.
     Input,
 }
@@ -37,6 +39,7 @@ impl Role {
             Self::Coordinate => "a base coordinate",
             Self::Velocity => "a quasi-velocity",
             Self::ImpliedVelocity => "the velocity of a base coordinate",
+            Self::FrameVelocity => "a section of the frame",
             Self::Input => "an input",
         }
     }
@@ -99,7 +102,7 @@ impl Meaning {
 pub(super) struct Scope {
     globals: BTreeMap<String, Meaning>,
     locals: Vec<(String, Meaning)>,
-    /// Quasi-velocities that `velocities` is about to define.
+    /// Quasi-velocities that `velocities` and `frame` are about to define.
     pub(super) pending: BTreeSet<String>,
     /// The names of outputs, which no expression can use.
     pub(super) outputs: BTreeSet<String>,

@@ -213,8 +213,8 @@ fn calls_and_powers_are_checked() {
         ("max(x, m)", smooth("max")),
         (
             "self.motor(x)",
-            "`self.motor(…)`: calls of methods are not supported yet\nhelp: write the expression itself, or make \
-             the value an input"
+            "`self.motor(…)` cannot be used in `lagrangian`\nwhat a method computes is not known when the equations \
+             are derived\nhelp: methods have their place in `forces` and `outputs`"
                 .to_owned(),
         ),
     ] {

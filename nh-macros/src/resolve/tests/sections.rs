@@ -354,3 +354,20 @@ fn facts() {
          entries",
     )]);
 }
+
+#[test]
+fn methods() {
+    let model = model(
+        "base { x } inputs { u } lagrangian { der(x)^2 }
+         forces { x: self.motor(der(x), 2 * u) + self.motor(der(x), u + u) - self.drag(); }
+         outputs { heat = self.motor(0, u); }",
+        STRUCT,
+    );
+    let calls: Vec<_> = model.calls.iter().map(|call| model.graph.symbols()[call.symbol].as_str()).collect();
+    assert_eq!(calls, ["self.motor(x_dot, 2*u)", "self.drag()", "self.motor(0, u)"]);
+    let force = evaluated(&model, model.forces[0].value);
+    assert!((force - (2.0 * of_name(calls[0]) - of_name(calls[1]))).abs() < 1e-12);
+    assert_eq!(model.calls[0].method, "motor");
+    let found = of("base { q[2] } lagrangian { 1 } forces { q[0]: self.motor(q); }");
+    assert!(found[0].starts_with("expected a number, this is a vector of 2 entries"), "{found:?}");
+}

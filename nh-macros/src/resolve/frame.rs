@@ -1,0 +1,75 @@
+//! New sections as combinations of the declared ones, and the sections that span D.
+
+use std::collections::BTreeSet;
+use std::rc::Rc;
+
+use nh_core::id::{Origin, SymbolId};
+use nh_core::model::FrameDecl;
+
+use super::context::Context;
+use super::reports::Outcome;
+use super::resolver::Resolver;
+use super::scope::{Meaning, Role};
+use crate::emit::Family;
+use crate::report::Diagnostic;
+use crate::syntax::ast::{Definition, Item, Place};
+
+impl Resolver {
+    /// The sections of a frame, whose names have a meaning from here on, and their families.
+    pub(super) fn frame(&mut self, items: &[Item<Definition>]) -> Vec<Family> {
+        let (defined, broken) = self.definitions(Context::Frame, items);
+        self.spoil(&broken);
+        let mut families = Vec::new();
+        for family in &defined {
+            let checked = self.scope.check_new(family.name);
+            if self.keep(family.name, checked).is_err() {
+                continue;
+            }
+            let text = &family.name.text;
+            let Ok(named) = self.enter(text, family.shape(), Role::FrameVelocity, family.extent) else {
+                continue;
+            };
+            for (k, (value, extent)) in family.entries.iter().enumerate() {
+                let name = family.shape().entry_name(text, k);
+                let origin = self.origin(*extent);
+                self.tables.frame.push(FrameDecl { name, symbol: named.symbols[k], value: *value, origin });
+            }
+            self.scope.insert(text.clone(), Meaning::Named(Rc::new(named)));
+            families.push(family.family());
+        }
+        families
+    }
+
+    /// The sections that span D, each once.
+    pub(super) fn distribution(&mut self, places: &[Place]) -> Vec<(SymbolId, Origin)> {
+        let mut found = Vec::new();
+        let mut seen = BTreeSet::new();
+        for place in places {
+            let Ok(symbols) = self.spanning(place) else { continue };
+            let origin = self.origin(place.extent);
+            for symbol in symbols {
+                if seen.insert(symbol) {
+                    found.push((symbol, origin));
+                } else {
+                    let name = &self.graph.symbols()[symbol];
+                    let error =
+                        Diagnostic::new(place.extent, format!("the section `{name}` is listed twice"));
+                    self.report(place, error);
+                }
+            }
+        }
+        found
+    }
+
+    /// The sections that a place names: of the basis, or of the frame.
+    fn spanning(&mut self, place: &Place) -> Outcome<Vec<SymbolId>> {
+        if let Some(Meaning::Named(named)) = self.scope.get(&place.name.text).cloned()
+            && named.role == Role::FrameVelocity
+        {
+            let part = self.part(&format!("`{}`", place.name.text), named.shape, &place.indices)?;
+            return Ok(named.symbols[part.positions()].to_vec());
+        }
+        let sections = self.sections(place)?;
+        Ok(sections.into_iter().map(|section| self.tables.sections[section].symbol).collect())
+    }
+}
