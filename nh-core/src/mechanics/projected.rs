@@ -108,6 +108,7 @@ impl SaddleEquations {
     /// W may be singular, or nearly so, along directions that the constraints forbid; what is
     /// factorised here is definite wherever the kinetic energy is positive on D. The weights
     /// R_A = 1 / Σ_α (J^A_α)² / W_αα carry the units of W.
+    #[must_use]
     pub fn augmented(&self, graph: &mut Graph, procedure: &mut Procedure) -> Self {
         let weights: Vec<ExprId> = self
             .jacobian
@@ -128,13 +129,13 @@ impl SaddleEquations {
             .collect();
         let mut result = self.clone();
         for ((row, weight), bias) in self.jacobian.iter().zip(weights).zip(&self.bias) {
-            for alpha in 0..row.len() {
-                let weighed = graph.mul(weight, row[alpha]);
+            for (alpha, entry) in row.iter().enumerate() {
+                let weighed = graph.mul(weight, *entry);
                 let pulled = graph.mul(weighed, *bias);
                 result.force[alpha] = graph.add(result.force[alpha], pulled);
-                for beta in 0..row.len() {
-                    let product = graph.mul(weighed, row[beta]);
-                    result.mass[alpha][beta] = graph.add(result.mass[alpha][beta], product);
+                for (cell, other) in result.mass[alpha].iter_mut().zip(row) {
+                    let product = graph.mul(weighed, *other);
+                    *cell = graph.add(*cell, product);
                 }
             }
         }
@@ -152,10 +153,9 @@ impl SaddleEquations {
         definiteness: impl Fn(&Graph, &Matrix) -> Definiteness,
         procedure: &mut Procedure,
     ) -> (Vec<ExprId>, Vec<ExprId>) {
-        if self.jacobian.is_empty() || is_diagonal(graph, &self.mass) {
-            if definiteness(graph, &self.mass) == Definiteness::Definite {
-                return self.solve_by_complement(graph, procedure);
-            }
+        let separate = self.jacobian.is_empty() || is_diagonal(graph, &self.mass);
+        if separate && definiteness(graph, &self.mass) == Definiteness::Definite {
+            return self.solve_by_complement(graph, procedure);
         }
         let mut trial = procedure.clone();
         let augmented = self.augmented(graph, &mut trial);

@@ -80,11 +80,27 @@ fn constraints(
         Derived::Projected { .. } => return what,
     };
     let holonomic = match distribution.is_holonomic(&mut model.graph, &system.algebroid) {
-        Some(true) => "; D is closed under the bracket (holonomic)",
-        Some(false) => "; D is not closed under the bracket (nonholonomic)",
-        None => "",
+        Some(true) => {
+            let constant = constant_coordinates(model, derived);
+            format!("; D is closed under the bracket (holonomic){constant}")
+        }
+        Some(false) => "; D is not closed under the bracket (nonholonomic)".to_owned(),
+        None => String::new(),
     };
     format!("{what}{holonomic}")
+}
+
+/// The integrals of a holonomic D that are coordinates.
+fn constant_coordinates(model: &Model, derived: &Derived<'_>) -> String {
+    let Derived::Adapted { equations, .. } = derived else { return String::new() };
+    let constant: Vec<&str> = model
+        .coordinates
+        .iter()
+        .zip(&equations.rates)
+        .filter(|(_, rate)| model.graph.zero_test(**rate).is_zero())
+        .map(|(coordinate, _)| coordinate.name.as_str())
+        .collect();
+    if constant.is_empty() { String::new() } else { format!("; constant: {}", constant.join(", ")) }
 }
 
 /// What is conserved by the theorems that need no search.
