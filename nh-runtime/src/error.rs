@@ -103,7 +103,8 @@ impl Display for ProjectionError {
         write!(
             f,
             "the projection to the constraints left a residual of {residual:?} after \
-             {iterations} iterations: start nearer to the constraints, or take smaller steps"
+             {iterations} iterations: the state is too far from the constraints, or they are \
+             dependent there; start nearer to them, or take smaller steps"
         )
     }
 }
@@ -180,6 +181,13 @@ pub enum IntegrationError {
         /// The size of the last correction, in units of the tolerance.
         residual: f64,
     },
+    /// The end of a step could not be moved to the constraint manifold.
+    Projection {
+        /// The time at the end of the step.
+        time: f64,
+        /// What the projection came to.
+        error: ProjectionError,
+    },
     /// The target was not reached within the permitted number of steps.
     TooManySteps {
         /// The time reached.
@@ -222,8 +230,9 @@ impl Display for IntegrationError {
             }
             Self::NonFiniteDerivative { component, time, value } => write!(
                 f,
-                "the derivative of `{component}` is {value:?} at t = {time:?}: the equations are \
-                 singular there, or an input or parameter makes them so"
+                "the derivative of `{component}` is {value:?} at t = {time:?}, where the mass matrix or \
+                 the constraints may be singular: look at the last good state, and at inputs and \
+                 parameters"
             ),
             Self::NonFiniteStep { component, time, step } => write!(
                 f,
@@ -233,8 +242,8 @@ impl Display for IntegrationError {
             Self::StepUnderflow { time, step, error } => write!(
                 f,
                 "at t = {time:?} a step of length {step:?} still has {error:?} times the permitted \
-                 error, and the time resolves no shorter one: the solution is singular near there, \
-                 or the tolerance too small"
+                 error, and the time resolves no shorter one: the solution, the mass matrix or the \
+                 constraints may be singular near there, or the tolerance too small"
             ),
             Self::NoConvergence { time, step, iterations, residual } => write!(
                 f,
@@ -242,6 +251,7 @@ impl Display for IntegrationError {
                  iterations, the last correction being {residual:?} times the tolerance: take a \
                  smaller step"
             ),
+            Self::Projection { time, error } => write!(f, "at t = {time:?} {error}"),
             Self::TooManySteps { time, target, limit } => write!(
                 f,
                 "{limit} steps have led to t = {time:?} and not to {target:?}: permit more with \
@@ -260,6 +270,7 @@ impl Error for IntegrationError {
     fn source(&self) -> Option<&(dyn Error + 'static)> {
         match self {
             Self::Parameter(error) => Some(error),
+            Self::Projection { error, .. } => Some(error),
             _ => None,
         }
     }

@@ -7,7 +7,7 @@ use crate::methods::{Arrival, Method, Start, component, non_finite_derivative};
 use crate::{Dynamics, IntegrationError, Real, Scalar, ScalarOf, State};
 
 /// What an integration has cost.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[non_exhaustive]
 pub struct Statistics {
     /// The steps taken.
@@ -22,6 +22,12 @@ pub struct Statistics {
     pub factorizations: u64,
     /// The iterations of implicit methods.
     pub iterations: u64,
+    /// The projections to the constraints, those included that found nothing to correct.
+    pub projections: u64,
+    /// The largest change that a projection has made to a component of the state.
+    pub largest_correction: f64,
+    /// The largest constraint residual that the last projection found, before it corrected it.
+    pub last_residual: f64,
 }
 
 /// A system, a method, and a state that moves through time.

@@ -83,7 +83,7 @@ pub use dim::{D, Dim};
 pub use dynamics::{Constrained, DimOf, Dynamics, Energy, Jacobian, MatOf, Observed, ScalarOf, State, VecOf};
 pub use error::{InputFault, IntegrationError, ParameterError, ParameterFault, ProjectionError, StateFault};
 pub use integrator::{Integrator, Statistics};
-pub use methods::{Dopri5, Euler, ImplicitMidpoint, Method, Rk4};
+pub use methods::{Dopri5, Euler, ImplicitMidpoint, Method, Projected, Rk4};
 pub use scalar::{Real, Scalar};
 
 #[cfg(feature = "macros")]

@@ -2,7 +2,7 @@
 
 pub use crate::{
     Constrained, Dopri5, Dynamics, Energy, Euler, ImplicitMidpoint, IntegrationError, Integrator, Jacobian,
-    Observed, ParameterError, Real, Rk4, Scalar, State, Statistics,
+    Observed, ParameterError, Projected, Real, Rk4, Scalar, State, Statistics,
 };
 
 #[cfg(feature = "macros")]

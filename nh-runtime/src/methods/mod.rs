@@ -6,6 +6,7 @@
 //! | [`Rk4`] | 4 | fixed | |
 //! | [`Dopri5`] | 5 | adaptive | |
 //! | [`ImplicitMidpoint`] | 2 | fixed, stiff systems too | quadratic invariants, reversibility |
+//! | [`Projected`] | that of the method it is made of | likewise | the constraints of the projected formulation |
 //!
 //! The methods of fixed step are also one pure function each, `Rk4::step(&system, t, dt, &state,
 //! &input)`, for a loop that keeps its own state and time.
@@ -15,11 +16,13 @@ mod dopri5;
 mod euler;
 mod fixed;
 mod implicit_midpoint;
+mod projected;
 mod rk4;
 
 pub use dopri5::Dopri5;
 pub use euler::Euler;
 pub use implicit_midpoint::ImplicitMidpoint;
+pub use projected::Projected;
 pub use rk4::Rk4;
 
 use crate::arrays::first_non_finite;

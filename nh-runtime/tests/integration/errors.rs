@@ -122,8 +122,8 @@ fn a_derivative_that_is_not_finite_stops_every_method() {
     let mut sim = Integrator::new(Scalar1(root), Rk4::new(0.5), 1.5, Line { x: 0.0 });
     assert_eq!(
         sim.step().unwrap_err().to_string(),
-        "the derivative of `x` is NaN at t = 1.5: the equations are singular there, or an input or \
-         parameter makes them so"
+        "the derivative of `x` is NaN at t = 1.5, where the mass matrix or the constraints may be singular: \
+         look at the last good state, and at inputs and parameters"
     );
 }
 
@@ -153,7 +153,8 @@ fn blow_up_underflows_the_step() {
     assert_eq!(
         error.to_string(),
         "at t = 1.0 a step of length 1e-16 still has 3.5 times the permitted error, and the time \
-         resolves no shorter one: the solution is singular near there, or the tolerance too small"
+         resolves no shorter one: the solution, the mass matrix or the constraints may be singular near \
+         there, or the tolerance too small"
     );
 }
 

@@ -8,4 +8,5 @@ mod errors;
 mod landing;
 mod lanes;
 mod orders;
+mod projected;
 mod systems;

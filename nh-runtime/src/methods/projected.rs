@@ -1,0 +1,163 @@
+//! Any method, with a return to the constraint manifold every few steps.
+
+use super::{Arrival, Method, Start};
+use crate::projection::largest;
+use crate::{Constrained, IntegrationError, Real, Scalar, ScalarOf, State, Statistics};
+
+/// A method whose state is projected back to the constraint manifold after every few steps.
+///
+/// In the projected formulation the constraints are invariants of the equations, and a numerical
+/// solution drifts off them by the method's error (Hairer, Lubich, Wanner, Geometric Numerical
+/// Integration, section IV.4). The projection keeps the order of the method. It comes after the
+/// method's own error estimate, changes the state at the end of a step and nothing before it, and
+/// makes the method drop what it has stored about the state; dense output leads to the corrected
+/// state. [`Statistics`] say how often that happened and how much it changed.
+///
+/// ```
+/// # use nh_runtime::prelude::*;
+/// # use nh_runtime::{D, ProjectionError};
+/// # struct Circle;
+/// # #[derive(Clone, Copy)] struct Point { x: f64, y: f64 }
+/// # impl State for Point {
+/// #     type Scalar = f64;
+/// #     type Dim = D<2>;
+/// #     fn to_array(&self) -> [f64; 2] { [self.x, self.y] }
+/// #     fn from_array([x, y]: [f64; 2]) -> Self { Self { x, y } }
+/// #     fn names() -> [&'static str; 2] { ["x", "y"] }
+/// # }
+/// # impl Dynamics for Circle {
+/// #     type State = Point;
+/// #     type Input = ();
+/// #     fn derivative(&self, _t: f64, s: &Point, (): &()) -> Point { Point { x: -s.y, y: s.x } }
+/// # }
+/// # impl Constrained for Circle {
+/// #     type Constraints = D<1>;
+/// #     fn constraint_residual(&self, _t: f64, s: &Point) -> [f64; 1] { [s.x * s.x + s.y * s.y - 1.0] }
+/// #     fn project(&self, _t: f64, s: &mut Point) -> Result<(), ProjectionError> {
+/// #         let r = s.x.hypot(s.y);
+/// #         *s = Point { x: s.x / r, y: s.y / r };
+/// #         Ok(())
+/// #     }
+/// # }
+/// # fn main() -> Result<(), IntegrationError> {
+/// // a point that circles the origin, back on the circle after every tenth step
+/// let method = Projected::new(Rk4::new(0.1), 10);
+/// let mut sim = Integrator::new(Circle, method, 0.0, Point { x: 1.0, y: 0.0 });
+/// sim.advance_to(100.0)?;
+/// assert!((sim.state().x.hypot(sim.state().y) - 1.0).abs() < 1e-15);
+/// assert_eq!(sim.statistics().projections, 100);
+/// # Ok(())
+/// # }
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Projected<M> {
+    method: M,
+    every: u32,
+}
+
+impl<M> Projected<M> {
+    /// The method with a projection after every `every` steps; 1 for one after each.
+    #[must_use]
+    pub fn new(method: M, every: u32) -> Self {
+        Self { method, every }
+    }
+
+    /// The method without the projection.
+    #[must_use]
+    pub fn method(&self) -> &M {
+        &self.method
+    }
+}
+
+/// What the method remembers, and the steps since the last projection.
+#[derive(Clone, Copy)]
+pub struct Memory<M> {
+    method: M,
+    steps: u32,
+}
+
+impl<S: Constrained, M: Method<S>> Method<S> for Projected<M>
+where
+    ScalarOf<S>: Real,
+{
+    type Memory = Memory<M::Memory>;
+
+    fn memory(&self) -> Self::Memory {
+        Memory { method: self.method.memory(), steps: 0 }
+    }
+
+    #[inline]
+    fn forget(&self, memory: &mut Self::Memory) {
+        self.method.forget(&mut memory.method);
+    }
+
+    fn check(&self) -> Result<(), IntegrationError> {
+        self.method.check()?;
+        if self.every > 0 {
+            return Ok(());
+        }
+        Err(IntegrationError::Setting {
+            setting: "every",
+            value: f64::from(self.every),
+            expected: "at least 1, the number of steps from one projection to the next",
+        })
+    }
+
+    #[inline]
+    fn advance(
+        &self,
+        start: &Start<'_, S>,
+        target: Option<ScalarOf<S>>,
+        memory: &mut Self::Memory,
+        statistics: &mut Statistics,
+    ) -> Result<Arrival<S>, IntegrationError> {
+        // the memory changes only if the projection succeeds too
+        let Memory { method: mut inner, steps } = *memory;
+        let mut arrival = self.method.advance(start, target, &mut inner, statistics)?;
+        let steps = steps + 1;
+        if steps < self.every {
+            *memory = Memory { method: inner, steps };
+            return Ok(arrival);
+        }
+        if correct(start.system, &mut arrival, statistics)? {
+            self.method.forget(&mut inner);
+        }
+        *memory = Memory { method: inner, steps: 0 };
+        Ok(arrival)
+    }
+
+    #[inline]
+    fn interpolate(
+        &self,
+        memory: &Self::Memory,
+        start: &Start<'_, S>,
+        arrival: &Arrival<S>,
+        time: ScalarOf<S>,
+    ) -> S::State {
+        self.method.interpolate(&memory.method, start, arrival, time)
+    }
+}
+
+/// Projects the end of a step, and says whether that has changed it.
+fn correct<S: Constrained>(
+    system: &S,
+    arrival: &mut Arrival<S>,
+    statistics: &mut Statistics,
+) -> Result<bool, IntegrationError>
+where
+    ScalarOf<S>: Real,
+{
+    let before = arrival.state.to_array();
+    let residual = largest::<ScalarOf<S>>(system.constraint_residual(arrival.time, &arrival.state).as_ref());
+    system
+        .project(arrival.time, &mut arrival.state)
+        .map_err(|error| IntegrationError::Projection { time: arrival.time.to_f64(), error })?;
+    let after = arrival.state.to_array();
+    let pairs = before.as_ref().iter().zip(after.as_ref());
+    let correction =
+        pairs.fold(ScalarOf::<S>::ZERO, |largest, (before, after)| largest.max((*after - *before).abs()));
+    statistics.projections += 1;
+    statistics.last_residual = residual.to_f64();
+    statistics.largest_correction = statistics.largest_correction.max(correction.to_f64());
+    Ok(correction != ScalarOf::<S>::ZERO)
+}

@@ -1,0 +1,164 @@
+//! Methods that return to a manifold: when they do, what they report, and what they keep.
+
+use nh_runtime::prelude::*;
+use nh_runtime::{D, Method, ProjectionError};
+
+use crate::systems::Plane;
+
+/// q' = p, p' = −q on the circle q² + p² = 1.
+#[derive(Clone, Copy)]
+struct Circle {
+    /// The radius below which projections fail.
+    least: f64,
+}
+
+impl Dynamics for Circle {
+    type State = Plane<f64>;
+    type Input = ();
+    fn derivative(&self, _t: f64, x: &Plane<f64>, (): &()) -> Plane<f64> {
+        Plane { q: x.p, p: -x.q }
+    }
+}
+
+impl Constrained for Circle {
+    type Constraints = D<1>;
+    fn constraint_residual(&self, _t: f64, x: &Plane<f64>) -> [f64; 1] {
+        [x.q * x.q + x.p * x.p - 1.0]
+    }
+    fn project(&self, t: f64, x: &mut Plane<f64>) -> Result<(), ProjectionError> {
+        let r = x.q.hypot(x.p);
+        if r < self.least {
+            return Err(ProjectionError { iterations: 1, residual: self.constraint_residual(t, x)[0].abs() });
+        }
+        *x = Plane { q: x.q / r, p: x.p / r };
+        Ok(())
+    }
+}
+
+const START: Plane<f64> = Plane { q: 1.0, p: 0.0 };
+
+fn circling<M: Method<Circle>>(method: M) -> Integrator<Circle, M> {
+    Integrator::new(Circle { least: 0.5 }, method, 0.0, START)
+}
+
+fn off_the_circle(x: &Plane<f64>) -> f64 {
+    (x.q.hypot(x.p) - 1.0).abs()
+}
+
+#[test]
+fn every_method_stays_on_the_manifold() {
+    fn check<M: Method<Circle> + Copy>(method: M, least_drift: f64) {
+        let mut drifting = circling(method);
+        drifting.advance_to(50.0).unwrap();
+        let mut sim = circling(Projected::new(method, 1));
+        sim.advance_to(50.0).unwrap();
+        let statistics = sim.statistics();
+        assert_eq!(statistics.projections, statistics.steps);
+        assert!(off_the_circle(sim.state()) < 2e-16, "{:?}", sim.state());
+        assert!(statistics.largest_correction > 0.0);
+        assert!(statistics.last_residual < 3.0 * statistics.largest_correction);
+        assert!(off_the_circle(drifting.state()) >= least_drift);
+    }
+    check(Euler::new(0.01), 0.1);
+    check(Rk4::new(0.1), 1e-6);
+    check(Dopri5::new().rtol(1e-6), 1e-6);
+    // keeps circles by itself, but for round-off
+    check(ImplicitMidpoint::new(0.1), 0.0);
+}
+
+#[test]
+fn the_cadence_is_kept_and_counts_steps() {
+    let mut sim = circling(Projected::new(Rk4::new(0.1), 7));
+    for step in 1..=70 {
+        let before = sim.statistics();
+        sim.step().unwrap();
+        let projected = sim.statistics().projections > before.projections;
+        assert_eq!(projected, step % 7 == 0, "{step}");
+        assert_eq!(projected, off_the_circle(sim.state()) < 2e-16, "{step}");
+    }
+    assert_eq!(sim.statistics().projections, 10);
+}
+
+#[test]
+fn a_correction_renews_the_stored_derivative() {
+    // a step of Dormand and Prince's method takes six evaluations, and one more after a correction
+    let cost = |every| {
+        let method = Dopri5::new().rtol(1e-6).first_step(0.1).max_step(0.1);
+        let mut sim = circling(Projected::new(method, every));
+        for _ in 0..100 {
+            sim.step().unwrap();
+        }
+        sim.statistics().evaluations
+    };
+    assert_eq!(cost(1000), 601);
+    assert!((648..=650).contains(&cost(2)), "{}", cost(2));
+    // and the steps are those of a fresh integration from the corrected state
+    let method = Dopri5::new().rtol(1e-3).first_step(0.1).max_step(0.1);
+    let mut sim = circling(Projected::new(method, 1));
+    sim.step().unwrap();
+    let mut fresh = Integrator::new(Circle { least: 0.5 }, method, sim.time(), *sim.state());
+    let mut raw = circling(method);
+    raw.step().unwrap();
+    assert_ne!(raw.state(), sim.state());
+    let target = sim.time() + 0.1;
+    sim.advance_to(target).unwrap();
+    fresh.advance_to(target).unwrap();
+    let r = fresh.state().q.hypot(fresh.state().p);
+    assert_eq!(*sim.state(), Plane { q: fresh.state().q / r, p: fresh.state().p / r });
+}
+
+#[test]
+fn dense_output_meets_the_corrected_states() {
+    fn check<M: Method<Circle>>(method: M, tolerance: f64) {
+        let mut sim = circling(Projected::new(method, 1));
+        sim.advance_to(1.0).unwrap();
+        let (time, state) = (sim.time(), *sim.state());
+        sim.step().unwrap();
+        assert_eq!(sim.at(time).unwrap(), state);
+        assert_eq!(sim.at(sim.time()).unwrap(), *sim.state());
+        for i in 1..100 {
+            let at = sim.at(time + (sim.time() - time) * f64::from(i) / 100.0).unwrap();
+            assert!(off_the_circle(&at) < tolerance, "{at:?}");
+        }
+        let near = sim.at(sim.time() - 1e-12).unwrap();
+        assert!((near.q - sim.state().q).abs() < 1e-11, "{near:?}");
+    }
+    check(Dopri5::new().rtol(1e-8), 1e-6);
+    check(Rk4::new(0.1), 1e-5);
+}
+
+#[test]
+fn a_failed_projection_keeps_the_last_good_state() {
+    let mut sim = Integrator::new(Circle { least: 2.0 }, Projected::new(Rk4::new(0.1), 3), 0.0, START);
+    let error = sim.advance_to(1.0).unwrap_err();
+    let IntegrationError::Projection { time, error: ProjectionError { iterations: 1, residual } } = error
+    else {
+        panic!("{error:?}");
+    };
+    assert!((time - 0.3).abs() < 1e-15 && residual < 1e-6);
+    assert!((sim.time() - 0.2).abs() < 1e-15, "{:?}", sim.time());
+    assert_eq!(sim.statistics().steps, 2);
+    let before = *sim.state();
+    assert_eq!(sim.step().unwrap_err(), error);
+    assert_eq!(*sim.state(), before);
+    assert!(std::error::Error::source(&error).is_some());
+    assert_eq!(
+        IntegrationError::Projection { time: 0.5, error: ProjectionError { iterations: 50, residual: 0.25 } }
+            .to_string(),
+        "at t = 0.5 the projection to the constraints left a residual of 0.25 after 50 iterations: the state \
+         is too far from the constraints, or they are dependent there; start nearer to them, or take smaller \
+         steps"
+    );
+}
+
+#[test]
+fn a_cadence_of_zero_is_refused() {
+    let error = circling(Projected::new(Rk4::new(0.1), 0)).step().unwrap_err();
+    assert_eq!(
+        error.to_string(),
+        "the setting `every` of the method is 0.0, but has to be at least 1, the number of steps from one \
+         projection to the next"
+    );
+    let error = circling(Projected::new(Rk4::new(-0.1), 1)).step().unwrap_err();
+    assert!(matches!(error, IntegrationError::Setting { setting: "step", .. }));
+}
