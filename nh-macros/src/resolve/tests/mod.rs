@@ -1,6 +1,7 @@
 //! Tests of this stage: the meaning of expressions, evaluated, and every error text.
 
 mod catalogue;
+mod fuzz;
 mod limits;
 mod meaning;
 mod names;
@@ -40,8 +41,7 @@ fn messages(attribute: &str, item: &str) -> Vec<String> {
     }
 }
 
-/// The value of an expression when the k-th symbol of the model has the value `1 + k / 8`, and a
-/// way to ask for such values by name.
+/// The value of an expression where every symbol has the value [`of_name`] of its name.
 fn evaluated(model: &Model, expression: ExprId) -> f64 {
     model.graph.evaluate(&[expression], |symbol| of_name(&model.graph.symbols()[symbol]))[0].value
 }
