@@ -95,6 +95,11 @@ impl<I: Id, T> Table<I, T> {
         self.entries.iter()
     }
 
+    /// The entries, in order, to be changed.
+    pub fn iter_mut(&mut self) -> std::slice::IterMut<'_, T> {
+        self.entries.iter_mut()
+    }
+
     /// Ids with their entries, in order.
     pub fn iter_ids(&self) -> impl Iterator<Item = (I, &T)> {
         self.entries.iter().enumerate().map(|(index, entry)| (I::from_index(index), entry))

@@ -2,7 +2,7 @@
 //!
 //! Nothing is proved yet. Positions in the declaration are opaque [`Origin`]s.
 
-use crate::algebra::Graph;
+use crate::algebra::{Facts, Graph};
 use crate::id::{ConstraintId, CoordId, ExprId, InputId, Origin, ParamId, SectionId, SymbolId, Table};
 
 /// A declaration with its names resolved.
@@ -58,6 +58,25 @@ pub struct Model {
     pub independent: Option<Vec<(SectionId, Origin)>>,
     /// The formulation that the user asks for.
     pub formulation: Option<(Formulation, Origin)>,
+}
+
+impl Model {
+    /// Rewrites what is declared by the identities that hold under the facts.
+    pub(crate) fn assume(&mut self, facts: &Facts) {
+        let graph = &mut self.graph;
+        let mut rewrite = |value: &mut ExprId| *value = graph.assuming(&[*value], facts)[0];
+        rewrite(&mut self.lagrangian.value);
+        self.constraints.iter_mut().for_each(|constraint| rewrite(&mut constraint.residual));
+        self.forces.iter_mut().for_each(|force| rewrite(&mut force.value));
+        self.outputs.iter_mut().for_each(|output| rewrite(&mut output.value));
+        self.claims.iter_mut().for_each(|claim| rewrite(&mut claim.value));
+        self.brackets.iter_mut().for_each(|bracket| rewrite(&mut bracket.value));
+        match &mut self.kinematics {
+            Kinematics::Tangent => {}
+            Kinematics::Anchor(lines) => lines.iter_mut().for_each(|line| rewrite(&mut line.rate)),
+            Kinematics::Coframe(rows) => rows.iter_mut().for_each(|row| rewrite(&mut row.value)),
+        }
+    }
 }
 
 /// An expression and where it stands.

@@ -1,6 +1,7 @@
 //! Symbolic algebra: a hash-consed expression graph, its derivatives, and the one zero test.
 
 mod accuracy;
+mod assuming;
 mod derivative;
 mod display;
 mod evaluate;

@@ -37,6 +37,7 @@ pub fn compile(mut model: Model) -> Result<System, Vec<Violation>> {
     // 1. every expression is defined, and smooth where it is differentiated; facts do not contradict
     let broken = check::declared_expressions(&model);
     let facts = both(broken, check::facts(&mut model))?;
+    model.assume(&facts);
     // 2. the anchor: linear and homogeneous; a coframe is inverted
     let mut motion = check::kinematics(&mut model)?;
     // 3. the embedded base, which the anchor keeps; the brackets, declared or derived
