@@ -62,7 +62,9 @@ impl Resolver {
         }
         let mut taken = BTreeSet::from([layout.name.to_string()]);
         let types = layout.types.clone();
-        for name in [types.state, types.velocity, types.input, types.multipliers, types.outputs] {
+        let of_motion = [types.state, types.velocity, types.input, types.outputs];
+        let of_constraints = [types.multipliers, types.reactions, types.residual];
+        for name in of_motion.into_iter().chain(of_constraints) {
             if !taken.insert(name.to_string()) {
                 let blamed = names.body.iter().rev().find(|renaming| renaming.name.ident == name);
                 let extent = blamed.map_or(names.keyword.extent(), |renaming| renaming.name.extent());
@@ -86,6 +88,8 @@ fn slot<'a>(types: &'a mut TypeNames, role: &str) -> Option<&'a mut Ident> {
         "input" => Some(&mut types.input),
         "multipliers" => Some(&mut types.multipliers),
         "outputs" => Some(&mut types.outputs),
+        "reactions" => Some(&mut types.reactions),
+        "residual" => Some(&mut types.residual),
         _ => None,
     }
 }

@@ -17,6 +17,10 @@ use crate::syntax::ast::{self, Comparison, Definition, Equation, Item, Name};
 const REQUESTS: [(&str, Request); 2] =
     [("multipliers", Request::Multipliers), ("reactions", Request::Reactions)];
 
+/// What `emit` will be able to ask for.
+const TO_COME: [&str; 7] =
+    ["jacobian", "hamiltonian", "bracket", "connection", "divergence", "gibbs_appell", "taylor"];
+
 impl Resolver {
     /// f = 0 on the embedded base; vectors entry by entry.
     pub(super) fn identities(&mut self, items: &[Item<Equation>]) -> Vec<Located> {
@@ -100,7 +104,8 @@ impl Resolver {
             let text = name.text.as_str();
             let Some((_, request)) = REQUESTS.iter().find(|(known, _)| *known == text) else {
                 let all = REQUESTS.map(|(known, _)| format!("`{known}`")).join(", ");
-                let error = Diagnostic::new(name.extent(), format!("`{text}` cannot be emitted"));
+                let yet = if TO_COME.contains(&text) { " yet" } else { "" };
+                let error = Diagnostic::new(name.extent(), format!("`{text}` cannot be emitted{yet}"));
                 let known = format!("what can be asked for: {all}");
                 let error = match did_you_mean(text, REQUESTS.map(|(known, _)| known)) {
                     Some(question) => error.evidence(known).way_out(question),

@@ -38,7 +38,8 @@ pub(crate) const FUNCTIONS: [&str; 18] = [
 pub(crate) const RESERVED: [&str; 5] = ["t", "pi", "sum", "dot", "cross"];
 
 /// The generated types that `names` renames.
-pub(crate) const TYPES: [&str; 5] = ["state", "velocity", "input", "multipliers", "outputs"];
+pub(crate) const TYPES: [&str; 7] =
+    ["state", "velocity", "input", "multipliers", "outputs", "reactions", "residual"];
 
 /// The known algebras of `brackets`.
 pub(crate) const ALGEBRAS: [&str; 4] = ["so", "se", "sl", "heisenberg"];

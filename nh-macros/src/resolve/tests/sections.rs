@@ -1,7 +1,7 @@
 //! The sections of a declaration: what they become, and every error text.
 
 use nh_core::id::{Id, SectionId};
-use nh_core::model::{ForceDirection, Formulation, Kinematics};
+use nh_core::model::{ForceDirection, Formulation, Kinematics, Request};
 
 use super::{evaluated, messages, model, of_name, resolved};
 
@@ -353,6 +353,25 @@ fn facts() {
         "the two sides have different shapes\non the left is a vector of 2 entries, on the right a vector of 3 \
          entries",
     )]);
+}
+
+#[test]
+fn requests() {
+    let model = model("base { x } lagrangian { 1 } emit { reactions, multipliers }", STRUCT);
+    let asked: Vec<_> = model.requests.iter().map(|(request, _)| *request).collect();
+    assert_eq!(asked, [Request::Reactions, Request::Multipliers]);
+    assert_errors(&[
+        (
+            "base { x } lagrangian { 1 } emit { multiplier }",
+            "`multiplier` cannot be emitted\nwhat can be asked for: `multipliers`, `reactions`\nhelp: did you mean \
+             `multipliers`?",
+        ),
+        (
+            "base { x } lagrangian { 1 } emit { taylor }",
+            "`taylor` cannot be emitted yet\nhelp: what can be asked for: `multipliers`, `reactions`",
+        ),
+        ("base { x } lagrangian { 1 } emit { reactions, reactions }", "`reactions` is asked for twice"),
+    ]);
 }
 
 #[test]
