@@ -55,7 +55,7 @@ pub struct Model {
     /// What to generate beyond the default (`emit`).
     pub requests: Vec<(Request, Origin)>,
     /// The velocities that the user wants the adapted state to keep.
-    pub independent: Option<Vec<(SectionId, Origin)>>,
+    pub independent: Option<Vec<(SymbolId, Origin)>>,
     /// The formulation that the user asks for.
     pub formulation: Option<(Formulation, Origin)>,
 }
@@ -252,8 +252,8 @@ pub struct ForceDecl {
 /// What a generalized force acts along.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum ForceDirection {
-    /// Υ_α along a section.
-    Section(SectionId),
+    /// Υ along a section of the declared basis or of the frame, by its velocity symbol.
+    Section(SymbolId),
     /// Q_i along a base coordinate, pulled back by the anchor (CNS section 3).
     Coordinate(CoordId),
 }

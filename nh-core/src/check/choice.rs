@@ -105,16 +105,23 @@ fn contradictory(origin: Origin) -> Violation {
 /// The velocities to eliminate, if as many are named as there have to be.
 fn dependent_of(
     model: &Model,
-    named: &[(SectionId, Origin)],
+    named: &[(SymbolId, Origin)],
     constraints: usize,
 ) -> Result<Vec<SectionId>, Vec<Violation>> {
     let wanted = model.sections.len() - constraints;
+    let velocities = velocities(model);
+    if let Some((stranger, origin)) = named.iter().find(|(symbol, _)| !velocities.contains(symbol)) {
+        return Err(vec![Violation {
+            law: Law::Choice,
+            origin: *origin,
+            what: format!("`{}` is not a velocity of the basis", model.graph.symbols()[*stranger]),
+            evidence: "the frame has put another section in its place".into(),
+            way_out: "name velocities of the frame, or of declared sections that it leaves".into(),
+        }]);
+    }
     if named.len() == wanted {
-        return Ok(model
-            .sections
-            .ids()
-            .filter(|id| named.iter().all(|(section, _)| section != id))
-            .collect());
+        let is_kept = |id: &SectionId| named.iter().any(|(symbol, _)| *symbol == model.sections[*id].symbol);
+        return Ok(model.sections.ids().filter(|id| !is_kept(id)).collect());
     }
     Err(vec![Violation {
         law: Law::Choice,
@@ -146,7 +153,7 @@ fn undecided(model: &Model, why: String) -> Vec<Violation> {
 fn named_choice(
     model: &mut Model,
     setting: &PivotSetting<'_>,
-    named: &[(SectionId, Origin)],
+    named: &[(SymbolId, Origin)],
     constraints: &LinearConstraints,
 ) -> Result<Chosen, Vec<Violation>> {
     let dependent = dependent_of(model, named, constraints.annihilator.len())?;

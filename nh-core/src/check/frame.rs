@@ -5,8 +5,8 @@ use super::evidence::{listed, shown};
 use super::kinematics::Motion;
 use crate::algebra::{Echelon, Facts, FieldPoint, Graph, Matrix, NotLinear, Substitution};
 use crate::geometry::{Algebroid, ChangeOfBasis, ConstraintDistribution, LinearConstraints, Manifold};
-use crate::id::{ExprId, Id, SectionId, SymbolId};
-use crate::model::{FrameDecl, Model, Section};
+use crate::id::{ExprId, Id, Origin, SectionId, SymbolId};
+use crate::model::{Formulation, FrameDecl, Model, Section};
 use crate::violation::{Law, Violation};
 
 /// The components of the sections of the frame in the declared basis.
@@ -119,6 +119,7 @@ pub fn change_to_frame(
     motion.rates = Substitution::new(model.coordinates.iter().map(|coordinate| coordinate.rate).zip(rates));
     for place in &places {
         motion.rates.insert(old[*place], replaced[*place]);
+        motion.replaced.push((old[*place], change.sections[*place].clone()));
     }
     motion.anchor = changed.anchor.clone();
     Ok(changed)
@@ -176,6 +177,9 @@ pub fn spanned_distribution(
     base: &Manifold,
 ) -> Result<Option<ConstraintDistribution>, Vec<Violation>> {
     let Some(spanning) = model.distribution.clone() else { return Ok(None) };
+    if let Some(violation) = excluded(model, &spanning) {
+        return Err(vec![violation]);
+    }
     let rows = frame_components(model)?;
     let new: Vec<SymbolId> = model.frame.iter().map(|declaration| declaration.symbol).collect();
     if model.graph.depends_on(model.lagrangian.value, &new) {
@@ -222,6 +226,27 @@ pub fn spanned_distribution(
         offset: vec![zero; rank],
         pivots: Vec::new(),
     }))
+}
+
+/// What a distribution by span leaves no room for.
+fn excluded(model: &Model, spanning: &[(SymbolId, Origin)]) -> Option<Violation> {
+    let constraint = model.constraints.iter().next().map(|c| ("`constraints`", c.origin));
+    let formulation = model.formulation.filter(|(asked, _)| *asked == Formulation::Projected);
+    let formulation = formulation.map(|(_, origin)| ("the projected formulation", origin));
+    let named = model.independent.as_ref().and_then(|named| named.first());
+    let named = named.map(|(_, origin)| ("`independent`", *origin));
+    let (what, origin) = constraint.or(formulation).or(named)?;
+    let names: Vec<&str> = spanning.iter().map(|(s, _)| model.graph.symbols()[*s].as_str()).collect();
+    Some(Violation {
+        law: Law::Choice,
+        origin,
+        what: format!("{what} beside `distribution`"),
+        evidence: format!(
+            "D is the span of {} already, and the state keeps their velocities",
+            listed(&names)
+        ),
+        way_out: "keep one of the two descriptions".into(),
+    })
 }
 
 /// Covectors that vanish on D, solved on components that are independent at most points.

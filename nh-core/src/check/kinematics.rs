@@ -16,8 +16,11 @@ pub struct Motion {
     pub rates: Substitution,
     /// α^k_j, where the quasi-velocities were declared by a coframe.
     pub coframe: Option<Matrix>,
-    /// What the inverse of the coframe is divided by.
+    /// What the inverses of the coframe and of the frame are divided by.
     pub divisors: Vec<ExprId>,
+    /// Declared velocities whose sections the frame has replaced, with their row of Ψ: the
+    /// component of each section of the new basis along the replaced one.
+    pub replaced: Vec<(SymbolId, Vec<ExprId>)>,
 }
 
 /// Reads the anchor off the declaration.
@@ -47,7 +50,7 @@ fn tangent(model: &mut Model) -> Motion {
     let (zero, one) = (model.graph.zero(), model.graph.one());
     let entries = (0..n).map(|i| (0..n).map(|j| if i == j { one } else { zero }).collect()).collect();
     let anchor = Anchor { entries, coordinates: coordinates(model), rank: model.sections.len() };
-    Motion { anchor, rates: Substitution::new([]), coframe: None, divisors: Vec::new() }
+    Motion { anchor, rates: Substitution::new([]), coframe: None, divisors: Vec::new(), replaced: Vec::new() }
 }
 
 fn declared_anchor(model: &mut Model, lines: &[AnchorDecl]) -> Result<Motion, Vec<Violation>> {
@@ -81,7 +84,7 @@ fn declared_anchor(model: &mut Model, lines: &[AnchorDecl]) -> Result<Motion, Ve
     }
     let anchor = Anchor { entries, coordinates: coordinates(model), rank: model.sections.len() };
     let rates = rate_substitution(model, &anchor);
-    Ok(Motion { anchor, rates, coframe: None, divisors: Vec::new() })
+    Ok(Motion { anchor, rates, coframe: None, divisors: Vec::new(), replaced: Vec::new() })
 }
 
 /// The coefficients of an expression that must be linear and homogeneous in `variables`, with
@@ -179,7 +182,7 @@ fn inverted_coframe(model: &mut Model, rows: &[Located]) -> Result<Motion, Vec<V
     let Some(solution) = solution else { return Err(vec![singular_coframe(model, &coframe)]) };
     let anchor = Anchor { entries: solution.values, coordinates: coordinates(model), rank: n };
     let rates = rate_substitution(model, &anchor);
-    Ok(Motion { anchor, rates, coframe: Some(coframe), divisors: solution.divisors })
+    Ok(Motion { anchor, rates, coframe: Some(coframe), divisors: solution.divisors, replaced: Vec::new() })
 }
 
 fn not_square(model: &Model, found: usize) -> Violation {

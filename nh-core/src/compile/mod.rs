@@ -7,7 +7,7 @@ mod restricted;
 use crate::algebra::Facts;
 use crate::check::{self, Chosen, Constraints, Motion};
 use crate::geometry::{Algebroid, ConstraintDistribution, Manifold};
-use crate::id::{ExprId, Id};
+use crate::id::Id;
 use crate::mechanics::LagrangianSystem;
 use crate::model::{ForceDirection, Model};
 use crate::system::System;
@@ -102,21 +102,33 @@ fn lagrangian_system(model: &mut Model, motion: &mut Motion, algebroid: Algebroi
     let graph = &mut model.graph;
     let lagrangian = motion.rates.apply(graph, model.lagrangian.value);
     let zero = graph.zero();
-    let mut along_sections = vec![zero; algebroid.rank()];
+    let mut forces = vec![zero; algebroid.rank()];
     let mut along_base = vec![zero; model.coordinates.len()];
+    let mut forces_on_distribution = Vec::new();
     for force in &model.forces {
         let value = motion.rates.apply(graph, force.value);
-        let slot = match force.direction {
-            ForceDirection::Section(section) => &mut along_sections[section.index()],
-            ForceDirection::Coordinate(coordinate) => &mut along_base[coordinate.index()],
+        let symbol = match force.direction {
+            ForceDirection::Section(symbol) => symbol,
+            ForceDirection::Coordinate(coordinate) => {
+                let slot = &mut along_base[coordinate.index()];
+                *slot = graph.add(*slot, value);
+                continue;
+            }
         };
-        *slot = graph.add(*slot, value);
+        if let Some(index) = algebroid.velocities.iter().position(|velocity| *velocity == symbol) {
+            forces[index] = graph.add(forces[index], value);
+        } else if let Some((_, row)) = motion.replaced.iter().find(|(replaced, _)| *replaced == symbol) {
+            // Υ(f_k) = Ψ^α_k Υ_α
+            for (slot, component) in forces.iter_mut().zip(row) {
+                let share = graph.mul(*component, value);
+                *slot = graph.add(*slot, share);
+            }
+        } else {
+            forces_on_distribution.push((symbol, value));
+        }
     }
     let pulled_back = algebroid.anchor.pull_back(graph, &along_base);
-    let forces: Vec<ExprId> = along_sections
-        .into_iter()
-        .zip(pulled_back)
-        .map(|(direct, pulled)| graph.add(direct, pulled))
-        .collect();
-    LagrangianSystem { algebroid, lagrangian, forces, time: model.time }
+    let forces =
+        forces.into_iter().zip(pulled_back).map(|(direct, pulled)| graph.add(direct, pulled)).collect();
+    LagrangianSystem { algebroid, lagrangian, forces, forces_on_distribution, time: model.time }
 }

@@ -60,14 +60,16 @@ pub fn reduced_equations(
             .collect();
         mass.push(row);
     }
-    let force = sections
-        .iter()
-        .map(|section| {
-            let projected = graph.inner_product(section, &balance.rest);
-            let force = graph.neg(projected);
-            graph.simplify(force)
-        })
-        .collect();
+    let mut force: Vec<ExprId> = Vec::with_capacity(sections.len());
+    for (section, symbol) in sections.iter().zip(&independent) {
+        let projected = graph.inner_product(section, &balance.rest);
+        let mut along = graph.neg(projected);
+        for (_, value) in system.forces_on_distribution.iter().filter(|(direction, _)| direction == symbol) {
+            let value = restriction.apply(graph, *value);
+            along = graph.add(along, value);
+        }
+        force.push(graph.simplify(along));
+    }
     let rates = system.algebroid.rates(graph, &velocity);
     let rates = rates.into_iter().map(|rate| graph.simplify(rate)).collect();
     ReducedEquations { mass, force, rates, velocity, inertia, rest: balance.rest, independent }

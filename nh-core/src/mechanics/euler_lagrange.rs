@@ -13,6 +13,8 @@ pub struct LagrangianSystem {
     pub lagrangian: ExprId,
     /// The generalized force Υ_α(t, x, y, u), a component for each section.
     pub forces: Vec<ExprId>,
+    /// Forces along sections that span D, by their velocities: they act on D alone.
+    pub forces_on_distribution: Vec<(SymbolId, ExprId)>,
     /// The time t.
     pub time: SymbolId,
 }
@@ -28,6 +30,13 @@ pub struct ForceBalance {
 }
 
 impl LagrangianSystem {
+    /// Whether no force acts.
+    #[must_use]
+    pub fn is_free(&self, graph: &Graph) -> bool {
+        let on_distribution = self.forces_on_distribution.iter().map(|(_, value)| value);
+        self.forces.iter().chain(on_distribution).all(|force| graph.zero_test(*force).is_zero())
+    }
+
     /// p_α = ∂L/∂y^α.
     pub fn momenta(&self, graph: &mut Graph) -> Vec<ExprId> {
         self.algebroid

@@ -123,7 +123,7 @@ fn moving_energy(proved: &mut Proved) -> Option<String> {
     let graph = &mut model.graph;
     let autonomous = !graph.symbols_in(&constraints.residuals).contains(&system.time)
         && !graph.depends_on(system.lagrangian, &[system.time]);
-    let free = system.forces.iter().all(|force| graph.zero_test(*force).is_zero());
+    let free = system.is_free(graph);
     if !autonomous || !free {
         return None;
     }
@@ -141,6 +141,7 @@ fn energy_is_conserved(proved: &mut Proved) -> bool {
     let time = graph.partial(system.lagrangian, system.time);
     let mut terms = vec![time];
     terms.extend(&system.forces);
+    terms.extend(system.forces_on_distribution.iter().map(|(_, value)| *value));
     let velocities = system.algebroid.velocities.clone();
     for residual in constraints.residuals.clone() {
         let power: Vec<ExprId> = velocities

@@ -23,7 +23,16 @@ fn stages(model: &mut Model) -> (LagrangianSystem, ConstraintDistribution) {
     let lagrangian = motion.rates.apply(&mut model.graph, model.lagrangian.value);
     let zero = model.graph.zero();
     let forces = vec![zero; algebroid.rank()];
-    (LagrangianSystem { algebroid, lagrangian, forces, time: model.time }, distribution)
+    (
+        LagrangianSystem {
+            algebroid,
+            lagrangian,
+            forces,
+            forces_on_distribution: Vec::new(),
+            time: model.time,
+        },
+        distribution,
+    )
 }
 
 /// Accelerations by solving the mass matrix in floating point.

@@ -78,7 +78,8 @@ fn robot_eliminates_the_last_declared_first() {
 #[test]
 fn robot_keeps_its_wheels_when_asked() {
     let mut model = systems::robot();
-    model.independent = Some([3, 4].map(|index| (Id::from_index(index), systems::origin())).to_vec());
+    let wheels = [3, 4].map(|index| model.sections[Id::from_index(index)].symbol);
+    model.independent = Some(wheels.map(|symbol| (symbol, systems::origin())).to_vec());
     let system = compiled(model);
     assert_eq!(system.formulation, Formulation::Adapted);
     let names: Vec<&str> =

@@ -1,7 +1,7 @@
 //! Verified systems written by hand, to test the emitters apart from the derivation.
 
 use nh_core::algebra::{Graph, Rational};
-use nh_core::id::{ExprId, Id, Origin, SectionId, SymbolId, Table};
+use nh_core::id::{ExprId, Id, Origin, SymbolId, Table};
 use nh_core::mechanics::{Definition, Procedure};
 use nh_core::model::{Coordinate, Formulation, Input, Kinematics, Located, Model, Parameter, Section};
 use nh_core::system::{ParameterCheck, System};

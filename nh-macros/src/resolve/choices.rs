@@ -2,7 +2,7 @@
 
 use std::collections::BTreeSet;
 
-use nh_core::id::{Origin, SectionId};
+use nh_core::id::{Origin, SymbolId};
 use nh_core::model::Formulation;
 use proc_macro2::Ident;
 use quote::quote;
@@ -14,17 +14,17 @@ use crate::syntax::ast::{self, Renaming, Section, SystemDecl, Velocity};
 
 impl Resolver {
     /// The velocities that the adapted state keeps, each once.
-    pub(super) fn independent(&mut self, named: &[Velocity]) -> Vec<(SectionId, Origin)> {
-        let mut found: Vec<(SectionId, Origin)> = Vec::new();
+    pub(super) fn independent(&mut self, named: &[Velocity]) -> Vec<(SymbolId, Origin)> {
+        let mut found: Vec<(SymbolId, Origin)> = Vec::new();
         let mut seen = BTreeSet::new();
         for velocity in named {
             let Ok((sections, extent)) = self.velocities(velocity) else { continue };
             let origin = self.origin(extent);
-            for section in sections {
-                if seen.insert(section) {
-                    found.push((section, origin));
+            for symbol in sections {
+                if seen.insert(symbol) {
+                    found.push((symbol, origin));
                 } else {
-                    let name = &self.tables.sections[section].name;
+                    let name = &self.graph.symbols()[symbol];
                     let error = Diagnostic::new(extent, format!("the velocity `{name}` is named twice"));
                     self.report(velocity, error);
                 }

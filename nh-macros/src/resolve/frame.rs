@@ -7,7 +7,6 @@ use nh_core::id::{Origin, SymbolId};
 use nh_core::model::FrameDecl;
 
 use super::context::Context;
-use super::reports::Outcome;
 use super::resolver::Resolver;
 use super::scope::{Meaning, Role};
 use crate::emit::Family;
@@ -45,7 +44,7 @@ impl Resolver {
         let mut found = Vec::new();
         let mut seen = BTreeSet::new();
         for place in places {
-            let Ok(symbols) = self.spanning(place) else { continue };
+            let Ok(symbols) = self.section_velocities(place) else { continue };
             let origin = self.origin(place.extent);
             for symbol in symbols {
                 if seen.insert(symbol) {
@@ -59,17 +58,5 @@ impl Resolver {
             }
         }
         found
-    }
-
-    /// The sections that a place names: of the basis, or of the frame.
-    fn spanning(&mut self, place: &Place) -> Outcome<Vec<SymbolId>> {
-        if let Some(Meaning::Named(named)) = self.scope.get(&place.name.text).cloned()
-            && named.role == Role::FrameVelocity
-        {
-            let part = self.part(&format!("`{}`", place.name.text), named.shape, &place.indices)?;
-            return Ok(named.symbols[part.positions()].to_vec());
-        }
-        let sections = self.sections(place)?;
-        Ok(sections.into_iter().map(|section| self.tables.sections[section].symbol).collect())
     }
 }

@@ -126,7 +126,8 @@ impl Resolver {
 /// The velocities that the state of a declaration in error would probably have.
 pub(crate) fn probable_state(model: &Model) -> Vec<SectionId> {
     if let Some(named) = &model.independent {
-        return named.iter().map(|(section, _)| *section).collect();
+        let is_named = |symbol| named.iter().any(|(velocity, _)| *velocity == symbol);
+        return model.sections.iter_ids().filter(|(_, s)| is_named(s.symbol)).map(|(id, _)| id).collect();
     }
     let mut kept: Vec<SectionId> = model.sections.ids().collect();
     if !matches!(model.formulation, Some((Formulation::Projected, _))) {

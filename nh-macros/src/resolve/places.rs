@@ -2,7 +2,7 @@
 
 use std::rc::Rc;
 
-use nh_core::id::{CoordId, Id, SectionId};
+use nh_core::id::{CoordId, Id, SectionId, SymbolId};
 use nh_core::model::ForceDirection;
 
 use super::array::Part;
@@ -13,6 +13,7 @@ use crate::report::{Diagnostic, Extent};
 use crate::syntax::ast::{Place, Velocity};
 
 const VELOCITIES: [Role; 2] = [Role::Velocity, Role::ImpliedVelocity];
+const WITH_FRAME: [Role; 3] = [Role::Velocity, Role::ImpliedVelocity, Role::FrameVelocity];
 
 impl Resolver {
     /// A section of the basis, a family of them, or a row.
@@ -25,6 +26,18 @@ impl Resolver {
             return Ok(section_ids(&named, part));
         }
         Err(self.no_section(place))
+    }
+
+    /// The velocities of a section of the basis or of the frame, of a family, or of a row.
+    pub(super) fn section_velocities(&mut self, place: &Place) -> Outcome<Vec<SymbolId>> {
+        if let Some(Meaning::Named(named)) = self.scope.get(&place.name.text).cloned()
+            && named.role == Role::FrameVelocity
+        {
+            let part = self.part(&format!("`{}`", place.name.text), named.shape, &place.indices)?;
+            return Ok(named.symbols[part.positions()].to_vec());
+        }
+        let sections = self.sections(place)?;
+        Ok(sections.into_iter().map(|section| self.tables.sections[section].symbol).collect())
     }
 
     /// A single section.
@@ -61,7 +74,7 @@ impl Resolver {
     }
 
     /// The velocities that an entry of `independent` names, with its extent.
-    pub(super) fn velocities(&mut self, velocity: &Velocity) -> Outcome<(Vec<SectionId>, Extent)> {
+    pub(super) fn velocities(&mut self, velocity: &Velocity) -> Outcome<(Vec<SymbolId>, Extent)> {
         match velocity {
             Velocity::Named(place) => match self.scope.get(&place.name.text).cloned() {
                 Some(Meaning::Named(named)) if named.role == Role::Coordinate => {
@@ -76,7 +89,7 @@ impl Resolver {
                     };
                     Err(self.report(place, error))
                 }
-                _ => Ok((self.sections(place)?, place.extent)),
+                _ => Ok((self.section_velocities(place)?, place.extent)),
             },
             Velocity::Der(place, extent) => {
                 let (named, part) = self.coordinate(place)?;
@@ -95,10 +108,10 @@ impl Resolver {
     }
 
     /// Where E = TM: the sections whose velocities are the rates of these coordinates.
-    fn rate_sections(&self, named: &Named, part: Part) -> Option<Vec<SectionId>> {
+    fn rate_sections(&self, named: &Named, part: Part) -> Option<Vec<SymbolId>> {
         let of = |position: usize| {
             let rate = *named.rates.get(position)?;
-            self.tables.sections.iter_ids().find(|(_, section)| section.symbol == rate).map(|(id, _)| id)
+            self.tables.sections.iter().any(|section| section.symbol == rate).then_some(rate)
         };
         part.positions().map(of).collect()
     }
@@ -113,11 +126,11 @@ impl Resolver {
             _ => None,
         };
         let error = match named {
-            Some(named) if named.role == Role::Coordinate || VELOCITIES.contains(&named.role) => {
+            Some(named) if named.role == Role::Coordinate || WITH_FRAME.contains(&named.role) => {
                 let part = self.part(&format!("`{text}`"), named.shape, &place.indices)?;
                 let sections = match named.role {
                     Role::Coordinate => self.rate_sections(&named, part),
-                    _ => Some(section_ids(&named, part)),
+                    _ => Some(named.symbols[part.positions()].to_vec()),
                 };
                 let directions = match sections {
                     Some(sections) => sections.into_iter().map(ForceDirection::Section).collect(),
@@ -133,7 +146,7 @@ impl Resolver {
                     .way_out("a force acts along a section of the basis or along a base coordinate")
             }
             None => {
-                let roles = [Role::Velocity, Role::ImpliedVelocity, Role::Coordinate];
+                let roles = [Role::Velocity, Role::ImpliedVelocity, Role::FrameVelocity, Role::Coordinate];
                 Diagnostic::new(extent, format!("a force along the unknown direction `{text}`")).way_out(
                     self.scope.did_you_mean(text, &roles).unwrap_or_else(|| {
                         "a force acts along a section of the basis or along a base coordinate".to_owned()

@@ -242,7 +242,8 @@ fn a_rate_that_is_a_quasi_velocity_is_solved_for() {
 fn forces() {
     let tangent = model("base { x, q[2] } lagrangian { 1 } forces { x: m; q: [1, 2]; } inputs { u }", STRUCT);
     let directions: Vec<_> = tangent.forces.iter().map(|force| force.direction).collect();
-    assert_eq!(directions, [0, 1, 2].map(|k| ForceDirection::Section(SectionId::from_index(k))));
+    let sections: Vec<_> = tangent.sections.iter().map(|s| ForceDirection::Section(s.symbol)).collect();
+    assert_eq!(directions, sections);
     let anchored = model(
         "base { x } basis { w } anchor { der(x) = w; } lagrangian { 1 } forces { x: m; w: 2; }",
         STRUCT,
