@@ -1,6 +1,6 @@
 //! What every emitter needs: paths, generics, and the shapes of the generated structs.
 
-use nh_core::id::{Id, SectionId};
+use nh_core::id::SymbolId;
 use proc_macro2::{Group, Ident, Span, TokenStream, TokenTree};
 use quote::{ToTokens, quote};
 use syn::{GenericParam, Generics};
@@ -37,8 +37,8 @@ pub(super) struct Locals {
 }
 
 impl<'a> Context<'a> {
-    /// `kept` are the velocities in the state.
-    pub(super) fn new(layout: &'a Layout, kept: &[SectionId]) -> Self {
+    /// `kept` are the velocities in the state, `basis` those of all sections of the basis.
+    pub(super) fn new(layout: &'a Layout, kept: &[SymbolId], basis: &[SymbolId]) -> Self {
         let path = &layout.runtime;
         let runtime = quote!(#path::__private);
         let mut generics = layout.generics.clone();
@@ -53,7 +53,7 @@ impl<'a> Context<'a> {
             families.iter().map(|family| Field::of(family, what)).collect()
         };
         let mut in_state = fields(&layout.coordinates, "coordinate");
-        in_state.extend(kept_fields(&layout.velocities, kept));
+        in_state.extend(velocity_fields(layout, kept));
         let some = |record: Record| (!record.fields.is_empty()).then_some(record);
         Self {
             scalar: layout.scalar_type(),
@@ -67,7 +67,7 @@ impl<'a> Context<'a> {
             velocity: Record {
                 name: layout.types.velocity.clone(),
                 doc: format!("The quasi-velocities of [`{name}`]."),
-                fields: fields(&layout.velocities, "quasi-velocity"),
+                fields: velocity_fields(layout, basis),
             },
             input: some(Record {
                 name: layout.types.input.clone(),
@@ -146,21 +146,27 @@ impl<'a> Context<'a> {
     }
 }
 
-/// The fields of the velocities in the state. A family that is kept in part becomes one field for
-/// each entry that is kept.
-fn kept_fields(families: &[Family], kept: &[SectionId]) -> Vec<Field> {
+/// The fields of some velocities, in order. Entries of a family that stand there as a whole, one
+/// after the other, are one array; else each entry is a field of its own.
+fn velocity_fields(layout: &Layout, symbols: &[SymbolId]) -> Vec<Field> {
+    let families = layout.velocities.iter().chain(&layout.frame);
+    let entries: Vec<(&Family, usize)> =
+        families.flat_map(|family| (0..family.entries().len()).map(move |offset| (family, offset))).collect();
+    let known = layout.velocity_symbols.iter();
+    let place = |symbol: &SymbolId| known.clone().position(|known| known == symbol);
+    let positions: Vec<usize> = symbols.iter().filter_map(place).collect();
     let mut fields = Vec::new();
-    let mut section = 0;
-    for family in families {
-        let entries = family.entries();
-        let is_kept = |offset: &usize| kept.contains(&SectionId::from_index(section + offset));
-        let offsets: Vec<usize> = (0..entries.len()).filter(is_kept).collect();
-        section += entries.len();
-        if offsets.len() == entries.len() {
+    let mut rest = positions.as_slice();
+    while let Some((first, others)) = rest.split_first() {
+        let Some((family, offset)) = entries.get(*first) else { break };
+        let length = family.entries().len();
+        let whole = *offset == 0 && rest.iter().copied().take(length).eq(*first..*first + length);
+        if whole {
             fields.push(Field::of(family, "quasi-velocity"));
+            rest = &rest[length..];
         } else {
-            let entries = offsets.iter().map(|offset| &entries[*offset]);
-            fields.extend(entries.map(|entry| Field::of_entry(family, entry, "quasi-velocity")));
+            fields.push(Field::of_entry(family, &family.entries()[*offset], "quasi-velocity"));
+            rest = others;
         }
     }
     fields

@@ -6,6 +6,7 @@
 //! in that of `SectionId`, parameters in that of `ParamId`, inputs in that of `InputId`, outputs in
 //! that of `System::observables`.
 
+use nh_core::id::SymbolId;
 use proc_macro2::{Ident, Span, TokenStream};
 use quote::{format_ident, quote};
 
@@ -36,6 +37,10 @@ pub(crate) struct Layout {
     pub(crate) coordinates: Vec<Family>,
     /// The quasi-velocities; `x_dot` where E = TM.
     pub(crate) velocities: Vec<Family>,
+    /// The sections of the frame.
+    pub(crate) frame: Vec<Family>,
+    /// What the engine knows the entries of `velocities`, then of `frame`, by.
+    pub(crate) velocity_symbols: Vec<SymbolId>,
     /// The control inputs.
     pub(crate) inputs: Vec<Family>,
     /// The observables.
@@ -144,6 +149,8 @@ impl Layout {
             parameters: structure.parameters.iter().map(Family::from).collect(),
             coordinates: Vec::new(),
             velocities: Vec::new(),
+            frame: Vec::new(),
+            velocity_symbols: Vec::new(),
             inputs: Vec::new(),
             outputs: Vec::new(),
         }

@@ -30,7 +30,7 @@ mod tests;
 mod validate;
 mod velocity;
 
-use nh_core::id::SectionId;
+use nh_core::id::SymbolId;
 use nh_core::system::System;
 use proc_macro2::TokenStream;
 
@@ -38,17 +38,15 @@ use context::Context;
 use function::program;
 use scope::Scope;
 
-#[allow(unused_imports, reason = "the stage before it is on its way")]
 pub(crate) use layout::{Family, Layout, TypeNames};
-#[allow(unused_imports, reason = "the stage before it is on its way")]
 pub(crate) use stubs::stubs;
 
 /// The struct and everything that its declaration gives it.
 pub(crate) fn emit(system: &System, layout: &Layout) -> TokenStream {
     let model = &system.model;
-    let sections = model.sections.iter_ids().filter(|(_, s)| system.state_velocities.contains(&s.symbol));
-    let kept: &Vec<SectionId> = &sections.map(|(id, _)| id).collect();
-    let context = &Context::new(layout, kept);
+    let kept = &system.state_velocities;
+    let basis: Vec<SymbolId> = model.sections.iter().map(|section| section.symbol).collect();
+    let context = &Context::new(layout, kept, &basis);
     let scope = &Scope::new(context, model, kept);
     let derivative = program(model, &system.derivative);
     let energy_program = program(model, &system.energy);
@@ -75,7 +73,7 @@ pub(crate) fn emit(system: &System, layout: &Layout) -> TokenStream {
     let (of_constraints, records_of_constraints) = constraint::emit(context, scope, system);
     methods.extend(of_constraints);
     items.extend(records_of_constraints);
-    let (project, constrained) = projection::emit(context, kept, system);
+    let (project, constrained) = projection::emit(context, system);
     methods.extend(project);
     items.extend(constrained);
     methods.extend(validate::method(context, scope, system));

@@ -1,6 +1,6 @@
 //! The way back to the constraint manifold.
 
-use nh_core::id::{SectionId, SymbolId};
+use nh_core::id::SymbolId;
 use nh_core::system::{Projection, System};
 use proc_macro2::{Ident, Literal, TokenStream};
 use quote::quote;
@@ -14,21 +14,21 @@ use super::scope::{Argument, Scope};
 
 /// The inherent method `project`, and `impl Constrained for Sleigh`; nothing where every state
 /// satisfies the constraints.
-pub(super) fn emit(context: &Context, kept: &[SectionId], system: &System) -> (TokenStream, TokenStream) {
+pub(super) fn emit(context: &Context, system: &System) -> (TokenStream, TokenStream) {
     let (Some(projection), Some(residual)) = (&system.projection, constraint::residual(context, system))
     else {
         return (TokenStream::new(), TokenStream::new());
     };
     let count = residual.len();
-    (method(context, kept, system, projection), implementation(context, count))
+    (method(context, system, projection), implementation(context, count))
 }
 
 /// The inherent method.
-fn method(context: &Context, kept: &[SectionId], system: &System, projection: &Projection) -> TokenStream {
+fn method(context: &Context, system: &System, projection: &Projection) -> TokenStream {
     let Context { runtime, visibility, scalar, .. } = context;
     let (t, state, state_type) = (&context.locals.t, &context.locals.state, context.type_of(&context.state));
     let (start, present) = (local("start"), local("present"));
-    let scope = Scope::new(context, &system.model, kept)
+    let scope = Scope::new(context, &system.model, &system.state_velocities)
         .with_array(Argument::Start, &start, &projection.start)
         .with_array(Argument::Present, &present, &system.state_velocities);
     let step = body(context, &scope, &program(&system.model, &projection.step));

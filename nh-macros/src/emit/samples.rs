@@ -38,6 +38,10 @@ pub(crate) fn layout(sample: &Sample) -> Layout {
             });
         }
     }
+    // the symbols of a `Builder` are numbered in this order, after the time
+    let count = |families: &[Family]| families.iter().map(|family| family.entries().len()).sum::<usize>();
+    let first = 1 + count(&layout.parameters) + count(&layout.coordinates);
+    layout.velocity_symbols = (first..first + count(&layout.velocities)).map(SymbolId::from_index).collect();
     layout
 }
 

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use nh_core::id::{Id, SectionId, SymbolId};
+use nh_core::id::{Id, SymbolId};
 use nh_core::model::Model;
 use proc_macro2::{Ident, Literal, TokenStream};
 use quote::quote;
@@ -34,7 +34,7 @@ pub(super) struct Scope<'a> {
 
 impl<'a> Scope<'a> {
     /// `self.m`, `t`, `state.theta[0]`, `input.torque`.
-    pub(super) fn new(context: &Context, model: &'a Model, kept: &[SectionId]) -> Self {
+    pub(super) fn new(context: &Context, model: &'a Model, kept: &[SymbolId]) -> Self {
         let mut places = BTreeMap::new();
         let (t, state, input) = (&context.locals.t, &context.locals.state, &context.locals.input);
         places.insert(model.time, (Argument::Time, quote!(#t)));
@@ -42,9 +42,8 @@ impl<'a> Scope<'a> {
         for (parameter, place) in model.parameters.iter().zip(parameters) {
             places.insert(parameter.symbol, (Argument::This, place));
         }
-        let velocities = model.sections.iter_ids().filter(|(id, _)| kept.contains(id));
         let in_state = model.coordinates.iter().map(|coordinate| coordinate.symbol);
-        let in_state = in_state.chain(velocities.map(|(_, section)| section.symbol));
+        let in_state = in_state.chain(kept.iter().copied());
         for (symbol, place) in in_state.zip(context.state.places(state)) {
             places.insert(symbol, (Argument::State, place));
         }

@@ -3,7 +3,7 @@
 
 use std::collections::BTreeSet;
 
-use nh_core::id::SectionId;
+use nh_core::id::SymbolId;
 use proc_macro2::TokenStream;
 use quote::quote;
 
@@ -14,8 +14,10 @@ use super::{callback, dynamics, energy, observed, report, state, validate, veloc
 
 /// The struct with the items that its declaration would have given it, as far as it is understood.
 /// `kept` is the best guess of the velocities in the state.
-pub(crate) fn stubs(layout: &Layout, kept: &[SectionId]) -> TokenStream {
-    let context = &Context::new(layout, kept);
+pub(crate) fn stubs(layout: &Layout, kept: &[SymbolId]) -> TokenStream {
+    let declared: usize = layout.velocities.iter().map(|family| family.entries().len()).sum();
+    let declared = layout.velocity_symbols.get(..declared).unwrap_or_default();
+    let context = &Context::new(layout, kept, declared);
     let runtime = &context.runtime;
     let scalar = &context.scalar;
     let zero = quote!(<#scalar as #runtime::Scalar>::ZERO);

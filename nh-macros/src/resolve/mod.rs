@@ -28,12 +28,12 @@ mod scope;
 #[cfg(test)]
 mod tests;
 
-use nh_core::id::SectionId;
+use nh_core::id::SymbolId;
 use nh_core::model::{Formulation, Located, Model};
 
 pub(crate) use self::origins::Origins;
 use self::resolver::Resolver;
-use crate::emit::{Family, Layout};
+use crate::emit::Layout;
 use crate::report::Diagnostic;
 use crate::syntax::ast::SystemDecl;
 
@@ -44,9 +44,6 @@ pub(crate) struct Resolved {
     pub(crate) model: Model,
     /// What the origins of the model are in the declaration.
     pub(crate) origins: Origins,
-    /// The families of the sections of the frame, with entries in the order of the model.
-    #[allow(dead_code, reason = "frames are not emitted yet")]
-    pub(crate) frame: Vec<Family>,
 }
 
 /// A declaration in error.
@@ -55,7 +52,7 @@ pub(crate) struct Unresolved {
     /// What is wrong.
     pub(crate) errors: Vec<Diagnostic>,
     /// The velocities that the state would probably have: what stubs are made of.
-    pub(crate) kept: Vec<SectionId>,
+    pub(crate) kept: Vec<SymbolId>,
 }
 
 /// Resolves a declaration. The layout starts from that of the struct; what is known of it is
@@ -64,20 +61,20 @@ pub(crate) fn resolve(declaration: &SystemDecl, layout: &mut Layout) -> Result<R
     let mut resolver = Resolver::new(choices::whole(declaration));
     resolver.declare(declaration, layout);
     resolver.surroundings(declaration, layout);
-    let (model, frame) = resolver.model(declaration, layout);
+    let model = resolver.model(declaration, layout);
     let kept = probable_state(&model);
     let Resolver { origins, reports, .. } = resolver;
-    reports.finish(Resolved { model, origins, frame }).map_err(|errors| Unresolved { errors, kept })
+    reports.finish(Resolved { model, origins }).map_err(|errors| Unresolved { errors, kept })
 }
 
 impl Resolver {
-    /// The model, of which parts in error are left out, and the families of the frame.
-    fn model(&mut self, declaration: &SystemDecl, layout: &mut Layout) -> (Model, Vec<Family>) {
+    /// The model, of which parts in error are left out.
+    fn model(&mut self, declaration: &SystemDecl, layout: &mut Layout) -> Model {
         let sections = &declaration.sections;
         let kinematics = self.kinematics(declaration, layout);
         let identities = sections.on.as_ref().map(|s| self.identities(&s.body)).unwrap_or_default();
         let brackets = self.brackets(&sections.brackets);
-        let frame = sections.frame.as_ref().map(|s| self.frame(&s.body)).unwrap_or_default();
+        layout.frame = sections.frame.as_ref().map(|s| self.frame(&s.body)).unwrap_or_default();
         let distribution = sections.distribution.as_ref().map(|s| self.distribution(&s.body));
         let lagrangian = sections.lagrangian.as_ref().and_then(|s| self.lagrangian(&s.body).ok());
         let constraints =
@@ -92,7 +89,9 @@ impl Resolver {
         let origin = Self::whole();
         let lagrangian = lagrangian.unwrap_or(Located { value: self.time(), origin });
         let tables = std::mem::take(&mut self.tables);
-        let model = Model {
+        let declared = tables.sections.iter().map(|section| section.symbol);
+        layout.velocity_symbols = declared.chain(tables.frame.iter().map(|section| section.symbol)).collect();
+        Model {
             graph: std::mem::take(&mut self.graph),
             name: declaration.structure.name.to_string(),
             origin,
@@ -118,21 +117,19 @@ impl Resolver {
             requests,
             independent,
             formulation,
-        };
-        (model, frame)
+        }
     }
 }
 
 /// The velocities that the state of a declaration in error would probably have.
-pub(crate) fn probable_state(model: &Model) -> Vec<SectionId> {
-    if let Some(named) = &model.independent {
-        let is_named = |symbol| named.iter().any(|(velocity, _)| *velocity == symbol);
-        return model.sections.iter_ids().filter(|(_, s)| is_named(s.symbol)).map(|(id, _)| id).collect();
+pub(crate) fn probable_state(model: &Model) -> Vec<SymbolId> {
+    if let Some(named) = model.independent.as_ref().or(model.distribution.as_ref()) {
+        return named.iter().map(|(symbol, _)| *symbol).collect();
     }
-    let mut kept: Vec<SectionId> = model.sections.ids().collect();
+    let mut kept: Vec<SymbolId> = model.sections.iter().map(|section| section.symbol).collect();
     if !matches!(model.formulation, Some((Formulation::Projected, _))) {
         for constraint in &model.constraints {
-            let solved = kept.iter().position(|id| Some(model.sections[*id].symbol) == constraint.solved_for);
+            let solved = kept.iter().position(|symbol| Some(*symbol) == constraint.solved_for);
             let removed = solved.or(kept.len().checked_sub(1));
             removed.map(|position| kept.remove(position));
         }

@@ -18,9 +18,7 @@ pub(crate) fn check(declaration: SystemDecl) -> Result<SystemDecl, Vec<Diagnosti
 fn refuse_sections_to_come(declaration: &SystemDecl, errors: &mut Errors) {
     let s = &declaration.sections;
     let keep_out = "leave the section out";
-    let to_come: [(Option<&Name>, &str); 5] = [
-        (s.frame.as_ref().map(|s| &s.keyword), "declare these sections as `basis`, with their `brackets`"),
-        (s.distribution.as_ref().map(|s| &s.keyword), "write the same distribution as `constraints`"),
+    let to_come: [(Option<&Name>, &str); 3] = [
         (s.symmetries.as_ref().map(|s| &s.keyword), keep_out),
         (s.track.as_ref().map(|s| &s.keyword), keep_out),
         (s.derivative.as_ref().map(|s| &s.keyword), keep_out),
@@ -105,8 +103,6 @@ mod tests {
     #[test]
     fn sections_to_come_are_refused() {
         for section in [
-            "frame { s = l * cos(phi) * xi; }",
-            "distribution { s, dpsi }",
             "symmetries { spin: omega; }",
             "track { omega, der(x) }",
             "derivative { motor: [self.motor_d1, self.motor_d2]; }",

@@ -304,7 +304,10 @@ fn choices() {
         STRUCT,
     )
     .expect("a declaration");
-    let kept: Vec<_> = resolved.model.independent.expect("a list").iter().map(|(id, _)| id.index()).collect();
+    let model = &resolved.model;
+    let place = |symbol| model.sections.iter().position(|section| section.symbol == symbol).expect("known");
+    let kept: Vec<_> =
+        model.independent.as_ref().expect("a list").iter().map(|(symbol, _)| place(*symbol)).collect();
     assert_eq!(kept, [1, 2, 0]);
     assert!(matches!(resolved.model.formulation, Some((Formulation::Projected, _))));
     assert_eq!(layout.types.state.to_string(), "Where");
