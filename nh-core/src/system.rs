@@ -29,6 +29,8 @@ pub struct System {
     pub residual: Option<Procedure>,
     /// The way back to the constraint manifold; in the projected formulation.
     pub projection: Option<Projection>,
+    /// The identities of an embedded base.
+    pub embedding: Option<Embedding>,
     /// What `validate` checks beyond finite parameters.
     pub parameter_checks: Vec<ParameterCheck>,
     /// What was derived, as text.
@@ -53,5 +55,16 @@ pub struct Projection {
     /// The symbols of the velocities where the iteration started.
     pub start: Vec<SymbolId>,
     /// Outputs: the next velocities, from the present and the starting ones.
+    pub step: Procedure,
+}
+
+/// Identities that embedded base coordinates satisfy, and the way back to them.
+#[derive(Clone, Debug)]
+pub struct Embedding {
+    /// Each identity as text.
+    pub texts: Vec<String>,
+    /// Outputs: what should be zero, for each identity.
+    pub residual: Procedure,
+    /// Outputs: the base coordinates after one Newton step.
     pub step: Procedure,
 }

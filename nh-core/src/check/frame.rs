@@ -6,7 +6,7 @@ use super::kinematics::Motion;
 use crate::algebra::{Echelon, Facts, FieldPoint, Graph, Matrix, NotLinear, Substitution};
 use crate::geometry::{Algebroid, ChangeOfBasis, ConstraintDistribution, LinearConstraints, Manifold};
 use crate::id::{ExprId, Id, Origin, SectionId, SymbolId};
-use crate::model::{Formulation, FrameDecl, Model, Section};
+use crate::model::{ForceDirection, Formulation, FrameDecl, Model, Request, Section};
 use crate::violation::{Law, Violation};
 
 /// The components of the sections of the frame in the declared basis.
@@ -177,7 +177,7 @@ pub fn spanned_distribution(
     base: &Manifold,
 ) -> Result<Option<ConstraintDistribution>, Vec<Violation>> {
     let Some(spanning) = model.distribution.clone() else { return Ok(None) };
-    if let Some(violation) = excluded(model, &spanning) {
+    if let Some(violation) = excluded(model, &spanning).or_else(|| undetermined_reactions(model)) {
         return Err(vec![violation]);
     }
     let rows = frame_components(model)?;
@@ -246,6 +246,26 @@ fn excluded(model: &Model, spanning: &[(SymbolId, Origin)]) -> Option<Violation>
             listed(&names)
         ),
         way_out: "keep one of the two descriptions".into(),
+    })
+}
+
+/// A force along a spanning section acts on D alone, so that the reactions are not determined.
+fn undetermined_reactions(model: &Model) -> Option<Violation> {
+    let (_, origin) = *model.requests.iter().find(|(request, _)| *request == Request::Reactions)?;
+    let new: Vec<SymbolId> = model.frame.iter().map(|declaration| declaration.symbol).collect();
+    let force = model.forces.iter().find_map(|force| match force.direction {
+        ForceDirection::Section(symbol) if new.contains(&symbol) => Some(symbol),
+        _ => None,
+    })?;
+    let name = &model.graph.symbols()[force];
+    Some(Violation {
+        law: Law::Force,
+        origin,
+        what: "the reactions are not determined".into(),
+        evidence: format!(
+            "the force along `{name}` is known on D only; what of it the constraints bear is open"
+        ),
+        way_out: "give that force along declared sections, or leave `reactions` out".into(),
     })
 }
 

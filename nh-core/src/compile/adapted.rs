@@ -1,5 +1,6 @@
 //! The functions of a system in the adapted formulation.
 
+use super::embedded::embedding;
 use super::restricted::{calls, in_state, observables, parameter_checks, requested};
 use super::{Proved, fence};
 use crate::algebra::Graph;
@@ -52,6 +53,7 @@ pub(super) fn derive(
     let flow = Flow::of(&mut proved.model.graph, &derivative, &proved.system, &equations.independent);
     fence(check::claims(&mut proved.model, &claims, flow, &proved.base))?;
     // 5. the report
+    let embedding = embedding(&mut proved.model, &proved.base);
     let derived = Derived::Adapted { distribution, equations: &equations };
     let text = report(&mut proved, &derived, reason, conditions);
     let lines = equations_of_motion(&proved.model, &derived);
@@ -67,6 +69,7 @@ pub(super) fn derive(
         reactions: requested(&model, Request::Reactions).then_some(reactions),
         residual: None,
         projection: None,
+        embedding,
         parameter_checks: parameter_checks(&model, conditions),
         report: text,
         equations: lines,

@@ -1,6 +1,7 @@
 //! The way of the data: every stage takes a value and returns a value of another type.
 
 mod adapted;
+mod embedded;
 mod projected;
 mod restricted;
 

@@ -1,5 +1,6 @@
 //! The functions of a system in the projected formulation.
 
+use super::embedded::embedding;
 use super::restricted::{calls, in_state, observables, requested};
 use super::{Proved, fence};
 use crate::algebra::{Graph, Matrix, Substitution};
@@ -53,6 +54,7 @@ pub(super) fn derive(mut proved: Proved, reason: &str) -> Result<System, Vec<Vio
     // 5. the way back to the constraint manifold
     let projection = projection(&mut proved.model, &velocities, &equations, &residuals, judge);
     // 6. the report
+    let embedding = embedding(&mut proved.model, &proved.base);
     let derived = Derived::Projected { residuals: &residuals, equations: &equations };
     let text = report(&mut proved, &derived, reason, &[]);
     let lines = equations_of_motion(&proved.model, &derived);
@@ -68,6 +70,7 @@ pub(super) fn derive(mut proved: Proved, reason: &str) -> Result<System, Vec<Vio
         reactions: requested(&model, Request::Reactions).then_some(reactions),
         residual: Some(Procedure::of(residuals)),
         projection: Some(projection),
+        embedding,
         parameter_checks: Vec::new(),
         report: text,
         equations: lines,

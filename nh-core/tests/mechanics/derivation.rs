@@ -231,6 +231,30 @@ fn claims_are_judged_where_the_constraints_hold() {
 }
 
 #[test]
+fn an_embedded_base_has_a_way_back() {
+    let mut b = systems::Builder { model: systems::veselova() };
+    let norm = b.sum(&[(1, 1, "g1*g1"), (1, 1, "g2*g2"), (1, 1, "g3*g3")]);
+    let one = b.model.graph.one();
+    let identity = b.model.graph.sub(norm, one);
+    b.model.identities.push(nh_core::model::Located { value: identity, origin: systems::origin() });
+    let system = compiled(b.model.clone());
+    let embedding = system.embedding.unwrap();
+    let mut g = [0.3, -1.0, 0.4];
+    for _ in 0..6 {
+        let moved = interpret(&schedule(&system.model.graph, &embedding.step), |symbol| {
+            let name = &system.model.graph.symbols()[symbol];
+            g[["g1", "g2", "g3"].iter().position(|n| n == name).unwrap()]
+        });
+        g.copy_from_slice(&moved);
+    }
+    assert_close(&[g.iter().map(|x| x * x).sum::<f64>()], &[1.0]);
+    // a plane is left by the anchor
+    let plane = b.sum(&[(1, 1, "g1"), (1, 1, "g2")]);
+    b.model.identities[0].value = b.model.graph.sub(plane, one);
+    assert_eq!(compile(b.model).unwrap_err()[0].law, Law::Embedding);
+}
+
+#[test]
 fn constraints_may_depend_on_time() {
     let system = compiled(systems::steered_blade());
     let (t, v) = (0.7, 1.3);

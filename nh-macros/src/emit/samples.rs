@@ -134,6 +134,7 @@ impl Builder {
             reactions: None,
             residual: None,
             projection: None,
+            embedding: None,
             parameter_checks: nonzero
                 .iter()
                 .map(|(nonzero, text)| ParameterCheck { nonzero: *nonzero, text: (*text).to_owned() })
