@@ -164,20 +164,20 @@ impl<S: Jacobian + ?Sized> Jacobian for &S {
 }
 
 /// A system whose state has to satisfy equations that a numerical solution drifts away from: the
-/// constraints of the projected formulation.
+/// identities of embedded coordinates, and the constraints of the projected formulation.
 pub trait Constrained: Dynamics {
     /// The number of equations: `D<M>`.
     type Constraints: Dim;
 
-    /// φ(t, x), which is zero on the constraint manifold.
+    /// φ(t, x), which is zero where the state belongs: the identities first, then the constraints.
     fn constraint_residual(
         &self,
         t: ScalarOf<Self>,
         state: &Self::State,
     ) -> <Self::Constraints as Dim>::Vec<ScalarOf<Self>>;
 
-    /// Moves the state to the constraint manifold, along the kinetic energy's orthogonal complement
-    /// of the constraint distribution.
+    /// Moves the state to where it belongs: embedded coordinates by the shortest way, and then the
+    /// velocities along the kinetic energy's orthogonal complement of the constraint distribution.
     ///
     /// # Errors
     /// If the manifold is not reached; the state is then as it was.

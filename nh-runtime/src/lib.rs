@@ -94,7 +94,7 @@ pub use nh_macros::nonholonomic;
 pub mod __private {
     pub use crate::__nh_serde_impls as serde_impls;
     pub use crate::linear::solve_pivoted;
-    pub use crate::projection::project;
+    pub use crate::projection::{check_identities, project};
     pub use crate::{
         Constrained, D, Dim, Dynamics, Energy, InputFault, Jacobian, Observed, ParameterError,
         ParameterFault, ProjectionError, Real, Scalar, ScalarOf, State, StateFault,

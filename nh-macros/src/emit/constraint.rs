@@ -6,10 +6,10 @@ use nh_core::mechanics::Procedure;
 use nh_core::model::Model;
 use nh_core::system::System;
 use proc_macro2::{Ident, Span, TokenStream};
-use quote::quote;
+use quote::{ToTokens, quote};
 
 use super::context::Context;
-use super::function::{Head, program};
+use super::function::{Head, Part, program};
 use super::layout::{Family, plain};
 use super::program::body;
 use super::record::{Field, Record};
@@ -31,9 +31,9 @@ pub(super) fn reactions(context: &Context, system: &System) -> Option<Record> {
     number(system.reactions.as_ref())?;
     let layout = context.layout;
     let name = layout.name.to_string();
-    let fields = layout.velocities.iter().map(|family| {
-        let forces = if family.lengths.is_empty() { "force" } else { "forces" };
-        Field::described(family, &format!(" The constraint {forces} along `{}`.", plain(&family.ident)))
+    let fields = context.velocity.fields.iter().map(|field| {
+        let forces = if field.is_family() { "forces" } else { "force" };
+        field.described(&format!(" The constraint {forces} along `{}`.", plain(&field.ident)))
     });
     Some(Record {
         name: layout.types.reactions.clone(),
@@ -78,7 +78,7 @@ fn fields(model: &Model, count: usize, what: &str) -> Vec<Field> {
             None => (unused(number, &mut taken), format!(" The {what} number {number} of those derived.")),
         };
         let family = Family { ident: ident(&name), lengths: Vec::new(), docs: TokenStream::new() };
-        fields.push(Field::described(&family, &doc));
+        fields.push(Field::of(&family, "").described(&doc));
     }
     fields
 }
@@ -98,27 +98,11 @@ fn ident(name: &str) -> Ident {
     syn::parse_str::<Ident>(name).unwrap_or_else(|_| Ident::new_raw(name, Span::call_site()))
 }
 
-/// The inherent method that computes such a struct.
-fn method(
-    context: &Context,
-    scope: &Scope,
-    model: &Model,
-    record: &Record,
-    head: &Head,
-    procedure: &Procedure,
-) -> TokenStream {
-    let body = body(context, scope, &program(model, procedure));
-    let name = &record.name;
-    let result = record.construct(&quote!(#name), &body.outputs);
-    let statements = &body.statements;
-    head.with_body(context, &body.used, &quote!(#statements #result))
-}
-
 /// A struct, the function that computes it, and the method's name, documentation, and input.
 type Entry<'a> = (Option<Record>, &'a Option<Procedure>, &'static str, &'static [&'static str], bool);
 
 /// The inherent methods `multipliers`, `reactions` and `constraint_residual`, and their structs.
-pub(super) fn emit(context: &Context, scope: &Scope, system: &System) -> (TokenStream, TokenStream) {
+pub(super) fn emit(context: &Context, scope: &Scope, system: &System) -> Part {
     let heads: [Entry; 3] = [
         (
             multipliers(context, system),
@@ -142,13 +126,17 @@ pub(super) fn emit(context: &Context, scope: &Scope, system: &System) -> (TokenS
             false,
         ),
     ];
-    let (mut methods, mut records) = (TokenStream::new(), TokenStream::new());
+    let mut part = Part::default();
     for (record, procedure, name, doc, takes_input) in heads {
         let (Some(record), Some(procedure)) = (record, procedure) else { continue };
-        let returns = context.type_of(&record);
-        let head = Head { name, doc, takes_input, returns };
-        methods.extend(method(context, scope, &system.model, &record, &head, procedure));
-        records.extend(record.emit(context));
+        let program = program(&system.model, procedure);
+        let body = body(context, scope, &program);
+        let result = record.construct(&record.name.to_token_stream(), &body.outputs);
+        let statements = &body.statements;
+        let head = Head { name, doc, takes_input, returns: context.type_of(&record) };
+        part.methods.extend(head.with_body(context, &body.used, &quote!(#statements #result)));
+        part.items.extend(record.emit(context));
+        part.programs.push((name, program));
     }
-    (methods, records)
+    part
 }

@@ -102,6 +102,11 @@ impl<'a> Context<'a> {
         }
     }
 
+    /// `SleighState`, as a value of it is written.
+    pub(super) fn state_name(&self) -> TokenStream {
+        self.state.name.to_token_stream()
+    }
+
     /// The input's type.
     pub(super) fn input_type(&self) -> TokenStream {
         self.input.as_ref().map_or_else(|| quote!(()), |record| self.type_of(record))

@@ -29,8 +29,8 @@ pub(super) fn method(context: &Context, scope: &Scope, program: &Program) -> Tok
     head(context).with_body(context, &body.used, &quote!(#statements #result))
 }
 
-/// `impl Dynamics for Sleigh`.
-pub(super) fn implementation(context: &Context) -> TokenStream {
+/// `impl Dynamics for Sleigh`, with how states are checked.
+pub(super) fn implementation(context: &Context, check_state: &TokenStream) -> TokenStream {
     let Context { runtime, scalar, .. } = context;
     let (t, state, input) = (&context.locals.t, &context.locals.state, &context.locals.input);
     let state_type = context.type_of(&context.state);
@@ -47,6 +47,7 @@ pub(super) fn implementation(context: &Context) -> TokenStream {
         fn validate(&self) -> ::core::result::Result<(), #runtime::ParameterError> {
             Self::validate(self)
         }
+        #check_state
         #check_input
     };
     context.implement(&quote!(#runtime::Dynamics), &body)

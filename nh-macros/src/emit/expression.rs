@@ -1,6 +1,6 @@
 //! Expressions of generated code, with as few parentheses as they can be read with.
 
-use proc_macro2::TokenStream;
+use proc_macro2::{TokenStream, TokenTree};
 use quote::quote;
 
 /// How tightly the outermost operator binds.
@@ -81,4 +81,13 @@ impl Expression {
         let tokens = &self.tokens;
         if wrap { quote!((#tokens)) } else { tokens.clone() }
     }
+}
+
+/// An expression as an element of an array. Linters compare the lines of a difference there, to find
+/// a comma that is missing, but generated tokens stand on no line: a difference is put in parentheses.
+pub(super) fn element(tokens: &TokenStream) -> TokenStream {
+    let mut operators = tokens.clone().into_iter().skip(1);
+    let is_binary =
+        operators.any(|token| matches!(token, TokenTree::Punct(punct) if "-*&".contains(punct.as_char())));
+    if is_binary { quote!((#tokens)) } else { tokens.clone() }
 }

@@ -60,6 +60,27 @@ impl Head {
     }
 }
 
+/// What one emitter contributes.
+#[derive(Default)]
+pub(super) struct Part {
+    /// Inherent methods.
+    pub(super) methods: TokenStream,
+    /// Items beside the struct.
+    pub(super) items: TokenStream,
+    /// What the methods compute, by their names: for the report.
+    pub(super) programs: Vec<(&'static str, Program)>,
+}
+
+impl Part {
+    /// The contributions of both.
+    pub(super) fn with(mut self, other: Self) -> Self {
+        self.methods.extend(other.methods);
+        self.items.extend(other.items);
+        self.programs.extend(other.programs);
+        self
+    }
+}
+
 /// The program of a procedure, with operations among parameters kept together.
 pub(super) fn program(model: &Model, procedure: &Procedure) -> Program {
     let parameters: Vec<SymbolId> = model.parameters.iter().map(|parameter| parameter.symbol).collect();

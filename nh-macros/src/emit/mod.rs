@@ -8,6 +8,7 @@ mod callback;
 mod constraint;
 mod context;
 mod dynamics;
+mod embedding;
 mod energy;
 mod expression;
 mod function;
@@ -57,6 +58,10 @@ pub(crate) fn emit(system: &System, layout: &Layout) -> TokenStream {
     if context.outputs.is_some() {
         programs.push(("outputs", &observables));
     }
+    let part = constraint::emit(context, scope, system)
+        .with(embedding::emit(context, scope, system))
+        .with(projection::emit(context, system));
+    programs.extend(part.programs.iter().map(|(name, program)| (*name, program)));
     let mut methods = report::constant(context, system, &programs);
     methods.extend(dynamics::method(context, scope, &derivative));
     methods.extend(energy::method(context, scope, &energy_program));
@@ -64,18 +69,15 @@ pub(crate) fn emit(system: &System, layout: &Layout) -> TokenStream {
     let mut items = report::item(context, &system.equations);
     items.extend(records(context));
     items.extend(state::emit(context));
-    items.extend(dynamics::implementation(context));
+    let check_state = embedding::check_state(context, scope, system);
+    items.extend(dynamics::implementation(context, &check_state));
     items.extend(energy::implementation(context));
     if let Some(outputs) = &context.outputs {
         methods.extend(observed::method(context, outputs, scope, &observables));
         items.extend(observed::implementation(context, outputs));
     }
-    let (of_constraints, records_of_constraints) = constraint::emit(context, scope, system);
-    methods.extend(of_constraints);
-    items.extend(records_of_constraints);
-    let (project, constrained) = projection::emit(context, system);
-    methods.extend(project);
-    items.extend(constrained);
+    methods.extend(part.methods);
+    items.extend(part.items);
     methods.extend(validate::method(context, scope, system));
     items.extend(context.inherent(&methods));
     items.extend(callback::emit(context));

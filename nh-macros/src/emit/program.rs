@@ -9,7 +9,7 @@ use proc_macro2::{Ident, Literal, Span, TokenStream};
 use quote::quote;
 
 use super::context::Context;
-use super::expression::Expression;
+use super::expression::{Expression, element};
 use super::names::{Names, unknowns};
 use super::number;
 use super::scope::{Argument, Scope};
@@ -193,7 +193,7 @@ impl Writer<'_> {
     fn solve(&mut self, value: Value, matrix: &[Vec<Value>], right: &[Value]) -> Expression {
         let Context { runtime, scalar, .. } = self.context;
         let list = |values: &[Value]| {
-            let tokens = values.iter().map(|v| &self.expressions[*v].tokens);
+            let tokens = values.iter().map(|v| element(&self.expressions[*v].tokens));
             quote!([#(#tokens),*])
         };
         let rows: Vec<_> = matrix.iter().map(|row| list(row)).collect();

@@ -1,49 +1,76 @@
-//! The way back to the constraint manifold.
+//! The way back to where a state belongs: base coordinates to their identities, velocities to the
+//! constraints.
 
 use nh_core::id::SymbolId;
+use nh_core::program::Program;
 use nh_core::system::{Projection, System};
 use proc_macro2::{Ident, Literal, TokenStream};
 use quote::quote;
 
 use super::constraint;
 use super::context::Context;
-use super::function::program;
+use super::expression::element;
+use super::function::{Part, program};
 use super::layout::local;
 use super::program::body;
 use super::scope::{Argument, Scope};
 
-/// The inherent method `project`, and `impl Constrained for Sleigh`; nothing where every state
-/// satisfies the constraints.
-pub(super) fn emit(context: &Context, system: &System) -> (TokenStream, TokenStream) {
-    let (Some(projection), Some(residual)) = (&system.projection, constraint::residual(context, system))
-    else {
-        return (TokenStream::new(), TokenStream::new());
-    };
-    let count = residual.len();
-    (method(context, system, projection), implementation(context, count))
+/// The inherent method `project`, and `impl Constrained for Sleigh`; nothing where every state is
+/// where it belongs.
+pub(super) fn emit(context: &Context, system: &System) -> Part {
+    let mut part = Part::default();
+    let mut constraints = None;
+    if let (Some(projection), Some(residual)) = (&system.projection, constraint::residual(context, system)) {
+        let step = program(&system.model, &projection.step);
+        part.methods = method(context, system, projection, &step);
+        part.programs.push(("project, each step", step));
+        constraints = Some(residual.len());
+    }
+    let identities = system.embedding.as_ref().map(|embedding| embedding.texts.len());
+    if constraints.or(identities).is_some() {
+        part.items = implementation(context, identities.unwrap_or(0), constraints.unwrap_or(0));
+    }
+    part
 }
 
 /// The inherent method.
-fn method(context: &Context, system: &System, projection: &Projection) -> TokenStream {
+fn method(context: &Context, system: &System, projection: &Projection, step: &Program) -> TokenStream {
     let Context { runtime, visibility, scalar, .. } = context;
     let (t, state, state_type) = (&context.locals.t, &context.locals.state, context.type_of(&context.state));
-    let (start, present) = (local("start"), local("present"));
-    let scope = Scope::new(context, &system.model, &system.state_velocities)
-        .with_array(Argument::Start, &start, &projection.start)
-        .with_array(Argument::Present, &present, &system.state_velocities);
-    let step = body(context, &scope, &program(&system.model, &projection.step));
-    let name = |argument: Argument, ident: &Ident| {
-        if step.used.contains(&argument) { quote!(#ident) } else { quote!(_) }
-    };
-    let (start_name, present_name) = (name(Argument::Start, &start), name(Argument::Present, &present));
-    let (statements, outputs) = (&step.statements, &step.outputs);
+    let present = local("present");
     let places = context.state.places(state);
-    let (coordinates, velocities) =
-        places.split_at(places.len().saturating_sub(system.state_velocities.len()));
-    let moved = moved(context, coordinates, &present, &system.state_velocities);
+    let coordinates = places.len().saturating_sub(system.state_velocities.len());
+    let velocities = &places[coordinates..];
+    let mut moved = places[..coordinates].to_vec();
+    moved.extend(entries(&present, velocities.len()));
+    let moved = context.state.construct(&context.state_name(), &moved);
+    let step = closure(context, system, &projection.start, &system.state_velocities, step);
+    let iteration = quote! {
+        [#(#velocities),*] = #runtime::project(
+            [#(#velocities),*],
+            #step,
+            |#present| ::core::convert::From::from(Self::constraint_residual(self, #t, &#moved)),
+        )?;
+    };
+    let mut doc = vec![
+        " Moves the velocities to the nearest ones that satisfy the constraints, where distance is",
+        " measured by the kinetic energy.",
+    ];
+    let body = if system.embedding.is_some() {
+        doc.push(" The base coordinates are normalized first.");
+        let given = local("given");
+        quote! {
+            let #given = #state;
+            let mut #state = *#given;
+            Self::normalize(self, &mut #state)?;
+            #iteration
+            *#given = #state;
+        }
+    } else {
+        iteration
+    };
     quote! {
-        /// Moves the velocities to the nearest ones that satisfy the constraints, where distance is
-        /// measured by the kinetic energy.
+        #(#[doc = #doc])*
         ///
         /// # Errors
         /// If the constraints are not met, because the state is too far from them or they are
@@ -51,49 +78,78 @@ fn method(context: &Context, system: &System, projection: &Projection) -> TokenS
         #visibility fn project(
             &self, #t: #scalar, #state: &mut #state_type
         ) -> ::core::result::Result<(), #runtime::ProjectionError> {
-            [#(#velocities),*] = #runtime::project(
-                [#(#velocities),*],
-                |#start_name, #present_name| { #statements [#(#outputs),*] },
-                |#present| ::core::convert::From::from(Self::constraint_residual(self, #t, &#moved)),
-            )?;
+            #body
             ::core::result::Result::Ok(())
         }
     }
 }
 
-/// The state with other velocities.
-fn moved(
+/// `|start, present| { … }`: a step of an iteration, in arrays of the moved components.
+pub(super) fn closure(
     context: &Context,
-    coordinates: &[TokenStream],
-    present: &Ident,
-    velocities: &[SymbolId],
+    system: &System,
+    started: &[SymbolId],
+    moved: &[SymbolId],
+    step: &Program,
 ) -> TokenStream {
-    let mut components = coordinates.to_vec();
-    components.extend((0..velocities.len()).map(|index| {
-        let index = Literal::usize_unsuffixed(index);
-        quote!(#present[#index])
-    }));
-    let name = &context.state.name;
-    context.state.construct(&quote!(#name), &components)
+    let (start, present) = (local("start"), local("present"));
+    let scope = Scope::new(context, &system.model, &system.state_velocities)
+        .with_array(Argument::Start, &start, started)
+        .with_array(Argument::Present, &present, moved);
+    let step = body(context, &scope, step);
+    let name = |argument: Argument, ident: &Ident| {
+        if step.used.contains(&argument) { quote!(#ident) } else { quote!(_) }
+    };
+    let (start, present) = (name(Argument::Start, &start), name(Argument::Present, &present));
+    let (statements, outputs) = (&step.statements, step.outputs.iter().map(element));
+    quote!(|#start, #present| { #statements [#(#outputs),*] })
 }
 
-/// `impl Constrained for Sleigh`.
-fn implementation(context: &Context, count: usize) -> TokenStream {
+/// `present[0]`, `present[1]`, …
+pub(super) fn entries(array: &Ident, count: usize) -> Vec<TokenStream> {
+    let entries = (0..count).map(|index| {
+        let index = Literal::usize_unsuffixed(index);
+        quote!(#array[#index])
+    });
+    entries.collect()
+}
+
+/// `impl Constrained for Sleigh`, with the identities of the base before the constraints.
+fn implementation(context: &Context, identities: usize, constraints: usize) -> TokenStream {
     let Context { runtime, scalar, .. } = context;
     let (t, state, state_type) = (&context.locals.t, &context.locals.state, context.type_of(&context.state));
-    let count = Literal::usize_unsuffixed(count);
+    let count = Literal::usize_unsuffixed(identities + constraints);
+    let of_identities = quote!(Self::identity_residual(self, #state));
+    let of_constraints = quote!(::core::convert::From::from(Self::constraint_residual(self, #t, #state)));
+    let project = if constraints > 0 {
+        quote!(Self::project(self, #t, #state))
+    } else {
+        quote!(_ = #t; Self::normalize(self, #state))
+    };
+    let residual = match (identities, constraints) {
+        (_, 0) => quote!(_ = #t; #of_identities),
+        (0, _) => of_constraints,
+        _ => {
+            let names = |prefix: &str, count: usize| -> Vec<Ident> {
+                (1..=count).map(|index| local(&format!("{prefix}{index}"))).collect()
+            };
+            let (first, second) = (names("identity_", identities), names("constraint_", constraints));
+            let second_count = Literal::usize_unsuffixed(constraints);
+            quote! {
+                let [#(#first),*] = #of_identities;
+                let [#(#second),*]: [#scalar; #second_count] = #of_constraints;
+                [#(#first,)* #(#second),*]
+            }
+        }
+    };
     let body = quote! {
         type Constraints = #runtime::D<#count>;
         #[inline]
-        fn constraint_residual(&self, #t: #scalar, #state: &#state_type) -> [#scalar; #count] {
-            ::core::convert::From::from(Self::constraint_residual(self, #t, #state))
-        }
+        fn constraint_residual(&self, #t: #scalar, #state: &#state_type) -> [#scalar; #count] { #residual }
         #[inline]
         fn project(
             &self, #t: #scalar, #state: &mut #state_type
-        ) -> ::core::result::Result<(), #runtime::ProjectionError> {
-            Self::project(self, #t, #state)
-        }
+        ) -> ::core::result::Result<(), #runtime::ProjectionError> { #project }
     };
     context.implement(&quote!(#runtime::Constrained), &body)
 }

@@ -4,6 +4,7 @@ use proc_macro2::{Ident, Literal, TokenStream};
 use quote::{ToTokens, quote};
 
 use super::context::Context;
+use super::expression::element;
 use super::layout::{Family, indexed, local, plain};
 use super::lint::allow_for;
 
@@ -66,14 +67,20 @@ impl Field {
         }
     }
 
-    /// The field of a number that is not declared, or of a family under documentation of its own.
-    pub(super) fn described(family: &Family, doc: &str) -> Self {
+    /// The same field under other documentation.
+    pub(super) fn described(&self, doc: &str) -> Self {
+        let Self { ident, lengths, names, .. } = self;
         Self {
-            ident: family.ident.clone(),
-            lengths: family.lengths.clone(),
+            ident: ident.clone(),
+            lengths: lengths.clone(),
             docs: quote!(#[doc = #doc]),
-            names: family.names(),
+            names: names.clone(),
         }
+    }
+
+    /// Whether it is an array.
+    pub(super) fn is_family(&self) -> bool {
+        !self.lengths.is_empty()
     }
 
     fn type_of(&self, scalar: &TokenStream) -> TokenStream {
@@ -87,9 +94,15 @@ impl Field {
     fn value(&self, components: &[TokenStream]) -> TokenStream {
         match *self.lengths {
             [] => components.iter().cloned().collect(),
-            [_] => quote!([#(#components),*]),
+            [_] => {
+                let elements = components.iter().map(element);
+                quote!([#(#elements),*])
+            }
             [_, columns, ..] => {
-                let rows = components.chunks(columns.max(1) as usize).map(|row| quote!([#(#row),*]));
+                let rows = components.chunks(columns.max(1) as usize).map(|row| {
+                    let elements = row.iter().map(element);
+                    quote!([#(#elements),*])
+                });
                 quote!([#(#rows),*])
             }
         }

@@ -3,8 +3,10 @@
 use nh_core::algebra::{Graph, Rational};
 use nh_core::id::{ExprId, Id, Origin, SymbolId, Table};
 use nh_core::mechanics::{Definition, Procedure};
-use nh_core::model::{Coordinate, Formulation, Input, Kinematics, Located, Model, Parameter, Section};
-use nh_core::system::{ParameterCheck, System};
+use nh_core::model::{
+    ConstraintDecl, Coordinate, Formulation, Input, Kinematics, Located, Model, Parameter, Section,
+};
+use nh_core::system::{ParameterCheck, Projection, System};
 use proc_macro2::TokenStream;
 
 use super::layout::{Family, Layout};
@@ -233,4 +235,48 @@ pub(crate) fn chain_system(layout: &Layout) -> System {
         Procedure::default(),
     ];
     b.system(&[0, 2], procedures, &[])
+}
+
+/// Two constraints in the projected formulation, one of them labelled with a keyword.
+pub(crate) fn rails() -> Sample {
+    sample(
+        "base { x } basis { w[2], v } lagrangian { 0 } constraints { w[1] = x * w[0]; r#type: v = w[1]; }",
+        "struct Rails { m: f64 }",
+    )
+}
+
+/// The equations of [`rails`]: the constraints, and a projection that is not orthogonal.
+pub(crate) fn rails_system(layout: &Layout) -> System {
+    let mut b = Builder::new(layout);
+    let [x, w0, w1, v, mass] = ["x", "w[0]", "w[1]", "v", "m"].map(|name| b.symbol(name));
+    let start = ["w_0_start", "w_1_start", "v_start"].map(|name| b.graph.new_symbol(name));
+    let [s0, s1, s2] = start.map(|symbol| b.graph.symbol(symbol));
+    let zero = b.graph.zero();
+    let along = b.graph.mul(x, w0);
+    let residual = [b.graph.sub(w1, along), b.graph.sub(v, w1)];
+    let gap = b.graph.sub(w1, s1);
+    let mut step = Procedure::default();
+    let mu = b.graph.div(gap, mass);
+    let mu = step.define(&mut b.graph, "mu", mu);
+    let reached = b.graph.add(s2, mu);
+    step.outputs = vec![s0, b.graph.mul(x, s0), reached];
+    let lambda = b.graph.mul(mass, along);
+    let forces = vec![lambda, zero, b.graph.neg(lambda)];
+    let procedures = [
+        Procedure::of(vec![w0, zero, zero, zero]),
+        Procedure::of(vec![zero]),
+        Procedure::of(vec![w0, w1, v]),
+        Procedure::default(),
+    ];
+    let mut system = b.system(&[0, 1, 2], procedures, &[]);
+    for (residual, label) in residual.iter().zip([None, Some("type".to_owned())]) {
+        let (residual, origin) = (*residual, system.model.origin);
+        system.model.constraints.push(ConstraintDecl { label, residual, solved_for: None, origin });
+    }
+    system.formulation = Formulation::Projected;
+    system.residual = Some(Procedure::of(residual.to_vec()));
+    system.projection = Some(Projection { start: start.to_vec(), step });
+    system.multipliers = Some(Procedure::of(vec![lambda, zero]));
+    system.reactions = Some(Procedure::of(forces));
+    system
 }

@@ -31,7 +31,7 @@ pub(crate) fn stubs(layout: &Layout, kept: &[SymbolId]) -> TokenStream {
     let mut items = report::item(context, &[]);
     items.extend(super::records(context));
     items.extend(state::emit(context));
-    items.extend(dynamics::implementation(context));
+    items.extend(dynamics::implementation(context, &TokenStream::new()));
     items.extend(energy::implementation(context));
     if let Some(outputs) = &context.outputs {
         methods.extend(stub(observed::head(context, outputs), &default));

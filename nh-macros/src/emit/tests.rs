@@ -2,7 +2,7 @@
 
 use proc_macro2::TokenStream;
 
-use super::samples::{chain, chain_system, layout, sleigh, sleigh_system};
+use super::samples::{chain, chain_system, layout, rails, rails_system, sleigh, sleigh_system};
 use super::{emit, stubs};
 
 /// Compares with a golden file, or writes it.
@@ -37,6 +37,12 @@ fn a_sleigh() {
 fn families_and_a_type_parameter() {
     let layout = layout(&chain());
     golden("by_hand_chain", emit(&chain_system(&layout), &layout));
+}
+
+#[test]
+fn constraints_and_the_way_back_to_them() {
+    let layout = layout(&rails());
+    golden("by_hand_rails", emit(&rails_system(&layout), &layout));
 }
 
 #[test]

@@ -217,7 +217,7 @@ where
                 [sin, e1],
                 [
                     exp_q_0,
-                    <T as ::nh_runtime::__private::Scalar>::ONE
+                    (<T as ::nh_runtime::__private::Scalar>::ONE
                         - <T as ::nh_runtime::__private::Scalar>::from_f64(
                             ::core::f64::consts::PI,
                         )
@@ -226,7 +226,7 @@ where
                             <T as ::nh_runtime::__private::Scalar>::from_f64(
                                 0.2857142857142857,
                             ),
-                        ),
+                        )),
                 ],
             ],
             w_0: a_w0,

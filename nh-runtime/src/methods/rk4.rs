@@ -1,8 +1,8 @@
 //! The classical Runge–Kutta method.
 
 use super::fixed::{self, Grid};
-use super::{Arrival, Method, Start};
-use crate::arrays::{combined, displaced};
+use super::{Arrival, Method, Start, non_finite_derivative};
+use crate::arrays::{combined, displaced, first_non_finite};
 use crate::{Dynamics, IntegrationError, Real, Scalar, State, Statistics};
 
 /// The classical Runge–Kutta method with fixed steps, of order 4
@@ -97,7 +97,7 @@ where
         let leg = memory.next(start.time, self.step, target);
         let state = Self::step(start.system, start.time, leg.length, start.state, start.input);
         statistics.evaluations += 4;
-        let arrival = fixed::arrive(start, &leg, state)?;
+        let arrival = fixed::arrive(start, &leg, state).map_err(|error| blame(start, leg.length, error))?;
         *memory = leg.grid;
         Ok(arrival)
     }
@@ -111,4 +111,25 @@ where
     ) -> S::State {
         fixed::interpolate(start, arrival, time)
     }
+}
+
+/// Explains an infinite step by the first stage whose derivative is not finite, if there is one.
+#[cold]
+fn blame<T: Real, S: Dynamics>(start: &Start<'_, S>, h: T, error: IntegrationError) -> IntegrationError
+where
+    S::State: State<Scalar = T>,
+{
+    if !matches!(error, IntegrationError::NonFiniteStep { .. }) {
+        return error;
+    }
+    let x = start.state.to_array();
+    let mut slope = start.derivative();
+    for ahead in [h * T::from_f64(0.5), h * T::from_f64(0.5), h] {
+        let time = start.time + ahead;
+        slope = start.derivative_at(time, displaced(&x, ahead, &slope));
+        if let Some(found) = first_non_finite(slope.as_ref()) {
+            return non_finite_derivative::<S::State>(found, time.to_f64());
+        }
+    }
+    error
 }

@@ -1,0 +1,103 @@
+//! The identities of an embedded base: whether a state satisfies them, and the way back.
+
+use nh_core::id::SymbolId;
+use nh_core::system::{Embedding, System};
+use proc_macro2::{Literal, TokenStream};
+use quote::quote;
+
+use super::context::Context;
+use super::expression::element;
+use super::function::{Part, program};
+use super::layout::local;
+use super::program::body;
+use super::projection::{closure, entries};
+use super::scope::{Argument, Scope};
+
+/// The inherent methods `identity_residual` and `normalize`; nothing without identities.
+pub(super) fn emit(context: &Context, scope: &Scope, system: &System) -> Part {
+    let Some(embedding) = &system.embedding else { return Part::default() };
+    let mut methods = residual(context, scope, system, embedding);
+    methods.extend(normalize(context, system, embedding));
+    let programs = vec![("normalize, each step", program(&system.model, &embedding.step))];
+    Part { methods, programs, ..Part::default() }
+}
+
+fn residual(context: &Context, scope: &Scope, system: &System, embedding: &Embedding) -> TokenStream {
+    let Context { visibility, scalar, .. } = context;
+    let (state, state_type) = (&context.locals.state, context.type_of(&context.state));
+    let body = body(context, scope, &program(&system.model, &embedding.residual));
+    let this = (!body.used.contains(&Argument::This)).then(|| quote!(_ = self;));
+    let (statements, outputs) = (&body.statements, body.outputs.iter().map(element));
+    let count = Literal::usize_unsuffixed(embedding.texts.len());
+    let lines = embedding.texts.iter().map(|text| format!(" - `{text}`"));
+    quote! {
+        /// What the base coordinates leave of their identities:
+        ///
+        #(#[doc = #lines])*
+        #[must_use]
+        #[inline]
+        #visibility fn identity_residual(&self, #state: &#state_type) -> [#scalar; #count] {
+            #this
+            #statements
+            [#(#outputs),*]
+        }
+    }
+}
+
+fn normalize(context: &Context, system: &System, embedding: &Embedding) -> TokenStream {
+    let Context { runtime, visibility, .. } = context;
+    let (state, state_type) = (&context.locals.state, context.type_of(&context.state));
+    let symbols: Vec<SymbolId> = system.model.coordinates.iter().map(|entry| entry.symbol).collect();
+    let places = context.state.places(state);
+    let (coordinates, velocities) = places.split_at(symbols.len().min(places.len()));
+    let present = local("present");
+    let mut moved = entries(&present, coordinates.len());
+    moved.extend_from_slice(velocities);
+    let moved = context.state.construct(&context.state_name(), &moved);
+    let step = closure(context, system, &[], &symbols, &program(&system.model, &embedding.step));
+    quote! {
+        /// Moves the base coordinates back to where their identities hold, by the shortest way.
+        ///
+        /// # Errors
+        /// If they are too far from there; the state is then as it was.
+        #visibility fn normalize(
+            &self, #state: &mut #state_type
+        ) -> ::core::result::Result<(), #runtime::ProjectionError> {
+            [#(#coordinates),*] = #runtime::project(
+                [#(#coordinates),*],
+                #step,
+                |#present| Self::identity_residual(self, &#moved),
+            )?;
+            ::core::result::Result::Ok(())
+        }
+    }
+}
+
+/// `check_state` of `impl Dynamics for Sleigh`: a state off the identities is refused.
+pub(super) fn check_state(context: &Context, scope: &Scope, system: &System) -> TokenStream {
+    let Some(embedding) = &system.embedding else { return TokenStream::new() };
+    let Context { runtime, scalar, .. } = context;
+    let (t, state, state_type) = (&context.locals.t, &context.locals.state, context.type_of(&context.state));
+    let outputs = [embedding.step.outputs.as_slice(), &embedding.residual.outputs].concat();
+    let both = embedding.step.with_outputs(outputs);
+    let body = body(context, scope, &program(&system.model, &both));
+    let (next, residuals) = body.outputs.split_at(embedding.step.outputs.len().min(body.outputs.len()));
+    let this = (!body.used.contains(&Argument::This)).then(|| quote!(_ = self;));
+    let places = context.state.places(state);
+    let coordinates = places.iter().take(next.len());
+    let (statements, next, texts) = (&body.statements, next.iter().map(element), &embedding.texts);
+    quote! {
+        fn check_state(
+            &self, #t: #scalar, #state: &#state_type
+        ) -> ::core::result::Result<(), #runtime::StateFault> {
+            #this
+            _ = #t;
+            #statements
+            #runtime::check_identities(
+                [#(#coordinates),*],
+                [#(#next),*],
+                [#((#texts, #residuals)),*],
+            )
+        }
+    }
+}

@@ -1,0 +1,516 @@
+/// # Equations of motion
+///
+/// ```text
+/// x' = …
+/// ```
+struct Rails {
+    m: f64,
+}
+/// The state of [`Rails`]: base coordinates, then velocities.
+#[derive(
+    ::core::clone::Clone,
+    ::core::marker::Copy,
+    ::core::fmt::Debug,
+    ::core::cmp::PartialEq,
+    ::core::default::Default
+)]
+struct RailsState {
+    /// The coordinate `x`.
+    pub x: ::core::primitive::f64,
+    /// The quasi-velocities `w`.
+    pub w: [::core::primitive::f64; 2],
+    /// The quasi-velocity `v`.
+    pub v: ::core::primitive::f64,
+}
+#[automatically_derived]
+impl ::core::convert::From<RailsState> for [::core::primitive::f64; 4] {
+    #[inline]
+    fn from(value: RailsState) -> Self {
+        [value.x, value.w[0], value.w[1], value.v]
+    }
+}
+#[automatically_derived]
+impl ::core::convert::From<[::core::primitive::f64; 4]> for RailsState {
+    #[inline]
+    fn from([c0, c1, c2, c3]: [::core::primitive::f64; 4]) -> Self {
+        Self { x: c0, w: [c1, c2], v: c3 }
+    }
+}
+#[automatically_derived]
+impl ::core::convert::From<RailsState>
+for ::nh_runtime::__private::nalgebra::SVector<::core::primitive::f64, 4> {
+    #[inline]
+    fn from(value: RailsState) -> Self {
+        ::core::convert::From::<
+            [::core::primitive::f64; 4],
+        >::from(::core::convert::From::from(value))
+    }
+}
+#[automatically_derived]
+impl ::core::convert::From<
+    ::nh_runtime::__private::nalgebra::SVector<::core::primitive::f64, 4>,
+> for RailsState {
+    #[inline]
+    fn from(
+        value: ::nh_runtime::__private::nalgebra::SVector<::core::primitive::f64, 4>,
+    ) -> Self {
+        ::core::convert::From::<
+            [::core::primitive::f64; 4],
+        >::from(::core::convert::From::from(value))
+    }
+}
+::nh_runtime::__private::serde_impls! {
+    "::nh_runtime::__private::serde", "RailsState", {} RailsState[] { x :
+    ::core::primitive::f64, w : [::core::primitive::f64; 2], v : ::core::primitive::f64,
+    }
+}
+/// The quasi-velocities of [`Rails`].
+#[derive(
+    ::core::clone::Clone,
+    ::core::marker::Copy,
+    ::core::fmt::Debug,
+    ::core::cmp::PartialEq,
+    ::core::default::Default
+)]
+struct RailsVelocity {
+    /// The quasi-velocities `w`.
+    pub w: [::core::primitive::f64; 2],
+    /// The quasi-velocity `v`.
+    pub v: ::core::primitive::f64,
+}
+#[automatically_derived]
+impl ::core::convert::From<RailsVelocity> for [::core::primitive::f64; 3] {
+    #[inline]
+    fn from(value: RailsVelocity) -> Self {
+        [value.w[0], value.w[1], value.v]
+    }
+}
+#[automatically_derived]
+impl ::core::convert::From<[::core::primitive::f64; 3]> for RailsVelocity {
+    #[inline]
+    fn from([c0, c1, c2]: [::core::primitive::f64; 3]) -> Self {
+        Self { w: [c0, c1], v: c2 }
+    }
+}
+#[automatically_derived]
+impl ::core::convert::From<RailsVelocity>
+for ::nh_runtime::__private::nalgebra::SVector<::core::primitive::f64, 3> {
+    #[inline]
+    fn from(value: RailsVelocity) -> Self {
+        ::core::convert::From::<
+            [::core::primitive::f64; 3],
+        >::from(::core::convert::From::from(value))
+    }
+}
+#[automatically_derived]
+impl ::core::convert::From<
+    ::nh_runtime::__private::nalgebra::SVector<::core::primitive::f64, 3>,
+> for RailsVelocity {
+    #[inline]
+    fn from(
+        value: ::nh_runtime::__private::nalgebra::SVector<::core::primitive::f64, 3>,
+    ) -> Self {
+        ::core::convert::From::<
+            [::core::primitive::f64; 3],
+        >::from(::core::convert::From::from(value))
+    }
+}
+::nh_runtime::__private::serde_impls! {
+    "::nh_runtime::__private::serde", "RailsVelocity", {} RailsVelocity[] { w :
+    [::core::primitive::f64; 2], v : ::core::primitive::f64, }
+}
+#[automatically_derived]
+impl ::nh_runtime::__private::State for RailsState {
+    type Scalar = ::core::primitive::f64;
+    type Dim = ::nh_runtime::__private::D<4>;
+    #[inline]
+    fn to_array(&self) -> [::core::primitive::f64; 4] {
+        ::core::convert::From::from(*self)
+    }
+    #[inline]
+    fn from_array(components: [::core::primitive::f64; 4]) -> Self {
+        ::core::convert::From::from(components)
+    }
+    #[inline]
+    fn names() -> [&'static ::core::primitive::str; 4] {
+        ["x", "w[0]", "w[1]", "v"]
+    }
+}
+#[automatically_derived]
+impl ::nh_runtime::__private::Dynamics for Rails {
+    type State = RailsState;
+    type Input = ();
+    #[inline]
+    fn derivative(
+        &self,
+        t: ::core::primitive::f64,
+        state: &RailsState,
+        input: &(),
+    ) -> RailsState {
+        Self::derivative(self, t, state, input)
+    }
+    #[inline]
+    fn validate(
+        &self,
+    ) -> ::core::result::Result<(), ::nh_runtime::__private::ParameterError> {
+        Self::validate(self)
+    }
+}
+#[automatically_derived]
+impl ::nh_runtime::__private::Energy for Rails {
+    #[inline]
+    fn energy(
+        &self,
+        t: ::core::primitive::f64,
+        state: &RailsState,
+    ) -> ::core::primitive::f64 {
+        Self::energy(self, t, state)
+    }
+}
+/// The multipliers of the constraints of [`Rails`], which enter as +λ ∂φ/∂y.
+#[derive(
+    ::core::clone::Clone,
+    ::core::marker::Copy,
+    ::core::fmt::Debug,
+    ::core::cmp::PartialEq,
+    ::core::default::Default
+)]
+struct RailsMultipliers {
+    /// The multiplier of the constraint number 1.
+    pub constraint_1: ::core::primitive::f64,
+    /// The multiplier of the constraint `type`.
+    pub r#type: ::core::primitive::f64,
+}
+#[automatically_derived]
+impl ::core::convert::From<RailsMultipliers> for [::core::primitive::f64; 2] {
+    #[inline]
+    fn from(value: RailsMultipliers) -> Self {
+        [value.constraint_1, value.r#type]
+    }
+}
+#[automatically_derived]
+impl ::core::convert::From<[::core::primitive::f64; 2]> for RailsMultipliers {
+    #[inline]
+    fn from([c0, c1]: [::core::primitive::f64; 2]) -> Self {
+        Self {
+            constraint_1: c0,
+            r#type: c1,
+        }
+    }
+}
+#[automatically_derived]
+impl ::core::convert::From<RailsMultipliers>
+for ::nh_runtime::__private::nalgebra::SVector<::core::primitive::f64, 2> {
+    #[inline]
+    fn from(value: RailsMultipliers) -> Self {
+        ::core::convert::From::<
+            [::core::primitive::f64; 2],
+        >::from(::core::convert::From::from(value))
+    }
+}
+#[automatically_derived]
+impl ::core::convert::From<
+    ::nh_runtime::__private::nalgebra::SVector<::core::primitive::f64, 2>,
+> for RailsMultipliers {
+    #[inline]
+    fn from(
+        value: ::nh_runtime::__private::nalgebra::SVector<::core::primitive::f64, 2>,
+    ) -> Self {
+        ::core::convert::From::<
+            [::core::primitive::f64; 2],
+        >::from(::core::convert::From::from(value))
+    }
+}
+::nh_runtime::__private::serde_impls! {
+    "::nh_runtime::__private::serde", "RailsMultipliers", {} RailsMultipliers[] {
+    constraint_1 : ::core::primitive::f64, r#type : ::core::primitive::f64, }
+}
+/// The constraint forces of [`Rails`] along its sections: each times the quasi-velocity of the same name is a power.
+#[derive(
+    ::core::clone::Clone,
+    ::core::marker::Copy,
+    ::core::fmt::Debug,
+    ::core::cmp::PartialEq,
+    ::core::default::Default
+)]
+struct RailsReactions {
+    /// The constraint forces along `w`.
+    pub w: [::core::primitive::f64; 2],
+    /// The constraint force along `v`.
+    pub v: ::core::primitive::f64,
+}
+#[automatically_derived]
+impl ::core::convert::From<RailsReactions> for [::core::primitive::f64; 3] {
+    #[inline]
+    fn from(value: RailsReactions) -> Self {
+        [value.w[0], value.w[1], value.v]
+    }
+}
+#[automatically_derived]
+impl ::core::convert::From<[::core::primitive::f64; 3]> for RailsReactions {
+    #[inline]
+    fn from([c0, c1, c2]: [::core::primitive::f64; 3]) -> Self {
+        Self { w: [c0, c1], v: c2 }
+    }
+}
+#[automatically_derived]
+impl ::core::convert::From<RailsReactions>
+for ::nh_runtime::__private::nalgebra::SVector<::core::primitive::f64, 3> {
+    #[inline]
+    fn from(value: RailsReactions) -> Self {
+        ::core::convert::From::<
+            [::core::primitive::f64; 3],
+        >::from(::core::convert::From::from(value))
+    }
+}
+#[automatically_derived]
+impl ::core::convert::From<
+    ::nh_runtime::__private::nalgebra::SVector<::core::primitive::f64, 3>,
+> for RailsReactions {
+    #[inline]
+    fn from(
+        value: ::nh_runtime::__private::nalgebra::SVector<::core::primitive::f64, 3>,
+    ) -> Self {
+        ::core::convert::From::<
+            [::core::primitive::f64; 3],
+        >::from(::core::convert::From::from(value))
+    }
+}
+::nh_runtime::__private::serde_impls! {
+    "::nh_runtime::__private::serde", "RailsReactions", {} RailsReactions[] { w :
+    [::core::primitive::f64; 2], v : ::core::primitive::f64, }
+}
+/// The constraints of [`Rails`] at a state: left-hand sides less right-hand sides.
+#[derive(
+    ::core::clone::Clone,
+    ::core::marker::Copy,
+    ::core::fmt::Debug,
+    ::core::cmp::PartialEq,
+    ::core::default::Default
+)]
+struct RailsResidual {
+    /// The residual of the constraint number 1.
+    pub constraint_1: ::core::primitive::f64,
+    /// The residual of the constraint `type`.
+    pub r#type: ::core::primitive::f64,
+}
+#[automatically_derived]
+impl ::core::convert::From<RailsResidual> for [::core::primitive::f64; 2] {
+    #[inline]
+    fn from(value: RailsResidual) -> Self {
+        [value.constraint_1, value.r#type]
+    }
+}
+#[automatically_derived]
+impl ::core::convert::From<[::core::primitive::f64; 2]> for RailsResidual {
+    #[inline]
+    fn from([c0, c1]: [::core::primitive::f64; 2]) -> Self {
+        Self {
+            constraint_1: c0,
+            r#type: c1,
+        }
+    }
+}
+#[automatically_derived]
+impl ::core::convert::From<RailsResidual>
+for ::nh_runtime::__private::nalgebra::SVector<::core::primitive::f64, 2> {
+    #[inline]
+    fn from(value: RailsResidual) -> Self {
+        ::core::convert::From::<
+            [::core::primitive::f64; 2],
+        >::from(::core::convert::From::from(value))
+    }
+}
+#[automatically_derived]
+impl ::core::convert::From<
+    ::nh_runtime::__private::nalgebra::SVector<::core::primitive::f64, 2>,
+> for RailsResidual {
+    #[inline]
+    fn from(
+        value: ::nh_runtime::__private::nalgebra::SVector<::core::primitive::f64, 2>,
+    ) -> Self {
+        ::core::convert::From::<
+            [::core::primitive::f64; 2],
+        >::from(::core::convert::From::from(value))
+    }
+}
+::nh_runtime::__private::serde_impls! {
+    "::nh_runtime::__private::serde", "RailsResidual", {} RailsResidual[] { constraint_1
+    : ::core::primitive::f64, r#type : ::core::primitive::f64, }
+}
+#[automatically_derived]
+impl ::nh_runtime::__private::Constrained for Rails {
+    type Constraints = ::nh_runtime::__private::D<2>;
+    #[inline]
+    fn constraint_residual(
+        &self,
+        t: ::core::primitive::f64,
+        state: &RailsState,
+    ) -> [::core::primitive::f64; 2] {
+        ::core::convert::From::from(Self::constraint_residual(self, t, state))
+    }
+    #[inline]
+    fn project(
+        &self,
+        t: ::core::primitive::f64,
+        state: &mut RailsState,
+    ) -> ::core::result::Result<(), ::nh_runtime::__private::ProjectionError> {
+        Self::project(self, t, state)
+    }
+}
+impl Rails {
+    /// What was derived from the declaration, as text.
+    const REPORT: &'static ::core::primitive::str = "Derived by hand.\n\nOperations per evaluation:\n  derivative: no operations\n  energy: no operations\n  velocity: no operations\n  multipliers: 2 multiplications\n  reactions: 1 addition, 2 multiplications\n  constraint_residual: 2 additions, 1 multiplication\n  project, each step: 2 additions, 1 multiplication, 1 division\n";
+    /// The time derivative of the state: the field `x` of the result is ẋ.
+    #[must_use]
+    #[inline]
+    fn derivative(
+        &self,
+        t: ::core::primitive::f64,
+        state: &RailsState,
+        input: &(),
+    ) -> RailsState {
+        _ = self;
+        _ = t;
+        _ = input;
+        RailsState {
+            x: state.w[0],
+            w: [0.0, 0.0],
+            v: 0.0,
+        }
+    }
+    /// The energy y · ∂L/∂y − L.
+    #[must_use]
+    #[inline]
+    fn energy(
+        &self,
+        t: ::core::primitive::f64,
+        state: &RailsState,
+    ) -> ::core::primitive::f64 {
+        _ = self;
+        _ = t;
+        _ = state;
+        0.0
+    }
+    /// All quasi-velocities, as the constraints give them from the state.
+    #[must_use]
+    #[inline]
+    fn velocity(&self, t: ::core::primitive::f64, state: &RailsState) -> RailsVelocity {
+        _ = self;
+        _ = t;
+        RailsVelocity {
+            w: [state.w[0], state.w[1]],
+            v: state.v,
+        }
+    }
+    /// The multipliers of the constraints, with their sign in +λ ∂φ/∂y on the side of the forces.
+    #[must_use]
+    #[inline]
+    fn multipliers(
+        &self,
+        t: ::core::primitive::f64,
+        state: &RailsState,
+        input: &(),
+    ) -> RailsMultipliers {
+        _ = t;
+        _ = input;
+        RailsMultipliers {
+            constraint_1: self.m * state.x * state.w[0],
+            r#type: 0.0,
+        }
+    }
+    /// The forces along the sections by which the constraints are kept.
+    #[must_use]
+    #[inline]
+    fn reactions(
+        &self,
+        t: ::core::primitive::f64,
+        state: &RailsState,
+        input: &(),
+    ) -> RailsReactions {
+        _ = t;
+        _ = input;
+        let e1 = self.m * state.x * state.w[0];
+        RailsReactions {
+            w: [e1, 0.0],
+            v: -e1,
+        }
+    }
+    /// The constraints at a state: left-hand side less right-hand side, zero where they hold.
+    #[must_use]
+    #[inline]
+    fn constraint_residual(
+        &self,
+        t: ::core::primitive::f64,
+        state: &RailsState,
+    ) -> RailsResidual {
+        _ = self;
+        _ = t;
+        RailsResidual {
+            constraint_1: state.w[1] - state.x * state.w[0],
+            r#type: state.v - state.w[1],
+        }
+    }
+    /// Moves the velocities to the nearest ones that satisfy the constraints, where distance is
+    /// measured by the kinetic energy.
+    ///
+    /// # Errors
+    /// If the constraints are not met, because the state is too far from them or they are
+    /// dependent there; the state is then as it was.
+    fn project(
+        &self,
+        t: ::core::primitive::f64,
+        state: &mut RailsState,
+    ) -> ::core::result::Result<(), ::nh_runtime::__private::ProjectionError> {
+        [state.w[0], state.w[1], state.v] = ::nh_runtime::__private::project(
+            [state.w[0], state.w[1], state.v],
+            |start, present| {
+                let mu = (present[1] - start[1]) / self.m;
+                [start[0], (state.x * start[0]), start[2] + mu]
+            },
+            |present| ::core::convert::From::from(
+                Self::constraint_residual(
+                    self,
+                    t,
+                    &RailsState {
+                        x: state.x,
+                        w: [present[0], present[1]],
+                        v: present[2],
+                    },
+                ),
+            ),
+        )?;
+        ::core::result::Result::Ok(())
+    }
+    /// Checks the parameters.
+    ///
+    /// # Errors
+    /// The first parameter that is not finite, that breaks an assumption, or that makes an
+    /// expression zero by which the equations divide.
+    fn validate(
+        &self,
+    ) -> ::core::result::Result<(), ::nh_runtime::__private::ParameterError> {
+        for (name, value) in [("m", self.m)] {
+            if !::nh_runtime::__private::Scalar::is_finite(value) {
+                return ::core::result::Result::Err(::nh_runtime::__private::ParameterError {
+                    parameter: name,
+                    value: ::nh_runtime::__private::Scalar::to_f64(value),
+                    fault: ::nh_runtime::__private::ParameterFault::NotFinite,
+                });
+            }
+        }
+        ::core::result::Result::Ok(())
+    }
+}
+#[doc(hidden)]
+macro_rules! __nh_declaration_Rails_2c1c7c1b4234c327 {
+    () => {};
+    ($callback:path, { $($rest:tt)* }) => {
+        $callback ! { declaration { { base { x } basis { w[2], v } lagrangian { 0 }
+        constraints { w[1] = x * w[0]; r#type : v = w[1]; } } { struct Rails { m : f64 }
+        } } $($rest)* }
+    };
+}
+#[doc(hidden)]
+use __nh_declaration_Rails_2c1c7c1b4234c327 as __nh_declaration_Rails;
+__nh_declaration_Rails! {}
