@@ -28,7 +28,16 @@ pub trait Catalogued: Energy<State: State<Scalar = f64>> + Sized {
     fn velocities(reading: &Reading) -> Vec<Moving>;
     /// All quasi-velocities as the generated code computes them.
     fn generated_velocities(&self, t: f64, state: &Self::State) -> Vec<f64>;
+    /// The multipliers as the generated code computes them, by the labels of the reference data;
+    /// `None` if the declaration has other constraints, or does not ask for them.
+    fn generated_multipliers(&self, t: f64, state: &Self::State, input: &Self::Input) -> Option<Labelled> {
+        _ = (t, state, input);
+        None
+    }
 }
+
+/// Numbers by labels.
+pub type Labelled = Vec<(&'static str, f64)>;
 
 /// Implements [`Catalogued`] for a declaration.
 macro_rules! catalogued {
@@ -40,6 +49,7 @@ macro_rules! catalogued {
         velocity |$vr:ident| $velocity:expr
         $(, covers |$cp:ident| $covers:expr)?
         $(, angles [$($angle:literal),*])?
+        $(, multipliers [$($label:ident),*])?
     ) => {
         impl $crate::catalogue::Catalogued for $system {
             const REFERENCE: &'static str = $reference;
@@ -66,6 +76,15 @@ macro_rules! catalogued {
                 let velocity: [f64; $s] = self.velocity(t, state).into();
                 velocity.to_vec()
             }
+            $(fn generated_multipliers(
+                &self,
+                t: f64,
+                state: &<Self as nh_runtime::Dynamics>::State,
+                input: &<Self as nh_runtime::Dynamics>::Input,
+            ) -> Option<$crate::catalogue::Labelled> {
+                let multipliers = self.multipliers(t, state, input);
+                Some(vec![$((stringify!($label), multipliers.$label)),*])
+            })?
         }
     };
     (@covers) => {
@@ -118,6 +137,8 @@ pub trait Entry {
     fn energy(&self, values: &Values, t: f64, state: &[f64]) -> f64;
     /// The generated quasi-velocities.
     fn generated_velocities(&self, values: &Values, t: f64, state: &[f64]) -> Vec<f64>;
+    /// The generated multipliers by the labels of the reference data, if there are any.
+    fn generated_multipliers(&self, values: &Values, t: f64, state: &[f64]) -> Option<Labelled>;
     /// Integrates with Dormand and Prince's method.
     ///
     /// # Errors
@@ -191,6 +212,11 @@ impl<S: Catalogued> Entry for Declaration<S> {
 
     fn generated_velocities(&self, values: &Values, t: f64, state: &[f64]) -> Vec<f64> {
         S::parameters(values).generated_velocities(t, &packed::<S>(state))
+    }
+
+    fn generated_multipliers(&self, values: &Values, t: f64, state: &[f64]) -> Option<Labelled> {
+        let input = S::input(values, t);
+        S::parameters(values).generated_multipliers(t, &packed::<S>(state), &input)
     }
 
     fn integrate(&self, values: &Values, run: &Run<'_>) -> Result<Solution, IntegrationError> {

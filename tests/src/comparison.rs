@@ -21,6 +21,8 @@ const MULTIPLE: f64 = 8.0;
 const VOID: f64 = 1e-5;
 /// Near an equilibrium all numbers are small differences: none counts as smaller than this.
 const EQUILIBRIUM: f64 = 1e-8;
+/// A multiplier below this stands for zero: it is computed from numbers of some forty digits.
+const VANISHING: f64 = 1e-30;
 
 /// A generated number and what it should be.
 #[derive(Clone, Copy, Debug)]
@@ -99,7 +101,7 @@ fn explained_by_rounding(inputs: &[f64], at: &[Pair], pairs: impl Fn(&[f64]) -> 
 }
 
 /// Compares an entry with the reference at every sample of every parameter set: the derivative, the
-/// energy and all quasi-velocities.
+/// energy, all quasi-velocities and, where they are computed, the multipliers.
 ///
 /// # Errors
 /// The differences that rounding does not explain, one line each.
@@ -132,8 +134,12 @@ pub fn compare_with_reference(entry: &dyn Entry) -> Result<Worst, String> {
 type Pairs = fn(&dyn Entry, &Values, &Sample, &Reading) -> Vec<Pair>;
 
 /// What is compared at a sample.
-const KINDS: [(&str, Pairs); 3] =
-    [("derivative", derivatives), ("energy", energies), ("velocity", velocities)];
+const KINDS: [(&str, Pairs); 4] = [
+    ("derivative", derivatives),
+    ("energy", energies),
+    ("velocity", velocities),
+    ("multipliers", multipliers),
+];
 
 fn derivatives(entry: &dyn Entry, values: &Values, sample: &Sample, reading: &Reading) -> Vec<Pair> {
     let moving = entry.state(reading);
@@ -150,6 +156,17 @@ fn velocities(entry: &dyn Entry, values: &Values, sample: &Sample, reading: &Rea
     let state = values_of(&entry.state(reading));
     let generated = entry.generated_velocities(values, sample.t, &state);
     paired(&generated, entry.velocities(reading).iter().map(|x| x.value))
+}
+
+fn multipliers(entry: &dyn Entry, values: &Values, sample: &Sample, reading: &Reading) -> Vec<Pair> {
+    let state = values_of(&entry.state(reading));
+    let generated = entry.generated_multipliers(values, sample.t, &state).unwrap_or_default();
+    let pairs = generated.into_iter().map(|(label, generated)| {
+        // what the data's own precision leaves of a zero
+        let expected = sample.multipliers[label];
+        Pair { generated, expected: if expected.abs() < VANISHING { 0.0 } else { expected } }
+    });
+    pairs.collect()
 }
 
 /// Each generated number with the expected one.

@@ -107,7 +107,7 @@ pub mod shadowed {
     }
     impl Loud for f64 {}
 
-    pub use declared::{Sleigh, SleighInput, SleighState, SleighVelocity};
+    pub use declared::{Ferry, FerryState, Sleigh, SleighInput, SleighState, SleighVelocity};
 
     #[deny(warnings, missing_docs, clippy::pedantic)]
     mod declared {
@@ -141,6 +141,23 @@ pub mod shadowed {
             pub r#type: f64,
             /// Nothing depends on it.
             pub unused: f64,
+        }
+
+        /// A blade with multipliers and a projection, under names that these may want.
+        #[::nh_runtime::nonholonomic(
+            base { start, present, project }
+            formulation { projected }
+            emit { multipliers, reactions }
+            lagrangian { (der(start)^2 + J * der(present)^2 + der(project)^2) / 2 - project }
+            constraints {
+                state: cos(start) * der(project) - sin(start) * der(present) = 0;
+            }
+        )]
+        #[derive(Clone, Copy, Debug)]
+        #[allow(non_snake_case, reason = "as in mechanics")]
+        pub struct Ferry {
+            /// Ratio of inertias.
+            pub J: f64,
         }
     }
 }

@@ -4,7 +4,7 @@
 use nh_runtime::Energy;
 use nh_tests::hygiene::colliding::{Odd, OddState};
 use nh_tests::hygiene::narrow::{acceleration, oscillation};
-use nh_tests::hygiene::shadowed::{Sleigh, SleighInput, SleighState};
+use nh_tests::hygiene::shadowed::{Ferry, FerryState, Sleigh, SleighInput, SleighState};
 
 const EXACT: f64 = 1e-14;
 
@@ -34,6 +34,17 @@ fn declared_names_do_not_collide_with_generated_ones() {
     assert!((rate.result_dot + 0.35 * 0.2_f64.cos()).abs() < EXACT, "{rate:?}");
     assert!((rate.out - 4.0).abs() < EXACT, "{rate:?}");
     assert!((rate.value_dot + 0.65).abs() < EXACT, "{rate:?}");
+}
+
+#[test]
+fn constraints_and_projections_do_not_collide_either() {
+    let ferry = Ferry { J: 1.0 };
+    let mut state = FerryState { start: 0.5, project_dot: 1.0, ..FerryState::default() };
+    assert!((ferry.constraint_residual(0.0, &state).state - 0.5_f64.cos()).abs() < EXACT);
+    assert!(ferry.project(0.0, &mut state).is_ok());
+    assert!((state.present_dot - 0.5_f64.sin() * 0.5_f64.cos()).abs() < EXACT, "{state:?}");
+    assert!((ferry.multipliers(0.0, &state, &()).state - 0.5_f64.cos()).abs() < EXACT);
+    assert!((ferry.reactions(0.0, &state, &()).project_dot - 0.5_f64.cos().powi(2)).abs() < EXACT);
 }
 
 #[test]

@@ -69,6 +69,7 @@ catalogued! {
         roll_x: dx = r * (R[1][0] * w1 + R[1][1] * w2 + R[1][2] * w3);
         roll_y: dy = -r * (R[0][0] * w1 + R[0][1] * w2 + R[0][2] * w3);
     }
+    emit { multipliers, reactions }
 )]
 #[derive(Clone, Copy, Debug)]
 pub struct ChaplyginSphereWithAttitude {
@@ -87,5 +88,6 @@ catalogued! {
         s["R11"], s["R12"], s["R13"], s["R21"], s["R22"], s["R23"], s["R31"], s["R32"], s["R33"],
         s["x"], s["y"], s["w1"], s["w2"], s["w3"],
     ],
-    velocity |s| [s["w1"], s["w2"], s["w3"], s["dx"], s["dy"]]
+    velocity |s| [s["w1"], s["w2"], s["w3"], s["dx"], s["dy"]],
+    multipliers [roll_x, roll_y]
 }

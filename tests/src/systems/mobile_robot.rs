@@ -22,6 +22,7 @@ use crate::catalogue::catalogued;
         wheel1: w1 + c * w3 + R * dpsi1 = 0;
         wheel2: w1 - c * w3 + R * dpsi2 = 0;
     }
+    emit { multipliers, reactions }
 )]
 #[derive(Clone, Copy, Debug)]
 pub struct MobileRobot {
@@ -47,7 +48,8 @@ catalogued! {
         m0: p["m0"], m1: p["m1"], l: p["l"], J: p["J"], J2: p["J2"], c: p["c"], R: p["R"],
     },
     state |s| [s["psi1"], s["psi2"], s["dpsi1"], s["dpsi2"]],
-    velocity |s| [s["dpsi1"], s["dpsi2"], s["w1"], s["w2"], s["w3"]]
+    velocity |s| [s["dpsi1"], s["dpsi2"], s["w1"], s["w2"], s["w3"]],
+    multipliers [lateral, wheel1, wheel2]
 }
 
 /// Unreduced, with the constraints solved for the motion of the body.

@@ -12,6 +12,7 @@ use crate::catalogue::catalogued;
     velocities { w1 = der(x); w2 = der(y); w3 = der(z) - y * der(x); }
     lagrangian { m / 2 * (w1^2 + w2^2 + (w3 + y * w1)^2) - k / 2 * (x^2 + y^2) }
     constraints { phi: w3 = 0; }
+    emit { multipliers, reactions }
 )]
 #[derive(Clone, Copy, Debug)]
 pub struct ParticleYCoframe {
@@ -25,7 +26,8 @@ catalogued! {
     ParticleYCoframe { state: 5, sections: 3 } of "particle_zdot_y_xdot",
     parameters |p| ParticleYCoframe { m: p["m"], k: p["k"] },
     state |s| [s["x"], s["y"], s["z"], s["w1"], s["w2"]],
-    velocity |s| [s["w1"], s["w2"], s["w3"]]
+    velocity |s| [s["w1"], s["w2"], s["w3"]],
+    multipliers [phi]
 }
 
 /// The particle with ż = y ẋ in coordinates.
@@ -33,6 +35,7 @@ catalogued! {
     base { x, y, z }
     lagrangian { m / 2 * (der(x)^2 + der(y)^2 + der(z)^2) - k / 2 * (x^2 + y^2) }
     constraints { phi: der(z) = y * der(x); }
+    emit { multipliers, reactions }
 )]
 #[derive(Clone, Copy, Debug)]
 pub struct ParticleY {
@@ -46,7 +49,8 @@ catalogued! {
     ParticleY { state: 5, sections: 3 } of "particle_zdot_y_xdot",
     parameters |p| ParticleY { m: p["m"], k: p["k"] },
     state |s| [s["x"], s["y"], s["z"], s["w1"], s["w2"]],
-    velocity |s| [s["w1"], s["w2"], s["dz"]]
+    velocity |s| [s["w1"], s["w2"], s["dz"]],
+    multipliers [phi]
 }
 
 /// The particle with the integrable constraint ż = x ẋ by a coframe (CM section 6).

@@ -15,6 +15,7 @@ use crate::catalogue::catalogued;
     brackets { [wx, wy] = -wz; [wy, wz] = -wx; [wz, wx] = -wy; }
     lagrangian { m / 2 * (dx^2 + dy^2 + k2 * (wx^2 + wy^2 + wz^2)) }
     constraints { roll_x: dx = r * wy; roll_y: dy = -r * wx; }
+    emit { multipliers, reactions }
 )]
 #[derive(Clone, Copy, Debug)]
 pub struct RollingBall {
@@ -30,5 +31,6 @@ catalogued! {
     RollingBall { state: 5, sections: 5 } of "ball_fixed_plane",
     parameters |p| RollingBall { m: p["m"], r: p["r"], k2: p["k2"] },
     state |s| [s["x"], s["y"], s["wx"], s["wy"], s["wz"]],
-    velocity |s| [s["dx"], s["dy"], s["wx"], s["wy"], s["wz"]]
+    velocity |s| [s["dx"], s["dy"], s["wx"], s["wy"], s["wz"]],
+    multipliers [roll_x, roll_y]
 }

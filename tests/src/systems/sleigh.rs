@@ -20,6 +20,7 @@ use crate::catalogue::catalogued;
     constraints { blade: v2 = 0; }
     forces      { omega: torque - c * omega; }
     inputs      { torque }
+    emit { multipliers, reactions }
 )]
 #[derive(Clone, Copy, Debug)]
 pub struct Sleigh {
@@ -39,7 +40,8 @@ catalogued! {
     Sleigh { state: 5, sections: 3 } of "chaplygin_sleigh",
     parameters |p| Sleigh { m: p["m"], J: p["J"], a: p["a"], b: p["b"], c: 0.0 },
     state |s| [s["theta"], s["x"], s["y"], s["omega"], s["v1"]],
-    velocity |s| [s["omega"], s["v1"], s["v2"]]
+    velocity |s| [s["omega"], s["v1"], s["v2"]],
+    multipliers [blade]
 }
 
 /// Reduced by the motions of the plane: Euler–Poincaré–Suslov on se(2).
@@ -48,6 +50,7 @@ catalogued! {
     brackets se(2) { omega, v1, v2 }
     lagrangian  { (J + m * (a^2 + b^2)) / 2 * omega^2 + m / 2 * (v1^2 + v2^2) - m * b * omega * v1 + m * a * omega * v2 }
     constraints { blade: v2 = 0; }
+    emit { multipliers, reactions }
 )]
 #[derive(Clone, Copy, Debug)]
 pub struct ReducedSleigh {
@@ -65,7 +68,8 @@ catalogued! {
     ReducedSleigh { state: 2, sections: 3 } of "chaplygin_sleigh",
     parameters |p| ReducedSleigh { m: p["m"], J: p["J"], a: p["a"], b: p["b"] },
     state |s| [s["omega"], s["v1"]],
-    velocity |s| [s["omega"], s["v1"], s["v2"]]
+    velocity |s| [s["omega"], s["v1"], s["v2"]],
+    multipliers [blade]
 }
 
 /// In coordinates of the plane, where no velocity can be eliminated for every heading: the state
@@ -78,6 +82,7 @@ catalogued! {
         J / 2 * der(theta)^2 + m / 2 * (xc^2 + yc^2)
     }
     constraints { blade: cos(theta) * der(y) - sin(theta) * der(x) = 0; }
+    emit { multipliers, reactions }
 )]
 #[derive(Clone, Copy, Debug)]
 pub struct SleighOnThePlane {
@@ -105,5 +110,6 @@ catalogued! {
     velocity |s| {
         let (sin, cos) = s["theta"].sin_cos();
         [s["omega"], s["v1"] * cos - s["v2"] * sin, s["v1"] * sin + s["v2"] * cos]
-    }
+    },
+    multipliers [blade]
 }

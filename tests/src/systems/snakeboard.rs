@@ -28,6 +28,7 @@ use crate::catalogue::catalogued;
     }
     independent { u1, dpsi, dphi }
     forces { psi: Ar * sin(wr * t); phi: As * sin(ws * t); }
+    emit { multipliers, reactions }
 )]
 #[derive(Clone, Copy, Debug)]
 pub struct Snakeboard {
@@ -57,7 +58,8 @@ catalogued! {
     state |s| [
         s["x"], s["y"], s["theta"], s["psi"], s["phi"], s["u1"], s["dpsi"], s["dphi"],
     ],
-    velocity |s| [s["u1"], s["u2"], s["dtheta"], s["dpsi"], s["dphi"]]
+    velocity |s| [s["u1"], s["u2"], s["dtheta"], s["dpsi"], s["dphi"]],
+    multipliers [wheel_back, wheel_front]
 }
 
 /// In coordinates, with the torques as inputs: no choice of velocities is good for every heading.
@@ -73,6 +75,7 @@ catalogued! {
     }
     forces { psi: rotor; phi: steering; }
     inputs { rotor, steering }
+    emit { multipliers, reactions }
 )]
 #[derive(Clone, Copy, Debug)]
 pub struct SnakeboardOnThePlane {
@@ -97,5 +100,6 @@ catalogued! {
         s["x"], s["y"], s["theta"], s["psi"], s["phi"],
         s["dx"], s["dy"], s["dtheta"], s["dpsi"], s["dphi"],
     ],
-    velocity |s| [s["dx"], s["dy"], s["dtheta"], s["dpsi"], s["dphi"]]
+    velocity |s| [s["dx"], s["dy"], s["dtheta"], s["dpsi"], s["dphi"]],
+    multipliers [wheel_back, wheel_front]
 }

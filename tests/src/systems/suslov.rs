@@ -13,6 +13,7 @@ use crate::systems::inertia;
     brackets so(3) { w1, w2, w3 }
     lagrangian  { dot([w1, w2, w3], I * [w1, w2, w3]) / 2 }
     constraints { suslov: dot(G, [w1, w2, w3]) = 0; }
+    emit { multipliers, reactions }
 )]
 #[derive(Clone, Copy, Debug)]
 pub struct Suslov {
@@ -26,7 +27,8 @@ catalogued! {
     Suslov { state: 2, sections: 3 } of "suslov",
     parameters |p| Suslov { I: inertia(p), G: [p["G1"], p["G2"], p["G3"]] },
     state |s| [s["w1"], s["w2"]],
-    velocity |s| [s["w1"], s["w2"], s["w3"]]
+    velocity |s| [s["w1"], s["w2"], s["w3"]],
+    multipliers [suslov]
 }
 
 /// The constraint covector along the third body axis: one velocity is simply zero.
@@ -35,6 +37,7 @@ catalogued! {
     brackets so(3) { w1, w2, w3 }
     lagrangian  { dot([w1, w2, w3], I * [w1, w2, w3]) / 2 }
     constraints { suslov: w3 = 0; }
+    emit { multipliers, reactions }
 )]
 #[derive(Clone, Copy, Debug)]
 pub struct SuslovAlongAxis {
@@ -47,5 +50,6 @@ catalogued! {
     parameters |p| SuslovAlongAxis { I: inertia(p) },
     state |s| [s["w1"], s["w2"]],
     velocity |s| [s["w1"], s["w2"], s["w3"]],
-    covers |p| p["G1"] == 0.0 && p["G2"] == 0.0
+    covers |p| p["G1"] == 0.0 && p["G2"] == 0.0,
+    multipliers [suslov]
 }

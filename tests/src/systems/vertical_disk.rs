@@ -17,6 +17,7 @@ use crate::catalogue::catalogued;
     }
     forces { theta: drive; phi: steer; }
     inputs { drive, steer }
+    emit { multipliers, reactions }
 )]
 #[derive(Clone, Copy, Debug)]
 pub struct VerticalDisk {
@@ -35,7 +36,8 @@ catalogued! {
     parameters |p| VerticalDisk { m: p["m"], I: p["I"], J: p["J"], R: p["R"] },
     input |p, _t| VerticalDiskInput { drive: p["ut"], steer: p["up"] },
     state |s| [s["x"], s["y"], s["theta"], s["phi"], s["dtheta"], s["dphi"]],
-    velocity |s| [s["dx"], s["dy"], s["dtheta"], s["dphi"]]
+    velocity |s| [s["dx"], s["dy"], s["dtheta"], s["dphi"]],
+    multipliers [roll_x, roll_y]
 }
 
 /// By a coframe that moves with the heading: forward and sideways velocity.

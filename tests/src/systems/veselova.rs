@@ -21,6 +21,7 @@ use crate::systems::inertia;
     brackets so(3) { w[0], w[1], w[2] }
     lagrangian  { dot(w, I * w) / 2 - dot(c, g) }
     constraints { veselova: dot(g, w) = 0; }
+    emit { multipliers, reactions }
 )]
 #[derive(Clone, Copy, Debug)]
 pub struct Veselova {
@@ -34,7 +35,8 @@ catalogued! {
     Veselova { state: 6, sections: 3 } of "veselova",
     parameters |p| Veselova { I: inertia(p), c: [p["c1"], p["c2"], p["c3"]] },
     state |s| [s["g1"], s["g2"], s["g3"], s["w1"], s["w2"], s["w3"]],
-    velocity |s| [s["w1"], s["w2"], s["w3"]]
+    velocity |s| [s["w1"], s["w2"], s["w3"]],
+    multipliers [veselova]
 }
 
 /// Unreduced, in Euler angles with R = `Rz(phi) Rx(theta) Rz(psi)`: the angular velocity about the
