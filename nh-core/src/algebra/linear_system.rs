@@ -16,6 +16,8 @@ pub struct Solution {
     pub values: Matrix,
     /// The determinants of the blocks; their product is the determinant up to sign.
     pub divisors: Vec<ExprId>,
+    /// The equations and unknowns of each block, each block after those that it needs.
+    pub blocks: Vec<(Vec<usize>, Vec<usize>)>,
 }
 
 /// Blocks up to this size are solved by Cramer's rule.
@@ -34,7 +36,7 @@ impl Graph {
         let columns = right.first().map_or(0, Vec::len);
         let zero = self.zero();
         let mut values = vec![vec![zero; columns]; n];
-        let mut divisors = Vec::new();
+        let (mut divisors, mut solved_blocks) = (Vec::new(), Vec::new());
         for block in blocks(&pattern, &row_of) {
             let mut rows: Vec<usize> = block.iter().map(|unknown| row_of[*unknown]).collect();
             rows.sort_unstable();
@@ -54,8 +56,9 @@ impl Graph {
             for (unknown, row) in block.iter().zip(solved) {
                 values[*unknown].clone_from_slice(&row);
             }
+            solved_blocks.push((rows, block));
         }
-        Some(Solution { values, divisors })
+        Some(Solution { values, divisors, blocks: solved_blocks })
     }
 
     /// The right-hand side less the terms of unknowns already known.

@@ -23,9 +23,14 @@ impl Substitution {
         self.images.insert(symbol, image);
     }
 
+    /// Adds an image for a whole subexpression that has not occurred so far.
+    pub fn insert_node(&mut self, node: ExprId, image: ExprId) {
+        self.known.insert(node, image);
+    }
+
     /// The image of `expression`.
     pub fn apply(&mut self, graph: &mut Graph, expression: ExprId) -> ExprId {
-        if self.images.is_empty() {
+        if self.images.is_empty() && self.known.is_empty() {
             return expression;
         }
         if let Some(&known) = self.known.get(&expression) {

@@ -127,7 +127,9 @@ fn components(model: &mut Model, declaration: &BracketDecl) -> Result<Vec<ExprId
     let graph: &mut Graph = &mut model.graph;
     let form = graph.linear_form(declaration.value, &velocities).map_err(|error| {
         let evidence = match error {
-            NotLinear::Curved(..) => shown(graph, declaration.value),
+            NotLinear::Curved(..) => {
+                format!("{} is not linear in the sections", shown(graph, declaration.value))
+            }
             NotLinear::Unknown(why) => why,
         };
         blame(
@@ -189,7 +191,11 @@ fn record(
         });
         if !same {
             let before = match first.known {
-                Some(algebra) => format!("by {algebra}"),
+                Some(algebra) => format!(
+                    "by {algebra} as {} = {}",
+                    pair_text(model, first),
+                    shown(&model.graph, first.value)
+                ),
                 None => format!("as {} = {}", pair_text(model, first), shown(&model.graph, first.value)),
             };
             let pair = pair_text(model, declaration);

@@ -1,7 +1,7 @@
 //! The formulation, and the velocities that the adapted state keeps.
 
 use super::constraints::Constraints;
-use super::evidence::{listed, shown};
+use super::evidence::{counted, listed, shown};
 use crate::algebra::Facts;
 use crate::geometry::choice::{Choice, NoChoice, judge, search};
 use crate::geometry::{ConstraintDistribution, LinearConstraints, Manifold, PivotSetting};
@@ -15,7 +15,7 @@ pub enum Chosen {
     /// A basis of D, valid wherever the conditions hold.
     Adapted {
         /// D.
-        distribution: ConstraintDistribution,
+        distribution: Box<ConstraintDistribution>,
         /// Expressions of parameters that must not vanish.
         conditions: Vec<ExprId>,
         /// What to say of the choice in the report.
@@ -54,7 +54,7 @@ pub fn choose_formulation(
         let velocities = velocities(model);
         let distribution = ConstraintDistribution::unconstrained(&mut model.graph, &velocities);
         return Ok(Chosen::Adapted {
-            distribution,
+            distribution: Box::new(distribution),
             conditions: Vec::new(),
             reason: "there are no constraints: D is all of E".into(),
         });
@@ -126,8 +126,15 @@ fn dependent_of(
     Err(vec![Violation {
         law: Law::Choice,
         origin: named.first().map_or(model.origin, |(_, origin)| *origin),
-        what: format!("{} independent velocities are named, but there are {wanted}", named.len()),
-        evidence: format!("{} velocities less {constraints} constraints", model.sections.len()),
+        what: format!(
+            "{} named as independent, but the number of independent velocities is {wanted}",
+            counted(named.len(), "velocity is", "velocities are")
+        ),
+        evidence: format!(
+            "{} less {}",
+            counted(model.sections.len(), "velocity", "velocities"),
+            counted(constraints, "constraint", "constraints")
+        ),
         way_out: format!("name {wanted}, or leave `independent` out"),
     }])
 }
@@ -262,6 +269,7 @@ fn adapted(
         format!("{reason}; they are dependent where {}", zeros(model, &choice.rank_drops))
     };
     if let Some(distribution) = solved {
+        let distribution = Box::new(distribution);
         return Ok(Chosen::Adapted { distribution, conditions: choice.conditions, reason });
     }
     let list = listed(&names(model, &choice.dependent));

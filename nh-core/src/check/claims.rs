@@ -23,7 +23,7 @@ pub fn claims(model: &mut Model, claims: &[ExprId], mut flow: Flow, manifold: &M
         let (what, evidence) = match &verdict {
             Verdict::NonZero(witness) if manifold.is_whole() => (
                 format!("`{}` is not conserved", declared.name),
-                format!("its rate along the motion is not 0: {}", not_zero(&model.graph, rate, witness)),
+                format!("its rate along the motion {}", not_zero(&model.graph, rate, witness)),
             ),
             Verdict::Unknown(why) => (
                 format!("whether `{}` is conserved could not be decided", declared.name),

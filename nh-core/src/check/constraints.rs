@@ -4,7 +4,7 @@
 use super::dependence::dependent_rows;
 use super::evidence::shown;
 use super::kinematics::Motion;
-use crate::algebra::{Matrix, NotLinear};
+use crate::algebra::{Facts, Matrix, NotLinear};
 use crate::geometry::{Algebroid, LinearConstraints, Manifold};
 use crate::id::{ConstraintId, ExprId, Id, Origin, SymbolId};
 use crate::model::Model;
@@ -62,13 +62,18 @@ pub fn constraints(
         return Err(violations);
     }
     let linear = all_affine(shapes);
+    // linear ones before they are solved, so that a contradiction is shown as a combination
+    if let Some(linear) = &linear {
+        violations.extend(dependent_rows(model, &linear.annihilator, Some(&linear.drift), base));
+        if !violations.is_empty() {
+            return Err(violations);
+        }
+    }
     let manifold = constraint_manifold(model, algebroid, base, &residuals).map_err(|v| vec![v])?;
-    violations.extend(if let Some(linear) = &linear {
-        dependent_rows(model, &linear.annihilator, Some(&linear.drift), base)
-    } else {
+    if linear.is_none() {
         let jacobian = fibre_jacobian(model, algebroid, &residuals);
-        dependent_rows(model, &jacobian, None, &manifold)
-    });
+        violations.extend(dependent_rows(model, &jacobian, None, &manifold));
+    }
     if violations.is_empty()
         && !model.constraints.is_empty()
         && model.constraints.len() >= model.sections.len()
@@ -122,6 +127,9 @@ fn constraint_manifold(
         }
         Err(index) => {
             let id = ConstraintId::from_index(index);
+            if let Some(violation) = contradiction(model, algebroid, residuals, id) {
+                return Err(violation);
+            }
             Err(Violation {
                 law: Law::Decidable,
                 origin: model.constraints[id].origin,
@@ -137,6 +145,26 @@ fn constraint_manifold(
             })
         }
     }
+}
+
+/// A constraint that holds nowhere that those before it do.
+fn contradiction(
+    model: &mut Model,
+    algebroid: &Algebroid,
+    residuals: &[ExprId],
+    id: ConstraintId,
+) -> Option<Violation> {
+    let graph = &mut model.graph;
+    let earlier = Manifold::where_zero(graph, &residuals[..id.index()], &algebroid.velocities).ok()?;
+    let left_over = earlier.restrict(graph, residuals[id.index()]);
+    let left_over = graph.simplify(left_over);
+    graph.vanishes_nowhere(left_over, &Facts::default()).then(|| Violation {
+        law: Law::Independence,
+        origin: model.constraints[id].origin,
+        what: format!("{} contradicts the constraints before it", name_of(model, id)),
+        evidence: format!("where those hold, it says {} = 0", shown(&model.graph, left_over)),
+        way_out: "change or leave out one of them".into(),
+    })
 }
 
 /// How a constraint is called in messages.
@@ -164,6 +192,15 @@ fn shape(
             what: format!("{name} says nothing: its two sides are equal"),
             evidence: String::new(),
             way_out: "leave it out".into(),
+        });
+    }
+    if graph.vanishes_nowhere(residual, &Facts::default()) {
+        return Err(Violation {
+            law: Law::Constraint,
+            origin,
+            what: format!("{name} holds nowhere: its two sides are never equal"),
+            evidence: format!("{} should be 0, and is not at any real values", shown(graph, residual)),
+            way_out: "correct it, or leave it out".into(),
         });
     }
     let form = match graph.linear_form(residual, &algebroid.velocities) {
@@ -200,24 +237,20 @@ fn position_constraint(
     let derivative = algebroid.along(graph, &velocity, model.time).apply(graph, residual);
     let derivative = graph.simplify(derivative);
     let vanishes = graph.zero_test(derivative).is_zero();
-    let (evidence, way_out) = if vanishes {
+    let (what, evidence, way_out) = if vanishes {
         (
-            format!("`{}` is the same at all times", shown(graph, residual)),
-            "it holds always or never; leave it out".to_owned(),
+            format!("{name} constrains nothing that moves"),
+            format!("{} is the same at all times: it is 0 always or never", shown(graph, residual)),
+            "leave it out; a fact about parameters belongs in `assume`".to_owned(),
         )
     } else {
         (
+            format!("{name} has no velocities in it: it constrains positions"),
             format!("its derivative is {} = 0", shown(graph, derivative)),
             "constrain the velocities: write the derivative, and start on the surface".to_owned(),
         )
     };
-    Violation {
-        law: Law::Constraint,
-        origin,
-        what: format!("{name} has no velocities in it: it constrains positions"),
-        evidence,
-        way_out,
-    }
+    Violation { law: Law::Constraint, origin, what, evidence, way_out }
 }
 
 fn too_many(model: &Model) -> Violation {

@@ -74,7 +74,7 @@ fn dependency(model: &mut Model, rows: &Matrix, drift: Option<&[ExprId]>, index:
         ),
         Some(left_over) => (
             format!("{name} contradicts the constraints before it"),
-            format!("in the velocities {evidence}, but then {} = 0 is left", shown(graph, left_over)),
+            format!("as far as velocities go, {evidence}; then {} = 0 is left", shown(graph, left_over)),
             "change or leave out one of them",
         ),
     };

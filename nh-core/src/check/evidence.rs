@@ -30,6 +30,11 @@ fn short(value: f64) -> String {
     if trimmed == "0" || trimmed == "-0" { format!("{value:.3e}") } else { trimmed.to_owned() }
 }
 
+/// `1 constraint`, `2 constraints`.
+pub(super) fn counted(number: usize, one: &str, several: &str) -> String {
+    format!("{number} {}", if number == 1 { one } else { several })
+}
+
 /// `a`, `a and b`, `a, b and c`.
 pub(super) fn listed<S: AsRef<str>>(names: &[S]) -> String {
     match names {

@@ -218,14 +218,9 @@ pub fn spanned_distribution(
     let annihilator = annihilator(model, &basis, rank);
     let drift = vec![zero; annihilator.len()];
     let basis = Graph::transposed(&basis);
-    Ok(Some(ConstraintDistribution {
-        constraints: LinearConstraints { annihilator, drift },
-        independent: spanning.into_iter().map(|(symbol, _)| symbol).collect(),
-        dependent: Vec::new(),
-        basis,
-        offset: vec![zero; rank],
-        pivots: Vec::new(),
-    }))
+    let constraints = LinearConstraints { annihilator, drift };
+    let independent = spanning.into_iter().map(|(symbol, _)| symbol).collect();
+    Ok(Some(ConstraintDistribution::spanned(&mut model.graph, constraints, independent, basis)))
 }
 
 /// What a distribution by span leaves no room for.

@@ -1,6 +1,6 @@
 //! The kinematic equations ẋ^i = ρ^i_α y^α, mathematics (1).
 
-use super::evidence::shown;
+use super::evidence::{counted, shown};
 use crate::algebra::{Graph, Matrix, NotLinear, Substitution};
 use crate::geometry::Anchor;
 use crate::id::{ExprId, Id, Origin, SymbolId};
@@ -99,30 +99,41 @@ fn homogeneous_row(
 ) -> Result<Vec<ExprId>, Violation> {
     let blame =
         |what: String, evidence: String, way_out: String| Violation { law, origin, what, evidence, way_out };
+    let (variable, nonlinear, drift) = match law {
+        Law::Coframe => (
+            "the rates der(x)",
+            "a coframe is linear in the rates; a nonlinear relation belongs in `constraints`",
+            "a quasi-velocity vanishes with the rates; a drift belongs in an affine constraint",
+        ),
+        _ => (
+            "the velocities",
+            "an anchor is a linear map; a velocity with a nonlinear relation belongs in `constraints`",
+            "a drift belongs in an affine constraint, or in a base coordinate of its own",
+        ),
+    };
     let graph = &mut model.graph;
     let form = graph.linear_form(expression, variables).map_err(|error| match error {
         NotLinear::Curved(first, second) => {
             let (first, second) = (&graph.symbols()[first], &graph.symbols()[second]);
             let term = if first == second { format!("{first}^2") } else { format!("{first}*{second}") };
             blame(
-                format!("{subject} is not linear in the velocities"),
-                format!("`{}` has a term like {term}", shown(graph, expression)),
-                "an anchor is a linear map; a velocity with a nonlinear relation belongs in `constraints`"
-                    .into(),
+                format!("{subject} is not linear in {variable}"),
+                format!("{} has a term like {term}", shown(graph, expression)),
+                nonlinear.into(),
             )
         }
         NotLinear::Unknown(why) => blame(
-            format!("{subject} could not be decided to be linear in the velocities"),
+            format!("{subject} could not be decided to be linear in {variable}"),
             why,
-            "write it as a sum of velocities with coefficients on the base".into(),
+            format!("write it as a sum of {variable} with coefficients on the base"),
         ),
     })?;
     let rest = graph.zero_test(form.rest);
     if !rest.is_zero() {
         return Err(blame(
-            format!("{subject} is not homogeneous in the velocities"),
-            format!("where every velocity is 0 it is {}", shown(graph, form.rest)),
-            "a drift belongs in an affine constraint, or in a base coordinate of its own".into(),
+            format!("{subject} is not homogeneous in {variable}"),
+            format!("where {variable} are 0 it is {}", shown(graph, form.rest)),
+            drift.into(),
         ));
     }
     let base: Vec<SymbolId> = model
@@ -157,7 +168,7 @@ fn inverted_coframe(model: &mut Model, rows: &[Located]) -> Result<Motion, Vec<V
     let mut coframe: Matrix = Vec::new();
     let mut violations = Vec::new();
     for (row, name) in rows.iter().zip(&names) {
-        let subject = format!("the velocity `{name}`");
+        let subject = format!("the quasi-velocity `{name}`");
         match homogeneous_row(model, row.value, &variables, &subject, row.origin, Law::Coframe) {
             Ok(coefficients) => coframe.push(coefficients),
             Err(violation) => violations.push(violation),
@@ -190,7 +201,11 @@ fn not_square(model: &Model, found: usize) -> Violation {
     Violation {
         law: Law::Coframe,
         origin: model.origin,
-        what: format!("the coframe is not square: {found} quasi-velocities for {wanted} base coordinates"),
+        what: format!(
+            "the coframe is not square: {} for {}",
+            counted(found, "quasi-velocity", "quasi-velocities"),
+            counted(wanted, "base coordinate", "base coordinates")
+        ),
         evidence: "quasi-velocities by a coframe are as many as the rates der(x)".into(),
         way_out: "declare one quasi-velocity for each base coordinate, or use `basis` and `anchor`".into(),
     }

@@ -17,7 +17,8 @@ pub fn reduced_regularity(
     let names: Vec<&str> =
         equations.independent.iter().map(|symbol| model.graph.symbols()[*symbol].as_str()).collect();
     let size = names.len();
-    judge(model, &mass, size, |vector| {
+    let what = "the mass matrix is singular on the constraint distribution: its rank is";
+    judge(model, &mass, size, what, |vector| {
         let moving: Vec<&str> =
             vector.iter().zip(&names).filter(|(c, _)| **c != Residue::ZERO).map(|(_, name)| *name).collect();
         direction(&moving)
@@ -33,7 +34,8 @@ pub fn saddle_regularity(
     let matrix = equations.matrix(&mut model.graph);
     let matrix = manifold.restrict_matrix(&mut model.graph, &matrix);
     let names: Vec<&str> = model.sections.iter().map(|section| section.name.as_str()).collect();
-    judge(model, &matrix, matrix.len(), |vector| {
+    let what = "the equations for accelerations and multipliers are singular: the rank of their matrix is";
+    judge(model, &matrix, matrix.len(), what, |vector| {
         let moving: Vec<&str> =
             vector.iter().zip(&names).filter(|(c, _)| **c != Residue::ZERO).map(|(_, name)| *name).collect();
         direction(&moving)
@@ -42,9 +44,14 @@ pub fn saddle_regularity(
 
 fn direction(moving: &[&str]) -> String {
     match moving {
-        [only] => format!("the velocity `{only}` carries no inertia that the constraints leave"),
+        [only] => format!("the Lagrangian gives the velocity `{only}` no inertia there"),
         [] => "the constraint forces are not determined".into(),
-        several => format!("a combination of the velocities {} carries no inertia", listed(several)),
+        several => {
+            format!(
+                "the Lagrangian gives a combination of the velocities {} no inertia there",
+                listed(several)
+            )
+        }
     }
 }
 
@@ -52,6 +59,7 @@ fn judge(
     model: &Model,
     matrix: &Matrix,
     size: usize,
+    what: &str,
     evidence: impl Fn(&[Residue]) -> String,
 ) -> Option<Violation> {
     let graph: &Graph = &model.graph;
@@ -77,10 +85,7 @@ fn judge(
     Some(Violation {
         law: Law::Regularity,
         origin,
-        what: format!(
-            "the mass matrix is singular on the constraint distribution: its rank is {} of {size}",
-            echelon.rank()
-        ),
+        what: format!("{what} {} of {size}", echelon.rank()),
         evidence,
         way_out: "give that motion a kinetic energy in the Lagrangian, or constrain it".into(),
     })

@@ -8,9 +8,11 @@ use crate::check;
 use crate::geometry::ConstraintDistribution;
 use crate::id::{ExprId, Id};
 use crate::mechanics::{
-    Flow, Procedure, ReducedEquations, definiteness, energy, reduced_equations, solve_symmetric,
+    Flow, Procedure, ReducedEquations, definiteness, energy, equations_by_velocity_forms, reduced_equations,
+    solve_symmetric,
 };
 use crate::model::{Formulation, Request};
+use crate::program::{Cost, schedule};
 use crate::report::{Derived, equations_of_motion, report};
 use crate::system::System;
 use crate::violation::Violation;
@@ -27,17 +29,18 @@ pub(super) fn derive(
     let singular = check::reduced_regularity(&mut proved.model, &equations, &proved.base);
     fence(singular.into_iter().collect())?;
     // 2. v̇
-    let parameters: Vec<_> = proved.model.parameters.iter().map(|parameter| parameter.symbol).collect();
-    let definite = definiteness(&proved.model.graph, &equations.mass, &parameters, &proved.facts);
     let velocities = &proved.system.algebroid.velocities;
-    let mut restriction = distribution.restriction(&mut proved.model.graph, velocities);
-    let mut derivative = calls(&mut proved.model, &mut proved.motion, &mut restriction);
-    let graph = &mut proved.model.graph;
-    let accelerations =
-        solve_symmetric(graph, &equations.mass, &equations.force, definite, &mut derivative, "v_dot");
+    let mut restriction = distribution.restriction(&proved.model.graph, velocities);
+    let calls = calls(&mut proved.model, &mut proved.motion, &mut restriction);
+    let derivative = cheapest_derivative(&mut proved, distribution, &equations, &calls);
     let (multipliers, reactions) =
-        constraint_forces(graph, distribution, &equations, &derivative, &accelerations);
-    derivative.outputs = equations.rates.iter().chain(&accelerations).copied().collect();
+        if requested(&proved.model, Request::Multipliers) || requested(&proved.model, Request::Reactions) {
+            let accelerations = &derivative.outputs[equations.rates.len()..];
+            constraint_forces(&mut proved.model.graph, distribution, &equations, &derivative, accelerations)
+        } else {
+            Default::default()
+        };
+    let graph = &mut proved.model.graph;
     // 3. E_L, y and the observables on D
     let energy = energy(graph, &proved.system);
     let energy = restriction.apply(graph, energy);
@@ -50,8 +53,10 @@ pub(super) fn derive(
         .iter()
         .map(|claim| in_state(&mut proved.model.graph, &mut proved.motion, &mut restriction, claim.value))
         .collect();
-    let flow = Flow::of(&mut proved.model.graph, &derivative, &proved.system, &equations.independent);
-    fence(check::claims(&mut proved.model, &claims, flow, &proved.base))?;
+    if !claims.is_empty() {
+        let flow = Flow::of(&mut proved.model.graph, &derivative, &proved.system, &equations.independent);
+        fence(check::claims(&mut proved.model, &claims, flow, &proved.base))?;
+    }
     // 5. the report
     let embedding = embedding(&mut proved.model, &proved.base);
     let derived = Derived::Adapted { distribution, equations: &equations };
@@ -75,6 +80,35 @@ pub(super) fn derive(
         equations: lines,
         model,
     })
+}
+
+/// The derivative by whichever form of the equations takes less work.
+fn cheapest_derivative(
+    proved: &mut Proved,
+    distribution: &ConstraintDistribution,
+    equations: &ReducedEquations,
+    calls: &Procedure,
+) -> Procedure {
+    let graph = &mut proved.model.graph;
+    let by_forms = equations_by_velocity_forms(graph, &proved.system, distribution);
+    let residuals = &proved.constraints.residuals;
+    let chained = distribution.chained(graph, residuals, &proved.system.algebroid.velocities);
+    let by_chain = equations_by_velocity_forms(graph, &proved.system, &chained);
+    let parameters: Vec<_> = proved.model.parameters.iter().map(|parameter| parameter.symbol).collect();
+    let mut best: Option<(usize, Procedure)> = None;
+    for candidate in [equations, &by_forms, &by_chain] {
+        let definite = definiteness(&proved.model.graph, &candidate.mass, &parameters, &proved.facts);
+        let graph = &mut proved.model.graph;
+        let mut procedure = calls.clone();
+        let accelerations =
+            solve_symmetric(graph, &candidate.mass, &candidate.force, definite, &mut procedure, "v_dot");
+        procedure.outputs = candidate.rates.iter().chain(&accelerations).copied().collect();
+        let cost = Cost::of(&schedule(graph, &procedure)).weighted();
+        if best.as_ref().is_none_or(|(least, _)| cost < *least) {
+            best = Some((cost, procedure));
+        }
+    }
+    best.map(|(_, procedure)| procedure).unwrap_or_default()
 }
 
 /// λ and λ_A Φ^A_α from δL_α − Υ_α = λ_A Φ^A_α, mathematics (7), at the accelerations found.

@@ -54,7 +54,7 @@ pub fn compile(mut model: Model) -> Result<System, Vec<Violation>> {
     let chosen = match spanned {
         Some(distribution) => {
             let reason = "the declared sections span D".into();
-            Chosen::Adapted { distribution, conditions: Vec::new(), reason }
+            Chosen::Adapted { distribution: Box::new(distribution), conditions: Vec::new(), reason }
         }
         None => check::choose_formulation(&mut model, &constraints, &facts, &base)?,
     };

@@ -1,7 +1,7 @@
 //! The constraint distribution D, by its annihilator and by a basis.
 
 use super::algebroid::Algebroid;
-use crate::algebra::{Graph, Matrix, Substitution, Verdict};
+use crate::algebra::{Derivation, Graph, Matrix, Substitution, Verdict};
 use crate::id::{ExprId, Id, SectionId, SymbolId};
 
 /// Constraints that are linear or affine in the velocities: Φ^A_α(t, x) y^α + b^A(t, x) = 0.
@@ -26,26 +26,49 @@ pub struct ConstraintDistribution {
     pub basis: Matrix,
     /// y₀.
     pub offset: Vec<ExprId>,
+    /// B v + y₀ at the velocity symbols.
+    pub velocity: Vec<ExprId>,
     /// What the solution of the constraints was divided by.
     pub pivots: Vec<ExprId>,
+    /// The constraints and dependent velocities of each block of the solution, by position.
+    blocks: Vec<(Vec<usize>, Vec<usize>)>,
+}
+
+/// B v + y₀.
+fn linear_velocity(
+    graph: &mut Graph,
+    independent: &[SymbolId],
+    basis: &Matrix,
+    offset: &[ExprId],
+) -> Vec<ExprId> {
+    let symbols: Vec<ExprId> = independent.iter().map(|symbol| graph.symbol(*symbol)).collect();
+    let linear: Vec<ExprId> = basis.iter().map(|row| graph.inner_product(row, &symbols)).collect();
+    linear.into_iter().zip(offset).map(|(y, offset)| graph.add(y, *offset)).collect()
 }
 
 impl ConstraintDistribution {
     /// All of E.
     pub fn unconstrained(graph: &mut Graph, velocities: &[SymbolId]) -> Self {
         let constraints = LinearConstraints { annihilator: Vec::new(), drift: Vec::new() };
-        let (independent, rank) = (velocities.to_vec(), velocities.len());
+        let rank = velocities.len();
         let (zero, one) = (graph.zero(), graph.one());
-        let basis =
-            (0..rank).map(|row| (0..rank).map(|column| if row == column { one } else { zero }).collect());
-        Self {
-            constraints,
-            independent,
-            dependent: Vec::new(),
-            basis: basis.collect(),
-            offset: vec![zero; rank],
-            pivots: Vec::new(),
-        }
+        let unit = |row: usize, column: usize| if row == column { one } else { zero };
+        let basis: Matrix =
+            (0..rank).map(|row| (0..rank).map(|column| unit(row, column)).collect()).collect();
+        Self::spanned(graph, constraints, velocities.to_vec(), basis)
+    }
+
+    /// D spanned by the columns of `basis`, without drift.
+    pub fn spanned(
+        graph: &mut Graph,
+        constraints: LinearConstraints,
+        independent: Vec<SymbolId>,
+        basis: Matrix,
+    ) -> Self {
+        let offset = vec![graph.zero(); basis.len()];
+        let velocity = linear_velocity(graph, &independent, &basis, &offset);
+        let (dependent, pivots, blocks) = (Vec::new(), Vec::new(), Vec::new());
+        Self { constraints, independent, dependent, basis, offset, velocity, pivots, blocks }
     }
 
     /// Solves the constraints for the dependent velocities. `None` if they do not determine them.
@@ -83,8 +106,11 @@ impl ConstraintDistribution {
             basis[section.index()] = negated;
         }
         let (dependent, pivots) = (dependent.to_vec(), solution.divisors);
-        let independent = independent.iter().map(|section| velocities[section.index()]).collect();
-        Some(Self { constraints, independent, dependent, basis, offset, pivots })
+        let independent: Vec<SymbolId> =
+            independent.iter().map(|section| velocities[section.index()]).collect();
+        let velocity = linear_velocity(graph, &independent, &basis, &offset);
+        let blocks = solution.blocks;
+        Some(Self { constraints, independent, dependent, basis, offset, velocity, pivots, blocks })
     }
 
     /// The rank r of D.
@@ -99,19 +125,42 @@ impl ConstraintDistribution {
         self.basis.iter().map(|row| row[a]).collect()
     }
 
-    /// y = B v + y₀ in the velocity symbols of the independent velocities.
-    pub fn velocity(&self, graph: &mut Graph) -> Vec<ExprId> {
-        let independent: Vec<ExprId> = self.independent.iter().map(|symbol| graph.symbol(*symbol)).collect();
-        let linear: Vec<ExprId> =
-            self.basis.iter().map(|row| graph.inner_product(row, &independent)).collect();
-        linear.into_iter().zip(&self.offset).map(|(y, offset)| graph.add(y, *offset)).collect()
+    /// The same D with the dependent velocities solved for one after the other, each in terms of
+    /// those before it: `residuals` are the constraints as they were written, so that a chain of
+    /// bodies stays a chain. B and y₀ are read off by differentiation.
+    #[must_use]
+    pub fn chained(&self, graph: &mut Graph, residuals: &[ExprId], velocities: &[SymbolId]) -> Self {
+        let mut velocity = self.velocity.clone();
+        let mut images: Vec<(SymbolId, ExprId)> = Vec::new();
+        let zero = graph.zero();
+        for (rows, unknowns) in &self.blocks {
+            for unknown in unknowns {
+                let section = self.dependent[*unknown].index();
+                if let ([row], [_]) = (rows.as_slice(), unknowns.as_slice()) {
+                    let without = images.iter().copied().chain([(velocities[section], zero)]);
+                    let rest = Substitution::new(without).apply(graph, residuals[*row]);
+                    let quotient = graph.div(rest, self.constraints.annihilator[*row][section]);
+                    velocity[section] = graph.neg(quotient);
+                }
+                images.push((velocities[section], velocity[section]));
+            }
+        }
+        let mut basis: Matrix = vec![Vec::new(); velocity.len()];
+        for symbol in &self.independent {
+            let mut along = Derivation::partial(graph, *symbol);
+            for (row, component) in basis.iter_mut().zip(&velocity) {
+                row.push(along.apply(graph, *component));
+            }
+        }
+        let offset = velocity.iter().map(|component| graph.at_zero(*component, &self.independent)).collect();
+        Self { basis, offset, velocity, ..self.clone() }
     }
 
     /// The restriction of functions on E to the constraint manifold: every quasi-velocity is
     /// replaced by its value there.
-    pub fn restriction(&self, graph: &mut Graph, velocities: &[SymbolId]) -> Substitution {
-        let velocity = self.velocity(graph);
-        let changed = velocities.iter().copied().zip(velocity);
+    #[must_use]
+    pub fn restriction(&self, graph: &Graph, velocities: &[SymbolId]) -> Substitution {
+        let changed = velocities.iter().copied().zip(self.velocity.iter().copied());
         Substitution::new(changed.filter(|(symbol, value)| graph.as_symbol(*value) != Some(*symbol)))
     }
 

@@ -35,7 +35,7 @@ pub fn reduced_equations(
     distribution: &ConstraintDistribution,
 ) -> ReducedEquations {
     let velocities = &system.algebroid.velocities;
-    let velocity = distribution.velocity(graph);
+    let velocity = distribution.velocity.clone();
     let mut restriction = distribution.restriction(graph, velocities);
     let balance = system.force_balance(graph, &velocity, &mut restriction);
     let independent = distribution.independent.clone();

@@ -10,6 +10,7 @@ mod moving_energy;
 mod procedure;
 mod projected;
 mod symmetric_solve;
+mod velocity_forms;
 
 pub use adapted::{ReducedEquations, reduced_equations};
 pub use complete_lift::complete_lift;
@@ -21,3 +22,4 @@ pub use moving_energy::moving_energy_section;
 pub use procedure::{Definition, Procedure};
 pub use projected::{SaddleEquations, saddle_equations};
 pub use symmetric_solve::{Definiteness, Factorisation, solve_symmetric};
+pub use velocity_forms::equations_by_velocity_forms;
