@@ -31,7 +31,7 @@ fn stages(model: &mut Model) -> (LagrangianSystem, ConstraintDistribution) {
             forces_on_distribution: Vec::new(),
             time: model.time,
         },
-        distribution,
+        *distribution,
     )
 }
 
