@@ -141,6 +141,17 @@ mod tests {
     }
 
     #[test]
+    fn identities_hold_to_their_tolerance() {
+        let check = |distance: f64| {
+            check_identities([3.0, 4.0], [3.0, 4.0 - distance], [("a = 0", 0.1), ("b = 0", -distance)])
+        };
+        assert_eq!(check(3.9e-6), Ok(()));
+        assert_eq!(check(4.1e-6), Err(StateFault { identity: "a = 0", residual: 0.1 }));
+        assert_eq!(check(0.5), Err(StateFault { identity: "b = 0", residual: -0.5 }));
+        assert!(check(f64::NAN).is_err());
+    }
+
+    #[test]
     fn what_does_not_settle_is_given_up() {
         let error = project([1.0_f32], |_, [x]| [-x], |_| [2.0]).unwrap_err();
         assert_eq!(error, ProjectionError { iterations: 50, residual: 2.0 });

@@ -60,6 +60,22 @@ impl Metric for SnakeboardOnThePlane {
     }
 }
 
+/// A blade over any scalar, with a sphere of directions that it need not turn with.
+#[nonholonomic(
+    base { theta, x, y, g[2] }
+    on { g[0]^2 + g[1]^2 = 1; }
+    basis { omega, u, v }
+    anchor { der(theta) = omega; der(x) = u; der(y) = v; der(g[0]) = -g[1] * omega; der(g[1]) = g[0] * omega; }
+    formulation { projected }
+    lagrangian { m / 2 * (u^2 + v^2) + omega^2 / 2 }
+    constraints { cos(theta) * v = sin(theta) * u; }
+    emit { multipliers, reactions }
+)]
+#[derive(Clone, Copy, Debug)]
+struct Blade<T> {
+    m: T,
+}
+
 const MARBLE: Marble = Marble { m: 1.3, g: 9.8, c: 2.0 };
 const FERRY: Ferry = Ferry { m: 2.0, J: 0.3, u: 0.7 };
 const BOARD: SnakeboardOnThePlane = SnakeboardOnThePlane { m: 6.0, l: 0.3, J0: 0.16, J1: 0.04 };
@@ -174,6 +190,21 @@ fn residuals_have_the_names_of_the_constraints() {
     let state = SnakeboardOnThePlaneState { y_dot: 1.0, theta_dot: 1.0, ..Default::default() };
     let residual = BOARD.constraint_residual(0.0, &state);
     assert!((residual.wheel_back - 0.7).abs() < 1e-15 && (residual.wheel_front - 1.3).abs() < 1e-15);
+}
+
+#[test]
+fn any_scalar_is_projected() {
+    let blade = Blade { m: 2.0_f32 };
+    let mut state = BladeState { theta: 0.3, u: 1.0, v: 1.5, g: [0.3, 0.5], ..BladeState::default() };
+    assert!((blade.constraint_residual(0.0, &state).constraint_1 - 1.137_484).abs() < 1e-6);
+    blade.project(0.0, &mut state).unwrap();
+    let left = Constrained::constraint_residual(&blade, 0.0, &state);
+    assert!(left.iter().all(|r| r.abs() < 2e-7), "{left:?}");
+    let error = Integrator::new(blade, Rk4::new(0.1), 0.0, BladeState { g: [0.9, 0.0], ..state }).step();
+    assert!(matches!(error, Err(IntegrationError::InvalidState(_))));
+    let mut sim = Integrator::new(blade, Projected::new(Rk4::new(0.01), 5), 0.0, state);
+    sim.advance_to(10.0).unwrap();
+    assert_eq!(sim.statistics().projections, 200);
 }
 
 #[test]

@@ -6,8 +6,9 @@ use crate::{Constrained, IntegrationError, Real, Scalar, ScalarOf, State, Statis
 
 /// A method whose state is projected back to the constraint manifold after every few steps.
 ///
-/// In the projected formulation the constraints are invariants of the equations, and a numerical
-/// solution drifts off them by the method's error (Hairer, Lubich, Wanner, Geometric Numerical
+/// In the projected formulation the constraints are invariants of the equations, as the identities of
+/// embedded coordinates are in every one, and a numerical solution drifts off them by the method's
+/// error (Hairer, Lubich, Wanner, Geometric Numerical
 /// Integration, section IV.4). The projection keeps the order of the method. It comes after the
 /// method's own error estimate, changes the state at the end of a step and nothing before it, and
 /// makes the method drop what it has stored about the state; dense output leads to the corrected
