@@ -94,7 +94,7 @@ impl Context {
         let error = Diagnostic::new(at, format!("{role}`{written}` cannot be used in `{keyword}`"));
         Err(match (usage, self) {
             (Usage::Velocity | Usage::Rate, Self::On) => error
-                .evidence("identities are functions on the base: of the base coordinates and the parameters")
+                .evidence("identities are functions of the base coordinates")
                 .way_out("relations between velocities have their place in `constraints`"),
             (Usage::Velocity, _) => error
                 .evidence("a quasi-velocity is defined as a combination of the `der(…)`")

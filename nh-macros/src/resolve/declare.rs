@@ -73,7 +73,11 @@ impl Resolver {
     /// One declared name.
     fn family(&mut self, declared: &Declared, role: Role) -> Outcome<()> {
         let checked = self.scope.check_new(&declared.name);
-        self.keep(&declared.name, checked)?;
+        if let Err(reported) = self.keep(&declared.name, checked) {
+            // which of its meanings a use has is not known: uses are silent
+            self.scope.insert(declared.name.text.clone(), Meaning::Broken);
+            return Err(reported);
+        }
         let text = &declared.name.text;
         let named = self.enter(text, Shape::of(&declared.lengths), role, declared.extent)?;
         let outcome = self.scope.declare(&declared.name, Meaning::Named(Rc::new(named)));

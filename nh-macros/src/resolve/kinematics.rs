@@ -143,7 +143,11 @@ impl Resolver {
         if whole && count != wanted && declaration.sections.base.is_some() {
             let error = Diagnostic::new(
                 velocities.keyword.extent(),
-                format!("the coframe is not square: {count} quasi-velocities for {wanted} base coordinates"),
+                format!(
+                    "the coframe is not square: {count} quasi-{} for {wanted} base {}",
+                    if count == 1 { "velocity" } else { "velocities" },
+                    if wanted == 1 { "coordinate" } else { "coordinates" },
+                ),
             )
             .way_out("define one quasi-velocity for each base coordinate, or use `basis` and `anchor`");
             self.report(&velocities.keyword, error);

@@ -19,6 +19,12 @@ impl Resolver {
         for ((kind, factor), value) in factors.iter().zip(values) {
             match (kind, value.as_number()) {
                 (Factor::Times, Some(number)) => numbers.push((number, Rational::ONE)),
+                (Factor::Over, Some(number)) if self.graph.is_literal_zero(number) => {
+                    let error = Diagnostic::new(factor.extent, "a division by zero")
+                        .evidence("this denominator is 0 at all times")
+                        .way_out("write one that is not");
+                    return Err(self.report(factor, error));
+                }
                 (Factor::Over, Some(number)) => numbers.push((number, Rational::MINUS_ONE)),
                 (Factor::Times, None) => arrays.push((factor, value)),
                 (Factor::Over, None) => {

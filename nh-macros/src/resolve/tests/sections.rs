@@ -104,7 +104,7 @@ fn coframes() {
     assert_errors(&[
         (
             "base { x, y } velocities { w = der(x); } lagrangian { w^2 }",
-            "the coframe is not square: 1 quasi-velocities for 2 base coordinates\nhelp: define one quasi-velocity \
+            "the coframe is not square: 1 quasi-velocity for 2 base coordinates\nhelp: define one quasi-velocity \
              for each base coordinate, or use `basis` and `anchor`",
         ),
         (
