@@ -219,6 +219,8 @@ pub enum Relation {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 #[non_exhaustive]
 pub enum Request {
+    /// ∂derivative/∂state and ∂derivative/∂input.
+    Jacobian,
     /// The multipliers λ_A.
     Multipliers,
     /// The reaction forces λ_A ∂φ^A/∂y^α along the sections.

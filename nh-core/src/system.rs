@@ -25,6 +25,8 @@ pub struct System {
     pub multipliers: Option<Procedure>,
     /// Outputs: the reaction force along every section; if asked for.
     pub reactions: Option<Procedure>,
+    /// Outputs: ∂derivative/∂(state, input) row by row; if asked for.
+    pub jacobian: Option<Procedure>,
     /// Outputs: φ^A for every constraint; in the projected formulation.
     pub residual: Option<Procedure>,
     /// The way back to the constraint manifold; in the projected formulation.

@@ -38,6 +38,11 @@ impl Derivation {
         Self::new([(symbol, one)])
     }
 
+    /// Adds a seed for a symbol that has not occurred so far.
+    pub fn insert(&mut self, symbol: SymbolId, seed: ExprId) {
+        self.seeds.insert(symbol, seed);
+    }
+
     /// The derivative of `expression`.
     pub fn apply(&mut self, graph: &mut Graph, expression: ExprId) -> ExprId {
         if let Some(&known) = self.known.get(&expression) {

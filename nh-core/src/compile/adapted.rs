@@ -1,7 +1,7 @@
 //! The functions of a system in the adapted formulation.
 
 use super::embedded::embedding;
-use super::restricted::{calls, in_state, observables, parameter_checks, requested};
+use super::restricted::{calls, in_state, observables, parameter_checks, requested, requested_jacobian};
 use super::{Proved, fence};
 use crate::algebra::Graph;
 use crate::check;
@@ -40,6 +40,8 @@ pub(super) fn derive(
         } else {
             Default::default()
         };
+    let jacobian = requested_jacobian(&mut proved.model, &derivative, &distribution.independent)
+        .map_err(|violation| vec![violation])?;
     let graph = &mut proved.model.graph;
     // 3. E_L, y and the observables on D
     let energy = energy(graph, &proved.system);
@@ -72,6 +74,7 @@ pub(super) fn derive(
         observables,
         multipliers: requested(&model, Request::Multipliers).then_some(multipliers),
         reactions: requested(&model, Request::Reactions).then_some(reactions),
+        jacobian,
         residual: None,
         projection: None,
         embedding,

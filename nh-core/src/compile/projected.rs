@@ -1,7 +1,7 @@
 //! The functions of a system in the projected formulation.
 
 use super::embedded::embedding;
-use super::restricted::{calls, in_state, observables, requested};
+use super::restricted::{calls, in_state, observables, requested, requested_jacobian};
 use super::{Proved, fence};
 use crate::algebra::{Graph, Matrix, Substitution};
 use crate::check;
@@ -51,6 +51,8 @@ pub(super) fn derive(mut proved: Proved, reason: &str) -> Result<System, Vec<Vio
     let velocities = proved.system.algebroid.velocities.clone();
     let flow = Flow::of(&mut proved.model.graph, &derivative, &proved.system, &velocities);
     fence(check::claims(&mut proved.model, &claims, flow, &proved.constraints.manifold))?;
+    let jacobian = requested_jacobian(&mut proved.model, &derivative, &velocities)
+        .map_err(|violation| vec![violation])?;
     // 5. the way back to the constraint manifold
     let projection = projection(&mut proved.model, &velocities, &equations, &residuals, judge);
     // 6. the report
@@ -68,6 +70,7 @@ pub(super) fn derive(mut proved: Proved, reason: &str) -> Result<System, Vec<Vio
         observables,
         multipliers: requested(&model, Request::Multipliers).then_some(multipliers),
         reactions: requested(&model, Request::Reactions).then_some(reactions),
+        jacobian,
         residual: Some(Procedure::of(residuals)),
         projection: Some(projection),
         embedding,

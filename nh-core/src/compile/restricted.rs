@@ -2,10 +2,11 @@
 
 use crate::algebra::{Graph, Substitution};
 use crate::check::Motion;
-use crate::id::ExprId;
-use crate::mechanics::{Definition, Procedure};
+use crate::id::{ExprId, SymbolId};
+use crate::mechanics::{Definition, NotDifferentiable, Procedure, jacobian};
 use crate::model::{Model, Request};
 use crate::system::ParameterCheck;
+use crate::violation::{Law, Violation};
 
 /// The declared observables.
 pub(super) fn observables(
@@ -60,4 +61,35 @@ pub(super) fn parameter_checks(model: &Model, conditions: &[ExprId]) -> Vec<Para
 /// Whether the declaration asks for something.
 pub(super) fn requested(model: &Model, request: Request) -> bool {
     model.requests.iter().any(|(asked, _)| *asked == request)
+}
+
+/// ∂derivative/∂(coordinates, velocities of the state, inputs), if the declaration asks for it.
+///
+/// # Errors
+/// Where the derivative of a method of the user's is missing.
+pub(super) fn requested_jacobian(
+    model: &mut Model,
+    derivative: &Procedure,
+    velocities: &[SymbolId],
+) -> Result<Option<Procedure>, Violation> {
+    let Some((_, origin)) = model.requests.iter().find(|(request, _)| *request == Request::Jacobian) else {
+        return Ok(None);
+    };
+    let coordinates = model.coordinates.iter().map(|coordinate| coordinate.symbol);
+    let inputs = model.inputs.iter().map(|input| input.symbol);
+    let arguments: Vec<SymbolId> = coordinates.chain(velocities.iter().copied()).chain(inputs).collect();
+    let origin = *origin;
+    jacobian(&mut model.graph, derivative, &arguments).map(Some).map_err(|NotDifferentiable { method }| {
+        Violation {
+            law: Law::Force,
+            origin,
+            what: "the Jacobian cannot be derived".into(),
+            evidence: format!(
+                "a force calls `self.{method}`, which is no formula, with arguments that change"
+            ),
+            way_out: format!(
+                "give its derivatives in `derivative {{ {method}: […]; }}`, or leave `jacobian` out"
+            ),
+        }
+    })
 }

@@ -136,6 +136,7 @@ impl Builder {
             reactions: None,
             residual: None,
             projection: None,
+            jacobian: None,
             embedding: None,
             parameter_checks: nonzero
                 .iter()

@@ -1,0 +1,87 @@
+//! Exact derivatives of generated functions with respect to their arguments.
+
+use super::procedure::{Definition, Procedure};
+use crate::algebra::{Derivation, Graph};
+use crate::id::{ExprId, SymbolId};
+
+/// What keeps a function from being differentiated.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct NotDifferentiable {
+    /// The method of the user's on which a derivative is missing.
+    pub method: String,
+}
+
+/// The derivatives of all outputs with respect to all `arguments`, row by row: one row for each
+/// output. Intermediate results are differentiated one by one, so that they stay shared.
+///
+/// # Errors
+/// Where an output depends on an argument through a method of the user's.
+pub fn jacobian(
+    graph: &mut Graph,
+    procedure: &Procedure,
+    arguments: &[SymbolId],
+) -> Result<Procedure, NotDifferentiable> {
+    let mut result = procedure.clone();
+    let mut columns: Vec<Vec<ExprId>> = Vec::with_capacity(arguments.len());
+    for argument in arguments {
+        let mut along = Derivation::partial(graph, *argument);
+        for definition in &procedure.definitions {
+            differentiate(graph, definition, &mut along, &mut result)?;
+        }
+        columns.push(procedure.outputs.iter().map(|output| along.apply(graph, *output)).collect());
+    }
+    result.outputs = Graph::transposed(&columns).concat();
+    Ok(result)
+}
+
+/// Adds the derivative of an intermediate result, and makes it known to the derivation.
+fn differentiate(
+    graph: &mut Graph,
+    definition: &Definition,
+    along: &mut Derivation,
+    result: &mut Procedure,
+) -> Result<(), NotDifferentiable> {
+    match definition {
+        Definition::Value { symbol, value } => {
+            let change = along.apply(graph, *value);
+            let name = format!("d_{}", graph.symbols()[*symbol]);
+            let change = result.define(graph, &name, change);
+            along.insert(*symbol, change);
+        }
+        Definition::Call { method, arguments, .. } => {
+            for argument in arguments {
+                let change = along.apply(graph, *argument);
+                if !graph.is_literal_zero(change) {
+                    return Err(NotDifferentiable { method: method.clone() });
+                }
+            }
+        }
+        // M x = r: M ∂x = ∂r − ∂M x
+        Definition::Solve { unknowns, matrix, right } => {
+            let solution: Vec<ExprId> = unknowns.iter().map(|symbol| graph.symbol(*symbol)).collect();
+            let mut changed = Vec::with_capacity(right.len());
+            for (row, entry) in matrix.iter().zip(right) {
+                let moved: Vec<ExprId> = row.iter().map(|entry| along.apply(graph, *entry)).collect();
+                let moved = graph.inner_product(&moved, &solution);
+                let change = along.apply(graph, *entry);
+                changed.push(graph.sub(change, moved));
+            }
+            if changed.iter().all(|change| graph.is_literal_zero(*change)) {
+                return Ok(());
+            }
+            let names: Vec<String> =
+                unknowns.iter().map(|symbol| format!("d_{}", graph.symbols()[*symbol])).collect();
+            let changes: Vec<SymbolId> = names.into_iter().map(|name| graph.new_symbol(name)).collect();
+            for (unknown, change) in unknowns.iter().zip(&changes) {
+                let change = graph.symbol(*change);
+                along.insert(*unknown, change);
+            }
+            result.definitions.push(Definition::Solve {
+                unknowns: changes,
+                matrix: matrix.clone(),
+                right: changed,
+            });
+        }
+    }
+    Ok(())
+}
