@@ -1,0 +1,11 @@
+use nh_runtime::prelude::*;
+
+#[nonholonomic(
+    base { x, y }
+    basis { v, w }
+    anchor { der(x) = v; der(y) = der(x); }
+    lagrangian { m / 2 * (v^2 + w^2) }
+)]
+struct S { m: f64 }
+
+fn main() {}

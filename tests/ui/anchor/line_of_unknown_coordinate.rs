@@ -1,0 +1,11 @@
+use nh_runtime::prelude::*;
+
+#[nonholonomic(
+    base { theta }
+    basis { omega }
+    anchor { der(tehta) = omega; }
+    lagrangian { m / 2 * omega^2 }
+)]
+struct S { m: f64 }
+
+fn main() {}

@@ -1,0 +1,10 @@
+use nh_runtime::prelude::*;
+
+#[nonholonomic(
+    base { x }
+    anchor { der(x) = m; }
+    lagrangian { m / 2 * der(x)^2 }
+)]
+struct S { m: f64 }
+
+fn main() {}

@@ -1,0 +1,10 @@
+use nh_runtime::prelude::*;
+
+#[nonholonomic(
+    base { x }
+    lagrangian { m / 2 * der(x)^2 }
+    assume { m > 1; m < 0; }
+)]
+struct S { m: f64 }
+
+fn main() {}

@@ -1,0 +1,10 @@
+use nh_runtime::prelude::*;
+
+#[nonholonomic(
+    basis { a, b, c }
+    brackets { [a, b] = c; [b, a] = c; }
+    lagrangian { m / 2 * (a^2 + b^2 + c^2) }
+)]
+struct S { m: f64 }
+
+fn main() {}

@@ -1,0 +1,11 @@
+use nh_runtime::prelude::*;
+
+#[nonholonomic(
+    base { x }
+    basis { v, spin }
+    anchor { der(x) = v; }
+    lagrangian { m / 2 * (v^2 + spin^2) }
+)]
+struct S { m: f64 }
+
+fn main() {}

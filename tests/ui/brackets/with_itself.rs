@@ -1,0 +1,10 @@
+use nh_runtime::prelude::*;
+
+#[nonholonomic(
+    basis { a, b }
+    brackets { [a, a] = b; }
+    lagrangian { m / 2 * (a^2 + b^2) }
+)]
+struct S { m: f64 }
+
+fn main() {}

@@ -1,0 +1,10 @@
+use nh_runtime::prelude::*;
+
+#[nonholonomic(
+    base { x }
+    lagrangian { m / 2 * der(x)^2 - m * x^2 }
+    conserved { momentum = m * der(x); }
+)]
+struct S { m: f64 }
+
+fn main() {}

@@ -1,0 +1,10 @@
+use nh_runtime::prelude::*;
+
+#[nonholonomic(
+    base { x, y, z }
+    lagrangian { m / 2 * (der(x)^2 + der(y)^2 + der(z)^2) }
+    constraints { der(x)^2 + der(y)^2 = 1; 2 * der(x)^2 + 2 * der(y)^2 = 2; }
+)]
+struct S { m: f64 }
+
+fn main() {}

@@ -1,0 +1,9 @@
+use nh_runtime::prelude::*;
+
+#[nonholonomic(
+    base { x, y }
+    lagrangian { m / 2 * (der(x)^2 + der(y)^2) - sin(x, y) }
+)]
+struct S { m: f64 }
+
+fn main() {}

@@ -1,0 +1,10 @@
+use nh_runtime::prelude::*;
+
+#[nonholonomic(
+    base { theta }
+    lagrangian { m / 2 * der(theta)^2 }
+    forces { theat: 1; }
+)]
+struct S { m: f64 }
+
+fn main() {}

@@ -1,0 +1,13 @@
+use nh_runtime::prelude::*;
+
+#[nonholonomic(
+    base { x, y }
+    basis { v, w }
+    anchor { der(x) = v; der(y) = w; }
+    distribution { v }
+    constraints { w = 0; }
+    lagrangian { m / 2 * (v^2 + w^2) }
+)]
+struct S { m: f64 }
+
+fn main() {}

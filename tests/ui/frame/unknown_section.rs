@@ -1,0 +1,12 @@
+use nh_runtime::prelude::*;
+
+#[nonholonomic(
+    base { x, y }
+    basis { v, w }
+    anchor { der(x) = v; der(y) = w; }
+    distribution { u }
+    lagrangian { m / 2 * (v^2 + w^2) }
+)]
+struct S { m: f64 }
+
+fn main() {}

@@ -1,0 +1,9 @@
+use nh_runtime::prelude::*;
+
+#[nonholonomic(
+    base { x }
+    lagrangian { der(x)^2 }
+)]
+struct S(f64);
+
+fn main() {}

@@ -1,0 +1,9 @@
+use nh_runtime::prelude::*;
+
+#[nonholonomic(
+    base { m }
+    lagrangian { der(m)^2 / 2 }
+)]
+struct S { m: f64 }
+
+fn main() {}

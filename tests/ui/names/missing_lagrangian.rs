@@ -1,0 +1,8 @@
+use nh_runtime::prelude::*;
+
+#[nonholonomic(
+    base { x }
+)]
+struct S { m: f64 }
+
+fn main() {}

@@ -1,0 +1,9 @@
+use nh_runtime::prelude::*;
+
+#[nonholonomic(
+    base { t }
+    lagrangian { m / 2 * der(t)^2 }
+)]
+struct S { m: f64 }
+
+fn main() {}

@@ -1,0 +1,9 @@
+use nh_runtime::prelude::*;
+
+#[nonholonomic(
+    base { phi }
+    lagrangian { m / 2 * der(psi)^2 }
+)]
+struct S { m: f64 }
+
+fn main() {}

@@ -1,0 +1,9 @@
+use nh_runtime::prelude::*;
+
+#[nonholonomic(
+    base { theta }
+    lagrangian { m / 2 * der(theta)^2 - m * cos(teta) }
+)]
+struct S { m: f64 }
+
+fn main() {}

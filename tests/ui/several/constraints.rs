@@ -1,0 +1,10 @@
+use nh_runtime::prelude::*;
+
+#[nonholonomic(
+    base { x, y, z }
+    lagrangian { m / 2 * (der(x)^2 + der(y)^2 + der(z)^2) }
+    constraints { x = 1; y^2 = z; z = t; }
+)]
+struct S { m: f64 }
+
+fn main() {}
