@@ -1,7 +1,7 @@
 //! Claimed first integrals: their derivative along the motion vanishes on the constraint manifold.
 
 use super::evidence::{not_zero, shown};
-use crate::algebra::Verdict;
+use crate::algebra::{Graph, Verdict, Witness};
 use crate::geometry::Manifold;
 use crate::id::ExprId;
 use crate::mechanics::Flow;
@@ -15,26 +15,19 @@ pub fn claims(model: &mut Model, claims: &[ExprId], mut flow: Flow, manifold: &M
         let graph = &mut model.graph;
         let rate = flow.derivative(graph, *claim);
         let verdict = manifold.zero_test(graph, rate);
-        if verdict.is_zero() {
-            continue;
-        }
         let rate = graph.simplify(rate);
         let declared = &model.claims[index];
+        let not_conserved = format!("`{}` is not conserved", declared.name);
         let (what, evidence) = match &verdict {
+            Verdict::Zero => continue,
             Verdict::NonZero(witness) if manifold.is_whole() => (
-                format!("`{}` is not conserved", declared.name),
+                not_conserved,
                 format!("its rate along the motion {}", not_zero(&model.graph, rate, witness)),
             ),
+            Verdict::NonZero(witness) => (not_conserved, on_manifold(&model.graph, rate, witness, manifold)),
             Verdict::Unknown(why) => (
                 format!("whether `{}` is conserved could not be decided", declared.name),
                 format!("its rate along the motion is {}: {why}", shown(&model.graph, rate)),
-            ),
-            _ => (
-                format!("`{}` is not conserved", declared.name),
-                format!(
-                    "its rate along the motion does not vanish where the constraints hold: {}",
-                    shown(&model.graph, rate)
-                ),
             ),
         };
         violations.push(Violation {
@@ -46,4 +39,24 @@ pub fn claims(model: &mut Model, claims: &[ExprId], mut flow: Flow, manifold: &M
         });
     }
     violations
+}
+
+/// The rate at a point where the constraints hold, in the symbols of the declaration.
+fn on_manifold(graph: &Graph, rate: ExprId, witness: &Witness, manifold: &Manifold) -> String {
+    let text = shown(graph, rate);
+    let symbols = graph.symbols_in(&[rate]);
+    match manifold.point(graph, witness, &symbols) {
+        Some(point) if symbols.len() <= 12 => {
+            let place: Vec<String> = point
+                .iter()
+                .map(|(symbol, value)| format!("{} = {value:.4}", graph.symbols()[*symbol]))
+                .collect();
+            let value = witness.value;
+            format!(
+                "its rate along the motion is {text}, where the constraints hold for example {value:.4} at {}",
+                place.join(", ")
+            )
+        }
+        _ => format!("its rate along the motion does not vanish where the constraints hold: {text}"),
+    }
 }

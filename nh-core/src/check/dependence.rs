@@ -24,11 +24,33 @@ pub(super) fn dependent_rows(
             Err(why) => return Some(undecided(model, &why)),
         };
         if found == rank {
-            return Some(dependency(model, rows, drift, count - 1));
+            let degenerate =
+                restricted[count - 1].iter().all(|entry| model.graph.zero_test(*entry).is_zero());
+            let index = count - 1;
+            return Some(if degenerate {
+                degenerate_constraint(model, index)
+            } else {
+                dependency(model, rows, drift, index)
+            });
         }
         rank = found;
     }
     None
+}
+
+/// A constraint whose derivative vanishes where it holds, such as a square.
+fn degenerate_constraint(model: &Model, index: usize) -> Violation {
+    let id = ConstraintId::from_index(index);
+    let name = name_of(model, id);
+    Violation {
+        law: Law::Independence,
+        origin: model.constraints[id].origin,
+        what: format!(
+            "{name} exerts no force: its derivative with respect to the velocities vanishes where it holds"
+        ),
+        evidence: format!("all ∂φ/∂y are 0 on {} = 0", shown(&model.graph, model.constraints[id].residual)),
+        way_out: "write it without the power, as `a = b` instead of `(a - b)^2 = 0`".into(),
+    }
 }
 
 fn undecided(model: &Model, why: &str) -> Violation {

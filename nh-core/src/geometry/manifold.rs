@@ -4,7 +4,7 @@
 //! Both are parametrised rationally where possible, by a square root where need be, so that a
 //! claim on the manifold becomes a claim about the parameters.
 
-use crate::algebra::{Graph, Matrix, Rational, Substitution, Verdict};
+use crate::algebra::{Graph, Matrix, Rational, Substitution, Verdict, Witness};
 use crate::id::{ExprId, SymbolId};
 
 /// A manifold, by symbols that are functions of the others.
@@ -75,6 +75,25 @@ impl Manifold {
     pub fn zero_test(&self, graph: &mut Graph, function: ExprId) -> Verdict {
         let restricted = self.restrict(graph, function);
         graph.zero_test(restricted)
+    }
+
+    /// The point of the manifold that belongs to values of the free symbols: the values of all
+    /// `symbols`, or `None` where one is no real number.
+    #[must_use]
+    pub fn point(
+        &self,
+        graph: &Graph,
+        witness: &Witness,
+        symbols: &[SymbolId],
+    ) -> Option<Vec<(SymbolId, f64)>> {
+        let free =
+            |symbol| witness.point.iter().find(|(known, _)| *known == symbol).map_or(f64::NAN, |(_, v)| *v);
+        let value = |symbol: SymbolId| match self.images.iter().find(|(solved, _)| *solved == symbol) {
+            Some((_, image)) => graph.evaluate(&[*image], free)[0].value,
+            None => free(symbol),
+        };
+        let values: Vec<(SymbolId, f64)> = symbols.iter().map(|symbol| (*symbol, value(*symbol))).collect();
+        values.iter().all(|(_, value)| value.is_finite()).then_some(values)
     }
 
     fn insert(&mut self, graph: &mut Graph, symbol: SymbolId, image: ExprId) {

@@ -1,6 +1,6 @@
 //! The equations of motion as lines of text.
 
-use super::{Derived, shown};
+use super::{Derived, combination, shown};
 use crate::algebra::Graph;
 use crate::id::{ConstraintId, ExprId, Id};
 use crate::model::Model;
@@ -36,7 +36,11 @@ pub fn equations_of_motion(model: &Model, derived: &Derived<'_>) -> Vec<String> 
             for (alpha, (row, force)) in equations.mass.iter().zip(&equations.force).enumerate() {
                 let reactions = reactions(model, &equations.jacobian, alpha);
                 let left = accelerations(graph, row, &names);
-                lines.push(format!("{left} = {}{reactions}", shown(graph, *force)));
+                let right = match (graph.is_literal_zero(*force), reactions.strip_prefix(" + ")) {
+                    (true, Some(alone)) => alone.to_owned(),
+                    _ => format!("{}{reactions}", shown(graph, *force)),
+                };
+                lines.push(format!("{left} = {right}"));
             }
             for (row, bias) in equations.jacobian.iter().zip(&equations.bias) {
                 lines.push(format!("{} = {}", accelerations(graph, row, &names), shown(graph, *bias)));
@@ -48,16 +52,8 @@ pub fn equations_of_motion(model: &Model, derived: &Derived<'_>) -> Vec<String> 
 
 /// `(m)*der(v1) + …`.
 fn accelerations(graph: &Graph, row: &[ExprId], names: &[&str]) -> String {
-    let terms: Vec<String> = row
-        .iter()
-        .zip(names)
-        .filter(|(entry, _)| !graph.is_literal_zero(**entry))
-        .map(|(entry, name)| match graph.as_number(*entry) {
-            Some(number) if number.is_one() => format!("der({name})"),
-            _ => format!("({})*der({name})", shown(graph, *entry)),
-        })
-        .collect();
-    if terms.is_empty() { "0".into() } else { terms.join(" + ") }
+    let names: Vec<String> = names.iter().map(|name| format!("der({name})")).collect();
+    combination(graph, row, &names)
 }
 
 /// ` + (…)*lambda_name` for each constraint.

@@ -69,25 +69,41 @@ pub(crate) fn report(
 }
 
 fn nonzero(graph: &Graph, conditions: &[ExprId]) -> Vec<String> {
-    conditions.iter().map(|condition| format!("{} != 0", shown(graph, *condition))).collect()
+    let mut lines: Vec<String> = Vec::new();
+    for condition in conditions {
+        let line = format!("{} != 0", shown(graph, *condition));
+        if !lines.contains(&line) {
+            lines.push(line);
+        }
+    }
+    lines
 }
 
 fn section_names(model: &Model) -> Vec<String> {
     model.sections.iter().map(|section| section.name.clone()).collect()
 }
 
-/// `coefficient*name + …`.
+/// `coefficient*name + …`, with signs in front.
 fn combination(graph: &Graph, coefficients: &[ExprId], names: &[String]) -> String {
-    let terms: Vec<String> = coefficients
-        .iter()
-        .zip(names)
-        .filter(|(coefficient, _)| !graph.is_literal_zero(**coefficient))
-        .map(|(coefficient, name)| match graph.as_number(*coefficient) {
-            Some(number) if number.is_one() => name.clone(),
-            _ => format!("({})*{name}", shown(graph, *coefficient)),
-        })
-        .collect();
-    if terms.is_empty() { "0".into() } else { terms.join(" + ") }
+    let mut text = String::new();
+    for (coefficient, name) in coefficients.iter().zip(names) {
+        if graph.is_literal_zero(*coefficient) {
+            continue;
+        }
+        let (negative, magnitude) = match graph.as_number(*coefficient) {
+            Some(number) if number.abs().is_one() => (number.is_negative(), name.clone()),
+            Some(number) => (number.is_negative(), format!("{}*{name}", number.abs())),
+            None => (false, format!("({})*{name}", shown(graph, *coefficient))),
+        };
+        text.push_str(match (text.is_empty(), negative) {
+            (true, false) => "",
+            (true, true) => "-",
+            (false, false) => " + ",
+            (false, true) => " - ",
+        });
+        text.push_str(&magnitude);
+    }
+    if text.is_empty() { "0".into() } else { text }
 }
 
 fn anchor(model: &Model, system: &LagrangianSystem) -> Vec<String> {
