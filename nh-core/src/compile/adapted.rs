@@ -8,8 +8,8 @@ use crate::check;
 use crate::geometry::ConstraintDistribution;
 use crate::id::{ExprId, Id};
 use crate::mechanics::{
-    Flow, Procedure, ReducedEquations, definiteness, energy, equations_by_velocity_forms, reduced_equations,
-    solve_symmetric,
+    Definition, Flow, Procedure, ReducedEquations, definiteness, energy, equations_by_velocity_forms,
+    reduced_equations, solve_symmetric,
 };
 use crate::model::{Formulation, Request};
 use crate::program::{Cost, schedule};
@@ -114,6 +114,28 @@ fn cheapest_derivative(
     best.map(|(_, procedure)| procedure).unwrap_or_default()
 }
 
+/// Forces of constraint are differences of inertial and applied forces, which may cancel. Where the
+/// accelerations put in and simplified give short expressions with no more rounding error, these
+/// are evaluated instead.
+fn without_cancellation(graph: &mut Graph, derivative: &Procedure, outputs: Vec<ExprId>) -> Procedure {
+    const SHORT: u64 = 240;
+    let procedure = derivative.with_outputs(outputs);
+    let written_out = procedure.written_out(graph);
+    if graph.operation_count(&written_out) > 2 * SHORT {
+        return procedure;
+    }
+    let simplified = graph.simplify_all(&written_out);
+    let accurate =
+        simplified.iter().zip(&written_out).all(|(short, long)| graph.error_growth(*short, *long) <= 1.0);
+    if accurate && graph.operation_count(&simplified) <= SHORT {
+        let mut short = Procedure::of(simplified);
+        let is_call = |definition: &&Definition| matches!(definition, Definition::Call { .. });
+        short.definitions.extend(derivative.definitions.iter().filter(is_call).cloned());
+        return short;
+    }
+    procedure
+}
+
 /// λ and λ_A Φ^A_α from δL_α − Υ_α = λ_A Φ^A_α, mathematics (7), at the accelerations found.
 fn constraint_forces(
     graph: &mut Graph,
@@ -144,5 +166,5 @@ fn constraint_forces(
         distribution.dependent.iter().map(|section| vec![reactions[section.index()]]).collect();
     let solved = graph.solve_linear(&matrix, &right).map(|solution| solution.values).unwrap_or_default();
     let multipliers = solved.into_iter().map(|row| row[0]).collect();
-    (derivative.with_outputs(multipliers), derivative.with_outputs(reactions))
+    (without_cancellation(graph, derivative, multipliers), without_cancellation(graph, derivative, reactions))
 }

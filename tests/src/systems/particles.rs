@@ -59,6 +59,7 @@ catalogued! {
     velocities { vx = der(x); vy = der(y); vz = der(z) - x * der(x); }
     lagrangian { m / 2 * (der(x)^2 + der(y)^2 + der(z)^2) }
     constraints { phi: vz = 0; }
+    emit { multipliers, reactions }
 )]
 #[derive(Clone, Copy, Debug)]
 pub struct ParticleXCoframe {
@@ -70,7 +71,8 @@ catalogued! {
     ParticleXCoframe { state: 5, sections: 3 } of "particle_zdot_x_xdot",
     parameters |p| ParticleXCoframe { m: p["m"] },
     state |s| [s["x"], s["y"], s["z"], s["vx"], s["vy"]],
-    velocity |s| [s["vx"], s["vy"], s["vz"]]
+    velocity |s| [s["vx"], s["vy"], s["vz"]],
+    multipliers [phi]
 }
 
 /// The particle with the integrable constraint ż = x ẋ in coordinates.
@@ -78,6 +80,7 @@ catalogued! {
     base { x, y, z }
     lagrangian { m / 2 * (der(x)^2 + der(y)^2 + der(z)^2) }
     constraints { phi: der(z) - x * der(x) = 0; }
+    emit { multipliers, reactions }
 )]
 #[derive(Clone, Copy, Debug)]
 pub struct ParticleX {
@@ -89,7 +92,8 @@ catalogued! {
     ParticleX { state: 5, sections: 3 } of "particle_zdot_x_xdot",
     parameters |p| ParticleX { m: p["m"] },
     state |s| [s["x"], s["y"], s["z"], s["vx"], s["vy"]],
-    velocity |s| [s["vx"], s["vy"], s["dz"]]
+    velocity |s| [s["vx"], s["vy"], s["dz"]],
+    multipliers [phi]
 }
 
 /// A particle in the plane under a central force, with the areal velocity r² θ̇ (CNS 5.1).
