@@ -4,7 +4,7 @@
 use super::dependence::dependent_rows;
 use super::evidence::shown;
 use super::kinematics::Motion;
-use crate::algebra::{Facts, Matrix, NotLinear};
+use crate::algebra::{Facts, Graph, Matrix, NotLinear};
 use crate::geometry::{Algebroid, LinearConstraints, Manifold};
 use crate::id::{ConstraintId, ExprId, Id, Origin, SymbolId};
 use crate::model::Model;
@@ -17,8 +17,9 @@ pub struct Constraints {
     pub residuals: Vec<ExprId>,
     /// Φ and b, if every constraint is linear or affine.
     pub linear: Option<LinearConstraints>,
-    /// The constraint manifold over the embedded base.
-    pub manifold: Manifold,
+    /// The embedded base, and the constraint manifold over it where it is known already.
+    base: Manifold,
+    known: Option<Manifold>,
 }
 
 impl Constraints {
@@ -26,7 +27,22 @@ impl Constraints {
     #[must_use]
     pub fn none(base: &Manifold) -> Self {
         let linear = LinearConstraints { annihilator: Vec::new(), drift: Vec::new() };
-        Self { residuals: Vec::new(), linear: Some(linear), manifold: base.clone() }
+        Self { residuals: Vec::new(), linear: Some(linear), base: base.clone(), known: Some(base.clone()) }
+    }
+
+    /// The constraint manifold over the embedded base.
+    pub fn manifold(&self, graph: &mut Graph, velocities: &[SymbolId]) -> Manifold {
+        if let Some(known) = &self.known {
+            return known.clone();
+        }
+        // linear constraints that are independent can be solved for velocities
+        solved_over(graph, &self.base, &self.residuals, velocities).unwrap_or_else(|_| self.base.clone())
+    }
+
+    /// Where matrices are regular that depend on velocities only as the constraints do: the
+    /// embedded base for linear constraints, the constraint manifold for nonlinear ones.
+    pub fn generic(&self) -> &Manifold {
+        self.known.as_ref().unwrap_or(&self.base)
     }
 }
 
@@ -69,10 +85,12 @@ pub fn constraints(
             return Err(violations);
         }
     }
-    let manifold = constraint_manifold(model, algebroid, base, &residuals).map_err(|v| vec![v])?;
+    let mut known = None;
     if linear.is_none() {
+        let manifold = constraint_manifold(model, algebroid, base, &residuals).map_err(|v| vec![v])?;
         let jacobian = fibre_jacobian(model, algebroid, &residuals);
         violations.extend(dependent_rows(model, &jacobian, None, &manifold));
+        known = Some(manifold);
     }
     if violations.is_empty()
         && !model.constraints.is_empty()
@@ -80,7 +98,8 @@ pub fn constraints(
     {
         violations.push(too_many(model));
     }
-    if violations.is_empty() { Ok(Constraints { residuals, linear, manifold }) } else { Err(violations) }
+    let base = base.clone();
+    if violations.is_empty() { Ok(Constraints { residuals, linear, base, known }) } else { Err(violations) }
 }
 
 fn all_affine(shapes: Vec<Shape>) -> Option<LinearConstraints> {
@@ -102,6 +121,26 @@ fn fibre_jacobian(model: &mut Model, algebroid: &Algebroid, residuals: &[ExprId]
         .collect()
 }
 
+/// Where functions vanish over the embedded base.
+fn solved_over(
+    graph: &mut Graph,
+    base: &Manifold,
+    residuals: &[ExprId],
+    velocities: &[SymbolId],
+) -> Result<Manifold, usize> {
+    let mut unknowns: Vec<SymbolId> = graph
+        .symbols_in(residuals)
+        .into_iter()
+        .filter(|symbol| !velocities.contains(symbol) && base.is_free(*symbol))
+        .collect();
+    unknowns.extend(velocities);
+    let solved = Manifold::where_zero(graph, residuals, velocities)
+        .or_else(|_| Manifold::where_zero(graph, residuals, &unknowns))?;
+    let mut manifold = base.clone();
+    manifold.extend(graph, &solved);
+    Ok(manifold)
+}
+
 /// Where the constraints hold over the embedded base: solved for velocities, or else for whatever
 /// else they can be solved for, since claims are about all parameters.
 fn constraint_manifold(
@@ -111,20 +150,8 @@ fn constraint_manifold(
     residuals: &[ExprId],
 ) -> Result<Manifold, Violation> {
     let graph = &mut model.graph;
-    let others: Vec<SymbolId> = graph
-        .symbols_in(residuals)
-        .into_iter()
-        .filter(|symbol| !algebroid.velocities.contains(symbol) && base.is_free(*symbol))
-        .collect();
-    let solved = Manifold::where_zero(graph, residuals, &algebroid.velocities).or_else(|_| {
-        Manifold::where_zero(graph, residuals, &[others, algebroid.velocities.clone()].concat())
-    });
-    match solved {
-        Ok(solved) => {
-            let mut manifold = base.clone();
-            manifold.extend(graph, &solved);
-            Ok(manifold)
-        }
+    match solved_over(graph, base, residuals, &algebroid.velocities) {
+        Ok(manifold) => Ok(manifold),
         Err(index) => {
             let id = ConstraintId::from_index(index);
             if let Some(violation) = contradiction(model, algebroid, residuals, id) {

@@ -17,6 +17,9 @@ pub(super) fn dependent_rows(
     manifold: &Manifold,
 ) -> Option<Violation> {
     let restricted = manifold.restrict_matrix(&mut model.graph, rows);
+    if model.graph.generic_rank(&restricted) == Ok(rows.len()) {
+        return None;
+    }
     let mut rank = 0;
     for count in 1..=restricted.len() {
         let found = match model.graph.generic_rank(&restricted[..count]) {

@@ -19,7 +19,7 @@ pub(super) fn derive(mut proved: Proved, reason: &str) -> Result<System, Vec<Vio
     // 1. the saddle equations, proved regular on the constraint manifold
     let residuals = proved.constraints.residuals.clone();
     let equations = saddle_equations(&mut proved.model.graph, &proved.system, &residuals);
-    let singular = check::saddle_regularity(&mut proved.model, &equations, &proved.constraints.manifold);
+    let singular = check::saddle_regularity(&mut proved.model, &equations, proved.constraints.generic());
     fence(singular.into_iter().collect())?;
     // 2. ẏ and λ
     let parameters: Vec<_> = proved.model.parameters.iter().map(|parameter| parameter.symbol).collect();
@@ -49,8 +49,12 @@ pub(super) fn derive(mut proved: Proved, reason: &str) -> Result<System, Vec<Vio
         .map(|claim| in_state(&mut proved.model.graph, &mut proved.motion, &mut everywhere, claim.value))
         .collect();
     let velocities = proved.system.algebroid.velocities.clone();
-    let flow = Flow::of(&mut proved.model.graph, &derivative, &proved.system, &velocities);
-    fence(check::claims(&mut proved.model, &claims, flow, &proved.constraints.manifold))?;
+    if !claims.is_empty() {
+        let graph = &mut proved.model.graph;
+        let flow = Flow::of(graph, &derivative, &proved.system, &velocities);
+        let manifold = proved.constraints.manifold(graph, &velocities);
+        fence(check::claims(&mut proved.model, &claims, flow, &manifold))?;
+    }
     let jacobian = requested_jacobian(&mut proved.model, &derivative, &velocities)
         .map_err(|violation| vec![violation])?;
     // 5. the way back to the constraint manifold

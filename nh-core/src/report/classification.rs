@@ -128,7 +128,8 @@ fn moving_energy(proved: &mut Proved) -> Option<String> {
         return None;
     }
     let parameters: Vec<SymbolId> = model.parameters.iter().map(|parameter| parameter.symbol).collect();
-    let section = moving_energy_section(graph, system, linear, &parameters, &constraints.manifold)?;
+    let manifold = constraints.manifold(graph, &system.algebroid.velocities);
+    let section = moving_energy_section(graph, system, linear, &parameters, &manifold)?;
     let names: Vec<String> = model.sections.iter().map(|section| section.name.clone()).collect();
     let section = combination(&model.graph, &section, &names);
     Some(format!("the moving energy E - xi.p with xi = {section} (Fassò, Sansonetto)"))
@@ -142,17 +143,23 @@ fn energy_is_conserved(proved: &mut Proved) -> bool {
     let mut terms = vec![time];
     terms.extend(&system.forces);
     terms.extend(system.forces_on_distribution.iter().map(|(_, value)| *value));
-    let velocities = system.algebroid.velocities.clone();
-    for residual in constraints.residuals.clone() {
-        let power: Vec<ExprId> = velocities
-            .iter()
-            .map(|symbol| {
-                let partial = graph.partial(residual, *symbol);
-                let velocity = graph.symbol(*symbol);
-                graph.mul(velocity, partial)
-            })
-            .collect();
-        terms.push(graph.sum(&power));
+    match &constraints.linear {
+        // y^α ∂φ^A/∂y^α = −b^A where φ^A = 0
+        Some(linear) => terms.extend(&linear.drift),
+        None => {
+            let velocities = system.algebroid.velocities.clone();
+            for residual in constraints.residuals.clone() {
+                let power: Vec<ExprId> = velocities
+                    .iter()
+                    .map(|symbol| {
+                        let partial = graph.partial(residual, *symbol);
+                        let velocity = graph.symbol(*symbol);
+                        graph.mul(velocity, partial)
+                    })
+                    .collect();
+                terms.push(graph.sum(&power));
+            }
+        }
     }
-    terms.into_iter().all(|term| constraints.manifold.zero_test(graph, term).is_zero())
+    terms.into_iter().all(|term| constraints.generic().zero_test(graph, term).is_zero())
 }
