@@ -9,7 +9,7 @@ use crate::geometry::ConstraintDistribution;
 use crate::id::{ExprId, Id};
 use crate::mechanics::{
     Definition, Flow, Procedure, ReducedEquations, definiteness, energy, equations_by_velocity_forms,
-    reduced_equations, solve_symmetric,
+    reaction_forces, reduced_equations, solve_symmetric,
 };
 use crate::model::{Formulation, Request};
 use crate::program::{Cost, schedule};
@@ -25,18 +25,19 @@ pub(super) fn derive(
     reason: &str,
 ) -> Result<System, Vec<Violation>> {
     // 1. C v̇ = f, proved regular
-    let equations = reduced_equations(&mut proved.model.graph, &proved.system, distribution);
-    let singular = check::reduced_regularity(&mut proved.model, &equations, &proved.base);
+    let mut candidates = candidates(&mut proved, distribution);
+    let singular = check::reduced_regularity(&mut proved.model, &candidates[0], &proved.base);
     fence(singular.into_iter().collect())?;
     // 2. v̇
     let velocities = &proved.system.algebroid.velocities;
     let mut restriction = distribution.restriction(&proved.model.graph, velocities);
     let calls = calls(&mut proved.model, &mut proved.motion, &mut restriction);
-    let derivative = cheapest_derivative(&mut proved, distribution, &equations, &calls);
+    let derivative = cheapest_derivative(&mut proved, &candidates, &calls);
+    let equations = candidates.swap_remove(0);
     let (multipliers, reactions) =
         if requested(&proved.model, Request::Multipliers) || requested(&proved.model, Request::Reactions) {
             let accelerations = &derivative.outputs[equations.rates.len()..];
-            constraint_forces(&mut proved.model.graph, distribution, &equations, &derivative, accelerations)
+            constraint_forces(&mut proved, distribution, &derivative, accelerations)
         } else {
             Default::default()
         };
@@ -46,7 +47,7 @@ pub(super) fn derive(
     // 3. E_L, y and the observables on D
     let energy = energy(graph, &proved.system);
     let energy = restriction.apply(graph, energy);
-    let energy = graph.simplify(energy);
+    let energy = if is_large(&proved) { energy } else { proved.model.graph.simplify(energy) };
     let observables = observables(&mut proved.model, &mut proved.motion, &mut restriction);
     // 4. the claims, along the flow
     let claims: Vec<ExprId> = proved
@@ -85,28 +86,41 @@ pub(super) fn derive(
     })
 }
 
+/// Lagrangians with more operations than this are not expanded: the equations are derived in
+/// velocity forms alone.
+const EXPANDED: u64 = 250;
+
+/// Whether expressions of the size of the Lagrangian are left as they are.
+fn is_large(proved: &Proved) -> bool {
+    proved.model.graph.operation_count(&[proved.system.lagrangian]) > EXPANDED
+}
+
+/// The equations in the forms worth comparing, the one to show first.
+fn candidates(proved: &mut Proved, distribution: &ConstraintDistribution) -> Vec<ReducedEquations> {
+    let is_large = is_large(proved);
+    let (system, graph) = (&proved.system, &mut proved.model.graph);
+    let chained = distribution.chained(graph, &proved.constraints.residuals, &system.algebroid.velocities);
+    let by_chain = equations_by_velocity_forms(graph, system, &chained);
+    if is_large {
+        return vec![by_chain];
+    }
+    let by_forms = equations_by_velocity_forms(graph, system, distribution);
+    vec![reduced_equations(graph, system, distribution), by_forms, by_chain]
+}
+
 /// The derivative by whichever form of the equations takes less work.
-fn cheapest_derivative(
-    proved: &mut Proved,
-    distribution: &ConstraintDistribution,
-    equations: &ReducedEquations,
-    calls: &Procedure,
-) -> Procedure {
-    let graph = &mut proved.model.graph;
-    let by_forms = equations_by_velocity_forms(graph, &proved.system, distribution);
-    let residuals = &proved.constraints.residuals;
-    let chained = distribution.chained(graph, residuals, &proved.system.algebroid.velocities);
-    let by_chain = equations_by_velocity_forms(graph, &proved.system, &chained);
+fn cheapest_derivative(proved: &mut Proved, candidates: &[ReducedEquations], calls: &Procedure) -> Procedure {
     let parameters: Vec<_> = proved.model.parameters.iter().map(|parameter| parameter.symbol).collect();
     let mut best: Option<(usize, Procedure)> = None;
-    for candidate in [equations, &by_forms, &by_chain] {
+    for candidate in candidates {
         let definite = definiteness(&proved.model.graph, &candidate.mass, &parameters, &proved.facts);
         let graph = &mut proved.model.graph;
         let mut procedure = calls.clone();
         let accelerations =
             solve_symmetric(graph, &candidate.mass, &candidate.force, definite, &mut procedure, "v_dot");
         procedure.outputs = candidate.rates.iter().chain(&accelerations).copied().collect();
-        let cost = Cost::of(&schedule(graph, &procedure)).weighted();
+        // a single candidate needs no comparison
+        let cost = if candidates.len() == 1 { 0 } else { Cost::of(&schedule(graph, &procedure)).weighted() };
         if best.as_ref().is_none_or(|(least, _)| cost < *least) {
             best = Some((cost, procedure));
         }
@@ -138,23 +152,14 @@ fn without_cancellation(graph: &mut Graph, derivative: &Procedure, outputs: Vec<
 
 /// λ and λ_A Φ^A_α from δL_α − Υ_α = λ_A Φ^A_α, mathematics (7), at the accelerations found.
 fn constraint_forces(
-    graph: &mut Graph,
+    proved: &mut Proved,
     distribution: &ConstraintDistribution,
-    equations: &ReducedEquations,
     derivative: &Procedure,
     accelerations: &[ExprId],
 ) -> (Procedure, Procedure) {
-    // 1. δL_α − Υ_α = rest_α + ∂p̂_α/∂v^b v̇^b
-    let reactions: Vec<ExprId> = equations
-        .rest
-        .iter()
-        .enumerate()
-        .map(|(alpha, rest)| {
-            let column: Vec<ExprId> = equations.inertia.iter().map(|row| row[alpha]).collect();
-            let inertial = graph.inner_product(&column, accelerations);
-            graph.add(*rest, inertial)
-        })
-        .collect();
+    let graph = &mut proved.model.graph;
+    // 1. δL_α − Υ_α
+    let reactions = reaction_forces(graph, &proved.system, distribution, accelerations);
     // 2. the dependent rows determine λ
     let annihilator = &distribution.constraints.annihilator;
     let matrix: Vec<Vec<ExprId>> = distribution

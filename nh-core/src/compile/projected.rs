@@ -40,6 +40,7 @@ pub(super) fn derive(mut proved: Proved, reason: &str) -> Result<System, Vec<Vio
     // 3. E_L, y and the observables
     let velocity = proved.system.algebroid.velocity(graph);
     let energy = energy(graph, &proved.system);
+    let energy = graph.simplify(energy);
     let observables = observables(&mut proved.model, &mut proved.motion, &mut everywhere);
     // 4. the claims, along the flow
     let claims: Vec<ExprId> = proved

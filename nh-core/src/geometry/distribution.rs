@@ -1,7 +1,7 @@
 //! The constraint distribution D, by its annihilator and by a basis.
 
 use super::algebroid::Algebroid;
-use crate::algebra::{Derivation, Graph, Matrix, Substitution, Verdict};
+use crate::algebra::{Derivation, Graph, Matrix, Solution, Substitution, Verdict};
 use crate::id::{ExprId, Id, SectionId, SymbolId};
 
 /// Constraints that are linear or affine in the velocities: Φ^A_α(t, x) y^α + b^A(t, x) = 0.
@@ -33,6 +33,9 @@ pub struct ConstraintDistribution {
     /// The constraints and dependent velocities of each block of the solution, by position.
     blocks: Vec<(Vec<usize>, Vec<usize>)>,
 }
+
+/// More constraints than this are solved in a chain where possible.
+const LARGE: usize = 4;
 
 /// B v + y₀.
 fn linear_velocity(
@@ -89,6 +92,11 @@ impl ConstraintDistribution {
                 .collect()
         };
         let matrix = columns(dependent);
+        // many constraints are solved one after the other where that is possible; see `chained`
+        let blocks = graph.solve_linear(&matrix, &vec![Vec::new(); matrix.len()])?;
+        if matrix.len() > LARGE && blocks.blocks.iter().all(|(rows, _)| rows.len() == 1) {
+            return Some(Self::in_chain(graph, constraints, dependent, velocities, blocks));
+        }
         let mut right = columns(&independent);
         for (row, drift) in right.iter_mut().zip(&constraints.drift) {
             row.push(*drift);
@@ -111,6 +119,34 @@ impl ConstraintDistribution {
         let velocity = linear_velocity(graph, &independent, &basis, &offset);
         let blocks = solution.blocks;
         Some(Self { constraints, independent, dependent, basis, offset, velocity, pivots, blocks })
+    }
+
+    /// D by the chain of its constraints alone.
+    fn in_chain(
+        graph: &mut Graph,
+        constraints: LinearConstraints,
+        dependent: &[SectionId],
+        velocities: &[SymbolId],
+        solution: Solution,
+    ) -> Self {
+        let symbols: Vec<ExprId> = velocities.iter().map(|symbol| graph.symbol(*symbol)).collect();
+        let linear: Vec<ExprId> =
+            constraints.annihilator.iter().map(|row| graph.inner_product(row, &symbols)).collect();
+        let residuals: Vec<ExprId> =
+            linear.into_iter().zip(&constraints.drift).map(|(row, drift)| graph.add(row, *drift)).collect();
+        let is_dependent = |index: &usize| dependent.contains(&SectionId::from_index(*index));
+        let independent = (0..velocities.len()).filter(|index| !is_dependent(index)).map(|i| velocities[i]);
+        let unsolved = Self {
+            constraints,
+            independent: independent.collect(),
+            dependent: dependent.to_vec(),
+            basis: Matrix::new(),
+            offset: Vec::new(),
+            velocity: symbols,
+            pivots: solution.divisors,
+            blocks: solution.blocks,
+        };
+        unsolved.chained(graph, &residuals, velocities)
     }
 
     /// The rank r of D.

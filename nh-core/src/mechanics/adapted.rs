@@ -16,10 +16,6 @@ pub struct ReducedEquations {
     pub rates: Vec<ExprId>,
     /// y = B v + y₀.
     pub velocity: Vec<ExprId>,
-    /// ∂p̂_α/∂v^b = W_{αβ} B^β_b: a row for each v^b.
-    pub inertia: Matrix,
-    /// δL_α − Υ_α without the terms in v̇.
-    pub rest: Vec<ExprId>,
     /// The velocities v.
     pub independent: Vec<SymbolId>,
 }
@@ -72,5 +68,30 @@ pub fn reduced_equations(
     }
     let rates = system.algebroid.rates(graph, &velocity);
     let rates = rates.into_iter().map(|rate| graph.simplify(rate)).collect();
-    ReducedEquations { mass, force, rates, velocity, inertia, rest: balance.rest, independent }
+    ReducedEquations { mass, force, rates, velocity, independent }
+}
+
+/// δL_α − Υ_α on D at given accelerations v̇: the force with which the constraints act along each
+/// section, mathematics (7).
+pub fn reaction_forces(
+    graph: &mut Graph,
+    system: &LagrangianSystem,
+    distribution: &ConstraintDistribution,
+    accelerations: &[ExprId],
+) -> Vec<ExprId> {
+    let mut restriction = distribution.restriction(graph, &system.algebroid.velocities);
+    let balance = system.force_balance(graph, &distribution.velocity, &mut restriction);
+    balance
+        .momenta
+        .iter()
+        .zip(&balance.rest)
+        .map(|(momentum, rest)| {
+            let mut total = vec![*rest];
+            for (symbol, acceleration) in distribution.independent.iter().zip(accelerations) {
+                let inertia = graph.partial(*momentum, *symbol);
+                total.push(graph.mul(inertia, *acceleration));
+            }
+            graph.sum(&total)
+        })
+        .collect()
 }

@@ -20,8 +20,7 @@ pub fn energy(graph: &mut Graph, system: &LagrangianSystem) -> ExprId {
             summands.push((-coefficient, term));
         }
     }
-    let energy = graph.linear_combination(&summands);
-    graph.simplify(energy)
+    graph.linear_combination(&summands)
 }
 
 /// `y^α ∂f/∂y^α`.

@@ -13,7 +13,7 @@ mod projected;
 mod symmetric_solve;
 mod velocity_forms;
 
-pub use adapted::{ReducedEquations, reduced_equations};
+pub use adapted::{ReducedEquations, reaction_forces, reduced_equations};
 pub use complete_lift::complete_lift;
 pub use definiteness::definiteness;
 pub use energy::energy;

@@ -91,7 +91,7 @@ fn linearity(
     }
 }
 
-/// The reduced equations in this form; the reactions are left to [`super::reduced_equations`].
+/// The reduced equations in this form.
 pub fn equations_by_velocity_forms(
     graph: &mut Graph,
     system: &LagrangianSystem,
@@ -163,7 +163,7 @@ pub fn equations_by_velocity_forms(
         force.push(graph.linear_combination(&total));
     }
     let rates = algebroid.rates(graph, &velocity);
-    ReducedEquations { mass, force, rates, velocity, inertia: Vec::new(), rest: Vec::new(), independent }
+    ReducedEquations { mass, force, rates, velocity, independent }
 }
 
 /// Whether dθ = 0 for θ(y) = `form`.
