@@ -69,7 +69,7 @@ impl Derivation {
                 let summands: Vec<_> = terms.iter().map(|(term, c)| (c.clone(), self.known[term])).collect();
                 graph.linear_combination(&summands)
             }
-            Node::Product { factors, .. } => self.of_product(graph, id, &factors),
+            Node::Product { coefficient, factors } => self.of_product(graph, &coefficient, &factors),
             Node::Apply(function, x) => {
                 let dx = self.known[&x];
                 if graph.is_literal_zero(dx) {
@@ -82,15 +82,23 @@ impl Derivation {
         }
     }
 
-    /// `d(c Π b^e) = Σ (c Π b^e) · e · db / b`.
-    fn of_product(&self, graph: &mut Graph, id: ExprId, factors: &[(ExprId, Rational)]) -> ExprId {
+    /// `d(c Π b^e) = Σ c e b^(e−1) db Π' b'^e'`: exponents are lowered, nothing is divided by b.
+    fn of_product(
+        &self,
+        graph: &mut Graph,
+        coefficient: &Rational,
+        factors: &[(ExprId, Rational)],
+    ) -> ExprId {
         let mut summands = Vec::new();
-        for (base, exponent) in factors {
+        for (position, (base, exponent)) in factors.iter().enumerate() {
             let derivative = self.known[base];
-            if !graph.is_literal_zero(derivative) {
-                let rest = graph.div(id, *base);
-                summands.push((exponent.clone(), graph.mul(rest, derivative)));
+            if graph.is_literal_zero(derivative) {
+                continue;
             }
+            let mut lowered = factors.to_vec();
+            lowered[position].1 = exponent.clone() - Rational::ONE;
+            lowered.push((derivative, Rational::ONE));
+            summands.push((coefficient.clone() * exponent.clone(), graph.product(&lowered)));
         }
         graph.linear_combination(&summands)
     }
@@ -159,5 +167,22 @@ impl Graph {
     /// `∂expression/∂symbol`.
     pub fn partial(&mut self, expression: ExprId, symbol: SymbolId) -> ExprId {
         Derivation::partial(self, symbol).apply(self, expression)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_power_is_not_divided_by_its_base() {
+        let mut g = Graph::new();
+        let x = g.new_symbol("x");
+        let ex = g.symbol(x);
+        let square = g.square(ex);
+        let cube_of_root = g.pow(square, Rational::new(3, 2));
+        let derivative = g.partial(cube_of_root, x);
+        assert_eq!(g.text(derivative), "3*x*sqrt(x^2)");
+        assert!(g.evaluate(&[derivative], |_| 0.0)[0].value == 0.0);
     }
 }

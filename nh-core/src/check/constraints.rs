@@ -41,6 +41,7 @@ impl Constraints {
 
     /// Where matrices are regular that depend on velocities only as the constraints do: the
     /// embedded base for linear constraints, the constraint manifold for nonlinear ones.
+    #[must_use]
     pub fn generic(&self) -> &Manifold {
         self.known.as_ref().unwrap_or(&self.base)
     }

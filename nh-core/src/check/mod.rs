@@ -23,5 +23,5 @@ pub use declared::declared_expressions;
 pub use embedding::embedding;
 pub use frame::{change_to_frame, spanned_distribution};
 pub use kinematics::{Motion, kinematics};
-pub use regularity::{reduced_regularity, saddle_regularity};
+pub use regularity::{reduced_regularity, saddle_regularity, singular_where};
 pub use structure_equations::structure_equations;

@@ -1,9 +1,10 @@
 //! Regularity: the equations determine the accelerations (CLMM Theorem 3.12, (7.5)).
 
 use super::evidence::listed;
-use crate::algebra::{Echelon, FieldPoint, Graph, Matrix, Residue};
+use crate::algebra::{Echelon, Facts, FieldPoint, Graph, Matrix, Node, Residue};
 use crate::geometry::Manifold;
-use crate::mechanics::{ReducedEquations, SaddleEquations};
+use crate::id::{ExprId, SymbolId};
+use crate::mechanics::{ReducedEquations, SaddleEquations, uncoupled};
 use crate::model::Model;
 use crate::violation::{Law, Violation};
 
@@ -89,4 +90,37 @@ fn judge(
         evidence,
         way_out: "give that motion a kinetic energy in the Lagrangian, or constrain it".into(),
     })
+}
+
+/// Where the mass matrix of a regular system is singular all the same, as far as short
+/// determinants tell: their factors of coordinates alone that may vanish.
+pub fn singular_where(
+    graph: &mut Graph,
+    mass: &Matrix,
+    parameters: &[SymbolId],
+    facts: &Facts,
+) -> Vec<ExprId> {
+    const SIZE: usize = 3;
+    const SHORT: u64 = 300;
+    let mut found: Vec<ExprId> = Vec::new();
+    for block in uncoupled(graph, mass).into_iter().filter(|block| block.len() <= SIZE) {
+        let inner: Matrix = block.iter().map(|i| block.iter().map(|j| mass[*i][*j]).collect()).collect();
+        if graph.operation_count(&inner.concat()) > SHORT {
+            continue;
+        }
+        let determinant = graph.small_determinant(&inner);
+        let factors = match graph.node(determinant).clone() {
+            Node::Product { factors, .. } => factors.into_vec(),
+            _ => vec![(determinant, 1.into())],
+        };
+        for (base, exponent) in factors {
+            let symbols = graph.symbols_in(&[base]);
+            let of_coordinates = !symbols.is_empty() && !symbols.iter().any(|s| parameters.contains(s));
+            let harmless = exponent.is_negative() || graph.vanishes_nowhere(base, facts);
+            if of_coordinates && !harmless && !found.contains(&base) {
+                found.push(base);
+            }
+        }
+    }
+    found
 }

@@ -29,12 +29,19 @@ impl Manifold {
             return Ok(rotations);
         }
         let mut manifold = Self::default();
-        for (index, function) in functions.iter().enumerate() {
-            let function = manifold.restrict(graph, *function);
-            if graph.zero_test(function) == Verdict::Zero {
-                continue;
-            }
-            manifold.solve(graph, function, unknowns).ok_or(index)?;
+        let mut open: Vec<usize> = (0..functions.len()).collect();
+        // the easy ones first, so that no root gets into what could be solved without
+        while !open.is_empty() {
+            let restricted: Vec<(usize, ExprId)> =
+                open.iter().map(|index| (*index, manifold.restrict(graph, functions[*index]))).collect();
+            let solved = [Ease::Sphere, Ease::Linear, Ease::Root].into_iter().find_map(|ease| {
+                restricted.iter().find_map(|(index, function)| {
+                    let holds = graph.zero_test(*function) == Verdict::Zero;
+                    (holds || manifold.solve(graph, *function, unknowns, ease)).then_some(*index)
+                })
+            });
+            let solved = solved.ok_or(open[0])?;
+            open.retain(|index| *index != solved);
         }
         Ok(manifold)
     }
@@ -104,35 +111,32 @@ impl Manifold {
         self.images.push((symbol, image));
     }
 
-    /// Solves one function for one unknown: on a sphere, linearly, or by a square root.
-    fn solve(&mut self, graph: &mut Graph, function: ExprId, unknowns: &[SymbolId]) -> Option<()> {
+    /// Solves one function for one unknown in one way; false if that is not possible.
+    fn solve(&mut self, graph: &mut Graph, function: ExprId, unknowns: &[SymbolId], ease: Ease) -> bool {
         let present: Vec<SymbolId> = graph
             .symbols_in(&[function])
             .into_iter()
-            .filter(|symbol| {
-                unknowns.contains(symbol) && self.images.iter().all(|(solved, _)| solved != symbol)
-            })
+            .filter(|symbol| unknowns.contains(symbol) && self.is_free(*symbol))
             .collect();
-        if let Some(points) = sphere(graph, function, &present) {
-            for (symbol, image) in points {
-                self.insert(graph, symbol, image);
-            }
-            return Some(());
+        let images = match ease {
+            Ease::Sphere => sphere(graph, function, &present).unwrap_or_default(),
+            Ease::Linear => present
+                .iter()
+                .rev()
+                .find_map(|s| Some((*s, quotient(graph, function, *s)?)))
+                .into_iter()
+                .collect(),
+            Ease::Root => present
+                .iter()
+                .rev()
+                .find_map(|s| Some((*s, root(graph, function, *s)?)))
+                .into_iter()
+                .collect(),
+        };
+        for (symbol, image) in &images {
+            self.insert(graph, *symbol, *image);
         }
-        // an earlier image must not come to depend on itself: its parameters are all unsolved
-        for symbol in present.iter().rev() {
-            if let Ok(form) = graph.linear_form(function, &[*symbol])
-                && graph.zero_test(form.coefficients[0]).is_nonzero()
-            {
-                let quotient = graph.div(form.rest, form.coefficients[0]);
-                let image = graph.neg(quotient);
-                self.insert(graph, *symbol, image);
-                return Some(());
-            }
-        }
-        let (symbol, image) = present.iter().rev().find_map(|s| Some((*s, root(graph, function, *s)?)))?;
-        self.insert(graph, symbol, image);
-        Some(())
+        !images.is_empty()
     }
 
     /// Rotation matrices by Cayley's parameters, if that is where the functions vanish.
@@ -147,6 +151,27 @@ impl Manifold {
         let all = functions.iter().all(|function| manifold.zero_test(graph, *function) == Verdict::Zero);
         all.then_some(manifold)
     }
+}
+
+/// The ways to solve a function for unknowns.
+#[derive(Clone, Copy)]
+enum Ease {
+    /// A sphere, by the stereographic projection.
+    Sphere,
+    /// By a division.
+    Linear,
+    /// By a root.
+    Root,
+}
+
+/// The root of a function that is linear in the symbol.
+fn quotient(graph: &mut Graph, function: ExprId, symbol: SymbolId) -> Option<ExprId> {
+    let form = graph.linear_form(function, &[symbol]).ok()?;
+    if !graph.zero_test(form.coefficients[0]).is_nonzero() {
+        return None;
+    }
+    let quotient = graph.div(form.rest, form.coefficients[0]);
+    Some(graph.neg(quotient))
 }
 
 /// `a (x_1² + … + x_m² − r²)`, m ≥ 2 with rational r: the stereographic projection.
@@ -192,12 +217,15 @@ fn sphere(graph: &mut Graph, function: ExprId, symbols: &[SymbolId]) -> Option<V
     Some(points)
 }
 
-/// A root of a function that is quadratic in the symbol.
+/// A root of a function that is quadratic in the symbol, or a power of it and a rest.
 fn root(graph: &mut Graph, function: ExprId, symbol: SymbolId) -> Option<ExprId> {
     let first = graph.partial(function, symbol);
     let second = graph.partial(first, symbol);
     let third = graph.partial(second, symbol);
-    if graph.zero_test(third) != Verdict::Zero || !graph.zero_test(second).is_nonzero() {
+    if graph.zero_test(third) != Verdict::Zero {
+        return pure_root(graph, function, first, symbol);
+    }
+    if !graph.zero_test(second).is_nonzero() {
         return None;
     }
     // a s² + b s + c
@@ -211,6 +239,24 @@ fn root(graph: &mut Graph, function: ExprId, symbol: SymbolId) -> Option<ExprId>
     let (radical, minus_b) = (graph.sqrt(discriminant), graph.neg(b));
     let numerator = graph.add(minus_b, radical);
     Some(graph.div(numerator, curvature))
+}
+
+/// The root of `a s^n + c`: there `s φ' = n (φ − c)`.
+fn pure_root(graph: &mut Graph, function: ExprId, slope: ExprId, symbol: SymbolId) -> Option<ExprId> {
+    let rest = graph.at_zero(function, &[symbol]);
+    let s = graph.symbol(symbol);
+    let power = graph.sub(function, rest);
+    let fibre = graph.mul(s, slope);
+    let degree = (3..=6).find(|n| {
+        let defect = graph.linear_combination(&[(1.into(), fibre), (Rational::from(-n), power)]);
+        graph.zero_test(defect) == Verdict::Zero
+    })?;
+    let monomial = graph.pow(s, Rational::from(degree));
+    let coefficient = graph.div(power, monomial);
+    let coefficient = graph.simplify(coefficient);
+    let quotient = graph.div(rest, coefficient);
+    let radicand = graph.neg(quotient);
+    Some(graph.pow(radicand, Rational::new(1, degree)))
 }
 
 /// The entries, row by row, of the rotation with Cayley parameters (a, b, c).

@@ -23,5 +23,5 @@ pub use jacobian::{NotDifferentiable, jacobian};
 pub use moving_energy::moving_energy_section;
 pub use procedure::{Definition, Procedure};
 pub use projected::{SaddleEquations, saddle_equations};
-pub use symmetric_solve::{Definiteness, Factorisation, solve_symmetric};
+pub use symmetric_solve::{Definiteness, Factorisation, solve_symmetric, uncoupled};
 pub use velocity_forms::equations_by_velocity_forms;

@@ -18,7 +18,8 @@ pub enum Definiteness {
 }
 
 /// Sets of indices that the matrix does not couple, ascending.
-fn uncoupled(graph: &Graph, matrix: &[Vec<ExprId>]) -> Vec<Vec<usize>> {
+#[must_use]
+pub fn uncoupled(graph: &Graph, matrix: &[Vec<ExprId>]) -> Vec<Vec<usize>> {
     let n = matrix.len();
     let mut block_of: Vec<usize> = (0..n).collect();
     for (i, row) in matrix.iter().enumerate() {

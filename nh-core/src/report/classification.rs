@@ -1,7 +1,7 @@
 //! What kind of system it is.
 
 use super::{Derived, combination, shown};
-use crate::check::Constraints;
+use crate::check::{Constraints, singular_where};
 use crate::compile::Proved;
 use crate::id::{ExprId, SymbolId};
 use crate::mechanics::{LagrangianSystem, moving_energy_section};
@@ -9,7 +9,7 @@ use crate::model::{Kinematics, Model};
 
 /// The classification, a line for each property.
 pub(super) fn lines(proved: &mut Proved, derived: &Derived<'_>, reason: &str) -> Vec<String> {
-    let Proved { model, motion, system, constraints: declared, .. } = proved;
+    let Proved { model, motion, system, constraints: declared, facts, .. } = proved;
     let mut lines = vec![algebroid(model, system), constraints(model, system, declared, derived)];
     let (name, size) = match derived {
         Derived::Adapted { distribution, .. } => ("adapted", distribution.rank()),
@@ -17,6 +17,13 @@ pub(super) fn lines(proved: &mut Proved, derived: &Derived<'_>, reason: &str) ->
     };
     let coordinates = model.coordinates.len();
     lines.push(format!("formulation: {name}, {coordinates} coordinates and {size} velocities; {reason}"));
+    if let Derived::Adapted { equations, .. } = derived {
+        let parameters: Vec<SymbolId> = model.parameters.iter().map(|parameter| parameter.symbol).collect();
+        for factor in singular_where(&mut model.graph, &equations.mass, &parameters, facts) {
+            let text = shown(&model.graph, factor);
+            lines.push(format!("the mass matrix is singular where {text} = 0"));
+        }
+    }
     for divisor in &motion.divisors {
         if model.graph.as_number(*divisor).is_none() {
             let text = shown(&model.graph, *divisor);
@@ -143,22 +150,21 @@ fn energy_is_conserved(proved: &mut Proved) -> bool {
     let mut terms = vec![time];
     terms.extend(&system.forces);
     terms.extend(system.forces_on_distribution.iter().map(|(_, value)| *value));
-    match &constraints.linear {
+    if let Some(linear) = &constraints.linear {
         // y^α ∂φ^A/∂y^α = −b^A where φ^A = 0
-        Some(linear) => terms.extend(&linear.drift),
-        None => {
-            let velocities = system.algebroid.velocities.clone();
-            for residual in constraints.residuals.clone() {
-                let power: Vec<ExprId> = velocities
-                    .iter()
-                    .map(|symbol| {
-                        let partial = graph.partial(residual, *symbol);
-                        let velocity = graph.symbol(*symbol);
-                        graph.mul(velocity, partial)
-                    })
-                    .collect();
-                terms.push(graph.sum(&power));
-            }
+        terms.extend(&linear.drift);
+    } else {
+        let velocities = system.algebroid.velocities.clone();
+        for residual in constraints.residuals.clone() {
+            let power: Vec<ExprId> = velocities
+                .iter()
+                .map(|symbol| {
+                    let partial = graph.partial(residual, *symbol);
+                    let velocity = graph.symbol(*symbol);
+                    graph.mul(velocity, partial)
+                })
+                .collect();
+            terms.push(graph.sum(&power));
         }
     }
     terms.into_iter().all(|term| constraints.generic().zero_test(graph, term).is_zero())
