@@ -269,6 +269,8 @@ pub struct MethodCall {
     pub method: String,
     /// The arguments; t, x, y, rates, inputs and earlier calls may occur in them.
     pub arguments: Vec<ExprId>,
+    /// The methods that differentiate it by each argument, if they are declared.
+    pub derivatives: Option<Vec<String>>,
     /// Where it stands.
     pub origin: Origin,
 }

@@ -2,6 +2,7 @@
 
 pub mod catalogue;
 pub mod comparison;
+pub mod dual;
 pub mod hygiene;
 pub mod random;
 pub mod reference;

@@ -30,8 +30,8 @@ pub(super) fn calls(model: &mut Model, motion: &mut Motion, restriction: &mut Su
     for call in &model.calls {
         let arguments =
             call.arguments.iter().map(|value| in_state(graph, motion, restriction, *value)).collect();
-        let (symbol, method) = (call.symbol, call.method.clone());
-        procedure.definitions.push(Definition::Call { symbol, method, arguments });
+        let (symbol, method, derivatives) = (call.symbol, call.method.clone(), call.derivatives.clone());
+        procedure.definitions.push(Definition::Call { symbol, method, arguments, derivatives });
     }
     procedure
 }

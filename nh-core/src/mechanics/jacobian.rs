@@ -15,7 +15,7 @@ pub struct NotDifferentiable {
 /// output. Intermediate results are differentiated one by one, so that they stay shared.
 ///
 /// # Errors
-/// Where an output depends on an argument through a method of the user's.
+/// Where an output depends on an argument through a method of the user's whose derivative is missing.
 pub fn jacobian(
     graph: &mut Graph,
     procedure: &Procedure,
@@ -48,12 +48,25 @@ fn differentiate(
             let change = result.define(graph, &name, change);
             along.insert(*symbol, change);
         }
-        Definition::Call { method, arguments, .. } => {
-            for argument in arguments {
-                let change = along.apply(graph, *argument);
-                if !graph.is_literal_zero(change) {
-                    return Err(NotDifferentiable { method: method.clone() });
+        // ∂ self.f(a, b) = self.f₁(a, b) ∂a + self.f₂(a, b) ∂b
+        Definition::Call { symbol, method, arguments, derivatives } => {
+            let mut change = graph.zero();
+            for (index, argument) in arguments.iter().enumerate() {
+                let inner = along.apply(graph, *argument);
+                if graph.is_literal_zero(inner) {
+                    continue;
                 }
+                let Some(derivative) = derivatives.as_ref().and_then(|all| all.get(index)) else {
+                    return Err(NotDifferentiable { method: method.clone() });
+                };
+                let outer = call(graph, derivative, arguments, result);
+                let share = graph.mul(outer, inner);
+                change = graph.add(change, share);
+            }
+            if !graph.is_literal_zero(change) {
+                let name = format!("d_{}", graph.symbols()[*symbol]);
+                let change = result.define(graph, &name, change);
+                along.insert(*symbol, change);
             }
         }
         // M x = r: M ∂x = ∂r − ∂M x
@@ -84,4 +97,21 @@ fn differentiate(
         }
     }
     Ok(())
+}
+
+/// The result of a call with these arguments, which is made once.
+fn call(graph: &mut Graph, called: &str, with: &[ExprId], result: &mut Procedure) -> ExprId {
+    let known = result.definitions.iter().find_map(|definition| match definition {
+        Definition::Call { symbol, method, arguments, .. } if method == called && arguments == with => {
+            Some(*symbol)
+        }
+        _ => None,
+    });
+    let symbol = known.unwrap_or_else(|| {
+        let symbol = graph.new_symbol(format!("self.{called}(…)"));
+        let (method, arguments) = (called.to_owned(), with.to_vec());
+        result.definitions.push(Definition::Call { symbol, method, arguments, derivatives: None });
+        symbol
+    });
+    graph.symbol(symbol)
 }

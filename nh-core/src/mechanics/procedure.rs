@@ -24,6 +24,8 @@ pub enum Definition {
         method: String,
         /// What it is called with.
         arguments: Vec<ExprId>,
+        /// The methods that differentiate it by each argument, if they are declared.
+        derivatives: Option<Vec<String>>,
     },
     /// The unknowns solve `matrix · unknowns = right`, with numerical pivoting.
     Solve {

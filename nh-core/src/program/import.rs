@@ -34,7 +34,7 @@ impl Importer<'_> {
                     let value = self.image(*value);
                     self.arena.sources.insert(*symbol, Source::Value(value));
                 }
-                Definition::Call { symbol, method, arguments } => {
+                Definition::Call { symbol, method, arguments, .. } => {
                     let arguments = arguments.iter().map(|id| self.image(*id)).collect();
                     let call = self.arena.calls.len();
                     self.arena.calls.push(Call { method: method.clone(), arguments });

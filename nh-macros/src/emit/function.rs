@@ -34,16 +34,7 @@ impl Head {
         let state_type = context.type_of(&context.state);
         let input_type = context.input_type();
         let input_parameter = self.takes_input.then(|| quote!(, #input: &#input_type));
-        let all = [
-            (Argument::This, quote!(self)),
-            (Argument::Time, quote!(#t)),
-            (Argument::State, quote!(#state)),
-            (Argument::Input, quote!(#input)),
-        ];
-        let unused = all.iter().filter(|(argument, _)| {
-            !used.contains(argument) && (self.takes_input || *argument != Argument::Input)
-        });
-        let drops = unused.map(|(_, place)| quote!(_ = #place;));
+        let drops = drops(context, used, self.takes_input);
         let name = Ident::new(self.name, Span::call_site());
         let Self { doc, returns, .. } = self;
         quote! {
@@ -53,11 +44,26 @@ impl Head {
             #visibility fn #name(
                 &self, #t: #scalar, #state: &#state_type #input_parameter
             ) -> #returns {
-                #(#drops)*
+                #drops
                 #body
             }
         }
     }
+}
+
+/// `_ = state;` for every parameter that is not in `used`.
+pub(super) fn drops(context: &Context, used: &BTreeSet<Argument>, takes_input: bool) -> TokenStream {
+    let (t, state, input) = (&context.locals.t, &context.locals.state, &context.locals.input);
+    let all = [
+        (Argument::This, quote!(self)),
+        (Argument::Time, quote!(#t)),
+        (Argument::State, quote!(#state)),
+        (Argument::Input, quote!(#input)),
+    ];
+    let unused = all
+        .iter()
+        .filter(|(argument, _)| !used.contains(argument) && (takes_input || *argument != Argument::Input));
+    unused.map(|(_, place)| quote!(_ = #place;)).collect()
 }
 
 /// What one emitter contributes.

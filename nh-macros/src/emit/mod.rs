@@ -12,6 +12,7 @@ mod embedding;
 mod energy;
 mod expression;
 mod function;
+mod jacobian;
 mod layout;
 mod lint;
 mod names;
@@ -60,7 +61,8 @@ pub(crate) fn emit(system: &System, layout: &Layout) -> TokenStream {
     }
     let part = constraint::emit(context, scope, system)
         .with(embedding::emit(context, scope, system))
-        .with(projection::emit(context, system));
+        .with(projection::emit(context, system))
+        .with(jacobian::emit(context, scope, system));
     programs.extend(part.programs.iter().map(|(name, program)| (*name, program)));
     let mut methods = report::constant(context, system, &programs);
     methods.extend(dynamics::method(context, scope, &derivative));

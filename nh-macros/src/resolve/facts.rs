@@ -14,12 +14,15 @@ use crate::suggest::did_you_mean;
 use crate::syntax::ast::{self, Comparison, Definition, Equation, Item, Name};
 
 /// What `emit` can ask for.
-const REQUESTS: [(&str, Request); 2] =
-    [("multipliers", Request::Multipliers), ("reactions", Request::Reactions)];
+const REQUESTS: [(&str, Request); 3] = [
+    ("jacobian", Request::Jacobian),
+    ("multipliers", Request::Multipliers),
+    ("reactions", Request::Reactions),
+];
 
 /// What `emit` will be able to ask for.
-const TO_COME: [&str; 7] =
-    ["jacobian", "hamiltonian", "bracket", "connection", "divergence", "gibbs_appell", "taylor"];
+const TO_COME: [&str; 6] =
+    ["hamiltonian", "bracket", "connection", "divergence", "gibbs_appell", "taylor"];
 
 impl Resolver {
     /// f = 0 on the embedded base; vectors entry by entry.

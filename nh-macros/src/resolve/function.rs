@@ -197,7 +197,8 @@ impl Resolver {
             arguments.iter().map(|argument| self.graph.text_within(*argument, ARGUMENT)).collect();
         let symbol = self.graph.new_symbol(format!("self.{}({})", name.text, texts.join(", ")));
         let origin = self.origin(expr.extent);
-        self.calls.push(MethodCall { symbol, method: name.text.clone(), arguments, origin });
+        let method = name.text.clone();
+        self.calls.push(MethodCall { symbol, method, arguments, derivatives: None, origin });
         Ok(Array::number(self.graph.symbol(symbol)))
     }
 

@@ -18,6 +18,7 @@ mod function;
 mod index;
 mod items;
 mod kinematics;
+mod methods;
 mod origins;
 mod places;
 mod product;
@@ -81,6 +82,9 @@ impl Resolver {
             sections.constraints.as_ref().map(|s| self.constraints(&s.body, &kinematics)).unwrap_or_default();
         let forces = sections.forces.as_ref().map(|s| self.forces(&s.body)).unwrap_or_default();
         let outputs = sections.outputs.as_ref().map(|s| self.outputs(&s.body, layout)).unwrap_or_default();
+        if let Some(section) = &sections.derivative {
+            self.derivatives(&section.body);
+        }
         let claims = sections.conserved.as_ref().map(|s| self.claims(&s.body)).unwrap_or_default();
         let assumptions = sections.assume.as_ref().map(|s| self.assumptions(&s.body)).unwrap_or_default();
         let requests = sections.emit.as_ref().map(|s| self.requests(&s.body)).unwrap_or_default();

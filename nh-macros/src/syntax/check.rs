@@ -18,10 +18,9 @@ pub(crate) fn check(declaration: SystemDecl) -> Result<SystemDecl, Vec<Diagnosti
 fn refuse_sections_to_come(declaration: &SystemDecl, errors: &mut Errors) {
     let s = &declaration.sections;
     let keep_out = "leave the section out";
-    let to_come: [(Option<&Name>, &str); 3] = [
+    let to_come: [(Option<&Name>, &str); 2] = [
         (s.symmetries.as_ref().map(|s| &s.keyword), keep_out),
         (s.track.as_ref().map(|s| &s.keyword), keep_out),
-        (s.derivative.as_ref().map(|s| &s.keyword), keep_out),
     ];
     for (keyword, way_out) in to_come {
         if let Some(keyword) = keyword {
@@ -105,7 +104,6 @@ mod tests {
         for section in [
             "symmetries { spin: omega; }",
             "track { omega, der(x) }",
-            "derivative { motor: [self.motor_d1, self.motor_d2]; }",
         ] {
             let found = messages(&format!("base {{ x }} lagrangian {{ x }} {section}"), "struct S;");
             assert_eq!(found.len(), 1, "{section}: {found:?}");

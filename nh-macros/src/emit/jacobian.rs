@@ -1,0 +1,175 @@
+//! The Jacobian of the derivative, by the state and by the inputs.
+
+use std::collections::BTreeSet;
+use std::ops::Range;
+
+use nh_core::system::System;
+use proc_macro2::{Literal, TokenStream};
+use quote::quote;
+
+use super::context::Context;
+use super::expression::element;
+use super::function::{Head, Part, drops, program};
+use super::layout::local;
+use super::program::{Body, body};
+use super::scope::{Argument, Scope};
+
+/// The inherent method `jacobian` and `impl Jacobian for Sleigh`, if they are asked for.
+///
+/// The method computes both matrices in one program. The trait has a program of its own for each
+/// of them, so that an implicit integrator does not pay for the other; without inputs there is only
+/// one, and the method forwards to it.
+pub(super) fn emit(context: &Context, scope: &Scope, system: &System) -> Part {
+    let Some(jacobian) = &system.jacobian else { return Part::default() };
+    let (n, m) = sizes(context);
+    let within = |columns: Range<usize>| {
+        let row = |row: &[_]| row.get(columns.clone()).unwrap_or_default().to_vec();
+        let outputs = jacobian.outputs.chunks((n + m).max(1)).flat_map(row).collect();
+        program(&system.model, &jacobian.with_outputs(outputs))
+    };
+    let by_state = within(0..n);
+    let state_body = body(context, scope, &by_state);
+    let of_state = trait_body(context, &state_body, n);
+    if m == 0 {
+        let methods = forwarded(context);
+        let items = implementation(context, &of_state, &by_input_of_none(context));
+        return Part { methods, items, programs: vec![("jacobian", by_state)] };
+    }
+    let (by_input, whole) = (within(n..n + m), within(0..n + m));
+    let input_body = body(context, scope, &by_input);
+    let items = implementation(context, &of_state, &trait_body(context, &input_body, m));
+    let body = body(context, scope, &whole);
+    let entries = |columns: Range<usize>| -> Vec<TokenStream> {
+        let column = |column: usize| {
+            let column = body.outputs.iter().skip(column).step_by(n + m).map(element);
+            quote!([#(#column),*])
+        };
+        columns.map(column).collect()
+    };
+    let (statements, a, b) = (&body.statements, entries(0..n), entries(n..n + m));
+    let a = from_columns(context, n, &quote!([#(#a),*]));
+    let b = from_columns(context, m, &quote!([#(#b),*]));
+    let both = quote!(#statements (#a, #b));
+    Part {
+        methods: head(context).with_body(context, &body.used, &both),
+        items,
+        programs: vec![("jacobian", whole), ("state_jacobian", by_state), ("input_jacobian", by_input)],
+    }
+}
+
+/// The same items with zeros for all entries.
+pub(super) fn stub(context: &Context) -> Part {
+    let runtime = &context.runtime;
+    let scalar = &context.scalar;
+    let zero = quote!(<#scalar as #runtime::Scalar>::ZERO);
+    let (n, m) = sizes(context);
+    let rows = |columns: usize| {
+        let (rows, columns) = (Literal::usize_unsuffixed(n), Literal::usize_unsuffixed(columns));
+        let drops = drops(context, &BTreeSet::new(), true);
+        quote!(#drops [[#zero; #columns]; #rows])
+    };
+    let [a, b] = [n, m].map(|count| {
+        let (rows, columns) = (Literal::usize_unsuffixed(n), Literal::usize_unsuffixed(count));
+        from_columns(context, count, &quote!([[#zero; #rows]; #columns]))
+    });
+    Part {
+        methods: head(context).with_body(context, &BTreeSet::new(), &quote!((#a, #b))),
+        items: implementation(context, &rows(n), &rows(m)),
+        programs: Vec::new(),
+    }
+}
+
+/// The numbers of state variables and of inputs.
+fn sizes(context: &Context) -> (usize, usize) {
+    (context.state.len(), context.input.as_ref().map_or(0, super::record::Record::len))
+}
+
+/// A matrix with a row for each state variable, from the array of its columns.
+fn from_columns(context: &Context, count: usize, columns: &TokenStream) -> TokenStream {
+    let (runtime, scalar) = (&context.runtime, &context.scalar);
+    let rows = Literal::usize_unsuffixed(sizes(context).0);
+    let count = Literal::usize_unsuffixed(count);
+    quote! {
+        <#runtime::nalgebra::SMatrix<#scalar, #rows, #count> as
+            ::core::convert::From<[[#scalar; #rows]; #count]>>::from(#columns)
+    }
+}
+
+/// The head of `jacobian`.
+fn head(context: &Context) -> Head {
+    let (n, m) = sizes(context);
+    let (runtime, scalar) = (&context.runtime, &context.scalar);
+    let [a, b] = [n, m].map(|columns| {
+        let (rows, columns) = (Literal::usize_unsuffixed(n), Literal::usize_unsuffixed(columns));
+        quote!(#runtime::nalgebra::SMatrix<#scalar, #rows, #columns>)
+    });
+    Head {
+        name: "jacobian",
+        doc: &[
+            " The Jacobian of the derivative by the state, and by the inputs: entry (i, j) of the first matrix",
+            " is the derivative of component i of ẋ by component j of the state.",
+        ],
+        takes_input: true,
+        returns: quote!((#a, #b)),
+    }
+}
+
+/// `jacobian` without inputs: the matrix of the trait, and one without columns.
+fn forwarded(context: &Context) -> TokenStream {
+    let runtime = &context.runtime;
+    let (t, state, input) = (&context.locals.t, &context.locals.state, &context.locals.input);
+    let rows = local("rows");
+    let (n, _) = sizes(context);
+    // the compiler sees through the transposition
+    let by_state = from_columns(context, n, &quote!(#rows));
+    let by_input = from_columns(context, 0, &quote!([]));
+    let both = quote! {
+        let #rows = #runtime::Jacobian::state_jacobian(self, #t, #state, #input);
+        (#by_state.transpose(), #by_input)
+    };
+    let used = [Argument::This, Argument::Time, Argument::State, Argument::Input].into();
+    head(context).with_body(context, &used, &both)
+}
+
+/// The body of a method of the trait: statements, and the rows of the matrix.
+fn trait_body(context: &Context, body: &Body, columns: usize) -> TokenStream {
+    let drops = drops(context, &body.used, true);
+    let statements = &body.statements;
+    let rows = body.outputs.chunks(columns.max(1)).map(|row| {
+        let row = row.iter().map(element);
+        quote!([#(#row),*])
+    });
+    quote!(#drops #statements [#(#rows),*])
+}
+
+/// The rows of a matrix without columns.
+fn by_input_of_none(context: &Context) -> TokenStream {
+    let drops = drops(context, &BTreeSet::new(), true);
+    let rows = Literal::usize_unsuffixed(sizes(context).0);
+    quote!(#drops [[]; #rows])
+}
+
+/// `impl Jacobian for Sleigh`.
+fn implementation(context: &Context, of_state: &TokenStream, of_input: &TokenStream) -> TokenStream {
+    let Context { runtime, scalar, .. } = context;
+    let (t, state, input) = (&context.locals.t, &context.locals.state, &context.locals.input);
+    let (state_type, input_type) = (context.type_of(&context.state), context.input_type());
+    let (n, m) = sizes(context);
+    let (n, m) = (Literal::usize_unsuffixed(n), Literal::usize_unsuffixed(m));
+    let body = quote! {
+        type InputDim = #runtime::D<#m>;
+        #[inline]
+        fn state_jacobian(
+            &self, #t: #scalar, #state: &#state_type, #input: &#input_type
+        ) -> [[#scalar; #n]; #n] {
+            #of_state
+        }
+        #[inline]
+        fn input_jacobian(
+            &self, #t: #scalar, #state: &#state_type, #input: &#input_type
+        ) -> [[#scalar; #m]; #n] {
+            #of_input
+        }
+    };
+    context.implement(&quote!(#runtime::Jacobian), &body)
+}
