@@ -10,6 +10,8 @@ use nh_tests::random::Random;
 use nh_tests::systems::catalogue;
 use nh_tests::values::{Moving, Values};
 
+/// The time of each comparison.
+const TIME: f64 = 0.7;
 /// Random states at which each pair is compared.
 const STATES: usize = 25;
 
@@ -19,7 +21,7 @@ struct Agreement {
     map: fn(&Values, &[Moving]) -> Vec<Moving>,
 }
 
-const AGREEMENTS: [Agreement; 16] = [
+const AGREEMENTS: [Agreement; 22] = [
     Agreement { first: "FreeRigidBody", second: "FreeRigidBodyByEntries", map: |_, x| x.to_vec() },
     Agreement { first: "Suslov", second: "SuslovAlongAxis", map: |_, x| x.to_vec() },
     Agreement { first: "Sleigh", second: "ReducedSleigh", map: |_, x| x[3..].to_vec() },
@@ -74,6 +76,33 @@ const AGREEMENTS: [Agreement; 16] = [
         map: |_, x| [&x[..3], &x[4..]].concat(),
     },
     Agreement { first: "ChargedParticleCoframe", second: "ChargedParticleOnTheBundle", map: onto_the_bundle },
+    Agreement {
+        first: "ChargedParticleByConnection",
+        second: "ChargedParticleCoframe",
+        map: |_, x| x.to_vec(),
+    },
+    Agreement { first: "SnakeboardBySpan", second: "SnakeboardOnThePlane", map: from_the_span },
+    Agreement { first: "VeselovaOnRotations", second: "VeselovaOnSphere", map: |_, x| x[6..].to_vec() },
+    Agreement { first: "ChaplyginSphereOnSphere", second: "ChaplyginSphere", map: |_, x| x.to_vec() },
+    Agreement {
+        first: "SteeredSleigh",
+        second: "SteeredSleighOnThePlane",
+        map: |p, x| {
+            // v2 = tan δ v1, with δ = A sin(w t) as long as the comparison's time
+            let angle = Moving {
+                value: p["A"] * (p["w"] * TIME).sin(),
+                rate: p["A"] * p["w"] * (p["w"] * TIME).cos(),
+            };
+            let (sin, cos) = (x[0] + angle).sin_cos();
+            let along = x[4] / angle.sin_cos().1;
+            vec![x[0], x[1], x[2], x[3], along * cos, along * sin]
+        },
+    },
+    Agreement {
+        first: "BallOnRotatingTableCoframe",
+        second: "BallOnRotatingTable",
+        map: |_, x| [&x[..2], &x[5..]].concat(),
+    },
 ];
 
 #[test]
@@ -109,7 +138,7 @@ fn compare_at(
     values: &Values,
     state: &[f64],
 ) -> Result<Worst, Vec<String>> {
-    let t = 0.7;
+    let t = TIME;
     let inputs: Vec<f64> = values.iter().chain(state).copied().collect();
     let pairs = |inputs: &[f64]| {
         let (parameters, state) = inputs.split_at(values.len());
@@ -132,8 +161,8 @@ fn compare_at(
 
 /// Random parameters under every name that a declaration may ask for.
 fn parameters(random: &mut Random, agreement: &Agreement) -> Values {
-    let positive = "m m0 m1 l J J2 c R r k k2 I J0 J1 wr ws a B0 M";
-    let any = "b b1 a3 c1 c2 c3 ut up u Ar As G3";
+    let positive = "m m0 m1 l J J2 c R r k k2 I J0 J1 wr ws a B0 M w";
+    let any = "b b1 a3 c1 c2 c3 ut up u Ar As G3 Omega A";
     let mut values: Vec<(String, f64)> = Vec::new();
     let named = |names: &'static str| names.split(' ').map(str::to_owned);
     values.extend(named(positive).map(|name| (name, random.between(0.5, 2.0))));
@@ -160,6 +189,16 @@ fn state(random: &mut Random, entry: &dyn Entry) -> Vec<f64> {
         // away from the poles of the Euler angles
         "VeselovaInEulerAngles" => state[1] = random.between(0.4, 2.6),
         "CentralForceAreal" => state[0] = random.between(0.5, 2.0),
+        "BallOnRotatingTableCoframe" => state[3] = random.between(-1.2, 1.2),
+        "ChaplyginSphereOnSphere" => state[..3].copy_from_slice(&random.rotation()[..3]),
+        "VeselovaOnRotations" => {
+            state[..9].copy_from_slice(&random.rotation());
+            // ⟨γ, ω⟩ = 0
+            let along: f64 = (0..3).map(|i| state[6 + i] * state[9 + i]).sum();
+            for i in 0..3 {
+                state[9 + i] -= along * state[6 + i];
+            }
+        }
         "ChaplyginSphereWithAttitude" => state[..9].copy_from_slice(&random.rotation()),
         _ => {}
     }
@@ -187,6 +226,13 @@ fn onto_the_plane(values: &Values, x: &[Moving]) -> Vec<Moving> {
     let (sin_phi, cos_phi) = x[4].sin_cos();
     let dtheta = -u1 * sin_phi / (cos_phi * values["l"]);
     [&x[..5], &[u1 * cos, u1 * sin, dtheta, dpsi, dphi]].concat()
+}
+
+fn from_the_span(values: &Values, x: &[Moving]) -> Vec<Moving> {
+    let (sin, cos) = x[2].sin_cos();
+    let (sin_phi, cos_phi) = x[4].sin_cos();
+    let along = -x[5] * cos_phi * values["l"];
+    [&x[..5], &[along * cos, along * sin, x[5] * sin_phi, x[6], x[7]]].concat()
 }
 
 fn onto_the_bundle(values: &Values, state: &[Moving]) -> Vec<Moving> {

@@ -7,11 +7,15 @@ use crate::values::Values;
 pub mod chaplygin_gyro;
 pub mod chaplygin_sphere;
 pub mod charged_particle;
+pub mod frames;
 pub mod free_rigid_body;
 pub mod mobile_robot;
+pub mod moving_constraints;
+pub mod nonlinear;
 pub mod particles;
 pub mod rigid_body_rotor;
 pub mod rolling_ball;
+pub mod rotating_table;
 pub mod sleigh;
 pub mod snakeboard;
 pub mod suslov;
@@ -52,6 +56,20 @@ pub fn catalogue() -> Vec<Box<dyn Entry>> {
         entry::<charged_particle::ChargedParticleCoframe>(),
         entry::<charged_particle::ChargedParticleOnTheBundle>(),
         entry::<rolling_ball::RollingBall>(),
+        entry::<rotating_table::BallOnRotatingTable>(),
+        entry::<rotating_table::BallOnRotatingTableCoframe>(),
+        entry::<frames::SnakeboardBySpan>(),
+        entry::<frames::ChargedParticleByConnection>(),
+        entry::<frames::VeselovaOnSphere>(),
+        entry::<frames::VeselovaOnRotations>(),
+        entry::<frames::ChaplyginSphereOnSphere>(),
+        entry::<moving_constraints::SleighOnBelt>(),
+        entry::<moving_constraints::SteeredSleigh>(),
+        entry::<moving_constraints::SteeredSleighOnThePlane>(),
+        entry::<moving_constraints::PrescribedRobot>(),
+        entry::<nonlinear::ParallelVelocities>(),
+        entry::<nonlinear::ConstantSpeed>(),
+        entry::<nonlinear::GrowingSpeed>(),
     ]
 }
 
