@@ -50,7 +50,9 @@ macro_rules! catalogued {
         $(, covers |$cp:ident| $covers:expr)?
         $(, angles [$($angle:literal),*])?
         $(, multipliers [$($label:ident),*])?
+        $(, projected $twin:ident $(with $inputs:literal inputs)?)?
     ) => {
+        $crate::catalogue::catalogued!(@twin $system, $s, [$($($label),*)?] $(, $twin $(with $inputs inputs)?)?);
         impl $crate::catalogue::Catalogued for $system {
             const REFERENCE: &'static str = $reference;
             const ANGLES: &'static [usize] = &[$($($angle),*)?];
@@ -86,6 +88,10 @@ macro_rules! catalogued {
                 Some(vec![$((stringify!($label), multipliers.$label)),*])
             })?
         }
+    };
+    (@twin $system:ident, $s:literal, $labels:tt) => {};
+    (@twin $system:ident, $s:literal, $labels:tt, $twin:ident $(with $inputs:literal inputs)?) => {
+        $crate::twins::projected! { $twin of $system { sections: $s } $(with $inputs inputs)? $labels }
     };
     (@covers) => {
         fn covers(_: &$crate::values::Values) -> bool {

@@ -113,8 +113,8 @@ impl Scalar for Dual {
         self.apply(self.value.atan(), 1.0 / (1.0 + self.value * self.value))
     }
     fn atan2(self, x: Self) -> Self {
-        let slope = (x.value * self.slope - self.value * x.slope)
-            / (self.value * self.value + x.value * x.value);
+        let slope =
+            (x.value * self.slope - self.value * x.slope) / (self.value * self.value + x.value * x.value);
         Self { value: self.value.atan2(x.value), slope }
     }
     fn sinh(self) -> Self {

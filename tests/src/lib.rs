@@ -8,4 +8,5 @@ pub mod random;
 pub mod reference;
 pub mod systems;
 pub mod trajectories;
+pub mod twins;
 pub mod values;

@@ -1,7 +1,7 @@
 //! Emitted Jacobians against the emitted derivative of dual numbers: equal to round-off.
 
-use nh_runtime::prelude::*;
 use nh_runtime::Dim;
+use nh_runtime::prelude::*;
 use nh_tests::dual::Dual;
 use nh_tests::random::Random;
 
@@ -21,7 +21,12 @@ use nh_tests::random::Random;
     emit        { jacobian }
 )]
 #[derive(Clone, Copy, Debug)]
-struct Sleigh<T> { m: T, J: T, a: T, c: T }
+struct Sleigh<T> {
+    m: T,
+    J: T,
+    a: T,
+    c: T,
+}
 
 /// Projected, without inputs.
 #[nonholonomic(
@@ -35,7 +40,11 @@ struct Sleigh<T> { m: T, J: T, a: T, c: T }
     emit { jacobian }
 )]
 #[derive(Clone, Copy, Debug)]
-struct SleighOnThePlane<T> { m: T, J: T, a: T }
+struct SleighOnThePlane<T> {
+    m: T,
+    J: T,
+    a: T,
+}
 
 /// Projected, on an embedded base, with an inertia matrix.
 #[nonholonomic(
@@ -52,7 +61,10 @@ struct SleighOnThePlane<T> { m: T, J: T, a: T }
     emit { jacobian }
 )]
 #[derive(Clone, Copy, Debug)]
-struct Veselova<T> { I: [[T; 3]; 3], c: [T; 3] }
+struct Veselova<T> {
+    I: [[T; 3]; 3],
+    c: [T; 3],
+}
 
 /// A kinetic energy without sign in more velocities than have a closed form: solved with pivoting.
 #[nonholonomic(
@@ -68,7 +80,10 @@ struct Veselova<T> { I: [[T; 3]; 3], c: [T; 3] }
     emit { jacobian }
 )]
 #[derive(Clone, Copy, Debug)]
-struct Indefinite<T> { a: T, b: T }
+struct Indefinite<T> {
+    a: T,
+    b: T,
+}
 
 /// Forces by methods, whose derivatives are declared.
 #[nonholonomic(
@@ -80,7 +95,9 @@ struct Indefinite<T> { a: T, b: T }
     emit { jacobian }
 )]
 #[derive(Clone, Copy, Debug)]
-struct Driven<T> { m: T }
+struct Driven<T> {
+    m: T,
+}
 
 impl<T: Scalar> Driven<T> {
     fn motor(&self, speed: T, input: T) -> T {

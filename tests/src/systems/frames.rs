@@ -5,6 +5,7 @@ use nh_runtime::prelude::*;
 
 use crate::catalogue::catalogued;
 use crate::systems::inertia;
+use crate::twins::both;
 
 /// The snakeboard without its constraints: the distribution is spanned by
 /// s = sin φ ∂_θ − l cos φ u₁ and the rates of rotor and wheels (M).
@@ -181,32 +182,35 @@ pub struct FreeVeselova {
     pub C: f64,
 }
 
-/// The Chaplygin sphere on the unit sphere of directions, with the integrals of its momentum about
-/// the point of contact.
-#[nonholonomic(
-    base { g[3] }
-    on { dot(g, g) = 1; }
-    basis { w[3], v[3] }
-    anchor { der(g) = cross(g, w); }
-    brackets se(3) { w[0], w[1], w[2], v[0], v[1], v[2] }
-    lagrangian { m / 2 * dot(v, v) + dot(w, I * w) / 2 }
-    constraints { for i in 0..3 { v[i] = r * cross(w, g)[i]; } }
-    conserved {
-        // what is conserved is the momentum, to which the antisymmetric part of I does not contribute
-        let P[i in 0..3] = sum(j in 0..3: (I[i][j] + I[j][i]) / 2 * w[j]);
-        let K = P + m * r * cross(g, v);
-        vertical = dot(K, g);
-        square = dot(K, K);
+both! {
+    /// The Chaplygin sphere on the unit sphere of directions, with the integrals of its momentum about
+    /// the point of contact.
+    #[nonholonomic(
+        base { g[3] }
+        on { dot(g, g) = 1; }
+        basis { w[3], v[3] }
+        anchor { der(g) = cross(g, w); }
+        brackets se(3) { w[0], w[1], w[2], v[0], v[1], v[2] }
+        lagrangian { m / 2 * dot(v, v) + dot(w, I * w) / 2 }
+        constraints { for i in 0..3 { v[i] = r * cross(w, g)[i]; } }
+        conserved {
+            // what is conserved is the momentum, to which the antisymmetric part of I does not contribute
+            let P[i in 0..3] = sum(j in 0..3: (I[i][j] + I[j][i]) / 2 * w[j]);
+            let K = P + m * r * cross(g, v);
+            vertical = dot(K, g);
+            square = dot(K, K);
+        }
+    )]
+    #[derive(Clone, Copy, Debug)]
+    pub struct ChaplyginSphereOnSphere {
+        /// Inertia tensor about the centre, in the body frame.
+        pub I: [[f64; 3]; 3],
+        /// Mass.
+        pub m: f64,
+        /// Radius.
+        pub r: f64,
     }
-)]
-#[derive(Clone, Copy, Debug)]
-pub struct ChaplyginSphereOnSphere {
-    /// Inertia tensor about the centre, in the body frame.
-    pub I: [[f64; 3]; 3],
-    /// Mass.
-    pub m: f64,
-    /// Radius.
-    pub r: f64,
+    projected ProjectedChaplyginSphereOnSphere
 }
 
 catalogued! {
@@ -219,5 +223,6 @@ catalogued! {
             s["w1"], s["w2"], s["w3"],
             column("R11", "R21"), column("R12", "R22"), column("R13", "R23"),
         ]
-    }
+    },
+    projected ProjectedChaplyginSphereOnSphere
 }

@@ -5,21 +5,25 @@
 use nh_runtime::prelude::*;
 
 use crate::catalogue::catalogued;
+use crate::twins::both;
 
-/// The particle with ż = y ẋ by a coframe whose third form vanishes on the constraint (CNS 7.1).
-#[nonholonomic(
-    base { x, y, z }
-    velocities { w1 = der(x); w2 = der(y); w3 = der(z) - y * der(x); }
-    lagrangian { m / 2 * (w1^2 + w2^2 + (w3 + y * w1)^2) - k / 2 * (x^2 + y^2) }
-    constraints { phi: w3 = 0; }
-    emit { multipliers, reactions }
-)]
-#[derive(Clone, Copy, Debug)]
-pub struct ParticleYCoframe {
-    /// Mass.
-    pub m: f64,
-    /// Stiffness of the potential.
-    pub k: f64,
+both! {
+    /// The particle with ż = y ẋ by a coframe whose third form vanishes on the constraint (CNS 7.1).
+    #[nonholonomic(
+        base { x, y, z }
+        velocities { w1 = der(x); w2 = der(y); w3 = der(z) - y * der(x); }
+        lagrangian { m / 2 * (w1^2 + w2^2 + (w3 + y * w1)^2) - k / 2 * (x^2 + y^2) }
+        constraints { phi: w3 = 0; }
+        emit { multipliers, reactions }
+    )]
+    #[derive(Clone, Copy, Debug)]
+    pub struct ParticleYCoframe {
+        /// Mass.
+        pub m: f64,
+        /// Stiffness of the potential.
+        pub k: f64,
+    }
+    projected ProjectedParticleYCoframe
 }
 
 catalogued! {
@@ -27,22 +31,26 @@ catalogued! {
     parameters |p| ParticleYCoframe { m: p["m"], k: p["k"] },
     state |s| [s["x"], s["y"], s["z"], s["w1"], s["w2"]],
     velocity |s| [s["w1"], s["w2"], s["w3"]],
-    multipliers [phi]
+    multipliers [phi],
+    projected ProjectedParticleYCoframe
 }
 
-/// The particle with ż = y ẋ in coordinates.
-#[nonholonomic(
-    base { x, y, z }
-    lagrangian { m / 2 * (der(x)^2 + der(y)^2 + der(z)^2) - k / 2 * (x^2 + y^2) }
-    constraints { phi: der(z) = y * der(x); }
-    emit { multipliers, reactions }
-)]
-#[derive(Clone, Copy, Debug)]
-pub struct ParticleY {
-    /// Mass.
-    pub m: f64,
-    /// Stiffness of the potential.
-    pub k: f64,
+both! {
+    /// The particle with ż = y ẋ in coordinates.
+    #[nonholonomic(
+        base { x, y, z }
+        lagrangian { m / 2 * (der(x)^2 + der(y)^2 + der(z)^2) - k / 2 * (x^2 + y^2) }
+        constraints { phi: der(z) = y * der(x); }
+        emit { multipliers, reactions }
+    )]
+    #[derive(Clone, Copy, Debug)]
+    pub struct ParticleY {
+        /// Mass.
+        pub m: f64,
+        /// Stiffness of the potential.
+        pub k: f64,
+    }
+    projected ProjectedParticleY
 }
 
 catalogued! {
@@ -50,21 +58,25 @@ catalogued! {
     parameters |p| ParticleY { m: p["m"], k: p["k"] },
     state |s| [s["x"], s["y"], s["z"], s["w1"], s["w2"]],
     velocity |s| [s["w1"], s["w2"], s["dz"]],
-    multipliers [phi]
+    multipliers [phi],
+    projected ProjectedParticleY
 }
 
-/// The particle with the integrable constraint ż = x ẋ by a coframe (CM section 6).
-#[nonholonomic(
-    base { x, y, z }
-    velocities { vx = der(x); vy = der(y); vz = der(z) - x * der(x); }
-    lagrangian { m / 2 * (der(x)^2 + der(y)^2 + der(z)^2) }
-    constraints { phi: vz = 0; }
-    emit { multipliers, reactions }
-)]
-#[derive(Clone, Copy, Debug)]
-pub struct ParticleXCoframe {
-    /// Mass.
-    pub m: f64,
+both! {
+    /// The particle with the integrable constraint ż = x ẋ by a coframe (CM section 6).
+    #[nonholonomic(
+        base { x, y, z }
+        velocities { vx = der(x); vy = der(y); vz = der(z) - x * der(x); }
+        lagrangian { m / 2 * (der(x)^2 + der(y)^2 + der(z)^2) }
+        constraints { phi: vz = 0; }
+        emit { multipliers, reactions }
+    )]
+    #[derive(Clone, Copy, Debug)]
+    pub struct ParticleXCoframe {
+        /// Mass.
+        pub m: f64,
+    }
+    projected ProjectedParticleXCoframe
 }
 
 catalogued! {
@@ -72,20 +84,24 @@ catalogued! {
     parameters |p| ParticleXCoframe { m: p["m"] },
     state |s| [s["x"], s["y"], s["z"], s["vx"], s["vy"]],
     velocity |s| [s["vx"], s["vy"], s["vz"]],
-    multipliers [phi]
+    multipliers [phi],
+    projected ProjectedParticleXCoframe
 }
 
-/// The particle with the integrable constraint ż = x ẋ in coordinates.
-#[nonholonomic(
-    base { x, y, z }
-    lagrangian { m / 2 * (der(x)^2 + der(y)^2 + der(z)^2) }
-    constraints { phi: der(z) - x * der(x) = 0; }
-    emit { multipliers, reactions }
-)]
-#[derive(Clone, Copy, Debug)]
-pub struct ParticleX {
-    /// Mass.
-    pub m: f64,
+both! {
+    /// The particle with the integrable constraint ż = x ẋ in coordinates.
+    #[nonholonomic(
+        base { x, y, z }
+        lagrangian { m / 2 * (der(x)^2 + der(y)^2 + der(z)^2) }
+        constraints { phi: der(z) - x * der(x) = 0; }
+        emit { multipliers, reactions }
+    )]
+    #[derive(Clone, Copy, Debug)]
+    pub struct ParticleX {
+        /// Mass.
+        pub m: f64,
+    }
+    projected ProjectedParticleX
 }
 
 catalogued! {
@@ -93,7 +109,8 @@ catalogued! {
     parameters |p| ParticleX { m: p["m"] },
     state |s| [s["x"], s["y"], s["z"], s["vx"], s["vy"]],
     velocity |s| [s["vx"], s["vy"], s["dz"]],
-    multipliers [phi]
+    multipliers [phi],
+    projected ProjectedParticleX
 }
 
 /// A particle in the plane under a central force, with the areal velocity r² θ̇ (CNS 5.1).

@@ -6,25 +6,29 @@
 use nh_runtime::prelude::*;
 
 use crate::catalogue::catalogued;
+use crate::twins::both;
 
-/// The ball on the plane; `k2` is the square of the radius of gyration.
-#[nonholonomic(
-    base  { x, y }
-    basis { dx, dy, wx, wy, wz }
-    anchor { der(x) = dx; der(y) = dy; }
-    brackets { [wx, wy] = -wz; [wy, wz] = -wx; [wz, wx] = -wy; }
-    lagrangian { m / 2 * (dx^2 + dy^2 + k2 * (wx^2 + wy^2 + wz^2)) }
-    constraints { roll_x: dx = r * wy; roll_y: dy = -r * wx; }
-    emit { multipliers, reactions }
-)]
-#[derive(Clone, Copy, Debug)]
-pub struct RollingBall {
-    /// Mass.
-    pub m: f64,
-    /// Radius.
-    pub r: f64,
-    /// Square of the radius of gyration.
-    pub k2: f64,
+both! {
+    /// The ball on the plane; `k2` is the square of the radius of gyration.
+    #[nonholonomic(
+        base  { x, y }
+        basis { dx, dy, wx, wy, wz }
+        anchor { der(x) = dx; der(y) = dy; }
+        brackets { [wx, wy] = -wz; [wy, wz] = -wx; [wz, wx] = -wy; }
+        lagrangian { m / 2 * (dx^2 + dy^2 + k2 * (wx^2 + wy^2 + wz^2)) }
+        constraints { roll_x: dx = r * wy; roll_y: dy = -r * wx; }
+        emit { multipliers, reactions }
+    )]
+    #[derive(Clone, Copy, Debug)]
+    pub struct RollingBall {
+        /// Mass.
+        pub m: f64,
+        /// Radius.
+        pub r: f64,
+        /// Square of the radius of gyration.
+        pub k2: f64,
+    }
+    projected ProjectedRollingBall
 }
 
 catalogued! {
@@ -32,5 +36,6 @@ catalogued! {
     parameters |p| RollingBall { m: p["m"], r: p["r"], k2: p["k2"] },
     state |s| [s["x"], s["y"], s["wx"], s["wy"], s["wz"]],
     velocity |s| [s["dx"], s["dy"], s["wx"], s["wy"], s["wz"]],
-    multipliers [roll_x, roll_y]
+    multipliers [roll_x, roll_y],
+    projected ProjectedRollingBall
 }

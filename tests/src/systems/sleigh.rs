@@ -6,34 +6,38 @@
 use nh_runtime::prelude::*;
 
 use crate::catalogue::catalogued;
+use crate::twins::both;
 
-/// On the plane, in body-frame velocities, with friction and a driving torque.
-#[nonholonomic(
-    base   { theta, x, y }
-    basis  { omega, v1, v2 }
-    anchor {
-        der(theta) = omega;
-        der(x) = v1 * cos(theta) - v2 * sin(theta);
-        der(y) = v1 * sin(theta) + v2 * cos(theta);
+both! {
+    /// On the plane, in body-frame velocities, with friction and a driving torque.
+    #[nonholonomic(
+        base   { theta, x, y }
+        basis  { omega, v1, v2 }
+        anchor {
+            der(theta) = omega;
+            der(x) = v1 * cos(theta) - v2 * sin(theta);
+            der(y) = v1 * sin(theta) + v2 * cos(theta);
+        }
+        lagrangian  { (J + m * (a^2 + b^2)) / 2 * omega^2 + m / 2 * (v1^2 + v2^2) - m * b * omega * v1 + m * a * omega * v2 }
+        constraints { blade: v2 = 0; }
+        forces      { omega: torque - c * omega; }
+        inputs      { torque }
+        emit { multipliers, reactions }
+    )]
+    #[derive(Clone, Copy, Debug)]
+    pub struct Sleigh {
+        /// Mass.
+        pub m: f64,
+        /// Moment of inertia about the centre of mass.
+        pub J: f64,
+        /// Centre of mass ahead of the contact point.
+        pub a: f64,
+        /// Centre of mass to the left of the contact point.
+        pub b: f64,
+        /// Rotary friction.
+        pub c: f64,
     }
-    lagrangian  { (J + m * (a^2 + b^2)) / 2 * omega^2 + m / 2 * (v1^2 + v2^2) - m * b * omega * v1 + m * a * omega * v2 }
-    constraints { blade: v2 = 0; }
-    forces      { omega: torque - c * omega; }
-    inputs      { torque }
-    emit { multipliers, reactions }
-)]
-#[derive(Clone, Copy, Debug)]
-pub struct Sleigh {
-    /// Mass.
-    pub m: f64,
-    /// Moment of inertia about the centre of mass.
-    pub J: f64,
-    /// Centre of mass ahead of the contact point.
-    pub a: f64,
-    /// Centre of mass to the left of the contact point.
-    pub b: f64,
-    /// Rotary friction.
-    pub c: f64,
+    projected ProjectedSleigh
 }
 
 catalogued! {
@@ -41,27 +45,31 @@ catalogued! {
     parameters |p| Sleigh { m: p["m"], J: p["J"], a: p["a"], b: p["b"], c: 0.0 },
     state |s| [s["theta"], s["x"], s["y"], s["omega"], s["v1"]],
     velocity |s| [s["omega"], s["v1"], s["v2"]],
-    multipliers [blade]
+    multipliers [blade],
+    projected ProjectedSleigh
 }
 
-/// Reduced by the motions of the plane: Euler–Poincaré–Suslov on se(2).
-#[nonholonomic(
-    basis { omega, v1, v2 }
-    brackets se(2) { omega, v1, v2 }
-    lagrangian  { (J + m * (a^2 + b^2)) / 2 * omega^2 + m / 2 * (v1^2 + v2^2) - m * b * omega * v1 + m * a * omega * v2 }
-    constraints { blade: v2 = 0; }
-    emit { multipliers, reactions }
-)]
-#[derive(Clone, Copy, Debug)]
-pub struct ReducedSleigh {
-    /// Mass.
-    pub m: f64,
-    /// Moment of inertia about the centre of mass.
-    pub J: f64,
-    /// Centre of mass ahead of the contact point.
-    pub a: f64,
-    /// Centre of mass to the left of the contact point.
-    pub b: f64,
+both! {
+    /// Reduced by the motions of the plane: Euler–Poincaré–Suslov on se(2).
+    #[nonholonomic(
+        basis { omega, v1, v2 }
+        brackets se(2) { omega, v1, v2 }
+        lagrangian  { (J + m * (a^2 + b^2)) / 2 * omega^2 + m / 2 * (v1^2 + v2^2) - m * b * omega * v1 + m * a * omega * v2 }
+        constraints { blade: v2 = 0; }
+        emit { multipliers, reactions }
+    )]
+    #[derive(Clone, Copy, Debug)]
+    pub struct ReducedSleigh {
+        /// Mass.
+        pub m: f64,
+        /// Moment of inertia about the centre of mass.
+        pub J: f64,
+        /// Centre of mass ahead of the contact point.
+        pub a: f64,
+        /// Centre of mass to the left of the contact point.
+        pub b: f64,
+    }
+    projected ProjectedReducedSleigh
 }
 
 catalogued! {
@@ -69,7 +77,8 @@ catalogued! {
     parameters |p| ReducedSleigh { m: p["m"], J: p["J"], a: p["a"], b: p["b"] },
     state |s| [s["omega"], s["v1"]],
     velocity |s| [s["omega"], s["v1"], s["v2"]],
-    multipliers [blade]
+    multipliers [blade],
+    projected ProjectedReducedSleigh
 }
 
 /// In coordinates of the plane, where no velocity can be eliminated for every heading: the state

@@ -7,6 +7,7 @@ use nh_runtime::prelude::*;
 
 use crate::catalogue::{Moving, Reading, catalogued};
 use crate::systems::inertia;
+use crate::twins::both;
 
 /// On the action algebroid S² × so(3): `g` is the vertical seen from the body. The constraint
 /// distribution has no global frame, so the state keeps all velocities.
@@ -39,25 +40,28 @@ catalogued! {
     multipliers [veselova]
 }
 
-/// Unreduced, in Euler angles with R = `Rz(phi) Rx(theta) Rz(psi)`: the angular velocity about the
-/// vertical is `der(phi) + cos(theta) der(psi)`.
-#[nonholonomic(
-    base { phi, theta, psi }
-    lagrangian {
-        let w1 = der(phi) * sin(theta) * sin(psi) + der(theta) * cos(psi);
-        let w2 = der(phi) * sin(theta) * cos(psi) - der(theta) * sin(psi);
-        let w3 = der(phi) * cos(theta) + der(psi);
-        dot([w1, w2, w3], I * [w1, w2, w3]) / 2
-            - dot(c, [sin(theta) * sin(psi), sin(theta) * cos(psi), cos(theta)])
+both! {
+    /// Unreduced, in Euler angles with R = `Rz(phi) Rx(theta) Rz(psi)`: the angular velocity about the
+    /// vertical is `der(phi) + cos(theta) der(psi)`.
+    #[nonholonomic(
+        base { phi, theta, psi }
+        lagrangian {
+            let w1 = der(phi) * sin(theta) * sin(psi) + der(theta) * cos(psi);
+            let w2 = der(phi) * sin(theta) * cos(psi) - der(theta) * sin(psi);
+            let w3 = der(phi) * cos(theta) + der(psi);
+            dot([w1, w2, w3], I * [w1, w2, w3]) / 2
+                - dot(c, [sin(theta) * sin(psi), sin(theta) * cos(psi), cos(theta)])
+        }
+        constraints { veselova: der(phi) = -cos(theta) * der(psi); }
+    )]
+    #[derive(Clone, Copy, Debug)]
+    pub struct VeselovaInEulerAngles {
+        /// Inertia tensor in the body frame.
+        pub I: [[f64; 3]; 3],
+        /// The potential is ⟨c, g⟩.
+        pub c: [f64; 3],
     }
-    constraints { veselova: der(phi) = -cos(theta) * der(psi); }
-)]
-#[derive(Clone, Copy, Debug)]
-pub struct VeselovaInEulerAngles {
-    /// Inertia tensor in the body frame.
-    pub I: [[f64; 3]; 3],
-    /// The potential is ⟨c, g⟩.
-    pub c: [f64; 3],
+    projected ProjectedVeselovaInEulerAngles
 }
 
 catalogued! {
@@ -72,7 +76,8 @@ catalogued! {
         let (_, theta, psi) = euler_angles(s);
         euler_rates(s, theta, psi)
     },
-    angles [0, 2]
+    angles [0, 2],
+    projected ProjectedVeselovaInEulerAngles
 }
 
 fn euler_angles(s: &Reading) -> (Moving, Moving, Moving) {
