@@ -1,38 +1,39 @@
 //! The implicit midpoint rule.
 
 use super::fixed::{self, Grid};
+use super::linearization::{Analytic, FiniteDifferences, Linearization};
 use super::{Arrival, Method, Start, explain_non_finite};
-use crate::arrays::{all_finite, displaced};
+use crate::arrays::displaced;
 use crate::linear::Factors;
-use crate::{
-    Dim, DimOf, Dynamics, IntegrationError, MatOf, Real, Scalar, ScalarOf, State, Statistics, VecOf,
-};
+use crate::{Dim, DimOf, Dynamics, IntegrationError, Jacobian, MatOf, Real, Scalar, ScalarOf, State, Statistics};
 
 /// The implicit midpoint rule x₁ = x₀ + h f(t₀ + h/2, (x₀ + x₁)/2) with fixed steps, of order 2.
 ///
 /// Symmetric and A-stable; it keeps every quadratic invariant (Hairer, Lubich, Wanner, Geometric
 /// Numerical Integration, theorem IV.2.1) to the accuracy to which its equations are solved. They
-/// are solved by Newton's iteration, with a Jacobian from difference quotients that is kept as long
-/// as it converges well, until the corrections vanish or stagnate in round-off.
+/// are solved by Newton's iteration, with a Jacobian that is kept as long as it converges well,
+/// until the corrections vanish or stagnate in round-off. The Jacobian comes from difference
+/// quotients, or [from the system](Self::with_jacobian).
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct ImplicitMidpoint<T> {
+pub struct ImplicitMidpoint<T, J = FiniteDifferences> {
     step: T,
     tolerance: T,
+    linearization: J,
 }
 
 impl<T: Real> ImplicitMidpoint<T> {
     /// The method with steps of length `step`, which has to be positive and finite.
     #[must_use]
     pub fn new(step: T) -> Self {
-        Self { step, tolerance: T::from_f64(1e3) * T::EPSILON }
+        Self::linearized(step, FiniteDifferences)
     }
 
-    /// The largest correction, relative to 1 + |x| in each component, at which the iteration may
-    /// stagnate; 1000 rounding units if not given. A larger one does not make it stop earlier.
+    /// The same method with the system's own Jacobian, for systems that have one: declared with
+    /// `emit { jacobian }`.
     #[must_use]
-    pub fn tolerance(mut self, tolerance: T) -> Self {
-        self.tolerance = tolerance;
-        self
+    pub fn with_jacobian(self) -> ImplicitMidpoint<T, Analytic> {
+        let Self { step, tolerance, .. } = self;
+        ImplicitMidpoint { step, tolerance, linearization: Analytic }
     }
 
     /// One step of length `dt` as a pure function: the state at `t + dt`.
@@ -51,9 +52,51 @@ impl<T: Real> ImplicitMidpoint<T> {
         S: Dynamics,
         S::State: State<Scalar = T>,
     {
-        let start = Start { system, input, time: t, state };
-        let method = Self::new(dt.abs());
-        method.solve(&start, dt, &mut None, &mut Statistics::default())
+        Self::new(dt.abs()).once(&Start { system, input, time: t, state }, dt)
+    }
+}
+
+impl<T: Real> ImplicitMidpoint<T, Analytic> {
+    /// As [`step`](ImplicitMidpoint::step), with the system's own Jacobian.
+    ///
+    /// # Errors
+    /// As there.
+    pub fn step_with_jacobian<S>(
+        system: &S,
+        t: T,
+        dt: T,
+        state: &S::State,
+        input: &S::Input,
+    ) -> Result<S::State, IntegrationError>
+    where
+        S: Jacobian,
+        S::State: State<Scalar = T>,
+    {
+        Self::linearized(dt.abs(), Analytic).once(&Start { system, input, time: t, state }, dt)
+    }
+}
+
+impl<T: Real, J> ImplicitMidpoint<T, J> {
+    fn linearized(step: T, linearization: J) -> Self {
+        Self { step, tolerance: T::from_f64(1e3) * T::EPSILON, linearization }
+    }
+
+    /// The largest correction, relative to 1 + |x| in each component, at which the iteration may
+    /// stagnate; 1000 rounding units if not given. A larger one does not make it stop earlier.
+    #[must_use]
+    pub fn tolerance(mut self, tolerance: T) -> Self {
+        self.tolerance = tolerance;
+        self
+    }
+
+    /// One step that nothing is remembered of.
+    fn once<S>(&self, start: &Start<'_, S>, length: T) -> Result<S::State, IntegrationError>
+    where
+        S: Dynamics,
+        S::State: State<Scalar = T>,
+        J: Linearization<S>,
+    {
+        self.solve(start, length, &mut None, &mut Statistics::default())
     }
 
     /// Solves d = h/2 f(t₀ + h/2, x₀ + d) for half the increment.
@@ -67,6 +110,7 @@ impl<T: Real> ImplicitMidpoint<T> {
     where
         S: Dynamics,
         S::State: State<Scalar = T>,
+        J: Linearization<S>,
     {
         let half = length * T::from_f64(0.5);
         let middle = start.time + half;
@@ -85,7 +129,10 @@ impl<T: Real> ImplicitMidpoint<T> {
                 newton
             } else {
                 let point = displaced(&x, T::ONE, &half_increment);
-                *newton.insert(Newton::new(start, half, &point, &slope, statistics))
+                let jacobian = self.linearization.state_jacobian(start, middle, &point, &slope, statistics);
+                statistics.jacobians += 1;
+                statistics.factorizations += 1;
+                *newton.insert(Newton::new(half, jacobian))
             };
             let mut defect = slope;
             for (r, d) in defect.as_mut().iter_mut().zip(half_increment.as_ref()) {
@@ -188,64 +235,17 @@ impl<S: Dynamics> Newton<S>
 where
     ScalarOf<S>: Real,
 {
-    /// Forms the matrix at a point with its derivative `slope`.
-    fn new(
-        start: &Start<'_, S>,
-        half: ScalarOf<S>,
-        point: &VecOf<S>,
-        slope: &VecOf<S>,
-        statistics: &mut Statistics,
-    ) -> Self {
-        let mut matrix: MatOf<S> = DimOf::<S>::mat(ScalarOf::<S>::ZERO);
-        for j in 0..DimOf::<S>::N {
-            let Some(&x) = point.as_ref().get(j) else { break };
-            // the increment of the code RADAU5 (Hairer, Wanner II, section IV.8)
-            let least = ScalarOf::<S>::from_f64(1e-5);
-            let delta = (ScalarOf::<S>::EPSILON * x.abs().max(least)).sqrt();
-            let mut ahead = quotient(start, half, point, slope, j, delta);
-            if !all_finite::<ScalarOf<S>, _>(&ahead) {
-                ahead = quotient(start, half, point, slope, j, -delta);
-                statistics.evaluations += 1;
+    /// The matrix of a Jacobian.
+    fn new(half: ScalarOf<S>, jacobian: MatOf<S>) -> Self {
+        let mut matrix = jacobian;
+        for (i, row) in matrix.as_mut().iter_mut().enumerate() {
+            for (j, entry) in row.as_mut().iter_mut().enumerate() {
+                let moved = half * *entry;
+                *entry = if i == j { ScalarOf::<S>::ONE - moved } else { -moved };
             }
-            for (i, (row, q)) in matrix.as_mut().iter_mut().zip(ahead.as_ref()).enumerate() {
-                if let Some(entry) = row.as_mut().get_mut(j) {
-                    let one = ScalarOf::<S>::ONE;
-                    *entry = if i == j { one - half * *q } else { -(half * *q) };
-                }
-            }
-            statistics.evaluations += 1;
         }
-        statistics.jacobians += 1;
-        statistics.factorizations += 1;
         Self { half, factors: Factors::new(&matrix) }
     }
-}
-
-/// The difference quotient of f in direction `j`.
-fn quotient<S: Dynamics>(
-    start: &Start<'_, S>,
-    half: ScalarOf<S>,
-    point: &VecOf<S>,
-    slope: &VecOf<S>,
-    j: usize,
-    delta: ScalarOf<S>,
-) -> VecOf<S>
-where
-    ScalarOf<S>: Real,
-{
-    let mut moved = *point;
-    let mut really = delta;
-    if let Some(x) = moved.as_mut().get_mut(j) {
-        let before = *x;
-        *x += delta;
-        // the distance that rounding has left
-        really = *x - before;
-    }
-    let mut ahead = start.derivative_at(start.time + half, moved);
-    for (a, f) in ahead.as_mut().iter_mut().zip(slope.as_ref()) {
-        *a = (*a - *f) / really;
-    }
-    ahead
 }
 
 /// What the method remembers: the grid of times, and the matrix while it serves.
@@ -261,7 +261,7 @@ impl<S: Dynamics> Clone for Memory<S> {
 }
 impl<S: Dynamics> Copy for Memory<S> {}
 
-impl<T: Real, S: Dynamics> Method<S> for ImplicitMidpoint<T>
+impl<T: Real, S: Dynamics, J: Linearization<S>> Method<S> for ImplicitMidpoint<T, J>
 where
     S::State: State<Scalar = T>,
 {

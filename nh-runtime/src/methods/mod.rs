@@ -8,6 +8,9 @@
 //! | [`ImplicitMidpoint`] | 2 | fixed, stiff systems too | quadratic invariants, reversibility |
 //! | [`Projected`] | that of the method it is made of | likewise | the constraints of the projected formulation |
 //!
+//! Implicit methods form the Jacobian ∂f/∂x by difference quotients, or take the one that the system
+//! has: `ImplicitMidpoint::new(h).with_jacobian()`.
+//!
 //! The methods of fixed step are also one pure function each, `Rk4::step(&system, t, dt, &state,
 //! &input)`, for a loop that keeps its own state and time.
 
@@ -16,12 +19,14 @@ mod dopri5;
 mod euler;
 mod fixed;
 mod implicit_midpoint;
+mod linearization;
 mod projected;
 mod rk4;
 
 pub use dopri5::Dopri5;
 pub use euler::Euler;
 pub use implicit_midpoint::ImplicitMidpoint;
+pub use linearization::{Analytic, FiniteDifferences, Linearization};
 pub use projected::Projected;
 pub use rk4::Rk4;
 
