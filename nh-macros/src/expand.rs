@@ -5,32 +5,40 @@ use quote::quote;
 
 use crate::emit::{Layout, emit, stubs};
 use crate::report::{Diagnostic, compile_errors};
-use crate::resolve::{probable_state, resolve};
-use crate::syntax;
+use crate::resolve::{Outline, resolve};
+use crate::syntax::{self, Malformed};
 
 /// The expansion of the attribute. On error: the errors, and the items that there would have been
 /// without them, as far as they are known.
 pub(crate) fn nonholonomic(attribute: TokenStream, item: TokenStream) -> TokenStream {
     let declaration = match syntax::parse(attribute.clone(), item.clone()) {
         Ok(declaration) => declaration,
-        Err(errors) => {
-            let item = syntax::without_own_attributes(item);
-            return with_errors(&errors, &item);
+        Err(Malformed { errors, rest: Some(rest) }) => {
+            // what is wrong besides may follow from these errors: nothing is said of it
+            let mut layout = Layout::of_struct(&rest.structure, attribute);
+            let outline = match resolve(&rest, &mut layout) {
+                Ok(resolved) => Outline::of(&resolved.model),
+                Err(unresolved) => unresolved.outline,
+            };
+            return with_errors(&errors, &stubs(&layout, &outline));
+        }
+        Err(Malformed { errors, rest: None }) => {
+            return with_errors(&errors, &syntax::without_own_attributes(item));
         }
     };
     let mut layout = Layout::of_struct(&declaration.structure, attribute);
     let resolved = match resolve(&declaration, &mut layout) {
         Ok(resolved) => resolved,
-        Err(unresolved) => return with_errors(&unresolved.errors, &stubs(&layout, &unresolved.kept)),
+        Err(unresolved) => return with_errors(&unresolved.errors, &stubs(&layout, &unresolved.outline)),
     };
-    let kept = probable_state(&resolved.model);
+    let outline = Outline::of(&resolved.model);
     match nh_core::compile::compile(resolved.model) {
         Ok(system) => emit(&system, &layout),
         Err(violations) => {
             let origins = resolved.origins;
             let errors: Vec<_> =
                 violations.into_iter().map(|violation| origins.diagnostic(violation)).collect();
-            with_errors(&errors, &stubs(&layout, &kept))
+            with_errors(&errors, &stubs(&layout, &outline))
         }
     }
 }
@@ -79,6 +87,9 @@ mod tests {
     fn errors_come_with_the_item() {
         let text = expanded("base { x } lagrangian { 2x }", "struct S { #[nh(skip)] tag: u8 }");
         assert!(text.starts_with("::core::compile_error! {"), "{text}");
-        assert!(text.ends_with("struct S {\n    tag: u8,\n}\n"), "{text}");
+        assert!(text.contains("struct S {\n    tag: u8,\n}\n"), "{text}");
+        assert!(text.contains("x_dot: ::core::primitive::f64"), "{text}");
+        let text = expanded("base { x }", "enum S { #[nh(skip)] A }");
+        assert!(text.ends_with("enum S {\n    A,\n}\n"), "{text}");
     }
 }

@@ -15,59 +15,58 @@ use super::program::body;
 use super::record::{Field, Record};
 use super::scope::Scope;
 
-/// The struct of the multipliers, if they are computed.
-pub(super) fn multipliers(context: &Context, system: &System) -> Option<Record> {
-    let count = number(system.multipliers.as_ref())?;
+/// The struct of the multipliers; nothing if there are no constraints.
+fn multipliers(context: &Context, labels: &[Option<&str>], count: usize) -> Option<Record> {
     let name = context.layout.name.to_string();
-    Some(Record {
+    (count > 0).then(|| Record {
         name: context.layout.types.multipliers.clone(),
         doc: format!("The multipliers of the constraints of [`{name}`], which enter as +λ ∂φ/∂y."),
-        fields: fields(&system.model, count, "multiplier of the constraint"),
+        fields: fields(labels, count, "multiplier of the constraint"),
     })
 }
 
-/// The struct of the reaction forces, if they are computed.
-pub(super) fn reactions(context: &Context, system: &System) -> Option<Record> {
-    number(system.reactions.as_ref())?;
+/// The struct of the reaction forces.
+fn reactions(context: &Context) -> Record {
     let layout = context.layout;
     let name = layout.name.to_string();
     let fields = context.velocity.fields.iter().map(|field| {
         let forces = if field.is_family() { "forces" } else { "force" };
         field.described(&format!(" The constraint {forces} along `{}`.", plain(&field.ident)))
     });
-    Some(Record {
+    Record {
         name: layout.types.reactions.clone(),
         doc: format!(
             "The constraint forces of [`{name}`] along its sections: each times the quasi-velocity of the \
              same name is a power."
         ),
         fields: fields.collect(),
-    })
+    }
 }
 
 /// The struct of the constraints' left-hand sides less their right-hand sides, if a state can be off.
-pub(super) fn residual(context: &Context, system: &System) -> Option<Record> {
-    let count = number(system.residual.as_ref())?;
+fn residual(context: &Context, labels: &[Option<&str>], count: usize) -> Option<Record> {
     let name = context.layout.name.to_string();
-    Some(Record {
+    (count > 0).then(|| Record {
         name: context.layout.types.residual.clone(),
         doc: format!("The constraints of [`{name}`] at a state: left-hand sides less right-hand sides."),
-        fields: fields(&system.model, count, "residual of the constraint"),
+        fields: fields(labels, count, "residual of the constraint"),
     })
 }
 
-/// How many numbers a function computes, if any.
-fn number(procedure: Option<&Procedure>) -> Option<usize> {
-    procedure.map(|procedure| procedure.outputs.len()).filter(|count| *count > 0)
+/// How many numbers a function computes.
+fn number(procedure: Option<&Procedure>) -> usize {
+    procedure.map_or(0, |procedure| procedure.outputs.len())
+}
+
+/// The labels of the declared constraints.
+fn labels(model: &Model) -> Vec<Option<&str>> {
+    model.constraints.iter().map(|constraint| constraint.label.as_deref()).collect()
 }
 
 /// A field for each constraint, by its label, or `constraint_1`, ….
-fn fields(model: &Model, count: usize, what: &str) -> Vec<Field> {
-    let declared = model.constraints.len() == count;
-    let mut labels: Vec<Option<&str>> = vec![None; count];
-    if declared {
-        labels = model.constraints.iter().map(|constraint| constraint.label.as_deref()).collect();
-    }
+fn fields(labels: &[Option<&str>], count: usize, what: &str) -> Vec<Field> {
+    let declared = labels.len() == count;
+    let labels = if declared { labels.to_vec() } else { vec![None; count] };
     let mut taken: BTreeSet<String> = labels.iter().flatten().map(|label| (*label).to_owned()).collect();
     let mut fields = Vec::with_capacity(count);
     for (index, label) in labels.into_iter().enumerate() {
@@ -98,45 +97,73 @@ fn ident(name: &str) -> Ident {
     syn::parse_str::<Ident>(name).unwrap_or_else(|_| Ident::new_raw(name, Span::call_site()))
 }
 
-/// A struct, the function that computes it, and the method's name, documentation, and input.
-type Entry<'a> = (Option<Record>, &'a Option<Procedure>, &'static str, &'static [&'static str], bool);
+/// A method about the constraints and the struct that it returns.
+struct Entry {
+    record: Record,
+    name: &'static str,
+    doc: &'static [&'static str],
+    takes_input: bool,
+}
 
-/// The inherent methods `multipliers`, `reactions` and `constraint_residual`, and their structs.
+impl Entry {
+    fn head(&self, context: &Context) -> Head {
+        let Self { record, name, doc, takes_input } = self;
+        Head { name, doc, takes_input: *takes_input, returns: context.type_of(record) }
+    }
+}
+
+/// The methods `multipliers`, `reactions` and `constraint_residual` with the numbers of their
+/// results; nothing for none.
+fn entries(context: &Context, labels: &[Option<&str>], counts: [usize; 3]) -> [Option<Entry>; 3] {
+    let [of_multipliers, of_reactions, of_residual] = counts;
+    let multipliers = multipliers(context, labels, of_multipliers).map(|record| Entry {
+        record,
+        name: "multipliers",
+        doc: &[" The multipliers of the constraints, with their sign in +λ ∂φ/∂y on the side of the forces."],
+        takes_input: true,
+    });
+    let reactions = (of_reactions > 0).then(|| Entry {
+        record: reactions(context),
+        name: "reactions",
+        doc: &[" The forces along the sections by which the constraints are kept."],
+        takes_input: true,
+    });
+    let residual = residual(context, labels, of_residual).map(|record| Entry {
+        record,
+        name: "constraint_residual",
+        doc: &[" The constraints at a state: left-hand side less right-hand side, zero where they hold."],
+        takes_input: false,
+    });
+    [multipliers, reactions, residual]
+}
+
+/// The inherent methods and their structs.
 pub(super) fn emit(context: &Context, scope: &Scope, system: &System) -> Part {
-    let heads: [Entry; 3] = [
-        (
-            multipliers(context, system),
-            &system.multipliers,
-            "multipliers",
-            &[" The multipliers of the constraints, with their sign in +λ ∂φ/∂y on the side of the forces."],
-            true,
-        ),
-        (
-            reactions(context, system),
-            &system.reactions,
-            "reactions",
-            &[" The forces along the sections by which the constraints are kept."],
-            true,
-        ),
-        (
-            residual(context, system),
-            &system.residual,
-            "constraint_residual",
-            &[" The constraints at a state: left-hand side less right-hand side, zero where they hold."],
-            false,
-        ),
-    ];
+    let procedures = [&system.multipliers, &system.reactions, &system.residual].map(Option::as_ref);
     let mut part = Part::default();
-    for (record, procedure, name, doc, takes_input) in heads {
-        let (Some(record), Some(procedure)) = (record, procedure) else { continue };
+    for (entry, procedure) in
+        entries(context, &labels(&system.model), procedures.map(number)).iter().zip(procedures)
+    {
+        let (Some(entry), Some(procedure)) = (entry, procedure) else { continue };
         let program = program(&system.model, procedure);
         let body = body(context, scope, &program);
-        let result = record.construct(&record.name.to_token_stream(), &body.outputs);
+        let result = entry.record.construct(&entry.record.name.to_token_stream(), &body.outputs);
         let statements = &body.statements;
-        let head = Head { name, doc, takes_input, returns: context.type_of(&record) };
-        part.methods.extend(head.with_body(context, &body.used, &quote!(#statements #result)));
-        part.items.extend(record.emit(context));
-        part.programs.push((name, program));
+        let method = entry.head(context).with_body(context, &body.used, &quote!(#statements #result));
+        part.methods.extend(method);
+        part.items.extend(entry.record.emit(context));
+        part.programs.push((entry.name, program));
+    }
+    part
+}
+
+/// The same with zeros.
+pub(super) fn stub(context: &Context, labels: &[Option<&str>], counts: [usize; 3]) -> Part {
+    let mut part = Part::default();
+    for entry in entries(context, labels, counts).iter().flatten() {
+        let default = quote!(::core::default::Default::default());
+        part.methods.extend(entry.head(context).with_body(context, &BTreeSet::new(), &default));
+        part.items.extend(entry.record.emit(context));
     }
     part
 }

@@ -22,31 +22,44 @@ pub(super) fn emit(context: &Context, scope: &Scope, system: &System) -> Part {
     Part { methods, programs, ..Part::default() }
 }
 
+/// The same methods with nothing to do.
+pub(super) fn stub(context: &Context, identities: usize) -> Part {
+    if identities == 0 {
+        return Part::default();
+    }
+    let (runtime, scalar, state) = (&context.runtime, &context.scalar, &context.locals.state);
+    let count = Literal::usize_unsuffixed(identities);
+    let zeros = quote!([<#scalar as #runtime::Scalar>::ZERO; #count]);
+    let mut methods = residual_with_body(context, &[], identities, &quote!(_ = (self, #state); #zeros));
+    methods.extend(normalize_with_body(context, &quote!(_ = (self, #state);)));
+    Part { methods, ..Part::default() }
+}
+
 fn residual(context: &Context, scope: &Scope, system: &System, embedding: &Embedding) -> TokenStream {
-    let Context { visibility, scalar, .. } = context;
-    let (state, state_type) = (&context.locals.state, context.type_of(&context.state));
     let body = body(context, scope, &program(&system.model, &embedding.residual));
     let this = (!body.used.contains(&Argument::This)).then(|| quote!(_ = self;));
     let (statements, outputs) = (&body.statements, body.outputs.iter().map(element));
-    let count = Literal::usize_unsuffixed(embedding.texts.len());
-    let lines = embedding.texts.iter().map(|text| format!(" - `{text}`"));
+    let texts = &embedding.texts;
+    residual_with_body(context, texts, texts.len(), &quote!(#this #statements [#(#outputs),*]))
+}
+
+fn residual_with_body(context: &Context, texts: &[String], count: usize, body: &TokenStream) -> TokenStream {
+    let Context { visibility, scalar, .. } = context;
+    let (state, state_type) = (&context.locals.state, context.type_of(&context.state));
+    let count = Literal::usize_unsuffixed(count);
+    let lines = texts.iter().map(|text| format!(" - `{text}`"));
     quote! {
         /// What the base coordinates leave of their identities:
         ///
         #(#[doc = #lines])*
         #[must_use]
         #[inline]
-        #visibility fn identity_residual(&self, #state: &#state_type) -> [#scalar; #count] {
-            #this
-            #statements
-            [#(#outputs),*]
-        }
+        #visibility fn identity_residual(&self, #state: &#state_type) -> [#scalar; #count] { #body }
     }
 }
 
 fn normalize(context: &Context, system: &System, embedding: &Embedding) -> TokenStream {
-    let Context { runtime, visibility, .. } = context;
-    let (state, state_type) = (&context.locals.state, context.type_of(&context.state));
+    let (runtime, state) = (&context.runtime, &context.locals.state);
     let symbols: Vec<SymbolId> = system.model.coordinates.iter().map(|entry| entry.symbol).collect();
     let places = context.state.places(state);
     let (coordinates, velocities) = places.split_at(symbols.len().min(places.len()));
@@ -55,6 +68,19 @@ fn normalize(context: &Context, system: &System, embedding: &Embedding) -> Token
     moved.extend_from_slice(velocities);
     let moved = context.state.construct(&context.state_name(), &moved);
     let step = closure(context, system, &[], &symbols, &program(&system.model, &embedding.step));
+    let iteration = quote! {
+        [#(#coordinates),*] = #runtime::project(
+            [#(#coordinates),*],
+            #step,
+            |#present| Self::identity_residual(self, &#moved),
+        )?;
+    };
+    normalize_with_body(context, &iteration)
+}
+
+fn normalize_with_body(context: &Context, body: &TokenStream) -> TokenStream {
+    let Context { runtime, visibility, .. } = context;
+    let (state, state_type) = (&context.locals.state, context.type_of(&context.state));
     quote! {
         /// Moves the base coordinates back to where their identities hold, by the shortest way.
         ///
@@ -63,11 +89,7 @@ fn normalize(context: &Context, system: &System, embedding: &Embedding) -> Token
         #visibility fn normalize(
             &self, #state: &mut #state_type
         ) -> ::core::result::Result<(), #runtime::ProjectionError> {
-            [#(#coordinates),*] = #runtime::project(
-                [#(#coordinates),*],
-                #step,
-                |#present| Self::identity_residual(self, &#moved),
-            )?;
+            #body
             ::core::result::Result::Ok(())
         }
     }

@@ -7,7 +7,6 @@ use nh_core::system::{Projection, System};
 use proc_macro2::{Ident, Literal, TokenStream};
 use quote::quote;
 
-use super::constraint;
 use super::context::Context;
 use super::expression::element;
 use super::function::{Part, program};
@@ -20,11 +19,12 @@ use super::scope::{Argument, Scope};
 pub(super) fn emit(context: &Context, system: &System) -> Part {
     let mut part = Part::default();
     let mut constraints = None;
-    if let (Some(projection), Some(residual)) = (&system.projection, constraint::residual(context, system)) {
+    let count = system.residual.as_ref().map_or(0, |residual| residual.outputs.len());
+    if let (Some(projection), true) = (&system.projection, count > 0) {
         let step = program(&system.model, &projection.step);
         part.methods = method(context, system, projection, &step);
         part.programs.push(("project, each step", step));
-        constraints = Some(residual.len());
+        constraints = Some(count);
     }
     let identities = system.embedding.as_ref().map(|embedding| embedding.texts.len());
     if constraints.or(identities).is_some() {
@@ -33,10 +33,22 @@ pub(super) fn emit(context: &Context, system: &System) -> Part {
     part
 }
 
+/// The same methods with nothing to do.
+pub(super) fn stub(context: &Context, identities: usize, constraints: usize) -> Part {
+    let mut part = Part::default();
+    let (t, state) = (&context.locals.t, &context.locals.state);
+    if constraints > 0 {
+        part.methods = with_body(context, false, &quote!(_ = (self, #t, #state);));
+    }
+    if identities + constraints > 0 {
+        part.items = implementation(context, identities, constraints);
+    }
+    part
+}
+
 /// The inherent method.
 fn method(context: &Context, system: &System, projection: &Projection, step: &Program) -> TokenStream {
-    let Context { runtime, visibility, scalar, .. } = context;
-    let (t, state, state_type) = (&context.locals.t, &context.locals.state, context.type_of(&context.state));
+    let (runtime, t, state) = (&context.runtime, &context.locals.t, &context.locals.state);
     let present = local("present");
     let places = context.state.places(state);
     let coordinates = places.len().saturating_sub(system.state_velocities.len());
@@ -52,25 +64,29 @@ fn method(context: &Context, system: &System, projection: &Projection, step: &Pr
             |#present| ::core::convert::From::from(Self::constraint_residual(self, #t, &#moved)),
         )?;
     };
-    let mut doc = vec![
-        " Moves the velocities to the nearest ones that satisfy the constraints, where distance is",
-        " measured by the kinetic energy.",
-    ];
-    let body = if system.embedding.is_some() {
-        doc.push(" The base coordinates are normalized first.");
-        let given = local("given");
-        quote! {
-            let #given = #state;
-            let mut #state = *#given;
-            Self::normalize(self, &mut #state)?;
-            #iteration
-            *#given = #state;
-        }
-    } else {
-        iteration
+    if system.embedding.is_none() {
+        return with_body(context, false, &iteration);
+    }
+    let given = local("given");
+    let body = quote! {
+        let #given = #state;
+        let mut #state = *#given;
+        Self::normalize(self, &mut #state)?;
+        #iteration
+        *#given = #state;
     };
+    with_body(context, true, &body)
+}
+
+/// `project` with a body; the base coordinates may have to be normalized.
+fn with_body(context: &Context, normalizes: bool, body: &TokenStream) -> TokenStream {
+    let Context { runtime, visibility, scalar, .. } = context;
+    let (t, state, state_type) = (&context.locals.t, &context.locals.state, context.type_of(&context.state));
+    let first = normalizes.then(|| quote!(#[doc = " The base coordinates are normalized first."]));
     quote! {
-        #(#[doc = #doc])*
+        /// Moves the velocities to the nearest ones that satisfy the constraints, where distance is
+        /// measured by the kinetic energy.
+        #first
         ///
         /// # Errors
         /// If the constraints are not met, because the state is too far from them or they are

@@ -3,21 +3,24 @@
 
 use std::collections::BTreeSet;
 
-use nh_core::id::SymbolId;
+use nh_core::model::Request;
 use proc_macro2::TokenStream;
 use quote::quote;
 
 use super::context::Context;
-use super::function::Head;
+use super::function::{Head, Part};
 use super::layout::Layout;
-use super::{callback, dynamics, energy, observed, report, state, validate, velocity};
+use super::{
+    callback, constraint, dynamics, embedding, energy, jacobian, observed, projection, report, state,
+    validate, velocity,
+};
+use crate::resolve::Outline;
 
 /// The struct with the items that its declaration would have given it, as far as it is understood.
-/// `kept` is the best guess of the velocities in the state.
-pub(crate) fn stubs(layout: &Layout, kept: &[SymbolId]) -> TokenStream {
+pub(crate) fn stubs(layout: &Layout, outline: &Outline) -> TokenStream {
     let declared: usize = layout.velocities.iter().map(|family| family.entries().len()).sum();
     let declared = layout.velocity_symbols.get(..declared).unwrap_or_default();
-    let context = &Context::new(layout, kept, declared);
+    let context = &Context::new(layout, &outline.kept, declared);
     let runtime = &context.runtime;
     let scalar = &context.scalar;
     let zero = quote!(<#scalar as #runtime::Scalar>::ZERO);
@@ -37,7 +40,23 @@ pub(crate) fn stubs(layout: &Layout, kept: &[SymbolId]) -> TokenStream {
         methods.extend(stub(observed::head(context, outputs), &default));
         items.extend(observed::implementation(context, outputs));
     }
+    let part = on_request(context, outline);
+    methods.extend(part.methods);
+    items.extend(part.items);
     items.extend(context.inherent(&methods));
     items.extend(callback::emit(context));
     items
+}
+
+/// What is asked for, and what comes with constraints: whether the formulation is the projected one
+/// is not known, and what stands there in vain does no harm.
+fn on_request(context: &Context, outline: &Outline) -> Part {
+    let labels: Vec<Option<&str>> = outline.labels.iter().map(Option::as_deref).collect();
+    let (identities, constraints) = (outline.identities, labels.len());
+    let count = |request| if outline.requests.contains(&request) { constraints } else { 0 };
+    let counts = [count(Request::Multipliers), count(Request::Reactions), constraints];
+    let part = constraint::stub(context, &labels, counts)
+        .with(embedding::stub(context, identities))
+        .with(projection::stub(context, identities, constraints));
+    if outline.requests.contains(&Request::Jacobian) { part.with(jacobian::stub(context)) } else { part }
 }

@@ -1,9 +1,11 @@
 //! Emitted code against golden files: `UPDATE_GOLDEN=1 cargo test -p nh-macros` writes them anew.
 
+use nh_core::model::Request;
 use proc_macro2::TokenStream;
 
 use super::samples::{chain, chain_system, layout, rails, rails_system, sleigh, sleigh_system};
 use super::{emit, stubs};
+use crate::resolve::Outline;
 
 /// Compares with a golden file, or writes it.
 fn golden(name: &str, tokens: TokenStream) {
@@ -48,5 +50,11 @@ fn constraints_and_the_way_back_to_them() {
 #[test]
 fn stubs_stand_in() {
     let layout = layout(&sleigh());
-    golden("stubs", stubs(&layout, &layout.velocity_symbols[..2]));
+    let outline = Outline {
+        kept: layout.velocity_symbols[..2].to_vec(),
+        requests: vec![Request::Jacobian, Request::Multipliers],
+        labels: vec![Some("blade".to_owned())],
+        identities: 0,
+    };
+    golden("stubs", stubs(&layout, &outline));
 }

@@ -27,22 +27,43 @@ impl Resolver {
         Ok(Located { value: value?, origin })
     }
 
-    /// φ = lhs − rhs; vectors entry by entry.
+    /// φ = lhs − rhs; vectors entry by entry. What is in error is kept as far as the left-hand side,
+    /// which tells what the state would be; `lost` are those of which no more could be read.
     pub(super) fn constraints(
         &mut self,
         items: &[Item<Equation>],
+        lost: &[Option<Box<Expr>>],
         kinematics: &Kinematics,
     ) -> Table<ConstraintId, ConstraintDecl> {
         let mut found = Table::new();
         let mut labels = BTreeSet::new();
         let lone = self.lone_rates(kinematics);
         self.section(Context::Constraints, items, &mut |this, equation| {
-            for constraint in this.constraint(equation, &lone, &mut labels)? {
+            let constraints = this.constraint(equation, &lone, &mut labels).map_err(|reported| {
+                let placeholder = this.placeholder(Some(&equation.left), &lone);
+                found.push(placeholder);
+                reported
+            })?;
+            for constraint in constraints {
                 found.push(constraint);
             }
             Ok(())
         });
+        for left in lost {
+            let placeholder = self.placeholder(left.as_deref(), &lone);
+            found.push(placeholder);
+        }
         found
+    }
+
+    /// Stands for a constraint in error, in a model that is not compiled.
+    fn placeholder(&mut self, left: Option<&Expr>, lone: &Lone) -> ConstraintDecl {
+        let residual = self.graph.zero();
+        let solved_for = left.and_then(|left| {
+            let entry = self.value(left).ok()?.as_number()?;
+            self.solved_for(left, entry, residual, lone).ok()?
+        });
+        ConstraintDecl { label: None, residual, solved_for, origin: Self::whole() }
     }
 
     fn constraint(

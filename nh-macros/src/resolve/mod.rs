@@ -20,6 +20,7 @@ mod items;
 mod kinematics;
 mod methods;
 mod origins;
+mod outline;
 mod places;
 mod product;
 mod reports;
@@ -29,10 +30,10 @@ mod scope;
 #[cfg(test)]
 mod tests;
 
-use nh_core::id::SymbolId;
-use nh_core::model::{Formulation, Located, Model};
+use nh_core::model::{Located, Model};
 
 pub(crate) use self::origins::Origins;
+pub(crate) use self::outline::Outline;
 use self::resolver::Resolver;
 use crate::emit::Layout;
 use crate::report::Diagnostic;
@@ -52,8 +53,8 @@ pub(crate) struct Resolved {
 pub(crate) struct Unresolved {
     /// What is wrong.
     pub(crate) errors: Vec<Diagnostic>,
-    /// The velocities that the state would probably have: what stubs are made of.
-    pub(crate) kept: Vec<SymbolId>,
+    /// What stubs are made of.
+    pub(crate) outline: Outline,
 }
 
 /// Resolves a declaration. The layout starts from that of the struct; what is known of it is
@@ -63,9 +64,9 @@ pub(crate) fn resolve(declaration: &SystemDecl, layout: &mut Layout) -> Result<R
     resolver.declare(declaration, layout);
     resolver.surroundings(declaration, layout);
     let model = resolver.model(declaration, layout);
-    let kept = probable_state(&model);
+    let outline = Outline::of(&model);
     let Resolver { origins, reports, .. } = resolver;
-    reports.finish(Resolved { model, origins }).map_err(|errors| Unresolved { errors, kept })
+    reports.finish(Resolved { model, origins }).map_err(|errors| Unresolved { errors, outline })
 }
 
 impl Resolver {
@@ -79,7 +80,8 @@ impl Resolver {
         let distribution = sections.distribution.as_ref().map(|s| self.distribution(&s.body));
         let lagrangian = sections.lagrangian.as_ref().and_then(|s| self.lagrangian(&s.body).ok());
         let constraints =
-            sections.constraints.as_ref().map(|s| self.constraints(&s.body, &kinematics)).unwrap_or_default();
+            sections.constraints.as_ref().map(|s| self.constraints(&s.body, &sections.lost, &kinematics));
+        let constraints = constraints.unwrap_or_default();
         let forces = sections.forces.as_ref().map(|s| self.forces(&s.body)).unwrap_or_default();
         let outputs = sections.outputs.as_ref().map(|s| self.outputs(&s.body, layout)).unwrap_or_default();
         if let Some(section) = &sections.derivative {
@@ -123,20 +125,4 @@ impl Resolver {
             formulation,
         }
     }
-}
-
-/// The velocities that the state of a declaration in error would probably have.
-pub(crate) fn probable_state(model: &Model) -> Vec<SymbolId> {
-    if let Some(named) = model.independent.as_ref().or(model.distribution.as_ref()) {
-        return named.iter().map(|(symbol, _)| *symbol).collect();
-    }
-    let mut kept: Vec<SymbolId> = model.sections.iter().map(|section| section.symbol).collect();
-    if !matches!(model.formulation, Some((Formulation::Projected, _))) {
-        for constraint in &model.constraints {
-            let solved = kept.iter().position(|symbol| Some(*symbol) == constraint.solved_for);
-            let removed = solved.or(kept.len().checked_sub(1));
-            removed.map(|position| kept.remove(position));
-        }
-    }
-    kept
 }

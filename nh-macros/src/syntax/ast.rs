@@ -42,6 +42,8 @@ pub(crate) struct Sections {
     pub(crate) lagrangian: Option<Section<Lagrangian>>,
     /// `constraints`: equations between velocities.
     pub(crate) constraints: Option<Section<Vec<Item<Equation>>>>,
+    /// The left-hand sides of constraints in error, as far as they are known.
+    pub(crate) lost: Vec<Option<Box<Expr>>>,
     /// `distribution`: sections that span the constraint distribution.
     pub(crate) distribution: Option<Section<Vec<Place>>>,
     /// `forces`: a generalized force along a section or a base coordinate.

@@ -4,14 +4,14 @@ use super::ast::{Name, SystemDecl};
 use crate::report::{Diagnostic, Errors, Extent};
 
 /// After this point the sections are supported, and none contradicts another.
-pub(crate) fn check(declaration: SystemDecl) -> Result<SystemDecl, Vec<Diagnostic>> {
+pub(crate) fn check(declaration: &SystemDecl) -> Result<(), Vec<Diagnostic>> {
     let mut errors = Errors::new();
-    refuse_sections_to_come(&declaration, &mut errors);
-    require_lagrangian(&declaration, &mut errors);
-    require_motion(&declaration, &mut errors);
-    refuse_two_frames(&declaration, &mut errors);
-    require_basis(&declaration, &mut errors);
-    errors.finish(declaration)
+    refuse_sections_to_come(declaration, &mut errors);
+    require_lagrangian(declaration, &mut errors);
+    require_motion(declaration, &mut errors);
+    refuse_two_frames(declaration, &mut errors);
+    require_basis(declaration, &mut errors);
+    errors.finish(())
 }
 
 /// Sections of a later release. To enable one is to delete its line.

@@ -81,9 +81,9 @@ fn token_soup_never_panics() {
         };
         match parse(attribute, item) {
             Ok(_) => read += 1,
-            Err(errors) => {
-                assert!(!errors.is_empty());
-                compile_errors(&errors);
+            Err(malformed) => {
+                assert!(!malformed.errors.is_empty());
+                compile_errors(&malformed.errors);
             }
         }
     }

@@ -1,9 +1,10 @@
 //! The lines of sections: equations, definitions, anchor lines, brackets, forces, comparisons.
 
-use proc_macro2::{Delimiter, TokenTree};
+use proc_macro2::{Delimiter, TokenStream, TokenTree};
 
 use super::ast::{
-    AnchorLine, BracketLine, Comparison, Definition, Equation, Force, MethodDerivative, Place, Relation,
+    AnchorLine, BracketLine, Comparison, Definition, Equation, Expr, Force, MethodDerivative, Name, Place,
+    Relation,
     Renaming, Subscript, Symmetry,
 };
 use super::habits;
@@ -34,17 +35,33 @@ impl Stream {
 
     /// `label: left = right`
     pub(crate) fn equation(&mut self) -> Result<Equation, Diagnostic> {
+        self.equation_or_left().map_err(|(error, _)| error)
+    }
+
+    /// An equation, or the error with the left-hand side, if that could be read.
+    pub(crate) fn equation_or_left(&mut self) -> Result<Equation, (Diagnostic, Option<Box<Expr>>)> {
+        let none = |error| (error, None);
+        let (docs, label) = self.label().map_err(none)?;
+        let start = self.position();
+        let left = self.expression().map_err(none)?;
+        let right = self
+            .equals("this is an equation: `left = right`, where the right may be `0`")
+            .and_then(|()| self.last_expression(END));
+        match right {
+            Ok(right) => Ok(Equation { docs, label, left, right, extent: self.since(start) }),
+            Err(error) => Err((error, Some(Box::new(left)))),
+        }
+    }
+
+    /// Documentation and a label, where there are any.
+    fn label(&mut self) -> Result<(TokenStream, Option<Name>), Diagnostic> {
         let docs = self.docs()?;
         let labelled = matches!(self.peek(), Some(TokenTree::Ident(_)))
             && self.peek_at(1).is_some_and(|token| is_mark(token, ':'))
             && !self.peek_at(2).is_some_and(|token| is_mark(token, ':'));
         let label = if labelled { Some(self.name("a label")?) } else { None };
         self.eat(if labelled { ":" } else { "" });
-        let start = self.position();
-        let left = self.expression()?;
-        self.equals("this is an equation: `left = right`, where the right may be `0`")?;
-        let right = self.last_expression(END)?;
-        Ok(Equation { docs, label, left, right, extent: self.since(start) })
+        Ok((docs, label))
     }
 
     /// `name = expr`, `name[0] = expr`, `name[i in 0..4] = expr`

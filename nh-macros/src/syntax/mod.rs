@@ -35,14 +35,28 @@ pub(crate) use structure::without_own_attributes;
 
 use crate::report::{Diagnostic, Errors, Extent};
 
+/// A declaration in error.
+#[derive(Debug)]
+pub(crate) struct Malformed {
+    /// What is wrong.
+    pub(crate) errors: Vec<Diagnostic>,
+    /// What could be read, if the item is a struct: what stubs are made of.
+    pub(crate) rest: Option<Box<ast::SystemDecl>>,
+}
+
 /// Reads the attribute and its item.
-pub(crate) fn parse(attribute: TokenStream, item: TokenStream) -> Result<ast::SystemDecl, Vec<Diagnostic>> {
+pub(crate) fn parse(attribute: TokenStream, item: TokenStream) -> Result<ast::SystemDecl, Malformed> {
     let mut errors = Errors::new();
     let structure = structure::structure(item, &mut errors);
     let around = structure.as_ref().map_or(Span::call_site(), |structure| structure.name.span());
     let sections = sections::sections(attribute, Extent::at(around), &mut errors);
-    let structure = errors.finish(structure)?;
+    let declaration = structure.map(|structure| ast::SystemDecl { structure, sections });
     // without a struct there was an error, and the fence is closed
-    let Some(structure) = structure else { return Err(Vec::new()) };
-    check::check(ast::SystemDecl { structure, sections })
+    let checked = errors.finish(()).and_then(|()| declaration.as_ref().map_or(Ok(()), check::check));
+    match (checked, declaration) {
+        (Ok(()), Some(declaration)) => Ok(declaration),
+        (checked, rest) => {
+            Err(Malformed { errors: checked.err().unwrap_or_default(), rest: rest.map(Box::new) })
+        }
+    }
 }

@@ -29,8 +29,22 @@ pub(crate) fn list<T>(
             continue;
         }
         let mut chunk = Stream::over(chunk.to_vec(), stream.whole());
-        let parsed = entry(&mut chunk).and_then(|value| list_end(&chunk).map(|()| value));
-        found.extend(errors.keep(parsed));
+        match entry(&mut chunk) {
+            Ok(value) => found.push(value),
+            Err(error) => {
+                errors.push(error);
+                continue;
+            }
+        }
+        let Err(error) = list_end(&chunk) else { continue };
+        errors.push(error);
+        // what follows a missing comma is probably an entry, and known to the rest of the program
+        while !chunk.is_empty() {
+            match entry(&mut chunk) {
+                Ok(value) => found.push(value),
+                Err(_) => _ = chunk.advance(),
+            }
+        }
     }
     found
 }

@@ -1,5 +1,7 @@
 //! The attribute: sections in any order, each at most once except `brackets`.
 
+use std::cell::RefCell;
+
 use proc_macro2::{Delimiter, Group, TokenStream, TokenTree};
 use syn::parse::Parser;
 
@@ -10,7 +12,7 @@ use super::render::render;
 use super::stream::Stream;
 use super::vocabulary::{ALGEBRAS, SECTIONS};
 use crate::report::{Diagnostic, Errors, Extent};
-use crate::suggest::did_you_mean;
+use crate::suggest::{did_you_mean, nearest};
 
 /// Reads all sections; what is wrong with one of them does not hide the others.
 pub(crate) fn sections(attribute: TokenStream, around: Extent, errors: &mut Errors) -> Sections {
@@ -54,7 +56,8 @@ fn section(
     let keyword = Name::new(ident);
     let text = keyword.text.clone();
     if !SECTIONS.contains(&text.as_str()) {
-        return Err(unknown(&keyword));
+        let error = unknown(&keyword);
+        return probably_meant(stream, sections, seen, keyword).ok_or(error.clone()).map(|()| errors.push(error));
     }
     if text != "brackets" && seen.contains(&text) {
         errors.push(
@@ -109,7 +112,17 @@ fn fill(sections: &mut Sections, keyword: Name, algebra: Option<Algebra>, body: 
         "lagrangian" => {
             s.lagrangian = lagrangian(body, errors).and_then(|body| Section::some(keyword, body));
         }
-        "constraints" => s.constraints = Section::some(keyword, items(body, errors, &Stream::equation)),
+        "constraints" => {
+            let lost = RefCell::new(Vec::new());
+            let equation = |stream: &mut Stream| {
+                stream.equation_or_left().map_err(|(error, left)| {
+                    lost.borrow_mut().push(left);
+                    error
+                })
+            };
+            s.constraints = Section::some(keyword, items(body, errors, &equation));
+            s.lost = lost.into_inner();
+        }
         "distribution" => {
             s.distribution = Section::some(keyword, list(body, errors, |entry| entry.place("a section")));
         }
@@ -222,6 +235,23 @@ fn runtime(body: &Group) -> Result<TokenStream, Diagnostic> {
             .evidence(format!("found `{}`", render(&tokens.into_iter().collect::<Vec<_>>())))
             .way_out("write `crate { ::my_name_for_nh_runtime }`")),
     }
+}
+
+/// Reads a section whose keyword is mistyped as what was probably meant, so that the rest of the
+/// program finds what it declares. Nothing is reported.
+fn probably_meant(
+    stream: &mut Stream,
+    sections: &mut Sections,
+    seen: &[String],
+    keyword: Name,
+) -> Option<()> {
+    let meant = nearest(&keyword.text, SECTIONS).filter(|meant| !seen.iter().any(|known| known == meant))?;
+    let body = stream.eat_group(Delimiter::Brace)?;
+    let mut unreported = Errors::new();
+    let keyword = Name { text: meant.to_owned(), ..keyword };
+    fill(sections, keyword, None, &body, &mut unreported);
+    _ = unreported.finish(());
+    Some(())
 }
 
 /// A section that does not exist.

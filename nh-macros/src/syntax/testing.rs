@@ -10,7 +10,7 @@ use crate::report::{Diagnostic, Extent};
 /// The declaration, or its errors.
 pub(crate) fn declaration(attribute: &str, item: &str) -> Result<SystemDecl, Vec<Diagnostic>> {
     let attribute: TokenStream = attribute.parse().expect("tokens");
-    parse(attribute, item.parse().expect("tokens"))
+    parse(attribute, item.parse().expect("tokens")).map_err(|malformed| malformed.errors)
 }
 
 /// The texts of the errors.
@@ -24,7 +24,7 @@ pub(crate) fn messages(attribute: &str, item: &str) -> Vec<String> {
 /// What the errors underline, with the text of each.
 pub(crate) fn underlined(attribute: &str) -> Vec<(String, String)> {
     let tokens: TokenStream = attribute.parse().expect("tokens");
-    let errors = parse(tokens, "struct S;".parse().expect("tokens")).expect_err("errors");
+    let errors = parse(tokens, "struct S;".parse().expect("tokens")).expect_err("errors").errors;
     let of = |error: &Diagnostic| {
         let (first, last) = (error.extent.first.start(), error.extent.last.end());
         let line: Vec<char> = attribute.lines().nth(first.line - 1).unwrap_or("").chars().collect();

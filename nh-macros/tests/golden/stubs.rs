@@ -320,6 +320,162 @@ impl ::nh_runtime::__private::Observed for Sleigh {
         Self::outputs(self, t, state, input)
     }
 }
+/// The multipliers of the constraints of [`Sleigh`], which enter as +λ ∂φ/∂y.
+#[derive(
+    ::core::clone::Clone,
+    ::core::marker::Copy,
+    ::core::fmt::Debug,
+    ::core::cmp::PartialEq,
+    ::core::default::Default
+)]
+pub struct SleighMultipliers {
+    /// The multiplier of the constraint `blade`.
+    pub blade: ::core::primitive::f64,
+}
+#[automatically_derived]
+impl ::core::convert::From<SleighMultipliers> for [::core::primitive::f64; 1] {
+    #[inline]
+    fn from(value: SleighMultipliers) -> Self {
+        [value.blade]
+    }
+}
+#[automatically_derived]
+impl ::core::convert::From<[::core::primitive::f64; 1]> for SleighMultipliers {
+    #[inline]
+    fn from([c0]: [::core::primitive::f64; 1]) -> Self {
+        Self { blade: c0 }
+    }
+}
+#[automatically_derived]
+impl ::core::convert::From<SleighMultipliers>
+for ::nh_runtime::__private::nalgebra::SVector<::core::primitive::f64, 1> {
+    #[inline]
+    fn from(value: SleighMultipliers) -> Self {
+        ::core::convert::From::<
+            [::core::primitive::f64; 1],
+        >::from(::core::convert::From::from(value))
+    }
+}
+#[automatically_derived]
+impl ::core::convert::From<
+    ::nh_runtime::__private::nalgebra::SVector<::core::primitive::f64, 1>,
+> for SleighMultipliers {
+    #[inline]
+    fn from(
+        value: ::nh_runtime::__private::nalgebra::SVector<::core::primitive::f64, 1>,
+    ) -> Self {
+        ::core::convert::From::<
+            [::core::primitive::f64; 1],
+        >::from(::core::convert::From::from(value))
+    }
+}
+::nh_runtime::__private::serde_impls! {
+    "::nh_runtime::__private::serde", "SleighMultipliers", {} SleighMultipliers[] { blade
+    : ::core::primitive::f64, }
+}
+/// The constraints of [`Sleigh`] at a state: left-hand sides less right-hand sides.
+#[derive(
+    ::core::clone::Clone,
+    ::core::marker::Copy,
+    ::core::fmt::Debug,
+    ::core::cmp::PartialEq,
+    ::core::default::Default
+)]
+pub struct SleighResidual {
+    /// The residual of the constraint `blade`.
+    pub blade: ::core::primitive::f64,
+}
+#[automatically_derived]
+impl ::core::convert::From<SleighResidual> for [::core::primitive::f64; 1] {
+    #[inline]
+    fn from(value: SleighResidual) -> Self {
+        [value.blade]
+    }
+}
+#[automatically_derived]
+impl ::core::convert::From<[::core::primitive::f64; 1]> for SleighResidual {
+    #[inline]
+    fn from([c0]: [::core::primitive::f64; 1]) -> Self {
+        Self { blade: c0 }
+    }
+}
+#[automatically_derived]
+impl ::core::convert::From<SleighResidual>
+for ::nh_runtime::__private::nalgebra::SVector<::core::primitive::f64, 1> {
+    #[inline]
+    fn from(value: SleighResidual) -> Self {
+        ::core::convert::From::<
+            [::core::primitive::f64; 1],
+        >::from(::core::convert::From::from(value))
+    }
+}
+#[automatically_derived]
+impl ::core::convert::From<
+    ::nh_runtime::__private::nalgebra::SVector<::core::primitive::f64, 1>,
+> for SleighResidual {
+    #[inline]
+    fn from(
+        value: ::nh_runtime::__private::nalgebra::SVector<::core::primitive::f64, 1>,
+    ) -> Self {
+        ::core::convert::From::<
+            [::core::primitive::f64; 1],
+        >::from(::core::convert::From::from(value))
+    }
+}
+::nh_runtime::__private::serde_impls! {
+    "::nh_runtime::__private::serde", "SleighResidual", {} SleighResidual[] { blade :
+    ::core::primitive::f64, }
+}
+#[automatically_derived]
+impl ::nh_runtime::__private::Constrained for Sleigh {
+    type Constraints = ::nh_runtime::__private::D<1>;
+    #[inline]
+    fn constraint_residual(
+        &self,
+        t: ::core::primitive::f64,
+        state: &SleighState,
+    ) -> [::core::primitive::f64; 1] {
+        ::core::convert::From::from(Self::constraint_residual(self, t, state))
+    }
+    #[inline]
+    fn project(
+        &self,
+        t: ::core::primitive::f64,
+        state: &mut SleighState,
+    ) -> ::core::result::Result<(), ::nh_runtime::__private::ProjectionError> {
+        Self::project(self, t, state)
+    }
+}
+#[automatically_derived]
+impl ::nh_runtime::__private::Jacobian for Sleigh {
+    type InputDim = ::nh_runtime::__private::D<1>;
+    #[inline]
+    fn state_jacobian(
+        &self,
+        t: ::core::primitive::f64,
+        state: &SleighState,
+        input: &SleighInput,
+    ) -> [[::core::primitive::f64; 5]; 5] {
+        _ = self;
+        _ = t;
+        _ = state;
+        _ = input;
+        [[<::core::primitive::f64 as ::nh_runtime::__private::Scalar>::ZERO; 5]; 5]
+    }
+    #[inline]
+    fn input_jacobian(
+        &self,
+        t: ::core::primitive::f64,
+        state: &SleighState,
+        input: &SleighInput,
+    ) -> [[::core::primitive::f64; 1]; 5] {
+        _ = self;
+        _ = t;
+        _ = state;
+        _ = input;
+        [[<::core::primitive::f64 as ::nh_runtime::__private::Scalar>::ZERO; 1]; 5]
+    }
+}
 impl Sleigh {
     /// What was derived from the declaration, as text.
     pub const REPORT: &'static ::core::primitive::str = "";
@@ -402,6 +558,86 @@ impl Sleigh {
         _ = state;
         _ = input;
         ::core::default::Default::default()
+    }
+    /// The multipliers of the constraints, with their sign in +λ ∂φ/∂y on the side of the forces.
+    #[must_use]
+    #[inline]
+    pub fn multipliers(
+        &self,
+        t: ::core::primitive::f64,
+        state: &SleighState,
+        input: &SleighInput,
+    ) -> SleighMultipliers {
+        _ = self;
+        _ = t;
+        _ = state;
+        _ = input;
+        ::core::default::Default::default()
+    }
+    /// The constraints at a state: left-hand side less right-hand side, zero where they hold.
+    #[must_use]
+    #[inline]
+    pub fn constraint_residual(
+        &self,
+        t: ::core::primitive::f64,
+        state: &SleighState,
+    ) -> SleighResidual {
+        _ = self;
+        _ = t;
+        _ = state;
+        ::core::default::Default::default()
+    }
+    /// Moves the velocities to the nearest ones that satisfy the constraints, where distance is
+    /// measured by the kinetic energy.
+    ///
+    /// # Errors
+    /// If the constraints are not met, because the state is too far from them or they are
+    /// dependent there; the state is then as it was.
+    pub fn project(
+        &self,
+        t: ::core::primitive::f64,
+        state: &mut SleighState,
+    ) -> ::core::result::Result<(), ::nh_runtime::__private::ProjectionError> {
+        _ = (self, t, state);
+        ::core::result::Result::Ok(())
+    }
+    /// The Jacobian of the derivative by the state, and by the inputs: entry (i, j) of the first matrix
+    /// is the derivative of component i of ẋ by component j of the state.
+    #[must_use]
+    #[inline]
+    pub fn jacobian(
+        &self,
+        t: ::core::primitive::f64,
+        state: &SleighState,
+        input: &SleighInput,
+    ) -> (
+        ::nh_runtime::__private::nalgebra::SMatrix<::core::primitive::f64, 5, 5>,
+        ::nh_runtime::__private::nalgebra::SMatrix<::core::primitive::f64, 5, 1>,
+    ) {
+        _ = self;
+        _ = t;
+        _ = state;
+        _ = input;
+        (
+            <::nh_runtime::__private::nalgebra::SMatrix<
+                ::core::primitive::f64,
+                5,
+                5,
+            > as ::core::convert::From<
+                [[::core::primitive::f64; 5]; 5],
+            >>::from(
+                [[<::core::primitive::f64 as ::nh_runtime::__private::Scalar>::ZERO; 5]; 5],
+            ),
+            <::nh_runtime::__private::nalgebra::SMatrix<
+                ::core::primitive::f64,
+                5,
+                1,
+            > as ::core::convert::From<
+                [[::core::primitive::f64; 5]; 1],
+            >>::from(
+                [[<::core::primitive::f64 as ::nh_runtime::__private::Scalar>::ZERO; 5]; 1],
+            ),
+        )
     }
 }
 #[doc(hidden)]

@@ -1,0 +1,95 @@
+//! What stubs are made of: a guess at the outcome of a declaration in error.
+
+use nh_core::algebra::{Derivation, Graph};
+use nh_core::id::{ExprId, SymbolId};
+use nh_core::model::{ConstraintDecl, Formulation, Kinematics, Model, Request};
+
+/// The shape that the generated items of a declaration in error would probably have.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Outline {
+    /// The velocities in the state.
+    pub(crate) kept: Vec<SymbolId>,
+    /// What is to be generated beyond the default.
+    pub(crate) requests: Vec<Request>,
+    /// The labels of the constraints.
+    pub(crate) labels: Vec<Option<String>>,
+    /// The number of identities of the base.
+    pub(crate) identities: usize,
+}
+
+impl Outline {
+    /// The outline of a model, of which parts in error are left out.
+    pub(crate) fn of(model: &Model) -> Self {
+        Self {
+            kept: kept(model),
+            requests: model.requests.iter().map(|(request, _)| *request).collect(),
+            labels: model.constraints.iter().map(|constraint| constraint.label.clone()).collect(),
+            identities: model.identities.len(),
+        }
+    }
+}
+
+/// The velocities in the state.
+fn kept(model: &Model) -> Vec<SymbolId> {
+    if let Some(named) = model.independent.as_ref().or(model.distribution.as_ref()) {
+        return named.iter().map(|(symbol, _)| *symbol).collect();
+    }
+    let all: Vec<SymbolId> = model.sections.iter().map(|section| section.symbol).collect();
+    if matches!(model.formulation, Some((Formulation::Projected, _))) {
+        return all;
+    }
+    let mut kept = all.clone();
+    let mut choice = Choice::of(model);
+    for constraint in &model.constraints {
+        match choice.eliminated(constraint, &kept) {
+            Some(position) if position < kept.len() => _ = kept.remove(position),
+            Some(_) => {}
+            // no velocity can be eliminated everywhere: the state keeps them all
+            None => return all,
+        }
+    }
+    kept
+}
+
+/// Chooses what a constraint eliminates.
+struct Choice<'a> {
+    model: &'a Model,
+    /// Derivatives are taken aside: the model stays as it was declared.
+    graph: Option<Graph>,
+}
+
+impl<'a> Choice<'a> {
+    fn of(model: &'a Model) -> Self {
+        Self { model, graph: None }
+    }
+
+    /// The position among `kept` of the velocity that a constraint eliminates; nothing if it has none
+    /// with a constant coefficient.
+    fn eliminated(&mut self, constraint: &ConstraintDecl, kept: &[SymbolId]) -> Option<usize> {
+        if let Some(solved) = kept.iter().position(|symbol| Some(*symbol) == constraint.solved_for) {
+            return Some(solved);
+        }
+        let model = self.model;
+        let graph = self.graph.get_or_insert_with(|| model.graph.clone());
+        if graph.as_number(constraint.residual).is_some() {
+            return Some(kept.len().saturating_sub(1));
+        }
+        kept.iter().rposition(|velocity| {
+            let coefficient = coefficient(graph, model, constraint.residual, *velocity);
+            let is_parameter = |symbol: &SymbolId| model.parameters.iter().any(|p| p.symbol == *symbol);
+            !graph.is_literal_zero(coefficient) && graph.symbols_in(&[coefficient]).iter().all(is_parameter)
+        })
+    }
+}
+
+/// ∂φ/∂y, through the rates.
+fn coefficient(graph: &mut Graph, model: &Model, residual: ExprId, velocity: SymbolId) -> ExprId {
+    let mut seeds = vec![(velocity, graph.one())];
+    if let Kinematics::Anchor(lines) = &model.kinematics {
+        for line in lines {
+            let rate = model.coordinates[line.coordinate].rate;
+            seeds.push((rate, graph.partial(line.rate, velocity)));
+        }
+    }
+    Derivation::new(seeds).apply(graph, residual)
+}
