@@ -12,7 +12,7 @@ fn the_projected_formulation_agrees_with_the_reference_in_all_velocities() {
     for twins in systems_in_both_formulations() {
         match compare_with_reference(&*twins.projected) {
             Ok(worst) => {
-                println!("{:32} {:.1e} {:.2}", twins.projected.name(), worst.relative, worst.explained)
+                println!("{:32} {:.1e} {:.2}", twins.projected.name(), worst.relative, worst.explained);
             }
             Err(lines) => failures.push(lines),
         }
