@@ -5,7 +5,8 @@
 //!
 //! `δL(σ) = Σ_k [ θ^k(σ) d/dt F_k + F_k dθ^k(y, σ) ] − ρ(σ)F|_u`,  F_k = ∂F/∂u^k,
 //!
-//! by the exterior derivative of mathematics section 5. Where the θ^k are closed (velocities of
+//! by the exterior derivative of mathematics section 5, with ∂_tθ^k(σ) added to dθ^k(y, σ) where a
+//! form depends on the time. Where the θ^k are closed (velocities of
 //! points in an inertial frame) this is Kane's form with the partial velocities θ^k(B_a): nothing
 //! is expanded, and chains of bodies stay chains.
 
@@ -166,7 +167,7 @@ pub fn equations_by_velocity_forms(
     ReducedEquations { mass, force, rates, velocity, independent }
 }
 
-/// Whether dθ = 0 for θ(y) = `form`.
+/// Whether dθ = 0 for θ(y) = `form`, and θ does not depend on the time.
 fn is_closed(graph: &mut Graph, system: &LagrangianSystem, form: ExprId) -> bool {
     let first = system.algebroid.velocity(graph);
     let second: Vec<ExprId> = (0..first.len())
@@ -179,7 +180,8 @@ fn is_closed(graph: &mut Graph, system: &LagrangianSystem, form: ExprId) -> bool
     graph.zero_test(curl).is_zero()
 }
 
-/// `dθ(σ, τ) = ρ(σ)θ(τ) − ρ(τ)θ(σ) − θ([σ, τ])` for sections whose components are held constant.
+/// `dθ(σ, τ) = ρ(σ)θ(τ) − ρ(τ)θ(σ) − θ([σ, τ])` for sections whose components are held constant,
+/// with `∂_tθ(τ)` where θ depends on the time: along a motion, t goes with σ.
 fn exterior_derivative(
     graph: &mut Graph,
     system: &LagrangianSystem,
@@ -205,5 +207,14 @@ fn exterior_derivative(
     let bracket = algebroid.structure.contract(graph, sigma, tau);
     let images = algebroid.velocities.iter().copied().zip(bracket);
     let of_bracket = Substitution::new(images).apply(graph, form);
-    graph.linear_combination(&[(1.into(), forth), ((-1).into(), back), ((-1).into(), of_bracket)])
+    // the motion goes along σ + ∂_t
+    let change = graph.partial(form, system.time);
+    let images = algebroid.velocities.iter().copied().zip(tau.iter().copied());
+    let in_time = Substitution::new(images).apply(graph, change);
+    graph.linear_combination(&[
+        (1.into(), forth),
+        ((-1).into(), back),
+        ((-1).into(), of_bracket),
+        (1.into(), in_time),
+    ])
 }

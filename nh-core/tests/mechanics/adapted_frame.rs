@@ -11,7 +11,7 @@ use nh_core::mechanics::{LagrangianSystem, reduced_equations};
 use nh_core::model::Model;
 
 /// The stages up to the distribution, as in `compile`.
-fn stages(model: &mut Model) -> (LagrangianSystem, ConstraintDistribution) {
+pub(crate) fn stages(model: &mut Model) -> (LagrangianSystem, ConstraintDistribution) {
     let mut motion = check::kinematics(model).unwrap();
     let structure = check::structure_functions(model, &motion).unwrap();
     let velocities = model.sections.iter().map(|s| s.symbol).collect();

@@ -4,3 +4,4 @@
 mod adapted_frame;
 mod derivation;
 mod systems;
+mod velocity_forms;

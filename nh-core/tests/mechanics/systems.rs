@@ -339,3 +339,15 @@ pub(crate) fn constant_speed() -> Model {
     b.constraint(&[(1, 1, "x_dot*x_dot"), (1, 1, "y_dot*y_dot"), (-1, 1, "c*c")]);
     b.model
 }
+
+/// A form of the velocities that depends on the time: L = (ẋ + t ẏ)²/2 + ẏ²/2.
+pub(crate) fn time_dependent_form() -> Model {
+    let mut b = Builder::new(&[], &["x", "y"], &[]);
+    let form = b.sum(&[(1, 1, "x_dot"), (1, 1, "t*y_dot")]);
+    let rest = b.sum(&[(1, 2, "y_dot*y_dot")]);
+    let graph = &mut b.model.graph;
+    let square = graph.square(form);
+    b.model.lagrangian.value =
+        graph.linear_combination(&[(Rational::new(1, 2), square), (Rational::ONE, rest)]);
+    b.model
+}

@@ -131,7 +131,6 @@ fn lagrangians_and_constraints_that_move() {
 }
 
 #[test]
-#[ignore = "the partial derivative of a velocity form by the time is missing from the equations"]
 fn velocity_forms_that_depend_on_time() {
     check("time_forms", &TimeForms, ());
     let system = TimeFormsCon;
