@@ -78,7 +78,10 @@ fn dependency(model: &mut Model, rows: &Matrix, drift: Option<&[ExprId]>, index:
         .flatten()
         .zip(&names)
         .filter(|(coefficient, _)| !graph.is_literal_zero(**coefficient))
-        .map(|(coefficient, name)| format!("({})·{name}", shown(graph, *coefficient)))
+        .map(|(coefficient, name)| match graph.as_number(*coefficient) {
+            Some(number) if number.is_one() => name.clone(),
+            _ => format!("({})*{name}", shown(graph, *coefficient)),
+        })
         .collect();
     let evidence = if terms.is_empty() {
         format!("it is a combination of {}", listed(&names))
