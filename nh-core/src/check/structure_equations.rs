@@ -108,10 +108,15 @@ fn defect_text(graph: &Graph, defect: ExprId, verdict: &Verdict) -> String {
 /// Mathematics (3): `Σ_cyclic [ ρ^i_α ∂_iC^ν_{βγ} + C^μ_{βγ} C^ν_{αμ} ] = 0`.
 fn jacobi(model: &mut Model, algebroid: &Algebroid, base: &Manifold) -> Vec<Violation> {
     let sections: Vec<SectionId> = algebroid.sections().collect();
+    let commuting = commuting_pairs(&mut model.graph, algebroid, &sections);
     let mut violations = Vec::new();
     for (i, alpha) in sections.iter().enumerate() {
         for (j, beta) in sections.iter().enumerate().skip(i + 1) {
-            for gamma in sections.iter().skip(j + 1) {
+            for (k, gamma) in sections.iter().enumerate().skip(j + 1) {
+                // three sections that commute with each other obey it
+                if commuting[i][j] && commuting[i][k] && commuting[j][k] {
+                    continue;
+                }
                 if violations.len() == REPORTED {
                     return violations;
                 }
@@ -120,6 +125,15 @@ fn jacobi(model: &mut Model, algebroid: &Algebroid, base: &Manifold) -> Vec<Viol
         }
     }
     violations
+}
+
+/// Which pairs of sections have a bracket that is written as 0.
+fn commuting_pairs(graph: &mut Graph, algebroid: &Algebroid, sections: &[SectionId]) -> Vec<Vec<bool>> {
+    let mut commute = |alpha: SectionId, beta: SectionId| {
+        let bracket = bracket_of(graph, algebroid, alpha, beta);
+        bracket.into_iter().all(|component| graph.is_literal_zero(component))
+    };
+    sections.iter().map(|alpha| sections.iter().map(|beta| commute(*alpha, *beta)).collect()).collect()
 }
 
 fn jacobi_of_triple(

@@ -20,6 +20,10 @@ pub(super) enum Kind {
 /// Operands of longer lists are paired with so many neighbours only, so that time stays linear.
 const WINDOW: usize = 24;
 
+/// Occurrences of pairs that are looked through before the search is given up: what it leaves is
+/// right, only not the cheapest. Systems of some dozens of bodies stay below.
+const PATIENCE: usize = 1_000_000;
+
 /// Two operands, the smaller first, and whether their signs differ. Both are the same for a square.
 type Pair = (Term, Term, bool);
 
@@ -39,7 +43,7 @@ struct Search<'a> {
     heap: BinaryHeap<Entry>,
 }
 
-/// Extracts shared pairs until none is left.
+/// Extracts shared pairs until none is left, or the search has taken too long.
 pub(super) fn share_pairs(arena: &mut Arena, kind: Kind) {
     let lists = lists(arena, kind);
     let mut search = Search { arena, kind, lists, places: FxHashMap::default(), heap: BinaryHeap::new() };
@@ -52,7 +56,11 @@ pub(super) fn share_pairs(arena: &mut Arena, kind: Kind) {
         }
     }
     search.fill_heap();
+    let mut patience = PATIENCE;
     while let Some((users, _, Reverse(pair))) = search.heap.pop() {
+        let occurrences = search.places.get(&pair).map_or(1, Vec::len);
+        let Some(left) = patience.checked_sub(occurrences) else { break };
+        patience = left;
         let places = search.places_of(pair);
         let current = places.iter().map(|(_, times)| times).sum();
         if current == users {
