@@ -6,21 +6,22 @@ use super::{super::Resolved, resolve};
 use crate::emit::Layout;
 use crate::syntax;
 
-/// The declarations in a file: attribute and struct.
-fn declarations(text: &str) -> Vec<(TokenStream, TokenStream)> {
-    let tokens: Vec<TokenTree> = text.parse::<TokenStream>().expect("tokens").into_iter().collect();
+/// The declarations in a file, also those inside macros: attribute and struct.
+fn declarations(tokens: TokenStream) -> Vec<(TokenStream, TokenStream)> {
+    let tokens: Vec<TokenTree> = tokens.into_iter().collect();
     let mut found = Vec::new();
     for (k, token) in tokens.iter().enumerate() {
         let TokenTree::Group(group) = token else { continue };
         let mut inside = group.stream().into_iter();
-        let (Some(TokenTree::Ident(word)), Some(TokenTree::Group(attribute))) =
-            (inside.next(), inside.next())
-        else {
-            continue;
+        let attribute = match (inside.next(), inside.next()) {
+            (Some(TokenTree::Ident(word)), Some(TokenTree::Group(attribute))) if word == "nonholonomic" => {
+                attribute
+            }
+            _ => {
+                found.extend(declarations(group.stream()));
+                continue;
+            }
         };
-        if word != "nonholonomic" {
-            continue;
-        }
         let is_body = |token: &&TokenTree| matches!(token, TokenTree::Group(group) if group.delimiter() == Delimiter::Brace);
         let end = k + 1 + tokens[k + 1..].iter().position(|token| is_body(&token)).expect("a struct");
         found.push((attribute.stream(), tokens[k + 1..=end].iter().cloned().collect()));
@@ -40,7 +41,8 @@ pub(super) fn all() -> Vec<(TokenStream, TokenStream)> {
     let Ok(files) = std::fs::read_dir(folder) else { return Vec::new() };
     let mut paths: Vec<_> = files.map(|file| file.expect("a file").path()).collect();
     paths.sort();
-    paths.iter().flat_map(|path| declarations(&std::fs::read_to_string(path).expect("text"))).collect()
+    let text = |path| std::fs::read_to_string(path).expect("text");
+    paths.iter().flat_map(|path| declarations(text(path).parse().expect("tokens"))).collect()
 }
 
 #[test]
