@@ -1,1 +1,14 @@
-//! Shared drawing code of the examples.
+//! Shared drawing code of the examples: a picture, views of the plane, charts and colours.
+//!
+//! Small on purpose. A [`Picture`] collects SVG elements in page coordinates; a [`View`] maps metres
+//! to the page with equal scales, a [`Chart`] maps two quantities; the examples do the rest.
+
+mod chart;
+mod colour;
+mod picture;
+mod view;
+
+pub use chart::Chart;
+pub use colour::{BACKGROUND, Colours, FAINT, INK, MUTED};
+pub use picture::{Page, Picture};
+pub use view::{Pose, View};
