@@ -54,6 +54,8 @@ pub struct Model {
     pub assumptions: Vec<Assumption>,
     /// What to generate beyond the default (`emit`).
     pub requests: Vec<(Request, Origin)>,
+    /// The state variables and observables that are needed (`track`); all of them if not given.
+    pub tracked: Option<Vec<(TrackedItem, Origin)>>,
     /// The velocities that the user wants the adapted state to keep.
     pub independent: Option<Vec<(SymbolId, Origin)>>,
     /// The formulation that the user asks for.
@@ -225,6 +227,15 @@ pub enum Request {
     Multipliers,
     /// The reaction forces λ_A ∂φ^A/∂y^α along the sections.
     Reactions,
+}
+
+/// Something that is needed of a system.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum TrackedItem {
+    /// A coordinate or a velocity.
+    Variable(SymbolId),
+    /// An observable, by its position.
+    Output(usize),
 }
 
 /// One constraint `lhs = rhs`, as φ = lhs − rhs.

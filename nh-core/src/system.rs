@@ -11,14 +11,16 @@ pub struct System {
     pub model: Model,
     /// The form of the equations.
     pub formulation: Formulation,
+    /// The coordinates in the state, in declared order: all of them, unless `track` leaves some out.
+    pub state_coordinates: Vec<SymbolId>,
     /// The velocities in the state, in declared order: all of them in the projected formulation.
     pub state_velocities: Vec<SymbolId>,
-    /// Outputs: ẋ^i for each coordinate, then v̇ for each velocity in the state.
+    /// Outputs: ẋ^i for each coordinate in the state, then v̇ for each velocity in the state.
     pub derivative: Procedure,
-    /// One output: E_L.
-    pub energy: Procedure,
-    /// Outputs: y^α for every section.
-    pub velocity: Procedure,
+    /// One output: E_L; unless it depends on what `track` leaves out.
+    pub energy: Option<Procedure>,
+    /// Outputs: y^α for every section; unless they depend on what `track` leaves out.
+    pub velocity: Option<Procedure>,
     /// Outputs: the declared observables.
     pub observables: Procedure,
     /// Outputs: λ_A for every constraint; if asked for.
@@ -39,6 +41,14 @@ pub struct System {
     pub report: String,
     /// The equations of motion as lines of text for the documentation of the struct.
     pub equations: Vec<String>,
+}
+
+impl System {
+    /// The state: coordinates, then velocities.
+    #[must_use]
+    pub fn state(&self) -> Vec<SymbolId> {
+        [self.state_coordinates.as_slice(), &self.state_velocities].concat()
+    }
 }
 
 /// An expression of parameters alone by which the equations divide.

@@ -38,6 +38,8 @@ pub enum Law {
     Regularity,
     /// A force acts along a declared direction and depends on what it may.
     Force,
+    /// What is asked for depends on nothing that `track` leaves out.
+    Tracking,
     /// A question that the algebra could not decide.
     Decidable,
 }

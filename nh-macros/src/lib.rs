@@ -8,7 +8,125 @@ mod resolve;
 mod suggest;
 mod syntax;
 
-/// Derives the equations of motion of the declared system for the annotated struct.
+/// Derives the equations of motion of the declared mechanical system for the annotated struct.
+///
+/// The attribute's sections say how the system moves, what its Lagrangian is, and what constrains and
+/// drives it; the fields of the struct are the parameters. The macro proves that the declaration is
+/// well-posed, derives the equations, and emits plain Rust that allocates nothing. What is ill-posed is
+/// a compile error at the token concerned: what is wrong, the evidence, a way out.
+///
+/// ```text
+/// #[nonholonomic(
+///     base        { theta, x, y }                       // coordinates
+///     basis       { omega, v, side }                    // quasi-velocities
+///     anchor {                                          // kinematic equations
+///         der(theta) = omega;
+///         der(x) = v * cos(theta) - side * sin(theta);
+///         der(y) = v * sin(theta) + side * cos(theta);
+///     }
+///     lagrangian  { J / 2 * omega^2 + m / 2 * (v^2 + side^2) }
+///     constraints { blade: side = 0; }
+///     forces      { omega: torque; }
+///     inputs      { torque }
+/// )]
+/// #[derive(Clone, Copy, Debug)]
+/// pub struct Skate { pub m: f64, pub J: f64 }
+/// ```
+///
+/// # Sections
+///
+/// They come in any order, each at most once, except `brackets`. Names are separated by commas,
+/// equations and other items end with `;`. Comments are Rust's; a doc comment before a declared name
+/// becomes the documentation of its generated field.
+///
+/// | section | meaning | without it |
+/// |---|---|---|
+/// | `base { x, q[3], R[3][3] }` | coordinates xⁱ of the base, also in families | none: a Lie algebra |
+/// | `on { dot(g, g) = 1; }` | identities that embedded coordinates satisfy; the anchor is proved to keep them | none |
+/// | `basis { omega, w[3] }` | sections e_α; each name is also its quasi-velocity yᵅ | the velocities are those of the coordinates, `der(x)` |
+/// | `anchor { der(x) = …; }` | ẋⁱ = ρⁱ_α yᵅ, linear and homogeneous in the quasi-velocities, a line per coordinate | needed with `base` and `basis` |
+/// | `velocities { w = r^2 * der(phi); … }` | quasi-velocities by a coframe, instead of `basis` and `anchor` | |
+/// | `brackets { [a, b] = c; }` | [e_α, e_β]; pairs not listed vanish, the mirror follows | derived from the anchor where it is injective |
+/// | `brackets so(3) { w }` | a known algebra for the sections named; may be combined with others | |
+/// | `frame { h = d1 - A * xi; }` | new sections as combinations of the declared ones; other sections may use them | |
+/// | `almost;` | the Jacobi identity is not demanded | it is proved |
+/// | `lagrangian { let …; L }` | L(t, x, y) | an error |
+/// | `constraints { label: lhs = rhs; }` | linear, affine or nonlinear in the velocities, at will dependent on the time | none |
+/// | `distribution { s, dpsi }` | sections that span the allowed velocities, instead of linear constraints | |
+/// | `forces { omega: …; x: …; }` | generalized forces along a section or a coordinate | none |
+/// | `inputs { torque }` | control inputs, constant within a step | none |
+/// | `outputs { speed = …; }` | named observables | none |
+/// | `conserved { spin = …; }` | claimed first integrals, proved or refused | |
+/// | `assume { m > 0; }` | facts about parameters: used in proofs, checked by `validate` | none |
+/// | `independent { v, dphi }` | the velocities that the state keeps | chosen by the macro |
+/// | `formulation { projected }` | all velocities in the state, with multipliers; or `adapted` | adapted where a choice of velocities holds everywhere |
+/// | `emit { jacobian, multipliers, reactions }` | what to generate beyond the default | |
+/// | `track { v, speed }` | the state variables and outputs that matter: what does not flow into them is neither stored nor computed | everything |
+/// | `derivative { motor: [self.motor_speed]; }` | the partial derivatives of a method used in a force, for `emit { jacobian }` | |
+/// | `names { state = RobotState; }` | names of generated types, by their roles | `…State` and so on |
+/// | `crate { ::runtime }` | the path of the runtime where the dependency is renamed | `::nh_runtime` |
+///
+/// `symmetries` is reserved for a later version, and refused.
+///
+/// # Expressions
+///
+/// `+ - * /`, powers `x^2` with a rational exponent (tighter than a sign, from the right), parentheses;
+/// `sin cos tan asin acos atan atan2 sinh cosh tanh exp ln sqrt`, and in `forces` and `outputs` also
+/// `abs sign min max`. Numbers are exact: `1/2`, `0.5` and `.5` are one half. `t` is the time, `pi` is
+/// π, `der(x)` the rate of a coordinate (with a basis: its anchor expression).
+///
+/// ```text
+/// let c = cos(theta);                       // before it is used, in any section of equations
+/// sum(i in 0..3: I[i] * w[i]^2) / 2         // an empty range is 0
+/// dot(w, I * w) / 2 - dot(g, [a, 0, b])     // vectors, matrices times vectors, cross(u, v)
+/// for i in 0..3 { der(q[i]) = v[i]; }       // around whole items
+/// ```
+///
+/// Forces may call methods of the struct, `omega: self.motor(omega, throttle);`: the macro takes their
+/// values as they come. Fields of other types, for the sake of such methods, are marked `#[nh(skip)]`.
+///
+/// # Conventions
+///
+/// - The equations are those of Lagrange and d'Alembert on the Lie algebroid (nonlinear constraints:
+///   Chetaev's rule). The energy is yᵅ ∂L/∂yᵅ − L.
+/// - `lhs = rhs` is φ = lhs − rhs. Its multiplier acts as +λ ∂φ/∂y on the right-hand side: for
+///   `side = 0` it is the force along `side`.
+/// - A force along a coordinate is pulled back by the anchor; along a section it is Υ_α.
+/// - `so(3) { w1, w2, w3 }`: [w1, w2] = w3 and cyclic. `se(2) { omega, v1, v2 }`: [omega, v1] = v2,
+///   [omega, v2] = −v1. `se(3) { w1, w2, w3, v1, v2, v3 }`: [wᵢ, wⱼ] = ε wₖ, [wᵢ, vⱼ] = ε vₖ. `sl(2)
+///   { h, e, f }`: [h, e] = 2e, [h, f] = −2f, [e, f] = h. `heisenberg(n) { x…, y…, z }`: [xᵢ, yᵢ] = z.
+///   `so(n)`, n ≥ 4: e_ij = E_ij − E_ji, i < j, in lexicographic order.
+///
+/// # Which velocities the state keeps
+///
+/// In the adapted formulation each constraint eliminates a velocity. One written `name = …` or
+/// `der(x) = …`, solved for that velocity, eliminates it; otherwise the macro looks for velocities
+/// whose pivot vanishes nowhere that the constraints are independent. A pivot of parameters alone
+/// counts, and `validate` refuses its zero. Where there is no such choice (a knife edge in `x`, `y`,
+/// `theta`) the state keeps all velocities: the projected formulation. A choice by `independent` is
+/// taken even if its pivot vanishes somewhere; the report says where.
+///
+/// # What is generated
+///
+/// For `struct Skate`:
+///
+/// - `SkateState`, with one field per name, base coordinates first, then velocities; `SkateVelocity`
+///   with all quasi-velocities; `SkateInput`, `SkateOutputs`, `SkateMultipliers` where there are any.
+///   All are `Copy`, `Default`, `Debug`, `PartialEq`, and convert to and from arrays and
+///   `nalgebra::SVector`. The velocity of `x` where there is no basis is the field `x_dot`.
+/// - The traits `Dynamics`, `Energy`, and `Observed`, `Jacobian`, `Constrained` where they apply.
+/// - Methods, all with the time first: `derivative(t, &state, &input)`, `energy(t, &state)`,
+///   `velocity(t, &state)`, `outputs(t, &state, &input)`; on request `multipliers`, `reactions` and
+///   `jacobian(t, &state, &input)`; in the projected formulation `constraint_residual(t, &state)` and
+///   `project(t, &mut state)`; with `on`, `normalize(&mut state)`.
+/// - `validate(&self)`: parameters that are not finite, that break an assumption, or that make a
+///   divisor of the equations zero.
+/// - `const REPORT: &str`: the classification, the structure functions, the distribution, the mass
+///   matrix, the equations, what is conserved, operation counts. The equations also stand in the
+///   documentation of the struct.
+///
+/// The fields are of one scalar type: `f64`, `f32`, or a type parameter, `struct Skate<T> { m: T }`,
+/// for which the generated code is generic over the runtime's `Scalar`.
 #[proc_macro_attribute]
 pub fn nonholonomic(
     attribute: proc_macro::TokenStream,

@@ -160,7 +160,7 @@ impl Scalar for Dual {
         self.value >= other.value
     }
     fn all_ne(self, other: Self) -> bool {
-        self.value != other.value
+        self.value.all_ne(other.value)
     }
     fn select_gt(self, other: Self, then: Self, otherwise: Self) -> Self {
         if self.value > other.value { then } else { otherwise }

@@ -1,7 +1,9 @@
 //! The functions of a system in the adapted formulation.
 
 use super::embedded::embedding;
-use super::restricted::{calls, in_state, observables, parameter_checks, requested, requested_jacobian};
+use super::restricted::{
+    calls, coordinates, in_state, observables, parameter_checks, requested, requested_jacobian,
+};
 use super::{Proved, fence};
 use crate::algebra::Graph;
 use crate::check;
@@ -68,10 +70,11 @@ pub(super) fn derive(
     let model = proved.model;
     Ok(System {
         formulation: Formulation::Adapted,
+        state_coordinates: coordinates(&model),
         state_velocities: distribution.independent.clone(),
         derivative,
-        energy: Procedure::of(vec![energy]),
-        velocity: Procedure::of(equations.velocity.clone()),
+        energy: Some(Procedure::of(vec![energy])),
+        velocity: Some(Procedure::of(equations.velocity.clone())),
         observables,
         multipliers: requested(&model, Request::Multipliers).then_some(multipliers),
         reactions: requested(&model, Request::Reactions).then_some(reactions),

@@ -4,6 +4,7 @@ mod adapted;
 mod embedded;
 mod projected;
 mod restricted;
+mod slice;
 
 use crate::algebra::Facts;
 use crate::check::{self, Chosen, Constraints, Motion};
@@ -62,12 +63,14 @@ pub fn compile(mut model: Model) -> Result<System, Vec<Violation>> {
     let system = lagrangian_system(&mut model, &mut motion, algebroid);
     // 7. the equations, proved regular, and the claims about them
     let proved = Proved { model, motion, base, facts, constraints, system };
-    match chosen {
+    let system = match chosen {
         Chosen::Adapted { distribution, conditions, reason } => {
-            adapted::derive(proved, &distribution, &conditions, &reason)
+            adapted::derive(proved, &distribution, &conditions, &reason)?
         }
-        Chosen::Projected { reason } => projected::derive(proved, &reason),
-    }
+        Chosen::Projected { reason } => projected::derive(proved, &reason)?,
+    };
+    // 8. what is tracked
+    slice::slice(system)
 }
 
 /// The constraints, in the basis that the frame makes, or the distribution that sections span.

@@ -1,7 +1,7 @@
 //! The functions of a system in the projected formulation.
 
 use super::embedded::embedding;
-use super::restricted::{calls, in_state, observables, requested, requested_jacobian};
+use super::restricted::{calls, coordinates, in_state, observables, requested, requested_jacobian};
 use super::{Proved, fence};
 use crate::algebra::{Graph, Matrix, Substitution};
 use crate::check;
@@ -68,10 +68,11 @@ pub(super) fn derive(mut proved: Proved, reason: &str) -> Result<System, Vec<Vio
     let model = proved.model;
     Ok(System {
         formulation: Formulation::Projected,
+        state_coordinates: coordinates(&model),
         state_velocities: velocities,
         derivative,
-        energy: Procedure::of(vec![energy]),
-        velocity: Procedure::of(velocity),
+        energy: Some(Procedure::of(vec![energy])),
+        velocity: Some(Procedure::of(velocity)),
         observables,
         multipliers: requested(&model, Request::Multipliers).then_some(multipliers),
         reactions: requested(&model, Request::Reactions).then_some(reactions),

@@ -8,6 +8,11 @@ use crate::model::{Model, Request};
 use crate::system::ParameterCheck;
 use crate::violation::{Law, Violation};
 
+/// The base coordinates.
+pub(super) fn coordinates(model: &Model) -> Vec<SymbolId> {
+    model.coordinates.iter().map(|coordinate| coordinate.symbol).collect()
+}
+
 /// The declared observables.
 pub(super) fn observables(
     model: &mut Model,

@@ -4,7 +4,7 @@ use crate::systems;
 
 use nh_core::compile::compile;
 use nh_core::id::Id;
-use nh_core::model::{Formulation, Model, Request};
+use nh_core::model::{Formulation, Model};
 use nh_core::program::{interpret, schedule};
 use nh_core::system::System;
 use nh_core::violation::Law;
@@ -339,46 +339,4 @@ fn broken_laws_are_named() {
     model.constraints.push(model.constraints.iter().next().unwrap().clone());
     let violations = compile(model).unwrap_err();
     assert_eq!(violations[0].law, Law::Independence);
-}
-
-#[test]
-fn jacobians_agree_with_differences() {
-    let models = [
-        systems::sleigh(),
-        systems::robot(),
-        systems::veselova(),
-        systems::sleigh_on_the_plane(),
-        systems::snakeboard(true),
-    ];
-    for mut model in models {
-        model.requests.push((Request::Jacobian, systems::origin()));
-        let system = compiled(model);
-        let graph = &system.model.graph;
-        let derivative = schedule(graph, &system.derivative);
-        let jacobian = interpret(&schedule(graph, system.jacobian.as_ref().unwrap()), sample);
-        let coordinates = system.model.coordinates.iter().map(|c| c.symbol);
-        let arguments: Vec<_> = coordinates.chain(system.state_velocities.iter().copied()).collect();
-        for (column, argument) in arguments.iter().enumerate() {
-            let at = |shift: f64| {
-                interpret(&derivative, |s| if s == *argument { sample(s) + shift } else { sample(s) })
-            };
-            let step = 1e-3;
-            // Richardson's extrapolation of central differences: error O(h⁴)
-            let (near, far) = ([at(step), at(-step)], [at(2.0 * step), at(-2.0 * step)]);
-            for row in 0..arguments.len() {
-                let (close, wide) = (near[0][row] - near[1][row], far[0][row] - far[1][row]);
-                let expected = (8.0 * close - wide) / (12.0 * step);
-                let found = jacobian[row * arguments.len() + column];
-                assert!(
-                    (found - expected).abs() <= 1e-8 * (1.0 + expected.abs()),
-                    "{found} is not {expected}"
-                );
-            }
-        }
-    }
-}
-
-/// A value for every symbol.
-fn sample(symbol: nh_core::id::SymbolId) -> f64 {
-    0.4 + f64::from(u8::try_from((symbol.index() * 7919) % 13).unwrap()) / 11.0
 }

@@ -3,5 +3,6 @@
 
 mod adapted_frame;
 mod derivation;
+mod requests;
 mod systems;
 mod velocity_forms;

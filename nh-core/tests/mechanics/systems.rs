@@ -74,6 +74,7 @@ impl Builder {
             constraints: Table::new(),
             forces: Vec::new(),
             outputs: Vec::new(),
+            tracked: None,
             independent: None,
             formulation: None,
         };

@@ -37,8 +37,9 @@ pub(super) struct Locals {
 }
 
 impl<'a> Context<'a> {
-    /// `kept` are the velocities in the state, `basis` those of all sections of the basis.
-    pub(super) fn new(layout: &'a Layout, kept: &[SymbolId], basis: &[SymbolId]) -> Self {
+    /// `in_state` are the coordinates and velocities in the state, `basis` the velocities of all
+    /// sections of the basis.
+    pub(super) fn new(layout: &'a Layout, in_state: &[SymbolId], basis: &[SymbolId]) -> Self {
         let path = &layout.runtime;
         let runtime = quote!(#path::__private);
         let mut generics = layout.generics.clone();
@@ -52,8 +53,8 @@ impl<'a> Context<'a> {
         let fields = |families: &[Family], what: &str| -> Vec<Field> {
             families.iter().map(|family| Field::of(family, what)).collect()
         };
-        let mut in_state = fields(&layout.coordinates, "coordinate");
-        in_state.extend(velocity_fields(layout, kept));
+        let mut state = coordinate_fields(layout, in_state);
+        state.extend(velocity_fields(layout, in_state));
         let some = |record: Record| (!record.fields.is_empty()).then_some(record);
         Self {
             scalar: layout.scalar_type(),
@@ -62,7 +63,7 @@ impl<'a> Context<'a> {
             state: Record {
                 name: layout.types.state.clone(),
                 doc: format!("The state of [`{name}`]: base coordinates, then velocities."),
-                fields: in_state,
+                fields: state,
             },
             velocity: Record {
                 name: layout.types.velocity.clone(),
@@ -151,14 +152,29 @@ impl<'a> Context<'a> {
     }
 }
 
-/// The fields of some velocities, in order. Entries of a family that stand there as a whole, one
-/// after the other, are one array; else each entry is a field of its own.
+/// The fields of the coordinates among some symbols.
+fn coordinate_fields(layout: &Layout, symbols: &[SymbolId]) -> Vec<Field> {
+    entry_fields(layout.coordinates.iter(), &layout.coordinate_symbols, symbols, "coordinate")
+}
+
+/// The fields of the velocities among some symbols.
 fn velocity_fields(layout: &Layout, symbols: &[SymbolId]) -> Vec<Field> {
     let families = layout.velocities.iter().chain(&layout.frame);
+    entry_fields(families, &layout.velocity_symbols, symbols, "quasi-velocity")
+}
+
+/// The fields of those of some symbols that are entries of families, in order. Entries of a family
+/// that stand there as a whole, one after the other, are one array; else each entry is a field of its
+/// own.
+fn entry_fields<'a>(
+    families: impl Iterator<Item = &'a Family>,
+    known: &[SymbolId],
+    symbols: &[SymbolId],
+    what: &str,
+) -> Vec<Field> {
     let entries: Vec<(&Family, usize)> =
         families.flat_map(|family| (0..family.entries().len()).map(move |offset| (family, offset))).collect();
-    let known = layout.velocity_symbols.iter();
-    let place = |symbol: &SymbolId| known.clone().position(|known| known == symbol);
+    let place = |symbol: &SymbolId| known.iter().position(|known| known == symbol);
     let positions: Vec<usize> = symbols.iter().filter_map(place).collect();
     let mut fields = Vec::new();
     let mut rest = positions.as_slice();
@@ -167,10 +183,10 @@ fn velocity_fields(layout: &Layout, symbols: &[SymbolId]) -> Vec<Field> {
         let length = family.entries().len();
         let whole = *offset == 0 && rest.iter().copied().take(length).eq(*first..*first + length);
         if whole {
-            fields.push(Field::of(family, "quasi-velocity"));
+            fields.push(Field::of(family, what));
             rest = &rest[length..];
         } else {
-            fields.push(Field::of_entry(family, &family.entries()[*offset], "quasi-velocity"));
+            fields.push(Field::of_entry(family, &family.entries()[*offset], what));
             rest = others;
         }
     }

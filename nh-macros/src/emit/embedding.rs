@@ -1,6 +1,5 @@
 //! The identities of an embedded base: whether a state satisfies them, and the way back.
 
-use nh_core::id::SymbolId;
 use nh_core::system::{Embedding, System};
 use proc_macro2::{Literal, TokenStream};
 use quote::quote;
@@ -60,14 +59,14 @@ fn residual_with_body(context: &Context, texts: &[String], count: usize, body: &
 
 fn normalize(context: &Context, system: &System, embedding: &Embedding) -> TokenStream {
     let (runtime, state) = (&context.runtime, &context.locals.state);
-    let symbols: Vec<SymbolId> = system.model.coordinates.iter().map(|entry| entry.symbol).collect();
+    let symbols = &system.state_coordinates;
     let places = context.state.places(state);
     let (coordinates, velocities) = places.split_at(symbols.len().min(places.len()));
     let present = local("present");
     let mut moved = entries(&present, coordinates.len());
     moved.extend_from_slice(velocities);
     let moved = context.state.construct(&context.state_name(), &moved);
-    let step = closure(context, system, &[], &symbols, &program(&system.model, &embedding.step));
+    let step = closure(context, system, &[], symbols, &program(&system.model, &embedding.step));
     let iteration = quote! {
         [#(#coordinates),*] = #runtime::project(
             [#(#coordinates),*],

@@ -35,6 +35,8 @@ pub(crate) struct Layout {
     pub(crate) parameters: Vec<Family>,
     /// The base coordinates.
     pub(crate) coordinates: Vec<Family>,
+    /// What the engine knows their entries by.
+    pub(crate) coordinate_symbols: Vec<SymbolId>,
     /// The quasi-velocities; `x_dot` where E = TM.
     pub(crate) velocities: Vec<Family>,
     /// The sections of the frame.
@@ -148,6 +150,7 @@ impl Layout {
             types: TypeNames::of(&structure.name),
             parameters: structure.parameters.iter().map(Family::from).collect(),
             coordinates: Vec::new(),
+            coordinate_symbols: Vec::new(),
             velocities: Vec::new(),
             frame: Vec::new(),
             velocity_symbols: Vec::new(),

@@ -46,16 +46,17 @@ pub(crate) use stubs::stubs;
 /// The struct and everything that its declaration gives it.
 pub(crate) fn emit(system: &System, layout: &Layout) -> TokenStream {
     let model = &system.model;
-    let kept = &system.state_velocities;
+    let in_state = &system.state();
     let basis: Vec<SymbolId> = model.sections.iter().map(|section| section.symbol).collect();
-    let context = &Context::new(layout, kept, &basis);
-    let scope = &Scope::new(context, model, kept);
+    let context = &Context::new(layout, in_state, &basis);
+    let scope = &Scope::new(context, model, in_state);
     let derivative = program(model, &system.derivative);
-    let energy_program = program(model, &system.energy);
-    let velocities = program(model, &system.velocity);
+    let energy = system.energy.as_ref().map(|energy| program(model, energy));
+    let velocity = system.velocity.as_ref().map(|velocity| program(model, velocity));
     let observables = program(model, &system.observables);
-    let mut programs =
-        vec![("derivative", &derivative), ("energy", &energy_program), ("velocity", &velocities)];
+    let mut programs = vec![("derivative", &derivative)];
+    programs.extend(energy.iter().map(|energy| ("energy", energy)));
+    programs.extend(velocity.iter().map(|velocity| ("velocity", velocity)));
     if context.outputs.is_some() {
         programs.push(("outputs", &observables));
     }
@@ -66,14 +67,14 @@ pub(crate) fn emit(system: &System, layout: &Layout) -> TokenStream {
     programs.extend(part.programs.iter().map(|(name, program)| (*name, program)));
     let mut methods = report::constant(context, system, &programs);
     methods.extend(dynamics::method(context, scope, &derivative));
-    methods.extend(energy::method(context, scope, &energy_program));
-    methods.extend(velocity::method(context, scope, &velocities));
+    methods.extend(energy.iter().map(|energy| energy::method(context, scope, energy)));
+    methods.extend(velocity.iter().map(|velocity| velocity::method(context, scope, velocity)));
     let mut items = report::item(context, &system.equations);
-    items.extend(records(context));
+    items.extend(records(context, velocity.is_some()));
     items.extend(state::emit(context));
     let check_state = embedding::check_state(context, scope, system);
     items.extend(dynamics::implementation(context, &check_state));
-    items.extend(energy::implementation(context));
+    items.extend(energy.iter().map(|_| energy::implementation(context)));
     if let Some(outputs) = &context.outputs {
         methods.extend(observed::method(context, outputs, scope, &observables));
         items.extend(observed::implementation(context, outputs));
@@ -86,9 +87,10 @@ pub(crate) fn emit(system: &System, layout: &Layout) -> TokenStream {
     items
 }
 
-/// The generated structs.
-fn records(context: &Context) -> TokenStream {
-    let optional = [&context.input, &context.outputs].into_iter().flatten();
-    let records = [&context.state, &context.velocity].into_iter().chain(optional);
+/// The generated structs; that of all velocities only with the method that returns it.
+fn records(context: &Context, has_velocity: bool) -> TokenStream {
+    let velocity = has_velocity.then_some(&context.velocity);
+    let optional = [&context.input, &context.outputs].map(Option::as_ref);
+    let records = [Some(&context.state), velocity].into_iter().chain(optional).flatten();
     records.map(|record| record.emit(context)).collect()
 }

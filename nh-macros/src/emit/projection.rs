@@ -109,7 +109,7 @@ pub(super) fn closure(
     step: &Program,
 ) -> TokenStream {
     let (start, present) = (local("start"), local("present"));
-    let scope = Scope::new(context, &system.model, &system.state_velocities)
+    let scope = Scope::new(context, &system.model, &system.state())
         .with_array(Argument::Start, &start, started)
         .with_array(Argument::Present, &present, moved);
     let step = body(context, &scope, step);

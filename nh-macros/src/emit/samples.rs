@@ -43,6 +43,7 @@ pub(crate) fn layout(sample: &Sample) -> Layout {
     // the symbols of a `Builder` are numbered in this order, after the time
     let count = |families: &[Family]| families.iter().map(|family| family.entries().len()).sum::<usize>();
     let first = 1 + count(&layout.parameters) + count(&layout.coordinates);
+    layout.coordinate_symbols = (1 + count(&layout.parameters)..first).map(SymbolId::from_index).collect();
     layout.velocity_symbols = (first..first + count(&layout.velocities)).map(SymbolId::from_index).collect();
     layout
 }
@@ -94,6 +95,7 @@ impl Builder {
             calls: Vec::new(),
             assumptions: Vec::new(),
             requests: Vec::new(),
+            tracked: None,
             independent: None,
             formulation: None,
         };
@@ -124,13 +126,15 @@ impl Builder {
         self.model.graph = self.graph;
         let velocities: Vec<SymbolId> = self.model.sections.iter().map(|section| section.symbol).collect();
         let [derivative, energy, velocity, observables] = procedures;
+        let coordinates = self.model.coordinates.iter().map(|coordinate| coordinate.symbol).collect();
         System {
             model: self.model,
             formulation: Formulation::Adapted,
+            state_coordinates: coordinates,
             state_velocities: kept.iter().map(|index| velocities[*index]).collect(),
             derivative,
-            energy,
-            velocity,
+            energy: Some(energy),
+            velocity: Some(velocity),
             observables,
             multipliers: None,
             reactions: None,

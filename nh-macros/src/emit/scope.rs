@@ -34,7 +34,7 @@ pub(super) struct Scope<'a> {
 
 impl<'a> Scope<'a> {
     /// `self.m`, `t`, `state.theta[0]`, `input.torque`.
-    pub(super) fn new(context: &Context, model: &'a Model, kept: &[SymbolId]) -> Self {
+    pub(super) fn new(context: &Context, model: &'a Model, in_state: &[SymbolId]) -> Self {
         let mut places = BTreeMap::new();
         let (t, state, input) = (&context.locals.t, &context.locals.state, &context.locals.input);
         places.insert(model.time, (Argument::Time, quote!(#t)));
@@ -42,10 +42,8 @@ impl<'a> Scope<'a> {
         for (parameter, place) in model.parameters.iter().zip(parameters) {
             places.insert(parameter.symbol, (Argument::This, place));
         }
-        let in_state = model.coordinates.iter().map(|coordinate| coordinate.symbol);
-        let in_state = in_state.chain(kept.iter().copied());
-        for (symbol, place) in in_state.zip(context.state.places(state)) {
-            places.insert(symbol, (Argument::State, place));
+        for (symbol, place) in in_state.iter().zip(context.state.places(state)) {
+            places.insert(*symbol, (Argument::State, place));
         }
         if let Some(record) = &context.input {
             for (entry, place) in model.inputs.iter().zip(record.places(input)) {

@@ -20,7 +20,7 @@ use crate::resolve::Outline;
 pub(crate) fn stubs(layout: &Layout, outline: &Outline) -> TokenStream {
     let declared: usize = layout.velocities.iter().map(|family| family.entries().len()).sum();
     let declared = layout.velocity_symbols.get(..declared).unwrap_or_default();
-    let context = &Context::new(layout, &outline.kept, declared);
+    let context = &Context::new(layout, &outline.in_state, declared);
     let runtime = &context.runtime;
     let scalar = &context.scalar;
     let zero = quote!(<#scalar as #runtime::Scalar>::ZERO);
@@ -32,7 +32,7 @@ pub(crate) fn stubs(layout: &Layout, outline: &Outline) -> TokenStream {
     methods.extend(stub(velocity::head(context), &default));
     methods.extend(validate::with_body(context, &TokenStream::new()));
     let mut items = report::item(context, &[]);
-    items.extend(super::records(context));
+    items.extend(super::records(context, true));
     items.extend(state::emit(context));
     items.extend(dynamics::implementation(context, &TokenStream::new()));
     items.extend(energy::implementation(context));

@@ -51,7 +51,7 @@ fn constraints_and_the_way_back_to_them() {
 fn stubs_stand_in() {
     let layout = layout(&sleigh());
     let outline = Outline {
-        kept: layout.velocity_symbols[..2].to_vec(),
+        in_state: [layout.coordinate_symbols.as_slice(), &layout.velocity_symbols[..2]].concat(),
         requests: vec![Request::Jacobian, Request::Multipliers],
         labels: vec![Some("blade".to_owned())],
         identities: 0,

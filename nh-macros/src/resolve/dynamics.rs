@@ -39,10 +39,9 @@ impl Resolver {
         let mut labels = BTreeSet::new();
         let lone = self.lone_rates(kinematics);
         self.section(Context::Constraints, items, &mut |this, equation| {
-            let constraints = this.constraint(equation, &lone, &mut labels).map_err(|reported| {
+            let constraints = this.constraint(equation, &lone, &mut labels).inspect_err(|_| {
                 let placeholder = this.placeholder(Some(&equation.left), &lone);
                 found.push(placeholder);
-                reported
             })?;
             for constraint in constraints {
                 found.push(constraint);

@@ -21,8 +21,7 @@ const REQUESTS: [(&str, Request); 3] = [
 ];
 
 /// What `emit` will be able to ask for.
-const TO_COME: [&str; 6] =
-    ["hamiltonian", "bracket", "connection", "divergence", "gibbs_appell", "taylor"];
+const TO_COME: [&str; 6] = ["hamiltonian", "bracket", "connection", "divergence", "gibbs_appell", "taylor"];
 
 impl Resolver {
     /// f = 0 on the embedded base; vectors entry by entry.

@@ -26,6 +26,7 @@ mod product;
 mod reports;
 mod resolver;
 mod scope;
+mod track;
 
 #[cfg(test)]
 mod tests;
@@ -90,12 +91,14 @@ impl Resolver {
         let claims = sections.conserved.as_ref().map(|s| self.claims(&s.body)).unwrap_or_default();
         let assumptions = sections.assume.as_ref().map(|s| self.assumptions(&s.body)).unwrap_or_default();
         let requests = sections.emit.as_ref().map(|s| self.requests(&s.body)).unwrap_or_default();
+        let tracked = sections.track.as_ref().map(|s| self.tracked(s, &outputs));
         let independent = sections.independent.as_ref().map(|s| self.independent(&s.body));
         let formulation = sections.formulation.as_ref().map(|s| self.formulation(s));
         let origin = Self::whole();
         let lagrangian = lagrangian.unwrap_or(Located { value: self.time(), origin });
         let tables = std::mem::take(&mut self.tables);
         let declared = tables.sections.iter().map(|section| section.symbol);
+        layout.coordinate_symbols = tables.coordinates.iter().map(|coordinate| coordinate.symbol).collect();
         layout.velocity_symbols = declared.chain(tables.frame.iter().map(|section| section.symbol)).collect();
         Model {
             graph: std::mem::take(&mut self.graph),
@@ -121,6 +124,7 @@ impl Resolver {
             claims,
             assumptions,
             requests,
+            tracked,
             independent,
             formulation,
         }

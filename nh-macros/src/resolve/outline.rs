@@ -2,13 +2,13 @@
 
 use nh_core::algebra::{Derivation, Graph};
 use nh_core::id::{ExprId, SymbolId};
-use nh_core::model::{ConstraintDecl, Formulation, Kinematics, Model, Request};
+use nh_core::model::{AnchorDecl, ConstraintDecl, Formulation, Kinematics, Model, Request, TrackedItem};
 
 /// The shape that the generated items of a declaration in error would probably have.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Outline {
-    /// The velocities in the state.
-    pub(crate) kept: Vec<SymbolId>,
+    /// The coordinates and velocities in the state.
+    pub(crate) in_state: Vec<SymbolId>,
     /// What is to be generated beyond the default.
     pub(crate) requests: Vec<Request>,
     /// The labels of the constraints.
@@ -21,12 +21,38 @@ impl Outline {
     /// The outline of a model, of which parts in error are left out.
     pub(crate) fn of(model: &Model) -> Self {
         Self {
-            kept: kept(model),
+            in_state: in_state(model),
             requests: model.requests.iter().map(|(request, _)| *request).collect(),
             labels: model.constraints.iter().map(|constraint| constraint.label.clone()).collect(),
             identities: model.identities.len(),
         }
     }
+}
+
+/// The state: all of it, or what is tracked with what flows into it at once.
+fn in_state(model: &Model) -> Vec<SymbolId> {
+    let coordinates = model.coordinates.iter().map(|coordinate| coordinate.symbol);
+    let velocities = kept(model);
+    let Some(tracked) = &model.tracked else { return coordinates.chain(velocities).collect() };
+    let mut declared = vec![model.lagrangian.value];
+    declared.extend(model.constraints.iter().map(|constraint| constraint.residual));
+    declared.extend(model.forces.iter().map(|force| force.value));
+    let mut needed = model.graph.symbols_in(&declared);
+    for (item, _) in tracked {
+        match item {
+            TrackedItem::Variable(symbol) => needed.push(*symbol),
+            TrackedItem::Output(index) => {
+                let output = model.outputs.get(*index).map(|output| output.value);
+                needed.extend(model.graph.symbols_in(output.as_slice()));
+            }
+        }
+    }
+    if let Kinematics::Anchor(lines) = &model.kinematics {
+        let tracked = |line: &&AnchorDecl| needed.contains(&model.coordinates[line.coordinate].symbol);
+        let rates: Vec<ExprId> = lines.iter().filter(tracked).map(|line| line.rate).collect();
+        needed.extend(model.graph.symbols_in(&rates));
+    }
+    coordinates.filter(|symbol| needed.contains(symbol)).chain(velocities).collect()
 }
 
 /// The velocities in the state.

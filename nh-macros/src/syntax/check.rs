@@ -1,6 +1,6 @@
 //! Rules about which sections there are and which go together; sections to come.
 
-use super::ast::{Name, SystemDecl};
+use super::ast::SystemDecl;
 use crate::report::{Diagnostic, Errors, Extent};
 
 /// After this point the sections are supported, and none contradicts another.
@@ -14,21 +14,14 @@ pub(crate) fn check(declaration: &SystemDecl) -> Result<(), Vec<Diagnostic>> {
     errors.finish(())
 }
 
-/// Sections of a later release. To enable one is to delete its line.
+/// Sections of a later release.
 fn refuse_sections_to_come(declaration: &SystemDecl, errors: &mut Errors) {
-    let s = &declaration.sections;
-    let keep_out = "leave the section out";
-    let to_come: [(Option<&Name>, &str); 2] = [
-        (s.symmetries.as_ref().map(|s| &s.keyword), keep_out),
-        (s.track.as_ref().map(|s| &s.keyword), keep_out),
-    ];
-    for (keyword, way_out) in to_come {
-        if let Some(keyword) = keyword {
-            errors.push(
-                Diagnostic::new(keyword.extent(), format!("`{}` is not supported yet", keyword.text))
-                    .way_out(way_out),
-            );
-        }
+    if let Some(symmetries) = &declaration.sections.symmetries {
+        let keyword = &symmetries.keyword;
+        errors.push(
+            Diagnostic::new(keyword.extent(), format!("`{}` is not supported yet", keyword.text))
+                .way_out("leave the section out"),
+        );
     }
 }
 
@@ -101,15 +94,8 @@ mod tests {
 
     #[test]
     fn sections_to_come_are_refused() {
-        for section in [
-            "symmetries { spin: omega; }",
-            "track { omega, der(x) }",
-        ] {
-            let found = messages(&format!("base {{ x }} lagrangian {{ x }} {section}"), "struct S;");
-            assert_eq!(found.len(), 1, "{section}: {found:?}");
-            let keyword = section.split(' ').next().unwrap();
-            assert!(found[0].starts_with(&format!("`{keyword}` is not supported yet\nhelp: ")), "{found:?}");
-        }
+        let found = messages("base { x } lagrangian { x } symmetries { spin: omega; }", "struct S;");
+        assert_eq!(found, ["`symmetries` is not supported yet\nhelp: leave the section out"]);
     }
 
     #[test]

@@ -4,8 +4,7 @@ use proc_macro2::{Delimiter, TokenStream, TokenTree};
 
 use super::ast::{
     AnchorLine, BracketLine, Comparison, Definition, Equation, Expr, Force, MethodDerivative, Name, Place,
-    Relation,
-    Renaming, Subscript, Symmetry,
+    Relation, Renaming, Subscript, Symmetry,
 };
 use super::habits;
 use super::items::END;

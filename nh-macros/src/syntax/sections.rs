@@ -57,7 +57,9 @@ fn section(
     let text = keyword.text.clone();
     if !SECTIONS.contains(&text.as_str()) {
         let error = unknown(&keyword);
-        return probably_meant(stream, sections, seen, keyword).ok_or(error.clone()).map(|()| errors.push(error));
+        return probably_meant(stream, sections, seen, keyword)
+            .ok_or(error.clone())
+            .map(|()| errors.push(error));
     }
     if text != "brackets" && seen.contains(&text) {
         errors.push(

@@ -5,7 +5,9 @@ use super::linearization::{Analytic, FiniteDifferences, Linearization};
 use super::{Arrival, Method, Start, explain_non_finite};
 use crate::arrays::displaced;
 use crate::linear::Factors;
-use crate::{Dim, DimOf, Dynamics, IntegrationError, Jacobian, MatOf, Real, Scalar, ScalarOf, State, Statistics};
+use crate::{
+    Dim, DimOf, Dynamics, IntegrationError, Jacobian, MatOf, Real, Scalar, ScalarOf, State, Statistics,
+};
 
 /// The implicit midpoint rule x₁ = x₀ + h f(t₀ + h/2, (x₀ + x₁)/2) with fixed steps, of order 2.
 ///

@@ -77,14 +77,11 @@ fn changed_declarations_are_resolved_or_refused() {
         let (attribute, item) = &declarations[round % declarations.len()];
         let attribute = changed(attribute.clone(), &words, &mut random);
         let start = Instant::now();
-        let declaration = match syntax::parse(attribute.clone(), item.clone()) {
-            Ok(declaration) => declaration,
-            Err(_) => {
-                // beside the errors there are items all the same
-                let expanded = crate::expand::nonholonomic(attribute.clone(), item.clone());
-                assert!(syn::parse2::<syn::File>(expanded).is_ok(), "{attribute}");
-                continue;
-            }
+        let Ok(declaration) = syntax::parse(attribute.clone(), item.clone()) else {
+            // beside the errors there are items all the same
+            let expanded = crate::expand::nonholonomic(attribute.clone(), item.clone());
+            assert!(syn::parse2::<syn::File>(expanded).is_ok(), "{attribute}");
+            continue;
         };
         let mut layout = Layout::of_struct(&declaration.structure, attribute.clone());
         match resolve(&declaration, &mut layout) {

@@ -5,6 +5,7 @@ mod fuzz;
 mod limits;
 mod meaning;
 mod names;
+mod requests;
 mod sections;
 
 use nh_core::id::ExprId;

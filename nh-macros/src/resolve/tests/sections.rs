@@ -1,7 +1,7 @@
 //! The sections of a declaration: what they become, and every error text.
 
 use nh_core::id::{Id, SectionId};
-use nh_core::model::{ForceDirection, Formulation, Kinematics, Request};
+use nh_core::model::{ForceDirection, Formulation, Kinematics};
 
 use super::{evaluated, messages, model, of_name, resolved};
 
@@ -357,63 +357,4 @@ fn facts() {
         "the two sides have different shapes\non the left is a vector of 2 entries, on the right a vector of 3 \
          entries",
     )]);
-}
-
-#[test]
-fn requests() {
-    let model = model("base { x } lagrangian { 1 } emit { reactions, multipliers }", STRUCT);
-    let asked: Vec<_> = model.requests.iter().map(|(request, _)| *request).collect();
-    assert_eq!(asked, [Request::Reactions, Request::Multipliers]);
-    assert_errors(&[
-        (
-            "base { x } lagrangian { 1 } emit { multiplier }",
-            "`multiplier` cannot be emitted\nwhat can be asked for: `jacobian`, `multipliers`, `reactions`\nhelp: did you mean \
-             `multipliers`?",
-        ),
-        (
-            "base { x } lagrangian { 1 } emit { taylor }",
-            "`taylor` cannot be emitted yet\nhelp: what can be asked for: `jacobian`, `multipliers`, `reactions`",
-        ),
-        ("base { x } lagrangian { 1 } emit { reactions, reactions }", "`reactions` is asked for twice"),
-    ]);
-}
-
-#[test]
-fn methods() {
-    let model = model(
-        "base { x } inputs { u } lagrangian { der(x)^2 }
-         forces { x: self.motor(der(x), 2 * u) + self.motor(der(x), u + u) - self.drag(); }
-         outputs { heat = self.motor(0, u); }",
-        STRUCT,
-    );
-    let calls: Vec<_> = model.calls.iter().map(|call| model.graph.symbols()[call.symbol].as_str()).collect();
-    assert_eq!(calls, ["self.motor(x_dot, 2*u)", "self.drag()", "self.motor(0, u)"]);
-    let force = evaluated(&model, model.forces[0].value);
-    assert!((force - (2.0 * of_name(calls[0]) - of_name(calls[1]))).abs() < 1e-12);
-    assert_eq!(model.calls[0].method, "motor");
-    let found = of("base { q[2] } lagrangian { 1 } forces { q[0]: self.motor(q); }");
-    assert!(found[0].starts_with("expected a number, this is a vector of 2 entries"), "{found:?}");
-}
-
-#[test]
-fn derivatives_of_methods() {
-    let text = "base { x } inputs { u } lagrangian { der(x)^2 } forces { x: self.motor(der(x), u); }";
-    let declared = format!("{text} derivative {{ motor: [self.by_speed, self.by_input]; }}");
-    let model = model(&declared, STRUCT);
-    let names = ["by_speed", "by_input"].map(str::to_owned).to_vec();
-    assert_eq!(model.calls[0].derivatives, Some(names));
-    let with = |section: &str| of(&format!("{text} derivative {{ {section} }}"));
-    assert_eq!(
-        with("motor: [self.a];"),
-        ["`self.motor` is called with 2 arguments, and 1 derivative is given\nthere is one derivative for each \
-          argument, in their order\nhelp: write `motor: [self.motor_d1, self.motor_d2];`"]
-    );
-    assert_eq!(
-        with("moter: [self.a, self.b];"),
-        ["`self.moter` is not called anywhere\nhelp: did you mean `motor`?"]
-    );
-    assert_eq!(
-        with("motor: [self.a, self.b]; motor: [self.a, self.b];"),
-        ["the derivatives of `self.motor` are given twice\nhelp: keep one of the lines"]
-    );
 }

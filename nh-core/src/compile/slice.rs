@@ -1,0 +1,194 @@
+//! What does not flow into what is tracked is left out.
+
+use std::collections::BTreeSet;
+
+use crate::algebra::Graph;
+use crate::id::{ExprId, Origin, SymbolId};
+use crate::mechanics::{Definition, Procedure};
+use crate::model::{Formulation, Request, TrackedItem};
+use crate::system::System;
+use crate::violation::{Law, Violation};
+
+/// The system with the variables that flow into the tracked ones, and the functions that depend on
+/// no others; the whole system if nothing is tracked.
+///
+/// # Errors
+/// Where something is asked for that depends on what is left out.
+pub(super) fn slice(mut system: System) -> Result<System, Vec<Violation>> {
+    let Some(tracked) = system.model.tracked.clone() else { return Ok(system) };
+    let whole = system.state();
+    let mut refused = Vec::new();
+    let mut wanted = BTreeSet::new();
+    for (item, origin) in &tracked {
+        match item {
+            TrackedItem::Variable(symbol) if whole.contains(symbol) => _ = wanted.insert(*symbol),
+            TrackedItem::Variable(symbol) => refused.push(not_in_the_state(&system, *symbol, *origin)),
+            TrackedItem::Output(index) => {
+                let value = system.observables.outputs.get(*index).copied();
+                wanted.extend(system.observables.depends_on(&system.model.graph, value.as_slice()));
+            }
+        }
+    }
+    let needed = closure(&system, wanted);
+    let state = |symbol: &SymbolId| whole.contains(symbol);
+    let missing = |procedure: &Procedure, outputs: &[ExprId]| -> Vec<SymbolId> {
+        let all = procedure.depends_on(&system.model.graph, outputs).into_iter();
+        all.filter(|symbol| state(symbol) && !needed.contains(symbol)).collect()
+    };
+    for (output, value) in system.model.outputs.iter().zip(&system.observables.outputs) {
+        let missing = missing(&system.observables, &[*value]);
+        if !missing.is_empty() {
+            let what = format!("the output `{}`", output.name);
+            refused.push(left_out(&system, &what, &missing, output.origin));
+        }
+    }
+    for (request, origin) in &system.model.requests {
+        let (what, procedure) = match request {
+            Request::Multipliers => ("the multipliers", &system.multipliers),
+            Request::Reactions => ("the reactions", &system.reactions),
+            Request::Jacobian => continue,
+        };
+        let missing = procedure.as_ref().map(|procedure| missing(procedure, &procedure.outputs));
+        if let Some(missing) = missing.filter(|missing| !missing.is_empty()) {
+            refused.push(left_out(&system, what, &missing, *origin));
+        }
+    }
+    super::fence(refused)?;
+    let available = |procedure: &Option<Procedure>| -> bool {
+        procedure.as_ref().is_some_and(|procedure| missing(procedure, &procedure.outputs).is_empty())
+    };
+    let (has_energy, has_velocity) = (available(&system.energy), available(&system.velocity));
+    note(&mut system, &needed, has_energy, has_velocity);
+    system.energy = system.energy.filter(|_| has_energy);
+    system.velocity = system.velocity.filter(|_| has_velocity);
+    restrict(&mut system, &whole, &needed);
+    Ok(system)
+}
+
+/// The state variables that the wanted ones depend on, however indirectly.
+fn closure(system: &System, wanted: BTreeSet<SymbolId>) -> BTreeSet<SymbolId> {
+    let graph = &system.model.graph;
+    let state = system.state();
+    let mut needed: BTreeSet<SymbolId> = wanted.into_iter().filter(|symbol| state.contains(symbol)).collect();
+    // the way back to the constraint manifold takes all velocities
+    if system.formulation == Formulation::Projected {
+        needed.extend(&system.state_velocities);
+        let functions = [system.residual.as_ref(), system.projection.as_ref().map(|p| &p.step)];
+        for function in functions.into_iter().flatten() {
+            needed.extend(function.depends_on(graph, &function.outputs).iter().filter(|s| state.contains(s)));
+        }
+    }
+    // the way back to an embedded base takes all of its coordinates
+    let embedded: BTreeSet<SymbolId> = match &system.embedding {
+        None => BTreeSet::new(),
+        Some(embedding) => embedding.residual.depends_on(graph, &embedding.residual.outputs),
+    };
+    let mut open: Vec<SymbolId> = needed.iter().copied().collect();
+    while let Some(symbol) = open.pop() {
+        let position = state.iter().position(|other| *other == symbol);
+        let rate = position.and_then(|position| system.derivative.outputs.get(position).copied());
+        let mut more = system.derivative.depends_on(graph, rate.as_slice());
+        if embedded.contains(&symbol) {
+            more.extend(&embedded);
+        }
+        open.extend(more.into_iter().filter(|other| state.contains(other) && needed.insert(*other)));
+    }
+    needed
+}
+
+/// Takes the other variables out of the state and of the functions.
+fn restrict(system: &mut System, whole: &[SymbolId], needed: &BTreeSet<SymbolId>) {
+    let is_kept = |index: usize| whole.get(index).is_none_or(|symbol| needed.contains(symbol));
+    let rows = |outputs: &[ExprId]| -> Vec<ExprId> {
+        let rows = outputs.iter().enumerate().filter(|(row, _)| is_kept(*row));
+        rows.map(|(_, output)| *output).collect()
+    };
+    system.derivative.outputs = rows(&system.derivative.outputs);
+    let width = whole.len() + system.model.inputs.len();
+    if let Some(jacobian) = &mut system.jacobian {
+        let kept = jacobian.outputs.chunks(width.max(1)).enumerate().filter(|(row, _)| is_kept(*row));
+        jacobian.outputs = kept.flat_map(|(_, row)| rows(row)).collect();
+    }
+    let keeps_base = match &mut system.embedding {
+        None => false,
+        Some(embedding) => {
+            let coordinates = embedding.step.outputs.len();
+            embedding.step.outputs = rows(&embedding.step.outputs[..coordinates]);
+            let graph = &system.model.graph;
+            embedding
+                .residual
+                .depends_on(graph, &embedding.residual.outputs)
+                .iter()
+                .any(|symbol| needed.contains(symbol))
+        }
+    };
+    system.embedding = system.embedding.take().filter(|_| keeps_base);
+    system.state_coordinates.retain(|symbol| needed.contains(symbol));
+    system.state_velocities.retain(|symbol| needed.contains(symbol));
+}
+
+/// Says in the report and the documentation what is left out.
+fn note(system: &mut System, needed: &BTreeSet<SymbolId>, has_energy: bool, has_velocity: bool) {
+    let state = system.state();
+    let (kept, dropped): (Vec<SymbolId>, Vec<SymbolId>) =
+        state.into_iter().partition(|symbol| needed.contains(symbol));
+    let mut left_out = names(system, &dropped);
+    left_out.extend((!has_energy).then(|| "the energy".to_owned()));
+    left_out.extend((!has_velocity).then(|| "the velocities that are not in the state".to_owned()));
+    if left_out.is_empty() {
+        return;
+    }
+    let left_out = left_out.join(", ");
+    let kept = names(system, &kept).join(", ");
+    system.report.extend(["\nTracked variables\n  ", &kept, "\n  left out: ", &left_out, "\n"]);
+    system.equations.extend([String::new(), format!("left out: {left_out}")]);
+}
+
+fn names(system: &System, symbols: &[SymbolId]) -> Vec<String> {
+    symbols.iter().map(|symbol| system.model.graph.symbols()[*symbol].clone()).collect()
+}
+
+/// `what` needs variables that are left out.
+fn left_out(system: &System, what: &str, missing: &[SymbolId], origin: Origin) -> Violation {
+    let missing: Vec<String> = names(system, missing).iter().map(|name| format!("`{name}`")).collect();
+    let missing = missing.join(", ");
+    Violation {
+        law: Law::Tracking,
+        origin,
+        what: format!("{what} cannot be computed without {missing}, which `track` leaves out"),
+        evidence: String::new(),
+        way_out: format!("track {missing} too, or leave {what} out"),
+    }
+}
+
+fn not_in_the_state(system: &System, symbol: SymbolId, origin: Origin) -> Violation {
+    let name = &system.model.graph.symbols()[symbol];
+    Violation {
+        law: Law::Tracking,
+        origin,
+        what: format!("`{name}` is not in the state"),
+        evidence: "the constraints give it from the velocities that are".into(),
+        way_out: format!("add `outputs {{ … = {name}; }}` and track that"),
+    }
+}
+
+impl Procedure {
+    /// The symbols that some outputs depend on, through the intermediate results.
+    fn depends_on(&self, graph: &Graph, outputs: &[ExprId]) -> BTreeSet<SymbolId> {
+        let mut found: BTreeSet<SymbolId> = graph.symbols_in(outputs).into_iter().collect();
+        // later definitions are in terms of earlier ones
+        for definition in self.definitions.iter().rev() {
+            let (defined, operands) = match definition {
+                Definition::Value { symbol, value } => (vec![*symbol], vec![*value]),
+                Definition::Call { symbol, arguments, .. } => (vec![*symbol], arguments.clone()),
+                Definition::Solve { unknowns, matrix, right } => {
+                    (unknowns.clone(), matrix.iter().flatten().chain(right).copied().collect())
+                }
+            };
+            if defined.iter().any(|symbol| found.contains(symbol)) {
+                found.extend(graph.symbols_in(&operands));
+            }
+        }
+        found
+    }
+}

@@ -1,0 +1,101 @@
+//! What is asked for: requests, methods of the user's with their derivatives, tracked variables.
+
+use nh_core::model::{Request, TrackedItem};
+
+use super::{evaluated, messages, model, of_name};
+
+const STRUCT: &str = "struct S { m: f64, G: [f64; 3] }";
+
+fn of(attribute: &str) -> Vec<String> {
+    messages(attribute, STRUCT)
+}
+
+fn assert_errors(cases: &[(&str, &str)]) {
+    for (attribute, message) in cases {
+        assert_eq!(of(attribute), [*message], "{attribute}");
+    }
+}
+
+#[test]
+fn requests() {
+    let model = model("base { x } lagrangian { 1 } emit { reactions, multipliers }", STRUCT);
+    let asked: Vec<_> = model.requests.iter().map(|(request, _)| *request).collect();
+    assert_eq!(asked, [Request::Reactions, Request::Multipliers]);
+    assert_errors(&[
+        (
+            "base { x } lagrangian { 1 } emit { multiplier }",
+            "`multiplier` cannot be emitted\nwhat can be asked for: `jacobian`, `multipliers`, `reactions`\nhelp: did you mean \
+             `multipliers`?",
+        ),
+        (
+            "base { x } lagrangian { 1 } emit { taylor }",
+            "`taylor` cannot be emitted yet\nhelp: what can be asked for: `jacobian`, `multipliers`, `reactions`",
+        ),
+        ("base { x } lagrangian { 1 } emit { reactions, reactions }", "`reactions` is asked for twice"),
+    ]);
+}
+
+#[test]
+fn methods() {
+    let model = model(
+        "base { x } inputs { u } lagrangian { der(x)^2 }
+         forces { x: self.motor(der(x), 2 * u) + self.motor(der(x), u + u) - self.drag(); }
+         outputs { heat = self.motor(0, u); }",
+        STRUCT,
+    );
+    let calls: Vec<_> = model.calls.iter().map(|call| model.graph.symbols()[call.symbol].as_str()).collect();
+    assert_eq!(calls, ["self.motor(x_dot, 2*u)", "self.drag()", "self.motor(0, u)"]);
+    let force = evaluated(&model, model.forces[0].value);
+    assert!((force - (2.0 * of_name(calls[0]) - of_name(calls[1]))).abs() < 1e-12);
+    assert_eq!(model.calls[0].method, "motor");
+    let found = of("base { q[2] } lagrangian { 1 } forces { q[0]: self.motor(q); }");
+    assert!(found[0].starts_with("expected a number, this is a vector of 2 entries"), "{found:?}");
+}
+
+#[test]
+fn derivatives_of_methods() {
+    let text = "base { x } inputs { u } lagrangian { der(x)^2 } forces { x: self.motor(der(x), u); }";
+    let declared = format!("{text} derivative {{ motor: [self.by_speed, self.by_input]; }}");
+    let model = model(&declared, STRUCT);
+    let names = ["by_speed", "by_input"].map(str::to_owned).to_vec();
+    assert_eq!(model.calls[0].derivatives, Some(names));
+    let with = |section: &str| of(&format!("{text} derivative {{ {section} }}"));
+    assert_eq!(
+        with("motor: [self.a];"),
+        [
+            "`self.motor` is called with 2 arguments, and 1 derivative is given\nthere is one derivative for each \
+          argument, in their order\nhelp: write `motor: [self.motor_d1, self.motor_d2];`"
+        ]
+    );
+    assert_eq!(
+        with("moter: [self.a, self.b];"),
+        ["`self.moter` is not called anywhere\nhelp: did you mean `motor`?"]
+    );
+    assert_eq!(
+        with("motor: [self.a, self.b]; motor: [self.a, self.b];"),
+        ["the derivatives of `self.motor` are given twice\nhelp: keep one of the lines"]
+    );
+}
+
+#[test]
+fn tracked_variables_and_outputs() {
+    let text = "base { x, y[2] } lagrangian { 1 } outputs { a[i in 0..2] = y[i]; b = x; }";
+    let tracked = model(&format!("{text} track {{ x, der(y[1]), y, a[1], b }}"), STRUCT).tracked.unwrap();
+    let outputs: Vec<_> = tracked
+        .iter()
+        .filter(|(item, _)| matches!(item, TrackedItem::Output(_)))
+        .map(|(item, _)| *item)
+        .collect();
+    assert_eq!(tracked.len(), 6);
+    assert_eq!(outputs, [TrackedItem::Output(1), TrackedItem::Output(2)]);
+    let with = |section: &str| of(&format!("{text} track {{ {section} }}"));
+    assert_eq!(
+        with("m"),
+        [
+            "`m` is neither a state variable nor an output\nhelp: `track` names coordinates, velocities and outputs"
+        ]
+    );
+    assert_eq!(with("x, x"), ["this is tracked already"]);
+    let nothing = "help: name the state variables and outputs that are needed, or leave the section out";
+    assert_eq!(with(""), [format!("nothing is tracked\n{nothing}")]);
+}

@@ -1,0 +1,92 @@
+//! What is tracked: state variables and outputs.
+
+use nh_core::id::{Origin, SymbolId};
+use nh_core::model::{OutputDecl, TrackedItem};
+
+use super::reports::Outcome;
+use super::resolver::Resolver;
+use super::scope::{Meaning, Role};
+use crate::report::Diagnostic;
+use crate::suggest::did_you_mean;
+use crate::syntax::ast::{Place, Section, Velocity};
+
+impl Resolver {
+    /// The tracked items; a family stands for its entries.
+    pub(super) fn tracked(
+        &mut self,
+        section: &Section<Vec<Velocity>>,
+        outputs: &[OutputDecl],
+    ) -> Vec<(TrackedItem, Origin)> {
+        if section.body.is_empty() {
+            let error = Diagnostic::new(section.keyword.extent(), "nothing is tracked")
+                .way_out("name the state variables and outputs that are needed, or leave the section out");
+            self.report(section, error);
+        }
+        let mut found: Vec<(TrackedItem, Origin)> = Vec::new();
+        for named in &section.body {
+            let (items, extent) = match named {
+                Velocity::Named(place) => (self.tracked_place(place, outputs), place.extent),
+                Velocity::Der(_, extent) => {
+                    let symbols = self.velocities(named).map(|(symbols, _)| symbols);
+                    (symbols.map(variables), *extent)
+                }
+            };
+            let Ok(items) = items else { continue };
+            let origin = self.origin(extent);
+            for item in items {
+                if found.iter().any(|(known, _)| *known == item) {
+                    self.report(named, Diagnostic::new(extent, "this is tracked already"));
+                } else {
+                    found.push((item, origin));
+                }
+            }
+        }
+        found
+    }
+
+    /// Coordinates, velocities, or outputs by their name.
+    fn tracked_place(&mut self, place: &Place, outputs: &[OutputDecl]) -> Outcome<Vec<TrackedItem>> {
+        let text = &place.name.text;
+        if let Some(Meaning::Named(named)) = self.scope.get(text).cloned() {
+            if named.role == Role::Coordinate {
+                let (named, part) = self.coordinate(place)?;
+                return Ok(variables(named.symbols[part.positions()].to_vec()));
+            }
+            if matches!(named.role, Role::Velocity | Role::ImpliedVelocity | Role::FrameVelocity) {
+                return self.section_velocities(place).map(variables);
+            }
+        }
+        let mut entry = text.clone();
+        for index in &place.indices {
+            let index = self.index(index)?;
+            entry.extend(["[", &index.to_string(), "]"]);
+        }
+        let family = format!("{entry}[");
+        let is_meant = |output: &OutputDecl| output.name == entry || output.name.starts_with(&family);
+        let meant: Vec<TrackedItem> = outputs
+            .iter()
+            .enumerate()
+            .filter(|(_, output)| is_meant(output))
+            .map(|(index, _)| TrackedItem::Output(index))
+            .collect();
+        if meant.is_empty() { Err(self.not_trackable(place, outputs)) } else { Ok(meant) }
+    }
+
+    fn not_trackable(&mut self, place: &Place, outputs: &[OutputDecl]) -> super::reports::Reported {
+        let text = &place.name.text;
+        let what = format!("`{text}` is neither a state variable nor an output");
+        let error = Diagnostic::new(place.extent, what);
+        let names = outputs.iter().map(|output| output.name.as_str());
+        let question = did_you_mean(text, names).or_else(|| {
+            let roles = [Role::Coordinate, Role::Velocity, Role::ImpliedVelocity, Role::FrameVelocity];
+            self.scope.did_you_mean(text, &roles)
+        });
+        let known = "`track` names coordinates, velocities and outputs";
+        self.report(place, error.way_out(question.unwrap_or_else(|| known.to_owned())))
+    }
+}
+
+/// Each symbol as an item.
+fn variables(symbols: Vec<SymbolId>) -> Vec<TrackedItem> {
+    symbols.into_iter().map(TrackedItem::Variable).collect()
+}
