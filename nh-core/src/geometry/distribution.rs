@@ -200,13 +200,24 @@ impl ConstraintDistribution {
         Substitution::new(changed.filter(|(symbol, value)| graph.as_symbol(*value) != Some(*symbol)))
     }
 
-    /// Whether D is closed under the bracket, that is C^A_{ab} = 0 in an adapted frame
-    /// (CLMM Remark 3.3). `None` where that could not be decided.
-    pub fn is_holonomic(&self, graph: &mut Graph, algebroid: &Algebroid) -> Option<bool> {
+    /// Whether the constraints are integrable: D is closed under the bracket, that is
+    /// C^A_{ab} = 0 in an adapted frame (CLMM Remark 3.3), and, where there is a drift or a
+    /// dependence on time, under the bracket with ∂_t + y₀ as well. `None` where that could not be
+    /// decided.
+    pub fn is_holonomic(&self, graph: &mut Graph, algebroid: &Algebroid, time: SymbolId) -> Option<bool> {
         let mut undecided = false;
         for a in 0..self.rank() {
-            for b in a + 1..self.rank() {
-                let bracket = algebroid.bracket(graph, &self.section(a), &self.section(b));
+            let section = self.section(a);
+            let mut brackets: Vec<Vec<ExprId>> =
+                (a + 1..self.rank()).map(|b| algebroid.bracket(graph, &section, &self.section(b))).collect();
+            // [∂_t + y₀, B_a]
+            let along = algebroid.bracket(graph, &self.offset, &section);
+            let drift = along.into_iter().zip(&section).map(|(component, entry)| {
+                let change = graph.partial(*entry, time);
+                graph.add(component, change)
+            });
+            brackets.push(drift.collect());
+            for bracket in brackets {
                 for row in &self.constraints.annihilator {
                     let component = graph.inner_product(row, &bracket);
                     match graph.zero_test(component) {

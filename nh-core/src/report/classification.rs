@@ -86,7 +86,7 @@ fn constraints(
         Derived::Adapted { distribution, .. } => *distribution,
         Derived::Projected { .. } => return what,
     };
-    let holonomic = match distribution.is_holonomic(&mut model.graph, &system.algebroid) {
+    let holonomic = match distribution.is_holonomic(&mut model.graph, &system.algebroid, model.time) {
         Some(true) => {
             let constant = constant_coordinates(model, derived);
             format!("; D is closed under the bracket (holonomic){constant}")
@@ -115,7 +115,8 @@ pub(super) fn conserved(proved: &mut Proved) -> Vec<String> {
     let mut lines: Vec<String> =
         proved.model.claims.iter().map(|claim| format!("{} (claimed, and proved)", claim.name)).collect();
     if energy_is_conserved(proved) {
-        let reason = "CLMM Theorems 3.4 and 7.6: autonomous, no power of constraints and forces";
+        let reason =
+            "CLMM Theorems 3.4 and 7.6: L does not depend on time, no power of constraints and forces";
         lines.push(format!("the energy ({reason})"));
     } else {
         lines.extend(moving_energy(proved));
