@@ -1,7 +1,8 @@
 //! Allocation-free integration of nonholonomic systems.
 //!
-//! A system is anything that implements [`Dynamics`]: the attribute macro `#[nonholonomic]` writes the
-//! implementation from a declaration, and a few lines write it by hand. An [`Integrator`] carries
+//! A system is anything that implements [`Dynamics`]: the attribute macro `#[nonholonomic]` (see the
+//! reference of its language there) writes the implementation from a declaration, and a few lines write
+//! it by hand. An [`Integrator`] carries
 //! the state of such a system through time with one of the [`methods`].
 //!
 //! ```
@@ -86,6 +87,122 @@ pub use integrator::{Integrator, Statistics};
 pub use methods::{Dopri5, Euler, ImplicitMidpoint, Method, Projected, Rk4};
 pub use scalar::{Real, Scalar};
 
+/// # Examples
+///
+/// A body on a knife edge, driven and braked. The state keeps the velocities `omega` and `v1`; the
+/// constraint removes `v2`, and its multiplier is the force on the edge.
+///
+/// ```
+/// use nh_runtime::prelude::*;
+///
+/// /// A rigid body on a plane, carried by a knife edge (Chaplygin sleigh).
+/// #[nonholonomic(
+///     base   { theta, x, y }
+///     basis  { omega, v1, v2 }
+///     anchor {
+///         der(theta) = omega;
+///         der(x) = v1 * cos(theta) - v2 * sin(theta);
+///         der(y) = v1 * sin(theta) + v2 * cos(theta);
+///     }
+///     lagrangian  { J / 2 * omega^2 + m / 2 * (v1^2 + (v2 + a * omega)^2) }
+///     constraints { edge: v2 = 0; }
+///     forces      { omega: torque - c * omega; }
+///     inputs      { torque }
+///     outputs     { speed = sqrt(v1^2 + v2^2); }
+///     assume      { m > 0; J > 0; }
+///     emit        { multipliers, jacobian }
+/// )]
+/// #[derive(Clone, Copy, Debug)]
+/// pub struct Sleigh { pub m: f64, pub J: f64, pub a: f64, pub c: f64 }
+///
+/// # fn main() -> Result<(), Box<dyn core::error::Error>> {
+/// let sleigh = Sleigh { m: 1.0, J: 0.5, a: 0.3, c: 0.0 };
+/// let start = SleighState { theta: 0.0, x: 0.0, y: 0.0, omega: 1.0, v1: 0.5 };
+/// let mut sim = Integrator::new(sleigh, Dopri5::new().rtol(1e-10), 0.0, start);
+/// sim.advance_to(5.0)?;
+/// // without friction and torque the energy stays
+/// let energy = sleigh.energy(sim.time(), sim.state());
+/// assert!((energy - sleigh.energy(0.0, &start)).abs() < 1e-9);
+///
+/// let push = SleighInput { torque: 0.1 };
+/// sim.set_input(push);
+/// sim.advance_to(10.0)?;
+/// let (t, state) = (sim.time(), sim.state());
+/// assert!(sleigh.outputs(t, state, &push).speed > 0.5);
+/// let edge = sleigh.multipliers(t, state, &push).edge;
+/// let rates = sleigh.derivative(t, state, &push);
+/// // the sideways acceleration of the centre of mass, times the mass
+/// assert!((edge - (state.v1 * state.omega + 0.3 * rates.omega)).abs() < 1e-12);
+/// let (_by_state, by_input) = sleigh.jacobian(t, state, &push);
+/// assert!((by_input[(3, 0)] - 1.0 / (0.5 + 0.3 * 0.3)).abs() < 1e-12);
+///
+/// let wrong = Sleigh { m: -1.0, ..sleigh };
+/// assert_eq!(
+///     wrong.validate().unwrap_err().to_string(),
+///     "the parameter `m` is -1.0, but the declaration assumes `m > 0`: \
+///      give a value that satisfies it, or change the assumption",
+/// );
+/// # Ok(())
+/// # }
+/// ```
+///
+/// Reduced to a Lie algebra: there is no base, and the brackets are those of the plane's rigid motions.
+///
+/// ```
+/// # use nh_runtime::prelude::*;
+/// #[nonholonomic(
+///     basis       { omega, v1, v2 }
+///     brackets se(2) { omega, v1, v2 }
+///     lagrangian  { J / 2 * omega^2 + m / 2 * (v1^2 + (v2 + a * omega)^2) }
+///     constraints { v2 = 0; }
+/// )]
+/// #[derive(Clone, Copy, Debug)]
+/// struct ReducedSleigh { m: f64, J: f64, a: f64 }
+///
+/// let sleigh = ReducedSleigh { m: 1.0, J: 0.5, a: 0.3 };
+/// let rates = sleigh.derivative(0.0, &ReducedSleighState { omega: 2.0, v1: 0.5 }, &());
+/// assert!((rates.v1 - 0.3 * 2.0 * 2.0).abs() < 1e-15);
+/// assert!(ReducedSleigh::REPORT.contains("a Lie algebra"));
+/// ```
+///
+/// An affine constraint: a ball on a turning table, in a family of velocities and with a claim that is
+/// proved. The angular velocity is that seen in space, for which the brackets have the opposite sign.
+///
+/// ```
+/// # use nh_runtime::prelude::*;
+/// #[nonholonomic(
+///     base  { x, y }
+///     basis { vx, vy, w[3] }
+///     anchor { der(x) = vx; der(y) = vy; }
+///     brackets so(3) { w[2], w[1], w[0] }
+///     lagrangian { m / 2 * (vx^2 + vy^2 + k^2 * dot(w, w)) }
+///     constraints {
+///         vx = r * w[1] - rate * y;
+///         vy = -r * w[0] + rate * x;
+///     }
+///     conserved { spin = w[2]; }
+///     assume { r > 0; k > 0; m > 0; }
+/// )]
+/// #[derive(Clone, Copy, Debug)]
+/// struct BallOnTable<T> { m: T, k: T, r: T, rate: T }
+///
+/// let ball = BallOnTable { m: 1.0_f32, k: 0.2, r: 0.3, rate: 1.5 };
+/// let start = BallOnTableState { x: 0.4, y: 0.1, w: [0.0, 0.0, 1.0] };
+/// let next = Rk4::step(&ball, 0.0, 0.01, &start, &());
+/// assert!((next.w[2] - 1.0).abs() < 1e-6);
+/// ```
+///
+/// A declaration that is ill-posed does not compile: here the constraint is one of positions.
+///
+/// ```compile_fail
+/// # use nh_runtime::prelude::*;
+/// #[nonholonomic(
+///     base        { x, y }
+///     lagrangian  { m / 2 * (der(x)^2 + der(y)^2) }
+///     constraints { x^2 + y^2 = 1; }
+/// )]
+/// struct Bead { m: f64 }
+/// ```
 #[cfg(feature = "macros")]
 pub use nh_macros::nonholonomic;
 
