@@ -1,11 +1,12 @@
 //! The structure equations of a Lie algebroid, mathematics (2) and (3).
 
 use super::evidence::{listed, not_zero, shown};
-use crate::algebra::{Graph, Verdict};
+use crate::algebra::{Graph, Rational, Verdict};
 use crate::geometry::{Algebroid, Manifold, hamel};
 use crate::id::{CoordId, ExprId, Id, Origin, SectionId};
-use crate::model::Model;
+use crate::model::{Kinematics, Model};
 use crate::violation::{Law, Violation};
+use std::collections::BTreeMap;
 
 /// At most so many broken instances of one law are reported.
 const REPORTED: usize = 3;
@@ -13,6 +14,10 @@ const REPORTED: usize = 3;
 /// Proves that the anchor is a homomorphism of brackets and, unless `almost` is declared, the
 /// Jacobi identity. Where the first fails the second is not reported as well.
 pub fn structure_equations(model: &mut Model, algebroid: &Algebroid, base: &Manifold) -> Vec<Violation> {
+    // coordinate fields commute, and their anchor is the identity
+    if matches!(model.kinematics, Kinematics::Tangent) {
+        return Vec::new();
+    }
     let mut violations = homomorphism(model, algebroid, base);
     if violations.is_empty() && !model.almost {
         violations = jacobi(model, algebroid, base);
@@ -108,43 +113,47 @@ fn defect_text(graph: &Graph, defect: ExprId, verdict: &Verdict) -> String {
 /// Mathematics (3): `Σ_cyclic [ ρ^i_α ∂_iC^ν_{βγ} + C^μ_{βγ} C^ν_{αμ} ] = 0`.
 fn jacobi(model: &mut Model, algebroid: &Algebroid, base: &Manifold) -> Vec<Violation> {
     let sections: Vec<SectionId> = algebroid.sections().collect();
-    let commuting = commuting_pairs(&mut model.graph, algebroid, &sections);
+    let brackets = written_brackets(&mut model.graph, algebroid, &sections);
     let mut violations = Vec::new();
     for (i, alpha) in sections.iter().enumerate() {
         for (j, beta) in sections.iter().enumerate().skip(i + 1) {
             for (k, gamma) in sections.iter().enumerate().skip(j + 1) {
                 // three sections that commute with each other obey it
-                if commuting[i][j] && commuting[i][k] && commuting[j][k] {
+                if [&brackets[i][j], &brackets[i][k], &brackets[j][k]].iter().all(|terms| terms.is_empty()) {
                     continue;
                 }
                 if violations.len() == REPORTED {
                     return violations;
                 }
-                violations.extend(jacobi_of_triple(model, algebroid, base, [*alpha, *beta, *gamma]));
+                let triple = [*alpha, *beta, *gamma];
+                violations.extend(jacobi_of_triple(model, algebroid, &brackets, base, triple));
             }
         }
     }
     violations
 }
 
-/// Which pairs of sections have a bracket that is written as 0.
-fn commuting_pairs(graph: &mut Graph, algebroid: &Algebroid, sections: &[SectionId]) -> Vec<Vec<bool>> {
-    let mut commute = |alpha: SectionId, beta: SectionId| {
-        let bracket = bracket_of(graph, algebroid, alpha, beta);
-        bracket.into_iter().all(|component| graph.is_literal_zero(component))
+/// The components of the brackets of all pairs, without those written as 0.
+type Brackets = Vec<Vec<Vec<(SectionId, ExprId)>>>;
+
+fn written_brackets(graph: &mut Graph, algebroid: &Algebroid, sections: &[SectionId]) -> Brackets {
+    let mut written = |alpha: SectionId, beta: SectionId| -> Vec<(SectionId, ExprId)> {
+        let components = algebroid.sections().zip(bracket_of(graph, algebroid, alpha, beta));
+        components.filter(|(_, component)| !graph.is_literal_zero(*component)).collect()
     };
-    sections.iter().map(|alpha| sections.iter().map(|beta| commute(*alpha, *beta)).collect()).collect()
+    sections.iter().map(|alpha| sections.iter().map(|beta| written(*alpha, *beta)).collect()).collect()
 }
 
 fn jacobi_of_triple(
     model: &mut Model,
     algebroid: &Algebroid,
+    brackets: &Brackets,
     base: &Manifold,
     triple: [SectionId; 3],
 ) -> Option<Violation> {
-    let defect = jacobiator(&mut model.graph, algebroid, triple);
+    let defect = jacobiator(&mut model.graph, algebroid, brackets, triple);
     let graph = &mut model.graph;
-    for (index, component) in defect.into_iter().enumerate() {
+    for (index, component) in defect {
         let verdict = base.zero_test(graph, component);
         if verdict.is_zero() {
             continue;
@@ -152,7 +161,7 @@ fn jacobi_of_triple(
         let component = graph.simplify(component);
         let names = triple.map(|section| model.sections[section].name.as_str());
         let [a, b, c] = names;
-        let along = &model.sections[SectionId::from_index(index)].name;
+        let along = &model.sections[index].name;
         let graph = &model.graph;
         let evidence = format!(
             "[{a}, [{b}, {c}]] + [{b}, [{c}, {a}]] + [{c}, [{a}, {b}]] along `{along}`: {}",
@@ -180,20 +189,28 @@ fn declared_among(model: &Model, triple: [SectionId; 3]) -> Origin {
         .map_or(model.sections[triple[2]].origin, |declaration| declaration.origin)
 }
 
-fn jacobiator(graph: &mut Graph, algebroid: &Algebroid, triple: [SectionId; 3]) -> Vec<ExprId> {
-    let (zero, one) = (graph.zero(), graph.one());
-    let unit = |section: SectionId| -> Vec<ExprId> {
-        algebroid.sections().map(|other| if other == section { one } else { zero }).collect()
-    };
-    let mut total = vec![zero; algebroid.rank()];
+/// The components of the sum, without those written as 0.
+fn jacobiator(
+    graph: &mut Graph,
+    algebroid: &Algebroid,
+    brackets: &Brackets,
+    triple: [SectionId; 3],
+) -> BTreeMap<SectionId, ExprId> {
+    let mut summands: BTreeMap<SectionId, Vec<(Rational, ExprId)>> = BTreeMap::new();
     for shift in 0..3 {
         let [alpha, beta, gamma] = [0, 1, 2].map(|position| triple[(position + shift) % 3]);
-        let inner = bracket_of(graph, algebroid, beta, gamma);
-        if inner.iter().all(|component| graph.is_literal_zero(*component)) {
+        let inner = &brackets[beta.index()][gamma.index()];
+        if inner.is_empty() {
             continue;
         }
-        let outer = algebroid.bracket(graph, &unit(alpha), &inner);
-        total = total.into_iter().zip(outer).map(|(a, b)| graph.add(a, b)).collect();
+        let mut along = algebroid.anchor.along(alpha);
+        for (mu, component) in inner {
+            summands.entry(*mu).or_default().push((Rational::ONE, along.apply(graph, *component)));
+            for (nu, outer) in &brackets[alpha.index()][mu.index()] {
+                let term = graph.mul(*component, *outer);
+                summands.entry(*nu).or_default().push((Rational::ONE, term));
+            }
+        }
     }
-    total
+    summands.into_iter().map(|(nu, terms)| (nu, graph.linear_combination(&terms))).collect()
 }

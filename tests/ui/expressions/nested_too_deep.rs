@@ -1,0 +1,9 @@
+use nh_runtime::prelude::*;
+
+#[nonholonomic(
+    base { x }
+    lagrangian { m / 2 * der(x)^2 - ----------------------------------------------------------------------x }
+)]
+struct S { m: f64 }
+
+fn main() {}
