@@ -3,6 +3,7 @@
 
 mod adapted_frame;
 mod derivation;
+mod laws;
 mod requests;
 mod systems;
 mod velocity_forms;
