@@ -214,13 +214,14 @@ pub mod narrow {
     /// The same for an oscillator that is declared in a function, by a macro of the user.
     #[must_use]
     pub fn oscillation(position: f64) -> f64 {
+        #[rustfmt::skip]
         macro_rules! oscillator {
             ($name:ident, $state:ident, $stiffness:literal, $kinetic:expr) => {
                 #[nonholonomic(
-                                    names { state = $state; }
-                                    base { q }
-                                    lagrangian { $kinetic - $stiffness / 2 * q^2 }
-                                )]
+                    names { state = $state; }
+                    base { q }
+                    lagrangian { $kinetic - $stiffness / 2 * q^2 }
+                )]
                 struct $name {}
             };
         }
