@@ -39,6 +39,12 @@ impl Constraints {
         solved_over(graph, &self.base, &self.residuals, velocities).unwrap_or_else(|_| self.base.clone())
     }
 
+    /// The embedded base.
+    #[must_use]
+    pub fn base(&self) -> &Manifold {
+        &self.base
+    }
+
     /// Where matrices are regular that depend on velocities only as the constraints do: the
     /// embedded base for linear constraints, the constraint manifold for nonlinear ones.
     #[must_use]

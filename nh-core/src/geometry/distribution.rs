@@ -1,6 +1,7 @@
 //! The constraint distribution D, by its annihilator and by a basis.
 
 use super::algebroid::Algebroid;
+use super::manifold::Manifold;
 use crate::algebra::{Derivation, Graph, Matrix, Solution, Substitution, Verdict};
 use crate::id::{ExprId, Id, SectionId, SymbolId};
 
@@ -204,7 +205,13 @@ impl ConstraintDistribution {
     /// C^A_{ab} = 0 in an adapted frame (CLMM Remark 3.3), and, where there is a drift or a
     /// dependence on time, under the bracket with ∂_t + y₀ as well. `None` where that could not be
     /// decided.
-    pub fn is_holonomic(&self, graph: &mut Graph, algebroid: &Algebroid, time: SymbolId) -> Option<bool> {
+    pub fn is_holonomic(
+        &self,
+        graph: &mut Graph,
+        algebroid: &Algebroid,
+        time: SymbolId,
+        base: &Manifold,
+    ) -> Option<bool> {
         let mut undecided = false;
         for a in 0..self.rank() {
             let section = self.section(a);
@@ -220,7 +227,7 @@ impl ConstraintDistribution {
             for bracket in brackets {
                 for row in &self.constraints.annihilator {
                     let component = graph.inner_product(row, &bracket);
-                    match graph.zero_test(component) {
+                    match base.zero_test(graph, component) {
                         Verdict::Zero => {}
                         Verdict::NonZero(_) => return Some(false),
                         Verdict::Unknown(_) => undecided = true,

@@ -1,9 +1,11 @@
 //! What kind of system it is.
 
 use super::{Derived, combination, shown};
+use crate::algebra::{Echelon, FieldPoint};
 use crate::check::{Constraints, singular_where};
 use crate::compile::Proved;
-use crate::id::{ExprId, SymbolId};
+use crate::geometry::ConstraintDistribution;
+use crate::id::{ExprId, Id, SectionId, SymbolId};
 use crate::mechanics::{LagrangianSystem, moving_energy_section};
 use crate::model::{Kinematics, Model};
 
@@ -82,19 +84,43 @@ fn constraints(
         (0, None) => return "constraints: none".into(),
         (_, None) => format!("constraints: {count}, {kind} in the velocities"),
     };
+    let generic;
     let distribution = match derived {
         Derived::Adapted { distribution, .. } => *distribution,
-        Derived::Projected { .. } => return what,
+        Derived::Projected { .. } => match generic_distribution(model, system, declared) {
+            None => return what,
+            Some(found) => {
+                generic = found;
+                &generic
+            }
+        },
     };
-    let holonomic = match distribution.is_holonomic(&mut model.graph, &system.algebroid, model.time) {
-        Some(true) => {
-            let constant = constant_coordinates(model, derived);
-            format!("; D is closed under the bracket (holonomic){constant}")
-        }
-        Some(false) => "; D is not closed under the bracket (nonholonomic)".to_owned(),
-        None => String::new(),
-    };
+    let holonomic =
+        match distribution.is_holonomic(&mut model.graph, &system.algebroid, model.time, declared.base()) {
+            Some(true) => {
+                let constant = constant_coordinates(model, derived);
+                format!("; D is closed under the bracket (holonomic){constant}")
+            }
+            Some(false) => "; D is not closed under the bracket (nonholonomic)".to_owned(),
+            None => String::new(),
+        };
     format!("{what}{holonomic}")
+}
+
+/// D by velocities that the constraints determine at most points, for questions whose answer is the
+/// same at all of them.
+fn generic_distribution(
+    model: &mut Model,
+    system: &LagrangianSystem,
+    declared: &Constraints,
+) -> Option<ConstraintDistribution> {
+    let linear = declared.linear.as_ref()?;
+    let graph = &mut model.graph;
+    let rows = declared.generic().restrict_matrix(graph, &linear.annihilator);
+    let sampled = graph.matrix_in_field(&rows, |seed| FieldPoint::random(16_000 + seed)).ok()?;
+    let dependent: Vec<SectionId> =
+        Echelon::of(sampled).pivots.into_iter().map(SectionId::from_index).collect();
+    ConstraintDistribution::solved_for(graph, linear.clone(), &dependent, &system.algebroid.velocities)
 }
 
 /// The integrals of a holonomic D that are coordinates.

@@ -49,6 +49,7 @@ fn a_knife_edge_on_the_plane_is_projected_and_agrees() {
     let reduced = compiled(systems::sleigh());
     let full = compiled(systems::sleigh_on_the_plane());
     assert_eq!(full.formulation, Formulation::Projected);
+    assert!(full.report.contains("(nonholonomic)"), "{}", full.report);
     for theta in [0.0, 0.6, std::f64::consts::FRAC_PI_2, 3.0] {
         let (omega, v1) = (0.9, -1.1);
         let common = [("m", 1.3), ("J", 0.7), ("a", 0.4), ("b", 0.2), ("theta", theta), ("t", 0.0)];
