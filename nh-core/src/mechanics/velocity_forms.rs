@@ -132,7 +132,18 @@ pub fn equations_by_velocity_forms(
     let changes: Vec<ExprId> = slopes.iter().map(|slope| along.apply(graph, *slope)).collect();
     // 4. contraction with B_a
     let forces: Vec<ExprId> = system.forces.iter().map(|force| restriction.apply(graph, *force)).collect();
-    let curved: Vec<usize> = (0..forms.len()).filter(|k| !is_closed(graph, system, forms[*k].1)).collect();
+    // the quasi-velocities themselves: dy^γ(y, e_α) = C^γ_{αβ} y^β, all in one bracket term
+    let zero = graph.zero();
+    let is_velocity = |symbol: &SymbolId| algebroid.velocities.contains(symbol);
+    let momenta: Vec<ExprId> = algebroid
+        .velocities
+        .iter()
+        .map(|velocity| forms.iter().position(|(symbol, _)| symbol == velocity).map_or(zero, |k| slopes[k]))
+        .collect();
+    let bracket = algebroid.structure.bracket_term(graph, &velocity, &momenta);
+    let curved: Vec<usize> = (0..forms.len())
+        .filter(|k| !is_velocity(&forms[*k].0) && !is_closed(graph, system, forms[*k].1))
+        .collect();
     let (mut mass, mut force): (Matrix, Vec<ExprId>) = (Vec::new(), Vec::new());
     for (a, symbol) in independent.iter().enumerate() {
         let section = distribution.section(a);
@@ -156,7 +167,13 @@ pub fn equations_by_velocity_forms(
             let value = restriction.apply(graph, *value);
             applied = graph.add(applied, value);
         }
-        let mut total = vec![(1.into(), applied), (1.into(), potential), ((-1).into(), inertial)];
+        let gyroscopic = graph.inner_product(&section, &bracket);
+        let mut total = vec![
+            (1.into(), applied),
+            (1.into(), potential),
+            ((-1).into(), inertial),
+            ((-1).into(), gyroscopic),
+        ];
         for k in &curved {
             let curl = exterior_derivative(graph, system, forms[*k].1, &velocity, &section);
             total.push(((-1).into(), graph.mul(slopes[*k], curl)));

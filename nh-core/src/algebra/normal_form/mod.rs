@@ -37,6 +37,11 @@ const WORK: usize = 40_000;
 const ATTEMPT: usize = 4000;
 /// Most multiplications of monomials for all subexpressions of one simplification.
 const SUBEXPRESSIONS: usize = 30_000;
+/// The work for all expressions of a declaration together, after which they are left as they are: a
+/// declaration can make the equations long, but not the compiler hang.
+const TOTAL: usize = 1_000_000;
+/// What visiting a subexpression counts as work.
+const NODE: usize = 100;
 /// Expressions made of more distinct ones are not attempted as a whole.
 const CONE: usize = 1500;
 /// Expressions of a set that are exchanged one by one.
@@ -113,6 +118,8 @@ impl Graph {
 #[derive(Clone, Debug, Default)]
 pub(super) struct Simplifier {
     known: FxHashMap<ExprId, Image>,
+    /// The work done for all expressions so far.
+    spent: usize,
 }
 
 /// What became of an expression, and what could be simplified in anything that contains it.
@@ -135,7 +142,11 @@ impl Simplifier {
             Some(_) => _ = self.known.remove(&e),
             None => {}
         }
+        if self.spent > TOTAL {
+            return e;
+        }
         let mut work = SUBEXPRESSIONS;
+        let known = self.known.len();
         let mut open = vec![e];
         while let Some(&id) = open.last() {
             if self.known.contains_key(&id) {
@@ -149,6 +160,7 @@ impl Simplifier {
                 self.known.insert(id, image);
             }
         }
+        self.spent += SUBEXPRESSIONS - work + NODE * (self.known.len() - known);
         let image = self.known[&e].id;
         // the parts became cheaper one by one; the whole may have lost what they shared
         if image != e && graph.operation_count(&[image]) > graph.operation_count(&[e]) {
