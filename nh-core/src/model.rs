@@ -28,7 +28,7 @@ pub struct Model {
     pub identities: Vec<Located>,
     /// How the anchor is given.
     pub kinematics: Kinematics,
-    /// Declared brackets; known algebras are expanded by [`crate::geometry::known_algebra`].
+    /// Declared brackets; known algebras are expanded by [`crate::geometry::KnownAlgebra`].
     pub brackets: Vec<BracketDecl>,
     /// Whether a `brackets` section stands in the declaration, even an empty one.
     pub brackets_declared: bool,

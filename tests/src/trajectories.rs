@@ -9,7 +9,7 @@
 //!   parameters, that are moved by a relative 1e-9 with alternating signs. That gives the growth of
 //!   errors; each step rounds, and roundings of `n` steps add up like √n.
 //!
-//! The sum is allowed [`MULTIPLE`] times. Errors are measured in each component relative to its
+//! The sum is allowed `MULTIPLE` times. Errors are measured in each component relative to its
 //! largest value so far, and the largest component counts.
 
 use nh_runtime::IntegrationError;
@@ -38,7 +38,7 @@ pub struct Deviation {
     pub t: f64,
     /// The error.
     pub error: f64,
-    /// What the tolerance and the growth of errors explain, [`MULTIPLE`] times.
+    /// What the tolerance and the growth of errors explain, `MULTIPLE` times.
     pub allowed: f64,
 }
 
