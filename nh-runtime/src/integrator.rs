@@ -272,7 +272,8 @@ where
         let start =
             Start { system: &self.system, input: &origin.input, time: origin.time, state: &origin.state };
         let arrival = Arrival { time: self.time, state: self.state };
-        let state = self.method.interpolate(&self.memory, &start, &arrival, time);
+        let dense = self.method.dense(&self.memory, &start, &arrival);
+        let state = self.method.interpolate(&dense, &start, &arrival, time);
         match first_non_finite(state.to_array().as_ref()) {
             None => Ok(state),
             Some(found) => Err(non_finite_derivative::<S::State>(found, time.to_f64())),

@@ -185,6 +185,7 @@ where
     S::State: State<Scalar = T>,
 {
     type Memory = Memory<S, VecOf<S>>;
+    type Dense = Self::Memory;
 
     fn memory(&self) -> Self::Memory {
         Memory::new()
@@ -210,12 +211,16 @@ where
         adaptive::advance(self, &self.control, start, target, memory, statistics)
     }
 
+    fn dense(&self, memory: &Self::Memory, _start: &Start<'_, S>, _arrival: &Arrival<S>) -> Self::Memory {
+        *memory
+    }
+
     /// With s the fraction of the step and Δ = x₁ − x₀:
     /// x₀ + s (Δ + (1−s) (h f₀ − Δ + s (2Δ − h f₀ − h f₁ + (1−s) bulge))), the Hermite cubic and a
     /// term of degree 4 (the function `CONTD5` of the code DOPRI5).
     fn interpolate(
         &self,
-        memory: &Self::Memory,
+        memory: &Self::Dense,
         start: &Start<'_, S>,
         arrival: &Arrival<S>,
         time: T,

@@ -1,9 +1,9 @@
 //! The explicit Euler method.
 
-use super::fixed::{self, Grid};
+use super::fixed::{self, Grid, Slopes};
 use super::{Arrival, Method, Start};
 use crate::arrays::displaced;
-use crate::{Dynamics, IntegrationError, Real, Scalar, State, Statistics};
+use crate::{Dynamics, IntegrationError, Real, Scalar, State, Statistics, VecOf};
 
 /// The explicit Euler method x₁ = x₀ + h f(t₀, x₀) with fixed steps, of order 1
 /// (Euler, Institutionum calculi integralis, 1768, § 650).
@@ -37,6 +37,7 @@ where
     S::State: State<Scalar = T>,
 {
     type Memory = Grid<T>;
+    type Dense = Slopes<VecOf<S>>;
 
     #[inline]
     fn memory(&self) -> Grid<T> {
@@ -66,13 +67,17 @@ where
         Ok(arrival)
     }
 
+    fn dense(&self, _memory: &Grid<T>, start: &Start<'_, S>, arrival: &Arrival<S>) -> Slopes<VecOf<S>> {
+        fixed::slopes(start, arrival)
+    }
+
     fn interpolate(
         &self,
-        _memory: &Grid<T>,
+        dense: &Slopes<VecOf<S>>,
         start: &Start<'_, S>,
         arrival: &Arrival<S>,
         time: T,
     ) -> S::State {
-        fixed::interpolate(start, arrival, time)
+        fixed::interpolate(dense, start, arrival, time)
     }
 }

@@ -3,7 +3,7 @@
 use super::{Arrival, Start, explain_non_finite};
 use crate::arrays::all_finite;
 use crate::dense::hermite;
-use crate::{Dynamics, IntegrationError, Real, ScalarOf, State};
+use crate::{Dynamics, IntegrationError, Real, ScalarOf, State, VecOf};
 
 /// Checks the length of a step.
 pub(super) fn check_step<T: Real>(step: T) -> Result<(), IntegrationError> {
@@ -94,8 +94,21 @@ where
     Ok(Arrival { time: leg.time, state })
 }
 
-/// The cubic through both ends of the step with the derivatives there, which are evaluated anew.
+/// The derivatives at both ends of a step.
+#[derive(Clone, Copy)]
+pub struct Slopes<V> {
+    first: V,
+    last: V,
+}
+
+/// Evaluates the derivatives at both ends of the step.
+pub(super) fn slopes<S: Dynamics>(start: &Start<'_, S>, arrival: &Arrival<S>) -> Slopes<VecOf<S>> {
+    Slopes { first: start.derivative(), last: start.derivative_at(arrival.time, arrival.state.to_array()) }
+}
+
+/// The cubic through both ends of the step with the derivatives there.
 pub(super) fn interpolate<S: Dynamics>(
+    Slopes { first, last }: &Slopes<VecOf<S>>,
     start: &Start<'_, S>,
     arrival: &Arrival<S>,
     time: ScalarOf<S>,
@@ -104,15 +117,9 @@ where
     ScalarOf<S>: Real,
 {
     let x1 = arrival.state.to_array();
-    let f1 = start.derivative_at(arrival.time, x1);
     let length = arrival.time - start.time;
     let fraction = (time - start.time) / length;
-    S::State::from_array(hermite(
-        (&start.state.to_array(), &start.derivative()),
-        (&x1, &f1),
-        length,
-        fraction,
-    ))
+    S::State::from_array(hermite((&start.state.to_array(), first), (&x1, last), length, fraction))
 }
 
 #[cfg(test)]

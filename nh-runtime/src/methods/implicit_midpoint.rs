@@ -1,12 +1,12 @@
 //! The implicit midpoint rule.
 
-use super::fixed::{self, Grid};
+use super::fixed::{self, Grid, Slopes};
 use super::linearization::{Analytic, FiniteDifferences, Linearization};
 use super::{Arrival, Method, Start, explain_non_finite};
 use crate::arrays::displaced;
 use crate::linear::Factors;
 use crate::{
-    Dim, DimOf, Dynamics, IntegrationError, Jacobian, MatOf, Real, Scalar, ScalarOf, State, Statistics,
+    Dim, DimOf, Dynamics, IntegrationError, Jacobian, MatOf, Real, Scalar, ScalarOf, State, Statistics, VecOf,
 };
 
 /// The implicit midpoint rule x₁ = x₀ + h f(t₀ + h/2, (x₀ + x₁)/2) with fixed steps, of order 2.
@@ -268,6 +268,7 @@ where
     S::State: State<Scalar = T>,
 {
     type Memory = Memory<S>;
+    type Dense = Slopes<VecOf<S>>;
 
     fn memory(&self) -> Memory<S> {
         Memory { grid: Grid::new(), newton: None }
@@ -305,13 +306,17 @@ where
         Ok(arrival)
     }
 
+    fn dense(&self, _memory: &Memory<S>, start: &Start<'_, S>, arrival: &Arrival<S>) -> Slopes<VecOf<S>> {
+        fixed::slopes(start, arrival)
+    }
+
     fn interpolate(
         &self,
-        _memory: &Memory<S>,
+        dense: &Slopes<VecOf<S>>,
         start: &Start<'_, S>,
         arrival: &Arrival<S>,
         time: T,
     ) -> S::State {
-        fixed::interpolate(start, arrival, time)
+        fixed::interpolate(dense, start, arrival, time)
     }
 }

@@ -60,6 +60,8 @@ pub struct Arrival<S: Dynamics> {
 pub trait Method<S: Dynamics> {
     /// What the method remembers from step to step.
     type Memory: Copy;
+    /// What the states between the ends of a step are computed from.
+    type Dense: Copy;
 
     /// The memory before the first step.
     fn memory(&self) -> Self::Memory;
@@ -87,10 +89,14 @@ pub trait Method<S: Dynamics> {
         statistics: &mut Statistics,
     ) -> Result<Arrival<S>, IntegrationError>;
 
-    /// The state at a time within the last step, which led from `start` to `arrival`.
+    /// Prepares the dense output of the last step, which led from `start` to `arrival`: whatever it
+    /// needs beyond what the step itself has computed is evaluated here, and only here.
+    fn dense(&self, memory: &Self::Memory, start: &Start<'_, S>, arrival: &Arrival<S>) -> Self::Dense;
+
+    /// The state at a time within the step that `dense` was prepared for.
     fn interpolate(
         &self,
-        memory: &Self::Memory,
+        dense: &Self::Dense,
         start: &Start<'_, S>,
         arrival: &Arrival<S>,
         time: ScalarOf<S>,

@@ -82,6 +82,7 @@ where
     ScalarOf<S>: Real,
 {
     type Memory = Memory<M::Memory>;
+    type Dense = M::Dense;
 
     fn memory(&self) -> Self::Memory {
         Memory { method: self.method.memory(), steps: 0 }
@@ -128,14 +129,19 @@ where
     }
 
     #[inline]
+    fn dense(&self, memory: &Self::Memory, start: &Start<'_, S>, arrival: &Arrival<S>) -> M::Dense {
+        self.method.dense(&memory.method, start, arrival)
+    }
+
+    #[inline]
     fn interpolate(
         &self,
-        memory: &Self::Memory,
+        dense: &M::Dense,
         start: &Start<'_, S>,
         arrival: &Arrival<S>,
         time: ScalarOf<S>,
     ) -> S::State {
-        self.method.interpolate(&memory.method, start, arrival, time)
+        self.method.interpolate(dense, start, arrival, time)
     }
 }
 

@@ -1,9 +1,9 @@
 //! The classical Runge–Kutta method.
 
-use super::fixed::{self, Grid};
+use super::fixed::{self, Grid, Slopes};
 use super::{Arrival, Method, Start, non_finite_derivative};
 use crate::arrays::{combined, displaced, first_non_finite};
-use crate::{Dynamics, IntegrationError, Real, Scalar, State, Statistics};
+use crate::{Dynamics, IntegrationError, Real, Scalar, State, Statistics, VecOf};
 
 /// The classical Runge–Kutta method with fixed steps, of order 4
 /// (Kutta 1901; Hairer, Nørsett, Wanner, Solving Ordinary Differential Equations I, table II.1.2).
@@ -73,6 +73,7 @@ where
     S::State: State<Scalar = T>,
 {
     type Memory = Grid<T>;
+    type Dense = Slopes<VecOf<S>>;
 
     #[inline]
     fn memory(&self) -> Grid<T> {
@@ -102,14 +103,18 @@ where
         Ok(arrival)
     }
 
+    fn dense(&self, _memory: &Grid<T>, start: &Start<'_, S>, arrival: &Arrival<S>) -> Slopes<VecOf<S>> {
+        fixed::slopes(start, arrival)
+    }
+
     fn interpolate(
         &self,
-        _memory: &Grid<T>,
+        dense: &Slopes<VecOf<S>>,
         start: &Start<'_, S>,
         arrival: &Arrival<S>,
         time: T,
     ) -> S::State {
-        fixed::interpolate(start, arrival, time)
+        fixed::interpolate(dense, start, arrival, time)
     }
 }
 
