@@ -64,6 +64,7 @@ compile_error!(
 );
 
 mod arrays;
+pub mod control;
 mod dense;
 mod dim;
 mod dynamics;

@@ -1,0 +1,100 @@
+//! What can go wrong in a block.
+
+use core::error::Error;
+use core::fmt::{self, Display, Formatter};
+
+/// Why a block has no result; its arguments are as they were.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
+pub enum ControlError {
+    /// An argument has an entry that is infinite or not a number.
+    NotFinite {
+        /// The argument, by its name in the documentation.
+        argument: &'static str,
+        /// The first such entry.
+        value: f64,
+    },
+    /// A matrix that has to be positive definite is not.
+    NotDefinite {
+        /// The matrix, by its name in the documentation.
+        matrix: &'static str,
+        /// The first pivot of its Cholesky factorization that is not positive.
+        pivot: f64,
+    },
+    /// The doubling iteration for the Riccati equation does not settle.
+    NotStabilizable {
+        /// The iterations done.
+        iterations: u32,
+        /// The relative change of the cost matrix in the last of them.
+        change: f64,
+    },
+    /// The closed loop that the solution of the Riccati equation gives is not stable, or the
+    /// solution does not satisfy the equation.
+    Residual {
+        /// What is left of the equation, relative to the cost matrix.
+        residual: f64,
+    },
+}
+
+impl Display for ControlError {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::NotFinite { argument, value } => {
+                write!(f, "`{argument}` has the entry {value:?}: check how it is computed")
+            }
+            Self::NotDefinite { matrix, pivot } => write!(
+                f,
+                "`{matrix}` has to be positive definite, but a pivot of its factorization is {pivot:?}: \
+                 give every direction a positive weight or noise"
+            ),
+            Self::NotStabilizable { iterations, change } => write!(
+                f,
+                "the Riccati equation has not settled after {iterations} doublings (relative change \
+                 {change:.1e}): a mode that does not decay cannot be steered by the inputs or does not \
+                 appear in the cost; leave it out of the state, or give it a weight"
+            ),
+            Self::Residual { residual } => write!(
+                f,
+                "the solution of the Riccati equation leaves {residual:.1e} of it: the problem is too \
+                 badly scaled; measure states and inputs in units that make their weights comparable"
+            ),
+        }
+    }
+}
+
+impl Error for ControlError {}
+
+#[cfg(test)]
+mod tests {
+    use super::ControlError;
+    use std::string::ToString;
+
+    #[test]
+    fn messages_name_the_thing_the_evidence_and_the_way_out() {
+        let cases = [
+            (
+                ControlError::NotFinite { argument: "a", value: f64::INFINITY },
+                "`a` has the entry inf: check how it is computed",
+            ),
+            (
+                ControlError::NotDefinite { matrix: "r", pivot: -1.0 },
+                "`r` has to be positive definite, but a pivot of its factorization is -1.0: give every \
+                 direction a positive weight or noise",
+            ),
+            (
+                ControlError::NotStabilizable { iterations: 60, change: 0.5 },
+                "the Riccati equation has not settled after 60 doublings (relative change 5.0e-1): a mode \
+                 that does not decay cannot be steered by the inputs or does not appear in the cost; leave \
+                 it out of the state, or give it a weight",
+            ),
+            (
+                ControlError::Residual { residual: 0.25 },
+                "the solution of the Riccati equation leaves 2.5e-1 of it: the problem is too badly scaled; \
+                 measure states and inputs in units that make their weights comparable",
+            ),
+        ];
+        for (error, text) in cases {
+            assert_eq!(error.to_string(), text);
+        }
+    }
+}

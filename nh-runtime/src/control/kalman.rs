@@ -1,0 +1,128 @@
+//! The extended Kalman filter, a step at a time.
+
+use nalgebra::{SMatrix, SVector};
+
+use super::cholesky::Cholesky;
+use super::{ControlError, Entry, finite, symmetrized};
+
+/// What is known of a state: a mean and a covariance.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Estimate<T, const N: usize> {
+    /// The mean; a generated state is made of it with `into()`, and the other way round.
+    pub mean: SVector<T, N>,
+    /// The covariance, symmetric and positive semidefinite.
+    pub covariance: SMatrix<T, N, N>,
+}
+
+/// An estimate after a measurement.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Correction<T, const N: usize> {
+    /// What is known now.
+    pub estimate: Estimate<T, N>,
+    /// The squared innovation in units of its standard deviations, νᵀS⁻¹ν: of a consistent filter
+    /// χ²-distributed with as many degrees of freedom as the measurement has components. A large
+    /// value tells of an outlier, or of a model that no longer holds, such as a wheel that slips.
+    pub surprise: T,
+}
+
+impl<T: Entry, const N: usize> Estimate<T, N> {
+    /// The estimate after a step of time.
+    ///
+    /// `mean` is where the step takes the old mean, `transition` the derivative of the step by the
+    /// state there, `noise` the covariance of what the model does not know of the step.
+    #[must_use]
+    pub fn predicted(
+        &self,
+        mean: SVector<T, N>,
+        transition: &SMatrix<T, N, N>,
+        noise: &SMatrix<T, N, N>,
+    ) -> Self {
+        let covariance = transition * self.covariance * transition.transpose() + noise;
+        Self { mean, covariance: symmetrized(&covariance) }
+    }
+
+    /// The estimate after a measurement of `P` quantities.
+    ///
+    /// `innovation` is the measurement less what the mean would have given: subtract angles the
+    /// short way round. `observation` is the derivative of the measured quantities by the state at
+    /// the mean, `noise` the covariance of the measurement. The covariance follows Joseph's form,
+    /// which stays positive semidefinite in single precision too.
+    ///
+    /// ```
+    /// use nalgebra::{Matrix2, matrix, vector};
+    /// use nh_runtime::control::Estimate;
+    ///
+    /// let prior = Estimate { mean: vector![0.0, 0.0], covariance: Matrix2::identity() };
+    /// let seen = prior.corrected(&vector![1.0], &matrix![1.0, 0.0], &matrix![1.0]).unwrap();
+    /// assert!((seen.estimate.mean - vector![0.5, 0.0]).norm() < 1e-15);
+    /// assert!((seen.estimate.covariance - matrix![0.5, 0.0; 0.0, 1.0]).norm() < 1e-15);
+    /// assert!((seen.surprise - 0.5_f64).abs() < 1e-15);
+    /// ```
+    ///
+    /// # Errors
+    /// [`ControlError::NotFinite`] for the innovation, and [`ControlError::NotDefinite`] if the
+    /// covariance of the innovation is not positive definite.
+    pub fn corrected<const P: usize>(
+        &self,
+        innovation: &SVector<T, P>,
+        observation: &SMatrix<T, P, N>,
+        noise: &SMatrix<T, P, P>,
+    ) -> Result<Correction<T, N>, ControlError> {
+        finite("innovation", innovation)?;
+        let seen = observation * self.covariance;
+        let spread = symmetrized(&(seen * observation.transpose() + noise));
+        let factors = Cholesky::new("the covariance of the innovation", &spread)?;
+        let gain = factors.solve(&seen).transpose();
+        let left = SMatrix::<T, N, N>::identity() - gain * observation;
+        let covariance = left * self.covariance * left.transpose() + gain * noise * gain.transpose();
+        let mean = self.mean + gain * innovation;
+        finite("the corrected mean", &mean)?;
+        let surprise = factors.whitened(innovation).iter().fold(T::ZERO, |sum, x| sum + *x * *x);
+        Ok(Correction { estimate: Self { mean, covariance: symmetrized(&covariance) }, surprise })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use nalgebra::{Matrix2, matrix, vector};
+
+    /// For a linear system the information form gives the same: P⁻¹ + HᵀR⁻¹H.
+    #[test]
+    fn a_correction_adds_information() {
+        let prior = Estimate { mean: vector![1.0, 2.0], covariance: matrix![2.0, 0.3; 0.3, 0.7] };
+        let observation = matrix![1.0, -0.4; 0.2, 3.0; 0.0, 1.0];
+        let noise = nalgebra::Matrix3::from_diagonal(&vector![0.1, 0.2, 0.5]);
+        let measured = vector![0.3, 6.5, 2.2];
+        let correction =
+            prior.corrected(&(measured - observation * prior.mean), &observation, &noise).unwrap();
+        let information = prior.covariance.try_inverse().unwrap()
+            + observation.transpose() * noise.try_inverse().unwrap() * observation;
+        let vector = prior.covariance.try_inverse().unwrap() * prior.mean
+            + observation.transpose() * noise.try_inverse().unwrap() * measured;
+        let covariance = information.try_inverse().unwrap();
+        assert!((correction.estimate.covariance - covariance).norm() < 1e-14);
+        assert!((correction.estimate.mean - covariance * vector).norm() < 1e-14);
+    }
+
+    #[test]
+    fn bad_measurements_leave_the_estimate() {
+        let prior = Estimate { mean: vector![1.0, 2.0], covariance: Matrix2::identity() };
+        let nan = prior.corrected(&vector![f64::NAN], &matrix![1.0, 0.0], &matrix![1.0]);
+        assert!(matches!(nan, Err(ControlError::NotFinite { argument: "innovation", .. })));
+        let exact = prior.corrected(&vector![1.0], &matrix![0.0, 0.0], &matrix![0.0]);
+        assert!(matches!(exact, Err(ControlError::NotDefinite { .. })));
+    }
+
+    #[test]
+    fn a_precise_sensor_keeps_the_covariance_positive_in_single_precision() {
+        let mut estimate = Estimate { mean: vector![0.0_f32, 0.0], covariance: Matrix2::identity() * 1e4 };
+        for _ in 0..100 {
+            let step = matrix![1.0, 0.01; 0.0, 1.0];
+            estimate = estimate.predicted(step * estimate.mean, &step, &(Matrix2::identity() * 1e-9));
+            let seen = estimate.corrected(&vector![1e-3], &matrix![1.0, 0.0], &matrix![1e-8]).unwrap();
+            estimate = seen.estimate;
+            assert!(estimate.covariance.determinant() >= 0.0 && estimate.covariance[(0, 0)] > 0.0);
+        }
+    }
+}

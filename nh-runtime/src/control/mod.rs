@@ -1,0 +1,80 @@
+//! Building blocks of controllers and estimators for systems with emitted Jacobians.
+//!
+//! | block | what it does |
+//! |---|---|
+//! | [`zero_order_hold`] | discretises a linear system whose input is constant over a tick |
+//! | [`Regulator`] | the gain of linear-quadratic regulation: stationary, or one step of a finite horizon |
+//! | [`Estimate`] | one step of an extended Kalman filter |
+//! | [`Unscented`] | one step of an unscented Kalman filter |
+//!
+//! They take and return the matrices of `nalgebra`, as `jacobian` does, for `f32` and `f64`. Nothing
+//! allocates, nothing panics, every loop is bounded, and what cannot be computed is a
+//! [`ControlError`]. The factorizations are the crate's own: those of `nalgebra` ask for elementary
+//! functions that it does not have without an operating system.
+//!
+//! A regulator for a body on a knife edge that is to keep its heading:
+//!
+//! ```
+//! use nh_runtime::control::{ControlError, Regulator, zero_order_hold};
+//! use nalgebra::{Matrix2, Vector2, matrix, vector};
+//!
+//! # fn main() -> Result<(), ControlError> {
+//! // θ̇ = ω, ω̇ = −0.2 ω + 2 torque, sampled at 50 Hz
+//! let (a, b) = zero_order_hold(&matrix![0.0, 1.0; 0.0, -0.2], &vector![0.0, 2.0], 0.02)?;
+//! let regulator = Regulator::stationary(&a, &b, &Matrix2::identity(), &matrix![0.1])?;
+//! let mut deviation = Vector2::new(0.3, 0.0);
+//! for _ in 0..600 {
+//!     deviation = a * deviation + b * regulator.input(&deviation);
+//! }
+//! assert!(deviation.norm() < 1e-4);
+//! # Ok(())
+//! # }
+//! ```
+
+mod cholesky;
+mod error;
+mod hold;
+mod kalman;
+mod regulator;
+mod unscented;
+
+use nalgebra::{ClosedAddAssign, ClosedMulAssign, ClosedSubAssign, SMatrix};
+use num_traits::{One, Zero};
+
+pub use error::ControlError;
+pub use hold::zero_order_hold;
+pub use kalman::{Correction, Estimate};
+pub use regulator::Regulator;
+pub use unscented::Unscented;
+
+use crate::Real;
+
+/// A number that matrices of `nalgebra` can be multiplied with: `f32`, `f64`.
+///
+/// Implemented for every [`Real`] that has the traits of `nalgebra`'s arithmetic.
+pub trait Entry: Real + ClosedAddAssign + ClosedSubAssign + ClosedMulAssign + Zero + One {}
+impl<T: Real + ClosedAddAssign + ClosedSubAssign + ClosedMulAssign + Zero + One> Entry for T {}
+
+/// The largest sum of absolute values in a column: the norm that the vector norm Σ|x_i| induces.
+pub(crate) fn norm<T: Entry, const N: usize, const M: usize>(a: &SMatrix<T, N, M>) -> T {
+    a.column_iter().fold(T::ZERO, |largest, column| {
+        let sum = column.iter().fold(T::ZERO, |sum, x| sum + crate::Scalar::abs(*x));
+        if sum > largest || !sum.is_finite() { sum } else { largest }
+    })
+}
+
+/// The mean of a matrix and its transpose: what round-off leaves of a symmetric matrix.
+pub(crate) fn symmetrized<T: Entry, const N: usize>(a: &SMatrix<T, N, N>) -> SMatrix<T, N, N> {
+    (a + a.transpose()) * T::from_f64(0.5)
+}
+
+/// Refuses a matrix with an entry that is infinite or not a number.
+pub(crate) fn finite<T: Entry, const N: usize, const M: usize>(
+    argument: &'static str,
+    a: &SMatrix<T, N, M>,
+) -> Result<(), ControlError> {
+    match a.iter().find(|x| !crate::Scalar::is_finite(**x)) {
+        None => Ok(()),
+        Some(x) => Err(ControlError::NotFinite { argument, value: x.to_f64() }),
+    }
+}

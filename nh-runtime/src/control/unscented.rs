@@ -1,0 +1,205 @@
+//! The unscented Kalman filter, a step at a time.
+
+use nalgebra::{SMatrix, SVector};
+
+use super::cholesky::Cholesky;
+use super::{ControlError, Correction, Entry, Estimate, finite, symmetrized};
+
+/// The scaled unscented transformation (Julier, Proc. American Control Conference 2002, 4555–4559; van
+/// der Merwe's weights): a covariance carried through a map by 2N + 1 points instead of a derivative.
+///
+/// The default `spread` 1, `kurtosis` 2 and `shift` 0 suit states of a few components; a smaller
+/// spread keeps the points nearer to the mean, at the price of weights that cancel.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Unscented<T> {
+    /// α: how far the points lie from the mean.
+    pub spread: T,
+    /// β: what is known of the fourth moments; 2 for normal distributions.
+    pub kurtosis: T,
+    /// κ.
+    pub shift: T,
+}
+
+impl<T: Entry> Default for Unscented<T> {
+    fn default() -> Self {
+        Self { spread: T::ONE, kurtosis: T::from_f64(2.0), shift: T::ZERO }
+    }
+}
+
+/// The points x̄, x̄ + c Lᵢ, x̄ − c Lᵢ, with the columns Lᵢ of the Cholesky factor.
+struct Points<T, const N: usize> {
+    centre: SVector<T, N>,
+    plus: [SVector<T, N>; N],
+    minus: [SVector<T, N>; N],
+    /// The weight of the centre in a mean, in a covariance, and that of every other point.
+    weights: [T; 3],
+}
+
+impl<T: Entry> Unscented<T> {
+    /// The estimate after a step of time; `step` carries a state over it, and `noise` is the
+    /// covariance of what the model does not know of the step.
+    ///
+    /// ```
+    /// use nalgebra::{Matrix2, matrix, vector};
+    /// use nh_runtime::control::{Estimate, Unscented};
+    ///
+    /// // of a linear map the result is exact
+    /// let prior = Estimate { mean: vector![1.0, 0.0], covariance: Matrix2::identity() };
+    /// let map = matrix![1.0, 0.5; 0.0, 1.0];
+    /// let next = Unscented::default().predicted(&prior, |x| map * x, &Matrix2::zeros()).unwrap();
+    /// assert!((next.covariance - map * map.transpose()).norm() < 1e-14);
+    /// ```
+    ///
+    /// # Errors
+    /// [`ControlError::NotDefinite`] if the covariance is not positive definite,
+    /// [`ControlError::NotFinite`] if a point is carried out of the numbers.
+    pub fn predicted<const N: usize>(
+        &self,
+        prior: &Estimate<T, N>,
+        mut step: impl FnMut(SVector<T, N>) -> SVector<T, N>,
+        noise: &SMatrix<T, N, N>,
+    ) -> Result<Estimate<T, N>, ControlError> {
+        let points = self.points(prior)?;
+        let centre = step(points.centre);
+        let (plus, minus) = (points.plus.map(&mut step), points.minus.map(&mut step));
+        // states do not wrap: differences are plain ones
+        let carried = Carried::new(&points, centre, &plus, &minus, |a, b| a - b)?;
+        Ok(Estimate { mean: centre + carried.mean, covariance: symmetrized(&(carried.covariance + noise)) })
+    }
+
+    /// The estimate after a measurement of `P` quantities.
+    ///
+    /// `observe` gives what a state would show; `difference(a, b)` is a − b with angles taken the
+    /// short way round; `noise` is the covariance of the measurement.
+    ///
+    /// # Errors
+    /// [`ControlError::NotDefinite`] if a covariance is not positive definite,
+    /// [`ControlError::NotFinite`] if something that was measured or observed is not finite.
+    pub fn corrected<const N: usize, const P: usize>(
+        &self,
+        prior: &Estimate<T, N>,
+        measured: &SVector<T, P>,
+        mut observe: impl FnMut(SVector<T, N>) -> SVector<T, P>,
+        difference: impl Fn(SVector<T, P>, SVector<T, P>) -> SVector<T, P>,
+        noise: &SMatrix<T, P, P>,
+    ) -> Result<Correction<T, N>, ControlError> {
+        finite("measured", measured)?;
+        let points = self.points(prior)?;
+        let centre = observe(points.centre);
+        let (plus, minus) = (points.plus.map(&mut observe), points.minus.map(&mut observe));
+        let carried = Carried::new(&points, centre, &plus, &minus, &difference)?;
+        let spread = symmetrized(&(carried.covariance + noise));
+        let factors = Cholesky::new("the covariance of the innovation", &spread)?;
+        let gain = factors.solve(&carried.cross.transpose()).transpose();
+        let innovation = difference(*measured, centre) - carried.mean;
+        finite("innovation", &innovation)?;
+        let covariance = prior.covariance - gain * spread * gain.transpose();
+        let estimate =
+            Estimate { mean: prior.mean + gain * innovation, covariance: symmetrized(&covariance) };
+        let surprise = factors.whitened(&innovation).iter().fold(T::ZERO, |sum, x| sum + *x * *x);
+        Ok(Correction { estimate, surprise })
+    }
+
+    fn points<const N: usize>(&self, prior: &Estimate<T, N>) -> Result<Points<T, N>, ControlError> {
+        finite("mean", &prior.mean)?;
+        let factors = Cholesky::new("the covariance of the estimate", &prior.covariance)?;
+        let count = T::from_u32(u32::try_from(N).unwrap_or(u32::MAX));
+        // c² = n + λ = α²(n + κ)
+        let squared = self.spread * self.spread * (count + self.shift);
+        if !(squared > T::ZERO && squared.is_finite()) {
+            return Err(ControlError::NotFinite { argument: "spread", value: squared.to_f64() });
+        }
+        let distance = squared.sqrt();
+        let column = |i: usize| factors.lower().column(i) * distance;
+        let other = (squared + squared).recip();
+        let mean = (squared - count) / squared;
+        let centre = mean + T::ONE - self.spread * self.spread + self.kurtosis;
+        Ok(Points {
+            centre: prior.mean,
+            plus: core::array::from_fn(|i| prior.mean + column(i)),
+            minus: core::array::from_fn(|i| prior.mean - column(i)),
+            weights: [mean, centre, other],
+        })
+    }
+}
+
+/// What a map makes of the points: moments about the image of the centre.
+struct Carried<T, const N: usize, const P: usize> {
+    /// The mean less the image of the centre.
+    mean: SVector<T, P>,
+    covariance: SMatrix<T, P, P>,
+    /// The covariance of state and image.
+    cross: SMatrix<T, N, P>,
+}
+
+impl<T: Entry, const N: usize, const P: usize> Carried<T, N, P> {
+    fn new(
+        points: &Points<T, N>,
+        centre: SVector<T, P>,
+        plus: &[SVector<T, P>; N],
+        minus: &[SVector<T, P>; N],
+        difference: impl Fn(SVector<T, P>, SVector<T, P>) -> SVector<T, P>,
+    ) -> Result<Self, ControlError> {
+        let [_, centre_weight, weight] = points.weights;
+        let mut mean = SVector::<T, P>::zeros();
+        for (a, b) in plus.iter().zip(minus) {
+            mean += (difference(*a, centre) + difference(*b, centre)) * weight;
+        }
+        finite("an image of a point", &mean)?;
+        // the centre's own deviation is −mean
+        let mut covariance = mean * mean.transpose() * centre_weight;
+        let mut cross = SMatrix::<T, N, P>::zeros();
+        for i in 0..N {
+            let (Some(a), Some(b)) = (plus.get(i), minus.get(i)) else { break };
+            let (Some(x), Some(y)) = (points.plus.get(i), points.minus.get(i)) else { break };
+            let (a, b) = (difference(*a, centre) - mean, difference(*b, centre) - mean);
+            covariance += (a * a.transpose() + b * b.transpose()) * weight;
+            cross += ((x - points.centre) * a.transpose() + (y - points.centre) * b.transpose()) * weight;
+        }
+        Ok(Self { mean, covariance, cross })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use nalgebra::{Matrix2, matrix, vector};
+
+    #[test]
+    fn a_linear_measurement_gives_the_kalman_filter() {
+        let prior = Estimate { mean: vector![1.0_f64, 2.0], covariance: matrix![2.0, 0.3; 0.3, 0.7] };
+        let observation = matrix![1.0, -0.4; 0.2, 3.0];
+        let noise = matrix![0.1, 0.02; 0.02, 0.2];
+        let measured = vector![0.3, 6.5];
+        let linear = prior.corrected(&(measured - observation * prior.mean), &observation, &noise).unwrap();
+        for spread in [1.0, 0.1] {
+            let filter = Unscented { spread, ..Unscented::default() };
+            let points =
+                filter.corrected(&prior, &measured, |x| observation * x, |a, b| a - b, &noise).unwrap();
+            assert!((points.estimate.mean - linear.estimate.mean).norm() < 1e-12);
+            assert!((points.estimate.covariance - linear.estimate.covariance).norm() < 1e-12);
+            assert!((points.surprise - linear.surprise).abs() < 1e-11);
+        }
+    }
+
+    /// E sin² of a normal distribution is (1 − exp(−2σ²))/2: second-order terms are right.
+    #[test]
+    fn a_square_has_the_right_mean() {
+        let prior = Estimate { mean: vector![0.5_f64], covariance: matrix![0.04] };
+        let none = matrix![0.0];
+        let squared = Unscented::default().predicted(&prior, |x| x.map(|x| x * x), &none).unwrap();
+        assert!((squared.mean[0] - 0.29).abs() < 1e-15);
+        // var x² = 4 μ²σ² + 2 σ⁴
+        assert!((squared.covariance[(0, 0)] - (0.04 + 2.0 * 0.0016)).abs() < 1e-15);
+    }
+
+    #[test]
+    fn what_is_singular_is_refused() {
+        let prior = Estimate { mean: vector![0.0, 0.0], covariance: Matrix2::zeros() };
+        let refused = Unscented::default().predicted(&prior, |x| x, &Matrix2::identity());
+        assert_eq!(
+            refused,
+            Err(ControlError::NotDefinite { matrix: "the covariance of the estimate", pivot: 0.0 })
+        );
+    }
+}
