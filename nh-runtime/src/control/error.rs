@@ -34,6 +34,15 @@ pub enum ControlError {
         /// What is left of the equation, relative to the cost matrix.
         residual: f64,
     },
+    /// A slice does not have one entry for each tick.
+    Length {
+        /// The slice, by its name in the documentation.
+        slice: &'static str,
+        /// Its length.
+        length: usize,
+        /// The number of ticks.
+        expected: usize,
+    },
 }
 
 impl Display for ControlError {
@@ -58,6 +67,9 @@ impl Display for ControlError {
                 "the solution of the Riccati equation leaves {residual:.1e} of it: the problem is too \
                  badly scaled; measure states and inputs in units that make their weights comparable"
             ),
+            Self::Length { slice, length, expected } => {
+                write!(f, "`{slice}` has {length} entries for {expected} ticks: give it one for each")
+            }
         }
     }
 }
@@ -91,6 +103,10 @@ mod tests {
                 ControlError::Residual { residual: 0.25 },
                 "the solution of the Riccati equation leaves 2.5e-1 of it: the problem is too badly scaled; \
                  measure states and inputs in units that make their weights comparable",
+            ),
+            (
+                ControlError::Length { slice: "states", length: 3, expected: 4 },
+                "`states` has 3 entries for 4 ticks: give it one for each",
             ),
         ];
         for (error, text) in cases {

@@ -6,6 +6,8 @@
 //! | [`Regulator`] | the gain of linear-quadratic regulation: stationary, or one step of a finite horizon |
 //! | [`Estimate`] | one step of an extended Kalman filter |
 //! | [`Unscented`] | one step of an unscented Kalman filter |
+//! | [`Ilqr`] | optimal inputs over a horizon, between bounds; model predictive control |
+//! | [`shooting_gradient`] | the cost of a sequence of inputs with its exact gradient, for any optimiser |
 //!
 //! They take and return the matrices of `nalgebra`, as `jacobian` does, for `f32` and `f64`. Nothing
 //! allocates, nothing panics, every loop is bounded, and what cannot be computed is a
@@ -31,11 +33,15 @@
 //! # }
 //! ```
 
+mod box_quadratic;
 mod cholesky;
 mod error;
 mod hold;
+mod horizon;
+mod ilqr;
 mod kalman;
 mod regulator;
+mod shooting;
 mod unscented;
 
 use nalgebra::{ClosedAddAssign, ClosedMulAssign, ClosedSubAssign, SMatrix};
@@ -43,8 +49,11 @@ use num_traits::{One, Zero};
 
 pub use error::ControlError;
 pub use hold::zero_order_hold;
+pub use horizon::{Cost, Expansion, Model, Quadratic};
+pub use ilqr::{Ilqr, Improvement};
 pub use kalman::{Correction, Estimate};
 pub use regulator::Regulator;
+pub use shooting::{shooting_cost, shooting_gradient};
 pub use unscented::Unscented;
 
 use crate::Real;

@@ -1,0 +1,128 @@
+//! A convex quadratic between bounds: the projected Newton method (Bertsekas, SIAM J. Control Optim.
+//! 20 (1982) 221–246, as used by Tassa, Mansard, Todorov, ICRA 2014).
+
+use nalgebra::{SMatrix, SVector};
+
+use super::cholesky::Cholesky;
+use super::{ControlError, Entry};
+
+/// Iterations that a problem may take; each fixes the set of active bounds anew.
+const MOST_ITERATIONS: u32 = 40;
+/// Halvings of a step along the projection.
+const MOST_HALVINGS: u32 = 30;
+
+/// The minimum of ½ uᵀQu + qᵀu between bounds.
+pub(super) struct Minimum<T, const M: usize> {
+    /// Where it is.
+    pub(super) at: SVector<T, M>,
+    /// The components that are not held by a bound.
+    pub(super) free: [bool; M],
+    /// Q with the rows and columns of the others replaced by those of the unit matrix.
+    pub(super) factors: Cholesky<T, M>,
+}
+
+/// Finds it, from `guess`. A lower bound above its upper one counts as equal to it.
+pub(super) fn minimum<T: Entry, const M: usize>(
+    hessian: &SMatrix<T, M, M>,
+    slope: &SVector<T, M>,
+    [lower, upper]: [&SVector<T, M>; 2],
+    guess: &SVector<T, M>,
+) -> Result<Minimum<T, M>, ControlError> {
+    let clamp = |u: SVector<T, M>| u.zip_zip_map(lower, upper, |u, low, high| between(u, low, high));
+    let value = |u: &SVector<T, M>| (u.dot(&(hessian * u))) * T::from_f64(0.5) + u.dot(slope);
+    let mut at = clamp(*guess);
+    for _ in 0..MOST_ITERATIONS {
+        let gradient = hessian * at + slope;
+        let free = held_by_none(&at, &gradient, lower, upper);
+        let factors = Cholesky::new("the second derivative by the input", &masked(hessian, free))?;
+        let target = SVector::from_fn(|i, _| if is(free, i) { -gradient[i] } else { T::ZERO });
+        let newton = factors.solve(&target);
+        // Newton's step on the free components ends there, unless it meets a bound
+        let here = value(&at);
+        let mut next = clamp(at + newton);
+        let mut share = T::ONE;
+        for _ in 0..MOST_HALVINGS {
+            // Armijo's condition along the projection
+            if value(&next) <= here - T::from_f64(0.1) * gradient.dot(&(at - next)) {
+                break;
+            }
+            share *= T::from_f64(0.5);
+            next = clamp(at + newton * share);
+        }
+        let moved = (next - at).iter().fold(T::ZERO, |sum, x| sum.max(x.abs()));
+        let size = at.iter().fold(T::ZERO, |sum, x| sum.max(x.abs()));
+        at = next;
+        if moved <= T::from_f64(4.0) * T::EPSILON * (T::ONE + size) {
+            return Ok(Minimum { at, free, factors });
+        }
+    }
+    let gradient = hessian * at + slope;
+    let free = held_by_none(&at, &gradient, lower, upper);
+    let factors = Cholesky::new("the second derivative by the input", &masked(hessian, free))?;
+    Ok(Minimum { at, free, factors })
+}
+
+fn between<T: Entry>(u: T, low: T, high: T) -> T {
+    let above = if u > low { u } else { low };
+    if above > high { high } else { above }
+}
+
+fn is<const M: usize>(free: [bool; M], i: usize) -> bool {
+    free.get(i).copied().unwrap_or(false)
+}
+
+/// The components that neither bound holds against the gradient.
+fn held_by_none<T: Entry, const M: usize>(
+    at: &SVector<T, M>,
+    gradient: &SVector<T, M>,
+    lower: &SVector<T, M>,
+    upper: &SVector<T, M>,
+) -> [bool; M] {
+    core::array::from_fn(|i| {
+        let at_lower = at[i] <= lower[i] && gradient[i] > T::ZERO;
+        let at_upper = at[i] >= upper[i] && gradient[i] < T::ZERO;
+        !(at_lower || at_upper)
+    })
+}
+
+fn masked<T: Entry, const M: usize>(hessian: &SMatrix<T, M, M>, free: [bool; M]) -> SMatrix<T, M, M> {
+    SMatrix::from_fn(|i, j| match (is(free, i) && is(free, j), i == j) {
+        (true, _) => hessian[(i, j)],
+        (false, true) => T::ONE,
+        (false, false) => T::ZERO,
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use nalgebra::{matrix, vector};
+
+    /// The minimum over a grid of the box is never below what is found.
+    #[test]
+    fn nothing_in_the_box_is_lower() {
+        let hessian = matrix![2.0, 1.9; 1.9, 2.5];
+        let (lower, upper) = (vector![-1.0, -0.5], vector![0.3, 2.0]);
+        let value = |u: SVector<f64, 2>, q: SVector<f64, 2>| 0.5 * u.dot(&(hessian * u)) + u.dot(&q);
+        for k in 0..64 {
+            let angle = f64::from(k) * 0.098_174_770_424_681_03;
+            let q = vector![4.0 * angle.cos(), 4.0 * angle.sin()];
+            let found = minimum(&hessian, &q, [&lower, &upper], &vector![9.0, -9.0]).unwrap();
+            for i in 0..=40 {
+                for j in 0..=40 {
+                    let u = vector![-1.0 + 1.3 * f64::from(i) / 40.0, -0.5 + 2.5 * f64::from(j) / 40.0];
+                    assert!(value(found.at, q) <= value(u, q) + 1e-12, "{q} {u} {}", found.at);
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn without_bounds_in_the_way_it_is_newtons() {
+        let hessian = matrix![2.0, 0.5; 0.5, 1.0];
+        let (lower, upper) = (vector![-1e9, -1e9], vector![1e9, 1e9]);
+        let found = minimum(&hessian, &vector![1.0, -3.0], [&lower, &upper], &vector![0.0, 0.0]).unwrap();
+        assert!((hessian * found.at - vector![-1.0, 3.0]).norm() < 1e-14);
+        assert_eq!(found.free, [true, true]);
+    }
+}

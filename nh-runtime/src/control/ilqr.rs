@@ -1,0 +1,363 @@
+//! Optimal inputs over a horizon by the iterative linear-quadratic regulator.
+
+use nalgebra::{SMatrix, SVector};
+
+use super::box_quadratic::minimum;
+use super::{ControlError, Cost, Entry, Model, shooting_cost, symmetrized};
+
+/// Halvings of the step in the line search.
+const MOST_HALVINGS: u32 = 12;
+/// The factor by which the regularization grows and shrinks.
+const FACTOR: f64 = 4.0;
+/// Where the regularization starts to grow from, and what it vanishes below.
+const LEAST_WEIGHT: f64 = 1e-6;
+/// A regularization beyond which there is no step to be found.
+const MOST_WEIGHT: f64 = 1e10;
+
+/// A sequence of `H` inputs between bounds that is being made optimal: the iterative
+/// linear-quadratic regulator (Li, Todorov, ICINCO 2004) with bounds on the inputs (Tassa, Mansard,
+/// Todorov, ICRA 2014).
+///
+/// For model predictive control call [`improve`](Self::improve) once or a few times in every tick,
+/// apply the first input and [`shift`](Self::shift): the cost in time of `improve` is bounded.
+///
+/// All memory is in the value itself, about `H · (N·M + 2N + 3M)` numbers.
+#[derive(Clone, Copy, Debug)]
+pub struct Ilqr<T, const N: usize, const M: usize, const H: usize> {
+    inputs: [SVector<T, M>; H],
+    states: [SVector<T, N>; H],
+    gains: [SMatrix<T, M, N>; H],
+    changes: [SVector<T, M>; H],
+    lower: SVector<T, M>,
+    upper: SVector<T, M>,
+    weight: T,
+}
+
+/// What an iteration did.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Improvement<T> {
+    /// The cost after it.
+    pub cost: T,
+    /// By how much it is less than before; zero if no step was found.
+    pub decrease: T,
+    /// The decrease that the quadratic model promised for a full step: zero at an optimum.
+    pub promised: T,
+}
+
+impl<T: Entry, const N: usize, const M: usize, const H: usize> Ilqr<T, N, M, H> {
+    /// Starts from a constant input, without bounds.
+    #[must_use]
+    pub fn new(input: SVector<T, M>) -> Self {
+        let huge = T::MIN_POSITIVE.recip();
+        Self {
+            inputs: [input; H],
+            states: [SVector::zeros(); H],
+            gains: [SMatrix::zeros(); H],
+            changes: [SVector::zeros(); H],
+            lower: SVector::repeat(-huge),
+            upper: SVector::repeat(huge),
+            weight: T::ZERO,
+        }
+    }
+
+    /// Keeps every input between these bounds.
+    #[must_use]
+    pub fn bounds(mut self, lower: SVector<T, M>, upper: SVector<T, M>) -> Self {
+        (self.lower, self.upper) = (lower, upper);
+        for u in &mut self.inputs {
+            *u = clamped(u, &lower, &upper);
+        }
+        self
+    }
+
+    /// The inputs, one for each tick.
+    #[must_use]
+    pub fn inputs(&self) -> &[SVector<T, M>; H] {
+        &self.inputs
+    }
+
+    /// The inputs, to be changed: a first guess.
+    pub fn inputs_mut(&mut self) -> &mut [SVector<T, M>; H] {
+        &mut self.inputs
+    }
+
+    /// The states before each tick along the inputs, after an [`improve`](Self::improve).
+    #[must_use]
+    pub fn states(&self) -> &[SVector<T, N>; H] {
+        &self.states
+    }
+
+    /// The feedback K along the trajectory that [`improve`](Self::improve) expanded about:
+    /// u = u_k + K_k (x − x_k) holds a system to it that is disturbed.
+    #[must_use]
+    pub fn gains(&self) -> &[SMatrix<T, M, N>; H] {
+        &self.gains
+    }
+
+    /// Drops the first tick and repeats the last: the horizon recedes.
+    pub fn shift(&mut self) {
+        self.inputs.rotate_left(usize::from(H > 0));
+        if let [.., before, last] = self.inputs.as_mut_slice() {
+            *last = *before;
+        }
+    }
+
+    /// Iterates until the promised decrease is below `tolerance` of the cost, or `most` iterations
+    /// are done; returns the last of them.
+    ///
+    /// # Errors
+    /// As [`improve`](Self::improve).
+    pub fn solve(
+        &mut self,
+        model: &impl Model<T, N, M>,
+        cost: &impl Cost<T, N, M>,
+        start: &SVector<T, N>,
+        tolerance: T,
+        most: u32,
+    ) -> Result<Improvement<T>, ControlError> {
+        let mut last = self.improve(model, cost, start)?;
+        for _ in 1..most {
+            if last.promised <= tolerance * last.cost.abs() {
+                break;
+            }
+            last = self.improve(model, cost, start)?;
+        }
+        Ok(last)
+    }
+
+    /// One iteration from the state `start`: an expansion along the inputs, a sweep backwards, a
+    /// line search. The inputs change only if the cost decreases.
+    ///
+    /// # Errors
+    /// [`ControlError::NotFinite`] if the present inputs lead out of the numbers, and
+    /// [`ControlError::NotDefinite`] if no regularization makes the cost convex in the inputs.
+    pub fn improve(
+        &mut self,
+        model: &impl Model<T, N, M>,
+        cost: &impl Cost<T, N, M>,
+        start: &SVector<T, N>,
+    ) -> Result<Improvement<T>, ControlError> {
+        let before = shooting_cost(model, cost, start, &self.inputs);
+        if !before.is_finite() {
+            return Err(ControlError::NotFinite { argument: "cost", value: before.to_f64() });
+        }
+        let end = self.roll_out(model, start);
+        let promised = loop {
+            match self.sweep(model, cost, &end) {
+                Ok(promised) => break promised,
+                Err(error) if self.weight > T::from_f64(MOST_WEIGHT) => return Err(error),
+                Err(_) => self.weight = self.heavier(),
+            }
+        };
+        let mut share = T::ONE;
+        for _ in 0..=MOST_HALVINGS {
+            let (inputs, after) = self.tried(model, cost, start, share);
+            let decrease = before - after;
+            // Armijo's condition
+            if decrease > T::from_f64(1e-4) * share * promised {
+                self.inputs = inputs;
+                self.weight = self.lighter();
+                self.roll_out(model, start);
+                return Ok(Improvement { cost: after, decrease, promised });
+            }
+            share *= T::from_f64(0.5);
+        }
+        self.weight = self.heavier();
+        Ok(Improvement { cost: before, decrease: T::ZERO, promised })
+    }
+
+    fn heavier(&self) -> T {
+        (self.weight * T::from_f64(FACTOR)).max(T::from_f64(LEAST_WEIGHT))
+    }
+
+    fn lighter(&self) -> T {
+        let lighter = self.weight / T::from_f64(FACTOR);
+        if lighter < T::from_f64(LEAST_WEIGHT) { T::ZERO } else { lighter }
+    }
+
+    /// The states along the inputs; returns the one at the end.
+    fn roll_out(&mut self, model: &impl Model<T, N, M>, start: &SVector<T, N>) -> SVector<T, N> {
+        let mut x = *start;
+        for ((tick, u), before) in self.inputs.iter().enumerate().zip(&mut self.states) {
+            *before = x;
+            x = model.step(tick, &x, u);
+        }
+        x
+    }
+
+    /// Bellman's recursion on the quadratic model; returns the decrease that it promises.
+    fn sweep(
+        &mut self,
+        model: &impl Model<T, N, M>,
+        cost: &impl Cost<T, N, M>,
+        end: &SVector<T, N>,
+    ) -> Result<T, ControlError> {
+        let last = cost.end_expansion(end);
+        let (mut slope, mut curvature) = (last.x, symmetrized(&last.xx));
+        let mut promised = T::ZERO;
+        let nominal = self.inputs.iter().enumerate().zip(&self.states);
+        let results = self.gains.iter_mut().zip(&mut self.changes);
+        for (((tick, u), x), (gain, change)) in nominal.zip(results).rev() {
+            let (a, b) = model.linearized(tick, x, u);
+            let stage = cost.stage_expansion(tick, x, u);
+            let by_state = stage.x + a.transpose() * slope;
+            let by_input = stage.u + b.transpose() * slope;
+            let through = b.transpose() * curvature;
+            let mixed = stage.ux + through * a;
+            let twice = symmetrized(&(stage.uu + through * b));
+            let heavy = twice + SMatrix::<T, M, M>::identity() * self.weight;
+            let (low, high) = (self.lower - u, self.upper - u);
+            let best = minimum(&heavy, &by_input, [&low, &high], change)?;
+            // the components that a bound holds do not answer to the state
+            let mut answering = mixed;
+            for (i, free) in best.free.iter().enumerate() {
+                if !free {
+                    answering.set_row(i, &SMatrix::<T, 1, N>::zeros());
+                }
+            }
+            *gain = -best.factors.solve(&answering);
+            *change = best.at;
+            promised -= change.dot(&by_input) + change.dot(&(twice * *change)) * T::from_f64(0.5);
+            let (k, d) = (*gain, *change);
+            slope = by_state + k.transpose() * (twice * d + by_input) + mixed.transpose() * d;
+            curvature = symmetrized(
+                &(stage.xx
+                    + a.transpose() * curvature * a
+                    + k.transpose() * twice * k
+                    + k.transpose() * mixed
+                    + mixed.transpose() * k),
+            );
+        }
+        Ok(promised)
+    }
+
+    /// The inputs after a share of the step, with feedback along the way, and their cost.
+    fn tried(
+        &self,
+        model: &impl Model<T, N, M>,
+        cost: &impl Cost<T, N, M>,
+        start: &SVector<T, N>,
+        share: T,
+    ) -> ([SVector<T, M>; H], T) {
+        let mut inputs = self.inputs;
+        let mut x = *start;
+        let mut sum = T::ZERO;
+        let plan = self.states.iter().zip(&self.gains).zip(&self.changes);
+        for ((tick, u), ((nominal, gain), change)) in inputs.iter_mut().enumerate().zip(plan) {
+            *u = clamped(&(*u + change * share + gain * (x - nominal)), &self.lower, &self.upper);
+            sum += cost.stage(tick, &x, u);
+            x = model.step(tick, &x, u);
+        }
+        (inputs, sum + cost.end(&x))
+    }
+}
+
+fn clamped<T: Entry, const M: usize>(
+    u: &SVector<T, M>,
+    lower: &SVector<T, M>,
+    upper: &SVector<T, M>,
+) -> SVector<T, M> {
+    u.zip_zip_map(lower, upper, |u, low, high| {
+        let above = if u > low { u } else { low };
+        if above > high { high } else { above }
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::{Quadratic, Regulator, shooting_gradient};
+    use super::*;
+    use nalgebra::{Matrix2, SMatrix, matrix, vector};
+
+    struct Linear;
+
+    impl Model<f64, 2, 1> for Linear {
+        fn step(&self, tick: usize, x: &SVector<f64, 2>, u: &SVector<f64, 1>) -> SVector<f64, 2> {
+            let (a, b) = self.linearized(tick, x, u);
+            a * x + b * u
+        }
+        fn linearized(
+            &self,
+            _tick: usize,
+            _x: &SVector<f64, 2>,
+            _u: &SVector<f64, 1>,
+        ) -> (SMatrix<f64, 2, 2>, SMatrix<f64, 2, 1>) {
+            (matrix![1.0, 0.1; 0.0, 1.0], matrix![0.005; 0.1])
+        }
+    }
+
+    #[test]
+    fn of_a_linear_system_one_iteration_is_the_regulator() {
+        let cost = Quadratic {
+            goal: vector![0.0, 0.0],
+            state: vector![1.0, 1.0],
+            input: vector![0.5],
+            end: vector![0.0, 0.0],
+        };
+        let mut plan = Ilqr::<f64, 2, 1, 300>::new(vector![0.0]);
+        let start = vector![1.0, 0.0];
+        plan.improve(&Linear, &cost, &start).unwrap();
+        let (a, b) = Linear.linearized(0, &start, &vector![0.0]);
+        let stationary = Regulator::stationary(&a, &b, &Matrix2::identity(), &matrix![0.5]).unwrap();
+        assert!((plan.inputs()[0] - stationary.input(&start)).norm() < 1e-10);
+        let again = plan.improve(&Linear, &cost, &start).unwrap();
+        assert!(again.promised.abs() < 1e-12 && again.decrease.abs() < 1e-12);
+    }
+
+    /// A pendulum swings up with a torque that cannot lift it at once; at the optimum the gradient
+    /// vanishes wherever no bound holds, and points outwards where one does.
+    #[test]
+    fn the_optimum_between_bounds_satisfies_its_conditions() {
+        struct Pendulum;
+        impl Model<f64, 2, 1> for Pendulum {
+            fn step(&self, _tick: usize, x: &SVector<f64, 2>, u: &SVector<f64, 1>) -> SVector<f64, 2> {
+                let speed = x[1] + 0.05 * (u[0] - 4.0 * x[0].sin());
+                vector![x[0] + 0.05 * speed, speed]
+            }
+            fn linearized(
+                &self,
+                _tick: usize,
+                x: &SVector<f64, 2>,
+                _u: &SVector<f64, 1>,
+            ) -> (SMatrix<f64, 2, 2>, SMatrix<f64, 2, 1>) {
+                let pull = -0.2 * x[0].cos();
+                (matrix![1.0 + 0.05 * pull, 0.05; pull, 1.0], matrix![0.0025; 0.05])
+            }
+        }
+        let up = core::f64::consts::PI;
+        let cost = Quadratic {
+            goal: vector![up, 0.0],
+            state: vector![0.0, 0.0],
+            input: vector![0.01],
+            end: vector![100.0, 10.0],
+        };
+        let bound = vector![1.0];
+        let mut plan = Ilqr::<f64, 2, 1, 160>::new(vector![0.1]).bounds(-bound, bound);
+        let start = vector![0.0, 0.0];
+        let last = plan.solve(&Pendulum, &cost, &start, 1e-12, 500).unwrap();
+        assert!(last.promised <= 1e-12 * last.cost, "{last:?}");
+        let (mut states, mut gradient) = ([SVector::zeros(); 160], [SVector::zeros(); 160]);
+        shooting_gradient(&Pendulum, &cost, &start, plan.inputs(), &mut states, &mut gradient).unwrap();
+        let mut held = 0;
+        for (u, g) in plan.inputs().iter().zip(&gradient) {
+            assert!(u[0].abs() <= 1.0);
+            if u[0].abs() < 1.0 {
+                assert!(g[0].abs() < 1e-4, "{} {}", u[0], g[0]);
+            } else {
+                held += 1;
+                assert!(g[0] * u[0] <= 1e-4, "{} {}", u[0], g[0]);
+            }
+        }
+        assert!(held > 0);
+        let end = Pendulum.step(0, &plan.states()[159], &plan.inputs()[159]);
+        assert!((end[0] - up).abs() < 0.05, "{end}");
+    }
+
+    #[test]
+    fn the_horizon_recedes() {
+        let mut plan = Ilqr::<f64, 2, 1, 3>::new(vector![0.0]);
+        *plan.inputs_mut() = [vector![1.0], vector![2.0], vector![3.0]];
+        plan.shift();
+        assert_eq!(plan.inputs(), &[vector![2.0], vector![3.0], vector![3.0]]);
+    }
+}
