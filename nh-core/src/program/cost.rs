@@ -1,7 +1,7 @@
 //! What a program costs.
 
+use super::fuse::constants;
 use super::step::{Program, Step};
-use crate::id::Table;
 use std::fmt;
 
 /// Operation counts. What is computed from numbers alone is not counted: compilers fold it.
@@ -11,6 +11,8 @@ pub struct Cost {
     pub additions: usize,
     /// Multiplications.
     pub multiplications: usize,
+    /// Multiplications together with an addition.
+    pub multiply_adds: usize,
     /// Divisions and reciprocals.
     pub divisions: usize,
     /// Square roots.
@@ -25,6 +27,7 @@ pub struct Cost {
 /// since Skylake and for Cortex-A76; elementary functions from measurements of common libraries.
 const ADDITION: usize = 4;
 const MULTIPLICATION: usize = 4;
+const MULTIPLY_ADD: usize = 4;
 const DIVISION: usize = 14;
 const SQUARE_ROOT: usize = 18;
 const SIN_COS: usize = 70;
@@ -35,16 +38,10 @@ impl Cost {
     #[must_use]
     pub fn of(program: &Program) -> Self {
         let mut cost = Self::default();
-        let mut constant: Table<_, bool> = Table::new();
-        for step in &program.steps {
-            let folded = match step {
-                Step::Load(_) => false,
-                _ => step.operands().iter().all(|operand| constant[*operand]),
-            };
+        for (step, folded) in program.steps.iter().zip(constants(program)) {
             if !folded {
                 cost.count(step);
             }
-            constant.push(folded);
         }
         cost
     }
@@ -64,6 +61,7 @@ impl Cost {
             | Step::Apply(Function::Abs | Function::Sign, _)
             | Step::Apply2(Function2::Min | Function2::Max, ..) => self.additions += 1,
             Step::Mul(..) => self.multiplications += 1,
+            Step::MulAdd { .. } => self.multiply_adds += 1,
             Step::Div(..) | Step::Recip(_) => self.divisions += 1,
             Step::Sqrt(_) => self.square_roots += 1,
             Step::SinCos(_) | Step::Apply(Function::Sin | Function::Cos, _) => self.sin_cos += 1,
@@ -78,8 +76,8 @@ impl Cost {
                 // elimination, then substitution forth and back
                 let n = right.len();
                 let updates = n * (n * n - 1) / 3 + n * (n - 1) / 2;
-                self.additions += updates;
-                self.multiplications += updates + n * n.saturating_sub(1) / 2;
+                self.multiply_adds += updates;
+                self.multiplications += n * n.saturating_sub(1) / 2;
                 self.divisions += n;
             }
         }
@@ -90,6 +88,7 @@ impl Cost {
     pub fn operations(&self) -> usize {
         self.additions
             + self.multiplications
+            + self.multiply_adds
             + self.divisions
             + self.square_roots
             + self.sin_cos
@@ -101,6 +100,7 @@ impl Cost {
     pub fn weighted(&self) -> usize {
         self.additions * ADDITION
             + self.multiplications * MULTIPLICATION
+            + self.multiply_adds * MULTIPLY_ADD
             + self.divisions * DIVISION
             + self.square_roots * SQUARE_ROOT
             + self.sin_cos * SIN_COS
@@ -114,6 +114,7 @@ impl fmt::Display for Cost {
         let kinds = [
             (self.additions, "addition", "additions"),
             (self.multiplications, "multiplication", "multiplications"),
+            (self.multiply_adds, "multiply-add", "multiply-adds"),
             (self.divisions, "division", "divisions"),
             (self.square_roots, "square root", "square roots"),
             (self.sin_cos, "sin_cos", "sin_cos"),

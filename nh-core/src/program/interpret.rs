@@ -128,6 +128,15 @@ pub fn interpret_in<A: Arithmetic>(program: &Program, mut symbol: impl FnMut(Sym
             Step::Add(a, b) => results[*a].add(&results[*b]),
             Step::Sub(a, b) => results[*a].sub(&results[*b]),
             Step::Mul(a, b) => results[*a].mul(&results[*b]),
+            Step::MulAdd { a, b, c, minus_product, minus_c } => {
+                let product = results[*a].mul(&results[*b]);
+                match (minus_product, minus_c) {
+                    (false, false) => product.add(&results[*c]),
+                    (false, true) => product.sub(&results[*c]),
+                    (true, false) => results[*c].sub(&product),
+                    (true, true) => zero.sub(&product.add(&results[*c])),
+                }
+            }
             Step::Div(a, b) => results[*a].div(&results[*b]),
             Step::Neg(a) => zero.sub(&results[*a]),
             Step::Recip(a) => one.div(&results[*a]),

@@ -1,5 +1,6 @@
 //! From n-ary terms to binary steps.
 
+use super::fuse::fuse;
 use super::nary::{Arena, Nary, Source, Term};
 use super::step::{Program, Step, Value};
 use crate::algebra::{Function, Rational};
@@ -24,6 +25,7 @@ pub(super) fn lower(arena: &Arena) -> Program {
     let roots: Vec<Term> = angles.into_iter().chain(arena.outputs.iter().copied()).collect();
     let mut lowering = Lowering {
         arena,
+        uses: &uses,
         steps: Table::new(),
         known: FxHashMap::default(),
         values: vec![None; arena.len()],
@@ -39,17 +41,29 @@ pub(super) fn lower(arena: &Arena) -> Program {
         lowering.values[term.index()] = Some(value);
     }
     let outputs = arena.outputs.iter().map(|output| lowering.value(*output)).collect();
-    without_dead_steps(&Program { steps: lowering.steps, outputs, names: lowering.names })
+    let program = Program { steps: lowering.steps, outputs, names: lowering.names };
+    without_dead_steps(&fuse(without_dead_steps(&program)))
 }
 
 struct Lowering<'a> {
     arena: &'a Arena,
+    uses: &'a [u32],
     steps: Table<Value, Step>,
     known: FxHashMap<Step, Value>,
     values: Vec<Option<Value>>,
     /// Which terms are made of numbers and parameters alone.
     fixed: Vec<bool>,
     names: BTreeMap<Value, SymbolId>,
+}
+
+/// An operand of a sum.
+#[derive(Clone, Copy, Debug)]
+struct Operand {
+    value: Value,
+    /// Whether it is subtracted.
+    negative: bool,
+    /// Whether it is a product that nothing else uses.
+    is_product: bool,
 }
 
 impl Lowering<'_> {
@@ -160,10 +174,14 @@ impl Lowering<'_> {
     }
 
     fn sum(&mut self, operands: &[(Term, bool)]) -> Value {
-        let of = |(term, negative): &(Term, bool)| (self.value(*term), *negative);
+        let of = |(term, negative): &(Term, bool)| Operand {
+            value: self.value(*term),
+            negative: *negative,
+            is_product: self.uses[term.index()] == 1 && matches!(self.arena.get(*term), Nary::Product(_)),
+        };
         let (fixed, varying): (Vec<_>, Vec<_>) =
             operands.iter().partition(|(term, _)| self.fixed[term.index()]);
-        let (value, negative) = if fixed.len() > 1 && !varying.is_empty() {
+        let Operand { value, negative, .. } = if fixed.len() > 1 && !varying.is_empty() {
             let (fixed, varying): (Vec<_>, Vec<_>) =
                 (fixed.into_iter().map(of).collect(), varying.into_iter().map(of).collect());
             let first = self.signed_sum(&fixed);
@@ -176,24 +194,26 @@ impl Lowering<'_> {
         if negative { self.negative(value) } else { value }
     }
 
-    /// The sum up to a sign: something added comes first, if there is such.
-    fn signed_sum(&mut self, operands: &[(Value, bool)]) -> (Value, bool) {
+    /// The sum up to a sign: something added comes first, if there is such, then what is no product,
+    /// so that every product is added to something and can be fused with that addition.
+    fn signed_sum(&mut self, operands: &[Operand]) -> Operand {
         if operands.len() > LONGEST_CHAIN {
             let (left, right) = operands.split_at(operands.len() / 2);
             let halves = [self.signed_sum(left), self.signed_sum(right)];
             return self.signed_sum(&halves);
         }
-        let first = operands.iter().position(|(_, negative)| !negative);
-        let all_negative = first.is_none();
-        let first = first.unwrap_or(0);
-        let mut sum = operands[first].0;
-        for (position, (value, negative)) in operands.iter().enumerate() {
-            if position != first {
-                let subtract = *negative && !all_negative;
-                sum = self.push(if subtract { Step::Sub(sum, *value) } else { Step::Add(sum, *value) });
-            }
+        let all_negative = operands.iter().all(|operand| operand.negative);
+        let mut ordered = operands.to_vec();
+        ordered.sort_by_key(|operand| operand.is_product);
+        if let Some(first) = ordered.iter().position(|operand| !operand.negative) {
+            ordered[..=first].rotate_right(1);
         }
-        (sum, all_negative)
+        let mut sum = ordered[0].value;
+        for Operand { value, negative, .. } in &ordered[1..] {
+            let subtract = *negative && !all_negative;
+            sum = self.push(if subtract { Step::Sub(sum, *value) } else { Step::Add(sum, *value) });
+        }
+        Operand { value: sum, negative: all_negative, is_product: false }
     }
 
     /// Numbers, then parameters, then what varies.
@@ -261,6 +281,13 @@ fn rename(step: &Step, new: &impl Fn(Value) -> Value) -> Step {
         Step::Add(a, b) => Step::Add(new(*a), new(*b)),
         Step::Sub(a, b) => Step::Sub(new(*a), new(*b)),
         Step::Mul(a, b) => Step::Mul(new(*a), new(*b)),
+        Step::MulAdd { a, b, c, minus_product, minus_c } => Step::MulAdd {
+            a: new(*a),
+            b: new(*b),
+            c: new(*c),
+            minus_product: *minus_product,
+            minus_c: *minus_c,
+        },
         Step::Div(a, b) => Step::Div(new(*a), new(*b)),
         Step::Neg(a) => Step::Neg(new(*a)),
         Step::Recip(a) => Step::Recip(new(*a)),

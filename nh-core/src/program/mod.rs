@@ -7,9 +7,11 @@
 //! 3. `powers`: denominators are gathered or inverted once.
 //! 4. `pairs`: pairs of operands that several sums or products share are computed once.
 //! 5. `lower`: binary steps in an order in which every value precedes its uses.
+//! 6. `fuse`: sums with products become multiply-adds.
 
 mod cost;
 mod factor;
+mod fuse;
 mod import;
 mod interpret;
 mod lower;

@@ -32,6 +32,20 @@ pub enum Step {
     Sub(Value, Value),
     /// The product.
     Mul(Value, Value),
+    /// `a·b + c`, the product or `c` perhaps negative: one rounding where the target has an
+    /// instruction for it.
+    MulAdd {
+        /// A factor.
+        a: Value,
+        /// The other factor.
+        b: Value,
+        /// The summand.
+        c: Value,
+        /// Whether the product is subtracted.
+        minus_product: bool,
+        /// Whether the summand is subtracted.
+        minus_c: bool,
+    },
     /// The first over the second.
     Div(Value, Value),
     /// The negative.
@@ -82,6 +96,7 @@ impl Step {
             Self::Add(a, b) | Self::Sub(a, b) | Self::Mul(a, b) | Self::Div(a, b) | Self::Apply2(_, a, b) => {
                 vec![*a, *b]
             }
+            Self::MulAdd { a, b, c, .. } => vec![*a, *b, *c],
             Self::Neg(a)
             | Self::Recip(a)
             | Self::Sqrt(a)

@@ -105,6 +105,9 @@ impl Writer<'_> {
             Step::Add(a, b) => of(a).add(of(b)),
             Step::Sub(a, b) => of(a).sub(of(b)),
             Step::Mul(a, b) => of(a).mul(of(b)),
+            Step::MulAdd { a, b, c, minus_product, minus_c } => {
+                self.multiply_add([*a, *b], *c, *minus_product, *minus_c)
+            }
             Step::Div(a, b) => of(a).div(of(b)),
             Step::Neg(a) => of(a).neg(),
             Step::Recip(a) if self.context.parameter().is_none() => {
@@ -135,6 +138,32 @@ impl Writer<'_> {
                 Expression::atom(variable.map_or_else(TokenStream::new, |name| quote!(#name)), 0)
             }
         }
+    }
+
+    /// `Scalar::mul_add(a, b, c)`: the runtime fuses it where the target has an instruction for it.
+    fn multiply_add(
+        &self,
+        factors: [Value; 2],
+        summand: Value,
+        minus_product: bool,
+        minus_summand: bool,
+    ) -> Expression {
+        let Context { runtime, scalar, .. } = self.context;
+        let signed = |expression: &Expression, minus: bool| {
+            if minus { expression.neg() } else { expression.clone() }
+        };
+        let [a, b] = factors.map(|factor| &self.expressions[factor]);
+        // the receiver determines the type
+        let (a, b) = if a.literal { (b, a) } else { (a, b) };
+        let (a, c) = (signed(a, minus_product), signed(&self.expressions[summand], minus_summand));
+        let path = if a.literal {
+            quote!(<#scalar as #runtime::Scalar>::mul_add)
+        } else {
+            quote!(#runtime::Scalar::mul_add)
+        };
+        let size = a.size + b.size + c.size + 2;
+        let (a, b, c) = (&a.tokens, &b.tokens, &c.tokens);
+        Expression::atom(quote!(#path(#a, #b, #c)), size)
     }
 
     fn load(&mut self, symbol: SymbolId) -> Expression {

@@ -193,7 +193,7 @@ where
     T: ::nh_runtime::__private::Scalar,
 {
     /// What was derived from the declaration, as text.
-    pub const REPORT: &'static ::core::primitive::str = "Derived by hand.\n\nOperations per evaluation:\n  derivative: 6 additions, 5 multiplications, 3 divisions, 1 sin_cos, 2 functions\n  energy: 3 multiplications\n  velocity: no operations\n";
+    pub const REPORT: &'static ::core::primitive::str = "Derived by hand.\n\nOperations per evaluation:\n  derivative: 3 additions, 2 multiplications, 3 multiply-adds, 3 divisions, 1 sin_cos, 2 functions\n  energy: 3 multiplications\n  velocity: no operations\n";
     /// The time derivative of the state: the field `x` of the result is ẋ.
     #[must_use]
     #[inline]
