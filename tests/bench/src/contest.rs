@@ -1,0 +1,105 @@
+//! What competes: the emitted functions of a declared system, and what an expert writes by hand.
+
+use nh_runtime::prelude::*;
+
+/// The number of states at which a system is evaluated.
+pub const SAMPLES: usize = 16;
+
+/// A declared system with a hand-written derivative of the same signature.
+///
+/// The contestants are never inlined, so that each is a symbol that instruction counts can be read of.
+pub trait Contest: Dynamics<State: State<Scalar = f64>> + Sized {
+    /// The derivative and its Jacobians.
+    type Linearised;
+    /// The name in the tables.
+    const NAME: &'static str;
+    /// Parameters of ordinary size.
+    fn ordinary() -> Self;
+    /// The parameters in the order in which generated C takes them.
+    fn parameters(&self) -> Vec<f64>;
+    /// A random state with random inputs.
+    fn sample(random: &mut Random) -> (Self::State, Self::Input);
+    /// The inputs in order.
+    fn inputs(input: &Self::Input) -> Vec<f64>;
+    /// The emitted `derivative`.
+    fn emitted(&self, t: f64, state: &Self::State, input: &Self::Input) -> Self::State;
+    /// The emitted `jacobian`, together with `derivative`.
+    fn linearised(&self, t: f64, state: &Self::State, input: &Self::Input) -> Self::Linearised;
+    /// The derivative written by hand.
+    fn by_hand(&self, t: f64, state: &Self::State, input: &Self::Input) -> Self::State;
+}
+
+/// The states and inputs at which a system is evaluated, the same in every run.
+#[must_use]
+pub fn samples<S: Contest>() -> Vec<(S::State, S::Input)> {
+    let mut random = Random(0x9e37_79b9_7f4a_7c15);
+    (0..SAMPLES).map(|_| S::sample(&mut random)).collect()
+}
+
+/// A small generator of numbers in (−1, 1): Marsaglia's xorshift.
+pub struct Random(u64);
+
+impl Random {
+    /// The next number.
+    pub fn draw(&mut self) -> f64 {
+        self.0 ^= self.0 << 13;
+        self.0 ^= self.0 >> 7;
+        self.0 ^= self.0 << 17;
+        (self.0 >> 11) as f64 / (1_u64 << 52) as f64 - 1.0
+    }
+}
+
+/// Makes a declared system a [`Contest`]: names, sizes (states, inputs), parameters, and the
+/// derivative by hand.
+macro_rules! contest {
+    (@input) => { () };
+    (@input $Input:ident) => { $Input };
+    (@sample $random:ident) => { () };
+    (@sample $random:ident $Input:ident) => { $Input::from(::core::array::from_fn(|_| $random.draw())) };
+    (@components $input:ident $count:literal) => { { let () = $input; Vec::new() } };
+    (@components $input:ident $count:literal $Input:ident) => { <[f64; $count]>::from(*$input).to_vec() };
+    (
+        $System:ident as $name:expr, $states:literal states, $inputs:literal inputs $(of $Input:ident)?,
+        parameters [$($parameter:expr),* $(,)?] of $this:ident,
+        $ordinary:expr,
+        hand |$s:ident, $t:ident, $x:ident, $u:ident| $body:block
+    ) => {
+        impl $crate::contest::Contest for $System {
+            type Linearised = (
+                Self::State,
+                ::nalgebra::SMatrix<f64, $states, $states>,
+                ::nalgebra::SMatrix<f64, $states, $inputs>,
+            );
+            const NAME: &'static str = $name;
+            fn ordinary() -> Self {
+                $ordinary
+            }
+            fn parameters(&self) -> Vec<f64> {
+                let $this = self;
+                vec![$($parameter),*]
+            }
+            fn sample(random: &mut $crate::contest::Random) -> (Self::State, Self::Input) {
+                let state: [f64; $states] = ::core::array::from_fn(|_| random.draw());
+                (state.into(), contest!(@sample random $($Input)?))
+            }
+            fn inputs(input: &Self::Input) -> Vec<f64> {
+                contest!(@components input $inputs $($Input)?)
+            }
+            #[inline(never)]
+            fn emitted(&self, t: f64, state: &Self::State, input: &Self::Input) -> Self::State {
+                self.derivative(t, state, input)
+            }
+            #[inline(never)]
+            fn linearised(&self, t: f64, state: &Self::State, input: &Self::Input) -> Self::Linearised {
+                let (a, b) = self.jacobian(t, state, input);
+                (self.derivative(t, state, input), a, b)
+            }
+            #[inline(never)]
+            fn by_hand(&self, $t: f64, $x: &Self::State, $u: &Self::Input) -> Self::State {
+                let $s = self;
+                $body
+            }
+        }
+    };
+}
+pub(crate) use contest;

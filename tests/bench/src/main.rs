@@ -1,0 +1,61 @@
+//! The benchmark of record: instructions and nanoseconds per evaluation of emitted code, of the same
+//! function written by hand, and of generated C.
+//!
+//! ```sh
+//! RUSTFLAGS="-C target-cpu=x86-64-v3" cargo run --release -p nh-bench
+//! ```
+
+use std::process::ExitCode;
+
+use nh_bench::callgrind;
+use nh_bench::runner::{OWN, Run, all};
+use nh_bench::table::{Row, print};
+
+/// The argument with which the benchmark calls itself under callgrind.
+const EVALUATE: &str = "--evaluate";
+
+fn main() -> ExitCode {
+    match run() {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(message) => {
+            eprintln!("{message}");
+            ExitCode::FAILURE
+        }
+    }
+}
+
+fn run() -> Result<(), String> {
+    let systems = all();
+    if std::env::args().nth(1).is_some_and(|argument| argument == EVALUATE) {
+        systems.iter().for_each(|system| system.evaluate());
+        return Ok(());
+    }
+    if !cfg!(target_feature = "fma") {
+        println!("compiled without fused multiply-add: set RUSTFLAGS=\"-C target-cpu=x86-64-v3\"\n");
+    }
+    // 1. a comparison of different functions would mean nothing
+    systems.iter().try_for_each(|system| system.compare())?;
+    // 2. instructions
+    let counts = own_counts()?;
+    // 3. times, and the table
+    let rows: Vec<Row> = systems.iter().map(|system| row(system.as_ref(), &counts)).collect();
+    print(&rows);
+    Ok(())
+}
+
+/// Instructions of everything compiled into this benchmark.
+fn own_counts() -> Result<callgrind::Counts, String> {
+    if !callgrind::is_present() {
+        println!("valgrind is not installed: instructions are not counted\n");
+        return Ok(callgrind::Counts::default());
+    }
+    let program = std::env::current_exe().map_err(|error| error.to_string())?;
+    let profile = program.with_file_name("nh-bench.callgrind");
+    let program = program.to_string_lossy();
+    callgrind::count(&[&program, EVALUATE], &profile, |name| OWN.iter().any(|own| name.ends_with(own)))
+}
+
+/// The row of a system.
+fn row(system: &dyn Run, counts: &callgrind::Counts) -> Row {
+    Row { name: system.name(), instructions: system.instructions(counts), nanoseconds: system.time() }
+}

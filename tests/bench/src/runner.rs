@@ -1,0 +1,156 @@
+//! Runs the contestants of one system: compares their values, times them, evaluates them for a profile.
+
+use std::any::type_name;
+use std::hint::black_box;
+use std::marker::PhantomData;
+use std::time::Instant;
+
+use nh_runtime::State;
+
+use crate::callgrind::Counts;
+use crate::contest::{Contest, samples};
+use crate::systems::{ball, robot, sleigh, snakeboard, tractor, veselova};
+
+/// Values of different contestants agree to this, relative to numbers of ordinary size.
+pub const AGREEMENT: f64 = 1e-12;
+
+/// The contestants that are compiled into the benchmark.
+pub const OWN: [&str; 3] = ["by_hand", "emitted", "linearised"];
+
+/// A system of the contest, whatever its type.
+pub trait Run {
+    /// The name in the tables.
+    fn name(&self) -> &'static str;
+    /// Compares the emitted derivative with the hand-written one.
+    ///
+    /// # Errors
+    /// Where they differ, and by how much.
+    fn compare(&self) -> Result<(), String>;
+    /// Evaluates each contestant at each sample.
+    fn evaluate(&self);
+    /// Nanoseconds per evaluation of each contestant: medians of rounds in which they take turns.
+    fn time(&self) -> [f64; 3];
+    /// Instructions per evaluation of each contestant, where the profile has them.
+    fn instructions(&self, counts: &Counts) -> [Option<f64>; 3];
+    /// Parameters, and for each sample the state, the inputs and the derivative by hand: what a peer
+    /// is given and compared with.
+    fn data(&self) -> Data;
+}
+
+/// The evaluation of a system as numbers.
+pub struct Data {
+    /// The parameters.
+    pub parameters: Vec<f64>,
+    /// State, inputs, derivative.
+    pub samples: Vec<[Vec<f64>; 3]>,
+}
+
+/// Every system of the contest.
+#[must_use]
+pub fn all() -> Vec<Box<dyn Run>> {
+    vec![
+        Box::new(Of::<sleigh::Sleigh>(PhantomData)),
+        Box::new(Of::<veselova::Veselova>(PhantomData)),
+        Box::new(Of::<snakeboard::Snakeboard>(PhantomData)),
+        Box::new(Of::<robot::Robot>(PhantomData)),
+        Box::new(Of::<ball::Ball>(PhantomData)),
+        Box::new(Of::<tractor::Tractor1>(PhantomData)),
+        Box::new(Of::<tractor::Tractor2>(PhantomData)),
+        Box::new(Of::<tractor::Tractor3>(PhantomData)),
+        Box::new(Of::<tractor::Tractor4>(PhantomData)),
+        Box::new(Of::<tractor::Tractor5>(PhantomData)),
+        Box::new(Of::<tractor::Tractor6>(PhantomData)),
+    ]
+}
+
+/// The runner of a system.
+struct Of<S>(PhantomData<S>);
+
+impl<S: Contest> Run for Of<S> {
+    fn name(&self) -> &'static str {
+        S::NAME
+    }
+
+    fn compare(&self) -> Result<(), String> {
+        let system = S::ordinary();
+        for (state, input) in samples::<S>() {
+            let emitted = system.emitted(0.0, &state, &input).to_array();
+            let by_hand = system.by_hand(0.0, &state, &input).to_array();
+            agree(S::NAME, "emitted", emitted.as_ref(), by_hand.as_ref())?;
+        }
+        Ok(())
+    }
+
+    fn evaluate(&self) {
+        let system = S::ordinary();
+        for (state, input) in black_box(samples::<S>()) {
+            black_box(system.by_hand(0.0, &state, &input));
+            black_box(system.emitted(0.0, &state, &input));
+            black_box(system.linearised(0.0, &state, &input));
+        }
+    }
+
+    fn time(&self) -> [f64; 3] {
+        const ROUNDS: usize = 101;
+        let mut rounds: [Vec<f64>; 3] = Default::default();
+        for _ in 0..ROUNDS {
+            rounds[0].push(timed(S::by_hand));
+            rounds[1].push(timed(S::emitted));
+            rounds[2].push(timed(S::linearised));
+        }
+        rounds.map(median)
+    }
+
+    fn instructions(&self, counts: &Counts) -> [Option<f64>; 3] {
+        OWN.map(|method| {
+            let symbol = format!("<{} as nh_bench::contest::Contest>::{method}", type_name::<S>());
+            counts.get(&symbol).copied()
+        })
+    }
+
+    fn data(&self) -> Data {
+        let system = S::ordinary();
+        let row = |(state, input): (S::State, S::Input)| {
+            let derivative = system.by_hand(0.0, &state, &input);
+            [state.to_array().as_ref().to_vec(), S::inputs(&input), derivative.to_array().as_ref().to_vec()]
+        };
+        Data { parameters: system.parameters(), samples: samples::<S>().into_iter().map(row).collect() }
+    }
+}
+
+/// Nanoseconds per evaluation of a function in a short run.
+fn timed<S: Contest, R>(function: impl Fn(&S, f64, &S::State, &S::Input) -> R) -> f64 {
+    const PASSES: usize = 40;
+    let (system, samples) = (S::ordinary(), samples::<S>());
+    let start = Instant::now();
+    for _ in 0..PASSES {
+        for (state, input) in black_box(&samples) {
+            black_box(function(black_box(&system), 0.0, state, input));
+        }
+    }
+    start.elapsed().as_secs_f64() * 1e9 / (PASSES * samples.len()) as f64
+}
+
+/// Whether two derivatives are the same up to rounding.
+///
+/// # Errors
+/// The component in which they differ.
+pub fn agree(system: &str, contestant: &str, found: &[f64], by_hand: &[f64]) -> Result<(), String> {
+    if found.len() != by_hand.len() {
+        return Err(format!("{system}: {contestant} has {} components", found.len()));
+    }
+    for (index, (found, by_hand)) in found.iter().zip(by_hand).enumerate() {
+        let difference = (found - by_hand).abs();
+        if difference.is_nan() || difference > AGREEMENT * by_hand.abs().max(1.0) {
+            return Err(format!("{system}: component {index}: {contestant} {found:e}, by hand {by_hand:e}"));
+        }
+    }
+    Ok(())
+}
+
+/// The median; NaN of nothing.
+#[must_use]
+pub fn median(mut values: Vec<f64>) -> f64 {
+    values.sort_by(f64::total_cmp);
+    values.get(values.len() / 2).copied().unwrap_or(f64::NAN)
+}

@@ -1,0 +1,9 @@
+//! The reference systems, each declared and written by hand.
+#![allow(non_snake_case, reason = "parameters are written as in mechanics: J, I, R, Omega")]
+
+pub mod ball;
+pub mod robot;
+pub mod sleigh;
+pub mod snakeboard;
+pub mod tractor;
+pub mod veselova;

@@ -1,0 +1,48 @@
+//! The Chaplygin sleigh with a torque and rotary friction.
+
+use nh_runtime::prelude::*;
+
+use crate::contest::contest;
+
+/// The Chaplygin sleigh.
+#[nonholonomic(
+    base   { theta, x, y }
+    basis  { omega, v1, v2 }
+    anchor {
+        der(theta) = omega;
+        der(x) = v1 * cos(theta) - v2 * sin(theta);
+        der(y) = v1 * sin(theta) + v2 * cos(theta);
+    }
+    lagrangian  { (J + m * (a^2 + b^2)) / 2 * omega^2 + m / 2 * (v1^2 + v2^2) - m * b * omega * v1 + m * a * omega * v2 }
+    constraints { v2 = 0; }
+    forces      { omega: torque - c * omega; }
+    inputs      { torque }
+    emit        { jacobian }
+)]
+#[derive(Clone, Copy, Debug)]
+pub struct Sleigh {
+    m: f64,
+    J: f64,
+    a: f64,
+    b: f64,
+    c: f64,
+}
+
+contest! {
+    Sleigh as "sleigh", 5 states, 1 inputs of SleighInput,
+    parameters [p.m, p.J, p.a, p.b, p.c] of p,
+    Sleigh { m: 1.3, J: 0.7, a: 0.4, b: 0.15, c: 0.2 },
+    hand |s, _t, x, u| {
+        let (sin, cos) = x.theta.sin_cos();
+        let ma = s.m * s.a;
+        let couple = ma.mul_add(s.b.mul_add(-x.omega, x.v1), s.c);
+        let omega_dot = x.omega.mul_add(-couple, u.torque) / ma.mul_add(s.a, s.J);
+        SleighState {
+            theta: x.omega,
+            x: x.v1 * cos,
+            y: x.v1 * sin,
+            omega: omega_dot,
+            v1: s.b.mul_add(omega_dot, s.a * x.omega * x.omega),
+        }
+    }
+}

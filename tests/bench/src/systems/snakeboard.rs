@@ -1,0 +1,64 @@
+//! The snakeboard with torques on its rotor and on its wheels.
+
+use nh_runtime::prelude::*;
+
+use crate::contest::contest;
+
+/// The snakeboard.
+#[nonholonomic(
+    base  { x, y, theta, psi, phi }
+    basis { u1, u2, dtheta, dpsi, dphi }
+    anchor {
+        der(x) = u1 * cos(theta) - u2 * sin(theta);
+        der(y) = u1 * sin(theta) + u2 * cos(theta);
+        der(theta) = dtheta;
+        der(psi) = dpsi;
+        der(phi) = dphi;
+    }
+    lagrangian {
+        m / 2 * (u1^2 + u2^2) + m * l^2 / 2 * dtheta^2 + J0 / 2 * dpsi^2 + J0 * dpsi * dtheta + J1 * dphi^2
+    }
+    constraints {
+        -sin(phi) * u1 + cos(phi) * u2 - l * cos(phi) * dtheta = 0;
+         sin(phi) * u1 + cos(phi) * u2 + l * cos(phi) * dtheta = 0;
+    }
+    independent { u1, dpsi, dphi }
+    forces { psi: rotor; phi: steering; }
+    inputs { rotor, steering }
+    emit   { jacobian }
+)]
+#[derive(Clone, Copy, Debug)]
+pub struct Snakeboard {
+    m: f64,
+    l: f64,
+    J0: f64,
+    J1: f64,
+}
+
+contest! {
+    Snakeboard as "snakeboard", 8 states, 2 inputs of SnakeboardInput,
+    parameters [p.m, p.l, p.J0, p.J1] of p,
+    Snakeboard { m: 1.4, l: 0.5, J0: 0.09, J1: 0.03 },
+    hand |s, _t, x, u| {
+        let (sin_theta, cos_theta) = x.theta.sin_cos();
+        let (sin_phi, cos_phi) = x.phi.sin_cos();
+        // θ̇ = −κ u₁ with κ = tan φ / l, and turn = κ̇ u₁
+        let lc = s.l * cos_phi;
+        let kappa = sin_phi / lc;
+        let turn = x.dphi * x.u1 / (lc * cos_phi);
+        let excess = (s.m * s.l).mul_add(s.l, -s.J0);
+        let mass = (excess * kappa).mul_add(kappa, s.m);
+        let u1_dot = excess.mul_add(-turn, u.rotor) * kappa / mass;
+        let minus_theta_ddot = kappa.mul_add(u1_dot, turn);
+        SnakeboardState {
+            x: x.u1 * cos_theta,
+            y: x.u1 * sin_theta,
+            theta: -kappa * x.u1,
+            psi: x.dpsi,
+            phi: x.dphi,
+            u1: u1_dot,
+            dpsi: u.rotor / s.J0 + minus_theta_ddot,
+            dphi: u.steering / (2.0 * s.J1),
+        }
+    }
+}

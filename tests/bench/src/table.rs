@@ -1,0 +1,62 @@
+//! The table of the benchmark, in Markdown.
+
+/// A system's measurements: by hand, the emitted `derivative`, the emitted `jacobian` with it.
+pub struct Row {
+    /// The system.
+    pub name: &'static str,
+    /// Instructions per evaluation, where they could be counted.
+    pub instructions: [Option<f64>; 3],
+    /// Nanoseconds per evaluation.
+    pub nanoseconds: [f64; 3],
+}
+
+/// Prints the table and the geometric means of its ratios.
+pub fn print(rows: &[Row]) {
+    println!(
+        "| system | instructions: by hand | derivative | ratio | with jacobian | ratio | ns: by hand | derivative | ratio | with jacobian | ratio |"
+    );
+    println!("|---|--:|--:|--:|--:|--:|--:|--:|--:|--:|--:|");
+    for row in rows {
+        let [by_hand, derivative, jacobian] = row.instructions;
+        let counted = cells(by_hand, derivative, jacobian, 0);
+        let [by_hand, derivative, jacobian] = row.nanoseconds.map(Some);
+        let timed = cells(by_hand, derivative, jacobian, 1);
+        println!("| {} | {counted} | {timed} |", row.name);
+    }
+    let mean = |ratio: &dyn Fn(&Row) -> Option<f64>| cell(geometric_mean(rows.iter().map(ratio)), 2);
+    let counted =
+        |row: &Row, above: usize, below: usize| Some(row.instructions[above]? / row.instructions[below]?);
+    let timed = |row: &Row, above: usize, below: usize| Some(row.nanoseconds[above] / row.nanoseconds[below]);
+    println!(
+        "| geometric mean | | | {} | | {} | | | {} | | {} |",
+        mean(&|row| counted(row, 1, 0)),
+        mean(&|row| counted(row, 2, 1)),
+        mean(&|row| timed(row, 1, 0)),
+        mean(&|row| timed(row, 2, 1)),
+    );
+}
+
+/// Five cells: by hand, the derivative and its ratio to that, the Jacobian and its ratio to the derivative.
+fn cells(by_hand: Option<f64>, derivative: Option<f64>, jacobian: Option<f64>, digits: usize) -> String {
+    let ratio = |above: Option<f64>, below: Option<f64>| cell(above.zip(below).map(|(a, b)| a / b), 2);
+    [
+        cell(by_hand, digits),
+        cell(derivative, digits),
+        ratio(derivative, by_hand),
+        cell(jacobian, digits),
+        ratio(jacobian, derivative),
+    ]
+    .join(" | ")
+}
+
+/// A number, or a dash.
+#[must_use]
+pub fn cell(value: Option<f64>, digits: usize) -> String {
+    value.map_or_else(|| "–".to_owned(), |value| format!("{value:.digits$}"))
+}
+
+/// The geometric mean, if every value is known.
+pub fn geometric_mean(values: impl Iterator<Item = Option<f64>>) -> Option<f64> {
+    let logarithms: Vec<f64> = values.map(|value| value.map(f64::ln)).collect::<Option<_>>()?;
+    Some((logarithms.iter().sum::<f64>() / logarithms.len() as f64).exp())
+}
