@@ -65,7 +65,8 @@ elementary! { single, f32;
     powf(x, y) = powf, powf;
 }
 
-/// Sine and cosine of `f32`, from the platform or in single precision alone.
+/// Sine and cosine of `f32`: from the platform, or from the runtime's own kernel, which computes in
+/// single precision alone where `libm` computes in double precision.
 pub(crate) mod single_angle {
     /// Sine and cosine.
     #[inline]
@@ -76,18 +77,7 @@ pub(crate) mod single_angle {
         }
         #[cfg(not(feature = "std"))]
         {
-            use crate::single_trig::{RANGE, sin_cos};
-            if x.abs() <= RANGE {
-                return sin_cos(x);
-            }
-            #[cfg(feature = "libm")]
-            {
-                libm::sincosf(x)
-            }
-            #[cfg(not(feature = "libm"))]
-            {
-                (x, x)
-            }
+            crate::sine::sin_cos(x)
         }
     }
 

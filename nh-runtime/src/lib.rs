@@ -46,7 +46,7 @@
 //! | feature | meaning |
 //! |---|---|
 //! | `std` (default) | elementary functions from the platform |
-//! | `libm` | elementary functions from the `libm` crate, for targets without `std`; sine and cosine of `f32` in single precision alone, to 10⁻⁷ |
+//! | `libm` | elementary functions from the `libm` crate, for targets without `std`; sine and cosine of `f32` in single precision alone, by the kernel of [`Fast`] |
 //! | `macros` (default) | re-exports `#[nonholonomic]` |
 //! | `serde` | generated states can be serialized |
 //!
@@ -70,6 +70,7 @@ mod dim;
 mod dynamics;
 mod elementary;
 mod error;
+mod fast;
 mod integrator;
 mod linear;
 pub mod methods;
@@ -77,13 +78,13 @@ pub mod prelude;
 mod projection;
 mod scalar;
 mod serde_impls;
-#[cfg(any(test, not(feature = "std")))]
-mod single_trig;
+mod sine;
 mod step_control;
 
 pub use dim::{D, Dim};
 pub use dynamics::{Constrained, DimOf, Dynamics, Energy, Jacobian, MatOf, Observed, ScalarOf, State, VecOf};
 pub use error::{InputFault, IntegrationError, ParameterError, ParameterFault, ProjectionError, StateFault};
+pub use fast::Fast;
 pub use integrator::{Integrator, Statistics};
 pub use methods::{Dopri5, Euler, ImplicitMidpoint, Method, Projected, Rk4};
 pub use scalar::{Real, Scalar};

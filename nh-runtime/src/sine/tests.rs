@@ -1,0 +1,216 @@
+//! The error of the kernel, in units in the last place, against references of twice the digits.
+
+use std::vec::Vec;
+
+use super::{Sine, sin_cos};
+
+/// A number of twice the digits: the sum of two.
+#[derive(Clone, Copy)]
+struct Double(f64, f64);
+
+impl Double {
+    fn sum(a: f64, b: f64) -> Self {
+        let s = a + b;
+        let of_b = s - a;
+        Self(s, (a - (s - of_b)) + (b - of_b))
+    }
+    fn product(a: f64, b: f64) -> Self {
+        let p = a * b;
+        Self(p, f64::mul_add(a, b, -p))
+    }
+    fn plus(self, other: Self) -> Self {
+        let (high, low) = (Self::sum(self.0, other.0), Self::sum(self.1, other.1));
+        let high = Self::sum(high.0, high.1 + low.0);
+        Self::sum(high.0, high.1 + low.1)
+    }
+    fn times(self, other: Self) -> Self {
+        let Self(p, e) = Self::product(self.0, other.0);
+        Self::sum(p, e + (self.0 * other.1 + self.1 * other.0))
+    }
+    fn over(self, divisor: f64) -> Self {
+        let q = self.0 / divisor;
+        let Self(p, e) = Self::product(q, divisor);
+        Self::sum(q, ((self.0 - p) - e + self.1) / divisor)
+    }
+}
+
+/// π/2 in three numbers.
+const HALF_PI: [f64; 3] =
+    [core::f64::consts::FRAC_PI_2, 6.123_233_995_736_766e-17, -1.497_384_904_859_169_8e-33];
+
+/// Sine and cosine by their Taylor series, of a number of at most 2^30 in absolute value.
+fn reference(x: f64) -> [Double; 2] {
+    let n = (x / HALF_PI[0]).round();
+    let r = HALF_PI.iter().fold(Double(x, 0.0), |r, part| r.plus(Double::product(-n, *part)));
+    let minus_square = {
+        let Double(high, low) = r.times(r);
+        Double(-high, -low)
+    };
+    let series = |first: Double, k: f64| {
+        let (mut term, mut sum) = (first, first);
+        for i in 0..16 {
+            let k = k + 2.0 * f64::from(i);
+            term = term.times(minus_square).over(k * (k + 1.0));
+            sum = sum.plus(term);
+        }
+        sum
+    };
+    let (sin, cos) = (series(r, 2.0), series(Double(1.0, 0.0), 1.0));
+    let minus = |Double(high, low): Double| Double(-high, -low);
+    match n.rem_euclid(4.0) {
+        0.0 => [sin, cos],
+        1.0 => [cos, minus(sin)],
+        2.0 => [minus(sin), minus(cos)],
+        _ => [minus(cos), sin],
+    }
+}
+
+/// The error in units in the last place of the exact value.
+fn ulps(computed: f64, exact: Double, digits: i32) -> f64 {
+    let exponent = (exact.0.abs().to_bits() >> 52) as i32 - 1023;
+    let unit = 2.0_f64.powi((exponent - digits + 1).max(-1074));
+    ((computed - exact.0) - exact.1).abs() / unit
+}
+
+/// The larger error of sine and cosine.
+fn error(x: f64, [sin, cos]: [Double; 2]) -> f64 {
+    let ours = sin_cos(x);
+    ulps(ours.0, sin, 53).max(ulps(ours.1, cos, 53))
+}
+
+/// The larger error in single precision, where the platform's double precision is the reference.
+fn single_error(x: f32) -> f64 {
+    let (ours, exact) = (sin_cos(x), f64::from(x).sin_cos());
+    ulps(ours.0.into(), Double(exact.0, 0.0), 24).max(ulps(ours.1.into(), Double(exact.1, 0.0), 24))
+}
+
+fn random(seed: &mut u64) -> u64 {
+    *seed ^= *seed << 13;
+    *seed ^= *seed >> 7;
+    *seed ^= *seed << 17;
+    *seed
+}
+
+/// The largest errors that are accepted. They are documented at [`Fast`](crate::Fast).
+const WORST: f64 = 1.6;
+const WORST_SINGLE: f64 = 2.4;
+
+#[test]
+fn hard_cases_in_double_precision() {
+    for line in include_str!("hard_cases.txt").lines().filter(|line| !line.starts_with('#')) {
+        let numbers: Vec<f64> = line.split(' ').map(|number| number.parse().unwrap()).collect();
+        let x = numbers[0];
+        let exact = [Double(numbers[1], numbers[2]), Double(numbers[3], numbers[4])];
+        let found = error(x, exact);
+        assert!(found <= WORST, "{x:e}: {found}");
+        if x.abs() < 1e9 {
+            for (by_series, exact) in reference(x).into_iter().zip(exact) {
+                let relative = ((by_series.0 - exact.0) + (by_series.1 - exact.1)) / exact.0;
+                assert!(relative.abs() < 1e-22, "the reference at {x:e}: {relative:e}");
+            }
+        }
+    }
+}
+
+/// The largest error in double precision over random numbers of every size up to 2^30.
+fn worst_of_random(samples: u32) -> (f64, f64) {
+    let mut seed = 0x9e37_79b9_7f4a_7c15;
+    let mut worst = (0.0, 0.0);
+    for i in 0..samples {
+        // one in four in the first turns, the others of every magnitude
+        let bits = random(&mut seed);
+        let exponent = if i % 4 == 0 { 1023 + 2 } else { 1023 - 30 + random(&mut seed) % 60 };
+        let x = f64::from_bits((bits & 0x800f_ffff_ffff_ffff) | (exponent << 52));
+        let x = if i % 4 == 0 { x.signum() * (x.abs() - 4.0) * 3.0 } else { x };
+        let found = error(x, reference(x));
+        if found > worst.0 {
+            worst = (found, x);
+        }
+    }
+    worst
+}
+
+#[test]
+fn random_numbers_in_double_precision() {
+    let (worst, x) = worst_of_random(100_000);
+    assert!(worst <= WORST, "{worst} at {x:e}");
+}
+
+#[test]
+#[ignore = "a minute in release: cargo test --release -p nh-runtime --lib sine -- --ignored --nocapture"]
+fn many_random_numbers_in_double_precision() {
+    let (worst, x) = worst_of_random(50_000_000);
+    std::println!("largest error of f64: {worst} units at {x:e}");
+    assert!(worst <= WORST, "{worst} at {x:e}");
+}
+
+/// The largest error over all finite single-precision numbers, with this distance between them.
+fn worst_single(step: usize) -> (f64, f32) {
+    let mut worst = (0.0, 0.0);
+    for bits in (0..f32::INFINITY.to_bits()).step_by(step) {
+        let x = f32::from_bits(bits);
+        let found = single_error(x);
+        if found > worst.0 {
+            worst = (found, x);
+        }
+    }
+    worst
+}
+
+#[test]
+fn single_precision() {
+    let (worst, x) = worst_single(4001);
+    assert!(worst <= WORST_SINGLE, "{worst} at {x:e}");
+    // the closest to multiples of π/2, and the ends of the reach
+    for x in [7.729_179e28, 2.199_938_5e10, 252.898_21, 505.796_42, 4.712_389, 6_433.0, 6_433.000_5, f32::MAX]
+    {
+        assert!(single_error(x) <= WORST_SINGLE, "{x:e}: {}", single_error(x));
+    }
+}
+
+#[test]
+#[ignore = "two minutes in release: cargo test --release -p nh-runtime --lib sine -- --ignored --nocapture"]
+fn every_number_in_single_precision() {
+    let (worst, x) = worst_single(1);
+    std::println!("largest error of f32: {worst} units at {x:e}");
+    assert!(worst <= WORST_SINGLE, "{worst} at {x:e}");
+}
+
+#[test]
+fn odd_and_even_functions_of_their_argument() {
+    let mut seed = 7;
+    for _ in 0..10_000 {
+        let x = f64::from_bits(random(&mut seed));
+        if x.is_finite() {
+            let ((s, c), (s_minus, c_minus)) = (sin_cos(x), sin_cos(-x));
+            assert!(s + s_minus == 0.0 && c.to_bits() == c_minus.to_bits(), "{x:e}");
+        }
+    }
+}
+
+#[test]
+fn what_is_not_finite_gives_nan() {
+    for x in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
+        assert!(sin_cos(x).0.is_nan() && sin_cos(x).1.is_nan());
+    }
+    for x in [f32::NAN, f32::INFINITY, f32::NEG_INFINITY] {
+        assert!(sin_cos(x).0.is_nan() && sin_cos(x).1.is_nan());
+    }
+}
+
+#[test]
+#[allow(clippy::float_cmp)] // exactly 0 is meant
+fn the_parts_add_up_and_are_as_short_as_they_must_be() {
+    fn lengths<T: Sine>(digits: &[i32]) {
+        for (part, digits) in T::NEGATIVE_HALF_PI.iter().zip(digits) {
+            assert_eq!((part * 2.0_f64.powi(*digits)).fract(), 0.0, "{part:e}");
+        }
+        let exact = HALF_PI.map(|part| Double(part, 0.0));
+        let parts: Vec<_> = T::NEGATIVE_HALF_PI.iter().map(|part| Double(*part, 0.0)).collect();
+        let rest = exact.iter().chain(&parts).fold(Double(0.0, 0.0), |sum, part| sum.plus(*part));
+        assert!(rest.0.abs() < 2.0_f64.powi(-digits[2] - 23), "{:e}", rest.0);
+    }
+    // the last digit of the first three parts
+    lengths::<f64>(&[32, 53, 86]);
+    lengths::<f32>(&[11, 24, 36]);
+}
