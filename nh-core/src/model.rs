@@ -50,6 +50,8 @@ pub struct Model {
     pub outputs: Vec<OutputDecl>,
     /// Claimed first integrals (`conserved`).
     pub claims: Vec<OutputDecl>,
+    /// Labelled sections whose momenta are wanted (`symmetries`).
+    pub symmetries: Vec<SymmetryDecl>,
     /// Facts about parameters (`assume`).
     pub assumptions: Vec<Assumption>,
     /// What to generate beyond the default (`emit`).
@@ -72,6 +74,10 @@ impl Model {
         self.forces.iter_mut().for_each(|force| rewrite(&mut force.value));
         self.outputs.iter_mut().for_each(|output| rewrite(&mut output.value));
         self.claims.iter_mut().for_each(|claim| rewrite(&mut claim.value));
+        for symmetry in &mut self.symmetries {
+            rewrite(&mut symmetry.value);
+            symmetry.gauge.iter_mut().for_each(&mut rewrite);
+        }
         self.brackets.iter_mut().for_each(|bracket| rewrite(&mut bracket.value));
         match &mut self.kinematics {
             Kinematics::Tangent => {}
@@ -227,6 +233,8 @@ pub enum Request {
     Multipliers,
     /// The reaction forces λ_A ∂φ^A/∂y^α along the sections.
     Reactions,
+    /// The momenta of the symmetries, and their rates.
+    Momenta,
 }
 
 /// Something that is needed of a system.
@@ -293,6 +301,19 @@ pub struct OutputDecl {
     pub name: String,
     /// Its value; t, x, y, rates and inputs may occur in it.
     pub value: ExprId,
+    /// Where it stands.
+    pub origin: Origin,
+}
+
+/// A labelled section σ whose momentum σ^α p_α is wanted.
+#[derive(Clone, Debug)]
+pub struct SymmetryDecl {
+    /// The label.
+    pub name: String,
+    /// The section, with the velocity symbol of a section standing for the section.
+    pub value: ExprId,
+    /// A function f on the base with σ^C(L) = ρ(f): then σ^α p_α − f is the momentum.
+    pub gauge: Option<ExprId>,
     /// Where it stands.
     pub origin: Origin,
 }

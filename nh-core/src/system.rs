@@ -27,6 +27,8 @@ pub struct System {
     pub multipliers: Option<Procedure>,
     /// Outputs: the reaction force along every section; if asked for.
     pub reactions: Option<Procedure>,
+    /// The momenta of the symmetries; if any are declared or asked for.
+    pub momenta: Option<Momenta>,
     /// Outputs: ∂derivative/∂(state, input) row by row; if asked for.
     pub jacobian: Option<Procedure>,
     /// Outputs: φ^A for every constraint; in the projected formulation.
@@ -49,6 +51,17 @@ impl System {
     pub fn state(&self) -> Vec<SymbolId> {
         [self.state_coordinates.as_slice(), &self.state_velocities].concat()
     }
+}
+
+/// The momenta σ^α p_α − f of sections σ, and their rates along the motion.
+#[derive(Clone, Debug)]
+pub struct Momenta {
+    /// The label of each.
+    pub names: Vec<String>,
+    /// Outputs: the momenta.
+    pub values: Procedure,
+    /// Outputs: their rates.
+    pub rates: Procedure,
 }
 
 /// An expression of parameters alone by which the equations divide.

@@ -26,6 +26,8 @@ pub enum Law {
     Frame,
     /// A claimed first integral is one.
     Conservation,
+    /// A section of `symmetries` lies in D, or leaves L and D invariant: CLMM Theorems 3.5 and 5.3.
+    Symmetry,
     /// The Lagrangian is smooth.
     Smooth,
     /// The shape of a constraint.

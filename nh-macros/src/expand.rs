@@ -18,7 +18,7 @@ pub(crate) fn nonholonomic(attribute: TokenStream, item: TokenStream) -> TokenSt
             let mut layout = Layout::of_struct(&rest.structure, attribute);
             let outline = match resolve(&rest, &mut layout) {
                 Ok(resolved) => Outline::of(&resolved.model),
-                Err(unresolved) => unresolved.outline,
+                Err(unresolved) => *unresolved.outline,
             };
             return with_errors(&errors, &stubs(&layout, &outline));
         }

@@ -57,16 +57,15 @@ mod syntax;
 /// | `inputs { torque }` | control inputs, constant within a step | none |
 /// | `outputs { speed = …; }` | named observables | none |
 /// | `conserved { spin = …; }` | claimed first integrals, proved or refused | |
+/// | `symmetries { spin: omega; }` | labelled sections whose momenta are wanted, each in D or a symmetry | cyclic coordinates are found |
 /// | `assume { m > 0; }` | facts about parameters: used in proofs, checked by `validate` | none |
 /// | `independent { v, dphi }` | the velocities that the state keeps | chosen by the macro |
 /// | `formulation { projected }` | all velocities in the state, with multipliers; or `adapted` | adapted where a choice of velocities holds everywhere |
-/// | `emit { jacobian, multipliers, reactions }` | what to generate beyond the default | |
+/// | `emit { jacobian, multipliers, reactions, momenta }` | what to generate beyond the default | |
 /// | `track { v, speed }` | the state variables and outputs that matter: what does not flow into them is neither stored nor computed | everything |
 /// | `derivative { motor: [self.motor_speed]; }` | the partial derivatives of a method used in a force, for `emit { jacobian }` | |
 /// | `names { state = RobotState; }` | names of generated types, by their roles | `…State` and so on |
 /// | `crate { ::runtime }` | the path of the runtime where the dependency is renamed | `::nh_runtime` |
-///
-/// `symmetries` is reserved for a later version, and refused.
 ///
 /// # Expressions
 ///
@@ -97,6 +96,21 @@ mod syntax;
 ///   { h, e, f }`: [h, e] = 2e, [h, f] = −2f, [e, f] = h. `heisenberg(n) { x…, y…, z }`: [xᵢ, yᵢ] = z.
 ///   `so(n)`, n ≥ 4: e_ij = E_ij − E_ji, i < j, in lexicographic order.
 ///
+/// # Symmetries and momenta
+///
+/// `symmetries { shift: cos(theta) * v1 - sin(theta) * v2; }` declares a section σ, a combination of
+/// the quasi-velocities (or of `der(x)` where there is no basis) with coefficients on the base, which
+/// may depend on `t`. A section of D (of the kernel of ∂φ/∂y) has a momentum equation,
+/// d/dt σᵅp_α = σᶜ(L) + σᵅΥ_α on the constraint manifold; where the right side vanishes the momentum
+/// is conserved. Behind `up to` stands a function f on the base: with `fall: der(z) up to -m * g * t`,
+/// σᵅp_α − f is the momentum, and σᶜ(L) = df/dt is proved. A section that is not in D has to leave L
+/// and D invariant: then the forces of constraint change its momentum. The report tells which of these
+/// holds, horizontal symmetries (in D, with L and D invariant) among them.
+///
+/// `momenta(t, &state)` and `momentum_rates(t, &state, &input)` return a field for each label; with
+/// `emit { momenta }` and no `symmetries`, one for each cyclic coordinate whose translation is
+/// horizontal.
+///
 /// # Which velocities the state keeps
 ///
 /// In the adapted formulation each constraint eliminates a velocity. One written `name = …` or
@@ -111,7 +125,7 @@ mod syntax;
 /// For `struct Skate`:
 ///
 /// - `SkateState`, with one field per name, base coordinates first, then velocities; `SkateVelocity`
-///   with all quasi-velocities; `SkateInput`, `SkateOutputs`, `SkateMultipliers` where there are any.
+///   with all quasi-velocities; `SkateInput`, `SkateOutputs`, `SkateMultipliers`, `SkateMomenta` where there are any.
 ///   All are `Copy`, `Default`, `Debug`, `PartialEq`, and convert to and from arrays and
 ///   `nalgebra::SVector`. The velocity of `x` where there is no basis is the field `x_dot`.
 /// - The traits `Dynamics`, `Energy`, and `Observed`, `Jacobian`, `Constrained` where they apply.

@@ -4,9 +4,9 @@
 use super::dependence::dependent_rows;
 use super::evidence::shown;
 use super::kinematics::Motion;
-use crate::algebra::{Facts, Graph, Matrix, NotLinear};
-use crate::geometry::{Algebroid, LinearConstraints, Manifold};
-use crate::id::{ConstraintId, ExprId, Id, Origin, SymbolId};
+use crate::algebra::{Echelon, Facts, FieldPoint, Graph, Matrix, NotLinear};
+use crate::geometry::{Algebroid, ConstraintDistribution, LinearConstraints, Manifold};
+use crate::id::{ConstraintId, ExprId, Id, Origin, SectionId, SymbolId};
 use crate::model::Model;
 use crate::violation::{Law, Violation};
 
@@ -23,11 +23,34 @@ pub struct Constraints {
 }
 
 impl Constraints {
-    /// None on an embedded base.
+    /// D spanned by sections, on an embedded base.
     #[must_use]
-    pub fn none(base: &Manifold) -> Self {
-        let linear = LinearConstraints { annihilator: Vec::new(), drift: Vec::new() };
-        Self { residuals: Vec::new(), linear: Some(linear), base: base.clone(), known: Some(base.clone()) }
+    pub fn spanned(
+        graph: &mut Graph,
+        base: &Manifold,
+        distribution: &ConstraintDistribution,
+        velocities: &[SymbolId],
+    ) -> Self {
+        let images = velocities.iter().copied().zip(distribution.velocity.iter().copied());
+        let mut manifold = Manifold::of_images(graph, images);
+        manifold.extend(graph, base);
+        let linear = Some(distribution.constraints.clone());
+        Self { residuals: Vec::new(), linear, base: base.clone(), known: Some(manifold) }
+    }
+
+    /// D by velocities that the constraints determine at most points, for questions whose answer is
+    /// the same at all of them.
+    pub fn generic_distribution(
+        &self,
+        graph: &mut Graph,
+        velocities: &[SymbolId],
+    ) -> Option<ConstraintDistribution> {
+        let linear = self.linear.as_ref()?;
+        let rows = self.generic().restrict_matrix(graph, &linear.annihilator);
+        let sampled = graph.matrix_in_field(&rows, |seed| FieldPoint::random(16_000 + seed)).ok()?;
+        let dependent: Vec<SectionId> =
+            Echelon::of(sampled).pivots.into_iter().map(SectionId::from_index).collect();
+        ConstraintDistribution::solved_for(graph, linear.clone(), &dependent, velocities)
     }
 
     /// The constraint manifold over the embedded base.

@@ -120,6 +120,7 @@ pub fn change_to_frame(
     for place in &places {
         motion.rates.insert(old[*place], replaced[*place]);
         motion.replaced.push((old[*place], change.sections[*place].clone()));
+        motion.named.push((old[*place], change.velocities.iter().map(|row| row[*place]).collect()));
     }
     motion.anchor = changed.anchor.clone();
     Ok(changed)
@@ -173,6 +174,7 @@ fn no_basis(model: &mut Model, rows: &Matrix, base: &Manifold) -> Violation {
 /// Spanning sections that are nowhere independent, or a Lagrangian in the velocities of the frame.
 pub fn spanned_distribution(
     model: &mut Model,
+    motion: &mut Motion,
     algebroid: &Algebroid,
     base: &Manifold,
 ) -> Result<Option<ConstraintDistribution>, Vec<Violation>> {
@@ -215,6 +217,7 @@ pub fn spanned_distribution(
             way_out: "leave it out: the sections that span D are independent".into(),
         }]);
     }
+    motion.named.extend(new.into_iter().zip(rows));
     let annihilator = annihilator(model, &basis, rank);
     let drift = vec![zero; annihilator.len()];
     let basis = Graph::transposed(&basis);

@@ -21,6 +21,8 @@ pub struct Motion {
     /// Declared velocities whose sections the frame has replaced, with their row of Ψ: the
     /// component of each section of the new basis along the replaced one.
     pub replaced: Vec<(SymbolId, Vec<ExprId>)>,
+    /// Sections with a name that are not in the basis, with their components in it.
+    pub named: Vec<(SymbolId, Vec<ExprId>)>,
 }
 
 /// Reads the anchor off the declaration.
@@ -50,7 +52,14 @@ fn tangent(model: &mut Model) -> Motion {
     let (zero, one) = (model.graph.zero(), model.graph.one());
     let entries = (0..n).map(|i| (0..n).map(|j| if i == j { one } else { zero }).collect()).collect();
     let anchor = Anchor { entries, coordinates: coordinates(model), rank: model.sections.len() };
-    Motion { anchor, rates: Substitution::new([]), coframe: None, divisors: Vec::new(), replaced: Vec::new() }
+    Motion {
+        anchor,
+        rates: Substitution::new([]),
+        coframe: None,
+        divisors: Vec::new(),
+        replaced: Vec::new(),
+        named: Vec::new(),
+    }
 }
 
 fn declared_anchor(model: &mut Model, lines: &[AnchorDecl]) -> Result<Motion, Vec<Violation>> {
@@ -84,7 +93,7 @@ fn declared_anchor(model: &mut Model, lines: &[AnchorDecl]) -> Result<Motion, Ve
     }
     let anchor = Anchor { entries, coordinates: coordinates(model), rank: model.sections.len() };
     let rates = rate_substitution(model, &anchor);
-    Ok(Motion { anchor, rates, coframe: None, divisors: Vec::new(), replaced: Vec::new() })
+    Ok(Motion { anchor, rates, coframe: None, divisors: Vec::new(), replaced: Vec::new(), named: Vec::new() })
 }
 
 /// The coefficients of an expression that must be linear and homogeneous in `variables`, with
@@ -193,7 +202,14 @@ fn inverted_coframe(model: &mut Model, rows: &[Located]) -> Result<Motion, Vec<V
     let Some(solution) = solution else { return Err(vec![singular_coframe(model, &coframe)]) };
     let anchor = Anchor { entries: solution.values, coordinates: coordinates(model), rank: n };
     let rates = rate_substitution(model, &anchor);
-    Ok(Motion { anchor, rates, coframe: Some(coframe), divisors: solution.divisors, replaced: Vec::new() })
+    Ok(Motion {
+        anchor,
+        rates,
+        coframe: Some(coframe),
+        divisors: solution.divisors,
+        replaced: Vec::new(),
+        named: Vec::new(),
+    })
 }
 
 fn not_square(model: &Model, found: usize) -> Violation {

@@ -13,6 +13,7 @@ mod frame;
 mod kinematics;
 mod regularity;
 mod structure_equations;
+mod symmetries;
 
 pub use assumptions::facts;
 pub use brackets::structure_functions;
@@ -25,3 +26,4 @@ pub use frame::{change_to_frame, spanned_distribution};
 pub use kinematics::{Motion, kinematics};
 pub use regularity::{reduced_regularity, saddle_regularity, singular_where};
 pub use structure_equations::structure_equations;
+pub use symmetries::{Invariance, Setting, Symmetry, no_momenta, of_cyclic_coordinates, symmetries};

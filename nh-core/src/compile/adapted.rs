@@ -1,6 +1,7 @@
 //! The functions of a system in the adapted formulation.
 
 use super::embedded::embedding;
+use super::momenta::momenta;
 use super::restricted::{
     calls, coordinates, in_state, observables, parameter_checks, requested, requested_jacobian,
 };
@@ -45,6 +46,7 @@ pub(super) fn derive(
         };
     let jacobian = requested_jacobian(&mut proved.model, &derivative, &distribution.independent)
         .map_err(|violation| vec![violation])?;
+    let momenta = momenta(&mut proved, &mut restriction, &derivative, &distribution.independent);
     let graph = &mut proved.model.graph;
     // 3. E_L, y and the observables on D
     let energy = energy(graph, &proved.system);
@@ -79,6 +81,7 @@ pub(super) fn derive(
         multipliers: requested(&model, Request::Multipliers).then_some(multipliers),
         reactions: requested(&model, Request::Reactions).then_some(reactions),
         jacobian,
+        momenta,
         residual: None,
         projection: None,
         embedding,

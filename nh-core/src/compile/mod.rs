@@ -2,6 +2,7 @@
 
 mod adapted;
 mod embedded;
+mod momenta;
 mod projected;
 mod restricted;
 mod slice;
@@ -14,6 +15,7 @@ use crate::mechanics::LagrangianSystem;
 use crate::model::{ForceDirection, Model};
 use crate::system::System;
 use crate::violation::Violation;
+pub(crate) use momenta::Symmetries;
 
 /// What the later stages share.
 pub(crate) struct Proved {
@@ -29,6 +31,8 @@ pub(crate) struct Proved {
     pub(crate) constraints: Constraints,
     /// The Lagrangian system without them.
     pub(crate) system: LagrangianSystem,
+    /// Its symmetries.
+    pub(crate) symmetries: Symmetries,
 }
 
 /// Checks a declaration and derives its equations.
@@ -51,7 +55,10 @@ pub fn compile(mut model: Model) -> Result<System, Vec<Violation>> {
     let broken = check::structure_equations(&mut model, &algebroid, &base);
     let described = describe(&mut model, &mut motion, algebroid, &base, &facts);
     let (algebroid, constraints, spanned) = both(broken, described)?;
-    // 5. the formulation: a basis of D valid everywhere, or multipliers
+    // 5. the Lagrangian system on E, and its symmetries
+    let system = lagrangian_system(&mut model, &mut motion, algebroid);
+    let symmetries = momenta::symmetries(&mut model, &motion, &system, &constraints, spanned.as_ref())?;
+    // 6. the formulation: a basis of D valid everywhere, or multipliers
     let chosen = match spanned {
         Some(distribution) => {
             let reason = "the declared sections span D".into();
@@ -59,10 +66,8 @@ pub fn compile(mut model: Model) -> Result<System, Vec<Violation>> {
         }
         None => check::choose_formulation(&mut model, &constraints, &facts, &base)?,
     };
-    // 6. the Lagrangian system on E
-    let system = lagrangian_system(&mut model, &mut motion, algebroid);
     // 7. the equations, proved regular, and the claims about them
-    let proved = Proved { model, motion, base, facts, constraints, system };
+    let proved = Proved { model, motion, base, facts, constraints, system, symmetries };
     let system = match chosen {
         Chosen::Adapted { distribution, conditions, reason } => {
             adapted::derive(proved, &distribution, &conditions, &reason)?
@@ -81,8 +86,9 @@ fn describe(
     base: &Manifold,
     facts: &Facts,
 ) -> Result<(Algebroid, Constraints, Option<ConstraintDistribution>), Vec<Violation>> {
-    if let Some(spanned) = check::spanned_distribution(model, &algebroid, base)? {
-        return Ok((algebroid, Constraints::none(base), Some(spanned)));
+    if let Some(spanned) = check::spanned_distribution(model, motion, &algebroid, base)? {
+        let constraints = Constraints::spanned(&mut model.graph, base, &spanned, &algebroid.velocities);
+        return Ok((algebroid, constraints, Some(spanned)));
     }
     let algebroid = check::change_to_frame(model, motion, algebroid, base, facts)?;
     let constraints = check::constraints(model, motion, &algebroid, base)?;

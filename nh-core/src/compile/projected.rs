@@ -1,6 +1,7 @@
 //! The functions of a system in the projected formulation.
 
 use super::embedded::embedding;
+use super::momenta::momenta;
 use super::restricted::{calls, coordinates, in_state, observables, requested, requested_jacobian};
 use super::{Proved, fence};
 use crate::algebra::{Graph, Matrix, Substitution};
@@ -58,6 +59,7 @@ pub(super) fn derive(mut proved: Proved, reason: &str) -> Result<System, Vec<Vio
     }
     let jacobian = requested_jacobian(&mut proved.model, &derivative, &velocities)
         .map_err(|violation| vec![violation])?;
+    let momenta = momenta(&mut proved, &mut everywhere, &derivative, &velocities);
     // 5. the way back to the constraint manifold
     let projection = projection(&mut proved.model, &velocities, &equations, &residuals, judge);
     // 6. the report
@@ -77,6 +79,7 @@ pub(super) fn derive(mut proved: Proved, reason: &str) -> Result<System, Vec<Vio
         multipliers: requested(&model, Request::Multipliers).then_some(multipliers),
         reactions: requested(&model, Request::Reactions).then_some(reactions),
         jacobian,
+        momenta,
         residual: Some(Procedure::of(residuals)),
         projection: Some(projection),
         embedding,

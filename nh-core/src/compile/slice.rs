@@ -42,10 +42,15 @@ pub(super) fn slice(mut system: System) -> Result<System, Vec<Violation>> {
             refused.push(left_out(&system, &what, &missing, output.origin));
         }
     }
+    let momenta = system.momenta.as_ref().map(|momenta| {
+        let outputs = [momenta.values.outputs.as_slice(), &momenta.rates.outputs].concat();
+        momenta.rates.with_outputs(outputs)
+    });
     for (request, origin) in &system.model.requests {
         let (what, procedure) = match request {
             Request::Multipliers => ("the multipliers", &system.multipliers),
             Request::Reactions => ("the reactions", &system.reactions),
+            Request::Momenta => ("the momenta", &momenta),
             Request::Jacobian => continue,
         };
         let missing = procedure.as_ref().map(|procedure| missing(procedure, &procedure.outputs));
@@ -58,7 +63,9 @@ pub(super) fn slice(mut system: System) -> Result<System, Vec<Violation>> {
         procedure.as_ref().is_some_and(|procedure| missing(procedure, &procedure.outputs).is_empty())
     };
     let (has_energy, has_velocity) = (available(&system.energy), available(&system.velocity));
-    note(&mut system, &needed, has_energy, has_velocity);
+    let has_momenta = momenta.is_none() || available(&momenta);
+    note(&mut system, &needed, [has_energy, has_velocity, has_momenta]);
+    system.momenta = system.momenta.filter(|_| has_momenta);
     system.energy = system.energy.filter(|_| has_energy);
     system.velocity = system.velocity.filter(|_| has_velocity);
     restrict(&mut system, &whole, &needed);
@@ -128,13 +135,14 @@ fn restrict(system: &mut System, whole: &[SymbolId], needed: &BTreeSet<SymbolId>
 }
 
 /// Says in the report and the documentation what is left out.
-fn note(system: &mut System, needed: &BTreeSet<SymbolId>, has_energy: bool, has_velocity: bool) {
+fn note(system: &mut System, needed: &BTreeSet<SymbolId>, available: [bool; 3]) {
     let state = system.state();
     let (kept, dropped): (Vec<SymbolId>, Vec<SymbolId>) =
         state.into_iter().partition(|symbol| needed.contains(symbol));
     let mut left_out = names(system, &dropped);
-    left_out.extend((!has_energy).then(|| "the energy".to_owned()));
-    left_out.extend((!has_velocity).then(|| "the velocities that are not in the state".to_owned()));
+    let functions = ["the energy", "the velocities that are not in the state", "the momenta"];
+    let missing = functions.iter().zip(available).filter(|(_, available)| !available);
+    left_out.extend(missing.map(|(function, _)| (*function).to_owned()));
     if left_out.is_empty() {
         return;
     }

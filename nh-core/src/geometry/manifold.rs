@@ -20,6 +20,13 @@ impl Manifold {
         Self::default()
     }
 
+    /// Where symbols are these functions of others; an image may be the symbol itself.
+    #[must_use]
+    pub fn of_images(graph: &Graph, images: impl IntoIterator<Item = (SymbolId, ExprId)>) -> Self {
+        let moved = |(symbol, image): &(SymbolId, ExprId)| graph.as_symbol(*image) != Some(*symbol);
+        Self { images: images.into_iter().filter(moved).collect() }
+    }
+
     /// Where all `functions` vanish, solved for some of the symbols `unknowns`.
     ///
     /// # Errors

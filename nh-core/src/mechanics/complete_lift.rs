@@ -2,16 +2,21 @@
 
 use crate::algebra::{Derivation, Graph};
 use crate::geometry::Algebroid;
-use crate::id::ExprId;
+use crate::id::{ExprId, SymbolId};
 
 /// `σ^C = σ^α ρ^i_α ∂_i + (ρ^i_β ∂_iσ^γ − σ^α C^γ_{αβ}) y^β ∂/∂y^γ`, mathematics (11), M (2.3),
-/// as a derivation of functions on E.
-pub fn complete_lift(graph: &mut Graph, algebroid: &Algebroid, section: &[ExprId]) -> Derivation {
+/// as a derivation of functions on E. A section that depends on the time has `∂_tσ^γ ∂/∂y^γ` besides:
+/// it is the variation of velocities along the flow of σ.
+pub fn complete_lift(
+    graph: &mut Graph,
+    algebroid: &Algebroid,
+    section: &[ExprId],
+    time: SymbolId,
+) -> Derivation {
     let field = algebroid.anchor.vector_field(graph, section);
     let velocity = algebroid.velocity(graph);
     // the vertical part is minus the bracket of σ with the section y of constant components
-    let rates = algebroid.rates(graph, &velocity);
-    let mut along = Derivation::new(algebroid.anchor.coordinates.iter().copied().zip(rates));
+    let mut along = algebroid.along(graph, &velocity, time);
     let bracket = algebroid.structure.contract(graph, section, &velocity);
     let vertical: Vec<ExprId> = section
         .iter()

@@ -2,11 +2,13 @@
 
 mod adapted;
 mod complete_lift;
+mod cyclic;
 mod definiteness;
 mod energy;
 mod euler_lagrange;
 mod flow;
 mod jacobian;
+mod momentum;
 mod moving_energy;
 mod procedure;
 mod projected;
@@ -15,11 +17,13 @@ mod velocity_forms;
 
 pub use adapted::{ReducedEquations, reaction_forces, reduced_equations};
 pub use complete_lift::complete_lift;
+pub use cyclic::{cyclic_coordinates, translation};
 pub use definiteness::definiteness;
 pub use energy::energy;
 pub use euler_lagrange::{ForceBalance, LagrangianSystem};
 pub use flow::Flow;
 pub use jacobian::{NotDifferentiable, jacobian};
+pub use momentum::Momentum;
 pub use moving_energy::moving_energy_section;
 pub use procedure::{Definition, Procedure};
 pub use projected::{SaddleEquations, saddle_equations};

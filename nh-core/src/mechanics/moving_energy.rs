@@ -51,7 +51,8 @@ fn conditions(
 ) -> Vec<ExprId> {
     let mut values: Vec<ExprId> =
         constraints.annihilator.iter().map(|row| graph.inner_product(row, section)).collect();
-    let change = complete_lift(graph, &system.algebroid, section).apply(graph, system.lagrangian);
+    let change =
+        complete_lift(graph, &system.algebroid, section, system.time).apply(graph, system.lagrangian);
     values.push(change);
     values.into_iter().map(|value| manifold.restrict(graph, value)).collect()
 }

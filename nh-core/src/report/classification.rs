@@ -1,11 +1,9 @@
 //! What kind of system it is.
 
 use super::{Derived, combination, shown};
-use crate::algebra::{Echelon, FieldPoint};
 use crate::check::{Constraints, singular_where};
 use crate::compile::Proved;
-use crate::geometry::ConstraintDistribution;
-use crate::id::{ExprId, Id, SectionId, SymbolId};
+use crate::id::{ExprId, SymbolId};
 use crate::mechanics::{LagrangianSystem, moving_energy_section};
 use crate::model::{Kinematics, Model};
 
@@ -87,13 +85,15 @@ fn constraints(
     let generic;
     let distribution = match derived {
         Derived::Adapted { distribution, .. } => *distribution,
-        Derived::Projected { .. } => match generic_distribution(model, system, declared) {
-            None => return what,
-            Some(found) => {
-                generic = found;
-                &generic
+        Derived::Projected { .. } => {
+            match declared.generic_distribution(&mut model.graph, &system.algebroid.velocities) {
+                None => return what,
+                Some(found) => {
+                    generic = found;
+                    &generic
+                }
             }
-        },
+        }
     };
     let holonomic =
         match distribution.is_holonomic(&mut model.graph, &system.algebroid, model.time, declared.base()) {
@@ -105,22 +105,6 @@ fn constraints(
             None => String::new(),
         };
     format!("{what}{holonomic}")
-}
-
-/// D by velocities that the constraints determine at most points, for questions whose answer is the
-/// same at all of them.
-fn generic_distribution(
-    model: &mut Model,
-    system: &LagrangianSystem,
-    declared: &Constraints,
-) -> Option<ConstraintDistribution> {
-    let linear = declared.linear.as_ref()?;
-    let graph = &mut model.graph;
-    let rows = declared.generic().restrict_matrix(graph, &linear.annihilator);
-    let sampled = graph.matrix_in_field(&rows, |seed| FieldPoint::random(16_000 + seed)).ok()?;
-    let dependent: Vec<SectionId> =
-        Echelon::of(sampled).pivots.into_iter().map(SectionId::from_index).collect();
-    ConstraintDistribution::solved_for(graph, linear.clone(), &dependent, &system.algebroid.velocities)
 }
 
 /// The integrals of a holonomic D that are coordinates.

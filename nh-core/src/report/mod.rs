@@ -2,6 +2,7 @@
 
 mod classification;
 mod equations;
+mod symmetry;
 
 use crate::algebra::Graph;
 use crate::compile::Proved;
@@ -46,7 +47,9 @@ pub(crate) fn report(
     conditions: &[ExprId],
 ) -> String {
     let classification = classification::lines(proved, derived, reason);
-    let conserved = classification::conserved(proved);
+    let symmetries = symmetry::lines(proved, derived);
+    let mut conserved = classification::conserved(proved);
+    conserved.extend(symmetry::conserved(proved, derived));
     let (model, system) = (&proved.model, &proved.system);
     let mut text = format!("{}\n", model.name);
     let mut section = |title: &str, lines: Vec<String>| {
@@ -64,6 +67,7 @@ pub(crate) fn report(
     section("Constraint distribution", distribution(model, derived));
     section("Mass matrix", mass_matrix(model, derived));
     section("Equations of motion", equations_of_motion(model, derived));
+    section("Symmetries", symmetries);
     section("Conserved quantities", conserved);
     text
 }

@@ -64,6 +64,7 @@ impl Builder {
             frame: Vec::new(),
             distribution: None,
             claims: Vec::new(),
+            symmetries: Vec::new(),
             assumptions: Vec::new(),
             requests: Vec::new(),
             kinematics: if tangent { Kinematics::Tangent } else { Kinematics::Anchor(Vec::new()) },

@@ -92,7 +92,7 @@ fn unused(number: usize, taken: &mut BTreeSet<String>) -> String {
 }
 
 /// The identifier of a field, raw where it has to be.
-fn ident(name: &str) -> Ident {
+pub(super) fn ident(name: &str) -> Ident {
     let name = name.strip_prefix("r#").unwrap_or(name);
     syn::parse_str::<Ident>(name).unwrap_or_else(|_| Ident::new_raw(name, Span::call_site()))
 }

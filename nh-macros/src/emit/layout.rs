@@ -66,6 +66,8 @@ pub(crate) struct TypeNames {
     pub(crate) residual: Ident,
     /// `SleighOutputs`
     pub(crate) outputs: Ident,
+    /// `SleighMomenta`
+    pub(crate) momenta: Ident,
 }
 
 impl TypeNames {
@@ -79,6 +81,7 @@ impl TypeNames {
             reactions: format_ident!("{name}Reactions"),
             residual: format_ident!("{name}Residual"),
             outputs: format_ident!("{name}Outputs"),
+            momenta: format_ident!("{name}Momenta"),
         }
     }
 }

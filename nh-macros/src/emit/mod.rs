@@ -15,6 +15,7 @@ mod function;
 mod jacobian;
 mod layout;
 mod lint;
+mod momenta;
 mod names;
 mod number;
 mod observed;
@@ -63,7 +64,8 @@ pub(crate) fn emit(system: &System, layout: &Layout) -> TokenStream {
     let part = constraint::emit(context, scope, system)
         .with(embedding::emit(context, scope, system))
         .with(projection::emit(context, system))
-        .with(jacobian::emit(context, scope, system));
+        .with(jacobian::emit(context, scope, system))
+        .with(momenta::emit(context, scope, system));
     programs.extend(part.programs.iter().map(|(name, program)| (*name, program)));
     let mut methods = report::constant(context, system, &programs);
     methods.extend(dynamics::method(context, scope, &derivative));

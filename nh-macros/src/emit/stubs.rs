@@ -11,8 +11,8 @@ use super::context::Context;
 use super::function::{Head, Part};
 use super::layout::Layout;
 use super::{
-    callback, constraint, dynamics, embedding, energy, jacobian, observed, projection, report, state,
-    validate, velocity,
+    callback, constraint, dynamics, embedding, energy, jacobian, momenta, observed, projection, report,
+    state, validate, velocity,
 };
 use crate::resolve::Outline;
 
@@ -57,6 +57,7 @@ fn on_request(context: &Context, outline: &Outline) -> Part {
     let counts = [count(Request::Multipliers), count(Request::Reactions), constraints];
     let part = constraint::stub(context, &labels, counts)
         .with(embedding::stub(context, identities))
-        .with(projection::stub(context, identities, constraints));
+        .with(projection::stub(context, identities, constraints))
+        .with(momenta::stub(context, &outline.momenta));
     if outline.requests.contains(&Request::Jacobian) { part.with(jacobian::stub(context)) } else { part }
 }

@@ -54,6 +54,7 @@ fn stubs_stand_in() {
         in_state: [layout.coordinate_symbols.as_slice(), &layout.velocity_symbols[..2]].concat(),
         requests: vec![Request::Jacobian, Request::Multipliers],
         labels: vec![Some("blade".to_owned())],
+        momenta: Vec::new(),
         identities: 0,
     };
     golden("stubs", stubs(&layout, &outline));

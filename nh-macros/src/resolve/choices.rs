@@ -63,7 +63,7 @@ impl Resolver {
         let mut taken = BTreeSet::from([layout.name.to_string()]);
         let types = layout.types.clone();
         let of_motion = [types.state, types.velocity, types.input, types.outputs];
-        let of_constraints = [types.multipliers, types.reactions, types.residual];
+        let of_constraints = [types.multipliers, types.reactions, types.residual, types.momenta];
         for name in of_motion.into_iter().chain(of_constraints) {
             if !taken.insert(name.to_string()) {
                 let blamed = names.body.iter().rev().find(|renaming| renaming.name.ident == name);
@@ -90,6 +90,7 @@ fn slot<'a>(types: &'a mut TypeNames, role: &str) -> Option<&'a mut Ident> {
         "outputs" => Some(&mut types.outputs),
         "reactions" => Some(&mut types.reactions),
         "residual" => Some(&mut types.residual),
+        "momenta" => Some(&mut types.momenta),
         _ => None,
     }
 }

@@ -25,6 +25,8 @@ pub(super) enum Context {
     Outputs,
     /// `conserved`
     Conserved,
+    /// `symmetries`
+    Symmetries,
     /// `assume`
     Assume,
 }
@@ -60,6 +62,7 @@ impl Context {
             Self::Forces => "forces",
             Self::Outputs => "outputs",
             Self::Conserved => "conserved",
+            Self::Symmetries => "symmetries",
             Self::Assume => "assume",
         }
     }
@@ -70,6 +73,8 @@ impl Context {
             Self::Velocities => usage == Usage::Rate,
             // where E = TM the rates are the sections
             Self::Frame => matches!(usage, Usage::Velocity | Usage::Rate),
+            // moving constraints have moving sections
+            Self::Symmetries => matches!(usage, Usage::Velocity | Usage::Rate | Usage::Time),
             Self::On => false,
             Self::Lagrangian | Self::Constraints | Self::Conserved => {
                 !matches!(usage, Usage::Input | Usage::Branches | Usage::Method)

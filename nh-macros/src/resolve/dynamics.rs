@@ -208,7 +208,7 @@ impl Resolver {
 }
 
 /// The label of an entry: `roll_1` for the second of a vector, `roll_0_1` in a `for` around it.
-fn entry_label(label: &str, around: &[i64], indices: &[usize]) -> String {
+pub(super) fn entry_label(label: &str, around: &[i64], indices: &[usize]) -> String {
     let around = around.iter().map(ToString::to_string);
     let parts = around.chain(indices.iter().map(ToString::to_string));
     parts.fold(label.to_owned(), |text, part| text + "_" + &part)

@@ -14,10 +14,11 @@ use crate::suggest::did_you_mean;
 use crate::syntax::ast::{self, Comparison, Definition, Equation, Item, Name};
 
 /// What `emit` can ask for.
-const REQUESTS: [(&str, Request); 3] = [
+const REQUESTS: [(&str, Request); 4] = [
     ("jacobian", Request::Jacobian),
     ("multipliers", Request::Multipliers),
     ("reactions", Request::Reactions),
+    ("momenta", Request::Momenta),
 ];
 
 /// What `emit` will be able to ask for.

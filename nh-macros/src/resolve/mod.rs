@@ -26,6 +26,7 @@ mod product;
 mod reports;
 mod resolver;
 mod scope;
+mod symmetries;
 mod track;
 
 #[cfg(test)]
@@ -55,7 +56,7 @@ pub(crate) struct Unresolved {
     /// What is wrong.
     pub(crate) errors: Vec<Diagnostic>,
     /// What stubs are made of.
-    pub(crate) outline: Outline,
+    pub(crate) outline: Box<Outline>,
 }
 
 /// Resolves a declaration. The layout starts from that of the struct; what is known of it is
@@ -65,7 +66,7 @@ pub(crate) fn resolve(declaration: &SystemDecl, layout: &mut Layout) -> Result<R
     resolver.declare(declaration, layout);
     resolver.surroundings(declaration, layout);
     let model = resolver.model(declaration, layout);
-    let outline = Outline::of(&model);
+    let outline = Box::new(Outline::of(&model));
     let Resolver { origins, reports, .. } = resolver;
     reports.finish(Resolved { model, origins }).map_err(|errors| Unresolved { errors, outline })
 }
@@ -89,6 +90,7 @@ impl Resolver {
             self.derivatives(&section.body);
         }
         let claims = sections.conserved.as_ref().map(|s| self.claims(&s.body)).unwrap_or_default();
+        let symmetries = sections.symmetries.as_ref().map(|s| self.symmetries(&s.body)).unwrap_or_default();
         let assumptions = sections.assume.as_ref().map(|s| self.assumptions(&s.body)).unwrap_or_default();
         let requests = sections.emit.as_ref().map(|s| self.requests(&s.body)).unwrap_or_default();
         let tracked = sections.track.as_ref().map(|s| self.tracked(s, &outputs));
@@ -122,6 +124,7 @@ impl Resolver {
             forces,
             outputs,
             claims,
+            symmetries,
             assumptions,
             requests,
             tracked,

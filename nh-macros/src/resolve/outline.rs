@@ -13,6 +13,8 @@ pub(crate) struct Outline {
     pub(crate) requests: Vec<Request>,
     /// The labels of the constraints.
     pub(crate) labels: Vec<Option<String>>,
+    /// The labels of the momenta.
+    pub(crate) momenta: Vec<String>,
     /// The number of identities of the base.
     pub(crate) identities: usize,
 }
@@ -24,9 +26,20 @@ impl Outline {
             in_state: in_state(model),
             requests: model.requests.iter().map(|(request, _)| *request).collect(),
             labels: model.constraints.iter().map(|constraint| constraint.label.clone()).collect(),
+            momenta: momenta(model),
             identities: model.identities.len(),
         }
     }
+}
+
+/// The declared symmetries; or the coordinates, which may be cyclic, if momenta are asked for.
+fn momenta(model: &Model) -> Vec<String> {
+    let asked = model.requests.iter().any(|(request, _)| *request == Request::Momenta);
+    let mut names: Vec<String> = model.symmetries.iter().map(|symmetry| symmetry.name.clone()).collect();
+    if names.is_empty() && asked {
+        names.extend(model.coordinates.iter().map(|coordinate| coordinate.name.clone()));
+    }
+    names
 }
 
 /// The state: all of it, or what is tracked with what flows into it at once.

@@ -306,7 +306,7 @@ pub(crate) struct Force {
     pub(crate) value: Expr,
 }
 
-/// `label: expr`, an infinitesimal symmetry.
+/// `label: expr`, or `label: expr up to f`: an infinitesimal symmetry.
 #[derive(Debug)]
 pub(crate) struct Symmetry {
     /// Its doc comments, as attributes.
@@ -315,6 +315,10 @@ pub(crate) struct Symmetry {
     pub(crate) label: Name,
     /// A combination of sections.
     pub(crate) value: Expr,
+    /// The function behind `up to`.
+    pub(crate) gauge: Option<Expr>,
+    /// The section with what it holds up to.
+    pub(crate) extent: Extent,
 }
 
 /// `a < b`, a fact about parameters.

@@ -1,28 +1,16 @@
-//! Rules about which sections there are and which go together; sections to come.
+//! Rules about which sections there are and which go together.
 
 use super::ast::SystemDecl;
 use crate::report::{Diagnostic, Errors, Extent};
 
-/// After this point the sections are supported, and none contradicts another.
+/// After this point the sections that are needed are there, and none contradicts another.
 pub(crate) fn check(declaration: &SystemDecl) -> Result<(), Vec<Diagnostic>> {
     let mut errors = Errors::new();
-    refuse_sections_to_come(declaration, &mut errors);
     require_lagrangian(declaration, &mut errors);
     require_motion(declaration, &mut errors);
     refuse_two_frames(declaration, &mut errors);
     require_basis(declaration, &mut errors);
     errors.finish(())
-}
-
-/// Sections of a later release.
-fn refuse_sections_to_come(declaration: &SystemDecl, errors: &mut Errors) {
-    if let Some(symmetries) = &declaration.sections.symmetries {
-        let keyword = &symmetries.keyword;
-        errors.push(
-            Diagnostic::new(keyword.extent(), format!("`{}` is not supported yet", keyword.text))
-                .way_out("leave the section out"),
-        );
-    }
 }
 
 /// Without a Lagrangian there is no system.
@@ -91,12 +79,6 @@ fn require_basis(declaration: &SystemDecl, errors: &mut Errors) {
 #[cfg(test)]
 mod tests {
     use crate::syntax::testing::messages;
-
-    #[test]
-    fn sections_to_come_are_refused() {
-        let found = messages("base { x } lagrangian { x } symmetries { spin: omega; }", "struct S;");
-        assert_eq!(found, ["`symmetries` is not supported yet\nhelp: leave the section out"]);
-    }
 
     #[test]
     fn what_is_needed_is_asked_for() {

@@ -147,8 +147,19 @@ impl Stream {
         let docs = self.docs()?;
         let label = self.name("a label")?;
         self.colon("a symmetry reads `label: …;`")?;
-        let value = self.last_expression(END)?;
-        Ok(Symmetry { docs, label, value })
+        let start = self.position();
+        let value = self.expression()?;
+        let gauge = if self.eat_word("up") {
+            if !self.eat_word("to") {
+                return Err(self.expected("`to`").way_out("a symmetry reads `label: … up to f;`"));
+            }
+            Some(self.expression()?)
+        } else {
+            None
+        };
+        let extent = self.since(start);
+        self.end(END)?;
+        Ok(Symmetry { docs, label, value, gauge, extent })
     }
 
     /// `a < b`

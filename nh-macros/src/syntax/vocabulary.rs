@@ -38,8 +38,8 @@ pub(crate) const FUNCTIONS: [&str; 18] = [
 pub(crate) const RESERVED: [&str; 5] = ["t", "pi", "sum", "dot", "cross"];
 
 /// The generated types that `names` renames.
-pub(crate) const TYPES: [&str; 7] =
-    ["state", "velocity", "input", "multipliers", "outputs", "reactions", "residual"];
+pub(crate) const TYPES: [&str; 8] =
+    ["state", "velocity", "input", "multipliers", "outputs", "reactions", "residual", "momenta"];
 
 /// The known algebras of `brackets`.
 pub(crate) const ALGEBRAS: [&str; 4] = ["so", "se", "sl", "heisenberg"];

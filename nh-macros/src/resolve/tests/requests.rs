@@ -24,12 +24,12 @@ fn requests() {
     assert_errors(&[
         (
             "base { x } lagrangian { 1 } emit { multiplier }",
-            "`multiplier` cannot be emitted\nwhat can be asked for: `jacobian`, `multipliers`, `reactions`\nhelp: did you mean \
+            "`multiplier` cannot be emitted\nwhat can be asked for: `jacobian`, `multipliers`, `reactions`, `momenta`\nhelp: did you mean \
              `multipliers`?",
         ),
         (
             "base { x } lagrangian { 1 } emit { taylor }",
-            "`taylor` cannot be emitted yet\nhelp: what can be asked for: `jacobian`, `multipliers`, `reactions`",
+            "`taylor` cannot be emitted yet\nhelp: what can be asked for: `jacobian`, `multipliers`, `reactions`, `momenta`",
         ),
         ("base { x } lagrangian { 1 } emit { reactions, reactions }", "`reactions` is asked for twice"),
     ]);

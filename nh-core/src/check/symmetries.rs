@@ -1,0 +1,464 @@
+//! Declared sections: in D, or symmetries of L and D.
+
+use super::constraints::Constraints;
+use super::evidence::{not_zero, shown};
+use super::kinematics::Motion;
+use crate::algebra::{Graph, NotLinear, Verdict};
+use crate::geometry::{ConstraintDistribution, Manifold};
+use crate::id::{CoordId, ExprId, Origin, SymbolId};
+use crate::mechanics::{LagrangianSystem, Momentum, complete_lift, translation};
+use crate::model::{Kinematics, Model, SymmetryDecl};
+use crate::violation::{Law, Violation};
+
+/// A section σ with its momentum, and what is proved of it.
+#[derive(Clone, Debug)]
+pub struct Symmetry {
+    /// The label, or the cyclic coordinate.
+    pub name: String,
+    /// σ^α.
+    pub section: Vec<ExprId>,
+    /// σ^α p_α − f and what changes it.
+    pub momentum: Momentum,
+    /// Whether σ lies in D (in the kernel of ∂φ/∂y), so that the momentum equation (12) holds.
+    pub in_distribution: bool,
+    /// Whether σ^C(L) = ḟ.
+    pub keeps_lagrangian: Invariance,
+    /// Whether σ^C is tangent to the constraint manifold.
+    pub keeps_constraints: bool,
+    /// Whether σ lies in D and its momentum is constant: CLMM Theorem 3.5.
+    pub is_conserved: bool,
+}
+
+/// Where an identity holds.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Invariance {
+    /// On all of E, over the embedded base.
+    Everywhere,
+    /// On the constraint manifold.
+    OnConstraints,
+    /// Not even there.
+    Broken,
+}
+
+impl Symmetry {
+    /// Whether σ is in D and leaves L and D invariant: a horizontal symmetry, CM section 5.
+    #[must_use]
+    pub fn is_horizontal(&self) -> bool {
+        self.in_distribution && self.keeps_constraints && self.keeps_lagrangian != Invariance::Broken
+    }
+}
+
+/// What a section is judged by.
+pub struct Setting<'a> {
+    /// The Lagrangian system.
+    pub system: &'a LagrangianSystem,
+    /// The constraints.
+    pub constraints: &'a Constraints,
+    /// D, where sections span it.
+    pub spanned: Option<&'a ConstraintDistribution>,
+    /// The constraint manifold.
+    manifold: Manifold,
+}
+
+impl<'a> Setting<'a> {
+    /// The setting of a system.
+    pub fn new(
+        graph: &mut Graph,
+        system: &'a LagrangianSystem,
+        constraints: &'a Constraints,
+        spanned: Option<&'a ConstraintDistribution>,
+    ) -> Self {
+        let manifold = constraints.manifold(graph, &system.algebroid.velocities);
+        Self { system, constraints, spanned, manifold }
+    }
+
+    /// φ^A as functions on E.
+    fn functions(&self, graph: &mut Graph) -> Vec<ExprId> {
+        let Some(linear) = &self.constraints.linear else { return self.constraints.residuals.clone() };
+        let velocity = self.system.algebroid.velocity(graph);
+        let rows: Vec<ExprId> =
+            linear.annihilator.iter().map(|row| graph.inner_product(row, &velocity)).collect();
+        rows.into_iter().zip(&linear.drift).map(|(row, drift)| graph.add(row, *drift)).collect()
+    }
+
+    /// σ^α ∂φ^A/∂y^α.
+    fn along_constraints(&self, graph: &mut Graph, section: &[ExprId]) -> Vec<ExprId> {
+        if let Some(linear) = &self.constraints.linear {
+            return linear.annihilator.iter().map(|row| graph.inner_product(row, section)).collect();
+        }
+        let velocities = &self.system.algebroid.velocities;
+        let residuals = self.constraints.residuals.clone();
+        let mut components = Vec::with_capacity(residuals.len());
+        for residual in residuals {
+            let row: Vec<ExprId> = velocities.iter().map(|symbol| graph.partial(residual, *symbol)).collect();
+            components.push(graph.inner_product(&row, section));
+        }
+        components
+    }
+}
+
+/// Something that should vanish and does not: the function, and where.
+type Defect = (ExprId, Option<crate::algebra::Witness>);
+
+/// Judges a section.
+fn judged(
+    graph: &mut Graph,
+    setting: &Setting<'_>,
+    name: String,
+    section: Vec<ExprId>,
+    gauge: Option<ExprId>,
+) -> Result<(Symmetry, Defects), String> {
+    let Setting { system, manifold, constraints, .. } = setting;
+    let momentum = Momentum::of(graph, system, &section, gauge, setting.spanned);
+    let along = setting.along_constraints(graph, &section);
+    let outside = first_defect(graph, manifold, &along)?;
+    let mut lift = complete_lift(graph, &system.algebroid, &section, system.time);
+    let functions = setting.functions(graph);
+    let changes: Vec<ExprId> = functions.into_iter().map(|f| lift.apply(graph, f)).collect();
+    let moved = first_defect(graph, manifold, &changes)?;
+    let variation = first_defect(graph, manifold, &[momentum.variation])?;
+    let everywhere = variation.is_none() && constraints.base().zero_test(graph, momentum.variation).is_zero();
+    let rate = momentum.rate(graph);
+    let is_conserved = outside.is_none() && manifold.zero_test(graph, rate).is_zero();
+    let keeps_lagrangian = match (&variation, everywhere) {
+        (Some(_), _) => Invariance::Broken,
+        (None, true) => Invariance::Everywhere,
+        (None, false) => Invariance::OnConstraints,
+    };
+    let symmetry = Symmetry {
+        name,
+        section,
+        momentum,
+        in_distribution: outside.is_none(),
+        keeps_lagrangian,
+        keeps_constraints: moved.is_none(),
+        is_conserved,
+    };
+    Ok((symmetry, Defects { outside, moved, variation }))
+}
+
+/// What keeps a section from D, and from being a symmetry.
+struct Defects {
+    outside: Option<Defect>,
+    moved: Option<Defect>,
+    variation: Option<Defect>,
+}
+
+fn first_defect(
+    graph: &mut Graph,
+    manifold: &Manifold,
+    functions: &[ExprId],
+) -> Result<Option<Defect>, String> {
+    for function in functions {
+        match manifold.zero_test(graph, *function) {
+            Verdict::Zero => {}
+            Verdict::NonZero(witness) => {
+                let witness = manifold.is_whole().then_some(witness);
+                return Ok(Some((graph.simplify(*function), witness)));
+            }
+            Verdict::Unknown(why) => return Err(why),
+        }
+    }
+    Ok(None)
+}
+
+/// The declared sections, each in D or a symmetry.
+///
+/// # Errors
+/// What is no section; sections that are neither in D nor symmetries; a function f that is not the
+/// one that L changes by.
+pub fn symmetries(
+    model: &mut Model,
+    motion: &Motion,
+    setting: &Setting<'_>,
+) -> Result<Vec<Symmetry>, Vec<Violation>> {
+    let mut found = Vec::new();
+    let mut violations = Vec::new();
+    for declared in model.symmetries.clone() {
+        match declared_symmetry(model, motion, setting, &declared) {
+            Ok(symmetry) => found.push(symmetry),
+            Err(violation) => violations.push(violation),
+        }
+    }
+    if violations.is_empty() { Ok(found) } else { Err(violations) }
+}
+
+fn declared_symmetry(
+    model: &mut Model,
+    motion: &Motion,
+    setting: &Setting<'_>,
+    declared: &SymmetryDecl,
+) -> Result<Symmetry, Violation> {
+    let section = components(model, motion, setting, declared)?;
+    check_gauge(model, declared)?;
+    let graph = &mut model.graph;
+    let (symmetry, defects) = judged(graph, setting, declared.name.clone(), section, declared.gauge)
+        .map_err(|why| Violation {
+            law: Law::Decidable,
+            origin: declared.origin,
+            what: format!("whether `{}` is a symmetry could not be decided", declared.name),
+            evidence: why,
+            way_out: "write it without roots of negative numbers and divisions by zero".into(),
+        })?;
+    if let (Some(_), Some(defect)) = (declared.gauge, &defects.variation) {
+        return Err(false_gauge(&model.graph, declared, defect));
+    }
+    let is_symmetry = symmetry.keeps_lagrangian == Invariance::Everywhere && symmetry.keeps_constraints;
+    if symmetry.in_distribution || is_symmetry {
+        return Ok(symmetry);
+    }
+    Err(neither(model, setting, declared, &symmetry, &defects))
+}
+
+/// Horizontal symmetries that cyclic coordinates give, each with its coordinate.
+pub fn of_cyclic_coordinates(
+    model: &mut Model,
+    setting: &Setting<'_>,
+    cyclic: &[CoordId],
+) -> Vec<(CoordId, Symmetry)> {
+    let mut found = Vec::new();
+    for coordinate in cyclic {
+        let name = model.coordinates[*coordinate].name.clone();
+        let graph = &mut model.graph;
+        let Some(section) = translation(graph, &setting.system.algebroid.anchor, *coordinate) else {
+            continue;
+        };
+        if let Ok((symmetry, _)) = judged(graph, setting, name, section, None)
+            && symmetry.is_horizontal()
+        {
+            found.push((*coordinate, symmetry));
+        }
+    }
+    found
+}
+
+/// The components σ^α in the basis.
+fn components(
+    model: &mut Model,
+    motion: &Motion,
+    setting: &Setting<'_>,
+    declared: &SymmetryDecl,
+) -> Result<Vec<ExprId>, Violation> {
+    let blame = |evidence: String| Violation {
+        law: Law::Symmetry,
+        origin: declared.origin,
+        what: format!("`{}` is not a section", declared.name),
+        evidence,
+        way_out: "write it as a sum of quasi-velocities with coefficients on the base, such as \
+                  `cos(theta) * v1 - sin(theta) * v2`"
+            .into(),
+    };
+    // 1. what each name stands for: sections of the basis, other named sections, translations
+    let rank = model.sections.len();
+    let (zero, one) = (model.graph.zero(), model.graph.one());
+    let mut known: Vec<(SymbolId, Vec<ExprId>)> = Vec::new();
+    for (index, section) in model.sections.iter().enumerate() {
+        known.push((section.symbol, (0..rank).map(|i| if i == index { one } else { zero }).collect()));
+    }
+    known.extend(motion.named.iter().cloned());
+    let present = model.graph.symbols_in(&[declared.value]);
+    for (id, coordinate) in model.coordinates.clone().iter_ids() {
+        if present.contains(&coordinate.rate) && !matches!(model.kinematics, Kinematics::Tangent) {
+            let section = translation_named(model, setting, id, declared)?;
+            known.push((coordinate.rate, section));
+        }
+    }
+    // 2. linear and homogeneous in them
+    let symbols: Vec<SymbolId> = known.iter().map(|(symbol, _)| *symbol).collect();
+    let graph = &mut model.graph;
+    let form = graph.linear_form(declared.value, &symbols).map_err(|error| match error {
+        NotLinear::Curved(..) => {
+            blame(format!("{} is not linear in the quasi-velocities", shown(graph, declared.value)))
+        }
+        NotLinear::Unknown(why) => blame(why),
+    })?;
+    if !graph.zero_test(form.rest).is_zero() {
+        let rest = shown(graph, form.rest);
+        return Err(blame(format!("the term {rest} is not multiplied by a quasi-velocity")));
+    }
+    if let Some(stranger) = off_base(model, &form.coefficients) {
+        return Err(blame(format!("its coefficients depend on `{stranger}`, which is not on the base")));
+    }
+    // 3. their combination
+    let graph = &mut model.graph;
+    let mut section = vec![zero; rank];
+    for ((_, row), coefficient) in known.iter().zip(form.coefficients) {
+        for (slot, entry) in section.iter_mut().zip(row) {
+            let share = graph.mul(coefficient, *entry);
+            *slot = graph.add(*slot, share);
+        }
+    }
+    let section: Vec<ExprId> = section.into_iter().map(|component| graph.simplify(component)).collect();
+    if section.iter().all(|component| setting.constraints.base().zero_test(graph, *component).is_zero()) {
+        return Err(blame("it vanishes everywhere".into()));
+    }
+    Ok(section)
+}
+
+/// The first symbol that is neither a coordinate, nor a parameter, nor the time.
+fn off_base(model: &Model, expressions: &[ExprId]) -> Option<String> {
+    let on_base = |symbol: &SymbolId| {
+        *symbol == model.time
+            || model.coordinates.iter().any(|coordinate| coordinate.symbol == *symbol)
+            || model.parameters.iter().any(|parameter| parameter.symbol == *symbol)
+    };
+    let stranger = model.graph.symbols_in(expressions).into_iter().find(|symbol| !on_base(symbol))?;
+    Some(model.graph.symbols()[stranger].clone())
+}
+
+/// What `der(x)` means beside a basis: its anchor expression, if that is the translation along x.
+fn translation_named(
+    model: &mut Model,
+    setting: &Setting<'_>,
+    coordinate: CoordId,
+    declared: &SymmetryDecl,
+) -> Result<Vec<ExprId>, Violation> {
+    use crate::id::Id;
+    let anchor = &setting.system.algebroid.anchor;
+    let name = model.coordinates[coordinate].name.clone();
+    let graph = &mut model.graph;
+    let row = &anchor.entries[coordinate.index()];
+    let moves = anchor.vector_field(graph, row);
+    let one = graph.one();
+    let mut is_translation = true;
+    for (i, component) in moves.iter().enumerate() {
+        let defect = if i == coordinate.index() { graph.sub(*component, one) } else { *component };
+        is_translation &= setting.constraints.base().zero_test(graph, defect).is_zero();
+    }
+    if is_translation {
+        return Ok(row.clone());
+    }
+    let names: Vec<String> = model.sections.iter().map(|section| section.name.clone()).collect();
+    let graph = &mut model.graph;
+    let way_out = match translation(graph, anchor, coordinate) {
+        Some(section) => {
+            let section = combination(graph, &section, &names);
+            format!("the section that moves `{name}` alone is {section}")
+        }
+        None => "write the section with the names of the quasi-velocities".to_owned(),
+    };
+    Err(Violation {
+        law: Law::Symmetry,
+        origin: declared.origin,
+        what: format!("`der({name})` is no section here"),
+        evidence: format!(
+            "it stands for {}, and as a section that does not move `{name}` alone at unit rate",
+            combination(&model.graph, row, &names)
+        ),
+        way_out,
+    })
+}
+
+/// `c1*e1 + c2*e2`.
+fn combination(graph: &Graph, section: &[ExprId], names: &[String]) -> String {
+    let terms: Vec<String> = section
+        .iter()
+        .zip(names)
+        .filter(|(component, _)| !graph.is_literal_zero(**component))
+        .map(|(component, name)| match graph.as_number(*component) {
+            Some(number) if number.is_one() => name.clone(),
+            _ => format!("({})*{name}", shown(graph, *component)),
+        })
+        .collect();
+    terms.join(" + ")
+}
+
+fn check_gauge(model: &Model, declared: &SymmetryDecl) -> Result<(), Violation> {
+    let Some(gauge) = declared.gauge else { return Ok(()) };
+    match off_base(model, &[gauge]) {
+        None => Ok(()),
+        Some(stranger) => Err(Violation {
+            law: Law::Symmetry,
+            origin: declared.origin,
+            what: format!("what `{}` holds up to is no function on the base", declared.name),
+            evidence: format!("{} depends on `{stranger}`", shown(&model.graph, gauge)),
+            way_out: "a function of the base coordinates, the parameters and the time stands there".into(),
+        }),
+    }
+}
+
+fn false_gauge(graph: &Graph, declared: &SymmetryDecl, defect: &Defect) -> Violation {
+    let gauge = declared.gauge.map(|gauge| shown(graph, gauge)).unwrap_or_default();
+    Violation {
+        law: Law::Symmetry,
+        origin: declared.origin,
+        what: format!("`{}` does not change the Lagrangian by the derivative of {gauge}", declared.name),
+        evidence: format!("what is left over {}", described(graph, defect)),
+        way_out: "correct the function behind `up to`, or leave it out".into(),
+    }
+}
+
+fn described(graph: &Graph, (function, witness): &Defect) -> String {
+    match witness {
+        Some(witness) => not_zero(graph, *function, witness),
+        None => format!("does not vanish where the constraints hold: {}", shown(graph, *function)),
+    }
+}
+
+/// A section that has no momentum equation and is no symmetry either.
+fn neither(
+    model: &mut Model,
+    setting: &Setting<'_>,
+    declared: &SymmetryDecl,
+    symmetry: &Symmetry,
+    defects: &Defects,
+) -> Violation {
+    let graph = &mut model.graph;
+    let mut evidence = Vec::new();
+    if let Some((component, _)) = &defects.outside {
+        evidence.push(format!("the constraints are {} along it, not 0", shown(graph, *component)));
+    }
+    if let Some((change, _)) = &defects.variation {
+        evidence.push(format!("it changes the Lagrangian at the rate {}", shown(graph, *change)));
+    } else if symmetry.keeps_lagrangian == Invariance::OnConstraints {
+        evidence.push("it leaves the Lagrangian invariant only where the constraints hold".into());
+    }
+    if let Some((change, _)) = &defects.moved {
+        evidence.push(format!("it changes the constraints at the rate {}", shown(graph, *change)));
+    }
+    Violation {
+        law: Law::Symmetry,
+        origin: declared.origin,
+        what: format!("`{}` is neither in D nor a symmetry", declared.name),
+        evidence: evidence.join("; "),
+        way_out: match nearest(model, setting, &symmetry.section) {
+            Some(section) => format!("a section of D has a momentum equation, such as {section}"),
+            None => "declare a section of D, which has a momentum equation, or leave it out".into(),
+        },
+    }
+}
+
+/// The section of D with the same independent components.
+fn nearest(model: &mut Model, setting: &Setting<'_>, section: &[ExprId]) -> Option<String> {
+    if setting.spanned.is_some() {
+        return None;
+    }
+    let velocities = &setting.system.algebroid.velocities;
+    let graph = &mut model.graph;
+    let distribution = setting.constraints.generic_distribution(graph, velocities)?;
+    let kept: Vec<ExprId> = distribution
+        .independent
+        .iter()
+        .filter_map(|symbol| velocities.iter().position(|velocity| velocity == symbol))
+        .map(|index| section[index])
+        .collect();
+    let image: Vec<ExprId> = distribution.basis.iter().map(|row| graph.inner_product(row, &kept)).collect();
+    let image: Vec<ExprId> = image.into_iter().map(|component| graph.simplify(component)).collect();
+    if image.iter().all(|component| graph.zero_test(*component).is_zero()) {
+        return None;
+    }
+    let names: Vec<String> = model.sections.iter().map(|section| section.name.clone()).collect();
+    Some(combination(&model.graph, &image, &names))
+}
+
+/// A request for momenta of which there are none.
+#[must_use]
+pub fn no_momenta(origin: Origin) -> Violation {
+    Violation {
+        law: Law::Symmetry,
+        origin,
+        what: "there are no momenta to emit".into(),
+        evidence: "nothing is declared in `symmetries`, and no cyclic coordinate has its section in D".into(),
+        way_out: "declare sections: `symmetries { spin: omega; }`".into(),
+    }
+}

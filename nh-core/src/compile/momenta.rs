@@ -1,0 +1,116 @@
+//! Momenta of symmetries: which there are, and the functions that compute them.
+
+use super::Proved;
+use super::restricted::requested;
+use crate::algebra::Substitution;
+use crate::check::{self, Constraints, Motion, Setting, Symmetry};
+use crate::geometry::ConstraintDistribution;
+use crate::id::{CoordId, ExprId, SymbolId};
+use crate::mechanics::{LagrangianSystem, Procedure, cyclic_coordinates};
+use crate::model::{Model, Request};
+use crate::system::Momenta;
+use crate::violation::Violation;
+
+/// What is known of the symmetries of a system.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Symmetries {
+    /// The declared sections.
+    pub(crate) declared: Vec<Symmetry>,
+    /// Coordinates that nothing depends on.
+    pub(crate) cyclic: Vec<CoordId>,
+    /// The horizontal ones among their translations.
+    pub(crate) found: Vec<(CoordId, Symmetry)>,
+}
+
+/// Lagrangians with more operations than this are searched for cyclic coordinates, but not for
+/// their momenta unless these are asked for.
+const SEARCHED: u64 = 250;
+
+/// Judges the declared sections, and finds the cyclic coordinates.
+///
+/// # Errors
+/// Declared sections that are neither in D nor symmetries; a request for momenta of which there are
+/// none.
+pub(super) fn symmetries(
+    model: &mut Model,
+    motion: &Motion,
+    system: &LagrangianSystem,
+    constraints: &Constraints,
+    spanned: Option<&ConstraintDistribution>,
+) -> Result<Symmetries, Vec<Violation>> {
+    let mut more = constraints.residuals.clone();
+    if let Some(linear) = &constraints.linear {
+        more.extend(linear.annihilator.iter().flatten().chain(&linear.drift));
+    }
+    if let Some(distribution) = spanned {
+        more.extend(distribution.basis.iter().flatten());
+    }
+    more.extend(model.identities.iter().map(|identity| identity.value));
+    more.extend(model.calls.iter().flat_map(|call| &call.arguments));
+    let cyclic = cyclic_coordinates(&mut model.graph, system, &more);
+    let asked = model.requests.iter().find(|(request, _)| *request == Request::Momenta).copied();
+    let small = model.graph.operation_count(&[system.lagrangian]) <= SEARCHED;
+    let search = !cyclic.is_empty() && (small || asked.is_some());
+    if model.symmetries.is_empty() && !search {
+        return match asked {
+            Some((_, origin)) => Err(vec![check::no_momenta(origin)]),
+            None => Ok(Symmetries { cyclic, ..Symmetries::default() }),
+        };
+    }
+    let setting = Setting::new(&mut model.graph, system, constraints, spanned);
+    let declared = check::symmetries(model, motion, &setting)?;
+    let mut found = if search { check::of_cyclic_coordinates(model, &setting, &cyclic) } else { Vec::new() };
+    found.retain(|(_, symmetry)| declared.iter().all(|known| known.section != symmetry.section));
+    match asked {
+        Some((_, origin)) if declared.is_empty() && found.is_empty() => Err(vec![check::no_momenta(origin)]),
+        _ => Ok(Symmetries { declared, cyclic, found }),
+    }
+}
+
+/// σ^α p_α − f and its rate on the constraint manifold, for the declared sections, or else for those
+/// found if momenta are asked for.
+///
+/// In D the rate is the right side of the momentum equation (12); elsewhere it is the derivative
+/// along the motion, so that the forces of constraint are in it.
+pub(super) fn momenta(
+    proved: &mut Proved,
+    restriction: &mut Substitution,
+    derivative: &Procedure,
+    velocities: &[SymbolId],
+) -> Option<Momenta> {
+    let mut symmetries = proved.symmetries.declared.clone();
+    if symmetries.is_empty() {
+        if !requested(&proved.model, Request::Momenta) {
+            return None;
+        }
+        symmetries.extend(proved.symmetries.found.iter().map(|(_, symmetry)| symmetry.clone()));
+    }
+    let system = &proved.system;
+    let graph = &mut proved.model.graph;
+    let state: Vec<SymbolId> =
+        system.algebroid.anchor.coordinates.iter().chain(velocities).copied().collect();
+    let (mut values, mut rates) = (Vec::new(), Vec::new());
+    for symmetry in &symmetries {
+        let value = restriction.apply(graph, symmetry.momentum.value);
+        let value = graph.simplify(value);
+        let rate = if symmetry.is_conserved {
+            graph.zero()
+        } else if symmetry.in_distribution {
+            let rate = symmetry.momentum.rate(graph);
+            let rate = restriction.apply(graph, rate);
+            graph.simplify(rate)
+        } else {
+            let mut terms = vec![graph.partial(value, system.time)];
+            for (symbol, velocity) in state.iter().zip(&derivative.outputs) {
+                let partial = graph.partial(value, *symbol);
+                terms.push(graph.mul(partial, *velocity));
+            }
+            graph.sum(&terms)
+        };
+        values.push(value);
+        rates.push(rate);
+    }
+    let names = symmetries.into_iter().map(|symmetry| symmetry.name).collect();
+    let rates: Vec<ExprId> = rates;
+    Some(Momenta { names, values: Procedure::of(values), rates: derivative.with_outputs(rates) })
+}

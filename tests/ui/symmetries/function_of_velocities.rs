@@ -1,0 +1,13 @@
+use nh_runtime::prelude::*;
+
+#[nonholonomic(
+    base { theta, x, y }
+    lagrangian { J / 2 * der(theta)^2 + m / 2 * (der(x)^2 + der(y)^2) }
+    symmetries { shift: der(x) up to m * der(x); }
+)]
+struct Sleigh {
+    m: f64,
+    J: f64,
+}
+
+fn main() {}
