@@ -6,7 +6,7 @@
 use crate::Scalar;
 
 /// An array of numbers: `Dim::Vec<T>`.
-pub(crate) trait Array<T>: Copy + AsRef<[T]> + AsMut<[T]> {}
+pub trait Array<T>: Copy + AsRef<[T]> + AsMut<[T]> {}
 impl<T, V: Copy + AsRef<[T]> + AsMut<[T]>> Array<T> for V {}
 
 /// x + h k.
@@ -33,6 +33,24 @@ pub(crate) fn combined<T: Scalar, V: Array<T>, const M: usize>((c0, k0): (T, &V)
         }
     }
     sum
+}
+
+/// x + h (c₀ k₀ + Σ c k).
+#[inline]
+pub(crate) fn ahead<T: Scalar, V: Array<T>, const M: usize>(
+    x: &V,
+    h: T,
+    first: (T, &V),
+    rest: [(T, &V); M],
+) -> V {
+    if M == 0 { displaced(x, h * first.0, first.1) } else { displaced(x, h, &combined(first, rest)) }
+}
+
+/// Zero if every component is finite, and NaN otherwise.
+#[inline]
+#[allow(clippy::eq_op)] // x − x is NaN where x is not finite
+pub(crate) fn nought<T: Scalar, V: Array<T>>(x: &V) -> T {
+    x.as_ref().iter().fold(T::ZERO, |sum, x| sum + (*x - *x))
 }
 
 /// a − b.

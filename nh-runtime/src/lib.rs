@@ -80,13 +80,16 @@ mod scalar;
 mod serde_impls;
 mod sine;
 mod step_control;
+mod tolerance;
 
 pub use dim::{D, Dim};
 pub use dynamics::{Constrained, DimOf, Dynamics, Energy, Jacobian, MatOf, Observed, ScalarOf, State, VecOf};
 pub use error::{InputFault, IntegrationError, ParameterError, ParameterFault, ProjectionError, StateFault};
 pub use fast::Fast;
 pub use integrator::{Integrator, Statistics};
-pub use methods::{Dopri5, Euler, ImplicitMidpoint, Method, Projected, Rk4};
+pub use methods::{
+    Bs23, Dop853, Dopri5, Euler, Heun, ImplicitMidpoint, Method, Projected, Ralston, Rk4, Tsit5, Vern9,
+};
 pub use scalar::{Real, Scalar};
 
 /// # Examples

@@ -1,8 +1,9 @@
 //! Everything that a model and its simulation name: `use nh_runtime::prelude::*;`.
 
 pub use crate::{
-    Constrained, Dopri5, Dynamics, Energy, Euler, Fast, ImplicitMidpoint, IntegrationError, Integrator,
-    Jacobian, Observed, ParameterError, Projected, Real, Rk4, Scalar, State, Statistics,
+    Bs23, Constrained, Dop853, Dopri5, Dynamics, Energy, Euler, Fast, Heun, ImplicitMidpoint,
+    IntegrationError, Integrator, Jacobian, Observed, ParameterError, Projected, Ralston, Real, Rk4, Scalar,
+    State, Statistics, Tsit5, Vern9,
 };
 
 #[cfg(feature = "macros")]

@@ -1,179 +1,347 @@
-//! What the adaptive methods share: the first step, acceptance and rejection, the landing on a
-//! target, and the derivative that one step hands to the next.
+//! What the adaptive methods share: their settings, the first step, acceptance and rejection, and the
+//! landing on a target.
 
-use super::{Arrival, Start, component, non_finite_derivative};
+use super::explicit::Tableau;
+use super::fixed::Fixed;
+use super::{Arrival, Method, Start, component, non_finite_derivative};
 use crate::arrays::{all_finite, difference, displaced, first_non_finite};
 use crate::step_control::StepControl;
-use crate::{DimOf, Dynamics, IntegrationError, Real, Scalar, ScalarOf, State, Statistics, VecOf};
+use crate::tolerance::{PerComponent, Tolerance, Uniform};
+use crate::{Dynamics, IntegrationError, Real, Scalar, ScalarOf, State, Statistics, VecOf};
 
-/// An explicit method with an error estimate.
-pub(super) trait Embedded<S: Dynamics> {
+/// A method that chooses the lengths of its steps from an estimate of their errors: `P` computes the
+/// step and the estimate, `T` is the type of numbers, `W` the kind of the tolerances.
+///
+/// The length of the next step is that of the last one times 0.9 err^(−1/q + 0.03) err′^0.04 (PI
+/// control), within a factor of 0.2 to 10, where err and err′ are the errors of the last two steps in
+/// units of the tolerance and q is one more than the order of the estimate. A step with err > 1 is
+/// rejected and repeated with 0.9 err^(−1/q) of its length, and the step after that does not grow
+/// (Hairer, Nørsett, Wanner, Solving Ordinary Differential Equations I, II.4; II, IV.2). A step is
+/// stretched by up to 1 % or shortened to land on a target, and what a target has cut short does not
+/// shorten the steps after it.
+///
+/// Named by its methods: [`Bs23`](crate::Bs23), [`Dopri5`](crate::Dopri5), ….
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Adaptive<P, T, W = Uniform<T>> {
+    pub(super) scheme: P,
+    pub(super) tolerance: W,
+    pub(super) control: StepControl<T>,
+}
+
+impl<P: Default, T: Real> Adaptive<P, T> {
+    /// The method with the default tolerances: 10⁻⁶ in `f64`, 10⁻⁴ in `f32`.
+    #[must_use]
+    pub fn new() -> Self {
+        Self { scheme: P::default(), tolerance: Uniform::new(), control: StepControl::new() }
+    }
+}
+
+impl<P, T: Real> Adaptive<P, T> {
+    /// The relative tolerance: the error that a step may add to a component, as a fraction of it.
+    #[must_use]
+    pub fn rtol(mut self, rtol: T) -> Self {
+        self.tolerance.rtol = rtol;
+        self
+    }
+
+    /// The absolute tolerance, in the units of the state; as `rtol` if not given. A component's
+    /// permitted error is the absolute plus the relative one.
+    #[must_use]
+    pub fn atol(mut self, atol: T) -> Self {
+        self.tolerance.atol = Some(atol);
+        self
+    }
+
+    /// The relative and the absolute tolerance of each component, as two states.
+    ///
+    /// ```
+    /// # use nh_runtime::prelude::*;
+    /// # use nh_runtime::D;
+    /// # #[derive(Clone, Copy)] struct Roller { angle: f64, rate: f64 }
+    /// # impl State for Roller {
+    /// #     type Scalar = f64;
+    /// #     type Dim = D<2>;
+    /// #     fn to_array(&self) -> [f64; 2] { [self.angle, self.rate] }
+    /// #     fn from_array([angle, rate]: [f64; 2]) -> Self { Self { angle, rate } }
+    /// #     fn names() -> [&'static str; 2] { ["angle", "rate"] }
+    /// # }
+    /// // an angle that grows has to be as exact after many turns as in the first
+    /// let rtol = Roller { angle: 0.0, rate: 1e-8 };
+    /// let atol = Roller { angle: 1e-8, rate: 1e-10 };
+    /// let method = Dopri5::new().tolerances(rtol, atol);
+    /// # let _ = method;
+    /// ```
+    #[must_use]
+    pub fn tolerances<X: State<Scalar = T>>(self, rtol: X, atol: X) -> Adaptive<P, T, PerComponent<X>> {
+        let Self { scheme, control, .. } = self;
+        Adaptive { scheme, control, tolerance: PerComponent { rtol, atol } }
+    }
+}
+
+impl<P: Tableau, T: Scalar> Adaptive<P, T> {
+    /// The same Runge–Kutta method with steps of length `step`, which has to be positive and finite,
+    /// and without the error estimate: every step costs the same.
+    #[inline]
+    #[must_use]
+    pub fn fixed(step: T) -> Fixed<P, T> {
+        Fixed { scheme: P::default(), step }
+    }
+
+    /// One step of length `dt` as a pure function: the state at `t + dt`. A negative `dt` goes back in
+    /// time.
+    #[inline]
+    pub fn step<S>(system: &S, t: T, dt: T, state: &S::State, input: &S::Input) -> S::State
+    where
+        S: Dynamics,
+        S::State: State<Scalar = T>,
+    {
+        Fixed::<P, T>::step(system, t, dt, state, input)
+    }
+}
+
+impl<P, T: Real, W> Adaptive<P, T, W> {
+    /// The length of the first step that is tried; chosen from the equations if not given.
+    #[must_use]
+    pub fn first_step(mut self, first_step: T) -> Self {
+        self.control.first_step = Some(first_step);
+        self
+    }
+
+    /// The length of the longest step; unlimited if not given. Give it where inputs or forces act
+    /// in short pulses that a long step could miss.
+    #[must_use]
+    pub fn max_step(mut self, max_step: T) -> Self {
+        self.control.max_step = Some(max_step);
+        self
+    }
+}
+
+impl<P: Default, T: Real> Default for Adaptive<P, T> {
+    fn default() -> Self {
+        Self::new()
+    }
+}
+
+/// How an adaptive method computes a step and its error.
+pub trait Scheme<S: Dynamics>: Copy {
     /// One more than the order of the error estimate.
-    const ORDER: u32;
-    /// What a trial has computed besides its end.
-    type Stages;
-    /// What the dense output needs besides the derivatives at both ends.
-    type Bulge: Copy;
+    const ERROR_ORDER: u32;
+    /// What is kept of a step.
+    type Work: Copy;
+    /// What the states within a step are computed from.
+    type Dense: Copy;
 
-    /// Computes a step of length `length` with the derivative `first` at its start.
-    fn attempt(
+    /// What there is before the first step.
+    fn work(&self) -> Self::Work;
+
+    /// Drops what depends on the input or on the state at the end of the last step.
+    fn forget(&self, work: &mut Self::Work);
+
+    /// Prepares steps from a new start, and gives the derivative there.
+    fn begin<'w>(
         &self,
         start: &Start<'_, S>,
-        first: &VecOf<S>,
-        length: ScalarOf<S>,
-        control: &StepControl<ScalarOf<S>>,
+        work: &'w mut Self::Work,
         statistics: &mut Statistics,
-    ) -> Attempt<S, Self::Stages>;
+    ) -> &'w VecOf<S>;
 
-    /// After acceptance: the derivative at the end of the step, and the dense output.
-    fn conclude(
+    /// Computes a step of length `h`, which may be negative.
+    fn attempt<W: Tolerance<S::State>>(
         &self,
         start: &Start<'_, S>,
-        first: &VecOf<S>,
-        length: ScalarOf<S>,
-        attempt: &Attempt<S, Self::Stages>,
-    ) -> (VecOf<S>, Self::Bulge);
+        h: ScalarOf<S>,
+        tolerance: &W,
+        work: &mut Self::Work,
+        statistics: &mut Statistics,
+    ) -> Trial<S>;
 
-    /// A derivative that is not finite among the stages: component, value, and the time of the
-    /// stage as a fraction of the step.
-    fn blame(&self, stages: &Self::Stages) -> Option<((usize, f64), f64)>;
+    /// Takes note that the step just computed is accepted.
+    fn accept(&self, start: &Start<'_, S>, h: ScalarOf<S>, work: &mut Self::Work);
+
+    /// A derivative that was not finite in the step just computed: component, value, and its time as
+    /// a fraction of the step.
+    fn blame(&self, work: &Self::Work) -> Option<((usize, f64), f64)>;
+
+    /// As [`Method::dense`].
+    fn dense(&self, work: &Self::Work, start: &Start<'_, S>, arrival: &Arrival<S>) -> Self::Dense;
+
+    /// As [`Method::interpolate`].
+    fn interpolate(
+        &self,
+        dense: &Self::Dense,
+        start: &Start<'_, S>,
+        arrival: &Arrival<S>,
+        time: ScalarOf<S>,
+    ) -> S::State;
 }
 
 /// A step that may be accepted.
-pub(super) struct Attempt<S: Dynamics, Stages> {
+pub struct Trial<S: Dynamics> {
     /// Its end.
-    pub(super) state: VecOf<S>,
-    /// The norm of its error in units of the tolerance; not finite if a stage is not.
-    pub(super) error: ScalarOf<S>,
-    /// The rest.
-    pub(super) stages: Stages,
+    pub state: VecOf<S>,
+    /// The norm of its error in units of the tolerance; NaN or infinite if anything in the step is
+    /// not finite.
+    pub error: ScalarOf<S>,
 }
 
 /// What an adaptive method remembers.
-pub struct Memory<S: Dynamics, Bulge> {
+#[derive(Clone, Copy)]
+pub struct Memory<T, K> {
     /// The length proposed for the next step.
-    proposed: Option<ScalarOf<S>>,
+    proposed: Option<T>,
     /// The logarithm of the error of the last step.
-    log_error: ScalarOf<S>,
-    /// The derivatives at both ends of the last step.
-    pub(super) ends: (VecOf<S>, VecOf<S>),
-    /// The rest of its dense output.
-    pub(super) bulge: Option<Bulge>,
-    /// Whether the second of `ends` is the derivative at the current state and input.
-    current: bool,
+    log_error: T,
+    work: K,
 }
 
-impl<S: Dynamics, Bulge: Copy> Clone for Memory<S, Bulge> {
-    fn clone(&self) -> Self {
-        *self
-    }
-}
-impl<S: Dynamics, Bulge: Copy> Copy for Memory<S, Bulge> {}
-
-impl<S: Dynamics, Bulge> Memory<S, Bulge>
+impl<T: Real, S: Dynamics, P: Scheme<S>, W: Tolerance<S::State>> Method<S> for Adaptive<P, T, W>
 where
-    ScalarOf<S>: Real,
+    S::State: State<Scalar = T>,
 {
-    pub(super) fn new() -> Self {
-        use crate::Dim;
-        let zero = DimOf::<S>::vec(ScalarOf::<S>::ZERO);
-        Self {
-            proposed: None,
-            log_error: StepControl::first_log_error(),
-            ends: (zero, zero),
-            bulge: None,
-            current: false,
-        }
+    type Memory = Memory<T, P::Work>;
+    type Dense = P::Dense;
+
+    fn memory(&self) -> Self::Memory {
+        Memory { proposed: None, log_error: StepControl::first_log_error(), work: self.scheme.work() }
     }
 
-    pub(super) fn forget(&mut self) {
-        self.current = false;
-        self.log_error = StepControl::first_log_error();
+    #[inline]
+    fn forget(&self, memory: &mut Self::Memory) {
+        memory.log_error = StepControl::first_log_error();
+        self.scheme.forget(&mut memory.work);
     }
-}
 
-/// Takes one step with error control.
-#[inline]
-pub(super) fn advance<S: Dynamics, M: Embedded<S>>(
-    method: &M,
-    control: &StepControl<ScalarOf<S>>,
-    start: &Start<'_, S>,
-    target: Option<ScalarOf<S>>,
-    memory: &mut Memory<S, M::Bulge>,
-    statistics: &mut Statistics,
-) -> Result<Arrival<S>, IntegrationError>
-where
-    ScalarOf<S>: Real,
-{
-    let first = if memory.current {
-        memory.ends.1
-    } else {
-        statistics.evaluations += 1;
-        let first = start.derivative();
-        if let Some(found) = first_non_finite(first.as_ref()) {
+    fn check(&self) -> Result<(), IntegrationError> {
+        self.tolerance.check()?;
+        self.control.check()
+    }
+
+    #[inline]
+    fn advance(
+        &self,
+        start: &Start<'_, S>,
+        target: Option<T>,
+        memory: &mut Self::Memory,
+        statistics: &mut Statistics,
+    ) -> Result<Arrival<S>, IntegrationError> {
+        let first = self.scheme.begin(start, &mut memory.work, statistics);
+        if !all_finite::<T, _>(first)
+            && let Some(found) = first_non_finite::<T>(first.as_ref())
+        {
             return Err(non_finite_derivative::<S::State>(found, start.time.to_f64()));
         }
-        first
-    };
-    let shortest = StepControl::shortest(start.time);
-    let proposed = match memory.proposed.or(control.first_step) {
-        Some(h) => control.limited(h),
-        None => first_step(start, &first, control, target, M::ORDER, statistics),
+        let shortest = StepControl::shortest(start.time);
+        let proposed = match memory.proposed.or(self.control.first_step) {
+            Some(h) => self.control.limited(h),
+            None => self.first_length(start, first, target, P::ERROR_ORDER, statistics),
+        };
+        let proposed = if proposed > shortest { proposed } else { shortest };
+        let mut h = proposed;
+        let mut rejected = false;
+        loop {
+            let leg = Leg::new(start.time, h, target);
+            if !leg.time.is_finite() {
+                return Err(IntegrationError::NonFiniteTime { time: leg.time.to_f64() });
+            }
+            let trial = self.scheme.attempt(start, leg.length, &self.tolerance, &mut memory.work, statistics);
+            let length = leg.length.abs();
+            if trial.error <= T::ONE {
+                self.scheme.accept(start, leg.length, &mut memory.work);
+                let (next, log_error) =
+                    self.control.after_success(length, trial.error, memory.log_error, P::ERROR_ORDER);
+                // no growth right after a rejection; no loss from a step that a target cut short
+                let next = if rejected { next.min(length) } else { next };
+                let next = if leg.cut && !rejected { next.max(proposed) } else { next };
+                memory.proposed = Some(next);
+                memory.log_error = log_error;
+                return Ok(Arrival { time: leg.time, state: S::State::from_array(trial.state) });
+            }
+            statistics.rejected += 1;
+            if h <= shortest {
+                return Err(self.refusal(start, leg.length, &trial, &memory.work));
+            }
+            rejected = true;
+            h = StepControl::after_rejection(length, trial.error, P::ERROR_ORDER).max(shortest);
+        }
     }
-    .max(shortest);
-    let mut h = proposed;
-    let mut rejected = false;
-    loop {
-        let leg = Leg::new(start.time, h, target);
-        if !leg.time.is_finite() {
-            return Err(IntegrationError::NonFiniteTime { time: leg.time.to_f64() });
-        }
-        let attempt = method.attempt(start, &first, leg.length, control, statistics);
-        let length = leg.length.abs();
-        if attempt.error <= ScalarOf::<S>::ONE && all_finite::<ScalarOf<S>, _>(&attempt.state) {
-            let (last, bulge) = method.conclude(start, &first, leg.length, &attempt);
-            let (next, log_error) = control.after_success(length, attempt.error, memory.log_error, M::ORDER);
-            // no growth right after a rejection; no loss from a step that a target cut short
-            let next = if rejected { next.min(length) } else { next };
-            let next = if leg.cut && !rejected { next.max(proposed) } else { next };
-            *memory = Memory {
-                proposed: Some(next),
-                log_error,
-                ends: (first, last),
-                bulge: Some(bulge),
-                current: true,
-            };
-            return Ok(Arrival { time: leg.time, state: S::State::from_array(attempt.state) });
-        }
-        statistics.rejected += 1;
-        if h <= shortest {
-            return Err(refusal(method, start, leg.length, &attempt));
-        }
-        rejected = true;
-        h = StepControl::after_rejection(length, attempt.error, M::ORDER).max(shortest);
+
+    fn dense(&self, memory: &Self::Memory, start: &Start<'_, S>, arrival: &Arrival<S>) -> P::Dense {
+        self.scheme.dense(&memory.work, start, arrival)
+    }
+
+    fn interpolate(&self, dense: &P::Dense, start: &Start<'_, S>, arrival: &Arrival<S>, time: T) -> S::State {
+        self.scheme.interpolate(dense, start, arrival, time)
     }
 }
 
-/// Explains why not even the shortest step is acceptable.
-#[cold]
-fn refusal<S: Dynamics, M: Embedded<S>>(
-    method: &M,
-    start: &Start<'_, S>,
-    length: ScalarOf<S>,
-    attempt: &Attempt<S, M::Stages>,
-) -> IntegrationError
-where
-    ScalarOf<S>: Real,
-{
-    let (time, step) = (start.time.to_f64(), length.to_f64());
-    if let Some((found, fraction)) = method.blame(&attempt.stages) {
-        return non_finite_derivative::<S::State>(found, time + fraction * step);
+impl<P, T: Real, W> Adaptive<P, T, W> {
+    /// Explains why not even the shortest step is acceptable.
+    #[cold]
+    fn refusal<S: Dynamics>(
+        &self,
+        start: &Start<'_, S>,
+        length: T,
+        trial: &Trial<S>,
+        work: &P::Work,
+    ) -> IntegrationError
+    where
+        S::State: State<Scalar = T>,
+        P: Scheme<S>,
+    {
+        let (time, step) = (start.time.to_f64(), length.to_f64());
+        if let Some((found, fraction)) = self.scheme.blame(work) {
+            return non_finite_derivative::<S::State>(found, time + fraction * step);
+        }
+        if let Some((index, _)) = first_non_finite::<T>(trial.state.as_ref()) {
+            let component = component::<S::State>(index);
+            return IntegrationError::NonFiniteStep { component, time, step };
+        }
+        IntegrationError::StepUnderflow { time, step, error: trial.error.to_f64() }
     }
-    if let Some((index, _)) = first_non_finite(attempt.state.as_ref()) {
-        let component = component::<S::State>(index);
-        return IntegrationError::NonFiniteStep { component, time, step };
+
+    /// The length of the very first step (Hairer, Nørsett, Wanner I, section II.4, "Starting Step
+    /// Size"): it lets an explicit Euler step change the solution by about 1 %, and then the
+    /// estimated second derivative too.
+    #[cold]
+    fn first_length<S: Dynamics>(
+        &self,
+        start: &Start<'_, S>,
+        first: &VecOf<S>,
+        target: Option<T>,
+        order: u32,
+        statistics: &mut Statistics,
+    ) -> T
+    where
+        S::State: State<Scalar = T>,
+        W: Tolerance<S::State>,
+    {
+        let c = T::from_f64;
+        let x = start.state.to_array();
+        let norm = |v: &VecOf<S>| self.tolerance.mean_square(v, &x, &x).sqrt();
+        let size = norm(&x);
+        let slope = norm(first);
+        let negligible = c(1e-5);
+        let mut h = if size < negligible || slope < negligible { c(1e-6) } else { c(0.01) * size / slope };
+        let mut direction = T::ONE;
+        if let Some(target) = target {
+            h = h.min((target - start.time).abs());
+            direction = (target - start.time).sign();
+        }
+        h = self.control.limited(h);
+        statistics.evaluations += 1;
+        let ahead = displaced(&x, direction * h, first);
+        let slope_ahead = start.derivative_at(start.time + direction * h, ahead);
+        let curvature = norm(&difference(&slope_ahead, first)) / h;
+        let largest = slope.max(curvature);
+        let refined = if largest <= c(1e-15) {
+            c(1e-6).max(h * c(1e-3))
+        } else {
+            ((c(0.01) / largest).ln() / T::from_u32(order)).exp()
+        };
+        // a derivative ahead that is not finite says nothing
+        let refined = if refined.is_finite() { refined } else { h };
+        self.control.limited(refined.min(h * c(100.0)))
     }
-    IntegrationError::StepUnderflow { time, step, error: attempt.error.to_f64() }
 }
 
 /// A step on the way to the target.
@@ -210,45 +378,4 @@ impl<T: Real> Leg<T> {
         // the length that the time has really moved by
         Self { length: time - now, time, cut }
     }
-}
-
-/// The length of the very first step (Hairer, Nørsett, Wanner I, section II.4, "Starting Step
-/// Size"): it lets an explicit Euler step change the solution by about 1 %, and then the estimated
-/// second derivative too.
-fn first_step<S: Dynamics>(
-    start: &Start<'_, S>,
-    first: &VecOf<S>,
-    control: &StepControl<ScalarOf<S>>,
-    target: Option<ScalarOf<S>>,
-    order: u32,
-    statistics: &mut Statistics,
-) -> ScalarOf<S>
-where
-    ScalarOf<S>: Real,
-{
-    let c = ScalarOf::<S>::from_f64;
-    let x = start.state.to_array();
-    let size = control.norm(&x, &x, &x);
-    let slope = control.norm(first, &x, &x);
-    let negligible = c(1e-5);
-    let mut h = if size < negligible || slope < negligible { c(1e-6) } else { c(0.01) * size / slope };
-    let mut direction = ScalarOf::<S>::ONE;
-    if let Some(target) = target {
-        h = h.min((target - start.time).abs());
-        direction = (target - start.time).sign();
-    }
-    h = control.limited(h);
-    statistics.evaluations += 1;
-    let ahead = displaced(&x, direction * h, first);
-    let slope_ahead = start.derivative_at(start.time + direction * h, ahead);
-    let curvature = control.norm(&difference(&slope_ahead, first), &x, &x) / h;
-    let largest = slope.max(curvature);
-    let refined = if largest <= c(1e-15) {
-        c(1e-6).max(h * c(1e-3))
-    } else {
-        ((c(0.01) / largest).ln() / ScalarOf::<S>::from_u32(order)).exp()
-    };
-    // a derivative ahead that is not finite says nothing
-    let refined = if refined.is_finite() { refined } else { h };
-    control.limited(refined.min(h * c(100.0)))
 }

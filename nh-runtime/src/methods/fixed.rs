@@ -1,97 +1,295 @@
-//! What the methods of fixed step share: the grid of times, and the interpolation.
+//! What the methods of fixed step share.
 
-use super::{Arrival, Start, explain_non_finite};
-use crate::arrays::all_finite;
+use super::explicit::Tableau;
+use super::grid::{self, Grid, Leg};
+use super::{Arrival, Method, Start, explain_non_finite};
+use crate::arrays::{Array, all_finite, displaced};
 use crate::dense::hermite;
-use crate::{Dynamics, IntegrationError, Real, ScalarOf, State, VecOf};
+use crate::{Dim, DimOf, Dynamics, IntegrationError, Real, Scalar, ScalarOf, State, Statistics, VecOf};
 
-/// Checks the length of a step.
-pub(super) fn check_step<T: Real>(step: T) -> Result<(), IntegrationError> {
-    if step > T::ZERO && step.is_finite() {
-        return Ok(());
-    }
-    Err(IntegrationError::Setting {
-        setting: "step",
-        value: step.to_f64(),
-        expected: "positive and finite; the target says whether time goes forwards or backwards",
-    })
+/// A method with steps of a given length: `P` computes a step, `T` is the type of numbers.
+///
+/// Named by its methods: [`Euler`](crate::Euler), [`Rk4`](crate::Rk4), …; and adaptive explicit methods
+/// have it too, `Dop853::fixed(0.1)`. Times are n h from where the integration started or last
+/// landed, computed from n, so that they do not accumulate round-off.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Fixed<P, T> {
+    pub(super) scheme: P,
+    pub(super) step: T,
 }
 
-/// The times origin + n h. They are computed from n, so that round-off does not accumulate.
-#[derive(Clone, Copy)]
-pub struct Grid<T> {
-    origin: T,
-    /// h with the sign of its direction.
-    step: T,
-    /// n; the origin is where time stands if this is 0.
-    count: u32,
-}
+/// How a method of fixed step computes a step.
+pub trait OneStep<S: Dynamics>: Copy {
+    /// What is kept from step to step.
+    type Work: Copy;
+    /// What the states within a step are computed from.
+    type Dense: Copy;
 
-/// The next step along a grid.
-pub(super) struct Leg<T> {
-    /// Its length, with the sign of its direction.
-    pub(super) length: T,
-    /// The time at its end.
-    pub(super) time: T,
-    /// The grid from there on.
-    pub(super) grid: Grid<T>,
-}
+    /// What there is before the first step.
+    fn work(&self) -> Self::Work;
 
-/// After this many steps the grid starts anew, so that n is exact in `f32` too.
-const LONGEST_COUNT: u32 = 1 << 20;
+    /// Drops what depends on the input or on the state at the end of the last step.
+    fn forget(&self, work: &mut Self::Work);
 
-impl<T: Real> Grid<T> {
-    /// A grid whose origin is where time stands.
-    #[inline]
-    pub(super) fn new() -> Self {
-        Self { origin: T::ZERO, step: T::ZERO, count: 0 }
-    }
-
-    /// The step of length h from `now` towards the target.
+    /// Checks the settings beside the length of the step.
     ///
-    /// A step that would end within 10⁻⁶ h, or within round-off, before the target is stretched to it, so that
-    /// round-off never leaves a sliver; one that would pass it is shortened.
+    /// # Errors
+    /// [`IntegrationError::Setting`] for the first setting that is out of its range.
+    fn check(&self) -> Result<(), IntegrationError> {
+        Ok(())
+    }
+
+    /// The change of the state, which is `x` at the start, over a step of length `h`; components that
+    /// are not finite if there is none.
+    ///
+    /// # Errors
+    /// Why the equations of an implicit method were not solved.
+    fn increment(
+        &self,
+        start: &Start<'_, S>,
+        x: &VecOf<S>,
+        h: ScalarOf<S>,
+        work: &mut Self::Work,
+        statistics: &mut Statistics,
+    ) -> Result<VecOf<S>, IntegrationError>;
+
+    /// Explains an increment that is not finite, if the derivative at the start is.
+    fn blame(&self, start: &Start<'_, S>, h: ScalarOf<S>) -> Option<IntegrationError>;
+
+    /// As [`Method::dense`].
+    fn dense(&self, work: &Self::Work, start: &Start<'_, S>, arrival: &Arrival<S>) -> Self::Dense;
+
+    /// As [`Method::interpolate`].
+    fn interpolate(
+        &self,
+        dense: &Self::Dense,
+        start: &Start<'_, S>,
+        arrival: &Arrival<S>,
+        time: ScalarOf<S>,
+    ) -> S::State;
+}
+
+impl<P: Tableau, T: Scalar> Fixed<P, T> {
+    /// The method with steps of length `step`, which has to be positive and finite.
     #[inline]
-    pub(super) fn next(&self, now: T, h: T, target: Option<T>) -> Leg<T> {
-        let backwards = target.is_some_and(|target| target < now);
-        let step = if backwards { -h } else { h };
-        let (origin, count) =
-            if self.count == 0 || self.step != step { (now, 0) } else { (self.origin, self.count) };
-        let count = count + 1;
-        let time = origin + T::from_u32(count) * step;
-        if let Some(target) = target {
-            let beyond = if backwards { target - time } else { time - target };
-            let round_off = T::from_f64(4.0) * T::EPSILON * now.abs().max(target.abs());
-            let sliver = (h * T::from_f64(1e-6)).max(round_off.min(h * T::from_f64(0.5)));
-            if beyond >= -sliver {
-                let length = if beyond.abs() <= round_off { step } else { target - now };
-                return Leg { length, time: target, grid: Self::new() };
-            }
-        }
-        let count = if count < LONGEST_COUNT { count } else { 0 };
-        Leg { length: step, time, grid: Self { origin, step, count } }
+    #[must_use]
+    pub fn new(step: T) -> Self {
+        Self { scheme: P::default(), step }
+    }
+
+    /// One step of length `dt` as a pure function: the state at `t + dt`. A negative `dt` goes back in
+    /// time.
+    ///
+    /// ```
+    /// use nh_runtime::{D, Dynamics, Rk4, State};
+    ///
+    /// /// x' = −x.
+    /// struct Decay;
+    /// #[derive(Clone, Copy)]
+    /// struct DecayState { x: f64 }
+    /// impl State for DecayState {
+    ///     type Scalar = f64;
+    ///     type Dim = D<1>;
+    ///     fn to_array(&self) -> [f64; 1] { [self.x] }
+    ///     fn from_array([x]: [f64; 1]) -> Self { Self { x } }
+    ///     fn names() -> [&'static str; 1] { ["x"] }
+    /// }
+    /// impl Dynamics for Decay {
+    ///     type State = DecayState;
+    ///     type Input = ();
+    ///     fn derivative(&self, _t: f64, state: &DecayState, (): &()) -> DecayState {
+    ///         DecayState { x: -state.x }
+    ///     }
+    /// }
+    ///
+    /// let next = Rk4::step(&Decay, 0.0, 0.1, &DecayState { x: 1.0 }, &());
+    /// assert!((next.x - (-0.1_f64).exp()).abs() < 1e-7);
+    /// ```
+    #[inline]
+    pub fn step<S>(system: &S, t: T, dt: T, state: &S::State, input: &S::Input) -> S::State
+    where
+        S: Dynamics,
+        S::State: State<Scalar = T>,
+    {
+        let start = Start { system, input, time: t, state };
+        let x = state.to_array();
+        let mut stages = P::room(DimOf::<S>::vec(T::ZERO));
+        *P::first(&mut stages) = start.derivative();
+        let slope = P::slope(&start, &x, dt, &mut stages);
+        S::State::from_array(displaced(&x, dt, &slope))
     }
 }
 
-/// Accepts the end of a step if it is finite, and explains it otherwise.
-#[inline]
-pub(super) fn arrive<S: Dynamics>(
-    start: &Start<'_, S>,
-    leg: &Leg<ScalarOf<S>>,
-    state: S::State,
-) -> Result<Arrival<S>, IntegrationError>
+impl<P, T> Fixed<P, T> {
+    /// The same method with compensated summation of the state (Kahan 1965; Hairer, Lubich, Wanner,
+    /// Geometric Numerical Integration, VIII.5): what rounding takes from x + Δx is kept and added to
+    /// the next Δx. In long integrations the state's round-off then no longer accumulates.
+    #[must_use]
+    pub fn compensated(self) -> Compensated<P, T> {
+        Compensated { method: self }
+    }
+}
+
+/// What a method of fixed step remembers.
+#[derive(Clone, Copy)]
+pub struct Memory<T, K> {
+    grid: Grid<T>,
+    work: K,
+}
+
+impl<T: Real, S: Dynamics, P: OneStep<S>> Method<S> for Fixed<P, T>
 where
-    ScalarOf<S>: Real,
+    S::State: State<Scalar = T>,
 {
-    use crate::Scalar;
-    let reached = state.to_array();
-    if !all_finite(&reached) {
-        return Err(explain_non_finite(start, leg.length, reached.as_ref()));
+    type Memory = Memory<T, P::Work>;
+    type Dense = P::Dense;
+
+    #[inline]
+    fn memory(&self) -> Self::Memory {
+        Memory { grid: Grid::new(), work: self.scheme.work() }
     }
-    if !leg.time.is_finite() {
-        return Err(IntegrationError::NonFiniteTime { time: leg.time.to_f64() });
+
+    #[inline]
+    fn forget(&self, memory: &mut Self::Memory) {
+        self.scheme.forget(&mut memory.work);
     }
-    Ok(Arrival { time: leg.time, state })
+
+    fn check(&self) -> Result<(), IntegrationError> {
+        grid::check_step(self.step)?;
+        self.scheme.check()
+    }
+
+    #[inline]
+    fn advance(
+        &self,
+        start: &Start<'_, S>,
+        target: Option<T>,
+        memory: &mut Self::Memory,
+        statistics: &mut Statistics,
+    ) -> Result<Arrival<S>, IntegrationError> {
+        let leg = memory.grid.next(start.time, self.step, target);
+        let x = start.state.to_array();
+        let increment = self.scheme.increment(start, &x, leg.length, &mut memory.work, statistics)?;
+        let arrival = self.arrive(start, &leg, &displaced(&x, T::ONE, &increment))?;
+        memory.grid = leg.grid;
+        Ok(arrival)
+    }
+
+    fn dense(&self, memory: &Self::Memory, start: &Start<'_, S>, arrival: &Arrival<S>) -> P::Dense {
+        self.scheme.dense(&memory.work, start, arrival)
+    }
+
+    fn interpolate(&self, dense: &P::Dense, start: &Start<'_, S>, arrival: &Arrival<S>, time: T) -> S::State {
+        self.scheme.interpolate(dense, start, arrival, time)
+    }
+}
+
+impl<P, T: Real> Fixed<P, T> {
+    /// Accepts the end of a step if it is finite, and explains it otherwise.
+    #[inline]
+    fn arrive<S: Dynamics>(
+        &self,
+        start: &Start<'_, S>,
+        leg: &Leg<T>,
+        reached: &VecOf<S>,
+    ) -> Result<Arrival<S>, IntegrationError>
+    where
+        S::State: State<Scalar = T>,
+        P: OneStep<S>,
+    {
+        if !all_finite::<T, _>(reached) {
+            let error = explain_non_finite(start, leg.length, reached.as_ref());
+            let by_start = matches!(error, IntegrationError::NonFiniteDerivative { .. });
+            let blamed = if by_start { None } else { self.scheme.blame(start, leg.length) };
+            return Err(blamed.unwrap_or(error));
+        }
+        if !leg.time.is_finite() {
+            return Err(IntegrationError::NonFiniteTime { time: leg.time.to_f64() });
+        }
+        Ok(Arrival { time: leg.time, state: S::State::from_array(*reached) })
+    }
+}
+
+/// A method of fixed step with compensated summation of the state: see [`Fixed::compensated`].
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Compensated<P, T> {
+    method: Fixed<P, T>,
+}
+
+/// What a compensated method remembers.
+pub struct Carried<S: Dynamics, K> {
+    memory: Memory<ScalarOf<S>, K>,
+    /// What rounding has taken from the state.
+    carry: VecOf<S>,
+}
+
+impl<S: Dynamics, K: Copy> Clone for Carried<S, K> {
+    fn clone(&self) -> Self {
+        *self
+    }
+}
+impl<S: Dynamics, K: Copy> Copy for Carried<S, K> {}
+
+impl<T: Real, S: Dynamics, P: OneStep<S>> Method<S> for Compensated<P, T>
+where
+    S::State: State<Scalar = T>,
+{
+    type Memory = Carried<S, P::Work>;
+    type Dense = P::Dense;
+
+    fn memory(&self) -> Self::Memory {
+        Carried { memory: self.method.memory(), carry: DimOf::<S>::vec(T::ZERO) }
+    }
+
+    #[inline]
+    fn forget(&self, memory: &mut Self::Memory) {
+        self.method.forget(&mut memory.memory);
+    }
+
+    fn check(&self) -> Result<(), IntegrationError> {
+        Method::<S>::check(&self.method)
+    }
+
+    #[inline]
+    fn advance(
+        &self,
+        start: &Start<'_, S>,
+        target: Option<T>,
+        memory: &mut Self::Memory,
+        statistics: &mut Statistics,
+    ) -> Result<Arrival<S>, IntegrationError> {
+        let Carried { memory, carry } = memory;
+        let leg = memory.grid.next(start.time, self.method.step, target);
+        let x = start.state.to_array();
+        let scheme = &self.method.scheme;
+        let increment = scheme.increment(start, &x, leg.length, &mut memory.work, statistics)?;
+        let increment = displaced(&increment, T::ONE, carry);
+        let reached = displaced(&x, T::ONE, &increment);
+        let arrival = self.method.arrive(start, &leg, &reached)?;
+        *carry = rounding(&x, &increment, &reached);
+        memory.grid = leg.grid;
+        Ok(arrival)
+    }
+
+    fn dense(&self, memory: &Self::Memory, start: &Start<'_, S>, arrival: &Arrival<S>) -> P::Dense {
+        self.method.dense(&memory.memory, start, arrival)
+    }
+
+    fn interpolate(&self, dense: &P::Dense, start: &Start<'_, S>, arrival: &Arrival<S>, time: T) -> S::State {
+        self.method.interpolate(dense, start, arrival, time)
+    }
+}
+
+/// What rounding has taken from a + b, exactly (Møller 1965, Knuth, The Art of Computer Programming 2,
+/// 4.2.2, theorem B).
+#[inline]
+fn rounding<T: Scalar, V: Array<T>>(a: &V, b: &V, sum: &V) -> V {
+    let mut lost = *sum;
+    for ((lost, &a), &b) in lost.as_mut().iter_mut().zip(a.as_ref()).zip(b.as_ref()) {
+        let added = *lost - a;
+        *lost = (a - (*lost - added)) + (b - added);
+    }
+    lost
 }
 
 /// The derivatives at both ends of a step.
@@ -120,42 +318,4 @@ where
     let length = arrival.time - start.time;
     let fraction = (time - start.time) / length;
     S::State::from_array(hermite((&start.state.to_array(), first), (&x1, last), length, fraction))
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn times_do_not_accumulate_round_off() {
-        let (mut grid, mut now) = (Grid::new(), 0.0_f64);
-        for _ in 0..3_000_000 {
-            let leg = grid.next(now, 0.1, None);
-            (grid, now) = (leg.grid, leg.time);
-        }
-        assert!((now - 300_000.0).abs() < 1e-9, "{now}");
-    }
-
-    #[test]
-    fn an_end_on_the_grid_takes_whole_steps() {
-        let (mut grid, mut now, mut steps) = (Grid::new(), 0.0_f64, 0);
-        while now < 1.0 {
-            let leg = grid.next(now, 0.1, Some(1.0));
-            assert!((leg.length - 0.1).abs() == 0.0);
-            (grid, now) = (leg.grid, leg.time);
-            steps += 1;
-        }
-        assert_eq!((now, steps), (1.0, 10));
-    }
-
-    #[test]
-    fn a_step_below_the_resolution_of_time_still_gets_there() {
-        let (mut grid, mut now, mut steps) = (Grid::new(), 1.0_f32, 0);
-        while now < 1.000_001 {
-            let leg = grid.next(now, 1e-8, Some(1.000_001));
-            (grid, now) = (leg.grid, leg.time);
-            steps += 1;
-        }
-        assert!((60..=140).contains(&steps), "{steps}");
-    }
 }

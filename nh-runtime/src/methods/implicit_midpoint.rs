@@ -1,8 +1,8 @@
 //! The implicit midpoint rule.
 
-use super::fixed::{self, Grid, Slopes};
+use super::fixed::{self, Fixed, OneStep, Slopes};
 use super::linearization::{Analytic, FiniteDifferences, Linearization};
-use super::{Arrival, Method, Start, explain_non_finite};
+use super::{Arrival, Start, explain_non_finite};
 use crate::arrays::displaced;
 use crate::linear::Factors;
 use crate::{
@@ -16,9 +16,11 @@ use crate::{
 /// are solved by Newton's iteration, with a Jacobian that is kept as long as it converges well,
 /// until the corrections vanish or stagnate in round-off. The Jacobian comes from difference
 /// quotients, or [from the system](Self::with_jacobian).
+pub type ImplicitMidpoint<T, J = FiniteDifferences> = Fixed<Midpoint<T, J>, T>;
+
+/// The computation of a step of [`ImplicitMidpoint`].
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct ImplicitMidpoint<T, J = FiniteDifferences> {
-    step: T,
+pub struct Midpoint<T, J> {
     tolerance: T,
     linearization: J,
 }
@@ -34,8 +36,8 @@ impl<T: Real> ImplicitMidpoint<T> {
     /// `emit { jacobian }`.
     #[must_use]
     pub fn with_jacobian(self) -> ImplicitMidpoint<T, Analytic> {
-        let Self { step, tolerance, .. } = self;
-        ImplicitMidpoint { step, tolerance, linearization: Analytic }
+        let Self { step, scheme: Midpoint { tolerance, .. } } = self;
+        Fixed { step, scheme: Midpoint { tolerance, linearization: Analytic } }
     }
 
     /// One step of length `dt` as a pure function: the state at `t + dt`.
@@ -54,7 +56,7 @@ impl<T: Real> ImplicitMidpoint<T> {
         S: Dynamics,
         S::State: State<Scalar = T>,
     {
-        Self::new(dt.abs()).once(&Start { system, input, time: t, state }, dt)
+        Self::new(dt.abs()).scheme.once(&Start { system, input, time: t, state }, dt)
     }
 }
 
@@ -74,23 +76,25 @@ impl<T: Real> ImplicitMidpoint<T, Analytic> {
         S: Jacobian,
         S::State: State<Scalar = T>,
     {
-        Self::linearized(dt.abs(), Analytic).once(&Start { system, input, time: t, state }, dt)
+        Self::linearized(dt.abs(), Analytic).scheme.once(&Start { system, input, time: t, state }, dt)
     }
 }
 
 impl<T: Real, J> ImplicitMidpoint<T, J> {
     fn linearized(step: T, linearization: J) -> Self {
-        Self { step, tolerance: T::from_f64(1e3) * T::EPSILON, linearization }
+        Self { step, scheme: Midpoint { tolerance: T::from_f64(1e3) * T::EPSILON, linearization } }
     }
 
     /// The largest correction, relative to 1 + |x| in each component, at which the iteration may
     /// stagnate; 1000 rounding units if not given. A larger one does not make it stop earlier.
     #[must_use]
     pub fn tolerance(mut self, tolerance: T) -> Self {
-        self.tolerance = tolerance;
+        self.scheme.tolerance = tolerance;
         self
     }
+}
 
+impl<T: Real, J> Midpoint<T, J> {
     /// One step that nothing is remembered of.
     fn once<S>(&self, start: &Start<'_, S>, length: T) -> Result<S::State, IntegrationError>
     where
@@ -98,17 +102,19 @@ impl<T: Real, J> ImplicitMidpoint<T, J> {
         S::State: State<Scalar = T>,
         J: Linearization<S>,
     {
-        self.solve(start, length, &mut None, &mut Statistics::default())
+        let x = start.state.to_array();
+        let increment = self.solve(start, length, &mut None, &mut Statistics::default())?;
+        Ok(S::State::from_array(displaced(&x, T::ONE, &increment)))
     }
 
-    /// Solves d = h/2 f(t₀ + h/2, x₀ + d) for half the increment.
+    /// Solves d = h/2 f(t₀ + h/2, x₀ + d) for half the increment, and gives the whole.
     fn solve<S>(
         &self,
         start: &Start<'_, S>,
         length: T,
         stored: &mut Option<Newton<S>>,
         statistics: &mut Statistics,
-    ) -> Result<S::State, IntegrationError>
+    ) -> Result<VecOf<S>, IntegrationError>
     where
         S: Dynamics,
         S::State: State<Scalar = T>,
@@ -171,7 +177,7 @@ impl<T: Real, J> ImplicitMidpoint<T, J> {
             preceding = Some(residual);
         }
         *stored = newton;
-        Ok(S::State::from_array(displaced(&x, T::from_f64(2.0), &half_increment)))
+        Ok(displaced(&half_increment, T::ONE, &half_increment))
     }
 }
 
@@ -221,7 +227,7 @@ where
 }
 
 /// The factorized matrix 1 − h/2 ∂f/∂x of Newton's iteration.
-pub(super) struct Newton<S: Dynamics> {
+pub struct Newton<S: Dynamics> {
     half: ScalarOf<S>,
     factors: Factors<DimOf<S>, ScalarOf<S>>,
 }
@@ -250,37 +256,23 @@ where
     }
 }
 
-/// What the method remembers: the grid of times, and the matrix while it serves.
-pub struct Memory<S: Dynamics> {
-    grid: Grid<ScalarOf<S>>,
-    newton: Option<Newton<S>>,
-}
-
-impl<S: Dynamics> Clone for Memory<S> {
-    fn clone(&self) -> Self {
-        *self
-    }
-}
-impl<S: Dynamics> Copy for Memory<S> {}
-
-impl<T: Real, S: Dynamics, J: Linearization<S>> Method<S> for ImplicitMidpoint<T, J>
+impl<T: Real, S: Dynamics, J: Linearization<S>> OneStep<S> for Midpoint<T, J>
 where
     S::State: State<Scalar = T>,
 {
-    type Memory = Memory<S>;
+    type Work = Option<Newton<S>>;
     type Dense = Slopes<VecOf<S>>;
 
-    fn memory(&self) -> Memory<S> {
-        Memory { grid: Grid::new(), newton: None }
+    fn work(&self) -> Option<Newton<S>> {
+        None
     }
 
     #[inline]
-    fn forget(&self, memory: &mut Memory<S>) {
-        memory.newton = None;
+    fn forget(&self, work: &mut Option<Newton<S>>) {
+        *work = None;
     }
 
     fn check(&self) -> Result<(), IntegrationError> {
-        fixed::check_step(self.step)?;
         if self.tolerance > T::ZERO && self.tolerance.is_finite() {
             return Ok(());
         }
@@ -291,22 +283,27 @@ where
         })
     }
 
-    fn advance(
+    fn increment(
         &self,
         start: &Start<'_, S>,
-        target: Option<T>,
-        memory: &mut Memory<S>,
+        _x: &VecOf<S>,
+        h: T,
+        work: &mut Option<Newton<S>>,
         statistics: &mut Statistics,
-    ) -> Result<Arrival<S>, IntegrationError> {
-        let leg = memory.grid.next(start.time, self.step, target);
-        let mut newton = memory.newton;
-        let state = self.solve(start, leg.length, &mut newton, statistics)?;
-        let arrival = fixed::arrive(start, &leg, state)?;
-        *memory = Memory { grid: leg.grid, newton };
-        Ok(arrival)
+    ) -> Result<VecOf<S>, IntegrationError> {
+        self.solve(start, h, work, statistics)
     }
 
-    fn dense(&self, _memory: &Memory<S>, start: &Start<'_, S>, arrival: &Arrival<S>) -> Slopes<VecOf<S>> {
+    fn blame(&self, _start: &Start<'_, S>, _h: T) -> Option<IntegrationError> {
+        None
+    }
+
+    fn dense(
+        &self,
+        _work: &Option<Newton<S>>,
+        start: &Start<'_, S>,
+        arrival: &Arrival<S>,
+    ) -> Slopes<VecOf<S>> {
         fixed::slopes(start, arrival)
     }
 

@@ -15,20 +15,79 @@
 //! &input)`, for a loop that keeps its own state and time.
 
 mod adaptive;
-mod dopri5;
-mod euler;
+mod explicit;
 mod fixed;
+mod grid;
 mod implicit_midpoint;
 mod linearization;
 mod projected;
-mod rk4;
 
-pub use dopri5::Dopri5;
-pub use euler::Euler;
+pub use adaptive::{Adaptive, Scheme, Trial};
+pub use explicit::{
+    BogackiShampine3, DormandPrince5, DormandPrince8, Euler1, Heun2, Kutta4, Pair, Ralston3, Tableau,
+    Tsitouras5, Verner9,
+};
+pub use fixed::{Compensated, Fixed, OneStep};
 pub use implicit_midpoint::ImplicitMidpoint;
 pub use linearization::{Analytic, FiniteDifferences, Linearization};
 pub use projected::Projected;
-pub use rk4::Rk4;
+
+pub use crate::tolerance::{PerComponent, Tolerance, Uniform};
+
+/// The explicit Euler method x₁ = x₀ + h f(t₀, x₀) with fixed steps, of order 1
+/// (Euler, Institutionum calculi integralis, 1768, § 650).
+pub type Euler<T> = Fixed<Euler1, T>;
+
+/// The method of Heun with fixed steps, the explicit trapezoidal rule, of order 2 (Heun, Neue Methoden
+/// zur approximativen Integration der Differentialgleichungen, Z. Math. Phys. 45 (1900)).
+pub type Heun<T> = Fixed<Heun2, T>;
+
+/// The method of order 3 with fixed steps whose truncation error has the least bound
+/// (Ralston, Runge–Kutta methods with minimum error bounds, Math. Comp. 16 (1962)).
+pub type Ralston<T> = Fixed<Ralston3, T>;
+
+/// The classical Runge–Kutta method with fixed steps, of order 4
+/// (Kutta 1901; Hairer, Nørsett, Wanner, Solving Ordinary Differential Equations I, table II.1.2).
+pub type Rk4<T> = Fixed<Kutta4, T>;
+
+/// The adaptive method of Bogacki and Shampine, of order 3 with an error estimate of order 2 and a
+/// continuous extension of order 3: for low accuracy. The last evaluation of an accepted step is the
+/// first of the next one (Bogacki, Shampine, A 3(2) pair of Runge–Kutta formulas, Appl. Math. Lett. 2
+/// (1989)).
+pub type Bs23<T, W = Uniform<T>> = Adaptive<BogackiShampine3, T, W>;
+
+/// The adaptive method of Dormand and Prince, of order 5 with an error estimate of order 4 and a
+/// continuous extension of order 4.
+///
+/// The seventh evaluation of an accepted step is the first of the next one. Sources: Dormand,
+/// Prince, A family of embedded Runge–Kutta formulae, J. Comp. Appl. Math. 6 (1980), table 2;
+/// Hairer, Nørsett, Wanner, Solving Ordinary Differential Equations I, table II.5.2 and, for the
+/// continuous extension, section II.6.
+///
+/// ```
+/// use nh_runtime::Dopri5;
+///
+/// let method: Dopri5<f64> = Dopri5::new().rtol(1e-9).atol(1e-12).max_step(0.1);
+/// ```
+pub type Dopri5<T, W = Uniform<T>> = Adaptive<DormandPrince5, T, W>;
+
+/// The adaptive method of Tsitouras, of order 5 with an error estimate of order 4 and a continuous
+/// extension of order 4, with smaller errors than [`Dopri5`] at the same cost (Tsitouras, Runge–Kutta
+/// pairs of order 5(4) satisfying only the first column simplifying assumption, Comput. Math. Appl. 62
+/// (2011)).
+pub type Tsit5<T, W = Uniform<T>> = Adaptive<Tsitouras5, T, W>;
+
+/// The adaptive method of Dormand and Prince of order 8, with an error estimate from two embedded
+/// solutions of orders 5 and 3, and a continuous extension of order 7 that evaluates the derivative
+/// four times more when it is asked for (Hairer, Nørsett, Wanner, Solving Ordinary Differential
+/// Equations I, section II.5, II.6 and II.10, the code DOP853).
+pub type Dop853<T, W = Uniform<T>> = Adaptive<DormandPrince8, T, W>;
+
+/// The adaptive method of Verner of order 9, with an error estimate of order 8 and a continuous
+/// extension of order 9 that evaluates the derivative ten times more when it is asked for: for
+/// tolerances near round-off (Verner, Numerically optimal Runge–Kutta pairs with interpolants, Numer.
+/// Algorithms 53 (2010), the "most efficient" 9(8) pair with the coefficients that he publishes).
+pub type Vern9<T, W = Uniform<T>> = Adaptive<Verner9, T, W>;
 
 use crate::arrays::first_non_finite;
 use crate::{Dynamics, IntegrationError, ScalarOf, State, Statistics};
@@ -56,7 +115,7 @@ pub struct Arrival<S: Dynamics> {
 /// A one-step method, as an [`Integrator`](crate::Integrator) drives it.
 ///
 /// The method itself is its settings. What it has to remember from step to step is its `Memory`,
-/// which the integrator keeps; a step that fails leaves it as it was.
+/// which the integrator keeps; a step that fails may be followed by another from the same start.
 pub trait Method<S: Dynamics> {
     /// What the method remembers from step to step.
     type Memory: Copy;

@@ -32,20 +32,48 @@ fn rk4_has_order_4() {
 }
 
 #[test]
+fn heun_and_ralston_have_orders_2_and_3() {
+    let order = slope(|h| end_error(Heun::new(h)), 0.01);
+    assert!((order - 2.0).abs() < 0.05, "{order}");
+    let order = slope(|h| end_error(Ralston::new(h)), 0.02);
+    assert!((order - 3.0).abs() < 0.1, "{order}");
+}
+
+#[test]
 fn implicit_midpoint_has_order_2() {
     let order = slope(|h| end_error(ImplicitMidpoint::new(h)), 0.01);
     assert!((order - 2.0).abs() < 0.05, "{order}");
 }
 
-/// A tolerance so loose that every step has the longest length.
-fn dopri5_of_fixed_step(h: f64) -> Dopri5<f64> {
-    Dopri5::new().rtol(1.0).atol(1.0).first_step(h).max_step(h)
+/// With a tolerance so loose that every step has the longest length.
+macro_rules! loose {
+    ($method:ident, $h:expr) => {
+        $method::new().rtol(1.0).atol(1.0).first_step($h).max_step($h)
+    };
 }
 
 #[test]
-fn dopri5_has_order_5() {
-    let order = slope(|h| end_error(dopri5_of_fixed_step(h)), 0.1);
+fn adaptive_methods_have_their_orders() {
+    let order = slope(|h| end_error(loose!(Bs23, h)), 0.02);
+    assert!((order - 3.0).abs() < 0.1, "{order}");
+    let order = slope(|h| end_error(loose!(Dopri5, h)), 0.1);
     assert!((order - 5.0).abs() < 0.25, "{order}");
+    let order = slope(|h| end_error(loose!(Tsit5, h)), 0.1);
+    assert!((order - 5.0).abs() < 0.25, "{order}");
+    let order = slope(|h| end_error(loose!(Dop853, h)), 0.3);
+    assert!((order - 8.0).abs() < 0.5, "{order}");
+    let order = slope(|h| end_error(loose!(Vern9, h)), 0.6);
+    assert!((order - 9.0).abs() < 0.6, "{order}");
+}
+
+#[test]
+fn adaptive_methods_are_methods_of_fixed_step_too() {
+    let order = slope(|h| end_error(Dop853::fixed(h)), 0.3);
+    assert!((order - 8.0).abs() < 0.5, "{order}");
+    let mut fixed = Integrator::new(Driven, Tsit5::fixed(0.1), 0.0, START);
+    fixed.step().unwrap();
+    assert_eq!(*fixed.state(), Tsit5::step(&Driven, 0.0, 0.1, &START, &()));
+    assert_eq!(fixed.statistics().evaluations, 6);
 }
 
 /// The largest error of the dense output in one step of length h from t = 0.7.
@@ -62,18 +90,35 @@ fn dense_error<M: Method<Driven>>(method: M) -> f64 {
 #[test]
 fn dense_output_has_its_order() {
     // local errors: one order more
-    let order = slope(|h| dense_error(dopri5_of_fixed_step(h)), 0.1);
-    assert!((order - 5.0).abs() < 0.3, "{order}");
     let order = slope(|h| dense_error(Rk4::new(h)), 0.1);
     assert!((order - 4.0).abs() < 0.3, "{order}");
+    let order = slope(|h| dense_error(loose!(Bs23, h)), 0.1);
+    assert!((order - 4.0).abs() < 0.3, "{order}");
+    let order = slope(|h| dense_error(loose!(Dopri5, h)), 0.1);
+    assert!((order - 5.0).abs() < 0.3, "{order}");
+    let order = slope(|h| dense_error(loose!(Tsit5, h)), 0.1);
+    assert!((order - 5.0).abs() < 0.3, "{order}");
+    let order = slope(|h| dense_error(loose!(Dop853, h)), 0.4);
+    assert!((order - 8.0).abs() < 0.4, "{order}");
+    let order = slope(|h| dense_error(Dop853::fixed(h)), 0.4);
+    assert!((order - 8.0).abs() < 0.4, "{order}");
+    let order = slope(|h| dense_error(loose!(Vern9, h)), 0.8);
+    assert!((order - 10.0).abs() < 0.5, "{order}");
 }
 
 #[test]
 fn the_error_follows_the_tolerance() {
     for exponent in 3..=12 {
         let tolerance = 10.0_f64.powi(-exponent);
-        let error = end_error(Dopri5::new().rtol(tolerance));
-        assert!(error < 20.0 * tolerance + 1e-14, "{tolerance}: {error}");
+        for error in [
+            end_error(Bs23::new().rtol(tolerance.max(1e-9))) * tolerance / tolerance.max(1e-9),
+            end_error(Dopri5::new().rtol(tolerance)),
+            end_error(Tsit5::new().rtol(tolerance)),
+            end_error(Dop853::new().rtol(tolerance)),
+            end_error(Vern9::new().rtol(tolerance)),
+        ] {
+            assert!(error < 20.0 * tolerance + 1e-14, "{tolerance}: {error}");
+        }
     }
 }
 

@@ -1,0 +1,207 @@
+//! How a table takes a step.
+
+use super::tableau::{Dense, Pair, Tableau, interpolate};
+use crate::arrays::{all_finite, displaced, first_non_finite, nought};
+use crate::methods::adaptive::{Scheme, Trial};
+use crate::methods::fixed::OneStep;
+use crate::methods::{Arrival, Start, non_finite_derivative};
+use crate::tolerance::Tolerance;
+use crate::{Dim, DimOf, Dynamics, IntegrationError, Real, Scalar, ScalarOf, State, Statistics, VecOf};
+
+/// Zeros in the shape of a state.
+#[inline]
+fn zero<S: Dynamics>() -> VecOf<S> {
+    DimOf::<S>::vec(ScalarOf::<S>::ZERO)
+}
+
+/// All stages of a step, anew.
+#[inline]
+fn stages_of<S: Dynamics, P: Tableau>(
+    start: &Start<'_, S>,
+    x: &VecOf<S>,
+    h: ScalarOf<S>,
+) -> (P::Stages<VecOf<S>>, VecOf<S>) {
+    let mut stages = P::room(zero::<S>());
+    *P::first(&mut stages) = start.derivative();
+    let slope = P::slope(start, x, h, &mut stages);
+    (stages, slope)
+}
+
+/// The dense output of a step with these stages.
+fn dense_of<S: Dynamics, P: Tableau>(
+    start: &Start<'_, S>,
+    arrival: &Arrival<S>,
+    stages: &P::Stages<VecOf<S>>,
+) -> Dense<VecOf<S>, P::Bulge<VecOf<S>>> {
+    let h = arrival.time - start.time;
+    let last = start.derivative_at(arrival.time, arrival.state.to_array());
+    let bulge = P::bulge(start, h, stages, &last);
+    let mut stages = *stages;
+    Dense { first: *P::first(&mut stages), last, bulge }
+}
+
+impl<S: Dynamics, P: Tableau> OneStep<S> for P {
+    type Work = ();
+    type Dense = Dense<VecOf<S>, P::Bulge<VecOf<S>>>;
+
+    #[inline]
+    fn work(&self) {}
+
+    #[inline]
+    fn forget(&self, _work: &mut ()) {}
+
+    #[inline]
+    fn increment(
+        &self,
+        start: &Start<'_, S>,
+        x: &VecOf<S>,
+        h: ScalarOf<S>,
+        _work: &mut (),
+        statistics: &mut Statistics,
+    ) -> Result<VecOf<S>, IntegrationError> {
+        statistics.evaluations += u64::from(P::STAGES);
+        let (_, mut increment) = stages_of::<S, P>(start, x, h);
+        for change in increment.as_mut() {
+            *change *= h;
+        }
+        Ok(increment)
+    }
+
+    #[cold]
+    fn blame(&self, start: &Start<'_, S>, h: ScalarOf<S>) -> Option<IntegrationError> {
+        let (stages, _) = stages_of::<S, P>(start, &start.state.to_array(), h);
+        let (found, fraction) = P::blame::<ScalarOf<S>, _>(&stages)?;
+        let time = start.time.to_f64() + fraction * h.to_f64();
+        Some(non_finite_derivative::<S::State>(found, time))
+    }
+
+    fn dense(&self, _work: &(), start: &Start<'_, S>, arrival: &Arrival<S>) -> Self::Dense {
+        let h = arrival.time - start.time;
+        let (stages, _) = stages_of::<S, P>(start, &start.state.to_array(), h);
+        dense_of::<S, P>(start, arrival, &stages)
+    }
+
+    fn interpolate(
+        &self,
+        dense: &Self::Dense,
+        start: &Start<'_, S>,
+        arrival: &Arrival<S>,
+        time: ScalarOf<S>,
+    ) -> S::State {
+        interpolate(dense, start, arrival, time)
+    }
+}
+
+/// What an explicit method keeps of a step.
+pub struct Work<S: Dynamics, P: Tableau> {
+    stages: P::Stages<VecOf<S>>,
+    /// The derivative at the end of the step, if the error estimate needs it.
+    last: VecOf<S>,
+    /// Whether that is the derivative at the present state and input.
+    current: bool,
+    /// The start and the length of the step that the stages belong to.
+    step: (ScalarOf<S>, ScalarOf<S>),
+}
+
+impl<S: Dynamics, P: Tableau> Clone for Work<S, P> {
+    fn clone(&self) -> Self {
+        *self
+    }
+}
+impl<S: Dynamics, P: Tableau> Copy for Work<S, P> {}
+
+impl<S: Dynamics, P: Pair> Scheme<S> for P
+where
+    ScalarOf<S>: Real,
+{
+    const ERROR_ORDER: u32 = P::ERROR_ORDER;
+    type Work = Work<S, P>;
+    type Dense = Dense<VecOf<S>, P::Bulge<VecOf<S>>>;
+
+    fn work(&self) -> Work<S, P> {
+        let never = ScalarOf::<S>::from_f64(f64::NAN);
+        Work { stages: P::room(zero::<S>()), last: zero::<S>(), current: false, step: (never, never) }
+    }
+
+    #[inline]
+    fn forget(&self, work: &mut Work<S, P>) {
+        work.current = false;
+    }
+
+    #[inline]
+    fn begin<'w>(
+        &self,
+        start: &Start<'_, S>,
+        work: &'w mut Work<S, P>,
+        statistics: &mut Statistics,
+    ) -> &'w VecOf<S> {
+        // the stages are about to be those of another step
+        work.step.0 = ScalarOf::<S>::from_f64(f64::NAN);
+        let first = P::first(&mut work.stages);
+        if P::FIRST_SAME_AS_LAST && work.current {
+            *first = work.last;
+            work.current = false;
+        } else {
+            statistics.evaluations += 1;
+            *first = start.derivative();
+        }
+        first
+    }
+
+    #[inline]
+    fn attempt<W: Tolerance<S::State>>(
+        &self,
+        start: &Start<'_, S>,
+        h: ScalarOf<S>,
+        tolerance: &W,
+        work: &mut Work<S, P>,
+        statistics: &mut Statistics,
+    ) -> Trial<S> {
+        let x = start.state.to_array();
+        let slope = P::slope(start, &x, h, &mut work.stages);
+        let state = displaced(&x, h, &slope);
+        statistics.evaluations += u64::from(P::STAGES - 1);
+        if P::FIRST_SAME_AS_LAST {
+            statistics.evaluations += 1;
+            work.last = start.derivative_at(start.time + h, state);
+        }
+        let error = P::error(&work.stages, &work.last, h, |e| tolerance.mean_square(e, &x, &state));
+        Trial { state, error: error + nought(&state) }
+    }
+
+    #[inline]
+    fn accept(&self, start: &Start<'_, S>, h: ScalarOf<S>, work: &mut Work<S, P>) {
+        work.current = P::FIRST_SAME_AS_LAST;
+        work.step = (start.time, h);
+    }
+
+    #[cold]
+    fn blame(&self, work: &Work<S, P>) -> Option<((usize, f64), f64)> {
+        let found = P::blame::<ScalarOf<S>, _>(&work.stages);
+        if P::FIRST_SAME_AS_LAST && !all_finite::<ScalarOf<S>, _>(&work.last) {
+            return found
+                .or_else(|| first_non_finite::<ScalarOf<S>>(work.last.as_ref()).map(|found| (found, 1.0)));
+        }
+        found
+    }
+
+    fn dense(&self, work: &Work<S, P>, start: &Start<'_, S>, arrival: &Arrival<S>) -> Self::Dense {
+        let h = arrival.time - start.time;
+        if work.step == (start.time, h) {
+            dense_of::<S, P>(start, arrival, &work.stages)
+        } else {
+            let (stages, _) = stages_of::<S, P>(start, &start.state.to_array(), h);
+            dense_of::<S, P>(start, arrival, &stages)
+        }
+    }
+
+    fn interpolate(
+        &self,
+        dense: &Self::Dense,
+        start: &Start<'_, S>,
+        arrival: &Arrival<S>,
+        time: ScalarOf<S>,
+    ) -> S::State {
+        interpolate(dense, start, arrival, time)
+    }
+}

@@ -1,0 +1,259 @@
+//! Explicit Runge–Kutta methods, written down as tables and compiled to straight-line code.
+
+use core::fmt::Debug;
+
+use crate::arrays::{Array, displaced};
+use crate::dense::hermite;
+use crate::methods::{Arrival, Start};
+use crate::{Dynamics, Real, Scalar, ScalarOf, State, VecOf};
+
+/// The table of an explicit Runge–Kutta method: k₁ = f(t₀, x₀), kᵢ = f(t₀ + cᵢh, x₀ + h Σ aᵢⱼkⱼ),
+/// x₁ = x₀ + h Σ bᵢkᵢ.
+pub trait Tableau: Copy + Default + Debug + PartialEq + 'static {
+    /// The order.
+    const ORDER: u32;
+    /// The number of stages, k₁ included.
+    const STAGES: u32;
+    /// The derivatives k₁ … at the stages.
+    type Stages<V: Copy>: Copy;
+    /// Vectors of the dense output, beyond the derivatives at both ends.
+    type Bulge<V: Copy>: Copy + AsRef<[V]>;
+
+    /// Room for the stages.
+    fn room<V: Copy>(zero: V) -> Self::Stages<V>;
+
+    /// k₁, to be given before the others are computed.
+    fn first<V: Copy>(stages: &mut Self::Stages<V>) -> &mut V;
+
+    /// Computes k₂ … from k₁ and gives Σ bᵢkᵢ.
+    fn slope<S: Dynamics>(
+        start: &Start<'_, S>,
+        x: &VecOf<S>,
+        h: ScalarOf<S>,
+        stages: &mut Self::Stages<VecOf<S>>,
+    ) -> VecOf<S>;
+
+    /// The coefficients of the dense output, from the stages and the derivative at the end; further
+    /// stages are evaluated here.
+    fn bulge<S: Dynamics>(
+        start: &Start<'_, S>,
+        h: ScalarOf<S>,
+        stages: &Self::Stages<VecOf<S>>,
+        last: &VecOf<S>,
+    ) -> Self::Bulge<VecOf<S>>;
+
+    /// The first stage whose derivative is not finite: component, value, and the time of the stage
+    /// as a fraction of the step.
+    fn blame<T: Scalar, V: Array<T>>(stages: &Self::Stages<V>) -> Option<((usize, f64), f64)>;
+}
+
+/// A method with a second solution embedded, whose distance estimates the error.
+pub trait Pair: Tableau {
+    /// One more than the order of the estimate: the power of h that the error goes with.
+    const ERROR_ORDER: u32;
+    /// Whether the estimate uses the derivative at the end, which is the next step's first.
+    const FIRST_SAME_AS_LAST: bool;
+
+    /// The size of the error, from the stages, the derivative at the end (where it is used), and the
+    /// mean of the squared components in units of the tolerance.
+    fn error<T: Real, V: Array<T>>(
+        stages: &Self::Stages<V>,
+        last: &V,
+        h: T,
+        mean_square: impl Fn(&V) -> T,
+    ) -> T;
+}
+
+/// What the states within a step are computed from: with s the fraction of the step, the cubic
+/// through both ends with the derivatives there, and h s²(1−s)² Σⱼ sʲ bulgeⱼ.
+#[derive(Clone, Copy)]
+pub struct Dense<V, B> {
+    pub(in crate::methods) first: V,
+    pub(in crate::methods) last: V,
+    pub(in crate::methods) bulge: B,
+}
+
+/// The state at a time within the step.
+pub(in crate::methods) fn interpolate<S: Dynamics, B: AsRef<[VecOf<S>]>>(
+    dense: &Dense<VecOf<S>, B>,
+    start: &Start<'_, S>,
+    arrival: &Arrival<S>,
+    time: ScalarOf<S>,
+) -> S::State {
+    let h = arrival.time - start.time;
+    let s = (time - start.time) / h;
+    let inside = s * (ScalarOf::<S>::ONE - s);
+    let (x0, x1) = (start.state.to_array(), arrival.state.to_array());
+    let mut x = hermite((&x0, &dense.first), (&x1, &dense.last), h, s);
+    let mut weight = h * inside * inside;
+    for bulge in dense.bulge.as_ref() {
+        x = displaced(&x, weight, bulge);
+        weight *= s;
+    }
+    S::State::from_array(x)
+}
+
+/// Writes down a [`Tableau`]. Coefficients that are not listed are zero, and cost nothing.
+///
+/// `silent` lists the stages without a weight in the error estimate, `last` names the derivative at
+/// the end of the step, `extra` the stages that only the dense output needs, and each row of `dense`
+/// is the combination of stages that is one coefficient of the bulge.
+macro_rules! tableau {
+    (
+        $(#[$meta:meta])*
+        $name:ident, $stages:ident: order $order:literal;
+        stages {
+            $first:ident at 0;
+            $($k:ident at $c:expr => [$a0k:ident: $a0:expr $(, $ak:ident: $a:expr)*];)*
+        }
+        sum [$b0k:ident: $b0:expr $(, $bk:ident: $b:expr)*];
+        last $last:ident;
+        $(extra $e:ident at $ec:expr => [$ea0k:ident: $ea0:expr $(, $eak:ident: $ea:expr)*];)*
+        dense [$([$d0k:ident: $d0:expr $(, $dk:ident: $d:expr)*]),*];
+    ) => {
+        $(#[$meta])*
+        #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+        pub struct $name;
+
+        /// The derivatives at the stages.
+        #[derive(Clone, Copy)]
+        pub struct $stages<V> {
+            $first: V,
+            $($k: V,)*
+        }
+
+        impl $crate::methods::explicit::tableau::Tableau for $name {
+            const ORDER: u32 = $order;
+            const STAGES: u32 = 1 $(+ { let _ = stringify!($k); 1 })*;
+            type Stages<V: Copy> = $stages<V>;
+            type Bulge<V: Copy> = [V; 0 $(+ { let _ = stringify!($d0k); 1 })*];
+
+            #[inline]
+            fn room<V: Copy>(zero: V) -> $stages<V> {
+                $stages { $first: zero, $($k: zero),* }
+            }
+
+            #[inline]
+            fn first<V: Copy>(stages: &mut $stages<V>) -> &mut V {
+                &mut stages.$first
+            }
+
+            #[inline]
+            fn slope<S: $crate::Dynamics>(
+                start: &$crate::methods::Start<'_, S>,
+                x: &$crate::VecOf<S>,
+                h: $crate::ScalarOf<S>,
+                stages: &mut $stages<$crate::VecOf<S>>,
+            ) -> $crate::VecOf<S> {
+                use $crate::Scalar;
+                let w = $crate::ScalarOf::<S>::from_f64;
+                $(
+                    let ahead = $crate::arrays::ahead(
+                        x, h, (w($a0), &stages.$a0k), [$((w($a), &stages.$ak)),*],
+                    );
+                    stages.$k = start.derivative_at(start.time + w($c) * h, ahead);
+                )*
+                let _ = (start, x, h);
+                $crate::arrays::combined((w($b0), &stages.$b0k), [$((w($b), &stages.$bk)),*])
+            }
+
+            #[allow(unused_variables, clippy::trivially_copy_pass_by_ref)] // not every stage is used
+            fn bulge<S: $crate::Dynamics>(
+                start: &$crate::methods::Start<'_, S>,
+                h: $crate::ScalarOf<S>,
+                stages: &$stages<$crate::VecOf<S>>,
+                $last: &$crate::VecOf<S>,
+            ) -> Self::Bulge<$crate::VecOf<S>> {
+                use $crate::{Scalar, State};
+                let w = $crate::ScalarOf::<S>::from_f64;
+                let $stages { $first, $($k),* } = stages;
+                let x = start.state.to_array();
+                $(
+                    let ahead = $crate::arrays::ahead(&x, h, (w($ea0), $ea0k), [$((w($ea), $eak)),*]);
+                    let $e = &start.derivative_at(start.time + w($ec) * h, ahead);
+                )*
+                [$($crate::arrays::combined((w($d0), $d0k), [$((w($d), $dk)),*])),*]
+            }
+
+            #[cold]
+            fn blame<T: $crate::Scalar, V: $crate::arrays::Array<T>>(
+                stages: &$stages<V>,
+            ) -> Option<((usize, f64), f64)> {
+                [(&stages.$first, 0.0) $(, (&stages.$k, $c))*].into_iter().find_map(|(k, c): (&V, f64)| {
+                    $crate::arrays::first_non_finite::<T>(k.as_ref()).map(|found| (found, c))
+                })
+            }
+        }
+
+        #[cfg(test)]
+        impl $crate::methods::explicit::order_conditions::Coefficients for $name {
+            fn rows() -> std::vec::Vec<(&'static str, f64, std::vec::Vec<(&'static str, f64)>)> {
+                std::vec![
+                    (stringify!($first), 0.0, std::vec![]),
+                    $((
+                        stringify!($k), $c,
+                        std::vec![(stringify!($a0k), $a0) $(, (stringify!($ak), $a))*],
+                    ),)*
+                ]
+            }
+            fn weights() -> std::vec::Vec<(&'static str, f64)> {
+                std::vec![(stringify!($b0k), $b0) $(, (stringify!($bk), $b))*]
+            }
+            fn last() -> &'static str {
+                stringify!($last)
+            }
+            fn extras() -> std::vec::Vec<(&'static str, f64, std::vec::Vec<(&'static str, f64)>)> {
+                std::vec![$((
+                    stringify!($e), $ec,
+                    std::vec![(stringify!($ea0k), $ea0) $(, (stringify!($eak), $ea))*],
+                ),)*]
+            }
+            fn bulges() -> std::vec::Vec<std::vec::Vec<(&'static str, f64)>> {
+                std::vec![$(std::vec![(stringify!($d0k), $d0) $(, (stringify!($dk), $d))*]),*]
+            }
+        }
+    };
+}
+
+/// Writes down the error weights that make a table a [`Pair`]: of the stages, and of the derivative at
+/// the end of the step if that is used. `silent` are the stages without a weight.
+macro_rules! embedded {
+    (
+        $name:ident: error order $order:literal, first same as last $fsal:literal;
+        error [$e0k:ident: $e0:expr $(, $ek:ident: $e:expr)*] $(last [$el:expr])?;
+        silent [$($silent:ident),*];
+    ) => {
+        impl $crate::methods::explicit::tableau::Pair for $name {
+            const ERROR_ORDER: u32 = $order;
+            const FIRST_SAME_AS_LAST: bool = $fsal;
+
+            #[inline]
+            fn error<T: $crate::Real, V: $crate::arrays::Array<T>>(
+                stages: &Self::Stages<V>,
+                last: &V,
+                h: T,
+                mean_square: impl Fn(&V) -> T,
+            ) -> T {
+                let w = T::from_f64;
+                let _ = last;
+                let defect = $crate::arrays::combined(
+                    (w($e0), &stages.$e0k), [$((w($e), &stages.$ek),)* $((w($el), last))?],
+                );
+                let error = h.abs() * mean_square(&defect).sqrt();
+                // every other stage has a weight of its own
+                error $(+ $crate::arrays::nought::<T, _>(&stages.$silent))*
+            }
+        }
+
+        #[cfg(test)]
+        impl $crate::methods::explicit::order_conditions::ErrorWeights for $name {
+            fn errors() -> std::vec::Vec<std::vec::Vec<(&'static str, f64)>> {
+                std::vec![std::vec![
+                    (stringify!($e0k), $e0) $(, (stringify!($ek), $e))* $(, ("last", $el))?
+                ]]
+            }
+        }
+    };
+}
+
+pub(super) use {embedded, tableau};

@@ -1,0 +1,109 @@
+//! The times of the methods of fixed step.
+
+use crate::{IntegrationError, Real};
+
+/// Checks the length of a step.
+pub(super) fn check_step<T: Real>(step: T) -> Result<(), IntegrationError> {
+    if step > T::ZERO && step.is_finite() {
+        return Ok(());
+    }
+    Err(IntegrationError::Setting {
+        setting: "step",
+        value: step.to_f64(),
+        expected: "positive and finite; the target says whether time goes forwards or backwards",
+    })
+}
+
+/// The times origin + n h. They are computed from n, so that round-off does not accumulate.
+#[derive(Clone, Copy)]
+pub(crate) struct Grid<T> {
+    origin: T,
+    /// h with the sign of its direction.
+    step: T,
+    /// n; the origin is where time stands if this is 0.
+    count: u32,
+}
+
+/// The next step along a grid.
+pub(super) struct Leg<T> {
+    /// Its length, with the sign of its direction.
+    pub(super) length: T,
+    /// The time at its end.
+    pub(super) time: T,
+    /// The grid from there on.
+    pub(super) grid: Grid<T>,
+}
+
+/// After this many steps the grid starts anew, so that n is exact in `f32` too.
+const LONGEST_COUNT: u32 = 1 << 20;
+
+impl<T: Real> Grid<T> {
+    /// A grid whose origin is where time stands.
+    #[inline]
+    pub(super) fn new() -> Self {
+        Self { origin: T::ZERO, step: T::ZERO, count: 0 }
+    }
+
+    /// The step of length h from `now` towards the target.
+    ///
+    /// A step that would end within 10⁻⁶ h, or within round-off, before the target is stretched to it, so that
+    /// round-off never leaves a sliver; one that would pass it is shortened.
+    #[inline]
+    pub(super) fn next(&self, now: T, h: T, target: Option<T>) -> Leg<T> {
+        let backwards = target.is_some_and(|target| target < now);
+        let step = if backwards { -h } else { h };
+        let (origin, count) =
+            if self.count == 0 || self.step != step { (now, 0) } else { (self.origin, self.count) };
+        let count = count + 1;
+        let time = origin + T::from_u32(count) * step;
+        if let Some(target) = target {
+            let beyond = if backwards { target - time } else { time - target };
+            let round_off = T::from_f64(4.0) * T::EPSILON * now.abs().max(target.abs());
+            let sliver = (h * T::from_f64(1e-6)).max(round_off.min(h * T::from_f64(0.5)));
+            if beyond >= -sliver {
+                let length = if beyond.abs() <= round_off { step } else { target - now };
+                return Leg { length, time: target, grid: Self::new() };
+            }
+        }
+        let count = if count < LONGEST_COUNT { count } else { 0 };
+        Leg { length: step, time, grid: Self { origin, step, count } }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn times_do_not_accumulate_round_off() {
+        let (mut grid, mut now) = (Grid::new(), 0.0_f64);
+        for _ in 0..3_000_000 {
+            let leg = grid.next(now, 0.1, None);
+            (grid, now) = (leg.grid, leg.time);
+        }
+        assert!((now - 300_000.0).abs() < 1e-9, "{now}");
+    }
+
+    #[test]
+    fn an_end_on_the_grid_takes_whole_steps() {
+        let (mut grid, mut now, mut steps) = (Grid::new(), 0.0_f64, 0);
+        while now < 1.0 {
+            let leg = grid.next(now, 0.1, Some(1.0));
+            assert!((leg.length - 0.1).abs() == 0.0);
+            (grid, now) = (leg.grid, leg.time);
+            steps += 1;
+        }
+        assert_eq!((now, steps), (1.0, 10));
+    }
+
+    #[test]
+    fn a_step_below_the_resolution_of_time_still_gets_there() {
+        let (mut grid, mut now, mut steps) = (Grid::new(), 1.0_f32, 0);
+        while now < 1.000_001 {
+            let leg = grid.next(now, 1e-8, Some(1.000_001));
+            (grid, now) = (leg.grid, leg.time);
+            steps += 1;
+        }
+        assert!((60..=140).contains(&steps), "{steps}");
+    }
+}

@@ -1,0 +1,189 @@
+//! How much error a step may add to which component.
+
+use crate::arrays::Array;
+use crate::{Dim, IntegrationError, Real, State};
+
+/// The permitted error of the components of a state of type `X`: in component i, the absolute
+/// tolerance plus the relative one times the larger of |xᵢ| at both ends of the step
+/// (Hairer, Nørsett, Wanner, Solving Ordinary Differential Equations I, II.4 eq. (4.10)).
+///
+/// Implemented by [`Uniform`] and [`PerComponent`].
+pub trait Tolerance<X: State>: Copy {
+    /// Checks the values.
+    ///
+    /// # Errors
+    /// [`IntegrationError::Setting`] for the first value that is out of its range.
+    fn check(&self) -> Result<(), IntegrationError>;
+
+    /// The mean of the squares of eᵢ in units of the permitted error. What is not finite passes
+    /// through it.
+    fn mean_square(&self, e: &VecOf<X>, x0: &VecOf<X>, x1: &VecOf<X>) -> X::Scalar;
+}
+
+type VecOf<X> = <<X as State>::Dim as Dim>::Vec<<X as State>::Scalar>;
+
+/// The same tolerances for all components.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Uniform<T> {
+    pub(crate) rtol: T,
+    /// As `rtol` if not given.
+    pub(crate) atol: Option<T>,
+}
+
+/// Tolerances of each component.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct PerComponent<X> {
+    pub(crate) rtol: X,
+    pub(crate) atol: X,
+}
+
+impl<T: Real> Uniform<T> {
+    pub(crate) fn new() -> Self {
+        Self { rtol: T::DEFAULT_TOLERANCE, atol: None }
+    }
+}
+
+impl<T: Real, X: State<Scalar = T>> Tolerance<X> for Uniform<T> {
+    fn check(&self) -> Result<(), IntegrationError> {
+        check_pair("rtol", self.rtol, "atol", self.atol.unwrap_or(self.rtol))
+    }
+
+    #[inline]
+    fn mean_square(&self, e: &VecOf<X>, x0: &VecOf<X>, x1: &VecOf<X>) -> T {
+        let (rtol, atol) = (self.rtol, self.atol.unwrap_or(self.rtol));
+        mean_square(e, x0, x1, core::iter::repeat((rtol, atol)))
+    }
+}
+
+impl<T: Real, X: State<Scalar = T>> Tolerance<X> for PerComponent<X> {
+    fn check(&self) -> Result<(), IntegrationError> {
+        let (rtol, atol, names) = (self.rtol.to_array(), self.atol.to_array(), X::names());
+        for ((&rtol, &atol), name) in rtol.as_ref().iter().zip(atol.as_ref()).zip(names.as_ref()) {
+            check_pair("rtol", rtol, "atol", atol).map_err(|error| match error {
+                // the component says more than the kind of the tolerance, which the value shows
+                IntegrationError::Setting { value, expected, .. } => {
+                    IntegrationError::Setting { setting: name, value, expected }
+                }
+                other => other,
+            })?;
+        }
+        Ok(())
+    }
+
+    #[inline]
+    fn mean_square(&self, e: &VecOf<X>, x0: &VecOf<X>, x1: &VecOf<X>) -> T {
+        let (rtol, atol) = (self.rtol.to_array(), self.atol.to_array());
+        let each = rtol.as_ref().iter().copied().zip(atol.as_ref().iter().copied());
+        mean_square(e, x0, x1, each)
+    }
+}
+
+/// Checks the tolerances of a component.
+fn check_pair<T: Real>(
+    relative: &'static str,
+    rtol: T,
+    absolute: &'static str,
+    atol: T,
+) -> Result<(), IntegrationError> {
+    let refuse = |setting, value: T, expected| {
+        Err(IntegrationError::Setting { setting, value: value.to_f64(), expected })
+    };
+    let resolved = T::from_f64(4.0) * T::EPSILON;
+    if !(rtol.is_finite() && (rtol == T::ZERO || rtol >= resolved)) {
+        return refuse(
+            relative,
+            rtol,
+            "zero, or finite and at least four times the rounding unit of the numbers: 8.9e-16 in f64, \
+             4.8e-7 in f32",
+        );
+    }
+    if !(atol >= T::ZERO && atol.is_finite()) {
+        return refuse(absolute, atol, "finite and not negative");
+    }
+    if rtol == T::ZERO && atol == T::ZERO {
+        return refuse(absolute, atol, "positive where `rtol` is zero");
+    }
+    Ok(())
+}
+
+/// 1/N Σ (eᵢ/scᵢ)², scᵢ = atol + rtol max(|x₀ᵢ|, |x₁ᵢ|).
+#[inline]
+fn mean_square<T: Real, V: Array<T>>(e: &V, x0: &V, x1: &V, each: impl Iterator<Item = (T, T)>) -> T {
+    let mut sum = T::ZERO;
+    let mut count = T::ZERO;
+    let ends = x0.as_ref().iter().zip(x1.as_ref());
+    for ((&e, (x0, x1)), (rtol, atol)) in e.as_ref().iter().zip(ends).zip(each) {
+        // not `max`, which would take care of NaN: an end that is not finite is refused anyway
+        let larger = x0.abs().select_gt(x1.abs(), x0.abs(), x1.abs());
+        let ratio = e / rtol.mul_add(larger, atol);
+        // 0/0: a component that is exactly zero, with a relative tolerance only
+        let ratio = if e == T::ZERO { T::ZERO } else { ratio };
+        sum += ratio * ratio;
+        count += T::ONE;
+    }
+    sum / count.max(T::ONE)
+}
+
+#[cfg(test)]
+#[allow(clippy::float_cmp)] // exact values are meant
+mod tests {
+    use super::*;
+    use crate::D;
+
+    #[derive(Clone, Copy)]
+    struct Pair([f64; 2]);
+    impl State for Pair {
+        type Scalar = f64;
+        type Dim = D<2>;
+        fn to_array(&self) -> [f64; 2] {
+            self.0
+        }
+        fn from_array(x: [f64; 2]) -> Self {
+            Self(x)
+        }
+        fn names() -> [&'static str; 2] {
+            ["a", "b"]
+        }
+    }
+
+    fn check(rtol: f64, atol: Option<f64>) -> Result<(), IntegrationError> {
+        Tolerance::<Pair>::check(&Uniform { rtol, atol })
+    }
+
+    #[test]
+    fn tolerances_are_checked() {
+        assert_eq!(check(1e-6, None), Ok(()));
+        assert_eq!(check(0.0, Some(1e-9)), Ok(()));
+        let nan = f64::NAN;
+        for (rtol, atol) in [
+            (-1e-6, None),
+            (nan, None),
+            (f64::INFINITY, None),
+            (1e-17, None),
+            (0.0, None),
+            (0.0, Some(0.0)),
+            (1e-6, Some(-1.0)),
+            (1e-6, Some(nan)),
+        ] {
+            assert!(matches!(check(rtol, atol), Err(IntegrationError::Setting { .. })), "{rtol} {atol:?}");
+        }
+        let each = PerComponent { rtol: Pair([1e-6, 0.0]), atol: Pair([0.0, -1.0]) };
+        assert!(matches!(each.check(), Err(IntegrationError::Setting { setting: "b", value: -1.0, .. })));
+    }
+
+    #[test]
+    fn the_norm_keeps_what_is_not_finite() {
+        let uniform = Uniform { rtol: 1e-6, atol: None };
+        let norm = |e| Tolerance::<Pair>::mean_square(&uniform, &e, &[1.0, 1.0], &[1.0, 1.0]);
+        assert!(norm([0.0, f64::NAN]).is_nan());
+        assert!(norm([f64::INFINITY, 0.0]).is_infinite());
+        let relative = Uniform { rtol: 1e-6, atol: Some(0.0) };
+        assert_eq!(Tolerance::<Pair>::mean_square(&relative, &[0.0; 2], &[0.0; 2], &[0.0; 2]), 0.0);
+    }
+
+    #[test]
+    fn each_component_has_its_own() {
+        let each = PerComponent { rtol: Pair([0.0, 0.5]), atol: Pair([2.0, 0.0]) };
+        assert_eq!(each.mean_square(&[2.0, 4.0], &[9.0, 8.0], &[9.0, 1.0]), 1.0);
+    }
+}
