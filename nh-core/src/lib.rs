@@ -15,6 +15,7 @@ pub mod id;
 pub mod mechanics;
 pub mod model;
 pub mod program;
+pub mod reduction;
 pub mod report;
 pub mod system;
 pub mod violation;

@@ -42,6 +42,8 @@ pub enum Law {
     Force,
     /// What is asked for depends on nothing that `track` leaves out.
     Tracking,
+    /// A map between two systems is a reduction: mathematics (13), (14), CLMM Theorem 4.6.
+    Morphism,
     /// A question that the algebra could not decide.
     Decidable,
 }

@@ -3,6 +3,7 @@
 
 mod emit;
 mod expand;
+mod morphism;
 mod report;
 mod resolve;
 mod suggest;
@@ -147,4 +148,43 @@ pub fn nonholonomic(
     item: proc_macro::TokenStream,
 ) -> proc_macro::TokenStream {
     expand::nonholonomic(attribute.into(), item.into()).into()
+}
+
+/// Proves that a map between two declared systems carries the motion of one to that of the other.
+///
+/// `Full` and `Reduced` are structs with `#[nonholonomic]`; the map is a map of vector bundles over a
+/// map of the bases, written in the names of `Full`:
+///
+/// ```text
+/// morphism! { SleighOnThePlane -> Sleigh {
+///     parameters { J = J; m = m; }
+///     base       { theta = theta; x = x; y = y; }
+///     velocities {
+///         omega = der(theta);
+///         v1 = cos(theta) * der(x) + sin(theta) * der(y);
+///         v2 = -sin(theta) * der(x) + cos(theta) * der(y);
+///     }
+///     inputs     { torque = torque; }
+/// } }
+/// ```
+///
+/// What has the same name in both systems may be left out, and so may the sections; where `Reduced`
+/// has no basis of its own, so may all its velocities. Families are given as in declarations,
+/// `w[0] = …;`, `w[i in 0..3] = …;` or as a vector. `crate { ::path }` names the runtime where the
+/// dependency is renamed. A system is named by a path to its module, `models::Sleigh`, or is in scope
+/// with everything generated for it (`use models::*;`).
+///
+/// Proved is, or refused with the expression that should have been zero:
+///
+/// - the map is admissible and a morphism of brackets (CLMM 2.3), and onto on every fibre;
+/// - L = L' after the map; D goes onto D', for linear, affine and nonlinear constraints;
+/// - the forces do the same work on every velocity that the constraints allow.
+///
+/// Then motions go to motions (CLMM Theorems 4.6 and 7.8), and the macro implements
+/// `Reduction<Reduced> for Full`. Where the velocities of `Reduced` determine those of `Full` it also
+/// implements `Reconstruction<Reduced> for Full`: the dropped coordinates follow from the reduced
+/// motion.
+#[proc_macro]
+pub fn morphism(input: proc_macro::TokenStream) -> proc_macro::TokenStream {
+    morphism::morphism(input.into()).into()
 }

@@ -76,6 +76,7 @@ mod linear;
 pub mod methods;
 pub mod prelude;
 mod projection;
+mod reduction;
 mod scalar;
 mod serde_impls;
 mod sine;
@@ -90,6 +91,7 @@ pub use integrator::{Integrator, Statistics};
 pub use methods::{
     Bs23, Dop853, Dopri5, Euler, Heun, ImplicitMidpoint, Method, Projected, Ralston, Rk4, Tsit5, Vern9,
 };
+pub use reduction::{ByStages, Reconstructed, Reconstruction, Reduction};
 pub use scalar::{Real, Scalar};
 
 /// # Examples
@@ -211,6 +213,9 @@ pub use scalar::{Real, Scalar};
 #[cfg(feature = "macros")]
 pub use nh_macros::nonholonomic;
 
+#[cfg(feature = "macros")]
+pub use nh_macros::morphism;
+
 /// What generated code names. Not part of the public interface: it may change in any release.
 #[doc(hidden)]
 pub mod __private {
@@ -219,10 +224,13 @@ pub mod __private {
     pub use crate::projection::{check_identities, project};
     pub use crate::{
         Constrained, D, Dim, Dynamics, Energy, InputFault, Jacobian, Observed, ParameterError,
-        ParameterFault, ProjectionError, Real, Scalar, ScalarOf, State, StateFault,
+        ParameterFault, ProjectionError, Real, Reconstruction, Reduction, Scalar, ScalarOf, State,
+        StateFault,
     };
     pub use core;
     pub use nalgebra;
+    #[cfg(feature = "macros")]
+    pub use nh_macros::morphism;
     #[cfg(feature = "serde")]
     pub use serde;
 }

@@ -5,6 +5,7 @@ pub use crate::{
     IntegrationError, Integrator, Jacobian, Observed, ParameterError, Projected, Ralston, Real, Rk4, Scalar,
     State, Statistics, Tsit5, Vern9,
 };
+pub use crate::{Reconstructed, Reconstruction, Reduction};
 
 #[cfg(feature = "macros")]
-pub use nh_macros::nonholonomic;
+pub use nh_macros::{morphism, nonholonomic};

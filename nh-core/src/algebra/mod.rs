@@ -18,6 +18,7 @@ mod range;
 mod substitute;
 mod sum;
 mod transcendental;
+mod transplant;
 mod zero_test;
 
 pub use derivative::Derivation;
@@ -31,4 +32,5 @@ pub use modular::{FieldPoint, NoValue};
 pub use number::Rational;
 pub use range::{Facts, Range};
 pub use substitute::Substitution;
+pub use transplant::Transplant;
 pub use zero_test::{Verdict, Witness};

@@ -54,22 +54,30 @@ impl Substitution {
         if node.operands().all(|operand| self.known[&operand] == operand) {
             return id;
         }
+        graph.rebuilt(node, |operand| self.known[&operand])
+    }
+}
+
+impl Graph {
+    /// The node over the images of its operands. Symbols have no operands: they stay.
+    pub(super) fn rebuilt(&mut self, node: Node, image: impl Fn(ExprId) -> ExprId) -> ExprId {
         match node {
-            Node::Number(_) | Node::Pi | Node::Symbol(_) => id,
+            Node::Number(value) => self.number(value),
+            Node::Pi => self.pi(),
+            Node::Symbol(symbol) => self.symbol(symbol),
             Node::Sum { constant, terms } => {
-                let one = graph.one();
-                let mut summands: Vec<_> =
-                    terms.iter().map(|(term, c)| (c.clone(), self.known[term])).collect();
+                let one = self.one();
+                let mut summands: Vec<_> = terms.iter().map(|(term, c)| (c.clone(), image(*term))).collect();
                 summands.push((constant, one));
-                graph.linear_combination(&summands)
+                self.linear_combination(&summands)
             }
             Node::Product { coefficient, factors } => {
-                let factors: Vec<_> = factors.iter().map(|(base, e)| (self.known[base], e.clone())).collect();
-                let product = graph.product(&factors);
-                graph.scale(coefficient, product)
+                let factors: Vec<_> = factors.iter().map(|(base, e)| (image(*base), e.clone())).collect();
+                let product = self.product(&factors);
+                self.scale(coefficient, product)
             }
-            Node::Apply(function, x) => graph.apply(function, self.known[&x]),
-            Node::Apply2(function, x, y) => graph.apply2(function, self.known[&x], self.known[&y]),
+            Node::Apply(function, x) => self.apply(function, image(x)),
+            Node::Apply2(function, x, y) => self.apply2(function, image(x), image(y)),
         }
     }
 }

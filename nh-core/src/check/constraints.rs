@@ -225,7 +225,7 @@ fn contradiction(
 }
 
 /// How a constraint is called in messages.
-pub(super) fn name_of(model: &Model, id: ConstraintId) -> String {
+pub(crate) fn name_of(model: &Model, id: ConstraintId) -> String {
     match &model.constraints[id].label {
         Some(label) => format!("`{label}`"),
         None => format!("constraint {}", id.index() + 1),

@@ -7,12 +7,12 @@ use crate::id::ExprId;
 const SHOWN: usize = 160;
 
 /// The expression as shown in messages.
-pub(super) fn shown(graph: &Graph, expression: ExprId) -> String {
+pub(crate) fn shown(graph: &Graph, expression: ExprId) -> String {
     graph.text_within(expression, SHOWN)
 }
 
 /// What should have been zero, and where it is not.
-pub(super) fn not_zero(graph: &Graph, defect: ExprId, witness: &Witness) -> String {
+pub(crate) fn not_zero(graph: &Graph, defect: ExprId, witness: &Witness) -> String {
     let place = witness.place(graph);
     let at = if place.is_empty() { String::new() } else { format!(" at {place}") };
     let shown = shown(graph, defect);
@@ -31,12 +31,12 @@ fn short(value: f64) -> String {
 }
 
 /// `1 constraint`, `2 constraints`.
-pub(super) fn counted(number: usize, one: &str, several: &str) -> String {
+pub(crate) fn counted(number: usize, one: &str, several: &str) -> String {
     format!("{number} {}", if number == 1 { one } else { several })
 }
 
 /// `a`, `a and b`, `a, b and c`.
-pub(super) fn listed<S: AsRef<str>>(names: &[S]) -> String {
+pub(crate) fn listed<S: AsRef<str>>(names: &[S]) -> String {
     match names {
         [] => String::new(),
         [only] => only.as_ref().to_owned(),

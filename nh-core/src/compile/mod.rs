@@ -39,7 +39,24 @@ pub(crate) struct Proved {
 ///
 /// # Errors
 /// Everything found wrong in the first stage that finds something wrong.
-pub fn compile(mut model: Model) -> Result<System, Vec<Violation>> {
+pub fn compile(model: Model) -> Result<System, Vec<Violation>> {
+    let (proved, chosen) = prove(model)?;
+    // 7. the equations, proved regular, and the claims about them
+    let system = match chosen {
+        Chosen::Adapted { distribution, conditions, reason } => {
+            adapted::derive(proved, &distribution, &conditions, &reason)?
+        }
+        Chosen::Projected { reason } => projected::derive(proved, &reason)?,
+    };
+    // 8. what is tracked
+    slice::slice(system)
+}
+
+/// The first stages: a declaration that is checked, and the form that its equations will have.
+///
+/// # Errors
+/// As [`compile`].
+pub(crate) fn prove(mut model: Model) -> Result<(Proved, Chosen), Vec<Violation>> {
     // 1. every expression is defined, and smooth where it is differentiated; facts do not contradict
     let broken = check::declared_expressions(&model);
     let facts = both(broken, check::facts(&mut model))?;
@@ -66,16 +83,7 @@ pub fn compile(mut model: Model) -> Result<System, Vec<Violation>> {
         }
         None => check::choose_formulation(&mut model, &constraints, &facts, &base)?,
     };
-    // 7. the equations, proved regular, and the claims about them
-    let proved = Proved { model, motion, base, facts, constraints, system, symmetries };
-    let system = match chosen {
-        Chosen::Adapted { distribution, conditions, reason } => {
-            adapted::derive(proved, &distribution, &conditions, &reason)?
-        }
-        Chosen::Projected { reason } => projected::derive(proved, &reason)?,
-    };
-    // 8. what is tracked
-    slice::slice(system)
+    Ok((Proved { model, motion, base, facts, constraints, system, symmetries }, chosen))
 }
 
 /// The constraints, in the basis that the frame makes, or the distribution that sections span.

@@ -57,6 +57,14 @@ impl StructureFunctions {
         }
     }
 
+    /// The structure functions with every entry replaced by its image.
+    #[must_use]
+    pub fn mapped(&self, mut image: impl FnMut(ExprId) -> ExprId) -> Self {
+        let brackets =
+            self.brackets.iter().map(|bracket| bracket.iter().map(|entry| image(*entry)).collect()).collect();
+        Self { rank: self.rank, brackets }
+    }
+
     /// The non-zero brackets with α < β.
     pub fn nonzero<'a>(
         &'a self,

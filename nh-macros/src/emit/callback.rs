@@ -15,7 +15,7 @@ use super::layout::plain;
 pub(super) fn emit(context: &Context) -> TokenStream {
     let layout = context.layout;
     let name = plain(&layout.name);
-    let (attribute, item) = (&layout.attribute, &layout.item);
+    let (attribute, item) = (&layout.attribute, &layout.written);
     let is_public = matches!(layout.visibility, syn::Visibility::Public(_));
     // a public struct in the body of a function is no reason to warn
     let export = is_public.then(|| quote!(#[allow(non_local_definitions)] #[macro_export]));
@@ -39,7 +39,7 @@ pub(super) fn emit(context: &Context) -> TokenStream {
 }
 
 /// The name beside the struct.
-pub(super) fn alias(name: &str) -> Ident {
+pub(crate) fn alias(name: &str) -> Ident {
     format_ident!("__nh_declaration_{name}", span = Span::call_site())
 }
 

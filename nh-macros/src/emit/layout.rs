@@ -19,6 +19,8 @@ pub(crate) struct Layout {
     pub(crate) attribute: TokenStream,
     /// The struct as it is emitted: verbatim, except for its `#[nh(…)]` attributes.
     pub(crate) item: TokenStream,
+    /// The struct as it was written, for the macro that hands the declaration on.
+    pub(crate) written: TokenStream,
     /// The struct's name.
     pub(crate) name: Ident,
     /// Its visibility, which generated items take over.
@@ -27,6 +29,10 @@ pub(crate) struct Layout {
     pub(crate) generics: syn::Generics,
     /// The scalar type.
     pub(crate) scalar: ast::Scalar,
+    /// Whether the scalar is a type that stands for the struct's parameter.
+    pub(crate) is_fixed: bool,
+    /// The fields that are no parameters.
+    pub(crate) skipped: usize,
     /// The path of the runtime: `::nh_runtime`, unless the declaration says otherwise.
     pub(crate) runtime: TokenStream,
     /// The names of the generated types.
@@ -145,10 +151,13 @@ impl Layout {
         Self {
             attribute,
             item: structure.item.clone(),
+            written: structure.written.clone(),
             name: structure.name.clone(),
             visibility: structure.visibility.clone(),
             generics: structure.generics.clone(),
             scalar: structure.scalar.clone(),
+            is_fixed: false,
+            skipped: structure.skipped.len(),
             runtime: quote!(::nh_runtime),
             types: TypeNames::of(&structure.name),
             parameters: structure.parameters.iter().map(Family::from).collect(),

@@ -16,6 +16,7 @@ mod jacobian;
 mod layout;
 mod lint;
 mod momenta;
+mod morphism;
 mod names;
 mod number;
 mod observed;
@@ -41,7 +42,9 @@ use context::Context;
 use function::program;
 use scope::Scope;
 
+pub(crate) use callback::alias;
 pub(crate) use layout::{Family, Layout, TypeNames};
+pub(crate) use morphism::morphism;
 pub(crate) use stubs::stubs;
 
 /// The struct and everything that its declaration gives it.

@@ -62,6 +62,19 @@ impl<'a> Scope<'a> {
         self
     }
 
+    /// The same with places for some symbols.
+    pub(super) fn with_places(
+        mut self,
+        argument: Argument,
+        symbols: &[SymbolId],
+        places: Vec<TokenStream>,
+    ) -> Self {
+        for (symbol, place) in symbols.iter().zip(places) {
+            self.places.insert(*symbol, (argument, place));
+        }
+        self
+    }
+
     /// Where a symbol's value is.
     pub(super) fn place(&self, symbol: SymbolId) -> Option<&(Argument, TokenStream)> {
         self.places.get(&symbol)

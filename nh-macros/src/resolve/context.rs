@@ -29,6 +29,14 @@ pub(super) enum Context {
     Symmetries,
     /// `assume`
     Assume,
+    /// `parameters` of a map between systems
+    MapParameters,
+    /// `base` of a map between systems
+    MapBase,
+    /// `velocities` of a map between systems
+    MapVelocities,
+    /// `inputs` of a map between systems
+    MapInputs,
 }
 
 /// Something that not every section may use.
@@ -64,6 +72,10 @@ impl Context {
             Self::Conserved => "conserved",
             Self::Symmetries => "symmetries",
             Self::Assume => "assume",
+            Self::MapParameters => "parameters",
+            Self::MapBase => "base",
+            Self::MapVelocities => "velocities",
+            Self::MapInputs => "inputs",
         }
     }
 
@@ -75,7 +87,9 @@ impl Context {
             Self::Frame => matches!(usage, Usage::Velocity | Usage::Rate),
             // moving constraints have moving sections
             Self::Symmetries => matches!(usage, Usage::Velocity | Usage::Rate | Usage::Time),
-            Self::On => false,
+            Self::On | Self::MapParameters | Self::MapBase => false,
+            Self::MapVelocities => matches!(usage, Usage::Velocity | Usage::Rate),
+            Self::MapInputs => !matches!(usage, Usage::Method),
             Self::Lagrangian | Self::Constraints | Self::Conserved => {
                 !matches!(usage, Usage::Input | Usage::Branches | Usage::Method)
             }
@@ -101,6 +115,18 @@ impl Context {
             (Usage::Velocity | Usage::Rate, Self::On) => error
                 .evidence("identities are functions of the base coordinates")
                 .way_out("relations between velocities have their place in `constraints`"),
+            (_, Self::MapParameters) => error
+                .evidence("the parameters of a system are constants")
+                .way_out("write them in the parameters of the first system"),
+            (_, Self::MapBase) => error
+                .evidence("the base of one system is mapped to that of the other: a point to a point")
+                .way_out("write base coordinates in those of the first system"),
+            (_, Self::MapVelocities) => error
+                .evidence("velocities are mapped linearly, with coefficients on the base")
+                .way_out("write a sum of velocities or `der(…)` with such coefficients"),
+            (_, Self::MapInputs) => {
+                error.way_out("write a formula in the inputs and the state of the first system")
+            }
             (Usage::Velocity, _) => error
                 .evidence("a quasi-velocity is defined as a combination of the `der(…)`")
                 .way_out("write its definition out in the `der(…)`"),

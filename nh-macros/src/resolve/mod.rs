@@ -19,6 +19,7 @@ mod index;
 mod items;
 mod kinematics;
 mod methods;
+mod morphism;
 mod origins;
 mod outline;
 mod places;
@@ -34,6 +35,7 @@ mod tests;
 
 use nh_core::model::{Located, Model};
 
+pub(crate) use self::morphism::{ResolvedMorphism, Unrelated, resolve_morphism};
 pub(crate) use self::origins::Origins;
 pub(crate) use self::outline::Outline;
 use self::resolver::Resolver;

@@ -46,6 +46,12 @@ impl Reports {
         Reported
     }
 
+    /// Reports an error about something that is missing, which is no node.
+    pub(super) fn report_missing(&mut self, error: Diagnostic) {
+        self.places.insert((0, self.places.len()));
+        self.errors.push(error);
+    }
+
     /// Refuses all further work: an error was reported, and the rest is not worth looking at.
     pub(super) fn stop(&mut self) {
         self.steps = 0;

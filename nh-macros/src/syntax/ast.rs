@@ -87,6 +87,8 @@ pub(crate) struct Section<T> {
 pub(crate) struct StructDecl {
     /// The item as it is emitted: verbatim, except for its `#[nh(…)]` attributes.
     pub(crate) item: TokenStream,
+    /// The item as it was written.
+    pub(crate) written: TokenStream,
     /// The struct's name, where errors about the whole declaration point.
     pub(crate) name: Ident,
     /// The visibility, which generated types take over.

@@ -10,6 +10,7 @@ mod habits;
 mod items;
 pub(crate) mod limits;
 mod lines;
+pub(crate) mod morphism;
 mod names;
 mod number;
 mod render;

@@ -229,7 +229,7 @@ fn formulation(body: &Group) -> Result<Formulation, Diagnostic> {
 }
 
 /// The path of the runtime.
-fn runtime(body: &Group) -> Result<TokenStream, Diagnostic> {
+pub(super) fn runtime(body: &Group) -> Result<TokenStream, Diagnostic> {
     let tokens = body.stream();
     match syn::Path::parse_mod_style.parse2(tokens.clone()) {
         Ok(_) => Ok(tokens),

@@ -56,7 +56,7 @@ fn fields_without_own(fields: TokenStream) -> TokenStream {
 
 /// Reads the item.
 pub(crate) fn structure(item: TokenStream, errors: &mut Errors) -> Option<StructDecl> {
-    let stripped = without_own_attributes(item.clone());
+    let (written, stripped) = (item.clone(), without_own_attributes(item.clone()));
     if let Some(error) = no_struct(&item) {
         errors.push(error);
         return None;
@@ -103,6 +103,7 @@ pub(crate) fn structure(item: TokenStream, errors: &mut Errors) -> Option<Struct
     let scalar = reader.scalar.map_or(Scalar::F64, |(scalar, _)| scalar);
     Some(StructDecl {
         item: stripped,
+        written,
         name: input.ident,
         visibility: input.vis,
         generics: input.generics,

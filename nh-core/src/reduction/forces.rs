@@ -1,0 +1,114 @@
+//! The forces are related: Υ and Φ^*Υ' do the same work on every virtual displacement.
+
+use super::assuming;
+use super::bundle_map::BundleMap;
+use super::laws::{Sides, broken};
+use super::maps::reduced_velocities;
+use super::side::Side;
+use crate::algebra::Graph;
+use crate::id::ExprId;
+use crate::violation::{Law, Violation};
+
+/// Forces that are no formulas cannot be compared.
+pub(super) fn opaque(source: &Side, target: &Side, map: &BundleMap) -> Option<Violation> {
+    [source, target].into_iter().find_map(|side| {
+        let model = &side.proved.model;
+        let forces: Vec<ExprId> = model.forces.iter().map(|force| force.value).collect();
+        let symbols = model.graph.symbols_in(&forces);
+        let call = model.calls.iter().find(|call| symbols.contains(&call.symbol))?;
+        Some(Violation {
+            law: Law::Morphism,
+            origin: map.origin,
+            what: "whether the forces are related cannot be known".into(),
+            evidence: format!(
+                "a force of `{}` calls `self.{}`, which is no formula",
+                model.name, call.method
+            ),
+            way_out: "let the force be an input of both systems, or write it as a formula".into(),
+        })
+    })
+}
+
+/// Compares the forces along a basis of D, or on the virtual displacements as a whole.
+pub(super) fn forces(source: &mut Side, target: &Side, map: &BundleMap) -> Vec<Violation> {
+    let left = source.proved.system.forces.clone();
+    let right = pulled_back(source, target, map);
+    let pairs = match source.distribution.clone() {
+        Some(distribution) => {
+            let model = &mut source.proved.model;
+            let graph = &mut model.graph;
+            let mut pairs = Vec::new();
+            for (a, symbol) in distribution.independent.iter().enumerate() {
+                let section = distribution.section(a);
+                let mut on_section = graph.inner_product(&section, &left);
+                for (direction, value) in &source.proved.system.forces_on_distribution {
+                    if direction == symbol {
+                        on_section = graph.add(on_section, *value);
+                    }
+                }
+                let image = graph.inner_product(&section, &right);
+                pairs.push((on_section, image, graph.symbols()[*symbol].clone()));
+            }
+            pairs
+        }
+        None => {
+            let graph = source.graph();
+            let defect = left.iter().zip(&right).map(|(left, right)| graph.sub(*left, *right)).collect();
+            if source.rank_on_displacements(&vec![defect]) == Ok(0) {
+                return Vec::new();
+            }
+            let names = source.proved.model.sections.iter().map(|section| section.name.clone());
+            left.into_iter().zip(right).zip(names).map(|((left, right), name)| (left, right, name)).collect()
+        }
+    };
+    let mut violations = Vec::new();
+    for (left, right, name) in pairs {
+        let defect = source.graph().sub(left, right);
+        let verdict = source.vanishes_on_constraints(defect);
+        if verdict.is_zero() {
+            continue;
+        }
+        let (left, right) = (source.restricted(left), source.restricted(right));
+        let words = [
+            format!("along `{name}`, that of `{}` is", source.name()),
+            format!("and that of `{}` becomes", target.name()),
+        ];
+        let what = "the forces are not related".to_owned();
+        let way_out = "correct the forces, the map of the inputs, or the parameters".to_owned();
+        let sides = Sides { left, right, words };
+        violations.push(broken(source, map.origin, what, &sides, &verdict, way_out));
+    }
+    violations
+}
+
+/// Φ^*Υ' along each section of E. A force of the target along a spanning section of D' acts on the
+/// velocity of that section.
+fn pulled_back(source: &mut Side, target: &Side, map: &BundleMap) -> Vec<ExprId> {
+    let mut pull_back = map.pull_back(target);
+    let images = pull_back.apply_all(source.graph(), &target.proved.system.forces);
+    let columns = Graph::transposed(&map.fibre);
+    let mut forces = vec![source.graph().zero(); source.velocities().len()];
+    for (force, column) in forces.iter_mut().zip(&columns) {
+        *force = source.graph().inner_product(column, &images);
+    }
+    let along: Vec<_> = target.proved.system.forces_on_distribution.clone();
+    if !along.is_empty()
+        && let Some(distribution) = &target.distribution
+    {
+        let reduced = reduced_velocities(source, target, map);
+        let velocities = source.velocities().to_vec();
+        for (direction, value) in along {
+            let Some(a) = distribution.independent.iter().position(|symbol| *symbol == direction) else {
+                continue;
+            };
+            let graph = source.graph();
+            let value = pull_back.apply(graph, value);
+            for (force, symbol) in forces.iter_mut().zip(&velocities) {
+                let share = graph.partial(reduced[a], *symbol);
+                let share = graph.mul(share, value);
+                *force = graph.add(*force, share);
+            }
+        }
+    }
+    forces.into_iter().map(|force| assuming(source, force)).collect()
+}

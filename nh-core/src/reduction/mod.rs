@@ -1,0 +1,109 @@
+//! Reductions: maps between two declared systems that carry the motion of one to that of the other,
+//! MATHEMATICS.md section 6, CLMM 2.3 and Theorems 4.6 and 7.8.
+//!
+//! A bundle map Φ: E → E' over φ: M → M' is a reduction if it is a morphism of Lie algebroids, onto
+//! on every fibre, L = L'∘Φ, Φ(D) = D', and the forces are related. Everything is proved; what fails
+//! is a [`Violation`] with its defect, in the symbols of the first system.
+
+mod bundle_map;
+mod dynamics;
+mod forces;
+mod laws;
+mod maps;
+mod side;
+
+use crate::id::{CoordId, ExprId, InputId, Origin, ParamId, SymbolId};
+use crate::mechanics::Procedure;
+use crate::model::{Located, Model};
+use crate::violation::Violation;
+
+use bundle_map::BundleMap;
+use side::Side;
+
+/// A map between two declared systems, as it is declared: expressions of the source's graph for the
+/// symbols of the target.
+#[derive(Clone, Debug)]
+pub struct MorphismDecl {
+    /// The whole of it: blamed where no line is at fault.
+    pub origin: Origin,
+    /// The parameters of the target.
+    pub parameters: Vec<(ParamId, Located)>,
+    /// φ^i: the coordinates of the target.
+    pub coordinates: Vec<(CoordId, Located)>,
+    /// Φ y: the velocities of the target, by their symbols in its graph; may be left out where E' = TM'.
+    pub velocities: Vec<(SymbolId, Located)>,
+    /// The inputs of the target; inputs and the state of the source may occur.
+    pub inputs: Vec<(InputId, Located)>,
+}
+
+/// A proved reduction: the functions that it consists of, over the graph of the source.
+#[derive(Clone, Debug)]
+pub struct Reduction {
+    /// The source; its graph holds every expression.
+    pub source: Model,
+    /// The state of the source.
+    pub state: Vec<SymbolId>,
+    /// The state of the target, in its graph.
+    pub target_state: Vec<SymbolId>,
+    /// Outputs: the parameters of the target.
+    pub parameters: Procedure,
+    /// Outputs: the state of the target.
+    pub reduced: Procedure,
+    /// Outputs: the inputs of the target.
+    pub inputs: Procedure,
+    /// The way back, where the velocities of the target determine those of the source.
+    pub reconstruction: Option<Reconstruction>,
+    /// What was proved, as text.
+    pub report: String,
+}
+
+/// The way back from the state of the target and the coordinates that the reduction drops.
+#[derive(Clone, Debug)]
+pub struct Reconstruction {
+    /// The coordinates of the source that are not coordinates of the target.
+    pub dropped: Vec<SymbolId>,
+    /// What stands for the state of the target.
+    pub reduced: Vec<SymbolId>,
+    /// Outputs: the rates of the dropped coordinates.
+    pub rates: Procedure,
+    /// Outputs: the state of the source.
+    pub state: Procedure,
+}
+
+/// Why there is no reduction.
+#[derive(Clone, Debug)]
+pub enum Refusal {
+    /// One of the systems is ill-posed, as its own declaration says.
+    IllPosed,
+    /// Laws that the map breaks.
+    Broken(Vec<Violation>),
+}
+
+/// Proves that a declared map is a reduction, and derives its functions.
+///
+/// # Errors
+/// The laws that the map breaks, each with its defect.
+pub fn reduce(source: Model, target: Model, declared: &MorphismDecl) -> Result<Reduction, Refusal> {
+    let mut source = Side::of(source)?;
+    let target = Side::of(target)?;
+    // 1. Φ: parameters, base and fibres, and the target pulled back by it
+    let map = BundleMap::of(&mut source, &target, declared).map_err(Refusal::Broken)?;
+    // 2. the laws of the map, mathematics (13) and (14)
+    let broken = laws::of_the_map(&mut source, &target, &map);
+    fence(broken)?;
+    // 3. what moves is related: L, D, forces
+    let broken = dynamics::related(&mut source, &target, &map);
+    fence(broken)?;
+    // 4. the functions
+    maps::functions(source, &target, &map).map_err(|violation| Refusal::Broken(vec![violation]))
+}
+
+fn fence(broken: Vec<Violation>) -> Result<(), Refusal> {
+    if broken.is_empty() { Ok(()) } else { Err(Refusal::Broken(broken)) }
+}
+
+/// An expression with the facts about the source's parameters put in.
+fn assuming(source: &mut Side, value: ExprId) -> ExprId {
+    let facts = source.proved.facts.clone();
+    source.proved.model.graph.assuming(&[value], &facts)[0]
+}

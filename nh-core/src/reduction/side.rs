@@ -1,0 +1,140 @@
+//! One of the two systems of a morphism, with what the first stages prove of it.
+
+use super::Refusal;
+use crate::algebra::{Graph, Matrix, Substitution, Verdict};
+use crate::check::Chosen;
+use crate::compile::{Proved, compile, prove};
+use crate::geometry::{ConstraintDistribution, Manifold};
+use crate::id::{ExprId, SymbolId};
+use crate::model::Model;
+
+/// A checked system.
+pub(super) struct Side {
+    /// What was proved.
+    pub(super) proved: Proved,
+    /// D with its basis, in the adapted formulation.
+    pub(super) distribution: Option<Box<ConstraintDistribution>>,
+    /// The state: coordinates, then velocities.
+    pub(super) state: Vec<SymbolId>,
+    /// Where the constraints hold over the embedded base.
+    manifold: Manifold,
+}
+
+impl Side {
+    /// Checks a declaration; what is wrong with it, it says itself.
+    pub(super) fn of(model: Model) -> Result<Self, Refusal> {
+        let whole = model.tracked.is_some().then(|| compile(model.clone()));
+        let (mut proved, chosen) = prove(model).map_err(|_| Refusal::IllPosed)?;
+        let velocities = proved.system.algebroid.velocities.clone();
+        let distribution = match chosen {
+            Chosen::Adapted { distribution, .. } => Some(distribution),
+            Chosen::Projected { .. } => None,
+        };
+        let manifold = match distribution {
+            Some(_) => proved.base.clone(),
+            None => proved.constraints.manifold(&mut proved.model.graph, &velocities),
+        };
+        let state = match whole {
+            Some(system) => system.map_err(|_| Refusal::IllPosed)?.state(),
+            None => {
+                let coordinates = proved.model.coordinates.iter().map(|coordinate| coordinate.symbol);
+                let kept = distribution.as_ref().map_or(velocities, |d| d.independent.clone());
+                coordinates.chain(kept).collect()
+            }
+        };
+        Ok(Self { proved, distribution, state, manifold })
+    }
+
+    /// The expressions.
+    pub(super) fn graph(&mut self) -> &mut Graph {
+        &mut self.proved.model.graph
+    }
+
+    /// The name of the system.
+    pub(super) fn name(&self) -> String {
+        self.proved.model.name.clone()
+    }
+
+    /// The quasi-velocities of E.
+    pub(super) fn velocities(&self) -> &[SymbolId] {
+        &self.proved.system.algebroid.velocities
+    }
+
+    /// The rank of D.
+    pub(super) fn rank(&self) -> usize {
+        match &self.distribution {
+            Some(distribution) => distribution.rank(),
+            None => self.velocities().len().saturating_sub(self.proved.constraints.residuals.len()),
+        }
+    }
+
+    /// Functions that vanish where the constraints hold, and nowhere else.
+    pub(super) fn residuals(&mut self) -> Vec<ExprId> {
+        let Some(distribution) = &self.distribution else { return self.proved.constraints.residuals.clone() };
+        let graph = &mut self.proved.model.graph;
+        let velocity = self.proved.system.algebroid.velocity(graph);
+        let constraints = &distribution.constraints;
+        let rows = constraints.annihilator.iter().zip(&constraints.drift);
+        rows.map(|(row, drift)| {
+            let linear = graph.inner_product(row, &velocity);
+            graph.add(linear, *drift)
+        })
+        .collect()
+    }
+
+    /// A function on E in the variables of the state, where the constraints hold.
+    pub(super) fn restricted(&mut self, function: ExprId) -> ExprId {
+        let graph = &mut self.proved.model.graph;
+        let velocities = &self.proved.system.algebroid.velocities;
+        let mut restriction = match &self.distribution {
+            Some(distribution) => distribution.restriction(graph, velocities),
+            None => Substitution::new([]),
+        };
+        restriction.apply(graph, function)
+    }
+
+    /// Whether a function on E vanishes where the constraints hold.
+    pub(super) fn vanishes_on_constraints(&mut self, function: ExprId) -> Verdict {
+        let restricted = self.restricted(function);
+        self.manifold.zero_test(&mut self.proved.model.graph, restricted)
+    }
+
+    /// Whether a function on E or on the base vanishes over the embedded base.
+    pub(super) fn vanishes(&mut self, function: ExprId) -> Verdict {
+        self.proved.base.zero_test(&mut self.proved.model.graph, function)
+    }
+
+    /// The generic rank of a matrix over the embedded base.
+    pub(super) fn rank_over_base(&mut self, matrix: &Matrix) -> Result<usize, String> {
+        let restricted = self.proved.base.restrict_matrix(&mut self.proved.model.graph, matrix);
+        self.proved.model.graph.generic_rank(&restricted)
+    }
+
+    /// The rank of covectors on the virtual displacements: Φ on ker ∂φ/∂y.
+    pub(super) fn rank_on_displacements(&mut self, covectors: &Matrix) -> Result<usize, String> {
+        if let Some(distribution) = &self.distribution {
+            let columns: Vec<Vec<ExprId>> =
+                (0..distribution.rank()).map(|a| distribution.section(a)).collect();
+            let graph = &mut self.proved.model.graph;
+            let product: Matrix = covectors
+                .iter()
+                .map(|row| columns.iter().map(|column| graph.inner_product(row, column)).collect())
+                .collect();
+            return self.rank_over_base(&product);
+        }
+        // rank Φ|ker J = rank [J; Φ] − rank J
+        let residuals = self.residuals();
+        let velocities = self.velocities().to_vec();
+        let graph = &mut self.proved.model.graph;
+        let jacobian: Matrix = residuals
+            .iter()
+            .map(|residual| velocities.iter().map(|symbol| graph.partial(*residual, *symbol)).collect())
+            .collect();
+        let both: Matrix = jacobian.iter().chain(covectors).cloned().collect();
+        let [all, alone] = [&both, &jacobian].map(|matrix| {
+            let restricted = self.manifold.restrict_matrix(&mut self.proved.model.graph, matrix);
+            if restricted.is_empty() { Ok(0) } else { self.proved.model.graph.generic_rank(&restricted) }
+        });
+        Ok(all? - alone?)
+    }
+}
