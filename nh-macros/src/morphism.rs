@@ -9,7 +9,7 @@ use proc_macro2::{TokenStream, TokenTree};
 use quote::quote;
 
 use crate::emit::{self, Layout, alias};
-use crate::report::{Diagnostic, compile_errors};
+use crate::report::compile_errors;
 use crate::resolve::{Unrelated, resolve_morphism};
 use crate::syntax::morphism::{MorphismDecl, SystemPath, handed_over, morphism as parse};
 use crate::syntax::{self};
@@ -30,10 +30,7 @@ pub(crate) fn morphism(input: TokenStream) -> TokenStream {
         [] => fetch(&declaration, &declaration.source, &[], &map),
         [source] => fetch(&declaration, &declaration.target, std::slice::from_ref(source), &map),
         // the one fetched last comes first
-        [target, source, ..] => match prove(&declaration, source, target) {
-            Ok(items) => items,
-            Err(errors) => compile_errors(&errors),
-        },
+        [target, source, ..] => prove(&declaration, source, target),
     }
 }
 
@@ -65,7 +62,7 @@ fn prove(
     declaration: &MorphismDecl,
     (source_attribute, source_item): &(TokenStream, TokenStream),
     (target_attribute, target_item): &(TokenStream, TokenStream),
-) -> Result<TokenStream, Vec<Diagnostic>> {
+) -> TokenStream {
     let read = |attribute: &TokenStream, item: &TokenStream| {
         let declared = syntax::parse(attribute.clone(), item.clone()).ok()?;
         let layout = Layout::of_struct(&declared.structure, attribute.clone());
@@ -75,23 +72,31 @@ fn prove(
     let (Some((source, mut source_layout)), Some((target, mut target_layout))) =
         (source, read(target_attribute, target_item))
     else {
-        return Ok(TokenStream::new());
+        return TokenStream::new();
     };
     let resolved =
         resolve_morphism(declaration, (&source, &mut source_layout), (&target, &mut target_layout));
-    let resolved = match resolved {
-        Ok(resolved) => resolved,
-        Err(Unrelated::IllPosed) => return Ok(TokenStream::new()),
-        Err(Unrelated::Errors(errors)) => return Err(errors),
-    };
-    let reduction = match reduce(resolved.source, resolved.target, &resolved.declared) {
-        Ok(reduction) => reduction,
-        Err(Refusal::IllPosed) => return Ok(TokenStream::new()),
-        Err(Refusal::Broken(violations)) => {
-            let origins = resolved.origins;
-            return Err(violations.into_iter().map(|violation| origins.diagnostic(violation)).collect());
-        }
-    };
     source_layout.runtime = runtime(declaration);
-    emit::morphism(&reduction, declaration, &source_layout, &target_layout).map_err(|error| vec![error])
+    let proved = resolved.and_then(|resolved| {
+        let origins = resolved.origins;
+        let reduction =
+            reduce(resolved.source, resolved.target, &resolved.declared).map_err(
+                |refusal| match refusal {
+                    Refusal::IllPosed => Unrelated::IllPosed,
+                    Refusal::Broken(violations) => {
+                        let errors = violations.into_iter().map(|violation| origins.diagnostic(violation));
+                        Unrelated::Errors(errors.collect())
+                    }
+                },
+            )?;
+        emit::morphism(&reduction, declaration, &source_layout, &target_layout)
+            .map_err(|error| Unrelated::Errors(vec![error]))
+    });
+    let errors = match proved {
+        Ok(items) => return items,
+        Err(Unrelated::IllPosed) => TokenStream::new(),
+        Err(Unrelated::Errors(errors)) => compile_errors(&errors),
+    };
+    let stub = emit::morphism_stub(declaration, &source_layout, &target_layout);
+    quote!(#errors #stub)
 }

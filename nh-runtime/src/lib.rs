@@ -213,6 +213,52 @@ pub use scalar::{Real, Scalar};
 #[cfg(feature = "macros")]
 pub use nh_macros::nonholonomic;
 
+/// # Examples
+///
+/// A skater on the plane is a body on se(2) with a place and a direction, which follow from its motion.
+///
+/// ```
+/// use nh_runtime::prelude::*;
+///
+/// #[nonholonomic(
+///     base        { theta, x, y }
+///     lagrangian  { J / 2 * der(theta)^2 + m / 2 * (der(x)^2 + der(y)^2) }
+///     constraints { cos(theta) * der(y) = sin(theta) * der(x); }
+/// )]
+/// #[derive(Clone, Copy, Debug)]
+/// pub struct Skater { m: f64, J: f64 }
+///
+/// #[nonholonomic(
+///     basis       { omega, v1, v2 }
+///     brackets se(2) { omega, v1, v2 }
+///     lagrangian  { J / 2 * omega^2 + m / 2 * (v1^2 + v2^2) }
+///     constraints { v2 = 0; }
+/// )]
+/// #[derive(Clone, Copy, Debug)]
+/// pub struct Reduced { m: f64, J: f64 }
+///
+/// morphism! { Skater -> Reduced {
+///     velocities {
+///         omega = der(theta);
+///         v1 = cos(theta) * der(x) + sin(theta) * der(y);
+///         v2 = cos(theta) * der(y) - sin(theta) * der(x);
+///     }
+/// } }
+///
+/// # fn main() -> Result<(), IntegrationError> {
+/// let skater = Skater { m: 1.0, J: 0.1 };
+/// let start = SkaterState { theta_dot: 1.0, x_dot: 2.0, ..SkaterState::default() };
+/// assert_eq!(skater.reduce(0.0, &start), ReducedState { omega: 1.0, v1: 2.0 });
+///
+/// let motion = Reconstructed::<Skater, Reduced>::new(skater);
+/// let begin = motion.start(0.0, &start);
+/// let mut sim = Integrator::new(motion, Dopri5::new().rtol(1e-10), 0.0, begin);
+/// sim.advance_to(core::f64::consts::PI)?;
+/// let half_a_circle = motion.full_state(sim.time(), sim.state());
+/// assert!(half_a_circle.x.abs() < 1e-8 && (half_a_circle.y - 4.0).abs() < 1e-8);
+/// # Ok(())
+/// # }
+/// ```
 #[cfg(feature = "macros")]
 pub use nh_macros::morphism;
 

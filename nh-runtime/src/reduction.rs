@@ -48,6 +48,7 @@ pub trait Reconstruction<R: Dynamics>: Reduction<R> {
 
 /// The reduced motion with the coordinates that the reduction drops: a system that any method
 /// integrates, and whose state gives that of the full one by [`full_state`](Self::full_state).
+#[derive(Clone, Copy, Debug)]
 pub struct Reconstructed<F, R> {
     full: F,
     reduced: R,
@@ -111,25 +112,9 @@ where
     }
 }
 
-impl<F: Clone, R: Clone> Clone for Reconstructed<F, R> {
-    fn clone(&self) -> Self {
-        Self { full: self.full.clone(), reduced: self.reduced.clone() }
-    }
-}
-
-impl<F: Copy, R: Copy> Copy for Reconstructed<F, R> {}
-
-impl<F: fmt::Debug, R: fmt::Debug> fmt::Debug for Reconstructed<F, R> {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.debug_struct("Reconstructed").field("full", &self.full).field("reduced", &self.reduced).finish()
-    }
-}
-
 /// Reduction by stages: the composition of reductions to `B` and from there on is a reduction.
 ///
-/// ```ignore
-/// let direct: Sleigh = ByStages::<_, SleighInFrame>::new(sleigh).reduced();
-/// ```
+/// `ByStages::<_, B>::new(system)` is the system itself, with the reductions that `B` has.
 pub struct ByStages<A, B> {
     system: A,
     stage: PhantomData<fn() -> B>,
@@ -139,6 +124,18 @@ impl<A, B> ByStages<A, B> {
     /// The system, whose reductions lead through `B`.
     pub const fn new(system: A) -> Self {
         Self { system, stage: PhantomData }
+    }
+}
+
+impl<A: Clone, B> Clone for ByStages<A, B> {
+    fn clone(&self) -> Self {
+        Self::new(self.system.clone())
+    }
+}
+
+impl<A: fmt::Debug, B> fmt::Debug for ByStages<A, B> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_tuple("ByStages").field(&self.system).finish()
     }
 }
 

@@ -6,6 +6,7 @@ use super::laws::{Sides, broken};
 use super::maps::reduced_velocities;
 use super::side::Side;
 use crate::algebra::Graph;
+use crate::geometry::ConstraintDistribution;
 use crate::id::ExprId;
 use crate::violation::{Law, Violation};
 
@@ -31,38 +32,23 @@ pub(super) fn opaque(source: &Side, target: &Side, map: &BundleMap) -> Option<Vi
 
 /// Compares the forces along a basis of D, or on the virtual displacements as a whole.
 pub(super) fn forces(source: &mut Side, target: &Side, map: &BundleMap) -> Vec<Violation> {
-    let left = source.proved.system.forces.clone();
-    let right = pulled_back(source, target, map);
-    let pairs = match source.distribution.clone() {
-        Some(distribution) => {
-            let model = &mut source.proved.model;
-            let graph = &mut model.graph;
-            let mut pairs = Vec::new();
-            for (a, symbol) in distribution.independent.iter().enumerate() {
-                let section = distribution.section(a);
-                let mut on_section = graph.inner_product(&section, &left);
-                for (direction, value) in &source.proved.system.forces_on_distribution {
-                    if direction == symbol {
-                        on_section = graph.add(on_section, *value);
-                    }
-                }
-                let image = graph.inner_product(&section, &right);
-                pairs.push((on_section, image, graph.symbols()[*symbol].clone()));
-            }
-            pairs
+    let mut left = source.proved.system.forces.clone();
+    let mut right = pulled_back(source, target, map);
+    let mut names: Vec<String> =
+        source.proved.model.sections.iter().map(|section| section.name.clone()).collect();
+    if let Some(distribution) = source.distribution.clone() {
+        (left, right) = on_distribution(source, &distribution, (&left, &right));
+        let symbols = source.graph().symbols();
+        names = distribution.independent.iter().map(|symbol| symbols[*symbol].clone()).collect();
+    } else {
+        let graph = source.graph();
+        let defect = left.iter().zip(&right).map(|(left, right)| graph.sub(*left, *right)).collect();
+        if source.rank_on_displacements(&vec![defect]) == Ok(0) {
+            return Vec::new();
         }
-        None => {
-            let graph = source.graph();
-            let defect = left.iter().zip(&right).map(|(left, right)| graph.sub(*left, *right)).collect();
-            if source.rank_on_displacements(&vec![defect]) == Ok(0) {
-                return Vec::new();
-            }
-            let names = source.proved.model.sections.iter().map(|section| section.name.clone());
-            left.into_iter().zip(right).zip(names).map(|((left, right), name)| (left, right, name)).collect()
-        }
-    };
+    }
     let mut violations = Vec::new();
-    for (left, right, name) in pairs {
+    for ((left, right), name) in left.into_iter().zip(right).zip(names) {
         let defect = source.graph().sub(left, right);
         let verdict = source.vanishes_on_constraints(defect);
         if verdict.is_zero() {
@@ -79,6 +65,28 @@ pub(super) fn forces(source: &mut Side, target: &Side, map: &BundleMap) -> Vec<V
         violations.push(broken(source, map.origin, what, &sides, &verdict, way_out));
     }
     violations
+}
+
+/// Forces along the basis of D: those of the source with what acts along spanning sections.
+fn on_distribution(
+    source: &mut Side,
+    distribution: &ConstraintDistribution,
+    (left, right): (&[ExprId], &[ExprId]),
+) -> (Vec<ExprId>, Vec<ExprId>) {
+    let graph = &mut source.proved.model.graph;
+    let mut along = (Vec::new(), Vec::new());
+    for (a, symbol) in distribution.independent.iter().enumerate() {
+        let section = distribution.section(a);
+        let mut on_section = graph.inner_product(&section, left);
+        for (direction, value) in &source.proved.system.forces_on_distribution {
+            if direction == symbol {
+                on_section = graph.add(on_section, *value);
+            }
+        }
+        along.0.push(on_section);
+        along.1.push(graph.inner_product(&section, right));
+    }
+    along
 }
 
 /// Φ^*Υ' along each section of E. A force of the target along a spanning section of D' acts on the

@@ -126,11 +126,8 @@ fn reconstruction(source: &mut Side, target: &Side, map: &BundleMap) -> Option<R
     let model = &target.proved.model;
     let time = source.proved.model.time;
     let graph = source.graph();
-    let reduced: Vec<SymbolId> = target
-        .state
-        .iter()
-        .map(|symbol| graph.new_symbol(format!("reduced_{}", model.graph.symbols()[*symbol])))
-        .collect();
+    let reduced: Vec<SymbolId> =
+        target.state.iter().map(|symbol| graph.new_symbol(model.graph.symbols()[*symbol].clone())).collect();
     let mut kept: Vec<(SymbolId, ExprId)> = Vec::new();
     for (located, symbol) in map.coordinates.iter().zip(&reduced) {
         if let Some(coordinate) = graph.as_symbol(located.value) {
@@ -143,12 +140,10 @@ fn reconstruction(source: &mut Side, target: &Side, map: &BundleMap) -> Option<R
     let images = target.state.iter().copied().zip(values).chain([(model.time, graph.symbol(time))]);
     let images: Vec<(SymbolId, ExprId)> = images.chain(parameters).collect();
     let mut in_reduced = Transplant::new(&model.graph, images);
+    let kept_velocities = &reduced[map.coordinates.len()..];
     let velocity = match &target.distribution {
         Some(distribution) => in_reduced.apply_all(source.graph(), &distribution.velocity),
-        None => {
-            let symbols = &reduced[map.coordinates.len()..];
-            symbols.iter().map(|symbol| source.graph().symbol(*symbol)).collect()
-        }
+        None => kept_velocities.iter().map(|symbol| source.graph().symbol(*symbol)).collect(),
     };
     // 3. y and v from y'
     let (velocity, state_velocities) = velocities(source, map, &velocity)?;

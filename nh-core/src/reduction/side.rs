@@ -34,13 +34,12 @@ impl Side {
             Some(_) => proved.base.clone(),
             None => proved.constraints.manifold(&mut proved.model.graph, &velocities),
         };
-        let state = match whole {
-            Some(system) => system.map_err(|_| Refusal::IllPosed)?.state(),
-            None => {
-                let coordinates = proved.model.coordinates.iter().map(|coordinate| coordinate.symbol);
-                let kept = distribution.as_ref().map_or(velocities, |d| d.independent.clone());
-                coordinates.chain(kept).collect()
-            }
+        let state = if let Some(system) = whole {
+            system.map_err(|_| Refusal::IllPosed)?.state()
+        } else {
+            let coordinates = proved.model.coordinates.iter().map(|coordinate| coordinate.symbol);
+            let kept = distribution.as_ref().map_or(velocities, |d| d.independent.clone());
+            coordinates.chain(kept).collect()
         };
         Ok(Self { proved, distribution, state, manifold })
     }

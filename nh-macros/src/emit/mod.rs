@@ -22,6 +22,7 @@ mod number;
 mod observed;
 mod program;
 mod projection;
+mod reconstruction;
 mod record;
 mod report;
 #[cfg(test)]
@@ -44,7 +45,7 @@ use scope::Scope;
 
 pub(crate) use callback::alias;
 pub(crate) use layout::{Family, Layout, TypeNames};
-pub(crate) use morphism::morphism;
+pub(crate) use morphism::{morphism, morphism_stub};
 pub(crate) use stubs::stubs;
 
 /// The struct and everything that its declaration gives it.

@@ -62,7 +62,7 @@ impl Context {
         match self {
             Self::On => "on",
             Self::Anchor => "anchor",
-            Self::Velocities => "velocities",
+            Self::Velocities | Self::MapVelocities => "velocities",
             Self::Brackets => "brackets",
             Self::Frame => "frame",
             Self::Lagrangian => "lagrangian",
@@ -74,7 +74,6 @@ impl Context {
             Self::Assume => "assume",
             Self::MapParameters => "parameters",
             Self::MapBase => "base",
-            Self::MapVelocities => "velocities",
             Self::MapInputs => "inputs",
         }
     }

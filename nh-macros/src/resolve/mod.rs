@@ -35,7 +35,7 @@ mod tests;
 
 use nh_core::model::{Located, Model};
 
-pub(crate) use self::morphism::{ResolvedMorphism, Unrelated, resolve_morphism};
+pub(crate) use self::morphism::{Unrelated, resolve_morphism};
 pub(crate) use self::origins::Origins;
 pub(crate) use self::outline::Outline;
 use self::resolver::Resolver;

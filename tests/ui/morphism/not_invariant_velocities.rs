@@ -1,0 +1,13 @@
+use nh_runtime::prelude::*;
+
+#[nonholonomic(base { x, y } lagrangian { m / 2 * (der(x)^2 + der(y)^2) })]
+struct Full { m: f64 }
+
+#[nonholonomic(basis { u, v } brackets {} lagrangian { m / 2 * (u^2 + v^2) })]
+struct Reduced { m: f64 }
+
+morphism! { Full -> Reduced {
+    velocities { u = cos(x) * der(x) + sin(x) * der(y); v = cos(x) * der(y) - sin(x) * der(x); }
+} }
+
+fn main() {}
