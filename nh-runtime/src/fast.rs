@@ -7,7 +7,7 @@ use crate::{Real, Scalar, sine};
 
 /// A number whose sine and cosine come from the runtime's own kernel rather than the platform.
 ///
-/// They are most of the cost of a small system. The kernel computes the pair in about 45 instructions
+/// They are most of the cost of a small system. The kernel computes the pair in about 40 instructions
 /// without a branch that is taken in practice, half of what a platform's library needs, and has the same bits on
 /// every platform with the same kind of multiply-add. Lanes use it too: a lane's result equals that
 /// of `Fast` bit for bit. All else is the number's own.

@@ -49,6 +49,7 @@
 //! | `libm` | elementary functions from the `libm` crate, for targets without `std`; sine and cosine of `f32` in single precision alone, by the kernel of [`Fast`] |
 //! | `macros` (default) | re-exports `#[nonholonomic]` |
 //! | `serde` | generated states can be serialized |
+//! | `wide` | `f64x4` and `f32x8` of the crate `wide` as scalars: four or eight states at once |
 //!
 //! The crate is `no_std` with or without them, allocates nothing, contains no `unsafe` and has no
 //! code path that panics.
@@ -72,6 +73,7 @@ mod elementary;
 mod error;
 mod fast;
 mod integrator;
+mod lanes;
 mod linear;
 pub mod methods;
 pub mod prelude;
@@ -88,6 +90,7 @@ pub use dynamics::{Constrained, DimOf, Dynamics, Energy, Jacobian, MatOf, Observ
 pub use error::{InputFault, IntegrationError, ParameterError, ParameterFault, ProjectionError, StateFault};
 pub use fast::Fast;
 pub use integrator::{Integrator, Statistics};
+pub use lanes::Lanes;
 pub use methods::{
     Bs23, Dop853, Dopri5, Euler, Heun, ImplicitMidpoint, Method, Projected, Ralston, Rk4, Tsit5, Vern9,
 };
@@ -261,6 +264,10 @@ pub use nh_macros::nonholonomic;
 /// ```
 #[cfg(feature = "macros")]
 pub use nh_macros::morphism;
+
+/// The crate whose packs of lanes are scalars with the feature `wide`.
+#[cfg(feature = "wide")]
+pub use ::wide;
 
 /// What generated code names. Not part of the public interface: it may change in any release.
 #[doc(hidden)]

@@ -2,8 +2,8 @@
 
 pub use crate::{
     Bs23, Constrained, Dop853, Dopri5, Dynamics, Energy, Euler, Fast, Heun, ImplicitMidpoint,
-    IntegrationError, Integrator, Jacobian, Observed, ParameterError, Projected, Ralston, Real, Rk4, Scalar,
-    State, Statistics, Tsit5, Vern9,
+    IntegrationError, Integrator, Jacobian, Lanes, Observed, ParameterError, Projected, Ralston, Real, Rk4,
+    Scalar, State, Statistics, Tsit5, Vern9,
 };
 pub use crate::{Reconstructed, Reconstruction, Reduction};
 

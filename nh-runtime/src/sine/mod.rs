@@ -4,8 +4,8 @@
 //! that their multiples, and all but the last two differences, are exact (W. J. Cody, W. Waite,
 //! Software Manual for the Elementary Functions, 1980, chapter 8). On [−π/4, π/4] both functions are
 //! polynomials: in `f64` those of Sun's fdlibm (`k_sin.c`, `k_cos.c`, 1993), in `f32` those of
-//! Moshier's Cephes library (`sinf.c`, 1989). Then n mod 4 exchanges them and sets their signs by
-//! operations on bits. There is no branch but one: arguments beyond the reach of that subtraction are
+//! Moshier's Cephes library (`sinf.c`, 1989). Then n mod 4 exchanges them and sets their signs, by
+//! an exact rotation or by operations on bits. There is no branch but one: arguments beyond the reach of that subtraction are
 //! reduced by integer arithmetic with as many digits of 2/π as they need ([`far`]).
 //!
 //! The same operations in the same order make lanes equal to numbers bit for bit. The largest errors,
@@ -83,6 +83,9 @@ macro_rules! coefficients {
     };
 }
 
+#[cfg(feature = "wide")]
+pub(crate) use coefficients;
+
 /// Sine and cosine.
 #[inline]
 pub(crate) fn sin_cos<T: Sine>(x: T) -> (T, T) {
@@ -113,21 +116,18 @@ fn polynomial<T: Sine>(coefficients: &[f64], z: T) -> T {
     terms.fold(highest, |sum, c| sum.mul_add(z, c))
 }
 
-/// Implements [`Sine`] for a primitive type, by the integer type of its bits.
+/// Implements [`Sine`] for a primitive type.
 macro_rules! primitive {
-    ($float:tt, $bits:ident) => {
+    ($float:tt) => {
         impl Sine for $float {
             coefficients!($float);
 
             #[inline]
             fn turned(sin: Self, cos: Self, counter: Self) -> (Self, Self) {
-                const SIGN: u32 = $bits::BITS - 2;
-                let n = counter.to_bits();
-                let (sin, cos) = (sin.to_bits(), cos.to_bits());
-                let exchange = (sin ^ cos) & (n & 1).wrapping_neg();
-                let sin = sin ^ exchange ^ ((n & 2) << SIGN);
-                let cos = cos ^ exchange ^ ((n.wrapping_add(1) & 2) << SIGN);
-                (Self::from_bits(sin), Self::from_bits(cos))
+                // cosine and sine of n quarter turns: the sums below are exact
+                const TURNS: [[$float; 2]; 4] = [[1.0, 0.0], [0.0, 1.0], [-1.0, 0.0], [0.0, -1.0]];
+                let [c, s] = TURNS[(counter.to_bits() & 3) as usize];
+                (Scalar::mul_add(sin, c, cos * s), Scalar::mul_add(cos, c, -(sin * s)))
             }
 
             #[cold]
@@ -138,5 +138,5 @@ macro_rules! primitive {
     };
 }
 
-primitive!(f64, u64);
-primitive!(f32, u32);
+primitive!(f64);
+primitive!(f32);
