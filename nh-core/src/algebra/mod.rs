@@ -14,6 +14,7 @@ mod modular;
 mod normal_form;
 mod number;
 mod product;
+mod product_to_sum;
 mod range;
 mod substitute;
 mod sum;

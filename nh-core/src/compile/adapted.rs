@@ -11,8 +11,9 @@ use crate::check;
 use crate::geometry::ConstraintDistribution;
 use crate::id::{ExprId, Id};
 use crate::mechanics::{
-    Definition, Flow, Procedure, ReducedEquations, definiteness, energy, equations_by_velocity_forms,
-    reaction_forces, reduced_equations, solve_symmetric,
+    Definiteness, Definition, Flow, Procedure, ReducedEquations, definiteness, energy,
+    equations_by_velocity_forms, equations_in_wheel_frames, reaction_forces, reduced_equations,
+    solve_symmetric,
 };
 use crate::model::{Formulation, Request};
 use crate::program::{Cost, schedule};
@@ -107,21 +108,27 @@ fn candidates(proved: &mut Proved, distribution: &ConstraintDistribution) -> Vec
     let (system, graph) = (&proved.system, &mut proved.model.graph);
     let chained = distribution.chained(graph, &proved.constraints.residuals, &system.algebroid.velocities);
     let by_chain = equations_by_velocity_forms(graph, system, &chained);
+    let on_wheels = equations_in_wheel_frames(graph, system, distribution, &proved.constraints.residuals);
     if is_large {
-        return vec![by_chain];
+        return std::iter::once(by_chain).chain(on_wheels).collect();
     }
     let by_forms = equations_by_velocity_forms(graph, system, distribution);
-    vec![reduced_equations(graph, system, distribution), by_forms, by_chain]
+    let expanded = reduced_equations(graph, system, distribution);
+    [expanded, by_forms, by_chain].into_iter().chain(on_wheels).collect()
 }
 
 /// The derivative by whichever form of the equations takes less work.
 fn cheapest_derivative(proved: &mut Proved, candidates: &[ReducedEquations], calls: &Procedure) -> Procedure {
     let parameters: Vec<_> = proved.model.parameters.iter().map(|parameter| parameter.symbol).collect();
     let mut best: Option<(usize, Procedure)> = None;
+    // the mass matrix is the same in all forms, and the first is written out
+    let definite = candidates.first().map_or(Definiteness::Unknown, |first| {
+        definiteness(&proved.model.graph, &first.mass, &parameters, &proved.facts)
+    });
     for candidate in candidates {
-        let definite = definiteness(&proved.model.graph, &candidate.mass, &parameters, &proved.facts);
         let graph = &mut proved.model.graph;
         let mut procedure = calls.clone();
+        procedure.definitions.extend(candidate.definitions.definitions.iter().cloned());
         let accelerations =
             solve_symmetric(graph, &candidate.mass, &candidate.force, definite, &mut procedure, "v_dot");
         procedure.outputs = candidate.rates.iter().chain(&accelerations).copied().collect();

@@ -156,6 +156,13 @@ impl ConstraintDistribution {
         self.independent.len()
     }
 
+    /// The constraints and the dependent velocities that are solved for together, by position, in the
+    /// order in which they are solved.
+    #[must_use]
+    pub fn blocks(&self) -> &[(Vec<usize>, Vec<usize>)] {
+        &self.blocks
+    }
+
     /// B_a, the section of D that belongs to an independent velocity.
     #[must_use]
     pub fn section(&self, a: usize) -> Vec<ExprId> {

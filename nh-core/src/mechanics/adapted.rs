@@ -1,6 +1,7 @@
 //! Lagrange–d'Alembert equations in a basis of D: mathematics (8), CLMM (3.5) and (3.7).
 
 use super::euler_lagrange::LagrangianSystem;
+use super::procedure::Procedure;
 use crate::algebra::{Graph, Matrix};
 use crate::geometry::ConstraintDistribution;
 use crate::id::{ExprId, SymbolId};
@@ -8,6 +9,8 @@ use crate::id::{ExprId, SymbolId};
 /// `mass · v̇ = force` in the velocities v of D.
 #[derive(Clone, Debug)]
 pub struct ReducedEquations {
+    /// Intermediate results of the following.
+    pub definitions: Procedure,
     /// C_{ab} = B^α_a W_{αβ} B^β_b.
     pub mass: Matrix,
     /// −B^α_a ( W (Ḃ v + ẏ₀) + h − Υ )_α.
@@ -68,7 +71,8 @@ pub fn reduced_equations(
     }
     let rates = system.algebroid.rates(graph, &velocity);
     let rates = rates.into_iter().map(|rate| graph.simplify(rate)).collect();
-    ReducedEquations { mass, force, rates, velocity, independent }
+    let definitions = Procedure::default();
+    ReducedEquations { definitions, mass, force, rates, velocity, independent }
 }
 
 /// δL_α − Υ_α on D at given accelerations v̇: the force with which the constraints act along each

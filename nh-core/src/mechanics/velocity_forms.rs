@@ -12,16 +12,18 @@
 
 use super::adapted::ReducedEquations;
 use super::euler_lagrange::LagrangianSystem;
+use super::restricted::{Restricted, differentiate_all};
+use super::wheel_frames::{TurnedPoint, WheelFrames};
 use crate::algebra::{Derivation, Graph, Matrix, Node, Substitution};
 use crate::geometry::ConstraintDistribution;
-use crate::id::{ExprId, Id, SymbolId};
+use crate::id::{ExprId, Id, SectionId, SymbolId};
 
 /// L = F(t, x, u) with u^k = θ^k(y).
-struct VelocityForms {
+pub(super) struct VelocityForms {
     /// F, with a symbol for each u^k.
-    function: ExprId,
+    pub(super) function: ExprId,
     /// The symbols and the forms; the quasi-velocities that F still has among them.
-    forms: Vec<(SymbolId, ExprId)>,
+    pub(super) forms: Vec<(SymbolId, ExprId)>,
 }
 
 impl VelocityForms {
@@ -98,16 +100,57 @@ pub fn equations_by_velocity_forms(
     system: &LagrangianSystem,
     distribution: &ConstraintDistribution,
 ) -> ReducedEquations {
+    let forms = VelocityForms::of(graph, system);
+    let on = Restricted::of(graph, distribution);
+    equations(graph, system, on, &distribution.independent, &forms, &[])
+}
+
+/// The reduced equations with the velocities of points on wheels in the frames of these; `None` if
+/// there are no such points.
+///
+/// With `s + i r = e^{−ia} (u₁ + i u₂)`, dθ¹ = ω∧θ² and dθ² = −ω∧θ¹ (ω = 0 for points in an inertial
+/// frame), the curls of the turned forms contribute, for every section σ,
+///
+/// `F_s dθ^s(y, σ) + F_r dθ^r(y, σ) = μ (ȧ + ω(y)) (s θ^r(σ) − r θ^s(σ))`.
+pub fn equations_in_wheel_frames(
+    graph: &mut Graph,
+    system: &LagrangianSystem,
+    distribution: &ConstraintDistribution,
+    residuals: &[ExprId],
+) -> Option<ReducedEquations> {
+    let forms = VelocityForms::of(graph, system);
+    let velocities = &system.algebroid.velocities;
+    let frames = WheelFrames::of(graph, velocities, distribution, residuals, &forms)?;
+    let turned: Vec<(TurnedPoint, Vec<ExprId>)> = frames
+        .points
+        .into_iter()
+        .filter_map(|point| spin(graph, system, &forms, &point).map(|spin| (point, spin)))
+        .collect();
+    let independent = &distribution.independent;
+    let on = Restricted::by(graph, frames.definitions, frames.velocity, independent);
+    Some(equations(graph, system, on, independent, &forms, &turned))
+}
+
+/// The reduced equations; some pairs of forms are turned, each with the one-form ω of its axes.
+fn equations(
+    graph: &mut Graph,
+    system: &LagrangianSystem,
+    on: Restricted,
+    independent: &[SymbolId],
+    forms: &VelocityForms,
+    turned: &[(TurnedPoint, Vec<ExprId>)],
+) -> ReducedEquations {
     let algebroid = &system.algebroid;
-    let velocity = distribution.velocity.clone();
-    let mut restriction = distribution.restriction(graph, &algebroid.velocities);
-    let VelocityForms { function, forms } = VelocityForms::of(graph, system);
+    let Restricted { mut definitions, velocity, sections, partials: mut derivations } = on;
+    let changed = algebroid.velocities.iter().copied().zip(velocity.iter().copied());
+    let mut restriction =
+        Substitution::new(changed.filter(|(symbol, value)| graph.as_symbol(*value) != Some(*symbol)));
+    let VelocityForms { function, forms } = forms;
     // 1. û^k on D, and the partial velocities θ^k(B_a) = ∂û^k/∂v^a
-    let restricted: Vec<ExprId> = forms.iter().map(|(_, form)| restriction.apply(graph, *form)).collect();
-    let independent = distribution.independent.clone();
-    let partials: Matrix = independent
-        .iter()
-        .map(|symbol| restricted.iter().map(|u| graph.partial(*u, *symbol)).collect())
+    let restricted = forms_on_distribution(graph, forms, turned, &mut restriction);
+    let partials: Matrix = derivations
+        .iter_mut()
+        .map(|partial| restricted.iter().map(|u| partial.apply(graph, *u)).collect())
         .collect();
     // 2. F̂_k and ρ-gradient of F, on D
     let images = forms.iter().map(|(symbol, _)| *symbol).zip(restricted.iter().copied());
@@ -115,7 +158,7 @@ pub fn equations_by_velocity_forms(
     let slopes: Vec<ExprId> = forms
         .iter()
         .map(|(symbol, _)| {
-            let slope = graph.partial(function, *symbol);
+            let slope = graph.partial(*function, *symbol);
             on_distribution.apply(graph, slope)
         })
         .collect();
@@ -123,12 +166,13 @@ pub fn equations_by_velocity_forms(
     let gradient: Vec<ExprId> = coordinates
         .iter()
         .map(|symbol| {
-            let partial = graph.partial(function, *symbol);
+            let partial = graph.partial(*function, *symbol);
             on_distribution.apply(graph, partial)
         })
         .collect();
     // 3. d/dt F̂_k at v̇ = 0
     let mut along = algebroid.along(graph, &velocity, system.time);
+    differentiate_all(graph, &mut definitions, &mut along);
     let changes: Vec<ExprId> = slopes.iter().map(|slope| along.apply(graph, *slope)).collect();
     // 4. contraction with B_a
     let forces: Vec<ExprId> = system.forces.iter().map(|force| restriction.apply(graph, *force)).collect();
@@ -142,32 +186,39 @@ pub fn equations_by_velocity_forms(
         .collect();
     let bracket = algebroid.structure.bracket_term(graph, &velocity, &momenta);
     let curved: Vec<usize> = (0..forms.len())
-        .filter(|k| !is_velocity(&forms[*k].0) && !is_closed(graph, system, forms[*k].1))
+        .filter(|k| {
+            turned.iter().all(|(point, _)| !point.forms.contains(k))
+                && !is_velocity(&forms[*k].0)
+                && !is_closed(graph, system, forms[*k].1)
+        })
         .collect();
+    // the turning of pairs: ȧ + ω(y)
+    let turning = rates_of_turning(graph, turned, &velocity, &mut along);
     let (mut mass, mut force): (Matrix, Vec<ExprId>) = (Vec::new(), Vec::new());
     for (a, symbol) in independent.iter().enumerate() {
-        let section = distribution.section(a);
+        let section = &sections[a];
         let row: Vec<ExprId> = independent
             .iter()
             .enumerate()
-            .map(|(b, other)| {
+            .map(|(b, _)| {
                 if b < a {
                     return mass[b][a];
                 }
-                let inertia: Vec<ExprId> = slopes.iter().map(|slope| graph.partial(*slope, *other)).collect();
+                let inertia: Vec<ExprId> =
+                    slopes.iter().map(|slope| derivations[b].apply(graph, *slope)).collect();
                 graph.inner_product(&partials[a], &inertia)
             })
             .collect();
         mass.push(row);
         let inertial = graph.inner_product(&partials[a], &changes);
-        let field = algebroid.anchor.vector_field(graph, &section);
+        let field = algebroid.anchor.vector_field(graph, section);
         let potential = graph.inner_product(&field, &gradient);
-        let mut applied = graph.inner_product(&section, &forces);
+        let mut applied = graph.inner_product(section, &forces);
         for (_, value) in system.forces_on_distribution.iter().filter(|(direction, _)| direction == symbol) {
             let value = restriction.apply(graph, *value);
             applied = graph.add(applied, value);
         }
-        let gyroscopic = graph.inner_product(&section, &bracket);
+        let gyroscopic = graph.inner_product(section, &bracket);
         let mut total = vec![
             (1.into(), applied),
             (1.into(), potential),
@@ -175,24 +226,112 @@ pub fn equations_by_velocity_forms(
             ((-1).into(), gyroscopic),
         ];
         for k in &curved {
-            let curl = exterior_derivative(graph, system, forms[*k].1, &velocity, &section);
+            let curl = exterior_derivative(graph, system, forms[*k].1, &velocity, section);
             total.push(((-1).into(), graph.mul(slopes[*k], curl)));
+        }
+        for ((point, _), rate) in turned.iter().zip(&turning) {
+            let [s, r] = point.forms;
+            let (forth, back) = (graph.mul(slopes[s], partials[a][r]), graph.mul(slopes[r], partials[a][s]));
+            let wedge = graph.sub(forth, back);
+            total.push(((-1).into(), graph.mul(*rate, wedge)));
         }
         force.push(graph.linear_combination(&total));
     }
     let rates = algebroid.rates(graph, &velocity);
-    ReducedEquations { mass, force, rates, velocity, independent }
+    let independent = independent.to_vec();
+    ReducedEquations { definitions, mass, force, rates, velocity, independent }
+}
+
+/// û^k: the components of turned points, the other forms at y = B v + y₀.
+fn forms_on_distribution(
+    graph: &mut Graph,
+    forms: &[(SymbolId, ExprId)],
+    turned: &[(TurnedPoint, Vec<ExprId>)],
+    restriction: &mut Substitution,
+) -> Vec<ExprId> {
+    let mut restricted: Vec<ExprId> = Vec::with_capacity(forms.len());
+    for (k, (_, form)) in forms.iter().enumerate() {
+        let component = turned.iter().find_map(|(point, _)| {
+            let position = point.forms.iter().position(|form| *form == k)?;
+            Some(point.components[position])
+        });
+        restricted.push(component.unwrap_or_else(|| restriction.apply(graph, *form)));
+    }
+    restricted
+}
+
+/// ȧ + ω(y) for each turned point.
+fn rates_of_turning(
+    graph: &mut Graph,
+    turned: &[(TurnedPoint, Vec<ExprId>)],
+    velocity: &[ExprId],
+    along: &mut Derivation,
+) -> Vec<ExprId> {
+    let mut rates = Vec::with_capacity(turned.len());
+    for (point, spin) in turned {
+        let change = along.apply(graph, point.angle);
+        let spinning = graph.inner_product(spin, velocity);
+        rates.push(graph.add(change, spinning));
+    }
+    rates
+}
+
+/// ω with dθ¹ = ω∧θ² and dθ² = −ω∧θ¹, by its components on the sections, if there is such.
+fn spin(
+    graph: &mut Graph,
+    system: &LagrangianSystem,
+    forms: &VelocityForms,
+    point: &TurnedPoint,
+) -> Option<Vec<ExprId>> {
+    let algebroid = &system.algebroid;
+    let [x, y] = point.axes.map(SectionId::from_index);
+    let zero = graph.zero();
+    // dy^x(e_β, e_y) = −C^x_{βy} = ω_β
+    let omega: Vec<ExprId> = algebroid
+        .sections()
+        .map(|section| {
+            if section == x || section == y {
+                return zero;
+            }
+            let symbol = algebroid.structure.get(graph, x, section, y);
+            graph.neg(symbol)
+        })
+        .collect();
+    let first = algebroid.velocity(graph);
+    let second = arguments(graph, first.len());
+    let values = |graph: &mut Graph, form: ExprId| {
+        let images = algebroid.velocities.iter().copied().zip(second.iter().copied());
+        [form, Substitution::new(images).apply(graph, form)]
+    };
+    let turning = [graph.inner_product(&omega, &first), graph.inner_product(&omega, &second)];
+    let [one, two] = point.forms.map(|k| forms.forms[k].1);
+    for (form, other, sign) in [(one, two, -1), (two, one, 1)] {
+        let curl = exterior_derivative(graph, system, form, &first, &second);
+        let other = values(graph, other);
+        let (forth, back) = (graph.mul(turning[0], other[1]), graph.mul(turning[1], other[0]));
+        let wedge = graph.sub(forth, back);
+        let difference = graph.linear_combination(&[(1.into(), curl), (sign.into(), wedge)]);
+        if !graph.zero_test(difference).is_zero() {
+            return None;
+        }
+    }
+    Some(omega)
+}
+
+/// Symbols for the components of a section.
+fn arguments(graph: &mut Graph, rank: usize) -> Vec<ExprId> {
+    (0..rank)
+        .map(|index| {
+            let symbol = graph.new_symbol(format!("z{index}"));
+            graph.symbol(symbol)
+        })
+        .collect()
 }
 
 /// Whether dθ = 0 for θ(y) = `form`, and θ does not depend on the time.
 fn is_closed(graph: &mut Graph, system: &LagrangianSystem, form: ExprId) -> bool {
     let first = system.algebroid.velocity(graph);
-    let second: Vec<ExprId> = (0..first.len())
-        .map(|index| {
-            let symbol = graph.new_symbol(format!("z{index}"));
-            graph.symbol(symbol)
-        })
-        .collect();
+    let second = arguments(graph, first.len());
     let curl = exterior_derivative(graph, system, form, &first, &second);
     graph.zero_test(curl).is_zero()
 }

@@ -353,3 +353,72 @@ pub(crate) fn time_dependent_form() -> Model {
         graph.linear_combination(&[(Rational::new(1, 2), square), (Rational::ONE, rest)]);
     b.model
 }
+
+/// A tractor, by the velocities in its frame, with two trailers; their angles are measured against
+/// the tractor (`absolute`: all turn with the plane) or against the one before.
+///
+/// The first trailer hangs at h behind the axle and carries its load at c before its wheels; the second
+/// hangs at its wheels. With a drift, the wheels of the second slip sideways at a constant rate.
+pub(crate) fn trailers(relative: bool, drift: bool) -> Model {
+    let parameters = ["m", "J", "h", "c", "d", "s"];
+    let mut b = Builder::new(&parameters, &["th", "p", "q"], &["w", "v1", "v2", "dp", "dq"]);
+    b.anchor(&[&[(1, 1, "w")], &[(1, 1, "dp")], &[(1, 1, "dq")]]);
+    b.bracket(0, 1, &[(1, 1, "v2")]);
+    b.bracket(0, 2, &[(-1, 1, "v1")]);
+    let words: Vec<ExprId> = ["w", "v1", "v2", "dp", "dq", "p", "q", "h", "c", "d", "m", "J", "s"]
+        .into_iter()
+        .map(|name| b.term(Rational::ONE, name))
+        .collect();
+    let [w, v1, v2, dp, dq, p, q, h, c, d, m, inertia, slip] = words[..] else { unreachable!() };
+    let g = &mut b.model.graph;
+    // the trailers' angles against the tractor, and their angular velocities
+    let second = if relative { g.add(p, q) } else { q };
+    let turning = if relative { g.add(dp, dq) } else { dq };
+    let (w1, w2) = (g.add(w, dp), g.add(w, turning));
+    // points at a distance behind: u − i l e^{ia} w
+    let behind = |g: &mut Graph, [x, y]: [ExprId; 2], l: ExprId, angle: ExprId, w: ExprId| {
+        let (sin, cos) = (g.sin(angle), g.cos(angle));
+        let (dx, dy) = (
+            g.product(&[l, sin, w].map(|f| (f, Rational::ONE))),
+            g.product(&[l, cos, w].map(|f| (f, Rational::ONE))),
+        );
+        [g.add(x, dx), g.sub(y, dy)]
+    };
+    let zero = g.zero();
+    let hitch = behind(g, [v1, v2], h, zero, w);
+    let first_wheels = behind(g, hitch, d, p, w1);
+    let before = g.sub(d, c);
+    let load = behind(g, hitch, before, p, w1);
+    let wheels = behind(g, first_wheels, d, second, w2);
+    let mut terms = Vec::new();
+    for [x, y] in [[v1, v2], load, wheels] {
+        for u in [x, y] {
+            let square = g.square(u);
+            terms.push(g.mul(m, square));
+        }
+    }
+    for u in [w, w1, w2] {
+        let square = g.square(u);
+        terms.push(g.mul(inertia, square));
+    }
+    let sum = g.sum(&terms);
+    b.model.lagrangian.value = g.scale(Rational::new(1, 2), sum);
+    let across = |g: &mut Graph, [x, y]: [ExprId; 2], angle: ExprId| {
+        let (sin, cos) = (g.sin(angle), g.cos(angle));
+        let (sx, cy) = (g.mul(sin, x), g.mul(cos, y));
+        g.sub(cy, sx)
+    };
+    let mut last = across(g, wheels, second);
+    if drift {
+        last = g.sub(last, slip);
+    }
+    for residual in [v2, across(g, first_wheels, p), last] {
+        b.model.constraints.push(ConstraintDecl {
+            label: None,
+            residual,
+            solved_for: None,
+            origin: origin(),
+        });
+    }
+    b.model
+}

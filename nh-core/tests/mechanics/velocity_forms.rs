@@ -3,31 +3,33 @@
 
 use crate::adapted_frame::stages;
 use crate::systems;
-use nh_core::mechanics::{equations_by_velocity_forms, reduced_equations};
+use nh_core::mechanics::{equations_by_velocity_forms, equations_in_wheel_frames, reduced_equations};
 use nh_core::model::Model;
 
-fn forms_agree(mut model: Model) {
+/// Whether there was a form in the frames of wheels.
+fn forms_agree(mut model: Model) -> bool {
     let (system, distribution) = stages(&mut model);
     let graph = &mut model.graph;
     let expected = reduced_equations(graph, &system, &distribution);
     let residuals: Vec<_> = model.constraints.iter().map(|constraint| constraint.residual).collect();
     let chained = distribution.chained(graph, &residuals, &system.algebroid.velocities);
-    for candidate in [
+    let on_wheels = equations_in_wheel_frames(graph, &system, &distribution, &residuals);
+    let is_on_wheels = on_wheels.is_some();
+    let candidates = [
         equations_by_velocity_forms(graph, &system, &distribution),
         equations_by_velocity_forms(graph, &system, &chained),
-    ] {
+    ];
+    for candidate in candidates.into_iter().chain(on_wheels) {
         let entries = expected.mass.iter().flatten().chain(&expected.force).chain(&expected.rates);
         let others = candidate.mass.iter().flatten().chain(&candidate.force).chain(&candidate.rates);
+        let others = candidate.definitions.with_outputs(others.copied().collect()).written_out(graph);
         for (entry, other) in entries.zip(others) {
-            let defect = graph.sub(*entry, *other);
-            assert!(
-                graph.zero_test(defect).is_zero(),
-                "{} is not {}",
-                graph.text(*other),
-                graph.text(*entry)
-            );
+            let defect = graph.sub(*entry, other);
+            let (found, meant) = (graph.text(other), graph.text(*entry));
+            assert!(graph.zero_test(defect).is_zero(), "{found} is not {meant}");
         }
     }
+    is_on_wheels
 }
 
 #[test]
@@ -43,4 +45,14 @@ fn with_drift_and_time() {
     forms_agree(systems::ball_on_rotating_table());
     forms_agree(systems::steered_blade());
     forms_agree(systems::time_dependent_form());
+}
+
+/// Trailers in the frame of the tractor and in absolute and relative angles: hitches behind the axle,
+/// a load that is not over the wheels, a hitch without wheels, and a drift across one of the wheels.
+#[test]
+fn on_wheels() {
+    for relative in [false, true] {
+        assert!(forms_agree(systems::trailers(relative, false)));
+        assert!(forms_agree(systems::trailers(relative, true)));
+    }
 }

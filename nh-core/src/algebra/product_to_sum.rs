@@ -1,0 +1,111 @@
+//! Products of sines and cosines as sums:
+//!
+//! | identity | condition |
+//! |---|---|
+//! | `2 cos x cos y = cos(x − y) + cos(x + y)` and its kin | – |
+
+use super::graph::{Function, Graph, Node};
+use super::number::Rational;
+use crate::id::ExprId;
+
+/// Products with more sines and cosines are left as they are.
+const FACTORS: usize = 3;
+
+impl Graph {
+    /// The expression with the products of sines and cosines in its terms written as sums, if that
+    /// takes less work: `sin a cos b − cos a sin b` becomes `sin(a − b)`.
+    pub fn products_to_sums(&mut self, e: ExprId) -> ExprId {
+        let (constant, terms) = self.as_linear(e);
+        let one = self.one();
+        let mut summands = vec![(constant, one)];
+        for (term, coefficient) in terms {
+            match self.linearised(term) {
+                Some(sum) => summands.push((coefficient, sum)),
+                None => summands.push((coefficient, term)),
+            }
+        }
+        let result = self.linear_combination(&summands);
+        if self.operation_count(&[result]) < self.operation_count(&[e]) { result } else { e }
+    }
+
+    /// One product as a sum; `None` if it has fewer than two sines and cosines, or too many.
+    fn linearised(&mut self, term: ExprId) -> Option<ExprId> {
+        let Node::Product { coefficient, factors } = self.node(term).clone() else { return None };
+        let mut angles: Vec<(Function, ExprId)> = Vec::new();
+        let mut rest: Vec<(ExprId, Rational)> = Vec::new();
+        for (base, exponent) in &factors {
+            let times = exponent.to_i64().filter(|n| (1..=2).contains(n));
+            match (self.node(*base), times) {
+                (Node::Apply(function @ (Function::Sin | Function::Cos), angle), Some(times)) => {
+                    angles.extend((0..times).map(|_| (*function, *angle)));
+                }
+                _ => rest.push((*base, exponent.clone())),
+            }
+        }
+        if !(2..=FACTORS).contains(&angles.len()) {
+            return None;
+        }
+        let (first, others) = angles.split_first()?;
+        // a sum Σ c f(x), multiplied by one factor after the other
+        let mut sum = vec![(Rational::ONE, *first)];
+        for (g, y) in others {
+            let mut product = Vec::new();
+            for (c, (f, x)) in sum {
+                let half = c * Rational::new(1, 2);
+                let difference = self.sub(x, *y);
+                let total = self.add(x, *y);
+                let minus = -half.clone();
+                product.extend(match (f, g) {
+                    (Function::Cos, Function::Cos) => {
+                        [(half.clone(), (Function::Cos, difference)), (half, (Function::Cos, total))]
+                    }
+                    (Function::Sin, Function::Sin) => {
+                        [(half, (Function::Cos, difference)), (minus, (Function::Cos, total))]
+                    }
+                    (Function::Sin, _) => {
+                        [(half.clone(), (Function::Sin, difference)), (half, (Function::Sin, total))]
+                    }
+                    _ => [(minus, (Function::Sin, difference)), (half, (Function::Sin, total))],
+                });
+            }
+            sum = product;
+        }
+        let factor = self.product(&rest);
+        let terms: Vec<(Rational, ExprId)> = sum
+            .into_iter()
+            .map(|(c, (function, angle))| {
+                let value = self.apply(function, angle);
+                (c * coefficient.clone(), self.mul(factor, value))
+            })
+            .collect();
+        Some(self.linear_combination(&terms))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn differences_of_angles_come_out() {
+        let mut g = Graph::new();
+        let [a, b, d] = ["a", "b", "d"].map(|name| {
+            let symbol = g.new_symbol(name);
+            g.symbol(symbol)
+        });
+        let (sa, ca, sb, cb) = (g.sin(a), g.cos(a), g.sin(b), g.cos(b));
+        let (first, second) = (g.product(&[d, sa, cb].map(|f| (f, Rational::ONE))), g.mul(ca, sb));
+        let second = g.mul(d, second);
+        let difference = g.sub(first, second);
+        let angle = g.sub(a, b);
+        let sine = g.sin(angle);
+        let expected = g.mul(d, sine);
+        assert_eq!(g.products_to_sums(difference), expected);
+        let (ss, cc) = (g.square(sa), g.square(ca));
+        let unit = g.add(ss, cc);
+        let one = g.one();
+        assert_eq!(g.products_to_sums(unit), one);
+        // alone a product stays what it is
+        assert_eq!(g.products_to_sums(first), first);
+    }
+}

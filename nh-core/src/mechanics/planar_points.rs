@@ -1,0 +1,123 @@
+//! Planar velocities of points in a Lagrangian, and the motions that move them.
+
+use super::velocity_forms::VelocityForms;
+use crate::algebra::{Graph, Rational};
+use crate::id::{ExprId, SymbolId};
+
+/// Components that are moved by more different sections do not belong to one point.
+pub(super) const NEIGHBOURS: usize = 2;
+
+/// Two velocity forms that are the components of one planar velocity.
+#[derive(Clone, Debug)]
+pub(super) struct Point {
+    /// Their positions among the forms.
+    pub(super) forms: [usize; 2],
+    /// Their coefficients on the sections.
+    pub(super) coefficients: [Vec<ExprId>; 2],
+    /// The sections on which they are (1, 0) and (0, 1).
+    pub(super) axes: [usize; 2],
+}
+
+impl Point {
+    /// Whether a section moves the point, its axes left aside.
+    pub(super) fn is_moved(&self, graph: &Graph, section: usize) -> bool {
+        !self.axes.contains(&section)
+            && self.coefficients.iter().any(|row| !graph.is_literal_zero(row[section]))
+    }
+}
+
+/// The planar velocities in a Lagrangian: pairs of forms that enter it as μ/2 (u₁² + u₂²), with axes.
+pub(super) fn points(graph: &mut Graph, velocities: &[SymbolId], of: &VelocityForms) -> Vec<Point> {
+    let VelocityForms { function, forms } = of;
+    let symbols: Vec<SymbolId> = forms.iter().map(|(symbol, _)| *symbol).collect();
+    // 1. forms that enter as μ u²/2, with their coefficients
+    let mut squares: Vec<(usize, ExprId, Vec<ExprId>)> = Vec::new();
+    for (k, (symbol, form)) in forms.iter().enumerate() {
+        if velocities.contains(symbol) {
+            continue;
+        }
+        let slope = graph.partial(*function, *symbol);
+        let inertia = graph.partial(slope, *symbol);
+        let u = graph.symbol(*symbol);
+        let product = graph.mul(inertia, u);
+        let rest = graph.sub(slope, product);
+        if !graph.depends_on(inertia, &symbols) && graph.zero_test(rest).is_zero() {
+            let coefficients = velocities.iter().map(|velocity| graph.partial(*form, *velocity)).collect();
+            squares.push((k, inertia, coefficients));
+        }
+    }
+    // 2. pairs with the same μ, each form with the one that is moved by the most similar velocities
+    let mut points: Vec<Point> = Vec::new();
+    let mut open = squares;
+    while let Some((k, mu, first)) = (!open.is_empty()).then(|| open.remove(0)) {
+        let partner = (0..open.len())
+            .filter(|j| open[*j].1 == mu)
+            .filter_map(|j| Some((j, axes(graph, &first, &open[j].2)?)))
+            .min_by_key(|(_, (unlike, _))| *unlike);
+        if let Some((j, (_, axes))) = partner {
+            let (l, _, second) = open.remove(j);
+            points.push(Point { forms: [k, l], coefficients: [first, second], axes });
+        }
+    }
+    points
+}
+
+/// The sections on which two forms are (1, 0) and (0, 1), and how many others move only one of them.
+fn axes(graph: &Graph, first: &[ExprId], second: &[ExprId]) -> Option<(usize, [usize; 2])> {
+    let is_one = |entry: ExprId| graph.as_number(entry).is_some_and(Rational::is_one);
+    let is_zero = |entry: ExprId| graph.is_literal_zero(entry);
+    let x = (0..first.len()).find(|s| is_one(first[*s]) && is_zero(second[*s]))?;
+    let y = (0..first.len()).find(|s| is_zero(first[*s]) && is_one(second[*s]))?;
+    let unlike = |s: &usize| *s != x && *s != y && is_zero(first[*s]) != is_zero(second[*s]);
+    let unlike = (0..first.len()).filter(unlike).count();
+    (unlike <= NEIGHBOURS).then_some((unlike, [x, y]))
+}
+
+/// A combination of velocities that moves points as one does, the turning of a body, say: ± y^α.
+#[derive(Clone, Debug)]
+pub(super) struct Motion<const N: usize> {
+    /// The sections, and whether they are subtracted.
+    pub(super) sections: Vec<(usize, bool)>,
+    /// What a unit of it contributes.
+    pub(super) effect: [ExprId; N],
+}
+
+/// Contributions of single sections, those that are equal up to the sign taken together.
+pub(super) fn motions<const N: usize>(
+    graph: &mut Graph,
+    effects: impl IntoIterator<Item = (usize, [ExprId; N])>,
+) -> Vec<Motion<N>> {
+    let mut motions: Vec<Motion<N>> = Vec::new();
+    for (section, effect) in effects {
+        if effect.iter().all(|entry| graph.is_literal_zero(*entry)) {
+            continue;
+        }
+        let opposite = effect.map(|entry| graph.neg(entry));
+        match motions.iter_mut().find(|motion| motion.effect == effect || motion.effect == opposite) {
+            Some(motion) => motion.sections.push((section, motion.effect == opposite)),
+            None => motions.push(Motion { sections: vec![(section, false)], effect }),
+        }
+    }
+    motions
+}
+
+/// The motions whose sections fulfil a condition.
+pub(super) fn filtered<const N: usize>(
+    motions: &[Motion<N>],
+    keep: impl Fn(&[(usize, bool)]) -> bool,
+) -> Vec<Motion<N>> {
+    motions.iter().filter(|motion| keep(&motion.sections)).cloned().collect()
+}
+
+/// The motion that a section is part of, in all contributions alike; the section alone, if they differ.
+pub(super) fn together(section: usize, first: &[Motion<2>], second: &[Motion<1>]) -> Vec<(usize, bool)> {
+    let lists = || {
+        let first = first.iter().map(|motion| &motion.sections);
+        first.chain(second.iter().map(|motion| &motion.sections))
+    };
+    let contains = |list: &[(usize, bool)], section: usize| list.iter().any(|(s, _)| *s == section);
+    let alone = vec![(section, false)];
+    let Some(motion) = lists().find(|list| contains(list, section)) else { return alone };
+    let meets = |list: &[(usize, bool)]| motion.iter().any(|(s, _)| contains(list, *s));
+    if lists().all(|list| list == motion || !meets(list)) { motion.clone() } else { alone }
+}
