@@ -14,6 +14,7 @@ pub mod geometry;
 pub mod id;
 pub mod mechanics;
 pub mod model;
+pub mod phase_space;
 pub mod program;
 pub mod reduction;
 pub mod report;

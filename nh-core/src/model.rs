@@ -52,6 +52,10 @@ pub struct Model {
     pub claims: Vec<OutputDecl>,
     /// Labelled sections whose momenta are wanted (`symmetries`).
     pub symmetries: Vec<SymmetryDecl>,
+    /// The claim that a volume is invariant (`volume`).
+    pub volume: Option<VolumeClaim>,
+    /// A section of D* that is claimed to solve the Hamilton–Jacobi equation (`hamilton_jacobi`).
+    pub hamilton_jacobi: Option<SectionClaim>,
     /// Facts about parameters (`assume`).
     pub assumptions: Vec<Assumption>,
     /// What to generate beyond the default (`emit`).
@@ -78,6 +82,9 @@ impl Model {
             rewrite(&mut symmetry.value);
             symmetry.gauge.iter_mut().for_each(&mut rewrite);
         }
+        self.volume.iter_mut().filter_map(|claim| claim.density.as_mut()).for_each(&mut rewrite);
+        let sections = self.hamilton_jacobi.iter_mut().flat_map(|claim| &mut claim.components);
+        sections.for_each(|(_, component)| rewrite(&mut component.value));
         self.brackets.iter_mut().for_each(|bracket| rewrite(&mut bracket.value));
         match &mut self.kinematics {
             Kinematics::Tangent => {}
@@ -223,6 +230,24 @@ pub enum Relation {
     NotEqual,
 }
 
+/// The claim that the motion keeps a volume.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct VolumeClaim {
+    /// Its density in the coordinates of the state; to be found on the base if not given.
+    pub density: Option<ExprId>,
+    /// Where it stands.
+    pub origin: Origin,
+}
+
+/// A section of D*: momenta as functions on the base.
+#[derive(Clone, Debug)]
+pub struct SectionClaim {
+    /// The momentum along each velocity; 0 along the others.
+    pub components: Vec<(SymbolId, Located)>,
+    /// Where it stands.
+    pub origin: Origin,
+}
+
 /// Something to generate beyond the default.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 #[non_exhaustive]
@@ -235,6 +260,18 @@ pub enum Request {
     Reactions,
     /// The momenta of the symmetries, and their rates.
     Momenta,
+    /// Momenta, the Legendre transformation, h, Hamilton's equations and the almost-Poisson matrix.
+    Hamiltonian,
+    /// The nonholonomic brackets of the observables.
+    Bracket,
+    /// The almost-Poisson form for methods that keep the energy.
+    DiscreteGradient,
+    /// The divergence of the motion.
+    Divergence,
+    /// The density of an invariant volume.
+    Volume,
+    /// The symbols of the Levi-Civita and of the constrained connection.
+    Connection,
 }
 
 /// Something that is needed of a system.

@@ -3,6 +3,7 @@
 use crate::id::{ExprId, SymbolId};
 use crate::mechanics::Procedure;
 use crate::model::{Formulation, Model};
+use crate::phase_space::PhaseSpace;
 
 /// A system that has passed every check, with its functions derived.
 #[derive(Clone, Debug)]
@@ -35,6 +36,8 @@ pub struct System {
     pub residual: Option<Procedure>,
     /// The way back to the constraint manifold; in the projected formulation.
     pub projection: Option<Projection>,
+    /// Brackets, momenta, volume and connections; as far as they are asked for.
+    pub phase_space: PhaseSpace,
     /// The identities of an embedded base.
     pub embedding: Option<Embedding>,
     /// What `validate` checks beyond finite parameters.

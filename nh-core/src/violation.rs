@@ -44,6 +44,12 @@ pub enum Law {
     Tracking,
     /// A map between two systems is a reduction: mathematics (13), (14), CLMM Theorem 4.6.
     Morphism,
+    /// What is asked of the Hamiltonian side exists.
+    Hamiltonian,
+    /// A claimed invariant volume is one: M 2.5.
+    Volume,
+    /// A section of D* solves the Hamilton–Jacobi equation: M 2.4.
+    HamiltonJacobi,
     /// A question that the algebra could not decide.
     Decidable,
 }

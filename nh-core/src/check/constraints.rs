@@ -39,7 +39,7 @@ impl Constraints {
     }
 
     /// D by velocities that the constraints determine at most points, for questions whose answer is
-    /// the same at all of them.
+    /// the same at all of them. `None` for nonlinear constraints.
     pub fn generic_distribution(
         &self,
         graph: &mut Graph,

@@ -2,6 +2,7 @@
 
 use super::embedded::embedding;
 use super::momenta::momenta;
+use super::phase_space;
 use super::restricted::{
     calls, coordinates, in_state, observables, parameter_checks, requested, requested_jacobian,
 };
@@ -68,7 +69,8 @@ pub(super) fn derive(
     // 5. the report
     let embedding = embedding(&mut proved.model, &proved.base);
     let derived = Derived::Adapted { distribution, equations: &equations };
-    let text = report(&mut proved, &derived, reason, conditions);
+    let (phase_space, sections) = phase_space::derive(&mut proved, &derived, &derivative, &observables)?;
+    let text = report(&mut proved, &derived, reason, conditions, sections);
     let lines = equations_of_motion(&proved.model, &derived);
     let model = proved.model;
     Ok(System {
@@ -85,6 +87,7 @@ pub(super) fn derive(
         momenta,
         residual: None,
         projection: None,
+        phase_space,
         embedding,
         parameter_checks: parameter_checks(&model, conditions),
         report: text,

@@ -1,11 +1,14 @@
 //! The way of the data: every stage takes a value and returns a value of another type.
 
 mod adapted;
+mod connection;
 mod embedded;
 mod momenta;
+mod phase_space;
 mod projected;
 mod restricted;
 mod slice;
+mod volume;
 
 use crate::algebra::Facts;
 use crate::check::{self, Chosen, Constraints, Motion};

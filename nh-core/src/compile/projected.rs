@@ -2,6 +2,7 @@
 
 use super::embedded::embedding;
 use super::momenta::momenta;
+use super::phase_space;
 use super::restricted::{calls, coordinates, in_state, observables, requested, requested_jacobian};
 use super::{Proved, fence};
 use crate::algebra::{Graph, Matrix, Substitution};
@@ -65,7 +66,8 @@ pub(super) fn derive(mut proved: Proved, reason: &str) -> Result<System, Vec<Vio
     // 6. the report
     let embedding = embedding(&mut proved.model, &proved.base);
     let derived = Derived::Projected { residuals: &residuals, equations: &equations };
-    let text = report(&mut proved, &derived, reason, &[]);
+    let (phase_space, sections) = phase_space::derive(&mut proved, &derived, &derivative, &observables)?;
+    let text = report(&mut proved, &derived, reason, &[], sections);
     let lines = equations_of_motion(&proved.model, &derived);
     let model = proved.model;
     Ok(System {
@@ -82,6 +84,7 @@ pub(super) fn derive(mut proved: Proved, reason: &str) -> Result<System, Vec<Vio
         momenta,
         residual: Some(Procedure::of(residuals)),
         projection: Some(projection),
+        phase_space,
         embedding,
         parameter_checks: Vec::new(),
         report: text,

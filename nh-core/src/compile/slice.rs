@@ -52,6 +52,14 @@ pub(super) fn slice(mut system: System) -> Result<System, Vec<Violation>> {
             Request::Reactions => ("the reactions", &system.reactions),
             Request::Momenta => ("the momenta", &momenta),
             Request::Jacobian => continue,
+            _ => {
+                let dropped: Vec<SymbolId> =
+                    whole.iter().copied().filter(|symbol| !needed.contains(symbol)).collect();
+                if !dropped.is_empty() {
+                    refused.push(left_out(&system, "what is asked for here", &dropped, *origin));
+                }
+                continue;
+            }
         };
         let missing = procedure.as_ref().map(|procedure| missing(procedure, &procedure.outputs));
         if let Some(missing) = missing.filter(|missing| !missing.is_empty()) {

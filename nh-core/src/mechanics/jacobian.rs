@@ -34,6 +34,28 @@ pub fn jacobian(
     Ok(result)
 }
 
+/// Σ ∂f_i/∂x_i of a vector field whose component i is output i, along argument i.
+///
+/// # Errors
+/// As [`jacobian`].
+pub fn divergence(
+    graph: &mut Graph,
+    field: &Procedure,
+    arguments: &[SymbolId],
+) -> Result<Procedure, NotDifferentiable> {
+    let mut result = field.clone();
+    let mut terms = Vec::with_capacity(arguments.len());
+    for (argument, output) in arguments.iter().zip(&field.outputs) {
+        let mut along = Derivation::partial(graph, *argument);
+        for definition in &field.definitions {
+            differentiate(graph, definition, &mut along, &mut result)?;
+        }
+        terms.push(along.apply(graph, *output));
+    }
+    result.outputs = vec![graph.sum(&terms)];
+    Ok(result)
+}
+
 /// Adds the derivative of an intermediate result, and makes it known to the derivation.
 fn differentiate(
     graph: &mut Graph,

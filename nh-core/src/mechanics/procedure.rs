@@ -68,6 +68,12 @@ impl Procedure {
         Self { outputs, ..self.clone() }
     }
 
+    /// Whether it calls a method of the user's.
+    #[must_use]
+    pub fn calls(&self) -> bool {
+        self.definitions.iter().any(|definition| matches!(definition, Definition::Call { .. }))
+    }
+
     /// Names `value`, unless it is a number or a symbol already.
     pub fn define(&mut self, graph: &mut Graph, name: &str, value: ExprId) -> ExprId {
         if self.inline || graph.as_number(value).is_some() || graph.as_symbol(value).is_some() {

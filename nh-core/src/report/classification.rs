@@ -1,7 +1,7 @@
 //! What kind of system it is.
 
 use super::{Derived, combination, shown};
-use crate::check::{Constraints, singular_where};
+use crate::check::{Constraints, not_conservative, singular_where};
 use crate::compile::Proved;
 use crate::id::{ExprId, SymbolId};
 use crate::mechanics::{LagrangianSystem, moving_energy_section};
@@ -124,7 +124,8 @@ fn constant_coordinates(model: &Model, derived: &Derived<'_>) -> String {
 pub(super) fn conserved(proved: &mut Proved) -> Vec<String> {
     let mut lines: Vec<String> =
         proved.model.claims.iter().map(|claim| format!("{} (claimed, and proved)", claim.name)).collect();
-    if energy_is_conserved(proved) {
+    let Proved { model, system, constraints, .. } = &mut *proved;
+    if not_conservative(model, system, constraints).is_none() {
         let reason =
             "CLMM Theorems 3.4 and 7.6: L does not depend on time, no power of constraints and forces";
         lines.push(format!("the energy ({reason})"));
@@ -151,32 +152,4 @@ fn moving_energy(proved: &mut Proved) -> Option<String> {
     let names: Vec<String> = model.sections.iter().map(|section| section.name.clone()).collect();
     let section = combination(&model.graph, &section, &names);
     Some(format!("the moving energy E - xi.p with xi = {section} (Fassò, Sansonetto)"))
-}
-
-/// dE_L/dt = Υ_α y^α + λ_A y^α ∂φ^A/∂y^α − ∂_tL, mathematics section 4: zero if every term is.
-fn energy_is_conserved(proved: &mut Proved) -> bool {
-    let Proved { model, system, constraints, .. } = proved;
-    let graph = &mut model.graph;
-    let time = graph.partial(system.lagrangian, system.time);
-    let mut terms = vec![time];
-    terms.extend(&system.forces);
-    terms.extend(system.forces_on_distribution.iter().map(|(_, value)| *value));
-    if let Some(linear) = &constraints.linear {
-        // y^α ∂φ^A/∂y^α = −b^A where φ^A = 0
-        terms.extend(&linear.drift);
-    } else {
-        let velocities = system.algebroid.velocities.clone();
-        for residual in constraints.residuals.clone() {
-            let power: Vec<ExprId> = velocities
-                .iter()
-                .map(|symbol| {
-                    let partial = graph.partial(residual, *symbol);
-                    let velocity = graph.symbol(*symbol);
-                    graph.mul(velocity, partial)
-                })
-                .collect();
-            terms.push(graph.sum(&power));
-        }
-    }
-    terms.into_iter().all(|term| constraints.generic().zero_test(graph, term).is_zero())
 }

@@ -2,6 +2,7 @@
 
 mod classification;
 mod equations;
+mod hamiltonian;
 mod symmetry;
 
 use crate::algebra::Graph;
@@ -12,6 +13,7 @@ use crate::mechanics::{LagrangianSystem, ReducedEquations, SaddleEquations};
 use crate::model::Model;
 
 pub use equations::equations_of_motion;
+pub(crate) use hamiltonian::hamiltonian_lines;
 
 /// The derived objects that the report shows.
 #[derive(Clone, Copy, Debug)]
@@ -45,6 +47,7 @@ pub(crate) fn report(
     derived: &Derived<'_>,
     reason: &str,
     conditions: &[ExprId],
+    more: Vec<(&str, Vec<String>)>,
 ) -> String {
     let classification = classification::lines(proved, derived, reason);
     let symmetries = symmetry::lines(proved, derived);
@@ -69,6 +72,7 @@ pub(crate) fn report(
     section("Equations of motion", equations_of_motion(model, derived));
     section("Symmetries", symmetries);
     section("Conserved quantities", conserved);
+    more.into_iter().for_each(|(title, lines)| section(title, lines));
     text
 }
 

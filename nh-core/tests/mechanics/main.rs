@@ -4,6 +4,7 @@
 mod adapted_frame;
 mod derivation;
 mod laws;
+mod phase_space;
 mod requests;
 mod systems;
 mod velocity_forms;

@@ -65,6 +65,8 @@ impl Builder {
             distribution: None,
             claims: Vec::new(),
             symmetries: Vec::new(),
+            volume: None,
+            hamilton_jacobi: None,
             assumptions: Vec::new(),
             requests: Vec::new(),
             kinematics: if tangent { Kinematics::Tangent } else { Kinematics::Anchor(Vec::new()) },

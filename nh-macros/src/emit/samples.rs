@@ -93,6 +93,8 @@ impl Builder {
             distribution: None,
             claims: Vec::new(),
             symmetries: Vec::new(),
+            volume: None,
+            hamilton_jacobi: None,
             calls: Vec::new(),
             assumptions: Vec::new(),
             requests: Vec::new(),

@@ -1,0 +1,278 @@
+//! Brackets, the Hamiltonian side and the almost-Poisson form, as far as they are asked for.
+
+use super::restricted::requested;
+use super::{Proved, connection, volume};
+use crate::algebra::{Graph, Matrix};
+use crate::check;
+use crate::id::{ExprId, Origin, SymbolId};
+use crate::mechanics::{
+    Definiteness, HamiltonianSide, NoInverse, NonholonomicBracket, NotDifferentiable, Procedure,
+    definiteness, energy, hamiltonian_side, jacobian,
+};
+use crate::model::{Model, Request};
+use crate::phase_space::{AlmostPoisson, PhaseSpace};
+use crate::report::{Derived, hamiltonian_lines};
+use crate::violation::{Law, Violation};
+
+/// Sections of the report: a title and lines.
+pub(super) type Sections = Vec<(&'static str, Vec<String>)>;
+
+/// Derives what is asked for, with what the report says about it.
+pub(super) fn derive(
+    proved: &mut Proved,
+    derived: &Derived<'_>,
+    derivative: &Procedure,
+    observables: &Procedure,
+) -> Result<(PhaseSpace, Sections), Vec<Violation>> {
+    let mut found = PhaseSpace::default();
+    let mut sections = Sections::new();
+    let mut violations = Vec::new();
+    let mut keep = |result: Result<(), Vec<Violation>>| violations.extend(result.err().into_iter().flatten());
+    if needs_hamiltonian(&proved.model) {
+        keep(hamiltonian(proved, derived).and_then(|(side, momenta)| {
+            sections.push(("Hamiltonian side", hamiltonian_lines(&mut proved.model, &side)));
+            let fields = fields(proved, derived);
+            let Proved { model, base, .. } = &mut *proved;
+            found.hamilton_jacobi = check::hamilton_jacobi(model, &side, &fields, &momenta, base)?;
+            found.hamiltonian = requested(&proved.model, Request::Hamiltonian).then_some(side);
+            Ok(())
+        }));
+    }
+    if let Some(origin) = asked(&proved.model, Request::Bracket) {
+        keep(
+            bracket_of_outputs(proved, derived, observables, origin)
+                .map(|bracket| found.bracket = Some(bracket)),
+        );
+    }
+    if let Some(origin) = asked(&proved.model, Request::DiscreteGradient) {
+        keep(almost_poisson(proved, derived, origin).map(|form| found.almost_poisson = Some(form)));
+    }
+    keep(connection::derive(proved, derived, &mut found));
+    keep(volume::derive(proved, derived, derivative, &mut found).map(|lines| {
+        if !lines.is_empty() {
+            sections.push(("Volume", lines));
+        }
+    }));
+    if violations.is_empty() { Ok((found, sections)) } else { Err(violations) }
+}
+
+/// Where something is asked for.
+pub(super) fn asked(model: &Model, request: Request) -> Option<Origin> {
+    model.requests.iter().find(|(asked, _)| *asked == request).map(|(_, origin)| *origin)
+}
+
+fn needs_hamiltonian(model: &Model) -> bool {
+    asked(model, Request::Hamiltonian).is_some() || model.hamilton_jacobi.is_some()
+}
+
+/// How mass matrices are judged in this declaration.
+pub(super) fn judge(proved: &Proved) -> impl Fn(&Graph, &Matrix) -> Definiteness + use<> {
+    let parameters: Vec<SymbolId> =
+        proved.model.parameters.iter().map(|parameter| parameter.symbol).collect();
+    let facts = proved.facts.clone();
+    move |graph, matrix| definiteness(graph, matrix, &parameters, &facts)
+}
+
+/// The velocities of the state.
+pub(super) fn state_velocities(proved: &Proved, derived: &Derived<'_>) -> Vec<SymbolId> {
+    match derived {
+        Derived::Adapted { distribution, .. } => distribution.independent.clone(),
+        Derived::Projected { .. } => proved.system.algebroid.velocities.clone(),
+    }
+}
+
+/// The coordinates and velocities of the state.
+pub(super) fn state(proved: &Proved, derived: &Derived<'_>) -> Vec<SymbolId> {
+    let mut symbols = proved.system.algebroid.anchor.coordinates.clone();
+    symbols.extend(state_velocities(proved, derived));
+    symbols
+}
+
+/// The Hamiltonian side with the velocities that its momenta belong to.
+fn hamiltonian(
+    proved: &mut Proved,
+    derived: &Derived<'_>,
+) -> Result<(HamiltonianSide, Vec<SymbolId>), Vec<Violation>> {
+    let origin = asked(&proved.model, Request::Hamiltonian)
+        .or(proved.model.hamilton_jacobi.as_ref().map(|declared| declared.origin))
+        .unwrap_or(proved.model.origin);
+    let Derived::Adapted { distribution, equations } = derived else {
+        return Err(vec![Violation {
+            law: Law::Hamiltonian,
+            origin,
+            what: "there are no momenta on D* in the projected formulation".into(),
+            evidence: "they are the components of the momentum in a basis of D, and the state has none"
+                .into(),
+            way_out:
+                "name the velocities to keep with `independent { … }`; `bracket`, `discrete_gradient` and \
+                      `divergence` need no basis"
+                    .into(),
+        }]);
+    };
+    let judged = judge(proved)(&proved.model.graph, &equations.mass);
+    hamiltonian_side(&mut proved.model.graph, &proved.system, distribution, equations, judged)
+        .map(|side| (side, distribution.independent.clone()))
+        .map_err(|NoInverse { momentum, velocity }| {
+            let graph = &proved.model.graph;
+            vec![Violation {
+                law: Law::Hamiltonian,
+                origin,
+                what: "the Legendre transformation has no inverse in closed form".into(),
+                evidence: format!(
+                    "the momentum along `{}` is {}, which is not affine in the velocities",
+                    graph.symbols()[velocity],
+                    graph.text_within(momentum, 160)
+                ),
+                way_out:
+                    "leave `hamiltonian` out; `bracket` and `discrete_gradient` take any Lagrangian, in the \
+                          velocities"
+                        .into(),
+            }]
+        })
+}
+
+/// ρ(B_a) for the sections of the state.
+fn fields(proved: &mut Proved, derived: &Derived<'_>) -> Matrix {
+    let Derived::Adapted { distribution, .. } = derived else { return Matrix::new() };
+    let anchor = &proved.system.algebroid.anchor;
+    (0..distribution.rank())
+        .map(|a| anchor.vector_field(&mut proved.model.graph, &distribution.section(a)))
+        .collect()
+}
+
+fn nonholonomic_bracket(proved: &mut Proved, derived: &Derived<'_>) -> NonholonomicBracket {
+    let (graph, system) = (&mut proved.model.graph, &proved.system);
+    match derived {
+        Derived::Adapted { distribution, equations } => {
+            NonholonomicBracket::adapted(graph, system, distribution, equations)
+        }
+        Derived::Projected { residuals, equations } => {
+            NonholonomicBracket::projected(graph, system, residuals, equations)
+        }
+    }
+}
+
+/// {f_i, f_j}_nh = df_i · Π df_j.
+fn bracket_of_outputs(
+    proved: &mut Proved,
+    derived: &Derived<'_>,
+    observables: &Procedure,
+    origin: Origin,
+) -> Result<Procedure, Vec<Violation>> {
+    let count = observables.outputs.len();
+    if count == 0 {
+        return Err(vec![Violation {
+            law: Law::Hamiltonian,
+            origin,
+            what: "there are no functions to take brackets of".into(),
+            evidence: String::new(),
+            way_out: "declare them: `outputs { spin = …; }`".into(),
+        }]);
+    }
+    let arguments = state(proved, derived);
+    let judge = judge(proved);
+    let bracket = nonholonomic_bracket(proved, derived);
+    let graph = &mut proved.model.graph;
+    let mut procedure =
+        jacobian(graph, observables, &arguments).map_err(|error| vec![not_differentiable(error, origin)])?;
+    let differentials: Vec<Vec<ExprId>> =
+        procedure.outputs.chunks(arguments.len().max(1)).map(<[ExprId]>::to_vec).collect();
+    let n = bracket.coordinates.len();
+    let mut fields = Vec::with_capacity(count);
+    for differential in &differentials {
+        let (along_base, along_fibre) = differential.split_at(n);
+        let (rates, accelerations) = bracket.sharp(graph, &judge, (along_base, along_fibre), &mut procedure);
+        fields.push([rates, accelerations].concat());
+    }
+    let mut outputs = vec![graph.zero(); count * count];
+    for i in 0..count {
+        for j in i + 1..count {
+            let value = graph.inner_product(&differentials[i], &fields[j]);
+            let value = graph.simplify(value);
+            outputs[i * count + j] = value;
+            outputs[j * count + i] = graph.neg(value);
+        }
+    }
+    procedure.outputs = outputs;
+    Ok(shortened(graph, procedure))
+}
+
+/// Expressions with more operations than this are left as the procedure computes them.
+const SHORT: u64 = 240;
+
+/// The procedure with its outputs written out and simplified, where they are short.
+pub(super) fn shortened(graph: &mut Graph, procedure: Procedure) -> Procedure {
+    if graph.operation_count(&procedure.outputs) > SHORT || procedure.calls() {
+        return procedure;
+    }
+    let written_out = procedure.written_out(graph);
+    if graph.operation_count(&written_out) > 2 * SHORT {
+        return procedure;
+    }
+    let simplified = graph.simplify_all(&written_out);
+    let accurate =
+        simplified.iter().zip(&written_out).all(|(short, long)| graph.error_growth(*short, *long) <= 4.0);
+    if accurate && graph.operation_count(&simplified) <= SHORT {
+        Procedure::of(simplified)
+    } else {
+        procedure
+    }
+}
+
+/// A method of the user's that would have to be differentiated.
+pub(super) fn not_differentiable(
+    NotDifferentiable { method }: NotDifferentiable,
+    origin: Origin,
+) -> Violation {
+    Violation {
+        law: Law::Hamiltonian,
+        origin,
+        what: "this needs derivatives that are not known".into(),
+        evidence: format!("`self.{method}` is no formula, and is called with arguments that change"),
+        way_out: format!("give its derivatives in `derivative {{ {method}: […]; }}`"),
+    }
+}
+
+/// ∂E and Π, for a system that moves by Π ∂E.
+fn almost_poisson(
+    proved: &mut Proved,
+    derived: &Derived<'_>,
+    origin: Origin,
+) -> Result<AlmostPoisson, Vec<Violation>> {
+    let Proved { model, system, constraints, .. } = &mut *proved;
+    if let Some(evidence) = check::not_conservative(model, system, constraints) {
+        return Err(vec![Violation {
+            law: Law::Hamiltonian,
+            origin,
+            what: "a discrete gradient keeps the energy, and this system does not".into(),
+            evidence,
+            way_out:
+                "leave `discrete_gradient` out; `ImplicitMidpoint` is symmetric too and takes every system"
+                    .into(),
+        }]);
+    }
+    let arguments = state(proved, derived);
+    let judge = judge(proved);
+    let bracket = nonholonomic_bracket(proved, derived);
+    let graph = &mut proved.model.graph;
+    let mut function = energy(graph, &proved.system);
+    if let Derived::Adapted { distribution, .. } = derived {
+        function =
+            distribution.restriction(graph, &proved.system.algebroid.velocities).apply(graph, function);
+    }
+    let gradient: Vec<ExprId> = arguments
+        .iter()
+        .map(|symbol| {
+            let slope = graph.partial(function, *symbol);
+            graph.simplify(slope)
+        })
+        .collect();
+    let covector: Vec<SymbolId> =
+        (0..arguments.len()).map(|index| graph.new_symbol(format!("covector{index}"))).collect();
+    let components: Vec<ExprId> = covector.iter().map(|symbol| graph.symbol(*symbol)).collect();
+    let mut sharp = Procedure::default();
+    let (along_base, along_fibre) = components.split_at(bracket.coordinates.len());
+    let (rates, accelerations) = bracket.sharp(graph, judge, (along_base, along_fibre), &mut sharp);
+    sharp.outputs = [rates, accelerations].concat();
+    Ok(AlmostPoisson { gradient: Procedure::of(gradient), covector, sharp })
+}

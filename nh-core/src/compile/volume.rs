@@ -1,0 +1,248 @@
+//! The divergence of the motion, and the volume that it keeps.
+
+use super::phase_space::{asked, not_differentiable, shortened, state, state_velocities};
+use super::{Proved, fence};
+use crate::algebra::{Echelon, FieldPoint, Function, Graph, Matrix, Rational, Residue, Substitution};
+use crate::check;
+use crate::geometry::{ConstraintDistribution, Manifold};
+use crate::id::{ExprId, SymbolId};
+use crate::mechanics::{
+    Density, Flow, Procedure, Volume, VolumeSetting, divergence, invariant_volume, uncoupled,
+};
+use crate::model::Request;
+use crate::phase_space::PhaseSpace;
+use crate::report::Derived;
+use crate::violation::Violation;
+
+/// Derives the divergence and decides about volumes, as far as it is asked for; what the report says.
+pub(super) fn derive(
+    proved: &mut Proved,
+    derived: &Derived<'_>,
+    derivative: &Procedure,
+    found: &mut PhaseSpace,
+) -> Result<Vec<String>, Vec<Violation>> {
+    let [of_divergence, of_volume] =
+        [Request::Divergence, Request::Volume].map(|request| asked(&proved.model, request));
+    let claim = proved.model.volume;
+    let Some(origin) = of_divergence.or(of_volume).or(claim.map(|claim| claim.origin)) else {
+        return Ok(Vec::new());
+    };
+    // 1. div Γ in the coordinates of the state
+    let arguments = state(proved, derived);
+    let mut field = divergence(&mut proved.model.graph, derivative, &arguments)
+        .map_err(|error| vec![not_differentiable(error, origin)])?;
+    if let Some(correction) = correction(proved, derivative) {
+        field.outputs[0] = proved.model.graph.sub(field.outputs[0], correction);
+    }
+    let field = shortened(&mut proved.model.graph, field);
+    let mut lines = Vec::new();
+    if of_volume.is_some() || claim.is_some() {
+        let written_out = field.written_out(&mut proved.model.graph)[0];
+        // 2. a claimed density
+        if let Some((claim, density)) = claim.and_then(|claim| Some((claim, claim.density?))) {
+            let velocities = state_velocities(proved, derived);
+            let flow = Flow::of(&mut proved.model.graph, derivative, &proved.system, &velocities);
+            let manifold = manifold(proved, derived);
+            let mut flow = flow;
+            let model = &mut proved.model;
+            let broken =
+                check::claimed_density(model, &manifold, density, written_out, &mut flow, claim.origin);
+            fence(broken.into_iter().collect())?;
+            let text = model.graph.text_within(density, 400);
+            lines.push(format!("the density {text} is kept (claimed, and proved)"));
+            found.density = of_volume.is_some().then(|| Procedure::of(vec![density]));
+        } else {
+            // 3. a density on the base
+            let verdict = decide(proved, derived, written_out);
+            let origin = claim.map(|claim| claim.origin).or(of_volume).unwrap_or(origin);
+            let density = check::volume(&mut proved.model, &verdict, written_out, origin)
+                .map_err(|violation| vec![violation])?;
+            let density = density_expression(proved, &density);
+            lines.push(line(proved, derived, density));
+            found.density = of_volume.is_some().then(|| Procedure::of(vec![density]));
+        }
+    }
+    found.divergence = of_divergence.is_some().then_some(field);
+    Ok(lines)
+}
+
+/// The constraint manifold as far as the state can leave it.
+fn manifold(proved: &mut Proved, derived: &Derived<'_>) -> Manifold {
+    match derived {
+        Derived::Adapted { .. } => proved.base.clone(),
+        Derived::Projected { .. } => {
+            proved.constraints.manifold(&mut proved.model.graph, &proved.system.algebroid.velocities)
+        }
+    }
+}
+
+/// What the report says about an invariant volume.
+fn line(proved: &Proved, derived: &Derived<'_>, density: ExprId) -> String {
+    let graph = &proved.model.graph;
+    let names: Vec<String> =
+        state(proved, derived).iter().map(|symbol| format!("d({})", graph.symbols()[*symbol])).collect();
+    let on = match derived {
+        Derived::Adapted { .. } => "",
+        Derived::Projected { .. } => ", divided by the differentials of the constraints",
+    };
+    let text = graph.text_within(density, 400);
+    format!("invariant: ({text}) {}{on} (mathematics (19), M 2.5)", names.join(" "))
+}
+
+/// On an embedded base f = 0 with Γ(f) = g f the volume is that of dx/df: the divergence on the base is
+/// less by the trace of g. `None` where that is 0.
+fn correction(proved: &mut Proved, derivative: &Procedure) -> Option<ExprId> {
+    if proved.model.identities.is_empty() {
+        return None;
+    }
+    let graph = &mut proved.model.graph;
+    let coordinates = proved.system.algebroid.anchor.coordinates.clone();
+    let rates = derivative.written_out(graph)[..coordinates.len()].to_vec();
+    let functions: Vec<ExprId> = proved.model.identities.iter().map(|identity| identity.value).collect();
+    let gradient = |graph: &mut Graph, function: ExprId| -> Vec<ExprId> {
+        coordinates.iter().map(|symbol| graph.partial(function, *symbol)).collect()
+    };
+    let mut slopes: Matrix = functions.iter().map(|f| gradient(graph, *f)).collect();
+    let mut changes: Matrix = slopes
+        .clone()
+        .iter()
+        .map(|slope| {
+            let change = graph.inner_product(slope, &rates);
+            gradient(graph, change)
+        })
+        .collect();
+    // identities that follow from others say nothing more
+    let restricted = proved.base.restrict_matrix(graph, &slopes);
+    let sampled = graph
+        .matrix_in_field(&Graph::transposed(&restricted), |seed| FieldPoint::random(25_000 + seed))
+        .ok()?;
+    let independent = Echelon::of(sampled).pivots;
+    slopes = independent.iter().map(|row| slopes[*row].clone()).collect();
+    changes = independent.iter().map(|row| changes[*row].clone()).collect();
+    let (at_slopes, at_changes) =
+        (proved.base.restrict_matrix(graph, &slopes), proved.base.restrict_matrix(graph, &changes));
+    if trace_vanishes(graph, &at_slopes, &at_changes) {
+        return None;
+    }
+    // g = ∂(Γf) Fᵀ (F Fᵀ)⁻¹
+    let gram: Matrix =
+        slopes.iter().map(|a| slopes.iter().map(|b| graph.inner_product(a, b)).collect()).collect();
+    let right: Matrix =
+        slopes.iter().map(|a| changes.iter().map(|b| graph.inner_product(a, b)).collect()).collect();
+    let solved = graph.solve_linear(&gram, &right)?.values;
+    let trace: Vec<ExprId> = (0..solved.len()).map(|k| solved[k][k]).collect();
+    Some(graph.sum(&trace))
+}
+
+/// Whether tr(∂(Γf) Fᵀ (F Fᵀ)⁻¹) is 0 at random points of the base.
+fn trace_vanishes(graph: &Graph, slopes: &Matrix, changes: &Matrix) -> bool {
+    let together = [slopes.as_slice(), changes].concat();
+    [26_000, 27_000].into_iter().all(|start| {
+        let Ok(rows) = graph.matrix_in_field(&together, |seed| FieldPoint::random(start + seed)) else {
+            return false;
+        };
+        let (slopes, changes) = rows.split_at(slopes.len());
+        let dot =
+            |a: &[Residue], b: &[Residue]| a.iter().zip(b).fold(Residue::ZERO, |sum, (a, b)| sum + *a * *b);
+        let system: Vec<Vec<Residue>> =
+            slopes.iter().map(|a| slopes.iter().chain(changes).map(|b| dot(a, b)).collect()).collect();
+        let echelon = Echelon::of(system);
+        let k = slopes.len();
+        let trace =
+            (0..k).filter_map(|i| echelon.rows.get(i)?.get(k + i)).fold(Residue::ZERO, |sum, x| sum + *x);
+        echelon.rank() == k && trace == Residue::ZERO
+    })
+}
+
+/// Looks for a density on the base, in a basis of D that holds at most points.
+fn decide(proved: &mut Proved, derived: &Derived<'_>, divergence: ExprId) -> Volume {
+    let velocities = proved.system.algebroid.velocities.clone();
+    let local;
+    let distribution = match derived {
+        Derived::Adapted { distribution, .. } => *distribution,
+        Derived::Projected { .. } => {
+            let graph = &mut proved.model.graph;
+            match proved.constraints.generic_distribution(graph, &velocities) {
+                None => return Volume::Nonlinear,
+                Some(found) => {
+                    local = found;
+                    &local
+                }
+            }
+        }
+    };
+    let graph = &mut proved.model.graph;
+    let divergence = distribution.restriction(graph, &velocities).apply(graph, divergence);
+    let divergence = graph.simplify(divergence);
+    let time = proved.system.time;
+    let depends_on_time =
+        graph.depends_on(divergence, &[time]) || graph.symbols_in(&distribution.velocity).contains(&time);
+    let anchor = &proved.system.algebroid.anchor;
+    let mut fields: Matrix =
+        (0..distribution.rank()).map(|a| anchor.vector_field(graph, &distribution.section(a))).collect();
+    fields.push(anchor.vector_field(graph, &distribution.offset));
+    let mut base = anchor.coordinates.clone();
+    if depends_on_time {
+        base.push(time);
+        let (zero, one) = (graph.zero(), graph.one());
+        let last = fields.len() - 1;
+        for (index, field) in fields.iter_mut().enumerate() {
+            field.push(if index == last { one } else { zero });
+        }
+    }
+    let hints = hints(graph, proved.system.lagrangian, distribution, &velocities);
+    let setting = VolumeSetting {
+        divergence,
+        fields,
+        base,
+        velocities: distribution.independent.clone(),
+        manifold: &proved.base,
+        hints,
+    };
+    invariant_volume(&mut proved.model.graph, &setting)
+}
+
+/// det C, block by block, and what the basis of D is divided by.
+fn hints(
+    graph: &mut Graph,
+    lagrangian: ExprId,
+    distribution: &ConstraintDistribution,
+    velocities: &[SymbolId],
+) -> Vec<ExprId> {
+    const BLOCK: usize = 4;
+    let images = velocities.iter().copied().zip(distribution.velocity.iter().copied());
+    let restricted = Substitution::new(images).apply(graph, lagrangian);
+    let mass: Matrix = distribution
+        .independent
+        .iter()
+        .map(|a| {
+            let momentum = graph.partial(restricted, *a);
+            distribution.independent.iter().map(|b| graph.partial(momentum, *b)).collect()
+        })
+        .collect();
+    let mut hints = Vec::new();
+    for block in uncoupled(graph, &mass).into_iter().filter(|block| block.len() <= BLOCK) {
+        let inner: Matrix = block.iter().map(|i| block.iter().map(|j| mass[*i][*j]).collect()).collect();
+        let determinant = graph.small_determinant(&inner);
+        hints.push(determinant);
+    }
+    hints.extend(&distribution.pivots);
+    hints
+}
+
+/// The density as an expression: powers that are no integers of what may be negative are powers of the
+/// absolute value.
+fn density_expression(proved: &mut Proved, density: &Density) -> ExprId {
+    let facts = proved.facts.clone();
+    let graph = &mut proved.model.graph;
+    let factors: Vec<(ExprId, Rational)> = density
+        .iter()
+        .map(|(factor, exponent)| {
+            let even = (exponent.clone() * Rational::new(1, 2)).is_integer();
+            let positive = even || graph.range(*factor, &facts).is_positive();
+            let base = if positive { *factor } else { graph.apply(Function::Abs, *factor) };
+            (base, exponent.clone())
+        })
+        .collect();
+    graph.product(&factors)
+}

@@ -1,0 +1,282 @@
+//! Invariant volume: whether a density on the base is kept by the motion (M 2.5).
+//!
+//! A density μ is kept iff Γ(log μ) + div Γ = 0. For μ on the base this is linear in the velocities:
+//! `ρ(y) log μ = −div Γ`, that is d^D log μ is minus the modular section, mathematics (19).
+
+use crate::algebra::{Derivation, Echelon, FieldPoint, Graph, Node, Rational, Residue, Verdict};
+use crate::geometry::Manifold;
+use crate::id::{ExprId, SymbolId};
+
+/// `Π factor^exponent`.
+pub type Density = Vec<(ExprId, Rational)>;
+
+/// div Γ = Σ M_a v^a + M_0 on the constraint manifold, with the vector fields on the base that belong
+/// to the v^a.
+#[derive(Clone, Debug)]
+pub struct ModularSection {
+    /// M_a; M_0 last.
+    pub components: Vec<ExprId>,
+    /// ρ(B_a): a row for each v^a; ρ(y₀) + ∂_t last, the time component last.
+    pub fields: Vec<Vec<ExprId>>,
+    /// The v^a.
+    pub velocities: Vec<SymbolId>,
+}
+
+/// What the search for a density needs.
+pub struct VolumeSetting<'a> {
+    /// div Γ on the constraint manifold, as a function of (t, x, v).
+    pub divergence: ExprId,
+    /// The vector fields: see [`ModularSection::fields`].
+    pub fields: Vec<Vec<ExprId>>,
+    /// The coordinates x^i, and the time.
+    pub base: Vec<SymbolId>,
+    /// The velocities v^a.
+    pub velocities: Vec<SymbolId>,
+    /// The embedded base.
+    pub manifold: &'a Manifold,
+    /// Where the factors of a density are looked for first.
+    pub hints: Vec<ExprId>,
+}
+
+/// The verdict.
+#[derive(Clone, Debug)]
+pub enum Volume {
+    /// A density on the base that is kept.
+    Kept(Density),
+    /// There is none: d^D f is minus this section for no function f on the base.
+    None(ModularSection),
+    /// The divergence is no linear function of the velocities, so no density on the base is kept.
+    Nonlinear,
+    /// No density was found in the class searched, and none was excluded.
+    Unknown(ModularSection),
+}
+
+/// Factors tried.
+const CANDIDATES: usize = 40;
+/// Vector fields whose brackets are taken in the proof that there is no density.
+const FIELDS: usize = 12;
+
+/// Decides.
+pub fn invariant_volume(graph: &mut Graph, setting: &VolumeSetting<'_>) -> Volume {
+    // 1. M
+    let Some(section) = modular_section(graph, setting) else { return Volume::Nonlinear };
+    // 2. log μ = Σ q_k log P_k
+    if let Some(density) = search(graph, setting, &section) {
+        return Volume::Kept(density);
+    }
+    // 3. no μ at all
+    if is_excluded(graph, setting, &section) { Volume::None(section) } else { Volume::Unknown(section) }
+}
+
+fn modular_section(graph: &mut Graph, setting: &VolumeSetting<'_>) -> Option<ModularSection> {
+    let form = graph.linear_form(setting.divergence, &setting.velocities).ok()?;
+    let others: Vec<SymbolId> = graph.symbols_in(&form.coefficients);
+    if others.iter().any(|symbol| setting.velocities.contains(symbol)) {
+        return None;
+    }
+    let mut components = form.coefficients;
+    components.push(form.rest);
+    let components = components.into_iter().map(|m| graph.simplify(m)).collect();
+    Some(ModularSection {
+        components,
+        fields: setting.fields.clone(),
+        velocities: setting.velocities.clone(),
+    })
+}
+
+/// Functions of the base that may be factors of a density, the likely ones first.
+fn candidates(graph: &Graph, setting: &VolumeSetting<'_>, section: &ModularSection) -> Vec<ExprId> {
+    let mut found: Vec<ExprId> = Vec::new();
+    let mut consider = |candidate: ExprId| {
+        let symbols = graph.symbols_in(&[candidate]);
+        let on_base = symbols.iter().any(|symbol| setting.base.contains(symbol))
+            && !symbols.iter().any(|symbol| setting.velocities.contains(symbol));
+        if on_base && found.len() < CANDIDATES && !found.contains(&candidate) {
+            found.push(candidate);
+        }
+    };
+    // factors of what is hinted at, then every factor of M, then what these are made of
+    for hint in &setting.hints {
+        factors(graph, *hint).into_iter().for_each(&mut consider);
+    }
+    let reachable = graph.reachable(&section.components);
+    for id in reachable.iter().rev() {
+        match graph.node(*id) {
+            Node::Product { factors, .. } => factors.iter().for_each(|(base, _)| consider(*base)),
+            Node::Symbol(_) | Node::Apply(..) => consider(*id),
+            _ => {}
+        }
+    }
+    let fields: Vec<ExprId> = section.fields.concat();
+    for id in graph.reachable(&fields) {
+        if matches!(graph.node(id), Node::Symbol(_) | Node::Apply(..)) {
+            consider(id);
+        }
+    }
+    found
+}
+
+fn factors(graph: &Graph, expression: ExprId) -> Vec<ExprId> {
+    match graph.node(expression) {
+        Node::Product { factors, .. } => factors.iter().map(|(base, _)| *base).collect(),
+        _ => vec![expression],
+    }
+}
+
+/// ρ(B_a) f for each a.
+fn differential(graph: &mut Graph, setting: &VolumeSetting<'_>, function: ExprId) -> Vec<ExprId> {
+    let partials: Vec<ExprId> = setting.base.iter().map(|symbol| graph.partial(function, *symbol)).collect();
+    setting.fields.iter().map(|field| graph.inner_product(field, &partials)).collect()
+}
+
+/// Solves Σ q_k d log P_k = −M for rational q at random points, and proves the solution.
+fn search(graph: &mut Graph, setting: &VolumeSetting<'_>, section: &ModularSection) -> Option<Density> {
+    let manifold = setting.manifold;
+    let right: Vec<ExprId> = section
+        .components
+        .iter()
+        .map(|component| {
+            let negative = graph.neg(*component);
+            manifold.restrict(graph, negative)
+        })
+        .collect();
+    if right.iter().all(|component| graph.zero_test(*component).is_zero()) {
+        return Some(Vec::new());
+    }
+    let candidates = candidates(graph, setting, section);
+    // a candidate P is log P, and a coordinate also itself: the density e^x
+    let mut terms: Vec<(ExprId, bool)> = candidates.iter().map(|p| (*p, true)).collect();
+    terms.extend(candidates.iter().filter(|p| graph.as_symbol(**p).is_some()).map(|p| (*p, false)));
+    let mut columns = Vec::with_capacity(terms.len() + 1);
+    for (candidate, is_logarithm) in &terms {
+        let column: Vec<ExprId> = differential(graph, setting, *candidate)
+            .into_iter()
+            .map(|change| {
+                let change = if *is_logarithm { graph.div(change, *candidate) } else { change };
+                manifold.restrict(graph, change)
+            })
+            .collect();
+        columns.push(column);
+    }
+    columns.push(right);
+    let unknowns = terms.len();
+    let matrix = Graph::transposed(&columns);
+    let mut rows: Vec<Vec<Residue>> = Vec::new();
+    for sample in 0..(unknowns as u64 + 4) {
+        let start = 21_000 + 64 * sample;
+        rows.extend(graph.matrix_in_field(&matrix, |seed| FieldPoint::random(start + seed)).ok()?);
+    }
+    let echelon = Echelon::of(rows);
+    if echelon.pivots.contains(&unknowns) {
+        return None;
+    }
+    let mut density = Density::new();
+    for (row, pivot) in echelon.rows.iter().zip(&echelon.pivots) {
+        if row[unknowns] == Residue::ZERO {
+            continue;
+        }
+        let exponent = recognised(row[unknowns])?;
+        let (candidate, is_logarithm) = terms[*pivot];
+        if is_logarithm {
+            density.push((candidate, exponent));
+        } else {
+            let scaled = graph.scale(exponent, candidate);
+            let factor = graph.apply(crate::algebra::Function::Exp, scaled);
+            density.push((factor, Rational::ONE));
+        }
+    }
+    is_kept(graph, setting, section, &density).then_some(density)
+}
+
+/// A rational number with small numerator and denominator.
+fn recognised(value: Residue) -> Option<Rational> {
+    for denominator in 1..=24 {
+        for numerator in -72..=72 {
+            let candidate = Rational::new(numerator, denominator);
+            if Residue::of(&candidate) == Some(value) {
+                return Some(candidate);
+            }
+        }
+    }
+    None
+}
+
+/// Whether ρ(B_a) log μ + M_a = 0 for every a.
+fn is_kept(
+    graph: &mut Graph,
+    setting: &VolumeSetting<'_>,
+    section: &ModularSection,
+    density: &Density,
+) -> bool {
+    let mut sums: Vec<Vec<(Rational, ExprId)>> =
+        section.components.iter().map(|m| vec![(Rational::ONE, *m)]).collect();
+    for (factor, exponent) in density {
+        for (sum, change) in sums.iter_mut().zip(differential(graph, setting, *factor)) {
+            let share = graph.div(change, *factor);
+            sum.push((exponent.clone(), share));
+        }
+    }
+    sums.into_iter().all(|sum| {
+        let defect = graph.linear_combination(&sum);
+        setting.manifold.zero_test(graph, defect) == Verdict::Zero
+    })
+}
+
+/// Whether the equations X_a f = −M_a contradict each other: X_a f is known for every vector field of
+/// the list, so [X_a, X_b] f is, and at a point these fields may be dependent while what they are to
+/// give is not.
+fn is_excluded(graph: &mut Graph, setting: &VolumeSetting<'_>, section: &ModularSection) -> bool {
+    let mut known: Vec<(Vec<ExprId>, ExprId)> =
+        section.fields.iter().cloned().zip(section.components.iter().copied()).collect();
+    let mut done = 0;
+    loop {
+        if contradicts(graph, setting, &known) {
+            return true;
+        }
+        let end = known.len();
+        if done == end || end >= FIELDS {
+            return false;
+        }
+        for a in 0..end {
+            for b in done.max(a + 1)..end {
+                if known.len() < FIELDS {
+                    let bracket = commutator(graph, setting, &known[a], &known[b]);
+                    known.push(bracket);
+                }
+            }
+        }
+        done = end;
+    }
+}
+
+fn commutator(
+    graph: &mut Graph,
+    setting: &VolumeSetting<'_>,
+    first: &(Vec<ExprId>, ExprId),
+    second: &(Vec<ExprId>, ExprId),
+) -> (Vec<ExprId>, ExprId) {
+    let along = |field: &[ExprId]| Derivation::new(setting.base.iter().copied().zip(field.iter().copied()));
+    let (mut x, mut y) = (along(&first.0), along(&second.0));
+    let mut difference = |graph: &mut Graph, of_second: ExprId, of_first: ExprId| {
+        let (forth, back) = (x.apply(graph, of_second), y.apply(graph, of_first));
+        graph.sub(forth, back)
+    };
+    let pairs: Vec<(ExprId, ExprId)> = second.0.iter().copied().zip(first.0.iter().copied()).collect();
+    let field =
+        pairs.into_iter().map(|(of_second, of_first)| difference(graph, of_second, of_first)).collect();
+    let value = difference(graph, second.1, first.1);
+    (field, value)
+}
+
+/// Whether the values are not a linear function of the fields at a random point.
+fn contradicts(graph: &mut Graph, setting: &VolumeSetting<'_>, known: &[(Vec<ExprId>, ExprId)]) -> bool {
+    let rows: Vec<Vec<ExprId>> =
+        known.iter().map(|(field, value)| [field.as_slice(), &[*value]].concat()).collect();
+    let rows = setting.manifold.restrict_matrix(graph, &rows);
+    let last = setting.base.len();
+    [23_000, 24_000].into_iter().all(|start| {
+        graph
+            .matrix_in_field(&rows, |seed| FieldPoint::random(start + seed))
+            .is_ok_and(|rows| Echelon::of(rows).pivots.contains(&last))
+    })
+}

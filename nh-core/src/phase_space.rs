@@ -1,0 +1,36 @@
+//! What is derived about the flow on phase space, on request.
+
+use crate::id::SymbolId;
+use crate::mechanics::{HamiltonianSide, Procedure};
+
+/// Brackets, momenta, volume and connections: each only if it is asked for.
+#[derive(Clone, Debug, Default)]
+pub struct PhaseSpace {
+    /// The Hamiltonian side on D*.
+    pub hamiltonian: Option<HamiltonianSide>,
+    /// Outputs: the brackets {f_i, f_j}_nh of the declared observables, row by row.
+    pub bracket: Option<Procedure>,
+    /// The equations as Π ∇E.
+    pub almost_poisson: Option<AlmostPoisson>,
+    /// One output: the divergence of the vector field in the coordinates of the state.
+    pub divergence: Option<Procedure>,
+    /// One output: the density of the invariant volume.
+    pub density: Option<Procedure>,
+    /// Outputs: the symbols of the constrained connection, Γ^c_{ab} with c fastest.
+    pub connection: Option<Procedure>,
+    /// Outputs: the Christoffel symbols of the metric on E, Γ^γ_{αβ} with γ fastest.
+    pub christoffel: Option<Procedure>,
+    /// Outputs: the velocities of the state that the declared section of D* gives.
+    pub hamilton_jacobi: Option<Procedure>,
+}
+
+/// The almost-Poisson form of a system that conserves its energy.
+#[derive(Clone, Debug)]
+pub struct AlmostPoisson {
+    /// Outputs: ∂E/∂(state).
+    pub gradient: Procedure,
+    /// The components of a covector.
+    pub covector: Vec<SymbolId>,
+    /// Outputs: Π applied to it.
+    pub sharp: Procedure,
+}
