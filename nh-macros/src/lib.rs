@@ -59,10 +59,12 @@ mod syntax;
 /// | `outputs { speed = …; }` | named observables | none |
 /// | `conserved { spin = …; }` | claimed first integrals, proved or refused | |
 /// | `symmetries { spin: omega; }` | labelled sections whose momenta are wanted, each in D or a symmetry | cyclic coordinates are found |
+/// | `volume;` or `volume { density; }` | the claim that the motion keeps a volume, proved or refused; its density is found on the base, or given | |
+/// | `hamilton_jacobi { omega: …; }` | momenta as functions on the base that are claimed to solve the Hamilton–Jacobi equation, proved or refused | |
 /// | `assume { m > 0; }` | facts about parameters: used in proofs, checked by `validate` | none |
 /// | `independent { v, dphi }` | the velocities that the state keeps | chosen by the macro |
 /// | `formulation { projected }` | all velocities in the state, with multipliers; or `adapted` | adapted where a choice of velocities holds everywhere |
-/// | `emit { jacobian, multipliers, reactions, momenta }` | what to generate beyond the default | |
+/// | `emit { jacobian, momenta }` | what to generate beyond the default: see below | |
 /// | `track { v, speed }` | the state variables and outputs that matter: what does not flow into them is neither stored nor computed | everything |
 /// | `derivative { motor: [self.motor_speed]; }` | the partial derivatives of a method used in a force, for `emit { jacobian }` | |
 /// | `names { state = RobotState; }` | names of generated types, by their roles | `…State` and so on |
@@ -111,6 +113,25 @@ mod syntax;
 /// `momenta(t, &state)` and `momentum_rates(t, &state, &input)` return a field for each label; with
 /// `emit { momenta }` and no `symmetries`, one for each cyclic coordinate whose translation is
 /// horizontal.
+///
+/// # What `emit` can ask for
+///
+/// Nothing of this costs anything unless it is asked for. Formulas: MATHEMATICS.md of the project.
+///
+/// | word | methods |
+/// |---|---|
+/// | `jacobian` | `jacobian(t, &state, &input)`, the trait `Jacobian` |
+/// | `multipliers`, `reactions` | `multipliers(t, &state, &input)`, `reactions(…)` |
+/// | `momenta` | `momenta(t, &state)`, `momentum_rates(t, &state, &input)` |
+/// | `hamiltonian` | the struct `…Phase` of coordinates and momenta π = ∂L/∂v on the constraint distribution; `legendre(t, &state)`, `inverse_legendre(t, &phase)`, `hamiltonian(t, &phase)`, Hamilton's equations `hamilton(t, &phase, &input)`, the matrix `poisson(t, &phase)` of the nonholonomic brackets |
+/// | `bracket` | `bracket(t, &state, &input)`: the brackets of the `outputs` with each other |
+/// | `discrete_gradient` | the trait `AlmostPoisson`, for methods that keep the energy; refused, with the reason, where it is not conserved |
+/// | `divergence` | `divergence(t, &state, &input)` of the motion in the coordinates of the state |
+/// | `volume` | `volume_density(t, &state)` of a volume that the motion keeps; refused, with the modular section, where there is none with a density on the base |
+/// | `connection` | `connection(t, &state)`, the symbols of the constrained connection, and `christoffel(t, &state)` of the kinetic metric without constraints |
+///
+/// `hamilton_jacobi { … }` gives `hamilton_jacobi(t, &state)`: the state over the same point of the base
+/// with these momenta.
 ///
 /// # Which velocities the state keeps
 ///

@@ -110,6 +110,29 @@ impl<S: Energy + ?Sized> Energy for &S {
     }
 }
 
+/// A system that moves by its energy alone, ẋ = Π(x) ∂E(x) with an antisymmetric Π: the nonholonomic
+/// bracket. Declared with `emit { discrete_gradient }`, which is refused where the energy is not
+/// conserved.
+pub trait AlmostPoisson: Energy {
+    /// ∂E/∂x.
+    fn energy_gradient(&self, t: ScalarOf<Self>, state: &Self::State) -> VecOf<Self>;
+
+    /// Π(x) applied to a covector, antisymmetric at every x: also where the state does not satisfy its
+    /// constraints. With the gradient of the energy it gives the derivative of the state where it does.
+    fn almost_poisson(&self, t: ScalarOf<Self>, state: &Self::State, covector: &VecOf<Self>) -> VecOf<Self>;
+}
+
+impl<S: AlmostPoisson + ?Sized> AlmostPoisson for &S {
+    #[inline]
+    fn energy_gradient(&self, t: ScalarOf<S>, state: &S::State) -> VecOf<S> {
+        (**self).energy_gradient(t, state)
+    }
+    #[inline]
+    fn almost_poisson(&self, t: ScalarOf<S>, state: &S::State, covector: &VecOf<S>) -> VecOf<S> {
+        (**self).almost_poisson(t, state, covector)
+    }
+}
+
 /// A system with named observables.
 pub trait Observed: Dynamics {
     /// The observables, one named field each.

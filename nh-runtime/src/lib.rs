@@ -86,7 +86,9 @@ mod step_control;
 mod tolerance;
 
 pub use dim::{D, Dim};
-pub use dynamics::{Constrained, DimOf, Dynamics, Energy, Jacobian, MatOf, Observed, ScalarOf, State, VecOf};
+pub use dynamics::{
+    AlmostPoisson, Constrained, DimOf, Dynamics, Energy, Jacobian, MatOf, Observed, ScalarOf, State, VecOf,
+};
 pub use error::{InputFault, IntegrationError, ParameterError, ParameterFault, ProjectionError, StateFault};
 pub use fast::Fast;
 pub use integrator::{Integrator, Statistics};
@@ -276,7 +278,7 @@ pub mod __private {
     pub use crate::linear::solve_pivoted;
     pub use crate::projection::{check_identities, project};
     pub use crate::{
-        Constrained, D, Dim, Dynamics, Energy, InputFault, Jacobian, Observed, ParameterError,
+        AlmostPoisson, Constrained, D, Dim, Dynamics, Energy, InputFault, Jacobian, Observed, ParameterError,
         ParameterFault, ProjectionError, Real, Reconstruction, Reduction, Scalar, ScalarOf, State,
         StateFault,
     };

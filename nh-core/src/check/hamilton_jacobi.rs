@@ -28,19 +28,18 @@ pub fn hamilton_jacobi(
     // 1. α_a, 0 where nothing is said
     let mut section = vec![graph.zero(); rank];
     for (velocity, value) in &declared.components {
-        match velocities.iter().position(|known| known == velocity) {
-            Some(a) => section[a] = value.value,
-            None => {
-                let name = &graph.symbols()[*velocity];
-                return Err(vec![Violation {
-                    law: Law::HamiltonJacobi,
-                    origin: value.origin,
-                    what: format!("there is no momentum along `{name}` on D*"),
-                    evidence: "the constraints give this velocity from those in the state".into(),
-                    way_out: "name velocities that the state keeps".into(),
-                }]);
-            }
+        if let Some(a) = velocities.iter().position(|known| known == velocity) {
+            section[a] = value.value;
+            continue;
         }
+        let name = &graph.symbols()[*velocity];
+        return Err(vec![Violation {
+            law: Law::HamiltonJacobi,
+            origin: value.origin,
+            what: format!("there is no momentum along `{name}` on D*"),
+            evidence: "the constraints give this velocity from those in the state".into(),
+            way_out: "name velocities that the state keeps".into(),
+        }]);
     }
     // 2. what depends on the momenta, at α
     let mut at_section = Substitution::new(side.momenta.iter().copied().zip(section.iter().copied()));

@@ -7,7 +7,7 @@ use crate::algebra::{Derivation, Graph, Matrix, Rational};
 /// Christoffel symbols Γ^c_{ab} of ∇_{e_a} e_b = Γ^c_{ab} e_c, by the first index a, then b, then c.
 pub type Christoffel = Vec<Matrix>;
 
-/// The covariant components G(∇_{σ_a}σ_b, σ_c) of the Levi-Civita connection for sections σ, by Koszul's
+/// The covariant components G(∇_{σ_a}σ_b, σ_c) of the Levi-Civita connection for sections σ, by mathematics (21), Koszul's
 /// formula
 ///
 /// `2G(∇_XY, Z) = ρ(X)G(Y, Z) + ρ(Y)G(X, Z) − ρ(Z)G(X, Y) − G(X, [Y, Z]) − G(Y, [X, Z]) + G(Z, [X, Y])`.

@@ -72,7 +72,9 @@ pub(crate) fn report(
     section("Equations of motion", equations_of_motion(model, derived));
     section("Symmetries", symmetries);
     section("Conserved quantities", conserved);
-    more.into_iter().for_each(|(title, lines)| section(title, lines));
+    for (title, lines) in more {
+        section(title, lines);
+    }
     text
 }
 

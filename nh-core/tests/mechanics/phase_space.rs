@@ -65,8 +65,9 @@ fn the_almost_poisson_form_is_the_equations() {
         };
         let expected = values(graph, &system.derivative, at);
         let gradient = values(graph, &form.gradient, at);
+        let program = schedule(graph, &form.sharp);
         let sharp = |covector: &[f64]| {
-            values(graph, &form.sharp, |symbol| {
+            interpret(&program, |symbol| {
                 form.covector
                     .iter()
                     .position(|c| *c == symbol)
@@ -200,12 +201,12 @@ fn the_brackets_of_the_ball_on_the_rotating_table() {
     };
     let (r, k2, w3, omega) = (named("r"), named("k2"), named("w3"), named("Omega"));
     let (x, y, w1, w2) = (named("x"), named("y"), named("w1"), named("w2"));
-    _ = (w1, w2);
     let velocities: Vec<String> =
         system.state_velocities.iter().map(|v| system.model.graph.symbols()[*v].clone()).collect();
-    let (dx, dy) = match velocities.iter().any(|name| name == "dx") {
-        true => (named("dx"), named("dy")),
-        false => (r * named("w2") - omega * y, -r * named("w1") + omega * x),
+    let (dx, dy) = if velocities.iter().any(|name| name == "dx") {
+        (named("dx"), named("dy"))
+    } else {
+        (r * w2 - omega * y, -r * w1 + omega * x)
     };
     let (pi1, pi2) = (r * dx + k2 * (dx + omega * y) / r, r * dy + k2 * (dy - omega * x) / r);
     let pi3 = k2 * w3;
@@ -257,7 +258,9 @@ fn veselova_keeps_the_known_volume() {
     let lookup = |seed: f64| {
         let mut g = [0.3 + seed, -0.5 * seed, 0.9 - 0.2 * seed];
         let norm = g.iter().map(|x| x * x).sum::<f64>().sqrt();
-        g.iter_mut().for_each(|x| *x /= norm);
+        for x in &mut g {
+            *x /= norm;
+        }
         g
     };
     let inertia = [1.3, 0.8, 2.1];

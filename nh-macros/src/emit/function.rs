@@ -51,6 +51,64 @@ impl Head {
     }
 }
 
+/// The head of a method of time, one more argument, and perhaps input.
+pub(super) struct Signature {
+    pub(super) name: &'static str,
+    /// Its documentation, a line each.
+    pub(super) doc: &'static [&'static str],
+    /// What it takes, by reference.
+    pub(super) argument: (Argument, Ident, TokenStream),
+    pub(super) takes_input: bool,
+    pub(super) returns: TokenStream,
+}
+
+impl Signature {
+    /// The method; arguments that are not in `used` are dropped first.
+    pub(super) fn with_body(
+        &self,
+        context: &Context,
+        used: &BTreeSet<Argument>,
+        body: &TokenStream,
+    ) -> TokenStream {
+        let Context { visibility, scalar, .. } = context;
+        let (t, input) = (&context.locals.t, &context.locals.input);
+        let input_type = context.input_type();
+        let input_parameter = self.takes_input.then(|| quote!(, #input: &#input_type));
+        let mut arguments = vec![Argument::This, Argument::Time];
+        arguments.extend(self.takes_input.then_some(Argument::Input));
+        let mut drops = drops_of(context, &arguments, used);
+        let Self { doc, returns, argument: (argument, ident, of_type), .. } = self;
+        if !used.contains(argument) {
+            drops.extend(quote!(_ = #ident;));
+        }
+        let name = Ident::new(self.name, Span::call_site());
+        quote! {
+            #(#[doc = #doc])*
+            #[must_use]
+            #[inline]
+            #visibility fn #name(&self, #t: #scalar, #ident: &#of_type #input_parameter) -> #returns {
+                #drops
+                #body
+            }
+        }
+    }
+}
+
+/// `_ = t;` for those of some arguments that are not in `used`.
+pub(super) fn drops_of(context: &Context, arguments: &[Argument], used: &BTreeSet<Argument>) -> TokenStream {
+    let (t, state, input) = (&context.locals.t, &context.locals.state, &context.locals.input);
+    let unused = arguments.iter().filter(|argument| !used.contains(argument));
+    unused
+        .map(|argument| match argument {
+            Argument::This => quote!(_ = self;),
+            Argument::Time => quote!(_ = #t;),
+            Argument::State => quote!(_ = #state;),
+            Argument::Input => quote!(_ = #input;),
+            _ => TokenStream::new(),
+        })
+        .collect()
+}
+
 /// `_ = state;` for every parameter that is not in `used`.
 pub(super) fn drops(context: &Context, used: &BTreeSet<Argument>, takes_input: bool) -> TokenStream {
     let (t, state, input) = (&context.locals.t, &context.locals.state, &context.locals.input);

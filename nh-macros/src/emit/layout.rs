@@ -74,6 +74,8 @@ pub(crate) struct TypeNames {
     pub(crate) outputs: Ident,
     /// `SleighMomenta`
     pub(crate) momenta: Ident,
+    /// `SleighPhase`
+    pub(crate) phase: Ident,
 }
 
 impl TypeNames {
@@ -88,6 +90,7 @@ impl TypeNames {
             residual: format_ident!("{name}Residual"),
             outputs: format_ident!("{name}Outputs"),
             momenta: format_ident!("{name}Momenta"),
+            phase: format_ident!("{name}Phase"),
         }
     }
 }

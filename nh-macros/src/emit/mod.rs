@@ -12,6 +12,7 @@ mod embedding;
 mod energy;
 mod expression;
 mod function;
+mod hamiltonian;
 mod jacobian;
 mod layout;
 mod lint;
@@ -20,6 +21,7 @@ mod morphism;
 mod names;
 mod number;
 mod observed;
+mod phase_space;
 mod program;
 mod projection;
 mod reconstruction;
@@ -69,7 +71,9 @@ pub(crate) fn emit(system: &System, layout: &Layout) -> TokenStream {
         .with(embedding::emit(context, scope, system))
         .with(projection::emit(context, system))
         .with(jacobian::emit(context, scope, system))
-        .with(momenta::emit(context, scope, system));
+        .with(momenta::emit(context, scope, system))
+        .with(hamiltonian::emit(context, scope, system))
+        .with(phase_space::emit(context, scope, system));
     programs.extend(part.programs.iter().map(|(name, program)| (*name, program)));
     let mut methods = report::constant(context, system, &programs);
     methods.extend(dynamics::method(context, scope, &derivative));

@@ -78,6 +78,20 @@ impl Field {
         }
     }
 
+    /// The same field under another name.
+    pub(super) fn renamed(&self, ident: Ident, doc: &str) -> Self {
+        let name = plain(&ident);
+        let own = plain(&self.ident);
+        let named = |component: &String| component.replacen(&own, &name, 1);
+        let names = self.names.iter().map(named).collect();
+        Self { ident, lengths: self.lengths.clone(), docs: quote!(#[doc = #doc]), names }
+    }
+
+    /// The number of its components.
+    pub(super) fn len(&self) -> usize {
+        self.names.len()
+    }
+
     /// Whether it is an array.
     pub(super) fn is_family(&self) -> bool {
         !self.lengths.is_empty()

@@ -145,6 +145,7 @@ impl Builder {
             residual: None,
             projection: None,
             jacobian: None,
+            phase_space: nh_core::phase_space::PhaseSpace::default(),
             embedding: None,
             parameter_checks: nonzero
                 .iter()

@@ -24,6 +24,10 @@ pub(super) enum Argument {
     Start,
     /// `present`, where an iteration is
     Present,
+    /// `phase`, coordinates and momenta
+    Phase,
+    /// `covector`, a differential
+    Covector,
 }
 
 /// The tokens of every symbol, and the argument that each comes from.

@@ -4,14 +4,20 @@ use proc_macro2::{Literal, TokenStream};
 use quote::quote;
 
 use super::context::Context;
+use super::record::Record;
 
 /// `impl State for SleighState`.
 pub(super) fn emit(context: &Context) -> TokenStream {
+    of(context, &context.state)
+}
+
+/// `impl State` for a record.
+pub(super) fn of(context: &Context, record: &Record) -> TokenStream {
     let Context { runtime, scalar, .. } = context;
     let generics = context.record_impl_generics();
-    let state = context.type_of(&context.state);
-    let length = Literal::usize_unsuffixed(context.state.len());
-    let names = context.state.names();
+    let state = context.type_of(record);
+    let length = Literal::usize_unsuffixed(record.len());
+    let names = record.names();
     let components = super::layout::local("components");
     quote! {
         #[automatically_derived]

@@ -11,8 +11,8 @@ use super::context::Context;
 use super::function::{Head, Part};
 use super::layout::Layout;
 use super::{
-    callback, constraint, dynamics, embedding, energy, jacobian, momenta, observed, projection, report,
-    state, validate, velocity,
+    callback, constraint, dynamics, embedding, energy, hamiltonian, jacobian, momenta, observed, phase_space,
+    projection, report, state, validate, velocity,
 };
 use crate::resolve::Outline;
 
@@ -59,5 +59,12 @@ fn on_request(context: &Context, outline: &Outline) -> Part {
         .with(embedding::stub(context, identities))
         .with(projection::stub(context, identities, constraints))
         .with(momenta::stub(context, &outline.momenta));
-    if outline.requests.contains(&Request::Jacobian) { part.with(jacobian::stub(context)) } else { part }
+    let (requests, velocities) = (&outline.requests, outline.velocities);
+    let part = part.with(phase_space::stub(context, requests, outline.claims_section, velocities));
+    let part = if requests.contains(&Request::Hamiltonian) {
+        part.with(hamiltonian::stub(context, velocities))
+    } else {
+        part
+    };
+    if requests.contains(&Request::Jacobian) { part.with(jacobian::stub(context)) } else { part }
 }

@@ -56,6 +56,8 @@ fn stubs_stand_in() {
         labels: vec![Some("blade".to_owned())],
         momenta: Vec::new(),
         identities: 0,
+        velocities: 2,
+        claims_section: false,
     };
     golden("stubs", stubs(&layout, &outline));
 }

@@ -63,8 +63,9 @@ impl Resolver {
         let mut taken = BTreeSet::from([layout.name.to_string()]);
         let types = layout.types.clone();
         let of_motion = [types.state, types.velocity, types.input, types.outputs];
-        let of_constraints = [types.multipliers, types.reactions, types.residual, types.momenta];
-        for name in of_motion.into_iter().chain(of_constraints) {
+        let of_constraints = [types.multipliers, types.reactions, types.residual];
+        let of_momenta = [types.momenta, types.phase];
+        for name in of_motion.into_iter().chain(of_constraints).chain(of_momenta) {
             if !taken.insert(name.to_string()) {
                 let blamed = names.body.iter().rev().find(|renaming| renaming.name.ident == name);
                 let extent = blamed.map_or(names.keyword.extent(), |renaming| renaming.name.extent());
@@ -91,6 +92,7 @@ fn slot<'a>(types: &'a mut TypeNames, role: &str) -> Option<&'a mut Ident> {
         "reactions" => Some(&mut types.reactions),
         "residual" => Some(&mut types.residual),
         "momenta" => Some(&mut types.momenta),
+        "phase" => Some(&mut types.phase),
         _ => None,
     }
 }

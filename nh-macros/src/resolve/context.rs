@@ -27,6 +27,10 @@ pub(super) enum Context {
     Conserved,
     /// `symmetries`
     Symmetries,
+    /// `volume`
+    Volume,
+    /// `hamilton_jacobi`
+    HamiltonJacobi,
     /// `assume`
     Assume,
     /// `parameters` of a map between systems
@@ -71,6 +75,8 @@ impl Context {
             Self::Outputs => "outputs",
             Self::Conserved => "conserved",
             Self::Symmetries => "symmetries",
+            Self::Volume => "volume",
+            Self::HamiltonJacobi => "hamilton_jacobi",
             Self::Assume => "assume",
             Self::MapParameters => "parameters",
             Self::MapBase => "base",
@@ -86,10 +92,10 @@ impl Context {
             Self::Frame => matches!(usage, Usage::Velocity | Usage::Rate),
             // moving constraints have moving sections
             Self::Symmetries => matches!(usage, Usage::Velocity | Usage::Rate | Usage::Time),
-            Self::On | Self::MapParameters | Self::MapBase => false,
+            Self::On | Self::HamiltonJacobi | Self::MapParameters | Self::MapBase => false,
             Self::MapVelocities => matches!(usage, Usage::Velocity | Usage::Rate),
             Self::MapInputs => !matches!(usage, Usage::Method),
-            Self::Lagrangian | Self::Constraints | Self::Conserved => {
+            Self::Lagrangian | Self::Constraints | Self::Conserved | Self::Volume => {
                 !matches!(usage, Usage::Input | Usage::Branches | Usage::Method)
             }
             Self::Forces | Self::Outputs => true,
@@ -126,6 +132,9 @@ impl Context {
             (_, Self::MapInputs) => {
                 error.way_out("write a formula in the inputs and the state of the first system")
             }
+            (Usage::Velocity | Usage::Rate | Usage::Time, Self::HamiltonJacobi) => error
+                .evidence("a section of D* gives momenta as functions on the base")
+                .way_out("write base coordinates and parameters"),
             (Usage::Velocity, _) => error
                 .evidence("a quasi-velocity is defined as a combination of the `der(…)`")
                 .way_out("write its definition out in the `der(…)`"),

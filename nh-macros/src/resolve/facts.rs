@@ -2,8 +2,8 @@
 //! and what is asked for beyond the default.
 
 use nh_core::algebra::Rational;
-use nh_core::id::{ExprId, Origin};
-use nh_core::model::{Assumption, Located, OutputDecl, Relation, Request};
+use nh_core::id::{ExprId, Origin, SymbolId};
+use nh_core::model::{Assumption, Located, OutputDecl, Relation, Request, SectionClaim, VolumeClaim};
 
 use super::array::{Array, Shape};
 use super::context::Context;
@@ -11,18 +11,24 @@ use super::reports::Outcome;
 use super::resolver::Resolver;
 use crate::report::Diagnostic;
 use crate::suggest::did_you_mean;
-use crate::syntax::ast::{self, Comparison, Definition, Equation, Item, Name};
+use crate::syntax::ast::{self, Comparison, Definition, Equation, Item, Momentum, Name};
 
 /// What `emit` can ask for.
-const REQUESTS: [(&str, Request); 4] = [
+pub(super) const REQUESTS: [(&str, Request); 10] = [
     ("jacobian", Request::Jacobian),
     ("multipliers", Request::Multipliers),
     ("reactions", Request::Reactions),
     ("momenta", Request::Momenta),
+    ("hamiltonian", Request::Hamiltonian),
+    ("bracket", Request::Bracket),
+    ("discrete_gradient", Request::DiscreteGradient),
+    ("divergence", Request::Divergence),
+    ("volume", Request::Volume),
+    ("connection", Request::Connection),
 ];
 
 /// What `emit` will be able to ask for.
-const TO_COME: [&str; 6] = ["hamiltonian", "bracket", "connection", "divergence", "gibbs_appell", "taylor"];
+const TO_COME: [&str; 2] = ["gibbs_appell", "taylor"];
 
 impl Resolver {
     /// f = 0 on the embedded base; vectors entry by entry.
@@ -73,6 +79,43 @@ impl Resolver {
             }
         }
         found
+    }
+
+    /// The claim that a volume is kept.
+    pub(super) fn volume(&mut self, claim: &ast::Section<Option<ast::Expr>>) -> Outcome<VolumeClaim> {
+        self.context = Context::Volume;
+        let density = claim.body.as_ref().map(|density| self.number_value(density)).transpose()?;
+        let extent = claim.body.as_ref().map_or(claim.keyword.extent(), |density| density.extent);
+        Ok(VolumeClaim { density, origin: self.origin(extent) })
+    }
+
+    /// Momenta as functions on the base; families entry by entry.
+    pub(super) fn hamilton_jacobi(&mut self, section: &ast::Section<Vec<Item<Momentum>>>) -> SectionClaim {
+        let mut components: Vec<(SymbolId, Located)> = Vec::new();
+        self.section(Context::HamiltonJacobi, &section.body, &mut |this, momentum| {
+            let named = this.velocities(&momentum.along);
+            let value = this.value(&momentum.value);
+            let ((velocities, extent), value) = (named?, value?);
+            if velocities.len() != value.entries.len() {
+                let error = Diagnostic::new(
+                    momentum.value.extent,
+                    format!("{} momenta are needed here, this is {}", velocities.len(), value.shape),
+                );
+                return Err(this.report(momentum, error));
+            }
+            let origin = this.origin(extent.to(momentum.value.extent));
+            for (velocity, value) in velocities.into_iter().zip(value.entries) {
+                if components.iter().any(|(known, _)| *known == velocity) {
+                    let name = this.graph.symbols()[velocity].clone();
+                    let error =
+                        Diagnostic::new(extent, format!("the momentum along `{name}` is given twice"));
+                    return Err(this.report(momentum, error));
+                }
+                components.push((velocity, Located { value, origin }));
+            }
+            Ok(())
+        });
+        SectionClaim { components, origin: self.origin(section.keyword.extent()) }
     }
 
     /// Facts about parameters. A number on one side is compared with every entry of the other.

@@ -93,6 +93,8 @@ impl Resolver {
         }
         let claims = sections.conserved.as_ref().map(|s| self.claims(&s.body)).unwrap_or_default();
         let symmetries = sections.symmetries.as_ref().map(|s| self.symmetries(&s.body)).unwrap_or_default();
+        let volume = sections.volume.as_ref().and_then(|claim| self.volume(claim).ok());
+        let hamilton_jacobi = sections.hamilton_jacobi.as_ref().map(|s| self.hamilton_jacobi(s));
         let assumptions = sections.assume.as_ref().map(|s| self.assumptions(&s.body)).unwrap_or_default();
         let requests = sections.emit.as_ref().map(|s| self.requests(&s.body)).unwrap_or_default();
         let tracked = sections.track.as_ref().map(|s| self.tracked(s, &outputs));
@@ -127,6 +129,8 @@ impl Resolver {
             outputs,
             claims,
             symmetries,
+            volume,
+            hamilton_jacobi,
             assumptions,
             requests,
             tracked,

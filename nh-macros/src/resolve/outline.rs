@@ -17,6 +17,10 @@ pub(crate) struct Outline {
     pub(crate) momenta: Vec<String>,
     /// The number of identities of the base.
     pub(crate) identities: usize,
+    /// The number of velocities in the state.
+    pub(crate) velocities: usize,
+    /// Whether a section of D* is claimed to solve the Hamilton–Jacobi equation.
+    pub(crate) claims_section: bool,
 }
 
 impl Outline {
@@ -28,6 +32,8 @@ impl Outline {
             labels: model.constraints.iter().map(|constraint| constraint.label.clone()).collect(),
             momenta: momenta(model),
             identities: model.identities.len(),
+            velocities: kept(model).len(),
+            claims_section: model.hamilton_jacobi.is_some(),
         }
     }
 }

@@ -54,6 +54,10 @@ pub(crate) struct Sections {
     pub(crate) outputs: Option<Section<Vec<Item<Definition>>>>,
     /// `conserved`: claimed first integrals.
     pub(crate) conserved: Option<Section<Vec<Item<Definition>>>>,
+    /// `volume`: the claim that the motion keeps a volume, perhaps with its density.
+    pub(crate) volume: Option<Section<Option<Expr>>>,
+    /// `hamilton_jacobi`: momenta as functions on the base.
+    pub(crate) hamilton_jacobi: Option<Section<Vec<Item<Momentum>>>>,
     /// `symmetries`: labelled sections whose momentum equation is wanted.
     pub(crate) symmetries: Option<Section<Vec<Item<Symmetry>>>>,
     /// `assume`: sign and range facts about parameters.
@@ -305,6 +309,15 @@ pub(crate) struct Force {
     /// The direction.
     pub(crate) along: Place,
     /// The force.
+    pub(crate) value: Expr,
+}
+
+/// `omega: expr`, the momentum along a velocity.
+#[derive(Debug)]
+pub(crate) struct Momentum {
+    /// The velocity.
+    pub(crate) along: Velocity,
+    /// The momentum.
     pub(crate) value: Expr,
 }
 

@@ -3,8 +3,8 @@
 use proc_macro2::{Delimiter, TokenStream, TokenTree};
 
 use super::ast::{
-    AnchorLine, BracketLine, Comparison, Definition, Equation, Expr, Force, MethodDerivative, Name, Place,
-    Relation, Renaming, Subscript, Symmetry,
+    AnchorLine, BracketLine, Comparison, Definition, Equation, Expr, Force, MethodDerivative, Momentum, Name,
+    Place, Relation, Renaming, Subscript, Symmetry,
 };
 use super::habits;
 use super::items::END;
@@ -140,6 +140,15 @@ impl Stream {
         self.colon(reads)?;
         let value = self.last_expression(END)?;
         Ok(Force { along, value })
+    }
+
+    /// `omega: expr`
+    pub(crate) fn momentum(&mut self) -> Result<Momentum, Diagnostic> {
+        self.docs()?;
+        let along = self.velocity()?;
+        self.colon("a momentum reads `omega: …;`, with one of the velocities of the state")?;
+        let value = self.last_expression(END)?;
+        Ok(Momentum { along, value })
     }
 
     /// `label: expr`

@@ -5,7 +5,7 @@ use std::cell::RefCell;
 use proc_macro2::{Delimiter, Group, TokenStream, TokenTree};
 use syn::parse::Parser;
 
-use super::ast::{Brackets, Formulation, KnownAlgebra, Name, Section, Sections};
+use super::ast::{Brackets, Expr, Formulation, KnownAlgebra, Name, Section, Sections};
 use super::items::{items, lagrangian};
 use super::names::list;
 use super::render::render;
@@ -77,6 +77,10 @@ fn section(
             None => Ok(()),
         };
     }
+    if text == "volume" && stream.peek_group(Delimiter::Brace).is_none() {
+        sections.volume = Section::some(keyword, None);
+        return Ok(());
+    }
     let algebra = if text == "brackets" { algebra(stream)? } else { None };
     let Some(body) = stream.eat_group(Delimiter::Brace) else {
         return Err(stream.expected("`{`").way_out(format!("write `{text} {{ … }}`")));
@@ -132,6 +136,12 @@ fn fill(sections: &mut Sections, keyword: Name, algebra: Option<Algebra>, body: 
         "inputs" => s.inputs = Section::some(keyword, list(body, errors, Stream::declared)),
         "outputs" => s.outputs = Section::some(keyword, items(body, errors, &Stream::definition)),
         "conserved" => s.conserved = Section::some(keyword, items(body, errors, &Stream::definition)),
+        "volume" => {
+            s.volume = errors.keep(density(body)).and_then(|body| Section::some(keyword, Some(body)));
+        }
+        "hamilton_jacobi" => {
+            s.hamilton_jacobi = Section::some(keyword, items(body, errors, &Stream::momentum));
+        }
         "symmetries" => s.symmetries = Section::some(keyword, items(body, errors, &Stream::symmetry)),
         "assume" => s.assume = Section::some(keyword, items(body, errors, &Stream::comparison)),
         "independent" => s.independent = Section::some(keyword, list(body, errors, Stream::velocity)),
@@ -225,6 +235,22 @@ fn formulation(body: &Group) -> Result<Formulation, Diagnostic> {
         Ok(formulation)
     } else {
         Err(stream.expected("`}`").way_out("there is one formulation"))
+    }
+}
+
+/// The density in `volume { … }`.
+fn density(body: &Group) -> Result<Expr, Diagnostic> {
+    let mut chunks = super::items::chunks(body).into_iter();
+    let mut stream = chunks.next().unwrap_or_else(|| Stream::inside(body));
+    let density = stream
+        .last_expression("`;`")
+        .map_err(|error| error.way_out("write a density, or `volume;` to have one looked for"))?;
+    match chunks.next() {
+        None => Ok(density),
+        Some(second) => {
+            Err(Diagnostic::new(second.whole(), "a second expression")
+                .way_out("the density is one expression"))
+        }
     }
 }
 

@@ -1,7 +1,7 @@
 //! The words of the language.
 
 /// The sections, as they are written.
-pub(crate) const SECTIONS: [&str; 24] = [
+pub(crate) const SECTIONS: [&str; 26] = [
     "base",
     "on",
     "basis",
@@ -17,6 +17,8 @@ pub(crate) const SECTIONS: [&str; 24] = [
     "inputs",
     "outputs",
     "conserved",
+    "volume",
+    "hamilton_jacobi",
     "symmetries",
     "assume",
     "independent",
@@ -38,8 +40,8 @@ pub(crate) const FUNCTIONS: [&str; 18] = [
 pub(crate) const RESERVED: [&str; 5] = ["t", "pi", "sum", "dot", "cross"];
 
 /// The generated types that `names` renames.
-pub(crate) const TYPES: [&str; 8] =
-    ["state", "velocity", "input", "multipliers", "outputs", "reactions", "residual", "momenta"];
+pub(crate) const TYPES: [&str; 9] =
+    ["state", "velocity", "input", "multipliers", "outputs", "reactions", "residual", "momenta", "phase"];
 
 /// The known algebras of `brackets`.
 pub(crate) const ALGEBRAS: [&str; 4] = ["so", "se", "sl", "heisenberg"];

@@ -2,7 +2,7 @@
 
 use crate::algebra::{Graph, Matrix};
 use crate::geometry::ConstraintDistribution;
-use crate::id::{ExprId, SymbolId};
+use crate::id::{ExprId, Id, SymbolId};
 use crate::mechanics::{Definiteness, LagrangianSystem, Procedure, ReducedEquations, SaddleEquations};
 
 /// The almost-Poisson structure Π of a constrained system, in the coordinates (x, v) of the state:
@@ -81,7 +81,6 @@ impl NonholonomicBracket {
             .map(|(alpha, beta, components)| (alpha, beta, components.to_vec()))
             .collect();
         for (alpha, beta, components) in brackets {
-            use crate::id::Id;
             let entry = graph.inner_product(&components, &momenta);
             curl[alpha.index()][beta.index()] = entry;
             curl[beta.index()][alpha.index()] = graph.neg(entry);
@@ -193,13 +192,12 @@ pub(super) fn antisymmetric(
     mut entry: impl FnMut(&mut Graph, usize, usize) -> ExprId,
 ) -> Matrix {
     let mut matrix = vec![vec![graph.zero(); size]; size];
-    for a in 0..size {
-        for b in a + 1..size {
-            let value = entry(graph, a, b);
-            let value = graph.simplify(value);
-            matrix[a][b] = value;
-            matrix[b][a] = graph.neg(value);
-        }
+    let pairs = (0..size).flat_map(|a| (a + 1..size).map(move |b| (a, b)));
+    for (a, b) in pairs {
+        let value = entry(graph, a, b);
+        let value = graph.simplify(value);
+        matrix[a][b] = value;
+        matrix[b][a] = graph.neg(value);
     }
     matrix
 }

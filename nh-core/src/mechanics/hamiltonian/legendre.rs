@@ -114,7 +114,7 @@ pub fn hamiltonian_side(
     let inversion = Inversion { system, distribution, equations, definiteness, projected, at_rest, symbols };
     // 2. h, Hamilton's equations, the bracket
     let hamiltonian = hamiltonian(graph, &inversion);
-    let rates = momentum_rates(graph, &inversion, &momenta);
+    let rates = momentum_rates(graph, &inversion);
     let equations_of_motion: Vec<ExprId> = equations.rates.iter().copied().chain(rates).collect();
     let matrix = phase_bracket(graph, &inversion, &momenta);
     let velocities: Vec<ExprId> = distribution.independent.iter().map(|v| graph.symbol(*v)).collect();
@@ -163,21 +163,19 @@ fn hamiltonian(graph: &mut Graph, inversion: &Inversion<'_>) -> Procedure {
     procedure
 }
 
-/// π̇_a = B_a^C(L) + Υ(B_a) + ∂_tB^α_a p_α, the momentum equation (12) for the basis of D: for linear
+/// π̇_a = B_a^C(L) + Υ(B_a), the momentum equation (12) for the basis of D: for linear
 /// constraints −ρ^i_a ∂_ih − D^c_{ab} π_c ∂h/∂π_b + Υ_a, mathematics (16).
-fn momentum_rates(graph: &mut Graph, inversion: &Inversion<'_>, momenta: &[ExprId]) -> Vec<ExprId> {
+fn momentum_rates(graph: &mut Graph, inversion: &Inversion<'_>) -> Vec<ExprId> {
     let Inversion { system, distribution, .. } = inversion;
     let mut restriction = distribution.restriction(graph, &system.algebroid.velocities);
     let forces: Vec<ExprId> = system.forces.iter().map(|f| restriction.apply(graph, *f)).collect();
     (0..distribution.rank())
         .map(|a| {
             let section = distribution.section(a);
-            let lifted = complete_lift(graph, &system.algebroid, &section).apply(graph, system.lagrangian);
+            let mut lift = complete_lift(graph, &system.algebroid, &section, system.time);
+            let lifted = lift.apply(graph, system.lagrangian);
             let lifted = restriction.apply(graph, lifted);
             let mut terms = vec![lifted, graph.inner_product(&section, &forces)];
-            let changes: Vec<ExprId> =
-                section.iter().map(|entry| graph.partial(*entry, system.time)).collect();
-            terms.push(graph.inner_product(&changes, momenta));
             for (along, value) in &system.forces_on_distribution {
                 if *along == distribution.independent[a] {
                     terms.push(restriction.apply(graph, *value));

@@ -2,6 +2,7 @@
 
 use nh_core::model::{Request, TrackedItem};
 
+use super::super::facts::REQUESTS;
 use super::{evaluated, messages, model, of_name};
 
 const STRUCT: &str = "struct S { m: f64, G: [f64; 3] }";
@@ -21,15 +22,14 @@ fn requests() {
     let model = model("base { x } lagrangian { 1 } emit { reactions, multipliers }", STRUCT);
     let asked: Vec<_> = model.requests.iter().map(|(request, _)| *request).collect();
     assert_eq!(asked, [Request::Reactions, Request::Multipliers]);
+    let all = REQUESTS.map(|(known, _)| format!("`{known}`")).join(", ");
+    let known = format!("what can be asked for: {all}");
+    let mistyped = format!("`multiplier` cannot be emitted\n{known}\nhelp: did you mean `multipliers`?");
     assert_errors(&[
+        ("base { x } lagrangian { 1 } emit { multiplier }", mistyped.as_str()),
         (
-            "base { x } lagrangian { 1 } emit { multiplier }",
-            "`multiplier` cannot be emitted\nwhat can be asked for: `jacobian`, `multipliers`, `reactions`, `momenta`\nhelp: did you mean \
-             `multipliers`?",
-        ),
-        (
-            "base { x } lagrangian { 1 } emit { taylor }",
-            "`taylor` cannot be emitted yet\nhelp: what can be asked for: `jacobian`, `multipliers`, `reactions`, `momenta`",
+            "base { x } lagrangian { 1 } emit { gibbs_appell }",
+            &format!("`gibbs_appell` cannot be emitted yet\nhelp: {known}"),
         ),
         ("base { x } lagrangian { 1 } emit { reactions, reactions }", "`reactions` is asked for twice"),
     ]);

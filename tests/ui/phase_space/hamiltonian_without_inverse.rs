@@ -1,0 +1,10 @@
+use nh_runtime::prelude::*;
+
+#[nonholonomic(
+    base { x }
+    lagrangian { der(x)^2 / 2 + der(x)^4 / 4 }
+    emit { hamiltonian }
+)]
+struct Quartic;
+
+fn main() {}
