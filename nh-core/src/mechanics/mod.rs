@@ -17,8 +17,8 @@ mod projected;
 mod restricted;
 mod symmetric_solve;
 mod velocity_forms;
-mod wheel_frames;
 mod volume;
+mod wheel_frames;
 
 pub use adapted::{ReducedEquations, reaction_forces, reduced_equations};
 pub use complete_lift::complete_lift;
