@@ -65,6 +65,7 @@ compile_error!(
 );
 
 mod arrays;
+mod complex;
 pub mod control;
 mod dense;
 mod dim;
@@ -94,7 +95,8 @@ pub use fast::Fast;
 pub use integrator::{Integrator, Statistics};
 pub use lanes::Lanes;
 pub use methods::{
-    Bs23, Dop853, Dopri5, Euler, Heun, ImplicitMidpoint, Method, Projected, Ralston, Rk4, Tsit5, Vern9,
+    Bs23, Dop853, Dopri5, Euler, GaussLegendre4, GaussLegendre6, Heun, ImplicitMidpoint, Method, Projected,
+    Radau5, Ralston, Rk4, Rodas5P, Tsit5, Vern9,
 };
 pub use reduction::{ByStages, Reconstructed, Reconstruction, Reduction};
 pub use scalar::{Real, Scalar};

@@ -4,8 +4,40 @@
 //! Rows are exchanged as they pass rather than after a search: no index depends on data, so there
 //! is nothing that could be out of bounds, and the same code works for lanes that pivot differently.
 
-use crate::arrays::Array;
+use core::ops::{Div, Mul, Sub, SubAssign};
+
+use crate::complex::Complex;
 use crate::{Dim, Real, Scalar};
+
+/// A number that matrices are made of: real or complex.
+pub(crate) trait Entry:
+    Copy + 'static + Sub<Output = Self> + Mul<Output = Self> + Div<Output = Self> + SubAssign
+{
+    /// Its real numbers.
+    type Real: Real;
+    /// Zero.
+    const NOUGHT: Self;
+    /// A bound of the absolute value, at most twice of it.
+    fn size(self) -> Self::Real;
+}
+
+impl<T: Real> Entry for T {
+    type Real = T;
+    const NOUGHT: T = T::ZERO;
+    #[inline]
+    fn size(self) -> T {
+        self.abs()
+    }
+}
+
+impl<T: Real> Entry for Complex<T> {
+    type Real = T;
+    const NOUGHT: Self = Self { re: T::ZERO, im: T::ZERO };
+    #[inline]
+    fn size(self) -> T {
+        self.re.abs() + self.im.abs()
+    }
+}
 
 /// The largest absolute value of a row, inverted.
 #[inline]
@@ -55,22 +87,22 @@ pub fn solve_pivoted<T: Scalar, const N: usize>(mut a: [[T; N]; N], mut b: [T; N
 
 /// A factorization P A = L U: L below the diagonal of `lu`, U on and above it.
 #[derive(Clone, Copy)]
-pub(crate) struct Factors<Dm: Dim, T: Scalar> {
-    lu: Dm::Mat<T>,
+pub(crate) struct Factors<Dm: Dim, F: Copy + 'static> {
+    lu: Dm::Mat<F>,
     /// The row of A that each row of L U stands for.
     rows: Dm::Vec<usize>,
 }
 
-impl<Dm: Dim, T: Real> Factors<Dm, T> {
+impl<Dm: Dim, F: Entry> Factors<Dm, F> {
     /// Factorizes `a`. A singular matrix gives solutions with components that are not finite.
-    pub(crate) fn new(a: &Dm::Mat<T>) -> Self {
+    pub(crate) fn new(a: &Dm::Mat<F>) -> Self {
         let mut lu = *a;
         let mut rows = Dm::vec(0_usize);
-        let mut scales = Dm::vec(T::ZERO);
+        let mut scales = Dm::vec(F::Real::ZERO);
         let numbered = rows.as_mut().iter_mut().zip(scales.as_mut());
         for (i, ((row, s), a)) in numbered.zip(a.as_ref()).enumerate() {
             *row = i;
-            *s = scale(a.as_ref());
+            *s = a.as_ref().iter().fold(F::Real::ZERO, |largest, x| largest.max(x.size())).recip();
         }
         for k in 0..Dm::N {
             let mut below = lu.as_mut().iter_mut().skip(k);
@@ -82,7 +114,7 @@ impl<Dm: Dim, T: Real> Factors<Dm, T> {
             };
             // bring the largest entry of the column, relative to its row, to the pivot
             for ((other, other_row), other_s) in below.zip(rows_below).zip(scales_below) {
-                if entry(other, k).abs() * *other_s > entry(pivot, k).abs() * *s {
+                if entry(other, k).size() * *other_s > entry(pivot, k).size() * *s {
                     core::mem::swap(pivot, other);
                     core::mem::swap(row, other_row);
                     core::mem::swap(s, other_s);
@@ -104,8 +136,8 @@ impl<Dm: Dim, T: Real> Factors<Dm, T> {
     }
 
     /// The solution of A x = b.
-    pub(crate) fn solve(&self, b: &Dm::Vec<T>) -> Dm::Vec<T> {
-        let mut x = Dm::vec(T::ZERO);
+    pub(crate) fn solve(&self, b: &Dm::Vec<F>) -> Dm::Vec<F> {
+        let mut x = Dm::vec(F::NOUGHT);
         for (i, (lu, &row)) in self.lu.as_ref().iter().zip(self.rows.as_ref()).enumerate() {
             let known = lu.as_ref().iter().zip(x.as_ref()).take(i);
             let sum = known.fold(entry(b, row), |sum, (l, x)| sum - *l * *x);
@@ -126,8 +158,8 @@ impl<Dm: Dim, T: Real> Factors<Dm, T> {
 
 /// The component of an array; there is always one.
 #[inline]
-fn entry<T: Scalar, V: Array<T>>(v: &V, i: usize) -> T {
-    v.as_ref().get(i).copied().unwrap_or(T::ZERO)
+fn entry<F: Entry, V: AsRef<[F]>>(v: &V, i: usize) -> F {
+    v.as_ref().get(i).copied().unwrap_or(F::NOUGHT)
 }
 
 #[cfg(test)]
@@ -163,6 +195,17 @@ mod tests {
         for x in [solve_pivoted(a, b), Factors::<D<3>, f64>::new(&a).solve(&b)] {
             assert!((x[0] - 1.0).abs() < 1e-14, "{x:?}");
             assert!((x[1] - 2.0).abs() < 1e-14 && (x[2] - 3.0).abs() < 1e-14, "{x:?}");
+        }
+    }
+
+    #[test]
+    fn complex_systems_are_solved() {
+        let c = |re, im| Complex { re, im };
+        let a = [[c(0.0, 0.0), c(1.0, 1.0)], [c(2.0, -1.0), c(0.0, 3.0)]];
+        let x = [c(1.0, -2.0), c(0.5, 4.0)];
+        let b = a.map(|row| row[0] * x[0] + row[1] * x[1]);
+        for (s, x) in Factors::<D<2>, Complex<f64>>::new(&a).solve(&b).into_iter().zip(x) {
+            assert!((s - x).size() < 1e-14, "{s:?} {x:?}");
         }
     }
 

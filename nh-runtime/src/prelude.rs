@@ -1,11 +1,13 @@
 //! Everything that a model and its simulation name: `use nh_runtime::prelude::*;`.
 
-pub use crate::{
-    AlmostPoisson, Bs23, Constrained, Dop853, Dopri5, Dynamics, Energy, Euler, Fast, Heun, ImplicitMidpoint,
-    IntegrationError, Integrator, Jacobian, Lanes, Observed, ParameterError, Projected, Ralston, Real, Rk4,
-    Scalar, State, Statistics, Tsit5, Vern9,
+pub use crate::methods::{
+    Bs23, Dop853, Dopri5, Euler, GaussLegendre4, GaussLegendre6, Heun, ImplicitMidpoint, Projected, Radau5,
+    Ralston, Rk4, Rodas5P, Tsit5, Vern9,
 };
-pub use crate::{Reconstructed, Reconstruction, Reduction};
+pub use crate::{
+    AlmostPoisson, Constrained, Dynamics, Energy, Fast, IntegrationError, Integrator, Jacobian, Lanes,
+    Observed, ParameterError, Real, Reconstructed, Reconstruction, Reduction, Scalar, State, Statistics,
+};
 
 #[cfg(feature = "macros")]
 pub use nh_macros::{morphism, nonholonomic};

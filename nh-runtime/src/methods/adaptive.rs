@@ -160,7 +160,7 @@ pub trait Scheme<S: Dynamics>: Copy {
 
     /// A derivative that was not finite in the step just computed: component, value, and its time as
     /// a fraction of the step.
-    fn blame(&self, work: &Self::Work) -> Option<((usize, f64), f64)>;
+    fn blame(&self, start: &Start<'_, S>, h: ScalarOf<S>, work: &Self::Work) -> Option<((usize, f64), f64)>;
 
     /// As [`Method::dense`].
     fn dense(&self, work: &Self::Work, start: &Start<'_, S>, arrival: &Arrival<S>) -> Self::Dense;
@@ -289,7 +289,7 @@ impl<P, T: Real, W> Adaptive<P, T, W> {
         P: Scheme<S>,
     {
         let (time, step) = (start.time.to_f64(), length.to_f64());
-        if let Some((found, fraction)) = self.scheme.blame(work) {
+        if let Some((found, fraction)) = self.scheme.blame(start, length, work) {
             return non_finite_derivative::<S::State>(found, time + fraction * step);
         }
         if let Some((index, _)) = first_non_finite::<T>(trial.state.as_ref()) {

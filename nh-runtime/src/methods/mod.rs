@@ -18,8 +18,7 @@ mod adaptive;
 mod explicit;
 mod fixed;
 mod grid;
-mod implicit_midpoint;
-mod linearization;
+mod implicit;
 mod projected;
 
 pub use adaptive::{Adaptive, Scheme, Trial};
@@ -28,8 +27,10 @@ pub use explicit::{
     Tsitouras5, Verner9,
 };
 pub use fixed::{Compensated, Fixed, OneStep};
-pub use implicit_midpoint::ImplicitMidpoint;
-pub use linearization::{Analytic, FiniteDifferences, Linearization};
+pub use implicit::{
+    Analytic, FiniteDifferences, Gauss, GaussLegendre4, GaussLegendre6, ImplicitMidpoint, Linearization,
+    Midpoint, Radau, Radau5, Rodas, Rodas5P,
+};
 pub use projected::Projected;
 
 pub use crate::tolerance::{PerComponent, Tolerance, Uniform};

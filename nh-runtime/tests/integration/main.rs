@@ -5,6 +5,7 @@
 
 mod conservation;
 mod errors;
+mod implicit;
 mod landing;
 mod lanes;
 mod orders;

@@ -1,6 +1,8 @@
 //! Small systems with known solutions.
 
-use nh_runtime::{D, Dynamics, InputFault, ParameterError, ParameterFault, Real, Scalar, State, StateFault};
+use nh_runtime::{
+    D, Dynamics, InputFault, Jacobian, ParameterError, ParameterFault, Real, Scalar, State, StateFault,
+};
 
 /// A state with named components of type `T`.
 macro_rules! state {
@@ -145,6 +147,30 @@ impl Dynamics for Stiff {
     type Input = ();
     fn derivative(&self, t: f64, x: &Line<f64>, (): &()) -> Line<f64> {
         Line { x: -self.rate * (x.x - t.cos()) - t.sin() }
+    }
+}
+
+/// Van der Pol's oscillator q'' = μ (1 − q²) q' − q, whose force is stiff for large μ.
+#[derive(Clone, Copy)]
+pub(crate) struct VanDerPol {
+    pub mu: f64,
+}
+
+impl Dynamics for VanDerPol {
+    type State = Plane<f64>;
+    type Input = ();
+    fn derivative(&self, _t: f64, x: &Plane<f64>, (): &()) -> Plane<f64> {
+        Plane { q: x.p, p: self.mu * (1.0 - x.q * x.q) * x.p - x.q }
+    }
+}
+
+impl Jacobian for VanDerPol {
+    type InputDim = D<0>;
+    fn state_jacobian(&self, _t: f64, x: &Plane<f64>, (): &()) -> [[f64; 2]; 2] {
+        [[0.0, 1.0], [-2.0 * self.mu * x.q * x.p - 1.0, self.mu * (1.0 - x.q * x.q)]]
+    }
+    fn input_jacobian(&self, _t: f64, _x: &Plane<f64>, (): &()) -> [[f64; 0]; 2] {
+        [[], []]
     }
 }
 

@@ -176,7 +176,12 @@ where
     }
 
     #[cold]
-    fn blame(&self, work: &Work<S, P>) -> Option<((usize, f64), f64)> {
+    fn blame(
+        &self,
+        _start: &Start<'_, S>,
+        _h: ScalarOf<S>,
+        work: &Work<S, P>,
+    ) -> Option<((usize, f64), f64)> {
         let found = P::blame::<ScalarOf<S>, _>(&work.stages);
         if P::FIRST_SAME_AS_LAST && !all_finite::<ScalarOf<S>, _>(&work.last) {
             return found

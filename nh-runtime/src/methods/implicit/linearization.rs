@@ -1,7 +1,7 @@
 //! Where an implicit method takes ∂f/∂x from.
 
-use super::Start;
 use crate::arrays::all_finite;
+use crate::methods::Start;
 use crate::{Dim, DimOf, Dynamics, Jacobian, MatOf, Real, Scalar, ScalarOf, State, Statistics, VecOf};
 
 /// How a method finds the Jacobian ∂f/∂x of its system: [`FiniteDifferences`] or [`Analytic`].

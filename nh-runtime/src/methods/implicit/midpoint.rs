@@ -1,10 +1,10 @@
 //! The implicit midpoint rule.
 
-use super::fixed::{self, Fixed, OneStep, Slopes};
 use super::linearization::{Analytic, FiniteDifferences, Linearization};
-use super::{Arrival, Start, explain_non_finite};
 use crate::arrays::displaced;
 use crate::linear::Factors;
+use crate::methods::fixed::{self, Fixed, OneStep, Slopes};
+use crate::methods::{Arrival, Start, explain_non_finite};
 use crate::{
     Dim, DimOf, Dynamics, IntegrationError, Jacobian, MatOf, Real, Scalar, ScalarOf, State, Statistics, VecOf,
 };
@@ -182,12 +182,24 @@ impl<T: Real, J> Midpoint<T, J> {
 }
 
 /// The iterations after which a solution is given up.
-const MOST_ITERATIONS: u32 = 50;
+pub(super) const MOST_ITERATIONS: u32 = 50;
 /// The ratio of successive corrections from which a new Jacobian is formed.
-const SLOW: f64 = 0.1;
+pub(super) const SLOW: f64 = 0.1;
+
+/// Checks the tolerance of an iteration.
+pub(super) fn check_tolerance<T: Real>(tolerance: T) -> Result<(), IntegrationError> {
+    if tolerance > T::ZERO && tolerance.is_finite() {
+        return Ok(());
+    }
+    Err(IntegrationError::Setting {
+        setting: "tolerance",
+        value: tolerance.to_f64(),
+        expected: "positive and finite",
+    })
+}
 
 /// The largest correction, relative to 1 + |x|; NaN if there is one.
-fn size<T: Real, V: AsRef<[T]>>(correction: &V, x: &V) -> T {
+pub(super) fn size<T: Real, V: AsRef<[T]>>(correction: &V, x: &V) -> T {
     correction
         .as_ref()
         .iter()
@@ -204,7 +216,7 @@ fn vanishes<T: Real, V: AsRef<[T]>>(correction: &V, x: &V, increment: &V) -> boo
 
 /// Explains why the equations were not solved.
 #[cold]
-fn refusal<S: Dynamics>(
+pub(super) fn refusal<S: Dynamics>(
     start: &Start<'_, S>,
     length: ScalarOf<S>,
     iterations: u32,
@@ -273,14 +285,7 @@ where
     }
 
     fn check(&self) -> Result<(), IntegrationError> {
-        if self.tolerance > T::ZERO && self.tolerance.is_finite() {
-            return Ok(());
-        }
-        Err(IntegrationError::Setting {
-            setting: "tolerance",
-            value: self.tolerance.to_f64(),
-            expected: "positive and finite",
-        })
+        check_tolerance(self.tolerance)
     }
 
     fn increment(

@@ -1,0 +1,337 @@
+//! The method Radau IIA of order 5.
+
+use super::collocation::{Collocation, Matrices, weighted};
+use super::linearization::{Analytic, FiniteDifferences, Linearization};
+use super::midpoint::size;
+use crate::arrays::{displaced, first_non_finite, nought};
+use crate::dense::hermite;
+use crate::methods::adaptive::{Adaptive, Scheme, Trial};
+use crate::methods::{Arrival, Start};
+use crate::tolerance::{Tolerance, Uniform};
+use crate::{Dim, DimOf, Dynamics, MatOf, Real, Scalar, ScalarOf, State, Statistics, VecOf};
+
+/// The adaptive method Radau IIA with three stages, of order 5 with an error estimate of order 3 and
+/// the collocation polynomial of order 3 as continuous extension: L-stable, for stiff systems
+/// (Hairer, Wanner, Solving Ordinary Differential Equations II, section IV.8, the code RADAU5).
+///
+/// The equations are solved by simplified Newton iterations, one real and one complex factorization
+/// per step. The Jacobian comes from difference quotients, or [from the system](Self::with_jacobian),
+/// and is kept as long as the iteration converges fast.
+pub type Radau5<T, W = Uniform<T>, J = FiniteDifferences> = Adaptive<Radau<J>, T, W>;
+
+/// The computation of a step of [`Radau5`].
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Radau<J> {
+    linearization: J,
+}
+
+impl Default for Radau<FiniteDifferences> {
+    fn default() -> Self {
+        Self { linearization: FiniteDifferences }
+    }
+}
+
+impl<T: Real, W> Radau5<T, W> {
+    /// The same method with the system's own Jacobian, for systems that have one: declared with
+    /// `emit { jacobian }`.
+    #[must_use]
+    pub fn with_jacobian(self) -> Radau5<T, W, Analytic> {
+        let Self { tolerance, control, .. } = self;
+        Adaptive { scheme: Radau { linearization: Analytic }, tolerance, control }
+    }
+}
+
+pub(super) const RADAU: Collocation<3> = Collocation {
+    nodes: [0.155_051_025_721_682_2, 0.644_948_974_278_317_8, 1.0],
+    end: [0.0, 0.0, 1.0],
+    real: 3.637_834_252_744_496,
+    pair: (2.681_082_873_627_752_3, 3.050_430_199_247_410_5),
+    from_blocks: [
+        [0.094_438_762_488_975_24, -0.141_255_295_020_954_2, 0.030_029_194_105_147_424],
+        [0.250_213_122_965_333_3, 0.204_129_352_293_799_94, -0.382_942_112_757_261_9],
+        [1.0, 1.0, 0.0],
+    ],
+    to_blocks: [
+        [4.178_718_591_551_905, 0.327_682_820_761_062_37, 0.523_376_445_499_449_5],
+        [-4.178_718_591_551_905, -0.327_682_820_761_062_37, 0.476_623_554_500_550_44],
+        [0.502_872_634_945_786_8, -2.571_926_949_855_605, 0.596_039_204_828_224_9],
+    ],
+};
+/// (−13 − 7√6, −13 + 7√6, −1)/3: the weights of the error estimate, eq. (IV.8.19) there.
+const ERROR: [f64; 3] = [-10.048_809_399_827_416, 1.382_142_733_160_749, -0.333_333_333_333_333_3];
+/// The corrections at which an iteration ends, in units of the tolerance.
+const ENOUGH: f64 = 0.01;
+/// The iterations after which it is given up.
+const MOST_ITERATIONS: i32 = 10;
+/// The rate of convergence beyond which a new Jacobian is formed for the next step.
+const FAST: f64 = 1e-3;
+
+/// Start, length and stages of a step.
+type Accepted<S> = (ScalarOf<S>, ScalarOf<S>, [VecOf<S>; 3]);
+
+/// What is kept of a step.
+pub struct Work<S: Dynamics> {
+    /// The derivative at the start.
+    first: VecOf<S>,
+    jacobian: Option<MatOf<S>>,
+    /// Whether that was formed at the present start.
+    fresh: bool,
+    /// For steps of which length.
+    matrices: Option<(ScalarOf<S>, Matrices<S>)>,
+    /// The stages being computed.
+    trial: [VecOf<S>; 3],
+    /// The last accepted step.
+    accepted: Option<Accepted<S>>,
+    /// Whether the accepted stages may be continued into the next step.
+    smooth: bool,
+    /// Whether a step from the present start has been computed before.
+    again: bool,
+}
+
+impl<S: Dynamics> Clone for Work<S> {
+    fn clone(&self) -> Self {
+        *self
+    }
+}
+impl<S: Dynamics> Copy for Work<S> {}
+
+impl<J> Radau<J> {
+    /// Solves the equations; says whether that has succeeded.
+    fn solve<S: Dynamics, W: Tolerance<S::State>>(
+        start: &Start<'_, S>,
+        h: ScalarOf<S>,
+        matrices: &Matrices<S>,
+        tolerance: &W,
+        work: &mut Work<S>,
+        statistics: &mut Statistics,
+    ) -> bool
+    where
+        ScalarOf<S>: Real,
+    {
+        let w = ScalarOf::<S>::from_f64;
+        let one = ScalarOf::<S>::ONE;
+        let x = start.state.to_array();
+        let zero = DimOf::<S>::vec(ScalarOf::<S>::ZERO);
+        work.trial = match &work.accepted {
+            Some((_, length, z)) if work.smooth => RADAU.extrapolated(zero, z, h / *length),
+            _ => [zero; 3],
+        };
+        let mut preceding: Option<ScalarOf<S>> = None;
+        for left in (0..MOST_ITERATIONS).rev() {
+            let change = RADAU.iterate(start, &x, h, matrices, &mut work.trial);
+            statistics.iterations += 1;
+            statistics.evaluations += 3;
+            let squares =
+                change.iter().fold(ScalarOf::<S>::ZERO, |sum, c| sum + tolerance.mean_square(c, &x, &x));
+            let residual = (squares * w(1.0 / 3.0)).sqrt();
+            if !residual.is_finite() {
+                return false;
+            }
+            let round_off = w(4.0) * ScalarOf::<S>::EPSILON;
+            if change.iter().all(|c| size(c, &x) <= round_off) {
+                return true;
+            }
+            if let Some(preceding) = preceding {
+                let rate = residual / preceding;
+                if rate >= one || rate.powi(left) / (one - rate) * residual > w(ENOUGH) {
+                    return false;
+                }
+                if rate > w(FAST) {
+                    work.fresh = false;
+                }
+                if rate / (one - rate) * residual < w(ENOUGH) {
+                    return true;
+                }
+            }
+            preceding = Some(residual);
+        }
+        false
+    }
+
+    /// The matrices for a step of length h.
+    fn matrices<S: Dynamics>(
+        &self,
+        start: &Start<'_, S>,
+        h: ScalarOf<S>,
+        work: &mut Work<S>,
+        statistics: &mut Statistics,
+    ) -> Matrices<S>
+    where
+        ScalarOf<S>: Real,
+        J: Linearization<S>,
+    {
+        if let Some((length, matrices)) = &work.matrices
+            && *length == h
+        {
+            return *matrices;
+        }
+        let jacobian = if let Some(jacobian) = &work.jacobian {
+            *jacobian
+        } else {
+            statistics.jacobians += 1;
+            let x = start.state.to_array();
+            let jacobian = self.linearization.state_jacobian(start, start.time, &x, &work.first, statistics);
+            work.fresh = true;
+            *work.jacobian.insert(jacobian)
+        };
+        statistics.factorizations += 2;
+        let matrices = RADAU.matrices::<S>(&jacobian, h);
+        work.matrices = Some((h, matrices));
+        matrices
+    }
+}
+
+impl<S: Dynamics, J: Linearization<S>> Scheme<S> for Radau<J>
+where
+    ScalarOf<S>: Real,
+{
+    const ERROR_ORDER: u32 = 4;
+    type Work = Work<S>;
+    type Dense = [VecOf<S>; 3];
+
+    fn work(&self) -> Work<S> {
+        let zero = DimOf::<S>::vec(ScalarOf::<S>::ZERO);
+        Work {
+            first: zero,
+            jacobian: None,
+            fresh: false,
+            matrices: None,
+            trial: [zero; 3],
+            accepted: None,
+            smooth: false,
+            again: false,
+        }
+    }
+
+    fn forget(&self, work: &mut Work<S>) {
+        work.jacobian = None;
+        work.matrices = None;
+        work.smooth = false;
+    }
+
+    fn begin<'w>(
+        &self,
+        start: &Start<'_, S>,
+        work: &'w mut Work<S>,
+        statistics: &mut Statistics,
+    ) -> &'w VecOf<S> {
+        statistics.evaluations += 1;
+        work.first = start.derivative();
+        work.again = false;
+        if !work.fresh {
+            work.jacobian = None;
+            work.matrices = None;
+        }
+        &work.first
+    }
+
+    fn attempt<W: Tolerance<S::State>>(
+        &self,
+        start: &Start<'_, S>,
+        h: ScalarOf<S>,
+        tolerance: &W,
+        work: &mut Work<S>,
+        statistics: &mut Statistics,
+    ) -> Trial<S> {
+        let one = ScalarOf::<S>::ONE;
+        let x = start.state.to_array();
+        let zero = DimOf::<S>::vec(ScalarOf::<S>::ZERO);
+        let infinite = one / ScalarOf::<S>::ZERO;
+        let old = work.jacobian.is_some() && !work.again;
+        let mut matrices = self.matrices(start, h, work, statistics);
+        let mut solved = Self::solve(start, h, &matrices, tolerance, work, statistics);
+        if !solved && old {
+            // the Jacobian may be that of another place
+            work.jacobian = None;
+            work.matrices = None;
+            matrices = self.matrices(start, h, work, statistics);
+            solved = Self::solve(start, h, &matrices, tolerance, work, statistics);
+        }
+        let first_time = !work.again && work.accepted.is_some();
+        work.again = true;
+        if !solved {
+            work.smooth = false;
+            return Trial { state: x, error: infinite };
+        }
+        let state = displaced(&x, one, &weighted(zero, &RADAU.end, &work.trial));
+        let by_stages = weighted(zero, &ERROR, &work.trial);
+        let slope = displaced(&work.first, one / h, &by_stages);
+        let Some(factors) = &matrices.real else { return Trial { state, error: infinite } };
+        let mut defect = factors.solve(&slope);
+        let mut error = tolerance.mean_square(&defect, &x, &state).sqrt();
+        if error >= one && !first_time {
+            // a second filtering keeps the estimate from overrating fast components, eq. (IV.8.20)
+            statistics.evaluations += 1;
+            let moved = start.derivative_at(start.time, displaced(&x, one, &defect));
+            defect = factors.solve(&displaced(&moved, one / h, &by_stages));
+            error = tolerance.mean_square(&defect, &x, &state).sqrt();
+        }
+        Trial { state, error: error + nought(&state) }
+    }
+
+    fn accept(&self, start: &Start<'_, S>, h: ScalarOf<S>, work: &mut Work<S>) {
+        work.accepted = Some((start.time, h, work.trial));
+        work.smooth = true;
+    }
+
+    #[cold]
+    fn blame(&self, start: &Start<'_, S>, h: ScalarOf<S>, work: &Work<S>) -> Option<((usize, f64), f64)> {
+        let x = start.state.to_array();
+        let stages = RADAU.nodes.iter().zip(&work.trial);
+        stages.into_iter().find_map(|(node, z)| {
+            let time = start.time + ScalarOf::<S>::from_f64(*node) * h;
+            let slope = start.derivative_at(time, displaced(&x, ScalarOf::<S>::ONE, z));
+            first_non_finite::<ScalarOf<S>>(slope.as_ref()).map(|found| (found, *node))
+        })
+    }
+
+    fn dense(&self, work: &Work<S>, start: &Start<'_, S>, arrival: &Arrival<S>) -> [VecOf<S>; 3] {
+        let h = arrival.time - start.time;
+        if let Some((time, length, z)) = work.accepted
+            && (time, length) == (start.time, h)
+        {
+            return z;
+        }
+        // another step has been computed since: what is left is the cubic through both ends
+        let (x0, x1) = (start.state.to_array(), arrival.state.to_array());
+        let (f0, f1) = (start.derivative(), start.derivative_at(arrival.time, x1));
+        RADAU.nodes.map(|node| {
+            let there = hermite((&x0, &f0), (&x1, &f1), h, ScalarOf::<S>::from_f64(node));
+            displaced(&there, -ScalarOf::<S>::ONE, &x0)
+        })
+    }
+
+    fn interpolate(
+        &self,
+        dense: &[VecOf<S>; 3],
+        start: &Start<'_, S>,
+        arrival: &Arrival<S>,
+        time: ScalarOf<S>,
+    ) -> S::State {
+        let s = (time - start.time) / (arrival.time - start.time);
+        let x = start.state.to_array();
+        let zero = DimOf::<S>::vec(ScalarOf::<S>::ZERO);
+        let there = displaced(&x, ScalarOf::<S>::ONE, &RADAU.polynomial(zero, dense, s));
+        // a projection may have moved the end
+        let [.., last] = dense;
+        let end = displaced(&x, ScalarOf::<S>::ONE, last);
+        let moved = displaced(&arrival.state.to_array(), -ScalarOf::<S>::ONE, &end);
+        S::State::from_array(displaced(&there, s, &moved))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::methods::implicit::collocation::tests::check;
+
+    #[test]
+    fn the_table_is_that_of_collocation() {
+        check(&RADAU);
+        let root = 6.0_f64.sqrt();
+        let exact = [(-13.0 - 7.0 * root) / 3.0, (-13.0 + 7.0 * root) / 3.0, -1.0 / 3.0];
+        for (e, exact) in ERROR.iter().zip(exact) {
+            assert!((e - exact).abs() < 1e-15 * exact.abs().max(1.0) * 10.0, "{e} {exact}");
+        }
+    }
+}
