@@ -272,6 +272,8 @@ pub enum Request {
     Volume,
     /// The symbols of the Levi-Civita and of the constrained connection.
     Connection,
+    /// The derivative by the Gibbs–Appell function.
+    GibbsAppell,
 }
 
 /// Something that is needed of a system.

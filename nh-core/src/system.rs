@@ -30,6 +30,8 @@ pub struct System {
     pub reactions: Option<Procedure>,
     /// The momenta of the symmetries; if any are declared or asked for.
     pub momenta: Option<Momenta>,
+    /// Outputs: as `derivative`, by the Gibbs–Appell function; if asked for.
+    pub gibbs_appell: Option<Procedure>,
     /// Outputs: ∂derivative/∂(state, input) row by row; if asked for.
     pub jacobian: Option<Procedure>,
     /// Outputs: φ^A for every constraint; in the projected formulation.

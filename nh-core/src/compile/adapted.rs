@@ -1,6 +1,7 @@
 //! The functions of a system in the adapted formulation.
 
 use super::embedded::embedding;
+use super::gibbs_appell;
 use super::momenta::momenta;
 use super::phase_space;
 use super::restricted::{
@@ -38,6 +39,7 @@ pub(super) fn derive(
     let mut restriction = distribution.restriction(&proved.model.graph, velocities);
     let calls = calls(&mut proved.model, &mut proved.motion, &mut restriction);
     let derivative = cheapest_derivative(&mut proved, &candidates, &calls);
+    let gibbs_appell = gibbs_appell::on_distribution(&mut proved, distribution, &calls);
     let equations = candidates.swap_remove(0);
     let (multipliers, reactions) =
         if requested(&proved.model, Request::Multipliers) || requested(&proved.model, Request::Reactions) {
@@ -83,6 +85,7 @@ pub(super) fn derive(
         observables,
         multipliers: requested(&model, Request::Multipliers).then_some(multipliers),
         reactions: requested(&model, Request::Reactions).then_some(reactions),
+        gibbs_appell,
         jacobian,
         momenta,
         residual: None,

@@ -3,6 +3,7 @@
 mod adapted;
 mod connection;
 mod embedded;
+mod gibbs_appell;
 mod momenta;
 mod phase_space;
 mod projected;

@@ -1,6 +1,7 @@
 //! The functions of a system in the projected formulation.
 
 use super::embedded::embedding;
+use super::gibbs_appell;
 use super::momenta::momenta;
 use super::phase_space;
 use super::restricted::{calls, coordinates, in_state, observables, requested, requested_jacobian};
@@ -29,6 +30,7 @@ pub(super) fn derive(mut proved: Proved, reason: &str) -> Result<System, Vec<Vio
     let judge = |graph: &Graph, matrix: &Matrix| definiteness(graph, matrix, &parameters, &facts);
     let mut everywhere = Substitution::new([]);
     let mut derivative = calls(&mut proved.model, &mut proved.motion, &mut everywhere);
+    let gibbs_appell = gibbs_appell::with_multipliers(&mut proved, &equations, &derivative);
     let graph = &mut proved.model.graph;
     let (accelerations, multipliers) = equations.solve(graph, judge, &mut derivative);
     let reactions = (0..accelerations.len())
@@ -80,6 +82,7 @@ pub(super) fn derive(mut proved: Proved, reason: &str) -> Result<System, Vec<Vio
         observables,
         multipliers: requested(&model, Request::Multipliers).then_some(multipliers),
         reactions: requested(&model, Request::Reactions).then_some(reactions),
+        gibbs_appell,
         jacobian,
         momenta,
         residual: Some(Procedure::of(residuals)),

@@ -51,7 +51,7 @@ pub(super) fn slice(mut system: System) -> Result<System, Vec<Violation>> {
             Request::Multipliers => ("the multipliers", &system.multipliers),
             Request::Reactions => ("the reactions", &system.reactions),
             Request::Momenta => ("the momenta", &momenta),
-            Request::Jacobian => continue,
+            Request::Jacobian | Request::GibbsAppell => continue,
             _ => {
                 let dropped: Vec<SymbolId> =
                     whole.iter().copied().filter(|symbol| !needed.contains(symbol)).collect();
@@ -119,6 +119,9 @@ fn restrict(system: &mut System, whole: &[SymbolId], needed: &BTreeSet<SymbolId>
         rows.map(|(_, output)| *output).collect()
     };
     system.derivative.outputs = rows(&system.derivative.outputs);
+    if let Some(procedure) = &mut system.gibbs_appell {
+        procedure.outputs = rows(&procedure.outputs);
+    }
     let width = whole.len() + system.model.inputs.len();
     if let Some(jacobian) = &mut system.jacobian {
         let kept = jacobian.outputs.chunks(width.max(1)).enumerate().filter(|(row, _)| is_kept(*row));

@@ -211,7 +211,8 @@ impl SaddleEquations {
         (accelerations, multipliers)
     }
 
-    fn solve_pivoted(&self, graph: &mut Graph, procedure: &mut Procedure) -> (Vec<ExprId>, Vec<ExprId>) {
+    /// ẏ and λ by numerical pivoting, whatever the matrices are.
+    pub fn solve_pivoted(&self, graph: &mut Graph, procedure: &mut Procedure) -> (Vec<ExprId>, Vec<ExprId>) {
         let matrix = self.matrix(graph);
         let right = self.force.iter().chain(&self.bias).copied().collect();
         let unknowns: Vec<SymbolId> =

@@ -12,6 +12,7 @@ mod embedding;
 mod energy;
 mod expression;
 mod function;
+mod gibbs_appell;
 mod hamiltonian;
 mod jacobian;
 mod layout;
@@ -73,7 +74,8 @@ pub(crate) fn emit(system: &System, layout: &Layout) -> TokenStream {
         .with(jacobian::emit(context, scope, system))
         .with(momenta::emit(context, scope, system))
         .with(hamiltonian::emit(context, scope, system))
-        .with(phase_space::emit(context, scope, system));
+        .with(phase_space::emit(context, scope, system))
+        .with(gibbs_appell::emit(context, scope, system));
     programs.extend(part.programs.iter().map(|(name, program)| (*name, program)));
     let mut methods = report::constant(context, system, &programs);
     methods.extend(dynamics::method(context, scope, &derivative));

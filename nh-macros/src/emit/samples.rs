@@ -142,6 +142,7 @@ impl Builder {
             multipliers: None,
             reactions: None,
             momenta: None,
+            gibbs_appell: None,
             residual: None,
             projection: None,
             jacobian: None,

@@ -11,8 +11,8 @@ use super::context::Context;
 use super::function::{Head, Part};
 use super::layout::Layout;
 use super::{
-    callback, constraint, dynamics, embedding, energy, hamiltonian, jacobian, momenta, observed, phase_space,
-    projection, report, state, validate, velocity,
+    callback, constraint, dynamics, embedding, energy, gibbs_appell, hamiltonian, jacobian, momenta,
+    observed, phase_space, projection, report, state, validate, velocity,
 };
 use crate::resolve::Outline;
 
@@ -66,5 +66,10 @@ fn on_request(context: &Context, outline: &Outline) -> Part {
     } else {
         part
     };
-    if requests.contains(&Request::Jacobian) { part.with(jacobian::stub(context)) } else { part }
+    let part = if outline.requests.contains(&Request::GibbsAppell) {
+        part.with(gibbs_appell::stub(context))
+    } else {
+        part
+    };
+    if outline.requests.contains(&Request::Jacobian) { part.with(jacobian::stub(context)) } else { part }
 }

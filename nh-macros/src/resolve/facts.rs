@@ -14,11 +14,12 @@ use crate::suggest::did_you_mean;
 use crate::syntax::ast::{self, Comparison, Definition, Equation, Item, Momentum, Name};
 
 /// What `emit` can ask for.
-pub(super) const REQUESTS: [(&str, Request); 10] = [
+pub(super) const REQUESTS: [(&str, Request); 11] = [
     ("jacobian", Request::Jacobian),
     ("multipliers", Request::Multipliers),
     ("reactions", Request::Reactions),
     ("momenta", Request::Momenta),
+    ("gibbs_appell", Request::GibbsAppell),
     ("hamiltonian", Request::Hamiltonian),
     ("bracket", Request::Bracket),
     ("discrete_gradient", Request::DiscreteGradient),
@@ -28,7 +29,7 @@ pub(super) const REQUESTS: [(&str, Request); 10] = [
 ];
 
 /// What `emit` will be able to ask for.
-const TO_COME: [&str; 2] = ["gibbs_appell", "taylor"];
+const TO_COME: [&str; 1] = ["taylor"];
 
 impl Resolver {
     /// f = 0 on the embedded base; vectors entry by entry.

@@ -6,7 +6,7 @@ use nh_runtime::prelude::*;
 use nh_runtime::{Dim, ScalarOf};
 
 /// The end of a trajectory, to about 1e-11.
-pub fn end<S>(system: &S, start: S::State, input: S::Input, time: f64) -> S::State
+pub(super) fn end<S>(system: &S, start: S::State, input: S::Input, time: f64) -> S::State
 where
     S: Dynamics + Clone,
     S::State: State<Scalar = f64>,
@@ -19,7 +19,7 @@ where
 }
 
 /// Both states agree to `tolerance`, relative to their size.
-pub fn assert_close<S: State<Scalar = f64>>(found: &S, expected: &S, tolerance: f64) {
+pub(super) fn assert_close<S: State<Scalar = f64>>(found: &S, expected: &S, tolerance: f64) {
     let (found, expected) = (found.to_array(), expected.to_array());
     let size = expected.as_ref().iter().fold(1.0_f64, |size, x| size.max(x.abs()));
     for ((a, b), name) in found.as_ref().iter().zip(expected.as_ref()).zip(S::names().as_ref()) {
@@ -28,7 +28,7 @@ pub fn assert_close<S: State<Scalar = f64>>(found: &S, expected: &S, tolerance: 
 }
 
 /// The motion goes to the motion: the reduction of the end is the end of the reduction.
-pub fn reduces<F, R>(full: &F, start: F::State, input: F::Input)
+pub(super) fn reduces<F, R>(full: &F, start: F::State, input: F::Input)
 where
     F: Reduction<R> + Clone,
     R: Dynamics + Clone,
@@ -48,7 +48,7 @@ where
 }
 
 /// The full motion follows from the reduced one and the dropped coordinates.
-pub fn reconstructs<F, R>(full: &F, start: F::State, input: F::Input)
+pub(super) fn reconstructs<F, R>(full: &F, start: F::State, input: F::Input)
 where
     F: Reconstruction<R> + Clone,
     R: Dynamics + Clone,

@@ -29,7 +29,7 @@ fn declarations(tokens: TokenStream) -> Vec<(TokenStream, TokenStream)> {
     found
 }
 
-fn resolved(attribute: TokenStream, item: TokenStream) -> Resolved {
+pub(super) fn resolved(attribute: TokenStream, item: TokenStream) -> Resolved {
     let declaration = syntax::parse(attribute.clone(), item).expect("well-formed");
     let mut layout = Layout::of_struct(&declaration.structure, attribute);
     resolve(&declaration, &mut layout).expect("resolved")

@@ -1,0 +1,58 @@
+//! The derivative by the Gibbs–Appell function, where the declaration asks for it.
+
+use super::Proved;
+use super::restricted::requested;
+use crate::algebra::Substitution;
+use crate::geometry::ConstraintDistribution;
+use crate::mechanics::{GibbsAppell, Procedure, SaddleEquations, definiteness, solve_symmetric};
+use crate::model::Request;
+
+/// In a basis of D. `calls` are the calls of the user's methods.
+pub(super) fn on_distribution(
+    proved: &mut Proved,
+    distribution: &ConstraintDistribution,
+    calls: &Procedure,
+) -> Option<Procedure> {
+    if !requested(&proved.model, Request::GibbsAppell) {
+        return None;
+    }
+    let parameters: Vec<_> = proved.model.parameters.iter().map(|parameter| parameter.symbol).collect();
+    let graph = &mut proved.model.graph;
+    let mut restriction = distribution.restriction(graph, &proved.system.algebroid.velocities);
+    let appell = GibbsAppell::of(
+        graph,
+        &proved.system,
+        &distribution.velocity,
+        &distribution.independent,
+        &mut restriction,
+    );
+    let (mass, force) = appell.equations(graph);
+    let definite = definiteness(graph, &mass, &parameters, &proved.facts);
+    let mut procedure = calls.clone();
+    let accelerations = solve_symmetric(graph, &mass, &force, definite, &mut procedure, "acceleration");
+    procedure.outputs = appell.rates.into_iter().chain(accelerations).collect();
+    Some(procedure)
+}
+
+/// On all of E: the function is stationary among the accelerations that the constraints allow,
+/// Gauss's principle, solved as a saddle problem with numerical pivoting.
+pub(super) fn with_multipliers(
+    proved: &mut Proved,
+    equations: &SaddleEquations,
+    calls: &Procedure,
+) -> Option<Procedure> {
+    if !requested(&proved.model, Request::GibbsAppell) {
+        return None;
+    }
+    let velocities = proved.system.algebroid.velocities.clone();
+    let graph = &mut proved.model.graph;
+    let velocity = proved.system.algebroid.velocity(graph);
+    let mut everywhere = Substitution::new([]);
+    let appell = GibbsAppell::of(graph, &proved.system, &velocity, &velocities, &mut everywhere);
+    let (mass, force) = appell.equations(graph);
+    let stationary = SaddleEquations { mass, force, ..equations.clone() };
+    let mut procedure = calls.clone();
+    let (accelerations, _) = stationary.solve_pivoted(graph, &mut procedure);
+    procedure.outputs = appell.rates.into_iter().chain(accelerations).collect();
+    Some(procedure)
+}
