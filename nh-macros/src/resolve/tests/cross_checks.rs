@@ -138,8 +138,8 @@ fn geometry(model: &mut Model) -> Option<Geometry> {
 }
 
 /// A state at which to compare, on the constraint manifold where that is linear: changed symbols.
-fn on_manifold(system: &System, declared: &Model, geometry: &Geometry, number: u32) -> Vec<(SymbolId, f64)> {
-    let point = Point { model: &system.model, changed: Vec::new(), number };
+fn on_manifold(system: &System, declared: &Model, geometry: &Geometry) -> Vec<(SymbolId, f64)> {
+    let point = Point { model: &system.model, changed: Vec::new(), number: 0 };
     let velocities = &geometry.system.algebroid.velocities;
     let velocity = system.velocity.as_ref().unwrap();
     let program = schedule(&system.model.graph, velocity);
@@ -197,22 +197,20 @@ fn the_motion_is_a_projection_of_the_free_one() {
         free.forces.clear();
         let name = free.name.clone();
         let system = nh_core::compile::compile(free).unwrap();
-        for number in 0..2 {
-            let changed = on_manifold(&system, &declared, &geometry, number);
-            // the same symbols in both models
-            let point = Point { model: &system.model, changed: changed.clone(), number };
-            let expected = accelerations(&system, &geometry.system.algebroid.velocities, &point);
-            let mut evaluated = declared.clone();
-            let Some(free) = FreeMotion::at(&mut evaluated, &geometry, changed, number) else { continue };
-            assert_close(&name, "P", &free.along_reactions(), &expected);
-            along_reactions += 1;
-            if let Some(projected) = free.symplectic() {
-                assert_close(&name, "the symplectic projection", &projected, &expected);
-                symplectic += 1;
-            }
+        let changed = on_manifold(&system, &declared, &geometry);
+        // the same symbols in both models
+        let point = Point { model: &system.model, changed: changed.clone(), number: 0 };
+        let expected = accelerations(&system, &geometry.system.algebroid.velocities, &point);
+        let mut evaluated = declared.clone();
+        let Some(free) = FreeMotion::at(&mut evaluated, &geometry, changed) else { continue };
+        assert_close(&name, "P", &free.along_reactions(), &expected);
+        along_reactions += 1;
+        if let Some(projected) = free.symplectic() {
+            assert_close(&name, "the symplectic projection", &projected, &expected);
+            symplectic += 1;
         }
     }
-    assert!(all().is_empty() || (along_reactions > 50 && symplectic > 30), "{along_reactions}, {symplectic}");
+    assert!(all().is_empty() || (along_reactions > 25 && symplectic > 15), "{along_reactions}, {symplectic}");
 }
 
 /// The free motion at a point, in numbers.
@@ -235,12 +233,7 @@ struct FreeMotion {
 
 impl FreeMotion {
     /// `None` where W is singular.
-    fn at(
-        model: &mut Model,
-        geometry: &Geometry,
-        changed: Vec<(SymbolId, f64)>,
-        number: u32,
-    ) -> Option<Self> {
+    fn at(model: &mut Model, geometry: &Geometry, changed: Vec<(SymbolId, f64)>) -> Option<Self> {
         let graph = &mut model.graph;
         let algebroid = &geometry.system.algebroid;
         let saddle = saddle_equations(graph, &geometry.system, &geometry.residuals);
@@ -274,7 +267,7 @@ impl FreeMotion {
             }
             turning
         });
-        let point = Point { model, changed, number };
+        let point = Point { model, changed, number: 0 };
         let mass = point.of_matrix(&saddle.mass);
         let acceleration = solved(mass.clone(), &point.of(&saddle.force))?;
         Some(Self {
