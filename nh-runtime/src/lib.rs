@@ -49,6 +49,7 @@
 //! | `libm` | elementary functions from the `libm` crate, for targets without `std`; sine and cosine of `f32` in single precision alone, by the kernel of [`Fast`] |
 //! | `macros` (default) | re-exports `#[nonholonomic]` |
 //! | `serde` | generated states can be serialized |
+//! | `rayon` | batches of rollouts on all cores; needs `std` |
 //! | `wide` | `f64x4` and `f32x8` of the crate `wide` as scalars: four or eight states at once |
 //!
 //! The crate is `no_std` with or without them, allocates nothing, contains no `unsafe` and has no
@@ -66,6 +67,7 @@ compile_error!(
 
 mod arrays;
 mod complex;
+pub mod batch;
 pub mod control;
 mod dense;
 mod dim;
