@@ -76,6 +76,7 @@ mod elementary;
 mod error;
 mod fast;
 mod integrator;
+mod jet;
 mod lanes;
 mod linear;
 pub mod methods;
@@ -95,6 +96,7 @@ pub use dynamics::{
 pub use error::{InputFault, IntegrationError, ParameterError, ParameterFault, ProjectionError, StateFault};
 pub use fast::Fast;
 pub use integrator::{Integrator, Statistics};
+pub use jet::Jet;
 pub use lanes::Lanes;
 pub use methods::{
     Bs23, Dop853, Dopri5, Euler, GaussLegendre4, GaussLegendre6, Heun, ImplicitMidpoint, Method, Projected,

@@ -7,6 +7,7 @@
 //! | [`Estimate`] | one step of an extended Kalman filter |
 //! | [`Unscented`] | one step of an unscented Kalman filter |
 //! | [`Ilqr`] | optimal inputs over a horizon, between bounds; model predictive control |
+//! | [`Sampled`] | a declared system in discrete time, with exact derivatives of the step: a [`Model`] |
 //! | [`shooting_gradient`] | the cost of a sequence of inputs with its exact gradient, for any optimiser |
 //!
 //! They take and return the matrices of `nalgebra`, as `jacobian` does, for `f32` and `f64`. Nothing
@@ -41,6 +42,7 @@ mod horizon;
 mod ilqr;
 mod kalman;
 mod regulator;
+mod sampled;
 mod shooting;
 mod unscented;
 
@@ -53,6 +55,7 @@ pub use horizon::{Cost, Expansion, Model, Quadratic};
 pub use ilqr::{Ilqr, Improvement};
 pub use kalman::{Correction, Estimate};
 pub use regulator::Regulator;
+pub use sampled::Sampled;
 pub use shooting::{shooting_cost, shooting_gradient};
 pub use unscented::Unscented;
 

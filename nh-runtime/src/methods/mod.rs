@@ -12,7 +12,8 @@
 //! has: `ImplicitMidpoint::new(h).with_jacobian()`.
 //!
 //! The methods of fixed step are also one pure function each, `Rk4::step(&system, t, dt, &state,
-//! &input)`, for a loop that keeps its own state and time.
+//! &input)`, for a loop that keeps its own state and time. Where the system has a Jacobian,
+//! `Rk4::linearized_step` gives the [`Transition`] with it: the exact derivatives of the step.
 
 mod adaptive;
 mod explicit;
@@ -20,6 +21,7 @@ mod fixed;
 mod grid;
 mod implicit;
 mod projected;
+mod transition;
 
 pub use adaptive::{Adaptive, Scheme, Trial};
 pub use explicit::{
@@ -32,6 +34,7 @@ pub use implicit::{
     Midpoint, Radau, Radau5, Rodas, Rodas5P,
 };
 pub use projected::Projected;
+pub use transition::Transition;
 
 pub use crate::tolerance::{PerComponent, Tolerance, Uniform};
 

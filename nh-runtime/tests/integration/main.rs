@@ -11,3 +11,4 @@ mod lanes;
 mod orders;
 mod projected;
 mod systems;
+mod transition;

@@ -1,0 +1,202 @@
+//! The derivative of a step: linearisation in discrete time.
+
+use nalgebra::SMatrix;
+
+use super::explicit::Tableau;
+use super::fixed::Fixed;
+use super::implicit_midpoint::ImplicitMidpoint;
+use crate::linear::Factors;
+use crate::{D, Dynamics, IntegrationError, Jacobian, Jet, Real, Scalar, State};
+
+/// A step with its exact derivative: x₁ = Φ(x, u), A_d = ∂Φ/∂x, B_d = ∂Φ/∂u.
+///
+/// It is the derivative of the numerical step, by the chain rule through its stages, and not that of the flow,
+/// which differs from it by the error of the method. The input is constant during the step: this is
+/// zero-order hold.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Transition<X, T, const N: usize, const M: usize> {
+    /// The state at the end.
+    pub state: X,
+    /// A_d: in row i, the derivatives of component i of it by the components of the state at the start.
+    pub by_state: SMatrix<T, N, N>,
+    /// B_d: in row i, the derivatives of component i of it by the inputs.
+    pub by_input: SMatrix<T, N, M>,
+}
+
+impl<P: Tableau, T: Scalar> Fixed<P, T> {
+    /// One step of length `dt` with its derivatives by the state and the input, from the system's own Jacobian:
+    /// a Runge–Kutta step of the variational equation Ẋ = A X, U̇ = A U + B is the derivative of the
+    /// Runge–Kutta step (Hairer, Lubich, Wanner, Geometric Numerical Integration, lemma VI.4.1).
+    ///
+    /// ```
+    /// use nh_runtime::prelude::*;
+    ///
+    /// /// A mass on a spring, pushed.
+    /// #[nonholonomic(
+    ///     base       { x }
+    ///     lagrangian { m / 2 * der(x)^2 - k / 2 * x^2 }
+    ///     forces     { x: push; }
+    ///     inputs     { push }
+    ///     emit       { jacobian }
+    /// )]
+    /// #[derive(Clone, Copy, Debug)]
+    /// struct Oscillator { m: f64, k: f64 }
+    ///
+    /// let oscillator = Oscillator { m: 1.0, k: 4.0 };
+    /// let start = OscillatorState { x: 1.0, x_dot: 0.0 };
+    /// let step = Rk4::linearized_step(&oscillator, 0.0, 0.1, &start, &OscillatorInput { push: 0.5 });
+    /// assert_eq!(step.state, Rk4::step(&oscillator, 0.0, 0.1, &start, &OscillatorInput { push: 0.5 }));
+    /// assert!((step.by_state[(0, 0)] - (2.0_f64 * 0.1).cos()).abs() < 1e-5);
+    /// assert!((step.by_input[(0, 0)] - (1.0 - (2.0_f64 * 0.1).cos()) / 4.0).abs() < 1e-5);
+    /// ```
+    #[inline]
+    pub fn linearized_step<S, const N: usize, const M: usize>(
+        system: &S,
+        t: T,
+        dt: T,
+        state: &S::State,
+        input: &S::Input,
+    ) -> Transition<S::State, T, N, M>
+    where
+        S: Jacobian<InputDim = D<M>>,
+        S::State: State<Scalar = T, Dim = D<N>>,
+    {
+        let jets = Jets(Jet::variables(state.to_array()));
+        let (t, dt) = (Jet::constant(t), Jet::constant(dt));
+        let Jets(end) = Fixed::<P, Jet<T, N, M>>::step(&Differentiated(system), t, dt, &jets, input);
+        Transition {
+            state: S::State::from_array(end.map(|jet| jet.value)),
+            by_state: of_rows(&end.map(|jet| jet.by)),
+            by_input: of_rows(&end.map(|jet| jet.by_others)),
+        }
+    }
+}
+
+/// The matrix with these rows.
+fn of_rows<T: Scalar, const N: usize, const M: usize>(rows: &[[T; M]; N]) -> SMatrix<T, N, M> {
+    let mut matrix = SMatrix::<T, N, M>::from([[T::ZERO; N]; M]);
+    for (mut entries, row) in matrix.row_iter_mut().zip(rows) {
+        for (entry, number) in entries.iter_mut().zip(row) {
+            *entry = *number;
+        }
+    }
+    matrix
+}
+
+/// A state whose components carry their derivatives.
+#[derive(Clone, Copy)]
+struct Jets<T, const N: usize, const M: usize>([Jet<T, N, M>; N]);
+
+impl<T: Scalar, const N: usize, const M: usize> State for Jets<T, N, M> {
+    type Scalar = Jet<T, N, M>;
+    type Dim = D<N>;
+
+    #[inline]
+    fn to_array(&self) -> [Jet<T, N, M>; N] {
+        self.0
+    }
+    #[inline]
+    fn from_array(components: [Jet<T, N, M>; N]) -> Self {
+        Self(components)
+    }
+    fn names() -> [&'static str; N] {
+        [""; N]
+    }
+}
+
+/// A system whose derivative carries its own derivatives, by the chain rule from its Jacobian.
+struct Differentiated<'a, S, const N: usize, const M: usize>(&'a S);
+
+impl<S, T, const N: usize, const M: usize> Dynamics for Differentiated<'_, S, N, M>
+where
+    T: Scalar,
+    S: Jacobian<InputDim = D<M>>,
+    S::State: State<Scalar = T, Dim = D<N>>,
+{
+    type State = Jets<T, N, M>;
+    type Input = S::Input;
+
+    #[inline]
+    fn derivative(&self, t: Jet<T, N, M>, state: &Jets<T, N, M>, input: &S::Input) -> Jets<T, N, M> {
+        let point = S::State::from_array(state.0.map(|jet| jet.value));
+        let f = self.0.derivative(t.value, &point, input).to_array();
+        let a = self.0.state_jacobian(t.value, &point, input);
+        let b = self.0.input_jacobian(t.value, &point, input);
+        let mut rates = [Jet::ZERO; N];
+        for (rate, ((f, a), b)) in rates.iter_mut().zip(f.into_iter().zip(a).zip(b)) {
+            *rate = Jet { value: f, by: [T::ZERO; N], by_others: b };
+            for (a, jet) in a.into_iter().zip(&state.0) {
+                add(&mut rate.by, a, &jet.by);
+                add(&mut rate.by_others, a, &jet.by_others);
+            }
+        }
+        Jets(rates)
+    }
+}
+
+/// sum += a x.
+#[inline]
+fn add<T: Scalar>(sum: &mut [T], a: T, x: &[T]) {
+    for (sum, x) in sum.iter_mut().zip(x) {
+        *sum = a.mul_add(*x, *sum);
+    }
+}
+
+impl<T: Real> ImplicitMidpoint<T> {
+    /// One step of length `dt` with its derivatives by the state and the input, from the system's own
+    /// Jacobian A, B at the middle of the step: (1 − h/2 A) A_d = 1 + h/2 A and (1 − h/2 A) B_d = h B.
+    ///
+    /// # Errors
+    /// As [`step_with_jacobian`](ImplicitMidpoint::step_with_jacobian). A singular matrix 1 − h/2 A
+    /// gives derivatives that are not finite.
+    pub fn linearized_step<S, const N: usize, const M: usize>(
+        system: &S,
+        t: T,
+        dt: T,
+        state: &S::State,
+        input: &S::Input,
+    ) -> Result<Transition<S::State, T, N, M>, IntegrationError>
+    where
+        S: Jacobian<InputDim = D<M>>,
+        S::State: State<Scalar = T, Dim = D<N>>,
+    {
+        let end = ImplicitMidpoint::step_with_jacobian(system, t, dt, state, input)?;
+        let half = dt * T::from_f64(0.5);
+        let mut middle = state.to_array();
+        for (middle, end) in middle.iter_mut().zip(end.to_array()) {
+            *middle = (*middle + end) * T::from_f64(0.5);
+        }
+        let middle = S::State::from_array(middle);
+        let a = system.state_jacobian(t + half, &middle, input);
+        let b = system.input_jacobian(t + half, &middle, input);
+        let unit = |i: usize, j: usize| if i == j { T::ONE } else { T::ZERO };
+        let (mut left, mut right) = (a, a);
+        for (i, (left, right)) in left.iter_mut().zip(&mut right).enumerate() {
+            for (j, (left, right)) in left.iter_mut().zip(right).enumerate() {
+                *left = unit(i, j) - half * *left;
+                *right = unit(i, j) + half * *right;
+            }
+        }
+        let factors = Factors::<D<N>, T>::new(&left);
+        let mut by_state = SMatrix::<T, N, N>::from([[T::ZERO; N]; N]);
+        let mut by_input = SMatrix::<T, N, M>::from([[T::ZERO; N]; M]);
+        solve_columns(&factors, &right, T::ONE, &mut by_state);
+        solve_columns(&factors, &b, dt, &mut by_input);
+        Ok(Transition { state: end, by_state, by_input })
+    }
+}
+
+/// Solves for every column of a matrix that is given by its rows, times a factor.
+fn solve_columns<T: Real, const N: usize, const M: usize>(
+    factors: &Factors<D<N>, T>,
+    rows: &[[T; M]; N],
+    factor: T,
+    solution: &mut SMatrix<T, N, M>,
+) {
+    for (j, mut column) in solution.column_iter_mut().enumerate() {
+        let right = rows.map(|row| row.get(j).copied().unwrap_or(T::ZERO) * factor);
+        for (entry, number) in column.iter_mut().zip(factors.solve(&right)) {
+            *entry = number;
+        }
+    }
+}

@@ -1,0 +1,177 @@
+//! The derivative of a step, from the emitted Jacobian, against jets through the step and against
+//! difference quotients.
+
+use nh_runtime::methods::{Fixed, Tableau, Transition};
+use nh_runtime::prelude::*;
+use nh_runtime::{Jet, methods};
+
+/// A sleigh whose brake and engine make everything depend on everything, time included.
+#[nonholonomic(
+    base   { theta, x, y }
+    basis  { omega, v1, v2 }
+    anchor {
+        der(theta) = omega;
+        der(x) = v1 * cos(theta) - v2 * sin(theta);
+        der(y) = v1 * sin(theta) + v2 * cos(theta);
+    }
+    lagrangian  { J / 2 * omega^2 + m / 2 * (v1^2 + (v2 + a * omega)^2) - m * exp(-x^2) * sin(y + t) }
+    constraints { v2 = 0; }
+    forces      { omega: torque * cos(theta) - omega^3; v1: push - atan(v1) * sqrt(1 + y^2) + torque * push; }
+    inputs      { torque, push }
+    emit        { jacobian }
+)]
+#[derive(Clone, Copy, Debug)]
+struct Sleigh<T> {
+    m: T,
+    J: T,
+    a: T,
+}
+
+const SLEIGH: Sleigh<f64> = Sleigh { m: 1.3, J: 0.4, a: 0.35 };
+const START: [f64; 5] = [0.4, -0.3, 0.8, 1.1, -0.9];
+const INPUT: [f64; 2] = [0.7, -0.2];
+const TIME: f64 = 0.6;
+const STEP: f64 = 0.05;
+
+type Number = Jet<f64, 7>;
+
+/// The step in jets: the sleigh over jets, its emitted Jacobian unused.
+fn by_jets<P: Tableau>() -> [Number; 5] {
+    let all = Number::variables([START.as_slice(), INPUT.as_slice()].concat().try_into().unwrap());
+    let [theta, x, y, omega, v1, torque, push] = all;
+    let sleigh =
+        Sleigh { m: Jet::constant(SLEIGH.m), J: Jet::constant(SLEIGH.J), a: Jet::constant(SLEIGH.a) };
+    let start = SleighState { theta, x, y, omega, v1 };
+    let input = SleighInput { torque, push };
+    let end = Fixed::<P, Number>::step(&sleigh, Jet::constant(TIME), Jet::constant(STEP), &start, &input);
+    end.to_array()
+}
+
+fn agrees<P: Tableau>(name: &str) {
+    let (start, input) = (SleighState::from(START), SleighInput::from(INPUT));
+    let step: Transition<_, f64, 5, 2> =
+        Fixed::<P, f64>::linearized_step(&SLEIGH, TIME, STEP, &start, &input);
+    assert_eq!(step.state, Fixed::<P, f64>::step(&SLEIGH, TIME, STEP, &start, &input), "{name}");
+    for (i, jet) in by_jets::<P>().into_iter().enumerate() {
+        for (j, expected) in jet.by.into_iter().enumerate() {
+            let ours = if j < 5 { step.by_state[(i, j)] } else { step.by_input[(i, j - 5)] };
+            // entries are of order one, sums of a few dozen terms
+            assert!((ours - expected).abs() < 2e-15, "{name}, ({i}, {j}): {ours} {expected}");
+        }
+    }
+}
+
+#[test]
+fn explicit_steps_are_differentiated_exactly() {
+    agrees::<methods::Euler1>("Euler");
+    agrees::<methods::Heun2>("Heun");
+    agrees::<methods::Kutta4>("Rk4");
+    agrees::<methods::DormandPrince5>("Dopri5");
+    agrees::<methods::Verner9>("Vern9");
+}
+
+#[test]
+fn implicit_steps_are_differentiated_by_their_equations() {
+    let step = |x: [f64; 5], u: [f64; 2]| {
+        let (x, u) = (SleighState::from(x), SleighInput::from(u));
+        ImplicitMidpoint::step_with_jacobian(&SLEIGH, TIME, STEP, &x, &u).unwrap().to_array()
+    };
+    let (start, input) = (SleighState::from(START), SleighInput::from(INPUT));
+    let ours = ImplicitMidpoint::linearized_step(&SLEIGH, TIME, STEP, &start, &input).unwrap();
+    assert_eq!(ours.state.to_array(), step(START, INPUT));
+    let delta = 1e-4;
+    for j in 0..7 {
+        let at = |shift: f64| {
+            let (mut x, mut u) = (START, INPUT);
+            if j < 5 {
+                x[j] += shift;
+            } else {
+                u[j - 5] += shift;
+            }
+            step(x, u)
+        };
+        // the quotient of order four: its error is some 1e-12
+        let ([a, b], [c, d]) = ([at(2.0 * delta), at(delta)], [at(-delta), at(-2.0 * delta)]);
+        for i in 0..5 {
+            let quotient = (8.0 * (b[i] - c[i]) - (a[i] - d[i])) / (12.0 * delta);
+            let ours = if j < 5 { ours.by_state[(i, j)] } else { ours.by_input[(i, j - 5)] };
+            assert!((ours - quotient).abs() < 2e-11, "({i}, {j}): {ours} {quotient}");
+        }
+    }
+}
+
+#[test]
+fn linear_systems_give_the_rational_approximations_of_the_exponential() {
+    /// x' = −λ x + u.
+    #[nonholonomic(
+        base { q }
+        lagrangian { der(q)^2 / 2 }
+        forces { q: u - lambda * der(q); }
+        inputs { u }
+        emit { jacobian }
+    )]
+    #[derive(Clone, Copy, Debug)]
+    struct Decay {
+        lambda: f64,
+    }
+    let (z, start) = (0.3, DecayState { q: 0.0, q_dot: 1.0 });
+    let decay = Decay { lambda: z };
+    let explicit = Rk4::linearized_step(&decay, 0.0, 1.0, &start, &DecayInput::default());
+    let series = 1.0 - z + z * z / 2.0 - z * z * z / 6.0 + z * z * z * z / 24.0;
+    assert!((explicit.by_state[(1, 1)] - series).abs() < 1e-15);
+    let implicit =
+        ImplicitMidpoint::linearized_step(&decay, 0.0, 1.0, &start, &DecayInput::default()).unwrap();
+    assert!((implicit.by_state[(1, 1)] - (1.0 - z / 2.0) / (1.0 + z / 2.0)).abs() < 1e-15);
+    assert!((implicit.by_input[(1, 0)] - 1.0 / (1.0 + z / 2.0)).abs() < 1e-15);
+}
+
+#[test]
+fn jets_know_the_derivatives_of_all_functions() {
+    type Single = Jet<f64, 1>;
+    type Function = (&'static str, fn(Single) -> Single, fn(f64) -> f64);
+    macro_rules! both {
+        ($($text:literal $function:expr;)*) => { [$(($text, $function as fn(Single) -> Single, $function as fn(f64) -> f64)),*] };
+    }
+    let functions: &[Function] = &both! {
+        "sqrt" Scalar::sqrt;
+        "cbrt" Scalar::cbrt;
+        "sin" Scalar::sin;
+        "cos" Scalar::cos;
+        "tan" Scalar::tan;
+        "asin" Scalar::asin;
+        "acos" Scalar::acos;
+        "atan" Scalar::atan;
+        "sinh" Scalar::sinh;
+        "cosh" Scalar::cosh;
+        "tanh" Scalar::tanh;
+        "exp" Scalar::exp;
+        "ln" Scalar::ln;
+        "recip" Scalar::recip;
+        "abs" Scalar::abs;
+        "sign" Scalar::sign;
+        "powi" |x| Scalar::powi(x, -3);
+        "powf" |x| Scalar::powf(x, Scalar::from_f64(2.3));
+        "powf of the exponent" |x| Scalar::powf(Scalar::from_f64(2.3), x);
+        "atan2" |x| Scalar::atan2(x, x * x);
+        "sin_cos" |x| { let (s, c) = Scalar::sin_cos(x); s / c - s * c };
+        "mul_add" |x| Scalar::mul_add(x, x, -x);
+        "min" |x| Scalar::min(x, Scalar::from_f64(0.6));
+        "max" |x| Scalar::max(x, Scalar::from_f64(0.6));
+    };
+    for (name, of_jet, of_number) in functions {
+        for x in [0.2, 0.45, 0.83] {
+            let [jet] = Single::variables([x]);
+            let ours = of_jet(jet);
+            assert!((ours.value - of_number(x)).abs() < 1e-15 * (1.0 + ours.value.abs()), "{name}");
+            let h = 1e-3;
+            let at = |k: f64| of_number(x + k * h);
+            let quotient =
+                (45.0 * (at(1.0) - at(-1.0)) - 9.0 * (at(2.0) - at(-2.0)) + at(3.0) - at(-3.0)) / (60.0 * h);
+            assert!(
+                (ours.by[0] - quotient).abs() < 1e-9 * (1.0 + quotient.abs()),
+                "{name} at {x}: {} {quotient}",
+                ours.by[0]
+            );
+        }
+    }
+}
