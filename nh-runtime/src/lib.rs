@@ -66,8 +66,8 @@ compile_error!(
 );
 
 mod arrays;
-mod complex;
 pub mod batch;
+mod complex;
 pub mod control;
 mod dense;
 mod dim;
