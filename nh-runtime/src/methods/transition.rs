@@ -4,7 +4,7 @@ use nalgebra::SMatrix;
 
 use super::explicit::Tableau;
 use super::fixed::Fixed;
-use super::implicit_midpoint::ImplicitMidpoint;
+use super::implicit::ImplicitMidpoint;
 use crate::linear::Factors;
 use crate::{D, Dynamics, IntegrationError, Jacobian, Jet, Real, Scalar, State};
 
