@@ -48,6 +48,25 @@ pub(super) fn fuse(mut program: Program) -> Program {
     program
 }
 
+/// A reciprocal that only one product uses becomes a division.
+pub(super) fn quotients(mut program: Program) -> Program {
+    let uses = program.uses();
+    for index in 0..program.steps.len() {
+        let value = Value::from_index(index);
+        let Step::Mul(a, b) = program.steps[value] else { continue };
+        let divisor = |factor: Value| match program.steps[factor] {
+            Step::Recip(divisor) if uses[factor] == 1 => Some(divisor),
+            _ => None,
+        };
+        if let Some(divisor) = divisor(a) {
+            program.steps[value] = Step::Div(b, divisor);
+        } else if let Some(divisor) = divisor(b) {
+            program.steps[value] = Step::Div(a, divisor);
+        }
+    }
+    program
+}
+
 /// Which values are operands of functions that are not defined for all numbers.
 fn guarded(program: &Program) -> Vec<bool> {
     let mut guarded = vec![false; program.steps.len()];

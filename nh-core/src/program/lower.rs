@@ -1,7 +1,8 @@
 //! From n-ary terms to binary steps.
 
-use super::fuse::fuse;
+use super::fuse::{fuse, quotients};
 use super::nary::{Arena, Nary, Source, Term};
+use super::signs::absorb_signs;
 use super::step::{Program, Step, Value};
 use crate::algebra::{Function, Rational};
 use crate::id::{Id, SymbolId, Table};
@@ -42,7 +43,8 @@ pub(super) fn lower(arena: &Arena) -> Program {
     }
     let outputs = arena.outputs.iter().map(|output| lowering.value(*output)).collect();
     let program = Program { steps: lowering.steps, outputs, names: lowering.names };
-    without_dead_steps(&fuse(without_dead_steps(&program)))
+    let program = fuse(quotients(without_dead_steps(&program)));
+    without_dead_steps(&absorb_signs(without_dead_steps(&program)))
 }
 
 struct Lowering<'a> {
@@ -274,7 +276,7 @@ fn without_dead_steps(program: &Program) -> Program {
     Program { steps, outputs, names }
 }
 
-fn rename(step: &Step, new: &impl Fn(Value) -> Value) -> Step {
+pub(super) fn rename(step: &Step, new: &impl Fn(Value) -> Value) -> Step {
     let all = |list: &Vec<Value>| list.iter().map(|value| new(*value)).collect::<Vec<_>>();
     match step {
         Step::Constant(_) | Step::Pi | Step::Load(_) => step.clone(),

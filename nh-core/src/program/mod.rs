@@ -7,7 +7,7 @@
 //! 3. `powers`: denominators are gathered or inverted once.
 //! 4. `pairs`: pairs of operands that several sums or products share are computed once.
 //! 5. `lower`: binary steps in an order in which every value precedes its uses.
-//! 6. `fuse`: sums with products become multiply-adds.
+//! 6. `fuse`: sums with products become multiply-adds; `signs`: negations go where they are free.
 
 mod cost;
 mod factor;
@@ -19,6 +19,7 @@ mod nary;
 mod pairs;
 mod powers;
 mod schedule;
+mod signs;
 mod step;
 #[cfg(test)]
 mod tests;

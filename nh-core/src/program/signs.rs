@@ -1,0 +1,211 @@
+//! Moves signs to where they cost nothing.
+//!
+//! A difference, a multiply-add and a reciprocal may as well be computed with the opposite sign. What
+//! uses them changes with them: sums become differences, products change their sign in turn, and
+//! negations disappear. That is done wherever more negations disappear than come.
+
+use super::step::{Program, Step, Value};
+use crate::algebra::Rational;
+use crate::id::{Id, Table};
+use std::collections::BTreeSet;
+
+/// Values that may be tried for one negation.
+const CANDIDATES: usize = 16;
+/// Programs with more steps are left as they are: every attempt looks through all of them.
+const LONGEST: usize = 3000;
+
+/// The program with fewer negations.
+pub(super) fn absorb_signs(mut program: Program) -> Program {
+    if program.steps.len() > LONGEST {
+        return program;
+    }
+    let mut settled = 0;
+    while let Some((negation, better)) = improved(&program, settled) {
+        (settled, program) = (negation, better);
+    }
+    program
+}
+
+/// The first negation from `settled` on that can be got rid of, and the program without it.
+fn improved(program: &Program, settled: usize) -> Option<(usize, Program)> {
+    let users = users(program);
+    for (value, step) in program.steps.iter_ids().skip(settled) {
+        let Step::Neg(inner) = step else { continue };
+        for candidate in candidates(program, *inner) {
+            let opposite = opposite(program, &users, candidate);
+            if gain(program, &users, &opposite) > 0 {
+                return Some((value.index().saturating_sub(1), rebuilt(program, candidate, &opposite)));
+            }
+        }
+    }
+    None
+}
+
+/// The steps that use each value.
+fn users(program: &Program) -> Table<Value, Vec<Value>> {
+    let mut users: Table<Value, Vec<Value>> = program.steps.iter().map(|_| Vec::new()).collect();
+    for (value, step) in program.steps.iter_ids() {
+        for operand in step.operands() {
+            if users[operand].last() != Some(&value) {
+                users[operand].push(value);
+            }
+        }
+    }
+    users
+}
+
+/// The factors of a value that can be computed with either sign.
+fn candidates(program: &Program, value: Value) -> Vec<Value> {
+    let mut found = Vec::new();
+    let mut open = vec![value];
+    while let Some(value) = open.pop() {
+        match &program.steps[value] {
+            Step::Sub(..) | Step::MulAdd { .. } => found.push(value),
+            Step::Recip(inner) => {
+                found.push(value);
+                open.push(*inner);
+            }
+            Step::Mul(a, b) | Step::Div(a, b) => open.extend([*b, *a]),
+            _ => {}
+        }
+        if found.len() + open.len() > CANDIDATES {
+            break;
+        }
+    }
+    found
+}
+
+/// What a step becomes if some of its operands have the opposite sign.
+enum Change {
+    /// It does not change.
+    None,
+    /// Another step of the same value.
+    Same(Step),
+    /// A step of the opposite value.
+    Opposite(Step),
+    /// A negation whose operand is its value now.
+    Vanishes(Value),
+    /// The operands are needed as they were.
+    Refused,
+}
+
+fn change(step: &Step, is_opposite: impl Fn(&Value) -> bool) -> Change {
+    let operands = step.operands();
+    if !operands.iter().any(&is_opposite) {
+        return Change::None;
+    }
+    match *step {
+        Step::Neg(a) => Change::Vanishes(a),
+        Step::Mul(a, b) | Step::Div(a, b) if is_opposite(&a) == is_opposite(&b) => Change::Same(step.clone()),
+        Step::Mul(..) | Step::Div(..) | Step::Recip(_) => Change::Opposite(step.clone()),
+        Step::Add(a, b) => match (is_opposite(&a), is_opposite(&b)) {
+            (true, false) => Change::Same(Step::Sub(b, a)),
+            (false, _) => Change::Same(Step::Sub(a, b)),
+            (true, true) => Change::Opposite(step.clone()),
+        },
+        Step::Sub(a, b) => match (is_opposite(&a), is_opposite(&b)) {
+            (true, false) => Change::Opposite(Step::Add(a, b)),
+            (false, _) => Change::Same(Step::Add(a, b)),
+            (true, true) => Change::Same(Step::Sub(b, a)),
+        },
+        Step::MulAdd { a, b, c, minus_product, minus_c } => Change::Same(Step::MulAdd {
+            a,
+            b,
+            c,
+            minus_product: minus_product ^ is_opposite(&a) ^ is_opposite(&b),
+            minus_c: minus_c ^ is_opposite(&c),
+        }),
+        _ => Change::Refused,
+    }
+}
+
+/// The values that change their sign with `start`.
+fn opposite(program: &Program, users: &Table<Value, Vec<Value>>, start: Value) -> BTreeSet<Value> {
+    let mut opposite = BTreeSet::from([start]);
+    let mut open: BTreeSet<Value> = users[start].iter().copied().collect();
+    while let Some(value) = open.pop_first() {
+        if let Change::Opposite(_) = change(&program.steps[value], |operand| opposite.contains(operand)) {
+            opposite.insert(value);
+            open.extend(&users[value]);
+        }
+    }
+    opposite
+}
+
+/// How many negations fewer there are with these values of opposite sign.
+fn gain(program: &Program, users: &Table<Value, Vec<Value>>, opposite: &BTreeSet<Value>) -> i32 {
+    let mut gain = 0;
+    for value in opposite {
+        let mut needed = program.outputs.contains(value);
+        for user in &users[*value] {
+            match change(&program.steps[*user], |operand| opposite.contains(operand)) {
+                Change::Vanishes(_) => gain += 1,
+                Change::Refused => needed = true,
+                _ => {}
+            }
+        }
+        gain -= i32::from(needed);
+    }
+    gain
+}
+
+/// The program with these values of opposite sign, the first of which is computed so.
+fn rebuilt(program: &Program, start: Value, opposite: &BTreeSet<Value>) -> Program {
+    let mut steps: Table<Value, Step> = Table::new();
+    // where each value is now, with its own sign or, of those in `opposite`, with the other one
+    let mut images: Vec<Value> = Vec::with_capacity(program.steps.len());
+    let mut names = program.names.clone();
+    names.clear();
+    let mut restored: Vec<Option<Value>> = vec![None; program.steps.len()];
+    for (value, step) in program.steps.iter_ids() {
+        let changed = match change(step, |operand| opposite.contains(operand)) {
+            _ if value == start => None,
+            Change::None => Some(step.clone()),
+            Change::Same(step) | Change::Opposite(step) => Some(step),
+            Change::Vanishes(operand) => {
+                images.push(images[operand.index()]);
+                continue;
+            }
+            Change::Refused => {
+                for operand in step.operands() {
+                    if opposite.contains(&operand) && restored[operand.index()].is_none() {
+                        let image = images[operand.index()];
+                        restored[operand.index()] = Some(steps.push(Step::Neg(image)));
+                    }
+                }
+                let of = |old: Value| restored[old.index()].unwrap_or(images[old.index()]);
+                images.push(steps.push(super::lower::rename(step, &of)));
+                continue;
+            }
+        };
+        let step = changed.unwrap_or_else(|| match *step {
+            Step::Sub(a, b) => Step::Sub(b, a),
+            Step::MulAdd { a, b, c, minus_product, minus_c } => {
+                Step::MulAdd { a, b, c, minus_product: !minus_product, minus_c: !minus_c }
+            }
+            Step::Recip(a) => {
+                // its image is put in place below
+                let minus_one = steps.push(Step::Constant(Rational::MINUS_ONE));
+                images.push(steps.push(Step::Div(minus_one, images[a.index()])));
+                Step::Pi
+            }
+            _ => step.clone(),
+        });
+        if images.len() == value.index() {
+            images.push(steps.push(super::lower::rename(&step, &|old: Value| images[old.index()])));
+        }
+        if let Some(name) = program.names.get(&value).filter(|_| !opposite.contains(&value)) {
+            names.insert(images[value.index()], *name);
+        }
+    }
+    let mut outputs = Vec::with_capacity(program.outputs.len());
+    for output in &program.outputs {
+        let image = images[output.index()];
+        outputs.push(if opposite.contains(output) {
+            *restored[output.index()].get_or_insert_with(|| steps.push(Step::Neg(image)))
+        } else {
+            image
+        });
+    }
+    Program { steps, outputs, names }
+}
