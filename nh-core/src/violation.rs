@@ -44,6 +44,8 @@ pub enum Law {
     Tracking,
     /// A map between two systems is a reduction: mathematics (13), (14), CLMM Theorem 4.6.
     Morphism,
+    /// What a quotient drops, nothing depends on: CM section 4, CLMM 4.8–4.12.
+    Invariance,
     /// What is asked of the Hamiltonian side exists.
     Hamiltonian,
     /// A claimed invariant volume is one: M 2.5.

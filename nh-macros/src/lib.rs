@@ -4,6 +4,7 @@
 mod emit;
 mod expand;
 mod morphism;
+mod quotient;
 mod report;
 mod resolve;
 mod suggest;
@@ -209,4 +210,40 @@ pub fn nonholonomic(
 #[proc_macro]
 pub fn morphism(input: proc_macro::TokenStream) -> proc_macro::TokenStream {
     morphism::morphism(input.into()).into()
+}
+
+/// Constructs the quotient of a declared system by a symmetry: a declared system of its own.
+///
+/// ```text
+/// quotient! {
+///     SleighOnThePlane ->
+///     /// The sleigh on se(2).
+///     #[derive(Clone, Copy, Debug)]
+///     pub struct Sleigh by { theta, x, y } {
+///         velocities {
+///             omega = der(theta);
+///             v1 = cos(theta) * der(x) + sin(theta) * der(y);
+///             v2 = cos(theta) * der(y) - sin(theta) * der(x);
+///         }
+///         emit { multipliers }
+///     }
+/// }
+/// ```
+///
+/// The coordinates listed behind `by` are those along the group, and the quasi-velocities belong to
+/// an invariant frame: as many as there are sections. Without them the frame is that of the full
+/// system, for coordinates that are cyclic in it. In the frame nothing may depend on the dropped
+/// coordinates – the anchor on the rest of the base, the brackets, L, D, the forces – which is proved,
+/// or refused with the derivative that should have been zero. Constraints that are not invariant
+/// themselves, though what they allow is, are solved for velocities.
+///
+/// The macro emits the struct, with the parameters of the full system as public fields, its
+/// declaration by `#[nonholonomic]` (read it in `Sleigh::REPORT`), and `morphism!` between the two, so
+/// that `Reduction` and `Reconstruction` are there. Other sections in the last braces, `emit`, `on`,
+/// `outputs`, `conserved` and so on, are passed on to the new declaration; `crate { ::path }` names the
+/// runtime where the dependency is renamed. A row or an entry of a family that is kept alone is called
+/// `R_2_0`. CM section 4, CLMM 4.8–4.12.
+#[proc_macro]
+pub fn quotient(input: proc_macro::TokenStream) -> proc_macro::TokenStream {
+    quotient::quotient(input.into()).into()
 }

@@ -273,6 +273,40 @@ pub use nh_macros::nonholonomic;
 #[cfg(feature = "macros")]
 pub use nh_macros::morphism;
 
+/// # Examples
+///
+/// The skater of [`morphism!`], reduced without a second declaration.
+///
+/// ```
+/// use nh_runtime::prelude::*;
+///
+/// #[nonholonomic(
+///     base        { theta, x, y }
+///     lagrangian  { J / 2 * der(theta)^2 + m / 2 * (der(x)^2 + der(y)^2) }
+///     constraints { cos(theta) * der(y) = sin(theta) * der(x); }
+/// )]
+/// #[derive(Clone, Copy, Debug)]
+/// pub struct Skater { m: f64, J: f64 }
+///
+/// quotient! {
+///     Skater -> #[derive(Clone, Copy, Debug)] pub struct Reduced by { theta, x, y } {
+///         velocities {
+///             omega = der(theta);
+///             v1 = cos(theta) * der(x) + sin(theta) * der(y);
+///             v2 = cos(theta) * der(y) - sin(theta) * der(x);
+///         }
+///     }
+/// }
+///
+/// let skater = Skater { m: 1.0, J: 0.1 };
+/// let start = SkaterState { theta_dot: 1.0, x_dot: 2.0, ..SkaterState::default() };
+/// let reduced: Reduced = skater.reduced();
+/// assert_eq!(skater.reduce(0.0, &start), ReducedState { omega: 1.0, v1: 2.0 });
+/// assert_eq!(reduced.derivative(0.0, &ReducedState { omega: 1.0, v1: 2.0 }, &()), ReducedState::default());
+/// ```
+#[cfg(feature = "macros")]
+pub use nh_macros::quotient;
+
 /// The crate whose packs of lanes are scalars with the feature `wide`.
 #[cfg(feature = "wide")]
 pub use ::wide;
@@ -291,7 +325,7 @@ pub mod __private {
     pub use core;
     pub use nalgebra;
     #[cfg(feature = "macros")]
-    pub use nh_macros::morphism;
+    pub use nh_macros::{morphism, nonholonomic, quotient};
     #[cfg(feature = "serde")]
     pub use serde;
 }

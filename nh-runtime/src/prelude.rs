@@ -10,4 +10,4 @@ pub use crate::{
 };
 
 #[cfg(feature = "macros")]
-pub use nh_macros::{morphism, nonholonomic};
+pub use nh_macros::{morphism, nonholonomic, quotient};

@@ -4,5 +4,6 @@ mod morphisms {
     mod bodies;
     mod elsewhere;
     mod planar;
+    mod quotients;
     mod support;
 }

@@ -176,7 +176,7 @@ fn missing(source: &Side, target: &Side, origin: Origin, name: &str) -> Violatio
 }
 
 /// A row of Φ.
-fn linear(source: &mut Side, value: Located, name: &str) -> Result<Vec<ExprId>, Violation> {
+pub(super) fn linear(source: &mut Side, value: Located, name: &str) -> Result<Vec<ExprId>, Violation> {
     let velocities = source.velocities().to_vec();
     let graph = source.graph();
     let blame = |evidence: String| Violation {

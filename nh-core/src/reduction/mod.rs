@@ -8,14 +8,18 @@
 mod bundle_map;
 mod dynamics;
 mod forces;
+mod invariance;
 mod laws;
 mod maps;
+mod quotient;
 mod side;
 
 use crate::id::{CoordId, ExprId, InputId, Origin, ParamId, SymbolId};
 use crate::mechanics::Procedure;
 use crate::model::{Located, Model};
 use crate::violation::Violation;
+
+pub use quotient::{Equation, Quotient, QuotientDecl, quotient};
 
 use bundle_map::BundleMap;
 use side::Side;

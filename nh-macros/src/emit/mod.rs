@@ -25,6 +25,7 @@ mod observed;
 mod phase_space;
 mod program;
 mod projection;
+mod quotient;
 mod reconstruction;
 mod record;
 mod report;
@@ -49,6 +50,7 @@ use scope::Scope;
 pub(crate) use callback::alias;
 pub(crate) use layout::{Family, Layout, TypeNames};
 pub(crate) use morphism::{morphism, morphism_stub};
+pub(crate) use quotient::{Written, quotient};
 pub(crate) use stubs::stubs;
 
 /// The struct and everything that its declaration gives it.

@@ -13,6 +13,7 @@ mod lines;
 pub(crate) mod morphism;
 mod names;
 mod number;
+pub(crate) mod quotient;
 mod render;
 mod sections;
 mod stream;

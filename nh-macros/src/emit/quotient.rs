@@ -1,0 +1,167 @@
+//! A derived system as a declaration, and the map to it.
+
+use nh_core::id::{CoordId, ExprId};
+use nh_core::reduction::Quotient;
+use proc_macro2::{Literal, TokenStream, TokenTree};
+use quote::quote;
+
+use super::layout::{Family, Layout};
+use crate::syntax::ast::Scalar;
+use crate::syntax::quotient::QuotientDecl;
+
+/// What the quotient is written with.
+pub(crate) struct Written<'a> {
+    /// The derived system.
+    pub(crate) quotient: &'a Quotient,
+    /// What was asked for.
+    pub(crate) declaration: &'a QuotientDecl,
+    /// The layout of the full system.
+    pub(crate) layout: &'a Layout,
+    /// The coordinates that are left.
+    pub(crate) coordinates: &'a [Family],
+    /// The names of their entries that differ from those in the full system.
+    pub(crate) renamed: &'a [(CoordId, String)],
+    /// The quasi-velocities.
+    pub(crate) velocities: &'a [Family],
+    /// The path of the runtime.
+    pub(crate) runtime: TokenStream,
+}
+
+/// `#[nonholonomic(…)] pub struct Reduced { … }` and `morphism! { Full -> Reduced { … } }`.
+pub(crate) fn quotient(written: &Written<'_>) -> TokenStream {
+    let Written { declaration, layout, runtime, .. } = written;
+    let (attribute, map) = (written.attribute(), written.map());
+    let (before, name, source) = (&declaration.before, &declaration.name, &declaration.source.path);
+    // as a user writes it: the attribute reads it
+    let scalar = match &layout.scalar {
+        Scalar::F64 => quote!(f64),
+        Scalar::F32 => quote!(f32),
+        Scalar::Parameter(ident) => quote!(#ident),
+    };
+    let fields = layout.parameters.iter().map(|family| {
+        let (ident, docs) = (&family.ident, &family.docs);
+        let lengths = lengths(family);
+        let type_of = lengths.iter().rev().fold(scalar.clone(), |inner, length| quote!([#inner; #length]));
+        let doc = if docs.is_empty() { quote!(#[doc = " As in the full system."]) } else { docs.clone() };
+        quote!(#doc pub #ident: #type_of)
+    });
+    let generics = match &layout.scalar {
+        Scalar::Parameter(ident) => quote!(<#ident>),
+        Scalar::F64 | Scalar::F32 => TokenStream::new(),
+    };
+    quote! {
+        #[#runtime::__private::nonholonomic(#attribute)]
+        #before struct #name #generics { #(#fields,)* }
+        #runtime::__private::morphism! { #source -> #name { #map crate { #runtime } } }
+    }
+}
+
+fn lengths(family: &Family) -> Vec<Literal> {
+    family.lengths.iter().map(|length| Literal::u32_unsuffixed(*length)).collect()
+}
+
+/// `a, w[3]`
+fn list(families: &[Family]) -> TokenStream {
+    let entries = families.iter().map(|family| {
+        let (ident, lengths) = (&family.ident, lengths(family));
+        quote!(#ident #([#lengths])*)
+    });
+    quote!(#(#entries),*)
+}
+
+/// What was printed, as tokens.
+fn tokens(text: &str) -> TokenStream {
+    text.parse().unwrap_or_default()
+}
+
+impl Written<'_> {
+    fn text(&self, expression: ExprId) -> TokenStream {
+        tokens(&self.quotient.source.graph.text(expression))
+    }
+
+    /// The name of a coordinate in the quotient.
+    fn coordinate(&self, id: CoordId) -> TokenStream {
+        let renamed = self.renamed.iter().find(|(known, _)| *known == id).map(|(_, name)| name);
+        tokens(renamed.unwrap_or(&self.quotient.source.coordinates[id].name))
+    }
+
+    /// Whether a section is passed on.
+    fn passes(&self, section: &str) -> bool {
+        let is_it = |token: TokenTree| matches!(token, TokenTree::Ident(ident) if ident == section);
+        self.declaration.passed.clone().into_iter().any(is_it)
+    }
+
+    /// The sections of the derived declaration.
+    fn attribute(&self) -> TokenStream {
+        let Self { quotient, declaration, layout, runtime, .. } = self;
+        let names: Vec<TokenStream> = quotient.velocities.iter().map(|name| tokens(name)).collect();
+        let mut sections = TokenStream::new();
+        if !quotient.anchor.is_empty() {
+            let coordinates = list(self.coordinates);
+            let lines = quotient.anchor.iter().map(|(id, rate)| {
+                let (name, rate) = (self.coordinate(*id), self.text(*rate));
+                quote!(der(#name) = #rate;)
+            });
+            sections.extend(quote!(base { #coordinates } anchor { #(#lines)* }));
+        }
+        if !quotient.identities.is_empty() && !self.passes("on") {
+            let identities = quotient.identities.iter().map(|identity| self.text(*identity));
+            sections.extend(quote!(on { #(#identities = 0;)* }));
+        }
+        let basis = list(self.velocities);
+        let brackets = quotient.brackets.iter().map(|(a, b, value)| {
+            let (a, b, value) = (&names[*a], &names[*b], self.text(*value));
+            quote!([#a, #b] = #value;)
+        });
+        let lagrangian = self.text(quotient.lagrangian);
+        sections.extend(quote! {
+            basis { #basis }
+            brackets { #(#brackets)* }
+            lagrangian { #lagrangian }
+        });
+        if quotient.source.almost {
+            sections.extend(quote!(almost;));
+        }
+        if !quotient.constraints.is_empty() {
+            let constraints = quotient.constraints.iter().map(|equation| {
+                let label = equation.label.as_ref().map(|label| {
+                    let label = tokens(label);
+                    quote!(#label:)
+                });
+                let (left, right) = (self.text(equation.left), self.text(equation.right));
+                quote!(#label #left = #right;)
+            });
+            sections.extend(quote!(constraints { #(#constraints)* }));
+        }
+        if !quotient.forces.is_empty() {
+            let forces = quotient.forces.iter().map(|(k, force)| {
+                let (name, force) = (&names[*k], self.text(*force));
+                quote!(#name: #force;)
+            });
+            sections.extend(quote!(forces { #(#forces)* }));
+        }
+        if !layout.inputs.is_empty() {
+            let inputs = list(&layout.inputs);
+            sections.extend(quote!(inputs { #inputs }));
+        }
+        if !quotient.source.assumptions.is_empty() && !self.passes("assume") {
+            let facts = quotient.source.assumptions.iter().map(|fact| tokens(&fact.text));
+            sections.extend(quote!(assume { #(#facts;)* }));
+        }
+        let passed = &declaration.passed;
+        quote!(#sections #passed crate { #runtime })
+    }
+
+    /// The sections of the map.
+    fn map(&self) -> TokenStream {
+        let base = self.renamed.iter().map(|(id, name)| {
+            let (name, old) = (tokens(name), tokens(&self.quotient.source.coordinates[*id].name));
+            quote!(#name = #old;)
+        });
+        let velocities = self.quotient.velocities.iter().zip(&self.quotient.map).map(|(name, value)| {
+            let (name, value) = (tokens(name), self.text(*value));
+            quote!(#name = #value;)
+        });
+        quote!(base { #(#base)* } velocities { #(#velocities)* })
+    }
+}

@@ -1,0 +1,130 @@
+//! `Full -> pub struct Reduced by { x, y } { … }`: the quotient of a declared system.
+
+use proc_macro2::{Delimiter, Ident, TokenStream, TokenTree};
+use quote::quote;
+
+use super::ast::{Definition, Item, Name, Place, Section};
+use super::items::items;
+use super::morphism::{SystemPath, path};
+use super::names::list;
+use super::sections::runtime;
+use super::stream::Stream;
+use crate::report::{Diagnostic, Errors, Extent};
+
+/// How it should look.
+const READS: &str = "a quotient reads `Full -> pub struct Reduced by { x, y } { velocities { v = …; } }`";
+
+/// A declared quotient.
+#[derive(Debug)]
+pub(crate) struct QuotientDecl {
+    /// The full system.
+    pub(crate) source: SystemPath,
+    /// Attributes and visibility of the new struct.
+    pub(crate) before: TokenStream,
+    /// Its name.
+    pub(crate) name: Ident,
+    /// The coordinates along the group.
+    pub(crate) dropped: Vec<Place>,
+    /// The invariant quasi-velocities.
+    pub(crate) velocities: Option<Section<Vec<Item<Definition>>>>,
+    /// Sections for the new declaration.
+    pub(crate) passed: TokenStream,
+    /// `crate`: the path of the runtime, where the dependency was renamed.
+    pub(crate) runtime: Option<Section<TokenStream>>,
+    /// From the full system to the new name.
+    pub(crate) extent: Extent,
+}
+
+/// Reads the declaration of a quotient.
+pub(crate) fn quotient(tokens: TokenStream) -> Result<QuotientDecl, Vec<Diagnostic>> {
+    let mut errors = Errors::new();
+    let mut stream = Stream::new(tokens, Extent::at(proc_macro2::Span::call_site()));
+    let parsed = header(&mut stream, &mut errors).and_then(|mut declaration| {
+        if let Some(body) = stream.eat_group(Delimiter::Brace) {
+            sections(&mut Stream::inside(&body), &mut declaration, &mut errors)?;
+        }
+        if stream.is_empty() {
+            Ok(declaration)
+        } else {
+            Err(stream.expected("the end of the macro").way_out(READS))
+        }
+    });
+    match parsed {
+        Ok(declaration) => errors.finish(declaration),
+        Err(error) => {
+            errors.push(error);
+            errors.finish(()).and(Err(Vec::new()))
+        }
+    }
+}
+
+/// `Full -> #[…] pub struct Reduced by { x, y }`
+fn header(stream: &mut Stream, errors: &mut Errors) -> Result<QuotientDecl, Diagnostic> {
+    let start = stream.position();
+    let source = path(stream).map_err(|error| error.or_way_out(READS))?;
+    if !stream.eat("->") {
+        return Err(stream.expected("`->`").way_out(READS));
+    }
+    let first = stream.position();
+    while !stream.at_word("struct") {
+        if stream.advance().is_none() {
+            return Err(stream.expected("`struct`").way_out(READS));
+        }
+    }
+    let before: TokenStream = stream.consumed(first).iter().cloned().collect();
+    stream.eat_word("struct");
+    let name = stream.name("the name of the new struct")?.ident;
+    let extent = stream.since(start);
+    if !stream.eat_word("by") {
+        return Err(stream.expected("`by` and the coordinates that are dropped").way_out(READS));
+    }
+    let Some(body) = stream.eat_group(Delimiter::Brace) else {
+        return Err(stream.expected("`{`").way_out(READS));
+    };
+    let dropped = list(&body, errors, |entry| entry.place("a base coordinate"));
+    Ok(QuotientDecl {
+        source,
+        before,
+        name,
+        dropped,
+        velocities: None,
+        passed: TokenStream::new(),
+        runtime: None,
+        extent,
+    })
+}
+
+/// `velocities` and `crate` are read here, the others passed on.
+fn sections(
+    stream: &mut Stream,
+    declaration: &mut QuotientDecl,
+    errors: &mut Errors,
+) -> Result<(), Diagnostic> {
+    while !stream.is_empty() {
+        let Some(TokenTree::Ident(ident)) = stream.advance() else {
+            return Err(stream.expected("a section").way_out(READS));
+        };
+        let keyword = Name::new(ident.clone());
+        let Some(body) = stream.eat_group(Delimiter::Brace) else {
+            return Err(stream.expected("`{`").way_out(format!("write `{} {{ … }}`", keyword.text)));
+        };
+        match keyword.text.as_str() {
+            "velocities" => {
+                let body = items(&body, errors, &Stream::definition);
+                declaration.velocities = Some(Section { keyword, body });
+            }
+            "crate" => {
+                let body = errors.keep(runtime(&body));
+                declaration.runtime = body.map(|body| Section { keyword, body });
+            }
+            "base" | "basis" | "anchor" | "brackets" | "frame" | "lagrangian" | "constraints"
+            | "distribution" | "forces" | "inputs" => errors.push(
+                Diagnostic::new(keyword.extent(), format!("`{}` is derived", keyword.text))
+                    .way_out("leave it out; to declare both systems, use `morphism!`"),
+            ),
+            _ => declaration.passed.extend(quote!(#ident #body)),
+        }
+        while stream.eat(";") {}
+    }
+    Ok(())
+}

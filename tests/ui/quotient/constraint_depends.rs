@@ -1,0 +1,8 @@
+use nh_runtime::prelude::*;
+
+#[nonholonomic(base { x, y } lagrangian { m / 2 * (der(x)^2 + der(y)^2) } constraints { slide: der(y) = sin(x) * der(x); })]
+struct Full { m: f64 }
+
+quotient! { Full -> struct Reduced by { x } }
+
+fn main() {}

@@ -1,0 +1,8 @@
+use nh_runtime::prelude::*;
+
+#[nonholonomic(base { x, y } lagrangian { m / 2 * (der(x)^2 + der(y)^2) } forces { y: -k * x; })]
+struct Full { m: f64, k: f64 }
+
+quotient! { Full -> struct Reduced by { x } }
+
+fn main() {}
