@@ -1,7 +1,56 @@
 //! The state between the ends of a step.
 
-use crate::Scalar;
-use crate::arrays::Array;
+use crate::arrays::{Array, first_non_finite};
+use crate::methods::{Arrival, Method, Start, non_finite_derivative};
+use crate::{Dynamics, IntegrationError, Integrator, Real, Scalar, ScalarOf, State};
+
+/// The states within the last step of an integration: see [`Integrator::dense`].
+pub struct DenseOutput<'a, S: Dynamics, M: Method<S>> {
+    method: &'a M,
+    /// The step as the method took it, with what it has prepared; none before the first step.
+    step: Option<(Start<'a, S>, Arrival<S>, M::Dense)>,
+    /// The state that the integration stands at.
+    here: Arrival<S>,
+}
+
+impl<'a, S: Dynamics, M: Method<S>> DenseOutput<'a, S, M>
+where
+    ScalarOf<S>: Real,
+{
+    pub(crate) fn new(sim: &'a Integrator<S, M>) -> Self {
+        let (method, memory) = sim.recollection();
+        let step = sim.last_step().map(|(start, arrival)| {
+            let dense = method.dense(memory, &start, &arrival);
+            (start, arrival, dense)
+        });
+        Self { method, step, here: Arrival { time: sim.time(), state: *sim.state() } }
+    }
+
+    /// The state at a time within the step.
+    ///
+    /// # Errors
+    /// As [`Integrator::at`].
+    pub fn at(&self, time: ScalarOf<S>) -> Result<S::State, IntegrationError> {
+        let to = self.here.time;
+        if time == to {
+            return Ok(self.here.state);
+        }
+        let from = self.step.as_ref().map_or(to, |(start, ..)| start.time);
+        let within = (from <= time && time <= to) || (to <= time && time <= from);
+        let (true, Some((start, arrival, dense))) = (within, &self.step) else {
+            let (time, from, to) = (time.to_f64(), from.to_f64(), to.to_f64());
+            return Err(IntegrationError::OutsideLastStep { time, from, to });
+        };
+        if time == from {
+            return Ok(*start.state);
+        }
+        let state = self.method.interpolate(dense, start, arrival, time);
+        match first_non_finite(state.to_array().as_ref()) {
+            None => Ok(state),
+            Some(found) => Err(non_finite_derivative::<S::State>(found, time.to_f64())),
+        }
+    }
+}
 
 /// The cubic with given values and derivatives at both ends, at the fraction s of the step:
 /// (1−s) x₀ + s x₁ + s (s−1) ((1−2s)(x₁−x₀) + (s−1) h f₀ + s h f₁)

@@ -197,6 +197,15 @@ pub enum IntegrationError {
         /// The permitted number of steps.
         limit: u64,
     },
+    /// An event function is infinite or not a number.
+    NonFiniteEvent {
+        /// Which of the functions.
+        event: usize,
+        /// The time.
+        time: f64,
+        /// Its value.
+        value: f64,
+    },
     /// A state was asked for at a time outside the last step.
     OutsideLastStep {
         /// The time asked for.
@@ -256,6 +265,11 @@ impl Display for IntegrationError {
                 f,
                 "{limit} steps have led to t = {time:?} and not to {target:?}: permit more with \
                  `max_steps`, take longer steps, or an implicit method if the system is stiff"
+            ),
+            Self::NonFiniteEvent { event, time, value } => write!(
+                f,
+                "the event function {event} is {value:?} at t = {time:?}, so that its zeros cannot be \
+                 found: it has to be finite wherever the solution leads"
             ),
             Self::OutsideLastStep { time, from, to } => write!(
                 f,

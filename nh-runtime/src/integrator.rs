@@ -3,7 +3,8 @@
 use core::fmt;
 
 use crate::arrays::{all_finite, first_non_finite};
-use crate::methods::{Arrival, Method, Start, component, non_finite_derivative};
+use crate::dense::DenseOutput;
+use crate::methods::{Arrival, Method, Start, component};
 use crate::{Dynamics, IntegrationError, Real, Scalar, ScalarOf, State};
 
 /// What an integration has cost.
@@ -75,6 +76,8 @@ pub struct Integrator<S: Dynamics, M: Method<S>> {
     state: S::State,
     /// Where the last step came from.
     origin: Option<Origin<S>>,
+    /// Where it has led to, if the integration stands at an event within it.
+    beyond: Option<Arrival<S>>,
     statistics: Statistics,
     max_steps: u64,
     /// Whether the parameters and settings have been checked.
@@ -111,6 +114,7 @@ impl<S: Dynamics, M: Method<S>> Integrator<S, M> {
             time: t0,
             state,
             origin: None,
+            beyond: None,
             statistics: Statistics::default(),
             max_steps: 10_000_000,
             validated: false,
@@ -140,6 +144,7 @@ impl<S: Dynamics, M: Method<S>> Integrator<S, M> {
         self.state = state;
         self.memory = self.method.memory();
         self.origin = None;
+        self.beyond = None;
         self.statistics = Statistics::default();
         self.admitted = false;
     }
@@ -229,13 +234,7 @@ where
         check_time(target)?;
         let mut steps = 0;
         while self.time != target {
-            if steps == self.max_steps {
-                return Err(IntegrationError::TooManySteps {
-                    time: self.time.to_f64(),
-                    target: target.to_f64(),
-                    limit: steps,
-                });
-            }
+            self.limit_steps(steps, target)?;
             self.advance(Some(target))?;
             steps += 1;
         }
@@ -254,30 +253,108 @@ where
     /// [`IntegrationError::OutsideLastStep`], also for a time that is NaN;
     /// [`IntegrationError::NonFiniteDerivative`] if a derivative at an end is not finite.
     pub fn at(&self, time: ScalarOf<S>) -> Result<S::State, IntegrationError> {
+        // the ends need no preparation
         if time == self.time {
             return Ok(self.state);
         }
-        let from = self.origin.as_ref().map_or(self.time, |origin| origin.time);
-        let within = (from <= time && time <= self.time) || (self.time <= time && time <= from);
-        let (true, Some(origin)) = (within, &self.origin) else {
-            return Err(IntegrationError::OutsideLastStep {
-                time: time.to_f64(),
-                from: from.to_f64(),
-                to: self.time.to_f64(),
-            });
-        };
-        if time == origin.time {
-            return Ok(origin.state);
+        self.dense().at(time)
+    }
+
+    /// The states within the last step, as [`at`](Self::at) gives them, for many times: what the
+    /// method needs for them is computed once.
+    #[must_use]
+    pub fn dense(&self) -> DenseOutput<'_, S, M> {
+        DenseOutput::new(self)
+    }
+
+    /// Takes steps to each of these times in turn, lands on it exactly, and calls `visit` there, which
+    /// may change the input or start anew. The times may go forwards and backwards.
+    ///
+    /// # Errors
+    /// As [`advance_to`](Self::advance_to).
+    pub fn advance_through(
+        &mut self,
+        stops: impl IntoIterator<Item = ScalarOf<S>>,
+        mut visit: impl FnMut(&mut Self),
+    ) -> Result<(), IntegrationError> {
+        for stop in stops {
+            self.advance_to(stop)?;
+            visit(self);
         }
+        Ok(())
+    }
+
+    /// Gives the states at these times, which follow one another in one direction, to `visit`. Unlike
+    /// [`advance_through`](Self::advance_through), the steps go their own way, and the states within
+    /// them come from the dense output; the last time is landed on.
+    ///
+    /// # Errors
+    /// As [`advance_to`](Self::advance_to).
+    pub fn sample(
+        &mut self,
+        times: impl IntoIterator<Item = ScalarOf<S>, IntoIter: Clone>,
+        mut visit: impl FnMut(ScalarOf<S>, &S::State),
+    ) -> Result<(), IntegrationError> {
+        let times = times.into_iter();
+        let Some(last) = times.clone().last() else { return Ok(()) };
+        let mut times = times.peekable();
+        loop {
+            let dense = self.dense();
+            while let Some(&time) = times.peek()
+                && let Ok(state) = dense.at(time)
+            {
+                visit(time, &state);
+                times.next();
+            }
+            if self.time == last {
+                // a time that has been passed already
+                return times.next().map_or(Ok(()), |time| dense.at(time).map(|_| ()));
+            }
+            self.step_towards(last)?;
+        }
+    }
+
+    /// Refuses a step beyond the limit.
+    #[inline]
+    pub(crate) fn limit_steps(&self, steps: u64, target: ScalarOf<S>) -> Result<(), IntegrationError> {
+        if steps < self.max_steps {
+            return Ok(());
+        }
+        let (time, target) = (self.time.to_f64(), target.to_f64());
+        Err(IntegrationError::TooManySteps { time, target, limit: steps })
+    }
+
+    /// Cuts the last step at a time and state within it.
+    pub(crate) fn stand_at(&mut self, time: ScalarOf<S>, state: S::State) {
+        if time != self.time {
+            self.beyond = Some(Arrival { time: self.time, state: self.state });
+            self.time = time;
+            self.state = state;
+            self.method.forget(&mut self.memory);
+        }
+    }
+
+    /// Takes the last step back.
+    pub(crate) fn take_back(&mut self) {
+        if let Some(origin) = self.origin.take() {
+            self.time = origin.time;
+            self.state = origin.state;
+            self.method.forget(&mut self.memory);
+        }
+    }
+
+    /// The last step: where it came from and with which input, and where the method has led it.
+    pub(crate) fn last_step(&self) -> Option<(Start<'_, S>, Arrival<S>)> {
+        let origin = self.origin.as_ref()?;
         let start =
             Start { system: &self.system, input: &origin.input, time: origin.time, state: &origin.state };
-        let arrival = Arrival { time: self.time, state: self.state };
-        let dense = self.method.dense(&self.memory, &start, &arrival);
-        let state = self.method.interpolate(&dense, &start, &arrival, time);
-        match first_non_finite(state.to_array().as_ref()) {
-            None => Ok(state),
-            Some(found) => Err(non_finite_derivative::<S::State>(found, time.to_f64())),
-        }
+        let here = Arrival { time: self.time, state: self.state };
+        Some((start, self.beyond.unwrap_or(here)))
+    }
+
+    /// The method with its memory.
+    pub(crate) fn recollection(&self) -> (&M, &M::Memory) {
+        (&self.method, &self.memory)
     }
 
     /// Checks what the user gave, unless that has been done.
@@ -316,6 +393,7 @@ where
         let start = Start { system: &self.system, input: &self.input, time: self.time, state: &self.state };
         let Arrival { time, state } =
             self.method.advance(&start, target, &mut self.memory, &mut self.statistics)?;
+        self.beyond = None;
         self.origin = Some(Origin { time: self.time, state: self.state, input: self.input });
         self.time = time;
         self.state = state;

@@ -74,6 +74,7 @@ mod dim;
 mod dynamics;
 mod elementary;
 mod error;
+mod events;
 mod fast;
 mod integrator;
 mod jet;
@@ -89,11 +90,13 @@ mod sine;
 mod step_control;
 mod tolerance;
 
+pub use dense::DenseOutput;
 pub use dim::{D, Dim};
 pub use dynamics::{
     AlmostPoisson, Constrained, DimOf, Dynamics, Energy, Jacobian, MatOf, Observed, ScalarOf, State, VecOf,
 };
 pub use error::{InputFault, IntegrationError, ParameterError, ParameterFault, ProjectionError, StateFault};
+pub use events::{Direction, Event, Events};
 pub use fast::Fast;
 pub use integrator::{Integrator, Statistics};
 pub use jet::Jet;

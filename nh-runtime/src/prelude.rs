@@ -5,8 +5,9 @@ pub use crate::methods::{
     Ralston, Rk4, Rodas5P, Tsit5, Vern9,
 };
 pub use crate::{
-    AlmostPoisson, Constrained, Dynamics, Energy, Fast, IntegrationError, Integrator, Jacobian, Lanes,
-    Observed, ParameterError, Real, Reconstructed, Reconstruction, Reduction, Scalar, State, Statistics,
+    AlmostPoisson, Constrained, Direction, Dynamics, Energy, Event, Events, Fast, IntegrationError,
+    Integrator, Jacobian, Lanes, Observed, ParameterError, Real, Reconstructed, Reconstruction, Reduction,
+    Scalar, State, Statistics,
 };
 
 #[cfg(feature = "macros")]

@@ -22,6 +22,8 @@ pub(crate) struct Grid<T> {
     step: T,
     /// n; the origin is where time stands if this is 0.
     count: u32,
+    /// Where the last step led to; from elsewhere the grid starts anew.
+    now: T,
 }
 
 /// The next step along a grid.
@@ -41,7 +43,7 @@ impl<T: Real> Grid<T> {
     /// A grid whose origin is where time stands.
     #[inline]
     pub(super) fn new() -> Self {
-        Self { origin: T::ZERO, step: T::ZERO, count: 0 }
+        Self { origin: T::ZERO, step: T::ZERO, count: 0, now: T::ZERO }
     }
 
     /// The step of length h from `now` towards the target.
@@ -52,8 +54,11 @@ impl<T: Real> Grid<T> {
     pub(super) fn next(&self, now: T, h: T, target: Option<T>) -> Leg<T> {
         let backwards = target.is_some_and(|target| target < now);
         let step = if backwards { -h } else { h };
-        let (origin, count) =
-            if self.count == 0 || self.step != step { (now, 0) } else { (self.origin, self.count) };
+        let (origin, count) = if self.count == 0 || self.step != step || self.now != now {
+            (now, 0)
+        } else {
+            (self.origin, self.count)
+        };
         let count = count + 1;
         let time = origin + T::from_u32(count) * step;
         if let Some(target) = target {
@@ -66,7 +71,7 @@ impl<T: Real> Grid<T> {
             }
         }
         let count = if count < LONGEST_COUNT { count } else { 0 };
-        Leg { length: step, time, grid: Self { origin, step, count } }
+        Leg { length: step, time, grid: Self { origin, step, count, now: time } }
     }
 }
 

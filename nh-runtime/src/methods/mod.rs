@@ -116,6 +116,13 @@ pub struct Arrival<S: Dynamics> {
     pub state: S::State,
 }
 
+impl<S: Dynamics> Clone for Arrival<S> {
+    fn clone(&self) -> Self {
+        *self
+    }
+}
+impl<S: Dynamics> Copy for Arrival<S> {}
+
 /// A one-step method, as an [`Integrator`](crate::Integrator) drives it.
 ///
 /// The method itself is its settings. What it has to remember from step to step is its `Memory`,

@@ -5,6 +5,7 @@
 
 mod conservation;
 mod errors;
+mod events;
 mod implicit;
 mod landing;
 mod lanes;
