@@ -1,10 +1,11 @@
 //! Carrying a state through time.
 
+mod sampling;
+
 use core::fmt;
 
 use crate::arrays::{all_finite, first_non_finite};
-use crate::dense::DenseOutput;
-use crate::methods::{Arrival, Method, Start, component};
+use crate::methods::{Arrival, Method, Place, Start, component};
 use crate::{Dynamics, IntegrationError, Real, Scalar, ScalarOf, State};
 
 /// What an integration has cost.
@@ -232,86 +233,18 @@ where
     pub fn advance_to(&mut self, target: ScalarOf<S>) -> Result<(), IntegrationError> {
         self.admit()?;
         check_time(target)?;
-        let mut steps = 0;
-        while self.time != target {
-            self.limit_steps(steps, target)?;
-            self.advance(Some(target))?;
-            steps += 1;
+        let mut place = Place { time: self.time, state: self.state, before: None };
+        let leg = (target, self.max_steps);
+        let Self { method, system, input, memory, statistics, .. } = self;
+        let result = method.travel(system, input, &mut place, leg, memory, statistics);
+        if let Some((time, state)) = place.before {
+            self.origin = Some(Origin { time, state, input: self.input });
+            self.beyond = None;
         }
-        Ok(())
-    }
-
-    /// The state at a time within the last step (dense output).
-    ///
-    /// At the ends of the step it is exactly the state there; between them it is the method's
-    /// continuous extension: of order 4 for `Dopri5`, and for methods of fixed step the cubic
-    /// Hermite interpolant, for which the derivatives at both ends are evaluated anew. The input is
-    /// the one that acted during the step, whatever has been set since. Before the first step, and
-    /// after a [`reset`](Self::reset), only the current time is within.
-    ///
-    /// # Errors
-    /// [`IntegrationError::OutsideLastStep`], also for a time that is NaN;
-    /// [`IntegrationError::NonFiniteDerivative`] if a derivative at an end is not finite.
-    pub fn at(&self, time: ScalarOf<S>) -> Result<S::State, IntegrationError> {
-        // the ends need no preparation
-        if time == self.time {
-            return Ok(self.state);
-        }
-        self.dense().at(time)
-    }
-
-    /// The states within the last step, as [`at`](Self::at) gives them, for many times: what the
-    /// method needs for them is computed once.
-    #[must_use]
-    pub fn dense(&self) -> DenseOutput<'_, S, M> {
-        DenseOutput::new(self)
-    }
-
-    /// Takes steps to each of these times in turn, lands on it exactly, and calls `visit` there, which
-    /// may change the input or start anew. The times may go forwards and backwards.
-    ///
-    /// # Errors
-    /// As [`advance_to`](Self::advance_to).
-    pub fn advance_through(
-        &mut self,
-        stops: impl IntoIterator<Item = ScalarOf<S>>,
-        mut visit: impl FnMut(&mut Self),
-    ) -> Result<(), IntegrationError> {
-        for stop in stops {
-            self.advance_to(stop)?;
-            visit(self);
-        }
-        Ok(())
-    }
-
-    /// Gives the states at these times, which follow one another in one direction, to `visit`. Unlike
-    /// [`advance_through`](Self::advance_through), the steps go their own way, and the states within
-    /// them come from the dense output; the last time is landed on.
-    ///
-    /// # Errors
-    /// As [`advance_to`](Self::advance_to).
-    pub fn sample(
-        &mut self,
-        times: impl IntoIterator<Item = ScalarOf<S>, IntoIter: Clone>,
-        mut visit: impl FnMut(ScalarOf<S>, &S::State),
-    ) -> Result<(), IntegrationError> {
-        let times = times.into_iter();
-        let Some(last) = times.clone().last() else { return Ok(()) };
-        let mut times = times.peekable();
-        loop {
-            let dense = self.dense();
-            while let Some(&time) = times.peek()
-                && let Ok(state) = dense.at(time)
-            {
-                visit(time, &state);
-                times.next();
-            }
-            if self.time == last {
-                // a time that has been passed already
-                return times.next().map_or(Ok(()), |time| dense.at(time).map(|_| ()));
-            }
-            self.step_towards(last)?;
-        }
+        self.time = place.time;
+        self.state = place.state;
+        let steps = result?;
+        if self.time == target { Ok(()) } else { self.limit_steps(steps, target) }
     }
 
     /// Refuses a step beyond the limit.
@@ -322,39 +255,6 @@ where
         }
         let (time, target) = (self.time.to_f64(), target.to_f64());
         Err(IntegrationError::TooManySteps { time, target, limit: steps })
-    }
-
-    /// Cuts the last step at a time and state within it.
-    pub(crate) fn stand_at(&mut self, time: ScalarOf<S>, state: S::State) {
-        if time != self.time {
-            self.beyond = Some(Arrival { time: self.time, state: self.state });
-            self.time = time;
-            self.state = state;
-            self.method.forget(&mut self.memory);
-        }
-    }
-
-    /// Takes the last step back.
-    pub(crate) fn take_back(&mut self) {
-        if let Some(origin) = self.origin.take() {
-            self.time = origin.time;
-            self.state = origin.state;
-            self.method.forget(&mut self.memory);
-        }
-    }
-
-    /// The last step: where it came from and with which input, and where the method has led it.
-    pub(crate) fn last_step(&self) -> Option<(Start<'_, S>, Arrival<S>)> {
-        let origin = self.origin.as_ref()?;
-        let start =
-            Start { system: &self.system, input: &origin.input, time: origin.time, state: &origin.state };
-        let here = Arrival { time: self.time, state: self.state };
-        Some((start, self.beyond.unwrap_or(here)))
-    }
-
-    /// The method with its memory.
-    pub(crate) fn recollection(&self) -> (&M, &M::Memory) {
-        (&self.method, &self.memory)
     }
 
     /// Checks what the user gave, unless that has been done.

@@ -108,20 +108,27 @@ fn check_pair<T: Real>(
 
 /// 1/N Σ (eᵢ/scᵢ)², scᵢ = atol + rtol max(|x₀ᵢ|, |x₁ᵢ|).
 #[inline]
-fn mean_square<T: Real, V: Array<T>>(e: &V, x0: &V, x1: &V, each: impl Iterator<Item = (T, T)>) -> T {
-    let mut sum = T::ZERO;
-    let mut count = T::ZERO;
-    let ends = x0.as_ref().iter().zip(x1.as_ref());
-    for ((&e, (x0, x1)), (rtol, atol)) in e.as_ref().iter().zip(ends).zip(each) {
+fn mean_square<T: Real, V: Array<T>>(e: &V, x0: &V, x1: &V, each: impl Iterator<Item = (T, T)> + Clone) -> T {
+    let ratio = |e: T, x0: T, x1: T, (rtol, atol): (T, T)| {
         // not `max`, which would take care of NaN: an end that is not finite is refused anyway
         let larger = x0.abs().select_gt(x1.abs(), x0.abs(), x1.abs());
-        let ratio = e / rtol.mul_add(larger, atol);
-        // 0/0: a component that is exactly zero, with a relative tolerance only
-        let ratio = if e == T::ZERO { T::ZERO } else { ratio };
+        e / rtol.mul_add(larger, atol)
+    };
+    let mut sum = T::ZERO;
+    let mut count = 0;
+    let terms = e.as_ref().iter().zip(x0.as_ref()).zip(x1.as_ref());
+    for (((&e, &x0), &x1), tolerances) in terms.clone().zip(each.clone()) {
+        let ratio = ratio(e, x0, x1, tolerances);
         sum += ratio * ratio;
-        count += T::ONE;
+        count += 1;
     }
-    sum / count.max(T::ONE)
+    if !sum.is_finite() {
+        // perhaps 0/0: a component that is exactly zero, with a relative tolerance only
+        let present = terms.zip(each).filter(|(((e, _), _), _)| **e != T::ZERO);
+        let square = |r: T| r * r;
+        sum = present.fold(T::ZERO, |sum, (((&e, &x0), &x1), each)| sum + square(ratio(e, x0, x1, each)));
+    }
+    sum * T::from_f64(1.0 / f64::from(count.max(1)))
 }
 
 #[cfg(test)]

@@ -3,7 +3,7 @@
 
 use super::explicit::Tableau;
 use super::fixed::Fixed;
-use super::{Arrival, Method, Start, component, non_finite_derivative};
+use super::{Arrival, Method, Place, Start, component, non_finite_derivative};
 use crate::arrays::{all_finite, difference, displaced, first_non_finite};
 use crate::step_control::StepControl;
 use crate::tolerance::{PerComponent, Tolerance, Uniform};
@@ -145,8 +145,9 @@ pub trait Scheme<S: Dynamics>: Copy {
         statistics: &mut Statistics,
     ) -> &'w VecOf<S>;
 
-    /// Computes a step of length `h`, which may be negative.
-    fn attempt<W: Tolerance<S::State>>(
+    /// Computes a step of length `h`, which may be negative, and keeps what dense output needs if it is to
+    /// `KEEP` it; otherwise that is computed anew if it should be asked for.
+    fn attempt<const KEEP: bool, W: Tolerance<S::State>>(
         &self,
         start: &Start<'_, S>,
         h: ScalarOf<S>,
@@ -156,7 +157,7 @@ pub trait Scheme<S: Dynamics>: Copy {
     ) -> Trial<S>;
 
     /// Takes note that the step just computed is accepted.
-    fn accept(&self, start: &Start<'_, S>, h: ScalarOf<S>, work: &mut Self::Work);
+    fn accept<const KEEP: bool>(&self, start: &Start<'_, S>, h: ScalarOf<S>, work: &mut Self::Work);
 
     /// A derivative that was not finite in the step just computed: component, value, and its time as
     /// a fraction of the step.
@@ -224,6 +225,54 @@ where
         memory: &mut Self::Memory,
         statistics: &mut Statistics,
     ) -> Result<Arrival<S>, IntegrationError> {
+        self.take::<true, S>(start, target, memory, statistics)
+    }
+
+    #[inline]
+    fn travel(
+        &self,
+        system: &S,
+        input: &S::Input,
+        place: &mut Place<S>,
+        (target, limit): (T, u64),
+        memory: &mut Self::Memory,
+        statistics: &mut Statistics,
+    ) -> Result<u64, IntegrationError> {
+        let mut steps = 0;
+        while place.time != target && steps < limit {
+            let start = Start { system, input, time: place.time, state: &place.state };
+            let arrival = self.take::<false, S>(&start, Some(target), memory, statistics)?;
+            place.move_to(arrival);
+            statistics.steps += 1;
+            steps += 1;
+        }
+        Ok(steps)
+    }
+
+    fn dense(&self, memory: &Self::Memory, start: &Start<'_, S>, arrival: &Arrival<S>) -> P::Dense {
+        self.scheme.dense(&memory.work, start, arrival)
+    }
+
+    fn interpolate(&self, dense: &P::Dense, start: &Start<'_, S>, arrival: &Arrival<S>, time: T) -> S::State {
+        self.scheme.interpolate(dense, start, arrival, time)
+    }
+}
+
+impl<P, T: Real, W> Adaptive<P, T, W> {
+    /// Takes one step with error control.
+    #[inline]
+    fn take<const KEEP: bool, S: Dynamics>(
+        &self,
+        start: &Start<'_, S>,
+        target: Option<T>,
+        memory: &mut Memory<T, P::Work>,
+        statistics: &mut Statistics,
+    ) -> Result<Arrival<S>, IntegrationError>
+    where
+        S::State: State<Scalar = T>,
+        P: Scheme<S>,
+        W: Tolerance<S::State>,
+    {
         let first = self.scheme.begin(start, &mut memory.work, statistics);
         if !all_finite::<T, _>(first)
             && let Some(found) = first_non_finite::<T>(first.as_ref())
@@ -243,10 +292,16 @@ where
             if !leg.time.is_finite() {
                 return Err(IntegrationError::NonFiniteTime { time: leg.time.to_f64() });
             }
-            let trial = self.scheme.attempt(start, leg.length, &self.tolerance, &mut memory.work, statistics);
+            let trial = self.scheme.attempt::<KEEP, _>(
+                start,
+                leg.length,
+                &self.tolerance,
+                &mut memory.work,
+                statistics,
+            );
             let length = leg.length.abs();
             if trial.error <= T::ONE {
-                self.scheme.accept(start, leg.length, &mut memory.work);
+                self.scheme.accept::<KEEP>(start, leg.length, &mut memory.work);
                 let (next, log_error) =
                     self.control.after_success(length, trial.error, memory.log_error, P::ERROR_ORDER);
                 // no growth right after a rejection; no loss from a step that a target cut short
@@ -265,16 +320,6 @@ where
         }
     }
 
-    fn dense(&self, memory: &Self::Memory, start: &Start<'_, S>, arrival: &Arrival<S>) -> P::Dense {
-        self.scheme.dense(&memory.work, start, arrival)
-    }
-
-    fn interpolate(&self, dense: &P::Dense, start: &Start<'_, S>, arrival: &Arrival<S>, time: T) -> S::State {
-        self.scheme.interpolate(dense, start, arrival, time)
-    }
-}
-
-impl<P, T: Real, W> Adaptive<P, T, W> {
     /// Explains why not even the shortest step is acceptable.
     #[cold]
     fn refusal<S: Dynamics>(

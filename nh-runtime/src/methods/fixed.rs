@@ -1,8 +1,8 @@
 //! What the methods of fixed step share.
 
 use super::explicit::Tableau;
-use super::grid::{self, Grid, Leg};
-use super::{Arrival, Method, Start, explain_non_finite};
+use super::grid::{self, Grid, Leg, Stride};
+use super::{Arrival, Method, Place, Start, explain_non_finite};
 use crate::arrays::{Array, all_finite, displaced};
 use crate::dense::hermite;
 use crate::{Dim, DimOf, Dynamics, IntegrationError, Real, Scalar, ScalarOf, State, Statistics, VecOf};
@@ -24,6 +24,9 @@ pub trait OneStep<S: Dynamics>: Copy {
     type Work: Copy;
     /// What the states within a step are computed from.
     type Dense: Copy;
+
+    /// Whether every step is computed in the same way, without a search for a solution.
+    const DIRECT: bool = false;
 
     /// What there is before the first step.
     fn work(&self) -> Self::Work;
@@ -116,7 +119,7 @@ impl<P: Tableau, T: Scalar> Fixed<P, T> {
         let mut stages = P::room(DimOf::<S>::vec(T::ZERO));
         *P::first(&mut stages) = start.derivative();
         let slope = P::slope(&start, &x, dt, &mut stages);
-        S::State::from_array(displaced(&x, dt, &slope))
+        S::State::from_array(displaced(&x, dt * T::from_f64(P::SCALE), &slope))
     }
 }
 
@@ -175,6 +178,45 @@ where
         Ok(arrival)
     }
 
+    #[inline]
+    fn travel(
+        &self,
+        system: &S,
+        input: &S::Input,
+        place: &mut Place<S>,
+        (target, limit): (T, u64),
+        memory: &mut Self::Memory,
+        statistics: &mut Statistics,
+    ) -> Result<u64, IntegrationError> {
+        let mut steps = 0;
+        while place.time != target && steps < limit {
+            if P::DIRECT
+                && let Some(stride) = memory.grid.stride(place.time, self.step, target, limit - steps - 1)
+            {
+                let begun = *statistics;
+                let work = &mut memory.work;
+                let reached = stride_along(&stride, (system, input), place, |start, x| {
+                    let increment = self.scheme.increment(start, x, stride.step, work, statistics)?;
+                    Ok(displaced(x, T::ONE, &increment))
+                });
+                if let Some(reached) = reached {
+                    memory.grid = stride.end();
+                    (place.time, place.state) = (stride.time(stride.steps), reached);
+                    steps += u64::from(stride.steps);
+                    statistics.steps += u64::from(stride.steps);
+                } else {
+                    *statistics = begun;
+                }
+            }
+            let start = Start { system, input, time: place.time, state: &place.state };
+            let arrival = self.advance(&start, Some(target), memory, statistics)?;
+            place.move_to(arrival);
+            statistics.steps += 1;
+            steps += 1;
+        }
+        Ok(steps)
+    }
+
     fn dense(&self, memory: &Self::Memory, start: &Start<'_, S>, arrival: &Arrival<S>) -> P::Dense {
         self.scheme.dense(&memory.work, start, arrival)
     }
@@ -182,6 +224,28 @@ where
     fn interpolate(&self, dense: &P::Dense, start: &Start<'_, S>, arrival: &Arrival<S>, time: T) -> S::State {
         self.scheme.interpolate(dense, start, arrival, time)
     }
+}
+
+/// The state after several steps, which is not looked at before their end: what is not finite stays so
+/// where increments are added to it. None if it is, for the steps to be repeated one by one.
+#[inline]
+fn stride_along<S: Dynamics>(
+    stride: &Stride<ScalarOf<S>>,
+    (system, input): (&S, &S::Input),
+    place: &Place<S>,
+    mut step: impl FnMut(&Start<'_, S>, &VecOf<S>) -> Result<VecOf<S>, IntegrationError>,
+) -> Option<S::State>
+where
+    ScalarOf<S>: Real,
+{
+    let mut x = place.state.to_array();
+    let mut time = place.time;
+    for done in 1..=stride.steps {
+        let state = S::State::from_array(x);
+        x = step(&Start { system, input, time, state: &state }, &x).ok()?;
+        time = stride.time(done);
+    }
+    (all_finite::<ScalarOf<S>, _>(&x) && time.is_finite()).then(|| S::State::from_array(x))
 }
 
 impl<P, T: Real> Fixed<P, T> {

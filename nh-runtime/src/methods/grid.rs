@@ -36,6 +36,31 @@ pub(super) struct Leg<T> {
     pub(super) grid: Grid<T>,
 }
 
+/// Several steps along a grid.
+pub(super) struct Stride<T> {
+    origin: T,
+    /// The length of each, with the sign of its direction.
+    pub(super) step: T,
+    count: u32,
+    /// How many there are.
+    pub(super) steps: u32,
+}
+
+impl<T: Real> Stride<T> {
+    /// The time after `done` of them.
+    #[inline]
+    pub(super) fn time(&self, done: u32) -> T {
+        self.origin + T::from_u32(self.count + done) * self.step
+    }
+
+    /// The grid after all of them.
+    #[inline]
+    pub(super) fn end(&self) -> Grid<T> {
+        let Self { origin, step, count, steps } = *self;
+        Grid { origin, step, count: count + steps, now: self.time(steps) }
+    }
+}
+
 /// After this many steps the grid starts anew, so that n is exact in `f32` too.
 const LONGEST_COUNT: u32 = 1 << 20;
 
@@ -44,6 +69,24 @@ impl<T: Real> Grid<T> {
     #[inline]
     pub(super) fn new() -> Self {
         Self { origin: T::ZERO, step: T::ZERO, count: 0, now: T::ZERO }
+    }
+
+    /// The whole steps of length h from `now` that end well before the target, of at most `limit`: the
+    /// signed length, and the times at their ends.
+    #[inline]
+    pub(super) fn stride(&self, now: T, h: T, target: T, limit: u64) -> Option<Stride<T>> {
+        let step = if target < now { -h } else { h };
+        let (origin, count) = if self.count == 0 || self.step != step || self.now != now {
+            (now, 0)
+        } else {
+            (self.origin, self.count)
+        };
+        let room = ((target - now) / step).to_f64() - 3.0;
+        let most = limit.min(u64::from(LONGEST_COUNT - 1 - count));
+        // the conversion saturates, and NaN becomes 0
+        #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss)]
+        let steps = u32::try_from((room as u64).min(most)).ok()?;
+        (steps > 0).then_some(Stride { origin, step, count, steps })
     }
 
     /// The step of length h from `now` towards the target.

@@ -123,6 +123,26 @@ impl<S: Dynamics> Clone for Arrival<S> {
 }
 impl<S: Dynamics> Copy for Arrival<S> {}
 
+/// Where an integration stands, and where its last step came from.
+pub struct Place<S: Dynamics> {
+    /// The time.
+    pub time: ScalarOf<S>,
+    /// The state.
+    pub state: S::State,
+    /// Time and state at the start of the last step, once one has been taken.
+    pub before: Option<(ScalarOf<S>, S::State)>,
+}
+
+impl<S: Dynamics> Place<S> {
+    /// Takes the step to `arrival`.
+    #[inline]
+    pub fn move_to(&mut self, arrival: Arrival<S>) {
+        self.before = Some((self.time, self.state));
+        self.time = arrival.time;
+        self.state = arrival.state;
+    }
+}
+
 /// A one-step method, as an [`Integrator`](crate::Integrator) drives it.
 ///
 /// The method itself is its settings. What it has to remember from step to step is its `Memory`,
@@ -158,6 +178,33 @@ pub trait Method<S: Dynamics> {
         memory: &mut Self::Memory,
         statistics: &mut Statistics,
     ) -> Result<Arrival<S>, IntegrationError>;
+
+    /// Takes steps towards `target` until it is reached or `limit` of them are done, and gives their
+    /// number. They are the steps that [`advance`](Self::advance) takes; a method that can take many
+    /// of them at less cost than one by one does so here.
+    ///
+    /// # Errors
+    /// As [`advance`](Self::advance); `place` is then the last good one.
+    #[inline]
+    fn travel(
+        &self,
+        system: &S,
+        input: &S::Input,
+        place: &mut Place<S>,
+        (target, limit): (ScalarOf<S>, u64),
+        memory: &mut Self::Memory,
+        statistics: &mut Statistics,
+    ) -> Result<u64, IntegrationError> {
+        let mut steps = 0;
+        while place.time != target && steps < limit {
+            let start = Start { system, input, time: place.time, state: &place.state };
+            let arrival = self.advance(&start, Some(target), memory, statistics)?;
+            place.move_to(arrival);
+            statistics.steps += 1;
+            steps += 1;
+        }
+        Ok(steps)
+    }
 
     /// Prepares the dense output of the last step, which led from `start` to `arrival`: whatever it
     /// needs beyond what the step itself has computed is evaluated here, and only here.

@@ -34,7 +34,7 @@ fn finds_all_zeros<M: Method<Scalar1>>(method: M, tolerance: f64) {
 
 #[test]
 fn every_method_finds_all_zeros() {
-    finds_all_zeros(Euler::new(1e-4), 1e-3);
+    finds_all_zeros(Euler::new(1e-3), 1e-2);
     finds_all_zeros(Rk4::new(0.3), 1e-3);
     finds_all_zeros(Bs23::new().rtol(1e-8), 1e-6);
     finds_all_zeros(Dopri5::new().rtol(1e-9), 1e-7);

@@ -10,7 +10,7 @@ tableau! {
         k2 at 0.5 => [k1: 0.5];
         k3 at 0.75 => [k2: 0.75];
     }
-    sum [k1: 2.0 / 9.0, k2: 1.0 / 3.0, k3: 4.0 / 9.0];
+    sum scaled by 1.0 / 9.0; [k1: 2.0, k2: 3.0, k3: 4.0];
     last k4;
     dense [];
 }
@@ -18,5 +18,4 @@ tableau! {
 embedded! {
     BogackiShampine3: error order 3, first same as last true;
     error [k1: -5.0 / 72.0, k2: 1.0 / 12.0, k3: 1.0 / 9.0] last [-1.0 / 8.0];
-    silent [];
 }

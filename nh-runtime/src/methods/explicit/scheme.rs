@@ -27,6 +27,13 @@ fn stages_of<S: Dynamics, P: Tableau>(
     (stages, slope)
 }
 
+/// The same, where it is seldom done.
+#[cold]
+#[inline(never)]
+fn stages_again<S: Dynamics, P: Tableau>(start: &Start<'_, S>, h: ScalarOf<S>) -> P::Stages<VecOf<S>> {
+    stages_of::<S, P>(start, &start.state.to_array(), h).0
+}
+
 /// The dense output of a step with these stages.
 fn dense_of<S: Dynamics, P: Tableau>(
     start: &Start<'_, S>,
@@ -41,6 +48,7 @@ fn dense_of<S: Dynamics, P: Tableau>(
 }
 
 impl<S: Dynamics, P: Tableau> OneStep<S> for P {
+    const DIRECT: bool = true;
     type Work = ();
     type Dense = Dense<VecOf<S>, P::Bulge<VecOf<S>>>;
 
@@ -61,15 +69,16 @@ impl<S: Dynamics, P: Tableau> OneStep<S> for P {
     ) -> Result<VecOf<S>, IntegrationError> {
         statistics.evaluations += u64::from(P::STAGES);
         let (_, mut increment) = stages_of::<S, P>(start, x, h);
+        let scale = h * ScalarOf::<S>::from_f64(P::SCALE);
         for change in increment.as_mut() {
-            *change *= h;
+            *change *= scale;
         }
         Ok(increment)
     }
 
     #[cold]
     fn blame(&self, start: &Start<'_, S>, h: ScalarOf<S>) -> Option<IntegrationError> {
-        let (stages, _) = stages_of::<S, P>(start, &start.state.to_array(), h);
+        let stages = stages_again::<S, P>(start, h);
         let (found, fraction) = P::blame::<ScalarOf<S>, _>(&stages)?;
         let time = start.time.to_f64() + fraction * h.to_f64();
         Some(non_finite_derivative::<S::State>(found, time))
@@ -77,7 +86,7 @@ impl<S: Dynamics, P: Tableau> OneStep<S> for P {
 
     fn dense(&self, _work: &(), start: &Start<'_, S>, arrival: &Arrival<S>) -> Self::Dense {
         let h = arrival.time - start.time;
-        let (stages, _) = stages_of::<S, P>(start, &start.state.to_array(), h);
+        let stages = stages_again::<S, P>(start, h);
         dense_of::<S, P>(start, arrival, &stages)
     }
 
@@ -94,6 +103,8 @@ impl<S: Dynamics, P: Tableau> OneStep<S> for P {
 
 /// What an explicit method keeps of a step.
 pub struct Work<S: Dynamics, P: Tableau> {
+    /// The derivative at the start.
+    first: VecOf<S>,
     stages: P::Stages<VecOf<S>>,
     /// The derivative at the end of the step, if the error estimate needs it.
     last: VecOf<S>,
@@ -120,7 +131,8 @@ where
 
     fn work(&self) -> Work<S, P> {
         let never = ScalarOf::<S>::from_f64(f64::NAN);
-        Work { stages: P::room(zero::<S>()), last: zero::<S>(), current: false, step: (never, never) }
+        let (first, last) = (zero::<S>(), zero::<S>());
+        Work { first, stages: P::room(first), last, current: false, step: (never, never) }
     }
 
     #[inline]
@@ -137,19 +149,19 @@ where
     ) -> &'w VecOf<S> {
         // the stages are about to be those of another step
         work.step.0 = ScalarOf::<S>::from_f64(f64::NAN);
-        let first = P::first(&mut work.stages);
         if P::FIRST_SAME_AS_LAST && work.current {
-            *first = work.last;
+            work.first = work.last;
             work.current = false;
         } else {
             statistics.evaluations += 1;
-            *first = start.derivative();
+            work.first = start.derivative();
         }
-        first
+        &work.first
     }
 
-    #[inline]
-    fn attempt<W: Tolerance<S::State>>(
+    #[inline(always)]
+    #[allow(clippy::inline_always)] // the step in one piece: see `Tableau::slope`
+    fn attempt<const KEEP: bool, W: Tolerance<S::State>>(
         &self,
         start: &Start<'_, S>,
         h: ScalarOf<S>,
@@ -158,31 +170,34 @@ where
         statistics: &mut Statistics,
     ) -> Trial<S> {
         let x = start.state.to_array();
-        let slope = P::slope(start, &x, h, &mut work.stages);
-        let state = displaced(&x, h, &slope);
+        let mut stages = P::room(zero::<S>());
+        *P::first(&mut stages) = work.first;
+        let slope = P::slope(start, &x, h, &mut stages);
+        let state = displaced(&x, h * ScalarOf::<S>::from_f64(P::SCALE), &slope);
         statistics.evaluations += u64::from(P::STAGES - 1);
         if P::FIRST_SAME_AS_LAST {
             statistics.evaluations += 1;
             work.last = start.derivative_at(start.time + h, state);
         }
-        let error = P::error(&work.stages, &work.last, h, |e| tolerance.mean_square(e, &x, &state));
+        let error = P::error(&stages, &work.last, h, |e| tolerance.mean_square(e, &x, &state));
+        if KEEP {
+            work.stages = stages;
+        }
         Trial { state, error: error + nought(&state) }
     }
 
     #[inline]
-    fn accept(&self, start: &Start<'_, S>, h: ScalarOf<S>, work: &mut Work<S, P>) {
+    fn accept<const KEEP: bool>(&self, start: &Start<'_, S>, h: ScalarOf<S>, work: &mut Work<S, P>) {
         work.current = P::FIRST_SAME_AS_LAST;
-        work.step = (start.time, h);
+        if KEEP {
+            work.step = (start.time, h);
+        }
     }
 
     #[cold]
-    fn blame(
-        &self,
-        _start: &Start<'_, S>,
-        _h: ScalarOf<S>,
-        work: &Work<S, P>,
-    ) -> Option<((usize, f64), f64)> {
-        let found = P::blame::<ScalarOf<S>, _>(&work.stages);
+    fn blame(&self, start: &Start<'_, S>, h: ScalarOf<S>, work: &Work<S, P>) -> Option<((usize, f64), f64)> {
+        let stages = stages_again::<S, P>(start, h);
+        let found = P::blame::<ScalarOf<S>, _>(&stages);
         if P::FIRST_SAME_AS_LAST && !all_finite::<ScalarOf<S>, _>(&work.last) {
             return found
                 .or_else(|| first_non_finite::<ScalarOf<S>>(work.last.as_ref()).map(|found| (found, 1.0)));
@@ -195,7 +210,7 @@ where
         if work.step == (start.time, h) {
             dense_of::<S, P>(start, arrival, &work.stages)
         } else {
-            let (stages, _) = stages_of::<S, P>(start, &start.state.to_array(), h);
+            let stages = stages_again::<S, P>(start, h);
             dense_of::<S, P>(start, arrival, &stages)
         }
     }

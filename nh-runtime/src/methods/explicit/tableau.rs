@@ -12,6 +12,8 @@ use crate::{Dynamics, Real, Scalar, ScalarOf, State, VecOf};
 pub trait Tableau: Copy + Default + Debug + PartialEq + 'static {
     /// The order.
     const ORDER: u32;
+    /// The common factor of the bᵢ.
+    const SCALE: f64;
     /// The number of stages, k₁ included.
     const STAGES: u32;
     /// The derivatives k₁ … at the stages.
@@ -25,7 +27,7 @@ pub trait Tableau: Copy + Default + Debug + PartialEq + 'static {
     /// k₁, to be given before the others are computed.
     fn first<V: Copy>(stages: &mut Self::Stages<V>) -> &mut V;
 
-    /// Computes k₂ … from k₁ and gives Σ bᵢkᵢ.
+    /// Computes k₂ … from k₁ and gives Σ bᵢkᵢ without the common factor.
     fn slope<S: Dynamics>(
         start: &Start<'_, S>,
         x: &VecOf<S>,
@@ -95,7 +97,7 @@ pub(in crate::methods) fn interpolate<S: Dynamics, B: AsRef<[VecOf<S>]>>(
 
 /// Writes down a [`Tableau`]. Coefficients that are not listed are zero, and cost nothing.
 ///
-/// `silent` lists the stages without a weight in the error estimate, `last` names the derivative at
+/// `last` names the derivative at
 /// the end of the step, `extra` the stages that only the dense output needs, and each row of `dense`
 /// is the combination of stages that is one coefficient of the bulge.
 macro_rules! tableau {
@@ -106,7 +108,7 @@ macro_rules! tableau {
             $first:ident at 0;
             $($k:ident at $c:expr => [$a0k:ident: $a0:expr $(, $ak:ident: $a:expr)*];)*
         }
-        sum [$b0k:ident: $b0:expr $(, $bk:ident: $b:expr)*];
+        sum $(scaled by $scale:expr;)? [$b0k:ident: $b0:expr $(, $bk:ident: $b:expr)*];
         last $last:ident;
         $(extra $e:ident at $ec:expr => [$ea0k:ident: $ea0:expr $(, $eak:ident: $ea:expr)*];)*
         dense [$([$d0k:ident: $d0:expr $(, $dk:ident: $d:expr)*]),*];
@@ -124,6 +126,7 @@ macro_rules! tableau {
 
         impl $crate::methods::explicit::tableau::Tableau for $name {
             const ORDER: u32 = $order;
+            const SCALE: f64 = 1.0 $(* $scale)?;
             const STAGES: u32 = 1 $(+ { let _ = stringify!($k); 1 })*;
             type Stages<V: Copy> = $stages<V>;
             type Bulge<V: Copy> = [V; 0 $(+ { let _ = stringify!($d0k); 1 })*];
@@ -138,7 +141,9 @@ macro_rules! tableau {
                 &mut stages.$first
             }
 
-            #[inline]
+            // in one piece with the step, what the system leaves unused is not computed
+            #[inline(always)]
+            #[allow(clippy::inline_always)]
             fn slope<S: $crate::Dynamics>(
                 start: &$crate::methods::Start<'_, S>,
                 x: &$crate::VecOf<S>,
@@ -197,7 +202,8 @@ macro_rules! tableau {
                 ]
             }
             fn weights() -> std::vec::Vec<(&'static str, f64)> {
-                std::vec![(stringify!($b0k), $b0) $(, (stringify!($bk), $b))*]
+                let scale = <Self as $crate::methods::explicit::tableau::Tableau>::SCALE;
+                std::vec![(stringify!($b0k), $b0 * scale) $(, (stringify!($bk), $b * scale))*]
             }
             fn last() -> &'static str {
                 stringify!($last)
@@ -216,12 +222,13 @@ macro_rules! tableau {
 }
 
 /// Writes down the error weights that make a table a [`Pair`]: of the stages, and of the derivative at
-/// the end of the step if that is used. `silent` are the stages without a weight.
+/// the end of the step if that is used.
+///
+/// Stages without a weight act through the others alone: what they leave unused is not computed.
 macro_rules! embedded {
     (
         $name:ident: error order $order:literal, first same as last $fsal:literal;
         error [$e0k:ident: $e0:expr $(, $ek:ident: $e:expr)*] $(last [$el:expr])?;
-        silent [$($silent:ident),*];
     ) => {
         impl $crate::methods::explicit::tableau::Pair for $name {
             const ERROR_ORDER: u32 = $order;
@@ -239,9 +246,7 @@ macro_rules! embedded {
                 let defect = $crate::arrays::combined(
                     (w($e0), &stages.$e0k), [$((w($e), &stages.$ek),)* $((w($el), last))?],
                 );
-                let error = h.abs() * mean_square(&defect).sqrt();
-                // every other stage has a weight of its own
-                error $(+ $crate::arrays::nought::<T, _>(&stages.$silent))*
+                h.abs() * mean_square(&defect).sqrt()
             }
         }
 

@@ -225,7 +225,7 @@ where
         &work.first
     }
 
-    fn attempt<W: Tolerance<S::State>>(
+    fn attempt<const KEEP: bool, W: Tolerance<S::State>>(
         &self,
         start: &Start<'_, S>,
         h: ScalarOf<S>,
@@ -269,7 +269,7 @@ where
         Trial { state, error: error + nought(&state) }
     }
 
-    fn accept(&self, start: &Start<'_, S>, h: ScalarOf<S>, work: &mut Work<S>) {
+    fn accept<const KEEP: bool>(&self, start: &Start<'_, S>, h: ScalarOf<S>, work: &mut Work<S>) {
         work.accepted = Some((start.time, h, work.trial));
         work.smooth = true;
     }

@@ -1,0 +1,117 @@
+//! States within steps, and stops on the way.
+
+use super::Integrator;
+use crate::dense::DenseOutput;
+use crate::methods::{Arrival, Method, Start};
+use crate::{Dynamics, IntegrationError, Real, ScalarOf};
+
+impl<S: Dynamics, M: Method<S>> Integrator<S, M>
+where
+    ScalarOf<S>: Real,
+{
+    /// The state at a time within the last step (dense output).
+    ///
+    /// At the ends of the step it is exactly the state there; between them it is the method's
+    /// continuous extension: of order 4 for `Dopri5`, 7 for `Dop853`, 9 for `Vern9`, and for simple methods the cubic
+    /// Hermite interpolant, for which the derivatives at both ends are evaluated anew. The input is
+    /// the one that acted during the step, whatever has been set since. Before the first step, and
+    /// after a [`reset`](Self::reset), only the current time is within.
+    ///
+    /// # Errors
+    /// [`IntegrationError::OutsideLastStep`], also for a time that is NaN;
+    /// [`IntegrationError::NonFiniteDerivative`] if a derivative at an end is not finite.
+    pub fn at(&self, time: ScalarOf<S>) -> Result<S::State, IntegrationError> {
+        // the ends need no preparation
+        if time == self.time {
+            return Ok(self.state);
+        }
+        self.dense().at(time)
+    }
+
+    /// The states within the last step, as [`at`](Self::at) gives them, for many times: what the
+    /// method needs for them is computed once.
+    #[must_use]
+    pub fn dense(&self) -> DenseOutput<'_, S, M> {
+        DenseOutput::new(self)
+    }
+
+    /// Takes steps to each of these times in turn, lands on it exactly, and calls `visit` there, which
+    /// may change the input or start anew. The times may go forwards and backwards.
+    ///
+    /// # Errors
+    /// As [`advance_to`](Self::advance_to).
+    pub fn advance_through(
+        &mut self,
+        stops: impl IntoIterator<Item = ScalarOf<S>>,
+        mut visit: impl FnMut(&mut Self),
+    ) -> Result<(), IntegrationError> {
+        for stop in stops {
+            self.advance_to(stop)?;
+            visit(self);
+        }
+        Ok(())
+    }
+
+    /// Gives the states at these times, which follow one another in one direction, to `visit`. Unlike
+    /// [`advance_through`](Self::advance_through), the steps go their own way, and the states within
+    /// them come from the dense output; the last time is landed on.
+    ///
+    /// # Errors
+    /// As [`advance_to`](Self::advance_to).
+    pub fn sample(
+        &mut self,
+        times: impl IntoIterator<Item = ScalarOf<S>, IntoIter: Clone>,
+        mut visit: impl FnMut(ScalarOf<S>, &S::State),
+    ) -> Result<(), IntegrationError> {
+        let times = times.into_iter();
+        let Some(last) = times.clone().last() else { return Ok(()) };
+        let mut times = times.peekable();
+        loop {
+            let dense = self.dense();
+            while let Some(&time) = times.peek()
+                && let Ok(state) = dense.at(time)
+            {
+                visit(time, &state);
+                times.next();
+            }
+            if self.time == last {
+                // a time that has been passed already
+                return times.next().map_or(Ok(()), |time| dense.at(time).map(|_| ()));
+            }
+            self.step_towards(last)?;
+        }
+    }
+
+    /// Cuts the last step at a time and state within it.
+    pub(crate) fn stand_at(&mut self, time: ScalarOf<S>, state: S::State) {
+        if time != self.time {
+            self.beyond = Some(Arrival { time: self.time, state: self.state });
+            self.time = time;
+            self.state = state;
+            self.method.forget(&mut self.memory);
+        }
+    }
+
+    /// Takes the last step back.
+    pub(crate) fn take_back(&mut self) {
+        if let Some(origin) = self.origin.take() {
+            self.time = origin.time;
+            self.state = origin.state;
+            self.method.forget(&mut self.memory);
+        }
+    }
+
+    /// The last step: where it came from and with which input, and where the method has led it.
+    pub(crate) fn last_step(&self) -> Option<(Start<'_, S>, Arrival<S>)> {
+        let origin = self.origin.as_ref()?;
+        let start =
+            Start { system: &self.system, input: &origin.input, time: origin.time, state: &origin.state };
+        let here = Arrival { time: self.time, state: self.state };
+        Some((start, self.beyond.unwrap_or(here)))
+    }
+
+    /// The method with its memory.
+    pub(crate) fn recollection(&self) -> (&M, &M::Memory) {
+        (&self.method, &self.memory)
+    }
+}
