@@ -254,6 +254,8 @@ pub struct SectionClaim {
 pub enum Request {
     /// ∂derivative/∂state and ∂derivative/∂input.
     Jacobian,
+    /// ∂derivative/∂parameter.
+    ParameterJacobian,
     /// The multipliers λ_A.
     Multipliers,
     /// The reaction forces λ_A ∂φ^A/∂y^α along the sections.

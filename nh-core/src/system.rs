@@ -34,6 +34,8 @@ pub struct System {
     pub gibbs_appell: Option<Procedure>,
     /// Outputs: ∂derivative/∂(state, input) row by row; if asked for.
     pub jacobian: Option<Procedure>,
+    /// Outputs: ∂derivative/∂parameters row by row; if asked for.
+    pub parameter_jacobian: Option<Procedure>,
     /// Outputs: φ^A for every constraint; in the projected formulation.
     pub residual: Option<Procedure>,
     /// The way back to the constraint manifold; in the projected formulation.

@@ -122,6 +122,7 @@ mod syntax;
 /// | word | methods |
 /// |---|---|
 /// | `jacobian` | `jacobian(t, &state, &input)`, the trait `Jacobian` |
+/// | `parameter_jacobian` | `parameter_jacobian(t, &state, &input)`: ∂derivative/∂parameters, a column for each number in the struct's fields, in order |
 /// | `multipliers`, `reactions` | `multipliers(t, &state, &input)`, `reactions(…)` |
 /// | `momenta` | `momenta(t, &state)`, `momentum_rates(t, &state, &input)` |
 /// | `gibbs_appell` | `gibbs_appell(t, &state, &input)`: the derivative by the function of Gibbs and Appell, an independent derivation |

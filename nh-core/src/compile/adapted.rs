@@ -5,7 +5,8 @@ use super::gibbs_appell;
 use super::momenta::momenta;
 use super::phase_space;
 use super::restricted::{
-    calls, coordinates, in_state, observables, parameter_checks, requested, requested_jacobian,
+    calls, coordinates, in_state, observables, parameter_checks, parameter_divisors, requested,
+    requested_jacobian, requested_parameter_jacobian,
 };
 use super::{Proved, fence};
 use crate::algebra::Graph;
@@ -50,6 +51,8 @@ pub(super) fn derive(
         };
     let jacobian = requested_jacobian(&mut proved.model, &derivative, &distribution.independent)
         .map_err(|violation| vec![violation])?;
+    let parameter_jacobian =
+        requested_parameter_jacobian(&mut proved.model, &derivative).map_err(|violation| vec![violation])?;
     let momenta = momenta(&mut proved, &mut restriction, &derivative, &distribution.independent);
     let graph = &mut proved.model.graph;
     // 3. E_L, y and the observables on D
@@ -74,6 +77,8 @@ pub(super) fn derive(
     let (phase_space, sections) = phase_space::derive(&mut proved, &derived, &derivative, &observables)?;
     let text = report(&mut proved, &derived, reason, conditions, sections);
     let lines = equations_of_motion(&proved.model, &derived);
+    let divisors = parameter_divisors(&mut proved.model, &derivative);
+    let conditions = [conditions, &divisors].concat();
     let model = proved.model;
     Ok(System {
         formulation: Formulation::Adapted,
@@ -87,12 +92,13 @@ pub(super) fn derive(
         reactions: requested(&model, Request::Reactions).then_some(reactions),
         gibbs_appell,
         jacobian,
+        parameter_jacobian,
         momenta,
         residual: None,
         projection: None,
         phase_space,
         embedding,
-        parameter_checks: parameter_checks(&model, conditions),
+        parameter_checks: parameter_checks(&model, &conditions),
         report: text,
         equations: lines,
         model,

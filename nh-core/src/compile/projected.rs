@@ -4,7 +4,10 @@ use super::embedded::embedding;
 use super::gibbs_appell;
 use super::momenta::momenta;
 use super::phase_space;
-use super::restricted::{calls, coordinates, in_state, observables, requested, requested_jacobian};
+use super::restricted::{
+    calls, coordinates, in_state, observables, parameter_checks, parameter_divisors, requested,
+    requested_jacobian, requested_parameter_jacobian,
+};
 use super::{Proved, fence};
 use crate::algebra::{Graph, Matrix, Substitution};
 use crate::check;
@@ -62,6 +65,8 @@ pub(super) fn derive(mut proved: Proved, reason: &str) -> Result<System, Vec<Vio
     }
     let jacobian = requested_jacobian(&mut proved.model, &derivative, &velocities)
         .map_err(|violation| vec![violation])?;
+    let parameter_jacobian =
+        requested_parameter_jacobian(&mut proved.model, &derivative).map_err(|violation| vec![violation])?;
     let momenta = momenta(&mut proved, &mut everywhere, &derivative, &velocities);
     // 5. the way back to the constraint manifold
     let projection = projection(&mut proved.model, &velocities, &equations, &residuals, judge);
@@ -71,6 +76,7 @@ pub(super) fn derive(mut proved: Proved, reason: &str) -> Result<System, Vec<Vio
     let (phase_space, sections) = phase_space::derive(&mut proved, &derived, &derivative, &observables)?;
     let text = report(&mut proved, &derived, reason, &[], sections);
     let lines = equations_of_motion(&proved.model, &derived);
+    let divisors = parameter_divisors(&mut proved.model, &derivative);
     let model = proved.model;
     Ok(System {
         formulation: Formulation::Projected,
@@ -84,12 +90,13 @@ pub(super) fn derive(mut proved: Proved, reason: &str) -> Result<System, Vec<Vio
         reactions: requested(&model, Request::Reactions).then_some(reactions),
         gibbs_appell,
         jacobian,
+        parameter_jacobian,
         momenta,
         residual: Some(Procedure::of(residuals)),
         projection: Some(projection),
         phase_space,
         embedding,
-        parameter_checks: Vec::new(),
+        parameter_checks: parameter_checks(&model, &divisors),
         report: text,
         equations: lines,
         model,

@@ -1,8 +1,10 @@
 //! What the declaration says in quasi-velocities, put into the velocities of the state.
 
-use crate::algebra::{Graph, Substitution};
+use std::collections::BTreeSet;
+
+use crate::algebra::{Graph, Node, Substitution};
 use crate::check::Motion;
-use crate::id::{ExprId, SymbolId};
+use crate::id::{ExprId, Origin, SymbolId};
 use crate::mechanics::{Definition, NotDifferentiable, Procedure, jacobian};
 use crate::model::{Model, Request};
 use crate::system::ParameterCheck;
@@ -52,6 +54,42 @@ pub(super) fn in_state(
     restriction.apply(graph, value)
 }
 
+/// The expressions of parameters alone by which a function divides.
+pub(super) fn parameter_divisors(model: &mut Model, procedure: &Procedure) -> Vec<ExprId> {
+    let parameters: Vec<SymbolId> = model.parameters.iter().map(|parameter| parameter.symbol).collect();
+    let graph = &mut model.graph;
+    let is_fixed = |graph: &Graph, value: ExprId| {
+        let symbols = graph.symbols_in(&[value]);
+        !symbols.is_empty() && symbols.iter().all(|symbol| parameters.contains(symbol))
+    };
+    // intermediate results of parameters alone are written out
+    let mut fixed = Substitution::new([]);
+    let mut roots = Vec::new();
+    for definition in &procedure.definitions {
+        match definition {
+            Definition::Value { symbol, value } => {
+                let value = fixed.apply(graph, *value);
+                if is_fixed(graph, value) {
+                    fixed.insert(*symbol, value);
+                }
+                roots.push(value);
+            }
+            Definition::Call { arguments, .. } => roots.extend(arguments),
+            Definition::Solve { matrix, right, .. } => roots.extend(matrix.iter().flatten().chain(right)),
+        }
+    }
+    for output in &procedure.outputs {
+        roots.push(fixed.apply(graph, *output));
+    }
+    let mut divisors = BTreeSet::new();
+    for id in graph.reachable(&roots) {
+        if let Node::Product { factors, .. } = graph.node(id) {
+            divisors.extend(factors.iter().filter(|(_, e)| e.is_negative()).map(|(base, _)| *base));
+        }
+    }
+    divisors.into_iter().filter(|divisor| is_fixed(graph, *divisor)).collect()
+}
+
 /// The conditions on the parameters, each once.
 pub(super) fn parameter_checks(model: &Model, conditions: &[ExprId]) -> Vec<ParameterCheck> {
     let mut checks: Vec<ParameterCheck> = Vec::new();
@@ -84,7 +122,45 @@ pub(super) fn requested_jacobian(
     let inputs = model.inputs.iter().map(|input| input.symbol);
     let arguments: Vec<SymbolId> = coordinates.chain(velocities.iter().copied()).chain(inputs).collect();
     let origin = *origin;
-    jacobian(&mut model.graph, derivative, &arguments).map(Some).map_err(|NotDifferentiable { method }| {
+    differentiated(model, derivative, &arguments, origin)
+}
+
+/// ∂derivative/∂parameters, if the declaration asks for it.
+///
+/// # Errors
+/// Where a method of the user's is called: it may depend on any parameter.
+pub(super) fn requested_parameter_jacobian(
+    model: &mut Model,
+    derivative: &Procedure,
+) -> Result<Option<Procedure>, Violation> {
+    let asked = model.requests.iter().find(|(request, _)| *request == Request::ParameterJacobian);
+    let Some((_, origin)) = asked else { return Ok(None) };
+    let origin = *origin;
+    let called = derivative.definitions.iter().find_map(|definition| match definition {
+        Definition::Call { method, .. } => Some(method.clone()),
+        _ => None,
+    });
+    if let Some(method) = called {
+        return Err(Violation {
+            law: Law::Force,
+            origin,
+            what: "the derivative by the parameters cannot be derived".into(),
+            evidence: format!("a force calls `self.{method}`, which may depend on any of them"),
+            way_out: "write the force as a formula, or leave `parameter_jacobian` out".into(),
+        });
+    }
+    let arguments: Vec<SymbolId> = model.parameters.iter().map(|parameter| parameter.symbol).collect();
+    differentiated(model, derivative, &arguments, origin)
+}
+
+/// The derivatives of a function by its arguments.
+fn differentiated(
+    model: &mut Model,
+    derivative: &Procedure,
+    arguments: &[SymbolId],
+    origin: Origin,
+) -> Result<Option<Procedure>, Violation> {
+    jacobian(&mut model.graph, derivative, arguments).map(Some).map_err(|NotDifferentiable { method }| {
         Violation {
             law: Law::Force,
             origin,

@@ -51,7 +51,7 @@ pub(super) fn slice(mut system: System) -> Result<System, Vec<Violation>> {
             Request::Multipliers => ("the multipliers", &system.multipliers),
             Request::Reactions => ("the reactions", &system.reactions),
             Request::Momenta => ("the momenta", &momenta),
-            Request::Jacobian | Request::GibbsAppell => continue,
+            Request::Jacobian | Request::ParameterJacobian | Request::GibbsAppell => continue,
             _ => {
                 let dropped: Vec<SymbolId> =
                     whole.iter().copied().filter(|symbol| !needed.contains(symbol)).collect();
@@ -126,6 +126,11 @@ fn restrict(system: &mut System, whole: &[SymbolId], needed: &BTreeSet<SymbolId>
     if let Some(jacobian) = &mut system.jacobian {
         let kept = jacobian.outputs.chunks(width.max(1)).enumerate().filter(|(row, _)| is_kept(*row));
         jacobian.outputs = kept.flat_map(|(_, row)| rows(row)).collect();
+    }
+    let width = system.model.parameters.len();
+    if let Some(jacobian) = &mut system.parameter_jacobian {
+        let kept = jacobian.outputs.chunks(width.max(1)).enumerate().filter(|(row, _)| is_kept(*row));
+        jacobian.outputs = kept.flat_map(|(_, row)| row.to_vec()).collect();
     }
     let keeps_base = match &mut system.embedding {
         None => false,

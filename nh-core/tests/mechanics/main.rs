@@ -4,6 +4,7 @@
 mod adapted_frame;
 mod derivation;
 mod laws;
+mod operation_counts;
 mod phase_space;
 mod requests;
 mod systems;

@@ -22,6 +22,7 @@ mod morphism;
 mod names;
 mod number;
 mod observed;
+mod parameter_jacobian;
 mod phase_space;
 mod program;
 mod projection;
@@ -74,6 +75,7 @@ pub(crate) fn emit(system: &System, layout: &Layout) -> TokenStream {
         .with(embedding::emit(context, scope, system))
         .with(projection::emit(context, system))
         .with(jacobian::emit(context, scope, system))
+        .with(parameter_jacobian::emit(context, scope, system))
         .with(momenta::emit(context, scope, system))
         .with(hamiltonian::emit(context, scope, system))
         .with(phase_space::emit(context, scope, system))

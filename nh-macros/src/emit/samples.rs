@@ -146,6 +146,7 @@ impl Builder {
             residual: None,
             projection: None,
             jacobian: None,
+            parameter_jacobian: None,
             phase_space: nh_core::phase_space::PhaseSpace::default(),
             embedding: None,
             parameter_checks: nonzero

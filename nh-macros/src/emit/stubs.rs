@@ -12,7 +12,7 @@ use super::function::{Head, Part};
 use super::layout::Layout;
 use super::{
     callback, constraint, dynamics, embedding, energy, gibbs_appell, hamiltonian, jacobian, momenta,
-    observed, phase_space, projection, report, state, validate, velocity,
+    observed, parameter_jacobian, phase_space, projection, report, state, validate, velocity,
 };
 use crate::resolve::Outline;
 
@@ -68,6 +68,11 @@ fn on_request(context: &Context, outline: &Outline) -> Part {
     };
     let part = if outline.requests.contains(&Request::GibbsAppell) {
         part.with(gibbs_appell::stub(context))
+    } else {
+        part
+    };
+    let part = if outline.requests.contains(&Request::ParameterJacobian) {
+        part.with(parameter_jacobian::stub(context))
     } else {
         part
     };

@@ -14,8 +14,9 @@ use crate::suggest::did_you_mean;
 use crate::syntax::ast::{self, Comparison, Definition, Equation, Item, Momentum, Name};
 
 /// What `emit` can ask for.
-pub(super) const REQUESTS: [(&str, Request); 11] = [
+pub(super) const REQUESTS: [(&str, Request); 12] = [
     ("jacobian", Request::Jacobian),
+    ("parameter_jacobian", Request::ParameterJacobian),
     ("multipliers", Request::Multipliers),
     ("reactions", Request::Reactions),
     ("momenta", Request::Momenta),

@@ -1,0 +1,11 @@
+use nh_runtime::prelude::*;
+
+#[nonholonomic(
+    base { x }
+    lagrangian { m / 2 * der(x)^2 }
+    forces { x: self.motor(der(x)); }
+    emit { parameter_jacobian }
+)]
+struct Cart { m: f64 }
+
+fn main() {}
