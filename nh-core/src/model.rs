@@ -64,6 +64,8 @@ pub struct Model {
     pub tracked: Option<Vec<(TrackedItem, Origin)>>,
     /// The velocities that the user wants the adapted state to keep.
     pub independent: Option<Vec<(SymbolId, Origin)>>,
+    /// Velocities of an orthonormal basis of D (`orthonormal`), and where they are named.
+    pub orthonormal: Option<(Vec<SymbolId>, Origin)>,
     /// The formulation that the user asks for.
     pub formulation: Option<(Formulation, Origin)>,
 }

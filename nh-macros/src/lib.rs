@@ -64,6 +64,7 @@ mod syntax;
 /// | `hamilton_jacobi { omega: …; }` | momenta as functions on the base that are claimed to solve the Hamilton–Jacobi equation, proved or refused | |
 /// | `assume { m > 0; }` | facts about parameters: used in proofs, checked by `validate` | none |
 /// | `independent { v, dphi }` | the velocities that the state keeps | chosen by the macro |
+/// | `orthonormal { u1, u2 }` | names for the velocities of a basis of D made orthonormal in the kinetic metric (Gram and Schmidt, in the order of the independent velocities): the state keeps them, and C is the identity (M 2.2) | |
 /// | `formulation { projected }` | all velocities in the state, with multipliers; or `adapted` | adapted where a choice of velocities holds everywhere |
 /// | `emit { jacobian, momenta }` | what to generate beyond the default: see below | |
 /// | `track { v, speed }` | the state variables and outputs that matter: what does not flow into them is neither stored nor computed | everything |

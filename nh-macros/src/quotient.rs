@@ -67,7 +67,7 @@ fn derived(
         layout: &layout,
         coordinates: &resolved.coordinates,
         renamed: &resolved.declared.renamed,
-        velocities: &resolved.velocities,
+        velocities: resolved.velocities.as_deref(),
         runtime,
     }))
 }

@@ -116,6 +116,9 @@ fn is_large(proved: &Proved) -> bool {
 
 /// The equations in the forms worth comparing, the one to show first.
 fn candidates(proved: &mut Proved, distribution: &ConstraintDistribution) -> Vec<ReducedEquations> {
+    if proved.model.orthonormal.is_some() {
+        return in_orthonormal_basis(proved, distribution);
+    }
     let is_large = is_large(proved);
     let (system, graph) = (&proved.system, &mut proved.model.graph);
     let chained = distribution.chained(graph, &proved.constraints.residuals, &system.algebroid.velocities);
@@ -127,6 +130,26 @@ fn candidates(proved: &mut Proved, distribution: &ConstraintDistribution) -> Vec
     let by_forms = equations_by_velocity_forms(graph, system, distribution);
     let expanded = reduced_equations(graph, system, distribution);
     [expanded, by_forms, by_chain].into_iter().chain(on_wheels).collect()
+}
+
+/// Where the basis was made orthonormal, C is the identity: what is proved to be 0 or 1 is written so.
+fn in_orthonormal_basis(proved: &mut Proved, distribution: &ConstraintDistribution) -> Vec<ReducedEquations> {
+    let (system, graph) = (&proved.system, &mut proved.model.graph);
+    let by_forms = equations_by_velocity_forms(graph, system, distribution);
+    let expanded = reduced_equations(graph, system, distribution);
+    let mut candidates = vec![expanded, by_forms];
+    for candidate in &mut candidates {
+        for (a, row) in candidate.mass.iter_mut().enumerate() {
+            for (b, entry) in row.iter_mut().enumerate() {
+                let unit = if a == b { graph.one() } else { graph.zero() };
+                let defect = graph.sub(*entry, unit);
+                if graph.zero_test(defect).is_zero() {
+                    *entry = unit;
+                }
+            }
+        }
+    }
+    candidates
 }
 
 /// The derivative by whichever form of the equations takes less work.

@@ -87,6 +87,7 @@ pub(crate) fn prove(mut model: Model) -> Result<(Proved, Chosen), Vec<Violation>
         }
         None => check::choose_formulation(&mut model, &constraints, &facts, &base)?,
     };
+    let chosen = check::orthonormal(&mut model, &system, chosen, &facts)?;
     Ok((Proved { model, motion, base, facts, constraints, system, symmetries }, chosen))
 }
 

@@ -150,6 +150,23 @@ impl ConstraintDistribution {
         unsolved.chained(graph, &residuals, velocities)
     }
 
+    /// The same D in the basis of the columns of B T, with names for its velocities.
+    #[must_use]
+    pub fn rebased(&self, graph: &mut Graph, change: &Matrix, velocities: Vec<SymbolId>) -> Self {
+        let columns = Graph::transposed(change);
+        let mut basis = Matrix::new();
+        for row in &self.basis {
+            let mut entries = Vec::new();
+            for column in &columns {
+                let entry = graph.inner_product(row, column);
+                entries.push(graph.simplify(entry));
+            }
+            basis.push(entries);
+        }
+        let velocity = linear_velocity(graph, &velocities, &basis, &self.offset);
+        Self { independent: velocities, basis, velocity, blocks: Vec::new(), ..self.clone() }
+    }
+
     /// The rank r of D.
     #[must_use]
     pub fn rank(&self) -> usize {

@@ -78,6 +78,7 @@ impl Builder {
             forces: Vec::new(),
             outputs: Vec::new(),
             tracked: None,
+            orthonormal: None,
             independent: None,
             formulation: None,
         };

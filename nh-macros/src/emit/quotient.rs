@@ -21,8 +21,8 @@ pub(crate) struct Written<'a> {
     pub(crate) coordinates: &'a [Family],
     /// The names of their entries that differ from those in the full system.
     pub(crate) renamed: &'a [(CoordId, String)],
-    /// The quasi-velocities.
-    pub(crate) velocities: &'a [Family],
+    /// The quasi-velocities; those of the full system if not given.
+    pub(crate) velocities: Option<&'a [Family]>,
     /// The path of the runtime.
     pub(crate) runtime: TokenStream,
 }
@@ -69,6 +69,25 @@ fn list(families: &[Family]) -> TokenStream {
     quote!(#(#entries),*)
 }
 
+/// The same from the names of the entries.
+fn list_of(names: &[String]) -> TokenStream {
+    let mut families: Vec<(&str, Vec<usize>)> = Vec::new();
+    for name in names {
+        let mut parts = name.split(['[', ']']).filter(|part| !part.is_empty());
+        let family = parts.next().unwrap_or_default();
+        let lengths: Vec<usize> = parts.filter_map(|part| part.parse().ok()).map(|k: usize| k + 1).collect();
+        match families.iter_mut().find(|(known, _)| *known == family) {
+            None => families.push((family, lengths)),
+            Some((_, known)) => known.iter_mut().zip(lengths).for_each(|(a, b)| *a = b.max(*a)),
+        }
+    }
+    let entries = families.into_iter().map(|(family, lengths)| {
+        let text = lengths.iter().fold(family.to_owned(), |text, length| format!("{text}[{length}]"));
+        tokens(&text)
+    });
+    quote!(#(#entries),*)
+}
+
 /// What was printed, as tokens.
 fn tokens(text: &str) -> TokenStream {
     text.parse().unwrap_or_default()
@@ -108,7 +127,7 @@ impl Written<'_> {
             let identities = quotient.identities.iter().map(|identity| self.text(*identity));
             sections.extend(quote!(on { #(#identities = 0;)* }));
         }
-        let basis = list(self.velocities);
+        let basis = self.velocities.map_or_else(|| list_of(&quotient.velocities), list);
         let brackets = quotient.brackets.iter().map(|(a, b, value)| {
             let (a, b, value) = (&names[*a], &names[*b], self.text(*value));
             quote!([#a, #b] = #value;)

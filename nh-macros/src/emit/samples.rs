@@ -99,6 +99,7 @@ impl Builder {
             assumptions: Vec::new(),
             requests: Vec::new(),
             tracked: None,
+            orthonormal: None,
             independent: None,
             formulation: None,
         };

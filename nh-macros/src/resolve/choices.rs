@@ -1,16 +1,19 @@
 //! What the user chooses: independent velocities, the formulation, names of types, the runtime.
 
 use std::collections::BTreeSet;
+use std::rc::Rc;
 
 use nh_core::id::{Origin, SymbolId};
 use nh_core::model::Formulation;
 use proc_macro2::Ident;
 use quote::quote;
 
+use super::array::Shape;
 use super::resolver::Resolver;
-use crate::emit::{Layout, TypeNames};
+use super::scope::{Meaning, Role};
+use crate::emit::{Family, Layout, TypeNames};
 use crate::report::{Diagnostic, Extent};
-use crate::syntax::ast::{self, Renaming, Section, SystemDecl, Velocity};
+use crate::syntax::ast::{self, Declared, Renaming, Section, SystemDecl, Velocity};
 
 impl Resolver {
     /// The velocities that the adapted state keeps, each once.
@@ -31,6 +34,28 @@ impl Resolver {
             }
         }
         found
+    }
+
+    /// The velocities of an orthonormal basis of D: named when every expression has been read, since
+    /// they have a meaning in the state alone.
+    pub(super) fn orthonormal(
+        &mut self,
+        section: &Section<Vec<Declared>>,
+        layout: &mut Layout,
+    ) -> (Vec<SymbolId>, Origin) {
+        let mut symbols = Vec::new();
+        for declared in &section.body {
+            let checked = self.scope.check_new(&declared.name);
+            if self.keep(&declared.name, checked).is_err() {
+                continue;
+            }
+            let (text, shape) = (&declared.name.text, Shape::of(&declared.lengths));
+            let Ok(named) = self.enter(text, shape, Role::FrameVelocity, declared.extent) else { continue };
+            symbols.extend(&named.symbols);
+            self.scope.insert(text.clone(), Meaning::Named(Rc::new(named)));
+            layout.frame.push(Family::from(declared));
+        }
+        (symbols, self.origin(section.keyword.extent()))
     }
 
     /// The formulation that is asked for.

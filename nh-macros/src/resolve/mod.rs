@@ -99,6 +99,7 @@ impl Resolver {
         let hamilton_jacobi = sections.hamilton_jacobi.as_ref().map(|s| self.hamilton_jacobi(s));
         let assumptions = sections.assume.as_ref().map(|s| self.assumptions(&s.body)).unwrap_or_default();
         let requests = sections.emit.as_ref().map(|s| self.requests(&s.body)).unwrap_or_default();
+        let orthonormal = sections.orthonormal.as_ref().map(|s| self.orthonormal(s, layout));
         let tracked = sections.track.as_ref().map(|s| self.tracked(s, &outputs));
         let independent = sections.independent.as_ref().map(|s| self.independent(&s.body));
         let formulation = sections.formulation.as_ref().map(|s| self.formulation(s));
@@ -107,7 +108,9 @@ impl Resolver {
         let tables = std::mem::take(&mut self.tables);
         let declared = tables.sections.iter().map(|section| section.symbol);
         layout.coordinate_symbols = tables.coordinates.iter().map(|coordinate| coordinate.symbol).collect();
-        layout.velocity_symbols = declared.chain(tables.frame.iter().map(|section| section.symbol)).collect();
+        let frame = tables.frame.iter().map(|section| section.symbol);
+        let basis = orthonormal.iter().flat_map(|(symbols, _)| symbols.iter().copied());
+        layout.velocity_symbols = declared.chain(frame).chain(basis).collect();
         Model {
             graph: std::mem::take(&mut self.graph),
             name: declaration.structure.name.to_string(),
@@ -136,6 +139,7 @@ impl Resolver {
             assumptions,
             requests,
             tracked,
+            orthonormal,
             independent,
             formulation,
         }

@@ -76,6 +76,9 @@ fn in_state(model: &Model) -> Vec<SymbolId> {
 
 /// The velocities in the state.
 fn kept(model: &Model) -> Vec<SymbolId> {
+    if let Some((symbols, _)) = &model.orthonormal {
+        return symbols.clone();
+    }
     if let Some(named) = model.independent.as_ref().or(model.distribution.as_ref()) {
         return named.iter().map(|(symbol, _)| *symbol).collect();
     }

@@ -24,8 +24,8 @@ pub(crate) struct ResolvedQuotient {
     pub(crate) declared: QuotientDecl,
     /// The families of the coordinates that are left.
     pub(crate) coordinates: Vec<Family>,
-    /// The families of the quasi-velocities.
-    pub(crate) velocities: Vec<Family>,
+    /// The families of the quasi-velocities, where they are given.
+    pub(crate) velocities: Option<Vec<Family>>,
     /// What the origins are.
     pub(crate) origins: Origins,
 }
@@ -59,8 +59,7 @@ pub(crate) fn resolve_quotient(
     source.graph = std::mem::take(&mut resolver.graph);
     let origin = resolver.origin(declaration.extent);
     let (coordinates, renamed) = left(layout, &dropped);
-    let own = || layout.velocities.iter().chain(&layout.frame).cloned().collect();
-    let (values, velocities) = velocities.map_or_else(|| (None, own()), |(v, families)| (Some(v), families));
+    let (values, velocities) = velocities.unzip();
     let declared = QuotientDecl { origin, dropped, velocities: values, renamed };
     let Resolver { origins, reports, .. } = resolver;
     match reports.finish(()) {

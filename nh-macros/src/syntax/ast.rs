@@ -64,6 +64,8 @@ pub(crate) struct Sections {
     pub(crate) assume: Option<Section<Vec<Item<Comparison>>>>,
     /// `independent`: the velocities that the adapted state keeps.
     pub(crate) independent: Option<Section<Vec<Velocity>>>,
+    /// `orthonormal`: names for the velocities of an orthonormal basis of D.
+    pub(crate) orthonormal: Option<Section<Vec<Declared>>>,
     /// `formulation`: adapted or projected.
     pub(crate) formulation: Option<Section<Formulation>>,
     /// `emit`: what to generate beyond the default.

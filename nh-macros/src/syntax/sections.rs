@@ -145,6 +145,7 @@ fn fill(sections: &mut Sections, keyword: Name, algebra: Option<Algebra>, body: 
         "symmetries" => s.symmetries = Section::some(keyword, items(body, errors, &Stream::symmetry)),
         "assume" => s.assume = Section::some(keyword, items(body, errors, &Stream::comparison)),
         "independent" => s.independent = Section::some(keyword, list(body, errors, Stream::velocity)),
+        "orthonormal" => s.orthonormal = Section::some(keyword, list(body, errors, Stream::declared)),
         "formulation" => {
             s.formulation = errors.keep(formulation(body)).and_then(|body| Section::some(keyword, body));
         }

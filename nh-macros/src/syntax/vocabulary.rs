@@ -1,7 +1,7 @@
 //! The words of the language.
 
 /// The sections, as they are written.
-pub(crate) const SECTIONS: [&str; 26] = [
+pub(crate) const SECTIONS: [&str; 27] = [
     "base",
     "on",
     "basis",
@@ -22,6 +22,7 @@ pub(crate) const SECTIONS: [&str; 26] = [
     "symmetries",
     "assume",
     "independent",
+    "orthonormal",
     "formulation",
     "emit",
     "track",

@@ -1,0 +1,6 @@
+use nh_runtime::prelude::*;
+
+#[nonholonomic(base { x } lagrangian { m / 2 * u^2 } orthonormal { u, x })]
+struct S { m: f64 }
+
+fn main() {}
