@@ -276,6 +276,10 @@ pub enum Request {
     Volume,
     /// The symbols of the Levi-Civita and of the constrained connection.
     Connection,
+    /// The leapfrog method on TQ.
+    Leapfrog,
+    /// The discrete Euler–Poincaré–Suslov equations on a Lie algebra.
+    EulerPoincareSuslov,
     /// The derivative by the Gibbs–Appell function.
     GibbsAppell,
 }

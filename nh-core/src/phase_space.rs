@@ -12,6 +12,10 @@ pub struct PhaseSpace {
     pub bracket: Option<Procedure>,
     /// The equations as Π ∇E.
     pub almost_poisson: Option<AlmostPoisson>,
+    /// The kick of the leapfrog method on TQ: outputs are the velocities after it.
+    pub leapfrog: Option<StepForm>,
+    /// The discrete momentum of the Euler–Poincaré–Suslov equations, a component for each velocity.
+    pub euler_poincare_suslov: Option<StepForm>,
     /// One output: the divergence of the vector field in the coordinates of the state.
     pub divergence: Option<Procedure>,
     /// One output: the density of the invariant volume.
@@ -22,6 +26,15 @@ pub struct PhaseSpace {
     pub christoffel: Option<Procedure>,
     /// Outputs: the velocities of the state that the declared section of D* gives.
     pub hamilton_jacobi: Option<Procedure>,
+}
+
+/// A function of the state and of the length of a step.
+#[derive(Clone, Debug)]
+pub struct StepForm {
+    /// The length of the step.
+    pub length: SymbolId,
+    /// The function.
+    pub map: Procedure,
 }
 
 /// The almost-Poisson form of a system that conserves its energy.

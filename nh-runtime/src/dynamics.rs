@@ -133,6 +133,34 @@ impl<S: AlmostPoisson + ?Sized> AlmostPoisson for &S {
     }
 }
 
+/// A system on TQ with constant masses, for the leapfrog method: declared with `emit { leapfrog }`.
+pub trait Leapfrog: Dynamics {
+    /// The state after a kick of length h at its place: velocities v⁺ with W (v⁺ − v⁻) = −h ∂V + Aᵀμ and
+    /// A (v⁺ + v⁻) = 0.
+    fn kick(&self, state: &Self::State, h: ScalarOf<Self>) -> Self::State;
+}
+
+impl<S: Leapfrog + ?Sized> Leapfrog for &S {
+    #[inline]
+    fn kick(&self, state: &S::State, h: ScalarOf<S>) -> S::State {
+        (**self).kick(state, h)
+    }
+}
+
+/// A system on a Lie algebra with its discrete momentum: declared with
+/// `emit { euler_poincare_suslov }`.
+pub trait EulerPoincareSuslov: Dynamics {
+    /// ⟨p, B_a − h/2 [y, B_a] + h²/12 [y, [y, B_a]]⟩ at the velocities y = B v, for each a.
+    fn discrete_momentum(&self, state: &Self::State, h: ScalarOf<Self>) -> VecOf<Self>;
+}
+
+impl<S: EulerPoincareSuslov + ?Sized> EulerPoincareSuslov for &S {
+    #[inline]
+    fn discrete_momentum(&self, state: &S::State, h: ScalarOf<S>) -> VecOf<S> {
+        (**self).discrete_momentum(state, h)
+    }
+}
+
 /// A system with named observables.
 pub trait Observed: Dynamics {
     /// The observables, one named field each.

@@ -93,7 +93,8 @@ mod tolerance;
 pub use dense::DenseOutput;
 pub use dim::{D, Dim};
 pub use dynamics::{
-    AlmostPoisson, Constrained, DimOf, Dynamics, Energy, Jacobian, MatOf, Observed, ScalarOf, State, VecOf,
+    AlmostPoisson, Constrained, DimOf, Dynamics, Energy, EulerPoincareSuslov, Jacobian, Leapfrog, MatOf,
+    Observed, ScalarOf, State, VecOf,
 };
 pub use error::{InputFault, IntegrationError, ParameterError, ParameterFault, ProjectionError, StateFault};
 pub use events::{Direction, Event, Events};
@@ -102,8 +103,8 @@ pub use integrator::{Integrator, Statistics};
 pub use jet::Jet;
 pub use lanes::Lanes;
 pub use methods::{
-    Bs23, Dop853, Dopri5, Euler, GaussLegendre4, GaussLegendre6, Heun, ImplicitMidpoint, Method, Projected,
-    Radau5, Ralston, Rk4, Rodas5P, Tsit5, Vern9,
+    Bs23, DiscreteGradient, DiscreteSuslov, Dop853, Dopri5, Euler, GaussLegendre4, GaussLegendre6, Heun,
+    ImplicitMidpoint, Method, Projected, Radau5, Ralston, ReflectedLeapfrog, Rk4, Rodas5P, Tsit5, Vern9,
 };
 pub use reduction::{ByStages, Reconstructed, Reconstruction, Reduction};
 pub use scalar::{Real, Scalar};
@@ -321,9 +322,9 @@ pub mod __private {
     pub use crate::linear::solve_pivoted;
     pub use crate::projection::{check_identities, project};
     pub use crate::{
-        AlmostPoisson, Constrained, D, Dim, Dynamics, Energy, InputFault, Jacobian, Observed, ParameterError,
-        ParameterFault, ProjectionError, Real, Reconstruction, Reduction, Scalar, ScalarOf, State,
-        StateFault,
+        AlmostPoisson, Constrained, D, Dim, Dynamics, Energy, EulerPoincareSuslov, InputFault, Jacobian,
+        Leapfrog, Observed, ParameterError, ParameterFault, ProjectionError, Real, Reconstruction, Reduction,
+        Scalar, ScalarOf, State, StateFault,
     };
     pub use core;
     pub use nalgebra;

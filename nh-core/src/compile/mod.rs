@@ -2,6 +2,7 @@
 
 mod adapted;
 mod connection;
+mod discrete;
 mod embedded;
 mod gibbs_appell;
 mod momenta;

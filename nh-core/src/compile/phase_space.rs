@@ -1,7 +1,7 @@
 //! Brackets, the Hamiltonian side and the almost-Poisson form, as far as they are asked for.
 
 use super::restricted::requested;
-use super::{Proved, connection, volume};
+use super::{Proved, connection, discrete, volume};
 use crate::algebra::{Graph, Matrix};
 use crate::check;
 use crate::id::{ExprId, Origin, SymbolId};
@@ -48,6 +48,7 @@ pub(super) fn derive(
         keep(almost_poisson(proved, derived, origin).map(|form| found.almost_poisson = Some(form)));
     }
     keep(connection::derive(proved, derived, &mut found));
+    keep(discrete::derive(proved, derived, &mut found));
     keep(volume::derive(proved, derived, derivative, &mut found).map(|lines| {
         if !lines.is_empty() {
             sections.push(("Volume", lines));

@@ -7,6 +7,7 @@
 mod callback;
 mod constraint;
 mod context;
+mod discrete;
 mod dynamics;
 mod embedding;
 mod energy;
@@ -79,6 +80,7 @@ pub(crate) fn emit(system: &System, layout: &Layout) -> TokenStream {
         .with(momenta::emit(context, scope, system))
         .with(hamiltonian::emit(context, scope, system))
         .with(phase_space::emit(context, scope, system))
+        .with(discrete::emit(context, system))
         .with(gibbs_appell::emit(context, scope, system));
     programs.extend(part.programs.iter().map(|(name, program)| (*name, program)));
     let mut methods = report::constant(context, system, &programs);

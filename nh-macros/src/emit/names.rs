@@ -18,8 +18,9 @@ pub(super) struct Names {
 
 impl Names {
     pub(super) fn new() -> Self {
-        let taken =
-            ["t", "state", "input", "start", "present", "phase", "covector"].map(str::to_owned).into();
+        let taken = ["t", "state", "input", "start", "present", "phase", "covector", "length"]
+            .map(str::to_owned)
+            .into();
         Self { taken, counter: 0 }
     }
 

@@ -28,6 +28,8 @@ pub(super) enum Argument {
     Phase,
     /// `covector`, a differential
     Covector,
+    /// `length`, of a step
+    Length,
 }
 
 /// The tokens of every symbol, and the argument that each comes from.

@@ -11,8 +11,8 @@ use super::context::Context;
 use super::function::{Head, Part};
 use super::layout::Layout;
 use super::{
-    callback, constraint, dynamics, embedding, energy, gibbs_appell, hamiltonian, jacobian, momenta,
-    observed, parameter_jacobian, phase_space, projection, report, state, validate, velocity,
+    callback, constraint, discrete, dynamics, embedding, energy, gibbs_appell, hamiltonian, jacobian,
+    momenta, observed, parameter_jacobian, phase_space, projection, report, state, validate, velocity,
 };
 use crate::resolve::Outline;
 
@@ -60,7 +60,9 @@ fn on_request(context: &Context, outline: &Outline) -> Part {
         .with(projection::stub(context, identities, constraints))
         .with(momenta::stub(context, &outline.momenta));
     let (requests, velocities) = (&outline.requests, outline.velocities);
-    let part = part.with(phase_space::stub(context, requests, outline.claims_section, velocities));
+    let part = part
+        .with(phase_space::stub(context, requests, outline.claims_section, velocities))
+        .with(discrete::stub(context, requests));
     let part = if requests.contains(&Request::Hamiltonian) {
         part.with(hamiltonian::stub(context, velocities))
     } else {

@@ -14,7 +14,7 @@ use crate::suggest::did_you_mean;
 use crate::syntax::ast::{self, Comparison, Definition, Equation, Item, Momentum, Name};
 
 /// What `emit` can ask for.
-pub(super) const REQUESTS: [(&str, Request); 12] = [
+pub(super) const REQUESTS: [(&str, Request); 14] = [
     ("jacobian", Request::Jacobian),
     ("parameter_jacobian", Request::ParameterJacobian),
     ("multipliers", Request::Multipliers),
@@ -27,6 +27,8 @@ pub(super) const REQUESTS: [(&str, Request); 12] = [
     ("divergence", Request::Divergence),
     ("volume", Request::Volume),
     ("connection", Request::Connection),
+    ("leapfrog", Request::Leapfrog),
+    ("euler_poincare_suslov", Request::EulerPoincareSuslov),
 ];
 
 /// What `emit` will be able to ask for.

@@ -14,8 +14,8 @@ use crate::{Dim, DimOf, Dynamics, IntegrationError, Real, Scalar, ScalarOf, Stat
 /// landed, computed from n, so that they do not accumulate round-off.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Fixed<P, T> {
-    pub(super) scheme: P,
-    pub(super) step: T,
+    pub(in crate::methods) scheme: P,
+    pub(in crate::methods) step: T,
 }
 
 /// How a method of fixed step computes a step.
@@ -364,12 +364,15 @@ pub struct Slopes<V> {
 }
 
 /// Evaluates the derivatives at both ends of the step.
-pub(super) fn slopes<S: Dynamics>(start: &Start<'_, S>, arrival: &Arrival<S>) -> Slopes<VecOf<S>> {
+pub(in crate::methods) fn slopes<S: Dynamics>(
+    start: &Start<'_, S>,
+    arrival: &Arrival<S>,
+) -> Slopes<VecOf<S>> {
     Slopes { first: start.derivative(), last: start.derivative_at(arrival.time, arrival.state.to_array()) }
 }
 
 /// The cubic through both ends of the step with the derivatives there.
-pub(super) fn interpolate<S: Dynamics>(
+pub(in crate::methods) fn interpolate<S: Dynamics>(
     Slopes { first, last }: &Slopes<VecOf<S>>,
     start: &Start<'_, S>,
     arrival: &Arrival<S>,

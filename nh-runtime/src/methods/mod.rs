@@ -6,6 +6,8 @@
 //! | [`Rk4`] | 4 | fixed | |
 //! | [`Dopri5`] | 5 | adaptive | |
 //! | [`ImplicitMidpoint`] | 2 | fixed, stiff systems too | quadratic invariants, reversibility |
+//! | [`DiscreteGradient`] | 2 | fixed | the energy, quadratic constraints and identities, reversibility |
+//! | `.fourth_order()`, `.sixth_order()` of the two above | 4, 6 | fixed | what they keep |
 //! | [`Projected`] | that of the method it is made of | likewise | the constraints of the projected formulation |
 //!
 //! Implicit methods form the Jacobian ∂f/∂x by difference quotients, or take the one that the system
@@ -21,6 +23,7 @@ mod fixed;
 mod grid;
 mod implicit;
 mod projected;
+mod structure;
 mod transition;
 
 pub use adaptive::{Adaptive, Scheme, Trial};
@@ -34,6 +37,10 @@ pub use implicit::{
     Midpoint, Radau, Radau5, Rodas, Rodas5P,
 };
 pub use projected::Projected;
+pub use structure::{
+    Composed, DiscreteGradient, DiscreteMomentum, DiscreteSuslov, DriftKickDrift, Gonzalez, KahanLi6,
+    ReflectedLeapfrog, Substeps, Suzuki4, Symmetric,
+};
 pub use transition::Transition;
 
 pub use crate::tolerance::{PerComponent, Tolerance, Uniform};

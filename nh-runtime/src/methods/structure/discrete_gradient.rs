@@ -1,0 +1,366 @@
+//! The energy-preserving method of discrete gradients.
+
+use super::Symmetric;
+use crate::arrays::displaced;
+use crate::linear::Factors;
+use crate::methods::fixed::{self, Slopes};
+use crate::methods::{
+    Analytic, Arrival, FiniteDifferences, Fixed, Linearization, OneStep, Start, explain_non_finite,
+};
+use crate::{
+    AlmostPoisson, DimOf, Dynamics, IntegrationError, Real, Scalar, ScalarOf, State, Statistics, VecOf,
+};
+
+/// The method x₁ = x₀ + h Π(x̄) ∂̄E(x₀, x₁) with fixed steps, of order 2, x̄ being the mean of both ends
+/// and ∂̄E the midpoint discrete gradient of the energy,
+///
+/// ∂̄E = ∂E(x̄) + (E(x₁) − E(x₀) − ∂E(x̄)·Δ) Δ / |Δ|², Δ = x₁ − x₀,
+///
+/// so that ∂̄E·Δ = E(x₁) − E(x₀), and that is h ∂̄E·Π ∂̄E = 0: the energy stays, whatever the step
+/// (Gonzalez, Time integration and discrete Hamiltonian systems, J. Nonlinear Sci. 6 (1996); for
+/// nonholonomic systems Celledoni, Farré Puiggalí, Høiseth, Martín de Diego, arXiv 1605.02845). It
+/// is symmetric. Quadratic constraints and identities of coordinates (|γ| = 1, RᵀR = 1, γ·ω = 0) stay
+/// too, since they are Casimir functions of Π. For systems declared with `emit { discrete_gradient }`.
+///
+/// The equations are solved by Newton's iteration with the matrix of the implicit midpoint rule, until
+/// the corrections stagnate in round-off. In place of E(x₀) stands the energy of the first state, which
+/// is the same but for round-off: so that this does not add up, in any number of steps.
+///
+/// ```
+/// # use nh_runtime::prelude::*;
+/// # use nh_runtime::{AlmostPoisson, D};
+/// # #[derive(Clone, Copy)] struct Pendulum;
+/// # #[derive(Clone, Copy)] struct Swing { q: f64, v: f64 }
+/// # impl State for Swing {
+/// #     type Scalar = f64;
+/// #     type Dim = D<2>;
+/// #     fn to_array(&self) -> [f64; 2] { [self.q, self.v] }
+/// #     fn from_array([q, v]: [f64; 2]) -> Self { Self { q, v } }
+/// #     fn names() -> [&'static str; 2] { ["q", "v"] }
+/// # }
+/// # impl Dynamics for Pendulum {
+/// #     type State = Swing;
+/// #     type Input = ();
+/// #     fn derivative(&self, _t: f64, s: &Swing, (): &()) -> Swing { Swing { q: s.v, v: -s.q.sin() } }
+/// # }
+/// # impl Energy for Pendulum {
+/// #     fn energy(&self, _t: f64, s: &Swing) -> f64 { s.v * s.v / 2.0 - s.q.cos() }
+/// # }
+/// # impl AlmostPoisson for Pendulum {
+/// #     fn energy_gradient(&self, _t: f64, s: &Swing) -> [f64; 2] { [s.q.sin(), s.v] }
+/// #     fn almost_poisson(&self, _t: f64, _s: &Swing, c: &[f64; 2]) -> [f64; 2] { [c[1], -c[0]] }
+/// # }
+/// # fn main() -> Result<(), IntegrationError> {
+/// let start = Swing { q: 2.5, v: 0.0 };
+/// let mut sim = Integrator::new(Pendulum, DiscreteGradient::new(0.5), 0.0, start);
+/// sim.advance_to(1000.0)?;
+/// let drift = Pendulum.energy(0.0, sim.state()) - Pendulum.energy(0.0, &start);
+/// assert!(drift.abs() < 1e-13);
+/// # Ok(())
+/// # }
+/// ```
+pub type DiscreteGradient<T, J = FiniteDifferences> = Fixed<Gonzalez<T, J>, T>;
+
+/// A step of the method of discrete gradients: see [`DiscreteGradient`].
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Gonzalez<T, J> {
+    tolerance: T,
+    linearization: J,
+}
+
+impl<T, J> Symmetric for Gonzalez<T, J> {}
+
+impl<T: Real> DiscreteGradient<T> {
+    /// The method with steps of length `step`, which has to be positive and finite.
+    #[must_use]
+    pub fn new(step: T) -> Self {
+        let tolerance = T::from_f64(1e3) * T::EPSILON;
+        Self { step, scheme: Gonzalez { tolerance, linearization: FiniteDifferences } }
+    }
+
+    /// The same method with the system's own Jacobian in Newton's iteration, for systems declared with
+    /// `emit { jacobian }` too.
+    #[must_use]
+    pub fn with_jacobian(self) -> DiscreteGradient<T, Analytic> {
+        let Self { step, scheme: Gonzalez { tolerance, .. } } = self;
+        Fixed { step, scheme: Gonzalez { tolerance, linearization: Analytic } }
+    }
+}
+
+impl<T: Real, J> DiscreteGradient<T, J> {
+    /// The largest correction, relative to 1 + |x| in each component, at which the iteration may
+    /// stagnate; 1000 rounding units if not given. A larger one does not make it stop earlier.
+    #[must_use]
+    pub fn tolerance(mut self, tolerance: T) -> Self {
+        self.scheme.tolerance = tolerance;
+        self
+    }
+}
+
+impl<T: Real> DiscreteGradient<T> {
+    /// One step of length `dt` as a pure function: the state at `t + dt`.
+    ///
+    /// # Errors
+    /// [`IntegrationError::NoConvergence`] if the equations are not solved.
+    pub fn step<S>(
+        system: &S,
+        t: T,
+        dt: T,
+        state: &S::State,
+        input: &S::Input,
+    ) -> Result<S::State, IntegrationError>
+    where
+        S: AlmostPoisson,
+        S::State: State<Scalar = T>,
+    {
+        let x = state.to_array();
+        let scheme = Self::new(dt).scheme;
+        let start = Start { system, input, time: t, state };
+        let mut work = OneStep::<S>::work(&scheme);
+        let increment = scheme.increment(&start, &x, dt, &mut work, &mut Statistics::default())?;
+        Ok(S::State::from_array(displaced(&x, T::ONE, &increment)))
+    }
+}
+
+/// The iterations after which a solution is given up.
+const MOST_ITERATIONS: u32 = 60;
+/// The ratio of successive corrections from which a new Jacobian is formed.
+const SLOW: f64 = 0.1;
+/// The corrections in a row that do not halve the smallest one, after which round-off is all that is left.
+const STALLED: u32 = 3;
+
+/// A step h and the factorized matrix 1 − h/2 ∂f/∂x.
+type Matrix<S> = (ScalarOf<S>, Factors<DimOf<S>, ScalarOf<S>>);
+
+/// What is kept from step to step: the factorized matrix 1 − h/2 ∂f/∂x with its h, and the energy that
+/// is held.
+pub struct Work<S: Dynamics> {
+    matrix: Option<Matrix<S>>,
+    energy: Option<ScalarOf<S>>,
+}
+
+impl<S: Dynamics> Clone for Work<S> {
+    fn clone(&self) -> Self {
+        *self
+    }
+}
+impl<S: Dynamics> Copy for Work<S> {}
+
+/// A step to be made: where it starts, and the energy that it ends at.
+struct Step<'a, 'b, S: AlmostPoisson> {
+    start: &'a Start<'b, S>,
+    x: &'a VecOf<S>,
+    h: ScalarOf<S>,
+    energy: ScalarOf<S>,
+}
+
+impl<S: AlmostPoisson> Step<'_, '_, S>
+where
+    ScalarOf<S>: Real,
+{
+    /// h Π(x̄) ∂̄E − Δ.
+    fn defect(&self, change: &VecOf<S>) -> VecOf<S> {
+        let half = ScalarOf::<S>::from_f64(0.5);
+        let time = self.start.time;
+        let middle = S::State::from_array(displaced(self.x, half, change));
+        let end = S::State::from_array(displaced(self.x, ScalarOf::<S>::ONE, change));
+        let system = self.start.system;
+        let gradient = system.energy_gradient(time, &middle);
+        let gain = system.energy(time, &end) - self.energy;
+        let (along, square) = (dot::<S>(&gradient, change), dot::<S>(change, change));
+        let factor = (gain - along) / square;
+        // where a step is so short that round-off decides, the gradient at the midpoint is as good
+        let reach = factor * factor * square;
+        let corrected = if reach <= dot::<S>(&gradient, &gradient) {
+            displaced(&gradient, factor, change)
+        } else {
+            gradient
+        };
+        let mut defect = system.almost_poisson(time, &middle, &corrected);
+        for (d, c) in defect.as_mut().iter_mut().zip(change.as_ref()) {
+            *d = self.h * *d - *c;
+        }
+        defect
+    }
+}
+
+fn dot<S: Dynamics>(a: &VecOf<S>, b: &VecOf<S>) -> ScalarOf<S> {
+    a.as_ref().iter().zip(b.as_ref()).fold(ScalarOf::<S>::ZERO, |sum, (a, b)| sum + *a * *b)
+}
+
+impl<T: Real, J> Gonzalez<T, J> {
+    /// Solves the equations of a step.
+    fn solve<S>(
+        &self,
+        step: &Step<'_, '_, S>,
+        work: &mut Work<S>,
+        statistics: &mut Statistics,
+    ) -> Result<VecOf<S>, IntegrationError>
+    where
+        S: AlmostPoisson,
+        S::State: State<Scalar = T>,
+        J: Linearization<S>,
+    {
+        use crate::Dim;
+        let mut matrix = work.matrix.filter(|(h, _)| *h == step.h);
+        let mut retry = matrix.is_some();
+        let mut change = DimOf::<S>::vec(T::ZERO);
+        let most = (T::EPSILON * T::EPSILON).recip();
+        let (mut best, mut stalled, mut iterations) = (most, 0, 0);
+        loop {
+            let (_, factors) = match matrix {
+                Some(matrix) => matrix,
+                None => *matrix.insert((step.h, self.matrix(step, &change, statistics))),
+            };
+            let defect = step.defect(&change);
+            statistics.evaluations += 1;
+            let correction = factors.solve(&defect);
+            change = displaced(&change, T::ONE, &correction);
+            iterations += 1;
+            statistics.iterations += 1;
+            let size = largest::<S>(&correction, step.x) / self.tolerance;
+            // a single correction that is not smaller says nothing: what is left would be of one sign
+            // and add up over the steps
+            let ratio = size / best;
+            stalled = if ratio < T::from_f64(0.5) { 0 } else { stalled + 1 };
+            best = best.min(size);
+            if size == T::ZERO || (best <= T::ONE && stalled >= STALLED) {
+                break;
+            }
+            if !size.is_finite() || iterations >= MOST_ITERATIONS {
+                if !retry {
+                    return Err(refusal(step, &change, iterations, size));
+                }
+                (retry, matrix, best, stalled, iterations) = (false, None, most, 0, 0);
+                change = DimOf::<S>::vec(T::ZERO);
+                continue;
+            }
+            if size > T::ONE && iterations > 1 && ratio >= T::from_f64(SLOW) {
+                matrix = None;
+            }
+        }
+        work.matrix = matrix;
+        Ok(change)
+    }
+
+    /// 1 − h/2 ∂f/∂x at the middle of a step, factorized.
+    fn matrix<S>(
+        &self,
+        step: &Step<'_, '_, S>,
+        change: &VecOf<S>,
+        statistics: &mut Statistics,
+    ) -> Factors<DimOf<S>, T>
+    where
+        S: AlmostPoisson,
+        S::State: State<Scalar = T>,
+        J: Linearization<S>,
+    {
+        let half = T::from_f64(0.5);
+        let middle = displaced(step.x, half, change);
+        let slope = step.start.derivative_at(step.start.time, middle);
+        let mut matrix =
+            self.linearization.state_jacobian(step.start, step.start.time, &middle, &slope, statistics);
+        statistics.evaluations += 1;
+        statistics.jacobians += 1;
+        statistics.factorizations += 1;
+        for (i, row) in matrix.as_mut().iter_mut().enumerate() {
+            for (j, entry) in row.as_mut().iter_mut().enumerate() {
+                let moved = half * step.h * *entry;
+                *entry = if i == j { T::ONE - moved } else { -moved };
+            }
+        }
+        Factors::new(&matrix)
+    }
+}
+
+/// The largest correction, relative to 1 + |x|.
+fn largest<S: Dynamics>(correction: &VecOf<S>, x: &VecOf<S>) -> ScalarOf<S>
+where
+    ScalarOf<S>: Real,
+{
+    let pairs = correction.as_ref().iter().zip(x.as_ref());
+    pairs.fold(ScalarOf::<S>::ZERO, |largest, (c, x)| largest.max(c.abs() / (ScalarOf::<S>::ONE + x.abs())))
+}
+
+/// Explains why the equations were not solved.
+#[cold]
+fn refusal<S: AlmostPoisson>(
+    step: &Step<'_, '_, S>,
+    change: &VecOf<S>,
+    iterations: u32,
+    size: ScalarOf<S>,
+) -> IntegrationError
+where
+    ScalarOf<S>: Real,
+{
+    let reached = displaced(step.x, ScalarOf::<S>::ONE, change);
+    let explained = explain_non_finite(step.start, step.h, reached.as_ref());
+    if matches!(explained, IntegrationError::NonFiniteDerivative { .. }) {
+        return explained;
+    }
+    IntegrationError::NoConvergence {
+        time: step.start.time.to_f64(),
+        step: step.h.to_f64(),
+        iterations,
+        residual: size.to_f64(),
+    }
+}
+
+impl<T: Real, S: AlmostPoisson, J: Linearization<S>> OneStep<S> for Gonzalez<T, J>
+where
+    S::State: State<Scalar = T>,
+{
+    type Work = Work<S>;
+    type Dense = Slopes<VecOf<S>>;
+
+    fn work(&self) -> Work<S> {
+        Work { matrix: None, energy: None }
+    }
+
+    #[inline]
+    fn forget(&self, work: &mut Work<S>) {
+        *work = OneStep::<S>::work(self);
+    }
+
+    fn check(&self) -> Result<(), IntegrationError> {
+        if self.tolerance > T::ZERO && self.tolerance.is_finite() {
+            return Ok(());
+        }
+        Err(IntegrationError::Setting {
+            setting: "tolerance",
+            value: self.tolerance.to_f64(),
+            expected: "positive and finite",
+        })
+    }
+
+    fn increment(
+        &self,
+        start: &Start<'_, S>,
+        x: &VecOf<S>,
+        h: T,
+        work: &mut Work<S>,
+        statistics: &mut Statistics,
+    ) -> Result<VecOf<S>, IntegrationError> {
+        let present = start.system.energy(start.time, start.state);
+        let energy = *work.energy.get_or_insert(present);
+        self.solve(&Step { start, x, h, energy }, work, statistics)
+    }
+
+    fn blame(&self, _start: &Start<'_, S>, _h: T) -> Option<IntegrationError> {
+        None
+    }
+
+    fn dense(&self, _work: &Work<S>, start: &Start<'_, S>, arrival: &Arrival<S>) -> Slopes<VecOf<S>> {
+        fixed::slopes(start, arrival)
+    }
+
+    fn interpolate(
+        &self,
+        dense: &Slopes<VecOf<S>>,
+        start: &Start<'_, S>,
+        arrival: &Arrival<S>,
+        time: T,
+    ) -> S::State {
+        fixed::interpolate(dense, start, arrival, time)
+    }
+}

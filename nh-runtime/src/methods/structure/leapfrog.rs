@@ -1,0 +1,85 @@
+//! The nonholonomic leapfrog method on TQ.
+
+use crate::arrays::difference;
+use crate::methods::fixed::{self, Slopes};
+use crate::methods::{Arrival, Fixed, OneStep, Start, Symmetric};
+use crate::{IntegrationError, Leapfrog, Real, Scalar, State, Statistics, VecOf};
+
+/// The method of McLachlan and Perlmutter with fixed steps, of order 2, explicit but for the linear
+/// equations of the constraints: q½ = q₀ + h/2 v₀, a kick with the forces at q½ that reflects what the
+/// constraints forbid, A(q½)(v₁ + v₀) = 0, q₁ = q½ + h/2 v₁ (McLachlan, Perlmutter, Integrators for
+/// nonholonomic mechanical systems, J. Nonlinear Sci. 16 (2006)).
+///
+/// Symmetric and reversible; without potential it keeps the energy. The velocities satisfy the
+/// constraints up to the square of the step. For systems declared with `emit { leapfrog }`.
+pub type ReflectedLeapfrog<T> = Fixed<DriftKickDrift, T>;
+
+/// A step of [`ReflectedLeapfrog`].
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct DriftKickDrift;
+
+impl Symmetric for DriftKickDrift {}
+
+impl<T: Real> ReflectedLeapfrog<T> {
+    /// The method with steps of length `step`, which has to be positive and finite.
+    #[must_use]
+    pub fn new(step: T) -> Self {
+        Self { step, scheme: DriftKickDrift }
+    }
+}
+
+/// (q + h v, v): the first half of the components are coordinates, the second their velocities.
+fn drifted<T: Scalar, V: Copy + AsRef<[T]> + AsMut<[T]>>(x: &V, h: T) -> V {
+    let mut moved = *x;
+    let (places, velocities) = moved.as_mut().split_at_mut(x.as_ref().len() / 2);
+    for (place, velocity) in places.iter_mut().zip(velocities) {
+        *place = velocity.mul_add(h, *place);
+    }
+    moved
+}
+
+impl<T: Real, S: Leapfrog> OneStep<S> for DriftKickDrift
+where
+    S::State: State<Scalar = T>,
+{
+    type Work = ();
+    type Dense = Slopes<VecOf<S>>;
+
+    fn work(&self) {}
+
+    fn forget(&self, (): &mut ()) {}
+
+    fn increment(
+        &self,
+        start: &Start<'_, S>,
+        x: &VecOf<S>,
+        h: T,
+        (): &mut (),
+        statistics: &mut Statistics,
+    ) -> Result<VecOf<S>, IntegrationError> {
+        let half = h * T::from_f64(0.5);
+        let middle = S::State::from_array(drifted(x, half));
+        let kicked = start.system.kick(&middle, h).to_array();
+        statistics.evaluations += 1;
+        let end = drifted(&kicked, half);
+        Ok(difference(&end, x))
+    }
+
+    fn blame(&self, _start: &Start<'_, S>, _h: T) -> Option<IntegrationError> {
+        None
+    }
+
+    fn dense(&self, (): &(), start: &Start<'_, S>, arrival: &Arrival<S>) -> Slopes<VecOf<S>> {
+        fixed::slopes(start, arrival)
+    }
+
+    fn interpolate(
+        &self,
+        dense: &Slopes<VecOf<S>>,
+        start: &Start<'_, S>,
+        arrival: &Arrival<S>,
+        time: T,
+    ) -> S::State {
+        fixed::interpolate(dense, start, arrival, time)
+    }
+}

@@ -1,0 +1,11 @@
+//! Methods that keep what the flow keeps.
+
+mod composition;
+mod discrete_gradient;
+mod leapfrog;
+mod suslov;
+
+pub use composition::{Composed, KahanLi6, Substeps, Suzuki4, Symmetric};
+pub use discrete_gradient::{DiscreteGradient, Gonzalez};
+pub use leapfrog::{DriftKickDrift, ReflectedLeapfrog};
+pub use suslov::{DiscreteMomentum, DiscreteSuslov};

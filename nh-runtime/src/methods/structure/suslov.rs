@@ -1,0 +1,122 @@
+//! Discrete Euler–Poincaré–Suslov equations.
+
+use crate::arrays::{displaced, first_non_finite};
+use crate::linear::Factors;
+use crate::methods::fixed::{self, Slopes};
+use crate::methods::{Arrival, Fixed, OneStep, Start, Symmetric, explain_non_finite};
+use crate::{Dim, DimOf, EulerPoincareSuslov, IntegrationError, Real, State, Statistics, VecOf};
+
+/// The discrete Euler–Poincaré–Suslov equations with fixed steps, of order 2: P(h, v₁) = P(−h, v₀) with
+/// the discrete momentum P of the constrained velocities on a Lie algebra (Fedorov, Zenkov, Discrete
+/// nonholonomic LL systems on Lie groups, Nonlinearity 18 (2005)).
+///
+/// Symmetric; the velocities stay in the constraint distribution. For systems declared without a base
+/// and with `emit { euler_poincare_suslov }`. Newton's iteration runs until it stagnates.
+pub type DiscreteSuslov<T> = Fixed<DiscreteMomentum<T>, T>;
+
+/// A step of [`DiscreteSuslov`].
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct DiscreteMomentum<T> {
+    tolerance: T,
+}
+
+impl<T> Symmetric for DiscreteMomentum<T> {}
+
+impl<T: Real> DiscreteSuslov<T> {
+    /// The method with steps of length `step`, which has to be positive and finite.
+    #[must_use]
+    pub fn new(step: T) -> Self {
+        Self { step, scheme: DiscreteMomentum { tolerance: T::from_f64(1e3) * T::EPSILON } }
+    }
+}
+
+/// The iterations after which a solution is given up.
+const MOST_ITERATIONS: u32 = 40;
+
+impl<T: Real, S: EulerPoincareSuslov> OneStep<S> for DiscreteMomentum<T>
+where
+    S::State: State<Scalar = T>,
+{
+    type Work = ();
+    type Dense = Slopes<VecOf<S>>;
+
+    fn work(&self) {}
+
+    fn forget(&self, (): &mut ()) {}
+
+    fn increment(
+        &self,
+        start: &Start<'_, S>,
+        x: &VecOf<S>,
+        h: T,
+        (): &mut (),
+        statistics: &mut Statistics,
+    ) -> Result<VecOf<S>, IntegrationError> {
+        let momentum = |v: &VecOf<S>, h: T| start.system.discrete_momentum(&S::State::from_array(*v), h);
+        let wanted = momentum(x, -h);
+        let mut change: VecOf<S> = DimOf::<S>::vec(T::ZERO);
+        let mut best = T::EPSILON.recip();
+        for _ in 0..MOST_ITERATIONS {
+            let v = displaced(x, T::ONE, &change);
+            let here = momentum(&v, h);
+            // ∂P/∂v by difference quotients
+            let mut matrix = DimOf::<S>::mat(T::ZERO);
+            for j in 0..DimOf::<S>::N {
+                let mut moved = v;
+                let Some(entry) = moved.as_mut().get_mut(j) else { break };
+                let before = *entry;
+                *entry += T::EPSILON.sqrt() * (T::ONE + before.abs());
+                let delta = *entry - before;
+                let there = momentum(&moved, h);
+                for (row, (a, b)) in matrix.as_mut().iter_mut().zip(there.as_ref().iter().zip(here.as_ref()))
+                {
+                    if let Some(entry) = row.as_mut().get_mut(j) {
+                        *entry = (*a - *b) / delta;
+                    }
+                }
+            }
+            let defect = displaced(&wanted, -T::ONE, &here);
+            let correction = Factors::<DimOf<S>, T>::new(&matrix).solve(&defect);
+            change = displaced(&change, T::ONE, &correction);
+            statistics.evaluations += 1;
+            statistics.iterations += 1;
+            let pairs = correction.as_ref().iter().zip(x.as_ref());
+            let size = pairs.fold(T::ZERO, |largest, (c, x)| largest.max(c.abs() / (T::ONE + x.abs())));
+            if size == T::ZERO || (size <= self.tolerance && size >= best * T::from_f64(0.5)) {
+                return Ok(change);
+            }
+            if !size.is_finite() {
+                break;
+            }
+            best = best.min(size);
+        }
+        let reached = displaced(x, T::ONE, &change);
+        if first_non_finite(reached.as_ref()).is_some() {
+            return Err(explain_non_finite(start, h, reached.as_ref()));
+        }
+        Err(IntegrationError::NoConvergence {
+            time: start.time.to_f64(),
+            step: h.to_f64(),
+            iterations: MOST_ITERATIONS,
+            residual: (best / self.tolerance).to_f64(),
+        })
+    }
+
+    fn blame(&self, _start: &Start<'_, S>, _h: T) -> Option<IntegrationError> {
+        None
+    }
+
+    fn dense(&self, (): &(), start: &Start<'_, S>, arrival: &Arrival<S>) -> Slopes<VecOf<S>> {
+        fixed::slopes(start, arrival)
+    }
+
+    fn interpolate(
+        &self,
+        dense: &Slopes<VecOf<S>>,
+        start: &Start<'_, S>,
+        arrival: &Arrival<S>,
+        time: T,
+    ) -> S::State {
+        fixed::interpolate(dense, start, arrival, time)
+    }
+}
