@@ -1,57 +1,168 @@
-#![allow(non_snake_case, reason = "moments of inertia are written I")]
-mod systems;
-use nh_runtime::prelude::*;
-use systems::*;
+//! What methods of integration keep of what the motion keeps, and where such methods fail.
+//!
+//! `cargo run --release --example structure`, or with `-- long` for ten million steps
+//!
+//! 1. A table: order, energy, identities, constraints, momenta, reversibility, volume.
+//! 2. The contact oscillator of McLachlan and Perlmutter: the error in the energy over the initial
+//!    position.
+//! 3. The gearbox of Modin and Verdier: two energies are conserved separately. Where the motion has a
+//!    reversal the methods keep both nearly; where it has none they fail, the one that keeps the sum of
+//!    both exactly included.
+//! 4. Suslov's problem in general position: every motion settles, and energy alone says nothing there.
 
-fn drift<S: AlmostPoisson<State: State<Scalar = f64>, Input = ()> + Copy, M: nh_runtime::Method<S>>(
-    name: &str,
-    system: S,
-    start: S::State,
-    method: M,
-    steps: u64,
-) {
-    let mut sim = Integrator::new(system, method, 0.0, start);
-    let e0 = system.energy(0.0, &start);
-    let mut worst: f64 = 0.0;
-    let clock = std::time::Instant::now();
-    for k in 0..steps {
-        if let Err(e) = sim.step() {
-            println!("{name}: step {k}: {e}");
-            return;
-        }
-        worst = worst.max(((system.energy(0.0, sim.state()) - e0) / e0).abs());
+mod keeps;
+mod systems;
+
+use keeps::{CONTACT, HEAVY, Row, SPHERE, VESELOVA, row, run};
+use nh_runtime::Method;
+use nh_runtime::prelude::*;
+use systems::{
+    ChaoticQuartic, ChaoticQuarticState, ContactOscillatorState, Gearbox, GearboxState, Suslov, SuslovState,
+};
+
+fn main() {
+    if std::env::args().nth(1).as_deref() == Some("long") {
+        long_runs();
+        return;
     }
-    let end = ((system.energy(0.0, sim.state()) - e0) / e0).abs();
-    let st = sim.statistics();
+    table();
+    contact_oscillator();
+    gearbox();
+    suslov();
+}
+
+/// The steps over which the table is measured.
+const STEPS: u32 = 20_000;
+
+/// The methods that take every system.
+fn rows() -> Vec<Row> {
+    vec![
+        row("Rk4", STEPS, Rk4::new),
+        row("Dop853::fixed", STEPS, Dop853::fixed),
+        row("ImplicitMidpoint", STEPS, ImplicitMidpoint::new),
+        row("  .fourth_order()", STEPS, |h| ImplicitMidpoint::new(h).fourth_order()),
+        row("  .sixth_order()", STEPS, |h| ImplicitMidpoint::new(h).sixth_order()),
+        row("GaussLegendre4", STEPS, GaussLegendre4::new),
+        row("DiscreteGradient", STEPS, DiscreteGradient::new),
+        row("  .fourth_order()", STEPS, |h| DiscreteGradient::new(h).fourth_order()),
+        row("  .sixth_order()", STEPS, |h| DiscreteGradient::new(h).sixth_order()),
+    ]
+}
+
+fn table() {
+    println!("What is kept, step 0.2\n");
+    let columns = ["order", "energy", "|g| = 1", "g.w = 0", "momentum", "reversal", "volume"];
+    let [order, energy, identity, constraint, momentum, reversal, volume] = columns;
     println!(
-        "{name:30} {steps:9} worst {worst:.2e} end {end:.2e} it/step {:.2} jac/step {:.3} {:.2} us/step",
-        st.iterations as f64 / st.steps as f64,
-        st.jacobians as f64 / st.steps as f64,
-        clock.elapsed().as_secs_f64() * 1e6 / steps as f64
+        "{:20} {order:>5}  {energy:14} {identity:14} {constraint:14} {momentum:14} {reversal:>8} {volume:>8}",
+        "method"
+    );
+    for Row { name, order, energy, identity, constraint, momentum, reversal, volume } in rows() {
+        println!(
+            "{name:20} {order:5.2}  {energy:14} {identity:14} {constraint:14} {momentum:14} {reversal:8.0e} \
+             {volume:8.0e}"
+        );
+    }
+    let (order, energy, constraint, reversal) = keeps::leapfrog(STEPS);
+    println!(
+        "{:20} {order:5.2}  {energy:14} {:14} {constraint:14} {:14} {reversal:8.0e}\n",
+        "ReflectedLeapfrog", "-", "-"
     );
 }
 
-fn main() {
-    let n: u64 = std::env::args().nth(1).and_then(|a| a.parse().ok()).unwrap_or(10_000);
-    let contact = ContactOscillator { epsilon: 0.3 };
-    let start = ContactOscillatorState { x: 0.3, y: 0.5, z: 0.4, y_dot: 1.0, z_dot: 0.8 };
-    drift("contact", contact, start, DiscreteGradient::new(0.1), n);
-    drift("contact held", contact, start, DiscreteGradient::new(0.1), n);
-    drift("contact compensated", contact, start, DiscreteGradient::new(0.1).compensated(), n);
-    drift("contact compensated held", contact, start, DiscreteGradient::new(0.1).compensated(), n);
-    drift("contact midpoint", contact, start, ImplicitMidpoint::new(0.1), n);
-    drift("contact 4", contact, start, DiscreteGradient::new(0.1).fourth_order(), n);
-    drift("contact 6", contact, start, DiscreteGradient::new(0.1).sixth_order(), n);
-    let suslov = HeavySuslov { I: [1.0, 1.7, 2.2], c: [0.4, 0.3, 0.2] };
-    let s = HeavySuslovState { g: [0.6, 0.0, 0.8], w_0: 0.7, w_1: 0.9 };
-    drift("heavy Suslov", suslov, s, DiscreteGradient::new(0.1), n);
-    drift("heavy Suslov held", suslov, s, DiscreteGradient::new(0.1), n);
-    let v = Veselova { I: [1.3, 0.8, 2.1], c: [0.2, -0.5, 0.9] };
-    let s = VeselovaState { g: [0.6, 0.0, 0.8], w: [0.8, 0.5, -0.6] };
-    drift("Veselova", v, s, DiscreteGradient::new(0.1), n);
-    drift("Veselova held", v, s, DiscreteGradient::new(0.1), n);
-    let b = ChaplyginSphere { I: [1.3, 0.8, 2.1], m: 0.9, r: 0.6 };
-    let s = ChaplyginSphereState { g: [0.6, 0.0, 0.8], w: [0.8, 0.5, -0.6] };
-    drift("sphere", b, s, DiscreteGradient::new(0.1), n);
-    drift("sphere held", b, s, DiscreteGradient::new(0.1), n);
+/// H = 1.5, ten initial z₀ in ±0.9√2, h = 2 sin(π/N).
+fn contact_oscillator() {
+    println!("Contact oscillator, N = 20: the largest error of the energy in 5000 steps\n");
+    println!("{:>8} {:>10} {:>18} {:>18}", "z0", "Rk4", "ImplicitMidpoint", "DiscreteGradient");
+    let h = 2.0 * (std::f64::consts::PI / 20.0).sin();
+    for k in 0..10 {
+        let z = 0.9 * 2.0_f64.sqrt() * (f64::from(k) / 4.5 - 1.0);
+        // all of the energy that is left is in the velocity of y
+        let y_dot = (3.0 - z * z).max(0.0).sqrt();
+        let start = ContactOscillatorState { x: 0.0, y: 0.0, z, y_dot, z_dot: 0.0 };
+        let error = |errors: Vec<f64>| errors.iter().fold(0.0, |most: f64, e| most.max(e.abs()));
+        let of = |s: &ContactOscillatorState| CONTACT.energy(0.0, s);
+        println!(
+            "{z:8.3} {:10.1e} {:18.1e} {:18.1e}",
+            error(run(CONTACT, start, Rk4::new(h), 5000, of)),
+            error(run(CONTACT, start, ImplicitMidpoint::new(h), 5000, of)),
+            error(run(CONTACT, start, DiscreteGradient::new(h), 5000, of)),
+        );
+    }
+    println!();
+}
+
+/// The largest error of the oscillators' energy in the first and in the last tenth of a run.
+fn growth<M: Method<Gearbox>>(gearbox: Gearbox, start: GearboxState, method: M) -> (f64, f64) {
+    let errors = run(gearbox, start, method, 40_000, |s| gearbox.outputs(0.0, s, &()).oscillators);
+    let mean = |errors: &[f64]| errors.iter().sum::<f64>().abs() / errors.len().max(1) as f64;
+    let tenth = errors.len() / 10;
+    (mean(&errors[..tenth]), mean(&errors[errors.len() - tenth..]))
+}
+
+fn gearbox() {
+    println!("Gearbox, step 0.1: mean error of the oscillators' energy, steps 0-4000 and 36000-40000\n");
+    println!("{:40} {:>18} {:>18} {:>18}", "", "Rk4", "ImplicitMidpoint", "DiscreteGradient");
+    for (what, skew, s_dot) in [
+        ("the pendulum swings (reversible)", 0.0, 1.0),
+        ("it turns over, symmetric potential", 0.0, 2.6),
+        ("it turns over, skew potential", 0.4, 2.6),
+    ] {
+        let start = GearboxState { x: 0.4, y: 0.7, s: 0.3, y_dot: 0.5, s_dot };
+        let gearbox = Gearbox { skew };
+        let show = |(early, late): (f64, f64)| format!("{early:.1e} {late:.1e}");
+        println!(
+            "{what:40} {:>18} {:>18} {:>18}",
+            show(growth(gearbox, start, Rk4::new(0.1))),
+            show(growth(gearbox, start, ImplicitMidpoint::new(0.1))),
+            show(growth(gearbox, start, DiscreteGradient::new(0.1))),
+        );
+    }
+    println!();
+}
+
+fn suslov() {
+    println!("Suslov's problem in general position, step 0.1, t = 100: settled, whatever the method\n");
+    let system = Suslov { I: [1.0, 2.0, 3.0], k: 0.7 };
+    let start = SuslovState { w_0: 0.6, w_1: 0.8 };
+    let energy = |s: &SuslovState| system.energy(0.0, s);
+    let show = |name: &str, errors: &[f64]| {
+        let last = errors.last().copied().unwrap_or(f64::NAN);
+        println!("{name:20} error of the energy at the end {last:9.1e}");
+    };
+    show("Rk4", &run(system, start, Rk4::new(0.1), 1000, energy));
+    show("DiscreteGradient", &run(system, start, DiscreteGradient::new(0.1), 1000, energy));
+    show("DiscreteSuslov", &run(system, start, DiscreteSuslov::new(0.1), 1000, energy));
+}
+
+/// Ten million steps of recurrent motions.
+fn long_runs() {
+    const MANY: u32 = 10_000_000;
+    println!("The largest relative error of the energy in {MANY} steps of DiscreteGradient\n");
+    let show = |name: &str, kept: f64| println!("{name:20} {kept:.1e}");
+    show("contact oscillator", worst(CONTACT, keeps::contact(), 0.1, MANY));
+    show("heavy Suslov", worst(HEAVY, keeps::heavy(), 0.1, MANY));
+    show("Veselova", worst(VESELOVA, keeps::veselova(), 0.1, MANY));
+    show("Chaplygin sphere", worst(SPHERE, keeps::sphere(), 0.1, MANY));
+    let start =
+        ChaoticQuarticState { x: 0.1, y: [0.4, -0.3, 0.5], z: [0.2, 0.6, -0.1], ..Default::default() };
+    show("chaotic quartic", worst(ChaoticQuartic, start, 0.05, MANY / 10));
+}
+
+/// The largest relative error of the energy.
+fn worst<S>(system: S, start: S::State, h: f64, steps: u32) -> f64
+where
+    S: AlmostPoisson<Input = ()> + Copy,
+    S::State: State<Scalar = f64>,
+{
+    let first = system.energy(0.0, &start);
+    let mut sim = Integrator::new(system, DiscreteGradient::new(h), 0.0, start);
+    let mut worst: f64 = 0.0;
+    for _ in 0..steps {
+        if sim.step().is_err() {
+            return f64::INFINITY;
+        }
+        worst = worst.max(((system.energy(0.0, sim.state()) - first) / first).abs());
+    }
+    worst
 }

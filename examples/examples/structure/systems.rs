@@ -1,4 +1,5 @@
 //! The test problems of geometric integration for nonholonomic systems.
+#![allow(non_snake_case, reason = "moments of inertia are written I")]
 
 use nh_runtime::prelude::*;
 
@@ -14,9 +15,25 @@ use nh_runtime::prelude::*;
     volume;
 )]
 #[derive(Clone, Copy, Debug)]
-pub struct ContactOscillator {
+pub(crate) struct ContactOscillator {
     /// Strength of the coupling.
-    pub epsilon: f64,
+    pub(crate) epsilon: f64,
+}
+
+/// The same on TQ with its multiplier, for the leapfrog method.
+#[nonholonomic(
+    base { x, y, z }
+    lagrangian {
+        (der(x)^2 + der(y)^2 + der(z)^2) / 2 - (x^2 + y^2 + z^2) / 2 - epsilon / 2 * x^2 * z^2
+    }
+    constraints { contact: der(x) = -y * der(z); }
+    formulation { projected }
+    emit { discrete_gradient, leapfrog }
+)]
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct ContactOscillatorOnTq {
+    /// Strength of the coupling.
+    pub(crate) epsilon: f64,
 }
 
 /// The chaotic quartic system with n = 3 (McLachlan, Perlmutter 2006).
@@ -30,7 +47,7 @@ pub struct ContactOscillator {
     emit { discrete_gradient }
 )]
 #[derive(Clone, Copy, Debug)]
-pub struct ChaoticQuartic;
+pub(crate) struct ChaoticQuartic;
 
 /// A heavy rigid body whose angular velocity stays orthogonal to its third axis.
 #[nonholonomic(
@@ -46,11 +63,11 @@ pub struct ChaoticQuartic;
     assume { I[0] > 0; I[1] > 0; I[2] > 0; }
 )]
 #[derive(Clone, Copy, Debug)]
-pub struct HeavySuslov {
+pub(crate) struct HeavySuslov {
     /// Principal moments of inertia.
-    pub I: [f64; 3],
+    pub(crate) I: [f64; 3],
     /// The potential is ⟨c, g⟩.
-    pub c: [f64; 3],
+    pub(crate) c: [f64; 3],
 }
 
 /// The Suslov problem with the constraint in general position: every motion settles.
@@ -59,14 +76,14 @@ pub struct HeavySuslov {
     brackets so(3) { w }
     lagrangian { sum(i in 0..3: I[i] * w[i]^2) / 2 }
     constraints { w[2] = k * w[0]; }
-    emit { discrete_gradient, divergence }
+    emit { discrete_gradient, divergence, euler_poincare_suslov }
 )]
 #[derive(Clone, Copy, Debug)]
-pub struct Suslov {
+pub(crate) struct Suslov {
     /// Principal moments of inertia.
-    pub I: [f64; 3],
+    pub(crate) I: [f64; 3],
     /// Slope of the plane of velocities.
-    pub k: f64,
+    pub(crate) k: f64,
 }
 
 /// A heavy rigid body whose angular velocity stays orthogonal to the vertical: D has no global basis.
@@ -82,11 +99,11 @@ pub struct Suslov {
     volume;
 )]
 #[derive(Clone, Copy, Debug)]
-pub struct Veselova {
+pub(crate) struct Veselova {
     /// Principal moments of inertia.
-    pub I: [f64; 3],
+    pub(crate) I: [f64; 3],
     /// The potential is ⟨c, g⟩.
-    pub c: [f64; 3],
+    pub(crate) c: [f64; 3],
 }
 
 /// A ball with its centre of mass in the middle and any inertia rolls on a plane.
@@ -103,13 +120,13 @@ pub struct Veselova {
     assume { m > 0; r > 0; I[0] > 0; I[1] > 0; I[2] > 0; }
 )]
 #[derive(Clone, Copy, Debug)]
-pub struct ChaplyginSphere {
+pub(crate) struct ChaplyginSphere {
     /// Principal moments of inertia.
-    pub I: [f64; 3],
+    pub(crate) I: [f64; 3],
     /// Mass.
-    pub m: f64,
+    pub(crate) m: f64,
     /// Radius.
-    pub r: f64,
+    pub(crate) r: f64,
 }
 
 /// Two oscillators behind a gearbox whose ratio a pendulum drives, as in the problems of Modin and
@@ -129,7 +146,7 @@ pub struct ChaplyginSphere {
     emit { discrete_gradient }
 )]
 #[derive(Clone, Copy, Debug)]
-pub struct Gearbox {
+pub(crate) struct Gearbox {
     /// How far the pendulum's potential is from symmetric.
-    pub skew: f64,
+    pub(crate) skew: f64,
 }

@@ -8,6 +8,8 @@
 //! | [`ImplicitMidpoint`] | 2 | fixed, stiff systems too | quadratic invariants, reversibility |
 //! | [`DiscreteGradient`] | 2 | fixed | the energy, quadratic constraints and identities, reversibility |
 //! | `.fourth_order()`, `.sixth_order()` of the two above | 4, 6 | fixed | what they keep |
+//! | [`ReflectedLeapfrog`] | 2 | fixed, on TQ | reversibility; energy and constraints nearly |
+//! | [`DiscreteSuslov`] | 2 | fixed, on a Lie algebra | the constraints, reversibility; the energy nearly |
 //! | [`Projected`] | that of the method it is made of | likewise | the constraints of the projected formulation |
 //!
 //! Implicit methods form the Jacobian ∂f/∂x by difference quotients, or take the one that the system

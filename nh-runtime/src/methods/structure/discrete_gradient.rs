@@ -74,7 +74,7 @@ impl<T: Real> DiscreteGradient<T> {
     /// The method with steps of length `step`, which has to be positive and finite.
     #[must_use]
     pub fn new(step: T) -> Self {
-        let tolerance = T::from_f64(1e3) * T::EPSILON;
+        let tolerance = T::from_f64(1e5) * T::EPSILON;
         Self { step, scheme: Gonzalez { tolerance, linearization: FiniteDifferences } }
     }
 
@@ -89,7 +89,8 @@ impl<T: Real> DiscreteGradient<T> {
 
 impl<T: Real, J> DiscreteGradient<T, J> {
     /// The largest correction, relative to 1 + |x| in each component, at which the iteration may
-    /// stagnate; 1000 rounding units if not given. A larger one does not make it stop earlier.
+    /// stagnate; 100 000 rounding units if not given, since round-off in the energy counts for the more, the
+    /// shorter the step. A larger one does not make it stop earlier.
     #[must_use]
     pub fn tolerance(mut self, tolerance: T) -> Self {
         self.scheme.tolerance = tolerance;
