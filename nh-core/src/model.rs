@@ -56,6 +56,8 @@ pub struct Model {
     pub volume: Option<VolumeClaim>,
     /// A section of D* that is claimed to solve the Hamilton–Jacobi equation (`hamilton_jacobi`).
     pub hamilton_jacobi: Option<SectionClaim>,
+    /// Momenta that become parameters (`routh`).
+    pub routh: Vec<RouthDecl>,
     /// Facts about parameters (`assume`).
     pub assumptions: Vec<Assumption>,
     /// What to generate beyond the default (`emit`).
@@ -361,6 +363,17 @@ pub struct SymmetryDecl {
     pub value: ExprId,
     /// A function f on the base with σ^C(L) = ρ(f): then σ^α p_α − f is the momentum.
     pub gauge: Option<ExprId>,
+    /// Where it stands.
+    pub origin: Origin,
+}
+
+/// A conserved momentum on a level.
+#[derive(Clone, Debug)]
+pub struct RouthDecl {
+    /// The label of a symmetry, or the name of a cyclic coordinate.
+    pub symmetry: String,
+    /// The value of the momentum, an expression of parameters.
+    pub level: ExprId,
     /// Where it stands.
     pub origin: Origin,
 }

@@ -32,6 +32,8 @@ pub struct System {
     pub momenta: Option<Momenta>,
     /// Outputs: as `derivative`, by the Gibbs–Appell function; if asked for.
     pub gibbs_appell: Option<Procedure>,
+    /// What Routh reduction leaves to quadratures.
+    pub quadratures: Option<Quadratures>,
     /// Outputs: ∂derivative/∂(state, input) row by row; if asked for.
     pub jacobian: Option<Procedure>,
     /// Outputs: ∂derivative/∂parameters row by row; if asked for.
@@ -58,6 +60,15 @@ impl System {
     pub fn state(&self) -> Vec<SymbolId> {
         [self.state_coordinates.as_slice(), &self.state_velocities].concat()
     }
+}
+
+/// Coordinates that are not in the state, because nothing depends on them.
+#[derive(Clone, Debug)]
+pub struct Quadratures {
+    /// The coordinates.
+    pub coordinates: Vec<SymbolId>,
+    /// Outputs: their rates.
+    pub rates: Procedure,
 }
 
 /// The momenta σ^α p_α − f of sections σ, and their rates along the motion.

@@ -62,6 +62,7 @@ mod syntax;
 /// | `symmetries { spin: omega; }` | labelled sections whose momenta are wanted, each in D or a symmetry | cyclic coordinates are found |
 /// | `volume;` or `volume { density; }` | the claim that the motion keeps a volume, proved or refused; its density is found on the base, or given | |
 /// | `hamilton_jacobi { omega: …; }` | momenta as functions on the base that are claimed to solve the Hamilton–Jacobi equation, proved or refused | |
+/// | `routh { spin = mu; }` | conserved momenta that become parameters: their velocities leave the state | |
 /// | `assume { m > 0; }` | facts about parameters: used in proofs, checked by `validate` | none |
 /// | `independent { v, dphi }` | the velocities that the state keeps | chosen by the macro |
 /// | `orthonormal { u1, u2 }` | names for the velocities of a basis of D made orthonormal in the kinetic metric (Gram and Schmidt, in the order of the independent velocities): the state keeps them, and C is the identity (M 2.2) | |
@@ -138,6 +139,11 @@ mod syntax;
 ///
 /// `hamilton_jacobi { … }` gives `hamilton_jacobi(t, &state)`: the state over the same point of the base
 /// with these momenta.
+/// `routh { spin = mu; }` puts the momentum of a symmetry (or of a cyclic coordinate, by its name) on
+/// the level `mu`, an expression of parameters. It has to be conserved, with its section in D. The
+/// state loses a velocity, and a cyclic coordinate that the section moves; `velocity` gives the first
+/// back, and `quadratures(t, &state)` the rate of the second, for a quadrature. In the projected
+/// formulation the level is kept like a constraint.
 ///
 /// # Which velocities the state keeps
 ///
@@ -153,7 +159,8 @@ mod syntax;
 /// For `struct Skate`:
 ///
 /// - `SkateState`, with one field per name, base coordinates first, then velocities; `SkateVelocity`
-///   with all quasi-velocities; `SkateInput`, `SkateOutputs`, `SkateMultipliers`, `SkateMomenta` where there are any.
+///   with all quasi-velocities; `SkateInput`, `SkateOutputs`, `SkateMultipliers`, `SkateMomenta`,
+///   `SkateQuadratures` where there are any.
 ///   All are `Copy`, `Default`, `Debug`, `PartialEq`, and convert to and from arrays and
 ///   `nalgebra::SVector`. The velocity of `x` where there is no basis is the field `x_dot`.
 /// - The traits `Dynamics`, `Energy`, and `Observed`, `Jacobian`, `Constrained` where they apply.

@@ -231,62 +231,70 @@ fn n<S: Scalar>(value: f64) -> S {
     S::from_f64(value)
 }
 
+fn sleigh<S: Scalar>() -> Sleigh<S> {
+    Sleigh { m: n(1.3), J: n(0.7), a: n(0.4), c: n(0.2) }
+}
+
+fn disk<S: Scalar>() -> Disk<S> {
+    Disk { m: n(1.3), I: n(0.7), J: n(0.4), R: n(0.2) }
+}
+
+fn spanned<S: Scalar>() -> Spanned<S> {
+    Spanned { m: n(1.3), k: n(0.7), c: n(0.4) }
+}
+
+fn veselova<S: Scalar>() -> Veselova<S> {
+    let inertia = [[1.2, 0.1, -0.2], [0.1, 0.9, 0.3], [-0.2, 0.3, 1.6]];
+    Veselova { I: inertia.map(|row| row.map(n)), c: [0.3, -0.8, 0.5].map(n) }
+}
+
+fn speed<S: Scalar>() -> ConstantSpeed<S> {
+    ConstantSpeed { m: n(1.2), k: n(0.4), c: n(0.9) }
+}
+
+fn blade<S: Scalar>() -> TurnedBlade<S> {
+    TurnedBlade { m: n(1.2), k: n(0.4), w: n(0.7), belt: n(0.3) }
+}
+
+fn falling<S: Scalar>() -> Falling<S> {
+    Falling { m: n(1.2), g: n(9.81) }
+}
+
+fn top<S: Scalar>() -> Top<S> {
+    Top { A: n(1.2), C: n(0.4), h: n(0.7) }
+}
+
 #[test]
 fn the_momentum_equation_holds_in_the_adapted_formulation() {
-    fn sleigh<S: Scalar>() -> Sleigh<S> {
-        Sleigh { m: n(1.3), J: n(0.7), a: n(0.4), c: n(0.2) }
-    }
     let two = |random: &mut Random| SleighInput {
         torque: random.between(-1.0, 1.0),
         push: random.between(-1.0, 1.0),
     };
     check(&sleigh(), &sleigh(), two, |_| ());
-    fn disk<S: Scalar>() -> Disk<S> {
-        Disk { m: n(1.3), I: n(0.7), J: n(0.4), R: n(0.2) }
-    }
     check(&disk(), &disk(), |random| DiskInput { drive: random.between(-1.0, 1.0) }, |_| ());
-    fn spanned<S: Scalar>() -> Spanned<S> {
-        Spanned { m: n(1.3), k: n(0.7), c: n(0.4) }
-    }
     check(&spanned(), &spanned(), |random| SpannedInput { push: random.between(-1.0, 1.0) }, |_| ());
 }
 
 #[test]
 fn the_momentum_equation_holds_on_the_constraint_manifold() {
-    fn veselova<S: Scalar>() -> Veselova<S> {
-        let inertia = [[1.2, 0.1, -0.2], [0.1, 0.9, 0.3], [-0.2, 0.3, 1.6]];
-        Veselova { I: inertia.map(|row| row.map(n)), c: [0.3, -0.8, 0.5].map(n) }
-    }
     let body = veselova();
     let prepare = |state: &mut VeselovaState<f64>| {
         body.normalize(state).unwrap();
         body.project(T, state).unwrap();
     };
     check(&body, &veselova(), |_| (), prepare);
-    fn speed<S: Scalar>() -> ConstantSpeed<S> {
-        ConstantSpeed { m: n(1.2), k: n(0.4), c: n(0.9) }
-    }
     let particle = speed();
     check(&particle, &speed(), |_| (), |state| particle.project(T, state).unwrap());
 }
 
 #[test]
 fn the_momentum_equation_holds_for_moving_sections() {
-    fn blade<S: Scalar>() -> TurnedBlade<S> {
-        TurnedBlade { m: n(1.2), k: n(0.4), w: n(0.7), belt: n(0.3) }
-    }
     check(&blade(), &blade(), |_| (), |_| ());
-    fn falling<S: Scalar>() -> Falling<S> {
-        Falling { m: n(1.2), g: n(9.81) }
-    }
     check(&falling(), &falling(), |_| (), |_| ());
 }
 
 #[test]
 fn momenta_without_constraints() {
-    fn top<S: Scalar>() -> Top<S> {
-        Top { A: n(1.2), C: n(0.4), h: n(0.7) }
-    }
     check(&top(), &top(), |_| (), |_| ());
     let top = top::<f64>();
     let start = TopState { g: [0.6, 0.0, 0.8], w: [0.3, -0.2, 2.0] };

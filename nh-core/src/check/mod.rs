@@ -15,6 +15,7 @@ mod hamilton_jacobi;
 mod kinematics;
 mod orthonormal;
 mod regularity;
+mod sections;
 mod structure_equations;
 mod symmetries;
 mod volume;

@@ -3,11 +3,12 @@
 use super::constraints::Constraints;
 use super::evidence::{not_zero, shown};
 use super::kinematics::Motion;
-use crate::algebra::{Graph, NotLinear, Verdict};
+use super::sections::{check_gauge, combination, components};
+use crate::algebra::{Graph, Verdict, Witness};
 use crate::geometry::{ConstraintDistribution, Manifold};
-use crate::id::{CoordId, ExprId, Origin, SymbolId};
+use crate::id::{CoordId, ExprId, Origin};
 use crate::mechanics::{LagrangianSystem, Momentum, complete_lift, translation};
-use crate::model::{Kinematics, Model, SymmetryDecl};
+use crate::model::{Model, SymmetryDecl};
 use crate::violation::{Law, Violation};
 
 /// A section σ with its momentum, and what is proved of it.
@@ -19,8 +20,8 @@ pub struct Symmetry {
     pub section: Vec<ExprId>,
     /// σ^α p_α − f and what changes it.
     pub momentum: Momentum,
-    /// Whether σ lies in D (in the kernel of ∂φ/∂y), so that the momentum equation (12) holds.
-    pub in_distribution: bool,
+    /// What a constraint is along σ, if σ does not lie in D (in the kernel of ∂φ/∂y).
+    pub outside: Option<ExprId>,
     /// Whether σ^C(L) = ḟ.
     pub keeps_lagrangian: Invariance,
     /// Whether σ^C is tangent to the constraint manifold.
@@ -41,10 +42,16 @@ pub enum Invariance {
 }
 
 impl Symmetry {
+    /// Whether σ lies in D, so that the momentum equation (12) holds.
+    #[must_use]
+    pub fn in_distribution(&self) -> bool {
+        self.outside.is_none()
+    }
+
     /// Whether σ is in D and leaves L and D invariant: a horizontal symmetry, CM section 5.
     #[must_use]
     pub fn is_horizontal(&self) -> bool {
-        self.in_distribution && self.keeps_constraints && self.keeps_lagrangian != Invariance::Broken
+        self.in_distribution() && self.keeps_constraints && self.keeps_lagrangian != Invariance::Broken
     }
 }
 
@@ -98,7 +105,7 @@ impl<'a> Setting<'a> {
 }
 
 /// Something that should vanish and does not: the function, and where.
-type Defect = (ExprId, Option<crate::algebra::Witness>);
+type Defect = (ExprId, Option<Witness>);
 
 /// Judges a section.
 fn judged(
@@ -129,7 +136,7 @@ fn judged(
         name,
         section,
         momentum,
-        in_distribution: outside.is_none(),
+        outside: outside.as_ref().map(|(component, _)| *component),
         keeps_lagrangian,
         keeps_constraints: moved.is_none(),
         is_conserved,
@@ -204,13 +211,13 @@ fn declared_symmetry(
         return Err(false_gauge(&model.graph, declared, defect));
     }
     let is_symmetry = symmetry.keeps_lagrangian == Invariance::Everywhere && symmetry.keeps_constraints;
-    if symmetry.in_distribution || is_symmetry {
+    if symmetry.in_distribution() || is_symmetry {
         return Ok(symmetry);
     }
     Err(neither(model, setting, declared, &symmetry, &defects))
 }
 
-/// Horizontal symmetries that cyclic coordinates give, each with its coordinate.
+/// The translations along cyclic coordinates, as far as the anchor determines them.
 pub fn of_cyclic_coordinates(
     model: &mut Model,
     setting: &Setting<'_>,
@@ -223,158 +230,11 @@ pub fn of_cyclic_coordinates(
         let Some(section) = translation(graph, &setting.system.algebroid.anchor, *coordinate) else {
             continue;
         };
-        if let Ok((symmetry, _)) = judged(graph, setting, name, section, None)
-            && symmetry.is_horizontal()
-        {
+        if let Ok((symmetry, _)) = judged(graph, setting, name, section, None) {
             found.push((*coordinate, symmetry));
         }
     }
     found
-}
-
-/// The components σ^α in the basis.
-fn components(
-    model: &mut Model,
-    motion: &Motion,
-    setting: &Setting<'_>,
-    declared: &SymmetryDecl,
-) -> Result<Vec<ExprId>, Violation> {
-    let blame = |evidence: String| Violation {
-        law: Law::Symmetry,
-        origin: declared.origin,
-        what: format!("`{}` is not a section", declared.name),
-        evidence,
-        way_out: "write it as a sum of quasi-velocities with coefficients on the base, such as \
-                  `cos(theta) * v1 - sin(theta) * v2`"
-            .into(),
-    };
-    // 1. what each name stands for: sections of the basis, other named sections, translations
-    let rank = model.sections.len();
-    let (zero, one) = (model.graph.zero(), model.graph.one());
-    let mut known: Vec<(SymbolId, Vec<ExprId>)> = Vec::new();
-    for (index, section) in model.sections.iter().enumerate() {
-        known.push((section.symbol, (0..rank).map(|i| if i == index { one } else { zero }).collect()));
-    }
-    known.extend(motion.named.iter().cloned());
-    let present = model.graph.symbols_in(&[declared.value]);
-    for (id, coordinate) in model.coordinates.clone().iter_ids() {
-        if present.contains(&coordinate.rate) && !matches!(model.kinematics, Kinematics::Tangent) {
-            let section = translation_named(model, setting, id, declared)?;
-            known.push((coordinate.rate, section));
-        }
-    }
-    // 2. linear and homogeneous in them
-    let symbols: Vec<SymbolId> = known.iter().map(|(symbol, _)| *symbol).collect();
-    let graph = &mut model.graph;
-    let form = graph.linear_form(declared.value, &symbols).map_err(|error| match error {
-        NotLinear::Curved(..) => {
-            blame(format!("{} is not linear in the quasi-velocities", shown(graph, declared.value)))
-        }
-        NotLinear::Unknown(why) => blame(why),
-    })?;
-    if !graph.zero_test(form.rest).is_zero() {
-        let rest = shown(graph, form.rest);
-        return Err(blame(format!("the term {rest} is not multiplied by a quasi-velocity")));
-    }
-    if let Some(stranger) = off_base(model, &form.coefficients) {
-        return Err(blame(format!("its coefficients depend on `{stranger}`, which is not on the base")));
-    }
-    // 3. their combination
-    let graph = &mut model.graph;
-    let mut section = vec![zero; rank];
-    for ((_, row), coefficient) in known.iter().zip(form.coefficients) {
-        for (slot, entry) in section.iter_mut().zip(row) {
-            let share = graph.mul(coefficient, *entry);
-            *slot = graph.add(*slot, share);
-        }
-    }
-    let section: Vec<ExprId> = section.into_iter().map(|component| graph.simplify(component)).collect();
-    if section.iter().all(|component| setting.constraints.base().zero_test(graph, *component).is_zero()) {
-        return Err(blame("it vanishes everywhere".into()));
-    }
-    Ok(section)
-}
-
-/// The first symbol that is neither a coordinate, nor a parameter, nor the time.
-fn off_base(model: &Model, expressions: &[ExprId]) -> Option<String> {
-    let on_base = |symbol: &SymbolId| {
-        *symbol == model.time
-            || model.coordinates.iter().any(|coordinate| coordinate.symbol == *symbol)
-            || model.parameters.iter().any(|parameter| parameter.symbol == *symbol)
-    };
-    let stranger = model.graph.symbols_in(expressions).into_iter().find(|symbol| !on_base(symbol))?;
-    Some(model.graph.symbols()[stranger].clone())
-}
-
-/// What `der(x)` means beside a basis: its anchor expression, if that is the translation along x.
-fn translation_named(
-    model: &mut Model,
-    setting: &Setting<'_>,
-    coordinate: CoordId,
-    declared: &SymmetryDecl,
-) -> Result<Vec<ExprId>, Violation> {
-    use crate::id::Id;
-    let anchor = &setting.system.algebroid.anchor;
-    let name = model.coordinates[coordinate].name.clone();
-    let graph = &mut model.graph;
-    let row = &anchor.entries[coordinate.index()];
-    let moves = anchor.vector_field(graph, row);
-    let one = graph.one();
-    let mut is_translation = true;
-    for (i, component) in moves.iter().enumerate() {
-        let defect = if i == coordinate.index() { graph.sub(*component, one) } else { *component };
-        is_translation &= setting.constraints.base().zero_test(graph, defect).is_zero();
-    }
-    if is_translation {
-        return Ok(row.clone());
-    }
-    let names: Vec<String> = model.sections.iter().map(|section| section.name.clone()).collect();
-    let graph = &mut model.graph;
-    let way_out = match translation(graph, anchor, coordinate) {
-        Some(section) => {
-            let section = combination(graph, &section, &names);
-            format!("the section that moves `{name}` alone is {section}")
-        }
-        None => "write the section with the names of the quasi-velocities".to_owned(),
-    };
-    Err(Violation {
-        law: Law::Symmetry,
-        origin: declared.origin,
-        what: format!("`der({name})` is no section here"),
-        evidence: format!(
-            "it stands for {}, and as a section that does not move `{name}` alone at unit rate",
-            combination(&model.graph, row, &names)
-        ),
-        way_out,
-    })
-}
-
-/// `c1*e1 + c2*e2`.
-fn combination(graph: &Graph, section: &[ExprId], names: &[String]) -> String {
-    let terms: Vec<String> = section
-        .iter()
-        .zip(names)
-        .filter(|(component, _)| !graph.is_literal_zero(**component))
-        .map(|(component, name)| match graph.as_number(*component) {
-            Some(number) if number.is_one() => name.clone(),
-            _ => format!("({})*{name}", shown(graph, *component)),
-        })
-        .collect();
-    terms.join(" + ")
-}
-
-fn check_gauge(model: &Model, declared: &SymmetryDecl) -> Result<(), Violation> {
-    let Some(gauge) = declared.gauge else { return Ok(()) };
-    match off_base(model, &[gauge]) {
-        None => Ok(()),
-        Some(stranger) => Err(Violation {
-            law: Law::Symmetry,
-            origin: declared.origin,
-            what: format!("what `{}` holds up to is no function on the base", declared.name),
-            evidence: format!("{} depends on `{stranger}`", shown(&model.graph, gauge)),
-            way_out: "a function of the base coordinates, the parameters and the time stands there".into(),
-        }),
-    }
 }
 
 fn false_gauge(graph: &Graph, declared: &SymmetryDecl, defect: &Defect) -> Violation {

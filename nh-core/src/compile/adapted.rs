@@ -8,6 +8,7 @@ use super::restricted::{
     calls, coordinates, in_state, observables, parameter_checks, parameter_divisors, requested,
     requested_jacobian, requested_parameter_jacobian,
 };
+use super::routh::{self, Leveled, on_levels};
 use super::{Proved, fence};
 use crate::algebra::Graph;
 use crate::check;
@@ -31,13 +32,17 @@ pub(super) fn derive(
     conditions: &[ExprId],
     reason: &str,
 ) -> Result<System, Vec<Violation>> {
+    // 0. the velocities that levels of momenta leave
+    let leveled = on_levels(&mut proved, distribution)?;
+    let conditions = &[conditions, &leveled.conditions].concat();
     // 1. C v̇ = f, proved regular
-    let mut candidates = candidates(&mut proved, distribution);
+    let mut candidates = candidates(&mut proved, distribution, &leveled);
     let singular = check::reduced_regularity(&mut proved.model, &candidates[0], &proved.base);
     fence(singular.into_iter().collect())?;
     // 2. v̇
     let velocities = &proved.system.algebroid.velocities;
-    let mut restriction = distribution.restriction(&proved.model.graph, velocities);
+    let kept = &leveled.kept;
+    let mut restriction = kept.restriction(&proved.model.graph, velocities);
     let calls = calls(&mut proved.model, &mut proved.motion, &mut restriction);
     let derivative = cheapest_derivative(&mut proved, &candidates, &calls);
     let gibbs_appell = gibbs_appell::on_distribution(&mut proved, distribution, &calls);
@@ -45,15 +50,15 @@ pub(super) fn derive(
     let (multipliers, reactions) =
         if requested(&proved.model, Request::Multipliers) || requested(&proved.model, Request::Reactions) {
             let accelerations = &derivative.outputs[equations.rates.len()..];
-            constraint_forces(&mut proved, distribution, &derivative, accelerations)
+            constraint_forces(&mut proved, kept, &derivative, accelerations)
         } else {
             Default::default()
         };
-    let jacobian = requested_jacobian(&mut proved.model, &derivative, &distribution.independent)
+    let jacobian = requested_jacobian(&mut proved.model, &derivative, &kept.independent)
         .map_err(|violation| vec![violation])?;
     let parameter_jacobian =
         requested_parameter_jacobian(&mut proved.model, &derivative).map_err(|violation| vec![violation])?;
-    let momenta = momenta(&mut proved, &mut restriction, &derivative, &distribution.independent);
+    let momenta = momenta(&mut proved, &mut restriction, &derivative, &kept.independent);
     let graph = &mut proved.model.graph;
     // 3. E_L, y and the observables on D
     let energy = energy(graph, &proved.system);
@@ -73,7 +78,7 @@ pub(super) fn derive(
     }
     // 5. the report
     let embedding = embedding(&mut proved.model, &proved.base);
-    let derived = Derived::Adapted { distribution, equations: &equations };
+    let derived = Derived::Adapted { distribution, kept, equations: &equations };
     let (phase_space, sections) = phase_space::derive(&mut proved, &derived, &derivative, &observables)?;
     let text = report(&mut proved, &derived, reason, conditions, sections);
     let lines = equations_of_motion(&proved.model, &derived);
@@ -83,7 +88,7 @@ pub(super) fn derive(
     Ok(System {
         formulation: Formulation::Adapted,
         state_coordinates: coordinates(&model),
-        state_velocities: distribution.independent.clone(),
+        state_velocities: kept.independent.clone(),
         derivative,
         energy: Some(Procedure::of(vec![energy])),
         velocity: Some(Procedure::of(equations.velocity.clone())),
@@ -94,6 +99,7 @@ pub(super) fn derive(
         jacobian,
         parameter_jacobian,
         momenta,
+        quadratures: None,
         residual: None,
         projection: None,
         phase_space,
@@ -115,13 +121,20 @@ fn is_large(proved: &Proved) -> bool {
 }
 
 /// The equations in the forms worth comparing, the one to show first.
-fn candidates(proved: &mut Proved, distribution: &ConstraintDistribution) -> Vec<ReducedEquations> {
+fn candidates(
+    proved: &mut Proved,
+    distribution: &ConstraintDistribution,
+    leveled: &Leveled,
+) -> Vec<ReducedEquations> {
     if proved.model.orthonormal.is_some() {
         return in_orthonormal_basis(proved, distribution);
     }
     let is_large = is_large(proved);
     let (system, graph) = (&proved.system, &mut proved.model.graph);
     let chained = distribution.chained(graph, &proved.constraints.residuals, &system.algebroid.velocities);
+    let chained = routh::again(proved, &chained, &leveled.kept.eliminated);
+    let (system, graph) = (&proved.system, &mut proved.model.graph);
+    let distribution = &leveled.kept;
     let by_chain = equations_by_velocity_forms(graph, system, &chained);
     let on_wheels = equations_in_wheel_frames(graph, system, distribution, &proved.constraints.residuals);
     if is_large {

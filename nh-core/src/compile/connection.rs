@@ -54,7 +54,7 @@ pub(super) fn derive(
     let christoffel = raised(graph, &lowered, solve);
     // 2. ∇̌
     let connection = match derived {
-        Derived::Adapted { distribution, equations } => {
+        Derived::Adapted { distribution, equations, .. } => {
             let sections: Matrix = (0..distribution.rank()).map(|a| distribution.section(a)).collect();
             let lowered = koszul(graph, algebroid, &metric, &sections);
             let definite = judge(graph, &equations.mass);

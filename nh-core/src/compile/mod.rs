@@ -9,18 +9,20 @@ mod momenta;
 mod phase_space;
 mod projected;
 mod restricted;
+mod routh;
 mod slice;
 mod volume;
 
 use crate::algebra::Facts;
 use crate::check::{self, Chosen, Constraints, Motion};
 use crate::geometry::{Algebroid, ConstraintDistribution, Manifold};
-use crate::id::Id;
+use crate::id::{Id, SymbolId};
 use crate::mechanics::LagrangianSystem;
 use crate::model::{ForceDirection, Model};
 use crate::system::System;
 use crate::violation::Violation;
 pub(crate) use momenta::Symmetries;
+pub(crate) use routh::Level;
 
 /// What the later stages share.
 pub(crate) struct Proved {
@@ -38,6 +40,10 @@ pub(crate) struct Proved {
     pub(crate) system: LagrangianSystem,
     /// Its symmetries.
     pub(crate) symmetries: Symmetries,
+    /// Momenta on levels.
+    pub(crate) levels: Vec<Level>,
+    /// The cyclic coordinates that these leave to quadratures.
+    pub(crate) quadratures: Vec<SymbolId>,
 }
 
 /// Checks a declaration and derives its equations.
@@ -46,6 +52,7 @@ pub(crate) struct Proved {
 /// Everything found wrong in the first stage that finds something wrong.
 pub fn compile(model: Model) -> Result<System, Vec<Violation>> {
     let (proved, chosen) = prove(model)?;
+    let quadratures = proved.quadratures.clone();
     // 7. the equations, proved regular, and the claims about them
     let system = match chosen {
         Chosen::Adapted { distribution, conditions, reason } => {
@@ -54,7 +61,7 @@ pub fn compile(model: Model) -> Result<System, Vec<Violation>> {
         Chosen::Projected { reason } => projected::derive(proved, &reason)?,
     };
     // 8. what is tracked
-    slice::slice(system)
+    slice::slice(routh::without(system, &quadratures))
 }
 
 /// The first stages: a declaration that is checked, and the form that its equations will have.
@@ -80,6 +87,8 @@ pub(crate) fn prove(mut model: Model) -> Result<(Proved, Chosen), Vec<Violation>
     // 5. the Lagrangian system on E, and its symmetries
     let system = lagrangian_system(&mut model, &mut motion, algebroid);
     let symmetries = momenta::symmetries(&mut model, &motion, &system, &constraints, spanned.as_ref())?;
+    let levels = routh::levels(&mut model, &symmetries)?;
+    let quadratures = routh::quadratures(&mut model, &system, &symmetries, &levels);
     // 6. the formulation: a basis of D valid everywhere, or multipliers
     let chosen = match spanned {
         Some(distribution) => {
@@ -89,7 +98,8 @@ pub(crate) fn prove(mut model: Model) -> Result<(Proved, Chosen), Vec<Violation>
         None => check::choose_formulation(&mut model, &constraints, &facts, &base)?,
     };
     let chosen = check::orthonormal(&mut model, &system, chosen, &facts)?;
-    Ok((Proved { model, motion, base, facts, constraints, system, symmetries }, chosen))
+    let proved = Proved { model, motion, base, facts, constraints, system, symmetries, levels, quadratures };
+    Ok((proved, chosen))
 }
 
 /// The constraints, in the basis that the frame makes, or the distribution that sections span.

@@ -18,7 +18,7 @@ pub(crate) struct Symmetries {
     pub(crate) declared: Vec<Symmetry>,
     /// Coordinates that nothing depends on.
     pub(crate) cyclic: Vec<CoordId>,
-    /// The horizontal ones among their translations.
+    /// Their translations, as far as the anchor determines them.
     pub(crate) found: Vec<(CoordId, Symmetry)>,
 }
 
@@ -50,7 +50,7 @@ pub(super) fn symmetries(
     let cyclic = cyclic_coordinates(&mut model.graph, system, &more);
     let asked = model.requests.iter().find(|(request, _)| *request == Request::Momenta).copied();
     let small = model.graph.operation_count(&[system.lagrangian]) <= SEARCHED;
-    let search = !cyclic.is_empty() && (small || asked.is_some());
+    let search = !cyclic.is_empty() && (small || asked.is_some() || !model.routh.is_empty());
     if model.symmetries.is_empty() && !search {
         return match asked {
             Some((_, origin)) => Err(vec![check::no_momenta(origin)]),
@@ -62,7 +62,11 @@ pub(super) fn symmetries(
     let mut found = if search { check::of_cyclic_coordinates(model, &setting, &cyclic) } else { Vec::new() };
     found.retain(|(_, symmetry)| declared.iter().all(|known| known.section != symmetry.section));
     match asked {
-        Some((_, origin)) if declared.is_empty() && found.is_empty() => Err(vec![check::no_momenta(origin)]),
+        Some((_, origin))
+            if declared.is_empty() && found.iter().all(|(_, symmetry)| !symmetry.is_horizontal()) =>
+        {
+            Err(vec![check::no_momenta(origin)])
+        }
         _ => Ok(Symmetries { declared, cyclic, found }),
     }
 }
@@ -83,7 +87,8 @@ pub(super) fn momenta(
         if !requested(&proved.model, Request::Momenta) {
             return None;
         }
-        symmetries.extend(proved.symmetries.found.iter().map(|(_, symmetry)| symmetry.clone()));
+        let found = proved.symmetries.found.iter().map(|(_, symmetry)| symmetry);
+        symmetries.extend(found.filter(|symmetry| symmetry.is_horizontal()).cloned());
     }
     let system = &proved.system;
     let graph = &mut proved.model.graph;
@@ -95,7 +100,7 @@ pub(super) fn momenta(
         let value = graph.simplify(value);
         let rate = if symmetry.is_conserved {
             graph.zero()
-        } else if symmetry.in_distribution {
+        } else if symmetry.in_distribution() {
             let rate = symmetry.momentum.rate(graph);
             let rate = restriction.apply(graph, rate);
             graph.simplify(rate)

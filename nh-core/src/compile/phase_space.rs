@@ -1,7 +1,7 @@
 //! Brackets, the Hamiltonian side and the almost-Poisson form, as far as they are asked for.
 
 use super::restricted::requested;
-use super::{Proved, connection, discrete, volume};
+use super::{Proved, connection, discrete, fence, volume};
 use crate::algebra::{Graph, Matrix};
 use crate::check;
 use crate::id::{ExprId, Origin, SymbolId};
@@ -24,6 +24,7 @@ pub(super) fn derive(
     derivative: &Procedure,
     observables: &Procedure,
 ) -> Result<(PhaseSpace, Sections), Vec<Violation>> {
+    fence(on_level(proved).into_iter().collect())?;
     let mut found = PhaseSpace::default();
     let mut sections = Sections::new();
     let mut violations = Vec::new();
@@ -55,6 +56,29 @@ pub(super) fn derive(
         }
     }));
     if violations.is_empty() { Ok((found, sections)) } else { Err(violations) }
+}
+
+/// Routh reduction leaves velocities with an offset, which the forms derived here do not have.
+fn on_level(proved: &Proved) -> Option<Violation> {
+    const REQUESTS: [Request; 6] = [
+        Request::Hamiltonian,
+        Request::Bracket,
+        Request::DiscreteGradient,
+        Request::Connection,
+        Request::Volume,
+        Request::Divergence,
+    ];
+    let level = proved.levels.first()?;
+    let origin = REQUESTS.iter().find_map(|request| asked(&proved.model, *request));
+    let origin = origin.or(proved.model.hamilton_jacobi.as_ref().map(|_| level.origin));
+    let origin = origin.or(proved.model.volume.as_ref().map(|_| level.origin))?;
+    Some(Violation {
+        law: Law::Symmetry,
+        origin,
+        what: "this is not derived on a level of a momentum".into(),
+        evidence: format!("`routh` puts the momentum of `{}` on one", level.name),
+        way_out: "ask it of the whole system, declared without `routh`".into(),
+    })
 }
 
 /// Where something is asked for.
@@ -97,7 +121,7 @@ fn hamiltonian(
     let origin = asked(&proved.model, Request::Hamiltonian)
         .or(proved.model.hamilton_jacobi.as_ref().map(|declared| declared.origin))
         .unwrap_or(proved.model.origin);
-    let Derived::Adapted { distribution, equations } = derived else {
+    let Derived::Adapted { distribution, equations, .. } = derived else {
         return Err(vec![Violation {
             law: Law::Hamiltonian,
             origin,
@@ -144,7 +168,7 @@ fn fields(proved: &mut Proved, derived: &Derived<'_>) -> Matrix {
 fn nonholonomic_bracket(proved: &mut Proved, derived: &Derived<'_>) -> NonholonomicBracket {
     let (graph, system) = (&mut proved.model.graph, &proved.system);
     match derived {
-        Derived::Adapted { distribution, equations } => {
+        Derived::Adapted { distribution, equations, .. } => {
             NonholonomicBracket::adapted(graph, system, distribution, equations)
         }
         Derived::Projected { residuals, equations } => {

@@ -23,7 +23,9 @@ use crate::violation::Violation;
 /// Derives everything on E, with multipliers.
 pub(super) fn derive(mut proved: Proved, reason: &str) -> Result<System, Vec<Violation>> {
     // 1. the saddle equations, proved regular on the constraint manifold
-    let residuals = proved.constraints.residuals.clone();
+    let mut residuals = proved.constraints.residuals.clone();
+    let declared = residuals.len();
+    residuals.extend(proved.levels.iter().map(|level| level.residual));
     let equations = saddle_equations(&mut proved.model.graph, &proved.system, &residuals);
     let singular = check::saddle_regularity(&mut proved.model, &equations, proved.constraints.generic());
     fence(singular.into_iter().collect())?;
@@ -43,6 +45,8 @@ pub(super) fn derive(mut proved: Proved, reason: &str) -> Result<System, Vec<Vio
         })
         .collect();
     derivative.outputs = equations.rates.iter().chain(&accelerations).copied().collect();
+    // those of levels are zero
+    let multipliers = multipliers.into_iter().take(declared).collect();
     let (multipliers, reactions) = (derivative.with_outputs(multipliers), derivative.with_outputs(reactions));
     // 3. E_L, y and the observables
     let velocity = proved.system.algebroid.velocity(graph);
@@ -92,6 +96,7 @@ pub(super) fn derive(mut proved: Proved, reason: &str) -> Result<System, Vec<Vio
         jacobian,
         parameter_jacobian,
         momenta,
+        quadratures: None,
         residual: Some(Procedure::of(residuals)),
         projection: Some(projection),
         phase_space,

@@ -112,7 +112,7 @@ fn closure(system: &System, wanted: BTreeSet<SymbolId>) -> BTreeSet<SymbolId> {
 }
 
 /// Takes the other variables out of the state and of the functions.
-fn restrict(system: &mut System, whole: &[SymbolId], needed: &BTreeSet<SymbolId>) {
+pub(super) fn restrict(system: &mut System, whole: &[SymbolId], needed: &BTreeSet<SymbolId>) {
     let is_kept = |index: usize| whole.get(index).is_none_or(|symbol| needed.contains(symbol));
     let rows = |outputs: &[ExprId]| -> Vec<ExprId> {
         let rows = outputs.iter().enumerate().filter(|(row, _)| is_kept(*row));
@@ -198,7 +198,7 @@ fn not_in_the_state(system: &System, symbol: SymbolId, origin: Origin) -> Violat
 
 impl Procedure {
     /// The symbols that some outputs depend on, through the intermediate results.
-    fn depends_on(&self, graph: &Graph, outputs: &[ExprId]) -> BTreeSet<SymbolId> {
+    pub(super) fn depends_on(&self, graph: &Graph, outputs: &[ExprId]) -> BTreeSet<SymbolId> {
         let mut found: BTreeSet<SymbolId> = graph.symbols_in(outputs).into_iter().collect();
         // later definitions are in terms of earlier ones
         for definition in self.definitions.iter().rev() {

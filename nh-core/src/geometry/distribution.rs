@@ -29,10 +29,12 @@ pub struct ConstraintDistribution {
     pub offset: Vec<ExprId>,
     /// B v + y₀ at the velocity symbols.
     pub velocity: Vec<ExprId>,
+    /// Velocities of D that levels of momenta determine, in terms of the independent ones.
+    pub eliminated: Vec<(SymbolId, ExprId)>,
     /// What the solution of the constraints was divided by.
     pub pivots: Vec<ExprId>,
     /// The constraints and dependent velocities of each block of the solution, by position.
-    blocks: Vec<(Vec<usize>, Vec<usize>)>,
+    pub(super) blocks: Vec<(Vec<usize>, Vec<usize>)>,
 }
 
 /// More constraints than this are solved in a chain where possible.
@@ -71,8 +73,17 @@ impl ConstraintDistribution {
     ) -> Self {
         let offset = vec![graph.zero(); basis.len()];
         let velocity = linear_velocity(graph, &independent, &basis, &offset);
-        let (dependent, pivots, blocks) = (Vec::new(), Vec::new(), Vec::new());
-        Self { constraints, independent, dependent, basis, offset, velocity, pivots, blocks }
+        Self {
+            constraints,
+            independent,
+            dependent: Vec::new(),
+            basis,
+            offset,
+            velocity,
+            eliminated: Vec::new(),
+            pivots: Vec::new(),
+            blocks: Vec::new(),
+        }
     }
 
     /// Solves the constraints for the dependent velocities. `None` if they do not determine them.
@@ -118,8 +129,18 @@ impl ConstraintDistribution {
         let independent: Vec<SymbolId> =
             independent.iter().map(|section| velocities[section.index()]).collect();
         let velocity = linear_velocity(graph, &independent, &basis, &offset);
-        let blocks = solution.blocks;
-        Some(Self { constraints, independent, dependent, basis, offset, velocity, pivots, blocks })
+        let (blocks, eliminated) = (solution.blocks, Vec::new());
+        Some(Self {
+            constraints,
+            independent,
+            dependent,
+            basis,
+            offset,
+            velocity,
+            eliminated,
+            pivots,
+            blocks,
+        })
     }
 
     /// D by the chain of its constraints alone.
@@ -144,6 +165,7 @@ impl ConstraintDistribution {
             basis: Matrix::new(),
             offset: Vec::new(),
             velocity: symbols,
+            eliminated: Vec::new(),
             pivots: solution.divisors,
             blocks: solution.blocks,
         };
@@ -233,6 +255,7 @@ impl ConstraintDistribution {
     #[must_use]
     pub fn restriction(&self, graph: &Graph, velocities: &[SymbolId]) -> Substitution {
         let changed = velocities.iter().copied().zip(self.velocity.iter().copied());
+        let changed = self.eliminated.iter().copied().chain(changed);
         Substitution::new(changed.filter(|(symbol, value)| graph.as_symbol(*value) != Some(*symbol)))
     }
 

@@ -9,6 +9,7 @@ mod distribution;
 pub mod hamel;
 mod known_algebra;
 mod manifold;
+mod momentum_level;
 mod pivot;
 mod structure;
 
@@ -19,5 +20,6 @@ pub use connection::{Christoffel, koszul};
 pub use distribution::{ConstraintDistribution, LinearConstraints};
 pub use known_algebra::{KnownAlgebra, KnownBracket};
 pub use manifold::Manifold;
+pub use momentum_level::MomentumLevel;
 pub use pivot::{PivotSetting, PivotZeros};
 pub use structure::StructureFunctions;

@@ -17,7 +17,7 @@ mod side;
 use crate::id::{CoordId, ExprId, InputId, Origin, ParamId, SymbolId};
 use crate::mechanics::Procedure;
 use crate::model::{Located, Model};
-use crate::violation::Violation;
+use crate::violation::{Law, Violation};
 
 pub use quotient::{Equation, Quotient, QuotientDecl, quotient};
 
@@ -90,6 +90,7 @@ pub enum Refusal {
 pub fn reduce(source: Model, target: Model, declared: &MorphismDecl) -> Result<Reduction, Refusal> {
     let mut source = Side::of(source)?;
     let target = Side::of(target)?;
+    fence([&source, &target].into_iter().filter_map(|side| on_level(side, declared)).collect())?;
     // 1. Φ: parameters, base and fibres, and the target pulled back by it
     let map = BundleMap::of(&mut source, &target, declared).map_err(Refusal::Broken)?;
     // 2. the laws of the map, mathematics (13) and (14)
@@ -100,6 +101,18 @@ pub fn reduce(source: Model, target: Model, declared: &MorphismDecl) -> Result<R
     fence(broken)?;
     // 4. the functions
     maps::functions(source, &target, &map).map_err(|violation| Refusal::Broken(vec![violation]))
+}
+
+/// A side by Routh reduction, whose motions are those on one level alone.
+fn on_level(side: &Side, declared: &MorphismDecl) -> Option<Violation> {
+    let level = side.proved.levels.first()?;
+    Some(Violation {
+        law: Law::Symmetry,
+        origin: declared.origin,
+        what: format!("`{}` is on a level of a momentum, by `routh`", side.name()),
+        evidence: format!("its motions are those on which the momentum of `{}` has this value", level.name),
+        way_out: "relate the whole systems, declared without `routh`".into(),
+    })
 }
 
 fn fence(broken: Vec<Violation>) -> Result<(), Refusal> {

@@ -12,7 +12,7 @@ pub(super) fn lines(proved: &mut Proved, derived: &Derived<'_>, reason: &str) ->
     let Proved { model, motion, system, constraints: declared, facts, .. } = proved;
     let mut lines = vec![algebroid(model, system), constraints(model, system, declared, derived)];
     let (name, size) = match derived {
-        Derived::Adapted { distribution, .. } => ("adapted", distribution.rank()),
+        Derived::Adapted { kept, .. } => ("adapted", kept.rank()),
         Derived::Projected { .. } => ("projected", model.sections.len()),
     };
     let coordinates = model.coordinates.len();

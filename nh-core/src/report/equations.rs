@@ -20,15 +20,18 @@ pub fn equations_of_motion(model: &Model, derived: &Derived<'_>) -> Vec<String> 
         .map(|(coordinate, rate)| format!("der({}) = {}", coordinate.name, shown(graph, *rate)))
         .collect();
     match derived {
-        Derived::Adapted { equations, distribution } => {
+        Derived::Adapted { equations, distribution, kept } => {
             let names: Vec<&str> =
-                distribution.independent.iter().map(|symbol| graph.symbols()[*symbol].as_str()).collect();
+                kept.independent.iter().map(|symbol| graph.symbols()[*symbol].as_str()).collect();
             for (row, force) in equations.mass.iter().zip(&equations.force) {
                 lines.push(format!("{} = {}", accelerations(graph, row, &names), shown(graph, *force)));
             }
             for section in &distribution.dependent {
                 let value = shown(graph, equations.velocity[section.index()]);
                 lines.push(format!("{} = {value}", model.sections[*section].name));
+            }
+            for (symbol, value) in &kept.eliminated {
+                lines.push(format!("{} = {}", graph.symbols()[*symbol], shown(graph, *value)));
             }
         }
         Derived::Projected { equations, .. } => {
@@ -62,8 +65,8 @@ fn reactions(model: &Model, jacobian: &[Vec<ExprId>], alpha: usize) -> String {
     for (index, row) in
         jacobian.iter().enumerate().filter(|(_, row)| !model.graph.is_literal_zero(row[alpha]))
     {
-        let constraint = &model.constraints[ConstraintId::from_index(index)];
-        let name = constraint.label.clone().unwrap_or_else(|| format!("{}", index + 1));
+        let constraint = model.constraints.get(ConstraintId::from_index(index));
+        let name = constraint.and_then(|c| c.label.clone()).unwrap_or_else(|| format!("{}", index + 1));
         text.extend([" + (", &shown(&model.graph, row[alpha]), ")*lambda_", &name]);
     }
     text

@@ -3,6 +3,7 @@
 mod classification;
 mod equations;
 mod hamiltonian;
+mod routh;
 mod symmetry;
 
 use crate::algebra::Graph;
@@ -22,6 +23,8 @@ pub enum Derived<'a> {
     Adapted {
         /// D.
         distribution: &'a ConstraintDistribution,
+        /// Its velocities on the levels of momenta.
+        kept: &'a ConstraintDistribution,
         /// Its equations.
         equations: &'a ReducedEquations,
     },
@@ -51,6 +54,7 @@ pub(crate) fn report(
 ) -> String {
     let classification = classification::lines(proved, derived, reason);
     let symmetries = symmetry::lines(proved, derived);
+    let routh = routh::lines(proved, derived);
     let mut conserved = classification::conserved(proved);
     conserved.extend(symmetry::conserved(proved, derived));
     let (model, system) = (&proved.model, &proved.system);
@@ -69,6 +73,7 @@ pub(crate) fn report(
     section("Structure functions", structure_functions(model, system));
     section("Constraint distribution", distribution(model, derived));
     section("Mass matrix", mass_matrix(model, derived));
+    section("Routh reduction", routh);
     section("Equations of motion", equations_of_motion(model, derived));
     section("Symmetries", symmetries);
     section("Conserved quantities", conserved);
@@ -163,9 +168,9 @@ fn distribution(model: &Model, derived: &Derived<'_>) -> Vec<String> {
 
 fn mass_matrix(model: &Model, derived: &Derived<'_>) -> Vec<String> {
     let (matrix, names): (_, Vec<String>) = match derived {
-        Derived::Adapted { equations, distribution } => (
+        Derived::Adapted { equations, kept, .. } => (
             &equations.mass,
-            distribution.independent.iter().map(|symbol| model.graph.symbols()[*symbol].clone()).collect(),
+            kept.independent.iter().map(|symbol| model.graph.symbols()[*symbol].clone()).collect(),
         ),
         Derived::Projected { equations, .. } => (&equations.mass, section_names(model)),
     };

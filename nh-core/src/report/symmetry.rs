@@ -16,7 +16,8 @@ pub(super) fn lines(proved: &mut Proved, derived: &Derived<'_>) -> Vec<String> {
         let name = |id: &_| proved.model.coordinates[*id].name.as_str();
         let cyclic: Vec<&str> = symmetries.cyclic.iter().map(name).collect();
         let mut text = format!("cyclic coordinates, each left to a quadrature: {}", cyclic.join(", "));
-        let horizontal: Vec<&str> = symmetries.found.iter().map(|(id, _)| name(id)).collect();
+        let horizontal = symmetries.found.iter().filter(|(_, symmetry)| symmetry.is_horizontal());
+        let horizontal: Vec<&str> = horizontal.map(|(id, _)| name(id)).collect();
         if !horizontal.is_empty() {
             text.extend(["; horizontal symmetries: ", &horizontal.join(", ")]);
         }
@@ -42,7 +43,7 @@ fn line(proved: &mut Proved, restriction: &mut Substitution, symmetry: &Symmetry
     let names = section_names(&proved.model);
     let section = combination(&proved.model.graph, &symmetry.section, &names);
     let free = proved.constraints.linear.as_ref().is_some_and(|linear| linear.annihilator.is_empty());
-    let kind = match (symmetry.in_distribution, symmetry.keeps_lagrangian, symmetry.keeps_constraints) {
+    let kind = match (symmetry.in_distribution(), symmetry.keeps_lagrangian, symmetry.keeps_constraints) {
         (_, Invariance::Broken, _) if free => "L is not invariant",
         _ if free => "a symmetry: L is invariant",
         (true, Invariance::Broken, _) => "in D, L is not invariant",
@@ -53,7 +54,7 @@ fn line(proved: &mut Proved, restriction: &mut Substitution, symmetry: &Symmetry
     let momentum = on_constraints(proved, restriction, symmetry.momentum.value);
     let rate = if symmetry.is_conserved {
         "0".to_owned()
-    } else if symmetry.in_distribution {
+    } else if symmetry.in_distribution() {
         let rate = symmetry.momentum.rate(&mut proved.model.graph);
         on_constraints(proved, restriction, rate)
     } else {
@@ -71,8 +72,8 @@ fn on_constraints(proved: &mut Proved, restriction: &mut Substitution, function:
 
 fn restriction(proved: &Proved, derived: &Derived<'_>) -> Substitution {
     match derived {
-        Derived::Adapted { distribution, .. } => {
-            distribution.restriction(&proved.model.graph, &proved.system.algebroid.velocities)
+        Derived::Adapted { kept, .. } => {
+            kept.restriction(&proved.model.graph, &proved.system.algebroid.velocities)
         }
         Derived::Projected { .. } => Substitution::new([]),
     }

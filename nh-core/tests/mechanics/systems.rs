@@ -64,6 +64,7 @@ impl Builder {
             frame: Vec::new(),
             distribution: None,
             claims: Vec::new(),
+            routh: Vec::new(),
             symmetries: Vec::new(),
             volume: None,
             hamilton_jacobi: None,

@@ -3,7 +3,7 @@
 use std::collections::BTreeSet;
 
 use nh_core::mechanics::Procedure;
-use nh_core::model::Model;
+use nh_core::model::Formulation;
 use nh_core::system::System;
 use proc_macro2::{Ident, Span, TokenStream};
 use quote::{ToTokens, quote};
@@ -58,15 +58,21 @@ fn number(procedure: Option<&Procedure>) -> usize {
     procedure.map_or(0, |procedure| procedure.outputs.len())
 }
 
-/// The labels of the declared constraints.
-fn labels(model: &Model) -> Vec<Option<&str>> {
-    model.constraints.iter().map(|constraint| constraint.label.as_deref()).collect()
+/// The labels of the declared constraints, and of the levels that are kept like them.
+fn labels(system: &System) -> Vec<Option<&str>> {
+    let model = &system.model;
+    let mut labels: Vec<Option<&str>> =
+        model.constraints.iter().map(|constraint| constraint.label.as_deref()).collect();
+    if system.formulation == Formulation::Projected {
+        labels.extend(model.routh.iter().map(|level| Some(level.symmetry.as_str())));
+    }
+    labels
 }
 
 /// A field for each constraint, by its label, or `constraint_1`, ….
 fn fields(labels: &[Option<&str>], count: usize, what: &str) -> Vec<Field> {
-    let declared = labels.len() == count;
-    let labels = if declared { labels.to_vec() } else { vec![None; count] };
+    let declared = labels.len() >= count;
+    let labels = if declared { labels[..count].to_vec() } else { vec![None; count] };
     let mut taken: BTreeSet<String> = labels.iter().flatten().map(|label| (*label).to_owned()).collect();
     let mut fields = Vec::with_capacity(count);
     for (index, label) in labels.into_iter().enumerate() {
@@ -141,8 +147,7 @@ fn entries(context: &Context, labels: &[Option<&str>], counts: [usize; 3]) -> [O
 pub(super) fn emit(context: &Context, scope: &Scope, system: &System) -> Part {
     let procedures = [&system.multipliers, &system.reactions, &system.residual].map(Option::as_ref);
     let mut part = Part::default();
-    for (entry, procedure) in
-        entries(context, &labels(&system.model), procedures.map(number)).iter().zip(procedures)
+    for (entry, procedure) in entries(context, &labels(system), procedures.map(number)).iter().zip(procedures)
     {
         let (Some(entry), Some(procedure)) = (entry, procedure) else { continue };
         let program = program(&system.model, procedure);

@@ -153,7 +153,7 @@ impl<'a> Context<'a> {
 }
 
 /// The fields of the coordinates among some symbols.
-fn coordinate_fields(layout: &Layout, symbols: &[SymbolId]) -> Vec<Field> {
+pub(super) fn coordinate_fields(layout: &Layout, symbols: &[SymbolId]) -> Vec<Field> {
     entry_fields(layout.coordinates.iter(), &layout.coordinate_symbols, symbols, "coordinate")
 }
 

@@ -76,6 +76,8 @@ pub(crate) struct TypeNames {
     pub(crate) momenta: Ident,
     /// `SleighPhase`
     pub(crate) phase: Ident,
+    /// `SleighQuadratures`
+    pub(crate) quadratures: Ident,
 }
 
 impl TypeNames {
@@ -91,6 +93,7 @@ impl TypeNames {
             outputs: format_ident!("{name}Outputs"),
             momenta: format_ident!("{name}Momenta"),
             phase: format_ident!("{name}Phase"),
+            quadratures: format_ident!("{name}Quadratures"),
         }
     }
 }

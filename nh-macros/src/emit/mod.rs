@@ -28,6 +28,7 @@ mod phase_space;
 mod program;
 mod projection;
 mod quotient;
+mod quadratures;
 mod reconstruction;
 mod record;
 mod report;
@@ -81,7 +82,8 @@ pub(crate) fn emit(system: &System, layout: &Layout) -> TokenStream {
         .with(hamiltonian::emit(context, scope, system))
         .with(phase_space::emit(context, scope, system))
         .with(discrete::emit(context, system))
-        .with(gibbs_appell::emit(context, scope, system));
+        .with(gibbs_appell::emit(context, scope, system))
+        .with(quadratures::emit(context, scope, system));
     programs.extend(part.programs.iter().map(|(name, program)| (*name, program)));
     let mut methods = report::constant(context, system, &programs);
     methods.extend(dynamics::method(context, scope, &derivative));

@@ -31,6 +31,8 @@ pub(super) enum Context {
     Volume,
     /// `hamilton_jacobi`
     HamiltonJacobi,
+    /// `routh`
+    Routh,
     /// `assume`
     Assume,
     /// `parameters` of a map between systems
@@ -77,6 +79,7 @@ impl Context {
             Self::Symmetries => "symmetries",
             Self::Volume => "volume",
             Self::HamiltonJacobi => "hamilton_jacobi",
+            Self::Routh => "routh",
             Self::Assume => "assume",
             Self::MapParameters => "parameters",
             Self::MapBase => "base",
@@ -99,8 +102,8 @@ impl Context {
                 !matches!(usage, Usage::Input | Usage::Branches | Usage::Method)
             }
             Self::Forces | Self::Outputs => true,
-            // that facts are about parameters alone is a law of its own
-            Self::Assume => !matches!(usage, Usage::Branches | Usage::Method),
+            // that facts and levels are about parameters alone is a law of its own
+            Self::Assume | Self::Routh => !matches!(usage, Usage::Branches | Usage::Method),
         }
     }
 

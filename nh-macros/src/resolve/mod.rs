@@ -97,6 +97,7 @@ impl Resolver {
         let symmetries = sections.symmetries.as_ref().map(|s| self.symmetries(&s.body)).unwrap_or_default();
         let volume = sections.volume.as_ref().and_then(|claim| self.volume(claim).ok());
         let hamilton_jacobi = sections.hamilton_jacobi.as_ref().map(|s| self.hamilton_jacobi(s));
+        let routh = sections.routh.as_ref().map(|s| self.routh(&s.body, &symmetries)).unwrap_or_default();
         let assumptions = sections.assume.as_ref().map(|s| self.assumptions(&s.body)).unwrap_or_default();
         let requests = sections.emit.as_ref().map(|s| self.requests(&s.body)).unwrap_or_default();
         let orthonormal = sections.orthonormal.as_ref().map(|s| self.orthonormal(s, layout));
@@ -136,6 +137,7 @@ impl Resolver {
             symmetries,
             volume,
             hamilton_jacobi,
+            routh,
             assumptions,
             requests,
             tracked,

@@ -50,8 +50,10 @@ fn momenta(model: &Model) -> Vec<String> {
 
 /// The state: all of it, or what is tracked with what flows into it at once.
 fn in_state(model: &Model) -> Vec<SymbolId> {
+    let (gone, reduced) = reduced(model);
     let coordinates = model.coordinates.iter().map(|coordinate| coordinate.symbol);
-    let velocities = kept(model);
+    let coordinates = coordinates.filter(|symbol| !gone.contains(symbol));
+    let velocities = kept(model).into_iter().filter(|symbol| !reduced.contains(symbol));
     let Some(tracked) = &model.tracked else { return coordinates.chain(velocities).collect() };
     let mut declared = vec![model.lagrangian.value];
     declared.extend(model.constraints.iter().map(|constraint| constraint.residual));
@@ -72,6 +74,22 @@ fn in_state(model: &Model) -> Vec<SymbolId> {
         needed.extend(model.graph.symbols_in(&rates));
     }
     coordinates.filter(|symbol| needed.contains(symbol)).chain(velocities).collect()
+}
+
+/// The coordinates and velocities that Routh reduction probably takes out of the state.
+fn reduced(model: &Model) -> (Vec<SymbolId>, Vec<SymbolId>) {
+    let (mut coordinates, mut velocities) = (Vec::new(), Vec::new());
+    for level in &model.routh {
+        let declared = model.symmetries.iter().find(|symmetry| symmetry.name == level.symmetry);
+        let velocity = declared.and_then(|symmetry| model.graph.as_symbol(symmetry.value));
+        let coordinate = model.coordinates.iter().find(|coordinate| match velocity {
+            Some(velocity) => coordinate.rate == velocity,
+            None => coordinate.name == level.symmetry,
+        });
+        coordinates.extend(coordinate.map(|coordinate| coordinate.symbol));
+        velocities.extend(velocity.or(coordinate.map(|coordinate| coordinate.rate)));
+    }
+    (coordinates, velocities)
 }
 
 /// The velocities in the state.

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeSet;
 
-use nh_core::model::SymmetryDecl;
+use nh_core::model::{RouthDecl, SymmetryDecl};
 
 use super::array::Shape;
 use super::context::Context;
@@ -10,7 +10,8 @@ use super::dynamics::entry_label;
 use super::reports::Outcome;
 use super::resolver::Resolver;
 use crate::report::Diagnostic;
-use crate::syntax::ast::{Item, Symmetry};
+use crate::suggest::did_you_mean;
+use crate::syntax::ast::{Definition, Item, Subscript, Symmetry};
 
 impl Resolver {
     /// The sections, vectors entry by entry.
@@ -49,5 +50,55 @@ impl Resolver {
             found.push(SymmetryDecl { name, value: *section, gauge, origin });
         }
         Ok(found)
+    }
+}
+
+impl Resolver {
+    /// Momenta that become parameters.
+    pub(super) fn routh(
+        &mut self,
+        items: &[Item<Definition>],
+        symmetries: &[SymmetryDecl],
+    ) -> Vec<RouthDecl> {
+        let mut found: Vec<RouthDecl> = Vec::new();
+        self.section(Context::Routh, items, &mut |this, definition| {
+            let level = this.level(definition, symmetries)?;
+            if found.iter().any(|earlier| earlier.symmetry == level.symmetry) {
+                let what = format!("the momentum of `{}` is on two levels", level.symmetry);
+                return Err(this.report(definition, Diagnostic::new(definition.extent, what)));
+            }
+            found.push(level);
+            Ok(())
+        });
+        found
+    }
+
+    /// `spin = mu`: a label of `symmetries`, or a coordinate.
+    fn level(&mut self, definition: &Definition, symmetries: &[SymmetryDecl]) -> Outcome<RouthDecl> {
+        let (mut entry, mut label) = (definition.name.text.clone(), definition.name.text.clone());
+        for subscript in &definition.subscripts {
+            let Subscript::Entry(index) = subscript else {
+                let error = Diagnostic::new(definition.extent, "one momentum stands on the left")
+                    .way_out("write `for i in 0..3 { spin[i] = mu[i]; }`");
+                return Err(self.report(definition, error));
+            };
+            let index = self.index(index)?;
+            entry.extend(["[", &index.to_string(), "]"]);
+            label.extend(["_", &index.to_string()]);
+        }
+        let labels = symmetries.iter().map(|symmetry| symmetry.name.as_str());
+        let coordinates = self.tables.coordinates.iter().map(|coordinate| coordinate.name.as_str());
+        let known: Vec<&str> = labels.chain(coordinates).collect();
+        let Some(symmetry) = [entry, label].into_iter().find(|name| known.contains(&name.as_str())) else {
+            let name = &definition.name.text;
+            let what = format!("`{name}` is neither a symmetry nor a coordinate");
+            let way_out = did_you_mean(name, known.iter().copied())
+                .unwrap_or_else(|| "declare its section: `symmetries { spin: omega; }`".to_owned());
+            let error = Diagnostic::new(definition.extent, what).way_out(way_out);
+            return Err(self.report(definition, error));
+        };
+        let level = self.number_value(&definition.value)?;
+        let origin = self.origin(definition.extent.to(definition.value.extent));
+        Ok(RouthDecl { symmetry, level, origin })
     }
 }

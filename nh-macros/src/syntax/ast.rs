@@ -60,6 +60,8 @@ pub(crate) struct Sections {
     pub(crate) hamilton_jacobi: Option<Section<Vec<Item<Momentum>>>>,
     /// `symmetries`: labelled sections whose momentum equation is wanted.
     pub(crate) symmetries: Option<Section<Vec<Item<Symmetry>>>>,
+    /// `routh`: momenta that become parameters.
+    pub(crate) routh: Option<Section<Vec<Item<Definition>>>>,
     /// `assume`: sign and range facts about parameters.
     pub(crate) assume: Option<Section<Vec<Item<Comparison>>>>,
     /// `independent`: the velocities that the adapted state keeps.

@@ -143,6 +143,7 @@ fn fill(sections: &mut Sections, keyword: Name, algebra: Option<Algebra>, body: 
             s.hamilton_jacobi = Section::some(keyword, items(body, errors, &Stream::momentum));
         }
         "symmetries" => s.symmetries = Section::some(keyword, items(body, errors, &Stream::symmetry)),
+        "routh" => s.routh = Section::some(keyword, items(body, errors, &Stream::definition)),
         "assume" => s.assume = Section::some(keyword, items(body, errors, &Stream::comparison)),
         "independent" => s.independent = Section::some(keyword, list(body, errors, Stream::velocity)),
         "orthonormal" => s.orthonormal = Section::some(keyword, list(body, errors, Stream::declared)),

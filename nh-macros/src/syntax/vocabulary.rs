@@ -20,6 +20,7 @@ pub(crate) const SECTIONS: [&str; 27] = [
     "volume",
     "hamilton_jacobi",
     "symmetries",
+    "routh",
     "assume",
     "independent",
     "orthonormal",
@@ -41,8 +42,18 @@ pub(crate) const FUNCTIONS: [&str; 18] = [
 pub(crate) const RESERVED: [&str; 5] = ["t", "pi", "sum", "dot", "cross"];
 
 /// The generated types that `names` renames.
-pub(crate) const TYPES: [&str; 9] =
-    ["state", "velocity", "input", "multipliers", "outputs", "reactions", "residual", "momenta", "phase"];
+pub(crate) const TYPES: [&str; 10] = [
+    "state",
+    "velocity",
+    "input",
+    "multipliers",
+    "outputs",
+    "reactions",
+    "residual",
+    "momenta",
+    "phase",
+    "quadratures",
+];
 
 /// The known algebras of `brackets`.
 pub(crate) const ALGEBRAS: [&str; 4] = ["so", "se", "sl", "heisenberg"];

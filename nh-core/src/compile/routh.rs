@@ -1,0 +1,296 @@
+//! Routh reduction: conserved momenta become parameters, and velocities with cyclic coordinates leave
+//! the state (CM section 5).
+//!
+//! On a level σ^α p_α = μ of a momentum that is conserved, σ in D, the sections B'_κ = ∂ŷ/∂v^κ of the
+//! velocities ŷ(x, v) that the level leaves free lie in D, so that the force balance (8) along them is
+//! Routh's equation for v^κ; along σ it says that the momentum is conserved, which holds on the level.
+
+use std::collections::BTreeSet;
+
+use super::Proved;
+use super::momenta::Symmetries;
+use crate::check::Symmetry;
+use crate::geometry::{ConstraintDistribution, MomentumLevel};
+use crate::id::{ExprId, Id, Origin, SymbolId};
+use crate::mechanics::LagrangianSystem;
+use crate::model::{Model, RouthDecl};
+use crate::system::{Quadratures, System};
+use crate::violation::{Law, Violation};
+
+/// A momentum on a level.
+#[derive(Clone, Debug)]
+pub(crate) struct Level {
+    /// The label of the symmetry.
+    pub(crate) name: String,
+    /// σ.
+    pub(crate) section: Vec<ExprId>,
+    /// μ.
+    pub(crate) value: ExprId,
+    /// σ^α p_α − f − μ, on E.
+    pub(crate) residual: ExprId,
+    /// Where it is declared.
+    pub(crate) origin: Origin,
+}
+
+/// The levels that are declared.
+///
+/// # Errors
+/// Sections outside D, momenta that are not conserved, levels that are not constant.
+pub(super) fn levels(model: &mut Model, symmetries: &Symmetries) -> Result<Vec<Level>, Vec<Violation>> {
+    let mut levels: Vec<Level> = Vec::new();
+    let mut violations = Vec::new();
+    for declared in model.routh.clone() {
+        match level(model, symmetries, &declared) {
+            Ok(level) => levels.push(level),
+            Err(violation) => violations.push(violation),
+        }
+    }
+    if violations.is_empty() { Ok(levels) } else { Err(violations) }
+}
+
+fn level(model: &mut Model, symmetries: &Symmetries, declared: &RouthDecl) -> Result<Level, Violation> {
+    let RouthDecl { symmetry: name, level, origin } = declared.clone();
+    let blame = |what: String, evidence: String, way_out: &str| Violation {
+        law: Law::Symmetry,
+        origin,
+        what,
+        evidence,
+        way_out: way_out.into(),
+    };
+    let found = symmetries.found.iter().map(|(_, symmetry)| symmetry);
+    let Some(symmetry) = symmetries.declared.iter().chain(found).find(|symmetry| symmetry.name == name)
+    else {
+        let evidence = not_cyclic(model, &name);
+        return Err(blame(
+            format!("`{name}` is not cyclic"),
+            evidence,
+            "Routh reduction is by a symmetry in D: name a label of `symmetries`, or a cyclic coordinate",
+        ));
+    };
+    if let Some(stranger) = not_constant(model, level) {
+        return Err(blame(
+            format!("the level of `{name}` is not constant"),
+            format!("it depends on `{stranger}`"),
+            "a momentum has a constant value along a motion: a field of the struct, or a number",
+        ));
+    }
+    if !symmetry.is_conserved {
+        return Err(not_conserved(model, symmetry, blame));
+    }
+    let graph = &mut model.graph;
+    let residual = graph.sub(symmetry.momentum.value, level);
+    Ok(Level { name, section: symmetry.section.clone(), value: level, residual, origin })
+}
+
+fn not_constant(model: &Model, level: ExprId) -> Option<String> {
+    let is_parameter = |symbol: &SymbolId| model.parameters.iter().any(|p| p.symbol == *symbol);
+    let stranger = model.graph.symbols_in(&[level]).into_iter().find(|symbol| !is_parameter(symbol))?;
+    Some(model.graph.symbols()[stranger].clone())
+}
+
+/// Why a coordinate has no conserved momentum.
+fn not_cyclic(model: &mut Model, name: &str) -> String {
+    let coordinate = model.coordinates.iter().find(|coordinate| coordinate.name == name);
+    let Some(symbol) = coordinate.map(|coordinate| coordinate.symbol) else { return String::new() };
+    let graph = &mut model.graph;
+    let change = graph.partial(model.lagrangian.value, symbol);
+    let change = graph.simplify(change);
+    if graph.is_literal_zero(change) {
+        return "the anchor, the constraints or the forces depend on it, or no section moves it alone".into();
+    }
+    format!("the Lagrangian depends on it, at the rate {}", graph.text_within(change, 160))
+}
+
+fn not_conserved(
+    model: &mut Model,
+    symmetry: &Symmetry,
+    blame: impl Fn(String, String, &str) -> Violation,
+) -> Violation {
+    let name = &symmetry.name;
+    if let Some(component) = symmetry.outside {
+        let component = model.graph.text_within(component, 160);
+        return blame(
+            format!("`{name}` is not horizontal: its section is not in D"),
+            format!("the constraints are {component} along it, so that their forces change its momentum"),
+            "reduce by a symmetry in D; to leave out variables that nothing depends on, use `track`",
+        );
+    }
+    let graph = &mut model.graph;
+    let rate = symmetry.momentum.rate(graph);
+    let rate = graph.simplify(rate);
+    blame(
+        format!("the momentum of `{name}` is not conserved"),
+        format!("its rate is {}", graph.text_within(rate, 160)),
+        "Routh reduction is by momenta that are conserved: correct the section, or leave it out",
+    )
+}
+
+/// D on the levels.
+pub(super) struct Leveled {
+    /// The velocities that are left.
+    pub(super) kept: ConstraintDistribution,
+    /// Expressions of parameters that must not vanish.
+    pub(super) conditions: Vec<ExprId>,
+}
+
+/// The velocities on the levels.
+///
+/// # Errors
+/// A momentum that is not affine in the velocities, or that does not depend on them.
+pub(super) fn on_levels(
+    proved: &mut Proved,
+    distribution: &ConstraintDistribution,
+) -> Result<Leveled, Vec<Violation>> {
+    let mut leveled = Leveled { kept: distribution.clone(), conditions: Vec::new() };
+    for level in proved.levels.clone() {
+        on_level(proved, &mut leveled, &level).map_err(|violation| vec![violation])?;
+    }
+    Ok(leveled)
+}
+
+/// The same levels in another description of the same distribution.
+pub(super) fn again(
+    proved: &mut Proved,
+    described: &ConstraintDistribution,
+    eliminated: &[(SymbolId, ExprId)],
+) -> ConstraintDistribution {
+    let velocities = &proved.system.algebroid.velocities;
+    let graph = &mut proved.model.graph;
+    let mut found = described.clone();
+    for (level, (symbol, _)) in proved.levels.iter().zip(eliminated) {
+        if let Ok(level) = MomentumLevel::of(graph, &found, level.residual, velocities) {
+            found = found.on_level(graph, &level, *symbol);
+        }
+    }
+    found
+}
+
+fn on_level(proved: &mut Proved, leveled: &mut Leveled, level: &Level) -> Result<(), Violation> {
+    let distribution = &leveled.kept;
+    let blame = |what: String, evidence: String, way_out: &str| Violation {
+        law: Law::Symmetry,
+        origin: level.origin,
+        what,
+        evidence,
+        way_out: way_out.into(),
+    };
+    let name = &level.name;
+    let velocities = proved.system.algebroid.velocities.clone();
+    let parameters: Vec<SymbolId> = proved.model.parameters.iter().map(|p| p.symbol).collect();
+    let facts = proved.facts.clone();
+    let graph = &mut proved.model.graph;
+    let found = MomentumLevel::of(graph, distribution, level.residual, &velocities).map_err(|why| {
+        blame(
+            format!("the momentum of `{name}` could not be solved for a velocity"),
+            why,
+            "with `formulation { projected }` all velocities are kept, and the level is a constraint",
+        )
+    })?;
+    // σ itself first, then pivots that vanish nowhere, then pivots of parameters
+    let along = distribution.components(graph, &level.section).unwrap_or_default();
+    let mut best: Option<(u8, SymbolId, ExprId)> = None;
+    for (index, symbol) in distribution.independent.iter().enumerate() {
+        let Some(pivot) = distribution.pivot(graph, &found, *symbol) else { continue };
+        let is_own = along
+            .iter()
+            .enumerate()
+            .all(|(other, component)| (other == index) != graph.is_literal_zero(*component));
+        let of_parameters = graph.symbols_in(&[pivot]).iter().all(|symbol| parameters.contains(symbol));
+        let grade = match () {
+            () if is_own => 0,
+            () if graph.vanishes_nowhere(pivot, &facts) => 1,
+            () if of_parameters => 2,
+            () => 3,
+        };
+        if best.is_none_or(|(least, ..)| grade < least) {
+            best = Some((grade, *symbol, pivot));
+        }
+    }
+    let Some((_, symbol, pivot)) = best else {
+        return Err(blame(
+            format!("the momentum of `{name}` determines no velocity"),
+            "it does not depend on any where the constraints hold".into(),
+            "leave it out",
+        ));
+    };
+    let forced = proved.system.forces_on_distribution.iter().find(|(direction, _)| *direction == symbol);
+    if let Some((_, force)) = forced
+        && !graph.zero_test(*force).is_zero()
+    {
+        return Err(blame(
+            format!("a force acts along `{}`, which leaves the state", graph.symbols()[symbol]),
+            "with `distribution` it is known along the spanning sections alone".into(),
+            "give that force along declared sections",
+        ));
+    }
+    let is_condition = !graph.vanishes_nowhere(pivot, &facts)
+        && graph.symbols_in(&[pivot]).iter().all(|symbol| parameters.contains(symbol));
+    leveled.kept = distribution.on_level(graph, &found, symbol);
+    leveled.conditions.extend(is_condition.then_some(pivot));
+    Ok(())
+}
+
+/// For each level a cyclic coordinate that its section moves: that of its own name first.
+pub(super) fn quadratures(
+    model: &mut Model,
+    system: &LagrangianSystem,
+    symmetries: &Symmetries,
+    levels: &[Level],
+) -> Vec<SymbolId> {
+    let graph = &mut model.graph;
+    let mut found: Vec<SymbolId> = Vec::new();
+    for level in levels {
+        let field = system.algebroid.anchor.vector_field(graph, &level.section);
+        let mut candidates = symmetries.cyclic.clone();
+        candidates.sort_by_key(|id| model.coordinates[*id].name != level.name);
+        let moved = candidates.into_iter().find(|id| {
+            let is_new = !found.contains(&model.coordinates[*id].symbol);
+            is_new && graph.zero_test(field[id.index()]).is_nonzero()
+        });
+        found.extend(moved.map(|id| model.coordinates[id].symbol));
+    }
+    found
+}
+
+/// The system without those of the coordinates that no function of it depends on; with the rates of
+/// these, for their reconstruction. What is tracked is left to the user.
+pub(super) fn without(mut system: System, coordinates: &[SymbolId]) -> System {
+    if system.model.tracked.is_some() {
+        return system;
+    }
+    let whole = system.state();
+    let gone: Vec<SymbolId> =
+        coordinates.iter().copied().filter(|symbol| !system.depends_on(*symbol)).collect();
+    if gone.is_empty() {
+        return system;
+    }
+    let rows = whole.iter().zip(&system.derivative.outputs);
+    let rates = rows.filter(|(symbol, _)| gone.contains(symbol)).map(|(_, rate)| *rate).collect();
+    let rates = system.derivative.with_outputs(rates);
+    let (left, kept): (Vec<SymbolId>, Vec<SymbolId>) =
+        whole.iter().copied().partition(|symbol| gone.contains(symbol));
+    let kept: BTreeSet<SymbolId> = kept.into_iter().collect();
+    super::slice::restrict(&mut system, &whole, &kept);
+    let names: Vec<&str> = left.iter().map(|symbol| system.model.graph.symbols()[*symbol].as_str()).collect();
+    let line = format!("left to quadratures: {}; `quadratures` gives the rates", names.join(", "));
+    system.report.extend(["\nCoordinates\n  ", &line, "\n"]);
+    system.equations.extend([String::new(), line]);
+    system.quadratures = Some(Quadratures { coordinates: left, rates });
+    system
+}
+
+impl System {
+    /// Whether anything that the system computes depends on a symbol.
+    fn depends_on(&self, symbol: SymbolId) -> bool {
+        let Self { derivative, energy, velocity, observables, multipliers, reactions, .. } = self;
+        let momenta = self.momenta.iter().flat_map(|momenta| [&momenta.values, &momenta.rates]);
+        let projection = self.projection.iter().map(|projection| &projection.step);
+        let optional = [energy, velocity, multipliers, reactions, &self.jacobian, &self.residual];
+        let all = [derivative, observables].into_iter().chain(optional.into_iter().flatten());
+        let embedded = self.embedding.iter().map(|embedding| &embedding.residual);
+        all.chain(momenta)
+            .chain(projection)
+            .chain(embedded)
+            .any(|procedure| procedure.depends_on(&self.model.graph, &procedure.outputs).contains(&symbol))
+    }
+}

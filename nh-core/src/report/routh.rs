@@ -1,0 +1,45 @@
+//! Routh reduction: the levels, and the Routhian.
+
+use super::{Derived, shown};
+use crate::compile::Proved;
+
+/// A line for each level, and the Routhian R = L − v^ρ μ_ρ on the levels (CM section 5).
+pub(super) fn lines(proved: &mut Proved, derived: &Derived<'_>) -> Vec<String> {
+    let levels = proved.levels.clone();
+    let mut lines: Vec<String> = levels
+        .iter()
+        .map(|level| {
+            let graph = &mut proved.model.graph;
+            let momentum = graph.add(level.residual, level.value);
+            let momentum = graph.simplify(momentum);
+            format!(
+                "the momentum of {}: {} = {}",
+                level.name,
+                shown(graph, momentum),
+                shown(graph, level.value)
+            )
+        })
+        .collect();
+    if !levels.is_empty() {
+        lines.extend(routhian(proved, derived));
+    }
+    lines
+}
+
+/// R, where each section is that of the velocity that leaves the state.
+fn routhian(proved: &mut Proved, derived: &Derived<'_>) -> Option<String> {
+    let Derived::Adapted { distribution, kept, .. } = derived else { return None };
+    let velocities = &proved.system.algebroid.velocities;
+    let graph = &mut proved.model.graph;
+    let mut routhian = kept.restriction(graph, velocities).apply(graph, proved.system.lagrangian);
+    for (level, (symbol, velocity)) in proved.levels.iter().zip(&kept.eliminated) {
+        let position = distribution.independent.iter().position(|known| known == symbol)?;
+        if distribution.section(position) != level.section {
+            return None;
+        }
+        let share = graph.mul(*velocity, level.value);
+        routhian = graph.sub(routhian, share);
+    }
+    let routhian = graph.simplify(routhian);
+    Some(format!("the Routhian: {}", shown(graph, routhian)))
+}

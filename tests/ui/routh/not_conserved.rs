@@ -1,0 +1,15 @@
+use nh_runtime::prelude::*;
+
+#[nonholonomic(
+    base { x, y, z }
+    lagrangian { m / 2 * (der(x)^2 + der(y)^2 + der(z)^2) }
+    constraints { der(z) = x * der(y); }
+    symmetries { along: der(y) + x * der(z); }
+    routh { along = mu; }
+)]
+struct Skate {
+    m: f64,
+    mu: f64,
+}
+
+fn main() {}
