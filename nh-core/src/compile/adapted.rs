@@ -136,7 +136,10 @@ fn candidates(
     let (system, graph) = (&proved.system, &mut proved.model.graph);
     let distribution = &leveled.kept;
     let by_chain = equations_by_velocity_forms(graph, system, &chained);
-    let on_wheels = equations_in_wheel_frames(graph, system, distribution, &proved.constraints.residuals);
+    // these solve the constraints anew, and know nothing of levels
+    let residuals = proved.levels.is_empty().then_some(&proved.constraints.residuals);
+    let on_wheels =
+        residuals.and_then(|residuals| equations_in_wheel_frames(graph, system, distribution, residuals));
     if is_large {
         return std::iter::once(by_chain).chain(on_wheels).collect();
     }

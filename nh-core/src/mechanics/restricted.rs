@@ -11,6 +11,8 @@ pub(super) struct Restricted {
     pub(super) definitions: Procedure,
     /// y = B v + y₀.
     pub(super) velocity: Vec<ExprId>,
+    /// Velocities of D that levels of momenta determine.
+    pub(super) eliminated: Vec<(SymbolId, ExprId)>,
     /// B_a.
     pub(super) sections: Matrix,
     /// ∂/∂v^a.
@@ -24,6 +26,7 @@ impl Restricted {
         Self {
             definitions: Procedure::default(),
             velocity: distribution.velocity.clone(),
+            eliminated: distribution.eliminated.clone(),
             sections: (0..rank).map(|a| distribution.section(a)).collect(),
             partials: distribution.independent.iter().map(|v| Derivation::partial(graph, *v)).collect(),
         }
@@ -45,7 +48,7 @@ impl Restricted {
             .iter_mut()
             .map(|partial| velocity.iter().map(|component| partial.apply(graph, *component)).collect())
             .collect();
-        Self { definitions, velocity, sections, partials }
+        Self { definitions, velocity, eliminated: Vec::new(), sections, partials }
     }
 }
 

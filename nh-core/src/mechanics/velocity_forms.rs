@@ -141,8 +141,8 @@ fn equations(
     turned: &[(TurnedPoint, Vec<ExprId>)],
 ) -> ReducedEquations {
     let algebroid = &system.algebroid;
-    let Restricted { mut definitions, velocity, sections, partials: mut derivations } = on;
-    let changed = algebroid.velocities.iter().copied().zip(velocity.iter().copied());
+    let Restricted { mut definitions, velocity, eliminated, sections, partials: mut derivations } = on;
+    let changed = algebroid.velocities.iter().copied().zip(velocity.iter().copied()).chain(eliminated);
     let mut restriction =
         Substitution::new(changed.filter(|(symbol, value)| graph.as_symbol(*value) != Some(*symbol)));
     let VelocityForms { function, forms } = forms;
