@@ -45,7 +45,7 @@ pub(super) fn derive(
     let mut restriction = kept.restriction(&proved.model.graph, velocities);
     let calls = calls(&mut proved.model, &mut proved.motion, &mut restriction);
     let derivative = cheapest_derivative(&mut proved, &candidates, &calls);
-    let gibbs_appell = gibbs_appell::on_distribution(&mut proved, distribution, &calls);
+    let gibbs_appell = gibbs_appell::on_distribution(&mut proved, kept, &calls);
     let equations = candidates.swap_remove(0);
     let (multipliers, reactions) =
         if requested(&proved.model, Request::Multipliers) || requested(&proved.model, Request::Reactions) {

@@ -285,7 +285,8 @@ impl System {
         let Self { derivative, energy, velocity, observables, multipliers, reactions, .. } = self;
         let momenta = self.momenta.iter().flat_map(|momenta| [&momenta.values, &momenta.rates]);
         let projection = self.projection.iter().map(|projection| &projection.step);
-        let optional = [energy, velocity, multipliers, reactions, &self.jacobian, &self.residual];
+        let optional =
+            [energy, velocity, multipliers, reactions, &self.jacobian, &self.residual, &self.gibbs_appell];
         let all = [derivative, observables].into_iter().chain(optional.into_iter().flatten());
         let embedded = self.embedding.iter().map(|embedding| &embedding.residual);
         all.chain(momenta)
