@@ -266,6 +266,8 @@ pub enum Request {
     Reactions,
     /// The momenta of the symmetries, and their rates.
     Momenta,
+    /// ⟨J, K⟩ of a Chaplygin system.
+    Gyroscopic,
     /// Momenta, the Legendre transformation, h, Hamilton's equations and the almost-Poisson matrix.
     Hamiltonian,
     /// The nonholonomic brackets of the observables.

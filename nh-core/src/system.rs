@@ -32,6 +32,8 @@ pub struct System {
     pub momenta: Option<Momenta>,
     /// Outputs: as `derivative`, by the Gibbs–Appell function; if asked for.
     pub gibbs_appell: Option<Procedure>,
+    /// The gyroscopic force of a Chaplygin system; if asked for.
+    pub gyroscopic: Option<Gyroscopic>,
     /// What Routh reduction leaves to quadratures.
     pub quadratures: Option<Quadratures>,
     /// Outputs: ∂derivative/∂(state, input) row by row; if asked for.
@@ -60,6 +62,15 @@ impl System {
     pub fn state(&self) -> Vec<SymbolId> {
         [self.state_coordinates.as_slice(), &self.state_velocities].concat()
     }
+}
+
+/// The force ⟨J, K⟩ on the right of the Euler–Lagrange equations of L̄ (mathematics section 6).
+#[derive(Clone, Debug)]
+pub struct Gyroscopic {
+    /// The coordinates along which it acts.
+    pub coordinates: Vec<SymbolId>,
+    /// Outputs: its components.
+    pub force: Procedure,
 }
 
 /// Coordinates that are not in the state, because nothing depends on them.

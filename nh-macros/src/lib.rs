@@ -145,6 +145,11 @@ mod syntax;
 /// back, and `quadratures(t, &state)` the rate of the second, for a quadrature. In the projected
 /// formulation the level is kept like a constraint.
 ///
+/// `emit { gyroscopic }`, for a Chaplygin system (the anchor maps D one to one onto the rates of the
+/// coordinates, cyclic ones left out): `gyroscopic(t, &state)` is the force ⟨J, K⟩ on the right of the
+/// Euler–Lagrange equations of the reduced Lagrangian. The report tells whether a system is one, and
+/// shows lifts, curvature and connection coefficients of small ones.
+///
 /// # Which velocities the state keeps
 ///
 /// In the adapted formulation each constraint eliminates a velocity. One written `name = …` or

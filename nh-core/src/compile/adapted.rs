@@ -2,6 +2,7 @@
 
 use super::embedded::embedding;
 use super::gibbs_appell;
+use super::gyroscopic;
 use super::momenta::momenta;
 use super::phase_space;
 use super::restricted::{
@@ -59,6 +60,7 @@ pub(super) fn derive(
     let parameter_jacobian =
         requested_parameter_jacobian(&mut proved.model, &derivative).map_err(|violation| vec![violation])?;
     let momenta = momenta(&mut proved, &mut restriction, &derivative, &kept.independent);
+    let gyroscopic = gyroscopic::derive(&mut proved, Some(distribution))?;
     let graph = &mut proved.model.graph;
     // 3. E_L, y and the observables on D
     let energy = energy(graph, &proved.system);
@@ -83,7 +85,7 @@ pub(super) fn derive(
     let text = report(&mut proved, &derived, reason, conditions, sections);
     let lines = equations_of_motion(&proved.model, &derived);
     let divisors = parameter_divisors(&mut proved.model, &derivative);
-    let conditions = [conditions, &divisors].concat();
+    let conditions = [conditions.as_slice(), &divisors].concat();
     let model = proved.model;
     Ok(System {
         formulation: Formulation::Adapted,
@@ -99,6 +101,7 @@ pub(super) fn derive(
         jacobian,
         parameter_jacobian,
         momenta,
+        gyroscopic,
         quadratures: None,
         residual: None,
         projection: None,

@@ -5,6 +5,7 @@ mod connection;
 mod discrete;
 mod embedded;
 mod gibbs_appell;
+mod gyroscopic;
 mod momenta;
 mod phase_space;
 mod projected;
@@ -21,6 +22,7 @@ use crate::mechanics::LagrangianSystem;
 use crate::model::{ForceDirection, Model};
 use crate::system::System;
 use crate::violation::Violation;
+pub(crate) use gyroscopic::{chaplygin, splitting};
 pub(crate) use momenta::Symmetries;
 pub(crate) use routh::Level;
 

@@ -2,6 +2,7 @@
 
 use super::embedded::embedding;
 use super::gibbs_appell;
+use super::gyroscopic;
 use super::momenta::momenta;
 use super::phase_space;
 use super::restricted::{
@@ -72,6 +73,7 @@ pub(super) fn derive(mut proved: Proved, reason: &str) -> Result<System, Vec<Vio
     let parameter_jacobian =
         requested_parameter_jacobian(&mut proved.model, &derivative).map_err(|violation| vec![violation])?;
     let momenta = momenta(&mut proved, &mut everywhere, &derivative, &velocities);
+    let gyroscopic = gyroscopic::derive(&mut proved, None)?;
     // 5. the way back to the constraint manifold
     let projection = projection(&mut proved.model, &velocities, &equations, &residuals, judge);
     // 6. the report
@@ -96,6 +98,7 @@ pub(super) fn derive(mut proved: Proved, reason: &str) -> Result<System, Vec<Vio
         jacobian,
         parameter_jacobian,
         momenta,
+        gyroscopic,
         quadratures: None,
         residual: Some(Procedure::of(residuals)),
         projection: Some(projection),

@@ -284,12 +284,14 @@ impl System {
     fn depends_on(&self, symbol: SymbolId) -> bool {
         let Self { derivative, energy, velocity, observables, multipliers, reactions, .. } = self;
         let momenta = self.momenta.iter().flat_map(|momenta| [&momenta.values, &momenta.rates]);
+        let gyroscopic = self.gyroscopic.iter().map(|gyroscopic| &gyroscopic.force);
         let projection = self.projection.iter().map(|projection| &projection.step);
         let optional =
             [energy, velocity, multipliers, reactions, &self.jacobian, &self.residual, &self.gibbs_appell];
         let all = [derivative, observables].into_iter().chain(optional.into_iter().flatten());
         let embedded = self.embedding.iter().map(|embedding| &embedding.residual);
         all.chain(momenta)
+            .chain(gyroscopic)
             .chain(projection)
             .chain(embedded)
             .any(|procedure| procedure.depends_on(&self.model.graph, &procedure.outputs).contains(&symbol))

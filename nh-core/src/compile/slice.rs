@@ -46,11 +46,13 @@ pub(super) fn slice(mut system: System) -> Result<System, Vec<Violation>> {
         let outputs = [momenta.values.outputs.as_slice(), &momenta.rates.outputs].concat();
         momenta.rates.with_outputs(outputs)
     });
+    let gyroscopic = system.gyroscopic.as_ref().map(|gyroscopic| gyroscopic.force.clone());
     for (request, origin) in &system.model.requests {
         let (what, procedure) = match request {
             Request::Multipliers => ("the multipliers", &system.multipliers),
             Request::Reactions => ("the reactions", &system.reactions),
             Request::Momenta => ("the momenta", &momenta),
+            Request::Gyroscopic => ("the gyroscopic force", &gyroscopic),
             Request::Jacobian | Request::ParameterJacobian | Request::GibbsAppell => continue,
             _ => {
                 let dropped: Vec<SymbolId> =

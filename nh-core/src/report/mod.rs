@@ -4,6 +4,7 @@ mod classification;
 mod equations;
 mod hamiltonian;
 mod routh;
+mod splitting;
 mod symmetry;
 
 use crate::algebra::Graph;
@@ -52,7 +53,9 @@ pub(crate) fn report(
     conditions: &[ExprId],
     more: Vec<(&str, Vec<String>)>,
 ) -> String {
-    let classification = classification::lines(proved, derived, reason);
+    let mut classification = classification::lines(proved, derived, reason);
+    let (kind, splitting) = splitting::lines(proved, derived);
+    classification.extend(kind);
     let symmetries = symmetry::lines(proved, derived);
     let routh = routh::lines(proved, derived);
     let mut conserved = classification::conserved(proved);
@@ -72,6 +75,7 @@ pub(crate) fn report(
     section("Anchor (kinematic equations)", anchor(model, system));
     section("Structure functions", structure_functions(model, system));
     section("Constraint distribution", distribution(model, derived));
+    section("Splitting of D", splitting);
     section("Mass matrix", mass_matrix(model, derived));
     section("Routh reduction", routh);
     section("Equations of motion", equations_of_motion(model, derived));

@@ -53,7 +53,7 @@ impl<'a> Context<'a> {
         let fields = |families: &[Family], what: &str| -> Vec<Field> {
             families.iter().map(|family| Field::of(family, what)).collect()
         };
-        let mut state = coordinate_fields(layout, in_state);
+        let mut state = coordinate_fields(layout, in_state, "coordinate");
         state.extend(velocity_fields(layout, in_state));
         let some = |record: Record| (!record.fields.is_empty()).then_some(record);
         Self {
@@ -153,8 +153,8 @@ impl<'a> Context<'a> {
 }
 
 /// The fields of the coordinates among some symbols.
-pub(super) fn coordinate_fields(layout: &Layout, symbols: &[SymbolId]) -> Vec<Field> {
-    entry_fields(layout.coordinates.iter(), &layout.coordinate_symbols, symbols, "coordinate")
+pub(super) fn coordinate_fields(layout: &Layout, symbols: &[SymbolId], what: &str) -> Vec<Field> {
+    entry_fields(layout.coordinates.iter(), &layout.coordinate_symbols, symbols, what)
 }
 
 /// The fields of the velocities among some symbols.

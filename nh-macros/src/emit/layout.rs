@@ -78,6 +78,8 @@ pub(crate) struct TypeNames {
     pub(crate) phase: Ident,
     /// `SleighQuadratures`
     pub(crate) quadratures: Ident,
+    /// `SleighGyroscopic`
+    pub(crate) gyroscopic: Ident,
 }
 
 impl TypeNames {
@@ -94,6 +96,7 @@ impl TypeNames {
             momenta: format_ident!("{name}Momenta"),
             phase: format_ident!("{name}Phase"),
             quadratures: format_ident!("{name}Quadratures"),
+            gyroscopic: format_ident!("{name}Gyroscopic"),
         }
     }
 }

@@ -146,6 +146,7 @@ impl Builder {
             momenta: None,
             gibbs_appell: None,
             quadratures: None,
+            gyroscopic: None,
             residual: None,
             projection: None,
             jacobian: None,

@@ -89,7 +89,7 @@ impl Resolver {
         let types = layout.types.clone();
         let of_motion = [types.state, types.velocity, types.input, types.outputs];
         let of_constraints = [types.multipliers, types.reactions, types.residual];
-        let of_momenta = [types.momenta, types.phase, types.quadratures];
+        let of_momenta = [types.momenta, types.phase, types.quadratures, types.gyroscopic];
         for name in of_motion.into_iter().chain(of_constraints).chain(of_momenta) {
             if !taken.insert(name.to_string()) {
                 let blamed = names.body.iter().rev().find(|renaming| renaming.name.ident == name);
@@ -119,6 +119,7 @@ fn slot<'a>(types: &'a mut TypeNames, role: &str) -> Option<&'a mut Ident> {
         "momenta" => Some(&mut types.momenta),
         "phase" => Some(&mut types.phase),
         "quadratures" => Some(&mut types.quadratures),
+        "gyroscopic" => Some(&mut types.gyroscopic),
         _ => None,
     }
 }

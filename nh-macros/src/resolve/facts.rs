@@ -20,6 +20,7 @@ pub(super) const REQUESTS: [(&str, Request); 14] = [
     ("multipliers", Request::Multipliers),
     ("reactions", Request::Reactions),
     ("momenta", Request::Momenta),
+    ("gyroscopic", Request::Gyroscopic),
     ("gibbs_appell", Request::GibbsAppell),
     ("hamiltonian", Request::Hamiltonian),
     ("bracket", Request::Bracket),

@@ -173,13 +173,13 @@ fn errors_in_lines_are_explained() {
         (
             "names { sate = A; }",
             "there is no generated type `sate`\ntypes that can be renamed: `state`, `velocity`, `input`, \
-             `multipliers`, `outputs`, `reactions`, `residual`, `momenta`, `phase`, `quadratures`\nhelp: did you mean `state`?"
+             `multipliers`, `outputs`, `reactions`, `residual`, `momenta`, `phase`, `quadratures`, `gyroscopic`\nhelp: did you mean `state`?"
                 .to_owned(),
         ),
         (
             "names { everything = A; }",
             "there is no generated type `everything`\nhelp: types that can be renamed: `state`, `velocity`, \
-             `input`, `multipliers`, `outputs`, `reactions`, `residual`, `momenta`, `phase`, `quadratures`"
+             `input`, `multipliers`, `outputs`, `reactions`, `residual`, `momenta`, `phase`, `quadratures`, `gyroscopic`"
                 .to_owned(),
         ),
         ("derivative { motor = 2 }", format!("expected `:`, found `=`\nhelp: {methods}")),

@@ -42,7 +42,7 @@ pub(crate) const FUNCTIONS: [&str; 18] = [
 pub(crate) const RESERVED: [&str; 5] = ["t", "pi", "sum", "dot", "cross"];
 
 /// The generated types that `names` renames.
-pub(crate) const TYPES: [&str; 10] = [
+pub(crate) const TYPES: [&str; 11] = [
     "state",
     "velocity",
     "input",
@@ -53,6 +53,7 @@ pub(crate) const TYPES: [&str; 10] = [
     "momenta",
     "phase",
     "quadratures",
+    "gyroscopic",
 ];
 
 /// The known algebras of `brackets`.

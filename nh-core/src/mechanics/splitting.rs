@@ -1,0 +1,216 @@
+//! How D lies to the kernel of the anchor: the classification of reduced systems, CM section 4.2.
+
+use super::euler_lagrange::LagrangianSystem;
+use crate::algebra::{Echelon, FieldPoint, Graph, Matrix, Substitution};
+use crate::geometry::ConstraintDistribution;
+use crate::id::{CoordId, ExprId, Id, SymbolId};
+
+/// D over M (or over the coordinates that are not cyclic), with V the kernel of the anchor there and
+/// S = D ∩ V; ranks at generic points.
+#[derive(Clone, Debug)]
+pub struct Splitting {
+    /// The coordinates that V leaves: all of them, or where the anchor is injective those that are
+    /// not cyclic, which are coordinates of the quotient by the translations along the cyclic ones.
+    pub coordinates: Vec<CoordId>,
+    /// Whether cyclic coordinates are left out of them.
+    pub by_cyclic: bool,
+    /// The rank of D.
+    pub rank: usize,
+    /// The rank of V.
+    pub vertical: usize,
+    /// The rank of ρ(D) over those coordinates.
+    pub horizontal: usize,
+    /// The velocities of D (by position) along which ρ is one to one.
+    lifted: Vec<usize>,
+}
+
+impl Splitting {
+    /// The splitting; `None` where V = 0, or the anchor is not onto these coordinates.
+    pub fn of(
+        graph: &mut Graph,
+        system: &LagrangianSystem,
+        distribution: &ConstraintDistribution,
+        cyclic: &[CoordId],
+    ) -> Option<Self> {
+        let algebroid = &system.algebroid;
+        let (n, s) = (algebroid.anchor.coordinates.len(), algebroid.rank());
+        let whole = graph.generic_rank(&algebroid.anchor.entries).ok()?;
+        let by_cyclic = whole == s;
+        let coordinates: Vec<CoordId> =
+            (0..n).map(CoordId::from_index).filter(|id| !(by_cyclic && cyclic.contains(id))).collect();
+        let rows: Matrix = rows(&algebroid.anchor.entries, &coordinates);
+        let onto = graph.generic_rank(&rows).ok()?;
+        if onto < coordinates.len() || onto == s {
+            return None;
+        }
+        let field = along(graph, &rows, distribution);
+        let sampled = graph.matrix_in_field(&field, |seed| FieldPoint::random(18_000 + seed)).ok()?;
+        let lifted = Echelon::of(sampled).pivots;
+        Some(Self {
+            coordinates,
+            by_cyclic,
+            rank: distribution.rank(),
+            vertical: s - onto,
+            horizontal: lifted.len(),
+            lifted,
+        })
+    }
+
+    /// The rank of S = D ∩ V.
+    #[must_use]
+    pub fn shared(&self) -> usize {
+        self.rank - self.horizontal
+    }
+
+    /// Whether D + V = E: the dimension assumption.
+    #[must_use]
+    pub fn spans(&self) -> bool {
+        self.horizontal == self.coordinates.len()
+    }
+
+    /// Whether ρ is an isomorphism from D to the tangent spaces: a Chaplygin system.
+    #[must_use]
+    pub fn is_chaplygin(&self) -> bool {
+        self.shared() == 0 && self.spans() && self.vertical > 0 && self.rank > 0
+    }
+}
+
+/// The rows of the coordinates.
+fn rows(entries: &Matrix, coordinates: &[CoordId]) -> Matrix {
+    coordinates.iter().map(|id| entries[id.index()].clone()).collect()
+}
+
+/// ρ^i_α B^α_a.
+fn along(graph: &mut Graph, rows: &Matrix, distribution: &ConstraintDistribution) -> Matrix {
+    let sections: Matrix = (0..distribution.rank()).map(|a| distribution.section(a)).collect();
+    rows.iter()
+        .map(|row| sections.iter().map(|section| graph.inner_product(row, section)).collect())
+        .collect()
+}
+
+/// The horizontal lifts of a Chaplygin system, and the force of their curvature.
+#[derive(Clone, Debug)]
+pub struct Chaplygin {
+    /// h_i, with ρ(h_i) = ∂_i, in D.
+    pub lifts: Matrix,
+    /// K_ij = [h_i, h_j], i < j, pairs in lexicographic order.
+    pub curvature: Vec<Vec<ExprId>>,
+    /// L̄ = L∘h at the rates ẋ^i.
+    pub lagrangian: ExprId,
+    /// ⟨J, K⟩_i = −p(K_ij) ẋ^j on D, in the velocities of D: the force on the right of the
+    /// Euler–Lagrange equations of L̄.
+    pub force: Vec<ExprId>,
+}
+
+impl Chaplygin {
+    /// Derives them; `rates` are symbols for the ẋ^i, in the order of the coordinates.
+    pub fn of(
+        graph: &mut Graph,
+        system: &LagrangianSystem,
+        distribution: &ConstraintDistribution,
+        splitting: &Splitting,
+        rates: &[SymbolId],
+    ) -> Option<Self> {
+        let algebroid = &system.algebroid;
+        let rows = rows(&algebroid.anchor.entries, &splitting.coordinates);
+        let m = rows.len();
+        // 1. h_i = B_a (ρB)⁻¹
+        let field = along(graph, &rows, distribution);
+        let (zero, one) = (graph.zero(), graph.one());
+        let identity: Matrix =
+            (0..m).map(|i| (0..m).map(|j| if i == j { one } else { zero }).collect()).collect();
+        let inverse = graph.solve_linear(&field, &identity)?.values;
+        let mut lifts = Matrix::new();
+        for i in 0..m {
+            let column: Vec<ExprId> = inverse.iter().map(|row| row[i]).collect();
+            let lift: Vec<ExprId> =
+                distribution.basis.iter().map(|row| graph.inner_product(row, &column)).collect();
+            lifts.push(lift.into_iter().map(|component| graph.simplify(component)).collect());
+        }
+        // 2. K(∂_i, ∂_j) = [h_i, h_j] − h[∂_i, ∂_j]
+        let mut curvature = Vec::new();
+        for i in 0..m {
+            for j in i + 1..m {
+                let bracket = algebroid.bracket(graph, &lifts[i], &lifts[j]);
+                curvature.push(bracket.into_iter().map(|c| graph.simplify(c)).collect::<Vec<_>>());
+            }
+        }
+        // 3. L̄
+        let symbols: Vec<ExprId> = rates.iter().map(|symbol| graph.symbol(*symbol)).collect();
+        let columns = Graph::transposed(&lifts);
+        let velocity: Vec<ExprId> = columns.iter().map(|row| graph.inner_product(row, &symbols)).collect();
+        let images = algebroid.velocities.iter().copied().zip(velocity);
+        let lagrangian = Substitution::new(images).apply(graph, system.lagrangian);
+        let lagrangian = graph.simplify(lagrangian);
+        // 4. −p(K_ij) ẋ^j, with ẋ = ρ(B v)
+        let mut restriction = distribution.restriction(graph, &algebroid.velocities);
+        let momenta = system.momenta(graph);
+        let momenta: Vec<ExprId> = momenta.into_iter().map(|p| restriction.apply(graph, p)).collect();
+        let speeds: Vec<ExprId> =
+            rows.iter().map(|row| graph.inner_product(row, &distribution.velocity)).collect();
+        let mut terms: Vec<Vec<ExprId>> = vec![Vec::new(); m];
+        let mut pairs = curvature.iter();
+        for i in 0..m {
+            for j in i + 1..m {
+                let along = pairs.next().map_or(zero, |k| graph.inner_product(k, &momenta));
+                let (first, second) = (graph.mul(along, speeds[j]), graph.mul(along, speeds[i]));
+                terms[i].push(graph.neg(first));
+                terms[j].push(second);
+            }
+        }
+        let force = terms.iter().map(|terms| {
+            let sum = graph.sum(terms);
+            graph.simplify(sum)
+        });
+        let force = force.collect();
+        Some(Self { lifts, curvature, lagrangian, force })
+    }
+}
+
+/// An adapted frame of a system with momentum equations: S = D ∩ V, and a complement of it in D.
+#[derive(Clone, Debug)]
+pub struct MomentumFrame {
+    /// Sections of S, each named by a velocity of D.
+    pub vertical: Vec<(SymbolId, Vec<ExprId>)>,
+    /// Sections of D beside S, by their velocities.
+    pub horizontal: Vec<(SymbolId, Vec<ExprId>)>,
+}
+
+impl MomentumFrame {
+    /// S_f = B_f − B_p (ρB_p)⁻¹ ρB_f over the velocities f along which ρ adds nothing.
+    pub fn of(
+        graph: &mut Graph,
+        system: &LagrangianSystem,
+        distribution: &ConstraintDistribution,
+        splitting: &Splitting,
+    ) -> Option<Self> {
+        let all = rows(&system.algebroid.anchor.entries, &splitting.coordinates);
+        let field = along(graph, &all, distribution);
+        let columns: Matrix = Graph::transposed(&field);
+        let lifted: Matrix = splitting.lifted.iter().map(|a| columns[*a].clone()).collect();
+        // rows of ρB_p that are independent
+        let sampled = graph.matrix_in_field(&lifted, |seed| FieldPoint::random(19_000 + seed)).ok()?;
+        let chosen = Echelon::of(sampled).pivots;
+        let free: Vec<usize> = (0..splitting.rank).filter(|a| !splitting.lifted.contains(a)).collect();
+        let pick = |set: &[usize]| -> Matrix {
+            chosen.iter().map(|row| set.iter().map(|a| columns[*a][*row]).collect()).collect()
+        };
+        let solution = graph.solve_linear(&pick(&splitting.lifted), &pick(&free))?.values;
+        let mut vertical = Vec::new();
+        for (f, a) in free.iter().enumerate() {
+            let mut section = distribution.section(*a);
+            for (row, p) in solution.iter().zip(&splitting.lifted) {
+                for (component, entry) in section.iter_mut().zip(distribution.section(*p)) {
+                    let share = graph.mul(row[f], entry);
+                    *component = graph.sub(*component, share);
+                }
+            }
+            let section = section.into_iter().map(|component| graph.simplify(component)).collect();
+            vertical.push((distribution.independent[*a], section));
+        }
+        let horizontal =
+            splitting.lifted.iter().map(|a| (distribution.independent[*a], distribution.section(*a)));
+        let horizontal = horizontal.collect();
+        Some(Self { vertical, horizontal })
+    }
+}
