@@ -286,8 +286,16 @@ impl System {
         let momenta = self.momenta.iter().flat_map(|momenta| [&momenta.values, &momenta.rates]);
         let gyroscopic = self.gyroscopic.iter().map(|gyroscopic| &gyroscopic.force);
         let projection = self.projection.iter().map(|projection| &projection.step);
-        let optional =
-            [energy, velocity, multipliers, reactions, &self.jacobian, &self.residual, &self.gibbs_appell];
+        let optional = [
+            energy,
+            velocity,
+            multipliers,
+            reactions,
+            &self.jacobian,
+            &self.residual,
+            &self.gibbs_appell,
+            &self.parameter_jacobian,
+        ];
         let all = [derivative, observables].into_iter().chain(optional.into_iter().flatten());
         let embedded = self.embedding.iter().map(|embedding| &embedding.residual);
         all.chain(momenta)
