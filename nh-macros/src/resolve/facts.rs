@@ -14,7 +14,7 @@ use crate::suggest::did_you_mean;
 use crate::syntax::ast::{self, Comparison, Definition, Equation, Item, Momentum, Name};
 
 /// What `emit` can ask for.
-pub(super) const REQUESTS: [(&str, Request); 14] = [
+pub(super) const REQUESTS: [(&str, Request); 15] = [
     ("jacobian", Request::Jacobian),
     ("parameter_jacobian", Request::ParameterJacobian),
     ("multipliers", Request::Multipliers),
