@@ -141,6 +141,15 @@ pub(super) fn on_levels(
     proved: &mut Proved,
     distribution: &ConstraintDistribution,
 ) -> Result<Leveled, Vec<Violation>> {
+    if let (Some(level), Some(_)) = (proved.levels.first(), &proved.model.orthonormal) {
+        return Err(vec![Violation {
+            law: Law::Symmetry,
+            origin: level.origin,
+            what: "`routh` beside `orthonormal`".into(),
+            evidence: "on a level the velocities that are left have a kinetic energy of their own".into(),
+            way_out: "keep one of the two".into(),
+        }]);
+    }
     let mut leveled = Leveled { kept: distribution.clone(), conditions: Vec::new() };
     for level in proved.levels.clone() {
         on_level(proved, &mut leveled, &level).map_err(|violation| vec![violation])?;
