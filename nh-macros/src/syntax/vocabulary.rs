@@ -1,7 +1,7 @@
 //! The words of the language.
 
 /// The sections, as they are written.
-pub(crate) const SECTIONS: [&str; 27] = [
+pub(crate) const SECTIONS: [&str; 28] = [
     "base",
     "on",
     "basis",
