@@ -60,13 +60,15 @@ pub(super) fn derive(
 
 /// Routh reduction leaves velocities with an offset, which the forms derived here do not have.
 fn on_level(proved: &Proved) -> Option<Violation> {
-    const REQUESTS: [Request; 6] = [
+    const REQUESTS: [Request; 8] = [
         Request::Hamiltonian,
         Request::Bracket,
         Request::DiscreteGradient,
         Request::Connection,
         Request::Volume,
         Request::Divergence,
+        Request::Leapfrog,
+        Request::EulerPoincareSuslov,
     ];
     let level = proved.levels.first()?;
     let origin = REQUESTS.iter().find_map(|request| asked(&proved.model, *request));
