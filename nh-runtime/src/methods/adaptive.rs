@@ -3,6 +3,7 @@
 
 use super::explicit::Tableau;
 use super::fixed::Fixed;
+use super::leg::Leg;
 use super::{Arrival, Method, Place, Start, component, non_finite_derivative};
 use crate::arrays::{all_finite, difference, displaced, first_non_finite};
 use crate::step_control::StepControl;
@@ -366,7 +367,8 @@ impl<P, T: Real, W> Adaptive<P, T, W> {
         let size = norm(&x);
         let slope = norm(first);
         let negligible = c(1e-5);
-        let mut h = if size < negligible || slope < negligible { c(1e-6) } else { c(0.01) * size / slope };
+        let known = size >= negligible && slope >= negligible && slope.is_finite();
+        let mut h = if known { c(0.01) * size / slope } else { c(1e-6) };
         let mut direction = T::ONE;
         if let Some(target) = target {
             h = h.min((target - start.time).abs());
@@ -383,44 +385,8 @@ impl<P, T: Real, W> Adaptive<P, T, W> {
         } else {
             ((c(0.01) / largest).ln() / T::from_u32(order)).exp()
         };
-        // a derivative ahead that is not finite says nothing
-        let refined = if refined.is_finite() { refined } else { h };
+        // a derivative ahead that is not finite says nothing, nor does a tolerance of zero
+        let refined = if refined.is_finite() && refined > T::ZERO { refined } else { h };
         self.control.limited(refined.min(h * c(100.0)))
-    }
-}
-
-/// A step on the way to the target.
-struct Leg<T> {
-    /// Its length, with the sign of its direction.
-    length: T,
-    /// The time at its end.
-    time: T,
-    /// Whether the target has shortened it.
-    cut: bool,
-}
-
-impl<T: Real> Leg<T> {
-    /// The step of length h: stretched by up to 1 % or cut to land on the target, and halved where
-    /// otherwise a sliver would be left.
-    #[inline]
-    fn new(now: T, h: T, target: Option<T>) -> Self {
-        let mut length = h;
-        let mut cut = false;
-        if let Some(target) = target {
-            let remaining = (target - now).abs();
-            if h * T::from_f64(1.01) >= remaining {
-                return Self { length: target - now, time: target, cut: remaining < h };
-            }
-            if h * T::from_f64(2.0) > remaining {
-                length = remaining * T::from_f64(0.5);
-                cut = true;
-            }
-            if target < now {
-                length = -length;
-            }
-        }
-        let time = now + length;
-        // the length that the time has really moved by
-        Self { length: time - now, time, cut }
     }
 }

@@ -3,17 +3,30 @@
 //! | method | order | step | keeps |
 //! |---|---|---|---|
 //! | [`Euler`] | 1 | fixed | |
+//! | [`Heun`] | 2 | fixed | |
+//! | [`Ralston`] | 3 | fixed | |
 //! | [`Rk4`] | 4 | fixed | |
-//! | [`Dopri5`] | 5 | adaptive | |
+//! | [`Bs23`] | 3 | adaptive, for low accuracy | |
+//! | [`Dopri5`], [`Tsit5`] | 5 | adaptive | |
+//! | [`Dop853`] | 8 | adaptive, for high accuracy | |
+//! | [`Vern9`] | 9 | adaptive, near round-off | |
 //! | [`ImplicitMidpoint`] | 2 | fixed, stiff systems too | quadratic invariants, reversibility |
 //! | [`DiscreteGradient`] | 2 | fixed | the energy, quadratic constraints and identities, reversibility |
 //! | `.fourth_order()`, `.sixth_order()` of the two above | 4, 6 | fixed | what they keep |
 //! | [`ReflectedLeapfrog`] | 2 | fixed, on TQ | reversibility; energy and constraints nearly |
 //! | [`DiscreteSuslov`] | 2 | fixed, on a Lie algebra | the constraints, reversibility; the energy nearly |
+//! | [`GaussLegendre4`] | 4 | fixed, stiff systems too | quadratic invariants, reversibility |
+//! | [`GaussLegendre6`] | 6 | fixed, stiff systems too | quadratic invariants, reversibility |
+//! | [`Radau5`] | 5 | adaptive, for stiff systems | |
+//! | [`Rodas5P`] | 5 | adaptive, for stiff systems | |
 //! | [`Projected`] | that of the method it is made of | likewise | the constraints of the projected formulation |
 //!
 //! Implicit methods form the Jacobian ∂f/∂x by difference quotients, or take the one that the system
-//! has: `ImplicitMidpoint::new(h).with_jacobian()`.
+//! has: `Radau5::new().with_jacobian()`.
+//!
+//! Adaptive methods take tolerances for all components or [for each](Adaptive::tolerances), and every
+//! explicit one is a method of fixed step too: `Dop853::fixed(h)`. Fixed steps may be summed
+//! [with compensation](Fixed::compensated).
 //!
 //! The methods of fixed step are also one pure function each, `Rk4::step(&system, t, dt, &state,
 //! &input)`, for a loop that keeps its own state and time. Where the system has a Jacobian,
@@ -24,6 +37,7 @@ mod explicit;
 mod fixed;
 mod grid;
 mod implicit;
+mod leg;
 mod projected;
 mod structure;
 mod transition;

@@ -194,7 +194,8 @@ where
             iterations += 1;
             statistics.iterations += 1;
             statistics.evaluations += N as u64;
-            let largest = change.iter().fold(T::ZERO, |largest, c| largest.max(size(c, x)));
+            let sizes = change.iter().zip(&z).map(|(c, z)| size(c, x, z));
+            let largest = sizes.fold(T::ZERO, T::max);
             residual = largest / self.tolerance;
             let ratio = preceding.map(|preceding| residual / preceding);
             let stagnates = ratio.is_some_and(|ratio| ratio >= T::from_f64(0.5));

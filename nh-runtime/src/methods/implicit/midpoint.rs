@@ -150,7 +150,7 @@ impl<T: Real, J> Midpoint<T, J> {
             half_increment = displaced(&half_increment, T::ONE, &correction);
             iterations += 1;
             statistics.iterations += 1;
-            residual = size(&correction, &x) / self.tolerance;
+            residual = size(&correction, &x, &half_increment) / self.tolerance;
             if vanishes(&correction, &x, &half_increment) {
                 break;
             }
@@ -198,13 +198,11 @@ pub(super) fn check_tolerance<T: Real>(tolerance: T) -> Result<(), IntegrationEr
     })
 }
 
-/// The largest correction, relative to 1 + |x|; NaN if there is one.
-pub(super) fn size<T: Real, V: AsRef<[T]>>(correction: &V, x: &V) -> T {
-    correction
-        .as_ref()
-        .iter()
-        .zip(x.as_ref())
-        .fold(T::ZERO, |largest, (c, x)| largest.max(c.abs() / (T::ONE + x.abs())))
+/// The largest correction, relative to 1 + |x| + |increment| in its component; NaN if there is one.
+pub(super) fn size<T: Real, V: AsRef<[T]>>(correction: &V, x: &V, increment: &V) -> T {
+    let scales = x.as_ref().iter().zip(increment.as_ref()).map(|(x, d)| T::ONE + x.abs() + d.abs());
+    let terms = correction.as_ref().iter().zip(scales);
+    terms.fold(T::ZERO, |largest, (c, scale)| largest.max(c.abs() / scale))
 }
 
 /// Whether a correction is below half a rounding unit in every component.

@@ -121,14 +121,15 @@ impl<J> Radau<J> {
             let change = RADAU.iterate(start, &x, h, matrices, &mut work.trial);
             statistics.iterations += 1;
             statistics.evaluations += 3;
-            let squares =
-                change.iter().fold(ScalarOf::<S>::ZERO, |sum, c| sum + tolerance.mean_square(c, &x, &x));
+            let end = displaced(&x, one, &weighted(zero, &RADAU.end, &work.trial));
+            let squares = change.iter().map(|c| tolerance.mean_square(c, &x, &end));
+            let squares = squares.fold(ScalarOf::<S>::ZERO, |sum, square| sum + square);
             let residual = (squares * w(1.0 / 3.0)).sqrt();
             if !residual.is_finite() {
                 return false;
             }
             let round_off = w(4.0) * ScalarOf::<S>::EPSILON;
-            if change.iter().all(|c| size(c, &x) <= round_off) {
+            if change.iter().zip(&work.trial).all(|(c, z)| size(c, &x, z) <= round_off) {
                 return true;
             }
             if let Some(preceding) = preceding {
