@@ -208,8 +208,11 @@ fn draw_reaction(picture: &mut Picture, descent: &Descent) {
     let most = descent.track.iter().filter_map(|moment| moment.reaction).fold(1.0, f64::max);
     let corner = Page { x: 76.0, y: 450.0 };
     let chart = Chart { corner, width: 848.0, height: 130.0, across: [0.0, end], up: [0.0, most * 1.05] };
-    let seconds: Vec<(f64, String)> =
-        (0..).map(|i| 2.0 * f64::from(i)).take_while(|t| *t < end).map(|t| (t, format!("{t} s"))).collect();
+    let seconds: Vec<(f64, String)> = (0_u8..50)
+        .map(|i| 2.0 * f64::from(i))
+        .take_while(|t| *t < end)
+        .map(|t| (t, format!("{t} s")))
+        .collect();
     let seconds: Vec<(f64, &str)> = seconds.iter().map(|(t, label)| (*t, label.as_str())).collect();
     let weights = [(0.0, "0"), (1.0, "1"), (2.0, "2"), (3.0, "3"), (4.0, "4")];
     let weights: Vec<(f64, &str)> = weights.into_iter().filter(|(level, _)| *level < most).collect();

@@ -1,6 +1,6 @@
 //! Any method, with a return to the constraint manifold every few steps.
 
-use super::{Arrival, Method, Start};
+use super::{Arrival, Method, Place, Start};
 use crate::projection::largest;
 use crate::{Constrained, IntegrationError, Real, Scalar, ScalarOf, State, Statistics};
 
@@ -113,19 +113,49 @@ where
         memory: &mut Self::Memory,
         statistics: &mut Statistics,
     ) -> Result<Arrival<S>, IntegrationError> {
-        // the memory changes only if the projection succeeds too
-        let Memory { method: mut inner, steps } = *memory;
-        let mut arrival = self.method.advance(start, target, &mut inner, statistics)?;
-        let steps = steps + 1;
-        if steps < self.every {
-            *memory = Memory { method: inner, steps };
+        let mut arrival = self.method.advance(start, target, &mut memory.method, statistics)?;
+        if memory.steps + 1 < self.every {
+            memory.steps += 1;
             return Ok(arrival);
         }
-        if correct(start.system, &mut arrival, statistics)? {
-            self.method.forget(&mut inner);
+        let corrected = correct(start.system, &mut arrival, statistics);
+        if !matches!(corrected, Ok(false)) {
+            // the state at the end is not the one that the method has led to
+            self.method.forget(&mut memory.method);
         }
-        *memory = Memory { method: inner, steps: 0 };
+        corrected?;
+        memory.steps = 0;
         Ok(arrival)
+    }
+
+    #[inline]
+    fn travel(
+        &self,
+        system: &S,
+        input: &S::Input,
+        place: &mut Place<S>,
+        (target, limit): (ScalarOf<S>, u64),
+        memory: &mut Self::Memory,
+        statistics: &mut Statistics,
+    ) -> Result<u64, IntegrationError> {
+        let mut done = 0;
+        while place.time != target && done < limit {
+            // all steps to the next projection but its own
+            let free = u64::from(self.every - 1 - memory.steps).min(limit - done);
+            let leg = (target, free);
+            let taken = self.method.travel(system, input, place, leg, &mut memory.method, statistics)?;
+            done += taken;
+            // no more than `every`, which is of this type
+            memory.steps += u32::try_from(taken).unwrap_or(0);
+            if place.time != target && done < limit {
+                let start = Start { system, input, time: place.time, state: &place.state };
+                let arrival = self.advance(&start, Some(target), memory, statistics)?;
+                place.move_to(arrival);
+                statistics.steps += 1;
+                done += 1;
+            }
+        }
+        Ok(done)
     }
 
     #[inline]

@@ -162,3 +162,25 @@ fn a_cadence_of_zero_is_refused() {
     let error = circling(Projected::new(Rk4::new(-0.1), 1)).step().unwrap_err();
     assert!(matches!(error, IntegrationError::Setting { setting: "step", .. }));
 }
+
+#[test]
+fn many_steps_at_once_are_the_steps_one_by_one() {
+    fn check<M: Method<Circle> + Copy>(method: M) {
+        for every in [1, 2, 7, 40] {
+            let mut whole = circling(Projected::new(method, every));
+            whole.advance_to(30.0).unwrap();
+            let mut single = circling(Projected::new(method, every));
+            while single.time() < 30.0 {
+                single.step_towards(30.0).unwrap();
+            }
+            assert_eq!((whole.state(), whole.statistics()), (single.state(), single.statistics()));
+            let middle = f64::midpoint(whole.time(), 29.99);
+            assert_eq!(whole.at(middle), single.at(middle));
+        }
+    }
+    check(Rk4::new(0.1));
+    check(Rk4::new(0.1).compensated());
+    check(Dopri5::new());
+    check(Dop853::new());
+    check(Radau5::new());
+}
