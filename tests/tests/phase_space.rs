@@ -142,6 +142,10 @@ fn hamilton_is_derivative() {
         // constant mass matrix: the momenta are linear in the velocities
         close(found.p_omega, (0.7 + 1.3 * 0.16) * rates.omega);
         close(found.p_v1, 1.3 * rates.v1);
+        // the force is what the bracket with the energy does not give
+        let drift = sleigh.drift(0.0, &phase, &input);
+        close(drift.p_omega, 0.3 - 0.2 * state.omega);
+        close(drift.p_v1 + drift.x + drift.y + drift.theta, 0.0);
         // {p_omega, p_v1} = −p([B_omega, B_v1]) = −m a omega
         close(sleigh.poisson(0.0, &phase)[(3, 4)], -1.3 * 0.4 * state.omega);
         // friction, and −M(v) with M = a m (b, −1) / (J + m a²) on (omega, v1)

@@ -181,11 +181,10 @@ fn determinant<const N: usize>(mut a: [[f64; N]; N]) -> f64 {
             value = -value;
         }
         value *= a[k][k];
-        for i in k + 1..N {
-            let factor = a[i][k] / a[k][k];
-            for j in k..N {
-                a[i][j] -= factor * a[k][j];
-            }
+        let leading = a[k];
+        for row in a.iter_mut().skip(k + 1) {
+            let factor = row[k] / leading[k];
+            row.iter_mut().zip(leading).for_each(|(entry, lead)| *entry -= factor * lead);
         }
     }
     value

@@ -35,5 +35,10 @@ pub(crate) fn hamiltonian_lines(model: &mut Model, side: &HamiltonianSide) -> Ve
             }
         }
     }
+    for (name, rest) in names.iter().zip(&side.drift.outputs) {
+        if !graph.is_literal_zero(*rest) {
+            lines.push(format!("R_L({}) = {}", graph.symbols()[*name], shown(graph, *rest)));
+        }
+    }
     lines
 }

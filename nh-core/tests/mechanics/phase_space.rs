@@ -158,7 +158,7 @@ fn the_hamiltonian_side_is_the_lagrangian_side() {
             let carried: f64 = slopes.iter().zip(rates.iter().chain(&[1.0])).map(|(s, r)| s.value * r).sum();
             close(found[n + a], carried);
         }
-        // 3. (16): without drift and time, ż = {z, h}
+        // 3. (16): without drift and time, ż = {z, h}, and R_L = 0
         let is_affine = system.report.contains("affine") || system.report.contains("moving energy");
         let equations = side.equations.written_out(graph);
         let depends_on_time = graph.depends_on(system.model.lagrangian.value, &[system.model.time])
@@ -166,6 +166,7 @@ fn the_hamiltonian_side_is_the_lagrangian_side() {
         if is_affine || depends_on_time {
             continue;
         }
+        assert!(side.drift.outputs.iter().all(|rest| graph.is_literal_zero(*rest)));
         let energy = side.hamiltonian.written_out(graph)[0];
         let phase: Vec<SymbolId> = coordinates.iter().chain(&side.momenta).copied().collect();
         let slopes: Vec<ExprId> = phase.iter().map(|symbol| graph.partial(energy, *symbol)).collect();
@@ -222,6 +223,65 @@ fn the_brackets_of_the_ball_on_the_rotating_table() {
     close(at(2, 3), pi3);
     close(at(3, 4), s * pi1 + r * s * omega * y);
     close(at(4, 2), s * pi2 - r * s * omega * x);
+}
+
+/// CLMM section 7.4, with the terms along π that hold (mathematics, where the papers differ):
+/// R_L = k²Ω/(k²+r²) (x ∂_y − y ∂_x) − rΩ/(k²+r²) (π₃ − k²Ω)(x ∂_π₁ + y ∂_π₂)
+///       + rk²Ω/(k²+r²)² (π₁x + π₂y) ∂_π₃.
+#[test]
+fn the_drift_of_the_ball_on_the_rotating_table() {
+    let mut b = Builder { model: asking(systems::ball_on_rotating_table(), &[Request::Hamiltonian]) };
+    let functions = [
+        b.sum(&[(1, 1, "x")]),
+        b.sum(&[(1, 1, "y")]),
+        b.sum(&[(1, 1, "r*dx"), (1, 1, "k2*w2")]),
+        b.sum(&[(1, 1, "r*dy"), (-1, 1, "k2*w1")]),
+        b.sum(&[(1, 1, "k2*w3")]),
+    ];
+    let system = compiled(b.model);
+    assert!(system.report.contains("R_L("), "{}", system.report);
+    let side = system.phase_space.hamiltonian.as_ref().unwrap();
+    let graph = &system.model.graph;
+    let coordinates: Vec<SymbolId> = system.model.coordinates.iter().map(|c| c.symbol).collect();
+    let phase: Vec<SymbolId> = coordinates.iter().chain(&side.momenta).copied().collect();
+    let at = |point: &[f64], symbol: SymbolId| {
+        phase.iter().position(|known| *known == symbol).map_or_else(|| sample(symbol), |index| point[index])
+    };
+    // the functions at a point of phase space, all velocities from the momenta
+    let velocity = system.velocity.as_ref().unwrap();
+    let evaluated = |point: &[f64]| -> Vec<f64> {
+        let kept = values(graph, &side.inverse, |symbol| at(point, symbol));
+        let of_state = |symbol: SymbolId| {
+            let index = system.state_velocities.iter().position(|known| *known == symbol);
+            index.map_or_else(|| at(point, symbol), |index| kept[index])
+        };
+        let all = values(graph, velocity, of_state);
+        let symbols: Vec<SymbolId> = system.model.sections.iter().map(|section| section.symbol).collect();
+        let lookup = |symbol: SymbolId| {
+            symbols
+                .iter()
+                .position(|known| *known == symbol)
+                .map_or_else(|| at(point, symbol), |index| all[index])
+        };
+        graph.evaluate(&functions, lookup).iter().map(|bounded| bounded.value).collect()
+    };
+    let here: Vec<f64> = phase.iter().map(|symbol| sample(*symbol)).collect();
+    let drift = values(graph, &side.drift, |symbol| at(&here, symbol));
+    // the functions are quadratic at most: a central difference is exact
+    let moved = |by: f64| evaluated(&here.iter().zip(&drift).map(|(z, r)| z + by * r).collect::<Vec<_>>());
+    let found: Vec<f64> = moved(1.0).iter().zip(moved(-1.0)).map(|(a, b)| (a - b) / 2.0).collect();
+    let named = |name: &str| {
+        let symbols = graph.symbols();
+        sample(symbols.ids().find(|id| symbols[*id] == name).unwrap())
+    };
+    let (r, k2, omega, x, y) = (named("r"), named("k2"), named("Omega"), named("x"), named("y"));
+    let [_, _, pi1, pi2, pi3] = evaluated(&here)[..] else { panic!("five functions") };
+    let sum = k2 + r * r;
+    close(found[0], -k2 * omega / sum * y);
+    close(found[1], k2 * omega / sum * x);
+    close(found[2], -r * omega / sum * (pi3 - k2 * omega) * x);
+    close(found[3], -r * omega / sum * (pi3 - k2 * omega) * y);
+    close(found[4], r * k2 * omega / (sum * sum) * (pi1 * x + pi2 * y));
 }
 
 fn claiming(mut model: Model) -> Model {

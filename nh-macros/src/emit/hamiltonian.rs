@@ -77,7 +77,7 @@ pub(super) fn emit(context: &Context, scope: &Scope, system: &System) -> Part {
         part.methods.extend(signature.with_body(context, &used, &quote!(#statements #result)));
         part.programs.push((signature.name, program));
     };
-    let [legendre, inverse, energy, equations, bracket] = signatures(context, record);
+    let [legendre, inverse, energy, equations, drift, bracket] = signatures(context, record);
     let of_state = context.state.places(&context.locals.state);
     let of_record = record.places(&argument);
     let HamiltonianSide { legendre: forth, inverse: back, .. } = side;
@@ -103,6 +103,7 @@ pub(super) fn emit(context: &Context, scope: &Scope, system: &System) -> Part {
         &|outputs| record.construct(&quote_name(record), outputs),
         false,
     );
+    add(drift, &of_phase, &side.drift, &|outputs| record.construct(&quote_name(record), outputs), false);
     add(bracket, &of_phase, &side.bracket, &|outputs| square(context, record.len(), outputs), false);
     part
 }
@@ -124,7 +125,7 @@ fn quote_name(record: &Record) -> TokenStream {
     quote!(#name)
 }
 
-fn signatures(context: &Context, record: &Record) -> [Signature; 5] {
+fn signatures(context: &Context, record: &Record) -> [Signature; 6] {
     let (runtime, scalar) = (&context.runtime, &context.scalar);
     let (state, phase) = (context.type_of(&context.state), context.type_of(record));
     let size = Literal::usize_unsuffixed(record.len());
@@ -134,6 +135,16 @@ fn signatures(context: &Context, record: &Record) -> [Signature; 5] {
         context,
         "hamilton",
         &[" Hamilton's equations: the time derivative of coordinates and momenta."],
+        of_phase(),
+        phase.clone(),
+    );
+    let drift = signature(
+        context,
+        "drift",
+        &[
+            " R_L, what Hamilton's equations add to the bracket with the energy: zero where the constraints are",
+            " homogeneous, nothing depends on the time, and no force acts.",
+        ],
         of_phase(),
         phase.clone(),
     );
@@ -160,6 +171,7 @@ fn signatures(context: &Context, record: &Record) -> [Signature; 5] {
             scalar.clone(),
         ),
         Signature { takes_input: true, ..equations },
+        Signature { takes_input: true, ..drift },
         signature(
             context,
             "poisson",

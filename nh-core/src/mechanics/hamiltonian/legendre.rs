@@ -5,7 +5,8 @@ use crate::algebra::{Graph, Matrix, Substitution, Verdict};
 use crate::geometry::ConstraintDistribution;
 use crate::id::{ExprId, SymbolId};
 use crate::mechanics::{
-    Definiteness, LagrangianSystem, Procedure, ReducedEquations, complete_lift, energy, solve_symmetric,
+    Definiteness, LagrangianSystem, Procedure, ReducedEquations, complete_lift, energy, jacobian,
+    solve_symmetric,
 };
 
 /// The Hamiltonian side: functions of (t, x, π) with π_a = B^α_a p_α on the constraint manifold.
@@ -23,6 +24,8 @@ pub struct HamiltonianSide {
     pub equations: Procedure,
     /// Outputs: the matrix of {·, ·}_nh in (x, π), row by row: mathematics (15), (17).
     pub bracket: Procedure,
+    /// Outputs: R_L of mathematics (17), what the equations add to the bracket with h.
+    pub drift: Procedure,
 }
 
 /// Why there is no Hamiltonian side in closed form.
@@ -118,14 +121,49 @@ pub fn hamiltonian_side(
     let equations_of_motion: Vec<ExprId> = equations.rates.iter().copied().chain(rates).collect();
     let matrix = phase_bracket(graph, &inversion, &momenta);
     let velocities: Vec<ExprId> = distribution.independent.iter().map(|v| graph.symbol(*v)).collect();
+    let equations = inversion.transformed(graph, &equations_of_motion);
+    let bracket = inversion.transformed(graph, &matrix.concat());
+    let phase: Vec<SymbolId> =
+        system.algebroid.anchor.coordinates.iter().chain(&inversion.symbols).copied().collect();
     Ok(HamiltonianSide {
+        drift: drift(graph, &hamiltonian, &equations, &bracket, &phase),
         inverse: inversion.transformed(graph, &velocities),
         hamiltonian,
-        equations: inversion.transformed(graph, &equations_of_motion),
-        bracket: inversion.transformed(graph, &matrix.concat()),
+        equations,
+        bracket,
         legendre: Procedure::of(inversion.projected),
         momenta: inversion.symbols,
     })
+}
+
+/// R_L = Γ − {·, h}: zero where the constraints are homogeneous and nothing depends on the time or is
+/// forced.
+fn drift(
+    graph: &mut Graph,
+    hamiltonian: &Procedure,
+    equations: &Procedure,
+    bracket: &Procedure,
+    phase: &[SymbolId],
+) -> Procedure {
+    // a Legendre transformation has no calls of methods, so that h can be differentiated
+    let Ok(mut procedure) = jacobian(graph, hamiltonian, phase) else { return Procedure::default() };
+    let slopes = std::mem::take(&mut procedure.outputs);
+    procedure.definitions.extend(equations.definitions.iter().chain(&bracket.definitions).cloned());
+    for (rate, row) in equations.outputs.iter().zip(bracket.outputs.chunks(phase.len().max(1))) {
+        let along = graph.inner_product(row, &slopes);
+        let rest = graph.sub(*rate, along);
+        procedure.outputs.push(rest);
+    }
+    if procedure.calls() {
+        return procedure;
+    }
+    // most of it cancels
+    let written_out = procedure.written_out(graph);
+    let short: Vec<ExprId> = written_out
+        .into_iter()
+        .map(|rest| if graph.zero_test(rest).is_zero() { graph.zero() } else { graph.simplify(rest) })
+        .collect();
+    Procedure::of(short)
 }
 
 fn is_constant_in(graph: &mut Graph, row: &[ExprId], velocities: &[SymbolId]) -> bool {
