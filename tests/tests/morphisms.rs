@@ -2,6 +2,7 @@
 
 mod morphisms {
     mod bodies;
+    mod brackets;
     mod elsewhere;
     mod planar;
     mod quotients;

@@ -134,6 +134,6 @@ impl Side {
             let restricted = self.manifold.restrict_matrix(&mut self.proved.model.graph, matrix);
             if restricted.is_empty() { Ok(0) } else { self.proved.model.graph.generic_rank(&restricted) }
         });
-        Ok(all? - alone?)
+        Ok(all?.saturating_sub(alone?))
     }
 }
