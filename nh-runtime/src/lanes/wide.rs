@@ -135,6 +135,7 @@ macro_rules! pack {
             }
 
             #[cold]
+            #[inline(never)]
             fn beyond_reach(self) -> (Self, Self) {
                 let pairs = self.to_array().map(|lane| Fast(lane).sin_cos());
                 (Self::new(pairs.map(|(sin, _)| sin.0)), Self::new(pairs.map(|(_, cos)| cos.0)))

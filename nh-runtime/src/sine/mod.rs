@@ -28,7 +28,7 @@ pub(crate) trait Sine: Scalar {
     const NEGATIVE_HALF_PI: [f64; 4];
     /// The coefficients of (sin r − r)/r³ in r², the highest first.
     const SIN: &'static [f64];
-    /// The coefficients of (cos r − 1 + r²/2)/r⁴ in r², the highest first.
+    /// The coefficients of cos r in r², the highest first.
     const COS: &'static [f64];
 
     /// Sine and cosine of r + n π/2 from those of r, where n stands in the last digits of `counter`.
@@ -65,6 +65,8 @@ macro_rules! coefficients {
             2.480_158_728_947_673e-5,
             -1.388_888_888_887_411e-3,
             4.166_666_666_666_66e-2,
+            -0.5,
+            1.0,
         ];
     };
     (f32) => {
@@ -79,7 +81,7 @@ macro_rules! coefficients {
         ];
         const SIN: &'static [f64] = &[-1.951_529_589_1e-4, 8.332_160_873_6e-3, -1.666_665_461_1e-1];
         const COS: &'static [f64] =
-            &[2.443_315_711_809_948e-5, -1.388_731_625_493_765e-3, 4.166_664_568_298_827e-2];
+            &[2.443_315_711_809_948e-5, -1.388_731_625_493_765e-3, 4.166_664_568_298_827e-2, -0.5, 1.0];
     };
 }
 
@@ -104,7 +106,7 @@ pub(crate) fn sin_cos<T: Sine>(x: T) -> (T, T) {
 fn of_reduced<T: Sine>(r: T, counter: T) -> (T, T) {
     let z = r * r;
     let sin = (r * z).mul_add(polynomial(T::SIN, z), r);
-    let cos = (z * z).mul_add(polynomial(T::COS, z), z.mul_add(T::from_f64(-0.5), T::ONE));
+    let cos = polynomial(T::COS, z);
     T::turned(sin, cos, counter)
 }
 
@@ -131,6 +133,7 @@ macro_rules! primitive {
             }
 
             #[cold]
+            #[inline(never)]
             fn beyond_reach(self) -> (Self, Self) {
                 if self.abs() <= $float::MAX { far::sin_cos(self) } else { (Self::NAN, Self::NAN) }
             }

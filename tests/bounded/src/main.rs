@@ -1,0 +1,73 @@
+//! Generated code and methods of fixed step in a control loop: they cannot panic, hold no state outside of what
+//! they are given, and give the same bits in every build for the same target.
+//!
+//! ```sh
+//! cargo run --profile bounded -p nh-bounded --features proof
+//! ```
+//!
+//! links only if no function in `proved.rs` has a path that panics, and prints the bits of the states that a
+//! debug build has to print too.
+
+mod proved;
+mod systems;
+
+use nh_runtime::prelude::*;
+use systems::{Robot, RobotInput, RobotState, Sleigh, SleighInput, SleighState};
+
+/// Types that may be copied, and shared with an interrupt.
+const fn plain<T: Copy + Send + Sync + 'static>() {}
+/// Types that may be handed to an interrupt.
+const fn shared<T: Send + Sync + 'static>() {}
+const _: () = {
+    plain::<Sleigh<f32>>();
+    plain::<SleighState<Fast<f64>>>();
+    plain::<SleighInput<f32>>();
+    plain::<Robot>();
+    plain::<RobotState>();
+    plain::<RobotInput>();
+    plain::<Rk4<f32>>();
+    plain::<Euler<f64>>();
+    plain::<ImplicitMidpoint<f64>>();
+    plain::<Dopri5<f64>>();
+    shared::<Integrator<Sleigh<f32>, Rk4<f32>>>();
+    shared::<Integrator<Robot, Dopri5<f64>>>();
+    plain::<IntegrationError>();
+};
+
+fn sleigh_over<T: Real>(number: impl Fn(f64) -> T) -> [T; 5] {
+    let sleigh = Sleigh {
+        m: number(1.0),
+        J: number(0.5),
+        a: number(0.3),
+        b: number(0.1),
+        c: number(0.02),
+        J_w: number(0.1),
+    };
+    let mut state = SleighState::from([-0.4, 0.0, 0.0, 0.15, -1.0].map(&number));
+    for tick in 0..1000 {
+        let input = SleighInput { torque: number(0.01) * T::from_u32(tick % 7) };
+        state = Rk4::step(&sleigh, T::ZERO, number(0.02), &state, &input);
+    }
+    state.into()
+}
+
+fn robot() -> [f64; 7] {
+    let robot = Robot { m: 8.0, J: 0.3, I: 0.02, b: 0.2, d: 0.05, r: 0.1 };
+    let mut state = RobotState::default();
+    for tick in 0..1000 {
+        let input = RobotInput { right: 0.021, left: if tick % 3 == 0 { 0.0 } else { 0.03 } };
+        state = proved::implicit_step(&robot, 0.02, &state, &input).unwrap_or_default();
+    }
+    state.into()
+}
+
+fn main() {
+    for _ in 0..2 {
+        println!("f64       {:016x?}", sleigh_over(|x| x).map(f64::to_bits));
+        println!("f32       {:08x?}", sleigh_over(<f32 as Scalar>::from_f64).map(f32::to_bits));
+        println!("Fast<f64> {:016x?}", sleigh_over(Fast).map(|x| x.0.to_bits()));
+        println!("Fast<f32> {:08x?}", sleigh_over(<Fast<f32> as Scalar>::from_f64).map(|x| x.0.to_bits()));
+        println!("implicit  {:016x?}", robot().map(f64::to_bits));
+    }
+    println!("{}", proved::all());
+}

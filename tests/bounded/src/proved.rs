@@ -1,0 +1,116 @@
+//! Functions that cannot panic: with the feature `proof` the linker refuses them if they can.
+
+use nh_runtime::prelude::*;
+
+use crate::systems::{
+    Robot, RobotInput, RobotState, Sleigh, SleighInput, SleighOnThePlane, SleighOnThePlaneState, SleighState,
+};
+
+/// Defines functions that are proved not to panic.
+macro_rules! proved {
+    ($($vis:vis fn $name:ident($($argument:ident: $type:ty),* $(,)?) -> $result:ty $body:block)*) => {$(
+        #[cfg_attr(feature = "proof", no_panic::no_panic)]
+        #[inline(never)]
+        $vis fn $name($($argument: $type),*) -> $result $body
+    )*};
+}
+
+type Single = SleighState<f32>;
+type Double = SleighState<f64>;
+
+proved! {
+    fn derivative(sleigh: &Sleigh<f64>, x: &Double, u: &SleighInput<f64>) -> Double { sleigh.derivative(0.0, x, u) }
+    fn derivative_single(sleigh: &Sleigh<f32>, x: &Single, u: &SleighInput<f32>) -> Single {
+        sleigh.derivative(0.0, x, u)
+    }
+    fn energy(sleigh: &Sleigh<f64>, x: &Double) -> f64 { sleigh.energy(0.0, x) }
+    fn outputs(sleigh: &Sleigh<f64>, x: &Double, u: &SleighInput<f64>) -> f64 { sleigh.outputs(0.0, x, u).speed }
+    fn multipliers(sleigh: &Sleigh<f64>, x: &Double, u: &SleighInput<f64>) -> f64 {
+        sleigh.multipliers(0.0, x, u).edge
+    }
+    fn velocity(sleigh: &Sleigh<f64>, x: &Double) -> f64 { sleigh.velocity(0.0, x).v2 }
+    fn jacobian(sleigh: &Sleigh<f64>, x: &Double, u: &SleighInput<f64>) -> f64 { sleigh.jacobian(0.0, x, u).0.sum() }
+    fn valid(sleigh: &Sleigh<f64>) -> bool { sleigh.validate().is_ok() }
+    fn euler(sleigh: &Sleigh<f64>, x: &Double, u: &SleighInput<f64>) -> Double {
+        Euler::step(sleigh, 0.0, 0.01, x, u)
+    }
+    fn runge_kutta(sleigh: &Sleigh<f64>, x: &Double, u: &SleighInput<f64>) -> Double {
+        Rk4::step(sleigh, 0.0, 0.01, x, u)
+    }
+    fn runge_kutta_single(sleigh: &Sleigh<f32>, x: &Single, u: &SleighInput<f32>) -> Single {
+        Rk4::step(sleigh, 0.0, 0.01, x, u)
+    }
+    fn runge_kutta_fast(
+        sleigh: &Sleigh<Fast<f64>>, x: &SleighState<Fast<f64>>, u: &SleighInput<Fast<f64>>,
+    ) -> SleighState<Fast<f64>> {
+        Rk4::step(sleigh, Fast(0.0), Fast(0.01), x, u)
+    }
+    fn linearized(sleigh: &Sleigh<f64>, x: &Double, u: &SleighInput<f64>) -> f64 {
+        Rk4::linearized_step(sleigh, 0.0, 0.01, x, u).by_state.sum()
+    }
+    pub(crate) fn implicit_step(robot: &Robot, dt: f64, x: &RobotState, u: &RobotInput) -> Option<RobotState> {
+        ImplicitMidpoint::step_with_jacobian(robot, 0.0, dt, x, u).ok()
+    }
+    fn robot(robot: &Robot, x: &RobotState, u: &RobotInput) -> RobotState { Rk4::step(robot, 0.0, 0.01, x, u) }
+    fn projected(sleigh: &SleighOnThePlane, x: &SleighOnThePlaneState) -> SleighOnThePlaneState {
+        Rk4::step(sleigh, 0.0, 0.01, x, &())
+    }
+    fn back_on_the_constraint(sleigh: &SleighOnThePlane, x: &SleighOnThePlaneState) -> bool {
+        let mut x = *x;
+        sleigh.project(0.0, &mut x).is_ok()
+    }
+    fn sine_and_cosine(x: Fast<f64>) -> (Fast<f64>, Fast<f64>) { x.sin_cos() }
+    fn sine_and_cosine_single(x: Fast<f32>) -> (Fast<f32>, Fast<f32>) { x.sin_cos() }
+    fn loop_with_an_integrator(robot: &Robot, x: &RobotState) -> bool {
+        let mut sim = Integrator::new(robot, Rk4::new(0.01), 0.0, *x);
+        let stepped = sim.step().is_ok();
+        stepped & sim.advance_to(0.1).is_ok()
+    }
+}
+
+#[allow(non_snake_case)] // the names of the parameters
+/// Calls all of them, so that all of them are linked: how many gave something finite.
+pub(crate) fn all() -> String {
+    use std::hint::black_box;
+
+    let numbers: [f64; 6] = black_box([1.0, 0.5, 0.1, 0.3, 0.1, 0.02]);
+    let [m, J, J_w, a, b, c] = numbers;
+    let sleigh = Sleigh { m, J, J_w, a, b, c };
+    let x: Double = black_box([0.3, 0.1, 0.2, 0.4, 0.5]).into();
+    let u = black_box(SleighInput { torque: 0.1 });
+    let [m, J, J_w, a, b, c] = black_box([1.0_f32, 0.5, 0.1, 0.3, 0.1, 0.02]);
+    let single = Sleigh { m, J, J_w, a, b, c };
+    let single_x: Single = black_box([0.3_f32, 0.1, 0.2, 0.4, 0.5]).into();
+    let single_u = black_box(SleighInput { torque: 0.1_f32 });
+    let [m, J, J_w, a, b, c] = numbers.map(Fast);
+    let fast = Sleigh { m, J, J_w, a, b, c };
+    let fast_x = SleighState::from(x.to_array().map(Fast));
+    let robot_system = black_box(Robot { m: 8.0, J: 0.3, I: 0.02, b: 0.2, d: 0.05, r: 0.1 });
+    let (robot_x, robot_u) = black_box((RobotState::default(), RobotInput { right: 0.1, left: 0.2 }));
+    let plane = black_box(SleighOnThePlane { m: 1.0, J: 0.2 });
+    let plane_x = black_box(SleighOnThePlaneState { x_dot: 1.0, ..SleighOnThePlaneState::default() });
+    let results = [
+        derivative(&sleigh, &x, &u).omega.is_finite(),
+        derivative_single(&single, &single_x, &single_u).omega.is_finite(),
+        energy(&sleigh, &x).is_finite(),
+        outputs(&sleigh, &x, &u).is_finite(),
+        multipliers(&sleigh, &x, &u).is_finite(),
+        velocity(&sleigh, &x).is_finite(),
+        jacobian(&sleigh, &x, &u).is_finite(),
+        valid(&sleigh),
+        euler(&sleigh, &x, &u).x.is_finite(),
+        runge_kutta(&sleigh, &x, &u).x.is_finite(),
+        runge_kutta_single(&single, &single_x, &single_u).x.is_finite(),
+        runge_kutta_fast(&fast, &fast_x, &SleighInput { torque: Fast(0.1) }).x.0.is_finite(),
+        linearized(&sleigh, &x, &u).is_finite(),
+        implicit_step(&robot_system, 0.01, &robot_x, &robot_u).is_some(),
+        robot(&robot_system, &robot_x, &robot_u).x.is_finite(),
+        projected(&plane, &plane_x).x.is_finite(),
+        back_on_the_constraint(&plane, &plane_x),
+        sine_and_cosine(Fast(black_box(1e7))).0.0.is_finite(),
+        sine_and_cosine_single(Fast(black_box(1e7))).0.0.is_finite(),
+        loop_with_an_integrator(&robot_system, &robot_x),
+    ];
+    let finite = results.iter().filter(|finite| **finite).count();
+    format!("{finite} of {} functions gave something finite", results.len())
+}

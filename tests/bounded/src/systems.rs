@@ -1,0 +1,71 @@
+//! A system of each formulation and number.
+
+use nh_runtime::prelude::*;
+
+/// A rigid body on a plane, carried by a knife edge, with a wheel that drives it.
+#[nonholonomic(
+    base   { theta, x, y }
+    basis  { omega, v1, v2 }
+    anchor {
+        der(theta) = omega;
+        der(x) = v1 * cos(theta) - v2 * sin(theta);
+        der(y) = v1 * sin(theta) + v2 * cos(theta);
+    }
+    lagrangian  { (J + J_w + m * (a^2 + b^2)) / 2 * omega^2 + m / 2 * (v1^2 + v2^2) - m * b * omega * v1 + m * a * omega * v2 }
+    constraints { edge: v2 = 0; }
+    forces      { omega: torque - c * omega; }
+    inputs      { torque }
+    outputs     { speed = sqrt(v1^2 + v2^2); }
+    emit        { multipliers, jacobian }
+)]
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Sleigh<T> {
+    pub(crate) m: T,
+    pub(crate) J: T,
+    pub(crate) J_w: T,
+    pub(crate) a: T,
+    pub(crate) b: T,
+    pub(crate) c: T,
+}
+
+/// A robot on two driven wheels, with its centre of mass ahead of the axle.
+#[nonholonomic(
+    base { x, y, theta, phi_r, phi_l }
+    lagrangian {
+        m / 2 * (der(x)^2 + der(y)^2)
+            + m * d * der(theta) * (cos(theta) * der(y) - sin(theta) * der(x))
+            + (J + m * d^2) / 2 * der(theta)^2
+            + I / 2 * (der(phi_r)^2 + der(phi_l)^2)
+    }
+    constraints {
+        der(x) = r / 2 * (der(phi_r) + der(phi_l)) * cos(theta);
+        der(y) = r / 2 * (der(phi_r) + der(phi_l)) * sin(theta);
+        der(theta) = r / (2 * b) * (der(phi_r) - der(phi_l));
+    }
+    forces { phi_r: right; phi_l: left; }
+    inputs { right, left }
+    emit   { multipliers, jacobian }
+    assume { m > 0; J > 0; I > 0; b > 0; r > 0; }
+)]
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Robot {
+    pub(crate) m: f64,
+    pub(crate) J: f64,
+    pub(crate) I: f64,
+    pub(crate) b: f64,
+    pub(crate) d: f64,
+    pub(crate) r: f64,
+}
+
+/// In coordinates of the plane, in the projected formulation.
+#[nonholonomic(
+    base { theta, x, y }
+    lagrangian  { J / 2 * der(theta)^2 + m / 2 * (der(x)^2 + der(y)^2) }
+    constraints { cos(theta) * der(y) - sin(theta) * der(x) = 0; }
+    emit        { multipliers, jacobian }
+)]
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct SleighOnThePlane {
+    pub(crate) m: f64,
+    pub(crate) J: f64,
+}
