@@ -324,6 +324,37 @@ fn single_precision_over_a_long_time() {
     assert!(error(compensated.state()) < 1e-6, "{:e}", error(compensated.state()));
 }
 
+#[test]
+fn every_method_in_single_precision() {
+    fn check<M: Method<Sleigh<f32>>>(method: M, bound: f32) {
+        let sleigh = Sleigh { m: 1.0_f32, J: 1.0, a: 0.5, c: 0.0 };
+        let start = SleighState { omega: 0.3, v1: -0.5, ..SleighState::default() };
+        let before = sleigh.energy(0.0, &start);
+        let mut sim = Integrator::new(sleigh, method, 0.0, start);
+        // it turns round once
+        let turns = Events::new(|_, x: &SleighState<f32>, _: &SleighInput<f32>| [x.v1]);
+        let turn = sim.advance_until(20.0, &turns).unwrap().expect("a turn");
+        assert!(turn.state.v1.abs() < 1e-5 && turn.direction == Direction::Rising);
+        assert_eq!(sim.advance_until(20.0, &turns), Ok(None));
+        let energy = sleigh.energy(0.0, sim.state());
+        assert!((energy / before - 1.0).abs() < bound, "{}", energy / before - 1.0);
+        sim.advance_to(0.0).unwrap();
+        assert!((sim.state().omega - 0.3).abs() < 2.0 * bound, "{:?}", sim.state());
+    }
+    check(Euler::new(0.001), 1e-3);
+    check(Rk4::new(0.01), 1e-5);
+    check(ImplicitMidpoint::new(0.01), 1e-5);
+    check(GaussLegendre4::new(0.05), 1e-5);
+    check(GaussLegendre6::new(0.05).with_jacobian(), 1e-5);
+    check(Bs23::new(), 1e-3);
+    check(Dopri5::new(), 1e-3);
+    check(Tsit5::new().rtol(1e-6), 1e-5);
+    check(Dop853::new().rtol(1e-6), 1e-5);
+    check(Vern9::new().rtol(1e-6), 1e-5);
+    check(Radau5::new().rtol(1e-6).with_jacobian(), 1e-5);
+    check(Rodas5P::new().rtol(1e-6).with_jacobian(), 1e-5);
+}
+
 /// Sleigh and Suslov over many steps: what the energy and the position have lost.
 fn long_run(steps: u32) {
     let h = 0.01;
