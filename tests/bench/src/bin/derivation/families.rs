@@ -1,0 +1,157 @@
+//! The declarations that are timed: the systems of the benchmark, and families of growing size.
+
+/// A declaration as text.
+pub(crate) struct Declaration {
+    /// The name in the tables.
+    pub(crate) name: String,
+    /// What stands in `#[nonholonomic(…)]`.
+    pub(crate) attribute: String,
+    /// The struct.
+    pub(crate) item: String,
+}
+
+impl Declaration {
+    /// The declaration in a file of the benchmark.
+    fn of_source(name: &str, source: &str) -> Self {
+        let (_, rest) = source.split_once("#[nonholonomic(").expect("a declaration");
+        let (attribute, rest) = rest.split_once("\n)]\n").expect("the end of the attribute");
+        let (item, _) = rest.split_once("\n}\n").expect("the end of the struct");
+        Self { name: name.to_owned(), attribute: attribute.to_owned(), item: format!("{item}\n}}") }
+    }
+}
+
+/// Every declaration.
+pub(crate) fn all() -> Vec<Declaration> {
+    let mut all = vec![
+        Declaration::of_source("sleigh", include_str!("../../systems/sleigh.rs")),
+        Declaration::of_source("veselova", include_str!("../../systems/veselova.rs")),
+        Declaration::of_source("snakeboard", include_str!("../../systems/snakeboard.rs")),
+        Declaration::of_source("robot", include_str!("../../systems/robot.rs")),
+        Declaration::of_source("ball on table", include_str!("../../systems/ball.rs")),
+    ];
+    let trailers = [1, 2, 3, 4, 5, 6, 8, 10, 12, 16, 20];
+    all.extend(trailers.map(relative_tractor));
+    all.extend(trailers.map(absolute_tractor));
+    all.extend([2, 3, 4, 6, 8, 12, 16, 20].map(snake));
+    all.extend([4, 5, 6].map(suslov));
+    all
+}
+
+/// A tractor with trailers in relative angles: that of the benchmark, without Jacobians.
+pub(crate) fn relative_tractor(trailers: usize) -> Declaration {
+    let source = include_str!("../../systems/tractor.rs").replace("\n        )]\n", "\n)]\n");
+    let source = source.replace("\n        }\n", "\n}\n");
+    let mut declaration = Declaration::of_source(&format!("relative tractor {trailers}"), &source);
+    for text in [&mut declaration.attribute, &mut declaration.item] {
+        *text = text
+            .replace("$trailers", &trailers.to_string())
+            .replace("$bodies", &(trailers + 1).to_string())
+            .replace("$Tractor", "Tractor")
+            .replace("emit { jacobian }", "");
+    }
+    declaration
+}
+
+/// The same in absolute angles.
+pub(crate) fn absolute_tractor(trailers: usize) -> Declaration {
+    let (n, bodies) = (trailers, trailers + 1);
+    let chain = format!(
+        "let vx[i in 0..{bodies}] = v + sum(j in 1..i+1: d[j] * sin(th[j] - th[0]) * w[j]);
+         let vy[i in 0..{bodies}] = side - sum(j in 1..i+1: d[j] * cos(th[j] - th[0]) * w[j]);"
+    );
+    Declaration {
+        name: format!("absolute tractor {n}"),
+        attribute: format!(
+            "base {{ x, y, th[{bodies}] }}
+            basis {{ v, side, w[{bodies}] }}
+            anchor {{
+                der(x) = v * cos(th[0]) - side * sin(th[0]);
+                der(y) = v * sin(th[0]) + side * cos(th[0]);
+                for i in 0..{bodies} {{ der(th[i]) = w[i]; }}
+            }}
+            lagrangian {{
+                {chain}
+                m[0] / 2 * (v^2 + (side + a * w[0])^2) + sum(i in 0..{bodies}: J[i] / 2 * w[i]^2)
+                    + sum(i in 1..{bodies}: m[i] / 2 * (vx[i]^2 + vy[i]^2))
+            }}
+            constraints {{
+                {chain}
+                for i in 0..{bodies} {{ cos(th[i] - th[0]) * vy[i] = sin(th[i] - th[0]) * vx[i]; }}
+            }}
+            inputs {{ push, steer }}
+            forces {{ v: push; w[0]: steer; }}"
+        ),
+        item: format!(
+            "struct Tractor {{ m: [f64; {bodies}], J: [f64; {bodies}], d: [f64; {bodies}], a: f64 }}"
+        ),
+    }
+}
+
+/// A snake: links with a wheel in their middle, hinged at their ends, with torques at the hinges.
+pub(crate) fn snake(links: usize) -> Declaration {
+    let joints = links - 1;
+    let chain = format!(
+        "let ang[i in 0..{links}] = sum(j in 0..i: q[j]);
+         let w[i in 0..{links}] = omega + sum(j in 0..i: dq[j]);
+         let vx[i in 0..{links}] = v + sum(j in 0..i: h * (sin(ang[j]) * w[j] + sin(ang[j+1]) * w[j+1]));
+         let vy[i in 0..{links}] = side - sum(j in 0..i: h * (cos(ang[j]) * w[j] + cos(ang[j+1]) * w[j+1]));"
+    );
+    Declaration {
+        name: format!("snake {links}"),
+        attribute: format!(
+            "base {{ x, y, th, q[{joints}] }}
+            basis {{ v, side, omega, dq[{joints}] }}
+            anchor {{
+                der(x) = v * cos(th) - side * sin(th);
+                der(y) = v * sin(th) + side * cos(th);
+                der(th) = omega;
+                for i in 0..{joints} {{ der(q[i]) = dq[i]; }}
+            }}
+            lagrangian {{
+                {chain}
+                sum(i in 0..{links}: m / 2 * (vx[i]^2 + vy[i]^2) + J / 2 * w[i]^2)
+            }}
+            constraints {{
+                {chain}
+                side = 0;
+                for i in 1..{links} {{ cos(ang[i]) * vy[i] = sin(ang[i]) * vx[i]; }}
+            }}
+            inputs {{ torque[{joints}] }}
+            forces {{ for i in 0..{joints} {{ q[i]: torque[i]; }} }}"
+        ),
+        item: "struct Snake { m: f64, J: f64, h: f64 }".to_owned(),
+    }
+}
+
+/// Suslov's problem on so(n) of Fedorov and Kozlov: only the rotations that move the last axis are
+/// free; the inertia is ω ↦ Jω + ωJ with any symmetric J.
+pub(crate) fn suslov(n: usize) -> Declaration {
+    let pairs: Vec<(usize, usize)> = (0..n).flat_map(|i| (i + 1..n).map(move |j| (i, j))).collect();
+    let name = |i: usize, j: usize| format!("w{i}{j}");
+    let names: Vec<String> = pairs.iter().map(|&(i, j)| name(i, j)).collect();
+    // T = ½ Σ J_ij ω_ik ω_jk
+    let entry = |i: usize, j: usize| match i.cmp(&j) {
+        std::cmp::Ordering::Less => name(i, j),
+        std::cmp::Ordering::Equal => "0".to_owned(),
+        std::cmp::Ordering::Greater => format!("(-{})", name(j, i)),
+    };
+    let mut terms = Vec::new();
+    for (i, j, k) in (0..n).flat_map(|i| (0..n).flat_map(move |j| (0..n).map(move |k| (i, j, k)))) {
+        if k != i && k != j {
+            let (i_low, j_low) = (i.min(j), i.max(j));
+            terms.push(format!("J[{i_low}][{j_low}] * {} * {}", entry(i, k), entry(j, k)));
+        }
+    }
+    let fixed = pairs.iter().filter(|(_, j)| *j < n - 1).map(|&(i, j)| format!("{} = 0;", name(i, j)));
+    let names = names.join(", ");
+    Declaration {
+        name: format!("so({n}) Suslov"),
+        attribute: format!(
+            "basis {{ {names} }} brackets so({n}) {{ {names} }}
+            lagrangian {{ ({}) / 2 }} constraints {{ {} }}",
+            terms.join(" + "),
+            fixed.collect::<String>()
+        ),
+        item: format!("struct Suslov {{ J: [[f64; {n}]; {n}] }}"),
+    }
+}

@@ -1,0 +1,67 @@
+//! The stages of the macro, timed.
+
+use std::time::{Duration, Instant};
+
+use nh_core::program::{Cost, schedule};
+use proc_macro2::TokenStream;
+
+use crate::emit::{Layout, emit};
+use crate::families::Declaration;
+use crate::resolve::resolve;
+use crate::syntax;
+
+/// Milliseconds, and the size of what was derived.
+pub(crate) struct Times {
+    /// From tokens to a model.
+    pub(crate) parse: f64,
+    /// From the model to the system.
+    pub(crate) derive: f64,
+    /// From the system to tokens.
+    pub(crate) emit: f64,
+    /// Operations of the emitted derivative.
+    pub(crate) operations: usize,
+}
+
+impl Times {
+    /// The whole expansion.
+    pub(crate) fn whole(&self) -> f64 {
+        self.parse + self.derive + self.emit
+    }
+}
+
+/// The shortest of several expansions, which all do the same.
+pub(crate) fn measure(declaration: &Declaration) -> Times {
+    const ENOUGH: Duration = Duration::from_millis(500);
+    let attribute: TokenStream = declaration.attribute.parse().expect("the attribute is made of tokens");
+    let item: TokenStream = declaration.item.parse().expect("the item is made of tokens");
+    let start = Instant::now();
+    let mut best = once(declaration, attribute.clone(), item.clone());
+    while start.elapsed() < ENOUGH {
+        let again = once(declaration, attribute.clone(), item.clone());
+        if again.whole() < best.whole() {
+            best = again;
+        }
+    }
+    best
+}
+
+fn once(declaration: &Declaration, attribute: TokenStream, item: TokenStream) -> Times {
+    let milliseconds = |start: Instant| start.elapsed().as_secs_f64() * 1e3;
+    let start = Instant::now();
+    let Ok(parsed) = syntax::parse(attribute.clone(), item) else { panic!("{}: syntax", declaration.name) };
+    let mut layout = Layout::of_struct(&parsed.structure, attribute);
+    let Ok(resolved) = resolve(&parsed, &mut layout) else { panic!("{}: names", declaration.name) };
+    let parse = milliseconds(start);
+    let start = Instant::now();
+    let system = match nh_core::compile::compile(resolved.model) {
+        Ok(system) => system,
+        Err(violations) => panic!("{}: {violations:?}", declaration.name),
+    };
+    let derive = milliseconds(start);
+    let start = Instant::now();
+    let tokens = emit(&system, &layout);
+    let emit = milliseconds(start);
+    drop(tokens);
+    let operations = Cost::of(&schedule(&system.model.graph, &system.derivative)).weighted();
+    Times { parse, derive, emit, operations }
+}
