@@ -56,6 +56,13 @@ impl Rational {
         {
             return Self(Repr::Small(n, 1));
         }
+        if let (Ok(n), Ok(d)) = (i64::try_from(numerator), i64::try_from(denominator))
+            && n != i64::MIN
+            && d != i64::MIN
+        {
+            let divisor = n.gcd(&d).max(1) * d.signum();
+            return Self(Repr::Small(n / divisor, d / divisor));
+        }
         let divisor = numerator.gcd(&denominator).max(1);
         let sign = denominator.signum();
         let (n, d) = (numerator / divisor * sign, denominator / divisor * sign);
@@ -257,7 +264,10 @@ impl std::ops::Add for Rational {
     type Output = Self;
     fn add(self, other: Self) -> Self {
         match (&self.0, &other.0) {
-            (Repr::Small(a, 1), Repr::Small(b, 1)) => Self::from_wide(i128::from(*a) + i128::from(*b), 1),
+            (Repr::Small(a, 1), Repr::Small(b, 1)) => match a.checked_add(*b) {
+                Some(sum) => Self(Repr::Small(sum, 1)),
+                None => Self::from_wide(i128::from(*a) + i128::from(*b), 1),
+            },
             (Repr::Small(a, b), Repr::Small(c, d)) => {
                 let (a, b, c, d) = (i128::from(*a), i128::from(*b), i128::from(*c), i128::from(*d));
                 match (a * d).checked_add(c * b) {
@@ -291,6 +301,12 @@ impl std::ops::Mul for Rational {
     type Output = Self;
     fn mul(self, other: Self) -> Self {
         match (&self.0, &other.0) {
+            (Repr::Small(1, 1), _) => other,
+            (_, Repr::Small(1, 1)) => self,
+            (Repr::Small(a, 1), Repr::Small(b, 1)) => match a.checked_mul(*b) {
+                Some(product) => Self(Repr::Small(product, 1)),
+                None => Self::from_wide(i128::from(*a) * i128::from(*b), 1),
+            },
             (Repr::Small(a, b), Repr::Small(c, d)) => {
                 Self::from_wide(i128::from(*a) * i128::from(*c), i128::from(*b) * i128::from(*d))
             }

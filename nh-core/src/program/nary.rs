@@ -102,6 +102,11 @@ impl Arena {
         self.terms.len()
     }
 
+    /// Whether two arenas for the same procedure have come to the same terms.
+    pub(super) fn computes_alike(&self, other: &Self) -> bool {
+        self.len() == other.len() && self.terms.iter().eq(other.terms.iter())
+    }
+
     /// Gives a term another form of the same value.
     pub(super) fn rewrite(&mut self, term: Term, nary: Nary) {
         self.known.entry(nary.clone()).or_insert(term);

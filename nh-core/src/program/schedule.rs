@@ -45,21 +45,42 @@ pub fn schedule(graph: &Graph, procedure: &Procedure) -> Program {
 pub fn schedule_grouping(graph: &Graph, procedure: &Procedure, parameters: &[SymbolId]) -> Program {
     let arena = import(graph, procedure, parameters);
     let tried = if arena.len() > LARGE { &STRATEGIES[..2] } else { &STRATEGIES[..] };
-    let programs = tried.iter().map(|strategy| strategy.run(arena.clone()));
+    let mut shared = None;
+    let mut prepared: Vec<Arena> = Vec::new();
+    for strategy in tried {
+        let arena = if strategy.sums_first {
+            shared.get_or_insert_with(|| with_shared_sums(arena.clone()))
+        } else {
+            &arena
+        };
+        let arena = strategy.factored(arena.clone());
+        // what has come to the same goes the same way from here
+        if prepared.iter().all(|other| !other.computes_alike(&arena)) {
+            prepared.push(arena);
+        }
+    }
+    let programs = prepared.into_iter().map(straight_line);
     programs.min_by_key(|program| Cost::of(program).weighted()).unwrap_or_default()
 }
 
+fn with_shared_sums(mut arena: Arena) -> Arena {
+    share_pairs(&mut arena, Kind::Sums);
+    arena
+}
+
 impl Strategy {
-    fn run(self, mut arena: Arena) -> Program {
-        if self.sums_first {
-            share_pairs(&mut arena, Kind::Sums);
-        }
+    fn factored(self, mut arena: Arena) -> Arena {
         if let Some(sharing) = self.factoring {
             factor(&mut arena, sharing);
         }
-        separate_powers(&mut arena);
-        share_pairs(&mut arena, Kind::Products);
-        share_pairs(&mut arena, Kind::Sums);
-        lower(&arena)
+        arena
     }
+}
+
+/// The program of an arena whose sums are factored.
+fn straight_line(mut arena: Arena) -> Program {
+    separate_powers(&mut arena);
+    share_pairs(&mut arena, Kind::Products);
+    share_pairs(&mut arena, Kind::Sums);
+    lower(&arena)
 }

@@ -79,7 +79,7 @@ impl Reader<'_> {
     /// The terms by their denominators: sums, and on request sines and cosines.
     fn fractions(&self, polynomial: &Polynomial, trigonometric: bool) -> Fractions {
         let mut fractions = Fractions::new();
-        for (monomial, coefficient) in &polynomial.0 {
+        for (monomial, coefficient) in polynomial.0.iter() {
             let (below, above) = monomial.split(|factor| {
                 (factor.kind == Kind::Sum && factor.exponent.is_negative())
                     || (trigonometric && self.is_trigonometric_denominator(factor))
@@ -94,7 +94,7 @@ impl Reader<'_> {
         for (below, above) in fractions {
             let factor = Polynomial::term(below.clone(), Rational::ONE);
             let fraction = self.multiply(above, &factor)?;
-            sum.add_scaled(&fraction, &Rational::ONE);
+            sum.add(fraction);
         }
         Some(sum)
     }
@@ -120,7 +120,7 @@ impl Reader<'_> {
                 others.remove(below);
                 let mut sum = self.together(&others)?;
                 let fraction = self.multiply(&quotient, &raised)?;
-                sum.add_scaled(&fraction, &Rational::ONE);
+                sum.add(fraction);
                 return Some(Step::To(sum));
             }
         }
@@ -163,7 +163,7 @@ impl Reader<'_> {
             let mut above = Polynomial::default();
             for index in &subset {
                 let raised = self.cleared(entries[*index].1, &entries[*index].0.over(&below)?)?;
-                above.add_scaled(&raised, &Rational::ONE);
+                above.add(raised);
             }
             let above = self.reduce(&above)?;
             let before: usize = subset.iter().map(|i| entries[*i].1.len()).sum();
@@ -172,7 +172,7 @@ impl Reader<'_> {
                 rest.retain(|key, _| !subset.iter().any(|i| entries[*i].0 == key));
                 let mut sum = self.together(&rest)?;
                 let fraction = self.multiply(&above, &Polynomial::term(below, Rational::ONE))?;
-                sum.add_scaled(&fraction, &Rational::ONE);
+                sum.add(fraction);
                 return Some(Step::To(sum));
             }
         }
@@ -203,7 +203,7 @@ impl Reader<'_> {
 /// The polynomial in the reciprocals of its atoms, whose lowest exponents are the highest here.
 fn inverted(polynomial: &Polynomial) -> Polynomial {
     let mut result = Polynomial::default();
-    for (monomial, coefficient) in &polynomial.0 {
+    for (monomial, coefficient) in polynomial.0.iter() {
         result.add_term(monomial.inverse(), coefficient.clone());
     }
     result

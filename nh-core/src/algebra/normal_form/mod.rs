@@ -21,6 +21,7 @@ mod division;
 mod polynomial;
 mod reader;
 mod rebuild;
+mod terms;
 mod trigonometry;
 
 use super::graph::Function::{Cos, Cosh, Exp, Sin, Sinh};

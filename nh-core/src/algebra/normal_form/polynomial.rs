@@ -1,10 +1,10 @@
 //! Laurent polynomials over atoms: exact coefficients, rational exponents of either sign.
 
+use super::terms::Terms;
 use crate::algebra::number::Rational;
 use crate::id::ExprId;
 use num_integer::Integer;
 use std::cmp::Ordering;
-use std::collections::BTreeMap;
 
 /// An exponent in lowest terms with a positive denominator.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -229,7 +229,7 @@ impl PartialOrd for Monomial {
 
 /// `Σ coefficient · monomial`; no coefficient is zero.
 #[derive(Clone, Debug, PartialEq, Default)]
-pub(super) struct Polynomial(pub(super) BTreeMap<Monomial, Rational>);
+pub(super) struct Polynomial(pub(super) Terms);
 
 impl Polynomial {
     pub(super) fn constant(value: Rational) -> Self {
@@ -255,45 +255,42 @@ impl Polynomial {
     }
 
     pub(super) fn add_term(&mut self, monomial: Monomial, coefficient: Rational) {
-        use std::collections::btree_map::Entry;
-        if coefficient.is_zero() {
-            return;
-        }
-        match self.0.entry(monomial) {
-            Entry::Vacant(entry) => {
-                entry.insert(coefficient);
-            }
-            Entry::Occupied(mut entry) => {
-                let sum = entry.get().clone() + coefficient;
-                if sum.is_zero() {
-                    entry.remove();
-                } else {
-                    entry.insert(sum);
-                }
-            }
+        if !coefficient.is_zero() {
+            self.0.add(monomial, coefficient);
         }
     }
 
     pub(super) fn add_scaled(&mut self, other: &Self, scale: &Rational) {
-        for (monomial, coefficient) in &other.0 {
+        for (monomial, coefficient) in other.0.iter() {
             self.add_term(monomial.clone(), coefficient.clone() * scale.clone());
         }
     }
 
+    /// Adds another polynomial.
+    pub(super) fn add(&mut self, other: Self) {
+        if self.is_zero() {
+            *self = other;
+            return;
+        }
+        for (monomial, coefficient) in other.0 {
+            self.0.add(monomial, coefficient);
+        }
+    }
+
     pub(super) fn scaled(&self, scale: &Rational) -> Self {
-        let mut result = Self::default();
+        let mut result = Self(Terms::with_capacity(self.len()));
         result.add_scaled(self, scale);
         result
     }
 
     /// The term, if there is just one.
     pub(super) fn single(&self) -> Option<(&Monomial, &Rational)> {
-        (self.len() == 1).then(|| self.0.first_key_value()).flatten()
+        (self.len() == 1).then(|| self.0.first()).flatten()
     }
 
     /// The term with the largest monomial.
     pub(super) fn leading(&self) -> Option<(&Monomial, &Rational)> {
-        self.0.last_key_value()
+        self.0.last()
     }
 
     /// The positive greatest common divisor of the coefficients.
@@ -312,8 +309,8 @@ impl Polynomial {
 
     /// Every term times a monomial.
     pub(super) fn shifted(&self, by: &Monomial) -> Option<Self> {
-        let mut result = Self::default();
-        for (monomial, coefficient) in &self.0 {
+        let mut result = Self(Terms::with_capacity(self.len()));
+        for (monomial, coefficient) in self.0.iter() {
             result.add_term(monomial.times(by)?, coefficient.clone());
         }
         Some(result)

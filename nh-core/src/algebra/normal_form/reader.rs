@@ -159,14 +159,14 @@ impl<'g> Reader<'g> {
     pub(super) fn multiply(&mut self, a: &Polynomial, b: &Polynomial) -> Option<Polynomial> {
         self.spend(a.len() * b.len())?;
         let mut product = Polynomial::default();
-        for (m, c) in &a.0 {
-            for (n, d) in &b.0 {
+        for (m, c) in a.0.iter() {
+            for (n, d) in b.0.iter() {
                 let (monomial, coefficient) = (m.times(n)?, c.clone() * d.clone());
                 if monomial.0.iter().all(|factor| self.is_settled(factor.kind, factor.exponent)) {
                     product.add_term(monomial, coefficient);
                 } else {
                     let opened = self.open(&monomial, coefficient)?;
-                    product.add_scaled(&opened, &Rational::ONE);
+                    product.add(opened);
                 }
             }
             self.fits(&product)?;

@@ -59,7 +59,7 @@ impl Reader<'_> {
     pub(super) fn expression(&mut self, polynomial: &Polynomial) -> ExprId {
         let (common, rest) = without_common_factor(polynomial);
         let mut fractions: BTreeMap<Monomial, Polynomial> = BTreeMap::new();
-        for (monomial, coefficient) in &rest.0 {
+        for (monomial, coefficient) in rest.0.iter() {
             let (below, above) = monomial.split(is_denominator);
             fractions.entry(below).or_default().add_term(above, coefficient.clone());
         }

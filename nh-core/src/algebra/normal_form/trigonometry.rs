@@ -182,7 +182,7 @@ impl Reader<'_> {
         let mut square = Polynomial::term(Monomial::of(kept, Kind::Plain, Exponent::whole(2)), angle.sign());
         square.add_term(Monomial::default(), if cosine { Rational::ONE } else { -angle.sign() });
         let mut result = Polynomial::default();
-        for (monomial, coefficient) in &polynomial.0 {
+        for (monomial, coefficient) in polynomial.0.iter() {
             match monomial.exponent(gone).integer() {
                 Some(power @ 2..) => {
                     let removed = Monomial::of(gone, Kind::Plain, Exponent::whole(power - power % 2));
@@ -190,7 +190,7 @@ impl Reader<'_> {
                     for _ in 0..power / 2 {
                         product = self.multiply(&product, &square)?;
                     }
-                    result.add_scaled(&product, &Rational::ONE);
+                    result.add(product);
                 }
                 _ => result.add_term(monomial.clone(), coefficient.clone()),
             }

@@ -13,16 +13,22 @@ extern crate proc_macro;
 mod families;
 mod stopwatch;
 
+#[allow(dead_code, unused_imports, reason = "the other macros use more")]
 #[path = "../../../../../nh-macros/src/emit/mod.rs"]
 mod emit;
+#[allow(dead_code, unused_imports, reason = "the other macros use more")]
 #[path = "../../../../../nh-macros/src/expand.rs"]
 mod expand;
+#[allow(dead_code, unused_imports, reason = "the other macros use more")]
 #[path = "../../../../../nh-macros/src/report.rs"]
 mod report;
+#[allow(dead_code, unused_imports, reason = "the other macros use more")]
 #[path = "../../../../../nh-macros/src/resolve/mod.rs"]
 mod resolve;
+#[allow(dead_code, unused_imports, reason = "the other macros use more")]
 #[path = "../../../../../nh-macros/src/suggest.rs"]
 mod suggest;
+#[allow(dead_code, unused_imports, reason = "the other macros use more")]
 #[path = "../../../../../nh-macros/src/syntax/mod.rs"]
 mod syntax;
 
