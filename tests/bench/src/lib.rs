@@ -3,6 +3,7 @@
 
 pub mod callgrind;
 pub mod contest;
+pub mod peers;
 pub mod runner;
 pub mod systems;
 pub mod table;

@@ -8,8 +8,9 @@
 use std::process::ExitCode;
 
 use nh_bench::callgrind;
+use nh_bench::peers::Workshop;
 use nh_bench::runner::{OWN, Run, all};
-use nh_bench::table::{Row, print};
+use nh_bench::table::{Row, print, print_peers};
 
 /// The argument with which the benchmark calls itself under callgrind.
 const EVALUATE: &str = "--evaluate";
@@ -40,6 +41,17 @@ fn run() -> Result<(), String> {
     // 3. times, and the table
     let rows: Vec<Row> = systems.iter().map(|system| row(system.as_ref(), &counts)).collect();
     print(&rows);
+    // 4. other tools, where they are installed
+    let directory =
+        std::env::current_exe().map_err(|error| error.to_string())?.with_file_name("nh-bench.peers");
+    match Workshop::open(&directory) {
+        Ok(workshop) => {
+            let peers: Result<Vec<_>, String> =
+                systems.iter().map(|system| workshop.measure(system.as_ref())).collect();
+            print_peers(&rows, &peers?);
+        }
+        Err(missing) => println!("\n{missing}"),
+    }
     Ok(())
 }
 

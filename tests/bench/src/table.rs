@@ -1,4 +1,6 @@
-//! The table of the benchmark, in Markdown.
+//! The tables of the benchmark, in Markdown.
+
+use crate::peers::{Measured, PEERS};
 
 /// A system's measurements: by hand, the emitted `derivative`, the emitted `jacobian` with it.
 pub struct Row {
@@ -35,6 +37,24 @@ pub fn print(rows: &[Row]) {
         mean(&|row| timed(row, 2, 1)),
     );
 }
+
+/// Prints instructions, times and derivation times of the peers beside our own.
+pub fn print_peers(rows: &[Row], peers: &[[Option<Measured>; 4]]) {
+    let names = PEERS.map(|(name, ..)| name).join(" | ");
+    for (what, digits, own, of) in [
+        ("instructions", 0, (|row| row.instructions[1]) as fn(&Row) -> Option<f64>, INSTRUCTIONS),
+        ("ns", 1, |row| Some(row.nanoseconds[1]), |peer| Some(peer.nanoseconds)),
+        ("ms to derive", 0, |_| None, |peer| Some(peer.derivation)),
+    ] {
+        println!("\n| {what} | derivative | {names} |\n|---|--:|--:|--:|--:|--:|");
+        for (row, peers) in rows.iter().zip(peers) {
+            let cells = peers.map(|peer| cell(peer.as_ref().and_then(of), digits)).join(" | ");
+            println!("| {} | {} | {cells} |", row.name, cell(own(row), digits));
+        }
+    }
+}
+
+const INSTRUCTIONS: fn(&Measured) -> Option<f64> = |peer| peer.instructions;
 
 /// Five cells: by hand, the derivative and its ratio to that, the Jacobian and its ratio to the derivative.
 fn cells(by_hand: Option<f64>, derivative: Option<f64>, jacobian: Option<f64>, digits: usize) -> String {

@@ -1,0 +1,162 @@
+"""The systems of the benchmark, as a user of a tool without brackets would describe them: bodies with
+their velocities, constraints on the speeds, and, for an expert's version, the dependent speeds solved.
+
+A body is (mass, principal moments, velocity, spin of the axes in which that is written, angular
+velocity in its own axes). The functions take a module or class with `sin` and `cos`.
+"""
+
+from types import SimpleNamespace
+
+
+def planar(mass, moment, vx, vy, axes, spin):
+    return mass, (0, 0, moment), (vx, vy, 0), (0, 0, axes), (0, 0, spin)
+
+
+def sleigh(f):
+    def bodies(p, q, u):
+        # the centre of mass at (a, b) in the body
+        return [planar(p.m, p.J, u.v1 - p.b * u.omega, u.v2 + p.a * u.omega, u.omega, u.omega)]
+
+    return SimpleNamespace(
+        parameters="m J a b c", coordinates="theta x y", speeds="omega v1 v2", kept="omega v1", inputs="torque",
+        rates=lambda q, u: [u.omega, u.v1 * f.cos(q.theta) - u.v2 * f.sin(q.theta),
+                            u.v1 * f.sin(q.theta) + u.v2 * f.cos(q.theta)],
+        bodies=bodies,
+        forces=lambda p, q, u, i: dict(omega=i.torque - p.c * u.omega),
+        constraints=lambda p, q, u: [u.v2],
+        solved=lambda p, q, u: dict(v2=0),
+    )
+
+
+def veselova(f):
+    def forces(p, q, u, i):
+        return dict(w1=q.g2 * p.c3 - q.g3 * p.c2, w2=q.g3 * p.c1 - q.g1 * p.c3, w3=q.g1 * p.c2 - q.g2 * p.c1)
+
+    return SimpleNamespace(
+        parameters="I1 I2 I3 c1 c2 c3", coordinates="g1 g2 g3", speeds="w1 w2 w3", kept="w1 w2 w3", inputs="",
+        rates=lambda q, u: [q.g2 * u.w3 - q.g3 * u.w2, q.g3 * u.w1 - q.g1 * u.w3, q.g1 * u.w2 - q.g2 * u.w1],
+        bodies=lambda p, q, u: [(0, (p.I1, p.I2, p.I3), (0, 0, 0), (0, 0, 0), (u.w1, u.w2, u.w3))],
+        forces=forces,
+        constraints=lambda p, q, u: [q.g1 * u.w1 + q.g2 * u.w2 + q.g3 * u.w3],
+        solved=None,
+    )
+
+
+def snakeboard(f):
+    def bodies(p, q, u):
+        board = p.m * p.l * p.l - p.J0 - 2 * p.J1
+        wheels = [planar(0, p.J1, 0, 0, 0, u.dtheta + sign * u.dphi) for sign in (1, -1)]
+        return [planar(p.m, board, u.u1, u.u2, u.dtheta, u.dtheta),
+                planar(0, p.J0, 0, 0, 0, u.dtheta + u.dpsi)] + wheels
+
+    return SimpleNamespace(
+        parameters="m l J0 J1", coordinates="x y theta psi phi", speeds="u1 u2 dtheta dpsi dphi",
+        kept="u1 dpsi dphi", inputs="rotor steering",
+        rates=lambda q, u: [u.u1 * f.cos(q.theta) - u.u2 * f.sin(q.theta),
+                            u.u1 * f.sin(q.theta) + u.u2 * f.cos(q.theta), u.dtheta, u.dpsi, u.dphi],
+        bodies=bodies,
+        forces=lambda p, q, u, i: dict(dpsi=i.rotor, dphi=i.steering),
+        constraints=lambda p, q, u: [
+            -f.sin(q.phi) * u.u1 + f.cos(q.phi) * u.u2 - p.l * f.cos(q.phi) * u.dtheta,
+            f.sin(q.phi) * u.u1 + f.cos(q.phi) * u.u2 + p.l * f.cos(q.phi) * u.dtheta],
+        solved=lambda p, q, u: dict(u2=0, dtheta=-f.sin(q.phi) / f.cos(q.phi) * u.u1 / p.l),
+    )
+
+
+def robot(f):
+    def bodies(p, q, u):
+        # the centre of mass of the body l ahead of the axle; J is about the middle of the axle
+        body = planar(p.m0, p.J - p.m0 * p.l * p.l, u.v, u.side + p.l * u.turn, u.turn, u.turn)
+        axle = planar(2 * p.m1, 0, u.v, u.side, u.turn, u.turn)
+        wheels = [(0, (0, p.J2, 0), (0, 0, 0), (0, 0, 0), (0, spin, 0)) for spin in (u.dpsi1, u.dpsi2)]
+        return [body, axle] + wheels
+
+    return SimpleNamespace(
+        parameters="m0 m1 l J J2 c R", coordinates="psi1 psi2 x y theta", speeds="dpsi1 dpsi2 v side turn",
+        kept="dpsi1 dpsi2", inputs="",
+        rates=lambda q, u: [u.dpsi1, u.dpsi2, u.v * f.cos(q.theta) - u.side * f.sin(q.theta),
+                            u.v * f.sin(q.theta) + u.side * f.cos(q.theta), u.turn],
+        bodies=bodies,
+        forces=lambda p, q, u, i: {},
+        constraints=lambda p, q, u: [u.side, u.v + p.c * u.turn + p.R * u.dpsi1, u.v - p.c * u.turn + p.R * u.dpsi2],
+        solved=lambda p, q, u: dict(side=0, v=-p.R / 2 * (u.dpsi1 + u.dpsi2),
+                                    turn=p.R / (2 * p.c) * (u.dpsi2 - u.dpsi1)),
+    )
+
+
+def ball(f):
+    def bodies(p, q, u):
+        moment = p.m * p.k2
+        return [(p.m, (moment, moment, moment), (u.dx, u.dy, 0), (0, 0, 0), (u.wx, u.wy, u.wz))]
+
+    return SimpleNamespace(
+        parameters="m r k2 Omega", coordinates="x y", speeds="dx dy wx wy wz", kept="wx wy wz", inputs="",
+        rates=lambda q, u: [u.dx, u.dy],
+        bodies=bodies,
+        forces=lambda p, q, u, i: {},
+        constraints=lambda p, q, u: [u.dx - p.r * u.wy + p.Omega * q.y, u.dy + p.r * u.wx - p.Omega * q.x],
+        solved=lambda p, q, u: dict(dx=p.r * u.wy - p.Omega * q.y, dy=-p.r * u.wx + p.Omega * q.x),
+    )
+
+
+def tractor(n):
+    def of(f):
+        get = getattr
+
+        def chain(p, q, u):
+            angle, spin, vx, vy, all = 0, u.omega, u.v, u.side, []
+            for i in range(n):
+                angle, spin = angle + get(q, f"rel{i}"), spin + get(u, f"rd{i}")
+                d = get(p, f"d{i}")
+                vx, vy = vx + d * f.sin(angle) * spin, vy - d * f.cos(angle) * spin
+                all.append((angle, spin, vx, vy))
+            return all
+
+        def bodies(p, q, u):
+            first = planar(p.m, p.J, u.v, u.side + p.a * u.omega, u.omega, u.omega)
+            return [first] + [planar(get(p, f"m{i}"), get(p, f"J{i}"), vx, vy, u.omega, spin)
+                              for i, (_, spin, vx, vy) in enumerate(chain(p, q, u))]
+
+        def by_an_expert(p, q, u):
+            # every trailer in its own axes: no sideways velocity
+            first = planar(p.m, p.J, u.v, p.a * u.omega, u.omega, u.omega)
+            speed, all = u.v, [first]
+            for i in range(n):
+                spin = -speed * f.sin(get(q, f"rel{i}")) / get(p, f"d{i}")
+                speed = speed * f.cos(get(q, f"rel{i}"))
+                all.append(planar(get(p, f"m{i}"), get(p, f"J{i}"), speed, 0, spin, spin))
+            return all
+
+        def solved(p, q, u):
+            speed, before, found = u.v, u.omega, dict(side=0)
+            for i in range(n):
+                spin = -speed * f.sin(get(q, f"rel{i}")) / get(p, f"d{i}")
+                speed = speed * f.cos(get(q, f"rel{i}"))
+                found[f"rd{i}"], before = spin - before, spin
+            return found
+
+        def constraints(p, q, u):
+            return [u.side] + [f.cos(angle) * vy - f.sin(angle) * vx for angle, _, vx, vy in chain(p, q, u)]
+
+        each = range(n)
+        return SimpleNamespace(
+            parameters="m J a " + " ".join(f"m{i} J{i} d{i}" for i in each),
+            coordinates="x y th " + " ".join(f"rel{i}" for i in each),
+            speeds="v side omega " + " ".join(f"rd{i}" for i in each), kept="v omega", inputs="push steer",
+            rates=lambda q, u: [u.v * f.cos(q.th) - u.side * f.sin(q.th), u.v * f.sin(q.th) + u.side * f.cos(q.th),
+                                u.omega] + [get(u, f"rd{i}") for i in each],
+            bodies=bodies,
+            bodies_by_an_expert=by_an_expert,
+            forces=lambda p, q, u, i: dict(v=i.push, omega=i.steer),
+            constraints=constraints,
+            solved=solved,
+        )
+
+    return of
+
+
+SYSTEMS = {
+    "sleigh": sleigh, "veselova": veselova, "snakeboard": snakeboard, "robot": robot, "ball on table": ball,
+    "tractor, 1 trailer": tractor(1),
+    **{f"tractor, {n} trailers": tractor(n) for n in range(2, 7)},
+}
