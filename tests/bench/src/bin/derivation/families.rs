@@ -8,6 +8,10 @@ pub(crate) struct Declaration {
     pub(crate) attribute: String,
     /// The struct.
     pub(crate) item: String,
+    /// The family and the size in it, if it belongs to one.
+    pub(crate) member: Option<(&'static str, usize)>,
+    /// Parameters of ordinary size, as fields.
+    pub(crate) ordinary: String,
 }
 
 impl Declaration {
@@ -16,7 +20,13 @@ impl Declaration {
         let (_, rest) = source.split_once("#[nonholonomic(").expect("a declaration");
         let (attribute, rest) = rest.split_once("\n)]\n").expect("the end of the attribute");
         let (item, _) = rest.split_once("\n}\n").expect("the end of the struct");
-        Self { name: name.to_owned(), attribute: attribute.to_owned(), item: format!("{item}\n}}") }
+        Self {
+            name: name.to_owned(),
+            attribute: attribute.to_owned(),
+            item: format!("{item}\n}}"),
+            member: None,
+            ordinary: String::new(),
+        }
     }
 }
 
@@ -49,6 +59,9 @@ pub(crate) fn relative_tractor(trailers: usize) -> Declaration {
             .replace("$Tractor", "Tractor")
             .replace("emit { jacobian }", "");
     }
+    declaration.member = Some(("tractor, relative angles", trailers));
+    declaration.ordinary =
+        format!("m: [1.2; {0}], J: [0.3; {0}], d: [0.9; {trailers}], a: 0.25", trailers + 1);
     declaration
 }
 
@@ -84,6 +97,8 @@ pub(crate) fn absolute_tractor(trailers: usize) -> Declaration {
         item: format!(
             "struct Tractor {{ m: [f64; {bodies}], J: [f64; {bodies}], d: [f64; {bodies}], a: f64 }}"
         ),
+        member: Some(("tractor, absolute angles", n)),
+        ordinary: format!("m: [1.2; {bodies}], J: [0.3; {bodies}], d: [0.9; {bodies}], a: 0.25"),
     }
 }
 
@@ -120,6 +135,8 @@ pub(crate) fn snake(links: usize) -> Declaration {
             forces {{ for i in 0..{joints} {{ q[i]: torque[i]; }} }}"
         ),
         item: "struct Snake { m: f64, J: f64, h: f64 }".to_owned(),
+        member: Some(("snake", links)),
+        ordinary: "m: 1.2, J: 0.3, h: 0.5".to_owned(),
     }
 }
 
@@ -153,5 +170,9 @@ pub(crate) fn suslov(n: usize) -> Declaration {
             fixed.collect::<String>()
         ),
         item: format!("struct Suslov {{ J: [[f64; {n}]; {n}] }}"),
+        member: Some(("Suslov on so(n)", n)),
+        ordinary: format!(
+            "J: core::array::from_fn(|i| core::array::from_fn(|j| if i == j {{ 1.0 + i as f64 }} else {{ 0.1 }}))"
+        ),
     }
 }

@@ -2,16 +2,23 @@
 //!
 //! ```sh
 //! cargo run --release -p nh-bench --bin derivation   # optimised
+//! cargo run --release -p nh-bench --bin derivation -- --compile   # and families compiled and counted
 //! cargo run -p nh-bench --bin derivation             # as procedural macros are built by default
 //! ```
 //!
 //! The stages are those of `nh-macros`, compiled into this program: outside a compiler tokens are
 //! those of `proc-macro2`'s own.
 
+#![allow(clippy::cast_precision_loss, reason = "sizes are small")]
+
 extern crate proc_macro;
 
+mod compiled;
 mod families;
+mod growth;
 mod stopwatch;
+
+use nh_bench::table::cell;
 
 #[allow(dead_code, unused_imports, reason = "the other macros use more")]
 #[path = "../../../../../nh-macros/src/emit/mod.rs"]
@@ -32,21 +39,44 @@ mod suggest;
 #[path = "../../../../../nh-macros/src/syntax/mod.rs"]
 mod syntax;
 
+/// The argument with which families are compiled, too.
+const COMPILE: &str = "--compile";
+
 fn main() {
-    let filter: Vec<String> = std::env::args().skip(1).collect();
-    println!("{:<28} {:>9} {:>9} {:>9} {:>9} {:>7}", "ms", "parse", "derive", "emit", "whole", "steps");
+    let (compile, filter): (Vec<String>, Vec<String>) =
+        std::env::args().skip(1).partition(|argument| argument == COMPILE);
+    println!("| ms | parse | derive | emit | whole | operations | instructions | LLVM, ms |");
+    println!("|---|--:|--:|--:|--:|--:|--:|--:|");
+    let mut points = Vec::new();
     for declaration in families::all() {
-        if filter.is_empty() || filter.iter().any(|wanted| declaration.name.contains(wanted.as_str())) {
-            let times = stopwatch::measure(&declaration);
-            println!(
-                "{:<28} {:>9.2} {:>9.2} {:>9.2} {:>9.2} {:>7}",
-                declaration.name,
-                times.parse,
-                times.derive,
-                times.emit,
-                times.whole(),
-                times.operations
-            );
+        if !filter.is_empty() && !filter.iter().any(|wanted| declaration.name.contains(wanted.as_str())) {
+            continue;
+        }
+        let times = stopwatch::measure(&declaration);
+        let compiled = match declaration.member {
+            Some(_) if !compile.is_empty() => compiled::measure(&declaration),
+            _ => compiled::Compiled::default(),
+        };
+        println!(
+            "| {} | {:.2} | {:.2} | {:.2} | {:.2} | {} | {} | {} |",
+            declaration.name,
+            times.parse,
+            times.derive,
+            times.emit,
+            times.whole(),
+            times.operations,
+            cell(compiled.instructions, 0),
+            cell(compiled.llvm, 0),
+        );
+        if let Some((family, size)) = declaration.member {
+            let measured = [
+                Some(times.whole()),
+                Some(times.operations as f64),
+                compiled.instructions,
+                compiled.llvm.filter(|time| *time > 0.0),
+            ];
+            points.push(growth::Point { family, size, measured });
         }
     }
+    growth::print(&points);
 }
