@@ -276,7 +276,12 @@ fn shape(
     if form.coefficients.iter().all(|coefficient| base.zero_test(graph, *coefficient).is_zero()) {
         return Err(position_constraint(model, algebroid, residual, &name, origin));
     }
-    let row = form.coefficients.into_iter().map(|coefficient| graph.simplify(coefficient)).collect();
+    let mut row = Vec::with_capacity(form.coefficients.len());
+    for coefficient in form.coefficients {
+        // differences of angles first: the addition theorems make long sums long
+        let coefficient = graph.products_to_sums(coefficient);
+        row.push(graph.simplify(coefficient));
+    }
     let drift = if graph.zero_test(form.rest).is_zero() { graph.zero() } else { graph.simplify(form.rest) };
     Ok(Shape::Affine(row, drift))
 }

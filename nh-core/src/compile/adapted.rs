@@ -117,6 +117,9 @@ pub(super) fn derive(
 /// Lagrangians with more operations than this are not expanded: the equations are derived in
 /// velocity forms alone.
 const EXPANDED: u64 = 250;
+/// The same where points are carried by wheels: the recursion from wheel to wheel is shorter than what
+/// expansion comes to as soon as there are several bodies.
+const EXPANDED_ON_WHEELS: u64 = 60;
 
 /// Whether expressions of the size of the Lagrangian are left as they are.
 fn is_large(proved: &Proved) -> bool {
@@ -143,7 +146,7 @@ fn candidates(
     let residuals = proved.levels.is_empty().then_some(&proved.constraints.residuals);
     let on_wheels =
         residuals.and_then(|residuals| equations_in_wheel_frames(graph, system, distribution, residuals));
-    if is_large {
+    if is_large || (on_wheels.is_some() && graph.operation_count(&[system.lagrangian]) > EXPANDED_ON_WHEELS) {
         return std::iter::once(by_chain).chain(on_wheels).collect();
     }
     let by_forms = equations_by_velocity_forms(graph, system, distribution);

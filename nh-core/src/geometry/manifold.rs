@@ -191,6 +191,9 @@ fn sphere(graph: &mut Graph, function: ExprId, symbols: &[SymbolId]) -> Option<V
         let second = graph.partial(first, symbols[0]);
         graph.as_number(second)?.clone() * Rational::new(1, 2)
     };
+    if scale.is_zero() {
+        return None;
+    }
     let squares: Vec<(Rational, ExprId)> = symbols
         .iter()
         .map(|symbol| {
