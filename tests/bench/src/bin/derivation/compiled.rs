@@ -38,7 +38,7 @@ fn compile(declaration: &Declaration) -> Option<(PathBuf, f64)> {
     std::fs::write(&source, text(declaration)?).ok()?;
     let program = source.with_extension("");
     let run = |emit: &str, output: &Path| -> Option<f64> {
-        let start = Instant::now();
+        let (start, before) = (Instant::now(), children_on_processor());
         let status = Command::new("rustc")
             .args([
                 "--edition",
@@ -60,7 +60,8 @@ fn compile(declaration: &Declaration) -> Option<(PathBuf, f64)> {
             .stderr(Stdio::null())
             .status()
             .ok()?;
-        status.success().then(|| start.elapsed().as_secs_f64() * 1e3)
+        let spent = before.zip(children_on_processor()).map(|(before, after)| after - before);
+        status.success().then(|| spent.unwrap_or_else(|| start.elapsed().as_secs_f64() * 1e3))
     };
     let shortest = |emit: &str, extension: &str| -> Option<f64> {
         let times: Option<Vec<f64>> = (0..3).map(|_| run(emit, &program.with_extension(extension))).collect();
@@ -69,6 +70,17 @@ fn compile(declaration: &Declaration) -> Option<(PathBuf, f64)> {
     let llvm = shortest("obj", "o")? - shortest("metadata", "rmeta")?;
     run("link", &program)?;
     Some((program, llvm))
+}
+
+/// Milliseconds that finished children have spent on processors, as far as the clock ticks: Linux.
+fn children_on_processor() -> Option<f64> {
+    const TICK: f64 = 10.0;
+    let text = std::fs::read_to_string("/proc/self/stat").ok()?;
+    // after the name in parentheses; user and system time of children are the 14th and 15th from there
+    let (_, fields) = text.rsplit_once(") ")?;
+    let ticks: Option<Vec<f64>> =
+        fields.split(' ').skip(13).take(2).map(|field| field.parse().ok()).collect();
+    Some(TICK * ticks?.iter().sum::<f64>())
 }
 
 /// A program that evaluates the derivative at one state, over and over.
