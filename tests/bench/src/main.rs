@@ -28,7 +28,9 @@ fn main() -> ExitCode {
 fn run() -> Result<(), String> {
     let systems = all();
     if std::env::args().nth(1).is_some_and(|argument| argument == EVALUATE) {
-        systems.iter().for_each(|system| system.evaluate());
+        for system in &systems {
+            system.evaluate();
+        }
         return Ok(());
     }
     if !cfg!(target_feature = "fma") {
