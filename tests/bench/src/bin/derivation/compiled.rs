@@ -111,8 +111,9 @@ fn text(declaration: &Declaration) -> Option<String> {
 fn newest(directory: &Path, prefix: &str) -> Option<PathBuf> {
     let entries = std::fs::read_dir(directory).ok()?.filter_map(Result::ok);
     let libraries = entries.filter(|entry| {
-        let name = entry.file_name().to_string_lossy().into_owned();
-        name.starts_with(prefix) && name.ends_with(".rlib")
+        let path = entry.path();
+        let is_library = path.extension().is_some_and(|extension| extension == "rlib");
+        is_library && entry.file_name().to_string_lossy().starts_with(prefix)
     });
     libraries
         .max_by_key(|entry| entry.metadata().and_then(|data| data.modified()).ok())

@@ -171,8 +171,8 @@ pub(crate) fn suslov(n: usize) -> Declaration {
         ),
         item: format!("struct Suslov {{ J: [[f64; {n}]; {n}] }}"),
         member: Some(("Suslov on so(n)", n)),
-        ordinary: format!(
-            "J: core::array::from_fn(|i| core::array::from_fn(|j| if i == j {{ 1.0 + i as f64 }} else {{ 0.1 }}))"
-        ),
+        ordinary:
+            "J: core::array::from_fn(|i| core::array::from_fn(|j| if i == j { 1.0 + i as f64 } else { 0.1 }))"
+                .to_owned(),
     }
 }

@@ -42,7 +42,7 @@ pub(crate) fn measure(declaration: &Declaration) -> Times {
         runs.push(once(declaration, attribute.clone(), item.clone()));
     }
     let share = match before.zip(on_processor()) {
-        Some((before, after)) => (after - before).as_secs_f64() / start.elapsed().as_secs_f64(),
+        Some((before, after)) => after.saturating_sub(before).as_secs_f64() / start.elapsed().as_secs_f64(),
         None => 1.0,
     };
     let mean = |of: fn(&Times) -> f64| share * runs.iter().map(of).sum::<f64>() / runs.len() as f64;
