@@ -286,6 +286,8 @@ pub enum Request {
     EulerPoincareSuslov,
     /// The derivative by the Gibbs–Appell function.
     GibbsAppell,
+    /// The Taylor coefficients of solutions.
+    Taylor,
 }
 
 /// Something that is needed of a system.

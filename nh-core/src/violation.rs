@@ -52,6 +52,8 @@ pub enum Law {
     Volume,
     /// A section of D* solves the Hamilton–Jacobi equation: M 2.4.
     HamiltonJacobi,
+    /// What has to have a Taylor series is analytic.
+    Analytic,
     /// A question that the algebra could not decide.
     Decidable,
 }

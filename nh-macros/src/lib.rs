@@ -173,6 +173,10 @@ mod syntax;
 ///   `velocity(t, &state)`, `outputs(t, &state, &input)`; on request `multipliers`, `reactions` and
 ///   `jacobian(t, &state, &input)`; in the projected formulation `constraint_residual(t, &state)` and
 ///   `project(t, &mut state)`; with `on`, `normalize(&mut state)`.
+/// - On request `taylor`: the recurrences of the Taylor coefficients of solutions, the trait
+///   `TaylorSeries`, for the method `Taylor`; and `taylor::<P>(t, &state, &input)`, the first `P`
+///   coefficients. Forces have to be analytic in the state and the time: no `abs`, `sign`, `min`, `max`
+///   or method of the struct whose arguments change during a step.
 /// - `validate(&self)`: parameters that are not finite, that break an assumption, or that make a
 ///   divisor of the equations zero.
 /// - `const REPORT: &str`: the classification, the structure functions, the distribution, the mass

@@ -214,6 +214,57 @@ impl<S: Jacobian + ?Sized> Jacobian for &S {
     }
 }
 
+/// A system with the recurrences of the Taylor coefficients of its solutions.
+pub trait TaylorSeries: Dynamics {
+    /// What an expansion keeps from order to order, with room for `P` coefficients.
+    type Workspace<const P: usize>: Copy + Default;
+
+    /// Fills `series` with the first coefficients of the solution through `state` at `t` with a constant
+    /// input, x(t + τ) = Σ x_k (τ/unit)ᵏ; `P` at most.
+    ///
+    /// A unit near the length of the step keeps the coefficients in the range of the numbers, however
+    /// fast or slow the motion is. The workspace may come from an earlier expansion.
+    fn expand<const P: usize>(
+        &self,
+        t: ScalarOf<Self>,
+        state: &Self::State,
+        input: &Self::Input,
+        unit: ScalarOf<Self>,
+        series: &mut [Self::State],
+        workspace: &mut Self::Workspace<P>,
+    );
+
+    /// The first `P` coefficients in powers of the time: x(t + τ) = Σ x_k τᵏ.
+    #[inline]
+    fn taylor<const P: usize>(
+        &self,
+        t: ScalarOf<Self>,
+        state: &Self::State,
+        input: &Self::Input,
+    ) -> [Self::State; P] {
+        let mut series = [*state; P];
+        self.expand::<P>(t, state, input, Scalar::ONE, &mut series, &mut Self::Workspace::default());
+        series
+    }
+}
+
+impl<S: TaylorSeries + ?Sized> TaylorSeries for &S {
+    type Workspace<const P: usize> = S::Workspace<P>;
+
+    #[inline]
+    fn expand<const P: usize>(
+        &self,
+        t: ScalarOf<S>,
+        state: &S::State,
+        input: &S::Input,
+        unit: ScalarOf<S>,
+        series: &mut [S::State],
+        workspace: &mut S::Workspace<P>,
+    ) {
+        (**self).expand(t, state, input, unit, series, workspace);
+    }
+}
+
 /// A system whose state has to satisfy equations that a numerical solution drifts away from: the
 /// identities of embedded coordinates, and the constraints of the projected formulation.
 pub trait Constrained: Dynamics {

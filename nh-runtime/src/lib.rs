@@ -86,12 +86,14 @@ mod projection;
 mod reduction;
 mod scalar;
 mod serde_impls;
+mod series;
 mod sine;
 mod step_control;
 mod tolerance;
 
 pub use dense::DenseOutput;
 pub use dim::{D, Dim};
+pub use dynamics::TaylorSeries;
 pub use dynamics::{
     AlmostPoisson, Constrained, DimOf, Dynamics, Energy, EulerPoincareSuslov, Jacobian, Leapfrog, MatOf,
     Observed, ScalarOf, State, VecOf,
@@ -102,6 +104,7 @@ pub use fast::Fast;
 pub use integrator::{Integrator, Statistics};
 pub use jet::Jet;
 pub use lanes::Lanes;
+pub use methods::Taylor;
 pub use methods::{
     Bs23, DiscreteGradient, DiscreteSuslov, Dop853, Dopri5, Euler, GaussLegendre4, GaussLegendre6, Heun,
     ImplicitMidpoint, Method, Projected, Radau5, Ralston, ReflectedLeapfrog, Rk4, Rodas5P, Tsit5, Vern9,
@@ -319,8 +322,10 @@ pub use ::wide;
 #[doc(hidden)]
 pub mod __private {
     pub use crate::__nh_serde_impls as serde_impls;
-    pub use crate::linear::solve_pivoted;
+    pub use crate::TaylorSeries;
+    pub use crate::linear::{inverse_pivoted, solve_pivoted, times};
     pub use crate::projection::{check_identities, project};
+    pub use crate::series::History;
     pub use crate::{
         AlmostPoisson, Constrained, D, Dim, Dynamics, Energy, EulerPoincareSuslov, InputFault, Jacobian,
         Leapfrog, Observed, ParameterError, ParameterFault, ProjectionError, Real, Reconstruction, Reduction,

@@ -85,6 +85,35 @@ pub fn solve_pivoted<T: Scalar, const N: usize>(mut a: [[T; N]; N], mut b: [T; N
     b
 }
 
+/// The inverse, column by column of the identity: what every order of a series is solved with.
+/// A singular matrix gives entries that are not finite.
+#[inline]
+#[must_use]
+pub fn inverse_pivoted<T: Scalar, const N: usize>(a: [[T; N]; N]) -> [[T; N]; N] {
+    let mut inverse = [[T::ZERO; N]; N];
+    for column in 0..N {
+        let mut unit = [T::ZERO; N];
+        unit[column] = T::ONE;
+        for (row, entry) in inverse.iter_mut().zip(solve_pivoted(a, unit)) {
+            row[column] = entry;
+        }
+    }
+    inverse
+}
+
+/// The product of a matrix and a vector.
+#[inline]
+#[must_use]
+pub fn times<T: Scalar, const N: usize>(a: &[[T; N]; N], b: [T; N]) -> [T; N] {
+    let mut product = [T::ZERO; N];
+    for (sum, row) in product.iter_mut().zip(a) {
+        for (a, b) in row.iter().zip(b) {
+            *sum = a.mul_add(b, *sum);
+        }
+    }
+    product
+}
+
 /// A factorization P A = L U: L below the diagonal of `lu`, U on and above it.
 #[derive(Clone, Copy)]
 pub(crate) struct Factors<Dm: Dim, F: Copy + 'static> {

@@ -10,5 +10,7 @@ pub use crate::{
     Scalar, State, Statistics,
 };
 
+pub use crate::{Taylor, TaylorSeries};
+
 #[cfg(feature = "macros")]
 pub use nh_macros::{morphism, nonholonomic, quotient};

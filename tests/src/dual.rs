@@ -1,4 +1,5 @@
-//! Dual numbers a + b ε with ε² = 0: derivatives of generated code to round-off.
+//! Dual numbers a + b ε with ε² = 0: derivatives of generated code to round-off. Nested, they give
+//! derivatives of higher order.
 
 use std::ops::{Add, AddAssign, Div, Mul, MulAssign, Neg, Sub, SubAssign};
 
@@ -6,35 +7,35 @@ use nh_runtime::Scalar;
 
 /// A number and its derivative in some direction.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Dual {
+pub struct Dual<T = f64> {
     /// The number.
-    pub value: f64,
+    pub value: T,
     /// Its derivative.
-    pub slope: f64,
+    pub slope: T,
 }
 
-impl Dual {
+impl<T: Scalar> Dual<T> {
     /// A function of this number, by its value and derivative.
-    fn apply(self, value: f64, derivative: f64) -> Self {
-        Self { value, slope: if self.slope == 0.0 { 0.0 } else { derivative * self.slope } }
+    fn apply(self, value: T, derivative: T) -> Self {
+        Self { value, slope: if self.slope == T::ZERO { T::ZERO } else { derivative * self.slope } }
     }
 }
 
-impl Add for Dual {
+impl<T: Scalar> Add for Dual<T> {
     type Output = Self;
     fn add(self, other: Self) -> Self {
         Self { value: self.value + other.value, slope: self.slope + other.slope }
     }
 }
 
-impl Sub for Dual {
+impl<T: Scalar> Sub for Dual<T> {
     type Output = Self;
     fn sub(self, other: Self) -> Self {
         Self { value: self.value - other.value, slope: self.slope - other.slope }
     }
 }
 
-impl Mul for Dual {
+impl<T: Scalar> Mul for Dual<T> {
     type Output = Self;
     fn mul(self, other: Self) -> Self {
         let slope = self.slope * other.value + self.value * other.slope;
@@ -42,7 +43,7 @@ impl Mul for Dual {
     }
 }
 
-impl Div for Dual {
+impl<T: Scalar> Div for Dual<T> {
     type Output = Self;
     fn div(self, other: Self) -> Self {
         let value = self.value / other.value;
@@ -50,48 +51,48 @@ impl Div for Dual {
     }
 }
 
-impl Neg for Dual {
+impl<T: Scalar> Neg for Dual<T> {
     type Output = Self;
     fn neg(self) -> Self {
         Self { value: -self.value, slope: -self.slope }
     }
 }
 
-impl AddAssign for Dual {
+impl<T: Scalar> AddAssign for Dual<T> {
     fn add_assign(&mut self, other: Self) {
         *self = *self + other;
     }
 }
 
-impl SubAssign for Dual {
+impl<T: Scalar> SubAssign for Dual<T> {
     fn sub_assign(&mut self, other: Self) {
         *self = *self - other;
     }
 }
 
-impl MulAssign for Dual {
+impl<T: Scalar> MulAssign for Dual<T> {
     fn mul_assign(&mut self, other: Self) {
         *self = *self * other;
     }
 }
 
-impl Scalar for Dual {
-    const ZERO: Self = Self { value: 0.0, slope: 0.0 };
-    const ONE: Self = Self { value: 1.0, slope: 0.0 };
+impl<T: Scalar> Scalar for Dual<T> {
+    const ZERO: Self = Self { value: T::ZERO, slope: T::ZERO };
+    const ONE: Self = Self { value: T::ONE, slope: T::ZERO };
 
     fn from_f64(value: f64) -> Self {
-        Self { value, slope: 0.0 }
+        Self { value: T::from_f64(value), slope: T::ZERO }
     }
     fn to_f64(self) -> f64 {
-        self.value
+        self.value.to_f64()
     }
     fn sqrt(self) -> Self {
         let root = self.value.sqrt();
-        self.apply(root, 0.5 / root)
+        self.apply(root, T::from_f64(0.5) / root)
     }
     fn cbrt(self) -> Self {
         let root = self.value.cbrt();
-        self.apply(root, 1.0 / (3.0 * root * root))
+        self.apply(root, T::ONE / (T::from_f64(3.0) * root * root))
     }
     fn sin(self) -> Self {
         self.apply(self.value.sin(), self.value.cos())
@@ -101,16 +102,16 @@ impl Scalar for Dual {
     }
     fn tan(self) -> Self {
         let tan = self.value.tan();
-        self.apply(tan, 1.0 + tan * tan)
+        self.apply(tan, T::ONE + tan * tan)
     }
     fn asin(self) -> Self {
-        self.apply(self.value.asin(), 1.0 / (1.0 - self.value * self.value).sqrt())
+        self.apply(self.value.asin(), T::ONE / (T::ONE - self.value * self.value).sqrt())
     }
     fn acos(self) -> Self {
-        self.apply(self.value.acos(), -1.0 / (1.0 - self.value * self.value).sqrt())
+        self.apply(self.value.acos(), -T::ONE / (T::ONE - self.value * self.value).sqrt())
     }
     fn atan(self) -> Self {
-        self.apply(self.value.atan(), 1.0 / (1.0 + self.value * self.value))
+        self.apply(self.value.atan(), T::ONE / (T::ONE + self.value * self.value))
     }
     fn atan2(self, x: Self) -> Self {
         let slope =
@@ -125,44 +126,44 @@ impl Scalar for Dual {
     }
     fn tanh(self) -> Self {
         let tanh = self.value.tanh();
-        self.apply(tanh, 1.0 - tanh * tanh)
+        self.apply(tanh, T::ONE - tanh * tanh)
     }
     fn exp(self) -> Self {
         let exp = self.value.exp();
         self.apply(exp, exp)
     }
     fn ln(self) -> Self {
-        self.apply(self.value.ln(), 1.0 / self.value)
+        self.apply(self.value.ln(), T::ONE / self.value)
     }
     fn powf(self, exponent: Self) -> Self {
         let power = self.value.powf(exponent.value);
-        self.apply(power, exponent.value * self.value.powf(exponent.value - 1.0))
+        self.apply(power, exponent.value * self.value.powf(exponent.value - T::ONE))
     }
     fn abs(self) -> Self {
-        self.apply(self.value.abs(), Scalar::sign(self.value))
+        self.apply(self.value.abs(), self.value.sign())
     }
     fn sign(self) -> Self {
-        Self::from_f64(Scalar::sign(self.value))
+        Self { value: self.value.sign(), slope: T::ZERO }
     }
     fn min(self, other: Self) -> Self {
-        if other.value < self.value { other } else { self }
+        if self.value.all_gt(other.value) { other } else { self }
     }
     fn max(self, other: Self) -> Self {
-        if other.value > self.value { other } else { self }
+        if other.value.all_gt(self.value) { other } else { self }
     }
     fn is_finite(self) -> bool {
         self.value.is_finite() && self.slope.is_finite()
     }
     fn all_gt(self, other: Self) -> bool {
-        self.value > other.value
+        self.value.all_gt(other.value)
     }
     fn all_ge(self, other: Self) -> bool {
-        self.value >= other.value
+        self.value.all_ge(other.value)
     }
     fn all_ne(self, other: Self) -> bool {
         self.value.all_ne(other.value)
     }
     fn select_gt(self, other: Self, then: Self, otherwise: Self) -> Self {
-        if self.value > other.value { then } else { otherwise }
+        if self.value.all_gt(other.value) { then } else { otherwise }
     }
 }

@@ -1,6 +1,7 @@
 //! The way of the data: every stage takes a value and returns a value of another type.
 
 mod adapted;
+mod analytic;
 mod connection;
 mod discrete;
 mod embedded;
@@ -63,7 +64,10 @@ pub fn compile(model: Model) -> Result<System, Vec<Violation>> {
         Chosen::Projected { reason } => projected::derive(proved, &reason)?,
     };
     // 8. what is tracked
-    slice::slice(routh::without(system, &quadratures))
+    let system = slice::slice(routh::without(system, &quadratures))?;
+    // 9. Taylor series exist where they are asked for
+    fence(analytic::check(&system).err().into_iter().collect())?;
+    Ok(system)
 }
 
 /// The first stages: a declaration that is checked, and the form that its equations will have.

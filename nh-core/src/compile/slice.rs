@@ -53,7 +53,9 @@ pub(super) fn slice(mut system: System) -> Result<System, Vec<Violation>> {
             Request::Reactions => ("the reactions", &system.reactions),
             Request::Momenta => ("the momenta", &momenta),
             Request::Gyroscopic => ("the gyroscopic force", &gyroscopic),
-            Request::Jacobian | Request::ParameterJacobian | Request::GibbsAppell => continue,
+            Request::Jacobian | Request::Taylor | Request::ParameterJacobian | Request::GibbsAppell => {
+                continue;
+            }
             _ => {
                 let dropped: Vec<SymbolId> =
                     whole.iter().copied().filter(|symbol| !needed.contains(symbol)).collect();

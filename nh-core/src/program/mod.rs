@@ -8,6 +8,8 @@
 //! 4. `pairs`: pairs of operands that several sums or products share are computed once.
 //! 5. `lower`: binary steps in an order in which every value precedes its uses.
 //! 6. `fuse`: sums with products become multiply-adds; `signs`: negations go where they are free.
+//!
+//! [`Recurrences`] extend a program from numbers to power series in the time.
 
 mod cost;
 mod factor;
@@ -21,6 +23,7 @@ mod powers;
 mod schedule;
 mod signs;
 mod step;
+mod taylor;
 #[cfg(test)]
 mod tests;
 
@@ -28,3 +31,4 @@ pub use cost::Cost;
 pub use interpret::{Arithmetic, interpret, interpret_in};
 pub use schedule::{schedule, schedule_grouping};
 pub use step::{Program, Step, Value};
+pub use taylor::{Factor, Inner, Recurrences, Rule, Variation};

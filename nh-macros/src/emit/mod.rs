@@ -37,6 +37,7 @@ mod samples;
 mod scope;
 mod state;
 mod stubs;
+mod taylor;
 #[cfg(test)]
 mod tests;
 mod validate;
@@ -74,6 +75,7 @@ pub(crate) fn emit(system: &System, layout: &Layout) -> TokenStream {
         programs.push(("outputs", &observables));
     }
     let part = constraint::emit(context, scope, system)
+        .with(taylor::emit(context, scope, system, &derivative))
         .with(embedding::emit(context, scope, system))
         .with(projection::emit(context, system))
         .with(jacobian::emit(context, scope, system))

@@ -18,9 +18,21 @@ pub(super) struct Names {
 
 impl Names {
     pub(super) fn new() -> Self {
-        let taken = ["t", "state", "input", "start", "present", "phase", "covector", "length"]
-            .map(str::to_owned)
-            .into();
+        let taken = [
+            "t",
+            "state",
+            "input",
+            "start",
+            "present",
+            "unit",
+            "series",
+            "workspace",
+            "phase",
+            "covector",
+            "length",
+        ]
+        .map(str::to_owned)
+        .into();
         Self { taken, counter: 0 }
     }
 
@@ -49,6 +61,14 @@ impl Names {
     pub(super) fn numbered(&mut self) -> Ident {
         self.counter += 1;
         self.unique(&format!("e{}", self.counter))
+    }
+
+    /// The name of a coefficient of a result: `sin_theta_k`.
+    pub(super) fn of_coefficient(&mut self, program: &Program, value: Value, scope: &Scope) -> Ident {
+        match describe(program, value, scope) {
+            Some(name) => self.unique(&format!("{name}_k")),
+            None => self.numbered(),
+        }
     }
 
     /// The name of a result: what it is, where that is short to say.

@@ -25,6 +25,8 @@ pub(super) struct Body {
     pub(super) outputs: Vec<TokenStream>,
     /// The arguments that are read.
     pub(super) used: BTreeSet<Argument>,
+    /// The names that are taken.
+    pub(super) names: Names,
 }
 
 /// Turns a program into statements.
@@ -53,7 +55,7 @@ pub(super) fn body(context: &Context, scope: &Scope, program: &Program) -> Body 
         writer.expressions.push(expression);
     }
     let outputs = program.outputs.iter().map(|output| writer.expressions[*output].tokens.clone()).collect();
-    Body { statements: writer.statements, outputs, used: writer.used }
+    Body { statements: writer.statements, outputs, used: writer.used, names: writer.names }
 }
 
 struct Writer<'a> {

@@ -10,6 +10,7 @@ use quote::quote;
 use super::context::Context;
 use super::function::{Head, Part};
 use super::layout::Layout;
+use super::taylor;
 use super::{
     callback, constraint, discrete, dynamics, embedding, energy, gibbs_appell, hamiltonian, jacobian,
     momenta, observed, parameter_jacobian, phase_space, projection, report, state, validate, velocity,
@@ -55,7 +56,10 @@ fn on_request(context: &Context, outline: &Outline) -> Part {
     let (identities, constraints) = (outline.identities, labels.len());
     let count = |request| if outline.requests.contains(&request) { constraints } else { 0 };
     let counts = [count(Request::Multipliers), count(Request::Reactions), constraints];
+    let taylor =
+        if outline.requests.contains(&Request::Taylor) { taylor::stub(context) } else { Part::default() };
     let part = constraint::stub(context, &labels, counts)
+        .with(taylor)
         .with(embedding::stub(context, identities))
         .with(projection::stub(context, identities, constraints))
         .with(momenta::stub(context, &outline.momenta));

@@ -48,11 +48,25 @@ fn constraints_and_the_way_back_to_them() {
 }
 
 #[test]
+fn a_sleigh_with_taylor_series() {
+    let layout = layout(&sleigh());
+    let mut system = sleigh_system(&layout);
+    system.model.requests.push((Request::Taylor, system.model.origin));
+    let (whole, without) = (emit(&system, &layout), emit(&sleigh_system(&layout), &layout));
+    let items = |tokens: TokenStream| syn::parse2::<syn::File>(tokens).expect("a list of items").items;
+    // what is asked for beyond the default
+    let is_series = |item: &syn::Item| quote::quote!(#item).to_string().contains("TaylorSeries for");
+    assert!(!items(without).iter().any(is_series));
+    let series: Vec<syn::Item> = items(whole).into_iter().filter(is_series).collect();
+    golden("by_hand_taylor", quote::quote!(#(#series)*));
+}
+
+#[test]
 fn stubs_stand_in() {
     let layout = layout(&sleigh());
     let outline = Outline {
         in_state: [layout.coordinate_symbols.as_slice(), &layout.velocity_symbols[..2]].concat(),
-        requests: vec![Request::Jacobian, Request::Multipliers],
+        requests: vec![Request::Jacobian, Request::Multipliers, Request::Taylor],
         labels: vec![Some("blade".to_owned())],
         momenta: Vec::new(),
         identities: 0,

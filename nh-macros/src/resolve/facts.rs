@@ -14,8 +14,9 @@ use crate::suggest::did_you_mean;
 use crate::syntax::ast::{self, Comparison, Definition, Equation, Item, Momentum, Name};
 
 /// What `emit` can ask for.
-pub(super) const REQUESTS: [(&str, Request); 15] = [
+pub(super) const REQUESTS: [(&str, Request); 16] = [
     ("jacobian", Request::Jacobian),
+    ("taylor", Request::Taylor),
     ("parameter_jacobian", Request::ParameterJacobian),
     ("multipliers", Request::Multipliers),
     ("reactions", Request::Reactions),
@@ -31,9 +32,6 @@ pub(super) const REQUESTS: [(&str, Request); 15] = [
     ("leapfrog", Request::Leapfrog),
     ("euler_poincare_suslov", Request::EulerPoincareSuslov),
 ];
-
-/// What `emit` will be able to ask for.
-const TO_COME: [&str; 1] = ["taylor"];
 
 impl Resolver {
     /// f = 0 on the embedded base; vectors entry by entry.
@@ -155,8 +153,7 @@ impl Resolver {
             let text = name.text.as_str();
             let Some((_, request)) = REQUESTS.iter().find(|(known, _)| *known == text) else {
                 let all = REQUESTS.map(|(known, _)| format!("`{known}`")).join(", ");
-                let yet = if TO_COME.contains(&text) { " yet" } else { "" };
-                let error = Diagnostic::new(name.extent(), format!("`{text}` cannot be emitted{yet}"));
+                let error = Diagnostic::new(name.extent(), format!("`{text}` cannot be emitted"));
                 let known = format!("what can be asked for: {all}");
                 let error = match did_you_mean(text, REQUESTS.map(|(known, _)| known)) {
                     Some(question) => error.evidence(known).way_out(question),

@@ -427,6 +427,25 @@ impl ::core::convert::From<
     ::core::primitive::f64, }
 }
 #[automatically_derived]
+impl ::nh_runtime::__private::TaylorSeries for Sleigh {
+    type Workspace<const P: ::core::primitive::usize> = ();
+    fn expand<const P: ::core::primitive::usize>(
+        &self,
+        t: ::core::primitive::f64,
+        state: &SleighState,
+        input: &SleighInput,
+        unit: ::core::primitive::f64,
+        series: &mut [SleighState],
+        workspace: &mut Self::Workspace<P>,
+    ) {
+        _ = self;
+        _ = t;
+        _ = state;
+        _ = input;
+        _ = (unit, series, workspace);
+    }
+}
+#[automatically_derived]
 impl ::nh_runtime::__private::Constrained for Sleigh {
     type Constraints = ::nh_runtime::__private::D<1>;
     #[inline]
@@ -586,6 +605,18 @@ impl Sleigh {
         _ = t;
         _ = state;
         ::core::default::Default::default()
+    }
+    /// The first Taylor coefficients of the solution through a state, with a constant input:
+    /// x(t + τ) = Σ x_k τᵏ.
+    #[must_use]
+    #[inline]
+    pub fn taylor<const P: ::core::primitive::usize>(
+        &self,
+        t: ::core::primitive::f64,
+        state: &SleighState,
+        input: &SleighInput,
+    ) -> [SleighState; P] {
+        ::nh_runtime::__private::TaylorSeries::taylor::<P>(self, t, state, input)
     }
     /// Moves the velocities to the nearest ones that satisfy the constraints, where distance is
     /// measured by the kinetic energy.

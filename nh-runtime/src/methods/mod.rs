@@ -10,6 +10,7 @@
 //! | [`Dopri5`], [`Tsit5`] | 5 | adaptive | |
 //! | [`Dop853`] | 8 | adaptive, for high accuracy | |
 //! | [`Vern9`] | 9 | adaptive, near round-off | |
+//! | [`Taylor`] | by the tolerance, up to 24 and more | adaptive | |
 //! | [`ImplicitMidpoint`] | 2 | fixed, stiff systems too | quadratic invariants, reversibility |
 //! | [`DiscreteGradient`] | 2 | fixed | the energy, quadratic constraints and identities, reversibility |
 //! | `.fourth_order()`, `.sixth_order()` of the two above | 4, 6 | fixed | what they keep |
@@ -40,6 +41,7 @@ mod implicit;
 mod leg;
 mod projected;
 mod structure;
+mod taylor;
 mod transition;
 
 pub use adaptive::{Adaptive, Scheme, Trial};
@@ -57,6 +59,7 @@ pub use structure::{
     Composed, DiscreteGradient, DiscreteMomentum, DiscreteSuslov, DriftKickDrift, Gonzalez, KahanLi6,
     ReflectedLeapfrog, Substeps, Suzuki4, Symmetric,
 };
+pub use taylor::Taylor;
 pub use transition::Transition;
 
 pub use crate::tolerance::{PerComponent, Tolerance, Uniform};

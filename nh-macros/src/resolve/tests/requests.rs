@@ -28,8 +28,8 @@ fn requests() {
     assert_errors(&[
         ("base { x } lagrangian { 1 } emit { multiplier }", mistyped.as_str()),
         (
-            "base { x } lagrangian { 1 } emit { taylor }",
-            &format!("`taylor` cannot be emitted yet\nhelp: {known}"),
+            "base { x } lagrangian { 1 } emit { everything }",
+            &format!("`everything` cannot be emitted\nhelp: {known}"),
         ),
         ("base { x } lagrangian { 1 } emit { reactions, reactions }", "`reactions` is asked for twice"),
     ]);

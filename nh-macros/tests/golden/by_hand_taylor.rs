@@ -1,0 +1,102 @@
+#[automatically_derived]
+impl ::nh_runtime::__private::TaylorSeries for Sleigh {
+    type Workspace<const P: ::core::primitive::usize> = ::nh_runtime::__private::History<
+        ::core::primitive::f64,
+        5,
+        1,
+        P,
+    >;
+    fn expand<const P: ::core::primitive::usize>(
+        &self,
+        t: ::core::primitive::f64,
+        state: &SleighState,
+        input: &SleighInput,
+        unit: ::core::primitive::f64,
+        series: &mut [SleighState],
+        workspace: &mut Self::Workspace<P>,
+    ) {
+        _ = t;
+        let (sin_theta, cos_theta) = ::nh_runtime::__private::Scalar::sin_cos(
+            state.theta,
+        );
+        let m_a = self.m * self.a;
+        let e1 = m_a * state.v1;
+        let e2 = self.a * m_a + self.J;
+        let e3 = 1.0 / e2;
+        workspace.restart();
+        if let ::core::option::Option::Some(slot) = series.first_mut() {
+            *slot = *state;
+        }
+        let mut rates: [::core::primitive::f64; 5] = [
+            state.omega,
+            (state.v1 * cos_theta),
+            (state.v1 * sin_theta),
+            (input.torque - e1 * state.omega) / e2,
+            (self.a * (state.omega * state.omega)),
+        ];
+        let mut k = <::core::primitive::f64 as ::nh_runtime::__private::Scalar>::ZERO;
+        let end = if series.len() < P { series.len() } else { P };
+        for index in 1..end {
+            k += <::core::primitive::f64 as ::nh_runtime::__private::Scalar>::ONE;
+            let over_k = ::nh_runtime::__private::Scalar::recip(k);
+            let step = over_k * unit;
+            let state_k = SleighState {
+                theta: step * rates[0],
+                x: step * rates[1],
+                y: step * rates[2],
+                omega: step * rates[3],
+                v1: step * rates[4],
+            };
+            if let ::core::option::Option::Some(slot) = series.get_mut(index) {
+                *slot = state_k;
+            }
+            if index + 1 == end {
+                break;
+            }
+            let sums = workspace.products();
+            let squared = workspace.squares();
+            let e4 = k * state_k.theta;
+            let sin_theta_k = ::nh_runtime::__private::Scalar::mul_add(
+                e4,
+                cos_theta,
+                sums[0],
+            ) * over_k;
+            let cos_theta_k = -(::nh_runtime::__private::Scalar::mul_add(
+                e4,
+                sin_theta,
+                sums[1],
+            ) * over_k);
+            let e5 = ::nh_runtime::__private::Scalar::mul_add(
+                state.v1,
+                cos_theta_k,
+                ::nh_runtime::__private::Scalar::mul_add(state_k.v1, cos_theta, sums[2]),
+            );
+            let e6 = ::nh_runtime::__private::Scalar::mul_add(
+                state.v1,
+                sin_theta_k,
+                ::nh_runtime::__private::Scalar::mul_add(state_k.v1, sin_theta, sums[3]),
+            );
+            let e7 = state_k.v1 * m_a;
+            let e8 = ::nh_runtime::__private::Scalar::mul_add(
+                e1,
+                state_k.omega,
+                ::nh_runtime::__private::Scalar::mul_add(e7, state.omega, sums[4]),
+            );
+            let e9 = -e8;
+            let e10 = e9 * e3;
+            let omega_squared_k = ::nh_runtime::__private::Scalar::mul_add(
+                (state.omega + state.omega),
+                state_k.omega,
+                squared[0],
+            );
+            let e11 = omega_squared_k * self.a;
+            workspace
+                .add(
+                    [cos_theta_k, sin_theta_k, cos_theta_k, sin_theta_k, state_k.omega],
+                    [e4, e4, state_k.v1, state_k.v1, e7],
+                    [state_k.omega],
+                );
+            rates = [state_k.omega, e5, e6, e10, e11];
+        }
+    }
+}

@@ -1,0 +1,44 @@
+//! Work–precision diagrams: what accuracy costs, for any declared system.
+//!
+//! A [`Study`] is one motion over a span of time. To it are added [`Variant`]s: the system in `f64` or
+//! `f32`, adapted or projected. Each runs with many methods and settings, and every run is compared with a
+//! converged reference. Out come a table, a picture, and the cheapest method and setting for each accuracy.
+//!
+//! ```no_run
+//! use nh_runtime::prelude::*;
+//! use nh_work_precision::Study;
+//!
+//! #[nonholonomic(
+//!     base { theta, x, y } basis { omega, v, u }
+//!     anchor {
+//!         der(theta) = omega;
+//!         der(x) = v * cos(theta) - u * sin(theta);
+//!         der(y) = v * sin(theta) + u * cos(theta);
+//!     }
+//!     lagrangian { J / 2 * omega^2 + m / 2 * (v^2 + u^2) - m * g * sin(slope) * x }
+//!     constraints { u = 0; }
+//!     emit { taylor }
+//! )]
+//! #[derive(Clone, Copy)]
+//! struct Skate { m: f64, J: f64, g: f64, slope: f64 }
+//!
+//! fn main() -> std::io::Result<()> {
+//!     let skate = Skate { m: 1.0, J: 0.1, g: 9.81, slope: 0.2 };
+//!     let start = SkateState { omega: 1.0, ..SkateState::default() };
+//!     let mut study = Study::new("skate", 0.0, 10.0);
+//!     study.variant("f64", skate, start).explicit().taylor();
+//!     study.finish()
+//! }
+//! ```
+//!
+//! Run it with `--release`. Instructions are counted where valgrind is installed: the program runs itself
+//! under callgrind once, and each run of a method is a profile of its own.
+
+mod instructions;
+mod picture;
+mod study;
+mod table;
+mod variant;
+
+pub use study::{Outcome, Study};
+pub use variant::Variant;
