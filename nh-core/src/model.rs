@@ -280,6 +280,8 @@ pub enum Request {
     Volume,
     /// The symbols of the Levi-Civita and of the constrained connection.
     Connection,
+    /// The stated first integrals and their gradients.
+    Invariants,
     /// The leapfrog method on TQ.
     Leapfrog,
     /// The discrete Euler–Poincaré–Suslov equations on a Lie algebra.

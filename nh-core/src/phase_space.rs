@@ -12,6 +12,8 @@ pub struct PhaseSpace {
     pub bracket: Option<Procedure>,
     /// The equations as Π ∇E.
     pub almost_poisson: Option<AlmostPoisson>,
+    /// The stated first integrals.
+    pub invariants: Option<InvariantForm>,
     /// The kick of the leapfrog method on TQ: outputs are the velocities after it.
     pub leapfrog: Option<StepForm>,
     /// The discrete momentum of the Euler–Poincaré–Suslov equations, a component for each velocity.
@@ -26,6 +28,15 @@ pub struct PhaseSpace {
     pub christoffel: Option<Procedure>,
     /// Outputs: the velocities of the state that the declared section of D* gives.
     pub hamilton_jacobi: Option<Procedure>,
+}
+
+/// First integrals and their gradients.
+#[derive(Clone, Debug)]
+pub struct InvariantForm {
+    /// Outputs: the integrals.
+    pub values: Procedure,
+    /// Outputs: the derivatives of each by the variables of the state.
+    pub gradients: Procedure,
 }
 
 /// A function of the state and of the length of a step.

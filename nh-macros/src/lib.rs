@@ -131,6 +131,7 @@ mod syntax;
 /// | `hamiltonian` | the struct `…Phase` of coordinates and momenta π = ∂L/∂v on the constraint distribution; `legendre(t, &state)`, `inverse_legendre(t, &phase)`, `hamiltonian(t, &phase)`, Hamilton's equations `hamilton(t, &phase, &input)`, the matrix `poisson(t, &phase)` of the nonholonomic brackets, and what is not in the bracket with the energy, `drift(t, &phase, &input)` |
 /// | `bracket` | `bracket(t, &state, &input)`: the brackets of the `outputs` with each other |
 /// | `discrete_gradient` | the trait `AlmostPoisson`, for methods that keep the energy; refused, with the reason, where it is not conserved |
+/// | `invariants` | the trait `Invariants` for `Conserving`: the first integrals of `conserved` and their gradients |
 /// | `leapfrog` | the trait `Leapfrog` for `ReflectedLeapfrog`: systems on TQ with constant masses, in the projected formulation |
 /// | `euler_poincare_suslov` | the trait `EulerPoincareSuslov` for `DiscreteSuslov`: systems on a Lie algebra |
 /// | `divergence` | `divergence(t, &state, &input)` of the motion in the coordinates of the state |

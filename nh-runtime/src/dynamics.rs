@@ -133,6 +133,36 @@ impl<S: AlmostPoisson + ?Sized> AlmostPoisson for &S {
     }
 }
 
+/// A system with stated first integrals: declared with `conserved { … }` and `emit { invariants }`.
+pub trait Invariants: Dynamics {
+    /// The number of first integrals: `D<K>`.
+    type Count: Dim;
+
+    /// The first integrals at a state.
+    fn invariants(&self, t: ScalarOf<Self>, state: &Self::State)
+    -> <Self::Count as Dim>::Vec<ScalarOf<Self>>;
+
+    /// The gradient of each by the components of the state.
+    fn invariant_gradients(
+        &self,
+        t: ScalarOf<Self>,
+        state: &Self::State,
+    ) -> <Self::Count as Dim>::Vec<VecOf<Self>>;
+}
+
+impl<S: Invariants + ?Sized> Invariants for &S {
+    type Count = S::Count;
+
+    #[inline]
+    fn invariants(&self, t: ScalarOf<S>, state: &S::State) -> <S::Count as Dim>::Vec<ScalarOf<S>> {
+        (**self).invariants(t, state)
+    }
+    #[inline]
+    fn invariant_gradients(&self, t: ScalarOf<S>, state: &S::State) -> <S::Count as Dim>::Vec<VecOf<S>> {
+        (**self).invariant_gradients(t, state)
+    }
+}
+
 /// A system on TQ with constant masses, for the leapfrog method: declared with `emit { leapfrog }`.
 pub trait Leapfrog: Dynamics {
     /// The state after a kick of length h at its place: velocities v⁺ with W (v⁺ − v⁻) = −h ∂V + Aᵀμ and

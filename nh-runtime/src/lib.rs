@@ -95,8 +95,8 @@ pub use dense::DenseOutput;
 pub use dim::{D, Dim};
 pub use dynamics::TaylorSeries;
 pub use dynamics::{
-    AlmostPoisson, Constrained, DimOf, Dynamics, Energy, EulerPoincareSuslov, Jacobian, Leapfrog, MatOf,
-    Observed, ScalarOf, State, VecOf,
+    AlmostPoisson, Constrained, DimOf, Dynamics, Energy, EulerPoincareSuslov, Invariants, Jacobian, Leapfrog,
+    MatOf, Observed, ScalarOf, State, VecOf,
 };
 pub use error::{InputFault, IntegrationError, ParameterError, ParameterFault, ProjectionError, StateFault};
 pub use events::{Direction, Event, Events};
@@ -106,8 +106,9 @@ pub use jet::Jet;
 pub use lanes::Lanes;
 pub use methods::Taylor;
 pub use methods::{
-    Bs23, DiscreteGradient, DiscreteSuslov, Dop853, Dopri5, Euler, GaussLegendre4, GaussLegendre6, Heun,
-    ImplicitMidpoint, Method, Projected, Radau5, Ralston, ReflectedLeapfrog, Rk4, Rodas5P, Tsit5, Vern9,
+    Bs23, Conserving, DiscreteGradient, DiscreteSuslov, Dop853, Dopri5, Euler, GaussLegendre4,
+    GaussLegendre6, Heun, ImplicitMidpoint, Method, Projected, Radau5, Ralston, ReflectedLeapfrog, Rk4,
+    Rodas5P, Tsit5, Vern9,
 };
 pub use reduction::{ByStages, Reconstructed, Reconstruction, Reduction};
 pub use scalar::{Real, Scalar};
@@ -327,9 +328,9 @@ pub mod __private {
     pub use crate::projection::{check_identities, project};
     pub use crate::series::History;
     pub use crate::{
-        AlmostPoisson, Constrained, D, Dim, Dynamics, Energy, EulerPoincareSuslov, InputFault, Jacobian,
-        Leapfrog, Observed, ParameterError, ParameterFault, ProjectionError, Real, Reconstruction, Reduction,
-        Scalar, ScalarOf, State, StateFault,
+        AlmostPoisson, Constrained, D, Dim, Dynamics, Energy, EulerPoincareSuslov, InputFault, Invariants,
+        Jacobian, Leapfrog, Observed, ParameterError, ParameterFault, ProjectionError, Real, Reconstruction,
+        Reduction, Scalar, ScalarOf, State, StateFault,
     };
     pub use core;
     pub use nalgebra;

@@ -1,8 +1,9 @@
 //! Everything that a model and its simulation name: `use nh_runtime::prelude::*;`.
 
 pub use crate::methods::{
-    Bs23, DiscreteGradient, DiscreteSuslov, Dop853, Dopri5, Euler, GaussLegendre4, GaussLegendre6, Heun,
-    ImplicitMidpoint, Projected, Radau5, Ralston, ReflectedLeapfrog, Rk4, Rodas5P, Tsit5, Vern9,
+    Bs23, Conserving, DiscreteGradient, DiscreteSuslov, Dop853, Dopri5, Euler, GaussLegendre4,
+    GaussLegendre6, Heun, ImplicitMidpoint, Projected, Radau5, Ralston, ReflectedLeapfrog, Rk4, Rodas5P,
+    Tsit5, Vern9,
 };
 pub use crate::{
     AlmostPoisson, Constrained, Direction, Dynamics, Energy, Event, Events, Fast, IntegrationError,

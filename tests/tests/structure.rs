@@ -1,4 +1,5 @@
 //! What the structure-preserving methods keep: the measurements of the example `structure`, asserted.
+#![allow(non_snake_case, reason = "parameters are written as in mechanics")]
 #![allow(dead_code, reason = "the example uses the rest")]
 
 #[path = "../../examples/examples/structure/keeps.rs"]
@@ -113,4 +114,55 @@ fn steps() {
     ));
     let none = Integrator::new(CONTACT, DiscreteGradient::new(0.0), 0.0, start).step();
     assert!(matches!(none, Err(IntegrationError::Setting { setting: "step", .. })), "{none:?}");
+}
+
+/// A ball on a turning table: its energy changes, the stated integrals do not.
+#[nonholonomic(
+    base  { x, y }
+    basis { dx, dy, wx, wy, wz }
+    anchor { der(x) = dx; der(y) = dy; }
+    brackets { [wx, wy] = -wz; [wy, wz] = -wx; [wz, wx] = -wy; }
+    lagrangian { (dx^2 + dy^2 + k2 * (wx^2 + wy^2 + wz^2)) / 2 }
+    constraints { dx = r * wy - Omega * y; dy = -r * wx + Omega * x; }
+    conserved {
+        contact_x = r * dx + k2 * wy;
+        contact_y = r * dy - k2 * wx;
+        moving = (dx^2 + dy^2 + k2 * (wx^2 + wy^2 + wz^2)) / 2 - Omega * (x * dy - y * dx + k2 * wz);
+    }
+    emit { invariants }
+)]
+#[derive(Clone, Copy, Debug)]
+struct Table {
+    r: f64,
+    k2: f64,
+    Omega: f64,
+}
+
+#[test]
+fn stated_invariants() {
+    use nh_runtime::Invariants;
+    let table = Table { r: 0.5, k2: 0.1, Omega: 1.3 };
+    let start = TableState { x: 0.4, y: -0.2, wx: 0.3, wy: 0.7, wz: -0.4 };
+    let before = table.invariants(0.0, &start);
+    let drift = |state: &TableState| {
+        let after = table.invariants(0.0, state);
+        before.iter().zip(after).fold(0.0, |most: f64, (a, b)| most.max((a - b).abs()))
+    };
+    let mut plain = Integrator::new(table, Rk4::new(0.1), 0.0, start);
+    let mut kept = Integrator::new(table, Conserving::new(Rk4::new(0.1)), 0.0, start);
+    for _ in 0..500 {
+        plain.step().and_then(|()| kept.step()).expect("a step");
+        assert!(drift(kept.state()) < 1e-14, "{}", drift(kept.state()));
+    }
+    assert!(drift(plain.state()) > 1e-9, "{}", drift(plain.state()));
+    // the order stays
+    let mut exact = Integrator::new(table, Vern9::new().rtol(1e-13).atol(1e-14), 0.0, start);
+    exact.advance_to(2.0).expect("a smooth motion");
+    let error = |h: f64| {
+        let mut sim = Integrator::new(table, Conserving::new(Rk4::new(h)), 0.0, start);
+        sim.advance_to(2.0).expect("a smooth motion");
+        (sim.state().x - exact.state().x).hypot(sim.state().wx - exact.state().wx)
+    };
+    let order = (error(0.1) / error(0.05)).log2();
+    assert!(order > 3.8, "{order}");
 }

@@ -81,7 +81,8 @@ pub(super) fn derive(
     // 5. the report
     let embedding = embedding(&mut proved.model, &proved.base);
     let derived = Derived::Adapted { distribution, kept, equations: &equations };
-    let (phase_space, sections) = phase_space::derive(&mut proved, &derived, &derivative, &observables)?;
+    let (phase_space, sections) =
+        phase_space::derive(&mut proved, &derived, &derivative, &observables, &claims)?;
     let text = report(&mut proved, &derived, reason, conditions, sections);
     let lines = equations_of_motion(&proved.model, &derived);
     let divisors = parameter_divisors(&mut proved.model, &derivative);

@@ -10,7 +10,7 @@ use crate::mechanics::{
     definiteness, energy, hamiltonian_side, jacobian,
 };
 use crate::model::{Model, Request};
-use crate::phase_space::{AlmostPoisson, PhaseSpace};
+use crate::phase_space::{AlmostPoisson, InvariantForm, PhaseSpace};
 use crate::report::{Derived, hamiltonian_lines};
 use crate::violation::{Law, Violation};
 
@@ -23,6 +23,7 @@ pub(super) fn derive(
     derived: &Derived<'_>,
     derivative: &Procedure,
     observables: &Procedure,
+    claims: &[ExprId],
 ) -> Result<(PhaseSpace, Sections), Vec<Violation>> {
     fence(on_level(proved).into_iter().collect())?;
     let mut found = PhaseSpace::default();
@@ -47,6 +48,9 @@ pub(super) fn derive(
     }
     if let Some(origin) = asked(&proved.model, Request::DiscreteGradient) {
         keep(almost_poisson(proved, derived, origin).map(|form| found.almost_poisson = Some(form)));
+    }
+    if let Some(origin) = asked(&proved.model, Request::Invariants) {
+        keep(invariants(proved, derived, claims, origin).map(|form| found.invariants = Some(form)));
     }
     keep(connection::derive(proved, derived, &mut found));
     keep(discrete::derive(proved, derived, &mut found));
@@ -302,4 +306,27 @@ fn almost_poisson(
     let (rates, accelerations) = bracket.sharp(graph, judge, (along_base, along_fibre), &mut sharp);
     sharp.outputs = [rates, accelerations].concat();
     Ok(AlmostPoisson { gradient: Procedure::of(gradient), covector, sharp })
+}
+
+/// The claims, which are proved, with their gradients.
+fn invariants(
+    proved: &mut Proved,
+    derived: &Derived<'_>,
+    claims: &[ExprId],
+    origin: Origin,
+) -> Result<InvariantForm, Vec<Violation>> {
+    if claims.is_empty() {
+        return Err(vec![Violation {
+            law: Law::Hamiltonian,
+            origin,
+            what: "there are no first integrals to stay with".into(),
+            evidence: String::new(),
+            way_out: "state them: `conserved { spin = …; }`".into(),
+        }]);
+    }
+    let arguments = state(proved, derived);
+    let values = Procedure::of(claims.to_vec());
+    let gradients = jacobian(&mut proved.model.graph, &values, &arguments)
+        .map_err(|error| vec![not_differentiable(error, origin)])?;
+    Ok(InvariantForm { values, gradients })
 }

@@ -79,7 +79,8 @@ pub(super) fn derive(mut proved: Proved, reason: &str) -> Result<System, Vec<Vio
     // 6. the report
     let embedding = embedding(&mut proved.model, &proved.base);
     let derived = Derived::Projected { residuals: &residuals, equations: &equations };
-    let (phase_space, sections) = phase_space::derive(&mut proved, &derived, &derivative, &observables)?;
+    let (phase_space, sections) =
+        phase_space::derive(&mut proved, &derived, &derivative, &observables, &claims)?;
     let text = report(&mut proved, &derived, reason, &[], sections);
     let lines = equations_of_motion(&proved.model, &derived);
     let divisors = parameter_divisors(&mut proved.model, &derivative);

@@ -15,6 +15,7 @@ mod expression;
 mod function;
 mod gibbs_appell;
 mod hamiltonian;
+mod invariants;
 mod jacobian;
 mod layout;
 mod lint;
@@ -84,6 +85,7 @@ pub(crate) fn emit(system: &System, layout: &Layout) -> TokenStream {
         .with(hamiltonian::emit(context, scope, system))
         .with(phase_space::emit(context, scope, system))
         .with(discrete::emit(context, system))
+        .with(invariants::emit(context, scope, system))
         .with(gibbs_appell::emit(context, scope, system))
         .with(quadratures::emit(context, scope, system));
     programs.extend(part.programs.iter().map(|(name, program)| (*name, program)));

@@ -12,8 +12,9 @@ use super::function::{Head, Part};
 use super::layout::Layout;
 use super::taylor;
 use super::{
-    callback, constraint, discrete, dynamics, embedding, energy, gibbs_appell, hamiltonian, jacobian,
-    momenta, observed, parameter_jacobian, phase_space, projection, report, state, validate, velocity,
+    callback, constraint, discrete, dynamics, embedding, energy, gibbs_appell, hamiltonian, invariants,
+    jacobian, momenta, observed, parameter_jacobian, phase_space, projection, report, state, validate,
+    velocity,
 };
 use crate::resolve::Outline;
 
@@ -66,7 +67,8 @@ fn on_request(context: &Context, outline: &Outline) -> Part {
     let (requests, velocities) = (&outline.requests, outline.velocities);
     let part = part
         .with(phase_space::stub(context, requests, outline.claims_section, velocities))
-        .with(discrete::stub(context, requests));
+        .with(discrete::stub(context, requests))
+        .with(invariants::stub(context, requests));
     let part = if requests.contains(&Request::Hamiltonian) {
         part.with(hamiltonian::stub(context, velocities))
     } else {

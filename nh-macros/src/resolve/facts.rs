@@ -29,6 +29,7 @@ pub(super) const REQUESTS: [(&str, Request); 16] = [
     ("divergence", Request::Divergence),
     ("volume", Request::Volume),
     ("connection", Request::Connection),
+    ("invariants", Request::Invariants),
     ("leapfrog", Request::Leapfrog),
     ("euler_poincare_suslov", Request::EulerPoincareSuslov),
 ];

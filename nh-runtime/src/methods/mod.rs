@@ -20,6 +20,7 @@
 //! | [`GaussLegendre6`] | 6 | fixed, stiff systems too | quadratic invariants, reversibility |
 //! | [`Radau5`] | 5 | adaptive, for stiff systems | |
 //! | [`Rodas5P`] | 5 | adaptive, for stiff systems | |
+//! | [`Conserving`] | that of the method it is made of | likewise | the first integrals stated in `conserved` |
 //! | [`Projected`] | that of the method it is made of | likewise | the constraints of the projected formulation |
 //!
 //! Implicit methods form the Jacobian ∂f/∂x by difference quotients, or take the one that the system
@@ -56,8 +57,8 @@ pub use implicit::{
 };
 pub use projected::Projected;
 pub use structure::{
-    Composed, DiscreteGradient, DiscreteMomentum, DiscreteSuslov, DriftKickDrift, Gonzalez, KahanLi6,
-    ReflectedLeapfrog, Substeps, Suzuki4, Symmetric,
+    Composed, Conserving, DiscreteGradient, DiscreteMomentum, DiscreteSuslov, DriftKickDrift, Gonzalez,
+    KahanLi6, ReflectedLeapfrog, Substeps, Suzuki4, Symmetric,
 };
 pub use taylor::Taylor;
 pub use transition::Transition;

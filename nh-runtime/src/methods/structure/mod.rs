@@ -1,11 +1,13 @@
 //! Methods that keep what the flow keeps.
 
 mod composition;
+mod conserving;
 mod discrete_gradient;
 mod leapfrog;
 mod suslov;
 
 pub use composition::{Composed, KahanLi6, Substeps, Suzuki4, Symmetric};
+pub use conserving::Conserving;
 pub use discrete_gradient::{DiscreteGradient, Gonzalez};
 pub use leapfrog::{DriftKickDrift, ReflectedLeapfrog};
 pub use suslov::{DiscreteMomentum, DiscreteSuslov};

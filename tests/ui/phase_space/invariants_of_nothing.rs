@@ -1,0 +1,10 @@
+use nh_runtime::prelude::*;
+
+#[nonholonomic(
+    base { x }
+    lagrangian { der(x)^2 / 2 }
+    emit { invariants }
+)]
+struct Free;
+
+fn main() {}
