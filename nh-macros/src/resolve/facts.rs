@@ -14,7 +14,7 @@ use crate::suggest::did_you_mean;
 use crate::syntax::ast::{self, Comparison, Definition, Equation, Item, Momentum, Name};
 
 /// What `emit` can ask for.
-pub(super) const REQUESTS: [(&str, Request); 16] = [
+pub(super) const REQUESTS: [(&str, Request); 17] = [
     ("jacobian", Request::Jacobian),
     ("taylor", Request::Taylor),
     ("parameter_jacobian", Request::ParameterJacobian),
