@@ -260,6 +260,8 @@ pub enum Request {
     Jacobian,
     /// ∂derivative/∂parameter.
     ParameterJacobian,
+    /// The derivative with what depends on parameters alone computed ahead.
+    Prepared,
     /// The multipliers λ_A.
     Multipliers,
     /// The reaction forces λ_A ∂φ^A/∂y^α along the sections.

@@ -125,6 +125,7 @@ mod syntax;
 /// |---|---|
 /// | `jacobian` | `jacobian(t, &state, &input)`, the trait `Jacobian` |
 /// | `parameter_jacobian` | `parameter_jacobian(t, &state, &input)`: ∂derivative/∂parameters, a column for each number in the struct's fields, in order |
+/// | `prepared` | `prepare()`: a `Copy` value of the type `Prepared…`, the same system with what depends on parameters alone computed once; the struct has to be `Copy` |
 /// | `multipliers`, `reactions` | `multipliers(t, &state, &input)`, `reactions(…)` |
 /// | `momenta` | `momenta(t, &state)`, `momentum_rates(t, &state, &input)` |
 /// | `gibbs_appell` | `gibbs_appell(t, &state, &input)`: the derivative by the function of Gibbs and Appell, an independent derivation |

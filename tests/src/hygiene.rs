@@ -127,7 +127,7 @@ pub mod shadowed {
             constraints { v2 = 0; }
             forces      { omega: torque - r#type * omega; v1: -sqrt(1 + t^2) * v1 * r#type; }
             inputs      { torque }
-            emit        { jacobian }
+            emit        { jacobian, parameter_jacobian, prepared }
         )]
         #[derive(Clone, Copy, Debug)]
         #[allow(non_snake_case, reason = "as in mechanics")]
@@ -148,7 +148,7 @@ pub mod shadowed {
         #[::nh_runtime::nonholonomic(
             base { start, present, project }
             formulation { projected }
-            emit { jacobian, multipliers, reactions }
+            emit { jacobian, parameter_jacobian, prepared, multipliers, reactions }
             lagrangian { (der(start)^2 + J * der(present)^2 + der(project)^2) / 2 - project }
             constraints {
                 state: cos(start) * der(project) - sin(start) * der(present) = 0;

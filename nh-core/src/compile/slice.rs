@@ -53,7 +53,11 @@ pub(super) fn slice(mut system: System) -> Result<System, Vec<Violation>> {
             Request::Reactions => ("the reactions", &system.reactions),
             Request::Momenta => ("the momenta", &momenta),
             Request::Gyroscopic => ("the gyroscopic force", &gyroscopic),
-            Request::Jacobian | Request::Taylor | Request::ParameterJacobian | Request::GibbsAppell => {
+            Request::Jacobian
+            | Request::Taylor
+            | Request::ParameterJacobian
+            | Request::Prepared
+            | Request::GibbsAppell => {
                 continue;
             }
             _ => {

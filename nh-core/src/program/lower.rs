@@ -252,7 +252,7 @@ impl Lowering<'_> {
 }
 
 /// Keeps what outputs depend on.
-fn without_dead_steps(program: &Program) -> Program {
+pub(super) fn without_dead_steps(program: &Program) -> Program {
     let mut live = vec![false; program.steps.len()];
     for output in &program.outputs {
         live[output.index()] = true;

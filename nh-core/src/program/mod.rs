@@ -22,6 +22,7 @@ mod pairs;
 mod powers;
 mod schedule;
 mod signs;
+mod split;
 mod step;
 mod taylor;
 #[cfg(test)]
@@ -30,5 +31,6 @@ mod tests;
 pub use cost::Cost;
 pub use interpret::{Arithmetic, interpret, interpret_in};
 pub use schedule::{schedule, schedule_grouping};
+pub use split::{Split, split};
 pub use step::{Program, Step, Value};
 pub use taylor::{Factor, Inner, Recurrences, Rule, Variation};

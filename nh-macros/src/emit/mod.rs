@@ -26,6 +26,7 @@ mod number;
 mod observed;
 mod parameter_jacobian;
 mod phase_space;
+mod prepared;
 mod program;
 mod projection;
 mod quadratures;
@@ -80,6 +81,7 @@ pub(crate) fn emit(system: &System, layout: &Layout) -> TokenStream {
         .with(embedding::emit(context, scope, system))
         .with(projection::emit(context, system))
         .with(jacobian::emit(context, scope, system))
+        .with(prepared::emit(context, system, &derivative))
         .with(parameter_jacobian::emit(context, scope, system))
         .with(momenta::emit(context, scope, system))
         .with(hamiltonian::emit(context, scope, system))

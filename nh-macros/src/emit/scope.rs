@@ -24,6 +24,8 @@ pub(super) enum Argument {
     Start,
     /// `present`, where an iteration is
     Present,
+    /// `values`, computed ahead
+    Values,
     /// `phase`, coordinates and momenta
     Phase,
     /// `covector`, a differential

@@ -13,8 +13,8 @@ use super::layout::Layout;
 use super::taylor;
 use super::{
     callback, constraint, discrete, dynamics, embedding, energy, gibbs_appell, hamiltonian, invariants,
-    jacobian, momenta, observed, parameter_jacobian, phase_space, projection, report, state, validate,
-    velocity,
+    jacobian, momenta, observed, parameter_jacobian, phase_space, prepared, projection, report, state,
+    validate, velocity,
 };
 use crate::resolve::Outline;
 
@@ -76,6 +76,12 @@ fn on_request(context: &Context, outline: &Outline) -> Part {
     };
     let part = if outline.requests.contains(&Request::GibbsAppell) {
         part.with(gibbs_appell::stub(context))
+    } else {
+        part
+    };
+    let has_jacobian = outline.requests.contains(&Request::Jacobian);
+    let part = if outline.requests.contains(&Request::Prepared) {
+        part.with(prepared::stub(context, has_jacobian))
     } else {
         part
     };

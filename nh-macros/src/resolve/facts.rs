@@ -14,10 +14,11 @@ use crate::suggest::did_you_mean;
 use crate::syntax::ast::{self, Comparison, Definition, Equation, Item, Momentum, Name};
 
 /// What `emit` can ask for.
-pub(super) const REQUESTS: [(&str, Request); 17] = [
+pub(super) const REQUESTS: [(&str, Request); 18] = [
     ("jacobian", Request::Jacobian),
     ("taylor", Request::Taylor),
     ("parameter_jacobian", Request::ParameterJacobian),
+    ("prepared", Request::Prepared),
     ("multipliers", Request::Multipliers),
     ("reactions", Request::Reactions),
     ("momenta", Request::Momenta),

@@ -16,7 +16,7 @@ use nh_runtime::prelude::*;
     constraints { edge: v2 = 0; }
     forces      { omega: torque; }
     inputs      { torque }
-    emit        { jacobian, multipliers }
+    emit        { jacobian, prepared, multipliers }
 )]
 #[derive(Clone, Copy, Debug)]
 pub struct Sleigh {
