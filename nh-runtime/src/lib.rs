@@ -106,7 +106,7 @@ pub use jet::Jet;
 pub use lanes::Lanes;
 pub use methods::Taylor;
 pub use methods::{
-    Bs23, Conserving, DiscreteGradient, DiscreteSuslov, Dop853, Dopri5, Euler, GaussLegendre4,
+    Bs23, Conserving, Controller, DiscreteGradient, DiscreteSuslov, Dop853, Dopri5, Euler, GaussLegendre4,
     GaussLegendre6, Heun, ImplicitMidpoint, Method, Projected, Radau5, Ralston, ReflectedLeapfrog, Rk4,
     Rodas5P, Tsit5, Vern9,
 };

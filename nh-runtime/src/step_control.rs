@@ -3,6 +3,183 @@
 
 use crate::{IntegrationError, Real};
 
+/// How an adaptive method chooses the length of its next step from the errors ε, ε′, ε″ of the last three,
+/// newest first, in units of the tolerance:
+///
+/// h ← h · safety · (ε/aim)^(−β₁/q) ε′^(−β₂/q) ε″^(−β₃/q), within h · least … h · most,
+///
+/// where q is one more than the order of the estimate. After a rejected step it is
+/// h ← h · safety · (ε/aim)^(−1/q), at most 0.9 h.
+///
+/// The default is the PI control of Gustafsson as in the code DOPRI5, `β₁/q = 1/q − 0.03`,
+/// `β₂/q = −0.04`, with the safety factor 0.9 and the factors 0.2 … 10 (Hairer, Nørsett, Wanner, Solving
+/// Ordinary Differential Equations I, II.4; II, IV.2).
+///
+/// ```
+/// use nh_runtime::{Controller, Dopri5};
+///
+/// // step lengths that change smoothly: Söderlind's H211PI, aimed at 0.4 of the tolerance
+/// let control = Controller::filter([1.0 / 6.0, 1.0 / 6.0, 0.0]).aim(0.4).factors(0.5, 2.0);
+/// let method: Dopri5<f64> = Dopri5::new().rtol(1e-8).controller(control);
+/// # let _ = method;
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Controller<T> {
+    law: Law<T>,
+    safety: T,
+    aim: T,
+    /// Its logarithm.
+    log_aim: T,
+    least: T,
+    most: T,
+}
+
+/// The exponents.
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Law<T> {
+    /// 1/q − 3β/4 and β.
+    Gustafsson(T),
+    /// Multiples of 1/q.
+    Filter([T; 3]),
+}
+
+/// The logarithms of the errors of the last two steps, newest first.
+pub(crate) type Errors<T> = [T; 2];
+
+/// The share of its length that a rejected step keeps at most.
+const AFTER_REJECTION: f64 = 0.9;
+/// A preceding error is taken to be at least 10⁻⁴, whose logarithm this is.
+const LEAST_LOG_ERROR: f64 = -9.210_340_371_976_182;
+
+impl<T: Real> Default for Controller<T> {
+    fn default() -> Self {
+        Self::gustafsson(T::from_f64(0.04))
+    }
+}
+
+impl<T: Real> Controller<T> {
+    fn new(law: Law<T>) -> Self {
+        let [safety, least, most] = [0.9, 0.2, 10.0].map(T::from_f64);
+        Self { law, safety, aim: T::ONE, log_aim: T::ZERO, least, most }
+    }
+
+    /// Gustafsson's PI control: `β₁/q = 1/q − 3β/4`, `β₂/q = −β`. With β = 0.04 it is the default, with
+    /// β = 0 the integral control of most codes (Hairer, Wanner, Solving Ordinary Differential Equations
+    /// II, section IV.2).
+    #[must_use]
+    pub fn gustafsson(beta: T) -> Self {
+        Self::new(Law::Gustafsson(beta))
+    }
+
+    /// Any PI or PID control by its β, whose sum has to be positive and at most 2 (Söderlind, Digital
+    /// filters in adaptive time-stepping, ACM Trans. Math. Softw. 29 (2003)):
+    ///
+    /// | name | β₁ | β₂ | β₃ | |
+    /// |---|---|---|---|---|
+    /// | I | 1 | 0 | 0 | fast, and rough where stability limits the step |
+    /// | PI.3.3 | 2/3 | −1/3 | 0 | for nonstiff methods at the limit of stability |
+    /// | PI.4.2 | 3/5 | −1/5 | 0 | likewise |
+    /// | H211PI | 1/6 | 1/6 | 0 | smooth lengths |
+    /// | H312PID | 1/18 | 1/9 | 1/18 | smoother, and slower |
+    #[must_use]
+    pub fn filter(beta: [T; 3]) -> Self {
+        Self::new(Law::Filter(beta))
+    }
+
+    /// The share of the predicted length that is taken, above 0 and at most 1; 0.9 if not given.
+    #[must_use]
+    pub fn safety(mut self, safety: T) -> Self {
+        self.safety = safety;
+        self
+    }
+
+    /// The error that is aimed at, as a share of the tolerance, above 0 and at most 1: a safety that knows
+    /// the order, since it shortens the step by `aim^(1/q)` alone. It takes the place of
+    /// [`safety`](Self::safety); that may be given after it too. Usual are 0.25 and 0.38 (Hairer, Nørsett, Wanner I, II.4).
+    #[must_use]
+    pub fn aim(mut self, aim: T) -> Self {
+        self.aim = aim;
+        self.log_aim = aim.ln();
+        self.safety = T::ONE;
+        self
+    }
+
+    /// By what a step may differ from the one before: at least `least`, between 0 and 1, and at most
+    /// `most`, above 1; 0.2 and 10 if not given.
+    #[must_use]
+    pub fn factors(mut self, least: T, most: T) -> Self {
+        (self.least, self.most) = (least, most);
+        self
+    }
+
+    fn check(&self) -> Result<(), IntegrationError> {
+        let is_share = |x: T| x > T::ZERO && x <= T::ONE;
+        let is_number = |x: &T| x.is_finite();
+        let gain = match self.law {
+            Law::Gustafsson(beta) => beta,
+            Law::Filter([first, second, third]) => first + second + third,
+        };
+        let (law_holds, expected) = match self.law {
+            Law::Gustafsson(_) => ((T::ZERO..=T::from_f64(0.2)).contains(&gain), "between 0 and 0.2"),
+            Law::Filter(beta) => (
+                beta.iter().all(is_number) && gain > T::ZERO && gain <= T::from_f64(2.0),
+                "finite numbers whose sum is above 0 and at most 2",
+            ),
+        };
+        let checks = [
+            ("beta", gain, law_holds, expected),
+            ("safety", self.safety, is_share(self.safety), "above 0 and at most 1"),
+            ("aim", self.aim, is_share(self.aim), "above 0 and at most 1"),
+            ("least factor", self.least, self.least > T::ZERO && self.least < T::ONE, "between 0 and 1"),
+            ("most factor", self.most, self.most > T::ONE && self.most.is_finite(), "above 1 and finite"),
+        ];
+        for (setting, value, is_good, expected) in checks {
+            if !is_good {
+                return Err(IntegrationError::Setting { setting, value: value.to_f64(), expected });
+            }
+        }
+        Ok(())
+    }
+
+    /// The errors before the first step: those that have no effect on it, but for Gustafsson's, which
+    /// begins as if the step before had been very exact.
+    pub(crate) fn first_errors(&self) -> Errors<T> {
+        match self.law {
+            Law::Gustafsson(_) => [T::from_f64(LEAST_LOG_ERROR); 2],
+            Law::Filter(_) => [T::ZERO; 2],
+        }
+    }
+
+    /// The factor after an accepted step, and the errors for the next time.
+    #[inline]
+    fn after_success(&self, error: T, preceding: &Errors<T>, order: u32) -> (T, Errors<T>) {
+        let per_order = T::from_f64(f64::from(order).recip());
+        let log_error = error.max(T::MIN_POSITIVE).ln();
+        let [last, before] = *preceding;
+        let log_factor = match self.law {
+            Law::Gustafsson(beta) => {
+                let exponent = per_order - T::from_f64(0.75) * beta;
+                beta * last - exponent * (log_error - self.log_aim)
+            }
+            Law::Filter([first, second, third]) => {
+                -per_order * (first * (log_error - self.log_aim) + second * last + third * before)
+            }
+        };
+        let factor = self.safety * log_factor.exp();
+        (factor.max(self.least).min(self.most), [log_error.max(T::from_f64(LEAST_LOG_ERROR)), last])
+    }
+
+    /// The factor after a rejected step: as short as permitted if the error is not even finite.
+    #[inline]
+    fn after_rejection(&self, error: T, order: u32) -> T {
+        if !error.is_finite() {
+            return self.least;
+        }
+        let factor = self.safety * ((self.log_aim - error.ln()) / T::from_u32(order)).exp();
+        factor.max(self.least).min(T::from_f64(AFTER_REJECTION))
+    }
+}
+
 /// The settings of an adaptive method beside its tolerances.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct StepControl<T> {
@@ -10,26 +187,12 @@ pub(crate) struct StepControl<T> {
     pub(crate) first_step: Option<T>,
     /// Unlimited if not given.
     pub(crate) max_step: Option<T>,
+    pub(crate) controller: Controller<T>,
 }
-
-/// How far the step may shrink and grow at once.
-const SHRINK: f64 = 0.2;
-const GROW: f64 = 10.0;
-/// The share of the predicted step that is taken.
-const SAFETY: f64 = 0.9;
-/// The weight β of the preceding error (PI control after Gustafsson, section IV.2).
-const BETA: f64 = 0.04;
-/// The preceding error is taken to be at least 10⁻⁴, whose logarithm this is.
-const LEAST_LOG_ERROR: f64 = -9.210_340_371_976_182;
 
 impl<T: Real> StepControl<T> {
     pub(crate) fn new() -> Self {
-        Self { first_step: None, max_step: None }
-    }
-
-    /// The logarithm of the preceding error, to begin with.
-    pub(crate) fn first_log_error() -> T {
-        T::from_f64(LEAST_LOG_ERROR)
+        Self { first_step: None, max_step: None, controller: Controller::default() }
     }
 
     pub(crate) fn check(&self) -> Result<(), IntegrationError> {
@@ -41,32 +204,20 @@ impl<T: Real> StepControl<T> {
                 return Err(IntegrationError::Setting { setting, value: value.to_f64(), expected });
             }
         }
-        Ok(())
+        self.controller.check()
     }
 
-    /// The length of the step after an accepted one, after (4.13) with the PI term of section IV.2:
-    /// `h · 0.9 · err^(−1/q + 3β/4) · err_old^β`; and the logarithm of the error, for the next time.
-    /// `order` is q: one more than that of the estimate.
+    /// The length of the step after an accepted one, and the errors for the next time.
     #[inline]
-    pub(crate) fn after_success(&self, h: T, error: T, preceding: T, order: u32) -> (T, T) {
-        let beta = T::from_f64(BETA);
-        let exponent = T::from_f64(f64::from(order).recip() - 0.75 * BETA);
-        let log_error = error.max(T::MIN_POSITIVE).ln();
-        let factor = T::from_f64(SAFETY) * (beta * preceding - exponent * log_error).exp();
-        let next = h * factor.max(T::from_f64(SHRINK)).min(T::from_f64(GROW));
-        (self.limited(next), log_error.max(T::from_f64(LEAST_LOG_ERROR)))
+    pub(crate) fn after_success(&self, h: T, error: T, preceding: &Errors<T>, order: u32) -> (T, Errors<T>) {
+        let (factor, errors) = self.controller.after_success(error, preceding, order);
+        (self.limited(h * factor), errors)
     }
 
-    /// The length of the step after a rejected one, without the PI term: h · 0.9 · err^(−1/q), and
-    /// as short as permitted if the error is not even finite.
+    /// The length of the step after a rejected one.
     #[inline]
-    pub(crate) fn after_rejection(h: T, error: T, order: u32) -> T {
-        let shortest = T::from_f64(SHRINK);
-        if !error.is_finite() {
-            return h * shortest;
-        }
-        let factor = T::from_f64(SAFETY) * (-error.ln() / T::from_u32(order)).exp();
-        h * factor.max(shortest).min(T::from_f64(SAFETY))
+    pub(crate) fn after_rejection(&self, h: T, error: T, order: u32) -> T {
+        h * self.controller.after_rejection(error, order)
     }
 
     /// The length, at most `max_step`.
@@ -99,14 +250,58 @@ mod tests {
         {
             assert!(matches!(bad.check(), Err(IntegrationError::Setting { .. })), "{bad:?}");
         }
+        let nan = f64::NAN;
+        let plain = Controller::<f64>::default();
+        for (name, controller) in [
+            ("beta", Controller::gustafsson(-0.1)),
+            ("beta", Controller::gustafsson(nan)),
+            ("beta", Controller::filter([0.0; 3])),
+            ("beta", Controller::filter([1.0, f64::INFINITY, 0.0])),
+            ("beta", Controller::filter([nan, 0.0, 0.0])),
+            ("safety", plain.safety(0.0)),
+            ("safety", plain.safety(1.1)),
+            ("safety", plain.safety(nan)),
+            ("aim", plain.aim(-0.5)),
+            ("aim", plain.aim(nan)),
+            ("least factor", plain.factors(0.0, 5.0)),
+            ("least factor", plain.factors(1.0, 5.0)),
+            ("most factor", plain.factors(0.5, 1.0)),
+            ("most factor", plain.factors(0.5, nan)),
+        ] {
+            let error = StepControl { controller, ..good }.check();
+            assert!(
+                matches!(error, Err(IntegrationError::Setting { setting, .. }) if setting == name),
+                "{name}: {error:?}"
+            );
+        }
     }
 
     #[test]
     fn steps_change_within_bounds() {
         let control = StepControl::<f64> { max_step: Some(3.0), ..StepControl::new() };
-        assert_eq!(control.after_success(0.1, 0.0, -9.0, 5).0, 1.0);
-        assert_eq!(control.after_success(1.0, 0.0, -9.0, 5).0, 3.0);
-        assert!((StepControl::after_rejection(1.0, f64::NAN, 5) - 0.2).abs() < 1e-15);
-        assert!(StepControl::after_rejection(1.0_f64, 1.0 + 1e-12, 5) <= 0.9);
+        let before = control.controller.first_errors();
+        assert_eq!(control.after_success(0.1, 0.0, &before, 5).0, 1.0);
+        assert_eq!(control.after_success(1.0, 0.0, &before, 5).0, 3.0);
+        assert!((control.after_rejection(1.0, f64::NAN, 5) - 0.2).abs() < 1e-15);
+        assert!(control.after_rejection(1.0_f64, 1.0 + 1e-12, 5) <= 0.9);
+        let narrow = StepControl { controller: Controller::default().factors(0.7, 1.5), ..control };
+        assert_eq!(narrow.after_success(0.1, 0.0, &before, 5).0, 0.1 * 1.5);
+        assert_eq!(narrow.after_rejection(1.0, 1e9, 5), 0.7);
+    }
+
+    #[test]
+    fn the_laws_are_those_of_the_literature() {
+        // 0.9 ε^(−1/5 + 0.03) ε′^0.04
+        let (error, last, before) = (0.3_f64, 0.6_f64, 0.5_f64);
+        let logs = [last.ln(), before.ln()];
+        let expected = 0.9 * error.powf(-0.2 + 0.03) * last.powf(0.04);
+        let (factor, errors) = Controller::default().after_success(error, &logs, 5);
+        assert!((factor - expected).abs() < 1e-15 && errors == [error.ln(), last.ln()]);
+        // (0.38/ε)^(1/54) (1/ε′)^(2/54) (1/ε″)^(1/54), q = 3
+        let expected = (0.38 / error).powf(1.0 / 54.0) * last.powf(-2.0 / 54.0) * before.powf(-1.0 / 54.0);
+        let pid = Controller::filter([1.0 / 18.0, 1.0 / 9.0, 1.0 / 18.0]).aim(0.38);
+        assert!((pid.after_success(error, &logs, 3).0 - expected).abs() < 1e-15);
+        // (0.25/ε)^(1/4) after a rejection, whatever the law
+        assert!((pid.aim(0.25).after_rejection(7.0, 4) - (0.25_f64 / 7.0).powf(0.25)).abs() < 1e-15);
     }
 }

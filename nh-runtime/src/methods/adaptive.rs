@@ -6,20 +6,17 @@ use super::fixed::Fixed;
 use super::leg::Leg;
 use super::{Arrival, Method, Place, Start, component, non_finite_derivative};
 use crate::arrays::{all_finite, difference, displaced, first_non_finite};
-use crate::step_control::StepControl;
+use crate::step_control::{Controller, Errors, StepControl};
 use crate::tolerance::{PerComponent, Tolerance, Uniform};
 use crate::{Dynamics, IntegrationError, Real, Scalar, ScalarOf, State, Statistics, VecOf};
 
 /// A method that chooses the lengths of its steps from an estimate of their errors: `P` computes the
 /// step and the estimate, `T` is the type of numbers, `W` the kind of the tolerances.
 ///
-/// The length of the next step is that of the last one times 0.9 err^(−1/q + 0.03) err′^0.04 (PI
-/// control), within a factor of 0.2 to 10, where err and err′ are the errors of the last two steps in
-/// units of the tolerance and q is one more than the order of the estimate. A step with err > 1 is
-/// rejected and repeated with 0.9 err^(−1/q) of its length, and the step after that does not grow
-/// (Hairer, Nørsett, Wanner, Solving Ordinary Differential Equations I, II.4; II, IV.2). A step is
-/// stretched by up to 1 % or shortened to land on a target, and what a target has cut short does not
-/// shorten the steps after it.
+/// The length of the next step follows from the errors of the last ones by the law of its
+/// [`Controller`]. A step with an error beyond the tolerance is rejected and repeated with a shorter one,
+/// and the step after that does not grow. A step is stretched by up to 1 % or shortened to land on a
+/// target, and what a target has cut short does not shorten the steps after it.
 ///
 /// Named by its methods: [`Bs23`](crate::Bs23), [`Dopri5`](crate::Dopri5), ….
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -115,6 +112,13 @@ impl<P, T: Real, W> Adaptive<P, T, W> {
         self.control.max_step = Some(max_step);
         self
     }
+
+    /// The law by which the lengths of the steps follow the errors; PI control if not given.
+    #[must_use]
+    pub fn controller(mut self, controller: Controller<T>) -> Self {
+        self.control.controller = controller;
+        self
+    }
 }
 
 impl<P: Default, T: Real> Default for Adaptive<P, T> {
@@ -191,8 +195,8 @@ pub struct Trial<S: Dynamics> {
 pub struct Memory<T, K> {
     /// The length proposed for the next step.
     proposed: Option<T>,
-    /// The logarithm of the error of the last step.
-    log_error: T,
+    /// The errors of the last steps.
+    errors: Errors<T>,
     work: K,
 }
 
@@ -204,12 +208,12 @@ where
     type Dense = P::Dense;
 
     fn memory(&self) -> Self::Memory {
-        Memory { proposed: None, log_error: StepControl::first_log_error(), work: self.scheme.work() }
+        Memory { proposed: None, errors: self.control.controller.first_errors(), work: self.scheme.work() }
     }
 
     #[inline]
     fn forget(&self, memory: &mut Self::Memory) {
-        memory.log_error = StepControl::first_log_error();
+        memory.errors = self.control.controller.first_errors();
         self.scheme.forget(&mut memory.work);
     }
 
@@ -303,13 +307,13 @@ impl<P, T: Real, W> Adaptive<P, T, W> {
             let length = leg.length.abs();
             if trial.error <= T::ONE {
                 self.scheme.accept::<KEEP>(start, leg.length, &mut memory.work);
-                let (next, log_error) =
-                    self.control.after_success(length, trial.error, memory.log_error, P::ERROR_ORDER);
+                let (next, errors) =
+                    self.control.after_success(length, trial.error, &memory.errors, P::ERROR_ORDER);
                 // no growth right after a rejection; no loss from a step that a target cut short
                 let next = if rejected { next.min(length) } else { next };
                 let next = if leg.cut && !rejected { next.max(proposed) } else { next };
                 memory.proposed = Some(next);
-                memory.log_error = log_error;
+                memory.errors = errors;
                 return Ok(Arrival { time: leg.time, state: S::State::from_array(trial.state) });
             }
             statistics.rejected += 1;
@@ -317,7 +321,7 @@ impl<P, T: Real, W> Adaptive<P, T, W> {
                 return Err(self.refusal(start, leg.length, &trial, &memory.work));
             }
             rejected = true;
-            h = StepControl::after_rejection(length, trial.error, P::ERROR_ORDER).max(shortest);
+            h = self.control.after_rejection(length, trial.error, P::ERROR_ORDER).max(shortest);
         }
     }
 

@@ -1,6 +1,6 @@
 //! What the methods of fixed step share.
 
-use super::explicit::Tableau;
+use super::explicit::{Tableau, stages_of};
 use super::grid::{self, Grid, Leg, Stride};
 use super::{Arrival, Method, Place, Start, explain_non_finite};
 use crate::arrays::{Array, all_finite, displaced};
@@ -116,9 +116,7 @@ impl<P: Tableau, T: Scalar> Fixed<P, T> {
     {
         let start = Start { system, input, time: t, state };
         let x = state.to_array();
-        let mut stages = P::room(DimOf::<S>::vec(T::ZERO));
-        *P::first(&mut stages) = start.derivative();
-        let slope = P::slope(&start, &x, dt, &mut stages);
+        let (_, slope) = stages_of::<S, P>(&start, &x, dt);
         S::State::from_array(displaced(&x, dt * T::from_f64(P::SCALE), &slope))
     }
 }

@@ -26,7 +26,8 @@
 //! Implicit methods form the Jacobian ∂f/∂x by difference quotients, or take the one that the system
 //! has: `Radau5::new().with_jacobian()`.
 //!
-//! Adaptive methods take tolerances for all components or [for each](Adaptive::tolerances), and every
+//! Adaptive methods take tolerances for all components or [for each](Adaptive::tolerances), and a
+//! [`Controller`] of the step's length. Every
 //! explicit one is a method of fixed step too: `Dop853::fixed(h)`. Fixed steps may be summed
 //! [with compensation](Fixed::compensated).
 //!
@@ -63,6 +64,7 @@ pub use structure::{
 pub use taylor::Taylor;
 pub use transition::Transition;
 
+pub use crate::step_control::Controller;
 pub use crate::tolerance::{PerComponent, Tolerance, Uniform};
 
 /// The explicit Euler method x₁ = x₀ + h f(t₀, x₀) with fixed steps, of order 1

@@ -2,7 +2,7 @@
 
 use super::{Arrival, Method, Place, Start};
 use crate::projection::largest;
-use crate::{Constrained, IntegrationError, Real, Scalar, ScalarOf, State, Statistics};
+use crate::{Constrained, IntegrationError, ProjectionError, Real, Scalar, ScalarOf, State, Statistics};
 
 /// A method whose state is projected back to the constraint manifold after every few steps.
 ///
@@ -193,6 +193,10 @@ where
     let pairs = before.as_ref().iter().zip(after.as_ref());
     let correction =
         pairs.fold(ScalarOf::<S>::ZERO, |largest, (before, after)| largest.max((*after - *before).abs()));
+    if !residual.is_finite() || !correction.is_finite() {
+        let error = ProjectionError { iterations: 0, residual: residual.to_f64() };
+        return Err(IntegrationError::Projection { time: arrival.time.to_f64(), error });
+    }
     statistics.projections += 1;
     statistics.last_residual = residual.to_f64();
     statistics.largest_correction = statistics.largest_correction.max(correction.to_f64());

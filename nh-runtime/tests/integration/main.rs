@@ -11,5 +11,6 @@ mod landing;
 mod lanes;
 mod orders;
 mod projected;
+mod step_control;
 mod systems;
 mod transition;

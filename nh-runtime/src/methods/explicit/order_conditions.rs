@@ -16,6 +16,8 @@ pub(super) trait Coefficients: Tableau {
     /// Name, node and row of each stage.
     fn rows() -> Vec<Row>;
     fn weights() -> Vec<(&'static str, f64)>;
+    /// The stages without a weight, as the table lists them.
+    fn unweighted() -> Vec<&'static str>;
     /// The name of the derivative at the end.
     fn last() -> &'static str;
     /// The stages that only the dense output needs.
@@ -129,6 +131,10 @@ fn check<P: Coefficients>(dense_order: u32, round_off: f64) {
         assert!((row.iter().map(|(_, a)| a).sum::<f64>() - node).abs() < round_off);
     }
     assert_eq!(P::rows().len(), P::STAGES as usize);
+    let named: Vec<_> = P::weights().iter().map(|(name, _)| *name).collect();
+    let unnamed: Vec<_> =
+        P::rows().iter().map(|(name, ..)| *name).filter(|name| !named.contains(name)).collect();
+    assert_eq!(unnamed, <P as Coefficients>::unweighted());
     let trees = trees(&table, P::ORDER + 1);
     let weights = table.indexed(&P::weights());
     holds_to(P::ORDER, round_off, |n| residual(&trees, n, &weights, |tree| 1.0 / tree.density));

@@ -14,16 +14,20 @@ fn zero<S: Dynamics>() -> VecOf<S> {
     DimOf::<S>::vec(ScalarOf::<S>::ZERO)
 }
 
-/// All stages of a step, anew.
+/// All stages of a step, anew, and its slope, with components that are not finite if any stage has.
 #[inline]
-fn stages_of<S: Dynamics, P: Tableau>(
+pub(in crate::methods) fn stages_of<S: Dynamics, P: Tableau>(
     start: &Start<'_, S>,
     x: &VecOf<S>,
     h: ScalarOf<S>,
 ) -> (P::Stages<VecOf<S>>, VecOf<S>) {
     let mut stages = P::room(zero::<S>());
     *P::first(&mut stages) = start.derivative();
-    let slope = P::slope(start, x, h, &mut stages);
+    let mut slope = P::slope(start, x, h, &mut stages);
+    let unseen = P::unweighted(&stages);
+    for slope in slope.as_mut() {
+        *slope += unseen;
+    }
     (stages, slope)
 }
 

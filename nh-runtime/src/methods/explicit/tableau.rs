@@ -35,6 +35,10 @@ pub trait Tableau: Copy + Default + Debug + PartialEq + 'static {
         stages: &mut Self::Stages<VecOf<S>>,
     ) -> VecOf<S>;
 
+    /// Zero if the stages that the sum leaves out are finite, and NaN otherwise: a system may hide from the
+    /// later stages what is not finite in them.
+    fn unweighted<T: Scalar, V: Array<T>>(stages: &Self::Stages<V>) -> T;
+
     /// The coefficients of the dense output, from the stages and the derivative at the end; further
     /// stages are evaluated here.
     fn bulge<S: Dynamics>(
@@ -97,9 +101,9 @@ pub(in crate::methods) fn interpolate<S: Dynamics, B: AsRef<[VecOf<S>]>>(
 
 /// Writes down a [`Tableau`]. Coefficients that are not listed are zero, and cost nothing.
 ///
-/// `last` names the derivative at
-/// the end of the step, `extra` the stages that only the dense output needs, and each row of `dense`
-/// is the combination of stages that is one coefficient of the bulge.
+/// `unweighted` lists the stages that are not in the sum, `last` names the derivative at the end of the
+/// step, `extra` the stages that only the dense output needs, and each row of `dense` is the combination
+/// of stages that is one coefficient of the bulge.
 macro_rules! tableau {
     (
         $(#[$meta:meta])*
@@ -109,6 +113,7 @@ macro_rules! tableau {
             $($k:ident at $c:expr => [$a0k:ident: $a0:expr $(, $ak:ident: $a:expr)*];)*
         }
         sum $(scaled by $scale:expr;)? [$b0k:ident: $b0:expr $(, $bk:ident: $b:expr)*];
+        $(unweighted [$($u:ident),*];)?
         last $last:ident;
         $(extra $e:ident at $ec:expr => [$ea0k:ident: $ea0:expr $(, $eak:ident: $ea:expr)*];)*
         dense [$([$d0k:ident: $d0:expr $(, $dk:ident: $d:expr)*]),*];
@@ -162,6 +167,12 @@ macro_rules! tableau {
                 $crate::arrays::combined((w($b0), &stages.$b0k), [$((w($b), &stages.$bk)),*])
             }
 
+            #[inline]
+            fn unweighted<T: $crate::Scalar, V: $crate::arrays::Array<T>>(stages: &$stages<V>) -> T {
+                let _ = stages;
+                T::ZERO $($(+ $crate::arrays::nought(&stages.$u))*)?
+            }
+
             #[allow(unused_variables, clippy::trivially_copy_pass_by_ref)] // not every stage is used
             fn bulge<S: $crate::Dynamics>(
                 start: &$crate::methods::Start<'_, S>,
@@ -204,6 +215,9 @@ macro_rules! tableau {
             fn weights() -> std::vec::Vec<(&'static str, f64)> {
                 let scale = <Self as $crate::methods::explicit::tableau::Tableau>::SCALE;
                 std::vec![(stringify!($b0k), $b0 * scale) $(, (stringify!($bk), $b * scale))*]
+            }
+            fn unweighted() -> std::vec::Vec<&'static str> {
+                std::vec![$($(stringify!($u)),*)?]
             }
             fn last() -> &'static str {
                 stringify!($last)

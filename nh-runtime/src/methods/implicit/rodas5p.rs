@@ -313,8 +313,12 @@ where
             let jacobian = self.linearization.state_jacobian(start, start.time, &x, &work.first, statistics);
             work.jacobian = jacobian;
             work.by_time = by_time(start, &work.first, statistics);
-            work.linearized = true;
             statistics.jacobians += 1;
+            work.linearized = work.jacobian.as_ref().iter().all(all_finite::<ScalarOf<S>, _>);
+            if !work.linearized {
+                // an infinite entry would take its stages for zero
+                return Trial { state: x, error: ScalarOf::<S>::ZERO.recip() };
+            }
         }
         statistics.factorizations += 1;
         statistics.evaluations += 7;

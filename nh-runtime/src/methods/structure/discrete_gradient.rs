@@ -225,7 +225,7 @@ impl<T: Real, J> Gonzalez<T, J> {
             let ratio = size / best;
             stalled = if ratio < T::from_f64(0.5) { 0 } else { stalled + 1 };
             best = best.min(size);
-            if size == T::ZERO || (best <= T::ONE && stalled >= STALLED) {
+            if size == T::ZERO || (size <= T::ONE && stalled >= STALLED) {
                 break;
             }
             if !size.is_finite() || iterations >= MOST_ITERATIONS {
