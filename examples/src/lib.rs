@@ -6,9 +6,11 @@
 mod chart;
 mod colour;
 mod picture;
+mod random;
 mod view;
 
 pub use chart::Chart;
 pub use colour::{BACKGROUND, Colours, FAINT, INK, MUTED};
 pub use picture::{Page, Picture};
+pub use random::Random;
 pub use view::{Pose, View};
