@@ -56,13 +56,13 @@ pub struct Robot {
 /// Time between two ticks (s).
 const TICK: f64 = 0.01;
 /// Ticks in a round of the figure of eight.
-const ROUND: usize = 2000;
+const ROUND: u32 = 2000;
 /// Standard deviations: of a wheel's rate (rad/s), of the gyroscope (rad/s), of a position fix (m).
 const WHEEL: f64 = 0.3;
 const GYROSCOPE: f64 = 0.02;
 const FIX: f64 = 0.05;
 /// A fix of the position arrives every so many ticks.
-const BETWEEN_FIXES: usize = 100;
+const BETWEEN_FIXES: u32 = 100;
 
 type Vector = SVector<f64, 5>;
 type Matrix = SMatrix<f64, 5, 5>;
@@ -105,7 +105,7 @@ fn gains(robot: &Robot) -> Result<Vec<Regulator<f64, 5, 2>>, Box<dyn Error>> {
     let mut cost = state;
     let mut plan = Vec::new();
     for tick in (0..2 * ROUND).rev() {
-        let t = TICK * (tick % ROUND) as f64;
+        let t = TICK * f64::from(tick % ROUND);
         let held = RobotInput::from(torques_on_the_curve(robot, t)?);
         let (a, b) = robot.jacobian(t, &on_the_curve(t), &held);
         let (a, b) = zero_order_hold(&a, &b, TICK)?;
@@ -139,7 +139,7 @@ fn correct(
     robot: &Robot,
     belief: &Estimate<f64, 5>,
     real: &RobotState,
-    tick: usize,
+    tick: u32,
     noise: &mut Random,
 ) -> Result<Estimate<f64, 5>, Box<dyn Error>> {
     let mean = RobotState::from(belief.mean);
@@ -158,7 +158,7 @@ fn correct(
     ];
     let spread = nalgebra::Matrix3::from_diagonal(&vector![WHEEL, WHEEL, GYROSCOPE].map(|s| s * s));
     let mut corrected = belief.corrected(&innovation, &observation, &spread)?.estimate;
-    if tick % BETWEEN_FIXES == 0 {
+    if tick.is_multiple_of(BETWEEN_FIXES) {
         let seen = vector![real.x + FIX * noise.normal(), real.y + FIX * noise.normal()];
         let observation = SMatrix::<f64, 2, 5>::identity();
         let innovation = seen - corrected.mean.fixed_rows::<2>(0);
@@ -187,14 +187,14 @@ fn main() -> Result<(), Box<dyn Error>> {
     let mut belief = Estimate { mean: guess.into(), covariance: Matrix::from_diagonal(&spread) };
     let mut film = Vec::new();
     println!("     t   off the curve   believed wrongly   3 sigma of x and y   torques");
-    for (tick, regulator) in plan.iter().enumerate() {
-        let t = TICK * tick as f64;
+    for (tick, regulator) in (0u32..).zip(&plan) {
+        let t = TICK * f64::from(tick);
         belief = correct(&model, &belief, &real, tick, &mut noise)?;
         let e = deviation(&RobotState::from(belief.mean), &on_the_curve(t));
         let wanted = torques_on_the_curve(&model, t)? + regulator.input(&e);
         let input = RobotInput::from(wanted.map(|torque| torque.clamp(-0.4, 0.4)));
         let off = deviation(&real, &on_the_curve(t));
-        if tick % 200 == 0 {
+        if tick.is_multiple_of(200) {
             let wrong = (real.x - belief.mean[0]).hypot(real.y - belief.mean[1]);
             let sigma = [0, 1].map(|i| 3.0 * belief.covariance[(i, i)].sqrt());
             println!(
@@ -210,10 +210,12 @@ fn main() -> Result<(), Box<dyn Error>> {
         belief = predict(&model, &belief, t, &input)?;
         real = Rk4::step(&robot, t, TICK, &real, &input);
     }
-    let settled = film.iter().filter(|moment| moment.t > 10.0);
-    let mean_square =
-        settled.clone().map(|moment| moment.off[0].powi(2) + moment.off[1].powi(2)).sum::<f64>()
-            / settled.count() as f64;
+    let (mut settled, mut sum) = (0.0, 0.0);
+    for moment in film.iter().filter(|moment| moment.t > 10.0) {
+        settled += 1.0;
+        sum += moment.off[0].powi(2) + moment.off[1].powi(2);
+    }
+    let mean_square: f64 = sum / settled;
     println!("root of the mean square off the curve after 10 s: {:.4} m", mean_square.sqrt());
     draw(&film).save("lqr_ekf")?;
     Ok(())
@@ -251,12 +253,12 @@ fn draw(film: &[Moment]) -> Picture {
     picture.line(&real, r##"stroke="#e8623e" stroke-width="2.4""##);
     let corner = Page { x: 76.0, y: 654.0 };
     let end = film.last().map_or(1.0, |moment| moment.t);
-    let chart = Chart { corner, width: 848.0, height: 90.0, across: [0.0, end], up: [0.0, 0.5] };
+    let chart = Chart { corner, width: 848.0, height: 90.0, across: [0.0, end], up: [0.0, 0.75] };
     chart.axes(
         &mut picture,
         "Distance from the curve (orange), and of the estimate from the truth (blue)",
         &[(0.0, "0"), (5.0, "5"), (10.0, "10"), (15.0, "15"), (19.99, "20 s")],
-        &[(0.0, "0"), (0.25, "0.25"), (0.5, "0.5 m")],
+        &[(0.0, "0"), (0.25, "0.25"), (0.5, "0.5"), (0.75, "0.75 m")],
     );
     let wrong = film.iter().map(|m| (m.t, (m.real.x - m.belief.mean[0]).hypot(m.real.y - m.belief.mean[1])));
     chart.line(&mut picture, wrong, r##"stroke="#5b7bb0" stroke-width="1.4""##);
