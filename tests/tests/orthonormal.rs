@@ -74,9 +74,9 @@ fn sleigh() {
     let (plain, unit) = (Sleigh { m, J: inertia, a, b, c }, UnitSleigh { m, J: inertia, a, b, c });
     let start = UnitSleighState { theta: 0.3, x: 1.0, y: 2.0, turn: 0.9, slide: -0.6 };
     // twice the kinetic energy is u²
-    assert!((unit.energy(0.0, &start) - (0.81 + 0.36) / 2.0).abs() < 1e-14);
+    assert!((unit.energy(0.0, &start) - 0.585).abs() < 1e-14);
     let velocity = unit.velocity(0.0, &start);
-    assert_eq!(velocity.v2, 0.0);
+    assert!(velocity.v2.abs() <= 0.0);
     let same = SleighState { theta: 0.3, x: 1.0, y: 2.0, omega: velocity.omega, v1: velocity.v1 };
     let multiplier = unit.multipliers(0.0, &start, &UnitSleighInput { torque: 0.25 }).blade;
     assert_close(&[multiplier], &[plain.multipliers(0.0, &same, &SleighInput { torque: 0.25 }).blade]);

@@ -41,8 +41,9 @@ pub(crate) fn morphism(
     };
     let functions = map.reduction();
     let back = reduction.reconstruction.as_ref().map(|back| map.reconstruction(back));
+    // one list has tokens of two declarations, on far lines
     Ok(quote! {
-        #[allow(non_local_definitions, unused_qualifications)]
+        #[allow(non_local_definitions, unused_qualifications, clippy::possible_missing_comma)]
         const _: () = { #functions #back };
     })
 }

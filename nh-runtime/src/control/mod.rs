@@ -8,6 +8,7 @@
 //! | [`Unscented`] | one step of an unscented Kalman filter |
 //! | [`Ilqr`] | optimal inputs over a horizon, between bounds; model predictive control |
 //! | [`Sampled`] | a declared system in discrete time, with exact derivatives of the step: a [`Model`] |
+//! | [`Quadratic`], [`Squares`] | costs: diagonal weights; or any residuals, differentiated by jets |
 //! | [`shooting_gradient`] | the cost of a sequence of inputs with its exact gradient, for any optimiser |
 //!
 //! They take and return the matrices of `nalgebra`, as `jacobian` does, for `f32` and `f64`. Nothing
@@ -44,6 +45,7 @@ mod kalman;
 mod regulator;
 mod sampled;
 mod shooting;
+mod squares;
 mod unscented;
 
 use nalgebra::{ClosedAddAssign, ClosedMulAssign, ClosedSubAssign, SMatrix};
@@ -57,6 +59,7 @@ pub use kalman::{Correction, Estimate};
 pub use regulator::Regulator;
 pub use sampled::Sampled;
 pub use shooting::{shooting_cost, shooting_gradient};
+pub use squares::{Residuals, Squares};
 pub use unscented::Unscented;
 
 use crate::Real;

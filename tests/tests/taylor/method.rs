@@ -32,7 +32,7 @@ fn forth_and_back() {
     let mut sim = Integrator::new(system, Taylor::new().rtol(1e-15), 0.0, start);
     sim.set_input(SleighInput { torque: 0.3 });
     sim.advance_to(7.3).unwrap();
-    assert_eq!(sim.time(), 7.3);
+    assert!((sim.time() - 7.3).abs() <= 0.0);
     sim.advance_to(0.0).unwrap();
     assert!(distance(sim.state(), &start) < 1e-11, "{:?}", sim.state());
 }

@@ -32,6 +32,7 @@ where
     }
 
     /// Adds a method with each of some settings; what it is called with them is the setting's name.
+    #[allow(clippy::return_self_not_must_use)] // what is added is in the study
     pub fn method<M: Method<S> + Clone + 'static>(
         self,
         method: &'static str,
@@ -68,6 +69,7 @@ where
     }
 
     /// The explicit methods: `Rk4` with fixed steps, `Bs23`, `Dopri5`, `Tsit5`, `Dop853`, `Vern9`.
+    #[allow(clippy::return_self_not_must_use)] // what is added is in the study
     pub fn explicit(self) -> Self {
         let t = ScalarOf::<S>::from_f64;
         macro_rules! adaptive {
@@ -85,6 +87,7 @@ where
     }
 
     /// The implicit methods with Jacobians by differences: `GaussLegendre6`, `Radau5`, `Rodas5P`.
+    #[allow(clippy::return_self_not_must_use)] // what is added is in the study
     pub fn implicit(self) -> Self {
         let t = ScalarOf::<S>::from_f64;
         let steps: Vec<f64> = self.steps().collect();
@@ -100,6 +103,7 @@ where
     ScalarOf<S>: Real,
 {
     /// The Taylor method: where the declaration says `emit { taylor }`.
+    #[allow(clippy::return_self_not_must_use)] // what is added is in the study
     pub fn taylor(self) -> Self {
         let t = ScalarOf::<S>::from_f64;
         self.method("Taylor", Self::tolerances().map(|rtol| (rtol, Taylor::new().rtol(t(rtol)))))
