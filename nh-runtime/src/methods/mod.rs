@@ -27,13 +27,14 @@
 //! has: `Radau5::new().with_jacobian()`.
 //!
 //! Adaptive methods take tolerances for all components or [for each](Adaptive::tolerances), and a
-//! [`Controller`] of the step's length. Every
-//! explicit one is a method of fixed step too: `Dop853::fixed(h)`. Fixed steps may be summed
-//! [with compensation](Fixed::compensated).
+//! [`Controller`] of the step's length. Every explicit one is a method of fixed step too:
+//! `Dop853::fixed(h)`. Fixed steps may be summed [with compensation](Fixed::compensated).
 //!
 //! The methods of fixed step are also one pure function each, `Rk4::step(&system, t, dt, &state,
 //! &input)`, for a loop that keeps its own state and time. Where the system has a Jacobian,
-//! `Rk4::linearized_step` gives the [`Transition`] with it: the exact derivatives of the step.
+//! `Rk4::linearized_step` gives the [`Transition`] with it: the exact derivatives of the step. All
+//! explicit methods have it, [`ImplicitMidpoint`], the Gauss methods and [`Radau5`]; not [`Rodas5P`], whose
+//! step contains the Jacobian, so that its derivative would need second derivatives.
 
 mod adaptive;
 mod explicit;
@@ -45,6 +46,8 @@ mod projected;
 mod structure;
 mod taylor;
 mod transition;
+#[cfg(test)]
+mod trees;
 
 pub use adaptive::{Adaptive, Scheme, Trial};
 pub use explicit::{

@@ -23,6 +23,14 @@ pub struct Transition<X, T, const N: usize, const M: usize> {
     pub by_input: SMatrix<T, N, M>,
 }
 
+impl<X, T: Scalar, const N: usize, const M: usize> Transition<X, T, N, M> {
+    /// A step whose derivatives are yet to be found.
+    pub(super) fn unknown(state: X) -> Self {
+        let nan = T::from_f64(f64::NAN);
+        Self { state, by_state: SMatrix::from([[nan; N]; N]), by_input: SMatrix::from([[nan; N]; M]) }
+    }
+}
+
 impl<P: Tableau, T: Scalar> Fixed<P, T> {
     /// One step of length `dt` with its derivatives by the state and the input, from the system's own Jacobian:
     /// a Runge–Kutta step of the variational equation Ẋ = A X, U̇ = A U + B is the derivative of the

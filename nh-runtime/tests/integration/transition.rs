@@ -70,15 +70,17 @@ fn explicit_steps_are_differentiated_exactly() {
     agrees::<methods::Verner9>("Vern9");
 }
 
-#[test]
-fn implicit_steps_are_differentiated_by_their_equations() {
-    let step = |x: [f64; 5], u: [f64; 2]| {
-        let (x, u) = (SleighState::from(x), SleighInput::from(u));
-        ImplicitMidpoint::step_with_jacobian(&SLEIGH, TIME, STEP, &x, &u).unwrap().to_array()
+type Differentiated = Transition<SleighState<f64>, f64, 5, 2>;
+
+/// A step with its derivatives agrees with quotients of such steps.
+fn agrees_with_quotients(
+    name: &str,
+    step: impl Fn(&SleighState<f64>, &SleighInput<f64>) -> Result<Differentiated, IntegrationError>,
+) {
+    let end = |x: [f64; 5], u: [f64; 2]| {
+        step(&SleighState::from(x), &SleighInput::from(u)).unwrap().state.to_array()
     };
-    let (start, input) = (SleighState::from(START), SleighInput::from(INPUT));
-    let ours = ImplicitMidpoint::linearized_step(&SLEIGH, TIME, STEP, &start, &input).unwrap();
-    assert_eq!(ours.state.to_array(), step(START, INPUT));
+    let ours = step(&SleighState::from(START), &SleighInput::from(INPUT)).unwrap();
     let delta = 1e-4;
     for j in 0..7 {
         let at = |shift: f64| {
@@ -88,16 +90,44 @@ fn implicit_steps_are_differentiated_by_their_equations() {
             } else {
                 u[j - 5] += shift;
             }
-            step(x, u)
+            end(x, u)
         };
         // the quotient of order four: its error is some 1e-12
         let ([a, b], [c, d]) = ([at(2.0 * delta), at(delta)], [at(-delta), at(-2.0 * delta)]);
         for i in 0..5 {
             let quotient = (8.0 * (b[i] - c[i]) - (a[i] - d[i])) / (12.0 * delta);
             let ours = if j < 5 { ours.by_state[(i, j)] } else { ours.by_input[(i, j - 5)] };
-            assert!((ours - quotient).abs() < 2e-11, "({i}, {j}): {ours} {quotient}");
+            assert!((ours - quotient).abs() < 2e-11, "{name}, ({i}, {j}): {ours} {quotient}");
         }
     }
+}
+
+#[test]
+fn implicit_steps_are_differentiated_by_their_equations() {
+    macro_rules! check {
+        ($($method:ident)*) => {$(
+            agrees_with_quotients(stringify!($method), |x, u| $method::linearized_step(&SLEIGH, TIME, STEP, x, u));
+            agrees_with_quotients("back", |x, u| $method::linearized_step(&SLEIGH, TIME, -STEP, x, u));
+        )*};
+    }
+    check! { ImplicitMidpoint GaussLegendre4 GaussLegendre6 Radau5 }
+    // the steps are those of the methods
+    let (start, input) = (SleighState::from(START), SleighInput::from(INPUT));
+    let ours = ImplicitMidpoint::linearized_step(&SLEIGH, TIME, STEP, &start, &input).unwrap();
+    let step = ImplicitMidpoint::step_with_jacobian(&SLEIGH, TIME, STEP, &start, &input).unwrap();
+    assert_eq!(ours.state, step);
+    let ours = GaussLegendre6::linearized_step(&SLEIGH, TIME, STEP, &start, &input).unwrap().state;
+    let mut sim = Integrator::new(SLEIGH, GaussLegendre6::new(STEP).with_jacobian(), TIME, start);
+    sim.set_input(input);
+    sim.step().unwrap();
+    assert_eq!(ours, *sim.state());
+    let ours = Radau5::linearized_step(&SLEIGH, TIME, STEP, &start, &input).unwrap().state;
+    let loose = Radau5::new().rtol(1e-14).atol(1.0).first_step(STEP).with_jacobian();
+    let mut sim = Integrator::new(SLEIGH, loose, TIME, start);
+    sim.set_input(input);
+    sim.step().unwrap();
+    let pairs = ours.to_array().into_iter().zip(sim.state().to_array());
+    assert!(pairs.fold(0.0, |most: f64, (a, b)| most.max((a - b).abs())) < 1e-5, "{:?}", sim.state());
 }
 
 #[test]
@@ -123,6 +153,21 @@ fn linear_systems_give_the_rational_approximations_of_the_exponential() {
         ImplicitMidpoint::linearized_step(&decay, 0.0, 1.0, &start, &DecayInput::default()).unwrap();
     assert!((implicit.by_state[(1, 1)] - (1.0 - z / 2.0) / (1.0 + z / 2.0)).abs() < 1e-15);
     assert!((implicit.by_input[(1, 0)] - 1.0 / (1.0 + z / 2.0)).abs() < 1e-15);
+    for z in [0.3, 1e3, 1e9] {
+        let decay = Decay { lambda: z };
+        let damping = |by_state: f64, expected: f64| {
+            assert!((by_state - expected).abs() < 1e-14, "{z}: {by_state} {expected}");
+        };
+        let (u, quadratic) = (DecayInput::default(), z * z / 12.0);
+        let gauss = GaussLegendre4::linearized_step(&decay, 0.0, 1.0, &start, &u).unwrap();
+        damping(gauss.by_state[(1, 1)], (1.0 - z / 2.0 + quadratic) / (1.0 + z / 2.0 + quadratic));
+        let (even, odd) = (1.0 + z * z / 10.0, z / 2.0 + z * z * z / 120.0);
+        let gauss = GaussLegendre6::linearized_step(&decay, 0.0, 1.0, &start, &u).unwrap();
+        damping(gauss.by_state[(1, 1)], (even - odd) / (even + odd));
+        let radau = Radau5::linearized_step(&decay, 0.0, 1.0, &start, &u).unwrap();
+        let below = 1.0 + 0.6 * z + 0.15 * z * z + z * z * z / 60.0;
+        damping(radau.by_state[(1, 1)], (1.0 - 0.4 * z + z * z / 20.0) / below);
+    }
 }
 
 #[test]

@@ -92,19 +92,33 @@ impl<const N: usize> Collocation<N> {
     where
         ScalarOf<S>: Real,
     {
-        let one = ScalarOf::<S>::ONE;
         let zero = DimOf::<S>::vec(ScalarOf::<S>::ZERO);
-        let scaled = |v: f64| ScalarOf::<S>::from_f64(v) / h;
         let mut slopes = [zero; N];
         for ((slope, node), z) in slopes.iter_mut().zip(&self.nodes).zip(z.iter()) {
             let time = start.time + ScalarOf::<S>::from_f64(*node) * h;
-            *slope = start.derivative_at(time, displaced(x, one, z));
+            *slope = start.derivative_at(time, displaced(x, ScalarOf::<S>::ONE, z));
         }
+        self.corrected(h, matrices, &slopes, z)
+    }
+
+    /// One iteration from the derivatives at the unknowns.
+    pub(super) fn corrected<S: Dynamics>(
+        &self,
+        h: ScalarOf<S>,
+        matrices: &Matrices<S>,
+        slopes: &[VecOf<S>; N],
+        z: &mut [VecOf<S>; N],
+    ) -> [VecOf<S>; N]
+    where
+        ScalarOf<S>: Real,
+    {
+        let zero = DimOf::<S>::vec(ScalarOf::<S>::ZERO);
+        let scaled = |v: f64| ScalarOf::<S>::from_f64(v) / h;
         // in blocks: T⁻¹ f − Λ/h T⁻¹ z
         let mut defect = [zero; N];
         let mut blocks = [zero; N];
         for ((defect, block), row) in defect.iter_mut().zip(&mut blocks).zip(&self.to_blocks) {
-            *defect = weighted(zero, row, &slopes);
+            *defect = weighted(zero, row, slopes);
             *block = weighted(zero, row, z);
         }
         let mut correction = [zero; N];
@@ -132,7 +146,7 @@ impl<const N: usize> Collocation<N> {
         let mut change = [zero; N];
         for ((change, z), row) in change.iter_mut().zip(z.iter_mut()).zip(&self.from_blocks) {
             *change = weighted(zero, row, &correction);
-            *z = displaced(z, one, change);
+            *z = displaced(z, ScalarOf::<S>::ONE, change);
         }
         change
     }

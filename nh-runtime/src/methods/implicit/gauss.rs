@@ -31,7 +31,7 @@ pub struct Gauss<T, J, const N: usize> {
 }
 
 /// The tables by their number of stages.
-trait Table<const N: usize> {
+pub(super) trait Table<const N: usize> {
     const TABLE: Collocation<N>;
 }
 
@@ -126,8 +126,8 @@ constructors!(GaussLegendre6, 3);
 /// What a Gauss method keeps: the stages of the last step, and the matrices while they serve.
 pub struct Work<S: Dynamics, const N: usize> {
     /// The length of the last step, and its stages.
-    last: Option<(ScalarOf<S>, [VecOf<S>; N])>,
-    matrices: Option<(ScalarOf<S>, Matrices<S>)>,
+    pub(super) last: Option<(ScalarOf<S>, [VecOf<S>; N])>,
+    pub(super) matrices: Option<(ScalarOf<S>, Matrices<S>)>,
 }
 
 impl<S: Dynamics, const N: usize> Clone for Work<S, N> {
@@ -161,64 +161,14 @@ where
     fn increment(
         &self,
         start: &Start<'_, S>,
-        x: &VecOf<S>,
+        _x: &VecOf<S>,
         h: T,
         work: &mut Work<S, N>,
         statistics: &mut Statistics,
     ) -> Result<VecOf<S>, IntegrationError> {
         let table = &Self::TABLE;
-        let zero = DimOf::<S>::vec(T::ZERO);
-        let mut z = match &work.last {
-            Some((length, z)) => table.extrapolated(zero, z, h / *length),
-            None => [zero; N],
-        };
-        let mut matrices = work.matrices.filter(|(length, _)| *length == h).map(|(_, matrices)| matrices);
-        // stored matrices and starting values that fail get one chance more with new ones
-        let mut retry = work.last.is_some() || matrices.is_some();
-        *work = Work { last: None, matrices: None };
-        let mut preceding: Option<T> = None;
-        let mut iterations = 0;
-        let mut residual;
-        loop {
-            let current = if let Some(matrices) = matrices {
-                matrices
-            } else {
-                let slope = start.derivative();
-                let jacobian = self.linearization.state_jacobian(start, start.time, x, &slope, statistics);
-                statistics.evaluations += 1;
-                statistics.jacobians += 1;
-                statistics.factorizations += 2;
-                *matrices.insert(table.matrices::<S>(&jacobian, h))
-            };
-            let change = table.iterate(start, x, h, &current, &mut z);
-            iterations += 1;
-            statistics.iterations += 1;
-            statistics.evaluations += N as u64;
-            let sizes = change.iter().zip(&z).map(|(c, z)| size(c, x, z));
-            let largest = sizes.fold(T::ZERO, T::max);
-            residual = largest / self.tolerance;
-            let ratio = preceding.map(|preceding| residual / preceding);
-            let stagnates = ratio.is_some_and(|ratio| ratio >= T::from_f64(0.5));
-            if largest <= T::EPSILON * T::from_f64(0.5) || (stagnates && residual <= T::ONE) {
-                break;
-            }
-            if !residual.is_finite() || iterations >= MOST_ITERATIONS {
-                if !retry {
-                    let reached = displaced(x, T::ONE, &weighted(zero, &table.end, &z));
-                    return Err(refusal(start, h, iterations, residual, reached.as_ref()));
-                }
-                retry = false;
-                (z, matrices, preceding, iterations) = ([zero; N], None, None, 0);
-                continue;
-            }
-            if ratio.is_some_and(|ratio| ratio >= T::from_f64(SLOW)) && residual > T::ONE && retry {
-                retry = false;
-                matrices = None;
-            }
-            preceding = Some(residual);
-        }
-        *work = Work { last: Some((h, z)), matrices: matrices.map(|matrices| (h, matrices)) };
-        Ok(weighted(zero, &table.end, &z))
+        let z = settled(table, &self.linearization, self.tolerance, start, h, work, statistics)?;
+        Ok(weighted(DimOf::<S>::vec(T::ZERO), &table.end, &z))
     }
 
     fn blame(&self, _start: &Start<'_, S>, _h: T) -> Option<IntegrationError> {
@@ -238,6 +188,74 @@ where
     ) -> S::State {
         fixed::interpolate(dense, start, arrival, time)
     }
+}
+
+/// The stages of a step, by simplified Newton iterations until their corrections stagnate in round-off.
+pub(super) fn settled<T: Real, S: Dynamics, J: Linearization<S>, const N: usize>(
+    table: &Collocation<N>,
+    linearization: &J,
+    tolerance: T,
+    start: &Start<'_, S>,
+    h: T,
+    work: &mut Work<S, N>,
+    statistics: &mut Statistics,
+) -> Result<[VecOf<S>; N], IntegrationError>
+where
+    S::State: State<Scalar = T>,
+{
+    let x = &start.state.to_array();
+    let zero = DimOf::<S>::vec(T::ZERO);
+    let mut z = match &work.last {
+        Some((length, z)) => table.extrapolated(zero, z, h / *length),
+        None => [zero; N],
+    };
+    let mut matrices = work.matrices.filter(|(length, _)| *length == h).map(|(_, matrices)| matrices);
+    // stored matrices and starting values that fail get one chance more with new ones
+    let mut retry = work.last.is_some() || matrices.is_some();
+    *work = Work { last: None, matrices: None };
+    let mut preceding: Option<T> = None;
+    let mut iterations = 0;
+    let mut residual;
+    loop {
+        let current = if let Some(matrices) = matrices {
+            matrices
+        } else {
+            let slope = start.derivative();
+            let jacobian = linearization.state_jacobian(start, start.time, x, &slope, statistics);
+            statistics.evaluations += 1;
+            statistics.jacobians += 1;
+            statistics.factorizations += 2;
+            *matrices.insert(table.matrices::<S>(&jacobian, h))
+        };
+        let change = table.iterate(start, x, h, &current, &mut z);
+        iterations += 1;
+        statistics.iterations += 1;
+        statistics.evaluations += N as u64;
+        let sizes = change.iter().zip(&z).map(|(c, z)| size(c, x, z));
+        let largest = sizes.fold(T::ZERO, T::max);
+        residual = largest / tolerance;
+        let ratio = preceding.map(|preceding| residual / preceding);
+        let stagnates = ratio.is_some_and(|ratio| ratio >= T::from_f64(0.5));
+        if largest <= T::EPSILON * T::from_f64(0.5) || (stagnates && residual <= T::ONE) {
+            break;
+        }
+        if !residual.is_finite() || iterations >= MOST_ITERATIONS {
+            if !retry {
+                let reached = displaced(x, T::ONE, &weighted(zero, &table.end, &z));
+                return Err(refusal(start, h, iterations, residual, reached.as_ref()));
+            }
+            retry = false;
+            (z, matrices, preceding, iterations) = ([zero; N], None, None, 0);
+            continue;
+        }
+        if ratio.is_some_and(|ratio| ratio >= T::from_f64(SLOW)) && residual > T::ONE && retry {
+            retry = false;
+            matrices = None;
+        }
+        preceding = Some(residual);
+    }
+    *work = Work { last: Some((h, z)), matrices: matrices.map(|matrices| (h, matrices)) };
+    Ok(z)
 }
 
 #[cfg(test)]

@@ -3,6 +3,7 @@
 mod collocation;
 mod gauss;
 mod linearization;
+mod linearized;
 mod midpoint;
 mod radau5;
 mod rodas5p;
