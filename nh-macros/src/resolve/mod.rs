@@ -104,6 +104,8 @@ impl Resolver {
         let tracked = sections.track.as_ref().map(|s| self.tracked(s, &outputs));
         let independent = sections.independent.as_ref().map(|s| self.independent(&s.body));
         let formulation = sections.formulation.as_ref().map(|s| self.formulation(s));
+        let accuracy = sections.accuracy.as_ref().map(|s| self.accuracy(s)).unwrap_or_default();
+        self.graph.set_accuracy(accuracy);
         let origin = Self::whole();
         let lagrangian = lagrangian.unwrap_or(Located { value: self.time(), origin });
         let tables = std::mem::take(&mut self.tables);
