@@ -270,6 +270,8 @@ pub enum Request {
     Momenta,
     /// ⟨J, K⟩ of a Chaplygin system.
     Gyroscopic,
+    /// The nonholonomic connection, its curvature, and the momentum equation.
+    Splitting,
     /// Momenta, the Legendre transformation, h, Hamilton's equations and the almost-Poisson matrix.
     Hamiltonian,
     /// The nonholonomic brackets of the observables.

@@ -49,12 +49,59 @@ fn the_force_of_the_robots_constraints() {
             assert!((found - expected).abs() < 1e-15 * (1.0 + expected.abs()), "{found} {expected}");
         }
     }
+    let plane = RobotOnThePlane { m0: 3.0, m1: 0.4, l: 0.2, J: 0.5, J2: 0.02, c: 0.3, R: 0.1 };
+    for _ in 0..50 {
+        let state = RobotOnThePlaneState::from(std::array::from_fn(|_| random.between(-5.0, 5.0)));
+        let RobotOnThePlaneState { psi1, psi2, psi1_dot, psi2_dot, .. } = state;
+        let reduced = RobotState { psi1, psi2, dpsi1: psi1_dot, dpsi2: psi2_dot };
+        let (found, expected) = (plane.gyroscopic(0.0, &state), robot.gyroscopic(0.0, &reduced));
+        for (found, expected) in <[f64; 2]>::from(found).iter().zip(<[f64; 2]>::from(expected)) {
+            assert!((found - expected).abs() < 1e-15 * (1.0 + expected.abs()), "{found} {expected}");
+        }
+    }
+    let report = RobotOnThePlane::REPORT;
+    for line in [
+        "rates of psi1, psi2; the group: the declared symmetries of L and D, with the cyclic coordinates \
+         that they move\n",
+        "invariant frame: body_x = (cos(theta))*x_dot + (sin(theta))*y_dot\n",
+    ] {
+        assert!(report.contains(line), "{line}\n{report}");
+    }
     let report = Robot::REPORT;
     assert!(
         report.contains("Chaplygin system: the anchor maps D one to one onto the rates of psi1, psi2\n"),
         "{report}"
     );
     assert!(report.contains("curvature K(d/dpsi1, d/dpsi2) = (R^2/2/c)*w2\n"), "{report}");
+}
+
+/// The same on the plane, where the symmetries of the group are declared.
+#[nonholonomic(
+    base { x, y, theta, psi1, psi2 }
+    lagrangian {
+        let w2 = cos(theta) * der(y) - sin(theta) * der(x);
+        (m0 + 2 * m1) / 2 * (der(x)^2 + der(y)^2) + m0 * l * w2 * der(theta) + J / 2 * der(theta)^2
+            + J2 / 2 * (der(psi1)^2 + der(psi2)^2)
+    }
+    constraints {
+        cos(theta) * der(y) = sin(theta) * der(x);
+        cos(theta) * der(x) + sin(theta) * der(y) + c * der(theta) + R * der(psi1) = 0;
+        cos(theta) * der(x) + sin(theta) * der(y) - c * der(theta) + R * der(psi2) = 0;
+    }
+    assume { R > 0; c > 0; }
+    symmetries { turn: der(theta) + x * der(y) - y * der(x); }
+    independent { der(psi1), der(psi2) }
+    emit { gyroscopic }
+)]
+#[derive(Clone, Copy, Debug)]
+struct RobotOnThePlane {
+    m0: f64,
+    m1: f64,
+    l: f64,
+    J: f64,
+    J2: f64,
+    c: f64,
+    R: f64,
 }
 
 /// A particle on a rough plane, with a potential: only z is cyclic.
@@ -168,7 +215,11 @@ fn systems_are_called_by_their_names() {
         assert!(report.contains(name), "{name}\n{report}");
     }
     // [X_v, e2] and [X_v, e3] with X_v = v + r w1: the connection; [e2, e3] = e1 in S
-    for line in ["S, along w2: w2\n", "connection [v, w2] = (r)*w3\n", "bracket in S [w2, w3] = w1\n"] {
+    for line in [
+        "momentum section S_w2 = w2\n",
+        "connection [h_r, S_w2] = (r)*w3\n",
+        "bracket in S [S_w2, S_w3] = w1\n",
+    ] {
         assert!(Spinning::REPORT.contains(line), "{line}\n{}", Spinning::REPORT);
     }
     assert!(!BallOnRotatingTable::REPORT.contains("Chaplygin"), "its constraints are affine");

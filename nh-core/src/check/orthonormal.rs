@@ -4,7 +4,7 @@ use super::choice::Chosen;
 use super::evidence::{counted, shown};
 use crate::algebra::{Facts, Graph, Matrix, Rational};
 use crate::id::{ExprId, SymbolId};
-use crate::mechanics::{Definiteness, LagrangianSystem, definiteness};
+use crate::mechanics::{Definiteness, LagrangianSystem, definiteness, kinetic_metric};
 use crate::model::Model;
 use crate::violation::{Law, Violation};
 
@@ -49,7 +49,7 @@ pub fn orthonormal(
     }
     let graph = &mut model.graph;
     let sections: Matrix = (0..distribution.rank()).map(|a| distribution.section(a)).collect();
-    let metric = metric(graph, system, &sections);
+    let metric = kinetic_metric(graph, system, &sections);
     let all = metric.concat();
     if let Some(entry) = all.iter().find(|entry| graph.depends_on(**entry, &system.algebroid.velocities)) {
         return refused(
@@ -70,29 +70,6 @@ pub fn orthonormal(
     let basis = distribution.rebased(graph, &change, names);
     let reason = format!("{reason}; its basis is orthonormal in the kinetic metric");
     Ok(Chosen::Adapted { distribution: Box::new(basis), conditions, reason })
-}
-
-/// C_{ab} = B^α_a W_{αβ} B^β_b.
-fn metric(graph: &mut Graph, system: &LagrangianSystem, sections: &Matrix) -> Matrix {
-    let momenta = system.momenta(graph);
-    let velocities = &system.algebroid.velocities;
-    let mass: Matrix = momenta
-        .iter()
-        .map(|p| velocities.iter().map(|symbol| graph.partial(*p, *symbol)).collect())
-        .collect();
-    sections
-        .iter()
-        .map(|a| {
-            let inertia: Vec<ExprId> = mass.iter().map(|row| graph.inner_product(row, a)).collect();
-            sections
-                .iter()
-                .map(|b| {
-                    let entry = graph.inner_product(&inertia, b);
-                    graph.simplify(entry)
-                })
-                .collect()
-        })
-        .collect()
 }
 
 /// Columns n_k / √d_k with n_k = e_k − Σ_{j<k} (n_jᵀ C e_k / d_j) n_j and d_k = n_kᵀ C e_k.

@@ -35,12 +35,7 @@ fn refusal(origin: Origin, what: &str, evidence: String, way_out: &str) -> Vec<V
 fn conservative(proved: &mut Proved, origin: Origin, what: &str) -> Result<(), Vec<Violation>> {
     let Proved { model, system, constraints, .. } = proved;
     let evidence = match check::not_conservative(model, system, constraints) {
-        None if constraints.linear.is_some() => {
-            match check::moving_constraint(model, system.time, constraints) {
-                None => return Ok(()),
-                Some(evidence) => evidence,
-            }
-        }
+        None if constraints.linear.is_some() => return Ok(()),
         None => "the constraints are not linear in the velocities".into(),
         Some(evidence) => evidence,
     };
@@ -52,7 +47,7 @@ fn conservative(proved: &mut Proved, origin: Origin, what: &str) -> Result<(), V
     ))
 }
 
-/// The kick of the nonholonomic leapfrog at a point of the base, mathematics (22): v⁺ from v⁻ with
+/// The kick of the nonholonomic leapfrog at a point of the base, mathematics (26): v⁺ from v⁻ with
 /// W (v⁺ − v⁻) = −h ∂V + Jᵀμ, J (v⁺ + v⁻) = 0 (McLachlan, Perlmutter, J. Nonlinear Sci. 16 (2006)).
 fn leapfrog(proved: &mut Proved, derived: &Derived<'_>, origin: Origin) -> Result<StepForm, Vec<Violation>> {
     let what = "the leapfrog method needs a system on TQ with constant masses";
@@ -105,7 +100,7 @@ fn leapfrog(proved: &mut Proved, derived: &Derived<'_>, origin: Origin) -> Resul
     Ok(StepForm { length, map })
 }
 
-/// The discrete momentum of the Euler–Poincaré–Suslov equations, mathematics (23):
+/// The discrete momentum of the Euler–Poincaré–Suslov equations, mathematics (27):
 /// P_a(h, v) = ⟨p, B_a − h/2 [y, B_a] + h²/12 [y, [y, B_a]]⟩ at y = B v, with which a step is
 /// P(h, v₁) = P(−h, v₀) (Fedorov, Zenkov, Nonlinearity 18 (2005); the derivative of the exponential map
 /// to second order).

@@ -2,37 +2,14 @@
 
 use super::Proved;
 use super::phase_space::asked;
+use super::splitting::Reduced;
+use crate::algebra::Substitution;
 use crate::geometry::ConstraintDistribution;
-use crate::id::{CoordId, ExprId, SymbolId};
-use crate::mechanics::{Chaplygin, Procedure, Splitting};
+use crate::id::CoordId;
+use crate::mechanics::{Procedure, Splitting};
 use crate::model::Request;
 use crate::system::Gyroscopic;
 use crate::violation::{Law, Violation};
-
-/// The splitting of D, where the constraints are linear and do not depend on the time.
-pub(crate) fn splitting(proved: &mut Proved, distribution: &ConstraintDistribution) -> Option<Splitting> {
-    let graph = &mut proved.model.graph;
-    let offset = distribution.offset.iter().all(|entry| graph.zero_test(*entry).is_zero());
-    let entries: Vec<ExprId> = distribution.basis.iter().flatten().copied().collect();
-    if !offset || graph.symbols_in(&entries).contains(&proved.system.time) {
-        return None;
-    }
-    Splitting::of(graph, &proved.system, distribution, &proved.symmetries.cyclic)
-}
-
-/// L̄, K and ⟨J, K⟩ of a Chaplygin system.
-pub(crate) fn chaplygin(
-    proved: &mut Proved,
-    distribution: &ConstraintDistribution,
-    splitting: &Splitting,
-) -> Option<Chaplygin> {
-    if !splitting.is_chaplygin() {
-        return None;
-    }
-    let rate = |id: &CoordId| proved.model.coordinates[*id].rate;
-    let rates: Vec<SymbolId> = splitting.coordinates.iter().map(rate).collect();
-    Chaplygin::of(&mut proved.model.graph, &proved.system, distribution, splitting, &rates)
-}
 
 /// ⟨J, K⟩ as a function, if the declaration asks for it.
 ///
@@ -52,29 +29,33 @@ pub(super) fn derive(
             way_out: "declare it on the algebroid of its symmetry group, or leave `gyroscopic` out".into(),
         }]
     };
-    let Some(distribution) = distribution else {
-        return Err(blame("there is no basis of D valid everywhere".into()));
-    };
     if let Some(level) = proved.levels.first() {
         return Err(blame(format!("`routh` puts the momentum of `{}` on a level", level.name)));
     }
-    let Some(splitting) = splitting(proved, distribution) else {
-        return Err(blame(
-            "its constraints are not linear and autonomous, or the kernel of the anchor is 0 and no coordinate \
-             is cyclic"
-                .into(),
-        ));
-    };
-    let Some(found) = chaplygin(proved, distribution, &splitting) else {
-        let Splitting { horizontal, coordinates, .. } = &splitting;
-        let (shared, m) = (splitting.shared(), coordinates.len());
+    let reduced = Reduced::of(proved, distribution).map_err(|reason| blame(reason.into()))?;
+    let Some(found) = reduced.chaplygin(proved) else {
+        let Splitting { horizontal, coordinates, .. } = &reduced.splitting;
+        let (shared, m) = (reduced.splitting.shared(), coordinates.len());
         return Err(blame(if shared > 0 {
             format!("D meets the kernel of the anchor in rank {shared}: there are momentum equations")
         } else {
             format!("the anchor maps D to rank {horizontal} of {m}")
         }));
     };
+    let mut restriction = match distribution {
+        Some(distribution) => {
+            distribution.restriction(&proved.model.graph, &proved.system.algebroid.velocities)
+        }
+        None => Substitution::new([]),
+    };
+    let mut force = Vec::new();
+    for component in found.force {
+        let component = reduced.at_declared_velocities(proved, component);
+        let graph = &mut proved.model.graph;
+        let component = restriction.apply(graph, component);
+        force.push(graph.simplify(component));
+    }
     let symbol = |id: &CoordId| proved.model.coordinates[*id].symbol;
-    let coordinates = splitting.coordinates.iter().map(symbol).collect();
-    Ok(Some(Gyroscopic { coordinates, force: Procedure::of(found.force) }))
+    let coordinates = reduced.splitting.coordinates.iter().map(symbol).collect();
+    Ok(Some(Gyroscopic { coordinates, force: Procedure::of(force) }))
 }

@@ -2,18 +2,19 @@
 
 mod adapted;
 mod analytic;
-mod brackets;
 mod connection;
 mod discrete;
 mod embedded;
 mod gibbs_appell;
 mod gyroscopic;
 mod momenta;
+mod nonholonomic_connection;
 mod phase_space;
 mod projected;
 mod restricted;
 mod routh;
 mod slice;
+mod splitting;
 mod volume;
 
 use crate::algebra::Facts;
@@ -24,9 +25,9 @@ use crate::mechanics::LagrangianSystem;
 use crate::model::{ForceDirection, Model};
 use crate::system::System;
 use crate::violation::Violation;
-pub(crate) use gyroscopic::{chaplygin, splitting};
 pub(crate) use momenta::Symmetries;
 pub(crate) use routh::Level;
+pub(crate) use splitting::{Reduced, frame_names, generators, moved};
 
 /// What the later stages share.
 pub(crate) struct Proved {

@@ -1,19 +1,20 @@
-//! How D lies to the kernel of the anchor: the classification of reduced systems, CM section 4.2.
+//! How D lies to the vertical sections, the kernel of the anchor or the directions of a symmetry group:
+//! the classification of reduced systems, CM section 4.2.
 
 use super::euler_lagrange::LagrangianSystem;
 use crate::algebra::{Echelon, FieldPoint, Graph, Matrix, Substitution};
 use crate::geometry::ConstraintDistribution;
 use crate::id::{CoordId, ExprId, Id, SymbolId};
 
-/// D over M (or over the coordinates that are not cyclic), with V the kernel of the anchor there and
+/// D over M (or over the coordinates that no symmetry moves), with V the kernel of the anchor there and
 /// S = D ∩ V; ranks at generic points.
 #[derive(Clone, Debug)]
 pub struct Splitting {
-    /// The coordinates that V leaves: all of them, or where the anchor is injective those that are
-    /// not cyclic, which are coordinates of the quotient by the translations along the cyclic ones.
+    /// The coordinates that V leaves: all of them, or where the anchor is injective those that no
+    /// symmetry moves, which are coordinates of the quotient.
     pub coordinates: Vec<CoordId>,
-    /// Whether cyclic coordinates are left out of them.
-    pub by_cyclic: bool,
+    /// Whether coordinates along a symmetry group are left out of them.
+    pub by_group: bool,
     /// The rank of D.
     pub rank: usize,
     /// The rank of V.
@@ -21,23 +22,24 @@ pub struct Splitting {
     /// The rank of ρ(D) over those coordinates.
     pub horizontal: usize,
     /// The velocities of D (by position) along which ρ is one to one.
-    lifted: Vec<usize>,
+    pub(super) lifted: Vec<usize>,
 }
 
 impl Splitting {
-    /// The splitting; `None` where V = 0, or the anchor is not onto these coordinates.
+    /// The splitting, with the coordinates along a symmetry group; `None` where V = 0, or the anchor is
+    /// not onto the others.
     pub fn of(
         graph: &mut Graph,
         system: &LagrangianSystem,
         distribution: &ConstraintDistribution,
-        cyclic: &[CoordId],
+        group: &[CoordId],
     ) -> Option<Self> {
         let algebroid = &system.algebroid;
         let (n, s) = (algebroid.anchor.coordinates.len(), algebroid.rank());
         let whole = graph.generic_rank(&algebroid.anchor.entries).ok()?;
-        let by_cyclic = whole == s;
+        let by_group = whole == s;
         let coordinates: Vec<CoordId> =
-            (0..n).map(CoordId::from_index).filter(|id| !(by_cyclic && cyclic.contains(id))).collect();
+            (0..n).map(CoordId::from_index).filter(|id| !(by_group && group.contains(id))).collect();
         let rows: Matrix = rows(&algebroid.anchor.entries, &coordinates);
         let onto = graph.generic_rank(&rows).ok()?;
         if onto < coordinates.len() || onto == s {
@@ -48,7 +50,7 @@ impl Splitting {
         let lifted = Echelon::of(sampled).pivots;
         Some(Self {
             coordinates,
-            by_cyclic,
+            by_group,
             rank: distribution.rank(),
             vertical: s - onto,
             horizontal: lifted.len(),
@@ -76,12 +78,12 @@ impl Splitting {
 }
 
 /// The rows of the coordinates.
-fn rows(entries: &Matrix, coordinates: &[CoordId]) -> Matrix {
+pub(super) fn rows(entries: &Matrix, coordinates: &[CoordId]) -> Matrix {
     coordinates.iter().map(|id| entries[id.index()].clone()).collect()
 }
 
 /// ρ^i_α B^α_a.
-fn along(graph: &mut Graph, rows: &Matrix, distribution: &ConstraintDistribution) -> Matrix {
+pub(super) fn along(graph: &mut Graph, rows: &Matrix, distribution: &ConstraintDistribution) -> Matrix {
     let sections: Matrix = (0..distribution.rank()).map(|a| distribution.section(a)).collect();
     rows.iter()
         .map(|row| sections.iter().map(|section| graph.inner_product(row, section)).collect())
@@ -164,53 +166,5 @@ impl Chaplygin {
         });
         let force = force.collect();
         Some(Self { lifts, curvature, lagrangian, force })
-    }
-}
-
-/// An adapted frame of a system with momentum equations: S = D ∩ V, and a complement of it in D.
-#[derive(Clone, Debug)]
-pub struct MomentumFrame {
-    /// Sections of S, each named by a velocity of D.
-    pub vertical: Vec<(SymbolId, Vec<ExprId>)>,
-    /// Sections of D beside S, by their velocities.
-    pub horizontal: Vec<(SymbolId, Vec<ExprId>)>,
-}
-
-impl MomentumFrame {
-    /// S_f = B_f − B_p (ρB_p)⁻¹ ρB_f over the velocities f along which ρ adds nothing.
-    pub fn of(
-        graph: &mut Graph,
-        system: &LagrangianSystem,
-        distribution: &ConstraintDistribution,
-        splitting: &Splitting,
-    ) -> Option<Self> {
-        let all = rows(&system.algebroid.anchor.entries, &splitting.coordinates);
-        let field = along(graph, &all, distribution);
-        let columns: Matrix = Graph::transposed(&field);
-        let lifted: Matrix = splitting.lifted.iter().map(|a| columns[*a].clone()).collect();
-        // rows of ρB_p that are independent
-        let sampled = graph.matrix_in_field(&lifted, |seed| FieldPoint::random(19_000 + seed)).ok()?;
-        let chosen = Echelon::of(sampled).pivots;
-        let free: Vec<usize> = (0..splitting.rank).filter(|a| !splitting.lifted.contains(a)).collect();
-        let pick = |set: &[usize]| -> Matrix {
-            chosen.iter().map(|row| set.iter().map(|a| columns[*a][*row]).collect()).collect()
-        };
-        let solution = graph.solve_linear(&pick(&splitting.lifted), &pick(&free))?.values;
-        let mut vertical = Vec::new();
-        for (f, a) in free.iter().enumerate() {
-            let mut section = distribution.section(*a);
-            for (row, p) in solution.iter().zip(&splitting.lifted) {
-                for (component, entry) in section.iter_mut().zip(distribution.section(*p)) {
-                    let share = graph.mul(row[f], entry);
-                    *component = graph.sub(*component, share);
-                }
-            }
-            let section = section.into_iter().map(|component| graph.simplify(component)).collect();
-            vertical.push((distribution.independent[*a], section));
-        }
-        let horizontal =
-            splitting.lifted.iter().map(|a| (distribution.independent[*a], distribution.section(*a)));
-        let horizontal = horizontal.collect();
-        Some(Self { vertical, horizontal })
     }
 }

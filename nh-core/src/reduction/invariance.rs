@@ -64,7 +64,9 @@ impl<'a> Invariant<'a> {
 
     /// Records what depends on the dropped coordinates.
     fn depends(&mut self, what: String, evidence: String) {
-        self.refuse(what, evidence, "drop fewer coordinates, or give invariant `velocities { … }`");
+        let way_out = "drop fewer coordinates, give invariant `velocities { … }`, or declare the symmetries that \
+                       move them in `symmetries` of the full system";
+        self.refuse(what, evidence, way_out);
     }
 
     /// Records what stands in the way.

@@ -10,7 +10,8 @@ use super::side::Side;
 use super::{Refusal, fence};
 use crate::algebra::{Graph, Matrix, Substitution};
 use crate::check::evidence::shown;
-use crate::geometry::ChangeOfBasis;
+use crate::compile::{Proved, frame_names, generators, moved};
+use crate::geometry::{ChangeOfBasis, InvariantFrame};
 use crate::id::{CoordId, ExprId, Id, Origin, SymbolId};
 use crate::model::{Located, Model};
 use crate::violation::{Law, Violation};
@@ -137,6 +138,11 @@ fn frame(
     declared: &QuotientDecl,
 ) -> Result<(Vec<String>, Vec<ExprId>, ChangeOfBasis), Vec<Violation>> {
     let rank = source.velocities().len();
+    if declared.velocities.is_none()
+        && let Some(derived) = invariant_frame(source, declared)
+    {
+        return Ok(derived);
+    }
     let velocity = source.proved.system.algebroid.velocity(&mut source.proved.model.graph);
     let names = source.proved.model.sections.iter().map(|section| section.name.clone());
     let located = velocity.into_iter().map(|value| Located { value, origin: declared.origin });
@@ -181,6 +187,28 @@ fn frame(
         sections.push(row.into_iter().map(|entry| source.graph().simplify(entry)).collect());
     }
     Ok((names, values, ChangeOfBasis { sections, velocities: rows }))
+}
+
+/// A frame that commutes with the declared symmetries, where these move the dropped coordinates alone.
+fn invariant_frame(
+    source: &mut Side,
+    declared: &QuotientDecl,
+) -> Option<(Vec<String>, Vec<ExprId>, ChangeOfBasis)> {
+    let generators = generators(&mut source.proved, |id| declared.dropped.contains(&id));
+    let Proved { model, system, base, constraints, .. } = &mut source.proved;
+    let (graph, algebroid) = (&mut model.graph, &system.algebroid);
+    if generators.is_empty() {
+        return None;
+    }
+    let moved = moved(graph, &algebroid.anchor, &generators);
+    let group: Vec<SymbolId> = moved.iter().map(|id| algebroid.anchor.coordinates[id.index()]).collect();
+    let hints: Vec<ExprId> = constraints.residuals.iter().copied().chain([system.lagrangian]).collect();
+    let frame = InvariantFrame::of(graph, algebroid, base, &generators, &group, &hints).ok()?;
+    let names: Vec<String> = model.sections.iter().map(|section| section.name.clone()).collect();
+    let names = frame_names(graph, &frame, &names);
+    let velocity = algebroid.velocity(graph);
+    let values = frame.change.velocities.iter().map(|row| graph.inner_product(row, &velocity)).collect();
+    Some((names, values, frame.change))
 }
 
 /// Υ'_k = Ψ^α_k Υ_α.

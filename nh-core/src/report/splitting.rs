@@ -1,91 +1,87 @@
 //! What reduction theory calls a system, and the quantities that it names.
 
-use super::{Derived, combination, section_names, shown};
-use crate::algebra::Graph;
-use crate::compile::{Proved, chaplygin, splitting};
-use crate::geometry::ConstraintDistribution;
-use crate::id::{ExprId, SymbolId};
-use crate::mechanics::{MomentumFrame, Splitting};
+use super::{Derived, combination, shown};
+use crate::compile::{Proved, Reduced};
+use crate::id::ExprId;
+use crate::mechanics::{NonholonomicConnection, Splitting};
 
 /// Lagrangians with more operations than this are classified, but their splitting is not shown.
 const SHOWN_UP_TO: u64 = 150;
 
 /// The name of the reduced equations, and their quantities.
 pub(super) fn lines(proved: &mut Proved, derived: &Derived<'_>) -> (Option<String>, Vec<String>) {
-    let distribution = match derived {
-        Derived::Adapted { distribution, .. } => Some((*distribution).clone()),
-        Derived::Projected { .. } => {
-            let velocities = proved.system.algebroid.velocities.clone();
-            proved.constraints.generic_distribution(&mut proved.model.graph, &velocities)
-        }
+    let is_free = match derived {
+        Derived::Adapted { distribution, .. } => distribution.constraints.annihilator.is_empty(),
+        Derived::Projected { residuals, .. } => residuals.is_empty(),
     };
-    let Some(distribution) = distribution else { return (None, Vec::new()) };
-    let is_free = distribution.constraints.annihilator.is_empty();
     if proved.model.coordinates.is_empty() {
         let name = if is_free { "Euler–Poincaré" } else { "Euler–Poincaré–Suslov" };
         return (Some(format!("equations: {name}")), Vec::new());
     }
-    let Some(splitting) = splitting(proved, &distribution) else { return (None, Vec::new()) };
-    let name = name(proved, &splitting, is_free);
-    let small = proved.model.graph.operation_count(&[proved.system.lagrangian]) <= SHOWN_UP_TO;
-    let adapted = matches!(derived, Derived::Adapted { .. });
-    let lines = if small && adapted && !is_free && splitting.horizontal > 0 {
-        quantities(proved, &distribution, &splitting)
-    } else {
-        Vec::new()
+    let distribution = match derived {
+        Derived::Adapted { distribution, .. } => Some(*distribution),
+        Derived::Projected { .. } => None,
     };
+    let Ok(reduced) = Reduced::of(proved, distribution) else { return (None, Vec::new()) };
+    let name = name(proved, &reduced.splitting, is_free, reduced.frame.is_some());
+    let small = proved.model.graph.operation_count(&[proved.system.lagrangian]) <= SHOWN_UP_TO;
+    let has_basis = distribution.is_some() || reduced.frame.is_some();
+    let is_horizontal = reduced.splitting.horizontal > 0 || reduced.frame.is_some();
+    let lines = if small && has_basis && is_horizontal { quantities(proved, &reduced) } else { Vec::new() };
     (Some(name), lines)
 }
 
-fn name(proved: &Proved, splitting: &Splitting, is_free: bool) -> String {
+fn name(proved: &Proved, splitting: &Splitting, is_free: bool, in_frame: bool) -> String {
     let coordinates: Vec<&str> =
         splitting.coordinates.iter().map(|id| proved.model.coordinates[*id].name.as_str()).collect();
     let coordinates = coordinates.join(", ");
     let Splitting { vertical, horizontal, .. } = splitting;
     let (shared, m) = (splitting.shared(), splitting.coordinates.len());
+    let v = if splitting.by_group { "V along the group" } else { "V = ker ρ" };
     let name = if is_free {
         format!("Lagrange–Poincaré, with momentum equations of rank {vertical}")
     } else if splitting.is_chaplygin() {
         format!("of a Chaplygin system: the anchor maps D one to one onto the rates of {coordinates}")
     } else if shared == 0 {
-        format!("purely kinematic: D meets V = ker ρ in 0 only; ρ(D) has rank {horizontal} of {m}")
+        format!("purely kinematic: D meets {v} in 0 only; ρ(D) has rank {horizontal} of {m}")
     } else if *horizontal == 0 {
-        format!("momentum equations of rank {shared} alone: D lies in V = ker ρ")
+        format!("momentum equations of rank {shared} alone: D lies in {v}")
     } else {
         let assumption = if splitting.spans() {
             "D + V = E (the dimension assumption)"
         } else {
             "D + V is not E (no dimension assumption)"
         };
-        format!("Lagrange–d'Alembert–Poincaré: S = D ∩ V, V = ker ρ, has rank {shared}; {assumption}")
+        format!("Lagrange–d'Alembert–Poincaré: S = D ∩ V, {v}, has rank {shared}; {assumption}")
     };
-    let group =
-        if splitting.by_cyclic { "; the group: translations along the cyclic coordinates" } else { "" };
+    let group = match (splitting.by_group, in_frame) {
+        (false, _) => "",
+        (true, false) => "; the group: translations along the cyclic coordinates",
+        (true, true) => {
+            "; the group: the declared symmetries of L and D, with the cyclic coordinates that they move"
+        }
+    };
     format!("equations: {name}{group}")
 }
 
 /// CM Propositions 8 and 9.
-fn quantities(
-    proved: &mut Proved,
-    distribution: &ConstraintDistribution,
-    splitting: &Splitting,
-) -> Vec<String> {
-    let names = section_names(&proved.model);
-    let mut lines = Vec::new();
-    if let Some(found) = chaplygin(proved, distribution, splitting) {
+fn quantities(proved: &mut Proved, reduced: &Reduced) -> Vec<String> {
+    let names = &reduced.names;
+    let mut lines = frame(proved, reduced);
+    if let Some(found) = reduced.chaplygin(proved) {
         let model = &proved.model;
-        let name = |i: usize| model.coordinates[splitting.coordinates[i]].name.as_str();
+        let name = |i: usize| model.coordinates[reduced.splitting.coordinates[i]].name.as_str();
         for (i, lift) in found.lifts.iter().enumerate() {
             lines.push(format!(
                 "horizontal lift of d/d{}: {}",
                 name(i),
-                combination(&model.graph, lift, &names)
+                combination(&model.graph, lift, names)
             ));
         }
         let mut pairs = found.curvature.iter();
         for i in 0..found.lifts.len() {
             for (j, curvature) in (i + 1..found.lifts.len()).zip(&mut pairs) {
-                let value = combination(&model.graph, curvature, &names);
+                let value = combination(&model.graph, curvature, names);
                 lines.push(format!("curvature K(d/d{}, d/d{}) = {value}", name(i), name(j)));
             }
         }
@@ -95,32 +91,71 @@ fn quantities(
         }
         return lines;
     }
-    let graph = &mut proved.model.graph;
-    let Some(frame) = MomentumFrame::of(graph, &proved.system, distribution, splitting) else { return lines };
-    for (symbol, section) in &frame.vertical {
-        let name = &graph.symbols()[*symbol];
-        lines.push(format!("S, along {name}: {}", combination(graph, section, &names)));
+    lines.extend(connection(proved, reduced));
+    lines
+}
+
+/// The velocities of the invariant frame.
+fn frame(proved: &mut Proved, reduced: &Reduced) -> Vec<String> {
+    let Some(frame) = &reduced.frame else { return Vec::new() };
+    let declared: Vec<String> = proved.model.sections.iter().map(|section| section.name.clone()).collect();
+    let velocities = reduced.names.iter().zip(&frame.change.velocities);
+    let changed = velocities.filter(|(name, _)| !declared.contains(name));
+    changed
+        .map(|(name, row)| {
+            format!("invariant frame: {name} = {}", combination(&proved.model.graph, row, &declared))
+        })
+        .collect()
+}
+
+/// S = D ∩ V, the lifts orthogonal to it, and their brackets.
+fn connection(proved: &mut Proved, reduced: &Reduced) -> Vec<String> {
+    let Reduced { system, distribution, splitting, names, .. } = reduced;
+    let (graph, facts) = (&mut proved.model.graph, &proved.facts);
+    let Some(found) = NonholonomicConnection::of(graph, system, distribution, splitting, facts) else {
+        return Vec::new();
+    };
+    let mut lines = Vec::new();
+    let vertical: Vec<String> =
+        found.named.iter().map(|symbol| format!("S_{}", graph.symbols()[*symbol])).collect();
+    let lifts: Vec<String> =
+        found.coordinates.iter().map(|id| format!("h_{}", proved.model.coordinates[*id].name)).collect();
+    for (name, section) in vertical.iter().zip(&found.vertical) {
+        lines.push(format!("momentum section {name} = {}", combination(graph, section, names)));
     }
-    let mut bracket =
-        |graph: &mut Graph, what: &str, a: &(SymbolId, Vec<ExprId>), b: &(SymbolId, Vec<ExprId>)| {
-            let bracket = proved.system.algebroid.bracket(graph, &a.1, &b.1);
-            let bracket: Vec<ExprId> = bracket.into_iter().map(|c| graph.simplify(c)).collect();
-            if bracket.iter().any(|c| !graph.is_literal_zero(*c)) {
-                let (first, second) = (&graph.symbols()[a.0], &graph.symbols()[b.0]);
-                lines.push(format!("{what} [{first}, {second}] = {}", combination(graph, &bracket, &names)));
+    for (name, section) in lifts.iter().zip(&found.lifts) {
+        lines.push(format!("horizontal lift {name} = {}", combination(graph, section, names)));
+    }
+    let inertia = found.inertia.as_ref().into_iter().flatten().enumerate();
+    for (rho, row) in inertia {
+        for (sigma, entry) in row.iter().enumerate().skip(rho) {
+            if !graph.is_literal_zero(*entry) {
+                let (first, second) = (&vertical[rho], &vertical[sigma]);
+                lines.push(format!("locked inertia <{first}, {second}> = {}", shown(graph, *entry)));
             }
-        };
-    for (index, along) in frame.horizontal.iter().enumerate() {
-        for other in &frame.horizontal[index + 1..] {
-            bracket(graph, "curvature", along, other);
-        }
-        for vertical in &frame.vertical {
-            bracket(graph, "connection", along, vertical);
         }
     }
-    for (index, vertical) in frame.vertical.iter().enumerate() {
-        for other in &frame.vertical[index + 1..] {
-            bracket(graph, "bracket in S", vertical, other);
+    let algebroid = &system.algebroid;
+    let mut brackets: Vec<(&str, &str, &str, Vec<ExprId>)> = Vec::new();
+    for kappa in 0..lifts.len() {
+        for lambda in kappa + 1..lifts.len() {
+            let value = found.curvature(graph, algebroid, kappa, lambda);
+            brackets.push(("curvature", &lifts[kappa], &lifts[lambda], value));
+        }
+        for (rho, section) in vertical.iter().enumerate() {
+            let value = found.coefficients(graph, algebroid, kappa, rho);
+            brackets.push(("connection", &lifts[kappa], section, value));
+        }
+    }
+    for rho in 0..vertical.len() {
+        for sigma in rho + 1..vertical.len() {
+            let value = found.bracket(graph, algebroid, rho, sigma);
+            brackets.push(("bracket in S", &vertical[rho], &vertical[sigma], value));
+        }
+    }
+    for (what, first, second, value) in brackets {
+        if value.iter().any(|component| !graph.is_literal_zero(*component)) {
+            lines.push(format!("{what} [{first}, {second}] = {}", combination(graph, &value, names)));
         }
     }
     lines

@@ -37,6 +37,7 @@ mod report;
 #[cfg(test)]
 mod samples;
 mod scope;
+mod splitting;
 mod state;
 mod stubs;
 mod taylor;
@@ -89,7 +90,8 @@ pub(crate) fn emit(system: &System, layout: &Layout) -> TokenStream {
         .with(discrete::emit(context, system))
         .with(invariants::emit(context, scope, system))
         .with(gibbs_appell::emit(context, scope, system))
-        .with(quadratures::emit(context, scope, system));
+        .with(quadratures::emit(context, scope, system))
+        .with(splitting::emit(context, scope, system));
     programs.extend(part.programs.iter().map(|(name, program)| (*name, program)));
     let mut methods = report::constant(context, system, &programs);
     methods.extend(dynamics::method(context, scope, &derivative));

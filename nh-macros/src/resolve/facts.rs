@@ -14,7 +14,7 @@ use crate::suggest::did_you_mean;
 use crate::syntax::ast::{self, Comparison, Definition, Equation, Item, Momentum, Name};
 
 /// What `emit` can ask for.
-pub(super) const REQUESTS: [(&str, Request); 18] = [
+pub(super) const REQUESTS: [(&str, Request); 19] = [
     ("jacobian", Request::Jacobian),
     ("taylor", Request::Taylor),
     ("parameter_jacobian", Request::ParameterJacobian),
@@ -23,6 +23,7 @@ pub(super) const REQUESTS: [(&str, Request); 18] = [
     ("reactions", Request::Reactions),
     ("momenta", Request::Momenta),
     ("gyroscopic", Request::Gyroscopic),
+    ("splitting", Request::Splitting),
     ("gibbs_appell", Request::GibbsAppell),
     ("hamiltonian", Request::Hamiltonian),
     ("bracket", Request::Bracket),
@@ -149,7 +150,7 @@ impl Resolver {
     }
 
     /// What to generate beyond the default.
-    pub(super) fn requests(&mut self, names: &[Name], constrained: bool) -> Vec<(Request, Origin)> {
+    pub(super) fn requests(&mut self, names: &[Name]) -> Vec<(Request, Origin)> {
         let mut found: Vec<(Request, Origin)> = Vec::new();
         for name in names {
             let text = name.text.as_str();
@@ -166,13 +167,6 @@ impl Resolver {
             };
             if found.iter().any(|(earlier, _)| earlier == request) {
                 self.report(name, Diagnostic::new(name.extent(), format!("`{text}` is asked for twice")));
-                continue;
-            }
-            if matches!(request, Request::Multipliers | Request::Reactions) && !constrained {
-                let error =
-                    Diagnostic::new(name.extent(), format!("there are no {text} without constraints"))
-                        .way_out("state them in `constraints { … }`, or leave this out");
-                self.report(name, error);
                 continue;
             }
             let origin = self.origin(name.extent());

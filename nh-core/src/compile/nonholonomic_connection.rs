@@ -1,0 +1,151 @@
+//! The nonholonomic connection and the momentum equation as functions, as far as they are asked for:
+//! mathematics (25), CM Propositions 8 and 9.
+
+use super::Proved;
+use super::phase_space::{asked, judge};
+use super::splitting::Reduced;
+use crate::algebra::{Matrix, Substitution};
+use crate::geometry::ConstraintDistribution;
+use crate::id::{CoordId, ExprId, Id};
+use crate::mechanics::{Momentum, NonholonomicConnection, Procedure, solve_symmetric};
+use crate::model::Request;
+use crate::phase_space::{PhaseSpace, SplitFunctions};
+use crate::report::Derived;
+use crate::violation::{Law, Violation};
+
+/// The functions, if they are asked for.
+pub(super) fn derive(
+    proved: &mut Proved,
+    derived: &Derived<'_>,
+    derivative: &Procedure,
+    found: &mut PhaseSpace,
+) -> Result<(), Vec<Violation>> {
+    let Some(origin) = asked(&proved.model, Request::Splitting) else { return Ok(()) };
+    let blame = |evidence: &str, way_out: &str| {
+        vec![Violation {
+            law: Law::Symmetry,
+            origin,
+            what: "D is not split by symmetries".into(),
+            evidence: evidence.into(),
+            way_out: way_out.into(),
+        }]
+    };
+    let distribution = match derived {
+        Derived::Adapted { distribution, .. } => Some(*distribution),
+        Derived::Projected { .. } => None,
+    };
+    let reduced = Reduced::of(proved, distribution).map_err(|reason| {
+        blame(
+            reason,
+            "declare the symmetries, sections that leave L and D invariant, in `symmetries`, or leave `splitting` out",
+        )
+    })?;
+    let facts = proved.facts.clone();
+    let (system, basis) = (&reduced.system, &reduced.distribution);
+    let Some(connection) =
+        NonholonomicConnection::of(&mut proved.model.graph, system, basis, &reduced.splitting, &facts)
+    else {
+        return Err(blame(
+            "its sections could not be solved for",
+            "choose other velocities by `independent`",
+        ));
+    };
+    let functions = functions(proved, distribution, &reduced, &connection, derivative);
+    found.splitting = Some(functions);
+    Ok(())
+}
+
+fn functions(
+    proved: &mut Proved,
+    distribution: Option<&ConstraintDistribution>,
+    reduced: &Reduced,
+    connection: &NonholonomicConnection,
+    derivative: &Procedure,
+) -> SplitFunctions {
+    let (s, h) = (connection.vertical.len(), connection.lifts.len());
+    let judge = judge(proved);
+    let algebroid = &reduced.system.algebroid;
+    let graph = &mut proved.model.graph;
+    // 1. sections and brackets in the declared basis
+    let declared = |graph: &mut _, sections: &Matrix| -> Matrix {
+        sections.iter().map(|section| reduced.declared(graph, section)).collect()
+    };
+    let (vertical, lifts) = (declared(graph, &connection.vertical), declared(graph, &connection.lifts));
+    let zero = vec![graph.zero(); algebroid.rank()];
+    let mut curvature = vec![vec![zero; h]; h];
+    let mut coefficients = vec![Matrix::new(); h];
+    for (kappa, lambda) in (0..h).flat_map(|kappa| (kappa + 1..h).map(move |lambda| (kappa, lambda))) {
+        let bracket = connection.curvature(graph, algebroid, kappa, lambda);
+        let bracket = reduced.declared(graph, &bracket);
+        curvature[lambda][kappa] = bracket.iter().map(|component| graph.neg(*component)).collect();
+        curvature[kappa][lambda] = bracket;
+    }
+    for (kappa, row) in coefficients.iter_mut().enumerate() {
+        for rho in 0..s {
+            let bracket = connection.coefficients(graph, algebroid, kappa, rho);
+            row.push(reduced.declared(graph, &bracket));
+        }
+    }
+    // 2. p, P_ρ and its rate where the constraints hold
+    let velocities = proved.system.algebroid.velocities.clone();
+    let mut restriction = match distribution {
+        Some(distribution) => distribution.restriction(graph, &velocities),
+        None => Substitution::new([]),
+    };
+    let momenta = proved.system.momenta(graph);
+    let momenta: Vec<ExprId> = momenta.into_iter().map(|p| restriction.apply(graph, p)).collect();
+    let spanned = proved.model.distribution.is_some().then_some(distribution).flatten();
+    let (mut values, mut rates) = (Vec::new(), Vec::new());
+    for section in &vertical {
+        let momentum = Momentum::of(graph, &proved.system, section, None, spanned);
+        let rate = momentum.rate(graph);
+        for (function, list) in [(momentum.value, &mut values), (rate, &mut rates)] {
+            let function = restriction.apply(graph, function);
+            list.push(graph.simplify(function));
+        }
+    }
+    // 3. ẋ^κ and v^ρ
+    let velocity = proved.system.algebroid.velocity(graph);
+    let all = proved.system.algebroid.rates(graph, &velocity);
+    let all: Vec<ExprId> = all.into_iter().map(|rate| restriction.apply(graph, rate)).collect();
+    let speeds: Vec<ExprId> = connection.coordinates.iter().map(|id| all[id.index()]).collect();
+    let mut procedure = Procedure::default();
+    let along_vertical = if let Some(inertia) = &connection.inertia {
+        solve_symmetric(graph, inertia, &values, judge(graph, inertia), &mut procedure, "locked")
+    } else {
+        let symbols: Vec<ExprId> =
+            reduced.distribution.independent.iter().map(|symbol| graph.symbol(*symbol)).collect();
+        let components: Vec<ExprId> =
+            connection.components.iter().map(|row| graph.inner_product(row, &symbols)).collect();
+        let components: Vec<ExprId> =
+            components.into_iter().map(|v| reduced.at_declared_velocities(proved, v)).collect();
+        components.into_iter().map(|v| restriction.apply(&mut proved.model.graph, v)).collect()
+    };
+    // 4. −p([h_κ, h_λ]) ẋ^λ − p([h_κ, S_ρ]) v^ρ
+    let graph = &mut proved.model.graph;
+    let mut force = Vec::new();
+    for (curvature, coefficients) in curvature.iter().zip(&coefficients) {
+        let brackets: Vec<ExprId> = curvature
+            .iter()
+            .chain(coefficients)
+            .map(|bracket| graph.inner_product(bracket, &momenta))
+            .collect();
+        let speeds: Vec<ExprId> = speeds.iter().chain(&along_vertical).copied().collect();
+        let sum = graph.inner_product(&brackets, &speeds);
+        let sum = graph.neg(sum);
+        force.push(graph.simplify(sum));
+    }
+    let symbol = |id: &CoordId| proved.model.coordinates[*id].symbol;
+    SplitFunctions {
+        coordinates: connection.coordinates.iter().map(symbol).collect(),
+        vertical: Procedure::of(vertical.concat()),
+        lifts: Procedure::of(lifts.concat()),
+        inertia: connection.inertia.as_ref().map(|inertia| Procedure::of(inertia.concat())),
+        coefficients: Procedure::of(coefficients.concat().concat()),
+        curvature: Procedure::of(curvature.concat().concat()),
+        momenta: Procedure::of(values),
+        rates: derivative.with_outputs(rates),
+        velocities: procedure.with_outputs(along_vertical),
+        force: procedure.with_outputs(force),
+    }
+}

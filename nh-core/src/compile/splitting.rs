@@ -1,0 +1,297 @@
+//! The splitting of D by the vertical sections, in an invariant frame where symmetries are declared.
+
+use super::Proved;
+use crate::algebra::{Graph, Matrix, Substitution};
+use crate::check::Invariance;
+use crate::geometry::{
+    Algebroid, Anchor, ConstraintDistribution, InvariantFrame, LinearConstraints, PivotSetting, choice,
+};
+use crate::id::{CoordId, ExprId, Id, SectionId, SymbolId};
+use crate::mechanics::{Chaplygin, LagrangianSystem, Splitting, translation};
+
+/// A system as its reduction by symmetries sees it.
+#[derive(Clone, Debug)]
+pub(crate) struct Reduced {
+    /// In the invariant frame, without the coordinates along the group; as declared where no frame is
+    /// needed.
+    pub(crate) system: LagrangianSystem,
+    /// D there.
+    pub(crate) distribution: ConstraintDistribution,
+    /// How it lies to the vertical sections.
+    pub(crate) splitting: Splitting,
+    /// The frame, where one is needed.
+    pub(crate) frame: Option<InvariantFrame>,
+    /// The names of the sections.
+    pub(crate) names: Vec<String>,
+}
+
+impl Reduced {
+    /// The reduction of a system with linear constraints that do not depend on the time; `distribution`
+    /// where D has a basis of its own.
+    ///
+    /// # Errors
+    /// Why there is none.
+    pub(crate) fn of(
+        proved: &mut Proved,
+        distribution: Option<&ConstraintDistribution>,
+    ) -> Result<Self, &'static str> {
+        let velocities = proved.system.algebroid.velocities.clone();
+        let distribution = match distribution {
+            Some(distribution) => distribution.clone(),
+            None => proved
+                .constraints
+                .generic_distribution(&mut proved.model.graph, &velocities)
+                .ok_or("its constraints are not linear in the velocities")?,
+        };
+        let graph = &mut proved.model.graph;
+        let offset = distribution.offset.iter().all(|entry| graph.zero_test(*entry).is_zero());
+        let entries: Vec<ExprId> = distribution.basis.iter().flatten().copied().collect();
+        if !offset || graph.symbols_in(&entries).contains(&proved.system.time) {
+            return Err("its constraints are affine or depend on the time");
+        }
+        let generators = generators(proved, |_| true);
+        let declared = moved(&mut proved.model.graph, &proved.system.algebroid.anchor, &generators);
+        if let Some(reduced) = in_invariant_frame(proved, &distribution, &generators, &declared) {
+            return Ok(reduced);
+        }
+        let cyclic = &proved.symmetries.cyclic;
+        let translations = !declared.is_empty() && declared.iter().all(|id| cyclic.contains(id));
+        let group = if translations { declared } else { cyclic.clone() };
+        let none = if proved.model.symmetries.is_empty() {
+            "the kernel of the anchor is 0 and no coordinate is cyclic"
+        } else {
+            "the kernel of the anchor is 0, no coordinate is cyclic, and there is no frame of sections that commute \
+             with declared symmetries of L and D"
+        };
+        let splitting =
+            Splitting::of(&mut proved.model.graph, &proved.system, &distribution, &group).ok_or(none)?;
+        let names = proved.model.sections.iter().map(|section| section.name.clone()).collect();
+        Ok(Self { system: proved.system.clone(), distribution, splitting, frame: None, names })
+    }
+
+    /// L̄, K and ⟨J, K⟩ of a Chaplygin system.
+    pub(crate) fn chaplygin(&self, proved: &mut Proved) -> Option<Chaplygin> {
+        if !self.splitting.is_chaplygin() {
+            return None;
+        }
+        let rate = |id: &CoordId| proved.model.coordinates[*id].rate;
+        let rates: Vec<SymbolId> = self.splitting.coordinates.iter().map(rate).collect();
+        Chaplygin::of(&mut proved.model.graph, &self.system, &self.distribution, &self.splitting, &rates)
+    }
+
+    /// A section in the declared basis.
+    pub(crate) fn declared(&self, graph: &mut Graph, section: &[ExprId]) -> Vec<ExprId> {
+        let Some(frame) = &self.frame else { return section.to_vec() };
+        let section = frame.change.old_velocity(graph, section);
+        section.into_iter().map(|component| graph.simplify(component)).collect()
+    }
+
+    /// A function of the velocities of the frame at those of E.
+    pub(crate) fn at_declared_velocities(&self, proved: &mut Proved, function: ExprId) -> ExprId {
+        let Some(frame) = &self.frame else { return function };
+        let graph = &mut proved.model.graph;
+        let velocity = proved.system.algebroid.velocity(graph);
+        let images: Vec<ExprId> =
+            frame.change.velocities.iter().map(|row| graph.inner_product(row, &velocity)).collect();
+        let symbols = self.system.algebroid.velocities.iter().copied();
+        Substitution::new(symbols.zip(images)).apply(graph, function)
+    }
+}
+
+/// The generators of the symmetry group: declared sections that leave L and D invariant and move no
+/// coordinates but those `within`, and translations along the cyclic coordinates that these move.
+/// Nothing where none are declared.
+pub(crate) fn generators(proved: &mut Proved, within: impl Fn(CoordId) -> bool) -> Vec<Vec<ExprId>> {
+    let model = &proved.model;
+    let strict = |name: &String| model.symmetries.iter().any(|s| s.name == *name && s.gauge.is_none());
+    let mut found: Vec<Vec<ExprId>> = proved
+        .symmetries
+        .declared
+        .iter()
+        .filter(|s| s.keeps_lagrangian == Invariance::Everywhere && s.keeps_constraints && strict(&s.name))
+        .map(|symmetry| symmetry.section.clone())
+        .collect();
+    let moving: Vec<ExprId> = found.iter().flatten().copied().collect();
+    if found.is_empty() || model.graph.symbols_in(&moving).contains(&model.time) {
+        return Vec::new();
+    }
+    let (graph, anchor) = (&mut proved.model.graph, &proved.system.algebroid.anchor);
+    found.retain(|section| moved(graph, anchor, std::slice::from_ref(section)).into_iter().all(&within));
+    for id in moved(graph, anchor, &found) {
+        if proved.symmetries.cyclic.contains(&id) {
+            found.extend(translation(graph, anchor, id));
+        }
+    }
+    found
+}
+
+/// The coordinates that generators move.
+pub(crate) fn moved(graph: &mut Graph, anchor: &Anchor, generators: &[Vec<ExprId>]) -> Vec<CoordId> {
+    let fields: Matrix = generators.iter().map(|generator| anchor.vector_field(graph, generator)).collect();
+    (0..anchor.coordinates.len())
+        .filter(|i| fields.iter().any(|field| !graph.zero_test(field[*i]).is_zero()))
+        .map(CoordId::from_index)
+        .collect()
+}
+
+/// The reduction by declared symmetries, where these move more than cyclic coordinates.
+fn in_invariant_frame(
+    proved: &mut Proved,
+    distribution: &ConstraintDistribution,
+    generators: &[Vec<ExprId>],
+    group: &[CoordId],
+) -> Option<Reduced> {
+    if generators.is_empty() || !proved.system.forces_on_distribution.is_empty() {
+        return None;
+    }
+    let algebroid = proved.system.algebroid.clone();
+    let graph = &mut proved.model.graph;
+    if group.iter().all(|id| proved.symmetries.cyclic.contains(id))
+        || graph.generic_rank(&algebroid.anchor.entries) != Ok(algebroid.rank())
+    {
+        return None;
+    }
+    // 1. the frame
+    let symbols: Vec<SymbolId> = group.iter().map(|id| algebroid.anchor.coordinates[id.index()]).collect();
+    let hints: Vec<ExprId> = distribution
+        .constraints
+        .annihilator
+        .iter()
+        .flatten()
+        .copied()
+        .chain([proved.system.lagrangian])
+        .collect();
+    let frame = InvariantFrame::of(graph, &algebroid, &proved.base, generators, &symbols, &hints).ok()?;
+    let declared: Vec<String> = proved.model.sections.iter().map(|section| section.name.clone()).collect();
+    let names = frame_names(graph, &frame, &declared);
+    // 2. everything in it, without the coordinates along the group
+    let velocities = names.iter().map(|name| graph.new_symbol(name.clone())).collect();
+    let new = frame.change.apply(graph, &algebroid, velocities);
+    let velocity = new.velocity(graph);
+    let old = frame.change.old_velocity(graph, &velocity);
+    let mut in_frame = Substitution::new(algebroid.velocities.iter().copied().zip(old));
+    let lagrangian = in_frame.apply(graph, proved.system.lagrangian);
+    let lagrangian = without(graph, lagrangian, &symbols)?;
+    let mut broken = false;
+    let mut free = |entry: ExprId| {
+        without(graph, entry, &symbols).unwrap_or_else(|| {
+            broken = true;
+            entry
+        })
+    };
+    let structure = new.structure.mapped(&mut free);
+    let entries: Matrix = new
+        .anchor
+        .entries
+        .iter()
+        .enumerate()
+        .map(|(i, row)| {
+            let along_group = group.contains(&CoordId::from_index(i));
+            row.iter().map(|entry| if along_group { *entry } else { free(*entry) }).collect()
+        })
+        .collect();
+    if broken {
+        return None;
+    }
+    let columns = Graph::transposed(&frame.change.sections);
+    let mut annihilator = Matrix::new();
+    for row in &distribution.constraints.annihilator {
+        let mut entries = Vec::new();
+        for column in &columns {
+            let entry = graph.inner_product(row, column);
+            entries.push(graph.simplify(entry));
+        }
+        annihilator.push(entries);
+    }
+    let mut forces = Vec::new();
+    for column in &columns {
+        let force = graph.inner_product(column, &proved.system.forces);
+        forces.push(in_frame.apply(graph, force));
+    }
+    let anchor = Anchor { entries, ..new.anchor };
+    let algebroid = Algebroid { anchor, structure, velocities: new.velocities };
+    let drift = vec![graph.zero(); annihilator.len()];
+    let constraints = LinearConstraints { annihilator, drift };
+    let system = LagrangianSystem {
+        algebroid,
+        lagrangian,
+        forces,
+        forces_on_distribution: Vec::new(),
+        time: proved.system.time,
+    };
+    // 3. D and its splitting
+    let distribution = invariant_basis(proved, constraints, &system.algebroid.velocities, &symbols)?;
+    let splitting = Splitting::of(&mut proved.model.graph, &system, &distribution, group)?;
+    (splitting.vertical <= generators.len()).then_some(Reduced {
+        system,
+        distribution,
+        splitting,
+        frame: Some(frame),
+        names,
+    })
+}
+
+/// A basis of D with invariant coefficients: D determines the form that is solved for velocities.
+fn invariant_basis(
+    proved: &mut Proved,
+    constraints: LinearConstraints,
+    velocities: &[SymbolId],
+    group: &[SymbolId],
+) -> Option<ConstraintDistribution> {
+    let parameters: Vec<SymbolId> =
+        proved.model.parameters.iter().map(|parameter| parameter.symbol).collect();
+    let graph = &mut proved.model.graph;
+    if constraints.annihilator.is_empty() {
+        return Some(ConstraintDistribution::unconstrained(graph, velocities));
+    }
+    let setting = PivotSetting {
+        annihilator: &constraints.annihilator,
+        on_base: &constraints.annihilator,
+        parameters: &parameters,
+        facts: &proved.facts,
+    };
+    let dependent: Vec<SectionId> = match choice::search(graph, &setting, &[], velocities.len()).ok()? {
+        Ok(choice) => choice.dependent,
+        Err(none) => none.tried.into_iter().next()?.0,
+    };
+    let mut found = ConstraintDistribution::solved_for(graph, constraints, &dependent, velocities)?;
+    for entry in found.basis.iter_mut().flatten().chain(&mut found.velocity) {
+        *entry = without(graph, *entry, group)?;
+    }
+    Some(found)
+}
+
+/// The expression at one place of the group, where it is the same at all of them.
+fn without(graph: &mut Graph, value: ExprId, group: &[SymbolId]) -> Option<ExprId> {
+    if !graph.depends_on(value, group) {
+        return Some(value);
+    }
+    let value = graph.simplify(value);
+    if !graph.depends_on(value, group) {
+        return Some(value);
+    }
+    for symbol in group {
+        let slope = graph.partial(value, *symbol);
+        if !graph.zero_test(slope).is_zero() {
+            return None;
+        }
+    }
+    let zero = graph.zero();
+    let there = Substitution::new(group.iter().map(|symbol| (*symbol, zero))).apply(graph, value);
+    (!graph.is_undefined(there)).then_some(there)
+}
+
+/// The names of the velocities: declared ones where they are the same, else `body_x` for `x_dot`.
+pub(crate) fn frame_names(graph: &Graph, frame: &InvariantFrame, declared: &[String]) -> Vec<String> {
+    let is_same = |index: usize| {
+        frame.change.velocities[index].iter().enumerate().all(|(other, entry)| {
+            graph.as_number(*entry).is_some_and(|n| if other == index { n.is_one() } else { n.is_zero() })
+        })
+    };
+    let renamed = |name: &String| {
+        let stem = name.strip_suffix("_dot").unwrap_or(name).replace('[', "_").replace(']', "");
+        format!("body_{stem}")
+    };
+    let names = declared.iter().enumerate();
+    names.map(|(index, name)| if is_same(index) { name.clone() } else { renamed(name) }).collect()
+}
