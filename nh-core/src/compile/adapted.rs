@@ -175,26 +175,43 @@ fn in_orthonormal_basis(proved: &mut Proved, distribution: &ConstraintDistributi
     candidates
 }
 
+/// Forms whose equations take so much more work than the shortest, before they are solved, are not
+/// solved: they have never been the cheapest.
+const LONGER: u64 = 40;
+
 /// The derivative by whichever form of the equations takes less work.
 fn cheapest_derivative(proved: &mut Proved, candidates: &[ReducedEquations], calls: &Procedure) -> Procedure {
     let parameters: Vec<_> = proved.model.parameters.iter().map(|parameter| parameter.symbol).collect();
     let mut best: Option<(usize, Procedure)> = None;
+    let mut compared: Vec<Vec<ExprId>> = Vec::new();
     // the mass matrix is the same in all forms, and the first is written out
     let definite = candidates.first().map_or(Definiteness::Unknown, |first| {
         definiteness(&proved.model.graph, &first.mass, &parameters, &proved.facts)
     });
-    for candidate in candidates {
+    let lengths: Vec<u64> =
+        candidates.iter().map(|candidate| candidate.length(&proved.model.graph)).collect();
+    let shortest = lengths.iter().copied().min().unwrap_or_default();
+    for (candidate, length) in candidates.iter().zip(lengths) {
+        if length > shortest + LONGER && 2 * length > 3 * shortest {
+            continue;
+        }
         let graph = &mut proved.model.graph;
         let mut procedure = calls.clone();
         procedure.definitions.extend(candidate.definitions.definitions.iter().cloned());
         let accelerations =
             solve_symmetric(graph, &candidate.mass, &candidate.force, definite, &mut procedure, "v_dot");
         procedure.outputs = candidate.rates.iter().chain(&accelerations).copied().collect();
+        // different ways often lead to the same equations
+        let values = procedure.values(graph);
+        if compared.contains(&values) {
+            continue;
+        }
         // a single candidate needs no comparison
         let cost = if candidates.len() == 1 { 0 } else { Cost::of(&schedule(graph, &procedure)).weighted() };
         if best.as_ref().is_none_or(|(least, _)| cost < *least) {
             best = Some((cost, procedure));
         }
+        compared.push(values);
     }
     best.map(|(_, procedure)| procedure).unwrap_or_default()
 }

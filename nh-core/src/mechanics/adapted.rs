@@ -23,6 +23,16 @@ pub struct ReducedEquations {
     pub independent: Vec<SymbolId>,
 }
 
+impl ReducedEquations {
+    /// The work of evaluating all parts before anything is solved, as [`Graph::operation_count`].
+    #[must_use]
+    pub fn length(&self, graph: &Graph) -> u64 {
+        let mut parts = self.definitions.values(graph);
+        parts.extend(self.mass.iter().flatten().chain(&self.force).chain(&self.rates));
+        graph.operation_count(&parts)
+    }
+}
+
 /// Derives the equations.
 ///
 /// The momenta are restricted to the constraint manifold first, p̂_α(t, x, v) = p_α(t, x, Bv + y₀).

@@ -2,6 +2,7 @@
 
 use crate::algebra::Graph;
 use crate::id::{ExprId, SymbolId};
+use rustc_hash::FxHashMap;
 
 /// An intermediate result with a symbol of its own, which later expressions use.
 ///
@@ -72,6 +73,29 @@ impl Procedure {
     #[must_use]
     pub fn calls(&self) -> bool {
         self.definitions.iter().any(|definition| matches!(definition, Definition::Call { .. }))
+    }
+
+    /// The values of intermediate results, then the outputs with those that are such results replaced by
+    /// their values: equal for procedures that compute the same from different names.
+    #[must_use]
+    pub fn values(&self, graph: &Graph) -> Vec<ExprId> {
+        let mut values = Vec::with_capacity(self.definitions.len() + self.outputs.len());
+        let mut named: FxHashMap<SymbolId, ExprId> = FxHashMap::default();
+        for definition in &self.definitions {
+            match definition {
+                Definition::Value { symbol, value } => {
+                    named.insert(*symbol, *value);
+                    values.push(*value);
+                }
+                Definition::Call { arguments, .. } => values.extend(arguments),
+                Definition::Solve { matrix, right, .. } => {
+                    values.extend(matrix.iter().flatten().chain(right));
+                }
+            }
+        }
+        let value = |output: &ExprId| graph.as_symbol(*output).and_then(|symbol| named.get(&symbol).copied());
+        values.extend(self.outputs.iter().map(|output| value(output).unwrap_or(*output)));
+        values
     }
 
     /// Names `value`, unless it is a number or a symbol already.

@@ -18,6 +18,7 @@
 
 mod cost;
 mod division;
+mod harmonics;
 mod polynomial;
 mod reader;
 mod rebuild;
@@ -187,6 +188,7 @@ impl Simplifier {
         let is_sum = matches!(node, Node::Sum { .. });
         let styles = match (is_sum || (is_root && matches!(node, Node::Product { .. })), image) {
             (false, _) => 0,
+            (true, Image { has_angle: true, .. }) if graph.gains_nothing_from_addition_theorems(rebuilt) => 2,
             (true, Image { has_angle: true, .. }) => STYLES.len(),
             (true, Image { has_sum: true, .. }) => 2,
             // nothing to multiply out, but perhaps something to take out
