@@ -47,7 +47,7 @@ tableau! {
         k3 at 0.5 => [k2: 0.5];
         k4 at 1.0 => [k3: 1.0];
     }
-    sum scaled by 1.0 / 6.0; [k1: 1.0, k2: 2.0, k3: 2.0, k4: 1.0];
+    sum scaled by 1.0 / 3.0; [k2: 1.0, k3: 1.0, k1: 0.5, k4: 0.5];
     last k5;
     dense [];
 }

@@ -24,9 +24,10 @@ pub(in crate::methods) fn stages_of<S: Dynamics, P: Tableau>(
     let mut stages = P::room(zero::<S>());
     *P::first(&mut stages) = start.derivative();
     let mut slope = P::slope(start, x, h, &mut stages);
-    let unseen = P::unweighted(&stages);
-    for slope in slope.as_mut() {
-        *slope += unseen;
+    if let Some(unseen) = P::unweighted(&stages) {
+        for slope in slope.as_mut() {
+            *slope += unseen;
+        }
     }
     (stages, slope)
 }

@@ -36,8 +36,8 @@ pub trait Tableau: Copy + Default + Debug + PartialEq + 'static {
     ) -> VecOf<S>;
 
     /// Zero if the stages that the sum leaves out are finite, and NaN otherwise: a system may hide from the
-    /// later stages what is not finite in them.
-    fn unweighted<T: Scalar, V: Array<T>>(stages: &Self::Stages<V>) -> T;
+    /// later stages what is not finite in them. Nothing if it leaves out none.
+    fn unweighted<T: Scalar, V: Array<T>>(stages: &Self::Stages<V>) -> Option<T>;
 
     /// The coefficients of the dense output, from the stages and the derivative at the end; further
     /// stages are evaluated here.
@@ -168,9 +168,9 @@ macro_rules! tableau {
             }
 
             #[inline]
-            fn unweighted<T: $crate::Scalar, V: $crate::arrays::Array<T>>(stages: &$stages<V>) -> T {
+            fn unweighted<T: $crate::Scalar, V: $crate::arrays::Array<T>>(stages: &$stages<V>) -> Option<T> {
                 let _ = stages;
-                T::ZERO $($(+ $crate::arrays::nought(&stages.$u))*)?
+                None $(.or(Some(T::ZERO $(+ $crate::arrays::nought(&stages.$u))*)))?
             }
 
             #[allow(unused_variables, clippy::trivially_copy_pass_by_ref)] // not every stage is used
