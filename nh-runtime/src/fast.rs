@@ -17,6 +17,10 @@ use crate::{Real, Scalar, sine};
 /// | `Fast<f64>` | 1.6 units in the last place | 1 647 099 rad |
 /// | `Fast<f32>` | 2.4 units in the last place | 6 433 rad |
 ///
+/// `Fast<f64>` gains most where the target has a multiply-add (`-C target-cpu=x86-64-v3`, aarch64). `Fast<f32>`, one
+/// at a time, is there as fast as the `sinf` of a current platform, and slower on the default x86-64 target: the
+/// platform looks for that instruction when the program runs. Its use is in lanes and without double precision.
+///
 /// Beyond that reach the error is the same, and the cost some ten times higher. Infinite and NaN
 /// arguments give NaN. The sine of −0 is +0.
 ///

@@ -33,6 +33,9 @@ const SQUARE_ROOT: usize = 18;
 const SIN_COS: usize = 70;
 const FUNCTION: usize = 60;
 
+/// Instructions of the runtime's sine and cosine.
+const SIN_COS_INSTRUCTIONS: usize = 40;
+
 impl Cost {
     /// The cost of one evaluation.
     #[must_use]
@@ -93,6 +96,13 @@ impl Cost {
             + self.square_roots
             + self.sin_cos
             + self.functions
+    }
+
+    /// Roughly how many machine instructions one evaluation is, with the runtime's sine and cosine in line and
+    /// other functions called.
+    #[must_use]
+    pub fn instructions(&self) -> usize {
+        self.operations() + self.sin_cos * SIN_COS_INSTRUCTIONS
     }
 
     /// The latencies of all operations together, in cycles: what schedules are compared by.

@@ -1,6 +1,6 @@
 //! The time derivative of the state, and the system as the integrators see it.
 
-use nh_core::program::Program;
+use nh_core::program::{Cost, Program};
 use proc_macro2::TokenStream;
 use quote::quote;
 
@@ -20,17 +20,35 @@ pub(super) fn head(context: &Context) -> Head {
     }
 }
 
+/// A derivative of at most so many instructions becomes part of the step that evaluates it, at every stage.
+/// Compilers judge each of its calls by itself; in one piece, what depends on parameters alone leaves the
+/// loop, and stages stay in registers.
+const PART_OF_THE_STEP: usize = 160;
+
+/// The attribute of a derivative that says whether it becomes part of the step.
+pub(super) fn inlining(program: &Program) -> TokenStream {
+    if Cost::of(program).instructions() <= PART_OF_THE_STEP {
+        quote!(#[inline(always)] #[allow(clippy::inline_always)])
+    } else {
+        quote!(#[inline])
+    }
+}
+
 /// The inherent method `derivative`.
 pub(super) fn method(context: &Context, scope: &Scope, program: &Program) -> TokenStream {
     let body = body(context, scope, program);
     let name = &context.state.name;
     let result = context.state.construct(&quote!(#name), &body.outputs);
     let statements = &body.statements;
-    head(context).with_body(context, &body.used, &quote!(#statements #result))
+    head(context).with_inlining(context, &body.used, &quote!(#statements #result), &inlining(program))
 }
 
 /// `impl Dynamics for Sleigh`, with how states are checked.
-pub(super) fn implementation(context: &Context, check_state: &TokenStream) -> TokenStream {
+pub(super) fn implementation(
+    context: &Context,
+    inlining: &TokenStream,
+    check_state: &TokenStream,
+) -> TokenStream {
     let Context { runtime, scalar, .. } = context;
     let (t, state, input) = (&context.locals.t, &context.locals.state, &context.locals.input);
     let state_type = context.type_of(&context.state);
@@ -39,7 +57,7 @@ pub(super) fn implementation(context: &Context, check_state: &TokenStream) -> To
     let body = quote! {
         type State = #state_type;
         type Input = #input_type;
-        #[inline]
+        #inlining
         fn derivative(&self, #t: #scalar, #state: &#state_type, #input: &#input_type) -> #state_type {
             Self::derivative(self, #t, #state, #input)
         }

@@ -29,6 +29,17 @@ impl Head {
         used: &BTreeSet<Argument>,
         body: &TokenStream,
     ) -> TokenStream {
+        self.with_inlining(context, used, body, &quote!(#[inline]))
+    }
+
+    /// The same with a hint of its own, or an order, to be put in line.
+    pub(super) fn with_inlining(
+        &self,
+        context: &Context,
+        used: &BTreeSet<Argument>,
+        body: &TokenStream,
+        inlining: &TokenStream,
+    ) -> TokenStream {
         let Context { visibility, scalar, .. } = context;
         let (t, state, input) = (&context.locals.t, &context.locals.state, &context.locals.input);
         let state_type = context.type_of(&context.state);
@@ -40,7 +51,7 @@ impl Head {
         quote! {
             #(#[doc = #doc])*
             #[must_use]
-            #[inline]
+            #inlining
             #visibility fn #name(
                 &self, #t: #scalar, #state: &#state_type #input_parameter
             ) -> #returns {

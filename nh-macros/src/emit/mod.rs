@@ -101,7 +101,7 @@ pub(crate) fn emit(system: &System, layout: &Layout) -> TokenStream {
     items.extend(records(context, velocity.is_some()));
     items.extend(state::emit(context));
     let check_state = embedding::check_state(context, scope, system);
-    items.extend(dynamics::implementation(context, &check_state));
+    items.extend(dynamics::implementation(context, &dynamics::inlining(&derivative), &check_state));
     items.extend(energy.iter().map(|_| energy::implementation(context)));
     if let Some(outputs) = &context.outputs {
         methods.extend(observed::method(context, outputs, scope, &observables));

@@ -10,6 +10,7 @@ use proc_macro2::{Literal, TokenStream};
 use quote::{format_ident, quote};
 
 use super::context::Context;
+use super::dynamics::inlining;
 use super::expression::element;
 use super::function::{Part, drops};
 use super::layout::local;
@@ -40,7 +41,7 @@ pub(super) fn emit(context: &Context, system: &System, derivative: &Program) -> 
     let unused = (!rest_body.used.contains(&Argument::Values)).then(|| quote!(_ = #values;));
     let rest_tokens = quote!(#drops #unused #statements #result);
     let has = [system.energy.is_some(), system.jacobian.is_some()];
-    let mut part = items(context, symbols.len(), &ahead_tokens, &rest_tokens, has);
+    let mut part = items(context, symbols.len(), &ahead_tokens, (&inlining(&rest), &rest_tokens), has);
     part.programs = vec![("prepare", ahead), ("derivative, prepared", rest)];
     part
 }
@@ -50,7 +51,7 @@ pub(super) fn stub(context: &Context, has_jacobian: bool) -> Part {
     let values = local("values");
     let drops = drops(context, &BTreeSet::new(), true);
     let rest = quote!(#drops _ = #values; ::core::default::Default::default());
-    items(context, 0, &quote!(_ = self; []), &rest, [true, has_jacobian])
+    items(context, 0, &quote!(_ = self; []), (&quote!(#[inline]), &rest), [true, has_jacobian])
 }
 
 /// The type, its traits, and the methods that make it.
@@ -58,7 +59,7 @@ fn items(
     context: &Context,
     count: usize,
     ahead: &TokenStream,
-    rest: &TokenStream,
+    (inlining, rest): (&TokenStream, &TokenStream),
     [has_energy, has_jacobian]: [bool; 2],
 ) -> Part {
     let Context { runtime, scalar, visibility, layout, .. } = context;
@@ -87,7 +88,7 @@ fn items(
             #ahead
         }
         /// The derivative from what was computed ahead.
-        #[inline]
+        #inlining
         fn derivative_from(
             &self, #values: &[#scalar; #length], #t: #scalar, #state: &#state_type, #input: &#input_type
         ) -> #state_type {
@@ -108,7 +109,7 @@ fn items(
         impl #impl_generics #runtime::Dynamics for #prepared #ty_generics #where_clause {
             type State = #state_type;
             type Input = #input_type;
-            #[inline]
+            #inlining
             fn derivative(&self, #t: #scalar, #state: &#state_type, #input: &#input_type) -> #state_type {
                 self.system.derivative_from(&self.values, #t, #state, #input)
             }

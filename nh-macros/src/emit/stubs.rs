@@ -36,7 +36,7 @@ pub(crate) fn stubs(layout: &Layout, outline: &Outline) -> TokenStream {
     let mut items = report::item(context, &[]);
     items.extend(super::records(context, true));
     items.extend(state::emit(context));
-    items.extend(dynamics::implementation(context, &TokenStream::new()));
+    items.extend(dynamics::implementation(context, &quote!(#[inline]), &TokenStream::new()));
     items.extend(energy::implementation(context));
     if let Some(outputs) = &context.outputs {
         methods.extend(stub(observed::head(context, outputs), &default));

@@ -167,7 +167,8 @@ where
 {
     type State = ChainState<T>;
     type Input = ();
-    #[inline]
+    #[inline(always)]
+    #[allow(clippy::inline_always)]
     fn derivative(&self, t: T, state: &ChainState<T>, input: &()) -> ChainState<T> {
         Self::derivative(self, t, state, input)
     }
@@ -196,7 +197,8 @@ where
     pub const REPORT: &'static ::core::primitive::str = "Derived by hand.\n\nOperations per evaluation:\n  derivative: 3 additions, 2 multiplications, 3 multiply-adds, 3 divisions, 1 sin_cos, 2 functions\n  energy: 3 multiplications\n  velocity: no operations\n";
     /// The time derivative of the state: the field `x` of the result is ẋ.
     #[must_use]
-    #[inline]
+    #[inline(always)]
+    #[allow(clippy::inline_always)]
     pub fn derivative(&self, t: T, state: &ChainState<T>, input: &()) -> ChainState<T> {
         _ = t;
         _ = input;

@@ -140,7 +140,8 @@ impl ::nh_runtime::__private::State for RailsState {
 impl ::nh_runtime::__private::Dynamics for Rails {
     type State = RailsState;
     type Input = ();
-    #[inline]
+    #[inline(always)]
+    #[allow(clippy::inline_always)]
     fn derivative(
         &self,
         t: ::core::primitive::f64,
@@ -363,7 +364,8 @@ impl Rails {
     const REPORT: &'static ::core::primitive::str = "Derived by hand.\n\nOperations per evaluation:\n  derivative: no operations\n  energy: no operations\n  velocity: no operations\n  multipliers: 2 multiplications\n  reactions: 1 addition, 2 multiplications\n  constraint_residual: 1 addition, 1 multiply-add\n  project, each step: 2 additions, 1 multiplication, 1 division\n";
     /// The time derivative of the state: the field `x` of the result is ẋ.
     #[must_use]
-    #[inline]
+    #[inline(always)]
+    #[allow(clippy::inline_always)]
     fn derivative(
         &self,
         t: ::core::primitive::f64,

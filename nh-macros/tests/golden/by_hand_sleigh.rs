@@ -272,7 +272,8 @@ impl ::nh_runtime::__private::State for SleighState {
 impl ::nh_runtime::__private::Dynamics for Sleigh {
     type State = SleighState;
     type Input = SleighInput;
-    #[inline]
+    #[inline(always)]
+    #[allow(clippy::inline_always)]
     fn derivative(
         &self,
         t: ::core::primitive::f64,
@@ -331,7 +332,8 @@ impl Sleigh {
     pub const REPORT: &'static ::core::primitive::str = "Derived by hand.\n\nOperations per evaluation:\n  derivative: 6 multiplications, 2 multiply-adds, 1 division, 1 sin_cos\n  energy: 5 multiplications, 2 multiply-adds\n  velocity: no operations\n  outputs: 5 multiplications, 2 multiply-adds, 1 square root\n";
     /// The time derivative of the state: the field `x` of the result is ẋ.
     #[must_use]
-    #[inline]
+    #[inline(always)]
+    #[allow(clippy::inline_always)]
     pub fn derivative(
         &self,
         t: ::core::primitive::f64,

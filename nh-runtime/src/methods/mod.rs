@@ -262,6 +262,13 @@ impl<S: Dynamics> Start<'_, S> {
     /// The derivative at another point.
     #[inline]
     pub(crate) fn derivative_at(&self, t: ScalarOf<S>, x: crate::VecOf<S>) -> crate::VecOf<S> {
+        self.derivative_in_line(t, x)
+    }
+
+    /// The same, in one piece with the caller if the system wants to be: for the few stages of a short method.
+    #[inline(always)]
+    #[allow(clippy::inline_always)]
+    pub(crate) fn derivative_in_line(&self, t: ScalarOf<S>, x: crate::VecOf<S>) -> crate::VecOf<S> {
         self.system.derivative(t, &S::State::from_array(x), self.input).to_array()
     }
 }

@@ -1,6 +1,6 @@
 //! How a table takes a step.
 
-use super::tableau::{Dense, Pair, Tableau, interpolate};
+use super::tableau::{Dense, FEW, Pair, Tableau, interpolate};
 use crate::arrays::{all_finite, displaced, first_non_finite, nought};
 use crate::methods::adaptive::{Scheme, Trial};
 use crate::methods::fixed::OneStep;
@@ -15,14 +15,16 @@ fn zero<S: Dynamics>() -> VecOf<S> {
 }
 
 /// All stages of a step, anew, and its slope, with components that are not finite if any stage has.
-#[inline]
+#[inline(always)]
+#[allow(clippy::inline_always)] // the step in one piece: see `Tableau::slope`
 pub(in crate::methods) fn stages_of<S: Dynamics, P: Tableau>(
     start: &Start<'_, S>,
     x: &VecOf<S>,
     h: ScalarOf<S>,
 ) -> (P::Stages<VecOf<S>>, VecOf<S>) {
     let mut stages = P::room(zero::<S>());
-    *P::first(&mut stages) = start.derivative();
+    *P::first(&mut stages) =
+        if P::STAGES <= FEW { start.derivative_in_line(start.time, *x) } else { start.derivative() };
     let mut slope = P::slope(start, x, h, &mut stages);
     if let Some(unseen) = P::unweighted(&stages) {
         for slope in slope.as_mut() {

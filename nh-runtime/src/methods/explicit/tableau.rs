@@ -99,6 +99,9 @@ pub(in crate::methods) fn interpolate<S: Dynamics, B: AsRef<[VecOf<S>]>>(
     S::State::from_array(x)
 }
 
+/// Methods of so many stages take a small system in at each of them: in four copies it stays small.
+pub(in crate::methods) const FEW: u32 = 4;
+
 /// Writes down a [`Tableau`]. Coefficients that are not listed are zero, and cost nothing.
 ///
 /// `unweighted` lists the stages that are not in the sum, `last` names the derivative at the end of the
@@ -161,7 +164,12 @@ macro_rules! tableau {
                     let ahead = $crate::arrays::ahead(
                         x, h, (w($a0), &stages.$a0k), [$((w($a), &stages.$ak)),*],
                     );
-                    stages.$k = start.derivative_at(start.time + w($c) * h, ahead);
+                    let time = start.time + w($c) * h;
+                    stages.$k = if Self::STAGES <= $crate::methods::explicit::tableau::FEW {
+                        start.derivative_in_line(time, ahead)
+                    } else {
+                        start.derivative_at(time, ahead)
+                    };
                 )*
                 let _ = (start, x, h);
                 $crate::arrays::combined((w($b0), &stages.$b0k), [$((w($b), &stages.$bk)),*])
