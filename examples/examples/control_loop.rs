@@ -55,7 +55,7 @@ fn tick(robot: &Robot, belief: &Estimate<f64, 5>, t: f64) -> Result<Estimate<f64
     let (a, b) = robot.jacobian(t, &mean, &input);
     let (transition, _) = zero_order_hold(&a, &b, dt)?;
     let next = Rk4::step(robot, t, dt, &mean, &input);
-    Ok(belief.predicted(next.into(), &transition, &(SMatrix::identity() * 1e-9)))
+    Ok(belief.predicted(next.into(), &transition, &(SMatrix::identity() * 1e-9))?)
 }
 
 /// Durations in microseconds, sorted.

@@ -131,7 +131,7 @@ fn predict(
     let (transition, _) = zero_order_hold(&a, &b, TICK)?;
     // the model's masses are not the robot's: accelerations are uncertain
     let noise = Matrix::from_diagonal(&vector![1e-10, 1e-10, 1e-10, 4e-6, 4e-5]);
-    Ok(belief.predicted(Rk4::step(robot, t, TICK, &mean, input).into(), &transition, &noise))
+    Ok(belief.predicted(Rk4::step(robot, t, TICK, &mean, input).into(), &transition, &noise)?)
 }
 
 /// What the filter believes after the sensors have spoken.

@@ -10,6 +10,10 @@ pub struct PhaseSpace {
     pub hamiltonian: Option<HamiltonianSide>,
     /// Outputs: the brackets {f_i, f_j}_nh of the declared observables, row by row.
     pub bracket: Option<Procedure>,
+    /// Outputs: the brackets {f_i, E_L}_nh of the declared observables with the energy.
+    pub bracket_with_energy: Option<Procedure>,
+    /// Outputs: R_L(f_i) + ∂_tf_i, the rest of the rates of the declared observables.
+    pub drift_of_outputs: Option<Procedure>,
     /// The equations as Π ∇E.
     pub almost_poisson: Option<AlmostPoisson>,
     /// The stated first integrals.

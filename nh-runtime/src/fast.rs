@@ -3,6 +3,8 @@
 use core::fmt;
 use core::ops::{Add, AddAssign, Div, Mul, MulAssign, Neg, Sub, SubAssign};
 
+use num_traits::{One, Zero};
+
 use crate::{Real, Scalar, sine};
 
 /// A number whose sine and cosine come from the runtime's own kernel rather than the platform.
@@ -102,6 +104,25 @@ impl<T: Neg<Output = T>> Neg for Fast<T> {
     #[inline]
     fn neg(self) -> Self {
         Self(-self.0)
+    }
+}
+
+// what matrices are multiplied with: `control` takes this type too
+impl<T: Zero> Zero for Fast<T> {
+    #[inline]
+    fn zero() -> Self {
+        Self(T::zero())
+    }
+    #[inline]
+    fn is_zero(&self) -> bool {
+        self.0.is_zero()
+    }
+}
+
+impl<T: One> One for Fast<T> {
+    #[inline]
+    fn one() -> Self {
+        Self(T::one())
     }
 }
 

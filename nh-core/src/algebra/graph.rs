@@ -4,6 +4,7 @@
 //! (`sum.rs`, `product.rs`, `transcendental.rs` list them). Operands are created before what is
 //! built from them, so ascending ids are a topological order and no pass needs recursion.
 
+use super::accuracy::Accuracy;
 use super::normal_form::Simplifier;
 use super::number::Rational;
 use crate::id::{ExprId, Id, SymbolId, Table};
@@ -123,6 +124,8 @@ pub struct Graph {
     symbols: Table<SymbolId, String>,
     /// What simplification has found so far.
     pub(super) simplifier: Simplifier,
+    /// How much rounding error rewriting may cost.
+    accuracy: Accuracy,
 }
 
 impl Graph {
@@ -130,6 +133,17 @@ impl Graph {
     #[must_use]
     pub fn new() -> Self {
         Self::default()
+    }
+
+    /// How much rounding error rewriting may cost.
+    #[must_use]
+    pub fn accuracy(&self) -> Accuracy {
+        self.accuracy
+    }
+
+    /// Chooses how much rounding error rewriting may cost, from now on.
+    pub fn set_accuracy(&mut self, accuracy: Accuracy) {
+        self.accuracy = accuracy;
     }
 
     /// Introduces a symbol. Names serve messages and printing; two symbols are never the same.

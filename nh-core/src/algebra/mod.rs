@@ -22,6 +22,7 @@ mod transcendental;
 mod transplant;
 mod zero_test;
 
+pub use accuracy::Accuracy;
 pub use derivative::Derivation;
 pub use evaluate::Bounded;
 pub use field::Residue;

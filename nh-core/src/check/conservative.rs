@@ -3,7 +3,7 @@
 
 use super::constraints::Constraints;
 use super::evidence::shown;
-use crate::id::ExprId;
+use crate::id::{ExprId, SymbolId};
 use crate::mechanics::LagrangianSystem;
 use crate::model::Model;
 
@@ -51,4 +51,15 @@ pub fn not_conservative(
         }
     }
     None
+}
+
+/// The constraint that depends on the time, in words: then the motion is not that of the bracket with
+/// the energy, even where it is conserved, mathematics (25).
+pub fn moving_constraint(model: &mut Model, time: SymbolId, constraints: &Constraints) -> Option<String> {
+    let graph = &mut model.graph;
+    let residual = constraints.residuals.iter().find(|residual| {
+        let change = graph.partial(**residual, time);
+        !constraints.generic().zero_test(graph, change).is_zero()
+    })?;
+    Some(format!("the constraint {} = 0 depends on the time", shown(graph, *residual)))
 }

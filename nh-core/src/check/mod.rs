@@ -24,7 +24,7 @@ pub use assumptions::facts;
 pub use brackets::structure_functions;
 pub use choice::{Chosen, choose_formulation};
 pub use claims::claims;
-pub use conservative::not_conservative;
+pub use conservative::{moving_constraint, not_conservative};
 pub(crate) use constraints::name_of;
 pub use constraints::{Constraints, constraints};
 pub use declared::declared_expressions;

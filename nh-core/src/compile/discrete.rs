@@ -35,7 +35,12 @@ fn refusal(origin: Origin, what: &str, evidence: String, way_out: &str) -> Vec<V
 fn conservative(proved: &mut Proved, origin: Origin, what: &str) -> Result<(), Vec<Violation>> {
     let Proved { model, system, constraints, .. } = proved;
     let evidence = match check::not_conservative(model, system, constraints) {
-        None if constraints.linear.is_some() => return Ok(()),
+        None if constraints.linear.is_some() => {
+            match check::moving_constraint(model, system.time, constraints) {
+                None => return Ok(()),
+                Some(evidence) => evidence,
+            }
+        }
         None => "the constraints are not linear in the velocities".into(),
         Some(evidence) => evidence,
     };

@@ -2,6 +2,7 @@
 
 mod adapted;
 mod analytic;
+mod brackets;
 mod connection;
 mod discrete;
 mod embedded;

@@ -1,13 +1,13 @@
 //! Brackets, the Hamiltonian side and the almost-Poisson form, as far as they are asked for.
 
 use super::restricted::requested;
-use super::{Proved, connection, discrete, fence, nonholonomic_connection, volume};
+use super::{Proved, brackets, connection, discrete, fence, nonholonomic_connection, volume};
 use crate::algebra::{Graph, Matrix};
 use crate::check;
 use crate::id::{ExprId, Origin, SymbolId};
 use crate::mechanics::{
-    Definiteness, HamiltonianSide, NoInverse, NonholonomicBracket, NotDifferentiable, Procedure,
-    definiteness, energy, hamiltonian_side, jacobian,
+    Definiteness, Definition, HamiltonianSide, LagrangianSystem, NoInverse, NonholonomicBracket,
+    NotDifferentiable, Procedure, definiteness, energy, hamiltonian_side, jacobian,
 };
 use crate::model::{Model, Request};
 use crate::phase_space::{AlmostPoisson, InvariantForm, PhaseSpace};
@@ -31,7 +31,7 @@ pub(super) fn derive(
     let mut violations = Vec::new();
     let mut keep = |result: Result<(), Vec<Violation>>| violations.extend(result.err().into_iter().flatten());
     if needs_hamiltonian(&proved.model) {
-        keep(hamiltonian(proved, derived).and_then(|(side, momenta)| {
+        keep(hamiltonian(proved, derived, derivative).and_then(|(side, momenta)| {
             sections.push(("Hamiltonian side", hamiltonian_lines(&mut proved.model, &side)));
             let fields = fields(proved, derived);
             let Proved { model, base, .. } = &mut *proved;
@@ -41,10 +41,13 @@ pub(super) fn derive(
         }));
     }
     if let Some(origin) = asked(&proved.model, Request::Bracket) {
-        keep(
-            bracket_of_outputs(proved, derived, observables, origin)
-                .map(|bracket| found.bracket = Some(bracket)),
-        );
+        keep(brackets::of_outputs(proved, derived, observables, origin).map(
+            |[bracket, with_energy, drift]| {
+                found.bracket = Some(bracket);
+                found.bracket_with_energy = Some(with_energy);
+                found.drift_of_outputs = Some(drift);
+            },
+        ));
     }
     if let Some(origin) = asked(&proved.model, Request::DiscreteGradient) {
         keep(almost_poisson(proved, derived, origin).map(|form| found.almost_poisson = Some(form)));
@@ -125,6 +128,7 @@ pub(super) fn state(proved: &Proved, derived: &Derived<'_>) -> Vec<SymbolId> {
 fn hamiltonian(
     proved: &mut Proved,
     derived: &Derived<'_>,
+    derivative: &Procedure,
 ) -> Result<(HamiltonianSide, Vec<SymbolId>), Vec<Violation>> {
     let origin = asked(&proved.model, Request::Hamiltonian)
         .or(proved.model.hamilton_jacobi.as_ref().map(|declared| declared.origin))
@@ -143,8 +147,12 @@ fn hamiltonian(
         }]);
     };
     let judged = judge(proved)(&proved.model.graph, &equations.mass);
-    hamiltonian_side(&mut proved.model.graph, &proved.system, distribution, equations, judged)
-        .map(|side| (side, distribution.independent.clone()))
+    let calls = calls_of(derivative);
+    hamiltonian_side(&mut proved.model.graph, &proved.system, distribution, equations, judged, &calls)
+        .map(|mut side| {
+            side.drift = shortened(&mut proved.model.graph, side.drift);
+            (side, distribution.independent.clone())
+        })
         .map_err(|NoInverse { momentum, velocity }| {
             let graph = &proved.model.graph;
             vec![Violation {
@@ -158,7 +166,7 @@ fn hamiltonian(
                 ),
                 way_out:
                     "leave `hamiltonian` out; `bracket` and `discrete_gradient` take any Lagrangian, in the \
-                          velocities"
+                          velocities: momenta can be declared as `outputs`"
                         .into(),
             }]
         })
@@ -173,7 +181,13 @@ fn fields(proved: &mut Proved, derived: &Derived<'_>) -> Matrix {
         .collect()
 }
 
-fn nonholonomic_bracket(proved: &mut Proved, derived: &Derived<'_>) -> NonholonomicBracket {
+/// The calls of the user's methods, in the variables of the state.
+pub(super) fn calls_of(derivative: &Procedure) -> Vec<Definition> {
+    let is_call = |definition: &&Definition| matches!(definition, Definition::Call { .. });
+    derivative.definitions.iter().filter(is_call).cloned().collect()
+}
+
+pub(super) fn nonholonomic_bracket(proved: &mut Proved, derived: &Derived<'_>) -> NonholonomicBracket {
     let (graph, system) = (&mut proved.model.graph, &proved.system);
     match derived {
         Derived::Adapted { distribution, equations, .. } => {
@@ -183,51 +197,6 @@ fn nonholonomic_bracket(proved: &mut Proved, derived: &Derived<'_>) -> Nonholono
             NonholonomicBracket::projected(graph, system, residuals, equations)
         }
     }
-}
-
-/// {f_i, f_j}_nh = df_i · Π df_j.
-fn bracket_of_outputs(
-    proved: &mut Proved,
-    derived: &Derived<'_>,
-    observables: &Procedure,
-    origin: Origin,
-) -> Result<Procedure, Vec<Violation>> {
-    let count = observables.outputs.len();
-    if count == 0 {
-        return Err(vec![Violation {
-            law: Law::Hamiltonian,
-            origin,
-            what: "there are no functions to take brackets of".into(),
-            evidence: String::new(),
-            way_out: "declare them: `outputs { spin = …; }`".into(),
-        }]);
-    }
-    let arguments = state(proved, derived);
-    let judge = judge(proved);
-    let bracket = nonholonomic_bracket(proved, derived);
-    let graph = &mut proved.model.graph;
-    let mut procedure =
-        jacobian(graph, observables, &arguments).map_err(|error| vec![not_differentiable(error, origin)])?;
-    let differentials: Vec<Vec<ExprId>> =
-        procedure.outputs.chunks(arguments.len().max(1)).map(<[ExprId]>::to_vec).collect();
-    let n = bracket.coordinates.len();
-    let mut fields = Vec::with_capacity(count);
-    for differential in &differentials {
-        let (along_base, along_fibre) = differential.split_at(n);
-        let (rates, accelerations) = bracket.sharp(graph, &judge, (along_base, along_fibre), &mut procedure);
-        fields.push([rates, accelerations].concat());
-    }
-    let mut outputs = vec![graph.zero(); count * count];
-    for i in 0..count {
-        for j in i + 1..count {
-            let value = graph.inner_product(&differentials[i], &fields[j]);
-            let value = graph.simplify(value);
-            outputs[i * count + j] = value;
-            outputs[j * count + i] = graph.neg(value);
-        }
-    }
-    procedure.outputs = outputs;
-    Ok(shortened(graph, procedure))
 }
 
 /// Expressions with more operations than this are left as the procedure computes them.
@@ -266,6 +235,21 @@ pub(super) fn not_differentiable(
     }
 }
 
+/// ∂E_L in the variables of the state.
+pub(super) fn energy_gradient(
+    graph: &mut Graph,
+    system: &LagrangianSystem,
+    derived: &Derived<'_>,
+    arguments: &[SymbolId],
+) -> Vec<ExprId> {
+    let mut function = energy(graph, system);
+    if let Derived::Adapted { distribution, .. } = derived {
+        function = distribution.restriction(graph, &system.algebroid.velocities).apply(graph, function);
+    }
+    let slopes: Vec<ExprId> = arguments.iter().map(|symbol| graph.partial(function, *symbol)).collect();
+    slopes.into_iter().map(|slope| graph.simplify(slope)).collect()
+}
+
 /// ∂E and Π, for a system that moves by Π ∂E.
 fn almost_poisson(
     proved: &mut Proved,
@@ -284,22 +268,20 @@ fn almost_poisson(
                     .into(),
         }]);
     }
+    if let Some(evidence) = check::moving_constraint(model, system.time, constraints) {
+        return Err(vec![Violation {
+            law: Law::Hamiltonian,
+            origin,
+            what: "a discrete gradient takes autonomous systems".into(),
+            evidence,
+            way_out: "leave `discrete_gradient` out; `ImplicitMidpoint` takes every system".into(),
+        }]);
+    }
     let arguments = state(proved, derived);
     let judge = judge(proved);
     let bracket = nonholonomic_bracket(proved, derived);
     let graph = &mut proved.model.graph;
-    let mut function = energy(graph, &proved.system);
-    if let Derived::Adapted { distribution, .. } = derived {
-        function =
-            distribution.restriction(graph, &proved.system.algebroid.velocities).apply(graph, function);
-    }
-    let gradient: Vec<ExprId> = arguments
-        .iter()
-        .map(|symbol| {
-            let slope = graph.partial(function, *symbol);
-            graph.simplify(slope)
-        })
-        .collect();
+    let gradient = energy_gradient(graph, &proved.system, derived, &arguments);
     let covector: Vec<SymbolId> =
         (0..arguments.len()).map(|index| graph.new_symbol(format!("covector{index}"))).collect();
     let components: Vec<ExprId> = covector.iter().map(|symbol| graph.symbol(*symbol)).collect();

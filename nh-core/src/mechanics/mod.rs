@@ -32,7 +32,7 @@ pub use energy::energy;
 pub use euler_lagrange::{ForceBalance, LagrangianSystem};
 pub use flow::Flow;
 pub use gibbs_appell::GibbsAppell;
-pub use hamiltonian::{HamiltonianSide, NoInverse, NonholonomicBracket, hamiltonian_side};
+pub use hamiltonian::{Drift, HamiltonianSide, NoInverse, NonholonomicBracket, hamiltonian_side};
 pub use jacobian::{NotDifferentiable, divergence, jacobian};
 pub use kinetic_metric::kinetic_metric;
 pub use momentum::Momentum;

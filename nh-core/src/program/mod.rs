@@ -9,8 +9,9 @@
 //! 5. `lower`: binary steps in an order in which every value precedes its uses.
 //! 6. `fuse`: sums with products become multiply-adds; `signs`: negations go where they are free.
 //!
-//! [`Recurrences`] extend a program from numbers to power series in the time.
+//! [`corrected`] makes a program carry its rounding errors along. [`Recurrences`] extend a program from numbers to power series in the time.
 
+mod correct;
 mod cost;
 mod factor;
 mod fuse;
@@ -28,6 +29,7 @@ mod taylor;
 #[cfg(test)]
 mod tests;
 
+pub use correct::corrected;
 pub use cost::Cost;
 pub use interpret::{Arithmetic, interpret, interpret_in};
 pub use schedule::{schedule, schedule_grouping};

@@ -35,9 +35,11 @@ pub(crate) fn hamiltonian_lines(model: &mut Model, side: &HamiltonianSide) -> Ve
             }
         }
     }
-    for (name, rest) in names.iter().zip(&side.drift.outputs) {
-        if !graph.is_literal_zero(*rest) {
-            lines.push(format!("R_L({}) = {}", graph.symbols()[*name], shown(graph, *rest)));
+    let rests = side.drift.written_out(graph);
+    for (name, rest) in names.iter().zip(rests) {
+        if !graph.zero_test(rest).is_zero() {
+            let value = simplified(graph, rest);
+            lines.push(format!("R_L({}) = {value}", graph.symbols()[*name]));
         }
     }
     lines

@@ -2,10 +2,11 @@
 
 use std::collections::BTreeSet;
 
+use nh_core::algebra::Accuracy;
 use nh_core::id::SymbolId;
 use nh_core::mechanics::Procedure;
 use nh_core::model::Model;
-use nh_core::program::{Program, schedule_grouping};
+use nh_core::program::{Program, corrected, schedule_grouping};
 use proc_macro2::{Ident, Span, TokenStream};
 use quote::quote;
 
@@ -156,8 +157,14 @@ impl Part {
     }
 }
 
-/// The program of a procedure, with operations among parameters kept together.
+/// The program of a procedure, at the level of accuracy that is asked for.
 pub(super) fn program(model: &Model, procedure: &Procedure) -> Program {
+    let program = uncorrected(model, procedure);
+    if model.graph.accuracy() == Accuracy::Careful { corrected(&program) } else { program }
+}
+
+/// The program of a procedure, with operations among parameters kept together.
+pub(super) fn uncorrected(model: &Model, procedure: &Procedure) -> Program {
     let parameters: Vec<SymbolId> = model.parameters.iter().map(|parameter| parameter.symbol).collect();
     schedule_grouping(&model.graph, procedure, &parameters)
 }

@@ -7,7 +7,7 @@ use nh_core::model::Request;
 use nh_core::phase_space::AlmostPoisson;
 use nh_core::system::System;
 use proc_macro2::{Literal, TokenStream};
-use quote::quote;
+use quote::{ToTokens, quote};
 
 use super::context::Context;
 use super::expression::element;
@@ -35,6 +35,14 @@ pub(super) fn emit(context: &Context, scope: &Scope, system: &System) -> Part {
         };
     let observables = context.outputs.as_ref().map_or(0, super::record::Record::len);
     add(bracket(context), &found.bracket, &|outputs| square(context, observables, outputs));
+    let [with_energy, drift] = parts_of_rates(context);
+    let parts = |values: &[TokenStream]| {
+        let record = context.outputs.as_ref();
+        record
+            .map_or_else(TokenStream::new, |record| record.construct(&record.name.to_token_stream(), values))
+    };
+    add(with_energy, &found.bracket_with_energy, &parts);
+    add(drift, &found.drift_of_outputs, &parts);
     add(Some(divergence(context)), &found.divergence, &|outputs| outputs.iter().cloned().collect());
     add(Some(density(context)), &found.density, &|outputs| outputs.iter().cloned().collect());
     let (velocities, sections) = (system.state_velocities.len(), context.velocity.len());
@@ -62,7 +70,10 @@ pub(super) fn stub(context: &Context, requests: &[Request], claims_section: bool
         }
     };
     let asked = |request| requests.contains(&request);
-    add(asked(Request::Bracket), bracket(context));
+    let [with_energy, drift] = parts_of_rates(context);
+    for head in [bracket(context), with_energy, drift] {
+        add(asked(Request::Bracket), head);
+    }
     add(asked(Request::Divergence), Some(divergence(context)));
     add(asked(Request::Volume), Some(density(context)));
     add(asked(Request::Connection), Some(connection(context, velocities)));
@@ -92,6 +103,30 @@ fn bracket(context: &Context) -> Option<Head> {
         takes_input: true,
         returns: quote!(#runtime::nalgebra::SMatrix<#scalar, #count, #count>),
     })
+}
+
+/// The bracket with the energy, and the rest of the rate.
+fn parts_of_rates(context: &Context) -> [Option<Head>; 2] {
+    let head = |name, doc| {
+        let returns = context.type_of(context.outputs.as_ref()?);
+        Some(Head { name, doc, takes_input: true, returns })
+    };
+    [
+        head(
+            "bracket_with_energy",
+            &[
+                " The nonholonomic brackets of the outputs with the energy: their rates along the motion, but for",
+                " `drift_of_outputs`.",
+            ],
+        ),
+        head(
+            "drift_of_outputs",
+            &[
+                " R_L, what the rates of the outputs have beyond their brackets with the energy: zero where the",
+                " constraints are homogeneous, nothing depends on the time, and no force acts.",
+            ],
+        ),
+    ]
 }
 
 fn divergence(context: &Context) -> Head {

@@ -7,6 +7,7 @@ mod orders;
 
 use std::collections::BTreeSet;
 
+use nh_core::algebra::Accuracy;
 use nh_core::id::SymbolId;
 use nh_core::model::Request;
 use nh_core::program::{Program, Recurrences, Rule, Step, Value, Variation};
@@ -16,19 +17,22 @@ use quote::quote;
 
 use self::orders::Writer;
 use super::context::Context;
-use super::function::{Part, drops};
+use super::function::{Part, drops, uncorrected};
 use super::layout::local;
 use super::program::{Body, body};
 use super::scope::{Argument, Scope};
 
 /// The inherent method `taylor` and `impl TaylorSeries for Sleigh`, if they are asked for.
+///
+/// The coefficients of corrections of rounding errors are zero: the program is the one without them.
 pub(super) fn emit(context: &Context, scope: &Scope, system: &System, derivative: &Program) -> Part {
     let model = &system.model;
     if !model.requests.iter().any(|(request, _)| *request == Request::Taylor) {
         return Part::default();
     }
     let state = system.state();
-    let recurrences = Recurrences::of(derivative, |symbol| {
+    let plain = (model.graph.accuracy() == Accuracy::Careful).then(|| uncorrected(model, &system.derivative));
+    let recurrences = Recurrences::of(plain.as_ref().unwrap_or(derivative), |symbol| {
         if symbol == model.time {
             Variation::Time
         } else if state.contains(&symbol) {

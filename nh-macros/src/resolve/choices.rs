@@ -3,6 +3,7 @@
 use std::collections::BTreeSet;
 use std::rc::Rc;
 
+use nh_core::algebra::Accuracy;
 use nh_core::id::{Origin, SymbolId};
 use nh_core::model::Formulation;
 use proc_macro2::Ident;
@@ -13,7 +14,8 @@ use super::resolver::Resolver;
 use super::scope::{Meaning, Role};
 use crate::emit::{Family, Layout, TypeNames};
 use crate::report::{Diagnostic, Extent};
-use crate::syntax::ast::{self, Declared, Renaming, Section, SystemDecl, Velocity};
+use crate::suggest::did_you_mean;
+use crate::syntax::ast::{self, Declared, Name, Renaming, Section, SystemDecl, Velocity};
 
 impl Resolver {
     /// The velocities that the adapted state keeps, each once.
@@ -65,6 +67,25 @@ impl Resolver {
             ast::Formulation::Projected => Formulation::Projected,
         };
         (formulation, self.origin(asked.keyword.extent()))
+    }
+
+    /// The level of accuracy that is asked for.
+    pub(super) fn accuracy(&mut self, asked: &Section<Name>) -> Accuracy {
+        const LEVELS: [(&str, Accuracy); 3] =
+            [("fast", Accuracy::Fast), ("balanced", Accuracy::Balanced), ("careful", Accuracy::Careful)];
+        let text = asked.body.text.as_str();
+        if let Some((_, level)) = LEVELS.iter().find(|(known, _)| *known == text) {
+            return *level;
+        }
+        let error = Diagnostic::new(asked.body.extent(), format!("unknown level of accuracy `{text}`"));
+        let error = match did_you_mean(text, LEVELS.map(|(known, _)| known)) {
+            Some(question) => {
+                error.evidence("the levels are `fast`, `balanced` and `careful`").way_out(question)
+            }
+            None => error.way_out("write `fast`, `balanced` or `careful`"),
+        };
+        self.report(&asked.body, error);
+        Accuracy::default()
     }
 
     /// The names of the generated types, all different, and the path of the runtime.

@@ -150,7 +150,7 @@ impl Resolver {
     }
 
     /// What to generate beyond the default.
-    pub(super) fn requests(&mut self, names: &[Name]) -> Vec<(Request, Origin)> {
+    pub(super) fn requests(&mut self, names: &[Name], constrained: bool) -> Vec<(Request, Origin)> {
         let mut found: Vec<(Request, Origin)> = Vec::new();
         for name in names {
             let text = name.text.as_str();
@@ -167,6 +167,13 @@ impl Resolver {
             };
             if found.iter().any(|(earlier, _)| earlier == request) {
                 self.report(name, Diagnostic::new(name.extent(), format!("`{text}` is asked for twice")));
+                continue;
+            }
+            if matches!(request, Request::Multipliers | Request::Reactions) && !constrained {
+                let error =
+                    Diagnostic::new(name.extent(), format!("there are no {text} without constraints"))
+                        .way_out("state them in `constraints { … }`, or leave this out");
+                self.report(name, error);
                 continue;
             }
             let origin = self.origin(name.extent());

@@ -99,11 +99,15 @@ impl Resolver {
         let hamilton_jacobi = sections.hamilton_jacobi.as_ref().map(|s| self.hamilton_jacobi(s));
         let routh = sections.routh.as_ref().map(|s| self.routh(&s.body, &symmetries)).unwrap_or_default();
         let assumptions = sections.assume.as_ref().map(|s| self.assumptions(&s.body)).unwrap_or_default();
-        let requests = sections.emit.as_ref().map(|s| self.requests(&s.body)).unwrap_or_default();
+        let constrained = sections.constraints.is_some() || sections.distribution.is_some();
+        let requests =
+            sections.emit.as_ref().map(|s| self.requests(&s.body, constrained)).unwrap_or_default();
         let orthonormal = sections.orthonormal.as_ref().map(|s| self.orthonormal(s, layout));
         let tracked = sections.track.as_ref().map(|s| self.tracked(s, &outputs));
         let independent = sections.independent.as_ref().map(|s| self.independent(&s.body));
         let formulation = sections.formulation.as_ref().map(|s| self.formulation(s));
+        let accuracy = sections.accuracy.as_ref().map(|s| self.accuracy(s)).unwrap_or_default();
+        self.graph.set_accuracy(accuracy);
         let origin = Self::whole();
         let lagrangian = lagrangian.unwrap_or(Located { value: self.time(), origin });
         let tables = std::mem::take(&mut self.tables);

@@ -76,9 +76,11 @@ impl Resolver {
                         ));
                 Err(self.report(at, error))
             }
-            (Shape::Vector(_), Shape::Vector(_)) => {
+            (Shape::Vector(n), Shape::Vector(_)) => {
                 let error = Diagnostic::new(at.extent.to(right.0.extent), "the product of two vectors")
-                    .way_out("write `dot(u, v)` or `cross(u, v)`");
+                    .way_out(format!(
+                        "write `dot(u, v)` or `cross(u, v)`; a diagonal inertia is `sum(i in 0..{n}: I[i] * w[i]^2)`"
+                    ));
                 Err(self.report(at, error))
             }
             _ => {

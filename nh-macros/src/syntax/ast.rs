@@ -70,6 +70,8 @@ pub(crate) struct Sections {
     pub(crate) orthonormal: Option<Section<Vec<Declared>>>,
     /// `formulation`: adapted or projected.
     pub(crate) formulation: Option<Section<Formulation>>,
+    /// `accuracy`: the level, as it is written.
+    pub(crate) accuracy: Option<Section<Name>>,
     /// `emit`: what to generate beyond the default.
     pub(crate) emit: Option<Section<Vec<Name>>>,
     /// `track`: the state variables and outputs that are needed.

@@ -65,6 +65,11 @@ impl Stream {
 
     /// `name = expr`, `name[0] = expr`, `name[i in 0..4] = expr`
     pub(crate) fn definition(&mut self) -> Result<Definition, Diagnostic> {
+        let reads = "a definition reads `name = …;`";
+        let is_separator = |token: &TokenTree| matches!(token, TokenTree::Punct(mark) if matches!(mark.as_char(), '=' | ':'));
+        if !self.tokens().iter().any(is_separator) {
+            return Err(Diagnostic::new(self.whole(), "a name and a `=` are missing").way_out(reads));
+        }
         let docs = self.docs()?;
         let start = self.position();
         let name = self.name("the name that is defined")?;
@@ -83,7 +88,7 @@ impl Stream {
             }
         }
         let extent = self.since(start);
-        self.equals("a definition reads `name = …;`")?;
+        self.equals(reads)?;
         let value = self.last_expression(END)?;
         Ok(Definition { docs, name, subscripts, value, extent })
     }

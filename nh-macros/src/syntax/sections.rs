@@ -150,6 +150,7 @@ fn fill(sections: &mut Sections, keyword: Name, algebra: Option<Algebra>, body: 
         "formulation" => {
             s.formulation = errors.keep(formulation(body)).and_then(|body| Section::some(keyword, body));
         }
+        "accuracy" => s.accuracy = errors.keep(level(body)).and_then(|body| Section::some(keyword, body)),
         "emit" => s.emit = Section::some(keyword, list(body, errors, |entry| entry.name("what to generate"))),
         "track" => s.track = Section::some(keyword, list(body, errors, Stream::velocity)),
         "names" => s.names = Section::some(keyword, plain(body, errors, &Stream::renaming)),
@@ -238,6 +239,15 @@ fn formulation(body: &Group) -> Result<Formulation, Diagnostic> {
     } else {
         Err(stream.expected("`}`").way_out("there is one formulation"))
     }
+}
+
+/// The one word in `accuracy { … }`.
+fn level(body: &Group) -> Result<Name, Diagnostic> {
+    let mut stream = Stream::inside(body);
+    let known = "write `fast`, `balanced` or `careful`";
+    let name = stream.name("a level of accuracy").map_err(|error| error.way_out(known))?;
+    stream.eat(";");
+    if stream.is_empty() { Ok(name) } else { Err(stream.expected("`}`").way_out("there is one level")) }
 }
 
 /// The density in `volume { … }`.

@@ -1,7 +1,7 @@
 //! The words of the language.
 
 /// The sections, as they are written.
-pub(crate) const SECTIONS: [&str; 28] = [
+pub(crate) const SECTIONS: [&str; 29] = [
     "base",
     "on",
     "basis",
@@ -25,6 +25,7 @@ pub(crate) const SECTIONS: [&str; 28] = [
     "independent",
     "orthonormal",
     "formulation",
+    "accuracy",
     "emit",
     "track",
     "names",

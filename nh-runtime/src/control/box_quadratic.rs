@@ -62,8 +62,9 @@ pub(super) fn minimum<T: Entry, const M: usize>(
     Ok(Minimum { at, free, factors })
 }
 
-fn between<T: Entry>(u: T, low: T, high: T) -> T {
-    let above = if u > low { u } else { low };
+pub(super) fn between<T: Entry>(u: T, low: T, high: T) -> T {
+    // a bound that is not a number holds nothing
+    let above = if u < low { low } else { u };
     if above > high { high } else { above }
 }
 

@@ -18,7 +18,10 @@ impl<T: Entry, const N: usize> Cholesky<T, N> {
                 (0..j).fold(T::ZERO, |sum, k| sum + rows[(i, k)] * rows[(j, k)])
             };
             let pivot = a[(j, j)] - dot(&lower, j);
-            if !(pivot > T::ZERO && pivot.is_finite()) {
+            if !pivot.is_finite() {
+                return Err(ControlError::NotFinite { argument: name, value: pivot.to_f64() });
+            }
+            if pivot <= T::ZERO {
                 return Err(ControlError::NotDefinite { matrix: name, pivot: pivot.to_f64() });
             }
             let root = pivot.sqrt();
@@ -62,10 +65,91 @@ impl<T: Entry, const N: usize> Cholesky<T, N> {
     }
 }
 
+/// Refuses a symmetric matrix that is not finite, or not positive semidefinite up to round-off: a
+/// covariance or a weight. The lower triangle is read; the count of operations does not depend on the numbers.
+///
+/// Schur complements are taken by pivots that are no round-off; where a pivot vanishes, so does its
+/// column: |a_ik|² ≤ a_ii a_kk. Round-off means √ε of the trace, and more than rounding explains.
+pub(super) fn semidefinite<T: Entry, const N: usize>(
+    name: &'static str,
+    a: &SMatrix<T, N, N>,
+) -> Result<(), ControlError> {
+    super::finite(name, a)?;
+    let trace = (0..N).fold(T::ZERO, |sum, k| sum + a[(k, k)].abs());
+    let nothing = T::EPSILON.sqrt() * trace;
+    let negligible = T::EPSILON.sqrt().sqrt() * trace;
+    let mut rest = *a;
+    let (mut lowest, mut widest) = (T::ZERO, T::ZERO);
+    for k in 0..N {
+        let pivot = rest[(k, k)];
+        lowest = lowest.min(pivot);
+        let inverse = pivot.select_gt(nothing, pivot.recip(), T::ZERO);
+        for j in k + 1..N {
+            let below = rest[(j, k)];
+            widest = widest.max(pivot.select_gt(nothing, T::ZERO, below.abs()));
+            let factor = below * inverse;
+            for i in j..N {
+                let reduced = factor * rest[(i, k)];
+                rest[(i, j)] -= reduced;
+            }
+        }
+    }
+    let pivot = if widest > negligible { -widest } else { lowest };
+    if pivot < -nothing {
+        return Err(ControlError::NotDefinite { matrix: name, pivot: pivot.to_f64() });
+    }
+    Ok(())
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
     use nalgebra::{matrix, vector};
+
+    #[test]
+    fn semidefinite_is_told_from_indefinite() {
+        let fine = [
+            matrix![0.0, 0.0; 0.0, 0.0],
+            matrix![1.0, 1.0; 1.0, 1.0],
+            matrix![0.0, 0.0; 0.0, 3.0],
+            matrix![1e-12, 1e-6; 1e-6, 1.0],
+            matrix![-1e-17, 0.0; 0.0, 1.0],
+            matrix![1e300, 0.0; 0.0, 1e-300],
+        ];
+        for a in fine {
+            assert_eq!(semidefinite("a", &a), Ok(()), "{a}");
+        }
+        let wrong = [
+            matrix![1.0, 2.0; 2.0, 1.0],
+            matrix![0.0, 1.0; 1.0, 0.0],
+            matrix![0.0, 1.0; 1.0, 5.0],
+            matrix![1.0, 0.0; 0.0, -1e-3],
+            matrix![-1.0, 0.0; 0.0, -1.0],
+        ];
+        for a in wrong {
+            let refused = semidefinite("a", &a);
+            assert!(matches!(refused, Err(ControlError::NotDefinite { matrix: "a", .. })), "{a} {refused:?}");
+        }
+        for bad in [f64::NAN, f64::INFINITY] {
+            let refused = semidefinite("a", &matrix![1.0, bad; bad, 1.0]);
+            assert!(matches!(refused, Err(ControlError::NotFinite { argument: "a", .. })));
+        }
+    }
+
+    /// A sum of squares is semidefinite, whatever its rank and the scales in it.
+    #[test]
+    fn rounding_is_not_taken_for_indefiniteness() {
+        let mut seed = 1_u32;
+        let mut number = || {
+            seed = seed.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
+            <f32 as crate::Scalar>::from_f64(f64::from(seed) / f64::from(u32::MAX) - 0.5)
+        };
+        let scales = [1e-3, 1e-2, 0.1, 1.0, 10.0, 100.0];
+        for _ in 0..1000 {
+            let half = SMatrix::<f32, 6, 2>::from_fn(|i, _| number() * scales[i]);
+            assert_eq!(semidefinite("a", &(half * half.transpose())), Ok(()));
+        }
+    }
 
     #[test]
     fn it_solves_and_refuses() {

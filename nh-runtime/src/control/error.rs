@@ -14,12 +14,31 @@ pub enum ControlError {
         /// The first such entry.
         value: f64,
     },
-    /// A matrix that has to be positive definite is not.
+    /// A matrix that has to be positive definite, or a covariance or weight that has to be positive
+    /// semidefinite, is not.
     NotDefinite {
         /// The matrix, by its name in the documentation.
         matrix: &'static str,
-        /// The first pivot of its Cholesky factorization that is not positive.
+        /// The first pivot of its factorization that is not positive, or negative.
         pivot: f64,
+    },
+    /// A setting is not what it has to be.
+    Setting {
+        /// The setting, by its name in the documentation.
+        setting: &'static str,
+        /// Its value.
+        value: f64,
+        /// What it has to be.
+        expected: &'static str,
+    },
+    /// The bounds of an input leave nothing between them.
+    Bounds {
+        /// The input, by its index.
+        input: usize,
+        /// Its lower bound.
+        lower: f64,
+        /// Its upper bound.
+        upper: f64,
     },
     /// The doubling iteration for the Riccati equation does not settle.
     NotStabilizable {
@@ -55,6 +74,14 @@ impl Display for ControlError {
                 f,
                 "`{matrix}` has to be positive definite, but a pivot of its factorization is {pivot:?}: \
                  give every direction a positive weight or noise"
+            ),
+            Self::Setting { setting, value, expected } => {
+                write!(f, "`{setting}` is {value:?}: it has to be {expected}")
+            }
+            Self::Bounds { input, lower, upper } => write!(
+                f,
+                "the bounds of input {input}, {lower:?} and {upper:?}, leave nothing between them: give the \
+                 lower one first"
             ),
             Self::NotStabilizable { iterations, change } => write!(
                 f,
@@ -92,6 +119,14 @@ mod tests {
                 ControlError::NotDefinite { matrix: "r", pivot: -1.0 },
                 "`r` has to be positive definite, but a pivot of its factorization is -1.0: give every \
                  direction a positive weight or noise",
+            ),
+            (
+                ControlError::Setting { setting: "kurtosis", value: f64::NAN, expected: "finite" },
+                "`kurtosis` is NaN: it has to be finite",
+            ),
+            (
+                ControlError::Bounds { input: 1, lower: 2.0, upper: -2.0 },
+                "the bounds of input 1, 2.0 and -2.0, leave nothing between them: give the lower one first",
             ),
             (
                 ControlError::NotStabilizable { iterations: 60, change: 0.5 },

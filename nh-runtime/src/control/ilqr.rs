@@ -2,8 +2,8 @@
 
 use nalgebra::{SMatrix, SVector};
 
-use super::box_quadratic::minimum;
-use super::{ControlError, Cost, Entry, Model, shooting_cost, symmetrized};
+use super::box_quadratic::{between, minimum};
+use super::{ControlError, Cost, Entry, Model, finite, shooting_cost, symmetrized};
 
 /// Halvings of the step in the line search.
 const MOST_HALVINGS: u32 = 12;
@@ -21,7 +21,12 @@ const MOST_WEIGHT: f64 = 1e10;
 /// For model predictive control call [`improve`](Self::improve) once or a few times in every tick,
 /// apply the first input and [`shift`](Self::shift): the cost in time of `improve` is bounded.
 ///
-/// All memory is in the value itself, about `H · (N·M + 2N + 3M)` numbers.
+/// All memory is in the value itself, `H · (N·M + N + 2M)` numbers, and [`improve`](Self::improve) has as much again
+/// on the stack. A horizon without a tick does not compile:
+///
+/// ```compile_fail,E0080
+/// nh_runtime::control::Ilqr::<f64, 2, 1, 0>::new(nalgebra::vector![0.0]);
+/// ```
 #[derive(Clone, Copy, Debug)]
 pub struct Ilqr<T, const N: usize, const M: usize, const H: usize> {
     inputs: [SVector<T, M>; H],
@@ -48,6 +53,7 @@ impl<T: Entry, const N: usize, const M: usize, const H: usize> Ilqr<T, N, M, H> 
     /// Starts from a constant input, without bounds.
     #[must_use]
     pub fn new(input: SVector<T, M>) -> Self {
+        const { assert!(H > 0, "a horizon has at least one tick") };
         let huge = T::MIN_POSITIVE.recip();
         Self {
             inputs: [input; H],
@@ -96,17 +102,17 @@ impl<T: Entry, const N: usize, const M: usize, const H: usize> Ilqr<T, N, M, H> 
 
     /// Drops the first tick and repeats the last: the horizon recedes.
     pub fn shift(&mut self) {
-        self.inputs.rotate_left(usize::from(H > 0));
+        self.inputs.rotate_left(1);
         if let [.., before, last] = self.inputs.as_mut_slice() {
             *last = *before;
         }
     }
 
     /// Iterates until the promised decrease is below `tolerance` of the cost, or `most` iterations
-    /// are done; returns the last of them.
+    /// are done, at least one; returns the last of them.
     ///
     /// # Errors
-    /// As [`improve`](Self::improve).
+    /// As [`improve`](Self::improve), and [`ControlError::Setting`] for a tolerance that is no number.
     pub fn solve(
         &mut self,
         model: &impl Model<T, N, M>,
@@ -115,6 +121,10 @@ impl<T: Entry, const N: usize, const M: usize, const H: usize> Ilqr<T, N, M, H> 
         tolerance: T,
         most: u32,
     ) -> Result<Improvement<T>, ControlError> {
+        if !tolerance.is_finite() {
+            let (setting, value) = ("tolerance", tolerance.to_f64());
+            return Err(ControlError::Setting { setting, value, expected: "finite" });
+        }
         let mut last = self.improve(model, cost, start)?;
         for _ in 1..most {
             if last.promised <= tolerance * last.cost.abs() {
@@ -129,14 +139,37 @@ impl<T: Entry, const N: usize, const M: usize, const H: usize> Ilqr<T, N, M, H> 
     /// line search. The inputs change only if the cost decreases.
     ///
     /// # Errors
-    /// [`ControlError::NotFinite`] if the present inputs lead out of the numbers, and
-    /// [`ControlError::NotDefinite`] if no regularization makes the cost convex in the inputs.
+    /// [`ControlError::NotFinite`] if `start`, the inputs or a derivative is not finite, or the inputs lead out
+    /// of the numbers; [`ControlError::Bounds`] if there is nothing between two bounds;
+    /// [`ControlError::NotDefinite`] if no regularization makes the cost convex in the inputs. Nothing has then
+    /// changed: inputs, states and gains are those of before.
     pub fn improve(
         &mut self,
         model: &impl Model<T, N, M>,
         cost: &impl Cost<T, N, M>,
         start: &SVector<T, N>,
     ) -> Result<Improvement<T>, ControlError> {
+        let before = *self;
+        let result = self.iteration(model, cost, start);
+        if result.is_err() {
+            *self = before;
+        }
+        result
+    }
+
+    fn iteration(
+        &mut self,
+        model: &impl Model<T, N, M>,
+        cost: &impl Cost<T, N, M>,
+        start: &SVector<T, N>,
+    ) -> Result<Improvement<T>, ControlError> {
+        finite("start", start)?;
+        for (input, (low, high)) in self.lower.iter().zip(self.upper.iter()).enumerate() {
+            if !low.all_ge(*low) || !high.all_ge(*low) {
+                return Err(ControlError::Bounds { input, lower: low.to_f64(), upper: high.to_f64() });
+            }
+        }
+        self.inputs.iter().try_for_each(|u| finite("inputs", u))?;
         let before = shooting_cost(model, cost, start, &self.inputs);
         if !before.is_finite() {
             return Err(ControlError::NotFinite { argument: "cost", value: before.to_f64() });
@@ -145,8 +178,10 @@ impl<T: Entry, const N: usize, const M: usize, const H: usize> Ilqr<T, N, M, H> 
         let promised = loop {
             match self.sweep(model, cost, &end) {
                 Ok(promised) => break promised,
-                Err(error) if self.weight > T::from_f64(MOST_WEIGHT) => return Err(error),
-                Err(_) => self.weight = self.heavier(),
+                Err(ControlError::NotDefinite { .. }) if self.weight <= T::from_f64(MOST_WEIGHT) => {
+                    self.weight = self.heavier();
+                }
+                Err(error) => return Err(error),
             }
         };
         let mut share = T::ONE;
@@ -217,6 +252,8 @@ impl<T: Entry, const N: usize, const M: usize, const H: usize> Ilqr<T, N, M, H> 
             }
             *gain = -best.factors.solve(&answering);
             *change = best.at;
+            finite("the derivatives of model and cost", gain)?;
+            finite("the derivatives of model and cost", change)?;
             promised -= change.dot(&by_input) + change.dot(&(twice * *change)) * T::from_f64(0.5);
             let (k, d) = (*gain, *change);
             slope = by_state + k.transpose() * (twice * d + by_input) + mixed.transpose() * d;
@@ -257,10 +294,7 @@ fn clamped<T: Entry, const M: usize>(
     lower: &SVector<T, M>,
     upper: &SVector<T, M>,
 ) -> SVector<T, M> {
-    u.zip_zip_map(lower, upper, |u, low, high| {
-        let above = if u > low { u } else { low };
-        if above > high { high } else { above }
-    })
+    u.zip_zip_map(lower, upper, between)
 }
 
 #[cfg(test)]

@@ -2,7 +2,7 @@
 
 use nalgebra::{SMatrix, SVector};
 
-use super::cholesky::Cholesky;
+use super::cholesky::{Cholesky, semidefinite};
 use super::{ControlError, Entry, finite, symmetrized};
 
 /// What is known of a state: a mean and a covariance.
@@ -21,7 +21,8 @@ pub struct Correction<T, const N: usize> {
     pub estimate: Estimate<T, N>,
     /// The squared innovation in units of its standard deviations, νᵀS⁻¹ν: of a consistent filter
     /// χ²-distributed with as many degrees of freedom as the measurement has components. A large
-    /// value tells of an outlier, or of a model that no longer holds, such as a wheel that slips.
+    /// value tells of an outlier, or of a model that no longer holds, such as a wheel that slips;
+    /// infinity is a large value.
     pub surprise: T,
 }
 
@@ -30,15 +31,33 @@ impl<T: Entry, const N: usize> Estimate<T, N> {
     ///
     /// `mean` is where the step takes the old mean, `transition` the derivative of the step by the
     /// state there, `noise` the covariance of what the model does not know of the step.
-    #[must_use]
+    ///
+    /// ```
+    /// use nalgebra::{Matrix2, matrix, vector};
+    /// use nh_runtime::control::Estimate;
+    ///
+    /// let prior = Estimate { mean: vector![1.0, 0.5], covariance: Matrix2::identity() };
+    /// let step = matrix![1.0, 0.1; 0.0, 1.0];
+    /// let next = prior.predicted(step * prior.mean, &step, &(Matrix2::identity() * 0.01)).unwrap();
+    /// assert!((next.covariance - matrix![1.02, 0.1; 0.1, 1.01]).norm() < 1e-15);
+    /// ```
+    ///
+    /// # Errors
+    /// [`ControlError::NotFinite`] for an argument or the result, [`ControlError::NotDefinite`] for a
+    /// covariance that is not positive semidefinite.
     pub fn predicted(
         &self,
         mean: SVector<T, N>,
         transition: &SMatrix<T, N, N>,
         noise: &SMatrix<T, N, N>,
-    ) -> Self {
+    ) -> Result<Self, ControlError> {
+        finite("mean", &mean)?;
+        finite("transition", transition)?;
+        semidefinite("covariance", &self.covariance)?;
+        semidefinite("noise", noise)?;
         let covariance = transition * self.covariance * transition.transpose() + noise;
-        Self { mean, covariance: symmetrized(&covariance) }
+        finite("the predicted covariance", &covariance)?;
+        Ok(Self { mean, covariance: symmetrized(&covariance) })
     }
 
     /// The estimate after a measurement of `P` quantities.
@@ -60,8 +79,8 @@ impl<T: Entry, const N: usize> Estimate<T, N> {
     /// ```
     ///
     /// # Errors
-    /// [`ControlError::NotFinite`] for the innovation, and [`ControlError::NotDefinite`] if the
-    /// covariance of the innovation is not positive definite.
+    /// [`ControlError::NotFinite`] for an argument or the result, [`ControlError::NotDefinite`] if a
+    /// covariance is not positive semidefinite, or that of the innovation not positive definite.
     pub fn corrected<const P: usize>(
         &self,
         innovation: &SVector<T, P>,
@@ -69,6 +88,10 @@ impl<T: Entry, const N: usize> Estimate<T, N> {
         noise: &SMatrix<T, P, P>,
     ) -> Result<Correction<T, N>, ControlError> {
         finite("innovation", innovation)?;
+        finite("mean", &self.mean)?;
+        finite("observation", observation)?;
+        semidefinite("covariance", &self.covariance)?;
+        semidefinite("noise", noise)?;
         let seen = observation * self.covariance;
         let spread = symmetrized(&(seen * observation.transpose() + noise));
         let factors = Cholesky::new("the covariance of the innovation", &spread)?;
@@ -77,6 +100,7 @@ impl<T: Entry, const N: usize> Estimate<T, N> {
         let covariance = left * self.covariance * left.transpose() + gain * noise * gain.transpose();
         let mean = self.mean + gain * innovation;
         finite("the corrected mean", &mean)?;
+        finite("the corrected covariance", &covariance)?;
         let surprise = factors.whitened(innovation).iter().fold(T::ZERO, |sum, x| sum + *x * *x);
         Ok(Correction { estimate: Self { mean, covariance: symmetrized(&covariance) }, surprise })
     }
@@ -119,7 +143,8 @@ mod tests {
         let mut estimate = Estimate { mean: vector![0.0_f32, 0.0], covariance: Matrix2::identity() * 1e4 };
         for _ in 0..100 {
             let step = matrix![1.0, 0.01; 0.0, 1.0];
-            estimate = estimate.predicted(step * estimate.mean, &step, &(Matrix2::identity() * 1e-9));
+            estimate =
+                estimate.predicted(step * estimate.mean, &step, &(Matrix2::identity() * 1e-9)).unwrap();
             let seen = estimate.corrected(&vector![1e-3], &matrix![1.0, 0.0], &matrix![1e-8]).unwrap();
             estimate = seen.estimate;
             assert!(estimate.covariance.determinant() >= 0.0 && estimate.covariance[(0, 0)] > 0.0);

@@ -11,8 +11,8 @@
 //! | [`Quadratic`], [`Squares`] | costs: diagonal weights; or any residuals, differentiated by jets |
 //! | [`shooting_gradient`] | the cost of a sequence of inputs with its exact gradient, for any optimiser |
 //!
-//! They take and return the matrices of `nalgebra`, as `jacobian` does, for `f32` and `f64`. Nothing
-//! allocates, nothing panics, every loop is bounded, and what cannot be computed is a
+//! They take and return the matrices of `nalgebra`, as `jacobian` does, for `f32`, `f64` and [`Fast`](crate::Fast) of
+//! them. Nothing allocates, nothing panics, every loop is bounded, and what cannot be computed is a
 //! [`ControlError`]. The factorizations are the crate's own: those of `nalgebra` ask for elementary
 //! functions that it does not have without an operating system.
 //!
@@ -64,7 +64,7 @@ pub use unscented::Unscented;
 
 use crate::Real;
 
-/// A number that matrices of `nalgebra` can be multiplied with: `f32`, `f64`.
+/// A number that matrices of `nalgebra` can be multiplied with: `f32`, `f64`, [`Fast`](crate::Fast) of them.
 ///
 /// Implemented for every [`Real`] that has the traits of `nalgebra`'s arithmetic.
 pub trait Entry: Real + ClosedAddAssign + ClosedSubAssign + ClosedMulAssign + Zero + One {}
@@ -80,7 +80,9 @@ pub(crate) fn norm<T: Entry, const N: usize, const M: usize>(a: &SMatrix<T, N, M
 
 /// The mean of a matrix and its transpose: what round-off leaves of a symmetric matrix.
 pub(crate) fn symmetrized<T: Entry, const N: usize>(a: &SMatrix<T, N, N>) -> SMatrix<T, N, N> {
-    (a + a.transpose()) * T::from_f64(0.5)
+    // halved first: a sum of two large numbers overflows
+    let half = a * T::from_f64(0.5);
+    half + half.transpose()
 }
 
 /// Refuses a matrix with an entry that is infinite or not a number.

@@ -2,7 +2,7 @@
 
 use nalgebra::{SMatrix, SVector};
 
-use super::cholesky::Cholesky;
+use super::cholesky::{Cholesky, semidefinite};
 use super::{ControlError, Entry, finite, norm, symmetrized};
 use crate::D;
 use crate::linear::Factors;
@@ -41,7 +41,7 @@ impl<T: Entry, const N: usize, const M: usize> Regulator<T, N, M> {
     /// ```
     ///
     /// # Errors
-    /// [`ControlError::NotFinite`], [`ControlError::NotDefinite`] for `r`, and
+    /// [`ControlError::NotFinite`], [`ControlError::NotDefinite`] for `q` and `r`, and
     /// [`ControlError::NotStabilizable`] or [`ControlError::Residual`] if there is no such regulator
     /// to the precision of the scalar.
     pub fn stationary(
@@ -54,6 +54,7 @@ impl<T: Entry, const N: usize, const M: usize> Regulator<T, N, M> {
         finite("b", b)?;
         finite("q", q)?;
         finite("r", r)?;
+        semidefinite("q", q)?;
         let one = SMatrix::<T, N, N>::identity();
         let mut transition = *a;
         let mut reach = symmetrized(&(b * Cholesky::new("r", r)?.solve(&b.transpose())));
@@ -74,6 +75,10 @@ impl<T: Entry, const N: usize, const M: usize> Regulator<T, N, M> {
                 return Self::checked(a, b, q, r, &cost);
             }
             change = added / size;
+        }
+        if iterations == 1 {
+            // beyond the range of the scalar at once, rather than by growing
+            finite("the cost of the regulator", &cost)?;
         }
         Err(ControlError::NotStabilizable { iterations, change: change.to_f64() })
     }
@@ -108,15 +113,19 @@ impl<T: Entry, const N: usize, const M: usize> Regulator<T, N, M> {
         finite("a", a)?;
         finite("b", b)?;
         finite("q", q)?;
+        finite("r", r)?;
         let weighed = b.transpose() * next;
         let gain = Cholesky::new("r", &symmetrized(&(r + weighed * b)))?.solve(&(weighed * a));
         // Joseph's form: a sum of terms that cannot be negative
         let closed = a - b * gain;
         let cost = q + gain.transpose() * r * gain + closed.transpose() * next * closed;
+        finite("the gain of the regulator", &gain)?;
+        finite("the cost of the regulator", &cost)?;
         Ok(Self { gain, cost: symmetrized(&cost) })
     }
 
-    /// The input for a deviation e of the state from where it should be: −K e.
+    /// The input for a deviation e of the state from where it should be: −K e, without looking at it: a
+    /// deviation with NaN gives NaN. An [`Estimate`](super::Estimate) from the filters of this module has none.
     #[inline]
     #[must_use]
     pub fn input(&self, deviation: &SVector<T, N>) -> SVector<T, M> {

@@ -2,9 +2,10 @@
 
 use nalgebra::SVector;
 
-use super::{ControlError, Cost, Entry, Model};
+use super::{ControlError, Cost, Entry, Model, finite};
 
-/// The cost of a sequence of inputs from a state, without its gradient.
+/// The cost of a sequence of inputs from a state, without its gradient. Inputs that lead out of the numbers
+/// cost infinity or NaN, which a line search steps back from.
 pub fn shooting_cost<T: Entry, const N: usize, const M: usize>(
     model: &impl Model<T, N, M>,
     cost: &impl Cost<T, N, M>,
@@ -29,7 +30,8 @@ pub fn shooting_cost<T: Entry, const N: usize, const M: usize>(
 /// `CostFunction` and `Gradient`, each a line that calls this module; the example `parking` shows it.
 ///
 /// # Errors
-/// [`ControlError::Length`] if the three slices differ in length.
+/// [`ControlError::Length`] if the three slices differ in length, [`ControlError::NotFinite`] if the cost or
+/// its gradient is not finite; `states` and `gradient` then hold what was computed.
 pub fn shooting_gradient<T: Entry, const N: usize, const M: usize>(
     model: &impl Model<T, N, M>,
     cost: &impl Cost<T, N, M>,
@@ -52,6 +54,9 @@ pub fn shooting_gradient<T: Entry, const N: usize, const M: usize>(
         x = model.step(tick, &x, u);
     }
     let total = sum + cost.end(&x);
+    if !total.is_finite() {
+        return Err(ControlError::NotFinite { argument: "cost", value: total.to_f64() });
+    }
     // the derivative of the cost to go by the state
     let mut adjoint = cost.end_expansion(&x).x;
     let sweep = inputs.iter().enumerate().zip(states.iter()).zip(gradient.iter_mut());
@@ -59,6 +64,7 @@ pub fn shooting_gradient<T: Entry, const N: usize, const M: usize>(
         let (a, b) = model.linearized(tick, x, u);
         let stage = cost.stage_expansion(tick, x, u);
         *slot = stage.u + b.transpose() * adjoint;
+        finite("gradient", slot)?;
         adjoint = stage.x + a.transpose() * adjoint;
     }
     Ok(total)

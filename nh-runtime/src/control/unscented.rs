@@ -2,7 +2,7 @@
 
 use nalgebra::{SMatrix, SVector};
 
-use super::cholesky::Cholesky;
+use super::cholesky::{Cholesky, semidefinite};
 use super::{ControlError, Correction, Entry, Estimate, finite, symmetrized};
 
 /// The scaled unscented transformation (Julier, Proc. American Control Conference 2002, 4555–4559; van
@@ -51,20 +51,25 @@ impl<T: Entry> Unscented<T> {
     /// ```
     ///
     /// # Errors
-    /// [`ControlError::NotDefinite`] if the covariance is not positive definite,
-    /// [`ControlError::NotFinite`] if a point is carried out of the numbers.
+    /// [`ControlError::NotDefinite`] if the covariance is not positive definite, or `noise` not positive
+    /// semidefinite; [`ControlError::NotFinite`] for an argument, the result, or a point that is carried
+    /// out of the numbers; [`ControlError::Setting`] if α²(n + κ) is not a positive number, or β no number.
     pub fn predicted<const N: usize>(
         &self,
         prior: &Estimate<T, N>,
         mut step: impl FnMut(SVector<T, N>) -> SVector<T, N>,
         noise: &SMatrix<T, N, N>,
     ) -> Result<Estimate<T, N>, ControlError> {
+        semidefinite("noise", noise)?;
         let points = self.points(prior)?;
         let centre = step(points.centre);
         let (plus, minus) = (points.plus.map(&mut step), points.minus.map(&mut step));
         // states do not wrap: differences are plain ones
         let carried = Carried::new(&points, centre, &plus, &minus, |a, b| a - b)?;
-        Ok(Estimate { mean: centre + carried.mean, covariance: symmetrized(&(carried.covariance + noise)) })
+        let (mean, covariance) = (centre + carried.mean, carried.covariance + noise);
+        finite("the predicted mean", &mean)?;
+        finite("the predicted covariance", &covariance)?;
+        Ok(Estimate { mean, covariance: symmetrized(&covariance) })
     }
 
     /// The estimate after a measurement of `P` quantities.
@@ -73,8 +78,8 @@ impl<T: Entry> Unscented<T> {
     /// short way round; `noise` is the covariance of the measurement.
     ///
     /// # Errors
-    /// [`ControlError::NotDefinite`] if a covariance is not positive definite,
-    /// [`ControlError::NotFinite`] if something that was measured or observed is not finite.
+    /// As [`predicted`](Self::predicted), and [`ControlError::NotDefinite`] if the covariance of the
+    /// innovation is not positive definite.
     pub fn corrected<const N: usize, const P: usize>(
         &self,
         prior: &Estimate<T, N>,
@@ -84,6 +89,7 @@ impl<T: Entry> Unscented<T> {
         noise: &SMatrix<T, P, P>,
     ) -> Result<Correction<T, N>, ControlError> {
         finite("measured", measured)?;
+        semidefinite("noise", noise)?;
         let points = self.points(prior)?;
         let centre = observe(points.centre);
         let (plus, minus) = (points.plus.map(&mut observe), points.minus.map(&mut observe));
@@ -94,20 +100,28 @@ impl<T: Entry> Unscented<T> {
         let innovation = difference(*measured, centre) - carried.mean;
         finite("innovation", &innovation)?;
         let covariance = prior.covariance - gain * spread * gain.transpose();
-        let estimate =
-            Estimate { mean: prior.mean + gain * innovation, covariance: symmetrized(&covariance) };
+        let mean = prior.mean + gain * innovation;
+        finite("the corrected mean", &mean)?;
+        finite("the corrected covariance", &covariance)?;
+        let estimate = Estimate { mean, covariance: symmetrized(&covariance) };
         let surprise = factors.whitened(&innovation).iter().fold(T::ZERO, |sum, x| sum + *x * *x);
         Ok(Correction { estimate, surprise })
     }
 
     fn points<const N: usize>(&self, prior: &Estimate<T, N>) -> Result<Points<T, N>, ControlError> {
         finite("mean", &prior.mean)?;
-        let factors = Cholesky::new("the covariance of the estimate", &prior.covariance)?;
+        finite("covariance", &prior.covariance)?;
+        let factors = Cholesky::new("covariance", &prior.covariance)?;
         let count = T::from_u32(u32::try_from(N).unwrap_or(u32::MAX));
         // c² = n + λ = α²(n + κ)
         let squared = self.spread * self.spread * (count + self.shift);
         if !(squared > T::ZERO && squared.is_finite()) {
-            return Err(ControlError::NotFinite { argument: "spread", value: squared.to_f64() });
+            let expected = "such that spread² (N + shift) is positive and finite";
+            return Err(ControlError::Setting { setting: "spread", value: self.spread.to_f64(), expected });
+        }
+        if !self.kurtosis.is_finite() {
+            let (setting, value) = ("kurtosis", self.kurtosis.to_f64());
+            return Err(ControlError::Setting { setting, value, expected: "finite" });
         }
         let distance = squared.sqrt();
         let column = |i: usize| factors.lower().column(i) * distance;
@@ -197,9 +211,6 @@ mod tests {
     fn what_is_singular_is_refused() {
         let prior = Estimate { mean: vector![0.0, 0.0], covariance: Matrix2::zeros() };
         let refused = Unscented::default().predicted(&prior, |x| x, &Matrix2::identity());
-        assert_eq!(
-            refused,
-            Err(ControlError::NotDefinite { matrix: "the covariance of the estimate", pivot: 0.0 })
-        );
+        assert_eq!(refused, Err(ControlError::NotDefinite { matrix: "covariance", pivot: 0.0 }));
     }
 }

@@ -1,11 +1,12 @@
 //! The Legendre transformation of a constrained system, and Hamilton's equations on D*.
 
-use super::bracket::{antisymmetric, momenta_on};
-use crate::algebra::{Graph, Matrix, Substitution, Verdict};
+use super::bracket::{antisymmetric, gradients, momenta_on};
+use super::drift::normal_velocity;
+use crate::algebra::{Derivation, Graph, Matrix, Substitution, Verdict};
 use crate::geometry::ConstraintDistribution;
 use crate::id::{ExprId, SymbolId};
 use crate::mechanics::{
-    Definiteness, LagrangianSystem, Procedure, ReducedEquations, complete_lift, energy, jacobian,
+    Definiteness, Definition, LagrangianSystem, Procedure, ReducedEquations, complete_lift, energy,
     solve_symmetric,
 };
 
@@ -24,7 +25,7 @@ pub struct HamiltonianSide {
     pub equations: Procedure,
     /// Outputs: the matrix of {·, ·}_nh in (x, π), row by row: mathematics (15), (17).
     pub bracket: Procedure,
-    /// Outputs: R_L of mathematics (17), what the equations add to the bracket with h.
+    /// Outputs: R_L of mathematics (17) and (25), what the equations add to the bracket with h.
     pub drift: Procedure,
 }
 
@@ -49,6 +50,8 @@ struct Inversion<'a> {
     at_rest: Vec<ExprId>,
     /// The momenta.
     symbols: Vec<SymbolId>,
+    /// Calls of the user's methods, in the variables of the state.
+    calls: &'a [Definition],
 }
 
 impl Inversion<'_> {
@@ -75,12 +78,19 @@ impl Inversion<'_> {
         let velocities = self.velocities(graph, &mut procedure);
         let images = self.distribution.independent.iter().copied().zip(velocities);
         let mut put = Substitution::new(images);
+        for definition in self.calls {
+            if let Definition::Call { symbol, method, arguments, derivatives } = definition {
+                let arguments = arguments.iter().map(|argument| put.apply(graph, *argument)).collect();
+                let (symbol, method, derivatives) = (*symbol, method.clone(), derivatives.clone());
+                procedure.definitions.push(Definition::Call { symbol, method, arguments, derivatives });
+            }
+        }
         procedure.outputs = functions.iter().map(|f| put.apply(graph, *f)).collect();
         procedure
     }
 }
 
-/// Derives the Hamiltonian side in a basis of D.
+/// Derives the Hamiltonian side in a basis of D; `calls` are those of the user's methods.
 ///
 /// # Errors
 /// Where the momenta are not affine in the velocities, so that the inverse has no closed form.
@@ -90,6 +100,7 @@ pub fn hamiltonian_side(
     distribution: &ConstraintDistribution,
     equations: &ReducedEquations,
     definiteness: Definiteness,
+    calls: &[Definition],
 ) -> Result<HamiltonianSide, NoInverse> {
     // 1. π_a = B^α_a p_α, affine in v
     let momenta = momenta_on(graph, system, distribution);
@@ -114,7 +125,8 @@ pub fn hamiltonian_side(
         distribution.independent.iter().map(|v| format!("p_{}", graph.symbols()[*v])).collect();
     let symbols: Vec<SymbolId> = names.into_iter().map(|name| graph.new_symbol(name)).collect();
     let at_rest = projected.iter().map(|p| graph.at_zero(*p, &distribution.independent)).collect();
-    let inversion = Inversion { system, distribution, equations, definiteness, projected, at_rest, symbols };
+    let inversion =
+        Inversion { system, distribution, equations, definiteness, projected, at_rest, symbols, calls };
     // 2. h, Hamilton's equations, the bracket
     let hamiltonian = hamiltonian(graph, &inversion);
     let rates = momentum_rates(graph, &inversion);
@@ -123,10 +135,8 @@ pub fn hamiltonian_side(
     let velocities: Vec<ExprId> = distribution.independent.iter().map(|v| graph.symbol(*v)).collect();
     let equations = inversion.transformed(graph, &equations_of_motion);
     let bracket = inversion.transformed(graph, &matrix.concat());
-    let phase: Vec<SymbolId> =
-        system.algebroid.anchor.coordinates.iter().chain(&inversion.symbols).copied().collect();
     Ok(HamiltonianSide {
-        drift: drift(graph, &hamiltonian, &equations, &bracket, &phase),
+        drift: drift(graph, &inversion, &momenta),
         inverse: inversion.transformed(graph, &velocities),
         hamiltonian,
         equations,
@@ -136,34 +146,57 @@ pub fn hamiltonian_side(
     })
 }
 
-/// R_L = Γ − {·, h}: zero where the constraints are homogeneous and nothing depends on the time or is
-/// forced.
-fn drift(
-    graph: &mut Graph,
-    hamiltonian: &Procedure,
-    equations: &Procedure,
-    bracket: &Procedure,
-    phase: &[SymbolId],
-) -> Procedure {
-    // a Legendre transformation has no calls of methods, so that h can be differentiated
-    let Ok(mut procedure) = jacobian(graph, hamiltonian, phase) else { return Procedure::default() };
-    let slopes = std::mem::take(&mut procedure.outputs);
-    procedure.definitions.extend(equations.definitions.iter().chain(&bracket.definitions).cloned());
-    for (rate, row) in equations.outputs.iter().zip(bracket.outputs.chunks(phase.len().max(1))) {
-        let along = graph.inner_product(row, &slopes);
-        let rest = graph.sub(*rate, along);
-        procedure.outputs.push(rest);
-    }
-    if procedure.calls() {
-        return procedure;
-    }
-    // most of it cancels
-    let written_out = procedure.written_out(graph);
-    let short: Vec<ExprId> = written_out
-        .into_iter()
-        .map(|rest| if graph.zero_test(rest).is_zero() { graph.zero() } else { graph.simplify(rest) })
+/// R_L(x^i) = ρ^i(z), R_L(π_a) = z·ρ_a(p̂) + p_γ [z, B_a]^γ + Υ(B_a) + p·∂_tB_a, mathematics (25), with
+/// z of constant components: zero where the constraints are homogeneous and nothing depends on the
+/// time or is forced.
+fn drift(graph: &mut Graph, inversion: &Inversion<'_>, momenta: &[ExprId]) -> Procedure {
+    let Inversion { system, distribution, equations, definiteness, .. } = inversion;
+    let algebroid = &system.algebroid;
+    // 1. z is a function of (t, x) alone
+    let mut before = Procedure::default();
+    let normal = normal_velocity(graph, system, distribution, &equations.mass, *definiteness, &mut before);
+    let rates = algebroid.rates(graph, &normal);
+    // 2. R_L(π_a)
+    let slopes = gradients(graph, momenta, &algebroid.anchor.coordinates);
+    let carried: Vec<ExprId> = (0..rates.len())
+        .map(|i| {
+            let column: Vec<ExprId> = slopes.iter().map(|row| row[i]).collect();
+            graph.inner_product(&column, &normal)
+        })
         .collect();
-    Procedure::of(short)
+    let coordinates = algebroid.anchor.coordinates.iter().copied();
+    let mut along = Derivation::new(coordinates.zip(rates.iter().copied()));
+    let mut outputs = rates;
+    for a in 0..distribution.rank() {
+        let section = distribution.section(a);
+        let field = algebroid.anchor.vector_field(graph, &section);
+        let turned = algebroid.structure.contract(graph, &normal, &section);
+        let mut terms = vec![graph.inner_product(&field, &carried), force_along(graph, inversion, a)];
+        for ((entry, turned), momentum) in section.iter().zip(turned).zip(momenta) {
+            let moved = along.apply(graph, *entry);
+            let change = graph.partial(*entry, system.time);
+            let sum = graph.sum(&[moved, turned, change]);
+            terms.push(graph.mul(sum, *momentum));
+        }
+        outputs.push(graph.sum(&terms));
+    }
+    let mut procedure = inversion.transformed(graph, &outputs);
+    procedure.definitions = before.definitions.into_iter().chain(procedure.definitions).collect();
+    procedure
+}
+
+/// Υ(B_a) on the constraint manifold.
+fn force_along(graph: &mut Graph, inversion: &Inversion<'_>, a: usize) -> ExprId {
+    let Inversion { system, distribution, .. } = inversion;
+    let mut restriction = distribution.restriction(graph, &system.algebroid.velocities);
+    let forces: Vec<ExprId> = system.forces.iter().map(|f| restriction.apply(graph, *f)).collect();
+    let mut terms = vec![graph.inner_product(&distribution.section(a), &forces)];
+    for (along, value) in &system.forces_on_distribution {
+        if *along == distribution.independent[a] {
+            terms.push(restriction.apply(graph, *value));
+        }
+    }
+    graph.sum(&terms)
 }
 
 fn is_constant_in(graph: &mut Graph, row: &[ExprId], velocities: &[SymbolId]) -> bool {
@@ -206,20 +239,14 @@ fn hamiltonian(graph: &mut Graph, inversion: &Inversion<'_>) -> Procedure {
 fn momentum_rates(graph: &mut Graph, inversion: &Inversion<'_>) -> Vec<ExprId> {
     let Inversion { system, distribution, .. } = inversion;
     let mut restriction = distribution.restriction(graph, &system.algebroid.velocities);
-    let forces: Vec<ExprId> = system.forces.iter().map(|f| restriction.apply(graph, *f)).collect();
     (0..distribution.rank())
         .map(|a| {
             let section = distribution.section(a);
             let mut lift = complete_lift(graph, &system.algebroid, &section, system.time);
             let lifted = lift.apply(graph, system.lagrangian);
             let lifted = restriction.apply(graph, lifted);
-            let mut terms = vec![lifted, graph.inner_product(&section, &forces)];
-            for (along, value) in &system.forces_on_distribution {
-                if *along == distribution.independent[a] {
-                    terms.push(restriction.apply(graph, *value));
-                }
-            }
-            let sum = graph.sum(&terms);
+            let force = force_along(graph, inversion, a);
+            let sum = graph.add(lifted, force);
             graph.simplify(sum)
         })
         .collect()

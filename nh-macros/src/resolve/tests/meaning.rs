@@ -140,7 +140,11 @@ fn shapes_are_checked() {
             "x + q",
             "only what has the same shape can be added\nthis is a vector of 3 entries, what stands before it is a number",
         ),
-        ("q * I", "the product of two vectors\nhelp: write `dot(u, v)` or `cross(u, v)`"),
+        (
+            "q * I",
+            "the product of two vectors\nhelp: write `dot(u, v)` or `cross(u, v)`; a diagonal inertia is \
+             `sum(i in 0..3: I[i] * w[i]^2)`",
+        ),
         ("q^2", "a power of a vector of 3 entries\nhelp: for the square of a length write `dot(v, v)`"),
         ("x / q", "a division by a vector of 3 entries\nhelp: divide by numbers only"),
         (

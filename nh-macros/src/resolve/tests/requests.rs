@@ -19,7 +19,8 @@ fn assert_errors(cases: &[(&str, &str)]) {
 
 #[test]
 fn requests() {
-    let model = model("base { x } lagrangian { 1 } emit { reactions, multipliers }", STRUCT);
+    let constrained = "base { x } lagrangian { 1 } constraints { der(x) = 0; }";
+    let model = model(&format!("{constrained} emit {{ reactions, multipliers }}"), STRUCT);
     let asked: Vec<_> = model.requests.iter().map(|(request, _)| *request).collect();
     assert_eq!(asked, [Request::Reactions, Request::Multipliers]);
     let all = REQUESTS.map(|(known, _)| format!("`{known}`")).join(", ");
@@ -31,7 +32,11 @@ fn requests() {
             "base { x } lagrangian { 1 } emit { everything }",
             &format!("`everything` cannot be emitted\nhelp: {known}"),
         ),
-        ("base { x } lagrangian { 1 } emit { reactions, reactions }", "`reactions` is asked for twice"),
+        (&format!("{constrained} emit {{ reactions, reactions }}"), "`reactions` is asked for twice"),
+        (
+            "base { x } lagrangian { 1 } emit { reactions }",
+            "there are no reactions without constraints\nhelp: state them in `constraints { … }`, or leave this out",
+        ),
     ]);
 }
 

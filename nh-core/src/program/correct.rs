@@ -1,0 +1,211 @@
+//! Rounding errors corrected to first order.
+//!
+//! Every value v goes with an estimate e of what is missing: the rounding error of the operation, which
+//! for sums, products, quotients is itself a number that can be computed, and the errors of the operands
+//! times its derivatives. Outputs are v + e (P. Langlois, *Automatic linear correction of rounding
+//! errors*, BIT 41 (2001)):
+//!
+//! | operation | rounding error | |
+//! |---|---|---|
+//! | `s = a + b` | `(a − (s − z)) + (b − z)`, `z = s − a` | Knuth, *The Art of Computer Programming* 2, 4.2.2 |
+//! | `p = a b` | `a b − p` | by a fused multiply-add |
+//! | `q = a / b` | `(a − q b) / b` | by a fused multiply-add |
+//!
+//! Where the target has no fused multiply-add, the errors of products come out as zero: nothing is lost,
+//! and less is gained. Sines and cosines keep the error of their function, and pass on that of the angle.
+//! Other functions, methods of the user's and pivoted solutions take corrected operands.
+
+use super::fuse::fuse;
+use super::lower::{rename, without_dead_steps};
+use super::signs::absorb_signs;
+use super::step::{Program, Step, Value};
+use crate::algebra::{Function, Rational};
+use crate::id::{Id, Table};
+
+/// The same program with the rounding errors of its outputs corrected.
+#[must_use]
+pub fn corrected(program: &Program) -> Program {
+    let mut corrector = Corrector { steps: Table::new(), images: Vec::new() };
+    for step in &program.steps {
+        let image = corrector.step(step);
+        corrector.images.push(image);
+    }
+    let outputs = program.outputs.iter().map(|output| corrector.whole(*output)).collect();
+    let names = program.names.iter().map(|(value, symbol)| (corrector.of(*value).value, *symbol)).collect();
+    let program = Program { steps: corrector.steps, outputs, names };
+    without_dead_steps(&absorb_signs(fuse(without_dead_steps(&program))))
+}
+
+/// A value and what is missing, if it is not zero.
+#[derive(Clone, Copy, Debug)]
+struct Estimate {
+    value: Value,
+    error: Option<Value>,
+}
+
+struct Corrector {
+    steps: Table<Value, Step>,
+    /// Of each step of the program.
+    images: Vec<Estimate>,
+}
+
+impl Corrector {
+    fn push(&mut self, step: Step) -> Value {
+        self.steps.push(step)
+    }
+
+    fn of(&self, value: Value) -> Estimate {
+        self.images[value.index()]
+    }
+
+    /// The corrected value.
+    fn whole(&mut self, value: Value) -> Value {
+        let Estimate { value, error } = self.of(value);
+        error.map_or(value, |error| self.push(Step::Add(value, error)))
+    }
+
+    fn step(&mut self, step: &Step) -> Estimate {
+        match *step {
+            Step::Add(a, b) => self.sum(self.of(a), self.of(b)),
+            Step::Sub(a, b) => self.difference(self.of(a), self.of(b)),
+            Step::Mul(a, b) => self.product(self.of(a), self.of(b)),
+            Step::MulAdd { a, b, c, minus_product, minus_c } => {
+                let (product, c) = (self.product(self.of(a), self.of(b)), self.of(c));
+                match (minus_product, minus_c) {
+                    (false, false) => self.sum(product, c),
+                    (false, true) => self.difference(product, c),
+                    (true, false) => self.difference(c, product),
+                    (true, true) => {
+                        let sum = self.sum(product, c);
+                        self.negative(sum)
+                    }
+                }
+            }
+            Step::Div(a, b) => self.quotient(self.of(a), self.of(b)),
+            Step::Recip(b) => {
+                let one = self.push(Step::Constant(Rational::ONE));
+                self.quotient(Estimate { value: one, error: None }, self.of(b))
+            }
+            Step::Neg(a) => self.negative(self.of(a)),
+            // its operand is the angle still
+            Step::SinCos(angle) => {
+                let Estimate { value, error } = self.of(angle);
+                Estimate { value: self.push(Step::SinCos(value)), error }
+            }
+            Step::SinOf(pair) => self.turned(self.of(pair), Function::Sin),
+            Step::CosOf(pair) => self.turned(self.of(pair), Function::Cos),
+            Step::Apply(function @ (Function::Sin | Function::Cos), angle) => {
+                let Estimate { value, error } = self.of(angle);
+                if error.is_none() {
+                    return self.exact(Step::Apply(function, value));
+                }
+                let pair = self.push(Step::SinCos(value));
+                self.turned(Estimate { value: pair, error }, function)
+            }
+            _ => {
+                let mut wholes: Vec<(Value, Value)> = Vec::new();
+                for operand in step.operands() {
+                    // the components of a solution are taken out of it as it is
+                    let whole = match step {
+                        Step::Component(..) => self.of(operand).value,
+                        _ => self.whole(operand),
+                    };
+                    wholes.push((operand, whole));
+                }
+                let image = |old: Value| wholes.iter().find(|(o, _)| *o == old).map_or(old, |(_, new)| *new);
+                self.exact(rename(step, &image))
+            }
+        }
+    }
+
+    fn exact(&mut self, step: Step) -> Estimate {
+        Estimate { value: self.push(step), error: None }
+    }
+
+    fn negative(&mut self, a: Estimate) -> Estimate {
+        let error = a.error.map(|error| self.push(Step::Neg(error)));
+        Estimate { value: self.push(Step::Neg(a.value)), error }
+    }
+
+    fn sum(&mut self, a: Estimate, b: Estimate) -> Estimate {
+        let sum = self.push(Step::Add(a.value, b.value));
+        let rest = self.push(Step::Sub(sum, a.value));
+        let first = self.push(Step::Sub(sum, rest));
+        let first = self.push(Step::Sub(a.value, first));
+        let second = self.push(Step::Sub(b.value, rest));
+        let mut error = self.push(Step::Add(first, second));
+        for inherited in [a.error, b.error].into_iter().flatten() {
+            error = self.push(Step::Add(error, inherited));
+        }
+        Estimate { value: sum, error: Some(error) }
+    }
+
+    fn difference(&mut self, a: Estimate, b: Estimate) -> Estimate {
+        let difference = self.push(Step::Sub(a.value, b.value));
+        let rest = self.push(Step::Sub(difference, a.value));
+        let first = self.push(Step::Sub(difference, rest));
+        let first = self.push(Step::Sub(a.value, first));
+        let second = self.push(Step::Add(b.value, rest));
+        let mut error = self.push(Step::Sub(first, second));
+        if let Some(inherited) = a.error {
+            error = self.push(Step::Add(error, inherited));
+        }
+        if let Some(inherited) = b.error {
+            error = self.push(Step::Sub(error, inherited));
+        }
+        Estimate { value: difference, error: Some(error) }
+    }
+
+    fn product(&mut self, a: Estimate, b: Estimate) -> Estimate {
+        let value = self.push(Step::Mul(a.value, b.value));
+        let mut error = if self.is_power_of_two(a.value) || self.is_power_of_two(b.value) {
+            None
+        } else {
+            Some(self.multiply_add(a.value, b.value, value, false, true))
+        };
+        for (inherited, factor) in [(a.error, b.value), (b.error, a.value)] {
+            let Some(inherited) = inherited else { continue };
+            error = Some(match error {
+                Some(error) => self.multiply_add(inherited, factor, error, false, false),
+                None => self.push(Step::Mul(inherited, factor)),
+            });
+        }
+        Estimate { value, error }
+    }
+
+    fn quotient(&mut self, a: Estimate, b: Estimate) -> Estimate {
+        let value = self.push(Step::Div(a.value, b.value));
+        let mut rest = self.multiply_add(value, b.value, a.value, true, false);
+        if let Some(inherited) = a.error {
+            rest = self.push(Step::Add(rest, inherited));
+        }
+        if let Some(inherited) = b.error {
+            rest = self.multiply_add(value, inherited, rest, true, false);
+        }
+        Estimate { value, error: Some(self.push(Step::Div(rest, b.value))) }
+    }
+
+    /// The sine or cosine out of a pair, whose error is that of the angle.
+    fn turned(&mut self, pair: Estimate, function: Function) -> Estimate {
+        let (sin, cos) = (Step::SinOf(pair.value), Step::CosOf(pair.value));
+        let (this, slope) = if function == Function::Sin { (sin, cos) } else { (cos, sin) };
+        let value = self.push(this);
+        let error = pair.error.map(|error| {
+            let slope = self.push(slope);
+            let error = self.push(Step::Mul(slope, error));
+            if function == Function::Sin { error } else { self.push(Step::Neg(error)) }
+        });
+        Estimate { value, error }
+    }
+
+    fn multiply_add(&mut self, a: Value, b: Value, c: Value, minus_product: bool, minus_c: bool) -> Value {
+        self.push(Step::MulAdd { a, b, c, minus_product, minus_c })
+    }
+
+    /// Whether products with a value are exact.
+    fn is_power_of_two(&self, value: Value) -> bool {
+        let Step::Constant(number) = &self.steps[value] else { return false };
+        let power = |n: i64| n.unsigned_abs().is_power_of_two();
+        number.to_small().is_some_and(|(p, q)| power(p) && power(q))
+    }
+}

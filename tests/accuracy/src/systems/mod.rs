@@ -1,0 +1,116 @@
+//! The reference systems, each declared once for all levels.
+#![allow(non_snake_case, reason = "parameters are written as in mechanics: J, I, R, Omega")]
+
+use std::marker::PhantomData;
+
+use crate::measured::Study;
+
+/// Declares a system at every level and implements [`Measured`](crate::measured::Measured): numbers of the
+/// table, and the struct from a list of parameters.
+macro_rules! measured {
+    (
+        $module:ident, $name:literal, $numbers:expr,
+        $(#[doc = $doc:literal])*
+        struct $System:ident, $State:ident $(, $Input:ident of $inputs:literal)? { $($field:ident: $kind:ty),* $(,)? }
+        from |$p:ident| $make:tt,
+        states $states:literal,
+        $declaration:tt
+    ) => {
+        $(#[doc = $doc])*
+        pub mod $module {
+            measured!(@level fast, $System, $State, [$($Input, $inputs)?], [$($field: $kind),*], $p, $make, $states, $declaration);
+            measured!(@level balanced, $System, $State, [$($Input, $inputs)?], [$($field: $kind),*], $p, $make, $states, $declaration);
+            measured!(@level careful, $System, $State, [$($Input, $inputs)?], [$($field: $kind),*], $p, $make, $states, $declaration);
+
+            /// The system at every level.
+            #[derive(Clone, Copy, Debug)]
+            pub struct Levels;
+        }
+
+        impl $crate::measured::Measured for $module::Levels {
+            const NAME: &'static str = $name;
+            const NUMBERS: $crate::random::Numbers = $numbers;
+            type Fast = $module::fast::Emitted;
+            type Balanced = $module::balanced::Emitted;
+            type Careful = $module::careful::Emitted;
+        }
+    };
+    (
+        @level $level:ident, $System:ident, $State:ident, [$($Input:ident, $inputs:literal)?],
+        [$($field:ident: $kind:ty),*], $p:ident, $make:tt, $states:literal, { $($declaration:tt)* }
+    ) => {
+        /// Emitted at this level.
+        pub mod $level {
+            use nh_runtime::prelude::*;
+
+            /// The parameters.
+            #[nonholonomic($($declaration)* accuracy { $level })]
+            #[derive(Clone, Copy, Debug)]
+            pub struct $System<T> { $($field: $kind),* }
+
+            /// The system at this level.
+            #[derive(Clone, Copy, Debug)]
+            pub struct Emitted;
+
+            fn system<T: nh_runtime::Scalar>($p: &[T]) -> $System<T> {
+                $System $make
+            }
+
+            fn state<T: nh_runtime::Scalar>(list: &[T]) -> $State<T> {
+                let components: [T; $states] = core::array::from_fn(|i| list[i]);
+                components.into()
+            }
+
+            type Input<T> = <$System<T> as Dynamics>::Input;
+
+            fn input<T: nh_runtime::Scalar>(list: &[T]) -> Input<T> {
+                measured!(@input list $($Input, $inputs)?)
+            }
+
+            #[inline(never)]
+            fn counted(system: &$System<f64>, state: &$State<f64>, input: &Input<f64>) -> $State<f64> {
+                system.derivative(0.0, state, input)
+            }
+
+            impl $crate::measured::Level for Emitted {
+                fn derivative<T: nh_runtime::Scalar>(parameters: &[T], at: &[T], inputs: &[T]) -> Vec<T> {
+                    let rate = system(parameters).derivative(T::ZERO, &state(at), &input(inputs));
+                    let rate: [T; $states] = rate.into();
+                    rate.to_vec()
+                }
+                fn evaluated(place: &$crate::random::Place) {
+                    let (system, state) = (system(&place.parameters), state(&place.state));
+                    std::hint::black_box(counted(&system, &state, &input(&place.input)));
+                }
+                fn symbol() -> &'static str {
+                    concat!(module_path!(), "::counted")
+                }
+            }
+        }
+    };
+    (@input $list:ident) => { { let _ = $list; } };
+    (@input $list:ident $Input:ident, $inputs:literal) => {
+        { let inputs: [T; $inputs] = core::array::from_fn(|i| $list[i]); $Input::from(inputs) }
+    };
+}
+
+pub mod bodies;
+pub mod tractors;
+
+/// Every system of the table.
+#[must_use]
+pub fn all() -> Vec<Box<dyn Study>> {
+    vec![
+        Box::new(PhantomData::<bodies::sleigh::Levels>),
+        Box::new(PhantomData::<bodies::veselova::Levels>),
+        Box::new(PhantomData::<bodies::snakeboard::Levels>),
+        Box::new(PhantomData::<bodies::robot::Levels>),
+        Box::new(PhantomData::<bodies::ball::Levels>),
+        Box::new(PhantomData::<tractors::one::Levels>),
+        Box::new(PhantomData::<tractors::two::Levels>),
+        Box::new(PhantomData::<tractors::three::Levels>),
+        Box::new(PhantomData::<tractors::four::Levels>),
+        Box::new(PhantomData::<tractors::five::Levels>),
+        Box::new(PhantomData::<tractors::six::Levels>),
+    ]
+}
