@@ -107,7 +107,9 @@ pub mod shadowed {
     }
     impl Loud for f64 {}
 
-    pub use declared::{Ferry, FerryState, Sleigh, SleighInput, SleighState, SleighVelocity};
+    pub use declared::{
+        Body, BodyState, Drop, DropState, Ferry, FerryState, Sleigh, SleighInput, SleighState, SleighVelocity,
+    };
 
     #[deny(warnings, missing_docs, clippy::pedantic)]
     mod declared {
@@ -127,7 +129,11 @@ pub mod shadowed {
             constraints { v2 = 0; }
             forces      { omega: torque - r#type * omega; v1: -sqrt(1 + t^2) * v1 * r#type; }
             inputs      { torque }
-            emit        { jacobian, parameter_jacobian, prepared }
+            outputs     { phase = v1; covector = omega; }
+            emit        {
+                jacobian, parameter_jacobian, prepared, hamiltonian, bracket, divergence, connection, gibbs_appell,
+                taylor
+            }
         )]
         #[derive(Clone, Copy, Debug)]
         #[allow(non_snake_case, reason = "as in mechanics")]
@@ -148,7 +154,13 @@ pub mod shadowed {
         #[::nh_runtime::nonholonomic(
             base { start, present, project }
             formulation { projected }
-            emit { jacobian, parameter_jacobian, prepared, multipliers, reactions }
+            outputs { covector = der(start); phase = start; }
+            conserved { length = der(start); }
+            volume;
+            emit {
+                jacobian, parameter_jacobian, prepared, multipliers, reactions, leapfrog, bracket, discrete_gradient,
+                divergence, volume, connection, invariants, gibbs_appell, taylor
+            }
             lagrangian { (der(start)^2 + J * der(present)^2 + der(project)^2) / 2 - project }
             constraints {
                 state: cos(start) * der(project) - sin(start) * der(present) = 0;
@@ -159,6 +171,51 @@ pub mod shadowed {
         pub struct Ferry {
             /// Ratio of inertias.
             pub J: f64,
+        }
+
+        /// A particle whose constraints are a gyroscopic force.
+        #[::nh_runtime::nonholonomic(
+            base { phase, covector, p_phase }
+            lagrangian { J / 2 * (der(phase)^2 + der(covector)^2 + der(p_phase)^2) - sqrt(1 + phase^2) }
+            constraints { der(p_phase) = sin(covector) * der(phase); }
+            outputs { density = der(phase); }
+            conserved { length = der(covector); }
+            symmetries { drift: der(covector); }
+            volume;
+            hamilton_jacobi {
+                phase_dot: sqrt(1 + sin(covector)^2) * sqrt(2 * J * (c - sqrt(1 + phase^2)));
+                covector_dot: J;
+            }
+            emit {
+                hamiltonian, bracket, discrete_gradient, divergence, volume, connection, invariants, gyroscopic,
+                gibbs_appell, taylor, momenta
+            }
+        )]
+        #[derive(Clone, Copy, Debug)]
+        #[allow(non_snake_case, reason = "as in mechanics")]
+        pub struct Drop {
+            /// A mass.
+            pub J: f64,
+            /// An energy.
+            pub c: f64,
+        }
+
+        /// A body with a fixed point, one of whose angular velocities vanishes.
+        #[::nh_runtime::nonholonomic(
+            basis { length, matrix, body }
+            brackets so(3) { length, matrix, body }
+            lagrangian { (J * length^2 + c * matrix^2 + body^2) / 2 }
+            constraints { body = 0; }
+            conserved { invariants = length; }
+            emit { euler_poincare_suslov, hamiltonian, discrete_gradient, volume, connection, invariants, taylor }
+        )]
+        #[derive(Clone, Copy, Debug)]
+        #[allow(non_snake_case, reason = "as in mechanics")]
+        pub struct Body {
+            /// A moment of inertia.
+            pub J: f64,
+            /// A moment of inertia.
+            pub c: f64,
         }
     }
 }

@@ -4,7 +4,9 @@
 use nh_runtime::Energy;
 use nh_tests::hygiene::colliding::{Odd, OddState};
 use nh_tests::hygiene::narrow::{acceleration, oscillation};
-use nh_tests::hygiene::shadowed::{Ferry, FerryState, Sleigh, SleighInput, SleighState};
+use nh_tests::hygiene::shadowed::{
+    Body, BodyState, Drop, DropState, Ferry, FerryState, Sleigh, SleighInput, SleighState,
+};
 
 const EXACT: f64 = 1e-14;
 
@@ -45,6 +47,28 @@ fn constraints_and_projections_do_not_collide_either() {
     assert!((state.present_dot - 0.5_f64.sin() * 0.5_f64.cos()).abs() < EXACT, "{state:?}");
     assert!((ferry.multipliers(0.0, &state, &()).state - 0.5_f64.cos()).abs() < EXACT);
     assert!((ferry.reactions(0.0, &state, &()).project_dot - 0.5_f64.cos().powi(2)).abs() < EXACT);
+}
+
+#[test]
+fn phase_space_does_not_collide_either() {
+    // the momentum of a body whose constraint is along a principal axis stays, in discrete equations too
+    let body = Body { J: 2.0, c: 3.0 };
+    let state = BodyState { length: 0.4, matrix: -0.3 };
+    assert_eq!(body.hamilton(0.0, &body.legendre(0.0, &state), &()).p_length.to_bits() << 1, 0);
+    assert!((body.volume_density(0.0, &state) - 1.0).abs() < EXACT);
+    let discrete = nh_runtime::EulerPoincareSuslov::discrete_momentum(&body, &state, 0.0);
+    assert!((discrete[0] - 0.8).abs() < EXACT && (discrete[1] + 0.9).abs() < EXACT, "{discrete:?}");
+    // the particle on its Hamilton–Jacobi section moves with energy c + J/2
+    let particle = Drop { J: 1.5, c: 4.0 };
+    let start = DropState { phase: 0.7, covector: 0.3, ..DropState::default() };
+    let on_section = particle.hamilton_jacobi(0.0, &start);
+    assert!((particle.energy(0.0, &on_section) - 4.75).abs() < 1e-13, "{on_section:?}");
+    let (rate, other) =
+        (particle.derivative(0.0, &on_section, &()), particle.gibbs_appell(0.0, &on_section, &()));
+    assert!((rate.phase_dot - other.phase_dot).abs() < EXACT, "{rate:?} {other:?}");
+    let with_energy = particle.bracket_with_energy(0.0, &on_section, &()).density;
+    assert!((with_energy - rate.phase_dot).abs() < EXACT, "{with_energy}");
+    assert!((particle.volume_density(0.0, &start) - (1.0 + 0.3_f64.sin().powi(2)).sqrt()).abs() < EXACT);
 }
 
 #[test]

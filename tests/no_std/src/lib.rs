@@ -1,5 +1,8 @@
 //! A control loop as on a microcontroller: single precision, no standard library, no heap.
 #![no_std]
+#![deny(missing_docs, warnings)]
+
+pub mod words;
 
 use nh_runtime::prelude::*;
 
