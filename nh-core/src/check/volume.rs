@@ -39,17 +39,22 @@ pub fn volume(
         Volume::Nonlinear => Err(blame(
             none,
             format!(
-                "the divergence of the motion is {}, which no function on the base can make up for: \
+                "the divergence of the motion is {}, which no function on the base (times det C) can make up for: \
                  its rate is linear in the velocities",
                 shown(&model.graph, divergence)
             ),
             "give the density itself, `volume { … }`, or leave `volume` out",
         )),
+        Volume::Undecided(why) => Err(blame(
+            "whether a volume is invariant could not be decided",
+            format!("the divergence of the motion is {}: {why}", shown(&model.graph, divergence)),
+            "give the density itself: `volume { … }`",
+        )),
         Volume::Unknown(section) => Err(blame(
             "whether a volume is invariant could not be decided",
             format!(
-                "the modular section is {}, and d^D f is minus that for no f = sum q log P with the functions P that \
-                 occur and rational q",
+                "the modular section is {}, and d^D f was found to be minus that for no f = sum q log P with constant q \
+                 and functions P that occur",
                 modular_section(&model.graph, section)
             ),
             "give the density itself: `volume { … }`",

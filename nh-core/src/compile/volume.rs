@@ -2,7 +2,7 @@
 
 use super::phase_space::{asked, not_differentiable, shortened, state, state_velocities};
 use super::{Proved, fence};
-use crate::algebra::{Echelon, FieldPoint, Function, Graph, Matrix, Rational, Residue, Substitution};
+use crate::algebra::{Echelon, FieldPoint, Function, Graph, Matrix, Node, Rational, Residue, Substitution};
 use crate::check;
 use crate::geometry::{ConstraintDistribution, Manifold};
 use crate::id::{ExprId, SymbolId};
@@ -53,12 +53,13 @@ pub(super) fn derive(
             found.density = of_volume.is_some().then(|| Procedure::of(vec![density]));
         } else {
             // 3. a density on the base
-            let verdict = decide(proved, derived, written_out);
+            let verdict = decide(proved, derived, derivative, written_out);
             let origin = claim.map(|claim| claim.origin).or(of_volume).unwrap_or(origin);
             let density = check::volume(&mut proved.model, &verdict, written_out, origin)
                 .map_err(|violation| vec![violation])?;
+            let not_periodic = not_periodic(proved, &density);
             let density = density_expression(proved, &density);
-            lines.push(line(proved, derived, density));
+            lines.push(line(proved, derived, density) + &not_periodic);
             found.density = of_volume.is_some().then(|| Procedure::of(vec![density]));
         }
     }
@@ -87,6 +88,24 @@ fn line(proved: &Proved, derived: &Derived<'_>, density: ExprId) -> String {
     };
     let text = graph.text_within(density, 400);
     format!("invariant: ({text}) {}{on} (mathematics (19), M 2.5)", names.join(" "))
+}
+
+/// A warning where the density is an exponential of coordinates, which may be angles.
+fn not_periodic(proved: &Proved, density: &Density) -> String {
+    let graph = &proved.model.graph;
+    let coordinates: Vec<&str> = density
+        .iter()
+        .filter_map(|(factor, _)| match graph.node(*factor) {
+            Node::Apply(Function::Exp, x) => {
+                graph.as_symbol(*x).map(|symbol| graph.symbols()[symbol].as_str())
+            }
+            _ => None,
+        })
+        .collect();
+    if coordinates.is_empty() {
+        return String::new();
+    }
+    format!("; the density is not periodic in {}: no function of an angle", coordinates.join(", "))
 }
 
 /// On an embedded base f = 0 with Γ(f) = g f the volume is that of dx/df: the divergence on the base is
@@ -154,8 +173,9 @@ fn trace_vanishes(graph: &Graph, slopes: &Matrix, changes: &Matrix) -> bool {
     })
 }
 
-/// Looks for a density on the base, in a basis of D that holds at most points.
-fn decide(proved: &mut Proved, derived: &Derived<'_>, divergence: ExprId) -> Volume {
+/// Looks for a density on the base, in a basis of D that holds at most points; times det C where this
+/// depends on the velocities, so that it is one in (x, π).
+fn decide(proved: &mut Proved, derived: &Derived<'_>, derivative: &Procedure, divergence: ExprId) -> Volume {
     let velocities = proved.system.algebroid.velocities.clone();
     let local;
     let distribution = match derived {
@@ -171,7 +191,18 @@ fn decide(proved: &mut Proved, derived: &Derived<'_>, divergence: ExprId) -> Vol
             }
         }
     };
+    let in_state = state_velocities(proved, derived);
     let graph = &mut proved.model.graph;
+    let determinants = determinants(graph, proved.system.lagrangian, distribution, &velocities);
+    let (moving, on_base): (Vec<ExprId>, Vec<ExprId>) =
+        determinants.into_iter().partition(|factor| graph.depends_on(*factor, &in_state));
+    let mut flow = Flow::of(graph, derivative, &proved.system, &in_state);
+    let mut terms = vec![divergence];
+    for determinant in &moving {
+        let change = flow.derivative(graph, *determinant);
+        terms.push(graph.div(change, *determinant));
+    }
+    let divergence = graph.sum(&terms);
     let divergence = distribution.restriction(graph, &velocities).apply(graph, divergence);
     let divergence = graph.simplify(divergence);
     let time = proved.system.time;
@@ -190,20 +221,28 @@ fn decide(proved: &mut Proved, derived: &Derived<'_>, divergence: ExprId) -> Vol
             field.push(if index == last { one } else { zero });
         }
     }
-    let hints = hints(graph, proved.system.lagrangian, distribution, &velocities);
+    let hints = [on_base.as_slice(), &distribution.pivots].concat();
     let setting = VolumeSetting {
         divergence,
         fields,
         base,
         velocities: distribution.independent.clone(),
+        parameters: proved.model.parameters.iter().map(|parameter| parameter.symbol).collect(),
         manifold: &proved.base,
         hints,
     };
-    invariant_volume(&mut proved.model.graph, &setting)
+    match invariant_volume(graph, &setting) {
+        Volume::Kept(mut density) => {
+            let one = graph.one();
+            density.extend(moving.into_iter().map(|determinant| (determinant, one)));
+            Volume::Kept(density)
+        }
+        verdict => verdict,
+    }
 }
 
-/// det C, block by block, and what the basis of D is divided by.
-fn hints(
+/// det C, block by block.
+fn determinants(
     graph: &mut Graph,
     lagrangian: ExprId,
     distribution: &ConstraintDistribution,
@@ -220,14 +259,13 @@ fn hints(
             distribution.independent.iter().map(|b| graph.partial(momentum, *b)).collect()
         })
         .collect();
-    let mut hints = Vec::new();
+    let mut determinants = Vec::new();
     for block in uncoupled(graph, &mass).into_iter().filter(|block| block.len() <= BLOCK) {
         let inner: Matrix = block.iter().map(|i| block.iter().map(|j| mass[*i][*j]).collect()).collect();
         let determinant = graph.small_determinant(&inner);
-        hints.push(determinant);
+        determinants.push(determinant);
     }
-    hints.extend(&distribution.pivots);
-    hints
+    determinants
 }
 
 /// The density as an expression: powers that are no integers of what may be negative are powers of the
@@ -235,14 +273,26 @@ fn hints(
 fn density_expression(proved: &mut Proved, density: &Density) -> ExprId {
     let facts = proved.facts.clone();
     let graph = &mut proved.model.graph;
-    let factors: Vec<(ExprId, Rational)> = density
-        .iter()
-        .map(|(factor, exponent)| {
+    let mut exponents = Vec::new();
+    let mut factors: Vec<(ExprId, Rational)> = Vec::new();
+    for (factor, exponent) in density {
+        if let Node::Apply(Function::Exp, logarithm) = *graph.node(*factor) {
+            exponents.push(graph.mul(*exponent, logarithm));
+            continue;
+        }
+        let positive = graph.range(*factor, &facts).is_positive();
+        if let Some(exponent) = graph.as_number(*exponent).cloned() {
             let even = (exponent.clone() * Rational::new(1, 2)).is_integer();
-            let positive = even || graph.range(*factor, &facts).is_positive();
+            let base = if positive || even { *factor } else { graph.apply(Function::Abs, *factor) };
+            factors.push((base, exponent));
+        } else {
             let base = if positive { *factor } else { graph.apply(Function::Abs, *factor) };
-            (base, exponent.clone())
-        })
-        .collect();
+            let logarithm = graph.apply(Function::Ln, base);
+            exponents.push(graph.mul(*exponent, logarithm));
+        }
+    }
+    let exponent = graph.sum(&exponents);
+    let power = graph.apply(Function::Exp, exponent);
+    factors.push((power, Rational::ONE));
     graph.product(&factors)
 }

@@ -3,12 +3,15 @@
 //! A density μ is kept iff Γ(log μ) + div Γ = 0. For μ on the base this is linear in the velocities:
 //! `ρ(y) log μ = −div Γ`, that is d^D log μ is minus the modular section, mathematics (19).
 
-use crate::algebra::{Derivation, Echelon, FieldPoint, Graph, Node, Rational, Residue, Verdict};
+use crate::algebra::{
+    Derivation, Echelon, FieldPoint, Function, Graph, Matrix, Node, NotLinear, Rational, Residue,
+    Substitution, Verdict,
+};
 use crate::geometry::Manifold;
 use crate::id::{ExprId, SymbolId};
 
-/// `Π factor^exponent`.
-pub type Density = Vec<(ExprId, Rational)>;
+/// `Π factor^exponent`; the exponents are numbers, or functions of parameters.
+pub type Density = Vec<(ExprId, ExprId)>;
 
 /// div Γ = Σ M_a v^a + M_0 on the constraint manifold, with the vector fields on the base that belong
 /// to the v^a.
@@ -32,6 +35,8 @@ pub struct VolumeSetting<'a> {
     pub base: Vec<SymbolId>,
     /// The velocities v^a.
     pub velocities: Vec<SymbolId>,
+    /// Symbols that do not move.
+    pub parameters: Vec<SymbolId>,
     /// The embedded base.
     pub manifold: &'a Manifold,
     /// Where the factors of a density are looked for first.
@@ -49,17 +54,24 @@ pub enum Volume {
     Nonlinear,
     /// No density was found in the class searched, and none was excluded.
     Unknown(ModularSection),
+    /// Whether the divergence is linear in the velocities could not be decided, and why.
+    Undecided(String),
 }
 
 /// Factors tried.
 const CANDIDATES: usize = 40;
+/// Points of the base at which exponents are looked for.
+const POINTS: i64 = 4;
 /// Vector fields whose brackets are taken in the proof that there is no density.
 const FIELDS: usize = 12;
 
 /// Decides.
 pub fn invariant_volume(graph: &mut Graph, setting: &VolumeSetting<'_>) -> Volume {
     // 1. M
-    let Some(section) = modular_section(graph, setting) else { return Volume::Nonlinear };
+    let section = match modular_section(graph, setting) {
+        Ok(section) => section,
+        Err(verdict) => return verdict,
+    };
     // 2. log μ = Σ q_k log P_k
     if let Some(density) = search(graph, setting, &section) {
         return Volume::Kept(density);
@@ -68,20 +80,22 @@ pub fn invariant_volume(graph: &mut Graph, setting: &VolumeSetting<'_>) -> Volum
     if is_excluded(graph, setting, &section) { Volume::None(section) } else { Volume::Unknown(section) }
 }
 
-fn modular_section(graph: &mut Graph, setting: &VolumeSetting<'_>) -> Option<ModularSection> {
-    let form = graph.linear_form(setting.divergence, &setting.velocities).ok()?;
-    let others: Vec<SymbolId> = graph.symbols_in(&form.coefficients);
-    if others.iter().any(|symbol| setting.velocities.contains(symbol)) {
-        return None;
-    }
+fn modular_section(graph: &mut Graph, setting: &VolumeSetting<'_>) -> Result<ModularSection, Volume> {
+    let form = graph.linear_form(setting.divergence, &setting.velocities).map_err(|error| match error {
+        NotLinear::Curved(first, second) => {
+            let slope = graph.partial(setting.divergence, first);
+            let curvature = graph.partial(slope, second);
+            match setting.manifold.zero_test(graph, curvature) {
+                Verdict::NonZero(_) => Volume::Nonlinear,
+                _ => Volume::Undecided("it is not written as a linear function of the velocities".into()),
+            }
+        }
+        NotLinear::Unknown(why) => Volume::Undecided(why),
+    })?;
     let mut components = form.coefficients;
     components.push(form.rest);
     let components = components.into_iter().map(|m| graph.simplify(m)).collect();
-    Some(ModularSection {
-        components,
-        fields: setting.fields.clone(),
-        velocities: setting.velocities.clone(),
-    })
+    Ok(ModularSection { components, fields: setting.fields.clone(), velocities: setting.velocities.clone() })
 }
 
 /// Functions of the base that may be factors of a density, the likely ones first.
@@ -129,7 +143,7 @@ fn differential(graph: &mut Graph, setting: &VolumeSetting<'_>, function: ExprId
     setting.fields.iter().map(|field| graph.inner_product(field, &partials)).collect()
 }
 
-/// Solves Σ q_k d log P_k = −M for rational q at random points, and proves the solution.
+/// Solves Σ q_k d log P_k = −M for constant q, and proves the solution.
 fn search(graph: &mut Graph, setting: &VolumeSetting<'_>, section: &ModularSection) -> Option<Density> {
     let manifold = setting.manifold;
     let right: Vec<ExprId> = section
@@ -143,49 +157,130 @@ fn search(graph: &mut Graph, setting: &VolumeSetting<'_>, section: &ModularSecti
     if right.iter().all(|component| graph.zero_test(*component).is_zero()) {
         return Some(Vec::new());
     }
-    let candidates = candidates(graph, setting, section);
-    // a candidate P is log P, and a coordinate also itself: the density e^x
-    let mut terms: Vec<(ExprId, bool)> = candidates.iter().map(|p| (*p, true)).collect();
-    terms.extend(candidates.iter().filter(|p| graph.as_symbol(**p).is_some()).map(|p| (*p, false)));
-    let mut columns = Vec::with_capacity(terms.len() + 1);
-    for (candidate, is_logarithm) in &terms {
-        let column: Vec<ExprId> = differential(graph, setting, *candidate)
+    let mut factors = candidates(graph, setting, section);
+    for symbol in &setting.base {
+        let coordinate = graph.symbol(*symbol);
+        factors.push(graph.apply(Function::Exp, coordinate));
+    }
+    let mut columns = Vec::with_capacity(factors.len() + 1);
+    for factor in &factors {
+        let column: Vec<ExprId> = differential(graph, setting, *factor)
             .into_iter()
             .map(|change| {
-                let change = if *is_logarithm { graph.div(change, *candidate) } else { change };
+                let change = graph.div(change, *factor);
                 manifold.restrict(graph, change)
             })
             .collect();
         columns.push(column);
     }
     columns.push(right);
-    let unknowns = terms.len();
     let matrix = Graph::transposed(&columns);
+    let with = |exponents: Vec<(usize, ExprId)>| -> Density {
+        exponents.into_iter().map(|(index, exponent)| (factors[index], exponent)).collect()
+    };
+    let rational = rational_exponents(graph, &matrix).map(&with);
+    let found = match rational.filter(|density| is_kept(graph, setting, section, density)) {
+        Some(density) => density,
+        None => with(parametric_exponents(graph, setting, &matrix)?),
+    };
+    is_kept(graph, setting, section, &found).then_some(found)
+}
+
+/// The solution of the linear equations, the last column their right side, in which points of the
+/// field agree.
+fn solved_at(
+    graph: &Graph,
+    matrix: &Matrix,
+    point: impl Fn(u64, u64) -> FieldPoint,
+) -> Option<Vec<(usize, Residue)>> {
+    let unknowns = matrix.first()?.len() - 1;
     let mut rows: Vec<Vec<Residue>> = Vec::new();
     for sample in 0..(unknowns as u64 + 4) {
-        let start = 21_000 + 64 * sample;
-        rows.extend(graph.matrix_in_field(&matrix, |seed| FieldPoint::random(start + seed)).ok()?);
+        rows.extend(graph.matrix_in_field(matrix, |seed| point(sample, seed)).ok()?);
     }
     let echelon = Echelon::of(rows);
-    if echelon.pivots.contains(&unknowns) {
+    let solution = echelon.rows.iter().zip(&echelon.pivots).map(|(row, pivot)| (*pivot, row[unknowns]));
+    (!echelon.pivots.contains(&unknowns))
+        .then(|| solution.filter(|(_, exponent)| *exponent != Residue::ZERO).collect())
+}
+
+/// Exponents that are the same for all parameters.
+fn rational_exponents(graph: &mut Graph, matrix: &Matrix) -> Option<Vec<(usize, ExprId)>> {
+    let solution = solved_at(graph, matrix, |sample, seed| FieldPoint::random(21_000 + 64 * sample + seed))?;
+    solution.into_iter().map(|(index, value)| Some((index, graph.number(recognised(value)?)))).collect()
+}
+
+/// Exponents that depend on the parameters: which are needed is found at one value of these, and the
+/// equations are solved for them at points of the base.
+fn parametric_exponents(
+    graph: &mut Graph,
+    setting: &VolumeSetting<'_>,
+    matrix: &Matrix,
+) -> Option<Vec<(usize, ExprId)>> {
+    let mut moving = graph.symbols_in(&matrix.concat());
+    moving.retain(|symbol| !setting.parameters.contains(symbol));
+    let point = |sample: u64, seed: u64| {
+        let mut point = FieldPoint::random(22_000);
+        for (number, symbol) in (0..).zip(&moving) {
+            let value = Residue::mixed(64 * sample + seed + 1, number);
+            point.chosen.insert(*symbol, value);
+            if let Some(scale) = (Residue::ONE + value * value).inverse() {
+                let cosine = (Residue::ONE - value * value) * scale;
+                point.circle.insert(*symbol, (cosine, (value + value) * scale));
+            }
+        }
+        point
+    };
+    let solution = solved_at(graph, matrix, point)?;
+    let unknowns = matrix.first()?.len() - 1;
+    let needed: Matrix = matrix
+        .iter()
+        .map(|row| solution.iter().map(|(index, _)| row[*index]).chain([row[unknowns]]).collect())
+        .collect();
+    let mut equations = Matrix::new();
+    for shift in 0..POINTS {
+        equations.extend(at_point(graph, &needed, &moving, shift));
+    }
+    let exponents = solved_exactly(graph, &equations, solution.len())?;
+    Some(solution.iter().map(|(index, _)| *index).zip(exponents).collect())
+}
+
+/// The rows that have a value at a point of simple coordinates, there.
+fn at_point(graph: &mut Graph, rows: &Matrix, moving: &[SymbolId], shift: i64) -> Matrix {
+    let is_angle = |graph: &Graph, symbol: SymbolId| {
+        graph.reachable(&rows.concat()).into_iter().any(|id| {
+            matches!(graph.node(id), Node::Apply(Function::Sin | Function::Cos, x) if graph.depends_on(*x, &[symbol]))
+        })
+    };
+    let images: Vec<(SymbolId, ExprId)> = (1..)
+        .zip(moving)
+        .map(|(number, symbol): (i64, _)| {
+            let value = Rational::new((number * shift + shift) % 7, 1);
+            let unit = if is_angle(graph, *symbol) { graph.pi() } else { graph.one() };
+            let step = if graph.as_number(unit).is_some() { 1 } else { 2 };
+            (*symbol, graph.scale(value * Rational::new(1, step), unit))
+        })
+        .collect();
+    let mut there = Substitution::new(images);
+    let rows: Matrix =
+        rows.iter().map(|row| row.iter().map(|entry| there.apply(graph, *entry)).collect()).collect();
+    rows.into_iter().filter(|row| !row.iter().any(|entry| graph.is_undefined(*entry))).collect()
+}
+
+/// The solution of equations, the last column their right side, of which as many as there are unknowns
+/// are independent.
+fn solved_exactly(graph: &mut Graph, equations: &Matrix, unknowns: usize) -> Option<Vec<ExprId>> {
+    let left: Matrix = equations.iter().map(|row| row[..unknowns].to_vec()).collect();
+    let sampled =
+        graph.matrix_in_field(&Graph::transposed(&left), |seed| FieldPoint::random(22_100 + seed)).ok()?;
+    let rows = Echelon::of(sampled).pivots;
+    if rows.len() < unknowns {
         return None;
     }
-    let mut density = Density::new();
-    for (row, pivot) in echelon.rows.iter().zip(&echelon.pivots) {
-        if row[unknowns] == Residue::ZERO {
-            continue;
-        }
-        let exponent = recognised(row[unknowns])?;
-        let (candidate, is_logarithm) = terms[*pivot];
-        if is_logarithm {
-            density.push((candidate, exponent));
-        } else {
-            let scaled = graph.scale(exponent, candidate);
-            let factor = graph.apply(crate::algebra::Function::Exp, scaled);
-            density.push((factor, Rational::ONE));
-        }
-    }
-    is_kept(graph, setting, section, &density).then_some(density)
+    let right: Matrix = rows.iter().map(|row| vec![equations[*row][unknowns]]).collect();
+    let left: Matrix = rows.iter().map(|row| left[*row].clone()).collect();
+    let solution = graph.solve_linear(&left, &right)?.values;
+    Some(solution.into_iter().map(|row| graph.simplify(row[0])).collect())
 }
 
 /// A rational number with small numerator and denominator.
@@ -208,16 +303,15 @@ fn is_kept(
     section: &ModularSection,
     density: &Density,
 ) -> bool {
-    let mut sums: Vec<Vec<(Rational, ExprId)>> =
-        section.components.iter().map(|m| vec![(Rational::ONE, *m)]).collect();
+    let mut sums: Vec<Vec<ExprId>> = section.components.iter().map(|m| vec![*m]).collect();
     for (factor, exponent) in density {
         for (sum, change) in sums.iter_mut().zip(differential(graph, setting, *factor)) {
             let share = graph.div(change, *factor);
-            sum.push((exponent.clone(), share));
+            sum.push(graph.mul(*exponent, share));
         }
     }
     sums.into_iter().all(|sum| {
-        let defect = graph.linear_combination(&sum);
+        let defect = graph.sum(&sum);
         setting.manifold.zero_test(graph, defect) == Verdict::Zero
     })
 }
