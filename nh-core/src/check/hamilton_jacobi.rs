@@ -8,8 +8,8 @@ use crate::mechanics::{HamiltonianSide, Procedure};
 use crate::model::Model;
 use crate::violation::{Law, Violation};
 
-/// Judges the declared section α of D*: d^Dα = 0 and d^D(h∘α) = 0 on the base. Its integral curves are
-/// then motions. The outputs are the velocities of the state at which the momenta are α.
+/// Judges the declared section α of D*: d^Dα = 0 and d^D(h∘α) = 0 on the base, and what moves the system
+/// beside the bracket, R_L, keeps it. Its integral curves are then motions. The outputs are the velocities of the state at which the momenta are α.
 ///
 /// `fields` are ρ(B_a), and `velocities` the names of the a.
 ///
@@ -79,11 +79,23 @@ pub fn hamilton_jacobi(
         let lead = "the section does not solve the Hamilton-Jacobi equation";
         violations.extend(judged(graph, base, defect, &what, declared.origin, lead));
     }
+    // 5. R_L(π_a − α_a), of forces and of what is not homogeneous or moves
+    let drift = side.drift.written_out(graph);
+    let mut along_drift =
+        Derivation::new(coordinates.iter().copied().zip(drift.iter().copied()).collect::<Vec<_>>());
+    for (a, momentum) in section.iter().enumerate() {
+        let change = along_drift.apply(graph, *momentum);
+        let defect = graph.sub(drift[coordinates.len() + a], change);
+        let defect = at_section.apply(graph, defect);
+        let what = format!("R_L(p - alpha) along {}", name(graph, a));
+        let lead = "the motion leaves the section, by forces or by constraints that are not homogeneous";
+        violations.extend(judged(graph, base, defect, &what, declared.origin, lead));
+    }
     if !violations.is_empty() {
         violations.truncate(1);
         return Err(violations);
     }
-    // 5. v = C⁻¹(α − π|₀)
+    // 6. v = C⁻¹(α − π|₀)
     let lifted = side.inverse.written_out(graph);
     let lifted = lifted
         .into_iter()

@@ -32,7 +32,7 @@ pub(super) fn derive(
     let mut keep = |result: Result<(), Vec<Violation>>| violations.extend(result.err().into_iter().flatten());
     if needs_hamiltonian(&proved.model) {
         keep(hamiltonian(proved, derived, derivative).and_then(|(side, momenta)| {
-            sections.push(("Hamiltonian side", hamiltonian_lines(&mut proved.model, &side)));
+            sections.push(("Hamiltonian side", hamiltonian_lines(&mut proved.model, &side, &proved.base)));
             let fields = fields(proved, derived);
             let Proved { model, base, .. } = &mut *proved;
             found.hamilton_jacobi = check::hamilton_jacobi(model, &side, &fields, &momenta, base)?;
