@@ -130,6 +130,7 @@ mod syntax;
 /// | `momenta` | `momenta(t, &state)`, `momentum_rates(t, &state, &input)` |
 /// | `gyroscopic` | `gyroscopic(t, &state)` of a Chaplygin system: see *Splitting* |
 /// | `splitting` | the nonholonomic connection and the momentum equation: see *Splitting* |
+/// | `taylor` | the trait `TaylorSeries`: see *What is generated* |
 /// | `gibbs_appell` | `gibbs_appell(t, &state, &input)`: the derivative by the function of Gibbs and Appell, an independent derivation |
 /// | `hamiltonian` | the struct `…Phase` of coordinates and momenta π = ∂L/∂v on the constraint distribution; `legendre(t, &state)`, `inverse_legendre(t, &phase)`, `hamiltonian(t, &phase)`, Hamilton's equations `hamilton(t, &phase, &input)`, the matrix `poisson(t, &phase)` of the nonholonomic brackets, and what is not in the bracket with the energy, `drift(t, &phase, &input)` |
 /// | `bracket` | `bracket(t, &state, &input)`: the brackets of the `outputs` with each other; `bracket_with_energy(t, &state, &input)` and `drift_of_outputs(t, &state, &input)`, R_L: together the rates of the outputs. Any regular Lagrangian, any constraints, both formulations: declare momenta as outputs where there is no closed `hamiltonian` |

@@ -54,7 +54,7 @@ pub fn not_conservative(
 }
 
 /// The constraint that depends on the time, in words: then the motion is not that of the bracket with
-/// the energy, even where it is conserved, mathematics (25).
+/// the energy, even where it is conserved, mathematics (28).
 pub fn moving_constraint(model: &mut Model, time: SymbolId, constraints: &Constraints) -> Option<String> {
     let graph = &mut model.graph;
     let residual = constraints.residuals.iter().find(|residual| {

@@ -3,14 +3,15 @@
 use super::{Derived, combination, shown};
 use crate::check::{Constraints, not_conservative, singular_where};
 use crate::compile::Proved;
+use crate::geometry::Manifold;
 use crate::id::{ExprId, SymbolId};
 use crate::mechanics::{LagrangianSystem, moving_energy_section};
 use crate::model::{Kinematics, Model};
 
 /// The classification, a line for each property.
 pub(super) fn lines(proved: &mut Proved, derived: &Derived<'_>, reason: &str) -> Vec<String> {
-    let Proved { model, motion, system, constraints: declared, facts, .. } = proved;
-    let mut lines = vec![algebroid(model, system), constraints(model, system, declared, derived)];
+    let Proved { model, motion, system, constraints: declared, facts, base, .. } = proved;
+    let mut lines = vec![algebroid(model, system, base), constraints(model, system, declared, derived)];
     let (name, size) = match derived {
         Derived::Adapted { kept, .. } => ("adapted", kept.rank()),
         Derived::Projected { .. } => ("projected", model.sections.len()),
@@ -34,20 +35,27 @@ pub(super) fn lines(proved: &mut Proved, derived: &Derived<'_>, reason: &str) ->
 }
 
 /// The kind of algebroid.
-fn algebroid(model: &mut Model, system: &LagrangianSystem) -> String {
+fn algebroid(model: &mut Model, system: &LagrangianSystem, base: &Manifold) -> String {
     let (n, s) = (model.coordinates.len(), model.sections.len());
-    let anchor = &system.algebroid.anchor;
-    let rank = model.graph.generic_rank(&anchor.entries).unwrap_or(0);
+    let dimension = dimension(model, base);
+    let anchor = base.restrict_matrix(&mut model.graph, &system.algebroid.anchor.entries);
+    let rank = model.graph.generic_rank(&anchor).unwrap_or(0);
     let constant = is_constant(model, system);
+    let frame = if is_holonomic(model, system) {
+        "the tangent bundle TM in a holonomic frame: all brackets vanish"
+    } else {
+        "the tangent bundle TM in an anholonomic frame"
+    };
     let kind = match &model.kinematics {
         Kinematics::Tangent => "the tangent bundle TM in its coordinate frame".to_owned(),
-        Kinematics::Coframe(_) => "the tangent bundle TM in an anholonomic frame, by its coframe".to_owned(),
+        Kinematics::Coframe(_) => format!("{frame}, by its coframe"),
         Kinematics::Anchor(_) if n == 0 => "a Lie algebra".to_owned(),
-        Kinematics::Anchor(_) if n == s && rank == n => {
-            "the tangent bundle TM in an anholonomic frame".to_owned()
-        }
-        Kinematics::Anchor(_) if rank == n => {
+        Kinematics::Anchor(_) if dimension == s && rank == s => frame.to_owned(),
+        Kinematics::Anchor(_) if rank == dimension && dimension == n => {
             format!("a transitive Lie algebroid (Atiyah type) with isotropy of rank {}", s - n)
+        }
+        Kinematics::Anchor(_) if rank == dimension && constant => {
+            format!("a transitive action Lie algebroid with isotropy of rank {}", s - dimension)
         }
         Kinematics::Anchor(_) if constant => {
             "an action Lie algebroid: constant structure functions".to_owned()
@@ -55,7 +63,29 @@ fn algebroid(model: &mut Model, system: &LagrangianSystem) -> String {
         Kinematics::Anchor(_) => "a Lie algebroid".to_owned(),
     };
     let almost = if model.almost { ", almost: the Jacobi identity is not demanded" } else { "" };
-    format!("algebroid: {kind}, rank {s} over a base of dimension {n}{almost}")
+    let embedded = if dimension == n { String::new() } else { format!(", embedded in {n} coordinates") };
+    format!("algebroid: {kind}, rank {s} over a base of dimension {dimension}{embedded}{almost}")
+}
+
+/// The dimension of the base: the coordinates less the independent identities between them.
+fn dimension(model: &mut Model, base: &Manifold) -> usize {
+    let coordinates: Vec<SymbolId> = model.coordinates.iter().map(|coordinate| coordinate.symbol).collect();
+    let graph = &mut model.graph;
+    let identities: Vec<ExprId> = model.identities.iter().map(|identity| identity.value).collect();
+    let slopes: Vec<Vec<ExprId>> = identities
+        .iter()
+        .map(|identity| coordinates.iter().map(|symbol| graph.partial(*identity, *symbol)).collect())
+        .collect();
+    let slopes = base.restrict_matrix(graph, &slopes);
+    coordinates.len() - graph.generic_rank(&slopes).unwrap_or(0).min(coordinates.len())
+}
+
+fn is_holonomic(model: &Model, system: &LagrangianSystem) -> bool {
+    system
+        .algebroid
+        .structure
+        .nonzero(&model.graph)
+        .all(|(.., components)| components.iter().all(|c| model.graph.zero_test(*c).is_zero()))
 }
 
 fn is_constant(model: &Model, system: &LagrangianSystem) -> bool {

@@ -1,4 +1,4 @@
-//! R_L, what the motion has beyond the bracket with the energy: mathematics (25), CLMM section 7.
+//! R_L, what the motion has beyond the bracket with the energy: mathematics (28), CLMM section 7.
 
 use super::bracket::{gradients, momenta_on};
 use crate::algebra::{Graph, Matrix};

@@ -25,7 +25,7 @@ pub struct HamiltonianSide {
     pub equations: Procedure,
     /// Outputs: the matrix of {·, ·}_nh in (x, π), row by row: mathematics (15), (17).
     pub bracket: Procedure,
-    /// Outputs: R_L of mathematics (17) and (25), what the equations add to the bracket with h.
+    /// Outputs: R_L of mathematics (17) and (28), what the equations add to the bracket with h.
     pub drift: Procedure,
 }
 
@@ -146,7 +146,7 @@ pub fn hamiltonian_side(
     })
 }
 
-/// R_L(x^i) = ρ^i(z), R_L(π_a) = z·ρ_a(p̂) + p_γ [z, B_a]^γ + Υ(B_a) + p·∂_tB_a, mathematics (25), with
+/// R_L(x^i) = ρ^i(z), R_L(π_a) = z·ρ_a(p̂) + p_γ [z, B_a]^γ + Υ(B_a) + p·∂_tB_a, mathematics (28), with
 /// z of constant components: zero where the constraints are homogeneous and nothing depends on the
 /// time or is forced.
 fn drift(graph: &mut Graph, inversion: &Inversion<'_>, momenta: &[ExprId]) -> Procedure {
