@@ -33,11 +33,6 @@ impl<T: Entry, const N: usize> Cholesky<T, N> {
         Ok(Self { lower })
     }
 
-    /// L.
-    pub(super) fn lower(&self) -> &SMatrix<T, N, N> {
-        &self.lower
-    }
-
     /// L⁻¹ b.
     pub(super) fn whitened(&self, b: &SVector<T, N>) -> SVector<T, N> {
         let mut x = *b;
@@ -101,6 +96,35 @@ pub(super) fn semidefinite<T: Entry, const N: usize>(
     Ok(())
 }
 
+/// A lower triangular L with L Lᵀ = a of a positive semidefinite matrix; its column is zero where the pivot is
+/// round-off.
+pub(super) fn root<T: Entry, const N: usize>(
+    name: &'static str,
+    a: &SMatrix<T, N, N>,
+) -> Result<SMatrix<T, N, N>, ControlError> {
+    semidefinite(name, a)?;
+    let count = T::from_u32(u32::try_from(N).unwrap_or(u32::MAX));
+    let mut rest = *a;
+    let mut lower = SMatrix::<T, N, N>::zeros();
+    for j in 0..N {
+        let pivot = rest[(j, j)];
+        // relative to what it was, since components have units of their own
+        if pivot > count * T::EPSILON * a[(j, j)] {
+            let scale = pivot.sqrt();
+            for i in j..N {
+                lower[(i, j)] = rest[(i, j)] / scale;
+            }
+            for k in j + 1..N {
+                for i in k..N {
+                    let reduced = lower[(i, j)] * lower[(k, j)];
+                    rest[(i, k)] -= reduced;
+                }
+            }
+        }
+    }
+    Ok(lower)
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -158,7 +182,8 @@ mod tests {
         let factors = Cholesky::new("a", &a).unwrap();
         assert!((factors.solve(&(a * x)) - x).norm() < 1e-14);
         let white = factors.whitened(&x);
-        assert!((factors.lower() * white - x).norm() < 1e-14);
+        let lower = root("a", &a).unwrap();
+        assert!((lower * white - x).norm() < 1e-14 && (lower * lower.transpose() - a).norm() < 1e-14);
         let indefinite = matrix![1.0, 2.0; 2.0, 1.0];
         assert_eq!(
             Cholesky::new("a", &indefinite).err(),

@@ -83,6 +83,46 @@ impl<T: Entry, const N: usize, const M: usize> Regulator<T, N, M> {
         Err(ControlError::NotStabilizable { iterations, change: change.to_f64() })
     }
 
+    /// The same for a cost Σ eᵀ q e + 2 eᵀ cross u + uᵀ r u, such as that of outputs which the input acts on at
+    /// once, or an integral over a tick in continuous time.
+    ///
+    /// With v = u + r⁻¹crossᵀ e it is that of [`stationary`](Self::stationary) for a − b r⁻¹crossᵀ and the weight
+    /// q − cross r⁻¹crossᵀ (Anderson, Moore, Optimal Control, 1990, 3.4).
+    ///
+    /// ```
+    /// use nalgebra::matrix;
+    /// use nh_runtime::control::Regulator;
+    ///
+    /// // the cost (x + u)² + u²/2 of x' = x + u
+    /// let one = matrix![1.0_f64];
+    /// let regulator = Regulator::stationary_with_cross(&one, &one, &one, &matrix![1.5], &one).unwrap();
+    /// let (p, k) = (regulator.cost[0], regulator.gain[0]);
+    /// assert!((k - (1.0 + p) / (1.5 + p)).abs() < 1e-15);
+    /// assert!((p - (1.0 + p - k * (1.0 + p))).abs() < 1e-15);
+    /// ```
+    ///
+    /// # Errors
+    /// As [`stationary`](Self::stationary); [`ControlError::NotDefinite`] also for the second weight, which is
+    /// positive semidefinite where the whole cost is.
+    pub fn stationary_with_cross(
+        a: &SMatrix<T, N, N>,
+        b: &SMatrix<T, N, M>,
+        q: &SMatrix<T, N, N>,
+        r: &SMatrix<T, M, M>,
+        cross: &SMatrix<T, N, M>,
+    ) -> Result<Self, ControlError> {
+        finite("q", q)?;
+        finite("r", r)?;
+        finite("cross", cross)?;
+        let at_once = Cholesky::new("r", r)?.solve(&cross.transpose());
+        let weight = symmetrized(&(q - cross * at_once));
+        semidefinite("q − cross r⁻¹crossᵀ", &weight)?;
+        let shifted = Self::stationary(&(a - b * at_once), b, &weight, r)?;
+        let gain = shifted.gain + at_once;
+        finite("the gain of the regulator", &gain)?;
+        Ok(Self { gain, cost: shifted.cost })
+    }
+
     /// The first step of a longer horizon, from the cost `next` of the rest: iterated backwards, the
     /// regulator along a trajectory with its own a, b, q and r at every tick.
     ///
@@ -186,6 +226,32 @@ mod tests {
             "{}",
             regulator.gain - expected
         );
+    }
+
+    /// The gain is the best among its neighbours: the cost of a run from any state is the least.
+    #[test]
+    fn a_cross_term_is_part_of_the_cost() {
+        let a = matrix![1.0, 0.1; 0.3, 1.05];
+        let b = vector![0.02, 0.1];
+        let (q, r, cross) = (matrix![2.0, 0.1; 0.1, 1.0], matrix![0.6], vector![0.3, -0.4]);
+        let regulator = Regulator::stationary_with_cross(&a, &b, &q, &r, &cross).unwrap();
+        let run = |gain: SMatrix<f64, 1, 2>| {
+            let (mut x, mut sum) = (vector![0.7, -0.2], 0.0);
+            for _ in 0..3000 {
+                let u = -(gain * x)[0];
+                sum += x.dot(&(q * x)) + 2.0 * x.dot(&cross) * u + r[0] * u * u;
+                x = a * x + b * u;
+            }
+            sum
+        };
+        let best = run(regulator.gain);
+        let start = vector![0.7, -0.2];
+        assert!((best - start.dot(&(regulator.cost * start))).abs() < 1e-11 * best);
+        for change in [matrix![0.05, 0.0], matrix![-0.05, 0.0], matrix![0.0, 0.05], matrix![0.0, -0.05]] {
+            assert!(run(regulator.gain + change) > best);
+        }
+        let indefinite = Regulator::stationary_with_cross(&a, &b, &q, &r, &vector![30.0, 0.0]);
+        assert!(matches!(indefinite, Err(ControlError::NotDefinite { .. })));
     }
 
     #[test]

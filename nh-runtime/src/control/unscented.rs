@@ -2,7 +2,7 @@
 
 use nalgebra::{SMatrix, SVector};
 
-use super::cholesky::{Cholesky, semidefinite};
+use super::cholesky::{Cholesky, root, semidefinite};
 use super::{ControlError, Correction, Entry, Estimate, finite, symmetrized};
 
 /// The scaled unscented transformation (Julier, Proc. American Control Conference 2002, 4555–4559; van
@@ -51,8 +51,7 @@ impl<T: Entry> Unscented<T> {
     /// ```
     ///
     /// # Errors
-    /// [`ControlError::NotDefinite`] if the covariance is not positive definite, or `noise` not positive
-    /// semidefinite; [`ControlError::NotFinite`] for an argument, the result, or a point that is carried
+    /// [`ControlError::NotDefinite`] if the covariance or `noise` is not positive semidefinite; [`ControlError::NotFinite`] for an argument, the result, or a point that is carried
     /// out of the numbers; [`ControlError::Setting`] if α²(n + κ) is not a positive number, or β no number.
     pub fn predicted<const N: usize>(
         &self,
@@ -110,8 +109,7 @@ impl<T: Entry> Unscented<T> {
 
     fn points<const N: usize>(&self, prior: &Estimate<T, N>) -> Result<Points<T, N>, ControlError> {
         finite("mean", &prior.mean)?;
-        finite("covariance", &prior.covariance)?;
-        let factors = Cholesky::new("covariance", &prior.covariance)?;
+        let lower = root("covariance", &prior.covariance)?;
         let count = T::from_u32(u32::try_from(N).unwrap_or(u32::MAX));
         // c² = n + λ = α²(n + κ)
         let squared = self.spread * self.spread * (count + self.shift);
@@ -124,7 +122,7 @@ impl<T: Entry> Unscented<T> {
             return Err(ControlError::Setting { setting, value, expected: "finite" });
         }
         let distance = squared.sqrt();
-        let column = |i: usize| factors.lower().column(i) * distance;
+        let column = |i: usize| lower.column(i) * distance;
         let other = (squared + squared).recip();
         let mean = (squared - count) / squared;
         let centre = mean + T::ONE - self.spread * self.spread + self.kurtosis;
@@ -207,10 +205,16 @@ mod tests {
         assert!((squared.covariance[(0, 0)] - (0.04 + 2.0 * 0.0016)).abs() < 1e-15);
     }
 
+    /// What is known for certain, such as a parameter among the states, has no points of its own.
     #[test]
-    fn what_is_singular_is_refused() {
-        let prior = Estimate { mean: vector![0.0, 0.0], covariance: Matrix2::zeros() };
-        let refused = Unscented::default().predicted(&prior, |x| x, &Matrix2::identity());
-        assert_eq!(refused, Err(ControlError::NotDefinite { matrix: "covariance", pivot: 0.0 }));
+    fn what_is_certain_stays_so() {
+        let prior = Estimate { mean: vector![1.0_f64, 2.0], covariance: matrix![4.0, 0.0; 0.0, 0.0] };
+        let map = |x: SVector<f64, 2>| vector![x[0] * x[1], x[1]];
+        let next = Unscented::default().predicted(&prior, map, &Matrix2::zeros()).unwrap();
+        assert!((next.mean - vector![2.0, 2.0]).norm() < 1e-15);
+        assert!((next.covariance - matrix![16.0, 0.0; 0.0, 0.0]).norm() < 1e-14);
+        let indefinite = Estimate { covariance: matrix![1.0, 2.0; 2.0, 1.0], ..prior };
+        let refused = Unscented::default().predicted(&indefinite, map, &Matrix2::identity());
+        assert!(matches!(refused, Err(ControlError::NotDefinite { matrix: "covariance", .. })));
     }
 }

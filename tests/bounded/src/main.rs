@@ -8,9 +8,14 @@
 //! links only if no function in `proved.rs` has a path that panics, and prints the bits of the states that a
 //! debug build has to print too.
 
+mod methods;
 mod proved;
 mod systems;
 
+use nh_runtime::ParameterError;
+use nh_runtime::control::{
+    ControlError, Correction, Estimate, Ilqr, Quadratic, Regulator, Sampled, Squares, Unscented,
+};
 use nh_runtime::prelude::*;
 use systems::{Robot, RobotInput, RobotState, Sleigh, SleighInput, SleighState};
 
@@ -25,10 +30,37 @@ const _: () = {
     plain::<Robot>();
     plain::<RobotState>();
     plain::<RobotInput>();
-    plain::<Rk4<f32>>();
+    plain::<systems::SleighVelocity<f64>>();
+    plain::<systems::SleighMultipliers<f64>>();
+    plain::<systems::SleighOutputs<f64>>();
     plain::<Euler<f64>>();
-    plain::<ImplicitMidpoint<f64>>();
+    plain::<Heun<f64>>();
+    plain::<Ralston<f64>>();
+    plain::<Rk4<f32>>();
+    plain::<Bs23<f64>>();
     plain::<Dopri5<f64>>();
+    plain::<Tsit5<f64>>();
+    plain::<Dop853<f64>>();
+    plain::<Vern9<f64>>();
+    plain::<ImplicitMidpoint<f64>>();
+    plain::<GaussLegendre4<f64>>();
+    plain::<GaussLegendre6<f64>>();
+    plain::<Radau5<f64>>();
+    plain::<Rodas5P<f64>>();
+    plain::<DiscreteGradient<f64>>();
+    plain::<DiscreteSuslov<f64>>();
+    plain::<ReflectedLeapfrog<f64>>();
+    plain::<Projected<Rk4<f64>>>();
+    plain::<Regulator<f32, 4, 2>>();
+    plain::<Estimate<Fast<f32>, 4>>();
+    plain::<Correction<f64, 4>>();
+    plain::<Unscented<f64>>();
+    plain::<Ilqr<f64, 4, 2, 10>>();
+    plain::<Quadratic<f64, 4, 2>>();
+    plain::<Squares<()>>();
+    plain::<Sampled<Robot, f64>>();
+    plain::<ControlError>();
+    plain::<ParameterError>();
     shared::<Integrator<Sleigh<f32>, Rk4<f32>>>();
     shared::<Integrator<Robot, Dopri5<f64>>>();
     plain::<IntegrationError>();
@@ -61,13 +93,24 @@ fn robot() -> [f64; 7] {
     state.into()
 }
 
+/// The bits of every result, a line each.
+fn results() -> Vec<String> {
+    let mut lines = vec![
+        format!("f64       {:016x?}", sleigh_over(|x| x).map(f64::to_bits)),
+        format!("f32       {:08x?}", sleigh_over(<f32 as Scalar>::from_f64).map(f32::to_bits)),
+        format!("Fast<f64> {:016x?}", sleigh_over(Fast).map(|x| x.0.to_bits())),
+        format!("Fast<f32> {:08x?}", sleigh_over(<Fast<f32> as Scalar>::from_f64).map(|x| x.0.to_bits())),
+        format!("implicit  {:016x?}", robot().map(f64::to_bits)),
+    ];
+    lines.extend(methods::all());
+    lines
+}
+
 fn main() {
-    for _ in 0..2 {
-        println!("f64       {:016x?}", sleigh_over(|x| x).map(f64::to_bits));
-        println!("f32       {:08x?}", sleigh_over(<f32 as Scalar>::from_f64).map(f32::to_bits));
-        println!("Fast<f64> {:016x?}", sleigh_over(Fast).map(|x| x.0.to_bits()));
-        println!("Fast<f32> {:08x?}", sleigh_over(<Fast<f32> as Scalar>::from_f64).map(|x| x.0.to_bits()));
-        println!("implicit  {:016x?}", robot().map(f64::to_bits));
+    let lines = results();
+    assert_eq!(lines, results(), "a second run has other bits");
+    for line in lines {
+        println!("{line}");
     }
     println!("{}", proved::all());
 }

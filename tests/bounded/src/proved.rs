@@ -1,6 +1,11 @@
 //! Functions that cannot panic: with the feature `proof` the linker refuses them if they can.
 
+use nh_runtime::control::{
+    Estimate, Ilqr, Quadratic, Regulator, Sampled, Unscented, angle_difference, held_noise, zero_order_hold,
+};
 use nh_runtime::prelude::*;
+
+use nalgebra::{Matrix1, Matrix4, RowVector4, Vector1, Vector4, Vector5};
 
 use crate::systems::{
     Robot, RobotInput, RobotState, Sleigh, SleighInput, SleighOnThePlane, SleighOnThePlaneState, SleighState,
@@ -17,6 +22,9 @@ macro_rules! proved {
 
 type Single = SleighState<f32>;
 type Double = SleighState<f64>;
+/// An optimal control problem of five ticks.
+pub(crate) type Plan = Ilqr<f64, 5, 1, 5>;
+type Cost = Quadratic<f64, 5, 1>;
 
 proved! {
     fn derivative(sleigh: &Sleigh<f64>, x: &Double, u: &SleighInput<f64>) -> Double { sleigh.derivative(0.0, x, u) }
@@ -61,6 +69,33 @@ proved! {
     }
     fn sine_and_cosine(x: Fast<f64>) -> (Fast<f64>, Fast<f64>) { x.sin_cos() }
     fn sine_and_cosine_single(x: Fast<f32>) -> (Fast<f32>, Fast<f32>) { x.sin_cos() }
+    fn hold(a: &Matrix4<f64>, b: &Vector4<f64>, dt: f64) -> bool { zero_order_hold(a, b, dt).is_ok() }
+    fn noise(a: &Matrix4<f64>, density: &Matrix4<f64>, dt: f64) -> bool { held_noise(a, density, dt).is_ok() }
+    fn regulator(a: &Matrix4<f64>, b: &Vector4<f64>, q: &Matrix4<f64>, r: &Matrix1<f64>) -> bool {
+        Regulator::stationary(a, b, q, r).is_ok()
+    }
+    fn regulator_with_cross(a: &Matrix4<f64>, b: &Vector4<f64>, q: &Matrix4<f64>, r: &Matrix1<f64>) -> bool {
+        Regulator::stationary_with_cross(a, b, q, r, b).is_ok()
+    }
+    fn regulator_before(a: &Matrix4<f32>, b: &Vector4<f32>, q: &Matrix4<f32>, r: &Matrix1<f32>) -> bool {
+        Regulator::before(q, a, b, q, r).is_ok()
+    }
+    fn predicted(belief: &Estimate<f64, 4>, a: &Matrix4<f64>, noise: &Matrix4<f64>) -> bool {
+        belief.predicted(a * belief.mean, a, noise).is_ok()
+    }
+    fn corrected(belief: &Estimate<f64, 4>, innovation: &Vector1<f64>, c: &RowVector4<f64>, r: &Matrix1<f64>) -> bool {
+        belief.corrected(innovation, c, r).is_ok()
+    }
+    fn points_predicted(belief: &Estimate<f64, 4>, a: &Matrix4<f64>, noise: &Matrix4<f64>) -> bool {
+        Unscented::default().predicted(belief, |x| a * x, noise).is_ok()
+    }
+    fn points_corrected(belief: &Estimate<f64, 4>, seen: &Vector1<f64>, c: &RowVector4<f64>, r: &Matrix1<f64>) -> bool {
+        let difference = |a: Vector1<f64>, b: Vector1<f64>| Vector1::new(angle_difference(a.x, b.x));
+        Unscented::default().corrected(belief, seen, |x| c * x, difference, r).is_ok()
+    }
+    fn plan(plan: &mut Plan, model: &Sampled<Sleigh<f64>, f64>, cost: &Cost, start: &Vector5<f64>) -> bool {
+        plan.improve(model, cost, start).is_ok()
+    }
     fn loop_with_an_integrator(robot: &Robot, x: &RobotState) -> bool {
         let mut sim = Integrator::new(robot, Rk4::new(0.01), 0.0, *x);
         let stepped = sim.step().is_ok();
@@ -111,6 +146,35 @@ pub(crate) fn all() -> String {
         sine_and_cosine_single(Fast(black_box(1e7))).0.0.is_finite(),
         loop_with_an_integrator(&robot_system, &robot_x),
     ];
-    let finite = results.iter().filter(|finite| **finite).count();
-    format!("{finite} of {} functions gave something finite", results.len())
+    let controls = controls(&sleigh);
+    let results = results.iter().chain(&controls);
+    let (finite, count) = results.fold((0, 0), |(sum, count), finite| (sum + u32::from(*finite), count + 1));
+    format!("{finite} of {count} functions gave something finite")
+}
+
+/// The same of the building blocks of controllers.
+fn controls(sleigh: &Sleigh<f64>) -> [bool; 10] {
+    use std::hint::black_box;
+
+    let a = black_box(Matrix4::identity() * 0.9 + Matrix4::repeat(0.02));
+    let b = black_box(Vector4::new(0.1, 0.2, 0.3, 0.4));
+    let (one, r) = black_box((Matrix4::identity(), Matrix1::new(2.0)));
+    let row = black_box(RowVector4::new(1.0, 0.0, 0.5, 0.0));
+    let belief = black_box(Estimate { mean: Vector4::new(0.1, 0.0, 0.2, 0.0), covariance: one });
+    let seen = black_box(Vector1::new(0.3));
+    let model = black_box(Sampled { system: *sleigh, start: 0.0, dt: 0.05 });
+    let five = black_box(Vector5::new(0.3, 0.1, 0.2, 0.4, 0.5));
+    let cost = Quadratic { goal: Vector5::zeros(), state: five, input: seen, end: five };
+    [
+        hold(&a, &b, 0.1),
+        noise(&a, &one, 0.1),
+        regulator(&a, &b, &one, &r),
+        regulator_with_cross(&a, &b, &one, &r),
+        regulator_before(&a.cast(), &b.cast(), &one.cast(), &r.cast()),
+        predicted(&belief, &a, &one),
+        corrected(&belief, &seen, &row, &r),
+        points_predicted(&belief, &a, &one),
+        points_corrected(&belief, &seen, &row, &r),
+        plan(&mut black_box(Plan::new(seen)), &model, &cost, &five),
+    ]
 }
