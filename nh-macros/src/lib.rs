@@ -67,6 +67,7 @@ mod syntax;
 /// | `independent { v, dphi }` | the velocities that the state keeps | chosen by the macro |
 /// | `orthonormal { u1, u2 }` | names for the velocities of a basis of D made orthonormal in the kinetic metric (Gram and Schmidt, in the order of the independent velocities): the state keeps them, and C is the identity (M 2.2) | |
 /// | `formulation { projected }` | all velocities in the state, with multipliers; or `adapted` | adapted where a choice of velocities holds everywhere |
+/// | `accuracy { careful }` | where emitted code stands between speed and accuracy: `fast`, `balanced` or `careful`, see below | `balanced` |
 /// | `emit { jacobian, momenta }` | what to generate beyond the default: see below | |
 /// | `track { v, speed }` | the state variables and outputs that matter: what does not flow into them is neither stored nor computed | everything |
 /// | `derivative { motor: [self.motor_speed]; }` | the partial derivatives of a method used in a force, for `emit { jacobian }` | |
@@ -169,6 +170,16 @@ mod syntax;
 ///   equation; `vertical_velocities`, the components along S; `horizontal_force`, what curvature and
 ///   connection add to the horizontal equations. Sections are arrays of components along the basis.
 ///   MATHEMATICS.md (25), CM Propositions 8 and 9.
+///
+/// # How accurate the emitted code is
+///
+/// `accuracy { fast }` takes whatever form has the fewest operations; sines and cosines of sums of angles
+/// come from those of the parts where that saves evaluations, which costs small angles their relative
+/// accuracy. `balanced`, the default, takes a cheaper form unless its rounding error may be more than four
+/// times as large. `careful` takes forms that lose nothing, and carries the rounding error of every sum,
+/// product and quotient along to first order: results are as if computed with nearly twice the digits and
+/// rounded once, if the target has fused multiply-adds, for some 1.5 to 5 times the instructions. What of
+/// each system and level comes out is in BENCHMARKS.md of the project.
 ///
 /// # Which velocities the state keeps
 ///

@@ -20,8 +20,13 @@ impl Bounded {
     }
 
     /// Adds the rounding of the operation that produced the value.
-    fn rounded(value: f64, error: f64) -> Self {
+    pub(crate) fn rounded(value: f64, error: f64) -> Self {
         Self { value, error: error + 2.0 * f64::EPSILON * value.abs() }
+    }
+
+    /// An exact number as it is read.
+    pub(crate) fn of_number(number: &Rational) -> Self {
+        Self::rounded(number.to_f64(), 0.0)
     }
 
     /// Whether the exact value certainly differs from zero.
@@ -58,7 +63,7 @@ impl Graph {
         value: &impl Fn(SymbolId) -> f64,
     ) -> Bounded {
         match self.node(id) {
-            Node::Number(number) => Bounded::rounded(number.to_f64(), 0.0),
+            Node::Number(number) => Bounded::of_number(number),
             Node::Pi => Bounded::rounded(std::f64::consts::PI, 0.0),
             Node::Symbol(symbol) => Bounded::exact(value(*symbol)),
             Node::Sum { constant, terms } => {
@@ -87,8 +92,8 @@ impl Graph {
                     if product == 0.0 { power_error(coefficient.to_f64(), factors, known) } else { 0.0 };
                 Bounded { value: product, error: error + product.abs() * relative }
             }
-            Node::Apply(function, x) => apply(*function, known[x]),
-            Node::Apply2(function, x, y) => apply2(*function, known[x], known[y]),
+            Node::Apply(function, x) => Bounded::of_function(*function, known[x]),
+            Node::Apply2(function, x, y) => Bounded::of_function2(*function, known[x], known[y]),
         }
     }
 }
@@ -112,33 +117,37 @@ fn real_power(x: f64, exponent: &Rational) -> f64 {
     }
 }
 
-fn apply(function: Function, x: Bounded) -> Bounded {
-    let v = x.value;
-    let (value, slope) = match function {
-        Function::Sin => (v.sin(), 1.0),
-        Function::Cos => (v.cos(), 1.0),
-        Function::Asin => (v.asin(), 1.0 / (1.0 - v * v).sqrt()),
-        Function::Acos => (v.acos(), 1.0 / (1.0 - v * v).sqrt()),
-        Function::Atan => (v.atan(), 1.0),
-        Function::Sinh => (v.sinh(), v.cosh()),
-        Function::Cosh => (v.cosh(), v.sinh().abs()),
-        Function::Tanh => (v.tanh(), 1.0),
-        Function::Exp => (v.exp(), v.exp()),
-        Function::Ln => (v.ln(), 1.0 / v.abs()),
-        Function::Abs => (v.abs(), 1.0),
-        Function::Sign => (if v == 0.0 { 0.0 } else { v.signum() }, 0.0),
-    };
-    Bounded::rounded(value, slope * x.error)
-}
+impl Bounded {
+    /// A function of a number with an error.
+    pub(crate) fn of_function(function: Function, x: Self) -> Self {
+        let v = x.value;
+        let (value, slope) = match function {
+            Function::Sin => (v.sin(), 1.0),
+            Function::Cos => (v.cos(), 1.0),
+            Function::Asin => (v.asin(), 1.0 / (1.0 - v * v).sqrt()),
+            Function::Acos => (v.acos(), 1.0 / (1.0 - v * v).sqrt()),
+            Function::Atan => (v.atan(), 1.0),
+            Function::Sinh => (v.sinh(), v.cosh()),
+            Function::Cosh => (v.cosh(), v.sinh().abs()),
+            Function::Tanh => (v.tanh(), 1.0),
+            Function::Exp => (v.exp(), v.exp()),
+            Function::Ln => (v.ln(), 1.0 / v.abs()),
+            Function::Abs => (v.abs(), 1.0),
+            Function::Sign => (if v == 0.0 { 0.0 } else { v.signum() }, 0.0),
+        };
+        Bounded::rounded(value, slope * x.error)
+    }
 
-fn apply2(function: Function2, x: Bounded, y: Bounded) -> Bounded {
-    match function {
-        Function2::Atan2 => {
-            let radius = x.value.hypot(y.value);
-            Bounded::rounded(x.value.atan2(y.value), (x.error + y.error) / radius)
+    /// A function of two numbers with errors.
+    pub(crate) fn of_function2(function: Function2, x: Self, y: Self) -> Self {
+        match function {
+            Function2::Atan2 => {
+                let radius = x.value.hypot(y.value);
+                Bounded::rounded(x.value.atan2(y.value), (x.error + y.error) / radius)
+            }
+            Function2::Min => Bounded { value: x.value.min(y.value), error: x.error.max(y.error) },
+            Function2::Max => Bounded { value: x.value.max(y.value), error: x.error.max(y.error) },
         }
-        Function2::Min => Bounded { value: x.value.min(y.value), error: x.error.max(y.error) },
-        Function2::Max => Bounded { value: x.value.max(y.value), error: x.error.max(y.error) },
     }
 }
 

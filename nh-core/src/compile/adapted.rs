@@ -11,7 +11,7 @@ use super::restricted::{
 };
 use super::routh::{self, Leveled, on_levels};
 use super::{Proved, fence};
-use crate::algebra::Graph;
+use crate::algebra::{Accuracy, Graph};
 use crate::check;
 use crate::geometry::ConstraintDistribution;
 use crate::id::{ExprId, Id};
@@ -21,7 +21,7 @@ use crate::mechanics::{
     solve_symmetric,
 };
 use crate::model::{Formulation, Request};
-use crate::program::{Cost, schedule};
+use crate::program::{Cost, Program, error_growth, schedule};
 use crate::report::{Derived, equations_of_motion, report};
 use crate::system::System;
 use crate::violation::Violation;
@@ -179,23 +179,23 @@ fn in_orthonormal_basis(proved: &mut Proved, distribution: &ConstraintDistributi
 /// solved: they have never been the cheapest.
 const LONGER: u64 = 40;
 
-/// The derivative by whichever form of the equations takes less work.
+/// The derivative by whichever form of the equations takes less work, unless that loses more accuracy
+/// than is allowed.
 fn cheapest_derivative(proved: &mut Proved, candidates: &[ReducedEquations], calls: &Procedure) -> Procedure {
     let parameters: Vec<_> = proved.model.parameters.iter().map(|parameter| parameter.symbol).collect();
-    let mut best: Option<(usize, Procedure)> = None;
-    let mut compared: Vec<Vec<ExprId>> = Vec::new();
     // the mass matrix is the same in all forms, and the first is written out
     let definite = candidates.first().map_or(Definiteness::Unknown, |first| {
         definiteness(&proved.model.graph, &first.mass, &parameters, &proved.facts)
     });
-    let lengths: Vec<u64> =
-        candidates.iter().map(|candidate| candidate.length(&proved.model.graph)).collect();
+    let graph = &mut proved.model.graph;
+    let lengths: Vec<u64> = candidates.iter().map(|candidate| candidate.length(graph)).collect();
     let shortest = lengths.iter().copied().min().unwrap_or_default();
+    let mut procedures = Vec::with_capacity(candidates.len());
+    let mut compared: Vec<Vec<ExprId>> = Vec::new();
     for (candidate, length) in candidates.iter().zip(lengths) {
         if length > shortest + LONGER && 2 * length > 3 * shortest {
             continue;
         }
-        let graph = &mut proved.model.graph;
         let mut procedure = calls.clone();
         procedure.definitions.extend(candidate.definitions.definitions.iter().cloned());
         let accelerations =
@@ -203,17 +203,29 @@ fn cheapest_derivative(proved: &mut Proved, candidates: &[ReducedEquations], cal
         procedure.outputs = candidate.rates.iter().chain(&accelerations).copied().collect();
         // different ways often lead to the same equations
         let values = procedure.values(graph);
-        if compared.contains(&values) {
-            continue;
+        if !compared.contains(&values) {
+            compared.push(values);
+            procedures.push(procedure);
         }
-        // a single candidate needs no comparison
-        let cost = if candidates.len() == 1 { 0 } else { Cost::of(&schedule(graph, &procedure)).weighted() };
-        if best.as_ref().is_none_or(|(least, _)| cost < *least) {
-            best = Some((cost, procedure));
-        }
-        compared.push(values);
     }
-    best.map(|(_, procedure)| procedure).unwrap_or_default()
+    // a single candidate needs no comparison
+    let best = if procedures.len() < 2 { 0 } else { cheapest(graph, &procedures) };
+    procedures.into_iter().nth(best).unwrap_or_default()
+}
+
+/// The cheapest of several procedures of the same value, among those whose rounding error the level of
+/// accuracy allows.
+fn cheapest(graph: &Graph, procedures: &[Procedure]) -> usize {
+    let programs: Vec<Program> = procedures.iter().map(|procedure| schedule(graph, procedure)).collect();
+    let growth = match graph.accuracy() {
+        Accuracy::Fast => vec![1.0; programs.len()],
+        Accuracy::Balanced | Accuracy::Careful => error_growth(&programs),
+    };
+    let least = growth.iter().copied().fold(f64::INFINITY, f64::min);
+    let allowed = graph.accuracy().growth().max(least);
+    let costs = programs.iter().map(|program| Cost::of(program).weighted());
+    let sound = costs.zip(growth).enumerate().filter(|(_, (_, growth))| *growth <= allowed);
+    sound.min_by_key(|(_, (cost, _))| *cost).map_or(0, |(index, _)| index)
 }
 
 /// Forces of constraint are differences of inertial and applied forces, which may cancel. Where the

@@ -14,6 +14,7 @@ mod kinetic_metric;
 mod momentum;
 mod moving_energy;
 mod nonholonomic_connection;
+mod orthogonal_constraints;
 mod planar_points;
 mod procedure;
 mod projected;

@@ -1,9 +1,10 @@
 //! Lagrange–d'Alembert equations with multipliers on all of E: the saddle form, mathematics (9).
 
 use super::euler_lagrange::LagrangianSystem;
+use super::orthogonal_constraints::Touching;
 use super::procedure::{Definition, Procedure};
-use super::symmetric_solve::{Definiteness, Factorisation, solve_symmetric};
-use crate::algebra::{Graph, Matrix, Substitution};
+use super::symmetric_solve::{Definiteness, Factorisation, simplified_pair, submatrix, uncoupled};
+use crate::algebra::{Accuracy, Graph, Matrix, Substitution};
 use crate::id::{ExprId, SymbolId};
 
 /// `W ẏ − Jᵀ λ = force`, `J ẏ = bias`.
@@ -145,8 +146,8 @@ impl SaddleEquations {
     /// ẏ and λ, as intermediate results of the procedure; `definiteness` judges mass matrices.
     ///
     /// By (10): λ = (J W⁻¹ Jᵀ)⁻¹ (bias − J W⁻¹ force), with one factorisation of W where W is
-    /// diagonal and definite, of the augmented matrix where that is definite; else the saddle
-    /// system is solved with numerical pivoting.
+    /// diagonal and definite, of the augmented matrix where that is definite, and with constraints made
+    /// orthogonal; else the saddle system is solved with numerical pivoting.
     pub fn solve(
         &self,
         graph: &mut Graph,
@@ -198,16 +199,41 @@ impl SaddleEquations {
                 graph.sub(*bias, reached)
             })
             .collect();
-        let multipliers =
-            solve_symmetric(graph, &complement, &right, Definiteness::Definite, procedure, "lambda");
-        // 4. ẏ = free + W⁻¹ Jᵀ λ
-        let accelerations = (0..free.len())
-            .map(|alpha| {
-                let column: Vec<ExprId> = reach.iter().map(|row| row[alpha]).collect();
-                let reaction = graph.inner_product(&column, &multipliers);
-                graph.add(free[alpha], reaction)
-            })
-            .collect();
+        // 4. ẏ = free + W⁻¹ Jᵀ λ, for constraints that do not touch each other one by one
+        let mut accelerations = free;
+        let mut multipliers = right.clone();
+        for block in uncoupled(graph, &complement) {
+            let pick = |rows: &Matrix| -> Matrix { block.iter().map(|a| rows[*a].clone()).collect() };
+            let outer: Vec<ExprId> = block.iter().map(|a| right[*a]).collect();
+            let inner = submatrix(&complement, &block);
+            let solved = match inner.len() {
+                1 => Some(vec![graph.div(outer[0], inner[0][0])]),
+                // where the constraints are nearly dependent it loses as many digits again
+                2 if graph.accuracy() == Accuracy::Fast => simplified_pair(graph, &inner, &outer),
+                _ => None,
+            };
+            let found = if let Some(solved) = solved {
+                let named: Vec<ExprId> = block
+                    .iter()
+                    .zip(solved)
+                    .map(|(a, value)| procedure.define(graph, &format!("lambda_{a}"), value))
+                    .collect();
+                let rows = pick(&reach);
+                for (alpha, acceleration) in accelerations.iter_mut().enumerate() {
+                    let column: Vec<ExprId> = rows.iter().map(|row| row[alpha]).collect();
+                    let reaction = graph.inner_product(&column, &named);
+                    *acceleration = graph.add(*acceleration, reaction);
+                }
+                named
+            } else {
+                let bias = block.iter().map(|a| self.bias[*a]).collect();
+                let touching = Touching { jacobian: pick(&self.jacobian), reach: pick(&reach), bias };
+                touching.impose(graph, &mut accelerations, procedure)
+            };
+            for (a, value) in block.iter().zip(found) {
+                multipliers[*a] = value;
+            }
+        }
         (accelerations, multipliers)
     }
 

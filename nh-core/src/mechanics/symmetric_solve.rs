@@ -40,7 +40,7 @@ pub fn uncoupled(graph: &Graph, matrix: &[Vec<ExprId>]) -> Vec<Vec<usize>> {
         .collect()
 }
 
-fn submatrix(matrix: &[Vec<ExprId>], block: &[usize]) -> Matrix {
+pub(super) fn submatrix(matrix: &[Vec<ExprId>], block: &[usize]) -> Matrix {
     block.iter().map(|i| block.iter().map(|j| matrix[*i][*j]).collect()).collect()
 }
 
@@ -75,11 +75,7 @@ pub fn solve_symmetric(
 /// Systems whose entries have more operations than this are not simplified as a whole.
 const SIMPLIFIED_WHOLE: u64 = 240;
 
-/// Two equations by Cramer's rule.
-///
-/// Terms of the determinant often cancel identically (the sleigh's m²b², say). Where the solution
-/// simplified as a whole takes no more operations than the arithmetic of the rule, it is used: it
-/// is cheaper, and nothing is lost to that cancellation. A form with more rounding error is not.
+/// Two equations by Cramer's rule, simplified as a whole where that pays.
 fn solve_pair(
     graph: &mut Graph,
     matrix: &[Vec<ExprId>],
@@ -87,29 +83,42 @@ fn solve_pair(
     procedure: &mut Procedure,
     name: &str,
 ) -> Vec<ExprId> {
-    let entries: Vec<ExprId> = matrix.iter().flatten().chain(right).copied().collect();
-    let written_out = graph.operation_count(&entries) + PAIR_OPERATIONS;
-    if written_out <= SIMPLIFIED_WHOLE {
-        let rule = cramer(graph, &entries);
-        let whole: Vec<ExprId> = rule.iter().map(|value| graph.simplify(*value)).collect();
-        let accurate = whole.iter().zip(&rule).all(|(new, old)| graph.error_growth(*new, *old) <= GROWTH);
-        if accurate && graph.operation_count(&whole) <= written_out {
-            return whole;
-        }
+    if let Some(whole) = simplified_pair(graph, matrix, right) {
+        return whole;
     }
+    let entries = matrix.iter().flatten().chain(right);
     let named: Vec<ExprId> = entries
-        .iter()
         .enumerate()
         .map(|(index, entry)| procedure.define(graph, &format!("{name}_entry{index}"), *entry))
         .collect();
     cramer(graph, &named)
 }
 
+/// The solution of two equations simplified as a whole.
+///
+/// Terms of the determinant often cancel identically (the sleigh's m²b², say). Where the solution
+/// takes no more operations than the arithmetic of Cramer's rule, it is used: it is cheaper, and nothing
+/// is lost to that cancellation. A form with more rounding error is not.
+pub(super) fn simplified_pair(
+    graph: &mut Graph,
+    matrix: &[Vec<ExprId>],
+    right: &[ExprId],
+) -> Option<Vec<ExprId>> {
+    let entries: Vec<ExprId> = matrix.iter().flatten().chain(right).copied().collect();
+    let written_out = graph.operation_count(&entries) + PAIR_OPERATIONS;
+    if written_out > SIMPLIFIED_WHOLE {
+        return None;
+    }
+    let rule = cramer(graph, &entries);
+    let whole: Vec<ExprId> = rule.iter().map(|value| graph.simplify(*value)).collect();
+    let growth = graph.accuracy().growth();
+    let accurate = whole.iter().zip(&rule).all(|(new, old)| graph.error_growth(*new, *old) <= growth);
+    (accurate && graph.operation_count(&whole) <= written_out).then_some(whole)
+}
+
 /// What the rule costs on top of the entries: six products, three differences and two quotients,
 /// in the units of `operation_count`.
 const PAIR_OPERATIONS: u64 = 21;
-/// How many times more rounding error is accepted for fewer operations.
-const GROWTH: f64 = 4.0;
 
 /// The solution of `a x + b y = f`, `c x + d y = g`.
 fn cramer(graph: &mut Graph, entries: &[ExprId]) -> Vec<ExprId> {

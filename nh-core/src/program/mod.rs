@@ -3,14 +3,17 @@
 //! [`schedule`] takes a procedure through these steps, each of which keeps its value:
 //!
 //! 1. `import`: what the outputs depend on becomes n-ary sums and products with integer exponents.
+//!    Where accuracy may go, `angles` are shared by the addition theorems.
 //! 2. `factor`: common factors are taken out of sums, and signs out of products.
 //! 3. `powers`: denominators are gathered or inverted once.
 //! 4. `pairs`: pairs of operands that several sums or products share are computed once.
 //! 5. `lower`: binary steps in an order in which every value precedes its uses.
 //! 6. `fuse`: sums with products become multiply-adds; `signs`: negations go where they are free.
 //!
-//! [`corrected`] makes a program carry its rounding errors along. [`Recurrences`] extend a program from numbers to power series in the time.
+//! [`corrected`] makes a program carry its rounding errors along; [`error_growth`] compares programs by
+//! theirs. [`Recurrences`] extend a program from numbers to power series in the time.
 
+mod angles;
 mod correct;
 mod cost;
 mod factor;
@@ -21,6 +24,7 @@ mod lower;
 mod nary;
 mod pairs;
 mod powers;
+mod rounding;
 mod schedule;
 mod signs;
 mod split;
@@ -32,6 +36,7 @@ mod tests;
 pub use correct::corrected;
 pub use cost::Cost;
 pub use interpret::{Arithmetic, interpret, interpret_in};
+pub use rounding::error_growth;
 pub use schedule::{schedule, schedule_grouping};
 pub use split::{Split, split};
 pub use step::{Program, Step, Value};

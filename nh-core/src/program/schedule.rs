@@ -1,5 +1,6 @@
 //! The search for the cheapest straight-line form.
 
+use super::angles::share_angles;
 use super::cost::Cost;
 use super::factor::{Sharing, factor};
 use super::import::import;
@@ -8,7 +9,7 @@ use super::nary::Arena;
 use super::pairs::{Kind, share_pairs};
 use super::powers::separate_powers;
 use super::step::Program;
-use crate::algebra::Graph;
+use crate::algebra::{Accuracy, Graph};
 use crate::id::SymbolId;
 use crate::mechanics::Procedure;
 
@@ -43,7 +44,10 @@ pub fn schedule(graph: &Graph, procedure: &Procedure) -> Program {
 /// that they can be done once per parameter set.
 #[must_use]
 pub fn schedule_grouping(graph: &Graph, procedure: &Procedure, parameters: &[SymbolId]) -> Program {
-    let arena = import(graph, procedure, parameters);
+    let mut arena = import(graph, procedure, parameters);
+    if graph.accuracy() == Accuracy::Fast {
+        share_angles(&mut arena);
+    }
     let tried = if arena.len() > LARGE { &STRATEGIES[..2] } else { &STRATEGIES[..] };
     let mut shared = None;
     let mut prepared: Vec<Arena> = Vec::new();

@@ -230,7 +230,7 @@ mod tests {
 
     #[test]
     fn identities_hold_to_thirty_digits() {
-        for x in [1e-9, 0.3, 0.785, 1.5707, 2.2, -3.0, 99.0, -1234.5] {
+        for x in [1e-9, 0.3, 0.785, 1.57, 2.2, -3.0, 99.0, -1234.5] {
             let (sin, cos) = of(x).sin_cos();
             let (twice, _) = of(2.0 * x).sin_cos();
             let defect = sin * sin + cos * cos - of(1.0);

@@ -7,6 +7,7 @@
 mod double_double;
 pub mod measured;
 pub mod random;
+pub mod regular;
 pub mod systems;
 pub mod table;
 

@@ -30,7 +30,9 @@ fn run() -> Result<(), String> {
         && argument == EVALUATE
     {
         let level = LEVELS.iter().position(|known| known == level).ok_or("an unknown level")?;
-        systems.iter().for_each(|system| system.evaluate(level));
+        for system in &systems {
+            system.evaluate(level);
+        }
         return Ok(());
     }
     if !cfg!(target_feature = "fma") {

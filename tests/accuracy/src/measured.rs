@@ -7,6 +7,7 @@ use nh_runtime::Scalar;
 
 use crate::DoubleDouble;
 use crate::random::{Numbers, Place, Random, Regime};
+use crate::regular::{self, Regular};
 
 /// Places at which a system is evaluated in each regime.
 pub const PLACES: usize = 400;
@@ -18,10 +19,20 @@ pub const LEVELS: [&str; 3] = ["fast", "balanced", "careful"];
 pub trait Level {
     /// In any numbers.
     fn derivative<T: Scalar>(parameters: &[T], state: &[T], input: &[T]) -> Vec<T>;
+    /// All velocities.
+    fn velocity<T: Scalar>(parameters: &[T], state: &[T]) -> Vec<T>;
     /// In `f64`, never inlined, so that its instructions can be counted.
     fn evaluated(place: &Place);
     /// The name of that function in a profile.
     fn symbol() -> &'static str;
+}
+
+/// The same system with all velocities in its state, and multipliers.
+pub trait Twin {
+    /// In any numbers.
+    fn derivative<T: Scalar>(parameters: &[T], state: &[T], input: &[T]) -> Vec<T>;
+    /// What the constraints demand to be zero.
+    fn residual<T: Scalar>(parameters: &[T], state: &[T]) -> Vec<T>;
 }
 
 /// A system emitted at every level.
@@ -36,6 +47,8 @@ pub trait Measured {
     type Balanced: Level;
     /// `accuracy { careful }`
     type Careful: Level;
+    /// `formulation { projected }`
+    type Twin: Twin;
 }
 
 /// A system of the table, whatever its type.
@@ -46,6 +59,8 @@ pub trait Study {
     fn errors(&self, regime: Regime) -> Errors;
     /// Evaluates a level at ordinary places.
     fn evaluate(&self, level: usize);
+    /// Evaluates at regular states that look singular.
+    fn regular_states(&self) -> Regular;
     /// The instructions that a profile of one level has. The function may bear the name of another level,
     /// if the code is the same.
     fn instructions(&self, counts: &Counts) -> Option<f64>;
@@ -89,9 +104,15 @@ impl<S: Measured> Study for std::marker::PhantomData<S> {
                 computed::<S::Balanced>(&place),
                 computed::<S::Careful>(&place),
             ];
-            let explained = explained::<S::Careful>(&place, &exact);
+            let units = units(&exact);
+            let explained = explained::<S::Careful>(&place, &exact, &units);
             for ((found, unexplained), level) in found.iter_mut().zip(&mut unexplained).zip(&levels) {
-                let errors: Vec<f64> = level.iter().zip(&exact).map(|(x, exact)| ulps(*x, *exact)).collect();
+                let errors: Vec<f64> = level
+                    .iter()
+                    .zip(&exact)
+                    .zip(&units)
+                    .map(|((x, exact), unit)| ulps(*x, *exact, *unit))
+                    .collect();
                 found.push(largest(&errors));
                 for (error, explained) in errors.iter().zip(&explained) {
                     *unexplained = larger(*unexplained, error / (1.0 + explained));
@@ -111,6 +132,10 @@ impl<S: Measured> Study for std::marker::PhantomData<S> {
         }
     }
 
+    fn regular_states(&self) -> Regular {
+        regular::study::<S>()
+    }
+
     fn instructions(&self, counts: &Counts) -> Option<f64> {
         let symbols = [S::Fast::symbol(), S::Balanced::symbol(), S::Careful::symbol()];
         symbols.into_iter().find_map(|symbol| counts.get(symbol).copied())
@@ -128,7 +153,7 @@ fn precise<L: Level>(place: &Place) -> Vec<DoubleDouble> {
 }
 
 /// The sum of what half a unit in the last place of each input changes, in units in the last place.
-fn explained<L: Level>(place: &Place, exact: &[DoubleDouble]) -> Vec<f64> {
+fn explained<L: Level>(place: &Place, exact: &[DoubleDouble], units: &[f64]) -> Vec<f64> {
     let mut sum = vec![0.0; exact.len()];
     let mut moved = place.clone();
     let lists: [fn(&mut Place) -> &mut Vec<f64>; 3] =
@@ -139,33 +164,37 @@ fn explained<L: Level>(place: &Place, exact: &[DoubleDouble]) -> Vec<f64> {
             list(&mut moved)[index] = entry.next_up();
             let changed = precise::<L>(&moved);
             list(&mut moved)[index] = entry;
-            for ((sum, changed), exact) in sum.iter_mut().zip(changed).zip(exact) {
-                *sum += 0.5 * ((changed - *exact).high / unit(exact.high)).abs();
+            for (((sum, changed), exact), unit) in sum.iter_mut().zip(changed).zip(exact).zip(units) {
+                *sum += 0.5 * ((changed - *exact).high / unit).abs();
             }
         }
     }
     sum
 }
 
-/// One unit in the last place.
-fn unit(value: f64) -> f64 {
-    let value = value.abs().max(f64::MIN_POSITIVE);
-    value.next_up() - value
+/// One unit in the last place of each component. One that is zero to all digits of the reference, as is
+/// the rate of a velocity that a constraint forbids, has the unit of the largest.
+fn units(exact: &[DoubleDouble]) -> Vec<f64> {
+    let largest = largest(&exact.iter().map(|x| x.high.abs()).collect::<Vec<_>>());
+    let unit = |value: f64| {
+        let value = value.max(f64::MIN_POSITIVE);
+        value.next_up() - value
+    };
+    let size = |x: &DoubleDouble| if x.high.abs() < 1e-25 * largest { largest } else { x.high.abs() };
+    exact.iter().map(|x| unit(size(x))).collect()
 }
 
 /// How many units in the last place a number is off.
-fn ulps(found: f64, exact: DoubleDouble) -> f64 {
-    let error = DoubleDouble::from_f64(found) - exact;
-    // zero is expected where it is exact
-    if error.high == 0.0 { 0.0 } else { (error.high / unit(exact.high)).abs() }
+fn ulps(found: f64, exact: DoubleDouble, unit: f64) -> f64 {
+    ((DoubleDouble::from_f64(found) - exact).high / unit).abs()
 }
 
 /// The larger number; a NaN is larger than all.
-fn larger(a: f64, b: f64) -> f64 {
+pub(crate) fn larger(a: f64, b: f64) -> f64 {
     if a.is_nan() || b.is_nan() { f64::NAN } else { a.max(b) }
 }
 
-fn largest(values: &[f64]) -> f64 {
+pub(crate) fn largest(values: &[f64]) -> f64 {
     values.iter().copied().fold(0.0, larger)
 }
 

@@ -1,5 +1,7 @@
 //! Parameters and states, ordinary and extreme.
 
+use std::f64::consts::{FRAC_PI_2, PI};
+
 /// Where a system is evaluated.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Regime {
@@ -81,6 +83,30 @@ impl Numbers {
     }
 }
 
+/// What is tried for coordinates that look singular: zeros of sines and cosines, exact, rounded, and near.
+const CORNERS: [f64; 7] = [0.0, FRAC_PI_2, -FRAC_PI_2, PI, 1e-9, -1e-4, FRAC_PI_2 + 1e-4];
+
+impl Numbers {
+    /// A place with coordinates of which some look singular, all numbers those of `f32`.
+    pub fn draw_corner(&self, regime: Regime, random: &mut Random) -> Place {
+        let mut place = self.draw(regime, random);
+        for coordinate in &mut place.state[..self.velocities] {
+            *coordinate = random.between(-1.0, 1.0);
+            if random.between(0.0, 1.0) < 0.7 {
+                *coordinate = CORNERS[random.below(CORNERS.len())];
+            }
+        }
+        for list in [&mut place.parameters, &mut place.state, &mut place.input] {
+            for entry in list {
+                #[allow(clippy::cast_possible_truncation, reason = "it is meant")]
+                let rounded = *entry as f32;
+                *entry = rounded.into();
+            }
+        }
+        place
+    }
+}
+
 /// Marsaglia's xorshift.
 #[derive(Clone, Debug)]
 pub struct Random(pub u64);
@@ -94,5 +120,11 @@ impl Random {
         #[allow(clippy::cast_precision_loss, reason = "53 bits")]
         let unit = (self.0 >> 11) as f64 / (1_u64 << 53) as f64;
         low + (high - low) * unit
+    }
+
+    /// An index below a length.
+    pub fn below(&mut self, length: usize) -> usize {
+        let _ = self.between(0.0, 1.0);
+        usize::try_from(self.0 >> 33).unwrap_or(0) % length
     }
 }

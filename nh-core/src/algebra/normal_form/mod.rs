@@ -25,6 +25,7 @@ mod rebuild;
 mod terms;
 mod trigonometry;
 
+use super::accuracy::Accuracy;
 use super::graph::Function::{Cos, Cosh, Exp, Sin, Sinh};
 use super::graph::{Graph, Node};
 use crate::id::ExprId;
@@ -262,6 +263,7 @@ impl Choice {
         if candidate != self.best
             && let Some(cost) = graph.operation_count_within(&[candidate], CONE)
             && cost < self.cost
+            && (graph.accuracy() != Accuracy::Careful || graph.error_growth(candidate, self.rebuilt) <= 1.0)
         {
             (self.best, self.cost) = (candidate, cost);
         }

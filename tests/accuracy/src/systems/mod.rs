@@ -13,14 +13,16 @@ macro_rules! measured {
         $(#[doc = $doc:literal])*
         struct $System:ident, $State:ident $(, $Input:ident of $inputs:literal)? { $($field:ident: $kind:ty),* $(,)? }
         from |$p:ident| $make:tt,
-        states $states:literal,
+        states $states:literal of $all:literal,
         $declaration:tt
     ) => {
         $(#[doc = $doc])*
         pub mod $module {
-            measured!(@level fast, $System, $State, [$($Input, $inputs)?], [$($field: $kind),*], $p, $make, $states, $declaration);
-            measured!(@level balanced, $System, $State, [$($Input, $inputs)?], [$($field: $kind),*], $p, $make, $states, $declaration);
-            measured!(@level careful, $System, $State, [$($Input, $inputs)?], [$($field: $kind),*], $p, $make, $states, $declaration);
+            measured!(@level fast, $System, $State, [$($Input, $inputs)?], [$($field: $kind),*], $p, $make, $states, $all, $declaration);
+            measured!(@level balanced, $System, $State, [$($Input, $inputs)?], [$($field: $kind),*], $p, $make, $states, $all, $declaration);
+            measured!(@level careful, $System, $State, [$($Input, $inputs)?], [$($field: $kind),*], $p, $make, $states, $all, $declaration);
+
+            measured!(@twin $System, $State, [$($Input, $inputs)?], [$($field: $kind),*], $p, $make, $all, $declaration);
 
             /// The system at every level.
             #[derive(Clone, Copy, Debug)]
@@ -33,11 +35,12 @@ macro_rules! measured {
             type Fast = $module::fast::Emitted;
             type Balanced = $module::balanced::Emitted;
             type Careful = $module::careful::Emitted;
+            type Twin = $module::twin::Emitted;
         }
     };
     (
         @level $level:ident, $System:ident, $State:ident, [$($Input:ident, $inputs:literal)?],
-        [$($field:ident: $kind:ty),*], $p:ident, $make:tt, $states:literal, { $($declaration:tt)* }
+        [$($field:ident: $kind:ty),*], $p:ident, $make:tt, $states:literal, $all:literal, { $($declaration:tt)* }
     ) => {
         /// Emitted at this level.
         pub mod $level {
@@ -78,12 +81,57 @@ macro_rules! measured {
                     let rate: [T; $states] = rate.into();
                     rate.to_vec()
                 }
+                fn velocity<T: nh_runtime::Scalar>(parameters: &[T], at: &[T]) -> Vec<T> {
+                    const SECTIONS: usize =
+                        $all - <super::Levels as $crate::measured::Measured>::NUMBERS.velocities;
+                    let velocity: [T; SECTIONS] = system(parameters).velocity(T::ZERO, &state(at)).into();
+                    velocity.to_vec()
+                }
                 fn evaluated(place: &$crate::random::Place) {
                     let (system, state) = (system(&place.parameters), state(&place.state));
                     std::hint::black_box(counted(&system, &state, &input(&place.input)));
                 }
                 fn symbol() -> &'static str {
                     concat!(module_path!(), "::counted")
+                }
+            }
+        }
+    };
+    (
+        @twin $System:ident, $State:ident, [$($Input:ident, $inputs:literal)?],
+        [$($field:ident: $kind:ty),*], $p:ident, $make:tt, $all:literal, { $($declaration:tt)* }
+    ) => {
+        /// With all velocities in the state, and multipliers.
+        pub mod twin {
+            use nh_runtime::prelude::*;
+
+            /// The parameters.
+            #[nonholonomic($($declaration)* formulation { projected })]
+            #[derive(Clone, Copy, Debug)]
+            pub struct $System<T> { $($field: $kind),* }
+
+            /// The system with multipliers.
+            #[derive(Clone, Copy, Debug)]
+            pub struct Emitted;
+
+            fn system<T: nh_runtime::Scalar>($p: &[T]) -> $System<T> {
+                $System $make
+            }
+
+            fn state<T: nh_runtime::Scalar>(list: &[T]) -> $State<T> {
+                let components: [T; $all] = core::array::from_fn(|i| list[i]);
+                components.into()
+            }
+
+            impl $crate::measured::Twin for Emitted {
+                fn derivative<T: nh_runtime::Scalar>(parameters: &[T], at: &[T], inputs: &[T]) -> Vec<T> {
+                    let input = measured!(@input inputs $($Input, $inputs)?);
+                    let rate: [T; $all] = system(parameters).derivative(T::ZERO, &state(at), &input).into();
+                    rate.to_vec()
+                }
+                fn residual<T: nh_runtime::Scalar>(parameters: &[T], at: &[T]) -> Vec<T> {
+                    let system = system(parameters);
+                    Constrained::constraint_residual(&system, T::ZERO, &state(at)).as_ref().to_vec()
                 }
             }
         }
@@ -106,6 +154,11 @@ pub fn all() -> Vec<Box<dyn Study>> {
         Box::new(PhantomData::<bodies::snakeboard::Levels>),
         Box::new(PhantomData::<bodies::robot::Levels>),
         Box::new(PhantomData::<bodies::ball::Levels>),
+        Box::new(PhantomData::<bodies::board_in_coordinates::Levels>),
+        Box::new(PhantomData::<bodies::sleigh_on_the_plane::Levels>),
+        Box::new(PhantomData::<bodies::knife_edge::Levels>),
+        Box::new(PhantomData::<bodies::vehicle::Levels>),
+        Box::new(PhantomData::<bodies::two_links::Levels>),
         Box::new(PhantomData::<tractors::one::Levels>),
         Box::new(PhantomData::<tractors::two::Levels>),
         Box::new(PhantomData::<tractors::three::Levels>),

@@ -5,7 +5,7 @@ use std::f64::consts::FRAC_PI_2;
 
 macro_rules! tractor {
     (
-        $module:ident, $name:literal, $n:literal trailers, $bodies:literal bodies, $states:literal states,
+        $module:ident, $name:literal, $n:literal trailers, $bodies:literal bodies, $states:literal states of $all:literal,
         inertias $inertias:expr, parameters $parameters:literal, velocities from $velocities:literal
     ) => {
         measured! {
@@ -24,7 +24,7 @@ macro_rules! tractor {
                 d: core::array::from_fn(|i| p[2 * $bodies + i]),
                 a: p[2 * $bodies + $n],
             },
-            states $states,
+            states $states of $all,
             {
                 base  { x, y, th, rel[$n] }
                 basis { v, side, omega, rd[$n] }
@@ -57,15 +57,15 @@ macro_rules! tractor {
     };
 }
 
-tractor! { one, "tractor, 1 trailer", 1 trailers, 2 bodies, 6 states,
+tractor! { one, "tractor, 1 trailer", 1 trailers, 2 bodies, 6 states of 8,
 inertias [0, 1, 2, 3], parameters 6, velocities from 4 }
-tractor! { two, "tractor, 2 trailers", 2 trailers, 3 bodies, 7 states,
+tractor! { two, "tractor, 2 trailers", 2 trailers, 3 bodies, 7 states of 10,
 inertias [0, 1, 2, 3, 4, 5], parameters 9, velocities from 5 }
-tractor! { three, "tractor, 3 trailers", 3 trailers, 4 bodies, 8 states,
+tractor! { three, "tractor, 3 trailers", 3 trailers, 4 bodies, 8 states of 12,
 inertias [0, 1, 2, 3, 4, 5, 6, 7], parameters 12, velocities from 6 }
-tractor! { four, "tractor, 4 trailers", 4 trailers, 5 bodies, 9 states,
+tractor! { four, "tractor, 4 trailers", 4 trailers, 5 bodies, 9 states of 14,
 inertias [0, 1, 2, 3, 4, 5, 6, 7, 8, 9], parameters 15, velocities from 7 }
-tractor! { five, "tractor, 5 trailers", 5 trailers, 6 bodies, 10 states,
+tractor! { five, "tractor, 5 trailers", 5 trailers, 6 bodies, 10 states of 16,
 inertias [0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11], parameters 18, velocities from 8 }
-tractor! { six, "tractor, 6 trailers", 6 trailers, 7 bodies, 11 states,
+tractor! { six, "tractor, 6 trailers", 6 trailers, 7 bodies, 11 states of 18,
 inertias [0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13], parameters 21, velocities from 9 }

@@ -1,0 +1,93 @@
+//! Multipliers of constraints that are made orthogonal first.
+//!
+//! J W⁻¹ Jᵀ squares the condition of the constraints: where they are nearly dependent, at an angle δ,
+//! its determinant is of order δ², and what is left of it in floating point has lost δ⁻² units of
+//! round-off. Rows that are made orthogonal in the metric W⁻¹ one after the other (the modified method of
+//! Gram and Schmidt; Å. Björck, *Numerics of Gram–Schmidt orthogonalization*, Linear Algebra Appl.
+//! 197/198 (1994)) lose δ⁻¹, which is what the constraints themselves explain.
+
+use super::procedure::Procedure;
+use crate::algebra::{Graph, Matrix};
+use crate::id::ExprId;
+
+/// Constraints J ẏ = bias that touch each other, with their directions W⁻¹ Jᵀ.
+#[derive(Debug)]
+pub(super) struct Touching {
+    /// The rows of J.
+    pub(super) jacobian: Matrix,
+    /// The rows of J W⁻¹.
+    pub(super) reach: Matrix,
+    /// What J ẏ has to be.
+    pub(super) bias: Vec<ExprId>,
+}
+
+impl Touching {
+    /// Moves the accelerations, which are free of these constraints, to where they hold, and returns λ.
+    ///
+    /// With L J' = J, L unit lower triangular, the rows of J' orthogonal: μ = Lᵀλ are the multipliers of
+    /// J' ẏ = L⁻¹ bias, each by itself.
+    pub(super) fn impose(
+        mut self,
+        graph: &mut Graph,
+        accelerations: &mut [ExprId],
+        procedure: &mut Procedure,
+    ) -> Vec<ExprId> {
+        let rows = self.jacobian.len();
+        let zero = graph.zero();
+        let mut lower = vec![vec![zero; rows]; rows];
+        let mut multipliers = Vec::with_capacity(rows);
+        for a in 0..rows {
+            // 1. every later row loses its part along this one
+            let square = graph.inner_product(&self.jacobian[a], &self.reach[a]);
+            let square = procedure.define(graph, "square", square);
+            for (b, factors) in lower.iter_mut().enumerate().skip(a + 1) {
+                let along = graph.inner_product(&self.jacobian[b], &self.reach[a]);
+                if graph.is_literal_zero(along) {
+                    continue;
+                }
+                let factor = graph.div(along, square);
+                let factor = procedure.define(graph, "along", factor);
+                factors[a] = factor;
+                for matrix in [&mut self.jacobian, &mut self.reach] {
+                    let (before, after) = matrix.split_at_mut(b);
+                    without(graph, &mut after[0], factor, &before[a], procedure);
+                }
+                let carried = graph.mul(factor, self.bias[a]);
+                let rest = graph.sub(self.bias[b], carried);
+                self.bias[b] = procedure.define(graph, "bias", rest);
+            }
+            // 2. its multiplier, and the accelerations
+            let reached = graph.inner_product(&self.jacobian[a], accelerations);
+            let missing = graph.sub(self.bias[a], reached);
+            let multiplier = graph.div(missing, square);
+            let multiplier = procedure.define(graph, "mu", multiplier);
+            let negative = graph.neg(multiplier);
+            without(graph, accelerations, negative, &self.reach[a], procedure);
+            multipliers.push(multiplier);
+        }
+        // 3. λ = L⁻ᵀ μ
+        for a in (0..rows).rev() {
+            let column: Vec<ExprId> = (a + 1..rows).map(|b| lower[b][a]).collect();
+            let known = graph.inner_product(&column, &multipliers[a + 1..]);
+            multipliers[a] = graph.sub(multipliers[a], known);
+        }
+        multipliers
+    }
+}
+
+/// `row − factor · other`, entries named.
+fn without(
+    graph: &mut Graph,
+    row: &mut [ExprId],
+    factor: ExprId,
+    other: &[ExprId],
+    procedure: &mut Procedure,
+) {
+    for (entry, other) in row.iter_mut().zip(other) {
+        if !graph.is_literal_zero(*other) {
+            let part = graph.mul(factor, *other);
+            let rest = graph.sub(*entry, part);
+            *entry = procedure.define(graph, "rest", rest);
+        }
+    }
+}

@@ -1,0 +1,11 @@
+use nh_runtime::prelude::*;
+
+#[nonholonomic(
+    base { x, y }
+    lagrangian { m / 2 * (der(x)^2 + der(y)^2) }
+    constraints { der(y) = x * der(x); }
+    accuracy { fast, careful }
+)]
+struct S { m: f64 }
+
+fn main() {}
