@@ -61,6 +61,36 @@ fn a_sleigh_with_taylor_series() {
     golden("by_hand_taylor", quote::quote!(#(#series)*));
 }
 
+/// The arithmetic of the reference systems, as the benchmark of record declares them.
+#[test]
+fn reference_systems() {
+    for name in ["sleigh", "veselova", "snakeboard", "robot", "ball"] {
+        let path = format!("{}/../tests/bench/src/systems/{name}.rs", env!("CARGO_MANIFEST_DIR"));
+        let file = syn::parse_file(&std::fs::read_to_string(path).expect("it is there")).expect("it is Rust");
+        let is_ours = |attribute: &syn::Attribute| attribute.path().is_ident("nonholonomic");
+        let declared = file.items.into_iter().find_map(|item| match item {
+            syn::Item::Struct(item) if item.attrs.iter().any(is_ours) => Some(item),
+            _ => None,
+        });
+        let mut item = declared.expect("a declared system");
+        let attribute = item.attrs.extract_if(.., |attribute| is_ours(attribute)).next().expect("it has one");
+        let attribute = attribute.meta.require_list().expect("sections").tokens.clone();
+        let items = syn::parse2::<syn::File>(crate::expand::nonholonomic(attribute, quote::quote!(#item)));
+        let is_arithmetic = |item: &syn::ImplItem| {
+            let names = ["derivative", "energy", "jacobian"];
+            matches!(item, syn::ImplItem::Fn(f) if names.contains(&f.sig.ident.to_string().as_str()))
+        };
+        let functions = items.expect("a list of items").items.into_iter().filter_map(|item| match item {
+            syn::Item::Impl(mut item) if item.trait_.is_none() => {
+                item.items.retain(is_arithmetic);
+                (!item.items.is_empty()).then_some(item)
+            }
+            _ => None,
+        });
+        golden(name, quote::quote!(#(#functions)*));
+    }
+}
+
 #[test]
 fn stubs_stand_in() {
     let layout = layout(&sleigh());

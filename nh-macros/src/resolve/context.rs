@@ -5,6 +5,8 @@ use crate::report::{Diagnostic, Extent};
 /// The section whose expressions are read.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Context {
+    /// `constants`
+    Constants,
     /// `on`
     On,
     /// `anchor`
@@ -62,10 +64,15 @@ pub(super) enum Usage {
     Method,
 }
 
+/// Where what is no constant belongs.
+pub(super) const VARYING: &str =
+    "what differs from system to system is a field of the struct; write `name = …` with numbers here";
+
 impl Context {
     /// The keyword of the section.
     pub(super) fn keyword(self) -> &'static str {
         match self {
+            Self::Constants => "constants",
             Self::On => "on",
             Self::Anchor => "anchor",
             Self::Velocities | Self::MapVelocities => "velocities",
@@ -95,7 +102,7 @@ impl Context {
             Self::Frame => matches!(usage, Usage::Velocity | Usage::Rate),
             // moving constraints have moving sections
             Self::Symmetries => matches!(usage, Usage::Velocity | Usage::Rate | Usage::Time),
-            Self::On | Self::HamiltonJacobi | Self::MapParameters | Self::MapBase => false,
+            Self::Constants | Self::On | Self::HamiltonJacobi | Self::MapParameters | Self::MapBase => false,
             Self::MapVelocities => matches!(usage, Usage::Velocity | Usage::Rate),
             Self::MapInputs => !matches!(usage, Usage::Method),
             Self::Lagrangian | Self::Constraints | Self::Conserved | Self::Volume => {
@@ -120,6 +127,9 @@ impl Context {
         };
         let error = Diagnostic::new(at, format!("{role}`{written}` cannot be used in `{keyword}`"));
         Err(match (usage, self) {
+            (_, Self::Constants) => {
+                error.evidence("constants are numbers, the same in every system").way_out(VARYING)
+            }
             (Usage::Velocity | Usage::Rate, Self::On) => error
                 .evidence("identities are functions of the base coordinates")
                 .way_out("relations between velocities have their place in `constraints`"),

@@ -7,14 +7,15 @@ use nh_core::id::SymbolId;
 use nh_core::model::{Coordinate, Input, Parameter, Section};
 use quote::format_ident;
 
-use super::array::Shape;
+use super::array::{Array, Shape};
+use super::context::{Context, VARYING};
 use super::items;
 use super::reports::Outcome;
 use super::resolver::Resolver;
 use super::scope::{Meaning, Named, Role};
 use crate::emit::{Family, Layout};
 use crate::report::Diagnostic;
-use crate::syntax::ast::{self, Declared, Name, SystemDecl};
+use crate::syntax::ast::{self, Declared, Definition, Name, SystemDecl};
 
 /// Coordinates or velocities of a system: matrices of this size are inverted.
 const DIMENSION: usize = 512;
@@ -39,6 +40,10 @@ impl Resolver {
         let names =
             sections.velocities.iter().chain(&sections.frame).flat_map(|s| items::statements(&s.body));
         self.scope.pending = names.map(|definition| definition.name.text.clone()).collect();
+        for constant in sections.constants.iter().flat_map(|section| &section.body) {
+            // one in error was reported
+            let _ = self.constant(constant);
+        }
         let names = sections.outputs.iter().flat_map(|s| items::statements(&s.body));
         self.scope.outputs = names.map(|definition| definition.name.text.clone()).collect();
     }
@@ -82,6 +87,37 @@ impl Resolver {
         let named = self.enter(text, Shape::of(&declared.lengths), role, declared.extent)?;
         let outcome = self.scope.declare(&declared.name, Meaning::Named(Rc::new(named)));
         self.keep(&declared.name, outcome)
+    }
+
+    /// A name for numbers, which are part of the equations from here on.
+    fn constant(&mut self, constant: &Definition) -> Outcome<()> {
+        let fresh = self.scope.check_new(&constant.name);
+        let fresh = self.keep(&constant.name, fresh);
+        let value = self.numbers(constant);
+        fresh?;
+        let meaning = value.as_ref().map_or(Meaning::Broken, |value| Meaning::Value(Rc::new(value.clone())));
+        self.scope.insert(constant.name.text.clone(), meaning);
+        value.map(|_| ())
+    }
+
+    /// A value in which nothing varies.
+    fn numbers(&mut self, constant: &Definition) -> Outcome<Array> {
+        if !constant.subscripts.is_empty() {
+            let error = Diagnostic::new(constant.extent, "a constant is given as a whole").way_out(format!(
+                "write `{} = [1, 2, 3];`, a vector, or a vector of rows",
+                constant.name.text
+            ));
+            return Err(self.report(&constant.name, error));
+        }
+        self.context = Context::Constants;
+        let value = self.value(&constant.value)?;
+        let Some(symbol) = self.graph.symbols_in(&value.entries).into_iter().next() else { return Ok(value) };
+        let name = &self.graph.symbols()[symbol];
+        let error =
+            Diagnostic::new(constant.value.extent, format!("`{}` is not constant", constant.name.text))
+                .evidence(format!("it depends on `{name}`"))
+                .way_out(VARYING);
+        Err(self.report(&constant.value, error))
     }
 
     /// Enters a family into its table of the model.

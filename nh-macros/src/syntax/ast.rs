@@ -22,6 +22,8 @@ pub(crate) struct SystemDecl {
 /// The sections of the attribute, each where it was given.
 #[derive(Debug, Default)]
 pub(crate) struct Sections {
+    /// `constants`: names of numbers.
+    pub(crate) constants: Option<Section<Vec<Definition>>>,
     /// `base`: the coordinates x^i.
     pub(crate) base: Option<Section<Vec<Declared>>>,
     /// `on`: identities that embedded base coordinates satisfy.

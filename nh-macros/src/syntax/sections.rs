@@ -99,6 +99,7 @@ fn fill(sections: &mut Sections, keyword: Name, algebra: Option<Algebra>, body: 
     let text = keyword.text.clone();
     let s = sections;
     match text.as_str() {
+        "constants" => s.constants = Section::some(keyword, plain(body, errors, &Stream::definition)),
         "base" => s.base = Section::some(keyword, list(body, errors, Stream::declared)),
         "on" => s.on = Section::some(keyword, items(body, errors, &Stream::equation)),
         "basis" => s.basis = Section::some(keyword, list(body, errors, Stream::declared)),

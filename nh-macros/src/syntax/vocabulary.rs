@@ -1,7 +1,8 @@
 //! The words of the language.
 
 /// The sections, as they are written.
-pub(crate) const SECTIONS: [&str; 29] = [
+pub(crate) const SECTIONS: [&str; 30] = [
+    "constants",
     "base",
     "on",
     "basis",

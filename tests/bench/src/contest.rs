@@ -32,14 +32,26 @@ pub trait Contest: Dynamics<State: State<Scalar = f64>> + Sized {
 /// The states and inputs at which a system is evaluated, the same in every run.
 #[must_use]
 pub fn samples<S: Contest>() -> Vec<(S::State, S::Input)> {
-    let mut random = Random(0x9e37_79b9_7f4a_7c15);
+    let mut random = Random::new();
     (0..SAMPLES).map(|_| S::sample(&mut random)).collect()
 }
 
 /// A small generator of numbers in (−1, 1): Marsaglia's xorshift.
 pub struct Random(u64);
 
+impl Default for Random {
+    fn default() -> Self {
+        Self::new()
+    }
+}
+
 impl Random {
+    /// The generator, from the same number always.
+    #[must_use]
+    pub fn new() -> Self {
+        Self(0x9e37_79b9_7f4a_7c15)
+    }
+
     /// The next number.
     pub fn draw(&mut self) -> f64 {
         self.0 ^= self.0 << 13;

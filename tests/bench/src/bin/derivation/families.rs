@@ -34,6 +34,7 @@ impl Declaration {
 pub(crate) fn all() -> Vec<Declaration> {
     let mut all = vec![
         Declaration::of_source("sleigh", include_str!("../../systems/sleigh.rs")),
+        sleigh_without_position(),
         Declaration::of_source("veselova", include_str!("../../systems/veselova.rs")),
         Declaration::of_source("snakeboard", include_str!("../../systems/snakeboard.rs")),
         Declaration::of_source("robot", include_str!("../../systems/robot.rs")),
@@ -45,6 +46,14 @@ pub(crate) fn all() -> Vec<Declaration> {
     all.extend([2, 3, 4, 6, 8, 12, 16, 20].map(snake));
     all.extend([4, 5, 6].map(suslov));
     all
+}
+
+/// The sleigh of which a scene needs the velocities alone.
+fn sleigh_without_position() -> Declaration {
+    let mut declaration =
+        Declaration::of_source("sleigh, velocities alone", include_str!("../../systems/sleigh.rs"));
+    declaration.attribute.push_str("track { omega, v1 }");
+    declaration
 }
 
 /// A tractor with trailers in relative angles: that of the benchmark, without Jacobians.

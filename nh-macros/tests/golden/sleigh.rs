@@ -1,0 +1,159 @@
+impl Sleigh {
+    /// The time derivative of the state: the field `x` of the result is ẋ.
+    #[must_use]
+    #[inline]
+    pub fn derivative(
+        &self,
+        t: ::core::primitive::f64,
+        state: &SleighState,
+        input: &SleighInput,
+    ) -> SleighState {
+        _ = t;
+        let (sin_theta, cos_theta) = ::nh_runtime::__private::Scalar::sin_cos(
+            state.theta,
+        );
+        let m_a = self.m * self.a;
+        let e1 = 1.0 / ::nh_runtime::__private::Scalar::mul_add(self.a, m_a, self.J);
+        let v_dot_0 = e1
+            * ::nh_runtime::__private::Scalar::mul_add(
+                -state.omega,
+                ::nh_runtime::__private::Scalar::mul_add(
+                    m_a,
+                    ::nh_runtime::__private::Scalar::mul_add(
+                        -self.b,
+                        state.omega,
+                        state.v1,
+                    ),
+                    self.c,
+                ),
+                input.torque,
+            );
+        let e2 = ::nh_runtime::__private::Scalar::mul_add(
+            self.b,
+            ::nh_runtime::__private::Scalar::mul_add(
+                -state.omega,
+                ::nh_runtime::__private::Scalar::mul_add(m_a, state.v1, self.c),
+                input.torque,
+            ),
+            self.a
+                * ::nh_runtime::__private::Scalar::mul_add(
+                    self.m,
+                    ::nh_runtime::__private::Scalar::mul_add(
+                        self.b,
+                        self.b,
+                        self.a * self.a,
+                    ),
+                    self.J,
+                ) * (state.omega * state.omega),
+        );
+        let v_dot_1 = e1 * e2;
+        SleighState {
+            theta: state.omega,
+            x: state.v1 * cos_theta,
+            y: state.v1 * sin_theta,
+            omega: v_dot_0,
+            v1: v_dot_1,
+        }
+    }
+    /// The energy y · ∂L/∂y − L.
+    #[must_use]
+    #[inline]
+    pub fn energy(
+        &self,
+        t: ::core::primitive::f64,
+        state: &SleighState,
+    ) -> ::core::primitive::f64 {
+        _ = t;
+        let m_v1 = self.m * state.v1;
+        let e1 = ::nh_runtime::__private::Scalar::mul_add(
+            -(0.5
+                * ::nh_runtime::__private::Scalar::mul_add(
+                    self.m,
+                    ::nh_runtime::__private::Scalar::mul_add(
+                        self.b,
+                        self.b,
+                        self.a * self.a,
+                    ),
+                    self.J,
+                )),
+            state.omega,
+            self.b * m_v1,
+        );
+        ::nh_runtime::__private::Scalar::mul_add(-state.omega, e1, 0.5 * state.v1 * m_v1)
+    }
+    /// The Jacobian of the derivative by the state, and by the inputs: entry (i, j) of the first matrix
+    /// is the derivative of component i of ẋ by component j of the state.
+    #[must_use]
+    #[inline]
+    pub fn jacobian(
+        &self,
+        t: ::core::primitive::f64,
+        state: &SleighState,
+        input: &SleighInput,
+    ) -> (
+        ::nh_runtime::__private::nalgebra::SMatrix<::core::primitive::f64, 5, 5>,
+        ::nh_runtime::__private::nalgebra::SMatrix<::core::primitive::f64, 5, 1>,
+    ) {
+        _ = t;
+        _ = input;
+        let (sin_theta, cos_theta) = ::nh_runtime::__private::Scalar::sin_cos(
+            state.theta,
+        );
+        let b_omega = self.b * state.omega;
+        let m_a = self.m * self.a;
+        let d_v_dot_0 = 1.0
+            / ::nh_runtime::__private::Scalar::mul_add(self.a, m_a, self.J);
+        let e1 = d_v_dot_0 * m_a;
+        let d_v_dot_0_2 = -(e1 * state.omega);
+        let e2 = ::nh_runtime::__private::Scalar::mul_add(
+            -self.b,
+            ::nh_runtime::__private::Scalar::mul_add(m_a, state.v1, self.c),
+            2.0 * self.a
+                * ::nh_runtime::__private::Scalar::mul_add(
+                    self.m,
+                    ::nh_runtime::__private::Scalar::mul_add(
+                        self.b,
+                        self.b,
+                        self.a * self.a,
+                    ),
+                    self.J,
+                ) * state.omega,
+        );
+        let d_v_dot_1 = d_v_dot_0 * e2;
+        let d_v_dot_1_2 = -(e1 * b_omega);
+        let d_v_dot_1_3 = self.b * d_v_dot_0;
+        (
+            <::nh_runtime::__private::nalgebra::SMatrix<
+                ::core::primitive::f64,
+                5,
+                5,
+            > as ::core::convert::From<
+                [[::core::primitive::f64; 5]; 5],
+            >>::from([
+                [0.0, -(state.v1 * sin_theta), (state.v1 * cos_theta), 0.0, 0.0],
+                [0.0, 0.0, 0.0, 0.0, 0.0],
+                [0.0, 0.0, 0.0, 0.0, 0.0],
+                [
+                    1.0,
+                    0.0,
+                    0.0,
+                    (d_v_dot_0
+                        * ::nh_runtime::__private::Scalar::mul_add(
+                            -self.m,
+                            self.a * (state.v1 - b_omega - b_omega),
+                            -self.c,
+                        )),
+                    d_v_dot_1,
+                ],
+                [0.0, cos_theta, sin_theta, d_v_dot_0_2, d_v_dot_1_2],
+            ]),
+            <::nh_runtime::__private::nalgebra::SMatrix<
+                ::core::primitive::f64,
+                5,
+                1,
+            > as ::core::convert::From<
+                [[::core::primitive::f64; 5]; 1],
+            >>::from([[0.0, 0.0, 0.0, d_v_dot_0, d_v_dot_1_3]]),
+        )
+    }
+}

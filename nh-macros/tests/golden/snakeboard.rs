@@ -1,0 +1,194 @@
+impl Snakeboard {
+    /// The time derivative of the state: the field `x` of the result is ẋ.
+    #[must_use]
+    #[inline]
+    pub fn derivative(
+        &self,
+        t: ::core::primitive::f64,
+        state: &SnakeboardState,
+        input: &SnakeboardInput,
+    ) -> SnakeboardState {
+        _ = t;
+        let (sin_theta, cos_theta) = ::nh_runtime::__private::Scalar::sin_cos(
+            state.theta,
+        );
+        let (sin_phi, cos_phi) = ::nh_runtime::__private::Scalar::sin_cos(state.phi);
+        let e1 = sin_phi / cos_phi;
+        let u1_dphi = state.u1 * state.dphi;
+        let e2 = self.J0 * u1_dphi;
+        let m_l = self.m * self.l;
+        let e3 = 1.0
+            / ::nh_runtime::__private::Scalar::mul_add(
+                -self.l,
+                m_l,
+                self.J0 * (sin_phi * sin_phi),
+            );
+        let e4 = ::nh_runtime::__private::Scalar::mul_add(
+            -self.l,
+            ::nh_runtime::__private::Scalar::mul_add(
+                -m_l,
+                u1_dphi,
+                cos_phi * cos_phi * input.rotor,
+            ),
+            -e2,
+        ) * e3;
+        let v_dot_2 = 0.5 * input.steering / self.J1;
+        SnakeboardState {
+            x: state.u1 * cos_theta,
+            y: state.u1 * sin_theta,
+            theta: -(state.u1 * e1 / self.l),
+            psi: state.dpsi,
+            phi: state.dphi,
+            u1: e4 * e1,
+            dpsi: m_l
+                * ::nh_runtime::__private::Scalar::mul_add(-self.l, input.rotor, -e2)
+                * e3 / self.J0,
+            dphi: v_dot_2,
+        }
+    }
+    /// The energy y · ∂L/∂y − L.
+    #[must_use]
+    #[inline]
+    pub fn energy(
+        &self,
+        t: ::core::primitive::f64,
+        state: &SnakeboardState,
+    ) -> ::core::primitive::f64 {
+        _ = t;
+        let (sin_phi, cos_phi) = ::nh_runtime::__private::Scalar::sin_cos(state.phi);
+        let j0_dpsi = self.J0 * state.dpsi;
+        let e1 = state.u1 / cos_phi;
+        let e2 = ::nh_runtime::__private::Scalar::mul_add(
+            -::nh_runtime::__private::Scalar::mul_add(
+                -(0.5 * self.m),
+                e1,
+                sin_phi * j0_dpsi / self.l,
+            ),
+            e1,
+            ::nh_runtime::__private::Scalar::mul_add(
+                0.5 * state.dpsi,
+                j0_dpsi,
+                self.J1 * (state.dphi * state.dphi),
+            ),
+        );
+        e2
+    }
+    /// The Jacobian of the derivative by the state, and by the inputs: entry (i, j) of the first matrix
+    /// is the derivative of component i of ẋ by component j of the state.
+    #[must_use]
+    #[inline]
+    pub fn jacobian(
+        &self,
+        t: ::core::primitive::f64,
+        state: &SnakeboardState,
+        input: &SnakeboardInput,
+    ) -> (
+        ::nh_runtime::__private::nalgebra::SMatrix<::core::primitive::f64, 8, 8>,
+        ::nh_runtime::__private::nalgebra::SMatrix<::core::primitive::f64, 8, 2>,
+    ) {
+        _ = t;
+        let (sin_theta, cos_theta) = ::nh_runtime::__private::Scalar::sin_cos(
+            state.theta,
+        );
+        let (sin_phi, cos_phi) = ::nh_runtime::__private::Scalar::sin_cos(state.phi);
+        let e1 = -1.0 / cos_phi;
+        let e2 = sin_phi * e1;
+        let e3 = -1.0 / self.l;
+        let u1_dphi = state.u1 * state.dphi;
+        let e4 = self.J0 * u1_dphi;
+        let m_l = self.m * self.l;
+        let e5 = ::nh_runtime::__private::Scalar::mul_add(
+            self.l,
+            ::nh_runtime::__private::Scalar::mul_add(
+                -m_l,
+                u1_dphi,
+                cos_phi * cos_phi * input.rotor,
+            ),
+            e4,
+        );
+        let l_rotor = self.l * input.rotor;
+        let e6 = sin_phi * sin_phi;
+        let e7 = self.l * m_l;
+        let e8 = -1.0 / ::nh_runtime::__private::Scalar::mul_add(self.J0, e6, -e7);
+        let e9 = 2.0 * e8;
+        let e10 = ::nh_runtime::__private::Scalar::mul_add(
+            ::nh_runtime::__private::Scalar::mul_add(
+                -l_rotor,
+                2.0,
+                e5 * ::nh_runtime::__private::Scalar::mul_add(self.J0, e9, e1 * e1),
+            ),
+            e6,
+            e5,
+        ) * e8;
+        let e11 = e2 * ((e7 - self.J0) * e8);
+        let e12 = sin_phi * cos_phi;
+        let e13 = m_l * e8;
+        let d_v_dot_1 = (e4 + l_rotor) * e13 * e9 * e12;
+        let d_v_dot_2 = 0.5 / self.J1;
+        (
+            <::nh_runtime::__private::nalgebra::SMatrix<
+                ::core::primitive::f64,
+                8,
+                8,
+            > as ::core::convert::From<
+                [[::core::primitive::f64; 8]; 8],
+            >>::from([
+                [0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0],
+                [0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0],
+                [
+                    -(state.u1 * sin_theta),
+                    (state.u1 * cos_theta),
+                    0.0,
+                    0.0,
+                    0.0,
+                    0.0,
+                    0.0,
+                    0.0,
+                ],
+                [0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0],
+                [
+                    0.0,
+                    0.0,
+                    (e3 * state.u1
+                        * ::nh_runtime::__private::Scalar::mul_add(e2, e2, 1.0)),
+                    0.0,
+                    0.0,
+                    e10,
+                    d_v_dot_1,
+                    0.0,
+                ],
+                [
+                    cos_theta,
+                    sin_theta,
+                    -(e3 * e2),
+                    0.0,
+                    0.0,
+                    (state.dphi * e11),
+                    (state.dphi * e13),
+                    0.0,
+                ],
+                [0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0],
+                [0.0, 0.0, 0.0, 0.0, 1.0, (state.u1 * e11), (state.u1 * e13), 0.0],
+            ]),
+            <::nh_runtime::__private::nalgebra::SMatrix<
+                ::core::primitive::f64,
+                8,
+                2,
+            > as ::core::convert::From<
+                [[::core::primitive::f64; 8]; 2],
+            >>::from([
+                [
+                    0.0,
+                    0.0,
+                    0.0,
+                    0.0,
+                    0.0,
+                    (self.l * e8 * e12),
+                    (self.l * e13 / self.J0),
+                    0.0,
+                ],
+                [0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, d_v_dot_2],
+            ]),
+        )
+    }
+}

@@ -1,0 +1,157 @@
+impl Veselova {
+    /// The time derivative of the state: the field `x` of the result is ẋ.
+    #[must_use]
+    #[inline]
+    pub fn derivative(
+        &self,
+        t: ::core::primitive::f64,
+        state: &VeselovaState,
+        input: &(),
+    ) -> VeselovaState {
+        _ = t;
+        _ = input;
+        let free_z0 = ::nh_runtime::__private::Scalar::mul_add(
+            (self.I[1] - self.I[2]) * state.w[1],
+            state.w[2],
+            ::nh_runtime::__private::Scalar::mul_add(
+                -self.c[1],
+                state.g[2],
+                self.c[2] * state.g[1],
+            ),
+        );
+        let over_i_0 = 1.0 / self.I[0];
+        let free_x0 = over_i_0 * free_z0;
+        let reach_x0 = over_i_0 * state.g[0];
+        let free_z0_2 = ::nh_runtime::__private::Scalar::mul_add(
+            -((self.I[0] - self.I[2]) * state.w[0]),
+            state.w[2],
+            ::nh_runtime::__private::Scalar::mul_add(
+                -self.c[2],
+                state.g[0],
+                self.c[0] * state.g[2],
+            ),
+        );
+        let over_i_1 = 1.0 / self.I[1];
+        let free_x0_2 = over_i_1 * free_z0_2;
+        let free_z0_3 = ::nh_runtime::__private::Scalar::mul_add(
+            (self.I[0] - self.I[1]) * state.w[0],
+            state.w[1],
+            ::nh_runtime::__private::Scalar::mul_add(
+                -self.c[0],
+                state.g[1],
+                self.c[1] * state.g[0],
+            ),
+        );
+        let over_i_2 = 1.0 / self.I[2];
+        let free_x0_3 = over_i_2 * free_z0_3;
+        let reach_x0_2 = over_i_1 * state.g[1];
+        let reach_x0_3 = over_i_2 * state.g[2];
+        let e1 = ::nh_runtime::__private::Scalar::mul_add(
+            -state.g[2],
+            free_x0_3,
+            -::nh_runtime::__private::Scalar::mul_add(
+                state.g[1],
+                free_x0_2,
+                state.g[0] * free_x0,
+            ),
+        )
+            / ::nh_runtime::__private::Scalar::mul_add(
+                state.g[2],
+                reach_x0_3,
+                ::nh_runtime::__private::Scalar::mul_add(
+                    state.g[1],
+                    reach_x0_2,
+                    state.g[0] * reach_x0,
+                ),
+            );
+        VeselovaState {
+            g: [
+                ::nh_runtime::__private::Scalar::mul_add(
+                    -state.g[2],
+                    state.w[1],
+                    state.g[1] * state.w[2],
+                ),
+                ::nh_runtime::__private::Scalar::mul_add(
+                    -state.g[0],
+                    state.w[2],
+                    state.g[2] * state.w[0],
+                ),
+                ::nh_runtime::__private::Scalar::mul_add(
+                    -state.g[1],
+                    state.w[0],
+                    state.g[0] * state.w[1],
+                ),
+            ],
+            w: [
+                ::nh_runtime::__private::Scalar::mul_add(reach_x0, e1, free_x0),
+                ::nh_runtime::__private::Scalar::mul_add(reach_x0_2, e1, free_x0_2),
+                ::nh_runtime::__private::Scalar::mul_add(reach_x0_3, e1, free_x0_3),
+            ],
+        }
+    }
+    /// The energy y · ∂L/∂y − L.
+    #[must_use]
+    #[inline]
+    pub fn energy(
+        &self,
+        t: ::core::primitive::f64,
+        state: &VeselovaState,
+    ) -> ::core::primitive::f64 {
+        _ = t;
+        let e1 = ::nh_runtime::__private::Scalar::mul_add(
+            ::nh_runtime::__private::Scalar::mul_add(
+                self.I[2],
+                state.w[2] * state.w[2],
+                ::nh_runtime::__private::Scalar::mul_add(
+                    self.I[1],
+                    state.w[1] * state.w[1],
+                    self.I[0] * (state.w[0] * state.w[0]),
+                ),
+            ),
+            0.5,
+            ::nh_runtime::__private::Scalar::mul_add(
+                self.c[2],
+                state.g[2],
+                ::nh_runtime::__private::Scalar::mul_add(
+                    self.c[1],
+                    state.g[1],
+                    self.c[0] * state.g[0],
+                ),
+            ),
+        );
+        e1
+    }
+    /// The Jacobian of the derivative by the state, and by the inputs: entry (i, j) of the first matrix
+    /// is the derivative of component i of ẋ by component j of the state.
+    #[must_use]
+    #[inline]
+    pub fn jacobian(
+        &self,
+        t: ::core::primitive::f64,
+        state: &VeselovaState,
+        input: &(),
+    ) -> (
+        ::nh_runtime::__private::nalgebra::SMatrix<::core::primitive::f64, 6, 6>,
+        ::nh_runtime::__private::nalgebra::SMatrix<::core::primitive::f64, 6, 0>,
+    ) {
+        let rows = ::nh_runtime::__private::Jacobian::state_jacobian(
+            self,
+            t,
+            state,
+            input,
+        );
+        (
+            <::nh_runtime::__private::nalgebra::SMatrix<
+                ::core::primitive::f64,
+                6,
+                6,
+            > as ::core::convert::From<[[::core::primitive::f64; 6]; 6]>>::from(rows)
+                .transpose(),
+            <::nh_runtime::__private::nalgebra::SMatrix<
+                ::core::primitive::f64,
+                6,
+                0,
+            > as ::core::convert::From<[[::core::primitive::f64; 6]; 0]>>::from([]),
+        )
+    }
+}

@@ -1,0 +1,238 @@
+//! The same system with parameters at run time, prepared, with constants, and without what a scene does
+//! not need: instructions per evaluation of the derivative, and the size of the state.
+//!
+//! ```sh
+//! RUSTFLAGS="-C target-cpu=x86-64-v3" cargo run --release -p nh-bench --bin variants
+//! ```
+#![allow(non_snake_case, reason = "parameters are written as in mechanics: J, R")]
+
+use std::hint::black_box;
+use std::process::ExitCode;
+
+use nh_bench::callgrind;
+use nh_bench::contest::Random;
+use nh_runtime::Dim;
+use nh_runtime::prelude::*;
+
+/// The argument with which the program calls itself under callgrind.
+const EVALUATE: &str = "--evaluate";
+/// The states at which a derivative is evaluated.
+const SAMPLES: usize = 16;
+
+/// One way to declare a system.
+struct Variant {
+    system: &'static str,
+    name: &'static str,
+    /// Evaluates at some states.
+    evaluate: Box<dyn Fn()>,
+    /// The function that is counted.
+    symbol: &'static str,
+    /// Of the state.
+    components: usize,
+}
+
+/// Declares a system in three ways, and in a fourth that keeps less of it.
+macro_rules! variants {
+    (
+        $module:ident, $name:literal, $System:ident prepared as $Prepared:ident,
+        fields { $($field:ident: $kind:ty = $value:expr),* $(,)? }, constants { $($constants:tt)* },
+        $(only { $($kept:tt)* },)?
+        { $($declaration:tt)* }
+    ) => {
+        mod $module {
+            use super::{Variant, nonholonomic};
+
+            #[nonholonomic($($declaration)* emit { prepared })]
+            #[derive(Clone, Copy, Debug)]
+            pub struct $System { $($field: $kind),* }
+
+            mod constants {
+                use super::nonholonomic;
+
+                #[nonholonomic(constants { $($constants)* } $($declaration)*)]
+                #[derive(Clone, Copy, Debug)]
+                pub struct $System {}
+            }
+
+            $(
+                mod tracked {
+                    use super::nonholonomic;
+
+                    #[nonholonomic($($declaration)* track { $($kept)* })]
+                    #[derive(Clone, Copy, Debug)]
+                    pub struct $System { $(pub $field: $kind),* }
+                }
+            )?
+
+            pub fn all() -> Vec<Variant> {
+                let ordinary = || $System { $($field: $value),* };
+                vec![
+                    super::variant!($name, "at run time", at_run_time, $System, ordinary()),
+                    super::variant!($name, "prepared", prepared, $Prepared, ordinary().prepare()),
+                    super::variant!($name, "constants", fixed, constants::$System, constants::$System {}),
+                    $(super::variant!(
+                        $name, concat!("at run time, `track { ", stringify!($($kept)*), " }`"), tracked_alone,
+                        tracked::$System, tracked::$System { $($field: $value),* }
+                    ),)?
+                ]
+            }
+        }
+    };
+}
+
+/// A variant with a function of its own, which is counted by its name.
+macro_rules! variant {
+    ($system:expr, $name:expr, $function:ident, $System:ty, $value:expr) => {{
+        #[inline(never)]
+        fn $function(
+            system: &$System,
+            state: &<$System as nh_runtime::Dynamics>::State,
+            input: &<$System as nh_runtime::Dynamics>::Input,
+        ) -> <$System as nh_runtime::Dynamics>::State {
+            nh_runtime::Dynamics::derivative(system, 0.0, state, input)
+        }
+        $crate::Variant {
+            system: $system,
+            name: $name,
+            evaluate: Box::new(move || $crate::evaluate(&$value, $function)),
+            symbol: concat!(module_path!(), "::all::", stringify!($function)),
+            components: $crate::components::<$System>(),
+        }
+    }};
+}
+use variant;
+
+/// How many components a state has.
+fn components<S: Dynamics>() -> usize {
+    <<S::State as State>::Dim as Dim>::N
+}
+
+/// Evaluates a derivative at random states.
+fn evaluate<S>(system: &S, derivative: fn(&S, &S::State, &S::Input) -> S::State)
+where
+    S: Dynamics<State: State<Scalar = f64>>,
+{
+    let mut random = Random::new();
+    for _ in 0..SAMPLES {
+        let mut components = <<S::State as State>::Dim as Dim>::vec(0.0);
+        components.as_mut().fill_with(|| random.draw());
+        let state = S::State::from_array(components);
+        black_box(derivative(black_box(system), black_box(&state), black_box(&S::Input::default())));
+    }
+}
+
+fn main() -> ExitCode {
+    match run() {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(message) => {
+            eprintln!("{message}");
+            ExitCode::FAILURE
+        }
+    }
+}
+
+fn run() -> Result<(), String> {
+    let variants: Vec<Variant> =
+        [sleigh::all(), robot::all(), tractor::all()].into_iter().flatten().collect();
+    if std::env::args().nth(1).is_some_and(|argument| argument == EVALUATE) {
+        for variant in &variants {
+            (variant.evaluate)();
+        }
+        return Ok(());
+    }
+    let program = std::env::current_exe().map_err(|error| error.to_string())?;
+    let profile = program.with_file_name("nh-bench.variants.callgrind");
+    let wanted = |name: &str| variants.iter().any(|variant| name.ends_with(variant.symbol));
+    let counts = callgrind::count(&[&program.to_string_lossy(), EVALUATE], &profile, wanted)?;
+    println!("| system | parameters | components of the state | instructions |");
+    println!("|---|---|--:|--:|");
+    for variant in &variants {
+        let count = counts.iter().find(|(name, _)| name.ends_with(variant.symbol));
+        let count = count.map_or("–".to_owned(), |(_, count)| format!("{count:.0}"));
+        println!("| {} | {} | {} | {count} |", variant.system, variant.name, variant.components);
+    }
+    Ok(())
+}
+
+variants! {
+    sleigh, "sleigh", Sleigh prepared as PreparedSleigh,
+    fields { m: f64 = 1.3, J: f64 = 0.7, a: f64 = 0.4, b: f64 = 0.15, c: f64 = 0.2 },
+    constants { m = 1.3; J = 0.7; a = 0.4; b = 0.15; c = 0.2; },
+    only { omega, v1 },
+    {
+        base   { theta, x, y }
+        basis  { omega, v1, v2 }
+        anchor {
+            der(theta) = omega;
+            der(x) = v1 * cos(theta) - v2 * sin(theta);
+            der(y) = v1 * sin(theta) + v2 * cos(theta);
+        }
+        lagrangian  { (J + m * (a^2 + b^2)) / 2 * omega^2 + m / 2 * (v1^2 + v2^2) - m * b * omega * v1 + m * a * omega * v2 }
+        constraints { v2 = 0; }
+        forces      { omega: torque - c * omega; }
+        inputs      { torque }
+    }
+}
+
+variants! {
+    robot, "robot", Robot prepared as PreparedRobot,
+    fields { m0: f64 = 5.0, m1: f64 = 0.4, l: f64 = 0.12, J: f64 = 0.31, J2: f64 = 0.004, c: f64 = 0.2, R: f64 = 0.08 },
+    constants { m0 = 5.0; m1 = 0.4; l = 0.12; J = 0.31; J2 = 0.004; c = 0.2; R = 0.08; },
+    {
+        base { psi1, psi2, x, y, theta }
+        lagrangian {
+            let lateral = -der(x) * sin(theta) + der(y) * cos(theta);
+            (m0 + 2 * m1) / 2 * (der(x)^2 + der(y)^2) + m0 * l * lateral * der(theta)
+                + J / 2 * der(theta)^2 + J2 / 2 * (der(psi1)^2 + der(psi2)^2)
+        }
+        constraints {
+            der(x) = -R / 2 * (der(psi1) + der(psi2)) * cos(theta);
+            der(y) = -R / 2 * (der(psi1) + der(psi2)) * sin(theta);
+            der(theta) = R / (2 * c) * (der(psi2) - der(psi1));
+        }
+    }
+}
+
+variants! {
+    tractor, "tractor, 6 trailers", Tractor prepared as PreparedTractor,
+    fields {
+        m: [f64; 7] = [1.5, 1.1, 0.9, 0.7, 0.6, 0.5, 0.45],
+        J: [f64; 7] = [0.4, 0.2, 0.14, 0.1, 0.08, 0.07, 0.06],
+        d: [f64; 6] = [0.9, 0.85, 0.8, 0.75, 0.7, 0.65],
+        a: f64 = 0.25,
+    },
+    constants {
+        m = [1.5, 1.1, 0.9, 0.7, 0.6, 0.5, 0.45];
+        J = [0.4, 0.2, 0.14, 0.1, 0.08, 0.07, 0.06];
+        d = [0.9, 0.85, 0.8, 0.75, 0.7, 0.65];
+        a = 0.25;
+    },
+    {
+        base  { x, y, th, rel[6] }
+        basis { v, side, omega, rd[6] }
+        anchor {
+            der(x) = v * cos(th) - side * sin(th);
+            der(y) = v * sin(th) + side * cos(th);
+            der(th) = omega;
+            for i in 0..6 { der(rel[i]) = rd[i]; }
+        }
+        lagrangian {
+            let ang[i in 0..6] = sum(j in 0..i+1: rel[j]);
+            let w[i in 0..6] = omega + sum(j in 0..i+1: rd[j]);
+            let px[i in 0..6] = v + sum(j in 0..i+1: d[j] * sin(ang[j]) * w[j]);
+            let py[i in 0..6] = side - sum(j in 0..i+1: d[j] * cos(ang[j]) * w[j]);
+            m[0] / 2 * (v^2 + (side + a * omega)^2) + J[0] / 2 * omega^2
+                + sum(i in 0..6: J[i+1] / 2 * w[i]^2 + m[i+1] / 2 * (px[i]^2 + py[i]^2))
+        }
+        constraints {
+            let ang[i in 0..6] = sum(j in 0..i+1: rel[j]);
+            let w[i in 0..6] = omega + sum(j in 0..i+1: rd[j]);
+            let px[i in 0..6] = v + sum(j in 0..i+1: d[j] * sin(ang[j]) * w[j]);
+            let py[i in 0..6] = side - sum(j in 0..i+1: d[j] * cos(ang[j]) * w[j]);
+            side = 0;
+            for i in 0..6 { cos(ang[i]) * py[i] = sin(ang[i]) * px[i]; }
+        }
+        inputs { push, steer }
+        forces { v: push; omega: steer; }
+    }
+}
