@@ -1,7 +1,8 @@
 impl Ball {
     /// The time derivative of the state: the field `x` of the result is ẋ.
     #[must_use]
-    #[inline]
+    #[inline(always)]
+    #[allow(clippy::inline_always)]
     pub fn derivative(
         &self,
         t: ::core::primitive::f64,
