@@ -31,53 +31,119 @@ struct Variant {
     components: usize,
 }
 
-/// Declares a system in three ways, and in a fourth that keeps less of it.
-macro_rules! variants {
-    (
-        $module:ident, $name:literal, $System:ident prepared as $Prepared:ident,
-        fields { $($field:ident: $kind:ty = $value:expr),* $(,)? }, constants { $($constants:tt)* },
-        $(only { $($kept:tt)* },)?
-        { $($declaration:tt)* }
-    ) => {
-        mod $module {
-            use super::{Variant, nonholonomic};
-
-            #[nonholonomic($($declaration)* emit { prepared })]
-            #[derive(Clone, Copy, Debug)]
-            pub struct $System { $($field: $kind),* }
-
-            mod constants {
-                use super::nonholonomic;
-
-                #[nonholonomic(constants { $($constants)* } $($declaration)*)]
-                #[derive(Clone, Copy, Debug)]
-                pub struct $System {}
+/// Declares the sleigh, with some fields and more sections.
+macro_rules! sleigh {
+    ({ $($field:ident: $kind:ty),* } $($more:tt)*) => {
+        #[nh_runtime::nonholonomic(
+            $($more)*
+            base   { theta, x, y }
+            basis  { omega, v1, v2 }
+            anchor {
+                der(theta) = omega;
+                der(x) = v1 * cos(theta) - v2 * sin(theta);
+                der(y) = v1 * sin(theta) + v2 * cos(theta);
             }
-
-            $(
-                mod tracked {
-                    use super::nonholonomic;
-
-                    #[nonholonomic($($declaration)* track { $($kept)* })]
-                    #[derive(Clone, Copy, Debug)]
-                    pub struct $System { $(pub $field: $kind),* }
-                }
-            )?
-
-            pub fn all() -> Vec<Variant> {
-                let ordinary = || $System { $($field: $value),* };
-                vec![
-                    super::variant!($name, "at run time", at_run_time, $System, ordinary()),
-                    super::variant!($name, "prepared", prepared, $Prepared, ordinary().prepare()),
-                    super::variant!($name, "constants", fixed, constants::$System, constants::$System {}),
-                    $(super::variant!(
-                        $name, concat!("at run time, `track { ", stringify!($($kept)*), " }`"), tracked_alone,
-                        tracked::$System, tracked::$System { $($field: $value),* }
-                    ),)?
-                ]
-            }
+            lagrangian  { (J + m * (a^2 + b^2)) / 2 * omega^2 + m / 2 * (v1^2 + v2^2) - m * b * omega * v1 + m * a * omega * v2 }
+            constraints { v2 = 0; }
+            forces      { omega: torque - c * omega; }
+            inputs      { torque }
+        )]
+        #[derive(Clone, Copy, Debug)]
+        pub(crate) struct Sleigh {
+            $(pub(crate) $field: $kind),*
         }
     };
+}
+
+mod sleigh_varying {
+    sleigh! { { m: f64, J: f64, a: f64, b: f64, c: f64 } emit { prepared } }
+}
+
+mod sleigh_fixed {
+    sleigh! { {} constants { m = 1.3; J = 0.7; a = 0.4; b = 0.15; c = 0.2; } }
+}
+
+mod sleigh_tracked {
+    sleigh! { { m: f64, J: f64, a: f64, b: f64, c: f64 } track { omega, v1 } }
+}
+
+/// Declares the robot, with some fields and more sections.
+macro_rules! robot {
+    ({ $($field:ident: $kind:ty),* } $($more:tt)*) => {
+        #[nh_runtime::nonholonomic(
+            $($more)*
+            base { psi1, psi2, x, y, theta }
+            lagrangian {
+                let lateral = -der(x) * sin(theta) + der(y) * cos(theta);
+                (m0 + 2 * m1) / 2 * (der(x)^2 + der(y)^2) + m0 * l * lateral * der(theta)
+                    + J / 2 * der(theta)^2 + J2 / 2 * (der(psi1)^2 + der(psi2)^2)
+            }
+            constraints {
+                der(x) = -R / 2 * (der(psi1) + der(psi2)) * cos(theta);
+                der(y) = -R / 2 * (der(psi1) + der(psi2)) * sin(theta);
+                der(theta) = R / (2 * c) * (der(psi2) - der(psi1));
+            }
+        )]
+        #[derive(Clone, Copy, Debug)]
+        pub(crate) struct Robot {
+            $(pub(crate) $field: $kind),*
+        }
+    };
+}
+
+mod robot_varying {
+    robot! { { m0: f64, m1: f64, l: f64, J: f64, J2: f64, c: f64, R: f64 } emit { prepared } }
+}
+
+mod robot_fixed {
+    robot! { {} constants { m0 = 5.0; m1 = 0.4; l = 0.12; J = 0.31; J2 = 0.004; c = 0.2; R = 0.08; } }
+}
+
+/// Declares the tractor, 6 trailers, with some fields and more sections.
+macro_rules! tractor {
+    ({ $($field:ident: $kind:ty),* } $($more:tt)*) => {
+        #[nh_runtime::nonholonomic(
+            $($more)*
+            base  { x, y, th, rel[6] }
+            basis { v, side, omega, rd[6] }
+            anchor {
+                der(x) = v * cos(th) - side * sin(th);
+                der(y) = v * sin(th) + side * cos(th);
+                der(th) = omega;
+                for i in 0..6 { der(rel[i]) = rd[i]; }
+            }
+            lagrangian {
+                let ang[i in 0..6] = sum(j in 0..i+1: rel[j]);
+                let w[i in 0..6] = omega + sum(j in 0..i+1: rd[j]);
+                let px[i in 0..6] = v + sum(j in 0..i+1: d[j] * sin(ang[j]) * w[j]);
+                let py[i in 0..6] = side - sum(j in 0..i+1: d[j] * cos(ang[j]) * w[j]);
+                m[0] / 2 * (v^2 + (side + a * omega)^2) + J[0] / 2 * omega^2
+                    + sum(i in 0..6: J[i+1] / 2 * w[i]^2 + m[i+1] / 2 * (px[i]^2 + py[i]^2))
+            }
+            constraints {
+                let ang[i in 0..6] = sum(j in 0..i+1: rel[j]);
+                let w[i in 0..6] = omega + sum(j in 0..i+1: rd[j]);
+                let px[i in 0..6] = v + sum(j in 0..i+1: d[j] * sin(ang[j]) * w[j]);
+                let py[i in 0..6] = side - sum(j in 0..i+1: d[j] * cos(ang[j]) * w[j]);
+                side = 0;
+                for i in 0..6 { cos(ang[i]) * py[i] = sin(ang[i]) * px[i]; }
+            }
+            inputs { push, steer }
+            forces { v: push; omega: steer; }
+        )]
+        #[derive(Clone, Copy, Debug)]
+        pub(crate) struct Tractor {
+            $(pub(crate) $field: $kind),*
+        }
+    };
+}
+
+mod tractor_varying {
+    tractor! { { m: [f64; 7], J: [f64; 7], d: [f64; 6], a: f64 } emit { prepared } }
+}
+
+mod tractor_fixed {
+    tractor! { {} constants { m = [1.5, 1.1, 0.9, 0.7, 0.6, 0.5, 0.45]; J = [0.4, 0.2, 0.14, 0.1, 0.08, 0.07, 0.06]; d = [0.9, 0.85, 0.8, 0.75, 0.7, 0.65]; a = 0.25; } }
 }
 
 /// A variant with a function of its own, which is counted by its name.
@@ -91,17 +157,15 @@ macro_rules! variant {
         ) -> <$System as nh_runtime::Dynamics>::State {
             nh_runtime::Dynamics::derivative(system, 0.0, state, input)
         }
-        $crate::Variant {
+        Variant {
             system: $system,
             name: $name,
-            evaluate: Box::new(move || $crate::evaluate(&$value, $function)),
-            symbol: concat!(module_path!(), "::all::", stringify!($function)),
-            components: $crate::components::<$System>(),
+            evaluate: Box::new(move || evaluate(&$value, $function)),
+            symbol: concat!(module_path!(), "::variants::", stringify!($function)),
+            components: components::<$System>(),
         }
     }};
 }
-use variant;
-
 /// How many components a state has.
 fn components<S: Dynamics>() -> usize {
     <<S::State as State>::Dim as Dim>::N
@@ -132,8 +196,7 @@ fn main() -> ExitCode {
 }
 
 fn run() -> Result<(), String> {
-    let variants: Vec<Variant> =
-        [sleigh::all(), robot::all(), tractor::all()].into_iter().flatten().collect();
+    let variants = variants();
     if std::env::args().nth(1).is_some_and(|argument| argument == EVALUATE) {
         for variant in &variants {
             (variant.evaluate)();
@@ -154,85 +217,55 @@ fn run() -> Result<(), String> {
     Ok(())
 }
 
-variants! {
-    sleigh, "sleigh", Sleigh prepared as PreparedSleigh,
-    fields { m: f64 = 1.3, J: f64 = 0.7, a: f64 = 0.4, b: f64 = 0.15, c: f64 = 0.2 },
-    constants { m = 1.3; J = 0.7; a = 0.4; b = 0.15; c = 0.2; },
-    only { omega, v1 },
-    {
-        base   { theta, x, y }
-        basis  { omega, v1, v2 }
-        anchor {
-            der(theta) = omega;
-            der(x) = v1 * cos(theta) - v2 * sin(theta);
-            der(y) = v1 * sin(theta) + v2 * cos(theta);
-        }
-        lagrangian  { (J + m * (a^2 + b^2)) / 2 * omega^2 + m / 2 * (v1^2 + v2^2) - m * b * omega * v1 + m * a * omega * v2 }
-        constraints { v2 = 0; }
-        forces      { omega: torque - c * omega; }
-        inputs      { torque }
-    }
-}
-
-variants! {
-    robot, "robot", Robot prepared as PreparedRobot,
-    fields { m0: f64 = 5.0, m1: f64 = 0.4, l: f64 = 0.12, J: f64 = 0.31, J2: f64 = 0.004, c: f64 = 0.2, R: f64 = 0.08 },
-    constants { m0 = 5.0; m1 = 0.4; l = 0.12; J = 0.31; J2 = 0.004; c = 0.2; R = 0.08; },
-    {
-        base { psi1, psi2, x, y, theta }
-        lagrangian {
-            let lateral = -der(x) * sin(theta) + der(y) * cos(theta);
-            (m0 + 2 * m1) / 2 * (der(x)^2 + der(y)^2) + m0 * l * lateral * der(theta)
-                + J / 2 * der(theta)^2 + J2 / 2 * (der(psi1)^2 + der(psi2)^2)
-        }
-        constraints {
-            der(x) = -R / 2 * (der(psi1) + der(psi2)) * cos(theta);
-            der(y) = -R / 2 * (der(psi1) + der(psi2)) * sin(theta);
-            der(theta) = R / (2 * c) * (der(psi2) - der(psi1));
-        }
-    }
-}
-
-variants! {
-    tractor, "tractor, 6 trailers", Tractor prepared as PreparedTractor,
-    fields {
-        m: [f64; 7] = [1.5, 1.1, 0.9, 0.7, 0.6, 0.5, 0.45],
-        J: [f64; 7] = [0.4, 0.2, 0.14, 0.1, 0.08, 0.07, 0.06],
-        d: [f64; 6] = [0.9, 0.85, 0.8, 0.75, 0.7, 0.65],
-        a: f64 = 0.25,
-    },
-    constants {
-        m = [1.5, 1.1, 0.9, 0.7, 0.6, 0.5, 0.45];
-        J = [0.4, 0.2, 0.14, 0.1, 0.08, 0.07, 0.06];
-        d = [0.9, 0.85, 0.8, 0.75, 0.7, 0.65];
-        a = 0.25;
-    },
-    {
-        base  { x, y, th, rel[6] }
-        basis { v, side, omega, rd[6] }
-        anchor {
-            der(x) = v * cos(th) - side * sin(th);
-            der(y) = v * sin(th) + side * cos(th);
-            der(th) = omega;
-            for i in 0..6 { der(rel[i]) = rd[i]; }
-        }
-        lagrangian {
-            let ang[i in 0..6] = sum(j in 0..i+1: rel[j]);
-            let w[i in 0..6] = omega + sum(j in 0..i+1: rd[j]);
-            let px[i in 0..6] = v + sum(j in 0..i+1: d[j] * sin(ang[j]) * w[j]);
-            let py[i in 0..6] = side - sum(j in 0..i+1: d[j] * cos(ang[j]) * w[j]);
-            m[0] / 2 * (v^2 + (side + a * omega)^2) + J[0] / 2 * omega^2
-                + sum(i in 0..6: J[i+1] / 2 * w[i]^2 + m[i+1] / 2 * (px[i]^2 + py[i]^2))
-        }
-        constraints {
-            let ang[i in 0..6] = sum(j in 0..i+1: rel[j]);
-            let w[i in 0..6] = omega + sum(j in 0..i+1: rd[j]);
-            let px[i in 0..6] = v + sum(j in 0..i+1: d[j] * sin(ang[j]) * w[j]);
-            let py[i in 0..6] = side - sum(j in 0..i+1: d[j] * cos(ang[j]) * w[j]);
-            side = 0;
-            for i in 0..6 { cos(ang[i]) * py[i] = sin(ang[i]) * px[i]; }
-        }
-        inputs { push, steer }
-        forces { v: push; omega: steer; }
-    }
+/// All of them.
+fn variants() -> Vec<Variant> {
+    let sleigh = sleigh_varying::Sleigh { m: 1.3, J: 0.7, a: 0.4, b: 0.15, c: 0.2 };
+    let sleigh = [
+        variant!("sleigh", "at run time", sleigh_at_run_time, sleigh_varying::Sleigh, sleigh),
+        variant!("sleigh", "prepared", sleigh_prepared, sleigh_varying::PreparedSleigh, sleigh.prepare()),
+        variant!("sleigh", "constants", sleigh_constants, sleigh_fixed::Sleigh, sleigh_fixed::Sleigh {}),
+        variant!(
+            "sleigh",
+            "at run time, `track { omega, v1 }`",
+            sleigh_tracked_alone,
+            sleigh_tracked::Sleigh,
+            sleigh_tracked::Sleigh { m: 1.3, J: 0.7, a: 0.4, b: 0.15, c: 0.2 }
+        ),
+    ];
+    let robot = robot_varying::Robot { m0: 5.0, m1: 0.4, l: 0.12, J: 0.31, J2: 0.004, c: 0.2, R: 0.08 };
+    let robot = [
+        variant!("robot", "at run time", robot_at_run_time, robot_varying::Robot, robot),
+        variant!("robot", "prepared", robot_prepared, robot_varying::PreparedRobot, robot.prepare()),
+        variant!("robot", "constants", robot_constants, robot_fixed::Robot, robot_fixed::Robot {}),
+    ];
+    let tractor = tractor_varying::Tractor {
+        m: [1.5, 1.1, 0.9, 0.7, 0.6, 0.5, 0.45],
+        J: [0.4, 0.2, 0.14, 0.1, 0.08, 0.07, 0.06],
+        d: [0.9, 0.85, 0.8, 0.75, 0.7, 0.65],
+        a: 0.25,
+    };
+    let tractor = [
+        variant!(
+            "tractor, 6 trailers",
+            "at run time",
+            tractor_at_run_time,
+            tractor_varying::Tractor,
+            tractor
+        ),
+        variant!(
+            "tractor, 6 trailers",
+            "prepared",
+            tractor_prepared,
+            tractor_varying::PreparedTractor,
+            tractor.prepare()
+        ),
+        variant!(
+            "tractor, 6 trailers",
+            "constants",
+            tractor_constants,
+            tractor_fixed::Tractor,
+            tractor_fixed::Tractor {}
+        ),
+    ];
+    sleigh.into_iter().chain(robot).chain(tractor).collect()
 }
