@@ -188,7 +188,7 @@ pub mod shadowed {
             }
             emit {
                 hamiltonian, bracket, discrete_gradient, divergence, volume, connection, invariants, gyroscopic,
-                gibbs_appell, taylor, momenta
+                splitting, gibbs_appell, taylor, momenta
             }
         )]
         #[derive(Clone, Copy, Debug)]

@@ -21,7 +21,7 @@ macro_rules! declarations {
             assume { state > 0; }
             emit {
                 hamiltonian, bracket, discrete_gradient, divergence, volume, connection, invariants, gyroscopic,
-                gibbs_appell, taylor, momenta, multipliers, reactions, jacobian, parameter_jacobian, prepared
+                splitting, gibbs_appell, taylor, momenta, multipliers, reactions, jacobian, parameter_jacobian, prepared
             }
         )]
         #[derive(Clone, Copy, Debug)]
@@ -58,6 +58,31 @@ macro_rules! declarations {
             pub state: $scalar,
             /// A force.
             pub out: $scalar,
+        }
+
+        /// On an Atiyah algebroid, with momentum equations.
+        #[::nh_runtime::nonholonomic(
+            base { series }
+            basis { start, present[3] }
+            anchor { der(series) = start; }
+            brackets so(3) { present }
+            lagrangian {
+                (unit + phase * series^2) / 2 * (present[0]^2 + present[2]^2) + unit / 2 * present[1]^2
+                    + phase / 2 * start^2 - cos(series)
+            }
+            constraints { body: present[2] = sin(series) * start; }
+            outputs { matrix = present[0]; length = series; }
+            emit {
+                splitting, hamiltonian, bracket, discrete_gradient, divergence, connection, gibbs_appell, taylor,
+                multipliers, reactions, jacobian, parameter_jacobian, prepared
+            }
+        )]
+        #[derive(Clone, Copy, Debug)]
+        pub struct Atiyah $($parameters)* {
+            /// A moment of inertia.
+            pub unit: $scalar,
+            /// A mass.
+            pub phase: $scalar,
         }
 
         /// On a Lie algebra.
