@@ -78,7 +78,7 @@ fn modular_section(graph: &Graph, section: &ModularSection) -> String {
     if text.is_empty() { "0".into() } else { text }
 }
 
-/// Whether a claimed density μ(t, x, v) is kept: Γ(μ) + μ div Γ = 0 on the constraint manifold.
+/// Whether a claimed density μ(t, x, v) is one and is kept: Γ(μ) + μ div Γ = 0 on the constraint manifold.
 pub fn claimed_density(
     model: &mut Model,
     manifold: &Manifold,
@@ -88,6 +88,15 @@ pub fn claimed_density(
     origin: Origin,
 ) -> Option<Violation> {
     let graph = &mut model.graph;
+    if manifold.zero_test(graph, density).is_zero() {
+        return Some(Violation {
+            law: Law::Volume,
+            origin,
+            what: "this density is zero".into(),
+            evidence: "every motion keeps it, and it measures nothing".into(),
+            way_out: "state a density; `volume;` looks for one on the base".into(),
+        });
+    }
     let change = flow.derivative(graph, density);
     let spread = graph.mul(density, divergence);
     let defect = graph.add(change, spread);
