@@ -173,6 +173,7 @@ struct MovingVeselova {
     e: f64,
 }
 
+#[allow(clippy::unused_self, reason = "forces call methods of the struct")]
 impl MovingVeselova {
     fn motor(&self, speed: f64, angle: f64) -> f64 {
         (speed * angle).sin()
@@ -262,7 +263,8 @@ fn any_regular_lagrangian() {
     let state = QuarticSkateState { x: 0.3, y: -0.5, theta, x_dot, y_dot, theta_dot: -0.4 };
     check!("quartic_skate", system, 0.0, state, ());
     // no drift, and literally so
-    assert_eq!(<[f64; 6]>::from(system.drift_of_outputs(0.0, &state, &())), [0.0; 6]);
+    let drift = <[f64; 6]>::from(system.drift_of_outputs(0.0, &state, &()));
+    assert!(drift.iter().all(|rate| rate.abs() <= 0.0), "{drift:?}");
 }
 
 #[test]

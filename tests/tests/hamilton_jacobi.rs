@@ -94,7 +94,8 @@ fn motions_stay_on_their_sections() -> Result<(), IntegrationError> {
     assert!((section.x_dot - sim.state().x_dot).abs() < 1e-10, "{section:?} {:?}", sim.state());
     assert!((section.y_dot - sim.state().y_dot).abs() < 1e-10, "{section:?} {:?}", sim.state());
     let belt = Belt { W: 0.3, p: 0.9 };
-    assert_eq!(belt.derivative(0.0, &belt.hamilton_jacobi(0.0, &BeltState::default()), &()).x_dot.abs(), 0.0);
+    let rate = belt.derivative(0.0, &belt.hamilton_jacobi(0.0, &BeltState::default()), &());
+    assert!(rate.x_dot.abs() <= 0.0, "{rate:?}");
     Ok(())
 }
 
