@@ -1,5 +1,6 @@
 """Reference numbers for the splitting of D by symmetries: horizontal lifts, locked inertia, curvature,
-connection, momenta, their rates and the force of the horizontal equations.
+connection, momenta, their rates and the force of the horizontal equations; and accelerations on a level
+of a conserved momentum.
 
 Only vector fields on the configuration space are used, by their components as functions that are
 evaluated at 60 digits and differentiated numerically. Accelerations come from unreduced multipliers. The
@@ -48,7 +49,9 @@ class System:
 
     def momenta(self, q, v):
         M = self.mass(q)
-        return [dot(M[i, :], v) for i in range(self.n)]
+        unit = lambda i, sign: [mpf(sign * int(l == i)) for l in range(self.n)]
+        linear = [(self.L(q, unit(i, 1)) - self.L(q, unit(i, -1))) / 2 for i in range(self.n)]
+        return [dot(M[i, :], v) + linear[i] for i in range(self.n)]
 
     def acceleration(self, q, v):
         n, k = self.n, len(self.rows(q))
@@ -187,10 +190,31 @@ arm = System(
     [1, 2], lambda q, v: [f, 0, 0],
 )
 
+# a conserved momentum along s, in a magnetic field, on a surface with a rough slope: x, y, z, s
+field, stiff, slope, mass = map(mpf, ["0.8", "1.1", "0.45", "1.3"])
+charged = System(
+    "charged", 4,
+    lambda q, v: mass / 2 * (v[0]**2 + v[1]**2 + v[2]**2) + (1 + q[0]**2) / 2 * v[3]**2 + q[1] * v[3] * v[0]
+    + sin(q[0]) * v[3] * v[1] + field * q[0] * v[1] - stiff / 2 * q[0] * q[1]**2 - q[2] * q[0],
+    lambda q: [[-q[1], -slope, 1, 0]],
+    lambda q: [], lambda q: [], [], lambda q, v: [0, 0, 0, 0],
+)
+
+
+def on_level(system, q, v, cyclic):
+    q, v = [mpf(x) for x in q], [mpf(x) for x in v]
+    v[2] = q[1] * v[0] + slope * v[1]
+    numbers = lambda values: [float(x) for x in values]
+    momentum = diff(lambda s: system.L(q, [x + (s if i == cyclic else 0) for i, x in enumerate(v)]), 0)
+    a = system.acceleration(q, v)
+    return {"q": numbers(q), "v": numbers(v), "level": float(momentum), "acceleration": numbers(a)}
+
+
 print(json.dumps({
     "roller_racer": roller_racer.report(["0.4", "0.3", "-0.2", "0.7"], ["0.9"], ["-0.5"]),
     "snakeboard": snakeboard.report(["0.3", "-0.2", "0.5", "0.1", "0.6"], ["0.8"], ["0.7", "-0.9"]),
     "curved": curved.report(["0.6", "-0.4", "0.2", "0.1"], ["0.5", "-0.8"], ["0.9"]),
     "nodim": nodim.report(["0.6", "-0.4", "0.2", "0.3"], ["0.5", "-0.8"], ["0.9"]),
     "arm": arm.report(["0.6", "-0.4", "0.2"], ["0.5", "-0.8"], ["0.9"]),
+    "charged": on_level(charged, ["0.4", "-0.7", "0.3", "0"], ["0.9", "-0.5", "0", "0.6"], 3),
 }, indent=1))

@@ -1,5 +1,7 @@
 //! Routh reduction: the reduced system against the whole one, pointwise and along trajectories.
 
+use std::path::Path;
+
 use nh_runtime::prelude::*;
 use nh_tests::random::Random;
 
@@ -232,6 +234,43 @@ fn in_the_projected_formulation_the_level_is_kept_like_a_constraint() {
     }
     let (found, expected) = (reduced.multipliers(0.0, &state, &()), whole.multipliers(0.0, &full, &()));
     assert!((found.speed - expected.speed).abs() < 1e-13, "{found:?} {expected:?}");
+}
+
+/// In a magnetic field, on a rough slope.
+#[nonholonomic(
+    base { x, y, z, s }
+    lagrangian {
+        m / 2 * (der(x)^2 + der(y)^2 + der(z)^2) + (1 + x^2) / 2 * der(s)^2 + y * der(s) * der(x)
+            + sin(x) * der(s) * der(y) + B * x * der(y) - k / 2 * x * y^2 - z * x
+    }
+    constraints { der(z) = y * der(x) + c * der(y); }
+    routh { s = mu; }
+)]
+#[derive(Clone, Copy, Debug)]
+struct InField {
+    m: f64,
+    B: f64,
+    k: f64,
+    c: f64,
+    mu: f64,
+}
+
+#[test]
+fn numbers_from_unreduced_multipliers() {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("reference/splitting.json");
+    let all: serde_json::Value = serde_json::from_str(&std::fs::read_to_string(path).unwrap()).unwrap();
+    let numbers = |name: &str| -> Vec<f64> {
+        all["charged"][name].as_array().unwrap().iter().map(|number| number.as_f64().unwrap()).collect()
+    };
+    let (q, v, expected) = (numbers("q"), numbers("v"), numbers("acceleration"));
+    let mu = all["charged"]["level"].as_f64().unwrap();
+    let system = InField { m: 1.3, B: 0.8, k: 1.1, c: 0.45, mu };
+    let state = InFieldState { x: q[0], y: q[1], z: q[2], x_dot: v[0], y_dot: v[1] };
+    assert!((system.velocity(0.0, &state).s_dot - v[3]).abs() < 1e-14);
+    let rate = system.derivative(0.0, &state, &());
+    for (found, expected) in [rate.x_dot, rate.y_dot].into_iter().zip(expected) {
+        assert!((found - expected).abs() < 1e-13, "{found} {expected}");
+    }
 }
 
 #[test]

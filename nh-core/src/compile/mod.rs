@@ -28,7 +28,7 @@ use crate::system::System;
 use crate::violation::Violation;
 pub(crate) use momenta::Symmetries;
 pub(crate) use routh::Level;
-pub(crate) use splitting::{Reduced, frame_names, generators, moved};
+pub(crate) use splitting::{Reduced, declared, frame_names, moved, with_translations};
 
 /// What the later stages share.
 pub(crate) struct Proved {

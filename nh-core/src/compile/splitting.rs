@@ -5,6 +5,7 @@ use crate::algebra::{Graph, Matrix, Substitution};
 use crate::check::Invariance;
 use crate::geometry::{
     Algebroid, Anchor, ConstraintDistribution, InvariantFrame, LinearConstraints, PivotSetting, choice,
+    constant_along,
 };
 use crate::id::{CoordId, ExprId, Id, SectionId, SymbolId};
 use crate::mechanics::{Chaplygin, LagrangianSystem, Splitting, translation};
@@ -49,10 +50,14 @@ impl Reduced {
         if !offset || graph.symbols_in(&entries).contains(&proved.system.time) {
             return Err("its constraints are affine or depend on the time");
         }
-        let generators = generators(proved, |_| true);
-        let declared = moved(&mut proved.model.graph, &proved.system.algebroid.anchor, &generators);
-        if let Some(reduced) = in_invariant_frame(proved, &distribution, &generators, &declared) {
-            return Ok(reduced);
+        // the group: declared sections with the cyclic coordinates that these move, else with all
+        let sections = declared(proved, |_| true);
+        let declared = moved(&mut proved.model.graph, &proved.system.algebroid.anchor, &sections);
+        for all in [false, true] {
+            let generators = with_translations(proved, &sections, |id| all || declared.contains(&id));
+            if let Some(reduced) = in_invariant_frame(proved, &distribution, &generators) {
+                return Ok(reduced);
+            }
         }
         let cyclic = &proved.symmetries.cyclic;
         let translations = !declared.is_empty() && declared.iter().all(|id| cyclic.contains(id));
@@ -98,10 +103,9 @@ impl Reduced {
     }
 }
 
-/// The generators of the symmetry group: declared sections that leave L and D invariant and move no
-/// coordinates but those `within`, and translations along the cyclic coordinates that these move.
-/// Nothing where none are declared.
-pub(crate) fn generators(proved: &mut Proved, within: impl Fn(CoordId) -> bool) -> Vec<Vec<ExprId>> {
+/// The declared sections that leave L and D invariant and move no coordinates but those `within`; none
+/// where the time is in one.
+pub(crate) fn declared(proved: &mut Proved, within: impl Fn(CoordId) -> bool) -> Vec<Vec<ExprId>> {
     let model = &proved.model;
     let strict = |name: &String| model.symmetries.iter().any(|s| s.name == *name && s.gauge.is_none());
     let mut found: Vec<Vec<ExprId>> = proved
@@ -117,12 +121,19 @@ pub(crate) fn generators(proved: &mut Proved, within: impl Fn(CoordId) -> bool) 
     }
     let (graph, anchor) = (&mut proved.model.graph, &proved.system.algebroid.anchor);
     found.retain(|section| moved(graph, anchor, std::slice::from_ref(section)).into_iter().all(&within));
-    for id in moved(graph, anchor, &found) {
-        if proved.symmetries.cyclic.contains(&id) {
-            found.extend(translation(graph, anchor, id));
-        }
-    }
     found
+}
+
+/// The generators of a group: declared ones, and translations along cyclic coordinates.
+pub(crate) fn with_translations(
+    proved: &mut Proved,
+    declared: &[Vec<ExprId>],
+    cyclic: impl Fn(CoordId) -> bool,
+) -> Vec<Vec<ExprId>> {
+    let (graph, anchor) = (&mut proved.model.graph, &proved.system.algebroid.anchor);
+    let along = proved.symmetries.cyclic.iter().filter(|id| cyclic(**id));
+    let translations: Vec<Vec<ExprId>> = along.filter_map(|id| translation(graph, anchor, *id)).collect();
+    declared.iter().cloned().chain(translations).collect()
 }
 
 /// The coordinates that generators move.
@@ -139,13 +150,13 @@ fn in_invariant_frame(
     proved: &mut Proved,
     distribution: &ConstraintDistribution,
     generators: &[Vec<ExprId>],
-    group: &[CoordId],
 ) -> Option<Reduced> {
     if generators.is_empty() || !proved.system.forces_on_distribution.is_empty() {
         return None;
     }
     let algebroid = proved.system.algebroid.clone();
     let graph = &mut proved.model.graph;
+    let group = moved(graph, &algebroid.anchor, generators);
     if group.iter().all(|id| proved.symmetries.cyclic.contains(id))
         || graph.generic_rank(&algebroid.anchor.entries) != Ok(algebroid.rank())
     {
@@ -171,10 +182,10 @@ fn in_invariant_frame(
     let old = frame.change.old_velocity(graph, &velocity);
     let mut in_frame = Substitution::new(algebroid.velocities.iter().copied().zip(old));
     let lagrangian = in_frame.apply(graph, proved.system.lagrangian);
-    let lagrangian = without(graph, lagrangian, &symbols)?;
+    let lagrangian = constant_along(graph, &proved.base, lagrangian, &symbols).ok()?;
     let mut broken = false;
     let mut free = |entry: ExprId| {
-        without(graph, entry, &symbols).unwrap_or_else(|| {
+        constant_along(graph, &proved.base, entry, &symbols).unwrap_or_else(|_| {
             broken = true;
             entry
         })
@@ -221,7 +232,7 @@ fn in_invariant_frame(
     };
     // 3. D and its splitting
     let distribution = invariant_basis(proved, constraints, &system.algebroid.velocities, &symbols)?;
-    let splitting = Splitting::of(&mut proved.model.graph, &system, &distribution, group)?;
+    let splitting = Splitting::of(&mut proved.model.graph, &system, &distribution, &group)?;
     (splitting.vertical <= generators.len()).then_some(Reduced {
         system,
         distribution,
@@ -256,29 +267,9 @@ fn invariant_basis(
     };
     let mut found = ConstraintDistribution::solved_for(graph, constraints, &dependent, velocities)?;
     for entry in found.basis.iter_mut().flatten().chain(&mut found.velocity) {
-        *entry = without(graph, *entry, group)?;
+        *entry = constant_along(graph, &proved.base, *entry, group).ok()?;
     }
     Some(found)
-}
-
-/// The expression at one place of the group, where it is the same at all of them.
-fn without(graph: &mut Graph, value: ExprId, group: &[SymbolId]) -> Option<ExprId> {
-    if !graph.depends_on(value, group) {
-        return Some(value);
-    }
-    let value = graph.simplify(value);
-    if !graph.depends_on(value, group) {
-        return Some(value);
-    }
-    for symbol in group {
-        let slope = graph.partial(value, *symbol);
-        if !graph.zero_test(slope).is_zero() {
-            return None;
-        }
-    }
-    let zero = graph.zero();
-    let there = Substitution::new(group.iter().map(|symbol| (*symbol, zero))).apply(graph, value);
-    (!graph.is_undefined(there)).then_some(there)
 }
 
 /// The names of the velocities: declared ones where they are the same, else `body_x` for `x_dot`.

@@ -8,6 +8,7 @@
 use super::algebroid::Algebroid;
 use super::change_of_basis::ChangeOfBasis;
 use super::manifold::Manifold;
+use super::orbits::Factor;
 use crate::algebra::{
     Derivation, Echelon, FieldPoint, Function, Graph, Matrix, Node, Rational, Residue, Substitution,
 };
@@ -56,10 +57,11 @@ impl InvariantFrame {
         let kept: Vec<bool> = frame.iter().map(Option::is_some).collect();
         // 2. vertical ones in the place of the others
         if kept.contains(&false) {
-            let generators = independent(graph, generators)?;
+            let generators = independent(graph, base, generators)?;
             let hints: Vec<ExprId> = hints.iter().chain(generators.iter().flatten()).copied().collect();
-            let vertical = vertical(graph, algebroid, &generators, group, &hints)?;
-            for (index, section) in at_identity(graph, &vertical, group, &kept) {
+            let beside: Matrix = frame.iter().flatten().cloned().collect();
+            let vertical = vertical(graph, algebroid, base, &generators, group, (&hints, &beside))?;
+            for (index, section) in at_identity(graph, base, &vertical, group, &kept) {
                 if frame[index].is_none() && commutes(graph, algebroid, base, &generators, &section) {
                     frame[index] = Some(section);
                 }
@@ -76,15 +78,29 @@ impl InvariantFrame {
             return Err("the invariant sections found are dependent".into());
         }
         let identity: Matrix = (0..rank).map(unit).collect();
-        let inverse =
-            graph.solve_linear(&columns, &identity).ok_or("the invariant sections found are dependent")?;
-        let velocities: Matrix = inverse
-            .values
-            .into_iter()
-            .map(|row| row.into_iter().map(|entry| graph.simplify(entry)).collect())
-            .collect();
+        let velocities = if is_orthogonal(graph, base, &sections) {
+            sections
+        } else {
+            let inverse = graph
+                .solve_linear(&columns, &identity)
+                .ok_or("the invariant sections found are dependent")?;
+            let rows = inverse.values.into_iter();
+            rows.map(|row| row.into_iter().map(|entry| graph.simplify(entry)).collect()).collect()
+        };
         Ok(Self { change: ChangeOfBasis { sections: columns, velocities }, kept })
     }
+}
+
+/// Whether the components of the sections are an orthogonal matrix.
+fn is_orthogonal(graph: &mut Graph, base: &Manifold, sections: &Matrix) -> bool {
+    sections.iter().enumerate().all(|(i, first)| {
+        sections[i..].iter().enumerate().all(|(k, second)| {
+            let product = graph.inner_product(first, second);
+            let wanted = if k == 0 { graph.one() } else { graph.zero() };
+            let defect = graph.sub(product, wanted);
+            base.zero_test(graph, defect).is_zero()
+        })
+    })
 }
 
 /// Whether a section commutes with all generators.
@@ -102,9 +118,9 @@ fn commutes(
 }
 
 /// Generators that are independent at generic points, and span the same.
-fn independent(graph: &Graph, generators: &[Vec<ExprId>]) -> Result<Matrix, String> {
-    let sampled =
-        graph.matrix_in_field(&Graph::transposed(generators), |seed| FieldPoint::random(24_000 + seed))?;
+fn independent(graph: &mut Graph, base: &Manifold, generators: &[Vec<ExprId>]) -> Result<Matrix, String> {
+    let columns = base.restrict_matrix(graph, &Graph::transposed(generators));
+    let sampled = graph.matrix_in_field(&columns, |seed| FieldPoint::random(24_000 + seed))?;
     let pivots = Echelon::of(sampled).pivots;
     Ok(pivots.into_iter().map(|index| generators[index].clone()).collect())
 }
@@ -113,6 +129,7 @@ fn independent(graph: &Graph, generators: &[Vec<ExprId>]) -> Result<Matrix, Stri
 fn structure_constants(
     graph: &mut Graph,
     algebroid: &Algebroid,
+    base: &Manifold,
     generators: &[Vec<ExprId>],
 ) -> Result<Vec<Vec<Vec<Residue>>>, String> {
     let r = generators.len();
@@ -122,7 +139,7 @@ fn structure_constants(
             columns.push(algebroid.bracket(graph, first, second));
         }
     }
-    let rows = Graph::transposed(&columns);
+    let rows = base.restrict_matrix(graph, &Graph::transposed(&columns));
     let mut found: Option<Vec<Vec<Residue>>> = None;
     for start in [25_000, 26_000] {
         let sampled = graph.matrix_in_field(&rows, |seed| FieldPoint::random(start + seed))?;
@@ -142,24 +159,26 @@ fn structure_constants(
     Ok((0..r).map(|b| (0..r).map(|c| entry(b, c)).collect()).collect())
 }
 
-/// Invariant combinations A^a ξ_a, as many as there are generators.
+/// Invariant combinations A^a ξ_a that are a frame with those `beside` them; with functions whose sines and
+/// cosines tell angles from lengths.
 fn vertical(
     graph: &mut Graph,
     algebroid: &Algebroid,
+    base: &Manifold,
     generators: &[Vec<ExprId>],
     group: &[SymbolId],
-    hints: &[ExprId],
+    (hints, beside): (&[ExprId], &Matrix),
 ) -> Result<Matrix, String> {
     let r = generators.len();
-    let constants = structure_constants(graph, algebroid, generators)?;
+    let constants = structure_constants(graph, algebroid, base, generators)?;
     let factors = factors(graph, group, hints);
     for degree in 0..=DEGREE {
         let functions = products(graph, &factors, degree);
         if functions.len() * r > UNKNOWNS {
             break;
         }
-        let coefficients = solutions(graph, algebroid, generators, &constants, &functions)?;
-        let mut found = Matrix::new();
+        let coefficients = solutions(graph, algebroid, base, generators, &constants, &functions)?;
+        let mut found = beside.clone();
         for solution in coefficients {
             let mut section = vec![graph.zero(); algebroid.rank()];
             for (generator, row) in generators.iter().zip(solution.chunks(functions.len())) {
@@ -173,8 +192,9 @@ fn vertical(
             }
             found.push(section.into_iter().map(|component| graph.simplify(component)).collect());
         }
-        if found.len() >= r && graph.generic_rank(&found) == Ok(r) {
-            return independent(graph, &found);
+        let found = independent(graph, base, &found)?;
+        if found.len() == algebroid.rank() {
+            return Ok(found[beside.len()..].to_vec());
         }
     }
     Err("no invariant sections were found among polynomials in the coordinates along the group, their sines and \
@@ -223,6 +243,7 @@ fn products(graph: &mut Graph, factors: &[Vec<ExprId>], degree: usize) -> Vec<Ex
 fn solutions(
     graph: &mut Graph,
     algebroid: &Algebroid,
+    base: &Manifold,
     generators: &[Vec<ExprId>],
     constants: &[Vec<Vec<Residue>>],
     functions: &[ExprId],
@@ -235,6 +256,7 @@ fn solutions(
         let mut along = Derivation::new(algebroid.anchor.coordinates.iter().copied().zip(field));
         table.push(functions.iter().map(|function| along.apply(graph, *function)).collect());
     }
+    let table = base.restrict_matrix(graph, &table);
     let mut equations: Vec<Vec<Residue>> = Vec::new();
     for point in 0..(m as u64 + 3) {
         let values = graph.matrix_in_field(&table, |seed| FieldPoint::random(30_000 + 97 * point + seed))?;
@@ -278,9 +300,10 @@ fn small(residue: Residue) -> Option<Rational> {
 
 /// The combinations that are sections of the basis where the coordinates along the group vanish, each
 /// with its position, those in the place of sections that are not kept first; as they are, where the
-/// coordinates are none there.
+/// coordinates are none there. On an embedded group the parameters of its chart vanish.
 fn at_identity(
     graph: &mut Graph,
+    base: &Manifold,
     vertical: &Matrix,
     group: &[SymbolId],
     kept: &[bool],
@@ -288,10 +311,19 @@ fn at_identity(
     let of = |wanted: bool| (0..kept.len()).filter(move |index| kept[*index] == wanted);
     let order: Vec<usize> = of(false).chain(of(true)).collect();
     let (r, zero, one) = (vertical.len(), graph.zero(), graph.one());
-    let mut identity = Substitution::new(group.iter().map(|symbol| (*symbol, zero)));
+    let free = || Factor { embedding: Vec::new(), parameters: group.to_vec() };
+    let factor = base.factor(graph, group).unwrap_or_else(free);
+    let mut embedding = Substitution::new(factor.embedding);
+    let mut identity = Substitution::new(factor.parameters.into_iter().map(|symbol| (symbol, zero)));
     let mut rows = Matrix::new();
     for (k, section) in vertical.iter().enumerate() {
-        let here: Vec<ExprId> = section.iter().map(|component| identity.apply(graph, *component)).collect();
+        let here: Vec<ExprId> = section
+            .iter()
+            .map(|component| {
+                let component = embedding.apply(graph, *component);
+                identity.apply(graph, component)
+            })
+            .collect();
         let combined = (0..r).map(|other| if other == k { one } else { zero });
         rows.push(order.iter().map(|index| here[*index]).chain(combined).collect());
     }

@@ -10,7 +10,9 @@ use crate::id::{ExprId, SymbolId};
 /// A manifold, by symbols that are functions of the others.
 #[derive(Clone, Debug, Default)]
 pub struct Manifold {
-    images: Vec<(SymbolId, ExprId)>,
+    pub(super) images: Vec<(SymbolId, ExprId)>,
+    /// The symbols in the images that are parameters of a chart.
+    pub(super) chart: Vec<SymbolId>,
 }
 
 impl Manifold {
@@ -24,7 +26,7 @@ impl Manifold {
     #[must_use]
     pub fn of_images(graph: &Graph, images: impl IntoIterator<Item = (SymbolId, ExprId)>) -> Self {
         let moved = |(symbol, image): &(SymbolId, ExprId)| graph.as_symbol(*image) != Some(*symbol);
-        Self { images: images.into_iter().filter(moved).collect() }
+        Self { images: images.into_iter().filter(moved).collect(), chart: Vec::new() }
     }
 
     /// Where all `functions` vanish, solved for some of the symbols `unknowns`.
@@ -60,6 +62,7 @@ impl Manifold {
             let image = self.restrict(graph, *image);
             self.insert(graph, *symbol, image);
         }
+        self.chart.extend(&other.chart);
     }
 
     /// Whether a symbol is not a function of others.
@@ -140,6 +143,10 @@ impl Manifold {
                 .into_iter()
                 .collect(),
         };
+        if matches!(ease, Ease::Sphere) {
+            let values: Vec<ExprId> = images.iter().map(|(_, image)| *image).collect();
+            self.chart.extend(graph.symbols_in(&values));
+        }
         for (symbol, image) in &images {
             self.insert(graph, *symbol, *image);
         }
@@ -154,7 +161,8 @@ impl Manifold {
             return None;
         }
         let entries = cayley(graph);
-        let manifold = Self { images: present.into_iter().zip(entries).collect() };
+        let chart = graph.symbols_in(&entries);
+        let manifold = Self { images: present.into_iter().zip(entries).collect(), chart };
         let all = functions.iter().all(|function| manifold.zero_test(graph, *function) == Verdict::Zero);
         all.then_some(manifold)
     }

@@ -11,6 +11,7 @@ mod invariant_frame;
 mod known_algebra;
 mod manifold;
 mod momentum_level;
+mod orbits;
 mod pivot;
 mod structure;
 
@@ -23,5 +24,6 @@ pub use invariant_frame::InvariantFrame;
 pub use known_algebra::{KnownAlgebra, KnownBracket};
 pub use manifold::Manifold;
 pub use momentum_level::MomentumLevel;
+pub use orbits::{Varies, constant_along};
 pub use pivot::{PivotSetting, PivotZeros};
 pub use structure::StructureFunctions;

@@ -43,10 +43,17 @@ fn does_not_change(graph: &mut Graph, functions: &[ExprId], symbol: SymbolId) ->
 /// the anchor does not determine it.
 pub fn translation(graph: &mut Graph, anchor: &Anchor, coordinate: CoordId) -> Option<Vec<ExprId>> {
     let n = anchor.coordinates.len();
-    if n != anchor.rank || graph.generic_rank(&anchor.entries) != Ok(n) {
+    if graph.generic_rank(&anchor.entries) != Ok(anchor.rank) {
         return None;
     }
     let (zero, one) = (graph.zero(), graph.one());
+    if n != anchor.rank {
+        // more coordinates than sections: a section of the basis or none
+        let unit = |i: usize| if i == coordinate.index() { one } else { zero };
+        let moves = |alpha: &usize| (0..n).all(|i| anchor.entries[i][*alpha] == unit(i));
+        let alpha = (0..anchor.rank).find(moves)?;
+        return Some((0..anchor.rank).map(|beta| if beta == alpha { one } else { zero }).collect());
+    }
     let right: Matrix = (0..n).map(|i| vec![if i == coordinate.index() { one } else { zero }]).collect();
     let solution = graph.solve_linear(&anchor.entries, &right)?;
     Some(solution.values.into_iter().map(|row| graph.simplify(row[0])).collect())

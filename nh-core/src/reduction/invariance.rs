@@ -7,7 +7,8 @@ use crate::check::{
     evidence::{not_zero, shown},
     name_of,
 };
-use crate::geometry::ChangeOfBasis;
+use crate::compile::Proved;
+use crate::geometry::{ChangeOfBasis, Varies, constant_along};
 use crate::id::{ExprId, Id, Origin, SymbolId};
 use crate::violation::{Law, Violation};
 
@@ -21,13 +22,12 @@ pub(super) struct Invariant<'a> {
     pub(super) violations: Vec<Violation>,
     origin: Origin,
     renaming: Substitution,
+    no_frame: Option<String>,
 }
 
-/// Places on the group: at one of them every function of the invariants has a value.
-const PLACES: [(i64, i64); 3] = [(0, 1), (1, 1), (2, 5)];
-
 impl<'a> Invariant<'a> {
-    pub(super) fn of(side: &'a mut Side, declared: &QuotientDecl) -> Self {
+    /// With the reason why no frame was derived from declared symmetries.
+    pub(super) fn of(side: &'a mut Side, declared: &QuotientDecl, no_frame: Option<String>) -> Self {
         let coordinates = &side.proved.model.coordinates;
         let dropped = declared.dropped.iter().map(|id| coordinates[*id].symbol).collect();
         let mut images = Vec::new();
@@ -37,7 +37,7 @@ impl<'a> Invariant<'a> {
             images.push((side.proved.model.coordinates[*id].symbol, graph.symbol(fresh)));
         }
         let renaming = Substitution::new(images);
-        Self { side, dropped, violations: Vec::new(), origin: declared.origin, renaming }
+        Self { side, dropped, violations: Vec::new(), origin: declared.origin, renaming, no_frame }
     }
 
     /// The expression without the dropped coordinates; `what` it is, where it depends on them.
@@ -47,15 +47,23 @@ impl<'a> Invariant<'a> {
                 let value = self.renaming.apply(self.side.graph(), value);
                 self.side.graph().simplify(value)
             }
-            Err((symbol, slope, verdict)) => {
-                let graph = self.side.graph();
+            Err(Varies { along, slope, verdict }) => {
+                let graph = &mut self.side.proved.model.graph;
                 let (value, slope) = (graph.simplify(value), graph.simplify(slope));
+                let occurs = |symbol: &&SymbolId| graph.depends_on(value, &[**symbol]);
+                let (symbol, by) = if self.dropped.contains(&along) {
+                    (along, String::new())
+                } else {
+                    let first = self.dropped.iter().find(occurs).copied().unwrap_or(along);
+                    (first, format!(" along `{}` on the embedded base", graph.symbols()[along]))
+                };
                 let name = graph.symbols()[symbol].clone();
+                let by = if by.is_empty() { format!(" by `{name}`") } else { by };
                 let defect = match &verdict {
                     Verdict::NonZero(witness) => not_zero(graph, slope, witness),
                     _ => format!("{} should be 0", shown(graph, slope)),
                 };
-                let evidence = format!("it is {}; its derivative by `{name}` {defect}", shown(graph, value));
+                let evidence = format!("it is {}; its derivative{by} {defect}", shown(graph, value));
                 self.depends(format!("{what} depends on `{name}`"), evidence);
                 value
             }
@@ -64,9 +72,16 @@ impl<'a> Invariant<'a> {
 
     /// Records what depends on the dropped coordinates.
     fn depends(&mut self, what: String, evidence: String) {
-        let way_out = "drop fewer coordinates, give invariant `velocities { … }`, or declare the symmetries that \
-                       move them in `symmetries` of the full system";
-        self.refuse(what, evidence, way_out);
+        let way_out = match &self.no_frame {
+            Some(reason) => format!(
+                "drop fewer coordinates, or give invariant `velocities {{ … }}`: from the declared symmetries no frame \
+                 was derived, since {reason}"
+            ),
+            None => "drop fewer coordinates, give invariant `velocities { … }`, or declare the symmetries that move \
+                     them in `symmetries` of the full system"
+                .into(),
+        };
+        self.refuse(what, evidence, &way_out);
     }
 
     /// Records what stands in the way.
@@ -81,29 +96,9 @@ impl<'a> Invariant<'a> {
     }
 
     /// The expression at one place of the group, where it is the same at all of them.
-    fn without(&mut self, value: ExprId) -> Result<ExprId, (SymbolId, ExprId, Verdict)> {
-        let graph = self.side.graph();
-        if !graph.depends_on(value, &self.dropped) {
-            return Ok(value);
-        }
-        let value = graph.simplify(value);
-        for symbol in self.dropped.clone() {
-            let slope = self.side.graph().partial(value, symbol);
-            let verdict = self.side.vanishes(slope);
-            if !verdict.is_zero() {
-                return Err((symbol, slope, verdict));
-            }
-        }
-        let graph = self.side.graph();
-        for (n, d) in PLACES {
-            let place = graph.number(Rational::new(n, d));
-            let here = self.dropped.iter().map(|symbol| (*symbol, place));
-            let there = Substitution::new(here).apply(graph, value);
-            if !graph.is_undefined(there) {
-                return Ok(there);
-            }
-        }
-        Ok(value)
+    fn without(&mut self, value: ExprId) -> Result<ExprId, Varies> {
+        let Proved { model, base, .. } = &mut self.side.proved;
+        constant_along(&mut model.graph, base, value, &self.dropped)
     }
 }
 

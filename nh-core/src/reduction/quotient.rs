@@ -10,7 +10,7 @@ use super::side::Side;
 use super::{Refusal, fence};
 use crate::algebra::{Graph, Matrix, Substitution};
 use crate::check::evidence::shown;
-use crate::compile::{Proved, frame_names, generators, moved};
+use crate::compile::{self, Proved, frame_names, moved, with_translations};
 use crate::geometry::{ChangeOfBasis, InvariantFrame};
 use crate::id::{CoordId, ExprId, Id, Origin, SymbolId};
 use crate::model::{Located, Model};
@@ -71,7 +71,12 @@ pub struct Equation {
 pub fn quotient(model: Model, declared: &QuotientDecl) -> Result<Quotient, Refusal> {
     let mut source = Side::of(model)?;
     // 1. the frame: w = Φ y, Ψ = Φ⁻¹
-    let (names, rows, change) = frame(&mut source, declared).map_err(Refusal::Broken)?;
+    let derived = invariant_frame(&mut source, declared);
+    let no_frame = derived.as_ref().err().cloned();
+    let (names, rows, change) = match derived.ok().flatten() {
+        Some(derived) => derived,
+        None => frame(&mut source, declared).map_err(Refusal::Broken)?,
+    };
     let symbols: Vec<SymbolId> = names.iter().map(|name| source.graph().new_symbol(name.clone())).collect();
     let graph = &mut source.proved.model.graph;
     let algebroid = change.apply(graph, &source.proved.system.algebroid, symbols);
@@ -79,7 +84,7 @@ pub fn quotient(model: Model, declared: &QuotientDecl) -> Result<Quotient, Refus
     let old = change.old_velocity(graph, &new);
     let mut in_frame = Substitution::new(source.velocities().to_vec().into_iter().zip(old));
     // 2. everything in the frame, without the dropped coordinates
-    let mut invariant = Invariant::of(&mut source, declared);
+    let mut invariant = Invariant::of(&mut source, declared, no_frame);
     let mut anchor = Vec::new();
     for (row, id) in algebroid.anchor.entries.iter().zip(ids(&invariant.side.proved.model)) {
         if declared.dropped.contains(&id) {
@@ -132,17 +137,12 @@ fn ids(model: &Model) -> Vec<CoordId> {
     model.coordinates.ids().collect()
 }
 
-/// The names and values of the invariant quasi-velocities, and the change to their frame.
-fn frame(
-    source: &mut Side,
-    declared: &QuotientDecl,
-) -> Result<(Vec<String>, Vec<ExprId>, ChangeOfBasis), Vec<Violation>> {
+/// The names and values of quasi-velocities, and the change to their frame.
+type Frame = (Vec<String>, Vec<ExprId>, ChangeOfBasis);
+
+/// The frame as it is given.
+fn frame(source: &mut Side, declared: &QuotientDecl) -> Result<Frame, Vec<Violation>> {
     let rank = source.velocities().len();
-    if declared.velocities.is_none()
-        && let Some(derived) = invariant_frame(source, declared)
-    {
-        return Ok(derived);
-    }
     let velocity = source.proved.system.algebroid.velocity(&mut source.proved.model.graph);
     let names = source.proved.model.sections.iter().map(|section| section.name.clone());
     let located = velocity.into_iter().map(|value| Located { value, origin: declared.origin });
@@ -189,26 +189,29 @@ fn frame(
     Ok((names, values, ChangeOfBasis { sections, velocities: rows }))
 }
 
-/// A frame that commutes with the declared symmetries, where these move the dropped coordinates alone.
-fn invariant_frame(
-    source: &mut Side,
-    declared: &QuotientDecl,
-) -> Option<(Vec<String>, Vec<ExprId>, ChangeOfBasis)> {
-    let generators = generators(&mut source.proved, |id| declared.dropped.contains(&id));
+/// A frame that commutes with the declared symmetries, where no frame is given and there are symmetries
+/// that move dropped coordinates alone.
+///
+/// # Errors
+/// Why none was found.
+fn invariant_frame(source: &mut Side, declared: &QuotientDecl) -> Result<Option<Frame>, String> {
+    let within = |id| declared.dropped.contains(&id);
+    let sections = compile::declared(&mut source.proved, within);
+    if sections.is_empty() || declared.velocities.is_some() {
+        return Ok(None);
+    }
+    let generators = with_translations(&mut source.proved, &sections, within);
     let Proved { model, system, base, constraints, .. } = &mut source.proved;
     let (graph, algebroid) = (&mut model.graph, &system.algebroid);
-    if generators.is_empty() {
-        return None;
-    }
     let moved = moved(graph, &algebroid.anchor, &generators);
     let group: Vec<SymbolId> = moved.iter().map(|id| algebroid.anchor.coordinates[id.index()]).collect();
     let hints: Vec<ExprId> = constraints.residuals.iter().copied().chain([system.lagrangian]).collect();
-    let frame = InvariantFrame::of(graph, algebroid, base, &generators, &group, &hints).ok()?;
+    let frame = InvariantFrame::of(graph, algebroid, base, &generators, &group, &hints)?;
     let names: Vec<String> = model.sections.iter().map(|section| section.name.clone()).collect();
     let names = frame_names(graph, &frame, &names);
     let velocity = algebroid.velocity(graph);
     let values = frame.change.velocities.iter().map(|row| graph.inner_product(row, &velocity)).collect();
-    Some((names, values, frame.change))
+    Ok(Some((names, values, frame.change)))
 }
 
 /// Υ'_k = Ψ^α_k Υ_α.

@@ -1,0 +1,82 @@
+//! Functions that do not change along a group, written without the coordinates along it.
+
+use super::manifold::Manifold;
+use crate::algebra::{Graph, Rational, Substitution, Verdict};
+use crate::id::{ExprId, SymbolId};
+
+/// A factor of a manifold.
+#[derive(Clone, Debug)]
+pub struct Factor {
+    /// Its symbols that are functions of the parameters.
+    pub embedding: Vec<(SymbolId, ExprId)>,
+    /// What parametrises it, free symbols among them.
+    pub parameters: Vec<SymbolId>,
+}
+
+impl Manifold {
+    /// Where some of the symbols run through a factor of the manifold, on which no others depend: their
+    /// images, and what parametrises it. `None` where they are free, or are no factor.
+    #[must_use]
+    pub fn factor(&self, graph: &Graph, symbols: &[SymbolId]) -> Option<Factor> {
+        let is_inside = |(symbol, _): &&(SymbolId, ExprId)| symbols.contains(symbol);
+        let inside: Vec<(SymbolId, ExprId)> = self.images.iter().filter(is_inside).copied().collect();
+        let images: Vec<ExprId> = inside.iter().map(|(_, image)| *image).collect();
+        let outside: Vec<ExprId> =
+            self.images.iter().filter(|image| !is_inside(image)).map(|(_, image)| *image).collect();
+        let mut parameters = graph.symbols_in(&images);
+        parameters.retain(|symbol| self.chart.contains(symbol));
+        parameters.extend(symbols.iter().filter(|symbol| self.is_free(**symbol)));
+        let tangled = graph.symbols_in(&outside).iter().any(|symbol| parameters.contains(symbol));
+        (!inside.is_empty() && !tangled).then_some(Factor { embedding: inside, parameters })
+    }
+}
+
+/// A function that changes along a group.
+#[derive(Clone, Debug)]
+pub struct Varies {
+    /// The coordinate along the group, or a parameter of embedded ones.
+    pub along: SymbolId,
+    /// The derivative by it.
+    pub slope: ExprId,
+    /// That it is not zero, or could not be decided to be.
+    pub verdict: Verdict,
+}
+
+/// Places on the group: at one of them every function of the invariants has a value.
+const PLACES: [(i64, i64); 3] = [(0, 1), (1, 1), (2, 5)];
+
+/// The function at one place of the group, if it is the same at all of them over the embedded base.
+///
+/// # Errors
+/// How it changes along the group.
+pub fn constant_along(
+    graph: &mut Graph,
+    base: &Manifold,
+    function: ExprId,
+    group: &[SymbolId],
+) -> Result<ExprId, Varies> {
+    if !graph.depends_on(function, group) {
+        return Ok(function);
+    }
+    let mut function = graph.simplify(function);
+    let mut along = group.to_vec();
+    if let Some(factor) = base.factor(graph, group) {
+        function = Substitution::new(factor.embedding).apply(graph, function);
+        along = factor.parameters;
+    }
+    for symbol in &along {
+        let slope = graph.partial(function, *symbol);
+        let verdict = base.zero_test(graph, slope);
+        if !verdict.is_zero() {
+            return Err(Varies { along: *symbol, slope, verdict });
+        }
+    }
+    for (n, d) in PLACES {
+        let place = graph.number(Rational::new(n, d));
+        let there = Substitution::new(along.iter().map(|symbol| (*symbol, place))).apply(graph, function);
+        if !graph.is_undefined(there) {
+            return Ok(there);
+        }
+    }
+    Ok(function)
+}

@@ -1,0 +1,11 @@
+use nh_runtime::prelude::*;
+
+#[nonholonomic(base { x, y } lagrangian { m / 2 * (der(x)^2 + der(y)^2) } constraints { der(y) = a * der(x); })]
+struct Full { m: f64, a: f64 }
+
+#[nonholonomic(basis { u, v } brackets {} lagrangian { m / 2 * (1 + a^2) * u^2 } constraints { v = a * u; })]
+struct Reduced { m: f64, a: f64 }
+
+morphism! { Full -> Reduced { velocities { u = der(x); v = der(y); } } }
+
+fn main() {}
