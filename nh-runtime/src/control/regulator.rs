@@ -7,8 +7,11 @@ use super::{ControlError, Entry, finite, norm, symmetrized};
 use crate::D;
 use crate::linear::Factors;
 
-/// A doubling covers twice the horizon of the one before: after so many, 2⁶⁰ ticks.
-const MOST_DOUBLINGS: u32 = 60;
+/// A doubling covers twice the horizon of the one before. Beyond this horizon, in ticks, nothing decays: an
+/// eigenvalue 1 that belongs to two modes is known to the root of the rounding error.
+fn longest_horizon<T: Entry>() -> T {
+    (T::from_f64(16.0) / T::EPSILON.sqrt()).max(T::from_f64(131_072.0))
+}
 
 /// A linear state feedback u = −K e with the cost eᵀ P e that it leaves.
 ///
@@ -29,6 +32,10 @@ impl<T: Entry, const N: usize, const M: usize> Regulator<T, N, M> {
     /// By the structure-preserving doubling algorithm (Chu, Fan, Lin, Wang, Int. J. Control 77
     /// (2004) 767–788), which converges quadratically where the pair (a, b) is stabilizable and
     /// (a, q) is detectable, and at worst linearly where modes on the unit circle are undetectable.
+    ///
+    /// A mode that neither decays nor answers to the input has no regulator if it costs anything; in `f64` it is
+    /// refused if it decays slower than in some 10⁷ ticks. In `f32` rounding makes such a mode decay, or grow, within
+    /// some thousand ticks, which cannot always be told from a slow one: gains are better computed in `f64`.
     ///
     /// ```
     /// use nalgebra::matrix;
@@ -62,7 +69,9 @@ impl<T: Entry, const N: usize, const M: usize> Regulator<T, N, M> {
         let settled = T::from_f64(8.0) * T::EPSILON;
         let mut change = T::ONE;
         let mut iterations = 0;
-        while iterations < MOST_DOUBLINGS && change.is_finite() {
+        let (mut horizon, longest) = (T::ONE, longest_horizon::<T>());
+        while horizon < longest && change.is_finite() {
+            horizon += horizon;
             let inverse = inverse(&(one + reach * cost));
             let through = transition * inverse;
             let more = symmetrized(&(transition.transpose() * cost * inverse * transition));
@@ -273,6 +282,30 @@ mod tests {
         assert_eq!(flat, Err(ControlError::NotDefinite { matrix: "r", pivot: 0.0 }));
         let nan = Regulator::stationary(&a, &vector![f64::NAN, 1.0], &Matrix2::identity(), &matrix![1.0]);
         assert!(matches!(nan, Err(ControlError::NotFinite { argument: "b", .. })));
+    }
+
+    /// The spin of a disk about the vertical, θ̇ + 16 lean, which no motor inside of it changes: it costs something
+    /// for ever, however small the rounding error that makes it decay.
+    #[test]
+    fn what_no_input_changes_is_not_held_by_round_off() {
+        let a = matrix![
+            0.0, 0.0, 1.0, 0.0;
+            0.0, 0.0, 0.0, 1.0;
+            0.0, 0.0, 0.0, -16.0;
+            0.0, 24.525, 2.5, 0.0
+        ];
+        let b = vector![0.0, 0.0, 0.0, -5.0 / 3.0];
+        let weights = nalgebra::Matrix4::identity();
+        for dt in [0.001, 0.005, 0.02, 0.1] {
+            let (step, held) = super::super::zero_order_hold(&a, &b, dt).unwrap();
+            let refused = Regulator::stationary(&step, &held, &weights, &matrix![1.0]);
+            assert!(matches!(refused, Err(ControlError::NotStabilizable { .. })), "{dt} {refused:?}");
+        }
+        // one that is slow, but is held
+        let slow = matrix![1.0, 1e-3; 0.0, 1.0];
+        let push = vector![0.0, 1e-3];
+        let lazy = Matrix2::from_diagonal(&vector![1e-12, 0.0]);
+        Regulator::stationary(&slow, &push, &lazy, &matrix![1.0]).unwrap();
     }
 
     #[test]
