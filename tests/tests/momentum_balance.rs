@@ -73,7 +73,7 @@ fn balance<S: Dynamics<State: State<Scalar = f64>> + Copy, const N: usize>(
     let mut integral = [0.0; N];
     for step in 0..steps {
         for (node, weight) in [(-node, 5.0), (0.0, 8.0), (node, 5.0)] {
-            sim.advance_to(h * (f64::from(step) + (1.0 + node) / 2.0)).unwrap();
+            sim.advance_to(h * (f64::from(step) + f64::midpoint(1.0, node))).unwrap();
             for (sum, rate) in integral.iter_mut().zip(rates(sim.time(), sim.state())) {
                 *sum += h * weight / 18.0 * rate;
             }
