@@ -72,7 +72,8 @@ fn study<const N: usize, P: Problem<N>>(full: bool) -> Study {
     study
 }
 
-/// For each library the cheapest run at each accuracy: thousand instructions, microseconds, method.
+/// For each library the cheapest run at each accuracy, by instructions where they are counted: thousand
+/// instructions, microseconds, method.
 fn show(name: &str, outcomes: &[Outcome]) {
     println!(
         "\n{name}: thousand instructions / microseconds, by the cheapest method, to an error of at most"
@@ -103,7 +104,7 @@ fn show(name: &str, outcomes: &[Outcome]) {
                 });
                 outcome.variant == library && finer.take(4).all(|other| other.error <= accuracy)
             };
-            let price = |outcome: &Outcome| outcome.seconds;
+            let price = |outcome: &Outcome| outcome.instructions.map_or(outcome.seconds, |count| count as f64);
             let best = outcomes.iter().filter(reached).min_by(|a, b| price(a).total_cmp(&price(b)));
             match best {
                 None => print!("{:>26}", "-"),

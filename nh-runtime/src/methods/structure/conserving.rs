@@ -110,11 +110,15 @@ where
     let mut best = ScalarOf::<S>::EPSILON.recip();
     for iteration in 0..MOST_ITERATIONS {
         let state = S::State::from_array(x);
-        let gradients = system.invariant_gradients(arrival.time, &state);
         let mut defect = system.invariants(arrival.time, &state);
         for (defect, value) in defect.as_mut().iter_mut().zip(values.as_ref()) {
             *defect -= *value;
         }
+        // at rest the gradients may vanish, and there is nothing to do
+        if defect.as_ref().iter().all(|defect| *defect == ScalarOf::<S>::ZERO) {
+            return Ok(state);
+        }
+        let gradients = system.invariant_gradients(arrival.time, &state);
         let mut gram = <S::Count as Dim>::mat(ScalarOf::<S>::ZERO);
         for (row, first) in gram.as_mut().iter_mut().zip(gradients.as_ref()) {
             for (entry, second) in row.as_mut().iter_mut().zip(gradients.as_ref()) {
