@@ -1,5 +1,9 @@
 //! The energy-preserving method of discrete gradients.
 
+mod step;
+
+use step::{Parts, Step};
+
 use super::Symmetric;
 use crate::arrays::displaced;
 use crate::linear::Factors;
@@ -12,15 +16,20 @@ use crate::{
 };
 
 /// The method x₁ = x₀ + h Π(x̄) ∂̄E(x₀, x₁) with fixed steps, of order 2, x̄ being the mean of both ends
-/// and ∂̄E the midpoint discrete gradient of the energy,
+/// and ∂̄E a midpoint discrete gradient of the energy,
 ///
-/// ∂̄E = ∂E(x̄) + (E(x₁) − E(x₀) − ∂E(x̄)·Δ) Δ / |Δ|², Δ = x₁ − x₀,
+/// ∂̄E = ∂E(x̄) + (E(x₁) − E(x₀) − ∂E(x̄)·Δ) d / (d·Δ), Δ = x₁ − x₀,
 ///
 /// so that ∂̄E·Δ = E(x₁) − E(x₀), and that is h ∂̄E·Π ∂̄E = 0: the energy stays, whatever the step
 /// (Gonzalez, Time integration and discrete Hamiltonian systems, J. Nonlinear Sci. 6 (1996); for
 /// nonholonomic systems Celledoni, Farré Puiggalí, Høiseth, Martín de Diego, arXiv 1605.02845). It
 /// is symmetric. Quadratic constraints and identities of coordinates (|γ| = 1, RᵀR = 1, γ·ω = 0) stay
 /// too, since they are Casimir functions of Π. For systems declared with `emit { discrete_gradient }`.
+///
+/// Gonzalez takes d = Δ, which adds lengths to velocities: where these differ by orders of magnitude, as on
+/// a stiff spring, the correction goes astray. Here dᵢ is the change of ∂E/∂xᵢ with the sign of Δᵢ, rounded
+/// off between the signs, dᵢ = δᵢ sᵢ / √(sᵢ² + η² Σ s²), δ = ∂E(x₁) − ∂E(x₀), sᵢ = δᵢ Δᵢ: it does not
+/// depend on the units of the components.
 ///
 /// The equations are solved by Newton's iteration with the matrix of the implicit midpoint rule, until
 /// the corrections stagnate in round-off. In place of E(x₀) stands the energy of the first state, which
@@ -127,6 +136,8 @@ impl<T: Real> DiscreteGradient<T> {
 const MOST_ITERATIONS: u32 = 60;
 /// The ratio of successive corrections from which a new Jacobian is formed.
 const SLOW: f64 = 0.1;
+/// The rounding errors of the energy that a solution has to bear.
+const ROUND_OFF: f64 = 16.0;
 /// The corrections in a row that do not halve the smallest one, after which round-off is all that is left.
 const STALLED: u32 = 3;
 
@@ -146,48 +157,6 @@ impl<S: Dynamics> Clone for Work<S> {
     }
 }
 impl<S: Dynamics> Copy for Work<S> {}
-
-/// A step to be made: where it starts, and the energy that it ends at.
-struct Step<'a, 'b, S: AlmostPoisson> {
-    start: &'a Start<'b, S>,
-    x: &'a VecOf<S>,
-    h: ScalarOf<S>,
-    energy: ScalarOf<S>,
-}
-
-impl<S: AlmostPoisson> Step<'_, '_, S>
-where
-    ScalarOf<S>: Real,
-{
-    /// h Π(x̄) ∂̄E − Δ.
-    fn defect(&self, change: &VecOf<S>) -> VecOf<S> {
-        let half = ScalarOf::<S>::from_f64(0.5);
-        let time = self.start.time;
-        let middle = S::State::from_array(displaced(self.x, half, change));
-        let end = S::State::from_array(displaced(self.x, ScalarOf::<S>::ONE, change));
-        let system = self.start.system;
-        let gradient = system.energy_gradient(time, &middle);
-        let gain = system.energy(time, &end) - self.energy;
-        let (along, square) = (dot::<S>(&gradient, change), dot::<S>(change, change));
-        let factor = (gain - along) / square;
-        // where a step is so short that round-off decides, the gradient at the midpoint is as good
-        let reach = factor * factor * square;
-        let corrected = if reach <= dot::<S>(&gradient, &gradient) {
-            displaced(&gradient, factor, change)
-        } else {
-            gradient
-        };
-        let mut defect = system.almost_poisson(time, &middle, &corrected);
-        for (d, c) in defect.as_mut().iter_mut().zip(change.as_ref()) {
-            *d = self.h * *d - *c;
-        }
-        defect
-    }
-}
-
-fn dot<S: Dynamics>(a: &VecOf<S>, b: &VecOf<S>) -> ScalarOf<S> {
-    a.as_ref().iter().zip(b.as_ref()).fold(ScalarOf::<S>::ZERO, |sum, (a, b)| sum + *a * *b)
-}
 
 impl<T: Real, J> Gonzalez<T, J> {
     /// Solves the equations of a step.
@@ -225,7 +194,9 @@ impl<T: Real, J> Gonzalez<T, J> {
             let ratio = size / best;
             stalled = if ratio < T::from_f64(0.5) { 0 } else { stalled + 1 };
             best = best.min(size);
-            if size == T::ZERO || (size <= T::ONE && stalled >= STALLED) {
+            if size == T::ZERO
+                || (stalled >= STALLED && size <= T::ONE.max(self.noise(step, &change, &factors)))
+            {
                 break;
             }
             if !size.is_finite() || iterations >= MOST_ITERATIONS {
@@ -242,6 +213,19 @@ impl<T: Real, J> Gonzalez<T, J> {
         }
         work.matrix = matrix;
         Ok(change)
+    }
+
+    /// The correction that rounding errors of the energy make by themselves, in units of the tolerance.
+    #[cold]
+    fn noise<S>(&self, step: &Step<'_, '_, S>, change: &VecOf<S>, factors: &Factors<DimOf<S>, T>) -> T
+    where
+        S: AlmostPoisson,
+        S::State: State<Scalar = T>,
+    {
+        let Parts { direction, round_off, .. } = step.parts(change);
+        let correction = factors.solve(&step.turned(change, &direction));
+        let noise = T::from_f64(ROUND_OFF) * round_off * largest::<S>(&correction, step.x) / self.tolerance;
+        if noise.is_finite() { noise } else { T::ZERO }
     }
 
     /// 1 − h/2 ∂f/∂x at the middle of a step, factorized.
@@ -344,7 +328,8 @@ where
     ) -> Result<VecOf<S>, IntegrationError> {
         let present = start.system.energy(start.time, start.state);
         let energy = *work.energy.get_or_insert(present);
-        self.solve(&Step { start, x, h, energy }, work, statistics)
+        let gradient = start.system.energy_gradient(start.time, start.state);
+        self.solve(&Step { start, x, h, energy, gradient }, work, statistics)
     }
 
     fn blame(&self, _start: &Start<'_, S>, _h: T) -> Option<IntegrationError> {

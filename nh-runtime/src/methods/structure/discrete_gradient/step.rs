@@ -1,0 +1,84 @@
+//! The equations of a step: the discrete gradient and its defect.
+
+use crate::arrays::{difference, displaced};
+use crate::methods::Start;
+use crate::{AlmostPoisson, Dynamics, Real, Scalar, ScalarOf, State, VecOf};
+
+/// η², below which share of all a component's part in c·(∂E(x₁) − ∂E(x₀)) no longer shows its sign.
+const SMOOTHING: f64 = 0.01;
+
+/// A step to be made: where it starts, and the energy that it ends at.
+pub(super) struct Step<'a, 'b, S: AlmostPoisson> {
+    pub(super) start: &'a Start<'b, S>,
+    pub(super) x: &'a VecOf<S>,
+    pub(super) h: ScalarOf<S>,
+    pub(super) energy: ScalarOf<S>,
+    /// ∂E(x₀).
+    pub(super) gradient: VecOf<S>,
+}
+
+impl<S: AlmostPoisson> Step<'_, '_, S>
+where
+    ScalarOf<S>: Real,
+{
+    /// The middle x̄ of a step with this change of the state.
+    fn middle(&self, change: &VecOf<S>) -> S::State {
+        S::State::from_array(displaced(self.x, ScalarOf::<S>::from_f64(0.5), change))
+    }
+
+    /// h Π(x̄) p for a covector p.
+    pub(super) fn turned(&self, change: &VecOf<S>, covector: &VecOf<S>) -> VecOf<S> {
+        let mut turned = self.start.system.almost_poisson(self.start.time, &self.middle(change), covector);
+        turned.as_mut().iter_mut().for_each(|x| *x *= self.h);
+        turned
+    }
+
+    /// h Π(x̄) ∂̄E − Δ.
+    pub(super) fn defect(&self, change: &VecOf<S>) -> VecOf<S> {
+        let Parts { gradient, direction, factor, .. } = self.parts(change);
+        // where a step is so short that round-off decides, the gradient at the midpoint is as good
+        let is_small = factor.abs() <= ScalarOf::<S>::ONE;
+        let gradient = if is_small { displaced(&gradient, factor, &direction) } else { gradient };
+        difference(&self.turned(change, &gradient), change)
+    }
+
+    /// What ∂̄E = ∂E(x̄) + f d is made of.
+    pub(super) fn parts(&self, change: &VecOf<S>) -> Parts<S> {
+        let (time, system) = (self.start.time, self.start.system);
+        let last = displaced(self.x, ScalarOf::<S>::ONE, change);
+        let end = S::State::from_array(last);
+        let gradient = system.energy_gradient(time, &self.middle(change));
+        let energy = system.energy(time, &end);
+        // each component of ∂E(x₁) − ∂E(x₀) with the sign of Δ there, and smoothly zero between the signs
+        let mut direction = difference(&system.energy_gradient(time, &end), &self.gradient);
+        let mut shares = direction;
+        shares.as_mut().iter_mut().zip(change.as_ref()).for_each(|(share, c)| *share *= *c);
+        let most = shares.as_ref().iter().fold(ScalarOf::<S>::ZERO, |most, share| most.max(share.abs()));
+        shares.as_mut().iter_mut().for_each(|share| *share = *share / most);
+        let smoothing = ScalarOf::<S>::from_f64(SMOOTHING) * dot::<S>(&shares, &shares);
+        for (d, share) in direction.as_mut().iter_mut().zip(shares.as_ref()) {
+            *d *= *share / share.mul_add(*share, smoothing).sqrt();
+        }
+        let along = dot::<S>(&direction, change);
+        let factor = (energy - self.energy - dot::<S>(&gradient, change)) / along;
+        let terms = gradient.as_ref().iter().zip(last.as_ref());
+        let size = terms.fold(energy.abs(), |size, (slope, x)| size + (*slope * *x).abs());
+        Parts { gradient, direction, factor, round_off: ScalarOf::<S>::EPSILON * size / along }
+    }
+}
+
+/// The gradient at the middle of a step, and its correction.
+pub(super) struct Parts<S: Dynamics> {
+    /// ∂E(x̄).
+    pub(super) gradient: VecOf<S>,
+    /// d.
+    pub(super) direction: VecOf<S>,
+    /// f.
+    pub(super) factor: ScalarOf<S>,
+    /// What a rounding error of the energy changes in f.
+    pub(super) round_off: ScalarOf<S>,
+}
+
+fn dot<S: Dynamics>(a: &VecOf<S>, b: &VecOf<S>) -> ScalarOf<S> {
+    a.as_ref().iter().zip(b.as_ref()).fold(ScalarOf::<S>::ZERO, |sum, (a, b)| sum + *a * *b)
+}
