@@ -211,7 +211,7 @@ fn repeats<M: Method<Contact<f64>> + Clone>(method: M) {
 /// All methods of this room.
 macro_rules! each {
     ($check:ident, $number:ty) => {
-        let h = |h: f64| h as $number;
+        let h = <$number as Scalar>::from_f64;
         $check(DiscreteGradient::new(h(0.01)));
         $check(DiscreteGradient::new(h(0.01)).with_jacobian().compensated());
         $check(DiscreteGradient::new(h(0.05)).fourth_order());

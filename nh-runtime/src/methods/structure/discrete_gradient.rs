@@ -177,12 +177,13 @@ impl<T: Real, J> Gonzalez<T, J> {
         let mut change = DimOf::<S>::vec(T::ZERO);
         let most = (T::EPSILON * T::EPSILON).recip();
         let (mut best, mut stalled, mut iterations) = (most, 0, 0);
+        let (mut settled, mut noise) = (None, None);
         loop {
             let (_, factors) = match matrix {
                 Some(matrix) => matrix,
                 None => *matrix.insert((step.h, self.matrix(step, &change, statistics))),
             };
-            let defect = step.defect(&change);
+            let (defect, factor) = step.defect(&change, settled);
             statistics.evaluations += 1;
             let correction = factors.solve(&defect);
             change = displaced(&change, T::ONE, &correction);
@@ -193,10 +194,19 @@ impl<T: Real, J> Gonzalez<T, J> {
             // and add up over the steps
             let ratio = size / best;
             stalled = if ratio < T::from_f64(0.5) { 0 } else { stalled + 1 };
+            let mut bearable = T::ONE;
+            if stalled > 0 {
+                let [by_direction, by_change] =
+                    *noise.get_or_insert_with(|| self.noise(step, &change, &factors));
+                // what round-off leaves of the energy goes the way on which it makes less of itself
+                let is_quieter = by_change < by_direction || !by_direction.is_finite();
+                if settled.is_none() && size <= T::ONE && is_quieter {
+                    settled = Some(factor);
+                }
+                bearable = bearable.max(if settled.is_some() { by_change } else { by_direction });
+            }
             best = best.min(size);
-            if size == T::ZERO
-                || (stalled >= STALLED && size <= T::ONE.max(self.noise(step, &change, &factors)))
-            {
+            if size == T::ZERO || (stalled >= STALLED && size <= bearable) {
                 break;
             }
             if !size.is_finite() || iterations >= MOST_ITERATIONS {
@@ -204,6 +214,7 @@ impl<T: Real, J> Gonzalez<T, J> {
                     return Err(refusal(step, &change, iterations, size));
                 }
                 (retry, matrix, best, stalled, iterations) = (false, None, most, 0, 0);
+                (settled, noise) = (None, None);
                 change = DimOf::<S>::vec(T::ZERO);
                 continue;
             }
@@ -215,17 +226,21 @@ impl<T: Real, J> Gonzalez<T, J> {
         Ok(change)
     }
 
-    /// The correction that rounding errors of the energy make by themselves, in units of the tolerance.
+    /// The corrections that rounding errors of the energy make by themselves, in units of the tolerance: if
+    /// they go along d, and if they go along Δ.
     #[cold]
-    fn noise<S>(&self, step: &Step<'_, '_, S>, change: &VecOf<S>, factors: &Factors<DimOf<S>, T>) -> T
+    fn noise<S>(&self, step: &Step<'_, '_, S>, change: &VecOf<S>, factors: &Factors<DimOf<S>, T>) -> [T; 2]
     where
         S: AlmostPoisson,
         S::State: State<Scalar = T>,
     {
-        let Parts { direction, round_off, .. } = step.parts(change);
-        let correction = factors.solve(&step.turned(change, &direction));
-        let noise = T::from_f64(ROUND_OFF) * round_off * largest::<S>(&correction, step.x) / self.tolerance;
-        if noise.is_finite() { noise } else { T::ZERO }
+        let Parts { direction, along, size, .. } = step.parts(change);
+        let round_off = T::from_f64(ROUND_OFF) * T::EPSILON * size / self.tolerance;
+        let square = change.as_ref().iter().fold(T::ZERO, |sum, c| c.mul_add(*c, sum));
+        [(&direction, along), (change, square)].map(|(direction, along)| {
+            let correction = factors.solve(&step.turned(change, direction));
+            round_off * largest::<S>(&correction, step.x) / along
+        })
     }
 
     /// 1 − h/2 ∂f/∂x at the middle of a step, factorized.

@@ -33,13 +33,21 @@ where
         turned
     }
 
-    /// h Π(x̄) ∂̄E − Δ.
-    pub(super) fn defect(&self, change: &VecOf<S>) -> VecOf<S> {
-        let Parts { gradient, direction, factor, .. } = self.parts(change);
-        // where a step is so short that round-off decides, the gradient at the midpoint is as good
+    /// h Π(x̄) ∂̄E − Δ, and f. With an f from before, what remains of the energy goes along Δ: that is round-off,
+    /// and d may be nearly orthogonal to Δ.
+    pub(super) fn defect(&self, change: &VecOf<S>, settled: Option<ScalarOf<S>>) -> (VecOf<S>, ScalarOf<S>) {
+        let Parts { gradient, direction, gain, along, .. } = self.parts(change);
+        let factor = settled.unwrap_or(gain / along);
+        // where nothing changes, or a step is so short that round-off decides, d says nothing
         let is_small = factor.abs() <= ScalarOf::<S>::ONE;
-        let gradient = if is_small { displaced(&gradient, factor, &direction) } else { gradient };
-        difference(&self.turned(change, &gradient), change)
+        let (factor, part) =
+            if is_small { (factor, factor * along) } else { (ScalarOf::<S>::ZERO, ScalarOf::<S>::ZERO) };
+        let mut corrected = if is_small { displaced(&gradient, factor, &direction) } else { gradient };
+        if settled.is_some() {
+            let rest = (gain - part) / dot::<S>(change, change);
+            corrected = if rest.is_finite() { displaced(&corrected, rest, change) } else { corrected };
+        }
+        (difference(&self.turned(change, &corrected), change), factor)
     }
 
     /// What ∂̄E = ∂E(x̄) + f d is made of.
@@ -60,23 +68,25 @@ where
             *d *= *share / share.mul_add(*share, smoothing).sqrt();
         }
         let along = dot::<S>(&direction, change);
-        let factor = (energy - self.energy - dot::<S>(&gradient, change)) / along;
+        let gain = energy - self.energy - dot::<S>(&gradient, change);
         let terms = gradient.as_ref().iter().zip(last.as_ref());
         let size = terms.fold(energy.abs(), |size, (slope, x)| size + (*slope * *x).abs());
-        Parts { gradient, direction, factor, round_off: ScalarOf::<S>::EPSILON * size / along }
+        Parts { gradient, direction, gain, along, size }
     }
 }
 
 /// The gradient at the middle of a step, and its correction.
 pub(super) struct Parts<S: Dynamics> {
     /// ∂E(x̄).
-    pub(super) gradient: VecOf<S>,
+    gradient: VecOf<S>,
     /// d.
     pub(super) direction: VecOf<S>,
-    /// f.
-    pub(super) factor: ScalarOf<S>,
-    /// What a rounding error of the energy changes in f.
-    pub(super) round_off: ScalarOf<S>,
+    /// E(x₁) − E(x₀) − ∂E(x̄)·Δ.
+    gain: ScalarOf<S>,
+    /// d·Δ: f is the one over the other.
+    pub(super) along: ScalarOf<S>,
+    /// The sum of the sizes of the energy's terms, which round-off goes with.
+    pub(super) size: ScalarOf<S>,
 }
 
 fn dot<S: Dynamics>(a: &VecOf<S>, b: &VecOf<S>) -> ScalarOf<S> {
