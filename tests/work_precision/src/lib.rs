@@ -31,6 +31,9 @@
 //! }
 //! ```
 //!
+//! Every reference system of the project runs so by
+//! `cargo run --release -p nh-work-precision --features catalogue --bin catalogue [name …]`.
+//!
 //! Run it with `--release`. Instructions are counted where valgrind is installed: the program runs itself
 //! under callgrind once, and each run of a method is a profile of its own.
 
