@@ -219,7 +219,6 @@ macro_rules! each {
         $check(ImplicitMidpoint::new(h(0.05)).fourth_order());
         $check(ImplicitMidpoint::new(h(0.05)).sixth_order().compensated());
         $check(ReflectedLeapfrog::new(h(0.01)));
-        $check(ReflectedLeapfrog::new(h(0.05)).fourth_order());
         $check(Conserving::new(Rk4::new(h(0.05))));
         $check(Conserving::new(Dopri5::new()));
         $check(Projected::new(Rk4::new(h(0.05)), 3));

@@ -7,7 +7,7 @@ mod keeps;
 #[path = "../../examples/examples/structure/systems.rs"]
 mod systems;
 
-use keeps::{CONTACT, Kept, Row, row, run};
+use keeps::{CONTACT, Kept, Row, Special, on_tq, row, run};
 use nh_runtime::prelude::*;
 use systems::{ChaoticQuartic, ChaoticQuarticState, Suslov, SuslovState};
 
@@ -61,10 +61,21 @@ fn explicit_methods_keep_nothing() {
 
 #[test]
 fn the_leapfrog_method() {
-    let (order, energy, constraint, reversal) = keeps::leapfrog(STEPS);
+    let Special { order, energy, constraint, reversal, .. } = on_tq("", STEPS, ReflectedLeapfrog::new);
     assert!((order - 2.0).abs() < 0.05, "{order}");
-    assert!(matches!((energy, constraint), (Kept::Nearly(_), Kept::Nearly(_))), "{energy} {constraint}");
+    assert!(matches!((energy, constraint), (Kept::Nearly(_), Some(Kept::Nearly(_)))), "{energy}");
     assert!(reversal < 1e-12, "{reversal}");
+}
+
+#[test]
+fn returns_to_constraints_and_integrals() {
+    let projected = on_tq("", STEPS, |h| Projected::new(Rk4::new(h), 1));
+    assert!(projected.constraint.is_some_and(is_exact) && !is_exact(projected.energy));
+    let conserving = on_tq("", STEPS, |h| Conserving::new(Rk4::new(h)));
+    assert!(is_exact(conserving.energy) && !conserving.constraint.is_some_and(is_exact));
+    for Special { order, reversal, .. } in [projected, conserving] {
+        assert!((order - 4.0).abs() < 0.2 && reversal > 1e-6, "{order} {reversal}");
+    }
 }
 
 #[test]

@@ -5,13 +5,14 @@ use nh_runtime::prelude::*;
 
 use super::systems::{
     ChaplyginSphere, ChaplyginSphereState, ContactOscillator, ContactOscillatorOnTq,
-    ContactOscillatorOnTqState, ContactOscillatorState, HeavySuslov, HeavySuslovState, Veselova,
-    VeselovaState,
+    ContactOscillatorOnTqState, ContactOscillatorState, HeavySuslov, HeavySuslovState, Suslov, SuslovState,
+    Veselova, VeselovaState,
 };
 
 pub(crate) const CONTACT: ContactOscillator = ContactOscillator { epsilon: 0.3 };
 pub(crate) const ON_TQ: ContactOscillatorOnTq = ContactOscillatorOnTq { epsilon: 0.3 };
 pub(crate) const HEAVY: HeavySuslov = HeavySuslov { I: [1.0, 1.7, 2.2], c: [0.4, 0.3, 0.2] };
+pub(crate) const SUSLOV: Suslov = Suslov { I: [1.0, 2.0, 3.0], k: 0.7 };
 pub(crate) const VESELOVA: Veselova = Veselova { I: [1.3, 0.8, 2.1], c: [0.2, -0.5, 0.9] };
 pub(crate) const SPHERE: ChaplyginSphere = ChaplyginSphere { I: [1.3, 0.8, 2.1], m: 0.9, r: 0.6 };
 
@@ -130,20 +131,6 @@ where
     *sim.state()
 }
 
-/// The order, from the errors with two lengths of steps.
-fn order<M: Method<HeavySuslov>>(of: &impl Fn(f64) -> M) -> f64 {
-    let exact = end(HEAVY, heavy(), Vern9::new().rtol(1e-14).atol(1e-14), 2.0);
-    let error = |h: f64| distance(&end(HEAVY, heavy(), of(h), 2.0), &exact);
-    (error(0.2) / error(0.1)).log2()
-}
-
-/// How far 500 steps forth and back lead from the start.
-fn reversal<M: Method<Veselova>>(method: M) -> f64 {
-    let mut sim = Integrator::new(VESELOVA, method, 0.0, veselova());
-    let there = sim.advance_to(500.0 * H).and_then(|()| sim.advance_to(0.0));
-    if there.is_err() { f64::INFINITY } else { distance(sim.state(), &veselova()) }
-}
-
 /// |μ(x₁) det ∂x₁/∂x₀ / μ(x₀) − 1| at some points of a motion.
 fn volume<M: Method<ContactOscillator>>(of: &impl Fn(f64) -> M) -> f64 {
     let step = |x: [f64; 5]| -> [f64; 5] {
@@ -200,28 +187,79 @@ where
     let vertical = |s: &ChaplyginSphereState| dot(s.g, std::array::from_fn(|i| SPHERE.I[i] * s.w[i]));
     Row {
         name,
-        order: order(&of),
+        order: order_of(HEAVY, heavy(), &of, 0.2),
         energy: Kept::of(&run(CONTACT, contact(), of(H), steps, |s| CONTACT.energy(0.0, s))),
         identity: Kept::of(&run(VESELOVA, veselova(), of(H), steps, |s| norm(s.g))),
         constraint: Kept::of(&run(VESELOVA, veselova(), of(H), steps, |s| dot(s.g, s.w))),
         momentum: Kept::of(&run(SPHERE, sphere(), of(H), steps, vertical)),
-        reversal: reversal(of(H)),
+        reversal: there_and_back(VESELOVA, veselova(), of(H)),
         volume: volume(&of),
     }
 }
 
-/// Measures the leapfrog method, on TQ.
-pub(crate) fn leapfrog(steps: u32) -> (f64, Kept, Kept, f64) {
+/// What is measured of a method that not every system takes.
+pub(crate) struct Special {
+    pub(crate) name: &'static str,
+    pub(crate) order: f64,
+    pub(crate) energy: Kept,
+    /// The constraint of the contact oscillator on TQ.
+    pub(crate) constraint: Option<Kept>,
+    pub(crate) reversal: f64,
+}
+
+/// Measures a method on TQ.
+pub(crate) fn on_tq<M>(name: &'static str, steps: u32, of: impl Fn(f64) -> M) -> Special
+where
+    M: Method<ContactOscillatorOnTq>,
+{
     let start =
         ContactOscillatorOnTqState { x: 0.3, y: 0.5, z: 0.4, x_dot: -0.5 * 0.8, y_dot: 1.0, z_dot: 0.8 };
-    let exact = end(ON_TQ, start, Vern9::new().rtol(1e-13).atol(1e-13), 2.0);
-    let error = |h: f64| distance(&end(ON_TQ, start, ReflectedLeapfrog::new(h), 2.0), &exact);
-    let method = ReflectedLeapfrog::new(H);
-    let energy = Kept::of(&run(ON_TQ, start, method, steps, |s| ON_TQ.energy(0.0, s)));
     let residual = |s: &ContactOscillatorOnTqState| s.x_dot + s.y * s.z_dot;
-    let constraint = Kept::of(&run(ON_TQ, start, method, steps, residual));
-    let mut sim = Integrator::new(ON_TQ, method, 0.0, start);
-    let there = sim.advance_to(500.0 * H).and_then(|()| sim.advance_to(0.0));
-    let reversal = if there.is_err() { f64::INFINITY } else { distance(sim.state(), &start) };
-    ((error(0.02) / error(0.01)).log2(), energy, constraint, reversal)
+    Special {
+        name,
+        order: order_of(ON_TQ, start, &of, 0.02),
+        energy: Kept::of(&run(ON_TQ, start, of(H), steps, |s| ON_TQ.energy(0.0, s))),
+        constraint: Some(Kept::of(&run(ON_TQ, start, of(H), steps, residual))),
+        reversal: there_and_back(ON_TQ, start, of(H)),
+    }
+}
+
+/// Measures a method on a Lie algebra, while the motion settles.
+pub(crate) fn on_algebra<M: Method<Suslov>>(name: &'static str, of: impl Fn(f64) -> M) -> Special {
+    let start = SuslovState { w_0: 0.6, w_1: 0.8 };
+    Special {
+        name,
+        order: order_of(SUSLOV, start, &of, 0.02),
+        energy: Kept::of(&run(SUSLOV, start, of(H), 100, |s| SUSLOV.energy(0.0, s))),
+        constraint: None,
+        reversal: there_and_back(SUSLOV, start, of(H / 20.0)),
+    }
+}
+
+/// The order, from the errors with two lengths of steps.
+fn order_of<S, M>(system: S, start: S::State, of: &impl Fn(f64) -> M, h: f64) -> f64
+where
+    S: Dynamics<Input = ()> + Copy,
+    S::State: State<Scalar = f64>,
+    M: Method<S>,
+{
+    let exact = end(system, start, Vern9::new().rtol(1e-13).atol(1e-13), 2.0);
+    let error = |h: f64| distance(&end(system, start, of(h), 2.0), &exact);
+    (error(h) / error(h / 2.0)).log2()
+}
+
+/// How far 500 steps forth and back lead from the start.
+fn there_and_back<S, M>(system: S, start: S::State, method: M) -> f64
+where
+    S: Dynamics<Input = ()> + Copy,
+    S::State: State<Scalar = f64>,
+    M: Method<S>,
+{
+    let mut sim = Integrator::new(system, method, 0.0, start);
+    for _ in 0..500 {
+        if sim.step().is_err() {
+            return f64::INFINITY;
+        }
+    }
+    if sim.advance_to(0.0).is_err() { f64::INFINITY } else { distance(sim.state(), &start) }
 }

@@ -13,11 +13,11 @@
 mod keeps;
 mod systems;
 
-use keeps::{CONTACT, HEAVY, Row, SPHERE, VESELOVA, row, run};
+use keeps::{CONTACT, HEAVY, Row, SPHERE, SUSLOV, Special, VESELOVA, on_algebra, on_tq, row, run};
 use nh_runtime::Method;
 use nh_runtime::prelude::*;
 use systems::{
-    ChaoticQuartic, ChaoticQuarticState, ContactOscillatorState, Gearbox, GearboxState, Suslov, SuslovState,
+    ChaoticQuartic, ChaoticQuarticState, ContactOscillatorState, Gearbox, GearboxState, SuslovState,
 };
 
 fn main() {
@@ -43,6 +43,7 @@ fn rows() -> Vec<Row> {
         row("  .fourth_order()", STEPS, |h| ImplicitMidpoint::new(h).fourth_order()),
         row("  .sixth_order()", STEPS, |h| ImplicitMidpoint::new(h).sixth_order()),
         row("GaussLegendre4", STEPS, GaussLegendre4::new),
+        row("GaussLegendre6", STEPS, GaussLegendre6::new),
         row("DiscreteGradient", STEPS, DiscreteGradient::new),
         row("  .fourth_order()", STEPS, |h| DiscreteGradient::new(h).fourth_order()),
         row("  .sixth_order()", STEPS, |h| DiscreteGradient::new(h).sixth_order()),
@@ -63,11 +64,21 @@ fn table() {
              {volume:8.0e}"
         );
     }
-    let (order, energy, constraint, reversal) = keeps::leapfrog(STEPS);
-    println!(
-        "{:20} {order:5.2}  {energy:14} {:14} {constraint:14} {:14} {reversal:8.0e}\n",
-        "ReflectedLeapfrog", "-", "-"
-    );
+    for Special { name, order, energy, constraint, reversal } in specials() {
+        let constraint = constraint.map_or("-".to_owned(), |kept| kept.to_string());
+        println!("{name:20} {order:5.2}  {energy:14} {:14} {constraint:14} {:14} {reversal:8.0e}", "-", "-");
+    }
+    println!();
+}
+
+/// The methods that want a system on TQ, a constraint to project to, or a Lie algebra.
+fn specials() -> Vec<Special> {
+    vec![
+        on_tq("ReflectedLeapfrog", STEPS, ReflectedLeapfrog::new),
+        on_tq("Projected(Rk4)", STEPS, |h| Projected::new(Rk4::new(h), 1)),
+        on_tq("Conserving(Rk4)", STEPS, |h| Conserving::new(Rk4::new(h))),
+        on_algebra("DiscreteSuslov", DiscreteSuslov::new),
+    ]
 }
 
 /// H = 1.5, ten initial z₀ in ±0.9√2, h = 2 sin(π/N).
@@ -127,7 +138,7 @@ fn gearbox() {
 
 fn suslov() {
     println!("Suslov's problem in general position, step 0.1, t = 100: settled, whatever the method\n");
-    let system = Suslov { I: [1.0, 2.0, 3.0], k: 0.7 };
+    let system = SUSLOV;
     let start = SuslovState { w_0: 0.6, w_1: 0.8 };
     let energy = |s: &SuslovState| system.energy(0.0, s);
     let show = |name: &str, errors: &[f64]| {

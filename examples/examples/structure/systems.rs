@@ -28,7 +28,8 @@ pub(crate) struct ContactOscillator {
     }
     constraints { contact: der(x) = -y * der(z); }
     formulation { projected }
-    emit { discrete_gradient, leapfrog }
+    conserved { total = (der(x)^2 + der(y)^2 + der(z)^2) / 2 + (x^2 + y^2 + z^2) / 2 + epsilon / 2 * x^2 * z^2; }
+    emit { discrete_gradient, leapfrog, invariants }
 )]
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct ContactOscillatorOnTq {

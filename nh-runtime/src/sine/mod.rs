@@ -8,8 +8,9 @@
 //! an exact rotation or by operations on bits. There is no branch but one: arguments beyond the reach of that subtraction are
 //! reduced by integer arithmetic with as many digits of 2/π as they need ([`far`]).
 //!
-//! The same operations in the same order make lanes equal to numbers bit for bit. The largest errors,
-//! over all of f32 and found by search in f64, are in the tests.
+//! The same operations in the same order make lanes equal to numbers bit for bit. The largest error over all
+//! numbers of f32 is 2.34 units in the last place, at 4505.169; in f64 it is 1.50 over fifty million random
+//! numbers, and the bound that the tests hold it to is 1.6.
 
 mod far;
 #[cfg(test)]

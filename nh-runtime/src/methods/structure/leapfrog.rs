@@ -2,7 +2,7 @@
 
 use crate::arrays::difference;
 use crate::methods::fixed::{self, Slopes};
-use crate::methods::{Arrival, Fixed, OneStep, Start, Symmetric};
+use crate::methods::{Arrival, Fixed, OneStep, Start};
 use crate::{IntegrationError, Leapfrog, Real, Scalar, State, Statistics, VecOf};
 
 /// The method of McLachlan and Perlmutter with fixed steps, of order 2, explicit but for the linear
@@ -11,14 +11,14 @@ use crate::{IntegrationError, Leapfrog, Real, Scalar, State, Statistics, VecOf};
 /// nonholonomic mechanical systems, J. Nonlinear Sci. 16 (2006)).
 ///
 /// Symmetric and reversible; without potential it keeps the energy. The velocities satisfy the
-/// constraints up to the square of the step. For systems declared with `emit { leapfrog }`.
+/// constraints up to the square of the step. What they miss is reflected at every kick, so that the step is not
+/// near the identity off the constraints, and compositions have order 2 as well: there are none. For systems
+/// declared with `emit { leapfrog }`.
 pub type ReflectedLeapfrog<T> = Fixed<DriftKickDrift, T>;
 
 /// A step of [`ReflectedLeapfrog`].
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct DriftKickDrift;
-
-impl Symmetric for DriftKickDrift {}
 
 impl<T: Real> ReflectedLeapfrog<T> {
     /// The method with steps of length `step`, which has to be positive and finite.
