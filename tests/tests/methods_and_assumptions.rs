@@ -216,3 +216,30 @@ fn an_assumption_takes_the_place_of_a_check() {
     assert!(Checked::REPORT.contains("Conditions on the parameters\n  l != 0\n"), "{}", Checked::REPORT);
     assert!(!Assumed::REPORT.contains("l != 0"), "{}", Assumed::REPORT);
 }
+
+/// A knife edge whose slope is divided by a cosine, in a potential with a root, a logarithm and a pole.
+#[nonholonomic(
+    base        { x, y, theta }
+    lagrangian  {
+        m / 2 * (der(x)^2 + der(y)^2) + J / 2 * der(theta)^2
+            - ln(1 + x^2) - ln(x) - sqrt(y) - 1 / (2 + cos(x)) - m / (J * y)
+    }
+    constraints { der(y) = tan(theta) * der(x); }
+    forces      { theta: acos(x) - asin(sin(x)) }
+)]
+#[derive(Clone, Copy, Debug)]
+#[allow(dead_code, non_snake_case, reason = "only its report is read")]
+struct Somewhere {
+    m: f64,
+    J: f64,
+}
+
+#[test]
+fn a_report_says_where_the_declaration_has_a_value() {
+    let mut conditions: Vec<&str> = Somewhere::REPORT
+        .lines()
+        .filter_map(|line| line.trim().strip_prefix("the declaration has a value only where "))
+        .collect();
+    conditions.sort_unstable();
+    assert_eq!(conditions, ["cos(theta) != 0", "x > 0", "y != 0", "y >= 0", "|x| <= 1"]);
+}

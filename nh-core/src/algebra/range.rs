@@ -39,6 +39,12 @@ impl Range {
         self.low >= 0.0 && self.nonzero
     }
 
+    /// Whether no value is negative.
+    #[must_use]
+    pub fn is_not_negative(self) -> bool {
+        self.low >= 0.0
+    }
+
     /// The values in both.
     #[must_use]
     pub fn intersection(self, other: Self) -> Self {

@@ -26,7 +26,7 @@ pub fn declared_expressions(model: &Model) -> Vec<Violation> {
 }
 
 /// The expressions that are differentiated.
-fn differentiated(model: &Model) -> Vec<(&'static str, ExprId, Origin)> {
+pub(super) fn differentiated(model: &Model) -> Vec<(&'static str, ExprId, Origin)> {
     let mut list = vec![("Lagrangian", model.lagrangian.value, model.lagrangian.origin)];
     list.extend(model.constraints.iter().map(|c| ("constraint", c.residual, c.origin)));
     list.extend(model.brackets.iter().map(|b| ("bracket", b.value, b.origin)));

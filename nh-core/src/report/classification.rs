@@ -1,7 +1,8 @@
 //! What kind of system it is.
 
 use super::{Derived, combination, shown};
-use crate::check::{Constraints, not_conservative, singular_where};
+use crate::algebra::Graph;
+use crate::check::{Condition, Constraints, domain, not_conservative, singular_where};
 use crate::compile::Proved;
 use crate::geometry::Manifold;
 use crate::id::{ExprId, SymbolId};
@@ -25,6 +26,9 @@ pub(super) fn lines(proved: &mut Proved, derived: &Derived<'_>, reason: &str) ->
             lines.push(format!("the mass matrix is singular where {text} = 0"));
         }
     }
+    for condition in domain(model, facts) {
+        lines.push(format!("the declaration has a value only where {}", stated(&model.graph, condition)));
+    }
     for divisor in &motion.divisors {
         if model.graph.as_number(*divisor).is_none() {
             let text = shown(&model.graph, *divisor);
@@ -32,6 +36,15 @@ pub(super) fn lines(proved: &mut Proved, derived: &Derived<'_>, reason: &str) ->
         }
     }
     lines
+}
+
+fn stated(graph: &Graph, condition: Condition) -> String {
+    match condition {
+        Condition::Nonzero(e) => format!("{} != 0", shown(graph, e)),
+        Condition::Positive(e) => format!("{} > 0", shown(graph, e)),
+        Condition::NotNegative(e) => format!("{} >= 0", shown(graph, e)),
+        Condition::InUnitInterval(e) => format!("|{}| <= 1", shown(graph, e)),
+    }
 }
 
 /// The kind of algebroid.

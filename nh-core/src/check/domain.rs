@@ -1,0 +1,68 @@
+//! Where a declaration has no value: divisors that may vanish, roots and logarithms of what may be negative.
+
+use super::declared::differentiated;
+use crate::algebra::{Facts, Function, Graph, Node};
+use crate::id::{ExprId, SymbolId};
+use crate::model::Model;
+
+/// What an expression of coordinates, velocities, inputs or time must be for the declaration to have a value.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Condition {
+    /// It is divided by.
+    Nonzero(ExprId),
+    /// Its logarithm or a negative fractional power of it is taken.
+    Positive(ExprId),
+    /// A root of it is taken.
+    NotNegative(ExprId),
+    /// Its inverse sine or cosine is taken.
+    InUnitInterval(ExprId),
+}
+
+/// The conditions under which anchor, brackets, Lagrangian, constraints and forces have values, as far
+/// as these do not hold everywhere by the facts. Those of parameters alone are not among them.
+pub fn domain(model: &Model, facts: &Facts) -> Vec<Condition> {
+    let graph = &model.graph;
+    let parameters: Vec<SymbolId> = model.parameters.iter().map(|parameter| parameter.symbol).collect();
+    let varies = |e: ExprId| graph.symbols_in(&[e]).iter().any(|symbol| !parameters.contains(symbol));
+    let mut found: Vec<Condition> = Vec::new();
+    let mut declared: Vec<ExprId> = differentiated(model).into_iter().map(|(_, value, _)| value).collect();
+    declared.extend(model.forces.iter().map(|force| force.value));
+    for id in graph.reachable(&declared) {
+        for (expression, condition) in conditions(graph, id) {
+            if varies(expression) && !holds(graph, condition, facts) && !found.contains(&condition) {
+                found.push(condition);
+            }
+        }
+    }
+    found
+}
+
+/// What one node asks of its operands.
+fn conditions(graph: &Graph, id: ExprId) -> Vec<(ExprId, Condition)> {
+    match graph.node(id) {
+        Node::Product { factors, .. } => factors
+            .iter()
+            .filter_map(|(base, exponent)| match (exponent.is_integer(), exponent.is_negative()) {
+                (true, true) => Some((*base, Condition::Nonzero(*base))),
+                (false, true) => Some((*base, Condition::Positive(*base))),
+                (false, false) => Some((*base, Condition::NotNegative(*base))),
+                (true, false) => None,
+            })
+            .collect(),
+        Node::Apply(Function::Ln, x) => vec![(*x, Condition::Positive(*x))],
+        Node::Apply(Function::Asin | Function::Acos, x) => vec![(*x, Condition::InUnitInterval(*x))],
+        _ => Vec::new(),
+    }
+}
+
+fn holds(graph: &Graph, condition: Condition, facts: &Facts) -> bool {
+    match condition {
+        Condition::Nonzero(e) => graph.vanishes_nowhere(e, facts),
+        Condition::Positive(e) => graph.range(e, facts).is_positive(),
+        Condition::NotNegative(e) => graph.range(e, facts).is_not_negative(),
+        Condition::InUnitInterval(e) => {
+            let range = graph.range(e, facts);
+            range.low >= -1.0 && range.high <= 1.0
+        }
+    }
+}
