@@ -9,6 +9,7 @@ use crate::geometry::{
 };
 use crate::id::{CoordId, ExprId, Id, SectionId, SymbolId};
 use crate::mechanics::{Chaplygin, LagrangianSystem, Splitting, translation};
+use crate::model::Model;
 
 /// A system as its reduction by symmetries sees it.
 #[derive(Clone, Debug)]
@@ -173,8 +174,8 @@ fn in_invariant_frame(
         .chain([proved.system.lagrangian])
         .collect();
     let frame = InvariantFrame::of(graph, &algebroid, &proved.base, generators, &symbols, &hints).ok()?;
-    let declared: Vec<String> = proved.model.sections.iter().map(|section| section.name.clone()).collect();
-    let names = frame_names(graph, &frame, &declared);
+    let names = frame_names(&proved.model, &frame);
+    let graph = &mut proved.model.graph;
     // 2. everything in it, without the coordinates along the group
     let velocities = names.iter().map(|name| graph.new_symbol(name.clone())).collect();
     let new = frame.change.apply(graph, &algebroid, velocities);
@@ -273,7 +274,15 @@ fn invariant_basis(
 }
 
 /// The names of the velocities: declared ones where they are the same, else `body_x` for `x_dot`.
-pub(crate) fn frame_names(graph: &Graph, frame: &InvariantFrame, declared: &[String]) -> Vec<String> {
+pub(crate) fn frame_names(model: &Model, frame: &InvariantFrame) -> Vec<String> {
+    let graph = &model.graph;
+    let declared: Vec<&String> = model.sections.iter().map(|section| &section.name).collect();
+    let taken = |name: &str| {
+        let names = model.coordinates.iter().map(|coordinate| &coordinate.name);
+        let parameters = model.parameters.iter().map(|parameter| &parameter.name);
+        let inputs = model.inputs.iter().map(|input| &input.name);
+        names.chain(parameters).chain(inputs).chain(declared.iter().copied()).any(|other| other == name)
+    };
     let is_same = |index: usize| {
         frame.change.velocities[index].iter().enumerate().all(|(other, entry)| {
             graph.as_number(*entry).is_some_and(|n| if other == index { n.is_one() } else { n.is_zero() })
@@ -281,8 +290,12 @@ pub(crate) fn frame_names(graph: &Graph, frame: &InvariantFrame, declared: &[Str
     };
     let renamed = |name: &String| {
         let stem = name.strip_suffix("_dot").unwrap_or(name).replace('[', "_").replace(']', "");
-        format!("body_{stem}")
+        let mut fresh = format!("body_{stem}");
+        while taken(&fresh) {
+            fresh.push('_');
+        }
+        fresh
     };
     let names = declared.iter().enumerate();
-    names.map(|(index, name)| if is_same(index) { name.clone() } else { renamed(name) }).collect()
+    names.map(|(index, name)| if is_same(index) { (*name).clone() } else { renamed(name) }).collect()
 }

@@ -202,7 +202,7 @@ fn vertical(
         .into())
 }
 
-/// For each coordinate its sine and cosine where such occur, else itself.
+/// For each coordinate its sines and cosines where such occur, of the multiples that occur, else itself.
 fn factors(graph: &mut Graph, group: &[SymbolId], hints: &[ExprId]) -> Vec<Vec<ExprId>> {
     let angles: Vec<ExprId> = graph
         .reachable(hints)
@@ -214,13 +214,23 @@ fn factors(graph: &mut Graph, group: &[SymbolId], hints: &[ExprId]) -> Vec<Vec<E
         .collect();
     let mut found = Vec::new();
     for symbol in group {
-        let is_angle = angles.iter().any(|angle| graph.depends_on(*angle, &[*symbol]));
         let coordinate = graph.symbol(*symbol);
-        found.push(if is_angle {
-            vec![graph.cos(coordinate), graph.sin(coordinate)]
-        } else {
-            vec![coordinate]
-        });
+        let mut multiples: Vec<ExprId> = Vec::new();
+        for angle in &angles {
+            if graph.depends_on(*angle, &[*symbol]) {
+                let factor = graph.partial(*angle, *symbol);
+                let factor = graph.as_number(factor).map_or(Rational::ONE, Clone::clone);
+                let factor = if factor.is_negative() { -factor } else { factor };
+                multiples.push(graph.scale(factor, coordinate));
+            }
+        }
+        multiples.sort_unstable();
+        multiples.dedup();
+        let mut choices = Vec::new();
+        for angle in &multiples {
+            choices.extend([graph.cos(*angle), graph.sin(*angle)]);
+        }
+        found.push(if choices.is_empty() { vec![coordinate] } else { choices });
     }
     found
 }

@@ -207,8 +207,8 @@ fn invariant_frame(source: &mut Side, declared: &QuotientDecl) -> Result<Option<
     let group: Vec<SymbolId> = moved.iter().map(|id| algebroid.anchor.coordinates[id.index()]).collect();
     let hints: Vec<ExprId> = constraints.residuals.iter().copied().chain([system.lagrangian]).collect();
     let frame = InvariantFrame::of(graph, algebroid, base, &generators, &group, &hints)?;
-    let names: Vec<String> = model.sections.iter().map(|section| section.name.clone()).collect();
-    let names = frame_names(graph, &frame, &names);
+    let names = frame_names(model, &frame);
+    let graph = &mut model.graph;
     let velocity = algebroid.velocity(graph);
     let values = frame.change.velocities.iter().map(|row| graph.inner_product(row, &velocity)).collect();
     Ok(Some((names, values, frame.change)))

@@ -247,3 +247,27 @@ fn euler() {
     let start = EulerState { phi: 0.3, theta: 1.1, psi: 0.4, phi_dot: 0.5, theta_dot: -0.3, psi_dot: 0.7 };
     reconstructs::<_, Body>(&body, start, ());
 }
+
+/// A knife edge geared to twice the angle, beside a coordinate with the name that a velocity would get.
+#[nonholonomic(
+    base { x, y, phi, body_x }
+    lagrangian { (der(x)^2 + der(y)^2) / 2 + J / 2 * der(phi)^2 + der(body_x)^2 / 2 - der(phi) * body_x }
+    constraints { sin(2 * phi) * der(x) = cos(2 * phi) * der(y); }
+    symmetries { turn: der(phi) / 2 + x * der(y) - y * der(x); }
+)]
+#[derive(Clone, Copy, Debug)]
+struct Geared {
+    J: f64,
+}
+
+quotient! { Geared -> #[derive(Clone, Copy, Debug)] struct GearedShape by { x, y, phi } }
+
+#[test]
+fn geared() {
+    let (sin, cos) = 0.8_f64.sin_cos();
+    let place = GearedState { x: 0.1, y: 0.3, phi: 0.4, body_x: 0.2, ..GearedState::default() };
+    let start = GearedState { x_dot: cos, y_dot: sin, phi_dot: 0.9, body_x_dot: -0.3, ..place };
+    reconstructs::<_, GearedShape>(&Geared { J: 0.7 }, start, ());
+    let line = "[body_x_, phi_dot] = -2*body_y\n";
+    assert!(GearedShape::REPORT.contains(line), "{}", GearedShape::REPORT);
+}
