@@ -166,6 +166,28 @@ macro_rules! variant {
         }
     }};
 }
+/// A variant whose value is a `const`, which the compiler folds into the inlined derivative.
+macro_rules! known {
+    ($system:expr, $function:ident, $System:ty, $value:expr) => {{
+        #[inline(never)]
+        fn $function(
+            _: &$System,
+            state: &<$System as nh_runtime::Dynamics>::State,
+            input: &<$System as nh_runtime::Dynamics>::Input,
+        ) -> <$System as nh_runtime::Dynamics>::State {
+            const VALUE: $System = $value;
+            nh_runtime::Dynamics::derivative(&VALUE, 0.0, state, input)
+        }
+        Variant {
+            system: $system,
+            name: "a `const` value",
+            evaluate: Box::new(move || evaluate(&$value, $function)),
+            symbol: concat!(module_path!(), "::variants::", stringify!($function)),
+            components: components::<$System>(),
+        }
+    }};
+}
+
 /// How many components a state has.
 fn components<S: Dynamics>() -> usize {
     <<S::State as State>::Dim as Dim>::N
@@ -231,12 +253,24 @@ fn variants() -> Vec<Variant> {
             sleigh_tracked::Sleigh,
             sleigh_tracked::Sleigh { m: 1.3, J: 0.7, a: 0.4, b: 0.15, c: 0.2 }
         ),
+        known!(
+            "sleigh",
+            sleigh_known,
+            sleigh_varying::Sleigh,
+            sleigh_varying::Sleigh { m: 1.3, J: 0.7, a: 0.4, b: 0.15, c: 0.2 }
+        ),
     ];
     let robot = robot_varying::Robot { m0: 5.0, m1: 0.4, l: 0.12, J: 0.31, J2: 0.004, c: 0.2, R: 0.08 };
     let robot = [
         variant!("robot", "at run time", robot_at_run_time, robot_varying::Robot, robot),
         variant!("robot", "prepared", robot_prepared, robot_varying::PreparedRobot, robot.prepare()),
         variant!("robot", "constants", robot_constants, robot_fixed::Robot, robot_fixed::Robot {}),
+        known!(
+            "robot",
+            robot_known,
+            robot_varying::Robot,
+            robot_varying::Robot { m0: 5.0, m1: 0.4, l: 0.12, J: 0.31, J2: 0.004, c: 0.2, R: 0.08 }
+        ),
     ];
     let tractor = tractor_varying::Tractor {
         m: [1.5, 1.1, 0.9, 0.7, 0.6, 0.5, 0.45],
@@ -265,6 +299,17 @@ fn variants() -> Vec<Variant> {
             tractor_constants,
             tractor_fixed::Tractor,
             tractor_fixed::Tractor {}
+        ),
+        known!(
+            "tractor, 6 trailers",
+            tractor_known,
+            tractor_varying::Tractor,
+            tractor_varying::Tractor {
+                m: [1.5, 1.1, 0.9, 0.7, 0.6, 0.5, 0.45],
+                J: [0.4, 0.2, 0.14, 0.1, 0.08, 0.07, 0.06],
+                d: [0.9, 0.85, 0.8, 0.75, 0.7, 0.65],
+                a: 0.25,
+            }
         ),
     ];
     sleigh.into_iter().chain(robot).chain(tractor).collect()
