@@ -13,19 +13,43 @@ const FACTORS: usize = 3;
 
 impl Graph {
     /// The expression with the products of sines and cosines in its terms written as sums, if that
-    /// takes less work: `sin a cos b − cos a sin b` becomes `sin(a − b)`.
+    /// takes less work: `sin a cos b − cos a sin b` becomes `sin(a − b)`. A sine or cosine times a sum
+    /// is multiplied out for that.
     pub fn products_to_sums(&mut self, e: ExprId) -> ExprId {
         let (constant, terms) = self.as_linear(e);
         let one = self.one();
         let mut summands = vec![(constant, one)];
         for (term, coefficient) in terms {
-            match self.linearised(term) {
-                Some(sum) => summands.push((coefficient, sum)),
-                None => summands.push((coefficient, term)),
+            for (part, times) in self.spread(term) {
+                let sum = self.linearised(part).unwrap_or(part);
+                summands.push((coefficient.clone() * times, sum));
             }
         }
         let result = self.linear_combination(&summands);
         if self.operation_count(&[result]) < self.operation_count(&[e]) { result } else { e }
+    }
+
+    /// A product of sines or cosines with one sum as its terms, any other expression as it is.
+    fn spread(&mut self, term: ExprId) -> Vec<(ExprId, Rational)> {
+        let whole = vec![(term, Rational::ONE)];
+        let Node::Product { coefficient, factors } = self.node(term).clone() else { return whole };
+        let is_harmonic = |graph: &Self, base: ExprId| {
+            matches!(graph.node(base), Node::Apply(Function::Sin | Function::Cos, _))
+        };
+        let (sums, others): (Vec<_>, Vec<_>) = factors
+            .into_iter()
+            .partition(|(base, exponent)| exponent.is_one() && matches!(self.node(*base), Node::Sum { .. }));
+        let [(sum, _)] = *sums else { return whole };
+        if !others.iter().any(|(base, _)| is_harmonic(self, *base)) {
+            return whole;
+        }
+        let outside = self.product(&others);
+        let (constant, terms) = self.as_linear(sum);
+        let mut parts = vec![(outside, constant * coefficient.clone())];
+        parts.extend(
+            terms.into_iter().map(|(inside, times)| (self.mul(outside, inside), times * coefficient.clone())),
+        );
+        parts
     }
 
     /// One product as a sum; `None` if it has fewer than two sines and cosines, or too many.
@@ -107,5 +131,12 @@ mod tests {
         assert_eq!(g.products_to_sums(unit), one);
         // alone a product stays what it is
         assert_eq!(g.products_to_sums(first), first);
+        // sin a (d cos b + 1) − d cos a sin b
+        let inside = g.mul(d, cb);
+        let inside = g.add(inside, one);
+        let product = g.mul(sa, inside);
+        let whole = g.sub(product, second);
+        let expected = g.add(expected, sa);
+        assert_eq!(g.products_to_sums(whole), expected);
     }
 }

@@ -21,7 +21,7 @@ use crate::mechanics::{
     solve_symmetric,
 };
 use crate::model::{Formulation, Request};
-use crate::program::{Cost, Program, error_growth, schedule};
+use crate::program::{Cost, Program, error_growth, schedule_roughly};
 use crate::report::{Derived, equations_of_motion, report};
 use crate::system::System;
 use crate::violation::Violation;
@@ -216,7 +216,8 @@ fn cheapest_derivative(proved: &mut Proved, candidates: &[ReducedEquations], cal
 /// The cheapest of several procedures of the same value, among those whose rounding error the level of
 /// accuracy allows.
 fn cheapest(graph: &Graph, procedures: &[Procedure]) -> usize {
-    let programs: Vec<Program> = procedures.iter().map(|procedure| schedule(graph, procedure)).collect();
+    let programs: Vec<Program> =
+        procedures.iter().map(|procedure| schedule_roughly(graph, procedure)).collect();
     let growth = match graph.accuracy() {
         Accuracy::Fast => vec![1.0; programs.len()],
         Accuracy::Balanced | Accuracy::Careful => error_growth(&programs),

@@ -1,9 +1,11 @@
 //! Lagrange–d'Alembert equations with multipliers on all of E: the saddle form, mathematics (9).
 
 use super::euler_lagrange::LagrangianSystem;
+use super::factorisation::{Factorisation, submatrix};
 use super::orthogonal_constraints::Touching;
+use super::pair::Pair;
 use super::procedure::{Definition, Procedure};
-use super::symmetric_solve::{Definiteness, Factorisation, simplified_pair, submatrix, uncoupled};
+use super::symmetric_solve::{Definiteness, uncoupled};
 use crate::algebra::{Accuracy, Graph, Matrix, Substitution};
 use crate::id::{ExprId, SymbolId};
 
@@ -209,7 +211,11 @@ impl SaddleEquations {
             let solved = match inner.len() {
                 1 => Some(vec![graph.div(outer[0], inner[0][0])]),
                 // where the constraints are nearly dependent it loses as many digits again
-                2 if graph.accuracy() == Accuracy::Fast => simplified_pair(graph, &inner, &outer),
+                2 if graph.accuracy() == Accuracy::Fast => {
+                    let matrix = [inner[0][0], inner[0][1], inner[1][1]];
+                    let pair = Pair { matrix, right: [outer[0], outer[1]] };
+                    pair.simplified(graph).map(|solved| solved.to_vec())
+                }
                 _ => None,
             };
             let found = if let Some(solved) = solved {

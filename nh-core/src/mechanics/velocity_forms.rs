@@ -12,6 +12,7 @@
 
 use super::adapted::ReducedEquations;
 use super::euler_lagrange::LagrangianSystem;
+use super::exterior_derivative::ExteriorDerivative;
 use super::restricted::{Restricted, differentiate_all};
 use super::wheel_frames::{TurnedPoint, WheelFrames};
 use crate::algebra::{Derivation, Graph, Matrix, Node, Substitution};
@@ -121,10 +122,14 @@ pub fn equations_in_wheel_frames(
     let forms = VelocityForms::of(graph, system);
     let velocities = &system.algebroid.velocities;
     let frames = WheelFrames::of(graph, velocities, distribution, residuals, &forms)?;
+    let mut curl = None;
     let turned: Vec<(TurnedPoint, Vec<ExprId>)> = frames
         .points
         .into_iter()
-        .filter_map(|point| spin(graph, system, &forms, &point).map(|spin| (point, spin)))
+        .filter_map(|point| {
+            let curl = curl.get_or_insert_with(|| ExteriorDerivative::anywhere(graph, system));
+            spin(graph, system, &forms, &point, curl).map(|spin| (point, spin))
+        })
         .collect();
     let independent = &distribution.independent;
     let on = Restricted::by(graph, frames.definitions, frames.velocity, independent);
@@ -185,11 +190,13 @@ fn equations(
         .map(|velocity| forms.iter().position(|(symbol, _)| symbol == velocity).map_or(zero, |k| slopes[k]))
         .collect();
     let bracket = algebroid.structure.bracket_term(graph, &velocity, &momenta);
+    let mut anywhere = None;
     let curved: Vec<usize> = (0..forms.len())
         .filter(|k| {
-            turned.iter().all(|(point, _)| !point.forms.contains(k))
-                && !is_velocity(&forms[*k].0)
-                && !is_closed(graph, system, forms[*k].1)
+            turned.iter().all(|(point, _)| !point.forms.contains(k)) && !is_velocity(&forms[*k].0) && {
+                let curl = anywhere.get_or_insert_with(|| ExteriorDerivative::anywhere(graph, system));
+                !curl.vanishes(graph, forms[*k].1)
+            }
         })
         .collect();
     // the turning of pairs: ȧ + ω(y)
@@ -225,8 +232,10 @@ fn equations(
             ((-1).into(), inertial),
             ((-1).into(), gyroscopic),
         ];
+        let mut curl = None;
         for k in &curved {
-            let curl = exterior_derivative(graph, system, forms[*k].1, &velocity, section);
+            let curl = curl.get_or_insert_with(|| ExteriorDerivative::of(graph, system, &velocity, section));
+            let curl = curl.apply(graph, forms[*k].1);
             total.push(((-1).into(), graph.mul(slopes[*k], curl)));
         }
         for ((point, _), rate) in turned.iter().zip(&turning) {
@@ -282,6 +291,7 @@ fn spin(
     system: &LagrangianSystem,
     forms: &VelocityForms,
     point: &TurnedPoint,
+    curl: &mut ExteriorDerivative,
 ) -> Option<Vec<ExprId>> {
     let algebroid = &system.algebroid;
     let [x, y] = point.axes.map(SectionId::from_index);
@@ -297,80 +307,20 @@ fn spin(
             graph.neg(symbol)
         })
         .collect();
-    let first = algebroid.velocity(graph);
-    let second = arguments(graph, first.len());
-    let values = |graph: &mut Graph, form: ExprId| {
-        let images = algebroid.velocities.iter().copied().zip(second.iter().copied());
-        [form, Substitution::new(images).apply(graph, form)]
-    };
-    let turning = [graph.inner_product(&omega, &first), graph.inner_product(&omega, &second)];
+    // of each form its values on both arguments
+    let velocity = algebroid.velocity(graph);
+    let turning = graph.inner_product(&omega, &velocity);
+    let turning = [turning, curl.on_second(graph, turning)];
     let [one, two] = point.forms.map(|k| forms.forms[k].1);
     for (form, other, sign) in [(one, two, -1), (two, one, 1)] {
-        let curl = exterior_derivative(graph, system, form, &first, &second);
-        let other = values(graph, other);
+        let rotation = curl.apply(graph, form);
+        let other = [other, curl.on_second(graph, other)];
         let (forth, back) = (graph.mul(turning[0], other[1]), graph.mul(turning[1], other[0]));
         let wedge = graph.sub(forth, back);
-        let difference = graph.linear_combination(&[(1.into(), curl), (sign.into(), wedge)]);
+        let difference = graph.linear_combination(&[(1.into(), rotation), (sign.into(), wedge)]);
         if !graph.zero_test(difference).is_zero() {
             return None;
         }
     }
     Some(omega)
-}
-
-/// Symbols for the components of a section.
-fn arguments(graph: &mut Graph, rank: usize) -> Vec<ExprId> {
-    (0..rank)
-        .map(|index| {
-            let symbol = graph.new_symbol(format!("z{index}"));
-            graph.symbol(symbol)
-        })
-        .collect()
-}
-
-/// Whether dθ = 0 for θ(y) = `form`, and θ does not depend on the time.
-fn is_closed(graph: &mut Graph, system: &LagrangianSystem, form: ExprId) -> bool {
-    let first = system.algebroid.velocity(graph);
-    let second = arguments(graph, first.len());
-    let curl = exterior_derivative(graph, system, form, &first, &second);
-    graph.zero_test(curl).is_zero()
-}
-
-/// `dθ(σ, τ) = ρ(σ)θ(τ) − ρ(τ)θ(σ) − θ([σ, τ])` for sections whose components are held constant,
-/// with `∂_tθ(τ)` where θ depends on the time: along a motion, t goes with σ.
-fn exterior_derivative(
-    graph: &mut Graph,
-    system: &LagrangianSystem,
-    form: ExprId,
-    sigma: &[ExprId],
-    tau: &[ExprId],
-) -> ExprId {
-    let algebroid = &system.algebroid;
-    // the derivative along one section of the form, then the other section put in
-    let mut term = |direction: &[ExprId], section: &[ExprId]| {
-        let field = algebroid.anchor.vector_field(graph, direction);
-        let coordinates = algebroid.anchor.coordinates.iter().copied();
-        // the directions as symbols, so that they are not differentiated themselves
-        let symbols: Vec<SymbolId> =
-            (0..field.len()).map(|index| graph.new_symbol(format!("direction{index}"))).collect();
-        let seeds: Vec<ExprId> = symbols.iter().map(|symbol| graph.symbol(*symbol)).collect();
-        let change = Derivation::new(coordinates.zip(seeds)).apply(graph, form);
-        let images = symbols.into_iter().zip(field);
-        let sections = algebroid.velocities.iter().copied().zip(section.iter().copied());
-        Substitution::new(images.chain(sections)).apply(graph, change)
-    };
-    let (forth, back) = (term(sigma, tau), term(tau, sigma));
-    let bracket = algebroid.structure.contract(graph, sigma, tau);
-    let images = algebroid.velocities.iter().copied().zip(bracket);
-    let of_bracket = Substitution::new(images).apply(graph, form);
-    // the motion goes along σ + ∂_t
-    let change = graph.partial(form, system.time);
-    let images = algebroid.velocities.iter().copied().zip(tau.iter().copied());
-    let in_time = Substitution::new(images).apply(graph, change);
-    graph.linear_combination(&[
-        (1.into(), forth),
-        ((-1).into(), back),
-        ((-1).into(), of_bracket),
-        (1.into(), in_time),
-    ])
 }

@@ -37,7 +37,7 @@ pub use correct::corrected;
 pub use cost::Cost;
 pub use interpret::{Arithmetic, interpret, interpret_in};
 pub use rounding::error_growth;
-pub use schedule::{schedule, schedule_grouping};
+pub use schedule::{schedule, schedule_grouping, schedule_roughly};
 pub use split::{Split, split};
 pub use step::{Program, Step, Value};
 pub use taylor::{Factor, Inner, Recurrences, Rule, Variation};

@@ -5,14 +5,18 @@ use crate::id::ExprId;
 use rustc_hash::FxHashSet;
 
 impl Graph {
-    /// Whether an expression is a sum with at most one sine or cosine in each term, of no more
-    /// different angles than these have terms.
+    /// Whether an expression is a sum (perhaps of one term) with at most one sine or cosine in each
+    /// term, of no more different angles than these have terms.
     ///
     /// Sines and cosines of different angles are linearly independent, so that nothing cancels when
     /// they are expanded; and no fewer angles than before are left to be evaluated.
     pub(super) fn gains_nothing_from_addition_theorems(&self, e: ExprId) -> bool {
-        let Node::Sum { terms, .. } = self.node(e) else { return false };
         let (mut angles, mut parts) = (FxHashSet::default(), FxHashSet::default());
+        let whole = [(e, 1.into())];
+        let terms = match self.node(e) {
+            Node::Sum { terms, .. } => &terms[..],
+            _ => &whole[..],
+        };
         for (term, _) in terms {
             let alone = [(*term, 1.into())];
             let factors = match self.node(*term) {

@@ -1,0 +1,163 @@
+//! Two linear equations with a symmetric matrix.
+
+use super::procedure::Procedure;
+use super::symmetric_solve::Definiteness;
+use crate::algebra::{Graph, Node, Rational};
+use crate::id::ExprId;
+
+/// `a x + b y = f`, `b x + d y = g`.
+#[derive(Clone, Copy)]
+pub(super) struct Pair {
+    /// a, b, d.
+    pub(super) matrix: [ExprId; 3],
+    /// f, g.
+    pub(super) right: [ExprId; 2],
+}
+
+/// Pairs whose entries have more operations than this are not simplified as a whole.
+const SIMPLIFIED_WHOLE: u64 = 240;
+/// What Cramer's rule costs on top of the entries: six products, three differences and two quotients,
+/// in the units of `operation_count`.
+const OPERATIONS: u64 = 21;
+/// What one unknown may cost, given the other, that nothing else is tried.
+const SHORT: u64 = 12;
+
+impl Pair {
+    /// The solution in the shortest way that the level of accuracy allows against Cramer's rule.
+    ///
+    /// Terms of the determinant often cancel identically (the sleigh's m²b², say), so that the solution
+    /// simplified as a whole is mostly cheaper than the rule, and nothing is lost to that cancellation.
+    /// Cheaper still is one unknown from the other, where one row is short.
+    pub(super) fn solve(
+        self,
+        graph: &mut Graph,
+        definiteness: Definiteness,
+        procedure: &mut Procedure,
+        names: &[String; 2],
+    ) -> [ExprId; 2] {
+        let entries = [self.matrix.as_slice(), &self.right].concat();
+        let written_out = graph.operation_count(&entries) + OPERATIONS;
+        if written_out > SIMPLIFIED_WHOLE {
+            return self.named(graph, procedure, &names[0]).by_cramer(graph);
+        }
+        let rule = self.by_cramer(graph);
+        if let Some([mean, half_difference]) = self.by_halves(graph) {
+            let values = [graph.add(mean, half_difference), graph.sub(mean, half_difference)];
+            if is_accurate(graph, values, rule) {
+                let mean = procedure.define(graph, &format!("{}_mean", names[0]), mean);
+                let half_difference = procedure.define(graph, &format!("{}_half", names[0]), half_difference);
+                return [graph.add(mean, half_difference), graph.sub(mean, half_difference)];
+            }
+        }
+        let mut whole = [None; 2];
+        if let Some((last, [rest, slope])) = self.relation(graph, definiteness) {
+            let first = 1 - last;
+            let value = graph.simplify(rule[first]);
+            whole[first] = Some(value);
+            let length = graph.operation_count(&[value, rest, slope]);
+            let is_shorter = graph.operation_count(&[rest, slope]) <= SHORT || {
+                let other = graph.simplify(rule[last]);
+                whole[last] = Some(other);
+                length < graph.operation_count(&[value, other])
+            };
+            let mut values = [value; 2];
+            values[last] = substituted(graph, [rest, slope], value);
+            if is_shorter && length <= written_out && is_accurate(graph, values, rule) {
+                values[first] = procedure.define(graph, &names[first], value);
+                values[last] = substituted(graph, [rest, slope], values[first]);
+                return values;
+            }
+        }
+        let whole = [0, 1].map(|k| whole[k].unwrap_or_else(|| graph.simplify(rule[k])));
+        if graph.operation_count(&whole) <= written_out && is_accurate(graph, whole, rule) {
+            return whole;
+        }
+        self.named(graph, procedure, &names[0]).by_cramer(graph)
+    }
+
+    /// The solution simplified as a whole, where that is no longer than the rule.
+    pub(super) fn simplified(self, graph: &mut Graph) -> Option<[ExprId; 2]> {
+        let entries = [self.matrix.as_slice(), &self.right].concat();
+        let written_out = graph.operation_count(&entries) + OPERATIONS;
+        if written_out > SIMPLIFIED_WHOLE {
+            return None;
+        }
+        let rule = self.by_cramer(graph);
+        let whole = rule.map(|value| graph.simplify(value));
+        (graph.operation_count(&whole) <= written_out && is_accurate(graph, whole, rule)).then_some(whole)
+    }
+
+    /// The entries as intermediate results.
+    fn named(self, graph: &mut Graph, procedure: &mut Procedure, name: &str) -> Self {
+        let mut index = 0;
+        let mut named = |entry: ExprId| {
+            index += 1;
+            procedure.define(graph, &format!("{name}_entry{}", index - 1), entry)
+        };
+        Self { matrix: self.matrix.map(&mut named), right: self.right.map(&mut named) }
+    }
+
+    /// Cramer's rule.
+    fn by_cramer(self, graph: &mut Graph) -> [ExprId; 2] {
+        let ([a, b, d], [f, g]) = (self.matrix, self.right);
+        let determinant = difference_of_products(graph, (a, d), (b, b));
+        let determinant = graph.simplify(determinant);
+        let first = difference_of_products(graph, (d, f), (b, g));
+        let second = difference_of_products(graph, (a, g), (b, f));
+        [graph.div(first, determinant), graph.div(second, determinant)]
+    }
+
+    /// Where a = d, as for two equal wheels: (x + y)/2 and (x − y)/2, each from an equation of its own.
+    fn by_halves(self, graph: &mut Graph) -> Option<[ExprId; 2]> {
+        let ([a, b, d], [f, g]) = (self.matrix, self.right);
+        let difference = graph.sub(a, d);
+        if !graph.zero_test(difference).is_zero() {
+            return None;
+        }
+        Some([Rational::ONE, Rational::MINUS_ONE].map(|sign| {
+            let force = graph.linear_combination(&[(Rational::ONE, f), (sign.clone(), g)]);
+            let mass = graph.linear_combination(&[(Rational::from(2), a), (sign * Rational::from(2), b)]);
+            let quotient = graph.div(force, mass);
+            graph.simplify(quotient)
+        }))
+    }
+
+    /// An unknown as `rest − slope · other` by its own equation: the one for which that is shorter,
+    /// where the pivot is no sum. What is divided by has to be different from zero, and sums are not
+    /// added to the conditions on parameters for speed alone.
+    fn relation(self, graph: &mut Graph, definiteness: Definiteness) -> Option<(usize, [ExprId; 2])> {
+        if definiteness != Definiteness::Definite {
+            return None;
+        }
+        let ([a, b, d], right) = (self.matrix, self.right);
+        let pivots = [a, d].map(|pivot| graph.simplify(pivot));
+        let unknowns = (0..2).filter(|k| !matches!(graph.node(pivots[*k]), Node::Sum { .. }));
+        let unknowns: Vec<usize> = unknowns.collect();
+        let relations = unknowns.into_iter().map(|k| {
+            let relation = [right[k], b].map(|entry| {
+                let quotient = graph.div(entry, pivots[k]);
+                graph.simplify(quotient)
+            });
+            (k, relation)
+        });
+        let relations: Vec<_> = relations.collect();
+        relations.into_iter().min_by_key(|(_, relation)| graph.operation_count(relation))
+    }
+}
+
+/// `rest − slope · other`.
+fn substituted(graph: &mut Graph, [rest, slope]: [ExprId; 2], other: ExprId) -> ExprId {
+    let product = graph.mul(slope, other);
+    graph.sub(rest, product)
+}
+
+fn difference_of_products(graph: &mut Graph, first: (ExprId, ExprId), second: (ExprId, ExprId)) -> ExprId {
+    let (x, y) = (graph.mul(first.0, first.1), graph.mul(second.0, second.1));
+    graph.sub(x, y)
+}
+
+/// Whether values lose no more than the level of accuracy allows against others.
+fn is_accurate(graph: &Graph, values: [ExprId; 2], reference: [ExprId; 2]) -> bool {
+    let allowed = graph.accuracy().growth();
+    values.iter().zip(reference).all(|(value, reference)| graph.error_growth(*value, reference) <= allowed)
+}
