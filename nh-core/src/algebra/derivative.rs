@@ -59,7 +59,12 @@ impl Derivation {
 
     /// The derivative of a node whose operands are known.
     fn of_node(&self, graph: &mut Graph, id: ExprId) -> ExprId {
-        match graph.node(id).clone() {
+        let node = graph.node(id);
+        let is_constant = |operand| graph.is_literal_zero(self.known[&operand]);
+        if !matches!(node, Node::Symbol(_)) && node.operands().all(is_constant) {
+            return graph.zero();
+        }
+        match node.clone() {
             Node::Number(_) | Node::Pi => graph.zero(),
             Node::Symbol(symbol) => match self.seeds.get(&symbol) {
                 Some(&seed) => seed,

@@ -1,7 +1,7 @@
 //! Planar velocities of points in a Lagrangian, and the motions that move them.
 
 use super::velocity_forms::VelocityForms;
-use crate::algebra::{Graph, Rational};
+use crate::algebra::{Derivation, Graph, Rational};
 use crate::id::{ExprId, SymbolId};
 
 /// Components that are moved by more different sections do not belong to one point.
@@ -32,6 +32,8 @@ pub(super) fn points(graph: &mut Graph, velocities: &[SymbolId], of: &VelocityFo
     let symbols: Vec<SymbolId> = forms.iter().map(|(symbol, _)| *symbol).collect();
     // 1. forms that enter as μ u²/2, with their coefficients
     let mut squares: Vec<(usize, ExprId, Vec<ExprId>)> = Vec::new();
+    let mut partials: Vec<Derivation> =
+        velocities.iter().map(|velocity| Derivation::partial(graph, *velocity)).collect();
     for (k, (symbol, form)) in forms.iter().enumerate() {
         if velocities.contains(symbol) {
             continue;
@@ -42,7 +44,7 @@ pub(super) fn points(graph: &mut Graph, velocities: &[SymbolId], of: &VelocityFo
         let product = graph.mul(inertia, u);
         let rest = graph.sub(slope, product);
         if !graph.depends_on(inertia, &symbols) && graph.zero_test(rest).is_zero() {
-            let coefficients = velocities.iter().map(|velocity| graph.partial(*form, *velocity)).collect();
+            let coefficients = partials.iter_mut().map(|partial| partial.apply(graph, *form)).collect();
             squares.push((k, inertia, coefficients));
         }
     }
