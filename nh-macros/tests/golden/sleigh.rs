@@ -14,40 +14,20 @@ impl Sleigh {
             state.theta,
         );
         let m_a = self.m * self.a;
-        let e1 = 1.0 / ::nh_runtime::__private::Scalar::mul_add(self.a, m_a, self.J);
-        let v_dot_0 = e1
-            * ::nh_runtime::__private::Scalar::mul_add(
-                -state.omega,
-                ::nh_runtime::__private::Scalar::mul_add(
-                    m_a,
-                    ::nh_runtime::__private::Scalar::mul_add(
-                        -self.b,
-                        state.omega,
-                        state.v1,
-                    ),
-                    self.c,
-                ),
-                input.torque,
-            );
-        let e2 = ::nh_runtime::__private::Scalar::mul_add(
-            self.b,
+        let v_dot_0 = ::nh_runtime::__private::Scalar::mul_add(
+            -state.omega,
             ::nh_runtime::__private::Scalar::mul_add(
-                -state.omega,
-                ::nh_runtime::__private::Scalar::mul_add(m_a, state.v1, self.c),
-                input.torque,
+                m_a,
+                ::nh_runtime::__private::Scalar::mul_add(-self.b, state.omega, state.v1),
+                self.c,
             ),
-            self.a
-                * ::nh_runtime::__private::Scalar::mul_add(
-                    self.m,
-                    ::nh_runtime::__private::Scalar::mul_add(
-                        self.b,
-                        self.b,
-                        self.a * self.a,
-                    ),
-                    self.J,
-                ) * (state.omega * state.omega),
+            input.torque,
+        ) / ::nh_runtime::__private::Scalar::mul_add(self.a, m_a, self.J);
+        let v_dot_1 = ::nh_runtime::__private::Scalar::mul_add(
+            self.b,
+            v_dot_0,
+            self.a * (state.omega * state.omega),
         );
-        let v_dot_1 = e1 * e2;
         SleighState {
             theta: state.omega,
             x: state.v1 * cos_theta,
@@ -104,24 +84,23 @@ impl Sleigh {
         let m_a = self.m * self.a;
         let d_v_dot_0 = 1.0
             / ::nh_runtime::__private::Scalar::mul_add(self.a, m_a, self.J);
-        let e1 = d_v_dot_0 * m_a;
-        let d_v_dot_0_2 = -(e1 * state.omega);
-        let e2 = ::nh_runtime::__private::Scalar::mul_add(
-            -self.b,
-            ::nh_runtime::__private::Scalar::mul_add(m_a, state.v1, self.c),
-            2.0 * self.a
-                * ::nh_runtime::__private::Scalar::mul_add(
-                    self.m,
-                    ::nh_runtime::__private::Scalar::mul_add(
-                        self.b,
-                        self.b,
-                        self.a * self.a,
-                    ),
-                    self.J,
-                ) * state.omega,
+        let e1 = d_v_dot_0
+            * ::nh_runtime::__private::Scalar::mul_add(
+                m_a,
+                b_omega,
+                -::nh_runtime::__private::Scalar::mul_add(
+                    m_a,
+                    state.v1 - b_omega,
+                    self.c,
+                ),
+            );
+        let d_v_dot_0_2 = -(d_v_dot_0 * m_a * state.omega);
+        let d_v_dot_1 = ::nh_runtime::__private::Scalar::mul_add(
+            2.0 * self.a,
+            state.omega,
+            self.b * e1,
         );
-        let d_v_dot_1 = d_v_dot_0 * e2;
-        let d_v_dot_1_2 = -(e1 * b_omega);
+        let d_v_dot_1_2 = self.b * d_v_dot_0_2;
         let d_v_dot_1_3 = self.b * d_v_dot_0;
         (
             <::nh_runtime::__private::nalgebra::SMatrix<
@@ -134,18 +113,7 @@ impl Sleigh {
                 [0.0, -(state.v1 * sin_theta), (state.v1 * cos_theta), 0.0, 0.0],
                 [0.0, 0.0, 0.0, 0.0, 0.0],
                 [0.0, 0.0, 0.0, 0.0, 0.0],
-                [
-                    1.0,
-                    0.0,
-                    0.0,
-                    (d_v_dot_0
-                        * ::nh_runtime::__private::Scalar::mul_add(
-                            -self.m,
-                            self.a * (state.v1 - b_omega - b_omega),
-                            -self.c,
-                        )),
-                    d_v_dot_1,
-                ],
+                [1.0, 0.0, 0.0, e1, d_v_dot_1],
                 [0.0, cos_theta, sin_theta, d_v_dot_0_2, d_v_dot_1_2],
             ]),
             <::nh_runtime::__private::nalgebra::SMatrix<

@@ -21,8 +21,7 @@ impl Veselova {
             ),
         );
         let over_i_0 = 1.0 / self.I[0];
-        let free_x0 = over_i_0 * free_z0;
-        let reach_x0 = over_i_0 * state.g[0];
+        let e1 = over_i_0 * state.g[0];
         let free_z0_2 = ::nh_runtime::__private::Scalar::mul_add(
             -((self.I[0] - self.I[2]) * state.w[0]),
             state.w[2],
@@ -33,7 +32,7 @@ impl Veselova {
             ),
         );
         let over_i_1 = 1.0 / self.I[1];
-        let free_x0_2 = over_i_1 * free_z0_2;
+        let e2 = over_i_1 * state.g[1];
         let free_z0_3 = ::nh_runtime::__private::Scalar::mul_add(
             (self.I[0] - self.I[1]) * state.w[0],
             state.w[1],
@@ -44,26 +43,16 @@ impl Veselova {
             ),
         );
         let over_i_2 = 1.0 / self.I[2];
-        let free_x0_3 = over_i_2 * free_z0_3;
-        let reach_x0_2 = over_i_1 * state.g[1];
-        let reach_x0_3 = over_i_2 * state.g[2];
-        let e1 = ::nh_runtime::__private::Scalar::mul_add(
-            -state.g[2],
-            free_x0_3,
-            -::nh_runtime::__private::Scalar::mul_add(
-                state.g[1],
-                free_x0_2,
-                state.g[0] * free_x0,
-            ),
+        let e3 = over_i_2 * state.g[2];
+        let e4 = ::nh_runtime::__private::Scalar::mul_add(
+            -free_z0_3,
+            e3,
+            -::nh_runtime::__private::Scalar::mul_add(free_z0_2, e2, free_z0 * e1),
         )
             / ::nh_runtime::__private::Scalar::mul_add(
                 state.g[2],
-                reach_x0_3,
-                ::nh_runtime::__private::Scalar::mul_add(
-                    state.g[1],
-                    reach_x0_2,
-                    state.g[0] * reach_x0,
-                ),
+                e3,
+                ::nh_runtime::__private::Scalar::mul_add(state.g[1], e2, state.g[0] * e1),
             );
         VeselovaState {
             g: [
@@ -84,9 +73,20 @@ impl Veselova {
                 ),
             ],
             w: [
-                ::nh_runtime::__private::Scalar::mul_add(reach_x0, e1, free_x0),
-                ::nh_runtime::__private::Scalar::mul_add(reach_x0_2, e1, free_x0_2),
-                ::nh_runtime::__private::Scalar::mul_add(reach_x0_3, e1, free_x0_3),
+                (over_i_0
+                    * ::nh_runtime::__private::Scalar::mul_add(state.g[0], e4, free_z0)),
+                (over_i_1
+                    * ::nh_runtime::__private::Scalar::mul_add(
+                        state.g[1],
+                        e4,
+                        free_z0_2,
+                    )),
+                (over_i_2
+                    * ::nh_runtime::__private::Scalar::mul_add(
+                        state.g[2],
+                        e4,
+                        free_z0_3,
+                    )),
             ],
         }
     }
