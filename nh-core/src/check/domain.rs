@@ -20,6 +20,7 @@ pub enum Condition {
 
 /// The conditions under which anchor, brackets, Lagrangian, constraints and forces have values, as far
 /// as these do not hold everywhere by the facts. Those of parameters alone are not among them.
+#[must_use]
 pub fn domain(model: &Model, facts: &Facts) -> Vec<Condition> {
     let graph = &model.graph;
     let parameters: Vec<SymbolId> = model.parameters.iter().map(|parameter| parameter.symbol).collect();
