@@ -138,7 +138,7 @@ pub(crate) fn all() -> String {
         runge_kutta_single(&single, &single_x, &single_u).x.is_finite(),
         runge_kutta_fast(&fast, &fast_x, &SleighInput { torque: Fast(0.1) }).x.0.is_finite(),
         linearized(&sleigh, &x, &u).is_finite(),
-        implicit_step(&robot_system, 0.01, &robot_x, &robot_u).is_some(),
+        implicit_step(&robot_system, black_box(0.01), &robot_x, &robot_u).is_some(),
         robot(&robot_system, &robot_x, &robot_u).x.is_finite(),
         projected(&plane, &plane_x).x.is_finite(),
         back_on_the_constraint(&plane, &plane_x),
@@ -166,8 +166,8 @@ fn controls(sleigh: &Sleigh<f64>) -> [bool; 10] {
     let five = black_box(Vector5::new(0.3, 0.1, 0.2, 0.4, 0.5));
     let cost = Quadratic { goal: Vector5::zeros(), state: five, input: seen, end: five };
     [
-        hold(&a, &b, 0.1),
-        noise(&a, &one, 0.1),
+        hold(&a, &b, black_box(0.1)),
+        noise(&a, &one, black_box(0.1)),
         regulator(&a, &b, &one, &r),
         regulator_with_cross(&a, &b, &one, &r),
         regulator_before(&a.cast(), &b.cast(), &one.cast(), &r.cast()),
