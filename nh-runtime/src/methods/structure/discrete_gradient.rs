@@ -203,7 +203,9 @@ impl<T: Real, J> Gonzalez<T, J> {
                 if settled.is_none() && size <= T::ONE && is_quieter {
                     settled = Some(factor);
                 }
-                bearable = bearable.max(if settled.is_some() { by_change } else { by_direction });
+                // more than half of the digits it does not excuse
+                let noise = if settled.is_some() { by_change } else { by_direction };
+                bearable = bearable.max(noise.min(T::EPSILON.sqrt() / self.tolerance));
             }
             best = best.min(size);
             if size == T::ZERO || (stalled >= STALLED && size <= bearable) {
