@@ -6,15 +6,17 @@ use crate::algebra::{Bounded, Function, Function2, Rational, Residue};
 use crate::id::{Id, SymbolId};
 
 /// Points at which programs are compared.
-const POINTS: u64 = 16;
+const POINTS: u32 = 16;
 
-/// How many times larger the rounding error of each program is than that of the best of them, at the
-/// worst of some points and outputs.
+/// How many times larger the rounding error of each program is than that of the best of them: the
+/// geometric mean over some points, for the worst of the outputs.
 ///
-/// An error below a few units in the last place of the value counts as that.
+/// An error below a few units in the last place of the value counts as that. The mean, since at a point
+/// where a value happens to be small the bounds of any two programs are far apart.
 #[must_use]
 pub fn error_growth(programs: &[Program]) -> Vec<f64> {
-    let mut worst = vec![1.0_f64; programs.len()];
+    let outputs = programs.iter().map(|program| program.outputs.len()).min().unwrap_or(0);
+    let mut logarithms = vec![vec![0.0; outputs]; programs.len()];
     for point in 0..POINTS {
         let values: Vec<Vec<Bounded>> = programs
             .iter()
@@ -22,7 +24,6 @@ pub fn error_growth(programs: &[Program]) -> Vec<f64> {
                 interpret_in(program, |symbol| Bounded { value: sample(point, symbol), error: 0.0 })
             })
             .collect();
-        let outputs = values.iter().map(Vec::len).min().unwrap_or(0);
         for output in 0..outputs {
             let errors = values.iter().map(|values| values[output].error);
             let least = errors.filter(|error| error.is_finite()).fold(f64::INFINITY, f64::min);
@@ -30,20 +31,21 @@ pub fn error_growth(programs: &[Program]) -> Vec<f64> {
             if !least.is_finite() || !floor.is_normal() {
                 continue;
             }
-            for (worst, values) in worst.iter_mut().zip(&values) {
+            for (sums, values) in logarithms.iter_mut().zip(&values) {
                 let growth = values[output].error / least.max(floor);
-                *worst = if growth.is_nan() { f64::INFINITY } else { worst.max(growth) };
+                sums[output] += if growth.is_nan() { f64::INFINITY } else { growth.max(1.0).ln() };
             }
         }
     }
-    worst
+    let mean = |sum: f64| (sum / f64::from(POINTS)).exp();
+    logarithms.into_iter().map(|sums| sums.into_iter().map(mean).fold(1.0, f64::max)).collect()
 }
 
 /// A number between 1/8 and 8 that the point and the symbol determine: masses and lengths are positive,
 /// and signs of states are as good as any.
 #[allow(clippy::cast_precision_loss, reason = "a sample needs no more digits")]
-fn sample(point: u64, symbol: SymbolId) -> f64 {
-    let word = Residue::mixed(23_000 + point, symbol.index() as u64).word();
+fn sample(point: u32, symbol: SymbolId) -> f64 {
+    let word = Residue::mixed(23_000 + u64::from(point), symbol.index() as u64).word();
     let unit = (word & 0xF_FFFF) as f64 / f64::from(1 << 20);
     2f64.powf(6.0 * unit - 3.0)
 }
