@@ -39,7 +39,16 @@ pub(super) fn elimination_order(graph: &Graph, matrix: &[Vec<ExprId>], block: &[
 /// A definite matrix factorised block by block, for several right-hand sides.
 #[derive(Clone, Debug)]
 pub struct Factorisation {
-    blocks: Vec<(Vec<usize>, Ldl)>,
+    blocks: Vec<Block>,
+}
+
+/// Unknowns that are coupled, in the order of their elimination.
+#[derive(Clone, Debug)]
+struct Block {
+    members: Vec<usize>,
+    factors: Ldl,
+    /// The same factors without intermediate results, of small blocks.
+    written_out: Option<Ldl>,
 }
 
 impl Factorisation {
@@ -51,7 +60,9 @@ impl Factorisation {
                 let block = elimination_order(graph, matrix, &block);
                 let inner = submatrix(matrix, &block);
                 let factors = Ldl::of(graph, &inner, procedure, name);
-                (block, factors)
+                let is_small = block.len() <= SMALL && graph.operation_count(&inner.concat()) <= SIMPLIFIED;
+                let written_out = is_small.then(|| Ldl::of(graph, &inner, &mut Procedure::inline(), name));
+                Block { members: block, factors, written_out }
             })
             .collect();
         Self { blocks }
@@ -66,13 +77,41 @@ impl Factorisation {
         name: &str,
     ) -> Vec<ExprId> {
         let mut solution = right.to_vec();
-        for (block, factors) in &self.blocks {
-            let outer: Vec<ExprId> = block.iter().map(|i| right[*i]).collect();
+        for block in &self.blocks {
+            let outer: Vec<ExprId> = block.members.iter().map(|i| right[*i]).collect();
             if outer.iter().all(|entry| graph.is_literal_zero(*entry)) {
                 continue;
             }
-            for (index, value) in block.iter().zip(factors.solve(graph, &outer, procedure, name)) {
+            for (index, value) in block.members.iter().zip(block.solve(graph, &outer, procedure, name)) {
                 solution[*index] = value;
+            }
+        }
+        solution
+    }
+}
+
+impl Block {
+    /// Substitution from one intermediate result to the next hides what cancels identically in the
+    /// solution. Where that is short when written out and simplified, and the way there loses digits
+    /// against it, it is used instead.
+    fn solve(
+        &self,
+        graph: &mut Graph,
+        right: &[ExprId],
+        procedure: &mut Procedure,
+        name: &str,
+    ) -> Vec<ExprId> {
+        let mut solution = self.factors.solve(graph, right, procedure, name);
+        let Some(written_out) = &self.written_out else { return solution };
+        let short = written_out.solve(graph, right, &mut Procedure::inline(), name);
+        if graph.operation_count(&short) > SIMPLIFIED {
+            return solution;
+        }
+        let long = procedure.with_outputs(solution.clone()).written_out(graph);
+        let growth = graph.accuracy().growth();
+        for ((value, short), long) in solution.iter_mut().zip(short).zip(long) {
+            if graph.error_growth(long, short) > growth {
+                *value = procedure.define(graph, name, short);
             }
         }
         solution
@@ -90,6 +129,8 @@ pub(super) struct Ldl {
 
 /// Entries of the factorisation with more operations than this are not simplified.
 const SIMPLIFIED: u64 = 40;
+/// Blocks of no more unknowns than this are also written out.
+const SMALL: usize = 3;
 /// Simplified entries with no more operations than this stay in place, so that later ones simplify.
 const IN_PLACE: u64 = 6;
 

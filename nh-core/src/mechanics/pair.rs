@@ -49,27 +49,24 @@ impl Pair {
                 return [graph.add(mean, half_difference), graph.sub(mean, half_difference)];
             }
         }
-        let mut whole = [None; 2];
+        let whole = rule.map(|value| graph.simplify(value));
+        let whole_is_accurate = is_accurate(graph, whole, rule);
         if let Some((last, [rest, slope])) = self.relation(graph, definiteness) {
             let first = 1 - last;
-            let value = graph.simplify(rule[first]);
-            whole[first] = Some(value);
-            let length = graph.operation_count(&[value, rest, slope]);
-            let is_shorter = graph.operation_count(&[rest, slope]) <= SHORT || {
-                let other = graph.simplify(rule[last]);
-                whole[last] = Some(other);
-                length < graph.operation_count(&[value, other])
-            };
-            let mut values = [value; 2];
-            values[last] = substituted(graph, [rest, slope], value);
-            if is_shorter && length <= written_out && is_accurate(graph, values, rule) {
-                values[first] = procedure.define(graph, &names[first], value);
+            let length = graph.operation_count(&[whole[first], rest, slope]);
+            let is_shorter =
+                graph.operation_count(&[rest, slope]) <= SHORT || length < graph.operation_count(&whole);
+            let mut values = whole;
+            values[last] = substituted(graph, [rest, slope], whole[first]);
+            // what cancels identically in the solution as a whole may be left in the relation
+            let best = if whole_is_accurate { whole } else { rule };
+            if is_shorter && length <= written_out && is_accurate(graph, values, best) {
+                values[first] = procedure.define(graph, &names[first], whole[first]);
                 values[last] = substituted(graph, [rest, slope], values[first]);
                 return values;
             }
         }
-        let whole = [0, 1].map(|k| whole[k].unwrap_or_else(|| graph.simplify(rule[k])));
-        if graph.operation_count(&whole) <= written_out && is_accurate(graph, whole, rule) {
+        if graph.operation_count(&whole) <= written_out && whole_is_accurate {
             return whole;
         }
         self.named(graph, procedure, &names[0]).by_cramer(graph)

@@ -70,6 +70,18 @@ impl Splitting {
         self.horizontal == self.coordinates.len()
     }
 
+    /// ρ^i_α B^α_a: the rates of the coordinates along the basis of D.
+    #[must_use]
+    pub fn projection(
+        &self,
+        graph: &mut Graph,
+        system: &LagrangianSystem,
+        distribution: &ConstraintDistribution,
+    ) -> Matrix {
+        let rows = rows(&system.algebroid.anchor.entries, &self.coordinates);
+        along(graph, &rows, distribution)
+    }
+
     /// Whether ρ is an isomorphism from D to the tangent spaces: a Chaplygin system.
     #[must_use]
     pub fn is_chaplygin(&self) -> bool {

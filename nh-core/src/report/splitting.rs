@@ -1,8 +1,9 @@
 //! What reduction theory calls a system, and the quantities that it names.
 
 use super::{Derived, combination, shown};
+use crate::check::singular_where;
 use crate::compile::{Proved, Reduced};
-use crate::id::ExprId;
+use crate::id::{ExprId, SymbolId};
 use crate::mechanics::{NonholonomicConnection, Splitting};
 
 /// Lagrangians with more operations than this are classified, but their splitting is not shown.
@@ -23,7 +24,8 @@ pub(super) fn lines(proved: &mut Proved, derived: &Derived<'_>) -> (Option<Strin
         Derived::Projected { .. } => None,
     };
     let Ok(reduced) = Reduced::of(proved, distribution) else { return (None, Vec::new()) };
-    let name = name(proved, &reduced.splitting, is_free, reduced.frame.is_some());
+    let singular = if reduced.splitting.is_chaplygin() { not_onto(proved, &reduced) } else { Vec::new() };
+    let name = name(proved, &reduced.splitting, is_free, reduced.frame.is_some(), &singular);
     let small = proved.model.graph.operation_count(&[proved.system.lagrangian]) <= SHOWN_UP_TO;
     let has_basis = distribution.is_some() || reduced.frame.is_some();
     let is_horizontal = reduced.splitting.horizontal > 0 || reduced.frame.is_some();
@@ -31,7 +33,21 @@ pub(super) fn lines(proved: &mut Proved, derived: &Derived<'_>) -> (Option<Strin
     (Some(name), lines)
 }
 
-fn name(proved: &Proved, splitting: &Splitting, is_free: bool, in_frame: bool) -> String {
+/// Where the projection of a Chaplygin system is singular all the same.
+fn not_onto(proved: &mut Proved, reduced: &Reduced) -> Vec<ExprId> {
+    let Proved { model, facts, .. } = proved;
+    let parameters: Vec<SymbolId> = model.parameters.iter().map(|parameter| parameter.symbol).collect();
+    let projection = reduced.splitting.projection(&mut model.graph, &reduced.system, &reduced.distribution);
+    singular_where(&mut model.graph, &projection, &parameters, facts)
+}
+
+fn name(
+    proved: &Proved,
+    splitting: &Splitting,
+    is_free: bool,
+    in_frame: bool,
+    singular: &[ExprId],
+) -> String {
     let coordinates: Vec<&str> =
         splitting.coordinates.iter().map(|id| proved.model.coordinates[*id].name.as_str()).collect();
     let coordinates = coordinates.join(", ");
@@ -41,7 +57,12 @@ fn name(proved: &Proved, splitting: &Splitting, is_free: bool, in_frame: bool) -
     let name = if is_free {
         format!("Lagrange–Poincaré, with momentum equations of rank {vertical}")
     } else if splitting.is_chaplygin() {
-        format!("of a Chaplygin system: the anchor maps D one to one onto the rates of {coordinates}")
+        let shown = |factor: &ExprId| format!("{} != 0", shown(&proved.model.graph, *factor));
+        let conditions = singular.iter().map(shown).collect::<Vec<_>>().join(" and ");
+        let only = if conditions.is_empty() { "" } else { " where " };
+        format!(
+            "of a Chaplygin system: the anchor maps D one to one onto the rates of {coordinates}{only}{conditions}"
+        )
     } else if shared == 0 {
         format!("purely kinematic: D meets {v} in 0 only; ρ(D) has rank {horizontal} of {m}")
     } else if *horizontal == 0 {
