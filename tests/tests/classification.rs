@@ -118,6 +118,27 @@ system! { Advected { A: f64 }
     constraints { w[2] = r * v; }
 }
 
+/// A car: straight ahead it has no motion that turns it.
+#[nonholonomic(
+    base { x, y, theta, delta }
+    basis { v, w, r, ds }
+    anchor {
+        der(x) = v * cos(theta) - w * sin(theta);
+        der(y) = v * sin(theta) + w * cos(theta);
+        der(theta) = r;
+        der(delta) = ds;
+    }
+    lagrangian { m / 2 * (v^2 + w^2) + J / 2 * r^2 + K / 2 * ds^2 }
+    constraints { w = 0; r = v * tan(delta); }
+)]
+#[derive(Clone, Copy, Debug)]
+#[allow(dead_code, non_snake_case, reason = "only its report is read")]
+struct Car {
+    m: f64,
+    J: f64,
+    K: f64,
+}
+
 #[test]
 fn reports() {
     for (report, lines) in [
@@ -159,6 +180,13 @@ fn reports() {
             [
                 "has rank 1; D + V = E (the dimension assumption); the group: translations",
                 "horizontal symmetries: p2\n",
+            ],
+        ),
+        (
+            Car::REPORT,
+            [
+                "of a Chaplygin system: the anchor maps D one to one onto the rates of theta, delta where sin(delta) != 0",
+                "the declaration has a value only where cos(delta) != 0\n",
             ],
         ),
         (

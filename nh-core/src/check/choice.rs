@@ -235,16 +235,16 @@ fn solved_for(model: &Model) -> Vec<SectionId> {
 
 fn tried(model: &Model, failure: &NoChoice) -> String {
     const SHOWN: usize = 3;
-    let mut parts: Vec<String> = failure
-        .tried
-        .iter()
-        .take(SHOWN)
-        .map(|(dependent, factor)| {
-            let eliminated = listed(&names(model, dependent));
-            format!("eliminating {eliminated} divides by {}", shown(&model.graph, *factor))
-        })
-        .collect();
-    if failure.tried.len() > SHOWN {
+    let mut parts: Vec<String> = Vec::new();
+    for (dependent, factor) in &failure.tried {
+        let eliminated = listed(&names(model, dependent));
+        let part = format!("eliminating {eliminated} divides by {}", shown(&model.graph, *factor));
+        if !parts.contains(&part) {
+            parts.push(part);
+        }
+    }
+    if parts.len() > SHOWN {
+        parts.truncate(SHOWN);
         parts.push("and so on".into());
     }
     parts.join("; ")
