@@ -9,6 +9,7 @@ use super::normal_form::Simplifier;
 use super::number::Rational;
 use crate::id::{ExprId, Id, SymbolId, Table};
 use rustc_hash::FxHashMap;
+use std::collections::hash_map::Entry;
 
 /// A function of one argument. `tan x` is stored as `sin x / cos x`, `sqrt x` as `x^(1/2)`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
@@ -177,12 +178,13 @@ impl Graph {
 
     /// Stores a node that is already canonical.
     pub(super) fn intern(&mut self, node: Node) -> ExprId {
-        if let Some(&id) = self.known.get(&node) {
-            return id;
+        match self.known.entry(node) {
+            Entry::Occupied(known) => *known.get(),
+            Entry::Vacant(new) => {
+                let id = self.nodes.push(new.key().clone());
+                *new.insert(id)
+            }
         }
-        let id = self.nodes.push(node.clone());
-        self.known.insert(node, id);
-        id
     }
 
     /// A number.

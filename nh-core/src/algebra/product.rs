@@ -52,14 +52,19 @@ impl Graph {
         if coefficient.is_zero() {
             return self.zero();
         }
-        match self.node(x).clone() {
-            Node::Number(value) => self.number(coefficient * value),
+        match self.node(x) {
+            Node::Number(value) => {
+                let product = coefficient * value.clone();
+                self.number(product)
+            }
             Node::Sum { constant, terms } => {
                 let terms = terms.iter().map(|(id, c)| (*id, c.clone() * coefficient.clone())).collect();
-                self.intern(Node::Sum { constant: constant * coefficient.clone(), terms })
+                let constant = constant.clone() * coefficient;
+                self.intern(Node::Sum { constant, terms })
             }
             Node::Product { coefficient: inner, factors } => {
-                self.finish_product(coefficient * inner, factors.into())
+                let (coefficient, factors) = (coefficient * inner.clone(), factors.to_vec());
+                self.finish_product(coefficient, factors)
             }
             _ => self.intern(Node::Product { coefficient, factors: Box::new([(x, Rational::ONE)]) }),
         }
@@ -67,10 +72,10 @@ impl Graph {
 
     /// A product as its number and the rest; anything else with the number 1.
     pub fn split_coefficient(&mut self, id: ExprId) -> (Rational, ExprId) {
-        match self.node(id).clone() {
+        match self.node(id) {
             Node::Product { coefficient, factors } if !coefficient.is_one() => {
-                let rest = self.finish_product(Rational::ONE, factors.into());
-                (coefficient, rest)
+                let (coefficient, factors) = (coefficient.clone(), factors.to_vec());
+                (coefficient, self.finish_product(Rational::ONE, factors))
             }
             _ => (Rational::ONE, id),
         }
@@ -91,9 +96,13 @@ impl Graph {
         if exponent.is_zero() {
             return;
         }
-        match self.node(base).clone() {
-            Node::Number(value) => self.collect_number(&value, exponent, into),
+        match self.node(base) {
+            Node::Number(value) => {
+                let value = value.clone();
+                self.collect_number(&value, exponent, into);
+            }
             Node::Product { coefficient, factors } if exponent.is_integer() => {
+                let (coefficient, factors) = (coefficient.clone(), factors.clone());
                 self.collect_number(&coefficient, exponent, into);
                 for (inner, power) in factors {
                     // an integer power of a root can uncover a number or a product again
@@ -106,6 +115,7 @@ impl Graph {
                 }
             }
             Node::Product { coefficient, factors } => {
+                let (coefficient, factors) = (coefficient.clone(), factors.clone());
                 self.collect_root_of_product(&coefficient, &factors, exponent, into);
             }
             Node::Sum { .. } => self.collect_sum(base, exponent, into),
@@ -176,15 +186,15 @@ impl Graph {
     fn merge(&mut self, factors: &mut Factors) {
         loop {
             factors.powers.sort_by_key(|(base, _)| *base);
-            let mut merged: Vec<(ExprId, Rational)> = Vec::with_capacity(factors.powers.len());
-            let mut reopened: Vec<(ExprId, Rational)> = Vec::new();
-            for (base, exponent) in std::mem::take(&mut factors.powers) {
-                match merged.last_mut() {
-                    Some((last, sum)) if *last == base => *sum = sum.clone() + exponent,
-                    _ => merged.push((base, exponent)),
+            factors.powers.dedup_by(|(base, exponent), (last, sum)| {
+                let same = base == last;
+                if same {
+                    *sum = sum.clone() + exponent.clone();
                 }
-            }
-            merged.retain(|(base, exponent)| {
+                same
+            });
+            let mut reopened: Vec<(ExprId, Rational)> = Vec::new();
+            factors.powers.retain(|(base, exponent)| {
                 // roots that have become integer powers are taken apart again
                 let again = exponent.is_integer()
                     && !exponent.is_zero()
@@ -198,7 +208,6 @@ impl Graph {
                 }
                 !again && !exponent.is_zero()
             });
-            factors.powers = merged;
             if reopened.is_empty() {
                 return;
             }

@@ -40,21 +40,21 @@ impl Graph {
     /// Collects like terms and stores the sum.
     fn sum_of_terms(&mut self, constant: Rational, mut terms: Vec<(ExprId, Rational)>) -> ExprId {
         terms.sort_by_key(|(term, _)| *term);
-        let mut collected: Vec<(ExprId, Rational)> = Vec::with_capacity(terms.len());
-        for (term, coefficient) in terms {
-            match collected.last_mut() {
-                Some((last, sum)) if *last == term => *sum = sum.clone() + coefficient,
-                _ => collected.push((term, coefficient)),
+        terms.dedup_by(|(term, coefficient), (last, sum)| {
+            let same = term == last;
+            if same {
+                *sum = sum.clone() + coefficient.clone();
             }
-        }
-        collected.retain(|(_, coefficient)| !coefficient.is_zero());
-        match collected.as_slice() {
+            same
+        });
+        terms.retain(|(_, coefficient)| !coefficient.is_zero());
+        match terms.as_slice() {
             [] => self.number(constant),
             [(term, coefficient)] if constant.is_zero() => {
                 let (term, coefficient) = (*term, coefficient.clone());
                 self.scale(coefficient, term)
             }
-            _ => self.intern(Node::Sum { constant, terms: collected.into() }),
+            _ => self.intern(Node::Sum { constant, terms: terms.into() }),
         }
     }
 

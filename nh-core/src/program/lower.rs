@@ -70,7 +70,11 @@ struct Operand {
 
 impl Lowering<'_> {
     fn is_fixed(&self, term: Term) -> bool {
-        let by_operands = || self.arena.dependencies(term).iter().all(|operand| self.fixed[operand.index()]);
+        let by_operands = || {
+            let mut operands = Vec::new();
+            self.arena.dependencies(term, &mut operands);
+            operands.iter().all(|operand| self.fixed[operand.index()])
+        };
         match self.arena.get(term) {
             Nary::Symbol(symbol) if !self.arena.sources.contains_key(symbol) => {
                 self.arena.parameters.contains(symbol)
@@ -259,9 +263,7 @@ pub(super) fn without_dead_steps(program: &Program) -> Program {
     }
     for value in program.steps.ids().rev().filter(|value| value.index() < program.steps.len()) {
         if live[value.index()] {
-            for operand in program.steps[value].operands() {
-                live[operand.index()] = true;
-            }
+            program.steps[value].each_operand(|operand| live[operand.index()] = true);
         }
     }
     let mut renamed: Vec<Option<Value>> = vec![None; program.steps.len()];

@@ -3,6 +3,7 @@
 use crate::algebra::{Function, Function2, Rational};
 use crate::id::{Id, SymbolId, Table};
 use rustc_hash::{FxHashMap, FxHashSet};
+use std::collections::hash_map::Entry;
 
 /// An expression of the arena.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -82,12 +83,13 @@ pub(super) struct Arena {
 
 impl Arena {
     pub(super) fn intern(&mut self, nary: Nary) -> Term {
-        if let Some(&term) = self.known.get(&nary) {
-            return term;
+        match self.known.entry(nary) {
+            Entry::Occupied(known) => *known.get(),
+            Entry::Vacant(new) => {
+                let term = self.terms.push(new.key().clone());
+                *new.insert(term)
+            }
         }
-        let term = self.terms.push(nary.clone());
-        self.known.insert(nary, term);
-        term
     }
 
     pub(super) fn find(&self, nary: &Nary) -> Option<Term> {
@@ -175,47 +177,42 @@ impl Arena {
         }
     }
 
-    /// What has to be computed before a term, definitions of symbols included.
-    pub(super) fn dependencies(&self, term: Term) -> Vec<Term> {
+    /// Appends what has to be computed before a term, definitions of symbols included.
+    pub(super) fn dependencies(&self, term: Term, list: &mut Vec<Term>) {
         match self.get(term) {
-            Nary::Number(_) | Nary::Pi => Vec::new(),
+            Nary::Number(_) | Nary::Pi => {}
             Nary::Symbol(symbol) => match self.sources.get(symbol) {
-                None => Vec::new(),
-                Some(Source::Value(value)) => vec![*value],
-                Some(Source::Call(call)) => self.calls[*call].arguments.clone(),
+                None => {}
+                Some(Source::Value(value)) => list.push(*value),
+                Some(Source::Call(call)) => list.extend(&self.calls[*call].arguments),
                 Some(Source::Unknown { system, .. }) => {
                     let System { matrix, right } = &self.systems[*system];
-                    matrix.iter().flatten().chain(right).copied().collect()
+                    list.extend(matrix.iter().flatten().chain(right));
                 }
             },
-            Nary::Sum(operands) => operands.iter().map(|(operand, _)| *operand).collect(),
-            Nary::Product(factors) => factors.iter().map(|(base, _)| *base).collect(),
-            Nary::Quotient(a, b) | Nary::Apply2(_, a, b) => vec![*a, *b],
+            Nary::Sum(operands) => list.extend(operands.iter().map(|(operand, _)| *operand)),
+            Nary::Product(factors) => list.extend(factors.iter().map(|(base, _)| *base)),
+            Nary::Quotient(a, b) | Nary::Apply2(_, a, b) => list.extend([*a, *b]),
             Nary::Power(a, _)
             | Nary::Neg(a)
             | Nary::Recip(a)
             | Nary::Sqrt(a)
             | Nary::Cbrt(a)
             | Nary::PowReal(a, _)
-            | Nary::Apply(_, a) => vec![*a],
+            | Nary::Apply(_, a) => list.push(*a),
         }
     }
 
     /// Which terms the outputs depend on, and by how many others (or outputs) each is used.
     pub(super) fn uses(&self) -> Vec<u32> {
         let mut uses = vec![0; self.len()];
-        let mut open: Vec<Term> = Vec::new();
-        let mut visit = |list: &[Term], open: &mut Vec<Term>| {
-            for term in list {
-                uses[term.index()] += 1;
-                if uses[term.index()] == 1 {
-                    open.push(*term);
-                }
-            }
-        };
-        visit(&self.outputs, &mut open);
+        // every use once; what a term depends on is listed at its first
+        let mut open: Vec<Term> = self.outputs.clone();
         while let Some(term) = open.pop() {
-            visit(&self.dependencies(term), &mut open);
+            uses[term.index()] += 1;
+            if uses[term.index()] == 1 {
+                self.dependencies(term, &mut open);
+            }
         }
         uses
     }
@@ -224,13 +221,16 @@ impl Arena {
     pub(super) fn operands_first(&self, roots: &[Term]) -> Vec<Term> {
         let mut seen = vec![false; self.len()];
         let mut order = Vec::new();
+        let mut operands = Vec::new();
         let mut open: Vec<(Term, bool)> = roots.iter().rev().map(|term| (*term, false)).collect();
         while let Some((term, ready)) = open.pop() {
             if ready {
                 order.push(term);
             } else if !std::mem::replace(&mut seen[term.index()], true) {
                 open.push((term, true));
-                open.extend(self.dependencies(term).into_iter().rev().map(|operand| (operand, false)));
+                operands.clear();
+                self.dependencies(term, &mut operands);
+                open.extend(operands.iter().rev().map(|operand| (*operand, false)));
             }
         }
         order

@@ -33,13 +33,40 @@ type Entry = (usize, Reverse<u8>, Reverse<Pair>);
 /// The operands of a term with their weights, in order.
 type List = Vec<(Term, i32)>;
 
+/// The lists in which a pair has occurred. Most pairs occur once, for which nothing is allocated.
+#[derive(Clone, Default)]
+struct Places {
+    first: Option<usize>,
+    others: Vec<usize>,
+}
+
+impl Places {
+    fn add(&mut self, index: usize, times: usize) {
+        let others = times - usize::from(times > 0 && self.first.is_none());
+        self.first = self.first.or((times > 0).then_some(index));
+        self.others.extend(std::iter::repeat_n(index, others));
+    }
+
+    fn len(&self) -> usize {
+        usize::from(self.first.is_some()) + self.others.len()
+    }
+
+    /// The lists in order.
+    fn distinct(&self) -> Vec<usize> {
+        let mut all: Vec<usize> = self.first.into_iter().chain(self.others.iter().copied()).collect();
+        all.sort_unstable();
+        all.dedup();
+        all
+    }
+}
+
 struct Search<'a> {
     arena: &'a mut Arena,
     kind: Kind,
     /// The terms that are searched, with their operands.
     lists: Vec<(Term, List)>,
     /// The lists in which a pair has occurred, as often as it has.
-    places: FxHashMap<Pair, Vec<usize>>,
+    places: FxHashMap<Pair, Places>,
     heap: BinaryHeap<Entry>,
 }
 
@@ -58,7 +85,7 @@ pub(super) fn share_pairs(arena: &mut Arena, kind: Kind) {
     search.fill_heap();
     let mut patience = PATIENCE;
     while let Some((users, _, Reverse(pair))) = search.heap.pop() {
-        let occurrences = search.places.get(&pair).map_or(1, Vec::len);
+        let occurrences = search.places.get(&pair).map_or(1, Places::len);
         let Some(left) = patience.checked_sub(occurrences) else { break };
         patience = left;
         let places = search.places_of(pair);
@@ -108,7 +135,7 @@ impl Search<'_> {
             return (pair, 0);
         }
         let places = self.places.entry(pair).or_default();
-        places.extend(std::iter::repeat_n(index, times));
+        places.add(index, times);
         (pair, places.len())
     }
 
@@ -141,9 +168,7 @@ impl Search<'_> {
 
     /// The lists that contain the pair now, and how often.
     fn places_of(&self, pair: Pair) -> Vec<(usize, usize)> {
-        let mut places = self.places.get(&pair).cloned().unwrap_or_default();
-        places.sort_unstable();
-        places.dedup();
+        let places = self.places.get(&pair).map(Places::distinct).unwrap_or_default();
         let times = |index: usize| {
             let (found, times) = self.pair(self.operand(index, pair.0)?, self.operand(index, pair.1)?);
             (found == pair && times > 0).then_some((index, times))

@@ -83,8 +83,10 @@ impl Denominators {
 /// Which terms are made of numbers alone.
 fn constants(arena: &Arena, order: &[Term]) -> Vec<bool> {
     let mut constant = vec![false; arena.len()];
+    let mut operands = Vec::new();
     for term in order {
-        let operands = arena.dependencies(*term);
+        operands.clear();
+        arena.dependencies(*term, &mut operands);
         constant[term.index()] = match arena.get(*term) {
             Nary::Symbol(_) => false,
             _ => operands.iter().all(|operand| constant[operand.index()]),

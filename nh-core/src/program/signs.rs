@@ -45,11 +45,11 @@ fn improved(program: &Program, settled: usize) -> Option<(usize, Program)> {
 fn users(program: &Program) -> Table<Value, Vec<Value>> {
     let mut users: Table<Value, Vec<Value>> = program.steps.iter().map(|_| Vec::new()).collect();
     for (value, step) in program.steps.iter_ids() {
-        for operand in step.operands() {
+        step.each_operand(|operand| {
             if users[operand].last() != Some(&value) {
                 users[operand].push(value);
             }
-        }
+        });
     }
     users
 }
@@ -90,8 +90,9 @@ enum Change {
 }
 
 fn change(step: &Step, is_opposite: impl Fn(&Value) -> bool) -> Change {
-    let operands = step.operands();
-    if !operands.iter().any(&is_opposite) {
+    let mut is_concerned = false;
+    step.each_operand(|operand| is_concerned |= is_opposite(&operand));
+    if !is_concerned {
         return Change::None;
     }
     match *step {

@@ -91,12 +91,19 @@ impl Step {
     /// The operands in order.
     #[must_use]
     pub fn operands(&self) -> Vec<Value> {
+        let mut operands = Vec::new();
+        self.each_operand(|operand| operands.push(operand));
+        operands
+    }
+
+    /// Visits the operands in order: as [`Self::operands`], without a list.
+    pub(super) fn each_operand(&self, mut visit: impl FnMut(Value)) {
         match self {
-            Self::Constant(_) | Self::Pi | Self::Load(_) => Vec::new(),
+            Self::Constant(_) | Self::Pi | Self::Load(_) => {}
             Self::Add(a, b) | Self::Sub(a, b) | Self::Mul(a, b) | Self::Div(a, b) | Self::Apply2(_, a, b) => {
-                vec![*a, *b]
+                [*a, *b].into_iter().for_each(visit);
             }
-            Self::MulAdd { a, b, c, .. } => vec![*a, *b, *c],
+            Self::MulAdd { a, b, c, .. } => [*a, *b, *c].into_iter().for_each(visit),
             Self::Neg(a)
             | Self::Recip(a)
             | Self::Sqrt(a)
@@ -106,9 +113,11 @@ impl Step {
             | Self::SinOf(a)
             | Self::CosOf(a)
             | Self::Apply(_, a)
-            | Self::Component(a, _) => vec![*a],
-            Self::Call { arguments, .. } => arguments.clone(),
-            Self::Solve { matrix, right } => matrix.iter().flatten().chain(right).copied().collect(),
+            | Self::Component(a, _) => visit(*a),
+            Self::Call { arguments, .. } => arguments.iter().copied().for_each(visit),
+            Self::Solve { matrix, right } => {
+                matrix.iter().flatten().chain(right).copied().for_each(visit);
+            }
         }
     }
 
@@ -137,9 +146,8 @@ impl Program {
     #[must_use]
     pub fn uses(&self) -> Table<Value, usize> {
         let mut uses: Table<Value, usize> = self.steps.iter().map(|_| 0).collect();
-        for value in self.steps.iter().flat_map(Step::operands).chain(self.outputs.iter().copied()) {
-            uses[value] += 1;
-        }
+        self.steps.iter().for_each(|step| step.each_operand(|value| uses[value] += 1));
+        self.outputs.iter().for_each(|value| uses[*value] += 1);
         uses
     }
 

@@ -3,11 +3,13 @@
 use crate::algebra::graph::{Function, Function2, Graph, Node};
 use crate::algebra::number::Rational;
 use crate::id::ExprId;
-use rustc_hash::FxHashSet;
+use rustc_hash::{FxBuildHasher, FxHashSet};
 
 const DIVISION: u64 = 5;
 const ROOT: u64 = 6;
 const FUNCTION: u64 = 20;
+/// Room for the distinct expressions of most that are counted.
+const USUAL: usize = 48;
 
 impl Graph {
     /// The weighted number of distinct operations in `roots`, in units of one addition or
@@ -25,7 +27,7 @@ impl Graph {
     /// The cost, if there are at most `limit` distinct expressions.
     pub(super) fn operation_count_within(&self, roots: &[ExprId], limit: usize) -> Option<u64> {
         let mut tally = Tally::default();
-        let mut seen: FxHashSet<ExprId> = FxHashSet::default();
+        let mut seen: FxHashSet<ExprId> = FxHashSet::with_capacity_and_hasher(USUAL, FxBuildHasher);
         let mut open = roots.to_vec();
         while let Some(id) = open.pop() {
             if seen.insert(id) {
@@ -56,15 +58,16 @@ impl Tally {
                 self.cost += count(terms.iter().filter(|(_, c)| !is_unit(c)).count());
             }
             Node::Product { coefficient, factors } => {
-                let divided = factors.iter().any(|(_, exponent)| exponent.is_negative());
-                let (above, below): (Vec<_>, Vec<_>) =
-                    factors.iter().partition(|(_, exponent)| !exponent.is_negative());
-                let above = count(above.len()) + u64::from(!is_unit(coefficient));
-                self.cost += above.saturating_sub(1) + count(below.len()).saturating_sub(1);
-                self.cost += if divided { DIVISION } else { 0 };
+                let below = count(factors.iter().filter(|(_, exponent)| exponent.is_negative()).count());
+                let above = count(factors.len()) - below + u64::from(!is_unit(coefficient));
+                self.cost += above.saturating_sub(1) + below.saturating_sub(1);
+                self.cost += if below > 0 { DIVISION } else { 0 };
                 for (base, exponent) in factors {
+                    if is_unit(exponent) {
+                        continue;
+                    }
                     let exponent = exponent.abs();
-                    if !exponent.is_one() && self.powers.insert((*base, exponent.clone())) {
+                    if self.powers.insert((*base, exponent.clone())) {
                         self.cost += power(&exponent);
                     }
                 }

@@ -66,7 +66,7 @@ impl Graph {
     /// roots mostly become the same expression. `None` beyond the budget, and for expressions
     /// that divide by zero.
     pub fn normal_form(&mut self, e: ExprId) -> Option<ExprId> {
-        let (canonical, _) = self.forms(e, CANONICAL, WORK).0?;
+        let (canonical, _) = self.forms(e, CANONICAL, WORK).forms?;
         Some(canonical)
     }
 
@@ -100,21 +100,34 @@ impl Graph {
         chosen
     }
 
-    /// The expression in a style, in canonical and in factored form, and the work it took.
-    fn forms(&mut self, e: ExprId, style: Style, work: usize) -> (Option<(ExprId, ExprId)>, usize) {
+    /// The expression in a style.
+    fn forms(&mut self, e: ExprId, style: Style, work: usize) -> Attempt {
         let mut reader = Reader::new(self, style, work, MONOMIALS);
         let mut forms = None;
         for _ in 0..ROUNDS {
             reader.restart();
             let polynomial = reader.read(e).and_then(|polynomial| reader.tidy(&polynomial));
-            let Some(polynomial) = polynomial else { return (None, work - reader.work) };
+            let Some(polynomial) = polynomial else {
+                forms = None;
+                break;
+            };
             forms = Some((reader.expression(&polynomial), reader.factored(&polynomial)));
             if !reader.stale {
                 break;
             }
         }
-        (forms, work - reader.work)
+        Attempt { forms, spent: work - reader.work, kept_sums: reader.kept_sums.get() }
     }
+}
+
+/// What came of reading an expression in a style.
+struct Attempt {
+    /// The canonical and the factored form; `None` beyond the budget.
+    forms: Option<(ExprId, ExprId)>,
+    /// The work it took.
+    spent: usize,
+    /// Whether a power of a sum was left that another style would have multiplied out.
+    kept_sums: bool,
 }
 
 /// Simplifies expressions and remembers what became of them.
@@ -244,6 +257,10 @@ struct Choice {
     rebuilt: ExprId,
     /// What is left of the budget.
     work: usize,
+    /// The forms that were considered: a second time they change nothing.
+    considered: Vec<ExprId>,
+    /// The work of reading without multiplying out, if there was nothing to multiply out.
+    unexpanded: Option<usize>,
 }
 
 impl Choice {
@@ -251,17 +268,28 @@ impl Choice {
     /// expressions too large to be counted.
     fn new(graph: &Graph, id: ExprId, rebuilt: ExprId, work: usize) -> Self {
         let Some(cost) = graph.operation_count_within(&[id], CONE.min(work)) else {
-            return Self { best: rebuilt, cost: 0, rebuilt, work: work.saturating_sub(CONE) };
+            return Self {
+                best: rebuilt,
+                cost: 0,
+                rebuilt,
+                work: work.saturating_sub(CONE),
+                considered: Vec::new(),
+                unexpanded: None,
+            };
         };
         let counted = usize::try_from(cost).unwrap_or(CONE);
-        let mut choice = Self { best: id, cost, rebuilt, work: work.saturating_sub(counted) };
+        let work = work.saturating_sub(counted);
+        let mut choice = Self { best: id, cost, rebuilt, work, considered: vec![id], unexpanded: None };
         choice.consider(graph, rebuilt);
         choice
     }
 
     fn consider(&mut self, graph: &Graph, candidate: ExprId) {
-        if candidate != self.best
-            && let Some(cost) = graph.operation_count_within(&[candidate], CONE)
+        if self.considered.contains(&candidate) {
+            return;
+        }
+        self.considered.push(candidate);
+        if let Some(cost) = graph.operation_count_within(&[candidate], CONE)
             && cost < self.cost
             && (graph.accuracy() != Accuracy::Careful || graph.error_growth(candidate, self.rebuilt) <= 1.0)
         {
@@ -275,9 +303,18 @@ impl Choice {
             return false;
         }
         let budget = self.work.min(ATTEMPT);
-        let (forms, spent) = graph.forms(self.rebuilt, style, budget);
+        if style.expand
+            && !style.angles
+            && let Some(spent) = self.unexpanded.filter(|spent| *spent <= budget)
+        {
+            // the same polynomial again
+            self.work -= spent;
+            return false;
+        }
+        let Attempt { forms, spent, kept_sums } = graph.forms(self.rebuilt, style, budget);
         self.work -= spent;
         if let Some((expression, factored)) = forms {
+            self.unexpanded = (!style.expand && !kept_sums).then_some(spent);
             self.consider(graph, expression);
             self.consider(graph, factored);
             return false;

@@ -254,6 +254,10 @@ impl Polynomial {
         self.0.is_empty()
     }
 
+    pub(super) fn is_one(&self) -> bool {
+        self.single().is_some_and(|(monomial, coefficient)| monomial.is_unit() && coefficient.is_one())
+    }
+
     pub(super) fn add_term(&mut self, monomial: Monomial, coefficient: Rational) {
         if !coefficient.is_zero() {
             self.0.add(monomial, coefficient);

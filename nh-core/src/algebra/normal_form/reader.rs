@@ -5,7 +5,8 @@ use super::polynomial::{Exponent, Kind, Monomial, Polynomial};
 use crate::algebra::graph::{Function, Graph, Node};
 use crate::algebra::number::Rational;
 use crate::id::ExprId;
-use rustc_hash::FxHashMap;
+use rustc_hash::{FxBuildHasher, FxHashMap};
+use std::cell::Cell;
 use std::collections::BTreeMap;
 use std::rc::Rc;
 
@@ -32,6 +33,8 @@ pub(super) struct Reader<'g> {
     pub(super) divisions: FxHashMap<ExprId, i64>,
     /// Whether a common denominator has grown after it was used.
     pub(super) stale: bool,
+    /// Whether multiplying out would have read anything otherwise.
+    pub(super) kept_sums: Cell<bool>,
     known: FxHashMap<ExprId, Rc<Polynomial>>,
     composites: BTreeMap<ExprId, Rc<Polynomial>>,
     depth: usize,
@@ -39,6 +42,8 @@ pub(super) struct Reader<'g> {
 
 /// Expressions that appear while reading (`sin(acos x)`) are read in turn up to this depth.
 const DEPTH: usize = 6;
+/// Room for the subexpressions of most that are read.
+const USUAL: usize = 24;
 /// Denominators that a new denominator is divided by, to find common factors.
 const FACTORS_TRIED: usize = 8;
 
@@ -51,7 +56,8 @@ impl<'g> Reader<'g> {
             monomials,
             divisions: FxHashMap::default(),
             stale: false,
-            known: FxHashMap::default(),
+            kept_sums: Cell::new(false),
+            known: FxHashMap::with_capacity_and_hasher(USUAL, FxBuildHasher),
             composites: BTreeMap::new(),
             depth: 0,
         }
@@ -158,6 +164,13 @@ impl<'g> Reader<'g> {
 
     pub(super) fn multiply(&mut self, a: &Polynomial, b: &Polynomial) -> Option<Polynomial> {
         self.spend(a.len() * b.len())?;
+        let settled = |monomial: &Monomial| {
+            monomial.0.iter().all(|factor| self.is_settled(factor.kind, factor.exponent))
+        };
+        if a.is_one() && b.0.keys().all(settled) {
+            self.fits(b)?;
+            return Some(b.clone());
+        }
         let mut product = Polynomial::default();
         for (m, c) in a.0.iter() {
             for (n, d) in b.0.iter() {
@@ -180,7 +193,7 @@ impl<'g> Reader<'g> {
             Kind::Plain => true,
             Kind::Number => exponent > Exponent::ZERO && exponent < Exponent::ONE,
             Kind::Product => !exponent.is_integer(),
-            Kind::Sum => !self.style.expand || exponent < Exponent::ONE,
+            Kind::Sum => exponent < Exponent::ONE || !self.expands(),
         }
     }
 
@@ -205,6 +218,14 @@ impl<'g> Reader<'g> {
         Some(result)
     }
 
+    /// Whether a positive power of a sum is multiplied out.
+    fn expands(&self) -> bool {
+        if !self.style.expand {
+            self.kept_sums.set(true);
+        }
+        self.style.expand
+    }
+
     /// A power of what has been read.
     pub(super) fn power(&mut self, base: &Polynomial, exponent: Exponent) -> Option<Polynomial> {
         if base.is_zero() {
@@ -215,8 +236,8 @@ impl<'g> Reader<'g> {
             return self.power_of_monomial(monomial, coefficient, exponent);
         }
         match exponent.integer() {
-            Some(1) if self.style.expand => Some(base.clone()),
-            Some(times @ 2..) if self.style.expand => {
+            Some(1) if self.expands() => Some(base.clone()),
+            Some(times @ 2..) if self.expands() => {
                 let mut product = base.clone();
                 for _ in 1..times {
                     product = self.multiply(&product, base)?;
