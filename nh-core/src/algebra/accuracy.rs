@@ -40,8 +40,8 @@ impl Graph {
     #[must_use]
     pub fn error_growth(&self, candidate: ExprId, reference: ExprId) -> f64 {
         let mut worst: f64 = 0.0;
-        for point in 0..POINTS {
-            let values = self.evaluate(&[candidate, reference], |symbol| wide_sample(point, symbol));
+        let points = (0..POINTS).map(|point| move |symbol| wide_sample(point, symbol));
+        for values in self.evaluate_each(&[candidate, reference], points) {
             let floor = 8.0 * f64::EPSILON * values[1].value.abs();
             let growth = values[0].error / values[1].error.max(floor);
             if values[1].error.is_finite() && values[1].value != 0.0 {

@@ -3,7 +3,7 @@
 use super::graph::{Function, Function2, Graph, Node};
 use super::number::Rational;
 use crate::id::{ExprId, SymbolId};
-use rustc_hash::FxHashMap;
+use rustc_hash::{FxBuildHasher, FxHashMap};
 
 /// A floating-point value and a bound on how far it is from the exact one (to first order).
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -48,12 +48,24 @@ impl Bounded {
 impl Graph {
     /// Evaluates `roots` with the given values of the symbols.
     pub fn evaluate(&self, roots: &[ExprId], value: impl Fn(SymbolId) -> f64) -> Vec<Bounded> {
-        let mut known: FxHashMap<ExprId, Bounded> = FxHashMap::default();
-        for id in self.reachable(roots) {
-            let result = self.evaluate_node(id, &known, &value);
-            known.insert(id, result);
-        }
-        roots.iter().map(|root| known[root]).collect()
+        self.evaluate_each(roots, std::iter::once(value)).next().unwrap_or_default()
+    }
+
+    /// Evaluates `roots` at several points, which the values of the symbols make.
+    pub(super) fn evaluate_each<F: Fn(SymbolId) -> f64>(
+        &self,
+        roots: &[ExprId],
+        points: impl Iterator<Item = F>,
+    ) -> impl Iterator<Item = Vec<Bounded>> {
+        let order = self.reachable(roots);
+        let mut known = FxHashMap::with_capacity_and_hasher(order.len(), FxBuildHasher);
+        points.map(move |value| {
+            for id in &order {
+                let result = self.evaluate_node(*id, &known, &value);
+                known.insert(*id, result);
+            }
+            roots.iter().map(|root| known[root]).collect()
+        })
     }
 
     fn evaluate_node(
