@@ -7,7 +7,9 @@ use nh_runtime::control::{
 use nh_runtime::methods::Method;
 use nh_runtime::prelude::*;
 
-use crate::systems::{Sleigh, SleighInput, SleighState};
+use crate::systems::{
+    Contact, ContactOnTq, ContactOnTqState, ContactState, Sleigh, SleighInput, SleighState, Suslov, SuslovState,
+};
 
 type System = Sleigh<f64>;
 
