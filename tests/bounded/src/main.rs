@@ -8,8 +8,10 @@
 //! links only if no function in `proved.rs` has a path that panics, and prints the bits of the states that a
 //! debug build has to print too.
 
+mod bits;
 mod methods;
 mod proved;
+mod structure;
 mod systems;
 
 use nh_runtime::ParameterError;
@@ -103,6 +105,8 @@ fn results() -> Vec<String> {
         format!("implicit  {:016x?}", robot().map(f64::to_bits)),
     ];
     lines.extend(methods::all());
+    lines.extend(structure::all::<f64>());
+    lines.extend(structure::all::<f32>());
     lines
 }
 

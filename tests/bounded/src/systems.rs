@@ -69,3 +69,43 @@ pub(crate) struct SleighOnThePlane {
     pub(crate) m: f64,
     pub(crate) J: f64,
 }
+
+/// McLachlan and Perlmutter's contact oscillator, for discrete gradients and Taylor series.
+#[nonholonomic(
+    base { x, y, z }
+    lagrangian { (der(x)^2 + der(y)^2 + der(z)^2) / 2 - (x^2 + y^2 + z^2) / 2 - epsilon / 2 * x^2 * z^2 }
+    constraints { der(x) = -y * der(z); }
+    emit { discrete_gradient, taylor }
+)]
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Contact<T> {
+    pub(crate) epsilon: T,
+}
+
+/// The same on TQ, for the leapfrog method and the projections.
+#[nonholonomic(
+    base { x, y, z }
+    lagrangian { (der(x)^2 + der(y)^2 + der(z)^2) / 2 - (x^2 + y^2 + z^2) / 2 - epsilon / 2 * x^2 * z^2 }
+    constraints { der(x) = -y * der(z); }
+    formulation { projected }
+    conserved { total = (der(x)^2 + der(y)^2 + der(z)^2) / 2 + (x^2 + y^2 + z^2) / 2 + epsilon / 2 * x^2 * z^2; }
+    emit { leapfrog, invariants }
+)]
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct ContactOnTq<T> {
+    pub(crate) epsilon: T,
+}
+
+/// Suslov's problem, on a Lie algebra.
+#[nonholonomic(
+    basis { w[3] }
+    brackets so(3) { w }
+    lagrangian { sum(i in 0..3: I[i] * w[i]^2) / 2 }
+    constraints { w[2] = k * w[0]; }
+    emit { euler_poincare_suslov }
+)]
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Suslov<T> {
+    pub(crate) I: [T; 3],
+    pub(crate) k: T,
+}
