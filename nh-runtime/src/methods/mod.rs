@@ -30,6 +30,11 @@
 //! [`Controller`] of the step's length. Every explicit one is a method of fixed step too:
 //! `Dop853::fixed(h)`. Fixed steps may be summed [with compensation](Fixed::compensated).
 //!
+//! A step of fixed length by an explicit method takes the same number of instructions on every call, where the
+//! derivative does: with [`Fast`](crate::Fast) numbers as long as no angle is beyond 1.6 million radians (6400 in
+//! single precision), while the platform's sine has branches. Implicit methods and those that keep structure
+//! iterate, up to a bound: their cost varies from step to step.
+//!
 //! The methods of fixed step are also one pure function each, `Rk4::step(&system, t, dt, &state,
 //! &input)`, for a loop that keeps its own state and time. Where the system has a Jacobian,
 //! `Rk4::linearized_step` gives the [`Transition`] with it: the exact derivatives of the step. All

@@ -32,6 +32,37 @@ pub fn count(command: &[&str], profile: &Path, wanted: impl Fn(&str) -> bool) ->
     Ok(per_call(&text, wanted))
 }
 
+/// Instructions in this program, called with an argument, from each beginning of one function to that of
+/// another: their names as patterns, and how often they are called in turn.
+///
+/// # Errors
+/// What went wrong, in words.
+pub fn count_each(argument: &str, [first, second]: [&str; 2], calls: usize) -> Result<Vec<u64>, String> {
+    let program = std::env::current_exe().map_err(|error| error.to_string())?;
+    let folder = std::env::temp_dir().join(format!("nh_bench_{}", std::process::id()));
+    std::fs::create_dir_all(&folder).map_err(|error| error.to_string())?;
+    let status = Command::new("valgrind")
+        .args(["--tool=callgrind", "-q"])
+        .arg(format!("--callgrind-out-file={}", folder.join("profile").display()))
+        // writes what has been done since it did so last
+        .args([format!("--dump-before={first}"), format!("--dump-before={second}")])
+        .arg(program)
+        .arg(argument)
+        .status();
+    let read = |call: usize| {
+        let text = std::fs::read_to_string(folder.join(format!("profile.{call}"))).ok()?;
+        text.lines().find_map(|line| line.strip_prefix("summary: "))?.trim().parse().ok()
+    };
+    // every other profile is of what lies between
+    let counts: Option<Vec<u64>> = (1..=calls).map(|call| read(2 * call)).collect();
+    let _ = std::fs::remove_dir_all(&folder);
+    match status {
+        Err(error) => Err(format!("valgrind does not start: {error}")),
+        Ok(status) if !status.success() => Err(format!("valgrind gives up: {status}")),
+        Ok(_) => counts.ok_or_else(|| format!("callgrind has not written {calls} profiles")),
+    }
+}
+
 /// What a profile says of a function: its own instructions and those of its callees; how often it is
 /// called.
 #[derive(Default)]
