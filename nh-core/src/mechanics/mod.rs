@@ -13,6 +13,7 @@ mod gibbs_appell;
 mod hamiltonian;
 mod jacobian;
 mod kinetic_metric;
+mod lone_constraint;
 mod momentum;
 mod moving_energy;
 mod nonholonomic_connection;

@@ -2,6 +2,7 @@
 
 use super::euler_lagrange::LagrangianSystem;
 use super::factorisation::{Factorisation, submatrix};
+use super::lone_constraint::LoneConstraint;
 use super::orthogonal_constraints::Touching;
 use super::pair::Pair;
 use super::procedure::{Definition, Procedure};
@@ -224,6 +225,14 @@ impl SaddleEquations {
                     .zip(solved)
                     .map(|(a, value)| procedure.define(graph, &format!("lambda_{a}"), value))
                     .collect();
+                if let Some(lone) = self.lone(graph, &block) {
+                    let values = lone.accelerations(graph, procedure);
+                    for (alpha, value) in lone.members.iter().zip(values) {
+                        accelerations[*alpha] = value;
+                    }
+                    multipliers[block[0]] = named[0];
+                    continue;
+                }
                 let rows = pick(&reach);
                 for (alpha, acceleration) in accelerations.iter_mut().enumerate() {
                     let column: Vec<ExprId> = rows.iter().map(|row| row[alpha]).collect();
@@ -241,6 +250,15 @@ impl SaddleEquations {
             }
         }
         (accelerations, multipliers)
+    }
+
+    /// The only constraint of a block, where the level of accuracy asks for more than its multiplier.
+    fn lone(&self, graph: &Graph, block: &[usize]) -> Option<LoneConstraint> {
+        let [a] = block else { return None };
+        if graph.accuracy() == Accuracy::Fast {
+            return None;
+        }
+        LoneConstraint::of(graph, (&self.mass, &self.jacobian), (&self.force, &self.bias), *a)
     }
 
     /// ẏ and λ by numerical pivoting, whatever the matrices are.

@@ -11,18 +11,17 @@ impl Veselova {
     ) -> VeselovaState {
         _ = t;
         _ = input;
-        let free_z0 = ::nh_runtime::__private::Scalar::mul_add(
-            (self.I[1] - self.I[2]) * state.w[1],
-            state.w[2],
+        let e1 = ::nh_runtime::__private::Scalar::mul_add(
+            self.I[0],
             ::nh_runtime::__private::Scalar::mul_add(
-                -self.c[1],
-                state.g[2],
-                self.c[2] * state.g[1],
+                self.I[1],
+                state.g[2] * state.g[2],
+                self.I[2] * (state.g[1] * state.g[1]),
             ),
+            self.I[1] * self.I[2] * (state.g[0] * state.g[0]),
         );
-        let over_i_0 = 1.0 / self.I[0];
-        let e1 = over_i_0 * state.g[0];
-        let free_z0_2 = ::nh_runtime::__private::Scalar::mul_add(
+        let over_norm = 1.0 / e1;
+        let force = ::nh_runtime::__private::Scalar::mul_add(
             -((self.I[0] - self.I[2]) * state.w[0]),
             state.w[2],
             ::nh_runtime::__private::Scalar::mul_add(
@@ -31,9 +30,22 @@ impl Veselova {
                 self.c[0] * state.g[2],
             ),
         );
-        let over_i_1 = 1.0 / self.I[1];
-        let e2 = over_i_1 * state.g[1];
-        let free_z0_3 = ::nh_runtime::__private::Scalar::mul_add(
+        let force_2 = ::nh_runtime::__private::Scalar::mul_add(
+            (self.I[1] - self.I[2]) * state.w[1],
+            state.w[2],
+            ::nh_runtime::__private::Scalar::mul_add(
+                -self.c[1],
+                state.g[2],
+                self.c[2] * state.g[1],
+            ),
+        );
+        let moment = ::nh_runtime::__private::Scalar::mul_add(
+            -state.g[1],
+            force_2,
+            state.g[0] * force,
+        );
+        let turn = self.I[2] * over_norm * moment;
+        let force_3 = ::nh_runtime::__private::Scalar::mul_add(
             (self.I[0] - self.I[1]) * state.w[0],
             state.w[1],
             ::nh_runtime::__private::Scalar::mul_add(
@@ -42,18 +54,18 @@ impl Veselova {
                 self.c[1] * state.g[0],
             ),
         );
-        let over_i_2 = 1.0 / self.I[2];
-        let e3 = over_i_2 * state.g[2];
-        let e4 = ::nh_runtime::__private::Scalar::mul_add(
-            -free_z0_3,
-            e3,
-            -::nh_runtime::__private::Scalar::mul_add(free_z0_2, e2, free_z0 * e1),
-        )
-            / ::nh_runtime::__private::Scalar::mul_add(
-                state.g[2],
-                e3,
-                ::nh_runtime::__private::Scalar::mul_add(state.g[1], e2, state.g[0] * e1),
-            );
+        let moment_2 = ::nh_runtime::__private::Scalar::mul_add(
+            -state.g[2],
+            force_2,
+            state.g[0] * force_3,
+        );
+        let turn_2 = self.I[1] * over_norm * moment_2;
+        let moment_3 = ::nh_runtime::__private::Scalar::mul_add(
+            -state.g[2],
+            force,
+            state.g[1] * force_3,
+        );
+        let turn_3 = self.I[0] * over_norm * moment_3;
         VeselovaState {
             g: [
                 ::nh_runtime::__private::Scalar::mul_add(
@@ -73,20 +85,21 @@ impl Veselova {
                 ),
             ],
             w: [
-                (over_i_0
-                    * ::nh_runtime::__private::Scalar::mul_add(state.g[0], e4, free_z0)),
-                (over_i_1
-                    * ::nh_runtime::__private::Scalar::mul_add(
-                        state.g[1],
-                        e4,
-                        free_z0_2,
-                    )),
-                (over_i_2
-                    * ::nh_runtime::__private::Scalar::mul_add(
-                        state.g[2],
-                        e4,
-                        free_z0_3,
-                    )),
+                ::nh_runtime::__private::Scalar::mul_add(
+                    -state.g[2],
+                    turn_2,
+                    -(state.g[1] * turn),
+                ),
+                ::nh_runtime::__private::Scalar::mul_add(
+                    -state.g[2],
+                    turn_3,
+                    state.g[0] * turn,
+                ),
+                ::nh_runtime::__private::Scalar::mul_add(
+                    state.g[1],
+                    turn_3,
+                    state.g[0] * turn_2,
+                ),
             ],
         }
     }
