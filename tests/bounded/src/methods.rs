@@ -19,7 +19,7 @@ const SLEIGH: System = Sleigh { m: 1.0, J: 0.5, a: 0.3, b: 0.1, c: 0.02, J_w: 0.
 fn sleigh<T: Scalar>() -> Sleigh<T> {
     let Sleigh { m, J, a, b, c, J_w } = SLEIGH;
     let [m, J, a, b, c, J_w] = [m, J, a, b, c, J_w].map(T::from_f64);
-    Sleigh { m, J, a, b, c, J_w }
+    Sleigh { m, J, J_w, a, b, c }
 }
 
 const START: [f64; 5] = [-0.4, 0.0, 0.0, 0.15, -1.0];
@@ -88,7 +88,7 @@ fn controls<T: Entry + Bits>(lines: &mut Vec<String>) -> Option<()> {
     print("points, corrected", points.estimate.covariance.as_slice());
     let model = Sampled { system: sleigh::<T>(), start: number(0.0), dt: number(0.05) };
     let start = Vector5::from(START.map(number));
-    let weight = start.map(|x| x.abs());
+    let weight = start.map(Scalar::abs);
     let cost = Quadratic { goal: Vector5::zeros(), state: weight, input: seen, end: weight };
     let mut plan = Ilqr::<T, 5, 1, 20>::new(SMatrix::zeros());
     plan.solve(&model, &cost, &start, number(1e-4), 10).ok()?;
