@@ -5,7 +5,7 @@
 
 use super::step::{Program, Step, Value};
 use crate::algebra::Function;
-use crate::id::Id;
+use crate::id::{Id, SymbolId};
 
 /// Fuses every sum with a product that nothing else uses.
 ///
@@ -48,14 +48,18 @@ pub(super) fn fuse(mut program: Program) -> Program {
     program
 }
 
-/// A reciprocal that only one product uses becomes a division.
-pub(super) fn quotients(mut program: Program) -> Program {
+/// A reciprocal that only one product uses becomes a division, unless it is one of parameters that
+/// multiplies what varies: where a derivative is evaluated again and again, that is computed once.
+pub(super) fn quotients(mut program: Program, is_parameter: impl Fn(SymbolId) -> bool) -> Program {
     let uses = program.uses();
+    let fixed = program.fixed(is_parameter);
     for index in 0..program.steps.len() {
         let value = Value::from_index(index);
         let Step::Mul(a, b) = program.steps[value] else { continue };
         let divisor = |factor: Value| match program.steps[factor] {
-            Step::Recip(divisor) if uses[factor] == 1 => Some(divisor),
+            Step::Recip(divisor) if uses[factor] == 1 && (fixed[index] || !fixed[divisor.index()]) => {
+                Some(divisor)
+            }
             _ => None,
         };
         if let Some(divisor) = divisor(a) {
@@ -83,13 +87,5 @@ fn guarded(program: &Program) -> Vec<bool> {
 
 /// Which values are made of numbers alone: compilers fold them.
 pub(super) fn constants(program: &Program) -> Vec<bool> {
-    let mut constant: Vec<bool> = Vec::with_capacity(program.steps.len());
-    for step in &program.steps {
-        let folded = match step {
-            Step::Load(_) | Step::Call { .. } => false,
-            _ => step.operands().iter().all(|operand| constant[operand.index()]),
-        };
-        constant.push(folded);
-    }
-    constant
+    program.fixed(|_| false)
 }

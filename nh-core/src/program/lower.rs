@@ -43,7 +43,7 @@ pub(super) fn lower(arena: &Arena) -> Program {
     }
     let outputs = arena.outputs.iter().map(|output| lowering.value(*output)).collect();
     let program = Program { steps: lowering.steps, outputs, names: lowering.names };
-    let program = fuse(quotients(without_dead_steps(&program)));
+    let program = fuse(quotients(without_dead_steps(&program), |symbol| arena.parameters.contains(&symbol)));
     without_dead_steps(&absorb_signs(without_dead_steps(&program)))
 }
 
@@ -121,7 +121,7 @@ impl Lowering<'_> {
             },
             Nary::Sum(operands) => self.sum(operands),
             Nary::Product(factors) => self.product(factors),
-            Nary::Quotient(a, b) => self.push(Step::Div(self.value(*a), self.value(*b))),
+            Nary::Quotient(a, b) => self.quotient(*a, *b),
             Nary::Power(base, exponent) => self.power(self.value(*base), *exponent),
             Nary::Neg(a) => self.negative(self.value(*a)),
             Nary::Recip(a) => self.reciprocal(self.value(*a)),
@@ -169,6 +169,16 @@ impl Lowering<'_> {
             _ => Step::Neg(value),
         };
         self.push(step)
+    }
+
+    /// A divisor of parameters alone is inverted, once for all evaluations.
+    fn quotient(&mut self, numerator: Term, divisor: Term) -> Value {
+        let (above, below) = (self.value(numerator), self.value(divisor));
+        if self.fixed[divisor.index()] && !self.fixed[numerator.index()] {
+            let inverse = self.reciprocal(below);
+            return self.push(Step::Mul(above, inverse));
+        }
+        self.push(Step::Div(above, below))
     }
 
     fn reciprocal(&mut self, value: Value) -> Value {

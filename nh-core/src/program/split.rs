@@ -1,5 +1,6 @@
 //! A program in two parts: what depends on parameters alone, and the rest.
 
+use super::fuse::constants;
 use super::lower::without_dead_steps;
 use super::step::{Program, Step, Value};
 use crate::id::{Id, SymbolId, Table};
@@ -20,17 +21,8 @@ pub struct Split {
 #[must_use]
 pub fn split(program: &Program, parameters: &[SymbolId], free: usize) -> Split {
     // 1. what depends on parameters alone, and is more than a number
-    let (mut fixed, mut constant): (Vec<bool>, Vec<bool>) = (Vec::new(), Vec::new());
-    for step in &program.steps {
-        let all = |known: &[bool]| step.operands().iter().all(|operand| known[operand.index()]);
-        let (is_fixed, is_constant) = match step {
-            Step::Load(symbol) => (parameters.contains(symbol), false),
-            Step::Call { .. } => (false, false),
-            _ => (all(&fixed), all(&constant)),
-        };
-        fixed.push(is_fixed);
-        constant.push(is_constant);
-    }
+    let fixed = program.fixed(|symbol| parameters.contains(&symbol));
+    let constant = constants(program);
     // 2. of that, what the rest uses
     let mut border: BTreeMap<Value, SymbolId> = BTreeMap::new();
     let varying = program.steps.iter_ids().filter(|(value, _)| !fixed[value.index()]);

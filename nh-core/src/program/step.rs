@@ -151,6 +151,19 @@ impl Program {
         uses
     }
 
+    /// Which values are made of numbers and parameters alone.
+    pub(super) fn fixed(&self, is_parameter: impl Fn(SymbolId) -> bool) -> Vec<bool> {
+        let mut fixed: Vec<bool> = Vec::with_capacity(self.steps.len());
+        for step in &self.steps {
+            fixed.push(match step {
+                Step::Load(symbol) => is_parameter(*symbol),
+                Step::Call { .. } => false,
+                _ => step.operands().iter().all(|operand| fixed[operand.index()]),
+            });
+        }
+        fixed
+    }
+
     /// The symbols that are loaded, in the order of their first use.
     #[must_use]
     pub fn symbols(&self) -> Vec<SymbolId> {

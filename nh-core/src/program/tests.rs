@@ -393,3 +393,20 @@ fn a_form_that_cancels_has_the_larger_error() {
     let growth = error_growth(&programs);
     assert!(growth[0] <= 1.0 && growth[1] > 4.0, "{growth:?}");
 }
+
+#[test]
+fn what_varies_is_multiplied_by_reciprocals_of_parameters() {
+    let mut g = Graph::new();
+    let symbols = ["m", "l", "x", "y"].map(|name| g.new_symbol(name));
+    let [m, l, x, y] = symbols.map(|symbol| g.symbol(symbol));
+    let inertia = g.add(m, l);
+    let (by_parameters, by_state, fixed) = (g.div(x, inertia), g.div(x, y), g.div(m, l));
+    let outputs = vec![by_parameters, by_state, fixed];
+    let divisions = |parameters: &[SymbolId]| {
+        let program = schedule_grouping(&g, &Procedure::of(outputs.clone()), parameters);
+        let count = |is: fn(&Step) -> bool| program.steps.iter().filter(|step| is(step)).count();
+        (count(|step| matches!(step, Step::Div(..))), count(|step| matches!(step, Step::Recip(_))))
+    };
+    assert_eq!(divisions(&[]), (3, 0));
+    assert_eq!(divisions(&symbols[..2]), (2, 1));
+}

@@ -194,7 +194,7 @@ where
     T: ::nh_runtime::__private::Scalar,
 {
     /// What was derived from the declaration, as text.
-    pub const REPORT: &'static ::core::primitive::str = "Derived by hand.\n\nOperations per evaluation:\n  derivative: 3 additions, 2 multiplications, 3 multiply-adds, 3 divisions, 1 sin_cos, 2 functions\n  energy: 3 multiplications\n  velocity: no operations\n";
+    pub const REPORT: &'static ::core::primitive::str = "Derived by hand.\n\nOperations per evaluation:\n  derivative: 3 additions, 3 multiplications, 3 multiply-adds, 3 divisions, 1 sin_cos, 2 functions\n  energy: 3 multiplications\n  velocity: no operations\n";
     /// The time derivative of the state: the field `x` of the result is ẋ.
     #[must_use]
     #[inline(always)]
@@ -208,7 +208,7 @@ where
         let e1 = <T as ::nh_runtime::__private::Scalar>::from_f64(0.3333333333333333)
             * cos;
         let exp_q_0 = ::nh_runtime::__private::Scalar::exp(state.q[0]);
-        let force_1 = sin / self.r#type;
+        let force_1 = sin * ::nh_runtime::__private::Scalar::recip(self.r#type);
         let [a_w0, a_w2] = ::nh_runtime::__private::solve_pivoted::<
             T,
             2,

@@ -329,7 +329,7 @@ impl ::nh_runtime::__private::Observed for Sleigh {
 }
 impl Sleigh {
     /// What was derived from the declaration, as text.
-    pub const REPORT: &'static ::core::primitive::str = "Derived by hand.\n\nOperations per evaluation:\n  derivative: 6 multiplications, 2 multiply-adds, 1 division, 1 sin_cos\n  energy: 5 multiplications, 2 multiply-adds\n  velocity: no operations\n  outputs: 5 multiplications, 2 multiply-adds, 1 square root\n";
+    pub const REPORT: &'static ::core::primitive::str = "Derived by hand.\n\nOperations per evaluation:\n  derivative: 7 multiplications, 2 multiply-adds, 1 division, 1 sin_cos\n  energy: 5 multiplications, 2 multiply-adds\n  velocity: no operations\n  outputs: 5 multiplications, 2 multiply-adds, 1 square root\n";
     /// The time derivative of the state: the field `x` of the result is ẋ.
     #[must_use]
     #[inline(always)]
@@ -353,7 +353,7 @@ impl Sleigh {
                 -(m_a * state.v1),
                 state.omega,
                 input.torque,
-            ) / ::nh_runtime::__private::Scalar::mul_add(self.a, m_a, self.J),
+            ) * (1.0 / ::nh_runtime::__private::Scalar::mul_add(self.a, m_a, self.J)),
             v1: self.a * (state.omega * state.omega),
         }
     }

@@ -21,8 +21,7 @@ impl ::nh_runtime::__private::TaylorSeries for Sleigh {
         );
         let m_a = self.m * self.a;
         let e1 = m_a * state.v1;
-        let e2 = self.a * m_a + self.J;
-        let e3 = 1.0 / e2;
+        let e2 = 1.0 / (self.a * m_a + self.J);
         workspace.restart();
         if let ::core::option::Option::Some(slot) = series.first_mut() {
             *slot = *state;
@@ -31,7 +30,7 @@ impl ::nh_runtime::__private::TaylorSeries for Sleigh {
             state.omega,
             (state.v1 * cos_theta),
             (state.v1 * sin_theta),
-            (input.torque - e1 * state.omega) / e2,
+            ((input.torque - e1 * state.omega) * e2),
             (self.a * (state.omega * state.omega)),
         ];
         let mut k = <::core::primitive::f64 as ::nh_runtime::__private::Scalar>::ZERO;
@@ -55,48 +54,48 @@ impl ::nh_runtime::__private::TaylorSeries for Sleigh {
             }
             let sums = workspace.products();
             let squared = workspace.squares();
-            let e4 = k * state_k.theta;
+            let e3 = k * state_k.theta;
             let sin_theta_k = ::nh_runtime::__private::Scalar::mul_add(
-                e4,
+                e3,
                 cos_theta,
                 sums[0],
             ) * over_k;
             let cos_theta_k = -(::nh_runtime::__private::Scalar::mul_add(
-                e4,
+                e3,
                 sin_theta,
                 sums[1],
             ) * over_k);
-            let e5 = ::nh_runtime::__private::Scalar::mul_add(
+            let e4 = ::nh_runtime::__private::Scalar::mul_add(
                 state.v1,
                 cos_theta_k,
                 ::nh_runtime::__private::Scalar::mul_add(state_k.v1, cos_theta, sums[2]),
             );
-            let e6 = ::nh_runtime::__private::Scalar::mul_add(
+            let e5 = ::nh_runtime::__private::Scalar::mul_add(
                 state.v1,
                 sin_theta_k,
                 ::nh_runtime::__private::Scalar::mul_add(state_k.v1, sin_theta, sums[3]),
             );
-            let e7 = state_k.v1 * m_a;
-            let e8 = ::nh_runtime::__private::Scalar::mul_add(
+            let e6 = state_k.v1 * m_a;
+            let e7 = ::nh_runtime::__private::Scalar::mul_add(
                 e1,
                 state_k.omega,
-                ::nh_runtime::__private::Scalar::mul_add(e7, state.omega, sums[4]),
+                ::nh_runtime::__private::Scalar::mul_add(e6, state.omega, sums[4]),
             );
-            let e9 = -e8;
-            let e10 = e9 * e3;
+            let e8 = -e7;
+            let e9 = e8 * e2;
             let omega_squared_k = ::nh_runtime::__private::Scalar::mul_add(
                 (state.omega + state.omega),
                 state_k.omega,
                 squared[0],
             );
-            let e11 = omega_squared_k * self.a;
+            let e10 = omega_squared_k * self.a;
             workspace
                 .add(
                     [cos_theta_k, sin_theta_k, cos_theta_k, sin_theta_k, state_k.omega],
-                    [e4, e4, state_k.v1, state_k.v1, e7],
+                    [e3, e3, state_k.v1, state_k.v1, e6],
                     [state_k.omega],
                 );
-            rates = [state_k.omega, e5, e6, e10, e11];
+            rates = [state_k.omega, e4, e5, e9, e10];
         }
     }
 }

@@ -71,20 +71,20 @@ impl Robot {
         let e1 = state.psi1_dot - state.psi2_dot;
         let e2 = state.psi1_dot + state.psi2_dot;
         let e3 = ::nh_runtime::__private::Scalar::mul_add(
+            ::nh_runtime::__private::Scalar::mul_add(self.m1, 2.0, self.m0),
+            e2 * e2,
+            self.J * (e1 * e1) * (1.0 / (self.c * self.c)),
+        );
+        ::nh_runtime::__private::Scalar::mul_add(
             0.125 * (self.R * self.R),
-            ::nh_runtime::__private::Scalar::mul_add(
-                ::nh_runtime::__private::Scalar::mul_add(self.m1, 2.0, self.m0),
-                e2 * e2,
-                self.J * (e1 * e1) / (self.c * self.c),
-            ),
+            e3,
             0.5 * self.J2
                 * ::nh_runtime::__private::Scalar::mul_add(
                     state.psi2_dot,
                     state.psi2_dot,
                     state.psi1_dot * state.psi1_dot,
                 ),
-        );
-        e3
+        )
     }
     /// The Jacobian of the derivative by the state, and by the inputs: entry (i, j) of the first matrix
     /// is the derivative of component i of ẋ by component j of the state.

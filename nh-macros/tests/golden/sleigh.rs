@@ -22,7 +22,7 @@ impl Sleigh {
                 self.c,
             ),
             input.torque,
-        ) / ::nh_runtime::__private::Scalar::mul_add(self.a, m_a, self.J);
+        ) * (1.0 / ::nh_runtime::__private::Scalar::mul_add(self.a, m_a, self.J));
         let v_dot_1 = ::nh_runtime::__private::Scalar::mul_add(
             self.b,
             v_dot_0,

@@ -33,17 +33,17 @@ impl Snakeboard {
             ),
             -e2,
         ) * e3;
-        let v_dot_2 = 0.5 * input.steering / self.J1;
+        let v_dot_2 = 0.5 * input.steering * (1.0 / self.J1);
         SnakeboardState {
             x: state.u1 * cos_theta,
             y: state.u1 * sin_theta,
-            theta: -(state.u1 * e1 / self.l),
+            theta: state.u1 * e1 * (-1.0 / self.l),
             psi: state.dpsi,
             phi: state.dphi,
             u1: e4 * e1,
             dpsi: m_l
                 * ::nh_runtime::__private::Scalar::mul_add(-self.l, input.rotor, -e2)
-                * e3 / self.J0,
+                * e3 * (1.0 / self.J0),
             dphi: v_dot_2,
         }
     }
@@ -63,7 +63,7 @@ impl Snakeboard {
             -::nh_runtime::__private::Scalar::mul_add(
                 -(0.5 * self.m),
                 e1,
-                sin_phi * j0_dpsi / self.l,
+                sin_phi * j0_dpsi * (1.0 / self.l),
             ),
             e1,
             ::nh_runtime::__private::Scalar::mul_add(
@@ -185,7 +185,7 @@ impl Snakeboard {
                     0.0,
                     0.0,
                     (self.l * e8 * e12),
-                    (self.l * e13 / self.J0),
+                    (self.l * e13 * (1.0 / self.J0)),
                     0.0,
                 ],
                 [0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, d_v_dot_2],
