@@ -50,6 +50,20 @@ pub(crate) struct ContactOscillatorOnTq {
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct ChaoticQuartic;
 
+/// The same on TQ with its multiplier, for the leapfrog method.
+#[nonholonomic(
+    base { x, y[3], z[3] }
+    lagrangian {
+        (der(x)^2 + sum(i in 0..3: der(y[i])^2 + der(z[i])^2)) / 2
+            - (x^2 + dot(y, y) + dot(z, z) + sum(i in 0..3: y[i]^2 * z[i]^2) + z[0]^2 * z[1]^2) / 2
+    }
+    constraints { der(x) = -sum(i in 0..3: y[i] * der(z[i])); }
+    formulation { projected }
+    emit { leapfrog }
+)]
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct ChaoticQuarticOnTq;
+
 /// A heavy rigid body whose angular velocity stays orthogonal to its third axis.
 #[nonholonomic(
     base { g[3] }
