@@ -144,6 +144,23 @@ impl Graph {
         (0..columns).map(|column| matrix.iter().map(|row| row[column]).collect()).collect()
     }
 
+    /// The identity matrix.
+    pub fn identity(&mut self, size: usize) -> Matrix {
+        (0..size).map(|index| self.unit_vector(size, index)).collect()
+    }
+
+    /// A row of the identity matrix.
+    pub fn unit_vector(&mut self, size: usize, index: usize) -> Vec<ExprId> {
+        let (zero, one) = (self.zero(), self.one());
+        (0..size).map(|other| if other == index { one } else { zero }).collect()
+    }
+
+    /// The rows and columns of some indices.
+    #[must_use]
+    pub fn submatrix(matrix: &[Vec<ExprId>], indices: &[usize]) -> Matrix {
+        indices.iter().map(|i| indices.iter().map(|j| matrix[*i][*j]).collect()).collect()
+    }
+
     /// The determinant by expansion along the first row; meant for blocks of size up to four.
     pub fn small_determinant(&mut self, matrix: &[Vec<ExprId>]) -> ExprId {
         match matrix {

@@ -86,9 +86,7 @@ pub fn change_to_frame(
     // 1. Ψ and Φ
     let rank = algebroid.rank();
     let graph = &mut model.graph;
-    let (zero, one) = (graph.zero(), graph.one());
-    let unit = |i: usize, j: usize| if i == j { one } else { zero };
-    let identity: Matrix = (0..rank).map(|i| (0..rank).map(|j| unit(i, j)).collect()).collect();
+    let identity = graph.identity(rank);
     let mut sections = identity.clone();
     for (row, place) in rows.iter().zip(&places) {
         for (line, component) in sections.iter_mut().zip(row) {
@@ -195,12 +193,11 @@ pub fn spanned_distribution(
     }
     let rank = algebroid.rank();
     let graph = &mut model.graph;
-    let (zero, one) = (graph.zero(), graph.one());
     let mut basis: Matrix = Vec::new();
     for (symbol, _) in &spanning {
         let declared = algebroid.velocities.iter().position(|velocity| velocity == symbol);
         match (declared, new.iter().position(|velocity| velocity == symbol)) {
-            (Some(index), _) => basis.push((0..rank).map(|i| if i == index { one } else { zero }).collect()),
+            (Some(index), _) => basis.push(graph.unit_vector(rank, index)),
             (None, Some(index)) => basis.push(rows[index].clone()),
             (None, None) => {}
         }
@@ -219,7 +216,7 @@ pub fn spanned_distribution(
     }
     motion.named.extend(new.into_iter().zip(rows));
     let annihilator = annihilator(model, &basis, rank);
-    let drift = vec![zero; annihilator.len()];
+    let drift = vec![model.graph.zero(); annihilator.len()];
     let basis = Graph::transposed(&basis);
     let constraints = LinearConstraints { annihilator, drift };
     let independent = spanning.into_iter().map(|(symbol, _)| symbol).collect();

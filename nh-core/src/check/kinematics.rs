@@ -49,8 +49,7 @@ fn velocities(model: &Model) -> Vec<SymbolId> {
 /// E = TM with its coordinate frame.
 fn tangent(model: &mut Model) -> Motion {
     let n = model.coordinates.len();
-    let (zero, one) = (model.graph.zero(), model.graph.one());
-    let entries = (0..n).map(|i| (0..n).map(|j| if i == j { one } else { zero }).collect()).collect();
+    let entries = model.graph.identity(n);
     let anchor = Anchor { entries, coordinates: coordinates(model), rank: model.sections.len() };
     Motion {
         anchor,
@@ -190,10 +189,8 @@ fn inverted_coframe(model: &mut Model, rows: &[Located]) -> Result<Motion, Vec<V
         return Err(vec![not_square(model, coframe.len())]);
     }
     let graph = &mut model.graph;
-    let (zero, one) = (graph.zero(), graph.one());
     let n = coframe.len();
-    let identity: Matrix =
-        (0..n).map(|i| (0..n).map(|j| if i == j { one } else { zero }).collect()).collect();
+    let identity = graph.identity(n);
     let regular = match graph.generic_rank(&coframe) {
         Ok(rank) => rank == n,
         Err(why) => return Err(vec![undecided(model, &why)]),

@@ -75,10 +75,9 @@ pub fn orthonormal(
 /// Columns n_k / √d_k with n_k = e_k − Σ_{j<k} (n_jᵀ C e_k / d_j) n_j and d_k = n_kᵀ C e_k.
 fn gram_schmidt(graph: &mut Graph, metric: &Matrix) -> Matrix {
     let rank = metric.len();
-    let (zero, one) = (graph.zero(), graph.one());
     let (mut columns, mut squares): (Matrix, Vec<ExprId>) = (Matrix::new(), Vec::new());
     for (k, along) in metric.iter().enumerate() {
-        let mut column: Vec<ExprId> = (0..rank).map(|row| if row == k { one } else { zero }).collect();
+        let mut column = graph.unit_vector(rank, k);
         for (earlier, square) in columns.iter().zip(&squares) {
             let product = graph.inner_product(earlier, along);
             let share = graph.div(product, *square);

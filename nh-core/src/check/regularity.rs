@@ -104,7 +104,7 @@ pub fn singular_where(
     const SHORT: u64 = 300;
     let mut found: Vec<ExprId> = Vec::new();
     for block in uncoupled(graph, mass).into_iter().filter(|block| block.len() <= SIZE) {
-        let inner: Matrix = block.iter().map(|i| block.iter().map(|j| mass[*i][*j]).collect()).collect();
+        let inner = Graph::submatrix(mass, &block);
         if graph.operation_count(&inner.concat()) > SHORT {
             continue;
         }

@@ -27,11 +27,9 @@ pub(super) fn components(
     };
     // 1. what each name stands for: sections of the basis, other named sections, translations
     let rank = model.sections.len();
-    let (zero, one) = (model.graph.zero(), model.graph.one());
-    let mut known: Vec<(SymbolId, Vec<ExprId>)> = Vec::new();
-    for (index, section) in model.sections.iter().enumerate() {
-        known.push((section.symbol, (0..rank).map(|i| if i == index { one } else { zero }).collect()));
-    }
+    let units = model.graph.identity(rank);
+    let mut known: Vec<(SymbolId, Vec<ExprId>)> =
+        model.sections.iter().map(|section| section.symbol).zip(units).collect();
     known.extend(motion.named.iter().cloned());
     let present = model.graph.symbols_in(&[declared.value]);
     for (id, coordinate) in model.coordinates.clone().iter_ids() {
@@ -58,7 +56,7 @@ pub(super) fn components(
     }
     // 3. their combination
     let graph = &mut model.graph;
-    let mut section = vec![zero; rank];
+    let mut section = vec![graph.zero(); rank];
     for ((_, row), coefficient) in known.iter().zip(form.coefficients) {
         for (slot, entry) in section.iter_mut().zip(row) {
             let share = graph.mul(coefficient, *entry);

@@ -45,7 +45,7 @@ pub(super) fn derive(
     let judge = judge(proved);
     let (graph, algebroid) = (&mut proved.model.graph, &proved.system.algebroid);
     // 1. ∇ on E
-    let units = units(graph, metric.len());
+    let units = graph.identity(metric.len());
     let lowered = koszul(graph, algebroid, &metric, &units);
     let definite = judge(graph, &metric);
     let solve = |graph: &mut Graph, right: &[ExprId], procedure: &mut Procedure| {
@@ -96,12 +96,6 @@ fn metric(graph: &mut Graph, system: &LagrangianSystem) -> Result<Matrix, String
         metric.push(row);
     }
     Ok(metric)
-}
-
-/// The basis sections themselves.
-fn units(graph: &mut Graph, rank: usize) -> Matrix {
-    let (zero, one) = (graph.zero(), graph.one());
-    (0..rank).map(|i| (0..rank).map(|j| if i == j { one } else { zero }).collect()).collect()
 }
 
 /// Γ^c_{ab} from the covariant components.

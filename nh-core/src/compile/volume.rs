@@ -215,10 +215,9 @@ fn decide(proved: &mut Proved, derived: &Derived<'_>, derivative: &Procedure, di
     let mut base = anchor.coordinates.clone();
     if depends_on_time {
         base.push(time);
-        let (zero, one) = (graph.zero(), graph.one());
-        let last = fields.len() - 1;
-        for (index, field) in fields.iter_mut().enumerate() {
-            field.push(if index == last { one } else { zero });
+        let along_time = graph.unit_vector(fields.len(), fields.len() - 1);
+        for (field, rate) in fields.iter_mut().zip(along_time) {
+            field.push(rate);
         }
     }
     let hints = [on_base.as_slice(), &distribution.pivots].concat();
@@ -261,7 +260,7 @@ fn determinants(
         .collect();
     let mut determinants = Vec::new();
     for block in uncoupled(graph, &mass).into_iter().filter(|block| block.len() <= BLOCK) {
-        let inner: Matrix = block.iter().map(|i| block.iter().map(|j| mass[*i][*j]).collect()).collect();
+        let inner = Graph::submatrix(&mass, &block);
         let determinant = graph.small_determinant(&inner);
         determinants.push(determinant);
     }

@@ -57,10 +57,7 @@ impl ConstraintDistribution {
     pub fn unconstrained(graph: &mut Graph, velocities: &[SymbolId]) -> Self {
         let constraints = LinearConstraints { annihilator: Vec::new(), drift: Vec::new() };
         let rank = velocities.len();
-        let (zero, one) = (graph.zero(), graph.one());
-        let unit = |row: usize, column: usize| if row == column { one } else { zero };
-        let basis: Matrix =
-            (0..rank).map(|row| (0..rank).map(|column| unit(row, column)).collect()).collect();
+        let basis = graph.identity(rank);
         Self::spanned(graph, constraints, velocities.to_vec(), basis)
     }
 

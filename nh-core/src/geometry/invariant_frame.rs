@@ -43,16 +43,12 @@ impl InvariantFrame {
         hints: &[ExprId],
     ) -> Result<Self, String> {
         let rank = algebroid.rank();
-        let (zero, one) = (graph.zero(), graph.one());
-        let unit = |index: usize| -> Vec<ExprId> {
-            (0..rank).map(|i| if i == index { one } else { zero }).collect()
-        };
+        let identity = graph.identity(rank);
         // 1. sections of the basis that are invariant
         let mut frame: Vec<Option<Vec<ExprId>>> = Vec::new();
-        for index in 0..rank {
-            let section = unit(index);
-            let is_invariant = commutes(graph, algebroid, base, generators, &section);
-            frame.push(is_invariant.then_some(section));
+        for section in &identity {
+            let is_invariant = commutes(graph, algebroid, base, generators, section);
+            frame.push(is_invariant.then(|| section.clone()));
         }
         let kept: Vec<bool> = frame.iter().map(Option::is_some).collect();
         // 2. vertical ones in the place of the others
@@ -77,7 +73,6 @@ impl InvariantFrame {
         if graph.generic_rank(&sampled)? < rank {
             return Err("the invariant sections found are dependent".into());
         }
-        let identity: Matrix = (0..rank).map(unit).collect();
         let velocities = if is_orthogonal(graph, base, &sections) {
             sections
         } else {
@@ -320,7 +315,7 @@ fn at_identity(
 ) -> Vec<(usize, Vec<ExprId>)> {
     let of = |wanted: bool| (0..kept.len()).filter(move |index| kept[*index] == wanted);
     let order: Vec<usize> = of(false).chain(of(true)).collect();
-    let (r, zero, one) = (vertical.len(), graph.zero(), graph.one());
+    let (r, zero) = (vertical.len(), graph.zero());
     let free = || Factor { embedding: Vec::new(), parameters: group.to_vec() };
     let factor = base.factor(graph, group).unwrap_or_else(free);
     let mut embedding = Substitution::new(factor.embedding);
@@ -334,7 +329,7 @@ fn at_identity(
                 identity.apply(graph, component)
             })
             .collect();
-        let combined = (0..r).map(|other| if other == k { one } else { zero });
+        let combined = graph.unit_vector(r, k);
         rows.push(order.iter().map(|index| here[*index]).chain(combined).collect());
     }
     let Ok(sampled) = graph.matrix_in_field(&rows, |seed| FieldPoint::random(27_000 + seed)) else {
@@ -361,9 +356,8 @@ fn at_identity(
 
 /// Sections that are independent of those that are kept, in the place of the others.
 fn beside_kept(graph: &mut Graph, vertical: &Matrix, kept: &[bool]) -> Vec<(usize, Vec<ExprId>)> {
-    let (zero, one) = (graph.zero(), graph.one());
-    let unit = |index: usize| (0..kept.len()).map(|i| if i == index { one } else { zero }).collect();
-    let mut chosen: Matrix = (0..kept.len()).filter(|index| kept[*index]).map(unit).collect();
+    let units = graph.identity(kept.len()).into_iter().zip(kept);
+    let mut chosen: Matrix = units.filter(|(_, kept)| **kept).map(|(unit, _)| unit).collect();
     let mut open = (0..kept.len()).filter(|index| !kept[*index]);
     let mut found = Vec::new();
     for section in vertical {

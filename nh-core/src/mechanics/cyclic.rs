@@ -46,15 +46,14 @@ pub fn translation(graph: &mut Graph, anchor: &Anchor, coordinate: CoordId) -> O
     if graph.generic_rank(&anchor.entries) != Ok(anchor.rank) {
         return None;
     }
-    let (zero, one) = (graph.zero(), graph.one());
+    let unit = graph.unit_vector(n, coordinate.index());
     if n != anchor.rank {
         // more coordinates than sections: a section of the basis or none
-        let unit = |i: usize| if i == coordinate.index() { one } else { zero };
-        let moves = |alpha: &usize| (0..n).all(|i| anchor.entries[i][*alpha] == unit(i));
+        let moves = |alpha: &usize| anchor.entries.iter().zip(&unit).all(|(row, rate)| row[*alpha] == *rate);
         let alpha = (0..anchor.rank).find(moves)?;
-        return Some((0..anchor.rank).map(|beta| if beta == alpha { one } else { zero }).collect());
+        return Some(graph.unit_vector(anchor.rank, alpha));
     }
-    let right: Matrix = (0..n).map(|i| vec![if i == coordinate.index() { one } else { zero }]).collect();
+    let right: Matrix = unit.into_iter().map(|rate| vec![rate]).collect();
     let solution = graph.solve_linear(&anchor.entries, &right)?;
     Some(solution.values.into_iter().map(|row| graph.simplify(row[0])).collect())
 }

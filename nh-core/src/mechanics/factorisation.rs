@@ -5,11 +5,6 @@ use super::symmetric_solve::uncoupled;
 use crate::algebra::{Graph, Matrix, Rational};
 use crate::id::ExprId;
 
-/// Rows and columns of a block.
-pub(super) fn submatrix(matrix: &[Vec<ExprId>], block: &[usize]) -> Matrix {
-    block.iter().map(|i| block.iter().map(|j| matrix[*i][*j]).collect()).collect()
-}
-
 /// A block in the order of elimination: always that unknown next which is coupled with the fewest
 /// others left, so that few entries are filled in, and among these one with the shortest pivot.
 ///
@@ -58,7 +53,7 @@ impl Factorisation {
             .into_iter()
             .map(|block| {
                 let block = elimination_order(graph, matrix, &block);
-                let inner = submatrix(matrix, &block);
+                let inner = Graph::submatrix(matrix, &block);
                 let factors = Ldl::of(graph, &inner, procedure, name);
                 let is_small = block.len() <= SMALL && graph.operation_count(&inner.concat()) <= SIMPLIFIED;
                 let written_out = is_small.then(|| Ldl::of(graph, &inner, &mut Procedure::inline(), name));

@@ -207,11 +207,6 @@ fn metric(graph: &mut Graph, system: &LagrangianSystem, sections: &Matrix) -> Op
     constant.then_some(metric)
 }
 
-fn identity(graph: &mut Graph, rank: usize) -> Matrix {
-    let (zero, one) = (graph.zero(), graph.one());
-    (0..rank).map(|i| (0..rank).map(|j| if i == j { one } else { zero }).collect()).collect()
-}
-
 /// The lifts of least kinetic energy, C⁻¹Rᵀ (R C⁻¹Rᵀ)⁻¹.
 fn orthogonal(graph: &mut Graph, metric: &Matrix, rates: &Matrix) -> Option<Matrix> {
     if rates.is_empty() {
@@ -228,7 +223,7 @@ fn orthogonal(graph: &mut Graph, metric: &Matrix, rates: &Matrix) -> Option<Matr
         }
         gram.push(entries);
     }
-    let unit = identity(graph, rates.len());
+    let unit = graph.identity(rates.len());
     let inverse = graph.solve_linear(&gram, &unit)?.values;
     let mut lifts = Matrix::new();
     for weights in Graph::transposed(&inverse) {
@@ -247,7 +242,7 @@ fn orthogonal(graph: &mut Graph, metric: &Matrix, rates: &Matrix) -> Option<Matr
 fn along_pivots(graph: &mut Graph, rates: &Matrix, pivots: &[usize]) -> Option<Matrix> {
     let rank = rates.first().map_or(0, Vec::len);
     let matrix: Matrix = rates.iter().map(|row| pivots.iter().map(|a| row[*a]).collect()).collect();
-    let unit = identity(graph, rates.len());
+    let unit = graph.identity(rates.len());
     let inverse = graph.solve_linear(&matrix, &unit)?.values;
     let mut lifts = Matrix::new();
     for kappa in 0..rates.len() {

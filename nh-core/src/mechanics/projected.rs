@@ -1,7 +1,7 @@
 //! Lagrange–d'Alembert equations with multipliers on all of E: the saddle form, mathematics (9).
 
 use super::euler_lagrange::LagrangianSystem;
-use super::factorisation::{Factorisation, submatrix};
+use super::factorisation::Factorisation;
 use super::lone_constraint::LoneConstraint;
 use super::orthogonal_constraints::Touching;
 use super::pair::Pair;
@@ -208,7 +208,7 @@ impl SaddleEquations {
         for block in uncoupled(graph, &complement) {
             let pick = |rows: &Matrix| -> Matrix { block.iter().map(|a| rows[*a].clone()).collect() };
             let outer: Vec<ExprId> = block.iter().map(|a| right[*a]).collect();
-            let inner = submatrix(&complement, &block);
+            let inner = Graph::submatrix(&complement, &block);
             let solved = match inner.len() {
                 1 => Some(vec![graph.div(outer[0], inner[0][0])]),
                 // where the constraints are nearly dependent it loses as many digits again

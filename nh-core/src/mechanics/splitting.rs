@@ -130,9 +130,7 @@ impl Chaplygin {
         let m = rows.len();
         // 1. h_i = B_a (ρB)⁻¹
         let field = along(graph, &rows, distribution);
-        let (zero, one) = (graph.zero(), graph.one());
-        let identity: Matrix =
-            (0..m).map(|i| (0..m).map(|j| if i == j { one } else { zero }).collect()).collect();
+        let identity = graph.identity(m);
         let inverse = graph.solve_linear(&field, &identity)?.values;
         let mut lifts = Matrix::new();
         for i in 0..m {
@@ -166,7 +164,7 @@ impl Chaplygin {
         let mut pairs = curvature.iter();
         for i in 0..m {
             for j in i + 1..m {
-                let along = pairs.next().map_or(zero, |k| graph.inner_product(k, &momenta));
+                let along = pairs.next().map_or(graph.zero(), |k| graph.inner_product(k, &momenta));
                 let (first, second) = (graph.mul(along, speeds[j]), graph.mul(along, speeds[i]));
                 terms[i].push(graph.neg(first));
                 terms[j].push(second);

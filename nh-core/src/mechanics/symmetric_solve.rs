@@ -4,7 +4,7 @@
 //! in closed form; larger ones by an unrolled LDLᵀ factorisation where the matrix is definite, else
 //! with numerical pivoting.
 
-use super::factorisation::{Ldl, elimination_order, submatrix};
+use super::factorisation::{Ldl, elimination_order};
 use super::pair::Pair;
 use super::procedure::{Definition, Procedure};
 use crate::algebra::{Graph, Matrix};
@@ -54,7 +54,7 @@ pub fn solve_symmetric(
     let mut solution = right.to_vec();
     for block in uncoupled(graph, matrix) {
         let block = elimination_order(graph, matrix, &block);
-        let inner = submatrix(matrix, &block);
+        let inner = Graph::submatrix(matrix, &block);
         let outer: Vec<ExprId> = block.iter().map(|i| right[*i]).collect();
         let values = match (inner.len(), definiteness) {
             (1, _) => vec![graph.div(outer[0], inner[0][0])],

@@ -246,7 +246,7 @@ impl Search<'_> {
         unknown: Option<usize>,
         known: &[(TurnedPoint, [Vec<ExprId>; 2])],
     ) -> Option<Neighbour> {
-        let (zero, one) = (graph.zero(), graph.one());
+        let zero = graph.zero();
         let [first, second] = point.axes;
         let rank = self.velocities.len();
         let mut candidates: Vec<(ExprId, [ExprId; 2], [Vec<ExprId>; 2])> = known
@@ -255,8 +255,8 @@ impl Search<'_> {
             .map(|(turned, rows)| (turned.angle, turned.components, rows.clone()))
             .collect();
         if let (Some(x), Some(y)) = (self.values[first], self.values[second]) {
-            let unit = |axis: usize| (0..rank).map(|s| if s == axis { one } else { zero }).collect();
-            candidates.push((zero, [x, y], [unit(first), unit(second)]));
+            let units = [first, second].map(|axis| graph.unit_vector(rank, axis));
+            candidates.push((zero, [x, y], units));
         }
         let mut best: Option<Neighbour> = None;
         for (angle, components, rows) in candidates {

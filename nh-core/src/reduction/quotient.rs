@@ -174,9 +174,7 @@ fn frame(source: &mut Side, declared: &QuotientDecl) -> Result<Frame, Vec<Violat
     }
     let regular = source.rank_over_base(&rows) == Ok(rank);
     let graph = source.graph();
-    let (zero, one) = (graph.zero(), graph.one());
-    let unit = |i: usize, j: usize| if i == j { one } else { zero };
-    let identity: Matrix = (0..rank).map(|i| (0..rank).map(|j| unit(i, j)).collect()).collect();
+    let identity = graph.identity(rank);
     let inverse = if regular { graph.solve_linear(&rows, &identity) } else { None };
     let Some(inverse) = inverse else {
         let texts: Vec<String> = values.iter().map(|value| shown(source.graph(), *value)).collect();
