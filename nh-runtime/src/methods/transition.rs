@@ -5,6 +5,7 @@ use nalgebra::SMatrix;
 use super::explicit::Tableau;
 use super::fixed::Fixed;
 use super::implicit::ImplicitMidpoint;
+use super::implicit::newton::one_less;
 use crate::linear::Factors;
 use crate::{D, Dynamics, IntegrationError, Jacobian, Jet, Real, Scalar, State};
 
@@ -177,14 +178,7 @@ impl<T: Real> ImplicitMidpoint<T> {
         let middle = S::State::from_array(middle);
         let a = system.state_jacobian(t + half, &middle, input);
         let b = system.input_jacobian(t + half, &middle, input);
-        let unit = |i: usize, j: usize| if i == j { T::ONE } else { T::ZERO };
-        let (mut left, mut right) = (a, a);
-        for (i, (left, right)) in left.iter_mut().zip(&mut right).enumerate() {
-            for (j, (left, right)) in left.iter_mut().zip(right).enumerate() {
-                *left = unit(i, j) - half * *left;
-                *right = unit(i, j) + half * *right;
-            }
-        }
+        let (left, right) = (one_less::<D<N>, T>(half, a), one_less::<D<N>, T>(-half, a));
         let factors = Factors::<D<N>, T>::new(&left);
         let mut by_state = SMatrix::<T, N, N>::from([[T::ZERO; N]; N]);
         let mut by_input = SMatrix::<T, N, M>::from([[T::ZERO; N]; M]);

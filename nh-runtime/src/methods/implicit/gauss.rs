@@ -2,7 +2,7 @@
 
 use super::collocation::{Collocation, Matrices, weighted};
 use super::linearization::{Analytic, FiniteDifferences, Linearization};
-use super::midpoint::{MOST_ITERATIONS, SLOW, refusal, size};
+use super::newton::{MOST_ITERATIONS, SLOW, check_tolerance, refusal, size};
 use crate::arrays::displaced;
 use crate::methods::fixed::{self, Fixed, OneStep, Slopes};
 use crate::methods::{Arrival, Start};
@@ -155,7 +155,7 @@ where
     }
 
     fn check(&self) -> Result<(), IntegrationError> {
-        super::midpoint::check_tolerance(self.tolerance)
+        check_tolerance(self.tolerance)
     }
 
     fn increment(

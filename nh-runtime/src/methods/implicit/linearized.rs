@@ -3,7 +3,7 @@
 use super::collocation::{Collocation, Matrices, weighted};
 use super::gauss::{Gauss, GaussLegendre4, GaussLegendre6, Table, Work, settled};
 use super::linearization::Analytic;
-use super::midpoint::{MOST_ITERATIONS, size};
+use super::newton::{MOST_ITERATIONS, size};
 use super::radau5::{RADAU, Radau5};
 use crate::arrays::displaced;
 use crate::methods::{Start, Transition};

@@ -1,12 +1,13 @@
 //! The implicit midpoint rule.
 
 use super::linearization::{Analytic, FiniteDifferences, Linearization};
+use super::newton::{MOST_ITERATIONS, SLOW, check_tolerance, one_less, refusal, size};
 use crate::arrays::displaced;
 use crate::linear::Factors;
 use crate::methods::fixed::{self, Fixed, OneStep, Slopes};
-use crate::methods::{Arrival, Start, explain_non_finite};
+use crate::methods::{Arrival, Start};
 use crate::{
-    Dim, DimOf, Dynamics, IntegrationError, Jacobian, MatOf, Real, Scalar, ScalarOf, State, Statistics, VecOf,
+    Dim, DimOf, Dynamics, IntegrationError, Jacobian, MatOf, Real, ScalarOf, State, Statistics, VecOf,
 };
 
 /// The implicit midpoint rule x₁ = x₀ + h f(t₀ + h/2, (x₀ + x₁)/2) with fixed steps, of order 2.
@@ -181,59 +182,11 @@ impl<T: Real, J> Midpoint<T, J> {
     }
 }
 
-/// The iterations after which a solution is given up.
-pub(super) const MOST_ITERATIONS: u32 = 50;
-/// The ratio of successive corrections from which a new Jacobian is formed.
-pub(super) const SLOW: f64 = 0.1;
-
-/// Checks the tolerance of an iteration.
-pub(super) fn check_tolerance<T: Real>(tolerance: T) -> Result<(), IntegrationError> {
-    if tolerance > T::ZERO && tolerance.is_finite() {
-        return Ok(());
-    }
-    Err(IntegrationError::Setting {
-        setting: "tolerance",
-        value: tolerance.to_f64(),
-        expected: "positive and finite",
-    })
-}
-
-/// The largest correction, relative to 1 + |x| + |increment| in its component; NaN if there is one.
-pub(super) fn size<T: Real, V: AsRef<[T]>>(correction: &V, x: &V, increment: &V) -> T {
-    let scales = x.as_ref().iter().zip(increment.as_ref()).map(|(x, d)| T::ONE + x.abs() + d.abs());
-    let terms = correction.as_ref().iter().zip(scales);
-    terms.fold(T::ZERO, |largest, (c, scale)| largest.max(c.abs() / scale))
-}
-
 /// Whether a correction is below half a rounding unit in every component.
 fn vanishes<T: Real, V: AsRef<[T]>>(correction: &V, x: &V, increment: &V) -> bool {
     let half_unit = T::EPSILON * T::from_f64(0.5);
     let terms = correction.as_ref().iter().zip(x.as_ref().iter().zip(increment.as_ref()));
     terms.fold(true, |all, (c, (x, d))| all & (c.abs() <= half_unit * (x.abs() + d.abs())))
-}
-
-/// Explains why the equations were not solved.
-#[cold]
-pub(super) fn refusal<S: Dynamics>(
-    start: &Start<'_, S>,
-    length: ScalarOf<S>,
-    iterations: u32,
-    residual: ScalarOf<S>,
-    reached: &[ScalarOf<S>],
-) -> IntegrationError
-where
-    ScalarOf<S>: Real,
-{
-    let explained = explain_non_finite(start, length, reached);
-    if matches!(explained, IntegrationError::NonFiniteDerivative { .. }) {
-        return explained;
-    }
-    IntegrationError::NoConvergence {
-        time: start.time.to_f64(),
-        step: length.to_f64(),
-        iterations,
-        residual: residual.to_f64(),
-    }
 }
 
 /// The factorized matrix 1 − h/2 ∂f/∂x of Newton's iteration.
@@ -255,14 +208,7 @@ where
 {
     /// The matrix of a Jacobian.
     fn new(half: ScalarOf<S>, jacobian: MatOf<S>) -> Self {
-        let mut matrix = jacobian;
-        for (i, row) in matrix.as_mut().iter_mut().enumerate() {
-            for (j, entry) in row.as_mut().iter_mut().enumerate() {
-                let moved = half * *entry;
-                *entry = if i == j { ScalarOf::<S>::ONE - moved } else { -moved };
-            }
-        }
-        Self { half, factors: Factors::new(&matrix) }
+        Self { half, factors: Factors::new(&one_less::<DimOf<S>, _>(half, jacobian)) }
     }
 }
 

@@ -5,6 +5,7 @@ mod gauss;
 mod linearization;
 mod linearized;
 mod midpoint;
+pub(super) mod newton;
 mod radau5;
 mod rodas5p;
 

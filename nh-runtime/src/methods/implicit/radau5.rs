@@ -2,7 +2,7 @@
 
 use super::collocation::{Collocation, Matrices, weighted};
 use super::linearization::{Analytic, FiniteDifferences, Linearization};
-use super::midpoint::size;
+use super::newton::size;
 use crate::arrays::{displaced, first_non_finite, nought};
 use crate::dense::hermite;
 use crate::methods::adaptive::{Adaptive, Scheme, Trial};

@@ -8,12 +8,9 @@ use super::Symmetric;
 use crate::arrays::displaced;
 use crate::linear::Factors;
 use crate::methods::fixed::{self, Slopes};
-use crate::methods::{
-    Analytic, Arrival, FiniteDifferences, Fixed, Linearization, OneStep, Start, explain_non_finite,
-};
-use crate::{
-    AlmostPoisson, DimOf, Dynamics, IntegrationError, Real, Scalar, ScalarOf, State, Statistics, VecOf,
-};
+use crate::methods::implicit::newton::{check_tolerance, one_less, refusal, relative};
+use crate::methods::{Analytic, Arrival, FiniteDifferences, Fixed, Linearization, OneStep, Start};
+use crate::{AlmostPoisson, DimOf, Dynamics, IntegrationError, Real, ScalarOf, State, Statistics, VecOf};
 
 /// The method x₁ = x₀ + h Π(x̄) ∂̄E(x₀, x₁) with fixed steps, of order 2, x̄ being the mean of both ends
 /// and ∂̄E a midpoint discrete gradient of the energy,
@@ -189,7 +186,7 @@ impl<T: Real, J> Gonzalez<T, J> {
             change = displaced(&change, T::ONE, &correction);
             iterations += 1;
             statistics.iterations += 1;
-            let size = largest::<S>(&correction, step.x) / self.tolerance;
+            let size = relative(&correction, step.x) / self.tolerance;
             // a single correction that is not smaller says nothing: what is left would be of one sign
             // and add up over the steps
             let ratio = size / best;
@@ -213,7 +210,8 @@ impl<T: Real, J> Gonzalez<T, J> {
             }
             if !size.is_finite() || iterations >= MOST_ITERATIONS {
                 if !retry {
-                    return Err(refusal(step, &change, iterations, size));
+                    let reached = displaced(step.x, T::ONE, &change);
+                    return Err(refusal(step.start, step.h, iterations, size, reached.as_ref()));
                 }
                 (retry, matrix, best, stalled, iterations) = (false, None, most, 0, 0);
                 (settled, noise) = (None, None);
@@ -241,7 +239,7 @@ impl<T: Real, J> Gonzalez<T, J> {
         let square = change.as_ref().iter().fold(T::ZERO, |sum, c| c.mul_add(*c, sum));
         [(&direction, along), (change, square)].map(|(direction, along)| {
             let correction = factors.solve(&step.turned(change, direction));
-            round_off * largest::<S>(&correction, step.x) / along
+            round_off * relative(&correction, step.x) / along
         })
     }
 
@@ -260,51 +258,12 @@ impl<T: Real, J> Gonzalez<T, J> {
         let half = T::from_f64(0.5);
         let middle = displaced(step.x, half, change);
         let slope = step.start.derivative_at(step.start.time, middle);
-        let mut matrix =
+        let jacobian =
             self.linearization.state_jacobian(step.start, step.start.time, &middle, &slope, statistics);
         statistics.evaluations += 1;
         statistics.jacobians += 1;
         statistics.factorizations += 1;
-        for (i, row) in matrix.as_mut().iter_mut().enumerate() {
-            for (j, entry) in row.as_mut().iter_mut().enumerate() {
-                let moved = half * step.h * *entry;
-                *entry = if i == j { T::ONE - moved } else { -moved };
-            }
-        }
-        Factors::new(&matrix)
-    }
-}
-
-/// The largest correction, relative to 1 + |x|.
-fn largest<S: Dynamics>(correction: &VecOf<S>, x: &VecOf<S>) -> ScalarOf<S>
-where
-    ScalarOf<S>: Real,
-{
-    let pairs = correction.as_ref().iter().zip(x.as_ref());
-    pairs.fold(ScalarOf::<S>::ZERO, |largest, (c, x)| largest.max(c.abs() / (ScalarOf::<S>::ONE + x.abs())))
-}
-
-/// Explains why the equations were not solved.
-#[cold]
-fn refusal<S: AlmostPoisson>(
-    step: &Step<'_, '_, S>,
-    change: &VecOf<S>,
-    iterations: u32,
-    size: ScalarOf<S>,
-) -> IntegrationError
-where
-    ScalarOf<S>: Real,
-{
-    let reached = displaced(step.x, ScalarOf::<S>::ONE, change);
-    let explained = explain_non_finite(step.start, step.h, reached.as_ref());
-    if matches!(explained, IntegrationError::NonFiniteDerivative { .. }) {
-        return explained;
-    }
-    IntegrationError::NoConvergence {
-        time: step.start.time.to_f64(),
-        step: step.h.to_f64(),
-        iterations,
-        residual: size.to_f64(),
+        Factors::new(&one_less::<DimOf<S>, _>(half * step.h, jacobian))
     }
 }
 
@@ -325,14 +284,7 @@ where
     }
 
     fn check(&self) -> Result<(), IntegrationError> {
-        if self.tolerance > T::ZERO && self.tolerance.is_finite() {
-            return Ok(());
-        }
-        Err(IntegrationError::Setting {
-            setting: "tolerance",
-            value: self.tolerance.to_f64(),
-            expected: "positive and finite",
-        })
+        check_tolerance(self.tolerance)
     }
 
     fn increment(

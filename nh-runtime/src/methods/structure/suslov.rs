@@ -3,6 +3,7 @@
 use crate::arrays::{displaced, first_non_finite};
 use crate::linear::Factors;
 use crate::methods::fixed::{self, Slopes};
+use crate::methods::implicit::newton::relative;
 use crate::methods::{Arrival, Fixed, OneStep, Start, Symmetric, explain_non_finite};
 use crate::{Dim, DimOf, EulerPoincareSuslov, IntegrationError, Real, State, Statistics, VecOf};
 
@@ -80,8 +81,7 @@ where
             change = displaced(&change, T::ONE, &correction);
             statistics.evaluations += 1;
             statistics.iterations += 1;
-            let pairs = correction.as_ref().iter().zip(x.as_ref());
-            let size = pairs.fold(T::ZERO, |largest, (c, x)| largest.max(c.abs() / (T::ONE + x.abs())));
+            let size = relative(&correction, x);
             if size == T::ZERO || (size <= self.tolerance && size >= best * T::from_f64(0.5)) {
                 return Ok(change);
             }

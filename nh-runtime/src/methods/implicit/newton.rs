@@ -1,0 +1,70 @@
+//! What the iterations of implicit methods share: bounds, matrices, and what they say if they fail.
+
+use crate::methods::{Start, explain_non_finite};
+use crate::{Dim, Dynamics, IntegrationError, Real, Scalar, ScalarOf};
+
+/// The iterations after which a solution is given up.
+pub(super) const MOST_ITERATIONS: u32 = 50;
+/// The ratio of successive corrections from which a new Jacobian is formed.
+pub(super) const SLOW: f64 = 0.1;
+
+/// Checks the tolerance of an iteration.
+pub(in crate::methods) fn check_tolerance<T: Real>(tolerance: T) -> Result<(), IntegrationError> {
+    if tolerance > T::ZERO && tolerance.is_finite() {
+        return Ok(());
+    }
+    Err(IntegrationError::Setting {
+        setting: "tolerance",
+        value: tolerance.to_f64(),
+        expected: "positive and finite",
+    })
+}
+
+/// The largest correction, relative to 1 + |x| + |increment| in its component; NaN if there is one.
+pub(super) fn size<T: Real, V: AsRef<[T]>>(correction: &V, x: &V, increment: &V) -> T {
+    let scales = x.as_ref().iter().zip(increment.as_ref()).map(|(x, d)| T::ONE + x.abs() + d.abs());
+    let terms = correction.as_ref().iter().zip(scales);
+    terms.fold(T::ZERO, |largest, (c, scale)| largest.max(c.abs() / scale))
+}
+
+/// The largest correction, relative to 1 + |x| in its component; NaN if there is one.
+pub(in crate::methods) fn relative<T: Real, V: AsRef<[T]>>(correction: &V, x: &V) -> T {
+    let terms = correction.as_ref().iter().zip(x.as_ref());
+    terms.fold(T::ZERO, |largest, (c, x)| largest.max(c.abs() / (T::ONE + x.abs())))
+}
+
+/// 1 − h A.
+pub(in crate::methods) fn one_less<D: Dim, T: Scalar>(h: T, a: D::Mat<T>) -> D::Mat<T> {
+    let mut matrix = a;
+    for (i, row) in matrix.as_mut().iter_mut().enumerate() {
+        for (j, entry) in row.as_mut().iter_mut().enumerate() {
+            let moved = h * *entry;
+            *entry = if i == j { T::ONE - moved } else { -moved };
+        }
+    }
+    matrix
+}
+
+/// Explains why the equations were not solved.
+#[cold]
+pub(in crate::methods) fn refusal<S: Dynamics>(
+    start: &Start<'_, S>,
+    length: ScalarOf<S>,
+    iterations: u32,
+    residual: ScalarOf<S>,
+    reached: &[ScalarOf<S>],
+) -> IntegrationError
+where
+    ScalarOf<S>: Real,
+{
+    let explained = explain_non_finite(start, length, reached);
+    if matches!(explained, IntegrationError::NonFiniteDerivative { .. }) {
+        return explained;
+    }
+    IntegrationError::NoConvergence {
+        time: start.time.to_f64(),
+        step: length.to_f64(),
+        iterations,
+        residual: residual.to_f64(),
+    }
+}
