@@ -39,29 +39,31 @@ proved! {
     fn velocity(sleigh: &Sleigh<f64>, x: &Double) -> f64 { sleigh.velocity(0.0, x).v2 }
     fn jacobian(sleigh: &Sleigh<f64>, x: &Double, u: &SleighInput<f64>) -> f64 { sleigh.jacobian(0.0, x, u).0.sum() }
     fn valid(sleigh: &Sleigh<f64>) -> bool { sleigh.validate().is_ok() }
-    fn euler(sleigh: &Sleigh<f64>, x: &Double, u: &SleighInput<f64>) -> Double {
-        Euler::step(sleigh, 0.0, 0.01, x, u)
+    fn euler(sleigh: &Sleigh<f64>, dt: f64, x: &Double, u: &SleighInput<f64>) -> Double {
+        Euler::step(sleigh, 0.0, dt, x, u)
     }
-    fn runge_kutta(sleigh: &Sleigh<f64>, x: &Double, u: &SleighInput<f64>) -> Double {
-        Rk4::step(sleigh, 0.0, 0.01, x, u)
+    fn runge_kutta(sleigh: &Sleigh<f64>, dt: f64, x: &Double, u: &SleighInput<f64>) -> Double {
+        Rk4::step(sleigh, 0.0, dt, x, u)
     }
-    fn runge_kutta_single(sleigh: &Sleigh<f32>, x: &Single, u: &SleighInput<f32>) -> Single {
-        Rk4::step(sleigh, 0.0, 0.01, x, u)
+    fn runge_kutta_single(sleigh: &Sleigh<f32>, dt: f32, x: &Single, u: &SleighInput<f32>) -> Single {
+        Rk4::step(sleigh, 0.0, dt, x, u)
     }
     fn runge_kutta_fast(
-        sleigh: &Sleigh<Fast<f64>>, x: &SleighState<Fast<f64>>, u: &SleighInput<Fast<f64>>,
+        sleigh: &Sleigh<Fast<f64>>, dt: Fast<f64>, x: &SleighState<Fast<f64>>, u: &SleighInput<Fast<f64>>,
     ) -> SleighState<Fast<f64>> {
-        Rk4::step(sleigh, Fast(0.0), Fast(0.01), x, u)
+        Rk4::step(sleigh, Fast(0.0), dt, x, u)
     }
-    fn linearized(sleigh: &Sleigh<f64>, x: &Double, u: &SleighInput<f64>) -> f64 {
-        Rk4::linearized_step(sleigh, 0.0, 0.01, x, u).by_state.sum()
+    fn linearized(sleigh: &Sleigh<f64>, dt: f64, x: &Double, u: &SleighInput<f64>) -> f64 {
+        Rk4::linearized_step(sleigh, 0.0, dt, x, u).by_state.sum()
     }
     pub(crate) fn implicit_step(robot: &Robot, dt: f64, x: &RobotState, u: &RobotInput) -> Option<RobotState> {
         ImplicitMidpoint::step_with_jacobian(robot, 0.0, dt, x, u).ok()
     }
-    fn robot(robot: &Robot, x: &RobotState, u: &RobotInput) -> RobotState { Rk4::step(robot, 0.0, 0.01, x, u) }
-    fn projected(sleigh: &SleighOnThePlane, x: &SleighOnThePlaneState) -> SleighOnThePlaneState {
-        Rk4::step(sleigh, 0.0, 0.01, x, &())
+    fn robot(robot: &Robot, dt: f64, x: &RobotState, u: &RobotInput) -> RobotState {
+        Rk4::step(robot, 0.0, dt, x, u)
+    }
+    fn projected(sleigh: &SleighOnThePlane, dt: f64, x: &SleighOnThePlaneState) -> SleighOnThePlaneState {
+        Rk4::step(sleigh, 0.0, dt, x, &())
     }
     fn back_on_the_constraint(sleigh: &SleighOnThePlane, x: &SleighOnThePlaneState) -> bool {
         let mut x = *x;
@@ -96,10 +98,28 @@ proved! {
     fn plan(plan: &mut Plan, model: &Sampled<Sleigh<f64>, f64>, cost: &Cost, start: &Vector5<f64>) -> bool {
         plan.improve(model, cost, start).is_ok()
     }
-    fn loop_with_an_integrator(robot: &Robot, x: &RobotState) -> bool {
-        let mut sim = Integrator::new(robot, Rk4::new(0.01), 0.0, *x);
+    fn loop_with_an_integrator(robot: &Robot, dt: f64, end: f64, x: &RobotState) -> bool {
+        let mut sim = Integrator::new(robot, Rk4::new(dt), 0.0, *x);
         let stepped = sim.step().is_ok();
-        stepped & sim.advance_to(0.1).is_ok()
+        stepped & sim.advance_to(end).is_ok()
+    }
+    fn gauss(robot: &Robot, dt: f64, x: &RobotState, u: &RobotInput) -> bool {
+        GaussLegendre4::step(robot, 0.0, dt, x, u).is_ok()
+    }
+    fn gauss_of_order_six(robot: &Robot, dt: f64, x: &RobotState, u: &RobotInput) -> bool {
+        GaussLegendre6::step(robot, 0.0, dt, x, u).is_ok()
+    }
+    fn adaptive(robot: &Robot, tolerance: f64, end: f64, x: &RobotState) -> bool {
+        Integrator::new(robot, Dopri5::new().rtol(tolerance), 0.0, *x).advance_to(end).is_ok()
+    }
+    fn adaptive_of_order_eight(robot: &Robot, tolerance: f64, end: f64, x: &RobotState) -> bool {
+        Integrator::new(robot, Dop853::new().rtol(tolerance), 0.0, *x).advance_to(end).is_ok()
+    }
+    fn radau(robot: &Robot, tolerance: f64, end: f64, x: &RobotState) -> bool {
+        Integrator::new(robot, Radau5::new().rtol(tolerance), 0.0, *x).advance_to(end).is_ok()
+    }
+    fn rosenbrock(robot: &Robot, tolerance: f64, end: f64, x: &RobotState) -> bool {
+        Integrator::new(robot, Rodas5P::new().rtol(tolerance), 0.0, *x).advance_to(end).is_ok()
     }
 }
 
@@ -124,6 +144,8 @@ pub(crate) fn all() -> String {
     let (robot_x, robot_u) = black_box((RobotState::default(), RobotInput { right: 0.1, left: 0.2 }));
     let plane = black_box(SleighOnThePlane { m: 1.0, J: 0.2 });
     let plane_x = black_box(SleighOnThePlaneState { x_dot: 1.0, ..SleighOnThePlaneState::default() });
+    // hidden too, so that nothing is proved for one length alone
+    let (dt, end, tolerance) = black_box((0.01, 0.1, 1e-6));
     let results = [
         derivative(&sleigh, &x, &u).omega.is_finite(),
         derivative_single(&single, &single_x, &single_u).omega.is_finite(),
@@ -133,18 +155,24 @@ pub(crate) fn all() -> String {
         velocity(&sleigh, &x).is_finite(),
         jacobian(&sleigh, &x, &u).is_finite(),
         valid(&sleigh),
-        euler(&sleigh, &x, &u).x.is_finite(),
-        runge_kutta(&sleigh, &x, &u).x.is_finite(),
-        runge_kutta_single(&single, &single_x, &single_u).x.is_finite(),
-        runge_kutta_fast(&fast, &fast_x, &SleighInput { torque: Fast(0.1) }).x.0.is_finite(),
-        linearized(&sleigh, &x, &u).is_finite(),
-        implicit_step(&robot_system, black_box(0.01), &robot_x, &robot_u).is_some(),
-        robot(&robot_system, &robot_x, &robot_u).x.is_finite(),
-        projected(&plane, &plane_x).x.is_finite(),
+        euler(&sleigh, dt, &x, &u).x.is_finite(),
+        runge_kutta(&sleigh, dt, &x, &u).x.is_finite(),
+        runge_kutta_single(&single, black_box(0.01), &single_x, &single_u).x.is_finite(),
+        runge_kutta_fast(&fast, Fast(dt), &fast_x, &SleighInput { torque: Fast(0.1) }).x.0.is_finite(),
+        linearized(&sleigh, dt, &x, &u).is_finite(),
+        implicit_step(&robot_system, dt, &robot_x, &robot_u).is_some(),
+        robot(&robot_system, dt, &robot_x, &robot_u).x.is_finite(),
+        projected(&plane, dt, &plane_x).x.is_finite(),
         back_on_the_constraint(&plane, &plane_x),
         sine_and_cosine(Fast(black_box(1e7))).0.0.is_finite(),
         sine_and_cosine_single(Fast(black_box(1e7))).0.0.is_finite(),
-        loop_with_an_integrator(&robot_system, &robot_x),
+        loop_with_an_integrator(&robot_system, dt, end, &robot_x),
+        gauss(&robot_system, dt, &robot_x, &robot_u),
+        gauss_of_order_six(&robot_system, dt, &robot_x, &robot_u),
+        adaptive(&robot_system, tolerance, end, &robot_x),
+        adaptive_of_order_eight(&robot_system, tolerance, end, &robot_x),
+        radau(&robot_system, tolerance, end, &robot_x),
+        rosenbrock(&robot_system, tolerance, end, &robot_x),
     ];
     let controls = controls(&sleigh);
     let results = results.iter().chain(&controls);
