@@ -7,75 +7,120 @@
 use super::nary::{Arena, Nary, Term};
 use crate::algebra::{Function, Rational};
 use crate::id::Id;
+use rustc_hash::{FxHashMap, FxHashSet};
 use std::collections::BTreeMap;
 
 /// An angle as a combination of terms that are no sums.
 type Form = BTreeMap<Term, Rational>;
 
+/// An angle whose sine or cosine is needed.
+struct Angle {
+    term: Term,
+    form: Form,
+    /// How many sines and cosines are nested in it.
+    depth: usize,
+}
+
+/// A term, and whether it is subtracted.
+type Signed = (Term, bool);
+
 /// Replaces sines and cosines whose angles are sums or differences of two others.
 pub(super) fn share_angles(arena: &mut Arena) {
     let angles = angles(arena);
-    // 1. of other angles, the longest sums first
+    let wholes = from_other_angles(arena, &angles);
+    from_terms(arena, &angles, &wholes);
+}
+
+/// Takes angles from two others each, the longest sums first; those that were replaced.
+///
+/// The two are nested no deeper than the angle itself: none of them contains its sine, nor one that is
+/// taken from it.
+fn from_other_angles(arena: &mut Arena, angles: &[Angle]) -> Vec<Term> {
+    let mut with_form: FxHashMap<&Form, Vec<usize>> = FxHashMap::default();
+    for (index, angle) in angles.iter().enumerate() {
+        with_form.entry(&angle.form).or_default().push(index);
+    }
     let mut order: Vec<usize> = (0..angles.len()).collect();
-    order.sort_by_key(|index| std::cmp::Reverse(angles[*index].1.len()));
+    order.sort_by_key(|index| std::cmp::Reverse(angles[*index].form.len()));
     let mut is_part = vec![false; angles.len()];
     let mut is_whole = vec![false; angles.len()];
-    for &whole in &order {
+    for whole in order {
         if is_part[whole] {
             continue;
         }
-        let free = |index: &usize| *index != whole && !is_whole[*index];
+        let free = |index: &usize| {
+            *index != whole && !is_whole[*index] && angles[*index].depth <= angles[whole].depth
+        };
         let found = (0..angles.len()).filter(free).find_map(|first| {
-            let signs = [false, true];
-            let pairs =
-                (first..angles.len()).filter(free).flat_map(|second| signs.map(|minus| (second, minus)));
-            let mut sums =
-                pairs.flat_map(|(second, minus)| signs.map(|minus_first| (minus_first, second, minus)));
-            sums.find(|(minus_first, second, minus)| {
-                combination(&angles[first].1, *minus_first, &angles[*second].1, *minus) == angles[whole].1
-            })
-            .map(|(minus_first, second, minus)| (first, minus_first, second, minus))
+            let signs = [(false, false), (false, true), (true, false), (true, true)];
+            let others = signs.into_iter().flat_map(|(minus, minus_first)| {
+                let rest = combination(&angles[whole].form, minus, &angles[first].form, minus == minus_first);
+                let others = with_form.get(&rest).into_iter().flatten().copied();
+                others.map(move |second| (second, minus, minus_first))
+            });
+            let (second, minus, minus_first) =
+                others.filter(|(second, ..)| *second >= first && free(second)).min()?;
+            Some(((first, minus_first), (second, minus)))
         });
-        if let Some((first, minus_first, second, minus)) = found {
+        if let Some(((first, minus_first), (second, minus))) = found {
             is_whole[whole] = true;
             (is_part[first], is_part[second]) = (true, true);
-            replace(arena, angles[whole].0, (angles[first].0, minus_first), (angles[second].0, minus));
+            let parts = [(angles[first].term, minus_first), (angles[second].term, minus)];
+            replace(arena, angles[whole].term, parts);
         }
     }
-    // 2. of terms, if that makes fewer; none of them is written by others already
-    let wholes = angles.iter().zip(&is_whole).filter(|(_, is_whole)| **is_whole);
-    let wholes: Vec<Term> = wholes.map(|((angle, _), _)| *angle).collect();
-    let is_pair = |(angle, form): &&(Term, Form)| {
-        let is_free = !wholes.contains(angle) && form.keys().all(|term| !wholes.contains(term));
-        is_free && form.len() == 2 && form.values().all(|coefficient| coefficient.abs().is_one())
+    angles.iter().zip(is_whole).filter(|(_, is_whole)| *is_whole).map(|(angle, _)| angle.term).collect()
+}
+
+/// Takes sums of two terms from these, if that makes fewer angles; none of them is written by others already.
+fn from_terms(arena: &mut Arena, angles: &[Angle], wholes: &[Term]) {
+    let is_pair = |angle: &&Angle| {
+        let is_free = !wholes.contains(&angle.term) && angle.form.keys().all(|term| !wholes.contains(term));
+        is_free && angle.form.len() == 2 && angle.form.values().all(|coefficient| coefficient.abs().is_one())
     };
-    let pairs: Vec<&(Term, Form)> = angles.iter().filter(is_pair).collect();
-    let mut new: Vec<Term> = pairs.iter().flat_map(|(_, form)| form.keys().copied()).collect();
+    let pairs: Vec<&Angle> = angles.iter().filter(is_pair).collect();
+    let mut new: Vec<Term> = pairs.iter().flat_map(|angle| angle.form.keys().copied()).collect();
     new.sort_unstable();
     new.dedup();
-    new.retain(|term| angles.iter().all(|(angle, _)| angle != term));
+    new.retain(|term| angles.iter().all(|angle| angle.term != *term));
     if new.len() < pairs.len() {
-        for (angle, form) in pairs {
-            let parts: Vec<(Term, bool)> = form.iter().map(|(term, c)| (*term, c.is_negative())).collect();
+        for angle in pairs {
+            let parts: Vec<Signed> = angle.form.iter().map(|(term, c)| (*term, c.is_negative())).collect();
             if let [first, second] = *parts {
-                replace(arena, *angle, first, second);
+                replace(arena, angle.term, [first, second]);
             }
         }
     }
 }
 
 /// The angles whose sine or cosine is needed.
-fn angles(arena: &Arena) -> Vec<(Term, Form)> {
+fn angles(arena: &Arena) -> Vec<Angle> {
     let uses = arena.uses();
-    let mut angles: Vec<(Term, Form)> = Vec::new();
+    let depths = depths(arena);
+    let mut known: FxHashSet<Term> = FxHashSet::default();
+    let mut angles: Vec<Angle> = Vec::new();
     for term in Arena::live(&uses) {
-        if let Nary::Apply(Function::Sin | Function::Cos, angle) = arena.get(term)
-            && angles.iter().all(|(known, _)| known != angle)
+        if let Nary::Apply(Function::Sin | Function::Cos, angle) = *arena.get(term)
+            && known.insert(angle)
         {
-            angles.push((*angle, form(arena, *angle)));
+            angles.push(Angle { term: angle, form: form(arena, angle), depth: depths[angle.index()] });
         }
     }
     angles
+}
+
+/// How many sines and cosines are nested in each term.
+fn depths(arena: &Arena) -> Vec<usize> {
+    let mut depths = vec![0; arena.len()];
+    let mut operands = Vec::new();
+    for term in arena.operands_first(&arena.outputs) {
+        operands.clear();
+        arena.dependencies(term, &mut operands);
+        let inside = operands.iter().map(|operand| depths[operand.index()]).max().unwrap_or(0);
+        let own = matches!(arena.get(term), Nary::Apply(Function::Sin | Function::Cos, _));
+        depths[term.index()] = inside + usize::from(own);
+    }
+    depths
 }
 
 fn form(arena: &Arena, angle: Term) -> Form {
@@ -117,7 +162,7 @@ fn combination(a: &Form, minus_a: bool, b: &Form, minus_b: bool) -> Form {
 }
 
 /// Writes sine and cosine of `± a ± b` by those of a and b.
-fn replace(arena: &mut Arena, angle: Term, (a, minus_a): (Term, bool), (b, minus_b): (Term, bool)) {
+fn replace(arena: &mut Arena, angle: Term, [(a, minus_a), (b, minus_b)]: [Signed; 2]) {
     let [sin_a, cos_a, sin_b, cos_b] =
         [(Function::Sin, a), (Function::Cos, a), (Function::Sin, b), (Function::Cos, b)]
             .map(|(function, angle)| arena.intern(Nary::Apply(function, angle)));
@@ -141,7 +186,7 @@ fn replace(arena: &mut Arena, angle: Term, (a, minus_a): (Term, bool), (b, minus
     write(Function::Cos, [cos_a, cos_b], false, [sin_a, sin_b], minus_a == minus_b);
 }
 
-fn sorted(mut operands: [(Term, bool); 2]) -> Vec<(Term, bool)> {
+fn sorted(mut operands: [Signed; 2]) -> Vec<Signed> {
     operands.sort_unstable_by_key(|(term, _)| term.index());
     operands.to_vec()
 }

@@ -381,6 +381,25 @@ fn fast_code_takes_sines_of_sums_from_those_of_the_parts() {
 }
 
 #[test]
+fn no_sine_is_taken_from_angles_that_contain_it() {
+    let mut g = Graph::new();
+    let [x, y] = symbols(&mut g, ["x", "y"]);
+    let inner = g.sub(x, y);
+    let sine = g.sin(inner);
+    // their difference is the angle of the sine in both
+    let angles = [g.add(x, sine), g.add(y, sine)];
+    let outputs = angles.map(|angle| g.sin(angle)).to_vec();
+    g.set_accuracy(Accuracy::Fast);
+    let program = schedule(&g, &Procedure::of(outputs));
+    assert_well_formed(&program);
+    let found = interpret(&program, |symbol| [0.3, -1.1][symbol.index()]);
+    let sine = 1.4_f64.sin();
+    for (found, angle) in found.iter().zip([0.3 + sine, -1.1 + sine]) {
+        assert!((found - angle.sin()).abs() < 1e-15, "sin {angle}");
+    }
+}
+
+#[test]
 fn a_form_that_cancels_has_the_larger_error() {
     let mut g = Graph::new();
     let [x, y] = symbols(&mut g, ["x", "y"]);
