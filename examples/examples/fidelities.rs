@@ -49,59 +49,47 @@ struct Full {
     r: f64,
 }
 
-/// The same robot with the wheels eliminated by hand.
-#[nonholonomic(
-    base { x, y, theta }
-    basis { v, side, omega }
-    anchor {
-        der(x) = v * cos(theta) - side * sin(theta);
-        der(y) = v * sin(theta) + side * cos(theta);
-        der(theta) = omega;
-    }
-    lagrangian {
-        m / 2 * (v^2 + (side + l * omega)^2) + J / 2 * omega^2 + Jw / r^2 * (v^2 + c^2 * omega^2)
-    }
-    constraints { side = 0; }
-    forces { v: (torque_right + torque_left) / r; omega: c / r * (torque_right - torque_left); }
-    inputs { torque_right, torque_left }
-    assume { r > 0; }
-)]
-#[derive(Clone, Copy, Debug)]
-struct Reduced {
-    m: f64,
-    J: f64,
-    Jw: f64,
-    l: f64,
-    c: f64,
-    r: f64,
+/// The robot with the wheels eliminated by hand, declared with what else a fidelity says of it.
+macro_rules! without_wheels {
+    ($(#[doc = $doc:literal])* $Robot:ident, $($more:tt)*) => {
+        $(#[doc = $doc])*
+        #[nonholonomic(
+            base { x, y, theta }
+            basis { v, side, omega }
+            anchor {
+                der(x) = v * cos(theta) - side * sin(theta);
+                der(y) = v * sin(theta) + side * cos(theta);
+                der(theta) = omega;
+            }
+            lagrangian {
+                m / 2 * (v^2 + (side + l * omega)^2) + J / 2 * omega^2 + Jw / r^2 * (v^2 + c^2 * omega^2)
+            }
+            constraints { side = 0; }
+            forces { v: (torque_right + torque_left) / r; omega: c / r * (torque_right - torque_left); }
+            inputs { torque_right, torque_left }
+            assume { r > 0; }
+            $($more)*
+        )]
+        #[derive(Clone, Copy, Debug)]
+        struct $Robot {
+            m: f64,
+            J: f64,
+            Jw: f64,
+            l: f64,
+            c: f64,
+            r: f64,
+        }
+    };
 }
 
-/// What an estimator of speeds needs of it.
-#[nonholonomic(
-    base { x, y, theta }
-    basis { v, side, omega }
-    anchor {
-        der(x) = v * cos(theta) - side * sin(theta);
-        der(y) = v * sin(theta) + side * cos(theta);
-        der(theta) = omega;
-    }
-    lagrangian {
-        m / 2 * (v^2 + (side + l * omega)^2) + J / 2 * omega^2 + Jw / r^2 * (v^2 + c^2 * omega^2)
-    }
-    constraints { side = 0; }
-    forces { v: (torque_right + torque_left) / r; omega: c / r * (torque_right - torque_left); }
-    inputs { torque_right, torque_left }
-    assume { r > 0; }
-    track { v, omega }
-)]
-#[derive(Clone, Copy, Debug)]
-struct Speeds {
-    m: f64,
-    J: f64,
-    Jw: f64,
-    l: f64,
-    c: f64,
-    r: f64,
+without_wheels! {
+    /// All of it.
+    Reduced,
+}
+
+without_wheels! {
+    /// What an estimator of speeds needs of it.
+    Speeds, track { v, omega }
 }
 
 /// A pose that moves as the speeds command: there is no mass, and the inputs are accelerations.
