@@ -99,7 +99,9 @@ impl Resolver {
     ) -> Outcome<ExprId> {
         let limit = i64::from(limits::EXPONENT);
         match exponent.to_small() {
-            Some((n, d)) if n.abs() <= limit && d <= limit => self.product_of(at, &[(base, exponent)]),
+            Some((n, d)) if (-limit..=limit).contains(&n) && d <= limit => {
+                self.product_of(at, &[(base, exponent)])
+            }
             _ => {
                 let error = Diagnostic::new(written.extent, "this exponent is too large").way_out(format!(
                     "exponents are fractions with numerator and denominator of at most {limit}"

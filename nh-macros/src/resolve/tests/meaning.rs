@@ -196,6 +196,7 @@ fn calls_and_powers_are_checked() {
              `sign`, `min` and `max` are at home in `forces` and `outputs`"
         )
     };
+    let too_large = "this exponent is too large\nhelp: exponents are fractions with numerator and denominator of at most 1000";
     for (expression, message) in [
         ("m(x)", "`m` is not a function\nhelp: for a product write `m * (…)`".to_owned()),
         ("sine(x)", "unknown function `sine`\nhelp: did you mean `sin`?".to_owned()),
@@ -208,11 +209,8 @@ fn calls_and_powers_are_checked() {
              write a^b as `exp(b * ln(a))`, for a > 0"
                 .to_owned(),
         ),
-        (
-            "x^1001",
-            "this exponent is too large\nhelp: exponents are fractions with numerator and denominator of at most 1000"
-                .to_owned(),
-        ),
+        ("x^1001", too_large.into()),
+        ("x^(-9223372036854775808)", too_large.into()),
         ("abs(x)", smooth("abs")),
         ("max(x, m)", smooth("max")),
         (
