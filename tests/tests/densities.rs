@@ -136,6 +136,33 @@ struct RouthSphere {
     r: f64,
 }
 
+/// A particle kept at one speed (Gauss's thermostat), whose density has to be claimed: the constraint is
+/// not linear.
+#[nonholonomic(
+    base { x, y }
+    lagrangian { (der(x)^2 + der(y)^2) / 2 - g * y }
+    constraints { der(x)^2 + der(y)^2 = u^2; }
+    volume { exp(-g * y / u^2); }
+    emit { volume }
+)]
+#[derive(Clone, Copy, Debug)]
+struct Thermostat {
+    g: f64,
+    u: f64,
+}
+
+/// The same without gravity: nothing diverges, which needs no search.
+#[nonholonomic(
+    base { x, y }
+    lagrangian { (der(x)^2 + der(y)^2) / 2 }
+    constraints { der(x)^2 + der(y)^2 = u^2; }
+    emit { volume }
+)]
+#[derive(Clone, Copy, Debug)]
+struct Coasting {
+    u: f64,
+}
+
 /// Asserts that Σ ∂ᵢ(μ Fⁱ) = 0 at a point, by differences of fourth order.
 ///
 /// Their error falls by 16 where the step is halved: the difference of two is what it may be, and it has to
@@ -220,6 +247,10 @@ fn of_systems_without_identities() {
             |state| disk.volume_density(0.0, state),
             std::array::from_fn::<_, 8, _>(|_| draw()),
         );
+        let at: [f64; 4] = std::array::from_fn(|_| draw());
+        let thermostat = Thermostat { g: draw(), u: at[2].hypot(at[3]) };
+        assert_density(&thermostat, |state| thermostat.volume_density(0.0, state), at);
+        assert_eq!(Coasting { u: thermostat.u }.volume_density(0.0, &CoastingState::from(at)), 1.0);
     }
     assert!(
         Robot::REPORT.contains("; the density is not periodic in th, p1: no function of an angle"),

@@ -2,7 +2,9 @@
 
 use super::phase_space::{asked, not_differentiable, shortened, state, state_velocities};
 use super::{Proved, fence};
-use crate::algebra::{Echelon, FieldPoint, Function, Graph, Matrix, Node, Rational, Residue, Substitution};
+use crate::algebra::{
+    Echelon, FieldPoint, Function, Graph, Matrix, Node, Rational, Residue, Substitution, Verdict,
+};
 use crate::check;
 use crate::geometry::{ConstraintDistribution, Manifold};
 use crate::id::{ExprId, SymbolId};
@@ -41,9 +43,8 @@ pub(super) fn derive(
         // 2. a claimed density
         if let Some((claim, density)) = claim.and_then(|claim| Some((claim, claim.density?))) {
             let velocities = state_velocities(proved, derived);
-            let flow = Flow::of(&mut proved.model.graph, derivative, &proved.system, &velocities);
+            let mut flow = Flow::of(&mut proved.model.graph, derivative, &proved.system, &velocities);
             let manifold = manifold(proved, derived);
-            let mut flow = flow;
             let model = &mut proved.model;
             let broken =
                 check::claimed_density(model, &manifold, density, written_out, &mut flow, claim.origin);
@@ -183,7 +184,7 @@ fn decide(proved: &mut Proved, derived: &Derived<'_>, derivative: &Procedure, di
         Derived::Projected { .. } => {
             let graph = &mut proved.model.graph;
             match proved.constraints.generic_distribution(graph, &velocities) {
-                None => return Volume::Nonlinear,
+                None => return on_nonlinear_constraints(proved, derived, divergence),
                 Some(found) => {
                     local = found;
                     &local
@@ -237,6 +238,16 @@ fn decide(proved: &mut Proved, derived: &Derived<'_>, derivative: &Procedure, di
             Volume::Kept(density)
         }
         verdict => verdict,
+    }
+}
+
+/// The constraints leave no basis in which the divergence could be compared with a linear form: all that
+/// is seen is whether it vanishes.
+fn on_nonlinear_constraints(proved: &mut Proved, derived: &Derived<'_>, divergence: ExprId) -> Volume {
+    let manifold = manifold(proved, derived);
+    match manifold.zero_test(&mut proved.model.graph, divergence) {
+        Verdict::Zero => Volume::Kept(Vec::new()),
+        _ => Volume::Undecided("a density is looked for under linear constraints alone".into()),
     }
 }
 
