@@ -118,6 +118,16 @@ system! { Advected { A: f64 }
     constraints { w[2] = r * v; }
 }
 
+// A roller racer: with its handlebar straight it rolls without steering. D has no basis valid everywhere.
+system! { Racer { m: f64, J: f64, l: f64, d: f64 }
+    base { x, y, th, ph }
+    lagrangian { m / 2 * (der(x)^2 + der(y)^2) + J / 2 * (der(th)^2 + (der(th) + der(ph))^2) }
+    constraints {
+        cos(th) * der(y) = sin(th) * der(x);
+        cos(th + ph) * der(y) + (l * cos(ph) + d) * der(th) + d * der(ph) = sin(th + ph) * der(x);
+    }
+}
+
 /// A car: straight ahead it has no motion that turns it.
 #[nonholonomic(
     base { x, y, theta, delta }
@@ -187,6 +197,13 @@ fn reports() {
             [
                 "of a Chaplygin system: the anchor maps D one to one onto the rates of theta, delta where sin(delta) != 0",
                 "the declaration has a value only where cos(delta) != 0\n",
+            ],
+        ),
+        (
+            Racer::REPORT,
+            [
+                "formulation: projected",
+                "of a Chaplygin system: the anchor maps D one to one onto the rates of th, ph where sin(ph) != 0;",
             ],
         ),
         (

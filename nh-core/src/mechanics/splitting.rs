@@ -82,6 +82,24 @@ impl Splitting {
         along(graph, &rows, distribution)
     }
 
+    /// The constraints on V, whatever basis D has; `None` unless V is spanned by declared sections.
+    #[must_use]
+    pub fn constraints_on_vertical(
+        &self,
+        graph: &Graph,
+        system: &LagrangianSystem,
+        distribution: &ConstraintDistribution,
+    ) -> Option<Matrix> {
+        let rows = rows(&system.algebroid.anchor.entries, &self.coordinates);
+        let is_zero = |entry: &ExprId| graph.as_number(*entry).is_some_and(|number| number.is_zero());
+        let vertical: Vec<usize> = (0..system.algebroid.rank())
+            .filter(|section| rows.iter().all(|row| is_zero(&row[*section])))
+            .collect();
+        let on_vertical = |row: &Vec<ExprId>| vertical.iter().map(|section| row[*section]).collect();
+        (vertical.len() == self.vertical)
+            .then(|| distribution.constraints.annihilator.iter().map(on_vertical).collect())
+    }
+
     /// Whether ρ is an isomorphism from D to the tangent spaces: a Chaplygin system.
     #[must_use]
     pub fn is_chaplygin(&self) -> bool {

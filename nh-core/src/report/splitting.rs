@@ -33,11 +33,20 @@ pub(super) fn lines(proved: &mut Proved, derived: &Derived<'_>) -> (Option<Strin
     (Some(name), lines)
 }
 
-/// Where the projection of a Chaplygin system is singular all the same.
+/// Where the projection of a Chaplygin system is singular all the same: where constraints on V are
+/// dependent, or rates along a basis of D. The basis alone does not tell: where D meets V, its own
+/// coefficients may be infinite.
 fn not_onto(proved: &mut Proved, reduced: &Reduced) -> Vec<ExprId> {
     let Proved { model, facts, .. } = proved;
     let parameters: Vec<SymbolId> = model.parameters.iter().map(|parameter| parameter.symbol).collect();
-    let projection = reduced.splitting.projection(&mut model.graph, &reduced.system, &reduced.distribution);
+    let Reduced { system, distribution, splitting, .. } = reduced;
+    if let Some(on_vertical) = splitting.constraints_on_vertical(&model.graph, system, distribution) {
+        let found = singular_where(&mut model.graph, &on_vertical, &parameters, facts);
+        if !found.is_empty() {
+            return found;
+        }
+    }
+    let projection = splitting.projection(&mut model.graph, system, distribution);
     singular_where(&mut model.graph, &projection, &parameters, facts)
 }
 
