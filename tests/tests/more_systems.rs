@@ -26,6 +26,8 @@ mod rolling;
 mod time;
 #[path = "more_systems/trailers.rs"]
 mod trailers;
+#[path = "more_systems/wheels.rs"]
+mod wheels;
 
 /// How far a number may be off, relative to the largest of its kind. The states are ordinary ones.
 const ROUNDING: f64 = 1e-12;
