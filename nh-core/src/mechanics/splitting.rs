@@ -91,9 +91,8 @@ impl Splitting {
         distribution: &ConstraintDistribution,
     ) -> Option<Matrix> {
         let rows = rows(&system.algebroid.anchor.entries, &self.coordinates);
-        let is_zero = |entry: &ExprId| graph.as_number(*entry).is_some_and(|number| number.is_zero());
         let vertical: Vec<usize> = (0..system.algebroid.rank())
-            .filter(|section| rows.iter().all(|row| is_zero(&row[*section])))
+            .filter(|section| rows.iter().all(|row| graph.is_literal_zero(row[*section])))
             .collect();
         let on_vertical = |row: &Vec<ExprId>| vertical.iter().map(|section| row[*section]).collect();
         (vertical.len() == self.vertical)
