@@ -77,14 +77,33 @@ impl Residue {
         if self.0 == 0 {
             return None;
         }
+        let (_, inverse) = self.quotient(1);
+        u64::try_from(inverse.rem_euclid(i128::from(P))).ok().map(Self)
+    }
+
+    /// The rational number with numerator and denominator up to 2²⁰ that has this residue, if there is
+    /// one; there is no second. One residue in a million has one by chance.
+    #[must_use]
+    pub fn recognised(self) -> Option<Rational> {
+        const LARGEST: i64 = 1 << 20;
+        let (numerator, denominator) = self.quotient(LARGEST.into());
+        let [numerator, denominator] = [numerator, denominator].map(|n| i64::try_from(n).ok());
+        let denominator = denominator.filter(|n| n.abs() <= LARGEST)?;
+        Some(Rational::new(numerator?, denominator))
+    }
+
+    /// Numbers (r, s), r = s · self, with the first r ≤ `largest` of the extended Euclidean algorithm: both
+    /// are small if the residue is that of a quotient of small numbers (P. Wang, *A p-adic algorithm for
+    /// univariate partial fractions*, SYMSAC 1981).
+    fn quotient(self, largest: i128) -> (i128, i128) {
         let (mut r0, mut r1) = (i128::from(P), i128::from(self.0));
         let (mut s0, mut s1) = (0i128, 1i128);
-        while r1 != 0 {
+        while r1 > largest {
             let quotient = r0 / r1;
             (r0, r1) = (r1, r0 - quotient * r1);
             (s0, s1) = (s1, s0 - quotient * s1);
         }
-        u64::try_from(s0.rem_euclid(i128::from(P))).ok().map(Self)
+        (r1, s1)
     }
 
     /// The integer power; `None` for a negative power of zero.
@@ -190,6 +209,18 @@ mod tests {
         for prime in (2..61).filter(|n| (2..*n).all(|d| n % d != 0)) {
             assert!(Residue::of_word(prime).sqrt().is_some(), "{prime}");
         }
+    }
+
+    #[test]
+    fn small_fractions_are_recognised() {
+        for (numerator, denominator) in
+            [(0, 1), (1, 1), (-1, 2), (-72, 23), (999_983, 1_000_003), (1 << 20, 3)]
+        {
+            let number = Rational::new(numerator, denominator);
+            assert_eq!(Residue::of(&number).unwrap().recognised(), Some(number));
+        }
+        let chance = (0..1000).filter(|seed| Residue::mixed(*seed, 0).recognised().is_some()).count();
+        assert_eq!(chance, 0);
     }
 
     #[test]

@@ -61,6 +61,30 @@ impl Graph {
         Some(Solution { values, divisors, blocks: solved_blocks })
     }
 
+    /// Solves a system of equations of which some follow from the others; simplified. `None` if they do
+    /// not determine the unknowns.
+    pub fn solve_overdetermined(&mut self, matrix: &[Vec<ExprId>], right: &[ExprId]) -> Option<Vec<ExprId>> {
+        let rows = self.independent_rows(matrix).ok()?;
+        let solution = self.solve_by_rows(matrix, right, &rows)?;
+        Some(solution.into_iter().map(|value| self.simplify(value)).collect())
+    }
+
+    /// The same by given rows, as it comes.
+    pub fn solve_by_rows(
+        &mut self,
+        matrix: &[Vec<ExprId>],
+        right: &[ExprId],
+        rows: &[usize],
+    ) -> Option<Vec<ExprId>> {
+        if rows.len() != matrix.first().map_or(0, Vec::len) {
+            return None;
+        }
+        let square: Matrix = rows.iter().map(|row| matrix[*row].clone()).collect();
+        let right: Matrix = rows.iter().map(|row| vec![right[*row]]).collect();
+        let solution = self.solve_linear(&square, &right)?;
+        Some(solution.values.into_iter().map(|row| row[0]).collect())
+    }
+
     /// The right-hand side less the terms of unknowns already known.
     fn moved_over(
         &mut self,

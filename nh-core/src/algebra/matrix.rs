@@ -60,13 +60,34 @@ impl Echelon {
     /// A vector that the matrix sends to zero, normalised to 1 at the first free column.
     #[must_use]
     pub fn kernel_vector(&self, columns: usize) -> Option<Vec<Residue>> {
-        let free = (0..columns).find(|column| !self.pivots.contains(column))?;
-        let mut vector = vec![Residue::ZERO; columns];
-        vector[free] = Residue::ONE;
-        for (row, pivot) in self.rows.iter().zip(&self.pivots) {
-            vector[*pivot] = -row[free];
+        self.kernel(columns).next()
+    }
+
+    /// A basis of the vectors that the matrix sends to zero: one for each free column, 1 there.
+    pub fn kernel(&self, columns: usize) -> impl Iterator<Item = Vec<Residue>> {
+        let free = (0..columns).filter(|column| !self.pivots.contains(column));
+        free.map(move |free| {
+            let mut vector = vec![Residue::ZERO; columns];
+            vector[free] = Residue::ONE;
+            for (row, pivot) in self.rows.iter().zip(&self.pivots) {
+                vector[*pivot] = -row[free];
+            }
+            vector
+        })
+    }
+
+    /// The solution of linear equations, the column after the unknowns their right side, which is 0 at free
+    /// columns; `None` where they contradict each other.
+    #[must_use]
+    pub fn solution(&self, unknowns: usize) -> Option<Vec<Residue>> {
+        if self.pivots.contains(&unknowns) {
+            return None;
         }
-        Some(vector)
+        let mut solution = vec![Residue::ZERO; unknowns];
+        for (row, pivot) in self.rows.iter().zip(&self.pivots) {
+            solution[*pivot] = row[unknowns];
+        }
+        Some(solution)
     }
 }
 
@@ -135,6 +156,23 @@ impl Graph {
             rank = rank.max(Echelon::of(rows).rank());
         }
         Ok(rank)
+    }
+
+    /// The first columns of which all are combinations, at generic points.
+    ///
+    /// # Errors
+    /// The reason, where it cannot be decided.
+    pub fn independent_columns(&self, matrix: &[Vec<ExprId>]) -> Result<Vec<usize>, String> {
+        let rows = self.matrix_in_field(matrix, |seed| FieldPoint::random(3_000 + seed))?;
+        Ok(Echelon::of(rows).pivots)
+    }
+
+    /// The first rows of which all are combinations, at generic points.
+    ///
+    /// # Errors
+    /// The reason, where it cannot be decided.
+    pub fn independent_rows(&self, matrix: &[Vec<ExprId>]) -> Result<Vec<usize>, String> {
+        self.independent_columns(&Self::transposed(matrix))
     }
 
     /// The transpose.

@@ -4,7 +4,7 @@
 use super::dependence::dependent_rows;
 use super::evidence::shown;
 use super::kinematics::Motion;
-use crate::algebra::{Echelon, Facts, FieldPoint, Graph, Matrix, NotLinear};
+use crate::algebra::{Facts, Graph, Matrix, NotLinear};
 use crate::geometry::{Algebroid, ConstraintDistribution, LinearConstraints, Manifold};
 use crate::id::{ConstraintId, ExprId, Id, Origin, SectionId, SymbolId};
 use crate::model::Model;
@@ -47,9 +47,8 @@ impl Constraints {
     ) -> Option<ConstraintDistribution> {
         let linear = self.linear.as_ref()?;
         let rows = self.generic().restrict_matrix(graph, &linear.annihilator);
-        let sampled = graph.matrix_in_field(&rows, |seed| FieldPoint::random(16_000 + seed)).ok()?;
-        let dependent: Vec<SectionId> =
-            Echelon::of(sampled).pivots.into_iter().map(SectionId::from_index).collect();
+        let dependent = graph.independent_columns(&rows).ok()?;
+        let dependent: Vec<SectionId> = dependent.into_iter().map(SectionId::from_index).collect();
         ConstraintDistribution::solved_for(graph, linear.clone(), &dependent, velocities)
     }
 

@@ -2,7 +2,7 @@
 
 use super::constraints::name_of;
 use super::evidence::{listed, shown};
-use crate::algebra::{Echelon, FieldPoint, Graph, Matrix};
+use crate::algebra::{Graph, Matrix};
 use crate::geometry::Manifold;
 use crate::id::{ConstraintId, ExprId, Id};
 use crate::model::Model;
@@ -117,14 +117,7 @@ fn dependency(model: &mut Model, rows: &Matrix, drift: Option<&[ExprId]>, index:
 
 /// The coefficients c with Φ^index = Σ c_A Φ^A over earlier rows.
 fn combination(graph: &mut Graph, rows: &Matrix, index: usize) -> Option<Vec<ExprId>> {
-    let earlier = &rows[..index];
-    let sampled = graph.matrix_in_field(earlier, |seed| FieldPoint::random(8_000 + seed)).ok()?;
-    let columns = Echelon::of(sampled).pivots;
-    let matrix: Matrix =
-        columns.iter().map(|column| earlier.iter().map(|row| row[*column]).collect()).collect();
-    let right: Matrix = columns.iter().map(|column| vec![rows[index][*column]]).collect();
-    let solution = graph.solve_linear(&matrix, &right)?;
-    Some(solution.values.into_iter().map(|row| graph.simplify(row[0])).collect())
+    graph.solve_overdetermined(&Graph::transposed(&rows[..index]), &rows[index])
 }
 
 /// The first of some vectors that is a combination of those before it, and what there is to say.

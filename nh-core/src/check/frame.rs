@@ -3,7 +3,7 @@
 use super::dependence::dependent_columns;
 use super::evidence::{listed, shown};
 use super::kinematics::Motion;
-use crate::algebra::{Echelon, Facts, FieldPoint, Graph, Matrix, NotLinear, Substitution};
+use crate::algebra::{Facts, Graph, Matrix, NotLinear, Substitution};
 use crate::geometry::{Algebroid, ChangeOfBasis, ConstraintDistribution, LinearConstraints, Manifold};
 use crate::id::{ExprId, Id, Origin, SectionId, SymbolId};
 use crate::model::{ForceDirection, Formulation, FrameDecl, Model, Request, Section};
@@ -267,10 +267,7 @@ fn undetermined_reactions(model: &Model) -> Option<Violation> {
 /// Covectors that vanish on D, solved on components that are independent at most points.
 fn annihilator(model: &mut Model, spanning: &Matrix, rank: usize) -> Matrix {
     let graph = &mut model.graph;
-    let independent = graph
-        .matrix_in_field(spanning, |seed| FieldPoint::random(12_000 + seed))
-        .map(|rows| Echelon::of(rows).pivots)
-        .unwrap_or_default();
+    let independent = graph.independent_columns(spanning).unwrap_or_default();
     if independent.len() != spanning.len() {
         return Matrix::new();
     }

@@ -1,6 +1,6 @@
 //! The way back to an embedded base.
 
-use crate::algebra::{Echelon, FieldPoint, Graph, Matrix};
+use crate::algebra::Matrix;
 use crate::geometry::Manifold;
 use crate::id::ExprId;
 use crate::mechanics::{Definiteness, Procedure, solve_symmetric};
@@ -21,7 +21,8 @@ pub(super) fn embedding(model: &mut Model, base: &Manifold) -> Option<Embedding>
         .iter()
         .map(|function| coordinates.iter().map(|symbol| graph.partial(*function, *symbol)).collect())
         .collect();
-    let independent = independent_rows(graph, &gradients, base);
+    // identities that follow from others take no part
+    let independent = base.independent_rows(graph, &gradients).unwrap_or_default();
     let rows: Matrix = independent.iter().map(|row| gradients[*row].clone()).collect();
     let residuals: Vec<ExprId> = independent.iter().map(|row| functions[*row]).collect();
     // F Fᵀ μ = f
@@ -47,14 +48,4 @@ pub(super) fn embedding(model: &mut Model, base: &Manifold) -> Option<Embedding>
         })
         .collect();
     Some(Embedding { texts, residual: Procedure::of(functions), step })
-}
-
-/// Identities whose gradients are independent on the base: the others follow from them.
-fn independent_rows(graph: &mut Graph, gradients: &Matrix, base: &Manifold) -> Vec<usize> {
-    let restricted = base.restrict_matrix(graph, gradients);
-    let columns = Graph::transposed(&restricted);
-    graph
-        .matrix_in_field(&columns, |seed| FieldPoint::random(15_000 + seed))
-        .map(|rows| Echelon::of(rows).pivots)
-        .unwrap_or_default()
 }

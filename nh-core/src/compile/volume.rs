@@ -132,11 +132,7 @@ fn correction(proved: &mut Proved, derivative: &Procedure) -> Option<ExprId> {
         })
         .collect();
     // identities that follow from others say nothing more
-    let restricted = proved.base.restrict_matrix(graph, &slopes);
-    let sampled = graph
-        .matrix_in_field(&Graph::transposed(&restricted), |seed| FieldPoint::random(25_000 + seed))
-        .ok()?;
-    let independent = Echelon::of(sampled).pivots;
+    let independent = proved.base.independent_rows(graph, &slopes).ok()?;
     slopes = independent.iter().map(|row| slopes[*row].clone()).collect();
     changes = independent.iter().map(|row| changes[*row].clone()).collect();
     let (at_slopes, at_changes) =

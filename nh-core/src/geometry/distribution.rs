@@ -2,7 +2,7 @@
 
 use super::algebroid::Algebroid;
 use super::manifold::Manifold;
-use crate::algebra::{Derivation, Echelon, FieldPoint, Graph, Matrix, Solution, Substitution, Verdict};
+use crate::algebra::{Derivation, Graph, Matrix, Solution, Substitution, Verdict};
 use crate::id::{ExprId, Id, SectionId, SymbolId};
 
 /// Constraints that are linear or affine in the velocities: Φ^A_α(t, x) y^α + b^A(t, x) = 0.
@@ -207,13 +207,7 @@ impl ConstraintDistribution {
 
     /// The components along the B_a of a section that lies in D.
     pub fn components(&self, graph: &mut Graph, section: &[ExprId]) -> Option<Vec<ExprId>> {
-        let columns = Graph::transposed(&self.basis);
-        let sampled = graph.matrix_in_field(&columns, |seed| FieldPoint::random(17_000 + seed)).ok()?;
-        let rows = Echelon::of(sampled).pivots;
-        let matrix: Matrix = rows.iter().map(|row| self.basis[*row].clone()).collect();
-        let right: Matrix = rows.iter().map(|row| vec![section[*row]]).collect();
-        let solution = graph.solve_linear(&matrix, &right)?;
-        Some(solution.values.into_iter().map(|row| graph.simplify(row[0])).collect())
+        graph.solve_overdetermined(&self.basis, section)
     }
 
     /// The same D with the dependent velocities solved for one after the other, each in terms of

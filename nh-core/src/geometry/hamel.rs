@@ -2,7 +2,7 @@
 
 use super::anchor::Anchor;
 use super::structure::StructureFunctions;
-use crate::algebra::{Derivation, Echelon, FieldPoint, Graph, Matrix};
+use crate::algebra::{Derivation, Graph, Matrix};
 use crate::id::{ExprId, Id, SectionId, SymbolId};
 
 /// `[ρ_α, ρ_β]` as vector fields on M: `ρ^j_α ∂_jρ^i_β − ρ^j_β ∂_jρ^i_α`, the left side of
@@ -33,9 +33,7 @@ pub fn from_injective_anchor(
     anchor: &Anchor,
     rank: usize,
 ) -> Result<Option<StructureFunctions>, String> {
-    let transposed = Graph::transposed(&anchor.entries);
-    let at_point = graph.matrix_in_field(&transposed, |seed| FieldPoint::random(3_000 + seed))?;
-    let independent = Echelon::of(at_point).pivots;
+    let independent = graph.independent_rows(&anchor.entries)?;
     if independent.len() < rank || anchor.entries.is_empty() {
         return Ok((rank == 0).then(|| StructureFunctions::commuting(graph, 0)));
     }

@@ -114,10 +114,8 @@ fn commutes(
 
 /// Generators that are independent at generic points, and span the same.
 fn independent(graph: &mut Graph, base: &Manifold, generators: &[Vec<ExprId>]) -> Result<Matrix, String> {
-    let columns = base.restrict_matrix(graph, &Graph::transposed(generators));
-    let sampled = graph.matrix_in_field(&columns, |seed| FieldPoint::random(24_000 + seed))?;
-    let pivots = Echelon::of(sampled).pivots;
-    Ok(pivots.into_iter().map(|index| generators[index].clone()).collect())
+    let independent = base.independent_rows(graph, generators)?;
+    Ok(independent.into_iter().map(|index| generators[index].clone()).collect())
 }
 
 /// C^a_{bc} of the generators: entry `[b][c][a]`.
@@ -278,29 +276,8 @@ fn solutions(
             }
         }
     }
-    let echelon = Echelon::of(equations);
-    let free: Vec<usize> = (0..r * m).filter(|column| !echelon.pivots.contains(column)).collect();
-    let mut found = Vec::new();
-    for column in free {
-        let mut vector = vec![Residue::ZERO; r * m];
-        vector[column] = Residue::ONE;
-        for (row, pivot) in echelon.rows.iter().zip(&echelon.pivots) {
-            vector[*pivot] = -row[column];
-        }
-        found.extend(vector.into_iter().map(small).collect::<Option<Vec<Rational>>>());
-    }
-    Ok(found)
-}
-
-/// The rational number with a small numerator and denominator of a residue.
-fn small(residue: Residue) -> Option<Rational> {
-    const LARGEST: u64 = 1 << 20;
-    (1..=12_i64).find_map(|denominator| {
-        let numerator = residue * Residue::of_word(denominator.unsigned_abs());
-        let of = |word: u64| i64::try_from(word).ok().filter(|_| word < LARGEST);
-        let numerator = of(numerator.word()).or_else(|| of((-numerator).word()).map(|n| -n))?;
-        Some(Rational::new(numerator, denominator))
-    })
+    let recognised = |vector: Vec<Residue>| vector.into_iter().map(Residue::recognised).collect();
+    Ok(Echelon::of(equations).kernel(r * m).filter_map(recognised).collect())
 }
 
 /// The combinations that are sections of the basis where the coordinates along the group vanish, each
@@ -338,7 +315,8 @@ fn at_identity(
     let echelon = Echelon::of(sampled);
     let mut found = Vec::new();
     for (row, pivot) in echelon.rows.iter().zip(&echelon.pivots) {
-        let weights: Option<Vec<Rational>> = row[kept.len()..].iter().map(|weight| small(*weight)).collect();
+        let weights: Option<Vec<Rational>> =
+            row[kept.len()..].iter().map(|weight| weight.recognised()).collect();
         let (Some(position), Some(weights)) = (order.get(*pivot), weights) else {
             return beside_kept(graph, vertical, kept);
         };

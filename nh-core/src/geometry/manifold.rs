@@ -88,6 +88,15 @@ impl Manifold {
         matrix.iter().map(|row| row.iter().map(|entry| substitution.apply(graph, *entry)).collect()).collect()
     }
 
+    /// The first rows of which all are combinations, at generic points of the manifold.
+    ///
+    /// # Errors
+    /// The reason, where it cannot be decided.
+    pub fn independent_rows(&self, graph: &mut Graph, matrix: &[Vec<ExprId>]) -> Result<Vec<usize>, String> {
+        let restricted = self.restrict_matrix(graph, matrix);
+        graph.independent_rows(&restricted)
+    }
+
     /// Whether a function vanishes on the manifold.
     pub fn zero_test(&self, graph: &mut Graph, function: ExprId) -> Verdict {
         let restricted = self.restrict(graph, function);

@@ -96,15 +96,7 @@ fn sampled_coefficients(
         let start = 14_000 + 64 * sample;
         rows.extend(graph.matrix_in_field(&conditions, |seed| common_point(start + seed, parameters)).ok()?);
     }
-    let echelon = Echelon::of(rows);
-    if echelon.pivots.contains(&candidates.len()) {
-        return None;
-    }
-    let mut solution = vec![Residue::ZERO; candidates.len()];
-    for (row, pivot) in echelon.rows.iter().zip(&echelon.pivots) {
-        solution[*pivot] = row[candidates.len()];
-    }
-    Some(solution)
+    Echelon::of(rows).solution(candidates.len())
 }
 
 /// The parameters that the drift carries as factors, and 1.
@@ -137,13 +129,8 @@ fn recognised(
     for scale in scales {
         let value = graph.evaluate_in_field(&[*scale], &common_point(14_000, parameters)).ok()?[0];
         let ratio = coefficient * value.inverse()?;
-        for denominator in 1..=12 {
-            for numerator in -12..=12 {
-                let candidate = Rational::new(numerator, denominator);
-                if Residue::of(&candidate) == Some(ratio) {
-                    return Some(graph.scale(candidate, *scale));
-                }
-            }
+        if let Some(multiple) = ratio.recognised() {
+            return Some(graph.scale(multiple, *scale));
         }
     }
     None

@@ -4,7 +4,7 @@
 use super::euler_lagrange::LagrangianSystem;
 use super::kinetic_metric::kinetic_metric;
 use super::splitting::{Splitting, along, rows};
-use crate::algebra::{Echelon, Facts, FieldPoint, Graph, Matrix, Node};
+use crate::algebra::{Facts, Graph, Matrix, Node};
 use crate::geometry::{Algebroid, ConstraintDistribution};
 use crate::id::{CoordId, ExprId, SymbolId};
 
@@ -132,8 +132,8 @@ fn independent_rows(graph: &Graph, field: &Matrix, columns: &Matrix, lifted: &[u
     let mut order: Vec<usize> = (0..field.len()).collect();
     order.sort_by_key(|row| field[*row].iter().filter(|entry| graph.as_number(**entry).is_none()).count());
     let along: Matrix = lifted.iter().map(|a| order.iter().map(|row| columns[*a][*row]).collect()).collect();
-    let sampled = graph.matrix_in_field(&along, |seed| FieldPoint::random(19_000 + seed)).ok()?;
-    let mut chosen: Vec<usize> = Echelon::of(sampled).pivots.into_iter().map(|pivot| order[pivot]).collect();
+    let independent = graph.independent_columns(&along).ok()?;
+    let mut chosen: Vec<usize> = independent.into_iter().map(|place| order[place]).collect();
     chosen.sort_unstable();
     Some(chosen)
 }

@@ -2,7 +2,7 @@
 //! the classification of reduced systems, CM section 4.2.
 
 use super::euler_lagrange::LagrangianSystem;
-use crate::algebra::{Echelon, FieldPoint, Graph, Matrix, Substitution};
+use crate::algebra::{Graph, Matrix, Substitution};
 use crate::geometry::ConstraintDistribution;
 use crate::id::{CoordId, ExprId, Id, SymbolId};
 
@@ -46,8 +46,7 @@ impl Splitting {
             return None;
         }
         let field = along(graph, &rows, distribution);
-        let sampled = graph.matrix_in_field(&field, |seed| FieldPoint::random(18_000 + seed)).ok()?;
-        let lifted = Echelon::of(sampled).pivots;
+        let lifted = graph.independent_columns(&field).ok()?;
         Some(Self {
             coordinates,
             by_group,

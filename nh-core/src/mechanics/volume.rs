@@ -198,16 +198,14 @@ fn solved_at(
     for sample in 0..(unknowns as u64 + 4) {
         rows.extend(graph.matrix_in_field(matrix, |seed| point(sample, seed)).ok()?);
     }
-    let echelon = Echelon::of(rows);
-    let solution = echelon.rows.iter().zip(&echelon.pivots).map(|(row, pivot)| (*pivot, row[unknowns]));
-    (!echelon.pivots.contains(&unknowns))
-        .then(|| solution.filter(|(_, exponent)| *exponent != Residue::ZERO).collect())
+    let solution = Echelon::of(rows).solution(unknowns)?.into_iter().enumerate();
+    Some(solution.filter(|(_, exponent)| *exponent != Residue::ZERO).collect())
 }
 
 /// Exponents that are the same for all parameters.
 fn rational_exponents(graph: &mut Graph, matrix: &Matrix) -> Option<Vec<(usize, ExprId)>> {
     let solution = solved_at(graph, matrix, |sample, seed| FieldPoint::random(21_000 + 64 * sample + seed))?;
-    solution.into_iter().map(|(index, value)| Some((index, graph.number(recognised(value)?)))).collect()
+    solution.into_iter().map(|(index, value)| Some((index, graph.number(value.recognised()?)))).collect()
 }
 
 /// Exponents that depend on the parameters: which are needed is found at one value of these, and the
@@ -241,7 +239,9 @@ fn parametric_exponents(
     for shift in 0..POINTS {
         equations.extend(at_point(graph, &needed, &moving, shift));
     }
-    let exponents = solved_exactly(graph, &equations, solution.len())?;
+    let (left, right): (Matrix, Vec<ExprId>) =
+        equations.into_iter().filter_map(|mut row| row.pop().map(|right| (row, right))).unzip();
+    let exponents = graph.solve_overdetermined(&left, &right)?;
     Some(solution.iter().map(|(index, _)| *index).zip(exponents).collect())
 }
 
@@ -265,35 +265,6 @@ fn at_point(graph: &mut Graph, rows: &Matrix, moving: &[SymbolId], shift: i64) -
     let rows: Matrix =
         rows.iter().map(|row| row.iter().map(|entry| there.apply(graph, *entry)).collect()).collect();
     rows.into_iter().filter(|row| !row.iter().any(|entry| graph.is_undefined(*entry))).collect()
-}
-
-/// The solution of equations, the last column their right side, of which as many as there are unknowns
-/// are independent.
-fn solved_exactly(graph: &mut Graph, equations: &Matrix, unknowns: usize) -> Option<Vec<ExprId>> {
-    let left: Matrix = equations.iter().map(|row| row[..unknowns].to_vec()).collect();
-    let sampled =
-        graph.matrix_in_field(&Graph::transposed(&left), |seed| FieldPoint::random(22_100 + seed)).ok()?;
-    let rows = Echelon::of(sampled).pivots;
-    if rows.len() < unknowns {
-        return None;
-    }
-    let right: Matrix = rows.iter().map(|row| vec![equations[*row][unknowns]]).collect();
-    let left: Matrix = rows.iter().map(|row| left[*row].clone()).collect();
-    let solution = graph.solve_linear(&left, &right)?.values;
-    Some(solution.into_iter().map(|row| graph.simplify(row[0])).collect())
-}
-
-/// A rational number with small numerator and denominator.
-fn recognised(value: Residue) -> Option<Rational> {
-    for denominator in 1..=24 {
-        for numerator in -72..=72 {
-            let candidate = Rational::new(numerator, denominator);
-            if Residue::of(&candidate) == Some(value) {
-                return Some(candidate);
-            }
-        }
-    }
-    None
 }
 
 /// Whether ρ(B_a) log μ + M_a = 0 for every a.

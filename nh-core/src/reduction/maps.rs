@@ -3,7 +3,8 @@
 use super::bundle_map::BundleMap;
 use super::side::Side;
 use super::{Reconstruction, Reduction};
-use crate::algebra::{Echelon, FieldPoint, Graph, Matrix, Substitution, Transplant};
+use crate::algebra::{Graph, Matrix, Substitution, Transplant};
+use crate::compile::Proved;
 use crate::id::{ExprId, SymbolId};
 use crate::mechanics::Procedure;
 use crate::model::Located;
@@ -64,22 +65,9 @@ pub(super) fn reduced_velocities(source: &mut Side, target: &Side, map: &BundleM
 
 /// The unknowns of an overdetermined linear system that has a solution, by rows that determine them.
 fn solved(side: &mut Side, matrix: &Matrix, right: &[ExprId]) -> Option<Vec<ExprId>> {
-    let base = side.proved.base.clone();
-    let graph = side.graph();
-    let on_base = base.restrict_matrix(graph, matrix);
-    let columns = Graph::transposed(&on_base);
-    if columns.is_empty() {
-        return Some(Vec::new());
-    }
-    let in_field = graph.matrix_in_field(&columns, |seed| FieldPoint::random(17_000 + seed)).ok()?;
-    let rows = Echelon::of(in_field).pivots;
-    if rows.len() != columns.len() {
-        return None;
-    }
-    let square: Matrix = rows.iter().map(|row| matrix[*row].clone()).collect();
-    let right: Matrix = rows.iter().map(|row| vec![right[*row]]).collect();
-    let solution = graph.solve_linear(&square, &right)?;
-    Some(solution.values.into_iter().map(|row| row[0]).collect())
+    let Proved { model, base, .. } = &mut side.proved;
+    let rows = base.independent_rows(&mut model.graph, matrix).ok()?;
+    model.graph.solve_by_rows(matrix, right, &rows)
 }
 
 /// The state of the target, each variable with its value as a function on E.
