@@ -57,6 +57,11 @@ impl Derivation {
         self.known[&expression]
     }
 
+    /// The derivatives of several expressions.
+    pub fn apply_all(&mut self, graph: &mut Graph, expressions: &[ExprId]) -> Vec<ExprId> {
+        expressions.iter().map(|expression| self.apply(graph, *expression)).collect()
+    }
+
     /// The derivative of a node whose operands are known.
     fn of_node(&self, graph: &mut Graph, id: ExprId) -> ExprId {
         let node = graph.node(id);

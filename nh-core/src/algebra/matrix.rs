@@ -182,6 +182,11 @@ impl Graph {
         (0..columns).map(|column| matrix.iter().map(|row| row[column]).collect()).collect()
     }
 
+    /// The matrix applied to a vector.
+    pub fn image(&mut self, matrix: &[Vec<ExprId>], vector: &[ExprId]) -> Vec<ExprId> {
+        matrix.iter().map(|row| self.inner_product(row, vector)).collect()
+    }
+
     /// The identity matrix.
     pub fn identity(&mut self, size: usize) -> Matrix {
         (0..size).map(|index| self.unit_vector(size, index)).collect()

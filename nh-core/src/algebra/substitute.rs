@@ -45,6 +45,11 @@ impl Substitution {
         self.known[&expression]
     }
 
+    /// The images of several expressions.
+    pub fn apply_all(&mut self, graph: &mut Graph, expressions: &[ExprId]) -> Vec<ExprId> {
+        expressions.iter().map(|expression| self.apply(graph, *expression)).collect()
+    }
+
     /// The image of a node whose operands are known.
     fn of_node(&self, graph: &mut Graph, id: ExprId) -> ExprId {
         let node = graph.node(id).clone();

@@ -48,7 +48,7 @@ pub fn orthonormal(
         );
     }
     let graph = &mut model.graph;
-    let sections: Matrix = (0..distribution.rank()).map(|a| distribution.section(a)).collect();
+    let sections = distribution.sections();
     let metric = kinetic_metric(graph, system, &sections);
     let all = metric.concat();
     if let Some(entry) = all.iter().find(|entry| graph.depends_on(**entry, &system.algebroid.velocities)) {

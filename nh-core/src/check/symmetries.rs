@@ -83,15 +83,14 @@ impl<'a> Setting<'a> {
     fn functions(&self, graph: &mut Graph) -> Vec<ExprId> {
         let Some(linear) = &self.constraints.linear else { return self.constraints.residuals.clone() };
         let velocity = self.system.algebroid.velocity(graph);
-        let rows: Vec<ExprId> =
-            linear.annihilator.iter().map(|row| graph.inner_product(row, &velocity)).collect();
+        let rows = graph.image(&linear.annihilator, &velocity);
         rows.into_iter().zip(&linear.drift).map(|(row, drift)| graph.add(row, *drift)).collect()
     }
 
     /// σ^α ∂φ^A/∂y^α.
     fn along_constraints(&self, graph: &mut Graph, section: &[ExprId]) -> Vec<ExprId> {
         if let Some(linear) = &self.constraints.linear {
-            return linear.annihilator.iter().map(|row| graph.inner_product(row, section)).collect();
+            return graph.image(&linear.annihilator, section);
         }
         let velocities = &self.system.algebroid.velocities;
         let residuals = self.constraints.residuals.clone();
@@ -121,7 +120,7 @@ fn judged(
     let outside = first_defect(graph, manifold, &along)?;
     let mut lift = complete_lift(graph, &system.algebroid, &section, system.time);
     let functions = setting.functions(graph);
-    let changes: Vec<ExprId> = functions.into_iter().map(|f| lift.apply(graph, f)).collect();
+    let changes = lift.apply_all(graph, &functions);
     let moved = first_defect(graph, manifold, &changes)?;
     let variation = first_defect(graph, manifold, &[momentum.variation])?;
     let everywhere = variation.is_none() && constraints.base().zero_test(graph, momentum.variation).is_zero();
@@ -302,7 +301,7 @@ fn nearest(model: &mut Model, setting: &Setting<'_>, section: &[ExprId]) -> Opti
         .filter_map(|symbol| velocities.iter().position(|velocity| velocity == symbol))
         .map(|index| section[index])
         .collect();
-    let image: Vec<ExprId> = distribution.basis.iter().map(|row| graph.inner_product(row, &kept)).collect();
+    let image = graph.image(&distribution.basis, &kept);
     let image: Vec<ExprId> = image.into_iter().map(|component| graph.simplify(component)).collect();
     if image.iter().all(|component| graph.zero_test(*component).is_zero()) {
         return None;

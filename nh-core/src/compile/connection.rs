@@ -55,7 +55,7 @@ pub(super) fn derive(
     // 2. ∇̌
     let connection = match derived {
         Derived::Adapted { distribution, equations, .. } => {
-            let sections: Matrix = (0..distribution.rank()).map(|a| distribution.section(a)).collect();
+            let sections = distribution.sections();
             let lowered = koszul(graph, algebroid, &metric, &sections);
             let definite = judge(graph, &equations.mass);
             let solve = |graph: &mut Graph, right: &[ExprId], procedure: &mut Procedure| {

@@ -126,7 +126,7 @@ fn euler_poincare_suslov(
     let h = graph.symbol(length);
     let mut restriction = distribution.restriction(graph, &system.algebroid.velocities);
     let momenta = system.momenta(graph);
-    let momenta: Vec<ExprId> = momenta.into_iter().map(|p| restriction.apply(graph, p)).collect();
+    let momenta = restriction.apply_all(graph, &momenta);
     let velocity = distribution.velocity.clone();
     let square = graph.square(h);
     let outputs = (0..distribution.rank())

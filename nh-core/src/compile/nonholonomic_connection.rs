@@ -93,7 +93,7 @@ fn functions(
         None => Substitution::new([]),
     };
     let momenta = proved.system.momenta(graph);
-    let momenta: Vec<ExprId> = momenta.into_iter().map(|p| restriction.apply(graph, p)).collect();
+    let momenta = restriction.apply_all(graph, &momenta);
     let spanned = proved.model.distribution.is_some().then_some(distribution).flatten();
     let (mut values, mut rates) = (Vec::new(), Vec::new());
     for section in &vertical {
@@ -107,7 +107,7 @@ fn functions(
     // 3. ẋ^κ and v^ρ
     let velocity = proved.system.algebroid.velocity(graph);
     let all = proved.system.algebroid.rates(graph, &velocity);
-    let all: Vec<ExprId> = all.into_iter().map(|rate| restriction.apply(graph, rate)).collect();
+    let all = restriction.apply_all(graph, &all);
     let speeds: Vec<ExprId> = connection.coordinates.iter().map(|id| all[id.index()]).collect();
     let mut procedure = Procedure::default();
     let along_vertical = if let Some(inertia) = &connection.inertia {
@@ -115,8 +115,7 @@ fn functions(
     } else {
         let symbols: Vec<ExprId> =
             reduced.distribution.independent.iter().map(|symbol| graph.symbol(*symbol)).collect();
-        let components: Vec<ExprId> =
-            connection.components.iter().map(|row| graph.inner_product(row, &symbols)).collect();
+        let components = graph.image(&connection.components, &symbols);
         let components: Vec<ExprId> =
             components.into_iter().map(|v| reduced.at_declared_velocities(proved, v)).collect();
         components.into_iter().map(|v| restriction.apply(&mut proved.model.graph, v)).collect()

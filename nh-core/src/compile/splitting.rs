@@ -97,8 +97,7 @@ impl Reduced {
         let Some(frame) = &self.frame else { return function };
         let graph = &mut proved.model.graph;
         let velocity = proved.system.algebroid.velocity(graph);
-        let images: Vec<ExprId> =
-            frame.change.velocities.iter().map(|row| graph.inner_product(row, &velocity)).collect();
+        let images = graph.image(&frame.change.velocities, &velocity);
         let symbols = self.system.algebroid.velocities.iter().copied();
         Substitution::new(symbols.zip(images)).apply(graph, function)
     }

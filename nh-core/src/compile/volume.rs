@@ -141,10 +141,8 @@ fn correction(proved: &mut Proved, derivative: &Procedure) -> Option<ExprId> {
         return None;
     }
     // g = ∂(Γf) Fᵀ (F Fᵀ)⁻¹
-    let gram: Matrix =
-        slopes.iter().map(|a| slopes.iter().map(|b| graph.inner_product(a, b)).collect()).collect();
-    let right: Matrix =
-        slopes.iter().map(|a| changes.iter().map(|b| graph.inner_product(a, b)).collect()).collect();
+    let gram: Matrix = slopes.iter().map(|a| graph.image(&slopes, a)).collect();
+    let right: Matrix = slopes.iter().map(|a| graph.image(&changes, a)).collect();
     let solved = graph.solve_linear(&gram, &right)?.values;
     let trace: Vec<ExprId> = (0..solved.len()).map(|k| solved[k][k]).collect();
     Some(graph.sum(&trace))

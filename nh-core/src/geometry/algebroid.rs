@@ -53,7 +53,7 @@ impl Algebroid {
         let mut derive = |direction: &[ExprId], section: &[ExprId]| -> Vec<ExprId> {
             let field = self.anchor.vector_field(graph, direction);
             let mut derivation = Derivation::new(self.anchor.coordinates.iter().copied().zip(field));
-            section.iter().map(|component| derivation.apply(graph, *component)).collect()
+            derivation.apply_all(graph, section)
         };
         let (forth, back) = (derive(sigma, tau), derive(tau, sigma));
         algebraic

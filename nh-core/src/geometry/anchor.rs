@@ -23,7 +23,7 @@ impl Anchor {
 
     /// The vector field ρ(σ) of a section σ = σ^α e_α: its components along the coordinates.
     pub fn vector_field(&self, graph: &mut Graph, section: &[ExprId]) -> Vec<ExprId> {
-        self.entries.iter().map(|row| graph.inner_product(row, section)).collect()
+        graph.image(&self.entries, section)
     }
 
     /// The derivation ρ(e_α) of functions on M.

@@ -44,12 +44,7 @@ impl ChangeOfBasis {
     /// `C'^ε_{αβ} = Φ^ε_γ ( Ψ^μ_α Ψ^ν_β C^γ_{μν} + ρ'^i_α ∂_iΨ^γ_β − ρ'^i_β ∂_iΨ^γ_α )`.
     pub fn apply(&self, graph: &mut Graph, old: &Algebroid, velocities: Vec<SymbolId>) -> Algebroid {
         let columns = Graph::transposed(&self.sections);
-        let entries: Matrix = old
-            .anchor
-            .entries
-            .iter()
-            .map(|row| columns.iter().map(|column| graph.inner_product(row, column)).collect())
-            .collect();
+        let entries: Matrix = old.anchor.entries.iter().map(|row| graph.image(&columns, row)).collect();
         let anchor = Anchor { entries, ..old.anchor.clone() };
         let mut structure = StructureFunctions::commuting(graph, old.rank());
         for (alpha, first) in columns.iter().enumerate() {
@@ -71,6 +66,6 @@ impl ChangeOfBasis {
 
     /// y = Ψ w.
     pub fn old_velocity(&self, graph: &mut Graph, new: &[ExprId]) -> Vec<ExprId> {
-        self.sections.iter().map(|row| graph.inner_product(row, new)).collect()
+        graph.image(&self.sections, new)
     }
 }

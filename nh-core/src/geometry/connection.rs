@@ -16,10 +16,8 @@ pub type Christoffel = Vec<Matrix>;
 pub fn koszul(graph: &mut Graph, algebroid: &Algebroid, metric: &Matrix, sections: &Matrix) -> Christoffel {
     let r = sections.len();
     // G(σ_a, ·), the gram matrix, and the brackets with their inner products
-    let lowered: Matrix =
-        sections.iter().map(|s| metric.iter().map(|row| graph.inner_product(row, s)).collect()).collect();
-    let gram: Matrix =
-        sections.iter().map(|s| lowered.iter().map(|l| graph.inner_product(l, s)).collect()).collect();
+    let lowered: Matrix = sections.iter().map(|s| graph.image(metric, s)).collect();
+    let gram: Matrix = sections.iter().map(|s| graph.image(&lowered, s)).collect();
     let mut along: Vec<Derivation> = Vec::with_capacity(r);
     for section in sections {
         let field = algebroid.anchor.vector_field(graph, section);
@@ -31,7 +29,7 @@ pub fn koszul(graph: &mut Graph, algebroid: &Algebroid, metric: &Matrix, section
         let mut rows = Matrix::with_capacity(r);
         for second in sections {
             let bracket = algebroid.bracket(graph, first, second);
-            rows.push(lowered.iter().map(|l| graph.inner_product(l, &bracket)).collect());
+            rows.push(graph.image(&lowered, &bracket));
         }
         products.push(rows);
     }

@@ -48,7 +48,7 @@ fn linear_velocity(
     offset: &[ExprId],
 ) -> Vec<ExprId> {
     let symbols: Vec<ExprId> = independent.iter().map(|symbol| graph.symbol(*symbol)).collect();
-    let linear: Vec<ExprId> = basis.iter().map(|row| graph.inner_product(row, &symbols)).collect();
+    let linear = graph.image(basis, &symbols);
     linear.into_iter().zip(offset).map(|(y, offset)| graph.add(y, *offset)).collect()
 }
 
@@ -149,8 +149,7 @@ impl ConstraintDistribution {
         solution: Solution,
     ) -> Self {
         let symbols: Vec<ExprId> = velocities.iter().map(|symbol| graph.symbol(*symbol)).collect();
-        let linear: Vec<ExprId> =
-            constraints.annihilator.iter().map(|row| graph.inner_product(row, &symbols)).collect();
+        let linear = graph.image(&constraints.annihilator, &symbols);
         let residuals: Vec<ExprId> =
             linear.into_iter().zip(&constraints.drift).map(|(row, drift)| graph.add(row, *drift)).collect();
         let is_dependent = |index: &usize| dependent.contains(&SectionId::from_index(*index));
@@ -203,6 +202,12 @@ impl ConstraintDistribution {
     #[must_use]
     pub fn section(&self, a: usize) -> Vec<ExprId> {
         self.basis.iter().map(|row| row[a]).collect()
+    }
+
+    /// All B_a.
+    #[must_use]
+    pub fn sections(&self) -> Matrix {
+        (0..self.rank()).map(|a| self.section(a)).collect()
     }
 
     /// The components along the B_a of a section that lies in D.

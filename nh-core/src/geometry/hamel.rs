@@ -101,7 +101,7 @@ fn curl(graph: &mut Graph, row: &[ExprId], coordinates: &[SymbolId]) -> Matrix {
     let mut partials: Vec<Vec<ExprId>> = Vec::new();
     for symbol in coordinates {
         let mut derivation = Derivation::partial(graph, *symbol);
-        partials.push(row.iter().map(|entry| derivation.apply(graph, *entry)).collect());
+        partials.push(derivation.apply_all(graph, row));
     }
     (0..row.len())
         .map(|i| (0..row.len()).map(|j| graph.sub(partials[j][i], partials[i][j])).collect())

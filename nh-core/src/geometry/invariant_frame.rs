@@ -257,7 +257,7 @@ fn solutions(
     for generator in generators {
         let field = algebroid.anchor.vector_field(graph, generator);
         let mut along = Derivation::new(algebroid.anchor.coordinates.iter().copied().zip(field));
-        table.push(functions.iter().map(|function| along.apply(graph, *function)).collect());
+        table.push(along.apply_all(graph, functions));
     }
     let table = base.restrict_matrix(graph, &table);
     let mut equations: Vec<Vec<Residue>> = Vec::new();

@@ -85,7 +85,7 @@ impl Manifold {
     /// The restriction of every entry of a matrix.
     pub fn restrict_matrix(&self, graph: &mut Graph, matrix: &[Vec<ExprId>]) -> Matrix {
         let mut substitution = Substitution::new(self.images.iter().copied());
-        matrix.iter().map(|row| row.iter().map(|entry| substitution.apply(graph, *entry)).collect()).collect()
+        matrix.iter().map(|row| substitution.apply_all(graph, row)).collect()
     }
 
     /// The first rows of which all are combinations, at generic points of the manifold.

@@ -69,7 +69,7 @@ impl ConstraintDistribution {
         }
         let solved = graph.sum(&solved);
         let mut substitution = Substitution::new([(eliminated, solved)]);
-        let velocity = self.velocity.iter().map(|y| substitution.apply(graph, *y)).collect();
+        let velocity = substitution.apply_all(graph, &self.velocity);
         // B_κ − (c_κ / c_ρ) B_ρ and y₀ − (c_0 / c_ρ) B_ρ
         let (mut basis, mut offset) = (Vec::new(), Vec::new());
         for (row, origin) in self.basis.iter().zip(&self.offset) {

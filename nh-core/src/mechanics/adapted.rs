@@ -54,7 +54,7 @@ pub fn reduced_equations(
     for symbol in &independent {
         inertia.push(balance.momenta.iter().map(|p| graph.partial(*p, *symbol)).collect());
     }
-    let sections: Matrix = (0..distribution.rank()).map(|a| distribution.section(a)).collect();
+    let sections = distribution.sections();
     let mut mass: Matrix = Vec::with_capacity(sections.len());
     for (a, section) in sections.iter().enumerate() {
         // C is symmetric: the lower triangle repeats the upper
@@ -73,8 +73,8 @@ pub fn reduced_equations(
     for (section, symbol) in sections.iter().zip(&independent) {
         let projected = graph.inner_product(section, &balance.rest);
         let mut along = graph.neg(projected);
-        for (_, value) in system.forces_on_distribution.iter().filter(|(direction, _)| direction == symbol) {
-            let value = restriction.apply(graph, *value);
+        for value in system.forces_along(*symbol) {
+            let value = restriction.apply(graph, value);
             along = graph.add(along, value);
         }
         force.push(graph.simplify(along));

@@ -37,6 +37,12 @@ impl LagrangianSystem {
         self.forces.iter().chain(on_distribution).all(|force| graph.zero_test(*force).is_zero())
     }
 
+    /// The forces along the section that spans D with a velocity.
+    pub fn forces_along(&self, velocity: SymbolId) -> impl Iterator<Item = ExprId> {
+        let along = self.forces_on_distribution.iter().filter(move |(direction, _)| *direction == velocity);
+        along.map(|(_, force)| *force)
+    }
+
     /// p_α = ∂L/∂y^α.
     pub fn momenta(&self, graph: &mut Graph) -> Vec<ExprId> {
         self.algebroid
@@ -64,19 +70,19 @@ impl LagrangianSystem {
         restriction: &mut Substitution,
     ) -> ForceBalance {
         let momenta = self.momenta(graph);
-        let momenta: Vec<ExprId> = momenta.into_iter().map(|p| restriction.apply(graph, p)).collect();
+        let momenta = restriction.apply_all(graph, &momenta);
         let gradient = self.base_gradient(graph);
-        let gradient: Vec<ExprId> = gradient.into_iter().map(|g| restriction.apply(graph, g)).collect();
+        let gradient = restriction.apply_all(graph, &gradient);
 
         // 1. ρ^i_β y^β ∂p_α/∂x^i + ∂p_α/∂t
         let mut along: Derivation = self.algebroid.along(graph, velocity, self.time);
-        let drift: Vec<ExprId> = momenta.iter().map(|p| along.apply(graph, *p)).collect();
+        let drift = along.apply_all(graph, &momenta);
         // 2. C^γ_{αβ} y^β p_γ
         let bracket = self.algebroid.structure.bracket_term(graph, velocity, &momenta);
         // 3. ρ^i_α ∂_iL
         let potential = self.algebroid.anchor.pull_back(graph, &gradient);
         // 4. Υ_α
-        let forces: Vec<ExprId> = self.forces.iter().map(|f| restriction.apply(graph, *f)).collect();
+        let forces = restriction.apply_all(graph, &self.forces);
 
         let rest = (0..momenta.len())
             .map(|alpha| {

@@ -43,10 +43,7 @@ impl Procedure {
                 // what a method returns is known to the compiled program only: it stays a symbol
                 Definition::Call { .. } => {}
                 Definition::Solve { unknowns, matrix, right } => {
-                    let matrix: Matrix = matrix
-                        .iter()
-                        .map(|row| row.iter().map(|e| known.apply(graph, *e)).collect())
-                        .collect();
+                    let matrix: Matrix = matrix.iter().map(|row| known.apply_all(graph, row)).collect();
                     let right: Matrix = right.iter().map(|e| vec![known.apply(graph, *e)]).collect();
                     if let Some(solution) = graph.solve_linear(&matrix, &right) {
                         for (symbol, row) in unknowns.iter().zip(solution.values) {
@@ -56,6 +53,6 @@ impl Procedure {
                 }
             }
         }
-        self.outputs.iter().map(|output| known.apply(graph, *output)).collect()
+        known.apply_all(graph, &self.outputs)
     }
 }

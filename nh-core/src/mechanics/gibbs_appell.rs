@@ -33,9 +33,8 @@ impl GibbsAppell {
     ) -> Self {
         // 1. W and h − Υ on E, then at y = ŷ
         let free = saddle_equations(graph, system, &[]);
-        let mass: Matrix =
-            free.mass.iter().map(|row| row.iter().map(|e| restriction.apply(graph, *e)).collect()).collect();
-        let force: Vec<ExprId> = free.force.iter().map(|f| restriction.apply(graph, *f)).collect();
+        let mass: Matrix = free.mass.iter().map(|row| restriction.apply_all(graph, row)).collect();
+        let force = restriction.apply_all(graph, &free.force);
         // 2. ẏ = dŷ/dt, with symbols for v̇
         let mut accelerations = Vec::new();
         for symbol in independent {
@@ -48,10 +47,9 @@ impl GibbsAppell {
         let coordinates = system.algebroid.anchor.coordinates.iter().copied();
         let seeds = coordinates.zip(rates.iter().copied()).chain(independent.iter().copied().zip(along));
         let mut time_derivative = Derivation::new(seeds.chain([(system.time, one)]));
-        let acceleration: Vec<ExprId> =
-            velocity.iter().map(|component| time_derivative.apply(graph, *component)).collect();
+        let acceleration = time_derivative.apply_all(graph, velocity);
         // 3. ½ ẏᵀ W ẏ + (h − Υ)ᵀ ẏ
-        let inertia: Vec<ExprId> = mass.iter().map(|row| graph.inner_product(row, &acceleration)).collect();
+        let inertia = graph.image(&mass, &acceleration);
         let (quadratic, work) =
             (graph.inner_product(&acceleration, &inertia), graph.inner_product(&force, &acceleration));
         let half = graph.scale(crate::algebra::Rational::new(1, 2), quadratic);

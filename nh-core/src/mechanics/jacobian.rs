@@ -28,7 +28,7 @@ pub fn jacobian(
         for definition in &procedure.definitions {
             differentiate(graph, definition, &mut along, &mut result)?;
         }
-        columns.push(procedure.outputs.iter().map(|output| along.apply(graph, *output)).collect());
+        columns.push(along.apply_all(graph, &procedure.outputs));
     }
     result.outputs = Graph::transposed(&columns).concat();
     Ok(result)
@@ -96,7 +96,7 @@ fn differentiate(
             let solution: Vec<ExprId> = unknowns.iter().map(|symbol| graph.symbol(*symbol)).collect();
             let mut changed = Vec::with_capacity(right.len());
             for (row, entry) in matrix.iter().zip(right) {
-                let moved: Vec<ExprId> = row.iter().map(|entry| along.apply(graph, *entry)).collect();
+                let moved = along.apply_all(graph, row);
                 let moved = graph.inner_product(&moved, &solution);
                 let change = along.apply(graph, *entry);
                 changed.push(graph.sub(change, moved));

@@ -2,7 +2,6 @@
 
 use super::euler_lagrange::LagrangianSystem;
 use crate::algebra::{Graph, Matrix};
-use crate::id::ExprId;
 
 /// σ_a^α W_{αβ} σ_b^β with W = ∂²L/∂y∂y: for a basis of D the matrix C of mathematics (8). It depends on
 /// the velocities where L is not quadratic in them.
@@ -16,7 +15,7 @@ pub fn kinetic_metric(graph: &mut Graph, system: &LagrangianSystem, sections: &M
     sections
         .iter()
         .map(|a| {
-            let inertia: Vec<ExprId> = mass.iter().map(|row| graph.inner_product(row, a)).collect();
+            let inertia = graph.image(&mass, a);
             sections
                 .iter()
                 .map(|b| {

@@ -49,8 +49,7 @@ fn conditions(
     manifold: &Manifold,
     section: &[ExprId],
 ) -> Vec<ExprId> {
-    let mut values: Vec<ExprId> =
-        constraints.annihilator.iter().map(|row| graph.inner_product(row, section)).collect();
+    let mut values = graph.image(&constraints.annihilator, section);
     let change =
         complete_lift(graph, &system.algebroid, section, system.time).apply(graph, system.lagrangian);
     values.push(change);

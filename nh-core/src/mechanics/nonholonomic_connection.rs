@@ -46,7 +46,7 @@ impl NonholonomicConnection {
         let free: Vec<usize> = (0..splitting.rank).filter(|a| !splitting.lifted.contains(a)).collect();
         let (inside, scales) = kernel(graph, &rates, &splitting.lifted, &free, facts)?;
         // 3. the lifts
-        let sections: Matrix = (0..distribution.rank()).map(|a| distribution.section(a)).collect();
+        let sections = distribution.sections();
         let metric = metric(graph, system, &sections);
         let lifts = match &metric {
             Some(metric) if !inside.is_empty() => orthogonal(graph, metric, &rates)?,
@@ -55,7 +55,7 @@ impl NonholonomicConnection {
         let inertia = metric.map(|metric| {
             let mut inertia = Matrix::new();
             for first in &inside {
-                let momenta: Vec<ExprId> = metric.iter().map(|row| graph.inner_product(row, first)).collect();
+                let momenta = graph.image(&metric, first);
                 let mut entries = Vec::new();
                 for second in &inside {
                     let entry = graph.inner_product(&momenta, second);

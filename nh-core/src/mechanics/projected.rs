@@ -64,7 +64,7 @@ pub fn saddle_equations(
         })
         .collect();
     let mut along = system.algebroid.along(graph, &velocity, system.time);
-    let change: Vec<ExprId> = residuals.iter().map(|residual| along.apply(graph, *residual)).collect();
+    let change = along.apply_all(graph, residuals);
     let bias = negated(graph, &change);
     let rates = system.algebroid.rates(graph, &velocity);
     let rates = rates.into_iter().map(|rate| graph.simplify(rate)).collect();

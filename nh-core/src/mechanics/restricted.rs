@@ -44,10 +44,7 @@ impl Restricted {
         for partial in &mut partials {
             differentiate_all(graph, &mut definitions, partial);
         }
-        let sections = partials
-            .iter_mut()
-            .map(|partial| velocity.iter().map(|component| partial.apply(graph, *component)).collect())
-            .collect();
+        let sections = partials.iter_mut().map(|partial| partial.apply_all(graph, &velocity)).collect();
         Self { definitions, velocity, eliminated: Vec::new(), sections, partials }
     }
 }

@@ -112,10 +112,8 @@ pub(super) fn rows(entries: &Matrix, coordinates: &[CoordId]) -> Matrix {
 
 /// ρ^i_α B^α_a.
 pub(super) fn along(graph: &mut Graph, rows: &Matrix, distribution: &ConstraintDistribution) -> Matrix {
-    let sections: Matrix = (0..distribution.rank()).map(|a| distribution.section(a)).collect();
-    rows.iter()
-        .map(|row| sections.iter().map(|section| graph.inner_product(row, section)).collect())
-        .collect()
+    let sections = distribution.sections();
+    rows.iter().map(|row| graph.image(&sections, row)).collect()
 }
 
 /// The horizontal lifts of a Chaplygin system, and the force of their curvature.
@@ -151,8 +149,7 @@ impl Chaplygin {
         let mut lifts = Matrix::new();
         for i in 0..m {
             let column: Vec<ExprId> = inverse.iter().map(|row| row[i]).collect();
-            let lift: Vec<ExprId> =
-                distribution.basis.iter().map(|row| graph.inner_product(row, &column)).collect();
+            let lift = graph.image(&distribution.basis, &column);
             lifts.push(lift.into_iter().map(|component| graph.simplify(component)).collect());
         }
         // 2. K(∂_i, ∂_j) = [h_i, h_j] − h[∂_i, ∂_j]
@@ -166,16 +163,15 @@ impl Chaplygin {
         // 3. L̄
         let symbols: Vec<ExprId> = rates.iter().map(|symbol| graph.symbol(*symbol)).collect();
         let columns = Graph::transposed(&lifts);
-        let velocity: Vec<ExprId> = columns.iter().map(|row| graph.inner_product(row, &symbols)).collect();
+        let velocity = graph.image(&columns, &symbols);
         let images = algebroid.velocities.iter().copied().zip(velocity);
         let lagrangian = Substitution::new(images).apply(graph, system.lagrangian);
         let lagrangian = graph.simplify(lagrangian);
         // 4. −p(K_ij) ẋ^j, with ẋ = ρ(B v)
         let mut restriction = distribution.restriction(graph, &algebroid.velocities);
         let momenta = system.momenta(graph);
-        let momenta: Vec<ExprId> = momenta.into_iter().map(|p| restriction.apply(graph, p)).collect();
-        let speeds: Vec<ExprId> =
-            rows.iter().map(|row| graph.inner_product(row, &distribution.velocity)).collect();
+        let momenta = restriction.apply_all(graph, &momenta);
+        let speeds = graph.image(&rows, &distribution.velocity);
         let mut terms: Vec<Vec<ExprId>> = vec![Vec::new(); m];
         let mut pairs = curvature.iter();
         for i in 0..m {

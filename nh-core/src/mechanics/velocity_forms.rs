@@ -153,10 +153,8 @@ fn equations(
     let VelocityForms { function, forms } = forms;
     // 1. û^k on D, and the partial velocities θ^k(B_a) = ∂û^k/∂v^a
     let restricted = forms_on_distribution(graph, forms, turned, &mut restriction);
-    let partials: Matrix = derivations
-        .iter_mut()
-        .map(|partial| restricted.iter().map(|u| partial.apply(graph, *u)).collect())
-        .collect();
+    let partials: Matrix =
+        derivations.iter_mut().map(|partial| partial.apply_all(graph, &restricted)).collect();
     // 2. F̂_k and ρ-gradient of F, on D
     let images = forms.iter().map(|(symbol, _)| *symbol).zip(restricted.iter().copied());
     let mut on_distribution = Substitution::new(images);
@@ -178,9 +176,9 @@ fn equations(
     // 3. d/dt F̂_k at v̇ = 0
     let mut along = algebroid.along(graph, &velocity, system.time);
     differentiate_all(graph, &mut definitions, &mut along);
-    let changes: Vec<ExprId> = slopes.iter().map(|slope| along.apply(graph, *slope)).collect();
+    let changes = along.apply_all(graph, &slopes);
     // 4. contraction with B_a
-    let forces: Vec<ExprId> = system.forces.iter().map(|force| restriction.apply(graph, *force)).collect();
+    let forces = restriction.apply_all(graph, &system.forces);
     // the quasi-velocities themselves: dy^γ(y, e_α) = C^γ_{αβ} y^β, all in one bracket term
     let zero = graph.zero();
     let is_velocity = |symbol: &SymbolId| algebroid.velocities.contains(symbol);
@@ -221,8 +219,8 @@ fn equations(
         let field = algebroid.anchor.vector_field(graph, section);
         let potential = graph.inner_product(&field, &gradient);
         let mut applied = graph.inner_product(section, &forces);
-        for (_, value) in system.forces_on_distribution.iter().filter(|(direction, _)| direction == symbol) {
-            let value = restriction.apply(graph, *value);
+        for value in system.forces_along(*symbol) {
+            let value = restriction.apply(graph, value);
             applied = graph.add(applied, value);
         }
         let gyroscopic = graph.inner_product(section, &bracket);

@@ -140,7 +140,7 @@ fn factors(graph: &Graph, expression: ExprId) -> Vec<ExprId> {
 /// ρ(B_a) f for each a.
 fn differential(graph: &mut Graph, setting: &VolumeSetting<'_>, function: ExprId) -> Vec<ExprId> {
     let partials: Vec<ExprId> = setting.base.iter().map(|symbol| graph.partial(function, *symbol)).collect();
-    setting.fields.iter().map(|field| graph.inner_product(field, &partials)).collect()
+    graph.image(&setting.fields, &partials)
 }
 
 /// Solves Σ q_k d log P_k = −M for constant q, and proves the solution.
@@ -262,8 +262,7 @@ fn at_point(graph: &mut Graph, rows: &Matrix, moving: &[SymbolId], shift: i64) -
         })
         .collect();
     let mut there = Substitution::new(images);
-    let rows: Matrix =
-        rows.iter().map(|row| row.iter().map(|entry| there.apply(graph, *entry)).collect()).collect();
+    let rows: Matrix = rows.iter().map(|row| there.apply_all(graph, row)).collect();
     rows.into_iter().filter(|row| !row.iter().any(|entry| graph.is_undefined(*entry))).collect()
 }
 

@@ -78,10 +78,8 @@ fn on_distribution(
     for (a, symbol) in distribution.independent.iter().enumerate() {
         let section = distribution.section(a);
         let mut on_section = graph.inner_product(&section, left);
-        for (direction, value) in &source.proved.system.forces_on_distribution {
-            if direction == symbol {
-                on_section = graph.add(on_section, *value);
-            }
+        for value in source.proved.system.forces_along(*symbol) {
+            on_section = graph.add(on_section, value);
         }
         along.0.push(on_section);
         along.1.push(graph.inner_product(&section, right));

@@ -169,7 +169,7 @@ fn linear(
         }
         rows.push(new);
     }
-    let drift = linear.drift.iter().map(|drift| in_frame.apply(graph, *drift)).collect();
+    let drift = in_frame.apply_all(graph, &linear.drift);
     Some((rows, drift))
 }
 

@@ -179,7 +179,7 @@ fn velocities(source: &mut Side, map: &BundleMap, reduced: &[ExprId]) -> Option<
     }
     // Φ (B v + y₀) = y' on D
     let distribution = source.distribution.clone()?;
-    let sections: Matrix = (0..distribution.rank()).map(|a| distribution.section(a)).collect();
+    let sections = distribution.sections();
     let images: Matrix = sections.iter().map(|section| map.image(source, section)).collect();
     let offset = map.image(source, &distribution.offset);
     let graph = source.graph();

@@ -208,7 +208,7 @@ fn invariant_frame(source: &mut Side, declared: &QuotientDecl) -> Result<Option<
     let names = frame_names(model, &frame);
     let graph = &mut model.graph;
     let velocity = algebroid.velocity(graph);
-    let values = frame.change.velocities.iter().map(|row| graph.inner_product(row, &velocity)).collect();
+    let values = graph.image(&frame.change.velocities, &velocity);
     Ok(Some((names, values, frame.change)))
 }
 

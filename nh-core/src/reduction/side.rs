@@ -112,13 +112,9 @@ impl Side {
     /// The rank of covectors on the virtual displacements: Φ on ker ∂φ/∂y.
     pub(super) fn rank_on_displacements(&mut self, covectors: &Matrix) -> Result<usize, String> {
         if let Some(distribution) = &self.distribution {
-            let columns: Vec<Vec<ExprId>> =
-                (0..distribution.rank()).map(|a| distribution.section(a)).collect();
+            let columns = distribution.sections();
             let graph = &mut self.proved.model.graph;
-            let product: Matrix = covectors
-                .iter()
-                .map(|row| columns.iter().map(|column| graph.inner_product(row, column)).collect())
-                .collect();
+            let product: Matrix = covectors.iter().map(|row| graph.image(&columns, row)).collect();
             return self.rank_over_base(&product);
         }
         // rank Φ|ker J = rank [J; Φ] − rank J

@@ -37,13 +37,13 @@ impl NonholonomicBracket {
     ) -> Self {
         let algebroid = &system.algebroid;
         let momenta = momenta_on(graph, system, distribution);
-        let sections: Matrix = (0..distribution.rank()).map(|a| distribution.section(a)).collect();
+        let sections = distribution.sections();
         let columns: Matrix = sections.iter().map(|b| algebroid.anchor.vector_field(graph, b)).collect();
         let curl = antisymmetric(graph, sections.len(), |graph, a, b| {
             let bracket = algebroid.bracket(graph, &sections[a], &sections[b]);
             graph.inner_product(&momenta, &bracket)
         });
-        let projected: Vec<ExprId> = sections.iter().map(|b| graph.inner_product(b, &momenta)).collect();
+        let projected = graph.image(&sections, &momenta);
         let coordinates = algebroid.anchor.coordinates.clone();
         let zero = graph.zero();
         let anchor =
@@ -121,7 +121,7 @@ impl NonholonomicBracket {
         let velocity: Vec<ExprId> =
             velocity.into_iter().map(|value| procedure.define(graph, "u", value)).collect();
         // 2. ẋ = ρ u
-        let rates: Vec<ExprId> = self.anchor.iter().map(|row| graph.inner_product(row, &velocity)).collect();
+        let rates = graph.image(&self.anchor, &velocity);
         // 3. what pushes along each coordinate
         let mut pushes = Vec::with_capacity(rates.len());
         for (i, slope) in covector.0.iter().enumerate() {

@@ -53,8 +53,7 @@ pub(super) fn normal_velocity(
         .collect();
     let along = solve_symmetric(graph, mass, &right, definiteness, procedure, "along");
     // 3. y₀ − B s
-    let tangent: Vec<ExprId> =
-        distribution.basis.iter().map(|row| graph.inner_product(row, &along)).collect();
+    let tangent = graph.image(&distribution.basis, &along);
     offset
         .iter()
         .zip(tangent)
@@ -82,7 +81,7 @@ fn curl_along(
         })
         .collect();
     let forth = algebroid.anchor.pull_back(graph, &carried);
-    let back: Vec<ExprId> = slopes.iter().map(|row| graph.inner_product(row, rates)).collect();
+    let back = graph.image(slopes, rates);
     // C^γ_{αβ} z^β p_γ
     let bracket = algebroid.structure.bracket_term(graph, normal, momenta);
     (0..momenta.len())
@@ -113,7 +112,7 @@ impl Drift {
         let slopes = gradients(graph, &momenta, &algebroid.anchor.coordinates);
         let turned = curl_along(graph, algebroid, &momenta, &slopes, &normal, &rates);
         let mut restriction = distribution.restriction(graph, &algebroid.velocities);
-        let forces: Vec<ExprId> = system.forces.iter().map(|f| restriction.apply(graph, *f)).collect();
+        let forces = restriction.apply_all(graph, &system.forces);
         let mut total = Vec::with_capacity(turned.len());
         for ((turned, force), momentum) in turned.iter().zip(&forces).zip(&momenta) {
             let change = graph.partial(*momentum, system.time);
@@ -126,10 +125,8 @@ impl Drift {
         let force: Vec<ExprId> = (0..distribution.rank())
             .map(|a| {
                 let mut terms = vec![graph.inner_product(&distribution.section(a), &total)];
-                for (along, value) in &system.forces_on_distribution {
-                    if *along == distribution.independent[a] {
-                        terms.push(restriction.apply(graph, *value));
-                    }
+                for value in system.forces_along(distribution.independent[a]) {
+                    terms.push(restriction.apply(graph, value));
                 }
                 graph.sum(&terms)
             })
@@ -156,8 +153,7 @@ impl Drift {
         let zero = graph.zero();
         let velocity = algebroid.velocity(graph);
         // 1. z and ν, zero where the constraints are homogeneous
-        let degree: Vec<ExprId> =
-            equations.jacobian.iter().map(|row| graph.inner_product(row, &velocity)).collect();
+        let degree = graph.image(&equations.jacobian, &velocity);
         let is_homogeneous = degree.iter().all(|value| manifold.zero_test(graph, *value).is_zero());
         let (normal, multipliers) = if is_homogeneous {
             (vec![zero; velocity.len()], vec![zero; degree.len()])

@@ -80,12 +80,12 @@ impl Inversion<'_> {
         let mut put = Substitution::new(images);
         for definition in self.calls {
             if let Definition::Call { symbol, method, arguments, derivatives } = definition {
-                let arguments = arguments.iter().map(|argument| put.apply(graph, *argument)).collect();
+                let arguments = put.apply_all(graph, arguments);
                 let (symbol, method, derivatives) = (*symbol, method.clone(), derivatives.clone());
                 procedure.definitions.push(Definition::Call { symbol, method, arguments, derivatives });
             }
         }
-        procedure.outputs = functions.iter().map(|f| put.apply(graph, *f)).collect();
+        procedure.outputs = put.apply_all(graph, functions);
         procedure
     }
 }
@@ -104,7 +104,7 @@ pub fn hamiltonian_side(
 ) -> Result<HamiltonianSide, NoInverse> {
     // 1. π_a = B^α_a p_α, affine in v
     let momenta = momenta_on(graph, system, distribution);
-    let sections: Matrix = (0..distribution.rank()).map(|a| distribution.section(a)).collect();
+    let sections = distribution.sections();
     let projected: Vec<ExprId> = sections
         .iter()
         .map(|section| {
@@ -189,12 +189,10 @@ fn drift(graph: &mut Graph, inversion: &Inversion<'_>, momenta: &[ExprId]) -> Pr
 fn force_along(graph: &mut Graph, inversion: &Inversion<'_>, a: usize) -> ExprId {
     let Inversion { system, distribution, .. } = inversion;
     let mut restriction = distribution.restriction(graph, &system.algebroid.velocities);
-    let forces: Vec<ExprId> = system.forces.iter().map(|f| restriction.apply(graph, *f)).collect();
+    let forces = restriction.apply_all(graph, &system.forces);
     let mut terms = vec![graph.inner_product(&distribution.section(a), &forces)];
-    for (along, value) in &system.forces_on_distribution {
-        if *along == distribution.independent[a] {
-            terms.push(restriction.apply(graph, *value));
-        }
+    for value in system.forces_along(distribution.independent[a]) {
+        terms.push(restriction.apply(graph, value));
     }
     graph.sum(&terms)
 }
@@ -257,7 +255,7 @@ fn momentum_rates(graph: &mut Graph, inversion: &Inversion<'_>) -> Vec<ExprId> {
 fn phase_bracket(graph: &mut Graph, inversion: &Inversion<'_>, momenta: &[ExprId]) -> Matrix {
     let Inversion { system, distribution, .. } = inversion;
     let algebroid = &system.algebroid;
-    let sections: Matrix = (0..distribution.rank()).map(|a| distribution.section(a)).collect();
+    let sections = distribution.sections();
     let fields: Matrix = sections.iter().map(|b| algebroid.anchor.vector_field(graph, b)).collect();
     let n = algebroid.anchor.coordinates.len();
     antisymmetric(graph, n + sections.len(), |graph, row, column| match (row < n, column < n) {
