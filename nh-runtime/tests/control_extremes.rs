@@ -4,7 +4,7 @@
 use nalgebra::{Matrix1, Matrix2, SMatrix, SVector, Vector1, Vector2, matrix, vector};
 use nh_runtime::control::{
     ControlError, Correction, Cost, Estimate, Ilqr, Improvement, Model, Quadratic, Regulator, Unscented,
-    shooting_cost, shooting_gradient, zero_order_hold,
+    angle_difference, held_noise, shooting_cost, shooting_gradient, zero_order_hold,
 };
 
 /// What a broken sensor, an overflow or a typing error puts in the place of a number.
@@ -40,6 +40,11 @@ impl Finite for (Matrix2<f64>, Vector2<f64>) {
         all(&self.0) && all(&self.1)
     }
 }
+impl Finite for Matrix2<f64> {
+    fn is_finite(&self) -> bool {
+        all(self)
+    }
+}
 impl Finite for Estimate<f64, 2> {
     fn is_finite(&self) -> bool {
         all(&self.mean) && all(&self.covariance)
@@ -71,6 +76,7 @@ fn judged<T: Finite>(block: &str, hostile: f64, result: &Result<T, ControlError>
 const A: Matrix2<f64> = matrix![1.0, 0.1; 0.0, 1.0];
 const B: Vector2<f64> = vector![0.0, 0.1];
 const R: Matrix1<f64> = matrix![1.0];
+const CROSS: Vector2<f64> = vector![0.2, -0.1];
 
 /// The linear system x' = a x + b u.
 #[derive(Clone, Copy)]
@@ -106,22 +112,47 @@ fn discretisation_and_regulation() {
         judged("hold of dt", x, &zero_order_hold(&A, &B, x));
         judged("regulator of r", x, &Regulator::stationary(&A, &B, &q, &matrix![x]));
         judged("before of r", x, &Regulator::before(&q, &A, &B, &q, &matrix![x]));
+        judged("noise of dt", x, &held_noise(&A, &q, x));
+        let cross = Regulator::stationary_with_cross;
+        judged("cross of r", x, &cross(&A, &B, &q, &matrix![x], &CROSS));
         for place in 0..4 {
             let bad = with(&A, place, x);
             judged("hold of a", x, &zero_order_hold(&bad, &B, 0.1));
             judged("regulator of a", x, &Regulator::stationary(&bad, &B, &q, &R));
             judged("before of a", x, &Regulator::before(&q, &bad, &B, &q, &R));
+            judged("noise of a", x, &held_noise(&bad, &q, 0.1));
+            judged("noise of a and dt", x, &held_noise(&bad, &q, 1e-300));
+            judged("cross of a", x, &cross(&bad, &B, &q, &R, &CROSS));
             let bad = with(&q, place, x);
             judged("regulator of q", x, &Regulator::stationary(&A, &B, &bad, &R));
             judged("before of q", x, &Regulator::before(&q, &A, &B, &bad, &R));
             judged("before of next", x, &Regulator::before(&bad, &A, &B, &q, &R));
+            judged("noise of a density", x, &held_noise(&A, &bad, 0.1));
+            judged("cross of q", x, &cross(&A, &B, &bad, &R, &CROSS));
         }
         for place in 0..2 {
             let bad = with(&B, place, x);
             judged("hold of b", x, &zero_order_hold(&A, &bad, 0.1));
             judged("regulator of b", x, &Regulator::stationary(&A, &bad, &q, &R));
             judged("before of b", x, &Regulator::before(&q, &A, &bad, &q, &R));
+            judged("cross of b", x, &cross(&A, &bad, &q, &R, &CROSS));
+            judged("cross of cross", x, &cross(&A, &B, &q, &R, &with(&CROSS, place, x)));
         }
+    }
+}
+
+/// A finite difference is an angle; another is not a number, which every filter refuses.
+#[test]
+fn differences_of_angles() {
+    let belief = Estimate { mean: vector![0.1, 0.0], covariance: Matrix2::identity() };
+    for x in HOSTILE {
+        for y in HOSTILE {
+            let difference = angle_difference(x, y);
+            assert_eq!(difference.is_finite(), (x - y).is_finite(), "{x:e} {y:e}");
+            assert!(!difference.is_finite() || difference.abs() <= std::f64::consts::PI, "{x:e} {y:e}");
+        }
+        let innovation = vector![angle_difference(x, belief.mean[0])];
+        judged("angle", x, &belief.corrected(&innovation, &matrix![1.0, 0.0], &R));
     }
 }
 

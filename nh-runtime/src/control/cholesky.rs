@@ -2,7 +2,7 @@
 
 use nalgebra::{SMatrix, SVector};
 
-use super::{ControlError, Entry};
+use super::{ControlError, Entry, symmetrized};
 
 /// The lower triangular factor of a positive definite matrix.
 pub(super) struct Cholesky<T, const N: usize> {
@@ -60,20 +60,34 @@ impl<T: Entry, const N: usize> Cholesky<T, N> {
     }
 }
 
-/// Refuses a symmetric matrix that is not finite, or not positive semidefinite up to round-off: a
-/// covariance or a weight. The lower triangle is read; the count of operations does not depend on the numbers.
-///
-/// Schur complements are taken by pivots that are no round-off; where a pivot vanishes, so does its
-/// column: |a_ik|² ≤ a_ii a_kk. Round-off means √ε of the trace, and more than rounding explains.
+/// The sum of absolute values on the diagonal: how large a matrix of squares is.
+pub(super) fn trace<T: Entry, const N: usize>(a: &SMatrix<T, N, N>) -> T {
+    (0..N).fold(T::ZERO, |sum, k| sum + a[(k, k)].abs())
+}
+
+/// Refuses a matrix that is not finite, or whose quadratic form is not positive semidefinite up to round-off: a
+/// covariance or a weight.
 pub(super) fn semidefinite<T: Entry, const N: usize>(
     name: &'static str,
     a: &SMatrix<T, N, N>,
 ) -> Result<(), ControlError> {
+    semidefinite_beside(trace(a), name, a)
+}
+
+/// The same for what is left of a difference of matrices, of which the larger has the trace `scale`. The count
+/// of operations does not depend on the numbers.
+///
+/// Schur complements are taken by pivots that are no round-off; where a pivot vanishes, so does its
+/// column: |a_ik|² ≤ a_ii a_kk. Round-off means √ε of the scale, and more than rounding explains.
+pub(super) fn semidefinite_beside<T: Entry, const N: usize>(
+    scale: T,
+    name: &'static str,
+    a: &SMatrix<T, N, N>,
+) -> Result<(), ControlError> {
     super::finite(name, a)?;
-    let trace = (0..N).fold(T::ZERO, |sum, k| sum + a[(k, k)].abs());
-    let nothing = T::EPSILON.sqrt() * trace;
-    let negligible = T::EPSILON.sqrt().sqrt() * trace;
-    let mut rest = *a;
+    let nothing = T::EPSILON.sqrt() * scale;
+    let negligible = T::EPSILON.sqrt().sqrt() * scale;
+    let mut rest = symmetrized(a);
     let (mut lowest, mut widest) = (T::ZERO, T::ZERO);
     for k in 0..N {
         let pivot = rest[(k, k)];
@@ -104,7 +118,7 @@ pub(super) fn root<T: Entry, const N: usize>(
 ) -> Result<SMatrix<T, N, N>, ControlError> {
     semidefinite(name, a)?;
     let count = T::from_u32(u32::try_from(N).unwrap_or(u32::MAX));
-    let mut rest = *a;
+    let mut rest = symmetrized(a);
     let mut lower = SMatrix::<T, N, N>::zeros();
     for j in 0..N {
         let pivot = rest[(j, j)];
@@ -149,6 +163,9 @@ mod tests {
             matrix![0.0, 1.0; 1.0, 5.0],
             matrix![1.0, 0.0; 0.0, -1e-3],
             matrix![-1.0, 0.0; 0.0, -1.0],
+            // by its symmetric part
+            matrix![1.0, 100.0; 0.0, 1.0],
+            matrix![1.0, 0.0; 100.0, 1.0],
         ];
         for a in wrong {
             let refused = semidefinite("a", &a);

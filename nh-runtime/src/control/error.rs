@@ -40,15 +40,15 @@ pub enum ControlError {
         /// Its upper bound.
         upper: f64,
     },
-    /// The doubling iteration for the Riccati equation does not settle.
+    /// The doubling iteration for the Riccati equation does not settle, or the closed loop that its solution
+    /// gives leaves the range of the scalar.
     NotStabilizable {
-        /// The iterations done.
+        /// The iterations done: the horizon is two to this power of ticks.
         iterations: u32,
-        /// The relative change of the cost matrix in the last of them.
+        /// The relative change of the cost matrix in the last of them; infinite where it is the loop that grows.
         change: f64,
     },
-    /// The closed loop that the solution of the Riccati equation gives is not stable, or the
-    /// solution does not satisfy the equation.
+    /// The solution of the Riccati equation does not satisfy it.
     Residual {
         /// What is left of the equation, relative to the cost matrix.
         residual: f64,
@@ -85,8 +85,8 @@ impl Display for ControlError {
             ),
             Self::NotStabilizable { iterations, change } => write!(
                 f,
-                "the Riccati equation has not settled after {iterations} doublings (relative change \
-                 {change:.1e}): a mode that does not decay cannot be steered by the inputs or does not \
+                "there is no stationary regulator: after {iterations} doublings of the horizon it still grows \
+                 (relative change {change:.1e}): a mode that does not decay cannot be steered by the inputs or does not \
                  appear in the cost; leave it out of the state, or give it a weight"
             ),
             Self::Residual { residual } => write!(
@@ -130,9 +130,9 @@ mod tests {
             ),
             (
                 ControlError::NotStabilizable { iterations: 60, change: 0.5 },
-                "the Riccati equation has not settled after 60 doublings (relative change 5.0e-1): a mode \
-                 that does not decay cannot be steered by the inputs or does not appear in the cost; leave \
-                 it out of the state, or give it a weight",
+                "there is no stationary regulator: after 60 doublings of the horizon it still grows (relative \
+                 change 5.0e-1): a mode that does not decay cannot be steered by the inputs or does not appear \
+                 in the cost; leave it out of the state, or give it a weight",
             ),
             (
                 ControlError::Residual { residual: 0.25 },

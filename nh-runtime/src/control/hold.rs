@@ -6,8 +6,8 @@ use super::{ControlError, Entry, finite, norm};
 
 /// The highest power in the series of φ₁: the rest is below 2⁻⁵³ where the norm is at most 1/2.
 const TERMS: u32 = 13;
-/// So many halvings bring every finite matrix of f64 below the norm 1/2.
-const MOST_HALVINGS: u32 = 1025;
+/// So many halvings bring every finite matrix of f64, of up to 2³² rows, below the norm 1/2.
+pub(super) const MOST_HALVINGS: u32 = 1025 + 32;
 
 /// The discrete-time system x' = A_d x + B_d u of ẋ = a x + b u over a time `dt` with a constant
 /// input: A_d = exp(a dt), B_d = ∫₀^dt exp(a s) ds b.

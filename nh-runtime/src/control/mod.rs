@@ -131,7 +131,8 @@ impl<T: Real + ClosedAddAssign + ClosedSubAssign + ClosedMulAssign + Zero + One>
 
 /// a − b of two angles, the short way round: in [−π, π].
 ///
-/// For what a filter or a regulator calls a difference, where a heading may have passed π.
+/// For what a filter or a regulator calls a difference, where a heading may have passed π. If a − b is not finite
+/// the result is NaN, which filters refuse.
 ///
 /// ```
 /// use nh_runtime::control::angle_difference;

@@ -3,12 +3,11 @@
 use nalgebra::SMatrix;
 
 use super::cholesky::semidefinite;
+use super::hold::MOST_HALVINGS;
 use super::{ControlError, Entry, finite, norm, symmetrized};
 
-/// The series is summed where its k-th term is at most 1/(k + 1)! of the first: the rest is below 2⁻⁵³.
+/// The series is summed where its k-th term is at most 1/k! of the first: the rest is below 2⁻⁵³.
 const TERMS: u32 = 18;
-/// So many halvings bring every finite matrix of f64 below the norm 1/2.
-const MOST_HALVINGS: u32 = 1025;
 
 /// The covariance that white noise of the spectral density `density` in ẋ = a x + … adds to the state over a time
 /// `dt`: ∫₀^dt exp(a s) W exp(aᵀs) ds, the `noise` of a filter's prediction.

@@ -2,7 +2,7 @@
 
 use nalgebra::{SMatrix, SVector};
 
-use super::cholesky::{Cholesky, semidefinite};
+use super::cholesky::{Cholesky, semidefinite, semidefinite_beside, trace};
 use super::{ControlError, Entry, finite, norm, symmetrized};
 use crate::D;
 use crate::linear::Factors;
@@ -37,6 +37,9 @@ impl<T: Entry, const N: usize, const M: usize> Regulator<T, N, M> {
     /// refused if it decays slower than in some 10⁷ ticks. In `f32` rounding makes such a mode decay, or grow, within
     /// some thousand ticks, which cannot always be told from a slow one: gains are better computed in `f64`.
     ///
+    /// What costs nothing is left alone: a place that is not weighed may drift. It is refused where it grows so that
+    /// it leaves the range of the scalar within that time.
+    ///
     /// ```
     /// use nalgebra::matrix;
     /// use nh_runtime::control::Regulator;
@@ -48,9 +51,9 @@ impl<T: Entry, const N: usize, const M: usize> Regulator<T, N, M> {
     /// ```
     ///
     /// # Errors
-    /// [`ControlError::NotFinite`], [`ControlError::NotDefinite`] for `q` and `r`, and
-    /// [`ControlError::NotStabilizable`] or [`ControlError::Residual`] if there is no such regulator
-    /// to the precision of the scalar.
+    /// [`ControlError::NotFinite`], [`ControlError::NotDefinite`] for `q` and `r`, which stand for their symmetric
+    /// parts, and [`ControlError::NotStabilizable`] or [`ControlError::Residual`] if there is no such regulator to
+    /// the precision of the scalar.
     pub fn stationary(
         a: &SMatrix<T, N, N>,
         b: &SMatrix<T, N, M>,
@@ -62,9 +65,19 @@ impl<T: Entry, const N: usize, const M: usize> Regulator<T, N, M> {
         finite("q", q)?;
         finite("r", r)?;
         semidefinite("q", q)?;
+        Self::doubled(a, b, q, r)
+    }
+
+    /// The regulator of weights that have been checked.
+    fn doubled(
+        a: &SMatrix<T, N, N>,
+        b: &SMatrix<T, N, M>,
+        q: &SMatrix<T, N, N>,
+        r: &SMatrix<T, M, M>,
+    ) -> Result<Self, ControlError> {
         let one = SMatrix::<T, N, N>::identity();
         let mut transition = *a;
-        let mut reach = symmetrized(&(b * Cholesky::new("r", r)?.solve(&b.transpose())));
+        let mut reach = symmetrized(&(b * Cholesky::new("r", &symmetrized(r))?.solve(&b.transpose())));
         let mut cost = symmetrized(q);
         let settled = T::from_f64(8.0) * T::EPSILON;
         let mut change = T::ONE;
@@ -120,13 +133,17 @@ impl<T: Entry, const N: usize, const M: usize> Regulator<T, N, M> {
         r: &SMatrix<T, M, M>,
         cross: &SMatrix<T, N, M>,
     ) -> Result<Self, ControlError> {
+        finite("a", a)?;
+        finite("b", b)?;
         finite("q", q)?;
         finite("r", r)?;
         finite("cross", cross)?;
-        let at_once = Cholesky::new("r", r)?.solve(&cross.transpose());
+        let at_once = Cholesky::new("r", &symmetrized(r))?.solve(&cross.transpose());
+        let transition = a - b * at_once;
+        finite("a − b r⁻¹crossᵀ", &transition)?;
         let weight = symmetrized(&(q - cross * at_once));
-        semidefinite("q − cross r⁻¹crossᵀ", &weight)?;
-        let shifted = Self::stationary(&(a - b * at_once), b, &weight, r)?;
+        semidefinite_beside(trace(q), "q − cross r⁻¹crossᵀ", &weight)?;
+        let shifted = Self::doubled(&transition, b, &weight, r)?;
         let gain = shifted.gain + at_once;
         finite("the gain of the regulator", &gain)?;
         Ok(Self { gain, cost: shifted.cost })
@@ -192,11 +209,27 @@ impl<T: Entry, const N: usize, const M: usize> Regulator<T, N, M> {
         let regulator = Self::before(cost, a, b, q, r)?;
         let residual = norm(&(regulator.cost - cost)) / norm(cost);
         // half the digits of the scalar; nothing costs anything if the cost is zero
-        if residual <= T::EPSILON.sqrt() || norm(cost) <= T::ZERO {
-            Ok(regulator)
-        } else {
-            Err(ControlError::Residual { residual: residual.to_f64() })
+        if residual > T::EPSILON.sqrt() && norm(cost) > T::ZERO {
+            return Err(ControlError::Residual { residual: residual.to_f64() });
         }
+        regulator.bounded(a, b)
+    }
+
+    /// Refuses a closed loop that leaves the range of the scalar within the longest horizon: what costs nothing is
+    /// not held, and may grow.
+    fn bounded(self, a: &SMatrix<T, N, N>, b: &SMatrix<T, N, M>) -> Result<Self, ControlError> {
+        let mut closed = a - b * self.gain;
+        let (mut horizon, longest) = (T::ONE, longest_horizon::<T>());
+        let mut iterations = 0;
+        while horizon < longest && norm(&closed) > T::from_f64(0.5) {
+            closed *= closed;
+            horizon += horizon;
+            iterations += 1;
+            if !norm(&closed).is_finite() {
+                return Err(ControlError::NotStabilizable { iterations, change: f64::INFINITY });
+            }
+        }
+        Ok(self)
     }
 }
 
@@ -261,6 +294,49 @@ mod tests {
         }
         let indefinite = Regulator::stationary_with_cross(&a, &b, &q, &r, &vector![30.0, 0.0]);
         assert!(matches!(indefinite, Err(ControlError::NotDefinite { .. })));
+    }
+
+    /// The square of outputs that the inputs act on at once costs nothing with u = −D⁻¹C e: what rounding leaves of
+    /// q − cross r⁻¹crossᵀ has either sign.
+    #[test]
+    fn a_cost_that_the_input_removes_at_once() {
+        let mut seed = 1_u32;
+        let mut number = || {
+            seed = seed.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
+            f64::from(seed) / f64::from(u32::MAX) - 0.5
+        };
+        let mut decaying = 0;
+        for _ in 0..1000 {
+            let c = SMatrix::<f64, 2, 3>::from_fn(|_, _| number());
+            let d = SMatrix::<f64, 2, 2>::from_fn(|_, _| number()) + Matrix2::identity();
+            let a = SMatrix::<f64, 3, 3>::from_fn(|_, _| 0.2 * number());
+            let b = SMatrix::<f64, 3, 2>::from_fn(|_, _| 0.2 * number());
+            let gain = d.try_inverse().unwrap() * c;
+            if (a - b * gain).norm() > 0.9 {
+                continue;
+            }
+            decaying += 1;
+            let (q, r, cross) = (c.transpose() * c, d.transpose() * d, c.transpose() * d);
+            let regulator = Regulator::stationary_with_cross(&a, &b, &q, &r, &cross).unwrap();
+            assert!((regulator.gain - gain).norm() < 1e-10 * gain.norm(), "{} {gain}", regulator.gain);
+            assert!(regulator.cost.norm() < 1e-12 * q.norm(), "{}", regulator.cost);
+        }
+        assert!(decaying > 500, "{decaying}");
+    }
+
+    #[test]
+    fn what_costs_nothing_may_drift_but_not_grow() {
+        let speed_alone = Matrix2::from_diagonal(&vector![0.0, 1.0]);
+        let (a, b) = (matrix![1.0, 0.1; 0.0, 1.0], vector![0.0, 0.1]);
+        let drifting = Regulator::stationary(&a, &b, &speed_alone, &matrix![1.0]).unwrap();
+        assert!(drifting.gain[0] == 0.0 && drifting.gain[1] > 0.5);
+        for growth in [1.2, 1.000_01] {
+            let a = matrix![growth, 0.0; 0.0, 0.5];
+            let refused = Regulator::stationary(&a, &vector![1.0, 1.0], &speed_alone, &matrix![1.0]);
+            assert!(matches!(refused, Err(ControlError::NotStabilizable { .. })), "{refused:?}");
+            let free = Regulator::stationary(&a, &vector![1.0, 1.0], &Matrix2::zeros(), &matrix![1.0]);
+            assert!(matches!(free, Err(ControlError::NotStabilizable { .. })), "{free:?}");
+        }
     }
 
     #[test]
