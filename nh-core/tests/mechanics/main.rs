@@ -2,6 +2,7 @@
 //! theory against each other.
 
 mod adapted_frame;
+mod builder;
 mod derivation;
 mod laws;
 mod operation_counts;

@@ -1,7 +1,7 @@
 //! Normal forms, and simplification by them.
 //!
 //! An expression is read as a Laurent polynomial over atoms (`reader.rs`), angles by the addition
-//! theorems (`trigonometry.rs`), denominators are cancelled (`division.rs`), and the polynomial is
+//! theorems (`trigonometry.rs`), powers become monomials (`powers.rs`), denominators are cancelled (`division.rs`), and the polynomial is
 //! written back (`rebuild.rs`). Identities beyond those of construction:
 //!
 //! | identity | condition |
@@ -20,6 +20,7 @@ mod cost;
 mod division;
 mod harmonics;
 mod polynomial;
+mod powers;
 mod reader;
 mod rebuild;
 mod terms;

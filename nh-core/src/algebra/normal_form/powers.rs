@@ -1,0 +1,159 @@
+//! Powers of what has been read: integer ones multiplied out, roots of numbers by their prime factors,
+//! those of sums as atoms.
+
+use super::polynomial::{Exponent, Kind, Monomial, Polynomial};
+use super::reader::{Reader, plain};
+use crate::algebra::graph::Node;
+use crate::algebra::number::Rational;
+
+/// Denominators that a new denominator is divided by, to find common factors.
+const FACTORS_TRIED: usize = 8;
+
+impl Reader<'_> {
+    /// A power of what has been read.
+    pub(super) fn power(&mut self, base: &Polynomial, exponent: Exponent) -> Option<Polynomial> {
+        if base.is_zero() {
+            // a division by zero is left to the checks
+            return (!exponent.is_negative()).then(Polynomial::default);
+        }
+        if let Some((monomial, coefficient)) = base.single() {
+            return self.power_of_monomial(monomial, coefficient, exponent);
+        }
+        match exponent.integer() {
+            Some(1) if self.expands() => Some(base.clone()),
+            Some(times @ 2..) if self.expands() => {
+                let mut product = base.clone();
+                for _ in 1..times {
+                    product = self.multiply(&product, base)?;
+                }
+                Some(product)
+            }
+            _ => self.power_of_sum(base, exponent),
+        }
+    }
+
+    fn power_of_monomial(
+        &mut self,
+        monomial: &Monomial,
+        coefficient: &Rational,
+        exponent: Exponent,
+    ) -> Option<Polynomial> {
+        if let Some(times) = exponent.integer() {
+            let power = Polynomial::constant(coefficient.pow(times.into())?);
+            let monomial = Polynomial::term(monomial.power(exponent)?, Rational::ONE);
+            return self.multiply(&power, &monomial);
+        }
+        if monomial.is_unit() {
+            return self.power_of_number(coefficient, exponent);
+        }
+        // the identities of construction say which roots may be taken
+        let inside = self.monomial_expression(monomial, coefficient);
+        let value = self.graph.pow(inside, exponent.to_rational());
+        let Node::Product { coefficient, factors } = self.graph.node(value).clone() else {
+            return self.read_value(value);
+        };
+        let mut product = Polynomial::constant(coefficient);
+        for (base, exponent) in factors {
+            let exponent = Exponent::of(&exponent)?;
+            let power = match self.graph.node(base).clone() {
+                Node::Number(value) => self.power_of_number(&value, exponent)?,
+                Node::Product { .. } => {
+                    let meaning = self.read(base)?;
+                    self.composites.insert(base, meaning);
+                    Polynomial::term(Monomial::of(base, Kind::Product, exponent), Rational::ONE)
+                }
+                Node::Sum { .. } => {
+                    let meaning = self.read(base)?;
+                    self.power_of_sum(&meaning, exponent)?
+                }
+                _ => Polynomial::term(Monomial::of(base, Kind::Plain, exponent), Rational::ONE),
+            };
+            product = self.multiply(&product, &power)?;
+        }
+        Some(product)
+    }
+
+    /// A root of a positive number, as roots of its prime factors.
+    fn power_of_number(&mut self, value: &Rational, exponent: Exponent) -> Option<Polynomial> {
+        if let Some(times) = exponent.integer() {
+            return value.pow(times.into()).map(Polynomial::constant);
+        }
+        let Some((numerator, denominator)) = value.to_small().filter(|(n, _)| *n > 0) else {
+            let base = self.graph.number(value.clone());
+            let root = self.graph.pow(base, exponent.to_rational());
+            return Some(plain(root));
+        };
+        let mut product = Polynomial::one();
+        for (number, sign) in [(numerator, 1), (denominator, -1)] {
+            for (prime, times) in prime_powers(number) {
+                let atom = self.graph.number(prime);
+                let exponent = exponent.times(Exponent::whole(times * sign))?;
+                let factor = Polynomial::term(Monomial::of(atom, Kind::Number, exponent), Rational::ONE);
+                product = self.multiply(&product, &factor)?;
+            }
+        }
+        Some(product)
+    }
+
+    /// A power of a sum as a power of its primitive part, which becomes an atom.
+    fn power_of_sum(&mut self, base: &Polynomial, exponent: Exponent) -> Option<Polynomial> {
+        let base = self.tidy(base)?;
+        if base.len() < 2 {
+            return self.power(&base, exponent);
+        }
+        if !exponent.is_integer() {
+            let content = base.content();
+            let outside = self.power_of_number(&content, exponent)?;
+            let atom = self.atom_of_sum(base.scaled(&content.recip()?));
+            let inside = Polynomial::term(Monomial::of(atom, Kind::Sum, exponent), Rational::ONE);
+            return self.multiply(&outside, &inside);
+        }
+        let common = base.meet();
+        let inverse = Polynomial::term(common.inverse(), Rational::ONE);
+        let numerator = self.multiply(&base, &inverse)?;
+        let numerator = self.reduce(&numerator)?;
+        let (_, leading) = numerator.leading()?;
+        let content = if leading.is_negative() { -numerator.content() } else { numerator.content() };
+        let mut product = self.power_of_monomial(&common, &content, exponent)?;
+        let mut rest = numerator.scaled(&content.recip()?);
+        let known: Vec<_> =
+            self.composites.iter().take(FACTORS_TRIED).map(|(a, p)| (*a, p.clone())).collect();
+        for (atom, meaning) in known {
+            while rest.len() > 1 && meaning.len() > 1 && meaning.len() <= rest.len() {
+                let Some(quotient) = self.quotient(&rest, &meaning) else { break };
+                let factor = Polynomial::term(Monomial::of(atom, Kind::Sum, exponent), Rational::ONE);
+                product = self.multiply(&product, &factor)?;
+                rest = quotient;
+            }
+        }
+        let last = if let Some((monomial, coefficient)) = rest.single() {
+            self.power_of_monomial(monomial, coefficient, exponent)?
+        } else {
+            let atom = self.atom_of_sum(rest);
+            Polynomial::term(Monomial::of(atom, Kind::Sum, exponent), Rational::ONE)
+        };
+        self.multiply(&product, &last)
+    }
+}
+
+/// Prime factors with exponents; a cofactor without small factors counts as prime.
+fn prime_powers(mut number: i64) -> Vec<(i64, i32)> {
+    const TRIED: i64 = 1000;
+    let mut powers = Vec::new();
+    let mut divisor = 2;
+    while divisor < TRIED && divisor * divisor <= number {
+        let mut times = 0;
+        while number % divisor == 0 {
+            number /= divisor;
+            times += 1;
+        }
+        if times > 0 {
+            powers.push((divisor, times));
+        }
+        divisor += 1;
+    }
+    if number > 1 {
+        powers.push((number, 1));
+    }
+    powers
+}
