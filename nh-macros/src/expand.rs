@@ -84,6 +84,17 @@ mod tests {
     }
 
     #[test]
+    fn methods_are_called_by_the_identifiers_of_the_declaration() {
+        let text = expanded(
+            "base { x } lagrangian { m / 2 * der(x)^2 } forces { x: self.r#loop(der(x)); }
+             derivative { r#loop: [self.r#dyn]; } emit { jacobian }",
+            "struct S { m: f64 }",
+        );
+        assert!(text.contains("self.r#loop(state.x_dot)"), "{text}");
+        assert!(text.contains("self.r#dyn(state.x_dot)"), "{text}");
+    }
+
+    #[test]
     fn errors_come_with_the_item() {
         let text = expanded("base { x } lagrangian { 2x }", "struct S { #[nh(skip)] tag: u8 }");
         assert!(text.starts_with("::core::compile_error! {"), "{text}");

@@ -5,7 +5,7 @@ use super::kinematics::Motion;
 use crate::algebra::Verdict;
 use crate::geometry::Manifold;
 use crate::id::{ExprId, Id, SectionId, SymbolId};
-use crate::model::{Located, Model};
+use crate::model::{Kinematics, Located, Model};
 use crate::violation::{Law, Violation};
 
 /// The embedded base: all of M where the declaration has no identities.
@@ -87,13 +87,23 @@ fn left_by_anchor(
             }
             _ => format!("along `{name}` it changes at the rate {}", shown(&model.graph, change)),
         };
+        let (what, way_out) = match model.kinematics {
+            Kinematics::Tangent => (
+                "the velocities do not keep this identity",
+                "without a basis every rate is free: declare a `basis` whose `anchor` keeps it, such as \
+                 `der(g) = cross(g, w)`, or leave `on` out and constrain the rates",
+            ),
+            Kinematics::Anchor(_) | Kinematics::Coframe(_) => (
+                "the anchor does not keep this identity",
+                "correct the anchor, or the identity: every motion has to stay on the embedded base",
+            ),
+        };
         return Some(Violation {
             law: Law::Embedding,
             origin: identity.origin,
-            what: "the anchor does not keep this identity".into(),
+            what: what.into(),
             evidence,
-            way_out: "correct the anchor, or the identity: every motion has to stay on the embedded base"
-                .into(),
+            way_out: way_out.into(),
         });
     }
     None

@@ -6,6 +6,8 @@
 //! in that of `SectionId`, parameters in that of `ParamId`, inputs in that of `InputId`, outputs in
 //! that of `System::observables`.
 
+use std::collections::BTreeMap;
+
 use nh_core::id::SymbolId;
 use proc_macro2::{Ident, Span, TokenStream};
 use quote::{format_ident, quote};
@@ -53,6 +55,8 @@ pub(crate) struct Layout {
     pub(crate) inputs: Vec<Family>,
     /// The observables.
     pub(crate) outputs: Vec<Family>,
+    /// The methods of the struct that are called, by their names without `r#`.
+    pub(crate) methods: BTreeMap<String, Ident>,
 }
 
 /// The names of the generated types.
@@ -177,7 +181,13 @@ impl Layout {
             velocity_symbols: Vec::new(),
             inputs: Vec::new(),
             outputs: Vec::new(),
+            methods: BTreeMap::new(),
         }
+    }
+
+    /// A method of the struct, where the declaration calls it: what the compiler says of it is said there.
+    pub(super) fn method(&self, name: &str) -> Ident {
+        self.methods.get(name).cloned().unwrap_or_else(|| Ident::new(name, Span::call_site()))
     }
 
     /// The scalar type as tokens.

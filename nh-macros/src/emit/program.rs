@@ -180,7 +180,7 @@ impl Writer<'_> {
     /// `self.method(a, b)`.
     fn call_of_user(&mut self, method: &str, arguments: &[Value]) -> Expression {
         self.used.insert(Argument::This);
-        let method = Ident::new(method, Span::call_site());
+        let method = self.context.layout.method(method);
         let arguments = arguments.iter().map(|value| &self.expressions[*value].tokens);
         Expression::atom(quote!(self.#method(#(#arguments),*)), 0)
     }

@@ -111,6 +111,7 @@ impl Resolver {
         let of_motion = [types.state, types.velocity, types.input, types.outputs];
         let of_constraints = [types.multipliers, types.reactions, types.residual];
         let of_momenta = [types.momenta, types.phase, types.quadratures, types.gyroscopic];
+        let mut is_twice = false;
         for name in of_motion.into_iter().chain(of_constraints).chain(of_momenta) {
             if !taken.insert(name.to_string()) {
                 let blamed = names.body.iter().rev().find(|renaming| renaming.name.ident == name);
@@ -122,7 +123,12 @@ impl Resolver {
                     Some(renaming) => self.report(renaming, error),
                     None => self.report(&names.keyword, error),
                 };
+                is_twice = true;
             }
+        }
+        if is_twice {
+            // so that stubs do not collide
+            layout.types = TypeNames::of(&layout.name);
         }
     }
 }

@@ -36,6 +36,9 @@ pub(super) const REQUESTS: [(&str, Request); 19] = [
     ("euler_poincare_suslov", Request::EulerPoincareSuslov),
 ];
 
+/// What is generated anyway.
+const GENERATED: [&str; 5] = ["derivative", "energy", "velocity", "outputs", "validate"];
+
 impl Resolver {
     /// f = 0 on the embedded base; vectors entry by entry.
     pub(super) fn identities(&mut self, items: &[Item<Equation>]) -> Vec<Located> {
@@ -155,6 +158,14 @@ impl Resolver {
         for name in names {
             let text = name.text.as_str();
             let Some((_, request)) = REQUESTS.iter().find(|(known, _)| *known == text) else {
+                if GENERATED.contains(&text) {
+                    let error = Diagnostic::new(
+                        name.extent(),
+                        format!("`{text}` is generated without being asked for"),
+                    );
+                    self.report(name, error.way_out("leave it out"));
+                    continue;
+                }
                 let all = REQUESTS.map(|(known, _)| format!("`{known}`")).join(", ");
                 let error = Diagnostic::new(name.extent(), format!("`{text}` cannot be emitted"));
                 let known = format!("what can be asked for: {all}");

@@ -27,7 +27,11 @@ enum Called {
 const ARGUMENT: usize = 40;
 
 /// What other languages call our functions, and what to write.
-const ELSEWHERE: [(&str, &str); 19] = [
+const ELSEWHERE: [(&str, &str); 23] = [
+    ("d", "der(x)"),
+    ("dt", "der(x)"),
+    ("ddt", "der(x)"),
+    ("diff", "der(x)"),
     ("log", "ln(x)"),
     ("log10", "ln(x) / ln(10)"),
     ("log2", "ln(x) / ln(2)"),
@@ -198,6 +202,7 @@ impl Resolver {
         let symbol = self.graph.new_symbol(format!("self.{}({})", name.text, texts.join(", ")));
         let origin = self.origin(expr.extent);
         let method = name.text.clone();
+        self.methods.entry(method.clone()).or_insert_with(|| name.ident.clone());
         self.calls.push(MethodCall { symbol, method, arguments, derivatives: None, origin });
         Ok(Array::number(self.graph.symbol(symbol)))
     }
@@ -211,6 +216,7 @@ impl Resolver {
             let known = FUNCTIONS.iter().copied().chain(["sum", "dot", "cross"]);
             let elsewhere = ELSEWHERE.iter().find(|(other, _)| other == text);
             let way_out = match elsewhere {
+                _ if text == "ddot" => "accelerations follow from the equations; `der(x)` is a velocity".to_owned(),
                 Some((_, ours)) => format!("write `{ours}`"),
                 None => did_you_mean(text, known).unwrap_or_else(|| {
                     "functions are sin, cos, tan, asin, acos, atan, atan2, sinh, cosh, tanh, exp, ln, sqrt, dot, \

@@ -26,6 +26,9 @@ impl Resolver {
         let MethodDerivative { method, derivatives } = line;
         let given = derivatives.len();
         let names: Vec<String> = derivatives.iter().map(|name| name.text.clone()).collect();
+        for name in derivatives {
+            self.methods.entry(name.text.clone()).or_insert_with(|| name.ident.clone());
+        }
         let (mut called, mut wanted) = (false, None);
         for call in self.calls.iter_mut().filter(|call| call.method == method.text) {
             called = true;

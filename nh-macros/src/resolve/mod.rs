@@ -93,6 +93,7 @@ impl Resolver {
         if let Some(section) = &sections.derivative {
             self.derivatives(&section.body);
         }
+        layout.methods = std::mem::take(&mut self.methods);
         let claims = sections.conserved.as_ref().map(|s| self.claims(&s.body)).unwrap_or_default();
         let symmetries = sections.symmetries.as_ref().map(|s| self.symmetries(&s.body)).unwrap_or_default();
         let volume = sections.volume.as_ref().and_then(|claim| self.volume(claim).ok());

@@ -1,8 +1,12 @@
 //! The state of this stage, and what every part of it needs.
 
+use std::collections::BTreeMap;
+
 use nh_core::algebra::Graph;
 use nh_core::id::{CoordId, ExprId, Id, InputId, Origin, ParamId, SectionId, SymbolId, Table};
 use nh_core::model::{Coordinate, FrameDecl, Input, MethodCall, Parameter, Section};
+
+use proc_macro2::Ident;
 
 use super::array::{Part, Shape};
 use super::context::{Context, Usage};
@@ -38,6 +42,8 @@ pub(super) struct Resolver {
     pub(super) tables: Tables,
     /// Calls of the user's methods.
     pub(super) calls: Vec<MethodCall>,
+    /// The methods that are called or named as derivatives, where they stand first.
+    pub(super) methods: BTreeMap<String, Ident>,
     /// The names.
     pub(super) scope: Scope,
     /// The section that is read.
@@ -60,6 +66,7 @@ impl Resolver {
             time,
             tables: Tables::default(),
             calls: Vec::new(),
+            methods: BTreeMap::new(),
             scope: Scope::new(),
             context: Context::Lagrangian,
             origins,

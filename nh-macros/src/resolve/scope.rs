@@ -190,6 +190,9 @@ impl Scope {
                 .evidence(format!("`{text}` is an output, and outputs are not used in expressions"))
                 .way_out("name the value with a `let`, and use that");
         }
+        if text == "time" {
+            return error.way_out("the time is `t`");
+        }
         let locals = self.locals.iter().map(|(known, _)| known.as_str());
         let globals = self.globals.keys().map(String::as_str);
         error.way_out(did_you_mean(text, locals.chain(globals).take(COMPARED)).unwrap_or_else(|| {

@@ -216,6 +216,11 @@ fn malformed_expressions_are_explained() {
             "this is not a base coordinate\nhelp: `der` takes the name of a base coordinate: `der(x)`, \
              `der(theta[0])`; the chain rule is written out",
         ),
+        (
+            "sum(i in 0..2, x[i])",
+            "expected another range, found `x`\nhelp: a summand stands behind a `:`, as in `sum(i in 0..4: …)`; a \
+             range reads `j in 0..4`",
+        ),
         ("sum(m[i])", "expected `in` and a range, found brackets\nhelp: a range reads `i in 0..4`"),
         ("sum(0)", "expected a variable, found `0`\nhelp: a range reads `i in 0..4`"),
         (

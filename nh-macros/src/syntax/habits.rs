@@ -3,6 +3,7 @@
 use proc_macro2::{Delimiter, Group, TokenTree};
 
 use super::ast::Name;
+use super::items::END;
 use super::render::render;
 use super::stream::Stream;
 use super::vocabulary::{is_function, is_keyword};
@@ -175,6 +176,9 @@ pub(crate) fn unexpected(stream: &Stream, wanted: &str) -> Diagnostic {
             } else {
                 error.way_out("a product is written with `*`")
             }
+        }
+        (_, Some(TokenTree::Punct(mark))) if mark.as_char() == ',' && wanted == END => {
+            stream.expected(wanted).way_out("lines end with `;`, and a second `let` is a line of its own")
         }
         _ => stream.expected(wanted),
     }

@@ -36,11 +36,14 @@ fn block<T>(body: &Group, blocks: u32, errors: &mut Errors, statement: Statement
 /// `let …; expr`, where only the expression at the end is no `let`.
 pub(crate) fn lagrangian(body: &Group, errors: &mut Errors) -> Option<Lagrangian> {
     let mut lets = Vec::new();
-    let mut value = None;
+    // a `let` in error may have swallowed the expression
+    let (mut value, mut in_error) = (None, false);
     for mut chunk in chunks(body) {
         let start = chunk.whole();
         if first_word(&chunk).as_deref() == Some("let") {
-            lets.extend(errors.keep(let_line(&mut chunk)));
+            let kept = errors.keep(let_line(&mut chunk));
+            in_error |= kept.is_none();
+            lets.extend(kept);
             if value.is_some() {
                 errors.push(
                     Diagnostic::new(start, "a `let` behind the Lagrangian itself")
@@ -58,7 +61,7 @@ pub(crate) fn lagrangian(body: &Group, errors: &mut Errors) -> Option<Lagrangian
         let parsed = chunk.docs().and_then(|_| chunk.last_expression(END));
         value = Some(errors.keep(parsed));
     }
-    if value.is_none() {
+    if value.is_none() && !in_error {
         errors.push(
             Diagnostic::new(Extent::at(body.span()), "there is no expression in `lagrangian`")
                 .way_out("write kinetic minus potential energy: `lagrangian { m / 2 * v^2 - m * g * z }`"),

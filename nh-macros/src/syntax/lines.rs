@@ -111,7 +111,12 @@ impl Stream {
         self.docs()?;
         let start = self.position();
         let Some(pair) = self.eat_group(Delimiter::Bracket) else {
-            return Err(self.expected("a pair of sections").way_out(reads));
+            let is_algebra = matches!(self.peek_at(1), Some(TokenTree::Group(group)) if group.delimiter() == Delimiter::Parenthesis);
+            return Err(self.expected("a pair of sections").way_out(if is_algebra {
+                "a known algebra stands before the braces, its sections between them: `brackets so(3) { w }`"
+            } else {
+                reads
+            }));
         };
         let mut inner = Self::inside(&pair);
         let (first, second) = inner.pair().map_err(|error| error.or_way_out(reads))?;

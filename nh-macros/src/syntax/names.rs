@@ -57,6 +57,10 @@ fn list_end(stream: &Stream) -> Result<(), Diagnostic> {
             Err(Diagnostic::new(stream.here(), "names in a list are not separated by `;`")
                 .way_out("write commas"))
         }
+        Some(TokenTree::Punct(mark)) if mark.as_char() == ':' => {
+            Err(Diagnostic::new(stream.here(), "names in a list have no type")
+                .way_out("write the name alone: every number is of the scalar type of the struct"))
+        }
         Some(TokenTree::Ident(_)) => {
             Err(Diagnostic::new(stream.here(), "a comma is missing before this name"))
         }
@@ -164,6 +168,16 @@ impl Stream {
     pub(crate) fn binders(&mut self) -> Result<Vec<Binder>, Diagnostic> {
         let mut binders = vec![self.binder()?];
         while self.eat(",") {
+            let is_range = match self.peek_at(1) {
+                Some(TokenTree::Ident(word)) => word == "in",
+                Some(token) => is_mark(token, '='),
+                None => false,
+            };
+            if !is_range {
+                return Err(self.expected("another range").way_out(
+                    "a summand stands behind a `:`, as in `sum(i in 0..4: …)`; a range reads `j in 0..4`",
+                ));
+            }
             binders.push(self.binder()?);
         }
         Ok(binders)

@@ -143,6 +143,12 @@ fn errors_in_lines_are_explained() {
         ("anchor { der(x): w; }", format!("expected `=`, found `:`\nhelp: {line}")),
         ("anchor { der(x) == w; }", "`==` is not part of an equation\nhelp: write a single `=`".to_owned()),
         ("brackets { w = v; }", format!("expected a pair of sections, found `w`\nhelp: {pair}")),
+        (
+            "brackets { so(3) }",
+            "expected a pair of sections, found `so`\nhelp: a known algebra stands before the braces, its sections \
+             between them: `brackets so(3) { w }`"
+                .to_owned(),
+        ),
         ("brackets { [w] = v; }", format!("expected `,` and a second section after `w`\nhelp: {pair}")),
         ("brackets { [w, 2] = v; }", format!("expected a section, found `2`\nhelp: {pair}")),
         ("forces { w = 2; }", format!("expected `:`, found `=`\nhelp: {force}")),
@@ -150,7 +156,10 @@ fn errors_in_lines_are_explained() {
             "forces { der(x): 2; }",
             "a force along `der(…)`\nhelp: a force along a base coordinate is written `x: …;`".to_owned(),
         ),
-        ("forces { w: 1, x: 2 }", "expected `;`, found `,`".to_owned()),
+        (
+            "forces { w: 1, x: 2 }",
+            "expected `;`, found `,`\nhelp: lines end with `;`, and a second `let` is a line of its own".to_owned(),
+        ),
         (
             "constraints { w }",
             "expected `=` after `w`\nhelp: this is an equation: `left = right`, where the right may be `0`"
@@ -205,6 +214,11 @@ fn errors_in_lists_are_explained() {
         ("inputs { u; v }", "names in a list are not separated by `;`\nhelp: write commas"),
         ("inputs { u v }", "a comma is missing before this name"),
         ("inputs { u = 2 }", "expected `,` or the end of the list, found `=`"),
+        (
+            "inputs { u: f64 }",
+            "names in a list have no type\nhelp: write the name alone: every number is of the scalar type of the \
+             struct",
+        ),
         ("inputs { u,, v }", "a comma with nothing before it in this list"),
         ("inputs { u[] }", "expected the number of entries, an integer, found nothing"),
         ("inputs { u[n] }", "expected the number of entries, an integer, found `n`"),
@@ -253,6 +267,14 @@ fn errors_in_lets_and_blocks_are_explained() {
             "a `let` names a value, which never changes\nhelp: leave out `mut`",
         ),
         ("lagrangian { let a: f64 = 1; a }", "a `let` has no type\nhelp: write `let name = …;`"),
+        (
+            "lagrangian { let a = 1, b = 2; a - b }",
+            "expected `;`, found `,`\nhelp: lines end with `;`, and a second `let` is a line of its own",
+        ),
+        (
+            "lagrangian { let a = (x) a - 1 }",
+            "an operator or a `;` is missing between `(x)` and `a`\nhelp: a product is written `(x) * a`",
+        ),
         ("lagrangian { let a; a }", "expected `=` after `a`\nhelp: an abbreviation reads `let name = …;`"),
         (
             "lagrangian { let a[0] = 1; a }",

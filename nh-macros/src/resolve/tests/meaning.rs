@@ -200,6 +200,7 @@ fn calls_and_powers_are_checked() {
     for (expression, message) in [
         ("m(x)", "`m` is not a function\nhelp: for a product write `m * (…)`".to_owned()),
         ("sine(x)", "unknown function `sine`\nhelp: did you mean `sin`?".to_owned()),
+        ("ddt(x)", "unknown function `ddt`\nhelp: write `der(x)`".to_owned()),
         ("log(x)", "unknown function `log`\nhelp: write `ln(x)`".to_owned()),
         ("sin(x, m)", "`sin` takes 1 argument, and 2 are given\nhelp: write `sin(x)`".to_owned()),
         ("atan2(x)", "`atan2` takes 2 arguments, and 1 are given\nhelp: write `atan2(y, x)`".to_owned()),

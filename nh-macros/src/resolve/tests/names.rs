@@ -15,6 +15,7 @@ fn unknown_names() {
         ("base { theta } lagrangian { thteta }", "unknown name `thteta`\nhelp: did you mean `theta`?"),
         ("base { x } lagrangian { M * x }", "unknown name `M`\nhelp: did you mean `m`?"),
         ("base { x } lagrangian { PI }", "unknown name `PI`\nhelp: did you mean `pi`?"),
+        ("base { x } lagrangian { time }", "unknown name `time`\nhelp: the time is `t`"),
         ("base { x } lagrangian { quux }", &format!("unknown name `quux`\nhelp: {DECLARE}")),
         (
             "base { x } lagrangian { tag }",

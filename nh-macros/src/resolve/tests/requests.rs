@@ -32,6 +32,10 @@ fn requests() {
             "base { x } lagrangian { 1 } emit { everything }",
             &format!("`everything` cannot be emitted\nhelp: {known}"),
         ),
+        (
+            "base { x } lagrangian { 1 } emit { energy }",
+            "`energy` is generated without being asked for\nhelp: leave it out",
+        ),
         (&format!("{constrained} emit {{ reactions, reactions }}"), "`reactions` is asked for twice"),
         (
             "base { x } lagrangian { 1 } emit { reactions }",
