@@ -3,6 +3,7 @@
 
 use std::any::type_name;
 use std::marker::PhantomData;
+use std::ops::Deref;
 
 use nh_runtime::prelude::*;
 
@@ -176,10 +177,16 @@ pub struct Solution {
 
 struct Declaration<S>(PhantomData<S>);
 
+/// The name of a declaration.
+#[must_use]
+pub fn name_of<S>() -> &'static str {
+    let path = type_name::<S>();
+    path.rsplit("::").next().unwrap_or(path)
+}
+
 impl<S: Catalogued> Entry for Declaration<S> {
     fn name(&self) -> &'static str {
-        let path = type_name::<S>();
-        path.rsplit("::").next().unwrap_or(path)
+        name_of::<S>()
     }
 
     fn reference(&self) -> System {
@@ -255,17 +262,20 @@ impl<S: Catalogued> Entry for Declaration<S> {
 }
 
 /// A system whose inputs are the reference system's functions of time.
-struct Driven<'a, S> {
-    system: S,
-    values: &'a Values,
+#[derive(Clone, Debug)]
+pub struct Driven<S, V> {
+    /// The system.
+    pub system: S,
+    /// What the functions depend on.
+    pub values: V,
 }
 
-impl<S: Catalogued> Dynamics for Driven<'_, S> {
+impl<S: Catalogued, V: Deref<Target = Values>> Dynamics for Driven<S, V> {
     type State = S::State;
     type Input = ();
 
     fn derivative(&self, t: f64, state: &S::State, (): &()) -> S::State {
-        self.system.derivative(t, state, &S::input(self.values, t))
+        self.system.derivative(t, state, &S::input(&self.values, t))
     }
 
     fn validate(&self) -> Result<(), ParameterError> {

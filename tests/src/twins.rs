@@ -1,10 +1,7 @@
 //! Systems in both formulations, from one declaration.
 
 use crate::catalogue::{Catalogued, Entry, entry};
-use crate::systems::{
-    chaplygin_gyro, chaplygin_sphere, frames, mobile_robot, moving_constraints, particles, rolling_ball,
-    rotating_table, sleigh, suslov, vertical_disk, veselova,
-};
+use crate::systems;
 
 /// Declares a system twice: as it stands, and with `formulation { projected }` added.
 macro_rules! both {
@@ -119,35 +116,10 @@ fn twins<A: Catalogued + 'static, P: Catalogued + 'static>() -> Twins {
 /// Every constrained system of the catalogue that has an adapted formulation, in both.
 #[must_use]
 pub fn systems_in_both_formulations() -> Vec<Twins> {
-    vec![
-        twins::<chaplygin_gyro::ChaplyginGyro, chaplygin_gyro::ProjectedChaplyginGyro>(),
-        twins::<chaplygin_sphere::ChaplyginSphere, chaplygin_sphere::ProjectedChaplyginSphere>(),
-        twins::<
-            chaplygin_sphere::ChaplyginSphereWithAttitude,
-            chaplygin_sphere::ProjectedChaplyginSphereWithAttitude,
-        >(),
-        twins::<frames::ChaplyginSphereOnSphere, frames::ProjectedChaplyginSphereOnSphere>(),
-        twins::<mobile_robot::MobileRobot, mobile_robot::ProjectedMobileRobot>(),
-        twins::<mobile_robot::MobileRobotOnThePlane, mobile_robot::ProjectedMobileRobotOnThePlane>(),
-        twins::<moving_constraints::SleighOnBelt, moving_constraints::ProjectedSleighOnBelt>(),
-        twins::<moving_constraints::SteeredSleigh, moving_constraints::ProjectedSteeredSleigh>(),
-        twins::<moving_constraints::PrescribedRobot, moving_constraints::ProjectedPrescribedRobot>(),
-        twins::<particles::ParticleYCoframe, particles::ProjectedParticleYCoframe>(),
-        twins::<particles::ParticleY, particles::ProjectedParticleY>(),
-        twins::<particles::ParticleXCoframe, particles::ProjectedParticleXCoframe>(),
-        twins::<particles::ParticleX, particles::ProjectedParticleX>(),
-        twins::<rolling_ball::RollingBall, rolling_ball::ProjectedRollingBall>(),
-        twins::<rotating_table::BallOnRotatingTable, rotating_table::ProjectedBallOnRotatingTable>(),
-        twins::<
-            rotating_table::BallOnRotatingTableCoframe,
-            rotating_table::ProjectedBallOnRotatingTableCoframe,
-        >(),
-        twins::<sleigh::Sleigh, sleigh::ProjectedSleigh>(),
-        twins::<sleigh::ReducedSleigh, sleigh::ProjectedReducedSleigh>(),
-        twins::<suslov::Suslov, suslov::ProjectedSuslov>(),
-        twins::<suslov::SuslovAlongAxis, suslov::ProjectedSuslovAlongAxis>(),
-        twins::<vertical_disk::VerticalDisk, vertical_disk::ProjectedVerticalDisk>(),
-        twins::<vertical_disk::VerticalDiskMovingFrame, vertical_disk::ProjectedVerticalDiskMovingFrame>(),
-        twins::<veselova::VeselovaInEulerAngles, veselova::ProjectedVeselovaInEulerAngles>(),
-    ]
+    macro_rules! pairs {
+        ($($module:ident { $($adapted:ident $(, $projected:ident)?;)* })*) => {
+            vec![$($($(twins::<systems::$module::$adapted, systems::$module::$projected>(),)?)*)*]
+        };
+    }
+    crate::every_system!(pairs)
 }

@@ -22,55 +22,101 @@ pub mod suslov;
 pub mod vertical_disk;
 pub mod veselova;
 
+/// Hands every declared system that the reference data cover to a macro of the caller's, by modules: as `Name;`, or
+/// as `Name, Twin;` where the adapted formulation has a projected twin.
+#[macro_export]
+macro_rules! every_system {
+    ($each:ident) => {
+        $each! {
+            free_rigid_body {
+                FreeRigidBody;
+                FreeRigidBodyByEntries;
+            }
+            suslov {
+                Suslov, ProjectedSuslov;
+                SuslovAlongAxis, ProjectedSuslovAlongAxis;
+            }
+            sleigh {
+                Sleigh, ProjectedSleigh;
+                ReducedSleigh, ProjectedReducedSleigh;
+                SleighOnThePlane;
+            }
+            veselova {
+                Veselova;
+                VeselovaInEulerAngles, ProjectedVeselovaInEulerAngles;
+            }
+            mobile_robot {
+                MobileRobot, ProjectedMobileRobot;
+                MobileRobotOnThePlane, ProjectedMobileRobotOnThePlane;
+            }
+            vertical_disk {
+                VerticalDisk, ProjectedVerticalDisk;
+                VerticalDiskMovingFrame, ProjectedVerticalDiskMovingFrame;
+            }
+            snakeboard {
+                Snakeboard;
+                SnakeboardOnThePlane;
+            }
+            chaplygin_sphere {
+                ChaplyginSphere, ProjectedChaplyginSphere;
+                ChaplyginSphereWithAttitude, ProjectedChaplyginSphereWithAttitude;
+            }
+            chaplygin_gyro {
+                ChaplyginGyro, ProjectedChaplyginGyro;
+            }
+            rigid_body_rotor {
+                RigidBodyRotor;
+                RigidBodyRotorAbsolute;
+            }
+            particles {
+                ParticleYCoframe, ProjectedParticleYCoframe;
+                ParticleY, ProjectedParticleY;
+                ParticleXCoframe, ProjectedParticleXCoframe;
+                ParticleX, ProjectedParticleX;
+                CentralForceAreal;
+                CentralForceCartesian;
+            }
+            charged_particle {
+                ChargedParticle;
+                ChargedParticleCoframe;
+                ChargedParticleOnTheBundle;
+            }
+            rolling_ball {
+                RollingBall, ProjectedRollingBall;
+            }
+            rotating_table {
+                BallOnRotatingTable, ProjectedBallOnRotatingTable;
+                BallOnRotatingTableCoframe, ProjectedBallOnRotatingTableCoframe;
+            }
+            frames {
+                SnakeboardBySpan;
+                ChargedParticleByConnection;
+                VeselovaOnSphere;
+                VeselovaOnRotations;
+                ChaplyginSphereOnSphere, ProjectedChaplyginSphereOnSphere;
+            }
+            moving_constraints {
+                SleighOnBelt, ProjectedSleighOnBelt;
+                SteeredSleigh, ProjectedSteeredSleigh;
+                SteeredSleighOnThePlane;
+                PrescribedRobot, ProjectedPrescribedRobot;
+            }
+            nonlinear {
+                ParallelVelocities;
+                ConstantSpeed;
+                GrowingSpeed;
+            }
+        }
+    };
+}
+
 /// Every declared system that the reference data cover.
 #[must_use]
 pub fn catalogue() -> Vec<Box<dyn Entry>> {
-    vec![
-        entry::<free_rigid_body::FreeRigidBody>(),
-        entry::<free_rigid_body::FreeRigidBodyByEntries>(),
-        entry::<suslov::Suslov>(),
-        entry::<suslov::SuslovAlongAxis>(),
-        entry::<sleigh::Sleigh>(),
-        entry::<sleigh::ReducedSleigh>(),
-        entry::<sleigh::SleighOnThePlane>(),
-        entry::<veselova::Veselova>(),
-        entry::<veselova::VeselovaInEulerAngles>(),
-        entry::<mobile_robot::MobileRobot>(),
-        entry::<mobile_robot::MobileRobotOnThePlane>(),
-        entry::<vertical_disk::VerticalDisk>(),
-        entry::<vertical_disk::VerticalDiskMovingFrame>(),
-        entry::<snakeboard::Snakeboard>(),
-        entry::<snakeboard::SnakeboardOnThePlane>(),
-        entry::<chaplygin_sphere::ChaplyginSphere>(),
-        entry::<chaplygin_sphere::ChaplyginSphereWithAttitude>(),
-        entry::<chaplygin_gyro::ChaplyginGyro>(),
-        entry::<rigid_body_rotor::RigidBodyRotor>(),
-        entry::<rigid_body_rotor::RigidBodyRotorAbsolute>(),
-        entry::<particles::ParticleYCoframe>(),
-        entry::<particles::ParticleY>(),
-        entry::<particles::ParticleXCoframe>(),
-        entry::<particles::ParticleX>(),
-        entry::<particles::CentralForceAreal>(),
-        entry::<particles::CentralForceCartesian>(),
-        entry::<charged_particle::ChargedParticle>(),
-        entry::<charged_particle::ChargedParticleCoframe>(),
-        entry::<charged_particle::ChargedParticleOnTheBundle>(),
-        entry::<rolling_ball::RollingBall>(),
-        entry::<rotating_table::BallOnRotatingTable>(),
-        entry::<rotating_table::BallOnRotatingTableCoframe>(),
-        entry::<frames::SnakeboardBySpan>(),
-        entry::<frames::ChargedParticleByConnection>(),
-        entry::<frames::VeselovaOnSphere>(),
-        entry::<frames::VeselovaOnRotations>(),
-        entry::<frames::ChaplyginSphereOnSphere>(),
-        entry::<moving_constraints::SleighOnBelt>(),
-        entry::<moving_constraints::SteeredSleigh>(),
-        entry::<moving_constraints::SteeredSleighOnThePlane>(),
-        entry::<moving_constraints::PrescribedRobot>(),
-        entry::<nonlinear::ParallelVelocities>(),
-        entry::<nonlinear::ConstantSpeed>(),
-        entry::<nonlinear::GrowingSpeed>(),
-    ]
+    macro_rules! entries {
+        ($($module:ident { $($name:ident $(, $twin:ident)?;)* })*) => { vec![$($(entry::<$module::$name>(),)*)*] };
+    }
+    every_system!(entries)
 }
 
 /// The inertia tensor from its six entries.
