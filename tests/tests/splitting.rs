@@ -99,6 +99,22 @@ struct Arm {
     f: f64,
 }
 
+/// A charge in a magnetic field that a Heisenberg group keeps: momenta do not vanish at rest.
+#[nonholonomic(
+    base { a, x, y, z }
+    lagrangian {
+        (der(a)^2 + der(x)^2 + (2 + cos(a)) * der(y)^2 + (der(z) - x * der(y))^2) / 2 + sin(a) * der(a) * der(x) / 3
+            + B * (cos(a) * der(x) + der(y) / 2 + a * (der(z) - x * der(y)))
+    }
+    constraints { der(z) - x * der(y) = sin(a) * der(x) + cos(a) * der(a); }
+    symmetries { along: der(x) + y * der(z); across: der(y); up: der(z); }
+    emit { splitting }
+)]
+#[derive(Clone, Copy, Debug)]
+struct Charge {
+    B: f64,
+}
+
 /// The numbers of a system.
 fn read(name: &str) -> Value {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("reference/splitting.json");
@@ -240,4 +256,62 @@ fn without_constraints() {
         b_dot: v[2],
     };
     check!("arm", Arm { k: 0.7, f: 0.3 }, state, ());
+}
+
+/// The derivative at 0 by differences of fourth order, and a bound of their error: what half the step
+/// changes, and rounding.
+fn slope(function: impl Fn(f64) -> f64) -> (f64, f64) {
+    const STEP: f64 = 1e-3;
+    let difference = |step: f64| {
+        (8.0 * (function(step) - function(-step)) - (function(2.0 * step) - function(-2.0 * step)))
+            / (12.0 * step)
+    };
+    let (fine, coarse) = (difference(STEP), difference(2.0 * STEP));
+    (fine, (fine - coarse).abs() / 8.0 + function(0.0).abs() * 64.0 * f64::EPSILON / STEP)
+}
+
+#[test]
+fn momenta_at_rest_are_no_velocities() {
+    let charge = Charge { B: 0.7 };
+    // L and p in the velocities a', x', y', z' - x y'
+    let lagrangian = |a: f64, [u, v, w, s]: [f64; 4]| {
+        (u * u + v * v + (2.0 + a.cos()) * w * w + s * s) / 2.0
+            + a.sin() * u * v / 3.0
+            + charge.B * (a.cos() * v + w / 2.0 + a * s)
+    };
+    let momenta = |a: f64, [u, v, w, s]: [f64; 4]| {
+        let [px, py, pz] = [v + a.sin() * u / 3.0, (2.0 + a.cos()) * w, s];
+        [u + a.sin() * v / 3.0, px + charge.B * a.cos(), py + charge.B / 2.0, pz + charge.B * a]
+    };
+    let reduced = |x: f64, [u, v, w, z]: [f64; 4]| [u, v, w, z - x * w];
+    // h a' + S v
+    let velocity = |state: &ChargeState, rate: f64, along: [f64; 2]| -> [f64; 4] {
+        let [h] = charge.horizontal_lifts(0.0, state);
+        let [first, second] = charge.vertical_sections(0.0, state);
+        std::array::from_fn(|i| h[i] * rate + first[i] * along[0] + second[i] * along[1])
+    };
+    let start = [0.4, 0.3, -0.2, 0.1, 0.8, -0.5, 0.6];
+    let state = ChargeState::from(start);
+    let along = charge.vertical_velocities(0.0, &state);
+    // 1. the splitting of the velocity
+    let whole: [f64; 4] = charge.velocity(0.0, &state).into();
+    for (found, expected) in velocity(&state, state.a_dot, along).iter().zip(whole) {
+        assert!((found - expected).abs() < 1e-14, "{found} is not {expected}");
+    }
+    // 2. d/dt p(h) - h(l) is the horizontal force
+    let rates: [f64; 7] = charge.derivative(0.0, &state, &()).into();
+    let (change, error) = slope(|h| {
+        let there = ChargeState::from(std::array::from_fn(|i| start[i] + h * rates[i]));
+        let y = reduced(there.x, charge.velocity(0.0, &there).into());
+        let [lift] = charge.horizontal_lifts(0.0, &there);
+        let lift = reduced(there.x, lift);
+        momenta(there.a, y).iter().zip(lift).map(|(p, h)| p * h).sum()
+    });
+    let (gradient, other) = slope(|h| {
+        let there = ChargeState { a: state.a + h, ..state };
+        lagrangian(there.a, reduced(there.x, velocity(&there, state.a_dot, along)))
+    });
+    let [force] = charge.horizontal_force(0.0, &state);
+    assert!((change - gradient - force).abs() < error + other, "{change} - {gradient} is not {force}");
+    assert!(error + other < 1e-8 && force.abs() > 0.1, "nothing is tested: {error}, {other}, {force}");
 }

@@ -4,9 +4,9 @@
 use super::Proved;
 use super::phase_space::{asked, judge};
 use super::splitting::Reduced;
-use crate::algebra::{Matrix, Substitution};
+use crate::algebra::{Graph, Matrix, Substitution};
 use crate::geometry::ConstraintDistribution;
-use crate::id::{CoordId, ExprId, Id};
+use crate::id::{CoordId, ExprId, Id, SymbolId};
 use crate::mechanics::{Momentum, NonholonomicConnection, Procedure, solve_symmetric};
 use crate::model::Request;
 use crate::phase_space::{PhaseSpace, SplitFunctions};
@@ -55,22 +55,17 @@ pub(super) fn derive(
     Ok(())
 }
 
-fn functions(
-    proved: &mut Proved,
-    distribution: Option<&ConstraintDistribution>,
-    reduced: &Reduced,
-    connection: &NonholonomicConnection,
-    derivative: &Procedure,
-) -> SplitFunctions {
-    let (s, h) = (connection.vertical.len(), connection.lifts.len());
-    let judge = judge(proved);
+/// A momentum less what it is at rest, where L has terms linear in the velocities.
+fn without_rest(graph: &mut Graph, momentum: ExprId, velocities: &[SymbolId]) -> ExprId {
+    let at_rest = graph.at_zero(momentum, velocities);
+    let moving = graph.sub(momentum, at_rest);
+    graph.simplify(moving)
+}
+
+/// [h_κ, h_λ] and [h_κ, S_ρ] in the declared basis, a row of brackets for each κ.
+fn brackets(graph: &mut Graph, reduced: &Reduced, connection: &NonholonomicConnection) -> [Vec<Matrix>; 2] {
     let algebroid = &reduced.system.algebroid;
-    let graph = &mut proved.model.graph;
-    // 1. sections and brackets in the declared basis
-    let declared = |graph: &mut _, sections: &Matrix| -> Matrix {
-        sections.iter().map(|section| reduced.declared(graph, section)).collect()
-    };
-    let (vertical, lifts) = (declared(graph, &connection.vertical), declared(graph, &connection.lifts));
+    let (s, h) = (connection.vertical.len(), connection.lifts.len());
     let zero = vec![graph.zero(); algebroid.rank()];
     let mut curvature = vec![vec![zero; h]; h];
     let mut coefficients = vec![Matrix::new(); h];
@@ -86,6 +81,24 @@ fn functions(
             row.push(reduced.declared(graph, &bracket));
         }
     }
+    [curvature, coefficients]
+}
+
+fn functions(
+    proved: &mut Proved,
+    distribution: Option<&ConstraintDistribution>,
+    reduced: &Reduced,
+    connection: &NonholonomicConnection,
+    derivative: &Procedure,
+) -> SplitFunctions {
+    let judge = judge(proved);
+    let graph = &mut proved.model.graph;
+    // 1. sections and brackets in the declared basis
+    let declared = |graph: &mut _, sections: &Matrix| -> Matrix {
+        sections.iter().map(|section| reduced.declared(graph, section)).collect()
+    };
+    let (vertical, lifts) = (declared(graph, &connection.vertical), declared(graph, &connection.lifts));
+    let [curvature, coefficients] = brackets(graph, reduced, connection);
     // 2. p, P_ρ and its rate where the constraints hold
     let velocities = proved.system.algebroid.velocities.clone();
     let mut restriction = match distribution {
@@ -104,14 +117,16 @@ fn functions(
             list.push(graph.simplify(function));
         }
     }
-    // 3. ẋ^κ and v^ρ
+    // 3. ẋ^κ, and v^ρ by the locked inertia or as components
     let velocity = proved.system.algebroid.velocity(graph);
     let all = proved.system.algebroid.rates(graph, &velocity);
     let all = restriction.apply_all(graph, &all);
     let speeds: Vec<ExprId> = connection.coordinates.iter().map(|id| all[id.index()]).collect();
     let mut procedure = Procedure::default();
     let along_vertical = if let Some(inertia) = &connection.inertia {
-        solve_symmetric(graph, inertia, &values, judge(graph, inertia), &mut procedure, "locked")
+        let at_rest = distribution.map_or(&velocities, |distribution| &distribution.independent);
+        let moving: Vec<ExprId> = values.iter().map(|value| without_rest(graph, *value, at_rest)).collect();
+        solve_symmetric(graph, inertia, &moving, judge(graph, inertia), &mut procedure, "locked")
     } else {
         let symbols: Vec<ExprId> =
             reduced.distribution.independent.iter().map(|symbol| graph.symbol(*symbol)).collect();
