@@ -174,10 +174,33 @@ fn in_invariant_frame(
         .collect();
     let frame = InvariantFrame::of(graph, &algebroid, &proved.base, generators, &symbols, &hints).ok()?;
     let names = frame_names(&proved.model, &frame);
-    let graph = &mut proved.model.graph;
-    // 2. everything in it, without the coordinates along the group
+    // 2. everything in it
+    let system = in_frame(proved, &frame, &names, &group)?;
+    let constraints = annihilator(&mut proved.model.graph, &distribution.constraints.annihilator, &frame);
+    // 3. D and its splitting
+    let distribution = invariant_basis(proved, constraints, &system.algebroid.velocities, &symbols)?;
+    let splitting = Splitting::of(&mut proved.model.graph, &system, &distribution, &group)?;
+    (splitting.vertical <= generators.len()).then_some(Reduced {
+        system,
+        distribution,
+        splitting,
+        frame: Some(frame),
+        names,
+    })
+}
+
+/// The system in the frame, without the coordinates along the group; `None` where something depends on
+/// them.
+fn in_frame(
+    proved: &mut Proved,
+    frame: &InvariantFrame,
+    names: &[String],
+    group: &[CoordId],
+) -> Option<LagrangianSystem> {
+    let (graph, algebroid) = (&mut proved.model.graph, &proved.system.algebroid);
+    let symbols: Vec<SymbolId> = group.iter().map(|id| algebroid.anchor.coordinates[id.index()]).collect();
     let velocities = names.iter().map(|name| graph.new_symbol(name.clone())).collect();
-    let new = frame.change.apply(graph, &algebroid, velocities);
+    let new = frame.change.apply(graph, algebroid, velocities);
     let velocity = new.velocity(graph);
     let old = frame.change.old_velocity(graph, &velocity);
     let mut in_frame = Substitution::new(algebroid.velocities.iter().copied().zip(old));
@@ -204,42 +227,24 @@ fn in_invariant_frame(
     if broken {
         return None;
     }
-    let columns = Graph::transposed(&frame.change.sections);
-    let mut annihilator = Matrix::new();
-    for row in &distribution.constraints.annihilator {
-        let mut entries = Vec::new();
-        for column in &columns {
-            let entry = graph.inner_product(row, column);
-            entries.push(graph.simplify(entry));
-        }
-        annihilator.push(entries);
-    }
-    let mut forces = Vec::new();
-    for column in &columns {
-        let force = graph.inner_product(column, &proved.system.forces);
-        forces.push(in_frame.apply(graph, force));
-    }
+    let forces = graph.image(&Graph::transposed(&frame.change.sections), &proved.system.forces);
+    let forces = in_frame.apply_all(graph, &forces);
     let anchor = Anchor { entries, ..new.anchor };
     let algebroid = Algebroid { anchor, structure, velocities: new.velocities };
+    let forces_on_distribution = Vec::new();
+    Some(LagrangianSystem { algebroid, lagrangian, forces, forces_on_distribution, time: proved.system.time })
+}
+
+/// The constraints in the frame; they have no drift.
+fn annihilator(graph: &mut Graph, rows: &Matrix, frame: &InvariantFrame) -> LinearConstraints {
+    let columns = Graph::transposed(&frame.change.sections);
+    let mut annihilator = Matrix::new();
+    for row in rows {
+        let entries = graph.image(&columns, row);
+        annihilator.push(entries.into_iter().map(|entry| graph.simplify(entry)).collect());
+    }
     let drift = vec![graph.zero(); annihilator.len()];
-    let constraints = LinearConstraints { annihilator, drift };
-    let system = LagrangianSystem {
-        algebroid,
-        lagrangian,
-        forces,
-        forces_on_distribution: Vec::new(),
-        time: proved.system.time,
-    };
-    // 3. D and its splitting
-    let distribution = invariant_basis(proved, constraints, &system.algebroid.velocities, &symbols)?;
-    let splitting = Splitting::of(&mut proved.model.graph, &system, &distribution, &group)?;
-    (splitting.vertical <= generators.len()).then_some(Reduced {
-        system,
-        distribution,
-        splitting,
-        frame: Some(frame),
-        names,
-    })
+    LinearConstraints { annihilator, drift }
 }
 
 /// A basis of D with invariant coefficients: D determines the form that is solved for velocities.

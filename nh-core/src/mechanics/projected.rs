@@ -86,6 +86,19 @@ fn negated(graph: &mut Graph, list: &[ExprId]) -> Vec<ExprId> {
         .collect()
 }
 
+/// The multipliers of a block where they are short and lose nothing.
+fn closed_form(graph: &mut Graph, matrix: &Matrix, right: &[ExprId]) -> Option<Vec<ExprId>> {
+    match *right {
+        [only] => Some(vec![graph.div(only, matrix[0][0])]),
+        // where the constraints are nearly dependent it loses as many digits again
+        [first, second] if graph.accuracy() == Accuracy::Fast => {
+            let pair = Pair { matrix: [matrix[0][0], matrix[0][1], matrix[1][1]], right: [first, second] };
+            pair.simplified(graph).map(|solved| solved.to_vec())
+        }
+        _ => None,
+    }
+}
+
 impl SaddleEquations {
     /// The saddle matrix [[W, −Jᵀ], [J, 0]], whose regularity is that of the system
     /// (CLMM (7.5) where W is invertible).
@@ -209,36 +222,13 @@ impl SaddleEquations {
             let pick = |rows: &Matrix| -> Matrix { block.iter().map(|a| rows[*a].clone()).collect() };
             let outer: Vec<ExprId> = block.iter().map(|a| right[*a]).collect();
             let inner = Graph::submatrix(&complement, &block);
-            let solved = match inner.len() {
-                1 => Some(vec![graph.div(outer[0], inner[0][0])]),
-                // where the constraints are nearly dependent it loses as many digits again
-                2 if graph.accuracy() == Accuracy::Fast => {
-                    let matrix = [inner[0][0], inner[0][1], inner[1][1]];
-                    let pair = Pair { matrix, right: [outer[0], outer[1]] };
-                    pair.simplified(graph).map(|solved| solved.to_vec())
-                }
-                _ => None,
-            };
-            let found = if let Some(solved) = solved {
+            let found = if let Some(solved) = closed_form(graph, &inner, &outer) {
                 let named: Vec<ExprId> = block
                     .iter()
                     .zip(solved)
                     .map(|(a, value)| procedure.define(graph, &format!("lambda_{a}"), value))
                     .collect();
-                if let Some(lone) = self.lone(graph, &block) {
-                    let values = lone.accelerations(graph, procedure);
-                    for (alpha, value) in lone.members.iter().zip(values) {
-                        accelerations[*alpha] = value;
-                    }
-                    multipliers[block[0]] = named[0];
-                    continue;
-                }
-                let rows = pick(&reach);
-                for (alpha, acceleration) in accelerations.iter_mut().enumerate() {
-                    let column: Vec<ExprId> = rows.iter().map(|row| row[alpha]).collect();
-                    let reaction = graph.inner_product(&column, &named);
-                    *acceleration = graph.add(*acceleration, reaction);
-                }
+                self.react(graph, (&block, &pick(&reach)), &named, &mut accelerations, procedure);
                 named
             } else {
                 let bias = block.iter().map(|a| self.bias[*a]).collect();
@@ -250,6 +240,29 @@ impl SaddleEquations {
             }
         }
         (accelerations, multipliers)
+    }
+
+    /// Adds the reactions of a block of constraints, with their W⁻¹ Jᵀ, to the accelerations.
+    fn react(
+        &self,
+        graph: &mut Graph,
+        (block, reach): (&[usize], &Matrix),
+        multipliers: &[ExprId],
+        accelerations: &mut [ExprId],
+        procedure: &mut Procedure,
+    ) {
+        if let Some(lone) = self.lone(graph, block) {
+            let values = lone.accelerations(graph, procedure);
+            for (alpha, value) in lone.members.iter().zip(values) {
+                accelerations[*alpha] = value;
+            }
+            return;
+        }
+        for (alpha, acceleration) in accelerations.iter_mut().enumerate() {
+            let column: Vec<ExprId> = reach.iter().map(|row| row[alpha]).collect();
+            let reaction = graph.inner_product(&column, multipliers);
+            *acceleration = graph.add(*acceleration, reaction);
+        }
     }
 
     /// The only constraint of a block, where the level of accuracy asks for more than its multiplier.

@@ -158,21 +158,13 @@ fn equations(
     // 2. F̂_k and ρ-gradient of F, on D
     let images = forms.iter().map(|(symbol, _)| *symbol).zip(restricted.iter().copied());
     let mut on_distribution = Substitution::new(images);
-    let slopes: Vec<ExprId> = forms
-        .iter()
-        .map(|(symbol, _)| {
-            let slope = graph.partial(*function, *symbol);
-            on_distribution.apply(graph, slope)
-        })
-        .collect();
-    let coordinates = algebroid.anchor.coordinates.clone();
-    let gradient: Vec<ExprId> = coordinates
-        .iter()
-        .map(|symbol| {
-            let partial = graph.partial(*function, *symbol);
-            on_distribution.apply(graph, partial)
-        })
-        .collect();
+    let mut slope = |graph: &mut Graph, symbol: &SymbolId| {
+        let partial = graph.partial(*function, *symbol);
+        on_distribution.apply(graph, partial)
+    };
+    let slopes: Vec<ExprId> = forms.iter().map(|(symbol, _)| slope(graph, symbol)).collect();
+    let gradient: Vec<ExprId> =
+        algebroid.anchor.coordinates.iter().map(|symbol| slope(graph, symbol)).collect();
     // 3. d/dt F̂_k at v̇ = 0
     let mut along = algebroid.along(graph, &velocity, system.time);
     differentiate_all(graph, &mut definitions, &mut along);
@@ -181,36 +173,24 @@ fn equations(
     let forces = restriction.apply_all(graph, &system.forces);
     // the quasi-velocities themselves: dy^γ(y, e_α) = C^γ_{αβ} y^β, all in one bracket term
     let zero = graph.zero();
-    let is_velocity = |symbol: &SymbolId| algebroid.velocities.contains(symbol);
     let momenta: Vec<ExprId> = algebroid
         .velocities
         .iter()
         .map(|velocity| forms.iter().position(|(symbol, _)| symbol == velocity).map_or(zero, |k| slopes[k]))
         .collect();
     let bracket = algebroid.structure.bracket_term(graph, &velocity, &momenta);
-    let mut anywhere = None;
-    let curved: Vec<usize> = (0..forms.len())
-        .filter(|k| {
-            turned.iter().all(|(point, _)| !point.forms.contains(k)) && !is_velocity(&forms[*k].0) && {
-                let curl = anywhere.get_or_insert_with(|| ExteriorDerivative::anywhere(graph, system));
-                !curl.vanishes(graph, forms[*k].1)
-            }
-        })
-        .collect();
+    let curved = curved(graph, system, forms, turned);
     // the turning of pairs: ȧ + ω(y)
     let turning = rates_of_turning(graph, turned, &velocity, &mut along);
     let (mut mass, mut force): (Matrix, Vec<ExprId>) = (Vec::new(), Vec::new());
     for (a, symbol) in independent.iter().enumerate() {
         let section = &sections[a];
-        let row: Vec<ExprId> = independent
-            .iter()
-            .enumerate()
-            .map(|(b, _)| {
+        let row: Vec<ExprId> = (0..independent.len())
+            .map(|b| {
                 if b < a {
                     return mass[b][a];
                 }
-                let inertia: Vec<ExprId> =
-                    slopes.iter().map(|slope| derivations[b].apply(graph, *slope)).collect();
+                let inertia = derivations[b].apply_all(graph, &slopes);
                 graph.inner_product(&partials[a], &inertia)
             })
             .collect();
@@ -265,6 +245,28 @@ fn forms_on_distribution(
         restricted.push(component.unwrap_or_else(|| restriction.apply(graph, *form)));
     }
     restricted
+}
+
+/// The forms with dθ ≠ 0, but for quasi-velocities and turned points, whose dθ is known.
+fn curved(
+    graph: &mut Graph,
+    system: &LagrangianSystem,
+    forms: &[(SymbolId, ExprId)],
+    turned: &[(TurnedPoint, Vec<ExprId>)],
+) -> Vec<usize> {
+    let mut anywhere = None;
+    let mut found = Vec::new();
+    for (k, (symbol, form)) in forms.iter().enumerate() {
+        let is_turned = turned.iter().any(|(point, _)| point.forms.contains(&k));
+        if is_turned || system.algebroid.velocities.contains(symbol) {
+            continue;
+        }
+        let curl = anywhere.get_or_insert_with(|| ExteriorDerivative::anywhere(graph, system));
+        if !curl.vanishes(graph, *form) {
+            found.push(k);
+        }
+    }
+    found
 }
 
 /// ȧ + ω(y) for each turned point.
