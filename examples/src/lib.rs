@@ -14,3 +14,8 @@ pub use colour::{BACKGROUND, Colours, FAINT, INK, MUTED};
 pub use picture::{Page, Picture};
 pub use random::Random;
 pub use view::{Pose, View};
+
+/// What README.md declares compiles.
+#[cfg(doctest)]
+#[doc = include_str!("../../README.md")]
+struct Readme;
