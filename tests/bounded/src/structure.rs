@@ -17,7 +17,7 @@ where
     let mut sim = Integrator::new(system, method, T::ZERO, start);
     match sim.advance_to(T::from_f64(5.0)) {
         Ok(()) => lines.push(line(name, sim.state().to_array().as_ref())),
-        Err(error) => lines.push(format!("{name:24} {error}")),
+        Err(error) => panic!("{name}: {error}"),
     }
 }
 
