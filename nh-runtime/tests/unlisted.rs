@@ -115,11 +115,12 @@ struct Bicycle {
     k: f64,
 }
 
-/// The largest error of a component, relative where it is above 1.
+/// The largest error of a component, relative where it is above 1; infinite if one is not a number.
 fn distance<X: State<Scalar = f64>>(a: &X, b: &X) -> f64 {
     let (a, b) = (a.to_array(), b.to_array());
     let each = a.as_ref().iter().zip(b.as_ref()).map(|(a, b)| (a - b).abs() / b.abs().max(1.0));
-    each.fold(0.0, |worst, error| if error <= worst { worst } else { error })
+    let worst = each.fold(0.0, Scalar::max);
+    if worst.is_nan() { f64::INFINITY } else { worst }
 }
 
 /// A motion with its end to the last digits.
@@ -193,7 +194,7 @@ where
         let before = energy(&self.start);
         if let Ok(end) = self.reach(of(h)) {
             let off = energy(&end) / before - 1.0;
-            if off.abs() > 1e-12 {
+            if off.is_nan() || off.abs() > 1e-12 {
                 self.failures.push(format!("{} by {method}, {h:e}: energy {off:e}", self.name));
             }
         }
