@@ -67,7 +67,8 @@ impl<F, const N: usize> Events<F, N> {
     /// are, and the dense output is prepared in steps with an event alone.
     #[must_use]
     pub fn samples(mut self, samples: u32) -> Self {
-        self.samples = samples;
+        // one more is counted to
+        self.samples = samples.min(u32::MAX - 1);
         self
     }
 }

@@ -156,6 +156,14 @@ fn jumps_are_located_too() {
 }
 
 #[test]
+fn as_many_samples_as_can_be_asked_for() {
+    let soon = Events::new(|t, _: &Line<f64>, _: &Torque<f64>| [t - 1e-12]).samples(u32::MAX);
+    let mut sim = Integrator::new(circle(), Rk4::new(1.0), 0.0, Line { x: 1.0 });
+    let event = sim.advance_until(1.0, &soon).unwrap().expect("an event");
+    assert!((event.time - 1e-12).abs() < 1e-15, "{event:?}");
+}
+
+#[test]
 fn what_cannot_be_looked_at_is_an_error_and_leaves_the_state() {
     let events = Events::new(|t: f64, x: &Plane<f64>, _: &Torque<f64>| [x.p - 10.0, (1.0 - t).sqrt()]);
     let mut sim = Integrator::new(Pendulum { g: 1.0 }, Dopri5::new(), 0.0, START);
