@@ -6,7 +6,7 @@ use crate::{Dim, Dynamics, IntegrationError, Real, Scalar, ScalarOf};
 /// The iterations after which a solution is given up.
 pub(super) const MOST_ITERATIONS: u32 = 50;
 /// The ratio of successive corrections from which a new Jacobian is formed.
-pub(super) const SLOW: f64 = 0.1;
+pub(in crate::methods) const SLOW: f64 = 0.1;
 
 /// Checks the tolerance of an iteration.
 pub(in crate::methods) fn check_tolerance<T: Real>(tolerance: T) -> Result<(), IntegrationError> {

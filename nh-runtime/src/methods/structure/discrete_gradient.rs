@@ -8,7 +8,7 @@ use super::Symmetric;
 use crate::arrays::displaced;
 use crate::linear::Factors;
 use crate::methods::fixed::{self, Slopes};
-use crate::methods::implicit::newton::{check_tolerance, one_less, refusal, relative};
+use crate::methods::implicit::newton::{SLOW, check_tolerance, one_less, refusal, relative};
 use crate::methods::{Analytic, Arrival, FiniteDifferences, Fixed, Linearization, OneStep, Start};
 use crate::{AlmostPoisson, DimOf, Dynamics, IntegrationError, Real, ScalarOf, State, Statistics, VecOf};
 
@@ -108,7 +108,8 @@ impl<T: Real> DiscreteGradient<T> {
     /// One step of length `dt` as a pure function: the state at `t + dt`.
     ///
     /// # Errors
-    /// [`IntegrationError::NoConvergence`] if the equations are not solved.
+    /// [`IntegrationError::NoConvergence`] if the equations are not solved,
+    /// [`IntegrationError::NonFiniteDerivative`] if the derivative at `state` is not finite.
     pub fn step<S>(
         system: &S,
         t: T,
@@ -131,8 +132,6 @@ impl<T: Real> DiscreteGradient<T> {
 
 /// The iterations after which a solution is given up.
 const MOST_ITERATIONS: u32 = 60;
-/// The ratio of successive corrections from which a new Jacobian is formed.
-const SLOW: f64 = 0.1;
 /// The rounding errors of the energy that a solution has to bear.
 const ROUND_OFF: f64 = 16.0;
 /// The corrections in a row that do not halve the smallest one, after which round-off is all that is left.
