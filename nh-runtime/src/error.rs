@@ -88,12 +88,12 @@ pub struct StateFault {
     pub residual: f64,
 }
 
-/// A state that could not be moved to the constraint manifold.
+/// A state that could not be moved to the constraint manifold, or to the level of the invariants.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ProjectionError {
     /// The iterations done.
     pub iterations: u32,
-    /// The largest constraint residual that was left.
+    /// The largest residual of a constraint or invariant that was left.
     pub residual: f64,
 }
 
@@ -102,9 +102,9 @@ impl Display for ProjectionError {
         let Self { iterations, residual } = self;
         write!(
             f,
-            "the projection to the constraints left a residual of {residual:?} after \
-             {iterations} iterations: the state is too far from the constraints, or they are \
-             dependent there; start nearer to them, or take smaller steps"
+            "the projection left a residual of {residual:?} after {iterations} iterations: the state is too \
+             far from the constraints, or from the level of the invariants, or these are dependent there; \
+             start nearer to them, or take smaller steps"
         )
     }
 }

@@ -145,9 +145,9 @@ fn a_failed_projection_keeps_the_last_good_state() {
     assert_eq!(
         IntegrationError::Projection { time: 0.5, error: ProjectionError { iterations: 50, residual: 0.25 } }
             .to_string(),
-        "at t = 0.5 the projection to the constraints left a residual of 0.25 after 50 iterations: the state \
-         is too far from the constraints, or they are dependent there; start nearer to them, or take smaller \
-         steps"
+        "at t = 0.5 the projection left a residual of 0.25 after 50 iterations: the state is too far from the \
+         constraints, or from the level of the invariants, or these are dependent there; start nearer to them, \
+         or take smaller steps"
     );
 }
 

@@ -12,7 +12,8 @@ use crate::{
 /// Numerical Integration, section IV.4). For systems with `conserved { … }` and `emit { invariants }`.
 ///
 /// The invariants stay to round-off and the order of the method stays; a symmetric method does not stay
-/// symmetric. The integrals have to be independent.
+/// symmetric. The integrals have to be independent. Where the level is not found the step is refused:
+/// [`IntegrationError::Projection`].
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Conserving<M> {
     method: M,
@@ -42,8 +43,8 @@ impl<S: Invariants, K: Copy> Clone for Memory<S, K> {
 }
 impl<S: Invariants, K: Copy> Copy for Memory<S, K> {}
 
-/// The iterations after which the level is given up.
-const MOST_ITERATIONS: u32 = 12;
+/// The iterations after which the level is given up: corrections that halve go through all digits before.
+const MOST_ITERATIONS: u32 = 64;
 
 impl<S: Invariants, M: Method<S>> Method<S> for Conserving<M>
 where
@@ -108,6 +109,7 @@ where
 {
     let mut x = arrival.state.to_array();
     let mut best = ScalarOf::<S>::EPSILON.recip();
+    let mut residual = ScalarOf::<S>::ZERO;
     for iteration in 0..MOST_ITERATIONS {
         let state = S::State::from_array(x);
         let mut defect = system.invariants(arrival.time, &state);
@@ -133,18 +135,87 @@ where
             }
             x = displaced(&x, -*weight, gradient);
         }
-        let residual = defect.as_ref().iter().fold(ScalarOf::<S>::ZERO, |most, d| most.max(d.abs()));
+        residual = defect.as_ref().iter().fold(ScalarOf::<S>::ZERO, |most, d| most.max(d.abs()));
         if !largest.is_finite() {
             return Err(ProjectionError { iterations: iteration + 1, residual: residual.to_f64() });
         }
-        if largest == ScalarOf::<S>::ZERO || largest >= best * ScalarOf::<S>::from_f64(0.5) {
+        // far from the level Newton's iteration need not halve its corrections; near it, only round-off does not
+        let size = x.as_ref().iter().fold(ScalarOf::<S>::ONE, |most, x| most.max(x.abs()));
+        let level = values.as_ref().iter().fold(ScalarOf::<S>::ZERO, |most, value| most.max(value.abs()));
+        let is_near = largest <= ScalarOf::<S>::EPSILON.sqrt() * size
+            || residual <= ScalarOf::<S>::from_f64(64.0) * ScalarOf::<S>::EPSILON * level;
+        if is_near && (largest == ScalarOf::<S>::ZERO || largest >= best * ScalarOf::<S>::from_f64(0.5)) {
             return Ok(S::State::from_array(x));
         }
         best = largest;
     }
-    Ok(S::State::from_array(x))
+    Err(ProjectionError { iterations: MOST_ITERATIONS, residual: residual.to_f64() })
 }
 
 fn dot<S: Invariants>(a: &VecOf<S>, b: &VecOf<S>) -> ScalarOf<S> {
     a.as_ref().iter().zip(b.as_ref()).fold(ScalarOf::<S>::ZERO, |sum, (a, b)| sum + *a * *b)
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::prelude::*;
+    use crate::{D, Invariants};
+
+    #[derive(Clone, Copy, Debug)]
+    struct Place([f64; 2]);
+    impl State for Place {
+        type Scalar = f64;
+        type Dim = D<2>;
+        fn to_array(&self) -> [f64; 2] {
+            self.0
+        }
+        fn from_array(x: [f64; 2]) -> Self {
+            Self(x)
+        }
+        fn names() -> [&'static str; 2] {
+            ["x", "y"]
+        }
+    }
+
+    /// x' = 1, which keeps no power of x; what is stated is that xⁿ + drift t is kept.
+    #[derive(Clone, Copy)]
+    struct Wrong {
+        power: i32,
+        drift: f64,
+    }
+    impl Dynamics for Wrong {
+        type State = Place;
+        type Input = ();
+        fn derivative(&self, _t: f64, _state: &Place, (): &()) -> Place {
+            Place([1.0, 0.0])
+        }
+    }
+    impl Invariants for Wrong {
+        type Count = D<1>;
+        fn invariants(&self, t: f64, Place([x, _]): &Place) -> [f64; 1] {
+            [x.powi(self.power) + self.drift * t]
+        }
+        fn invariant_gradients(&self, _t: f64, Place([x, _]): &Place) -> [[f64; 2]; 1] {
+            [[f64::from(self.power) * x.powi(self.power - 1), 0.0]]
+        }
+    }
+
+    /// From x = 10 to 0.01, where corrections of a fourth power fall by a quarter at a time.
+    #[test]
+    fn a_level_is_reached_from_far_away() {
+        let start = Place([0.01, 0.0]);
+        let wrong = Wrong { power: 4, drift: 0.0 };
+        let mut sim = Integrator::new(wrong, Conserving::new(Rk4::new(10.0)), 0.0, start);
+        sim.step().unwrap();
+        assert!((sim.state().0[0] - 0.01).abs() < 1e-15, "{:?}", sim.state());
+    }
+
+    #[test]
+    fn a_level_that_is_nowhere_is_an_error() {
+        let wrong = Wrong { power: 2, drift: 1.0 };
+        let mut sim = Integrator::new(wrong, Conserving::new(Rk4::new(1.0)), 0.0, Place([0.5, 0.0]));
+        let refused = sim.step();
+        assert!(matches!(refused, Err(IntegrationError::Projection { .. })), "{refused:?}");
+        assert!((sim.state().0[0] - 0.5).abs() == 0.0);
+    }
 }
