@@ -82,7 +82,7 @@ impl<P: Tableau, T: Scalar> Fixed<P, T> {
 }
 
 /// The matrix with these rows.
-fn of_rows<T: Scalar, const N: usize, const M: usize>(rows: &[[T; M]; N]) -> SMatrix<T, N, M> {
+pub(super) fn of_rows<T: Scalar, const N: usize, const M: usize>(rows: &[[T; M]; N]) -> SMatrix<T, N, M> {
     let mut matrix = SMatrix::<T, N, M>::from([[T::ZERO; N]; M]);
     for (mut entries, row) in matrix.row_iter_mut().zip(rows) {
         for (entry, number) in entries.iter_mut().zip(row) {

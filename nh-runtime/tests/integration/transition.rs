@@ -103,6 +103,32 @@ fn agrees_with_quotients(
 }
 
 #[test]
+fn steps_of_no_length_and_of_one_that_is_no_number() {
+    let (x, u) = (SleighState::from(START), SleighInput::from(INPUT));
+    let is_tiny = |x: f64| x.abs() < 1e-300;
+    macro_rules! check {
+        ($($method:ident)*) => {$(
+            let of = |dt: f64, x: &SleighState<f64>| $method::linearized_step(&SLEIGH, TIME, dt, x, &u);
+            for dt in [0.0, -0.0, 5e-324, -5e-324, 1e-310, f64::MIN_POSITIVE] {
+                let step: Differentiated = of(dt, &x).unwrap();
+                let ends = step.state.to_array().into_iter().zip(START);
+                assert!(ends.into_iter().all(|(end, start)| is_tiny(end - start)), "{dt:e}: {:?}", step.state);
+                assert!((step.by_state - nalgebra::SMatrix::identity()).iter().all(|x| is_tiny(*x)), "{dt:e}");
+                assert!(step.by_input.iter().all(|x| is_tiny(*x)), "{dt:e}");
+                let spoiled = SleighState { theta: f64::NAN, ..x };
+                let refused: Result<Differentiated, _> = of(dt, &spoiled);
+                assert!(matches!(refused, Err(IntegrationError::NonFiniteDerivative { .. })), "{refused:?}");
+            }
+            for dt in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
+                let refused: Result<Differentiated, _> = of(dt, &x);
+                assert!(matches!(refused, Err(IntegrationError::Setting { setting: "dt", .. })), "{refused:?}");
+            }
+        )*};
+    }
+    check! { ImplicitMidpoint GaussLegendre4 GaussLegendre6 Radau5 }
+}
+
+#[test]
 fn implicit_steps_are_differentiated_by_their_equations() {
     macro_rules! check {
         ($($method:ident)*) => {$(

@@ -2,8 +2,8 @@
 
 use super::collocation::{Collocation, Matrices, weighted};
 use super::linearization::{Analytic, FiniteDifferences, Linearization};
-use super::newton::{MOST_ITERATIONS, SLOW, check_tolerance, refusal, size};
-use crate::arrays::displaced;
+use super::newton::{MOST_ITERATIONS, SLOW, check_length, check_tolerance, refusal, size};
+use crate::arrays::{displaced, first_non_finite};
 use crate::methods::fixed::{self, Fixed, OneStep, Slopes};
 use crate::methods::{Arrival, Start};
 use crate::{Dim, DimOf, Dynamics, IntegrationError, Real, ScalarOf, State, Statistics, VecOf};
@@ -87,7 +87,8 @@ macro_rules! constructors {
             ///
             /// # Errors
             /// [`IntegrationError::NoConvergence`] if the equations are not solved,
-            /// [`IntegrationError::NonFiniteDerivative`] if the derivative at `state` is not finite.
+            /// [`IntegrationError::NonFiniteDerivative`] if the derivative at `state` is not finite,
+            /// [`IntegrationError::Setting`] if `dt` is not.
             pub fn step<S>(
                 system: &S,
                 t: T,
@@ -99,6 +100,7 @@ macro_rules! constructors {
                 S: Dynamics,
                 S::State: State<Scalar = T>,
             {
+                check_length(dt)?;
                 let (start, x) = (Start { system, input, time: t, state }, state.to_array());
                 let scheme = Self::new(dt.abs()).scheme;
                 let mut work = OneStep::<S>::work(&scheme);
@@ -122,6 +124,9 @@ macro_rules! constructors {
 }
 constructors!(GaussLegendre4, 2);
 constructors!(GaussLegendre6, 3);
+
+/// Up to this multiple of the least number 1/h has no room, and a step is its first term: none, for the length zero.
+const SHORT: f64 = 8.0;
 
 /// What a Gauss method keeps: the stages of the last step, and the matrices while they serve.
 pub struct Work<S: Dynamics, const N: usize> {
@@ -205,6 +210,15 @@ where
 {
     let x = &start.state.to_array();
     let zero = DimOf::<S>::vec(T::ZERO);
+    if h.abs() <= T::from_f64(SHORT) * T::MIN_POSITIVE {
+        statistics.evaluations += 1;
+        let slope = start.derivative();
+        if first_non_finite::<T>(slope.as_ref()).is_some() {
+            return Err(refusal(start, h, 0, T::ZERO, slope.as_ref()));
+        }
+        *work = Work { last: None, matrices: None };
+        return Ok(table.nodes.map(|node| displaced(&zero, T::from_f64(node) * h, &slope)));
+    }
     let mut z = match &work.last {
         Some((length, z)) => table.extrapolated(zero, z, h / *length),
         None => [zero; N],

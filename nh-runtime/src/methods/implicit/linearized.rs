@@ -3,9 +3,10 @@
 use super::collocation::{Collocation, Matrices, weighted};
 use super::gauss::{Gauss, GaussLegendre4, GaussLegendre6, Table, Work, settled};
 use super::linearization::Analytic;
-use super::newton::{MOST_ITERATIONS, size};
+use super::newton::{MOST_ITERATIONS, check_length, one_less, size};
 use super::radau5::{RADAU, Radau5};
 use crate::arrays::displaced;
+use crate::methods::transition::of_rows;
 use crate::methods::{Start, Transition};
 use crate::{D, IntegrationError, Jacobian, Real, State, Statistics};
 
@@ -18,8 +19,8 @@ macro_rules! linearized_step {
             ///
             /// # Errors
             /// [`IntegrationError::NoConvergence`] if the equations of the step are not solved,
-            /// [`IntegrationError::NonFiniteDerivative`] if the derivative at `state` is not finite. Where
-            /// the derivatives cannot be had they are NaN.
+            /// [`IntegrationError::NonFiniteDerivative`] if the derivative at `state` is not finite,
+            /// [`IntegrationError::Setting`] if `dt` is not. Where the derivatives cannot be had they are NaN.
             pub fn linearized_step<S, const N: usize, const M: usize>(
                 system: &S,
                 t: T,
@@ -51,6 +52,7 @@ where
     S: Jacobian<InputDim = D<M>>,
     S::State: State<Scalar = T, Dim = D<N>>,
 {
+    check_length(h)?;
     let x = start.state.to_array();
     let mut work = Work { last: None, matrices: None };
     let (tolerance, statistics) = (T::from_f64(1e3) * T::EPSILON, &mut Statistics::default());
@@ -77,6 +79,10 @@ where
             let change = table.derivative(h, matrices, &stages, &[T::ZERO; N], Some(j));
             column.iter_mut().zip(change).for_each(|(to, from)| *to = from);
         }
+    } else if let Some(Stage { a, b }) = stages.first() {
+        // too short for matrices: 1 + h A and h B
+        step.by_state = of_rows(&one_less::<D<N>, T>(-h, *a));
+        step.by_input = of_rows(&b.map(|row| row.map(|entry| h * entry)));
     }
     Ok(step)
 }

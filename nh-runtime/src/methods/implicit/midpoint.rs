@@ -1,7 +1,7 @@
 //! The implicit midpoint rule.
 
 use super::linearization::{Analytic, FiniteDifferences, Linearization};
-use super::newton::{MOST_ITERATIONS, SLOW, check_tolerance, one_less, refusal, size};
+use super::newton::{MOST_ITERATIONS, SLOW, check_length, check_tolerance, one_less, refusal, size};
 use crate::arrays::displaced;
 use crate::linear::Factors;
 use crate::methods::fixed::{self, Fixed, OneStep, Slopes};
@@ -45,7 +45,8 @@ impl<T: Real> ImplicitMidpoint<T> {
     ///
     /// # Errors
     /// [`IntegrationError::NoConvergence`] if the equations are not solved,
-    /// [`IntegrationError::NonFiniteDerivative`] if the derivative at `state` is not finite.
+    /// [`IntegrationError::NonFiniteDerivative`] if the derivative at `state` is not finite,
+    /// [`IntegrationError::Setting`] if `dt` is not.
     pub fn step<S>(
         system: &S,
         t: T,
@@ -103,6 +104,7 @@ impl<T: Real, J> Midpoint<T, J> {
         S::State: State<Scalar = T>,
         J: Linearization<S>,
     {
+        check_length(length)?;
         let x = start.state.to_array();
         let increment = self.solve(start, length, &mut None, &mut Statistics::default())?;
         Ok(S::State::from_array(displaced(&x, T::ONE, &increment)))

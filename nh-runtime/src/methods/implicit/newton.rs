@@ -20,6 +20,14 @@ pub(in crate::methods) fn check_tolerance<T: Real>(tolerance: T) -> Result<(), I
     })
 }
 
+/// Checks the length of a single step.
+pub(in crate::methods) fn check_length<T: Real>(dt: T) -> Result<(), IntegrationError> {
+    if dt.is_finite() {
+        return Ok(());
+    }
+    Err(IntegrationError::Setting { setting: "dt", value: dt.to_f64(), expected: "finite" })
+}
+
 /// The largest correction, relative to 1 + |x| + |increment| in its component; NaN if there is one.
 pub(super) fn size<T: Real, V: AsRef<[T]>>(correction: &V, x: &V, increment: &V) -> T {
     let scales = x.as_ref().iter().zip(increment.as_ref()).map(|(x, d)| T::ONE + x.abs() + d.abs());

@@ -8,7 +8,7 @@ use super::Symmetric;
 use crate::arrays::displaced;
 use crate::linear::Factors;
 use crate::methods::fixed::{self, Slopes};
-use crate::methods::implicit::newton::{SLOW, check_tolerance, one_less, refusal, relative};
+use crate::methods::implicit::newton::{SLOW, check_length, check_tolerance, one_less, refusal, relative};
 use crate::methods::{Analytic, Arrival, FiniteDifferences, Fixed, Linearization, OneStep, Start};
 use crate::{AlmostPoisson, DimOf, Dynamics, IntegrationError, Real, ScalarOf, State, Statistics, VecOf};
 
@@ -109,7 +109,8 @@ impl<T: Real> DiscreteGradient<T> {
     ///
     /// # Errors
     /// [`IntegrationError::NoConvergence`] if the equations are not solved,
-    /// [`IntegrationError::NonFiniteDerivative`] if the derivative at `state` is not finite.
+    /// [`IntegrationError::NonFiniteDerivative`] if the derivative at `state` is not finite,
+    /// [`IntegrationError::Setting`] if `dt` is not.
     pub fn step<S>(
         system: &S,
         t: T,
@@ -121,6 +122,7 @@ impl<T: Real> DiscreteGradient<T> {
         S: AlmostPoisson,
         S::State: State<Scalar = T>,
     {
+        check_length(dt)?;
         let x = state.to_array();
         let scheme = Self::new(dt).scheme;
         let start = Start { system, input, time: t, state };
