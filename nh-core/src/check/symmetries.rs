@@ -216,7 +216,8 @@ fn declared_symmetry(
     Err(neither(model, setting, declared, &symmetry, &defects))
 }
 
-/// The translations along cyclic coordinates, as far as the anchor determines them.
+/// The translations along cyclic coordinates, as far as the anchor determines them; those in D, unless
+/// levels of momenta are declared.
 pub fn of_cyclic_coordinates(
     model: &mut Model,
     setting: &Setting<'_>,
@@ -229,6 +230,12 @@ pub fn of_cyclic_coordinates(
         let Some(section) = translation(graph, &setting.system.algebroid.anchor, *coordinate) else {
             continue;
         };
+        // outside D there is no momentum equation: only a level of that momentum would be told so
+        let along = setting.along_constraints(graph, &section);
+        let in_distribution = along.iter().all(|a| setting.manifold.zero_test(graph, *a).is_zero());
+        if !in_distribution && model.routh.is_empty() {
+            continue;
+        }
         if let Ok((symmetry, _)) = judged(graph, setting, name, section, None) {
             found.push((*coordinate, symmetry));
         }

@@ -18,7 +18,7 @@ pub(crate) struct Symmetries {
     pub(crate) declared: Vec<Symmetry>,
     /// Coordinates that nothing depends on.
     pub(crate) cyclic: Vec<CoordId>,
-    /// Their translations, as far as the anchor determines them.
+    /// Their translations, as far as the anchor determines them; those in D, unless levels are declared.
     pub(crate) found: Vec<(CoordId, Symmetry)>,
 }
 
