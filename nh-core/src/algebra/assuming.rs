@@ -35,8 +35,8 @@ impl Graph {
             }
             Node::Product { coefficient, factors } => {
                 let mut powers = Vec::with_capacity(factors.len());
-                for (base, exponent) in factors {
-                    self.open_root(known[&base], &exponent, facts, &mut powers);
+                for (base, exponent) in factors.iter() {
+                    self.open_root(known[base], exponent, facts, &mut powers);
                 }
                 let product = self.product(&powers);
                 self.scale(coefficient, product)
@@ -61,7 +61,7 @@ impl Graph {
             return powers.push((base, exponent.clone()));
         }
         let mut rest = Vec::new();
-        for (inner, power) in factors {
+        for (inner, power) in factors.iter().cloned() {
             if self.range(inner, facts).low >= 0.0 {
                 powers.push((inner, power * exponent.clone()));
             } else {

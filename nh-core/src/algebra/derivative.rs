@@ -48,7 +48,9 @@ impl Derivation {
         if let Some(&known) = self.known.get(&expression) {
             return known;
         }
-        for id in graph.reachable(&[expression]) {
+        let order = graph.reachable(&[expression]);
+        self.known.reserve(order.len());
+        for id in order {
             if !self.known.contains_key(&id) {
                 let derivative = self.of_node(graph, id);
                 self.known.insert(id, derivative);
@@ -99,16 +101,18 @@ impl Derivation {
         coefficient: &Rational,
         factors: &[(ExprId, Rational)],
     ) -> ExprId {
-        let mut summands = Vec::new();
+        let mut summands = Vec::with_capacity(factors.len());
         for (position, (base, exponent)) in factors.iter().enumerate() {
             let derivative = self.known[base];
             if graph.is_literal_zero(derivative) {
                 continue;
             }
-            let mut lowered = factors.to_vec();
-            lowered[position].1 = exponent.clone() - Rational::ONE;
-            lowered.push((derivative, Rational::ONE));
-            summands.push((coefficient.clone() * exponent.clone(), graph.product(&lowered)));
+            let lowered = factors.iter().enumerate().map(|(other, (base, exponent))| {
+                let less = if other == position { Rational::ONE } else { Rational::ZERO };
+                (*base, exponent.clone() - less)
+            });
+            let product = graph.product_of(lowered.chain([(derivative, Rational::ONE)]));
+            summands.push((coefficient.clone() * exponent.clone(), product));
         }
         graph.linear_combination(&summands)
     }
@@ -176,7 +180,12 @@ impl Graph {
 
     /// `∂expression/∂symbol`.
     pub fn partial(&mut self, expression: ExprId, symbol: SymbolId) -> ExprId {
-        Derivation::partial(self, symbol).apply(self, expression)
+        if let Some(&known) = self.partials.get(&(expression, symbol)) {
+            return known;
+        }
+        let partial = Derivation::partial(self, symbol).apply(self, expression);
+        self.partials.insert((expression, symbol), partial);
+        partial
     }
 }
 

@@ -119,30 +119,30 @@ impl Printer<'_> {
 
     /// Numerator factors, then `/` and the denominators.
     fn product(&mut self, coefficient: &Rational, factors: &[(ExprId, Rational)], level: Level) {
-        let (below, above): (Vec<_>, Vec<_>) =
-            factors.iter().partition(|(_, exponent)| exponent.is_negative());
-        let lone_power = coefficient.is_one() && factors.len() == 1 && below.is_empty();
+        let below = || factors.iter().filter(|(_, exponent)| exponent.is_negative());
+        let above = || factors.iter().filter(|(_, exponent)| !exponent.is_negative());
+        let lone_power = coefficient.is_one() && factors.len() == 1 && below().next().is_none();
         self.parenthesised(level == Level::Power && !(lone_power && factors[0].1.is_one()), |p| {
             p.sign(coefficient.is_negative(), true);
-            let magnitude = coefficient.abs();
-            let (numerator, denominator) = (magnitude.numerator(), magnitude.denominator());
+            let magnitude = coefficient.abs().to_string();
+            let (numerator, denominator) = magnitude.split_once('/').unwrap_or((&magnitude, "1"));
             let mut started = false;
-            if numerator != 1.into() || above.is_empty() {
-                p.text.push_str(&numerator.to_string());
+            if numerator != "1" || above().next().is_none() {
+                p.text.push_str(numerator);
                 started = true;
             }
-            for (base, exponent) in above {
+            for (base, exponent) in above() {
                 if started {
                     p.text.push('*');
                 }
                 p.power(*base, exponent);
                 started = true;
             }
-            if denominator != 1.into() {
+            if denominator != "1" {
                 p.text.push('/');
-                p.text.push_str(&denominator.to_string());
+                p.text.push_str(denominator);
             }
-            for (base, exponent) in below {
+            for (base, exponent) in below() {
                 p.text.push('/');
                 p.power(*base, &exponent.abs());
             }

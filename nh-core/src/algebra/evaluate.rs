@@ -3,7 +3,6 @@
 use super::graph::{Function, Function2, Graph, Node};
 use super::number::Rational;
 use crate::id::{ExprId, SymbolId};
-use rustc_hash::{FxBuildHasher, FxHashMap};
 
 /// A floating-point value and a bound on how far it is from the exact one (to first order).
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -58,20 +57,26 @@ impl Graph {
         points: impl Iterator<Item = F>,
     ) -> impl Iterator<Item = Vec<Bounded>> {
         let order = self.reachable(roots);
-        let mut known = FxHashMap::with_capacity_and_hasher(order.len(), FxBuildHasher);
+        let place = |id: ExprId| order.binary_search(&id).expect("what is reachable is in order");
+        let operands: Vec<Vec<usize>> =
+            order.iter().map(|id| self.node(*id).operands().map(place).collect()).collect();
+        let roots: Vec<usize> = roots.iter().map(|root| place(*root)).collect();
+        let mut known: Vec<Bounded> = Vec::with_capacity(order.len());
         points.map(move |value| {
-            for id in &order {
-                let result = self.evaluate_node(*id, &known, &value);
-                known.insert(*id, result);
+            known.clear();
+            for (id, operands) in order.iter().zip(&operands) {
+                known.push(self.evaluate_node(*id, operands, &known, &value));
             }
-            roots.iter().map(|root| known[root]).collect()
+            roots.iter().map(|root| known[*root]).collect()
         })
     }
 
+    /// A node whose operands stand at these places of what is known.
     fn evaluate_node(
         &self,
         id: ExprId,
-        known: &FxHashMap<ExprId, Bounded>,
+        operands: &[usize],
+        known: &[Bounded],
         value: &impl Fn(SymbolId) -> f64,
     ) -> Bounded {
         match self.node(id) {
@@ -81,9 +86,9 @@ impl Graph {
             Node::Sum { constant, terms } => {
                 let mut sum = constant.to_f64();
                 let mut error = sum.abs() * f64::EPSILON;
-                for (term, coefficient) in terms {
+                for ((_, coefficient), place) in terms.iter().zip(operands) {
                     let coefficient = coefficient.to_f64();
-                    let x = known[term];
+                    let x = known[*place];
                     sum += coefficient * x.value;
                     error += coefficient.abs() * (x.error + 2.0 * f64::EPSILON * x.value.abs())
                         + f64::EPSILON * sum.abs();
@@ -93,29 +98,28 @@ impl Graph {
             Node::Product { coefficient, factors } => {
                 let mut product = coefficient.to_f64();
                 let mut relative = 2.0 * f64::EPSILON;
-                for (base, exponent) in factors {
-                    let x = known[base];
+                let powers = || factors.iter().zip(operands).map(|((_, e), place)| (known[*place], e));
+                for (x, exponent) in powers() {
                     product *= real_power(x.value, exponent);
                     let exponent = exponent.to_f64();
                     relative += exponent.abs() * x.error / x.value.abs().max(f64::MIN_POSITIVE)
                         + (2.0 + exponent.abs()) * f64::EPSILON;
                 }
-                let error =
-                    if product == 0.0 { power_error(coefficient.to_f64(), factors, known) } else { 0.0 };
+                // the error of a product that vanished: its factors moved by their errors
+                let moved = || {
+                    powers().fold(coefficient.to_f64().abs(), |product, (x, exponent)| {
+                        product * real_power(x.value.abs() + x.error, exponent)
+                    })
+                };
+                let error = if product == 0.0 { moved() } else { 0.0 };
                 Bounded { value: product, error: error + product.abs() * relative }
             }
-            Node::Apply(function, x) => Bounded::of_function(*function, known[x]),
-            Node::Apply2(function, x, y) => Bounded::of_function2(*function, known[x], known[y]),
+            Node::Apply(function, _) => Bounded::of_function(*function, known[operands[0]]),
+            Node::Apply2(function, ..) => {
+                Bounded::of_function2(*function, known[operands[0]], known[operands[1]])
+            }
         }
     }
-}
-
-/// The error of a product that vanished: its factors moved by their errors.
-fn power_error(coefficient: f64, factors: &[(ExprId, Rational)], known: &FxHashMap<ExprId, Bounded>) -> f64 {
-    factors.iter().fold(coefficient.abs(), |product, (base, exponent)| {
-        let x = known[base];
-        product * real_power(x.value.abs() + x.error, exponent)
-    })
 }
 
 /// `x^exponent`, by the correctly rounded operation where there is one.

@@ -78,7 +78,7 @@ impl Residue {
             return None;
         }
         let (_, inverse) = self.quotient(1);
-        u64::try_from(inverse.rem_euclid(i128::from(P))).ok().map(Self)
+        Some(Self(inverse.rem_euclid(P.cast_signed()).cast_unsigned()))
     }
 
     /// The rational number with numerator and denominator up to 2²⁰ that has this residue, if there is
@@ -86,18 +86,17 @@ impl Residue {
     #[must_use]
     pub fn recognised(self) -> Option<Rational> {
         const LARGEST: i64 = 1 << 20;
-        let (numerator, denominator) = self.quotient(LARGEST.into());
-        let [numerator, denominator] = [numerator, denominator].map(|n| i64::try_from(n).ok());
-        let denominator = denominator.filter(|n| n.abs() <= LARGEST)?;
-        Some(Rational::new(numerator?, denominator))
+        let (numerator, denominator) = self.quotient(LARGEST);
+        (denominator.abs() <= LARGEST).then(|| Rational::new(numerator, denominator))
     }
 
     /// Numbers (r, s), r = s · self, with the first r ≤ `largest` of the extended Euclidean algorithm: both
     /// are small if the residue is that of a quotient of small numbers (P. Wang, *A p-adic algorithm for
     /// univariate partial fractions*, SYMSAC 1981).
-    fn quotient(self, largest: i128) -> (i128, i128) {
-        let (mut r0, mut r1) = (i128::from(P), i128::from(self.0));
-        let (mut s0, mut s1) = (0i128, 1i128);
+    fn quotient(self, largest: i64) -> (i64, i64) {
+        // remainders and cofactors are at most P in magnitude
+        let (mut r0, mut r1) = (P.cast_signed(), self.0.cast_signed());
+        let (mut s0, mut s1) = (0, 1);
         while r1 > largest {
             let quotient = r0 / r1;
             (r0, r1) = (r1, r0 - quotient * r1);

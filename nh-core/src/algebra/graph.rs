@@ -7,9 +7,14 @@
 use super::accuracy::Accuracy;
 use super::normal_form::Simplifier;
 use super::number::Rational;
-use crate::id::{ExprId, Id, SymbolId, Table};
-use rustc_hash::FxHashMap;
-use std::collections::hash_map::Entry;
+use super::places::Places;
+use super::visited::Visited;
+use super::zero_test::Verdict;
+use crate::id::{ExprId, SymbolId, Table};
+use rustc_hash::{FxHashMap, FxHasher};
+use std::cell::RefCell;
+use std::hash::{Hash, Hasher};
+use std::rc::Rc;
 
 /// A function of one argument. `tan x` is stored as `sin x / cos x`, `sqrt x` as `x^(1/2)`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
@@ -87,7 +92,7 @@ pub enum Node {
         /// The number among the summands.
         constant: Rational,
         /// The other summands.
-        terms: Box<[(ExprId, Rational)]>,
+        terms: Rc<[(ExprId, Rational)]>,
     },
     /// `coefficient · Π base^exponent`: bases ascend, no exponent is zero, and it is not a mere
     /// number, symbol or sum. A sum among several factors is primitive (see `product.rs`).
@@ -95,7 +100,7 @@ pub enum Node {
         /// The number in front.
         coefficient: Rational,
         /// Bases with their exponents.
-        factors: Box<[(ExprId, Rational)]>,
+        factors: Rc<[(ExprId, Rational)]>,
     },
     /// A function of one argument.
     Apply(Function, ExprId),
@@ -121,12 +126,26 @@ impl Node {
 #[derive(Clone, Debug, Default)]
 pub struct Graph {
     nodes: Table<ExprId, Node>,
-    known: FxHashMap<Node, ExprId>,
+    places: Places,
     symbols: Table<SymbolId, String>,
     /// What simplification has found so far.
     pub(super) simplifier: Simplifier,
     /// How much rounding error rewriting may cost.
     accuracy: Accuracy,
+    /// Room for terms or factors that are being collected: most are found to be known.
+    spare: Vec<Vec<(ExprId, Rational)>>,
+    /// The partial derivatives that were taken: momenta are asked for again and again.
+    pub(super) partials: FxHashMap<(ExprId, SymbolId), ExprId>,
+    /// What the zero test has said.
+    pub(super) verdicts: RefCell<FxHashMap<ExprId, Verdict>>,
+    visited: RefCell<Visited>,
+}
+
+/// What distinguishes sums from products of the same numbers.
+#[derive(Clone, Copy, PartialEq, Eq, Hash)]
+enum List {
+    Sum,
+    Product,
 }
 
 impl Graph {
@@ -176,15 +195,54 @@ impl Graph {
         self.nodes.is_empty()
     }
 
-    /// Stores a node that is already canonical.
+    /// Stores a node without a list of operands that is already canonical.
     pub(super) fn intern(&mut self, node: Node) -> ExprId {
-        match self.known.entry(node) {
-            Entry::Occupied(known) => *known.get(),
-            Entry::Vacant(new) => {
-                let id = self.nodes.push(new.key().clone());
-                *new.insert(id)
-            }
+        let hash = hashed(&node);
+        let found = self.places.find(hash, |id| self.nodes[id] == node);
+        found.unwrap_or_else(|| self.store(hash, node))
+    }
+
+    /// Stores a sum that is already canonical.
+    pub(super) fn intern_sum<L>(&mut self, constant: Rational, terms: L) -> ExprId
+    where
+        L: AsRef<[(ExprId, Rational)]> + Into<Rc<[(ExprId, Rational)]>>,
+    {
+        let hash = hashed(&(List::Sum, &constant, terms.as_ref()));
+        let is = |id| matches!(&self.nodes[id], Node::Sum { constant: c, terms: t } if *c == constant && **t == *terms.as_ref());
+        match self.places.find(hash, is) {
+            Some(known) => known,
+            None => self.store(hash, Node::Sum { constant, terms: terms.into() }),
         }
+    }
+
+    /// Stores a product that is already canonical.
+    pub(super) fn intern_product<L>(&mut self, coefficient: Rational, factors: L) -> ExprId
+    where
+        L: AsRef<[(ExprId, Rational)]> + Into<Rc<[(ExprId, Rational)]>>,
+    {
+        let hash = hashed(&(List::Product, &coefficient, factors.as_ref()));
+        let is = |id| matches!(&self.nodes[id], Node::Product { coefficient: c, factors: f } if *c == coefficient && **f == *factors.as_ref());
+        match self.places.find(hash, is) {
+            Some(known) => known,
+            None => self.store(hash, Node::Product { coefficient, factors: factors.into() }),
+        }
+    }
+
+    fn store(&mut self, hash: u32, node: Node) -> ExprId {
+        let id = self.nodes.push(node);
+        self.places.insert(hash, id);
+        id
+    }
+
+    /// An empty list, to be given back.
+    pub(super) fn take_spare(&mut self) -> Vec<(ExprId, Rational)> {
+        self.spare.pop().unwrap_or_default()
+    }
+
+    /// Takes a list back.
+    pub(super) fn give_back(&mut self, mut list: Vec<(ExprId, Rational)>) {
+        list.clear();
+        self.spare.push(list);
     }
 
     /// A number.
@@ -237,28 +295,50 @@ impl Graph {
         }
     }
 
+    /// Visits the expressions that `roots` are made of, themselves included, each once, for as long as
+    /// `visit` wishes to go on.
+    pub(super) fn each_reachable(&self, roots: &[ExprId], mut visit: impl FnMut(ExprId) -> bool) {
+        let mut visited = self.visited.take();
+        visited.begin(self.nodes.len(), roots);
+        while let Some(id) = visited.next() {
+            if !visit(id) {
+                break;
+            }
+            match self.node(id) {
+                Node::Number(_) | Node::Pi | Node::Symbol(_) => {}
+                Node::Sum { terms: list, .. } | Node::Product { factors: list, .. } => {
+                    list.iter().for_each(|(operand, _)| visited.open(*operand));
+                }
+                Node::Apply(_, x) => visited.open(*x),
+                Node::Apply2(_, x, y) => {
+                    visited.open(*x);
+                    visited.open(*y);
+                }
+            }
+        }
+        self.visited.replace(visited);
+    }
+
     /// All expressions that `roots` are made of, themselves included, operands first.
     #[must_use]
     pub fn reachable(&self, roots: &[ExprId]) -> Vec<ExprId> {
-        // zeroed memory is free; what is done is in proportion to what is found, not to the graph
-        let mut seen = vec![false; self.nodes.len()];
-        let mut open: Vec<ExprId> = roots.to_vec();
-        let mut found = Vec::new();
-        while let Some(id) = open.pop() {
-            if !std::mem::replace(&mut seen[id.index()], true) {
-                found.push(id);
-                open.extend(self.node(id).operands().filter(|operand| !seen[operand.index()]));
-            }
-        }
-        found.sort_unstable();
+        let mut found = Vec::with_capacity(USUAL);
+        self.each_reachable(roots, |id| {
+            found.push(id);
+            true
+        });
+        self.visited.borrow().sort(&mut found);
         found
     }
 
     /// The symbols that occur in `roots`, in order of their introduction.
     #[must_use]
     pub fn symbols_in(&self, roots: &[ExprId]) -> Vec<SymbolId> {
-        let mut found: Vec<SymbolId> =
-            self.reachable(roots).into_iter().filter_map(|id| self.as_symbol(id)).collect();
+        let mut found = Vec::new();
+        self.each_reachable(roots, |id| {
+            found.extend(self.as_symbol(id));
+            true
+        });
         found.sort_unstable();
         found
     }
@@ -266,6 +346,21 @@ impl Graph {
     /// Whether any of `symbols` occurs in `expression`.
     #[must_use]
     pub fn depends_on(&self, expression: ExprId, symbols: &[SymbolId]) -> bool {
-        self.symbols_in(&[expression]).iter().any(|symbol| symbols.contains(symbol))
+        let mut occurs = false;
+        self.each_reachable(&[expression], |id| {
+            occurs |= self.as_symbol(id).is_some_and(|symbol| symbols.contains(&symbol));
+            !occurs
+        });
+        occurs
     }
+}
+
+/// Room for the distinct expressions of most that are walked through.
+const USUAL: usize = 32;
+
+#[allow(clippy::cast_possible_truncation, reason = "half of the bits are enough")]
+fn hashed(content: &impl Hash) -> u32 {
+    let mut hasher = FxHasher::default();
+    content.hash(&mut hasher);
+    hasher.finish() as u32
 }

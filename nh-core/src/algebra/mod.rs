@@ -13,6 +13,7 @@ mod matrix;
 mod modular;
 mod normal_form;
 mod number;
+mod places;
 mod product;
 mod product_to_sum;
 mod range;
@@ -20,6 +21,7 @@ mod substitute;
 mod sum;
 mod transcendental;
 mod transplant;
+mod visited;
 mod zero_test;
 
 pub use accuracy::Accuracy;

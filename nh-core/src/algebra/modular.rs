@@ -52,7 +52,8 @@ impl Graph {
     pub fn evaluate_in_field(&self, roots: &[ExprId], point: &FieldPoint) -> Result<Vec<Residue>, NoValue> {
         let order = self.reachable(roots);
         let division = self.angle_division(&order)?;
-        let mut pass = Pass { graph: self, point, division, known: FxHashMap::default() };
+        let (known, units) = (FxHashMap::default(), FxHashMap::default());
+        let mut pass = Pass { graph: self, point, division, known, units };
         pass.known.reserve(order.len());
         for id in order {
             let value = pass.value(id)?;
@@ -114,6 +115,8 @@ struct Pass<'a> {
     point: &'a FieldPoint,
     division: i64,
     known: FxHashMap<ExprId, Residue>,
+    /// The points of the circle above values: sine and cosine share them, and so do sums of angles.
+    units: FxHashMap<u64, (Residue, Residue)>,
 }
 
 /// Separate streams of random numbers for separate purposes.
@@ -131,7 +134,7 @@ impl Pass<'_> {
         Residue::mixed(self.point.seed.wrapping_mul(8).wrapping_add(stream as u64), number)
     }
 
-    fn value(&self, id: ExprId) -> Value {
+    fn value(&mut self, id: ExprId) -> Value {
         match self.graph.node(id) {
             Node::Number(value) => Residue::of(value).ok_or(NoValue::Here),
             Node::Pi => Ok(self.random(Stream::Pi, 0)),
@@ -141,14 +144,14 @@ impl Pass<'_> {
             })),
             Node::Sum { constant, terms } => {
                 let mut sum = Residue::of(constant).ok_or(NoValue::Here)?;
-                for (term, coefficient) in terms {
+                for (term, coefficient) in terms.iter() {
                     sum = sum + Residue::of(coefficient).ok_or(NoValue::Here)? * self.known[term];
                 }
                 Ok(sum)
             }
             Node::Product { coefficient, factors } => {
                 let mut product = Residue::of(coefficient).ok_or(NoValue::Here)?;
-                for (base, exponent) in factors {
+                for (base, exponent) in factors.iter() {
                     product = product * self.power(*base, exponent)?;
                 }
                 Ok(product)
@@ -186,7 +189,7 @@ impl Pass<'_> {
         }
     }
 
-    fn function(&self, function: Function, x: ExprId) -> Value {
+    fn function(&mut self, function: Function, x: ExprId) -> Value {
         match function {
             Function::Sin => Ok(self.circle(x)?.1),
             Function::Cos => Ok(self.circle(x)?.0),
@@ -235,7 +238,7 @@ impl Pass<'_> {
         };
         let unit = Residue::of(coefficient).and_then(Residue::inverse).unwrap_or(Residue::ONE);
         let mut list = vec![(Residue::ONE, scale.clone())];
-        for (base, exponent) in factors {
+        for (base, exponent) in factors.iter() {
             let times = exponent.to_i64().filter(|n| (1..=4).contains(n)).unwrap_or(0);
             if let (Node::Sum { constant, terms }, 1..) = (self.graph.node(*base), times) {
                 for _ in 0..times {
@@ -267,7 +270,7 @@ impl Pass<'_> {
     }
 
     /// `(cos x, sin x)`.
-    fn circle(&self, x: ExprId) -> Result<(Residue, Residue), NoValue> {
+    fn circle(&mut self, x: ExprId) -> Result<(Residue, Residue), NoValue> {
         let mut turned = (Residue::ONE, Residue::ZERO);
         let pi = self.random(Stream::Pi, 0);
         for (symbol, value, coefficient) in self.normal_terms(x) {
@@ -292,10 +295,15 @@ impl Pass<'_> {
     }
 
     /// The random point of the circle above `value / division`.
-    fn unit_of(&self, value: Residue) -> Result<(Residue, Residue), NoValue> {
+    fn unit_of(&mut self, value: Residue) -> Result<(Residue, Residue), NoValue> {
+        if let Some(unit) = self.units.get(&value.word()) {
+            return Ok(*unit);
+        }
         let u = self.random(Stream::Circle, value.word());
         let scale = (Residue::ONE + u * u).inverse().ok_or(NoValue::Here)?;
-        Ok(((Residue::ONE - u * u) * scale, (u + u) * scale))
+        let unit = ((Residue::ONE - u * u) * scale, (u + u) * scale);
+        self.units.insert(value.word(), unit);
+        Ok(unit)
     }
 
     fn exponential(&self, x: ExprId) -> Value {

@@ -10,7 +10,9 @@
 
 use super::graph::{Graph, Node};
 use super::number::Rational;
+use super::sum::collect_like;
 use crate::id::ExprId;
+use std::rc::Rc;
 
 /// Factors collected while a product is built.
 struct Factors {
@@ -21,6 +23,12 @@ struct Factors {
 impl Graph {
     /// `a · b`.
     pub fn mul(&mut self, a: ExprId, b: ExprId) -> ExprId {
+        for (a, b) in [(a, b), (b, a)] {
+            if let Some(number) = self.as_number(a) {
+                let number = number.clone();
+                return self.scale(number, b);
+            }
+        }
         self.product(&[(a, Rational::ONE), (b, Rational::ONE)])
     }
 
@@ -58,15 +66,18 @@ impl Graph {
                 self.number(product)
             }
             Node::Sum { constant, terms } => {
-                let terms = terms.iter().map(|(id, c)| (*id, c.clone() * coefficient.clone())).collect();
-                let constant = constant.clone() * coefficient;
-                self.intern(Node::Sum { constant, terms })
+                let (constant, terms) = (constant.clone() * coefficient.clone(), terms.clone());
+                let mut scaled = self.take_spare();
+                scaled.extend(terms.iter().map(|(id, c)| (*id, c.clone() * coefficient.clone())));
+                let sum = self.intern_sum(constant, scaled.as_slice());
+                self.give_back(scaled);
+                sum
             }
             Node::Product { coefficient: inner, factors } => {
-                let (coefficient, factors) = (coefficient * inner.clone(), factors.to_vec());
+                let (coefficient, factors) = (coefficient * inner.clone(), factors.clone());
                 self.finish_product(coefficient, factors)
             }
-            _ => self.intern(Node::Product { coefficient, factors: Box::new([(x, Rational::ONE)]) }),
+            _ => self.intern_product(coefficient, [(x, Rational::ONE)]),
         }
     }
 
@@ -74,7 +85,7 @@ impl Graph {
     pub fn split_coefficient(&mut self, id: ExprId) -> (Rational, ExprId) {
         match self.node(id) {
             Node::Product { coefficient, factors } if !coefficient.is_one() => {
-                let (coefficient, factors) = (coefficient.clone(), factors.to_vec());
+                let (coefficient, factors) = (coefficient.clone(), factors.clone());
                 (coefficient, self.finish_product(Rational::ONE, factors))
             }
             _ => (Rational::ONE, id),
@@ -83,12 +94,18 @@ impl Graph {
 
     /// `Π base^exponent`.
     pub fn product(&mut self, factors: &[(ExprId, Rational)]) -> ExprId {
-        let mut collected = Factors { coefficient: Rational::ONE, powers: Vec::with_capacity(factors.len()) };
+        self.product_of(factors.iter().cloned())
+    }
+
+    pub(super) fn product_of(&mut self, factors: impl Iterator<Item = (ExprId, Rational)>) -> ExprId {
+        let mut collected = Factors { coefficient: Rational::ONE, powers: self.take_spare() };
         for (base, exponent) in factors {
-            self.collect_factor(*base, exponent, &mut collected);
+            self.collect_factor(base, &exponent, &mut collected);
         }
         self.merge(&mut collected);
-        self.finish_product(collected.coefficient, collected.powers)
+        let product = self.finish_product(collected.coefficient, collected.powers.as_slice());
+        self.give_back(collected.powers);
+        product
     }
 
     /// Takes `base^exponent` apart as far as the identities allow.
@@ -101,16 +118,20 @@ impl Graph {
                 let value = value.clone();
                 self.collect_number(&value, exponent, into);
             }
+            Node::Product { coefficient, factors } if exponent.is_one() => {
+                into.coefficient = into.coefficient.clone() * coefficient.clone();
+                into.powers.extend_from_slice(factors);
+            }
             Node::Product { coefficient, factors } if exponent.is_integer() => {
                 let (coefficient, factors) = (coefficient.clone(), factors.clone());
                 self.collect_number(&coefficient, exponent, into);
-                for (inner, power) in factors {
+                for (inner, power) in factors.iter() {
                     // an integer power of a root can uncover a number or a product again
-                    let power = power * exponent.clone();
-                    if power.is_integer() && !matches!(self.node(inner), Node::Symbol(_)) {
-                        self.collect_factor(inner, &power, into);
+                    let power = power.clone() * exponent.clone();
+                    if power.is_integer() && !matches!(self.node(*inner), Node::Symbol(_)) {
+                        self.collect_factor(*inner, &power, into);
                     } else {
-                        into.powers.push((inner, power));
+                        into.powers.push((*inner, power));
                     }
                 }
             }
@@ -150,7 +171,7 @@ impl Graph {
                 into.powers.push((*inner, power.clone() * exponent.clone()));
             }
             _ => {
-                let base = self.finish_product(inside, factors.to_vec());
+                let base = self.finish_product(inside, factors);
                 into.powers.push((base, exponent.clone()));
             }
         }
@@ -159,6 +180,10 @@ impl Graph {
     /// Takes the content out of a sum, so that equal sums up to a number become one base.
     fn collect_sum(&mut self, base: ExprId, exponent: &Rational, into: &mut Factors) {
         let content = self.content(base);
+        if content.is_one() {
+            into.powers.push((base, exponent.clone()));
+            return;
+        }
         let outside = if exponent.is_integer() { content } else { square_divisor(&content.abs(), exponent) };
         match rational_power(&outside, exponent).zip(outside.recip()) {
             Some((power, inverse)) => {
@@ -175,8 +200,10 @@ impl Graph {
     pub fn content(&self, id: ExprId) -> Rational {
         let Node::Sum { constant, terms } = self.node(id) else { return Rational::ONE };
         let mut content = constant.abs();
-        for (_, coefficient) in terms {
-            content = content.gcd(coefficient);
+        for (_, coefficient) in terms.iter() {
+            if !(content.is_one() && coefficient.is_integer()) {
+                content = content.gcd(coefficient);
+            }
         }
         let first_negative = terms.first().is_some_and(|(_, coefficient)| coefficient.is_negative());
         if first_negative { -content } else { content }
@@ -185,14 +212,7 @@ impl Graph {
     /// Adds the exponents of equal bases.
     fn merge(&mut self, factors: &mut Factors) {
         loop {
-            factors.powers.sort_by_key(|(base, _)| *base);
-            factors.powers.dedup_by(|(base, exponent), (last, sum)| {
-                let same = base == last;
-                if same {
-                    *sum = sum.clone() + exponent.clone();
-                }
-                same
-            });
+            collect_like(&mut factors.powers);
             let mut reopened: Vec<(ExprId, Rational)> = Vec::new();
             factors.powers.retain(|(base, exponent)| {
                 // roots that have become integer powers are taken apart again
@@ -218,21 +238,24 @@ impl Graph {
     }
 
     /// Stores `coefficient · Π powers`, which are merged already.
-    fn finish_product(&mut self, coefficient: Rational, powers: Vec<(ExprId, Rational)>) -> ExprId {
+    fn finish_product<L>(&mut self, coefficient: Rational, powers: L) -> ExprId
+    where
+        L: AsRef<[(ExprId, Rational)]> + Into<Rc<[(ExprId, Rational)]>>,
+    {
         if coefficient.is_zero() {
             return self.zero();
         }
-        match powers.as_slice() {
+        match powers.as_ref() {
             [] => self.number(coefficient),
             [(base, exponent)] if exponent.is_one() => {
                 let base = *base;
                 match self.node(base) {
                     Node::Sum { .. } => self.scale(coefficient, base),
                     _ if coefficient.is_one() => base,
-                    _ => self.intern(Node::Product { coefficient, factors: powers.into() }),
+                    _ => self.intern_product(coefficient, powers),
                 }
             }
-            _ => self.intern(Node::Product { coefficient, factors: powers.into() }),
+            _ => self.intern_product(coefficient, powers),
         }
     }
 }

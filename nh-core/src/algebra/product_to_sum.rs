@@ -37,7 +37,8 @@ impl Graph {
             matches!(graph.node(base), Node::Apply(Function::Sin | Function::Cos, _))
         };
         let (sums, others): (Vec<_>, Vec<_>) = factors
-            .into_iter()
+            .iter()
+            .cloned()
             .partition(|(base, exponent)| exponent.is_one() && matches!(self.node(*base), Node::Sum { .. }));
         let [(sum, _)] = *sums else { return whole };
         if !others.iter().any(|(base, _)| is_harmonic(self, *base)) {
@@ -57,7 +58,7 @@ impl Graph {
         let Node::Product { coefficient, factors } = self.node(term).clone() else { return None };
         let mut angles: Vec<(Function, ExprId)> = Vec::new();
         let mut rest: Vec<(ExprId, Rational)> = Vec::new();
-        for (base, exponent) in &factors {
+        for (base, exponent) in factors.iter() {
             let times = exponent.to_i64().filter(|n| (1..=2).contains(n));
             match (self.node(*base), times) {
                 (Node::Apply(function @ (Function::Sin | Function::Cos), angle), Some(times)) => {

@@ -36,7 +36,9 @@ impl Substitution {
         if let Some(&known) = self.known.get(&expression) {
             return known;
         }
-        for id in graph.reachable(&[expression]) {
+        let order = graph.reachable(&[expression]);
+        self.known.reserve(order.len());
+        for id in order {
             if !self.known.contains_key(&id) {
                 let image = self.of_node(graph, id);
                 self.known.insert(id, image);
@@ -72,13 +74,11 @@ impl Graph {
             Node::Symbol(symbol) => self.symbol(symbol),
             Node::Sum { constant, terms } => {
                 let one = self.one();
-                let mut summands: Vec<_> = terms.iter().map(|(term, c)| (c.clone(), image(*term))).collect();
-                summands.push((constant, one));
-                self.linear_combination(&summands)
+                let summands = terms.iter().map(|(term, c)| (c, image(*term)));
+                self.combination_of(summands.chain([(&constant, one)]))
             }
             Node::Product { coefficient, factors } => {
-                let factors: Vec<_> = factors.iter().map(|(base, e)| (image(*base), e.clone())).collect();
-                let product = self.product(&factors);
+                let product = self.product_of(factors.iter().map(|(base, e)| (image(*base), e.clone())));
                 self.scale(coefficient, product)
             }
             Node::Apply(function, x) => self.apply(function, image(x)),

@@ -8,12 +8,21 @@ use crate::id::ExprId;
 impl Graph {
     /// `Σ coefficient · term`.
     pub fn linear_combination(&mut self, summands: &[(Rational, ExprId)]) -> ExprId {
+        self.combination_of(summands.iter().map(|(coefficient, term)| (coefficient, *term)))
+    }
+
+    pub(super) fn combination_of<'a>(
+        &mut self,
+        summands: impl Iterator<Item = (&'a Rational, ExprId)>,
+    ) -> ExprId {
         let mut constant = Rational::ZERO;
-        let mut terms: Vec<(ExprId, Rational)> = Vec::with_capacity(summands.len());
+        let mut terms = self.take_spare();
         for (coefficient, id) in summands {
-            self.collect_summand(coefficient, *id, &mut constant, &mut terms);
+            self.collect_summand(coefficient, id, &mut constant, &mut terms);
         }
-        self.sum_of_terms(constant, terms)
+        let sum = self.sum_of_terms(constant, &mut terms);
+        self.give_back(terms);
+        sum
     }
 
     fn collect_summand(
@@ -38,15 +47,8 @@ impl Graph {
     }
 
     /// Collects like terms and stores the sum.
-    fn sum_of_terms(&mut self, constant: Rational, mut terms: Vec<(ExprId, Rational)>) -> ExprId {
-        terms.sort_by_key(|(term, _)| *term);
-        terms.dedup_by(|(term, coefficient), (last, sum)| {
-            let same = term == last;
-            if same {
-                *sum = sum.clone() + coefficient.clone();
-            }
-            same
-        });
+    fn sum_of_terms(&mut self, constant: Rational, terms: &mut Vec<(ExprId, Rational)>) -> ExprId {
+        collect_like(terms);
         terms.retain(|(_, coefficient)| !coefficient.is_zero());
         match terms.as_slice() {
             [] => self.number(constant),
@@ -54,7 +56,7 @@ impl Graph {
                 let (term, coefficient) = (*term, coefficient.clone());
                 self.scale(coefficient, term)
             }
-            _ => self.intern(Node::Sum { constant, terms: terms.into() }),
+            terms => self.intern_sum(constant, terms),
         }
     }
 
@@ -75,8 +77,7 @@ impl Graph {
 
     /// The sum of all.
     pub fn sum(&mut self, summands: &[ExprId]) -> ExprId {
-        let summands: Vec<_> = summands.iter().map(|id| (Rational::ONE, *id)).collect();
-        self.linear_combination(&summands)
+        self.combination_of(summands.iter().map(|id| (&Rational::ONE, *id)))
     }
 
     /// `Σ a_i b_i`.
@@ -94,6 +95,21 @@ impl Graph {
             _ => (Rational::ZERO, vec![(id, Rational::ONE)]),
         }
     }
+}
+
+/// Sorts terms or factors, and adds the coefficients or exponents of equal ones.
+pub(super) fn collect_like(list: &mut Vec<(ExprId, Rational)>) {
+    if list.is_sorted_by(|(a, _), (b, _)| a < b) {
+        return;
+    }
+    list.sort_by_key(|(id, _)| *id);
+    list.dedup_by(|(id, number), (last, sum)| {
+        let same = id == last;
+        if same {
+            *sum = sum.clone() + number.clone();
+        }
+        same
+    });
 }
 
 #[cfg(test)]

@@ -75,8 +75,20 @@ impl Graph {
             Some(number) => return Verdict::NonZero(Witness { point: Vec::new(), value: number.to_f64() }),
             None => {}
         }
-        match self.vanishes_in_field(expression) {
-            Ok(true) => self.confirmed_zero(expression),
+        if let Some(known) = self.verdicts.borrow().get(&expression) {
+            return known.clone();
+        }
+        let verdict = self.decided(expression);
+        self.verdicts.borrow_mut().insert(expression, verdict.clone());
+        verdict
+    }
+
+    fn decided(&self, expression: ExprId) -> Verdict {
+        let has_roots = self.has_roots(expression);
+        match self.vanishes_in_field(expression, has_roots) {
+            // the sign of a root on the reals has the last word: `sqrt(x^2) − x`
+            Ok(true) if has_roots => self.witness(expression).map_or(Verdict::Zero, Verdict::NonZero),
+            Ok(true) => Verdict::Zero,
             Ok(false) => self.witness(expression).map_or_else(
                 || {
                     Verdict::Unknown(
@@ -89,24 +101,20 @@ impl Graph {
         }
     }
 
-    /// With square roots, the sign of a root on the reals has the last word: `sqrt(x^2) − x`.
-    fn confirmed_zero(&self, expression: ExprId) -> Verdict {
-        if !self.has_roots(expression) {
-            return Verdict::Zero;
-        }
-        self.witness(expression).map_or(Verdict::Zero, Verdict::NonZero)
-    }
-
     fn has_roots(&self, expression: ExprId) -> bool {
-        self.reachable(&[expression]).into_iter().any(|id| match self.node(id) {
-            Node::Product { factors, .. } => factors.iter().any(|(_, exponent)| !exponent.is_integer()),
-            _ => false,
-        })
+        let mut found = false;
+        self.each_reachable(&[expression], |id| {
+            if let Node::Product { factors, .. } = self.node(id) {
+                found |= factors.iter().any(|(_, exponent)| !exponent.is_integer());
+            }
+            !found
+        });
+        found
     }
 
     /// Whether the expression vanishes at every point tried of the field.
-    fn vanishes_in_field(&self, expression: ExprId) -> Result<bool, String> {
-        let wanted = if self.has_roots(expression) { POINTS_WITH_ROOTS } else { POINTS };
+    fn vanishes_in_field(&self, expression: ExprId, has_roots: bool) -> Result<bool, String> {
+        let wanted = if has_roots { POINTS_WITH_ROOTS } else { POINTS };
         let mut seen = 0;
         for seed in 0..wanted * PATIENCE {
             match self.evaluate_in_field(&[expression], &FieldPoint::random(seed)) {

@@ -110,7 +110,7 @@ pub fn singular_where(
         }
         let determinant = graph.small_determinant(&inner);
         let factors = match graph.node(determinant).clone() {
-            Node::Product { factors, .. } => factors.into_vec(),
+            Node::Product { factors, .. } => factors.to_vec(),
             _ => vec![(determinant, 1.into())],
         };
         for (base, exponent) in factors {

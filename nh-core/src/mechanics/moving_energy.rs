@@ -104,7 +104,7 @@ fn scales(graph: &mut Graph, constraints: &LinearConstraints, parameters: &[Symb
     for drift in &constraints.drift {
         for (term, _) in graph.as_linear(*drift).1 {
             let factors: Vec<(ExprId, Rational)> = match graph.node(term).clone() {
-                Node::Product { factors, .. } => factors.into_vec(),
+                Node::Product { factors, .. } => factors.to_vec(),
                 _ => vec![(term, Rational::ONE)],
             };
             let kept: Vec<(ExprId, Rational)> = factors

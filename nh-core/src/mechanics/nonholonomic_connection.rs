@@ -19,7 +19,7 @@ pub struct NonholonomicConnection {
     pub coordinates: Vec<CoordId>,
     /// h_κ in D with ẋ^λ = δ^λ_κ for these coordinates, orthogonal to S in the kinetic metric.
     pub lifts: Matrix,
-    /// The locked inertia ⟨S_ρ, S_σ⟩, where there is a kinetic metric on the base.
+    /// The locked inertia ⟨S_ρ, S_σ⟩, where there is a kinetic metric on the base; without entries where S = 0.
     pub inertia: Option<Matrix>,
     /// The S-components of a section of D from its components there, where there is no metric: a row
     /// of D-components for each.
@@ -45,9 +45,9 @@ impl NonholonomicConnection {
         // 2. S, with R S = 0
         let free: Vec<usize> = (0..splitting.rank).filter(|a| !splitting.lifted.contains(a)).collect();
         let (inside, scales) = kernel(graph, &rates, &splitting.lifted, &free, facts)?;
-        // 3. the lifts
+        // 3. the lifts: where S = 0 there is nothing for them to be orthogonal to
         let sections = distribution.sections();
-        let metric = metric(graph, system, &sections);
+        let metric = if inside.is_empty() { Some(Matrix::new()) } else { metric(graph, system, &sections) };
         let lifts = match &metric {
             Some(metric) if !inside.is_empty() => orthogonal(graph, metric, &rates)?,
             _ => along_pivots(graph, &rates, &splitting.lifted)?,

@@ -9,6 +9,7 @@ use crate::algebra::{Function, Rational};
 use crate::id::Id;
 use rustc_hash::{FxHashMap, FxHashSet};
 use std::collections::BTreeMap;
+use std::rc::Rc;
 
 /// An angle as a combination of terms that are no sums.
 type Form = BTreeMap<Term, Rational>;
@@ -126,12 +127,12 @@ fn depths(arena: &Arena) -> Vec<usize> {
 fn form(arena: &Arena, angle: Term) -> Form {
     let mut form = Form::new();
     let single = [(angle, false)];
-    let operands = if let Nary::Sum(operands) = arena.get(angle) { operands.as_slice() } else { &single };
+    let operands = if let Nary::Sum(operands) = arena.get(angle) { &operands[..] } else { &single };
     for (operand, negative) in operands {
         let (term, coefficient) = match arena.get(*operand) {
-            Nary::Product(factors) => match factors.as_slice() {
-                [(number, 1), (term, 1)] | [(term, 1), (number, 1)] if arena.as_number(*number).is_some() => {
-                    (*term, arena.as_number(*number).cloned().unwrap_or(Rational::ONE))
+            Nary::Product(factors) => match factors[..] {
+                [(number, 1), (term, 1)] | [(term, 1), (number, 1)] if arena.as_number(number).is_some() => {
+                    (term, arena.as_number(number).cloned().unwrap_or(Rational::ONE))
                 }
                 _ => (*operand, Rational::ONE),
             },
@@ -186,7 +187,7 @@ fn replace(arena: &mut Arena, angle: Term, [(a, minus_a), (b, minus_b)]: [Signed
     write(Function::Cos, [cos_a, cos_b], false, [sin_a, sin_b], minus_a == minus_b);
 }
 
-fn sorted(mut operands: [Signed; 2]) -> Vec<Signed> {
+fn sorted(mut operands: [Signed; 2]) -> Rc<[Signed]> {
     operands.sort_unstable_by_key(|(term, _)| term.index());
-    operands.to_vec()
+    operands.into()
 }

@@ -34,11 +34,11 @@ pub(super) fn factor(arena: &mut Arena, sharing: Sharing) {
     absorb_signs(arena);
 }
 
-/// The factors of one operand of a sum.
-fn factors(arena: &Arena, operand: Term) -> Vec<(Term, i32)> {
-    match arena.get(operand) {
-        Nary::Product(factors) => factors.clone(),
-        _ => vec![(operand, 1)],
+/// The factors of one operand of a sum, which are `alone` if it is no product.
+fn factors<'a>(arena: &'a Arena, alone: &'a [(Term, i32); 1]) -> &'a [(Term, i32)] {
+    match arena.get(alone[0].0) {
+        Nary::Product(factors) => factors,
+        _ => alone,
     }
 }
 
@@ -51,14 +51,14 @@ fn best_factor(arena: &Arena, uses: &[u32], sum: Term, sharing: Sharing) -> Opti
     }
     let Nary::Sum(operands) = arena.get(sum) else { return None };
     let mut candidates: FxHashMap<(Term, bool), Candidate> = FxHashMap::default();
-    for (operand, _) in operands {
+    for (operand, _) in operands.iter() {
         let users = uses[operand.index()].max(1);
         let worth = match (arena.get(*operand), sharing) {
             (Nary::Product(_), Sharing::Divided) => ONE / users.min(ONE),
             (Nary::Product(_), Sharing::Ignored) if users == 1 => ONE,
             _ => 0,
         };
-        for (base, exponent) in factors(arena, *operand) {
+        for &(base, exponent) in factors(arena, &[(*operand, 1)]) {
             let candidate = candidates.entry((base, exponent < 0)).or_insert(Candidate {
                 savings: 0,
                 operands: 0,
@@ -82,9 +82,11 @@ fn take_out(arena: &mut Arena, uses: &mut Vec<u32>, sum: Term, base: Term, expon
     let Nary::Sum(operands) = arena.get(sum).clone() else { return sum };
     let mut rest = Vec::new();
     let mut inside = Vec::new();
-    for (operand, negative) in operands {
-        let mut factors = factors(arena, operand);
+    for &(operand, negative) in operands.iter() {
+        let alone = [(operand, 1)];
+        let factors = factors(arena, &alone);
         if factors.iter().any(|(b, e)| *b == base && (*e < 0) == (exponent < 0)) {
+            let mut factors = factors.to_vec();
             factors.push((base, exponent.saturating_neg()));
             inside.push((arena.product(factors), negative));
             uses[operand.index()] = uses[operand.index()].saturating_sub(1);
@@ -107,7 +109,7 @@ fn take_out(arena: &mut Arena, uses: &mut Vec<u32>, sum: Term, base: Term, expon
         uses[product.index()] += 1;
         rest.push((product, negative));
         rest.sort_unstable();
-        arena.rewrite(sum, Nary::Sum(rest));
+        arena.rewrite(sum, Nary::Sum(rest.into()));
     }
     inner
 }
@@ -116,10 +118,10 @@ fn take_out(arena: &mut Arena, uses: &mut Vec<u32>, sum: Term, base: Term, expon
 fn flatten(arena: &mut Arena) {
     let uses = arena.uses();
     for term in arena.operands_first(&arena.outputs) {
-        let Nary::Product(factors) = arena.get(term).clone() else { continue };
+        let Nary::Product(factors) = arena.get(term) else { continue };
         let mut flat = Vec::with_capacity(factors.len());
         let mut changed = false;
-        for (base, exponent) in factors {
+        for &(base, exponent) in factors.iter() {
             match arena.get(base) {
                 Nary::Product(inner) if uses[base.index()] == 1 => {
                     let powers = inner.iter().map(|(b, e)| Some((*b, e.checked_mul(exponent)?)));
@@ -161,7 +163,8 @@ fn negated(arena: &mut Arena, uses: &[u32], term: Term) -> Option<Nary> {
         Nary::Sum(operands) if operands.iter().any(|(_, negative)| *negative) => {
             Some(Nary::Sum(flip(&operands)))
         }
-        Nary::Product(mut factors) => {
+        Nary::Product(factors) => {
+            let mut factors = factors.to_vec();
             for index in 0..factors.len() {
                 let (base, exponent) = factors[index];
                 let image = match arena.get(base).clone() {

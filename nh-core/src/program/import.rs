@@ -102,7 +102,7 @@ impl Importer<'_> {
             return self.arena.intern(Nary::Neg(sum));
         }
         operands.sort_unstable();
-        self.arena.intern(Nary::Sum(operands))
+        self.arena.intern(Nary::Sum(operands.into()))
     }
 
     fn product(&mut self, magnitude: &Rational, factors: &[(ExprId, Rational)]) -> Term {

@@ -32,6 +32,7 @@ pub(super) fn lower(arena: &Arena) -> Program {
         values: vec![None; arena.len()],
         fixed: vec![false; arena.len()],
         names: BTreeMap::new(),
+        operands: Vec::new(),
     };
     for term in arena.operands_first(&roots) {
         lowering.fixed[term.index()] = lowering.is_fixed(term);
@@ -56,6 +57,8 @@ struct Lowering<'a> {
     /// Which terms are made of numbers and parameters alone.
     fixed: Vec<bool>,
     names: BTreeMap<Value, SymbolId>,
+    /// Room for the operands of the present term.
+    operands: Vec<Term>,
 }
 
 /// An operand of a sum.
@@ -69,17 +72,16 @@ struct Operand {
 }
 
 impl Lowering<'_> {
-    fn is_fixed(&self, term: Term) -> bool {
-        let by_operands = || {
-            let mut operands = Vec::new();
-            self.arena.dependencies(term, &mut operands);
-            operands.iter().all(|operand| self.fixed[operand.index()])
-        };
+    fn is_fixed(&mut self, term: Term) -> bool {
         match self.arena.get(term) {
             Nary::Symbol(symbol) if !self.arena.sources.contains_key(symbol) => {
                 self.arena.parameters.contains(symbol)
             }
-            _ => by_operands(),
+            _ => {
+                self.operands.clear();
+                self.arena.dependencies(term, &mut self.operands);
+                self.operands.iter().all(|operand| self.fixed[operand.index()])
+            }
         }
     }
 

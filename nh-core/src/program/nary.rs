@@ -4,6 +4,7 @@ use crate::algebra::{Function, Function2, Rational};
 use crate::id::{Id, SymbolId, Table};
 use rustc_hash::{FxHashMap, FxHashSet};
 use std::collections::hash_map::Entry;
+use std::rc::Rc;
 
 /// An expression of the arena.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -26,10 +27,10 @@ pub(super) enum Nary {
     /// A symbol; one with a definition is an opaque operand.
     Symbol(SymbolId),
     /// Operands ascend; the flag says that one is subtracted.
-    Sum(Vec<(Term, bool)>),
+    Sum(Rc<[(Term, bool)]>),
     /// Bases ascend, exponents are not zero; after the denominators are gathered, they are positive.
     /// A numeric coefficient is a base like any other.
-    Product(Vec<(Term, i32)>),
+    Product(Rc<[(Term, i32)]>),
     /// `numerator / denominator`, after the denominators are gathered.
     Quotient(Term, Term),
     /// `base^exponent` with a high exponent, after the denominators are gathered.
@@ -153,7 +154,7 @@ impl Arena {
             }
         }
         merged.retain(|(_, exponent)| *exponent != 0);
-        if merged.is_empty() { Nary::Number(Rational::ONE) } else { Nary::Product(merged) }
+        if merged.is_empty() { Nary::Number(Rational::ONE) } else { Nary::Product(merged.into()) }
     }
 
     /// The sum of signed operands, at least one and all different, up to the sign in front, which is
@@ -167,7 +168,7 @@ impl Arena {
         for operand in &mut operands {
             operand.1 ^= negative;
         }
-        (self.intern(Nary::Sum(operands)), negative)
+        (self.intern(Nary::Sum(operands.into())), negative)
     }
 
     pub(super) fn as_number(&self, term: Term) -> Option<&Rational> {
@@ -207,7 +208,8 @@ impl Arena {
     pub(super) fn uses(&self) -> Vec<u32> {
         let mut uses = vec![0; self.len()];
         // every use once; what a term depends on is listed at its first
-        let mut open: Vec<Term> = self.outputs.clone();
+        let mut open: Vec<Term> = Vec::with_capacity(self.len());
+        open.extend(&self.outputs);
         while let Some(term) = open.pop() {
             uses[term.index()] += 1;
             if uses[term.index()] == 1 {
@@ -220,9 +222,10 @@ impl Arena {
     /// `roots` and the terms that they depend on, each after its operands.
     pub(super) fn operands_first(&self, roots: &[Term]) -> Vec<Term> {
         let mut seen = vec![false; self.len()];
-        let mut order = Vec::new();
+        let mut order = Vec::with_capacity(self.len());
         let mut operands = Vec::new();
-        let mut open: Vec<(Term, bool)> = roots.iter().rev().map(|term| (*term, false)).collect();
+        let mut open: Vec<(Term, bool)> = Vec::with_capacity(self.len());
+        open.extend(roots.iter().rev().map(|term| (*term, false)));
         while let Some((term, ready)) = open.pop() {
             if ready {
                 order.push(term);

@@ -4,7 +4,7 @@
 //! terms use saves n − 1 operations, whatever else is extracted.
 
 use super::nary::{Arena, Nary, Term};
-use rustc_hash::FxHashMap;
+use rustc_hash::{FxBuildHasher, FxHashMap};
 use std::cmp::Reverse;
 use std::collections::BinaryHeap;
 
@@ -73,12 +73,16 @@ struct Search<'a> {
 /// Extracts shared pairs until none is left, or the search has taken too long.
 pub(super) fn share_pairs(arena: &mut Arena, kind: Kind) {
     let lists = lists(arena, kind);
-    let mut search = Search { arena, kind, lists, places: FxHashMap::default(), heap: BinaryHeap::new() };
+    let pairs = lists.iter().map(|(_, list)| list.len() * (list.len() + 1).min(2 * WINDOW) / 2).sum();
+    let places = FxHashMap::with_capacity_and_hasher(pairs, FxBuildHasher);
+    let mut search = Search { arena, kind, lists, places, heap: BinaryHeap::new() };
     for index in 0..search.lists.len() {
-        let operands = search.lists[index].1.clone();
-        for (position, first) in operands.iter().enumerate() {
-            for second in operands[position..].iter().take(WINDOW) {
-                search.note(index, *first, *second);
+        let length = search.lists[index].1.len();
+        for first in 0..length {
+            for second in first..length.min(first + WINDOW) {
+                let operands = &search.lists[index].1;
+                let (first, second) = (operands[first], operands[second]);
+                search.note(index, first, second);
             }
         }
     }
@@ -108,7 +112,7 @@ fn lists(arena: &Arena, kind: Kind) -> Vec<(Term, List)> {
                 let weight = |negative| if negative { -1 } else { 1 };
                 lists.push((term, operands.iter().map(|(o, negative)| (*o, weight(*negative))).collect()));
             }
-            (Nary::Product(factors), Kind::Products) => lists.push((term, factors.clone())),
+            (Nary::Product(factors), Kind::Products) => lists.push((term, factors.to_vec())),
             _ => {}
         }
     }
@@ -200,7 +204,8 @@ impl Search<'_> {
             }
             let position = operands.partition_point(|(operand, _)| *operand < whole);
             operands.insert(position, (whole, weight));
-            for other in operands.clone().into_iter().take(WINDOW) {
+            for other in 0..operands.len().min(WINDOW) {
+                let other = self.lists[index].1[other];
                 let (pair, users) = self.note(index, other, (whole, weight));
                 if users > 1 {
                     let entry = self.entry(pair, users);
@@ -222,9 +227,9 @@ impl Search<'_> {
             return (*term, if self.kind == Kind::Sums { list[0].1 } else { 1 });
         }
         let nary = match self.kind {
-            Kind::Sums => Nary::Sum(vec![(a, false), (b, opposite)]),
-            Kind::Products if a == b => Nary::Product(vec![(a, 2)]),
-            Kind::Products => Nary::Product(vec![(a, 1), (b, 1)]),
+            Kind::Sums => Nary::Sum([(a, false), (b, opposite)].into()),
+            Kind::Products if a == b => Nary::Product([(a, 2)].into()),
+            Kind::Products => Nary::Product([(a, 1), (b, 1)].into()),
         };
         (self.arena.intern(nary), 1)
     }
@@ -235,9 +240,9 @@ impl Search<'_> {
         let nary = match (self.kind, operands.as_slice()) {
             // equal up to the sign to what it uses
             (Kind::Sums, [(only, -1)]) => Nary::Neg(*only),
-            (Kind::Sums, [(only, _)]) => Nary::Product(vec![(*only, 1)]),
+            (Kind::Sums, [(only, _)]) => Nary::Product([(*only, 1)].into()),
             (Kind::Sums, _) => Nary::Sum(operands.iter().map(|(o, weight)| (*o, *weight < 0)).collect()),
-            (Kind::Products, _) => Nary::Product(operands.clone()),
+            (Kind::Products, _) => Nary::Product(operands.as_slice().into()),
         };
         self.arena.rewrite(*term, nary);
     }

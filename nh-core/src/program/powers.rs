@@ -14,7 +14,7 @@ pub(super) fn separate_powers(arena: &mut Arena) {
     let constant = constants(arena, &order);
     for &term in &order {
         let Nary::Product(factors) = arena.get(term).clone() else { continue };
-        let (below, mut above): (Vec<_>, Vec<_>) = factors.into_iter().partition(|(_, e)| *e < 0);
+        let (below, mut above): (Vec<_>, Vec<_>) = factors.iter().partition(|(_, e)| *e < 0);
         let below: Vec<(Term, i32)> = below.iter().map(|(b, e)| (*b, e.saturating_neg())).collect();
         let mut divisor = Vec::new();
         if denominators.is_shared_whole(&below) {
@@ -116,7 +116,7 @@ fn power_form(arena: &mut Arena, factors: Vec<(Term, i32)>) -> Nary {
     match *operands {
         [(only, 1)] => match arena.get(only).clone() {
             power @ (Nary::Power(..) | Nary::Recip(_)) => power,
-            _ => Nary::Product(operands),
+            _ => Nary::Product(operands.into()),
         },
         _ => arena.product_form(operands),
     }

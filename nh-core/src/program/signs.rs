@@ -16,7 +16,8 @@ const LONGEST: usize = 3000;
 
 /// The program with fewer negations.
 pub(super) fn absorb_signs(mut program: Program) -> Program {
-    if program.steps.len() > LONGEST {
+    let negates = program.steps.iter().any(|step| matches!(step, Step::Neg(_)));
+    if program.steps.len() > LONGEST || !negates {
         return program;
     }
     let mut settled = 0;
@@ -28,7 +29,7 @@ pub(super) fn absorb_signs(mut program: Program) -> Program {
 
 /// The first negation from `settled` on that can be got rid of, and the program without it.
 fn improved(program: &Program, settled: usize) -> Option<(usize, Program)> {
-    let users = users(program);
+    let users = Users::of(program);
     for (value, step) in program.steps.iter_ids().skip(settled) {
         let Step::Neg(inner) = step else { continue };
         for candidate in candidates(program, *inner) {
@@ -41,17 +42,35 @@ fn improved(program: &Program, settled: usize) -> Option<(usize, Program)> {
     None
 }
 
-/// The steps that use each value.
-fn users(program: &Program) -> Table<Value, Vec<Value>> {
-    let mut users: Table<Value, Vec<Value>> = program.steps.iter().map(|_| Vec::new()).collect();
-    for (value, step) in program.steps.iter_ids() {
-        step.each_operand(|operand| {
-            if users[operand].last() != Some(&value) {
-                users[operand].push(value);
-            }
-        });
+/// The steps that use each value: one list, and where the users of a value begin in it.
+struct Users {
+    begin: Vec<usize>,
+    list: Vec<Value>,
+}
+
+impl Users {
+    fn of(program: &Program) -> Self {
+        let mut begin = vec![0; program.steps.len() + 1];
+        program.steps.iter().for_each(|step| step.each_operand(|operand| begin[operand.index()] += 1));
+        let mut total = 0;
+        for count in &mut begin {
+            total += std::mem::replace(count, total);
+        }
+        let mut users = Self { list: vec![Value::from_index(0); total], begin };
+        let mut end = users.begin.clone();
+        for (value, step) in program.steps.iter_ids() {
+            step.each_operand(|operand| {
+                users.list[end[operand.index()]] = value;
+                end[operand.index()] += 1;
+            });
+        }
+        users
     }
-    users
+
+    /// The steps that use a value, those twice that use it twice.
+    fn of_value(&self, value: Value) -> &[Value] {
+        &self.list[self.begin[value.index()]..self.begin[value.index() + 1]]
+    }
 }
 
 /// The factors of a value that can be computed with either sign.
@@ -121,24 +140,24 @@ fn change(step: &Step, is_opposite: impl Fn(&Value) -> bool) -> Change {
 }
 
 /// The values that change their sign with `start`.
-fn opposite(program: &Program, users: &Table<Value, Vec<Value>>, start: Value) -> BTreeSet<Value> {
+fn opposite(program: &Program, users: &Users, start: Value) -> BTreeSet<Value> {
     let mut opposite = BTreeSet::from([start]);
-    let mut open: BTreeSet<Value> = users[start].iter().copied().collect();
+    let mut open: BTreeSet<Value> = users.of_value(start).iter().copied().collect();
     while let Some(value) = open.pop_first() {
         if let Change::Opposite(_) = change(&program.steps[value], |operand| opposite.contains(operand)) {
             opposite.insert(value);
-            open.extend(&users[value]);
+            open.extend(users.of_value(value));
         }
     }
     opposite
 }
 
 /// How many negations fewer there are with these values of opposite sign.
-fn gain(program: &Program, users: &Table<Value, Vec<Value>>, opposite: &BTreeSet<Value>) -> i32 {
+fn gain(program: &Program, users: &Users, opposite: &BTreeSet<Value>) -> i32 {
     let mut gain = 0;
     for value in opposite {
         let mut needed = program.outputs.contains(value);
-        for user in &users[*value] {
+        for user in users.of_value(*value) {
             match change(&program.steps[*user], |operand| opposite.contains(operand)) {
                 Change::Vanishes(_) => gain += 1,
                 Change::Refused => needed = true,

@@ -158,7 +158,11 @@ impl Program {
             fixed.push(match step {
                 Step::Load(symbol) => is_parameter(*symbol),
                 Step::Call { .. } => false,
-                _ => step.operands().iter().all(|operand| fixed[operand.index()]),
+                _ => {
+                    let mut all = true;
+                    step.each_operand(|operand| all &= fixed[operand.index()]);
+                    all
+                }
             });
         }
         fixed

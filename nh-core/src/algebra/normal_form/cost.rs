@@ -3,13 +3,11 @@
 use crate::algebra::graph::{Function, Function2, Graph, Node};
 use crate::algebra::number::Rational;
 use crate::id::ExprId;
-use rustc_hash::{FxBuildHasher, FxHashSet};
+use rustc_hash::FxHashSet;
 
 const DIVISION: u64 = 5;
 const ROOT: u64 = 6;
 const FUNCTION: u64 = 20;
-/// Room for the distinct expressions of most that are counted.
-const USUAL: usize = 48;
 
 impl Graph {
     /// The weighted number of distinct operations in `roots`, in units of one addition or
@@ -26,19 +24,13 @@ impl Graph {
 
     /// The cost, if there are at most `limit` distinct expressions.
     pub(super) fn operation_count_within(&self, roots: &[ExprId], limit: usize) -> Option<u64> {
-        let mut tally = Tally::default();
-        let mut seen: FxHashSet<ExprId> = FxHashSet::with_capacity_and_hasher(USUAL, FxBuildHasher);
-        let mut open = roots.to_vec();
-        while let Some(id) = open.pop() {
-            if seen.insert(id) {
-                if seen.len() > limit {
-                    return None;
-                }
-                tally.count(self.node(id));
-                open.extend(self.node(id).operands());
-            }
-        }
-        Some(tally.cost)
+        let (mut tally, mut found) = (Tally::default(), 0);
+        self.each_reachable(roots, |id| {
+            found += 1;
+            tally.count(self.node(id));
+            found <= limit
+        });
+        (found <= limit).then_some(tally.cost)
     }
 }
 
@@ -62,7 +54,7 @@ impl Tally {
                 let above = count(factors.len()) - below + u64::from(!is_unit(coefficient));
                 self.cost += above.saturating_sub(1) + below.saturating_sub(1);
                 self.cost += if below > 0 { DIVISION } else { 0 };
-                for (base, exponent) in factors {
+                for (base, exponent) in factors.iter() {
                     if is_unit(exponent) {
                         continue;
                     }

@@ -1,6 +1,7 @@
 //! Denominators: exact division of numerators, and common denominators where they help.
 
-use super::polynomial::{Exponent, Factor, Kind, Monomial, Polynomial};
+use super::monomial::{Exponent, Factor, Kind, Monomial};
+use super::polynomial::Polynomial;
 use super::reader::Reader;
 use crate::algebra::graph::{Function, Node};
 use crate::algebra::number::Rational;
@@ -25,7 +26,7 @@ impl Reader<'_> {
         let inverse = coefficient.recip()?;
         // the exponents of the quotient lie in a box, which ends the division if it is not exact
         let lowest = dividend.meet().over(&divisor.meet())?;
-        let highest = inverted(dividend).meet().inverse().over(&inverted(divisor).meet().inverse())?;
+        let highest = dividend.join().over(&divisor.join())?;
         if lowest.meet(&highest) != lowest {
             return None;
         }
@@ -43,14 +44,23 @@ impl Reader<'_> {
         Some(quotient)
     }
 
+    /// Whether something is divided by a sum, a sine or a cosine.
+    pub(super) fn has_denominator(&self, polynomial: &Polynomial) -> bool {
+        let is_denominator = |factor: &Factor| {
+            factor.exponent.is_negative()
+                && (factor.kind == Kind::Sum || self.is_trigonometric_denominator(factor))
+        };
+        polynomial.0.keys().any(|monomial| monomial.0.iter().any(is_denominator))
+    }
+
     /// Removes the denominators that divide their numerators.
     pub(super) fn cancel(&mut self, polynomial: Polynomial) -> Option<Polynomial> {
         let mut current = polynomial;
         loop {
-            let fractions = self.fractions(&current, false);
-            if fractions.keys().all(Monomial::is_unit) && !self.has_trigonometric_denominator(&current) {
+            if !self.has_denominator(&current) {
                 return Some(current);
             }
+            let fractions = self.fractions(&current, false);
             if let Step::To(next) = self.divided(&fractions)? {
                 current = self.reduce(&next)?;
                 continue;
@@ -60,14 +70,6 @@ impl Reader<'_> {
                 Step::Nothing => return Some(current),
             }
         }
-    }
-
-    fn has_trigonometric_denominator(&self, polynomial: &Polynomial) -> bool {
-        polynomial
-            .0
-            .keys()
-            .flat_map(|monomial| &monomial.0)
-            .any(|factor| self.is_trigonometric_denominator(factor))
     }
 
     fn is_trigonometric_denominator(&self, factor: &Factor) -> bool {
@@ -102,7 +104,7 @@ impl Reader<'_> {
     /// Divides one numerator by a sum in its denominator, or the other way round, if any can be.
     fn divided(&mut self, fractions: &Fractions) -> Option<Step> {
         for (below, above) in fractions {
-            for factor in &below.0 {
+            for factor in below.0.iter() {
                 let meaning = self.meaning(factor.atom)?;
                 let one = Monomial::of(factor.atom, factor.kind, Exponent::ONE);
                 let raised = Polynomial::term(below.times(&one)?, Rational::ONE);
@@ -110,7 +112,7 @@ impl Reader<'_> {
                     Step::To(quotient) => quotient,
                     Step::Nothing if above.len() > 1 && above.len() <= meaning.len() => {
                         match self.quotient_of_either_form(&meaning, above)? {
-                            Step::To(inverse) => self.power(&inverse, Exponent::whole(-1))?,
+                            Step::To(inverse) => self.power(&inverse, Exponent::whole(-1))?.into_owned(),
                             Step::Nothing => continue,
                         }
                     }
@@ -182,7 +184,7 @@ impl Reader<'_> {
     /// A numerator times denominators, sums multiplied out.
     fn cleared(&mut self, above: &Polynomial, by: &Monomial) -> Option<Polynomial> {
         let mut product = above.clone();
-        for factor in &by.0 {
+        for factor in by.0.iter() {
             let power = match (factor.kind, factor.exponent.integer()) {
                 (Kind::Sum, Some(times)) => {
                     let meaning = self.meaning(factor.atom)?;
@@ -192,19 +194,10 @@ impl Reader<'_> {
                     }
                     power
                 }
-                _ => Polynomial::term(Monomial(vec![*factor]), Rational::ONE),
+                _ => Polynomial::term(Monomial::of(factor.atom, factor.kind, factor.exponent), Rational::ONE),
             };
             product = self.multiply(&product, &power)?;
         }
         Some(product)
     }
-}
-
-/// The polynomial in the reciprocals of its atoms, whose lowest exponents are the highest here.
-fn inverted(polynomial: &Polynomial) -> Polynomial {
-    let mut result = Polynomial::default();
-    for (monomial, coefficient) in polynomial.0.iter() {
-        result.add_term(monomial.inverse(), coefficient.clone());
-    }
-    result
 }

@@ -18,7 +18,9 @@
 
 mod cost;
 mod division;
+mod factors;
 mod harmonics;
+mod monomial;
 mod polynomial;
 mod powers;
 mod reader;
@@ -107,13 +109,11 @@ impl Graph {
         let mut forms = None;
         for _ in 0..ROUNDS {
             reader.restart();
-            let polynomial = reader.read(e).and_then(|polynomial| reader.tidy(&polynomial));
-            let Some(polynomial) = polynomial else {
-                forms = None;
-                break;
-            };
-            forms = Some((reader.expression(&polynomial), reader.factored(&polynomial)));
-            if !reader.stale {
+            forms = reader.read(e).and_then(|polynomial| {
+                let polynomial = reader.tidy(&polynomial)?;
+                Some(reader.expressions(&polynomial))
+            });
+            if forms.is_none() || !reader.stale {
                 break;
             }
         }
@@ -229,24 +229,7 @@ impl Simplifier {
         if node.operands().all(|operand| self.known[&operand].id == operand) {
             return id;
         }
-        match node {
-            Node::Number(_) | Node::Pi | Node::Symbol(_) => id,
-            Node::Sum { constant, terms } => {
-                let one = graph.one();
-                let mut summands: Vec<_> =
-                    terms.iter().map(|(term, c)| (c.clone(), self.known[term].id)).collect();
-                summands.push((constant.clone(), one));
-                graph.linear_combination(&summands)
-            }
-            Node::Product { coefficient, factors } => {
-                let factors: Vec<_> =
-                    factors.iter().map(|(base, e)| (self.known[base].id, e.clone())).collect();
-                let product = graph.product(&factors);
-                graph.scale(coefficient.clone(), product)
-            }
-            Node::Apply(function, x) => graph.apply(*function, self.known[x].id),
-            Node::Apply2(function, x, y) => graph.apply2(*function, self.known[x].id, self.known[y].id),
-        }
+        graph.rebuilt(node.clone(), |operand| self.known[&operand].id)
     }
 }
 

@@ -1,34 +1,44 @@
 //! Powers of what has been read: integer ones multiplied out, roots of numbers by their prime factors,
 //! those of sums as atoms.
 
-use super::polynomial::{Exponent, Kind, Monomial, Polynomial};
+use super::monomial::{Exponent, Kind, Monomial};
+use super::polynomial::Polynomial;
 use super::reader::{Reader, plain};
 use crate::algebra::graph::Node;
 use crate::algebra::number::Rational;
+use std::borrow::Cow;
 
 /// Denominators that a new denominator is divided by, to find common factors.
 const FACTORS_TRIED: usize = 8;
 
 impl Reader<'_> {
     /// A power of what has been read.
-    pub(super) fn power(&mut self, base: &Polynomial, exponent: Exponent) -> Option<Polynomial> {
+    pub(super) fn power<'p>(
+        &mut self,
+        base: &'p Polynomial,
+        exponent: Exponent,
+    ) -> Option<Cow<'p, Polynomial>> {
         if base.is_zero() {
             // a division by zero is left to the checks
-            return (!exponent.is_negative()).then(Polynomial::default);
+            return (!exponent.is_negative()).then(Cow::default);
         }
         if let Some((monomial, coefficient)) = base.single() {
-            return self.power_of_monomial(monomial, coefficient, exponent);
+            if exponent == Exponent::ONE && self.has_settled(monomial) {
+                self.spend(1)?;
+                return Some(Cow::Borrowed(base));
+            }
+            return self.power_of_monomial(monomial, coefficient, exponent).map(Cow::Owned);
         }
         match exponent.integer() {
-            Some(1) if self.expands() => Some(base.clone()),
+            Some(1) if self.expands() => Some(Cow::Borrowed(base)),
             Some(times @ 2..) if self.expands() => {
-                let mut product = base.clone();
-                for _ in 1..times {
+                let mut product = self.multiply(base, base)?;
+                for _ in 2..times {
                     product = self.multiply(&product, base)?;
                 }
-                Some(product)
+                Some(Cow::Owned(product))
             }
-            _ => self.power_of_sum(base, exponent),
+            _ => self.power_of_sum(base, exponent).map(Cow::Owned),
         }
     }
 
@@ -39,9 +49,12 @@ impl Reader<'_> {
         exponent: Exponent,
     ) -> Option<Polynomial> {
         if let Some(times) = exponent.integer() {
-            let power = Polynomial::constant(coefficient.pow(times.into())?);
-            let monomial = Polynomial::term(monomial.power(exponent)?, Rational::ONE);
-            return self.multiply(&power, &monomial);
+            let (number, monomial) = (coefficient.pow(times.into())?, monomial.power(exponent)?);
+            self.spend(1)?;
+            if self.has_settled(&monomial) {
+                return Some(Polynomial::term(monomial, number));
+            }
+            return self.open(&monomial, number);
         }
         if monomial.is_unit() {
             return self.power_of_number(coefficient, exponent);
@@ -53,20 +66,20 @@ impl Reader<'_> {
             return self.read_value(value);
         };
         let mut product = Polynomial::constant(coefficient);
-        for (base, exponent) in factors {
-            let exponent = Exponent::of(&exponent)?;
-            let power = match self.graph.node(base).clone() {
+        for (base, exponent) in factors.iter() {
+            let exponent = Exponent::of(exponent)?;
+            let power = match self.graph.node(*base).clone() {
                 Node::Number(value) => self.power_of_number(&value, exponent)?,
                 Node::Product { .. } => {
-                    let meaning = self.read(base)?;
-                    self.composites.insert(base, meaning);
-                    Polynomial::term(Monomial::of(base, Kind::Product, exponent), Rational::ONE)
+                    let meaning = self.read(*base)?;
+                    self.composites.insert(*base, meaning);
+                    Polynomial::term(Monomial::of(*base, Kind::Product, exponent), Rational::ONE)
                 }
                 Node::Sum { .. } => {
-                    let meaning = self.read(base)?;
+                    let meaning = self.read(*base)?;
                     self.power_of_sum(&meaning, exponent)?
                 }
-                _ => Polynomial::term(Monomial::of(base, Kind::Plain, exponent), Rational::ONE),
+                _ => Polynomial::term(Monomial::of(*base, Kind::Plain, exponent), Rational::ONE),
             };
             product = self.multiply(&product, &power)?;
         }
@@ -99,7 +112,7 @@ impl Reader<'_> {
     fn power_of_sum(&mut self, base: &Polynomial, exponent: Exponent) -> Option<Polynomial> {
         let base = self.tidy(base)?;
         if base.len() < 2 {
-            return self.power(&base, exponent);
+            return self.power(&base, exponent).map(Cow::into_owned);
         }
         if !exponent.is_integer() {
             let content = base.content();
@@ -137,7 +150,7 @@ impl Reader<'_> {
 }
 
 /// Prime factors with exponents; a cofactor without small factors counts as prime.
-fn prime_powers(mut number: i64) -> Vec<(i64, i32)> {
+fn prime_powers(mut number: i64) -> Vec<(i64, i16)> {
     const TRIED: i64 = 1000;
     let mut powers = Vec::new();
     let mut divisor = 2;

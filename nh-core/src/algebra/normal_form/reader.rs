@@ -1,11 +1,13 @@
 //! Expressions read as polynomials over atoms: products are multiplied out, roots and
 //! denominators become atoms with their base in normal form.
 
-use super::polynomial::{Exponent, Kind, Monomial, Polynomial};
+use super::monomial::{Exponent, Kind, Monomial};
+use super::polynomial::Polynomial;
 use crate::algebra::graph::{Function, Graph, Node};
 use crate::algebra::number::Rational;
 use crate::id::ExprId;
 use rustc_hash::{FxBuildHasher, FxHashMap};
+use std::borrow::Cow;
 use std::cell::Cell;
 use std::collections::BTreeMap;
 use std::rc::Rc;
@@ -100,19 +102,19 @@ impl<'g> Reader<'g> {
             Node::Pi | Node::Symbol(_) => Some(plain(id)),
             Node::Sum { constant, terms } => {
                 let mut sum = Polynomial::constant(constant);
-                for (term, coefficient) in terms {
-                    let term = self.known.get(&term)?.clone();
+                for (term, coefficient) in terms.iter() {
+                    let term = self.known.get(term)?.clone();
                     self.spend(term.len())?;
-                    sum.add_scaled(&term, &coefficient);
+                    sum.add_scaled(&term, coefficient);
                     self.fits(&sum)?;
                 }
                 Some(sum)
             }
             Node::Product { coefficient, factors } => {
                 let mut product = Polynomial::constant(coefficient);
-                for (base, exponent) in factors {
-                    let base = self.known.get(&base)?.clone();
-                    let power = self.power(&base, Exponent::of(&exponent)?)?;
+                for (base, exponent) in factors.iter() {
+                    let (base, exponent) = (self.known.get(base)?.clone(), Exponent::of(exponent)?);
+                    let power = self.power(&base, exponent)?;
                     product = self.multiply(&product, &power)?;
                 }
                 Some(product)
@@ -163,18 +165,19 @@ impl<'g> Reader<'g> {
 
     pub(super) fn multiply(&mut self, a: &Polynomial, b: &Polynomial) -> Option<Polynomial> {
         self.spend(a.len() * b.len())?;
-        let settled = |monomial: &Monomial| {
-            monomial.0.iter().all(|factor| self.is_settled(factor.kind, factor.exponent))
-        };
-        if a.is_one() && b.0.keys().all(settled) {
-            self.fits(b)?;
-            return Some(b.clone());
+        for (a, b) in [(a, b), (b, a)] {
+            if let Some(number) = a.as_number()
+                && b.0.keys().all(|monomial| self.has_settled(monomial))
+            {
+                self.fits(b)?;
+                return Some(b.scaled(number));
+            }
         }
         let mut product = Polynomial::default();
         for (m, c) in a.0.iter() {
             for (n, d) in b.0.iter() {
                 let (monomial, coefficient) = (m.times(n)?, c.clone() * d.clone());
-                if monomial.0.iter().all(|factor| self.is_settled(factor.kind, factor.exponent)) {
+                if self.has_settled(&monomial) {
                     product.add_term(monomial, coefficient);
                 } else {
                     let opened = self.open(&monomial, coefficient)?;
@@ -196,11 +199,16 @@ impl<'g> Reader<'g> {
         }
     }
 
+    /// Whether all factors stay what they are.
+    pub(super) fn has_settled(&self, monomial: &Monomial) -> bool {
+        monomial.0.iter().all(|factor| self.is_settled(factor.kind, factor.exponent))
+    }
+
     /// Replaces integer powers of composite atoms by what they stand for.
-    fn open(&mut self, monomial: &Monomial, coefficient: Rational) -> Option<Polynomial> {
+    pub(super) fn open(&mut self, monomial: &Monomial, coefficient: Rational) -> Option<Polynomial> {
         let (settled, unsettled) = monomial.split(|factor| self.is_settled(factor.kind, factor.exponent));
         let mut result = Polynomial::term(settled, coefficient);
-        for factor in unsettled.0 {
+        for factor in unsettled.0.iter() {
             let (whole, rest) = factor.exponent.floor();
             let rest = Polynomial::term(Monomial::of(factor.atom, factor.kind, rest), Rational::ONE);
             let power = match factor.kind {
@@ -208,7 +216,7 @@ impl<'g> Reader<'g> {
                 Kind::Number => Polynomial::constant(self.graph.as_number(factor.atom)?.pow(whole.into())?),
                 Kind::Product | Kind::Sum => {
                     let base = self.composites.get(&factor.atom)?.clone();
-                    self.power(&base, Exponent::whole(whole))?
+                    self.power(&base, Exponent::whole(whole))?.into_owned()
                 }
             };
             result = self.multiply(&result, &power)?;
@@ -238,14 +246,18 @@ impl<'g> Reader<'g> {
     }
 
     /// Reduces trigonometric functions, then cancels denominators.
-    pub(super) fn tidy(&mut self, polynomial: &Polynomial) -> Option<Polynomial> {
-        if let Some((monomial, _)) = polynomial.single()
-            && !monomial.0.iter().any(|factor| factor.kind == Kind::Sum && factor.exponent.is_negative())
-        {
-            return Some(polynomial.clone());
+    pub(super) fn tidy<'p>(&mut self, polynomial: &'p Polynomial) -> Option<Cow<'p, Polynomial>> {
+        let is_tidy = match polynomial.single() {
+            Some((monomial, _)) => {
+                !monomial.0.iter().any(|factor| factor.kind == Kind::Sum && factor.exponent.is_negative())
+            }
+            None => !self.has_squares(polynomial) && !self.has_denominator(polynomial),
+        };
+        if is_tidy {
+            return Some(Cow::Borrowed(polynomial));
         }
         let reduced = self.reduce(polynomial)?;
-        self.cancel(reduced)
+        self.cancel(reduced).map(Cow::Owned)
     }
 }
 

@@ -1,10 +1,12 @@
 //! Polynomials written back as expressions.
 
-use super::polynomial::{Exponent, Factor, Kind, Monomial, Polynomial};
+use super::monomial::{Exponent, Factor, Kind, Monomial};
+use super::polynomial::Polynomial;
 use super::reader::Reader;
 use crate::algebra::graph::{Function, Node};
 use crate::algebra::number::Rational;
 use crate::id::ExprId;
+use std::borrow::Cow;
 use std::collections::BTreeMap;
 
 /// Nested common factors that are taken out at most.
@@ -13,10 +15,25 @@ const NESTING: usize = 24;
 impl Reader<'_> {
     /// `coefficient · monomial`.
     pub(super) fn monomial_expression(&mut self, monomial: &Monomial, coefficient: &Rational) -> ExprId {
+        let is_special = |factor: &Factor| {
+            factor.kind == Kind::Number
+                || matches!(self.graph.node(factor.atom), Node::Apply(Function::Exp, _))
+        };
+        let product = if monomial.0.iter().any(is_special) {
+            self.special_monomial(monomial)
+        } else {
+            let factors = monomial.0.iter().map(|factor| (factor.atom, factor.exponent.to_rational()));
+            self.graph.product_of(factors)
+        };
+        self.graph.scale(coefficient.clone(), product)
+    }
+
+    /// A monomial with exponentials or roots of numbers, which are put together.
+    fn special_monomial(&mut self, monomial: &Monomial) -> ExprId {
         let mut factors: Vec<(ExprId, Rational)> = Vec::with_capacity(monomial.0.len());
         let (mut exponentials, mut radicand) = (Vec::new(), Rational::ONE);
         let half = Rational::new(1, 2);
-        for Factor { atom, kind, exponent } in &monomial.0 {
+        for Factor { atom, kind, exponent } in monomial.0.iter() {
             let exponent = exponent.to_rational();
             match (self.graph.node(*atom), kind) {
                 (Node::Number(value), Kind::Number) if exponent == half => {
@@ -39,25 +56,43 @@ impl Reader<'_> {
         if !radicand.is_one() {
             factors.push((self.graph.number(radicand), half));
         }
-        let product = self.graph.product(&factors);
-        self.graph.scale(coefficient.clone(), product)
+        self.graph.product(&factors)
     }
 
     /// The sum of the terms as they are.
     pub(super) fn plain_sum(&mut self, polynomial: &Polynomial) -> ExprId {
-        let summands: Vec<_> = polynomial
-            .0
-            .iter()
-            .map(|(monomial, coefficient)| {
-                (coefficient.clone(), self.monomial_expression(monomial, &Rational::ONE))
-            })
-            .collect();
-        self.graph.linear_combination(&summands)
+        let mut summands = self.graph.take_spare();
+        for (monomial, coefficient) in polynomial.0.iter() {
+            summands.push((self.monomial_expression(monomial, &Rational::ONE), coefficient.clone()));
+        }
+        let sum = self.graph.combination_of(summands.iter().map(|(term, coefficient)| (coefficient, *term)));
+        self.graph.give_back(summands);
+        sum
     }
 
     /// The canonical expression: what all terms share in front, one fraction per denominator.
     pub(super) fn expression(&mut self, polynomial: &Polynomial) -> ExprId {
         let (common, rest) = without_common_factor(polynomial);
+        self.fractions_times(&rest, &common)
+    }
+
+    /// The canonical expression, and the one with factors taken out greedily, the most frequent first.
+    pub(super) fn expressions(&mut self, polynomial: &Polynomial) -> (ExprId, ExprId) {
+        let (common, rest) = without_common_factor(polynomial);
+        let canonical = self.fractions_times(&rest, &common);
+        if !has_fractions(&rest) && most_frequent(&rest).is_none() {
+            return (canonical, canonical);
+        }
+        (canonical, self.factors_times(rest, &common, NESTING))
+    }
+
+    fn fractions_times(&mut self, rest: &Polynomial, common: &Monomial) -> ExprId {
+        if rest.len() > 1 && !has_fractions(rest) {
+            let sum = self.plain_sum(rest);
+            let sum = self.graph.product(&[(sum, Rational::ONE)]);
+            let common = self.monomial_expression(common, &Rational::ONE);
+            return self.graph.mul(sum, common);
+        }
         let mut fractions: BTreeMap<Monomial, Polynomial> = BTreeMap::new();
         for (monomial, coefficient) in rest.0.iter() {
             let (below, above) = monomial.split(is_denominator);
@@ -73,32 +108,32 @@ impl Reader<'_> {
             summands.push(self.graph.product(&factors));
         }
         let sum = self.graph.sum(&summands);
-        let common = self.monomial_expression(&common, &Rational::ONE);
+        let common = self.monomial_expression(common, &Rational::ONE);
         self.graph.mul(sum, common)
     }
 
-    /// The expression with factors taken out greedily, the most frequent first.
-    pub(super) fn factored(&mut self, polynomial: &Polynomial) -> ExprId {
-        self.factored_within(polynomial, NESTING)
+    fn factored_within(&mut self, polynomial: &Polynomial, nesting: usize) -> ExprId {
+        let (common, rest) = without_common_factor(polynomial);
+        self.factors_times(rest, &common, nesting)
     }
 
-    fn factored_within(&mut self, polynomial: &Polynomial, nesting: usize) -> ExprId {
-        let (common, mut rest) = without_common_factor(polynomial);
+    fn factors_times(&mut self, rest: Cow<'_, Polynomial>, common: &Monomial, nesting: usize) -> ExprId {
+        let mut rest = rest;
         // Σ outer · inner; the inner ones are different
         let mut parts: Vec<(Polynomial, Polynomial)> = Vec::new();
         while let Some(factor) = most_frequent(&rest).filter(|_| nesting > 0) {
             let (mut inside, mut outside) = (Polynomial::default(), Polynomial::default());
-            for (monomial, coefficient) in rest.0 {
+            for (monomial, coefficient) in rest.into_owned().0 {
                 let target = if shares(&monomial, &factor) { &mut inside } else { &mut outside };
                 target.add_term(monomial, coefficient);
             }
             let (outer, inner) = without_common_factor(&inside);
             let (scale, inner) = monic(inner);
-            match parts.iter_mut().find(|part| part.1 == inner) {
+            match parts.iter_mut().find(|part| part.1 == *inner) {
                 Some(part) => part.0.add_term(outer, scale),
-                None => parts.push((Polynomial::term(outer, scale), inner)),
+                None => parts.push((Polynomial::term(outer, scale), inner.into_owned())),
             }
-            rest = outside;
+            rest = Cow::Owned(outside);
         }
         let mut summands = vec![self.plain_sum(&rest)];
         for (outer, inner) in &parts {
@@ -107,17 +142,19 @@ impl Reader<'_> {
             summands.push(self.graph.mul(outer, inner));
         }
         let sum = self.graph.sum(&summands);
-        let common = self.monomial_expression(&common, &Rational::ONE);
+        let common = self.monomial_expression(common, &Rational::ONE);
         self.graph.mul(sum, common)
     }
 }
 
 /// The leading coefficient, and the polynomial divided by it.
-fn monic(polynomial: Polynomial) -> (Rational, Polynomial) {
-    let leading = polynomial.leading().map(|(_, coefficient)| coefficient.clone());
-    match leading.as_ref().and_then(Rational::recip) {
-        Some(inverse) => (leading.unwrap_or(Rational::ONE), polynomial.scaled(&inverse)),
-        None => (Rational::ONE, polynomial),
+fn monic(polynomial: Cow<'_, Polynomial>) -> (Rational, Cow<'_, Polynomial>) {
+    match polynomial.leading().map(|(_, coefficient)| coefficient.clone()) {
+        Some(leading) if !leading.is_one() => match leading.recip() {
+            Some(inverse) => (leading, Cow::Owned(polynomial.scaled(&inverse))),
+            None => (Rational::ONE, polynomial),
+        },
+        _ => (Rational::ONE, polynomial),
     }
 }
 
@@ -125,23 +162,30 @@ fn is_denominator(factor: &Factor) -> bool {
     factor.kind == Kind::Sum && factor.exponent.is_negative()
 }
 
+fn has_fractions(polynomial: &Polynomial) -> bool {
+    polynomial.0.keys().any(|monomial| monomial.0.iter().any(is_denominator))
+}
+
 /// Takes out what stands in every term with an exponent of one sign.
-fn without_common_factor(polynomial: &Polynomial) -> (Monomial, Polynomial) {
+fn without_common_factor(polynomial: &Polynomial) -> (Monomial, Cow<'_, Polynomial>) {
     if polynomial.len() < 2 {
-        return (Monomial::default(), polynomial.clone());
+        return (Monomial::default(), Cow::Borrowed(polynomial));
     }
     let mut monomials = polynomial.0.keys();
     let mut common = monomials.next().cloned().unwrap_or_default();
     for monomial in monomials {
-        for factor in &mut common.0 {
+        for factor in common.0.iter_mut() {
             let other = monomial.exponent(factor.atom);
             factor.exponent = nearer_to_zero(factor.exponent, other);
         }
         common.0.retain(|factor| !factor.exponent.is_zero());
+        if common.is_unit() {
+            return (common, Cow::Borrowed(polynomial));
+        }
     }
     match polynomial.shifted(&common.inverse()) {
-        Some(rest) => (common, rest),
-        None => (Monomial::default(), polynomial.clone()),
+        Some(rest) => (common, Cow::Owned(rest)),
+        None => (Monomial::default(), Cow::Borrowed(polynomial)),
     }
 }
 
@@ -163,16 +207,19 @@ fn shares(monomial: &Monomial, factor: &Factor) -> bool {
 
 /// The atom, with the sign of its exponent, that stands in most terms; denominators count double.
 fn most_frequent(polynomial: &Polynomial) -> Option<Factor> {
-    let mut counts: BTreeMap<(ExprId, bool), (usize, Factor)> = BTreeMap::new();
-    for factor in polynomial.0.keys().flat_map(|monomial| &monomial.0) {
-        let entry = counts.entry((factor.atom, factor.exponent.is_negative())).or_insert((0, *factor));
-        entry.0 += if factor.exponent.is_negative() { 2 } else { 1 };
+    if polynomial.len() < 2 {
+        return None;
     }
-    let enough = |count: usize, factor: &Factor| count >= if factor.exponent.is_negative() { 4 } else { 2 };
+    let mut factors: Vec<&Factor> = polynomial.0.keys().flat_map(|monomial| monomial.0.iter()).collect();
+    // the first of equal ones is that of the first term
+    let key = |factor: &Factor| (factor.atom, factor.exponent.is_negative());
+    factors.sort_by_key(|factor| key(factor));
     let mut best: Option<(usize, Factor)> = None;
-    for (count, factor) in counts.into_values() {
-        if enough(count, &factor) && best.is_none_or(|(most, _)| count > most) {
-            best = Some((count, factor));
+    for group in factors.chunk_by(|a, b| key(a) == key(b)) {
+        let terms = group.len();
+        let count = if group[0].exponent.is_negative() { 2 * terms } else { terms };
+        if terms > 1 && best.is_none_or(|(most, _)| count > most) {
+            best = Some((count, *group[0]));
         }
     }
     best.map(|(_, factor)| factor)

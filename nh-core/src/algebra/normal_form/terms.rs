@@ -3,84 +3,138 @@
 //! A sorted list rather than a tree: most polynomials have a few terms, products come in order, and
 //! in unoptimised builds, as procedural macros are by default, a list costs a fraction of a tree.
 
-use super::polynomial::Monomial;
+use super::monomial::Monomial;
 use crate::algebra::number::Rational;
 
 /// Coefficients by monomial; none is zero.
-#[derive(Clone, Debug, PartialEq, Default)]
-pub(super) struct Terms(Vec<(Monomial, Rational)>);
+#[derive(Clone, Debug)]
+pub(super) enum Terms {
+    /// At most one, in place.
+    Few(Option<Term>),
+    /// Any number.
+    Many(Vec<Term>),
+}
+
+type Term = (Monomial, Rational);
 
 impl Terms {
     pub(super) fn with_capacity(capacity: usize) -> Self {
-        Self(Vec::with_capacity(capacity))
+        if capacity < 2 { Self::default() } else { Self::Many(Vec::with_capacity(capacity)) }
+    }
+
+    fn list(&self) -> &[Term] {
+        match self {
+            Self::Few(term) => term.as_slice(),
+            Self::Many(list) => list,
+        }
     }
 
     pub(super) fn len(&self) -> usize {
-        self.0.len()
+        self.list().len()
     }
 
     pub(super) fn is_empty(&self) -> bool {
-        self.0.is_empty()
+        self.list().is_empty()
     }
 
     pub(super) fn iter(&self) -> impl Iterator<Item = (&Monomial, &Rational)> {
-        self.0.iter().map(|(monomial, coefficient)| (monomial, coefficient))
+        self.list().iter().map(|(monomial, coefficient)| (monomial, coefficient))
     }
 
     pub(super) fn keys(&self) -> impl Iterator<Item = &Monomial> {
-        self.0.iter().map(|(monomial, _)| monomial)
+        self.list().iter().map(|(monomial, _)| monomial)
     }
 
     pub(super) fn values(&self) -> impl Iterator<Item = &Rational> {
-        self.0.iter().map(|(_, coefficient)| coefficient)
+        self.list().iter().map(|(_, coefficient)| coefficient)
     }
 
     pub(super) fn first(&self) -> Option<(&Monomial, &Rational)> {
-        self.0.first().map(|(monomial, coefficient)| (monomial, coefficient))
+        self.list().first().map(|(monomial, coefficient)| (monomial, coefficient))
     }
 
     pub(super) fn last(&self) -> Option<(&Monomial, &Rational)> {
-        self.0.last().map(|(monomial, coefficient)| (monomial, coefficient))
+        self.list().last().map(|(monomial, coefficient)| (monomial, coefficient))
     }
 
     pub(super) fn get(&self, monomial: &Monomial) -> Option<&Rational> {
-        self.place(monomial).ok().map(|index| &self.0[index].1)
+        self.place(monomial).ok().map(|index| &self.list()[index].1)
     }
 
     pub(super) fn remove(&mut self, monomial: &Monomial) {
         if let Ok(index) = self.place(monomial) {
-            self.0.remove(index);
+            self.remove_at(index);
+        }
+    }
+
+    fn remove_at(&mut self, index: usize) {
+        match self {
+            Self::Few(term) => *term = None,
+            Self::Many(list) => _ = list.remove(index),
+        }
+    }
+
+    fn insert_at(&mut self, index: usize, term: Term) {
+        match self {
+            Self::Few(place @ None) => *place = Some(term),
+            Self::Few(first @ Some(_)) => {
+                let mut list = Vec::with_capacity(4);
+                list.extend(first.take());
+                list.insert(index, term);
+                *self = Self::Many(list);
+            }
+            Self::Many(list) => list.insert(index, term),
         }
     }
 
     /// Adds a coefficient that is not zero.
     pub(super) fn add(&mut self, monomial: Monomial, coefficient: Rational) {
-        match self.place(&monomial) {
-            Err(index) => self.0.insert(index, (monomial, coefficient)),
-            Ok(index) => {
-                let sum = self.0[index].1.clone() + coefficient;
-                if sum.is_zero() {
-                    self.0.remove(index);
-                } else {
-                    self.0[index].1 = sum;
-                }
-            }
+        let index = match self.place(&monomial) {
+            Ok(index) => index,
+            Err(index) => return self.insert_at(index, (monomial, coefficient)),
+        };
+        let known = match self {
+            Self::Few(term) => term.as_mut_slice(),
+            Self::Many(list) => list,
+        };
+        let sum = known[index].1.clone() + coefficient;
+        if sum.is_zero() {
+            self.remove_at(index);
+        } else {
+            known[index].1 = sum;
         }
     }
 
     /// Where a monomial stands or would stand: mostly at the end.
     fn place(&self, monomial: &Monomial) -> Result<usize, usize> {
-        match self.0.last() {
-            Some((last, _)) if monomial <= last => self.0.binary_search_by(|(key, _)| key.cmp(monomial)),
-            _ => Err(self.0.len()),
+        let list = self.list();
+        match list.last() {
+            Some((last, _)) if monomial <= last => list.binary_search_by(|(key, _)| key.cmp(monomial)),
+            _ => Err(list.len()),
         }
     }
 }
 
+impl Default for Terms {
+    fn default() -> Self {
+        Self::Few(None)
+    }
+}
+
+impl PartialEq for Terms {
+    fn eq(&self, other: &Self) -> bool {
+        self.list() == other.list()
+    }
+}
+
 impl IntoIterator for Terms {
-    type Item = (Monomial, Rational);
-    type IntoIter = std::vec::IntoIter<Self::Item>;
+    type Item = Term;
+    type IntoIter = std::iter::Chain<std::option::IntoIter<Term>, std::vec::IntoIter<Term>>;
     fn into_iter(self) -> Self::IntoIter {
-        self.0.into_iter()
+        let (few, many) = match self {
+            Self::Few(term) => (term, Vec::new()),
+            Self::Many(list) => (None, list),
+        };
+        few.into_iter().chain(many)
     }
 }

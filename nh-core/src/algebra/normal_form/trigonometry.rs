@@ -1,11 +1,13 @@
 //! Addition theorems, and the one relation `cos² = 1 − sin²` (`cosh² = 1 + sinh²`) of each angle.
 
-use super::polynomial::{Exponent, Kind, Monomial, Polynomial};
+use super::monomial::{Exponent, Factor, Kind, Monomial};
+use super::polynomial::Polynomial;
 use super::reader::Reader;
 use crate::algebra::graph::{Function, Node};
 use crate::algebra::number::Rational;
 use crate::id::ExprId;
 use num_integer::Integer;
+use std::borrow::Cow;
 use std::collections::BTreeSet;
 
 /// Angles with more terms than this stay whole.
@@ -89,7 +91,7 @@ impl Reader<'_> {
         let argument = self.graph.scale(part, term);
         let value = self.graph.apply(Function::Exp, argument);
         let value = self.read_value(value)?;
-        self.power(&value, Exponent::whole(i32::try_from(times).ok()?))
+        self.power(&value, Exponent::whole(i16::try_from(times).ok()?)).map(Cow::into_owned)
     }
 
     /// Cosine and sine of one term of an angle.
@@ -125,10 +127,21 @@ impl Reader<'_> {
         Some((cos, sin))
     }
 
+    /// Whether a sine or cosine occurs at least squared.
+    pub(super) fn has_squares(&self, polynomial: &Polynomial) -> bool {
+        use Function::{Cos, Cosh, Sin, Sinh};
+        let is_square = |factor: &Factor| {
+            factor.kind == Kind::Plain
+                && factor.exponent >= Exponent::whole(2)
+                && matches!(self.graph.node(factor.atom), Node::Apply(Sin | Cos | Sinh | Cosh, _))
+        };
+        polynomial.0.keys().any(|monomial| monomial.0.iter().any(is_square))
+    }
+
     /// The angles whose cosine or sine occurs at least squared.
     fn squared_angles(&mut self, polynomial: &Polynomial) -> Vec<Angle> {
         let mut arguments = BTreeSet::new();
-        for factor in polynomial.0.keys().flat_map(|monomial| &monomial.0) {
+        for factor in polynomial.0.keys().flat_map(|monomial| monomial.0.iter()) {
             if factor.kind == Kind::Plain && factor.exponent >= Exponent::whole(2) {
                 match *self.graph.node(factor.atom) {
                     Node::Apply(Function::Sin | Function::Cos, x) => _ = arguments.insert((true, x)),
@@ -149,8 +162,11 @@ impl Reader<'_> {
     /// Applies `cos² = 1 − sin²`: the canonical form if the style asks for it, then whatever
     /// leaves fewer monomials.
     pub(super) fn reduce(&mut self, polynomial: &Polynomial) -> Option<Polynomial> {
-        let angles = self.squared_angles(polynomial);
         let mut result = polynomial.clone();
+        if !self.has_squares(polynomial) {
+            return Some(result);
+        }
+        let angles = self.squared_angles(polynomial);
         if self.style.canonical {
             for angle in &angles {
                 result = self.eliminate(&result, *angle, true)?;
