@@ -45,3 +45,20 @@ mod variant;
 
 pub use study::{Outcome, Study};
 pub use variant::Variant;
+
+/// The studies that the command line asks for by their names, or all of them.
+///
+/// # Errors
+/// For a name that is none of these.
+pub fn wanted<'a>(known: &[&'a str]) -> std::io::Result<Vec<&'a str>> {
+    let asked: Vec<String> = std::env::args().skip(1).collect();
+    if let Some(unknown) = asked.iter().find(|name| !known.contains(&name.as_str())) {
+        let advice = format!("there is no study {unknown}: choose from {}", known.join(", "));
+        return Err(std::io::Error::new(std::io::ErrorKind::InvalidInput, advice));
+    }
+    Ok(known
+        .iter()
+        .filter(|name| asked.is_empty() || asked.iter().any(|one| one == *name))
+        .copied()
+        .collect())
+}

@@ -3,9 +3,11 @@
 mod systems;
 
 fn main() -> std::io::Result<()> {
-    let wanted: Vec<String> = std::env::args().skip(1).collect();
-    for study in systems::all() {
-        if wanted.is_empty() || wanted.iter().any(|name| name == study.name()) {
+    let studies = systems::all();
+    let names: Vec<String> = studies.iter().map(|study| study.name().to_owned()).collect();
+    let wanted = nh_work_precision::wanted(&names.iter().map(String::as_str).collect::<Vec<_>>())?;
+    for study in studies {
+        if wanted.contains(&study.name()) {
             study.finish()?;
         }
     }

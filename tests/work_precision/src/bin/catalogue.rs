@@ -54,15 +54,10 @@ fn all() -> Vec<Maker> {
 }
 
 fn main() -> std::io::Result<()> {
-    let wanted: Vec<String> = std::env::args().skip(1).collect();
     let all = all();
-    if let Some(unknown) = wanted.iter().find(|one| all.iter().all(|(name, _)| name != one)) {
-        let names: Vec<&str> = all.iter().map(|(name, _)| *name).collect();
-        let advice = format!("there is no system {unknown}: choose from {}", names.join(", "));
-        return Err(std::io::Error::new(std::io::ErrorKind::InvalidInput, advice));
-    }
+    let wanted = nh_work_precision::wanted(&all.iter().map(|(name, _)| *name).collect::<Vec<_>>())?;
     for (name, make) in all {
-        if (wanted.is_empty() || wanted.iter().any(|one| one == name))
+        if wanted.contains(&name)
             && let Some(study) = make()
         {
             study.finish()?;
