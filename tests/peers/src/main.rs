@@ -104,7 +104,8 @@ fn show(name: &str, outcomes: &[Outcome]) {
                 });
                 outcome.variant == library && finer.take(4).all(|other| other.error <= accuracy)
             };
-            let price = |outcome: &Outcome| outcome.instructions.map_or(outcome.seconds, |count| count as f64);
+            let price =
+                |outcome: &Outcome| outcome.instructions.map_or(outcome.seconds, |count| count as f64);
             let best = outcomes.iter().filter(reached).min_by(|a, b| price(a).total_cmp(&price(b)));
             match best {
                 None => print!("{:>26}", "-"),

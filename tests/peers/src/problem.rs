@@ -84,13 +84,6 @@ impl Problem<6> for Veselova {
     }
 }
 
-/// The largest error of a component at the end.
-pub fn error<const N: usize, P: Problem<N>>(end: &[f64; N]) -> f64 {
-    let off = end.iter().zip(P::REFERENCE).map(|(x, reference)| (x - reference).abs());
-    // a run that has failed is infinitely wrong
-    off.fold(0.0, |worst, error| if error <= worst { worst } else { error })
-}
-
 const SLEIGH: [f64; 5] =
     [4.867242701758369, -0.5919840513152261, -15.542084728666937, 0.00011734379580648774, 0.9684590165253134];
 const VESELOVA: [f64; 6] = [
