@@ -61,6 +61,13 @@ fn derived(
             Unrelated::Errors(errors.collect())
         }
     })?;
+    if !emit::can_be_written(&quotient) {
+        let error =
+            Diagnostic::new(declaration.extent, "the quotient is too long to be written as a declaration")
+                .evidence("it is written without `let`, each expression in full".to_owned())
+                .way_out("declare both systems, and use `morphism!`");
+        return Err(Unrelated::Errors(vec![error]));
+    }
     Ok(emit::quotient(&Written {
         quotient: &quotient,
         declaration,

@@ -19,7 +19,8 @@ struct Printer<'a> {
 }
 
 impl Graph {
-    /// The expression as text.
+    /// The expression as text: what is shared is written again wherever it occurs, so that texts can be
+    /// exponentially longer than what they say. [`Self::text_within`] has a bound.
     #[must_use]
     pub fn text(&self, id: ExprId) -> String {
         self.text_within(id, usize::MAX)

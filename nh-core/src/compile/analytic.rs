@@ -3,6 +3,7 @@
 use std::collections::BTreeSet;
 
 use crate::algebra::{Function, Function2, Graph, Node};
+use crate::check::evidence::shown;
 use crate::id::{ExprId, SymbolId};
 use crate::mechanics::{Definition, Procedure};
 use crate::model::Request;
@@ -70,8 +71,8 @@ fn kink(graph: &Graph, roots: &[ExprId], varying: &BTreeSet<SymbolId>) -> Option
     let smooth = "write a smooth function in its place, say `sqrt(v^2 + e^2)` for `abs(v)` and `tanh(v / e)` for `sign(v)`";
     graph.reachable(roots).into_iter().find_map(|id| {
         let where_it_breaks = match graph.node(id) {
-            Node::Apply(Function::Abs, of) => format!("has a kink where `{}` is zero", graph.text(*of)),
-            Node::Apply(Function::Sign, of) => format!("jumps where `{}` is zero", graph.text(*of)),
+            Node::Apply(Function::Abs, of) => format!("has a kink where `{}` is zero", shown(graph, *of)),
+            Node::Apply(Function::Sign, of) => format!("jumps where `{}` is zero", shown(graph, *of)),
             Node::Apply2(Function2::Min | Function2::Max, ..) => {
                 "has a kink where its arguments are equal".to_owned()
             }
@@ -79,7 +80,7 @@ fn kink(graph: &Graph, roots: &[ExprId], varying: &BTreeSet<SymbolId>) -> Option
         };
         let changes = graph.symbols_in(&[id]).iter().any(|symbol| varying.contains(symbol));
         changes.then(|| Obstacle {
-            evidence: format!("they contain `{}`, which {where_it_breaks}", graph.text(id)),
+            evidence: format!("they contain `{}`, which {where_it_breaks}", shown(graph, id)),
             way_out: smooth,
         })
     })

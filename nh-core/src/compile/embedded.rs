@@ -1,6 +1,7 @@
 //! The way back to an embedded base.
 
 use crate::algebra::Matrix;
+use crate::check::evidence::shown;
 use crate::geometry::Manifold;
 use crate::id::ExprId;
 use crate::mechanics::{Definiteness, Procedure, solve_symmetric};
@@ -16,7 +17,7 @@ pub(super) fn embedding(model: &mut Model, base: &Manifold) -> Option<Embedding>
     let graph = &mut model.graph;
     let coordinates: Vec<_> = model.coordinates.iter().map(|coordinate| coordinate.symbol).collect();
     let functions: Vec<ExprId> = model.identities.iter().map(|identity| identity.value).collect();
-    let texts = functions.iter().map(|function| format!("{} = 0", graph.text(*function))).collect();
+    let texts = functions.iter().map(|function| format!("{} = 0", shown(graph, *function))).collect();
     let gradients: Matrix = functions
         .iter()
         .map(|function| coordinates.iter().map(|symbol| graph.partial(*function, *symbol)).collect())

@@ -4,6 +4,7 @@ use std::collections::BTreeSet;
 
 use crate::algebra::{Graph, Node, Substitution};
 use crate::check::Motion;
+use crate::check::evidence::shown;
 use crate::id::{ExprId, Origin, SymbolId};
 use crate::mechanics::{Definition, NotDifferentiable, Procedure, jacobian};
 use crate::model::{Model, Request};
@@ -95,7 +96,7 @@ pub(super) fn parameter_checks(model: &Model, conditions: &[ExprId]) -> Vec<Para
     let mut checks: Vec<ParameterCheck> = Vec::new();
     for &nonzero in conditions {
         if !checks.iter().any(|check| check.nonzero == nonzero) {
-            checks.push(ParameterCheck { nonzero, text: model.graph.text(nonzero) });
+            checks.push(ParameterCheck { nonzero, text: shown(&model.graph, nonzero) });
         }
     }
     checks

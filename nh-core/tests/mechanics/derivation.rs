@@ -329,6 +329,28 @@ fn a_frame_is_a_change_of_basis() {
     assert!(framed.report.contains("[h1, d2] = (b)*xi"), "{}", framed.report);
 }
 
+/// Shared forty times over, an expression would have 3⁴⁰ letters.
+#[test]
+fn texts_of_what_is_shared_are_cut() {
+    let mut b = systems::Builder::new(&["m"], &["x"], &["w"]);
+    b.anchor(&[&[(1, 1, "w")]]);
+    let [mut shared, w, x] = ["m", "w", "x"].map(|name| b.sum(&[(1, 1, name)]));
+    let graph = &mut b.model.graph;
+    for _ in 0..40 {
+        let (sin, cos) = (graph.sin(shared), graph.cos(shared));
+        let product = graph.mul(sin, shared);
+        shared = graph.add(product, cos);
+    }
+    let square = graph.square(w);
+    let kinetic = graph.mul(square, shared);
+    b.model.lagrangian.value = graph.add(kinetic, x);
+    let system = compiled(b.model);
+    assert!(!system.parameter_checks.is_empty());
+    for check in &system.parameter_checks {
+        assert!(check.text.len() < 1000, "{}", check.text);
+    }
+}
+
 #[test]
 fn broken_laws_are_named() {
     let mut b = systems::Builder::new(&[], &[], &["w1", "w2", "w3"]);

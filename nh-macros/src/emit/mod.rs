@@ -57,7 +57,7 @@ use scope::Scope;
 pub(crate) use callback::alias;
 pub(crate) use layout::{Family, Layout, TypeNames};
 pub(crate) use morphism::{morphism, morphism_stub};
-pub(crate) use quotient::{Written, quotient};
+pub(crate) use quotient::{Written, can_be_written, quotient};
 pub(crate) use stubs::stubs;
 
 /// The struct and everything that its declaration gives it.

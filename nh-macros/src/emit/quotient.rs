@@ -1,6 +1,7 @@
 //! A derived system as a declaration, and the map to it.
 
 use nh_core::id::{CoordId, ExprId};
+use nh_core::model::Relation;
 use nh_core::reduction::Quotient;
 use proc_macro2::{Literal, TokenStream, TokenTree};
 use quote::quote;
@@ -88,6 +89,30 @@ fn list_of(names: &[String]) -> TokenStream {
     quote!(#(#entries),*)
 }
 
+/// The longest expression that is written down, in bytes: what is shared in the graph is not in a text.
+const LONGEST: usize = 100_000;
+
+/// Whether every expression of a quotient can be written down.
+pub(crate) fn can_be_written(quotient: &Quotient) -> bool {
+    let Quotient {
+        source,
+        velocities: _,
+        map,
+        anchor,
+        brackets,
+        identities,
+        lagrangian,
+        constraints,
+        forces,
+    } = quotient;
+    let sides = constraints.iter().flat_map(|equation| [equation.left, equation.right]);
+    let facts = source.assumptions.iter().flat_map(|fact| [fact.left, fact.right]);
+    let all = map.iter().chain(identities).copied().chain([*lagrangian]).chain(sides).chain(facts);
+    let all = all.chain(anchor.iter().map(|(_, rate)| *rate)).chain(forces.iter().map(|(_, force)| *force));
+    let mut all = all.chain(brackets.iter().map(|(.., value)| *value));
+    all.all(|expression| source.graph.text_within(expression, LONGEST).len() <= LONGEST)
+}
+
 /// What was printed, as tokens.
 fn tokens(text: &str) -> TokenStream {
     text.parse().unwrap_or_default()
@@ -164,8 +189,18 @@ impl Written<'_> {
             sections.extend(quote!(inputs { #inputs }));
         }
         if !quotient.source.assumptions.is_empty() && !self.passes("assume") {
-            let facts = quotient.source.assumptions.iter().map(|fact| tokens(&fact.text));
-            sections.extend(quote!(assume { #(#facts;)* }));
+            let facts = quotient.source.assumptions.iter().map(|fact| {
+                let (left, right) = (self.text(fact.left), self.text(fact.right));
+                let relation = match fact.relation {
+                    Relation::Less => quote!(<),
+                    Relation::LessOrEqual => quote!(<=),
+                    Relation::Greater => quote!(>),
+                    Relation::GreaterOrEqual => quote!(>=),
+                    Relation::NotEqual => quote!(!=),
+                };
+                quote!(#left #relation #right;)
+            });
+            sections.extend(quote!(assume { #(#facts)* }));
         }
         let passed = &declaration.passed;
         quote!(#sections #passed crate { #runtime })

@@ -13,6 +13,9 @@ use crate::report::Diagnostic;
 use crate::suggest::did_you_mean;
 use crate::syntax::ast::{self, Comparison, Definition, Equation, Item, Momentum, Name};
 
+/// Longest side of an assumption shown, in bytes.
+const SHOWN: usize = 160;
+
 /// What `emit` can ask for.
 pub(super) const REQUESTS: [(&str, Request); 19] = [
     ("jacobian", Request::Jacobian),
@@ -144,7 +147,8 @@ impl Resolver {
                 let side = |side: &Array| side.as_number().unwrap_or_else(|| side.entries[k]);
                 let (left, right) = (side(&left), side(&right));
                 let (relation, sign) = relation(comparison.relation);
-                let text = format!("{} {sign} {}", this.graph.text(left), this.graph.text(right));
+                let side = |side| this.graph.text_within(side, SHOWN);
+                let text = format!("{} {sign} {}", side(left), side(right));
                 found.push(Assumption { left, relation, right, text, origin });
             }
             Ok(())
