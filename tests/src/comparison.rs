@@ -50,6 +50,18 @@ impl Worst {
     }
 }
 
+/// The larger of what was found so far and the size of a number; infinite where that is none, so that
+/// it fails.
+#[must_use]
+pub fn larger(so_far: f64, number: f64) -> f64 {
+    if number.is_nan() { f64::INFINITY } else { so_far.max(number.abs()) }
+}
+
+/// The size of the largest number; infinite where one is none.
+pub fn largest(numbers: impl IntoIterator<Item = f64>) -> f64 {
+    numbers.into_iter().fold(0.0, larger)
+}
+
 /// Compares numbers that depend on inputs which have been rounded.
 ///
 /// # Errors

@@ -15,6 +15,7 @@
 use nh_runtime::IntegrationError;
 
 use crate::catalogue::{Entry, Run};
+use crate::comparison::larger;
 use crate::reference::{ParameterSet, Sample};
 use crate::values::Values;
 
@@ -107,7 +108,7 @@ fn relative_distance(a: &[f64], b: &[f64], scale: &[f64], angles: &[usize]) -> f
             let turn = std::f64::consts::TAU;
             difference -= turn * (difference / turn).round();
         }
-        largest.max(difference.abs() / scale.max(floor))
+        larger(largest, difference / scale.max(floor))
     })
 }
 

@@ -1,6 +1,7 @@
 //! Claims that are proved when a declaration is compiled, and what the reports say about constraints.
 
 use nh_runtime::prelude::*;
+use nh_tests::comparison::{larger, largest};
 use nh_tests::random::Random;
 use nh_tests::systems::frames::{
     ChaplyginSphereOnSphere, ChaplyginSphereOnSphereState, ChargedParticleByConnection, FreeVeselova,
@@ -30,8 +31,8 @@ fn the_moving_energy_is_conserved_where_the_energy_is_not() {
     let (mut drift, mut gained) = (0.0_f64, 0.0_f64);
     for k in 1_i32..=200 {
         sim.advance_to(0.25 * f64::from(k)).unwrap();
-        drift = drift.max((moving(sim.state()) - moving(&start)).abs());
-        gained = gained.max((TABLE.energy(0.0, sim.state()) - TABLE.energy(0.0, &start)).abs());
+        drift = larger(drift, moving(sim.state()) - moving(&start));
+        gained = larger(gained, TABLE.energy(0.0, sim.state()) - TABLE.energy(0.0, &start));
     }
     println!("moving energy {drift:e}, energy {gained:e}");
     assert!(drift < 1e-10 && gained > 1e-2, "{drift:e} {gained:e}");
@@ -118,7 +119,7 @@ fn a_rotation_matrix_is_restored_with_its_constraint() {
         }
         body.normalize(&mut state).unwrap();
         body.project(0.0, &mut state).unwrap();
-        let off = body.identity_residual(&state).iter().fold(0.0_f64, |m, x| m.max(x.abs()));
+        let off = largest(body.identity_residual(&state));
         let constraint = body.constraint_residual(0.0, &state).veselova.abs();
         assert!(off < 2e-15 && constraint < 2e-15, "{off:e} {constraint:e}");
     }

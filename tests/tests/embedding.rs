@@ -1,6 +1,7 @@
 //! Embedded base coordinates: states off their identities are refused, and normalized on request.
 
 use nh_runtime::prelude::*;
+use nh_tests::comparison;
 use nh_tests::random::Random;
 
 /// Veselova's system: a body that does not turn about a direction fixed in space, with that
@@ -59,7 +60,7 @@ const UNIT: Unit = Unit { A: 1.0, B: 2.0, C: 2.5, k: 0.7 };
 const ATTITUDE: Attitude = Attitude { A: 1.0, B: 2.0, C: 2.5 };
 
 fn largest(x: &[f64]) -> f64 {
-    x.iter().fold(0.0, |m: f64, x| m.max(x.abs()))
+    comparison::largest(x.iter().copied())
 }
 
 #[test]

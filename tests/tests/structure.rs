@@ -9,6 +9,7 @@ mod systems;
 
 use keeps::{CONTACT, Kept, Row, Special, on_tq, row, run};
 use nh_runtime::prelude::*;
+use nh_tests::comparison::largest;
 use systems::{ChaoticQuartic, ChaoticQuarticState, Suslov, SuslovState};
 
 /// Steps for the measurements: few, since tests are not optimised.
@@ -157,7 +158,7 @@ fn stated_invariants() {
     let before = table.invariants(0.0, &start);
     let drift = |state: &TableState| {
         let after = table.invariants(0.0, state);
-        before.iter().zip(after).fold(0.0, |most: f64, (a, b)| most.max((a - b).abs()))
+        largest(before.iter().zip(after).map(|(a, b)| a - b))
     };
     let mut plain = Integrator::new(table, Rk4::new(0.1), 0.0, start);
     let mut kept = Integrator::new(table, Conserving::new(Rk4::new(0.1)), 0.0, start);

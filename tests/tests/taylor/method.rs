@@ -1,6 +1,7 @@
 //! The method: landing, dense output, scales, and what it refuses.
 
 use nh_runtime::prelude::*;
+use nh_tests::comparison::largest;
 
 use super::systems::{Everything, EverythingState, Sleigh, SleighInput, SleighState};
 
@@ -23,7 +24,7 @@ fn sleigh() -> (Sleigh<f64>, SleighState<f64>) {
 
 fn distance(a: &SleighState<f64>, b: &SleighState<f64>) -> f64 {
     let (a, b): ([f64; 5], [f64; 5]) = ((*a).into(), (*b).into());
-    a.iter().zip(b).fold(0.0, |worst, (a, b)| (a - b).abs().max(worst))
+    largest(a.iter().zip(b).map(|(a, b)| a - b))
 }
 
 #[test]
