@@ -141,6 +141,18 @@ fn inertias_of_any_ratio() {
     }
 }
 
+/// The momentum at the start; and in every iteration there, and beside it for each of the two velocities.
+#[test]
+fn what_an_iteration_costs_is_counted() {
+    let system = Suslov { I: [1.0, 2.0, 3.0], s: 0.7 };
+    let mut sim = Integrator::new(system, DiscreteSuslov::new(0.05), 0.0, SuslovState { w_0: 0.6, w_1: 0.8 });
+    sim.advance_to(1.0).unwrap();
+    let cost = sim.statistics();
+    assert!(cost.iterations >= 2 * cost.steps && cost.steps == 20, "{cost:?}");
+    assert_eq!(cost.evaluations, cost.steps + 3 * cost.iterations);
+    assert_eq!((cost.jacobians, cost.factorizations), (cost.iterations, cost.iterations));
+}
+
 fn after<M: Method<Suslov<f64>>>(
     system: Suslov<f64>,
     start: SuslovState<f64>,

@@ -13,6 +13,7 @@ use crate::{Dim, DimOf, EulerPoincareSuslov, IntegrationError, Real, State, Stat
 ///
 /// Symmetric; the velocities stay in the constraint distribution. For systems declared without a base
 /// and with `emit { euler_poincare_suslov }`. Newton's iteration runs until it stagnates.
+/// [`Statistics::evaluations`] counts those of P.
 pub type DiscreteSuslov<T> = Fixed<DiscreteMomentum<T>, T>;
 
 /// A step of [`DiscreteSuslov`].
@@ -55,11 +56,16 @@ where
     ) -> Result<VecOf<S>, IntegrationError> {
         let momentum = |v: &VecOf<S>, h: T| start.system.discrete_momentum(&S::State::from_array(*v), h);
         let wanted = momentum(x, -h);
+        statistics.evaluations += 1;
         let mut change: VecOf<S> = DimOf::<S>::vec(T::ZERO);
         let mut best = T::EPSILON.recip();
         for _ in 0..MOST_ITERATIONS {
             let v = displaced(x, T::ONE, &change);
             let here = momentum(&v, h);
+            statistics.evaluations += 1;
+            statistics.jacobians += 1;
+            statistics.factorizations += 1;
+            statistics.iterations += 1;
             // ∂P/∂v by difference quotients
             let mut matrix = DimOf::<S>::mat(T::ZERO);
             for j in 0..DimOf::<S>::N {
@@ -69,6 +75,7 @@ where
                 *entry += T::EPSILON.sqrt() * (T::ONE + before.abs());
                 let delta = *entry - before;
                 let there = momentum(&moved, h);
+                statistics.evaluations += 1;
                 for (row, (a, b)) in matrix.as_mut().iter_mut().zip(there.as_ref().iter().zip(here.as_ref()))
                 {
                     if let Some(entry) = row.as_mut().get_mut(j) {
@@ -79,8 +86,6 @@ where
             let defect = displaced(&wanted, -T::ONE, &here);
             let correction = Factors::<DimOf<S>, T>::new(&matrix).solve(&defect);
             change = displaced(&change, T::ONE, &correction);
-            statistics.evaluations += 1;
-            statistics.iterations += 1;
             let size = relative(&correction, x);
             if size == T::ZERO || (size <= self.tolerance && size >= best * T::from_f64(0.5)) {
                 return Ok(change);
