@@ -33,6 +33,8 @@ ids! {
     ExprId;
     /// A name that stands for a number: a coordinate, velocity, parameter, input or the time.
     SymbolId;
+    /// A number that has a name.
+    ConstantId;
     /// A base coordinate `x^i`.
     CoordId;
     /// A section `e_α` of the declared basis, and its quasi-velocity `y^α`.

@@ -26,7 +26,7 @@ impl Graph {
 
     fn assuming_node(&mut self, id: ExprId, known: &FxHashMap<ExprId, ExprId>, facts: &Facts) -> ExprId {
         match self.node(id).clone() {
-            Node::Number(_) | Node::Pi | Node::Symbol(_) => id,
+            Node::Number(_) | Node::Pi | Node::Constant(_) | Node::Symbol(_) => id,
             Node::Sum { constant, terms } => {
                 let one = self.one();
                 let mut summands: Vec<_> = terms.iter().map(|(term, c)| (c.clone(), known[term])).collect();

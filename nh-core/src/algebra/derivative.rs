@@ -72,7 +72,7 @@ impl Derivation {
             return graph.zero();
         }
         match node.clone() {
-            Node::Number(_) | Node::Pi => graph.zero(),
+            Node::Number(_) | Node::Pi | Node::Constant(_) => graph.zero(),
             Node::Symbol(symbol) => match self.seeds.get(&symbol) {
                 Some(&seed) => seed,
                 None => graph.zero(),

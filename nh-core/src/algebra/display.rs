@@ -46,6 +46,7 @@ impl Printer<'_> {
         match self.graph.node(id) {
             Node::Number(value) => self.number(value, level),
             Node::Pi => self.text.push_str("pi"),
+            Node::Constant(constant) => self.text.push_str(&self.graph.constants()[*constant].name),
             Node::Symbol(symbol) => self.text.push_str(&self.graph.symbols()[*symbol]),
             Node::Sum { constant, terms } => self.sum(constant, terms, level),
             Node::Product { coefficient, factors } => self.product(coefficient, factors, level),

@@ -81,6 +81,7 @@ impl Graph {
     ) -> Bounded {
         match self.node(id) {
             Node::Number(number) => Bounded::of_number(number),
+            Node::Constant(constant) => Bounded::of_number(&self.constants()[*constant].value),
             Node::Pi => Bounded::rounded(std::f64::consts::PI, 0.0),
             Node::Symbol(symbol) => Bounded::exact(value(*symbol)),
             Node::Sum { constant, terms } => {

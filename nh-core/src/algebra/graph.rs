@@ -5,12 +5,13 @@
 //! built from them, so ascending ids are a topological order and no pass needs recursion.
 
 use super::accuracy::Accuracy;
+use super::constants::Constants;
 use super::normal_form::Simplifier;
 use super::number::Rational;
 use super::places::Places;
 use super::visited::Visited;
 use super::zero_test::Verdict;
-use crate::id::{ExprId, SymbolId, Table};
+use crate::id::{ConstantId, ExprId, SymbolId, Table};
 use rustc_hash::{FxHashMap, FxHasher};
 use std::cell::RefCell;
 use std::hash::{Hash, Hasher};
@@ -84,6 +85,8 @@ pub enum Node {
     Number(Rational),
     /// The number π.
     Pi,
+    /// A number that has a name, an operand like a symbol (see `constants.rs`).
+    Constant(ConstantId),
     /// A coordinate, velocity, parameter, input, or the time.
     Symbol(SymbolId),
     /// `constant + Σ coefficient · term`: terms ascend, none is a number or a sum, no coefficient
@@ -112,7 +115,7 @@ impl Node {
     /// The operands, in order.
     pub fn operands(&self) -> impl Iterator<Item = ExprId> + '_ {
         let (list, pair): (&[(ExprId, Rational)], [Option<ExprId>; 2]) = match self {
-            Self::Number(_) | Self::Pi | Self::Symbol(_) => (&[], [None, None]),
+            Self::Number(_) | Self::Pi | Self::Constant(_) | Self::Symbol(_) => (&[], [None, None]),
             Self::Sum { terms, .. } => (terms, [None, None]),
             Self::Product { factors, .. } => (factors, [None, None]),
             Self::Apply(_, x) => (&[], [Some(*x), None]),
@@ -128,6 +131,8 @@ pub struct Graph {
     nodes: Table<ExprId, Node>,
     places: Places,
     symbols: Table<SymbolId, String>,
+    /// Numbers that have names.
+    pub(super) constants: Constants,
     /// What simplification has found so far.
     pub(super) simplifier: Simplifier,
     /// How much rounding error rewriting may cost.
@@ -230,6 +235,7 @@ impl Graph {
 
     fn store(&mut self, hash: u32, node: Node) -> ExprId {
         let id = self.nodes.push(node);
+        self.constants.note(id, &self.nodes[id]);
         self.places.insert(hash, id);
         id
     }
@@ -305,7 +311,7 @@ impl Graph {
                 break;
             }
             match self.node(id) {
-                Node::Number(_) | Node::Pi | Node::Symbol(_) => {}
+                Node::Number(_) | Node::Pi | Node::Constant(_) | Node::Symbol(_) => {}
                 Node::Sum { terms: list, .. } | Node::Product { factors: list, .. } => {
                     list.iter().for_each(|(operand, _)| visited.open(*operand));
                 }

@@ -2,6 +2,7 @@
 
 mod accuracy;
 mod assuming;
+mod constants;
 mod derivative;
 mod display;
 mod evaluate;
@@ -25,6 +26,7 @@ mod visited;
 mod zero_test;
 
 pub use accuracy::Accuracy;
+pub use constants::Constant;
 pub use derivative::Derivation;
 pub use evaluate::Bounded;
 pub use field::Residue;

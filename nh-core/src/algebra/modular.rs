@@ -95,20 +95,34 @@ impl Graph {
     /// The argument of a periodic function as terms with coefficients; the number among them
     /// stands as a multiple of itself being 1.
     fn angle_terms(&self, x: ExprId) -> Vec<(Option<ExprId>, Rational)> {
+        let scaled = |term: ExprId, coefficient: &Rational| {
+            let factor = self.angle_factor(term).unwrap_or(Rational::ONE);
+            (Some(term), coefficient.clone() * factor)
+        };
         match self.node(x) {
             Node::Number(value) => vec![(None, value.clone())],
             Node::Sum { constant, terms } => {
-                let mut list: Vec<_> = terms.iter().map(|(term, c)| (Some(*term), c.clone())).collect();
+                let mut list: Vec<_> = terms.iter().map(|(term, c)| scaled(*term, c)).collect();
                 if !constant.is_zero() {
                     list.push((None, constant.clone()));
                 }
                 list
             }
-            Node::Product { coefficient, .. } => vec![(Some(x), coefficient.clone())],
-            _ => vec![(Some(x), Rational::ONE)],
+            Node::Product { coefficient, .. } => vec![scaled(x, coefficient)],
+            _ => vec![scaled(x, &Rational::ONE)],
         }
     }
+
+    /// The constants among the factors of a term of an angle, which count as its coefficient. With a long
+    /// denominator they do not: then an identity has to hold for any value.
+    fn angle_factor(&self, term: ExprId) -> Option<Rational> {
+        let factor = self.constant_factor(term);
+        (factor.is_one() || factor.denominator() <= LONGEST_DENOMINATOR.into()).then_some(factor)
+    }
 }
+
+/// Denominators of constants in angles up to which these are numbers: common denominators stay short.
+const LONGEST_DENOMINATOR: i64 = 1000;
 
 struct Pass<'a> {
     graph: &'a Graph,
@@ -138,6 +152,9 @@ impl Pass<'_> {
         match self.graph.node(id) {
             Node::Number(value) => Residue::of(value).ok_or(NoValue::Here),
             Node::Pi => Ok(self.random(Stream::Pi, 0)),
+            Node::Constant(constant) => {
+                Residue::of(&self.graph.constants()[*constant].value).ok_or(NoValue::Here)
+            }
             Node::Symbol(symbol) => Ok(self.point.chosen.get(symbol).copied().unwrap_or_else(|| {
                 let word = u64::try_from(symbol.index()).unwrap_or(0);
                 self.random(Stream::Symbol, word)
@@ -233,12 +250,19 @@ impl Pass<'_> {
         const BUDGET: usize = 256;
         let whole =
             |coefficient: Rational, value: Residue| vec![(self.graph.as_symbol(term), value, coefficient)];
+        let constant = self.graph.angle_factor(term);
+        let over = |number: Rational| Residue::of(&number).and_then(Residue::inverse).unwrap_or(Residue::ONE);
+        let unit = over(constant.clone().unwrap_or(Rational::ONE));
         let Node::Product { coefficient, factors } = self.graph.node(term) else {
-            return whole(scale.clone(), self.known[&term]);
+            return whole(scale.clone(), self.known[&term] * unit);
         };
-        let unit = Residue::of(coefficient).and_then(Residue::inverse).unwrap_or(Residue::ONE);
+        let unit = over(coefficient.clone()) * unit;
         let mut list = vec![(Residue::ONE, scale.clone())];
-        for (base, exponent) in factors.iter() {
+        let is_coefficient = |(base, exponent): &&(ExprId, Rational)| {
+            constant.is_some() && exponent.is_integer() && self.graph.value_of(*base).is_some()
+        };
+        let factors: Vec<_> = factors.iter().filter(|factor| !is_coefficient(factor)).collect();
+        for (base, exponent) in &factors {
             let times = exponent.to_i64().filter(|n| (1..=4).contains(n)).unwrap_or(0);
             if let (Node::Sum { constant, terms }, 1..) = (self.graph.node(*base), times) {
                 for _ in 0..times {
@@ -247,9 +271,11 @@ impl Pass<'_> {
                     }
                     let mut next = Vec::new();
                     for (value, c) in &list {
-                        next.extend(
-                            terms.iter().map(|(t, d)| (*value * self.known[t], c.clone() * d.clone())),
-                        );
+                        next.extend(terms.iter().map(|(t, d)| {
+                            let factor = self.graph.angle_factor(*t).unwrap_or(Rational::ONE);
+                            let of_rest = *value * self.known[t] * over(factor.clone());
+                            (of_rest, c.clone() * d.clone() * factor)
+                        }));
                         if !constant.is_zero() {
                             next.push((*value, c.clone() * constant.clone()));
                         }
@@ -262,7 +288,7 @@ impl Pass<'_> {
                 }
             }
         }
-        let symbol = match factors.as_ref() {
+        let symbol = match factors.as_slice() {
             [(base, exponent)] if exponent.is_one() => self.graph.as_symbol(*base),
             _ => None,
         };

@@ -168,11 +168,11 @@ impl Graph {
     }
 
     fn range_of_node(&self, id: ExprId, known: &FxHashMap<ExprId, Range>, facts: &Facts) -> Range {
+        if let Some(number) = self.value_of(id) {
+            let value = number.to_f64();
+            return Range::new(value, value, !number.is_zero());
+        }
         match self.node(id) {
-            Node::Number(number) => {
-                let value = number.to_f64();
-                Range::new(value, value, !number.is_zero())
-            }
             Node::Pi => Range::new(3.1, 3.2, true),
             Node::Symbol(symbol) => facts.symbols.get(symbol).copied().unwrap_or(Range::ALL),
             Node::Sum { constant, terms } => {
@@ -186,7 +186,8 @@ impl Graph {
                 factors.iter().fold(start, |product, (base, e)| product.times(known[base].power(e)))
             }
             Node::Apply(function, x) => known[x].function(*function),
-            Node::Apply2(..) => Range::ALL,
+            // numbers and constants have values
+            Node::Number(_) | Node::Constant(_) | Node::Apply2(..) => Range::ALL,
         }
     }
 

@@ -71,6 +71,7 @@ impl Graph {
         match node {
             Node::Number(value) => self.number(value),
             Node::Pi => self.pi(),
+            Node::Constant(constant) => self.constant(constant),
             Node::Symbol(symbol) => self.symbol(symbol),
             Node::Sum { constant, terms } => {
                 let one = self.one();

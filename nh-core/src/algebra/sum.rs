@@ -47,9 +47,10 @@ impl Graph {
     }
 
     /// Collects like terms and stores the sum.
-    fn sum_of_terms(&mut self, constant: Rational, terms: &mut Vec<(ExprId, Rational)>) -> ExprId {
+    fn sum_of_terms(&mut self, mut constant: Rational, terms: &mut Vec<(ExprId, Rational)>) -> ExprId {
         collect_like(terms);
         terms.retain(|(_, coefficient)| !coefficient.is_zero());
+        self.cancel_by_value(&mut constant, terms);
         match terms.as_slice() {
             [] => self.number(constant),
             [(term, coefficient)] if constant.is_zero() => {

@@ -28,6 +28,10 @@ impl<'a> Transplant<'a> {
             }
             let image = match self.from.node(id).clone() {
                 Node::Symbol(symbol) => self.symbol(into, symbol),
+                Node::Constant(constant) => {
+                    let constant = into.new_constant(self.from.constants()[constant].clone());
+                    into.constant(constant)
+                }
                 node => into.rebuilt(node, |operand| self.known[&operand]),
             };
             self.known.insert(id, image);

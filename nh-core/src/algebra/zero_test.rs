@@ -70,7 +70,7 @@ impl Graph {
     /// Decides whether `expression` vanishes identically.
     #[must_use]
     pub fn zero_test(&self, expression: ExprId) -> Verdict {
-        match self.as_number(expression) {
+        match self.value_of(expression) {
             Some(number) if number.is_zero() => return Verdict::Zero,
             Some(number) => return Verdict::NonZero(Witness { point: Vec::new(), value: number.to_f64() }),
             None => {}

@@ -67,12 +67,13 @@ fn assume(graph: &mut Graph, facts: &mut Facts, assumption: &Assumption) -> bool
         return false;
     }
     // a number satisfies the relation or does not; nothing is learned
-    if graph.as_number(difference).is_some() {
+    if graph.value_of(difference).is_some() {
         return true;
     }
     learn(graph, facts, difference, demanded);
     // c·x + d: a fact about x itself
-    let (constant, terms) = graph.as_linear(difference);
+    let numbers = graph.in_numbers(difference);
+    let (constant, terms) = graph.as_linear(numbers);
     if let [(term, coefficient)] = terms.as_slice() {
         let (inner, rest) = graph.split_coefficient(*term);
         let slope = (coefficient.clone() * inner).to_f64();

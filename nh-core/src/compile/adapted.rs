@@ -215,7 +215,7 @@ fn cheapest_derivative(proved: &mut Proved, candidates: &[ReducedEquations], cal
 
 /// The cheapest of several procedures of the same value, among those whose rounding error the level of
 /// accuracy allows.
-fn cheapest(graph: &Graph, procedures: &[Procedure]) -> usize {
+pub(super) fn cheapest(graph: &Graph, procedures: &[Procedure]) -> usize {
     let programs: Vec<Program> =
         procedures.iter().map(|procedure| schedule_roughly(graph, procedure)).collect();
     let growth = match graph.accuracy() {

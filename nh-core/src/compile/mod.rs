@@ -4,6 +4,7 @@ mod adapted;
 mod analytic;
 mod brackets;
 mod connection;
+mod constants;
 mod discrete;
 mod embedded;
 mod gibbs_appell;
@@ -67,7 +68,8 @@ pub fn compile(model: Model) -> Result<System, Vec<Violation>> {
         Chosen::Projected { reason } => projected::derive(proved, &reason)?,
     };
     // 8. what is tracked
-    let system = slice::slice(routh::without(system, &quadratures))?;
+    let mut system = slice::slice(routh::without(system, &quadratures))?;
+    constants::in_numbers(&mut system);
     // 9. Taylor series exist where they are asked for
     fence(analytic::check(&system).err().into_iter().collect())?;
     Ok(system)

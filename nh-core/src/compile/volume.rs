@@ -285,7 +285,7 @@ fn density_expression(proved: &mut Proved, density: &Density) -> ExprId {
             continue;
         }
         let positive = graph.range(*factor, &facts).is_positive();
-        if let Some(exponent) = graph.as_number(*exponent).cloned() {
+        if let Some(exponent) = graph.value_of(*exponent).cloned() {
             let even = (exponent.clone() * Rational::new(1, 2)).is_integer();
             let base = if positive || even { *factor } else { graph.apply(Function::Abs, *factor) };
             factors.push((base, exponent));

@@ -212,9 +212,13 @@ fn factors(graph: &mut Graph, group: &[SymbolId], hints: &[ExprId]) -> Vec<Vec<E
         for angle in &angles {
             if graph.depends_on(*angle, &[*symbol]) {
                 let factor = graph.partial(*angle, *symbol);
-                let factor = graph.as_number(factor).map_or(Rational::ONE, Clone::clone);
-                let factor = if factor.is_negative() { -factor } else { factor };
-                multiples.push(graph.scale(factor, coordinate));
+                multiples.push(match graph.value_of(factor).map(Rational::is_negative) {
+                    Some(negative) => {
+                        let multiple = graph.mul(factor, coordinate);
+                        if negative { graph.neg(multiple) } else { multiple }
+                    }
+                    None => coordinate,
+                });
             }
         }
         multiples.sort_unstable();

@@ -206,7 +206,7 @@ fn sphere(graph: &mut Graph, function: ExprId, symbols: &[SymbolId]) -> Option<V
     let scale = {
         let first = graph.partial(function, symbols[0]);
         let second = graph.partial(first, symbols[0]);
-        graph.as_number(second)?.clone() * Rational::new(1, 2)
+        graph.value_of(second)?.clone() * Rational::new(1, 2)
     };
     if scale.is_zero() {
         return None;
@@ -221,7 +221,7 @@ fn sphere(graph: &mut Graph, function: ExprId, symbols: &[SymbolId]) -> Option<V
         .collect();
     let rest = graph.linear_combination(&squares);
     let rest = graph.simplify(rest);
-    let radius = (-graph.as_number(rest)?.clone() * scale.recip()?).sqrt()?;
+    let radius = (-graph.value_of(rest)?.clone() * scale.recip()?).sqrt()?;
     let (last, others) = symbols.split_last()?;
     let parameters: Vec<ExprId> = others
         .iter()

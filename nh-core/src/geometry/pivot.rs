@@ -44,7 +44,7 @@ impl PivotSetting<'_> {
         };
         let (mut conditions, mut rank_drops) = (Vec::new(), Vec::new());
         for (base, exponent) in factors {
-            if exponent.is_negative() || graph.vanishes_nowhere(base, self.facts) {
+            if exponent.is_negative() || self.vanishes_nowhere(graph, base) {
                 continue;
             }
             if self.is_of_parameters(graph, base) {
@@ -56,6 +56,12 @@ impl PivotSetting<'_> {
             }
         }
         PivotZeros::Harmless { conditions, rank_drops }
+    }
+
+    /// By its range, or as a number.
+    fn vanishes_nowhere(&self, graph: &Graph, expression: ExprId) -> bool {
+        graph.vanishes_nowhere(expression, self.facts)
+            || (graph.symbols_in(&[expression]).is_empty() && graph.zero_test(expression).is_nonzero())
     }
 
     fn is_of_parameters(&self, graph: &Graph, expression: ExprId) -> bool {

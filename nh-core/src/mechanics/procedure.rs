@@ -1,6 +1,6 @@
 //! What a generated function computes, before it is scheduled.
 
-use crate::algebra::Graph;
+use crate::algebra::{Graph, Node};
 use crate::id::{ExprId, SymbolId};
 use rustc_hash::FxHashMap;
 
@@ -98,9 +98,9 @@ impl Procedure {
         values
     }
 
-    /// Names `value`, unless it is a number or a symbol already.
+    /// Names `value`, unless it is a number, a constant or a symbol already.
     pub fn define(&mut self, graph: &mut Graph, name: &str, value: ExprId) -> ExprId {
-        if self.inline || graph.as_number(value).is_some() || graph.as_symbol(value).is_some() {
+        if self.inline || matches!(graph.node(value), Node::Number(_) | Node::Constant(_) | Node::Symbol(_)) {
             return value;
         }
         let symbol = graph.new_symbol(name);

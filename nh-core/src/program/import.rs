@@ -64,6 +64,10 @@ impl Importer<'_> {
         match graph.node(id) {
             Node::Number(value) => self.arena.number(value.clone()),
             Node::Pi => self.arena.intern(Nary::Pi),
+            Node::Constant(constant) => {
+                let value = graph.constants()[*constant].value.clone();
+                self.arena.intern(Nary::Constant(*constant, value))
+            }
             Node::Symbol(symbol) => self.arena.intern(Nary::Symbol(*symbol)),
             Node::Sum { constant, terms } => self.sum(constant, terms),
             Node::Product { coefficient, factors } => {

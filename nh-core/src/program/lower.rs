@@ -1,5 +1,6 @@
 //! From n-ary terms to binary steps.
 
+use super::fold::is_short;
 use super::fuse::{fuse, quotients};
 use super::nary::{Arena, Nary, Source, Term};
 use super::signs::absorb_signs;
@@ -61,6 +62,12 @@ struct Lowering<'a> {
     operands: Vec<Term>,
 }
 
+/// The result of a step that need not be taken.
+enum Folded {
+    Number(Rational),
+    Same(Value),
+}
+
 /// An operand of a sum.
 #[derive(Clone, Copy, Debug)]
 struct Operand {
@@ -97,7 +104,48 @@ impl Lowering<'_> {
         }
     }
 
+    /// A step, or a value that is known to be its result.
     fn push(&mut self, step: Step) -> Value {
+        match self.folded(&step) {
+            Some(Folded::Number(number)) => self.push_new(Step::Constant(number)),
+            Some(Folded::Same(value)) => value,
+            None => self.push_new(step),
+        }
+    }
+
+    /// The exact result of a step on numbers, and of one with the number 0 or 1.
+    fn folded(&self, step: &Step) -> Option<Folded> {
+        let number = |value: &Value| match &self.steps[*value] {
+            Step::Constant(number) => Some(number),
+            _ => None,
+        };
+        let exact = |result: Rational| is_short(&result).then_some(Folded::Number(result));
+        match step {
+            Step::Add(a, b) => match (number(a), number(b)) {
+                (Some(x), Some(y)) => exact(x.clone() + y.clone()),
+                (Some(x), None) if x.is_zero() => Some(Folded::Same(*b)),
+                (None, Some(y)) if y.is_zero() => Some(Folded::Same(*a)),
+                _ => None,
+            },
+            Step::Sub(a, b) => match (number(a), number(b)) {
+                (Some(x), Some(y)) => exact(x.clone() - y.clone()),
+                (None, Some(y)) if y.is_zero() => Some(Folded::Same(*a)),
+                _ => None,
+            },
+            Step::Mul(a, b) => match (number(a), number(b)) {
+                (Some(x), Some(y)) => exact(x.clone() * y.clone()),
+                (Some(x), None) if x.is_one() => Some(Folded::Same(*b)),
+                (None, Some(y)) if y.is_one() => Some(Folded::Same(*a)),
+                (Some(x), None) | (None, Some(x)) if x.is_zero() => Some(Folded::Number(Rational::ZERO)),
+                _ => None,
+            },
+            Step::Div(a, b) => exact(number(a)?.clone() * number(b)?.recip()?),
+            Step::Sqrt(a) => number(a)?.sqrt().map(Folded::Number),
+            _ => None,
+        }
+    }
+
+    fn push_new(&mut self, step: Step) -> Value {
         let key = match step {
             Step::Add(a, b) => Step::Add(a.min(b), a.max(b)),
             Step::Mul(a, b) => Step::Mul(a.min(b), a.max(b)),
@@ -113,7 +161,7 @@ impl Lowering<'_> {
 
     fn term(&mut self, term: Term, is_used: &impl Fn(&Term) -> bool) -> Value {
         match self.arena.get(term) {
-            Nary::Number(value) => self.push(Step::Constant(value.clone())),
+            Nary::Number(value) | Nary::Constant(_, value) => self.push(Step::Constant(value.clone())),
             Nary::Pi => self.push(Step::Pi),
             Nary::Symbol(symbol) => match self.arena.sources.get(symbol) {
                 None => self.push(Step::Load(*symbol)),
@@ -237,7 +285,7 @@ impl Lowering<'_> {
     /// Numbers, then parameters, then what varies.
     fn product(&mut self, factors: &[(Term, i32)]) -> Value {
         let class = |term: Term| match self.arena.get(term) {
-            Nary::Number(_) | Nary::Pi => 0,
+            Nary::Number(_) | Nary::Pi | Nary::Constant(..) => 0,
             _ if self.fixed[term.index()] => 1,
             _ => 2,
         };

@@ -17,6 +17,7 @@ mod angles;
 mod correct;
 mod cost;
 mod factor;
+mod fold;
 mod fuse;
 mod import;
 mod interpret;

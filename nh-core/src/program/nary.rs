@@ -1,7 +1,7 @@
 //! Sums and products of any number of operands, on which the search for shared work runs.
 
 use crate::algebra::{Function, Function2, Rational};
-use crate::id::{Id, SymbolId, Table};
+use crate::id::{ConstantId, Id, SymbolId, Table};
 use rustc_hash::{FxHashMap, FxHashSet};
 use std::collections::hash_map::Entry;
 use std::rc::Rc;
@@ -24,6 +24,8 @@ impl Id for Term {
 pub(super) enum Nary {
     Number(Rational),
     Pi,
+    /// A number that has a name, an operand like a symbol until it is folded.
+    Constant(ConstantId, Rational),
     /// A symbol; one with a definition is an opaque operand.
     Symbol(SymbolId),
     /// Operands ascend; the flag says that one is subtracted.
@@ -181,7 +183,7 @@ impl Arena {
     /// Appends what has to be computed before a term, definitions of symbols included.
     pub(super) fn dependencies(&self, term: Term, list: &mut Vec<Term>) {
         match self.get(term) {
-            Nary::Number(_) | Nary::Pi => {}
+            Nary::Number(_) | Nary::Pi | Nary::Constant(..) => {}
             Nary::Symbol(symbol) => match self.sources.get(symbol) {
                 None => {}
                 Some(Source::Value(value)) => list.push(*value),

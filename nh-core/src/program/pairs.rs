@@ -157,7 +157,7 @@ impl Search<'_> {
 
     fn is_parameter(&self, term: Term) -> bool {
         match self.arena.get(term) {
-            Nary::Number(_) | Nary::Pi => true,
+            Nary::Number(_) | Nary::Pi | Nary::Constant(..) => true,
             Nary::Symbol(symbol) => self.arena.parameters.contains(symbol),
             _ => false,
         }

@@ -3,6 +3,7 @@
 use super::angles::share_angles;
 use super::cost::Cost;
 use super::factor::{Sharing, factor};
+use super::fold::folded;
 use super::import::import;
 use super::lower::lower;
 use super::nary::Arena;
@@ -34,6 +35,10 @@ const STRATEGIES: [Strategy; 5] = [
 /// Beyond so many terms only the first two strategies are tried.
 const LARGE: usize = 4000;
 
+/// Up to so many terms constants are made numbers at different times: before common factors are taken out of
+/// sums, after that, or at last. Mostly the first is as good as any.
+const SMALL: usize = 250;
+
 /// The cheapest program found for a procedure. Deterministic.
 #[must_use]
 pub fn schedule(graph: &Graph, procedure: &Procedure) -> Program {
@@ -49,28 +54,48 @@ pub fn schedule_grouping(graph: &Graph, procedure: &Procedure, parameters: &[Sym
         share_angles(&mut arena);
     }
     let tried = if arena.len() > LARGE { &STRATEGIES[..2] } else { &STRATEGIES[..] };
-    let mut shared = None;
-    let mut prepared: Vec<Arena> = Vec::new();
-    for strategy in tried {
-        let arena = if strategy.sums_first {
-            shared.get_or_insert_with(|| with_shared_sums(arena.clone()))
-        } else {
-            &arena
-        };
-        let arena = strategy.factored(arena.clone());
-        // what has come to the same goes the same way from here
-        if prepared.iter().all(|other| !other.computes_alike(&arena)) {
-            prepared.push(arena);
+    let mut prepared = Vec::new();
+    if graph.constants().is_empty() {
+        prepare(&arena, tried, &mut prepared);
+    } else {
+        if arena.len() <= SMALL {
+            prepare(&arena, tried, &mut prepared);
+            for index in 0..prepared.len() {
+                let in_numbers = folded(&prepared[index]);
+                add(&mut prepared, in_numbers);
+            }
         }
+        prepare(&folded(&arena), tried, &mut prepared);
     }
     let programs = prepared.into_iter().map(straight_line);
     programs.min_by_key(|program| Cost::of(program).weighted()).unwrap_or_default()
 }
 
+/// Factors an arena by each strategy; what has come to the same goes the same way from here.
+fn prepare(arena: &Arena, strategies: &[Strategy], prepared: &mut Vec<Arena>) {
+    let mut shared = None;
+    for strategy in strategies {
+        let arena = if strategy.sums_first {
+            shared.get_or_insert_with(|| with_shared_sums(arena.clone()))
+        } else {
+            arena
+        };
+        add(prepared, strategy.factored(arena.clone()));
+    }
+}
+
+fn add(prepared: &mut Vec<Arena>, arena: Arena) {
+    if prepared.iter().all(|other| !other.computes_alike(&arena)) {
+        prepared.push(arena);
+    }
+}
+
 /// A program by the first strategy alone: close enough to the cheapest for procedures to be compared.
 #[must_use]
 pub fn schedule_roughly(graph: &Graph, procedure: &Procedure) -> Program {
-    straight_line(STRATEGIES[0].factored(import(graph, procedure, &[])))
+    let arena = import(graph, procedure, &[]);
+    let arena = if graph.constants().is_empty() { arena } else { folded(&arena) };
+    straight_line(STRATEGIES[0].factored(arena))
 }
 
 fn with_shared_sums(mut arena: Arena) -> Arena {

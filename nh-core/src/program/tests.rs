@@ -18,6 +18,7 @@ fn evaluate(graph: &Graph, procedure: &Procedure, symbol: impl Fn(SymbolId) -> f
             let result = match graph.node(id) {
                 Node::Number(number) => number.to_f64(),
                 Node::Pi => std::f64::consts::PI,
+                Node::Constant(constant) => graph.constants()[*constant].value.to_f64(),
                 Node::Symbol(s) => defined.get(s).copied().unwrap_or_else(|| symbol(*s)),
                 Node::Sum { constant, terms } => {
                     constant.to_f64() + terms.iter().map(|(t, c)| values[t] * c.to_f64()).sum::<f64>()

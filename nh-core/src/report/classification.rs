@@ -30,7 +30,7 @@ pub(super) fn lines(proved: &mut Proved, derived: &Derived<'_>, reason: &str) ->
         lines.push(format!("the declaration has a value only where {}", stated(&model.graph, condition)));
     }
     for divisor in &motion.divisors {
-        if model.graph.as_number(*divisor).is_none() {
+        if model.graph.value_of(*divisor).is_none() {
             let text = shown(&model.graph, *divisor);
             lines.push(format!("the quasi-velocities are a chart only where {text} != 0"));
         }

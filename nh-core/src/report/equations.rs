@@ -5,7 +5,7 @@ use crate::algebra::Graph;
 use crate::id::{ConstraintId, ExprId, Id};
 use crate::model::Model;
 
-/// One line for each kinematic and each dynamic equation, and for each dependent velocity.
+/// One line for each kinematic and each dynamic equation, and for each dependent velocity; the constants.
 #[must_use]
 pub fn equations_of_motion(model: &Model, derived: &Derived<'_>) -> Vec<String> {
     let graph = &model.graph;
@@ -49,6 +49,10 @@ pub fn equations_of_motion(model: &Model, derived: &Derived<'_>) -> Vec<String> 
                 lines.push(format!("{} = {}", accelerations(graph, row, &names), shown(graph, *bias)));
             }
         }
+    }
+    let constants = super::constants(graph);
+    if !constants.is_empty() {
+        lines.push(format!("where {}", constants.join(", ")));
     }
     lines
 }

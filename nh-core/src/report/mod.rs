@@ -71,6 +71,7 @@ pub(crate) fn report(
         }
     };
     section("Classification", classification);
+    section("Constants", constants(&model.graph));
     section("Conditions on the parameters", nonzero(&model.graph, conditions));
     section("Anchor (kinematic equations)", anchor(model, system));
     section("Structure functions", structure_functions(model, system));
@@ -96,6 +97,11 @@ fn nonzero(graph: &Graph, conditions: &[ExprId]) -> Vec<String> {
         }
     }
     lines
+}
+
+/// `m = 13/10`
+pub(super) fn constants(graph: &Graph) -> Vec<String> {
+    graph.constants().iter().map(|constant| format!("{} = {}", constant.name, constant.value)).collect()
 }
 
 fn section_names(model: &Model) -> Vec<String> {

@@ -1,5 +1,8 @@
 //! A derived system as a declaration, and the map to it.
 
+use std::collections::BTreeMap;
+
+use nh_core::algebra::Constant;
 use nh_core::id::{CoordId, ExprId};
 use nh_core::model::Relation;
 use nh_core::reduction::Quotient;
@@ -113,6 +116,38 @@ pub(crate) fn can_be_written(quotient: &Quotient) -> bool {
     all.all(|expression| source.graph.text_within(expression, LONGEST).len() <= LONGEST)
 }
 
+/// `m = 13/10; J = [1/2, 0, 3];` What has no name of its own among the entries is not written by it.
+fn definitions<'a>(constants: impl Iterator<Item = &'a Constant>) -> TokenStream {
+    let mut families: Vec<(&str, BTreeMap<Vec<usize>, String>)> = Vec::new();
+    for Constant { name, value } in constants {
+        let mut parts = name.split(['[', ']']).filter(|part| !part.is_empty());
+        let family = parts.next().unwrap_or_default();
+        let indices = parts.filter_map(|part| part.parse().ok()).collect();
+        if families.last().is_none_or(|(last, _)| *last != family) {
+            families.push((family, BTreeMap::new()));
+        }
+        families.last_mut().and_then(|(_, entries)| entries.insert(indices, value.to_string()));
+    }
+    let definitions = families.into_iter().map(|(family, entries)| {
+        let length = |k: usize| entries.keys().map(|indices| indices[k] + 1).max().unwrap_or(1);
+        let entry = |indices: &[usize]| entries.get(indices).map_or("0", String::as_str).to_owned();
+        let row = |before: &[usize], length: usize| {
+            let entries = (0..length).map(|k| entry(&[before, &[k]].concat()));
+            format!("[{}]", entries.collect::<Vec<_>>().join(", "))
+        };
+        let value = match entries.keys().next().map_or(0, Vec::len) {
+            0 => entry(&[]),
+            1 => row(&[], length(0)),
+            _ => {
+                let rows: Vec<String> = (0..length(0)).map(|k| row(&[k], length(1))).collect();
+                format!("[{}]", rows.join(", "))
+            }
+        };
+        tokens(&format!("{family} = {value};"))
+    });
+    quote!(#(#definitions)*)
+}
+
 /// What was printed, as tokens.
 fn tokens(text: &str) -> TokenStream {
     text.parse().unwrap_or_default()
@@ -140,6 +175,11 @@ impl Written<'_> {
         let Self { quotient, declaration, layout, runtime, .. } = self;
         let names: Vec<TokenStream> = quotient.velocities.iter().map(|name| tokens(name)).collect();
         let mut sections = TokenStream::new();
+        let constants = quotient.source.graph.constants();
+        if !constants.is_empty() && !self.passes("constants") {
+            let definitions = definitions(constants.iter());
+            sections.extend(quote!(constants { #definitions }));
+        }
         if !quotient.anchor.is_empty() {
             let coordinates = list(self.coordinates);
             let lines = quotient.anchor.iter().map(|(id, rate)| {

@@ -3,7 +3,8 @@
 use std::collections::BTreeSet;
 use std::rc::Rc;
 
-use nh_core::id::SymbolId;
+use nh_core::algebra::Constant;
+use nh_core::id::{ConstantId, SymbolId};
 use nh_core::model::{Coordinate, Input, Parameter, Section};
 use quote::format_ident;
 
@@ -12,7 +13,7 @@ use super::context::{Context, VARYING};
 use super::items;
 use super::reports::Outcome;
 use super::resolver::Resolver;
-use super::scope::{Meaning, Named, Role};
+use super::scope::{Meaning, Named, Numbers, Role};
 use crate::emit::{Family, Layout};
 use crate::report::Diagnostic;
 use crate::syntax::ast::{self, Declared, Definition, Name, SystemDecl};
@@ -89,15 +90,32 @@ impl Resolver {
         self.keep(&declared.name, outcome)
     }
 
-    /// A name for numbers, which are part of the equations from here on.
+    /// A name for numbers.
     fn constant(&mut self, constant: &Definition) -> Outcome<()> {
         let fresh = self.scope.check_new(&constant.name);
         let fresh = self.keep(&constant.name, fresh);
         let value = self.numbers(constant);
         fresh?;
-        let meaning = value.as_ref().map_or(Meaning::Broken, |value| Meaning::Value(Rc::new(value.clone())));
+        let meaning = match &value {
+            Ok(values) => {
+                let names = self.constants_of(&constant.name.text, values);
+                Meaning::Constant(Rc::new(Numbers { values: values.clone(), names }))
+            }
+            Err(_) => Meaning::Broken,
+        };
         self.scope.insert(constant.name.text.clone(), meaning);
         value.map(|_| ())
+    }
+
+    /// Constants of the graph for the rational numbers among the values.
+    fn constants_of(&mut self, text: &str, values: &Array) -> Vec<Option<ConstantId>> {
+        let mut names = Vec::with_capacity(values.entries.len());
+        for (entry, value) in values.entries.iter().enumerate() {
+            let value = self.graph.as_number(*value).filter(|value| !value.is_zero()).cloned();
+            let name = values.shape.entry_name(text, entry);
+            names.push(value.map(|value| self.graph.new_constant(Constant { name, value })));
+        }
+        names
     }
 
     /// A value in which nothing varies.

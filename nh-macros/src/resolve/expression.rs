@@ -6,10 +6,10 @@ use nh_core::algebra::Rational;
 use nh_core::id::ExprId;
 
 use super::array::{Array, Part, Shape};
-use super::context::Usage;
+use super::context::{Context, Usage};
 use super::reports::{Outcome, Reported};
 use super::resolver::Resolver;
-use super::scope::{Meaning, Named, Role};
+use super::scope::{Meaning, Named, Numbers, Role};
 use crate::report::Diagnostic;
 use crate::syntax::ast::{Binder, Expr, ExprKind, Name, Number, Place, Sign};
 
@@ -105,6 +105,7 @@ impl Resolver {
         let whole = format!("`{}`", name.text);
         let shape = match &meaning {
             Meaning::Named(named) => named.shape,
+            Meaning::Constant(constant) => constant.values.shape,
             Meaning::Value(value) => value.shape,
             Meaning::Time | Meaning::Pi | Meaning::Index(_) => Shape::Number,
             Meaning::Broken => return Err(Reported),
@@ -122,6 +123,10 @@ impl Resolver {
                 }
                 self.symbols(expr, &named.symbols, part)
             }
+            Meaning::Constant(constant) => {
+                self.reports.spend(expr.extent, part.shape.len())?;
+                Ok(self.constants(&constant, part))
+            }
             Meaning::Value(value) => {
                 self.reports.spend(expr.extent, part.shape.len())?;
                 Ok(value.part(part))
@@ -134,6 +139,19 @@ impl Resolver {
             Meaning::Index(value) => Ok(Array::number(self.graph.number(value))),
             Meaning::Broken => Err(Reported),
         }
+    }
+
+    /// Constants: in the definitions of others, numbers.
+    fn constants(&mut self, constant: &Numbers, part: Part) -> Array {
+        let mut found = constant.values.part(part);
+        if self.context != Context::Constants {
+            for (entry, name) in found.entries.iter_mut().zip(&constant.names[part.positions()]) {
+                if let Some(name) = name {
+                    *entry = self.graph.constant(*name);
+                }
+            }
+        }
+        found
     }
 
     /// A velocity of `velocities` or `frame` where it has no meaning yet.
@@ -193,7 +211,9 @@ impl Resolver {
                         _ => ("a velocity", "accelerations are what is derived; they cannot be used"),
                     },
                     Meaning::Time => ("the time, whose derivative is 1", "write `1`"),
-                    Meaning::Pi | Meaning::Index(_) => ("a constant", "leave the term out"),
+                    Meaning::Pi | Meaning::Index(_) | Meaning::Constant(_) => {
+                        ("a constant", "leave the term out")
+                    }
                     Meaning::Value(_) | Meaning::Broken => ("an abbreviation", "write the chain rule out"),
                 };
                 Diagnostic::new(at, format!("`der` takes a base coordinate, and `{text}` is {what}"))
@@ -261,7 +281,7 @@ impl Resolver {
                 .way_out("for the square of a length write `dot(v, v)`");
             return Err(self.report(base, error));
         };
-        let Some(power) = self.graph.as_number(power).cloned() else {
+        let Some(power) = self.graph.value_of(power).cloned() else {
             let error = Diagnostic::new(exponent.extent, "an exponent must be a rational number")
                 .evidence("this one is not known when the equations are derived")
                 .way_out("write a^b as `exp(b * ln(a))`, for a > 0");

@@ -140,7 +140,10 @@ impl Resolver {
         let numbers = numbers.into_iter().collect::<Outcome<Vec<_>>>()?;
         let result = match (called, numbers.as_slice()) {
             (Called::One(function), [x]) => self.apply(*function, *x),
-            (Called::Tan, [x]) => self.graph.tan(*x),
+            (Called::Tan, [x]) => {
+                let angle = self.graph.in_integers(*x);
+                self.graph.tan(angle)
+            }
             (Called::Sqrt, [x]) => {
                 return Ok(Array::number(self.product_of(expr, &[(*x, Rational::new(1, 2))])?));
             }
@@ -152,8 +155,11 @@ impl Resolver {
 
     fn apply(&mut self, function: Function, x: ExprId) -> ExprId {
         match function {
-            Function::Sin => self.graph.sin(x),
-            Function::Cos => self.graph.cos(x),
+            Function::Sin | Function::Cos => {
+                // multiples of an angle have to do with each other
+                let angle = self.graph.in_integers(x);
+                if function == Function::Sin { self.graph.sin(angle) } else { self.graph.cos(angle) }
+            }
             function => self.graph.apply(function, x),
         }
     }

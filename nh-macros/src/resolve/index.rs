@@ -48,8 +48,13 @@ impl Resolver {
         match self.scope.get(&name.text).cloned() {
             Some(Meaning::Index(value)) => Ok(value),
             Some(Meaning::Broken) => Err(Reported),
-            Some(Meaning::Value(value)) => {
-                let number = value.as_number().and_then(|entry| self.graph.as_number(entry)?.to_i64());
+            Some(meaning @ (Meaning::Value(_) | Meaning::Constant(_))) => {
+                let entry = match &meaning {
+                    Meaning::Constant(constant) => constant.values.as_number(),
+                    Meaning::Value(value) => value.as_number(),
+                    _ => None,
+                };
+                let number = entry.and_then(|entry| self.graph.value_of(entry)?.to_i64());
                 match number {
                     Some(number) => Ok(number),
                     None => Err(self.no_index(expr, format!("`{}` is not an integer", name.text))),

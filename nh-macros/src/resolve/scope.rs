@@ -3,7 +3,7 @@
 use std::collections::{BTreeMap, BTreeSet};
 use std::rc::Rc;
 
-use nh_core::id::SymbolId;
+use nh_core::id::{ConstantId, SymbolId};
 
 use super::array::{Array, Shape};
 use crate::report::{Diagnostic, Extent};
@@ -62,6 +62,15 @@ pub(super) struct Named {
     pub(super) extent: Extent,
 }
 
+/// What `constants` defines.
+#[derive(Debug)]
+pub(super) struct Numbers {
+    /// The values.
+    pub(super) values: Array,
+    /// Those that have a name in expressions: rational numbers but 0, which leaves nothing to be named.
+    pub(super) names: Vec<Option<ConstantId>>,
+}
+
 /// What a name stands for.
 #[derive(Clone, Debug)]
 pub(super) enum Meaning {
@@ -71,6 +80,8 @@ pub(super) enum Meaning {
     Time,
     /// `pi`
     Pi,
+    /// A constant, or several.
+    Constant(Rc<Numbers>),
     /// A `let`.
     Value(Rc<Array>),
     /// The value of a loop variable.
@@ -90,6 +101,7 @@ impl Meaning {
             },
             Self::Time => "the time",
             Self::Pi => "the number π",
+            Self::Constant(_) => "a constant",
             Self::Value(_) => "an abbreviation (a `let`)",
             Self::Index(_) => "a loop variable",
             Self::Broken => "declared",

@@ -44,7 +44,7 @@ struct Tally {
 impl Tally {
     fn count(&mut self, node: &Node) {
         match node {
-            Node::Number(_) | Node::Pi | Node::Symbol(_) => {}
+            Node::Number(_) | Node::Pi | Node::Constant(_) | Node::Symbol(_) => {}
             Node::Sum { constant, terms } => {
                 self.cost += count(terms.len()) - 1 + u64::from(!constant.is_zero());
                 self.cost += count(terms.iter().filter(|(_, c)| !is_unit(c)).count());

@@ -34,7 +34,7 @@ impl Graph {
                             parts.extend(self.as_linear(*angle).1.into_iter().map(|(part, _)| part));
                         }
                     }
-                    Node::Symbol(_) | Node::Number(_) | Node::Pi => {}
+                    Node::Symbol(_) | Node::Number(_) | Node::Constant(_) | Node::Pi => {}
                     _ => return false,
                 }
             }

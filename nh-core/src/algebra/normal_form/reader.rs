@@ -99,7 +99,7 @@ impl<'g> Reader<'g> {
         self.spend(1)?;
         match self.graph.node(id).clone() {
             Node::Number(value) => Some(Polynomial::constant(value)),
-            Node::Pi | Node::Symbol(_) => Some(plain(id)),
+            Node::Pi | Node::Constant(_) | Node::Symbol(_) => Some(plain(id)),
             Node::Sum { constant, terms } => {
                 let mut sum = Polynomial::constant(constant);
                 for (term, coefficient) in terms.iter() {
@@ -145,7 +145,9 @@ impl<'g> Reader<'g> {
     pub(super) fn read_value(&mut self, value: ExprId) -> Option<Polynomial> {
         match self.graph.node(value).clone() {
             Node::Number(number) => Some(Polynomial::constant(number)),
-            Node::Apply(..) | Node::Apply2(..) | Node::Symbol(_) | Node::Pi => Some(plain(value)),
+            Node::Apply(..) | Node::Apply2(..) | Node::Symbol(_) | Node::Constant(_) | Node::Pi => {
+                Some(plain(value))
+            }
             Node::Product { coefficient, factors } if factors.len() == 1 && factors[0].1.is_one() => {
                 Some(Polynomial::term(Monomial::of(factors[0].0, Kind::Plain, Exponent::ONE), coefficient))
             }

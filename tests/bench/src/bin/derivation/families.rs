@@ -1,5 +1,7 @@
 //! The declarations that are timed: the systems of the benchmark, and families of growing size.
 
+use crate::syntax;
+
 /// A declaration as text.
 pub(crate) struct Declaration {
     /// The name in the tables.
@@ -27,6 +29,29 @@ impl Declaration {
             member: None,
             ordinary: String::new(),
         }
+    }
+}
+
+impl Declaration {
+    /// The same with `constants` in place of the fields, all of different values.
+    pub(crate) fn with_constants(mut self) -> Self {
+        let (attribute, item) = (self.attribute.parse(), self.item.parse());
+        let Ok(parsed) = syntax::parse(attribute.expect("tokens"), item.expect("tokens")) else {
+            panic!("{}: syntax", self.name)
+        };
+        let mut values = (0..).map(|k: u32| format!("{}", f64::from(37 + 29 * k % 101) / 64.0));
+        let mut constants = String::new();
+        for field in &parsed.structure.parameters {
+            let entries: Vec<String> =
+                values.by_ref().take(field.lengths.iter().product::<u32>() as usize).collect();
+            let value =
+                if field.lengths.is_empty() { entries.concat() } else { format!("[{}]", entries.join(", ")) };
+            constants.push_str(&format!("{} = {value}; ", field.name.text));
+        }
+        self.attribute = format!("constants {{ {constants} }} {}", self.attribute);
+        self.item = "struct System {}".to_owned();
+        self.ordinary = String::new();
+        self
     }
 }
 

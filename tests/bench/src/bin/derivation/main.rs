@@ -3,6 +3,7 @@
 //! ```sh
 //! cargo run --release -p nh-bench --bin derivation   # optimised
 //! cargo run --release -p nh-bench --bin derivation -- --compile   # and families compiled and counted
+//! cargo run --release -p nh-bench --bin derivation -- --constants # with constants for the fields
 //! cargo run -p nh-bench --bin derivation             # as procedural macros are built by default
 //! ```
 //!
@@ -41,10 +42,13 @@ mod syntax;
 
 /// The argument with which families are compiled, too.
 const COMPILE: &str = "--compile";
+/// The argument with which constants stand for the fields.
+const CONSTANTS: &str = "--constants";
 
 fn main() {
-    let (compile, filter): (Vec<String>, Vec<String>) =
-        std::env::args().skip(1).partition(|argument| argument == COMPILE);
+    let (options, filter): (Vec<String>, Vec<String>) =
+        std::env::args().skip(1).partition(|argument| argument.starts_with("--"));
+    let is_given = |option: &str| options.iter().any(|given| given == option);
     println!("| ms | parse | derive | emit | whole | operations | instructions | LLVM, ms |");
     println!("|---|--:|--:|--:|--:|--:|--:|--:|");
     let mut points = Vec::new();
@@ -52,9 +56,10 @@ fn main() {
         if !filter.is_empty() && !filter.iter().any(|wanted| declaration.name.contains(wanted.as_str())) {
             continue;
         }
+        let declaration = if is_given(CONSTANTS) { declaration.with_constants() } else { declaration };
         let times = stopwatch::measure(&declaration);
         let compiled = match declaration.member {
-            Some(_) if !compile.is_empty() => compiled::measure(&declaration),
+            Some(_) if is_given(COMPILE) => compiled::measure(&declaration),
             _ => compiled::Compiled::default(),
         };
         println!(

@@ -1,0 +1,89 @@
+//! Functions with numbers for the constants, where that is shorter.
+
+use super::adapted::cheapest;
+use crate::algebra::{Graph, Substitution};
+use crate::mechanics::{Definition, Procedure};
+use crate::system::System;
+
+/// Procedures with more operations are left as they are derived.
+const SHORT: u64 = 160;
+
+/// Derivations keep constants apart; in short functions the numbers that they come to may do better.
+pub(super) fn in_numbers(system: &mut System) {
+    let graph = &mut system.model.graph;
+    if graph.constants().is_empty() {
+        return;
+    }
+    let functions = [
+        Some(&mut system.derivative),
+        system.energy.as_mut(),
+        system.velocity.as_mut(),
+        Some(&mut system.observables),
+        system.multipliers.as_mut(),
+        system.reactions.as_mut(),
+        system.gibbs_appell.as_mut(),
+        system.jacobian.as_mut(),
+        system.parameter_jacobian.as_mut(),
+        system.residual.as_mut(),
+    ];
+    for function in functions.into_iter().flatten() {
+        if function.length(graph) <= SHORT {
+            shorten(graph, function);
+        }
+    }
+}
+
+fn shorten(graph: &mut Graph, function: &mut Procedure) {
+    let numbers = function.in_numbers(graph, false);
+    let simplified = function.in_numbers(graph, true);
+    let forms = [function.clone(), numbers, simplified];
+    let best = cheapest(graph, &forms);
+    *function = forms.into_iter().nth(best).unwrap_or_default();
+}
+
+impl Procedure {
+    fn length(&self, graph: &Graph) -> u64 {
+        graph.operation_count(&self.values(graph))
+    }
+
+    /// With numbers for the constants, and for what is made of them alone.
+    fn in_numbers(&self, graph: &mut Graph, simplified: bool) -> Self {
+        let mut known = Substitution::new([]);
+        let image = |graph: &mut Graph, known: &mut Substitution, value| {
+            let value = graph.in_numbers(value);
+            let value = known.apply(graph, value);
+            if simplified { graph.simplify(value) } else { value }
+        };
+        let mut result = self.with_outputs(Vec::new());
+        result.definitions.clear();
+        for definition in &self.definitions {
+            result.definitions.push(match definition {
+                Definition::Value { symbol, value } => {
+                    let value = image(graph, &mut known, *value);
+                    if graph.as_number(value).is_some() || graph.as_symbol(value).is_some() {
+                        known.insert(*symbol, value);
+                        continue;
+                    }
+                    Definition::Value { symbol: *symbol, value }
+                }
+                Definition::Call { symbol, method, arguments, derivatives } => Definition::Call {
+                    symbol: *symbol,
+                    method: method.clone(),
+                    arguments: arguments.iter().map(|value| image(graph, &mut known, *value)).collect(),
+                    derivatives: derivatives.clone(),
+                },
+                Definition::Solve { unknowns, matrix, right } => Definition::Solve {
+                    unknowns: unknowns.clone(),
+                    matrix: matrix
+                        .iter()
+                        .map(|row| row.iter().map(|value| image(graph, &mut known, *value)).collect())
+                        .collect(),
+                    right: right.iter().map(|value| image(graph, &mut known, *value)).collect(),
+                },
+            });
+        }
+        let outputs: Vec<_> = self.outputs.iter().map(|value| image(graph, &mut known, *value)).collect();
+        result.outputs = outputs;
+        result
+    }
+}
