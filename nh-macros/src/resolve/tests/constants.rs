@@ -92,8 +92,8 @@ fn rounded(name: &str, value: Values) -> f64 {
 
 #[test]
 fn cost_no_more_than_fields() {
-    let sets: [Values; 3] =
-        [|name| of_name(name) - 0.5, |_| 1.0, |name| if name.starts_with('m') { 2.0 } else { 0.5 }];
+    let sets: [Values; 2] =
+        [|name| of_name(name) - 0.5, |name| if name.starts_with('m') { 2.0 } else { 0.5 }];
     let (mut compared, mut cheaper) = (0, 0);
     for declaration in all() {
         let fields = compiled(&declaration).expect("a reference system");
@@ -117,7 +117,7 @@ fn cost_no_more_than_fields() {
             }
         }
     }
-    assert!(compared == 0 || (compared > 100 && 10 * cheaper > 9 * compared), "{cheaper} of {compared}");
+    assert!(compared == 0 || (compared > 80 && 10 * cheaper > 9 * compared), "{cheaper} of {compared}");
 }
 
 /// A tractor with trailers, as text.
