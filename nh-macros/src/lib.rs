@@ -43,7 +43,7 @@ mod syntax;
 ///
 /// | section | meaning | without it |
 /// |---|---|---|
-/// | `constants { g = 9.81; I = [1, 2, 3]; }` | names of numbers, vectors and matrices of numbers, known when the code is compiled: parameters that are folded into the equations. Small systems gain; a long chain of bodies may lose, since numbers hide what its bodies have in common | none |
+/// | `constants { g = 9.81; I = [1, 2, 3]; }` | names of numbers, vectors and matrices of numbers: parameters that are known when the code is compiled. Equations are derived as with fields, and what is made of constants alone becomes a literal, so that nothing costs more than with fields. Proofs know the values: a system that is singular, or an identity that holds, for these values alone is found | none |
 /// | `base { x, q[3], R[3][3] }` | coordinates xⁱ of the base, also in families | none: a Lie algebra |
 /// | `on { dot(g, g) = 1; }` | identities that embedded coordinates satisfy; the anchor is proved to keep them | none |
 /// | `basis { omega, w[3] }` | sections e_α; each name is also its quasi-velocity yᵅ | the velocities are those of the coordinates, `der(x)` |

@@ -10,6 +10,8 @@
 //! 5. `lower`: binary steps in an order in which every value precedes its uses.
 //! 6. `fuse`: sums with products become multiply-adds; `signs`: negations go where they are free.
 //!
+//! Constants become numbers before 2 or after it (`fold`), or at last (`lower`), whichever is cheapest.
+//!
 //! [`corrected`] makes a program carry its rounding errors along; [`error_growth`] compares programs by
 //! theirs. [`Recurrences`] extend a program from numbers to power series in the time.
 
