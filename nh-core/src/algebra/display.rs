@@ -16,6 +16,7 @@ struct Printer<'a> {
     graph: &'a Graph,
     text: String,
     limit: usize,
+    is_cut: bool,
 }
 
 impl Graph {
@@ -29,7 +30,7 @@ impl Graph {
     /// The expression as text, cut with `…` where it would be much longer than `limit` bytes.
     #[must_use]
     pub fn text_within(&self, id: ExprId, limit: usize) -> String {
-        let mut printer = Printer { graph: self, text: String::new(), limit };
+        let mut printer = Printer { graph: self, text: String::new(), limit, is_cut: false };
         printer.expression(id, Level::Sum);
         printer.text
     }
@@ -38,16 +39,15 @@ impl Graph {
 impl Printer<'_> {
     fn expression(&mut self, id: ExprId, level: Level) {
         if self.text.len() > self.limit {
-            if !self.text.ends_with('…') {
-                self.text.push('…');
-            }
+            self.write("…");
+            self.is_cut = true;
             return;
         }
         match self.graph.node(id) {
             Node::Number(value) => self.number(value, level),
-            Node::Pi => self.text.push_str("pi"),
-            Node::Constant(constant) => self.text.push_str(&self.graph.constants()[*constant].name),
-            Node::Symbol(symbol) => self.text.push_str(&self.graph.symbols()[*symbol]),
+            Node::Pi => self.write("pi"),
+            Node::Constant(constant) => self.write(&self.graph.constants()[*constant].name),
+            Node::Symbol(symbol) => self.write(&self.graph.symbols()[*symbol]),
             Node::Sum { constant, terms } => self.sum(constant, terms, level),
             Node::Product { coefficient, factors } => self.product(coefficient, factors, level),
             Node::Apply(function, x) => self.call(function.name(), &[*x]),
@@ -58,13 +58,21 @@ impl Printer<'_> {
         }
     }
 
+    /// Writes on; where the text is cut, nothing but parentheses is closed.
+    fn write(&mut self, text: &str) {
+        if !self.is_cut {
+            self.text.push_str(text);
+        }
+    }
+
     fn number(&mut self, value: &Rational, level: Level) {
         let bare = value.is_integer() && !value.is_negative();
         let fits = bare || level == Level::Sum || (level == Level::Term && !value.is_negative());
-        self.parenthesised(!fits, |p| p.text.push_str(&value.to_string()));
+        self.parenthesised(!fits, |p| p.write(&value.to_string()));
     }
 
     fn parenthesised(&mut self, wrap: bool, print: impl FnOnce(&mut Self)) {
+        let wrap = wrap && !self.is_cut;
         if wrap {
             self.text.push('(');
         }
@@ -75,11 +83,14 @@ impl Printer<'_> {
     }
 
     fn call(&mut self, name: &str, arguments: &[ExprId]) {
-        self.text.push_str(name);
-        self.text.push('(');
+        if self.is_cut {
+            return;
+        }
+        self.write(name);
+        self.write("(");
         for (index, argument) in arguments.iter().enumerate() {
             if index > 0 {
-                self.text.push_str(", ");
+                self.write(", ");
             }
             self.expression(*argument, Level::Sum);
         }
@@ -98,13 +109,13 @@ impl Printer<'_> {
             }
             if !constant.is_zero() {
                 p.sign(constant.is_negative(), false);
-                p.text.push_str(&constant.abs().to_string());
+                p.write(&constant.abs().to_string());
             }
         });
     }
 
     fn sign(&mut self, negative: bool, first: bool) {
-        self.text.push_str(match (negative, first) {
+        self.write(match (negative, first) {
             (true, true) => "-",
             (false, true) => "",
             (true, false) => " - ",
@@ -130,22 +141,22 @@ impl Printer<'_> {
             let (numerator, denominator) = magnitude.split_once('/').unwrap_or((&magnitude, "1"));
             let mut started = false;
             if numerator != "1" || above().next().is_none() {
-                p.text.push_str(numerator);
+                p.write(numerator);
                 started = true;
             }
             for (base, exponent) in above() {
                 if started {
-                    p.text.push('*');
+                    p.write("*");
                 }
                 p.power(*base, exponent);
                 started = true;
             }
             if denominator != "1" {
-                p.text.push('/');
-                p.text.push_str(denominator);
+                p.write("/");
+                p.write(denominator);
             }
             for (base, exponent) in below() {
-                p.text.push('/');
+                p.write("/");
                 p.power(*base, &exponent.abs());
             }
         });
@@ -159,7 +170,7 @@ impl Printer<'_> {
             return self.call("sqrt", &[base]);
         }
         self.expression(base, Level::Power);
-        self.text.push('^');
+        self.write("^");
         self.number(exponent, Level::Power);
     }
 }
@@ -198,6 +209,18 @@ mod tests {
             let sin = g.sin(sum);
             e = g.mul(sin, sum);
         }
-        assert!(g.text_within(e, 80).len() < 2000);
+        let deep = g.text_within(e, 80);
+        assert!(deep.len() < 200 && deep.contains('…'), "{deep}");
+        let all: Vec<ExprId> = (0..500)
+            .map(|index| {
+                let symbol = g.new_symbol(format!("y{index}"));
+                g.symbol(symbol)
+            })
+            .collect();
+        let sum = g.sum(&all);
+        assert_eq!(g.text_within(sum, 10), "y0 + y1 + y2 + …");
+        let factors: Vec<_> = all.into_iter().map(|y| (y, Rational::ONE)).collect();
+        let product = g.product(&factors);
+        assert_eq!(g.text_within(product, 7), "y0*y1*y2*…");
     }
 }

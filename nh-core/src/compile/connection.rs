@@ -3,6 +3,7 @@
 use super::Proved;
 use super::phase_space::{asked, judge, shortened};
 use crate::algebra::{Graph, Matrix};
+use crate::check::evidence::shown;
 use crate::geometry::{Christoffel, koszul};
 use crate::id::{ExprId, SymbolId};
 use crate::mechanics::{LagrangianSystem, Procedure, SaddleEquations, solve_symmetric};
@@ -86,7 +87,7 @@ fn metric(graph: &mut Graph, system: &LagrangianSystem) -> Result<Matrix, String
             let entry = graph.simplify(entry);
             let strangers: Vec<SymbolId> = velocities.iter().copied().chain([system.time]).collect();
             if graph.depends_on(entry, &strangers) {
-                let text = graph.text_within(entry, 160);
+                let text = shown(graph, entry);
                 return Err(format!(
                     "an entry of the mass matrix is {text}, which is no function on the base"
                 ));

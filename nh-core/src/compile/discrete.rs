@@ -3,7 +3,7 @@
 use super::Proved;
 use super::phase_space::{asked, judge};
 use crate::algebra::Graph;
-use crate::check;
+use crate::check::{self, evidence::shown};
 use crate::geometry::Algebroid;
 use crate::id::{ExprId, Id, Origin, SymbolId};
 use crate::mechanics::{Procedure, SaddleEquations};
@@ -71,12 +71,12 @@ fn leapfrog(proved: &mut Proved, derived: &Derived<'_>, origin: Origin) -> Resul
     let coordinates = &system.algebroid.anchor.coordinates;
     let variables: Vec<SymbolId> = coordinates.iter().chain(&system.algebroid.velocities).copied().collect();
     if let Some(entry) = equations.mass.iter().flatten().find(|entry| graph.depends_on(**entry, &variables)) {
-        let evidence = format!("an entry of the mass matrix is {}", graph.text_within(*entry, 160));
+        let evidence = format!("an entry of the mass matrix is {}", shown(graph, *entry));
         return Err(refusal(origin, what, evidence, way_out));
     }
     let momenta = system.momenta(graph);
     if let Some(momentum) = momenta.iter().find(|momentum| graph.depends_on(**momentum, coordinates)) {
-        let evidence = format!("a momentum is {}", graph.text_within(*momentum, 160));
+        let evidence = format!("a momentum is {}", shown(graph, *momentum));
         return Err(refusal(origin, what, evidence, way_out));
     }
     // W v⁺ − Jᵀμ = W v⁻ + h ∂L, J v⁺ = −J v⁻

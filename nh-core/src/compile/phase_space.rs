@@ -3,7 +3,7 @@
 use super::restricted::requested;
 use super::{Proved, brackets, connection, discrete, fence, nonholonomic_connection, volume};
 use crate::algebra::{Graph, Matrix};
-use crate::check;
+use crate::check::{self, evidence::shown};
 use crate::id::{ExprId, Origin, SymbolId};
 use crate::mechanics::{
     Definiteness, Definition, HamiltonianSide, LagrangianSystem, NoInverse, NonholonomicBracket,
@@ -162,7 +162,7 @@ fn hamiltonian(
                 evidence: format!(
                     "the momentum along `{}` is {}, which is not affine in the velocities",
                     graph.symbols()[velocity],
-                    graph.text_within(momentum, 160)
+                    shown(graph, momentum)
                 ),
                 way_out:
                     "leave `hamiltonian` out; `bracket` and `discrete_gradient` take any Lagrangian, in the \

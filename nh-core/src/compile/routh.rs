@@ -10,6 +10,7 @@ use std::collections::BTreeSet;
 use super::Proved;
 use super::momenta::Symmetries;
 use crate::check::Symmetry;
+use crate::check::evidence::shown;
 use crate::geometry::{ConstraintDistribution, MomentumLevel};
 use crate::id::{ExprId, Id, Origin, SymbolId};
 use crate::mechanics::LagrangianSystem;
@@ -98,7 +99,7 @@ fn not_cyclic(model: &mut Model, name: &str) -> String {
     if graph.is_literal_zero(change) {
         return "the anchor, the constraints or the forces depend on it, or no section moves it alone".into();
     }
-    format!("the Lagrangian depends on it, at the rate {}", graph.text_within(change, 160))
+    format!("the Lagrangian depends on it, at the rate {}", shown(graph, change))
 }
 
 fn not_conserved(
@@ -108,7 +109,7 @@ fn not_conserved(
 ) -> Violation {
     let name = &symmetry.name;
     if let Some(component) = symmetry.outside {
-        let component = model.graph.text_within(component, 160);
+        let component = shown(&model.graph, component);
         return blame(
             format!("`{name}` is not horizontal: its section is not in D"),
             format!("the constraints are {component} along it, so that their forces change its momentum"),
@@ -120,7 +121,7 @@ fn not_conserved(
     let rate = graph.simplify(rate);
     blame(
         format!("the momentum of `{name}` is not conserved"),
-        format!("its rate is {}", graph.text_within(rate, 160)),
+        format!("its rate is {}", shown(graph, rate)),
         "Routh reduction is by momenta that are conserved: correct the section, or leave it out",
     )
 }

@@ -23,6 +23,7 @@ fn forms_agree(mut model: Model) -> bool {
         let entries = expected.mass.iter().flatten().chain(&expected.force).chain(&expected.rates);
         let others = candidate.mass.iter().flatten().chain(&candidate.force).chain(&candidate.rates);
         let others = candidate.definitions.with_outputs(others.copied().collect()).written_out(graph);
+        assert_eq!(entries.clone().count(), others.len());
         for (entry, other) in entries.zip(others) {
             let defect = graph.sub(*entry, other);
             let (found, meant) = (graph.text(other), graph.text(*entry));
