@@ -47,11 +47,15 @@ pub(crate) enum Kept {
     Not(f64),
 }
 
+/// The larger of what was found so far and the size of an error; infinite where that is no number.
+pub(crate) fn larger(so_far: f64, error: f64) -> f64 {
+    if error.is_nan() { f64::INFINITY } else { so_far.max(error.abs()) }
+}
+
 impl Kept {
     /// From errors in the order of time.
     fn of(errors: &[f64]) -> Self {
-        let largest =
-            |errors: &[f64]| errors.iter().fold(0.0, |largest: f64, error| largest.max(error.abs()));
+        let largest = |errors: &[f64]| errors.iter().copied().fold(0.0, larger);
         let (all, early) = (largest(errors), largest(&errors[..errors.len() / 20]));
         match all {
             _ if all < 1e-12 => Self::Exactly(all),
@@ -117,7 +121,7 @@ where
 
 fn distance<X: State<Scalar = f64>>(a: &X, b: &X) -> f64 {
     let (a, b) = (a.to_array(), b.to_array());
-    a.as_ref().iter().zip(b.as_ref()).fold(0.0, |largest: f64, (a, b)| largest.max((a - b).abs()))
+    a.as_ref().iter().zip(b.as_ref()).map(|(a, b)| a - b).fold(0.0, larger)
 }
 
 fn end<S, M>(system: S, start: S::State, method: M, t: f64) -> S::State
@@ -154,7 +158,7 @@ fn volume<M: Method<ContactOscillator>>(of: &impl Fn(f64) -> M) -> f64 {
             std::array::from_fn(|i| (8.0 * (a[i] - b[i]) - (c[i] - d[i])) / (12.0 * delta))
         });
         let density = |x: [f64; 5]| CONTACT.volume_density(0.0, &ContactOscillatorState::from(x));
-        worst = worst.max((determinant(columns) * density(step(x)) / density(x) - 1.0).abs());
+        worst = larger(worst, determinant(columns) * density(step(x)) / density(x) - 1.0);
     }
     worst
 }

@@ -14,7 +14,9 @@
 mod keeps;
 mod systems;
 
-use keeps::{CONTACT, HEAVY, ON_TQ, Row, SPHERE, SUSLOV, Special, VESELOVA, on_algebra, on_tq, row, run};
+use keeps::{
+    CONTACT, HEAVY, ON_TQ, Row, SPHERE, SUSLOV, Special, VESELOVA, larger, on_algebra, on_tq, row, run,
+};
 use nh_runtime::Method;
 use nh_runtime::prelude::*;
 use systems::{
@@ -109,7 +111,7 @@ fn contact_oscillator() {
 }
 
 fn largest(errors: &[f64]) -> f64 {
-    errors.iter().fold(0.0, |most: f64, e| most.max(e.abs()))
+    errors.iter().copied().fold(0.0, larger)
 }
 
 /// A motion of the chaotic quartic system, for which D has a basis.
@@ -227,7 +229,7 @@ where
                 worst = f64::INFINITY;
                 break;
             }
-            worst = worst.max(((system.energy(0.0, sim.state()) - first) / first).abs());
+            worst = larger(worst, (system.energy(0.0, sim.state()) - first) / first);
             done += 1;
         }
         worst

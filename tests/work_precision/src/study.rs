@@ -164,9 +164,8 @@ impl Study {
                 finest.push((case, ended.end));
             }
         }
-        let distance = |a: &[f64], b: &[f64]| {
-            a.iter().zip(b).fold(0.0_f64, |worst, (a, b)| worst.max((a - b).abs() / b.abs().max(1.0)))
-        };
+        let distance =
+            |a: &[f64], b: &[f64]| a.iter().zip(b).fold(0.0, |worst, (a, b)| larger(worst, *a, *b));
         let mut best: Option<(f64, usize)> = None;
         for (i, (case, end)) in finest.iter().enumerate() {
             for (other, reached) in &finest[..i] {
@@ -189,13 +188,18 @@ impl Study {
         let mut worst = 0.0_f64;
         for (name, x) in names.iter().zip(end) {
             if let Some(reference) = self.reference.get(name) {
-                let off = (x - reference).abs() / reference.abs().max(1.0);
-                // a run that has left the numbers is infinitely wrong
-                worst = if off.is_nan() { f64::INFINITY } else { worst.max(off) };
+                worst = larger(worst, *x, *reference);
             }
         }
         worst
     }
+}
+
+/// The larger of what was found so far and the error of a number; a run that has left the numbers is
+/// infinitely wrong.
+fn larger(so_far: f64, x: f64, reference: f64) -> f64 {
+    let off = (x - reference).abs() / reference.abs().max(1.0);
+    if off.is_nan() { f64::INFINITY } else { so_far.max(off) }
 }
 
 /// The shortest of many runs, for at most a twentieth of a second.
