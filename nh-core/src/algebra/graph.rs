@@ -6,7 +6,7 @@
 
 use super::accuracy::Accuracy;
 use super::constants::Constants;
-use super::normal_form::Simplifier;
+use super::normal_form::{Attempts, Simplifier};
 use super::number::Rational;
 use super::places::Places;
 use super::visited::Visited;
@@ -135,6 +135,8 @@ pub struct Graph {
     pub(super) constants: Constants,
     /// What simplification has found so far.
     pub(super) simplifier: Simplifier,
+    /// The normal forms that it has read.
+    pub(super) attempts: Attempts,
     /// How much rounding error rewriting may cost.
     accuracy: Accuracy,
     /// Room for terms or factors that are being collected: most are found to be known.

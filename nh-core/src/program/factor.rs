@@ -2,7 +2,6 @@
 
 use super::nary::{Arena, Nary, Term};
 use crate::id::Id;
-use rustc_hash::FxHashMap;
 
 /// How much a product counts that other terms use too: it has to be computed for them anyway.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -44,13 +43,9 @@ fn factors<'a>(arena: &'a Arena, alone: &'a [(Term, i32); 1]) -> &'a [(Term, i32
 
 /// The power that most operands share, if taking it out pays.
 fn best_factor(arena: &Arena, uses: &[u32], sum: Term, sharing: Sharing) -> Option<(Term, i32)> {
-    struct Candidate {
-        savings: u32,
-        operands: usize,
-        exponent: i32,
-    }
     let Nary::Sum(operands) = arena.get(sum) else { return None };
-    let mut candidates: FxHashMap<(Term, bool), Candidate> = FxHashMap::default();
+    // base, whether it is a denominator, exponent, what taking it out of that operand saves
+    let mut powers: Vec<(Term, bool, i32, u32)> = Vec::with_capacity(4 * operands.len());
     for (operand, _) in operands.iter() {
         let users = uses[operand.index()].max(1);
         let worth = match (arena.get(*operand), sharing) {
@@ -58,23 +53,21 @@ fn best_factor(arena: &Arena, uses: &[u32], sum: Term, sharing: Sharing) -> Opti
             (Nary::Product(_), Sharing::Ignored) if users == 1 => ONE,
             _ => 0,
         };
-        for &(base, exponent) in factors(arena, &[(*operand, 1)]) {
-            let candidate = candidates.entry((base, exponent < 0)).or_insert(Candidate {
-                savings: 0,
-                operands: 0,
-                exponent,
-            });
-            candidate.savings += worth;
-            candidate.operands += 1;
-            if exponent.unsigned_abs() < candidate.exponent.unsigned_abs() {
-                candidate.exponent = exponent;
-            }
+        let alone = [(*operand, 1)];
+        let factors = factors(arena, &alone).iter();
+        powers.extend(factors.map(|(base, exponent)| (*base, *exponent < 0, *exponent, worth)));
+    }
+    powers.sort_unstable();
+    let mut best: Option<(u32, Term, i32)> = None;
+    for same in powers.chunk_by(|a, b| (a.0, a.1) == (b.0, b.1)) {
+        // the product with what is left is one new multiplication
+        let savings = same.iter().map(|(.., worth)| worth).sum();
+        if same.len() > 1 && savings > ONE && best.is_none_or(|(most, ..)| savings > most) {
+            let smallest = same.iter().map(|(_, _, exponent, _)| *exponent).min_by_key(|e| e.unsigned_abs());
+            best = smallest.map(|exponent| (savings, same[0].0, exponent));
         }
     }
-    // the product with what is left is one new multiplication
-    let paying = candidates.into_iter().filter(|(_, c)| c.operands > 1 && c.savings > ONE);
-    let best = paying.min_by_key(|(key, c)| (std::cmp::Reverse(c.savings), *key));
-    best.map(|((base, _), c)| (base, c.exponent))
+    best.map(|(_, base, exponent)| (base, exponent))
 }
 
 /// Replaces the operands that contain `base^exponent` by one product, and returns its inner sum.

@@ -7,7 +7,7 @@ use super::signs::absorb_signs;
 use super::step::{Program, Step, Value};
 use crate::algebra::{Function, Rational};
 use crate::id::{Id, SymbolId, Table};
-use rustc_hash::FxHashMap;
+use rustc_hash::{FxBuildHasher, FxHashMap};
 use std::collections::BTreeMap;
 
 /// Longer sums are split in halves, which do not wait for each other.
@@ -29,7 +29,7 @@ pub(super) fn lower(arena: &Arena) -> Program {
         arena,
         uses: &uses,
         steps: Table::new(),
-        known: FxHashMap::default(),
+        known: FxHashMap::with_capacity_and_hasher(arena.len(), FxBuildHasher),
         values: vec![None; arena.len()],
         fixed: vec![false; arena.len()],
         names: BTreeMap::new(),

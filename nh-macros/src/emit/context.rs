@@ -1,7 +1,7 @@
 //! What every emitter needs: paths, generics, and the shapes of the generated structs.
 
 use nh_core::id::SymbolId;
-use proc_macro2::{Group, Ident, Span, TokenStream, TokenTree};
+use proc_macro2::{Delimiter, Group, Ident, Span, TokenStream, TokenTree};
 use quote::{ToTokens, quote};
 use syn::{GenericParam, Generics};
 
@@ -146,9 +146,9 @@ impl<'a> Context<'a> {
     pub(super) fn inherent(&self, body: &TokenStream) -> TokenStream {
         let name = &self.layout.name;
         let (impl_generics, ty_generics, where_clause) = self.generics.split_for_impl();
-        quote! {
-            impl #impl_generics #name #ty_generics #where_clause { #body }
-        }
+        // a group takes the tokens as they are, where quoting them copies each
+        let body = Group::new(Delimiter::Brace, body.clone());
+        quote!(impl #impl_generics #name #ty_generics #where_clause #body)
     }
 }
 

@@ -7,7 +7,7 @@ use nh_core::id::SymbolId;
 use nh_core::mechanics::Procedure;
 use nh_core::model::Model;
 use nh_core::program::{Program, corrected, schedule_grouping};
-use proc_macro2::{Ident, Span, TokenStream};
+use proc_macro2::{Delimiter, Group, Ident, Span, TokenStream};
 use quote::quote;
 
 use super::context::Context;
@@ -46,7 +46,7 @@ impl Head {
         let state_type = context.type_of(&context.state);
         let input_type = context.input_type();
         let input_parameter = self.takes_input.then(|| quote!(, #input: &#input_type));
-        let drops = drops(context, used, self.takes_input);
+        let block = block(drops(context, used, self.takes_input), body);
         let name = Ident::new(self.name, Span::call_site());
         let Self { doc, returns, .. } = self;
         quote! {
@@ -55,10 +55,7 @@ impl Head {
             #inlining
             #visibility fn #name(
                 &self, #t: #scalar, #state: &#state_type #input_parameter
-            ) -> #returns {
-                #drops
-                #body
-            }
+            ) -> #returns #block
         }
     }
 }
@@ -94,16 +91,23 @@ impl Signature {
             drops.extend(quote!(_ = #ident;));
         }
         let name = Ident::new(self.name, Span::call_site());
+        let block = block(drops, body);
         quote! {
             #(#[doc = #doc])*
             #[must_use]
             #[inline]
-            #visibility fn #name(&self, #t: #scalar, #ident: &#of_type #input_parameter) -> #returns {
-                #drops
-                #body
-            }
+            #visibility fn #name(&self, #t: #scalar, #ident: &#of_type #input_parameter) -> #returns #block
         }
     }
+}
+
+/// Statements in braces. A group takes tokens as they are, where quoting them copies each.
+fn block(mut first: TokenStream, rest: &TokenStream) -> Group {
+    if first.is_empty() {
+        return Group::new(Delimiter::Brace, rest.clone());
+    }
+    first.extend(rest.clone());
+    Group::new(Delimiter::Brace, first)
 }
 
 /// `_ = t;` for those of some arguments that are not in `used`.

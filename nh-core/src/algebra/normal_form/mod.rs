@@ -103,8 +103,19 @@ impl Graph {
         chosen
     }
 
-    /// The expression in a style.
+    /// The expression in a style: the same again if it was read before, and for the same work.
     fn forms(&mut self, e: ExprId, style: Style, work: usize) -> Attempt {
+        if let Some(known) = self.attempts.0.get(&(e, style)).filter(|known| known.spent <= work) {
+            return *known;
+        }
+        let attempt = self.read_forms(e, style, work);
+        if attempt.forms.is_some() {
+            self.attempts.0.insert((e, style), attempt);
+        }
+        attempt
+    }
+
+    fn read_forms(&mut self, e: ExprId, style: Style, work: usize) -> Attempt {
         let mut reader = Reader::new(self, style, work, MONOMIALS);
         let mut forms = None;
         for _ in 0..ROUNDS {
@@ -121,7 +132,12 @@ impl Graph {
     }
 }
 
+/// What came of expressions in styles.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Attempts(FxHashMap<(ExprId, Style), Attempt>);
+
 /// What came of reading an expression in a style.
+#[derive(Clone, Copy, Debug)]
 struct Attempt {
     /// The canonical and the factored form; `None` beyond the budget.
     forms: Option<(ExprId, ExprId)>,
