@@ -46,12 +46,10 @@ impl Declaration {
                 values.by_ref().take(field.lengths.iter().product::<u32>() as usize).collect();
             let value =
                 if field.lengths.is_empty() { entries.concat() } else { format!("[{}]", entries.join(", ")) };
-            constants.push_str(&format!("{} = {value}; ", field.name.text));
+            constants.extend([field.name.text.as_str(), " = ", &value, "; "]);
         }
         self.attribute = format!("constants {{ {constants} }} {}", self.attribute);
-        self.item = "struct System {}".to_owned();
-        self.ordinary = String::new();
-        self
+        Self { item: "struct System {}".to_owned(), ordinary: String::new(), ..self }
     }
 }
 
