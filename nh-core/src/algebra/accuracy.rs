@@ -30,6 +30,8 @@ impl Accuracy {
 
 /// Points at which two forms are compared.
 const POINTS: u64 = 24;
+/// As many of them as a form is at its worst at.
+const WORST: usize = 3;
 
 impl Graph {
     /// How many times larger the rounding error of `candidate` is than that of `reference`, an
@@ -49,6 +51,32 @@ impl Graph {
             }
         }
         worst
+    }
+    /// As [`Self::error_growth`], but by how often errors are large and how large they are then: each form
+    /// at its own points, in the geometric mean over all of them, and over those where it is at its
+    /// worst. Two forms whose values cancel at different points are as good as each other.
+    #[must_use]
+    #[allow(clippy::cast_precision_loss, reason = "there are few points")]
+    pub fn error_growth_overall(&self, candidate: ExprId, reference: ExprId) -> f64 {
+        let points = (0..POINTS).map(|point| move |symbol| wide_sample(point, symbol));
+        let mut logarithms = [Vec::new(), Vec::new()];
+        for values in self.evaluate_each(&[candidate, reference], points) {
+            if values[1].error.is_finite() && values[1].value != 0.0 {
+                for (logarithms, value) in logarithms.iter_mut().zip(&values) {
+                    let error = if value.error.is_nan() { f64::INFINITY } else { value.error };
+                    logarithms.push((error / values[1].value.abs()).max(8.0 * f64::EPSILON).ln());
+                }
+            }
+        }
+        for logarithms in &mut logarithms {
+            logarithms.sort_unstable_by(|a, b| b.total_cmp(a));
+        }
+        let [candidate, reference] = logarithms;
+        let mean_growth = |points: usize| {
+            let differences = candidate.iter().zip(&reference).take(points).map(|(c, r)| c - r);
+            (differences.sum::<f64>() / points.max(1) as f64).exp()
+        };
+        mean_growth(candidate.len()).max(mean_growth(candidate.len().min(WORST)))
     }
 }
 

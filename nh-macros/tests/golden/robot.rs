@@ -14,47 +14,36 @@ impl Robot {
         let (sin_theta, cos_theta) = ::nh_runtime::__private::Scalar::sin_cos(
             state.theta,
         );
-        let e1 = -0.5 * self.R;
-        let e2 = e1 * (state.psi1_dot + state.psi2_dot);
-        let over_c = 1.0 / self.c;
-        let e3 = over_c * (state.psi1_dot - state.psi2_dot);
-        let e4 = ::nh_runtime::__private::Scalar::mul_add(self.m1, 2.0, self.m0);
-        let c_squared = self.c * self.c;
-        let e5 = e4 * c_squared;
+        let e1 = state.psi1_dot + state.psi2_dot;
+        let e2 = -0.5 * self.R;
+        let e3 = e2 * e1;
+        let e4 = state.psi1_dot - state.psi2_dot;
+        let e5 = 1.0 / self.c * e4;
         let r_squared = self.R * self.R;
-        let e6 = ::nh_runtime::__private::Scalar::mul_add(
-            4.0 * self.J2,
-            c_squared,
-            (self.J + e5) * r_squared,
-        );
-        let e7 = (self.J - e5) * r_squared;
-        let e8 = 2.0 * self.J2;
-        let e9 = self.m0 * self.l * (self.R * over_c)
+        let e6 = self.m0 * self.l * (self.R * r_squared);
+        let e7 = 2.0 * self.J2;
+        let v_dot_0_mean = -0.25 * e6 * (e5 * e5)
             * (1.0
                 / ::nh_runtime::__private::Scalar::mul_add(
-                    e8,
-                    c_squared,
+                    ::nh_runtime::__private::Scalar::mul_add(self.m1, 2.0, self.m0),
+                    r_squared,
+                    e7,
+                ));
+        let v_dot_0_half = 0.25 * e6 * e1 * e4
+            * (1.0
+                / ::nh_runtime::__private::Scalar::mul_add(
+                    self.c * self.c,
+                    e7,
                     self.J * r_squared,
-                ) / ::nh_runtime::__private::Scalar::mul_add(e4, r_squared, e8)
-                * (r_squared * e3));
-        let v_dot_0 = 0.25
-            * ::nh_runtime::__private::Scalar::mul_add(
-                -e7,
-                state.psi1_dot,
-                e6 * state.psi2_dot,
-            ) * e9;
-        let v_dot_1 = -0.25
-            * ::nh_runtime::__private::Scalar::mul_add(
-                -e7,
-                state.psi2_dot,
-                e6 * state.psi1_dot,
-            ) * e9;
+                ));
+        let v_dot_0 = v_dot_0_mean + v_dot_0_half;
+        let v_dot_1 = v_dot_0_mean - v_dot_0_half;
         RobotState {
             psi1: state.psi1_dot,
             psi2: state.psi2_dot,
-            x: cos_theta * e2,
-            y: sin_theta * e2,
-            theta: e1 * e3,
+            x: cos_theta * e3,
+            y: sin_theta * e3,
+            theta: e2 * e5,
             psi1_dot: v_dot_0,
             psi2_dot: v_dot_1,
         }
