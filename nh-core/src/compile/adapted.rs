@@ -17,8 +17,8 @@ use crate::geometry::ConstraintDistribution;
 use crate::id::{ExprId, Id};
 use crate::mechanics::{
     Definiteness, Definition, Flow, Procedure, ReducedEquations, definiteness, energy,
-    equations_by_velocity_forms, equations_in_wheel_frames, reaction_forces, reduced_equations,
-    solve_symmetric,
+    equations_by_partial_velocities, equations_by_velocity_forms, equations_in_wheel_frames, reaction_forces,
+    reduced_equations, solve_symmetric,
 };
 use crate::model::{Formulation, Request};
 use crate::program::{Cost, Program, error_growth, schedule_roughly};
@@ -152,7 +152,8 @@ fn candidates(
     }
     let by_forms = equations_by_velocity_forms(graph, system, distribution);
     let expanded = reduced_equations(graph, system, distribution);
-    [expanded, by_forms, by_chain].into_iter().chain(on_wheels).collect()
+    let by_parts = equations_by_partial_velocities(graph, system, distribution);
+    [expanded, by_forms, by_chain].into_iter().chain(on_wheels).chain(by_parts).collect()
 }
 
 /// Where the basis was made orthonormal, C is the identity: what is proved to be 0 or 1 is written so.

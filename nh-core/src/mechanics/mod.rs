@@ -19,6 +19,7 @@ mod moving_energy;
 mod nonholonomic_connection;
 mod orthogonal_constraints;
 mod pair;
+mod partial_velocities;
 mod planar_points;
 mod procedure;
 mod projected;
@@ -48,5 +49,7 @@ pub use procedure::{Definition, Procedure};
 pub use projected::{SaddleEquations, saddle_equations};
 pub use splitting::{Chaplygin, Splitting};
 pub use symmetric_solve::{Definiteness, solve_symmetric, uncoupled};
-pub use velocity_forms::{equations_by_velocity_forms, equations_in_wheel_frames};
+pub use velocity_forms::{
+    equations_by_partial_velocities, equations_by_velocity_forms, equations_in_wheel_frames,
+};
 pub use volume::{Density, ModularSection, Volume, VolumeSetting, invariant_volume};

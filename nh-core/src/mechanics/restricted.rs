@@ -17,6 +17,10 @@ pub(super) struct Restricted {
     pub(super) sections: Matrix,
     /// ∂/∂v^a.
     pub(super) partials: Vec<Derivation>,
+    /// û^k, where they are known.
+    pub(super) forms: Option<Vec<ExprId>>,
+    /// Whether derivatives of intermediate results are simplified.
+    pub(super) simplified: bool,
 }
 
 impl Restricted {
@@ -29,6 +33,8 @@ impl Restricted {
             eliminated: distribution.eliminated.clone(),
             sections: (0..rank).map(|a| distribution.section(a)).collect(),
             partials: distribution.independent.iter().map(|v| Derivation::partial(graph, *v)).collect(),
+            forms: None,
+            simplified: false,
         }
     }
 
@@ -42,18 +48,27 @@ impl Restricted {
         let mut partials: Vec<Derivation> =
             independent.iter().map(|symbol| Derivation::partial(graph, *symbol)).collect();
         for partial in &mut partials {
-            differentiate_all(graph, &mut definitions, partial);
+            differentiate_all(graph, &mut definitions, partial, false);
         }
         let sections = partials.iter_mut().map(|partial| partial.apply_all(graph, &velocity)).collect();
-        Self { definitions, velocity, eliminated: Vec::new(), sections, partials }
+        let (eliminated, forms, simplified) = (Vec::new(), None, false);
+        Self { definitions, velocity, eliminated, sections, partials, forms, simplified }
     }
 }
 
 /// Makes the derivatives of intermediate results known to a derivation, as further ones.
-pub(super) fn differentiate_all(graph: &mut Graph, definitions: &mut Procedure, along: &mut Derivation) {
+pub(super) fn differentiate_all(
+    graph: &mut Graph,
+    definitions: &mut Procedure,
+    along: &mut Derivation,
+    simplified: bool,
+) {
     for definition in definitions.definitions.clone() {
         if let Definition::Value { symbol, value } = definition {
-            let change = along.apply(graph, value);
+            let mut change = along.apply(graph, value);
+            if simplified {
+                change = graph.simplify(change);
+            }
             let name = format!("d_{}", graph.symbols()[symbol]);
             let change = definitions.define(graph, &name, change);
             along.insert(symbol, change);

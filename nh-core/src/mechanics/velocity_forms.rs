@@ -106,6 +106,22 @@ pub fn equations_by_velocity_forms(
     equations(graph, system, on, &distribution.independent, &forms, &[])
 }
 
+/// The reduced equations in this form, with the partial velocities as intermediate results; `None` if
+/// there are none worth a name.
+pub fn equations_by_partial_velocities(
+    graph: &mut Graph,
+    system: &LagrangianSystem,
+    distribution: &ConstraintDistribution,
+) -> Option<ReducedEquations> {
+    let forms = VelocityForms::of(graph, system);
+    let on = Restricted::by_partial_velocities(graph, distribution, &system.algebroid.velocities, &forms)?;
+    let mut equations = equations(graph, system, on, &distribution.independent, &forms, &[]);
+    for entry in equations.mass.iter_mut().flatten().chain(&mut equations.force) {
+        *entry = graph.simplify(*entry);
+    }
+    Some(equations)
+}
+
 /// The reduced equations with the velocities of points on wheels in the frames of these; `None` if
 /// there are no such points.
 ///
@@ -146,13 +162,14 @@ fn equations(
     turned: &[(TurnedPoint, Vec<ExprId>)],
 ) -> ReducedEquations {
     let algebroid = &system.algebroid;
-    let Restricted { mut definitions, velocity, eliminated, sections, partials: mut derivations } = on;
+    let Restricted { mut definitions, velocity, eliminated, sections, partials: mut derivations, .. } = on;
     let changed = algebroid.velocities.iter().copied().zip(velocity.iter().copied()).chain(eliminated);
     let mut restriction =
         Substitution::new(changed.filter(|(symbol, value)| graph.as_symbol(*value) != Some(*symbol)));
     let VelocityForms { function, forms } = forms;
     // 1. û^k on D, and the partial velocities θ^k(B_a) = ∂û^k/∂v^a
-    let restricted = forms_on_distribution(graph, forms, turned, &mut restriction);
+    let restricted =
+        on.forms.unwrap_or_else(|| forms_on_distribution(graph, forms, turned, &mut restriction));
     let partials: Matrix =
         derivations.iter_mut().map(|partial| partial.apply_all(graph, &restricted)).collect();
     // 2. F̂_k and ρ-gradient of F, on D
@@ -167,7 +184,7 @@ fn equations(
         algebroid.anchor.coordinates.iter().map(|symbol| slope(graph, symbol)).collect();
     // 3. d/dt F̂_k at v̇ = 0
     let mut along = algebroid.along(graph, &velocity, system.time);
-    differentiate_all(graph, &mut definitions, &mut along);
+    differentiate_all(graph, &mut definitions, &mut along, on.simplified);
     let changes = along.apply_all(graph, &slopes);
     // 4. contraction with B_a
     let forces = restriction.apply_all(graph, &system.forces);

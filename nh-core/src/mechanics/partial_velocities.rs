@@ -1,0 +1,165 @@
+//! Velocities on D by named partial velocities.
+//!
+//! On D every velocity is u^k = θ^k(B_a) v^a + θ^k(y₀). The coefficients, Kane's partial velocities,
+//! depend on the configuration alone, and so do those of the constrained velocities themselves: the
+//! curvature tan δ / L of a car's path, say. As intermediate results they stay in one piece, and the
+//! mass matrix is a sum of products of them, where expansion would bring everything over a common
+//! denominator.
+
+use super::procedure::Procedure;
+use super::restricted::Restricted;
+use super::velocity_forms::VelocityForms;
+use crate::algebra::{Derivation, Graph, Matrix, Node, Rational};
+use crate::geometry::ConstraintDistribution;
+use crate::id::{ExprId, SymbolId};
+
+impl Restricted {
+    /// The velocities with their coefficients as intermediate results; `None` where there is nothing
+    /// to name, or where levels of momenta determine velocities besides.
+    pub(super) fn by_partial_velocities(
+        graph: &mut Graph,
+        distribution: &ConstraintDistribution,
+        velocities: &[SymbolId],
+        forms: &VelocityForms,
+    ) -> Option<Self> {
+        if !distribution.eliminated.is_empty() {
+            return None;
+        }
+        let independent = &distribution.independent;
+        // 1. the coefficients of y and of û^k
+        let mut restriction = distribution.restriction(graph, velocities);
+        let mut names = PartialVelocities::default();
+        let mut components = Matrix::new();
+        for (symbol, value) in velocities.iter().zip(&distribution.velocity) {
+            components.push(names.coefficients(graph, *symbol, *value, independent));
+        }
+        let mut restricted = Matrix::new();
+        for (symbol, form) in &forms.forms {
+            let value = restriction.apply(graph, *form);
+            restricted.push(names.coefficients(graph, *symbol, value, independent));
+        }
+        // 2. their names, the shortest first
+        if names.unnamed.is_empty() {
+            return None;
+        }
+        names.define(graph);
+        // 3. y and û^k by them
+        let basis: Matrix = components.iter().map(|row| names.row(graph, row)).collect();
+        let velocity = basis.iter().map(|row| combined(graph, row, independent)).collect();
+        let restricted = restricted.iter().map(|row| {
+            let row = names.row(graph, row);
+            combined(graph, &row, independent)
+        });
+        let forms = Some(restricted.collect());
+        let mut sections = Graph::transposed(&basis);
+        sections.truncate(independent.len());
+        Some(Self {
+            definitions: names.definitions,
+            velocity,
+            eliminated: Vec::new(),
+            sections,
+            partials: independent.iter().map(|symbol| Derivation::partial(graph, *symbol)).collect(),
+            forms,
+            simplified: true,
+        })
+    }
+}
+
+/// θ(B_a) v^a + θ(y₀).
+fn combined(graph: &mut Graph, row: &[ExprId], independent: &[SymbolId]) -> ExprId {
+    let mut terms: Vec<ExprId> = Vec::with_capacity(row.len());
+    for (coefficient, symbol) in row.iter().zip(independent) {
+        let velocity = graph.symbol(*symbol);
+        terms.push(graph.mul(*coefficient, velocity));
+    }
+    terms.extend(&row[independent.len()..]);
+    graph.sum(&terms)
+}
+
+/// Coefficients with their names, up to numbers.
+#[derive(Default)]
+struct PartialVelocities {
+    /// What is to be named, with the names.
+    unnamed: Vec<(ExprId, String)>,
+    definitions: Procedure,
+    /// What each coefficient is in terms of names.
+    images: Vec<(ExprId, ExprId)>,
+}
+
+impl PartialVelocities {
+    /// θ(B_a), and θ(y₀) at the end. Sums and quotients among them are to be named.
+    fn coefficients(
+        &mut self,
+        graph: &mut Graph,
+        form: SymbolId,
+        value: ExprId,
+        independent: &[SymbolId],
+    ) -> Vec<ExprId> {
+        let mut row: Vec<ExprId> = independent.iter().map(|symbol| graph.partial(value, *symbol)).collect();
+        row.push(graph.at_zero(value, independent));
+        for (index, coefficient) in row.iter_mut().enumerate() {
+            *coefficient = graph.simplify(*coefficient);
+            let (_, core) = graph.split_coefficient(*coefficient);
+            if !is_monomial(graph, core) && self.unnamed.iter().all(|(known, _)| *known != core) {
+                let symbols = graph.symbols();
+                let along = independent.get(index).map(|symbol| format!("_per_{}", symbols[*symbol]));
+                let name = format!("{}{}", symbols[form], along.unwrap_or_else(|| "_drift".into()));
+                self.unnamed.push((core, name));
+            }
+        }
+        row
+    }
+
+    /// Names them, the shortest first.
+    fn define(&mut self, graph: &mut Graph) {
+        self.unnamed.sort_by_key(|(core, _)| graph.operation_count(&[*core]));
+        let mut named: Vec<(ExprId, ExprId)> = Vec::new();
+        for (core, name) in &self.unnamed {
+            let image = by_named(graph, &named, *core).unwrap_or_else(|| {
+                let image = self.definitions.define(graph, name, *core);
+                named.push((*core, image));
+                image
+            });
+            self.images.push((*core, image));
+        }
+    }
+
+    fn row(&self, graph: &mut Graph, row: &[ExprId]) -> Vec<ExprId> {
+        let mut image = |coefficient: &ExprId| {
+            let (number, core) = graph.split_coefficient(*coefficient);
+            let named = self.images.iter().find(|(value, _)| *value == core);
+            named.map_or(*coefficient, |(_, name)| graph.scale(number, *name))
+        };
+        row.iter().map(&mut image).collect()
+    }
+}
+
+/// Whether an expression is a product of positive powers of symbols and functions.
+fn is_monomial(graph: &Graph, expression: ExprId) -> bool {
+    match graph.node(expression) {
+        Node::Sum { .. } => false,
+        Node::Product { factors, .. } => factors
+            .iter()
+            .all(|(base, power)| !power.is_negative() && !matches!(graph.node(*base), Node::Sum { .. })),
+        _ => true,
+    }
+}
+
+/// A coefficient as a named one times a length, or plus a number, as for two points of one body.
+fn by_named(graph: &mut Graph, named: &[(ExprId, ExprId)], core: ExprId) -> Option<ExprId> {
+    for (value, name) in named {
+        let quotient = graph.div(core, *value);
+        let quotient = graph.simplify(quotient);
+        if graph.as_symbol(quotient).is_some() {
+            return Some(graph.mul(quotient, *name));
+        }
+        for sign in [Rational::ONE, Rational::MINUS_ONE] {
+            let rest = graph.linear_combination(&[(Rational::ONE, core), (-sign.clone(), *value)]);
+            let rest = graph.simplify(rest);
+            if graph.as_number(rest).is_some() {
+                return Some(graph.linear_combination(&[(Rational::ONE, rest), (sign, *name)]));
+            }
+        }
+    }
+    None
+}
