@@ -1,9 +1,12 @@
-//! The equations in velocity forms and with chained constraints are those of the reduced form (8),
+//! The equations in velocity forms, with named partial velocities and with chained constraints are those of the reduced form (8),
 //! entry by entry.
 
 use crate::adapted_frame::stages;
 use crate::systems;
-use nh_core::mechanics::{equations_by_velocity_forms, equations_in_wheel_frames, reduced_equations};
+use nh_core::mechanics::{
+    equations_by_partial_velocities, equations_by_velocity_forms, equations_in_wheel_frames,
+    reduced_equations,
+};
 use nh_core::model::Model;
 
 /// Whether there was a form in the frames of wheels.
@@ -19,7 +22,8 @@ fn forms_agree(mut model: Model) -> bool {
         equations_by_velocity_forms(graph, &system, &distribution),
         equations_by_velocity_forms(graph, &system, &chained),
     ];
-    for candidate in candidates.into_iter().chain(on_wheels) {
+    let by_partials = equations_by_partial_velocities(graph, &system, &distribution);
+    for candidate in candidates.into_iter().chain(on_wheels).chain(by_partials) {
         let entries = expected.mass.iter().flatten().chain(&expected.force).chain(&expected.rates);
         let others = candidate.mass.iter().flatten().chain(&candidate.force).chain(&candidate.rates);
         let others = candidate.definitions.with_outputs(others.copied().collect()).written_out(graph);
