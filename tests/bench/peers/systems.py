@@ -155,8 +155,96 @@ def tractor(n):
     return of
 
 
+def on_the_plane(f, q, u):
+    return [u.v * f.cos(q.th) - u.side * f.sin(q.th), u.v * f.sin(q.th) + u.side * f.cos(q.th), u.omega]
+
+
+def car(f):
+    return SimpleNamespace(
+        parameters="m J Js a L", coordinates="x y th delta", speeds="v side omega turn", kept="v turn",
+        inputs="drive steer",
+        rates=lambda q, u: on_the_plane(f, q, u) + [u.turn],
+        bodies=lambda p, q, u: [planar(p.m, p.J, u.v, u.side + p.a * u.omega, u.omega, u.omega),
+                                planar(0, p.Js, 0, 0, u.omega, u.omega + u.turn)],
+        forces=lambda p, q, u, i: dict(v=i.drive, turn=i.steer),
+        constraints=lambda p, q, u: [
+            u.side, (u.side + p.L * u.omega) * f.cos(q.delta) - u.v * f.sin(q.delta)],
+        solved=lambda p, q, u: dict(side=0, omega=f.sin(q.delta) / f.cos(q.delta) * u.v / p.L),
+    )
+
+
+def roller_racer(f):
+    return SimpleNamespace(
+        parameters="m I1 I2 d1 d2", coordinates="x y th phi", speeds="v side omega swing", kept="v omega",
+        inputs="torque",
+        rates=lambda q, u: on_the_plane(f, q, u) + [u.swing],
+        bodies=lambda p, q, u: [planar(p.m, p.I1, u.v, u.side, u.omega, u.omega),
+                                planar(0, p.I2, 0, 0, u.omega, u.omega + u.swing)],
+        forces=lambda p, q, u, i: dict(swing=i.torque),
+        constraints=lambda p, q, u: [
+            u.side, u.v * f.sin(q.phi) - (p.d1 * f.cos(q.phi) + p.d2) * u.omega - p.d2 * u.swing],
+        solved=lambda p, q, u: dict(
+            side=0, swing=(u.v * f.sin(q.phi) - (p.d1 * f.cos(q.phi) + p.d2) * u.omega) / p.d2),
+    )
+
+
+def hitched_trailer(f):
+    def bodies(p, q, u):
+        spin = u.omega + u.rd
+        return [planar(p.m, p.J, u.v, u.side, u.omega, u.omega),
+                planar(p.mt, p.Jt, u.v + p.d * f.sin(q.rel) * spin,
+                       u.side - p.h * u.omega - p.d * f.cos(q.rel) * spin, u.omega, spin)]
+
+    def by_an_expert(p, q, u):
+        # the trailer in its own axes: no sideways velocity
+        along = u.v * f.cos(q.rel) - p.h * f.sin(q.rel) * u.omega
+        spin = -(u.v * f.sin(q.rel) + p.h * f.cos(q.rel) * u.omega) / p.d
+        return [planar(p.m, p.J, u.v, 0, u.omega, u.omega), planar(p.mt, p.Jt, along, 0, spin, spin)]
+
+    return SimpleNamespace(
+        parameters="m J mt Jt h d", coordinates="x y th rel", speeds="v side omega rd", kept="v omega",
+        inputs="push steer",
+        rates=lambda q, u: on_the_plane(f, q, u) + [u.rd],
+        bodies=bodies,
+        bodies_by_an_expert=by_an_expert,
+        forces=lambda p, q, u, i: dict(v=i.push, omega=i.steer),
+        constraints=lambda p, q, u: [
+            u.side,
+            (u.side - p.h * u.omega) * f.cos(q.rel) - u.v * f.sin(q.rel) - p.d * (u.omega + u.rd)],
+        solved=lambda p, q, u: dict(
+            side=0, rd=-(u.v * f.sin(q.rel) + p.h * f.cos(q.rel) * u.omega) / p.d - u.omega),
+    )
+
+
+def balancing_robot(f):
+    def bodies(p, q, u):
+        sin, cos = f.sin(q.phi), f.cos(q.phi)
+        body = (p.mb, (p.I1, p.I2, p.I3),
+                (u.v + p.l * u.pitch * cos, u.side + p.l * u.omega * sin, -p.l * u.pitch * sin),
+                (0, 0, u.omega), (-u.omega * sin, u.pitch, u.omega * cos))
+        wheels = [(p.mw, (0, p.Jw, p.Iz), (u.v + arm * u.omega, u.side, 0), (0, 0, u.omega), (0, spin, u.omega))
+                  for arm, spin in ((p.b, u.w0), (-p.b, u.w1))]
+        return [body] + wheels
+
+    def forces(p, q, u, i):
+        topple = p.mb * p.g * p.l * f.sin(q.phi)
+        return dict(w0=i.right, w1=i.left, pitch=topple - i.right - i.left)
+
+    return SimpleNamespace(
+        parameters="mb mw l I1 I2 I3 Iz Jw b r g", coordinates="x y th phi", speeds="v side omega pitch w0 w1",
+        kept="v omega pitch", inputs="right left",
+        rates=lambda q, u: on_the_plane(f, q, u) + [u.pitch],
+        bodies=bodies,
+        forces=forces,
+        constraints=lambda p, q, u: [
+            u.side, p.r * u.w0 - u.v - p.b * u.omega, p.r * u.w1 - u.v + p.b * u.omega],
+        solved=lambda p, q, u: dict(side=0, w0=(u.v + p.b * u.omega) / p.r, w1=(u.v - p.b * u.omega) / p.r),
+    )
+
+
 SYSTEMS = {
     "sleigh": sleigh, "veselova": veselova, "snakeboard": snakeboard, "robot": robot, "ball on table": ball,
     "tractor, 1 trailer": tractor(1),
     **{f"tractor, {n} trailers": tractor(n) for n in range(2, 7)},
+    "car": car, "roller racer": roller_racer, "hitched trailer": hitched_trailer, "balancing robot": balancing_robot,
 }

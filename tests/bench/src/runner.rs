@@ -9,7 +9,9 @@ use nh_runtime::State;
 
 use crate::callgrind::Counts;
 use crate::contest::{Contest, samples};
-use crate::systems::{ball, robot, sleigh, snakeboard, tractor, veselova};
+use crate::systems::{
+    balancing_robot, ball, car, hitched_trailer, robot, roller_racer, sleigh, snakeboard, tractor, veselova,
+};
 
 /// Values of different contestants agree to this, relative to numbers of ordinary size.
 pub const AGREEMENT: f64 = 1e-12;
@@ -60,6 +62,10 @@ pub fn all() -> Vec<Box<dyn Run>> {
         Box::new(Of::<tractor::Tractor4>(PhantomData)),
         Box::new(Of::<tractor::Tractor5>(PhantomData)),
         Box::new(Of::<tractor::Tractor6>(PhantomData)),
+        Box::new(Of::<car::Car>(PhantomData)),
+        Box::new(Of::<roller_racer::RollerRacer>(PhantomData)),
+        Box::new(Of::<hitched_trailer::HitchedTrailer>(PhantomData)),
+        Box::new(Of::<balancing_robot::BalancingRobot>(PhantomData)),
     ]
 }
 

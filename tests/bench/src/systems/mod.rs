@@ -1,8 +1,12 @@
 //! The reference systems, each declared and written by hand.
 #![allow(non_snake_case, reason = "parameters are written as in mechanics: J, I, R, Omega")]
 
+pub mod balancing_robot;
 pub mod ball;
+pub mod car;
+pub mod hitched_trailer;
 pub mod robot;
+pub mod roller_racer;
 pub mod sleigh;
 pub mod snakeboard;
 pub mod tractor;
