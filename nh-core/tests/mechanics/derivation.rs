@@ -88,7 +88,7 @@ fn robot_keeps_its_wheels_when_asked() {
         system.state_velocities.iter().map(|s| system.model.graph.symbols()[*s].as_str()).collect();
     assert_eq!(names, ["psi1_dot", "psi2_dot"]);
     let checks: Vec<&str> = system.parameter_checks.iter().map(|check| check.text.as_str()).collect();
-    assert_eq!(checks, ["c", "2*J2 + J*R^2/c^2", "2*J2 + m1*R^2"]);
+    assert_eq!(checks, ["c", "2*J2 + m1*R^2", "2*J2 + J*R^2/c^2"]);
     // mathematics section 9: psi1'' = −U (psi2' − psi1')(P psi2' + S psi1')/(P² − S²)
     let (m0, m1, l, j, j2, c, r) = (0.8, 1.9, 0.3, 0.6, 0.05, 0.4, 0.25);
     let (d1, d2, theta) = (1.2, -0.7, 0.9);
