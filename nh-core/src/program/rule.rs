@@ -13,7 +13,7 @@ pub enum Factor {
     Weighted(Value),
 }
 
-/// An inner sum Σ_{j=1}^{k−1} a_j b_{k−j}, by its number among those of [`Recurrences::products`].
+/// An inner sum Σ_{j=1}^{k−1} a_j b_{k−j}, by its number among those of [`Recurrences::products`](super::Recurrences::products).
 pub type Inner = usize;
 
 /// How the coefficient of order k ≥ 1 follows. `v₀` is the value at order 0.
@@ -39,7 +39,7 @@ pub enum Rule {
     Scaled(Value, Value),
     /// a_k b₀ + a₀ b_k + inner
     Product(Value, Value, Inner),
-    /// 2 a₀ a_k + Σ_{j=1}^{k−1} a_j a_{k−j}, the sum by its number among [`Recurrences::squares`]
+    /// 2 a₀ a_k + Σ_{j=1}^{k−1} a_j a_{k−j}, the sum by its number among [`Recurrences::squares`](super::Recurrences::squares)
     Square(Value, usize),
     /// q = a/b: (a_k − b_k q₀ − Σ b_j q_{k−j}) / b₀; without `numerator` a is constant
     Quotient {

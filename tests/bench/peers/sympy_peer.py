@@ -79,6 +79,13 @@ def derivative(system, by_expert):
     forcing = Matrix(method.forcing)
     forces = system.forces(p, q, speeds, i)
     applied = Matrix([forces.get(name, 0) for name in independent])
+    if by_expert:
+        # of a force on a dependent speed what the speeds put in leave
+        for row, kept_speed in enumerate(independent):
+            for name, force in forces.items():
+                if name not in independent:
+                    share = sympy.diff(getattr(speeds, name), getattr(u, kept_speed))
+                    applied[row] += share * force
     if dependent:
         applied += method._Ars.T * Matrix([forces.get(name, 0) for name in dependent])
     for row, force in enumerate(applied):
