@@ -152,7 +152,11 @@ fn candidates(
     }
     let by_forms = equations_by_velocity_forms(graph, system, distribution);
     let expanded = reduced_equations(graph, system, distribution);
-    let by_parts = equations_by_partial_velocities(graph, system, distribution);
+    // careful code carries the errors of divisions along, and every quotient put in place has its own
+    let by_parts = match graph.accuracy() {
+        Accuracy::Careful => None,
+        Accuracy::Fast | Accuracy::Balanced => equations_by_partial_velocities(graph, system, distribution),
+    };
     [expanded, by_forms, by_chain].into_iter().chain(on_wheels).chain(by_parts).collect()
 }
 
