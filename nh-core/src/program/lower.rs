@@ -221,14 +221,20 @@ impl Lowering<'_> {
         self.push(step)
     }
 
-    /// A divisor of parameters alone is inverted, once for all evaluations.
+    /// A divisor of parameters alone is inverted, once for all evaluations, and meets other parameters
+    /// before anything that varies.
     fn quotient(&mut self, numerator: Term, divisor: Term) -> Value {
         let (above, below) = (self.value(numerator), self.value(divisor));
-        if self.fixed[divisor.index()] && !self.fixed[numerator.index()] {
-            let inverse = self.reciprocal(below);
-            return self.push(Step::Mul(above, inverse));
+        if self.fixed[numerator.index()] || !self.fixed[divisor.index()] {
+            return self.push(Step::Div(above, below));
         }
-        self.push(Step::Div(above, below))
+        let inverse = self.reciprocal(below);
+        match self.arena.get(numerator) {
+            Nary::Product(factors) if self.uses[numerator.index()] == 1 => {
+                self.product_with(factors, Some(inverse))
+            }
+            _ => self.push(Step::Mul(above, inverse)),
+        }
     }
 
     fn reciprocal(&mut self, value: Value) -> Value {
@@ -284,6 +290,11 @@ impl Lowering<'_> {
 
     /// Numbers, then parameters, then what varies.
     fn product(&mut self, factors: &[(Term, i32)]) -> Value {
+        self.product_with(factors, None)
+    }
+
+    /// A product with one more factor, of parameters alone.
+    fn product_with(&mut self, factors: &[(Term, i32)], inverse: Option<Value>) -> Value {
         let class = |term: Term| match self.arena.get(term) {
             Nary::Number(_) | Nary::Pi | Nary::Constant(..) => 0,
             _ if self.fixed[term.index()] => 1,
@@ -291,14 +302,15 @@ impl Lowering<'_> {
         };
         let mut ordered = factors.to_vec();
         ordered.sort_by_key(|(term, _)| class(*term));
-        let mut product = None;
-        for (term, exponent) in ordered {
-            let power = self.power(self.value(term), exponent.unsigned_abs());
-            product = Some(match product {
-                None => power,
-                Some(before) => self.push(Step::Mul(before, power)),
-            });
+        let varying = ordered.partition_point(|(term, _)| class(*term) < 2);
+        let mut powers: Vec<Value> = Vec::with_capacity(ordered.len() + 1);
+        for (term, exponent) in &ordered {
+            powers.push(self.power(self.value(*term), exponent.unsigned_abs()));
         }
+        // nothing that it could meet: it comes last
+        let position = if varying == 0 { powers.len() } else { varying };
+        powers.splice(position..position, inverse);
+        let product = powers.into_iter().reduce(|before, power| self.push(Step::Mul(before, power)));
         product.unwrap_or_else(|| self.push(Step::Constant(Rational::ONE)))
     }
 

@@ -358,3 +358,24 @@ fn what_varies_is_multiplied_by_reciprocals_of_parameters() {
     assert_eq!(divisions(&[]), (3, 0));
     assert_eq!(divisions(&symbols[..2]), (2, 1));
 }
+
+#[test]
+fn a_divisor_of_parameters_meets_other_parameters_first() {
+    let mut g = Graph::new();
+    let symbols = ["m", "l", "x", "y"].map(|name| g.new_symbol(name));
+    let [m, l, x, y] = symbols.map(|symbol| g.symbol(symbol));
+    let inertia = g.add(m, l);
+    let force = g.product(&[m, x, y].map(|factor| (factor, Rational::ONE)));
+    let acceleration = g.div(force, inertia);
+    let program = schedule_grouping(&g, &Procedure::of(vec![acceleration]), &symbols[..2]);
+    // what is left to do where m/(m + l) is known
+    let mut varies = vec![false; program.steps.len()];
+    let mut left = 0;
+    for (value, step) in program.steps.iter_ids() {
+        let mut moves = matches!(step, Step::Load(symbol) if symbols[2..].contains(symbol));
+        step.each_operand(|operand| moves |= varies[operand.index()]);
+        varies[value.index()] = moves;
+        left += usize::from(moves && !step.is_leaf());
+    }
+    assert_eq!(left, 2, "{program:?}");
+}

@@ -22,20 +22,18 @@ impl Robot {
         let r_squared = self.R * self.R;
         let e6 = self.m0 * self.l * (self.R * r_squared);
         let e7 = 2.0 * self.J2;
-        let v_dot_0_mean = -0.25 * e6 * (e5 * e5)
-            * (1.0
-                / ::nh_runtime::__private::Scalar::mul_add(
-                    ::nh_runtime::__private::Scalar::mul_add(self.m1, 2.0, self.m0),
-                    r_squared,
-                    e7,
-                ));
-        let v_dot_0_half = 0.25 * e6 * e1 * e4
-            * (1.0
-                / ::nh_runtime::__private::Scalar::mul_add(
-                    self.c * self.c,
-                    e7,
-                    self.J * r_squared,
-                ));
+        let v_dot_0_mean = -0.25 * e6
+            / ::nh_runtime::__private::Scalar::mul_add(
+                ::nh_runtime::__private::Scalar::mul_add(self.m1, 2.0, self.m0),
+                r_squared,
+                e7,
+            ) * (e5 * e5);
+        let v_dot_0_half = 0.25 * e6
+            / ::nh_runtime::__private::Scalar::mul_add(
+                self.c * self.c,
+                e7,
+                self.J * r_squared,
+            ) * e1 * e4;
         let v_dot_0 = v_dot_0_mean + v_dot_0_half;
         let v_dot_1 = v_dot_0_mean - v_dot_0_half;
         RobotState {
@@ -60,20 +58,20 @@ impl Robot {
         let e1 = state.psi1_dot - state.psi2_dot;
         let e2 = state.psi1_dot + state.psi2_dot;
         let e3 = ::nh_runtime::__private::Scalar::mul_add(
-            ::nh_runtime::__private::Scalar::mul_add(self.m1, 2.0, self.m0),
-            e2 * e2,
-            self.J * (e1 * e1) * (1.0 / (self.c * self.c)),
-        );
-        ::nh_runtime::__private::Scalar::mul_add(
             0.125 * (self.R * self.R),
-            e3,
+            ::nh_runtime::__private::Scalar::mul_add(
+                ::nh_runtime::__private::Scalar::mul_add(self.m1, 2.0, self.m0),
+                e2 * e2,
+                self.J / (self.c * self.c) * (e1 * e1),
+            ),
             0.5 * self.J2
                 * ::nh_runtime::__private::Scalar::mul_add(
                     state.psi2_dot,
                     state.psi2_dot,
                     state.psi1_dot * state.psi1_dot,
                 ),
-        )
+        );
+        e3
     }
     /// The Jacobian of the derivative by the state, and by the inputs: entry (i, j) of the first matrix
     /// is the derivative of component i of ẋ by component j of the state.

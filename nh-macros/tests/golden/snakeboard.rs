@@ -33,7 +33,7 @@ impl Snakeboard {
             ),
             -e2,
         ) * e3;
-        let v_dot_2 = 0.5 * input.steering * (1.0 / self.J1);
+        let v_dot_2 = 0.5 / self.J1 * input.steering;
         SnakeboardState {
             x: state.u1 * cos_theta,
             y: state.u1 * sin_theta,
@@ -41,9 +41,9 @@ impl Snakeboard {
             psi: state.dpsi,
             phi: state.dphi,
             u1: e4 * e1,
-            dpsi: m_l
+            dpsi: m_l / self.J0
                 * ::nh_runtime::__private::Scalar::mul_add(-self.l, input.rotor, -e2)
-                * e3 * (1.0 / self.J0),
+                * e3,
             dphi: v_dot_2,
         }
     }
@@ -185,7 +185,7 @@ impl Snakeboard {
                     0.0,
                     0.0,
                     (self.l * e8 * e12),
-                    (self.l * e13 * (1.0 / self.J0)),
+                    (self.l / self.J0 * e13),
                     0.0,
                 ],
                 [0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, d_v_dot_2],
