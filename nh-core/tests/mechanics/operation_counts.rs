@@ -27,6 +27,7 @@ fn derivatives_stay_below_their_ceilings() {
         ("veselova", systems::veselova(), 42, 0),
         ("snakeboard", systems::snakeboard(false), 13, 1),
         ("ball on a rotating table", systems::ball_on_rotating_table(), 9, 0),
+        ("car", systems::car(), 21, 2),
         ("trailers, absolute angles", systems::trailers(false, false), 122, 2),
         ("trailers, relative angles", systems::trailers(true, false), 119, 2),
     ];

@@ -44,6 +44,34 @@ pub(crate) fn sleigh_on_the_plane() -> Model {
     b.model
 }
 
+/// A car that is driven and steered at its front wheels.
+pub(crate) fn car() -> Model {
+    let velocities = ["v", "side", "omega", "turn"];
+    let mut b = Builder::new(&["m", "J", "Js", "a", "L"], &["x", "y", "th", "delta"], &velocities);
+    b.anchor(&[
+        &[(1, 1, "v*cos(th)"), (-1, 1, "side*sin(th)")],
+        &[(1, 1, "v*sin(th)"), (1, 1, "side*cos(th)")],
+        &[(1, 1, "omega")],
+        &[(1, 1, "turn")],
+    ]);
+    b.lagrangian(&[
+        (1, 2, "m*v*v"),
+        (1, 2, "m*side*side"),
+        (1, 1, "m*a*side*omega"),
+        (1, 2, "m*a*a*omega*omega"),
+        (1, 2, "J*omega*omega"),
+        (1, 2, "Js*omega*omega"),
+        (1, 1, "Js*omega*turn"),
+        (1, 2, "Js*turn*turn"),
+    ]);
+    b.constraint(&[(1, 1, "side")]);
+    b.constraint(&[(1, 1, "side*cos(delta)"), (1, 1, "L*omega*cos(delta)"), (-1, 1, "v*sin(delta)")]);
+    let mut model = b.model;
+    let kept = [0, 3].map(|index| model.sections[nh_core::id::Id::from_index(index)].symbol);
+    model.independent = Some(kept.map(|symbol| (symbol, origin())).to_vec());
+    model
+}
+
 /// The two-wheeled robot on TQ; CLMM section 6.4.
 pub(crate) fn robot() -> Model {
     let parameters = ["m0", "m1", "l", "J", "J2", "c", "R"];

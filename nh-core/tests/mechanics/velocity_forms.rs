@@ -4,7 +4,7 @@
 use crate::adapted_frame::stages;
 use crate::systems;
 use nh_core::mechanics::{
-    equations_by_partial_velocities, equations_by_velocity_forms, equations_in_wheel_frames,
+    Definition, equations_by_partial_velocities, equations_by_velocity_forms, equations_in_wheel_frames,
     reduced_equations,
 };
 use nh_core::model::Model;
@@ -43,6 +43,7 @@ fn of_constrained_and_free_systems() {
     forms_agree(systems::robot());
     forms_agree(systems::snakeboard(false));
     forms_agree(systems::charged_particle(false));
+    forms_agree(systems::car());
 }
 
 #[test]
@@ -59,5 +60,24 @@ fn on_wheels() {
     for relative in [false, true] {
         assert!(forms_agree(systems::trailers(relative, false)));
         assert!(forms_agree(systems::trailers(relative, true)));
+    }
+}
+
+/// What is no product is named: where nothing was, nothing of the above has been compared.
+#[test]
+fn quotients_of_parameters_and_angles_are_named() {
+    for (mut model, names) in [(systems::car(), Some(["omega_per_v"])), (systems::sleigh(), None)] {
+        let (system, distribution) = stages(&mut model);
+        let graph = &mut model.graph;
+        let found = equations_by_partial_velocities(graph, &system, &distribution);
+        let found = found.map(|equations| {
+            let names = equations.definitions.definitions.iter().filter_map(|definition| match definition {
+                Definition::Value { symbol, .. } => Some(graph.symbols()[*symbol].as_str()),
+                _ => None,
+            });
+            names.collect::<Vec<_>>()
+        });
+        // besides its rate
+        assert_eq!(found.as_ref().and_then(|found| found.first()), names.as_ref().map(|names| &names[0]));
     }
 }
