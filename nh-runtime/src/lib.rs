@@ -81,6 +81,8 @@ mod jet;
 mod lanes;
 mod linear;
 pub mod methods;
+#[cfg(test)]
+mod pair;
 pub mod prelude;
 mod projection;
 mod reduction;

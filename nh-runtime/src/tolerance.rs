@@ -135,23 +135,7 @@ fn mean_square<T: Real, V: Array<T>>(e: &V, x0: &V, x1: &V, each: impl Iterator<
 #[allow(clippy::float_cmp)] // exact values are meant
 mod tests {
     use super::*;
-    use crate::D;
-
-    #[derive(Clone, Copy)]
-    struct Pair([f64; 2]);
-    impl State for Pair {
-        type Scalar = f64;
-        type Dim = D<2>;
-        fn to_array(&self) -> [f64; 2] {
-            self.0
-        }
-        fn from_array(x: [f64; 2]) -> Self {
-            Self(x)
-        }
-        fn names() -> [&'static str; 2] {
-            ["a", "b"]
-        }
-    }
+    use crate::pair::Pair;
 
     fn check(rtol: f64, atol: Option<f64>) -> Result<(), IntegrationError> {
         Tolerance::<Pair>::check(&Uniform { rtol, atol })

@@ -158,24 +158,9 @@ fn dot<S: Invariants>(a: &VecOf<S>, b: &VecOf<S>) -> ScalarOf<S> {
 
 #[cfg(test)]
 mod tests {
+    use crate::pair::Pair;
     use crate::prelude::*;
     use crate::{D, Invariants};
-
-    #[derive(Clone, Copy, Debug)]
-    struct Place([f64; 2]);
-    impl State for Place {
-        type Scalar = f64;
-        type Dim = D<2>;
-        fn to_array(&self) -> [f64; 2] {
-            self.0
-        }
-        fn from_array(x: [f64; 2]) -> Self {
-            Self(x)
-        }
-        fn names() -> [&'static str; 2] {
-            ["x", "y"]
-        }
-    }
 
     /// x' = 1, which keeps no power of x; what is stated is that xⁿ + drift t is kept.
     #[derive(Clone, Copy)]
@@ -184,18 +169,18 @@ mod tests {
         drift: f64,
     }
     impl Dynamics for Wrong {
-        type State = Place;
+        type State = Pair;
         type Input = ();
-        fn derivative(&self, _t: f64, _state: &Place, (): &()) -> Place {
-            Place([1.0, 0.0])
+        fn derivative(&self, _t: f64, _state: &Pair, (): &()) -> Pair {
+            Pair([1.0, 0.0])
         }
     }
     impl Invariants for Wrong {
         type Count = D<1>;
-        fn invariants(&self, t: f64, Place([x, _]): &Place) -> [f64; 1] {
+        fn invariants(&self, t: f64, Pair([x, _]): &Pair) -> [f64; 1] {
             [x.powi(self.power) + self.drift * t]
         }
-        fn invariant_gradients(&self, _t: f64, Place([x, _]): &Place) -> [[f64; 2]; 1] {
+        fn invariant_gradients(&self, _t: f64, Pair([x, _]): &Pair) -> [[f64; 2]; 1] {
             [[f64::from(self.power) * x.powi(self.power - 1), 0.0]]
         }
     }
@@ -203,7 +188,7 @@ mod tests {
     /// From x = 10 to 0.01, where corrections of a fourth power fall by a quarter at a time.
     #[test]
     fn a_level_is_reached_from_far_away() {
-        let start = Place([0.01, 0.0]);
+        let start = Pair([0.01, 0.0]);
         let wrong = Wrong { power: 4, drift: 0.0 };
         let mut sim = Integrator::new(wrong, Conserving::new(Rk4::new(10.0)), 0.0, start);
         sim.step().unwrap();
@@ -213,7 +198,7 @@ mod tests {
     #[test]
     fn a_level_that_is_nowhere_is_an_error() {
         let wrong = Wrong { power: 2, drift: 1.0 };
-        let mut sim = Integrator::new(wrong, Conserving::new(Rk4::new(1.0)), 0.0, Place([0.5, 0.0]));
+        let mut sim = Integrator::new(wrong, Conserving::new(Rk4::new(1.0)), 0.0, Pair([0.5, 0.0]));
         let refused = sim.step();
         assert!(matches!(refused, Err(IntegrationError::Projection { .. })), "{refused:?}");
         assert!((sim.state().0[0] - 0.5).abs() == 0.0);
