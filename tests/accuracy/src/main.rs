@@ -9,50 +9,35 @@ use std::process::ExitCode;
 use nh_accuracy::measured::LEVELS;
 use nh_accuracy::{systems, table};
 use nh_bench::callgrind::{self, Counts};
-
-/// The argument with which the program calls itself under callgrind.
-const EVALUATE: &str = "--evaluate";
+use nh_bench::program;
 
 fn main() -> ExitCode {
-    match run() {
-        Ok(()) => ExitCode::SUCCESS,
-        Err(message) => {
-            eprintln!("{message}");
-            ExitCode::FAILURE
-        }
-    }
+    program::main(evaluate, measure)
 }
 
-fn run() -> Result<(), String> {
-    let systems = systems::all();
-    let arguments: Vec<String> = std::env::args().collect();
-    if let [_, argument, level] = arguments.as_slice()
-        && argument == EVALUATE
-    {
-        let level = LEVELS.iter().position(|known| known == level).ok_or("an unknown level")?;
-        for system in &systems {
-            system.evaluate(level);
-        }
-        return Ok(());
+/// What is counted: the level that is named.
+fn evaluate(arguments: &[String]) -> Result<(), String> {
+    let [level] = arguments else { return Err("a level is wanted".to_owned()) };
+    let level = LEVELS.iter().position(|known| known == level).ok_or("an unknown level")?;
+    for system in systems::all() {
+        system.evaluate(level);
     }
-    if !cfg!(target_feature = "fma") {
-        println!("compiled without fused multiply-add: set RUSTFLAGS=\"-C target-cpu=x86-64-v3\"\n");
-    }
+    Ok(())
+}
+
+fn measure() -> Result<(), String> {
+    program::warn_without_fma();
     let counts = if callgrind::is_present() {
         LEVELS.into_iter().map(counts).collect::<Result<Vec<_>, _>>()?
     } else {
         println!("valgrind is not installed: instructions are not counted\n");
         vec![Counts::default(); LEVELS.len()]
     };
-    table::print(&systems, &counts);
+    table::print(&systems::all(), &counts);
     Ok(())
 }
 
 /// The instructions of one level.
 fn counts(level: &str) -> Result<Counts, String> {
-    let program = std::env::current_exe().map_err(|error| error.to_string())?;
-    let profile = program.with_file_name(format!("nh-accuracy.{level}.callgrind"));
-    callgrind::count(&[&program.to_string_lossy(), EVALUATE, level], &profile, |name| {
-        name.ends_with("::counted")
-    })
+    program::count(&format!("nh-accuracy.{level}.callgrind"), &[level], |name| name.ends_with("::counted"))
 }

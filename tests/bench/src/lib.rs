@@ -4,6 +4,7 @@
 pub mod callgrind;
 pub mod contest;
 pub mod peers;
+pub mod program;
 pub mod runner;
 pub mod systems;
 pub mod table;

@@ -7,35 +7,25 @@
 
 use std::process::ExitCode;
 
-use nh_bench::callgrind;
+use nh_bench::callgrind::{self, Counts};
 use nh_bench::peers::Workshop;
+use nh_bench::program;
 use nh_bench::runner::{OWN, Run, all};
 use nh_bench::table::{Row, print, print_peers};
 
-/// The argument with which the benchmark calls itself under callgrind.
-const EVALUATE: &str = "--evaluate";
-
 fn main() -> ExitCode {
-    match run() {
-        Ok(()) => ExitCode::SUCCESS,
-        Err(message) => {
-            eprintln!("{message}");
-            ExitCode::FAILURE
-        }
-    }
-}
-
-fn run() -> Result<(), String> {
-    let systems = all();
-    if std::env::args().nth(1).is_some_and(|argument| argument == EVALUATE) {
-        for system in &systems {
+    let evaluate = |_: &[String]| {
+        for system in all() {
             system.evaluate();
         }
-        return Ok(());
-    }
-    if !cfg!(target_feature = "fma") {
-        println!("compiled without fused multiply-add: set RUSTFLAGS=\"-C target-cpu=x86-64-v3\"\n");
-    }
+        Ok(())
+    };
+    program::main(evaluate, measure)
+}
+
+fn measure() -> Result<(), String> {
+    let systems = all();
+    program::warn_without_fma();
     // 1. a comparison of different functions would mean nothing
     systems.iter().try_for_each(|system| system.compare())?;
     // 2. instructions
@@ -58,18 +48,15 @@ fn run() -> Result<(), String> {
 }
 
 /// Instructions of everything compiled into this benchmark.
-fn own_counts() -> Result<callgrind::Counts, String> {
+fn own_counts() -> Result<Counts, String> {
     if !callgrind::is_present() {
         println!("valgrind is not installed: instructions are not counted\n");
-        return Ok(callgrind::Counts::default());
+        return Ok(Counts::default());
     }
-    let program = std::env::current_exe().map_err(|error| error.to_string())?;
-    let profile = program.with_file_name("nh-bench.callgrind");
-    let program = program.to_string_lossy();
-    callgrind::count(&[&program, EVALUATE], &profile, |name| OWN.iter().any(|own| name.ends_with(own)))
+    program::count("nh-bench.callgrind", &[], |name| OWN.iter().any(|own| name.ends_with(own)))
 }
 
 /// The row of a system.
-fn row(system: &dyn Run, counts: &callgrind::Counts) -> Row {
+fn row(system: &dyn Run, counts: &Counts) -> Row {
     Row { name: system.name(), instructions: system.instructions(counts), nanoseconds: system.time() }
 }
