@@ -6,29 +6,10 @@ use nh_bench::contest::{Contest, Random};
 use nh_bench::systems::car;
 use nh_runtime::prelude::*;
 
-/// The car of the benchmark in numbers of any kind.
-#[nonholonomic(
-    base  { x, y, th, delta }
-    basis { v, side, omega, turn }
-    anchor {
-        der(x) = v * cos(th) - side * sin(th);
-        der(y) = v * sin(th) + side * cos(th);
-        der(th) = omega;
-        der(delta) = turn;
-    }
-    lagrangian { m / 2 * (v^2 + (side + a * omega)^2) + J / 2 * omega^2 + Js / 2 * (omega + turn)^2 }
-    constraints { side = 0; (side + L * omega) * cos(delta) = v * sin(delta); }
-    independent { v, turn }
-    inputs { drive, steer }
-    forces { v: drive; turn: steer; }
-)]
-#[derive(Clone, Copy, Debug)]
-struct Car<T> {
-    m: T,
-    J: T,
-    Js: T,
-    a: T,
-    L: T,
+nh_models::car! {
+    /// The car of the benchmark in numbers of any kind.
+    #[derive(Clone, Copy, Debug)]
+    struct Car<T> { m: T, J: T, Js: T, a: T, L: T }
 }
 
 /// The median over states of the error of the accelerations, in units of the last place of the worse.

@@ -28,33 +28,18 @@ pub(crate) struct Sleigh<T> {
     pub(crate) c: T,
 }
 
-/// A robot on two driven wheels, with its centre of mass ahead of the axle.
-#[nonholonomic(
-    base { x, y, theta, phi_r, phi_l }
-    lagrangian {
-        m / 2 * (der(x)^2 + der(y)^2)
-            + m * d * der(theta) * (cos(theta) * der(y) - sin(theta) * der(x))
-            + (J + m * d^2) / 2 * der(theta)^2
-            + I / 2 * (der(phi_r)^2 + der(phi_l)^2)
+nh_models::driven_robot! {
+    /// A robot on two driven wheels, with its centre of mass ahead of the axle.
+    #[derive(Clone, Copy, Debug)]
+    pub(crate) struct Robot {
+        pub(crate) m: f64,
+        pub(crate) J: f64,
+        pub(crate) I: f64,
+        pub(crate) b: f64,
+        pub(crate) d: f64,
+        pub(crate) r: f64,
     }
-    constraints {
-        der(x) = r / 2 * (der(phi_r) + der(phi_l)) * cos(theta);
-        der(y) = r / 2 * (der(phi_r) + der(phi_l)) * sin(theta);
-        der(theta) = r / (2 * b) * (der(phi_r) - der(phi_l));
-    }
-    forces { phi_r: right; phi_l: left; }
-    inputs { right, left }
-    emit   { multipliers, jacobian }
-    assume { m > 0; J > 0; I > 0; b > 0; r > 0; }
-)]
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Robot {
-    pub(crate) m: f64,
-    pub(crate) J: f64,
-    pub(crate) I: f64,
-    pub(crate) b: f64,
-    pub(crate) d: f64,
-    pub(crate) r: f64,
+    emit { multipliers, jacobian }
 }
 
 /// In coordinates of the plane, in the projected formulation.

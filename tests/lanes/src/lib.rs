@@ -2,35 +2,24 @@
 
 use nh_runtime::prelude::*;
 
-/// A rigid body on a plane, carried by a knife edge (Chaplygin sleigh).
-#[nonholonomic(
-    base   { theta, x, y }
-    basis  { omega, v1, v2 }
-    anchor {
-        der(theta) = omega;
-        der(x) = v1 * cos(theta) - v2 * sin(theta);
-        der(y) = v1 * sin(theta) + v2 * cos(theta);
+nh_models::sleigh! {
+    /// A rigid body on a plane, carried by a knife edge (Chaplygin sleigh).
+    #[derive(Clone, Copy, Debug)]
+    pub struct Sleigh<T> {
+        /// Mass.
+        pub m: T,
+        /// Moment of inertia about the centre of mass.
+        pub J: T,
+        /// Centre of mass ahead of the contact point.
+        pub a: T,
+        /// Centre of mass to the left of the contact point.
+        pub b: T,
+        /// Rotary friction.
+        pub c: T,
     }
-    lagrangian  { (J + m * (a^2 + b^2)) / 2 * omega^2 + m / 2 * (v1^2 + v2^2) - m * b * omega * v1 + m * a * omega * v2 }
-    constraints { v2 = 0; }
-    forces      { omega: torque - c * omega; }
-    inputs      { torque }
-    outputs     { speed = sqrt(v1^2 + a^2 * omega^2); }
-    assume      { m > 0; J > 0; }
-    emit        { jacobian }
-)]
-#[derive(Clone, Copy, Debug)]
-pub struct Sleigh<T> {
-    /// Mass.
-    pub m: T,
-    /// Moment of inertia about the centre of mass.
-    pub J: T,
-    /// Centre of mass ahead of the contact point.
-    pub a: T,
-    /// Centre of mass to the left of the contact point.
-    pub b: T,
-    /// Rotary friction.
-    pub c: T,
+    outputs { speed = sqrt(v1^2 + a^2 * omega^2); }
+    assume  { m > 0; J > 0; }
+    emit    { jacobian }
 }
 
 /// A sleigh with parameters of its own for every number.

@@ -1,4 +1,4 @@
-//! The five fixed systems.
+//! Systems of fixed size.
 
 use crate::random::Numbers;
 use std::f64::consts::FRAC_PI_2;
@@ -10,19 +10,7 @@ measured! {
     struct Sleigh, SleighState, SleighInput of 1 { m: T, J: T, a: T, b: T, c: T }
     from |p| { m: p[0], J: p[1], a: p[2], b: p[3], c: p[4] },
     states 5 of 6,
-    {
-        base   { theta, x, y }
-        basis  { omega, v1, v2 }
-        anchor {
-            der(theta) = omega;
-            der(x) = v1 * cos(theta) - v2 * sin(theta);
-            der(y) = v1 * sin(theta) + v2 * cos(theta);
-        }
-        lagrangian  { (J + m * (a^2 + b^2)) / 2 * omega^2 + m / 2 * (v1^2 + v2^2) - m * b * omega * v1 + m * a * omega * v2 }
-        constraints { v2 = 0; }
-        forces      { omega: torque - c * omega; }
-        inputs      { torque }
-    }
+    nh_models::sleigh!()
 }
 
 measured! {
@@ -32,14 +20,7 @@ measured! {
     struct Veselova, VeselovaState { I: [T; 3], c: [T; 3] }
     from |p| { I: [p[0], p[1], p[2]], c: [p[3], p[4], p[5]] },
     states 6 of 6,
-    {
-        base { g[3] }
-        basis { w[3] }
-        anchor { der(g) = cross(g, w); }
-        brackets so(3) { w[0], w[1], w[2] }
-        lagrangian  { sum(i in 0..3: I[i] * w[i]^2) / 2 - dot(c, g) }
-        constraints { dot(g, w) = 0; }
-    }
+    nh_models::veselova!()
 }
 
 measured! {
@@ -49,26 +30,7 @@ measured! {
     struct Snakeboard, SnakeboardState, SnakeboardInput of 2 { m: T, l: T, J0: T, J1: T }
     from |p| { m: p[0], l: p[1], J0: p[2], J1: p[3] },
     states 8 of 10,
-    {
-        base  { x, y, theta, psi, phi }
-        basis { u1, u2, dtheta, dpsi, dphi }
-        anchor {
-            der(x) = u1 * cos(theta) - u2 * sin(theta);
-            der(y) = u1 * sin(theta) + u2 * cos(theta);
-            der(theta) = dtheta;
-            der(psi) = dpsi;
-            der(phi) = dphi;
-        }
-        lagrangian {
-            m / 2 * (u1^2 + u2^2) + m * l^2 / 2 * dtheta^2 + J0 / 2 * dpsi^2 + J0 * dpsi * dtheta + J1 * dphi^2
-        }
-        constraints {
-            -sin(phi) * u1 + cos(phi) * u2 - l * cos(phi) * dtheta = 0;
-             sin(phi) * u1 + cos(phi) * u2 + l * cos(phi) * dtheta = 0;
-        }
-        forces { psi: rotor; phi: steering; }
-        inputs { rotor, steering }
-    }
+    nh_models::snakeboard!()
 }
 
 measured! {
@@ -78,19 +40,7 @@ measured! {
     struct Robot, RobotState { m0: T, m1: T, l: T, J: T, J2: T, c: T, R: T }
     from |p| { m0: p[0], m1: p[1], l: p[2], J: p[3], J2: p[4], c: p[5], R: p[6] },
     states 7 of 10,
-    {
-        base { psi1, psi2, x, y, theta }
-        lagrangian {
-            let lateral = -der(x) * sin(theta) + der(y) * cos(theta);
-            (m0 + 2 * m1) / 2 * (der(x)^2 + der(y)^2) + m0 * l * lateral * der(theta)
-                + J / 2 * der(theta)^2 + J2 / 2 * (der(psi1)^2 + der(psi2)^2)
-        }
-        constraints {
-            der(x) = -R / 2 * (der(psi1) + der(psi2)) * cos(theta);
-            der(y) = -R / 2 * (der(psi1) + der(psi2)) * sin(theta);
-            der(theta) = R / (2 * c) * (der(psi2) - der(psi1));
-        }
-    }
+    nh_models::robot!()
 }
 
 measured! {
@@ -100,14 +50,7 @@ measured! {
     struct Ball, BallState { m: T, r: T, k2: T, Omega: T }
     from |p| { m: p[0], r: p[1], k2: p[2], Omega: p[3] },
     states 5 of 7,
-    {
-        base  { x, y }
-        basis { dx, dy, wx, wy, wz }
-        anchor { der(x) = dx; der(y) = dy; }
-        brackets { [wx, wy] = -wz; [wy, wz] = -wx; [wz, wx] = -wy; }
-        lagrangian { m / 2 * (dx^2 + dy^2 + k2 * (wx^2 + wy^2 + wz^2)) }
-        constraints { dx = r * wy - Omega * y; dy = -r * wx + Omega * x; }
-    }
+    nh_models::ball!()
 }
 
 measured! {

@@ -6,7 +6,8 @@ use std::marker::PhantomData;
 use crate::measured::Study;
 
 /// Declares a system at every level and implements [`Measured`](crate::measured::Measured): numbers of the
-/// table, and the struct from a list of parameters.
+/// table, and the struct from a list of parameters. At the end stands the declaration, in braces or as one of
+/// [`nh_models`].
 macro_rules! measured {
     (
         $module:ident, $name:literal, $numbers:expr,
@@ -14,15 +15,15 @@ macro_rules! measured {
         struct $System:ident, $State:ident $(, $Input:ident of $inputs:literal)? { $($field:ident: $kind:ty),* $(,)? }
         from |$p:ident| $make:tt,
         states $states:literal of $all:literal,
-        $declaration:tt
+        $($declaration:tt)+
     ) => {
         $(#[doc = $doc])*
         pub mod $module {
-            measured!(@level fast, $System, $State, [$($Input, $inputs)?], [$($field: $kind),*], $p, $make, $states, $all, $declaration);
-            measured!(@level balanced, $System, $State, [$($Input, $inputs)?], [$($field: $kind),*], $p, $make, $states, $all, $declaration);
-            measured!(@level careful, $System, $State, [$($Input, $inputs)?], [$($field: $kind),*], $p, $make, $states, $all, $declaration);
+            measured!(@level fast, $System, $State, [$($Input, $inputs)?], [$($field: $kind),*], $p, $make, $states, $all, $($declaration)+);
+            measured!(@level balanced, $System, $State, [$($Input, $inputs)?], [$($field: $kind),*], $p, $make, $states, $all, $($declaration)+);
+            measured!(@level careful, $System, $State, [$($Input, $inputs)?], [$($field: $kind),*], $p, $make, $states, $all, $($declaration)+);
 
-            measured!(@twin $System, $State, [$($Input, $inputs)?], [$($field: $kind),*], $p, $make, $all, $declaration);
+            measured!(@twin $System, $State, [$($Input, $inputs)?], [$($field: $kind),*], $p, $make, $all, $($declaration)+);
 
             /// The system at every level.
             #[derive(Clone, Copy, Debug)]
@@ -40,16 +41,19 @@ macro_rules! measured {
     };
     (
         @level $level:ident, $System:ident, $State:ident, [$($Input:ident, $inputs:literal)?],
-        [$($field:ident: $kind:ty),*], $p:ident, $make:tt, $states:literal, $all:literal, { $($declaration:tt)* }
+        [$($field:ident: $kind:ty),*], $p:ident, $make:tt, $states:literal, $all:literal, $($declaration:tt)+
     ) => {
         /// Emitted at this level.
         pub mod $level {
             use nh_runtime::prelude::*;
 
-            /// The parameters.
-            #[nonholonomic($($declaration)* accuracy { $level })]
-            #[derive(Clone, Copy, Debug)]
-            pub struct $System<T> { $($field: $kind),* }
+            measured! {
+                @declare { accuracy { $level } }
+                /// The parameters.
+                #[derive(Clone, Copy, Debug)]
+                pub struct $System<T> { $($field: $kind),* }
+                as $($declaration)+
+            }
 
             /// The system at this level.
             #[derive(Clone, Copy, Debug)]
@@ -99,16 +103,19 @@ macro_rules! measured {
     };
     (
         @twin $System:ident, $State:ident, [$($Input:ident, $inputs:literal)?],
-        [$($field:ident: $kind:ty),*], $p:ident, $make:tt, $all:literal, { $($declaration:tt)* }
+        [$($field:ident: $kind:ty),*], $p:ident, $make:tt, $all:literal, $($declaration:tt)+
     ) => {
         /// With all velocities in the state, and multipliers.
         pub mod twin {
             use nh_runtime::prelude::*;
 
-            /// The parameters.
-            #[nonholonomic($($declaration)* formulation { projected })]
-            #[derive(Clone, Copy, Debug)]
-            pub struct $System<T> { $($field: $kind),* }
+            measured! {
+                @declare { formulation { projected } }
+                /// The parameters.
+                #[derive(Clone, Copy, Debug)]
+                pub struct $System<T> { $($field: $kind),* }
+                as $($declaration)+
+            }
 
             /// The system with multipliers.
             #[derive(Clone, Copy, Debug)]
@@ -135,6 +142,13 @@ macro_rules! measured {
                 }
             }
         }
+    };
+    (@declare { $($more:tt)* } $parameters:item as { $($sections:tt)* }) => {
+        #[nonholonomic($($sections)* $($more)*)]
+        $parameters
+    };
+    (@declare { $($more:tt)* } $parameters:item as nh_models::$system:ident!($($sizes:tt)*)) => {
+        nh_models::$system! { $($sizes)* $parameters $($more)* }
     };
     (@input $list:ident) => { { let _ = $list; } };
     (@input $list:ident $Input:ident, $inputs:literal) => {

@@ -1,8 +1,7 @@
 //! Tractors with trailers, hitched on the axles, in relative angles.
 //!
-//! These are the systems of the benchmark of record, written again as those in [`bodies`](super::bodies) are:
-//! there each stands beside its hand-written equations, over `f64`; here every level of accuracy is a
-//! declaration of its own, over any number. `tests/same_systems.rs` says that they agree.
+//! The benchmark of record has them too, each beside its hand-written equations; `tests/same_systems.rs` says that
+//! these agree.
 
 use crate::random::Numbers;
 use std::f64::consts::FRAC_PI_2;
@@ -29,34 +28,7 @@ macro_rules! tractor {
                 a: p[2 * $bodies + $n],
             },
             states $states of $all,
-            {
-                base  { x, y, th, rel[$n] }
-                basis { v, side, omega, rd[$n] }
-                anchor {
-                    der(x) = v * cos(th) - side * sin(th);
-                    der(y) = v * sin(th) + side * cos(th);
-                    der(th) = omega;
-                    for i in 0..$n { der(rel[i]) = rd[i]; }
-                }
-                lagrangian {
-                    let ang[i in 0..$n] = sum(j in 0..i+1: rel[j]);
-                    let w[i in 0..$n] = omega + sum(j in 0..i+1: rd[j]);
-                    let px[i in 0..$n] = v + sum(j in 0..i+1: d[j] * sin(ang[j]) * w[j]);
-                    let py[i in 0..$n] = side - sum(j in 0..i+1: d[j] * cos(ang[j]) * w[j]);
-                    m[0] / 2 * (v^2 + (side + a * omega)^2) + J[0] / 2 * omega^2
-                        + sum(i in 0..$n: J[i+1] / 2 * w[i]^2 + m[i+1] / 2 * (px[i]^2 + py[i]^2))
-                }
-                constraints {
-                    let ang[i in 0..$n] = sum(j in 0..i+1: rel[j]);
-                    let w[i in 0..$n] = omega + sum(j in 0..i+1: rd[j]);
-                    let px[i in 0..$n] = v + sum(j in 0..i+1: d[j] * sin(ang[j]) * w[j]);
-                    let py[i in 0..$n] = side - sum(j in 0..i+1: d[j] * cos(ang[j]) * w[j]);
-                    side = 0;
-                    for i in 0..$n { cos(ang[i]) * py[i] = sin(ang[i]) * px[i]; }
-                }
-                inputs { push, steer }
-                forces { v: push; omega: steer; }
-            }
+            nh_models::tractor!($n trailers:)
         }
     };
 }

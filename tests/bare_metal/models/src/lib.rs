@@ -11,44 +11,18 @@ macro_rules! models {
 
             use nh_runtime::prelude::*;
 
-            /// A rigid body on a plane, carried by a knife edge (Chaplygin sleigh).
-            #[nonholonomic(
-                base   { theta, x, y }
-                basis  { omega, v1, v2 }
-                anchor {
-                    der(theta) = omega;
-                    der(x) = v1 * cos(theta) - v2 * sin(theta);
-                    der(y) = v1 * sin(theta) + v2 * cos(theta);
-                }
-                lagrangian  { (J + m * (a^2 + b^2)) / 2 * omega^2 + m / 2 * (v1^2 + v2^2) - m * b * omega * v1 + m * a * omega * v2 }
-                constraints { v2 = 0; }
-                forces      { omega: torque - c * omega; }
-                inputs      { torque }
-            )]
-            #[derive(Clone, Copy, Debug)]
-            pub struct Sleigh { pub m: $float, pub J: $float, pub a: $float, pub b: $float, pub c: $float }
+            nh_models::sleigh! {
+                /// A rigid body on a plane, carried by a knife edge (Chaplygin sleigh).
+                #[derive(Clone, Copy, Debug)]
+                pub struct Sleigh { pub m: $float, pub J: $float, pub a: $float, pub b: $float, pub c: $float }
+            }
 
-            /// A robot on two driven wheels, with its centre of mass ahead of the axle.
-            #[nonholonomic(
-                base { x, y, theta, phi_r, phi_l }
-                lagrangian {
-                    m / 2 * (der(x)^2 + der(y)^2)
-                        + m * d * der(theta) * (cos(theta) * der(y) - sin(theta) * der(x))
-                        + (J + m * d^2) / 2 * der(theta)^2
-                        + I / 2 * (der(phi_r)^2 + der(phi_l)^2)
+            nh_models::driven_robot! {
+                /// A robot on two driven wheels, with its centre of mass ahead of the axle.
+                #[derive(Clone, Copy, Debug)]
+                pub struct Robot {
+                    pub m: $float, pub J: $float, pub I: $float, pub b: $float, pub d: $float, pub r: $float,
                 }
-                constraints {
-                    der(x) = r / 2 * (der(phi_r) + der(phi_l)) * cos(theta);
-                    der(y) = r / 2 * (der(phi_r) + der(phi_l)) * sin(theta);
-                    der(theta) = r / (2 * b) * (der(phi_r) - der(phi_l));
-                }
-                forces { phi_r: right; phi_l: left; }
-                inputs { right, left }
-                assume { m > 0; J > 0; I > 0; b > 0; r > 0; }
-            )]
-            #[derive(Clone, Copy, Debug)]
-            pub struct Robot {
-                pub m: $float, pub J: $float, pub I: $float, pub b: $float, pub d: $float, pub r: $float,
             }
 
             const DT: $float = 0.02;

@@ -10,56 +10,28 @@
 use std::hint::black_box;
 use std::process::ExitCode;
 
-use nh_bench::callgrind;
 use nh_bench::contest::Random;
+use nh_bench::{callgrind, program};
 use nh_runtime::methods::Method;
 use nh_runtime::prelude::*;
 use nh_runtime::{Dim, ScalarOf, VecOf};
 
-/// The argument with which the program calls itself under callgrind.
-const EVALUATE: &str = "--evaluate";
 /// Instructions are counted from the beginning of the one function to that of the other.
 const COUNTED: [&str; 2] = ["*counted_step*", "*end_of_step*"];
 /// How many steps are counted of each case.
 const STEPS: usize = 16;
 
-/// A sleigh with a basis of D: sine and cosine.
-#[nonholonomic(
-    base   { theta, x, y }
-    basis  { omega, v1, v2 }
-    anchor {
-        der(theta) = omega;
-        der(x) = v1 * cos(theta) - v2 * sin(theta);
-        der(y) = v1 * sin(theta) + v2 * cos(theta);
-    }
-    lagrangian  { (J + m * (a^2 + b^2)) / 2 * omega^2 + m / 2 * (v1^2 + v2^2) - m * b * omega * v1 + m * a * omega * v2 }
-    constraints { v2 = 0; }
-    forces      { omega: torque - c * omega; }
-    inputs      { torque }
-)]
-#[derive(Clone, Copy, Debug)]
-struct Sleigh<T> {
-    m: T,
-    J: T,
-    a: T,
-    b: T,
-    c: T,
+nh_models::sleigh! {
+    /// A sleigh with a basis of D: sine and cosine.
+    #[derive(Clone, Copy, Debug)]
+    struct Sleigh<T> { m: T, J: T, a: T, b: T, c: T }
 }
 
-/// The Veselova system: all velocities and a multiplier.
-#[nonholonomic(
-    base { g[3] }
+nh_models::veselova! {
+    /// The Veselova system: all velocities and a multiplier.
+    #[derive(Clone, Copy, Debug)]
+    struct Veselova<T> { I: [T; 3], c: [T; 3] }
     on { dot(g, g) = 1; }
-    basis { w[3] }
-    anchor { der(g) = cross(g, w); }
-    brackets so(3) { w }
-    lagrangian { sum(i in 0..3: I[i] * w[i]^2) / 2 - dot(c, g) }
-    constraints { dot(g, w) = 0; }
-)]
-#[derive(Clone, Copy, Debug)]
-struct Veselova<T> {
-    I: [T; 3],
-    c: [T; 3],
 }
 
 /// Steps of a method from many states, or of one simulation.
@@ -186,28 +158,22 @@ fn cases() -> Vec<Case> {
 }
 
 fn main() -> ExitCode {
-    match run() {
-        Ok(()) => ExitCode::SUCCESS,
-        Err(message) => {
-            eprintln!("{message}");
-            ExitCode::FAILURE
-        }
-    }
-}
-
-fn run() -> Result<(), String> {
-    let cases = cases();
-    if std::env::args().nth(1).is_some_and(|argument| argument == EVALUATE) {
-        for case in &cases {
+    let evaluate = |_: &[String]| {
+        for case in cases() {
             (case.run)();
         }
-        return Ok(());
-    }
+        Ok(())
+    };
+    program::main(evaluate, measure)
+}
+
+fn measure() -> Result<(), String> {
+    let cases = cases();
     if !callgrind::is_present() {
         println!("valgrind is not there: nothing is counted");
         return Ok(());
     }
-    let counts = callgrind::count_each(EVALUATE, COUNTED, cases.len() * STEPS)?;
+    let counts = program::count_each(COUNTED, cases.len() * STEPS)?;
     println!("| numbers | system | step as | method | least | most |");
     println!("|---|---|---|---|--:|--:|");
     let mut varying = Vec::new();

@@ -1,25 +1,12 @@
 //! A homogeneous ball that rolls on a rotating table, CLMM section 7.4.
 
-use nh_runtime::prelude::*;
-
 use crate::contest::contest;
 
-/// The ball on the rotating table.
-#[nonholonomic(
-    base  { x, y }
-    basis { dx, dy, wx, wy, wz }
-    anchor { der(x) = dx; der(y) = dy; }
-    brackets { [wx, wy] = -wz; [wy, wz] = -wx; [wz, wx] = -wy; }
-    lagrangian { m / 2 * (dx^2 + dy^2 + k2 * (wx^2 + wy^2 + wz^2)) }
-    constraints { dx = r * wy - Omega * y; dy = -r * wx + Omega * x; }
+nh_models::ball! {
+    /// The ball on the rotating table.
+    #[derive(Clone, Copy, Debug)]
+    pub struct Ball { m: f64, r: f64, k2: f64, Omega: f64 }
     emit { jacobian }
-)]
-#[derive(Clone, Copy, Debug)]
-pub struct Ball {
-    m: f64,
-    r: f64,
-    k2: f64,
-    Omega: f64,
 }
 
 contest! {

@@ -1,33 +1,12 @@
 //! A car that is driven and steered at its front wheels.
 
-use nh_runtime::prelude::*;
-
 use crate::contest::contest;
 
-/// A car; its front wheels turn about the vertical axis together.
-#[nonholonomic(
-    base  { x, y, th, delta }
-    basis { v, side, omega, turn }
-    anchor {
-        der(x) = v * cos(th) - side * sin(th);
-        der(y) = v * sin(th) + side * cos(th);
-        der(th) = omega;
-        der(delta) = turn;
-    }
-    lagrangian { m / 2 * (v^2 + (side + a * omega)^2) + J / 2 * omega^2 + Js / 2 * (omega + turn)^2 }
-    constraints { side = 0; (side + L * omega) * cos(delta) = v * sin(delta); }
-    independent { v, turn }
-    inputs { drive, steer }
-    forces { v: drive; turn: steer; }
+nh_models::car! {
+    /// A car; its front wheels turn about the vertical axis together.
+    #[derive(Clone, Copy, Debug)]
+    pub struct Car { m: f64, J: f64, Js: f64, a: f64, L: f64 }
     emit { jacobian }
-)]
-#[derive(Clone, Copy, Debug)]
-pub struct Car {
-    m: f64,
-    J: f64,
-    Js: f64,
-    a: f64,
-    L: f64,
 }
 
 contest! {

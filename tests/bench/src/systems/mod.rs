@@ -1,4 +1,4 @@
-//! The reference systems, each declared and written by hand.
+//! The reference systems, each declared and written by hand. What other crates declare too is in [`nh_models`].
 #![allow(non_snake_case, reason = "parameters are written as in mechanics: J, I, R, Omega")]
 
 pub mod balancing_robot;

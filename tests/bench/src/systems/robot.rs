@@ -1,33 +1,12 @@
 //! The two-wheeled robot on the plane, CLMM section 6.4.
 
-use nh_runtime::prelude::*;
-
 use crate::contest::contest;
 
-/// The two-wheeled robot.
-#[nonholonomic(
-    base { psi1, psi2, x, y, theta }
-    lagrangian {
-        let lateral = -der(x) * sin(theta) + der(y) * cos(theta);
-        (m0 + 2 * m1) / 2 * (der(x)^2 + der(y)^2) + m0 * l * lateral * der(theta)
-            + J / 2 * der(theta)^2 + J2 / 2 * (der(psi1)^2 + der(psi2)^2)
-    }
-    constraints {
-        der(x) = -R / 2 * (der(psi1) + der(psi2)) * cos(theta);
-        der(y) = -R / 2 * (der(psi1) + der(psi2)) * sin(theta);
-        der(theta) = R / (2 * c) * (der(psi2) - der(psi1));
-    }
+nh_models::robot! {
+    /// The two-wheeled robot.
+    #[derive(Clone, Copy, Debug)]
+    pub struct Robot { m0: f64, m1: f64, l: f64, J: f64, J2: f64, c: f64, R: f64 }
     emit { jacobian }
-)]
-#[derive(Clone, Copy, Debug)]
-pub struct Robot {
-    m0: f64,
-    m1: f64,
-    l: f64,
-    J: f64,
-    J2: f64,
-    c: f64,
-    R: f64,
 }
 
 contest! {

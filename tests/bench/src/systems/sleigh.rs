@@ -1,31 +1,12 @@
 //! The Chaplygin sleigh with a torque and rotary friction.
 
-use nh_runtime::prelude::*;
-
 use crate::contest::contest;
 
-/// The Chaplygin sleigh.
-#[nonholonomic(
-    base   { theta, x, y }
-    basis  { omega, v1, v2 }
-    anchor {
-        der(theta) = omega;
-        der(x) = v1 * cos(theta) - v2 * sin(theta);
-        der(y) = v1 * sin(theta) + v2 * cos(theta);
-    }
-    lagrangian  { (J + m * (a^2 + b^2)) / 2 * omega^2 + m / 2 * (v1^2 + v2^2) - m * b * omega * v1 + m * a * omega * v2 }
-    constraints { v2 = 0; }
-    forces      { omega: torque - c * omega; }
-    inputs      { torque }
-    emit        { jacobian }
-)]
-#[derive(Clone, Copy, Debug)]
-pub struct Sleigh {
-    m: f64,
-    J: f64,
-    a: f64,
-    b: f64,
-    c: f64,
+nh_models::sleigh! {
+    /// The Chaplygin sleigh.
+    #[derive(Clone, Copy, Debug)]
+    pub struct Sleigh { m: f64, J: f64, a: f64, b: f64, c: f64 }
+    emit { jacobian }
 }
 
 contest! {

@@ -1,38 +1,13 @@
 //! The snakeboard with torques on its rotor and on its wheels.
 
-use nh_runtime::prelude::*;
-
 use crate::contest::contest;
 
-/// The snakeboard.
-#[nonholonomic(
-    base  { x, y, theta, psi, phi }
-    basis { u1, u2, dtheta, dpsi, dphi }
-    anchor {
-        der(x) = u1 * cos(theta) - u2 * sin(theta);
-        der(y) = u1 * sin(theta) + u2 * cos(theta);
-        der(theta) = dtheta;
-        der(psi) = dpsi;
-        der(phi) = dphi;
-    }
-    lagrangian {
-        m / 2 * (u1^2 + u2^2) + m * l^2 / 2 * dtheta^2 + J0 / 2 * dpsi^2 + J0 * dpsi * dtheta + J1 * dphi^2
-    }
-    constraints {
-        -sin(phi) * u1 + cos(phi) * u2 - l * cos(phi) * dtheta = 0;
-         sin(phi) * u1 + cos(phi) * u2 + l * cos(phi) * dtheta = 0;
-    }
+nh_models::snakeboard! {
+    /// The snakeboard.
+    #[derive(Clone, Copy, Debug)]
+    pub struct Snakeboard { m: f64, l: f64, J0: f64, J1: f64 }
     independent { u1, dpsi, dphi }
-    forces { psi: rotor; phi: steering; }
-    inputs { rotor, steering }
-    emit   { jacobian }
-)]
-#[derive(Clone, Copy, Debug)]
-pub struct Snakeboard {
-    m: f64,
-    l: f64,
-    J0: f64,
-    J1: f64,
+    emit { jacobian }
 }
 
 contest! {

@@ -11,42 +11,12 @@ use crate::contest::contest;
 /// A tractor with a number of trailers, its hand-written equations, and its place in the contest.
 macro_rules! tractor {
     ($Tractor:ident, $State:ident, $Input:ident, $name:literal, $trailers:literal, $bodies:literal, $states:literal, [$($i:literal)*]) => {
-        /// A tractor with trailers.
-        #[nonholonomic(
-            base  { x, y, th, rel[$trailers] }
-            basis { v, side, omega, rd[$trailers] }
-            anchor {
-                der(x) = v * cos(th) - side * sin(th);
-                der(y) = v * sin(th) + side * cos(th);
-                der(th) = omega;
-                for i in 0..$trailers { der(rel[i]) = rd[i]; }
-            }
-            lagrangian {
-                let ang[i in 0..$trailers] = sum(j in 0..i+1: rel[j]);
-                let w[i in 0..$trailers] = omega + sum(j in 0..i+1: rd[j]);
-                let px[i in 0..$trailers] = v + sum(j in 0..i+1: d[j] * sin(ang[j]) * w[j]);
-                let py[i in 0..$trailers] = side - sum(j in 0..i+1: d[j] * cos(ang[j]) * w[j]);
-                m[0] / 2 * (v^2 + (side + a * omega)^2) + J[0] / 2 * omega^2
-                    + sum(i in 0..$trailers: J[i+1] / 2 * w[i]^2 + m[i+1] / 2 * (px[i]^2 + py[i]^2))
-            }
-            constraints {
-                let ang[i in 0..$trailers] = sum(j in 0..i+1: rel[j]);
-                let w[i in 0..$trailers] = omega + sum(j in 0..i+1: rd[j]);
-                let px[i in 0..$trailers] = v + sum(j in 0..i+1: d[j] * sin(ang[j]) * w[j]);
-                let py[i in 0..$trailers] = side - sum(j in 0..i+1: d[j] * cos(ang[j]) * w[j]);
-                side = 0;
-                for i in 0..$trailers { cos(ang[i]) * py[i] = sin(ang[i]) * px[i]; }
-            }
-            inputs { push, steer }
-            forces { v: push; omega: steer; }
+        nh_models::tractor! {
+            $trailers trailers:
+            /// A tractor with trailers.
+            #[derive(Clone, Copy, Debug)]
+            pub struct $Tractor { m: [f64; $bodies], J: [f64; $bodies], d: [f64; $trailers], a: f64 }
             emit { jacobian }
-        )]
-        #[derive(Clone, Copy, Debug)]
-        pub struct $Tractor {
-            m: [f64; $bodies],
-            J: [f64; $bodies],
-            d: [f64; $trailers],
-            a: f64,
         }
 
         contest! {

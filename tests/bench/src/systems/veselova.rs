@@ -1,23 +1,12 @@
 //! Veselova's system in principal axes with a linear potential, all velocities in the state.
 
-use nh_runtime::prelude::*;
-
 use crate::contest::contest;
 
-/// Veselova's system.
-#[nonholonomic(
-    base { g[3] }
-    basis { w[3] }
-    anchor { der(g) = cross(g, w); }
-    brackets so(3) { w[0], w[1], w[2] }
-    lagrangian  { sum(i in 0..3: I[i] * w[i]^2) / 2 - dot(c, g) }
-    constraints { dot(g, w) = 0; }
-    emit        { jacobian }
-)]
-#[derive(Clone, Copy, Debug)]
-pub struct Veselova {
-    I: [f64; 3],
-    c: [f64; 3],
+nh_models::veselova! {
+    /// Veselova's system.
+    #[derive(Clone, Copy, Debug)]
+    pub struct Veselova { I: [f64; 3], c: [f64; 3] }
+    emit { jacobian }
 }
 
 contest! {
