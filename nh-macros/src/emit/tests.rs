@@ -1,7 +1,7 @@
 //! Emitted code against golden files: `UPDATE_GOLDEN=1 cargo test -p nh-macros` writes them anew.
 
 use nh_core::model::Request;
-use proc_macro2::TokenStream;
+use proc_macro2::{TokenStream, TokenTree};
 
 use super::samples::{chain, chain_system, layout, rails, rails_system, sleigh, sleigh_system};
 use super::{emit, stubs};
@@ -61,20 +61,42 @@ fn a_sleigh_with_taylor_series() {
     golden("by_hand_taylor", quote::quote!(#(#series)*));
 }
 
+/// What stands in the groups of some tokens.
+fn groups(tokens: TokenStream) -> Vec<TokenStream> {
+    let inside = |token| if let TokenTree::Group(group) = token { Some(group.stream()) } else { None };
+    tokens.into_iter().filter_map(inside).collect()
+}
+
+/// A system of `tests/models` as the benchmark of record declares it: the sections, and the struct.
+fn declared(name: &str) -> (TokenStream, syn::ItemStruct) {
+    let read = |path: &str, is_it: &dyn Fn(&syn::ItemMacro) -> bool| {
+        let path = format!("{}/../tests/{path}", env!("CARGO_MANIFEST_DIR"));
+        let file = syn::parse_file(&std::fs::read_to_string(path).expect("it is there")).expect("it is Rust");
+        let found = file.items.into_iter().find_map(|item| match item {
+            syn::Item::Macro(item) if is_it(&item) => Some(item.mac),
+            _ => None,
+        });
+        found.expect("a macro")
+    };
+    // (…) => { #[nh_runtime::nonholonomic(sections $($sections)*)] $parameters };
+    let rule = read("models/src/lib.rs", &|item| item.ident.as_ref().is_some_and(|ident| ident == name));
+    let attribute = groups(groups(rule.tokens).swap_remove(1)).swap_remove(0);
+    let mut sections: Vec<TokenTree> = groups(attribute).swap_remove(0).into_iter().collect();
+    sections.truncate(sections.len() - 3);
+    // struct … more sections
+    let is_used =
+        |item: &syn::ItemMacro| item.mac.path.segments.iter().map(|s| &s.ident).eq(["nh_models", name]);
+    let used = read(&format!("bench/src/systems/{name}.rs"), &is_used);
+    let rest = |input: syn::parse::ParseStream<'_>| Ok((input.parse()?, input.parse::<TokenStream>()?));
+    let (item, more) = used.parse_body_with(rest).expect("a struct and more sections");
+    (sections.into_iter().chain(more).collect(), item)
+}
+
 /// The arithmetic of the reference systems, as the benchmark of record declares them.
 #[test]
 fn reference_systems() {
     for name in ["sleigh", "veselova", "snakeboard", "robot", "ball"] {
-        let path = format!("{}/../tests/bench/src/systems/{name}.rs", env!("CARGO_MANIFEST_DIR"));
-        let file = syn::parse_file(&std::fs::read_to_string(path).expect("it is there")).expect("it is Rust");
-        let is_ours = |attribute: &syn::Attribute| attribute.path().is_ident("nonholonomic");
-        let declared = file.items.into_iter().find_map(|item| match item {
-            syn::Item::Struct(item) if item.attrs.iter().any(is_ours) => Some(item),
-            _ => None,
-        });
-        let mut item = declared.expect("a declared system");
-        let attribute = item.attrs.extract_if(.., |attribute| is_ours(attribute)).next().expect("it has one");
-        let attribute = attribute.meta.require_list().expect("sections").tokens.clone();
+        let (attribute, item) = declared(name);
         let items = syn::parse2::<syn::File>(crate::expand::nonholonomic(attribute, quote::quote!(#item)));
         let is_arithmetic = |item: &syn::ImplItem| {
             let names = ["derivative", "energy", "jacobian"];
