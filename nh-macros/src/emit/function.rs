@@ -41,22 +41,10 @@ impl Head {
         body: &TokenStream,
         inlining: &TokenStream,
     ) -> TokenStream {
-        let Context { visibility, scalar, .. } = context;
-        let (t, state, input) = (&context.locals.t, &context.locals.state, &context.locals.input);
-        let state_type = context.type_of(&context.state);
-        let input_type = context.input_type();
-        let input_parameter = self.takes_input.then(|| quote!(, #input: &#input_type));
-        let block = block(drops(context, used, self.takes_input), body);
-        let name = Ident::new(self.name, Span::call_site());
-        let Self { doc, returns, .. } = self;
-        quote! {
-            #(#[doc = #doc])*
-            #[must_use]
-            #inlining
-            #visibility fn #name(
-                &self, #t: #scalar, #state: &#state_type #input_parameter
-            ) -> #returns #block
-        }
+        let argument = (Argument::State, context.locals.state.clone(), context.type_of(&context.state));
+        let Self { name, doc, takes_input, ref returns } = *self;
+        let signature = Signature { name, doc, argument, takes_input, returns: returns.clone() };
+        signature.with_inlining(context, used, body, inlining)
     }
 }
 
@@ -79,23 +67,34 @@ impl Signature {
         used: &BTreeSet<Argument>,
         body: &TokenStream,
     ) -> TokenStream {
+        self.with_inlining(context, used, body, &quote!(#[inline]))
+    }
+
+    fn with_inlining(
+        &self,
+        context: &Context,
+        used: &BTreeSet<Argument>,
+        body: &TokenStream,
+        inlining: &TokenStream,
+    ) -> TokenStream {
         let Context { visibility, scalar, .. } = context;
         let (t, input) = (&context.locals.t, &context.locals.input);
         let input_type = context.input_type();
         let input_parameter = self.takes_input.then(|| quote!(, #input: &#input_type));
-        let mut arguments = vec![Argument::This, Argument::Time];
-        arguments.extend(self.takes_input.then_some(Argument::Input));
-        let mut drops = drops_of(context, &arguments, used);
         let Self { doc, returns, argument: (argument, ident, of_type), .. } = self;
+        let mut drops = drops_of(context, &[Argument::This, Argument::Time], used);
         if !used.contains(argument) {
             drops.extend(quote!(_ = #ident;));
+        }
+        if self.takes_input {
+            drops.extend(drops_of(context, &[Argument::Input], used));
         }
         let name = Ident::new(self.name, Span::call_site());
         let block = block(drops, body);
         quote! {
             #(#[doc = #doc])*
             #[must_use]
-            #[inline]
+            #inlining
             #visibility fn #name(&self, #t: #scalar, #ident: &#of_type #input_parameter) -> #returns #block
         }
     }
@@ -127,17 +126,8 @@ pub(super) fn drops_of(context: &Context, arguments: &[Argument], used: &BTreeSe
 
 /// `_ = state;` for every parameter that is not in `used`.
 pub(super) fn drops(context: &Context, used: &BTreeSet<Argument>, takes_input: bool) -> TokenStream {
-    let (t, state, input) = (&context.locals.t, &context.locals.state, &context.locals.input);
-    let all = [
-        (Argument::This, quote!(self)),
-        (Argument::Time, quote!(#t)),
-        (Argument::State, quote!(#state)),
-        (Argument::Input, quote!(#input)),
-    ];
-    let unused = all
-        .iter()
-        .filter(|(argument, _)| !used.contains(argument) && (takes_input || *argument != Argument::Input));
-    unused.map(|(_, place)| quote!(_ = #place;)).collect()
+    let arguments = [Argument::This, Argument::Time, Argument::State, Argument::Input];
+    drops_of(context, if takes_input { &arguments } else { &arguments[..3] }, used)
 }
 
 /// What one emitter contributes.
