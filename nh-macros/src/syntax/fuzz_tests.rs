@@ -3,26 +3,9 @@
 use proc_macro2::{Delimiter, Group, Ident, Literal, Punct, Spacing, Span, TokenStream, TokenTree};
 
 use super::parse;
+use super::testing::Random;
 use super::vocabulary::{FUNCTIONS, RESERVED, SECTIONS};
 use crate::report::compile_errors;
-
-/// A small generator of pseudo-random numbers (splitmix64), the same in every run.
-struct Random(u64);
-
-impl Random {
-    fn below(&mut self, bound: usize) -> usize {
-        self.0 = self.0.wrapping_add(0x9E37_79B9_7F4A_7C15);
-        let mut z = self.0;
-        z = (z ^ (z >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
-        z = (z ^ (z >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);
-        z ^= z >> 31;
-        usize::try_from(z % bound as u64).expect("a small number")
-    }
-
-    fn pick<'a>(&mut self, words: &[&'a str]) -> &'a str {
-        words[self.below(words.len())]
-    }
-}
 
 fn word(text: &str) -> TokenTree {
     TokenTree::Ident(Ident::new(text, Span::call_site()))

@@ -1,4 +1,4 @@
-//! Helpers of the tests of this stage.
+//! Helpers of the tests of this stage, and of those that begin with it.
 
 use proc_macro2::TokenStream;
 
@@ -80,5 +80,23 @@ pub(crate) fn shown(expr: &Expr) -> String {
             format!("({})", factors.iter().enumerate().map(factor).collect::<Vec<_>>().concat())
         }
         ExprKind::Power(base, exponent) => format!("({}^{})", shown(base), shown(exponent)),
+    }
+}
+
+/// A small generator of pseudo-random numbers (splitmix64), the same in every run.
+pub(crate) struct Random(pub(crate) u64);
+
+impl Random {
+    pub(crate) fn below(&mut self, bound: usize) -> usize {
+        self.0 = self.0.wrapping_add(0x9E37_79B9_7F4A_7C15);
+        let mut z = self.0;
+        z = (z ^ (z >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
+        z = (z ^ (z >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);
+        z ^= z >> 31;
+        usize::try_from(z % bound.max(1) as u64).expect("a small number")
+    }
+
+    pub(crate) fn pick<'a>(&mut self, words: &[&'a str]) -> &'a str {
+        words[self.below(words.len())]
     }
 }

@@ -8,20 +8,7 @@ use super::super::resolve;
 use super::catalogue::all;
 use crate::emit::Layout;
 use crate::syntax;
-
-/// A small generator of pseudo-random numbers (splitmix64), the same in every run.
-struct Random(u64);
-
-impl Random {
-    fn below(&mut self, bound: usize) -> usize {
-        self.0 = self.0.wrapping_add(0x9E37_79B9_7F4A_7C15);
-        let mut z = self.0;
-        z = (z ^ (z >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
-        z = (z ^ (z >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);
-        z ^= z >> 31;
-        usize::try_from(z % bound.max(1) as u64).expect("a small number")
-    }
-}
+use crate::syntax::testing::Random;
 
 /// All tokens that are no groups, to put in place of others.
 fn leaves(tokens: &TokenStream, into: &mut Vec<TokenTree>) {

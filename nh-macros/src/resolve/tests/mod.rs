@@ -44,6 +44,20 @@ fn messages(attribute: &str, item: &str) -> Vec<String> {
     }
 }
 
+/// The struct of the tests of sections and of requests.
+const STRUCT: &str = "struct S { m: f64, G: [f64; 3] }";
+
+/// The texts of the errors of a declaration with [`STRUCT`].
+fn of(attribute: &str) -> Vec<String> {
+    messages(attribute, STRUCT)
+}
+
+fn assert_errors(cases: &[(&str, &str)]) {
+    for (attribute, message) in cases {
+        assert_eq!(of(attribute), [*message], "{attribute}");
+    }
+}
+
 /// The value of an expression where every symbol has the value [`of_name`] of its name.
 fn evaluated(model: &Model, expression: ExprId) -> f64 {
     model.graph.evaluate(&[expression], |symbol| of_name(&model.graph.symbols()[symbol]))[0].value

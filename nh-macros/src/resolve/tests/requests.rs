@@ -3,19 +3,7 @@
 use nh_core::model::{Request, TrackedItem};
 
 use super::super::facts::REQUESTS;
-use super::{evaluated, messages, model, of_name};
-
-const STRUCT: &str = "struct S { m: f64, G: [f64; 3] }";
-
-fn of(attribute: &str) -> Vec<String> {
-    messages(attribute, STRUCT)
-}
-
-fn assert_errors(cases: &[(&str, &str)]) {
-    for (attribute, message) in cases {
-        assert_eq!(of(attribute), [*message], "{attribute}");
-    }
-}
+use super::{STRUCT, assert_errors, evaluated, model, of, of_name};
 
 #[test]
 fn requests() {
