@@ -2,7 +2,7 @@
 
 use super::collocation::{Collocation, Matrices, weighted};
 use super::linearization::{Analytic, FiniteDifferences, Linearization};
-use super::newton::{MOST_ITERATIONS, SLOW, check_length, check_tolerance, refusal, size};
+use super::newton::{MOST_ITERATIONS, SLOW, check_tolerance, once, refusal, size};
 use crate::arrays::{displaced, first_non_finite};
 use crate::methods::fixed::{self, Fixed, OneStep, Slopes};
 use crate::methods::{Arrival, Start};
@@ -100,13 +100,7 @@ macro_rules! constructors {
                 S: Dynamics,
                 S::State: State<Scalar = T>,
             {
-                check_length(dt)?;
-                let (start, x) = (Start { system, input, time: t, state }, state.to_array());
-                let scheme = Self::new(dt.abs()).scheme;
-                let mut work = OneStep::<S>::work(&scheme);
-                let statistics = &mut Statistics::default();
-                let increment = scheme.increment(&start, &x, dt, &mut work, statistics)?;
-                Ok(S::State::from_array(displaced(&x, T::ONE, &increment)))
+                once(&Self::new(dt.abs()).scheme, &Start { system, input, time: t, state }, dt)
             }
         }
 

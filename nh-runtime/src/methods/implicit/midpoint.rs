@@ -1,7 +1,7 @@
 //! The implicit midpoint rule.
 
 use super::linearization::{Analytic, FiniteDifferences, Linearization};
-use super::newton::{MOST_ITERATIONS, SLOW, check_length, check_tolerance, one_less, refusal, size};
+use super::newton::{MOST_ITERATIONS, SLOW, check_tolerance, once, one_less, refusal, size};
 use crate::arrays::displaced;
 use crate::linear::Factors;
 use crate::methods::fixed::{self, Fixed, OneStep, Slopes};
@@ -58,7 +58,7 @@ impl<T: Real> ImplicitMidpoint<T> {
         S: Dynamics,
         S::State: State<Scalar = T>,
     {
-        Self::new(dt.abs()).scheme.once(&Start { system, input, time: t, state }, dt)
+        once(&Self::new(dt.abs()).scheme, &Start { system, input, time: t, state }, dt)
     }
 }
 
@@ -78,7 +78,7 @@ impl<T: Real> ImplicitMidpoint<T, Analytic> {
         S: Jacobian,
         S::State: State<Scalar = T>,
     {
-        Self::linearized(dt.abs(), Analytic).scheme.once(&Start { system, input, time: t, state }, dt)
+        once(&Self::linearized(dt.abs(), Analytic).scheme, &Start { system, input, time: t, state }, dt)
     }
 }
 
@@ -97,19 +97,6 @@ impl<T: Real, J> ImplicitMidpoint<T, J> {
 }
 
 impl<T: Real, J> Midpoint<T, J> {
-    /// One step that nothing is remembered of.
-    fn once<S>(&self, start: &Start<'_, S>, length: T) -> Result<S::State, IntegrationError>
-    where
-        S: Dynamics,
-        S::State: State<Scalar = T>,
-        J: Linearization<S>,
-    {
-        check_length(length)?;
-        let x = start.state.to_array();
-        let increment = self.solve(start, length, &mut None, &mut Statistics::default())?;
-        Ok(S::State::from_array(displaced(&x, T::ONE, &increment)))
-    }
-
     /// Solves d = h/2 f(t₀ + h/2, x₀ + d) for half the increment, and gives the whole.
     fn solve<S>(
         &self,

@@ -1,7 +1,9 @@
 //! What the iterations of implicit methods share: bounds, matrices, and what they say if they fail.
 
+use crate::arrays::displaced;
+use crate::methods::fixed::OneStep;
 use crate::methods::{Start, explain_non_finite};
-use crate::{Dim, Dynamics, IntegrationError, Real, Scalar, ScalarOf};
+use crate::{Dim, Dynamics, IntegrationError, Real, Scalar, ScalarOf, State, Statistics};
 
 /// The iterations after which a solution is given up.
 pub(super) const MOST_ITERATIONS: u32 = 50;
@@ -26,6 +28,21 @@ pub(in crate::methods) fn check_length<T: Real>(dt: T) -> Result<(), Integration
         return Ok(());
     }
     Err(IntegrationError::Setting { setting: "dt", value: dt.to_f64(), expected: "finite" })
+}
+
+/// One step that nothing is remembered of.
+pub(in crate::methods) fn once<T: Real, S: Dynamics, P: OneStep<S>>(
+    scheme: &P,
+    start: &Start<'_, S>,
+    dt: T,
+) -> Result<S::State, IntegrationError>
+where
+    S::State: State<Scalar = T>,
+{
+    check_length(dt)?;
+    let x = start.state.to_array();
+    let increment = scheme.increment(start, &x, dt, &mut scheme.work(), &mut Statistics::default())?;
+    Ok(S::State::from_array(displaced(&x, T::ONE, &increment)))
 }
 
 /// The largest correction, relative to 1 + |x| + |increment| in its component; NaN if there is one.

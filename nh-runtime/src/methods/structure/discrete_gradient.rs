@@ -8,7 +8,7 @@ use super::Symmetric;
 use crate::arrays::displaced;
 use crate::linear::Factors;
 use crate::methods::fixed::{self, Slopes};
-use crate::methods::implicit::newton::{SLOW, check_length, check_tolerance, one_less, refusal, relative};
+use crate::methods::implicit::newton::{SLOW, check_tolerance, once, one_less, refusal, relative};
 use crate::methods::{Analytic, Arrival, FiniteDifferences, Fixed, Linearization, OneStep, Start};
 use crate::{AlmostPoisson, DimOf, Dynamics, IntegrationError, Real, ScalarOf, State, Statistics, VecOf};
 
@@ -122,13 +122,7 @@ impl<T: Real> DiscreteGradient<T> {
         S: AlmostPoisson,
         S::State: State<Scalar = T>,
     {
-        check_length(dt)?;
-        let x = state.to_array();
-        let scheme = Self::new(dt).scheme;
-        let start = Start { system, input, time: t, state };
-        let mut work = OneStep::<S>::work(&scheme);
-        let increment = scheme.increment(&start, &x, dt, &mut work, &mut Statistics::default())?;
-        Ok(S::State::from_array(displaced(&x, T::ONE, &increment)))
+        once(&Self::new(dt).scheme, &Start { system, input, time: t, state }, dt)
     }
 }
 
