@@ -56,8 +56,11 @@ pub trait OneStep<S: Dynamics>: Copy {
         statistics: &mut Statistics,
     ) -> Result<VecOf<S>, IntegrationError>;
 
-    /// Explains an increment that is not finite, if the derivative at the start is.
-    fn blame(&self, start: &Start<'_, S>, h: ScalarOf<S>) -> Option<IntegrationError>;
+    /// Explains an increment that is not finite, if the derivative at the start is; `None` where no more is known.
+    fn blame(&self, start: &Start<'_, S>, h: ScalarOf<S>) -> Option<IntegrationError> {
+        let _ = (start, h);
+        None
+    }
 
     /// As [`Method::dense`].
     fn dense(&self, work: &Self::Work, start: &Start<'_, S>, arrival: &Arrival<S>) -> Self::Dense;

@@ -170,10 +170,6 @@ where
         Ok(weighted(DimOf::<S>::vec(T::ZERO), &table.end, &z))
     }
 
-    fn blame(&self, _start: &Start<'_, S>, _h: T) -> Option<IntegrationError> {
-        None
-    }
-
     fn dense(&self, _work: &Work<S, N>, start: &Start<'_, S>, arrival: &Arrival<S>) -> Slopes<VecOf<S>> {
         fixed::slopes(start, arrival)
     }

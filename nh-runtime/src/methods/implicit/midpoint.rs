@@ -232,10 +232,6 @@ where
         self.solve(start, h, work, statistics)
     }
 
-    fn blame(&self, _start: &Start<'_, S>, _h: T) -> Option<IntegrationError> {
-        None
-    }
-
     fn dense(
         &self,
         _work: &Option<Newton<S>>,

@@ -296,10 +296,6 @@ where
         self.solve(&Step { start, x, h, energy, gradient }, work, statistics)
     }
 
-    fn blame(&self, _start: &Start<'_, S>, _h: T) -> Option<IntegrationError> {
-        None
-    }
-
     fn dense(&self, _work: &Work<S>, start: &Start<'_, S>, arrival: &Arrival<S>) -> Slopes<VecOf<S>> {
         fixed::slopes(start, arrival)
     }

@@ -65,10 +65,6 @@ where
         Ok(difference(&end, x))
     }
 
-    fn blame(&self, _start: &Start<'_, S>, _h: T) -> Option<IntegrationError> {
-        None
-    }
-
     fn dense(&self, (): &(), start: &Start<'_, S>, arrival: &Arrival<S>) -> Slopes<VecOf<S>> {
         fixed::slopes(start, arrival)
     }

@@ -107,10 +107,6 @@ where
         })
     }
 
-    fn blame(&self, _start: &Start<'_, S>, _h: T) -> Option<IntegrationError> {
-        None
-    }
-
     fn dense(&self, (): &(), start: &Start<'_, S>, arrival: &Arrival<S>) -> Slopes<VecOf<S>> {
         fixed::slopes(start, arrival)
     }
