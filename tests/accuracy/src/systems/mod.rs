@@ -47,26 +47,7 @@ macro_rules! measured {
         pub mod $level {
             use nh_runtime::prelude::*;
 
-            measured! {
-                @declare { accuracy { $level } }
-                /// The parameters.
-                #[derive(Clone, Copy, Debug)]
-                pub struct $System<T> { $($field: $kind),* }
-                as $($declaration)+
-            }
-
-            /// The system at this level.
-            #[derive(Clone, Copy, Debug)]
-            pub struct Emitted;
-
-            fn system<T: nh_runtime::Scalar>($p: &[T]) -> $System<T> {
-                $System $make
-            }
-
-            fn state<T: nh_runtime::Scalar>(list: &[T]) -> $State<T> {
-                let components: [T; $states] = core::array::from_fn(|i| list[i]);
-                components.into()
-            }
+            measured!(@emitted { accuracy { $level } } $System, $State of $states, [$($field: $kind),*], $p, $make, $($declaration)+);
 
             type Input<T> = <$System<T> as Dynamics>::Input;
 
@@ -109,26 +90,7 @@ macro_rules! measured {
         pub mod twin {
             use nh_runtime::prelude::*;
 
-            measured! {
-                @declare { formulation { projected } }
-                /// The parameters.
-                #[derive(Clone, Copy, Debug)]
-                pub struct $System<T> { $($field: $kind),* }
-                as $($declaration)+
-            }
-
-            /// The system with multipliers.
-            #[derive(Clone, Copy, Debug)]
-            pub struct Emitted;
-
-            fn system<T: nh_runtime::Scalar>($p: &[T]) -> $System<T> {
-                $System $make
-            }
-
-            fn state<T: nh_runtime::Scalar>(list: &[T]) -> $State<T> {
-                let components: [T; $all] = core::array::from_fn(|i| list[i]);
-                components.into()
-            }
+            measured!(@emitted { formulation { projected } } $System, $State of $all, [$($field: $kind),*], $p, $make, $($declaration)+);
 
             impl $crate::measured::Twin for Emitted {
                 fn derivative<T: nh_runtime::Scalar>(parameters: &[T], at: &[T], inputs: &[T]) -> Vec<T> {
@@ -141,6 +103,31 @@ macro_rules! measured {
                     Constrained::constraint_residual(&system, T::ZERO, &state(at)).as_ref().to_vec()
                 }
             }
+        }
+    };
+    (
+        @emitted { $($more:tt)* } $System:ident, $State:ident of $components:literal,
+        [$($field:ident: $kind:ty),*], $p:ident, $make:tt, $($declaration:tt)+
+    ) => {
+        measured! {
+            @declare { $($more)* }
+            /// The parameters.
+            #[derive(Clone, Copy, Debug)]
+            pub struct $System<T> { $($field: $kind),* }
+            as $($declaration)+
+        }
+
+        /// The system in this form.
+        #[derive(Clone, Copy, Debug)]
+        pub struct Emitted;
+
+        fn system<T: nh_runtime::Scalar>($p: &[T]) -> $System<T> {
+            $System $make
+        }
+
+        fn state<T: nh_runtime::Scalar>(list: &[T]) -> $State<T> {
+            let components: [T; $components] = core::array::from_fn(|i| list[i]);
+            components.into()
         }
     };
     (@declare { $($more:tt)* } $parameters:item as { $($sections:tt)* }) => {
