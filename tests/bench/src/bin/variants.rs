@@ -32,7 +32,13 @@ struct Variant {
 mod sleigh_varying {
     nh_models::sleigh! {
         #[derive(Clone, Copy, Debug)]
-        pub(crate) struct Sleigh { pub(crate) m: f64, pub(crate) J: f64, pub(crate) a: f64, pub(crate) b: f64, pub(crate) c: f64 }
+        pub(crate) struct Sleigh {
+            pub(crate) m: f64,
+            pub(crate) J: f64,
+            pub(crate) a: f64,
+            pub(crate) b: f64,
+            pub(crate) c: f64,
+        }
         emit { prepared }
     }
 }
@@ -48,7 +54,13 @@ mod sleigh_fixed {
 mod sleigh_tracked {
     nh_models::sleigh! {
         #[derive(Clone, Copy, Debug)]
-        pub(crate) struct Sleigh { pub(crate) m: f64, pub(crate) J: f64, pub(crate) a: f64, pub(crate) b: f64, pub(crate) c: f64 }
+        pub(crate) struct Sleigh {
+            pub(crate) m: f64,
+            pub(crate) J: f64,
+            pub(crate) a: f64,
+            pub(crate) b: f64,
+            pub(crate) c: f64,
+        }
         track { omega, v1 }
     }
 }
@@ -56,7 +68,15 @@ mod sleigh_tracked {
 mod robot_varying {
     nh_models::robot! {
         #[derive(Clone, Copy, Debug)]
-        pub(crate) struct Robot { pub(crate) m0: f64, pub(crate) m1: f64, pub(crate) l: f64, pub(crate) J: f64, pub(crate) J2: f64, pub(crate) c: f64, pub(crate) R: f64 }
+        pub(crate) struct Robot {
+            pub(crate) m0: f64,
+            pub(crate) m1: f64,
+            pub(crate) l: f64,
+            pub(crate) J: f64,
+            pub(crate) J2: f64,
+            pub(crate) c: f64,
+            pub(crate) R: f64,
+        }
         emit { prepared }
     }
 }
@@ -73,7 +93,12 @@ mod tractor_varying {
     nh_models::tractor! {
         6 trailers:
         #[derive(Clone, Copy, Debug)]
-        pub(crate) struct Tractor { pub(crate) m: [f64; 7], pub(crate) J: [f64; 7], pub(crate) d: [f64; 6], pub(crate) a: f64 }
+        pub(crate) struct Tractor {
+            pub(crate) m: [f64; 7],
+            pub(crate) J: [f64; 7],
+            pub(crate) d: [f64; 6],
+            pub(crate) a: f64,
+        }
         emit { prepared }
     }
 }
