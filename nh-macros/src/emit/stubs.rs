@@ -54,41 +54,25 @@ pub(crate) fn stubs(layout: &Layout, outline: &Outline) -> TokenStream {
 /// is not known, and what stands there in vain does no harm.
 fn on_request(context: &Context, outline: &Outline) -> Part {
     let labels: Vec<Option<&str>> = outline.labels.iter().map(Option::as_deref).collect();
-    let (identities, constraints) = (outline.identities, labels.len());
-    let count = |request| if outline.requests.contains(&request) { constraints } else { 0 };
+    let Outline { ref requests, velocities, identities, claims_section, .. } = *outline;
+    let constraints = labels.len();
+    let count = |request| if requests.contains(&request) { constraints } else { 0 };
     let counts = [count(Request::Multipliers), count(Request::Reactions), constraints];
-    let taylor =
-        if outline.requests.contains(&Request::Taylor) { taylor::stub(context) } else { Part::default() };
-    let part = constraint::stub(context, &labels, counts)
-        .with(taylor)
+    let asked = |request, stub: &dyn Fn() -> Part| {
+        if requests.contains(&request) { stub() } else { Part::default() }
+    };
+    let has_jacobian = requests.contains(&Request::Jacobian);
+    constraint::stub(context, &labels, counts)
+        .with(asked(Request::Taylor, &|| taylor::stub(context)))
         .with(embedding::stub(context, identities))
         .with(projection::stub(context, identities, constraints))
-        .with(momenta::stub(context, &outline.momenta));
-    let (requests, velocities) = (&outline.requests, outline.velocities);
-    let part = part
-        .with(phase_space::stub(context, requests, outline.claims_section, velocities))
+        .with(momenta::stub(context, &outline.momenta))
+        .with(phase_space::stub(context, requests, claims_section, velocities))
         .with(discrete::stub(context, requests))
-        .with(invariants::stub(context, requests));
-    let part = if requests.contains(&Request::Hamiltonian) {
-        part.with(hamiltonian::stub(context, velocities))
-    } else {
-        part
-    };
-    let part = if outline.requests.contains(&Request::GibbsAppell) {
-        part.with(gibbs_appell::stub(context))
-    } else {
-        part
-    };
-    let has_jacobian = outline.requests.contains(&Request::Jacobian);
-    let part = if outline.requests.contains(&Request::Prepared) {
-        part.with(prepared::stub(context, has_jacobian))
-    } else {
-        part
-    };
-    let part = if outline.requests.contains(&Request::ParameterJacobian) {
-        part.with(parameter_jacobian::stub(context))
-    } else {
-        part
-    };
-    if outline.requests.contains(&Request::Jacobian) { part.with(jacobian::stub(context)) } else { part }
+        .with(invariants::stub(context, requests))
+        .with(asked(Request::Hamiltonian, &|| hamiltonian::stub(context, velocities)))
+        .with(asked(Request::GibbsAppell, &|| gibbs_appell::stub(context)))
+        .with(asked(Request::Prepared, &|| prepared::stub(context, has_jacobian)))
+        .with(asked(Request::ParameterJacobian, &|| parameter_jacobian::stub(context)))
+        .with(asked(Request::Jacobian, &|| jacobian::stub(context)))
 }
