@@ -122,6 +122,10 @@ const EXPANDED: u64 = 250;
 /// expansion comes to as soon as there are several bodies.
 const EXPANDED_ON_WHEELS: u64 = 60;
 
+/// The coefficients of longer velocities on D are not named one by one: expressions of that size are those of
+/// chains, which are shorter from wheel to wheel.
+const NAMED: u64 = 60;
+
 /// Whether expressions of the size of the Lagrangian are left as they are.
 fn is_large(proved: &Proved) -> bool {
     proved.model.graph.operation_count(&[proved.system.lagrangian]) > EXPANDED
@@ -147,16 +151,18 @@ fn candidates(
     let residuals = proved.levels.is_empty().then_some(&proved.constraints.residuals);
     let on_wheels =
         residuals.and_then(|residuals| equations_in_wheel_frames(graph, system, distribution, residuals));
+    // careful code carries the errors of divisions along, and every quotient put in place has its own
+    let by_parts = match graph.accuracy() {
+        Accuracy::Fast | Accuracy::Balanced if graph.operation_count(&distribution.velocity) <= NAMED => {
+            equations_by_partial_velocities(graph, system, distribution)
+        }
+        _ => None,
+    };
     if is_large || (on_wheels.is_some() && graph.operation_count(&[system.lagrangian]) > EXPANDED_ON_WHEELS) {
-        return std::iter::once(by_chain).chain(on_wheels).collect();
+        return std::iter::once(by_chain).chain(on_wheels).chain(by_parts).collect();
     }
     let by_forms = equations_by_velocity_forms(graph, system, distribution);
     let expanded = reduced_equations(graph, system, distribution);
-    // careful code carries the errors of divisions along, and every quotient put in place has its own
-    let by_parts = match graph.accuracy() {
-        Accuracy::Careful => None,
-        Accuracy::Fast | Accuracy::Balanced => equations_by_partial_velocities(graph, system, distribution),
-    };
     [expanded, by_forms, by_chain].into_iter().chain(on_wheels).chain(by_parts).collect()
 }
 

@@ -48,19 +48,27 @@ pub(super) fn points(graph: &mut Graph, velocities: &[SymbolId], of: &VelocityFo
             squares.push((k, inertia, coefficients));
         }
     }
-    // 2. pairs with the same μ, each form with the one that is moved by the most similar velocities
-    let mut points: Vec<Point> = Vec::new();
-    let mut open = squares;
-    while let Some((k, mu, first)) = (!open.is_empty()).then(|| open.remove(0)) {
-        let partner = (0..open.len())
-            .filter(|j| open[*j].1 == mu)
-            .filter_map(|j| Some((j, axes(graph, &first, &open[j].2)?)))
-            .min_by_key(|(_, (unlike, _))| *unlike);
-        if let Some((j, (_, axes))) = partner {
-            let (l, _, second) = open.remove(j);
-            points.push(Point { forms: [k, l], coefficients: [first, second], axes });
+    // 2. pairs with the same μ, those that are moved by the most similar velocities first
+    let mut pairs: Vec<(usize, [usize; 2], [usize; 2])> = Vec::new();
+    for (k, (_, mu, first)) in squares.iter().enumerate() {
+        for (l, (_, other, second)) in squares.iter().enumerate().skip(k + 1) {
+            if let Some((unlike, axes)) = axes(graph, first, second).filter(|_| mu == other) {
+                pairs.push((unlike, [k, l], axes));
+            }
         }
     }
+    pairs.sort_by_key(|(unlike, ..)| *unlike);
+    let mut points: Vec<Point> = Vec::new();
+    let mut taken = vec![false; squares.len()];
+    for (_, pair, axes) in pairs {
+        if pair.iter().all(|k| !taken[*k]) {
+            taken[pair[0]] = true;
+            taken[pair[1]] = true;
+            let forms = pair.map(|k| squares[k].0);
+            points.push(Point { forms, coefficients: pair.map(|k| squares[k].2.clone()), axes });
+        }
+    }
+    points.sort_by_key(|point| point.forms);
     points
 }
 
@@ -100,7 +108,36 @@ pub(super) fn motions<const N: usize>(
             None => motions.push(Motion { sections: vec![(section, false)], effect }),
         }
     }
+    separate(graph, &mut motions);
     motions
+}
+
+/// Takes out of each contribution what another one contributes, where less is left: a trailer is moved by
+/// the turning of the tractor as by its own, and by the hitch besides.
+fn separate<const N: usize>(graph: &mut Graph, motions: &mut [Motion<N>]) {
+    for index in 0..motions.len() {
+        let effect = motions[index].effect;
+        let mut least = graph.operation_count(&effect);
+        let mut found = None;
+        for other in (0..motions.len()).filter(|other| *other != index) {
+            for sign in [Rational::ONE, Rational::MINUS_ONE] {
+                let part = motions[other].effect;
+                let rest = std::array::from_fn(|k| {
+                    graph.linear_combination(&[(Rational::ONE, effect[k]), (-sign.clone(), part[k])])
+                });
+                let length = graph.operation_count(&rest);
+                if length < least {
+                    least = length;
+                    found = Some((other, rest, sign.is_negative()));
+                }
+            }
+        }
+        if let Some((other, rest, opposite)) = found {
+            motions[index].effect = rest;
+            let also = motions[index].sections.clone();
+            motions[other].sections.extend(also.into_iter().map(|(s, negative)| (s, negative != opposite)));
+        }
+    }
 }
 
 /// The motions whose sections fulfil a condition.
@@ -120,6 +157,5 @@ pub(super) fn together(section: usize, first: &[Motion<2>], second: &[Motion<1>]
     let contains = |list: &[(usize, bool)], section: usize| list.iter().any(|(s, _)| *s == section);
     let alone = vec![(section, false)];
     let Some(motion) = lists().find(|list| contains(list, section)) else { return alone };
-    let meets = |list: &[(usize, bool)]| motion.iter().any(|(s, _)| contains(list, *s));
-    if lists().all(|list| list == motion || !meets(list)) { motion.clone() } else { alone }
+    if lists().all(|list| list == motion || !contains(list, section)) { motion.clone() } else { alone }
 }

@@ -13,7 +13,7 @@
 use super::adapted::ReducedEquations;
 use super::euler_lagrange::LagrangianSystem;
 use super::exterior_derivative::ExteriorDerivative;
-use super::restricted::{Restricted, differentiate_all};
+use super::restricted::{Restricted, by_multiples, differentiate_all};
 use super::wheel_frames::{TurnedPoint, WheelFrames};
 use crate::algebra::{Derivation, Graph, Matrix, Node, Substitution};
 use crate::geometry::ConstraintDistribution;
@@ -137,7 +137,12 @@ pub fn equations_in_wheel_frames(
 ) -> Option<ReducedEquations> {
     let forms = VelocityForms::of(graph, system);
     let velocities = &system.algebroid.velocities;
-    let frames = WheelFrames::of(graph, velocities, distribution, residuals, &forms)?;
+    let mut frames = WheelFrames::of(graph, velocities, distribution, residuals, &forms)?;
+    let (definitions, mut images) = by_multiples(graph, frames.definitions, &distribution.independent);
+    let velocity = images.apply_all(graph, &frames.velocity);
+    for point in &mut frames.points {
+        point.components = point.components.map(|component| images.apply(graph, component));
+    }
     let mut curl = None;
     let turned: Vec<(TurnedPoint, Vec<ExprId>)> = frames
         .points
@@ -148,7 +153,7 @@ pub fn equations_in_wheel_frames(
         })
         .collect();
     let independent = &distribution.independent;
-    let on = Restricted::by(graph, frames.definitions, frames.velocity, independent);
+    let on = Restricted::by(graph, definitions, velocity, independent);
     Some(equations(graph, system, on, independent, &forms, &turned))
 }
 
@@ -184,7 +189,7 @@ fn equations(
         algebroid.anchor.coordinates.iter().map(|symbol| slope(graph, symbol)).collect();
     // 3. d/dt F̂_k at v̇ = 0
     let mut along = algebroid.along(graph, &velocity, system.time);
-    differentiate_all(graph, &mut definitions, &mut along, on.simplified);
+    differentiate_all(graph, &mut definitions, &mut along, "rate", on.simplified);
     let changes = along.apply_all(graph, &slopes);
     // 4. contraction with B_a
     let forces = restriction.apply_all(graph, &system.forces);

@@ -67,15 +67,29 @@ impl WheelFrames {
         let independent = |symbol: &SymbolId| distribution.independent.contains(symbol);
         let values =
             velocities.iter().map(|symbol| independent(symbol).then(|| graph.symbol(*symbol))).collect();
-        let definitions = Procedure::default();
-        let mut search = Search { velocities, distribution, points, values, definitions, turned: Vec::new() };
-        search.run(graph, residuals);
-        let Search { values, turned, definitions, .. } = search;
+        let search = Search {
+            velocities,
+            distribution,
+            points,
+            values,
+            definitions: Procedure::default(),
+            turned: Vec::new(),
+            names_turning: true,
+            levers: Vec::new(),
+        };
+        // the powers of a length that bodies share are common factors, if its quotients stay in place
+        let mut found = search.clone().run(graph, residuals);
+        let levers = &found.levers;
+        if (1..levers.len()).any(|k| levers[..k].contains(&levers[k])) {
+            found = Search { names_turning: false, ..search }.run(graph, residuals);
+        }
+        let Search { values, turned, definitions, .. } = found;
         let velocity: Vec<ExprId> = values.into_iter().collect::<Option<_>>()?;
         (!turned.is_empty()).then_some(Self { definitions, velocity, points: turned })
     }
 }
 
+#[derive(Clone)]
 struct Search<'a> {
     velocities: &'a [SymbolId],
     distribution: &'a ConstraintDistribution,
@@ -85,10 +99,14 @@ struct Search<'a> {
     values: Vec<Option<ExprId>>,
     definitions: Procedure,
     turned: Vec<TurnedPoint>,
+    /// Whether what is solved for from wheel to wheel is an intermediate result.
+    names_turning: bool,
+    /// What it was divided by.
+    levers: Vec<ExprId>,
 }
 
 impl Search<'_> {
-    fn run(&mut self, graph: &mut Graph, residuals: &[ExprId]) {
+    fn run(mut self, graph: &mut Graph, residuals: &[ExprId]) -> Self {
         let mut coefficients: Vec<(TurnedPoint, [Vec<ExprId>; 2])> = Vec::new();
         for (rows, unknowns) in self.distribution.blocks() {
             if let ([row], [unknown]) = (rows.as_slice(), unknowns.as_slice()) {
@@ -119,6 +137,7 @@ impl Search<'_> {
             self.turned.push(turned.clone());
             coefficients.push((turned, point.coefficients));
         }
+        self
     }
 
     /// A constraint solved for a velocity with the known ones put in.
@@ -192,6 +211,9 @@ impl Search<'_> {
         let rest = graph.sum(&[across?, known_excess?, drift]);
         let pivot = graph.div(phi[section], scale);
         let quotient = graph.div(rest, pivot);
+        self.levers.push(pivot);
+        let quotient =
+            if self.names_turning { self.definitions.define(graph, "turning", quotient) } else { quotient };
         let mut value = vec![(Rational::MINUS_ONE, quotient)];
         let is_negative = together.contains(&(section, true));
         for (other, negative) in together.into_iter().filter(|(other, _)| *other != section) {

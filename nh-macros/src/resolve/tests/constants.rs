@@ -14,7 +14,7 @@ use crate::emit::Layout;
 use crate::syntax;
 
 /// A declaration.
-type Declaration = (TokenStream, TokenStream);
+pub(super) type Declaration = (TokenStream, TokenStream);
 
 /// The values of fields.
 type Values = fn(&str) -> f64;
@@ -61,7 +61,7 @@ fn without_fields(item: TokenStream, names: &[&str]) -> TokenStream {
 }
 
 /// The system, or nothing where the values contradict its assumptions.
-fn compiled((attribute, item): &Declaration) -> Option<System> {
+pub(super) fn compiled((attribute, item): &Declaration) -> Option<System> {
     let declaration = syntax::parse(attribute.clone(), item.clone()).expect("well-formed");
     let mut layout = Layout::of_struct(&declaration.structure, attribute.clone());
     let Resolved { mut model, .. } = resolve(&declaration, &mut layout).expect("resolved");
@@ -69,7 +69,7 @@ fn compiled((attribute, item): &Declaration) -> Option<System> {
     nh_core::compile::compile(model).ok()
 }
 
-fn derivative(system: &System) -> Program {
+pub(super) fn derivative(system: &System) -> Program {
     let parameters: Vec<SymbolId> = system.model.parameters.iter().map(|p| p.symbol).collect();
     schedule_grouping(&system.model.graph, &system.derivative, &parameters)
 }
@@ -121,7 +121,7 @@ fn cost_no_more_than_fields() {
 }
 
 /// A tractor with trailers, as text.
-fn tractor(trailers: usize) -> Declaration {
+pub(super) fn tractor(trailers: usize) -> Declaration {
     let bodies = trailers + 1;
     let attribute = format!(
         "base {{ x, y, th, rel[{trailers}] }}

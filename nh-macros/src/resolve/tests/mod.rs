@@ -1,6 +1,7 @@
 //! Tests of this stage: the meaning of expressions, evaluated, and every error text.
 
 mod catalogue;
+mod ceilings;
 mod constants;
 mod cross_checks;
 mod fuzz;

@@ -1,0 +1,94 @@
+//! Ceilings on the work of machines with trailers, wheels and a pendulum: growth is a failing test.
+
+use nh_core::program::Cost;
+use proc_macro2::TokenStream;
+use syn::parse_quote;
+
+use super::constants::{Declaration, compiled, derivative, tractor};
+
+/// The operations of the derivative.
+fn operations(declaration: &Declaration) -> usize {
+    Cost::of(&derivative(&compiled(declaration).expect("regular"))).operations()
+}
+
+/// The declaration in a file of the benchmark of record.
+fn contest(source: &str) -> Declaration {
+    let file = syn::parse_file(source).expect("it is Rust");
+    let declared = file.items.into_iter().find_map(|item| match item {
+        syn::Item::Struct(mut item) => {
+            let attribute = item.attrs.iter().find_map(|attribute| match &attribute.meta {
+                syn::Meta::List(list) if list.path.is_ident("nonholonomic") => Some(list.tokens.clone()),
+                _ => None,
+            });
+            item.attrs.clear();
+            attribute.map(|attribute| (attribute, parse_quote!(#item)))
+        }
+        _ => None,
+    });
+    declared.expect("a declaration")
+}
+
+/// The tractor whose trailers are all alike.
+fn alike(trailers: usize) -> Declaration {
+    let (attribute, _) = tractor(trailers);
+    let mut text = attribute.to_string();
+    for name in ["m", "J", "d"] {
+        for index in ["0", "i", "j", "i + 1", "i+1"] {
+            for indexed in [format!("{name} [{index}]"), format!("{name}[{index}]")] {
+                text = replaced(&text, &indexed, name);
+            }
+        }
+    }
+    let attribute: TokenStream = text.parse().expect("tokens");
+    (
+        attribute,
+        parse_quote!(
+            struct Tractor {
+                m: f64,
+                J: f64,
+                d: f64,
+                a: f64,
+            }
+        ),
+    )
+}
+
+/// A text with other words in place of some, of which they are not the ends of longer ones.
+fn replaced(text: &str, words: &str, other: &str) -> String {
+    let mut result = String::new();
+    let mut rest = text;
+    while let Some(position) = rest.find(words) {
+        let (before, after) = rest.split_at(position);
+        let is_end = before.ends_with(|last: char| last.is_alphanumeric() || last == '_');
+        result.extend([before, if is_end { words } else { other }]);
+        rest = &after[words.len()..];
+    }
+    result + rest
+}
+
+/// An expert's recursion takes 17 operations and a sine with its cosine for each trailer: here one more, and
+/// one where a long sum is taken in halves.
+#[test]
+fn a_trailer_takes_one_operation_more_than_by_hand() {
+    let costs = [2, 5].map(|trailers| operations(&tractor(trailers)));
+    assert!(costs[1] - costs[0] <= 3 * (18 + 1) + 1, "{costs:?}");
+    assert!(costs[0] <= 43, "{costs:?}");
+}
+
+/// Equal masses do not hide which velocities are those of one point.
+#[test]
+fn trailers_that_are_alike_are_no_dearer() {
+    for trailers in [2, 3, 6] {
+        let (same, different) = (operations(&alike(trailers)), operations(&tractor(trailers)));
+        assert!(same <= different, "{trailers} trailers: {same} operations, {different} if they differ");
+    }
+}
+
+/// A hitch behind the axle, in the axes of the tractor; a pendulum on wheels.
+#[test]
+fn what_moves_one_body_with_another_is_named() {
+    let hitched = contest(include_str!("../../../../tests/bench/src/systems/hitched_trailer.rs"));
+    let balancing = contest(include_str!("../../../../tests/bench/src/systems/balancing_robot.rs"));
+    assert!(operations(&hitched) <= 42);
+    assert!(operations(&balancing) <= 49);
+}
