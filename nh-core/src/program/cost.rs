@@ -1,7 +1,8 @@
 //! What a program costs.
 
 use super::fuse::constants;
-use super::step::{Program, Step};
+use super::step::{Program, Step, Value};
+use crate::id::Id;
 use std::fmt;
 
 /// Operation counts. What is computed from numbers alone is not counted: compilers fold it.
@@ -118,6 +119,34 @@ impl Cost {
     }
 }
 
+/// What programs of the same value are ordered by: the cost, then the loads.
+#[must_use]
+pub fn order(program: &Program) -> (usize, usize) {
+    (Cost::of(program).weighted(), loads(program))
+}
+
+/// How many variables, parameters and numbers are loaded by an instruction of their own: those that are read
+/// several times, and those that are not the one operand that an operation reads from memory.
+fn loads(program: &Program) -> usize {
+    let mut reads = vec![0_usize; program.steps.len()];
+    program.steps.iter().for_each(|step| step.each_operand(|operand| reads[operand.index()] += 1));
+    program.outputs.iter().for_each(|output| reads[output.index()] += 1);
+    let is_leaf = |value: Value| program.steps[value].is_leaf();
+    let several = program.steps.ids().filter(|value| is_leaf(*value) && reads[value.index()] > 1).count();
+    let in_place = |value: Value| usize::from(is_leaf(value) && reads[value.index()] == 1);
+    let apart = program.steps.iter().map(|step| match *step {
+        Step::Sub(a, _) | Step::Div(a, _) => in_place(a),
+        // the number one
+        Step::Recip(_) => 1,
+        _ => {
+            let mut operands = 0;
+            step.each_operand(|operand| operands += in_place(operand));
+            operands.saturating_sub(1)
+        }
+    });
+    several + apart.sum::<usize>()
+}
+
 impl fmt::Display for Cost {
     /// `12 additions, 20 multiplications, 1 division, 1 sin_cos`.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
@@ -136,5 +165,32 @@ impl fmt::Display for Cost {
             separator = ", ";
         }
         if separator.is_empty() { f.write_str("no operations") } else { Ok(()) }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::id::SymbolId;
+
+    /// Between equal costs loads decide: an operation reads one operand from memory, and what is read twice is
+    /// loaded once.
+    #[test]
+    fn loads_are_counted() {
+        let [a, b, c] = [0, 1, 2].map(Value::from_index);
+        let of = |steps: &[Step]| {
+            let variables = (0..3).map(|index| Step::Load(SymbolId::from_index(index)));
+            let steps = variables.chain(steps.iter().cloned()).collect();
+            loads(&Program { steps, ..Program::default() })
+        };
+        // a b c: one of the first two, the third from memory
+        let product = Value::from_index(3);
+        assert_eq!(of(&[Step::Mul(a, b), Step::Mul(product, c)]), 1);
+        // a/b, where b alone may be in memory; 1/b
+        assert_eq!(of(&[Step::Div(a, b)]), 1);
+        assert_eq!(of(&[Step::Recip(b)]), 1);
+        // a in both
+        assert_eq!(of(&[Step::Add(a, b), Step::Add(a, c)]), 1);
+        assert_eq!(of(&[Step::Add(a, b), Step::Add(a, b)]), 2);
     }
 }

@@ -38,7 +38,7 @@ mod taylor;
 mod tests;
 
 pub use correct::corrected;
-pub use cost::Cost;
+pub use cost::{Cost, order};
 pub use interpret::{Arithmetic, interpret, interpret_in};
 pub use rounding::error_growth;
 pub use rule::{Factor, Inner, Rule};

@@ -1,7 +1,7 @@
 //! The search for the cheapest straight-line form.
 
 use super::angles::share_angles;
-use super::cost::Cost;
+use super::cost::order;
 use super::factor::{Sharing, factor};
 use super::fold::folded;
 use super::import::import;
@@ -68,7 +68,7 @@ pub fn schedule_grouping(graph: &Graph, procedure: &Procedure, parameters: &[Sym
         prepare(&folded(&arena), tried, &mut prepared);
     }
     let programs = prepared.into_iter().map(straight_line);
-    programs.min_by_key(|program| Cost::of(program).weighted()).unwrap_or_default()
+    programs.min_by_key(order).unwrap_or_default()
 }
 
 /// Factors an arena by each strategy; what has come to the same goes the same way from here.

@@ -1,6 +1,6 @@
 //! Moves signs to where they cost nothing.
 //!
-//! A difference, a multiply-add and a reciprocal may as well be computed with the opposite sign. What
+//! A difference, a multiply-add, a reciprocal and a multiple may as well be computed with the opposite sign. What
 //! uses them changes with them: sums become differences, products change their sign in turn, and
 //! negations disappear. That is done wherever more negations disappear than come.
 
@@ -84,7 +84,12 @@ fn candidates(program: &Program, value: Value) -> Vec<Value> {
                 found.push(value);
                 open.push(*inner);
             }
-            Step::Mul(a, b) | Step::Div(a, b) => open.extend([*b, *a]),
+            step @ (Step::Mul(a, b) | Step::Div(a, b)) => {
+                if number(program, step).is_some() {
+                    found.push(value);
+                }
+                open.extend([*b, *a]);
+            }
             _ => {}
         }
         if found.len() + open.len() > CANDIDATES {
@@ -92,6 +97,15 @@ fn candidates(program: &Program, value: Value) -> Vec<Value> {
         }
     }
     found
+}
+
+/// The number that is a factor of a product, and the other factor.
+fn number<'a>(program: &'a Program, step: &Step) -> Option<(&'a Rational, Value)> {
+    let Step::Mul(a, b) = step else { return None };
+    [(a, b), (b, a)].into_iter().find_map(|(factor, other)| match &program.steps[*factor] {
+        Step::Constant(number) => Some((number, *other)),
+        _ => None,
+    })
 }
 
 /// What a step becomes if some of its operands have the opposite sign.
@@ -199,6 +213,14 @@ fn rebuilt(program: &Program, start: Value, opposite: &BTreeSet<Value>) -> Progr
             }
         };
         let step = changed.unwrap_or_else(|| match *step {
+            Step::Mul(..) => {
+                // its image is put in place below
+                if let Some((number, other)) = number(program, step) {
+                    let minus = steps.push(Step::Constant(-number.clone()));
+                    images.push(steps.push(Step::Mul(minus, images[other.index()])));
+                }
+                Step::Pi
+            }
             Step::Sub(a, b) => Step::Sub(b, a),
             Step::MulAdd { a, b, c, minus_product, minus_c } => {
                 Step::MulAdd { a, b, c, minus_product: !minus_product, minus_c: !minus_c }

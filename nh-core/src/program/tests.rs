@@ -340,6 +340,15 @@ fn negations_go_where_they_are_free() {
     let program = schedule(&g, &Procedure::of(vec![negative, q]));
     let values = [2.0, 3.0, 7.0, 5.0, 4.0];
     assert_eq!(interpret(&program, |symbol| values[symbol.index()]), [-1.0, 2.0]);
+    // a number changes its sign
+    let half = g.scale(Rational::new(1, 2), q);
+    let outputs = [p, z].map(|factor| {
+        let product = g.mul(half, factor);
+        g.neg(product)
+    });
+    assert_eq!(cost(&g, &outputs), count(1, 4, 0));
+    let program = schedule(&g, &Procedure::of(outputs.to_vec()));
+    assert_eq!(interpret(&program, |symbol| values[symbol.index()]), [-6.0, -4.0]);
 }
 
 #[test]

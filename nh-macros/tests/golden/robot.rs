@@ -14,34 +14,32 @@ impl Robot {
         let (sin_theta, cos_theta) = ::nh_runtime::__private::Scalar::sin_cos(
             state.theta,
         );
-        let e1 = state.psi1_dot + state.psi2_dot;
-        let e2 = -0.5 * self.R;
-        let e3 = e2 * e1;
-        let e4 = state.psi1_dot - state.psi2_dot;
-        let e5 = 1.0 / self.c * e4;
-        let r_squared = self.R * self.R;
-        let e6 = self.m0 * self.l * (self.R * r_squared);
-        let e7 = 2.0 * self.J2;
-        let v_dot_0_mean = -0.25 * e6
+        let e1 = self.R * (state.psi1_dot + state.psi2_dot);
+        let e2 = -0.5 * e1;
+        let theta_dot_per_psi1_dot = self.R / self.c;
+        let e3 = theta_dot_per_psi1_dot * (state.psi1_dot - state.psi2_dot);
+        let e4 = self.m0 * self.l * e3;
+        let e5 = 2.0 * self.J2;
+        let v_dot_0_mean = -0.25 * self.R
             / ::nh_runtime::__private::Scalar::mul_add(
                 ::nh_runtime::__private::Scalar::mul_add(self.m1, 2.0, self.m0),
-                r_squared,
-                e7,
-            ) * (e5 * e5);
-        let v_dot_0_half = 0.25 * e6
+                self.R * self.R,
+                e5,
+            ) * e3 * e4;
+        let v_dot_0_half = 0.25 * theta_dot_per_psi1_dot
             / ::nh_runtime::__private::Scalar::mul_add(
-                self.c * self.c,
-                e7,
-                self.J * r_squared,
+                self.J,
+                theta_dot_per_psi1_dot * theta_dot_per_psi1_dot,
+                e5,
             ) * e1 * e4;
         let v_dot_0 = v_dot_0_mean + v_dot_0_half;
         let v_dot_1 = v_dot_0_mean - v_dot_0_half;
         RobotState {
             psi1: state.psi1_dot,
             psi2: state.psi2_dot,
-            x: cos_theta * e3,
-            y: sin_theta * e3,
-            theta: e2 * e5,
+            x: cos_theta * e2,
+            y: sin_theta * e2,
+            theta: -0.5 * e3,
             psi1_dot: v_dot_0,
             psi2_dot: v_dot_1,
         }
