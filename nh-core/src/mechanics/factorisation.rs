@@ -1,35 +1,10 @@
 //! Definite matrices as L D Lᵀ with unit lower triangular L, unrolled and without pivoting.
 
+use super::elimination_order::elimination_order;
 use super::procedure::Procedure;
 use super::symmetric_solve::uncoupled;
 use crate::algebra::{Graph, Matrix, Rational};
 use crate::id::ExprId;
-
-/// A block in the order of elimination: always that unknown next which is coupled with the fewest
-/// others left, so that few entries are filled in, and among these one with the shortest pivot.
-///
-/// Minimum degree: George and Liu, *The evolution of the minimum degree ordering algorithm*, SIAM
-/// Review 31, 1989.
-pub(super) fn elimination_order(graph: &Graph, matrix: &[Vec<ExprId>], block: &[usize]) -> Vec<usize> {
-    let mut left = block.to_vec();
-    let is_coupled = |entry: &ExprId| !graph.is_literal_zero(*entry);
-    let mut coupled: Vec<Vec<bool>> = matrix.iter().map(|row| row.iter().map(is_coupled).collect()).collect();
-    let mut order = Vec::with_capacity(block.len());
-    while !left.is_empty() {
-        let degree = |i: usize| left.iter().filter(|j| coupled[i][**j]).count();
-        let length = |i: usize| graph.operation_count(&[matrix[i][i]]);
-        let next = (0..left.len()).min_by_key(|k| (degree(left[*k]), length(left[*k]))).unwrap_or(0);
-        let next = left.remove(next);
-        let neighbours: Vec<usize> = left.iter().copied().filter(|i| coupled[next][*i]).collect();
-        for &i in &neighbours {
-            for &j in &neighbours {
-                coupled[i][j] = true;
-            }
-        }
-        order.push(next);
-    }
-    order
-}
 
 /// A definite matrix factorised block by block, for several right-hand sides.
 #[derive(Clone, Debug)]

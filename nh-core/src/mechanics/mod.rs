@@ -4,6 +4,7 @@ mod adapted;
 mod complete_lift;
 mod cyclic;
 mod definiteness;
+mod elimination_order;
 mod energy;
 mod euler_lagrange;
 mod exterior_derivative;

@@ -4,7 +4,8 @@
 //! in closed form; larger ones by an unrolled LDLᵀ factorisation where the matrix is definite, else
 //! with numerical pivoting.
 
-use super::factorisation::{Ldl, elimination_order};
+use super::elimination_order::elimination_order;
+use super::factorisation::Ldl;
 use super::pair::Pair;
 use super::procedure::{Definition, Procedure};
 use crate::algebra::{Graph, Matrix};
