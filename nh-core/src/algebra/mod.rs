@@ -8,6 +8,7 @@ mod display;
 mod evaluate;
 mod field;
 mod graph;
+mod independence;
 mod linear_form;
 mod linear_system;
 mod matrix;

@@ -1,8 +1,6 @@
 //! What the declaration says in quasi-velocities, put into the velocities of the state.
 
-use std::collections::BTreeSet;
-
-use crate::algebra::{Graph, Node, Substitution};
+use crate::algebra::{Graph, Substitution};
 use crate::check::Motion;
 use crate::check::evidence::shown;
 use crate::id::{ExprId, Origin, SymbolId};
@@ -82,13 +80,7 @@ pub(super) fn parameter_divisors(model: &mut Model, procedure: &Procedure) -> Ve
     for output in &procedure.outputs {
         roots.push(fixed.apply(graph, *output));
     }
-    let mut divisors = BTreeSet::new();
-    for id in graph.reachable(&roots) {
-        if let Node::Product { factors, .. } = graph.node(id) {
-            divisors.extend(factors.iter().filter(|(_, e)| e.is_negative()).map(|(base, _)| *base));
-        }
-    }
-    divisors.into_iter().filter(|divisor| is_fixed(graph, *divisor)).collect()
+    graph.divisors(&roots).into_iter().filter(|divisor| is_fixed(graph, *divisor)).collect()
 }
 
 /// The conditions on the parameters, each once.

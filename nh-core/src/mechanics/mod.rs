@@ -14,6 +14,7 @@ mod gibbs_appell;
 mod hamiltonian;
 mod jacobian;
 mod kinetic_metric;
+mod ldl;
 mod lone_constraint;
 mod momentum;
 mod moving_energy;

@@ -5,7 +5,7 @@
 //! with numerical pivoting.
 
 use super::elimination_order::elimination_order;
-use super::factorisation::Ldl;
+use super::ldl::Ldl;
 use super::pair::Pair;
 use super::procedure::{Definition, Procedure};
 use crate::algebra::{Graph, Matrix};

@@ -1,0 +1,110 @@
+//! Expressions that do not depend on symbols which occur in them.
+
+use super::graph::{Graph, Node};
+use super::zero_test::sample;
+use crate::id::{ExprId, SymbolId};
+use std::collections::BTreeSet;
+
+impl Graph {
+    /// The expression where symbols that it does not depend on vanish, simplified: `(cos²θ + sin²θ) J` is
+    /// `J`. `None` where it depends on all that occur, or where that divides by something else.
+    ///
+    /// That both are equal is proved by the zero test.
+    pub fn freed(&mut self, expression: ExprId) -> Option<ExprId> {
+        let idle = self.seemingly_idle(expression);
+        let at_once = self.equal_at_zero(expression, &idle);
+        let freed = at_once.or_else(|| {
+            let mut freed = None;
+            for symbol in idle {
+                let next = self.equal_at_zero(freed.unwrap_or(expression), &[symbol]);
+                freed = next.or(freed);
+            }
+            freed
+        })?;
+        let freed = self.simplify(freed);
+        self.divisors(&[freed]).is_subset(&self.divisors(&[expression])).then_some(freed)
+    }
+
+    /// What the expression divides by: the bases of negative powers.
+    #[must_use]
+    pub fn divisors(&self, roots: &[ExprId]) -> BTreeSet<ExprId> {
+        let mut divisors = BTreeSet::new();
+        self.each_reachable(roots, |id| {
+            if let Node::Product { factors, .. } = self.node(id) {
+                divisors.extend(factors.iter().filter(|(_, e)| e.is_negative()).map(|(base, _)| *base));
+            }
+            true
+        });
+        divisors
+    }
+
+    /// The expression where the symbols vanish, if it is proved to be the same.
+    fn equal_at_zero(&mut self, expression: ExprId, symbols: &[SymbolId]) -> Option<ExprId> {
+        if symbols.is_empty() {
+            return None;
+        }
+        let value = self.at_zero(expression, symbols);
+        let difference = self.sub(expression, value);
+        (!self.is_undefined(value) && self.zero_test(difference).is_zero()).then_some(value)
+    }
+
+    /// The symbols that occur in the expression, and whose change is not felt at a point.
+    fn seemingly_idle(&self, expression: ExprId) -> Vec<SymbolId> {
+        let roots = [expression];
+        let symbols = self.symbols_in(&roots);
+        let at = |symbol: SymbolId| sample(0, symbols.binary_search(&symbol).unwrap_or(0));
+        let points = std::iter::once(None).chain(symbols.iter().map(|symbol| Some(*symbol)));
+        let points = points.map(|moved| {
+            move |symbol: SymbolId| if moved == Some(symbol) { at(symbol) + MOVED } else { at(symbol) }
+        });
+        let mut values = self.evaluate_each(&roots, points).map(|values| values[0]);
+        let Some(unmoved) = values.next() else { return Vec::new() };
+        let feels = |value: super::Bounded| (value.value - unmoved.value).abs() > value.error + unmoved.error;
+        let idle = symbols.iter().zip(values).filter(|(_, value)| !feels(*value));
+        idle.map(|(symbol, _)| *symbol).collect()
+    }
+}
+
+/// How far a symbol is moved to see whether an expression feels it.
+const MOVED: f64 = 0.375;
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::algebra::Rational;
+
+    #[test]
+    fn what_cancels_is_gone() {
+        let mut g = Graph::new();
+        let [x, m, j] = ["x", "m", "J"].map(|name| {
+            let symbol = g.new_symbol(name);
+            g.symbol(symbol)
+        });
+        let (sin, cos) = (g.sin(x), g.cos(x));
+        let (ss, cc) = (g.square(sin), g.square(cos));
+        // J + m cos² − m² cos² sin² / (m sin²) − … leaves J alone, though all is divided by m sin²
+        let heavy = g.mul(m, ss);
+        let product = g.mul(cc, ss);
+        let square = g.square(m);
+        let numerator = g.mul(square, product);
+        let quotient = g.div(numerator, heavy);
+        let one = g.one();
+        let sum = g.linear_combination(&[(Rational::ONE, ss), (Rational::ONE, cc), (-Rational::ONE, one)]);
+        let hidden = g.mul(sum, m);
+        let light = g.mul(m, cc);
+        let pivot = g.linear_combination(&[
+            (Rational::ONE, j),
+            (Rational::ONE, light),
+            (-Rational::ONE, quotient),
+            (Rational::ONE, hidden),
+        ]);
+        assert_eq!(g.freed(pivot), Some(j));
+        assert_eq!(g.freed(heavy), None);
+        // m / (m + J) + J / (m + J) is one, and 0/0 where both vanish
+        let total = g.add(m, j);
+        let (first, second) = (g.div(m, total), g.div(j, total));
+        let sum = g.add(first, second);
+        let shares = g.mul(x, sum);
+        assert_eq!(g.freed(shares), Some(x));
+    }
+}

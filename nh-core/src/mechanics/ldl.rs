@@ -1,0 +1,204 @@
+//! Definite matrices as L D Lᵀ with unit lower triangular L, unrolled and without pivoting.
+
+use super::procedure::Procedure;
+use crate::algebra::{Graph, Rational};
+use crate::id::ExprId;
+
+/// An entry on the way to the solution: as it is computed, from intermediate results, and in terms of
+/// the matrix and the right-hand side alone, while that is short.
+///
+/// Intermediate results hide what cancels identically. Written out, it is seen.
+#[derive(Clone, Copy, Debug)]
+struct Entry {
+    value: ExprId,
+    written_out: Option<ExprId>,
+}
+
+/// `L D Lᵀ` with unit lower triangular L.
+#[derive(Clone, Debug)]
+pub(super) struct Ldl {
+    /// Below the diagonal: L.
+    lower: Vec<Vec<Entry>>,
+    /// D.
+    diagonal: Vec<Entry>,
+}
+
+/// Entries of the factorisation with more operations than this are not simplified.
+pub(super) const SIMPLIFIED: u64 = 40;
+/// Simplified entries with no more operations than this stay in place, so that later ones simplify.
+const IN_PLACE: u64 = 6;
+/// Entries that are longer written out are not looked at any more.
+const WRITTEN_OUT: u64 = 240;
+
+impl Entry {
+    /// An entry of what is given.
+    fn given(graph: &Graph, value: ExprId) -> Self {
+        Self { value, written_out: (graph.operation_count(&[value]) <= WRITTEN_OUT).then_some(value) }
+    }
+
+    fn zero(graph: &mut Graph) -> Self {
+        let zero = graph.zero();
+        Self { value: zero, written_out: Some(zero) }
+    }
+
+    /// `entry − Σ Π factors`.
+    fn less_products(self, graph: &mut Graph, products: &[Vec<Self>]) -> Self {
+        let mut difference = |of: fn(&Self) -> Option<ExprId>| {
+            let mut terms = vec![(Rational::ONE, of(&self)?)];
+            for factors in products {
+                let factors: Option<Vec<ExprId>> = factors.iter().map(of).collect();
+                let product = factors?.into_iter().reduce(|a, b| graph.mul(a, b))?;
+                terms.push((Rational::MINUS_ONE, product));
+            }
+            Some(graph.linear_combination(&terms))
+        };
+        let value = difference(|entry| Some(entry.value)).unwrap_or(self.value);
+        let written_out = difference(|entry| entry.written_out);
+        let is_short = |whole: &ExprId| graph.operation_count(&[*whole]) <= WRITTEN_OUT;
+        Self { value, written_out: written_out.filter(is_short) }
+    }
+
+    /// `entry / divisor`.
+    fn over(self, graph: &mut Graph, divisor: Self) -> Self {
+        let value = graph.div(self.value, divisor.value);
+        let written_out = self.written_out.zip(divisor.written_out).map(|(a, b)| graph.div(a, b));
+        Self { value, written_out }
+    }
+
+    /// What is seen where it is written out: that it vanishes, or that it is shorter and depends on less than
+    /// its way through intermediate results.
+    fn looked_at(self, graph: &mut Graph) -> Self {
+        let Some(whole) = self.written_out else { return self };
+        if graph.zero_test(whole).is_zero() {
+            return Self::zero(graph);
+        }
+        let short = graph.freed(whole).unwrap_or(whole);
+        let is_shorter = graph.operation_count(&[short]) < graph.operation_count(&[self.value]);
+        if is_shorter && graph.error_growth(short, whole) <= graph.accuracy().growth() {
+            return Self { value: short, written_out: Some(short) };
+        }
+        self
+    }
+
+    /// The entry as an intermediate result. Short ones are simplified: where a pivot is a mass, say, much
+    /// of what follows cancels.
+    fn named(mut self, graph: &mut Graph, procedure: &mut Procedure, name: &str) -> Self {
+        if graph.operation_count(&[self.value]) <= SIMPLIFIED {
+            let short = graph.simplify(self.value);
+            if short == self.value || graph.error_growth(short, self.value) <= graph.accuracy().growth() {
+                if self.written_out == Some(self.value) {
+                    self.written_out = Some(short);
+                }
+                self.value = short;
+            }
+            if graph.operation_count(&[self.value]) <= IN_PLACE {
+                return self;
+            }
+        }
+        self.value = procedure.define(graph, name, self.value);
+        self
+    }
+}
+
+impl Ldl {
+    pub(super) fn of(
+        graph: &mut Graph,
+        matrix: &[Vec<ExprId>],
+        procedure: &mut Procedure,
+        name: &str,
+    ) -> Self {
+        let n = matrix.len();
+        let zero = Entry::zero(graph);
+        let mut lower = vec![vec![zero; n]; n];
+        let mut diagonal: Vec<Entry> = Vec::with_capacity(n);
+        for j in 0..n {
+            // d_j = a_jj − Σ_k l_jk² d_k
+            let products: Vec<_> = (0..j).map(|k| vec![lower[j][k], lower[j][k], diagonal[k]]).collect();
+            let pivot = Entry::given(graph, matrix[j][j]).less_products(graph, &products);
+            let pivot = if j > 0 { pivot.looked_at(graph) } else { pivot };
+            let pivot = pivot.named(graph, procedure, &format!("{name}_d{j}"));
+            diagonal.push(pivot);
+            // l_ij = (a_ij − Σ_k l_ik d_k l_jk) / d_j
+            for i in j + 1..n {
+                let products: Vec<_> = (0..j).map(|k| vec![lower[i][k], diagonal[k], lower[j][k]]).collect();
+                let numerator = Entry::given(graph, matrix[i][j]).less_products(graph, &products);
+                let numerator = if j > 0 { numerator.looked_at(graph) } else { numerator };
+                let quotient = numerator.over(graph, pivot);
+                lower[i][j] = quotient.named(graph, procedure, &format!("{name}_l{i}{j}"));
+            }
+        }
+        Self { lower, diagonal }
+    }
+
+    pub(super) fn solve(
+        &self,
+        graph: &mut Graph,
+        right: &[ExprId],
+        procedure: &mut Procedure,
+        name: &str,
+    ) -> Vec<ExprId> {
+        let n = right.len();
+        // L z = right
+        let mut forward: Vec<Entry> = Vec::with_capacity(n);
+        for (i, entry) in right.iter().enumerate() {
+            let products: Vec<_> = (0..i).map(|k| vec![self.lower[i][k], forward[k]]).collect();
+            let entry = Entry::given(graph, *entry).less_products(graph, &products);
+            let entry = if i > 0 { entry.looked_at(graph) } else { entry };
+            forward.push(entry.named(graph, procedure, &format!("{name}_z{i}")));
+        }
+        // Lᵀ x = D⁻¹ z
+        let mut solution: Vec<ExprId> = forward.iter().map(|entry| entry.value).collect();
+        for i in (0..n).rev() {
+            let column: Vec<ExprId> = (i + 1..n).map(|k| self.lower[k][i].value).collect();
+            let known = graph.inner_product(&column, &solution[i + 1..]);
+            let scaled = graph.div(forward[i].value, self.diagonal[i].value);
+            let value = graph.sub(scaled, known);
+            let entry = Entry { value, written_out: None };
+            solution[i] = entry.named(graph, procedure, &format!("{name}_x{i}")).value;
+        }
+        solution
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::mechanics::Definition;
+
+    #[test]
+    fn what_cancels_behind_intermediate_results_is_seen() {
+        let mut g = Graph::new();
+        let names = ["m", "I", "K", "a", "b", "x", "y", "f", "h", "k"];
+        let [m, i, k, a, b, x, y, f, h, r] = names.map(|name| {
+            let symbol = g.new_symbol(name);
+            g.symbol(symbol)
+        });
+        // two levers too long to be put in place
+        let lever = |g: &mut Graph, angle: ExprId| {
+            let (sin, cos, square) = (g.sin(angle), g.cos(angle), g.square(angle));
+            let terms = [g.mul(a, sin), g.mul(b, cos), square];
+            g.sum(&terms)
+        };
+        let (p, q) = (lever(&mut g, x), lever(&mut g, y));
+        let (mp, mq) = (g.mul(m, p), g.mul(m, q));
+        let (mpp, mpq, mqq) = (g.mul(mp, p), g.mul(mp, q), g.mul(mq, q));
+        let (ip, kq) = (g.add(i, mpp), g.add(k, mqq));
+        let matrix = vec![vec![m, mp, mq], vec![mp, ip, mpq], vec![mq, mpq, kq]];
+        // the force f on the mass, and moments about it
+        let (fp, fq) = (g.mul(f, p), g.mul(f, q));
+        let right = [f, g.add(h, fp), g.add(r, fq)];
+        let mut procedure = Procedure::default();
+        let factors = Ldl::of(&mut g, &matrix, &mut procedure, "m");
+        let zero = g.zero();
+        assert_eq!(factors.diagonal.iter().map(|d| d.value).collect::<Vec<_>>(), [m, i, k]);
+        assert_eq!(factors.lower[2][1].value, zero);
+        let solution = factors.solve(&mut g, &right, &mut procedure, "x");
+        assert_eq!(solution[1..], [g.div(h, i), g.div(r, k)]);
+        // the levers are all that has a name
+        let named = |definition: &Definition| match definition {
+            Definition::Value { value, .. } => *value == p || *value == q,
+            _ => false,
+        };
+        assert_eq!(procedure.definitions.iter().filter(|definition| named(definition)).count(), 2);
+    }
+}
