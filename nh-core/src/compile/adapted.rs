@@ -16,7 +16,7 @@ use crate::check;
 use crate::geometry::ConstraintDistribution;
 use crate::id::{ExprId, Id};
 use crate::mechanics::{
-    Definiteness, Definition, Flow, Procedure, ReducedEquations, definiteness, energy,
+    Definiteness, Definition, Flow, Procedure, ReducedEquations, definiteness, energy, equations_by_momenta,
     equations_by_partial_velocities, equations_by_velocity_forms, equations_in_wheel_frames, reaction_forces,
     reduced_equations, solve_symmetric,
 };
@@ -163,7 +163,9 @@ fn candidates(
     }
     let by_forms = equations_by_velocity_forms(graph, system, distribution);
     let expanded = reduced_equations(graph, system, distribution);
-    [expanded, by_forms, by_chain].into_iter().chain(on_wheels).chain(by_parts).collect()
+    let by_momenta = equations_by_momenta(graph, system, distribution);
+    let written_out = [expanded, by_forms, by_chain].into_iter();
+    written_out.chain(by_momenta).chain(on_wheels).chain(by_parts).collect()
 }
 
 /// Where the basis was made orthonormal, C is the identity: what is proved to be 0 or 1 is written so.

@@ -1,7 +1,7 @@
 //! Lagrange–d'Alembert equations in a basis of D: mathematics (8), CLMM (3.5) and (3.7).
 
 use super::euler_lagrange::LagrangianSystem;
-use super::procedure::Procedure;
+use super::procedure::{Definition, Procedure};
 use crate::algebra::{Graph, Matrix};
 use crate::geometry::ConstraintDistribution;
 use crate::id::{ExprId, SymbolId};
@@ -43,10 +43,37 @@ pub fn reduced_equations(
     system: &LagrangianSystem,
     distribution: &ConstraintDistribution,
 ) -> ReducedEquations {
+    reduced_equations_by(graph, system, distribution, &mut Procedure::inline())
+}
+
+/// The equations with momenta as intermediate results where brackets turn them: C^γ_{αβ} y^β p_γ of a body with
+/// wheels, or in a fluid, is longer in differences of inertias. `None` where no bracket contains a momentum with
+/// several terms.
+pub fn equations_by_momenta(
+    graph: &mut Graph,
+    system: &LagrangianSystem,
+    distribution: &ConstraintDistribution,
+) -> Option<ReducedEquations> {
+    let mut definitions = Procedure::default();
+    let equations = reduced_equations_by(graph, system, distribution, &mut definitions);
+    let mut names = definitions.definitions.iter().filter_map(|definition| match definition {
+        Definition::Value { symbol, .. } => Some(*symbol),
+        _ => None,
+    });
+    let is_used = names.any(|name| equations.force.iter().any(|force| graph.depends_on(*force, &[name])));
+    is_used.then_some(ReducedEquations { definitions, ..equations })
+}
+
+fn reduced_equations_by(
+    graph: &mut Graph,
+    system: &LagrangianSystem,
+    distribution: &ConstraintDistribution,
+    names: &mut Procedure,
+) -> ReducedEquations {
     let velocities = &system.algebroid.velocities;
     let velocity = distribution.velocity.clone();
     let mut restriction = distribution.restriction(graph, velocities);
-    let balance = system.force_balance(graph, &velocity, &mut restriction);
+    let balance = system.force_balance_by(graph, &velocity, &mut restriction, names);
     let independent = distribution.independent.clone();
 
     // ∂p̂_α/∂v^b

@@ -1,6 +1,7 @@
 //! The Euler–Lagrange side of the equations: momenta and the force balance without ẏ.
 
-use crate::algebra::{Derivation, Graph, Substitution};
+use super::procedure::Procedure;
+use crate::algebra::{Derivation, Graph, Node, Substitution};
 use crate::geometry::Algebroid;
 use crate::id::{ExprId, SymbolId};
 
@@ -69,6 +70,18 @@ impl LagrangianSystem {
         velocity: &[ExprId],
         restriction: &mut Substitution,
     ) -> ForceBalance {
+        self.force_balance_by(graph, velocity, restriction, &mut Procedure::inline())
+    }
+
+    /// The same with momenta that are sums as intermediate results of the procedure where C^γ_{αβ} y^β p_γ
+    /// contains them.
+    pub(super) fn force_balance_by(
+        &self,
+        graph: &mut Graph,
+        velocity: &[ExprId],
+        restriction: &mut Substitution,
+        names: &mut Procedure,
+    ) -> ForceBalance {
         let momenta = self.momenta(graph);
         let momenta = restriction.apply_all(graph, &momenta);
         let gradient = self.base_gradient(graph);
@@ -78,7 +91,18 @@ impl LagrangianSystem {
         let mut along: Derivation = self.algebroid.along(graph, velocity, self.time);
         let drift = along.apply_all(graph, &momenta);
         // 2. C^γ_{αβ} y^β p_γ
-        let bracket = self.algebroid.structure.bracket_term(graph, velocity, &momenta);
+        let named: Vec<ExprId> = momenta
+            .iter()
+            .zip(&self.algebroid.velocities)
+            .map(|(momentum, symbol)| match graph.node(*momentum) {
+                Node::Sum { .. } => {
+                    let name = format!("momentum_{}", graph.symbols()[*symbol]);
+                    names.define(graph, &name, *momentum)
+                }
+                _ => *momentum,
+            })
+            .collect();
+        let bracket = self.algebroid.structure.bracket_term(graph, velocity, &named);
         // 3. ρ^i_α ∂_iL
         let potential = self.algebroid.anchor.pull_back(graph, &gradient);
         // 4. Υ_α

@@ -32,7 +32,7 @@ mod velocity_forms;
 mod volume;
 mod wheel_frames;
 
-pub use adapted::{ReducedEquations, reaction_forces, reduced_equations};
+pub use adapted::{ReducedEquations, equations_by_momenta, reaction_forces, reduced_equations};
 pub use complete_lift::complete_lift;
 pub use cyclic::{cyclic_coordinates, translation};
 pub use definiteness::definiteness;

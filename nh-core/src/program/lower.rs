@@ -11,7 +11,7 @@ use rustc_hash::{FxBuildHasher, FxHashMap};
 use std::collections::BTreeMap;
 
 /// Longer sums are split in halves, which do not wait for each other.
-const LONGEST_CHAIN: usize = 8;
+const LONGEST_CHAIN: usize = 16;
 
 /// The program of an arena without powers in its products.
 ///

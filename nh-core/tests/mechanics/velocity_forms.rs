@@ -1,11 +1,11 @@
-//! The equations in velocity forms, with named partial velocities and with chained constraints are those of the reduced form (8),
+//! The equations in velocity forms, with named partial velocities, with named momenta and with chained constraints are those of the reduced form (8),
 //! entry by entry.
 
 use crate::adapted_frame::stages;
 use crate::systems;
 use nh_core::mechanics::{
-    Definition, equations_by_partial_velocities, equations_by_velocity_forms, equations_in_wheel_frames,
-    reduced_equations,
+    Definition, equations_by_momenta, equations_by_partial_velocities, equations_by_velocity_forms,
+    equations_in_wheel_frames, reduced_equations,
 };
 use nh_core::model::Model;
 
@@ -23,7 +23,8 @@ fn forms_agree(mut model: Model) -> bool {
         equations_by_velocity_forms(graph, &system, &chained),
     ];
     let by_partials = equations_by_partial_velocities(graph, &system, &distribution);
-    for candidate in candidates.into_iter().chain(on_wheels).chain(by_partials) {
+    let by_momenta = equations_by_momenta(graph, &system, &distribution);
+    for candidate in candidates.into_iter().chain(on_wheels).chain(by_partials).chain(by_momenta) {
         let entries = expected.mass.iter().flatten().chain(&expected.force).chain(&expected.rates);
         let others = candidate.mass.iter().flatten().chain(&candidate.force).chain(&candidate.rates);
         let others = candidate.definitions.with_outputs(others.copied().collect()).written_out(graph);

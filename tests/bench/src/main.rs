@@ -53,7 +53,9 @@ fn own_counts() -> Result<Counts, String> {
         println!("valgrind is not installed: instructions are not counted\n");
         return Ok(Counts::default());
     }
-    program::count("nh-bench.callgrind", &[], |name| OWN.iter().any(|own| name.ends_with(own)))
+    program::count("nh-bench.callgrind", &[], |name| {
+        OWN.iter().any(|own| name.ends_with(own)) || name.ends_with("::derivative")
+    })
 }
 
 /// The row of a system.

@@ -92,3 +92,16 @@ fn what_moves_one_body_with_another_is_named() {
     assert!(operations(&hitched) <= 42);
     assert!(operations(&balancing) <= 49);
 }
+
+/// A momentum that a bracket turns is computed once: a satellite with three wheels takes less than in
+/// differences of its moments of inertia.
+#[test]
+fn momenta_are_named_where_brackets_turn_them() {
+    let attribute = "basis { w[3], s[3] }
+        brackets { [w[0], w[1]] = -w[2]; [w[1], w[2]] = -w[0]; [w[2], w[0]] = -w[1]; }
+        lagrangian { sum(i in 0..3: I[i] / 2 * w[i]^2 + J[i] / 2 * (w[i] + s[i])^2) }
+        inputs { torque[3] } forces { for i in 0..3 { s[i]: torque[i]; } }";
+    let item = "struct Satellite { I: [f64; 3], J: [f64; 3] }";
+    let satellite = (attribute.parse().expect("tokens"), item.parse().expect("tokens"));
+    assert!(operations(&satellite) <= 27);
+}
