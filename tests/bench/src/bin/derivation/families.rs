@@ -17,15 +17,21 @@ pub(crate) struct Declaration {
 }
 
 impl Declaration {
-    /// The declaration in a file of the benchmark.
-    fn of_source(name: &str, source: &str) -> Self {
-        let (_, rest) = source.split_once("#[nonholonomic(").expect("a declaration");
-        let (attribute, rest) = rest.split_once("\n)]\n").expect("the end of the attribute");
-        let (item, _) = rest.split_once("\n}\n").expect("the end of the struct");
+    /// A system of `tests/models` with the struct and the sections that a file of the benchmark adds.
+    fn of_benchmark(name: &str, model: &str, source: &str) -> Self {
+        let models = include_str!("../../../../models/src/lib.rs");
+        let (_, rule) = models.split_once(&format!("macro_rules! {model} {{")).expect("a model");
+        let (_, rest) = rule.split_once("nonholonomic(").expect("a declaration");
+        let (sections, _) = rest.split_once("$($sections)*").expect("the end of its sections");
+        let (_, used) = source.split_once(&format!("nh_models::{model}! {{")).expect("its use");
+        let (_, rest) = used.split_once("pub struct").expect("a struct");
+        let (fields, rest) = rest.split_once('}').expect("the end of the struct");
+        let (more, _) = rest.split_once("\n\n").expect("the end of its use");
+        let more = more.trim_end().strip_suffix('}').expect("a brace");
         Self {
             name: name.to_owned(),
-            attribute: attribute.to_owned(),
-            item: format!("{item}\n}}"),
+            attribute: format!("{sections}{more}"),
+            item: format!("struct{fields}}}"),
             member: None,
             ordinary: String::new(),
         }
@@ -56,12 +62,12 @@ impl Declaration {
 /// Every declaration.
 pub(crate) fn all() -> Vec<Declaration> {
     let mut all = vec![
-        Declaration::of_source("sleigh", include_str!("../../systems/sleigh.rs")),
+        Declaration::of_benchmark("sleigh", "sleigh", include_str!("../../systems/sleigh.rs")),
         sleigh_without_position(),
-        Declaration::of_source("veselova", include_str!("../../systems/veselova.rs")),
-        Declaration::of_source("snakeboard", include_str!("../../systems/snakeboard.rs")),
-        Declaration::of_source("robot", include_str!("../../systems/robot.rs")),
-        Declaration::of_source("ball on table", include_str!("../../systems/ball.rs")),
+        Declaration::of_benchmark("veselova", "veselova", include_str!("../../systems/veselova.rs")),
+        Declaration::of_benchmark("snakeboard", "snakeboard", include_str!("../../systems/snakeboard.rs")),
+        Declaration::of_benchmark("robot", "robot", include_str!("../../systems/robot.rs")),
+        Declaration::of_benchmark("ball on table", "ball", include_str!("../../systems/ball.rs")),
     ];
     let trailers = [1, 2, 3, 4, 5, 6, 8, 10, 12, 16, 20];
     all.extend(trailers.map(relative_tractor));
@@ -73,20 +79,21 @@ pub(crate) fn all() -> Vec<Declaration> {
 
 /// The sleigh of which a scene needs the velocities alone.
 fn sleigh_without_position() -> Declaration {
-    let mut declaration =
-        Declaration::of_source("sleigh, velocities alone", include_str!("../../systems/sleigh.rs"));
+    let source = include_str!("../../systems/sleigh.rs");
+    let mut declaration = Declaration::of_benchmark("sleigh, velocities alone", "sleigh", source);
     declaration.attribute.push_str("track { omega, v1 }");
     declaration
 }
 
 /// A tractor with trailers in relative angles: that of the benchmark, without Jacobians.
 pub(crate) fn relative_tractor(trailers: usize) -> Declaration {
-    let source = include_str!("../../systems/tractor.rs").replace("\n        )]\n", "\n)]\n");
-    let source = source.replace("\n        }\n", "\n}\n");
-    let mut declaration = Declaration::of_source(&format!("relative tractor {trailers}"), &source);
+    let source = include_str!("../../systems/tractor.rs");
+    let mut declaration =
+        Declaration::of_benchmark(&format!("relative tractor {trailers}"), "tractor", source);
     for text in [&mut declaration.attribute, &mut declaration.item] {
         *text = text
             .replace("$trailers", &trailers.to_string())
+            .replace("$n", &trailers.to_string())
             .replace("$bodies", &(trailers + 1).to_string())
             .replace("$Tractor", "Tractor")
             .replace("emit { jacobian }", "");
