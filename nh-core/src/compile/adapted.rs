@@ -1,5 +1,6 @@
 //! The functions of a system in the adapted formulation.
 
+use super::cancellation::without_needless_cancellation;
 use super::embedded::embedding;
 use super::gibbs_appell;
 use super::gyroscopic;
@@ -223,7 +224,8 @@ fn cheapest_derivative(proved: &mut Proved, candidates: &[ReducedEquations], cal
     }
     // a single candidate needs no comparison
     let best = if procedures.len() < 2 { 0 } else { cheapest(graph, &procedures) };
-    procedures.into_iter().nth(best).unwrap_or_default()
+    let best = procedures.into_iter().nth(best).unwrap_or_default();
+    without_needless_cancellation(graph, best, &proved.system.algebroid.anchor.coordinates)
 }
 
 /// Costs whose estimates differ by so many hundredths at most may be in the other order once scheduled.

@@ -3,6 +3,7 @@
 mod adapted;
 mod analytic;
 mod brackets;
+mod cancellation;
 mod connection;
 mod constants;
 mod discrete;

@@ -1,5 +1,6 @@
 //! The functions of a system in the projected formulation.
 
+use super::cancellation::without_needless_cancellation;
 use super::embedded::embedding;
 use super::gibbs_appell;
 use super::gyroscopic;
@@ -49,6 +50,8 @@ pub(super) fn derive(mut proved: Proved, reason: &str) -> Result<System, Vec<Vio
     // those of levels are zero
     let multipliers = multipliers.into_iter().take(declared).collect();
     let (multipliers, reactions) = (derivative.with_outputs(multipliers), derivative.with_outputs(reactions));
+    let fixed = &proved.system.algebroid.anchor.coordinates;
+    let derivative = without_needless_cancellation(graph, derivative, fixed);
     // 3. E_L, y and the observables
     let velocity = proved.system.algebroid.velocity(graph);
     let energy = energy(graph, &proved.system);

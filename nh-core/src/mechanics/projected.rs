@@ -141,6 +141,8 @@ impl SaddleEquations {
                 let sum = graph.sum(&terms);
                 let one = graph.one();
                 let weight = if graph.zero_test(sum).is_zero() { one } else { graph.div(one, sum) };
+                // the squares of a unit vector are one: what they do not leave need not cancel later
+                let weight = graph.simplify(weight);
                 procedure.define(graph, "weight", weight)
             })
             .collect();

@@ -13,7 +13,7 @@
 //! Constants become numbers before 2 or after it (`fold`), or at last (`lower`), whichever is cheapest.
 //!
 //! [`corrected`] makes a program carry its rounding errors along; [`error_growth`] compares programs by
-//! theirs. [`Recurrences`] extend a program from numbers to power series in the time.
+//! theirs, and [`units_lost`] finds terms that cancel identically. [`Recurrences`] extend a program from numbers to power series in the time.
 
 mod angles;
 mod correct;
@@ -40,7 +40,7 @@ mod tests;
 pub use correct::corrected;
 pub use cost::{Cost, order};
 pub use interpret::{Arithmetic, interpret, interpret_in};
-pub use rounding::error_growth;
+pub use rounding::{error_growth, reading_in_vain, units_lost};
 pub use rule::{Factor, Inner, Rule};
 pub use schedule::{schedule, schedule_grouping, schedule_roughly};
 pub use split::{Split, split};

@@ -1,9 +1,10 @@
 //! How much rounding error programs of the same value accumulate.
 
 use super::interpret::{Arithmetic, interpret_in};
-use super::step::Program;
+use super::step::{Program, Step};
 use crate::algebra::{Bounded, Function, Function2, Rational, Residue};
 use crate::id::{Id, SymbolId};
+use std::borrow::Borrow;
 
 /// Points at which programs are compared.
 const POINTS: u32 = 16;
@@ -14,14 +15,15 @@ const POINTS: u32 = 16;
 /// An error below a few units in the last place of the value counts as that. The mean, since at a point
 /// where a value happens to be small the bounds of any two programs are far apart.
 #[must_use]
-pub fn error_growth(programs: &[Program]) -> Vec<f64> {
-    let outputs = programs.iter().map(|program| program.outputs.len()).min().unwrap_or(0);
+pub fn error_growth<P: Borrow<Program>>(programs: &[P]) -> Vec<f64> {
+    let outputs = programs.iter().map(|program| program.borrow().outputs.len()).min().unwrap_or(0);
     let mut logarithms = vec![vec![0.0; outputs]; programs.len()];
     for point in 0..POINTS {
         let values: Vec<Vec<Bounded>> = programs
             .iter()
             .map(|program| {
-                interpret_in(program, |symbol| Bounded { value: sample(point, symbol), error: 0.0 })
+                let at = |symbol| Bounded { value: sample(point, symbol), error: 0.0 };
+                interpret_in(program.borrow(), at)
             })
             .collect();
         for output in 0..outputs {
@@ -39,6 +41,78 @@ pub fn error_growth(programs: &[Program]) -> Vec<f64> {
     }
     let mean = |sum: f64| (sum / f64::from(POINTS)).exp();
     logarithms.into_iter().map(|sums| sums.into_iter().map(mean).fold(1.0, f64::max)).collect()
+}
+
+/// How much larger a symbol is made than all others.
+const LARGE: f64 = 1e6;
+/// As many steps are run for all symbols together.
+const WORK: usize = 40_000;
+
+/// The bound on the rounding error of each output in units in the last place, at the worst of the points where
+/// one symbol is a million times its ordinary size. Terms that cancel identically show there. `fixed` symbols
+/// are not made large, nor are those that arguments of functions depend on; in large programs only the first.
+#[must_use]
+pub fn units_lost(program: &Program, fixed: &[SymbolId]) -> Vec<f64> {
+    let turned = under_functions(program);
+    let loaded = program.steps.iter_ids().filter_map(|(value, step)| match step {
+        Step::Load(symbol) if !fixed.contains(symbol) && !turned[value.index()] => Some(*symbol),
+        _ => None,
+    });
+    let mut worst = vec![0.0_f64; program.outputs.len()];
+    for large in loaded.take(WORK / program.steps.len().max(1)) {
+        let at = |symbol| sample(0, symbol) * if symbol == large { LARGE } else { 1.0 };
+        let values = interpret_in(program, |symbol| Bounded { value: at(symbol), error: 0.0 });
+        for (worst, Bounded { value, error }) in worst.iter_mut().zip(values) {
+            if error > 0.0 && error.is_finite() {
+                *worst = worst.max(error / (f64::EPSILON * value.abs()));
+            }
+        }
+    }
+    worst
+}
+
+/// Whether the program of an output reads a symbol that its value does not depend on, as far as rounding tells.
+#[must_use]
+pub fn reading_in_vain(program: &Program) -> Vec<bool> {
+    let run = |moved: Option<SymbolId>| -> Vec<Bounded> {
+        let at = |symbol| sample(0, symbol) * if Some(symbol) == moved { 1.5 } else { 1.0 };
+        interpret_in(program, |symbol| Bounded { value: at(symbol), error: 0.0 })
+    };
+    let before = run(None);
+    let mut in_vain = vec![false; program.outputs.len()];
+    for (symbol, reading) in read(program).take(WORK / program.steps.len().max(1)) {
+        for (index, after) in run(Some(symbol)).into_iter().enumerate() {
+            let moved = (after.value - before[index].value).abs();
+            let is_read = reading[program.outputs[index].index()];
+            in_vain[index] |= is_read && moved <= after.error + before[index].error;
+        }
+    }
+    in_vain
+}
+
+/// The symbols of a program, each with the results that depend on it.
+fn read(program: &Program) -> impl Iterator<Item = (SymbolId, Vec<bool>)> {
+    program.steps.iter_ids().filter_map(|(load, step)| {
+        let Step::Load(symbol) = step else { return None };
+        let mut reading = vec![false; program.steps.len()];
+        reading[load.index()] = true;
+        for (value, step) in program.steps.iter_ids().skip(load.index() + 1) {
+            step.each_operand(|operand| reading[value.index()] |= reading[operand.index()]);
+        }
+        Some((*symbol, reading))
+    })
+}
+
+/// Whether arguments of elementary functions depend on a result.
+fn under_functions(program: &Program) -> Vec<bool> {
+    let mut marked = vec![false; program.steps.len()];
+    for value in program.steps.ids().rev() {
+        let step = &program.steps[value];
+        if marked[value.index()] || matches!(step, Step::SinCos(_) | Step::Apply(..) | Step::Apply2(..)) {
+            step.each_operand(|operand| marked[operand.index()] = true);
+        }
+    }
+    marked
 }
 
 /// A number between 1/8 and 8 that the point and the symbol determine: masses and lengths are positive,
