@@ -236,9 +236,10 @@ const CLOSE: usize = 5;
 pub(super) fn cheapest(graph: &Graph, procedures: &[Procedure]) -> usize {
     let programs: Vec<Program> =
         procedures.iter().map(|procedure| schedule_roughly(graph, procedure)).collect();
-    let growth = match graph.accuracy() {
-        Accuracy::Fast => vec![1.0; programs.len()],
-        Accuracy::Balanced | Accuracy::Careful => error_growth(&programs),
+    let growth = error_growth(&programs).into_iter();
+    let growth: Vec<f64> = match graph.accuracy() {
+        Accuracy::Fast => growth.map(|growth| if growth.is_finite() { 1.0 } else { growth }).collect(),
+        Accuracy::Balanced | Accuracy::Careful => growth.collect(),
     };
     let least = growth.iter().copied().fold(f64::INFINITY, f64::min);
     let allowed = graph.accuracy().growth().max(least);

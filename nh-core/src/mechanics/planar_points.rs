@@ -157,5 +157,7 @@ pub(super) fn together(section: usize, first: &[Motion<2>], second: &[Motion<1>]
     let contains = |list: &[(usize, bool)], section: usize| list.iter().any(|(s, _)| *s == section);
     let alone = vec![(section, false)];
     let Some(motion) = lists().find(|list| contains(list, section)) else { return alone };
-    if lists().all(|list| list == motion || !contains(list, section)) { motion.clone() } else { alone }
+    let is_once = motion.iter().filter(|(s, _)| *s == section).count() == 1;
+    let others_lack_it = lists().all(|list| list == motion || !contains(list, section));
+    if is_once && others_lack_it { motion.clone() } else { alone }
 }
