@@ -78,6 +78,19 @@ impl Graph {
         };
         mean_growth(candidate.len()).max(mean_growth(candidate.len().min(WORST)))
     }
+
+    /// Whether values lose no more than the level of accuracy allows against others: overall where it allows
+    /// something, since two ways of solving the same equations cancel at different places.
+    #[must_use]
+    pub fn is_as_accurate(&self, values: &[ExprId], reference: &[ExprId]) -> bool {
+        let growth = match self.accuracy() {
+            Accuracy::Fast => return true,
+            Accuracy::Balanced => Self::error_growth_overall,
+            Accuracy::Careful => Self::error_growth,
+        };
+        let allowed = self.accuracy().growth();
+        values.iter().zip(reference).all(|(value, reference)| growth(self, *value, *reference) <= allowed)
+    }
 }
 
 /// A number between 10⁻³ and 10³ in magnitude that the point and the symbol determine.

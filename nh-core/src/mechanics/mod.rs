@@ -25,6 +25,7 @@ mod partial_velocities;
 mod planar_points;
 mod procedure;
 mod projected;
+mod rank_one;
 mod restricted;
 mod splitting;
 mod symmetric_solve;

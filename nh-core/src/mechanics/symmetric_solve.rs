@@ -8,6 +8,7 @@ use super::elimination_order::elimination_order;
 use super::ldl::Ldl;
 use super::pair::Pair;
 use super::procedure::{Definition, Procedure};
+use super::rank_one::RankOne;
 use crate::algebra::{Graph, Matrix};
 use crate::id::{ExprId, SymbolId};
 
@@ -65,15 +66,52 @@ pub fn solve_symmetric(
                     Pair { matrix: [inner[0][0], inner[0][1], inner[1][1]], right: [outer[0], outer[1]] };
                 pair.solve(graph, definiteness, procedure, &names).to_vec()
             }
-            (_, Definiteness::Definite) => {
-                Ldl::of(graph, &inner, procedure, name).solve(graph, &outer, procedure, name)
-            }
+            (_, Definiteness::Definite) => solve_definite(graph, &inner, &outer, procedure, name),
             (_, Definiteness::Unknown) => solve_pivoted(graph, inner, outer, procedure, name),
         };
         for (index, value) in block.iter().zip(values) {
             solution[*index] = procedure.define(graph, &format!("{name}_{index}"), value);
         }
     }
+    solution
+}
+
+/// By L D Lᵀ, or by a form that takes less work and loses no more digits than the level of accuracy
+/// allows against it.
+fn solve_definite(
+    graph: &mut Graph,
+    matrix: &Matrix,
+    right: &[ExprId],
+    procedure: &mut Procedure,
+    name: &str,
+) -> Vec<ExprId> {
+    let rank_one = RankOne::of(graph, matrix);
+    let mut ways: Vec<(Procedure, Vec<ExprId>)> = Vec::new();
+    let mut way = procedure.clone();
+    let solution = Ldl::of(graph, matrix, &mut way, name).solve(graph, right, &mut way, name);
+    ways.push((way, solution));
+    if let Some(rank_one) = rank_one {
+        let mut way = procedure.clone();
+        let solution = rank_one.solve(graph, right, &mut way, name);
+        ways.push((way, solution));
+    }
+    let costs = ways.iter().map(|(way, solution)| {
+        let values = way.with_outputs(solution.clone()).values(graph);
+        graph.operation_count(&values)
+    });
+    let costs: Vec<u64> = costs.collect();
+    let mut best = 0;
+    for k in 1..ways.len() {
+        if costs[k] < costs[best] {
+            let [values, reference] = [&ways[k], &ways[0]]
+                .map(|(way, solution)| way.with_outputs(solution.clone()).written_out(graph));
+            if graph.is_as_accurate(&values, &reference) {
+                best = k;
+            }
+        }
+    }
+    let (way, solution) = ways.swap_remove(best);
+    *procedure = way;
     solution
 }
 
