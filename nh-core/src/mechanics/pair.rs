@@ -51,7 +51,7 @@ impl Pair {
         }
         let whole = rule.map(|value| graph.simplify(value));
         let whole_is_accurate = is_accurate(graph, whole, rule);
-        if let Some((last, [rest, slope])) = self.relation(graph, definiteness) {
+        if let Some((last, [rest, slope])) = self.relation(graph, definiteness, whole) {
             let first = 1 - last;
             let length = graph.operation_count(&[whole[first], rest, slope]);
             let is_shorter =
@@ -119,16 +119,22 @@ impl Pair {
         }))
     }
 
-    /// An unknown as `rest − slope · other` by its own equation: the one for which that is shorter,
-    /// where the pivot is no sum. What is divided by has to be different from zero, and sums are not
-    /// added to the conditions on parameters for speed alone.
-    fn relation(self, graph: &mut Graph, definiteness: Definiteness) -> Option<(usize, [ExprId; 2])> {
+    /// An unknown as `rest − slope · other` by its own equation: the one for which that is shorter. What is
+    /// divided by has to be different from zero, and no condition is added for speed alone: a pivot is no sum, or a
+    /// factor of the determinant, by which the solution as a whole divides as well.
+    fn relation(
+        self,
+        graph: &mut Graph,
+        definiteness: Definiteness,
+        whole: [ExprId; 2],
+    ) -> Option<(usize, [ExprId; 2])> {
         if definiteness != Definiteness::Definite {
             return None;
         }
         let ([a, b, d], right) = (self.matrix, self.right);
         let pivots = [a, d].map(|pivot| graph.simplify(pivot));
-        let unknowns = (0..2).filter(|k| !matches!(graph.node(pivots[*k]), Node::Sum { .. }));
+        let is_sum = |pivot: ExprId| matches!(graph.node(pivot), Node::Sum { .. });
+        let unknowns = (0..2).filter(|k| !is_sum(pivots[*k]) || divide_by(graph, &whole, pivots[*k]));
         let unknowns: Vec<usize> = unknowns.collect();
         let relations = unknowns.into_iter().map(|k| {
             let relation = [right[k], b].map(|entry| {
@@ -151,6 +157,14 @@ fn substituted(graph: &mut Graph, [rest, slope]: [ExprId; 2], other: ExprId) -> 
 fn difference_of_products(graph: &mut Graph, first: (ExprId, ExprId), second: (ExprId, ExprId)) -> ExprId {
     let (x, y) = (graph.mul(first.0, first.1), graph.mul(second.0, second.1));
     graph.sub(x, y)
+}
+
+/// Whether some quotient in the values is by a power of the divisor.
+fn divide_by(graph: &Graph, values: &[ExprId], divisor: ExprId) -> bool {
+    graph.reachable(values).into_iter().any(|id| match graph.node(id) {
+        Node::Product { factors, .. } => factors.iter().any(|(base, e)| *base == divisor && e.is_negative()),
+        _ => false,
+    })
 }
 
 /// Whether values lose no more than the level of accuracy allows against others: overall where it allows

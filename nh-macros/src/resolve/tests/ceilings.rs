@@ -105,3 +105,23 @@ fn momenta_are_named_where_brackets_turn_them() {
     let satellite = (attribute.parse().expect("tokens"), item.parse().expect("tokens"));
     assert!(operations(&satellite) <= 27);
 }
+
+/// A rolling disk that tilts: the inertia C + mR² about the contact is a factor of the determinant of its pair of
+/// equations, and divides no more for one unknown's going by the other.
+#[test]
+fn a_pivot_that_the_determinant_has_makes_one_unknown_short() {
+    let attribute = "base { x, y, th, phi, psi }
+        lagrangian {
+            let xc = der(x) + R*(cos(phi)*der(phi)*sin(th) + sin(phi)*cos(th)*der(th));
+            let yc = der(y) - R*(cos(phi)*der(phi)*cos(th) - sin(phi)*sin(th)*der(th));
+            m/2*(xc^2 + yc^2 + (R*sin(phi)*der(phi))^2) + A/2*(der(phi)^2 + (der(th)*cos(phi))^2)
+                + C/2*(der(psi) + der(th)*sin(phi))^2 - m*g*R*cos(phi)
+        }
+        constraints { der(x) = R*cos(th)*der(psi); der(y) = R*sin(th)*der(psi); }";
+    let item = "struct Disk { m: f64, A: f64, C: f64, R: f64, g: f64 }";
+    let system = nh_core::compile::compile(super::model(attribute, item)).expect("regular");
+    let found = Cost::of(&derivative(&system)).operations();
+    assert!(found <= 30, "{found} operations");
+    let checks: Vec<&str> = system.parameter_checks.iter().map(|check| check.text.as_str()).collect();
+    assert_eq!(checks, ["A", "A + R^2*m", "C + R^2*m"]);
+}
