@@ -27,7 +27,7 @@ enum Called {
 const ARGUMENT: usize = 40;
 
 /// What other languages call our functions, and what to write.
-const ELSEWHERE: [(&str, &str); 23] = [
+const ELSEWHERE: [(&str, &str); 27] = [
     ("d", "der(x)"),
     ("dt", "der(x)"),
     ("ddt", "der(x)"),
@@ -51,7 +51,13 @@ const ELSEWHERE: [(&str, &str); 23] = [
     ("sec", "1 / cos(x)"),
     ("fabs", "abs(x)"),
     ("signum", "sign(x)"),
+    ("diag", "[[a, 0, 0], [0, b, 0], [0, 0, c]]"),
+    ("hat", SKEW),
+    ("skew", SKEW),
+    ("eye", "[[1, 0, 0], [0, 1, 0], [0, 0, 1]]"),
 ];
+/// The matrix of `cross(w, …)`.
+const SKEW: &str = "[[0, -w[2], w[1]], [w[2], 0, -w[0]], [-w[1], w[0], 0]]";
 
 impl Called {
     fn named(name: &str) -> Option<Self> {

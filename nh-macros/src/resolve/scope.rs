@@ -205,6 +205,14 @@ impl Scope {
         if text == "time" {
             return error.way_out("the time is `t`");
         }
+        // the names of the generated fields
+        let of_coordinate = |suffix| text.strip_suffix(suffix).filter(|rest| self.is_coordinate(rest));
+        if let Some(coordinate) = of_coordinate("_dot") {
+            return error.way_out(format!("the rate of `{coordinate}` is written `der({coordinate})`"));
+        }
+        if of_coordinate("_ddot").is_some() {
+            return error.way_out("accelerations are what is derived; they cannot be used");
+        }
         let locals = self.locals.iter().map(|(known, _)| known.as_str());
         let globals = self.globals.keys().map(String::as_str);
         error.way_out(did_you_mean(text, locals.chain(globals).take(COMPARED)).unwrap_or_else(|| {
@@ -212,6 +220,10 @@ impl Scope {
              or by a `let` before they are used"
                 .to_owned()
         }))
+    }
+
+    fn is_coordinate(&self, name: &str) -> bool {
+        matches!(self.globals.get(name), Some(Meaning::Named(named)) if named.role == Role::Coordinate)
     }
 
     /// The known name of one of these roles that is nearest to an unknown one.

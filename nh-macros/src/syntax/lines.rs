@@ -196,7 +196,9 @@ impl Stream {
         let Some((written, relation)) = RELATIONS.iter().find(|(written, _)| self.at_marks(written)) else {
             let reads = "an assumption reads `m > 0;`, with one of `< <= > >= !=`";
             return Err(if self.at_marks("=") {
-                Diagnostic::new(self.here(), "an assumption is not an equation").way_out(reads)
+                Diagnostic::new(self.here(), "an assumption is not an equation").evidence(reads).way_out(
+                    "declare equal numbers once, and use that name twice: a symmetric matrix from six",
+                )
             } else {
                 habits::unexpected(self, "a comparison").or_way_out(reads)
             });

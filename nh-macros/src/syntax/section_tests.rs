@@ -174,7 +174,13 @@ fn errors_in_lines_are_explained() {
         ("outputs { R[0][1][2] = 3 }", "a third index\nhelp: families have one or two indices".to_owned()),
         ("symmetries { w }", "expected `:` after `w`\nhelp: a symmetry reads `label: …;`".to_owned()),
         ("assume { m }", format!("expected a comparison after `m`\nhelp: {assumption}")),
-        ("assume { m = 0 }", format!("an assumption is not an equation\nhelp: {assumption}")),
+        (
+            "assume { M[0][1] = M[1][0] }",
+            format!(
+                "an assumption is not an equation\n{assumption}\nhelp: declare equal numbers once, and use that name \
+                 twice: a symmetric matrix from six"
+            ),
+        ),
         (
             "assume { 0 < a < b }",
             "a chain of comparisons\nhelp: write one comparison per line: `0 < a; a < b;`".to_owned(),
@@ -310,6 +316,12 @@ fn errors_between_sections_are_explained() {
     for (section, message) in [
         ("constraint { w = 0; }", "unknown section `constraint`\nhelp: did you mean `constraints`?".to_owned()),
         ("potential { w }", format!("unknown section `potential`\nhelp: sections: {}", SECTIONS.join(", "))),
+        (
+            "let c = cos(x);",
+            "a `let` outside the sections\nhelp: put it inside the section that uses it: `lagrangian { let c = \
+             cos(x); … }`"
+                .to_owned(),
+        ),
         ("inputs { a } inputs { b }", "a second `inputs`\n`inputs` was declared above already\nhelp: move its content into the first one".to_owned()),
         ("inputs { a }, outputs { }", "sections are not separated by commas\nhelp: leave it out".to_owned()),
         ("inputs(a)", "expected `{`, found parentheses\nhelp: write `inputs { … }`".to_owned()),

@@ -297,6 +297,10 @@ fn probably_meant(
 
 /// A section that does not exist.
 fn unknown(keyword: &Name) -> Diagnostic {
+    if keyword.text == "let" {
+        return Diagnostic::new(keyword.extent(), "a `let` outside the sections")
+            .way_out("put it inside the section that uses it: `lagrangian { let c = cos(x); … }`");
+    }
     let error = Diagnostic::new(keyword.extent(), format!("unknown section `{}`", keyword.text));
     match did_you_mean(&keyword.text, SECTIONS) {
         Some(question) => error.way_out(question),

@@ -16,6 +16,14 @@ fn unknown_names() {
         ("base { x } lagrangian { M * x }", "unknown name `M`\nhelp: did you mean `m`?"),
         ("base { x } lagrangian { PI }", "unknown name `PI`\nhelp: did you mean `pi`?"),
         ("base { x } lagrangian { time }", "unknown name `time`\nhelp: the time is `t`"),
+        (
+            "base { theta } basis { w } anchor { der(theta) = w; } lagrangian { theta_dot^2 }",
+            "unknown name `theta_dot`\nhelp: the rate of `theta` is written `der(theta)`",
+        ),
+        (
+            "base { theta } lagrangian { theta_ddot }",
+            "unknown name `theta_ddot`\nhelp: accelerations are what is derived; they cannot be used",
+        ),
         ("base { x } lagrangian { quux }", &format!("unknown name `quux`\nhelp: {DECLARE}")),
         (
             "base { x } lagrangian { tag }",
