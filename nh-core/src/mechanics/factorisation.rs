@@ -1,7 +1,7 @@
 //! Definite matrices factorised once, for several right-hand sides.
 
 use super::elimination_order::elimination_order;
-use super::ldl::{Ldl, SIMPLIFIED};
+use super::ldl::{Ldl, Numerators, SIMPLIFIED};
 use super::procedure::Procedure;
 use super::symmetric_solve::uncoupled;
 use crate::algebra::Graph;
@@ -33,9 +33,10 @@ impl Factorisation {
             .map(|block| {
                 let block = elimination_order(graph, matrix, &block);
                 let inner = Graph::submatrix(matrix, &block);
-                let factors = Ldl::of(graph, &inner, procedure, name);
+                let factors = Ldl::of(graph, &inner, Numerators::Divided, procedure, name);
                 let is_small = block.len() <= SMALL && graph.operation_count(&inner.concat()) <= SIMPLIFIED;
-                let written_out = is_small.then(|| Ldl::of(graph, &inner, &mut Procedure::inline(), name));
+                let written_out = is_small
+                    .then(|| Ldl::of(graph, &inner, Numerators::Divided, &mut Procedure::inline(), name));
                 Block { members: block, factors, written_out }
             })
             .collect();

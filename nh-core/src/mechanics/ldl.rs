@@ -80,9 +80,8 @@ impl Entry {
         self
     }
 
-    /// The entry as an intermediate result. Short ones are simplified: where a pivot is a mass, say, much
-    /// of what follows cancels.
-    fn named(mut self, graph: &mut Graph, procedure: &mut Procedure, name: &str) -> Self {
+    /// A short entry simplified: where a pivot is a mass, say, much of what follows cancels.
+    fn simplified(mut self, graph: &mut Graph) -> Self {
         if graph.operation_count(&[self.value]) <= SIMPLIFIED {
             let short = graph.simplify(self.value);
             if short == self.value || graph.error_growth(short, self.value) <= graph.accuracy().growth() {
@@ -91,19 +90,35 @@ impl Entry {
                 }
                 self.value = short;
             }
-            if graph.operation_count(&[self.value]) <= IN_PLACE {
-                return self;
-            }
         }
-        self.value = procedure.define(graph, name, self.value);
         self
     }
+
+    /// The entry simplified, as an intermediate result unless it is short.
+    fn named(self, graph: &mut Graph, procedure: &mut Procedure, name: &str) -> Self {
+        let mut entry = self.simplified(graph);
+        if graph.operation_count(&[entry.value]) > IN_PLACE {
+            entry.value = procedure.define(graph, name, entry.value);
+        }
+        entry
+    }
+}
+
+/// What becomes of the numerators u_ij = l_ij d_j.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub(super) enum Numerators {
+    /// They are intermediate results, unless division by the pivot cancels: a product less wherever an
+    /// entry is updated.
+    Kept,
+    /// Only the quotients are, in which more cancels.
+    Divided,
 }
 
 impl Ldl {
     pub(super) fn of(
         graph: &mut Graph,
         matrix: &[Vec<ExprId>],
+        numerators: Numerators,
         procedure: &mut Procedure,
         name: &str,
     ) -> Self {
@@ -111,20 +126,33 @@ impl Ldl {
         let zero = Entry::zero(graph);
         let mut lower = vec![vec![zero; n]; n];
         let mut diagonal: Vec<Entry> = Vec::with_capacity(n);
+        // l_ik d_k as factors: u_ik where it has a name
+        let mut scaled = vec![vec![Vec::new(); n]; n];
         for j in 0..n {
-            // d_j = a_jj − Σ_k l_jk² d_k
-            let products: Vec<_> = (0..j).map(|k| vec![lower[j][k], lower[j][k], diagonal[k]]).collect();
-            let pivot = Entry::given(graph, matrix[j][j]).less_products(graph, &products);
-            let pivot = if j > 0 { pivot.looked_at(graph) } else { pivot };
-            let pivot = pivot.named(graph, procedure, &format!("{name}_d{j}"));
+            // u_ij = a_ij − Σ_k l_ik d_k l_jk, d_j = u_jj
+            let column: Vec<Entry> = (j..n)
+                .map(|i| {
+                    let product = |k: usize| [scaled[i][k].as_slice(), &[lower[j][k]]].concat();
+                    let products: Vec<_> = (0..j).map(product).collect();
+                    let entry = Entry::given(graph, matrix[i][j]).less_products(graph, &products);
+                    if j > 0 { entry.looked_at(graph) } else { entry }
+                })
+                .collect();
+            let pivot = column[0].named(graph, procedure, &format!("{name}_d{j}"));
             diagonal.push(pivot);
-            // l_ij = (a_ij − Σ_k l_ik d_k l_jk) / d_j
-            for i in j + 1..n {
-                let products: Vec<_> = (0..j).map(|k| vec![lower[i][k], diagonal[k], lower[j][k]]).collect();
-                let numerator = Entry::given(graph, matrix[i][j]).less_products(graph, &products);
-                let numerator = if j > 0 { numerator.looked_at(graph) } else { numerator };
-                let quotient = numerator.over(graph, pivot);
-                lower[i][j] = quotient.named(graph, procedure, &format!("{name}_l{i}{j}"));
+            // l_ij = u_ij / d_j
+            for (i, numerator) in (j + 1..n).zip(&column[1..]) {
+                let quotient = numerator.over(graph, pivot).simplified(graph);
+                let letter = format!("{name}_l{i}{j}");
+                let [above, divided] = [numerator, &quotient].map(|e| graph.operation_count(&[e.value]));
+                if numerators == Numerators::Divided || divided <= above {
+                    lower[i][j] = quotient.named(graph, procedure, &letter);
+                    scaled[i][j] = vec![lower[i][j], pivot];
+                } else {
+                    let numerator = numerator.named(graph, procedure, &format!("{name}_u{i}{j}"));
+                    lower[i][j] = numerator.over(graph, pivot).named(graph, procedure, &letter);
+                    scaled[i][j] = vec![numerator];
+                }
             }
         }
         Self { lower, diagonal }
@@ -188,17 +216,40 @@ mod tests {
         let (fp, fq) = (g.mul(f, p), g.mul(f, q));
         let right = [f, g.add(h, fp), g.add(r, fq)];
         let mut procedure = Procedure::default();
-        let factors = Ldl::of(&mut g, &matrix, &mut procedure, "m");
+        let factors = Ldl::of(&mut g, &matrix, Numerators::Kept, &mut procedure, "m");
         let zero = g.zero();
         assert_eq!(factors.diagonal.iter().map(|d| d.value).collect::<Vec<_>>(), [m, i, k]);
         assert_eq!(factors.lower[2][1].value, zero);
         let solution = factors.solve(&mut g, &right, &mut procedure, "x");
         assert_eq!(solution[1..], [g.div(h, i), g.div(r, k)]);
         // the levers are all that has a name
-        let named = |definition: &Definition| match definition {
-            Definition::Value { value, .. } => *value == p || *value == q,
-            _ => false,
+        let named = procedure.definitions.iter().map(|definition| match definition {
+            Definition::Value { symbol, .. } => g.symbols()[*symbol].as_str(),
+            _ => "",
+        });
+        assert_eq!(named.filter(|name| name.starts_with("m_")).collect::<Vec<_>>(), ["m_l10", "m_l20"]);
+    }
+
+    #[test]
+    fn what_was_divided_is_not_multiplied_again() {
+        let mut g = Graph::new();
+        let [a, b, c, d, e, f] = ["a", "b", "c", "d", "e", "f"].map(|name| {
+            let symbol = g.new_symbol(name);
+            g.symbol(symbol)
+        });
+        let mut procedure = Procedure::default();
+        let matrix = vec![vec![a, b, c], vec![b, d, e], vec![c, e, f]];
+        Ldl::of(&mut g, &matrix, Numerators::Kept, &mut procedure, "m");
+        let named = |name: &str| {
+            procedure.definitions.iter().find_map(|definition| match definition {
+                Definition::Value { symbol, value } if g.symbols()[*symbol] == name => {
+                    Some((*symbol, *value))
+                }
+                _ => None,
+            })
         };
-        assert_eq!(procedure.definitions.iter().filter(|definition| named(definition)).count(), 2);
+        // d₂ = f − c l₂₀ − u₂₁ l₂₁, and not f − d₀ l₂₀² − d₁ l₂₁²
+        let ((numerator, _), (_, pivot)) = named("m_u21").zip(named("m_d2")).expect("these are long");
+        assert!(g.depends_on(pivot, &[numerator]));
     }
 }

@@ -215,7 +215,7 @@ impl Monomial {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::mechanics::ldl::Ldl;
+    use crate::mechanics::ldl::{Ldl, Numerators};
     use crate::mechanics::{Definiteness, Definition, solve_symmetric};
 
     const NAMES: [&str; 13] = ["I", "J", "K", "m", "r", "a", "x", "y", "z", "f", "g", "h", "n"];
@@ -287,7 +287,8 @@ mod tests {
         let found = RankOne::of(&mut g, &matrix).expect("it has this form");
         let inline = &mut Procedure::inline();
         let solution = found.solve(&mut g, &[e, f, h], inline, "w");
-        let by_elimination = Ldl::of(&mut g, &matrix, inline, "w").solve(&mut g, &[e, f, h], inline, "w");
+        let by_elimination =
+            Ldl::of(&mut g, &matrix, Numerators::Kept, inline, "w").solve(&mut g, &[e, f, h], inline, "w");
         // inertias of 10⁻⁹ about a point that a mass of 1 is away from: whichever of them is the least
         for turn in 0..3 {
             let sizes = [1e-9, 1.5e-9, 3e-9];

@@ -5,7 +5,7 @@
 //! with numerical pivoting.
 
 use super::elimination_order::elimination_order;
-use super::ldl::Ldl;
+use super::ldl::{Ldl, Numerators};
 use super::pair::Pair;
 use super::procedure::{Definition, Procedure};
 use super::rank_one::RankOne;
@@ -88,7 +88,8 @@ fn solve_definite(
     let rank_one = RankOne::of(graph, matrix);
     let mut ways: Vec<(Procedure, Vec<ExprId>)> = Vec::new();
     let mut way = procedure.clone();
-    let solution = Ldl::of(graph, matrix, &mut way, name).solve(graph, right, &mut way, name);
+    let solution =
+        Ldl::of(graph, matrix, Numerators::Kept, &mut way, name).solve(graph, right, &mut way, name);
     ways.push((way, solution));
     if let Some(rank_one) = rank_one {
         let mut way = procedure.clone();
