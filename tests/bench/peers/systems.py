@@ -242,9 +242,81 @@ def balancing_robot(f):
     )
 
 
+def satellite(f):
+    def bodies(p, q, u):
+        def wheel(axis):
+            moments = [0, 0, 0]
+            moments[axis] = (p.J1, p.J2, p.J3)[axis]
+            spin = [u.w1, u.w2, u.w3]
+            spin[axis] += (u.s1, u.s2, u.s3)[axis]
+            return 0, tuple(moments), (0, 0, 0), (0, 0, 0), tuple(spin)
+
+        return [(0, (p.I1, p.I2, p.I3), (0, 0, 0), (0, 0, 0), (u.w1, u.w2, u.w3))] + [wheel(k) for k in range(3)]
+
+    return SimpleNamespace(
+        parameters="I1 I2 I3 J1 J2 J3", coordinates="q0 q1 q2 q3", speeds="w1 w2 w3 s1 s2 s3",
+        kept="w1 w2 w3 s1 s2 s3", inputs="torque1 torque2 torque3",
+        rates=lambda q, u: [-(q.q1 * u.w1 + q.q2 * u.w2 + q.q3 * u.w3) / 2,
+                            (q.q0 * u.w1 + q.q2 * u.w3 - q.q3 * u.w2) / 2,
+                            (q.q0 * u.w2 + q.q3 * u.w1 - q.q1 * u.w3) / 2,
+                            (q.q0 * u.w3 + q.q1 * u.w2 - q.q2 * u.w1) / 2],
+        bodies=bodies,
+        forces=lambda p, q, u, i: dict(s1=i.torque1, s2=i.torque2, s3=i.torque3),
+        constraints=lambda p, q, u: [],
+        solved=None,
+    )
+
+
+def chaplygin_ball(f):
+    def contact(p, q, u):
+        # v = r ω × g
+        return (p.r * (u.w2 * q.g3 - u.w3 * q.g2), p.r * (u.w3 * q.g1 - u.w1 * q.g3),
+                p.r * (u.w1 * q.g2 - u.w2 * q.g1))
+
+    def bodies(p, q, u):
+        spin = (u.w1, u.w2, u.w3)
+        return [(p.m, (p.I1, p.I2, p.I3), (u.v1, u.v2, u.v3), spin, spin)]
+
+    return SimpleNamespace(
+        parameters="I1 I2 I3 m r", coordinates="g1 g2 g3", speeds="w1 w2 w3 v1 v2 v3", kept="w1 w2 w3", inputs="",
+        rates=lambda q, u: [q.g2 * u.w3 - q.g3 * u.w2, q.g3 * u.w1 - q.g1 * u.w3, q.g1 * u.w2 - q.g2 * u.w1],
+        bodies=bodies,
+        forces=lambda p, q, u, i: {},
+        constraints=lambda p, q, u: [v - c for v, c in zip((u.v1, u.v2, u.v3), contact(p, q, u))],
+        solved=lambda p, q, u: dict(zip(("v1", "v2", "v3"), contact(p, q, u))),
+    )
+
+
+def pendulum(f):
+    def bodies(p, q, u):
+        sa, ca, sb, cb = f.sin(q.al), f.cos(q.al), f.sin(q.be), f.cos(q.be)
+        along = sa * cb
+        bob = (u.v + p.l * (ca * cb * u.ad - sa * sb * u.bd - u.omega * sb),
+               u.side + p.l * (cb * u.bd + u.omega * along),
+               p.l * (sa * cb * u.ad + ca * sb * u.bd))
+        return [planar(p.mc, p.J, u.v, u.side, u.omega, u.omega),
+                (p.mb, (0, 0, 0), bob, (0, 0, u.omega), (0, 0, u.omega))]
+
+    def forces(p, q, u, i):
+        weight = p.mb * p.g * p.l
+        return dict(v=i.push, omega=i.steer, ad=-weight * f.sin(q.al) * f.cos(q.be),
+                    bd=-weight * f.cos(q.al) * f.sin(q.be))
+
+    return SimpleNamespace(
+        parameters="mc mb J l g", coordinates="x y th al be", speeds="v side omega ad bd", kept="v omega ad bd",
+        inputs="push steer",
+        rates=lambda q, u: on_the_plane(f, q, u) + [u.ad, u.bd],
+        bodies=bodies,
+        forces=forces,
+        constraints=lambda p, q, u: [u.side],
+        solved=lambda p, q, u: dict(side=0),
+    )
+
+
 SYSTEMS = {
     "sleigh": sleigh, "veselova": veselova, "snakeboard": snakeboard, "robot": robot, "ball on table": ball,
     "tractor, 1 trailer": tractor(1),
     **{f"tractor, {n} trailers": tractor(n) for n in range(2, 7)},
     "car": car, "roller racer": roller_racer, "hitched trailer": hitched_trailer, "balancing robot": balancing_robot,
+    "satellite": satellite, "Chaplygin ball": chaplygin_ball, "pendulum": pendulum,
 }

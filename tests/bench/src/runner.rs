@@ -10,7 +10,8 @@ use nh_runtime::State;
 use crate::callgrind::Counts;
 use crate::contest::{Contest, samples};
 use crate::systems::{
-    balancing_robot, ball, car, hitched_trailer, robot, roller_racer, sleigh, snakeboard, tractor, veselova,
+    balancing_robot, ball, car, chaplygin_ball, hitched_trailer, pendulum, robot, roller_racer, satellite,
+    sleigh, snakeboard, tractor, veselova,
 };
 
 /// Values of different contestants agree to this, relative to numbers of ordinary size.
@@ -66,6 +67,9 @@ pub fn all() -> Vec<Box<dyn Run>> {
         Box::new(Of::<roller_racer::RollerRacer>(PhantomData)),
         Box::new(Of::<hitched_trailer::HitchedTrailer>(PhantomData)),
         Box::new(Of::<balancing_robot::BalancingRobot>(PhantomData)),
+        Box::new(Of::<satellite::Satellite>(PhantomData)),
+        Box::new(Of::<chaplygin_ball::ChaplyginBall>(PhantomData)),
+        Box::new(Of::<pendulum::Pendulum>(PhantomData)),
     ]
 }
 

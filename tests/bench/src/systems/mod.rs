@@ -4,9 +4,12 @@
 pub mod balancing_robot;
 pub mod ball;
 pub mod car;
+pub mod chaplygin_ball;
 pub mod hitched_trailer;
+pub mod pendulum;
 pub mod robot;
 pub mod roller_racer;
+pub mod satellite;
 pub mod sleigh;
 pub mod snakeboard;
 pub mod tractor;
