@@ -141,8 +141,12 @@ impl SaddleEquations {
                 let sum = graph.sum(&terms);
                 let one = graph.one();
                 let weight = if graph.zero_test(sum).is_zero() { one } else { graph.div(one, sum) };
-                // the squares of a unit vector are one: what they do not leave need not cancel later
-                let weight = graph.simplify(weight);
+                // the squares of a unit vector are one: what they do not leave need not cancel later. Brought over
+                // a common denominator, inertias that are far apart would lose digits.
+                let short = graph.simplify(weight);
+                let is_shorter = graph.operation_count(&[short]) < graph.operation_count(&[weight]);
+                let weight =
+                    if is_shorter && graph.error_growth(short, weight) <= 1.0 { short } else { weight };
                 procedure.define(graph, "weight", weight)
             })
             .collect();
