@@ -2,7 +2,7 @@
 
 use super::procedure::Procedure;
 use super::symmetric_solve::Definiteness;
-use crate::algebra::{Accuracy, Graph, Node, Rational};
+use crate::algebra::{Graph, Node, Rational};
 use crate::id::ExprId;
 
 /// `a x + b y = f`, `b x + d y = g`.
@@ -43,14 +43,14 @@ impl Pair {
         let rule = self.by_cramer(graph);
         if let Some([mean, half_difference]) = self.by_halves(graph) {
             let values = [graph.add(mean, half_difference), graph.sub(mean, half_difference)];
-            if is_accurate(graph, values, rule) {
+            if graph.is_as_accurate(&values, &rule) {
                 let mean = procedure.define(graph, &format!("{}_mean", names[0]), mean);
                 let half_difference = procedure.define(graph, &format!("{}_half", names[0]), half_difference);
                 return [graph.add(mean, half_difference), graph.sub(mean, half_difference)];
             }
         }
         let whole = rule.map(|value| graph.simplify(value));
-        let whole_is_accurate = is_accurate(graph, whole, rule);
+        let whole_is_accurate = graph.is_as_accurate(&whole, &rule);
         if let Some((last, [rest, slope])) = self.relation(graph, definiteness, whole) {
             let first = 1 - last;
             let length = graph.operation_count(&[whole[first], rest, slope]);
@@ -60,7 +60,7 @@ impl Pair {
             values[last] = substituted(graph, [rest, slope], whole[first]);
             // what cancels identically in the solution as a whole may be left in the relation
             let best = if whole_is_accurate { whole } else { rule };
-            if is_shorter && length <= written_out && is_accurate(graph, values, best) {
+            if is_shorter && length <= written_out && graph.is_as_accurate(&values, &best) {
                 values[first] = procedure.define(graph, &names[first], whole[first]);
                 values[last] = substituted(graph, [rest, slope], values[first]);
                 return values;
@@ -81,7 +81,7 @@ impl Pair {
         }
         let rule = self.by_cramer(graph);
         let whole = rule.map(|value| graph.simplify(value));
-        (graph.operation_count(&whole) <= written_out && is_accurate(graph, whole, rule)).then_some(whole)
+        (graph.operation_count(&whole) <= written_out && graph.is_as_accurate(&whole, &rule)).then_some(whole)
     }
 
     /// The entries as intermediate results.
@@ -165,16 +165,4 @@ fn divide_by(graph: &Graph, values: &[ExprId], divisor: ExprId) -> bool {
         Node::Product { factors, .. } => factors.iter().any(|(base, e)| *base == divisor && e.is_negative()),
         _ => false,
     })
-}
-
-/// Whether values lose no more than the level of accuracy allows against others: overall where it allows
-/// something, since a difference and the determinant that it replaces vanish at different places.
-fn is_accurate(graph: &Graph, values: [ExprId; 2], reference: [ExprId; 2]) -> bool {
-    let growth = match graph.accuracy() {
-        Accuracy::Fast => return true,
-        Accuracy::Balanced => Graph::error_growth_overall,
-        Accuracy::Careful => Graph::error_growth,
-    };
-    let allowed = graph.accuracy().growth();
-    values.iter().zip(reference).all(|(value, reference)| growth(graph, *value, reference) <= allowed)
 }
