@@ -22,7 +22,7 @@ use crate::mechanics::{
     reduced_equations, solve_symmetric,
 };
 use crate::model::{Formulation, Request};
-use crate::program::{Cost, Program, error_growth, order, schedule, schedule_roughly};
+use crate::program::{Program, error_growth, order, schedule_roughly};
 use crate::report::{Derived, equations_of_motion, report};
 use crate::system::System;
 use crate::violation::Violation;
@@ -228,9 +228,6 @@ fn cheapest_derivative(proved: &mut Proved, candidates: &[ReducedEquations], cal
     without_needless_cancellation(graph, best, &proved.system.algebroid.anchor.coordinates)
 }
 
-/// Costs whose estimates differ by so many hundredths at most may be in the other order once scheduled.
-const CLOSE: usize = 5;
-
 /// The cheapest of several procedures of the same value, among those whose rounding error the level of
 /// accuracy allows.
 pub(super) fn cheapest(graph: &Graph, procedures: &[Procedure]) -> usize {
@@ -243,17 +240,8 @@ pub(super) fn cheapest(graph: &Graph, procedures: &[Procedure]) -> usize {
     };
     let least = growth.iter().copied().fold(f64::INFINITY, f64::min);
     let allowed = graph.accuracy().growth().max(least);
-    let costs = programs.iter().map(|program| Cost::of(program).weighted());
-    let sound = costs.zip(growth).enumerate().filter(|(_, (_, growth))| *growth <= allowed);
-    let mut sound: Vec<(usize, usize)> = sound.map(|(index, (cost, _))| (index, cost)).collect();
-    let least = sound.iter().map(|(_, cost)| *cost).min().unwrap_or_default();
-    sound.retain(|(_, cost)| 100 * cost <= (100 + CLOSE) * least);
-    if let [(only, _)] = sound.as_slice() {
-        return *only;
-    }
-    // what is close is compared in the form that is emitted
-    let emitted = |(index, _): &(usize, usize)| order(&schedule(graph, &procedures[*index]));
-    sound.iter().min_by_key(|close| emitted(close)).map_or(0, |(index, _)| *index)
+    let sound = programs.iter().zip(growth).enumerate().filter(|(_, (_, growth))| *growth <= allowed);
+    sound.min_by_key(|(_, (program, _))| order(program)).map_or(0, |(index, _)| index)
 }
 
 /// Forces of constraint are differences of inertial and applied forces, which may cancel. Where the
