@@ -153,8 +153,9 @@ fn candidates(
     let on_wheels =
         residuals.and_then(|residuals| equations_in_wheel_frames(graph, system, distribution, residuals));
     // careful code carries the errors of divisions along, and every quotient put in place has its own
+    let is_short = !is_large && graph.operation_count(&distribution.velocity) <= NAMED;
     let by_parts = match graph.accuracy() {
-        Accuracy::Fast | Accuracy::Balanced if graph.operation_count(&distribution.velocity) <= NAMED => {
+        Accuracy::Fast | Accuracy::Balanced if is_short => {
             equations_by_partial_velocities(graph, system, distribution)
         }
         _ => None,
