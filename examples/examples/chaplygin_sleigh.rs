@@ -11,7 +11,7 @@
 use std::error::Error;
 
 use nh_examples::{BACKGROUND, Chart, Colours, INK, MUTED, Page, Picture, Pose, View};
-use nh_runtime::prelude::*;
+use nonholonomic::prelude::*;
 
 /// A rigid body on a plane, carried by a knife edge.
 #[nonholonomic(

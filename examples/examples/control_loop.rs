@@ -15,8 +15,8 @@ use std::time::{Duration, Instant};
 
 use nalgebra::{SMatrix, SVector};
 use nh_examples::{Chart, MUTED, Page, Picture};
-use nh_runtime::control::{Estimate, zero_order_hold};
-use nh_runtime::prelude::*;
+use nonholonomic::control::{Estimate, zero_order_hold};
+use nonholonomic::prelude::*;
 
 /// Two driven wheels and a body.
 #[nonholonomic(

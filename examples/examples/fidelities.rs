@@ -13,7 +13,7 @@ use std::hint::black_box;
 use std::time::Instant;
 
 use nh_examples::{Chart, INK, MUTED, Page, Picture};
-use nh_runtime::prelude::*;
+use nonholonomic::prelude::*;
 
 /// The robot with wheels that turn: pose, angles and everything that the constraints know.
 #[nonholonomic(

@@ -13,9 +13,9 @@ use std::error::Error;
 use std::time::Instant;
 
 use nh_examples::{Chart, INK, MUTED, Page, Picture, Pose, Random, View};
-use nh_runtime::batch::{for_each, gather, par_for_each, scatter};
-use nh_runtime::prelude::*;
-use nh_runtime::wide::f32x8;
+use nonholonomic::batch::{for_each, gather, par_for_each, scatter};
+use nonholonomic::prelude::*;
+use nonholonomic::wide::f32x8;
 
 /// A snakeboard: its wheel pairs steer against each other, the rotor turns against the board.
 #[nonholonomic(

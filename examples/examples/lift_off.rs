@@ -11,7 +11,7 @@
 use std::error::Error;
 
 use nh_examples::{Chart, Colours, INK, MUTED, Page, Picture, View};
-use nh_runtime::prelude::*;
+use nonholonomic::prelude::*;
 
 /// A skier who stays on the ground y = bump sin(k x) − slope x.
 #[nonholonomic(

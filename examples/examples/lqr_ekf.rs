@@ -13,8 +13,8 @@ use std::f64::consts::TAU;
 
 use nalgebra::{Matrix2, SMatrix, SVector, matrix, vector};
 use nh_examples::{Chart, FAINT, INK, MUTED, Page, Picture, Random, View};
-use nh_runtime::control::{Estimate, Regulator, zero_order_hold};
-use nh_runtime::prelude::*;
+use nonholonomic::control::{Estimate, Regulator, zero_order_hold};
+use nonholonomic::prelude::*;
 
 /// A body on two coaxial wheels that roll without slipping, its centre of mass ahead of the axle.
 #[nonholonomic(

@@ -11,7 +11,7 @@ use std::error::Error;
 use std::f64::consts::TAU;
 
 use nh_examples::{BACKGROUND, Chart, Colours, INK, MUTED, Page, Picture, Pose, View};
-use nh_runtime::prelude::*;
+use nonholonomic::prelude::*;
 
 /// A body on two coaxial wheels that roll without slipping, its centre of mass ahead of the axle.
 #[nonholonomic(

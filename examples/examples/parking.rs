@@ -17,10 +17,10 @@ use argmin::solver::linesearch::MoreThuenteLineSearch;
 use argmin::solver::quasinewton::LBFGS;
 use nalgebra::{SVector, vector};
 use nh_examples::{BACKGROUND, Chart, INK, MUTED, Page, Picture, Pose, View};
-use nh_runtime::control::{
+use nonholonomic::control::{
     ControlError, Ilqr, Model, Residuals, Sampled, Squares, shooting_cost, shooting_gradient,
 };
-use nh_runtime::prelude::*;
+use nonholonomic::prelude::*;
 
 /// A tractor on two driven wheels and its trailers, each hitched on the axle before it.
 #[nonholonomic(

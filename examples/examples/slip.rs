@@ -11,7 +11,7 @@
 use std::error::Error;
 
 use nh_examples::{Chart, INK, MUTED, Page, Picture, View};
-use nh_runtime::prelude::*;
+use nonholonomic::prelude::*;
 
 /// The robot that rolls without slipping, by two constraints on each wheel.
 #[nonholonomic(

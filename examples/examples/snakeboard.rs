@@ -10,7 +10,7 @@ use std::error::Error;
 use std::f64::consts::FRAC_PI_2;
 
 use nh_examples::{BACKGROUND, Chart, Colours, INK, MUTED, Page, Picture, Pose, View};
-use nh_runtime::prelude::*;
+use nonholonomic::prelude::*;
 
 /// A snakeboard with a prescribed gait. The total inertia is m l².
 #[nonholonomic(

@@ -12,7 +12,7 @@ use std::error::Error;
 use std::f64::consts::{PI, TAU};
 
 use nh_examples::{Chart, Colours, FAINT, INK, MUTED, Page, Picture};
-use nh_runtime::prelude::*;
+use nonholonomic::prelude::*;
 
 /// A rigid body in a linear potential, its angular velocity `w` orthogonal to `g`.
 #[nonholonomic(

@@ -2,8 +2,8 @@
 
 mod support;
 
-use nh_core::algebra::{Bounded, Derivation, Graph, Rational, Substitution, Verdict};
-use nh_core::id::{ExprId, Id, SymbolId};
+use nonholonomic_core::algebra::{Bounded, Derivation, Graph, Rational, Substitution, Verdict};
+use nonholonomic_core::id::{ExprId, Id, SymbolId};
 use proptest::prelude::*;
 use proptest::test_runner::RngSeed;
 use support::parser::parse;

@@ -32,7 +32,7 @@ pub(crate) fn nonholonomic(attribute: TokenStream, item: TokenStream) -> TokenSt
         Err(unresolved) => return with_errors(&unresolved.errors, &stubs(&layout, &unresolved.outline)),
     };
     let outline = Outline::of(&resolved.model);
-    match nh_core::compile::compile(resolved.model) {
+    match nonholonomic_core::compile::compile(resolved.model) {
         Ok(system) => emit(&system, &layout),
         Err(violations) => {
             let origins = resolved.origins;

@@ -73,7 +73,7 @@ mod syntax;
 /// | `track { v, speed }` | the state variables and outputs that matter: what does not flow into them is neither stored nor computed | everything |
 /// | `derivative { motor: [self.motor_speed]; }` | the partial derivatives of a method used in a force, for `emit { jacobian }` | |
 /// | `names { state = RobotState; }` | names of generated types, by their roles | `…State` and so on |
-/// | `crate { ::runtime }` | the path of the runtime where the dependency is renamed | `::nh_runtime` |
+/// | `crate { ::runtime }` | the path of the runtime where the dependency is renamed | `::nonholonomic` |
 ///
 /// # Expressions
 ///

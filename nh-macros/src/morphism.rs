@@ -4,7 +4,7 @@
 //! declaration to another one: `morphism!` calls that of the source and is called back with its
 //! declaration, calls that of the target likewise, and has everything in the third call.
 
-use nh_core::reduction::{Refusal, reduce};
+use nonholonomic_core::reduction::{Refusal, reduce};
 use proc_macro2::{TokenStream, TokenTree};
 use quote::quote;
 
@@ -53,7 +53,7 @@ fn fetch(
 
 /// The path of the runtime.
 fn runtime(declaration: &MorphismDecl) -> TokenStream {
-    declaration.runtime.as_ref().map_or_else(|| quote!(::nh_runtime), |section| section.body.clone())
+    declaration.runtime.as_ref().map_or_else(|| quote!(::nonholonomic), |section| section.body.clone())
 }
 
 /// The map with both declarations. What is wrong with a declaration is reported where it stands, so

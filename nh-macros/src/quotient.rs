@@ -1,6 +1,6 @@
 //! `quotient!`: the declaration of the full system is fetched, that of its quotient derived.
 
-use nh_core::reduction::{Refusal, quotient as derive};
+use nonholonomic_core::reduction::{Refusal, quotient as derive};
 use proc_macro2::{TokenStream, TokenTree};
 use quote::quote;
 
@@ -21,7 +21,7 @@ pub(crate) fn quotient(input: TokenStream) -> TokenStream {
         Ok(declaration) => declaration,
         Err(errors) => return compile_errors(&errors),
     };
-    let runtime = declaration.runtime.as_ref().map_or_else(|| quote!(::nh_runtime), |s| s.body.clone());
+    let runtime = declaration.runtime.as_ref().map_or_else(|| quote!(::nonholonomic), |s| s.body.clone());
     let Some((attribute, item)) = full else {
         let mut name = alias(&declaration.source.name.to_string().replace("r#", ""));
         name.set_span(declaration.source.name.span());

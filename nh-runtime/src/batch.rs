@@ -10,11 +10,11 @@
 //! and [`Fast`](crate::Fast) one by one. The results of `Fast<f64>` and `f64x4` are equal bit for bit.
 //!
 //! ```
-//! use nh_runtime::batch::{self, gather, pack, scatter, unpack};
-//! use nh_runtime::prelude::*;
+//! use nonholonomic::batch::{self, gather, pack, scatter, unpack};
+//! use nonholonomic::prelude::*;
 //! # #[cfg(not(feature = "wide"))] type Pack = Fast<f64>;
 //! # #[cfg(feature = "wide")]
-//! type Pack = nh_runtime::wide::f64x4;
+//! type Pack = nonholonomic::wide::f64x4;
 //!
 //! /// A wheel that a torque turns against friction.
 //! #[nonholonomic(

@@ -6,7 +6,7 @@ use core::fmt::{self, Display, Formatter};
 /// A parameter that a system cannot be integrated with.
 ///
 /// ```
-/// use nh_runtime::{ParameterError, ParameterFault};
+/// use nonholonomic::{ParameterError, ParameterFault};
 ///
 /// let error = ParameterError {
 ///     parameter: "m",

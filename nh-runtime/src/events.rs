@@ -168,8 +168,8 @@ where
     /// again. Events at the same time are all reported before the integration stops.
     ///
     /// ```
-    /// # use nh_runtime::prelude::*;
-    /// # use nh_runtime::{D, Direction, Events};
+    /// # use nonholonomic::prelude::*;
+    /// # use nonholonomic::{D, Direction, Events};
     /// # struct Ball;
     /// # #[derive(Clone, Copy)] struct BallState { height: f64, speed: f64 }
     /// # impl State for BallState {

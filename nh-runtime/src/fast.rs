@@ -29,8 +29,8 @@ use crate::{Real, Scalar, sine};
 /// A system takes it as its scalar, if its struct is declared with a type parameter:
 ///
 /// ```
-/// use nh_runtime::Fast;
-/// use nh_runtime::prelude::*;
+/// use nonholonomic::Fast;
+/// use nonholonomic::prelude::*;
 ///
 /// /// A pendulum.
 /// #[nonholonomic(

@@ -39,8 +39,8 @@ pub struct Statistics {
 /// integration can go on, say with another input.
 ///
 /// ```
-/// # use nh_runtime::prelude::*;
-/// # use nh_runtime::D;
+/// # use nonholonomic::prelude::*;
+/// # use nonholonomic::D;
 /// # #[derive(Clone, Copy)] struct Car;
 /// # #[derive(Clone, Copy)] struct CarState { x: f64, v: f64 }
 /// # #[derive(Clone, Copy, Default)] struct CarInput { force: f64 }

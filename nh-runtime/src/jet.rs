@@ -13,7 +13,7 @@ use crate::Scalar;
 /// derivatives are not finite, except those of `abs`, `sign`, `min` and `max`, which are one-sided.
 ///
 /// ```
-/// use nh_runtime::{Jet, Scalar};
+/// use nonholonomic::{Jet, Scalar};
 ///
 /// fn energy<T: Scalar>(m: T, v: T) -> T {
 ///     T::from_f64(0.5) * m * v * v

@@ -6,8 +6,8 @@
 //! the state of such a system through time with one of the [`methods`].
 //!
 //! ```
-//! use nh_runtime::prelude::*;
-//! use nh_runtime::D;
+//! use nonholonomic::prelude::*;
+//! use nonholonomic::D;
 //!
 //! /// A mathematical pendulum of length `l` (m) in a field `g` (m/s²).
 //! #[derive(Clone, Copy)]
@@ -61,7 +61,7 @@ extern crate std;
 
 #[cfg(not(any(feature = "std", feature = "libm")))]
 compile_error!(
-    "nh-runtime needs a source of sin, sqrt and the other elementary functions: enable its feature \
+    "nonholonomic needs a source of sin, sqrt and the other elementary functions: enable its feature \
      `std` on a target with an operating system, or `libm` on one without"
 );
 
@@ -121,7 +121,7 @@ pub use scalar::{Real, Scalar};
 /// constraint removes `v2`, and its multiplier is the force on the edge.
 ///
 /// ```
-/// use nh_runtime::prelude::*;
+/// use nonholonomic::prelude::*;
 ///
 /// /// A rigid body on a plane, carried by a knife edge (Chaplygin sleigh).
 /// #[nonholonomic(
@@ -177,7 +177,7 @@ pub use scalar::{Real, Scalar};
 /// Reduced to a Lie algebra: there is no base, and the brackets are those of the plane's rigid motions.
 ///
 /// ```
-/// # use nh_runtime::prelude::*;
+/// # use nonholonomic::prelude::*;
 /// #[nonholonomic(
 ///     basis       { omega, v1, v2 }
 ///     brackets se(2) { omega, v1, v2 }
@@ -197,7 +197,7 @@ pub use scalar::{Real, Scalar};
 /// proved. The angular velocity is that seen in space, for which the brackets have the opposite sign.
 ///
 /// ```
-/// # use nh_runtime::prelude::*;
+/// # use nonholonomic::prelude::*;
 /// #[nonholonomic(
 ///     base  { x, y }
 ///     basis { vx, vy, w[3] }
@@ -223,7 +223,7 @@ pub use scalar::{Real, Scalar};
 /// A declaration that is ill-posed does not compile: here the constraint is one of positions.
 ///
 /// ```compile_fail
-/// # use nh_runtime::prelude::*;
+/// # use nonholonomic::prelude::*;
 /// #[nonholonomic(
 ///     base        { x, y }
 ///     lagrangian  { m / 2 * (der(x)^2 + der(y)^2) }
@@ -232,14 +232,14 @@ pub use scalar::{Real, Scalar};
 /// struct Bead { m: f64 }
 /// ```
 #[cfg(feature = "macros")]
-pub use nh_macros::nonholonomic;
+pub use nonholonomic_macros::nonholonomic;
 
 /// # Examples
 ///
 /// A skater on the plane is a body on se(2) with a place and a direction, which follow from its motion.
 ///
 /// ```
-/// use nh_runtime::prelude::*;
+/// use nonholonomic::prelude::*;
 ///
 /// #[nonholonomic(
 ///     base        { theta, x, y }
@@ -281,14 +281,14 @@ pub use nh_macros::nonholonomic;
 /// # }
 /// ```
 #[cfg(feature = "macros")]
-pub use nh_macros::morphism;
+pub use nonholonomic_macros::morphism;
 
 /// # Examples
 ///
 /// The skater of [`morphism!`], reduced without a second declaration.
 ///
 /// ```
-/// use nh_runtime::prelude::*;
+/// use nonholonomic::prelude::*;
 ///
 /// #[nonholonomic(
 ///     base        { theta, x, y }
@@ -315,7 +315,7 @@ pub use nh_macros::morphism;
 /// assert_eq!(reduced.derivative(0.0, &ReducedState { omega: 1.0, v1: 2.0 }, &()), ReducedState::default());
 /// ```
 #[cfg(feature = "macros")]
-pub use nh_macros::quotient;
+pub use nonholonomic_macros::quotient;
 
 /// The crate whose packs of lanes are scalars with the feature `wide`.
 #[cfg(feature = "wide")]
@@ -337,7 +337,7 @@ pub mod __private {
     pub use core;
     pub use nalgebra;
     #[cfg(feature = "macros")]
-    pub use nh_macros::{morphism, nonholonomic, quotient};
+    pub use nonholonomic_macros::{morphism, nonholonomic, quotient};
     #[cfg(feature = "serde")]
     pub use serde;
 }

@@ -1,4 +1,4 @@
-//! Everything that a model and its simulation name: `use nh_runtime::prelude::*;`.
+//! Everything that a model and its simulation name: `use nonholonomic::prelude::*;`.
 
 pub use crate::methods::{
     Bs23, Conserving, DiscreteGradient, DiscreteSuslov, Dop853, Dopri5, Euler, GaussLegendre4,
@@ -14,4 +14,4 @@ pub use crate::{
 pub use crate::{Taylor, TaylorSeries};
 
 #[cfg(feature = "macros")]
-pub use nh_macros::{morphism, nonholonomic, quotient};
+pub use nonholonomic_macros::{morphism, nonholonomic, quotient};

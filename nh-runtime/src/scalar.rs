@@ -14,7 +14,7 @@ use crate::elementary;
 /// [`max`](Self::max) included: no function hides a failed computation.
 ///
 /// ```
-/// use nh_runtime::Scalar;
+/// use nonholonomic::Scalar;
 ///
 /// fn kinetic_energy<T: Scalar>(m: T, v: T) -> T {
 ///     T::from_f64(0.5) * m * v.powi(2)

@@ -16,7 +16,7 @@ use crate::{IntegrationError, Real};
 /// Ordinary Differential Equations I, II.4; II, IV.2).
 ///
 /// ```
-/// use nh_runtime::{Controller, Dopri5};
+/// use nonholonomic::{Controller, Dopri5};
 ///
 /// // step lengths that change smoothly: Söderlind's H211PI, aimed at 0.4 of the tolerance
 /// let control = Controller::filter([1.0 / 6.0, 1.0 / 6.0, 0.0]).aim(0.4).factors(0.5, 2.0);

@@ -2,7 +2,7 @@
 //! error it goes on as if the bad call had not been.
 
 use nalgebra::{Matrix1, Matrix2, SMatrix, SVector, Vector1, Vector2, matrix, vector};
-use nh_runtime::control::{
+use nonholonomic::control::{
     ControlError, Correction, Cost, Estimate, Ilqr, Improvement, Model, Quadratic, Regulator, Unscented,
     angle_difference, held_noise, shooting_cost, shooting_gradient, zero_order_hold,
 };
@@ -299,7 +299,7 @@ impl Cost<f64, 2, 1> for Misled {
         tick: usize,
         x: &Vector2<f64>,
         u: &Vector1<f64>,
-    ) -> nh_runtime::control::Expansion<f64, 2, 1> {
+    ) -> nonholonomic::control::Expansion<f64, 2, 1> {
         let mut expansion = COST.stage_expansion(tick, x, u);
         match self.1 {
             0 => expansion.x[0] = self.0,
@@ -313,7 +313,7 @@ impl Cost<f64, 2, 1> for Misled {
     fn end(&self, x: &Vector2<f64>) -> f64 {
         COST.end(x)
     }
-    fn end_expansion(&self, x: &Vector2<f64>) -> nh_runtime::control::Expansion<f64, 2, 1> {
+    fn end_expansion(&self, x: &Vector2<f64>) -> nonholonomic::control::Expansion<f64, 2, 1> {
         COST.end_expansion(x)
     }
 }

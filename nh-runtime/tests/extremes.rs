@@ -2,8 +2,8 @@
 
 #![allow(clippy::float_cmp)] // exact repetition is meant
 
-use nh_runtime::Method;
-use nh_runtime::prelude::*;
+use nonholonomic::Method;
+use nonholonomic::prelude::*;
 
 /// A Chaplygin sleigh whose centre of mass lies on the line of the blade.
 #[nonholonomic(

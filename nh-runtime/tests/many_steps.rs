@@ -1,9 +1,9 @@
 //! Many steps: what they leave of the energy and of the way. Ten to the eight of each system in release, which is
-//! a test of the project's own check: `cargo test --release -p nh-runtime --test many_steps`.
+//! a test of the project's own check: `cargo test --release -p nonholonomic --test many_steps`.
 
 #![allow(non_snake_case, reason = "parameters are written as in mechanics")]
 
-use nh_runtime::prelude::*;
+use nonholonomic::prelude::*;
 
 /// A Chaplygin sleigh whose centre of mass lies on the line of the blade.
 #[nonholonomic(

@@ -4,8 +4,8 @@
 
 use std::cell::Cell;
 
-use nh_runtime::prelude::*;
-use nh_runtime::{D, Invariants, Leapfrog, Method, ProjectionError};
+use nonholonomic::prelude::*;
+use nonholonomic::{D, Invariants, Leapfrog, Method, ProjectionError};
 
 /// x' = u, y' = v, u' = 0, v' = −y, of which one evaluation is spoiled.
 #[derive(Clone, Debug)]
@@ -100,7 +100,7 @@ impl<T: Real> Leapfrog for Spoiled<T> {
     }
 }
 
-impl<T: Real> nh_runtime::EulerPoincareSuslov for Spoiled<T> {
+impl<T: Real> nonholonomic::EulerPoincareSuslov for Spoiled<T> {
     fn discrete_momentum(&self, Point([x, y, u, v]): &Point<T>, h: T) -> [T; 4] {
         let half = h * T::from_f64(0.5);
         self.pass([*x - half * *u, *y - half * *v, *u, *v + half * hidden(*y)])

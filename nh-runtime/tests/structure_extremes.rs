@@ -2,8 +2,8 @@
 
 #![allow(clippy::float_cmp)] // exact repetition is meant
 
-use nh_runtime::Method;
-use nh_runtime::prelude::*;
+use nonholonomic::Method;
+use nonholonomic::prelude::*;
 
 /// The contact oscillator with all velocities in the state, with a mass and a stiffness.
 #[nonholonomic(

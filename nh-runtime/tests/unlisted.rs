@@ -3,8 +3,8 @@
 
 #![allow(non_snake_case, reason = "parameters are written as in mechanics")]
 
-use nh_runtime::Method;
-use nh_runtime::prelude::*;
+use nonholonomic::Method;
+use nonholonomic::prelude::*;
 
 /// A sleigh on a stiff spring, which leads from the origin to the point `b` ahead on its axis.
 #[nonholonomic(

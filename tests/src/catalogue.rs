@@ -5,7 +5,7 @@ use std::any::type_name;
 use std::marker::PhantomData;
 use std::ops::Deref;
 
-use nh_runtime::prelude::*;
+use nonholonomic::prelude::*;
 
 use crate::reference::System;
 pub use crate::values::{Moving, Reading, Values};
@@ -74,7 +74,7 @@ macro_rules! catalogued {
             fn generated_velocities(
                 &self,
                 t: f64,
-                state: &<Self as nh_runtime::Dynamics>::State,
+                state: &<Self as nonholonomic::Dynamics>::State,
             ) -> Vec<f64> {
                 let velocity: [f64; $s] = self.velocity(t, state).into();
                 velocity.to_vec()
@@ -82,8 +82,8 @@ macro_rules! catalogued {
             $(fn generated_multipliers(
                 &self,
                 t: f64,
-                state: &<Self as nh_runtime::Dynamics>::State,
-                input: &<Self as nh_runtime::Dynamics>::Input,
+                state: &<Self as nonholonomic::Dynamics>::State,
+                input: &<Self as nonholonomic::Dynamics>::Input,
             ) -> Option<$crate::catalogue::Labelled> {
                 let multipliers = self.multipliers(t, state, input);
                 Some(vec![$((stringify!($label), multipliers.$label)),*])
@@ -105,7 +105,7 @@ macro_rules! catalogued {
         }
     };
     (@input) => {
-        fn input(_: &$crate::values::Values, _: f64) -> <Self as nh_runtime::Dynamics>::Input {
+        fn input(_: &$crate::values::Values, _: f64) -> <Self as nonholonomic::Dynamics>::Input {
             Default::default()
         }
     };
@@ -113,7 +113,7 @@ macro_rules! catalogued {
         fn input(
             $p: &$crate::values::Values,
             $t: f64,
-        ) -> <Self as nh_runtime::Dynamics>::Input {
+        ) -> <Self as nonholonomic::Dynamics>::Input {
             $input
         }
     };
@@ -284,7 +284,7 @@ impl<S: Catalogued, V: Deref<Target = Values>> Dynamics for Driven<S, V> {
 }
 
 fn packed<S: Catalogued>(numbers: &[f64]) -> S::State {
-    let mut array = <<S::State as State>::Dim as nh_runtime::Dim>::vec(0.0);
+    let mut array = <<S::State as State>::Dim as nonholonomic::Dim>::vec(0.0);
     assert_eq!(
         array.as_ref().len(),
         numbers.len(),

@@ -3,7 +3,7 @@
 
 use std::ops::{Add, AddAssign, Div, Mul, MulAssign, Neg, Sub, SubAssign};
 
-use nh_runtime::Scalar;
+use nonholonomic::Scalar;
 
 /// A number and its derivative in some direction.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]

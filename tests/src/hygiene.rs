@@ -70,7 +70,7 @@ pub mod shadowed {
     /// Not the crate.
     pub mod alloc {}
     /// Not the crate.
-    pub mod nh_runtime {}
+    pub mod nonholonomic {}
     /// Not the crate.
     pub mod nalgebra {}
     /// Not a sine.
@@ -117,7 +117,7 @@ pub mod shadowed {
         use super::*;
 
         /// A sleigh with a parameter that no equation needs.
-        #[::nh_runtime::nonholonomic(
+        #[::nonholonomic::nonholonomic(
             base   { theta, x, y }
             basis  { omega, v1, v2 }
             anchor {
@@ -151,7 +151,7 @@ pub mod shadowed {
         }
 
         /// A blade with multipliers and a projection, under names that these may want.
-        #[::nh_runtime::nonholonomic(
+        #[::nonholonomic::nonholonomic(
             base { start, present, project }
             formulation { projected }
             outputs { covector = der(start); phase = start; }
@@ -174,7 +174,7 @@ pub mod shadowed {
         }
 
         /// A particle whose constraints are a gyroscopic force.
-        #[::nh_runtime::nonholonomic(
+        #[::nonholonomic::nonholonomic(
             base { phase, covector, p_phase }
             lagrangian { J / 2 * (der(phase)^2 + der(covector)^2 + der(p_phase)^2) - sqrt(1 + phase^2) }
             constraints { der(p_phase) = sin(covector) * der(phase); }
@@ -201,7 +201,7 @@ pub mod shadowed {
         }
 
         /// A body with a fixed point, one of whose angular velocities vanishes.
-        #[::nh_runtime::nonholonomic(
+        #[::nonholonomic::nonholonomic(
             basis { length, matrix, body }
             brackets so(3) { length, matrix, body }
             lagrangian { (J * length^2 + c * matrix^2 + body^2) / 2 }
@@ -222,7 +222,7 @@ pub mod shadowed {
 
 /// Names that generated code may want for itself, taken by a declaration.
 pub mod colliding {
-    use nh_runtime::nonholonomic;
+    use nonholonomic::nonholonomic;
 
     /// A particle on a line in odd coordinates.
     #[nonholonomic(
@@ -251,7 +251,7 @@ pub mod colliding {
 
 /// Items of narrow visibility, of which the user needs only a part.
 pub mod narrow {
-    use nh_runtime::nonholonomic;
+    use nonholonomic::nonholonomic;
 
     #[nonholonomic(
         base { angle }

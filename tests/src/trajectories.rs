@@ -12,7 +12,7 @@
 //! The sum is allowed `MULTIPLE` times. Errors are measured in each component relative to its
 //! largest value so far, and the largest component counts.
 
-use nh_runtime::IntegrationError;
+use nonholonomic::IntegrationError;
 
 use crate::catalogue::{Entry, Run};
 use crate::comparison::larger;

@@ -55,7 +55,7 @@ macro_rules! projected {
             $crate::twins::projected!(@input $system $(, $inputs)?);
             fn state(reading: &$crate::values::Reading) -> Vec<$crate::values::Moving> {
                 let velocities = Self::velocities(reading);
-                let names = <<Self as nh_runtime::Dynamics>::State as nh_runtime::State>::names();
+                let names = <<Self as nonholonomic::Dynamics>::State as nonholonomic::State>::names();
                 let coordinates = names.as_ref().len() - velocities.len();
                 let kept = <$system as $crate::catalogue::Catalogued>::state(reading);
                 [&kept[..coordinates], &velocities].concat()
@@ -66,7 +66,7 @@ macro_rules! projected {
             fn generated_velocities(
                 &self,
                 t: f64,
-                state: &<Self as nh_runtime::Dynamics>::State,
+                state: &<Self as nonholonomic::Dynamics>::State,
             ) -> Vec<f64> {
                 let velocity: [f64; $s] = self.velocity(t, state).into();
                 velocity.to_vec()
@@ -75,12 +75,12 @@ macro_rules! projected {
         }
     };
     (@input $system:ident) => {
-        fn input(_: &$crate::values::Values, _: f64) -> <Self as nh_runtime::Dynamics>::Input {
+        fn input(_: &$crate::values::Values, _: f64) -> <Self as nonholonomic::Dynamics>::Input {
             Default::default()
         }
     };
     (@input $system:ident, $inputs:literal) => {
-        fn input(values: &$crate::values::Values, t: f64) -> <Self as nh_runtime::Dynamics>::Input {
+        fn input(values: &$crate::values::Values, t: f64) -> <Self as nonholonomic::Dynamics>::Input {
             let numbers: [f64; $inputs] =
                 <$system as $crate::catalogue::Catalogued>::input(values, t).into();
             numbers.into()
@@ -91,8 +91,8 @@ macro_rules! projected {
         fn generated_multipliers(
             &self,
             t: f64,
-            state: &<Self as nh_runtime::Dynamics>::State,
-            input: &<Self as nh_runtime::Dynamics>::Input,
+            state: &<Self as nonholonomic::Dynamics>::State,
+            input: &<Self as nonholonomic::Dynamics>::Input,
         ) -> Option<$crate::catalogue::Labelled> {
             let multipliers = self.multipliers(t, state, input);
             Some(vec![$((stringify!($label), multipliers.$label)),+])

@@ -1,6 +1,6 @@
 //! Other derivations of the same equations, as generated code: `emit { gibbs_appell }`.
 
-use nh_runtime::prelude::*;
+use nonholonomic::prelude::*;
 
 /// In a basis of D, with a drift, a force by a method, and an input.
 #[nonholonomic(

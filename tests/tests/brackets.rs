@@ -5,7 +5,7 @@
 use std::collections::HashMap;
 use std::sync::OnceLock;
 
-use nh_runtime::prelude::*;
+use nonholonomic::prelude::*;
 
 type Reference = HashMap<String, HashMap<String, Vec<String>>>;
 

@@ -1,6 +1,5 @@
 //! Claims that are proved when a declaration is compiled, and what the reports say about constraints.
 
-use nh_runtime::prelude::*;
 use nh_tests::comparison::{larger, largest};
 use nh_tests::random::Random;
 use nh_tests::systems::frames::{
@@ -10,6 +9,7 @@ use nh_tests::systems::frames::{
 use nh_tests::systems::particles::{ParticleX, ParticleXCoframe, ParticleY};
 use nh_tests::systems::rotating_table::{BallOnRotatingTable, BallOnRotatingTableState};
 use nh_tests::systems::snakeboard::Snakeboard;
+use nonholonomic::prelude::*;
 
 #[test]
 fn the_moving_energy_is_conserved_where_the_energy_is_not() {

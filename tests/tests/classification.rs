@@ -2,7 +2,7 @@
 #![allow(non_snake_case, reason = "parameters are written as in mechanics")]
 #![allow(dead_code, reason = "the reports are looked at")]
 
-use nh_runtime::prelude::*;
+use nonholonomic::prelude::*;
 
 /// Declares a system; what is tested is its report.
 macro_rules! system {

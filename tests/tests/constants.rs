@@ -1,8 +1,8 @@
 //! Constants are parameters that are known when the code is compiled.
 #![allow(non_snake_case, reason = "parameters are written as in mechanics: J")]
 
-use nh_runtime::prelude::*;
 use nh_tests::random::Random;
+use nonholonomic::prelude::*;
 
 /// Declares a body with two inertias and a wheel, whose numbers come from fields or from constants.
 macro_rules! cart {

@@ -2,9 +2,9 @@
 //! phase space, by differences: nothing that the search uses takes part.
 #![allow(non_snake_case, reason = "parameters are written as in mechanics")]
 
-use nh_runtime::State;
-use nh_runtime::prelude::*;
 use nh_tests::random::Random;
+use nonholonomic::State;
+use nonholonomic::prelude::*;
 
 /// A two-wheeled robot, its centre of mass off the axle: the exponent depends on the parameters.
 #[nonholonomic(

@@ -1,8 +1,8 @@
 //! Embedded base coordinates: states off their identities are refused, and normalized on request.
 
-use nh_runtime::prelude::*;
 use nh_tests::comparison;
 use nh_tests::random::Random;
+use nonholonomic::prelude::*;
 
 /// Veselova's system: a body that does not turn about a direction fixed in space, with that
 /// direction as a unit vector. No velocities are good for every direction.

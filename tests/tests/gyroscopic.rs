@@ -1,11 +1,11 @@
 //! What reduction theory calls a system, and the gyroscopic force of Chaplygin systems: against the
 //! formula for the two-wheeled robot, and as the force that makes the reduced Lagrangian right.
 
-use nh_runtime::prelude::*;
 use nh_tests::random::Random;
 use nh_tests::systems::particles::ParticleY;
 use nh_tests::systems::rotating_table::BallOnRotatingTable;
 use nh_tests::systems::suslov::Suslov;
+use nonholonomic::prelude::*;
 
 /// A two-wheeled robot on the algebroid of its symmetry group, CLMM section 6.4.
 #[nonholonomic(

@@ -2,7 +2,7 @@
 //! the section stay on it. Claims that are almost true are in `ui/phase_space`.
 #![allow(non_snake_case, reason = "parameters are written as in mechanics")]
 
-use nh_runtime::prelude::*;
+use nonholonomic::prelude::*;
 
 /// A knife edge on an incline. A friction that acts only off the section does not matter.
 #[nonholonomic(

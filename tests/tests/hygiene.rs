@@ -1,12 +1,12 @@
 //! Declarations compute the right thing in surroundings that shadow what generated code relies on.
 //! That they compile there, without a warning, is the greater half of the check.
 
-use nh_runtime::Energy;
 use nh_tests::hygiene::colliding::{Odd, OddState};
 use nh_tests::hygiene::narrow::{acceleration, oscillation};
 use nh_tests::hygiene::shadowed::{
     Body, BodyState, Drop, DropState, Ferry, FerryState, Sleigh, SleighInput, SleighState,
 };
+use nonholonomic::Energy;
 
 const EXACT: f64 = 1e-14;
 
@@ -56,7 +56,7 @@ fn phase_space_does_not_collide_either() {
     let state = BodyState { length: 0.4, matrix: -0.3 };
     assert_eq!(body.hamilton(0.0, &body.legendre(0.0, &state), &()).p_length.to_bits() << 1, 0);
     assert!((body.volume_density(0.0, &state) - 1.0).abs() < EXACT);
-    let discrete = nh_runtime::EulerPoincareSuslov::discrete_momentum(&body, &state, 0.0);
+    let discrete = nonholonomic::EulerPoincareSuslov::discrete_momentum(&body, &state, 0.0);
     assert!((discrete[0] - 0.8).abs() < EXACT && (discrete[1] + 0.9).abs() < EXACT, "{discrete:?}");
     // the particle on its Hamilton–Jacobi section moves with energy c + J/2
     let particle = Drop { J: 1.5, c: 4.0 };

@@ -1,9 +1,9 @@
 //! Emitted Jacobians against the emitted derivative of dual numbers: equal to round-off.
 
-use nh_runtime::Dim;
-use nh_runtime::prelude::*;
 use nh_tests::dual::Dual;
 use nh_tests::random::Random;
+use nonholonomic::Dim;
+use nonholonomic::prelude::*;
 
 /// Adapted: a sleigh with friction, driven.
 #[nonholonomic(

@@ -1,7 +1,7 @@
 //! Forces that methods of the struct compute, and facts about parameters.
 
-use nh_runtime::prelude::*;
 use nh_tests::random::Random;
+use nonholonomic::prelude::*;
 
 /// A sleigh that lands on its runner: a motor with a torque curve given at a few speeds turns it, and
 /// the ground pushes when it is pressed in.

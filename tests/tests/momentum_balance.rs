@@ -1,7 +1,7 @@
 //! The momentum equation along trajectories: what a momentum gains is the integral of its rate, for
 //! sections that are declared and for those of the splitting; momenta of horizontal symmetries stay.
 
-use nh_runtime::prelude::*;
+use nonholonomic::prelude::*;
 
 /// A robot that tows a trailer, driven at the hitch, with friction along the group.
 #[nonholonomic(

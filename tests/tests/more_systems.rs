@@ -11,8 +11,8 @@
 
 use std::path::Path;
 
-use nh_runtime::prelude::*;
-use nh_runtime::{Dim, VecOf};
+use nonholonomic::prelude::*;
+use nonholonomic::{Dim, VecOf};
 
 #[path = "more_systems/carriages.rs"]
 mod carriages;

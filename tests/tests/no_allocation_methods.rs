@@ -6,12 +6,12 @@ use std::hint::black_box;
 use std::ops::ControlFlow;
 
 use nalgebra::{Matrix1, Matrix4, RowVector4, SVector, Vector1, Vector4, Vector5};
-use nh_runtime::control::{
+use nonholonomic::control::{
     Estimate, Ilqr, Quadratic, Regulator, Sampled, Unscented, held_noise, shooting_cost, shooting_gradient,
     zero_order_hold,
 };
-use nh_runtime::methods::Method;
-use nh_runtime::prelude::*;
+use nonholonomic::methods::Method;
+use nonholonomic::prelude::*;
 
 /// McLachlan and Perlmutter's contact oscillator, with all that a method may ask for in a basis of D.
 #[nonholonomic(

@@ -1,11 +1,11 @@
 //! Nonlinear constraints in long runs: kept to round-off, with the energy that theory gives them.
 
-use nh_runtime::prelude::*;
 use nh_tests::comparison::larger;
 use nh_tests::systems::nonlinear::{
     ConstantSpeed, ConstantSpeedState, GrowingSpeed, GrowingSpeedState, ParallelVelocities,
     ParallelVelocitiesState,
 };
+use nonholonomic::prelude::*;
 
 const STEPS: usize = 100_000;
 

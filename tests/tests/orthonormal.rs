@@ -1,6 +1,6 @@
 //! A basis of D that is orthonormal in the kinetic metric: C is the identity, the motion the same.
 
-use nh_runtime::prelude::*;
+use nonholonomic::prelude::*;
 
 macro_rules! twice {
     ($plain:ident, $unit:ident { $($names:tt)* } ($($sections:tt)*) { $($fields:tt)* }) => {

@@ -1,9 +1,9 @@
 //! The derivative by the parameters against the derivative of dual numbers: equal to round-off.
 #![allow(non_snake_case, reason = "parameters are written as in mechanics: J, I")]
 
-use nh_runtime::prelude::*;
 use nh_tests::dual::Dual;
 use nh_tests::random::Random;
+use nonholonomic::prelude::*;
 
 /// Adapted, with an array among the parameters.
 #[nonholonomic(

@@ -1,9 +1,9 @@
 //! Brackets, momenta, volumes and connections as a user meets them, against the equations of motion.
 #![allow(non_snake_case, reason = "parameters are written as in mechanics: J, I")]
 
-use nh_runtime::AlmostPoisson;
-use nh_runtime::prelude::*;
 use nh_tests::random::Random;
+use nonholonomic::AlmostPoisson;
+use nonholonomic::prelude::*;
 
 /// The sleigh with its centre of mass beside the point of contact: it keeps a volume.
 #[nonholonomic(

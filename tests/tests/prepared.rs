@@ -1,8 +1,8 @@
 //! A prepared system is the same system, and does less at every evaluation.
 #![allow(non_snake_case, reason = "parameters are written as in mechanics: J")]
 
-use nh_runtime::prelude::*;
 use nh_tests::random::Random;
+use nonholonomic::prelude::*;
 
 #[nonholonomic(
     base   { theta, x, y }

@@ -1,11 +1,11 @@
 //! The way back to the constraints: it gets there, is orthogonal in the kinetic metric, and does
 //! nothing twice.
 
-use nh_runtime::prelude::*;
-use nh_runtime::{Dim, ProjectionError, VecOf};
 use nh_tests::comparison::{self, larger};
 use nh_tests::random::Random;
 use nh_tests::systems::snakeboard::{SnakeboardOnThePlane, SnakeboardOnThePlaneState};
+use nonholonomic::prelude::*;
+use nonholonomic::{Dim, ProjectionError, VecOf};
 
 /// A system with its mass matrix at a state, in the projected formulation.
 trait Metric: Constrained<State: State<Scalar = f64>> {
@@ -225,7 +225,7 @@ fn what_cannot_be_projected_stays_as_it_is() {
 }
 
 /// The largest residual of a run of 10⁵ steps, and what became of the energy.
-fn long_run<M: nh_runtime::Method<SnakeboardOnThePlane>>(method: M) -> (f64, f64, Statistics) {
+fn long_run<M: nonholonomic::Method<SnakeboardOnThePlane>>(method: M) -> (f64, f64, Statistics) {
     let mut start = SnakeboardOnThePlaneState {
         phi: 0.4,
         x_dot: 1.0,

@@ -1,11 +1,11 @@
 //! Where constraints become dependent at isolated configurations: integrators stop with an error
 //! that says where, or get past, and no state is ever infinite or not a number.
 
-use nh_runtime::Method;
-use nh_runtime::prelude::*;
 use nh_tests::systems::snakeboard::{
     Snakeboard, SnakeboardOnThePlane, SnakeboardOnThePlaneState, SnakeboardState,
 };
+use nonholonomic::Method;
+use nonholonomic::prelude::*;
 
 /// A particle that moves on a ray through the origin, where its constraint has no direction, and is
 /// pulled off the ray.

@@ -1,12 +1,12 @@
 //! Multipliers and reaction forces: their names, that they close the equations of motion, and that
 //! they do no work where the constraints are homogeneous.
 
-use nh_runtime::prelude::*;
 use nh_tests::random::Random;
 use nh_tests::systems::sleigh::{Sleigh, SleighInput, SleighReactions, SleighState};
 use nh_tests::systems::snakeboard::{
     SnakeboardOnThePlane, SnakeboardOnThePlaneInput, SnakeboardOnThePlaneState,
 };
+use nonholonomic::prelude::*;
 
 /// A particle on rails, with labels that generated names have to live with.
 #[nonholonomic(

@@ -2,8 +2,8 @@
 
 use std::path::Path;
 
-use nh_runtime::prelude::*;
 use nh_tests::random::Random;
+use nonholonomic::prelude::*;
 
 /// The whole system and its reduction, from the same sections.
 macro_rules! both {

@@ -3,7 +3,7 @@
 
 use std::path::Path;
 
-use nh_runtime::prelude::*;
+use nonholonomic::prelude::*;
 use serde_json::Value;
 
 /// A roller racer: of its group SE(2) only the translations are cyclic, the turn is declared.

@@ -8,8 +8,8 @@ mod keeps;
 mod systems;
 
 use keeps::{CONTACT, Kept, Row, Special, on_tq, row, run};
-use nh_runtime::prelude::*;
 use nh_tests::comparison::largest;
+use nonholonomic::prelude::*;
 use systems::{ChaoticQuartic, ChaoticQuarticState, Suslov, SuslovState};
 
 /// Steps for the measurements: few, since tests are not optimised.
@@ -152,7 +152,7 @@ struct Table {
 
 #[test]
 fn stated_invariants() {
-    use nh_runtime::Invariants;
+    use nonholonomic::Invariants;
     let table = Table { r: 0.5, k2: 0.1, Omega: 1.3 };
     let start = TableState { x: 0.4, y: -0.2, wx: 0.3, wy: 0.7, wz: -0.4 };
     let before = table.invariants(0.0, &start);

@@ -1,10 +1,10 @@
 //! Momenta and their rates: the momentum equation against the derivative along the motion, by dual
 //! numbers; conservation laws along trajectories; what the reports say.
 
-use nh_runtime::Dim;
-use nh_runtime::prelude::*;
 use nh_tests::dual::Dual;
 use nh_tests::random::Random;
+use nonholonomic::Dim;
+use nonholonomic::prelude::*;
 
 /// A sleigh with friction, driven. Its momenta: of a section of D, of the plane's translations (which
 /// are not in D), and of the rotation about the origin.

@@ -1,7 +1,7 @@
 //! Tracked systems are smaller, and agree with the whole ones on what they keep.
 
-use nh_runtime::prelude::*;
 use nh_tests::random::Random;
+use nonholonomic::prelude::*;
 
 /// One sleigh, tracked in several ways.
 macro_rules! sleigh {

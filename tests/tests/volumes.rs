@@ -1,7 +1,7 @@
 //! Volumes of systems that are in no list: the verdicts are known from elsewhere.
 #![allow(non_snake_case, reason = "parameters are written as in mechanics")]
 
-use nh_runtime::prelude::*;
+use nonholonomic::prelude::*;
 
 /// Polar coordinates: the density of the plane, r, in unit velocities.
 #[nonholonomic(

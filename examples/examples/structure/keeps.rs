@@ -1,7 +1,7 @@
 //! What a method keeps of what the flow keeps, measured.
 
-use nh_runtime::Method;
-use nh_runtime::prelude::*;
+use nonholonomic::Method;
+use nonholonomic::prelude::*;
 
 use super::systems::{
     ChaplyginSphere, ChaplyginSphereState, ContactOscillator, ContactOscillatorOnTq,

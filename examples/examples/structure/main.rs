@@ -17,8 +17,8 @@ mod systems;
 use keeps::{
     CONTACT, HEAVY, ON_TQ, Row, SPHERE, SUSLOV, Special, VESELOVA, larger, on_algebra, on_tq, row, run,
 };
-use nh_runtime::Method;
-use nh_runtime::prelude::*;
+use nonholonomic::Method;
+use nonholonomic::prelude::*;
 use systems::{
     ChaoticQuartic, ChaoticQuarticOnTq, ChaoticQuarticOnTqState, ChaoticQuarticState,
     ContactOscillatorOnTqState, ContactOscillatorState, Gearbox, GearboxState, SuslovState,

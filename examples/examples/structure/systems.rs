@@ -1,7 +1,7 @@
 //! The test problems of geometric integration for nonholonomic systems.
 #![allow(non_snake_case, reason = "moments of inertia are written I")]
 
-use nh_runtime::prelude::*;
+use nonholonomic::prelude::*;
 
 /// The contact oscillator: three oscillators, coupled by a contact constraint and a quartic term
 /// (McLachlan, Perlmutter, Integrators for nonholonomic mechanical systems, J. Nonlinear Sci. 16 (2006)).

@@ -11,7 +11,7 @@ use rustc_hash::FxHashMap;
 /// vector field. Symbols without a seed are constants.
 ///
 /// ```
-/// use nh_core::algebra::{Derivation, Graph};
+/// use nonholonomic_core::algebra::{Derivation, Graph};
 /// let mut g = Graph::new();
 /// let x = g.new_symbol("x");
 /// let e = { let x = g.symbol(x); g.square(x) };

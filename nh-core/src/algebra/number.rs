@@ -13,7 +13,7 @@ type Big = Ratio<BigInt>;
 /// An exact rational number in lowest terms with a positive denominator.
 ///
 /// ```
-/// use nh_core::algebra::Rational;
+/// use nonholonomic_core::algebra::Rational;
 /// let third = Rational::new(2, 6);
 /// assert_eq!((third.clone() + Rational::from(1)).to_string(), "4/3");
 /// ```

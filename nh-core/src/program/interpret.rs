@@ -101,9 +101,9 @@ impl Arithmetic for f64 {
 /// The outputs of a program in double precision.
 ///
 /// ```
-/// use nh_core::algebra::Graph;
-/// use nh_core::mechanics::Procedure;
-/// use nh_core::program::{interpret, schedule};
+/// use nonholonomic_core::algebra::Graph;
+/// use nonholonomic_core::mechanics::Procedure;
+/// use nonholonomic_core::program::{interpret, schedule};
 /// let mut g = Graph::new();
 /// let x = g.new_symbol("x");
 /// let e = { let x = g.symbol(x); g.square(x) };

@@ -3,12 +3,12 @@
 
 use crate::systems;
 
-use nh_core::algebra::{Facts, Graph, Substitution};
-use nh_core::check;
-use nh_core::geometry::{Algebroid, ChangeOfBasis, ConstraintDistribution};
-use nh_core::id::{ExprId, Id, SymbolId};
-use nh_core::mechanics::{LagrangianSystem, reduced_equations};
-use nh_core::model::Model;
+use nonholonomic_core::algebra::{Facts, Graph, Substitution};
+use nonholonomic_core::check;
+use nonholonomic_core::geometry::{Algebroid, ChangeOfBasis, ConstraintDistribution};
+use nonholonomic_core::id::{ExprId, Id, SymbolId};
+use nonholonomic_core::mechanics::{LagrangianSystem, reduced_equations};
+use nonholonomic_core::model::Model;
 
 /// The stages up to the distribution, as in `compile`.
 pub(crate) fn stages(model: &mut Model) -> (LagrangianSystem, ConstraintDistribution) {

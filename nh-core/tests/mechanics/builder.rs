@@ -1,8 +1,8 @@
 //! Resolved models by hand: names, then terms as texts.
 
-use nh_core::algebra::{Graph, Rational};
-use nh_core::id::{ExprId, Id, Origin, SymbolId, Table};
-use nh_core::model::{
+use nonholonomic_core::algebra::{Graph, Rational};
+use nonholonomic_core::id::{ExprId, Id, Origin, SymbolId, Table};
+use nonholonomic_core::model::{
     AnchorDecl, BracketDecl, ConstraintDecl, Coordinate, Kinematics, Located, Model, OutputDecl, Parameter,
     Section,
 };

@@ -2,12 +2,12 @@
 
 use crate::systems;
 
-use nh_core::compile::compile;
-use nh_core::id::Id;
-use nh_core::model::{Formulation, Model};
-use nh_core::program::{interpret, schedule};
-use nh_core::system::System;
-use nh_core::violation::Law;
+use nonholonomic_core::compile::compile;
+use nonholonomic_core::id::Id;
+use nonholonomic_core::model::{Formulation, Model};
+use nonholonomic_core::program::{interpret, schedule};
+use nonholonomic_core::system::System;
+use nonholonomic_core::violation::Law;
 
 /// The derivative of a system at named values.
 fn derivative(system: &System, values: &[(&str, f64)]) -> Vec<f64> {
@@ -238,7 +238,7 @@ fn an_embedded_base_has_a_way_back() {
     let norm = b.sum(&[(1, 1, "g1*g1"), (1, 1, "g2*g2"), (1, 1, "g3*g3")]);
     let one = b.model.graph.one();
     let identity = b.model.graph.sub(norm, one);
-    b.model.identities.push(nh_core::model::Located { value: identity, origin: systems::origin() });
+    b.model.identities.push(nonholonomic_core::model::Located { value: identity, origin: systems::origin() });
     let system = compiled(b.model.clone());
     let embedding = system.embedding.unwrap();
     let mut g = [0.3, -1.0, 0.4];

@@ -1,10 +1,10 @@
 //! Laws that a front end may enforce first, broken here in the model itself.
 
 use crate::systems;
-use nh_core::algebra::Function;
-use nh_core::compile::compile;
-use nh_core::model::{Kinematics, Model};
-use nh_core::violation::Law;
+use nonholonomic_core::algebra::Function;
+use nonholonomic_core::compile::compile;
+use nonholonomic_core::model::{Kinematics, Model};
+use nonholonomic_core::violation::Law;
 
 fn broken(model: Model) -> Vec<Law> {
     compile(model).unwrap_err().iter().map(|violation| violation.law).collect()

@@ -2,11 +2,11 @@
 
 use crate::systems;
 
-use nh_core::compile::compile;
-use nh_core::id::SymbolId;
-use nh_core::model::Model;
-use nh_core::program::{Cost, schedule_grouping};
-use nh_core::system::System;
+use nonholonomic_core::compile::compile;
+use nonholonomic_core::id::SymbolId;
+use nonholonomic_core::model::Model;
+use nonholonomic_core::program::{Cost, schedule_grouping};
+use nonholonomic_core::system::System;
 
 fn compiled(model: Model) -> System {
     compile(model).unwrap_or_else(|violations| panic!("{violations:#?}"))

@@ -2,14 +2,14 @@
 
 use crate::systems::{self, Builder, origin};
 
-use nh_core::algebra::Graph;
-use nh_core::compile::compile;
-use nh_core::id::{ExprId, Id, SymbolId};
-use nh_core::mechanics::Procedure;
-use nh_core::model::{Located, Model, OutputDecl, Request, SectionClaim, VolumeClaim};
-use nh_core::program::{interpret, schedule};
-use nh_core::system::System;
-use nh_core::violation::{Law, Violation};
+use nonholonomic_core::algebra::Graph;
+use nonholonomic_core::compile::compile;
+use nonholonomic_core::id::{ExprId, Id, SymbolId};
+use nonholonomic_core::mechanics::Procedure;
+use nonholonomic_core::model::{Located, Model, OutputDecl, Request, SectionClaim, VolumeClaim};
+use nonholonomic_core::program::{interpret, schedule};
+use nonholonomic_core::system::System;
+use nonholonomic_core::violation::{Law, Violation};
 
 fn asking(mut model: Model, requests: &[Request]) -> Model {
     model.requests.extend(requests.iter().map(|request| (*request, origin())));

@@ -2,11 +2,11 @@
 
 use crate::systems;
 
-use nh_core::compile::compile;
-use nh_core::id::Id;
-use nh_core::model::{Model, Request, TrackedItem};
-use nh_core::program::{Cost, interpret, schedule};
-use nh_core::system::System;
+use nonholonomic_core::compile::compile;
+use nonholonomic_core::id::Id;
+use nonholonomic_core::model::{Model, Request, TrackedItem};
+use nonholonomic_core::program::{Cost, interpret, schedule};
+use nonholonomic_core::system::System;
 
 fn compiled(model: Model) -> System {
     compile(model).unwrap_or_else(|violations| panic!("{violations:#?}"))
@@ -75,6 +75,6 @@ fn what_does_not_flow_into_the_tracked_is_left_out() {
 }
 
 /// A value for every symbol.
-fn sample(symbol: nh_core::id::SymbolId) -> f64 {
+fn sample(symbol: nonholonomic_core::id::SymbolId) -> f64 {
     0.4 + f64::from(u8::try_from((symbol.index() * 7919) % 13).unwrap()) / 11.0
 }

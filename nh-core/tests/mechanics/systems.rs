@@ -1,9 +1,9 @@
 //! A few systems as resolved models, built by hand.
 
 pub(crate) use crate::builder::{Builder, origin};
-use nh_core::algebra::{Graph, Rational};
-use nh_core::id::ExprId;
-use nh_core::model::{ConstraintDecl, FrameDecl, Model};
+use nonholonomic_core::algebra::{Graph, Rational};
+use nonholonomic_core::id::ExprId;
+use nonholonomic_core::model::{ConstraintDecl, FrameDecl, Model};
 
 /// The Chaplygin sleigh with its position; CLMM section 6.1.
 pub(crate) fn sleigh() -> Model {
@@ -67,7 +67,7 @@ pub(crate) fn car() -> Model {
     b.constraint(&[(1, 1, "side")]);
     b.constraint(&[(1, 1, "side*cos(delta)"), (1, 1, "L*omega*cos(delta)"), (-1, 1, "v*sin(delta)")]);
     let mut model = b.model;
-    let kept = [0, 3].map(|index| model.sections[nh_core::id::Id::from_index(index)].symbol);
+    let kept = [0, 3].map(|index| model.sections[nonholonomic_core::id::Id::from_index(index)].symbol);
     model.independent = Some(kept.map(|symbol| (symbol, origin())).to_vec());
     model
 }

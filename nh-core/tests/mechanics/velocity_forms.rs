@@ -3,11 +3,11 @@
 
 use crate::adapted_frame::stages;
 use crate::systems;
-use nh_core::mechanics::{
+use nonholonomic_core::mechanics::{
     Definition, equations_by_momenta, equations_by_partial_velocities, equations_by_velocity_forms,
     equations_in_wheel_frames, reduced_equations,
 };
-use nh_core::model::Model;
+use nonholonomic_core::model::Model;
 
 /// Whether there was a form in the frames of wheels.
 fn forms_agree(mut model: Model) -> bool {

@@ -1,7 +1,7 @@
 //! A recursive-descent parser of the printed syntax, independent of the printer.
 
 use super::tree::Tree;
-use nh_core::algebra::{Function, Rational};
+use nonholonomic_core::algebra::{Function, Rational};
 
 /// Reads a whole text.
 pub(crate) fn parse(text: &str) -> Result<Tree, String> {

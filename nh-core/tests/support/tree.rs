@@ -1,7 +1,7 @@
 //! Expression trees, and their values by plain recursion.
 
-use nh_core::algebra::{Function, Graph, Rational};
-use nh_core::id::{ExprId, Id, SymbolId};
+use nonholonomic_core::algebra::{Function, Graph, Rational};
+use nonholonomic_core::id::{ExprId, Id, SymbolId};
 use proptest::prelude::*;
 use std::f64::consts::PI;
 

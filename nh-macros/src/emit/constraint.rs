@@ -2,9 +2,9 @@
 
 use std::collections::BTreeSet;
 
-use nh_core::mechanics::Procedure;
-use nh_core::model::Formulation;
-use nh_core::system::System;
+use nonholonomic_core::mechanics::Procedure;
+use nonholonomic_core::model::Formulation;
+use nonholonomic_core::system::System;
 use proc_macro2::{Ident, Span, TokenStream};
 use quote::{ToTokens, quote};
 

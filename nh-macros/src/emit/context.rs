@@ -1,6 +1,6 @@
 //! What every emitter needs: paths, generics, and the shapes of the generated structs.
 
-use nh_core::id::SymbolId;
+use nonholonomic_core::id::SymbolId;
 use proc_macro2::{Delimiter, Group, Ident, Span, TokenStream, TokenTree};
 use quote::{ToTokens, quote};
 use syn::{GenericParam, Generics};
@@ -12,7 +12,7 @@ use crate::syntax::ast;
 /// What every emitter needs.
 pub(super) struct Context<'a> {
     pub(super) layout: &'a Layout,
-    /// `::nh_runtime::__private`
+    /// `::nonholonomic::__private`
     pub(super) runtime: TokenStream,
     /// `::core::primitive::f64`, or the type parameter.
     pub(super) scalar: TokenStream,

@@ -1,9 +1,9 @@
 //! Discrete Lagrange–d'Alembert equations, and invariants with their gradients, for the methods that
 //! take them.
 
-use nh_core::model::Request;
-use nh_core::phase_space::StepForm;
-use nh_core::system::System;
+use nonholonomic_core::model::Request;
+use nonholonomic_core::phase_space::StepForm;
+use nonholonomic_core::system::System;
 use proc_macro2::{Literal, TokenStream};
 use quote::quote;
 

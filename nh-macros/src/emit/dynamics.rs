@@ -1,6 +1,6 @@
 //! The time derivative of the state, and the system as the integrators see it.
 
-use nh_core::program::{Cost, Program};
+use nonholonomic_core::program::{Cost, Program};
 use proc_macro2::TokenStream;
 use quote::quote;
 

@@ -1,6 +1,6 @@
 //! The identities of an embedded base: whether a state satisfies them, and the way back.
 
-use nh_core::system::{Embedding, System};
+use nonholonomic_core::system::{Embedding, System};
 use proc_macro2::{Literal, TokenStream};
 use quote::quote;
 

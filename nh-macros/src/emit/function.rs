@@ -2,11 +2,11 @@
 
 use std::collections::BTreeSet;
 
-use nh_core::algebra::Accuracy;
-use nh_core::id::SymbolId;
-use nh_core::mechanics::Procedure;
-use nh_core::model::Model;
-use nh_core::program::{Program, corrected, schedule_grouping};
+use nonholonomic_core::algebra::Accuracy;
+use nonholonomic_core::id::SymbolId;
+use nonholonomic_core::mechanics::Procedure;
+use nonholonomic_core::model::Model;
+use nonholonomic_core::program::{Program, corrected, schedule_grouping};
 use proc_macro2::{Delimiter, Group, Ident, Span, TokenStream};
 use quote::quote;
 

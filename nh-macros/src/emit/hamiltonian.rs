@@ -2,8 +2,8 @@
 
 use std::collections::BTreeSet;
 
-use nh_core::mechanics::{HamiltonianSide, Procedure};
-use nh_core::system::System;
+use nonholonomic_core::mechanics::{HamiltonianSide, Procedure};
+use nonholonomic_core::system::System;
 use proc_macro2::{Literal, TokenStream};
 use quote::{format_ident, quote};
 

@@ -1,7 +1,7 @@
 //! The stated first integrals with their gradients.
 
-use nh_core::model::Request;
-use nh_core::system::System;
+use nonholonomic_core::model::Request;
+use nonholonomic_core::system::System;
 use proc_macro2::{Literal, TokenStream};
 use quote::quote;
 

@@ -8,7 +8,7 @@
 
 use std::collections::BTreeMap;
 
-use nh_core::id::SymbolId;
+use nonholonomic_core::id::SymbolId;
 use proc_macro2::{Ident, Span, TokenStream};
 use quote::{format_ident, quote};
 
@@ -35,7 +35,7 @@ pub(crate) struct Layout {
     pub(crate) is_fixed: bool,
     /// The fields that are no parameters.
     pub(crate) skipped: usize,
-    /// The path of the runtime: `::nh_runtime`, unless the declaration says otherwise.
+    /// The path of the runtime: `::nonholonomic`, unless the declaration says otherwise.
     pub(crate) runtime: TokenStream,
     /// The names of the generated types.
     pub(crate) types: TypeNames,
@@ -171,7 +171,7 @@ impl Layout {
             scalar: structure.scalar.clone(),
             is_fixed: false,
             skipped: structure.skipped.len(),
-            runtime: quote!(::nh_runtime),
+            runtime: quote!(::nonholonomic),
             types: TypeNames::of(&structure.name),
             parameters: structure.parameters.iter().map(Family::from).collect(),
             coordinates: Vec::new(),

@@ -46,8 +46,8 @@ mod tests;
 mod validate;
 mod velocity;
 
-use nh_core::id::SymbolId;
-use nh_core::system::System;
+use nonholonomic_core::id::SymbolId;
+use nonholonomic_core::system::System;
 use proc_macro2::TokenStream;
 
 use context::Context;

@@ -2,8 +2,8 @@
 
 use std::collections::BTreeSet;
 
-use nh_core::mechanics::Procedure;
-use nh_core::reduction::Reduction;
+use nonholonomic_core::mechanics::Procedure;
+use nonholonomic_core::reduction::Reduction;
 use proc_macro2::{Literal, TokenStream};
 use quote::quote;
 

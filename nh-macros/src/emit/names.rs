@@ -2,9 +2,9 @@
 
 use std::collections::BTreeSet;
 
-use nh_core::algebra::Function;
-use nh_core::id::Table;
-use nh_core::program::{Program, Step, Value};
+use nonholonomic_core::algebra::Function;
+use nonholonomic_core::id::Table;
+use nonholonomic_core::program::{Program, Step, Value};
 use proc_macro2::Ident;
 
 use super::layout::local;

@@ -1,6 +1,6 @@
 //! Exact numbers as literals.
 
-use nh_core::algebra::Rational;
+use nonholonomic_core::algebra::Rational;
 use proc_macro2::{Literal, TokenStream};
 use quote::quote;
 

@@ -1,6 +1,6 @@
 //! The declared observables.
 
-use nh_core::program::Program;
+use nonholonomic_core::program::Program;
 use proc_macro2::TokenStream;
 use quote::quote;
 

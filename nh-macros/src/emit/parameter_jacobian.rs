@@ -2,7 +2,7 @@
 
 use std::collections::BTreeSet;
 
-use nh_core::system::System;
+use nonholonomic_core::system::System;
 use proc_macro2::{Literal, TokenStream};
 use quote::quote;
 

@@ -2,10 +2,10 @@
 
 use std::collections::BTreeSet;
 
-use nh_core::mechanics::Procedure;
-use nh_core::model::Request;
-use nh_core::phase_space::AlmostPoisson;
-use nh_core::system::System;
+use nonholonomic_core::mechanics::Procedure;
+use nonholonomic_core::model::Request;
+use nonholonomic_core::phase_space::AlmostPoisson;
+use nonholonomic_core::system::System;
 use proc_macro2::{Literal, TokenStream};
 use quote::{ToTokens, quote};
 

@@ -2,10 +2,10 @@
 
 use std::collections::BTreeSet;
 
-use nh_core::id::SymbolId;
-use nh_core::model::Request;
-use nh_core::program::{Program, Split, split};
-use nh_core::system::System;
+use nonholonomic_core::id::SymbolId;
+use nonholonomic_core::model::Request;
+use nonholonomic_core::program::{Program, Split, split};
+use nonholonomic_core::system::System;
 use proc_macro2::{Literal, TokenStream};
 use quote::{format_ident, quote};
 

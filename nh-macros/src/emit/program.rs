@@ -3,8 +3,8 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use nh_core::id::{SymbolId, Table};
-use nh_core::program::{Program, Step, Value};
+use nonholonomic_core::id::{SymbolId, Table};
+use nonholonomic_core::program::{Program, Step, Value};
 use proc_macro2::{Ident, Literal, Span, TokenStream};
 use quote::quote;
 

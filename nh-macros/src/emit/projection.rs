@@ -1,9 +1,9 @@
 //! The way back to where a state belongs: base coordinates to their identities, velocities to the
 //! constraints.
 
-use nh_core::id::SymbolId;
-use nh_core::program::Program;
-use nh_core::system::{Projection, System};
+use nonholonomic_core::id::SymbolId;
+use nonholonomic_core::program::Program;
+use nonholonomic_core::system::{Projection, System};
 use proc_macro2::{Ident, Literal, TokenStream};
 use quote::quote;
 

@@ -1,9 +1,9 @@
 //! Functions with a component for each of some coordinates: the rates that Routh reduction leaves to
 //! quadratures, and the gyroscopic force of a Chaplygin system.
 
-use nh_core::id::SymbolId;
-use nh_core::mechanics::Procedure;
-use nh_core::system::System;
+use nonholonomic_core::id::SymbolId;
+use nonholonomic_core::mechanics::Procedure;
+use nonholonomic_core::system::System;
 use proc_macro2::{Ident, TokenStream};
 use quote::{ToTokens, quote};
 

@@ -2,10 +2,10 @@
 
 use std::collections::BTreeMap;
 
-use nh_core::algebra::Constant;
-use nh_core::id::{CoordId, ExprId};
-use nh_core::model::Relation;
-use nh_core::reduction::Quotient;
+use nonholonomic_core::algebra::Constant;
+use nonholonomic_core::id::{CoordId, ExprId};
+use nonholonomic_core::model::Relation;
+use nonholonomic_core::reduction::Quotient;
 use proc_macro2::{Literal, TokenStream, TokenTree};
 use quote::quote;
 

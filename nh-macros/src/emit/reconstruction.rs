@@ -1,6 +1,6 @@
 //! The way back from a reduction: the dropped coordinates, and the joint state with them.
 
-use nh_core::reduction::Reconstruction;
+use nonholonomic_core::reduction::Reconstruction;
 use proc_macro2::{Literal, TokenStream};
 use quote::{format_ident, quote};
 

@@ -1,7 +1,7 @@
 //! `REPORT`, and the equations in the documentation of the struct.
 
-use nh_core::program::{Cost, Program};
-use nh_core::system::System;
+use nonholonomic_core::program::{Cost, Program};
+use nonholonomic_core::system::System;
 use proc_macro2::{Delimiter, TokenStream, TokenTree};
 use quote::quote;
 

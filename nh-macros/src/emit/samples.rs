@@ -1,12 +1,12 @@
 //! Verified systems written by hand, to test the emitters apart from the derivation.
 
-use nh_core::algebra::{Graph, Rational};
-use nh_core::id::{ExprId, Id, Origin, SymbolId, Table};
-use nh_core::mechanics::{Definition, Procedure};
-use nh_core::model::{
+use nonholonomic_core::algebra::{Graph, Rational};
+use nonholonomic_core::id::{ExprId, Id, Origin, SymbolId, Table};
+use nonholonomic_core::mechanics::{Definition, Procedure};
+use nonholonomic_core::model::{
     ConstraintDecl, Coordinate, Formulation, Input, Kinematics, Located, Model, Parameter, Section,
 };
-use nh_core::system::{ParameterCheck, Projection, System};
+use nonholonomic_core::system::{ParameterCheck, Projection, System};
 use proc_macro2::TokenStream;
 
 use super::layout::{Family, Layout};
@@ -151,7 +151,7 @@ impl Builder {
             projection: None,
             jacobian: None,
             parameter_jacobian: None,
-            phase_space: nh_core::phase_space::PhaseSpace::default(),
+            phase_space: nonholonomic_core::phase_space::PhaseSpace::default(),
             embedding: None,
             parameter_checks: nonzero
                 .iter()
@@ -229,7 +229,7 @@ pub(crate) fn chain_system(layout: &Layout) -> System {
     let angle = b.graph.sub(q0, q1);
     let (sin, cos) = (b.graph.sin(angle), b.graph.cos(angle));
     let third = b.graph.scale(Rational::new(1, 3), cos);
-    let exp = b.graph.apply(nh_core::algebra::Function::Exp, q0);
+    let exp = b.graph.apply(nonholonomic_core::algebra::Function::Exp, q0);
     let root = b.graph.pow(exp, Rational::new(2, 7));
     let (pi, one) = (b.graph.pi(), b.graph.one());
     let shifted = b.graph.add(root, pi);

@@ -2,8 +2,8 @@
 
 use std::collections::BTreeMap;
 
-use nh_core::id::{Id, SymbolId};
-use nh_core::model::Model;
+use nonholonomic_core::id::{Id, SymbolId};
+use nonholonomic_core::model::Model;
 use proc_macro2::{Ident, Literal, TokenStream};
 use quote::quote;
 

@@ -1,7 +1,7 @@
 //! The nonholonomic connection and the momentum equation.
 
-use nh_core::mechanics::Procedure;
-use nh_core::system::System;
+use nonholonomic_core::mechanics::Procedure;
+use nonholonomic_core::system::System;
 use proc_macro2::{Literal, TokenStream};
 use quote::quote;
 

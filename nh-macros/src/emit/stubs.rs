@@ -3,7 +3,7 @@
 
 use std::collections::BTreeSet;
 
-use nh_core::model::Request;
+use nonholonomic_core::model::Request;
 use proc_macro2::TokenStream;
 use quote::quote;
 

@@ -7,11 +7,11 @@ mod orders;
 
 use std::collections::BTreeSet;
 
-use nh_core::algebra::Accuracy;
-use nh_core::id::SymbolId;
-use nh_core::model::Request;
-use nh_core::program::{Program, Recurrences, Rule, Step, Value, Variation};
-use nh_core::system::System;
+use nonholonomic_core::algebra::Accuracy;
+use nonholonomic_core::id::SymbolId;
+use nonholonomic_core::model::Request;
+use nonholonomic_core::program::{Program, Recurrences, Rule, Step, Value, Variation};
+use nonholonomic_core::system::System;
 use proc_macro2::{Ident, Literal, Span, TokenStream};
 use quote::quote;
 

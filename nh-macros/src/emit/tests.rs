@@ -1,6 +1,6 @@
-//! Emitted code against golden files: `UPDATE_GOLDEN=1 cargo test -p nh-macros` writes them anew.
+//! Emitted code against golden files: `UPDATE_GOLDEN=1 cargo test -p nonholonomic-macros` writes them anew.
 
-use nh_core::model::Request;
+use nonholonomic_core::model::Request;
 use proc_macro2::{TokenStream, TokenTree};
 
 use super::samples::{chain, chain_system, layout, rails, rails_system, sleigh, sleigh_system};
@@ -78,7 +78,7 @@ fn declared(name: &str) -> (TokenStream, syn::ItemStruct) {
         });
         found.expect("a macro")
     };
-    // (…) => { #[nh_runtime::nonholonomic(sections $($sections)*)] $parameters };
+    // (…) => { #[nonholonomic::nonholonomic(sections $($sections)*)] $parameters };
     let rule = read("models/src/lib.rs", &|item| item.ident.as_ref().is_some_and(|ident| ident == name));
     let attribute = groups(groups(rule.tokens).swap_remove(1)).swap_remove(0);
     let mut sections: Vec<TokenTree> = groups(attribute).swap_remove(0).into_iter().collect();

@@ -1,9 +1,9 @@
 //! `validate`: every parameter is finite, assumptions hold, and no parameter pivot is zero.
 
-use nh_core::id::ExprId;
-use nh_core::mechanics::Procedure;
-use nh_core::model::{Model, Relation};
-use nh_core::system::System;
+use nonholonomic_core::id::ExprId;
+use nonholonomic_core::mechanics::Procedure;
+use nonholonomic_core::model::{Model, Relation};
+use nonholonomic_core::system::System;
 use proc_macro2::TokenStream;
 use quote::quote;
 

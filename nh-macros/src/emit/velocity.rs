@@ -1,6 +1,6 @@
 //! All quasi-velocities, those that are not in the state included.
 
-use nh_core::program::Program;
+use nonholonomic_core::program::Program;
 use proc_macro2::TokenStream;
 use quote::quote;
 

@@ -1,7 +1,7 @@
 //! Sums, products and powers of expressions, with limits on the size of what is built.
 
-use nh_core::algebra::{Node, Rational};
-use nh_core::id::ExprId;
+use nonholonomic_core::algebra::{Node, Rational};
+use nonholonomic_core::id::ExprId;
 
 use super::reports::Outcome;
 use super::resolver::Resolver;

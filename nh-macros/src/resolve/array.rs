@@ -2,7 +2,7 @@
 
 use std::fmt;
 
-use nh_core::id::ExprId;
+use nonholonomic_core::id::ExprId;
 
 /// How many entries there are, and how they are indexed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

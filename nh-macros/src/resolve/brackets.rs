@@ -2,10 +2,10 @@
 
 use std::collections::BTreeSet;
 
-use nh_core::algebra::Rational;
-use nh_core::geometry::KnownAlgebra;
-use nh_core::id::SectionId;
-use nh_core::model::BracketDecl;
+use nonholonomic_core::algebra::Rational;
+use nonholonomic_core::geometry::KnownAlgebra;
+use nonholonomic_core::id::SectionId;
+use nonholonomic_core::model::BracketDecl;
 
 use super::context::Context;
 use super::reports::Outcome;

@@ -3,9 +3,9 @@
 use std::collections::BTreeSet;
 use std::rc::Rc;
 
-use nh_core::algebra::Accuracy;
-use nh_core::id::{Origin, SymbolId};
-use nh_core::model::Formulation;
+use nonholonomic_core::algebra::Accuracy;
+use nonholonomic_core::id::{Origin, SymbolId};
+use nonholonomic_core::model::Formulation;
 use proc_macro2::Ident;
 use quote::quote;
 

@@ -3,9 +3,9 @@
 use std::collections::BTreeSet;
 use std::rc::Rc;
 
-use nh_core::algebra::Constant;
-use nh_core::id::{ConstantId, SymbolId};
-use nh_core::model::{Coordinate, Input, Parameter, Section};
+use nonholonomic_core::algebra::Constant;
+use nonholonomic_core::id::{ConstantId, SymbolId};
+use nonholonomic_core::model::{Coordinate, Input, Parameter, Section};
 use quote::format_ident;
 
 use super::array::{Array, Shape};

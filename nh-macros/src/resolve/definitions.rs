@@ -4,7 +4,7 @@
 
 use std::collections::BTreeMap;
 
-use nh_core::id::ExprId;
+use nonholonomic_core::id::ExprId;
 
 use super::array::Shape;
 use super::context::Context;

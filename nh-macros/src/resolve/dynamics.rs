@@ -2,8 +2,8 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use nh_core::id::{ConstraintId, ExprId, SymbolId, Table};
-use nh_core::model::{AnchorDecl, ConstraintDecl, ForceDecl, Kinematics, Located, OutputDecl};
+use nonholonomic_core::id::{ConstraintId, ExprId, SymbolId, Table};
+use nonholonomic_core::model::{AnchorDecl, ConstraintDecl, ForceDecl, Kinematics, Located, OutputDecl};
 
 use super::context::Context;
 use super::reports::Outcome;

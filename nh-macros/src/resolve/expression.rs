@@ -2,8 +2,8 @@
 
 use std::rc::Rc;
 
-use nh_core::algebra::Rational;
-use nh_core::id::ExprId;
+use nonholonomic_core::algebra::Rational;
+use nonholonomic_core::id::ExprId;
 
 use super::array::{Array, Part, Shape};
 use super::context::{Context, Usage};
@@ -170,7 +170,12 @@ impl Resolver {
     }
 
     /// The symbols of a part of a family.
-    fn symbols(&mut self, expr: &Expr, symbols: &[nh_core::id::SymbolId], part: Part) -> Outcome<Array> {
+    fn symbols(
+        &mut self,
+        expr: &Expr,
+        symbols: &[nonholonomic_core::id::SymbolId],
+        part: Part,
+    ) -> Outcome<Array> {
         self.reports.spend(expr.extent, part.shape.len())?;
         let entries = symbols[part.positions()].iter().map(|symbol| self.graph.symbol(*symbol)).collect();
         Ok(Array { shape: part.shape, entries })

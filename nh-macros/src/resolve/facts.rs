@@ -1,9 +1,11 @@
 //! What is claimed about a system: identities of the base, first integrals, facts about parameters;
 //! and what is asked for beyond the default.
 
-use nh_core::algebra::Rational;
-use nh_core::id::{ExprId, Origin, SymbolId};
-use nh_core::model::{Assumption, Located, OutputDecl, Relation, Request, SectionClaim, VolumeClaim};
+use nonholonomic_core::algebra::Rational;
+use nonholonomic_core::id::{ExprId, Origin, SymbolId};
+use nonholonomic_core::model::{
+    Assumption, Located, OutputDecl, Relation, Request, SectionClaim, VolumeClaim,
+};
 
 use super::array::{Array, Shape};
 use super::context::Context;

@@ -3,8 +3,8 @@
 use std::collections::BTreeSet;
 use std::rc::Rc;
 
-use nh_core::id::{Origin, SymbolId};
-use nh_core::model::FrameDecl;
+use nonholonomic_core::id::{Origin, SymbolId};
+use nonholonomic_core::model::FrameDecl;
 
 use super::context::Context;
 use super::resolver::Resolver;

@@ -1,8 +1,8 @@
 //! Calls: elementary functions, `dot` and `cross`.
 
-use nh_core::algebra::{Function, Function2, Rational};
-use nh_core::id::ExprId;
-use nh_core::model::MethodCall;
+use nonholonomic_core::algebra::{Function, Function2, Rational};
+use nonholonomic_core::id::ExprId;
+use nonholonomic_core::model::MethodCall;
 
 use super::array::{Array, Shape};
 use super::context::Usage;

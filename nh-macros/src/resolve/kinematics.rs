@@ -3,8 +3,8 @@
 use std::collections::BTreeMap;
 use std::rc::Rc;
 
-use nh_core::id::{CoordId, Id};
-use nh_core::model::{AnchorDecl, Kinematics, Located};
+use nonholonomic_core::id::{CoordId, Id};
+use nonholonomic_core::model::{AnchorDecl, Kinematics, Located};
 
 use super::array::Part;
 use super::context::Context;
@@ -76,7 +76,7 @@ impl Resolver {
         line: &N,
         left: Part,
         value: &ast::Expr,
-    ) -> Outcome<Vec<nh_core::id::ExprId>> {
+    ) -> Outcome<Vec<nonholonomic_core::id::ExprId>> {
         let right = self.value(value)?;
         if right.shape == left.shape {
             return Ok(right.entries);

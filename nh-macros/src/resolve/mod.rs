@@ -34,7 +34,7 @@ mod track;
 #[cfg(test)]
 mod tests;
 
-use nh_core::model::{Located, Model};
+use nonholonomic_core::model::{Located, Model};
 
 pub(crate) use self::morphism::{Unrelated, resolve_morphism};
 pub(crate) use self::origins::Origins;

@@ -1,8 +1,8 @@
 //! A map between two declared systems: the quantities of the target as expressions of the source.
 
-use nh_core::id::{ExprId, Id};
-use nh_core::model::{Located, Model};
-use nh_core::reduction::MorphismDecl;
+use nonholonomic_core::id::{ExprId, Id};
+use nonholonomic_core::model::{Located, Model};
+use nonholonomic_core::reduction::MorphismDecl;
 
 use super::array::Shape;
 use super::choices;

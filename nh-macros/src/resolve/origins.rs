@@ -1,7 +1,7 @@
 //! The span table: what the origins of a model are in the declaration.
 
-use nh_core::id::{Id, Origin, Table};
-use nh_core::violation::Violation;
+use nonholonomic_core::id::{Id, Origin, Table};
+use nonholonomic_core::violation::Violation;
 
 use crate::report::{Diagnostic, Extent};
 
@@ -35,7 +35,7 @@ impl Origins {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use nh_core::violation::Law;
+    use nonholonomic_core::violation::Law;
 
     #[test]
     fn a_violation_keeps_its_parts() {

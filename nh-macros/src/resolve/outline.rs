@@ -1,8 +1,10 @@
 //! What stubs are made of: a guess at the outcome of a declaration in error.
 
-use nh_core::algebra::{Derivation, Graph};
-use nh_core::id::{ExprId, SymbolId};
-use nh_core::model::{AnchorDecl, ConstraintDecl, Formulation, Kinematics, Model, Request, TrackedItem};
+use nonholonomic_core::algebra::{Derivation, Graph};
+use nonholonomic_core::id::{ExprId, SymbolId};
+use nonholonomic_core::model::{
+    AnchorDecl, ConstraintDecl, Formulation, Kinematics, Model, Request, TrackedItem,
+};
 
 /// The shape that the generated items of a declaration in error would probably have.
 #[derive(Clone, Debug, Default)]

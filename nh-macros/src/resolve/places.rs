@@ -2,8 +2,8 @@
 
 use std::rc::Rc;
 
-use nh_core::id::{CoordId, Id, SectionId, SymbolId};
-use nh_core::model::ForceDirection;
+use nonholonomic_core::id::{CoordId, Id, SectionId, SymbolId};
+use nonholonomic_core::model::ForceDirection;
 
 use super::array::Part;
 use super::reports::{Outcome, Reported};

@@ -1,7 +1,7 @@
 //! Products of numbers, vectors and matrices.
 
-use nh_core::algebra::Rational;
-use nh_core::id::ExprId;
+use nonholonomic_core::algebra::Rational;
+use nonholonomic_core::id::ExprId;
 
 use super::array::{Array, Shape};
 use super::reports::Outcome;

@@ -2,9 +2,9 @@
 
 use std::collections::BTreeSet;
 
-use nh_core::id::{CoordId, Id};
-use nh_core::model::{Located, Model};
-use nh_core::reduction::QuotientDecl;
+use nonholonomic_core::id::{CoordId, Id};
+use nonholonomic_core::model::{Located, Model};
+use nonholonomic_core::reduction::QuotientDecl;
 
 use super::choices;
 use super::context::Context;

@@ -2,9 +2,9 @@
 
 use std::collections::BTreeMap;
 
-use nh_core::algebra::Graph;
-use nh_core::id::{CoordId, ExprId, Id, InputId, Origin, ParamId, SectionId, SymbolId, Table};
-use nh_core::model::{Coordinate, FrameDecl, Input, MethodCall, Parameter, Section};
+use nonholonomic_core::algebra::Graph;
+use nonholonomic_core::id::{CoordId, ExprId, Id, InputId, Origin, ParamId, SectionId, SymbolId, Table};
+use nonholonomic_core::model::{Coordinate, FrameDecl, Input, MethodCall, Parameter, Section};
 
 use proc_macro2::Ident;
 

@@ -3,7 +3,7 @@
 use std::collections::{BTreeMap, BTreeSet};
 use std::rc::Rc;
 
-use nh_core::id::{ConstantId, SymbolId};
+use nonholonomic_core::id::{ConstantId, SymbolId};
 
 use super::array::{Array, Shape};
 use crate::report::{Diagnostic, Extent};

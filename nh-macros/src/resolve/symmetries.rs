@@ -2,7 +2,7 @@
 
 use std::collections::BTreeSet;
 
-use nh_core::model::{RouthDecl, SymmetryDecl};
+use nonholonomic_core::model::{RouthDecl, SymmetryDecl};
 
 use super::array::Shape;
 use super::context::Context;

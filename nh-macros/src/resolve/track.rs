@@ -1,7 +1,7 @@
 //! What is tracked: state variables and outputs.
 
-use nh_core::id::{Origin, SymbolId};
-use nh_core::model::{OutputDecl, TrackedItem};
+use nonholonomic_core::id::{Origin, SymbolId};
+use nonholonomic_core::model::{OutputDecl, TrackedItem};
 
 use super::reports::Outcome;
 use super::resolver::Resolver;

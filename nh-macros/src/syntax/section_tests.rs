@@ -23,7 +23,7 @@ const SLEIGH: &str = "
     independent { omega, der(x), w[0] }
     formulation { adapted }
     names       { state = RobotState; input = Controls; }
-    crate       { ::renamed::nh_runtime }
+    crate       { ::renamed::nonholonomic }
     almost;
 ";
 
@@ -70,7 +70,7 @@ fn a_whole_declaration_is_read() {
     assert!(matches!(&independent[2], Velocity::Named(place) if place.indices.len() == 1));
     assert_eq!(s.formulation.expect("formulation").body, Formulation::Adapted);
     assert_eq!(s.names.expect("names").body[1].name.text, "Controls");
-    assert_eq!(s.runtime.expect("crate").body.to_string(), ":: renamed :: nh_runtime");
+    assert_eq!(s.runtime.expect("crate").body.to_string(), ":: renamed :: nonholonomic");
     assert!(s.almost.is_some());
 }
 
@@ -206,7 +206,7 @@ fn errors_in_lines_are_explained() {
         ("formulation { adapted, projected }", "expected `}`, found `,`\nhelp: there is one formulation".to_owned()),
         (
             "crate { 2 }",
-            "expected the path of the runtime crate\nfound `2`\nhelp: write `crate { ::my_name_for_nh_runtime }`"
+            "expected the path of the runtime crate\nfound `2`\nhelp: write `crate { ::my_name_for_nonholonomic }`"
                 .to_owned(),
         ),
     ] {

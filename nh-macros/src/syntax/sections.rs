@@ -274,7 +274,7 @@ pub(super) fn runtime(body: &Group) -> Result<TokenStream, Diagnostic> {
         Ok(_) => Ok(tokens),
         Err(_) => Err(Diagnostic::new(Extent::at(body.span()), "expected the path of the runtime crate")
             .evidence(format!("found `{}`", render(&tokens.into_iter().collect::<Vec<_>>())))
-            .way_out("write `crate { ::my_name_for_nh_runtime }`")),
+            .way_out("write `crate { ::my_name_for_nonholonomic }`")),
     }
 }
 

@@ -11,18 +11,18 @@ impl Ball {
     ) -> BallState {
         _ = t;
         _ = input;
-        let e1 = ::nh_runtime::__private::Scalar::mul_add(
+        let e1 = ::nonholonomic::__private::Scalar::mul_add(
             -self.Omega,
             state.y,
             self.r * state.wy,
         );
-        let e2 = ::nh_runtime::__private::Scalar::mul_add(
+        let e2 = ::nonholonomic::__private::Scalar::mul_add(
             -self.r,
             state.wx,
             self.Omega * state.x,
         );
         let e3 = self.r * self.Omega
-            / ::nh_runtime::__private::Scalar::mul_add(self.r, self.r, self.k2);
+            / ::nonholonomic::__private::Scalar::mul_add(self.r, self.r, self.k2);
         let v_dot_0 = e3 * e1;
         let v_dot_1 = e3 * e2;
         BallState {
@@ -42,27 +42,27 @@ impl Ball {
         state: &BallState,
     ) -> ::core::primitive::f64 {
         _ = t;
-        let e1 = ::nh_runtime::__private::Scalar::mul_add(
+        let e1 = ::nonholonomic::__private::Scalar::mul_add(
             -self.Omega,
             state.y,
             self.r * state.wy,
         );
-        let e2 = ::nh_runtime::__private::Scalar::mul_add(
+        let e2 = ::nonholonomic::__private::Scalar::mul_add(
             -self.r,
             state.wx,
             self.Omega * state.x,
         );
-        let e3 = ::nh_runtime::__private::Scalar::mul_add(
+        let e3 = ::nonholonomic::__private::Scalar::mul_add(
             e2,
             e2,
-            ::nh_runtime::__private::Scalar::mul_add(
+            ::nonholonomic::__private::Scalar::mul_add(
                 e1,
                 e1,
                 self.k2
-                    * ::nh_runtime::__private::Scalar::mul_add(
+                    * ::nonholonomic::__private::Scalar::mul_add(
                         state.wz,
                         state.wz,
-                        ::nh_runtime::__private::Scalar::mul_add(
+                        ::nonholonomic::__private::Scalar::mul_add(
                             state.wy,
                             state.wy,
                             state.wx * state.wx,
@@ -82,23 +82,23 @@ impl Ball {
         state: &BallState,
         input: &(),
     ) -> (
-        ::nh_runtime::__private::nalgebra::SMatrix<::core::primitive::f64, 5, 5>,
-        ::nh_runtime::__private::nalgebra::SMatrix<::core::primitive::f64, 5, 0>,
+        ::nonholonomic::__private::nalgebra::SMatrix<::core::primitive::f64, 5, 5>,
+        ::nonholonomic::__private::nalgebra::SMatrix<::core::primitive::f64, 5, 0>,
     ) {
-        let rows = ::nh_runtime::__private::Jacobian::state_jacobian(
+        let rows = ::nonholonomic::__private::Jacobian::state_jacobian(
             self,
             t,
             state,
             input,
         );
         (
-            <::nh_runtime::__private::nalgebra::SMatrix<
+            <::nonholonomic::__private::nalgebra::SMatrix<
                 ::core::primitive::f64,
                 5,
                 5,
             > as ::core::convert::From<[[::core::primitive::f64; 5]; 5]>>::from(rows)
                 .transpose(),
-            <::nh_runtime::__private::nalgebra::SMatrix<
+            <::nonholonomic::__private::nalgebra::SMatrix<
                 ::core::primitive::f64,
                 5,
                 0,

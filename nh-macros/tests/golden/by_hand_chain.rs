@@ -28,14 +28,14 @@ pub struct ChainState<T = f64> {
     /// The quasi-velocity `w[2]`.
     pub w_2: T,
 }
-impl<T: ::nh_runtime::__private::Scalar> ::core::cmp::PartialEq for ChainState<T> {
+impl<T: ::nonholonomic::__private::Scalar> ::core::cmp::PartialEq for ChainState<T> {
     fn eq(&self, other: &Self) -> ::core::primitive::bool {
         true && self.q == other.q && self.R == other.R && self.w_0 == other.w_0
             && self.w_2 == other.w_2
     }
 }
 #[automatically_derived]
-impl<T: ::nh_runtime::__private::Scalar> ::core::convert::From<ChainState<T>>
+impl<T: ::nonholonomic::__private::Scalar> ::core::convert::From<ChainState<T>>
 for [T; 8] {
     #[inline]
     fn from(value: ChainState<T>) -> Self {
@@ -52,7 +52,7 @@ for [T; 8] {
     }
 }
 #[automatically_derived]
-impl<T: ::nh_runtime::__private::Scalar> ::core::convert::From<[T; 8]>
+impl<T: ::nonholonomic::__private::Scalar> ::core::convert::From<[T; 8]>
 for ChainState<T> {
     #[inline]
     fn from([c0, c1, c2, c3, c4, c5, c6, c7]: [T; 8]) -> Self {
@@ -65,8 +65,8 @@ for ChainState<T> {
     }
 }
 #[automatically_derived]
-impl<T: ::nh_runtime::__private::Scalar> ::core::convert::From<ChainState<T>>
-for ::nh_runtime::__private::nalgebra::SVector<T, 8> {
+impl<T: ::nonholonomic::__private::Scalar> ::core::convert::From<ChainState<T>>
+for ::nonholonomic::__private::nalgebra::SVector<T, 8> {
     #[inline]
     fn from(value: ChainState<T>) -> Self {
         ::core::convert::From::<[T; 8]>::from(::core::convert::From::from(value))
@@ -74,16 +74,16 @@ for ::nh_runtime::__private::nalgebra::SVector<T, 8> {
 }
 #[automatically_derived]
 impl<
-    T: ::nh_runtime::__private::Scalar,
-> ::core::convert::From<::nh_runtime::__private::nalgebra::SVector<T, 8>>
+    T: ::nonholonomic::__private::Scalar,
+> ::core::convert::From<::nonholonomic::__private::nalgebra::SVector<T, 8>>
 for ChainState<T> {
     #[inline]
-    fn from(value: ::nh_runtime::__private::nalgebra::SVector<T, 8>) -> Self {
+    fn from(value: ::nonholonomic::__private::nalgebra::SVector<T, 8>) -> Self {
         ::core::convert::From::<[T; 8]>::from(::core::convert::From::from(value))
     }
 }
-::nh_runtime::__private::serde_impls! {
-    "::nh_runtime::__private::serde", "ChainState", { #[allow(non_snake_case)] }
+::nonholonomic::__private::serde_impls! {
+    "::nonholonomic::__private::serde", "ChainState", { #[allow(non_snake_case)] }
     ChainState[< T >] { q : [T; 2], R : [[T; 2]; 2], w_0 : T, w_2 : T, }
 }
 /// The quasi-velocities of [`Chain`].
@@ -99,13 +99,13 @@ pub struct ChainVelocity<T = f64> {
     /// The quasi-velocity `u`.
     pub u: T,
 }
-impl<T: ::nh_runtime::__private::Scalar> ::core::cmp::PartialEq for ChainVelocity<T> {
+impl<T: ::nonholonomic::__private::Scalar> ::core::cmp::PartialEq for ChainVelocity<T> {
     fn eq(&self, other: &Self) -> ::core::primitive::bool {
         true && self.w == other.w && self.u == other.u
     }
 }
 #[automatically_derived]
-impl<T: ::nh_runtime::__private::Scalar> ::core::convert::From<ChainVelocity<T>>
+impl<T: ::nonholonomic::__private::Scalar> ::core::convert::From<ChainVelocity<T>>
 for [T; 4] {
     #[inline]
     fn from(value: ChainVelocity<T>) -> Self {
@@ -113,7 +113,7 @@ for [T; 4] {
     }
 }
 #[automatically_derived]
-impl<T: ::nh_runtime::__private::Scalar> ::core::convert::From<[T; 4]>
+impl<T: ::nonholonomic::__private::Scalar> ::core::convert::From<[T; 4]>
 for ChainVelocity<T> {
     #[inline]
     fn from([c0, c1, c2, c3]: [T; 4]) -> Self {
@@ -121,8 +121,8 @@ for ChainVelocity<T> {
     }
 }
 #[automatically_derived]
-impl<T: ::nh_runtime::__private::Scalar> ::core::convert::From<ChainVelocity<T>>
-for ::nh_runtime::__private::nalgebra::SVector<T, 4> {
+impl<T: ::nonholonomic::__private::Scalar> ::core::convert::From<ChainVelocity<T>>
+for ::nonholonomic::__private::nalgebra::SVector<T, 4> {
     #[inline]
     fn from(value: ChainVelocity<T>) -> Self {
         ::core::convert::From::<[T; 4]>::from(::core::convert::From::from(value))
@@ -130,23 +130,23 @@ for ::nh_runtime::__private::nalgebra::SVector<T, 4> {
 }
 #[automatically_derived]
 impl<
-    T: ::nh_runtime::__private::Scalar,
-> ::core::convert::From<::nh_runtime::__private::nalgebra::SVector<T, 4>>
+    T: ::nonholonomic::__private::Scalar,
+> ::core::convert::From<::nonholonomic::__private::nalgebra::SVector<T, 4>>
 for ChainVelocity<T> {
     #[inline]
-    fn from(value: ::nh_runtime::__private::nalgebra::SVector<T, 4>) -> Self {
+    fn from(value: ::nonholonomic::__private::nalgebra::SVector<T, 4>) -> Self {
         ::core::convert::From::<[T; 4]>::from(::core::convert::From::from(value))
     }
 }
-::nh_runtime::__private::serde_impls! {
-    "::nh_runtime::__private::serde", "ChainVelocity", {} ChainVelocity[< T >] { w : [T;
+::nonholonomic::__private::serde_impls! {
+    "::nonholonomic::__private::serde", "ChainVelocity", {} ChainVelocity[< T >] { w : [T;
     3], u : T, }
 }
 #[automatically_derived]
-impl<T: ::nh_runtime::__private::Scalar> ::nh_runtime::__private::State
+impl<T: ::nonholonomic::__private::Scalar> ::nonholonomic::__private::State
 for ChainState<T> {
     type Scalar = T;
-    type Dim = ::nh_runtime::__private::D<8>;
+    type Dim = ::nonholonomic::__private::D<8>;
     #[inline]
     fn to_array(&self) -> [T; 8] {
         ::core::convert::From::from(*self)
@@ -161,9 +161,9 @@ for ChainState<T> {
     }
 }
 #[automatically_derived]
-impl<T> ::nh_runtime::__private::Dynamics for Chain<T>
+impl<T> ::nonholonomic::__private::Dynamics for Chain<T>
 where
-    T: ::nh_runtime::__private::Scalar,
+    T: ::nonholonomic::__private::Scalar,
 {
     type State = ChainState<T>;
     type Input = ();
@@ -175,14 +175,14 @@ where
     #[inline]
     fn validate(
         &self,
-    ) -> ::core::result::Result<(), ::nh_runtime::__private::ParameterError> {
+    ) -> ::core::result::Result<(), ::nonholonomic::__private::ParameterError> {
         Self::validate(self)
     }
 }
 #[automatically_derived]
-impl<T> ::nh_runtime::__private::Energy for Chain<T>
+impl<T> ::nonholonomic::__private::Energy for Chain<T>
 where
-    T: ::nh_runtime::__private::Scalar,
+    T: ::nonholonomic::__private::Scalar,
 {
     #[inline]
     fn energy(&self, t: T, state: &ChainState<T>) -> T {
@@ -191,7 +191,7 @@ where
 }
 impl<T> Chain<T>
 where
-    T: ::nh_runtime::__private::Scalar,
+    T: ::nonholonomic::__private::Scalar,
 {
     /// What was derived from the declaration, as text.
     pub const REPORT: &'static ::core::primitive::str = "Derived by hand.\n\nOperations per evaluation:\n  derivative: 3 additions, 3 multiplications, 3 multiply-adds, 3 divisions, 1 sin_cos, 2 functions\n  energy: 3 multiplications\n  velocity: no operations\n";
@@ -202,14 +202,14 @@ where
     pub fn derivative(&self, t: T, state: &ChainState<T>, input: &()) -> ChainState<T> {
         _ = t;
         _ = input;
-        let (sin, cos) = ::nh_runtime::__private::Scalar::sin_cos(
+        let (sin, cos) = ::nonholonomic::__private::Scalar::sin_cos(
             state.q[0] - state.q[1],
         );
-        let e1 = <T as ::nh_runtime::__private::Scalar>::from_f64(0.3333333333333333)
+        let e1 = <T as ::nonholonomic::__private::Scalar>::from_f64(0.3333333333333333)
             * cos;
-        let exp_q_0 = ::nh_runtime::__private::Scalar::exp(state.q[0]);
-        let force_1 = sin * ::nh_runtime::__private::Scalar::recip(self.r#type);
-        let [a_w0, a_w2] = ::nh_runtime::__private::solve_pivoted::<
+        let exp_q_0 = ::nonholonomic::__private::Scalar::exp(state.q[0]);
+        let force_1 = sin * ::nonholonomic::__private::Scalar::recip(self.r#type);
+        let [a_w0, a_w2] = ::nonholonomic::__private::solve_pivoted::<
             T,
             2,
         >([[self.I[0][0], self.I[0][1]], [self.I[1][0], self.I[1][1]]], [force_1, e1]);
@@ -219,13 +219,13 @@ where
                 [sin, e1],
                 [
                     exp_q_0,
-                    (<T as ::nh_runtime::__private::Scalar>::ONE
-                        - <T as ::nh_runtime::__private::Scalar>::from_f64(
+                    (<T as ::nonholonomic::__private::Scalar>::ONE
+                        - <T as ::nonholonomic::__private::Scalar>::from_f64(
                             ::core::f64::consts::PI,
                         )
-                        - ::nh_runtime::__private::Scalar::powf(
+                        - ::nonholonomic::__private::Scalar::powf(
                             exp_q_0,
-                            <T as ::nh_runtime::__private::Scalar>::from_f64(
+                            <T as ::nonholonomic::__private::Scalar>::from_f64(
                                 0.2857142857142857,
                             ),
                         )),
@@ -240,7 +240,7 @@ where
     #[inline]
     pub fn energy(&self, t: T, state: &ChainState<T>) -> T {
         _ = t;
-        <T as ::nh_runtime::__private::Scalar>::from_f64(0.5) * self.r#type
+        <T as ::nonholonomic::__private::Scalar>::from_f64(0.5) * self.r#type
             * (state.w_0 * state.w_0)
     }
     /// All quasi-velocities, as the constraints give them from the state.
@@ -249,7 +249,7 @@ where
     pub fn velocity(&self, t: T, state: &ChainState<T>) -> ChainVelocity<T> {
         _ = self;
         _ = t;
-        let e1 = <T as ::nh_runtime::__private::Scalar>::ZERO;
+        let e1 = <T as ::nonholonomic::__private::Scalar>::ZERO;
         ChainVelocity {
             w: [state.w_0, e1, state.w_2],
             u: e1,
@@ -262,7 +262,7 @@ where
     /// expression zero by which the equations divide.
     pub fn validate(
         &self,
-    ) -> ::core::result::Result<(), ::nh_runtime::__private::ParameterError> {
+    ) -> ::core::result::Result<(), ::nonholonomic::__private::ParameterError> {
         for (name, value) in [
             ("I[0][0]", self.I[0][0]),
             ("I[0][1]", self.I[0][1]),
@@ -270,11 +270,11 @@ where
             ("I[1][1]", self.I[1][1]),
             ("type", self.r#type),
         ] {
-            if !::nh_runtime::__private::Scalar::is_finite(value) {
-                return ::core::result::Result::Err(::nh_runtime::__private::ParameterError {
+            if !::nonholonomic::__private::Scalar::is_finite(value) {
+                return ::core::result::Result::Err(::nonholonomic::__private::ParameterError {
                     parameter: name,
-                    value: ::nh_runtime::__private::Scalar::to_f64(value),
-                    fault: ::nh_runtime::__private::ParameterFault::NotFinite,
+                    value: ::nonholonomic::__private::Scalar::to_f64(value),
+                    fault: ::nonholonomic::__private::ParameterFault::NotFinite,
                 });
             }
         }

@@ -38,7 +38,7 @@ impl ::core::convert::From<[::core::primitive::f64; 4]> for RailsState {
 }
 #[automatically_derived]
 impl ::core::convert::From<RailsState>
-for ::nh_runtime::__private::nalgebra::SVector<::core::primitive::f64, 4> {
+for ::nonholonomic::__private::nalgebra::SVector<::core::primitive::f64, 4> {
     #[inline]
     fn from(value: RailsState) -> Self {
         ::core::convert::From::<
@@ -48,19 +48,19 @@ for ::nh_runtime::__private::nalgebra::SVector<::core::primitive::f64, 4> {
 }
 #[automatically_derived]
 impl ::core::convert::From<
-    ::nh_runtime::__private::nalgebra::SVector<::core::primitive::f64, 4>,
+    ::nonholonomic::__private::nalgebra::SVector<::core::primitive::f64, 4>,
 > for RailsState {
     #[inline]
     fn from(
-        value: ::nh_runtime::__private::nalgebra::SVector<::core::primitive::f64, 4>,
+        value: ::nonholonomic::__private::nalgebra::SVector<::core::primitive::f64, 4>,
     ) -> Self {
         ::core::convert::From::<
             [::core::primitive::f64; 4],
         >::from(::core::convert::From::from(value))
     }
 }
-::nh_runtime::__private::serde_impls! {
-    "::nh_runtime::__private::serde", "RailsState", {} RailsState[] { x :
+::nonholonomic::__private::serde_impls! {
+    "::nonholonomic::__private::serde", "RailsState", {} RailsState[] { x :
     ::core::primitive::f64, w : [::core::primitive::f64; 2], v : ::core::primitive::f64,
     }
 }
@@ -94,7 +94,7 @@ impl ::core::convert::From<[::core::primitive::f64; 3]> for RailsVelocity {
 }
 #[automatically_derived]
 impl ::core::convert::From<RailsVelocity>
-for ::nh_runtime::__private::nalgebra::SVector<::core::primitive::f64, 3> {
+for ::nonholonomic::__private::nalgebra::SVector<::core::primitive::f64, 3> {
     #[inline]
     fn from(value: RailsVelocity) -> Self {
         ::core::convert::From::<
@@ -104,25 +104,25 @@ for ::nh_runtime::__private::nalgebra::SVector<::core::primitive::f64, 3> {
 }
 #[automatically_derived]
 impl ::core::convert::From<
-    ::nh_runtime::__private::nalgebra::SVector<::core::primitive::f64, 3>,
+    ::nonholonomic::__private::nalgebra::SVector<::core::primitive::f64, 3>,
 > for RailsVelocity {
     #[inline]
     fn from(
-        value: ::nh_runtime::__private::nalgebra::SVector<::core::primitive::f64, 3>,
+        value: ::nonholonomic::__private::nalgebra::SVector<::core::primitive::f64, 3>,
     ) -> Self {
         ::core::convert::From::<
             [::core::primitive::f64; 3],
         >::from(::core::convert::From::from(value))
     }
 }
-::nh_runtime::__private::serde_impls! {
-    "::nh_runtime::__private::serde", "RailsVelocity", {} RailsVelocity[] { w :
+::nonholonomic::__private::serde_impls! {
+    "::nonholonomic::__private::serde", "RailsVelocity", {} RailsVelocity[] { w :
     [::core::primitive::f64; 2], v : ::core::primitive::f64, }
 }
 #[automatically_derived]
-impl ::nh_runtime::__private::State for RailsState {
+impl ::nonholonomic::__private::State for RailsState {
     type Scalar = ::core::primitive::f64;
-    type Dim = ::nh_runtime::__private::D<4>;
+    type Dim = ::nonholonomic::__private::D<4>;
     #[inline]
     fn to_array(&self) -> [::core::primitive::f64; 4] {
         ::core::convert::From::from(*self)
@@ -137,7 +137,7 @@ impl ::nh_runtime::__private::State for RailsState {
     }
 }
 #[automatically_derived]
-impl ::nh_runtime::__private::Dynamics for Rails {
+impl ::nonholonomic::__private::Dynamics for Rails {
     type State = RailsState;
     type Input = ();
     #[inline(always)]
@@ -153,12 +153,12 @@ impl ::nh_runtime::__private::Dynamics for Rails {
     #[inline]
     fn validate(
         &self,
-    ) -> ::core::result::Result<(), ::nh_runtime::__private::ParameterError> {
+    ) -> ::core::result::Result<(), ::nonholonomic::__private::ParameterError> {
         Self::validate(self)
     }
 }
 #[automatically_derived]
-impl ::nh_runtime::__private::Energy for Rails {
+impl ::nonholonomic::__private::Energy for Rails {
     #[inline]
     fn energy(
         &self,
@@ -201,7 +201,7 @@ impl ::core::convert::From<[::core::primitive::f64; 2]> for RailsMultipliers {
 }
 #[automatically_derived]
 impl ::core::convert::From<RailsMultipliers>
-for ::nh_runtime::__private::nalgebra::SVector<::core::primitive::f64, 2> {
+for ::nonholonomic::__private::nalgebra::SVector<::core::primitive::f64, 2> {
     #[inline]
     fn from(value: RailsMultipliers) -> Self {
         ::core::convert::From::<
@@ -211,19 +211,19 @@ for ::nh_runtime::__private::nalgebra::SVector<::core::primitive::f64, 2> {
 }
 #[automatically_derived]
 impl ::core::convert::From<
-    ::nh_runtime::__private::nalgebra::SVector<::core::primitive::f64, 2>,
+    ::nonholonomic::__private::nalgebra::SVector<::core::primitive::f64, 2>,
 > for RailsMultipliers {
     #[inline]
     fn from(
-        value: ::nh_runtime::__private::nalgebra::SVector<::core::primitive::f64, 2>,
+        value: ::nonholonomic::__private::nalgebra::SVector<::core::primitive::f64, 2>,
     ) -> Self {
         ::core::convert::From::<
             [::core::primitive::f64; 2],
         >::from(::core::convert::From::from(value))
     }
 }
-::nh_runtime::__private::serde_impls! {
-    "::nh_runtime::__private::serde", "RailsMultipliers", {} RailsMultipliers[] {
+::nonholonomic::__private::serde_impls! {
+    "::nonholonomic::__private::serde", "RailsMultipliers", {} RailsMultipliers[] {
     constraint_1 : ::core::primitive::f64, r#type : ::core::primitive::f64, }
 }
 /// The constraint forces of [`Rails`] along its sections: each times the quasi-velocity of the same name is a power.
@@ -256,7 +256,7 @@ impl ::core::convert::From<[::core::primitive::f64; 3]> for RailsReactions {
 }
 #[automatically_derived]
 impl ::core::convert::From<RailsReactions>
-for ::nh_runtime::__private::nalgebra::SVector<::core::primitive::f64, 3> {
+for ::nonholonomic::__private::nalgebra::SVector<::core::primitive::f64, 3> {
     #[inline]
     fn from(value: RailsReactions) -> Self {
         ::core::convert::From::<
@@ -266,19 +266,19 @@ for ::nh_runtime::__private::nalgebra::SVector<::core::primitive::f64, 3> {
 }
 #[automatically_derived]
 impl ::core::convert::From<
-    ::nh_runtime::__private::nalgebra::SVector<::core::primitive::f64, 3>,
+    ::nonholonomic::__private::nalgebra::SVector<::core::primitive::f64, 3>,
 > for RailsReactions {
     #[inline]
     fn from(
-        value: ::nh_runtime::__private::nalgebra::SVector<::core::primitive::f64, 3>,
+        value: ::nonholonomic::__private::nalgebra::SVector<::core::primitive::f64, 3>,
     ) -> Self {
         ::core::convert::From::<
             [::core::primitive::f64; 3],
         >::from(::core::convert::From::from(value))
     }
 }
-::nh_runtime::__private::serde_impls! {
-    "::nh_runtime::__private::serde", "RailsReactions", {} RailsReactions[] { w :
+::nonholonomic::__private::serde_impls! {
+    "::nonholonomic::__private::serde", "RailsReactions", {} RailsReactions[] { w :
     [::core::primitive::f64; 2], v : ::core::primitive::f64, }
 }
 /// The constraints of [`Rails`] at a state: left-hand sides less right-hand sides.
@@ -314,7 +314,7 @@ impl ::core::convert::From<[::core::primitive::f64; 2]> for RailsResidual {
 }
 #[automatically_derived]
 impl ::core::convert::From<RailsResidual>
-for ::nh_runtime::__private::nalgebra::SVector<::core::primitive::f64, 2> {
+for ::nonholonomic::__private::nalgebra::SVector<::core::primitive::f64, 2> {
     #[inline]
     fn from(value: RailsResidual) -> Self {
         ::core::convert::From::<
@@ -324,24 +324,24 @@ for ::nh_runtime::__private::nalgebra::SVector<::core::primitive::f64, 2> {
 }
 #[automatically_derived]
 impl ::core::convert::From<
-    ::nh_runtime::__private::nalgebra::SVector<::core::primitive::f64, 2>,
+    ::nonholonomic::__private::nalgebra::SVector<::core::primitive::f64, 2>,
 > for RailsResidual {
     #[inline]
     fn from(
-        value: ::nh_runtime::__private::nalgebra::SVector<::core::primitive::f64, 2>,
+        value: ::nonholonomic::__private::nalgebra::SVector<::core::primitive::f64, 2>,
     ) -> Self {
         ::core::convert::From::<
             [::core::primitive::f64; 2],
         >::from(::core::convert::From::from(value))
     }
 }
-::nh_runtime::__private::serde_impls! {
-    "::nh_runtime::__private::serde", "RailsResidual", {} RailsResidual[] { constraint_1
+::nonholonomic::__private::serde_impls! {
+    "::nonholonomic::__private::serde", "RailsResidual", {} RailsResidual[] { constraint_1
     : ::core::primitive::f64, r#type : ::core::primitive::f64, }
 }
 #[automatically_derived]
-impl ::nh_runtime::__private::Constrained for Rails {
-    type Constraints = ::nh_runtime::__private::D<2>;
+impl ::nonholonomic::__private::Constrained for Rails {
+    type Constraints = ::nonholonomic::__private::D<2>;
     #[inline]
     fn constraint_residual(
         &self,
@@ -355,7 +355,7 @@ impl ::nh_runtime::__private::Constrained for Rails {
         &self,
         t: ::core::primitive::f64,
         state: &mut RailsState,
-    ) -> ::core::result::Result<(), ::nh_runtime::__private::ProjectionError> {
+    ) -> ::core::result::Result<(), ::nonholonomic::__private::ProjectionError> {
         Self::project(self, t, state)
     }
 }
@@ -449,7 +449,7 @@ impl Rails {
         _ = self;
         _ = t;
         RailsResidual {
-            constraint_1: ::nh_runtime::__private::Scalar::mul_add(
+            constraint_1: ::nonholonomic::__private::Scalar::mul_add(
                 -state.x,
                 state.w[0],
                 state.w[1],
@@ -467,14 +467,14 @@ impl Rails {
         &self,
         t: ::core::primitive::f64,
         state: &mut RailsState,
-    ) -> ::core::result::Result<(), ::nh_runtime::__private::ProjectionError> {
-        [state.w[0], state.w[1], state.v] = ::nh_runtime::__private::project(
+    ) -> ::core::result::Result<(), ::nonholonomic::__private::ProjectionError> {
+        [state.w[0], state.w[1], state.v] = ::nonholonomic::__private::project(
             [state.w[0], state.w[1], state.v],
             |start, present| {
                 [
                     start[0],
                     (state.x * start[0]),
-                    ::nh_runtime::__private::Scalar::mul_add(
+                    ::nonholonomic::__private::Scalar::mul_add(
                         present[1] - start[1],
                         1.0 / self.m,
                         start[2],
@@ -502,13 +502,13 @@ impl Rails {
     /// expression zero by which the equations divide.
     fn validate(
         &self,
-    ) -> ::core::result::Result<(), ::nh_runtime::__private::ParameterError> {
+    ) -> ::core::result::Result<(), ::nonholonomic::__private::ParameterError> {
         for (name, value) in [("m", self.m)] {
-            if !::nh_runtime::__private::Scalar::is_finite(value) {
-                return ::core::result::Result::Err(::nh_runtime::__private::ParameterError {
+            if !::nonholonomic::__private::Scalar::is_finite(value) {
+                return ::core::result::Result::Err(::nonholonomic::__private::ParameterError {
                     parameter: name,
-                    value: ::nh_runtime::__private::Scalar::to_f64(value),
-                    fault: ::nh_runtime::__private::ParameterFault::NotFinite,
+                    value: ::nonholonomic::__private::Scalar::to_f64(value),
+                    fault: ::nonholonomic::__private::ParameterFault::NotFinite,
                 });
             }
         }

@@ -59,7 +59,7 @@ impl ::core::convert::From<[::core::primitive::f64; 5]> for SleighState {
 }
 #[automatically_derived]
 impl ::core::convert::From<SleighState>
-for ::nh_runtime::__private::nalgebra::SVector<::core::primitive::f64, 5> {
+for ::nonholonomic::__private::nalgebra::SVector<::core::primitive::f64, 5> {
     #[inline]
     fn from(value: SleighState) -> Self {
         ::core::convert::From::<
@@ -69,19 +69,19 @@ for ::nh_runtime::__private::nalgebra::SVector<::core::primitive::f64, 5> {
 }
 #[automatically_derived]
 impl ::core::convert::From<
-    ::nh_runtime::__private::nalgebra::SVector<::core::primitive::f64, 5>,
+    ::nonholonomic::__private::nalgebra::SVector<::core::primitive::f64, 5>,
 > for SleighState {
     #[inline]
     fn from(
-        value: ::nh_runtime::__private::nalgebra::SVector<::core::primitive::f64, 5>,
+        value: ::nonholonomic::__private::nalgebra::SVector<::core::primitive::f64, 5>,
     ) -> Self {
         ::core::convert::From::<
             [::core::primitive::f64; 5],
         >::from(::core::convert::From::from(value))
     }
 }
-::nh_runtime::__private::serde_impls! {
-    "::nh_runtime::__private::serde", "SleighState", {} SleighState[] { theta :
+::nonholonomic::__private::serde_impls! {
+    "::nonholonomic::__private::serde", "SleighState", {} SleighState[] { theta :
     ::core::primitive::f64, x : ::core::primitive::f64, y : ::core::primitive::f64, omega
     : ::core::primitive::f64, v1 : ::core::primitive::f64, }
 }
@@ -117,7 +117,7 @@ impl ::core::convert::From<[::core::primitive::f64; 3]> for SleighVelocity {
 }
 #[automatically_derived]
 impl ::core::convert::From<SleighVelocity>
-for ::nh_runtime::__private::nalgebra::SVector<::core::primitive::f64, 3> {
+for ::nonholonomic::__private::nalgebra::SVector<::core::primitive::f64, 3> {
     #[inline]
     fn from(value: SleighVelocity) -> Self {
         ::core::convert::From::<
@@ -127,19 +127,19 @@ for ::nh_runtime::__private::nalgebra::SVector<::core::primitive::f64, 3> {
 }
 #[automatically_derived]
 impl ::core::convert::From<
-    ::nh_runtime::__private::nalgebra::SVector<::core::primitive::f64, 3>,
+    ::nonholonomic::__private::nalgebra::SVector<::core::primitive::f64, 3>,
 > for SleighVelocity {
     #[inline]
     fn from(
-        value: ::nh_runtime::__private::nalgebra::SVector<::core::primitive::f64, 3>,
+        value: ::nonholonomic::__private::nalgebra::SVector<::core::primitive::f64, 3>,
     ) -> Self {
         ::core::convert::From::<
             [::core::primitive::f64; 3],
         >::from(::core::convert::From::from(value))
     }
 }
-::nh_runtime::__private::serde_impls! {
-    "::nh_runtime::__private::serde", "SleighVelocity", {} SleighVelocity[] { omega :
+::nonholonomic::__private::serde_impls! {
+    "::nonholonomic::__private::serde", "SleighVelocity", {} SleighVelocity[] { omega :
     ::core::primitive::f64, v1 : ::core::primitive::f64, v2 : ::core::primitive::f64, }
 }
 /// The control inputs of [`Sleigh`].
@@ -170,7 +170,7 @@ impl ::core::convert::From<[::core::primitive::f64; 1]> for SleighInput {
 }
 #[automatically_derived]
 impl ::core::convert::From<SleighInput>
-for ::nh_runtime::__private::nalgebra::SVector<::core::primitive::f64, 1> {
+for ::nonholonomic::__private::nalgebra::SVector<::core::primitive::f64, 1> {
     #[inline]
     fn from(value: SleighInput) -> Self {
         ::core::convert::From::<
@@ -180,19 +180,19 @@ for ::nh_runtime::__private::nalgebra::SVector<::core::primitive::f64, 1> {
 }
 #[automatically_derived]
 impl ::core::convert::From<
-    ::nh_runtime::__private::nalgebra::SVector<::core::primitive::f64, 1>,
+    ::nonholonomic::__private::nalgebra::SVector<::core::primitive::f64, 1>,
 > for SleighInput {
     #[inline]
     fn from(
-        value: ::nh_runtime::__private::nalgebra::SVector<::core::primitive::f64, 1>,
+        value: ::nonholonomic::__private::nalgebra::SVector<::core::primitive::f64, 1>,
     ) -> Self {
         ::core::convert::From::<
             [::core::primitive::f64; 1],
         >::from(::core::convert::From::from(value))
     }
 }
-::nh_runtime::__private::serde_impls! {
-    "::nh_runtime::__private::serde", "SleighInput", {} SleighInput[] { torque :
+::nonholonomic::__private::serde_impls! {
+    "::nonholonomic::__private::serde", "SleighInput", {} SleighInput[] { torque :
     ::core::primitive::f64, }
 }
 /// The observables of [`Sleigh`].
@@ -226,7 +226,7 @@ impl ::core::convert::From<[::core::primitive::f64; 2]> for SleighOutputs {
 }
 #[automatically_derived]
 impl ::core::convert::From<SleighOutputs>
-for ::nh_runtime::__private::nalgebra::SVector<::core::primitive::f64, 2> {
+for ::nonholonomic::__private::nalgebra::SVector<::core::primitive::f64, 2> {
     #[inline]
     fn from(value: SleighOutputs) -> Self {
         ::core::convert::From::<
@@ -236,25 +236,25 @@ for ::nh_runtime::__private::nalgebra::SVector<::core::primitive::f64, 2> {
 }
 #[automatically_derived]
 impl ::core::convert::From<
-    ::nh_runtime::__private::nalgebra::SVector<::core::primitive::f64, 2>,
+    ::nonholonomic::__private::nalgebra::SVector<::core::primitive::f64, 2>,
 > for SleighOutputs {
     #[inline]
     fn from(
-        value: ::nh_runtime::__private::nalgebra::SVector<::core::primitive::f64, 2>,
+        value: ::nonholonomic::__private::nalgebra::SVector<::core::primitive::f64, 2>,
     ) -> Self {
         ::core::convert::From::<
             [::core::primitive::f64; 2],
         >::from(::core::convert::From::from(value))
     }
 }
-::nh_runtime::__private::serde_impls! {
-    "::nh_runtime::__private::serde", "SleighOutputs", { #[allow(non_snake_case)] }
+::nonholonomic::__private::serde_impls! {
+    "::nonholonomic::__private::serde", "SleighOutputs", { #[allow(non_snake_case)] }
     SleighOutputs[] { speed : ::core::primitive::f64, E : ::core::primitive::f64, }
 }
 #[automatically_derived]
-impl ::nh_runtime::__private::State for SleighState {
+impl ::nonholonomic::__private::State for SleighState {
     type Scalar = ::core::primitive::f64;
-    type Dim = ::nh_runtime::__private::D<5>;
+    type Dim = ::nonholonomic::__private::D<5>;
     #[inline]
     fn to_array(&self) -> [::core::primitive::f64; 5] {
         ::core::convert::From::from(*self)
@@ -269,7 +269,7 @@ impl ::nh_runtime::__private::State for SleighState {
     }
 }
 #[automatically_derived]
-impl ::nh_runtime::__private::Dynamics for Sleigh {
+impl ::nonholonomic::__private::Dynamics for Sleigh {
     type State = SleighState;
     type Input = SleighInput;
     #[inline(always)]
@@ -285,18 +285,18 @@ impl ::nh_runtime::__private::Dynamics for Sleigh {
     #[inline]
     fn validate(
         &self,
-    ) -> ::core::result::Result<(), ::nh_runtime::__private::ParameterError> {
+    ) -> ::core::result::Result<(), ::nonholonomic::__private::ParameterError> {
         Self::validate(self)
     }
     fn check_input(
         &self,
         input: &SleighInput,
-    ) -> ::core::result::Result<(), ::nh_runtime::__private::InputFault> {
+    ) -> ::core::result::Result<(), ::nonholonomic::__private::InputFault> {
         for (name, value) in [("torque", input.torque)] {
-            if !::nh_runtime::__private::Scalar::is_finite(value) {
-                return ::core::result::Result::Err(::nh_runtime::__private::InputFault {
+            if !::nonholonomic::__private::Scalar::is_finite(value) {
+                return ::core::result::Result::Err(::nonholonomic::__private::InputFault {
                     input: name,
-                    value: ::nh_runtime::__private::Scalar::to_f64(value),
+                    value: ::nonholonomic::__private::Scalar::to_f64(value),
                 });
             }
         }
@@ -304,7 +304,7 @@ impl ::nh_runtime::__private::Dynamics for Sleigh {
     }
 }
 #[automatically_derived]
-impl ::nh_runtime::__private::Energy for Sleigh {
+impl ::nonholonomic::__private::Energy for Sleigh {
     #[inline]
     fn energy(
         &self,
@@ -315,7 +315,7 @@ impl ::nh_runtime::__private::Energy for Sleigh {
     }
 }
 #[automatically_derived]
-impl ::nh_runtime::__private::Observed for Sleigh {
+impl ::nonholonomic::__private::Observed for Sleigh {
     type Outputs = SleighOutputs;
     #[inline]
     fn outputs(
@@ -341,7 +341,7 @@ impl Sleigh {
         input: &SleighInput,
     ) -> SleighState {
         _ = t;
-        let (sin_theta, cos_theta) = ::nh_runtime::__private::Scalar::sin_cos(
+        let (sin_theta, cos_theta) = ::nonholonomic::__private::Scalar::sin_cos(
             state.theta,
         );
         let m_a = self.m * self.a;
@@ -349,11 +349,11 @@ impl Sleigh {
             theta: state.omega,
             x: state.v1 * cos_theta,
             y: state.v1 * sin_theta,
-            omega: ::nh_runtime::__private::Scalar::mul_add(
+            omega: ::nonholonomic::__private::Scalar::mul_add(
                 -(m_a * state.v1),
                 state.omega,
                 input.torque,
-            ) * (1.0 / ::nh_runtime::__private::Scalar::mul_add(self.a, m_a, self.J)),
+            ) * (1.0 / ::nonholonomic::__private::Scalar::mul_add(self.a, m_a, self.J)),
             v1: self.a * (state.omega * state.omega),
         }
     }
@@ -367,10 +367,10 @@ impl Sleigh {
     ) -> ::core::primitive::f64 {
         _ = t;
         0.5
-            * ::nh_runtime::__private::Scalar::mul_add(
+            * ::nonholonomic::__private::Scalar::mul_add(
                 self.m,
                 state.v1 * state.v1,
-                ::nh_runtime::__private::Scalar::mul_add(self.m, self.a * self.a, self.J)
+                ::nonholonomic::__private::Scalar::mul_add(self.m, self.a * self.a, self.J)
                     * (state.omega * state.omega),
             )
     }
@@ -403,12 +403,12 @@ impl Sleigh {
         _ = input;
         let v1_squared = state.v1 * state.v1;
         SleighOutputs {
-            speed: ::nh_runtime::__private::Scalar::sqrt(v1_squared),
+            speed: ::nonholonomic::__private::Scalar::sqrt(v1_squared),
             E: 0.5
-                * ::nh_runtime::__private::Scalar::mul_add(
+                * ::nonholonomic::__private::Scalar::mul_add(
                     self.m,
                     v1_squared,
-                    ::nh_runtime::__private::Scalar::mul_add(
+                    ::nonholonomic::__private::Scalar::mul_add(
                         self.m,
                         self.a * self.a,
                         self.J,
@@ -423,29 +423,29 @@ impl Sleigh {
     /// expression zero by which the equations divide.
     pub fn validate(
         &self,
-    ) -> ::core::result::Result<(), ::nh_runtime::__private::ParameterError> {
+    ) -> ::core::result::Result<(), ::nonholonomic::__private::ParameterError> {
         for (name, value) in [
             ("m", self.m),
             ("J", self.J),
             ("a", self.a),
             ("c", self.c),
         ] {
-            if !::nh_runtime::__private::Scalar::is_finite(value) {
-                return ::core::result::Result::Err(::nh_runtime::__private::ParameterError {
+            if !::nonholonomic::__private::Scalar::is_finite(value) {
+                return ::core::result::Result::Err(::nonholonomic::__private::ParameterError {
                     parameter: name,
-                    value: ::nh_runtime::__private::Scalar::to_f64(value),
-                    fault: ::nh_runtime::__private::ParameterFault::NotFinite,
+                    value: ::nonholonomic::__private::Scalar::to_f64(value),
+                    fault: ::nonholonomic::__private::ParameterFault::NotFinite,
                 });
             }
         }
-        if !<::core::primitive::f64 as ::nh_runtime::__private::Scalar>::all_ne(
-            ::nh_runtime::__private::Scalar::mul_add(self.m, self.a * self.a, self.J),
-            <::core::primitive::f64 as ::nh_runtime::__private::Scalar>::ZERO,
+        if !<::core::primitive::f64 as ::nonholonomic::__private::Scalar>::all_ne(
+            ::nonholonomic::__private::Scalar::mul_add(self.m, self.a * self.a, self.J),
+            <::core::primitive::f64 as ::nonholonomic::__private::Scalar>::ZERO,
         ) {
-            return ::core::result::Result::Err(::nh_runtime::__private::ParameterError {
+            return ::core::result::Result::Err(::nonholonomic::__private::ParameterError {
                 parameter: "m",
-                value: ::nh_runtime::__private::Scalar::to_f64(self.m),
-                fault: ::nh_runtime::__private::ParameterFault::ZeroPivot {
+                value: ::nonholonomic::__private::Scalar::to_f64(self.m),
+                fault: ::nonholonomic::__private::ParameterFault::ZeroPivot {
                     expression: "J + m*a^2",
                 },
             });

@@ -1,6 +1,6 @@
 #[automatically_derived]
-impl ::nh_runtime::__private::TaylorSeries for Sleigh {
-    type Workspace<const P: ::core::primitive::usize> = ::nh_runtime::__private::History<
+impl ::nonholonomic::__private::TaylorSeries for Sleigh {
+    type Workspace<const P: ::core::primitive::usize> = ::nonholonomic::__private::History<
         ::core::primitive::f64,
         5,
         1,
@@ -16,7 +16,7 @@ impl ::nh_runtime::__private::TaylorSeries for Sleigh {
         workspace: &mut Self::Workspace<P>,
     ) {
         _ = t;
-        let (sin_theta, cos_theta) = ::nh_runtime::__private::Scalar::sin_cos(
+        let (sin_theta, cos_theta) = ::nonholonomic::__private::Scalar::sin_cos(
             state.theta,
         );
         let m_a = self.m * self.a;
@@ -33,11 +33,11 @@ impl ::nh_runtime::__private::TaylorSeries for Sleigh {
             ((input.torque - e1 * state.omega) * e2),
             (self.a * (state.omega * state.omega)),
         ];
-        let mut k = <::core::primitive::f64 as ::nh_runtime::__private::Scalar>::ZERO;
+        let mut k = <::core::primitive::f64 as ::nonholonomic::__private::Scalar>::ZERO;
         let end = if series.len() < P { series.len() } else { P };
         for index in 1..end {
-            k += <::core::primitive::f64 as ::nh_runtime::__private::Scalar>::ONE;
-            let over_k = ::nh_runtime::__private::Scalar::recip(k);
+            k += <::core::primitive::f64 as ::nonholonomic::__private::Scalar>::ONE;
+            let over_k = ::nonholonomic::__private::Scalar::recip(k);
             let step = over_k * unit;
             let state_k = SleighState {
                 theta: step * rates[0],
@@ -55,35 +55,35 @@ impl ::nh_runtime::__private::TaylorSeries for Sleigh {
             let sums = workspace.products();
             let squared = workspace.squares();
             let e3 = k * state_k.theta;
-            let sin_theta_k = ::nh_runtime::__private::Scalar::mul_add(
+            let sin_theta_k = ::nonholonomic::__private::Scalar::mul_add(
                 e3,
                 cos_theta,
                 sums[0],
             ) * over_k;
-            let cos_theta_k = -(::nh_runtime::__private::Scalar::mul_add(
+            let cos_theta_k = -(::nonholonomic::__private::Scalar::mul_add(
                 e3,
                 sin_theta,
                 sums[1],
             ) * over_k);
-            let e4 = ::nh_runtime::__private::Scalar::mul_add(
+            let e4 = ::nonholonomic::__private::Scalar::mul_add(
                 state.v1,
                 cos_theta_k,
-                ::nh_runtime::__private::Scalar::mul_add(state_k.v1, cos_theta, sums[2]),
+                ::nonholonomic::__private::Scalar::mul_add(state_k.v1, cos_theta, sums[2]),
             );
-            let e5 = ::nh_runtime::__private::Scalar::mul_add(
+            let e5 = ::nonholonomic::__private::Scalar::mul_add(
                 state.v1,
                 sin_theta_k,
-                ::nh_runtime::__private::Scalar::mul_add(state_k.v1, sin_theta, sums[3]),
+                ::nonholonomic::__private::Scalar::mul_add(state_k.v1, sin_theta, sums[3]),
             );
             let e6 = state_k.v1 * m_a;
-            let e7 = ::nh_runtime::__private::Scalar::mul_add(
+            let e7 = ::nonholonomic::__private::Scalar::mul_add(
                 e1,
                 state_k.omega,
-                ::nh_runtime::__private::Scalar::mul_add(e6, state.omega, sums[4]),
+                ::nonholonomic::__private::Scalar::mul_add(e6, state.omega, sums[4]),
             );
             let e8 = -e7;
             let e9 = e8 * e2;
-            let omega_squared_k = ::nh_runtime::__private::Scalar::mul_add(
+            let omega_squared_k = ::nonholonomic::__private::Scalar::mul_add(
                 (state.omega + state.omega),
                 state_k.omega,
                 squared[0],

@@ -11,7 +11,7 @@ impl Robot {
     ) -> RobotState {
         _ = t;
         _ = input;
-        let (sin_theta, cos_theta) = ::nh_runtime::__private::Scalar::sin_cos(
+        let (sin_theta, cos_theta) = ::nonholonomic::__private::Scalar::sin_cos(
             state.theta,
         );
         let e1 = self.R * (state.psi1_dot + state.psi2_dot);
@@ -21,13 +21,13 @@ impl Robot {
         let e4 = self.m0 * self.l * e3;
         let e5 = 2.0 * self.J2;
         let v_dot_0_mean = -0.25 * self.R
-            / ::nh_runtime::__private::Scalar::mul_add(
-                ::nh_runtime::__private::Scalar::mul_add(self.m1, 2.0, self.m0),
+            / ::nonholonomic::__private::Scalar::mul_add(
+                ::nonholonomic::__private::Scalar::mul_add(self.m1, 2.0, self.m0),
                 self.R * self.R,
                 e5,
             ) * e3 * e4;
         let v_dot_0_half = 0.25 * theta_dot_per_psi1_dot
-            / ::nh_runtime::__private::Scalar::mul_add(
+            / ::nonholonomic::__private::Scalar::mul_add(
                 self.J,
                 theta_dot_per_psi1_dot * theta_dot_per_psi1_dot,
                 e5,
@@ -55,15 +55,15 @@ impl Robot {
         _ = t;
         let e1 = state.psi1_dot - state.psi2_dot;
         let e2 = state.psi1_dot + state.psi2_dot;
-        let e3 = ::nh_runtime::__private::Scalar::mul_add(
+        let e3 = ::nonholonomic::__private::Scalar::mul_add(
             0.125 * (self.R * self.R),
-            ::nh_runtime::__private::Scalar::mul_add(
-                ::nh_runtime::__private::Scalar::mul_add(self.m1, 2.0, self.m0),
+            ::nonholonomic::__private::Scalar::mul_add(
+                ::nonholonomic::__private::Scalar::mul_add(self.m1, 2.0, self.m0),
                 e2 * e2,
                 self.J / (self.c * self.c) * (e1 * e1),
             ),
             0.5 * self.J2
-                * ::nh_runtime::__private::Scalar::mul_add(
+                * ::nonholonomic::__private::Scalar::mul_add(
                     state.psi2_dot,
                     state.psi2_dot,
                     state.psi1_dot * state.psi1_dot,
@@ -81,23 +81,23 @@ impl Robot {
         state: &RobotState,
         input: &(),
     ) -> (
-        ::nh_runtime::__private::nalgebra::SMatrix<::core::primitive::f64, 7, 7>,
-        ::nh_runtime::__private::nalgebra::SMatrix<::core::primitive::f64, 7, 0>,
+        ::nonholonomic::__private::nalgebra::SMatrix<::core::primitive::f64, 7, 7>,
+        ::nonholonomic::__private::nalgebra::SMatrix<::core::primitive::f64, 7, 0>,
     ) {
-        let rows = ::nh_runtime::__private::Jacobian::state_jacobian(
+        let rows = ::nonholonomic::__private::Jacobian::state_jacobian(
             self,
             t,
             state,
             input,
         );
         (
-            <::nh_runtime::__private::nalgebra::SMatrix<
+            <::nonholonomic::__private::nalgebra::SMatrix<
                 ::core::primitive::f64,
                 7,
                 7,
             > as ::core::convert::From<[[::core::primitive::f64; 7]; 7]>>::from(rows)
                 .transpose(),
-            <::nh_runtime::__private::nalgebra::SMatrix<
+            <::nonholonomic::__private::nalgebra::SMatrix<
                 ::core::primitive::f64,
                 7,
                 0,

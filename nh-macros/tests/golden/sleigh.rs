@@ -10,20 +10,20 @@ impl Sleigh {
         input: &SleighInput,
     ) -> SleighState {
         _ = t;
-        let (sin_theta, cos_theta) = ::nh_runtime::__private::Scalar::sin_cos(
+        let (sin_theta, cos_theta) = ::nonholonomic::__private::Scalar::sin_cos(
             state.theta,
         );
         let m_a = self.m * self.a;
-        let v_dot_0 = ::nh_runtime::__private::Scalar::mul_add(
+        let v_dot_0 = ::nonholonomic::__private::Scalar::mul_add(
             -state.omega,
-            ::nh_runtime::__private::Scalar::mul_add(
+            ::nonholonomic::__private::Scalar::mul_add(
                 m_a,
-                ::nh_runtime::__private::Scalar::mul_add(-self.b, state.omega, state.v1),
+                ::nonholonomic::__private::Scalar::mul_add(-self.b, state.omega, state.v1),
                 self.c,
             ),
             input.torque,
-        ) * (1.0 / ::nh_runtime::__private::Scalar::mul_add(self.a, m_a, self.J));
-        let v_dot_1 = ::nh_runtime::__private::Scalar::mul_add(
+        ) * (1.0 / ::nonholonomic::__private::Scalar::mul_add(self.a, m_a, self.J));
+        let v_dot_1 = ::nonholonomic::__private::Scalar::mul_add(
             self.b,
             v_dot_0,
             self.a * (state.omega * state.omega),
@@ -46,11 +46,11 @@ impl Sleigh {
     ) -> ::core::primitive::f64 {
         _ = t;
         let m_v1 = self.m * state.v1;
-        let e1 = ::nh_runtime::__private::Scalar::mul_add(
+        let e1 = ::nonholonomic::__private::Scalar::mul_add(
             -(0.5
-                * ::nh_runtime::__private::Scalar::mul_add(
+                * ::nonholonomic::__private::Scalar::mul_add(
                     self.m,
-                    ::nh_runtime::__private::Scalar::mul_add(
+                    ::nonholonomic::__private::Scalar::mul_add(
                         self.b,
                         self.b,
                         self.a * self.a,
@@ -60,7 +60,7 @@ impl Sleigh {
             state.omega,
             self.b * m_v1,
         );
-        ::nh_runtime::__private::Scalar::mul_add(-state.omega, e1, 0.5 * state.v1 * m_v1)
+        ::nonholonomic::__private::Scalar::mul_add(-state.omega, e1, 0.5 * state.v1 * m_v1)
     }
     /// The Jacobian of the derivative by the state, and by the inputs: entry (i, j) of the first matrix
     /// is the derivative of component i of ẋ by component j of the state.
@@ -72,30 +72,30 @@ impl Sleigh {
         state: &SleighState,
         input: &SleighInput,
     ) -> (
-        ::nh_runtime::__private::nalgebra::SMatrix<::core::primitive::f64, 5, 5>,
-        ::nh_runtime::__private::nalgebra::SMatrix<::core::primitive::f64, 5, 1>,
+        ::nonholonomic::__private::nalgebra::SMatrix<::core::primitive::f64, 5, 5>,
+        ::nonholonomic::__private::nalgebra::SMatrix<::core::primitive::f64, 5, 1>,
     ) {
         _ = t;
         _ = input;
-        let (sin_theta, cos_theta) = ::nh_runtime::__private::Scalar::sin_cos(
+        let (sin_theta, cos_theta) = ::nonholonomic::__private::Scalar::sin_cos(
             state.theta,
         );
         let b_omega = self.b * state.omega;
         let m_a = self.m * self.a;
         let d_v_dot_0 = 1.0
-            / ::nh_runtime::__private::Scalar::mul_add(self.a, m_a, self.J);
+            / ::nonholonomic::__private::Scalar::mul_add(self.a, m_a, self.J);
         let e1 = d_v_dot_0
-            * ::nh_runtime::__private::Scalar::mul_add(
+            * ::nonholonomic::__private::Scalar::mul_add(
                 m_a,
                 b_omega,
-                -::nh_runtime::__private::Scalar::mul_add(
+                -::nonholonomic::__private::Scalar::mul_add(
                     m_a,
                     state.v1 - b_omega,
                     self.c,
                 ),
             );
         let d_v_dot_0_2 = -(d_v_dot_0 * m_a * state.omega);
-        let d_v_dot_1 = ::nh_runtime::__private::Scalar::mul_add(
+        let d_v_dot_1 = ::nonholonomic::__private::Scalar::mul_add(
             2.0 * self.a,
             state.omega,
             self.b * e1,
@@ -103,7 +103,7 @@ impl Sleigh {
         let d_v_dot_1_2 = self.b * d_v_dot_0_2;
         let d_v_dot_1_3 = self.b * d_v_dot_0;
         (
-            <::nh_runtime::__private::nalgebra::SMatrix<
+            <::nonholonomic::__private::nalgebra::SMatrix<
                 ::core::primitive::f64,
                 5,
                 5,
@@ -116,7 +116,7 @@ impl Sleigh {
                 [1.0, 0.0, 0.0, e1, d_v_dot_1],
                 [0.0, cos_theta, sin_theta, d_v_dot_0_2, d_v_dot_1_2],
             ]),
-            <::nh_runtime::__private::nalgebra::SMatrix<
+            <::nonholonomic::__private::nalgebra::SMatrix<
                 ::core::primitive::f64,
                 5,
                 1,

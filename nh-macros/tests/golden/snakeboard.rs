@@ -10,23 +10,23 @@ impl Snakeboard {
         input: &SnakeboardInput,
     ) -> SnakeboardState {
         _ = t;
-        let (sin_theta, cos_theta) = ::nh_runtime::__private::Scalar::sin_cos(
+        let (sin_theta, cos_theta) = ::nonholonomic::__private::Scalar::sin_cos(
             state.theta,
         );
-        let (sin_phi, cos_phi) = ::nh_runtime::__private::Scalar::sin_cos(state.phi);
+        let (sin_phi, cos_phi) = ::nonholonomic::__private::Scalar::sin_cos(state.phi);
         let e1 = sin_phi / cos_phi;
         let u1_dphi = state.u1 * state.dphi;
         let e2 = self.J0 * u1_dphi;
         let m_l = self.m * self.l;
         let e3 = 1.0
-            / ::nh_runtime::__private::Scalar::mul_add(
+            / ::nonholonomic::__private::Scalar::mul_add(
                 -self.l,
                 m_l,
                 self.J0 * (sin_phi * sin_phi),
             );
-        let e4 = ::nh_runtime::__private::Scalar::mul_add(
+        let e4 = ::nonholonomic::__private::Scalar::mul_add(
             -self.l,
-            ::nh_runtime::__private::Scalar::mul_add(
+            ::nonholonomic::__private::Scalar::mul_add(
                 -m_l,
                 u1_dphi,
                 cos_phi * cos_phi * input.rotor,
@@ -42,7 +42,7 @@ impl Snakeboard {
             phi: state.dphi,
             u1: e4 * e1,
             dpsi: m_l / self.J0
-                * ::nh_runtime::__private::Scalar::mul_add(-self.l, input.rotor, -e2)
+                * ::nonholonomic::__private::Scalar::mul_add(-self.l, input.rotor, -e2)
                 * e3,
             dphi: v_dot_2,
         }
@@ -56,17 +56,17 @@ impl Snakeboard {
         state: &SnakeboardState,
     ) -> ::core::primitive::f64 {
         _ = t;
-        let (sin_phi, cos_phi) = ::nh_runtime::__private::Scalar::sin_cos(state.phi);
+        let (sin_phi, cos_phi) = ::nonholonomic::__private::Scalar::sin_cos(state.phi);
         let j0_dpsi = self.J0 * state.dpsi;
         let e1 = state.u1 / cos_phi;
-        let e2 = ::nh_runtime::__private::Scalar::mul_add(
-            -::nh_runtime::__private::Scalar::mul_add(
+        let e2 = ::nonholonomic::__private::Scalar::mul_add(
+            -::nonholonomic::__private::Scalar::mul_add(
                 -(0.5 * self.m),
                 e1,
                 sin_phi * j0_dpsi * (1.0 / self.l),
             ),
             e1,
-            ::nh_runtime::__private::Scalar::mul_add(
+            ::nonholonomic::__private::Scalar::mul_add(
                 0.5 * state.dpsi,
                 j0_dpsi,
                 self.J1 * (state.dphi * state.dphi),
@@ -84,23 +84,23 @@ impl Snakeboard {
         state: &SnakeboardState,
         input: &SnakeboardInput,
     ) -> (
-        ::nh_runtime::__private::nalgebra::SMatrix<::core::primitive::f64, 8, 8>,
-        ::nh_runtime::__private::nalgebra::SMatrix<::core::primitive::f64, 8, 2>,
+        ::nonholonomic::__private::nalgebra::SMatrix<::core::primitive::f64, 8, 8>,
+        ::nonholonomic::__private::nalgebra::SMatrix<::core::primitive::f64, 8, 2>,
     ) {
         _ = t;
-        let (sin_theta, cos_theta) = ::nh_runtime::__private::Scalar::sin_cos(
+        let (sin_theta, cos_theta) = ::nonholonomic::__private::Scalar::sin_cos(
             state.theta,
         );
-        let (sin_phi, cos_phi) = ::nh_runtime::__private::Scalar::sin_cos(state.phi);
+        let (sin_phi, cos_phi) = ::nonholonomic::__private::Scalar::sin_cos(state.phi);
         let e1 = -1.0 / cos_phi;
         let e2 = sin_phi * e1;
         let e3 = -1.0 / self.l;
         let u1_dphi = state.u1 * state.dphi;
         let e4 = self.J0 * u1_dphi;
         let m_l = self.m * self.l;
-        let e5 = ::nh_runtime::__private::Scalar::mul_add(
+        let e5 = ::nonholonomic::__private::Scalar::mul_add(
             self.l,
-            ::nh_runtime::__private::Scalar::mul_add(
+            ::nonholonomic::__private::Scalar::mul_add(
                 -m_l,
                 u1_dphi,
                 cos_phi * cos_phi * input.rotor,
@@ -110,13 +110,13 @@ impl Snakeboard {
         let l_rotor = self.l * input.rotor;
         let e6 = sin_phi * sin_phi;
         let e7 = self.l * m_l;
-        let e8 = -1.0 / ::nh_runtime::__private::Scalar::mul_add(self.J0, e6, -e7);
+        let e8 = -1.0 / ::nonholonomic::__private::Scalar::mul_add(self.J0, e6, -e7);
         let e9 = 2.0 * e8;
-        let e10 = ::nh_runtime::__private::Scalar::mul_add(
-            ::nh_runtime::__private::Scalar::mul_add(
+        let e10 = ::nonholonomic::__private::Scalar::mul_add(
+            ::nonholonomic::__private::Scalar::mul_add(
                 -l_rotor,
                 2.0,
-                e5 * ::nh_runtime::__private::Scalar::mul_add(self.J0, e9, e1 * e1),
+                e5 * ::nonholonomic::__private::Scalar::mul_add(self.J0, e9, e1 * e1),
             ),
             e6,
             e5,
@@ -127,7 +127,7 @@ impl Snakeboard {
         let d_v_dot_1 = (e4 + l_rotor) * e13 * e9 * e12;
         let d_v_dot_2 = 0.5 / self.J1;
         (
-            <::nh_runtime::__private::nalgebra::SMatrix<
+            <::nonholonomic::__private::nalgebra::SMatrix<
                 ::core::primitive::f64,
                 8,
                 8,
@@ -151,7 +151,7 @@ impl Snakeboard {
                     0.0,
                     0.0,
                     (e3 * state.u1
-                        * ::nh_runtime::__private::Scalar::mul_add(e2, e2, 1.0)),
+                        * ::nonholonomic::__private::Scalar::mul_add(e2, e2, 1.0)),
                     0.0,
                     0.0,
                     e10,
@@ -171,7 +171,7 @@ impl Snakeboard {
                 [0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0],
                 [0.0, 0.0, 0.0, 0.0, 1.0, (state.u1 * e11), (state.u1 * e13), 0.0],
             ]),
-            <::nh_runtime::__private::nalgebra::SMatrix<
+            <::nonholonomic::__private::nalgebra::SMatrix<
                 ::core::primitive::f64,
                 8,
                 2,

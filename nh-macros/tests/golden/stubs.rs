@@ -53,7 +53,7 @@ impl ::core::convert::From<[::core::primitive::f64; 5]> for SleighState {
 }
 #[automatically_derived]
 impl ::core::convert::From<SleighState>
-for ::nh_runtime::__private::nalgebra::SVector<::core::primitive::f64, 5> {
+for ::nonholonomic::__private::nalgebra::SVector<::core::primitive::f64, 5> {
     #[inline]
     fn from(value: SleighState) -> Self {
         ::core::convert::From::<
@@ -63,19 +63,19 @@ for ::nh_runtime::__private::nalgebra::SVector<::core::primitive::f64, 5> {
 }
 #[automatically_derived]
 impl ::core::convert::From<
-    ::nh_runtime::__private::nalgebra::SVector<::core::primitive::f64, 5>,
+    ::nonholonomic::__private::nalgebra::SVector<::core::primitive::f64, 5>,
 > for SleighState {
     #[inline]
     fn from(
-        value: ::nh_runtime::__private::nalgebra::SVector<::core::primitive::f64, 5>,
+        value: ::nonholonomic::__private::nalgebra::SVector<::core::primitive::f64, 5>,
     ) -> Self {
         ::core::convert::From::<
             [::core::primitive::f64; 5],
         >::from(::core::convert::From::from(value))
     }
 }
-::nh_runtime::__private::serde_impls! {
-    "::nh_runtime::__private::serde", "SleighState", {} SleighState[] { theta :
+::nonholonomic::__private::serde_impls! {
+    "::nonholonomic::__private::serde", "SleighState", {} SleighState[] { theta :
     ::core::primitive::f64, x : ::core::primitive::f64, y : ::core::primitive::f64, omega
     : ::core::primitive::f64, v1 : ::core::primitive::f64, }
 }
@@ -111,7 +111,7 @@ impl ::core::convert::From<[::core::primitive::f64; 3]> for SleighVelocity {
 }
 #[automatically_derived]
 impl ::core::convert::From<SleighVelocity>
-for ::nh_runtime::__private::nalgebra::SVector<::core::primitive::f64, 3> {
+for ::nonholonomic::__private::nalgebra::SVector<::core::primitive::f64, 3> {
     #[inline]
     fn from(value: SleighVelocity) -> Self {
         ::core::convert::From::<
@@ -121,19 +121,19 @@ for ::nh_runtime::__private::nalgebra::SVector<::core::primitive::f64, 3> {
 }
 #[automatically_derived]
 impl ::core::convert::From<
-    ::nh_runtime::__private::nalgebra::SVector<::core::primitive::f64, 3>,
+    ::nonholonomic::__private::nalgebra::SVector<::core::primitive::f64, 3>,
 > for SleighVelocity {
     #[inline]
     fn from(
-        value: ::nh_runtime::__private::nalgebra::SVector<::core::primitive::f64, 3>,
+        value: ::nonholonomic::__private::nalgebra::SVector<::core::primitive::f64, 3>,
     ) -> Self {
         ::core::convert::From::<
             [::core::primitive::f64; 3],
         >::from(::core::convert::From::from(value))
     }
 }
-::nh_runtime::__private::serde_impls! {
-    "::nh_runtime::__private::serde", "SleighVelocity", {} SleighVelocity[] { omega :
+::nonholonomic::__private::serde_impls! {
+    "::nonholonomic::__private::serde", "SleighVelocity", {} SleighVelocity[] { omega :
     ::core::primitive::f64, v1 : ::core::primitive::f64, v2 : ::core::primitive::f64, }
 }
 /// The control inputs of [`Sleigh`].
@@ -164,7 +164,7 @@ impl ::core::convert::From<[::core::primitive::f64; 1]> for SleighInput {
 }
 #[automatically_derived]
 impl ::core::convert::From<SleighInput>
-for ::nh_runtime::__private::nalgebra::SVector<::core::primitive::f64, 1> {
+for ::nonholonomic::__private::nalgebra::SVector<::core::primitive::f64, 1> {
     #[inline]
     fn from(value: SleighInput) -> Self {
         ::core::convert::From::<
@@ -174,19 +174,19 @@ for ::nh_runtime::__private::nalgebra::SVector<::core::primitive::f64, 1> {
 }
 #[automatically_derived]
 impl ::core::convert::From<
-    ::nh_runtime::__private::nalgebra::SVector<::core::primitive::f64, 1>,
+    ::nonholonomic::__private::nalgebra::SVector<::core::primitive::f64, 1>,
 > for SleighInput {
     #[inline]
     fn from(
-        value: ::nh_runtime::__private::nalgebra::SVector<::core::primitive::f64, 1>,
+        value: ::nonholonomic::__private::nalgebra::SVector<::core::primitive::f64, 1>,
     ) -> Self {
         ::core::convert::From::<
             [::core::primitive::f64; 1],
         >::from(::core::convert::From::from(value))
     }
 }
-::nh_runtime::__private::serde_impls! {
-    "::nh_runtime::__private::serde", "SleighInput", {} SleighInput[] { torque :
+::nonholonomic::__private::serde_impls! {
+    "::nonholonomic::__private::serde", "SleighInput", {} SleighInput[] { torque :
     ::core::primitive::f64, }
 }
 /// The observables of [`Sleigh`].
@@ -220,7 +220,7 @@ impl ::core::convert::From<[::core::primitive::f64; 2]> for SleighOutputs {
 }
 #[automatically_derived]
 impl ::core::convert::From<SleighOutputs>
-for ::nh_runtime::__private::nalgebra::SVector<::core::primitive::f64, 2> {
+for ::nonholonomic::__private::nalgebra::SVector<::core::primitive::f64, 2> {
     #[inline]
     fn from(value: SleighOutputs) -> Self {
         ::core::convert::From::<
@@ -230,25 +230,25 @@ for ::nh_runtime::__private::nalgebra::SVector<::core::primitive::f64, 2> {
 }
 #[automatically_derived]
 impl ::core::convert::From<
-    ::nh_runtime::__private::nalgebra::SVector<::core::primitive::f64, 2>,
+    ::nonholonomic::__private::nalgebra::SVector<::core::primitive::f64, 2>,
 > for SleighOutputs {
     #[inline]
     fn from(
-        value: ::nh_runtime::__private::nalgebra::SVector<::core::primitive::f64, 2>,
+        value: ::nonholonomic::__private::nalgebra::SVector<::core::primitive::f64, 2>,
     ) -> Self {
         ::core::convert::From::<
             [::core::primitive::f64; 2],
         >::from(::core::convert::From::from(value))
     }
 }
-::nh_runtime::__private::serde_impls! {
-    "::nh_runtime::__private::serde", "SleighOutputs", { #[allow(non_snake_case)] }
+::nonholonomic::__private::serde_impls! {
+    "::nonholonomic::__private::serde", "SleighOutputs", { #[allow(non_snake_case)] }
     SleighOutputs[] { speed : ::core::primitive::f64, E : ::core::primitive::f64, }
 }
 #[automatically_derived]
-impl ::nh_runtime::__private::State for SleighState {
+impl ::nonholonomic::__private::State for SleighState {
     type Scalar = ::core::primitive::f64;
-    type Dim = ::nh_runtime::__private::D<5>;
+    type Dim = ::nonholonomic::__private::D<5>;
     #[inline]
     fn to_array(&self) -> [::core::primitive::f64; 5] {
         ::core::convert::From::from(*self)
@@ -263,7 +263,7 @@ impl ::nh_runtime::__private::State for SleighState {
     }
 }
 #[automatically_derived]
-impl ::nh_runtime::__private::Dynamics for Sleigh {
+impl ::nonholonomic::__private::Dynamics for Sleigh {
     type State = SleighState;
     type Input = SleighInput;
     #[inline]
@@ -278,18 +278,18 @@ impl ::nh_runtime::__private::Dynamics for Sleigh {
     #[inline]
     fn validate(
         &self,
-    ) -> ::core::result::Result<(), ::nh_runtime::__private::ParameterError> {
+    ) -> ::core::result::Result<(), ::nonholonomic::__private::ParameterError> {
         Self::validate(self)
     }
     fn check_input(
         &self,
         input: &SleighInput,
-    ) -> ::core::result::Result<(), ::nh_runtime::__private::InputFault> {
+    ) -> ::core::result::Result<(), ::nonholonomic::__private::InputFault> {
         for (name, value) in [("torque", input.torque)] {
-            if !::nh_runtime::__private::Scalar::is_finite(value) {
-                return ::core::result::Result::Err(::nh_runtime::__private::InputFault {
+            if !::nonholonomic::__private::Scalar::is_finite(value) {
+                return ::core::result::Result::Err(::nonholonomic::__private::InputFault {
                     input: name,
-                    value: ::nh_runtime::__private::Scalar::to_f64(value),
+                    value: ::nonholonomic::__private::Scalar::to_f64(value),
                 });
             }
         }
@@ -297,7 +297,7 @@ impl ::nh_runtime::__private::Dynamics for Sleigh {
     }
 }
 #[automatically_derived]
-impl ::nh_runtime::__private::Energy for Sleigh {
+impl ::nonholonomic::__private::Energy for Sleigh {
     #[inline]
     fn energy(
         &self,
@@ -308,7 +308,7 @@ impl ::nh_runtime::__private::Energy for Sleigh {
     }
 }
 #[automatically_derived]
-impl ::nh_runtime::__private::Observed for Sleigh {
+impl ::nonholonomic::__private::Observed for Sleigh {
     type Outputs = SleighOutputs;
     #[inline]
     fn outputs(
@@ -348,7 +348,7 @@ impl ::core::convert::From<[::core::primitive::f64; 1]> for SleighMultipliers {
 }
 #[automatically_derived]
 impl ::core::convert::From<SleighMultipliers>
-for ::nh_runtime::__private::nalgebra::SVector<::core::primitive::f64, 1> {
+for ::nonholonomic::__private::nalgebra::SVector<::core::primitive::f64, 1> {
     #[inline]
     fn from(value: SleighMultipliers) -> Self {
         ::core::convert::From::<
@@ -358,19 +358,19 @@ for ::nh_runtime::__private::nalgebra::SVector<::core::primitive::f64, 1> {
 }
 #[automatically_derived]
 impl ::core::convert::From<
-    ::nh_runtime::__private::nalgebra::SVector<::core::primitive::f64, 1>,
+    ::nonholonomic::__private::nalgebra::SVector<::core::primitive::f64, 1>,
 > for SleighMultipliers {
     #[inline]
     fn from(
-        value: ::nh_runtime::__private::nalgebra::SVector<::core::primitive::f64, 1>,
+        value: ::nonholonomic::__private::nalgebra::SVector<::core::primitive::f64, 1>,
     ) -> Self {
         ::core::convert::From::<
             [::core::primitive::f64; 1],
         >::from(::core::convert::From::from(value))
     }
 }
-::nh_runtime::__private::serde_impls! {
-    "::nh_runtime::__private::serde", "SleighMultipliers", {} SleighMultipliers[] { blade
+::nonholonomic::__private::serde_impls! {
+    "::nonholonomic::__private::serde", "SleighMultipliers", {} SleighMultipliers[] { blade
     : ::core::primitive::f64, }
 }
 /// The constraints of [`Sleigh`] at a state: left-hand sides less right-hand sides.
@@ -401,7 +401,7 @@ impl ::core::convert::From<[::core::primitive::f64; 1]> for SleighResidual {
 }
 #[automatically_derived]
 impl ::core::convert::From<SleighResidual>
-for ::nh_runtime::__private::nalgebra::SVector<::core::primitive::f64, 1> {
+for ::nonholonomic::__private::nalgebra::SVector<::core::primitive::f64, 1> {
     #[inline]
     fn from(value: SleighResidual) -> Self {
         ::core::convert::From::<
@@ -411,23 +411,23 @@ for ::nh_runtime::__private::nalgebra::SVector<::core::primitive::f64, 1> {
 }
 #[automatically_derived]
 impl ::core::convert::From<
-    ::nh_runtime::__private::nalgebra::SVector<::core::primitive::f64, 1>,
+    ::nonholonomic::__private::nalgebra::SVector<::core::primitive::f64, 1>,
 > for SleighResidual {
     #[inline]
     fn from(
-        value: ::nh_runtime::__private::nalgebra::SVector<::core::primitive::f64, 1>,
+        value: ::nonholonomic::__private::nalgebra::SVector<::core::primitive::f64, 1>,
     ) -> Self {
         ::core::convert::From::<
             [::core::primitive::f64; 1],
         >::from(::core::convert::From::from(value))
     }
 }
-::nh_runtime::__private::serde_impls! {
-    "::nh_runtime::__private::serde", "SleighResidual", {} SleighResidual[] { blade :
+::nonholonomic::__private::serde_impls! {
+    "::nonholonomic::__private::serde", "SleighResidual", {} SleighResidual[] { blade :
     ::core::primitive::f64, }
 }
 #[automatically_derived]
-impl ::nh_runtime::__private::TaylorSeries for Sleigh {
+impl ::nonholonomic::__private::TaylorSeries for Sleigh {
     type Workspace<const P: ::core::primitive::usize> = ();
     fn expand<const P: ::core::primitive::usize>(
         &self,
@@ -446,8 +446,8 @@ impl ::nh_runtime::__private::TaylorSeries for Sleigh {
     }
 }
 #[automatically_derived]
-impl ::nh_runtime::__private::Constrained for Sleigh {
-    type Constraints = ::nh_runtime::__private::D<1>;
+impl ::nonholonomic::__private::Constrained for Sleigh {
+    type Constraints = ::nonholonomic::__private::D<1>;
     #[inline]
     fn constraint_residual(
         &self,
@@ -461,13 +461,13 @@ impl ::nh_runtime::__private::Constrained for Sleigh {
         &self,
         t: ::core::primitive::f64,
         state: &mut SleighState,
-    ) -> ::core::result::Result<(), ::nh_runtime::__private::ProjectionError> {
+    ) -> ::core::result::Result<(), ::nonholonomic::__private::ProjectionError> {
         Self::project(self, t, state)
     }
 }
 #[automatically_derived]
-impl ::nh_runtime::__private::Jacobian for Sleigh {
-    type InputDim = ::nh_runtime::__private::D<1>;
+impl ::nonholonomic::__private::Jacobian for Sleigh {
+    type InputDim = ::nonholonomic::__private::D<1>;
     #[inline]
     fn state_jacobian(
         &self,
@@ -479,7 +479,7 @@ impl ::nh_runtime::__private::Jacobian for Sleigh {
         _ = t;
         _ = state;
         _ = input;
-        [[<::core::primitive::f64 as ::nh_runtime::__private::Scalar>::ZERO; 5]; 5]
+        [[<::core::primitive::f64 as ::nonholonomic::__private::Scalar>::ZERO; 5]; 5]
     }
     #[inline]
     fn input_jacobian(
@@ -492,7 +492,7 @@ impl ::nh_runtime::__private::Jacobian for Sleigh {
         _ = t;
         _ = state;
         _ = input;
-        [[<::core::primitive::f64 as ::nh_runtime::__private::Scalar>::ZERO; 1]; 5]
+        [[<::core::primitive::f64 as ::nonholonomic::__private::Scalar>::ZERO; 1]; 5]
     }
 }
 impl Sleigh {
@@ -524,7 +524,7 @@ impl Sleigh {
         _ = self;
         _ = t;
         _ = state;
-        <::core::primitive::f64 as ::nh_runtime::__private::Scalar>::ZERO
+        <::core::primitive::f64 as ::nonholonomic::__private::Scalar>::ZERO
     }
     /// All quasi-velocities, as the constraints give them from the state.
     #[must_use]
@@ -546,18 +546,18 @@ impl Sleigh {
     /// expression zero by which the equations divide.
     pub fn validate(
         &self,
-    ) -> ::core::result::Result<(), ::nh_runtime::__private::ParameterError> {
+    ) -> ::core::result::Result<(), ::nonholonomic::__private::ParameterError> {
         for (name, value) in [
             ("m", self.m),
             ("J", self.J),
             ("a", self.a),
             ("c", self.c),
         ] {
-            if !::nh_runtime::__private::Scalar::is_finite(value) {
-                return ::core::result::Result::Err(::nh_runtime::__private::ParameterError {
+            if !::nonholonomic::__private::Scalar::is_finite(value) {
+                return ::core::result::Result::Err(::nonholonomic::__private::ParameterError {
                     parameter: name,
-                    value: ::nh_runtime::__private::Scalar::to_f64(value),
-                    fault: ::nh_runtime::__private::ParameterFault::NotFinite,
+                    value: ::nonholonomic::__private::Scalar::to_f64(value),
+                    fault: ::nonholonomic::__private::ParameterFault::NotFinite,
                 });
             }
         }
@@ -616,7 +616,7 @@ impl Sleigh {
         state: &SleighState,
         input: &SleighInput,
     ) -> [SleighState; P] {
-        ::nh_runtime::__private::TaylorSeries::taylor::<P>(self, t, state, input)
+        ::nonholonomic::__private::TaylorSeries::taylor::<P>(self, t, state, input)
     }
     /// Moves the velocities to the nearest ones that satisfy the constraints, where distance is
     /// measured by the kinetic energy.
@@ -628,7 +628,7 @@ impl Sleigh {
         &self,
         t: ::core::primitive::f64,
         state: &mut SleighState,
-    ) -> ::core::result::Result<(), ::nh_runtime::__private::ProjectionError> {
+    ) -> ::core::result::Result<(), ::nonholonomic::__private::ProjectionError> {
         _ = (self, t, state);
         ::core::result::Result::Ok(())
     }
@@ -642,31 +642,31 @@ impl Sleigh {
         state: &SleighState,
         input: &SleighInput,
     ) -> (
-        ::nh_runtime::__private::nalgebra::SMatrix<::core::primitive::f64, 5, 5>,
-        ::nh_runtime::__private::nalgebra::SMatrix<::core::primitive::f64, 5, 1>,
+        ::nonholonomic::__private::nalgebra::SMatrix<::core::primitive::f64, 5, 5>,
+        ::nonholonomic::__private::nalgebra::SMatrix<::core::primitive::f64, 5, 1>,
     ) {
         _ = self;
         _ = t;
         _ = state;
         _ = input;
         (
-            <::nh_runtime::__private::nalgebra::SMatrix<
+            <::nonholonomic::__private::nalgebra::SMatrix<
                 ::core::primitive::f64,
                 5,
                 5,
             > as ::core::convert::From<
                 [[::core::primitive::f64; 5]; 5],
             >>::from(
-                [[<::core::primitive::f64 as ::nh_runtime::__private::Scalar>::ZERO; 5]; 5],
+                [[<::core::primitive::f64 as ::nonholonomic::__private::Scalar>::ZERO; 5]; 5],
             ),
-            <::nh_runtime::__private::nalgebra::SMatrix<
+            <::nonholonomic::__private::nalgebra::SMatrix<
                 ::core::primitive::f64,
                 5,
                 1,
             > as ::core::convert::From<
                 [[::core::primitive::f64; 5]; 1],
             >>::from(
-                [[<::core::primitive::f64 as ::nh_runtime::__private::Scalar>::ZERO; 5]; 1],
+                [[<::core::primitive::f64 as ::nonholonomic::__private::Scalar>::ZERO; 5]; 1],
             ),
         )
     }

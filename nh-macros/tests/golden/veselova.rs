@@ -11,9 +11,9 @@ impl Veselova {
     ) -> VeselovaState {
         _ = t;
         _ = input;
-        let e1 = ::nh_runtime::__private::Scalar::mul_add(
+        let e1 = ::nonholonomic::__private::Scalar::mul_add(
             self.I[0],
-            ::nh_runtime::__private::Scalar::mul_add(
+            ::nonholonomic::__private::Scalar::mul_add(
                 self.I[1],
                 state.g[2] * state.g[2],
                 self.I[2] * (state.g[1] * state.g[1]),
@@ -21,46 +21,46 @@ impl Veselova {
             self.I[1] * self.I[2] * (state.g[0] * state.g[0]),
         );
         let over_norm = 1.0 / e1;
-        let force = ::nh_runtime::__private::Scalar::mul_add(
+        let force = ::nonholonomic::__private::Scalar::mul_add(
             -((self.I[0] - self.I[2]) * state.w[0]),
             state.w[2],
-            ::nh_runtime::__private::Scalar::mul_add(
+            ::nonholonomic::__private::Scalar::mul_add(
                 -self.c[2],
                 state.g[0],
                 self.c[0] * state.g[2],
             ),
         );
-        let force_2 = ::nh_runtime::__private::Scalar::mul_add(
+        let force_2 = ::nonholonomic::__private::Scalar::mul_add(
             (self.I[1] - self.I[2]) * state.w[1],
             state.w[2],
-            ::nh_runtime::__private::Scalar::mul_add(
+            ::nonholonomic::__private::Scalar::mul_add(
                 -self.c[1],
                 state.g[2],
                 self.c[2] * state.g[1],
             ),
         );
-        let moment = ::nh_runtime::__private::Scalar::mul_add(
+        let moment = ::nonholonomic::__private::Scalar::mul_add(
             -state.g[1],
             force_2,
             state.g[0] * force,
         );
         let turn = self.I[2] * over_norm * moment;
-        let force_3 = ::nh_runtime::__private::Scalar::mul_add(
+        let force_3 = ::nonholonomic::__private::Scalar::mul_add(
             (self.I[0] - self.I[1]) * state.w[0],
             state.w[1],
-            ::nh_runtime::__private::Scalar::mul_add(
+            ::nonholonomic::__private::Scalar::mul_add(
                 -self.c[0],
                 state.g[1],
                 self.c[1] * state.g[0],
             ),
         );
-        let moment_2 = ::nh_runtime::__private::Scalar::mul_add(
+        let moment_2 = ::nonholonomic::__private::Scalar::mul_add(
             -state.g[2],
             force_2,
             state.g[0] * force_3,
         );
         let turn_2 = self.I[1] * over_norm * moment_2;
-        let moment_3 = ::nh_runtime::__private::Scalar::mul_add(
+        let moment_3 = ::nonholonomic::__private::Scalar::mul_add(
             -state.g[2],
             force,
             state.g[1] * force_3,
@@ -68,34 +68,34 @@ impl Veselova {
         let turn_3 = self.I[0] * over_norm * moment_3;
         VeselovaState {
             g: [
-                ::nh_runtime::__private::Scalar::mul_add(
+                ::nonholonomic::__private::Scalar::mul_add(
                     -state.g[2],
                     state.w[1],
                     state.g[1] * state.w[2],
                 ),
-                ::nh_runtime::__private::Scalar::mul_add(
+                ::nonholonomic::__private::Scalar::mul_add(
                     -state.g[0],
                     state.w[2],
                     state.g[2] * state.w[0],
                 ),
-                ::nh_runtime::__private::Scalar::mul_add(
+                ::nonholonomic::__private::Scalar::mul_add(
                     -state.g[1],
                     state.w[0],
                     state.g[0] * state.w[1],
                 ),
             ],
             w: [
-                ::nh_runtime::__private::Scalar::mul_add(
+                ::nonholonomic::__private::Scalar::mul_add(
                     -state.g[2],
                     turn_2,
                     -(state.g[1] * turn),
                 ),
-                ::nh_runtime::__private::Scalar::mul_add(
+                ::nonholonomic::__private::Scalar::mul_add(
                     -state.g[2],
                     turn_3,
                     state.g[0] * turn,
                 ),
-                ::nh_runtime::__private::Scalar::mul_add(
+                ::nonholonomic::__private::Scalar::mul_add(
                     state.g[1],
                     turn_3,
                     state.g[0] * turn_2,
@@ -112,21 +112,21 @@ impl Veselova {
         state: &VeselovaState,
     ) -> ::core::primitive::f64 {
         _ = t;
-        let e1 = ::nh_runtime::__private::Scalar::mul_add(
-            ::nh_runtime::__private::Scalar::mul_add(
+        let e1 = ::nonholonomic::__private::Scalar::mul_add(
+            ::nonholonomic::__private::Scalar::mul_add(
                 self.I[2],
                 state.w[2] * state.w[2],
-                ::nh_runtime::__private::Scalar::mul_add(
+                ::nonholonomic::__private::Scalar::mul_add(
                     self.I[1],
                     state.w[1] * state.w[1],
                     self.I[0] * (state.w[0] * state.w[0]),
                 ),
             ),
             0.5,
-            ::nh_runtime::__private::Scalar::mul_add(
+            ::nonholonomic::__private::Scalar::mul_add(
                 self.c[2],
                 state.g[2],
-                ::nh_runtime::__private::Scalar::mul_add(
+                ::nonholonomic::__private::Scalar::mul_add(
                     self.c[1],
                     state.g[1],
                     self.c[0] * state.g[0],
@@ -145,23 +145,23 @@ impl Veselova {
         state: &VeselovaState,
         input: &(),
     ) -> (
-        ::nh_runtime::__private::nalgebra::SMatrix<::core::primitive::f64, 6, 6>,
-        ::nh_runtime::__private::nalgebra::SMatrix<::core::primitive::f64, 6, 0>,
+        ::nonholonomic::__private::nalgebra::SMatrix<::core::primitive::f64, 6, 6>,
+        ::nonholonomic::__private::nalgebra::SMatrix<::core::primitive::f64, 6, 0>,
     ) {
-        let rows = ::nh_runtime::__private::Jacobian::state_jacobian(
+        let rows = ::nonholonomic::__private::Jacobian::state_jacobian(
             self,
             t,
             state,
             input,
         );
         (
-            <::nh_runtime::__private::nalgebra::SMatrix<
+            <::nonholonomic::__private::nalgebra::SMatrix<
                 ::core::primitive::f64,
                 6,
                 6,
             > as ::core::convert::From<[[::core::primitive::f64; 6]; 6]>>::from(rows)
                 .transpose(),
-            <::nh_runtime::__private::nalgebra::SMatrix<
+            <::nonholonomic::__private::nalgebra::SMatrix<
                 ::core::primitive::f64,
                 6,
                 0,

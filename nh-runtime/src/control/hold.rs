@@ -18,7 +18,7 @@ pub(super) const MOST_HALVINGS: u32 = 1025 + 32;
 ///
 /// ```
 /// use nalgebra::{matrix, vector};
-/// use nh_runtime::control::zero_order_hold;
+/// use nonholonomic::control::zero_order_hold;
 ///
 /// // a mass pushed along a line: position and speed after a tenth of a second
 /// let (a, b) = zero_order_hold(&matrix![0.0, 1.0; 0.0, 0.0], &vector![0.0, 2.0], 0.1).unwrap();

@@ -25,7 +25,7 @@ const MOST_WEIGHT: f64 = 1e10;
 /// on the stack. A horizon without a tick does not compile:
 ///
 /// ```compile_fail,E0080
-/// nh_runtime::control::Ilqr::<f64, 2, 1, 0>::new(nalgebra::vector![0.0]);
+/// nonholonomic::control::Ilqr::<f64, 2, 1, 0>::new(nalgebra::vector![0.0]);
 /// ```
 #[derive(Clone, Copy, Debug)]
 pub struct Ilqr<T, const N: usize, const M: usize, const H: usize> {

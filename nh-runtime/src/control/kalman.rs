@@ -34,7 +34,7 @@ impl<T: Entry, const N: usize> Estimate<T, N> {
     ///
     /// ```
     /// use nalgebra::{Matrix2, matrix, vector};
-    /// use nh_runtime::control::Estimate;
+    /// use nonholonomic::control::Estimate;
     ///
     /// let prior = Estimate { mean: vector![1.0, 0.5], covariance: Matrix2::identity() };
     /// let step = matrix![1.0, 0.1; 0.0, 1.0];
@@ -69,7 +69,7 @@ impl<T: Entry, const N: usize> Estimate<T, N> {
     ///
     /// ```
     /// use nalgebra::{Matrix2, matrix, vector};
-    /// use nh_runtime::control::Estimate;
+    /// use nonholonomic::control::Estimate;
     ///
     /// let prior = Estimate { mean: vector![0.0, 0.0], covariance: Matrix2::identity() };
     /// let seen = prior.corrected(&vector![1.0], &matrix![1.0, 0.0], &matrix![1.0]).unwrap();

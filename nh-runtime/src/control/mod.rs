@@ -36,8 +36,8 @@
 //!
 //! ```
 //! use nalgebra::{SMatrix, SVector, matrix, vector};
-//! use nh_runtime::control::{Estimate, Regulator, held_noise, zero_order_hold};
-//! use nh_runtime::prelude::*;
+//! use nonholonomic::control::{Estimate, Regulator, held_noise, zero_order_hold};
+//! use nonholonomic::prelude::*;
 //!
 //! /// A pole on a cart; the state is named `place, tilt, place_dot, tilt_dot`.
 //! #[nonholonomic(
@@ -135,7 +135,7 @@ impl<T: Real + ClosedAddAssign + ClosedSubAssign + ClosedMulAssign + Zero + One>
 /// the result is NaN, which filters refuse.
 ///
 /// ```
-/// use nh_runtime::control::angle_difference;
+/// use nonholonomic::control::angle_difference;
 ///
 /// assert!((angle_difference(3.1, -3.1) - (6.2 - core::f64::consts::TAU)).abs() < 1e-15);
 /// ```

@@ -20,7 +20,7 @@ const TERMS: u32 = 18;
 ///
 /// ```
 /// use nalgebra::matrix;
-/// use nh_runtime::control::held_noise;
+/// use nonholonomic::control::held_noise;
 ///
 /// // a mass that noise pushes: position and speed after a tenth of a second
 /// let noise = held_noise(&matrix![0.0, 1.0; 0.0, 0.0], &matrix![0.0, 0.0; 0.0, 3.0], 0.1).unwrap();

@@ -42,7 +42,7 @@ impl<T: Entry, const N: usize, const M: usize> Regulator<T, N, M> {
     ///
     /// ```
     /// use nalgebra::matrix;
-    /// use nh_runtime::control::Regulator;
+    /// use nonholonomic::control::Regulator;
     ///
     /// // x' = x + u: the golden section
     /// let one = matrix![1.0];
@@ -113,7 +113,7 @@ impl<T: Entry, const N: usize, const M: usize> Regulator<T, N, M> {
     ///
     /// ```
     /// use nalgebra::matrix;
-    /// use nh_runtime::control::Regulator;
+    /// use nonholonomic::control::Regulator;
     ///
     /// // the cost (x + u)² + u²/2 of x' = x + u
     /// let one = matrix![1.0_f64];
@@ -154,7 +154,7 @@ impl<T: Entry, const N: usize, const M: usize> Regulator<T, N, M> {
     ///
     /// ```
     /// use nalgebra::{Matrix2, matrix, vector};
-    /// use nh_runtime::control::Regulator;
+    /// use nonholonomic::control::Regulator;
     ///
     /// let (a, b) = (matrix![1.0, 0.1; 0.0, 1.0], vector![0.0, 0.1]);
     /// let (q, r) = (Matrix2::identity(), matrix![1.0]);

@@ -11,8 +11,8 @@ use crate::{D, Jacobian, Rk4, State};
 ///
 /// ```
 /// use nalgebra::vector;
-/// use nh_runtime::control::{Model, Sampled};
-/// use nh_runtime::prelude::*;
+/// use nonholonomic::control::{Model, Sampled};
+/// use nonholonomic::prelude::*;
 ///
 /// /// A cart that a force pushes.
 /// #[nonholonomic(

@@ -25,8 +25,8 @@ pub trait Residuals<const N: usize, const M: usize> {
 ///
 /// ```
 /// use nalgebra::{Vector2, vector};
-/// use nh_runtime::Scalar;
-/// use nh_runtime::control::{Cost, Residuals, Squares};
+/// use nonholonomic::Scalar;
+/// use nonholonomic::control::{Cost, Residuals, Squares};
 ///
 /// /// At the end a swing should be high and at rest; on the way the torque should be small.
 /// struct Swing;

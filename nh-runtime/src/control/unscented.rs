@@ -41,7 +41,7 @@ impl<T: Entry> Unscented<T> {
     ///
     /// ```
     /// use nalgebra::{Matrix2, matrix, vector};
-    /// use nh_runtime::control::{Estimate, Unscented};
+    /// use nonholonomic::control::{Estimate, Unscented};
     ///
     /// // of a linear map the result is exact
     /// let prior = Estimate { mean: vector![1.0, 0.0], covariance: Matrix2::identity() };

@@ -16,7 +16,7 @@ use crate::{Fast, Scalar};
 /// evaluated lane after lane.
 ///
 /// ```
-/// use nh_runtime::{Lanes, Scalar};
+/// use nonholonomic::{Lanes, Scalar};
 ///
 /// fn sum_of_squares<L: Lanes<Lane = f64>>(numbers: &[f64]) -> f64 {
 ///     let pack = L::from_lanes(|i| numbers.get(i).copied().unwrap_or(0.0));
@@ -25,7 +25,7 @@ use crate::{Fast, Scalar};
 /// }
 /// assert_eq!(sum_of_squares::<f64>(&[3.0]), 9.0);
 /// # #[cfg(feature = "wide")]
-/// assert_eq!(sum_of_squares::<nh_runtime::wide::f64x4>(&[3.0, 4.0]), 25.0);
+/// assert_eq!(sum_of_squares::<nonholonomic::wide::f64x4>(&[3.0, 4.0]), 25.0);
 /// ```
 pub trait Lanes: Scalar {
     /// The number in a lane.

@@ -53,8 +53,8 @@ impl<P, T: Real> Adaptive<P, T> {
     /// The relative and the absolute tolerance of each component, as two states.
     ///
     /// ```
-    /// # use nh_runtime::prelude::*;
-    /// # use nh_runtime::D;
+    /// # use nonholonomic::prelude::*;
+    /// # use nonholonomic::D;
     /// # #[derive(Clone, Copy)] struct Roller { angle: f64, rate: f64 }
     /// # impl State for Roller {
     /// #     type Scalar = f64;

@@ -87,7 +87,7 @@ impl<P: Tableau, T: Scalar> Fixed<P, T> {
     /// time.
     ///
     /// ```
-    /// use nh_runtime::{D, Dynamics, Rk4, State};
+    /// use nonholonomic::{D, Dynamics, Rk4, State};
     ///
     /// /// x' = −x.
     /// struct Decay;

@@ -106,7 +106,7 @@ pub type Bs23<T, W = Uniform<T>> = Adaptive<BogackiShampine3, T, W>;
 /// continuous extension, section II.6.
 ///
 /// ```
-/// use nh_runtime::Dopri5;
+/// use nonholonomic::Dopri5;
 ///
 /// let method: Dopri5<f64> = Dopri5::new().rtol(1e-9).atol(1e-12).max_step(0.1);
 /// ```

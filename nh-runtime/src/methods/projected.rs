@@ -15,8 +15,8 @@ use crate::{Constrained, IntegrationError, ProjectionError, Real, Scalar, Scalar
 /// state. [`Statistics`] say how often that happened and how much it changed.
 ///
 /// ```
-/// # use nh_runtime::prelude::*;
-/// # use nh_runtime::{D, ProjectionError};
+/// # use nonholonomic::prelude::*;
+/// # use nonholonomic::{D, ProjectionError};
 /// # struct Circle;
 /// # #[derive(Clone, Copy)] struct Point { x: f64, y: f64 }
 /// # impl State for Point {

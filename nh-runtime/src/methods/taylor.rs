@@ -20,7 +20,7 @@ use crate::{Dim, Dynamics, IntegrationError, Real, Scalar, State, Statistics, Ta
 /// [`Statistics::evaluations`] counts expansions.
 ///
 /// ```
-/// use nh_runtime::Taylor;
+/// use nonholonomic::Taylor;
 ///
 /// let method: Taylor<f64> = Taylor::new().rtol(1e-15);
 /// assert_eq!(method.order(), 19);

@@ -38,7 +38,7 @@ impl<P: Tableau, T: Scalar> Fixed<P, T> {
     /// Runge–Kutta step (Hairer, Lubich, Wanner, Geometric Numerical Integration, lemma VI.4.1).
     ///
     /// ```
-    /// use nh_runtime::prelude::*;
+    /// use nonholonomic::prelude::*;
     ///
     /// /// A mass on a spring, pushed.
     /// #[nonholonomic(

@@ -3,7 +3,7 @@
 //! Over every number of f32 and fifty million of f64, two and a half minutes of processor time, shared by all cores:
 //!
 //! ```sh
-//! cargo test --release -p nh-runtime --lib sine -- --nocapture
+//! cargo test --release -p nonholonomic --lib sine -- --nocapture
 //! ```
 
 use std::vec::Vec;

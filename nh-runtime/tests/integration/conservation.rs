@@ -1,6 +1,6 @@
 //! What the implicit midpoint rule is there for.
 
-use nh_runtime::prelude::*;
+use nonholonomic::prelude::*;
 
 use crate::systems::{FreeBody, Line, Pendulum, Plane, Spin, Stiff};
 

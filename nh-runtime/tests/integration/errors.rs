@@ -1,7 +1,7 @@
 //! Every kind of error: when it comes, what it says, and that the integration can go on.
 
-use nh_runtime::prelude::*;
-use nh_runtime::{InputFault, Method, ParameterFault, StateFault};
+use nonholonomic::prelude::*;
+use nonholonomic::{InputFault, Method, ParameterFault, StateFault};
 
 use crate::systems::{Driven, Line, Pendulum, Plane, Scalar1, Stiff, Torque};
 

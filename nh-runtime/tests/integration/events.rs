@@ -2,8 +2,8 @@
 
 use core::ops::ControlFlow;
 
-use nh_runtime::Method;
-use nh_runtime::prelude::*;
+use nonholonomic::Method;
+use nonholonomic::prelude::*;
 
 use crate::systems::{Driven, Line, Pendulum, Plane, Scalar1, Torque, distance};
 

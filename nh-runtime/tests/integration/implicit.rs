@@ -1,7 +1,7 @@
 //! Implicit methods: orders, stiffness, and what they cost.
 
-use nh_runtime::Method;
-use nh_runtime::prelude::*;
+use nonholonomic::Method;
+use nonholonomic::prelude::*;
 
 use crate::systems::{Driven, FreeBody, Line, Pendulum, Plane, Spin, Stiff, Torque, VanDerPol, distance};
 

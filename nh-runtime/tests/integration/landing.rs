@@ -1,7 +1,7 @@
 //! Times: landing, direction, dense output at the ends, and what is counted.
 
-use nh_runtime::Method;
-use nh_runtime::prelude::*;
+use nonholonomic::Method;
+use nonholonomic::prelude::*;
 
 use crate::systems::{Driven, Line, Pendulum, Plane, Scalar1, Torque, distance};
 

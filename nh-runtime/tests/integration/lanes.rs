@@ -2,8 +2,8 @@
 
 use core::ops::{Add, AddAssign, Div, Mul, MulAssign, Neg, Sub, SubAssign};
 
-use nh_runtime::__private::solve_pivoted;
-use nh_runtime::prelude::*;
+use nonholonomic::__private::solve_pivoted;
+use nonholonomic::prelude::*;
 
 use crate::systems::Plane;
 

@@ -1,7 +1,7 @@
 //! The order of every method and of its dense output, measured.
 
-use nh_runtime::prelude::*;
-use nh_runtime::{Method, ScalarOf};
+use nonholonomic::prelude::*;
+use nonholonomic::{Method, ScalarOf};
 
 use crate::systems::{Driven, Pendulum, Plane, Torque, distance};
 

@@ -1,7 +1,7 @@
 //! Methods that return to a manifold: when they do, what they report, and what they keep.
 
-use nh_runtime::prelude::*;
-use nh_runtime::{D, Method, ProjectionError};
+use nonholonomic::prelude::*;
+use nonholonomic::{D, Method, ProjectionError};
 
 use crate::systems::Plane;
 

@@ -1,7 +1,7 @@
 //! The laws by which steps follow errors.
 
-use nh_runtime::Controller;
-use nh_runtime::prelude::*;
+use nonholonomic::Controller;
+use nonholonomic::prelude::*;
 
 use crate::systems::{Driven, Line, Plane, Stiff, VanDerPol, distance};
 

@@ -1,6 +1,6 @@
 //! Small systems with known solutions.
 
-use nh_runtime::{
+use nonholonomic::{
     D, Dynamics, InputFault, Jacobian, ParameterError, ParameterFault, Real, Scalar, State, StateFault,
 };
 

@@ -1,9 +1,9 @@
 //! The derivative of a step, from the emitted Jacobian, against jets through the step and against
 //! difference quotients.
 
-use nh_runtime::methods::{Fixed, Tableau, Transition};
-use nh_runtime::prelude::*;
-use nh_runtime::{Jet, methods};
+use nonholonomic::methods::{Fixed, Tableau, Transition};
+use nonholonomic::prelude::*;
+use nonholonomic::{Jet, methods};
 
 /// A sleigh whose brake and engine make everything depend on everything, time included.
 #[nonholonomic(

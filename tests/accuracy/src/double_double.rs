@@ -7,7 +7,7 @@ mod elementary;
 
 use std::ops::{Add, AddAssign, Div, Mul, MulAssign, Neg, Sub, SubAssign};
 
-use nh_runtime::Scalar;
+use nonholonomic::Scalar;
 
 /// `high + low`, with `low` below half a unit in the last place of `high`.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]

@@ -3,7 +3,7 @@
 use std::hint::black_box;
 
 use nh_bench::callgrind::Counts;
-use nh_runtime::Scalar;
+use nonholonomic::Scalar;
 
 use crate::DoubleDouble;
 use crate::random::{Numbers, Place, Random, Regime};

@@ -3,7 +3,7 @@
 //! A state is regular where the constraints are independent, whatever the equations are written in.
 //! There the derivative is finite and as accurate as its inputs allow, in `f64` and in `f32`.
 
-use nh_runtime::Scalar;
+use nonholonomic::Scalar;
 
 use crate::DoubleDouble;
 use crate::measured::{Level, Measured, Twin, larger, largest};

@@ -4,7 +4,7 @@
 use nh_accuracy::DoubleDouble;
 use nh_bench::contest::{Contest, Random};
 use nh_bench::systems::car;
-use nh_runtime::prelude::*;
+use nonholonomic::prelude::*;
 
 nh_models::car! {
     /// The car of the benchmark in numbers of any kind.

@@ -1,6 +1,6 @@
 //! What competes: the emitted functions of a declared system, and what an expert writes by hand.
 
-use nh_runtime::prelude::*;
+use nonholonomic::prelude::*;
 
 /// The number of states at which a system is evaluated.
 pub const SAMPLES: usize = 16;

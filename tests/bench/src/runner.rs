@@ -5,7 +5,7 @@ use std::hint::black_box;
 use std::marker::PhantomData;
 use std::time::Instant;
 
-use nh_runtime::State;
+use nonholonomic::State;
 
 use crate::callgrind::Counts;
 use crate::contest::{Contest, samples};

@@ -14,11 +14,11 @@ mod proved;
 mod structure;
 mod systems;
 
-use nh_runtime::ParameterError;
-use nh_runtime::control::{
+use nonholonomic::ParameterError;
+use nonholonomic::control::{
     ControlError, Correction, Estimate, Ilqr, Quadratic, Regulator, Sampled, Squares, Unscented,
 };
-use nh_runtime::prelude::*;
+use nonholonomic::prelude::*;
 use systems::{Robot, RobotInput, RobotState, Sleigh, SleighInput, SleighState};
 
 /// Types that may be copied, and shared with an interrupt.

@@ -1,12 +1,12 @@
 //! A run by every method, and a tick of every building block of a controller: the bits of what comes out.
 
 use nalgebra::{Matrix1, Matrix4, RowVector4, SMatrix, Vector1, Vector4, Vector5};
-use nh_runtime::control::{
+use nonholonomic::control::{
     ControlError, Entry, Estimate, Ilqr, Quadratic, Regulator, Sampled, Unscented, held_noise,
     zero_order_hold,
 };
-use nh_runtime::methods::Method;
-use nh_runtime::prelude::*;
+use nonholonomic::methods::Method;
+use nonholonomic::prelude::*;
 
 use crate::bits::{Bits, line};
 use crate::systems::{Sleigh, SleighInput, SleighState};

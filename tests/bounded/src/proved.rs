@@ -1,9 +1,9 @@
 //! Functions that cannot panic: with the feature `proof` the linker refuses them if they can.
 
-use nh_runtime::control::{
+use nonholonomic::control::{
     Estimate, Ilqr, Quadratic, Regulator, Sampled, Unscented, angle_difference, held_noise, zero_order_hold,
 };
-use nh_runtime::prelude::*;
+use nonholonomic::prelude::*;
 
 use nalgebra::{Matrix1, Matrix4, RowVector4, Vector1, Vector4, Vector5};
 

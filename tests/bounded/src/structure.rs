@@ -1,8 +1,8 @@
 //! Runs by the methods that keep structure, and by Taylor series, in double and single precision: the bits of
 //! what comes out.
 
-use nh_runtime::methods::Method;
-use nh_runtime::prelude::*;
+use nonholonomic::methods::Method;
+use nonholonomic::prelude::*;
 
 use crate::bits::{Bits, line};
 use crate::systems::{Contact, ContactOnTq, ContactOnTqState, ContactState, Suslov, SuslovState};

@@ -1,6 +1,6 @@
 //! A system of each formulation and number.
 
-use nh_runtime::prelude::*;
+use nonholonomic::prelude::*;
 
 /// A rigid body on a plane, carried by a knife edge, with a wheel that drives it.
 #[nonholonomic(

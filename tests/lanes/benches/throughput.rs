@@ -8,8 +8,8 @@ use std::hint::black_box;
 use std::time::Instant;
 
 use nh_lanes::{SleighInput, SleighState, sleigh, starts};
-use nh_runtime::prelude::*;
-use nh_runtime::wide::{f32x8, f64x4};
+use nonholonomic::prelude::*;
+use nonholonomic::wide::{f32x8, f64x4};
 
 const STATES: usize = 512;
 const BLOCK: usize = 8;

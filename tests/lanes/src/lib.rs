@@ -1,6 +1,6 @@
 //! Systems for any scalar, and the numbers to try them with.
 
-use nh_runtime::prelude::*;
+use nonholonomic::prelude::*;
 
 nh_models::sleigh! {
     /// A rigid body on a plane, carried by a knife edge (Chaplygin sleigh).

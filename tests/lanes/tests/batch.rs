@@ -1,9 +1,9 @@
 //! Batches of rollouts equal single rollouts, bit for bit, whatever the lanes and the cores.
 
 use nh_lanes::{Random, Sleigh, SleighInput, SleighState, starts};
-use nh_runtime::batch::{self, gather, pack, scatter, unpack};
-use nh_runtime::prelude::*;
-use nh_runtime::wide::f64x4;
+use nonholonomic::batch::{self, gather, pack, scatter, unpack};
+use nonholonomic::prelude::*;
+use nonholonomic::wide::f64x4;
 
 const STEPS: usize = 60;
 

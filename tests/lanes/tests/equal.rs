@@ -1,8 +1,8 @@
 //! Lanes equal numbers, bit for bit.
 
 use nh_lanes::{Random, Sleigh, SleighInput, SleighState, sleigh};
-use nh_runtime::prelude::*;
-use nh_runtime::wide::{f32x8, f64x4};
+use nonholonomic::prelude::*;
+use nonholonomic::wide::{f32x8, f64x4};
 
 /// A number whose bits can be compared.
 trait Bits: Scalar {

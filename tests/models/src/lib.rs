@@ -6,7 +6,7 @@
 //!
 //! ```
 //! # #![allow(non_snake_case)]
-//! use nh_runtime::prelude::*;
+//! use nonholonomic::prelude::*;
 //!
 //! nh_models::sleigh! {
 //!     #[derive(Clone, Copy, Debug)]
@@ -27,7 +27,7 @@
 #[macro_export]
 macro_rules! sleigh {
     ($parameters:item $($sections:tt)*) => {
-        #[nh_runtime::nonholonomic(
+        #[nonholonomic::nonholonomic(
             base   { theta, x, y }
             basis  { omega, v1, v2 }
             anchor {
@@ -52,7 +52,7 @@ macro_rules! sleigh {
 #[macro_export]
 macro_rules! veselova {
     ($parameters:item $($sections:tt)*) => {
-        #[nh_runtime::nonholonomic(
+        #[nonholonomic::nonholonomic(
             base { g[3] }
             basis { w[3] }
             anchor { der(g) = cross(g, w); }
@@ -72,7 +72,7 @@ macro_rules! veselova {
 #[macro_export]
 macro_rules! snakeboard {
     ($parameters:item $($sections:tt)*) => {
-        #[nh_runtime::nonholonomic(
+        #[nonholonomic::nonholonomic(
             base  { x, y, theta, psi, phi }
             basis { u1, u2, dtheta, dpsi, dphi }
             anchor {
@@ -105,7 +105,7 @@ macro_rules! snakeboard {
 #[macro_export]
 macro_rules! robot {
     ($parameters:item $($sections:tt)*) => {
-        #[nh_runtime::nonholonomic(
+        #[nonholonomic::nonholonomic(
             base { psi1, psi2, x, y, theta }
             lagrangian {
                 let lateral = -der(x) * sin(theta) + der(y) * cos(theta);
@@ -130,7 +130,7 @@ macro_rules! robot {
 #[macro_export]
 macro_rules! driven_robot {
     ($parameters:item $($sections:tt)*) => {
-        #[nh_runtime::nonholonomic(
+        #[nonholonomic::nonholonomic(
             base { x, y, theta, phi_r, phi_l }
             lagrangian {
                 m / 2 * (der(x)^2 + der(y)^2)
@@ -158,7 +158,7 @@ macro_rules! driven_robot {
 #[macro_export]
 macro_rules! ball {
     ($parameters:item $($sections:tt)*) => {
-        #[nh_runtime::nonholonomic(
+        #[nonholonomic::nonholonomic(
             base  { x, y }
             basis { dx, dy, wx, wy, wz }
             anchor { der(x) = dx; der(y) = dy; }
@@ -178,7 +178,7 @@ macro_rules! ball {
 #[macro_export]
 macro_rules! tractor {
     ($n:literal trailers: $parameters:item $($sections:tt)*) => {
-        #[nh_runtime::nonholonomic(
+        #[nonholonomic::nonholonomic(
             base  { x, y, th, rel[$n] }
             basis { v, side, omega, rd[$n] }
             anchor {
@@ -218,7 +218,7 @@ macro_rules! tractor {
 #[macro_export]
 macro_rules! car {
     ($parameters:item $($sections:tt)*) => {
-        #[nh_runtime::nonholonomic(
+        #[nonholonomic::nonholonomic(
             base  { x, y, th, delta }
             basis { v, side, omega, turn }
             anchor {

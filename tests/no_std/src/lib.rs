@@ -4,7 +4,7 @@
 
 pub mod words;
 
-use nh_runtime::prelude::*;
+use nonholonomic::prelude::*;
 
 /// A rigid body on a plane, carried by a knife edge.
 #[nonholonomic(

@@ -5,7 +5,7 @@
 macro_rules! declarations {
     ($scalar:ident $($parameters:tt)*) => {
         /// A Chaplygin system on TQ: every word but those for groups and for all velocities.
-        #[::nh_runtime::nonholonomic(
+        #[::nonholonomic::nonholonomic(
             base { start, phase, p_start }
             lagrangian { state / 2 * (der(start)^2 + der(phase)^2 + der(p_start)^2) - out * start }
             constraints { covector: der(p_start) = phase * der(start); }
@@ -37,7 +37,7 @@ macro_rules! declarations {
         }
 
         /// The same with all velocities in the state: no momenta in a basis of D, no leap over them.
-        #[::nh_runtime::nonholonomic(
+        #[::nonholonomic::nonholonomic(
             base { start, phase, p_start }
             lagrangian { state / 2 * (der(start)^2 + der(phase)^2 + der(p_start)^2) - out * start }
             constraints { covector: der(p_start) = phase * der(start); }
@@ -61,7 +61,7 @@ macro_rules! declarations {
         }
 
         /// On an Atiyah algebroid, with momentum equations.
-        #[::nh_runtime::nonholonomic(
+        #[::nonholonomic::nonholonomic(
             base { series }
             basis { start, present[3] }
             anchor { der(series) = start; }
@@ -86,7 +86,7 @@ macro_rules! declarations {
         }
 
         /// On a Lie algebra.
-        #[::nh_runtime::nonholonomic(
+        #[::nonholonomic::nonholonomic(
             basis { present, workspace, body }
             brackets so(3) { present, workspace, body }
             lagrangian { (I[0] * present^2 + I[1] * workspace^2 + I[2] * body^2) / 2 }
@@ -106,7 +106,7 @@ macro_rules! declarations {
         }
 
         /// On a sphere in space, with a rotor that is driven: affine in the velocities, no energy.
-        #[::nh_runtime::nonholonomic(
+        #[::nonholonomic::nonholonomic(
             base { state[3] }
             on { dot(state, state) = 1; }
             basis { out[3] }

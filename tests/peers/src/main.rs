@@ -8,7 +8,7 @@ mod problem;
 
 use std::hint::black_box;
 
-use nh_runtime::prelude::*;
+use nonholonomic::prelude::*;
 use nh_work_precision::{Outcome, Study};
 
 use problem::{Problem, Sleigh, Veselova};
@@ -43,12 +43,12 @@ fn study<const N: usize, P: Problem<N>>(full: bool) -> Study {
     }
     add!("bare loop", "rk4", steps(), |s, x, n| Some(bare::rk4(s, x, n)));
     add!("bare loop", "dop853", tolerances(), |s, x, tol| bare::dop853(s, x, tol));
-    add!("nh-runtime", "Rk4", steps(), |s, x, n| ours::run(s, x, Rk4::new(P::END / f64::from(n))));
-    add!("nh-runtime", "Bs23", tolerances(), |s, x, tol| ours::run(s, x, Bs23::new().rtol(tol)));
-    add!("nh-runtime", "Tsit5", tolerances(), |s, x, tol| ours::run(s, x, Tsit5::new().rtol(tol)));
-    add!("nh-runtime", "Dop853", tolerances(), |s, x, tol| ours::run(s, x, Dop853::new().rtol(tol)));
-    add!("nh-runtime", "Vern9", tolerances(), |s, x, tol| ours::run(s, x, Vern9::new().rtol(tol)));
-    add!("nh-runtime", "Taylor", tolerances(), |s, x, tol| ours::run(s, x, Taylor::new().rtol(tol)));
+    add!("nonholonomic", "Rk4", steps(), |s, x, n| ours::run(s, x, Rk4::new(P::END / f64::from(n))));
+    add!("nonholonomic", "Bs23", tolerances(), |s, x, tol| ours::run(s, x, Bs23::new().rtol(tol)));
+    add!("nonholonomic", "Tsit5", tolerances(), |s, x, tol| ours::run(s, x, Tsit5::new().rtol(tol)));
+    add!("nonholonomic", "Dop853", tolerances(), |s, x, tol| ours::run(s, x, Dop853::new().rtol(tol)));
+    add!("nonholonomic", "Vern9", tolerances(), |s, x, tol| ours::run(s, x, Vern9::new().rtol(tol)));
+    add!("nonholonomic", "Taylor", tolerances(), |s, x, tol| ours::run(s, x, Taylor::new().rtol(tol)));
     if !full {
         return study;
     }

@@ -1,7 +1,7 @@
 //! This project's runtime.
 
-use nh_runtime::Method;
-use nh_runtime::prelude::*;
+use nonholonomic::Method;
+use nonholonomic::prelude::*;
 
 use crate::problem::Problem;
 

@@ -1,6 +1,6 @@
 //! The two runs, and the right-hand side that everyone gets: the emitted one.
 
-use nh_runtime::prelude::*;
+use nonholonomic::prelude::*;
 
 /// A rigid body on a plane, carried by a knife edge (Chaplygin sleigh).
 #[nonholonomic(
@@ -46,7 +46,7 @@ pub struct Veselova {
 
 /// A run whose end is known.
 pub trait Problem<const N: usize>:
-    TaylorSeries<State: State<Scalar = f64, Dim = nh_runtime::D<N>>, Input = ()> + Copy + 'static
+    TaylorSeries<State: State<Scalar = f64, Dim = nonholonomic::D<N>>, Input = ()> + Copy + 'static
 {
     const NAME: &'static str;
     const END: f64;

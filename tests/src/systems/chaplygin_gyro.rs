@@ -4,7 +4,7 @@
 //! the ball, the mass sits on it at the angle `beta` from the ring's downward axis, and gravity acts
 //! on the mass alone.
 
-use nh_runtime::prelude::*;
+use nonholonomic::prelude::*;
 
 use crate::catalogue::catalogued;
 use crate::twins::both;

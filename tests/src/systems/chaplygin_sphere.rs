@@ -4,7 +4,7 @@
 //! CLMM section 6.3 (the gyro without its gyroscope). Rolling means that the velocity of the centre
 //! is r ω × e₃.
 
-use nh_runtime::prelude::*;
+use nonholonomic::prelude::*;
 
 use crate::catalogue::catalogued;
 use crate::systems::inertia;

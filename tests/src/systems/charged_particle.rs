@@ -3,7 +3,7 @@
 //! CNS example 6.1 (principal bundle). The connection is A = (−B0 y/2, B0 x/2 + b1 x²/2, a3 x y),
 //! its curvature the field B = (a3 x, −a3 y, B0 + b1 x), and the charge is the momentum of the circle.
 
-use nh_runtime::prelude::*;
+use nonholonomic::prelude::*;
 
 use crate::catalogue::catalogued;
 

@@ -1,7 +1,7 @@
 //! Reference systems by frames, by the sections that span the distribution, and on embedded bases
 //! with their identities declared.
 
-use nh_runtime::prelude::*;
+use nonholonomic::prelude::*;
 
 use crate::catalogue::catalogued;
 use crate::systems::inertia;

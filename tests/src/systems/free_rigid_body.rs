@@ -2,7 +2,7 @@
 //!
 //! CLMM section 6.1 with D = g, CNS equation (9).
 
-use nh_runtime::prelude::*;
+use nonholonomic::prelude::*;
 
 use crate::catalogue::catalogued;
 use crate::systems::inertia;

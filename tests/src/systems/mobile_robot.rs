@@ -2,7 +2,7 @@
 //!
 //! CLMM section 6.4.
 
-use nh_runtime::prelude::*;
+use nonholonomic::prelude::*;
 
 use crate::catalogue::catalogued;
 use crate::twins::both;

@@ -2,7 +2,7 @@
 //!
 //! The reference data come from `tests/reference/unreduced.py`.
 
-use nh_runtime::prelude::*;
+use nonholonomic::prelude::*;
 
 use crate::catalogue::catalogued;
 use crate::twins::both;

@@ -2,7 +2,7 @@
 //!
 //! CLMM section 7 has the theory; the reference data come from `tests/reference/unreduced.py`.
 
-use nh_runtime::prelude::*;
+use nonholonomic::prelude::*;
 
 use crate::catalogue::catalogued;
 

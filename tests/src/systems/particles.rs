@@ -2,7 +2,7 @@
 //!
 //! CNS examples 5.1 and 7.1, CM section 6.
 
-use nh_runtime::prelude::*;
+use nonholonomic::prelude::*;
 
 use crate::catalogue::catalogued;
 use crate::twins::both;

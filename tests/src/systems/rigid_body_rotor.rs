@@ -2,7 +2,7 @@
 //!
 //! CNS example 6.1.
 
-use nh_runtime::prelude::*;
+use nonholonomic::prelude::*;
 
 use crate::catalogue::catalogued;
 use crate::systems::inertia;

@@ -3,7 +3,7 @@
 //! CNS example 7.2. The angular velocity is taken in the frame of space: right-invariant fields, so
 //! that the brackets have the sign opposite to those of the body frame.
 
-use nh_runtime::prelude::*;
+use nonholonomic::prelude::*;
 
 use crate::catalogue::catalogued;
 use crate::twins::both;

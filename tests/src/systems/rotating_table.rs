@@ -3,7 +3,7 @@
 //! CLMM section 7.4. Energy is not conserved, the moving energy is (Fassò and Sansonetto): the
 //! energy less Ω times the momentum of the rotation about the axis of the table.
 
-use nh_runtime::prelude::*;
+use nonholonomic::prelude::*;
 
 use crate::catalogue::{Moving, Reading, catalogued};
 use crate::twins::both;

@@ -3,7 +3,7 @@
 //! CLMM section 6.1, with J about the centre of mass, which lies at (a, b) in the body frame whose
 //! origin is the contact point and whose first axis is the blade.
 
-use nh_runtime::prelude::*;
+use nonholonomic::prelude::*;
 
 use crate::catalogue::catalogued;
 use crate::twins::both;

@@ -4,7 +4,7 @@
 //! The total inertia satisfies m l² = J + J0 + 2 J1. The wheels' constraints become dependent where
 //! cos(phi) = 0.
 
-use nh_runtime::prelude::*;
+use nonholonomic::prelude::*;
 
 use crate::catalogue::catalogued;
 

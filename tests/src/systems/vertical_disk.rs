@@ -3,7 +3,7 @@
 //!
 //! CLMM table 1.
 
-use nh_runtime::prelude::*;
+use nonholonomic::prelude::*;
 
 use crate::catalogue::catalogued;
 use crate::twins::both;

@@ -3,7 +3,7 @@
 //!
 //! CLMM section 6.2, equation (6.13).
 
-use nh_runtime::prelude::*;
+use nonholonomic::prelude::*;
 
 use crate::catalogue::{Moving, Reading, catalogued};
 use crate::systems::inertia;

@@ -1,7 +1,7 @@
 //! Sleighs that are tilted, carried along or steered; a robot and a bicycle with prescribed rates.
 #![allow(non_snake_case, reason = "parameters are written as in mechanics: J, I, R, Omega")]
 
-use nh_runtime::prelude::*;
+use nonholonomic::prelude::*;
 
 use super::{check, check_with_multipliers};
 

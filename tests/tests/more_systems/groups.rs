@@ -1,7 +1,7 @@
 //! Lie algebras and rigid bodies.
 #![allow(non_snake_case, reason = "parameters are written as in mechanics: J, I, R, Omega")]
 
-use nh_runtime::prelude::*;
+use nonholonomic::prelude::*;
 
 use super::{check, check_with_multipliers};
 

@@ -1,7 +1,7 @@
 //! Machines on wheels, as `reference/more_wheels.py` sets them up from positions in space.
 #![allow(non_snake_case, reason = "parameters are written as in mechanics: J, I, R, Omega")]
 
-use nh_runtime::prelude::*;
+use nonholonomic::prelude::*;
 
 use super::check_with_multipliers;
 

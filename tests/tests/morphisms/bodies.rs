@@ -1,6 +1,6 @@
 //! Bodies that turn: attitude as angles or as a rotation matrix, reduced by rotations.
 
-use nh_runtime::prelude::*;
+use nonholonomic::prelude::*;
 
 use super::support::{reconstructs, reduces};
 

@@ -1,6 +1,6 @@
 //! Reductions relate the nonholonomic brackets, CLMM Theorems 4.7 and 7.9: {f∘Φ, g∘Φ} = {f, g}∘Φ.
 
-use nh_runtime::prelude::*;
+use nonholonomic::prelude::*;
 
 /// A sleigh in the frame of its body.
 #[nonholonomic(

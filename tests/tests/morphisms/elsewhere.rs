@@ -1,7 +1,7 @@
 //! A map from a system that another crate declares.
 
-use nh_runtime::prelude::*;
 use nh_tests::systems::{self, sleigh::SleighOnThePlaneState};
+use nonholonomic::prelude::*;
 
 use super::support::reconstructs;
 

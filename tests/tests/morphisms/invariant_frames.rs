@@ -1,6 +1,6 @@
 //! Quotients by declared symmetries: the invariant frame is derived.
 
-use nh_runtime::prelude::*;
+use nonholonomic::prelude::*;
 
 use super::support::reconstructs;
 

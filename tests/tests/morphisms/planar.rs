@@ -1,6 +1,6 @@
 //! Bodies on a plane, reduced by its motions.
 
-use nh_runtime::{ByStages, prelude::*};
+use nonholonomic::{ByStages, prelude::*};
 
 use super::support::{assert_close, reconstructs, reduces};
 

@@ -1,6 +1,6 @@
 //! Quotients that are constructed: the declaration of the reduced system is derived.
 
-use nh_runtime::prelude::*;
+use nonholonomic::prelude::*;
 
 use super::support::reconstructs;
 

@@ -2,8 +2,8 @@
 
 use core::fmt::Debug;
 
-use nh_runtime::prelude::*;
-use nh_runtime::{Dim, ScalarOf};
+use nonholonomic::prelude::*;
+use nonholonomic::{Dim, ScalarOf};
 
 /// The end of a trajectory, to about 1e-11.
 pub(super) fn end<S>(system: &S, start: S::State, input: S::Input, time: f64) -> S::State

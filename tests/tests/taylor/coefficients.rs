@@ -4,9 +4,9 @@
 //! t + ε₁ + … + ε_n, whose component at ε₁ … ε_n is its n-th derivative: to round-off, and without
 //! any recurrence.
 
-use nh_runtime::Dim;
-use nh_runtime::prelude::*;
 use nh_tests::dual::Dual;
+use nonholonomic::Dim;
+use nonholonomic::prelude::*;
 
 use super::systems::{
     Everything, EverythingState, Indefinite, IndefiniteInput, IndefiniteState, Sleigh, SleighInput,

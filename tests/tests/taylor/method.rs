@@ -1,7 +1,7 @@
 //! The method: landing, dense output, scales, and what it refuses.
 
-use nh_runtime::prelude::*;
 use nh_tests::comparison::largest;
+use nonholonomic::prelude::*;
 
 use super::systems::{Everything, EverythingState, Sleigh, SleighInput, SleighState};
 

@@ -1,6 +1,6 @@
 //! Systems whose equations contain every step that has a recurrence.
 
-use nh_runtime::prelude::*;
+use nonholonomic::prelude::*;
 
 /// A sleigh, driven and braked: products, squares, sine and cosine, a constant divisor.
 #[nonholonomic(

@@ -4,7 +4,7 @@
 //! Newton and Euler (`tests/peers/python/reference.py`); at T = 20 they agree with the reference data.
 #![allow(non_snake_case, reason = "parameters are written as in mechanics: J, I")]
 
-use nh_runtime::prelude::*;
+use nonholonomic::prelude::*;
 
 use super::systems::{Sleigh, SleighState, Veselova, VeselovaState};
 

@@ -1,4 +1,4 @@
-use nh_runtime::prelude::*;
+use nonholonomic::prelude::*;
 
 #[nonholonomic(
     base { x }

@@ -1,4 +1,4 @@
-use nh_runtime::prelude::*;
+use nonholonomic::prelude::*;
 
 #[nonholonomic(base { a } lagrangian { m / 2 * der(a)^2 })]
 struct Full { m: f64 }

@@ -1,4 +1,4 @@
-use nh_runtime::prelude::*;
+use nonholonomic::prelude::*;
 
 #[nonholonomic(base { x, y, phi } lagrangian { (der(x)^2 + der(y)^2 + der(phi)^2) / 2 })]
 struct Full {}

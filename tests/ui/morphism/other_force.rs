@@ -1,4 +1,4 @@
-use nh_runtime::prelude::*;
+use nonholonomic::prelude::*;
 
 #[nonholonomic(base { x } lagrangian { m / 2 * der(x)^2 } forces { x: push - c * der(x); } inputs { push })]
 struct Full { m: f64, c: f64 }

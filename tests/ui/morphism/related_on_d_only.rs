@@ -1,4 +1,4 @@
-use nh_runtime::prelude::*;
+use nonholonomic::prelude::*;
 
 #[nonholonomic(base { x, y } lagrangian { m / 2 * (der(x)^2 + der(y)^2) } constraints { der(y) = a * der(x); })]
 struct Full { m: f64, a: f64 }

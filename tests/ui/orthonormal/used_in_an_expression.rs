@@ -1,4 +1,4 @@
-use nh_runtime::prelude::*;
+use nonholonomic::prelude::*;
 
 #[nonholonomic(base { x } lagrangian { m / 2 * u^2 } orthonormal { u, x })]
 struct S { m: f64 }

@@ -1,4 +1,4 @@
-use nh_runtime::prelude::*;
+use nonholonomic::prelude::*;
 
 #[nonholonomic(base { x } basis { v } anchor { der(x) = 0; } brackets { } lagrangian { m / 2 * v^2 })]
 struct AnchorZero { m: f64 }

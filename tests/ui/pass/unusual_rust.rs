@@ -1,4 +1,4 @@
-use nh_runtime::prelude::*;
+use nonholonomic::prelude::*;
 
 macro_rules! oscillator {
     ($name:ident, $gain:literal, $potential:expr, $unit:ty, $q:ident) => {

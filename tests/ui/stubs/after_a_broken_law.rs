@@ -1,4 +1,4 @@
-use nh_runtime::prelude::*;
+use nonholonomic::prelude::*;
 
 #[nonholonomic(base { x, y, z } lagrangian { m / 2 * der(x)^2 } inputs { u } constraints { der(y) = 0; } emit { multipliers })]
 #[derive(Clone, Copy)]

@@ -1,4 +1,4 @@
-use nh_runtime::prelude::*;
+use nonholonomic::prelude::*;
 
 #[nonholonomic(bsae { x, y } lagrangian { m / 2 * (der(x)^2 + der(y)^2) } inputs { u } emit { jacobian })]
 #[derive(Clone, Copy)]

@@ -1,4 +1,4 @@
-use nh_runtime::prelude::*;
+use nonholonomic::prelude::*;
 
 #[nonholonomic(base { x, y } lagrangian { m / 2 * (der(x)^2 + der(z)^2) } inputs { u } constraints { der(y) = 0; } outputs { o = x; })]
 #[derive(Clone, Copy)]

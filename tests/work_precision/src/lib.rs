@@ -5,7 +5,7 @@
 //! converged reference. Out come a table, a picture, and the cheapest method and setting for each accuracy.
 //!
 //! ```no_run
-//! use nh_runtime::prelude::*;
+//! use nonholonomic::prelude::*;
 //! use nh_work_precision::Study;
 //!
 //! #[nonholonomic(

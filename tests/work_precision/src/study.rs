@@ -3,8 +3,8 @@
 use std::collections::BTreeMap;
 use std::time::{Duration, Instant};
 
-use nh_runtime::ScalarOf;
-use nh_runtime::prelude::*;
+use nonholonomic::ScalarOf;
+use nonholonomic::prelude::*;
 
 use crate::variant::Variant;
 use crate::{instructions, picture, table};

@@ -1,8 +1,8 @@
 //! Two motions in several forms.
 #![allow(non_snake_case, reason = "parameters are written as in mechanics: J, I")]
 
-use nh_runtime::prelude::*;
 use nh_work_precision::Study;
+use nonholonomic::prelude::*;
 
 /// A rigid body on a plane, carried by a knife edge.
 #[nonholonomic(

@@ -1,7 +1,7 @@
 //! One form of a system, with the methods that it has what they need for.
 
-use nh_runtime::prelude::*;
-use nh_runtime::{Method, ScalarOf};
+use nonholonomic::prelude::*;
+use nonholonomic::{Method, ScalarOf};
 
 use crate::study::{Case, Ended, Study};
 

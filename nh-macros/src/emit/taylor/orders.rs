@@ -2,9 +2,9 @@
 
 use std::collections::BTreeMap;
 
-use nh_core::algebra::Rational;
-use nh_core::id::SymbolId;
-use nh_core::program::{Factor, Inner, Recurrences, Rule, Step, Value};
+use nonholonomic_core::algebra::Rational;
+use nonholonomic_core::id::SymbolId;
+use nonholonomic_core::program::{Factor, Inner, Recurrences, Rule, Step, Value};
 use proc_macro2::{Ident, Literal, TokenStream};
 use quote::quote;
 

@@ -1,11 +1,11 @@
 //! Terms that cancel identically are not in emitted derivatives where the expanded form is no dearer: where
 //! one velocity, input or parameter is a million times the others, such a term leaves no digits of the value.
 
-use nh_core::algebra::Bounded;
-use nh_core::compile::compile;
-use nh_core::id::{ExprId, Id, SymbolId};
-use nh_core::program::{Cost, Program, interpret_in, schedule};
-use nh_core::system::System;
+use nonholonomic_core::algebra::Bounded;
+use nonholonomic_core::compile::compile;
+use nonholonomic_core::id::{ExprId, Id, SymbolId};
+use nonholonomic_core::program::{Cost, Program, interpret_in, schedule};
+use nonholonomic_core::system::System;
 
 use super::catalogue;
 use super::model;

@@ -52,7 +52,7 @@ fn the_reference_systems_are_understood() {
     for (attribute, item) in all {
         let system = resolved(attribute, item);
         let name = system.model.name.clone();
-        if let Err(violations) = nh_core::compile::compile(system.model) {
+        if let Err(violations) = nonholonomic_core::compile::compile(system.model) {
             panic!("{name}: {violations:?}");
         }
     }

@@ -1,6 +1,6 @@
 //! Ceilings on the work of machines with trailers, wheels and a pendulum: growth is a failing test.
 
-use nh_core::program::Cost;
+use nonholonomic_core::program::Cost;
 use proc_macro2::TokenStream;
 use syn::parse_quote;
 
@@ -119,7 +119,7 @@ fn a_pivot_that_the_determinant_has_makes_one_unknown_short() {
         }
         constraints { der(x) = R*cos(th)*der(psi); der(y) = R*sin(th)*der(psi); }";
     let item = "struct Disk { m: f64, A: f64, C: f64, R: f64, g: f64 }";
-    let system = nh_core::compile::compile(super::model(attribute, item)).expect("regular");
+    let system = nonholonomic_core::compile::compile(super::model(attribute, item)).expect("regular");
     let found = Cost::of(&derivative(&system)).operations();
     assert!(found <= 30, "{found} operations");
     let checks: Vec<&str> = system.parameter_checks.iter().map(|check| check.text.as_str()).collect();

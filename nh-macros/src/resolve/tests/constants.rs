@@ -1,9 +1,9 @@
 //! Constants in place of fields: the same motion for at most the same work, on every reference system.
 
-use nh_core::algebra::Bounded;
-use nh_core::id::SymbolId;
-use nh_core::program::{Cost, Program, interpret_in, schedule_grouping};
-use nh_core::system::System;
+use nonholonomic_core::algebra::Bounded;
+use nonholonomic_core::id::SymbolId;
+use nonholonomic_core::program::{Cost, Program, interpret_in, schedule_grouping};
+use nonholonomic_core::system::System;
 use proc_macro2::{Delimiter, Group, TokenStream, TokenTree};
 use quote::quote;
 
@@ -66,7 +66,7 @@ pub(super) fn compiled((attribute, item): &Declaration) -> Option<System> {
     let mut layout = Layout::of_struct(&declaration.structure, attribute.clone());
     let Resolved { mut model, .. } = resolve(&declaration, &mut layout).expect("resolved");
     model.requests.clear();
-    nh_core::compile::compile(model).ok()
+    nonholonomic_core::compile::compile(model).ok()
 }
 
 pub(super) fn derivative(system: &System) -> Program {
@@ -211,5 +211,5 @@ fn are_numbers_where_numbers_are_asked_for() {
     let text = "constants { c = 2; } base { x } lagrangian { m / 2 * der(x)^2 } assume { m > c; m < 1; }";
     assert!(messages(text, "struct S { m: f64 }").is_empty());
     let contradicted = model(text, "struct S { m: f64 }");
-    assert!(nh_core::compile::compile(contradicted).is_err());
+    assert!(nonholonomic_core::compile::compile(contradicted).is_err());
 }

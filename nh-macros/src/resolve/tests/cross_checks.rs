@@ -1,14 +1,14 @@
 //! Other derivations of the same equations, on every reference system: Gibbs and Appell (CNS (17)),
 //! and the projections of the free motion (CLMM Theorems 3.14, 3.15, 7.3, 7.4), computed in numbers.
 
-use nh_core::algebra::Matrix;
-use nh_core::check;
-use nh_core::geometry::{Algebroid, LinearConstraints};
-use nh_core::id::{ExprId, Id, Origin, SectionId, SymbolId};
-use nh_core::mechanics::{LagrangianSystem, saddle_equations};
-use nh_core::model::{Model, Request};
-use nh_core::program::{interpret, schedule};
-use nh_core::system::System;
+use nonholonomic_core::algebra::Matrix;
+use nonholonomic_core::check;
+use nonholonomic_core::geometry::{Algebroid, LinearConstraints};
+use nonholonomic_core::id::{ExprId, Id, Origin, SectionId, SymbolId};
+use nonholonomic_core::mechanics::{LagrangianSystem, saddle_equations};
+use nonholonomic_core::model::{Model, Request};
+use nonholonomic_core::program::{interpret, schedule};
+use nonholonomic_core::system::System;
 
 use super::catalogue::{all, resolved};
 use super::of_name;
@@ -84,7 +84,7 @@ fn gibbs_and_appell() {
     for mut model in models() {
         model.requests.push((Request::GibbsAppell, Origin::from_index(0)));
         let name = model.name.clone();
-        let system = nh_core::compile::compile(model).unwrap();
+        let system = nonholonomic_core::compile::compile(model).unwrap();
         let appell = system.gibbs_appell.as_ref().expect("asked for");
         for number in 0..3 {
             let point = Point { model: &system.model, changed: Vec::new(), number };
@@ -196,7 +196,7 @@ fn the_motion_is_a_projection_of_the_free_one() {
         let mut free = model;
         free.forces.clear();
         let name = free.name.clone();
-        let system = nh_core::compile::compile(free).unwrap();
+        let system = nonholonomic_core::compile::compile(free).unwrap();
         let changed = on_manifold(&system, &declared, &geometry);
         // the same symbols in both models
         let point = Point { model: &system.model, changed: changed.clone(), number: 0 };

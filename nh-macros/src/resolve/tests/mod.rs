@@ -12,8 +12,8 @@ mod names;
 mod requests;
 mod sections;
 
-use nh_core::id::ExprId;
-use nh_core::model::Model;
+use nonholonomic_core::id::ExprId;
+use nonholonomic_core::model::Model;
 
 use super::{Resolved, resolve};
 use crate::emit::Layout;

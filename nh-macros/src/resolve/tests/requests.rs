@@ -1,6 +1,6 @@
 //! What is asked for: requests, methods of the user's with their derivatives, tracked variables.
 
-use nh_core::model::{Request, TrackedItem};
+use nonholonomic_core::model::{Request, TrackedItem};
 
 use super::super::facts::REQUESTS;
 use super::{STRUCT, assert_errors, evaluated, model, of, of_name};

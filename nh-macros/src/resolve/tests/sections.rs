@@ -1,7 +1,7 @@
 //! The sections of a declaration: what they become, and every error text.
 
-use nh_core::id::{Id, SectionId};
-use nh_core::model::{ForceDirection, Formulation, Kinematics};
+use nonholonomic_core::id::{Id, SectionId};
+use nonholonomic_core::model::{ForceDirection, Formulation, Kinematics};
 
 use super::{STRUCT, assert_errors, evaluated, model, of, of_name, resolved};
 

@@ -33,8 +33,8 @@ use crate::{AlmostPoisson, DimOf, Dynamics, IntegrationError, Real, ScalarOf, St
 /// is the same but for round-off: so that this does not add up, in any number of steps.
 ///
 /// ```
-/// # use nh_runtime::prelude::*;
-/// # use nh_runtime::{AlmostPoisson, D};
+/// # use nonholonomic::prelude::*;
+/// # use nonholonomic::{AlmostPoisson, D};
 /// # #[derive(Clone, Copy)] struct Pendulum;
 /// # #[derive(Clone, Copy)] struct Swing { q: f64, v: f64 }
 /// # impl State for Swing {

@@ -5,7 +5,7 @@
 //! small part of the argument. Each is as precise relative to its own size: near 0, and near 1 where it
 //! vanishes there. Powers lose the digits that their exponents grow by.
 
-use nh_runtime::Scalar;
+use nonholonomic::Scalar;
 
 use super::{DoubleDouble, two_product};
 

@@ -45,13 +45,13 @@ macro_rules! measured {
     ) => {
         /// Emitted at this level.
         pub mod $level {
-            use nh_runtime::prelude::*;
+            use nonholonomic::prelude::*;
 
             measured!(@emitted { accuracy { $level } } $System, $State of $states, [$($field: $kind),*], $p, $make, $($declaration)+);
 
             type Input<T> = <$System<T> as Dynamics>::Input;
 
-            fn input<T: nh_runtime::Scalar>(list: &[T]) -> Input<T> {
+            fn input<T: nonholonomic::Scalar>(list: &[T]) -> Input<T> {
                 measured!(@input list $($Input, $inputs)?)
             }
 
@@ -61,12 +61,12 @@ macro_rules! measured {
             }
 
             impl $crate::measured::Level for Emitted {
-                fn derivative<T: nh_runtime::Scalar>(parameters: &[T], at: &[T], inputs: &[T]) -> Vec<T> {
+                fn derivative<T: nonholonomic::Scalar>(parameters: &[T], at: &[T], inputs: &[T]) -> Vec<T> {
                     let rate = system(parameters).derivative(T::ZERO, &state(at), &input(inputs));
                     let rate: [T; $states] = rate.into();
                     rate.to_vec()
                 }
-                fn velocity<T: nh_runtime::Scalar>(parameters: &[T], at: &[T]) -> Vec<T> {
+                fn velocity<T: nonholonomic::Scalar>(parameters: &[T], at: &[T]) -> Vec<T> {
                     const SECTIONS: usize =
                         $all - <super::Levels as $crate::measured::Measured>::NUMBERS.velocities;
                     let velocity: [T; SECTIONS] = system(parameters).velocity(T::ZERO, &state(at)).into();
@@ -88,17 +88,17 @@ macro_rules! measured {
     ) => {
         /// With all velocities in the state, and multipliers.
         pub mod twin {
-            use nh_runtime::prelude::*;
+            use nonholonomic::prelude::*;
 
             measured!(@emitted { formulation { projected } } $System, $State of $all, [$($field: $kind),*], $p, $make, $($declaration)+);
 
             impl $crate::measured::Twin for Emitted {
-                fn derivative<T: nh_runtime::Scalar>(parameters: &[T], at: &[T], inputs: &[T]) -> Vec<T> {
+                fn derivative<T: nonholonomic::Scalar>(parameters: &[T], at: &[T], inputs: &[T]) -> Vec<T> {
                     let input = measured!(@input inputs $($Input, $inputs)?);
                     let rate: [T; $all] = system(parameters).derivative(T::ZERO, &state(at), &input).into();
                     rate.to_vec()
                 }
-                fn residual<T: nh_runtime::Scalar>(parameters: &[T], at: &[T]) -> Vec<T> {
+                fn residual<T: nonholonomic::Scalar>(parameters: &[T], at: &[T]) -> Vec<T> {
                     let system = system(parameters);
                     Constrained::constraint_residual(&system, T::ZERO, &state(at)).as_ref().to_vec()
                 }
@@ -121,11 +121,11 @@ macro_rules! measured {
         #[derive(Clone, Copy, Debug)]
         pub struct Emitted;
 
-        fn system<T: nh_runtime::Scalar>($p: &[T]) -> $System<T> {
+        fn system<T: nonholonomic::Scalar>($p: &[T]) -> $System<T> {
             $System $make
         }
 
-        fn state<T: nh_runtime::Scalar>(list: &[T]) -> $State<T> {
+        fn state<T: nonholonomic::Scalar>(list: &[T]) -> $State<T> {
             let components: [T; $components] = core::array::from_fn(|i| list[i]);
             components.into()
         }

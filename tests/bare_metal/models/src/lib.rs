@@ -9,7 +9,7 @@ macro_rules! models {
         pub mod $module {
             use core::hint::black_box;
 
-            use nh_runtime::prelude::*;
+            use nonholonomic::prelude::*;
 
             nh_models::sleigh! {
                 /// A rigid body on a plane, carried by a knife edge (Chaplygin sleigh).

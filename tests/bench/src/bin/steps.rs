@@ -12,9 +12,9 @@ use std::process::ExitCode;
 
 use nh_bench::contest::Random;
 use nh_bench::{callgrind, program};
-use nh_runtime::methods::Method;
-use nh_runtime::prelude::*;
-use nh_runtime::{Dim, ScalarOf, VecOf};
+use nonholonomic::methods::Method;
+use nonholonomic::prelude::*;
+use nonholonomic::{Dim, ScalarOf, VecOf};
 
 /// Instructions are counted from the beginning of the one function to that of the other.
 const COUNTED: [&str; 2] = ["*counted_step*", "*end_of_step*"];

@@ -11,8 +11,8 @@ use std::process::ExitCode;
 
 use nh_bench::contest::Random;
 use nh_bench::program;
-use nh_runtime::Dim;
-use nh_runtime::prelude::*;
+use nonholonomic::Dim;
+use nonholonomic::prelude::*;
 
 /// The states at which a derivative is evaluated.
 const SAMPLES: usize = 16;
@@ -123,10 +123,10 @@ macro_rules! variant {
         #[inline(never)]
         fn $function(
             system: &$System,
-            state: &<$System as nh_runtime::Dynamics>::State,
-            input: &<$System as nh_runtime::Dynamics>::Input,
-        ) -> <$System as nh_runtime::Dynamics>::State {
-            nh_runtime::Dynamics::derivative(system, 0.0, state, input)
+            state: &<$System as nonholonomic::Dynamics>::State,
+            input: &<$System as nonholonomic::Dynamics>::Input,
+        ) -> <$System as nonholonomic::Dynamics>::State {
+            nonholonomic::Dynamics::derivative(system, 0.0, state, input)
         }
         Variant {
             system: $system,
@@ -143,11 +143,11 @@ macro_rules! known {
         #[inline(never)]
         fn $function(
             _: &$System,
-            state: &<$System as nh_runtime::Dynamics>::State,
-            input: &<$System as nh_runtime::Dynamics>::Input,
-        ) -> <$System as nh_runtime::Dynamics>::State {
+            state: &<$System as nonholonomic::Dynamics>::State,
+            input: &<$System as nonholonomic::Dynamics>::Input,
+        ) -> <$System as nonholonomic::Dynamics>::State {
             const VALUE: $System = $value;
-            nh_runtime::Dynamics::derivative(&VALUE, 0.0, state, input)
+            nonholonomic::Dynamics::derivative(&VALUE, 0.0, state, input)
         }
         Variant {
             system: $system,

@@ -1,6 +1,6 @@
 //! A robot that balances on two wheels.
 
-use nh_runtime::prelude::*;
+use nonholonomic::prelude::*;
 
 use crate::contest::contest;
 

@@ -1,6 +1,6 @@
 //! Chaplygin's ball: three moments of inertia, rolling without slipping.
 
-use nh_runtime::prelude::*;
+use nonholonomic::prelude::*;
 
 use crate::contest::contest;
 

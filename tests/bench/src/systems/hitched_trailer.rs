@@ -1,6 +1,6 @@
 //! A robot with a trailer that is hitched behind its axle.
 
-use nh_runtime::prelude::*;
+use nonholonomic::prelude::*;
 
 use crate::contest::contest;
 

@@ -1,6 +1,6 @@
 //! A spherical pendulum on a unicycle.
 
-use nh_runtime::prelude::*;
+use nonholonomic::prelude::*;
 
 use crate::contest::contest;
 

@@ -1,6 +1,6 @@
 //! The roller racer, which is driven by turning its handlebar.
 
-use nh_runtime::prelude::*;
+use nonholonomic::prelude::*;
 
 use crate::contest::contest;
 

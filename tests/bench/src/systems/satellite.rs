@@ -1,6 +1,6 @@
 //! A satellite with three reaction wheels, its attitude by a quaternion.
 
-use nh_runtime::prelude::*;
+use nonholonomic::prelude::*;
 
 use crate::contest::contest;
 

@@ -4,7 +4,7 @@
 //! the axle of trailer i moves at C_i v and turns at −S_i v, S_i = C_{i−1} sin rel_i / d_i, so that the
 //! equations are those of one speed with a mass that depends on the angles.
 
-use nh_runtime::prelude::*;
+use nonholonomic::prelude::*;
 
 use crate::contest::contest;
 

@@ -6,12 +6,12 @@
 
 use std::rc::Rc;
 
-use nh_runtime::Dim;
-use nh_runtime::prelude::*;
 use nh_tests::catalogue::{Catalogued, Driven, name_of};
 use nh_tests::reference::{ParameterSet, System};
 use nh_tests::systems;
 use nh_work_precision::Study;
+use nonholonomic::Dim;
+use nonholonomic::prelude::*;
 
 /// Adds a declaration to the study of its motion.
 fn vary<S: Catalogued + Clone + 'static>(study: &mut Study, formulation: &str, set: &ParameterSet) {

@@ -33,7 +33,7 @@ pub(crate) fn measure(declaration: &Declaration) -> Compiled {
 /// The program, and the milliseconds that generating its code took.
 fn compile(declaration: &Declaration) -> Option<(PathBuf, f64)> {
     let dependencies = std::env::current_exe().ok()?.with_file_name("deps");
-    let runtime = newest(&dependencies, "libnh_runtime-")?;
+    let runtime = newest(&dependencies, "libnonholonomic-")?;
     let source = dependencies.with_file_name("nh-bench-member.rs");
     std::fs::write(&source, text(declaration)?).ok()?;
     let program = source.with_extension("");
@@ -55,7 +55,7 @@ fn compile(declaration: &Declaration) -> Option<(PathBuf, f64)> {
             .arg("-L")
             .arg(format!("dependency={}", dependencies.display()))
             .arg("--extern")
-            .arg(format!("nh_runtime={}", runtime.display()))
+            .arg(format!("nonholonomic={}", runtime.display()))
             .arg(&source)
             .stderr(Stdio::null())
             .status()
@@ -92,7 +92,7 @@ fn text(declaration: &Declaration) -> Option<String> {
         "{items}
         #[inline(never)]
         fn evaluated(
-            system: &{name}, state: &{name}State, input: &<{name} as nh_runtime::Dynamics>::Input,
+            system: &{name}, state: &{name}State, input: &<{name} as nonholonomic::Dynamics>::Input,
         ) -> {name}State {{
             system.derivative(0.0, state, input)
         }}

@@ -2,7 +2,7 @@
 
 use std::time::{Duration, Instant};
 
-use nh_core::program::{Cost, schedule};
+use nonholonomic_core::program::{Cost, schedule};
 use proc_macro2::TokenStream;
 
 use crate::emit::{Layout, emit};
@@ -63,7 +63,7 @@ fn once(declaration: &Declaration, attribute: TokenStream, item: TokenStream) ->
     let Ok(resolved) = resolve(&parsed, &mut layout) else { panic!("{}: names", declaration.name) };
     let parse = milliseconds(start);
     let start = Instant::now();
-    let system = match nh_core::compile::compile(resolved.model) {
+    let system = match nonholonomic_core::compile::compile(resolved.model) {
         Ok(system) => system,
         Err(violations) => panic!("{}: {violations:?}", declaration.name),
     };
