@@ -139,8 +139,8 @@ for ChainVelocity<T> {
     }
 }
 ::nonholonomic::__private::serde_impls! {
-    "::nonholonomic::__private::serde", "ChainVelocity", {} ChainVelocity[< T >] { w : [T;
-    3], u : T, }
+    "::nonholonomic::__private::serde", "ChainVelocity", {} ChainVelocity[< T >] { w :
+    [T; 3], u : T, }
 }
 #[automatically_derived]
 impl<T: ::nonholonomic::__private::Scalar> ::nonholonomic::__private::State

@@ -336,8 +336,8 @@ impl ::core::convert::From<
     }
 }
 ::nonholonomic::__private::serde_impls! {
-    "::nonholonomic::__private::serde", "RailsResidual", {} RailsResidual[] { constraint_1
-    : ::core::primitive::f64, r#type : ::core::primitive::f64, }
+    "::nonholonomic::__private::serde", "RailsResidual", {} RailsResidual[] {
+    constraint_1 : ::core::primitive::f64, r#type : ::core::primitive::f64, }
 }
 #[automatically_derived]
 impl ::nonholonomic::__private::Constrained for Rails {

@@ -370,8 +370,11 @@ impl Sleigh {
             * ::nonholonomic::__private::Scalar::mul_add(
                 self.m,
                 state.v1 * state.v1,
-                ::nonholonomic::__private::Scalar::mul_add(self.m, self.a * self.a, self.J)
-                    * (state.omega * state.omega),
+                ::nonholonomic::__private::Scalar::mul_add(
+                    self.m,
+                    self.a * self.a,
+                    self.J,
+                ) * (state.omega * state.omega),
             )
     }
     /// All quasi-velocities, as the constraints give them from the state.

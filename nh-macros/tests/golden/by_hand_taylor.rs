@@ -68,12 +68,20 @@ impl ::nonholonomic::__private::TaylorSeries for Sleigh {
             let e4 = ::nonholonomic::__private::Scalar::mul_add(
                 state.v1,
                 cos_theta_k,
-                ::nonholonomic::__private::Scalar::mul_add(state_k.v1, cos_theta, sums[2]),
+                ::nonholonomic::__private::Scalar::mul_add(
+                    state_k.v1,
+                    cos_theta,
+                    sums[2],
+                ),
             );
             let e5 = ::nonholonomic::__private::Scalar::mul_add(
                 state.v1,
                 sin_theta_k,
-                ::nonholonomic::__private::Scalar::mul_add(state_k.v1, sin_theta, sums[3]),
+                ::nonholonomic::__private::Scalar::mul_add(
+                    state_k.v1,
+                    sin_theta,
+                    sums[3],
+                ),
             );
             let e6 = state_k.v1 * m_a;
             let e7 = ::nonholonomic::__private::Scalar::mul_add(

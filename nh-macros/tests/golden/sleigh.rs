@@ -18,7 +18,11 @@ impl Sleigh {
             -state.omega,
             ::nonholonomic::__private::Scalar::mul_add(
                 m_a,
-                ::nonholonomic::__private::Scalar::mul_add(-self.b, state.omega, state.v1),
+                ::nonholonomic::__private::Scalar::mul_add(
+                    -self.b,
+                    state.omega,
+                    state.v1,
+                ),
                 self.c,
             ),
             input.torque,
@@ -60,7 +64,11 @@ impl Sleigh {
             state.omega,
             self.b * m_v1,
         );
-        ::nonholonomic::__private::Scalar::mul_add(-state.omega, e1, 0.5 * state.v1 * m_v1)
+        ::nonholonomic::__private::Scalar::mul_add(
+            -state.omega,
+            e1,
+            0.5 * state.v1 * m_v1,
+        )
     }
     /// The Jacobian of the derivative by the state, and by the inputs: entry (i, j) of the first matrix
     /// is the derivative of component i of ẋ by component j of the state.

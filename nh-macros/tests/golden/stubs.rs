@@ -370,8 +370,8 @@ impl ::core::convert::From<
     }
 }
 ::nonholonomic::__private::serde_impls! {
-    "::nonholonomic::__private::serde", "SleighMultipliers", {} SleighMultipliers[] { blade
-    : ::core::primitive::f64, }
+    "::nonholonomic::__private::serde", "SleighMultipliers", {} SleighMultipliers[] {
+    blade : ::core::primitive::f64, }
 }
 /// The constraints of [`Sleigh`] at a state: left-hand sides less right-hand sides.
 #[derive(
