@@ -1,0 +1,82 @@
+//! The stages of the macro outside a compiler.
+//!
+//! A procedural macro exports nothing but macros, so its stages are compiled into this library: tests,
+//! benchmarks and programs that watch a derivation run them on declarations as text. Tokens are those of
+//! `proc-macro2`, whose spans know lines and columns.
+
+extern crate proc_macro;
+
+mod declarations;
+
+#[allow(dead_code, unused_imports, reason = "the back end is the macro's")]
+#[path = "../../../nh-macros/src/emit/mod.rs"]
+mod emit;
+#[allow(dead_code, unused_imports, reason = "the back end is the macro's")]
+#[path = "../../../nh-macros/src/expand.rs"]
+mod expand;
+#[allow(dead_code, unused_imports, reason = "the back end is the macro's")]
+#[path = "../../../nh-macros/src/morphism.rs"]
+mod morphism;
+#[allow(dead_code, unused_imports, reason = "the back end is the macro's")]
+#[path = "../../../nh-macros/src/quotient.rs"]
+mod quotient;
+#[allow(dead_code, unused_imports, reason = "the back end is the macro's")]
+#[path = "../../../nh-macros/src/report.rs"]
+mod report;
+#[allow(dead_code, unused_imports, reason = "the back end is the macro's")]
+#[path = "../../../nh-macros/src/resolve/mod.rs"]
+mod resolve;
+#[allow(dead_code, unused_imports, reason = "the back end is the macro's")]
+#[path = "../../../nh-macros/src/suggest.rs"]
+mod suggest;
+#[allow(dead_code, unused_imports, reason = "the back end is the macro's")]
+#[path = "../../../nh-macros/src/syntax/mod.rs"]
+mod syntax;
+
+pub use declarations::{Declaration, declarations};
+use nonholonomic_core::model::Model;
+use nonholonomic_core::system::System;
+use proc_macro2::TokenStream;
+
+use emit::Layout;
+use syntax::Malformed;
+
+impl Declaration {
+    /// What the macro makes of it: the generated items, or errors and stubs.
+    #[must_use]
+    pub fn expanded(&self) -> TokenStream {
+        expand::nonholonomic(self.attribute.clone(), self.item.clone())
+    }
+
+    /// The declaration with its names resolved: what the engine reads.
+    ///
+    /// # Errors
+    /// The messages of the errors.
+    pub fn model(&self) -> Result<Model, Vec<String>> {
+        self.resolved().map(|(resolved, _)| resolved.model)
+    }
+
+    /// The derived system.
+    ///
+    /// # Errors
+    /// The messages of the errors.
+    pub fn system(&self) -> Result<System, Vec<String>> {
+        let (resolved, _) = self.resolved()?;
+        let origins = resolved.origins;
+        nonholonomic_core::compile::compile(resolved.model).map_err(|violations| {
+            violations.into_iter().map(|violation| origins.diagnostic(violation).to_string()).collect()
+        })
+    }
+
+    fn resolved(&self) -> Result<(resolve::Resolved, Layout), Vec<String>> {
+        let parsed = match syntax::parse(self.attribute.clone(), self.item.clone()) {
+            Ok(parsed) => parsed,
+            Err(Malformed { errors, .. }) => return Err(errors.iter().map(ToString::to_string).collect()),
+        };
+        let mut layout = Layout::of_struct(&parsed.structure, self.attribute.clone());
+        match resolve::resolve(&parsed, &mut layout) {
+            Ok(resolved) => Ok((resolved, layout)),
+            Err(unresolved) => Err(unresolved.errors.iter().map(ToString::to_string).collect()),
+        }
+    }
+}
