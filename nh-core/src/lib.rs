@@ -10,6 +10,7 @@
 pub mod algebra;
 pub mod check;
 pub mod compile;
+pub mod count;
 pub mod geometry;
 pub mod id;
 pub mod mechanics;

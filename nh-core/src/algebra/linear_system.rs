@@ -7,6 +7,7 @@
 
 use super::graph::Graph;
 use super::matrix::Matrix;
+use crate::count::Count;
 use crate::id::ExprId;
 
 /// A solved system, and what it was divided by.
@@ -175,13 +176,16 @@ impl Graph {
     }
 
     fn best_pivot(&self, inner: &[Vec<ExprId>], used: &[bool], row_of: &[usize]) -> Option<(usize, usize)> {
-        let mut best: Option<(u64, usize, usize)> = None;
+        let mut best: Option<(Count, usize, usize)> = None;
         for (row, entries) in inner.iter().enumerate().filter(|(row, _)| !used[*row]) {
             for (column, entry) in
                 entries.iter().enumerate().filter(|(column, _)| row_of[*column] == usize::MAX)
             {
-                let cost =
-                    if self.as_number(*entry).is_some() { 0 } else { 1 + self.operation_count(&[*entry]) };
+                let cost = if self.as_number(*entry).is_some() {
+                    Count::ZERO
+                } else {
+                    self.operation_count(&[*entry]) + 1
+                };
                 let better = best.is_none_or(|(least, ..)| cost < least);
                 if better && self.zero_test(*entry).is_nonzero() {
                     best = Some((cost, row, column));

@@ -14,6 +14,7 @@ use super::routh::{self, Leveled, on_levels};
 use super::{Proved, fence};
 use crate::algebra::{Accuracy, Graph};
 use crate::check;
+use crate::count::Count;
 use crate::geometry::ConstraintDistribution;
 use crate::id::{ExprId, Id};
 use crate::mechanics::{
@@ -203,12 +204,12 @@ fn cheapest_derivative(proved: &mut Proved, candidates: &[ReducedEquations], cal
         definiteness(&proved.model.graph, &first.mass, &parameters, &proved.facts)
     });
     let graph = &mut proved.model.graph;
-    let lengths: Vec<u64> = candidates.iter().map(|candidate| candidate.length(graph)).collect();
+    let lengths: Vec<Count> = candidates.iter().map(|candidate| candidate.length(graph)).collect();
     let shortest = lengths.iter().copied().min().unwrap_or_default();
     let mut procedures = Vec::with_capacity(candidates.len());
     let mut compared: Vec<Vec<ExprId>> = Vec::new();
     for (candidate, length) in candidates.iter().zip(lengths) {
-        if length > shortest + LONGER && 2 * length > 3 * shortest {
+        if length > shortest + LONGER && length * 2 > shortest * 3 {
             continue;
         }
         let mut procedure = calls.clone();

@@ -6,6 +6,7 @@
 //! are also looked at where one symbol is larger than all others, and computed another way if that is no dearer.
 
 use crate::algebra::{Accuracy, Graph};
+use crate::count::Count;
 use crate::id::{ExprId, SymbolId};
 use crate::mechanics::{Definition, Procedure};
 use crate::program::{Cost, Program, error_growth, reading_in_vain, schedule_roughly, units_lost};
@@ -106,7 +107,7 @@ impl Rated {
 
     /// Whether outputs with so many operations, written out, are worth simplifying. What elimination leaves loses
     /// digits, too, and is not shorter when written out, unless a symbol disappears from it.
-    fn is_worth_writing_out(&self, operations: u64) -> bool {
+    fn is_worth_writing_out(&self, operations: Count) -> bool {
         let disappears = || reading_in_vain(&self.program).contains(&true);
         operations <= SHORT || (operations <= WRITTEN_OUT && disappears())
     }

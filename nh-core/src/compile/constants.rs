@@ -2,6 +2,7 @@
 
 use super::adapted::cheapest;
 use crate::algebra::{Graph, Substitution};
+use crate::count::Count;
 use crate::mechanics::{Definition, Procedure};
 use crate::system::System;
 
@@ -42,7 +43,7 @@ fn shorten(graph: &mut Graph, function: &mut Procedure) {
 }
 
 impl Procedure {
-    fn length(&self, graph: &Graph) -> u64 {
+    fn length(&self, graph: &Graph) -> Count {
         graph.operation_count(&self.values(graph))
     }
 

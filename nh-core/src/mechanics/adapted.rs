@@ -3,6 +3,7 @@
 use super::euler_lagrange::LagrangianSystem;
 use super::procedure::{Definition, Procedure};
 use crate::algebra::{Graph, Matrix};
+use crate::count::Count;
 use crate::geometry::ConstraintDistribution;
 use crate::id::{ExprId, SymbolId};
 
@@ -26,7 +27,7 @@ pub struct ReducedEquations {
 impl ReducedEquations {
     /// The work of evaluating all parts before anything is solved, as [`Graph::operation_count`].
     #[must_use]
-    pub fn length(&self, graph: &Graph) -> u64 {
+    pub fn length(&self, graph: &Graph) -> Count {
         let mut parts = self.definitions.values(graph);
         parts.extend(self.mass.iter().flatten().chain(&self.force).chain(&self.rates));
         graph.operation_count(&parts)

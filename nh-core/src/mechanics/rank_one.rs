@@ -3,6 +3,7 @@
 
 use super::procedure::Procedure;
 use crate::algebra::{Facts, Graph, Matrix, Node, Rational};
+use crate::count::Count;
 use crate::id::ExprId;
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -134,7 +135,8 @@ impl RankOne {
             from_it.collect()
         };
         let choices: Vec<Vec<ExprId>> = (0..self.diagonal.len()).map(differences).collect();
-        let length = |choice: &Vec<ExprId>| choice.iter().map(|e| graph.operation_count(&[*e])).sum::<u64>();
+        let length =
+            |choice: &Vec<ExprId>| choice.iter().map(|e| graph.operation_count(&[*e])).sum::<Count>();
         choices.into_iter().enumerate().min_by_key(|(_, choice)| length(choice)).unwrap_or_default()
     }
 }

@@ -10,6 +10,7 @@ use super::pair::Pair;
 use super::procedure::{Definition, Procedure};
 use super::rank_one::RankOne;
 use crate::algebra::{Graph, Matrix};
+use crate::count::Count;
 use crate::id::{ExprId, SymbolId};
 
 /// Whether elimination may go down the diagonal.
@@ -100,7 +101,7 @@ fn solve_definite(
         let values = way.with_outputs(solution.clone()).values(graph);
         graph.operation_count(&values)
     });
-    let costs: Vec<u64> = costs.collect();
+    let costs: Vec<Count> = costs.collect();
     let mut best = 0;
     for k in 1..ways.len() {
         if costs[k] < costs[best] {

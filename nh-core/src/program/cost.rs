@@ -2,6 +2,7 @@
 
 use super::fuse::constants;
 use super::step::{Program, Step, Value};
+use crate::count::Count;
 use crate::id::Id;
 use std::fmt;
 
@@ -26,16 +27,16 @@ pub struct Cost {
 
 /// Cycles from operands to result in double precision, rounded from the tables for x86-64 cores
 /// since Skylake and for Cortex-A76; elementary functions from measurements of common libraries.
-const ADDITION: usize = 4;
-const MULTIPLICATION: usize = 4;
-const MULTIPLY_ADD: usize = 4;
-const DIVISION: usize = 14;
-const SQUARE_ROOT: usize = 18;
-const SIN_COS: usize = 70;
-const FUNCTION: usize = 60;
+const ADDITION: u64 = 4;
+const MULTIPLICATION: u64 = 4;
+const MULTIPLY_ADD: u64 = 4;
+const DIVISION: u64 = 14;
+const SQUARE_ROOT: u64 = 18;
+const SIN_COS: u64 = 70;
+const FUNCTION: u64 = 60;
 
 /// Instructions of the runtime's sine and cosine.
-const SIN_COS_INSTRUCTIONS: usize = 40;
+const SIN_COS_INSTRUCTIONS: u64 = 40;
 
 impl Cost {
     /// The cost of one evaluation.
@@ -78,11 +79,12 @@ impl Cost {
             }
             Step::Solve { right, .. } => {
                 // elimination, then substitution forth and back
-                let n = right.len();
-                let updates = n * (n * n - 1) / 3 + n * (n - 1) / 2;
-                self.multiply_adds += updates;
-                self.multiplications += n * n.saturating_sub(1) / 2;
-                self.divisions += n;
+                let n = Count::from(right.len());
+                let pairs = n * (n - 1) / 2;
+                let updates = n * (n * n - 1) / 3 + pairs;
+                self.multiply_adds = (Count::from(self.multiply_adds) + updates).to_usize();
+                self.multiplications = (Count::from(self.multiplications) + pairs).to_usize();
+                self.divisions += right.len();
             }
         }
     }
@@ -90,32 +92,35 @@ impl Cost {
     /// All operations.
     #[must_use]
     pub fn operations(&self) -> usize {
-        self.additions
-            + self.multiplications
-            + self.multiply_adds
-            + self.divisions
-            + self.square_roots
-            + self.sin_cos
-            + self.functions
+        self.weighed([1; 7]).to_usize()
     }
 
     /// Roughly how many machine instructions one evaluation is, with the runtime's sine and cosine in line and
     /// other functions called.
     #[must_use]
     pub fn instructions(&self) -> usize {
-        self.operations() + self.sin_cos * SIN_COS_INSTRUCTIONS
+        self.weighed([1, 1, 1, 1, 1, 1 + SIN_COS_INSTRUCTIONS, 1]).to_usize()
     }
 
     /// The latencies of all operations together, in cycles: what schedules are compared by.
     #[must_use]
     pub fn weighted(&self) -> usize {
-        self.additions * ADDITION
-            + self.multiplications * MULTIPLICATION
-            + self.multiply_adds * MULTIPLY_ADD
-            + self.divisions * DIVISION
-            + self.square_roots * SQUARE_ROOT
-            + self.sin_cos * SIN_COS
-            + self.functions * FUNCTION
+        self.weighed([ADDITION, MULTIPLICATION, MULTIPLY_ADD, DIVISION, SQUARE_ROOT, SIN_COS, FUNCTION])
+            .to_usize()
+    }
+
+    /// The sum of all counts with weights, in the order of the fields.
+    fn weighed(&self, weights: [u64; 7]) -> Count {
+        let counts = [
+            self.additions,
+            self.multiplications,
+            self.multiply_adds,
+            self.divisions,
+            self.square_roots,
+            self.sin_cos,
+            self.functions,
+        ];
+        counts.into_iter().zip(weights).map(|(count, weight)| Count::from(count) * weight).sum()
     }
 }
 

@@ -117,7 +117,9 @@ fn flatten(arena: &mut Arena) {
         for &(base, exponent) in factors.iter() {
             match arena.get(base) {
                 Nary::Product(inner) if uses[base.index()] == 1 => {
-                    let powers = inner.iter().map(|(b, e)| Some((*b, e.checked_mul(exponent)?)));
+                    let powers = inner.iter().map(|(b, e)| {
+                        Some((*b, e.checked_mul(exponent).filter(|product| *product != i32::MIN)?))
+                    });
                     if let Some(powers) = powers.collect::<Option<Vec<_>>>() {
                         flat.extend(powers);
                         changed = true;

@@ -84,6 +84,11 @@ pub(super) struct Arena {
     pub(super) parameters: FxHashSet<SymbolId>,
 }
 
+/// The sum of two exponents, if it and its opposite fit.
+fn exponents_together(first: i32, second: i32) -> Option<i32> {
+    first.checked_add(second).filter(|sum| *sum != i32::MIN)
+}
+
 impl Arena {
     pub(super) fn intern(&mut self, nary: Nary) -> Term {
         match self.known.entry(nary) {
@@ -151,7 +156,10 @@ impl Arena {
         for (base, exponent) in factors {
             match merged.last_mut() {
                 // two powers whose exponents together overflow stay apart
-                Some((last, sum)) if *last == base && sum.checked_add(exponent).is_some() => *sum += exponent,
+                Some((last, sum)) if *last == base => match exponents_together(*sum, exponent) {
+                    Some(together) => *sum = together,
+                    None => merged.push((base, exponent)),
+                },
                 _ => merged.push((base, exponent)),
             }
         }

@@ -8,6 +8,7 @@ use proptest::prelude::*;
 use std::collections::HashMap;
 
 mod accuracy;
+mod exponents;
 
 /// The value of a procedure, node by node.
 fn evaluate(graph: &Graph, procedure: &Procedure, symbol: impl Fn(SymbolId) -> f64) -> Vec<f64> {

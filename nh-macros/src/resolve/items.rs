@@ -2,6 +2,8 @@
 
 use std::rc::Rc;
 
+use nonholonomic_core::count::Count;
+
 use super::array::{Array, Shape};
 use super::context::Context;
 use super::reports::{Outcome, Reported};
@@ -101,10 +103,10 @@ impl Resolver {
         let bounds = |k: usize| (values(k).min().unwrap_or(0), values(k).max().map_or(0, |most| most + 1));
         let lengths: Vec<usize> = (0..binders.len())
             .map(bounds)
-            .map(|(least, end)| usize::try_from(end - least).unwrap_or(0))
+            .map(|(least, end)| usize::try_from(end.saturating_sub(least)).unwrap_or(0))
             .collect();
         if let Some(last) = binders.last()
-            && lengths.iter().product::<usize>() != entries.len()
+            && lengths.iter().copied().map(Count::from).product::<Count>() != Count::from(entries.len())
         {
             let error = Diagnostic::new(last.extent, "the rows of a `let` have the same length")
                 .way_out("let the second range not depend on the first index");

@@ -52,12 +52,12 @@ fn exact(text: &str, parts: &Parts<'_>, extent: Extent) -> Result<Number, Diagno
     let power: String = parts.power.chars().filter(|c| !"_+".contains(*c)).collect();
     // a power that does not fit is as far out of range as this one
     let power: i64 = if power.is_empty() { 0 } else { power.parse().unwrap_or(i64::from(i32::MAX)) };
-    exponent += power;
+    exponent = exponent.saturating_add(power);
     if digits.is_empty() {
         return Ok(Number { text: text.to_owned(), digits: "0".to_owned(), exponent: 0 });
     }
     match i32::try_from(exponent) {
-        Ok(exponent) if exponent.abs() <= limits::EXPONENT => {
+        Ok(exponent) if (-limits::EXPONENT..=limits::EXPONENT).contains(&exponent) => {
             Ok(Number { text: text.to_owned(), digits, exponent })
         }
         _ => Err(Diagnostic::new(extent, "a power of ten far beyond any floating-point number")
@@ -172,6 +172,13 @@ mod tests {
             ),
         ] {
             assert_eq!(read(text), Err(message.to_owned()), "{text}");
+        }
+        // at the ends of the integers
+        for power in ["2147483647", "-2147483648", "9223372036854775807", "-9223372036854775808"] {
+            for digits in ["1", ".5", "0.5", "1_0.25"] {
+                let message = read(&format!("{digits}e{power}")).expect_err(power);
+                assert!(message.starts_with("a power of ten far beyond"), "{message}");
+            }
         }
         assert_eq!(
             read(&"9".repeat(1001)),

@@ -2,6 +2,7 @@
 
 use crate::algebra::graph::{Function, Function2, Graph, Node};
 use crate::algebra::number::Rational;
+use crate::count::Count;
 use crate::id::ExprId;
 use rustc_hash::FxHashSet;
 
@@ -18,12 +19,12 @@ impl Graph {
     /// division for 5, a function 20 – sine and cosine of one angle together once. Whatever
     /// occurs several times counts once.
     #[must_use]
-    pub fn operation_count(&self, roots: &[ExprId]) -> u64 {
-        self.operation_count_within(roots, usize::MAX).unwrap_or(u64::MAX)
+    pub fn operation_count(&self, roots: &[ExprId]) -> Count {
+        self.operation_count_within(roots, usize::MAX).unwrap_or(Count::TOO_MANY)
     }
 
     /// The cost, if there are at most `limit` distinct expressions.
-    pub(super) fn operation_count_within(&self, roots: &[ExprId], limit: usize) -> Option<u64> {
+    pub(super) fn operation_count_within(&self, roots: &[ExprId], limit: usize) -> Option<Count> {
         let (mut tally, mut found) = (Tally::default(), 0);
         self.each_reachable(roots, |id| {
             found += 1;
@@ -36,7 +37,7 @@ impl Graph {
 
 #[derive(Default)]
 struct Tally {
-    cost: u64,
+    cost: Count,
     powers: FxHashSet<(ExprId, Rational)>,
     angles: FxHashSet<(bool, ExprId)>,
 }
@@ -46,13 +47,14 @@ impl Tally {
         match node {
             Node::Number(_) | Node::Pi | Node::Constant(_) | Node::Symbol(_) => {}
             Node::Sum { constant, terms } => {
-                self.cost += count(terms.len()) - 1 + u64::from(!constant.is_zero());
-                self.cost += count(terms.iter().filter(|(_, c)| !is_unit(c)).count());
+                self.cost += Count::from(terms.len()) - 1 + u64::from(!constant.is_zero());
+                self.cost += Count::from(terms.iter().filter(|(_, c)| !is_unit(c)).count());
             }
             Node::Product { coefficient, factors } => {
-                let below = count(factors.iter().filter(|(_, exponent)| exponent.is_negative()).count());
-                let above = count(factors.len()) - below + u64::from(!is_unit(coefficient));
-                self.cost += above.saturating_sub(1) + below.saturating_sub(1);
+                let below =
+                    Count::from(factors.iter().filter(|(_, exponent)| exponent.is_negative()).count());
+                let above = Count::from(factors.len()) - below + u64::from(!is_unit(coefficient));
+                self.cost += (above - 1) + (below - 1);
                 self.cost += if below > 0 { DIVISION } else { 0 };
                 for (base, exponent) in factors.iter() {
                     if is_unit(exponent) {
@@ -95,8 +97,4 @@ fn power(exponent: &Rational) -> u64 {
 fn chain(n: i64) -> u64 {
     let n = n.unsigned_abs().max(1);
     u64::from(n.ilog2()) + u64::from(n.count_ones()) - 1
-}
-
-fn count(n: usize) -> u64 {
-    u64::try_from(n).unwrap_or(u64::MAX / 4)
 }

@@ -31,6 +31,7 @@ mod trigonometry;
 use super::accuracy::Accuracy;
 use super::graph::Function::{Cos, Cosh, Exp, Sin, Sinh};
 use super::graph::{Graph, Node};
+use crate::count::Count;
 use crate::id::ExprId;
 use reader::{Reader, Style};
 use rustc_hash::FxHashMap;
@@ -252,7 +253,7 @@ impl Simplifier {
 /// The cheapest form of an expression so far.
 struct Choice {
     best: ExprId,
-    cost: u64,
+    cost: Count,
     /// The same with simplified operands, from which the other forms come.
     rebuilt: ExprId,
     /// What is left of the budget.
@@ -270,14 +271,14 @@ impl Choice {
         let Some(cost) = graph.operation_count_within(&[id], CONE.min(work)) else {
             return Self {
                 best: rebuilt,
-                cost: 0,
+                cost: Count::ZERO,
                 rebuilt,
                 work: work.saturating_sub(CONE),
                 considered: Vec::new(),
                 unexpanded: None,
             };
         };
-        let counted = usize::try_from(cost).unwrap_or(CONE);
+        let counted = usize::try_from(cost.get()).unwrap_or(CONE);
         let work = work.saturating_sub(counted);
         let mut choice = Self { best: id, cost, rebuilt, work, considered: vec![id], unexpanded: None };
         choice.consider(graph, rebuilt);
