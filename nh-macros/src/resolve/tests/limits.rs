@@ -76,6 +76,20 @@ fn growing_sums() {
 }
 
 #[test]
+fn indices_at_the_ends_of_the_integers() {
+    for (ranges, found) in [
+        ("i in 0..3, j in (i - 1) * 9e18..(i - 1) * 9e18 + 1", "the rows of a `let` have the same length"),
+        ("i in 0..2, j in i * 9e18..i * 9e18 + 2", "the rows of a `let` have the same length"),
+        ("i in -9223372036854775807..-9223372036854775806", "the indices of a `let` count from 0"),
+        ("i in 9223372036854775806..9223372036854775807", "the indices of a `let` count from 0"),
+        ("i in -9e18..9e18", "a range of 9223372036854775807 values"),
+    ] {
+        let declaration = format!("base {{ x }} lagrangian {{ let a[{ranges}] = x; x }}");
+        assert_eq!(first_lines(&declaration, "struct S;"), [found], "{ranges}");
+    }
+}
+
+#[test]
 fn dimensions() {
     assert_eq!(
         messages("base { x[4096] } lagrangian { x[0] }", "struct S;"),
