@@ -170,6 +170,15 @@ pub enum IntegrationError {
         /// Its error estimate, in units of the tolerance.
         error: f64,
     },
+    /// A step of the given length would be lost where time is so coarse.
+    UnresolvedStep {
+        /// The time at the start of the step.
+        time: f64,
+        /// Its length.
+        step: f64,
+        /// How far apart times are there, up to a factor of two.
+        resolution: f64,
+    },
     /// The equations of an implicit method were not solved.
     NoConvergence {
         /// The time at the start of the step.
@@ -253,6 +262,11 @@ impl Display for IntegrationError {
                 "at t = {time:?} a step of length {step:?} still has {error:?} times the permitted \
                  error, and the time resolves no shorter one: the solution, the mass matrix or the \
                  constraints may be singular near there, or the tolerance too small"
+            ),
+            Self::UnresolvedStep { time, step, resolution } => write!(
+                f,
+                "a step of length {step:?} is lost at t = {time:?}, where time is resolved to \
+                 {resolution:.1e}: take longer steps, or count time from an origin nearer by"
             ),
             Self::NoConvergence { time, step, iterations, residual } => write!(
                 f,

@@ -123,8 +123,10 @@ impl<S: Dynamics, M: Method<S>> Integrator<S, M> {
         }
     }
 
-    /// Permits at most `limit` steps in one call of [`advance_to`](Self::advance_to); ten million
-    /// if not given.
+    /// Permits at most `limit` steps in one call of [`advance_to`](Self::advance_to) and of whatever
+    /// else takes steps: [`step_towards`](Self::step_towards), [`advance_through`](Self::advance_through),
+    /// [`sample`](Self::sample), [`advance_until`](Self::advance_until),
+    /// [`advance_watching`](Self::advance_watching). Ten million if not given.
     #[must_use]
     pub fn max_steps(mut self, limit: u64) -> Self {
         self.max_steps = limit;
@@ -211,7 +213,7 @@ where
     /// rather than passing it. At the target already, it does nothing.
     ///
     /// # Errors
-    /// As [`step`](Self::step).
+    /// As [`step`](Self::step), and [`IntegrationError::TooManySteps`] where none is permitted.
     #[inline]
     pub fn step_towards(&mut self, target: ScalarOf<S>) -> Result<(), IntegrationError> {
         self.admit()?;
@@ -219,6 +221,7 @@ where
         if self.time == target {
             return Ok(());
         }
+        self.limit_steps(0, target)?;
         self.advance(Some(target))
     }
 
@@ -231,12 +234,17 @@ where
     /// the last good step; a further call continues from there.
     #[inline]
     pub fn advance_to(&mut self, target: ScalarOf<S>) -> Result<(), IntegrationError> {
+        self.travel(target, self.max_steps).map(|_| ())
+    }
+
+    /// As [`advance_to`](Self::advance_to), with a limit to the steps of this leg; their number.
+    #[inline]
+    pub(crate) fn travel(&mut self, target: ScalarOf<S>, limit: u64) -> Result<u64, IntegrationError> {
         self.admit()?;
         check_time(target)?;
         let mut place = Place { time: self.time, state: self.state, before: None };
-        let leg = (target, self.max_steps);
         let Self { method, system, input, memory, statistics, .. } = self;
-        let result = method.travel(system, input, &mut place, leg, memory, statistics);
+        let result = method.travel(system, input, &mut place, (target, limit), memory, statistics);
         if let Some((time, state)) = place.before {
             self.origin = Some(Origin { time, state, input: self.input });
             self.beyond = None;
@@ -244,17 +252,24 @@ where
         self.time = place.time;
         self.state = place.state;
         let steps = result?;
-        if self.time == target { Ok(()) } else { self.limit_steps(steps, target) }
+        if self.time == target { Ok(steps) } else { Err(self.too_many_steps(target)) }
     }
 
-    /// Refuses a step beyond the limit.
+    /// Refuses a step beyond the limit of a call that has taken this many.
     #[inline]
     pub(crate) fn limit_steps(&self, steps: u64, target: ScalarOf<S>) -> Result<(), IntegrationError> {
-        if steps < self.max_steps {
-            return Ok(());
-        }
+        if steps < self.max_steps { Ok(()) } else { Err(self.too_many_steps(target)) }
+    }
+
+    #[cold]
+    fn too_many_steps(&self, target: ScalarOf<S>) -> IntegrationError {
         let (time, target) = (self.time.to_f64(), target.to_f64());
-        Err(IntegrationError::TooManySteps { time, target, limit: steps })
+        IntegrationError::TooManySteps { time, target, limit: self.max_steps }
+    }
+
+    /// The most steps of one call.
+    pub(crate) fn step_limit(&self) -> u64 {
+        self.max_steps
     }
 
     /// Checks what the user gave, unless that has been done.

@@ -45,8 +45,9 @@ where
         stops: impl IntoIterator<Item = ScalarOf<S>>,
         mut visit: impl FnMut(&mut Self),
     ) -> Result<(), IntegrationError> {
+        let mut left = self.step_limit();
         for stop in stops {
-            self.advance_to(stop)?;
+            left = left.saturating_sub(self.travel(stop, left)?);
             visit(self);
         }
         Ok(())
@@ -66,6 +67,7 @@ where
         let times = times.into_iter();
         let Some(last) = times.clone().last() else { return Ok(()) };
         let mut times = times.peekable();
+        let mut steps = 0;
         loop {
             let dense = self.dense();
             while let Some(&time) = times.peek()
@@ -78,7 +80,9 @@ where
                 // a time that has been passed already
                 return times.next().map_or(Ok(()), |time| dense.at(time).map(|_| ()));
             }
+            self.limit_steps(steps, last)?;
             self.step_towards(last)?;
+            steps += 1;
         }
     }
 

@@ -11,7 +11,9 @@ use crate::{Dim, DimOf, Dynamics, IntegrationError, Real, Scalar, ScalarOf, Stat
 ///
 /// Named by its methods: [`Euler`](crate::Euler), [`Rk4`](crate::Rk4), …; and adaptive explicit methods
 /// have it too, `Dop853::fixed(0.1)`. Times are n h from where the integration started or last
-/// landed, computed from n, so that they do not accumulate round-off.
+/// landed, computed from n, so that they do not accumulate round-off. The last step before a target is
+/// shortened to end there. Steps that time is too coarse for, as of a millisecond at t = 10¹⁵ s, are refused:
+/// [`IntegrationError::UnresolvedStep`].
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Fixed<P, T> {
     pub(in crate::methods) scheme: P,
@@ -171,7 +173,7 @@ where
         memory: &mut Self::Memory,
         statistics: &mut Statistics,
     ) -> Result<Arrival<S>, IntegrationError> {
-        let leg = memory.grid.next(start.time, self.step, target);
+        let leg = memory.grid.next(start.time, self.step, target)?;
         let x = start.state.to_array();
         let increment = self.scheme.increment(start, &x, leg.length, &mut memory.work, statistics)?;
         let arrival = self.arrive(start, &leg, &displaced(&x, T::ONE, &increment))?;
@@ -324,7 +326,7 @@ where
         statistics: &mut Statistics,
     ) -> Result<Arrival<S>, IntegrationError> {
         let Carried { memory, carry } = memory;
-        let leg = memory.grid.next(start.time, self.method.step, target);
+        let leg = memory.grid.next(start.time, self.method.step, target)?;
         let x = start.state.to_array();
         let scheme = &self.method.scheme;
         let increment = scheme.increment(start, &x, leg.length, &mut memory.work, statistics)?;

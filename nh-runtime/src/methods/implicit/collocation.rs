@@ -24,6 +24,9 @@ pub(super) struct Collocation<const S: usize> {
     pub(super) to_blocks: [[f64; S]; S],
 }
 
+/// So many times its length the polynomial of a step is continued at most.
+const FARTHEST: f64 = 32.0;
+
 /// The factorized matrices λ/h − ∂f/∂x of the iteration.
 pub(super) struct Matrices<S: Dynamics> {
     /// None with two stages.
@@ -172,15 +175,19 @@ impl<const N: usize> Collocation<N> {
         sum
     }
 
-    /// Starting values for a step that is `ratio` times as long as the last one, from its polynomial.
+    /// Starting values for a step that is `ratio` times as long as the last one, from its polynomial; zero where
+    /// that says nothing so far away.
     pub(super) fn extrapolated<T: Real, V: Copy + AsRef<[T]> + AsMut<[T]>>(
         &self,
         zero: V,
         z: &[V; N],
         ratio: T,
     ) -> [V; N] {
-        let end = self.polynomial(zero, z, T::ONE);
         let mut next = [zero; N];
+        if ratio.abs() > T::from_f64(FARTHEST) {
+            return next;
+        }
+        let end = self.polynomial(zero, z, T::ONE);
         for (next, node) in next.iter_mut().zip(&self.nodes) {
             let there = self.polynomial(zero, z, T::ONE + ratio * T::from_f64(*node));
             *next = displaced(&there, -T::ONE, &end);

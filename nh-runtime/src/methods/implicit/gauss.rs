@@ -2,7 +2,7 @@
 
 use super::collocation::{Collocation, Matrices, weighted};
 use super::linearization::{Analytic, FiniteDifferences, Linearization};
-use super::newton::{MOST_ITERATIONS, SLOW, check_tolerance, once, refusal, size};
+use super::newton::{MOST_ITERATIONS, SLOW, check_tolerance, is_first_term, once, refusal, size};
 use crate::arrays::{displaced, first_non_finite};
 use crate::methods::fixed::{self, Fixed, OneStep, Slopes};
 use crate::methods::{Arrival, Start};
@@ -119,9 +119,6 @@ macro_rules! constructors {
 constructors!(GaussLegendre4, 2);
 constructors!(GaussLegendre6, 3);
 
-/// Up to this multiple of the least number 1/h has no room, and a step is its first term: none, for the length zero.
-const SHORT: f64 = 8.0;
-
 /// What a Gauss method keeps: the stages of the last step, and the matrices while they serve.
 pub struct Work<S: Dynamics, const N: usize> {
     /// The length of the last step, and its stages.
@@ -200,7 +197,7 @@ where
 {
     let x = &start.state.to_array();
     let zero = DimOf::<S>::vec(T::ZERO);
-    if h.abs() <= T::from_f64(SHORT) * T::MIN_POSITIVE {
+    if is_first_term(h) {
         statistics.evaluations += 1;
         let slope = start.derivative();
         if first_non_finite::<T>(slope.as_ref()).is_some() {

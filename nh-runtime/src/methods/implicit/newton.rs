@@ -10,6 +10,14 @@ pub(super) const MOST_ITERATIONS: u32 = 50;
 /// The ratio of successive corrections from which a new Jacobian is formed.
 pub(in crate::methods) const SLOW: f64 = 0.1;
 
+/// Up to this multiple of the least number 1/h has no room.
+const SHORT: f64 = 8.0;
+
+/// Whether a step is so short that its first term is all of it: none, for the length zero.
+pub(super) fn is_first_term<T: Real>(h: T) -> bool {
+    h.abs() <= T::from_f64(SHORT) * T::MIN_POSITIVE
+}
+
 /// Checks the tolerance of an iteration.
 pub(in crate::methods) fn check_tolerance<T: Real>(tolerance: T) -> Result<(), IntegrationError> {
     if tolerance > T::ZERO && tolerance.is_finite() {

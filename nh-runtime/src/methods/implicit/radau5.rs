@@ -2,7 +2,7 @@
 
 use super::collocation::{Collocation, Matrices, weighted};
 use super::linearization::{Analytic, FiniteDifferences, Linearization};
-use super::newton::size;
+use super::newton::{is_first_term, size};
 use crate::arrays::{displaced, first_non_finite, nought};
 use crate::dense::hermite;
 use crate::methods::adaptive::{Adaptive, Scheme, Trial};
@@ -238,6 +238,13 @@ where
         let x = start.state.to_array();
         let zero = DimOf::<S>::vec(ScalarOf::<S>::ZERO);
         let infinite = one / ScalarOf::<S>::ZERO;
+        if is_first_term(h) {
+            let slope = work.first;
+            work.trial = RADAU.nodes.map(|node| displaced(&zero, ScalarOf::<S>::from_f64(node) * h, &slope));
+            work.again = true;
+            let state = displaced(&x, h, &slope);
+            return Trial { state, error: nought(&state) };
+        }
         let old = work.jacobian.is_some() && !work.again;
         let mut matrices = self.matrices(start, h, work, statistics);
         let mut solved = Self::solve(start, h, &matrices, tolerance, work, statistics);

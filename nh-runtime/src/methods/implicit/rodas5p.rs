@@ -6,6 +6,7 @@ use table::{A, C, DENSE, GAMMA, NODES, TIME};
 
 use super::collocation::{shifted, weighted};
 use super::linearization::{Analytic, FiniteDifferences, Linearization};
+use super::newton::is_first_term;
 use crate::arrays::{all_finite, displaced, first_non_finite, nought};
 use crate::linear::Factors;
 use crate::methods::adaptive::{Adaptive, Scheme, Trial};
@@ -99,6 +100,10 @@ impl<J> Rodas<J> {
         let one = ScalarOf::<S>::ONE;
         let zero = DimOf::<S>::vec(ScalarOf::<S>::ZERO);
         let x = start.state.to_array();
+        if is_first_term(h) {
+            work.stages = [zero; 8];
+            return displaced(&x, h, &work.first);
+        }
         let matrix = shifted::<S>(&work.jacobian, (h * w(GAMMA)).recip());
         let factors = Factors::<DimOf<S>, ScalarOf<S>>::new(&matrix);
         work.stages = [zero; 8];

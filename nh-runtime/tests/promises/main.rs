@@ -1,0 +1,8 @@
+//! What the documentation of the runtime promises, as laws over every method in double and in single precision.
+
+#![allow(clippy::float_cmp)] // exact times are meant
+#![allow(clippy::needless_pass_by_value)] // one macro calls all laws, with methods as values
+
+mod limits;
+mod systems;
+mod time;

@@ -1,0 +1,187 @@
+//! Time: where a run starts on the clock does not matter, it ends where it was asked to, and what time cannot
+//! resolve is refused.
+
+use nonholonomic::Method;
+use nonholonomic::prelude::*;
+
+use crate::systems::{Contact, contact, distance, every_adaptive, every_fixed, start};
+
+/// A run of length `length` from t₀: its end, and the steps.
+fn run<T: Real, M: Method<Contact<T>>>(
+    method: M,
+    t0: T,
+    length: T,
+) -> Result<(Integrator<Contact<T>, M>, u64), IntegrationError> {
+    let mut sim = Integrator::new(contact(), method, t0, start());
+    sim.advance_to(t0 + length)?;
+    let steps = sim.statistics().steps;
+    Ok((sim, steps))
+}
+
+/// The system does not depend on time, so that only the rounding of times tells two clocks apart.
+fn clocks<T: Real, M: Method<Contact<T>> + Clone>(name: &str, method: M) {
+    let ulp = |t: T| T::EPSILON.to_f64() * t.abs().to_f64();
+    for length in [0.125, -0.125, 1.0] {
+        let length = T::from_f64(length);
+        let (reference, _) = run(method.clone(), T::ZERO, length).unwrap();
+        for exponent in [0, 4, 8, 12, 16, 20, 30, 40, 50] {
+            for sign in [1.0, -1.0] {
+                let t0 = T::from_f64(sign * 2.0_f64.powi(exponent));
+                if (t0 + length) - t0 != length {
+                    continue;
+                }
+                match run(method.clone(), t0, length) {
+                    Ok((sim, _)) => {
+                        assert_eq!(sim.time(), t0 + length);
+                        // speeds are of the order of one; a method chooses its steps anew on another clock
+                        let permitted = 40.0 * T::DEFAULT_TOLERANCE.to_f64() + 20.0 * ulp(t0);
+                        let off = distance(sim.state(), reference.state());
+                        assert!(off < permitted, "{name} from {t0:?} by {length:?}: {off:e}");
+                    }
+                    Err(IntegrationError::UnresolvedStep { time, step, resolution }) => {
+                        assert!(resolution > step && ulp(T::from_f64(time)) >= resolution, "{name}");
+                    }
+                    Err(IntegrationError::StepUnderflow { step, .. }) => {
+                        assert!(step.abs() < 10.0 * ulp(t0), "{name} from {t0:?}");
+                    }
+                    Err(other) => panic!("{name} from {t0:?} by {length:?}: {other}"),
+                }
+            }
+        }
+    }
+}
+
+#[test]
+fn where_the_clock_stands_does_not_matter() {
+    every_fixed!(clocks, 0.01);
+    every_adaptive!(clocks::<f64, _>);
+    every_fixed!(clocks, 0.01_f32);
+    every_adaptive!(clocks::<f32, _>);
+}
+
+/// A step of fixed length that time has no room for is refused, and nothing has happened.
+fn unresolved<T: Real>(name: &str, method: impl Method<Contact<T>>) {
+    let t0 = T::from_f64(0.01) / T::EPSILON * T::from_f64(16.0);
+    let mut sim = Integrator::new(contact(), method, t0, start());
+    for refused in
+        [sim.step(), sim.advance_to(t0 + t0), sim.step_towards(T::ZERO), sim.sample([t0 + t0], |_, _| {})]
+    {
+        assert!(matches!(refused, Err(IntegrationError::UnresolvedStep { .. })), "{name}: {refused:?}");
+    }
+    assert_eq!((sim.time(), sim.statistics().steps), (t0, 0), "{name}");
+    assert_eq!(*sim.state(), start());
+}
+
+#[test]
+fn steps_below_the_resolution_of_time_are_refused() {
+    every_fixed!(unresolved, 0.01);
+    every_fixed!(unresolved, 0.01_f32);
+    assert_eq!(
+        Integrator::new(contact(), Rk4::new(1e-3), 1e15, start()).step().unwrap_err().to_string(),
+        "a step of length 0.001 is lost at t = 1000000000000000.0, where time is resolved to 2.2e-1: take \
+         longer steps, or count time from an origin nearer by"
+    );
+}
+
+/// The steps of fixed length: whole ones, and a shorter last one where the target asks for it.
+fn counted<T: Real>(name: &str, method: impl Method<Contact<T>> + Clone) {
+    for (target, steps) in [(1.0, 100), (0.125, 13), (0.013, 2), (0.5, 50), (10.0, 1000), (0.004, 1)] {
+        for sign in [1.0, -1.0] {
+            let (sim, taken) = run(method.clone(), T::ZERO, T::from_f64(sign * target)).unwrap();
+            assert_eq!((taken, sim.time()), (steps, T::from_f64(sign * target)), "{name}");
+        }
+    }
+}
+
+#[test]
+fn fixed_steps_are_whole_but_for_the_last() {
+    every_fixed!(counted, 0.01);
+    every_fixed!(counted, 0.01_f32);
+}
+
+/// Many short legs are as long as one.
+fn legs<T: Real>(name: &str, method: impl Method<Contact<T>> + Clone) {
+    for t0 in [0.0, 1e3] {
+        let t0 = T::from_f64(t0);
+        let (whole, _) = run(method.clone(), t0, T::ONE).unwrap();
+        let mut sim = Integrator::new(contact(), method.clone(), t0, start());
+        for i in 1..=256_u32 {
+            sim.advance_to(t0 + T::from_u32(i) / T::from_u32(256)).unwrap();
+        }
+        assert_eq!(sim.time(), t0 + T::ONE);
+        let off = distance(sim.state(), whole.state());
+        assert!(off < 0.02, "{name} from {t0:?}: {off:e}");
+        // time steps of the same length, but for round-off in the clock
+        let unit = T::EPSILON.to_f64() * 1e3;
+        let mut sim = Integrator::new(contact(), method.clone(), t0, start());
+        for i in 1..=100_u32 {
+            sim.advance_to(t0 + T::from_u32(i) / T::from_u32(100)).unwrap();
+        }
+        let off = distance(sim.state(), whole.state());
+        assert!(off < 200.0 * unit + 1e3 * T::DEFAULT_TOLERANCE.to_f64(), "{name} from {t0:?}: {off:e}");
+    }
+}
+
+#[test]
+fn many_legs_are_as_long_as_one() {
+    every_fixed!(legs, 0.01);
+    every_adaptive!(legs::<f64>);
+    every_fixed!(legs, 0.01_f32);
+    every_adaptive!(legs::<f32>);
+}
+
+/// The smallest times that there are, forwards and backwards.
+fn tiny<T: Real>(name: &str, method: impl Method<Contact<T>> + Clone) {
+    let mut target = T::MIN_POSITIVE * T::EPSILON;
+    while target < T::from_f64(1e-20) {
+        for target in [target, -target] {
+            let mut sim = Integrator::new(contact(), method.clone(), T::ZERO, start());
+            let reached = sim.advance_to(target);
+            assert_eq!(reached, Ok(()), "{name} to {target:?}");
+            assert_eq!(sim.time(), target);
+            assert!(distance(sim.state(), &start()) < 1e-6, "{name} to {target:?}: {:?}", sim.state());
+            // and on from there
+            assert_eq!(sim.advance_to(T::from_f64(0.1)), Ok(()), "{name} by {target:?}");
+            let (whole, _) = run(method.clone(), T::ZERO, T::from_f64(0.1)).unwrap();
+            let off = distance(sim.state(), whole.state());
+            assert!(off < 20.0 * T::DEFAULT_TOLERANCE.to_f64() + 2e-3, "{name} by {target:?}: {off:e}");
+            assert!(sim.statistics().steps < 1000, "{name} by {target:?}: {:?}", sim.statistics());
+        }
+        target *= T::from_f64(1e7);
+    }
+}
+
+#[test]
+fn the_smallest_times_are_reached() {
+    every_fixed!(tiny, 0.01);
+    every_adaptive!(tiny::<f64>);
+    every_fixed!(tiny, 0.01_f32);
+    every_adaptive!(tiny::<f32>);
+}
+
+fn hostile<T: Real>(name: &str, method: impl Method<Contact<T>>) {
+    let mut sim = Integrator::new(contact(), method, T::ZERO, start()).max_steps(20);
+    let huge = T::MIN_POSITIVE.recip();
+    for bad in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
+        let bad = T::from_f64(bad);
+        for refused in [sim.advance_to(bad), sim.step_towards(bad), sim.sample([bad], |_, _| {})] {
+            assert!(matches!(refused, Err(IntegrationError::NonFiniteTime { .. })), "{name}: {refused:?}");
+        }
+    }
+    for target in [T::ZERO, -T::ZERO] {
+        assert_eq!((sim.advance_to(target), sim.step_towards(target)), (Ok(()), Ok(())), "{name}");
+    }
+    assert_eq!((*sim.state(), sim.statistics()), (start(), Statistics::default()), "{name}");
+    for target in [huge, -huge] {
+        let refused = sim.advance_to(target);
+        assert!(matches!(refused, Err(IntegrationError::TooManySteps { .. })), "{name}: {refused:?}");
+    }
+}
+
+#[test]
+fn times_that_are_none_are_refused_and_far_ones_limited() {
+    every_fixed!(hostile, 0.01);
+    every_adaptive!(hostile::<f64>);
+    every_fixed!(hostile, 0.01_f32);
+    every_adaptive!(hostile::<f32>);
+}
