@@ -45,7 +45,7 @@ fn collect(tokens: TokenStream, found: &mut Vec<Declaration>) {
         if let Some(attribute) = declaration.take() {
             let mut item: Vec<TokenTree> = std::mem::take(&mut attributes);
             item.push(token);
-            while let Some(next) = rest.next() {
+            for next in rest.by_ref() {
                 let is_end = matches!(&next, TokenTree::Group(group) if group.delimiter() == Delimiter::Brace)
                     || matches!(&next, TokenTree::Punct(punct) if punct.as_char() == ';');
                 item.push(next);
