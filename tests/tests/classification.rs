@@ -179,7 +179,7 @@ fn reports() {
         (
             Arm::REPORT,
             [
-                "a transitive Lie algebroid (Atiyah type) with isotropy of rank 3",
+                "a transitive action Lie algebroid with isotropy of rank 3",
                 "Lagrange–d'Alembert–Poincaré: S = D ∩ V, V = ker ρ, has rank 2; D + V = E",
             ],
         ),
@@ -188,7 +188,7 @@ fn reports() {
         (
             Links::REPORT,
             [
-                "has rank 1; D + V = E (the dimension assumption); the group: translations",
+                "has rank 1 (more where sin(p1) = 0); D + V = E (the dimension assumption); the group: translations",
                 "horizontal symmetries: p2\n",
             ],
         ),
@@ -196,7 +196,7 @@ fn reports() {
             Car::REPORT,
             [
                 "of a Chaplygin system: the anchor maps D one to one onto the rates of theta, delta where sin(delta) != 0",
-                "the declaration has a value only where cos(delta) != 0\n",
+                "the equations have a value only where cos(delta) != 0\n",
             ],
         ),
         (
@@ -213,7 +213,7 @@ fn reports() {
         (
             Advected::REPORT,
             [
-                "an action Lie algebroid: constant structure functions, rank 4 over a base of dimension 4\n",
+                "an action Lie algebroid with orbits of dimension 3, but not where a[2] = 0 and a[1] = 0 and a[0] = 0, rank 4",
                 "(nonholonomic)",
             ],
         ),

@@ -178,6 +178,17 @@ impl Graph {
         self.symbols.push(name.into())
     }
 
+    /// The wanted name, with underscores behind it until no symbol has it: for what texts name beside the
+    /// declaration.
+    #[must_use]
+    pub fn free_name(&self, wanted: &str) -> String {
+        let mut name = wanted.to_owned();
+        while self.symbols.iter().any(|taken| *taken == name) {
+            name.push('_');
+        }
+        name
+    }
+
     /// The names of the symbols.
     #[must_use]
     pub fn symbols(&self) -> &Table<SymbolId, String> {

@@ -40,4 +40,5 @@ pub use number::Rational;
 pub use range::{Facts, Range};
 pub use substitute::Substitution;
 pub use transplant::Transplant;
+pub(crate) use zero_test::sample;
 pub use zero_test::{Verdict, Witness};

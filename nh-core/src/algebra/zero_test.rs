@@ -150,7 +150,7 @@ impl Graph {
 }
 
 /// Values of one or two digits: first positive and of order one, then smaller, then of both signs.
-pub(super) fn sample(attempt: u64, index: usize) -> f64 {
+pub(crate) fn sample(attempt: u64, index: usize) -> f64 {
     let word = super::field::Residue::mixed(attempt, index as u64).word();
     let tenths = f64::from(u16::try_from(word % 16).unwrap_or(0));
     match attempt % 4 {

@@ -40,7 +40,8 @@ pub fn structure_functions(model: &mut Model, motion: &Motion) -> Result<Structu
 
 fn derived(model: &mut Model, motion: &Motion) -> Result<StructureFunctions, Violation> {
     let rank = model.sections.len();
-    if matches!(model.kinematics, Kinematics::Tangent) {
+    // a single section commutes with itself
+    if matches!(model.kinematics, Kinematics::Tangent) || rank < 2 {
         return Ok(StructureFunctions::commuting(&mut model.graph, rank));
     }
     if let Some(coframe) = &motion.coframe {
@@ -71,7 +72,8 @@ fn brackets_of_coordinates(model: &Model) -> Violation {
 }
 
 /// Brackets are needed, and the anchor does not determine them.
-fn missing(model: &Model, motion: &Motion) -> Violation {
+fn missing(model: &mut Model, motion: &Motion) -> Violation {
+    let way_out = bracket_advice(model, motion);
     let names: Vec<&str> = model.sections.iter().map(|section| section.name.as_str()).collect();
     let evidence = if model.coordinates.is_empty() {
         format!("there are no base coordinates, so nothing is known of the brackets of {}", listed(&names))
@@ -83,9 +85,27 @@ fn missing(model: &Model, motion: &Motion) -> Violation {
         origin: model.origin,
         what: "the brackets are needed: they are neither declared nor derivable from the anchor".into(),
         evidence,
-        way_out: "declare them, for example `brackets so(3) { … }` or `brackets { [a, b] = …; }`; \
-                  `brackets { }` says that all vanish"
-            .into(),
+        way_out,
+    }
+}
+
+/// `brackets { }` is offered only where the anchor does not contradict it: by (2) the images of sections that
+/// commute do.
+fn bracket_advice(model: &mut Model, motion: &Motion) -> String {
+    let sections: Vec<(SectionId, String)> =
+        model.sections.iter_ids().map(|(id, section)| (id, section.name.clone())).collect();
+    let graph = &mut model.graph;
+    let moving = sections.iter().enumerate().find_map(|(index, (alpha, first))| {
+        sections[index + 1..].iter().find_map(|(beta, second)| {
+            let commutator = hamel::commutator(graph, &motion.anchor, *alpha, *beta);
+            let is_moving = commutator.iter().any(|component| graph.zero_test(*component).is_nonzero());
+            is_moving.then(|| format!("[{first}, {second}]"))
+        })
+    });
+    let how = "declare them, for example `brackets so(3) { … }` or `brackets { [a, b] = …; }`";
+    match moving {
+        None => format!("{how}; `brackets {{ }}` says that all vanish"),
+        Some(pair) => format!("{how}; {pair} is not 0, since the anchor sends it to a motion of the base"),
     }
 }
 

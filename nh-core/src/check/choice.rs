@@ -199,7 +199,13 @@ fn searched_choice(
     match (found, forced) {
         (Ok(choice), _) => {
             let eliminated = listed(&names(model, &choice.dependent));
-            let reason = format!("{eliminated} can be eliminated wherever the constraints are independent");
+            let reason = if choice.conditions.is_empty() {
+                format!("{eliminated} can be eliminated wherever the constraints are independent")
+            } else {
+                let pivots: Vec<String> =
+                    choice.conditions.iter().map(|e| format!("{} != 0", shown(&model.graph, *e))).collect();
+                format!("{eliminated} can be eliminated where {}, which `validate` checks", listed(&pivots))
+            };
             adapted(model, choice, constraints, reason)
         }
         (Err(failure), Some((_, origin))) => Err(vec![Violation {
@@ -263,11 +269,6 @@ fn adapted(
         &choice.dependent,
         &velocities,
     );
-    let reason = if choice.rank_drops.is_empty() {
-        reason
-    } else {
-        format!("{reason}; they are dependent where {}", zeros(model, &choice.rank_drops))
-    };
     if let Some(distribution) = solved {
         let distribution = Box::new(distribution);
         return Ok(Chosen::Adapted { distribution, conditions: choice.conditions, reason });

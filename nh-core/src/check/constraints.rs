@@ -5,7 +5,7 @@ use super::dependence::dependent_rows;
 use super::evidence::shown;
 use super::kinematics::Motion;
 use crate::algebra::{Facts, Graph, Matrix, NotLinear};
-use crate::geometry::{Algebroid, ConstraintDistribution, LinearConstraints, Manifold};
+use crate::geometry::{Algebroid, ConstraintDistribution, LinearConstraints, Manifold, Rank, RankSetting};
 use crate::id::{ConstraintId, ExprId, Id, Origin, SectionId, SymbolId};
 use crate::model::Model;
 use crate::violation::{Law, Violation};
@@ -59,6 +59,33 @@ impl Constraints {
         }
         // linear constraints that are independent can be solved for velocities
         solved_over(graph, &self.base, &self.residuals, velocities).unwrap_or_else(|_| self.base.clone())
+    }
+
+    /// The rank of ∂φ/∂y where the constraints hold, or of the sections that span D, and where it drops:
+    /// there they are dependent.
+    pub fn rank(
+        &self,
+        model: &mut Model,
+        algebroid: &Algebroid,
+        spanned: Option<&ConstraintDistribution>,
+        facts: &Facts,
+    ) -> Option<Rank> {
+        let parameters: Vec<SymbolId> = model.parameters.iter().map(|parameter| parameter.symbol).collect();
+        let jacobian = match (&self.linear, spanned) {
+            (_, Some(spanned)) => spanned.basis.clone(),
+            (Some(linear), None) => linear.annihilator.clone(),
+            (None, None) => fibre_jacobian(model, algebroid, &self.residuals),
+        };
+        if jacobian.is_empty() {
+            return None;
+        }
+        let setting = RankSetting {
+            manifold: self.generic(),
+            residuals: &self.residuals,
+            facts,
+            parameters: &parameters,
+        };
+        setting.rank(&mut model.graph, &jacobian).ok()
     }
 
     /// The embedded base.

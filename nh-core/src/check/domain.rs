@@ -1,7 +1,7 @@
 //! Where a declaration has no value: divisors that may vanish, roots and logarithms of what may be negative.
 
 use super::declared::differentiated;
-use crate::algebra::{Facts, Function, Graph, Node};
+use crate::algebra::{Facts, Function, Graph, Node, Rational};
 use crate::id::{ExprId, SymbolId};
 use crate::model::Model;
 
@@ -16,6 +16,8 @@ pub enum Condition {
     NotNegative(ExprId),
     /// Its inverse sine or cosine is taken.
     InUnitInterval(ExprId),
+    /// The derivative of its inverse sine or cosine is taken.
+    InsideUnitInterval(ExprId),
 }
 
 /// The conditions under which anchor, brackets, Lagrangian, constraints and forces have values, as far
@@ -26,31 +28,49 @@ pub fn domain(model: &Model, facts: &Facts) -> Vec<Condition> {
     let parameters: Vec<SymbolId> = model.parameters.iter().map(|parameter| parameter.symbol).collect();
     let varies = |e: ExprId| graph.symbols_in(&[e]).iter().any(|symbol| !parameters.contains(symbol));
     let mut found: Vec<Condition> = Vec::new();
-    let mut declared: Vec<ExprId> = differentiated(model).into_iter().map(|(_, value, _)| value).collect();
-    declared.extend(model.forces.iter().map(|force| force.value));
-    for id in graph.reachable(&declared) {
-        for (expression, condition) in conditions(graph, id) {
-            if varies(expression) && !holds(graph, condition, facts) && !found.contains(&condition) {
-                found.push(condition);
+    let mut look_at = |roots: &[ExprId], derivatives: u32| {
+        for id in graph.reachable(roots) {
+            for (expression, condition) in conditions(graph, id, derivatives) {
+                if varies(expression) && !holds(graph, condition, facts) && !found.contains(&condition) {
+                    found.push(condition);
+                }
             }
         }
-    }
-    found
+    };
+    // the equations differentiate L twice, what else moves once, and forces not at all
+    look_at(&[model.lagrangian.value], 2);
+    let rest: Vec<ExprId> = differentiated(model).into_iter().map(|(_, value, _)| value).collect();
+    look_at(&rest, 1);
+    let forces: Vec<ExprId> = model.forces.iter().map(|force| force.value).collect();
+    look_at(&forces, 0);
+    // what has to be positive need not be said to be not negative as well
+    let implied = |condition: &Condition| match condition {
+        Condition::NotNegative(e) | Condition::Nonzero(e) => found.contains(&Condition::Positive(*e)),
+        Condition::InUnitInterval(e) => found.contains(&Condition::InsideUnitInterval(*e)),
+        Condition::Positive(_) | Condition::InsideUnitInterval(_) => false,
+    };
+    found.iter().filter(|condition| !implied(condition)).copied().collect()
 }
 
-/// What one node asks of its operands.
-fn conditions(graph: &Graph, id: ExprId) -> Vec<(ExprId, Condition)> {
+/// What one node asks of its operands if its value is differentiated so many times.
+fn conditions(graph: &Graph, id: ExprId, derivatives: u32) -> Vec<(ExprId, Condition)> {
     match graph.node(id) {
         Node::Product { factors, .. } => factors
             .iter()
             .filter_map(|(base, exponent)| match (exponent.is_integer(), exponent.is_negative()) {
                 (true, true) => Some((*base, Condition::Nonzero(*base))),
                 (false, true) => Some((*base, Condition::Positive(*base))),
+                (false, false) if *exponent < Rational::from(i64::from(derivatives)) => {
+                    Some((*base, Condition::Positive(*base)))
+                }
                 (false, false) => Some((*base, Condition::NotNegative(*base))),
                 (true, false) => None,
             })
             .collect(),
         Node::Apply(Function::Ln, x) => vec![(*x, Condition::Positive(*x))],
+        Node::Apply(Function::Asin | Function::Acos, x) if derivatives > 0 => {
+            vec![(*x, Condition::InsideUnitInterval(*x))]
+        }
         Node::Apply(Function::Asin | Function::Acos, x) => vec![(*x, Condition::InUnitInterval(*x))],
         _ => Vec::new(),
     }
@@ -64,6 +84,10 @@ fn holds(graph: &Graph, condition: Condition, facts: &Facts) -> bool {
         Condition::InUnitInterval(e) => {
             let range = graph.range(e, facts);
             range.low >= -1.0 && range.high <= 1.0
+        }
+        Condition::InsideUnitInterval(e) => {
+            let range = graph.range(e, facts);
+            range.low > -1.0 && range.high < 1.0
         }
     }
 }

@@ -1,6 +1,7 @@
 //! The wording of evidence, shared by the checks.
 
 use crate::algebra::{Graph, Witness};
+use crate::geometry::Drops;
 use crate::id::ExprId;
 
 /// Longest expression shown in a message, in bytes.
@@ -45,4 +46,18 @@ pub(crate) fn listed<S: AsRef<str>>(names: &[S]) -> String {
             format!("{} and {}", first.join(", "), last.as_ref())
         }
     }
+}
+
+/// `x = 0 and y = 0, or cos(theta) = 0`: where a rank drops; `None` where it drops nowhere or that is not
+/// known.
+pub(crate) fn places(graph: &Graph, drops: &Drops) -> Option<String> {
+    let Drops::Where(sets) = drops else { return None };
+    let zeros = |set: &Vec<ExprId>| {
+        let mut zeros: Vec<String> = set.iter().map(|e| format!("{} = 0", shown(graph, *e))).collect();
+        zeros.sort_by_key(String::len);
+        zeros.join(" and ")
+    };
+    let text: Vec<String> = sets.iter().map(zeros).collect();
+    let separator = if sets.iter().any(|set| set.len() > 1) { ", or " } else { " or " };
+    (!text.is_empty()).then(|| text.join(separator))
 }

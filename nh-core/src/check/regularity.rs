@@ -1,7 +1,7 @@
 //! Regularity: the equations determine the accelerations (CLMM Theorem 3.12, (7.5)).
 
 use super::evidence::listed;
-use crate::algebra::{Echelon, Facts, FieldPoint, Graph, Matrix, Node, Residue};
+use crate::algebra::{Echelon, Facts, FieldPoint, Graph, Matrix, Node, Range, Residue, sample};
 use crate::geometry::Manifold;
 use crate::id::{ExprId, SymbolId};
 use crate::mechanics::{ReducedEquations, SaddleEquations, uncoupled};
@@ -93,7 +93,9 @@ fn judge(
 }
 
 /// Where the mass matrix of a regular system is singular all the same, as far as short
-/// determinants tell: their factors of coordinates alone that may vanish.
+/// determinants tell: their factors that may vanish at states of a machine all of whose parameters are
+/// positive, or as the facts say. A factor in which parameters occur has to do so for a machine whose mass
+/// matrix is positive definite in some other state.
 pub fn singular_where(
     graph: &mut Graph,
     mass: &Matrix,
@@ -102,6 +104,10 @@ pub fn singular_where(
 ) -> Vec<ExprId> {
     const SIZE: usize = 3;
     const SHORT: u64 = 300;
+    let mut usual = facts.clone();
+    for parameter in parameters {
+        usual.symbols.entry(*parameter).or_insert(Range::POSITIVE);
+    }
     let mut found: Vec<ExprId> = Vec::new();
     for block in uncoupled(graph, mass).into_iter().filter(|block| block.len() <= SIZE) {
         let inner = Graph::submatrix(mass, &block);
@@ -115,12 +121,51 @@ pub fn singular_where(
         };
         for (base, exponent) in factors {
             let symbols = graph.symbols_in(&[base]);
-            let of_coordinates = !symbols.is_empty() && !symbols.iter().any(|s| parameters.contains(s));
-            let harmless = exponent.is_negative() || graph.vanishes_nowhere(base, facts);
-            if of_coordinates && !harmless && !found.contains(&base) {
+            let of_parameters = |symbol: &SymbolId| parameters.contains(symbol);
+            let varies = !symbols.iter().all(of_parameters);
+            let harmless = exponent.is_negative()
+                || graph.vanishes_nowhere(base, &usual)
+                || (symbols.iter().any(of_parameters) && !changes_sign(graph, base, &inner, parameters));
+            if varies && !harmless && !found.contains(&base) {
                 found.push(base);
             }
         }
     }
     found
+}
+
+/// Whether a factor of the determinant changes its sign, for some positive parameters, between a state where
+/// the mass matrix is positive definite and another.
+fn changes_sign(graph: &mut Graph, factor: ExprId, mass: &Matrix, parameters: &[SymbolId]) -> bool {
+    const MACHINES: u64 = 16;
+    const STATES: u64 = 8;
+    let mut minors: Vec<ExprId> = Vec::new();
+    for size in 1..=mass.len() {
+        let leading: Vec<usize> = (0..size).collect();
+        minors.push(graph.small_determinant(&Graph::submatrix(mass, &leading)));
+    }
+    let roots: Vec<ExprId> = std::iter::once(factor).chain(minors).collect();
+    let symbols = graph.symbols_in(&roots);
+    (0..MACHINES).any(|machine| {
+        let (mut definite, mut signs) = (None, [false; 2]);
+        for state in 0..STATES {
+            let value = |symbol: SymbolId| {
+                let index = symbols.iter().position(|known| *known == symbol).unwrap_or_default();
+                if parameters.contains(&symbol) {
+                    sample(4 * machine, index)
+                } else {
+                    4.0 * sample(4 * (STATES * machine + state) + 2, index)
+                }
+            };
+            let values = graph.evaluate(&roots, value);
+            let is_positive = values[0].value > 0.0;
+            if values[0].is_certainly_nonzero() {
+                signs[usize::from(is_positive)] = true;
+            }
+            if values[1..].iter().all(|minor| minor.value > 0.0 && minor.is_certainly_nonzero()) {
+                definite = Some(is_positive);
+            }
+        }
+        definite.is_some_and(|side| signs[usize::from(!side)])
+    })
 }

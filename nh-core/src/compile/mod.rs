@@ -21,8 +21,8 @@ mod splitting;
 mod volume;
 
 use crate::algebra::Facts;
-use crate::check::{self, Chosen, Constraints, Motion};
-use crate::geometry::{Algebroid, ConstraintDistribution, Manifold};
+use crate::check::{self, Chosen, Constraints, Kind, Motion};
+use crate::geometry::{Algebroid, ConstraintDistribution, Manifold, Rank};
 use crate::id::{Id, SymbolId};
 use crate::mechanics::LagrangianSystem;
 use crate::model::{ForceDirection, Model};
@@ -42,8 +42,12 @@ pub(crate) struct Proved {
     pub(crate) base: Manifold,
     /// Facts about the parameters.
     pub(crate) facts: Facts,
+    /// What kind of algebroid it moves on.
+    pub(crate) kind: Kind,
     /// The constraints.
     pub(crate) constraints: Constraints,
+    /// The rank of their derivatives by the velocities, where it is known.
+    pub(crate) constraint_rank: Option<Rank>,
     /// The Lagrangian system without them.
     pub(crate) system: LagrangianSystem,
     /// Its symmetries.
@@ -94,8 +98,11 @@ pub(crate) fn prove(mut model: Model) -> Result<(Proved, Chosen), Vec<Violation>
     let algebroid = Algebroid { anchor: motion.anchor.clone(), structure, velocities };
     // 4. the structure equations, and D: by constraints or by sections, in the basis of the frame
     let broken = check::structure_equations(&mut model, &algebroid, &base);
+    let kind = Kind::of(&mut model, &algebroid, &base, &facts);
     let described = describe(&mut model, &mut motion, algebroid, &base, &facts);
     let (algebroid, constraints, spanned) = both(broken, described)?;
+    let kind = kind.in_basis(&model, &algebroid);
+    let constraint_rank = constraints.rank(&mut model, &algebroid, spanned.as_ref(), &facts);
     // 5. the Lagrangian system on E, and its symmetries
     let system = lagrangian_system(&mut model, &mut motion, algebroid);
     let symmetries = momenta::symmetries(&mut model, &motion, &system, &constraints, spanned.as_ref())?;
@@ -110,7 +117,19 @@ pub(crate) fn prove(mut model: Model) -> Result<(Proved, Chosen), Vec<Violation>
         None => check::choose_formulation(&mut model, &constraints, &facts, &base)?,
     };
     let chosen = check::orthonormal(&mut model, &system, chosen, &facts)?;
-    let proved = Proved { model, motion, base, facts, constraints, system, symmetries, levels, quadratures };
+    let proved = Proved {
+        model,
+        motion,
+        base,
+        facts,
+        kind,
+        constraints,
+        constraint_rank,
+        system,
+        symmetries,
+        levels,
+        quadratures,
+    };
     Ok((proved, chosen))
 }
 

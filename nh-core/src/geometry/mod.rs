@@ -13,6 +13,7 @@ mod manifold;
 mod momentum_level;
 mod orbits;
 mod pivot;
+mod rank;
 mod structure;
 
 pub use algebroid::Algebroid;
@@ -26,4 +27,5 @@ pub use manifold::Manifold;
 pub use momentum_level::MomentumLevel;
 pub use orbits::{Varies, constant_along};
 pub use pivot::{PivotSetting, PivotZeros};
+pub use rank::{Drops, Rank, RankSetting};
 pub use structure::StructureFunctions;

@@ -98,6 +98,18 @@ impl Splitting {
             .then(|| distribution.constraints.annihilator.iter().map(on_vertical).collect())
     }
 
+    /// Φ above ρ over the coordinates: the matrix of which S = D ∩ V is the kernel, whatever basis D has.
+    #[must_use]
+    pub fn constraints_and_rates(
+        &self,
+        system: &LagrangianSystem,
+        distribution: &ConstraintDistribution,
+    ) -> Matrix {
+        let mut matrix = distribution.constraints.annihilator.clone();
+        matrix.extend(rows(&system.algebroid.anchor.entries, &self.coordinates));
+        matrix
+    }
+
     /// Whether ρ is an isomorphism from D to the tangent spaces: a Chaplygin system.
     #[must_use]
     pub fn is_chaplygin(&self) -> bool {

@@ -2,32 +2,40 @@
 
 use super::{Derived, combination, shown};
 use crate::algebra::Graph;
+use crate::check::evidence::{counted, places};
 use crate::check::{Condition, Constraints, domain, not_conservative, singular_where};
 use crate::compile::Proved;
-use crate::geometry::Manifold;
-use crate::id::{ExprId, SymbolId};
+use crate::geometry::{Drops, Rank};
+use crate::id::SymbolId;
 use crate::mechanics::{LagrangianSystem, moving_energy_section};
 use crate::model::{Kinematics, Model};
 
 /// The classification, a line for each property.
 pub(super) fn lines(proved: &mut Proved, derived: &Derived<'_>, reason: &str) -> Vec<String> {
-    let Proved { model, motion, system, constraints: declared, facts, base, .. } = proved;
-    let mut lines = vec![algebroid(model, system, base), constraints(model, system, declared, derived)];
+    let kind = algebroid(proved);
+    let Proved { model, motion, system, constraints: declared, constraint_rank: rank, facts, .. } = proved;
+    let mut lines = vec![kind, constraints(model, system, declared, rank.as_ref(), derived)];
     let (name, size) = match derived {
         Derived::Adapted { kept, .. } => ("adapted", kept.rank()),
         Derived::Projected { .. } => ("projected", model.sections.len()),
     };
     let coordinates = model.coordinates.len();
-    lines.push(format!("formulation: {name}, {coordinates} coordinates and {size} velocities; {reason}"));
+    let (coordinates, velocities) =
+        (counted(coordinates, "coordinate", "coordinates"), counted(size, "velocity", "velocities"));
+    lines.push(format!("formulation: {name}, {coordinates} and {velocities}; {reason}"));
     if let Derived::Adapted { equations, .. } = derived {
         let parameters: Vec<SymbolId> = model.parameters.iter().map(|parameter| parameter.symbol).collect();
         for factor in singular_where(&mut model.graph, &equations.mass, &parameters, facts) {
+            let of_parameters = model.graph.depends_on(factor, &parameters);
+            let whom =
+                if of_parameters { "for some parameters the mass matrix is" } else { "the mass matrix is" };
             let text = shown(&model.graph, factor);
-            lines.push(format!("the mass matrix is singular where {text} = 0"));
+            let place = if text.contains('…') { "its determinant" } else { text.as_str() };
+            lines.push(format!("{whom} singular where {place} = 0"));
         }
     }
     for condition in domain(model, facts) {
-        lines.push(format!("the declaration has a value only where {}", stated(&model.graph, condition)));
+        lines.push(format!("the equations have a value only where {}", stated(&model.graph, condition)));
     }
     for divisor in &motion.divisors {
         if model.graph.value_of(*divisor).is_none() {
@@ -44,86 +52,87 @@ fn stated(graph: &Graph, condition: Condition) -> String {
         Condition::Positive(e) => format!("{} > 0", shown(graph, e)),
         Condition::NotNegative(e) => format!("{} >= 0", shown(graph, e)),
         Condition::InUnitInterval(e) => format!("|{}| <= 1", shown(graph, e)),
+        Condition::InsideUnitInterval(e) => format!("|{}| < 1", shown(graph, e)),
     }
 }
 
 /// The kind of algebroid.
-fn algebroid(model: &mut Model, system: &LagrangianSystem, base: &Manifold) -> String {
-    let (n, s) = (model.coordinates.len(), model.sections.len());
-    let dimension = dimension(model, base);
-    let anchor = base.restrict_matrix(&mut model.graph, &system.algebroid.anchor.entries);
-    let rank = model.graph.generic_rank(&anchor).unwrap_or(0);
-    let constant = is_constant(model, system);
-    let frame = if is_holonomic(model, system) {
-        "the tangent bundle TM in a holonomic frame: all brackets vanish"
-    } else {
-        "the tangent bundle TM in an anholonomic frame"
-    };
-    let kind = match &model.kinematics {
-        Kinematics::Tangent => "the tangent bundle TM in its coordinate frame".to_owned(),
-        Kinematics::Coframe(_) => format!("{frame}, by its coframe"),
-        Kinematics::Anchor(_) if n == 0 => "a Lie algebra".to_owned(),
-        Kinematics::Anchor(_) if dimension == s && rank == s => frame.to_owned(),
-        Kinematics::Anchor(_) if rank == dimension && dimension == n => {
-            format!("a transitive Lie algebroid (Atiyah type) with isotropy of rank {}", s - n)
-        }
-        Kinematics::Anchor(_) if rank == dimension && constant => {
-            format!("a transitive action Lie algebroid with isotropy of rank {}", s - dimension)
-        }
-        Kinematics::Anchor(_) if constant => {
-            "an action Lie algebroid: constant structure functions".to_owned()
-        }
-        Kinematics::Anchor(_) => "a Lie algebroid".to_owned(),
-    };
-    let almost = if model.almost { ", almost: the Jacobi identity is not demanded" } else { "" };
+fn algebroid(proved: &Proved) -> String {
+    let Proved { model, kind, .. } = proved;
+    let (n, s, dimension) = (model.coordinates.len(), model.sections.len(), kind.dimension);
     let embedded = if dimension == n { String::new() } else { format!(", embedded in {n} coordinates") };
-    format!("algebroid: {kind}, rank {s} over a base of dimension {dimension}{embedded}{almost}")
+    let almost = if model.almost { ", almost: the Jacobi identity is not demanded" } else { "" };
+    let name = name_of_kind(proved);
+    format!("algebroid: {name}, rank {s} over a base of dimension {dimension}{embedded}{almost}")
 }
 
-/// The dimension of the base: the coordinates less the independent identities between them.
-fn dimension(model: &mut Model, base: &Manifold) -> usize {
-    let coordinates: Vec<SymbolId> = model.coordinates.iter().map(|coordinate| coordinate.symbol).collect();
-    let graph = &mut model.graph;
-    let identities: Vec<ExprId> = model.identities.iter().map(|identity| identity.value).collect();
-    let slopes: Vec<Vec<ExprId>> = identities
-        .iter()
-        .map(|identity| coordinates.iter().map(|symbol| graph.partial(*identity, *symbol)).collect())
-        .collect();
-    let slopes = base.restrict_matrix(graph, &slopes);
-    coordinates.len() - graph.generic_rank(&slopes).unwrap_or(0).min(coordinates.len())
-}
-
-fn is_holonomic(model: &Model, system: &LagrangianSystem) -> bool {
-    system
-        .algebroid
-        .structure
-        .nonzero(&model.graph)
-        .all(|(.., components)| components.iter().all(|c| model.graph.zero_test(*c).is_zero()))
-}
-
-fn is_constant(model: &Model, system: &LagrangianSystem) -> bool {
-    let entries: Vec<ExprId> =
-        system.algebroid.structure.nonzero(&model.graph).flat_map(|(.., c)| c.to_vec()).collect();
-    let coordinates: Vec<SymbolId> = model.coordinates.iter().map(|c| c.symbol).collect();
-    entries.iter().all(|entry| !model.graph.depends_on(*entry, &coordinates))
+/// By the rank of the anchor, with the places where it drops.
+fn name_of_kind(proved: &Proved) -> String {
+    let Proved { model, kind, .. } = proved;
+    let (s, dimension) = (model.sections.len(), kind.dimension);
+    if model.coordinates.is_empty() {
+        return "a Lie algebra".into();
+    }
+    let action = if kind.is_action { "action Lie algebroid" } else { "Lie algebroid" };
+    let article = if kind.is_action { "an" } else { "a" };
+    let Some(anchor) = &kind.anchor else { return format!("{article} {action}") };
+    let rank = anchor.generic;
+    let nonzero = match &anchor.drops {
+        Drops::Nowhere => String::new(),
+        Drops::Undecided => " at generic points (whether everywhere was not decided)".into(),
+        Drops::Where(_) => places(&model.graph, &anchor.drops)
+            .map_or_else(String::new, |places| format!(", but not where {places}")),
+    };
+    if rank == dimension && rank == s {
+        let frame = match (&model.kinematics, kind.commutes) {
+            (Kinematics::Tangent, true) if model.frame.is_empty() => "in its coordinate frame",
+            (_, true) => "in a holonomic frame: all brackets vanish",
+            (_, false) => "in an anholonomic frame",
+        };
+        let coframe =
+            if matches!(model.kinematics, Kinematics::Coframe(_)) { ", by its coframe" } else { "" };
+        let singular = match places(&model.graph, &anchor.drops) {
+            None if nonzero.is_empty() => return format!("the tangent bundle TM {frame}{coframe}"),
+            None => return format!("the tangent bundle TM {frame}{coframe}{nonzero}"),
+            Some(places) => places,
+        };
+        return if model.brackets_declared {
+            format!("{article} {action} with an anchor that is one to one and onto, but not where {singular}")
+        } else {
+            format!("the tangent bundle TM {frame}{coframe}, which is singular where {singular}")
+        };
+    }
+    if rank == 0 {
+        return "a bundle of Lie algebras: the anchor is 0".into();
+    }
+    if rank == dimension {
+        let isotropy = s - rank;
+        return format!("a transitive {action} with isotropy of rank {isotropy}{nonzero}");
+    }
+    if rank == s {
+        return format!("{article} {action} with an injective anchor{nonzero}: orbits of dimension {rank}");
+    }
+    format!("{article} {action} with orbits of dimension {rank}{nonzero}")
 }
 
 fn constraints(
     model: &mut Model,
     system: &LagrangianSystem,
     declared: &Constraints,
+    rank: Option<&Rank>,
     derived: &Derived<'_>,
 ) -> String {
-    let (count, rank) = (model.constraints.len(), model.distribution.as_ref().map(Vec::len));
+    let (count, spanned) = (model.constraints.len(), model.distribution.as_ref().map(Vec::len));
+    let dependent = dependent(model, rank);
     let kind = match &declared.linear {
         None => "nonlinear",
         Some(linear) if linear.drift.iter().all(|drift| model.graph.zero_test(*drift).is_zero()) => "linear",
         Some(_) => "affine",
     };
-    let what = match (count, rank) {
-        (_, Some(rank)) => format!("constraints: D is the span of {rank} sections"),
+    let what = match (count, spanned) {
+        (_, Some(sections)) => format!("constraints: D is the span of {sections} sections{dependent}"),
         (0, None) => return "constraints: none".into(),
-        (_, None) => format!("constraints: {count}, {kind} in the velocities"),
+        (_, None) => format!("constraints: {count}, {kind} in the velocities{dependent}"),
     };
     let generic;
     let distribution = match derived {
@@ -148,6 +157,18 @@ fn constraints(
             None => String::new(),
         };
     format!("{what}{holonomic}")
+}
+
+/// Where the constraints are dependent.
+fn dependent(model: &Model, rank: Option<&Rank>) -> String {
+    match rank.map(|rank| &rank.drops) {
+        Some(Drops::Nowhere) => String::new(),
+        Some(drops @ Drops::Where(_)) => places(&model.graph, drops)
+            .map_or_else(String::new, |places| format!("; they are dependent where {places}")),
+        Some(Drops::Undecided) | None => {
+            "; they are independent at generic points, where else was not decided".into()
+        }
+    }
 }
 
 /// The integrals of a holonomic D that are coordinates.
@@ -194,5 +215,8 @@ fn moving_energy(proved: &mut Proved) -> Option<String> {
     let section = moving_energy_section(graph, system, linear, &parameters, &manifold)?;
     let names: Vec<String> = model.sections.iter().map(|section| section.name.clone()).collect();
     let section = combination(&model.graph, &section, &names);
-    Some(format!("the moving energy E - xi.p with xi = {section} (Fassò, Sansonetto)"))
+    let [energy, along, momentum] = ["E", "xi", "p"].map(|name| model.graph.free_name(name));
+    Some(format!(
+        "the moving energy {energy} - {along}.{momentum} with {along} = {section} (Fassò, Sansonetto)"
+    ))
 }

@@ -71,7 +71,8 @@ fn reactions(model: &Model, jacobian: &[Vec<ExprId>], alpha: usize) -> String {
     {
         let constraint = model.constraints.get(ConstraintId::from_index(index));
         let name = constraint.and_then(|c| c.label.clone()).unwrap_or_else(|| format!("{}", index + 1));
-        text.extend([" + (", &shown(&model.graph, row[alpha]), ")*lambda_", &name]);
+        let multiplier = model.graph.free_name(&format!("lambda_{name}"));
+        text.extend([" + (", &shown(&model.graph, row[alpha]), ")*", &multiplier]);
     }
     text
 }

@@ -20,7 +20,8 @@ pub(crate) fn hamiltonian_lines(model: &mut Model, side: &HamiltonianSide, base:
         shown(graph, value)
     };
     let energy = side.hamiltonian.written_out(graph)[0];
-    lines.push(format!("h = {}", simplified(graph, energy)));
+    let name = graph.free_name("h");
+    lines.push(format!("{name} = {}", simplified(graph, energy)));
     let names: Vec<SymbolId> = coordinates.iter().chain(&side.momenta).copied().collect();
     let entries = side.bracket.written_out(graph);
     for (row, first) in names.iter().enumerate() {

@@ -1,8 +1,10 @@
 //! What reduction theory calls a system, and the quantities that it names.
 
 use super::{Derived, combination, shown};
+use crate::check::evidence::places;
 use crate::check::singular_where;
 use crate::compile::{Proved, Reduced};
+use crate::geometry::{Drops, RankSetting};
 use crate::id::{ExprId, SymbolId};
 use crate::mechanics::{NonholonomicConnection, Splitting};
 
@@ -25,7 +27,8 @@ pub(super) fn lines(proved: &mut Proved, derived: &Derived<'_>) -> (Option<Strin
     };
     let Ok(reduced) = Reduced::of(proved, distribution) else { return (None, Vec::new()) };
     let singular = if reduced.splitting.is_chaplygin() { not_onto(proved, &reduced) } else { Vec::new() };
-    let name = name(proved, &reduced.splitting, is_free, reduced.frame.is_some(), &singular);
+    let more = more_shared(proved, &reduced);
+    let name = name(proved, &reduced.splitting, is_free, reduced.frame.is_some(), &singular, &more);
     let small = proved.model.graph.operation_count(&[proved.system.lagrangian]) <= SHOWN_UP_TO;
     let has_basis = distribution.is_some() || reduced.frame.is_some();
     let is_horizontal = reduced.splitting.horizontal > 0 || reduced.frame.is_some();
@@ -50,12 +53,29 @@ fn not_onto(proved: &mut Proved, reduced: &Reduced) -> Vec<ExprId> {
     singular_where(&mut model.graph, &projection, &parameters, facts)
 }
 
+/// Where S = D ∩ V is larger than at generic points: where the constraints and the rates of the coordinates
+/// together have less rank.
+fn more_shared(proved: &mut Proved, reduced: &Reduced) -> String {
+    let Proved { model, facts, base, .. } = proved;
+    let parameters: Vec<SymbolId> = model.parameters.iter().map(|parameter| parameter.symbol).collect();
+    let together = reduced.splitting.constraints_and_rates(&reduced.system, &reduced.distribution);
+    let setting = RankSetting { manifold: base, residuals: &[], facts, parameters: &parameters };
+    match setting.rank(&mut model.graph, &together).map(|rank| rank.drops) {
+        Ok(Drops::Nowhere) => String::new(),
+        Ok(drops @ Drops::Where(_)) => {
+            places(&model.graph, &drops).map_or_else(String::new, |places| format!(" (more where {places})"))
+        }
+        Ok(Drops::Undecided) | Err(_) => " at generic points".into(),
+    }
+}
+
 fn name(
     proved: &Proved,
     splitting: &Splitting,
     is_free: bool,
     in_frame: bool,
     singular: &[ExprId],
+    more: &str,
 ) -> String {
     let coordinates: Vec<&str> =
         splitting.coordinates.iter().map(|id| proved.model.coordinates[*id].name.as_str()).collect();
@@ -73,16 +93,16 @@ fn name(
             "of a Chaplygin system: the anchor maps D one to one onto the rates of {coordinates}{only}{conditions}"
         )
     } else if shared == 0 {
-        format!("purely kinematic: D meets {v} in 0 only; ρ(D) has rank {horizontal} of {m}")
+        format!("purely kinematic: D meets {v} in 0 only{more}; ρ(D) has rank {horizontal} of {m}")
     } else if *horizontal == 0 {
-        format!("momentum equations of rank {shared} alone: D lies in {v}")
+        format!("momentum equations of rank {shared}{more} alone: D lies in {v}")
     } else {
         let assumption = if splitting.spans() {
             "D + V = E (the dimension assumption)"
         } else {
             "D + V is not E (no dimension assumption)"
         };
-        format!("Lagrange–d'Alembert–Poincaré: S = D ∩ V, {v}, has rank {shared}; {assumption}")
+        format!("Lagrange–d'Alembert–Poincaré: S = D ∩ V, {v}, has rank {shared}{more}; {assumption}")
     };
     let group = match (splitting.by_group, in_frame) {
         (false, _) => "",
@@ -146,10 +166,16 @@ fn connection(proved: &mut Proved, reduced: &Reduced) -> Vec<String> {
         return Vec::new();
     };
     let mut lines = Vec::new();
-    let vertical: Vec<String> =
-        found.named.iter().map(|symbol| format!("S_{}", graph.symbols()[*symbol])).collect();
-    let lifts: Vec<String> =
-        found.coordinates.iter().map(|id| format!("h_{}", proved.model.coordinates[*id].name)).collect();
+    let vertical: Vec<String> = found
+        .named
+        .iter()
+        .map(|symbol| graph.free_name(&format!("S_{}", graph.symbols()[*symbol])))
+        .collect();
+    let lifts: Vec<String> = found
+        .coordinates
+        .iter()
+        .map(|id| graph.free_name(&format!("h_{}", proved.model.coordinates[*id].name)))
+        .collect();
     for (name, section) in vertical.iter().zip(&found.vertical) {
         lines.push(format!("momentum section {name} = {}", combination(graph, section, names)));
     }

@@ -121,8 +121,11 @@ pub fn hamiltonian_side(
             return Err(NoInverse { momentum: *momentum, velocity: *velocity });
         }
     }
-    let names: Vec<String> =
-        distribution.independent.iter().map(|v| format!("p_{}", graph.symbols()[*v])).collect();
+    let names: Vec<String> = distribution
+        .independent
+        .iter()
+        .map(|v| graph.free_name(&format!("p_{}", graph.symbols()[*v])))
+        .collect();
     let symbols: Vec<SymbolId> = names.into_iter().map(|name| graph.new_symbol(name)).collect();
     let at_rest = projected.iter().map(|p| graph.at_zero(*p, &distribution.independent)).collect();
     let inversion =

@@ -1,0 +1,176 @@
+//! What reports say is true in every frame and at every point, or says where it is.
+
+use nh_stages::declarations;
+
+/// The report of a declaration, given by the sections of the attribute and the fields.
+fn report(sections: &str, fields: &str) -> String {
+    let source = format!("#[nonholonomic({sections})] struct S {{ {fields} }}");
+    let found = declarations(&source);
+    match found[0].system() {
+        Ok(system) => system.report,
+        Err(errors) => panic!("{sections}\n{}", errors.join("\n")),
+    }
+}
+
+/// Each declaration with what its report has to say, and what it must not.
+fn check(cases: &[(&str, &str, &[&str], &[&str])]) {
+    for (sections, fields, said, unsaid) in cases {
+        let report = report(sections, fields);
+        for line in *said {
+            assert!(report.contains(line), "{sections}\nmissing: {line}\n{report}");
+        }
+        for line in *unsaid {
+            assert!(!report.contains(line), "{sections}\nuntrue: {line}\n{report}");
+        }
+    }
+}
+
+/// so(3) acting on the sphere: its sections are those of another frame in the second declaration.
+#[test]
+fn the_kind_of_algebroid_does_not_depend_on_the_frame() {
+    let top = "base { g[3] } on { dot(g, g) = 1; } basis { w[3] } anchor { der(g) = cross(g, w); }
+        brackets so(3) { w } lagrangian { (w[0]^2 + w[1]^2 + 2 * w[2]^2) / 2 - g[2] }";
+    let turned = format!("{top} frame {{ a = (2 + g[0]) * w[0]; }}");
+    let kind = "algebroid: a transitive action Lie algebroid with isotropy of rank 1, rank 3 over a base of \
+                dimension 2, embedded in 3 coordinates";
+    check(&[(top, "", &[kind], &[]), (&turned, "", &[kind], &[])]);
+}
+
+#[test]
+fn an_anchor_that_drops_rank_says_where() {
+    check(&[
+        (
+            "base { x } basis { a, b } anchor { der(x) = x * a; } brackets { } lagrangian { (a^2 + b^2) / 2 }",
+            "",
+            &["a transitive action Lie algebroid with isotropy of rank 1, but not where x = 0"],
+            &["Atiyah"],
+        ),
+        (
+            "base { x } basis { w[3] } anchor { der(x) = 0 * w[0]; } brackets so(3) { w }
+             lagrangian { dot(w, w) / 2 - x }",
+            "",
+            &["a bundle of Lie algebras: the anchor is 0"],
+            &["action"],
+        ),
+        (
+            "base { a[3] } basis { w[3] } anchor { der(a) = cross(a, w); } brackets so(3) { w }
+             lagrangian { dot(w, w) / 2 - a[2] }",
+            "",
+            &["orbits of dimension 2, but not where"],
+            &["transitive"],
+        ),
+        (
+            // a wrong sign in the frame of a body on the plane
+            "base { x, y, theta } basis { u, v, omega }
+             anchor { der(theta) = omega; der(x) = v * cos(theta) - u * sin(theta); der(y) = v * sin(theta) - u * cos(theta); }
+             lagrangian { (u^2 + v^2 + omega^2) / 2 }",
+            "",
+            &["the tangent bundle TM in an anholonomic frame, which is singular where cos(theta)^2 - sin(theta)^2 = 0"],
+            &[],
+        ),
+        (
+            "base { x, y, theta } basis { u, v, omega }
+             anchor { der(theta) = omega; der(x) = v * cos(theta) - u * sin(theta); der(y) = v * sin(theta) + u * cos(theta); }
+             lagrangian { (u^2 + v^2 + omega^2) / 2 }",
+            "",
+            &["the tangent bundle TM in an anholonomic frame, rank 3"],
+            &["singular", "but not where"],
+        ),
+    ]);
+}
+
+#[test]
+fn constraints_say_where_they_are_dependent_in_every_formulation() {
+    let plane = "base { x, y, z } lagrangian { (der(x)^2 + der(y)^2 + der(z)^2) / 2 }";
+    check(&[
+        (
+            &format!("{plane} constraints {{ x * der(x) + y * der(y) = 0; }}"),
+            "",
+            &["formulation: projected", "they are dependent where x = 0 and y = 0"],
+            &[],
+        ),
+        (
+            &format!(
+                "{plane} constraints {{ x * der(x) + y * der(y) = 0; }} independent {{ der(x), der(z) }}"
+            ),
+            "",
+            &["formulation: adapted", "they are dependent where x = 0 and y = 0"],
+            &[],
+        ),
+        (
+            &format!("{plane} constraints {{ der(x)^2 + der(y)^2 = der(z)^2; }}"),
+            "",
+            &["they are dependent where x_dot = 0 and y_dot = 0 and z_dot = 0"],
+            &[],
+        ),
+        (
+            &format!("{plane} constraints {{ der(x)^2 + der(y)^2 = 1 + der(z)^2; }}"),
+            "",
+            &["constraints: 1, nonlinear in the velocities"],
+            &["they are dependent"],
+        ),
+        (
+            &format!("{plane} constraints {{ der(x) = y * der(z); }}"),
+            "",
+            &["constraints: 1, linear"],
+            &["they are dependent"],
+        ),
+    ]);
+}
+
+#[test]
+fn a_pivot_of_parameters_is_named_where_the_choice_is() {
+    check(&[(
+        "basis { w[3] } brackets so(3) { w } lagrangian { dot(w, w) / 2 } constraints { dot(Ga, w) = 0; }",
+        "Ga: [f64; 3]",
+        &["`w[2]` can be eliminated where Ga[2] != 0, which `validate` checks", "Ga[2] != 0\n"],
+        &["wherever the constraints are independent"],
+    )]);
+}
+
+#[test]
+fn powers_of_velocities_say_where_they_break_down() {
+    check(&[
+        (
+            "basis { omega } lagrangian { J / 2 * omega^2.5 }",
+            "J: f64",
+            &["the mass matrix is singular where omega = 0", "only where omega >= 0"],
+            &[],
+        ),
+        ("basis { omega } lagrangian { J / 2 * omega^1.5 }", "J: f64", &["only where omega > 0"], &[]),
+        ("base { x } lagrangian { 1 - sqrt(1 - der(x)^2) }", "", &["only where -x_dot^2 + 1 > 0"], &[]),
+        ("base { x } lagrangian { der(x)^2 / 2 - asin(x) }", "", &["only where |x| < 1"], &["|x| <= 1"]),
+        ("base { x } lagrangian { der(x)^2 / 2 + der(x)^4 }", "", &[], &["singular", "only where"]),
+    ]);
+}
+
+#[test]
+fn a_mass_matrix_that_may_be_singular_says_for_whom() {
+    let snake =
+        "base { x, y } lagrangian { (2 + a * cos(x)) * der(x)^2 + der(y)^2 + sin(y) * der(x) * der(y) }";
+    check(&[
+        (snake, "a: f64", &["for some parameters the mass matrix is singular where"], &[]),
+        // positive definite for every machine, though no single term says so
+        (
+            "base { x, q } lagrangian { m / 2 * (der(x)^2 + 2 * l * cos(q) * der(x) * der(q) + l^2 * der(q)^2) + J / 2 * der(q)^2 }",
+            "m: f64, l: f64, J: f64",
+            &[],
+            &["singular"],
+        ),
+    ]);
+}
+
+#[test]
+fn names_of_the_report_are_not_those_of_the_user() {
+    let report = report(
+        "base { h, p_x, lambda_1, x } lagrangian { m / 2 * (der(h)^2 + der(p_x)^2 + der(lambda_1)^2 + der(x)^2) - h }
+         constraints { sin(h) * der(p_x) = cos(h) * der(lambda_1); }",
+        "m: f64",
+    );
+    assert!(report.contains("*lambda_1_"), "{report}");
+    let report = self::report(
+        "base { h, x } lagrangian { m / 2 * (der(h)^2 + p_x_dot * der(x)^2) - h } emit { hamiltonian }",
+        "m: f64, p_x_dot: f64",
+    );
+    assert!(report.contains("\n  h_ = ") && report.contains("\n  p_x_dot_ = "), "{report}");
+}
