@@ -222,7 +222,7 @@ where
             matrices
         } else {
             let slope = start.derivative();
-            let jacobian = linearization.state_jacobian(start, start.time, x, &slope, statistics);
+            let jacobian = linearization.state_jacobian(start, start.time, x, &slope, h, statistics);
             statistics.evaluations += 1;
             statistics.jacobians += 1;
             statistics.factorizations += 2;

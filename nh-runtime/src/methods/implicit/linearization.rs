@@ -1,29 +1,42 @@
 //! Where an implicit method takes ∂f/∂x from.
 
-use crate::arrays::all_finite;
+use crate::arrays::{Array, all_finite};
 use crate::methods::Start;
+use crate::projection::largest;
 use crate::{Dim, DimOf, Dynamics, Jacobian, MatOf, Real, Scalar, ScalarOf, State, Statistics, VecOf};
 
 /// How a method finds the Jacobian ∂f/∂x of its system: [`FiniteDifferences`] or [`Analytic`].
 pub trait Linearization<S: Dynamics>: Copy {
-    /// ∂f/∂x at a time and a point, where f is `slope`; in row i, the derivatives of component i.
+    /// ∂f/∂x at a time and a point, where f is `slope`, for a step of length `h`; in row i, the derivatives of
+    /// component i.
     fn state_jacobian(
         &self,
         start: &Start<'_, S>,
         time: ScalarOf<S>,
         point: &VecOf<S>,
         slope: &VecOf<S>,
+        h: ScalarOf<S>,
         statistics: &mut Statistics,
     ) -> MatOf<S>;
 }
 
-/// The Jacobian by difference quotients: one evaluation of the derivative for each component.
+/// The Jacobian by difference quotients: one evaluation of the derivative for each component, and a second where
+/// the first shows nothing but rounding.
+///
+/// The increments are √ε times the size of the component: the larger of its value and of its change in a step. A
+/// component that is nearly zero in both may be on its way to become large: where its increment shows nothing, a
+/// share of the largest component does. There is no other scale, so that the quotients do not depend on units.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct FiniteDifferences;
 
 /// The system's own Jacobian.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Analytic;
+
+/// The share of the largest component that a small one may be taken for.
+const SMALL: f64 = 1e-3;
+/// The rounding errors of a derivative below which its change says nothing.
+const ROUND_OFF: f64 = 16.0;
 
 impl<S: Jacobian> Linearization<S> for Analytic {
     #[inline]
@@ -33,6 +46,7 @@ impl<S: Jacobian> Linearization<S> for Analytic {
         time: ScalarOf<S>,
         point: &VecOf<S>,
         _slope: &VecOf<S>,
+        _h: ScalarOf<S>,
         _statistics: &mut Statistics,
     ) -> MatOf<S> {
         start.system.state_jacobian(time, &S::State::from_array(*point), start.input)
@@ -49,53 +63,96 @@ where
         time: ScalarOf<S>,
         point: &VecOf<S>,
         slope: &VecOf<S>,
+        h: ScalarOf<S>,
         statistics: &mut Statistics,
     ) -> MatOf<S> {
+        let root = ScalarOf::<S>::EPSILON.sqrt();
+        let sizes = sizes::<ScalarOf<S>, _>(point, slope, h);
+        let least = largest(sizes.as_ref()) * ScalarOf::<S>::from_f64(SMALL);
+        let place = Place { start, time, point, slope };
         let mut matrix: MatOf<S> = DimOf::<S>::mat(ScalarOf::<S>::ZERO);
-        for j in 0..DimOf::<S>::N {
-            let Some(&x) = point.as_ref().get(j) else { break };
-            // the increment of the code RADAU5 (Hairer, Wanner II, section IV.8)
-            let least = ScalarOf::<S>::from_f64(1e-5);
-            let delta = (ScalarOf::<S>::EPSILON * x.abs().max(least)).sqrt();
-            let mut column = quotient(start, time, point, slope, j, delta);
-            if !all_finite::<ScalarOf<S>, _>(&column) {
-                column = quotient(start, time, point, slope, j, -delta);
-                statistics.evaluations += 1;
+        for (j, &size) in sizes.as_ref().iter().enumerate() {
+            let mut column = place.quotient(j, root * size, statistics);
+            if size < least && column.is_none_or(|(_, is_seen)| !is_seen) {
+                column = place.quotient(j, root * least, statistics).or(column);
             }
+            // what nothing moves is not seen to depend on anything
+            let Some((column, _)) = column else { continue };
             for (row, q) in matrix.as_mut().iter_mut().zip(column.as_ref()) {
                 if let Some(entry) = row.as_mut().get_mut(j) {
                     *entry = *q;
                 }
             }
-            statistics.evaluations += 1;
         }
         matrix
     }
 }
 
-/// The difference quotient of f in direction `j`.
-fn quotient<S: Dynamics>(
-    start: &Start<'_, S>,
+/// How large each component is, by its value and by its change in a step of length h. At a point far from where the
+/// solution will stay, as in a boundary layer, the latter says no more than that of the largest component.
+fn sizes<T: Real, V: Array<T>>(x: &V, slope: &V, h: T) -> V {
+    let most = largest(x.as_ref());
+    let mut sizes = *x;
+    for (size, f) in sizes.as_mut().iter_mut().zip(slope.as_ref()) {
+        let moved = (h * *f).abs();
+        let moved = if most > T::ZERO { moved.min(most) } else { moved };
+        let bounded = if moved.is_finite() { moved } else { T::ZERO };
+        *size = size.abs().max(bounded);
+    }
+    sizes
+}
+
+/// Where a derivative is differentiated, with its value there.
+struct Place<'a, 'b, S: Dynamics> {
+    start: &'a Start<'b, S>,
     time: ScalarOf<S>,
-    point: &VecOf<S>,
-    slope: &VecOf<S>,
-    j: usize,
-    delta: ScalarOf<S>,
-) -> VecOf<S>
+    point: &'a VecOf<S>,
+    slope: &'a VecOf<S>,
+}
+
+impl<S: Dynamics> Place<'_, '_, S>
 where
     ScalarOf<S>: Real,
 {
-    let mut moved = *point;
-    let mut really = delta;
-    if let Some(x) = moved.as_mut().get_mut(j) {
+    /// The difference quotient of f by component `j`, forwards or else backwards, and whether it shows more than
+    /// rounding. None where the component does not move.
+    fn quotient(
+        &self,
+        j: usize,
+        delta: ScalarOf<S>,
+        statistics: &mut Statistics,
+    ) -> Option<(VecOf<S>, bool)> {
+        let forwards = self.quotient_by(j, delta, statistics)?;
+        if all_finite::<ScalarOf<S>, _>(&forwards.0) {
+            return Some(forwards);
+        }
+        self.quotient_by(j, -delta, statistics)
+    }
+
+    fn quotient_by(
+        &self,
+        j: usize,
+        delta: ScalarOf<S>,
+        statistics: &mut Statistics,
+    ) -> Option<(VecOf<S>, bool)> {
+        let mut moved = *self.point;
+        let x = moved.as_mut().get_mut(j)?;
         let before = *x;
         *x += delta;
         // the distance that rounding has left
-        really = *x - before;
+        let really = *x - before;
+        if really == ScalarOf::<S>::ZERO {
+            return None;
+        }
+        statistics.evaluations += 1;
+        let mut ahead = self.start.derivative_at(self.time, moved);
+        let round_off = ScalarOf::<S>::from_f64(ROUND_OFF) * ScalarOf::<S>::EPSILON;
+        let mut is_seen = false;
+        for (a, f) in ahead.as_mut().iter_mut().zip(self.slope.as_ref()) {
+            let change = *a - *f;
+            is_seen |= change.abs() > round_off * f.abs().max(a.abs());
+            *a = change / really;
+        }
+        Some((ahead, is_seen))
     }
-    let mut ahead = start.derivative_at(time, moved);
-    for (a, f) in ahead.as_mut().iter_mut().zip(slope.as_ref()) {
-        *a = (*a - *f) / really;
-    }
-    ahead
 }

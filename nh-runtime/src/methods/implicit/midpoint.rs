@@ -127,7 +127,8 @@ impl<T: Real, J> Midpoint<T, J> {
                 newton
             } else {
                 let point = displaced(&x, T::ONE, &half_increment);
-                let jacobian = self.linearization.state_jacobian(start, middle, &point, &slope, statistics);
+                let jacobian =
+                    self.linearization.state_jacobian(start, middle, &point, &slope, length, statistics);
                 statistics.jacobians += 1;
                 statistics.factorizations += 1;
                 *newton.insert(Newton::new(half, jacobian))

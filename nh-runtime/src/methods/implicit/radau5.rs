@@ -171,7 +171,8 @@ impl<J> Radau<J> {
         } else {
             statistics.jacobians += 1;
             let x = start.state.to_array();
-            let jacobian = self.linearization.state_jacobian(start, start.time, &x, &work.first, statistics);
+            let jacobian =
+                self.linearization.state_jacobian(start, start.time, &x, &work.first, h, statistics);
             work.fresh = true;
             *work.jacobian.insert(jacobian)
         };

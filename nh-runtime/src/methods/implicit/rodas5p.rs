@@ -52,12 +52,14 @@ pub struct Work<S: Dynamics> {
     first: VecOf<S>,
     jacobian: MatOf<S>,
     by_time: VecOf<S>,
-    /// Whether the latter two belong to the present start.
-    linearized: bool,
+    /// The length of the step that the latter two were formed for, if they belong to the present start.
+    linearized: Option<ScalarOf<S>>,
     /// The stages u.
     stages: [VecOf<S>; 8],
     /// The start and the length of the step that the stages belong to.
     step: Option<(ScalarOf<S>, ScalarOf<S>)>,
+    /// The length that the derivatives of the last accepted step were formed for.
+    accepted: ScalarOf<S>,
 }
 
 impl<S: Dynamics> Clone for Work<S> {
@@ -67,15 +69,20 @@ impl<S: Dynamics> Clone for Work<S> {
 }
 impl<S: Dynamics> Copy for Work<S> {}
 
-/// ∂f/∂t by a difference quotient, forwards or else backwards.
-fn by_time<S: Dynamics>(start: &Start<'_, S>, first: &VecOf<S>, statistics: &mut Statistics) -> VecOf<S>
+/// ∂f/∂t by a difference quotient, forwards or else backwards. The increment is a share of the step that the
+/// derivative is meant for: √ε of it, and more where time is too coarse.
+fn by_time<S: Dynamics>(
+    start: &Start<'_, S>,
+    first: &VecOf<S>,
+    h: ScalarOf<S>,
+    statistics: &mut Statistics,
+) -> VecOf<S>
 where
     ScalarOf<S>: Real,
 {
     let x = start.state.to_array();
-    let least = ScalarOf::<S>::from_f64(1e-5);
-    // the increment of the code RODAS (Hairer, Wanner II, section IV.7)
-    let delta = (ScalarOf::<S>::EPSILON * start.time.abs().max(least)).sqrt();
+    let coarseness = (start.time / h).abs().max(ScalarOf::<S>::ONE);
+    let delta = h.abs() * (ScalarOf::<S>::EPSILON * coarseness).sqrt();
     for delta in [delta, -delta] {
         let there = start.time + delta;
         let mut slope = start.derivative_at(there, x);
@@ -91,6 +98,22 @@ where
 }
 
 impl<J> Rodas<J> {
+    /// Forms the derivatives of f at the start, for a step of length h.
+    fn linearize<S: Dynamics>(
+        &self,
+        start: &Start<'_, S>,
+        h: ScalarOf<S>,
+        work: &mut Work<S>,
+        statistics: &mut Statistics,
+    ) where
+        ScalarOf<S>: Real,
+        J: Linearization<S>,
+    {
+        let x = start.state.to_array();
+        work.jacobian = self.linearization.state_jacobian(start, start.time, &x, &work.first, h, statistics);
+        work.by_time = by_time(start, &work.first, h, statistics);
+    }
+
     /// Computes the stages of a step and gives its end.
     fn stages<S: Dynamics>(start: &Start<'_, S>, h: ScalarOf<S>, work: &mut Work<S>) -> VecOf<S>
     where
@@ -144,9 +167,10 @@ where
             first: zero,
             jacobian: DimOf::<S>::mat(ScalarOf::<S>::ZERO),
             by_time: zero,
-            linearized: false,
+            linearized: None,
             stages: [zero; 8],
             step: None,
+            accepted: ScalarOf::<S>::ZERO,
         }
     }
 
@@ -160,7 +184,7 @@ where
     ) -> &'w VecOf<S> {
         statistics.evaluations += 1;
         work.first = start.derivative();
-        work.linearized = false;
+        work.linearized = None;
         work.step = None;
         &work.first
     }
@@ -174,16 +198,14 @@ where
         statistics: &mut Statistics,
     ) -> Trial<S> {
         let x = start.state.to_array();
-        if !work.linearized {
-            let jacobian = self.linearization.state_jacobian(start, start.time, &x, &work.first, statistics);
-            work.jacobian = jacobian;
-            work.by_time = by_time(start, &work.first, statistics);
+        if work.linearized.is_none() {
+            self.linearize(start, h, work, statistics);
             statistics.jacobians += 1;
-            work.linearized = work.jacobian.as_ref().iter().all(all_finite::<ScalarOf<S>, _>);
-            if !work.linearized {
+            if !work.jacobian.as_ref().iter().all(all_finite::<ScalarOf<S>, _>) {
                 // an infinite entry would take its stages for zero
                 return Trial { state: x, error: ScalarOf::<S>::ZERO.recip() };
             }
+            work.linearized = Some(h);
         }
         statistics.factorizations += 1;
         statistics.evaluations += 7;
@@ -195,6 +217,7 @@ where
 
     fn accept<const KEEP: bool>(&self, start: &Start<'_, S>, h: ScalarOf<S>, work: &mut Work<S>) {
         work.step = Some((start.time, h));
+        work.accepted = work.linearized.unwrap_or(h);
     }
 
     #[cold]
@@ -219,9 +242,7 @@ where
         let mut again = *work;
         let statistics = &mut Statistics::default();
         again.first = start.derivative();
-        let x = start.state.to_array();
-        again.jacobian = self.linearization.state_jacobian(start, start.time, &x, &again.first, statistics);
-        again.by_time = by_time(start, &again.first, statistics);
+        self.linearize(start, work.accepted, &mut again, statistics);
         Self::stages(start, h, &mut again);
         DENSE.map(|row| weighted(zero, &row, &again.stages))
     }

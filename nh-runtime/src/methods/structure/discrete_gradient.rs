@@ -253,8 +253,14 @@ impl<T: Real, J> Gonzalez<T, J> {
         let half = T::from_f64(0.5);
         let middle = displaced(step.x, half, change);
         let slope = step.start.derivative_at(step.start.time, middle);
-        let jacobian =
-            self.linearization.state_jacobian(step.start, step.start.time, &middle, &slope, statistics);
+        let jacobian = self.linearization.state_jacobian(
+            step.start,
+            step.start.time,
+            &middle,
+            &slope,
+            step.h,
+            statistics,
+        );
         statistics.evaluations += 1;
         statistics.jacobians += 1;
         statistics.factorizations += 1;
