@@ -4,7 +4,7 @@ use super::graph::{Function, Function2, Graph, Node};
 use super::number::Rational;
 use crate::id::{ExprId, SymbolId};
 
-/// A floating-point value and a bound on how far it is from the exact one (to first order).
+/// A floating-point value and a bound on how far it is from the exact one.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Bounded {
     /// The computed value.
@@ -20,7 +20,8 @@ impl Bounded {
 
     /// Adds the rounding of the operation that produced the value.
     pub(crate) fn rounded(value: f64, error: f64) -> Self {
-        Self { value, error: error + 2.0 * f64::EPSILON * value.abs() }
+        // what is not normal has an absolute error
+        Self { value, error: error + 2.0 * f64::EPSILON * value.abs() + f64::MIN_POSITIVE }
     }
 
     /// An exact number as it is read.
@@ -103,23 +104,47 @@ impl Graph {
                 for (x, exponent) in powers() {
                     product *= real_power(x.value, exponent);
                     let exponent = exponent.to_f64();
-                    relative += exponent.abs() * x.error / x.value.abs().max(f64::MIN_POSITIVE)
-                        + (2.0 + exponent.abs()) * f64::EPSILON;
+                    relative += (2.0 + exponent.abs()) * f64::EPSILON;
+                    if x.error > 0.0 {
+                        relative += relative_spread(x, exponent);
+                    }
                 }
-                // the error of a product that vanished: its factors moved by their errors
-                let moved = || {
-                    powers().fold(coefficient.to_f64().abs(), |product, (x, exponent)| {
+                if product == 0.0 {
+                    // its factors moved by their errors
+                    let moved = powers().fold(coefficient.to_f64().abs(), |product, (x, exponent)| {
                         product * real_power(x.value.abs() + x.error, exponent)
-                    })
-                };
-                let error = if product == 0.0 { moved() } else { 0.0 };
-                Bounded { value: product, error: error + product.abs() * relative }
+                    });
+                    return Bounded { value: product, error: moved };
+                }
+                // relative errors of factors multiply: a tenth more than their sum is left where they are small
+                let relative = if relative > 0.1 { relative.exp_m1() } else { 1.1 * relative };
+                Bounded { value: product, error: product.abs() * relative + f64::MIN_POSITIVE }
             }
             Node::Apply(function, _) => Bounded::of_function(*function, known[operands[0]]),
             Node::Apply2(function, ..) => {
                 Bounded::of_function2(*function, known[operands[0]], known[operands[1]])
             }
         }
+    }
+}
+
+/// 1/√(1 − x²), the slope of asin and acos.
+fn arc_slope(x: f64) -> f64 {
+    if x < 1.0 { 1.0 / ((1.0 - x) * (1.0 + x)).sqrt() } else { f64::INFINITY }
+}
+
+/// A number r such that x^exponent moves by at most eʳ − 1 of itself while x, which is not zero, moves by its
+/// error: infinite where x may be zero and is divided by.
+fn relative_spread(x: Bounded, exponent: f64) -> f64 {
+    let relative = x.error / x.value.abs();
+    if relative < 1e-3 {
+        1.001 * exponent.abs() * relative
+    } else if relative < 1.0 {
+        exponent.abs() * -(-relative).ln_1p()
+    } else if exponent > 0.0 {
+        exponent * relative.ln_1p() + 3f64.ln()
+    } else {
+        f64::INFINITY
     }
 }
 
@@ -138,29 +163,37 @@ impl Bounded {
     /// A function of a number with an error.
     pub(crate) fn of_function(function: Function, x: Self) -> Self {
         let v = x.value;
+        // the steepest slope within the error; where there is none, no bound
+        let far = v.abs() + x.error;
         let (value, slope) = match function {
             Function::Sin => (v.sin(), 1.0),
             Function::Cos => (v.cos(), 1.0),
-            Function::Asin => (v.asin(), 1.0 / (1.0 - v * v).sqrt()),
-            Function::Acos => (v.acos(), 1.0 / (1.0 - v * v).sqrt()),
+            Function::Asin => (v.asin(), arc_slope(far)),
+            Function::Acos => (v.acos(), arc_slope(far)),
             Function::Atan => (v.atan(), 1.0),
-            Function::Sinh => (v.sinh(), v.cosh()),
-            Function::Cosh => (v.cosh(), v.sinh().abs()),
+            Function::Sinh => (v.sinh(), far.cosh()),
+            Function::Cosh => (v.cosh(), far.sinh()),
             Function::Tanh => (v.tanh(), 1.0),
-            Function::Exp => (v.exp(), v.exp()),
-            Function::Ln => (v.ln(), 1.0 / v.abs()),
+            Function::Exp => (v.exp(), (v + x.error).exp()),
+            Function::Ln => (v.ln(), if v > x.error { 1.0 / (v - x.error) } else { f64::INFINITY }),
             Function::Abs => (v.abs(), 1.0),
+            Function::Sign if v.abs() <= x.error => (if v == 0.0 { 0.0 } else { v.signum() }, f64::INFINITY),
             Function::Sign => (if v == 0.0 { 0.0 } else { v.signum() }, 0.0),
         };
-        Bounded::rounded(value, slope * x.error)
+        Bounded::rounded(value, if x.error == 0.0 { 0.0 } else { slope * x.error })
     }
 
     /// A function of two numbers with errors.
     pub(crate) fn of_function2(function: Function2, x: Self, y: Self) -> Self {
         match function {
             Function2::Atan2 => {
-                let radius = x.value.hypot(y.value);
-                Bounded::rounded(x.value.atan2(y.value), (x.error + y.error) / radius)
+                let error = x.error + y.error;
+                let radius = x.value.hypot(y.value) - error;
+                // across the negative half of the axis the angle jumps by a turn
+                let jumps = y.value < y.error && x.value.abs() <= x.error && x.error > 0.0;
+                let jump = if jumps { std::f64::consts::TAU } else { 0.0 };
+                let slope = if radius > 0.0 { error / radius } else { f64::INFINITY };
+                Bounded::rounded(x.value.atan2(y.value), if error == 0.0 { 0.0 } else { slope + jump })
             }
             Function2::Min => Bounded { value: x.value.min(y.value), error: x.error.max(y.error) },
             Function2::Max => Bounded { value: x.value.max(y.value), error: x.error.max(y.error) },

@@ -147,15 +147,22 @@ impl Graph {
 
     /// The rank at generic points.
     ///
+    /// The field knows no identities among roots, arcs and logarithms of numbers: where there are any, the
+    /// rank is that at points with the roots of real numbers.
+    ///
     /// # Errors
     /// The reason, where it cannot be decided.
     pub fn generic_rank(&self, matrix: &[Vec<ExprId>]) -> Result<usize, String> {
+        let entries: Vec<ExprId> = matrix.iter().flatten().copied().collect();
         let mut rank = 0;
         for start in [1_000, 2_000] {
-            let rows = self.matrix_in_field(matrix, |seed| FieldPoint::random(start + seed))?;
-            rank = rank.max(Echelon::of(rows).rank());
+            match self.matrix_in_field(matrix, |seed| FieldPoint::random(start + seed)) {
+                Ok(rows) => rank = rank.max(Echelon::of(rows).rank()),
+                // such as a root that the field does not have
+                Err(reason) => return self.rank_without_field(matrix).ok_or(reason),
+            }
         }
-        Ok(rank)
+        if rank > 0 && self.is_beyond_field(&entries) { self.rank_on_reals(matrix, rank) } else { Ok(rank) }
     }
 
     /// The first columns of which all are combinations, at generic points.

@@ -2,10 +2,13 @@
 
 mod accuracy;
 mod assuming;
+mod ball;
 mod constants;
 mod derivative;
 mod display;
+mod enclosure;
 mod evaluate;
+mod exact;
 mod field;
 mod graph;
 mod independence;
@@ -19,6 +22,7 @@ mod places;
 mod product;
 mod product_to_sum;
 mod range;
+mod real_rank;
 mod substitute;
 mod sum;
 mod transcendental;

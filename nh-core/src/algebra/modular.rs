@@ -63,7 +63,7 @@ impl Graph {
     }
 
     /// The common denominator of the coefficients inside sine, cosine and exp.
-    fn angle_division(&self, order: &[ExprId]) -> Result<i64, NoValue> {
+    pub(super) fn angle_division(&self, order: &[ExprId]) -> Result<i64, NoValue> {
         let mut division: i64 = 1;
         for id in order {
             let Node::Apply(
@@ -94,7 +94,7 @@ impl Graph {
 
     /// The argument of a periodic function as terms with coefficients; the number among them
     /// stands as a multiple of itself being 1.
-    fn angle_terms(&self, x: ExprId) -> Vec<(Option<ExprId>, Rational)> {
+    pub(super) fn angle_terms(&self, x: ExprId) -> Vec<(Option<ExprId>, Rational)> {
         let scaled = |term: ExprId, coefficient: &Rational| {
             let factor = self.angle_factor(term).unwrap_or(Rational::ONE);
             (Some(term), coefficient.clone() * factor)

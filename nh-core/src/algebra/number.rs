@@ -154,6 +154,18 @@ impl Rational {
         }
     }
 
+    /// The number that a finite `f64` is.
+    #[must_use]
+    pub fn of_f64(value: f64) -> Option<Self> {
+        if !value.is_finite() {
+            return None;
+        }
+        let (mantissa, exponent, sign) = num_traits::float::FloatCore::integer_decode(value);
+        let mantissa = BigInt::from(mantissa) * sign;
+        let power = BigInt::one() << exponent.unsigned_abs();
+        Some(Self::normal(if exponent < 0 { Big::new(mantissa, power) } else { (mantissa * power).into() }))
+    }
+
     /// Whether this is 0.
     #[must_use]
     pub fn is_zero(&self) -> bool {

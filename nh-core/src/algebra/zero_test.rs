@@ -3,9 +3,15 @@
 //! `Zero` is proved by random points of a large prime field: a non-zero rational function of
 //! degree d vanishes at one with probability at most d/P < 2⁻⁴⁰ for any d that occurs, so two
 //! points leave less than 2⁻⁸⁰ (Schwartz–Zippel). A square root has two branches, between which
-//! the field chooses by chance; expressions with roots are tested at 80 points.
-//! `NonZero` is proved in floating point, at a point where the value exceeds its error bound.
+//! the field chooses by chance; expressions with roots are tested at 80 points, and where they do
+//! not vanish there, they are tested at random points with the roots of real numbers, exactly
+//! (`enclosure.rs`). `NonZero` is proved at a point where the value exceeds its error bound, in floating
+//! point or with as many digits as it takes. Expressions without symbols are decided by these
+//! digits alone, where a bound says how many there have to be (`exact.rs`).
 
+use super::ball::{Bits, NoBall};
+use super::enclosure::Point;
+use super::exact::Decision;
 use super::graph::{Graph, Node};
 use super::modular::{FieldPoint, NoValue};
 use crate::id::{ExprId, SymbolId};
@@ -65,6 +71,18 @@ const POINTS_WITH_ROOTS: u64 = 80;
 const PATIENCE: u64 = 24;
 /// Points tried for a witness.
 const WITNESSES: u64 = 24;
+/// Points tried for a witness with more digits, and these digits.
+const CLOSER_LOOKS: u64 = 8;
+const CLOSER: Bits = 256;
+/// Random points with the roots of real numbers: coordinates have 20 bits, so that four leave less
+/// than (d/2²⁰)⁴ for an expression of degree d.
+const REAL_POINTS: u64 = 4;
+/// Digits up to which numbers are decided.
+const MOST_DIGITS: Bits = 1 << 14;
+/// Digits up to which a number is looked at that has no separation bound.
+const DIGITS_WITHOUT_BOUND: Bits = 1 << 11;
+/// Expressions with more parts are not looked at with more digits.
+const LARGEST: usize = 20_000;
 
 impl Graph {
     /// Decides whether `expression` vanishes identically.
@@ -84,21 +102,132 @@ impl Graph {
     }
 
     fn decided(&self, expression: ExprId) -> Verdict {
-        let has_roots = self.has_roots(expression);
-        match self.vanishes_in_field(expression, has_roots) {
-            // the sign of a root on the reals has the last word: `sqrt(x^2) − x`
-            Ok(true) if has_roots => self.witness(expression).map_or(Verdict::Zero, Verdict::NonZero),
-            Ok(true) => Verdict::Zero,
-            Ok(false) => self.witness(expression).map_or_else(
-                || {
-                    Verdict::Unknown(
-                        "it is zero at every point tried, but not by any identity known here".into(),
-                    )
-                },
-                Verdict::NonZero,
-            ),
-            Err(reason) => self.witness(expression).map_or(Verdict::Unknown(reason), Verdict::NonZero),
+        if self.symbols_in(&[expression]).is_empty() {
+            return self.decided_number(expression);
         }
+        let has_roots = self.has_roots(expression);
+        let in_field = self.vanishes_in_field(expression, has_roots);
+        if in_field == Ok(true) && !has_roots {
+            return Verdict::Zero;
+        }
+        if let Some(witness) = self.witness(expression).or_else(|| self.closer_witness(expression)) {
+            return Verdict::NonZero(witness);
+        }
+        match in_field {
+            // the sign of a root on the reals had the last word: `sqrt(x^2) − x`
+            Ok(true) => Verdict::Zero,
+            _ if self.vanishes_on_reals(expression) => Verdict::Zero,
+            Ok(false) => {
+                Verdict::Unknown("it is zero at every point tried, but not by any identity known here".into())
+            }
+            Err(reason) => Verdict::Unknown(reason),
+        }
+    }
+
+    /// Decides an expression without symbols.
+    fn decided_number(&self, expression: ExprId) -> Verdict {
+        let mut bits = 128;
+        let mut seen = 0;
+        let mut most = DIGITS_WITHOUT_BOUND;
+        while bits <= most {
+            let point = Point::Given(&|_| super::Rational::ZERO);
+            let mut next = 2 * bits;
+            match self.evaluate_exactly(&[expression], point, bits) {
+                Ok(evaluated) => {
+                    let value = &evaluated.values[0];
+                    if value.ball.is_nonzero() {
+                        return Verdict::NonZero(Witness { point: Vec::new(), value: value.ball.to_f64() });
+                    }
+                    seen = bits;
+                    match value.form.as_ref().map(|form| form.decided(evaluated.degree, bits)) {
+                        Some(Ok(Decision::Zero)) => return Verdict::Zero,
+                        Some(Ok(Decision::Digits(wanted))) => {
+                            most = MOST_DIGITS;
+                            next = next.max(wanted);
+                        }
+                        _ => {}
+                    }
+                }
+                Err(NoBall::Undefined) => {
+                    return Verdict::Unknown("it is not a real number".into());
+                }
+                Err(NoBall::TooWide) => {}
+                Err(NoBall::TooLong) => break,
+            }
+            bits = next;
+        }
+        let by_identity =
+            !self.has_roots(expression) && self.vanishes_in_field(expression, false) == Ok(true);
+        if seen > 0 && (by_identity || self.vanishes_on_reals(expression)) {
+            return Verdict::Zero;
+        }
+        Verdict::Unknown(match seen {
+            0 => "its value is beyond the numbers that can be compared with zero".into(),
+            bits => format!("it is zero to {} digits, but not by any identity known here", bits * 3 / 10),
+        })
+    }
+
+    /// A point where the expression is not zero, with more digits than floating point has.
+    fn closer_witness(&self, expression: ExprId) -> Option<Witness> {
+        if self.reachable(&[expression]).len() > LARGEST {
+            return None;
+        }
+        let symbols = self.symbols_in(&[expression]);
+        (0..CLOSER_LOOKS).find_map(|attempt| {
+            let point: Vec<(SymbolId, f64)> =
+                symbols.iter().enumerate().map(|(i, symbol)| (*symbol, sample(attempt, i))).collect();
+            let value = |symbol| {
+                let found = point.iter().find(|(known, _)| *known == symbol);
+                found.and_then(|(_, value)| super::Rational::of_f64(*value)).unwrap_or(super::Rational::ZERO)
+            };
+            let evaluated = self.evaluate_exactly(&[expression], Point::Given(&value), CLOSER).ok()?;
+            let ball = &evaluated.values[0].ball;
+            ball.is_nonzero().then(|| Witness { value: ball.to_f64(), point: point.clone() })
+        })
+    }
+
+    /// Whether the expression vanishes at random points with the roots of real numbers.
+    fn vanishes_on_reals(&self, expression: ExprId) -> bool {
+        if self.reachable(&[expression]).len() > LARGEST {
+            return false;
+        }
+        [false, true].into_iter().any(|tied| {
+            let mut seen = 0;
+            for seed in 0..REAL_POINTS * PATIENCE {
+                match self.vanishes_at(expression, Point::Random { seed, tied }) {
+                    Ok(true) => seen += 1,
+                    Ok(false) => return false,
+                    Err(NoBall::Undefined) => {}
+                    Err(_) => return false,
+                }
+                if seen == REAL_POINTS {
+                    return true;
+                }
+            }
+            false
+        })
+    }
+
+    /// Whether the expression is zero at a point, decided with as many digits as it takes.
+    fn vanishes_at(&self, expression: ExprId, point: Point<'_>) -> Result<bool, NoBall> {
+        let mut bits = 128;
+        while bits <= MOST_DIGITS {
+            let mut next = 2 * bits;
+            match self.evaluate_exactly(&[expression], point, bits) {
+                Err(NoBall::TooWide) => {}
+                Err(other) => return Err(other),
+                Ok(evaluated) => {
+                    let Some(form) = &evaluated.values[0].form else { return Err(NoBall::TooLong) };
+                    match form.decided(evaluated.degree, bits)? {
+                        Decision::Zero => return Ok(true),
+                        Decision::NonZero => return Ok(false),
+                        Decision::Digits(wanted) => next = next.max(wanted),
+                    }
+                }
+            }
+            bits = next;
+        }
+        Err(NoBall::TooWide)
     }
 
     fn has_roots(&self, expression: ExprId) -> bool {
@@ -275,8 +404,9 @@ mod tests {
         let product = g.mul(x, y);
         let (lx, ly, lxy) =
             (g.apply(Function::Ln, x), g.apply(Function::Ln, y), g.apply(Function::Ln, product));
-        let defect =
-            g.linear_combination(&[(Rational::ONE, lxy), (-Rational::ONE, lx), (-Rational::ONE, ly)]);
+        let lx = g.add(lx, ly);
+        let (square, other) = (g.square(lx), g.square(lxy));
+        let defect = g.sub(square, other);
         assert!(matches!(g.zero_test(defect), Verdict::Unknown(_)));
         let zero = g.zero();
         let poison = g.div(x, zero);

@@ -65,8 +65,9 @@ fn judge(
 ) -> Option<Violation> {
     let graph: &Graph = &model.graph;
     let origin = model.lagrangian.origin;
-    let rows = match graph.matrix_in_field(matrix, |seed| FieldPoint::random(9_000 + seed)) {
-        Ok(rows) => rows,
+    let rank = match graph.generic_rank(matrix) {
+        Ok(rank) if rank == size => return None,
+        Ok(rank) => rank,
         Err(why) => {
             return Some(Violation {
                 law: Law::Decidable,
@@ -78,15 +79,14 @@ fn judge(
             });
         }
     };
-    let echelon = Echelon::of(rows);
-    if echelon.rank() == size || graph.generic_rank(matrix) == Ok(size) {
-        return None;
-    }
-    let evidence = echelon.kernel_vector(size).map_or_else(String::new, |vector| evidence(&vector));
+    let rows = graph.matrix_in_field(matrix, |seed| FieldPoint::random(9_000 + seed));
+    let echelon = rows.ok().map(Echelon::of).filter(|echelon| echelon.rank() == rank);
+    let kernel = echelon.and_then(|echelon| echelon.kernel_vector(size));
+    let evidence = kernel.map_or_else(String::new, |vector| evidence(&vector));
     Some(Violation {
         law: Law::Regularity,
         origin,
-        what: format!("{what} {} of {size}", echelon.rank()),
+        what: format!("{what} {rank} of {size}"),
         evidence,
         way_out: "give that motion a kinetic energy in the Lagrangian, or constrain it".into(),
     })
