@@ -99,7 +99,7 @@ impl RankSetting<'_> {
                     .collect();
                 let minor = graph.small_determinant(&minor);
                 let minor = graph.simplify(minor);
-                if self.manifold.zero_test(graph, minor).is_zero() {
+                if self.vanishes(graph, minor) {
                     continue;
                 }
                 if self.vanishes_nowhere(graph, minor) {
@@ -112,6 +112,16 @@ impl RankSetting<'_> {
             }
         }
         Some(minors)
+    }
+
+    /// Whether a function is 0 at all points. Where functions were solved for the manifold, it may have other
+    /// branches than that which was found: then only what vanishes everywhere is said to.
+    fn vanishes(&self, graph: &mut Graph, function: ExprId) -> bool {
+        if self.residuals.is_empty() {
+            self.manifold.zero_test(graph, function).is_zero()
+        } else {
+            graph.zero_test(function).is_zero()
+        }
     }
 
     /// By its range, or because it is a number on the manifold.

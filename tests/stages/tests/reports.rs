@@ -110,6 +110,13 @@ fn constraints_say_where_they_are_dependent_in_every_formulation() {
             &["they are dependent"],
         ),
         (
+            // two branches: der(x) = 0 and der(y) = 0
+            &format!("{plane} constraints {{ der(x) * der(y) = 0; }}"),
+            "",
+            &["they are dependent where y_dot = 0 and x_dot = 0"],
+            &[],
+        ),
+        (
             &format!("{plane} constraints {{ der(x) = y * der(z); }}"),
             "",
             &["constraints: 1, linear"],
