@@ -149,8 +149,11 @@ mod syntax;
 /// `routh { spin = mu; }` puts the momentum of a symmetry (or of a cyclic coordinate, by its name) on
 /// the level `mu`, an expression of parameters. It has to be conserved, with its section in D. The
 /// state loses a velocity, and a cyclic coordinate that the section moves; `velocity` gives the first
-/// back, and `quadratures(t, &state)` the rate of the second, for a quadrature. In the projected
-/// formulation the level is kept like a constraint.
+/// back, and `quadratures(t, &state)` the rate of the second, for a quadrature. Which velocity is chosen
+/// as for constraints: its pivot vanishes nowhere, or is of parameters, or `independent` names the velocities that
+/// are left, and the report says where they break down. Where the level determines none everywhere, as
+/// x ẏ − y ẋ in a plane, and in the projected formulation, the state keeps all velocities: the motion keeps
+/// the level, which `constraint_residual` and `project` know of.
 ///
 /// # Splitting
 ///

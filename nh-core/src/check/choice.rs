@@ -2,12 +2,15 @@
 
 use super::constraints::Constraints;
 use super::evidence::{counted, listed, shown};
-use crate::algebra::Facts;
-use crate::geometry::choice::{Choice, NoChoice, judge, search};
+use crate::algebra::{Facts, Graph};
+use crate::geometry::choice::{Choice, NoChoice, Subsets, judge, search};
 use crate::geometry::{ConstraintDistribution, LinearConstraints, Manifold, PivotSetting};
-use crate::id::{ExprId, Origin, SectionId, SymbolId};
+use crate::id::{ExprId, Id, Origin, SectionId, SymbolId};
 use crate::model::{Formulation, Model};
 use crate::violation::{Law, Violation};
+
+/// How many sets of velocities are considered where more are named than the constraints determine.
+const LIMIT: usize = 256;
 
 /// The outcome of the choice.
 #[derive(Clone, Debug)]
@@ -102,13 +105,15 @@ fn contradictory(origin: Origin) -> Violation {
     }
 }
 
-/// The velocities to eliminate, if as many are named as there have to be.
+/// The velocities that are not named, if as many are named as there have to be: as the constraints leave,
+/// or as these and the levels of momenta do.
 fn dependent_of(
     model: &Model,
     named: &[(SymbolId, Origin)],
     constraints: usize,
 ) -> Result<Vec<SectionId>, Vec<Violation>> {
-    let wanted = model.sections.len() - constraints;
+    let on_constraints = model.sections.len() - constraints;
+    let wanted = on_constraints.saturating_sub(model.routh.len());
     let velocities = velocities(model);
     if let Some((stranger, origin)) = named.iter().find(|(symbol, _)| !velocities.contains(symbol)) {
         return Err(vec![Violation {
@@ -119,7 +124,7 @@ fn dependent_of(
             way_out: "name velocities of the frame, or of declared sections that it leaves".into(),
         }]);
     }
-    if named.len() == wanted {
+    if named.len() == wanted || named.len() == on_constraints {
         let is_kept = |id: &SectionId| named.iter().any(|(symbol, _)| *symbol == model.sections[*id].symbol);
         return Ok(model.sections.ids().filter(|id| !is_kept(id)).collect());
     }
@@ -131,9 +136,13 @@ fn dependent_of(
             counted(named.len(), "velocity is", "velocities are")
         ),
         evidence: format!(
-            "{} less {}",
+            "{} less {}{}",
             counted(model.sections.len(), "velocity", "velocities"),
-            counted(constraints, "constraint", "constraints")
+            counted(constraints, "constraint", "constraints"),
+            match model.routh.len() {
+                0 => String::new(),
+                levels => format!(" and {}", counted(levels, "level", "levels")),
+            }
         ),
         way_out: format!("name {wanted}, or leave `independent` out"),
     }])
@@ -164,7 +173,7 @@ fn named_choice(
     constraints: &LinearConstraints,
 ) -> Result<Chosen, Vec<Violation>> {
     let dependent = dependent_of(model, named, constraints.annihilator.len())?;
-    let judged = judge(&mut model.graph, setting, &dependent).map_err(|why| undecided(model, why))?;
+    let judged = judged(model, setting, &dependent)?;
     let Some(choice) = judged else {
         return Err(vec![Violation {
             law: Law::Choice,
@@ -176,14 +185,33 @@ fn named_choice(
     };
     let mut reason = "the declaration names the independent velocities".to_owned();
     if !choice.breaks_down.is_empty() {
-        reason = format!("{reason}; they break down where {}", zeros(model, &choice.breaks_down));
+        reason = format!("{reason}; they break down where {}", zeros(&model.graph, &choice.breaks_down));
     }
     adapted(model, choice, constraints, reason)
 }
 
+/// The choice to eliminate these; if they are more than the constraints determine, as many of them, with a
+/// pivot that vanishes nowhere if there is such: levels of momenta determine the rest.
+fn judged(
+    model: &mut Model,
+    setting: &PivotSetting<'_>,
+    dependent: &[SectionId],
+) -> Result<Option<Choice>, Vec<Violation>> {
+    let mut first = None;
+    for places in Subsets::of(dependent.len(), setting.annihilator.len()).take(LIMIT) {
+        let some: Vec<SectionId> = places.iter().map(|place| dependent[place.index()]).collect();
+        let judged = judge(&mut model.graph, setting, &some).map_err(|why| undecided(model, why))?;
+        if judged.as_ref().is_some_and(|choice| choice.breaks_down.is_empty()) {
+            return Ok(judged);
+        }
+        first = first.or(judged);
+    }
+    Ok(first)
+}
+
 /// `a = 0 or b = 0`.
-fn zeros(model: &Model, factors: &[ExprId]) -> String {
-    let zeros: Vec<String> = factors.iter().map(|f| format!("{} = 0", shown(&model.graph, *f))).collect();
+pub(crate) fn zeros(graph: &Graph, factors: &[ExprId]) -> String {
+    let zeros: Vec<String> = factors.iter().map(|f| format!("{} = 0", shown(graph, *f))).collect();
     zeros.join(" or ")
 }
 
@@ -240,11 +268,20 @@ fn solved_for(model: &Model) -> Vec<SectionId> {
 }
 
 fn tried(model: &Model, failure: &NoChoice) -> String {
+    eliminations(&model.graph, failure, |dependent| listed(&names(model, dependent)))
+}
+
+/// What the choices that were tried divide by; `names` are those of the velocities.
+pub(crate) fn eliminations(
+    graph: &Graph,
+    failure: &NoChoice,
+    names: impl Fn(&[SectionId]) -> String,
+) -> String {
     const SHOWN: usize = 3;
     let mut parts: Vec<String> = Vec::new();
     for (dependent, factor) in &failure.tried {
-        let eliminated = listed(&names(model, dependent));
-        let part = format!("eliminating {eliminated} divides by {}", shown(&model.graph, *factor));
+        let eliminated = names(dependent);
+        let part = format!("eliminating {eliminated} divides by {}", shown(graph, *factor));
         if !parts.contains(&part) {
             parts.push(part);
         }

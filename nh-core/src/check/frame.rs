@@ -228,7 +228,13 @@ fn excluded(model: &Model, spanning: &[(SymbolId, Origin)]) -> Option<Violation>
     let constraint = model.constraints.iter().next().map(|c| ("`constraints`", c.origin));
     let formulation = model.formulation.filter(|(asked, _)| *asked == Formulation::Projected);
     let formulation = formulation.map(|(_, origin)| ("the projected formulation", origin));
-    let named = model.independent.as_ref().and_then(|named| named.first());
+    // on levels of momenta the state keeps some of them alone
+    let is_spanning = |symbol: &SymbolId| spanning.iter().any(|(other, _)| other == symbol);
+    let named = model.independent.as_ref().filter(|named| {
+        named.len() + model.routh.len() != spanning.len()
+            || !named.iter().all(|(symbol, _)| is_spanning(symbol))
+    });
+    let named = named.and_then(|named| named.first());
     let named = named.map(|(_, origin)| ("`independent`", *origin));
     let (what, origin) = constraint.or(formulation).or(named)?;
     let names: Vec<&str> = spanning.iter().map(|(s, _)| model.graph.symbols()[*s].as_str()).collect();

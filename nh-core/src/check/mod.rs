@@ -25,6 +25,7 @@ mod volume;
 pub use assumptions::facts;
 pub use brackets::structure_functions;
 pub use choice::{Chosen, choose_formulation};
+pub(crate) use choice::{eliminations, zeros};
 pub use claims::claims;
 pub use conservative::{moving_constraint, not_conservative};
 pub(crate) use constraints::name_of;

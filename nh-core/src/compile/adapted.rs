@@ -4,13 +4,13 @@ use super::cancellation::without_needless_cancellation;
 use super::embedded::embedding;
 use super::gibbs_appell;
 use super::gyroscopic;
+use super::levels::{Leveled, again};
 use super::momenta::momenta;
 use super::phase_space;
 use super::restricted::{
     calls, coordinates, in_state, observables, parameter_checks, parameter_divisors, requested,
     requested_jacobian, requested_parameter_jacobian,
 };
-use super::routh::{self, Leveled, on_levels};
 use super::{Proved, fence};
 use crate::algebra::{Accuracy, Graph};
 use crate::check;
@@ -28,18 +28,17 @@ use crate::report::{Derived, equations_of_motion, report};
 use crate::system::System;
 use crate::violation::Violation;
 
-/// Derives everything from a basis of D.
+/// Derives everything from a basis of D and the velocities that levels of momenta leave.
 pub(super) fn derive(
     mut proved: Proved,
     distribution: &ConstraintDistribution,
+    leveled: &Leveled,
     conditions: &[ExprId],
     reason: &str,
 ) -> Result<System, Vec<Violation>> {
-    // 0. the velocities that levels of momenta leave
-    let leveled = on_levels(&mut proved, distribution)?;
     let conditions = &[conditions, &leveled.conditions].concat();
     // 1. C v̇ = f, proved regular
-    let mut candidates = candidates(&mut proved, distribution, &leveled);
+    let mut candidates = candidates(&mut proved, distribution, leveled);
     let singular = check::reduced_regularity(&mut proved.model, &candidates[0], &proved.base);
     fence(singular.into_iter().collect())?;
     // 2. v̇
@@ -145,7 +144,7 @@ fn candidates(
     let is_large = is_large(proved);
     let (system, graph) = (&proved.system, &mut proved.model.graph);
     let chained = distribution.chained(graph, &proved.constraints.residuals, &system.algebroid.velocities);
-    let chained = routh::again(proved, &chained, &leveled.kept.eliminated);
+    let chained = again(proved, &chained, &leveled.kept.eliminated);
     let (system, graph) = (&proved.system, &mut proved.model.graph);
     let distribution = &leveled.kept;
     let by_chain = equations_by_velocity_forms(graph, system, &chained);

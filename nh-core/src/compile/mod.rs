@@ -10,6 +10,7 @@ mod discrete;
 mod embedded;
 mod gibbs_appell;
 mod gyroscopic;
+mod levels;
 mod momenta;
 mod nonholonomic_connection;
 mod phase_space;
@@ -28,6 +29,7 @@ use crate::mechanics::LagrangianSystem;
 use crate::model::{ForceDirection, Model};
 use crate::system::System;
 use crate::violation::Violation;
+use levels::OnLevels;
 pub(crate) use momenta::Symmetries;
 pub(crate) use routh::Level;
 pub(crate) use splitting::{Reduced, declared, frame_names, moved, with_translations};
@@ -63,12 +65,18 @@ pub(crate) struct Proved {
 /// # Errors
 /// Everything found wrong in the first stage that finds something wrong.
 pub fn compile(model: Model) -> Result<System, Vec<Violation>> {
-    let (proved, chosen) = prove(model)?;
+    let (mut proved, chosen) = prove(model)?;
     let quadratures = proved.quadratures.clone();
     // 7. the equations, proved regular, and the claims about them
     let system = match chosen {
         Chosen::Adapted { distribution, conditions, reason } => {
-            adapted::derive(proved, &distribution, &conditions, &reason)?
+            match levels::on_levels(&mut proved, &distribution)? {
+                OnLevels::Adapted(leveled) => {
+                    let reason = reason + &leveled.remark;
+                    adapted::derive(proved, &distribution, &leveled, &conditions, &reason)?
+                }
+                OnLevels::Projected { reason } => projected::derive(proved, &reason)?,
+            }
         }
         Chosen::Projected { reason } => projected::derive(proved, &reason)?,
     };

@@ -2,7 +2,7 @@
 
 use super::restricted::requested;
 use super::{Proved, brackets, connection, discrete, fence, nonholonomic_connection, volume};
-use crate::algebra::{Graph, Matrix};
+use crate::algebra::{Graph, Matrix, Rational, Substitution};
 use crate::check::{self, evidence::shown};
 use crate::id::{ExprId, Origin, SymbolId};
 use crate::mechanics::{
@@ -112,7 +112,7 @@ pub(super) fn judge(proved: &Proved) -> impl Fn(&Graph, &Matrix) -> Definiteness
 /// The velocities of the state.
 pub(super) fn state_velocities(proved: &Proved, derived: &Derived<'_>) -> Vec<SymbolId> {
     match derived {
-        Derived::Adapted { distribution, .. } => distribution.independent.clone(),
+        Derived::Adapted { kept, .. } => kept.independent.clone(),
         Derived::Projected { .. } => proved.system.algebroid.velocities.clone(),
     }
 }
@@ -309,8 +309,32 @@ fn invariants(
         }]);
     }
     let arguments = state(proved, derived);
+    let graph = &mut proved.model.graph;
     let values = Procedure::of(claims.to_vec());
-    let gradients = jacobian(&mut proved.model.graph, &values, &arguments)
-        .map_err(|error| vec![not_differentiable(error, origin)])?;
-    Ok(InvariantForm { values, gradients })
+    let mut gradients =
+        jacobian(graph, &values, &arguments).map_err(|error| vec![not_differentiable(error, origin)])?;
+    // what is constant in the state, as a momentum on its level, cannot be left
+    let rows: Vec<Vec<ExprId>> =
+        gradients.outputs.chunks(arguments.len().max(1)).map(<[ExprId]>::to_vec).collect();
+    let varies = |row: &Vec<ExprId>| row.iter().any(|slope| !graph.zero_test(*slope).is_zero());
+    let varying: Vec<usize> = (0..rows.len()).filter(|index| varies(&rows[*index])).collect();
+    if varying.is_empty() {
+        let zero = graph.zero();
+        gradients.outputs.fill(zero);
+        let constants = claims.iter().map(|claim| at_some_state(graph, *claim, &arguments)).collect();
+        return Ok(InvariantForm { values: Procedure::of(constants), gradients });
+    }
+    gradients.outputs = varying.iter().flat_map(|index| rows[*index].clone()).collect();
+    Ok(InvariantForm {
+        values: Procedure::of(varying.iter().map(|index| claims[*index]).collect()),
+        gradients,
+    })
+}
+
+/// A function that does not depend on the state, without it.
+fn at_some_state(graph: &mut Graph, function: ExprId, state: &[SymbolId]) -> ExprId {
+    let places = [(0, 1), (1, 1), (2, 5)].map(|(n, d)| graph.number(Rational::new(n, d)));
+    let values = places
+        .map(|place| Substitution::new(state.iter().map(|symbol| (*symbol, place))).apply(graph, function));
+    values.into_iter().find(|value| !graph.is_undefined(*value)).unwrap_or(function)
 }

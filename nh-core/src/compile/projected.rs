@@ -10,7 +10,7 @@ use super::restricted::{
     calls, coordinates, in_state, observables, parameter_checks, parameter_divisors, requested,
     requested_jacobian, requested_parameter_jacobian,
 };
-use super::{Proved, fence};
+use super::{Proved, fence, levels};
 use crate::algebra::{Graph, Matrix, Substitution};
 use crate::check;
 use crate::id::ExprId;
@@ -25,12 +25,13 @@ use crate::violation::Violation;
 /// Derives everything on E, with multipliers.
 pub(super) fn derive(mut proved: Proved, reason: &str) -> Result<System, Vec<Violation>> {
     // 1. the saddle equations, proved regular on the constraint manifold
-    let mut residuals = proved.constraints.residuals.clone();
-    let declared = residuals.len();
-    residuals.extend(proved.levels.iter().map(|level| level.residual));
+    let residuals = proved.constraints.residuals.clone();
     let equations = saddle_equations(&mut proved.model.graph, &proved.system, &residuals);
     let singular = check::saddle_regularity(&mut proved.model, &equations, proved.constraints.generic());
     fence(singular.into_iter().collect())?;
+    // the motion keeps the levels by itself: only the way back knows of them
+    let all_residuals = levels::residuals(&mut proved)?;
+    let on_levels = saddle_equations(&mut proved.model.graph, &proved.system, &all_residuals);
     // 2. ẏ and λ
     let parameters: Vec<_> = proved.model.parameters.iter().map(|parameter| parameter.symbol).collect();
     let facts = proved.facts.clone();
@@ -47,8 +48,6 @@ pub(super) fn derive(mut proved: Proved, reason: &str) -> Result<System, Vec<Vio
         })
         .collect();
     derivative.outputs = equations.rates.iter().chain(&accelerations).copied().collect();
-    // those of levels are zero
-    let multipliers = multipliers.into_iter().take(declared).collect();
     let (multipliers, reactions) = (derivative.with_outputs(multipliers), derivative.with_outputs(reactions));
     let fixed = &proved.system.algebroid.anchor.coordinates;
     let derivative = without_needless_cancellation(graph, derivative, fixed);
@@ -68,7 +67,7 @@ pub(super) fn derive(mut proved: Proved, reason: &str) -> Result<System, Vec<Vio
     if !claims.is_empty() {
         let graph = &mut proved.model.graph;
         let flow = Flow::of(graph, &derivative, &proved.system, &velocities);
-        let manifold = proved.constraints.manifold(graph, &velocities);
+        let manifold = levels::manifold(&mut proved);
         fence(check::claims(&mut proved.model, &claims, flow, &manifold))?;
     }
     let jacobian = requested_jacobian(&mut proved.model, &derivative, &velocities)
@@ -78,7 +77,7 @@ pub(super) fn derive(mut proved: Proved, reason: &str) -> Result<System, Vec<Vio
     let momenta = momenta(&mut proved, &mut everywhere, &derivative, &velocities);
     let gyroscopic = gyroscopic::derive(&mut proved, None)?;
     // 5. the way back to the constraint manifold
-    let projection = projection(&mut proved.model, &velocities, &equations, &residuals, judge);
+    let projection = projection(&mut proved.model, &velocities, &on_levels, &all_residuals, judge);
     // 6. the report
     let embedding = embedding(&mut proved.model, &proved.base);
     let derived = Derived::Projected { residuals: &residuals, equations: &equations };
@@ -104,7 +103,7 @@ pub(super) fn derive(mut proved: Proved, reason: &str) -> Result<System, Vec<Vio
         momenta,
         gyroscopic,
         quadratures: None,
-        residual: Some(Procedure::of(residuals)),
+        residual: Some(Procedure::of(all_residuals)),
         projection: Some(projection),
         phase_space,
         embedding,

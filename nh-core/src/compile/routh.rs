@@ -1,17 +1,11 @@
 //! Routh reduction: conserved momenta become parameters, and velocities with cyclic coordinates leave
 //! the state (CM section 5).
-//!
-//! On a level σ^α p_α = μ of a momentum that is conserved, σ in D, the sections B'_κ = ∂ŷ/∂v^κ of the
-//! velocities ŷ(x, v) that the level leaves free lie in D, so that the force balance (8) along them is
-//! Routh's equation for v^κ; along σ it says that the momentum is conserved, which holds on the level.
 
 use std::collections::BTreeSet;
 
-use super::Proved;
 use super::momenta::Symmetries;
 use crate::check::Symmetry;
 use crate::check::evidence::shown;
-use crate::geometry::{ConstraintDistribution, MomentumLevel};
 use crate::id::{ExprId, Id, Origin, SymbolId};
 use crate::mechanics::LagrangianSystem;
 use crate::model::{Model, RouthDecl};
@@ -126,120 +120,6 @@ fn not_conserved(
     )
 }
 
-/// D on the levels.
-pub(super) struct Leveled {
-    /// The velocities that are left.
-    pub(super) kept: ConstraintDistribution,
-    /// Expressions of parameters that must not vanish.
-    pub(super) conditions: Vec<ExprId>,
-}
-
-/// The velocities on the levels.
-///
-/// # Errors
-/// A momentum that is not affine in the velocities, or that does not depend on them.
-pub(super) fn on_levels(
-    proved: &mut Proved,
-    distribution: &ConstraintDistribution,
-) -> Result<Leveled, Vec<Violation>> {
-    if let (Some(level), Some(_)) = (proved.levels.first(), &proved.model.orthonormal) {
-        return Err(vec![Violation {
-            law: Law::Symmetry,
-            origin: level.origin,
-            what: "`routh` beside `orthonormal`".into(),
-            evidence: "on a level the velocities that are left have a kinetic energy of their own".into(),
-            way_out: "keep one of the two".into(),
-        }]);
-    }
-    let mut leveled = Leveled { kept: distribution.clone(), conditions: Vec::new() };
-    for level in proved.levels.clone() {
-        on_level(proved, &mut leveled, &level).map_err(|violation| vec![violation])?;
-    }
-    Ok(leveled)
-}
-
-/// The same levels in another description of the same distribution.
-pub(super) fn again(
-    proved: &mut Proved,
-    described: &ConstraintDistribution,
-    eliminated: &[(SymbolId, ExprId)],
-) -> ConstraintDistribution {
-    let velocities = &proved.system.algebroid.velocities;
-    let graph = &mut proved.model.graph;
-    let mut found = described.clone();
-    for (level, (symbol, _)) in proved.levels.iter().zip(eliminated) {
-        if let Ok(level) = MomentumLevel::of(graph, &found, level.residual, velocities) {
-            found = found.on_level(graph, &level, *symbol);
-        }
-    }
-    found
-}
-
-fn on_level(proved: &mut Proved, leveled: &mut Leveled, level: &Level) -> Result<(), Violation> {
-    let distribution = &leveled.kept;
-    let blame = |what: String, evidence: String, way_out: &str| Violation {
-        law: Law::Symmetry,
-        origin: level.origin,
-        what,
-        evidence,
-        way_out: way_out.into(),
-    };
-    let name = &level.name;
-    let velocities = proved.system.algebroid.velocities.clone();
-    let parameters: Vec<SymbolId> = proved.model.parameters.iter().map(|p| p.symbol).collect();
-    let facts = proved.facts.clone();
-    let graph = &mut proved.model.graph;
-    let found = MomentumLevel::of(graph, distribution, level.residual, &velocities).map_err(|why| {
-        blame(
-            format!("the momentum of `{name}` could not be solved for a velocity"),
-            why,
-            "with `formulation { projected }` all velocities are kept, and the level is a constraint",
-        )
-    })?;
-    // σ itself first, then pivots that vanish nowhere, then pivots of parameters
-    let along = distribution.components(graph, &level.section).unwrap_or_default();
-    let mut best: Option<(u8, SymbolId, ExprId)> = None;
-    for (index, symbol) in distribution.independent.iter().enumerate() {
-        let Some(pivot) = distribution.pivot(graph, &found, *symbol) else { continue };
-        let is_own = along
-            .iter()
-            .enumerate()
-            .all(|(other, component)| (other == index) != graph.is_literal_zero(*component));
-        let of_parameters = graph.symbols_in(&[pivot]).iter().all(|symbol| parameters.contains(symbol));
-        let grade = match () {
-            () if is_own => 0,
-            () if graph.vanishes_nowhere(pivot, &facts) => 1,
-            () if of_parameters => 2,
-            () => 3,
-        };
-        if best.is_none_or(|(least, ..)| grade < least) {
-            best = Some((grade, *symbol, pivot));
-        }
-    }
-    let Some((_, symbol, pivot)) = best else {
-        return Err(blame(
-            format!("the momentum of `{name}` determines no velocity"),
-            "it does not depend on any where the constraints hold".into(),
-            "leave it out",
-        ));
-    };
-    let forced = proved.system.forces_on_distribution.iter().find(|(direction, _)| *direction == symbol);
-    if let Some((_, force)) = forced
-        && !graph.zero_test(*force).is_zero()
-    {
-        return Err(blame(
-            format!("a force acts along `{}`, which leaves the state", graph.symbols()[symbol]),
-            "with `distribution` it is known along the spanning sections alone".into(),
-            "give that force along declared sections",
-        ));
-    }
-    let is_condition = !graph.vanishes_nowhere(pivot, &facts)
-        && graph.symbols_in(&[pivot]).iter().all(|symbol| parameters.contains(symbol));
-    leveled.kept = distribution.on_level(graph, &found, symbol);
-    leveled.conditions.extend(is_condition.then_some(pivot));
-    Ok(())
-}
-
 /// For each level a cyclic coordinate that its section moves: that of its own name first.
 pub(super) fn quadratures(
     model: &mut Model,
@@ -308,7 +188,9 @@ impl System {
         ];
         let all = [derivative, observables].into_iter().chain(optional.into_iter().flatten());
         let embedded = self.embedding.iter().map(|embedding| &embedding.residual);
+        let invariants = self.phase_space.invariants.iter().flat_map(|form| [&form.values, &form.gradients]);
         all.chain(momenta)
+            .chain(invariants)
             .chain(gyroscopic)
             .chain(projection)
             .chain(embedded)

@@ -140,6 +140,10 @@ pub(super) fn restrict(system: &mut System, whole: &[SymbolId], needed: &BTreeSe
         let kept = jacobian.outputs.chunks(width.max(1)).enumerate().filter(|(row, _)| is_kept(*row));
         jacobian.outputs = kept.flat_map(|(_, row)| row.to_vec()).collect();
     }
+    if let Some(invariants) = &mut system.phase_space.invariants {
+        let rows_of = invariants.gradients.outputs.chunks(whole.len().max(1));
+        invariants.gradients.outputs = rows_of.flat_map(&rows).collect();
+    }
     let keeps_base = match &mut system.embedding {
         None => false,
         Some(embedding) => {

@@ -144,13 +144,14 @@ fn pivots(graph: &mut Graph, setting: &PivotSetting<'_>, dependent: &[SectionId]
 }
 
 /// The subsets of a given size, those of the last elements first.
-struct Subsets {
+pub(crate) struct Subsets {
     rank: usize,
     next: Option<Vec<usize>>,
 }
 
 impl Subsets {
-    fn of(rank: usize, size: usize) -> Self {
+    /// Of the first `rank` numbers.
+    pub(crate) fn of(rank: usize, size: usize) -> Self {
         Self { rank, next: (size <= rank).then(|| (rank - size..rank).rev().collect()) }
     }
 }

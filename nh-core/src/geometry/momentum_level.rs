@@ -1,7 +1,7 @@
 //! The level of a momentum, as a restriction of the velocities in D.
 
 use super::distribution::ConstraintDistribution;
-use crate::algebra::{Graph, NotLinear, Substitution};
+use crate::algebra::{Graph, Matrix, NotLinear, Substitution};
 use crate::id::{ExprId, SymbolId};
 
 /// A momentum on D less its level, `c_a v^a + c_0`; it vanishes along the motion.
@@ -35,60 +35,56 @@ impl MomentumLevel {
 }
 
 impl ConstraintDistribution {
-    /// The coefficient of an independent velocity in the momentum; `None` where that is zero.
-    #[must_use]
-    pub fn pivot(&self, graph: &Graph, level: &MomentumLevel, velocity: SymbolId) -> Option<ExprId> {
-        let a = self.independent.iter().position(|symbol| *symbol == velocity)?;
-        let pivot = *level.coefficients.get(a)?;
-        graph.zero_test(pivot).is_nonzero().then_some(pivot)
-    }
-
-    /// The velocities of D on the level, with one of the independent ones solved for.
+    /// The velocities of D on levels, with as many of the independent ones solved for together; `None`
+    /// if the levels do not determine these.
     ///
     /// The constraints stay those of D: the sections ∂ŷ/∂v^κ of the remaining velocities lie in D,
-    /// and the level is kept by the motion alone.
+    /// and the levels are kept by the motion alone.
     #[must_use]
-    pub fn on_level(&self, graph: &mut Graph, level: &MomentumLevel, eliminated: SymbolId) -> Self {
-        let Some(position) = self.independent.iter().position(|symbol| *symbol == eliminated) else {
-            return self.clone();
+    pub fn on_levels(
+        &self,
+        graph: &mut Graph,
+        levels: &[MomentumLevel],
+        eliminated: &[SymbolId],
+    ) -> Option<Self> {
+        let position = |symbol: &SymbolId| self.independent.iter().position(|known| known == symbol);
+        let gone: Vec<usize> = eliminated.iter().map(position).collect::<Option<_>>()?;
+        let kept: Vec<usize> = (0..self.rank()).filter(|a| !gone.contains(a)).collect();
+        // v^ρ = −(c_ρ)⁻¹ (c_κ v^κ + c_0)
+        let columns = |level: &MomentumLevel, of: &[usize]| -> Vec<ExprId> {
+            of.iter().map(|a| level.coefficients[*a]).collect()
         };
-        // v^ρ = −(c_κ v^κ + c_0) / c_ρ
-        let pivot = level.coefficients[position];
-        let quotient = |graph: &mut Graph, numerator: ExprId| {
-            let quotient = graph.div(numerator, pivot);
-            graph.neg(quotient)
-        };
-        let mut independent = self.independent.clone();
-        independent.remove(position);
-        let slopes: Vec<ExprId> = level.coefficients.iter().map(|c| quotient(graph, *c)).collect();
-        let offset_along = quotient(graph, level.rest);
-        let mut solved = vec![offset_along];
-        for (a, symbol) in self.independent.iter().enumerate().filter(|(a, _)| *a != position) {
-            let velocity = graph.symbol(*symbol);
-            solved.push(graph.mul(slopes[a], velocity));
-        }
-        let solved = graph.sum(&solved);
-        let mut substitution = Substitution::new([(eliminated, solved)]);
-        let velocity = substitution.apply_all(graph, &self.velocity);
-        // B_κ − (c_κ / c_ρ) B_ρ and y₀ − (c_0 / c_ρ) B_ρ
-        let (mut basis, mut offset) = (Vec::new(), Vec::new());
-        for (row, origin) in self.basis.iter().zip(&self.offset) {
-            let along = row[position];
-            let mut entries = Vec::with_capacity(independent.len());
-            for (a, entry) in row.iter().enumerate().filter(|(a, _)| *a != position) {
-                let share = graph.mul(slopes[a], along);
-                entries.push(graph.add(*entry, share));
+        let matrix: Matrix = levels.iter().map(|level| columns(level, &gone)).collect();
+        let mut right: Matrix = levels.iter().map(|level| columns(level, &kept)).collect();
+        right.iter_mut().zip(levels).for_each(|(row, level)| row.push(level.rest));
+        let solved = graph.solve_linear(&matrix, &right)?.values;
+        let solved: Matrix =
+            solved.into_iter().map(|row| row.into_iter().map(|entry| graph.neg(entry)).collect()).collect();
+        let independent: Vec<SymbolId> = kept.iter().map(|a| self.independent[*a]).collect();
+        let mut images = Vec::new();
+        for (symbol, row) in eliminated.iter().zip(&solved) {
+            let mut terms: Vec<ExprId> = row.last().copied().into_iter().collect();
+            for (slope, symbol) in row.iter().zip(&independent) {
+                let velocity = graph.symbol(*symbol);
+                terms.push(graph.mul(*slope, velocity));
             }
-            basis.push(entries);
-            let share = graph.mul(offset_along, along);
-            offset.push(graph.add(*origin, share));
+            images.push((*symbol, graph.sum(&terms)));
         }
-        let mut gone: Vec<(SymbolId, ExprId)> = self
-            .eliminated
-            .iter()
-            .map(|(symbol, value)| (*symbol, substitution.apply(graph, *value)))
-            .collect();
-        gone.push((eliminated, solved));
-        Self { independent, basis, offset, velocity, eliminated: gone, ..self.clone() }
+        let mut substitution = Substitution::new(images.iter().copied());
+        let velocity = substitution.apply_all(graph, &self.velocity);
+        // B_κ + B_ρ ∂v^ρ/∂v^κ and y₀ + B_ρ v^ρ|₀
+        let (mut basis, mut offset) = (Matrix::new(), Vec::new());
+        for (row, origin) in self.basis.iter().zip(&self.offset) {
+            let mut entries: Vec<ExprId> = kept.iter().map(|a| row[*a]).chain([*origin]).collect();
+            for (a, solution) in gone.iter().zip(&solved) {
+                for (entry, slope) in entries.iter_mut().zip(solution) {
+                    let share = graph.mul(*slope, row[*a]);
+                    *entry = graph.add(*entry, share);
+                }
+            }
+            offset.extend(entries.pop());
+            basis.push(entries);
+        }
+        Some(Self { independent, basis, offset, velocity, eliminated: images, ..self.clone() })
     }
 }

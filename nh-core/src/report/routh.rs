@@ -2,6 +2,7 @@
 
 use super::{Derived, shown};
 use crate::compile::Proved;
+use crate::id::SymbolId;
 
 /// A line for each level, and the Routhian R = L − v^ρ μ_ρ on the levels (CM section 5).
 pub(super) fn lines(proved: &mut Proved, derived: &Derived<'_>) -> Vec<String> {
@@ -32,11 +33,12 @@ fn routhian(proved: &mut Proved, derived: &Derived<'_>) -> Option<String> {
     let velocities = &proved.system.algebroid.velocities;
     let graph = &mut proved.model.graph;
     let mut routhian = kept.restriction(graph, velocities).apply(graph, proved.system.lagrangian);
-    for (level, (symbol, velocity)) in proved.levels.iter().zip(&kept.eliminated) {
-        let position = distribution.independent.iter().position(|known| known == symbol)?;
-        if distribution.section(position) != level.section {
-            return None;
-        }
+    for level in &proved.levels {
+        let is_own = |symbol: &SymbolId| {
+            let position = distribution.independent.iter().position(|known| known == symbol);
+            position.is_some_and(|position| distribution.section(position) == level.section)
+        };
+        let (_, velocity) = kept.eliminated.iter().find(|(symbol, _)| is_own(symbol))?;
         let share = graph.mul(*velocity, level.value);
         routhian = graph.sub(routhian, share);
     }

@@ -9,6 +9,7 @@ mod fuzz;
 mod limits;
 mod meaning;
 mod names;
+mod on_levels;
 mod requests;
 mod sections;
 
