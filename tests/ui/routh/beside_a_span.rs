@@ -3,7 +3,8 @@ use nonholonomic::prelude::*;
 #[nonholonomic(
     base { x, y, z }
     lagrangian { m / 2 * (der(x)^2 + der(y)^2 + der(z)^2) }
-    distribution { der(x), der(y) }
+    frame { a = der(x); b = der(y); }
+    distribution { a, b }
     symmetries { turn: x * der(y) - y * der(x); }
     routh { turn = mu; }
 )]
