@@ -99,7 +99,7 @@ fn which_velocities_the_levels_determine() {
             format!("{plane} formulation {{ adapted }}"),
             "no choice of velocities on the levels is valid everywhere",
         ),
-        (format!("{plane} independent {{ der(x) }}"), "adapted, 2 coordinates and 1 velocities"),
+        (format!("{plane} independent {{ der(x) }}"), "adapted, 2 coordinates and 1 velocity"),
         (
             format!("{plane} independent {{ der(x) }}"),
             "the levels are solved for `y_dot`, which breaks down where x = 0",
