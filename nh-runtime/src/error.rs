@@ -215,6 +215,13 @@ pub enum IntegrationError {
         /// Its value.
         value: f64,
     },
+    /// An event function that starts from zero is back there within the resolution of time.
+    EventsAccumulate {
+        /// Which of the functions.
+        event: usize,
+        /// The time.
+        time: f64,
+    },
     /// A state was asked for at a time outside the last step.
     OutsideLastStep {
         /// The time asked for.
@@ -284,6 +291,12 @@ impl Display for IntegrationError {
                 f,
                 "the event function {event} is {value:?} at t = {time:?}, so that its zeros cannot be \
                  found: it has to be finite wherever the solution leads"
+            ),
+            Self::EventsAccumulate { event, time } => write!(
+                f,
+                "the event function {event} leaves zero at t = {time:?} and is back sooner than time \
+                 resolves: events accumulate there, as the impacts of a ball that comes to rest; go on with \
+                 what holds from then on, such as the contact as a constraint"
             ),
             Self::OutsideLastStep { time, from, to } => write!(
                 f,

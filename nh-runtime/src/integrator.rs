@@ -5,6 +5,7 @@ mod sampling;
 use core::fmt;
 
 use crate::arrays::{all_finite, first_non_finite};
+use crate::events::Stop;
 use crate::methods::{Arrival, Method, Place, Start, component};
 use crate::{Dynamics, IntegrationError, Real, Scalar, ScalarOf, State};
 
@@ -79,6 +80,8 @@ pub struct Integrator<S: Dynamics, M: Method<S>> {
     origin: Option<Origin<S>>,
     /// Where it has led to, if the integration stands at an event within it.
     beyond: Option<Arrival<S>>,
+    /// The events that it has stopped at.
+    stop: Option<Stop<ScalarOf<S>>>,
     statistics: Statistics,
     max_steps: u64,
     /// Whether the parameters and settings have been checked.
@@ -116,6 +119,7 @@ impl<S: Dynamics, M: Method<S>> Integrator<S, M> {
             state,
             origin: None,
             beyond: None,
+            stop: None,
             statistics: Statistics::default(),
             max_steps: 10_000_000,
             validated: false,
@@ -246,6 +250,7 @@ where
         let Self { method, system, input, memory, statistics, .. } = self;
         let result = method.travel(system, input, &mut place, (target, limit), memory, statistics);
         if let Some((time, state)) = place.before {
+            self.stop = None;
             self.origin = Some(Origin { time, state, input: self.input });
             self.beyond = None;
         }
@@ -270,6 +275,22 @@ where
     /// The most steps of one call.
     pub(crate) fn step_limit(&self) -> u64 {
         self.max_steps
+    }
+
+    /// Checks what the user gave, and a target.
+    pub(crate) fn admit_target(&mut self, target: ScalarOf<S>) -> Result<(), IntegrationError> {
+        self.admit()?;
+        check_time(target)
+    }
+
+    /// The events that the integration has stopped at, if it still stands there.
+    pub(crate) fn stop(&self) -> Option<Stop<ScalarOf<S>>> {
+        self.stop.filter(|stop| stop.time == self.time)
+    }
+
+    /// Takes note of the events that the integration stands at.
+    pub(crate) fn set_stop(&mut self, stop: Stop<ScalarOf<S>>) {
+        self.stop = Some(stop);
     }
 
     /// Checks what the user gave, unless that has been done.
@@ -309,6 +330,7 @@ where
         let Arrival { time, state } =
             self.method.advance(&start, target, &mut self.memory, &mut self.statistics)?;
         self.beyond = None;
+        self.stop = None;
         self.origin = Some(Origin { time: self.time, state: self.state, input: self.input });
         self.time = time;
         self.state = state;
