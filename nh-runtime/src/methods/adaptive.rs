@@ -2,10 +2,11 @@
 //! landing on a target.
 
 use super::explicit::Tableau;
+use super::first_step::first_length;
 use super::fixed::Fixed;
 use super::leg::Leg;
 use super::{Arrival, Method, Place, Start, component, non_finite_derivative};
-use crate::arrays::{all_finite, difference, displaced, first_non_finite};
+use crate::arrays::{all_finite, first_non_finite};
 use crate::step_control::{Controller, Errors, StepControl};
 use crate::tolerance::{PerComponent, Tolerance, Uniform};
 use crate::{Dynamics, IntegrationError, Real, Scalar, ScalarOf, State, Statistics, VecOf};
@@ -285,9 +286,11 @@ impl<P, T: Real, W> Adaptive<P, T, W> {
             return Err(non_finite_derivative::<S::State>(found, start.time.to_f64()));
         }
         let shortest = StepControl::shortest(start.time);
-        let proposed = match memory.proposed.or(self.control.first_step) {
-            Some(h) => self.control.limited(h),
-            None => self.first_length(start, first, target, P::ERROR_ORDER, statistics),
+        let proposed = if let Some(h) = memory.proposed.or(self.control.first_step) {
+            self.control.limited(h)
+        } else {
+            let settings = (&self.tolerance, &self.control);
+            first_length((start, first), target, P::ERROR_ORDER, settings, statistics)
         };
         let proposed = if proposed > shortest { proposed } else { shortest };
         let mut h = proposed;
@@ -347,50 +350,5 @@ impl<P, T: Real, W> Adaptive<P, T, W> {
             return IntegrationError::NonFiniteStep { component, time, step };
         }
         IntegrationError::StepUnderflow { time, step, error: trial.error.to_f64() }
-    }
-
-    /// The length of the very first step (Hairer, Nørsett, Wanner I, section II.4, "Starting Step
-    /// Size"): it lets an explicit Euler step change the solution by about 1 %, and then the
-    /// estimated second derivative too.
-    #[cold]
-    fn first_length<S: Dynamics>(
-        &self,
-        start: &Start<'_, S>,
-        first: &VecOf<S>,
-        target: Option<T>,
-        order: u32,
-        statistics: &mut Statistics,
-    ) -> T
-    where
-        S::State: State<Scalar = T>,
-        W: Tolerance<S::State>,
-    {
-        let c = T::from_f64;
-        let x = start.state.to_array();
-        let norm = |v: &VecOf<S>| self.tolerance.mean_square(v, &x, &x).sqrt();
-        let size = norm(&x);
-        let slope = norm(first);
-        let negligible = c(1e-5);
-        let known = size >= negligible && slope >= negligible && slope.is_finite();
-        let mut h = if known { c(0.01) * size / slope } else { c(1e-6) };
-        let mut direction = T::ONE;
-        if let Some(target) = target {
-            h = h.min((target - start.time).abs());
-            direction = (target - start.time).sign();
-        }
-        h = self.control.limited(h);
-        statistics.evaluations += 1;
-        let ahead = displaced(&x, direction * h, first);
-        let slope_ahead = start.derivative_at(start.time + direction * h, ahead);
-        let curvature = norm(&difference(&slope_ahead, first)) / h;
-        let largest = slope.max(curvature);
-        let refined = if largest <= c(1e-15) {
-            c(1e-6).max(h * c(1e-3))
-        } else {
-            ((c(0.01) / largest).ln() / T::from_u32(order)).exp()
-        };
-        // a derivative ahead that is not finite says nothing, nor does a tolerance of zero
-        let refined = if refined.is_finite() && refined > T::ZERO { refined } else { h };
-        self.control.limited(refined.min(h * c(100.0)))
     }
 }

@@ -43,6 +43,7 @@
 
 mod adaptive;
 mod explicit;
+mod first_step;
 mod fixed;
 mod grid;
 mod implicit;

@@ -84,7 +84,7 @@ impl<T: Real> Problem<T> {
     pub(crate) fn course(self) -> (Course<Four<T>>, T) {
         let (start, from, to, step) = match self.0 {
             Kind::Pendulum => ([0.3, -0.2, 0.0, 1.0], 1.5, 9.0, 0.1),
-            Kind::Kepler => ([0.4, 0.0, 0.0, 2.0], 0.0, 10.0, 0.05),
+            Kind::Kepler => ([0.4, 0.0, 0.0, 2.0], 0.25, 10.0, 0.05),
             Kind::Rest => ([0.0; 4], 0.5, 8.0, 0.1),
             Kind::VanDerPol => ([2.0, -0.66, 2.0, 0.0], 0.0, 2.0, 1e-5),
             Kind::Robertson => ([1.0, 0.0, 0.0, 1.0], 0.0, 1e9, 1e-4),

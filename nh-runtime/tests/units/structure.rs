@@ -168,7 +168,7 @@ impl Trial {
         });
         let body = Body([w(1.0), w(1.5), w(2.2)]);
         let start = Spin([w(0.48), w(0.6), w(0.64)]);
-        let spin = Course { start, from: w(0.0), to: w(10.0), steps: 30 };
+        let spin = Course { start, from: w(0.25), to: w(10.0), steps: 30 };
         self.of("DiscreteSuslov", false, body, &spin, |tau, _| DiscreteSuslov::new(h * tau));
         self.of("DiscreteSuslov, order 4", false, body, &spin, |tau, _| {
             DiscreteSuslov::new(h * tau).fourth_order()
