@@ -32,7 +32,7 @@ pub struct Model {
     pub brackets: Vec<BracketDecl>,
     /// Whether a `brackets` section stands in the declaration, even an empty one.
     pub brackets_declared: bool,
-    /// Whether the Jacobi identity is waived (`almost;`).
+    /// Whether the structure equations (2) and (3) are waived (`almost;`).
     pub almost: bool,
     /// New sections as combinations of the declared ones (`frame`).
     pub frame: Vec<FrameDecl>,

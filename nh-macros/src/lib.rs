@@ -52,7 +52,7 @@ mod syntax;
 /// | `brackets { [a, b] = c; }` | [e_α, e_β]; pairs not listed vanish, the mirror follows | derived from the anchor where it is injective |
 /// | `brackets so(3) { w }` | a known algebra for the sections named; may be combined with others | |
 /// | `frame { h = d1 - A * xi; }` | new sections as combinations of the declared ones; other sections may use them | |
-/// | `almost;` | the Jacobi identity is not demanded | it is proved |
+/// | `almost;` | of the declared brackets neither the Jacobi identity (3) nor (2), that the anchor is a homomorphism, is demanded; the report says which of them hold | both are proved |
 /// | `lagrangian { let …; L }` | L(t, x, y) | an error |
 /// | `constraints { label: lhs = rhs; }` | linear, affine or nonlinear in the velocities, at will dependent on the time | none |
 /// | `distribution { s, dpsi }` | sections that span the allowed velocities, instead of linear constraints | |

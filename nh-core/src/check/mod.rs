@@ -39,6 +39,6 @@ pub use kind::Kind;
 pub use kinematics::{Motion, kinematics};
 pub use orthonormal::orthonormal;
 pub use regularity::{reduced_regularity, saddle_regularity, singular_where};
-pub use structure_equations::structure_equations;
+pub use structure_equations::{BrokenLaws, structure_equations};
 pub use symmetries::{Invariance, Setting, Symmetry, no_momenta, of_cyclic_coordinates, symmetries};
 pub use volume::{claimed_density, volume};

@@ -8,21 +8,58 @@ use crate::model::{Kinematics, Model};
 use crate::violation::{Law, Violation};
 use std::collections::BTreeMap;
 
-/// At most so many broken instances of one law are reported.
+/// At most so many broken instances of one law are reported as errors.
 const REPORTED: usize = 3;
 
-/// Proves that the anchor is a homomorphism of brackets and, unless `almost` is declared, the
-/// Jacobi identity. Where the first fails the second is not reported as well.
-pub fn structure_equations(model: &mut Model, algebroid: &Algebroid, base: &Manifold) -> Vec<Violation> {
+/// How an almost Lie algebroid breaks the structure equations, if it does.
+#[derive(Clone, Debug, Default)]
+pub struct BrokenLaws {
+    /// What breaks (2): with evidence.
+    pub homomorphism: Option<String>,
+    /// What breaks (3) on the sections of the basis.
+    pub jacobi: Option<String>,
+}
+
+impl BrokenLaws {
+    /// Whether it is a Lie algebroid all the same.
+    #[must_use]
+    pub fn is_none(&self) -> bool {
+        self.homomorphism.is_none() && self.jacobi.is_none()
+    }
+}
+
+/// Proves that the anchor is a homomorphism of brackets, and the Jacobi identity. Where the first fails the
+/// second is not reported as well. Where `almost` is declared with brackets, what is broken is told and nothing
+/// is demanded; brackets that are not declared exist only where (2) holds.
+///
+/// # Errors
+/// The instances of a law that are broken.
+pub fn structure_equations(
+    model: &mut Model,
+    algebroid: &Algebroid,
+    base: &Manifold,
+) -> Result<BrokenLaws, Vec<Violation>> {
     // coordinate fields commute, and their anchor is the identity
     if matches!(model.kinematics, Kinematics::Tangent) {
-        return Vec::new();
+        return Ok(BrokenLaws::default());
     }
-    let mut violations = homomorphism(model, algebroid, base);
-    if violations.is_empty() && !model.almost {
-        violations = jacobi(model, algebroid, base);
+    if model.almost && model.brackets_declared {
+        let told = |violations: Vec<Violation>| {
+            violations
+                .into_iter()
+                .next()
+                .map(|Violation { what, evidence, .. }| format!("{what}, {evidence}"))
+        };
+        return Ok(BrokenLaws {
+            homomorphism: told(homomorphism(model, algebroid, base, 1)),
+            jacobi: told(jacobi(model, algebroid, base, 1)),
+        });
     }
-    violations
+    let mut violations = homomorphism(model, algebroid, base, REPORTED);
+    if violations.is_empty() {
+        violations = jacobi(model, algebroid, base, REPORTED);
+    }
+    if violations.is_empty() { Ok(BrokenLaws::default()) } else { Err(violations) }
 }
 
 /// Where the bracket of a pair stands, or else the later of its sections.
@@ -36,11 +73,16 @@ fn origin_of_pair(model: &Model, alpha: SectionId, beta: SectionId) -> Origin {
 }
 
 /// Mathematics (2): `ρ^j_α ∂_jρ^i_β − ρ^j_β ∂_jρ^i_α = ρ^i_γ C^γ_{αβ}`.
-fn homomorphism(model: &mut Model, algebroid: &Algebroid, base: &Manifold) -> Vec<Violation> {
+fn homomorphism(
+    model: &mut Model,
+    algebroid: &Algebroid,
+    base: &Manifold,
+    reported: usize,
+) -> Vec<Violation> {
     let mut violations = Vec::new();
     for alpha in algebroid.sections() {
         for beta in algebroid.sections().filter(|beta| alpha < *beta) {
-            if violations.len() == REPORTED {
+            if violations.len() == reported {
                 return violations;
             }
             violations.extend(homomorphism_of_pair(model, algebroid, base, alpha, beta));
@@ -79,12 +121,12 @@ fn homomorphism_of_pair(
         let derivable = model.brackets.is_empty();
         let way_out = if derivable {
             "no bracket of the declared sections exists: their vector fields do not close; \
-             add the missing section to the basis"
+             add the missing section to the basis, or declare the `brackets` of an almost Lie algebroid"
                 .to_owned()
         } else {
             format!(
                 "correct the bracket [{a}, {b}] or the anchor; where the anchor is injective, leave `brackets` \
-                 out and they are derived"
+                 out and they are derived; or write `almost;` if an almost Lie algebroid is meant"
             )
         };
         return Some(Violation {
@@ -111,7 +153,7 @@ fn defect_text(graph: &Graph, defect: ExprId, verdict: &Verdict) -> String {
 }
 
 /// Mathematics (3): `Σ_cyclic [ ρ^i_α ∂_iC^ν_{βγ} + C^μ_{βγ} C^ν_{αμ} ] = 0`.
-fn jacobi(model: &mut Model, algebroid: &Algebroid, base: &Manifold) -> Vec<Violation> {
+fn jacobi(model: &mut Model, algebroid: &Algebroid, base: &Manifold, reported: usize) -> Vec<Violation> {
     let sections: Vec<SectionId> = algebroid.sections().collect();
     let brackets = written_brackets(&mut model.graph, algebroid, &sections);
     let mut violations = Vec::new();
@@ -122,7 +164,7 @@ fn jacobi(model: &mut Model, algebroid: &Algebroid, base: &Manifold) -> Vec<Viol
                 if [&brackets[i][j], &brackets[i][k], &brackets[j][k]].iter().all(|terms| terms.is_empty()) {
                     continue;
                 }
-                if violations.len() == REPORTED {
+                if violations.len() == reported {
                     return violations;
                 }
                 let triple = [*alpha, *beta, *gamma];

@@ -120,6 +120,10 @@ fn euler_poincare_suslov(
     let (Derived::Adapted { distribution, .. }, true) = (derived, proved.model.coordinates.is_empty()) else {
         return Err(refusal(origin, what, "the declaration has base coordinates".into(), way_out));
     };
+    // the exponential map is that of a group, whose bracket obeys the Jacobi identity
+    if let Some(evidence) = proved.broken_laws.jacobi.clone() {
+        return Err(refusal(origin, what, evidence, "leave it out; `ImplicitMidpoint` takes every system"));
+    }
     let graph = &mut proved.model.graph;
     let system = &proved.system;
     let length = graph.new_symbol("length");

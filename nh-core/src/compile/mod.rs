@@ -22,7 +22,7 @@ mod splitting;
 mod volume;
 
 use crate::algebra::Facts;
-use crate::check::{self, Chosen, Constraints, Kind, Motion};
+use crate::check::{self, BrokenLaws, Chosen, Constraints, Kind, Motion};
 use crate::geometry::{Algebroid, ConstraintDistribution, Manifold, Rank};
 use crate::id::{Id, SymbolId};
 use crate::mechanics::LagrangianSystem;
@@ -46,6 +46,8 @@ pub(crate) struct Proved {
     pub(crate) facts: Facts,
     /// What kind of algebroid it moves on.
     pub(crate) kind: Kind,
+    /// The structure equations that it breaks.
+    pub(crate) broken_laws: BrokenLaws,
     /// The constraints.
     pub(crate) constraints: Constraints,
     /// The rank of their derivatives by the velocities, where it is known.
@@ -105,9 +107,11 @@ pub(crate) fn prove(mut model: Model) -> Result<(Proved, Chosen), Vec<Violation>
     let velocities = model.sections.iter().map(|section| section.symbol).collect();
     let algebroid = Algebroid { anchor: motion.anchor.clone(), structure, velocities };
     // 4. the structure equations, and D: by constraints or by sections, in the basis of the frame
-    let broken = check::structure_equations(&mut model, &algebroid, &base);
+    let laws = check::structure_equations(&mut model, &algebroid, &base);
     let kind = Kind::of(&mut model, &algebroid, &base, &facts);
     let described = describe(&mut model, &mut motion, algebroid, &base, &facts);
+    let (broken_laws, broken) =
+        laws.map_or_else(|broken| (BrokenLaws::default(), broken), |laws| (laws, Vec::new()));
     let (algebroid, constraints, spanned) = both(broken, described)?;
     let kind = kind.in_basis(&model, &algebroid);
     let constraint_rank = constraints.rank(&mut model, &algebroid, spanned.as_ref(), &facts);
@@ -131,6 +135,7 @@ pub(crate) fn prove(mut model: Model) -> Result<(Proved, Chosen), Vec<Violation>
         base,
         facts,
         kind,
+        broken_laws,
         constraints,
         constraint_rank,
         system,

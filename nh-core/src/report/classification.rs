@@ -3,7 +3,7 @@
 use super::{Derived, combination, shown};
 use crate::algebra::Graph;
 use crate::check::evidence::{counted, places};
-use crate::check::{Condition, Constraints, domain, not_conservative, singular_where};
+use crate::check::{BrokenLaws, Condition, Constraints, domain, not_conservative, singular_where};
 use crate::compile::Proved;
 use crate::geometry::{Drops, Rank};
 use crate::id::SymbolId;
@@ -13,8 +13,12 @@ use crate::model::{Kinematics, Model};
 /// The classification, a line for each property.
 pub(super) fn lines(proved: &mut Proved, derived: &Derived<'_>, reason: &str) -> Vec<String> {
     let kind = algebroid(proved);
+    let almost = structure_equations(proved);
+    let integrable = proved.broken_laws.homomorphism.is_none();
     let Proved { model, motion, system, constraints: declared, constraint_rank: rank, facts, .. } = proved;
-    let mut lines = vec![kind, constraints(model, system, declared, rank.as_ref(), derived)];
+    let mut lines = vec![kind];
+    lines.extend(almost);
+    lines.push(constraints(model, system, declared, rank.as_ref(), derived, integrable));
     let (name, size) = match derived {
         Derived::Adapted { kept, .. } => ("adapted", kept.rank()),
         Derived::Projected { .. } => ("projected", model.sections.len()),
@@ -61,9 +65,35 @@ fn algebroid(proved: &Proved) -> String {
     let Proved { model, kind, .. } = proved;
     let (n, s, dimension) = (model.coordinates.len(), model.sections.len(), kind.dimension);
     let embedded = if dimension == n { String::new() } else { format!(", embedded in {n} coordinates") };
-    let almost = if model.almost { ", almost: the Jacobi identity is not demanded" } else { "" };
-    let name = name_of_kind(proved);
-    format!("algebroid: {name}, rank {s} over a base of dimension {dimension}{embedded}{almost}")
+    let name = if proved.broken_laws.is_none() {
+        name_of_kind(proved)
+    } else if n == 0 {
+        "an almost Lie algebra".into()
+    } else {
+        "an almost Lie algebroid".into()
+    };
+    format!("algebroid: {name}, rank {s} over a base of dimension {dimension}{embedded}")
+}
+
+/// Which of the structure equations hold where none is demanded.
+fn structure_equations(proved: &Proved) -> Vec<String> {
+    if !proved.model.almost {
+        return Vec::new();
+    }
+    let BrokenLaws { homomorphism, jacobi } = &proved.broken_laws;
+    let first = match homomorphism {
+        None => "the anchor is a homomorphism of brackets, (2)".to_owned(),
+        Some(evidence) => format!("(2) does not hold: {evidence}"),
+    };
+    let second = match (homomorphism, jacobi) {
+        (None, None) => "the Jacobi identity, (3), holds: it is a Lie algebroid all the same".to_owned(),
+        (Some(_), None) => {
+            "the Jacobi identity, (3), holds for the sections of the basis, not for all, since (2) does not"
+                .to_owned()
+        }
+        (_, Some(evidence)) => format!("(3) does not hold: {evidence}"),
+    };
+    [first, second].into_iter().map(|line| format!("declared almost: {line}")).collect()
 }
 
 /// By the rank of the anchor, with the places where it drops.
@@ -121,6 +151,7 @@ fn constraints(
     declared: &Constraints,
     rank: Option<&Rank>,
     derived: &Derived<'_>,
+    integrable: bool,
 ) -> String {
     let (count, spanned) = (model.constraints.len(), model.distribution.as_ref().map(Vec::len));
     let dependent = dependent(model, rank);
@@ -151,9 +182,12 @@ fn constraints(
         match distribution.is_holonomic(&mut model.graph, &system.algebroid, model.time, declared.base()) {
             Some(true) => {
                 let constant = constant_coordinates(model, derived);
-                format!("; D is closed under the bracket (holonomic){constant}")
+                // the fields of closed sections are in involution where (2) holds
+                let holonomic = if integrable { " (holonomic)" } else { "" };
+                format!("; D is closed under the bracket{holonomic}{constant}")
             }
-            Some(false) => "; D is not closed under the bracket (nonholonomic)".to_owned(),
+            Some(false) if integrable => "; D is not closed under the bracket (nonholonomic)".to_owned(),
+            Some(false) => "; D is not closed under the bracket".to_owned(),
             None => String::new(),
         };
     format!("{what}{holonomic}")

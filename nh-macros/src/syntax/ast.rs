@@ -38,7 +38,7 @@ pub(crate) struct Sections {
     pub(crate) brackets: Vec<Section<Brackets>>,
     /// `frame`: new sections as combinations of the declared ones.
     pub(crate) frame: Option<Section<Vec<Item<Definition>>>>,
-    /// `almost`: the Jacobi identity is not demanded.
+    /// `almost`: the structure equations are not demanded.
     pub(crate) almost: Option<Extent>,
     /// `lagrangian`: L(t, x, y, parameters).
     pub(crate) lagrangian: Option<Section<Lagrangian>>,

@@ -1,5 +1,6 @@
 //! Tests of this stage: the meaning of expressions, evaluated, and every error text.
 
+mod almost;
 mod cancellation;
 mod catalogue;
 mod ceilings;
