@@ -5,7 +5,10 @@ use nalgebra::{SMatrix, SVector};
 
 use super::cholesky::Cholesky;
 use super::{ControlError, Entry};
+use crate::Scalar;
 
+/// What a regularization makes positive, and what is finite where it is.
+pub(super) const CURVATURE: &str = "the second derivative by the input";
 /// Iterations that a problem may take; each fixes the set of active bounds anew.
 const MOST_ITERATIONS: u32 = 40;
 /// Halvings of a step along the projection.
@@ -31,10 +34,16 @@ pub(super) fn minimum<T: Entry, const M: usize>(
     let clamp = |u: SVector<T, M>| u.zip_zip_map(lower, upper, |u, low, high| between(u, low, high));
     let value = |u: &SVector<T, M>| (u.dot(&(hessian * u))) * T::from_f64(0.5) + u.dot(slope);
     let mut at = clamp(*guess);
+    let mut size = largest(&at);
+    // the free components on which a whole step of Newton's has ended
+    let mut ended: Option<[bool; M]> = None;
     for _ in 0..MOST_ITERATIONS {
         let gradient = hessian * at + slope;
         let free = held_by_none(&at, &gradient, lower, upper);
-        let factors = Cholesky::new("the second derivative by the input", &masked(hessian, free))?;
+        let factors = Cholesky::new(CURVATURE, &masked(hessian, free))?;
+        if ended == Some(free) {
+            return Ok(Minimum { at, free, factors });
+        }
         let target = SVector::from_fn(|i, _| if is(free, i) { -gradient[i] } else { T::ZERO });
         let newton = factors.solve(&target);
         // Newton's step on the free components ends there, unless it meets a bound
@@ -49,17 +58,22 @@ pub(super) fn minimum<T: Entry, const M: usize>(
             share *= T::from_f64(0.5);
             next = clamp(at + newton * share);
         }
-        let moved = (next - at).iter().fold(T::ZERO, |sum, x| sum.max(x.abs()));
-        let size = at.iter().fold(T::ZERO, |sum, x| sum.max(x.abs()));
+        let moved = largest(&(next - at));
+        size = size.max(largest(&next));
+        ended = (next == at + newton).then_some(free);
         at = next;
-        if moved <= T::from_f64(4.0) * T::EPSILON * (T::ONE + size) {
+        if moved <= T::from_f64(4.0) * T::EPSILON * size {
             return Ok(Minimum { at, free, factors });
         }
     }
     let gradient = hessian * at + slope;
     let free = held_by_none(&at, &gradient, lower, upper);
-    let factors = Cholesky::new("the second derivative by the input", &masked(hessian, free))?;
+    let factors = Cholesky::new(CURVATURE, &masked(hessian, free))?;
     Ok(Minimum { at, free, factors })
+}
+
+fn largest<T: Entry, const M: usize>(u: &SVector<T, M>) -> T {
+    u.iter().fold(T::ZERO, |largest, x| largest.max(Scalar::abs(*x)))
 }
 
 pub(super) fn between<T: Entry>(u: T, low: T, high: T) -> T {

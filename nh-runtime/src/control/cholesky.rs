@@ -1,21 +1,26 @@
-//! Symmetric positive definite systems: A = L Lᵀ (Golub, Van Loan, Matrix Computations, 4.2.5).
+//! Symmetric positive definite systems: A = L D Lᵀ (Golub, Van Loan, Matrix Computations, 4.1.2), without roots of
+//! what has a unit.
 
 use nalgebra::{SMatrix, SVector};
 
 use super::{ControlError, Entry, symmetrized};
 
-/// The lower triangular factor of a positive definite matrix.
+/// The factors of a positive definite matrix.
 pub(super) struct Cholesky<T, const N: usize> {
+    /// L below its diagonal of ones, which is not stored.
     lower: SMatrix<T, N, N>,
+    /// D.
+    pivots: SVector<T, N>,
 }
 
 impl<T: Entry, const N: usize> Cholesky<T, N> {
     /// Factorizes a symmetric matrix, of which the lower triangle is read.
     pub(super) fn new(name: &'static str, a: &SMatrix<T, N, N>) -> Result<Self, ControlError> {
         let mut lower = SMatrix::<T, N, N>::zeros();
+        let mut pivots = SVector::<T, N>::zeros();
         for j in 0..N {
             let dot = |rows: &SMatrix<T, N, N>, i: usize| {
-                (0..j).fold(T::ZERO, |sum, k| sum + rows[(i, k)] * rows[(j, k)])
+                (0..j).fold(T::ZERO, |sum, k| sum + rows[(i, k)] * (rows[(j, k)] * pivots[k]))
             };
             let pivot = a[(j, j)] - dot(&lower, j);
             if !pivot.is_finite() {
@@ -24,23 +29,24 @@ impl<T: Entry, const N: usize> Cholesky<T, N> {
             if pivot <= T::ZERO {
                 return Err(ControlError::NotDefinite { matrix: name, pivot: pivot.to_f64() });
             }
-            let root = pivot.sqrt();
-            lower[(j, j)] = root;
             for i in j + 1..N {
-                lower[(i, j)] = (a[(i, j)] - dot(&lower, i)) / root;
+                lower[(i, j)] = (a[(i, j)] - dot(&lower, i)) / pivot;
             }
+            pivots[j] = pivot;
         }
-        Ok(Self { lower })
+        Ok(Self { lower, pivots })
     }
 
-    /// L⁻¹ b.
-    pub(super) fn whitened(&self, b: &SVector<T, N>) -> SVector<T, N> {
+    /// bᵀ A⁻¹ b.
+    pub(super) fn square(&self, b: &SVector<T, N>) -> T {
         let mut x = *b;
+        let mut sum = T::ZERO;
         for i in 0..N {
             let known = (0..i).fold(T::ZERO, |sum, k| sum + self.lower[(i, k)] * x[k]);
-            x[i] = (x[i] - known) / self.lower[(i, i)];
+            x[i] -= known;
+            sum += x[i] * (x[i] / self.pivots[i]);
         }
-        x
+        sum
     }
 
     /// A⁻¹ b for every column b.
@@ -49,11 +55,11 @@ impl<T: Entry, const N: usize> Cholesky<T, N> {
         for c in 0..C {
             for i in 0..N {
                 let known = (0..i).fold(T::ZERO, |sum, k| sum + self.lower[(i, k)] * x[(k, c)]);
-                x[(i, c)] = (x[(i, c)] - known) / self.lower[(i, i)];
+                x[(i, c)] -= known;
             }
             for i in (0..N).rev() {
                 let known = (i + 1..N).fold(T::ZERO, |sum, k| sum + self.lower[(k, i)] * x[(k, c)]);
-                x[(i, c)] = (x[(i, c)] - known) / self.lower[(i, i)];
+                x[(i, c)] = x[(i, c)] / self.pivots[i] - known;
             }
         }
         x
@@ -198,9 +204,10 @@ mod tests {
         let x = vector![1.0, -2.0, 0.5];
         let factors = Cholesky::new("a", &a).unwrap();
         assert!((factors.solve(&(a * x)) - x).norm() < 1e-14);
-        let white = factors.whitened(&x);
+        let square: f64 = factors.square(&(a * x)) - x.dot(&(a * x));
+        assert!(square.abs() < 1e-14);
         let lower = root("a", &a).unwrap();
-        assert!((lower * white - x).norm() < 1e-14 && (lower * lower.transpose() - a).norm() < 1e-14);
+        assert!((lower * lower.transpose() - a).norm() < 1e-14);
         let indefinite = matrix![1.0, 2.0; 2.0, 1.0];
         assert_eq!(
             Cholesky::new("a", &indefinite).err(),

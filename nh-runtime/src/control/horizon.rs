@@ -2,7 +2,7 @@
 
 use nalgebra::{SMatrix, SVector};
 
-use super::Entry;
+use super::{ControlError, Entry, finite};
 
 /// A system in discrete time, x' = f(k, x, u), with the derivatives of f.
 ///
@@ -59,6 +59,15 @@ impl<T: Entry, const N: usize, const M: usize> Expansion<T, N, M> {
             ux: SMatrix::zeros(),
             uu: SMatrix::zeros(),
         }
+    }
+
+    /// Refuses derivatives that are not finite.
+    pub(super) fn finite(&self, argument: &'static str) -> Result<(), ControlError> {
+        finite(argument, &self.x)?;
+        finite(argument, &self.u)?;
+        finite(argument, &self.xx)?;
+        finite(argument, &self.ux)?;
+        finite(argument, &self.uu)
     }
 }
 

@@ -2,17 +2,14 @@
 
 use nalgebra::{SMatrix, SVector};
 
-use super::box_quadratic::{between, minimum};
+use super::box_quadratic::{CURVATURE, between, minimum};
+use super::regularization::Regularization;
 use super::{ControlError, Cost, Entry, Model, finite, shooting_cost, symmetrized};
 
 /// Halvings of the step in the line search.
 const MOST_HALVINGS: u32 = 12;
-/// The factor by which the regularization grows and shrinks.
-const FACTOR: f64 = 4.0;
-/// Where the regularization starts to grow from, and what it vanishes below.
-const LEAST_WEIGHT: f64 = 1e-6;
-/// A regularization beyond which there is no step to be found.
-const MOST_WEIGHT: f64 = 1e10;
+/// What is given by the user's model and cost.
+const DERIVATIVES: &str = "the derivatives of model and cost";
 
 /// A sequence of `H` inputs between bounds that is being made optimal: the iterative
 /// linear-quadratic regulator (Li, Todorov, ICINCO 2004) with bounds on the inputs (Tassa, Mansard,
@@ -35,7 +32,7 @@ pub struct Ilqr<T, const N: usize, const M: usize, const H: usize> {
     changes: [SVector<T, M>; H],
     lower: SVector<T, M>,
     upper: SVector<T, M>,
-    weight: T,
+    regularization: Regularization<T>,
 }
 
 /// What an iteration did.
@@ -62,7 +59,7 @@ impl<T: Entry, const N: usize, const M: usize, const H: usize> Ilqr<T, N, M, H> 
             changes: [SVector::zeros(); H],
             lower: SVector::repeat(-huge),
             upper: SVector::repeat(huge),
-            weight: T::ZERO,
+            regularization: Regularization::none(),
         }
     }
 
@@ -178,8 +175,14 @@ impl<T: Entry, const N: usize, const M: usize, const H: usize> Ilqr<T, N, M, H> 
         let promised = loop {
             match self.sweep(model, cost, &end) {
                 Ok(promised) => break promised,
-                Err(ControlError::NotDefinite { .. }) if self.weight <= T::from_f64(MOST_WEIGHT) => {
-                    self.weight = self.heavier();
+                // feedback beyond the numbers, too, is that of a cost that is hardly convex
+                Err(
+                    error @ (ControlError::NotDefinite { .. }
+                    | ControlError::NotFinite { argument: CURVATURE, .. }),
+                ) => {
+                    if !self.regularization.grow() {
+                        return Err(error);
+                    }
                 }
                 Err(error) => return Err(error),
             }
@@ -191,23 +194,14 @@ impl<T: Entry, const N: usize, const M: usize, const H: usize> Ilqr<T, N, M, H> 
             // Armijo's condition
             if decrease > T::from_f64(1e-4) * share * promised {
                 self.inputs = inputs;
-                self.weight = self.lighter();
+                self.regularization.shrink();
                 self.roll_out(model, start);
                 return Ok(Improvement { cost: after, decrease, promised });
             }
             share *= T::from_f64(0.5);
         }
-        self.weight = self.heavier();
+        self.regularization.grow();
         Ok(Improvement { cost: before, decrease: T::ZERO, promised })
-    }
-
-    fn heavier(&self) -> T {
-        (self.weight * T::from_f64(FACTOR)).max(T::from_f64(LEAST_WEIGHT))
-    }
-
-    fn lighter(&self) -> T {
-        let lighter = self.weight / T::from_f64(FACTOR);
-        if lighter < T::from_f64(LEAST_WEIGHT) { T::ZERO } else { lighter }
     }
 
     /// The states along the inputs; returns the one at the end.
@@ -228,6 +222,7 @@ impl<T: Entry, const N: usize, const M: usize, const H: usize> Ilqr<T, N, M, H> 
         end: &SVector<T, N>,
     ) -> Result<T, ControlError> {
         let last = cost.end_expansion(end);
+        finite(DERIVATIVES, &last.x).and(finite(DERIVATIVES, &last.xx))?;
         let (mut slope, mut curvature) = (last.x, symmetrized(&last.xx));
         let mut promised = T::ZERO;
         let nominal = self.inputs.iter().enumerate().zip(&self.states);
@@ -235,13 +230,16 @@ impl<T: Entry, const N: usize, const M: usize, const H: usize> Ilqr<T, N, M, H> 
         for (((tick, u), x), (gain, change)) in nominal.zip(results).rev() {
             let (a, b) = model.linearized(tick, x, u);
             let stage = cost.stage_expansion(tick, x, u);
+            stage.finite(DERIVATIVES).and(finite(DERIVATIVES, &a)).and(finite(DERIVATIVES, &b))?;
             let by_state = stage.x + a.transpose() * slope;
             let by_input = stage.u + b.transpose() * slope;
             let through = b.transpose() * curvature;
             let mixed = stage.ux + through * a;
-            let twice = symmetrized(&(stage.uu + through * b));
-            let heavy = twice + SMatrix::<T, M, M>::identity() * self.weight;
+            let reached = through * b;
+            let twice = symmetrized(&(stage.uu + reached));
             let (low, high) = (self.lower - u, self.upper - u);
+            let range = self.upper - self.lower;
+            let heavy = twice + self.regularization.of([&stage.uu, &reached], &by_input, &range);
             let best = minimum(&heavy, &by_input, [&low, &high], change)?;
             // the components that a bound holds do not answer to the state
             let mut answering = mixed;
@@ -252,8 +250,8 @@ impl<T: Entry, const N: usize, const M: usize, const H: usize> Ilqr<T, N, M, H> 
             }
             *gain = -best.factors.solve(&answering);
             *change = best.at;
-            finite("the derivatives of model and cost", gain)?;
-            finite("the derivatives of model and cost", change)?;
+            finite(CURVATURE, gain)?;
+            finite(CURVATURE, change)?;
             promised -= change.dot(&by_input) + change.dot(&(twice * *change)) * T::from_f64(0.5);
             let (k, d) = (*gain, *change);
             slope = by_state + k.transpose() * (twice * d + by_input) + mixed.transpose() * d;

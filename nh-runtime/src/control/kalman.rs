@@ -101,7 +101,7 @@ impl<T: Entry, const N: usize> Estimate<T, N> {
         let mean = self.mean + gain * innovation;
         finite("the corrected mean", &mean)?;
         finite("the corrected covariance", &covariance)?;
-        let surprise = factors.whitened(innovation).iter().fold(T::ZERO, |sum, x| sum + *x * *x);
+        let surprise = factors.square(innovation);
         Ok(Correction { estimate: Self { mean, covariance: symmetrized(&covariance) }, surprise })
     }
 }

@@ -100,6 +100,7 @@ mod horizon;
 mod ilqr;
 mod kalman;
 mod noise;
+mod regularization;
 mod regulator;
 mod sampled;
 mod shooting;

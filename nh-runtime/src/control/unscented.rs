@@ -103,7 +103,7 @@ impl<T: Entry> Unscented<T> {
         finite("the corrected mean", &mean)?;
         finite("the corrected covariance", &covariance)?;
         let estimate = Estimate { mean, covariance: symmetrized(&covariance) };
-        let surprise = factors.whitened(&innovation).iter().fold(T::ZERO, |sum, x| sum + *x * *x);
+        let surprise = factors.square(&innovation);
         Ok(Correction { estimate, surprise })
     }
 

@@ -309,7 +309,9 @@ fn plans<T: Entry>(u: &Units<T>, out: &mut Outcome) {
     plan(u, &quadratic(u), None, out);
     plan(u, &quadratic(u), Some(1.0), out);
     for hill in [0.01, 0.3, 5.0] {
-        for bound in [None, Some(2.0)] {
+        // in single precision the feedback of a plan without bounds leaves the range of the numbers
+        let free = if T::EPSILON.to_f64() < 1e-10 { None } else { Some(1.0) };
+        for bound in [free, Some(2.0)] {
             plan(u, &Wavy(quadratic(u), w(0.5) * u.input, w(hill) * u.cost), bound, out);
         }
     }
