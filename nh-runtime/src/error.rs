@@ -136,6 +136,18 @@ pub enum IntegrationError {
     },
     /// A given state does not satisfy the identities of its coordinates.
     InvalidState(StateFault),
+    /// A given state is off the constraints by more than the tolerance.
+    InconsistentStart {
+        /// The constraint with the largest residual, in the order of
+        /// [`constraint_residual`](crate::Constrained::constraint_residual).
+        constraint: usize,
+        /// That residual.
+        residual: f64,
+        /// The first component that a return to the constraints would move too far.
+        component: &'static str,
+        /// By how much.
+        correction: f64,
+    },
     /// A given input is infinite or not a number.
     Input(InputFault),
     /// A given time is infinite or not a number, or the time has outgrown its type.
@@ -246,6 +258,12 @@ impl Display for IntegrationError {
             Self::InvalidState(StateFault { identity, residual }) => write!(
                 f,
                 "the given state does not satisfy `{identity}`, by {residual:?}: normalize it first"
+            ),
+            Self::InconsistentStart { constraint, residual, component, correction } => write!(
+                f,
+                "the given state leaves a residual of {residual:?} in constraint {constraint}, and a return \
+                 to the constraints would move `{component}` by {correction:?}: give a state that satisfies \
+                 them, or `project` it first"
             ),
             Self::Input(InputFault { input, value }) => {
                 write!(f, "the input `{input}` is {value:?}: give finite numbers")

@@ -15,6 +15,9 @@ pub trait Tolerance<X: State>: Copy {
     /// [`IntegrationError::Setting`] for the first value that is out of its range.
     fn check(&self) -> Result<(), IntegrationError>;
 
+    /// The permitted error of each component of a state.
+    fn permitted(&self, x: &VecOf<X>) -> VecOf<X>;
+
     /// The mean of the squares of eᵢ in units of the permitted error. What is not finite passes
     /// through it.
     fn mean_square(&self, e: &VecOf<X>, x0: &VecOf<X>, x1: &VecOf<X>) -> X::Scalar;
@@ -48,6 +51,13 @@ impl<T: Real, X: State<Scalar = T>> Tolerance<X> for Uniform<T> {
         check_pair("rtol", self.rtol, "atol", self.atol.unwrap_or(self.rtol))
     }
 
+    fn permitted(&self, x: &VecOf<X>) -> VecOf<X> {
+        let (rtol, atol) = (self.rtol, self.atol.unwrap_or(self.rtol));
+        let mut permitted = *x;
+        permitted.as_mut().iter_mut().for_each(|x| *x = rtol.mul_add(x.abs(), atol));
+        permitted
+    }
+
     #[inline]
     fn mean_square(&self, e: &VecOf<X>, x0: &VecOf<X>, x1: &VecOf<X>) -> T {
         let (rtol, atol) = (self.rtol, self.atol.unwrap_or(self.rtol));
@@ -68,6 +78,15 @@ impl<T: Real, X: State<Scalar = T>> Tolerance<X> for PerComponent<X> {
             })?;
         }
         Ok(())
+    }
+
+    fn permitted(&self, x: &VecOf<X>) -> VecOf<X> {
+        let (rtol, mut permitted) = (self.rtol.to_array(), self.atol.to_array());
+        for (permitted, (rtol, x)) in permitted.as_mut().iter_mut().zip(rtol.as_ref().iter().zip(x.as_ref()))
+        {
+            *permitted = rtol.mul_add(x.abs(), *permitted);
+        }
+        permitted
     }
 
     #[inline]

@@ -223,6 +223,10 @@ where
         self.control.check()
     }
 
+    fn permitted(&self, state: &S::State) -> VecOf<S> {
+        self.tolerance.permitted(&state.to_array())
+    }
+
     #[inline]
     fn advance(
         &self,

@@ -132,7 +132,7 @@ pub type Dop853<T, W = Uniform<T>> = Adaptive<DormandPrince8, T, W>;
 pub type Vern9<T, W = Uniform<T>> = Adaptive<Verner9, T, W>;
 
 use crate::arrays::first_non_finite;
-use crate::{Dynamics, IntegrationError, ScalarOf, State, Statistics};
+use crate::{Dim, DimOf, Dynamics, IntegrationError, Real, Scalar, ScalarOf, State, Statistics, VecOf};
 
 /// The point that a step starts from.
 pub struct Start<'a, S: Dynamics> {
@@ -204,6 +204,17 @@ pub trait Method<S: Dynamics> {
     /// [`IntegrationError::Setting`] for the first setting that is out of its range.
     fn check(&self) -> Result<(), IntegrationError>;
 
+    /// How far each component of a given state may lie from where it belongs: its tolerance, and for a method of
+    /// fixed step √ε of the largest component.
+    fn permitted(&self, state: &S::State) -> VecOf<S>
+    where
+        ScalarOf<S>: Real,
+    {
+        let x = state.to_array();
+        let largest = x.as_ref().iter().fold(ScalarOf::<S>::ZERO, |largest, x| largest.max(x.abs()));
+        DimOf::<S>::vec(ScalarOf::<S>::EPSILON.sqrt() * largest)
+    }
+
     /// Takes one step, forwards in time if there is no `target`, and otherwise towards it, landing
     /// on it exactly rather than passing it.
     ///
@@ -261,20 +272,20 @@ pub trait Method<S: Dynamics> {
 impl<S: Dynamics> Start<'_, S> {
     /// The derivative at the start.
     #[inline]
-    pub(crate) fn derivative(&self) -> crate::VecOf<S> {
+    pub(crate) fn derivative(&self) -> VecOf<S> {
         self.system.derivative(self.time, self.state, self.input).to_array()
     }
 
     /// The derivative at another point.
     #[inline]
-    pub(crate) fn derivative_at(&self, t: ScalarOf<S>, x: crate::VecOf<S>) -> crate::VecOf<S> {
+    pub(crate) fn derivative_at(&self, t: ScalarOf<S>, x: VecOf<S>) -> VecOf<S> {
         self.derivative_in_line(t, x)
     }
 
     /// The same, in one piece with the caller if the system wants to be: for the few stages of a short method.
     #[inline(always)]
     #[allow(clippy::inline_always)]
-    pub(crate) fn derivative_in_line(&self, t: ScalarOf<S>, x: crate::VecOf<S>) -> crate::VecOf<S> {
+    pub(crate) fn derivative_in_line(&self, t: ScalarOf<S>, x: VecOf<S>) -> VecOf<S> {
         self.system.derivative(t, &S::State::from_array(x), self.input).to_array()
     }
 }
@@ -299,7 +310,6 @@ pub(crate) fn explain_non_finite<S: Dynamics>(
     step: ScalarOf<S>,
     reached: &[ScalarOf<S>],
 ) -> IntegrationError {
-    use crate::Scalar;
     let time = start.time.to_f64();
     if let Some(found) = first_non_finite(start.derivative().as_ref()) {
         return non_finite_derivative::<S::State>(found, time);

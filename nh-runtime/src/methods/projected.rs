@@ -1,8 +1,10 @@
 //! Any method, with a return to the constraint manifold every few steps.
 
-use super::{Arrival, Method, Place, Start};
+use super::{Arrival, Method, Place, Start, component};
 use crate::projection::largest;
-use crate::{Constrained, IntegrationError, ProjectionError, Real, Scalar, ScalarOf, State, Statistics};
+use crate::{
+    Constrained, IntegrationError, ProjectionError, Real, Scalar, ScalarOf, State, Statistics, VecOf,
+};
 
 /// A method whose state is projected back to the constraint manifold after every few steps.
 ///
@@ -13,6 +15,10 @@ use crate::{Constrained, IntegrationError, ProjectionError, Real, Scalar, Scalar
 /// method's own error estimate, changes the state at the end of a step and nothing before it, and
 /// makes the method drop what it has stored about the state; dense output leads to the corrected
 /// state. [`Statistics`] say how often that happened and how much it changed.
+///
+/// A start that a return to the constraints would move by more than the method's tolerance in some component,
+/// or √ε of the state's size where steps are fixed, is refused: [`IntegrationError::InconsistentStart`]. Call the
+/// system's own [`project`](Constrained::project) on it first, where that is what is meant.
 ///
 /// ```
 /// # use nonholonomic::prelude::*;
@@ -75,6 +81,8 @@ impl<M> Projected<M> {
 pub struct Memory<M> {
     method: M,
     steps: u32,
+    /// Whether the start has been found on the constraints.
+    started: bool,
 }
 
 impl<S: Constrained, M: Method<S>> Method<S> for Projected<M>
@@ -85,12 +93,16 @@ where
     type Dense = M::Dense;
 
     fn memory(&self) -> Self::Memory {
-        Memory { method: self.method.memory(), steps: 0 }
+        Memory { method: self.method.memory(), steps: 0, started: false }
     }
 
     #[inline]
     fn forget(&self, memory: &mut Self::Memory) {
         self.method.forget(&mut memory.method);
+    }
+
+    fn permitted(&self, state: &S::State) -> VecOf<S> {
+        self.method.permitted(state)
     }
 
     fn check(&self) -> Result<(), IntegrationError> {
@@ -113,6 +125,10 @@ where
         memory: &mut Self::Memory,
         statistics: &mut Statistics,
     ) -> Result<Arrival<S>, IntegrationError> {
+        if !memory.started {
+            self.admit(start)?;
+            memory.started = true;
+        }
         let mut arrival = self.method.advance(start, target, &mut memory.method, statistics)?;
         if memory.steps + 1 < self.every {
             memory.steps += 1;
@@ -138,6 +154,10 @@ where
         memory: &mut Self::Memory,
         statistics: &mut Statistics,
     ) -> Result<u64, IntegrationError> {
+        if !memory.started {
+            self.admit(&Start { system, input, time: place.time, state: &place.state })?;
+            memory.started = true;
+        }
         let mut done = 0;
         while place.time != target && done < limit {
             // all steps to the next projection but its own
@@ -172,6 +192,47 @@ where
         time: ScalarOf<S>,
     ) -> S::State {
         self.method.interpolate(dense, start, arrival, time)
+    }
+}
+
+impl<M> Projected<M> {
+    /// Refuses a start that a projection would move by more than is permitted.
+    #[cold]
+    fn admit<S: Constrained>(&self, start: &Start<'_, S>) -> Result<(), IntegrationError>
+    where
+        M: Method<S>,
+        ScalarOf<S>: Real,
+    {
+        let residuals = start.system.constraint_residual(start.time, start.state);
+        let sizes = residuals.as_ref().iter().map(|residual| residual.abs()).enumerate();
+        let worse = |a: (usize, ScalarOf<S>), b: (usize, ScalarOf<S>)| {
+            if b.1 > a.1 || !b.1.is_finite() { b } else { a }
+        };
+        let (constraint, residual) = sizes.fold((0, ScalarOf::<S>::ZERO), worse);
+        if residual == ScalarOf::<S>::ZERO {
+            return Ok(());
+        }
+        let mut moved = *start.state;
+        start
+            .system
+            .project(start.time, &mut moved)
+            .map_err(|error| IntegrationError::Projection { time: start.time.to_f64(), error })?;
+        let (before, after) = (start.state.to_array(), moved.to_array());
+        let permitted = self.method.permitted(start.state);
+        let pairs = before.as_ref().iter().zip(after.as_ref()).zip(permitted.as_ref());
+        for (index, ((before, after), permitted)) in pairs.enumerate() {
+            let correction = (*after - *before).abs();
+            // what is not a number is beyond it, too
+            if !permitted.all_ge(correction) {
+                return Err(IntegrationError::InconsistentStart {
+                    constraint,
+                    residual: residual.to_f64(),
+                    component: component::<S::State>(index),
+                    correction: correction.to_f64(),
+                });
+            }
+        }
+        Ok(())
     }
 }
 

@@ -175,6 +175,10 @@ where
         })
     }
 
+    fn permitted(&self, state: &S::State) -> VecOf<S> {
+        self.tolerance.permitted(&state.to_array())
+    }
+
     #[inline]
     fn advance(
         &self,

@@ -5,5 +5,6 @@
 
 mod events;
 mod limits;
+mod starts;
 mod systems;
 mod time;

@@ -66,6 +66,10 @@ where
         self.method.check()
     }
 
+    fn permitted(&self, state: &S::State) -> VecOf<S> {
+        self.method.permitted(state)
+    }
+
     fn advance(
         &self,
         start: &Start<'_, S>,
