@@ -37,18 +37,6 @@ impl<T: Entry, const N: usize> Cholesky<T, N> {
         Ok(Self { lower, pivots })
     }
 
-    /// bᵀ A⁻¹ b.
-    pub(super) fn square(&self, b: &SVector<T, N>) -> T {
-        let mut x = *b;
-        let mut sum = T::ZERO;
-        for i in 0..N {
-            let known = (0..i).fold(T::ZERO, |sum, k| sum + self.lower[(i, k)] * x[k]);
-            x[i] -= known;
-            sum += x[i] * (x[i] / self.pivots[i]);
-        }
-        sum
-    }
-
     /// A⁻¹ b for every column b.
     pub(super) fn solve<const C: usize>(&self, b: &SMatrix<T, N, C>) -> SMatrix<T, N, C> {
         let mut x = *b;
@@ -204,8 +192,6 @@ mod tests {
         let x = vector![1.0, -2.0, 0.5];
         let factors = Cholesky::new("a", &a).unwrap();
         assert!((factors.solve(&(a * x)) - x).norm() < 1e-14);
-        let square: f64 = factors.square(&(a * x)) - x.dot(&(a * x));
-        assert!(square.abs() < 1e-14);
         let lower = root("a", &a).unwrap();
         assert!((lower * lower.transpose() - a).norm() < 1e-14);
         let indefinite = matrix![1.0, 2.0; 2.0, 1.0];

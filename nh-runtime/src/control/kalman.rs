@@ -2,8 +2,9 @@
 
 use nalgebra::{SMatrix, SVector};
 
-use super::cholesky::{Cholesky, semidefinite};
-use super::{ControlError, Entry, finite, symmetrized};
+use super::cholesky::{root, semidefinite};
+use super::square_root::Measured;
+use super::{ControlError, Entry, finite, squares, symmetrized};
 
 /// What is known of a state: a mean and a covariance.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -53,9 +54,9 @@ impl<T: Entry, const N: usize> Estimate<T, N> {
     ) -> Result<Self, ControlError> {
         finite("mean", &mean)?;
         finite("transition", transition)?;
-        semidefinite("covariance", &self.covariance)?;
+        let lower = root("covariance", &self.covariance)?;
         semidefinite("noise", noise)?;
-        let covariance = transition * self.covariance * transition.transpose() + noise;
+        let covariance = squares(&(transition * lower)) + noise;
         finite("the predicted covariance", &covariance)?;
         Ok(Self { mean, covariance: symmetrized(&covariance) })
     }
@@ -64,8 +65,9 @@ impl<T: Entry, const N: usize> Estimate<T, N> {
     ///
     /// `innovation` is the measurement less what the mean would have given: subtract angles the
     /// short way round. `observation` is the derivative of the measured quantities by the state at
-    /// the mean, `noise` the covariance of the measurement. The covariance follows Joseph's form,
-    /// which stays positive semidefinite in single precision too.
+    /// the mean, `noise` the covariance of the measurement. The correction is done on the square roots
+    /// of the covariances, by rotations (Kailath, Sayed, Hassibi, Linear Estimation, 12.3): what comes out is
+    /// positive semidefinite, however exact the measurement and in single precision too.
     ///
     /// ```
     /// use nalgebra::{Matrix2, matrix, vector};
@@ -90,18 +92,12 @@ impl<T: Entry, const N: usize> Estimate<T, N> {
         finite("innovation", innovation)?;
         finite("mean", &self.mean)?;
         finite("observation", observation)?;
-        semidefinite("covariance", &self.covariance)?;
-        semidefinite("noise", noise)?;
-        let seen = observation * self.covariance;
-        let spread = symmetrized(&(seen * observation.transpose() + noise));
-        let factors = Cholesky::new("the covariance of the innovation", &spread)?;
-        let gain = factors.solve(&seen).transpose();
-        let left = SMatrix::<T, N, N>::identity() - gain * observation;
-        let covariance = left * self.covariance * left.transpose() + gain * noise * gain.transpose();
-        let mean = self.mean + gain * innovation;
+        let lower = root("covariance", &self.covariance)?;
+        let measured = Measured::new(root("noise", noise)?, observation * lower, lower)?;
+        let (change, surprise) = measured.change(innovation);
+        let (mean, covariance) = (self.mean + change, squares(&measured.rest));
         finite("the corrected mean", &mean)?;
         finite("the corrected covariance", &covariance)?;
-        let surprise = factors.square(innovation);
         Ok(Correction { estimate: Self { mean, covariance: symmetrized(&covariance) }, surprise })
     }
 }

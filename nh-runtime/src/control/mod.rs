@@ -104,6 +104,7 @@ mod regularization;
 mod regulator;
 mod sampled;
 mod shooting;
+mod square_root;
 mod squares;
 mod unscented;
 
@@ -160,6 +161,11 @@ pub(crate) fn symmetrized<T: Entry, const N: usize>(a: &SMatrix<T, N, N>) -> SMa
     // halved first: a sum of two large numbers overflows
     let half = a * T::from_f64(0.5);
     half + half.transpose()
+}
+
+/// a aᵀ.
+pub(crate) fn squares<T: Entry, const N: usize, const M: usize>(a: &SMatrix<T, N, M>) -> SMatrix<T, N, N> {
+    a * a.transpose()
 }
 
 /// Refuses a matrix with an entry that is infinite or not a number.

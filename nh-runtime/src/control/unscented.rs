@@ -2,14 +2,23 @@
 
 use nalgebra::{SMatrix, SVector};
 
-use super::cholesky::{Cholesky, root, semidefinite};
-use super::{ControlError, Correction, Entry, Estimate, finite, symmetrized};
+use super::cholesky::{root, semidefinite};
+use super::square_root::{Measured, with_more};
+use super::{ControlError, Correction, Entry, Estimate, finite, squares, symmetrized};
 
 /// The scaled unscented transformation (Julier, Proc. American Control Conference 2002, 4555–4559; van
 /// der Merwe's weights): a covariance carried through a map by 2N + 1 points instead of a derivative.
 ///
 /// The default `spread` 1, `kurtosis` 2 and `shift` 0 suit states of a few components; a smaller
-/// spread keeps the points nearer to the mean, at the price of weights that cancel.
+/// spread keeps the points nearer to the mean, at the price of digits: second differences of images are divided by
+/// c² = `spread`² (N + `shift`), which is refused below the root of the rounding unit, 1.5e-8 in `f64` and 3.5e-4
+/// in `f32`.
+///
+/// The weights of 1/c² that cancel in the literature's sums do not occur: with the odd and the even parts o, e of
+/// the images about that of the mean, the mean is Σ e/c² =: m from there, and the covariance
+/// Σ (o oᵀ + e eᵀ)/c² + (β − α²) m mᵀ. As a sum of squares that is positive semidefinite wherever
+/// κ ≥ 0 and β ≥ 0, and so is what a correction leaves. Where other settings make it indefinite that is an
+/// error.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Unscented<T> {
     /// α: how far the points lie from the mean.
@@ -31,8 +40,12 @@ struct Points<T, const N: usize> {
     centre: SVector<T, N>,
     plus: [SVector<T, N>; N],
     minus: [SVector<T, N>; N],
-    /// The weight of the centre in a mean, in a covariance, and that of every other point.
-    weights: [T; 3],
+    /// L.
+    lower: SMatrix<T, N, N>,
+    /// c.
+    distance: T,
+    /// (β − α²)/c², the weight of the square of Σ e/c.
+    bend: T,
 }
 
 impl<T: Entry> Unscented<T> {
@@ -51,8 +64,9 @@ impl<T: Entry> Unscented<T> {
     /// ```
     ///
     /// # Errors
-    /// [`ControlError::NotDefinite`] if the covariance or `noise` is not positive semidefinite; [`ControlError::NotFinite`] for an argument, the result, or a point that is carried
-    /// out of the numbers; [`ControlError::Setting`] if α²(n + κ) is not a positive number, or β no number.
+    /// [`ControlError::NotDefinite`] if the covariance or `noise` is not positive semidefinite, or the result is not;
+    /// [`ControlError::NotFinite`] for an argument, the result, or a point that is carried out of the numbers;
+    /// [`ControlError::Setting`] if α²(n + κ) is not finite or too small for the digits, or β no number.
     pub fn predicted<const N: usize>(
         &self,
         prior: &Estimate<T, N>,
@@ -65,9 +79,13 @@ impl<T: Entry> Unscented<T> {
         let (plus, minus) = (points.plus.map(&mut step), points.minus.map(&mut step));
         // states do not wrap: differences are plain ones
         let carried = Carried::new(&points, centre, &plus, &minus, |a, b| a - b)?;
-        let (mean, covariance) = (centre + carried.mean, carried.covariance + noise);
+        let covariance = carried.covariance() + noise;
+        let mean = centre + carried.mean;
         finite("the predicted mean", &mean)?;
         finite("the predicted covariance", &covariance)?;
+        if !carried.is_complete() {
+            semidefinite("the predicted covariance", &covariance)?;
+        }
         Ok(Estimate { mean, covariance: symmetrized(&covariance) })
     }
 
@@ -93,17 +111,14 @@ impl<T: Entry> Unscented<T> {
         let centre = observe(points.centre);
         let (plus, minus) = (points.plus.map(&mut observe), points.minus.map(&mut observe));
         let carried = Carried::new(&points, centre, &plus, &minus, &difference)?;
-        let spread = symmetrized(&(carried.covariance + noise));
-        let factors = Cholesky::new("the covariance of the innovation", &spread)?;
-        let gain = factors.solve(&carried.cross.transpose()).transpose();
         let innovation = difference(*measured, centre) - carried.mean;
         finite("innovation", &innovation)?;
-        let covariance = prior.covariance - gain * spread * gain.transpose();
-        let mean = prior.mean + gain * innovation;
+        let measured = Measured::new(carried.beside(noise)?, carried.odd, points.lower)?;
+        let (change, surprise) = measured.change(&innovation);
+        let (mean, covariance) = (prior.mean + change, squares(&measured.rest));
         finite("the corrected mean", &mean)?;
         finite("the corrected covariance", &covariance)?;
         let estimate = Estimate { mean, covariance: symmetrized(&covariance) };
-        let surprise = factors.square(&innovation);
         Ok(Correction { estimate, surprise })
     }
 
@@ -113,8 +128,9 @@ impl<T: Entry> Unscented<T> {
         let count = T::from_u32(u32::try_from(N).unwrap_or(u32::MAX));
         // c² = n + λ = α²(n + κ)
         let squared = self.spread * self.spread * (count + self.shift);
-        if !(squared > T::ZERO && squared.is_finite()) {
-            let expected = "such that spread² (N + shift) is positive and finite";
+        if !(squared >= T::EPSILON.sqrt() && squared.is_finite()) {
+            let expected = "such that spread² (N + shift) is finite and at least the root of the rounding unit, \
+                            1.5e-8 in f64 and 3.5e-4 in f32";
             return Err(ControlError::Setting { setting: "spread", value: self.spread.to_f64(), expected });
         }
         if !self.kurtosis.is_finite() {
@@ -123,14 +139,14 @@ impl<T: Entry> Unscented<T> {
         }
         let distance = squared.sqrt();
         let column = |i: usize| lower.column(i) * distance;
-        let other = (squared + squared).recip();
-        let mean = (squared - count) / squared;
-        let centre = mean + T::ONE - self.spread * self.spread + self.kurtosis;
+        let bend = (self.kurtosis - self.spread * self.spread) / squared;
         Ok(Points {
             centre: prior.mean,
             plus: core::array::from_fn(|i| prior.mean + column(i)),
             minus: core::array::from_fn(|i| prior.mean - column(i)),
-            weights: [mean, centre, other],
+            lower,
+            distance,
+            bend,
         })
     }
 }
@@ -139,9 +155,12 @@ impl<T: Entry> Unscented<T> {
 struct Carried<T, const N: usize, const P: usize> {
     /// The mean less the image of the centre.
     mean: SVector<T, P>,
-    covariance: SMatrix<T, P, P>,
-    /// The covariance of state and image.
-    cross: SMatrix<T, N, P>,
+    /// The odd parts over c: the derivative along the columns of L, where the map is linear.
+    odd: SMatrix<T, P, N>,
+    /// The even parts over c, with their weights.
+    even: SMatrix<T, P, N>,
+    /// What the square of the even parts lacks; zero where that is positive semidefinite.
+    lacking: SVector<T, P>,
 }
 
 impl<T: Entry, const N: usize, const P: usize> Carried<T, N, P> {
@@ -152,23 +171,50 @@ impl<T: Entry, const N: usize, const P: usize> Carried<T, N, P> {
         minus: &[SVector<T, P>; N],
         difference: impl Fn(SVector<T, P>, SVector<T, P>) -> SVector<T, P>,
     ) -> Result<Self, ControlError> {
-        let [_, centre_weight, weight] = points.weights;
-        let mut mean = SVector::<T, P>::zeros();
-        for (a, b) in plus.iter().zip(minus) {
-            mean += (difference(*a, centre) + difference(*b, centre)) * weight;
+        let half = (points.distance + points.distance).recip();
+        let (mut odd, mut even) = (SMatrix::<T, P, N>::zeros(), SMatrix::<T, P, N>::zeros());
+        let mut sum = SVector::<T, P>::zeros();
+        for (i, (a, b)) in plus.iter().zip(minus).enumerate() {
+            let (a, b) = (difference(*a, centre), difference(*b, centre));
+            let part = (a + b) * half;
+            odd.set_column(i, &((a - b) * half));
+            even.set_column(i, &part);
+            sum += part;
         }
+        let mean = sum * points.distance.recip();
         finite("an image of a point", &mean)?;
-        // the centre's own deviation is −mean
-        let mut covariance = mean * mean.transpose() * centre_weight;
-        let mut cross = SMatrix::<T, N, P>::zeros();
-        for i in 0..N {
-            let (Some(a), Some(b)) = (plus.get(i), minus.get(i)) else { break };
-            let (Some(x), Some(y)) = (points.plus.get(i), points.minus.get(i)) else { break };
-            let (a, b) = (difference(*a, centre) - mean, difference(*b, centre) - mean);
-            covariance += (a * a.transpose() + b * b.transpose()) * weight;
-            cross += ((x - points.centre) * a.transpose() + (y - points.centre) * b.transpose()) * weight;
+        finite("an image of a point", &odd)?;
+        // e eᵀ + bend (Σ e)(Σ e)ᵀ = ẽ ẽᵀ with ẽᵢ = eᵢ + share Σ e
+        let count = T::from_u32(u32::try_from(N).unwrap_or(u32::MAX));
+        let whole = T::ONE + points.bend * count;
+        let mut lacking = SVector::<T, P>::zeros();
+        if whole >= T::ZERO {
+            let share = points.bend / (whole.sqrt() + T::ONE);
+            for i in 0..N {
+                let moved = even.column(i) + sum * share;
+                even.set_column(i, &moved);
+            }
+        } else {
+            lacking = sum * (-points.bend).sqrt();
         }
-        Ok(Self { mean, covariance, cross })
+        Ok(Self { mean, odd, even, lacking })
+    }
+
+    fn covariance(&self) -> SMatrix<T, P, P> {
+        squares(&self.odd) + squares(&self.even) - squares(&self.lacking)
+    }
+
+    /// A root of what noise and curvature make of a measurement beside its derivative.
+    fn beside(&self, noise: &SMatrix<T, P, P>) -> Result<SMatrix<T, P, P>, ControlError> {
+        if self.is_complete() {
+            return Ok(with_more(root("noise", noise)?, self.even));
+        }
+        root("the covariance beside the linear part", &(squares(&self.even) - squares(&self.lacking) + noise))
+    }
+
+    /// Whether nothing is lacking.
+    fn is_complete(&self) -> bool {
+        self.lacking == SVector::<T, P>::zeros()
     }
 }
 
