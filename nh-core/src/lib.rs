@@ -11,6 +11,7 @@ pub mod algebra;
 pub mod check;
 pub mod compile;
 pub mod count;
+pub mod functions;
 pub mod geometry;
 pub mod id;
 pub mod mechanics;

@@ -1,5 +1,6 @@
 //! A verified system: what the derivation hands to the back end.
 
+use crate::functions::{self, Functions, Sizes};
 use crate::id::{ExprId, SymbolId};
 use crate::mechanics::Procedure;
 use crate::model::{Formulation, Model};
@@ -18,30 +19,16 @@ pub struct System {
     pub state_velocities: Vec<SymbolId>,
     /// Outputs: ẋ^i for each coordinate in the state, then v̇ for each velocity in the state.
     pub derivative: Procedure,
-    /// One output: E_L; unless it depends on what `track` leaves out.
-    pub energy: Option<Procedure>,
-    /// Outputs: y^α for every section; unless they depend on what `track` leaves out.
-    pub velocity: Option<Procedure>,
-    /// Outputs: the declared observables.
-    pub observables: Procedure,
-    /// Outputs: λ_A for every constraint; if asked for.
-    pub multipliers: Option<Procedure>,
-    /// Outputs: the reaction force along every section; if asked for.
-    pub reactions: Option<Procedure>,
-    /// The momenta of the symmetries; if any are declared or asked for.
-    pub momenta: Option<Momenta>,
-    /// Outputs: as `derivative`, by the Gibbs–Appell function; if asked for.
-    pub gibbs_appell: Option<Procedure>,
-    /// The gyroscopic force of a Chaplygin system; if asked for.
-    pub gyroscopic: Option<Gyroscopic>,
-    /// What Routh reduction leaves to quadratures.
-    pub quadratures: Option<Quadratures>,
+    /// The functions that are generated beside the derivative.
+    pub functions: Functions,
+    /// The labels of the symmetries whose momenta are among them.
+    pub momenta: Vec<String>,
+    /// The coordinates along which the gyroscopic force acts, if that is among them.
+    pub gyroscopic: Vec<SymbolId>,
+    /// The coordinates that are left to quadratures, since nothing depends on them.
+    pub quadratures: Vec<SymbolId>,
     /// Outputs: ∂derivative/∂(state, input) row by row; if asked for.
     pub jacobian: Option<Procedure>,
-    /// Outputs: ∂derivative/∂parameters row by row; if asked for.
-    pub parameter_jacobian: Option<Procedure>,
-    /// Outputs: φ^A for every constraint; in the projected formulation.
-    pub residual: Option<Procedure>,
     /// The way back to the constraint manifold; in the projected formulation.
     pub projection: Option<Projection>,
     /// Brackets, momenta, volume and connections; as far as they are asked for.
@@ -62,35 +49,22 @@ impl System {
     pub fn state(&self) -> Vec<SymbolId> {
         [self.state_coordinates.as_slice(), &self.state_velocities].concat()
     }
-}
 
-/// The force ⟨J, K⟩ on the right of the Euler–Lagrange equations of L̄ (mathematics section 6).
-#[derive(Clone, Debug)]
-pub struct Gyroscopic {
-    /// The coordinates along which it acts.
-    pub coordinates: Vec<SymbolId>,
-    /// Outputs: its components.
-    pub force: Procedure,
-}
-
-/// Coordinates that are not in the state, because nothing depends on them.
-#[derive(Clone, Debug)]
-pub struct Quadratures {
-    /// The coordinates.
-    pub coordinates: Vec<SymbolId>,
-    /// Outputs: their rates.
-    pub rates: Procedure,
-}
-
-/// The momenta σ^α p_α − f of sections σ, and their rates along the motion.
-#[derive(Clone, Debug)]
-pub struct Momenta {
-    /// The label of each.
-    pub names: Vec<String>,
-    /// Outputs: the momenta.
-    pub values: Procedure,
-    /// Outputs: their rates.
-    pub rates: Procedure,
+    /// The numbers that the shapes of its functions are made of.
+    #[must_use]
+    pub fn sizes(&self) -> Sizes {
+        let count = |signature| self.functions.get(signature).map_or(0, |f: &Procedure| f.outputs.len());
+        let sections = self.model.sections.len();
+        Sizes {
+            state: self.state_coordinates.len() + self.state_velocities.len(),
+            velocities: self.state_velocities.len(),
+            sections,
+            outputs: self.model.outputs.len(),
+            parameters: self.model.parameters.len(),
+            vertical: count(&functions::VERTICAL_MOMENTA),
+            lifted: count(&functions::HORIZONTAL_LIFTS) / sections.max(1),
+        }
+    }
 }
 
 /// An expression of parameters alone by which the equations divide.

@@ -15,6 +15,9 @@ use super::{Proved, fence};
 use crate::algebra::{Accuracy, Graph};
 use crate::check;
 use crate::count::Count;
+use crate::functions::{
+    ENERGY, GIBBS_APPELL, GYROSCOPIC, MULTIPLIERS, OUTPUTS, PARAMETER_JACOBIAN, REACTIONS, VELOCITY,
+};
 use crate::geometry::ConstraintDistribution;
 use crate::id::{ExprId, Id};
 use crate::mechanics::{
@@ -60,8 +63,8 @@ pub(super) fn derive(
         .map_err(|violation| vec![violation])?;
     let parameter_jacobian =
         requested_parameter_jacobian(&mut proved.model, &derivative).map_err(|violation| vec![violation])?;
-    let momenta = momenta(&mut proved, &mut restriction, &derivative, &kept.independent);
-    let gyroscopic = gyroscopic::derive(&mut proved, Some(distribution))?;
+    let (momenta, mut functions) = momenta(&mut proved, &mut restriction, &derivative, &kept.independent);
+    let (gyroscopic, gyroscopic_force) = gyroscopic::derive(&mut proved, Some(distribution))?;
     let graph = &mut proved.model.graph;
     // 3. E_L, y and the observables on D
     let energy = energy(graph, &proved.system);
@@ -83,29 +86,32 @@ pub(super) fn derive(
     let embedding = embedding(&mut proved.model, &proved.base);
     let derived = Derived::Adapted { distribution, kept, equations: &equations };
     let (phase_space, sections) =
-        phase_space::derive(&mut proved, &derived, &derivative, &observables, &claims)?;
+        phase_space::derive(&mut proved, &derived, &derivative, &observables, &claims, &mut functions)?;
     let text = report(&mut proved, &derived, reason, conditions, sections);
     let lines = equations_of_motion(&proved.model, &derived);
     let divisors = parameter_divisors(&mut proved.model, &derivative);
     let conditions = [conditions.as_slice(), &divisors].concat();
     let model = proved.model;
+    functions.add(&ENERGY, Procedure::of(vec![energy]));
+    functions.add(&VELOCITY, Procedure::of(equations.velocity.clone()));
+    if !model.outputs.is_empty() {
+        functions.add(&OUTPUTS, observables);
+    }
+    functions.add_if(&MULTIPLIERS, requested(&model, Request::Multipliers).then_some(multipliers));
+    functions.add_if(&REACTIONS, requested(&model, Request::Reactions).then_some(reactions));
+    functions.add_if(&GIBBS_APPELL, gibbs_appell);
+    functions.add_if(&PARAMETER_JACOBIAN, parameter_jacobian);
+    functions.add_if(&GYROSCOPIC, gyroscopic_force);
     Ok(System {
         formulation: Formulation::Adapted,
         state_coordinates: coordinates(&model),
         state_velocities: kept.independent.clone(),
         derivative,
-        energy: Some(Procedure::of(vec![energy])),
-        velocity: Some(Procedure::of(equations.velocity.clone())),
-        observables,
-        multipliers: requested(&model, Request::Multipliers).then_some(multipliers),
-        reactions: requested(&model, Request::Reactions).then_some(reactions),
-        gibbs_appell,
-        jacobian,
-        parameter_jacobian,
+        functions,
         momenta,
         gyroscopic,
-        quadratures: None,
-        residual: None,
+        quadratures: Vec::new(),
+        jacobian,
         projection: None,
         phase_space,
         embedding,

@@ -4,11 +4,11 @@ use super::Proved;
 use super::phase_space::{asked, judge, shortened};
 use crate::algebra::{Graph, Matrix};
 use crate::check::evidence::shown;
+use crate::functions::{CHRISTOFFEL, CONNECTION, Functions};
 use crate::geometry::{Christoffel, koszul};
 use crate::id::{ExprId, SymbolId};
 use crate::mechanics::{LagrangianSystem, Procedure, SaddleEquations, solve_symmetric};
 use crate::model::Request;
-use crate::phase_space::PhaseSpace;
 use crate::report::Derived;
 use crate::violation::{Law, Violation};
 
@@ -16,7 +16,7 @@ use crate::violation::{Law, Violation};
 pub(super) fn derive(
     proved: &mut Proved,
     derived: &Derived<'_>,
-    found: &mut PhaseSpace,
+    found: &mut Functions,
 ) -> Result<(), Vec<Violation>> {
     let Some(origin) = asked(&proved.model, Request::Connection) else { return Ok(()) };
     let refuse = |evidence: String| {
@@ -70,8 +70,8 @@ pub(super) fn derive(
             constrained(graph, &proved.system, &symbols, &complement)
         }
     };
-    found.christoffel = Some(shortened(graph, christoffel));
-    found.connection = Some(shortened(graph, connection));
+    found.add(&CHRISTOFFEL, shortened(graph, christoffel));
+    found.add(&CONNECTION, shortened(graph, connection));
     Ok(())
 }
 

@@ -15,19 +15,8 @@ pub(super) fn in_numbers(system: &mut System) {
     if graph.constants().is_empty() {
         return;
     }
-    let functions = [
-        Some(&mut system.derivative),
-        system.energy.as_mut(),
-        system.velocity.as_mut(),
-        Some(&mut system.observables),
-        system.multipliers.as_mut(),
-        system.reactions.as_mut(),
-        system.gibbs_appell.as_mut(),
-        system.jacobian.as_mut(),
-        system.parameter_jacobian.as_mut(),
-        system.residual.as_mut(),
-    ];
-    for function in functions.into_iter().flatten() {
+    let functions = system.functions.iter_mut().map(|function| &mut function.procedure);
+    for function in [&mut system.derivative].into_iter().chain(&mut system.jacobian).chain(functions) {
         if function.length(graph) <= SHORT {
             shorten(graph, function);
         }

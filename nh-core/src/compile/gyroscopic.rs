@@ -5,10 +5,9 @@ use super::phase_space::asked;
 use super::splitting::Reduced;
 use crate::algebra::Substitution;
 use crate::geometry::ConstraintDistribution;
-use crate::id::CoordId;
+use crate::id::{CoordId, SymbolId};
 use crate::mechanics::{Procedure, Splitting};
 use crate::model::Request;
-use crate::system::Gyroscopic;
 use crate::violation::{Law, Violation};
 
 /// ⟨J, K⟩ as a function, if the declaration asks for it.
@@ -18,8 +17,8 @@ use crate::violation::{Law, Violation};
 pub(super) fn derive(
     proved: &mut Proved,
     distribution: Option<&ConstraintDistribution>,
-) -> Result<Option<Gyroscopic>, Vec<Violation>> {
-    let Some(origin) = asked(&proved.model, Request::Gyroscopic) else { return Ok(None) };
+) -> Result<(Vec<SymbolId>, Option<Procedure>), Vec<Violation>> {
+    let Some(origin) = asked(&proved.model, Request::Gyroscopic) else { return Ok(Default::default()) };
     let blame = |evidence: String| {
         vec![Violation {
             law: Law::Symmetry,
@@ -57,5 +56,5 @@ pub(super) fn derive(
     }
     let symbol = |id: &CoordId| proved.model.coordinates[*id].symbol;
     let coordinates = reduced.splitting.coordinates.iter().map(symbol).collect();
-    Ok(Some(Gyroscopic { coordinates, force: Procedure::of(force) }))
+    Ok((coordinates, Some(Procedure::of(force))))
 }

@@ -4,11 +4,11 @@ use super::Proved;
 use super::restricted::requested;
 use crate::algebra::Substitution;
 use crate::check::{self, Constraints, Motion, Setting, Symmetry};
+use crate::functions::{Functions, MOMENTA, MOMENTUM_RATES};
 use crate::geometry::ConstraintDistribution;
 use crate::id::{CoordId, ExprId, SymbolId};
 use crate::mechanics::{LagrangianSystem, Procedure, cyclic_coordinates};
 use crate::model::{Model, Request};
-use crate::system::Momenta;
 use crate::violation::Violation;
 
 /// What is known of the symmetries of a system.
@@ -81,11 +81,11 @@ pub(super) fn momenta(
     restriction: &mut Substitution,
     derivative: &Procedure,
     velocities: &[SymbolId],
-) -> Option<Momenta> {
+) -> (Vec<String>, Functions) {
     let mut symmetries = proved.symmetries.declared.clone();
     if symmetries.is_empty() {
         if !requested(&proved.model, Request::Momenta) {
-            return None;
+            return Default::default();
         }
         let found = proved.symmetries.found.iter().map(|(_, symmetry)| symmetry);
         symmetries.extend(found.filter(|symmetry| symmetry.is_horizontal()).cloned());
@@ -117,5 +117,8 @@ pub(super) fn momenta(
     }
     let names = symmetries.into_iter().map(|symmetry| symmetry.name).collect();
     let rates: Vec<ExprId> = rates;
-    Some(Momenta { names, values: Procedure::of(values), rates: derivative.with_outputs(rates) })
+    let mut found = Functions::default();
+    found.add(&MOMENTA, Procedure::of(values));
+    found.add(&MOMENTUM_RATES, derivative.with_outputs(rates));
+    (names, found)
 }

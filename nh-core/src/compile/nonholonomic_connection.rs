@@ -5,11 +5,14 @@ use super::Proved;
 use super::phase_space::{asked, judge};
 use super::splitting::Reduced;
 use crate::algebra::{Graph, Matrix, Substitution};
+use crate::functions::{
+    CONNECTION_COEFFICIENTS, CURVATURE, Functions, HORIZONTAL_FORCE, HORIZONTAL_LIFTS, LOCKED_INERTIA,
+    VERTICAL_MOMENTA, VERTICAL_MOMENTUM_RATES, VERTICAL_SECTIONS, VERTICAL_VELOCITIES,
+};
 use crate::geometry::ConstraintDistribution;
-use crate::id::{CoordId, ExprId, Id, SymbolId};
+use crate::id::{ExprId, Id, SymbolId};
 use crate::mechanics::{Momentum, NonholonomicConnection, Procedure, solve_symmetric};
 use crate::model::Request;
-use crate::phase_space::{PhaseSpace, SplitFunctions};
 use crate::report::Derived;
 use crate::violation::{Law, Violation};
 
@@ -18,7 +21,7 @@ pub(super) fn derive(
     proved: &mut Proved,
     derived: &Derived<'_>,
     derivative: &Procedure,
-    found: &mut PhaseSpace,
+    found: &mut Functions,
 ) -> Result<(), Vec<Violation>> {
     let Some(origin) = asked(&proved.model, Request::Splitting) else { return Ok(()) };
     let blame = |evidence: &str, way_out: &str| {
@@ -50,8 +53,7 @@ pub(super) fn derive(
             "choose other velocities by `independent`",
         ));
     };
-    let functions = functions(proved, distribution, &reduced, &connection, derivative);
-    found.splitting = Some(functions);
+    found.extend(functions(proved, distribution, &reduced, &connection, derivative));
     Ok(())
 }
 
@@ -90,7 +92,7 @@ fn functions(
     reduced: &Reduced,
     connection: &NonholonomicConnection,
     derivative: &Procedure,
-) -> SplitFunctions {
+) -> Functions {
     let judge = judge(proved);
     let graph = &mut proved.model.graph;
     // 1. sections and brackets in the declared basis
@@ -149,17 +151,17 @@ fn functions(
         let sum = graph.neg(sum);
         force.push(graph.simplify(sum));
     }
-    let symbol = |id: &CoordId| proved.model.coordinates[*id].symbol;
-    SplitFunctions {
-        coordinates: connection.coordinates.iter().map(symbol).collect(),
-        vertical: Procedure::of(vertical.concat()),
-        lifts: Procedure::of(lifts.concat()),
-        inertia: connection.inertia.as_ref().map(|inertia| Procedure::of(inertia.concat())),
-        coefficients: Procedure::of(coefficients.concat().concat()),
-        curvature: Procedure::of(curvature.concat().concat()),
-        momenta: Procedure::of(values),
-        rates: derivative.with_outputs(rates),
-        velocities: procedure.with_outputs(along_vertical),
-        force: procedure.with_outputs(force),
-    }
+    let mut found = Functions::default();
+    found.add(&VERTICAL_SECTIONS, Procedure::of(vertical.concat()));
+    found.add(&HORIZONTAL_LIFTS, Procedure::of(lifts.concat()));
+    found.add_if(&LOCKED_INERTIA, connection.inertia.as_ref().map(|inertia| Procedure::of(inertia.concat())));
+    found.add(&CONNECTION_COEFFICIENTS, Procedure::of(coefficients.concat().concat()));
+    found.add(&CURVATURE, Procedure::of(curvature.concat().concat()));
+    found.add(&VERTICAL_MOMENTA, Procedure::of(values));
+    found.add(&VERTICAL_MOMENTUM_RATES, derivative.with_outputs(rates));
+    found.add(&VERTICAL_VELOCITIES, procedure.with_outputs(along_vertical));
+    found.add(&HORIZONTAL_FORCE, procedure.with_outputs(force));
+    // an array without entries is none
+    found.retain(|function| !function.procedure.outputs.is_empty());
+    found
 }

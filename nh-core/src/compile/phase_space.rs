@@ -4,6 +4,7 @@ use super::restricted::requested;
 use super::{Proved, brackets, connection, discrete, fence, nonholonomic_connection, volume};
 use crate::algebra::{Graph, Matrix, Rational, Substitution};
 use crate::check::{self, evidence::shown};
+use crate::functions::{BRACKET, BRACKET_WITH_ENERGY, DRIFT_OF_OUTPUTS, Functions, HAMILTON_JACOBI};
 use crate::id::{ExprId, Origin, SymbolId};
 use crate::mechanics::{
     Definiteness, Definition, HamiltonianSide, LagrangianSystem, NoInverse, NonholonomicBracket,
@@ -17,13 +18,14 @@ use crate::violation::{Law, Violation};
 /// Sections of the report: a title and lines.
 pub(super) type Sections = Vec<(&'static str, Vec<String>)>;
 
-/// Derives what is asked for, with what the report says about it.
+/// Derives what is asked for, the functions among it into `functions`; what the report says about it.
 pub(super) fn derive(
     proved: &mut Proved,
     derived: &Derived<'_>,
     derivative: &Procedure,
     observables: &Procedure,
     claims: &[ExprId],
+    functions: &mut Functions,
 ) -> Result<(PhaseSpace, Sections), Vec<Violation>> {
     fence(on_level(proved).into_iter().collect())?;
     let mut found = PhaseSpace::default();
@@ -35,7 +37,8 @@ pub(super) fn derive(
             sections.push(("Hamiltonian side", hamiltonian_lines(&mut proved.model, &side, &proved.base)));
             let fields = fields(proved, derived);
             let Proved { model, base, .. } = &mut *proved;
-            found.hamilton_jacobi = check::hamilton_jacobi(model, &side, &fields, &momenta, base)?;
+            functions
+                .add_if(&HAMILTON_JACOBI, check::hamilton_jacobi(model, &side, &fields, &momenta, base)?);
             found.hamiltonian = requested(&proved.model, Request::Hamiltonian).then_some(side);
             Ok(())
         }));
@@ -43,9 +46,9 @@ pub(super) fn derive(
     if let Some(origin) = asked(&proved.model, Request::Bracket) {
         keep(brackets::of_outputs(proved, derived, observables, origin).map(
             |[bracket, with_energy, drift]| {
-                found.bracket = Some(bracket);
-                found.bracket_with_energy = Some(with_energy);
-                found.drift_of_outputs = Some(drift);
+                functions.add(&BRACKET, bracket);
+                functions.add(&BRACKET_WITH_ENERGY, with_energy);
+                functions.add(&DRIFT_OF_OUTPUTS, drift);
             },
         ));
     }
@@ -55,10 +58,10 @@ pub(super) fn derive(
     if let Some(origin) = asked(&proved.model, Request::Invariants) {
         keep(invariants(proved, derived, claims, origin).map(|form| found.invariants = Some(form)));
     }
-    keep(connection::derive(proved, derived, &mut found));
-    keep(nonholonomic_connection::derive(proved, derived, derivative, &mut found));
+    keep(connection::derive(proved, derived, functions));
+    keep(nonholonomic_connection::derive(proved, derived, derivative, functions));
     keep(discrete::derive(proved, derived, &mut found));
-    keep(volume::derive(proved, derived, derivative, &mut found).map(|lines| {
+    keep(volume::derive(proved, derived, derivative, functions).map(|lines| {
         if !lines.is_empty() {
             sections.push(("Volume", lines));
         }

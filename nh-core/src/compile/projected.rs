@@ -13,6 +13,9 @@ use super::restricted::{
 use super::{Proved, fence, levels};
 use crate::algebra::{Graph, Matrix, Substitution};
 use crate::check;
+use crate::functions::{
+    ENERGY, GIBBS_APPELL, GYROSCOPIC, MULTIPLIERS, OUTPUTS, PARAMETER_JACOBIAN, REACTIONS, RESIDUAL, VELOCITY,
+};
 use crate::id::ExprId;
 use crate::mechanics::{
     Definiteness, Flow, Procedure, SaddleEquations, definiteness, energy, saddle_equations,
@@ -74,36 +77,40 @@ pub(super) fn derive(mut proved: Proved, reason: &str) -> Result<System, Vec<Vio
         .map_err(|violation| vec![violation])?;
     let parameter_jacobian =
         requested_parameter_jacobian(&mut proved.model, &derivative).map_err(|violation| vec![violation])?;
-    let momenta = momenta(&mut proved, &mut everywhere, &derivative, &velocities);
-    let gyroscopic = gyroscopic::derive(&mut proved, None)?;
+    let (momenta, mut functions) = momenta(&mut proved, &mut everywhere, &derivative, &velocities);
+    let (gyroscopic, gyroscopic_force) = gyroscopic::derive(&mut proved, None)?;
     // 5. the way back to the constraint manifold
     let projection = projection(&mut proved.model, &velocities, &on_levels, &all_residuals, judge);
     // 6. the report
     let embedding = embedding(&mut proved.model, &proved.base);
     let derived = Derived::Projected { residuals: &residuals, equations: &equations };
     let (phase_space, sections) =
-        phase_space::derive(&mut proved, &derived, &derivative, &observables, &claims)?;
+        phase_space::derive(&mut proved, &derived, &derivative, &observables, &claims, &mut functions)?;
     let text = report(&mut proved, &derived, reason, &[], sections);
     let lines = equations_of_motion(&proved.model, &derived);
     let divisors = parameter_divisors(&mut proved.model, &derivative);
     let model = proved.model;
+    functions.add(&ENERGY, Procedure::of(vec![energy]));
+    functions.add(&VELOCITY, Procedure::of(velocity));
+    if !model.outputs.is_empty() {
+        functions.add(&OUTPUTS, observables);
+    }
+    functions.add_if(&MULTIPLIERS, requested(&model, Request::Multipliers).then_some(multipliers));
+    functions.add_if(&REACTIONS, requested(&model, Request::Reactions).then_some(reactions));
+    functions.add_if(&GIBBS_APPELL, gibbs_appell);
+    functions.add_if(&PARAMETER_JACOBIAN, parameter_jacobian);
+    functions.add_if(&GYROSCOPIC, gyroscopic_force);
+    functions.add(&RESIDUAL, Procedure::of(all_residuals));
     Ok(System {
         formulation: Formulation::Projected,
         state_coordinates: coordinates(&model),
         state_velocities: velocities,
         derivative,
-        energy: Some(Procedure::of(vec![energy])),
-        velocity: Some(Procedure::of(velocity)),
-        observables,
-        multipliers: requested(&model, Request::Multipliers).then_some(multipliers),
-        reactions: requested(&model, Request::Reactions).then_some(reactions),
-        gibbs_appell,
-        jacobian,
-        parameter_jacobian,
+        functions,
         momenta,
         gyroscopic,
-        quadratures: None,
-        residual: Some(Procedure::of(all_residuals)),
+        quadratures: Vec::new(),
+        jacobian,
         projection: Some(projection),
         phase_space,
         embedding,

@@ -6,10 +6,11 @@ use std::collections::BTreeSet;
 use super::momenta::Symmetries;
 use crate::check::Symmetry;
 use crate::check::evidence::shown;
+use crate::functions::QUADRATURES;
 use crate::id::{ExprId, Id, Origin, SymbolId};
 use crate::mechanics::LagrangianSystem;
 use crate::model::{Model, RouthDecl};
-use crate::system::{Quadratures, System};
+use crate::system::System;
 use crate::violation::{Law, Violation};
 
 /// A momentum on a level.
@@ -165,35 +166,21 @@ pub(super) fn without(mut system: System, coordinates: &[SymbolId]) -> System {
     let line = format!("left to quadratures: {}; `quadratures` gives the rates", names.join(", "));
     system.report.extend(["\nCoordinates\n  ", &line, "\n"]);
     system.equations.extend([String::new(), line]);
-    system.quadratures = Some(Quadratures { coordinates: left, rates });
+    system.functions.add(&QUADRATURES, rates);
+    system.quadratures = left;
     system
 }
 
 impl System {
     /// Whether anything that the system computes depends on a symbol.
     fn depends_on(&self, symbol: SymbolId) -> bool {
-        let Self { derivative, energy, velocity, observables, multipliers, reactions, .. } = self;
-        let momenta = self.momenta.iter().flat_map(|momenta| [&momenta.values, &momenta.rates]);
-        let gyroscopic = self.gyroscopic.iter().map(|gyroscopic| &gyroscopic.force);
         let projection = self.projection.iter().map(|projection| &projection.step);
-        let optional = [
-            energy,
-            velocity,
-            multipliers,
-            reactions,
-            &self.jacobian,
-            &self.residual,
-            &self.gibbs_appell,
-            &self.parameter_jacobian,
-        ];
-        let all = [derivative, observables].into_iter().chain(optional.into_iter().flatten());
         let embedded = self.embedding.iter().map(|embedding| &embedding.residual);
         let invariants = self.phase_space.invariants.iter().flat_map(|form| [&form.values, &form.gradients]);
-        all.chain(momenta)
-            .chain(invariants)
-            .chain(gyroscopic)
-            .chain(projection)
-            .chain(embedded)
-            .any(|procedure| procedure.depends_on(&self.model.graph, &procedure.outputs).contains(&symbol))
+        let others = projection.chain(embedded).chain(invariants).chain(&self.jacobian);
+        self.functions.depend_on(&self.model.graph, symbol)
+            || std::iter::once(&self.derivative).chain(others).any(|procedure| {
+                procedure.depends_on(&self.model.graph, &procedure.outputs).contains(&symbol)
+            })
     }
 }

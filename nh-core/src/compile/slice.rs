@@ -3,6 +3,7 @@
 use std::collections::BTreeSet;
 
 use crate::algebra::Graph;
+use crate::functions::{Function, OUTPUTS, RESIDUAL, Sliced, TABLE};
 use crate::id::{ExprId, Origin, SymbolId};
 use crate::mechanics::{Definition, Procedure};
 use crate::model::{Formulation, Request, TrackedItem};
@@ -24,8 +25,10 @@ pub(super) fn slice(mut system: System) -> Result<System, Vec<Violation>> {
             TrackedItem::Variable(symbol) if whole.contains(symbol) => _ = wanted.insert(*symbol),
             TrackedItem::Variable(symbol) => refused.push(not_in_the_state(&system, *symbol, *origin)),
             TrackedItem::Output(index) => {
-                let value = system.observables.outputs.get(*index).copied();
-                wanted.extend(system.observables.depends_on(&system.model.graph, value.as_slice()));
+                if let Some(observables) = system.functions.get(&OUTPUTS) {
+                    let value = observables.outputs.get(*index).copied();
+                    wanted.extend(observables.depends_on(&system.model.graph, value.as_slice()));
+                }
             }
         }
     }
@@ -35,57 +38,49 @@ pub(super) fn slice(mut system: System) -> Result<System, Vec<Violation>> {
         let all = procedure.depends_on(&system.model.graph, outputs).into_iter();
         all.filter(|symbol| state(symbol) && !needed.contains(symbol)).collect()
     };
-    for (output, value) in system.model.outputs.iter().zip(&system.observables.outputs) {
-        let missing = missing(&system.observables, &[*value]);
+    let observables = system.functions.get(&OUTPUTS).cloned().unwrap_or_default();
+    for (output, value) in system.model.outputs.iter().zip(&observables.outputs) {
+        let missing = missing(&observables, &[*value]);
         if !missing.is_empty() {
             let what = format!("the output `{}`", output.name);
             refused.push(left_out(&system, &what, &missing, output.origin));
         }
     }
-    let momenta = system.momenta.as_ref().map(|momenta| {
-        let outputs = [momenta.values.outputs.as_slice(), &momenta.rates.outputs].concat();
-        momenta.rates.with_outputs(outputs)
-    });
-    let gyroscopic = system.gyroscopic.as_ref().map(|gyroscopic| gyroscopic.force.clone());
+    // what depends on something that is left out goes, or is refused where it is asked for
+    let mut without: Vec<&'static str> = Vec::new();
+    for Function { signature, procedure } in system.functions.iter() {
+        let Sliced::Named(name) = signature.sliced else { continue };
+        let missing = missing(procedure, &procedure.outputs);
+        if missing.is_empty() || without.contains(&name) {
+            continue;
+        }
+        without.push(name);
+        let is_asked = |(asked, _): &&(Request, Origin)| Some(*asked) == signature.request();
+        if let Some((_, origin)) = system.model.requests.iter().find(is_asked) {
+            refused.push(left_out(&system, name, &missing, *origin));
+        }
+    }
+    let dropped: Vec<SymbolId> = whole.iter().copied().filter(|symbol| !needed.contains(symbol)).collect();
     for (request, origin) in &system.model.requests {
-        let (what, procedure) = match request {
-            Request::Multipliers => ("the multipliers", &system.multipliers),
-            Request::Reactions => ("the reactions", &system.reactions),
-            Request::Momenta => ("the momenta", &momenta),
-            Request::Gyroscopic => ("the gyroscopic force", &gyroscopic),
-            Request::Jacobian
-            | Request::Taylor
-            | Request::ParameterJacobian
-            | Request::Prepared
-            | Request::GibbsAppell => {
-                continue;
-            }
-            _ => {
-                let dropped: Vec<SymbolId> =
-                    whole.iter().copied().filter(|symbol| !needed.contains(symbol)).collect();
-                if !dropped.is_empty() {
-                    refused.push(left_out(&system, "what is asked for here", &dropped, *origin));
-                }
-                continue;
-            }
-        };
-        let missing = procedure.as_ref().map(|procedure| missing(procedure, &procedure.outputs));
-        if let Some(missing) = missing.filter(|missing| !missing.is_empty()) {
-            refused.push(left_out(&system, what, &missing, *origin));
+        if !dropped.is_empty() && needs_all(*request) {
+            refused.push(left_out(&system, "what is asked for here", &dropped, *origin));
         }
     }
     super::fence(refused)?;
-    let available = |procedure: &Option<Procedure>| -> bool {
-        procedure.as_ref().is_some_and(|procedure| missing(procedure, &procedure.outputs).is_empty())
-    };
-    let (has_energy, has_velocity) = (available(&system.energy), available(&system.velocity));
-    let has_momenta = momenta.is_none() || available(&momenta);
-    note(&mut system, &needed, [has_energy, has_velocity, has_momenta]);
-    system.momenta = system.momenta.filter(|_| has_momenta);
-    system.energy = system.energy.filter(|_| has_energy);
-    system.velocity = system.velocity.filter(|_| has_velocity);
+    note(&mut system, &needed, &without);
+    let is_there = |function: &Function| !matches!(function.signature.sliced, Sliced::Named(name) if without.contains(&name));
+    system.functions.retain(is_there);
     restrict(&mut system, &whole, &needed);
     Ok(system)
+}
+
+/// Whether something is derived for the whole state only.
+fn needs_all(request: Request) -> bool {
+    let mut lines = TABLE.iter().filter(|line| line.request() == Some(request)).peekable();
+    match request {
+        Request::Jacobian | Request::Taylor | Request::Prepared => false,
+        _ => lines.peek().is_none() || lines.any(|line| line.sliced == Sliced::Whole),
+    }
 }
 
 /// The state variables that the wanted ones depend on, however indirectly.
@@ -96,7 +91,7 @@ fn closure(system: &System, wanted: BTreeSet<SymbolId>) -> BTreeSet<SymbolId> {
     // the way back to the constraint manifold takes all velocities
     if system.formulation == Formulation::Projected {
         needed.extend(&system.state_velocities);
-        let functions = [system.residual.as_ref(), system.projection.as_ref().map(|p| &p.step)];
+        let functions = [system.functions.get(&RESIDUAL), system.projection.as_ref().map(|p| &p.step)];
         for function in functions.into_iter().flatten() {
             needed.extend(function.depends_on(graph, &function.outputs).iter().filter(|s| state.contains(s)));
         }
@@ -127,18 +122,13 @@ pub(super) fn restrict(system: &mut System, whole: &[SymbolId], needed: &BTreeSe
         rows.map(|(_, output)| *output).collect()
     };
     system.derivative.outputs = rows(&system.derivative.outputs);
-    if let Some(procedure) = &mut system.gibbs_appell {
-        procedure.outputs = rows(&procedure.outputs);
+    for function in system.functions.iter_mut().filter(|f| f.signature.sliced == Sliced::Rows) {
+        function.keep_rows(whole.len(), is_kept);
     }
     let width = whole.len() + system.model.inputs.len();
     if let Some(jacobian) = &mut system.jacobian {
         let kept = jacobian.outputs.chunks(width.max(1)).enumerate().filter(|(row, _)| is_kept(*row));
         jacobian.outputs = kept.flat_map(|(_, row)| rows(row)).collect();
-    }
-    let width = system.model.parameters.len();
-    if let Some(jacobian) = &mut system.parameter_jacobian {
-        let kept = jacobian.outputs.chunks(width.max(1)).enumerate().filter(|(row, _)| is_kept(*row));
-        jacobian.outputs = kept.flat_map(|(_, row)| row.to_vec()).collect();
     }
     if let Some(invariants) = &mut system.phase_space.invariants {
         let rows_of = invariants.gradients.outputs.chunks(whole.len().max(1));
@@ -163,14 +153,12 @@ pub(super) fn restrict(system: &mut System, whole: &[SymbolId], needed: &BTreeSe
 }
 
 /// Says in the report and the documentation what is left out.
-fn note(system: &mut System, needed: &BTreeSet<SymbolId>, available: [bool; 3]) {
+fn note(system: &mut System, needed: &BTreeSet<SymbolId>, without: &[&str]) {
     let state = system.state();
     let (kept, dropped): (Vec<SymbolId>, Vec<SymbolId>) =
         state.into_iter().partition(|symbol| needed.contains(symbol));
     let mut left_out = names(system, &dropped);
-    let functions = ["the energy", "the velocities that are not in the state", "the momenta"];
-    let missing = functions.iter().zip(available).filter(|(_, available)| !available);
-    left_out.extend(missing.map(|(function, _)| (*function).to_owned()));
+    left_out.extend(without.iter().map(|function| (*function).to_owned()));
     if left_out.is_empty() {
         return;
     }
@@ -210,7 +198,7 @@ fn not_in_the_state(system: &System, symbol: SymbolId, origin: Origin) -> Violat
 
 impl Procedure {
     /// The symbols that some outputs depend on, through the intermediate results.
-    pub(super) fn depends_on(&self, graph: &Graph, outputs: &[ExprId]) -> BTreeSet<SymbolId> {
+    pub(crate) fn depends_on(&self, graph: &Graph, outputs: &[ExprId]) -> BTreeSet<SymbolId> {
         let mut found: BTreeSet<SymbolId> = graph.symbols_in(outputs).into_iter().collect();
         // later definitions are in terms of earlier ones
         for definition in self.definitions.iter().rev() {

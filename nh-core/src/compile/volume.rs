@@ -6,13 +6,13 @@ use crate::algebra::{
     Echelon, FieldPoint, Function, Graph, Matrix, Node, Rational, Residue, Substitution, Verdict,
 };
 use crate::check;
+use crate::functions::{DIVERGENCE, Functions, VOLUME_DENSITY};
 use crate::geometry::{ConstraintDistribution, Manifold};
 use crate::id::{ExprId, SymbolId};
 use crate::mechanics::{
     Density, Flow, Procedure, Volume, VolumeSetting, divergence, invariant_volume, uncoupled,
 };
 use crate::model::Request;
-use crate::phase_space::PhaseSpace;
 use crate::report::Derived;
 use crate::violation::Violation;
 
@@ -21,7 +21,7 @@ pub(super) fn derive(
     proved: &mut Proved,
     derived: &Derived<'_>,
     derivative: &Procedure,
-    found: &mut PhaseSpace,
+    found: &mut Functions,
 ) -> Result<Vec<String>, Vec<Violation>> {
     let [of_divergence, of_volume] =
         [Request::Divergence, Request::Volume].map(|request| asked(&proved.model, request));
@@ -51,7 +51,7 @@ pub(super) fn derive(
             fence(broken.into_iter().collect())?;
             let text = model.graph.text_within(density, 400);
             lines.push(format!("the density {text} is kept (claimed, and proved)"));
-            found.density = of_volume.is_some().then(|| Procedure::of(vec![density]));
+            found.add_if(&VOLUME_DENSITY, of_volume.map(|_| Procedure::of(vec![density])));
         } else {
             // 3. a density on the base
             let verdict = decide(proved, derived, derivative, written_out);
@@ -61,10 +61,10 @@ pub(super) fn derive(
             let not_periodic = not_periodic(proved, &density);
             let density = density_expression(proved, &density);
             lines.push(line(proved, derived, density) + &not_periodic);
-            found.density = of_volume.is_some().then(|| Procedure::of(vec![density]));
+            found.add_if(&VOLUME_DENSITY, of_volume.map(|_| Procedure::of(vec![density])));
         }
     }
-    found.divergence = of_divergence.is_some().then_some(field);
+    found.add_if(&DIVERGENCE, of_divergence.map(|_| field));
     Ok(lines)
 }
 

@@ -4,6 +4,7 @@ use crate::systems::{self, Builder, origin};
 
 use nonholonomic_core::algebra::Graph;
 use nonholonomic_core::compile::compile;
+use nonholonomic_core::functions;
 use nonholonomic_core::id::{ExprId, Id, SymbolId};
 use nonholonomic_core::mechanics::Procedure;
 use nonholonomic_core::model::{Located, Model, OutputDecl, Request, SectionClaim, VolumeClaim};
@@ -141,7 +142,7 @@ fn the_hamiltonian_side_is_the_lagrangian_side() {
         }
         close(
             values(graph, &side.hamiltonian, at)[0],
-            values(graph, system.energy.as_ref().unwrap(), sample)[0],
+            values(graph, system.functions.get(&functions::ENERGY).unwrap(), sample)[0],
         );
         // 2. Hamilton's equations are the derivative, carried over: π̇ = ∂π/∂(t, x, v) · (1, ẋ, v̇)
         let rates = values(graph, &system.derivative, sample);
@@ -194,7 +195,7 @@ fn the_brackets_of_the_ball_on_the_rotating_table() {
         b.model.outputs.push(OutputDecl { name: format!("f{index}"), value, origin: origin() });
     }
     let system = compiled(b.model);
-    let bracket = system.phase_space.bracket.as_ref().unwrap();
+    let bracket = system.functions.get(&functions::BRACKET).unwrap();
     let found = values(&system.model.graph, bracket, sample);
     let named = |name: &str| {
         let symbols = system.model.graph.symbols();
@@ -248,7 +249,7 @@ fn the_drift_of_the_ball_on_the_rotating_table() {
         phase.iter().position(|known| *known == symbol).map_or_else(|| sample(symbol), |index| point[index])
     };
     // the functions at a point of phase space, all velocities from the momenta
-    let velocity = system.velocity.as_ref().unwrap();
+    let velocity = system.functions.get(&functions::VELOCITY).unwrap();
     let evaluated = |point: &[f64]| -> Vec<f64> {
         let kept = values(graph, &side.inverse, |symbol| at(point, symbol));
         let of_state = |symbol: SymbolId| {
@@ -313,7 +314,7 @@ fn the_sleigh_keeps_a_volume_iff_a_is_zero() {
 fn veselova_keeps_the_known_volume() {
     let system = compiled(claiming(systems::veselova()));
     let graph = &system.model.graph;
-    let density = system.phase_space.density.as_ref().unwrap();
+    let density = system.functions.get(&functions::VOLUME_DENSITY).unwrap();
     // on |γ| = 1 proportional to √⟨γ, I⁻¹γ⟩
     let lookup = |seed: f64| {
         let mut g = [0.3 + seed, -0.5 * seed, 0.9 - 0.2 * seed];
@@ -349,7 +350,7 @@ fn the_geodesic_form_is_the_equations() {
         let point = manifold_point(&system);
         let at =
             |symbol: SymbolId| point.iter().find(|(s, _)| *s == symbol).map_or(sample(symbol), |(_, v)| *v);
-        let symbols = values(graph, system.phase_space.connection.as_ref().unwrap(), at);
+        let symbols = values(graph, system.functions.get(&functions::CONNECTION).unwrap(), at);
         let velocity: Vec<f64> = system.state_velocities.iter().map(|v| at(*v)).collect();
         let derivative = values(graph, &system.derivative, at);
         let r = velocity.len();
@@ -378,7 +379,7 @@ fn a_section_that_solves_the_hamilton_jacobi_equation() {
         b.model
     };
     let system = compiled(claimed(&[(1, 1, "k")]));
-    assert_eq!(system.phase_space.hamilton_jacobi.as_ref().unwrap().outputs.len(), 2);
+    assert_eq!(system.functions.get(&functions::HAMILTON_JACOBI).unwrap().outputs.len(), 2);
     for wrong in ["x", "y"] {
         let violations = refused(claimed(&[(1, 1, wrong)]));
         assert_eq!(violations.iter().map(|v| v.law).collect::<Vec<_>>(), [Law::HamiltonJacobi]);

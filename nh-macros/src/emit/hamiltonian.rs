@@ -9,8 +9,8 @@ use quote::{format_ident, quote};
 
 use super::context::Context;
 use super::function::{Part, Signature, program};
+use super::functions::matrix;
 use super::layout::{local, plain};
-use super::phase_space::{signature, square};
 use super::program::body;
 use super::record::Record;
 use super::scope::{Argument, Scope};
@@ -104,7 +104,13 @@ pub(super) fn emit(context: &Context, scope: &Scope, system: &System) -> Part {
         false,
     );
     add(drift, &of_phase, &side.drift, &|outputs| record.construct(&quote_name(record), outputs), false);
-    add(bracket, &of_phase, &side.bracket, &|outputs| square(context, record.len(), outputs), false);
+    add(
+        bracket,
+        &of_phase,
+        &side.bracket,
+        &|outputs| matrix(context, record.len(), record.len(), outputs),
+        false,
+    );
     part
 }
 
@@ -183,4 +189,19 @@ fn signatures(context: &Context, record: &Record) -> [Signature; 6] {
             quote!(#runtime::nalgebra::SMatrix<#scalar, #size, #size>),
         ),
     ]
+}
+
+/// The method with the arguments `t` and a value of another type than the state.
+fn signature(
+    context: &Context,
+    name: &'static str,
+    doc: &'static [&'static str],
+    argument: (Argument, TokenStream),
+    returns: TokenStream,
+) -> Signature {
+    let ident = match argument.0 {
+        Argument::Phase => local("phase"),
+        _ => context.locals.state.clone(),
+    };
+    Signature { name, doc, argument: (argument.0, ident, argument.1), takes_input: false, returns }
 }

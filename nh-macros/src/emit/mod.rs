@@ -4,8 +4,8 @@
 //! cannot panic. One file per kind of item; `program.rs` turns straight-line programs into
 //! statements for all of them.
 
+mod almost_poisson;
 mod callback;
-mod constraint;
 mod context;
 mod discrete;
 mod dynamics;
@@ -13,39 +13,35 @@ mod embedding;
 mod energy;
 mod expression;
 mod function;
-mod gibbs_appell;
+mod functions;
 mod hamiltonian;
 mod invariants;
 mod jacobian;
 mod layout;
 mod lint;
-mod momenta;
 mod morphism;
 mod names;
 mod number;
 mod observed;
-mod parameter_jacobian;
-mod phase_space;
 mod prepared;
 mod program;
 mod projection;
-mod quadratures;
 mod quotient;
 mod reconstruction;
 mod record;
 mod report;
+mod results;
 #[cfg(test)]
 mod samples;
 mod scope;
-mod splitting;
 mod state;
 mod stubs;
 mod taylor;
 #[cfg(test)]
 mod tests;
 mod validate;
-mod velocity;
 
+use nonholonomic_core::functions::{ENERGY, VELOCITY};
 use nonholonomic_core::id::SymbolId;
 use nonholonomic_core::system::System;
 use proc_macro2::TokenStream;
@@ -68,43 +64,27 @@ pub(crate) fn emit(system: &System, layout: &Layout) -> TokenStream {
     let context = &Context::new(layout, in_state, &basis);
     let scope = &Scope::new(context, model, in_state);
     let derivative = program(model, &system.derivative);
-    let energy = system.energy.as_ref().map(|energy| program(model, energy));
-    let velocity = system.velocity.as_ref().map(|velocity| program(model, velocity));
-    let observables = program(model, &system.observables);
-    let mut programs = vec![("derivative", &derivative)];
-    programs.extend(energy.iter().map(|energy| ("energy", energy)));
-    programs.extend(velocity.iter().map(|velocity| ("velocity", velocity)));
-    if context.outputs.is_some() {
-        programs.push(("outputs", &observables));
-    }
-    let part = constraint::emit(context, scope, system)
+    let part = functions::emit(context, scope, system)
         .with(taylor::emit(context, scope, system, &derivative))
         .with(embedding::emit(context, scope, system))
         .with(projection::emit(context, system))
         .with(jacobian::emit(context, scope, system))
         .with(prepared::emit(context, system, &derivative))
-        .with(parameter_jacobian::emit(context, scope, system))
-        .with(momenta::emit(context, scope, system))
         .with(hamiltonian::emit(context, scope, system))
-        .with(phase_space::emit(context, scope, system))
+        .with(almost_poisson::emit(context, scope, system))
         .with(discrete::emit(context, system))
-        .with(invariants::emit(context, scope, system))
-        .with(gibbs_appell::emit(context, scope, system))
-        .with(quadratures::emit(context, scope, system))
-        .with(splitting::emit(context, scope, system));
+        .with(invariants::emit(context, scope, system));
+    let mut programs = vec![("derivative", &derivative)];
     programs.extend(part.programs.iter().map(|(name, program)| (*name, program)));
     let mut methods = report::constant(context, system, &programs);
     methods.extend(dynamics::method(context, scope, &derivative));
-    methods.extend(energy.iter().map(|energy| energy::method(context, scope, energy)));
-    methods.extend(velocity.iter().map(|velocity| velocity::method(context, scope, velocity)));
     let mut items = report::item(context, &system.equations);
-    items.extend(records(context, velocity.is_some()));
+    items.extend(records(context, system.functions.get(&VELOCITY).is_some()));
     items.extend(state::emit(context));
     let check_state = embedding::check_state(context, scope, system);
     items.extend(dynamics::implementation(context, &dynamics::inlining(&derivative), &check_state));
-    items.extend(energy.iter().map(|_| energy::implementation(context)));
+    items.extend(system.functions.get(&ENERGY).map(|_| energy::implementation(context)));
     if let Some(outputs) = &context.outputs {
-        methods.extend(observed::method(context, outputs, scope, &observables));
         items.extend(observed::implementation(context, outputs));
     }
     methods.extend(part.methods);

@@ -2,6 +2,7 @@
 
 use std::collections::BTreeSet;
 
+use nonholonomic_core::functions::ENERGY;
 use nonholonomic_core::id::SymbolId;
 use nonholonomic_core::model::Request;
 use nonholonomic_core::program::{Program, Split, split};
@@ -40,7 +41,7 @@ pub(super) fn emit(context: &Context, system: &System, derivative: &Program) -> 
     let values = local("values");
     let unused = (!rest_body.used.contains(&Argument::Values)).then(|| quote!(_ = #values;));
     let rest_tokens = quote!(#drops #unused #statements #result);
-    let has = [system.energy.is_some(), system.jacobian.is_some()];
+    let has = [system.functions.get(&ENERGY).is_some(), system.jacobian.is_some()];
     let mut part = items(context, symbols.len(), &ahead_tokens, (&inlining(&rest), &rest_tokens), has);
     part.programs = vec![("prepare", ahead), ("derivative, prepared", rest)];
     part

@@ -1,6 +1,7 @@
 //! The way back to where a state belongs: base coordinates to their identities, velocities to the
 //! constraints.
 
+use nonholonomic_core::functions::RESIDUAL;
 use nonholonomic_core::id::SymbolId;
 use nonholonomic_core::program::Program;
 use nonholonomic_core::system::{Projection, System};
@@ -19,7 +20,7 @@ use super::scope::{Argument, Scope};
 pub(super) fn emit(context: &Context, system: &System) -> Part {
     let mut part = Part::default();
     let mut constraints = None;
-    let count = system.residual.as_ref().map_or(0, |residual| residual.outputs.len());
+    let count = system.functions.get(&RESIDUAL).map_or(0, |residual| residual.outputs.len());
     if let (Some(projection), true) = (&system.projection, count > 0) {
         let step = program(&system.model, &projection.step);
         part.methods = method(context, system, projection, &step);

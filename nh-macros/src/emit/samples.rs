@@ -1,6 +1,7 @@
 //! Verified systems written by hand, to test the emitters apart from the derivation.
 
 use nonholonomic_core::algebra::{Graph, Rational};
+use nonholonomic_core::functions::{ENERGY, Functions, MULTIPLIERS, OUTPUTS, REACTIONS, RESIDUAL, VELOCITY};
 use nonholonomic_core::id::{ExprId, Id, Origin, SymbolId, Table};
 use nonholonomic_core::mechanics::{Definition, Procedure};
 use nonholonomic_core::model::{
@@ -132,25 +133,24 @@ impl Builder {
         let velocities: Vec<SymbolId> = self.model.sections.iter().map(|section| section.symbol).collect();
         let [derivative, energy, velocity, observables] = procedures;
         let coordinates = self.model.coordinates.iter().map(|coordinate| coordinate.symbol).collect();
+        let mut functions = Functions::default();
+        functions.add(&ENERGY, energy);
+        functions.add(&VELOCITY, velocity);
+        if !observables.outputs.is_empty() {
+            functions.add(&OUTPUTS, observables);
+        }
         System {
             model: self.model,
             formulation: Formulation::Adapted,
             state_coordinates: coordinates,
             state_velocities: kept.iter().map(|index| velocities[*index]).collect(),
             derivative,
-            energy: Some(energy),
-            velocity: Some(velocity),
-            observables,
-            multipliers: None,
-            reactions: None,
-            momenta: None,
-            gibbs_appell: None,
-            quadratures: None,
-            gyroscopic: None,
-            residual: None,
+            functions,
+            momenta: Vec::new(),
+            quadratures: Vec::new(),
+            gyroscopic: Vec::new(),
             projection: None,
             jacobian: None,
-            parameter_jacobian: None,
             phase_space: nonholonomic_core::phase_space::PhaseSpace::default(),
             embedding: None,
             parameter_checks: nonzero
@@ -290,9 +290,9 @@ pub(crate) fn rails_system(layout: &Layout) -> System {
         system.model.constraints.push(ConstraintDecl { label, residual, solved_for: None, origin });
     }
     system.formulation = Formulation::Projected;
-    system.residual = Some(Procedure::of(residual.to_vec()));
+    system.functions.add(&RESIDUAL, Procedure::of(residual.to_vec()));
     system.projection = Some(Projection { start: start.to_vec(), step });
-    system.multipliers = Some(Procedure::of(vec![lambda, zero]));
-    system.reactions = Some(Procedure::of(forces));
+    system.functions.add(&MULTIPLIERS, Procedure::of(vec![lambda, zero]));
+    system.functions.add(&REACTIONS, Procedure::of(forces));
     system
 }

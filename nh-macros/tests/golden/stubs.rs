@@ -513,6 +513,30 @@ impl Sleigh {
         _ = input;
         ::core::default::Default::default()
     }
+    /// Checks the parameters.
+    ///
+    /// # Errors
+    /// The first parameter that is not finite, that breaks an assumption, or that makes an
+    /// expression zero by which the equations divide.
+    pub fn validate(
+        &self,
+    ) -> ::core::result::Result<(), ::nonholonomic::__private::ParameterError> {
+        for (name, value) in [
+            ("m", self.m),
+            ("J", self.J),
+            ("a", self.a),
+            ("c", self.c),
+        ] {
+            if !::nonholonomic::__private::Scalar::is_finite(value) {
+                return ::core::result::Result::Err(::nonholonomic::__private::ParameterError {
+                    parameter: name,
+                    value: ::nonholonomic::__private::Scalar::to_f64(value),
+                    fault: ::nonholonomic::__private::ParameterFault::NotFinite,
+                });
+            }
+        }
+        ::core::result::Result::Ok(())
+    }
     /// The energy y · ∂L/∂y − L.
     #[must_use]
     #[inline]
@@ -538,30 +562,6 @@ impl Sleigh {
         _ = t;
         _ = state;
         ::core::default::Default::default()
-    }
-    /// Checks the parameters.
-    ///
-    /// # Errors
-    /// The first parameter that is not finite, that breaks an assumption, or that makes an
-    /// expression zero by which the equations divide.
-    pub fn validate(
-        &self,
-    ) -> ::core::result::Result<(), ::nonholonomic::__private::ParameterError> {
-        for (name, value) in [
-            ("m", self.m),
-            ("J", self.J),
-            ("a", self.a),
-            ("c", self.c),
-        ] {
-            if !::nonholonomic::__private::Scalar::is_finite(value) {
-                return ::core::result::Result::Err(::nonholonomic::__private::ParameterError {
-                    parameter: name,
-                    value: ::nonholonomic::__private::Scalar::to_f64(value),
-                    fault: ::nonholonomic::__private::ParameterFault::NotFinite,
-                });
-            }
-        }
-        ::core::result::Result::Ok(())
     }
     /// The observables at a state.
     #[must_use]

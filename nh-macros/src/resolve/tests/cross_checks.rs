@@ -3,6 +3,7 @@
 
 use nonholonomic_core::algebra::Matrix;
 use nonholonomic_core::check;
+use nonholonomic_core::functions::{GIBBS_APPELL, VELOCITY};
 use nonholonomic_core::geometry::{Algebroid, LinearConstraints};
 use nonholonomic_core::id::{ExprId, Id, Origin, SectionId, SymbolId};
 use nonholonomic_core::mechanics::{LagrangianSystem, saddle_equations};
@@ -85,7 +86,7 @@ fn gibbs_and_appell() {
         model.requests.push((Request::GibbsAppell, Origin::from_index(0)));
         let name = model.name.clone();
         let system = nonholonomic_core::compile::compile(model).unwrap();
-        let appell = system.gibbs_appell.as_ref().expect("asked for");
+        let appell = system.functions.get(&GIBBS_APPELL).expect("asked for");
         for number in 0..3 {
             let point = Point { model: &system.model, changed: Vec::new(), number };
             let run = |procedure| {
@@ -141,7 +142,7 @@ fn geometry(model: &mut Model) -> Option<Geometry> {
 fn on_manifold(system: &System, declared: &Model, geometry: &Geometry) -> Vec<(SymbolId, f64)> {
     let point = Point { model: &system.model, changed: Vec::new(), number: 0 };
     let velocities = &geometry.system.algebroid.velocities;
-    let velocity = system.velocity.as_ref().unwrap();
+    let velocity = system.functions.get(&VELOCITY).unwrap();
     let program = schedule(&system.model.graph, velocity);
     let mut values = interpret(&program, |symbol| point.value(symbol));
     if let Some(annihilator) = &geometry.annihilator {
@@ -160,7 +161,7 @@ fn on_manifold(system: &System, declared: &Model, geometry: &Geometry) -> Vec<(S
 /// The rates of all quasi-velocities along the generated motion.
 fn accelerations(system: &System, velocities: &[SymbolId], point: &Point) -> Vec<f64> {
     let graph = &mut system.model.graph.clone();
-    let velocity = system.velocity.as_ref().unwrap().outputs.clone();
+    let velocity = system.functions.get(&VELOCITY).unwrap().outputs.clone();
     let rates = {
         let program = schedule(graph, &system.derivative);
         interpret(&program, |symbol| point.value(symbol))
