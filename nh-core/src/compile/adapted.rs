@@ -94,9 +94,7 @@ pub(super) fn derive(
     let model = proved.model;
     functions.add(&ENERGY, Procedure::of(vec![energy]));
     functions.add(&VELOCITY, Procedure::of(equations.velocity.clone()));
-    if !model.outputs.is_empty() {
-        functions.add(&OUTPUTS, observables);
-    }
+    functions.add(&OUTPUTS, observables);
     functions.add_if(&MULTIPLIERS, requested(&model, Request::Multipliers).then_some(multipliers));
     functions.add_if(&REACTIONS, requested(&model, Request::Reactions).then_some(reactions));
     functions.add_if(&GIBBS_APPELL, gibbs_appell);

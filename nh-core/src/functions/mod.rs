@@ -173,8 +173,12 @@ pub struct Function {
 pub struct Functions(Vec<Function>);
 
 impl Functions {
-    /// Adds a function at its place.
+    /// Adds a function at its place; one that gives a struct without fields is none.
     pub fn add(&mut self, signature: &'static Signature, procedure: Procedure) {
+        let is_always_there = matches!(signature.shape, Shape::Record(Record::State | Record::Velocity));
+        if matches!(signature.shape, Shape::Record(_)) && !is_always_there && procedure.outputs.is_empty() {
+            return;
+        }
         let place = |signature: &Signature| TABLE.iter().position(|line| line.name == signature.name);
         let at = self.0.partition_point(|function| place(function.signature) <= place(signature));
         self.0.insert(at, Function { signature, procedure });

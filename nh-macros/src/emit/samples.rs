@@ -136,9 +136,7 @@ impl Builder {
         let mut functions = Functions::default();
         functions.add(&ENERGY, energy);
         functions.add(&VELOCITY, velocity);
-        if !observables.outputs.is_empty() {
-            functions.add(&OUTPUTS, observables);
-        }
+        functions.add(&OUTPUTS, observables);
         System {
             model: self.model,
             formulation: Formulation::Adapted,
