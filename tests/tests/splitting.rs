@@ -208,7 +208,7 @@ fn snakeboard() {
     };
     check!("snakeboard", board, state, SnakeboardInput { drive: 0.2, steer: -0.4 });
     for line in [
-        "S = D ∩ V, V along the group, has rank 2; D + V = E (the dimension assumption)",
+        "S = D ∩ V, V along the group, has rank 2 (more where cos(phi) = 0, or l = 0 and sin(phi) = 0); D + V = E (the dimension assumption)",
         "momentum section S_body_x = body_x + (-sin(phi)/l/cos(phi))*theta_dot\n",
         "locked inertia <S_body_x, S_body_x> = m/cos(phi)^2\n",
         "connection [h_phi, S_body_x] = (-1/l/cos(phi)^2)*theta_dot\n",
