@@ -3,8 +3,6 @@
 /// As "who: under what". The tests fail for what breaks the law and is not listed here, and for what is listed and
 /// obeys.
 pub(crate) const NOT_YET: &[&str] = &[
-    "Conserving<Dopri5>: one unit of all components",
-    "Conserving<Rk4>: one unit of all components",
     "DiscreteGradient in f32: one unit of all components",
     "DiscreteGradient, order 4 in f32: one unit of all components",
     "DiscreteGradient, order 4: one unit of all components",
@@ -13,10 +11,6 @@ pub(crate) const NOT_YET: &[&str] = &[
     "DiscreteGradient, with Jacobian in f32: one unit of all components",
     "DiscreteGradient, with Jacobian: one unit of all components",
     "DiscreteGradient: one unit of all components",
-    "DiscreteSuslov in f32: one unit of all components",
-    "DiscreteSuslov, order 4 in f32: one unit of all components",
-    "DiscreteSuslov, order 4: one unit of all components",
-    "DiscreteSuslov: one unit of all components",
     "Events, ImplicitMidpoint in f32: one unit of all components",
     "Events, ImplicitMidpoint: one unit of all components",
     "Events, Radau5 in f32: one unit of all components",

@@ -3,6 +3,7 @@
 use crate::arrays::displaced;
 use crate::linear::Factors;
 use crate::methods::{Arrival, Method, Start};
+use crate::projection::largest;
 use crate::{
     Dim, IntegrationError, Invariants, ProjectionError, Real, Scalar, ScalarOf, State, Statistics, VecOf,
 };
@@ -112,7 +113,7 @@ where
     ScalarOf<S>: Real,
 {
     let mut x = arrival.state.to_array();
-    let mut best = ScalarOf::<S>::EPSILON.recip();
+    let mut best: Option<ScalarOf<S>> = None;
     let mut residual = ScalarOf::<S>::ZERO;
     for iteration in 0..MOST_ITERATIONS {
         let state = S::State::from_array(x);
@@ -132,26 +133,25 @@ where
             }
         }
         let weights = Factors::<S::Count, ScalarOf<S>>::new(&gram).solve(&defect);
-        let mut largest = ScalarOf::<S>::ZERO;
+        let mut moved = ScalarOf::<S>::ZERO;
         for (gradient, weight) in gradients.as_ref().iter().zip(weights.as_ref()) {
-            for slope in gradient.as_ref() {
-                largest = largest.max((*slope * *weight).abs());
-            }
+            moved = moved.max(largest(gradient.as_ref()) * weight.abs());
             x = displaced(&x, -*weight, gradient);
         }
-        residual = defect.as_ref().iter().fold(ScalarOf::<S>::ZERO, |most, d| most.max(d.abs()));
-        if !largest.is_finite() {
+        residual = largest(defect.as_ref());
+        if !moved.is_finite() {
             return Err(ProjectionError { iterations: iteration + 1, residual: residual.to_f64() });
         }
         // far from the level Newton's iteration need not halve its corrections; near it, only round-off does not
-        let size = x.as_ref().iter().fold(ScalarOf::<S>::ONE, |most, x| most.max(x.abs()));
-        let level = values.as_ref().iter().fold(ScalarOf::<S>::ZERO, |most, value| most.max(value.abs()));
-        let is_near = largest <= ScalarOf::<S>::EPSILON.sqrt() * size
-            || residual <= ScalarOf::<S>::from_f64(64.0) * ScalarOf::<S>::EPSILON * level;
-        if is_near && (largest == ScalarOf::<S>::ZERO || largest >= best * ScalarOf::<S>::from_f64(0.5)) {
+        let round_off = ScalarOf::<S>::from_f64(64.0) * ScalarOf::<S>::EPSILON;
+        let mut levels = defect.as_ref().iter().zip(values.as_ref());
+        let is_near = moved <= ScalarOf::<S>::EPSILON.sqrt() * largest(x.as_ref())
+            || levels.all(|(defect, value)| defect.abs() <= round_off * value.abs());
+        let stagnates = best.is_some_and(|best| moved >= best * ScalarOf::<S>::from_f64(0.5));
+        if is_near && (moved == ScalarOf::<S>::ZERO || stagnates) {
             return Ok(S::State::from_array(x));
         }
-        best = largest;
+        best = Some(moved);
     }
     Err(ProjectionError { iterations: MOST_ITERATIONS, residual: residual.to_f64() })
 }

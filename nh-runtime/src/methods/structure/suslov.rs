@@ -3,8 +3,8 @@
 use crate::arrays::{displaced, first_non_finite};
 use crate::linear::Factors;
 use crate::methods::fixed::{self, Slopes};
-use crate::methods::implicit::newton::relative;
 use crate::methods::{Arrival, Fixed, OneStep, Start, Symmetric, explain_non_finite};
+use crate::projection::largest;
 use crate::{Dim, DimOf, EulerPoincareSuslov, IntegrationError, Real, State, Statistics, VecOf};
 
 /// The discrete Euler–Poincaré–Suslov equations with fixed steps, of order 2: P(h, v₁) = P(−h, v₀) with
@@ -66,27 +66,30 @@ where
             statistics.jacobians += 1;
             statistics.factorizations += 1;
             statistics.iterations += 1;
-            // ∂P/∂v by difference quotients
+            // ∂P/∂v by difference quotients; P changes with h v, if there is no other measure
+            let measure = largest(v.as_ref());
+            let delta = T::EPSILON.sqrt() * if measure > T::ZERO { measure } else { h.abs().recip() };
             let mut matrix = DimOf::<S>::mat(T::ZERO);
             for j in 0..DimOf::<S>::N {
                 let mut moved = v;
                 let Some(entry) = moved.as_mut().get_mut(j) else { break };
                 let before = *entry;
-                *entry += T::EPSILON.sqrt() * (T::ONE + before.abs());
-                let delta = *entry - before;
+                *entry += delta;
+                let really = *entry - before;
                 let there = momentum(&moved, h);
                 statistics.evaluations += 1;
                 for (row, (a, b)) in matrix.as_mut().iter_mut().zip(there.as_ref().iter().zip(here.as_ref()))
                 {
                     if let Some(entry) = row.as_mut().get_mut(j) {
-                        *entry = (*a - *b) / delta;
+                        *entry = (*a - *b) / really;
                     }
                 }
             }
             let defect = displaced(&wanted, -T::ONE, &here);
             let correction = Factors::<DimOf<S>, T>::new(&matrix).solve(&defect);
             change = displaced(&change, T::ONE, &correction);
-            let size = relative(&correction, x);
+            let moved = largest(correction.as_ref());
+            let size = if moved == T::ZERO { moved } else { moved / measure.max(largest(change.as_ref())) };
             if size == T::ZERO || (size <= self.tolerance && size >= best * T::from_f64(0.5)) {
                 return Ok(change);
             }
