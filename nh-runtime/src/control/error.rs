@@ -40,6 +40,13 @@ pub enum ControlError {
         /// Its upper bound.
         upper: f64,
     },
+    /// A matrix has an exponential that rounding decides.
+    TooFast {
+        /// The matrix, by its name in the documentation.
+        argument: &'static str,
+        /// Its norm.
+        norm: f64,
+    },
     /// The doubling iteration for the Riccati equation does not settle, or the closed loop that its solution
     /// gives leaves the range of the scalar.
     NotStabilizable {
@@ -82,6 +89,11 @@ impl Display for ControlError {
                 f,
                 "the bounds of input {input}, {lower:?} and {upper:?}, leave nothing between them: give the \
                  lower one first"
+            ),
+            Self::TooFast { argument, norm } => write!(
+                f,
+                "`{argument}` has the norm {norm:.1e}, and modes that turn so fast without decaying have no \
+                 digits left after a tick: take a shorter tick, or leave them out"
             ),
             Self::NotStabilizable { iterations, change } => write!(
                 f,
@@ -127,6 +139,11 @@ mod tests {
             (
                 ControlError::Bounds { input: 1, lower: 2.0, upper: -2.0 },
                 "the bounds of input 1, 2.0 and -2.0, leave nothing between them: give the lower one first",
+            ),
+            (
+                ControlError::TooFast { argument: "a dt", norm: 1e200 },
+                "`a dt` has the norm 1.0e200, and modes that turn so fast without decaying have no digits left \
+                 after a tick: take a shorter tick, or leave them out",
             ),
             (
                 ControlError::NotStabilizable { iterations: 60, change: 0.5 },

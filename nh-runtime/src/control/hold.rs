@@ -27,7 +27,8 @@ pub(super) const MOST_HALVINGS: u32 = 1025 + 32;
 /// ```
 ///
 /// # Errors
-/// [`ControlError::NotFinite`] if an argument, or the result, is not finite.
+/// [`ControlError::NotFinite`] if an argument, or the result, is not finite; [`ControlError::TooFast`] if a mode that
+/// does not decay turns or drifts so fast that rounding decides the result.
 pub fn zero_order_hold<T: Entry, const N: usize, const M: usize>(
     a: &SMatrix<T, N, N>,
     b: &SMatrix<T, N, M>,
@@ -53,14 +54,64 @@ pub fn zero_order_hold<T: Entry, const N: usize, const M: usize>(
         phi = one + x * phi * T::from_u32(k).recip();
     }
     let mut exponential = one + x * phi;
+    let mut witness = Witness::new(&x, halvings);
     for _ in 0..halvings {
         phi = phi * (exponential + one) * half;
         exponential *= exponential;
+        witness.compare(&exponential)?;
     }
     let held = phi * b * dt;
     finite("exp(a dt)", &exponential)?;
     finite("B_d", &held)?;
     Ok((exponential, held))
+}
+
+/// The same exponential with the last bits of a dt changed, where so many squarings may bring rounding errors, which
+/// double each time, beyond a quarter of the digits.
+pub(super) struct Witness<T, const N: usize> {
+    exponential: Option<SMatrix<T, N, N>>,
+    /// The norm of a dt.
+    size: T,
+}
+
+impl<T: Entry, const N: usize> Witness<T, N> {
+    /// Beside the exponential of x, which has been halved this often.
+    pub(super) fn new(x: &SMatrix<T, N, N>, halvings: u32) -> Self {
+        let two = T::from_f64(2.0);
+        let mut error = T::EPSILON;
+        let mut size = norm(x);
+        for _ in 0..halvings {
+            error *= two;
+            size *= two;
+        }
+        if error <= negligible() {
+            return Self { exponential: None, size };
+        }
+        let one = SMatrix::<T, N, N>::identity();
+        let y = x * (T::ONE + T::from_f64(4.0) * T::EPSILON);
+        let mut exponential = one;
+        for k in (1..=TERMS + 1).rev() {
+            exponential = one + y * exponential * T::from_u32(k).recip();
+        }
+        Self { exponential: Some(exponential), size }
+    }
+
+    /// Squares, and refuses what is not the same, unless it has decayed.
+    pub(super) fn compare(&mut self, exponential: &SMatrix<T, N, N>) -> Result<(), ControlError> {
+        let Some(mine) = &mut self.exponential else { return Ok(()) };
+        *mine *= *mine;
+        let size = norm(exponential);
+        let is_same = norm(&(exponential - *mine)) <= negligible::<T>() * size;
+        if is_same || size <= negligible() || !size.is_finite() {
+            return Ok(());
+        }
+        Err(ControlError::TooFast { argument: "a dt", norm: self.size.to_f64() })
+    }
+}
+
+/// What is left of an error that has lost a quarter of the digits.
+fn negligible<T: Entry>() -> T {
+    T::EPSILON.sqrt().sqrt()
 }
 
 #[cfg(test)]
@@ -104,6 +155,27 @@ mod tests {
         assert!(ad[0].abs() < 1e-300 && bd[0].is_finite());
         let overflow = zero_order_hold(&matrix![1e6], &matrix![1.0], 1.0);
         assert!(matches!(overflow, Err(ControlError::NotFinite { .. })), "{overflow:?}");
+        // a rotation that no digit of the angle is left of, and one that has most of them
+        for fast in [1e15, 1e40, 1e200, 1e300] {
+            let turn = zero_order_hold(&matrix![0.0, fast; -fast, 0.0], &vector![0.0, 1.0], 1.0);
+            assert!(
+                matches!(turn, Err(ControlError::TooFast { argument: "a dt", norm }) if norm >= fast),
+                "{turn:?}"
+            );
+            let damped = matrix![-fast, fast; -fast, -fast];
+            let (ad, _) = zero_order_hold(&damped, &vector![0.0, 1.0], 1.0).unwrap();
+            assert!(ad.norm() < 1e-300);
+            // a drift is exact, however fast
+            let (drift, _) =
+                zero_order_hold(&matrix![0.0, fast; 0.0, 0.0], &vector![0.0, 1e-9], 1.0).unwrap();
+            assert!((drift[(0, 1)] / fast - 1.0).abs() < 1e-15);
+        }
+        for fast in [1e3_f64, 1e6, 1e9] {
+            let (turn, _) =
+                zero_order_hold(&matrix![0.0, fast; -fast, 0.0], &vector![0.0, 1.0], 1.0).unwrap();
+            let exact = matrix![fast.cos(), fast.sin(); -fast.sin(), fast.cos()];
+            assert!((turn - exact).norm() < 8.0 * f64::EPSILON * fast, "{turn} {exact}");
+        }
         let nan = zero_order_hold(&matrix![f64::NAN], &matrix![1.0], 1.0);
         assert!(matches!(nan, Err(ControlError::NotFinite { argument: "a", .. })));
         let (same, none) = zero_order_hold(&matrix![5.0_f64], &matrix![1.0], 0.0).unwrap();

@@ -3,7 +3,7 @@
 use nalgebra::SMatrix;
 
 use super::cholesky::semidefinite;
-use super::hold::MOST_HALVINGS;
+use super::hold::{MOST_HALVINGS, Witness};
 use super::{ControlError, Entry, finite, norm, symmetrized};
 
 /// The series is summed where its k-th term is at most 1/k! of the first: the rest is below 2⁻⁵³.
@@ -29,7 +29,8 @@ const TERMS: u32 = 18;
 ///
 /// # Errors
 /// [`ControlError::NotFinite`] if an argument, or the result, is not finite; [`ControlError::NotDefinite`] if
-/// `density` is not positive semidefinite; [`ControlError::Setting`] for a negative `dt`.
+/// `density` is not positive semidefinite; [`ControlError::Setting`] for a negative `dt`; [`ControlError::TooFast`] as
+/// for [`zero_order_hold`](super::zero_order_hold).
 pub fn held_noise<T: Entry, const N: usize>(
     a: &SMatrix<T, N, N>,
     density: &SMatrix<T, N, N>,
@@ -69,9 +70,11 @@ pub fn held_noise<T: Entry, const N: usize>(
     for k in (1..=TERMS).rev() {
         through = one + x * through * T::from_u32(k).recip();
     }
+    let mut witness = Witness::new(&x, halvings);
     for _ in 0..halvings {
         sum += through * sum * through.transpose();
         through *= through;
+        witness.compare(&through)?;
     }
     finite("the noise of a tick", &sum)?;
     Ok(symmetrized(&sum))
@@ -131,5 +134,7 @@ mod tests {
         assert!(matches!(none, Err(ControlError::NotDefinite { matrix: "density", .. })));
         let fast = held_noise(&(one * -1e200), &one, 1.0).unwrap();
         assert!(fast.iter().all(|x| x.is_finite()));
+        let turn = held_noise(&(matrix![0.0, 1.0; -1.0, 0.0] * 1e200), &one, 1.0);
+        assert!(matches!(turn, Err(ControlError::TooFast { .. })), "{turn:?}");
     }
 }
