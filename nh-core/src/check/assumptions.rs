@@ -1,6 +1,7 @@
 //! Facts about parameters, and contradictions among them.
 
-use crate::algebra::{Facts, Graph, Range};
+use super::evidence::listed;
+use crate::algebra::{Contradiction, Demand, Facts, Graph, Range};
 use crate::id::{ExprId, SymbolId};
 use crate::model::{Assumption, Model, Relation};
 use crate::violation::{Law, Violation};
@@ -12,23 +13,69 @@ use crate::violation::{Law, Violation};
 pub fn facts(model: &mut Model) -> Result<Facts, Vec<Violation>> {
     let mut facts = Facts::default();
     let mut violations = Vec::new();
+    let mut accepted: Vec<(Assumption, (ExprId, Demand))> = Vec::new();
     for assumption in model.assumptions.clone() {
         if let Some(violation) = stranger(model, &assumption) {
             violations.push(violation);
             continue;
         }
-        if !assume(&mut model.graph, &mut facts, &assumption) {
+        let demand = demand(&mut model.graph, &assumption);
+        accepted.push((assumption.clone(), demand));
+        let demands: Vec<(ExprId, Demand)> = accepted.iter().map(|(_, demand)| *demand).collect();
+        let contradiction = model.graph.contradiction(&demands);
+        if contradiction.is_some() || !assume(&mut model.graph, &mut facts, &assumption) {
+            accepted.pop();
             violations.push(Violation {
                 law: Law::Assumption,
                 origin: assumption.origin,
                 what: format!("the assumption `{}` is contradictory", assumption.text),
-                evidence: "no values of the parameters satisfy it together with the assumptions before it"
-                    .into(),
+                evidence: reason(&accepted, &assumption, contradiction.as_ref()),
                 way_out: "correct or leave out one of them".into(),
             });
         }
     }
+    let demands: Vec<(ExprId, Demand)> = accepted.into_iter().map(|(_, demand)| demand).collect();
+    for (symbol, range) in model.graph.consequences(&demands).symbols {
+        let known = facts.symbols.get(&symbol).copied().unwrap_or(Range::ALL);
+        facts.symbols.insert(symbol, known.intersection(range));
+    }
     if violations.is_empty() { Ok(facts) } else { Err(violations) }
+}
+
+/// An assumption as a demand on one expression.
+fn demand(graph: &mut Graph, assumption: &Assumption) -> (ExprId, Demand) {
+    let (left, right) = (assumption.left, assumption.right);
+    match assumption.relation {
+        Relation::Greater => (graph.sub(left, right), Demand::Positive),
+        Relation::GreaterOrEqual => (graph.sub(left, right), Demand::NotNegative),
+        Relation::Less => (graph.sub(right, left), Demand::Positive),
+        Relation::LessOrEqual => (graph.sub(right, left), Demand::NotNegative),
+        Relation::NotEqual => (graph.sub(left, right), Demand::Nonzero),
+    }
+}
+
+/// Why an assumption contradicts those before it.
+fn reason(
+    before: &[(Assumption, (ExprId, Demand))],
+    last: &Assumption,
+    contradiction: Option<&Contradiction>,
+) -> String {
+    let Some(Contradiction::Combination(used)) = contradiction else {
+        return "no values of the parameters satisfy it together with the assumptions before it".into();
+    };
+    let mut names: Vec<String> = Vec::new();
+    for (index, multiplier) in used {
+        let text = before.get(*index).map_or(last.text.as_str(), |(assumption, _)| assumption.text.as_str());
+        let name = format!("`{text}`");
+        if !multiplier.is_zero() && !names.contains(&name) {
+            names.push(name);
+        }
+    }
+    match names.as_slice() {
+        [] => "no values of the parameters satisfy it together with the assumptions before it".into(),
+        [_] => "no values of the parameters satisfy it: it is the negative of a sum of squares".into(),
+        several => format!("multiples of {} add up to a number that is not so", listed(several)),
+    }
 }
 
 fn stranger(model: &Model, assumption: &Assumption) -> Option<Violation> {

@@ -101,6 +101,13 @@ impl Ball {
         bits.saturating_sub(i64::try_from(self.bits).unwrap_or(i64::MAX)) <= exponent
     }
 
+    /// The least and the greatest number.
+    pub(super) fn ends(&self) -> (Rational, Rational) {
+        let unit = BigInt::one() << self.bits;
+        let end = |x: BigInt| Rational::from_big(x, unit.clone()).unwrap_or(Rational::ZERO);
+        (end(self.low()), end(self.high()))
+    }
+
     /// The midpoint, rounded.
     pub(super) fn to_f64(&self) -> f64 {
         Rational::from_big(self.middle.clone(), BigInt::one() << self.bits).map_or(f64::NAN, |q| q.to_f64())

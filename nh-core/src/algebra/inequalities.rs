@@ -1,0 +1,443 @@
+//! Whether inequalities contradict each other, over all real values of their symbols.
+//!
+//! Three proofs are tried. Intervals are propagated through every part of the expressions, from the
+//! symbols to the whole and back (F. Benhamou, F. Goualard, L. Granvilliers, J.-F. Puget, *Revising hull and box
+//! consistency*, ICLP 1999). Quadratic polynomials have the least value that completing squares gives.
+//! And non-negative multiples of the inequalities, with the squares of sums and differences of their
+//! variables, may add up to `0 > 0` (`simplex.rs`). A system that none of them refutes is *not* known to have a solution.
+
+use super::enclosure::Point;
+use super::graph::{Function, Graph, Node};
+use super::interval::Interval;
+use super::number::Rational;
+use super::polynomial_terms::{Monomial, Terms, least_value, multiplied, product_of};
+use super::range::{Facts, Range};
+use super::simplex::{Inequality, contradiction};
+use crate::id::ExprId;
+use rustc_hash::FxHashMap;
+use std::collections::BTreeSet;
+
+/// What an expression is required to be.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Demand {
+    /// Above 0.
+    Positive,
+    /// Not below 0.
+    NotNegative,
+    /// Not 0.
+    Nonzero,
+    /// 0.
+    Zero,
+}
+
+impl Demand {
+    fn interval(self) -> Interval {
+        match self {
+            Self::Positive => Interval::positive(),
+            Self::NotNegative => Interval::not_negative(),
+            Self::Nonzero => Interval::NONZERO,
+            Self::Zero => Interval::point(&Rational::ZERO),
+        }
+    }
+}
+
+/// Why demands contradict each other.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Contradiction {
+    /// No values are left for one of them.
+    Nowhere(usize),
+    /// These multiples of them add up to a number that is not as demanded.
+    Combination(Vec<(usize, Rational)>),
+}
+
+/// Times that intervals are propagated.
+const ROUNDS: usize = 12;
+/// Variables of which the squares of sums and differences are used.
+const VARIABLES: usize = 6;
+/// Expressions with more parts are not looked at.
+const LARGEST: usize = 2000;
+
+/// A polynomial that is not negative, or positive: the demand that it comes from, with its sign.
+type Row = (Option<usize>, Rational, Terms, bool);
+
+type Known = FxHashMap<ExprId, Interval>;
+
+impl Graph {
+    /// A proof that no values of the symbols satisfy all demands, if one is found.
+    #[must_use]
+    pub fn contradiction(&self, demands: &[(ExprId, Demand)]) -> Option<Contradiction> {
+        let mut known = Known::default();
+        if let Err(index) = self.propagate(demands, &mut known) {
+            return Some(Contradiction::Nowhere(index));
+        }
+        self.combination(demands)
+    }
+
+    /// Facts that follow from demands that do not contradict each other.
+    #[must_use]
+    pub fn consequences(&self, demands: &[(ExprId, Demand)]) -> Facts {
+        let (mut known, mut facts) = (Known::default(), Facts::default());
+        if self.propagate(demands, &mut known).is_ok() {
+            for (id, interval) in known {
+                let (low, high) = interval.to_f64();
+                let range = Range { low, high, nonzero: interval.is_nonzero() };
+                if let Some(symbol) = self.as_symbol(id)
+                    && range != Range::ALL
+                {
+                    facts.symbols.insert(symbol, range);
+                }
+            }
+        }
+        facts
+    }
+
+    /// Narrows the intervals of all parts; the index of a demand that leaves nothing, if one does.
+    fn propagate(&self, demands: &[(ExprId, Demand)], known: &mut Known) -> Result<(), usize> {
+        let parts: Vec<Vec<ExprId>> = demands.iter().map(|(id, _)| self.reachable(&[*id])).collect();
+        if parts.iter().map(Vec::len).sum::<usize>() > LARGEST {
+            return Ok(());
+        }
+        for (index, parts) in parts.iter().enumerate() {
+            for part in parts {
+                if let Some(fixed) = self.fixed_interval(*part, known) {
+                    narrow(known, *part, fixed).map_err(|()| index)?;
+                }
+            }
+        }
+        for _ in 0..ROUNDS {
+            let mut changed = false;
+            for (index, ((id, demand), parts)) in demands.iter().zip(&parts).enumerate() {
+                for part in parts {
+                    let interval = self.interval_of_node(*part, known);
+                    changed |= narrow(known, *part, interval).map_err(|()| index)?;
+                }
+                changed |= narrow(known, *id, demand.interval()).map_err(|()| index)?;
+                for part in parts.iter().rev() {
+                    changed |= self.push_down(*part, known).map_err(|()| index)?;
+                }
+            }
+            if !changed {
+                break;
+            }
+        }
+        Ok(())
+    }
+
+    /// What is known of a node whatever else is: the value of a number, the range of a quadratic polynomial.
+    fn fixed_interval(&self, id: ExprId, known: &Known) -> Option<Interval> {
+        if let Some(number) = self.value_of(id) {
+            return Some(Interval::point(number));
+        }
+        if known.contains_key(&id) || matches!(self.node(id), Node::Symbol(_)) {
+            return None;
+        }
+        if self.node(id).operands().all(|operand| self.is_number(operand)) {
+            return Some(self.interval_of_number(id));
+        }
+        let Node::Sum { .. } = self.node(id) else { return None };
+        self.polynomial_terms(id).map(|polynomial| range_of_quadratic(&polynomial))
+    }
+
+    /// Whether no symbol occurs.
+    fn is_number(&self, id: ExprId) -> bool {
+        self.value_of(id).is_some() || self.symbols_in(&[id]).is_empty()
+    }
+
+    /// The values of a node for values of its operands.
+    fn interval_of_node(&self, id: ExprId, known: &Known) -> Interval {
+        match self.node(id) {
+            Node::Sum { constant, terms } => {
+                let start = Interval::point(constant);
+                terms.iter().fold(start, |sum, (term, c)| sum.plus(&known[term].scaled(c)))
+            }
+            Node::Product { coefficient, factors } => {
+                let product = factors.iter().map(|(base, e)| known[base].power(e));
+                product.fold(Interval::point(coefficient), |product, factor| product.times(&factor))
+            }
+            Node::Apply(function, x) => known[x].function(*function),
+            _ => Interval::ALL,
+        }
+    }
+
+    /// An expression without symbols.
+    fn interval_of_number(&self, id: ExprId) -> Interval {
+        let nowhere = |_| Rational::ZERO;
+        let value = self.evaluate_exactly(&[id], Point::Given(&nowhere), 192);
+        let verdict = || self.zero_test(id).is_zero();
+        match value {
+            Ok(evaluated) if !evaluated.values[0].ball.is_nonzero() && verdict() => {
+                Interval::point(&Rational::ZERO)
+            }
+            Ok(evaluated) => Interval::of_ball(&evaluated.values[0].ball),
+            Err(_) => Interval::ALL,
+        }
+    }
+
+    /// Narrows the operands of a node by what is known of it; whether something changed.
+    fn push_down(&self, id: ExprId, known: &mut Known) -> Result<bool, ()> {
+        let whole = known[&id].clone();
+        let mut changed = false;
+        match self.node(id) {
+            Node::Sum { constant, terms } if terms.len() <= 40 => {
+                for (index, (term, coefficient)) in terms.iter().enumerate() {
+                    let others = terms.iter().enumerate().filter(|(other, _)| *other != index);
+                    let rest = others.fold(Interval::point(constant), |sum, (_, (other, c))| {
+                        sum.plus(&known[other].scaled(c))
+                    });
+                    let Some(inverse) = coefficient.recip() else { continue };
+                    let share = whole.plus(&rest.scaled(&Rational::MINUS_ONE)).scaled(&inverse);
+                    changed |= narrow(known, *term, share)?;
+                }
+            }
+            Node::Product { coefficient, factors } => {
+                for (index, (base, exponent)) in factors.iter().enumerate() {
+                    let others = factors.iter().enumerate().filter(|(other, _)| *other != index);
+                    let rest = others.fold(Interval::point(coefficient), |product, (_, (other, e))| {
+                        product.times(&known[other].power(e))
+                    });
+                    let mut share = Interval::ALL;
+                    if rest.is_nonzero() {
+                        share = whole.times(&rest.reciprocal());
+                    } else if whole.is_nonzero() {
+                        share = Interval::NONZERO;
+                    }
+                    changed |= narrow(known, *base, share.base_of_power(exponent, &known[base]))?;
+                    if !exponent.is_integer() {
+                        changed |= narrow(known, *base, Interval::not_negative())?;
+                    }
+                    if exponent.is_negative() {
+                        changed |= narrow(known, *base, Interval::NONZERO)?;
+                    }
+                }
+            }
+            Node::Apply(function, x) => {
+                changed |= narrow(known, *x, whole.argument_of(*function, &known[x]))?;
+                if *function == Function::Ln {
+                    changed |= narrow(known, *x, Interval::positive())?;
+                }
+            }
+            _ => {}
+        }
+        Ok(changed)
+    }
+
+    /// Multiples of the demands that add up to a contradiction.
+    fn combination(&self, demands: &[(ExprId, Demand)]) -> Option<Contradiction> {
+        let polynomials: Option<Vec<Terms>> =
+            demands.iter().map(|(id, _)| self.polynomial_terms(*id)).collect();
+        let polynomials = polynomials?;
+        let mut rows: Vec<Row> = Vec::new();
+        for (index, (polynomial, (_, demand))) in polynomials.iter().zip(demands).enumerate() {
+            match demand {
+                Demand::Positive => rows.push((Some(index), Rational::ONE, polynomial.clone(), true)),
+                Demand::NotNegative => rows.push((Some(index), Rational::ONE, polynomial.clone(), false)),
+                Demand::Zero => {
+                    rows.push((Some(index), Rational::ONE, polynomial.clone(), false));
+                    rows.push((Some(index), Rational::MINUS_ONE, negative(polynomial), false));
+                }
+                Demand::Nonzero => {}
+            }
+        }
+        let squares = squares(&polynomials);
+        rows.extend(squares.into_iter().map(|square| (None, Rational::ONE, square, false)));
+        let found = refuted(&rows).or_else(|| refuted(&with_products(&rows))).or_else(|| {
+            // what is between 0 and 0 is 0
+            let unequal = demands.iter().enumerate().filter(|(_, (_, demand))| *demand == Demand::Nonzero);
+            unequal.into_iter().find_map(|(index, _)| {
+                let with = |polynomial: Terms| {
+                    let mut rows = rows.clone();
+                    rows.push((Some(index), Rational::ONE, polynomial, true));
+                    refuted(&rows)
+                };
+                let one = with(polynomials[index].clone())?;
+                let other = with(negative(&polynomials[index]))?;
+                Some(one.into_iter().chain(other).collect())
+            })
+        })?;
+        let mut used: Vec<(usize, Rational)> = Vec::new();
+        for (row, multiplier) in found {
+            let Some((Some(index), sign, ..)) = rows.get(row) else { continue };
+            used.push((*index, sign.clone() * multiplier));
+        }
+        Some(Contradiction::Combination(used))
+    }
+}
+
+/// Narrows one interval; whether it changed, or an error where nothing is left.
+fn narrow(known: &mut Known, id: ExprId, by: Interval) -> Result<bool, ()> {
+    let before = known.get(&id).cloned().unwrap_or(Interval::ALL);
+    let after = before.meet(&by);
+    if after.is_empty() {
+        return Err(());
+    }
+    let changed = after != before;
+    known.insert(id, after);
+    Ok(changed)
+}
+
+/// The values of a quadratic polynomial over all real numbers.
+fn range_of_quadratic(polynomial: &Terms) -> Interval {
+    if polynomial.keys().all(|monomial| monomial.len() < 2 && monomial.iter().all(|(_, e)| e.is_one())) {
+        return Interval::ALL;
+    }
+    if let Some(least) = least_value(polynomial) {
+        return Interval::at_least(least);
+    }
+    match least_value(&negative(polynomial)) {
+        Some(least) => Interval::at_least(least).scaled(&Rational::MINUS_ONE),
+        None => Interval::ALL,
+    }
+}
+
+fn negative(polynomial: &Terms) -> Terms {
+    polynomial.iter().map(|(monomial, c)| (monomial.clone(), -c.clone())).collect()
+}
+
+/// (x ± y)² and (x ± 1)² for the variables of products and squares.
+fn squares(polynomials: &[Terms]) -> Vec<Terms> {
+    let is_square = |m: &&Monomial| m.len() == 2 || m.iter().any(|(_, e)| *e == Rational::from(2));
+    let variables: BTreeSet<ExprId> = polynomials
+        .iter()
+        .flat_map(|p| p.keys().filter(is_square).flatten().map(|(base, _)| *base))
+        .collect();
+    let one = Monomial::new();
+    let mut linear: Vec<Monomial> =
+        variables.into_iter().take(VARIABLES).map(|x| vec![(x, Rational::ONE)]).collect();
+    if linear.is_empty() {
+        return Vec::new();
+    }
+    linear.push(one);
+    let mut found = Vec::new();
+    for (index, x) in linear.iter().enumerate() {
+        for y in &linear[..index] {
+            for sign in [2, -2] {
+                let mut square =
+                    Terms::from([(product_of(x, x), Rational::ONE), (product_of(y, y), Rational::ONE)]);
+                square.insert(product_of(x, y), sign.into());
+                found.push(square);
+            }
+        }
+        if index + 1 < linear.len() {
+            found.push(Terms::from([(product_of(x, x), Rational::ONE)]));
+        }
+    }
+    found
+}
+
+/// The same with the products of two of them, as far as these are few.
+fn with_products(rows: &[Row]) -> Vec<Row> {
+    const FACTORS: usize = 8;
+    let mut all = rows.to_vec();
+    let factors: Vec<&Row> = rows.iter().filter(|(index, ..)| index.is_some()).collect();
+    if factors.len() <= FACTORS {
+        for (place, (_, _, one, strict)) in factors.iter().enumerate() {
+            for (_, _, other, as_strict) in &factors[..=place] {
+                let product = multiplied(one, other);
+                all.extend(product.map(|product| (None, Rational::ONE, product, *strict && *as_strict)));
+            }
+        }
+    }
+    all
+}
+
+/// Rows with multipliers that refute all of them together.
+fn refuted(rows: &[Row]) -> Option<Vec<(usize, Rational)>> {
+    const MONOMIALS: usize = 60;
+    let constant = Monomial::new();
+    let monomials: BTreeSet<&Monomial> =
+        rows.iter().flat_map(|(_, _, polynomial, _)| polynomial.keys()).filter(|m| !m.is_empty()).collect();
+    if monomials.len() > MONOMIALS {
+        return None;
+    }
+    let value =
+        |polynomial: &Terms, monomial: &Monomial| polynomial.get(monomial).cloned().unwrap_or(Rational::ZERO);
+    let inequalities: Vec<Inequality> = rows
+        .iter()
+        .map(|(_, _, polynomial, strict)| Inequality {
+            coefficients: monomials.iter().map(|monomial| value(polynomial, monomial)).collect(),
+            constant: value(polynomial, &constant),
+            strict: *strict,
+        })
+        .collect();
+    let multipliers = contradiction(&inequalities)?;
+    Some(multipliers.into_iter().enumerate().filter(|(_, y)| !y.is_zero()).collect())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Demands on x and y from the coefficients of 1, x, y, x², xy, y².
+    fn demands(g: &mut Graph, list: &[([i64; 6], Demand)]) -> Vec<(ExprId, Demand)> {
+        let [x, y] = ["x", "y"].map(|name| {
+            let symbol = g.new_symbol(name);
+            g.symbol(symbol)
+        });
+        let monomials = [g.one(), x, y, g.square(x), g.mul(x, y), g.square(y)];
+        list.iter()
+            .map(|(coefficients, demand)| {
+                let terms: Vec<_> =
+                    coefficients.iter().zip(monomials).map(|(c, m)| ((*c).into(), m)).collect();
+                (g.linear_combination(&terms), *demand)
+            })
+            .collect()
+    }
+
+    #[test]
+    fn what_contradicts_and_what_does_not() {
+        use Demand::{Nonzero, NotNegative, Positive, Zero};
+        let product = [0, 0, 0, 0, 1, 0];
+        for (is_contradictory, list) in [
+            // x ≥ 1, x ≤ 1, then x ≠ 1
+            (false, vec![([-1, 1, 0, 0, 0, 0], NotNegative), ([1, -1, 0, 0, 0, 0], NotNegative)]),
+            (
+                true,
+                vec![
+                    ([-1, 1, 0, 0, 0, 0], NotNegative),
+                    ([1, -1, 0, 0, 0, 0], NotNegative),
+                    ([-1, 1, 0, 0, 0, 0], Nonzero),
+                ],
+            ),
+            // x ≥ y, y ≥ x, x ≠ y
+            (
+                true,
+                vec![
+                    ([0, 1, -1, 0, 0, 0], NotNegative),
+                    ([0, -1, 1, 0, 0, 0], NotNegative),
+                    ([0, 1, -1, 0, 0, 0], Nonzero),
+                ],
+            ),
+            // x² + xy + y² < 0, ≤ 0
+            (true, vec![([0, 0, 0, -1, -1, -1], Positive)]),
+            (false, vec![([0, 0, 0, -1, -1, -1], NotNegative)]),
+            (true, vec![([-1, 0, 0, -1, -1, -1], Zero)]),
+            (false, vec![([-1, 0, 0, 1, 1, 1], Zero)]),
+            (false, vec![([0, 0, 0, -1, -3, -1], Positive)]),
+            // xy = 1, x² + y² = 1 or 4
+            (true, vec![([-1, 0, 0, 0, 1, 0], Zero), ([-1, 0, 0, 1, 0, 1], Zero)]),
+            (false, vec![([-1, 0, 0, 0, 1, 0], Zero), ([-4, 0, 0, 1, 0, 1], Zero)]),
+            // x > 1, y > 1, xy < 1 or 2
+            (
+                true,
+                vec![
+                    ([-1, 1, 0, 0, 0, 0], Positive),
+                    ([-1, 0, 1, 0, 0, 0], Positive),
+                    ([1, 0, 0, 0, -1, 0], Positive),
+                ],
+            ),
+            (
+                false,
+                vec![
+                    ([-1, 1, 0, 0, 0, 0], Positive),
+                    ([-1, 0, 1, 0, 0, 0], Positive),
+                    ([2, 0, 0, 0, -1, 0], Positive),
+                ],
+            ),
+            (false, vec![(product, Positive), ([0, 1, 1, 0, 0, 0], Positive)]),
+        ] {
+            let mut g = Graph::new();
+            let demands = demands(&mut g, &list);
+            assert_eq!(g.contradiction(&demands).is_some(), is_contradictory, "{list:?}");
+        }
+    }
+}

@@ -1,0 +1,126 @@
+//! Expressions as polynomials in whatever they are made of, for questions about their sign.
+
+use super::graph::{Graph, Node};
+use super::number::Rational;
+use crate::id::ExprId;
+use std::collections::BTreeMap;
+
+/// A product of powers of parts of an expression that are not sums; empty for the number 1.
+pub(super) type Monomial = Vec<(ExprId, Rational)>;
+
+/// `Σ coefficient · monomial`.
+pub(super) type Terms = BTreeMap<Monomial, Rational>;
+
+/// Terms that a polynomial may have.
+const MOST: usize = 200;
+/// Powers of sums that are multiplied out.
+const HIGHEST: i64 = 4;
+
+impl Graph {
+    /// The expression multiplied out, if it does not become long.
+    pub(super) fn polynomial_terms(&self, expression: ExprId) -> Option<Terms> {
+        if let Some(value) = self.value_of(expression) {
+            return Some(number(value.clone()));
+        }
+        match self.node(expression) {
+            Node::Sum { constant, terms } => {
+                let mut sum = number(constant.clone());
+                for (term, coefficient) in terms.iter() {
+                    for (monomial, factor) in self.polynomial_terms(*term)? {
+                        add(&mut sum, monomial, factor * coefficient.clone());
+                    }
+                }
+                (sum.len() <= MOST).then_some(sum)
+            }
+            Node::Product { coefficient, factors } => {
+                let mut product = number(coefficient.clone());
+                for (base, exponent) in factors.iter() {
+                    let times = exponent.to_i64().filter(|n| (1..=HIGHEST).contains(n));
+                    let is_sum = matches!(self.node(*base), Node::Sum { .. });
+                    let (factor, times) = match times.filter(|_| is_sum || self.value_of(*base).is_some()) {
+                        Some(times) => (self.polynomial_terms(*base)?, times),
+                        None => (Terms::from([(vec![(*base, exponent.clone())], Rational::ONE)]), 1),
+                    };
+                    for _ in 0..times {
+                        product = multiplied(&product, &factor)?;
+                    }
+                }
+                Some(product)
+            }
+            _ => Some(Terms::from([(vec![(expression, Rational::ONE)], Rational::ONE)])),
+        }
+    }
+}
+
+fn number(value: Rational) -> Terms {
+    if value.is_zero() { Terms::new() } else { Terms::from([(Monomial::new(), value)]) }
+}
+
+fn add(terms: &mut Terms, monomial: Monomial, coefficient: Rational) {
+    let entry = terms.entry(monomial.clone()).or_insert(Rational::ZERO);
+    *entry = entry.clone() + coefficient;
+    if entry.is_zero() {
+        terms.remove(&monomial);
+    }
+}
+
+pub(super) fn multiplied(a: &Terms, b: &Terms) -> Option<Terms> {
+    if a.len() * b.len() > MOST {
+        return None;
+    }
+    let mut product = Terms::new();
+    for (x, c) in a {
+        for (y, d) in b {
+            add(&mut product, product_of(x, y), c.clone() * d.clone());
+        }
+    }
+    Some(product)
+}
+
+/// The product of two monomials.
+pub(super) fn product_of(a: &Monomial, b: &Monomial) -> Monomial {
+    let mut powers: BTreeMap<ExprId, Rational> = a.iter().cloned().collect();
+    for (base, exponent) in b {
+        let entry = powers.entry(*base).or_insert(Rational::ZERO);
+        *entry = entry.clone() + exponent.clone();
+    }
+    powers.into_iter().filter(|(_, exponent)| !exponent.is_zero()).collect()
+}
+
+/// The least value of a quadratic polynomial over all real numbers for its variables, by completing
+/// squares; `None` if it has none, or is not quadratic.
+pub(super) fn least_value(terms: &Terms) -> Option<Rational> {
+    let mut terms = terms.clone();
+    loop {
+        let variable = terms.keys().flatten().map(|(base, _)| *base).next();
+        let Some(variable) = variable else {
+            return Some(terms.remove(&Monomial::new()).unwrap_or(Rational::ZERO));
+        };
+        // a x² + b x + c with b linear: less (2 a x + b)² / (4 a), c − b²/(4a) is left
+        let square = terms.remove(&vec![(variable, Rational::from(2))])?;
+        if square.is_negative() {
+            return None;
+        }
+        let (mut linear, mut rest) = (Terms::new(), Terms::new());
+        for (monomial, coefficient) in terms {
+            let degree =
+                monomial.iter().try_fold(0, |sum, (_, e)| Some(sum + e.to_i64().filter(|e| *e > 0)?))?;
+            match monomial.iter().position(|(base, _)| *base == variable) {
+                Some(place) => {
+                    if degree > 2 || !monomial[place].1.is_one() {
+                        return None;
+                    }
+                    let mut other = monomial;
+                    other.remove(place);
+                    add(&mut linear, other, coefficient);
+                }
+                None => add(&mut rest, monomial, coefficient),
+            }
+        }
+        let scale = (square * Rational::from(-4)).recip()?;
+        for (monomial, coefficient) in multiplied(&linear, &linear)? {
+            add(&mut rest, monomial, coefficient * scale.clone());
+        }
+        terms = rest;
+    }
+}
