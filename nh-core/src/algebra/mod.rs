@@ -27,6 +27,7 @@ mod product_to_sum;
 mod range;
 mod real_rank;
 mod simplex;
+mod square_factor;
 mod substitute;
 mod sum;
 mod transcendental;

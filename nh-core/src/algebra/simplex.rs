@@ -12,7 +12,7 @@ pub(super) struct Inequality {
 }
 
 /// Pivots after which nothing is said.
-const PIVOTS: usize = 400;
+const PIVOTS: usize = 200;
 
 /// Multipliers y ≥ 0 for which Σ y (inequality) is `0 ≥ c` with c < 0 hidden in it, or `0 > 0`. `None`
 /// where there are none, or none were found in time.

@@ -43,7 +43,7 @@ pub fn facts(model: &mut Model) -> Result<Facts, Vec<Violation>> {
 }
 
 /// An assumption as a demand on one expression.
-fn demand(graph: &mut Graph, assumption: &Assumption) -> (ExprId, Demand) {
+pub(super) fn demand(graph: &mut Graph, assumption: &Assumption) -> (ExprId, Demand) {
     let (left, right) = (assumption.left, assumption.right);
     match assumption.relation {
         Relation::Greater => (graph.sub(left, right), Demand::Positive),

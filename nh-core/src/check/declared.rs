@@ -1,28 +1,59 @@
-//! Every declared expression is defined, and smooth where it is differentiated.
+//! Every declared expression is defined somewhere, and smooth where it is differentiated.
 
-use super::evidence::shown;
-use crate::algebra::{Facts, Function, Function2, Graph, Node};
+use super::assumptions::demand;
+use super::domain::{Condition, conditions};
+use super::evidence::{listed, shown};
+use super::smoothness::not_smooth;
+use crate::algebra::{Demand, Facts, Function2, Graph, Node, Rational, Verdict};
+use crate::geometry::Manifold;
 use crate::id::{ExprId, Origin};
 use crate::model::{Kinematics, Model};
 use crate::violation::{Law, Violation};
 
-/// No division by the number 0, no root or logarithm of what is never positive; no `abs`, `sign`, `min` or `max` in the Lagrangian, the
+/// No division by what is 0 everywhere, no root, logarithm or inverse sine of what is nowhere in their
+/// domain, for parameters as they are assumed; no `abs`, `sign`, `min` or `max`, open or in disguise, in the Lagrangian, the
 /// constraints, the anchor or the brackets.
 #[must_use]
-pub fn declared_expressions(model: &Model) -> Vec<Violation> {
+pub fn declared_expressions(model: &mut Model, facts: &Facts) -> Vec<Violation> {
     let mut violations = Vec::new();
-    for (what, value, origin) in differentiated(model) {
-        violations.extend(undefined(&model.graph, what, value, origin));
-        violations.extend(nowhere_real(&model.graph, what, value, origin));
-        violations.extend(not_smooth(&model.graph, what, value, origin));
+    let differentiated = differentiated(model);
+    let others = evaluated(model);
+    let assumed: Vec<(ExprId, Demand)> = {
+        let assumptions = model.assumptions.clone();
+        assumptions.iter().map(|assumption| demand(&mut model.graph, assumption)).collect()
+    };
+    for (what, value, origin) in differentiated.iter().chain(&others).copied() {
+        let place = Place { what, value, origin };
+        let found = undefined(&model.graph, place)
+            .or_else(|| vanishing(&mut model.graph, place, &Manifold::whole()))
+            .or_else(|| nowhere_real(&mut model.graph, place, &assumed));
+        violations.extend(found);
     }
-    let forces = model.forces.iter().map(|force| ("force", force.value, force.origin));
-    let outputs = model.outputs.iter().map(|output| ("output", output.value, output.origin));
-    for (what, value, origin) in forces.chain(outputs) {
-        violations.extend(undefined(&model.graph, what, value, origin));
-        violations.extend(nowhere_real(&model.graph, what, value, origin));
+    for (what, value, origin) in differentiated {
+        violations.extend(not_smooth(model, facts, what, value, origin));
     }
     violations
+}
+
+/// No division by what is 0 everywhere on an embedded base.
+#[must_use]
+pub fn declared_on(model: &mut Model, base: &Manifold) -> Vec<Violation> {
+    if base.is_whole() {
+        return Vec::new();
+    }
+    let declared = differentiated(model).into_iter().chain(evaluated(model));
+    let graph = &mut model.graph;
+    declared
+        .filter_map(|(what, value, origin)| vanishing(graph, Place { what, value, origin }, base))
+        .collect()
+}
+
+/// An expression, what it is called, and where it stands.
+#[derive(Clone, Copy)]
+struct Place {
+    what: &'static str,
+    value: ExprId,
+    origin: Origin,
 }
 
 /// The expressions that are differentiated.
@@ -38,7 +69,38 @@ pub(super) fn differentiated(model: &Model) -> Vec<(&'static str, ExprId, Origin
     list
 }
 
-fn undefined(graph: &Graph, what: &str, value: ExprId, origin: Origin) -> Option<Violation> {
+/// The other expressions of the declaration.
+fn evaluated(model: &Model) -> Vec<(&'static str, ExprId, Origin)> {
+    let mut list: Vec<(&'static str, ExprId, Origin)> = Vec::new();
+    list.extend(model.forces.iter().map(|force| ("force", force.value, force.origin)));
+    list.extend(model.outputs.iter().map(|output| ("output", output.value, output.origin)));
+    list.extend(model.claims.iter().map(|claim| ("first integral", claim.value, claim.origin)));
+    for symmetry in &model.symmetries {
+        list.push(("symmetry", symmetry.value, symmetry.origin));
+        list.extend(symmetry.gauge.map(|gauge| ("function behind `up to`", gauge, symmetry.origin)));
+    }
+    let volume = model.volume.iter().filter_map(|claim| Some(("density", claim.density?, claim.origin)));
+    list.extend(volume);
+    let momenta = model.hamilton_jacobi.iter().flat_map(|claim| &claim.components);
+    list.extend(momenta.map(|(_, momentum)| ("momentum", momentum.value, momentum.origin)));
+    list.extend(model.identities.iter().map(|identity| ("identity", identity.value, identity.origin)));
+    list.extend(model.frame.iter().map(|section| ("section", section.value, section.origin)));
+    list.extend(model.routh.iter().map(|level| ("level", level.level, level.origin)));
+    let arguments = |call: &crate::model::MethodCall| {
+        let origin = call.origin;
+        call.arguments.clone().into_iter().map(move |argument| ("argument", argument, origin))
+    };
+    list.extend(model.calls.iter().flat_map(arguments));
+    for assumption in &model.assumptions {
+        for side in [assumption.left, assumption.right] {
+            list.push(("side of an assumption", side, assumption.origin));
+        }
+    }
+    list
+}
+
+fn undefined(graph: &Graph, place: Place) -> Option<Violation> {
+    let Place { what, value, origin } = place;
     graph.is_undefined(value).then(|| Violation {
         law: Law::Defined,
         origin,
@@ -48,49 +110,129 @@ fn undefined(graph: &Graph, what: &str, value: ExprId, origin: Origin) -> Option
     })
 }
 
-/// A root of something negative everywhere, a logarithm of something positive nowhere, an `asin` or
-/// `acos` of something beyond 1.
-fn nowhere_real(graph: &Graph, what: &str, value: ExprId, origin: Origin) -> Option<Violation> {
-    let range = |argument: ExprId| graph.range(argument, &Facts::default());
-    let evidence = graph.reachable(&[value]).into_iter().find_map(|id| match graph.node(id) {
-        Node::Product { factors, .. } => {
-            let (base, exponent) = factors
-                .iter()
-                .find(|(base, exponent)| !exponent.is_integer() && (range(*base).high < 0.0))?;
-            Some(format!("{} is negative, and is raised to the power {exponent}", shown(graph, *base)))
-        }
-        Node::Apply(Function::Ln, argument) if range(*argument).high < 0.0 => {
-            Some(format!("{} is negative, and has no logarithm", shown(graph, *argument)))
-        }
-        Node::Apply(function @ (Function::Asin | Function::Acos), argument)
-            if range(*argument).low > 1.0 || range(*argument).high < -1.0 =>
+/// A divisor, or the argument of a logarithm, that is zero everywhere by an identity.
+fn vanishing(graph: &mut Graph, place: Place, base: &Manifold) -> Option<Violation> {
+    let Place { what, value, origin } = place;
+    for id in graph.reachable(&[value]) {
+        if let Node::Apply2(Function2::Atan2, y, x) = *graph.node(id)
+            && base.zero_test(graph, y).is_zero()
+            && base.zero_test(graph, x).is_zero()
         {
-            Some(format!("`{}` takes values from -1 to 1, not {}", function.name(), shown(graph, *argument)))
+            return Some(Violation {
+                law: Law::Defined,
+                origin,
+                what: format!("this {what} is defined nowhere: the point (0, 0) has no angle"),
+                evidence: format!("both arguments of {} are 0", shown(graph, id)),
+                way_out: "write arguments of `atan2` that are not both 0 everywhere".into(),
+            });
         }
-        _ => None,
-    })?;
-    Some(Violation {
-        law: Law::Defined,
-        origin,
-        what: format!("this {what} has no real value anywhere"),
-        evidence,
-        way_out: "correct the sign, or the range; a real odd root of -x is written `-(x^(1/3))`".into(),
-    })
+        for (divisor, condition) in conditions(graph, id, 0) {
+            let is_divisor = matches!(condition, Condition::Nonzero(_) | Condition::Positive(_));
+            if !is_divisor
+                || graph.as_symbol(divisor).is_some()
+                || graph.vanishes_nowhere(divisor, &Facts::default())
+            {
+                continue;
+            }
+            let logarithm = matches!(graph.node(id), Node::Apply(..));
+            let verdict = base.zero_test(graph, divisor);
+            if verdict.is_zero() {
+                let on_base = if base.is_whole() { "" } else { " on the embedded base" };
+                let does = if logarithm { "takes the logarithm of 0" } else { "divides by 0" };
+                return Some(Violation {
+                    law: Law::Defined,
+                    origin,
+                    what: format!("this {what} is defined nowhere: it {does}"),
+                    evidence: format!("{} is 0 everywhere{on_base}", shown(graph, divisor)),
+                    way_out: "write a denominator, or an argument, that is not".into(),
+                });
+            }
+            if let Verdict::Unknown(why) = verdict
+                && graph.symbols_in(&[divisor]).is_empty()
+            {
+                return Some(Violation {
+                    law: Law::Decidable,
+                    origin,
+                    what: format!("whether this {what} divides by zero could not be decided"),
+                    evidence: format!("{}: {why}", shown(graph, divisor)),
+                    way_out: "write the number in a simpler form".into(),
+                });
+            }
+        }
+    }
+    None
 }
 
-fn not_smooth(graph: &Graph, what: &str, value: ExprId, origin: Origin) -> Option<Violation> {
-    let name = graph.reachable(&[value]).into_iter().find_map(|id| match graph.node(id) {
-        Node::Apply(function @ (Function::Abs | Function::Sign), _) => Some(function.name()),
-        Node::Apply2(function @ (Function2::Min | Function2::Max), ..) => Some(function.name()),
-        _ => None,
-    })?;
-    Some(Violation {
-        law: Law::Smooth,
+/// A root of something negative everywhere, a logarithm of something positive nowhere, an `asin` or
+/// `acos` of something beyond 1; or several that exclude each other.
+fn nowhere_real(graph: &mut Graph, place: Place, assumed: &[(ExprId, Demand)]) -> Option<Violation> {
+    /// Conditions that are taken together.
+    const TOGETHER: usize = 12;
+    let Place { what, value, origin } = place;
+    let mut all: Vec<(ExprId, Demand)> = assumed.to_vec();
+    let mut texts: Vec<String> = Vec::new();
+    let violation = |what: String, evidence: String| Violation {
+        law: Law::Defined,
         origin,
-        what: format!("this {what} is not smooth: it uses `{name}`"),
-        evidence: format!("`{name}` has no derivative where its branches meet, and the equations need one"),
-        way_out: "use a smooth expression, such as sqrt(x^2 + eps^2) for abs(x); `abs`, `sign`, `min` and \
-                  `max` are at home in `forces` and `outputs`"
-            .into(),
-    })
+        what,
+        evidence,
+        way_out: "correct the sign, or the range; a real odd root of -x is written `-(x^(1/3))`".into(),
+    };
+    for id in graph.reachable(&[value]) {
+        for (argument, condition) in conditions(graph, id, 0) {
+            let demands = demands(graph, argument, condition);
+            if demands.is_empty() {
+                continue;
+            }
+            let own: Vec<(ExprId, Demand)> = assumed.iter().copied().chain(demands.clone()).collect();
+            if graph.contradiction(&own).is_some() {
+                let evidence = never(graph, id, argument);
+                return Some(violation(format!("this {what} has no real value anywhere"), evidence));
+            }
+            for (expression, _) in &demands {
+                texts.push(format!("{} > 0", shown(graph, *expression)));
+            }
+            all.extend(demands);
+        }
+    }
+    let several = (2..=TOGETHER).contains(&texts.len());
+    if !several || graph.contradiction(&all).is_none() {
+        return None;
+    }
+    let evidence = format!("it asks for {}, which exclude each other", listed(&texts));
+    Some(violation(format!("this {what} has no real value anywhere"), evidence))
+}
+
+/// What a condition demands at the points of an open set; of numbers, at all.
+fn demands(graph: &mut Graph, argument: ExprId, condition: Condition) -> Vec<(ExprId, Demand)> {
+    let varies = !graph.symbols_in(&[argument]).is_empty();
+    let inside = if varies { Demand::Positive } else { Demand::NotNegative };
+    match condition {
+        Condition::Nonzero(_) => Vec::new(),
+        Condition::Positive(e) => vec![(e, Demand::Positive)],
+        Condition::NotNegative(e) if varies && graph.zero_test(e).is_zero() => Vec::new(),
+        Condition::NotNegative(e) => vec![(e, inside)],
+        Condition::InUnitInterval(e) | Condition::InsideUnitInterval(e) => {
+            let one = graph.one();
+            let (below, above) = (graph.sub(one, e), graph.add(one, e));
+            vec![(below, inside), (above, inside)]
+        }
+    }
+}
+
+/// Why a node has no real value.
+fn never(graph: &Graph, id: ExprId, argument: ExprId) -> String {
+    let range = graph.range(argument, &Facts::default());
+    let sign = if range.high < 0.0 { "is negative" } else { "is never positive" };
+    let text = shown(graph, argument);
+    match graph.node(id) {
+        Node::Apply(crate::algebra::Function::Ln, _) => format!("{text} {sign}, and has no logarithm"),
+        Node::Apply(function, _) => format!("`{}` takes values from -1 to 1, not {text}", function.name()),
+        Node::Product { factors, .. } => {
+            let exponent = factors.iter().find(|(base, _)| *base == argument).map(|(_, exponent)| exponent);
+            let exponent = exponent.cloned().unwrap_or(Rational::ONE);
+            format!("{text} {sign}, and is raised to the power {exponent}")
+        }
+        _ => text,
+    }
 }

@@ -53,7 +53,7 @@ pub fn domain(model: &Model, facts: &Facts) -> Vec<Condition> {
 }
 
 /// What one node asks of its operands if its value is differentiated so many times.
-fn conditions(graph: &Graph, id: ExprId, derivatives: u32) -> Vec<(ExprId, Condition)> {
+pub(super) fn conditions(graph: &Graph, id: ExprId, derivatives: u32) -> Vec<(ExprId, Condition)> {
     match graph.node(id) {
         Node::Product { factors, .. } => factors
             .iter()

@@ -96,13 +96,15 @@ pub fn compile(model: Model) -> Result<System, Vec<Violation>> {
 /// As [`compile`].
 pub(crate) fn prove(mut model: Model) -> Result<(Proved, Chosen), Vec<Violation>> {
     // 1. every expression is defined, and smooth where it is differentiated; facts do not contradict
-    let broken = check::declared_expressions(&model);
-    let facts = both(broken, check::facts(&mut model))?;
+    let facts = check::facts(&mut model);
+    let broken = check::declared_expressions(&mut model, facts.as_ref().unwrap_or(&Facts::default()));
+    let facts = both(broken, facts)?;
     model.assume(&facts);
     // 2. the anchor: linear and homogeneous; a coframe is inverted
     let mut motion = check::kinematics(&mut model)?;
     // 3. the embedded base, which the anchor keeps; the brackets, declared or derived
     let base = check::embedding(&mut model, &motion)?;
+    fence(check::declared_on(&mut model, &base))?;
     let structure = check::structure_functions(&mut model, &motion)?;
     let velocities = model.sections.iter().map(|section| section.symbol).collect();
     let algebroid = Algebroid { anchor: motion.anchor.clone(), structure, velocities };

@@ -175,7 +175,7 @@ impl FieldReader<'_> {
     /// Reads the scalar type of a field; all fields have the same.
     fn scalar(&mut self, leaf: &Type, whole: &Type, field: &Ident) -> Result<(), Diagnostic> {
         let found = match leaf {
-            Type::Path(path) if path.qself.is_none() => match path.path.get_ident() {
+            Type::Path(path) if path.qself.is_none() => match primitive(&path.path) {
                 Some(ident) if ident == "f64" => Some(Scalar::F64),
                 Some(ident) if ident == "f32" => Some(Scalar::F32),
                 Some(ident) if self.generics.type_params().any(|parameter| parameter.ident == *ident) => {
@@ -224,6 +224,21 @@ impl Scalar {
             Self::F32 => "f32".to_owned(),
             Self::Parameter(name) => name.to_string(),
         }
+    }
+}
+
+/// The name of a type: a word alone, or the path of a primitive type, `::core::primitive::f64`.
+fn primitive(path: &syn::Path) -> Option<&Ident> {
+    if let Some(ident) = path.get_ident() {
+        return Some(ident);
+    }
+    let plain = path.segments.iter().all(|segment| segment.arguments.is_none());
+    let words: Vec<&Ident> = path.segments.iter().map(|segment| &segment.ident).collect();
+    match words.as_slice() {
+        [root, module, name] if plain && *module == "primitive" && (*root == "core" || *root == "std") => {
+            (*name == "f64" || *name == "f32").then_some(*name)
+        }
+        _ => None,
     }
 }
 

@@ -1,0 +1,116 @@
+//! What is differentiated is smooth: it has no branches that meet with an edge, open or in disguise.
+
+use super::evidence::shown;
+use crate::algebra::{Facts, Function, Function2, Graph, Node, Rational};
+use crate::id::{ExprId, Origin, SymbolId};
+use crate::model::Model;
+use crate::violation::{Law, Violation};
+
+/// An expression with `abs`, `sign`, `min` or `max`, or with a root of a square that changes sign.
+pub(super) fn not_smooth(
+    model: &mut Model,
+    facts: &Facts,
+    what: &str,
+    value: ExprId,
+    origin: Origin,
+) -> Option<Violation> {
+    let parameters: Vec<SymbolId> = model.parameters.iter().map(|parameter| parameter.symbol).collect();
+    let graph = &mut model.graph;
+    let named = graph.reachable(&[value]).into_iter().find_map(|id| match graph.node(id) {
+        Node::Apply(function @ (Function::Abs | Function::Sign), _) => Some(function.name()),
+        Node::Apply2(function @ (Function2::Min | Function2::Max), ..) => Some(function.name()),
+        _ => None,
+    });
+    let (uses, evidence) = match named {
+        Some(name) => (
+            format!("`{name}`"),
+            format!("`{name}` has no derivative where its branches meet, and the equations need one"),
+        ),
+        None => edge(graph, value, &parameters, facts)?,
+    };
+    Some(Violation {
+        law: Law::Smooth,
+        origin,
+        what: format!("this {what} is not smooth: it uses {uses}"),
+        evidence,
+        way_out: "use a smooth expression, such as sqrt(x^2 + eps^2) for abs(x); `abs`, `sign`, `min` and \
+                  `max` are at home in `forces` and `outputs`"
+            .into(),
+    })
+}
+
+/// A root of a square, and why it has an edge.
+fn edge(
+    graph: &mut Graph,
+    value: ExprId,
+    parameters: &[SymbolId],
+    facts: &Facts,
+) -> Option<(String, String)> {
+    for id in graph.reachable(&[value]) {
+        match graph.node(id).clone() {
+            Node::Product { factors, .. } => {
+                for (base, exponent) in factors.iter().filter(|(_, exponent)| !exponent.is_integer()) {
+                    let Some((inner, power)) = squared(graph, *base, parameters, facts) else { continue };
+                    let power = power * exponent.clone();
+                    // x^(2k) to the power 1/2 is x^k for even k
+                    if !power.is_integer() || power.has_odd_numerator() {
+                        let whole = graph.pow(*base, exponent.clone());
+                        let inner = shown(graph, inner);
+                        let as_power = if power.is_one() { String::new() } else { format!("^({power})") };
+                        return Some((
+                            format!("`{}`", shown(graph, whole)),
+                            format!(
+                                "it contains abs({inner}){as_power}, which is not smooth where {inner} = 0"
+                            ),
+                        ));
+                    }
+                }
+            }
+            Node::Apply(function @ (Function::Asin | Function::Acos), x) => {
+                let (one, square) = (graph.one(), graph.square(x));
+                let rest = graph.sub(one, square);
+                if let Some((inner, _)) = squared(graph, rest, parameters, facts) {
+                    return Some((
+                        format!("`{}`", shown(graph, id)),
+                        format!(
+                            "`{}` has an edge where its argument touches -1 or 1, at {} = 0",
+                            function.name(),
+                            shown(graph, inner)
+                        ),
+                    ));
+                }
+            }
+            _ => {}
+        }
+    }
+    None
+}
+
+/// Something that changes sign, and the even power of it that the expression contains as a factor.
+fn squared(
+    graph: &mut Graph,
+    base: ExprId,
+    parameters: &[SymbolId],
+    facts: &Facts,
+) -> Option<(ExprId, Rational)> {
+    let simple = graph.simplify(base);
+    for form in [base, simple] {
+        let Node::Product { factors, .. } = graph.node(form).clone() else { continue };
+        let found = factors.iter().find(|(inner, power)| {
+            let is_even = power.is_integer() && !power.has_odd_numerator();
+            let varies = graph.symbols_in(&[*inner]).iter().any(|symbol| !parameters.contains(symbol));
+            is_even && !power.is_negative() && varies && changes_sign(graph, *inner, facts)
+        });
+        if let Some((inner, power)) = found {
+            return Some((*inner, power.clone()));
+        }
+    }
+    let root = graph.square_factor(simple, parameters)?;
+    changes_sign(graph, root, facts).then_some((root, Rational::from(2)))
+}
+
+/// Whether both signs were seen at some points, within the facts.
+fn changes_sign(graph: &Graph, expression: ExprId, facts: &Facts) -> bool {
+    let range = graph.range(expression, facts);
+    !(range.low >= 0.0 || range.high <= 0.0) && graph.has_both_signs(expression)
+}
