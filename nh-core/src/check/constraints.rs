@@ -1,10 +1,11 @@
 //! The constraints: independent, and fewer than the sections. Linear, affine and nonlinear ones are
 //! told apart here.
 
+use super::assumptions::demand;
 use super::dependence::dependent_rows;
 use super::evidence::shown;
 use super::kinematics::Motion;
-use crate::algebra::{Facts, Graph, Matrix, NotLinear};
+use crate::algebra::{Demand, Facts, Graph, Matrix, NotLinear};
 use crate::geometry::{Algebroid, ConstraintDistribution, LinearConstraints, Manifold, Rank, RankSetting};
 use crate::id::{ConstraintId, ExprId, Id, Origin, SectionId, SymbolId};
 use crate::model::Model;
@@ -143,6 +144,9 @@ pub fn constraints(
     }
     let mut known = None;
     if linear.is_none() {
+        if let Some(violation) = without_real_point(model, algebroid, &residuals) {
+            return Err(vec![violation]);
+        }
         let manifold = constraint_manifold(model, algebroid, base, &residuals).map_err(|v| vec![v])?;
         let jacobian = fibre_jacobian(model, algebroid, &residuals);
         violations.extend(dependent_rows(model, &jacobian, None, &manifold));
@@ -230,6 +234,42 @@ fn constraint_manifold(
     }
 }
 
+/// A constraint that holds at no real point at which those before it do, for parameters as they are assumed.
+fn without_real_point(model: &mut Model, algebroid: &Algebroid, residuals: &[ExprId]) -> Option<Violation> {
+    let assumptions = model.assumptions.clone();
+    let graph = &mut model.graph;
+    let mut demands: Vec<(ExprId, Demand)> =
+        assumptions.iter().map(|assumption| demand(graph, assumption)).collect();
+    for (index, residual) in residuals.iter().enumerate() {
+        demands.push((*residual, Demand::Zero));
+        if graph.contradiction(&demands).is_none() {
+            continue;
+        }
+        let id = ConstraintId::from_index(index);
+        if index > 0
+            && let Some(violation) = contradiction(model, algebroid, residuals, id)
+        {
+            return Some(violation);
+        }
+        let what = match index {
+            0 => format!("{} holds nowhere: its two sides are never equal", name_of(model, id)),
+            _ => format!("{} contradicts the constraints before it", name_of(model, id)),
+        };
+        return Some(Violation {
+            law: Law::Independence,
+            origin: model.constraints[id].origin,
+            what,
+            evidence: format!(
+                "no real velocities satisfy {} = 0{}",
+                shown(&model.graph, *residual),
+                if index == 0 { "" } else { " together with those" }
+            ),
+            way_out: "change or leave out one of them".into(),
+        });
+    }
+    None
+}
+
 /// A constraint that holds nowhere that those before it do.
 fn contradiction(
     model: &mut Model,
@@ -241,7 +281,7 @@ fn contradiction(
     let earlier = Manifold::where_zero(graph, &residuals[..id.index()], &algebroid.velocities).ok()?;
     let left_over = earlier.restrict(graph, residuals[id.index()]);
     let left_over = graph.simplify(left_over);
-    graph.vanishes_nowhere(left_over, &Facts::default()).then(|| Violation {
+    graph.contradiction(&[(left_over, Demand::Zero)]).is_some().then(|| Violation {
         law: Law::Independence,
         origin: model.constraints[id].origin,
         what: format!("{} contradicts the constraints before it", name_of(model, id)),
@@ -277,7 +317,7 @@ fn shape(
             way_out: "leave it out".into(),
         });
     }
-    if graph.vanishes_nowhere(residual, &Facts::default()) {
+    if graph.contradiction(&[(residual, Demand::Zero)]).is_some() {
         return Err(Violation {
             law: Law::Constraint,
             origin,

@@ -2,7 +2,7 @@
 
 use super::evidence::{not_zero, shown};
 use super::kinematics::Motion;
-use crate::algebra::Verdict;
+use crate::algebra::{Demand, Verdict};
 use crate::geometry::Manifold;
 use crate::id::{ExprId, Id, SectionId, SymbolId};
 use crate::model::{Kinematics, Located, Model};
@@ -20,6 +20,9 @@ pub fn embedding(model: &mut Model, motion: &Motion) -> Result<Manifold, Vec<Vio
         identities.iter().filter_map(|identity| stranger(model, &coordinates, *identity)).collect();
     if !violations.is_empty() {
         return Err(violations);
+    }
+    if let Some(violation) = without_real_point(model, &identities) {
+        return Err(vec![violation]);
     }
     let functions: Vec<ExprId> = identities.iter().map(|identity| identity.value).collect();
     let base = Manifold::where_zero(&mut model.graph, &functions, &coordinates)
@@ -49,6 +52,25 @@ fn stranger(model: &Model, coordinates: &[SymbolId], identity: Located) -> Optio
     let stranger = found.into_iter().find(|symbol| !coordinates.contains(symbol))?;
     let name = &graph.symbols()[stranger];
     Some(blame(format!("this identity depends on `{name}`"), format!("`{name}` is not a base coordinate")))
+}
+
+/// An identity that holds at no real point at which those before it do.
+fn without_real_point(model: &Model, identities: &[Located]) -> Option<Violation> {
+    let demands: Vec<(ExprId, Demand)> =
+        identities.iter().map(|identity| (identity.value, Demand::Zero)).collect();
+    let count = (1..=demands.len()).find(|count| model.graph.contradiction(&demands[..*count]).is_some())?;
+    let identity = identities[count - 1];
+    let together = if count == 1 { "" } else { " together with the identities before it" };
+    Some(Violation {
+        law: Law::Embedding,
+        origin: identity.origin,
+        what: format!("this identity holds nowhere{together}"),
+        evidence: format!(
+            "no real coordinates satisfy {} = 0{together}",
+            shown(&model.graph, identity.value)
+        ),
+        way_out: "correct it, or leave it out".into(),
+    })
 }
 
 fn not_parametrised(model: &Model, identity: Located) -> Violation {

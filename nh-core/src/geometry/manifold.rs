@@ -37,13 +37,26 @@ impl Manifold {
         if let Some(rotations) = Self::rotations(graph, functions, unknowns) {
             return Ok(rotations);
         }
+        // a sphere takes all its coordinates; where others restrict these as well they come first
+        let orders = [[Ease::Sphere, Ease::Linear, Ease::Root], [Ease::Linear, Ease::Sphere, Ease::Root]];
+        let solved = Self::solved_in_order(graph, functions, unknowns, orders[0]);
+        solved
+            .or_else(|index| Self::solved_in_order(graph, functions, unknowns, orders[1]).map_err(|_| index))
+    }
+
+    /// The same, by the easiest ways first, so that no root gets into what could be solved without.
+    fn solved_in_order(
+        graph: &mut Graph,
+        functions: &[ExprId],
+        unknowns: &[SymbolId],
+        order: [Ease; 3],
+    ) -> Result<Self, usize> {
         let mut manifold = Self::default();
         let mut open: Vec<usize> = (0..functions.len()).collect();
-        // the easy ones first, so that no root gets into what could be solved without
         while !open.is_empty() {
             let restricted: Vec<(usize, ExprId)> =
                 open.iter().map(|index| (*index, manifold.restrict(graph, functions[*index]))).collect();
-            let solved = [Ease::Sphere, Ease::Linear, Ease::Root].into_iter().find_map(|ease| {
+            let solved = order.into_iter().find_map(|ease| {
                 restricted.iter().find_map(|(index, function)| {
                     let holds = graph.zero_test(*function) == Verdict::Zero;
                     (holds || manifold.solve(graph, *function, unknowns, ease)).then_some(*index)

@@ -1,0 +1,9 @@
+use nonholonomic::prelude::*;
+
+#[nonholonomic(
+    base { x }
+    lagrangian { m / 2 * der(x)^2 - ln(-exp(x)) }
+)]
+struct S { m: f64 }
+
+fn main() {}
