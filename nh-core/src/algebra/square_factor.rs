@@ -26,7 +26,10 @@ impl Graph {
             let (bb, ac) = (self.square(b), self.mul(second, c));
             let discriminant = self.linear_combination(&[(Rational::ONE, bb), ((-2).into(), ac)]);
             if !self.is_undefined(discriminant) && self.zero_test(discriminant).is_zero() {
-                return Some(self.simplify(first));
+                let factor = self.simplify(first);
+                let content = self.content(factor).recip().unwrap_or(Rational::ONE);
+                let (_, factor) = self.split_coefficient(factor);
+                return Some(self.scale(content, factor));
             }
         }
         let candidates: Vec<(Function, ExprId)> = self

@@ -1,6 +1,6 @@
 //! Regularity: the equations determine the accelerations (CLMM Theorem 3.12, (7.5)).
 
-use super::evidence::listed;
+use super::evidence::{listed, shown};
 use crate::algebra::{Echelon, Facts, FieldPoint, Graph, Matrix, Node, Range, Residue, sample};
 use crate::geometry::Manifold;
 use crate::id::{ExprId, SymbolId};
@@ -82,7 +82,15 @@ fn judge(
     let rows = graph.matrix_in_field(matrix, |seed| FieldPoint::random(9_000 + seed));
     let echelon = rows.ok().map(Echelon::of).filter(|echelon| echelon.rank() == rank);
     let kernel = echelon.and_then(|echelon| echelon.kernel_vector(size));
-    let evidence = kernel.map_or_else(String::new, |vector| evidence(&vector));
+    let hidden = matrix
+        .iter()
+        .flatten()
+        .find(|entry| !graph.is_literal_zero(**entry) && graph.zero_test(**entry).is_zero());
+    let evidence = match (kernel, hidden) {
+        (Some(vector), _) => evidence(&vector),
+        (None, Some(entry)) => format!("{} is 0", shown(graph, *entry)),
+        (None, None) => String::new(),
+    };
     Some(Violation {
         law: Law::Regularity,
         origin,
