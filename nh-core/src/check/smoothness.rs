@@ -60,7 +60,7 @@ fn edge(
                         return Some((
                             format!("`{}`", shown(graph, whole)),
                             format!(
-                                "it contains abs({inner}){as_power}, which is not smooth where {inner} = 0"
+                                "it is abs({inner}){as_power} up to a factor: not smooth where {inner} = 0"
                             ),
                         ));
                     }
