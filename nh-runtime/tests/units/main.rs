@@ -26,6 +26,7 @@ mod events;
 mod methods;
 mod not_yet;
 mod problems;
+mod quotients;
 mod record;
 mod scaled;
 mod series;
