@@ -31,7 +31,7 @@ pub(super) fn derive(
     if let Some(level) = proved.levels.first() {
         return Err(blame(format!("`routh` puts the momentum of `{}` on a level", level.name)));
     }
-    let reduced = Reduced::of(proved, distribution).map_err(|reason| blame(reason.into()))?;
+    let reduced = Reduced::of(proved, distribution).map_err(&blame)?;
     let Some(found) = reduced.chaplygin(proved) else {
         let Splitting { horizontal, coordinates, .. } = &reduced.splitting;
         let (shared, m) = (reduced.splitting.shared(), coordinates.len());

@@ -24,12 +24,12 @@ pub(super) fn derive(
     found: &mut Functions,
 ) -> Result<(), Vec<Violation>> {
     let Some(origin) = asked(&proved.model, Request::Splitting) else { return Ok(()) };
-    let blame = |evidence: &str, way_out: &str| {
+    let blame = |evidence: String, way_out: &str| {
         vec![Violation {
             law: Law::Symmetry,
             origin,
             what: "D is not split by symmetries".into(),
-            evidence: evidence.into(),
+            evidence,
             way_out: way_out.into(),
         }]
     };
@@ -49,7 +49,7 @@ pub(super) fn derive(
         NonholonomicConnection::of(&mut proved.model.graph, system, basis, &reduced.splitting, &facts)
     else {
         return Err(blame(
-            "its sections could not be solved for",
+            "its sections could not be solved for".into(),
             "choose other velocities by `independent`",
         ));
     };

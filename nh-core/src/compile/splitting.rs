@@ -8,7 +8,7 @@ use crate::geometry::{
     constant_along,
 };
 use crate::id::{CoordId, ExprId, Id, SectionId, SymbolId};
-use crate::mechanics::{Chaplygin, LagrangianSystem, Splitting, translation};
+use crate::mechanics::{Chaplygin, LagrangianSystem, NotSplit, Splitting, translation};
 use crate::model::Model;
 
 /// A system as its reduction by symmetries sees it.
@@ -36,7 +36,7 @@ impl Reduced {
     pub(crate) fn of(
         proved: &mut Proved,
         distribution: Option<&ConstraintDistribution>,
-    ) -> Result<Self, &'static str> {
+    ) -> Result<Self, String> {
         let velocities = proved.system.algebroid.velocities.clone();
         let distribution = match distribution {
             Some(distribution) => distribution.clone(),
@@ -49,28 +49,26 @@ impl Reduced {
         let offset = distribution.offset.iter().all(|entry| graph.zero_test(*entry).is_zero());
         let entries: Vec<ExprId> = distribution.basis.iter().flatten().copied().collect();
         if !offset || graph.symbols_in(&entries).contains(&proved.system.time) {
-            return Err("its constraints are affine or depend on the time");
+            return Err("its constraints are affine or depend on the time".into());
         }
-        // the group: declared sections with the cyclic coordinates that these move, else with all
+        // the group: declared sections with the cyclic coordinates that these move, else all cyclic coordinates
         let sections = declared(proved, |_| true);
-        let declared = moved(&mut proved.model.graph, &proved.system.algebroid.anchor, &sections);
-        for all in [false, true] {
-            let generators = with_translations(proved, &sections, |id| all || declared.contains(&id));
-            if let Some(reduced) = in_invariant_frame(proved, &distribution, &generators) {
-                return Ok(reduced);
-            }
+        let moving = moved(&mut proved.model.graph, &proved.system.algebroid.anchor, &sections);
+        let is_cyclic = |id: &CoordId| proved.symmetries.cyclic.contains(id);
+        let translations = moving.iter().all(is_cyclic);
+        let group = if sections.is_empty() { proved.symmetries.cyclic.clone() } else { moving.clone() };
+        let anchor =
+            proved.base.restrict_matrix(&mut proved.model.graph, &proved.system.algebroid.anchor.entries);
+        let is_injective = proved.model.graph.generic_rank(&anchor)? == velocities.len();
+        if is_injective && !translations {
+            let generators = with_translations(proved, &sections, |id| moving.contains(&id));
+            return in_invariant_frame(proved, &distribution, &generators).map_err(|why| {
+                format!("no frame of sections that commute with the declared symmetries: {why}")
+            });
         }
-        let cyclic = &proved.symmetries.cyclic;
-        let translations = !declared.is_empty() && declared.iter().all(|id| cyclic.contains(id));
-        let group = if translations { declared } else { cyclic.clone() };
-        let none = if proved.model.symmetries.is_empty() {
-            "the kernel of the anchor is 0 and no coordinate is cyclic"
-        } else {
-            "the kernel of the anchor is 0, no coordinate is cyclic, and there is no frame of sections that commute \
-             with declared symmetries of L and D"
-        };
         let splitting =
-            Splitting::of(&mut proved.model.graph, &proved.system, &distribution, &group).ok_or(none)?;
+            Splitting::of(&mut proved.model.graph, &proved.system, &distribution, &group, &proved.base)
+                .map_err(|why| not_split(proved, why))?;
         let names = proved.model.sections.iter().map(|section| section.name.clone()).collect();
         Ok(Self { system: proved.system.clone(), distribution, splitting, frame: None, names })
     }
@@ -100,6 +98,24 @@ impl Reduced {
         let images = graph.image(&frame.change.velocities, &velocity);
         let symbols = self.system.algebroid.velocities.iter().copied();
         Substitution::new(symbols.zip(images)).apply(graph, function)
+    }
+}
+
+/// Why D is not split.
+fn not_split(proved: &Proved, why: NotSplit) -> String {
+    match why {
+        NotSplit::NothingVertical if proved.model.symmetries.is_empty() => {
+            "the kernel of the anchor is 0 and no coordinate is cyclic".into()
+        }
+        NotSplit::NothingVertical => {
+            "the kernel of the anchor is 0, no coordinate is cyclic, and no declared section leaves L and D invariant"
+                .into()
+        }
+        NotSplit::NotOnto { rank, dimension } => format!(
+            "the anchor is not onto: over coordinates of {dimension} dimensions its rank is {rank}, so that what moves \
+             is a leaf of the base"
+        ),
+        NotSplit::Undecided => "the rank of the anchor could not be decided".into(),
     }
 }
 
@@ -146,24 +162,34 @@ pub(crate) fn moved(graph: &mut Graph, anchor: &Anchor, generators: &[Vec<ExprId
 }
 
 /// The reduction by declared symmetries, where these move more than cyclic coordinates.
+///
+/// # Errors
+/// Why there is none.
 fn in_invariant_frame(
     proved: &mut Proved,
     distribution: &ConstraintDistribution,
     generators: &[Vec<ExprId>],
-) -> Option<Reduced> {
-    if generators.is_empty() || !proved.system.forces_on_distribution.is_empty() {
-        return None;
+) -> Result<Reduced, String> {
+    if !proved.system.forces_on_distribution.is_empty() {
+        return Err("the forces along spanning sections are known on D alone".into());
     }
     let algebroid = proved.system.algebroid.clone();
     let graph = &mut proved.model.graph;
     let group = moved(graph, &algebroid.anchor, generators);
-    if group.iter().all(|id| proved.symmetries.cyclic.contains(id))
-        || graph.generic_rank(&algebroid.anchor.entries) != Ok(algebroid.rank())
-    {
-        return None;
+    let coordinates = &algebroid.anchor.coordinates;
+    let symbols: Vec<SymbolId> = group.iter().map(|id| coordinates[id.index()]).collect();
+    let left: Vec<SymbolId> =
+        coordinates.iter().copied().filter(|symbol| !symbols.contains(symbol)).collect();
+    let across = proved.base.dimension_of(graph, coordinates)? - proved.base.dimension_of(graph, &left)?;
+    let directions = proved.base.independent_rows(graph, generators)?.len();
+    if across != directions {
+        let moved: Vec<String> = symbols.iter().map(|symbol| graph.symbols()[*symbol].clone()).collect();
+        return Err(format!(
+            "their orbits have dimension {directions}, and they move {}: take coordinates of which they move no more",
+            moved.join(", ")
+        ));
     }
     // 1. the frame
-    let symbols: Vec<SymbolId> = group.iter().map(|id| algebroid.anchor.coordinates[id.index()]).collect();
     let hints: Vec<ExprId> = distribution
         .constraints
         .annihilator
@@ -172,31 +198,30 @@ fn in_invariant_frame(
         .copied()
         .chain([proved.system.lagrangian])
         .collect();
-    let frame = InvariantFrame::of(graph, &algebroid, &proved.base, generators, &symbols, &hints).ok()?;
+    let frame = InvariantFrame::of(graph, &algebroid, &proved.base, generators, &symbols, &hints)?;
     let names = frame_names(&proved.model, &frame);
     // 2. everything in it
     let system = in_frame(proved, &frame, &names, &group)?;
     let constraints = annihilator(&mut proved.model.graph, &distribution.constraints.annihilator, &frame);
     // 3. D and its splitting
-    let distribution = invariant_basis(proved, constraints, &system.algebroid.velocities, &symbols)?;
-    let splitting = Splitting::of(&mut proved.model.graph, &system, &distribution, &group)?;
-    (splitting.vertical <= generators.len()).then_some(Reduced {
-        system,
-        distribution,
-        splitting,
-        frame: Some(frame),
-        names,
-    })
+    let distribution = invariant_basis(proved, constraints, &system.algebroid.velocities, &symbols)
+        .ok_or("in it no basis of D without the coordinates that they move was found")?;
+    let Proved { model, base, .. } = &mut *proved;
+    let splitting = Splitting::of(&mut model.graph, &system, &distribution, &group, base)
+        .map_err(|why| not_split(proved, why))?;
+    Ok(Reduced { system, distribution, splitting, frame: Some(frame), names })
 }
 
-/// The system in the frame, without the coordinates along the group; `None` where something depends on
-/// them.
+/// The system in the frame, without the coordinates along the group.
+///
+/// # Errors
+/// What depends on them.
 fn in_frame(
     proved: &mut Proved,
     frame: &InvariantFrame,
     names: &[String],
     group: &[CoordId],
-) -> Option<LagrangianSystem> {
+) -> Result<LagrangianSystem, String> {
     let (graph, algebroid) = (&mut proved.model.graph, &proved.system.algebroid);
     let symbols: Vec<SymbolId> = group.iter().map(|id| algebroid.anchor.coordinates[id.index()]).collect();
     let velocities = names.iter().map(|name| graph.new_symbol(name.clone())).collect();
@@ -205,11 +230,15 @@ fn in_frame(
     let old = frame.change.old_velocity(graph, &velocity);
     let mut in_frame = Substitution::new(algebroid.velocities.iter().copied().zip(old));
     let lagrangian = in_frame.apply(graph, proved.system.lagrangian);
-    let lagrangian = constant_along(graph, &proved.base, lagrangian, &symbols).ok()?;
-    let mut broken = false;
+    let depends = |what: &str, along: SymbolId, graph: &Graph| {
+        format!("in it {what} depends on `{}`, which they move", graph.symbols()[along])
+    };
+    let lagrangian = constant_along(graph, &proved.base, lagrangian, &symbols)
+        .map_err(|varies| depends("the Lagrangian", varies.along, graph))?;
+    let mut broken = None;
     let mut free = |entry: ExprId| {
-        constant_along(graph, &proved.base, entry, &symbols).unwrap_or_else(|_| {
-            broken = true;
+        constant_along(graph, &proved.base, entry, &symbols).unwrap_or_else(|varies| {
+            broken = Some(varies.along);
             entry
         })
     };
@@ -224,15 +253,15 @@ fn in_frame(
             row.iter().map(|entry| if along_group { *entry } else { free(*entry) }).collect()
         })
         .collect();
-    if broken {
-        return None;
+    if let Some(along) = broken {
+        return Err(depends("a bracket or the anchor", along, graph));
     }
     let forces = graph.image(&Graph::transposed(&frame.change.sections), &proved.system.forces);
     let forces = in_frame.apply_all(graph, &forces);
     let anchor = Anchor { entries, ..new.anchor };
     let algebroid = Algebroid { anchor, structure, velocities: new.velocities };
     let forces_on_distribution = Vec::new();
-    Some(LagrangianSystem { algebroid, lagrangian, forces, forces_on_distribution, time: proved.system.time })
+    Ok(LagrangianSystem { algebroid, lagrangian, forces, forces_on_distribution, time: proved.system.time })
 }
 
 /// The constraints in the frame; they have no drift.

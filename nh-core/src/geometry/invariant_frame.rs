@@ -3,7 +3,7 @@
 //!
 //! Sections of the basis that commute with the generators ξ_a are kept. The rest is made of vertical
 //! ones, A^a ξ_a with ξ_b(A^a) + C^a_{bc} A^c = 0, where [ξ_b, ξ_c] = C^a_{bc} ξ_a; the A^a are sought
-//! as polynomials in the coordinates along the group, their sines and their cosines.
+//! as polynomials in the coordinates along the group, their sines and cosines, and their exponentials.
 
 use super::algebroid::Algebroid;
 use super::change_of_basis::ChangeOfBasis;
@@ -190,12 +190,13 @@ fn vertical(
             return Ok(found[beside.len()..].to_vec());
         }
     }
-    Err("no invariant sections were found among polynomials in the coordinates along the group, their sines and \
-         their cosines"
+    Err("no invariant sections were found among polynomials in the coordinates along the group, their sines, \
+         cosines and exponentials"
         .into())
 }
 
-/// For each coordinate its sines and cosines where such occur, of the multiples that occur, else itself.
+/// For each coordinate its sines and cosines where such occur, of the multiples that occur, and the exponentials
+/// of these and of their halves and opposites; else itself.
 fn factors(graph: &mut Graph, group: &[SymbolId], hints: &[ExprId]) -> Vec<Vec<ExprId>> {
     let angles: Vec<ExprId> = graph
         .reachable(hints)
@@ -227,8 +228,41 @@ fn factors(graph: &mut Graph, group: &[SymbolId], hints: &[ExprId]) -> Vec<Vec<E
         for angle in &multiples {
             choices.extend([graph.cos(*angle), graph.sin(*angle)]);
         }
+        choices.extend(exponentials(graph, *symbol, hints));
         found.push(if choices.is_empty() { vec![coordinate] } else { choices });
     }
+    found
+}
+
+/// e^{κx} for a coordinate x and each κ of which e^{κx} or e^{2κx} occurs, up to the sign: a metric has the
+/// squares of the lengths.
+fn exponentials(graph: &mut Graph, symbol: SymbolId, hints: &[ExprId]) -> Vec<ExprId> {
+    let exponents: Vec<ExprId> = graph
+        .reachable(hints)
+        .into_iter()
+        .filter_map(|id| match graph.node(id) {
+            Node::Apply(Function::Exp, exponent) => Some(*exponent),
+            _ => None,
+        })
+        .collect();
+    let coordinate = graph.symbol(symbol);
+    let mut found = Vec::new();
+    for exponent in exponents {
+        let rate = graph.partial(exponent, symbol);
+        if graph.value_of(rate).is_none_or(Rational::is_zero) {
+            continue;
+        }
+        for scale in [(1, 1), (-1, 1), (1, 2), (-1, 2)].map(|(n, d)| Rational::new(n, d)) {
+            let multiple = graph.mul(rate, coordinate);
+            let multiple = graph.scale(scale, multiple);
+            found.push(graph.apply(Function::Exp, multiple));
+        }
+    }
+    if !found.is_empty() {
+        found.push(coordinate);
+    }
+    found.sort_unstable();
+    found.dedup();
     found
 }
 

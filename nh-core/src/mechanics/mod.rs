@@ -50,7 +50,7 @@ pub use moving_energy::moving_energy_section;
 pub use nonholonomic_connection::NonholonomicConnection;
 pub use procedure::{Definition, Procedure};
 pub use projected::{SaddleEquations, saddle_equations};
-pub use splitting::{Chaplygin, Splitting};
+pub use splitting::{Chaplygin, NotSplit, Splitting};
 pub use symmetric_solve::{Definiteness, solve_symmetric, uncoupled};
 pub use velocity_forms::{
     equations_by_partial_velocities, equations_by_velocity_forms, equations_in_wheel_frames,

@@ -3,8 +3,8 @@
 
 use super::euler_lagrange::LagrangianSystem;
 use super::kinetic_metric::kinetic_metric;
-use super::splitting::{Splitting, along, rows};
-use crate::algebra::{Facts, Graph, Matrix, Node};
+use super::splitting::{Splitting, along, left_inverse, rows};
+use crate::algebra::{Facts, Graph, Matrix, Node, Rational};
 use crate::geometry::{Algebroid, ConstraintDistribution};
 use crate::id::{CoordId, ExprId, SymbolId};
 
@@ -17,7 +17,8 @@ pub struct NonholonomicConnection {
     pub named: Vec<SymbolId>,
     /// The coordinates of the h_κ: all of them where D + V = E, else as many as ρ(D) determines.
     pub coordinates: Vec<CoordId>,
-    /// h_κ in D with ẋ^λ = δ^λ_κ for these coordinates, orthogonal to S in the kinetic metric.
+    /// h_κ in D with ẋ^λ = δ^λ_κ for these coordinates, orthogonal to S in the kinetic metric; where they are
+    /// embedded, over the part of ∂/∂x^κ that is tangent to ρ(D), so that y = h_κ ẋ^κ + S_ρ v^ρ as ever.
     pub lifts: Matrix,
     /// The locked inertia ⟨S_ρ, S_σ⟩, where there is a kinetic metric on the base; without entries where S = 0.
     pub inertia: Option<Matrix>,
@@ -38,17 +39,27 @@ impl NonholonomicConnection {
         // 1. R, the rates of independent coordinates in D
         let anchor = rows(&system.algebroid.anchor.entries, &splitting.coordinates);
         let field = along(graph, &anchor, distribution);
-        let columns = Graph::transposed(&field);
-        let chosen = independent_rows(graph, &field, &columns, &splitting.lifted)?;
-        let rates: Matrix = chosen.iter().map(|row| field[*row].clone()).collect();
-        let coordinates = chosen.iter().map(|row| splitting.coordinates[*row]).collect();
+        let independent: Matrix = splitting.chosen.iter().map(|row| field[*row].clone()).collect();
+        // the rates of embedded coordinates are not independent, and none is left out
+        let (rates, coordinates) = if splitting.embedded {
+            (field, splitting.coordinates.clone())
+        } else {
+            let chosen = splitting.chosen.iter().map(|row| splitting.coordinates[*row]);
+            (independent.clone(), chosen.collect())
+        };
         // 2. S, with R S = 0
         let free: Vec<usize> = (0..splitting.rank).filter(|a| !splitting.lifted.contains(a)).collect();
-        let (inside, scales) = kernel(graph, &rates, &splitting.lifted, &free, facts)?;
+        let base = &system.algebroid.anchor.coordinates;
+        let (inside, scales) = kernel(graph, &independent, &splitting.lifted, &free, base, facts)?;
         // 3. the lifts: where S = 0 there is nothing for them to be orthogonal to
         let sections = distribution.sections();
         let metric = if inside.is_empty() { Some(Matrix::new()) } else { metric(graph, system, &sections) };
         let lifts = match &metric {
+            Some(metric) if splitting.embedded => {
+                let lifts = left_inverse(graph, &rates, &inside)?;
+                without_vertical(graph, metric, &inside, Graph::transposed(&lifts))?
+            }
+            None if splitting.embedded => Graph::transposed(&left_inverse(graph, &rates, &inside)?),
             Some(metric) if !inside.is_empty() => orthogonal(graph, metric, &rates)?,
             _ => along_pivots(graph, &rates, &splitting.lifted)?,
         };
@@ -124,20 +135,6 @@ impl NonholonomicConnection {
     }
 }
 
-/// Coordinates whose rates determine all of ρ(D), those of constant rates first, ascending.
-fn independent_rows(graph: &Graph, field: &Matrix, columns: &Matrix, lifted: &[usize]) -> Option<Vec<usize>> {
-    if lifted.is_empty() {
-        return Some(Vec::new());
-    }
-    let mut order: Vec<usize> = (0..field.len()).collect();
-    order.sort_by_key(|row| field[*row].iter().filter(|entry| graph.as_number(**entry).is_none()).count());
-    let along: Matrix = lifted.iter().map(|a| order.iter().map(|row| columns[*a][*row]).collect()).collect();
-    let independent = graph.independent_columns(&along).ok()?;
-    let mut chosen: Vec<usize> = independent.into_iter().map(|place| order[place]).collect();
-    chosen.sort_unstable();
-    Some(chosen)
-}
-
 fn simplified_bracket(
     graph: &mut Graph,
     algebroid: &Algebroid,
@@ -155,19 +152,20 @@ fn kernel(
     rates: &Matrix,
     pivots: &[usize],
     free: &[usize],
+    coordinates: &[SymbolId],
     facts: &Facts,
 ) -> Option<(Matrix, Vec<ExprId>)> {
     let rank = pivots.len() + free.len();
     let (zero, one) = (graph.zero(), graph.one());
     let pick =
         |set: &[usize]| -> Matrix { rates.iter().map(|row| set.iter().map(|a| row[*a]).collect()).collect() };
-    let (mut scale, mut solved) = (one, Matrix::new());
+    let (mut whole, mut solved) = (one, Matrix::new());
     if !pivots.is_empty() && !free.is_empty() {
         let solution = graph.solve_linear(&pick(pivots), &pick(free))?;
         for divisor in solution.divisors {
             let divisor = graph.simplify(divisor);
             if !graph.vanishes_nowhere(divisor, facts) {
-                scale = graph.mul(scale, divisor);
+                whole = graph.mul(whole, divisor);
             }
         }
         solved = solution.values;
@@ -175,7 +173,17 @@ fn kernel(
     let (mut found, mut scales) = (Matrix::new(), Vec::new());
     for (f, a) in free.iter().enumerate() {
         let column: Vec<ExprId> = solved.iter().map(|row| graph.simplify(row[f])).collect();
-        let scale = if column.iter().any(|entry| has_pole(graph, *entry, facts)) { scale } else { one };
+        // no more than the common denominator: the section shall vanish nowhere that it need not
+        let least = common_denominator(graph, &column, facts);
+        let excess = graph.div(whole, least);
+        let excess = graph.simplify(excess);
+        let clears = graph.depends_on(excess, coordinates)
+            && column.iter().all(|entry| {
+                let product = graph.mul(least, *entry);
+                let product = graph.simplify(product);
+                !has_pole(graph, product, facts)
+            });
+        let scale = if clears { least } else { whole };
         let mut section = vec![zero; rank];
         section[*a] = scale;
         for (entry, p) in column.into_iter().zip(pivots) {
@@ -187,6 +195,29 @@ fn kernel(
         scales.push(scale);
     }
     Some((found, scales))
+}
+
+/// The product of what the expressions are divided by and may vanish, each factor in its highest power.
+fn common_denominator(graph: &mut Graph, expressions: &[ExprId], facts: &Facts) -> ExprId {
+    let mut found: Vec<(ExprId, Rational)> = Vec::new();
+    for expression in expressions {
+        let terms = graph.as_linear(*expression).1;
+        for (term, _) in terms {
+            let Node::Product { factors, .. } = graph.node(term) else { continue };
+            for (base, exponent) in factors.iter().filter(|(_, exponent)| exponent.is_negative()) {
+                if graph.vanishes_nowhere(*base, facts) {
+                    continue;
+                }
+                let power = -exponent.clone();
+                match found.iter_mut().find(|(known, _)| known == base) {
+                    Some((_, most)) if *most < power => *most = power,
+                    Some(_) => {}
+                    None => found.push((*base, power)),
+                }
+            }
+        }
+    }
+    graph.product(&found)
 }
 
 /// Whether it divides by something that may vanish.
@@ -236,6 +267,38 @@ fn orthogonal(graph: &mut Graph, metric: &Matrix, rates: &Matrix) -> Option<Matr
         lifts.push(lift);
     }
     Some(lifts)
+}
+
+/// The lifts less their part along S in the kinetic metric, S (SᵀCS)⁻¹ SᵀC h.
+fn without_vertical(graph: &mut Graph, metric: &Matrix, inside: &Matrix, lifts: Matrix) -> Option<Matrix> {
+    let mut momenta = Matrix::new();
+    for section in inside {
+        momenta.push(graph.image(metric, section));
+    }
+    let mut inertia = Matrix::new();
+    for momentum in &momenta {
+        let row = graph.image(inside, momentum);
+        inertia.push(row.into_iter().map(|entry| graph.simplify(entry)).collect());
+    }
+    let mut found = Matrix::new();
+    for lift in lifts {
+        let right: Matrix =
+            momenta.iter().map(|momentum| vec![graph.inner_product(momentum, &lift)]).collect();
+        let along: Vec<ExprId> = if inside.is_empty() {
+            Vec::new()
+        } else {
+            graph.solve_linear(&inertia, &right)?.values.into_iter().map(|row| row[0]).collect()
+        };
+        let mut rest = Vec::new();
+        for (a, component) in lift.into_iter().enumerate() {
+            let column: Vec<ExprId> = inside.iter().map(|section| section[a]).collect();
+            let share = graph.inner_product(&column, &along);
+            let component = graph.sub(component, share);
+            rest.push(graph.simplify(component));
+        }
+        found.push(rest);
+    }
+    Some(found)
 }
 
 /// The lifts along the pivots alone, R_p⁻¹.

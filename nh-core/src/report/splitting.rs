@@ -1,9 +1,11 @@
 //! What reduction theory calls a system, and the quantities that it names.
 
 use super::{Derived, combination, shown};
+use crate::algebra::{Graph, Matrix};
 use crate::check::evidence::places;
 use crate::check::singular_where;
 use crate::compile::{Proved, Reduced};
+use crate::geometry::{ConstraintDistribution, Manifold};
 use crate::geometry::{Drops, RankSetting};
 use crate::id::{ExprId, SymbolId};
 use crate::mechanics::{NonholonomicConnection, Splitting};
@@ -49,6 +51,9 @@ fn not_onto(proved: &mut Proved, reduced: &Reduced) -> Vec<ExprId> {
             return found;
         }
     }
+    if splitting.coordinates.len() != splitting.rank {
+        return not_onto_embedded(proved, reduced);
+    }
     let projection = splitting.projection(&mut model.graph, system, distribution);
     singular_where(&mut model.graph, &projection, &parameters, facts)
 }
@@ -69,6 +74,33 @@ fn more_shared(proved: &mut Proved, reduced: &Reduced) -> String {
     }
 }
 
+/// The same over an embedded base, where V has sections of its own, as γ for the anchor γ × ω.
+fn not_onto_embedded(proved: &mut Proved, reduced: &Reduced) -> Vec<ExprId> {
+    let Proved { model, facts, base, .. } = proved;
+    let parameters: Vec<SymbolId> = model.parameters.iter().map(|parameter| parameter.symbol).collect();
+    let Reduced { system, distribution, .. } = reduced;
+    let graph = &mut model.graph;
+    let whole = ConstraintDistribution::unconstrained(graph, &system.algebroid.velocities);
+    let Ok(splitting) = Splitting::of(graph, system, &whole, &[], base) else { return Vec::new() };
+    let Some(vertical) = NonholonomicConnection::of(graph, system, &whole, &splitting, facts) else {
+        return Vec::new();
+    };
+    let rows = &distribution.constraints.annihilator;
+    let on_vertical: Matrix = vertical.vertical.iter().map(|section| graph.image(rows, section)).collect();
+    let mut found = singular_where(graph, &on_vertical, &parameters, facts);
+    found.retain(|factor| !is_constant_on(graph, base, *factor));
+    found
+}
+
+/// Whether a function has one value on the base, as |γ|² on the sphere.
+fn is_constant_on(graph: &mut Graph, base: &Manifold, function: ExprId) -> bool {
+    let restricted = base.restrict(graph, function);
+    graph.symbols_in(&[restricted]).into_iter().all(|symbol| {
+        let slope = graph.partial(restricted, symbol);
+        graph.zero_test(slope).is_zero()
+    })
+}
+
 fn name(
     proved: &Proved,
     splitting: &Splitting,
@@ -81,7 +113,7 @@ fn name(
         splitting.coordinates.iter().map(|id| proved.model.coordinates[*id].name.as_str()).collect();
     let coordinates = coordinates.join(", ");
     let Splitting { vertical, horizontal, .. } = splitting;
-    let (shared, m) = (splitting.shared(), splitting.coordinates.len());
+    let (shared, m) = (splitting.shared(), splitting.dimension);
     let v = if splitting.by_group { "V along the group" } else { "V = ker ρ" };
     let name = if is_free {
         format!("Lagrange–Poincaré, with momentum equations of rank {vertical}")
@@ -104,7 +136,9 @@ fn name(
         };
         format!("Lagrange–d'Alembert–Poincaré: S = D ∩ V, {v}, has rank {shared}{more}; {assumption}")
     };
+    let declared = proved.symmetries.declared.iter().any(|symmetry| symmetry.keeps_constraints);
     let group = match (splitting.by_group, in_frame) {
+        (false, _) if declared => "; the declared symmetries are left aside",
         (false, _) => "",
         (true, false) => "; the group: translations along the cyclic coordinates",
         (true, true) => {
