@@ -17,7 +17,8 @@ use crate::{Dynamics, IntegrationError, Real, Scalar, ScalarOf, State, Statistic
 /// The length of the next step follows from the errors of the last ones by the law of its
 /// [`Controller`]. A step with an error beyond the tolerance is rejected and repeated with a shorter one,
 /// and the step after that does not grow. A step is stretched by up to 1 % or shortened to land on a
-/// target, and what a target has cut short does not shorten the steps after it.
+/// target, and what a target has cut short does not shorten the steps after it. The first step goes by the time over
+/// which the solution varies; at rest, by a millionth of the distance to the target, of the longest step or of the time.
 ///
 /// Named by its methods: [`Bs23`](crate::Bs23), [`Dopri5`](crate::Dopri5), ….
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -43,8 +44,9 @@ impl<P, T: Real> Adaptive<P, T> {
         self
     }
 
-    /// The absolute tolerance, in the units of the state; as `rtol` if not given. A component's
-    /// permitted error is the absolute plus the relative one.
+    /// The absolute tolerance, in the units of the state. A component's permitted error is the absolute plus the
+    /// relative one. As `rtol` if not given: the one number that takes the units as they come. Give it where they
+    /// are not of ordinary size.
     #[must_use]
     pub fn atol(mut self, atol: T) -> Self {
         self.tolerance.atol = Some(atol);

@@ -16,9 +16,9 @@ const UNGUIDED: f64 = 1e-6;
 /// The length of the very first step, in the manner of Hairer, Nørsett, Wanner I, section II.4, "Starting Step
 /// Size", but by ratios alone.
 ///
-/// With sizes in units of the tolerance, the solution d₀ (at least 1: less is negligible), its slope d₁ and its second
-/// derivative d₂, estimated over an Euler step that changes the solution by 1 %, it varies over the time
-/// T = min(d₀/d₁, √(d₀/d₂)), and an error d₀ (h/T)^q of 0.01 is aimed at.
+/// Mathematics (30): with sizes in units of the tolerance, the solution d₀ (at least 1: less is negligible), its slope
+/// d₁ and its second derivative d₂, estimated over an Euler step that changes the solution by 1 %, it varies over the
+/// time T = min(d₀/d₁, √(d₀/d₂)), and an error d₀ (h/T)^q of 0.01 is aimed at.
 #[cold]
 pub(super) fn first_length<S: Dynamics>(
     (start, first): (&Start<'_, S>, &VecOf<S>),

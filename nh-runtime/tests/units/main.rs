@@ -2,7 +2,7 @@
 //!
 //! A motion x(t) of ẋ = F(t, x), measured in other units, is σ x(t/τ), a motion of
 //!
-//! F̃(t, x) = (σ/τ) F(t/τ, x/σ).
+//! F̃(t, x) = (σ/τ) F(t/τ, x/σ)                                                          (29)
 //!
 //! With start, steps, limits, tolerances, covariances and weights in these units, a method has to take the same
 //! decisions (steps, rejections, evaluations) and to give the same numbers in them, bit for bit, where σ and τ
@@ -68,7 +68,7 @@ pub(crate) struct Change {
 
 /// The changes of units that every method is tried with; odd powers show roots of what has a dimension.
 pub(crate) fn changes(far: bool) -> Vec<Change> {
-    let powers: &[i32] = if far { &[-300, -101, -31, 2, 31, 101, 300] } else { &[-21, -7, 2, 7, 21] };
+    let powers: &[i32] = if far { &[-300, -31, 101, 300] } else { &[-21, -7, 2, 21] };
     let mut all = Vec::new();
     for &power in powers {
         all.push(Change { part: Part::Time, time: power, state: [0; 4], other: 0 });
