@@ -13,7 +13,8 @@ use crate::{IntegrationError, Real};
 ///
 /// The default is the PI control of Gustafsson as in the code DOPRI5, `β₁/q = 1/q − 0.03`,
 /// `β₂/q = −0.04`, with the safety factor 0.9 and the factors 0.2 … 10 (Hairer, Nørsett, Wanner, Solving
-/// Ordinary Differential Equations I, II.4; II, IV.2).
+/// Ordinary Differential Equations I, II.4; II, IV.2). [`Radau5`](crate::Radau5) has
+/// [predictive control](Self::predictive) if it is given none.
 ///
 /// ```
 /// use nonholonomic::{Controller, Dopri5};
@@ -41,15 +42,25 @@ enum Law<T> {
     Gustafsson(T),
     /// Multiples of 1/q.
     Filter([T; 3]),
+    /// The shorter one of what the error and its trend propose.
+    Predictive,
 }
 
-/// The logarithms of the errors of the last two steps, newest first.
-pub(crate) type Errors<T> = [T; 2];
+/// What control remembers of the steps before.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Past<T> {
+    /// The logarithms of the errors of the last two, newest first.
+    errors: [T; 2],
+    /// The length of the last one.
+    length: Option<T>,
+}
 
 /// The share of its length that a rejected step keeps at most.
 const AFTER_REJECTION: f64 = 0.9;
 /// A preceding error is taken to be at least 10⁻⁴, whose logarithm this is.
 const LEAST_LOG_ERROR: f64 = -9.210_340_371_976_182;
+/// A trend begins at an error of 10⁻² at least, whose logarithm this is.
+const LEAST_LOG_ERROR_OF_TREND: f64 = -4.605_170_185_988_091;
 
 impl<T: Real> Default for Controller<T> {
     fn default() -> Self {
@@ -86,6 +97,15 @@ impl<T: Real> Controller<T> {
         Self::new(Law::Filter(beta))
     }
 
+    /// The predictive control of Gustafsson, as in the code RADAU5: the shorter one of the lengths that integral
+    /// control proposes and h ← h · safety · (h/h′) (aim ε′/ε²)^(1/q), in which the error goes on changing as it
+    /// did over the last step, of length h′. For stiff systems, whose errors grow by orders of magnitude
+    /// from step to step (Hairer, Wanner, Solving Ordinary Differential Equations II, eq. (IV.8.25)).
+    #[must_use]
+    pub fn predictive() -> Self {
+        Self::new(Law::Predictive)
+    }
+
     /// The share of the predicted length that is taken, above 0 and at most 1; 0.9 if not given.
     #[must_use]
     pub fn safety(mut self, safety: T) -> Self {
@@ -118,6 +138,7 @@ impl<T: Real> Controller<T> {
         let gain = match self.law {
             Law::Gustafsson(beta) => beta,
             Law::Filter([first, second, third]) => first + second + third,
+            Law::Predictive => T::ONE,
         };
         let (law_holds, expected) = match self.law {
             Law::Gustafsson(_) => ((T::ZERO..=T::from_f64(0.2)).contains(&gain), "between 0 and 0.2"),
@@ -125,6 +146,7 @@ impl<T: Real> Controller<T> {
                 beta.iter().all(is_number) && gain > T::ZERO && gain <= T::from_f64(2.0),
                 "finite numbers whose sum is above 0 and at most 2",
             ),
+            Law::Predictive => (true, ""),
         };
         let checks = [
             ("beta", gain, law_holds, expected),
@@ -141,21 +163,22 @@ impl<T: Real> Controller<T> {
         Ok(())
     }
 
-    /// The errors before the first step: those that have no effect on it, but for Gustafsson's, which
+    /// The past before the first step: errors that have no effect on it, but for Gustafsson's PI control, which
     /// begins as if the step before had been very exact.
-    pub(crate) fn first_errors(&self) -> Errors<T> {
-        match self.law {
+    pub(crate) fn no_past(&self) -> Past<T> {
+        let errors = match self.law {
             Law::Gustafsson(_) => [T::from_f64(LEAST_LOG_ERROR); 2],
-            Law::Filter(_) => [T::ZERO; 2],
-        }
+            Law::Filter(_) | Law::Predictive => [T::ZERO; 2],
+        };
+        Past { errors, length: None }
     }
 
-    /// The factor after an accepted step, and the errors for the next time.
+    /// The factor after an accepted step of length h, and the past for the next time.
     #[inline]
-    fn after_success(&self, error: T, preceding: &Errors<T>, order: u32) -> (T, Errors<T>) {
+    pub(crate) fn after_success(&self, h: T, error: T, past: &Past<T>, order: u32) -> (T, Past<T>) {
         let per_order = T::from_f64(f64::from(order).recip());
         let log_error = error.max(T::MIN_POSITIVE).ln();
-        let [last, before] = *preceding;
+        let [last, before] = past.errors;
         let log_factor = match self.law {
             Law::Gustafsson(beta) => {
                 let exponent = per_order - T::from_f64(0.75) * beta;
@@ -164,14 +187,22 @@ impl<T: Real> Controller<T> {
             Law::Filter([first, second, third]) => {
                 -per_order * (first * (log_error - self.log_aim) + second * last + third * before)
             }
+            Law::Predictive => {
+                let by_error = per_order * (self.log_aim - log_error);
+                past.length.map_or(by_error, |length| {
+                    let change = last.max(T::from_f64(LEAST_LOG_ERROR_OF_TREND)) - log_error;
+                    by_error.min((h / length).ln() + by_error + per_order * change)
+                })
+            }
         };
         let factor = self.safety * log_factor.exp();
-        (factor.max(self.least).min(self.most), [log_error.max(T::from_f64(LEAST_LOG_ERROR)), last])
+        let errors = [log_error.max(T::from_f64(LEAST_LOG_ERROR)), last];
+        (factor.max(self.least).min(self.most), Past { errors, length: Some(h) })
     }
 
     /// The factor after a rejected step: as short as permitted if the error is not even finite.
     #[inline]
-    fn after_rejection(&self, error: T, order: u32) -> T {
+    pub(crate) fn after_rejection(&self, error: T, order: u32) -> T {
         if !error.is_finite() {
             return self.least;
         }
@@ -187,12 +218,13 @@ pub(crate) struct StepControl<T> {
     pub(crate) first_step: Option<T>,
     /// Unlimited if not given.
     pub(crate) max_step: Option<T>,
-    pub(crate) controller: Controller<T>,
+    /// That of the method if not given.
+    pub(crate) controller: Option<Controller<T>>,
 }
 
 impl<T: Real> StepControl<T> {
     pub(crate) fn new() -> Self {
-        Self { first_step: None, max_step: None, controller: Controller::default() }
+        Self { first_step: None, max_step: None, controller: None }
     }
 
     pub(crate) fn check(&self) -> Result<(), IntegrationError> {
@@ -204,20 +236,7 @@ impl<T: Real> StepControl<T> {
                 return Err(IntegrationError::Setting { setting, value: value.to_f64(), expected });
             }
         }
-        self.controller.check()
-    }
-
-    /// The length of the step after an accepted one, and the errors for the next time.
-    #[inline]
-    pub(crate) fn after_success(&self, h: T, error: T, preceding: &Errors<T>, order: u32) -> (T, Errors<T>) {
-        let (factor, errors) = self.controller.after_success(error, preceding, order);
-        (self.limited(h * factor), errors)
-    }
-
-    /// The length of the step after a rejected one.
-    #[inline]
-    pub(crate) fn after_rejection(&self, h: T, error: T, order: u32) -> T {
-        h * self.controller.after_rejection(error, order)
+        self.controller.map_or(Ok(()), |controller| controller.check())
     }
 
     /// The length, at most `max_step`.
@@ -268,7 +287,7 @@ mod tests {
             ("most factor", plain.factors(0.5, 1.0)),
             ("most factor", plain.factors(0.5, nan)),
         ] {
-            let error = StepControl { controller, ..good }.check();
+            let error = StepControl { controller: Some(controller), ..good }.check();
             assert!(
                 matches!(error, Err(IntegrationError::Setting { setting, .. }) if setting == name),
                 "{name}: {error:?}"
@@ -279,28 +298,37 @@ mod tests {
     #[test]
     fn steps_change_within_bounds() {
         let control = StepControl::<f64> { max_step: Some(3.0), ..StepControl::new() };
-        let before = control.controller.first_errors();
-        assert_eq!(control.after_success(0.1, 0.0, &before, 5).0, 1.0);
-        assert_eq!(control.after_success(1.0, 0.0, &before, 5).0, 3.0);
-        assert!((control.after_rejection(1.0, f64::NAN, 5) - 0.2).abs() < 1e-15);
-        assert!(control.after_rejection(1.0_f64, 1.0 + 1e-12, 5) <= 0.9);
-        let narrow = StepControl { controller: Controller::default().factors(0.7, 1.5), ..control };
-        assert_eq!(narrow.after_success(0.1, 0.0, &before, 5).0, 0.1 * 1.5);
-        assert_eq!(narrow.after_rejection(1.0, 1e9, 5), 0.7);
+        assert_eq!((control.limited(1.0), control.limited(10.0)), (1.0, 3.0));
+        let controller = Controller::<f64>::default();
+        let past = controller.no_past();
+        assert_eq!(controller.after_success(0.1, 0.0, &past, 5).0, 10.0);
+        assert!((controller.after_rejection(f64::NAN, 5) - 0.2).abs() < 1e-15);
+        assert!(controller.after_rejection(1.0 + 1e-12, 5) <= 0.9);
+        let narrow = controller.factors(0.7, 1.5);
+        assert_eq!(narrow.after_success(0.1, 0.0, &past, 5).0, 1.5);
+        assert_eq!(narrow.after_rejection(1e9, 5), 0.7);
     }
 
     #[test]
     fn the_laws_are_those_of_the_literature() {
         // 0.9 ε^(−1/5 + 0.03) ε′^0.04
         let (error, last, before) = (0.3_f64, 0.6_f64, 0.5_f64);
-        let logs = [last.ln(), before.ln()];
+        let past = Past { errors: [last.ln(), before.ln()], length: Some(0.1) };
         let expected = 0.9 * error.powf(-0.2 + 0.03) * last.powf(0.04);
-        let (factor, errors) = Controller::default().after_success(error, &logs, 5);
-        assert!((factor - expected).abs() < 1e-15 && errors == [error.ln(), last.ln()]);
+        let (factor, next) = Controller::default().after_success(0.2, error, &past, 5);
+        assert!((factor - expected).abs() < 1e-15);
+        assert_eq!(next, Past { errors: [error.ln(), last.ln()], length: Some(0.2) });
         // (0.38/ε)^(1/54) (1/ε′)^(2/54) (1/ε″)^(1/54), q = 3
         let expected = (0.38 / error).powf(1.0 / 54.0) * last.powf(-2.0 / 54.0) * before.powf(-1.0 / 54.0);
         let pid = Controller::filter([1.0 / 18.0, 1.0 / 9.0, 1.0 / 18.0]).aim(0.38);
-        assert!((pid.after_success(error, &logs, 3).0 - expected).abs() < 1e-15);
+        assert!((pid.after_success(0.2, error, &past, 3).0 - expected).abs() < 1e-15);
+        // 0.9 ε^(−1/4) or 0.9 (h/h′) (ε′/ε²)^(1/4), which is shorter after a shorter step
+        let predicted = |h: f64| Controller::predictive().after_success(h, error, &past, 4).0;
+        assert!((predicted(0.2) - 0.9 * error.powf(-0.25)).abs() < 1e-15);
+        assert!((predicted(0.05) - 0.9 * 0.5 * (last / (error * error)).powf(0.25)).abs() < 1e-15);
+        let first = Controller::predictive();
+        let first = first.after_success(0.05, error, &first.no_past(), 4).0;
+        assert!((first - 0.9 * error.powf(-0.25)).abs() < 1e-15);
         // (0.25/ε)^(1/4) after a rejection, whatever the law
         assert!((pid.aim(0.25).after_rejection(7.0, 4) - (0.25_f64 / 7.0).powf(0.25)).abs() < 1e-15);
     }

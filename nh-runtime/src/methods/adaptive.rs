@@ -7,7 +7,7 @@ use super::fixed::Fixed;
 use super::leg::Leg;
 use super::{Arrival, Method, Place, Start, component, non_finite_derivative};
 use crate::arrays::{all_finite, first_non_finite};
-use crate::step_control::{Controller, Errors, StepControl};
+use crate::step_control::{Controller, Past, StepControl};
 use crate::tolerance::{PerComponent, Tolerance, Uniform};
 use crate::{Dynamics, IntegrationError, Real, Scalar, ScalarOf, State, Statistics, VecOf};
 
@@ -116,10 +116,11 @@ impl<P, T: Real, W> Adaptive<P, T, W> {
         self
     }
 
-    /// The law by which the lengths of the steps follow the errors; PI control if not given.
+    /// The law by which the lengths of the steps follow the errors; if not given, PI control, and predictive
+    /// control in [`Radau5`](crate::Radau5).
     #[must_use]
     pub fn controller(mut self, controller: Controller<T>) -> Self {
-        self.control.controller = controller;
+        self.control.controller = Some(controller);
         self
     }
 }
@@ -138,6 +139,15 @@ pub trait Scheme<S: Dynamics>: Copy {
     type Work: Copy;
     /// What the states within a step are computed from.
     type Dense: Copy;
+
+    /// The law of control where the user has given none.
+    #[must_use]
+    fn usual_controller() -> Controller<ScalarOf<S>>
+    where
+        ScalarOf<S>: Real,
+    {
+        Controller::default()
+    }
 
     /// What there is before the first step.
     fn work(&self) -> Self::Work;
@@ -166,6 +176,20 @@ pub trait Scheme<S: Dynamics>: Copy {
 
     /// Takes note that the step just computed is accepted.
     fn accept<const KEEP: bool>(&self, start: &Start<'_, S>, h: ScalarOf<S>, work: &mut Self::Work);
+
+    /// The share of its length to try next after the step just computed has failed before there was
+    /// an error to estimate; the least that control permits if it is not known.
+    fn retry(&self, work: &Self::Work) -> Option<ScalarOf<S>> {
+        let _ = work;
+        None
+    }
+
+    /// The length of the step after one of length `h` that was accepted, where control proposes `next`: the same
+    /// for a method to which a new length costs nothing.
+    fn continued(&self, h: ScalarOf<S>, next: ScalarOf<S>, work: &Self::Work) -> ScalarOf<S> {
+        let _ = (h, work);
+        next
+    }
 
     /// A derivative that was not finite in the step just computed: component, value, and its time as
     /// a fraction of the step.
@@ -198,8 +222,8 @@ pub struct Trial<S: Dynamics> {
 pub struct Memory<T, K> {
     /// The length proposed for the next step.
     proposed: Option<T>,
-    /// The errors of the last steps.
-    errors: Errors<T>,
+    /// What control remembers.
+    past: Past<T>,
     work: K,
 }
 
@@ -211,12 +235,13 @@ where
     type Dense = P::Dense;
 
     fn memory(&self) -> Self::Memory {
-        Memory { proposed: None, errors: self.control.controller.first_errors(), work: self.scheme.work() }
+        let past = self.control.controller.unwrap_or_else(P::usual_controller).no_past();
+        Memory { proposed: None, past, work: self.scheme.work() }
     }
 
     #[inline]
     fn forget(&self, memory: &mut Self::Memory) {
-        memory.errors = self.control.controller.first_errors();
+        memory.past = self.control.controller.unwrap_or_else(P::usual_controller).no_past();
         self.scheme.forget(&mut memory.work);
     }
 
@@ -291,6 +316,7 @@ impl<P, T: Real, W> Adaptive<P, T, W> {
         {
             return Err(non_finite_derivative::<S::State>(found, start.time.to_f64()));
         }
+        let controller = self.control.controller.unwrap_or_else(P::usual_controller);
         let shortest = StepControl::shortest(start.time);
         let proposed = if let Some(h) = memory.proposed.or(self.control.first_step) {
             self.control.limited(h)
@@ -316,13 +342,15 @@ impl<P, T: Real, W> Adaptive<P, T, W> {
             let length = leg.length.abs();
             if trial.error <= T::ONE {
                 self.scheme.accept::<KEEP>(start, leg.length, &mut memory.work);
-                let (next, errors) =
-                    self.control.after_success(length, trial.error, &memory.errors, P::ERROR_ORDER);
+                let (factor, past) =
+                    controller.after_success(length, trial.error, &memory.past, P::ERROR_ORDER);
+                let next = length * factor;
                 // no growth right after a rejection; no loss from a step that a target cut short
                 let next = if rejected { next.min(length) } else { next };
+                let next = self.control.limited(self.scheme.continued(length, next, &memory.work));
                 let next = if leg.cut && !rejected { next.max(proposed) } else { next };
                 memory.proposed = Some(next);
-                memory.errors = errors;
+                memory.past = past;
                 return Ok(Arrival { time: leg.time, state: S::State::from_array(trial.state) });
             }
             statistics.rejected += 1;
@@ -330,7 +358,11 @@ impl<P, T: Real, W> Adaptive<P, T, W> {
                 return Err(self.refusal(start, leg.length, &trial, &memory.work));
             }
             rejected = true;
-            h = self.control.after_rejection(length, trial.error, P::ERROR_ORDER).max(shortest);
+            let shorter = match self.scheme.retry(&memory.work) {
+                Some(share) => length * share,
+                None => length * controller.after_rejection(trial.error, P::ERROR_ORDER),
+            };
+            h = shorter.max(shortest);
         }
     }
 

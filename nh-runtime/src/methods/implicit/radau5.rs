@@ -2,11 +2,12 @@
 
 use super::collocation::{Collocation, Matrices, weighted};
 use super::linearization::{Analytic, FiniteDifferences, Linearization};
-use super::newton::{is_first_term, size};
+use super::newton::is_first_term;
 use crate::arrays::{displaced, first_non_finite, nought};
 use crate::dense::hermite;
 use crate::methods::adaptive::{Adaptive, Scheme, Trial};
 use crate::methods::{Arrival, Start};
+use crate::step_control::Controller;
 use crate::tolerance::{Tolerance, Uniform};
 use crate::{Dim, DimOf, Dynamics, MatOf, Real, Scalar, ScalarOf, State, Statistics, VecOf};
 
@@ -59,12 +60,20 @@ pub(super) const RADAU: Collocation<3> = Collocation {
 };
 /// (−13 − 7√6, −13 + 7√6, −1)/3: the weights of the error estimate, eq. (IV.8.19) there.
 const ERROR: [f64; 3] = [-10.048_809_399_827_416, 1.382_142_733_160_749, -0.333_333_333_333_333_3];
-/// The corrections at which an iteration ends, in units of the tolerance.
-const ENOUGH: f64 = 0.01;
+/// The corrections at which an iteration ends, in units of the tolerance, are at most this.
+const ENOUGH: f64 = 0.03;
+/// And at least so many rounding units of the state.
+const RESOLVED: f64 = 10.0;
 /// The iterations after which it is given up.
-const MOST_ITERATIONS: i32 = 10;
-/// The rate of convergence beyond which a new Jacobian is formed for the next step.
-const FAST: f64 = 1e-3;
+const MOST_ITERATIONS: i32 = 7;
+/// The rate of convergence up to which the Jacobian serves the next step, too.
+const FAST: f64 = 2e-3;
+/// The rate of convergence that is as good as none.
+const HOPELESS: f64 = 0.99;
+/// The length of a step is kept where it could grow up to this factor.
+const KEPT: f64 = 1.3;
+/// The matrices of one length serve another one that differs by up to this share of it.
+const SAME: f64 = 1e-6;
 
 /// Start, length and stages of a step.
 type Accepted<S> = (ScalarOf<S>, ScalarOf<S>, [VecOf<S>; 3]);
@@ -75,7 +84,7 @@ pub struct Work<S: Dynamics> {
     first: VecOf<S>,
     jacobian: Option<MatOf<S>>,
     /// Whether that was formed at the present start.
-    fresh: bool,
+    current: bool,
     /// For steps of which length.
     matrices: Option<(ScalarOf<S>, Matrices<S>)>,
     /// The stages being computed.
@@ -86,6 +95,15 @@ pub struct Work<S: Dynamics> {
     smooth: bool,
     /// Whether a step from the present start has been computed before.
     again: bool,
+    /// The rate at which the last iteration converged.
+    rate: ScalarOf<S>,
+    /// How far the last correction of an iteration is from its end, as a multiple of it, going by the rate of
+    /// the last one.
+    ahead: ScalarOf<S>,
+    /// The iterations of the last step.
+    iterations: i32,
+    /// The share of its length to try after a step whose equations were not solved.
+    shorter: Option<ScalarOf<S>>,
 }
 
 impl<S: Dynamics> Clone for Work<S> {
@@ -95,8 +113,18 @@ impl<S: Dynamics> Clone for Work<S> {
 }
 impl<S: Dynamics> Copy for Work<S> {}
 
+impl<S: Dynamics> Work<S> {
+    /// Drops a Jacobian of another place after a step that failed.
+    fn reconsider(&mut self) {
+        if !self.current {
+            self.jacobian = None;
+            self.matrices = None;
+        }
+    }
+}
+
 impl<J> Radau<J> {
-    /// Solves the equations; says whether that has succeeded.
+    /// Solves the equations, or says which share of the length to try next.
     fn solve<S: Dynamics, W: Tolerance<S::State>>(
         start: &Start<'_, S>,
         h: ScalarOf<S>,
@@ -104,7 +132,7 @@ impl<J> Radau<J> {
         tolerance: &W,
         work: &mut Work<S>,
         statistics: &mut Statistics,
-    ) -> bool
+    ) -> Option<ScalarOf<S>>
     where
         ScalarOf<S>: Real,
     {
@@ -116,37 +144,49 @@ impl<J> Radau<J> {
             Some((_, length, z)) if work.smooth => RADAU.extrapolated(zero, z, h / *length),
             _ => [zero; 3],
         };
-        let mut preceding: Option<ScalarOf<S>> = None;
-        for left in (0..MOST_ITERATIONS).rev() {
+        // how many tolerances the state has: the estimate is of lower order than the step, so that
+        // the equations have to be solved the better the smaller the tolerance is
+        let resolution = tolerance.mean_square(&x, &x, &x).sqrt();
+        let enough = w(ENOUGH).min(resolution.sqrt().recip());
+        let enough = enough.max(w(RESOLVED) * ScalarOf::<S>::EPSILON * resolution);
+        let failed = Some(w(0.5));
+        work.ahead = work.ahead.max(ScalarOf::<S>::EPSILON).powf(w(0.8));
+        work.rate = w(FAST);
+        let (mut last, mut last_ratio) = (one, one);
+        for iteration in 1..=MOST_ITERATIONS {
             let change = RADAU.iterate(start, &x, h, matrices, &mut work.trial);
+            work.iterations = iteration;
             statistics.iterations += 1;
             statistics.evaluations += 3;
             let end = displaced(&x, one, &weighted(zero, &RADAU.end, &work.trial));
             let squares = change.iter().map(|c| tolerance.mean_square(c, &x, &end));
             let squares = squares.fold(ScalarOf::<S>::ZERO, |sum, square| sum + square);
-            let residual = (squares * w(1.0 / 3.0)).sqrt();
-            if !residual.is_finite() {
-                return false;
+            let size = (squares * w(1.0 / 3.0)).sqrt();
+            if !size.is_finite() {
+                return failed;
             }
-            let round_off = w(4.0) * ScalarOf::<S>::EPSILON;
-            if change.iter().zip(&work.trial).all(|(c, z)| size(c, &x, z) <= round_off) {
-                return true;
+            if iteration > 1 {
+                let ratio = size / last;
+                work.rate = if iteration == 2 { ratio } else { (ratio * last_ratio).sqrt() };
+                last_ratio = ratio;
+                if work.rate >= w(HOPELESS) {
+                    return failed;
+                }
+                work.ahead = work.rate / (one - work.rate);
+                let left = MOST_ITERATIONS - iteration;
+                // how much too large the last correction would be
+                let excess = work.ahead * size * work.rate.powi(left) / enough;
+                if excess >= one {
+                    let exponent = (w(4.0) + w(f64::from(left))).recip();
+                    return Some(w(0.8) * excess.max(w(1e-4)).min(w(20.0)).powf(-exponent));
+                }
             }
-            if let Some(preceding) = preceding {
-                let rate = residual / preceding;
-                if rate >= one || rate.powi(left) / (one - rate) * residual > w(ENOUGH) {
-                    return false;
-                }
-                if rate > w(FAST) {
-                    work.fresh = false;
-                }
-                if rate / (one - rate) * residual < w(ENOUGH) {
-                    return true;
-                }
+            if work.ahead * size <= enough {
+                return None;
             }
-            preceding = Some(residual);
+            last = size.max(ScalarOf::<S>::EPSILON);
         }
-        false
+        failed
     }
 
     /// The matrices for a step of length h.
@@ -162,7 +202,7 @@ impl<J> Radau<J> {
         J: Linearization<S>,
     {
         if let Some((length, matrices)) = &work.matrices
-            && *length == h
+            && (*length - h).abs() <= ScalarOf::<S>::from_f64(SAME) * h.abs()
         {
             return *matrices;
         }
@@ -173,7 +213,7 @@ impl<J> Radau<J> {
             let x = start.state.to_array();
             let jacobian =
                 self.linearization.state_jacobian(start, start.time, &x, &work.first, h, statistics);
-            work.fresh = true;
+            work.current = true;
             *work.jacobian.insert(jacobian)
         };
         statistics.factorizations += 2;
@@ -196,19 +236,28 @@ where
         Work {
             first: zero,
             jacobian: None,
-            fresh: false,
+            current: false,
             matrices: None,
             trial: [zero; 3],
             accepted: None,
             smooth: false,
             again: false,
+            rate: ScalarOf::<S>::ZERO,
+            ahead: ScalarOf::<S>::ONE,
+            iterations: 0,
+            shorter: None,
         }
+    }
+
+    fn usual_controller() -> Controller<ScalarOf<S>> {
+        Controller::predictive()
     }
 
     fn forget(&self, work: &mut Work<S>) {
         work.jacobian = None;
         work.matrices = None;
         work.smooth = false;
+        work.ahead = ScalarOf::<S>::ONE;
     }
 
     fn begin<'w>(
@@ -220,10 +269,7 @@ where
         statistics.evaluations += 1;
         work.first = start.derivative();
         work.again = false;
-        if !work.fresh {
-            work.jacobian = None;
-            work.matrices = None;
-        }
+        work.current = false;
         &work.first
     }
 
@@ -246,20 +292,18 @@ where
             let state = displaced(&x, h, &slope);
             return Trial { state, error: nought(&state) };
         }
-        let old = work.jacobian.is_some() && !work.again;
-        let mut matrices = self.matrices(start, h, work, statistics);
-        let mut solved = Self::solve(start, h, &matrices, tolerance, work, statistics);
-        if !solved && old {
+        let matrices = self.matrices(start, h, work, statistics);
+        work.shorter = Self::solve(start, h, &matrices, tolerance, work, statistics);
+        if work.shorter.is_some() && !work.current {
             // the Jacobian may be that of another place
-            work.jacobian = None;
-            work.matrices = None;
-            matrices = self.matrices(start, h, work, statistics);
-            solved = Self::solve(start, h, &matrices, tolerance, work, statistics);
+            work.reconsider();
+            let matrices = self.matrices(start, h, work, statistics);
+            work.shorter = Self::solve(start, h, &matrices, tolerance, work, statistics);
         }
         let first_time = !work.again && work.accepted.is_some();
         work.again = true;
-        if !solved {
-            work.smooth = false;
+        if work.shorter.is_some() {
+            work.reconsider();
             return Trial { state: x, error: infinite };
         }
         let state = displaced(&x, one, &weighted(zero, &RADAU.end, &work.trial));
@@ -281,6 +325,22 @@ where
     fn accept<const KEEP: bool>(&self, start: &Start<'_, S>, h: ScalarOf<S>, work: &mut Work<S>) {
         work.accepted = Some((start.time, h, work.trial));
         work.smooth = true;
+        if work.rate > ScalarOf::<S>::from_f64(FAST) {
+            work.jacobian = None;
+            work.matrices = None;
+        }
+    }
+
+    fn retry(&self, work: &Work<S>) -> Option<ScalarOf<S>> {
+        work.shorter
+    }
+
+    /// Shorter after many iterations, and of the same length if that lets the matrices serve again.
+    fn continued(&self, h: ScalarOf<S>, next: ScalarOf<S>, work: &Work<S>) -> ScalarOf<S> {
+        let w = |x: i32| ScalarOf::<S>::from_f64(f64::from(x));
+        let next = next * w(1 + 2 * MOST_ITERATIONS) / w(work.iterations + 2 * MOST_ITERATIONS);
+        let is_kept = work.matrices.is_some() && next >= h && next <= h * ScalarOf::<S>::from_f64(KEPT);
+        if is_kept { h } else { next }
     }
 
     #[cold]
