@@ -94,8 +94,7 @@ impl Problem<3> for Robertson {
     const NAME: &'static str = "ROBER";
     const START: [f64; 3] = [1.0, 0.0, 0.0];
     const END: f64 = 1e11;
-    const SOLUTION: [f64; 3] =
-        [2.083_340_149_701_281_7e-8, 8.333_360_770_334_733e-14, 0.999_999_979_166_516_5];
+    const SOLUTION: [f64; 3] = [2.083_340_149_701_282e-8, 8.333_360_770_334_733e-14, 0.999_999_979_166_516_5];
     fn atol(rtol: f64) -> f64 {
         1e-6 * rtol
     }
@@ -202,7 +201,7 @@ impl Problem<4> for E5 {
         3.131_714_832_935_699_6e-14,
         1.484_095_795_287_006_4e-16,
         1.484_095_794_834_569_1e-16,
-        4.524_372_827_978_262_5e-26,
+        4.524_372_827_978_262e-26,
     ];
     // the last component is below the absolute tolerance
     const NEGLIGIBLE: f64 = 1e-20;

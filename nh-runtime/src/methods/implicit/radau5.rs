@@ -243,7 +243,7 @@ where
             smooth: false,
             again: false,
             rate: ScalarOf::<S>::ZERO,
-            ahead: ScalarOf::<S>::ONE,
+            ahead: ScalarOf::<S>::ZERO.recip(),
             iterations: 0,
             shorter: None,
         }
@@ -257,7 +257,7 @@ where
         work.jacobian = None;
         work.matrices = None;
         work.smooth = false;
-        work.ahead = ScalarOf::<S>::ONE;
+        work.ahead = ScalarOf::<S>::ZERO.recip();
     }
 
     fn begin<'w>(
