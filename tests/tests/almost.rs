@@ -326,6 +326,7 @@ macro_rules! random_to_constraints {
     ($name:ident, $system:ident, $t:ident, $state:ident) => {};
 }
 
+/// Checks mathematics (6), (7) and (8).
 #[test]
 fn equations_are_those_of_the_declared_data() {
     let free = compare!(Free, FreeState, |_, _| []);
@@ -367,6 +368,7 @@ struct WithoutJacobi {
     I: f64,
 }
 
+/// Checks mathematics (2) and (3).
 #[test]
 fn the_report_says_which_laws_hold() {
     let report = InOrder::REPORT;

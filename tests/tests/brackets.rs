@@ -252,6 +252,7 @@ struct Skate {
     l: f64,
 }
 
+/// Checks mathematics (17).
 #[test]
 fn any_regular_lagrangian() {
     let system = Relativistic { m: 1.3, c: 2.0, k: 0.7, w: 0.4 };
@@ -267,6 +268,7 @@ fn any_regular_lagrangian() {
     assert!(drift.iter().all(|rate| rate.abs() <= 0.0), "{drift:?}");
 }
 
+/// Checks mathematics (18).
 #[test]
 fn nonlinear_constraints() {
     let system = AppellHamel { m: 1.3, g: 0.9, k: 1.25 };
@@ -279,6 +281,7 @@ fn nonlinear_constraints() {
     check!("speed", system, 0.0, state, ());
 }
 
+/// Checks mathematics (28).
 #[test]
 fn constraints_that_move() {
     let system = Steered { m: 1.3, J: 0.7 };
@@ -325,6 +328,7 @@ fn bases_of_the_distribution() {
     assert!((all.x - drift.x - sum).abs() < 1e-10);
 }
 
+/// Checks mathematics (21).
 #[test]
 fn connections() {
     let system = Cone { m: 1.3, k: 0.5 };

@@ -20,6 +20,7 @@ fn the_projected_formulation_agrees_with_the_reference_in_all_velocities() {
     assert!(failures.is_empty(), "\n{}", failures.join("\n"));
 }
 
+/// Checks mathematics (7), (8), (9) and (10).
 #[test]
 fn both_formulations_have_the_same_derivative_and_multipliers() {
     let mut failures = Vec::new();

@@ -133,6 +133,7 @@ struct ReducedParticle {
     k: f64,
 }
 
+/// Checks mathematics (23).
 #[test]
 fn the_reduced_lagrangian_with_the_gyroscopic_force_moves_alike() {
     let (particle, reduced) = (Particle { m: 1.3, k: 0.7 }, ReducedParticle { m: 1.3, k: 0.7 });

@@ -71,6 +71,7 @@ struct Belt {
     p: f64,
 }
 
+/// Checks mathematics (20).
 #[test]
 fn motions_stay_on_their_sections() -> Result<(), IntegrationError> {
     let edge = Edge { m: 0.8, J: 0.3, g: 2.0, E: 5.0, W: 1.1, c: 0.4 };

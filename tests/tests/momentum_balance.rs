@@ -84,6 +84,7 @@ fn balance<S: Dynamics<State: State<Scalar = f64>> + Copy, const N: usize>(
     std::array::from_fn(|i| [end[i] - begin[i], integral[i]])
 }
 
+/// Checks mathematics (25).
 #[test]
 fn momenta_of_the_splitting() {
     let tow = Tow { m: 2.0, n: 1.1, J: 0.5, K: 0.3, d: 0.7, c: 0.1 };

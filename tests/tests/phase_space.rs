@@ -125,6 +125,7 @@ fn veselova_state(random: &mut Random) -> VeselovaState {
     state
 }
 
+/// Checks mathematics (15) and (16).
 #[test]
 fn hamilton_is_derivative() {
     let sleigh = DrivenSleigh { m: 1.3_f64, J: 0.7, a: 0.4, c: 0.2 };

@@ -3,6 +3,7 @@
 use nh_tests::comparison::compare_with_reference;
 use nh_tests::systems::catalogue;
 
+/// Checks mathematics (6), (8) and (9).
 #[test]
 fn every_system_agrees_with_the_reference_at_every_state() {
     let mut failures = Vec::new();

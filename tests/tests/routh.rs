@@ -36,6 +36,7 @@ both! {
     struct Particle, ReducedParticle { m; mu }
 }
 
+/// Checks mathematics (22).
 #[test]
 fn the_example_of_crampin_and_mestdag() {
     let particle = ReducedParticle { m: 1.3, mu: 0.7 };

@@ -60,6 +60,7 @@ fn explicit_methods_keep_nothing() {
     assert!(reversal > 1e-6, "{reversal}");
 }
 
+/// Checks mathematics (26).
 #[test]
 fn the_leapfrog_method() {
     let Special { order, energy, constraint, reversal, .. } = on_tq("", STEPS, ReflectedLeapfrog::new);
@@ -79,6 +80,7 @@ fn returns_to_constraints_and_integrals() {
     }
 }
 
+/// Checks mathematics (27).
 #[test]
 fn discrete_euler_poincare_suslov_equations() {
     let system = Suslov { I: [1.0, 2.0, 3.0], k: 0.7 };

@@ -264,6 +264,7 @@ fn top<S: Scalar>() -> Top<S> {
     Top { A: n(1.2), C: n(0.4), h: n(0.7) }
 }
 
+/// Checks mathematics (11) and (12).
 #[test]
 fn the_momentum_equation_holds_in_the_adapted_formulation() {
     let two = |random: &mut Random| SleighInput {

@@ -105,6 +105,7 @@ const AGREEMENTS: [Agreement; 22] = [
     },
 ];
 
+/// Checks mathematics (1) and (4).
 #[test]
 fn two_declarations_of_a_system_agree_at_random_states() {
     let entries = catalogue();

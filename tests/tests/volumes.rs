@@ -134,6 +134,7 @@ struct Top {
     C: f64,
 }
 
+/// Checks mathematics (19).
 #[test]
 fn verdicts() {
     for (report, density) in [

@@ -136,6 +136,7 @@ mod tests {
         c
     }
 
+    /// Checks mathematics (3).
     #[test]
     fn all_satisfy_jacobi() {
         let all = [

@@ -1,7 +1,7 @@
 //! A constraint that touches no other, between velocities of their own inertias.
 //!
 //! (f_α + λ g_α) / W_α cancels where one inertia is much smaller than the others: the reaction then balances
-//! the force along it. Mathematics (10′) has the multiplier put in, and leaves out what cancels identically:
+//! the force along it. With the multiplier of mathematics (10) put in, what cancels identically is left out, (10′):
 //!
 //! `N ẏ_α = Σ_{β≠α} W_{(αβ)} g_β (g_β f_α − g_α f_β) + W_{(α)} g_α b`, `N = Σ_α W_{(α)} g_α²`.
 

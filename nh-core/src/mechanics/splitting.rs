@@ -223,7 +223,7 @@ fn commutator(
     found
 }
 
-/// The horizontal lifts of a Chaplygin system, and the force of their curvature.
+/// The horizontal lifts of a Chaplygin system, and the force of their curvature, mathematics (23).
 #[derive(Clone, Debug)]
 pub struct Chaplygin {
     /// h_i in D, with ρ(h_i) = ∂_i, or the part of it that is tangent to an embedded base.

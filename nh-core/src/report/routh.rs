@@ -4,7 +4,7 @@ use super::{Derived, shown};
 use crate::compile::Proved;
 use crate::id::SymbolId;
 
-/// A line for each level, and the Routhian R = L − v^ρ μ_ρ on the levels (CM section 5).
+/// A line for each level, and the Routhian R = L − v^ρ μ_ρ on the levels, mathematics (22) (CM section 5).
 pub(super) fn lines(proved: &mut Proved, derived: &Derived<'_>) -> Vec<String> {
     let levels = proved.levels.clone();
     let mut lines: Vec<String> = levels

@@ -58,6 +58,7 @@ fn accelerations(graph: &Graph, mass: &[Vec<ExprId>], force: &[ExprId]) -> Vec<f
     (0..n).map(|i| a[i][n] / a[i][i]).collect()
 }
 
+/// Checks mathematics (5) and (8).
 fn both_forms_agree(mut model: Model) {
     let (system, distribution) = stages(&mut model);
     let graph = &mut model.graph;

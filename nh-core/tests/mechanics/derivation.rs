@@ -351,6 +351,7 @@ fn texts_of_what_is_shared_are_cut() {
     }
 }
 
+/// Checks mathematics (3).
 #[test]
 fn broken_laws_are_named() {
     let mut b = systems::Builder::new(&[], &[], &["w1", "w2", "w3"]);

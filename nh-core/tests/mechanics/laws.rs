@@ -28,6 +28,7 @@ fn what_is_declared_has_a_real_value() {
     assert_eq!(broken(b.model), [Law::Defined]);
 }
 
+/// Checks mathematics (1).
 #[test]
 fn every_coordinate_has_its_line_in_the_anchor() {
     let mut model = systems::sleigh();

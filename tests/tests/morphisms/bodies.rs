@@ -83,6 +83,7 @@ morphism! { EulerAngles -> RotationMatrix {
     }
 } }
 
+/// Checks mathematics (13) and (14).
 #[test]
 fn rigid_body() {
     let body = EulerAngles { A: 1.0, B: 1.7, C: 2.3 };

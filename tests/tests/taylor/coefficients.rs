@@ -124,6 +124,7 @@ fn a_driven_sleigh() {
     agree::<Sleighs>(3.0, &[0.0; 5]);
 }
 
+/// Checks mathematics (24).
 #[test]
 fn every_function() {
     agree::<All>(0.3, &[0.5, -0.4, 0.7, 0.2, -0.3, 0.6]);
