@@ -9,7 +9,8 @@ use crate::{IntegrationError, Real};
 /// h ← h · safety · (ε/aim)^(−β₁/q) ε′^(−β₂/q) ε″^(−β₃/q), within h · least … h · most,
 ///
 /// where q is one more than the order of the estimate. After a rejected step it is
-/// h ← h · safety · (ε/aim)^(−1/q), at most 0.9 h.
+/// h ← h · safety · (ε/aim)^(−1/q), at most 0.9 h. Powers are taken of ratios alone, so that the choice is the
+/// same in all units, mathematics (29).
 ///
 /// The default is the PI control of Gustafsson as in the code DOPRI5, `β₁/q = 1/q − 0.03`,
 /// `β₂/q = −0.04`, with the safety factor 0.9 and the factors 0.2 … 10 (Hairer, Nørsett, Wanner, Solving

@@ -2,7 +2,7 @@
 //!
 //! A motion x(t) of ẋ = F(t, x), measured in other units, is σ x(t/τ), a motion of
 //!
-//! F̃(t, x) = (σ/τ) F(t/τ, x/σ)                                                          (29)
+//! F̃(t, x) = (σ/τ) F(t/τ, x/σ)                                             mathematics (29)
 //!
 //! With start, steps, limits, tolerances, covariances and weights in these units, a method has to take the same
 //! decisions (steps, rejections, evaluations) and to give the same numbers in them, bit for bit, where σ and τ
