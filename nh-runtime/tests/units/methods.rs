@@ -1,4 +1,5 @@
 //! The law over every method that goes with any system.
+//! The choice of the first step, mathematics (30), is among the decisions.
 
 use nonholonomic::methods::Controller;
 use nonholonomic::prelude::*;
