@@ -118,6 +118,59 @@ fn events_in_single_precision() {
     trial.verdict.judge();
 }
 
+/// The impacts of a ball that keeps half of its speed, to where they accumulate: times and speeds of all.
+fn bounces<T: Real, M: Method<Scaled<Problem<T>>>>(
+    change: &Change,
+    method: impl Fn(T, T) -> M,
+) -> (Vec<u64>, String) {
+    let problem = Problem::<T>::new(Kind::Stone);
+    let scaled = Scaled::new(problem, change);
+    let (course, _) = problem.course();
+    let (tau, units, other) = (scaled.time, scaled.units, scaled.other);
+    let floor = move |_: T, x: &Four<T>, (): &()| [x.0[0] / units.0[0] * other];
+    let floor = Events::new(floor).directions([Direction::Falling]);
+    let start = multiplied(&course.start, &units);
+    let mut sim = Integrator::new(scaled, method(tau, units.0[0]), course.from * tau, start).max_steps(4000);
+    let mut numbers = Vec::new();
+    loop {
+        match sim.advance_until(course.to * tau, &floor) {
+            Ok(Some(impact)) if numbers.len() < 400 => {
+                let Four([_, speed, c, d]) = impact.state;
+                numbers.push((impact.time / tau).to_f64().to_bits());
+                numbers.push((speed / units.0[1]).to_f64().to_bits());
+                sim.reset(impact.time, Four([T::ZERO, -speed * T::from_f64(0.5), c, d]));
+            }
+            Ok(last) => return (numbers, format!("the end: {}", last.is_none())),
+            Err(error) => return (numbers, told(&error, tau.to_f64())),
+        }
+    }
+}
+
+#[test]
+fn impacts_that_accumulate() {
+    let mut verdict = Verdict::default();
+    macro_rules! each {
+        ($($name:literal $method:expr;)*) => {$(
+            let plain = Change { part: Part::Time, time: 0, state: [0; 4], other: 0 };
+            let expected = bounces::<f64, _>(&plain, $method);
+            assert!(expected.0.len() > 40, "{} {}", expected.0.len(), expected.1);
+            for change in changes(true) {
+                if change.part != Part::EachComponent {
+                    let found = bounces::<f64, _>(&change, $method);
+                    let told = || format!("{} {} {} {}", expected.0.len(), expected.1, found.0.len(), found.1);
+                    verdict.note(concat!("impacts, ", $name), change.part, (found != expected).then(told));
+                }
+            }
+        )*};
+    }
+    each! {
+        "Dopri5" |_, unit| Dopri5::new().rtol(1e-6).atol(1e-9 * unit);
+        "Rk4" |tau, _| Rk4::new(0.1 * tau);
+        "Radau5" |_, unit| Radau5::new().rtol(1e-6).atol(1e-9 * unit);
+    }
+    verdict.judge();
+}
+
 /// What a change of units does to the powers of two that the tests use is exact.
 #[test]
 fn units_are_exact() {

@@ -37,6 +37,8 @@ pub(crate) enum Kind {
     VanDerPol,
     /// Robertson's reaction, and a decay.
     Robertson,
+    /// A stone that falls, beside a spring.
+    Stone,
     /// The reaction E5 of Enright, Hull and Lindberg (1975) as in Hairer, Wanner II, IV.10.
     E5,
 }
@@ -56,6 +58,7 @@ impl Kind {
                 let cube = square * square.sqrt();
                 [c, d, -a / cube, -b / cube]
             }
+            Self::Stone => [b, -S::ONE, d, -c],
             Self::Rest => [b, S::ONE - a - w(0.1) * b, d, -c],
             Self::VanDerPol => [b, ((S::ONE - a * a) * b - a) * w(1e4), d, (S::ONE - c * c) * d - c],
             Self::Robertson => {
@@ -86,6 +89,7 @@ impl<T: Real> Problem<T> {
             Kind::Pendulum => ([0.3, -0.2, 0.0, 1.0], 1.5, 9.0, 0.1),
             Kind::Kepler => ([0.4, 0.0, 0.0, 2.0], 0.25, 10.0, 0.05),
             Kind::Rest => ([0.0; 4], 0.5, 8.0, 0.1),
+            Kind::Stone => ([1.0, 0.0, 0.3, 0.0], 0.5, 20.0, 0.1),
             Kind::VanDerPol => ([2.0, -0.66, 2.0, 0.0], 0.0, 2.0, 1e-5),
             Kind::Robertson => ([1.0, 0.0, 0.0, 1.0], 0.0, 1e9, 1e-4),
             Kind::E5 => ([1.76e-3, 0.0, 0.0, 0.0], 0.0, 1e13, 1e-5),

@@ -112,6 +112,7 @@ pub(crate) fn told(error: &IntegrationError, tau: f64) -> String {
         IntegrationError::TooManySteps { time, target, limit } => {
             format!("{limit} steps to {:e}, not {:e}", time / tau, target / tau)
         }
-        other => other.to_string(),
+        // its name alone, since its numbers have units
+        other => format!("{other:?}").chars().take_while(char::is_ascii_alphanumeric).collect(),
     }
 }
