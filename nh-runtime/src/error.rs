@@ -164,6 +164,13 @@ pub enum IntegrationError {
         /// Its value.
         value: f64,
     },
+    /// The energy of a method that keeps it is infinite or not a number.
+    NonFiniteEnergy {
+        /// The time at which it was evaluated.
+        time: f64,
+        /// Its value.
+        value: f64,
+    },
     /// A step from finite derivatives has led to an infinite state.
     NonFiniteStep {
         /// The first infinite component.
@@ -276,6 +283,11 @@ impl Display for IntegrationError {
                 "the derivative of `{component}` is {value:?} at t = {time:?}, where the mass matrix or \
                  the constraints may be singular: look at the last good state, and at inputs and \
                  parameters"
+            ),
+            Self::NonFiniteEnergy { time, value } => write!(
+                f,
+                "the energy is {value:?} at t = {time:?}, so that no step can keep it: look at the state and the \
+                 parameters, or measure in units that keep squares within the range of the numbers"
             ),
             Self::NonFiniteStep { component, time, step } => write!(
                 f,

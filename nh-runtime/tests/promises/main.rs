@@ -4,6 +4,7 @@
 #![allow(clippy::needless_pass_by_value)] // one macro calls all laws, with methods as values
 
 mod events;
+mod extremes;
 mod filters;
 mod limits;
 mod starts;

@@ -14,8 +14,8 @@ use nonholonomic::prelude::*;
 )]
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Contact<T> {
-    k: T,
-    b: T,
+    pub(crate) k: T,
+    pub(crate) b: T,
 }
 
 /// The system with a frequency and a length of about one.

@@ -3,14 +3,6 @@
 /// As "who: under what". The tests fail for what breaks the law and is not listed here, and for what is listed and
 /// obeys.
 pub(crate) const NOT_YET: &[&str] = &[
-    "DiscreteGradient in f32: one unit of all components",
-    "DiscreteGradient, order 4 in f32: one unit of all components",
-    "DiscreteGradient, order 4: one unit of all components",
-    "DiscreteGradient, order 6 in f32: one unit of all components",
-    "DiscreteGradient, order 6: one unit of all components",
-    "DiscreteGradient, with Jacobian in f32: one unit of all components",
-    "DiscreteGradient, with Jacobian: one unit of all components",
-    "DiscreteGradient: one unit of all components",
     "Events, ImplicitMidpoint in f32: one unit of all components",
     "Events, ImplicitMidpoint: one unit of all components",
     "GaussLegendre4 in f32: one unit of all components",

@@ -60,12 +60,6 @@ pub(super) fn size<T: Real, V: AsRef<[T]>>(correction: &V, x: &V, increment: &V)
     terms.fold(T::ZERO, |largest, (c, scale)| largest.max(c.abs() / scale))
 }
 
-/// The largest correction, relative to 1 + |x| in its component; NaN if there is one.
-pub(in crate::methods) fn relative<T: Real, V: AsRef<[T]>>(correction: &V, x: &V) -> T {
-    let terms = correction.as_ref().iter().zip(x.as_ref());
-    terms.fold(T::ZERO, |largest, (c, x)| largest.max(c.abs() / (T::ONE + x.abs())))
-}
-
 /// 1 − h A.
 pub(in crate::methods) fn one_less<D: Dim, T: Scalar>(h: T, a: D::Mat<T>) -> D::Mat<T> {
     let mut matrix = a;

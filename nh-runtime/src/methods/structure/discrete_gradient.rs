@@ -2,13 +2,13 @@
 
 mod step;
 
-use step::{Parts, Step};
+use step::{Along, Parts, Step, dot};
 
 use super::Symmetric;
 use crate::arrays::displaced;
 use crate::linear::Factors;
 use crate::methods::fixed::{self, Slopes};
-use crate::methods::implicit::newton::{SLOW, check_tolerance, once, one_less, refusal, relative};
+use crate::methods::implicit::newton::{SLOW, check_tolerance, once, one_less, refusal};
 use crate::methods::{Analytic, Arrival, FiniteDifferences, Fixed, Linearization, OneStep, Start};
 use crate::{AlmostPoisson, DimOf, Dynamics, IntegrationError, Real, ScalarOf, State, Statistics, VecOf};
 
@@ -94,7 +94,7 @@ impl<T: Real> DiscreteGradient<T> {
 }
 
 impl<T: Real, J> DiscreteGradient<T, J> {
-    /// The largest correction, relative to 1 + |x| in each component, at which the iteration may
+    /// The largest correction, relative to the largest component of the state, at which the iteration may
     /// stagnate; 100 000 rounding units if not given, since round-off in the energy counts for the more, the
     /// shorter the step. A larger one does not make it stop earlier.
     #[must_use]
@@ -110,6 +110,7 @@ impl<T: Real> DiscreteGradient<T> {
     /// # Errors
     /// [`IntegrationError::NoConvergence`] if the equations are not solved,
     /// [`IntegrationError::NonFiniteDerivative`] if the derivative at `state` is not finite,
+    /// [`IntegrationError::NonFiniteEnergy`] if the energy there is not,
     /// [`IntegrationError::Setting`] if `dt` is not.
     pub fn step<S>(
         system: &S,
@@ -181,7 +182,7 @@ impl<T: Real, J> Gonzalez<T, J> {
             change = displaced(&change, T::ONE, &correction);
             iterations += 1;
             statistics.iterations += 1;
-            let size = relative(&correction, step.x) / self.tolerance;
+            let size = step.relative(&correction, &change) / self.tolerance;
             // a single correction that is not smaller says nothing: what is left would be of one sign
             // and add up over the steps
             let ratio = size / best;
@@ -231,10 +232,16 @@ impl<T: Real, J> Gonzalez<T, J> {
     {
         let Parts { direction, along, size, .. } = step.parts(change);
         let round_off = T::from_f64(ROUND_OFF) * T::EPSILON * size / self.tolerance;
-        let square = change.as_ref().iter().fold(T::ZERO, |sum, c| c.mul_add(*c, sum));
-        [(&direction, along), (change, square)].map(|(direction, along)| {
+        // Δ as a covector: of the size of a gradient
+        let Along { mut unit, length } = Along::new(change);
+        let slope = size / length;
+        unit.as_mut().iter_mut().for_each(|x| *x *= slope);
+        let by_change = dot::<S>(&unit, change);
+        [(&direction, along), (&unit, by_change)].map(|(direction, along)| {
             let correction = factors.solve(&step.turned(change, direction));
-            round_off * relative(&correction, step.x) / along
+            let noise = round_off * (step.relative(&correction, change) / along);
+            // where energies have no digits they make no noise either
+            if noise >= T::ZERO { noise } else { T::ZERO }
         })
     }
 
@@ -297,6 +304,10 @@ where
         statistics: &mut Statistics,
     ) -> Result<VecOf<S>, IntegrationError> {
         let present = start.system.energy(start.time, start.state);
+        if !present.is_finite() {
+            let (time, value) = (start.time.to_f64(), present.to_f64());
+            return Err(IntegrationError::NonFiniteEnergy { time, value });
+        }
         let energy = *work.energy.get_or_insert(present);
         let gradient = start.system.energy_gradient(start.time, start.state);
         self.solve(&Step { start, x, h, energy, gradient }, work, statistics)

@@ -1,11 +1,15 @@
 //! The equations of a step: the discrete gradient and its defect.
 
-use crate::arrays::{difference, displaced};
+use crate::arrays::{Array, difference, displaced};
 use crate::methods::Start;
+use crate::projection::largest;
 use crate::{AlmostPoisson, Dynamics, Real, Scalar, ScalarOf, State, VecOf};
 
 /// η², below which share of all a component's part in c·(∂E(x₁) − ∂E(x₀)) no longer shows its sign.
 const SMOOTHING: f64 = 0.01;
+
+/// The share of the largest component that the size of a component counts as at least.
+const LEAST: f64 = 0.01;
 
 /// A step to be made: where it starts, and the energy that it ends at.
 pub(super) struct Step<'a, 'b, S: AlmostPoisson> {
@@ -21,6 +25,24 @@ impl<S: AlmostPoisson> Step<'_, '_, S>
 where
     ScalarOf<S>: Real,
 {
+    /// The size of a correction, relative in each component to the state at both ends, where that is no less than a
+    /// hundredth of its largest component.
+    pub(super) fn relative(&self, correction: &VecOf<S>, change: &VecOf<S>) -> ScalarOf<S> {
+        let end = displaced(self.x, ScalarOf::<S>::ONE, change);
+        let largest = largest(self.x.as_ref()).max(largest(end.as_ref()));
+        let least = ScalarOf::<S>::from_f64(LEAST) * largest;
+        let ends = self.x.as_ref().iter().zip(end.as_ref());
+        let terms = correction.as_ref().iter().zip(ends);
+        terms.fold(ScalarOf::<S>::ZERO, |most, (c, (a, b))| {
+            let moved = c.abs();
+            most.max(if moved == ScalarOf::<S>::ZERO {
+                moved
+            } else {
+                moved / (least + a.abs().max(b.abs()))
+            })
+        })
+    }
+
     /// The middle x̄ of a step with this change of the state.
     fn middle(&self, change: &VecOf<S>) -> S::State {
         S::State::from_array(displaced(self.x, ScalarOf::<S>::from_f64(0.5), change))
@@ -44,8 +66,9 @@ where
             if is_small { (factor, factor * along) } else { (ScalarOf::<S>::ZERO, ScalarOf::<S>::ZERO) };
         let mut corrected = if is_small { displaced(&gradient, factor, &direction) } else { gradient };
         if settled.is_some() {
-            let rest = (gain - part) / dot::<S>(change, change);
-            corrected = if rest.is_finite() { displaced(&corrected, rest, change) } else { corrected };
+            let Along { unit, length } = Along::new(change);
+            let rest = (gain - part) / length / dot::<S>(&unit, &unit);
+            corrected = if rest.is_finite() { displaced(&corrected, rest, &unit) } else { corrected };
         }
         (difference(&self.turned(change, &corrected), change), factor)
     }
@@ -71,6 +94,9 @@ where
         let gain = energy - self.energy - dot::<S>(&gradient, change);
         let terms = gradient.as_ref().iter().zip(last.as_ref());
         let size = terms.fold(energy.abs(), |size, (slope, x)| size + (*slope * *x).abs());
+        // below the range of the numbers energies have no digits: what is left is the gradient at the middle
+        let has_digits = size >= ScalarOf::<S>::MIN_POSITIVE / ScalarOf::<S>::EPSILON;
+        let gain = if has_digits { gain } else { ScalarOf::<S>::ZERO };
         Parts { gradient, direction, gain, along, size }
     }
 }
@@ -89,6 +115,21 @@ pub(super) struct Parts<S: Dynamics> {
     pub(super) size: ScalarOf<S>,
 }
 
-fn dot<S: Dynamics>(a: &VecOf<S>, b: &VecOf<S>) -> ScalarOf<S> {
+/// A vector as one whose largest component is 1, times a length: its square may be beyond the numbers.
+pub(super) struct Along<T, V> {
+    pub(super) unit: V,
+    pub(super) length: T,
+}
+
+impl<T: Real, V: Array<T>> Along<T, V> {
+    pub(super) fn new(change: &V) -> Self {
+        let length = largest(change.as_ref());
+        let mut unit = *change;
+        unit.as_mut().iter_mut().for_each(|x| *x = *x / length);
+        Self { unit, length }
+    }
+}
+
+pub(super) fn dot<S: Dynamics>(a: &VecOf<S>, b: &VecOf<S>) -> ScalarOf<S> {
     a.as_ref().iter().zip(b.as_ref()).fold(ScalarOf::<S>::ZERO, |sum, (a, b)| sum + *a * *b)
 }
