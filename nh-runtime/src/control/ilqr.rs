@@ -15,10 +15,14 @@ const DERIVATIVES: &str = "the derivatives of model and cost";
 /// linear-quadratic regulator (Li, Todorov, ICINCO 2004) with bounds on the inputs (Tassa, Mansard,
 /// Todorov, ICRA 2014).
 ///
-/// For model predictive control call [`improve`](Self::improve) once or a few times in every tick,
-/// apply the first input and [`shift`](Self::shift): the cost in time of `improve` is bounded.
+/// For model predictive control call [`improve`](Self::improve) once or a few times in every tick from the state
+/// that is measured, apply the first input and [`shift`](Self::shift): the cost in time of `improve` is
+/// bounded. A plan that has been improved is followed from the measured state by its feedback, unless its inputs
+/// alone cost less: on a plant that is unstable they would lead away from the plan as soon as the plant is not the
+/// model, and nothing that is found in one iteration would bring them back. So begin with a plan from the goal
+/// itself: its feedback leads there from elsewhere. The example `balance` is such a loop.
 ///
-/// All memory is in the value itself, `H · (N·M + N + 2M)` numbers, and [`improve`](Self::improve) has as much again
+/// All memory is in the value itself, `H · (N·M + N + 2M) + N` numbers, and [`improve`](Self::improve) has as much again
 /// on the stack. A horizon without a tick does not compile:
 ///
 /// ```compile_fail,E0080
@@ -30,6 +34,10 @@ pub struct Ilqr<T, const N: usize, const M: usize, const H: usize> {
     states: [SVector<T, N>; H],
     gains: [SMatrix<T, M, N>; H],
     changes: [SVector<T, M>; H],
+    /// The state after the last tick.
+    end: SVector<T, N>,
+    /// Whether states and gains belong to the inputs.
+    is_planned: bool,
     lower: SVector<T, M>,
     upper: SVector<T, M>,
     regularization: Regularization<T>,
@@ -57,6 +65,8 @@ impl<T: Entry, const N: usize, const M: usize, const H: usize> Ilqr<T, N, M, H> 
             states: [SVector::zeros(); H],
             gains: [SMatrix::zeros(); H],
             changes: [SVector::zeros(); H],
+            end: SVector::zeros(),
+            is_planned: false,
             lower: SVector::repeat(-huge),
             upper: SVector::repeat(huge),
             regularization: Regularization::none(),
@@ -79,8 +89,10 @@ impl<T: Entry, const N: usize, const M: usize, const H: usize> Ilqr<T, N, M, H> 
         &self.inputs
     }
 
-    /// The inputs, to be changed: a first guess.
+    /// The inputs, to be changed: a first guess. The next [`improve`](Self::improve) takes them as they are, without
+    /// feedback along an earlier plan.
     pub fn inputs_mut(&mut self) -> &mut [SVector<T, M>; H] {
+        self.is_planned = false;
         &mut self.inputs
     }
 
@@ -97,11 +109,16 @@ impl<T: Entry, const N: usize, const M: usize, const H: usize> Ilqr<T, N, M, H> 
         &self.gains
     }
 
-    /// Drops the first tick and repeats the last: the horizon recedes.
+    /// Drops the first tick and repeats the last: the horizon recedes. States and gains go with the inputs, so
+    /// that [`inputs`](Self::inputs), [`states`](Self::states) and [`gains`](Self::gains) are those of the ticks that
+    /// are left, and the next [`improve`](Self::improve) follows them from where the plant really is. The
+    /// state before the new tick is where the old plan ended; its input and gain are those of the tick before.
     pub fn shift(&mut self) {
-        self.inputs.rotate_left(1);
-        if let [.., before, last] = self.inputs.as_mut_slice() {
-            *last = *before;
+        recede(&mut self.inputs);
+        recede(&mut self.gains);
+        self.states.rotate_left(1);
+        if let [.., last] = self.states.as_mut_slice() {
+            *last = self.end;
         }
     }
 
@@ -135,6 +152,9 @@ impl<T: Entry, const N: usize, const M: usize, const H: usize> Ilqr<T, N, M, H> 
     /// One iteration from the state `start`: an expansion along the inputs, a sweep backwards, a
     /// line search. The inputs change only if the cost decreases.
     ///
+    /// If there is a plan from another start, the inputs are first replaced by those with which its feedback follows
+    /// it from here, where they cost less.
+    ///
     /// # Errors
     /// [`ControlError::NotFinite`] if `start`, the inputs or a derivative is not finite, or the inputs lead out
     /// of the numbers; [`ControlError::Bounds`] if there is nothing between two bounds;
@@ -167,7 +187,13 @@ impl<T: Entry, const N: usize, const M: usize, const H: usize> Ilqr<T, N, M, H> 
             }
         }
         self.inputs.iter().try_for_each(|u| finite("inputs", u))?;
-        let before = shooting_cost(model, cost, start, &self.inputs);
+        let mut before = shooting_cost(model, cost, start, &self.inputs);
+        if self.is_planned && *start != self.states[0] {
+            let (inputs, held) = self.tried(model, cost, start, T::ZERO);
+            if held < before || (held.is_finite() && !before.is_finite()) {
+                (self.inputs, before) = (inputs, held);
+            }
+        }
         if !before.is_finite() {
             return Err(ControlError::NotFinite { argument: "cost", value: before.to_f64() });
         }
@@ -211,6 +237,8 @@ impl<T: Entry, const N: usize, const M: usize, const H: usize> Ilqr<T, N, M, H> 
             *before = x;
             x = model.step(tick, &x, u);
         }
+        self.end = x;
+        self.is_planned = true;
         x
     }
 
@@ -287,6 +315,14 @@ impl<T: Entry, const N: usize, const M: usize, const H: usize> Ilqr<T, N, M, H> 
     }
 }
 
+/// Drops the first and repeats the last.
+fn recede<X: Copy, const H: usize>(ticks: &mut [X; H]) {
+    ticks.rotate_left(1);
+    if let [.., before, last] = ticks.as_mut_slice() {
+        *last = *before;
+    }
+}
+
 fn clamped<T: Entry, const M: usize>(
     u: &SVector<T, M>,
     lower: &SVector<T, M>,
@@ -296,100 +332,4 @@ fn clamped<T: Entry, const M: usize>(
 }
 
 #[cfg(test)]
-mod tests {
-    use super::super::{Quadratic, Regulator, shooting_gradient};
-    use super::*;
-    use nalgebra::{Matrix2, SMatrix, matrix, vector};
-
-    struct Linear;
-
-    impl Model<f64, 2, 1> for Linear {
-        fn step(&self, tick: usize, x: &SVector<f64, 2>, u: &SVector<f64, 1>) -> SVector<f64, 2> {
-            let (a, b) = self.linearized(tick, x, u);
-            a * x + b * u
-        }
-        fn linearized(
-            &self,
-            _tick: usize,
-            _x: &SVector<f64, 2>,
-            _u: &SVector<f64, 1>,
-        ) -> (SMatrix<f64, 2, 2>, SMatrix<f64, 2, 1>) {
-            (matrix![1.0, 0.1; 0.0, 1.0], matrix![0.005; 0.1])
-        }
-    }
-
-    #[test]
-    fn of_a_linear_system_one_iteration_is_the_regulator() {
-        let cost = Quadratic {
-            goal: vector![0.0, 0.0],
-            state: vector![1.0, 1.0],
-            input: vector![0.5],
-            end: vector![0.0, 0.0],
-        };
-        let mut plan = Ilqr::<f64, 2, 1, 300>::new(vector![0.0]);
-        let start = vector![1.0, 0.0];
-        plan.improve(&Linear, &cost, &start).unwrap();
-        let (a, b) = Linear.linearized(0, &start, &vector![0.0]);
-        let stationary = Regulator::stationary(&a, &b, &Matrix2::identity(), &matrix![0.5]).unwrap();
-        assert!((plan.inputs()[0] - stationary.input(&start)).norm() < 1e-10);
-        let again = plan.improve(&Linear, &cost, &start).unwrap();
-        assert!(again.promised.abs() < 1e-12 && again.decrease.abs() < 1e-12);
-    }
-
-    /// A pendulum swings up with a torque that cannot lift it at once; at the optimum the gradient
-    /// vanishes wherever no bound holds, and points outwards where one does.
-    #[test]
-    fn the_optimum_between_bounds_satisfies_its_conditions() {
-        struct Pendulum;
-        impl Model<f64, 2, 1> for Pendulum {
-            fn step(&self, _tick: usize, x: &SVector<f64, 2>, u: &SVector<f64, 1>) -> SVector<f64, 2> {
-                let speed = x[1] + 0.05 * (u[0] - 4.0 * x[0].sin());
-                vector![x[0] + 0.05 * speed, speed]
-            }
-            fn linearized(
-                &self,
-                _tick: usize,
-                x: &SVector<f64, 2>,
-                _u: &SVector<f64, 1>,
-            ) -> (SMatrix<f64, 2, 2>, SMatrix<f64, 2, 1>) {
-                let pull = -0.2 * x[0].cos();
-                (matrix![1.0 + 0.05 * pull, 0.05; pull, 1.0], matrix![0.0025; 0.05])
-            }
-        }
-        let up = core::f64::consts::PI;
-        let cost = Quadratic {
-            goal: vector![up, 0.0],
-            state: vector![0.0, 0.0],
-            input: vector![0.01],
-            end: vector![100.0, 10.0],
-        };
-        let bound = vector![1.0];
-        let mut plan = Ilqr::<f64, 2, 1, 160>::new(vector![0.1]).bounds(-bound, bound);
-        let start = vector![0.0, 0.0];
-        let last = plan.solve(&Pendulum, &cost, &start, 1e-12, 500).unwrap();
-        assert!(last.promised <= 1e-12 * last.cost, "{last:?}");
-        let (mut states, mut gradient) = ([SVector::zeros(); 160], [SVector::zeros(); 160]);
-        shooting_gradient(&Pendulum, &cost, &start, plan.inputs(), &mut states, &mut gradient).unwrap();
-        let mut held = 0;
-        for (u, g) in plan.inputs().iter().zip(&gradient) {
-            assert!(u[0].abs() <= 1.0);
-            if u[0].abs() < 1.0 {
-                assert!(g[0].abs() < 1e-4, "{} {}", u[0], g[0]);
-            } else {
-                held += 1;
-                assert!(g[0] * u[0] <= 1e-4, "{} {}", u[0], g[0]);
-            }
-        }
-        assert!(held > 0);
-        let end = Pendulum.step(0, &plan.states()[159], &plan.inputs()[159]);
-        assert!((end[0] - up).abs() < 0.05, "{end}");
-    }
-
-    #[test]
-    fn the_horizon_recedes() {
-        let mut plan = Ilqr::<f64, 2, 1, 3>::new(vector![0.0]);
-        *plan.inputs_mut() = [vector![1.0], vector![2.0], vector![3.0]];
-        plan.shift();
-        assert_eq!(plan.inputs(), &[vector![2.0], vector![3.0], vector![3.0]]);
-    }
-}
+mod tests;

@@ -7,6 +7,7 @@ mod events;
 mod extremes;
 mod filters;
 mod limits;
+mod receding;
 mod starts;
 mod systems;
 mod time;
