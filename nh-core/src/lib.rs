@@ -9,8 +9,10 @@
 
 pub mod algebra;
 pub mod check;
+pub mod choose;
 pub mod compile;
 pub mod count;
+pub mod forms;
 pub mod functions;
 pub mod geometry;
 pub mod id;

@@ -1,5 +1,6 @@
 //! A verified system: what the derivation hands to the back end.
 
+use crate::choose::Ledger;
 use crate::functions::{self, Functions, Sizes};
 use crate::id::{ExprId, SymbolId};
 use crate::mechanics::Procedure;
@@ -37,6 +38,8 @@ pub struct System {
     pub embedding: Option<Embedding>,
     /// What `validate` checks beyond finite parameters.
     pub parameter_checks: Vec<ParameterCheck>,
+    /// What was chosen among forms, and how it was proved.
+    pub ledger: Ledger,
     /// What was derived, as text.
     pub report: String,
     /// The equations of motion as lines of text for the documentation of the struct.

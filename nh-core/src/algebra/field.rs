@@ -13,6 +13,8 @@ const BITS: u32 = 61;
 const MASK: u64 = (1 << BITS) - 1;
 const SHORTFALL: u64 = 636_873;
 const P: u64 = (1 << BITS) - SHORTFALL;
+/// The number of squares but 0.
+const HALF: u64 = (P - 1) / 2;
 
 /// An element of the field.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -118,6 +120,34 @@ impl Residue {
     pub fn sqrt(self) -> Option<Self> {
         let root = self.pow(P.div_ceil(4));
         (root * root == self).then_some(root)
+    }
+
+    /// Whether the field has the roots of an order: for odd orders one of each element, for even ones one that
+    /// is itself a square of each square.
+    #[must_use]
+    pub fn has_roots(order: u64) -> bool {
+        order > 0 && order.gcd(&HALF) == 1
+    }
+
+    /// The root of an order that the field has; `None` for an even root of no square. This choice is
+    /// multiplicative, as in [`Self::sqrt`].
+    #[must_use]
+    pub fn root(self, order: u64) -> Option<Self> {
+        if order == 2 {
+            return self.sqrt();
+        }
+        // the squares are a group of odd order (P − 1)/2, in which every such root is a power
+        let inverse = i128::from(order).extended_gcd(&i128::from(HALF)).x.rem_euclid(i128::from(HALF));
+        let inverse = u64::try_from(inverse).ok()?;
+        let (root, opposite) = (self.pow(inverse), -(-self).pow(inverse));
+        [root, opposite].into_iter().find(|root| root.pow(order) == self)
+    }
+
+    /// The smaller one of x and −x, and whether that is −x.
+    #[must_use]
+    pub(super) fn up_to_sign(self) -> (Self, bool) {
+        let opposite = -self;
+        if opposite.0 < self.0 { (opposite, true) } else { (self, false) }
     }
 
     /// A word that a seed and a number determine, well mixed (the finaliser of `SplitMix64`).

@@ -1,6 +1,6 @@
 //! Expressions that do not depend on symbols which occur in them.
 
-use super::graph::{Graph, Node};
+use super::graph::{Function, Function2, Graph, Node};
 use super::zero_test::sample;
 use crate::id::{ExprId, SymbolId};
 use std::collections::BTreeSet;
@@ -36,6 +36,31 @@ impl Graph {
             true
         });
         divisors
+    }
+
+    /// What vanishes where the expressions, or derivatives of them, may have no value: divisors, the bases of
+    /// roots, the arguments of logarithms, and what inverse functions have under the root of their derivatives.
+    pub fn singularities(&mut self, roots: &[ExprId]) -> BTreeSet<ExprId> {
+        let mut found = self.divisors(roots);
+        let one = self.one();
+        for id in self.reachable(roots) {
+            match self.node(id).clone() {
+                Node::Product { factors, .. } => {
+                    found.extend(factors.iter().filter(|(_, e)| !e.is_integer()).map(|(base, _)| *base));
+                }
+                Node::Apply(Function::Ln, x) => _ = found.insert(x),
+                Node::Apply(Function::Asin | Function::Acos, x) => {
+                    let square = self.square(x);
+                    found.insert(self.sub(one, square));
+                }
+                Node::Apply2(Function2::Atan2, x, y) => {
+                    let (xx, yy) = (self.square(x), self.square(y));
+                    found.insert(self.add(xx, yy));
+                }
+                _ => {}
+            }
+        }
+        found
     }
 
     /// The expression where the symbols vanish, if it is proved to be the same.

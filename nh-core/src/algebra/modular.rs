@@ -10,8 +10,6 @@ use super::field::Residue;
 use super::graph::{Function, Function2, Graph, Node};
 use super::number::Rational;
 use crate::id::{ExprId, Id, SymbolId};
-use num_integer::Integer;
-use num_traits::ToPrimitive;
 use rustc_hash::FxHashMap;
 
 /// A random point: values of the symbols, and of the circle above each angle.
@@ -42,7 +40,7 @@ pub enum NoValue {
     Ever(String),
 }
 
-type Value = Result<Residue, NoValue>;
+pub(super) type Value = Result<Residue, NoValue>;
 
 impl Graph {
     /// Evaluates `roots` at a point of the field.
@@ -50,92 +48,27 @@ impl Graph {
     /// # Errors
     /// Where some root has no value there, or ever.
     pub fn evaluate_in_field(&self, roots: &[ExprId], point: &FieldPoint) -> Result<Vec<Residue>, NoValue> {
-        let order = self.reachable(roots);
-        let division = self.angle_division(&order)?;
-        let (known, units) = (FxHashMap::default(), FxHashMap::default());
-        let mut pass = Pass { graph: self, point, division, known, units };
-        pass.known.reserve(order.len());
-        for id in order {
-            let value = pass.value(id)?;
-            pass.known.insert(id, value);
-        }
-        Ok(roots.iter().map(|root| pass.known[root]).collect())
-    }
-
-    /// The common denominator of the coefficients inside sine, cosine and exp.
-    pub(super) fn angle_division(&self, order: &[ExprId]) -> Result<i64, NoValue> {
-        let mut division: i64 = 1;
-        for id in order {
-            let Node::Apply(
-                Function::Sin
-                | Function::Cos
-                | Function::Exp
-                | Function::Sinh
-                | Function::Cosh
-                | Function::Tanh,
-                x,
-            ) = self.node(*id)
-            else {
-                continue;
-            };
-            for (_, coefficient) in self.angle_terms(*x) {
-                division = coefficient
-                    .denominator()
-                    .to_i64()
-                    .map(|d| division.lcm(&d))
-                    .filter(|lcm| *lcm < 1 << 20)
-                    .ok_or_else(|| {
-                        NoValue::Ever("an angle has coefficients with large denominators".into())
-                    })?;
-            }
-        }
-        Ok(division)
-    }
-
-    /// The argument of a periodic function as terms with coefficients; the number among them
-    /// stands as a multiple of itself being 1.
-    pub(super) fn angle_terms(&self, x: ExprId) -> Vec<(Option<ExprId>, Rational)> {
-        let scaled = |term: ExprId, coefficient: &Rational| {
-            let factor = self.angle_factor(term).unwrap_or(Rational::ONE);
-            (Some(term), coefficient.clone() * factor)
-        };
-        match self.node(x) {
-            Node::Number(value) => vec![(None, value.clone())],
-            Node::Sum { constant, terms } => {
-                let mut list: Vec<_> = terms.iter().map(|(term, c)| scaled(*term, c)).collect();
-                if !constant.is_zero() {
-                    list.push((None, constant.clone()));
-                }
-                list
-            }
-            Node::Product { coefficient, .. } => vec![scaled(x, coefficient)],
-            _ => vec![scaled(x, &Rational::ONE)],
-        }
-    }
-
-    /// The constants among the factors of a term of an angle, which count as its coefficient. With a long
-    /// denominator they do not: then an identity has to hold for any value.
-    fn angle_factor(&self, term: ExprId) -> Option<Rational> {
-        let factor = self.constant_factor(term);
-        (factor.is_one() || factor.denominator() <= LONGEST_DENOMINATOR.into()).then_some(factor)
+        FieldPass::new(self, point.clone(), self.angle_division(roots)).evaluate(roots)
     }
 }
 
-/// Denominators of constants in angles up to which these are numbers: common denominators stay short.
-const LONGEST_DENOMINATOR: i64 = 1000;
-
-struct Pass<'a> {
-    graph: &'a Graph,
-    point: &'a FieldPoint,
-    division: i64,
-    known: FxHashMap<ExprId, Residue>,
+/// The evaluation of expressions at one point: what has a value once keeps it.
+#[derive(Clone)]
+pub(crate) struct FieldPass<'a> {
+    pub(super) graph: &'a Graph,
+    pub(super) point: FieldPoint,
+    /// The common denominator of the coefficients inside sine, cosine and exp.
+    pub(super) division: i64,
+    pub(super) known: FxHashMap<ExprId, Residue>,
     /// The points of the circle above values: sine and cosine share them, and so do sums of angles.
-    units: FxHashMap<u64, (Residue, Residue)>,
+    pub(super) units: FxHashMap<u64, (Residue, Residue)>,
+    /// Cosine and sine of the angles that have occurred.
+    pub(super) circles: FxHashMap<ExprId, (Residue, Residue)>,
 }
 
 /// Separate streams of random numbers for separate purposes.
 #[derive(Clone, Copy)]
-enum Stream {
+pub(super) enum Stream {
     Symbol = 1,
     Circle,
     Exponential,
@@ -143,8 +76,48 @@ enum Stream {
     Pi,
 }
 
-impl Pass<'_> {
-    fn random(&self, stream: Stream, number: u64) -> Residue {
+impl<'a> FieldPass<'a> {
+    /// At a point; `division` is the [`Graph::angle_division`] of all that will be evaluated.
+    pub(crate) fn new(graph: &'a Graph, point: FieldPoint, division: i64) -> Self {
+        let (known, units, circles) = Default::default();
+        Self { graph, point, division, known, units, circles }
+    }
+
+    pub(crate) fn graph(&self) -> &'a Graph {
+        self.graph
+    }
+
+    /// The values of `roots`.
+    ///
+    /// # Errors
+    /// Where some root has no value there, or ever.
+    pub(crate) fn evaluate(&mut self, roots: &[ExprId]) -> Result<Vec<Residue>, NoValue> {
+        if roots.iter().any(|root| !self.known.contains_key(root)) {
+            for id in self.graph.reachable(roots) {
+                if !self.known.contains_key(&id) {
+                    let value = self.value(id)?;
+                    self.known.insert(id, value);
+                }
+            }
+        }
+        Ok(roots.iter().map(|root| self.known[root]).collect())
+    }
+
+    /// Gives a symbol a value before it occurs; false where it has another value already.
+    #[must_use]
+    pub(crate) fn choose(&mut self, symbol: SymbolId, value: Residue) -> bool {
+        *self.point.chosen.entry(symbol).or_insert(value) == value
+    }
+
+    /// The value of a function that is no formula, of its arguments' values alone.
+    pub(crate) fn kernel(&self, name: &str, arguments: &[Residue]) -> Residue {
+        let letters = name.bytes().map(|letter| Residue::of_word(letter.into()));
+        let word = letters.chain(arguments.iter().copied());
+        let word = word.fold(104, |hash, next| Residue::mixed(hash, next.word()).word());
+        self.random(Stream::Kernel, word)
+    }
+
+    pub(super) fn random(&self, stream: Stream, number: u64) -> Residue {
         Residue::mixed(self.point.seed.wrapping_mul(8).wrapping_add(stream as u64), number)
     }
 
@@ -186,24 +159,27 @@ impl Pass<'_> {
         }
     }
 
-    fn power(&self, base: ExprId, exponent: &Rational) -> Value {
+    pub(super) fn power(&self, base: ExprId, exponent: &Rational) -> Value {
         let x = self.known[&base];
         match exponent.to_small() {
             Some((n, 1)) => x.integer_power(n).ok_or(NoValue::Here),
-            Some((n, 2)) => {
+            Some((n, d)) => {
                 let root = match self.graph.as_number(base) {
-                    Some(number) => root_of_number(number)?,
-                    None => x.sqrt().ok_or(NoValue::Here)?,
+                    Some(number) => root_of_number(number, d.unsigned_abs())?,
+                    None => self.root(x, d.unsigned_abs())?,
                 };
                 root.integer_power(n).ok_or(NoValue::Here)
             }
-            // other roots: one kernel for each base and denominator
-            Some((n, d)) => {
-                let kernel = Residue::mixed(d.unsigned_abs(), x.word()).word();
-                self.random(Stream::Kernel, kernel).integer_power(n).ok_or(NoValue::Here)
-            }
             None => Err(NoValue::Ever("an exponent is too large".into())),
         }
+    }
+
+    /// The root of a value; one kernel for each value and order where the field has no such roots.
+    fn root(&self, x: Residue, order: u64) -> Value {
+        if !Residue::has_roots(order) {
+            return Ok(self.random(Stream::Kernel, Residue::mixed(order, x.word()).word()));
+        }
+        x.root(order).ok_or(NoValue::Here)
     }
 
     fn function(&mut self, function: Function, x: ExprId) -> Value {
@@ -221,164 +197,34 @@ impl Pass<'_> {
                     _ => Ok((up - down) * (up + down).inverse().ok_or(NoValue::Here)?),
                 }
             }
-            Function::Asin
-            | Function::Acos
-            | Function::Atan
-            | Function::Ln
-            | Function::Abs
-            | Function::Sign => {
-                let kind = function as u64;
-                Ok(self.random(Stream::Kernel, Residue::mixed(kind, self.known[&x].word()).word()))
+            Function::Sign => Ok(self.sign(self.known[&x])),
+            Function::Asin | Function::Atan => {
+                let (x, is_negative) = self.known[&x].up_to_sign();
+                let value = self.of_kernel(function, x);
+                Ok(if is_negative { -value } else { value })
             }
+            Function::Abs => Ok(self.of_kernel(function, self.known[&x].up_to_sign().0)),
+            Function::Acos | Function::Ln => Ok(self.of_kernel(function, self.known[&x])),
         }
     }
 
-    /// The terms of an angle, products of sums multiplied out, as field values with coefficients.
-    fn normal_terms(&self, x: ExprId) -> Vec<(Option<SymbolId>, Residue, Rational)> {
-        let mut list = Vec::new();
-        for (term, coefficient) in self.graph.angle_terms(x) {
-            match term {
-                None => list.push((None, Residue::ONE, coefficient)),
-                Some(term) => list.extend(self.expanded(term, &coefficient)),
-            }
-        }
-        list
+    /// The kernel of the sign, an odd function.
+    pub(super) fn sign(&self, x: Residue) -> Residue {
+        let (x, is_negative) = x.up_to_sign();
+        let value = self.of_kernel(Function::Sign, x);
+        if is_negative { -value } else { value }
     }
 
-    /// Multiplies out the positive powers of sums in a product, within a budget.
-    fn expanded(&self, term: ExprId, scale: &Rational) -> Vec<(Option<SymbolId>, Residue, Rational)> {
-        const BUDGET: usize = 256;
-        let whole =
-            |coefficient: Rational, value: Residue| vec![(self.graph.as_symbol(term), value, coefficient)];
-        let constant = self.graph.angle_factor(term);
-        let over = |number: Rational| Residue::of(&number).and_then(Residue::inverse).unwrap_or(Residue::ONE);
-        let unit = over(constant.clone().unwrap_or(Rational::ONE));
-        let Node::Product { coefficient, factors } = self.graph.node(term) else {
-            return whole(scale.clone(), self.known[&term] * unit);
-        };
-        let unit = over(coefficient.clone()) * unit;
-        let mut list = vec![(Residue::ONE, scale.clone())];
-        let is_coefficient = |(base, exponent): &&(ExprId, Rational)| {
-            constant.is_some() && exponent.is_integer() && self.graph.value_of(*base).is_some()
-        };
-        let factors: Vec<_> = factors.iter().filter(|factor| !is_coefficient(factor)).collect();
-        for (base, exponent) in &factors {
-            let times = exponent.to_i64().filter(|n| (1..=4).contains(n)).unwrap_or(0);
-            if let (Node::Sum { constant, terms }, 1..) = (self.graph.node(*base), times) {
-                for _ in 0..times {
-                    if list.len() * (terms.len() + 1) > BUDGET {
-                        return whole(scale.clone(), self.known[&term] * unit);
-                    }
-                    let mut next = Vec::new();
-                    for (value, c) in &list {
-                        next.extend(terms.iter().map(|(t, d)| {
-                            let factor = self.graph.angle_factor(*t).unwrap_or(Rational::ONE);
-                            let of_rest = *value * self.known[t] * over(factor.clone());
-                            (of_rest, c.clone() * d.clone() * factor)
-                        }));
-                        if !constant.is_zero() {
-                            next.push((*value, c.clone() * constant.clone()));
-                        }
-                    }
-                    list = next;
-                }
-            } else if let Ok(power) = self.power(*base, exponent) {
-                for (value, _) in &mut list {
-                    *value = *value * power;
-                }
-            }
-        }
-        let symbol = match factors.as_slice() {
-            [(base, exponent)] if exponent.is_one() => self.graph.as_symbol(*base),
-            _ => None,
-        };
-        list.into_iter().map(|(value, c)| (symbol, value, c)).collect()
-    }
-
-    /// `(cos x, sin x)`.
-    fn circle(&mut self, x: ExprId) -> Result<(Residue, Residue), NoValue> {
-        let mut turned = (Residue::ONE, Residue::ZERO);
-        let pi = self.random(Stream::Pi, 0);
-        for (symbol, value, coefficient) in self.normal_terms(x) {
-            if value == pi
-                && let Some(twelfths) = (coefficient.clone() * Rational::from(12)).to_i64()
-            {
-                turned = rotate(turned, circle_power(twelfth_of_pi()?, twelfths));
-                continue;
-            }
-            let times = self.multiple(&coefficient)?;
-            let chosen = symbol.and_then(|symbol| self.point.circle.get(&symbol));
-            let (unit, times) = match chosen {
-                Some(unit) => {
-                    let whole = coefficient.to_i64().ok_or(NoValue::Here)?;
-                    (*unit, whole)
-                }
-                None => (self.unit_of(value)?, times),
-            };
-            turned = rotate(turned, circle_power(unit, times));
-        }
-        Ok(turned)
-    }
-
-    /// The random point of the circle above `value / division`.
-    fn unit_of(&mut self, value: Residue) -> Result<(Residue, Residue), NoValue> {
-        if let Some(unit) = self.units.get(&value.word()) {
-            return Ok(*unit);
-        }
-        let u = self.random(Stream::Circle, value.word());
-        let scale = (Residue::ONE + u * u).inverse().ok_or(NoValue::Here)?;
-        let unit = ((Residue::ONE - u * u) * scale, (u + u) * scale);
-        self.units.insert(value.word(), unit);
-        Ok(unit)
-    }
-
-    fn exponential(&self, x: ExprId) -> Value {
-        let mut product = Residue::ONE;
-        for (_, value, coefficient) in self.normal_terms(x) {
-            let times = self.multiple(&coefficient)?;
-            let unit = self.random(Stream::Exponential, value.word());
-            product = product * unit.integer_power(times).ok_or(NoValue::Here)?;
-        }
-        Ok(product)
-    }
-
-    /// `coefficient · division`, an integer.
-    fn multiple(&self, coefficient: &Rational) -> Result<i64, NoValue> {
-        (coefficient.clone() * Rational::from(self.division)).to_i64().ok_or(NoValue::Here)
+    fn of_kernel(&self, function: Function, x: Residue) -> Residue {
+        self.random(Stream::Kernel, Residue::mixed(function as u64, x.word()).word())
     }
 }
 
-/// `(cos π/12, sin π/12)`. Either choice of either root gives a point whose sixth power is (0, 1).
-fn twelfth_of_pi() -> Result<(Residue, Residue), NoValue> {
-    let root = |n| Residue::of_word(n).sqrt().ok_or(NoValue::Here);
-    let (r2, r6) = (root(2)?, root(6)?);
-    let quarter = Residue::of_word(4).inverse().ok_or(NoValue::Here)?;
-    Ok(((r6 + r2) * quarter, (r6 - r2) * quarter))
-}
-
-fn rotate(a: (Residue, Residue), b: (Residue, Residue)) -> (Residue, Residue) {
-    (a.0 * b.0 - a.1 * b.1, a.0 * b.1 + a.1 * b.0)
-}
-
-fn circle_power(unit: (Residue, Residue), times: i64) -> (Residue, Residue) {
-    let mut base = if times < 0 { (unit.0, -unit.1) } else { unit };
-    let mut exponent = times.unsigned_abs();
-    let mut result = (Residue::ONE, Residue::ZERO);
-    while exponent > 0 {
-        if exponent & 1 == 1 {
-            result = rotate(result, base);
-        }
-        base = rotate(base, base);
-        exponent >>= 1;
-    }
-    result
-}
-
-/// The square root of a positive number whose prime factors are small.
-fn root_of_number(number: &Rational) -> Value {
-    let unsupported = || NoValue::Ever(format!("sqrt({number}) is outside what the zero test can treat"));
-    if number.is_negative() {
+/// The root of a positive number whose prime factors are small.
+fn root_of_number(number: &Rational, order: u64) -> Value {
+    let unsupported = || NoValue::Ever(format!("a root of {number} is outside what the zero test can treat"));
+    if number.is_negative() || !Residue::has_roots(order) {
         return Err(unsupported());
     }
-    Residue::of(number).and_then(Residue::sqrt).ok_or_else(unsupported)
+    Residue::of(number).and_then(|residue| residue.root(order)).ok_or_else(unsupported)
 }

@@ -1,7 +1,7 @@
 //! Functions with numbers for the constants, where that is shorter.
 
-use super::adapted::cheapest;
 use crate::algebra::{Graph, Substitution};
+use crate::choose::{Contender, Decision, Fate, cheapest, fate, prove_equal};
 use crate::count::Count;
 use crate::mechanics::{Definition, Procedure};
 use crate::system::System;
@@ -18,17 +18,27 @@ pub(super) fn in_numbers(system: &mut System) {
     let functions = system.functions.iter_mut().map(|function| &mut function.procedure);
     for function in [&mut system.derivative].into_iter().chain(&mut system.jacobian).chain(functions) {
         if function.length(graph) <= SHORT {
-            shorten(graph, function);
+            system.ledger.decisions.extend(shorten(graph, function));
         }
     }
 }
 
-fn shorten(graph: &mut Graph, function: &mut Procedure) {
+/// The cheapest, if it is another one and proved to compute the same.
+fn shorten(graph: &mut Graph, function: &mut Procedure) -> Option<Decision> {
     let numbers = function.in_numbers(graph, false);
     let simplified = function.in_numbers(graph, true);
     let forms = [function.clone(), numbers, simplified];
     let best = cheapest(graph, &forms);
-    *function = forms.into_iter().nth(best).unwrap_or_default();
+    if best == 0 {
+        return None;
+    }
+    let form = ["with names", "in numbers", "in numbers, simplified"][best];
+    let fate = fate(prove_equal(graph, function, &forms[best]));
+    if matches!(fate, Fate::Chosen(_)) {
+        *function = forms.into_iter().nth(best).unwrap_or_default();
+    }
+    let contenders = vec![Contender { form, cost: None, rounding: None, fate }];
+    Some(Decision { site: "constants", contenders, limits: Vec::new() })
 }
 
 impl Procedure {

@@ -19,16 +19,19 @@ mod restricted;
 mod routh;
 mod slice;
 mod splitting;
+mod strangers;
 mod volume;
 
 use crate::algebra::Facts;
 use crate::check::{self, BrokenLaws, Chosen, Constraints, Kind, Motion};
+use crate::choose::{Called, Fate, Ledger};
+use crate::forms::Registry;
 use crate::geometry::{Algebroid, ConstraintDistribution, Manifold, Rank};
-use crate::id::{Id, SymbolId};
+use crate::id::{Id, Origin, SymbolId};
 use crate::mechanics::LagrangianSystem;
 use crate::model::{ForceDirection, Model};
 use crate::system::System;
-use crate::violation::Violation;
+use crate::violation::{Law, Violation};
 use levels::OnLevels;
 pub(crate) use momenta::Symmetries;
 pub(crate) use routh::Level;
@@ -60,6 +63,22 @@ pub(crate) struct Proved {
     pub(crate) levels: Vec<Level>,
     /// The cyclic coordinates that these leave to quadratures.
     pub(crate) quadratures: Vec<SymbolId>,
+    /// What was chosen, and from what.
+    pub(crate) ledger: Ledger,
+}
+
+impl Proved {
+    /// The calls of the user's methods, with arguments in quasi-velocities.
+    fn called(&mut self) -> Vec<Called> {
+        let Self { model, motion, .. } = self;
+        let graph = &mut model.graph;
+        let calls = model.calls.iter().map(|call| Called {
+            symbol: call.symbol,
+            method: call.method.clone(),
+            arguments: motion.rates.apply_all(graph, &call.arguments),
+        });
+        calls.collect()
+    }
 }
 
 /// Checks a declaration and derives its equations.
@@ -67,6 +86,14 @@ pub(crate) struct Proved {
 /// # Errors
 /// Everything found wrong in the first stage that finds something wrong.
 pub fn compile(model: Model) -> Result<System, Vec<Violation>> {
+    compile_with(model, &Registry::standard())
+}
+
+/// The same with the forms of a registry.
+///
+/// # Errors
+/// As [`compile`].
+pub fn compile_with(model: Model, registry: &Registry) -> Result<System, Vec<Violation>> {
     let (mut proved, chosen) = prove(model)?;
     let quadratures = proved.quadratures.clone();
     // 7. the equations, proved regular, and the claims about them
@@ -75,13 +102,14 @@ pub fn compile(model: Model) -> Result<System, Vec<Violation>> {
             match levels::on_levels(&mut proved, &distribution)? {
                 OnLevels::Adapted(leveled) => {
                     let reason = reason + &leveled.remark;
-                    adapted::derive(proved, &distribution, &leveled, &conditions, &reason)?
+                    adapted::derive(proved, registry, (&distribution, &leveled), (&conditions, &reason))?
                 }
                 OnLevels::Projected { reason } => projected::derive(proved, &reason)?,
             }
         }
         Chosen::Projected { reason } => projected::derive(proved, &reason)?,
     };
+    let system = strangers::without_strangers(system)?;
     // 8. what is tracked
     let mut system = slice::slice(routh::without(system, &quadratures))?;
     constants::in_numbers(&mut system);
@@ -144,6 +172,7 @@ pub(crate) fn prove(mut model: Model) -> Result<(Proved, Chosen), Vec<Violation>
         symmetries,
         levels,
         quadratures,
+        ledger: Ledger::default(),
     };
     Ok((proved, chosen))
 }
@@ -211,4 +240,22 @@ fn lagrangian_system(model: &mut Model, motion: &mut Motion, algebroid: Algebroi
     let forces =
         forces.into_iter().zip(pulled_back).map(|(direct, pulled)| graph.add(direct, pulled)).collect();
     LagrangianSystem { algebroid, lagrangian, forces, forces_on_distribution, time: model.time }
+}
+
+/// No form of the equations could be proved.
+pub(super) fn nothing_proved(origin: Origin, ledger: &Ledger) -> Vec<Violation> {
+    let reasons = ledger.decisions.iter().flat_map(|decision| &decision.contenders);
+    let reason = reasons.rev().find_map(|contender| match &contender.fate {
+        Fate::NotAdmitted(reason) => Some(format!("of the form `{}`: {reason}", contender.form)),
+        _ => None,
+    });
+    vec![Violation {
+        law: Law::Decidable,
+        origin,
+        what: "no form of the equations of motion could be proved to be what is declared".into(),
+        evidence: reason.unwrap_or_default(),
+        way_out:
+            "write what is declared in simpler functions; this is a limit of the proof, please report it"
+                .into(),
+    }]
 }

@@ -10,9 +10,10 @@ use super::restricted::{
     calls, coordinates, in_state, observables, parameter_checks, parameter_divisors, requested,
     requested_jacobian, requested_parameter_jacobian,
 };
-use super::{Proved, fence, levels};
+use super::{Proved, fence, levels, nothing_proved};
 use crate::algebra::{Graph, Matrix, Substitution};
 use crate::check;
+use crate::choose::{Claim, Contender, Decision, Fate, Reference, fate, prove};
 use crate::functions::{
     ENERGY, GIBBS_APPELL, GYROSCOPIC, MULTIPLIERS, OUTPUTS, PARAMETER_JACOBIAN, REACTIONS, RESIDUAL, VELOCITY,
 };
@@ -40,21 +41,12 @@ pub(super) fn derive(mut proved: Proved, reason: &str) -> Result<System, Vec<Vio
     let facts = proved.facts.clone();
     let judge = |graph: &Graph, matrix: &Matrix| definiteness(graph, matrix, &parameters, &facts);
     let mut everywhere = Substitution::new([]);
-    let mut derivative = calls(&mut proved.model, &mut proved.motion, &mut everywhere);
+    let derivative = calls(&mut proved.model, &mut proved.motion, &mut everywhere);
     let gibbs_appell = gibbs_appell::with_multipliers(&mut proved, &equations, &derivative);
-    let graph = &mut proved.model.graph;
-    let (accelerations, multipliers) = equations.solve(graph, judge, &mut derivative);
-    let reactions = (0..accelerations.len())
-        .map(|alpha| {
-            let column: Vec<ExprId> = equations.jacobian.iter().map(|row| row[alpha]).collect();
-            graph.inner_product(&column, &multipliers)
-        })
-        .collect();
-    derivative.outputs = equations.rates.iter().chain(&accelerations).copied().collect();
-    let (multipliers, reactions) = (derivative.with_outputs(multipliers), derivative.with_outputs(reactions));
-    let fixed = &proved.system.algebroid.anchor.coordinates;
-    let derivative = without_needless_cancellation(graph, derivative, fixed);
+    let Solved { derivative, multipliers, reactions } =
+        proved_solution(&mut proved, &equations, &residuals, &derivative, judge)?;
     // 3. E_L, y and the observables
+    let graph = &mut proved.model.graph;
     let velocity = proved.system.algebroid.velocity(graph);
     let energy = energy(graph, &proved.system);
     let energy = graph.simplify(energy);
@@ -113,10 +105,76 @@ pub(super) fn derive(mut proved: Proved, reason: &str) -> Result<System, Vec<Vio
         phase_space,
         embedding,
         parameter_checks: parameter_checks(&model, &divisors),
+        ledger: proved.ledger,
         report: text,
         equations: lines,
         model,
     })
+}
+
+/// What solves the saddle equations.
+struct Solved {
+    derivative: Procedure,
+    multipliers: Procedure,
+    reactions: Procedure,
+}
+
+/// The solution of the saddle equations that is proved to be what is declared: by elimination without
+/// pivoting where that is known to be possible, else with it.
+fn proved_solution(
+    proved: &mut Proved,
+    equations: &SaddleEquations,
+    residuals: &[ExprId],
+    calls: &Procedure,
+    judge: impl Fn(&Graph, &Matrix) -> Definiteness,
+) -> Result<Solved, Vec<Violation>> {
+    let called = proved.called();
+    let graph = &mut proved.model.graph;
+    let reference = Reference::projected(graph, &proved.system, called, residuals.to_vec());
+    let mut decision = Decision { site: "derivative", ..Decision::default() };
+    let [asks_multipliers, asks_reactions] =
+        [Request::Multipliers, Request::Reactions].map(|request| requested(&proved.model, request));
+    let graph = &mut proved.model.graph;
+    for is_pivoted in [false, true] {
+        let mut procedure = calls.clone();
+        let (accelerations, multipliers) = if is_pivoted {
+            equations.solve_pivoted(graph, &mut procedure)
+        } else {
+            equations.solve(graph, &judge, &mut procedure)
+        };
+        let reactions = (0..accelerations.len())
+            .map(|alpha| {
+                let column: Vec<ExprId> = equations.jacobian.iter().map(|row| row[alpha]).collect();
+                graph.inner_product(&column, &multipliers)
+            })
+            .collect();
+        procedure.outputs = equations.rates.iter().chain(&accelerations).copied().collect();
+        // those of levels are zero
+        let declared = proved.constraints.residuals.len();
+        let multipliers = procedure.with_outputs(multipliers.into_iter().take(declared).collect());
+        let reactions = procedure.with_outputs(reactions);
+        let fixed = &proved.system.algebroid.anchor.coordinates;
+        let derivative = without_needless_cancellation(graph, procedure, fixed);
+        let mut proof = prove(graph, &reference, &Claim::Motion(&derivative));
+        if asks_multipliers {
+            let claim = Claim::Multipliers(&derivative, &multipliers, None);
+            proof = proof.and_then(|_| prove(graph, &reference, &claim));
+        }
+        if asks_reactions {
+            let claim = Claim::Reactions(&derivative, &reactions);
+            proof = proof.and_then(|_| prove(graph, &reference, &claim));
+        }
+        let form = if is_pivoted { "with pivoting" } else { "by complement" };
+        let fate = fate(proof);
+        let is_admitted = matches!(fate, Fate::Chosen(_));
+        decision.contenders.push(Contender { form, cost: None, rounding: None, fate });
+        if is_admitted {
+            proved.ledger.decisions.push(decision);
+            return Ok(Solved { derivative, multipliers, reactions });
+        }
+    }
+    proved.ledger.decisions.push(decision);
+    Err(nothing_proved(proved.model.origin, &proved.ledger))
 }
 
 /// One Newton step towards the point of the constraint manifold that is nearest to y₀ in the

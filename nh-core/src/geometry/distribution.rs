@@ -227,7 +227,12 @@ impl ConstraintDistribution {
             for unknown in unknowns {
                 let section = self.dependent[*unknown].index();
                 if let ([row], [_]) = (rows.as_slice(), unknowns.as_slice()) {
-                    let without = images.iter().copied().chain([(velocities[section], zero)]);
+                    // what is solved for later has no part in this constraint, though it may occur in it, with a
+                    // coefficient that cancels
+                    let is_open = |later: &SymbolId| images.iter().all(|(solved, _)| solved != later);
+                    let open = self.dependent.iter().map(|section| velocities[section.index()]);
+                    let open = open.filter(is_open).map(|later| (later, zero));
+                    let without = images.iter().copied().chain(open);
                     let rest = Substitution::new(without).apply(graph, residuals[*row]);
                     let quotient = graph.div(rest, self.constraints.annihilator[*row][section]);
                     velocity[section] = graph.neg(quotient);

@@ -7,6 +7,8 @@ use std::collections::BTreeMap;
 
 /// Parameter sets tried.
 const PARAMETER_SETS: u64 = 120;
+/// Parameter sets tried for the sign of an expression, with each of them zero in turn.
+const SIGN_SETS: u64 = 24;
 /// Configurations at which the matrix has to be definite.
 const CONFIGURATIONS: u64 = 12;
 
@@ -42,6 +44,54 @@ pub fn definiteness(
         }
     }
     Definiteness::Unknown
+}
+
+/// Samples: whether an expression has one sign wherever a matrix is definite, parameters at zero included.
+///
+/// At the parameters for which the matrix is definite at every configuration tried, and at those with one
+/// of them zero for which it still is: a form that divides by the expression then asks for no more than the
+/// matrix does.
+#[must_use]
+pub fn keeps_its_sign(
+    graph: &Graph,
+    matrix: &[Vec<ExprId>],
+    expression: ExprId,
+    parameters: &[SymbolId],
+    facts: &Facts,
+) -> bool {
+    let mut signs = [false; 2];
+    let occurring = graph.symbols_in(&[expression]);
+    let zeroed = occurring.into_iter().filter(|symbol| parameters.contains(symbol)).map(Some);
+    for zero in std::iter::once(None).chain(zeroed) {
+        let may_be_zero = zero.is_none_or(|symbol| {
+            facts
+                .symbols
+                .get(&symbol)
+                .is_none_or(|range| !range.nonzero && range.low <= 0.0 && range.high >= 0.0)
+        });
+        for set in (0..SIGN_SETS).filter(|_| may_be_zero) {
+            let value = |configuration: u64| {
+                move |symbol: SymbolId| match parameters.contains(&symbol) {
+                    true if zero == Some(symbol) => 0.0,
+                    true => parameter_sample(set, symbol, facts),
+                    false => configuration_sample(configuration, symbol),
+                }
+            };
+            let definite = [1.0, -1.0]
+                .map(|sign| (0..CONFIGURATIONS).all(|c| is_positive_at(graph, matrix, sign, value(c))));
+            if !definite.contains(&true) {
+                continue;
+            }
+            for configuration in 0..CONFIGURATIONS {
+                let found = graph.evaluate(&[expression], value(configuration))[0];
+                if !found.is_certainly_nonzero() {
+                    return false;
+                }
+                signs[usize::from(found.value < 0.0)] = true;
+            }
+        }
+    }
+    signs[0] != signs[1]
 }
 
 /// Between 1/16 and 8, evenly on a logarithmic scale, from the bound that is known of the parameter.

@@ -13,8 +13,7 @@ const POINTS: u32 = 16;
 /// geometric mean over some points, for the worst of the outputs.
 ///
 /// An error below a few units in the last place of the value counts as that. The mean, since at a point
-/// where a value happens to be small the bounds of any two programs are far apart. It is infinite for a program
-/// whose values are not those of the first, whatever their errors: none such is ever the cheapest.
+/// where a value happens to be small the bounds of any two programs are far apart.
 #[must_use]
 pub fn error_growth<P: Borrow<Program>>(programs: &[P]) -> Vec<f64> {
     let outputs = programs.iter().map(|program| program.borrow().outputs.len()).min().unwrap_or(0);
@@ -37,13 +36,6 @@ pub fn error_growth<P: Borrow<Program>>(programs: &[P]) -> Vec<f64> {
             for (sums, values) in logarithms.iter_mut().zip(&values) {
                 let growth = values[output].error / least.max(floor);
                 sums[output] += if growth.is_nan() { f64::INFINITY } else { growth.max(1.0).ln() };
-            }
-            let first = values[0][output];
-            for (sums, values) in logarithms.iter_mut().zip(&values) {
-                let Bounded { value, error } = values[output];
-                if (value - first.value).abs() > error + first.error + floor {
-                    sums[output] = f64::INFINITY;
-                }
             }
         }
     }

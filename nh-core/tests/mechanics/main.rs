@@ -7,6 +7,7 @@ mod derivation;
 mod laws;
 mod operation_counts;
 mod phase_space;
+mod planted_forms;
 mod requests;
 mod systems;
 mod velocity_forms;

@@ -155,6 +155,7 @@ impl Builder {
                 .iter()
                 .map(|(nonzero, text)| ParameterCheck { nonzero: *nonzero, text: (*text).to_owned() })
                 .collect(),
+            ledger: nonholonomic_core::choose::Ledger::default(),
             report: "Derived by hand.".to_owned(),
             equations: vec!["x' = …".to_owned()],
         }

@@ -53,7 +53,7 @@ impl Graph {
         let order = self.reachable(roots);
         let division = match point {
             Point::Given(_) => 1,
-            Point::Random { .. } => self.angle_division(&order).map_err(|_| NoBall::TooLong)?,
+            Point::Random { .. } => self.angle_division(roots),
         };
         let mut pass = Pass {
             graph: self,

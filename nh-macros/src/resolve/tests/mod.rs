@@ -11,6 +11,7 @@ mod limits;
 mod meaning;
 mod names;
 mod on_levels;
+mod proved;
 mod requests;
 mod sections;
 

@@ -1,0 +1,234 @@
+//! Sines, cosines and exponentials at points of the field: by one random point of the circle, or one random
+//! unit, for each term of the argument's normal form.
+
+use super::field::Residue;
+use super::graph::{Function, Graph, Node};
+use super::modular::{FieldPass, NoValue, Stream, Value};
+use super::number::Rational;
+use crate::id::{ExprId, SymbolId};
+use num_integer::Integer;
+use num_traits::ToPrimitive;
+
+impl Graph {
+    /// A common denominator of the coefficients inside sine, cosine and exp; those that are too long are left
+    /// aside, and belong to the value that they multiply.
+    pub(crate) fn angle_division(&self, roots: &[ExprId]) -> i64 {
+        let mut division: i64 = 1;
+        self.each_reachable(roots, |id| {
+            let is_periodic = |function: Function| {
+                use Function::{Cos, Cosh, Exp, Sin, Sinh, Tanh};
+                matches!(function, Sin | Cos | Exp | Sinh | Cosh | Tanh)
+            };
+            if let Node::Apply(function, x) = self.node(id)
+                && is_periodic(*function)
+            {
+                for (_, coefficient) in self.angle_terms(*x) {
+                    let denominator = coefficient.denominator().to_i64();
+                    let lcm = denominator.and_then(|d| (division / division.gcd(&d)).checked_mul(d));
+                    division = lcm.filter(|lcm| *lcm < LARGEST_DIVISION).unwrap_or(division);
+                }
+            }
+            true
+        });
+        division
+    }
+
+    /// The argument of a periodic function as terms with coefficients; the number among them
+    /// stands as a multiple of itself being 1.
+    pub(super) fn angle_terms(&self, x: ExprId) -> Vec<(Option<ExprId>, Rational)> {
+        let scaled = |term: ExprId, coefficient: &Rational| {
+            let factor = self.angle_factor(term).unwrap_or(Rational::ONE);
+            (Some(term), coefficient.clone() * factor)
+        };
+        match self.node(x) {
+            Node::Number(value) => vec![(None, value.clone())],
+            Node::Sum { constant, terms } => {
+                let mut list: Vec<_> = terms.iter().map(|(term, c)| scaled(*term, c)).collect();
+                if !constant.is_zero() {
+                    list.push((None, constant.clone()));
+                }
+                list
+            }
+            Node::Product { coefficient, .. } => vec![scaled(x, coefficient)],
+            _ => vec![scaled(x, &Rational::ONE)],
+        }
+    }
+
+    /// How many times units of the circle, or of the exponential, are multiplied at most for an argument.
+    pub(super) fn angle_turns(&self, x: ExprId, division: i64) -> f64 {
+        let is_sum = |(base, _): &(ExprId, Rational)| matches!(self.node(*base), Node::Sum { .. });
+        let mut turns = 0.0;
+        for (term, coefficient) in self.angle_terms(x) {
+            let scaled = coefficient * Rational::from(division);
+            let times = scaled.to_i64().map_or(Rational::from(division), |_| scaled.abs());
+            let expands = term.is_some_and(
+                |term| matches!(self.node(term), Node::Product { factors, .. } if factors.iter().any(is_sum)),
+            );
+            turns += times.to_f64() * if expands { EXPANDED_TERMS } else { 1.0 };
+        }
+        turns
+    }
+
+    /// The constants among the factors of a term of an angle, which count as its coefficient. With a long
+    /// denominator they do not: then an identity has to hold for any value.
+    fn angle_factor(&self, term: ExprId) -> Option<Rational> {
+        let factor = self.constant_factor(term);
+        (factor.is_one() || factor.denominator() <= LONGEST_DENOMINATOR.into()).then_some(factor)
+    }
+}
+
+/// Denominators of constants in angles up to which these are numbers: common denominators stay short.
+const LONGEST_DENOMINATOR: i64 = 1000;
+/// Terms that a product of sums in an angle is multiplied out to at most.
+const BUDGET: usize = 256;
+/// The same, with coefficients of up to 2¹⁶ each.
+const EXPANDED_TERMS: f64 = 16_777_216.0;
+/// Common denominators of coefficients in angles are shorter than this.
+const LARGEST_DIVISION: i64 = 1 << 20;
+
+impl FieldPass<'_> {
+    /// The terms of an angle, products of sums multiplied out, as field values with coefficients.
+    fn normal_terms(&self, x: ExprId) -> Vec<(Option<SymbolId>, Residue, Rational)> {
+        let mut list = Vec::new();
+        for (term, coefficient) in self.graph.angle_terms(x) {
+            match term {
+                None => list.push((None, Residue::ONE, coefficient)),
+                Some(term) => list.extend(self.expanded(term, &coefficient)),
+            }
+        }
+        list
+    }
+
+    /// Multiplies out the positive powers of sums in a product, within a budget.
+    fn expanded(&self, term: ExprId, scale: &Rational) -> Vec<(Option<SymbolId>, Residue, Rational)> {
+        let whole =
+            |coefficient: Rational, value: Residue| vec![(self.graph.as_symbol(term), value, coefficient)];
+        let constant = self.graph.angle_factor(term);
+        let over = |number: Rational| Residue::of(&number).and_then(Residue::inverse).unwrap_or(Residue::ONE);
+        let unit = over(constant.clone().unwrap_or(Rational::ONE));
+        let Node::Product { coefficient, factors } = self.graph.node(term) else {
+            return whole(scale.clone(), self.known[&term] * unit);
+        };
+        let unit = over(coefficient.clone()) * unit;
+        let mut list = vec![(Residue::ONE, scale.clone())];
+        let is_coefficient = |(base, exponent): &&(ExprId, Rational)| {
+            constant.is_some() && exponent.is_integer() && self.graph.value_of(*base).is_some()
+        };
+        let factors: Vec<_> = factors.iter().filter(|factor| !is_coefficient(factor)).collect();
+        for (base, exponent) in &factors {
+            let times = exponent.to_i64().filter(|n| (1..=4).contains(n)).unwrap_or(0);
+            if let (Node::Sum { constant, terms }, 1..) = (self.graph.node(*base), times) {
+                for _ in 0..times {
+                    if list.len() * (terms.len() + 1) > BUDGET {
+                        return whole(scale.clone(), self.known[&term] * unit);
+                    }
+                    let mut next = Vec::new();
+                    for (value, c) in &list {
+                        next.extend(terms.iter().map(|(t, d)| {
+                            let factor = self.graph.angle_factor(*t).unwrap_or(Rational::ONE);
+                            let of_rest = *value * self.known[t] * over(factor.clone());
+                            (of_rest, c.clone() * d.clone() * factor)
+                        }));
+                        if !constant.is_zero() {
+                            next.push((*value, c.clone() * constant.clone()));
+                        }
+                    }
+                    list = next;
+                }
+            } else if let Ok(power) = self.power(*base, exponent) {
+                for (value, _) in &mut list {
+                    *value = *value * power;
+                }
+            }
+        }
+        let symbol = match factors.as_slice() {
+            [(base, exponent)] if exponent.is_one() => self.graph.as_symbol(*base),
+            _ => None,
+        };
+        list.into_iter().map(|(value, c)| (symbol, value, c)).collect()
+    }
+
+    /// `(cos x, sin x)`.
+    pub(super) fn circle(&mut self, x: ExprId) -> Result<(Residue, Residue), NoValue> {
+        if let Some(known) = self.circles.get(&x) {
+            return Ok(*known);
+        }
+        let mut turned = (Residue::ONE, Residue::ZERO);
+        let pi = self.random(Stream::Pi, 0);
+        for (symbol, value, coefficient) in self.normal_terms(x) {
+            if value == pi
+                && let Some(twelfths) = (coefficient.clone() * Rational::from(12)).to_i64()
+            {
+                turned = rotate(turned, circle_power(twelfth_of_pi()?, twelfths));
+                continue;
+            }
+            let chosen = symbol.and_then(|symbol| self.point.circle.get(&symbol));
+            let (unit, times) = if let Some(unit) = chosen {
+                (*unit, coefficient.to_i64().ok_or(NoValue::Here)?)
+            } else {
+                let (value, times) = self.multiple(value, &coefficient)?;
+                (self.unit_of(value)?, times)
+            };
+            turned = rotate(turned, circle_power(unit, times));
+        }
+        self.circles.insert(x, turned);
+        Ok(turned)
+    }
+
+    /// The random point of the circle above `value / division`.
+    fn unit_of(&mut self, value: Residue) -> Result<(Residue, Residue), NoValue> {
+        if let Some(unit) = self.units.get(&value.word()) {
+            return Ok(*unit);
+        }
+        let u = self.random(Stream::Circle, value.word());
+        let scale = (Residue::ONE + u * u).inverse().ok_or(NoValue::Here)?;
+        let unit = ((Residue::ONE - u * u) * scale, (u + u) * scale);
+        self.units.insert(value.word(), unit);
+        Ok(unit)
+    }
+
+    pub(super) fn exponential(&self, x: ExprId) -> Value {
+        let mut product = Residue::ONE;
+        for (_, value, coefficient) in self.normal_terms(x) {
+            let (value, times) = self.multiple(value, &coefficient)?;
+            let unit = self.random(Stream::Exponential, value.word());
+            product = product * unit.integer_power(times).ok_or(NoValue::Here)?;
+        }
+        Ok(product)
+    }
+
+    /// `coefficient · value` as an integer multiple of `value / division`, or of a value of its own where the
+    /// coefficient is too long for that.
+    fn multiple(&self, value: Residue, coefficient: &Rational) -> Result<(Residue, i64), NoValue> {
+        match (coefficient.clone() * Rational::from(self.division)).to_i64() {
+            Some(times) => Ok((value, times)),
+            None => Ok((value * Residue::of(coefficient).ok_or(NoValue::Here)?, self.division)),
+        }
+    }
+}
+
+/// `(cos π/12, sin π/12)`. Either choice of either root gives a point whose sixth power is (0, 1).
+fn twelfth_of_pi() -> Result<(Residue, Residue), NoValue> {
+    let root = |n| Residue::of_word(n).sqrt().ok_or(NoValue::Here);
+    let (r2, r6) = (root(2)?, root(6)?);
+    let quarter = Residue::of_word(4).inverse().ok_or(NoValue::Here)?;
+    Ok(((r6 + r2) * quarter, (r6 - r2) * quarter))
+}
+
+fn rotate(a: (Residue, Residue), b: (Residue, Residue)) -> (Residue, Residue) {
+    (a.0 * b.0 - a.1 * b.1, a.0 * b.1 + a.1 * b.0)
+}
+
+fn circle_power(unit: (Residue, Residue), times: i64) -> (Residue, Residue) {
+    let mut base = if times < 0 { (unit.0, -unit.1) } else { unit };
+    let mut exponent = times.unsigned_abs();
+    let mut result = (Residue::ONE, Residue::ZERO);
+    while exponent > 0 {
+        if exponent & 1 == 1 {
+            result = rotate(result, base);
+        }
+        base = rotate(base, base);
+        exponent >>= 1;
+    }
+    result
+}

@@ -1,0 +1,235 @@
+//! Bounds on the degrees of expressions as rational functions of the random choices that make a point of the
+//! field: symbols, a parameter of the circle for each angle, a unit for each exponential.
+//!
+//! A function of degree d that is not zero vanishes at a random point of the field of P elements with
+//! probability d/P at most (Schwartz, Zippel).
+
+use super::graph::{Function, Graph, Node};
+use super::number::Rational;
+use crate::id::{ExprId, SymbolId};
+use rustc_hash::FxHashMap;
+use std::rc::Rc;
+
+/// A bound on the degree of a function N Π D^k: N is a polynomial, and so are the D, of which the numerators of
+/// divisors, and the denominators of points of the circle, are made. Kept apart they cancel where the terms of
+/// a sum have them in common, which elimination would double again and again.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct Degree {
+    numerator: f64,
+    /// The exponents k, ascending by what D belongs to, none of them zero.
+    factors: Rc<[(Factor, f64)]>,
+}
+
+/// What a D belongs to.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+enum Factor {
+    /// A divisor, or the argument of a periodic function.
+    Node(ExprId),
+    /// The unknown of a linear system.
+    Unknown(SymbolId),
+}
+
+impl Degree {
+    fn polynomial(numerator: f64) -> Self {
+        Self { numerator, factors: Rc::from([]) }
+    }
+}
+
+/// The bounds of expressions, of which symbols may have values.
+pub(crate) struct Degrees<'a> {
+    graph: &'a Graph,
+    division: i64,
+    known: FxHashMap<ExprId, Degree>,
+    named: FxHashMap<SymbolId, Degree>,
+    /// The degrees of the D.
+    sizes: FxHashMap<Factor, f64>,
+}
+
+impl<'a> Degrees<'a> {
+    pub(crate) fn new(graph: &'a Graph, division: i64) -> Self {
+        let (known, named, sizes) = Default::default();
+        Self { graph, division, known, named, sizes }
+    }
+
+    /// Gives a symbol the bound of its value before it occurs.
+    pub(crate) fn name(&mut self, symbol: SymbolId, degree: Degree) {
+        self.named.insert(symbol, degree);
+    }
+
+    /// Gives an unknown the bound of a quotient of two polynomials of a degree before it occurs.
+    pub(crate) fn name_quotient(&mut self, symbol: SymbolId, degree: f64) {
+        let degree = self.quotient(Factor::Unknown(symbol), degree);
+        self.name(symbol, degree);
+    }
+
+    /// The bound of a quotient of two polynomials of a degree.
+    fn quotient(&mut self, of: Factor, degree: f64) -> Degree {
+        self.sizes.insert(of, degree);
+        Degree { numerator: degree, factors: Rc::from([(of, -1.0)]) }
+    }
+
+    /// The bounds of several expressions.
+    fn of_all(&mut self, roots: &[ExprId]) -> Vec<Degree> {
+        if roots.iter().any(|root| !self.known.contains_key(root)) {
+            for id in self.graph.reachable(roots) {
+                if !self.known.contains_key(&id) {
+                    let degree = self.of_node(id);
+                    self.known.insert(id, degree);
+                }
+            }
+        }
+        roots.iter().map(|root| self.known[root].clone()).collect()
+    }
+
+    /// The bound of an expression.
+    pub(crate) fn of(&mut self, root: ExprId) -> Degree {
+        self.of_all(&[root])[0].clone()
+    }
+
+    /// The largest degree of a numerator or a denominator among several expressions, 1 at least.
+    pub(crate) fn most(&mut self, roots: &[ExprId]) -> f64 {
+        self.of_all(roots).iter().map(|degree| self.size(degree)).fold(1.0, f64::max)
+    }
+
+    /// The larger one of the degrees of numerator and denominator.
+    fn size(&self, degree: &Degree) -> f64 {
+        let (mut up, mut down) = (degree.numerator, 0.0);
+        for (factor, exponent) in degree.factors.iter() {
+            let size = self.sizes[factor] * exponent.abs();
+            if *exponent > 0.0 { up += size } else { down += size }
+        }
+        f64::max(up, down)
+    }
+
+    fn of_node(&mut self, id: ExprId) -> Degree {
+        match self.graph.node(id) {
+            Node::Number(_) | Node::Pi | Node::Constant(_) => Degree::polynomial(0.0),
+            Node::Symbol(symbol) => {
+                self.named.get(symbol).cloned().unwrap_or_else(|| Degree::polynomial(1.0))
+            }
+            Node::Sum { constant, terms } => {
+                let terms = terms.iter().map(|(term, _)| self.known[term].clone());
+                let constant = (!constant.is_zero()).then(|| Degree::polynomial(0.0));
+                self.of_sum(&terms.chain(constant).collect::<Vec<_>>())
+            }
+            Node::Product { factors, .. } => self.of_product(factors),
+            Node::Apply(function, x) => self.of_function(*function, *x),
+            Node::Apply2(..) => Degree::polynomial(1.0),
+        }
+    }
+
+    /// Over the common denominator: of each D the least exponent.
+    fn of_sum(&self, terms: &[Degree]) -> Degree {
+        let Some(first) = terms.first() else { return Degree::polynomial(0.0) };
+        if terms.iter().all(|term| Rc::ptr_eq(&term.factors, &first.factors) || term.factors == first.factors)
+        {
+            let numerator = terms.iter().map(|term| term.numerator).fold(0.0, f64::max);
+            return Degree { numerator, factors: first.factors.clone() };
+        }
+        let mut least: FxHashMap<Factor, (f64, usize)> = FxHashMap::default();
+        for (factor, exponent) in terms.iter().flat_map(|term| term.factors.iter()) {
+            let slot = least.entry(*factor).or_insert((f64::INFINITY, 0));
+            *slot = (slot.0.min(*exponent), slot.1 + 1);
+        }
+        // a term without it has the exponent 0
+        for (exponent, terms_with) in least.values_mut() {
+            if *terms_with < terms.len() {
+                *exponent = exponent.min(0.0);
+            }
+        }
+        let common: f64 = least.iter().map(|(factor, (exponent, _))| self.sizes[factor] * exponent).sum();
+        let mut numerator = 0.0_f64;
+        for term in terms {
+            let own: f64 = term.factors.iter().map(|(factor, exponent)| self.sizes[factor] * exponent).sum();
+            numerator = numerator.max(term.numerator + own - common);
+        }
+        let factors = least.into_iter().map(|(factor, (exponent, _))| (factor, exponent));
+        Degree { numerator, factors: sorted(factors) }
+    }
+
+    fn of_product(&mut self, factors: &[(ExprId, Rational)]) -> Degree {
+        let mut numerator = 0.0;
+        let mut exponents: FxHashMap<Factor, f64> = FxHashMap::default();
+        for (base, power) in factors {
+            let power = power.to_f64();
+            let degree = self.known[base].clone();
+            if power < 0.0 && degree.numerator > 0.0 {
+                self.sizes.insert(Factor::Node(*base), degree.numerator);
+                *exponents.entry(Factor::Node(*base)).or_insert(0.0) += power;
+            } else if power > 0.0 {
+                numerator += power * degree.numerator;
+            }
+            for (factor, exponent) in degree.factors.iter() {
+                *exponents.entry(*factor).or_insert(0.0) += power * exponent;
+            }
+        }
+        Degree { numerator, factors: sorted(exponents) }
+    }
+
+    /// Multiples of an angle are powers of a point of the circle, which has degree 2.
+    fn of_function(&mut self, function: Function, x: ExprId) -> Degree {
+        match function {
+            Function::Sin
+            | Function::Cos
+            | Function::Exp
+            | Function::Sinh
+            | Function::Cosh
+            | Function::Tanh => {
+                let turns = 2.0 * self.graph.angle_turns(x, self.division);
+                self.quotient(Factor::Node(x), turns)
+            }
+            Function::Asin
+            | Function::Acos
+            | Function::Atan
+            | Function::Ln
+            | Function::Abs
+            | Function::Sign => Degree::polynomial(1.0),
+        }
+    }
+}
+
+fn sorted(factors: impl IntoIterator<Item = (Factor, f64)>) -> Rc<[(Factor, f64)]> {
+    let mut list: Vec<(Factor, f64)> = factors.into_iter().filter(|(_, exponent)| *exponent != 0.0).collect();
+    list.sort_unstable_by_key(|(factor, _)| *factor);
+    list.into()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn quotients_and_angles_are_counted() {
+        let mut g = Graph::new();
+        let (x, a) = (g.new_symbol("x"), g.new_symbol("a"));
+        let (ex, ea) = (g.symbol(x), g.symbol(a));
+        let (square, twice) = (g.square(ex), g.scale(Rational::from(2), ea));
+        let (one, sin) = (g.one(), g.sin(twice));
+        let sum = g.add(one, square);
+        let quotient = g.div(ex, sum);
+        let whole = g.add(quotient, sin);
+        let mut degrees = Degrees::new(&g, 1);
+        // x/(1 + x²), 2 turns of degree 2, and both over a common denominator
+        let found = [quotient, sin, whole].map(|root| degrees.most(&[root]).to_string());
+        assert_eq!(found, ["2", "4", "6"]);
+    }
+
+    #[test]
+    fn elimination_doubles_degrees_and_no_more() {
+        let mut g = Graph::new();
+        let entry = g.new_symbol("a");
+        let mut degrees = Vec::new();
+        // d ↦ a − d²/d', a pivot after the other
+        let (mut last, mut value) = (g.symbol(entry), g.symbol(entry));
+        for _ in 0..10 {
+            let quotient = g.div(value, last);
+            let (product, b) = (g.mul(value, quotient), g.new_symbol("b"));
+            let b = g.symbol(b);
+            last = value;
+            value = g.sub(b, product);
+            degrees.push(value);
+        }
+        let found = Degrees::new(&g, 1).most(&degrees[9..]);
+        assert!(found > 10.0 && found < 2048.0, "{found}");
+    }
+}

@@ -1,0 +1,25 @@
+//! Sizes beyond which forms are left aside, each with its reason, in the unit of
+//! [`Graph::operation_count`](crate::algebra::Graph::operation_count). None of them is a condition of a proof.
+
+use crate::count::Count;
+
+/// Lagrangians with more operations than this are not expanded: the equations are derived in
+/// velocity forms alone.
+pub(crate) const EXPANDED: u64 = 250;
+/// The same where points are carried by wheels: the recursion from wheel to wheel is shorter than what
+/// expansion comes to as soon as there are several bodies.
+pub(crate) const EXPANDED_ON_WHEELS: u64 = 60;
+/// The coefficients of longer velocities on D are not named one by one: expressions of that size are those of
+/// chains, which are shorter from wheel to wheel.
+pub(crate) const NAMED: u64 = 60;
+/// Forms whose equations take so much more work than the shortest, before they are solved, are not
+/// solved: they have never been the cheapest.
+const LONGER: u64 = 40;
+
+/// What the ledger says of those.
+pub(crate) const BESIDE: &str = " before it is solved, beside ";
+
+/// Whether equations of a length are left aside beside those of the shortest.
+pub(crate) fn is_much_longer(length: Count, shortest: Count) -> bool {
+    length > shortest + LONGER && length * 2 > shortest * 3
+}

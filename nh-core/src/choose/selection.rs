@@ -1,0 +1,117 @@
+//! Which form is emitted: the cheapest of those that are proved, among those whose rounding error the level of
+//! accuracy allows.
+
+use super::conditions::Regular;
+use super::ledger::{Contender, Decision, Fate, Proof};
+use super::proof::{Claim, Defect, prove};
+use super::reference::Reference;
+use crate::algebra::{Accuracy, Graph};
+use crate::mechanics::Procedure;
+use crate::program::{Cost, Program, error_growth, order, schedule_roughly};
+
+/// What a procedure is compared by.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Rating {
+    /// Whether its rounding error is allowed beside the others.
+    sound: bool,
+    order: (usize, usize),
+    cost: usize,
+    growth: f64,
+}
+
+/// The ratings of procedures of the same value.
+pub(crate) fn rate(graph: &Graph, procedures: &[Procedure]) -> Vec<Rating> {
+    let programs: Vec<Program> =
+        procedures.iter().map(|procedure| schedule_roughly(graph, procedure)).collect();
+    let growth = error_growth(&programs).into_iter();
+    let growth: Vec<f64> = match graph.accuracy() {
+        Accuracy::Fast => growth.map(|growth| if growth.is_finite() { 1.0 } else { growth }).collect(),
+        Accuracy::Balanced | Accuracy::Careful => growth.collect(),
+    };
+    let least = growth.iter().copied().fold(f64::INFINITY, f64::min);
+    let allowed = graph.accuracy().growth().max(least);
+    let rated = programs.iter().zip(growth).map(|(program, growth)| Rating {
+        sound: growth <= allowed,
+        order: order(program),
+        cost: Cost::of(program).weighted(),
+        growth,
+    });
+    rated.collect()
+}
+
+/// The procedures from the best to the worst: those that are accurate enough first, then by cost.
+pub(crate) fn ranking(ratings: &[Rating]) -> Vec<usize> {
+    let mut order: Vec<usize> = (0..ratings.len()).collect();
+    order.sort_by_key(|index| (!ratings[*index].sound, ratings[*index].order));
+    order
+}
+
+/// The cheapest of several procedures of the same value, among those whose rounding error the level of
+/// accuracy allows.
+pub(crate) fn cheapest(graph: &Graph, procedures: &[Procedure]) -> usize {
+    ranking(&rate(graph, procedures)).first().copied().unwrap_or(0)
+}
+
+/// A procedure of a form.
+pub(crate) struct Entry {
+    pub(crate) form: &'static str,
+    pub(crate) procedure: Procedure,
+}
+
+/// The best procedure, if it is proved to move the state as declared; `finish` makes of a procedure what will be
+/// emitted, which is what is proved. Without `regular` it may add conditions.
+///
+/// # Errors
+/// The form of the best one, where it is not admitted: what it was compared with is to be compared without it.
+pub(crate) fn admitted(
+    graph: &mut Graph,
+    (reference, regular): (&Reference, Option<&Regular>),
+    entries: &[Entry],
+    finish: impl FnOnce(&mut Graph, &Procedure) -> Procedure,
+    decision: &mut Decision,
+) -> Result<Procedure, Option<&'static str>> {
+    let procedures: Vec<Procedure> = entries.iter().map(|entry| entry.procedure.clone()).collect();
+    // a single one needs no comparison
+    let ratings = if procedures.len() < 2 { Vec::new() } else { rate(graph, &procedures) };
+    let ranking = if ratings.is_empty() { (0..procedures.len()).collect() } else { ranking(&ratings) };
+    let contender = |index: usize, fate: Fate| Contender {
+        form: entries[index].form,
+        cost: ratings.get(index).map(|rating| rating.cost as u64),
+        rounding: ratings.get(index).map(|rating| rating.growth),
+        fate,
+    };
+    let Some((best, others)) = ranking.split_first() else { return Err(None) };
+    let finished = finish(graph, &procedures[*best]);
+    let mut fate = fate(prove(graph, reference, &Claim::Motion(&finished)));
+    if let Fate::Chosen(_) = fate
+        && let Some(divisor) = regular.and_then(|regular| regular.added(graph, &finished))
+    {
+        let divisor = graph.text(divisor);
+        let reason =
+            format!("it divides by {divisor}, which may vanish where the declared equations are regular");
+        fate = Fate::NotAdmitted(reason);
+    }
+    let is_admitted = matches!(fate, Fate::Chosen(_));
+    decision.contenders.push(contender(*best, fate));
+    if !is_admitted {
+        return Err(Some(entries[*best].form));
+    }
+    for index in others {
+        let is_sound = ratings.get(*index).is_some_and(|rating| rating.sound);
+        let reason = if is_sound {
+            "it is no cheaper"
+        } else {
+            "its rounding errors are larger than the level allows"
+        };
+        decision.contenders.push(contender(*index, Fate::Lost(reason)));
+    }
+    Ok(finished)
+}
+
+/// What becomes of the contender of a proof.
+pub(crate) fn fate(proof: Result<Proof, Defect>) -> Fate {
+    match proof {
+        Ok(proof) => Fate::Chosen(proof),
+        Err(defect) => Fate::NotAdmitted(defect.to_string()),
+    }
+}

@@ -1,0 +1,123 @@
+//! Forms of the equations of motion: different arithmetic for the same C v̇ = f.
+//!
+//! A form is a file here and a line in [`Registry::standard`]. What it derives is compared with what the others
+//! derive, and proved against the declaration before it may be emitted (`choose`): a form cannot make the
+//! equations wrong, and need not be right for every declaration.
+
+mod along_chain;
+mod by_momenta;
+mod by_parts;
+mod by_velocities;
+mod expanded;
+mod on_wheels;
+
+use crate::algebra::Graph;
+use crate::count::Count;
+use crate::geometry::ConstraintDistribution;
+use crate::id::ExprId;
+use crate::mechanics::{LagrangianSystem, ReducedEquations};
+use std::fmt;
+
+/// What a form is derived from.
+#[derive(Clone, Copy, Debug)]
+pub struct Setting<'s> {
+    /// L, ρ, C and Υ.
+    pub system: &'s LagrangianSystem,
+    /// D, on the levels of momenta that are declared.
+    pub distribution: &'s ConstraintDistribution,
+    /// The same with the dependent velocities one after the other; `None` in a basis that is orthonormal.
+    pub chained: Option<&'s ConstraintDistribution>,
+    /// The constraints as they were written; `None` where levels of momenta determine velocities besides.
+    pub residuals: Option<&'s [ExprId]>,
+    /// The operations of L, as [`Graph::operation_count`].
+    pub size: Count,
+}
+
+/// One way to write the equations of motion on D, mathematics (8).
+pub trait Form: Sync {
+    /// Its name in the ledger.
+    fn name(&self) -> &'static str;
+    /// Where it exists.
+    fn condition(&self) -> &'static str;
+    /// The formulas that it writes.
+    fn formulas(&self) -> &'static str;
+    /// Whether it multiplies out what the Lagrangian is written in, so that it is for short ones.
+    fn expands(&self) -> bool {
+        false
+    }
+    /// Where it exists, other forms expand Lagrangians of so many operations at most.
+    fn others_expand_up_to(&self) -> Count {
+        Count::TOO_MANY
+    }
+    /// The place among forms of equal cost, and among those that the report may show: the least is first.
+    fn rank(&self) -> u8;
+    /// The equations; `None` where the form does not exist, or is known not to be worth while.
+    fn derive(&self, graph: &mut Graph, setting: &Setting) -> Option<ReducedEquations>;
+}
+
+/// The forms that compete, in the order in which they are derived.
+#[derive(Clone)]
+pub struct Registry {
+    forms: Vec<&'static dyn Form>,
+}
+
+impl Registry {
+    /// All forms.
+    #[must_use]
+    pub fn standard() -> Self {
+        Self {
+            forms: vec![
+                &along_chain::AlongChain,
+                &on_wheels::OnWheels,
+                &by_parts::ByParts,
+                &by_velocities::ByVelocities,
+                Self::plain(),
+                &by_momenta::ByMomenta,
+            ],
+        }
+    }
+
+    /// Some forms alone, and the plain one where none of them is admitted.
+    #[must_use]
+    pub fn of(forms: Vec<&'static dyn Form>) -> Self {
+        Self { forms }
+    }
+
+    /// (8) as it stands, which is emitted where no form of the registry is admitted.
+    #[must_use]
+    pub fn plain() -> &'static dyn Form {
+        &expanded::Expanded
+    }
+
+    /// The forms, in the order in which they are derived.
+    #[must_use]
+    pub fn forms(&self) -> &[&'static dyn Form] {
+        &self.forms
+    }
+}
+
+impl fmt::Debug for Registry {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_list().entries(self.forms.iter().map(|form| form.name())).finish()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn forms_say_what_they_are() {
+        let registry = Registry::standard();
+        let mut names: Vec<&str> = registry.forms().iter().map(|form| form.name()).collect();
+        let mut ranks: Vec<u8> = registry.forms().iter().map(|form| form.rank()).collect();
+        names.sort_unstable();
+        names.dedup();
+        ranks.sort_unstable();
+        ranks.dedup();
+        assert_eq!((names.len(), ranks.len()), (registry.forms().len(), registry.forms().len()));
+        for form in registry.forms() {
+            assert!(!form.condition().is_empty() && form.formulas().contains('('), "{}", form.name());
+        }
+    }
+}

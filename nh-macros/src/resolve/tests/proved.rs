@@ -1,0 +1,98 @@
+//! What is emitted is proved, and known where it is called.
+
+use nonholonomic_core::choose::Fate;
+use nonholonomic_core::compile::compile;
+use nonholonomic_core::system::System;
+
+use super::{catalogue, model};
+
+/// At every decision something is chosen, and proved to 80 bits.
+fn assert_proved(system: &System) {
+    let name = &system.model.name;
+    assert!(system.ledger.at("derivative").is_some(), "{name}: {}", system.ledger);
+    for decision in &system.ledger.decisions {
+        match decision.chosen().map(|chosen| &chosen.fate) {
+            Some(Fate::Chosen(proof)) => assert!(proof.bits >= 80.0, "{name}: {}", system.ledger),
+            _ => panic!("{name}: {}", system.ledger),
+        }
+    }
+}
+
+#[test]
+fn every_reference_system_is_proved() {
+    for (attribute, item) in catalogue::all() {
+        let system = compile(catalogue::resolved(attribute, item).model).expect("derived");
+        assert_proved(&system);
+        // no form of a reference system is wrong, or asks for more than the declaration
+        let refused = system.ledger.decisions.iter().flat_map(|decision| &decision.contenders);
+        let refused: Vec<_> =
+            refused.filter(|contender| matches!(contender.fate, Fate::NotAdmitted(_))).collect();
+        assert!(refused.is_empty(), "{}: {}", system.model.name, system.ledger);
+    }
+}
+
+/// A wheel and a trailer in coordinates: the velocity of the wheel's axis contains der(th), which cancels.
+const TRAILER: &str = "
+    base { x, y, th, q }
+    lagrangian { m/2*(der(x)^2 + der(y)^2) + J/2*(der(th)^2 + der(q)^2) }
+    constraints {
+        wheel: cos(th)*(der(y) - c*sin(th)*der(th)) = sin(th)*(der(x) - c*cos(th)*der(th));
+        trailer: cos(q)*der(y) - sin(q)*der(x) + l*cos(q - th)*der(th) = d*der(q);
+    }";
+
+/// Velocities in constraints with coefficients that cancel, in sums, products and functions of angles.
+const CANCELLING: [(&str, &str); 4] = [
+    (TRAILER, "struct S { m: f64, J: f64, c: f64, l: f64, d: f64 }"),
+    (
+        "base { x, y, z, w } lagrangian { (der(x)^2 + der(y)^2 + der(z)^2 + der(w)^2)/2 }
+         constraints { one: der(x) = (z + der(y))*w - w*der(y); two: der(y) = x*der(z); }",
+        "struct S;",
+    ),
+    (
+        "base { x, y, z, w } lagrangian { (der(x)^2 + der(y)^2 + der(z)^2 + der(w)^2)/2 }
+         constraints {
+             one: der(x) = y*der(w) + (sin(z)^2 + cos(z)^2 - 1)*der(y);
+             two: der(y) = x*der(w) + (cos(2*z) - 2*cos(z)^2 + 1)*der(x);
+         }",
+        "struct S;",
+    ),
+    (
+        "base { a, b, c, d, e, f, g }
+         lagrangian { (der(a)^2 + der(b)^2 + der(c)^2 + der(d)^2 + der(e)^2 + der(f)^2 + der(g)^2)/2 }
+         constraints {
+             der(a) = g*(der(g) + b*der(b)) - g*b*der(b);
+             der(b) = f*(der(g) + c*der(c)) - f*c*der(c);
+             der(c) = sin(a)*(der(g) + der(d)) - sin(a)*der(d);
+             der(d) = a*(der(f) + der(e)) - a*der(e);
+             der(e) = b*der(f) + c*der(g);
+         }",
+        "struct S;",
+    ),
+];
+
+#[test]
+fn nothing_is_emitted_that_is_not_known() {
+    let of_trailer = [
+        "",
+        "independent { der(y), der(q) }",
+        "independent { der(x), der(th) }",
+        "formulation { projected }",
+    ];
+    let trailers = of_trailer.map(|choice| (format!("{TRAILER} {choice}"), CANCELLING[0].1));
+    let others = CANCELLING[1..].iter().map(|(attribute, item)| ((*attribute).to_owned(), *item));
+    for (attribute, item) in trailers.into_iter().chain(others) {
+        let emitted =
+            format!("{attribute} outputs {{ }} emit {{ jacobian, multipliers, reactions, gibbs_appell }}")
+                .replace("outputs { }", "");
+        let text =
+            crate::expand::nonholonomic(emitted.parse().expect("tokens"), item.parse().expect("tokens"))
+                .to_string();
+        assert!(!text.contains("is not known here"), "{attribute}");
+        if !text.contains("compile_error") {
+            assert_proved(&compile(model(&emitted, item)).expect("it was emitted"));
+        } else {
+            let start = text.find("compile_error").map_or("", |at| &text[at..text.len().min(at + 300)]);
+            panic!("{attribute}: {start}");
+        }
+    }
+}
