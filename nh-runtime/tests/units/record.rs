@@ -79,7 +79,15 @@ where
         end += &told(&error, tau.to_f64());
     }
     note(whole.time(), whole.state());
-    // and one that chooses its length without a target
+    // the same way once more, looked at between the steps
+    let mut sampled = Integrator::new(*scaled, method.clone(), course.from * tau, start).max_steps(1000);
+    let way = reached / tau - course.from;
+    let times =
+        [0.11, 0.5, 0.73, 1.0].map(|share| (course.from + way * ScalarOf::<S>::from_f64(share)) * tau);
+    if let Err(error) = sampled.sample(times, &mut note) {
+        end += &told(&error, tau.to_f64());
+    }
+    // and a step that chooses its length without a target
     let mut free = Integrator::new(*scaled, method.clone(), course.from * tau, start);
     if let Err(error) = free.step() {
         end += &told(&error, tau.to_f64());

@@ -21,7 +21,8 @@ use crate::{Dim, DimOf, Dynamics, MatOf, Real, Scalar, ScalarOf, State, Statisti
 ///
 /// There is nothing to iterate: a step forms the Jacobian and factorizes one real matrix. The order
 /// rests on the Jacobian: take [that of the system](Self::with_jacobian) where there is one rather
-/// than difference quotients. ∂f/∂t is a difference quotient.
+/// than difference quotients. These have half the digits, so that in very stiff systems the error may exceed the
+/// tolerance; [`Radau5`](crate::Radau5) takes them without harm. ∂f/∂t is a difference quotient.
 pub type Rodas5P<T, W = Uniform<T>, J = FiniteDifferences> = Adaptive<Rodas<J>, T, W>;
 
 /// The computation of a step of [`Rodas5P`].
