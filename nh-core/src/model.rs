@@ -26,6 +26,8 @@ pub struct Model {
     pub inputs: Table<InputId, Input>,
     /// Identities f = 0 that embedded base coordinates satisfy (`on`).
     pub identities: Vec<Located>,
+    /// What drops out of the declaration, as factors of 0 do, and has to be defined all the same.
+    pub dropped: Vec<Located>,
     /// How the anchor is given.
     pub kinematics: Kinematics,
     /// Declared brackets; known algebras are expanded by [`crate::geometry::KnownAlgebra`].

@@ -71,7 +71,7 @@ impl Graph {
 
     /// The constants among the factors of a term of an angle, which count as its coefficient. With a long
     /// denominator they do not: then an identity has to hold for any value.
-    fn angle_factor(&self, term: ExprId) -> Option<Rational> {
+    pub(super) fn angle_factor(&self, term: ExprId) -> Option<Rational> {
         let factor = self.constant_factor(term);
         (factor.is_one() || factor.denominator() <= LONGEST_DENOMINATOR.into()).then_some(factor)
     }

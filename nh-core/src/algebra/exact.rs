@@ -13,7 +13,6 @@
 use super::ball::{Ball, Bits, Enclosed, NoBall};
 use super::number::Rational;
 use num_integer::Integer;
-use num_traits::ToPrimitive;
 
 /// A real algebraic number.
 #[derive(Clone, Debug)]
@@ -240,7 +239,7 @@ impl Form {
     /// Π α^(N q) − 1 with the common denominator N.
     fn product_of_logarithms(&self, bits: Bits) -> Result<Number, NoBall> {
         let one = Number::of(&Rational::ONE, bits);
-        let exponents = whole(self.logarithms.iter().map(|(q, _)| q))?;
+        let (exponents, _) = whole(self.logarithms.iter().map(|(q, _)| q))?;
         let mut product = one.clone();
         for ((_, x), exponent) in self.logarithms.iter().zip(exponents) {
             product = product.times(&x.power(exponent)?)?;
@@ -253,11 +252,9 @@ impl Form {
         if self.turns.is_zero() && self.arcs.is_empty() {
             return Ok(Decision::Zero);
         }
-        let exponents = whole(self.arcs.iter().map(|(q, _)| q).chain([&self.turns]))?;
-        let common =
-            whole([&Rational::ONE, &self.turns].into_iter().chain(self.arcs.iter().map(|(q, _)| q)))?[0];
+        let (exponents, factor) = whole(self.arcs.iter().map(|(q, _)| q).chain([&self.turns]))?;
         let (turns, exponents) = exponents.split_last().ok_or(NoBall::TooLong)?;
-        let whole_arc = self.arc(bits)?.plus(&Ball::pi(bits).scaled(&self.turns)).scaled(&common.into());
+        let whole_arc = self.arc(bits)?.plus(&Ball::pi(bits).scaled(&self.turns)).scaled(&factor);
         let (zero, one) = (Number::of(&Rational::ZERO, bits), Number::of(&Rational::ONE, bits));
         let mut product = [one, zero];
         for ((_, [x, y]), exponent) in self.arcs.iter().zip(exponents) {
@@ -290,14 +287,13 @@ pub(super) fn complex_product(a: &[Number; 2], b: &[Number; 2], bits: Bits) -> R
     Ok([real, imaginary])
 }
 
-/// Rational numbers times their common denominator, if these integers are not large.
-fn whole<'a>(numbers: impl Iterator<Item = &'a Rational> + Clone) -> Result<Vec<i64>, NoBall> {
+/// Rational numbers over the greatest of which all are multiples, as integers that are not large; and what
+/// they were multiplied by.
+fn whole<'a>(numbers: impl Iterator<Item = &'a Rational> + Clone) -> Result<(Vec<i64>, Rational), NoBall> {
     const LARGEST: i64 = 100_000;
-    let common = numbers.clone().try_fold(1i64, |common, number| {
-        let lcm = common.lcm(&number.denominator().to_i64().filter(|d| *d < LARGEST)?);
-        (lcm < LARGEST).then_some(lcm)
-    });
-    let common = common.ok_or(NoBall::TooLong)?;
-    let scaled = numbers.map(|number| (number.clone() * common.into()).to_i64());
-    scaled.map(|n| n.filter(|n| n.abs() < LARGEST).ok_or(NoBall::TooLong)).collect()
+    let unit = numbers.clone().fold(Rational::ZERO, |unit, number| unit.gcd(&number.abs()));
+    let factor = unit.recip().unwrap_or(Rational::ONE);
+    let scaled = numbers.map(|number| (number.clone() * factor.clone()).to_i64());
+    let whole = scaled.map(|n| n.filter(|n| n.abs() < LARGEST).ok_or(NoBall::TooLong));
+    Ok((whole.collect::<Result<_, _>>()?, factor))
 }

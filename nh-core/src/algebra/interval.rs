@@ -1,6 +1,9 @@
 //! Intervals of real numbers with exact ends, open or closed: what inequalities are propagated through.
 
-use super::ball::{Ball, Bits, Enclosed};
+mod images;
+
+use self::images::{at, cosh, exactly, power, signed_power, sinh, tanh};
+use super::ball::{Ball, Enclosed};
 use super::graph::Function;
 use super::number::Rational;
 use std::cmp::Ordering;
@@ -22,8 +25,6 @@ pub(super) struct Interval {
     nonzero: bool,
 }
 
-/// Digits of ends that are not rational.
-const DIGITS: Bits = 128;
 /// Longer ends are rounded outwards.
 const LONGEST: u64 = 512;
 
@@ -150,8 +151,8 @@ impl Interval {
     }
 
     pub(super) fn times(&self, other: &Self) -> Self {
-        let mut low: Option<Option<End>> = None;
-        let mut high: Option<Option<End>> = None;
+        let mut corners: Vec<End> = Vec::new();
+        let (mut bounded_below, mut bounded_above) = (true, true);
         for (a, a_up) in [(&self.low, false), (&self.high, true)] {
             for (b, b_up) in [(&other.low, false), (&other.high, true)] {
                 let is_zero = |end: &Option<End>| end.as_ref().is_some_and(|end| end.value.is_zero());
@@ -174,17 +175,16 @@ impl Interval {
                     }
                 };
                 match corner {
-                    Err(true) => high = Some(None),
-                    Err(false) => low = Some(None),
-                    Ok(end) => {
-                        low = Some(extreme(low, &end, Ordering::Less));
-                        high = Some(extreme(high, &end, Ordering::Greater));
-                    }
+                    Err(true) => bounded_above = false,
+                    Err(false) => bounded_below = false,
+                    Ok(end) => corners.push(end),
                 }
             }
         }
+        let low = if bounded_below { extreme(&corners, Ordering::Less) } else { None };
+        let high = if bounded_above { extreme(&corners, Ordering::Greater) } else { None };
         let nonzero = self.is_nonzero() && other.is_nonzero();
-        Self { low: low.flatten(), high: high.flatten(), nonzero }.rounded()
+        Self { low, high, nonzero }.rounded()
     }
 
     pub(super) fn reciprocal(&self) -> Self {
@@ -278,7 +278,7 @@ impl Interval {
     pub(super) fn function(&self, function: Function) -> Self {
         let one = || Rational::ONE;
         let monotone = |f: fn(&Ball) -> Enclosed, at_zero: i64| {
-            let mut image = self.increasing(|x| if x.is_zero() { exactly(at_zero) } else { at(x, f) });
+            let mut image = self.increasing(|x| if x.is_zero() { Some(exactly(at_zero)) } else { at(x, f) });
             image.nonzero = self.is_nonzero() && at_zero == 0;
             image
         };
@@ -294,7 +294,7 @@ impl Interval {
             Function::Sinh => monotone(sinh, 0),
             Function::Cosh => self
                 .magnitude()
-                .increasing(|x| if x.is_zero() { exactly(1) } else { at(x, cosh) })
+                .increasing(|x| if x.is_zero() { Some(exactly(1)) } else { at(x, cosh) })
                 .meet(&Self::at_least(one()))
                 .without_exclusion(),
             Function::Abs => self.magnitude(),
@@ -305,7 +305,7 @@ impl Interval {
             Function::Ln => {
                 let domain = self.meet(&Self::positive());
                 let image = |x: &Rational| match x {
-                    x if x.is_one() => exactly(0),
+                    x if x.is_one() => Some(exactly(0)),
                     x if x.is_zero() => None,
                     x => at(x, Ball::ln),
                 };
@@ -327,12 +327,14 @@ impl Interval {
             Function::Ln => self.function(Function::Exp).meet(&Self::positive()),
             Function::Asin | Function::Acos => Self::symmetric(Rational::ONE, false),
             Function::Abs => self.unsigned(known),
-            Function::Atan | Function::Sinh | Function::Tanh if self.is_positive() => Self::positive(),
-            Function::Atan | Function::Sinh | Function::Tanh if self.negative().is_positive() => {
+            Function::Atan | Function::Sinh | Function::Tanh | Function::Sign if self.is_positive() => {
+                Self::positive()
+            }
+            Function::Atan | Function::Sinh | Function::Tanh | Function::Sign
+                if self.negative().is_positive() =>
+            {
                 Self::positive().negative()
             }
-            Function::Sign if self.is_positive() => Self::positive(),
-            Function::Sign if self.negative().is_positive() => Self::positive().negative(),
             _ => Self::ALL,
         }
     }
@@ -349,58 +351,13 @@ impl Interval {
     }
 }
 
-/// The smaller or larger end; of equal ones the closed.
-fn extreme(known: Option<Option<End>>, end: &End, wanted: Ordering) -> Option<End> {
-    match known {
-        None => Some(end.clone()),
-        Some(None) => None,
-        Some(Some(other)) => match end.value.cmp(&other.value) {
-            Ordering::Equal => Some(End { open: end.open && other.open, ..other }),
-            order if order == wanted => Some(end.clone()),
-            _ => Some(other),
-        },
-    }
-}
-
-fn exactly(value: i64) -> Option<(Rational, Rational)> {
-    Some((value.into(), value.into()))
-}
-
-fn at(x: &Rational, f: impl Fn(&Ball) -> Enclosed) -> Option<(Rational, Rational)> {
-    f(&Ball::of(x, DIGITS)).ok().map(|ball| ball.ends())
-}
-
-/// x^exponent for x ≥ 0 and a positive exponent.
-fn power(x: &Rational, exponent: &Rational) -> Option<(Rational, Rational)> {
-    if x.is_zero() || x.is_one() {
-        return Some((x.clone(), x.clone()));
-    }
-    let exact = match exponent.to_small()? {
-        (n, 1) => x.pow(n),
-        (n, 2) => x.sqrt().and_then(|root| root.pow(n)),
-        _ => None,
+/// The smallest or largest end; of equal ones the closed.
+fn extreme(ends: &[End], wanted: Ordering) -> Option<End> {
+    let better = |one: End, other: &End| match other.value.cmp(&one.value) {
+        Ordering::Equal => End { open: one.open && other.open, ..one },
+        order if order == wanted => other.clone(),
+        _ => one,
     };
-    match exact {
-        Some(value) => Some((value.clone(), value)),
-        None => at(x, |ball| ball.power(exponent)),
-    }
-}
-
-/// The same for odd powers and roots of both signs.
-fn signed_power(x: &Rational, exponent: &Rational) -> Option<(Rational, Rational)> {
-    let (low, high) = power(&x.abs(), exponent)?;
-    Some(if x.is_negative() { (-high, -low) } else { (low, high) })
-}
-
-fn sinh(x: &Ball) -> Enclosed {
-    Ok(x.exp()?.minus(&x.negative().exp()?).scaled(&Rational::new(1, 2)))
-}
-
-fn cosh(x: &Ball) -> Enclosed {
-    Ok(x.exp()?.plus(&x.negative().exp()?).scaled(&Rational::new(1, 2)))
-}
-
-fn tanh(x: &Ball) -> Enclosed {
-    let (up, down) = (x.exp()?, x.negative().exp()?);
-    up.minus(&down).over(&up.plus(&down))
+    let (first, rest) = ends.split_first()?;
+    Some(rest.iter().fold(first.clone(), better))
 }

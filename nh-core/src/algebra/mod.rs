@@ -4,6 +4,7 @@ mod accuracy;
 mod assuming;
 mod ball;
 mod circle;
+mod combination;
 mod constants;
 mod degree;
 mod derivative;

@@ -57,10 +57,10 @@ fn number(value: Rational) -> Terms {
 }
 
 fn add(terms: &mut Terms, monomial: Monomial, coefficient: Rational) {
-    let entry = terms.entry(monomial.clone()).or_insert(Rational::ZERO);
-    *entry = entry.clone() + coefficient;
-    if entry.is_zero() {
-        terms.remove(&monomial);
+    let known = terms.remove(&monomial).unwrap_or(Rational::ZERO);
+    let sum = known + coefficient;
+    if !sum.is_zero() {
+        terms.insert(monomial, sum);
     }
 }
 

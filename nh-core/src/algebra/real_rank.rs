@@ -15,9 +15,10 @@ impl Graph {
         let mut found = false;
         self.each_reachable(roots, |id| {
             found |= match self.node(id) {
-                Node::Pi | Node::Apply2(..) => true,
                 Node::Product { factors, .. } => factors.iter().any(|(_, exponent)| !exponent.is_integer()),
-                Node::Apply(Function::Ln | Function::Asin | Function::Acos | Function::Atan, _) => true,
+                Node::Pi
+                | Node::Apply2(..)
+                | Node::Apply(Function::Ln | Function::Asin | Function::Acos | Function::Atan, _) => true,
                 _ => false,
             };
             !found

@@ -84,6 +84,7 @@ fn evaluated(model: &Model) -> Vec<(&'static str, ExprId, Origin)> {
     let momenta = model.hamilton_jacobi.iter().flat_map(|claim| &claim.components);
     list.extend(momenta.map(|(_, momentum)| ("momentum", momentum.value, momentum.origin)));
     list.extend(model.identities.iter().map(|identity| ("identity", identity.value, identity.origin)));
+    list.extend(model.dropped.iter().map(|dropped| ("expression", dropped.value, dropped.origin)));
     list.extend(model.frame.iter().map(|section| ("section", section.value, section.origin)));
     list.extend(model.routh.iter().map(|level| ("level", level.level, level.origin)));
     let arguments = |call: &crate::model::MethodCall| {

@@ -61,6 +61,7 @@ impl Builder {
             inputs: Table::new(),
             identities: Vec::new(),
             calls: Vec::new(),
+            dropped: Vec::new(),
             frame: Vec::new(),
             distribution: None,
             claims: Vec::new(),

@@ -98,6 +98,7 @@ impl Builder {
             hamilton_jacobi: None,
             routh: Vec::new(),
             calls: Vec::new(),
+            dropped: Vec::new(),
             assumptions: Vec::new(),
             requests: Vec::new(),
             tracked: None,

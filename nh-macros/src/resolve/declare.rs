@@ -5,7 +5,7 @@ use std::rc::Rc;
 
 use nonholonomic_core::algebra::Constant;
 use nonholonomic_core::id::{ConstantId, SymbolId};
-use nonholonomic_core::model::{Coordinate, Input, Parameter, Section};
+use nonholonomic_core::model::{Coordinate, Input, Located, Parameter, Section};
 use quote::format_ident;
 
 use super::array::{Array, Shape};
@@ -98,6 +98,12 @@ impl Resolver {
         fresh?;
         let meaning = match &value {
             Ok(values) => {
+                let origin = self.origin(constant.value.extent);
+                for value in &values.entries {
+                    if self.graph.as_number(*value).is_none() {
+                        self.dropped.push(Located { value: *value, origin });
+                    }
+                }
                 let names = self.constants_of(&constant.name.text, values);
                 Meaning::Constant(Rc::new(Numbers { values: values.clone(), names }))
             }

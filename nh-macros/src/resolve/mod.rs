@@ -132,6 +132,7 @@ impl Resolver {
             brackets_declared: !sections.brackets.is_empty(),
             almost: sections.almost.is_some(),
             calls: std::mem::take(&mut self.calls),
+            dropped: std::mem::take(&mut self.dropped),
             frame: tables.frame,
             lagrangian,
             constraints,

@@ -2,6 +2,7 @@
 
 use nonholonomic_core::algebra::Rational;
 use nonholonomic_core::id::ExprId;
+use nonholonomic_core::model::Located;
 
 use super::array::{Array, Shape};
 use super::reports::Outcome;
@@ -15,8 +16,12 @@ impl Resolver {
         let values: Vec<_> = factors.iter().map(|(_, factor)| self.value(factor)).collect();
         let values = values.into_iter().collect::<Outcome<Vec<_>>>()?;
         let mut numbers: Vec<(ExprId, Rational)> = Vec::new();
+        let mut places: Vec<&Expr> = Vec::new();
         let mut arrays: Vec<(&Expr, Array)> = Vec::new();
         for ((kind, factor), value) in factors.iter().zip(values) {
+            if value.as_number().is_some() {
+                places.push(factor);
+            }
             match (kind, value.as_number()) {
                 (Factor::Times, Some(number)) => numbers.push((number, Rational::ONE)),
                 (Factor::Over, Some(number)) if self.graph.is_literal_zero(number) => {
@@ -35,6 +40,9 @@ impl Resolver {
             }
         }
         let scale = self.product_of(expr, &numbers)?;
+        if self.graph.is_literal_zero(scale) {
+            self.drop_factors(&numbers, &places);
+        }
         // from the right, so that matrices act on the vector behind them
         let Some((mut right, mut product)) = arrays.pop() else { return Ok(Array::number(scale)) };
         while let Some((left, factor)) = arrays.pop() {
@@ -45,6 +53,17 @@ impl Resolver {
             return Ok(product);
         }
         self.entrywise(product, |this, entry| this.times(expr, scale, entry))
+    }
+
+    /// Keeps the factors of a product that is 0 for the checks: `0 / 0` in disguise is no 0.
+    fn drop_factors(&mut self, numbers: &[(ExprId, Rational)], places: &[&Expr]) {
+        for ((base, exponent), place) in numbers.iter().zip(places) {
+            let value = self.graph.pow(*base, exponent.clone());
+            if self.graph.as_number(value).is_none() && self.graph.as_symbol(*base).is_none() {
+                let origin = self.origin(place.extent);
+                self.dropped.push(Located { value, origin });
+            }
+        }
     }
 
     /// The product of two arrays, none of them a number.

@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use nonholonomic_core::algebra::Graph;
 use nonholonomic_core::id::{CoordId, ExprId, Id, InputId, Origin, ParamId, SectionId, SymbolId, Table};
-use nonholonomic_core::model::{Coordinate, FrameDecl, Input, MethodCall, Parameter, Section};
+use nonholonomic_core::model::{Coordinate, FrameDecl, Input, Located, MethodCall, Parameter, Section};
 
 use proc_macro2::Ident;
 
@@ -48,6 +48,8 @@ pub(super) struct Resolver {
     pub(super) scope: Scope,
     /// The section that is read.
     pub(super) context: Context,
+    /// What drops out of the declaration.
+    pub(super) dropped: Vec<Located>,
     /// The span table.
     pub(super) origins: Origins,
     /// What went wrong.
@@ -69,6 +71,7 @@ impl Resolver {
             methods: BTreeMap::new(),
             scope: Scope::new(),
             context: Context::Lagrangian,
+            dropped: Vec::new(),
             origins,
             reports: Reports::new(),
         }

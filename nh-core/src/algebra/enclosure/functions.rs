@@ -188,14 +188,17 @@ impl Pass<'_> {
         Number::of(&value.into(), self.bits)
     }
 
-    /// What distinguishes a term of an angle: its value where that is rational.
+    /// What distinguishes a term of an angle: its value without its coefficient, where that is rational.
     fn key(&self, term: Option<ExprId>) -> u64 {
         let Some(term) = term else { return 1 };
+        let bare = self.graph.without_coefficient(term);
         let rational =
             self.known.get(&term).and_then(|value| value.form.as_ref()?.algebraic.rational.clone());
-        match rational.as_ref().and_then(Residue::of) {
-            Some(value) if !self.exponents.contains(&term) => value.word(),
-            _ => Residue::mixed(7, term.index() as u64).word(),
+        let apart = self.graph.number_apart(term).recip();
+        let value = rational.zip(apart).and_then(|(value, apart)| Residue::of(&(value * apart)));
+        match value {
+            Some(value) if !self.exponents.contains(&bare) => value.word(),
+            _ => Residue::mixed(7, bare.index() as u64).word(),
         }
     }
 

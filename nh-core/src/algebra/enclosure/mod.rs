@@ -97,8 +97,30 @@ impl Graph {
         });
         exponents
             .flat_map(|x| self.angle_terms(x))
-            .filter_map(|(term, _)| term.filter(|term| self.as_symbol(*term).is_some()))
+            .filter_map(|(term, _)| {
+                Some(self.without_coefficient(term?)).filter(|e| self.as_symbol(*e).is_some())
+            })
             .collect()
+    }
+
+    /// The only factor of a product of a number and it, or the expression itself.
+    fn without_coefficient(&self, id: ExprId) -> ExprId {
+        match self.node(id) {
+            Node::Product { factors, .. } => match &**factors {
+                [(base, exponent)] if exponent.is_one() => *base,
+                _ => id,
+            },
+            _ => id,
+        }
+    }
+
+    /// The number that stands apart from a term of an angle, in its coefficient.
+    fn number_apart(&self, term: ExprId) -> Rational {
+        let factor = self.angle_factor(term).unwrap_or(Rational::ONE);
+        match self.node(term) {
+            Node::Product { coefficient, .. } => factor * coefficient.clone(),
+            _ => factor,
+        }
     }
 }
 
@@ -223,6 +245,9 @@ impl Pass<'_> {
 
     fn power(&mut self, base: ExprId, exponent: &Rational) -> Result<Value, NoBall> {
         let x = self.known[&base].clone();
+        if exponent.is_one() {
+            return Ok(x);
+        }
         let Some(form) = x.form.filter(Form::is_algebraic) else {
             return Ok(Value { ball: x.ball.power(exponent)?, form: None });
         };
@@ -263,6 +288,11 @@ impl Pass<'_> {
         }
         if !number.ball.is_positive() {
             return Err(NoBall::TooWide);
+        }
+        if degree == 2
+            && let Some(exact) = number.rational.as_ref().and_then(Rational::sqrt)
+        {
+            return Ok(Number::of(&exact, self.bits));
         }
         if self.roots.insert((base, degree)) {
             self.degree = self.degree.saturating_mul(degree.unsigned_abs());

@@ -1,0 +1,132 @@
+//! Multiples of inequalities that add up to a contradiction, with the help of squares and of products.
+
+use super::graph::Graph;
+use super::inequalities::{Contradiction, Demand};
+use super::number::Rational;
+use super::polynomial_terms::{Monomial, Terms, multiplied, product_of};
+use super::simplex::{Inequality, contradiction};
+use crate::id::ExprId;
+use std::collections::BTreeSet;
+
+/// Variables of which the squares of sums and differences are used.
+const VARIABLES: usize = 6;
+/// A polynomial that is not negative, or positive: the demand that it comes from, with its sign.
+type Row = (Option<usize>, Rational, Terms, bool);
+
+impl Graph {
+    /// Multiples of the demands that add up to a contradiction.
+    pub(super) fn combination(&self, demands: &[(ExprId, Demand)]) -> Option<Contradiction> {
+        let polynomials: Option<Vec<Terms>> =
+            demands.iter().map(|(id, _)| self.polynomial_terms(*id)).collect();
+        let polynomials = polynomials?;
+        let mut rows: Vec<Row> = Vec::new();
+        for (index, (polynomial, (_, demand))) in polynomials.iter().zip(demands).enumerate() {
+            match demand {
+                Demand::Positive => rows.push((Some(index), Rational::ONE, polynomial.clone(), true)),
+                Demand::NotNegative => rows.push((Some(index), Rational::ONE, polynomial.clone(), false)),
+                Demand::Zero => {
+                    rows.push((Some(index), Rational::ONE, polynomial.clone(), false));
+                    rows.push((Some(index), Rational::MINUS_ONE, negative(polynomial), false));
+                }
+                Demand::Nonzero => {}
+            }
+        }
+        let squares = squares(&polynomials);
+        rows.extend(squares.into_iter().map(|square| (None, Rational::ONE, square, false)));
+        let found = refuted(&rows).or_else(|| refuted(&with_products(&rows))).or_else(|| {
+            // what is between 0 and 0 is 0
+            let unequal = demands.iter().enumerate().filter(|(_, (_, demand))| *demand == Demand::Nonzero);
+            unequal.into_iter().find_map(|(index, _)| {
+                let with = |polynomial: Terms| {
+                    let mut rows = rows.clone();
+                    rows.push((Some(index), Rational::ONE, polynomial, true));
+                    refuted(&rows)
+                };
+                let one = with(polynomials[index].clone())?;
+                let other = with(negative(&polynomials[index]))?;
+                Some(one.into_iter().chain(other).collect())
+            })
+        })?;
+        let mut used: Vec<(usize, Rational)> = Vec::new();
+        for (row, multiplier) in found {
+            let Some((Some(index), sign, ..)) = rows.get(row) else { continue };
+            used.push((*index, sign.clone() * multiplier));
+        }
+        Some(Contradiction::Combination(used))
+    }
+}
+
+/// The negative of a polynomial.
+pub(super) fn negative(polynomial: &Terms) -> Terms {
+    polynomial.iter().map(|(monomial, c)| (monomial.clone(), -c.clone())).collect()
+}
+
+/// (x ± y)² and (x ± 1)² for the variables of products and squares.
+fn squares(polynomials: &[Terms]) -> Vec<Terms> {
+    let is_square = |m: &&Monomial| m.len() == 2 || m.iter().any(|(_, e)| *e == Rational::from(2));
+    let variables: BTreeSet<ExprId> = polynomials
+        .iter()
+        .flat_map(|p| p.keys().filter(is_square).flatten().map(|(base, _)| *base))
+        .collect();
+    let one = Monomial::new();
+    let mut linear: Vec<Monomial> =
+        variables.into_iter().take(VARIABLES).map(|x| vec![(x, Rational::ONE)]).collect();
+    if linear.is_empty() {
+        return Vec::new();
+    }
+    linear.push(one);
+    let mut found = Vec::new();
+    for (index, x) in linear.iter().enumerate() {
+        for y in &linear[..index] {
+            for sign in [2, -2] {
+                let mut square =
+                    Terms::from([(product_of(x, x), Rational::ONE), (product_of(y, y), Rational::ONE)]);
+                square.insert(product_of(x, y), sign.into());
+                found.push(square);
+            }
+        }
+        if index + 1 < linear.len() {
+            found.push(Terms::from([(product_of(x, x), Rational::ONE)]));
+        }
+    }
+    found
+}
+
+/// The same with the products of two of them, as far as these are few.
+fn with_products(rows: &[Row]) -> Vec<Row> {
+    const FACTORS: usize = 8;
+    let mut all = rows.to_vec();
+    let factors: Vec<&Row> = rows.iter().filter(|(index, ..)| index.is_some()).collect();
+    if factors.len() <= FACTORS {
+        for (place, (_, _, one, strict)) in factors.iter().enumerate() {
+            for (_, _, other, as_strict) in &factors[..=place] {
+                let product = multiplied(one, other);
+                all.extend(product.map(|product| (None, Rational::ONE, product, *strict && *as_strict)));
+            }
+        }
+    }
+    all
+}
+
+/// Rows with multipliers that refute all of them together.
+fn refuted(rows: &[Row]) -> Option<Vec<(usize, Rational)>> {
+    const MONOMIALS: usize = 60;
+    let constant = Monomial::new();
+    let monomials: BTreeSet<&Monomial> =
+        rows.iter().flat_map(|(_, _, polynomial, _)| polynomial.keys()).filter(|m| !m.is_empty()).collect();
+    if monomials.len() > MONOMIALS {
+        return None;
+    }
+    let value =
+        |polynomial: &Terms, monomial: &Monomial| polynomial.get(monomial).cloned().unwrap_or(Rational::ZERO);
+    let inequalities: Vec<Inequality> = rows
+        .iter()
+        .map(|(_, _, polynomial, strict)| Inequality {
+            coefficients: monomials.iter().map(|monomial| value(polynomial, monomial)).collect(),
+            constant: value(polynomial, &constant),
+            strict: *strict,
+        })
+        .collect();
+    let multipliers = contradiction(&inequalities)?;
+    Some(multipliers.into_iter().enumerate().filter(|(_, y)| !y.is_zero()).collect())
+}
