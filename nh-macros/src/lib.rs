@@ -294,7 +294,9 @@ pub fn morphism(input: proc_macro::TokenStream) -> proc_macro::TokenStream {
 /// invariant gives way to `body_x`. In the frame nothing may depend on the dropped
 /// coordinates – the anchor on the rest of the base, the brackets, L, D, the forces – which is proved,
 /// or refused with the derivative that should have been zero. Constraints that are not invariant
-/// themselves, though what they allow is, are solved for velocities.
+/// themselves, though what they allow is, are solved for velocities. Of an embedded family a part may be dropped
+/// – two rows of a rotation matrix –: on the embedded base everything is rewritten in the coordinates that are
+/// left, with the identities that these satisfy.
 ///
 /// The macro emits the struct, with the parameters of the full system as public fields, its
 /// declaration by `#[nonholonomic]` (read it in `Sleigh::REPORT`), and `morphism!` between the two, so

@@ -4,6 +4,7 @@ mod morphisms {
     mod bodies;
     mod brackets;
     mod elsewhere;
+    mod fibres;
     mod invariant_frames;
     mod planar;
     mod quotients;

@@ -194,8 +194,10 @@ fn solved_over(
         .filter(|symbol| !velocities.contains(symbol) && base.is_free(*symbol))
         .collect();
     unknowns.extend(velocities);
-    let solved = Manifold::where_zero(graph, residuals, velocities)
-        .or_else(|_| Manifold::where_zero(graph, residuals, &unknowns))?;
+    // on the base: what vanishes there is no pivot
+    let residuals: Vec<ExprId> = residuals.iter().map(|residual| base.restrict(graph, *residual)).collect();
+    let solved = Manifold::where_zero(graph, &residuals, velocities)
+        .or_else(|_| Manifold::where_zero(graph, &residuals, &unknowns))?;
     let mut manifold = base.clone();
     manifold.extend(graph, &solved);
     Ok(manifold)

@@ -1,5 +1,6 @@
 //! Functions that do not change along a group, written without the coordinates along it.
 
+use super::fibres::Fibres;
 use super::manifold::Manifold;
 use crate::algebra::{Graph, Rational, Substitution, Verdict};
 use crate::id::{ExprId, SymbolId};
@@ -36,10 +37,19 @@ impl Manifold {
 pub struct Varies {
     /// The coordinate along the group, or a parameter of embedded ones.
     pub along: SymbolId,
-    /// The derivative by it.
-    pub slope: ExprId,
-    /// That it is not zero, or could not be decided to be.
-    pub verdict: Verdict,
+    /// How.
+    pub change: Change,
+}
+
+/// How a function changes along a group.
+#[derive(Clone, Debug)]
+pub enum Change {
+    /// Its derivative is not zero, or could not be decided to be.
+    By(ExprId, Verdict),
+    /// On an embedded base it changes where the coordinates that are left do not.
+    OnFibres,
+    /// It does not change, and was not found to be a function of the coordinates that are left.
+    NotExpressed,
 }
 
 /// Places on the group: at one of them every function of the invariants has a value.
@@ -60,6 +70,17 @@ pub fn constant_along(
     }
     let mut function = graph.simplify(function);
     let mut along = group.to_vec();
+    // embedded together with coordinates that are left: the orbits are the fibres over these
+    if base.factor(graph, group).is_none()
+        && let Some(fibres) = Fibres::of(graph, base, group)
+    {
+        let first = group.iter().copied().find(|symbol| graph.depends_on(function, &[*symbol]));
+        let varies = |change| Varies { along: first.unwrap_or(group[0]), change };
+        if !fibres.is_constant(graph, function, group) {
+            return Err(varies(Change::OnFibres));
+        }
+        return fibres.expressed(graph, function, group).ok_or_else(|| varies(Change::NotExpressed));
+    }
     if let Some(factor) = base.factor(graph, group) {
         function = Substitution::new(factor.embedding).apply(graph, function);
         along = factor.parameters;
@@ -68,7 +89,7 @@ pub fn constant_along(
         let slope = graph.partial(function, *symbol);
         let verdict = base.zero_test(graph, slope);
         if !verdict.is_zero() {
-            return Err(Varies { along: *symbol, slope, verdict });
+            return Err(Varies { along: *symbol, change: Change::By(slope, verdict) });
         }
     }
     for (n, d) in PLACES {

@@ -8,7 +8,7 @@ use crate::check::{
     name_of,
 };
 use crate::compile::Proved;
-use crate::geometry::{ChangeOfBasis, Varies, constant_along};
+use crate::geometry::{Change, ChangeOfBasis, Varies, constant_along};
 use crate::id::{ExprId, Id, Origin, SymbolId};
 use crate::violation::{Law, Violation};
 
@@ -47,7 +47,26 @@ impl<'a> Invariant<'a> {
                 let value = self.renaming.apply(self.side.graph(), value);
                 self.side.graph().simplify(value)
             }
-            Err(Varies { along, slope, verdict }) => {
+            Err(Varies { along, change: change @ (Change::OnFibres | Change::NotExpressed) }) => {
+                let graph = &mut self.side.proved.model.graph;
+                let value = graph.simplify(value);
+                let (name, shown) = (graph.symbols()[along].clone(), shown(graph, value));
+                if matches!(change, Change::OnFibres) {
+                    let evidence = format!(
+                        "it is {shown}, which changes on the embedded base where the coordinates that are left do not"
+                    );
+                    self.depends(format!("{what} depends on `{name}`"), evidence);
+                } else {
+                    let evidence = format!(
+                        "it is {shown}: constant along what is dropped, but no polynomial in the coordinates that are \
+                         left was found for it"
+                    );
+                    let way_out = "write it in the full system in the coordinates that the quotient has";
+                    self.refuse(format!("{what} could not be written without `{name}`"), evidence, way_out);
+                }
+                value
+            }
+            Err(Varies { along, change: Change::By(slope, verdict) }) => {
                 let graph = &mut self.side.proved.model.graph;
                 let (value, slope) = (graph.simplify(value), graph.simplify(slope));
                 let occurs = |symbol: &&SymbolId| graph.depends_on(value, &[**symbol]);

@@ -11,7 +11,7 @@ use super::{Refusal, fence};
 use crate::algebra::{Graph, Matrix, Substitution};
 use crate::check::evidence::shown;
 use crate::compile::{self, Proved, frame_names, moved, with_translations};
-use crate::geometry::{ChangeOfBasis, InvariantFrame};
+use crate::geometry::{ChangeOfBasis, Fibres, InvariantFrame};
 use crate::id::{CoordId, ExprId, Id, Origin, SymbolId};
 use crate::model::{Located, Model};
 use crate::violation::{Law, Violation};
@@ -252,10 +252,21 @@ fn opaque(side: &Side) -> Option<String> {
 
 /// The identities in which no dropped coordinate occurs; the others say how those are embedded.
 fn identities(invariant: &mut Invariant<'_>) -> Vec<ExprId> {
-    let identities: Vec<ExprId> =
+    let mut identities: Vec<ExprId> =
         invariant.side.proved.model.identities.iter().map(|identity| identity.value).collect();
     let dropped = invariant.dropped.clone();
     let mut found = Vec::new();
+    // embedded together with what is dropped, the rest has identities of its own, as a row of a rotation matrix
+    let Proved { model, base, .. } = &mut invariant.side.proved;
+    if let Some(fibres) = Fibres::of(&model.graph, base, &dropped)
+        && let Some(implied) = fibres.identities(&mut model.graph)
+    {
+        let left = fibres.symbols();
+        for identity in implied {
+            found.push(invariant.checked(identity, "an identity"));
+        }
+        identities.retain(|identity| !invariant.side.graph().depends_on(*identity, &left));
+    }
     for identity in identities {
         if !invariant.side.graph().depends_on(identity, &dropped) {
             found.push(invariant.checked(identity, "an identity"));
