@@ -180,6 +180,7 @@ impl<'a> Fibres<'a> {
     }
 
     /// The embedded coordinates that are left.
+    #[must_use]
     pub fn symbols(&self) -> Vec<SymbolId> {
         self.left.iter().map(|(symbol, _)| *symbol).collect()
     }

@@ -90,24 +90,6 @@ impl Manifold {
         self.images.is_empty()
     }
 
-    /// The dimension of what some of the symbols run through.
-    ///
-    /// # Errors
-    /// The reason, where it cannot be decided.
-    pub fn dimension_of(&self, graph: &mut Graph, symbols: &[SymbolId]) -> Result<usize, String> {
-        let (free, bound): (Vec<SymbolId>, Vec<SymbolId>) =
-            symbols.iter().copied().partition(|symbol| self.is_free(*symbol));
-        let bound: Vec<ExprId> = bound.into_iter().map(|symbol| graph.symbol(symbol)).collect();
-        let images: Vec<ExprId> = bound.into_iter().map(|symbol| self.restrict(graph, symbol)).collect();
-        let mut parameters = graph.symbols_in(&images);
-        parameters.retain(|symbol| !free.contains(symbol));
-        let mut slopes = Matrix::new();
-        for image in images {
-            slopes.push(parameters.iter().map(|symbol| graph.partial(image, *symbol)).collect());
-        }
-        Ok(free.len() + graph.generic_rank(&slopes)?)
-    }
-
     /// The restriction of a function.
     pub fn restrict(&self, graph: &mut Graph, function: ExprId) -> ExprId {
         Substitution::new(self.images.iter().copied()).apply(graph, function)

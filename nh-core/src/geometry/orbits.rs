@@ -2,7 +2,7 @@
 
 use super::fibres::Fibres;
 use super::manifold::Manifold;
-use crate::algebra::{Graph, Rational, Substitution, Verdict};
+use crate::algebra::{Graph, Matrix, Rational, Substitution, Verdict};
 use crate::id::{ExprId, SymbolId};
 
 /// A factor of a manifold.
@@ -15,6 +15,24 @@ pub struct Factor {
 }
 
 impl Manifold {
+    /// The dimension of what some of the symbols run through.
+    ///
+    /// # Errors
+    /// The reason, where it cannot be decided.
+    pub fn dimension_of(&self, graph: &mut Graph, symbols: &[SymbolId]) -> Result<usize, String> {
+        let (free, bound): (Vec<SymbolId>, Vec<SymbolId>) =
+            symbols.iter().copied().partition(|symbol| self.is_free(*symbol));
+        let bound: Vec<ExprId> = bound.into_iter().map(|symbol| graph.symbol(symbol)).collect();
+        let images: Vec<ExprId> = bound.into_iter().map(|symbol| self.restrict(graph, symbol)).collect();
+        let mut parameters = graph.symbols_in(&images);
+        parameters.retain(|symbol| !free.contains(symbol));
+        let mut slopes = Matrix::new();
+        for image in images {
+            slopes.push(parameters.iter().map(|symbol| graph.partial(image, *symbol)).collect());
+        }
+        Ok(free.len() + graph.generic_rank(&slopes)?)
+    }
+
     /// Where some of the symbols run through a factor of the manifold, on which no others depend: their
     /// images, and what parametrises it. `None` where they are free, or are no factor.
     #[must_use]
