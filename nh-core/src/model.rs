@@ -296,6 +296,8 @@ pub enum Request {
     GibbsAppell,
     /// The Taylor coefficients of solutions.
     Taylor,
+    /// How the emitted forms were chosen, as text.
+    Explain,
 }
 
 /// Something that is needed of a system.

@@ -140,6 +140,7 @@ mod syntax;
 /// | `invariants` | the trait `Invariants` for `Conserving`: the first integrals of `conserved` and their gradients |
 /// | `leapfrog` | the trait `Leapfrog` for `ReflectedLeapfrog`: systems on TQ with constant masses, in the projected formulation |
 /// | `euler_poincare_suslov` | the trait `EulerPoincareSuslov` for `DiscreteSuslov`: systems on a Lie algebra |
+/// | `explain` | `DERIVATION`, a text: which forms competed for each function, and how the winner was proved |
 /// | `divergence` | `divergence(t, &state, &input)` of the motion in the coordinates of the state |
 /// | `volume` | `volume_density(t, &state)` of a volume that the motion keeps; refused, with the modular section, where there is none with a density on the base |
 /// | `connection` | `connection(t, &state)`, the symbols of the constrained connection, and `christoffel(t, &state)` of the kinetic metric without constraints |

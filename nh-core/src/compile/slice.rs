@@ -78,7 +78,7 @@ pub(super) fn slice(mut system: System) -> Result<System, Vec<Violation>> {
 fn needs_all(request: Request) -> bool {
     let mut lines = TABLE.iter().filter(|line| line.request() == Some(request)).peekable();
     match request {
-        Request::Jacobian | Request::Taylor | Request::Prepared => false,
+        Request::Jacobian | Request::Taylor | Request::Prepared | Request::Explain => false,
         _ => lines.peek().is_none() || lines.any(|line| line.sliced == Sliced::Whole),
     }
 }

@@ -36,6 +36,7 @@ mod step;
 mod taylor;
 #[cfg(test)]
 mod tests;
+mod text;
 
 pub use correct::corrected;
 pub use cost::{Cost, order};

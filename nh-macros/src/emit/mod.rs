@@ -77,6 +77,7 @@ pub(crate) fn emit(system: &System, layout: &Layout) -> TokenStream {
     let mut programs = vec![("derivative", &derivative)];
     programs.extend(part.programs.iter().map(|(name, program)| (*name, program)));
     let mut methods = report::constant(context, system, &programs);
+    methods.extend(report::derivation(context, system));
     methods.extend(dynamics::method(context, scope, &derivative));
     let mut items = report::item(context, &system.equations);
     items.extend(records(context, system.functions.get(&VELOCITY).is_some()));

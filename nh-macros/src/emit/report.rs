@@ -1,5 +1,6 @@
 //! `REPORT`, and the equations in the documentation of the struct.
 
+use nonholonomic_core::model::Request;
 use nonholonomic_core::program::{Cost, Program};
 use nonholonomic_core::system::System;
 use proc_macro2::{Delimiter, TokenStream, TokenTree};
@@ -25,6 +26,22 @@ pub(super) fn with_text(context: &Context, text: &str) -> TokenStream {
     quote! {
         /// What was derived from the declaration, as text.
         #visibility const REPORT: &'static ::core::primitive::str = #text;
+    }
+}
+
+/// `const DERIVATION`, if it is asked for.
+pub(super) fn derivation(context: &Context, system: &System) -> TokenStream {
+    let is_asked = system.model.requests.iter().any(|(request, _)| *request == Request::Explain);
+    if is_asked { derivation_with(context, &system.ledger.to_string()) } else { TokenStream::new() }
+}
+
+/// `const DERIVATION` with this text.
+pub(super) fn derivation_with(context: &Context, text: &str) -> TokenStream {
+    let visibility = &context.visibility;
+    quote! {
+        /// How the forms of the emitted functions were chosen: what competed, its cost and its rounding errors, how
+        /// the winner was proved, and why the others lost.
+        #visibility const DERIVATION: &'static ::core::primitive::str = #text;
     }
 }
 

@@ -24,6 +24,9 @@ pub(crate) fn stubs(layout: &Layout, outline: &Outline) -> TokenStream {
     let context = &Context::new(layout, &outline.in_state, declared);
     let default = quote!(::core::default::Default::default());
     let mut methods = report::with_text(context, "");
+    if outline.requests.contains(&Request::Explain) {
+        methods.extend(report::derivation_with(context, ""));
+    }
     methods.extend(dynamics::head(context).with_body(context, &BTreeSet::new(), &default));
     methods.extend(validate::with_body(context, &TokenStream::new()));
     let mut items = report::item(context, &[]);

@@ -19,7 +19,7 @@ use crate::syntax::ast::{self, Comparison, Definition, Equation, Item, Momentum,
 const SHOWN: usize = 160;
 
 /// What `emit` can ask for.
-pub(super) const REQUESTS: [(&str, Request); 19] = [
+pub(super) const REQUESTS: [(&str, Request); 20] = [
     ("jacobian", Request::Jacobian),
     ("taylor", Request::Taylor),
     ("parameter_jacobian", Request::ParameterJacobian),
@@ -39,6 +39,7 @@ pub(super) const REQUESTS: [(&str, Request); 19] = [
     ("invariants", Request::Invariants),
     ("leapfrog", Request::Leapfrog),
     ("euler_poincare_suslov", Request::EulerPoincareSuslov),
+    ("explain", Request::Explain),
 ];
 
 /// What is generated anyway.

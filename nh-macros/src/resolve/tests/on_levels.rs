@@ -37,8 +37,9 @@ const SYSTEMS: [(&str, &str); 5] = [
 ];
 
 /// What is derived on levels; where there are no constraints, less what belongs to these.
-const DERIVED: [&str; 9] = [
+const DERIVED: [&str; 10] = [
     "jacobian",
+    "explain",
     "taylor",
     "parameter_jacobian",
     "prepared",

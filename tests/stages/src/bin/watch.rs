@@ -1,27 +1,45 @@
 //! What becomes of declarations, as text: `cargo run -p nh-stages -- FILE [NAME …]` prints the report of every
 //! declaration in a Rust file, or of those that are named, and the errors of those that are refused. Without a
-//! file it reads the standard input.
+//! file, or with `-`, it reads the standard input. With `--explain` it prints besides which forms competed for each
+//! function, and the program of the derivative, step by step.
 
 use std::io::Read;
 
+use nonholonomic_core::program::{Cost, schedule};
+use nonholonomic_core::system::System;
+
 fn main() -> std::io::Result<()> {
-    let mut arguments = std::env::args().skip(1);
+    let (options, arguments): (Vec<String>, Vec<String>) =
+        std::env::args().skip(1).partition(|argument| argument.starts_with("--"));
+    let is_explained = options.iter().any(|option| option == "--explain");
+    let (path, wanted) = arguments.split_first().map_or(("-", &[][..]), |(path, rest)| (path.as_str(), rest));
     let mut source = String::new();
-    match arguments.next().as_deref() {
-        None | Some("-") => {
-            std::io::stdin().read_to_string(&mut source)?;
-        }
-        Some(path) => source = std::fs::read_to_string(path)?,
+    if path == "-" {
+        std::io::stdin().read_to_string(&mut source)?;
+    } else {
+        source = std::fs::read_to_string(path)?;
     }
-    let wanted: Vec<String> = arguments.collect();
     for declaration in nh_stages::declarations(&source) {
         if !wanted.is_empty() && !wanted.contains(&declaration.name) {
             continue;
         }
         match declaration.system() {
-            Ok(system) => println!("{}", system.report),
+            Ok(system) => {
+                println!("{}", system.report);
+                if is_explained {
+                    println!("{}", explained(&system));
+                }
+            }
             Err(errors) => println!("{}: refused\n{}\n", declaration.name, errors.join("\n")),
         }
     }
     Ok(())
+}
+
+/// The ledger, and the program of the derivative.
+fn explained(system: &System) -> String {
+    let graph = &system.model.graph;
+    let program = schedule(graph, &system.derivative);
+    let cost = Cost::of(&program);
+    format!("Choices\n\n{}\nDerivative: {cost}\n\n{}", system.ledger, program.text(graph))
 }

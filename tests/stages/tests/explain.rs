@@ -1,0 +1,33 @@
+//! `emit { explain }`: every choice is recorded with what competed, what it costs, and how it was proved.
+
+use nh_stages::declarations;
+use nonholonomic_core::choose::Fate;
+
+const SATELLITE: &str = "#[nonholonomic(
+    basis { w[3], s[3] } brackets so(3) { w }
+    lagrangian { sum(i in 0..3: I[i] * w[i]^2 + J[i] * (w[i] + s[i])^2) / 2 }
+    emit { explain }
+)] struct Satellite { I: [f64; 3], J: [f64; 3] }";
+
+#[test]
+fn the_derivative_was_chosen_among_forms_and_proved() {
+    let system = declarations(SATELLITE)[0].system().unwrap();
+    let decision = system.ledger.at("derivative").unwrap();
+    assert!(decision.contenders.len() > 1, "{}", system.ledger);
+    let chosen = decision.chosen().unwrap();
+    let Fate::Chosen(proof) = &chosen.fate else { panic!("{}", system.ledger) };
+    assert!(proof.bits >= 80.0, "{}", system.ledger);
+    let lost = decision.contenders.iter().filter(|contender| matches!(contender.fate, Fate::Lost(_)));
+    assert_eq!(lost.count(), decision.contenders.len() - 1, "{}", system.ledger);
+}
+
+#[test]
+fn it_is_generated_as_a_text_where_it_is_asked_for() {
+    let declaration = &declarations(SATELLITE)[0];
+    let expanded = declaration.expanded().to_string();
+    assert!(expanded.contains("const DERIVATION") && expanded.contains("chosen, proved at"), "{expanded}");
+    let silent = declarations(&SATELLITE.replace("emit { explain }", ""));
+    assert!(!silent[0].expanded().to_string().contains("DERIVATION"));
+    let broken = declarations(&SATELLITE.replace("J[i] * (w[i]", "Q[i] * (w[i]"));
+    assert!(broken[0].expanded().to_string().contains("const DERIVATION"), "stubs have it, too");
+}
