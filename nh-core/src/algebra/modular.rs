@@ -165,7 +165,7 @@ impl<'a> FieldPass<'a> {
             Some((n, 1)) => x.integer_power(n).ok_or(NoValue::Here),
             Some((n, d)) => {
                 let root = match self.graph.as_number(base) {
-                    Some(number) => root_of_number(number, d.unsigned_abs())?,
+                    Some(number) => self.root_of_number(number, d.unsigned_abs())?,
                     None => self.root(x, d.unsigned_abs())?,
                 };
                 root.integer_power(n).ok_or(NoValue::Here)
@@ -180,6 +180,17 @@ impl<'a> FieldPass<'a> {
             return Ok(self.random(Stream::Kernel, Residue::mixed(order, x.word()).word()));
         }
         x.root(order).ok_or(NoValue::Here)
+    }
+
+    /// The root of a positive number. Where the field has none, any number stands for it: what vanishes then
+    /// does so whatever the root is, and what needs its square is left to the roots of real numbers.
+    fn root_of_number(&self, number: &Rational, order: u64) -> Value {
+        if number.is_negative() {
+            return Err(NoValue::Ever(format!("a root of {number} is outside what the zero test can treat")));
+        }
+        let value = Residue::of(number).ok_or(NoValue::Here)?;
+        let root = if Residue::has_roots(order) { value.root(order) } else { None };
+        Ok(root.unwrap_or_else(|| self.random(Stream::Kernel, Residue::mixed(order, value.word()).word())))
     }
 
     fn function(&mut self, function: Function, x: ExprId) -> Value {
@@ -218,13 +229,4 @@ impl<'a> FieldPass<'a> {
     fn of_kernel(&self, function: Function, x: Residue) -> Residue {
         self.random(Stream::Kernel, Residue::mixed(function as u64, x.word()).word())
     }
-}
-
-/// The root of a positive number whose prime factors are small.
-fn root_of_number(number: &Rational, order: u64) -> Value {
-    let unsupported = || NoValue::Ever(format!("a root of {number} is outside what the zero test can treat"));
-    if number.is_negative() || !Residue::has_roots(order) {
-        return Err(unsupported());
-    }
-    Residue::of(number).and_then(|residue| residue.root(order)).ok_or_else(unsupported)
 }

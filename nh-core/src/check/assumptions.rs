@@ -74,7 +74,7 @@ fn reason(
     match names.as_slice() {
         [] => "no values of the parameters satisfy it together with the assumptions before it".into(),
         [_] => "no values of the parameters satisfy it: it is the negative of a sum of squares".into(),
-        several => format!("multiples of {} add up to a number that is not so", listed(several)),
+        several => format!("{}, each times some positive number, add up to a contradiction", listed(several)),
     }
 }
 
