@@ -105,7 +105,7 @@ macro_rules! constructors {
         }
 
         impl<T: Real, J> $name<T, J> {
-            /// The largest correction, relative to 1 + |x| in each component, at which the iteration
+            /// The largest correction, relative to the largest component of the state, at which the iteration
             /// may stagnate; 1000 rounding units if not given. A larger one does not make it stop
             /// earlier.
             #[must_use]

@@ -87,7 +87,7 @@ impl<T: Real, J> ImplicitMidpoint<T, J> {
         Self { step, scheme: Midpoint { tolerance: T::from_f64(1e3) * T::EPSILON, linearization } }
     }
 
-    /// The largest correction, relative to 1 + |x| in each component, at which the iteration may
+    /// The largest correction, relative to the largest component of the state, at which the iteration may
     /// stagnate; 1000 rounding units if not given. A larger one does not make it stop earlier.
     #[must_use]
     pub fn tolerance(mut self, tolerance: T) -> Self {

@@ -53,11 +53,12 @@ where
     Ok(S::State::from_array(displaced(&x, T::ONE, &increment)))
 }
 
-/// The largest correction, relative to 1 + |x| + |increment| in its component; NaN if there is one.
+/// The largest correction, relative to the largest |x| + |increment|; NaN if there is one.
 pub(super) fn size<T: Real, V: AsRef<[T]>>(correction: &V, x: &V, increment: &V) -> T {
-    let scales = x.as_ref().iter().zip(increment.as_ref()).map(|(x, d)| T::ONE + x.abs() + d.abs());
-    let terms = correction.as_ref().iter().zip(scales);
-    terms.fold(T::ZERO, |largest, (c, scale)| largest.max(c.abs() / scale))
+    let sizes = x.as_ref().iter().zip(increment.as_ref()).map(|(x, d)| x.abs() + d.abs());
+    let scale = sizes.fold(T::ZERO, T::max);
+    let largest = correction.as_ref().iter().fold(T::ZERO, |largest, c| largest.max(c.abs()));
+    if largest == T::ZERO { largest } else { largest / scale }
 }
 
 /// 1 − h A.
