@@ -96,3 +96,82 @@ fn nothing_is_emitted_that_is_not_known() {
         }
     }
 }
+
+/// Numbers that a seed determines.
+struct Dice(u64);
+
+impl Dice {
+    fn below(&mut self, n: usize) -> usize {
+        self.0 = self.0.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+        usize::try_from(self.0 >> 33).unwrap_or(0) % n
+    }
+}
+
+/// A tree of bodies in the plane, hinged to each other, some on wheels, some on sliders, in coordinates.
+fn planar_machine(seed: u64) -> String {
+    let mut dice = Dice(seed.wrapping_mul(0x9E37_79B9) + 1);
+    let bodies = 2 + dice.below(3);
+    let mut base = "x, y".to_owned();
+    // the velocity of the reference point of each body, by components, and its angular velocity
+    let mut points: Vec<([String; 2], String)> = Vec::new();
+    let (mut energy, mut angles) = ("0".to_owned(), Vec::new());
+    let mut wheels = 0;
+    for k in 0..bodies {
+        base += &format!(", q{k}");
+        let relative = k > 0 && dice.below(2) == 0;
+        let parent = dice.below(k.max(1));
+        let (place, turning) = if k == 0 {
+            (["der(x)".to_owned(), "der(y)".to_owned()], "der(q0)".to_owned())
+        } else {
+            let ([u, v], spin) = &points[parent];
+            let (a, length) = (&angles[parent], format!("l[{}]", dice.below(4)));
+            let sign = if dice.below(2) == 0 { "+" } else { "-" };
+            let other = if sign == "+" { "-" } else { "+" };
+            let place = [
+                format!("({u} {other} {length}*sin({a})*{spin})"),
+                format!("({v} {sign} {length}*cos({a})*{spin})"),
+            ];
+            let turning = if relative { format!("({spin} + der(q{k}))") } else { format!("der(q{k})") };
+            (place, turning)
+        };
+        let a = if relative { format!("{} + q{k}", angles[parent]) } else { format!("q{k}") };
+        let [u, v] = &place;
+        let ahead = format!("c[{}]", dice.below(4));
+        energy += &format!(
+            " + m[{k}]/2*(({u} - {ahead}*sin({a})*{turning})^2 + ({v} + {ahead}*cos({a})*{turning})^2) + J[{k}]/2*{turning}^2"
+        );
+        points.push((place, turning));
+        angles.push(a);
+    }
+    let mut rows = String::new();
+    for (k, ([u, v], turning)) in points.iter().enumerate() {
+        if wheels < bodies && (k == 0 || dice.below(3) > 0) {
+            let a = &angles[k];
+            let back =
+                if dice.below(2) == 0 { format!(" - l[{}]*{turning}", dice.below(4)) } else { String::new() };
+            rows += &format!("wheel{k}: cos({a})*{v} - sin({a})*{u}{back} = 0;\n");
+            wheels += 1;
+        }
+    }
+    format!("base {{ {base} }} lagrangian {{ {energy} }} constraints {{ {rows} }}")
+}
+
+const BODIES: &str = "struct S { m: [f64; 5], J: [f64; 5], l: [f64; 4], c: [f64; 4] }";
+
+#[test]
+fn planar_machines_are_proved() {
+    // at the last one the velocities that move points on wheels together have to be found
+    for seed in [0, 1, 2, 3, 4, 5, 30] {
+        let declared = planar_machine(seed);
+        match compile(model(&declared, BODIES)) {
+            Ok(system) => {
+                assert_proved(&system);
+                let refused = system.ledger.decisions.iter().flat_map(|decision| &decision.contenders);
+                let refused: Vec<_> =
+                    refused.filter(|contender| matches!(contender.fate, Fate::NotAdmitted(_))).collect();
+                assert!(refused.is_empty(), "{seed}: {declared}\n{}", system.ledger);
+            }
+            Err(violations) => panic!("{seed}: {declared}\n{violations:?}"),
+        }
+    }
+}
