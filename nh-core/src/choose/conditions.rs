@@ -14,6 +14,7 @@ use super::zero_set::{Polynomial, numerator, place, values_for};
 use crate::algebra::{Facts, FieldPoint, Graph, Node, Residue, Substitution, determinant_in_field};
 use crate::id::{ExprId, SymbolId};
 use crate::mechanics::{Definiteness, Definition, Procedure, ReducedEquations, keeps_its_sign, uncoupled};
+use rustc_hash::FxHashMap;
 use std::collections::BTreeSet;
 
 /// Where the declared equations are regular.
@@ -33,6 +34,14 @@ struct Sample {
     mass: Vec<Vec<Residue>>,
     /// What may not vanish anyway.
     declared: Vec<Residue>,
+}
+
+/// Values of all divisors that are asked for, along lines of one symbol.
+struct Lines {
+    asked: Vec<ExprId>,
+    /// What may not vanish anyway.
+    declared: Vec<ExprId>,
+    known: FxHashMap<(Varied, usize), Option<Vec<Sample>>>,
 }
 
 /// Blocks of the mass matrix with so many unknowns have all their principal minors looked at.
@@ -70,7 +79,8 @@ impl Regular<'_> {
         let recognised = self.recognised(graph, procedure, &declared, &divisors);
         left.retain(|divisor| !recognised.contains(divisor));
         // 3. zeros in one symbol after the other
-        left.retain(|divisor| !self.vanishes_with_others(graph, procedure, &declared, *divisor));
+        let mut lines = Lines { asked: left.clone(), declared, known: FxHashMap::default() };
+        left.retain(|divisor| !self.vanishes_with_others(graph, procedure, &mut lines, *divisor));
         // 4. signs, where C is definite
         left.into_iter().find(|divisor| {
             let whole = written.apply(graph, *divisor);
@@ -89,7 +99,7 @@ impl Regular<'_> {
         division: i64,
     ) -> Result<Sample, Defect> {
         let mut instant: Instant = self.reference.at(graph, point, division)?;
-        run(&mut instant.pass, procedure)?;
+        run(&mut instant.pass, &procedure.with_outputs(Vec::new()))?;
         let divisors = instant.pass.evaluate(divisors)?;
         let declared = instant.pass.evaluate(declared)?;
         run(&mut instant.pass, &self.equations.definitions)?;
@@ -179,7 +189,7 @@ impl Regular<'_> {
         &self,
         graph: &Graph,
         procedure: &Procedure,
-        declared: &[ExprId],
+        lines: &mut Lines,
         divisor: ExprId,
     ) -> bool {
         let mut symbols = procedure.depends_on(graph, &[divisor]);
@@ -192,33 +202,37 @@ impl Regular<'_> {
             let angle = angles.contains(symbol).then_some(Varied::Angle(*symbol));
             [Some(Varied::Value(*symbol)), angle].into_iter().flatten()
         };
-        let is_known =
-            |varied| self.factors_are_known(graph, procedure, (declared, &angles), divisor, varied);
-        symbols.iter().flat_map(of_symbol).all(is_known)
+        let mut is_known =
+            |varied| self.factors_are_known(graph, procedure, (lines, &angles), divisor, varied);
+        symbols.iter().flat_map(of_symbol).all(&mut is_known)
     }
 
     fn factors_are_known(
         &self,
         graph: &Graph,
         procedure: &Procedure,
-        (declared, angles): (&[ExprId], &[SymbolId]),
+        (lines, angles): (&mut Lines, &[SymbolId]),
         divisor: ExprId,
         varied: Varied,
     ) -> bool {
         let division = self.division(graph, procedure);
         let blocks = uncoupled(graph, &self.equations.mass);
         for degree in DEGREES {
+            let Lines { asked, declared, known } = &mut *lines;
+            let Some(position) = asked.iter().position(|asked| *asked == divisor) else { return false };
             // where there are roots, at some places all of them may be in the field
-            let samples = (0..SEEDS).find_map(|seed| {
-                let places = (0..values_for(degree)).map(place);
-                let sample = |t| {
-                    let point = varied.point(angles, t, seed);
-                    self.sampled(graph, procedure, (&[divisor], declared), point, division).ok()
-                };
-                places.map(sample).collect::<Option<Vec<_>>>()
-            });
-            let Some(samples) = samples else { return false };
-            let values: Vec<Residue> = samples.iter().map(|sample| sample.divisors[0]).collect();
+            let sampled = || {
+                (0..SEEDS).find_map(|seed| {
+                    let places = (0..values_for(degree)).map(place);
+                    let sample = |t| {
+                        let point = varied.point(angles, t, seed);
+                        self.sampled(graph, procedure, (asked, declared), point, division).ok()
+                    };
+                    places.map(sample).collect::<Option<Vec<_>>>()
+                })
+            };
+            let Some(samples) = known.entry((varied, degree)).or_insert_with(sampled) else { return false };
+            let values: Vec<Residue> = samples.iter().map(|sample| sample.divisors[position]).collect();
             let others: Vec<Vec<Residue>> =
                 samples.iter().map(|sample| self.minors(&blocks, &sample.mass, &sample.declared)).collect();
             let Some(mut left) = numerator(&values) else { continue };
@@ -267,7 +281,7 @@ fn eliminate(matrix: &mut [Vec<Residue>], index: usize, others: &[usize]) {
 }
 
 /// What a divisor is a function of, all else at rest.
-#[derive(Clone, Copy)]
+#[derive(Clone, Copy, PartialEq, Eq, Hash)]
 enum Varied {
     Value(SymbolId),
     Angle(SymbolId),
