@@ -1,8 +1,13 @@
 //! The Taylor method.
 
+mod series;
+
+use series::Series;
+
+use super::first_step::first_length;
 use super::leg::Leg;
 use super::{Arrival, Method, Start, component, non_finite_derivative};
-use crate::arrays::{all_finite, first_non_finite};
+use crate::arrays::{all_finite, difference, first_non_finite};
 use crate::step_control::StepControl;
 use crate::tolerance::{PerComponent, Tolerance, Uniform};
 use crate::{Dim, Dynamics, IntegrationError, Real, Scalar, State, Statistics, TaylorSeries, VecOf};
@@ -11,8 +16,9 @@ use crate::{Dim, Dynamics, IntegrationError, Real, Scalar, State, Statistics, Ta
 /// that the tolerance chooses and over a length that the last two coefficients do.
 ///
 /// The method of choice near round-off: the cost of a step grows with the square of the order, and
-/// the order with the logarithm of the tolerance. No step is tried in vain, and the dense output is
-/// the sum itself. The system has to have its recurrences: `emit { taylor }`. Source: Jorba, Zou, A
+/// the order with the logarithm of the tolerance. Near the end of a step the sum is compared with the
+/// equation, and a step that the last two coefficients make too long is shortened without another expansion. The
+/// dense output is the sum itself. The system has to have its recurrences: `emit { taylor }`. Source: Jorba, Zou, A
 /// software package for the numerical integration of ODEs by means of high-order Taylor methods,
 /// Experimental Mathematics 14 (2005), section 3.
 ///
@@ -61,7 +67,9 @@ impl<T: Real, const P: usize> Taylor<T, P> {
     }
 
     /// The relative tolerance: the size that the last term but one of a step's sum may have, as a
-    /// fraction of a component. What is left out is smaller by two more factors of e².
+    /// fraction of a component. What is left out is smaller by two more factors of e², and by further three for a
+    /// tolerance of less than 32 rounding units: what is left out has the same sign from step to step, and would
+    /// be seen before the rounding errors are, which do not.
     #[must_use]
     pub fn rtol(mut self, rtol: T) -> Self {
         self.tolerance.rtol = rtol;
@@ -122,17 +130,20 @@ fn best_order<T: Real>(rtol: T) -> usize {
 
 /// e²
 const E_SQUARED: f64 = 7.389_056_098_930_65;
-/// How far a step may exceed the last one where the series ends, so that nothing limits it.
+/// How far a step may exceed the last one.
 const GROW: f64 = 10.0;
+/// Where in a step the sum is compared with the equation.
+const NEAR_THE_END: f64 = 0.9375;
+/// A defect of this many rounding units of the derivative is no more than rounding.
+const NOISE: f64 = 1e3;
+/// A step whose sum misses the equation is shortened to this share of its length, at least and at most.
+const SHORTER: [f64; 2] = [0.1, 0.8];
+/// A tolerance of this many rounding units of the state is near round-off.
+const NEAR_ROUND_OFF: f64 = 32.0;
+/// Twice the exponent of e by which the terms are smaller there.
+const MARGIN: f64 = 12.0;
 /// By how much the unit of time shrinks if a coefficient is beyond the range of the numbers.
 const SHRINK: f64 = 1e-3;
-
-/// A series with the unit of time that its coefficients are in.
-#[derive(Clone, Copy)]
-pub struct Series<X: State, const P: usize> {
-    terms: [X; P],
-    unit: X::Scalar,
-}
 
 /// What the method remembers.
 #[derive(Clone, Copy)]
@@ -190,7 +201,7 @@ where
         let shortest = StepControl::shortest(start.time);
         let mut unit = match memory.next {
             Some(unit) => unit,
-            None => first_unit(start, &self.tolerance)?,
+            None => self.first_unit(start, target, statistics)?,
         };
         let [_, next] = &mut memory.series;
         let length = loop {
@@ -208,15 +219,30 @@ where
             statistics.rejected += 1;
             unit = (unit * T::from_f64(SHRINK)).max(shortest);
         };
-        let proposed = self.control.limited(length).max(shortest);
-        let leg = Leg::new(start.time, proposed, target);
-        if !leg.time.is_finite() {
-            return Err(IntegrationError::NonFiniteTime { time: leg.time.to_f64() });
-        }
-        let reached = next.at::<S>(self.order, leg.length);
-        if !all_finite::<T, _>(&reached) {
-            return Err(refusal(start, &next.terms, leg.length));
-        }
+        let mut proposed = self.control.limited(length).max(shortest);
+        let (leg, reached) = loop {
+            let leg = Leg::new(start.time, proposed, target);
+            if !leg.time.is_finite() {
+                return Err(IntegrationError::NonFiniteTime { time: leg.time.to_f64() });
+            }
+            let reached = next.at::<S>(self.order, leg.length);
+            if !all_finite::<T, _>(&reached) {
+                return Err(refusal(start, &next.terms, leg.length));
+            }
+            let excess = self.excess(start, next, leg.length);
+            if excess <= T::ONE {
+                break (leg, reached);
+            }
+            if proposed <= shortest {
+                let (time, step) = (start.time.to_f64(), leg.length.to_f64());
+                return Err(IntegrationError::StepUnderflow { time, step, error: excess.to_f64() });
+            }
+            statistics.rejected += 1;
+            let share = (excess.ln() * per(self.order + 1)).exp().recip();
+            let [least, most] = SHORTER.map(T::from_f64);
+            let share = if share >= least { share.min(most) } else { least };
+            proposed = (proposed.min(leg.length.abs()) * share).max(shortest);
+        };
         memory.series.swap(0, 1);
         memory.next = Some(proposed);
         Ok(Arrival { time: leg.time, state: S::State::from_array(reached) })
@@ -247,8 +273,54 @@ where
 }
 
 impl<T: Real, const P: usize, W> Taylor<T, P, W> {
+    /// The unit of time of the very first series.
+    #[cold]
+    fn first_unit<S: Dynamics>(
+        &self,
+        start: &Start<'_, S>,
+        target: Option<T>,
+        statistics: &mut Statistics,
+    ) -> Result<T, IntegrationError>
+    where
+        S::State: State<Scalar = T>,
+        W: Tolerance<S::State>,
+    {
+        let rate = start.derivative();
+        if let Some(found) = first_non_finite(rate.as_ref()) {
+            return Err(non_finite_derivative::<S::State>(found, start.time.to_f64()));
+        }
+        let order = u32::try_from(self.order).unwrap_or(u32::MAX);
+        let settings = (&self.tolerance, &self.control);
+        let length = first_length((start, &rate), target, order, settings, statistics);
+        Ok(length.max(StepControl::shortest(start.time)))
+    }
+
+    /// By how much the sum misses the differential equation near the end of a step, as a multiple of what is
+    /// permitted: terms that vanish, as of x″ = −x³ from x = 0, tell nothing of those left out, nor does
+    /// anything in a series tell of a kink or a pole farther ahead. What rounding explains is none.
+    #[inline]
+    fn excess<S: Dynamics>(&self, start: &Start<'_, S>, series: &Series<S::State, P>, length: T) -> T
+    where
+        S::State: State<Scalar = T>,
+        W: Tolerance<S::State>,
+    {
+        // not at the end itself, where the equation may already be another one
+        let elapsed = length * T::from_f64(NEAR_THE_END);
+        let there = series.at::<S>(self.order, elapsed);
+        let rate = start.derivative_at(start.time + elapsed, there);
+        let by_series = series.rate_at::<S>(self.order, elapsed);
+        let x = start.state.to_array();
+        let change = |rate: &VecOf<S>| length.abs() * self.tolerance.mean_square(rate, &x, &there).sqrt();
+        let noise = T::from_f64(NOISE) * T::EPSILON * (change(&rate) + change(&by_series));
+        let defect = change(&difference(&by_series, &rate));
+        // that of the first term left out, at a share of its length and divided by its order
+        let share = T::from_f64(NEAR_THE_END).powi(i32::try_from(self.order).unwrap_or(i32::MAX));
+        if defect <= noise { T::ZERO } else { defect * per(self.order + 1) / share }
+    }
+
     /// The length at which the last term is e⁻² of the tolerance and the one before it the tolerance,
-    /// whichever is shorter (Jorba, Zou, section 3.2); none if a coefficient is not finite.
+    /// whichever is shorter (Jorba, Zou, section 3.2), and at most ten times the last one; none if a coefficient is
+    /// not finite.
     #[inline]
     fn length<X: State<Scalar = T>>(&self, series: &Series<X, P>) -> Option<T>
     where
@@ -257,7 +329,12 @@ impl<T: Real, const P: usize, W> Taylor<T, P, W> {
         let state = series.terms.first()?.to_array();
         let square = |order: usize| -> Option<T> {
             let term = series.terms.get(order)?.to_array();
-            Some(self.tolerance.mean_square(&term, &state, &state))
+            let square = self.tolerance.mean_square(&term, &state, &state);
+            if square.is_finite() {
+                return Some(square);
+            }
+            // a component that starts at zero, with a relative tolerance alone
+            Some(self.tolerance.mean_square(&term, &state, &series.sizes(self.order)))
         };
         let before = self.order.checked_sub(1)?;
         let (last, before_last) = (square(self.order)?, square(before)?);
@@ -265,57 +342,23 @@ impl<T: Real, const P: usize, W> Taylor<T, P, W> {
         if !(last.is_finite() && before_last.is_finite()) {
             return None;
         }
-        if last == T::ZERO && before_last == T::ZERO {
-            return Some(series.unit * T::from_f64(GROW));
-        }
-        let half_over =
-            |order: usize| u32::try_from(order).map_or(T::ONE, |order| T::from_u32(2 * order).recip());
+        let half = T::from_f64(0.5);
         let tiny = T::MIN_POSITIVE;
-        let by_last = (T::from_f64(-4.0) - last.max(tiny).ln()) * half_over(self.order);
-        let by_before = -before_last.max(tiny).ln() * half_over(before);
-        Some(series.unit * by_last.min(by_before).exp())
+        // near round-off what is left out would add up faster than what is rounded
+        let resolution = self.tolerance.mean_square(&state, &state, &state);
+        let is_near =
+            resolution * T::from_f64(NEAR_ROUND_OFF * NEAR_ROUND_OFF) * T::EPSILON * T::EPSILON >= T::ONE;
+        let margin = if is_near { T::from_f64(MARGIN) } else { T::ZERO };
+        let by_last = (T::from_f64(-4.0) - margin - last.max(tiny).ln()) * half * per(self.order);
+        let by_before = (-margin - before_last.max(tiny).ln()) * half * per(before);
+        let factor = by_last.min(by_before).exp();
+        Some(series.unit * factor.min(T::from_f64(GROW)))
     }
 }
 
-impl<X: State, const P: usize> Series<X, P> {
-    /// Σ x_k (τ/unit)ᵏ by Horner's rule.
-    #[inline]
-    fn at<S: Dynamics<State = X>>(&self, order: usize, elapsed: X::Scalar) -> VecOf<S> {
-        let s = elapsed / self.unit;
-        let mut terms = self.terms.get(..=order).unwrap_or(&self.terms).iter().rev();
-        let mut sum = match terms.next() {
-            Some(last) => last.to_array(),
-            None => crate::DimOf::<S>::vec(Scalar::ZERO),
-        };
-        for term in terms {
-            let term = term.to_array();
-            for (sum, term) in sum.as_mut().iter_mut().zip(term.as_ref()) {
-                *sum = sum.mul_add(s, *term);
-            }
-        }
-        sum
-    }
-}
-
-/// The unit of time of the very first series: the time in which the state changes by its own size,
-/// or by the tolerance if it is zero.
-#[cold]
-fn first_unit<S: Dynamics>(
-    start: &Start<'_, S>,
-    tolerance: &impl Tolerance<S::State>,
-) -> Result<<S::State as State>::Scalar, IntegrationError>
-where
-    <S::State as State>::Scalar: Real,
-{
-    let rate = start.derivative();
-    if let Some(found) = first_non_finite(rate.as_ref()) {
-        return Err(non_finite_derivative::<S::State>(found, start.time.to_f64()));
-    }
-    let x = start.state.to_array();
-    let one = <S::State as State>::Scalar::ONE;
-    let size = tolerance.mean_square(&x, &x, &x).max(one);
-    let unit = (size / tolerance.mean_square(&rate, &x, &x)).sqrt();
-    Ok(if unit.is_finite() && unit > Scalar::ZERO { unit } else { one })
+/// One over a number of terms.
+fn per<T: Real>(terms: usize) -> T {
+    u32::try_from(terms).map_or(T::ONE, |terms| T::from_u32(terms).recip())
 }
 
 /// Explains why there is no step.
