@@ -25,12 +25,13 @@ const EXPORTS: [(&str, &[&str]); 3] = [
 ];
 
 /// What these tests try, by the files that do.
-const TRIALS: [&str; 5] = [
+const TRIALS: [&str; 6] = [
     include_str!("methods.rs"),
     include_str!("series.rs"),
     include_str!("structure.rs"),
     include_str!("events.rs"),
     include_str!("blocks.rs"),
+    include_str!("plans.rs"),
 ];
 
 /// What is exported beside: data, settings, traits, and what the methods are made of.

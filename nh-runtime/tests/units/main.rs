@@ -25,6 +25,7 @@ mod coverage;
 mod events;
 mod methods;
 mod not_yet;
+mod plans;
 mod problems;
 mod quotients;
 mod record;
