@@ -13,23 +13,24 @@ impl Graph {
     /// A common denominator of the coefficients inside sine, cosine and exp; those that are too long are left
     /// aside, and belong to the value that they multiply.
     pub(crate) fn angle_division(&self, roots: &[ExprId]) -> i64 {
+        self.angle_division_among(&self.reachable(roots))
+    }
+
+    /// The same of all functions among some expressions.
+    pub(super) fn angle_division_among(&self, expressions: &[ExprId]) -> i64 {
+        use Function::{Cos, Cosh, Exp, Sin, Sinh, Tanh};
         let mut division: i64 = 1;
-        self.each_reachable(roots, |id| {
-            let is_periodic = |function: Function| {
-                use Function::{Cos, Cosh, Exp, Sin, Sinh, Tanh};
-                matches!(function, Sin | Cos | Exp | Sinh | Cosh | Tanh)
-            };
-            if let Node::Apply(function, x) = self.node(id)
-                && is_periodic(*function)
-            {
-                for (_, coefficient) in self.angle_terms(*x) {
-                    let denominator = coefficient.denominator().to_i64();
-                    let lcm = denominator.and_then(|d| (division / division.gcd(&d)).checked_mul(d));
-                    division = lcm.filter(|lcm| *lcm < LARGEST_DIVISION).unwrap_or(division);
+        for id in expressions {
+            let Node::Apply(Sin | Cos | Exp | Sinh | Cosh | Tanh, x) = self.node(*id) else { continue };
+            for (_, coefficient) in self.angle_terms(*x) {
+                if coefficient.is_integer() {
+                    continue;
                 }
+                let denominator = coefficient.denominator().to_i64();
+                let lcm = denominator.and_then(|d| (division / division.gcd(&d)).checked_mul(d));
+                division = lcm.filter(|lcm| *lcm < LARGEST_DIVISION).unwrap_or(division);
             }
-            true
-        });
+        }
         division
     }
 

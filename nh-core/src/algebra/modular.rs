@@ -48,7 +48,11 @@ impl Graph {
     /// # Errors
     /// Where some root has no value there, or ever.
     pub fn evaluate_in_field(&self, roots: &[ExprId], point: &FieldPoint) -> Result<Vec<Residue>, NoValue> {
-        FieldPass::new(self, point.clone(), self.angle_division(roots)).evaluate(roots)
+        let order = self.reachable(roots);
+        let mut pass = FieldPass::new(self, point.clone(), self.angle_division_among(&order));
+        pass.known.reserve(order.len());
+        pass.evaluate_in_order(order)?;
+        Ok(roots.iter().map(|root| pass.known[root]).collect())
     }
 }
 
@@ -93,14 +97,20 @@ impl<'a> FieldPass<'a> {
     /// Where some root has no value there, or ever.
     pub(crate) fn evaluate(&mut self, roots: &[ExprId]) -> Result<Vec<Residue>, NoValue> {
         if roots.iter().any(|root| !self.known.contains_key(root)) {
-            for id in self.graph.reachable(roots) {
-                if !self.known.contains_key(&id) {
-                    let value = self.value(id)?;
-                    self.known.insert(id, value);
-                }
-            }
+            let order = self.graph.reachable(roots);
+            self.evaluate_in_order(order)?;
         }
         Ok(roots.iter().map(|root| self.known[root]).collect())
+    }
+
+    fn evaluate_in_order(&mut self, order: Vec<ExprId>) -> Result<(), NoValue> {
+        for id in order {
+            if !self.known.contains_key(&id) {
+                let value = self.value(id)?;
+                self.known.insert(id, value);
+            }
+        }
+        Ok(())
     }
 
     /// Gives a symbol a value before it occurs; false where it has another value already.
