@@ -249,6 +249,20 @@ impl<T: Real> StepControl<T> {
         }
     }
 
+    /// The shortest step that time can resolve, if steps may be as long.
+    #[inline]
+    pub(crate) fn least(&self, time: T) -> Result<T, IntegrationError> {
+        let shortest = Self::shortest(time);
+        match self.max_step {
+            Some(step) if step < shortest => Err(IntegrationError::UnresolvedStep {
+                time: time.to_f64(),
+                step: step.to_f64(),
+                resolution: shortest.to_f64(),
+            }),
+            _ => Ok(shortest),
+        }
+    }
+
     /// The shortest step that time can resolve.
     #[inline]
     pub(crate) fn shortest(time: T) -> T {

@@ -317,7 +317,7 @@ impl<P, T: Real, W> Adaptive<P, T, W> {
             return Err(non_finite_derivative::<S::State>(found, start.time.to_f64()));
         }
         let controller = self.control.controller.unwrap_or_else(P::usual_controller);
-        let shortest = StepControl::shortest(start.time);
+        let shortest = self.control.least(start.time)?;
         let proposed = if let Some(h) = memory.proposed.or(self.control.first_step) {
             self.control.limited(h)
         } else {

@@ -198,7 +198,7 @@ where
         memory: &mut Self::Memory,
         statistics: &mut Statistics,
     ) -> Result<Arrival<S>, IntegrationError> {
-        let shortest = StepControl::shortest(start.time);
+        let shortest = self.control.least(start.time)?;
         let mut unit = match memory.next {
             Some(unit) => unit,
             None => self.first_unit(start, target, statistics)?,
