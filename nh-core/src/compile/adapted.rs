@@ -61,6 +61,7 @@ pub(super) fn derive(
     proved.ledger.decisions.push(chosen);
     let derivative = derivative.ok_or_else(|| nothing_proved(proved.model.origin, &proved.ledger))?;
     let gibbs_appell = gibbs_appell::on_distribution(&mut proved, kept, &calls);
+    gibbs_appell::prove_it(&mut proved, &reference, gibbs_appell.as_ref())?;
     let (multipliers, reactions) =
         if requested(&proved.model, Request::Multipliers) || requested(&proved.model, Request::Reactions) {
             let accelerations = &derivative.outputs[equations.rates.len()..];

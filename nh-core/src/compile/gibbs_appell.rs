@@ -1,11 +1,13 @@
 //! The derivative by the Gibbs–Appell function, where the declaration asks for it.
 
-use super::Proved;
 use super::restricted::requested;
+use super::{Proved, nothing_proved};
 use crate::algebra::Substitution;
+use crate::choose::{Claim, Contender, Decision, Fate, Reference, fate, prove};
 use crate::geometry::ConstraintDistribution;
 use crate::mechanics::{GibbsAppell, Procedure, SaddleEquations, definiteness, solve_symmetric};
 use crate::model::Request;
+use crate::violation::Violation;
 
 /// In a basis of D. `calls` are the calls of the user's methods.
 pub(super) fn on_distribution(
@@ -55,4 +57,21 @@ pub(super) fn with_multipliers(
     let (accelerations, _) = stationary.solve_pivoted(graph, &mut procedure);
     procedure.outputs = appell.rates.into_iter().chain(accelerations).collect();
     Some(procedure)
+}
+
+/// Proves that it moves the state as declared: it is derived by another function, and proved by the same equations.
+///
+/// # Errors
+/// Where it could not be proved.
+pub(super) fn prove_it(
+    proved: &mut Proved,
+    reference: &Reference,
+    procedure: Option<&Procedure>,
+) -> Result<(), Vec<Violation>> {
+    let Some(procedure) = procedure else { return Ok(()) };
+    let fate = fate(prove(&proved.model.graph, reference, &Claim::Motion(procedure)));
+    let is_admitted = matches!(fate, Fate::Chosen(_));
+    let contenders = vec![Contender { form: "by Gibbs and Appell", cost: None, rounding: None, fate }];
+    proved.ledger.decisions.push(Decision { site: "gibbs_appell", contenders, limits: Vec::new() });
+    if is_admitted { Ok(()) } else { Err(nothing_proved(proved.model.origin, &proved.ledger)) }
 }

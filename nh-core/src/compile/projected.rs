@@ -43,8 +43,12 @@ pub(super) fn derive(mut proved: Proved, reason: &str) -> Result<System, Vec<Vio
     let mut everywhere = Substitution::new([]);
     let derivative = calls(&mut proved.model, &mut proved.motion, &mut everywhere);
     let gibbs_appell = gibbs_appell::with_multipliers(&mut proved, &equations, &derivative);
+    let called = proved.called();
+    let graph = &mut proved.model.graph;
+    let reference = Reference::projected(graph, &proved.system, called, residuals.clone());
+    gibbs_appell::prove_it(&mut proved, &reference, gibbs_appell.as_ref())?;
     let Solved { derivative, multipliers, reactions } =
-        proved_solution(&mut proved, &equations, &residuals, &derivative, judge)?;
+        proved_solution(&mut proved, &equations, &reference, &derivative, judge)?;
     // 3. E_L, y and the observables
     let graph = &mut proved.model.graph;
     let velocity = proved.system.algebroid.velocity(graph);
@@ -124,13 +128,10 @@ struct Solved {
 fn proved_solution(
     proved: &mut Proved,
     equations: &SaddleEquations,
-    residuals: &[ExprId],
+    reference: &Reference,
     calls: &Procedure,
     judge: impl Fn(&Graph, &Matrix) -> Definiteness,
 ) -> Result<Solved, Vec<Violation>> {
-    let called = proved.called();
-    let graph = &mut proved.model.graph;
-    let reference = Reference::projected(graph, &proved.system, called, residuals.to_vec());
     let mut decision = Decision { site: "derivative", ..Decision::default() };
     let [asks_multipliers, asks_reactions] =
         [Request::Multipliers, Request::Reactions].map(|request| requested(&proved.model, request));
@@ -155,14 +156,14 @@ fn proved_solution(
         let reactions = procedure.with_outputs(reactions);
         let fixed = &proved.system.algebroid.anchor.coordinates;
         let derivative = without_needless_cancellation(graph, procedure, fixed);
-        let mut proof = prove(graph, &reference, &Claim::Motion(&derivative));
+        let mut proof = prove(graph, reference, &Claim::Motion(&derivative));
         if asks_multipliers {
             let claim = Claim::Multipliers(&derivative, &multipliers, None);
-            proof = proof.and_then(|_| prove(graph, &reference, &claim));
+            proof = proof.and_then(|_| prove(graph, reference, &claim));
         }
         if asks_reactions {
             let claim = Claim::Reactions(&derivative, &reactions);
-            proof = proof.and_then(|_| prove(graph, &reference, &claim));
+            proof = proof.and_then(|_| prove(graph, reference, &claim));
         }
         let form = if is_pivoted { "with pivoting" } else { "by complement" };
         let fate = fate(proof);
