@@ -2,6 +2,7 @@
 
 use super::field::Residue;
 use super::graph::Graph;
+use crate::count::Count;
 use crate::id::{ExprId, Id, SymbolId};
 
 /// What emitted code is made for, where speed and accuracy are at odds.
@@ -30,8 +31,17 @@ impl Accuracy {
 
 /// Points at which two forms are compared.
 const POINTS: u64 = 24;
+/// The same where symbols are far apart: few of these points tell.
+const POINTS_APART: u64 = 48;
 /// As many of them as a form is at its worst at.
 const WORST: usize = 3;
+
+/// Units in the last place that an expression may lose where symbols are far apart: more than operations add up to.
+const LOST: f64 = 65536.0;
+/// What is gained at least for a longer one.
+const MUCH: f64 = 256.0;
+/// As many operations longer it may be, or by a quarter.
+const MORE: u64 = 8;
 
 impl Graph {
     /// How many times larger the rounding error of `candidate` is than that of `reference`, an
@@ -79,6 +89,73 @@ impl Graph {
         mean_growth(candidate.len()).max(mean_growth(candidate.len().min(WORST)))
     }
 
+    /// How many times smaller the rounding error of `candidate` is than that of `reference`, an expression of the same
+    /// value, where symbols are positive and up to eight decades apart: in the geometric mean over the places where
+    /// most is gained.
+    ///
+    /// An error below a few units in the last place of the value counts as that. Infinite where the reference keeps no
+    /// digit and the candidate does.
+    #[must_use]
+    #[allow(clippy::cast_precision_loss, reason = "there are few points")]
+    pub fn gain_apart(&self, candidate: ExprId, reference: ExprId) -> f64 {
+        let points = (0..POINTS_APART).map(|point| move |symbol| sample_apart(point, symbol));
+        let mut logarithms = Vec::new();
+        for values in self.evaluate_each(&[candidate, reference], points) {
+            let floor = 8.0 * f64::EPSILON * values[0].value.abs();
+            let gain = values[1].error.max(floor) / values[0].error.max(floor);
+            if values[0].error.is_finite() && floor > 0.0 {
+                logarithms.push(if gain.is_nan() { f64::INFINITY } else { gain.ln() });
+            }
+        }
+        logarithms.sort_unstable_by(|a, b| b.total_cmp(a));
+        logarithms.truncate(WORST);
+        (logarithms.iter().sum::<f64>() / logarithms.len().max(1) as f64).exp()
+    }
+
+    /// The rounding error in units in the last place, in the geometric mean over the worst of the places where symbols
+    /// are positive and up to eight decades apart.
+    #[must_use]
+    #[allow(clippy::cast_precision_loss, reason = "there are few points")]
+    pub fn units_lost_apart(&self, expression: ExprId) -> f64 {
+        let points = (0..POINTS_APART).map(|point| move |symbol| sample_apart(point, symbol));
+        let roots = [expression];
+        let units = self.evaluate_each(&roots, points).filter(|values| values[0].error > 0.0);
+        let units = units.map(|values| (values[0].error / (f64::EPSILON * values[0].value.abs())).ln());
+        let mut logarithms: Vec<f64> = units.filter(|units| !units.is_nan()).collect();
+        logarithms.sort_unstable_by(|a, b| b.total_cmp(a));
+        logarithms.truncate(WORST);
+        (logarithms.iter().sum::<f64>() / logarithms.len().max(1) as f64).exp()
+    }
+
+    /// The expression so that no terms cancel identically, if it loses digits where symbols are far apart, most of them
+    /// are saved by that, and the result is not much longer than `length` operations.
+    #[must_use]
+    pub fn without_cancellation(&mut self, expression: ExprId, length: Count) -> Option<ExprId> {
+        // constants are as large as they are
+        let is_open = self.accuracy() != Accuracy::Fast && self.constants().is_empty();
+        if !is_open || self.units_lost_apart(expression) < LOST {
+            return None;
+        }
+        // the same over one denominator: what cancels may stand on both sides of a fraction bar
+        let divisors: Vec<ExprId> = self.divisors(&[expression]).into_iter().collect();
+        let denominator =
+            divisors.into_iter().fold(self.one(), |product, divisor| self.mul(product, divisor));
+        let numerator = self.mul(expression, denominator);
+        let mut forms = self.spelled_out(expression);
+        for form in self.spelled_out(numerator) {
+            forms.push(self.div(form, denominator));
+        }
+        let forms: Vec<(ExprId, Count, f64)> = forms
+            .into_iter()
+            .map(|form| (form, self.operation_count(&[form]), self.gain_apart(form, expression)))
+            .collect();
+        let is_short = |dear: Count| dear <= length + MORE || dear * 4 <= length * 5;
+        let short = || forms.iter().filter(|(_, dear, _)| is_short(*dear));
+        let most = short().map(|(.., gain)| *gain).fold(MUCH, f64::max);
+        let best = short().filter(|(.., gain)| 16.0 * gain >= most && *gain > MUCH);
+        best.min_by_key(|(_, dear, _)| *dear).map(|(form, ..)| *form)
+    }
+
     /// Whether values lose no more than the level of accuracy allows against others: overall where it allows
     /// something, since two ways of solving the same equations cancel at different places.
     #[must_use]
@@ -102,6 +179,14 @@ fn wide_sample(point: u64, symbol: SymbolId) -> f64 {
     if word & 1 == 0 { magnitude } else { -magnitude }
 }
 
+/// A number between 10⁻⁴ and 10⁴ that the point and the symbol determine.
+#[allow(clippy::cast_precision_loss, reason = "a sample needs no more digits")]
+fn sample_apart(point: u64, symbol: SymbolId) -> f64 {
+    let word = Residue::mixed(17_000 + point, symbol.index() as u64).word();
+    let unit = (word & 0xF_FFFF) as f64 / f64::from(1 << 20);
+    10f64.powf(8.0 * unit - 4.0)
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -123,5 +208,31 @@ mod tests {
         let expanded = g.linear_combination(&terms);
         assert!(g.error_growth(expanded, power) > 4.0 * g.error_growth(power, expanded));
         assert!(g.error_growth(power, power) <= 1.0);
+    }
+
+    #[test]
+    fn what_elimination_leaves_keeps_its_digits_without_terms_that_cancel() {
+        // the pivot of a pendulum on a cart: J + m l² − (m l)² / (M + m)
+        let mut g = Graph::new();
+        let [j, m, l, cart] = ["J", "m", "l", "M"].map(|name| {
+            let symbol = g.new_symbol(name);
+            g.symbol(symbol)
+        });
+        let lever = g.mul(m, l);
+        let (turned, squared) = (g.mul(lever, l), g.square(lever));
+        let mass = g.add(cart, m);
+        let carried = g.div(squared, mass);
+        let sum = g.add(j, turned);
+        let pivot = g.sub(sum, carried);
+        assert!(g.units_lost_apart(pivot) > 65536.0, "{}", g.units_lost_apart(pivot));
+        let length = g.operation_count(&[pivot]);
+        let short = g.without_cancellation(pivot, length).expect("a form that keeps its digits");
+        assert!(g.units_lost_apart(short) < 100.0, "{}", g.text(short));
+        let difference = g.sub(short, pivot);
+        assert!(g.zero_test(difference).is_zero());
+        // what keeps its digits is left alone, and so is everything where accuracy may go
+        assert_eq!(g.without_cancellation(short, length), None);
+        g.set_accuracy(Accuracy::Fast);
+        assert_eq!(g.without_cancellation(pivot, length), None);
     }
 }

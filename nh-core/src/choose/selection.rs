@@ -7,7 +7,7 @@ use super::proof::{Claim, Defect, prove};
 use super::reference::Reference;
 use crate::algebra::{Accuracy, Graph};
 use crate::mechanics::Procedure;
-use crate::program::{Cost, Program, error_growth, order, schedule_roughly};
+use crate::program::{Cost, Program, error_growth, error_growth_apart, order, schedule_roughly};
 
 /// What a procedure is compared by.
 #[derive(Clone, Copy, Debug)]
@@ -30,13 +30,36 @@ pub(crate) fn rate(graph: &Graph, procedures: &[Procedure]) -> Vec<Rating> {
     };
     let least = growth.iter().copied().fold(f64::INFINITY, f64::min);
     let allowed = graph.accuracy().growth().max(least);
-    let rated = programs.iter().zip(growth).map(|(program, growth)| Rating {
-        sound: growth <= allowed,
+    let mut sound: Vec<bool> = growth.iter().map(|growth| *growth <= allowed).collect();
+    keep_digits_apart(graph, &programs, &mut sound);
+    let rated = programs.iter().zip(growth).zip(sound).map(|((program, growth), sound)| Rating {
+        sound,
         order: order(program),
         cost: Cost::of(program).weighted(),
         growth,
     });
     rated.collect()
+}
+
+/// Leaves those of the sound programs that keep their digits also where parameters lie decades apart, as far as any
+/// does. Constants are as large as they are.
+fn keep_digits_apart(graph: &Graph, programs: &[Program], sound: &mut [bool]) {
+    // what is faster may lose more there, as long as it keeps digits
+    let allowed = match graph.accuracy() {
+        Accuracy::Fast => return,
+        Accuracy::Balanced => 1e12_f64,
+        Accuracy::Careful => 1024.0,
+    };
+    let places: Vec<usize> = (0..programs.len()).filter(|index| sound[*index]).collect();
+    if places.len() < 2 || !graph.constants().is_empty() {
+        return;
+    }
+    let candidates: Vec<&Program> = places.iter().map(|index| &programs[*index]).collect();
+    let growth = error_growth_apart(&candidates);
+    let least = growth.iter().copied().fold(f64::INFINITY, f64::min);
+    for (index, growth) in places.into_iter().zip(growth) {
+        sound[index] = growth <= allowed.max(least);
+    }
 }
 
 /// The procedures from the best to the worst: those that are accurate enough first, then by cost.

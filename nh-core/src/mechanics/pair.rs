@@ -19,16 +19,43 @@ const SIMPLIFIED_WHOLE: u64 = 240;
 /// What Cramer's rule costs on top of the entries: six products, three differences and two quotients,
 /// in the units of `operation_count`.
 const OPERATIONS: u64 = 21;
+/// How many times more the shortest way may lose where symbols are far apart.
+const MUCH: f64 = 256.0;
 /// What one unknown may cost, given the other, that nothing else is tried.
 const SHORT: u64 = 12;
 
 impl Pair {
+    /// The solution in the shortest way, unless that loses digits where symbols are far apart that another keeps.
+    pub(super) fn solve(
+        self,
+        graph: &mut Graph,
+        definiteness: Definiteness,
+        procedure: &mut Procedure,
+        names: &[String; 2],
+    ) -> [ExprId; 2] {
+        let mut own = procedure.clone();
+        own.definitions.clear();
+        let mut values = self.shortest(graph, definiteness, &mut own, names);
+        if let Some((other, kept)) = self.without_cancellation(graph, procedure, &names[0]) {
+            let [shortest, kept_out] = [(&own, &values), (&other, &kept)]
+                .map(|(way, values)| way.with_outputs(values.to_vec()).written_out(graph));
+            let [cheap, dear] = [(&own, &values), (&other, &kept)]
+                .map(|(way, values)| graph.operation_count(&way.with_outputs(values.to_vec()).values(graph)));
+            let gains = shortest.iter().zip(&kept_out).map(|(short, kept)| graph.gain_apart(*kept, *short));
+            if dear * 4 <= cheap * 5 && gains.fold(0.0, f64::max) > MUCH {
+                (own, values) = (other, kept);
+            }
+        }
+        procedure.definitions.extend(own.definitions);
+        values
+    }
+
     /// The solution in the shortest way that the level of accuracy allows against Cramer's rule.
     ///
     /// Terms of the determinant often cancel identically (the sleigh's m²b², say), so that the solution
     /// simplified as a whole is mostly cheaper than the rule, and nothing is lost to that cancellation.
     /// Cheaper still is one unknown from the other, where one row is short.
-    pub(super) fn solve(
+    fn shortest(
         self,
         graph: &mut Graph,
         definiteness: Definiteness,
@@ -102,6 +129,34 @@ impl Pair {
         let first = difference_of_products(graph, (d, f), (b, g));
         let second = difference_of_products(graph, (a, g), (b, f));
         [graph.div(first, determinant), graph.div(second, determinant)]
+    }
+
+    /// Cramer's rule, with differences of products in which nothing cancels identically: `(J + m l²) m − (m l)²` as
+    /// `J m`. Where inertias are far apart nothing else is left of J.
+    fn without_cancellation(
+        self,
+        graph: &mut Graph,
+        procedure: &Procedure,
+        name: &str,
+    ) -> Option<(Procedure, [ExprId; 2])> {
+        let ([a, b, d], [f, g]) = (self.matrix, self.right);
+        let pairs = [((a, d), (b, b)), ((d, f), (b, g)), ((a, g), (b, f))];
+        let differences = pairs.map(|(first, second)| {
+            let difference = difference_of_products(graph, first, second);
+            graph.simplify(difference)
+        });
+        let saved = differences.map(|difference| {
+            let length = graph.operation_count(&[difference]);
+            graph.without_cancellation(difference, length)
+        });
+        if saved.iter().all(Option::is_none) {
+            return None;
+        }
+        let [determinant, first, second] = std::array::from_fn(|k| saved[k].unwrap_or(differences[k]));
+        let mut own = procedure.clone();
+        own.definitions.clear();
+        let determinant = own.define(graph, &format!("{name}_determinant"), determinant);
+        Some((own, [graph.div(first, determinant), graph.div(second, determinant)]))
     }
 
     /// Where a = d, as for two equal wheels: (x + y)/2 and (x − y)/2, each from an equation of its own.

@@ -11,6 +11,9 @@
 //! | `p = a b` | `a b − p` | by a fused multiply-add |
 //! | `q = a / b` | `(a − q b) / b` | by a fused multiply-add |
 //!
+//! A divisor in which terms may have cancelled is corrected before anything is divided by it: to first order nothing
+//! is gained where its error is as large as itself.
+//!
 //! Where the target has no fused multiply-add, the errors of products come out as zero: nothing is lost,
 //! and less is gained. Sines and cosines keep the error of their function, and pass on that of the angle.
 //! Other functions, methods of the user's and pivoted solutions take corrected operands.
@@ -25,7 +28,7 @@ use crate::id::{Id, Table};
 /// The same program with the rounding errors of its outputs corrected.
 #[must_use]
 pub fn corrected(program: &Program) -> Program {
-    let mut corrector = Corrector { steps: Table::new(), images: Vec::new() };
+    let mut corrector = Corrector { steps: Table::new(), may_cancel: Table::new(), images: Vec::new() };
     for step in &program.steps {
         let image = corrector.step(step);
         corrector.images.push(image);
@@ -45,12 +48,21 @@ struct Estimate {
 
 struct Corrector {
     steps: Table<Value, Step>,
+    /// Whether a value may be small against its own rounding error: sums may, and their products.
+    may_cancel: Table<Value, bool>,
     /// Of each step of the program.
     images: Vec<Estimate>,
 }
 
 impl Corrector {
     fn push(&mut self, step: Step) -> Value {
+        let may = |operand: &Value| self.may_cancel[*operand];
+        self.may_cancel.push(match &step {
+            Step::Add(..) | Step::Sub(..) | Step::MulAdd { .. } => true,
+            Step::Mul(a, b) => may(a) || may(b),
+            Step::Neg(a) | Step::Sqrt(a) | Step::Recip(a) | Step::Div(a, _) => may(a),
+            _ => false,
+        });
         self.steps.push(step)
     }
 
@@ -60,8 +72,21 @@ impl Corrector {
 
     /// The corrected value.
     fn whole(&mut self, value: Value) -> Value {
-        let Estimate { value, error } = self.of(value);
+        let estimate = self.of(value);
+        self.corrected_value(estimate)
+    }
+
+    fn corrected_value(&mut self, Estimate { value, error }: Estimate) -> Value {
         error.map_or(value, |error| self.push(Step::Add(value, error)))
+    }
+
+    /// The corrected value and what is missing of that: where terms cancelled, the error may be as large as the
+    /// value, or larger.
+    fn renewed(&mut self, estimate: Estimate) -> Estimate {
+        let Estimate { value, error: Some(error) } = estimate else { return estimate };
+        let whole = self.corrected_value(estimate);
+        let rest = self.push(Step::Sub(value, whole));
+        Estimate { value: whole, error: Some(self.push(Step::Add(rest, error))) }
     }
 
     fn step(&mut self, step: &Step) -> Estimate {
@@ -163,7 +188,10 @@ impl Corrector {
         } else {
             Some(self.multiply_add(a.value, b.value, value, false, true))
         };
-        for (inherited, factor) in [(a.error, b.value), (b.error, a.value)] {
+        // where terms cancelled in both factors, what is missing of both counts, too
+        let is_rough = self.may_cancel[a.value] && self.may_cancel[b.value];
+        let other = if is_rough && a.error.is_some() { self.corrected_value(b) } else { b.value };
+        for (inherited, factor) in [(a.error, other), (b.error, a.value)] {
             let Some(inherited) = inherited else { continue };
             error = Some(match error {
                 Some(error) => self.multiply_add(inherited, factor, error, false, false),
@@ -174,6 +202,7 @@ impl Corrector {
     }
 
     fn quotient(&mut self, a: Estimate, b: Estimate) -> Estimate {
+        let b = if self.may_cancel[b.value] { self.renewed(b) } else { b };
         let value = self.push(Step::Div(a.value, b.value));
         let mut rest = self.multiply_add(value, b.value, a.value, true, false);
         if let Some(inherited) = a.error {

@@ -19,6 +19,11 @@ pub trait Arithmetic: Clone {
     /// `self · other`.
     #[must_use]
     fn mul(&self, other: &Self) -> Self;
+    /// `self · other + summand`, as targets without an instruction for it compute it.
+    #[must_use]
+    fn mul_add(&self, other: &Self, summand: &Self) -> Self {
+        self.mul(other).add(summand)
+    }
     /// `self / other`.
     #[must_use]
     fn div(&self, other: &Self) -> Self;
@@ -129,13 +134,9 @@ pub fn interpret_in<A: Arithmetic>(program: &Program, mut symbol: impl FnMut(Sym
             Step::Sub(a, b) => results[*a].sub(&results[*b]),
             Step::Mul(a, b) => results[*a].mul(&results[*b]),
             Step::MulAdd { a, b, c, minus_product, minus_c } => {
-                let product = results[*a].mul(&results[*b]);
-                match (minus_product, minus_c) {
-                    (false, false) => product.add(&results[*c]),
-                    (false, true) => product.sub(&results[*c]),
-                    (true, false) => results[*c].sub(&product),
-                    (true, true) => zero.sub(&product.add(&results[*c])),
-                }
+                let signed = |value: &A, minus: bool| if minus { zero.sub(value) } else { value.clone() };
+                let factor = signed(&results[*a], *minus_product);
+                factor.mul_add(&results[*b], &signed(&results[*c], *minus_c))
             }
             Step::Div(a, b) => results[*a].div(&results[*b]),
             Step::Neg(a) => zero.sub(&results[*a]),

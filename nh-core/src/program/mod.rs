@@ -41,7 +41,7 @@ mod text;
 pub use correct::corrected;
 pub use cost::{Cost, order};
 pub use interpret::{Arithmetic, interpret, interpret_in};
-pub use rounding::{error_growth, reading_in_vain, units_lost};
+pub use rounding::{error_growth, error_growth_apart, reading_in_vain, units_lost};
 pub use rule::{Factor, Inner, Rule};
 pub use schedule::{schedule, schedule_grouping, schedule_roughly};
 pub use split::{Split, split};

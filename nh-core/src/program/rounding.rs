@@ -5,6 +5,7 @@ use super::step::{Program, Step};
 use crate::algebra::{Bounded, Function, Function2, Rational, Residue};
 use crate::id::{Id, SymbolId};
 use std::borrow::Borrow;
+use std::collections::BTreeSet;
 
 /// Points at which programs are compared.
 const POINTS: u32 = 16;
@@ -41,6 +42,65 @@ pub fn error_growth<P: Borrow<Program>>(programs: &[P]) -> Vec<f64> {
     }
     let mean = |sum: f64| (sum / f64::from(POINTS)).exp();
     logarithms.into_iter().map(|sums| sums.into_iter().map(mean).fold(1.0, f64::max)).collect()
+}
+
+/// Points at which parameters lie far apart.
+const POINTS_APART: u32 = 32;
+/// As many of them count as a program is at its worst at.
+const WORST: usize = 3;
+
+/// How many times larger the rounding error of each program is than that of the best of them where symbols lie up to
+/// eight decades apart: the geometric mean over the points where it is at its worst, for the worst of the outputs.
+/// What arguments of functions depend on stays of ordinary size.
+///
+/// Programs that are alike at ordinary sizes differ there by as many digits as there are: what forms a small difference
+/// of large terms keeps nothing of it.
+#[must_use]
+pub fn error_growth_apart<P: Borrow<Program>>(programs: &[P]) -> Vec<f64> {
+    let outputs = programs.iter().map(|program| program.borrow().outputs.len()).min().unwrap_or(0);
+    let turning = turning(programs);
+    let mut logarithms = vec![vec![Vec::new(); outputs]; programs.len()];
+    for point in 0..POINTS_APART {
+        let at = |symbol| {
+            if turning.contains(&symbol) { sample(point, symbol) } else { sample_apart(point, symbol) }
+        };
+        let values: Vec<Vec<Bounded>> = programs
+            .iter()
+            .map(|program| interpret_in(program.borrow(), |symbol| Bounded { value: at(symbol), error: 0.0 }))
+            .collect();
+        for output in 0..outputs {
+            let best = values.iter().map(|values| values[output]).filter(|value| value.error.is_finite());
+            let Some(best) = best.min_by(|a, b| a.error.total_cmp(&b.error)) else { continue };
+            let floor = best.error.max(8.0 * f64::EPSILON * best.value.abs());
+            if !floor.is_normal() {
+                continue;
+            }
+            for (logarithms, values) in logarithms.iter_mut().zip(&values) {
+                let growth = values[output].error / floor;
+                logarithms[output].push(if growth.is_nan() { f64::INFINITY } else { growth.max(1.0).ln() });
+            }
+        }
+    }
+    let worst = |mut logarithms: Vec<f64>| {
+        logarithms.sort_unstable_by(|a, b| b.total_cmp(a));
+        logarithms.truncate(WORST);
+        (logarithms.iter().sum::<f64>() / f64::from(u32::try_from(logarithms.len().max(1)).unwrap_or(1)))
+            .exp()
+    };
+    logarithms.into_iter().map(|outputs| outputs.into_iter().map(worst).fold(1.0, f64::max)).collect()
+}
+
+/// The symbols that arguments of functions depend on.
+fn turning<P: Borrow<Program>>(programs: &[P]) -> BTreeSet<SymbolId> {
+    let mut found = BTreeSet::new();
+    for program in programs {
+        let marked = under_functions(program.borrow());
+        found.extend(program.borrow().steps.iter_ids().filter_map(|(value, step)| match step {
+            Step::Load(symbol) if marked[value.index()] => Some(*symbol),
+            _ => None,
+        }));
+    }
+    found
 }
 
 /// How much larger a symbol is made than all others.
@@ -122,6 +182,14 @@ fn sample(point: u32, symbol: SymbolId) -> f64 {
     let word = Residue::mixed(23_000 + u64::from(point), symbol.index() as u64).word();
     let unit = (word & 0xF_FFFF) as f64 / f64::from(1 << 20);
     2f64.powf(6.0 * unit - 3.0)
+}
+
+/// A number between 10⁻⁴ and 10⁴ that the point and the symbol determine.
+#[allow(clippy::cast_precision_loss, reason = "a sample needs no more digits")]
+fn sample_apart(point: u32, symbol: SymbolId) -> f64 {
+    let word = Residue::mixed(29_000 + u64::from(point), symbol.index() as u64).word();
+    let unit = (word & 0xF_FFFF) as f64 / f64::from(1 << 20);
+    10f64.powf(8.0 * unit - 4.0)
 }
 
 impl Arithmetic for Bounded {

@@ -82,6 +82,18 @@ impl Graph {
         image
     }
 
+    /// Equal expressions, whatever they cost: simplified, and as sums in which every term occurs once.
+    pub(super) fn spelled_out(&mut self, e: ExprId) -> Vec<ExprId> {
+        let mut found = vec![self.simplify(e)];
+        for style in [STYLES[1], CANONICAL] {
+            let forms = self.forms(e, style, ATTEMPT).forms;
+            found.extend(forms.iter().flat_map(|(collected, factored)| [*collected, *factored]));
+        }
+        found.sort_unstable();
+        found.dedup();
+        found
+    }
+
     /// Simplifies expressions that are computed together: what they share stays shared where that
     /// is cheaper. Together they cost at most as much as before.
     pub fn simplify_all(&mut self, roots: &[ExprId]) -> Vec<ExprId> {

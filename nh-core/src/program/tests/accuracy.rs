@@ -4,7 +4,7 @@ use super::{assert_well_formed, symbols};
 use crate::algebra::{Accuracy, Graph, Rational};
 use crate::id::{ExprId, Id};
 use crate::mechanics::Procedure;
-use crate::program::{Program, Step, corrected, error_growth, interpret, schedule};
+use crate::program::{Program, Step, corrected, error_growth, error_growth_apart, interpret, schedule};
 
 #[test]
 fn corrected_sums_and_quotients_are_exact_where_rounding_would_tell() {
@@ -23,6 +23,48 @@ fn corrected_sums_and_quotients_are_exact_where_rounding_would_tell() {
     let program = schedule(&g, &procedure);
     assert_eq!(run(&program), [0.0, 0.0, 2.0]);
     assert_eq!(run(&corrected(&program)), [1e-30, 0.0, 2.0]);
+}
+
+#[test]
+fn a_divisor_is_corrected_before_anything_is_divided_by_it() {
+    let mut g = Graph::new();
+    let [x, y, z] = symbols(&mut g, ["x", "y", "z"]);
+    let mut procedure = Procedure::default();
+    let sum = g.add(x, y);
+    let sum = procedure.define(&mut g, "s", sum);
+    let difference = g.sub(sum, x);
+    let difference = procedure.define(&mut g, "d", difference);
+    // y² z / y and z / y, where the computed sum keeps nothing of y
+    let square = g.square(difference);
+    let square = procedure.define(&mut g, "dd", square);
+    let whole = g.mul(square, z);
+    procedure.outputs = vec![g.div(whole, difference), g.div(z, difference)];
+    let values = [1.0, 2f64.powi(-60), 3.0];
+    let run = |program: &Program| interpret(program, |symbol| values[symbol.index()]);
+    let program = schedule(&g, &procedure);
+    assert!(run(&program).iter().all(|value| !value.is_normal()), "{:?}", run(&program));
+    assert_eq!(run(&corrected(&program)), [3.0 * values[1], 3.0 / values[1]]);
+}
+
+#[test]
+fn programs_that_differ_where_symbols_are_far_apart_are_told_apart() {
+    // J + m l² − (m l)² / (M + m), and without what cancels: alike where all are of ordinary size
+    let mut g = Graph::new();
+    let [j, m, l, cart] = symbols(&mut g, ["J", "m", "l", "M"]);
+    let mut procedure = Procedure::default();
+    let lever = g.mul(m, l);
+    let lever = procedure.define(&mut g, "lever", lever);
+    let (mass, squared, turned) = (g.add(cart, m), g.square(lever), g.mul(lever, l));
+    let (carried, sum) = (g.div(squared, mass), g.add(j, turned));
+    procedure.outputs = vec![g.sub(sum, carried)];
+    let (rest, square) = (g.mul(m, cart), g.square(l));
+    let rest = g.mul(rest, square);
+    let rest = g.div(rest, mass);
+    let short = Procedure::of(vec![g.add(j, rest)]);
+    let programs = [schedule(&g, &procedure), schedule(&g, &short)];
+    let (ordinary, apart) = (error_growth(&programs), error_growth_apart(&programs));
+    assert!(ordinary[0] < 64.0 && ordinary[1] < 2.0, "{ordinary:?}");
+    assert!(apart[0] > 4096.0 && apart[1] < 2.0, "{apart:?}");
 }
 
 #[test]
