@@ -8,12 +8,70 @@ use crate::linear::Factors;
 use crate::methods::Start;
 use crate::{Dim, DimOf, Dynamics, MatOf, Real, Scalar, ScalarOf, VecOf};
 
+/// A coefficient as a number and what rounding has taken from it. With coefficients that are merely rounded, the
+/// method that is solved to round-off is another one: it is not symplectic, and its energy drifts by a
+/// rounding unit with every unit of time (Hairer, McLachlan, Razakarivony, Achieving Brouwer's law with
+/// implicit Runge–Kutta methods, BIT 48 (2008)).
+pub(super) type Exact = (f64, f64);
+
+/// The same in numbers of type T.
+#[inline]
+fn split<T: Scalar>((number, rest): Exact) -> (T, T) {
+    let rounded = T::from_f64(number);
+    (rounded, T::from_f64((number - rounded.to_f64()) + rest))
+}
+
+/// A sum and what rounding has taken from it.
+#[derive(Clone, Copy)]
+struct Sum<T> {
+    sum: T,
+    rest: T,
+}
+
+impl<T: Real> Sum<T> {
+    const ZERO: Self = Self { sum: T::ZERO, rest: T::ZERO };
+
+    /// Adds a number (Møller 1965, Knuth, The Art of Computer Programming 2, 4.2.2, theorem B).
+    #[inline]
+    fn add(self, x: T) -> Self {
+        let sum = self.sum + x;
+        let added = sum - self.sum;
+        Self { sum, rest: self.rest + ((self.sum - (sum - added)) + (x - added)) }
+    }
+
+    /// Adds c x, whose rounding error is that of products of halves (Dekker, A floating-point technique for
+    /// extending the available precision, Numer. Math. 18 (1971)).
+    #[inline]
+    fn add_product(self, c: Exact, x: T) -> Self {
+        let (c, c_rest) = split::<T>(c);
+        let ((c1, c2), (x1, x2)) = (halves(c), halves(x));
+        let product = c * x;
+        let lost = ((c1 * x1 - product) + c1 * x2 + c2 * x1) + c2 * x2;
+        let next = self.add(product);
+        // halves of the largest numbers have no room
+        let lost = if lost.is_finite() { lost } else { T::ZERO };
+        Self { rest: next.rest + (lost + c_rest * x), ..next }
+    }
+}
+
+/// Two numbers of half the digits with this sum.
+#[inline]
+fn halves<T: Real>(x: T) -> (T, T) {
+    // 2²⁷ + 1 and 2¹² + 1: a little more than one over the root of the rounding unit
+    let factor = if T::EPSILON < T::from_f64(1e-10) { 134_217_729.0 } else { 4097.0 };
+    let scaled = x * T::from_f64(factor);
+    let first = scaled - (scaled - x);
+    (first, x - first)
+}
+
 /// A collocation method of `S` stages, 2 or 3, with the unknowns zᵢ = h Σ aᵢⱼ f(t₀ + cⱼh, x₀ + zⱼ).
 pub(super) struct Collocation<const S: usize> {
     /// The nodes c.
     pub(super) nodes: [f64; S],
+    /// The Runge–Kutta matrix A.
+    pub(super) matrix: [[Exact; S]; S],
     /// x₁ − x₀ = Σ dᵢ zᵢ, d = bA⁻¹.
-    pub(super) end: [f64; S],
+    pub(super) end: [Exact; S],
     /// The real eigenvalue of A⁻¹, if there are three stages.
     pub(super) real: f64,
     /// The complex ones, α ± iβ.
@@ -87,10 +145,10 @@ impl<const N: usize> Collocation<N> {
     pub(super) fn iterate<S: Dynamics>(
         &self,
         start: &Start<'_, S>,
-        x: &VecOf<S>,
+        (x, rest): (&VecOf<S>, &VecOf<S>),
         h: ScalarOf<S>,
         matrices: &Matrices<S>,
-        z: &mut [VecOf<S>; N],
+        (z, rests): (&mut [VecOf<S>; N], &mut [VecOf<S>; N]),
     ) -> [VecOf<S>; N]
     where
         ScalarOf<S>: Real,
@@ -99,43 +157,52 @@ impl<const N: usize> Collocation<N> {
         let mut slopes = [zero; N];
         for ((slope, node), z) in slopes.iter_mut().zip(&self.nodes).zip(z.iter()) {
             let time = start.time + ScalarOf::<S>::from_f64(*node) * h;
-            *slope = start.derivative_at(time, displaced(x, ScalarOf::<S>::ONE, z));
+            *slope = start.derivative_at(
+                time,
+                displaced(x, ScalarOf::<S>::ONE, &displaced(z, ScalarOf::<S>::ONE, rest)),
+            );
         }
-        self.corrected(h, matrices, &slopes, z)
+        self.corrected(h, matrices, &slopes, (z, rests))
     }
 
-    /// One iteration from the derivatives at the unknowns.
+    /// One iteration from the derivatives at the unknowns, h Σ aᵢⱼ fⱼ − zᵢ being what is left of their equations.
     pub(super) fn corrected<S: Dynamics>(
         &self,
         h: ScalarOf<S>,
         matrices: &Matrices<S>,
         slopes: &[VecOf<S>; N],
-        z: &mut [VecOf<S>; N],
+        (z, rests): (&mut [VecOf<S>; N], &mut [VecOf<S>; N]),
     ) -> [VecOf<S>; N]
     where
         ScalarOf<S>: Real,
     {
         let zero = DimOf::<S>::vec(ScalarOf::<S>::ZERO);
         let scaled = |v: f64| ScalarOf::<S>::from_f64(v) / h;
-        // in blocks: T⁻¹ f − Λ/h T⁻¹ z
-        let mut defect = [zero; N];
+        let increments = slopes.map(|slope| displaced(&zero, h, &slope));
+        let mut left = [zero; N];
+        for ((left, row), (z, rest)) in left.iter_mut().zip(&self.matrix).zip(z.iter().zip(rests.iter())) {
+            let known = z.as_ref().iter().zip(rest.as_ref()).enumerate();
+            for (left, (k, (z, rest))) in left.as_mut().iter_mut().zip(known) {
+                let terms = row.iter().zip(&increments).filter_map(|(a, f)| Some((*a, *f.as_ref().get(k)?)));
+                let sum = terms.fold(Sum::ZERO, |sum, (a, f)| sum.add_product(a, f)).add(-*z);
+                *left = sum.sum + (sum.rest - *rest);
+            }
+        }
+        // in blocks: Λ/h T⁻¹ of it
         let mut blocks = [zero; N];
-        for ((defect, block), row) in defect.iter_mut().zip(&mut blocks).zip(&self.to_blocks) {
-            *defect = weighted(zero, row, slopes);
-            *block = weighted(zero, row, z);
+        for (block, row) in blocks.iter_mut().zip(&self.to_blocks) {
+            *block = weighted(zero, row, &left);
         }
         let mut correction = [zero; N];
         let (alpha, beta) = (scaled(self.pair.0), scaled(self.pair.1));
-        if let ([single @ .., d2, d3], [real @ .., w2, w3], [first @ .., c2, c3]) =
-            (defect.as_slice(), blocks.as_slice(), correction.as_mut_slice())
-        {
-            for ((c, d), w) in first.iter_mut().zip(single).zip(real) {
+        if let ([real @ .., w2, w3], [first @ .., c2, c3]) = (blocks.as_slice(), correction.as_mut_slice()) {
+            for (c, w) in first.iter_mut().zip(real) {
                 if let Some(factors) = &matrices.real {
-                    *c = factors.solve(&displaced(d, -scaled(self.real), w));
+                    *c = factors.solve(&displaced(&zero, scaled(self.real), w));
                 }
             }
-            let d2 = displaced(&displaced(d2, -alpha, w2), -beta, w3);
-            let d3 = displaced(&displaced(d3, beta, w2), -alpha, w3);
+            let d2 = displaced(&displaced(&zero, alpha, w2), beta, w3);
+            let d3 = displaced(&displaced(&zero, -beta, w2), alpha, w3);
             let mut right = DimOf::<S>::vec(Complex { re: ScalarOf::<S>::ZERO, im: ScalarOf::<S>::ZERO });
             for (r, (re, im)) in right.as_mut().iter_mut().zip(d2.as_ref().iter().zip(d3.as_ref())) {
                 *r = Complex { re: *re, im: *im };
@@ -147,11 +214,35 @@ impl<const N: usize> Collocation<N> {
             }
         }
         let mut change = [zero; N];
-        for ((change, z), row) in change.iter_mut().zip(z.iter_mut()).zip(&self.from_blocks) {
+        let unknowns = z.iter_mut().zip(rests.iter_mut());
+        for ((change, (z, rest)), row) in change.iter_mut().zip(unknowns).zip(&self.from_blocks) {
             *change = weighted(zero, row, &correction);
-            *z = displaced(z, ScalarOf::<S>::ONE, change);
+            let changes = change.as_ref().iter();
+            for ((z, rest), change) in z.as_mut().iter_mut().zip(rest.as_mut()).zip(changes) {
+                let sum = Sum { sum: *z, rest: *rest }.add(*change);
+                (*z, *rest) = (sum.sum, sum.rest);
+            }
         }
         change
+    }
+
+    /// x₁ − x₀.
+    pub(super) fn increment<T: Real, V: Copy + AsRef<[T]> + AsMut<[T]>>(
+        &self,
+        zero: V,
+        z: &[V; N],
+        rests: &[V; N],
+    ) -> V {
+        let mut increment = zero;
+        for (k, increment) in increment.as_mut().iter_mut().enumerate() {
+            let sum = self.end.iter().zip(z.iter().zip(rests)).fold(Sum::ZERO, |sum, (d, (z, rest))| {
+                let (Some(z), Some(rest)) = (z.as_ref().get(k), rest.as_ref().get(k)) else { return sum };
+                let next = sum.add_product(*d, *z);
+                Sum { rest: next.rest + T::from_f64(d.0) * *rest, ..next }
+            });
+            *increment = sum.sum + sum.rest;
+        }
+        increment
     }
 
     /// The collocation polynomial less x₀, through zero and the zᵢ, at the fraction s of its step.
@@ -220,8 +311,13 @@ pub(super) mod tests {
                 let sum: f64 = row.iter().zip(&moved).map(|(a, b)| a * b).sum();
                 assert!((sum - power(c, k - 1)).abs() < 1e-14, "{k} {sum} {c}");
             }
+            // Σⱼ aᵢⱼ cⱼ^(k−1) = cᵢᵏ/k
+            for (row, c) in method.matrix.iter().zip(method.nodes) {
+                let sum: f64 = row.iter().zip(method.nodes).map(|((a, _), c)| a * power(c, k - 1)).sum();
+                assert!((sum - power(c, k) / f64::from(k)).abs() < 1e-15, "{k} {sum} {c}");
+            }
             // the end is on the polynomial: Σ dᵢ cᵢᵏ = 1
-            let end: f64 = method.end.iter().zip(method.nodes).map(|(d, c)| d * power(c, k)).sum();
+            let end: f64 = method.end.iter().zip(method.nodes).map(|((d, _), c)| d * power(c, k)).sum();
             assert!((end - 1.0).abs() < 1e-14);
         }
     }

@@ -1,8 +1,8 @@
 //! The methods of Gauss and Legendre.
 
-use super::collocation::{Collocation, Matrices, weighted};
+use super::collocation::{Collocation, Matrices};
 use super::linearization::{Analytic, FiniteDifferences, Linearization};
-use super::newton::{MOST_ITERATIONS, SLOW, check_tolerance, is_first_term, once, refusal, size};
+use super::newton::{MOST_ITERATIONS, SLOW, Settling, check_tolerance, is_first_term, once, refusal, size};
 use crate::arrays::{displaced, first_non_finite};
 use crate::methods::fixed::{self, Fixed, OneStep, Slopes};
 use crate::methods::{Arrival, Start};
@@ -38,7 +38,14 @@ pub(super) trait Table<const N: usize> {
 impl<T, J> Table<2> for Gauss<T, J, 2> {
     const TABLE: Collocation<2> = Collocation {
         nodes: [0.211_324_865_405_187_1, 0.788_675_134_594_812_9],
-        end: [-1.732_050_807_568_877_2, 1.732_050_807_568_877_2],
+        matrix: [
+            [(0.25, 0.0), (-0.038_675_134_594_812_88, -2.847_352_561_863_714_5e-18)],
+            [(0.538_675_134_594_812_9, 1.672_514_036_967_817_2e-17), (0.25, 0.0)],
+        ],
+        end: [
+            (-1.732_050_807_568_877_2, -1.003_508_422_180_690_3e-16),
+            (1.732_050_807_568_877_2, 1.003_508_422_180_690_3e-16),
+        ],
         real: 0.0,
         pair: (3.0, 1.732_050_807_568_877_2),
         from_blocks: [[0.0, -0.267_949_192_431_122_7], [1.0, 0.0]],
@@ -49,7 +56,28 @@ impl<T, J> Table<2> for Gauss<T, J, 2> {
 impl<T, J> Table<3> for Gauss<T, J, 3> {
     const TABLE: Collocation<3> = Collocation {
         nodes: [0.112_701_665_379_258_31, 0.5, 0.887_298_334_620_741_7],
-        end: [1.666_666_666_666_666_7, -1.333_333_333_333_333_3, 1.666_666_666_666_666_7],
+        matrix: [
+            [
+                (0.138_888_888_888_888_9, -6.167_905_692_361_980_4e-18),
+                (-0.035_976_667_524_938_9, -1.713_147_716_657_678_7e-18),
+                (0.009_789_444_015_308_325, 6.854_025_647_616_559e-19),
+            ],
+            [
+                (0.300_263_194_980_864_57, 2.516_409_893_370_003_6e-17),
+                (0.222_222_222_222_222_2, 1.233_581_138_472_396_1e-17),
+                (-0.022_485_417_203_086_815, 6.640_061_530_657_58e-19),
+            ],
+            [
+                (0.267_988_333_762_469_44, 7.795_467_762_236_068e-18),
+                (0.480_421_111_969_383_36, -1.524_859_293_733_776_7e-17),
+                (0.138_888_888_888_888_9, -6.167_905_692_361_980_4e-18),
+            ],
+        ],
+        end: [
+            (1.666_666_666_666_666_7, -7.401_486_830_834_377e-17),
+            (-1.333_333_333_333_333_3, -7.401_486_830_834_377e-17),
+            (1.666_666_666_666_666_7, -7.401_486_830_834_377e-17),
+        ],
         real: 4.644_370_709_252_171,
         pair: (3.677_814_645_373_914_4, 3.508_761_919_567_443_3),
         from_blocks: [
@@ -157,14 +185,27 @@ where
     fn increment(
         &self,
         start: &Start<'_, S>,
-        _x: &VecOf<S>,
+        x: &VecOf<S>,
+        h: T,
+        work: &mut Work<S, N>,
+        statistics: &mut Statistics,
+    ) -> Result<VecOf<S>, IntegrationError> {
+        self.increment_beyond(start, (x, &DimOf::<S>::vec(T::ZERO)), h, work, statistics)
+    }
+
+    fn increment_beyond(
+        &self,
+        start: &Start<'_, S>,
+        (_, rest): (&VecOf<S>, &VecOf<S>),
         h: T,
         work: &mut Work<S, N>,
         statistics: &mut Statistics,
     ) -> Result<VecOf<S>, IntegrationError> {
         let table = &Self::TABLE;
-        let z = settled(table, &self.linearization, self.tolerance, start, h, work, statistics)?;
-        Ok(weighted(DimOf::<S>::vec(T::ZERO), &table.end, &z))
+        let (z, rests) =
+            settled(table, &self.linearization, self.tolerance, start, rest, h, work, statistics)?;
+        let zero = DimOf::<S>::vec(T::ZERO);
+        Ok(table.increment(zero, &z, &rests))
     }
 
     fn dense(&self, _work: &Work<S, N>, start: &Start<'_, S>, arrival: &Arrival<S>) -> Slopes<VecOf<S>> {
@@ -188,10 +229,11 @@ pub(super) fn settled<T: Real, S: Dynamics, J: Linearization<S>, const N: usize>
     linearization: &J,
     tolerance: T,
     start: &Start<'_, S>,
+    rest: &VecOf<S>,
     h: T,
     work: &mut Work<S, N>,
     statistics: &mut Statistics,
-) -> Result<[VecOf<S>; N], IntegrationError>
+) -> Result<([VecOf<S>; N], [VecOf<S>; N]), IntegrationError>
 where
     S::State: State<Scalar = T>,
 {
@@ -204,7 +246,7 @@ where
             return Err(refusal(start, h, 0, T::ZERO, slope.as_ref()));
         }
         *work = Work { last: None, matrices: None };
-        return Ok(table.nodes.map(|node| displaced(&zero, T::from_f64(node) * h, &slope)));
+        return Ok((table.nodes.map(|node| displaced(&zero, T::from_f64(node) * h, &slope)), [zero; N]));
     }
     let mut z = match &work.last {
         Some((length, z)) => table.extrapolated(zero, z, h / *length),
@@ -215,6 +257,8 @@ where
     let mut retry = work.last.is_some() || matrices.is_some();
     *work = Work { last: None, matrices: None };
     let mut preceding: Option<T> = None;
+    let mut rests = [zero; N];
+    let mut settling = [Settling::<DimOf<S>, T>::new(); N];
     let mut iterations = 0;
     let mut residual;
     loop {
@@ -228,7 +272,7 @@ where
             statistics.factorizations += 2;
             *matrices.insert(table.matrices::<S>(&jacobian, h))
         };
-        let change = table.iterate(start, x, h, &current, &mut z);
+        let change = table.iterate(start, (x, rest), h, &current, (&mut z, &mut rests));
         iterations += 1;
         statistics.iterations += 1;
         statistics.evaluations += N as u64;
@@ -236,17 +280,21 @@ where
         let largest = sizes.fold(T::ZERO, T::max);
         residual = largest / tolerance;
         let ratio = preceding.map(|preceding| residual / preceding);
-        let stagnates = ratio.is_some_and(|ratio| ratio >= T::from_f64(0.5));
-        if largest <= T::EPSILON * T::from_f64(0.5) || (stagnates && residual <= T::ONE) {
+        let is_small = residual <= T::ONE;
+        let stages = settling.iter_mut().zip(change.iter().zip(&z));
+        let all = stages.fold(true, |all, (stage, (c, z))| stage.after(c, z, is_small) & all);
+        if all || (is_small && iterations >= MOST_ITERATIONS) {
             break;
         }
         if !residual.is_finite() || iterations >= MOST_ITERATIONS {
             if !retry {
-                let reached = displaced(x, T::ONE, &weighted(zero, &table.end, &z));
+                let reached = displaced(x, T::ONE, &table.increment(zero, &z, &rests));
                 return Err(refusal(start, h, iterations, residual, reached.as_ref()));
             }
             retry = false;
             (z, matrices, preceding, iterations) = ([zero; N], None, None, 0);
+            rests = [zero; N];
+            settling = [Settling::new(); N];
             continue;
         }
         if ratio.is_some_and(|ratio| ratio >= T::from_f64(SLOW)) && residual > T::ONE && retry {
@@ -256,7 +304,7 @@ where
         preceding = Some(residual);
     }
     *work = Work { last: Some((h, z)), matrices: matrices.map(|matrices| (h, matrices)) };
-    Ok(z)
+    Ok((z, rests))
 }
 
 #[cfg(test)]

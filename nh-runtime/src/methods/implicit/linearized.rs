@@ -1,6 +1,6 @@
 //! The derivatives of the steps of collocation methods.
 
-use super::collocation::{Collocation, Matrices, weighted};
+use super::collocation::{Collocation, Matrices};
 use super::gauss::{Gauss, GaussLegendre4, GaussLegendre6, Table, Work, settled};
 use super::linearization::Analytic;
 use super::newton::{MOST_ITERATIONS, check_length, one_less, size};
@@ -56,8 +56,8 @@ where
     let x = start.state.to_array();
     let mut work = Work { last: None, matrices: None };
     let (tolerance, statistics) = (T::from_f64(1e3) * T::EPSILON, &mut Statistics::default());
-    let z = settled(table, &Analytic, tolerance, start, h, &mut work, statistics)?;
-    let end = displaced(&x, T::ONE, &weighted([T::ZERO; N], &table.end, &z));
+    let (z, rests) = settled(table, &Analytic, tolerance, start, &[T::ZERO; N], h, &mut work, statistics)?;
+    let end = displaced(&x, T::ONE, &table.increment([T::ZERO; N], &z, &rests));
     let mut stages = [Stage { a: [[T::ZERO; N]; N], b: [[T::ZERO; M]; N] }; STAGES];
     for ((stage, node), z) in stages.iter_mut().zip(&table.nodes).zip(&z) {
         let time = start.time + T::from_f64(*node) * h;
@@ -111,6 +111,7 @@ impl<const STAGES: usize> Collocation<STAGES> {
         S::State: State<Scalar = T, Dim = D<N>>,
     {
         let mut z = [[T::ZERO; N]; STAGES];
+        let mut rests = z;
         let mut best = T::EPSILON.recip();
         for _ in 0..MOST_ITERATIONS {
             let mut slopes = [[T::ZERO; N]; STAGES];
@@ -121,7 +122,7 @@ impl<const STAGES: usize> Collocation<STAGES> {
                     *slope = a.iter().zip(&moved).fold(by_input, |sum, (a, x)| a.mul_add(*x, sum));
                 }
             }
-            let change = self.corrected(h, matrices, &slopes, &mut z);
+            let change = self.corrected(h, matrices, &slopes, (&mut z, &mut rests));
             let sizes = change.iter().zip(&z).map(|(change, z)| size(change, direction, z));
             let largest = sizes.fold(T::ZERO, T::max);
             if !largest.is_finite() {
@@ -129,7 +130,7 @@ impl<const STAGES: usize> Collocation<STAGES> {
             }
             let small = largest <= T::from_f64(1e3) * T::EPSILON;
             if largest == T::ZERO || (small && largest >= best * T::from_f64(0.5)) {
-                return weighted([T::ZERO; N], &self.end, &z);
+                return self.increment([T::ZERO; N], &z, &rests);
             }
             best = best.min(largest);
         }

@@ -3,7 +3,7 @@
 use super::collocation::{Collocation, Matrices, weighted};
 use super::linearization::{Analytic, FiniteDifferences, Linearization};
 use super::newton::is_first_term;
-use crate::arrays::{displaced, first_non_finite, nought};
+use crate::arrays::{Array, displaced, first_non_finite, nought};
 use crate::dense::hermite;
 use crate::methods::adaptive::{Adaptive, Scheme, Trial};
 use crate::methods::{Arrival, Start};
@@ -44,7 +44,24 @@ impl<T: Real, W> Radau5<T, W> {
 
 pub(super) const RADAU: Collocation<3> = Collocation {
     nodes: [0.155_051_025_721_682_2, 0.644_948_974_278_317_8, 1.0],
-    end: [0.0, 0.0, 1.0],
+    matrix: [
+        [
+            (0.196_815_477_223_660_4, 1.367_017_216_709_343_2e-17),
+            (-0.065_535_425_850_198_39, 4.064_007_010_672_966e-18),
+            (0.023_770_974_348_220_15, 1.519_129_674_253_787_5e-18),
+        ],
+        [
+            (0.394_424_314_739_087_3, -1.245_235_875_228_526e-17),
+            (0.292_073_411_665_228_5, -2.538_919_298_258_119_6e-17),
+            (-0.041_548_752_125_997_93, -1.534_549_438_484_692_4e-18),
+        ],
+        [
+            (0.376_403_062_700_467_25, 2.481_559_368_930_088_5e-17),
+            (0.512_485_826_188_421_6, -3.098_349_938_166_286_6e-17),
+            (0.111_111_111_111_111_1, 6.167_905_692_361_980_4e-18),
+        ],
+    ],
+    end: [(0.0, 0.0), (0.0, 0.0), (1.0, 0.0)],
     real: 3.637_834_252_744_496,
     pair: (2.681_082_873_627_752_3, 3.050_430_199_247_410_5),
     from_blocks: [
@@ -113,6 +130,11 @@ impl<S: Dynamics> Clone for Work<S> {
 }
 impl<S: Dynamics> Copy for Work<S> {}
 
+/// The end of a step from x, which is its last stage.
+fn end_of<T: Scalar, V: Array<T>>(x: &V, [.., last]: &[V; 3]) -> V {
+    displaced(x, T::ONE, last)
+}
+
 impl<S: Dynamics> Work<S> {
     /// Drops a Jacobian of another place after a step that failed.
     fn reconsider(&mut self) {
@@ -154,11 +176,11 @@ impl<J> Radau<J> {
         work.rate = w(FAST);
         let (mut last, mut last_ratio) = (one, one);
         for iteration in 1..=MOST_ITERATIONS {
-            let change = RADAU.iterate(start, &x, h, matrices, &mut work.trial);
+            let change = RADAU.iterate(start, (&x, &zero), h, matrices, (&mut work.trial, &mut [zero; 3]));
             work.iterations = iteration;
             statistics.iterations += 1;
             statistics.evaluations += 3;
-            let end = displaced(&x, one, &weighted(zero, &RADAU.end, &work.trial));
+            let end = end_of(&x, &work.trial);
             let squares = change.iter().map(|c| tolerance.mean_square(c, &x, &end));
             let squares = squares.fold(ScalarOf::<S>::ZERO, |sum, square| sum + square);
             let size = (squares * w(1.0 / 3.0)).sqrt();
@@ -306,7 +328,7 @@ where
             work.reconsider();
             return Trial { state: x, error: infinite };
         }
-        let state = displaced(&x, one, &weighted(zero, &RADAU.end, &work.trial));
+        let state = end_of(&x, &work.trial);
         let by_stages = weighted(zero, &ERROR, &work.trial);
         let slope = displaced(&work.first, one / h, &by_stages);
         let Some(factors) = &matrices.real else { return Trial { state, error: infinite } };
