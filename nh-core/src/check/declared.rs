@@ -187,7 +187,9 @@ fn nowhere_real(graph: &mut Graph, place: Place, assumed: &[(ExprId, Demand)]) -
             }
             let own: Vec<(ExprId, Demand)> = assumed.iter().copied().chain(demands.clone()).collect();
             if graph.contradiction(&own).is_some() {
-                let evidence = never(graph, id, argument);
+                let by_itself = graph.contradiction(&demands).is_some();
+                let as_assumed = if by_itself { "" } else { ", for parameters as they are assumed" };
+                let evidence = never(graph, id, argument) + as_assumed;
                 return Some(violation(format!("this {what} has no real value anywhere"), evidence));
             }
             for (expression, _) in &demands {
