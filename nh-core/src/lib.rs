@@ -16,6 +16,7 @@ pub mod forms;
 pub mod functions;
 pub mod geometry;
 pub mod id;
+pub mod limits;
 pub mod mechanics;
 pub mod model;
 pub mod phase_space;

@@ -54,6 +54,8 @@ pub enum Law {
     HamiltonJacobi,
     /// What has to have a Taylor series is analytic.
     Analytic,
+    /// The limits on the work that a declaration may take.
+    Size,
     /// A question that the algebra could not decide.
     Decidable,
 }

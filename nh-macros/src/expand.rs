@@ -3,9 +3,12 @@
 use proc_macro2::TokenStream;
 use quote::quote;
 
+use nonholonomic_core::limits::{Subject, about, within_limits};
+use nonholonomic_core::violation::Violation;
+
 use crate::emit::{Layout, emit, stubs};
 use crate::report::{Diagnostic, compile_errors};
-use crate::resolve::{Outline, resolve};
+use crate::resolve::{Outline, Resolved, resolve};
 use crate::syntax::{self, Malformed};
 
 /// The expansion of the attribute. On error: the errors, and the items that there would have been
@@ -32,15 +35,20 @@ pub(crate) fn nonholonomic(attribute: TokenStream, item: TokenStream) -> TokenSt
         Err(unresolved) => return with_errors(&unresolved.errors, &stubs(&layout, &unresolved.outline)),
     };
     let outline = Outline::of(&resolved.model);
-    match nonholonomic_core::compile::compile(resolved.model) {
-        Ok(system) => emit(&system, &layout),
-        Err(violations) => {
-            let origins = resolved.origins;
-            let errors: Vec<_> =
-                violations.into_iter().map(|violation| origins.diagnostic(violation)).collect();
-            with_errors(&errors, &stubs(&layout, &outline))
+    let Resolved { model, origins } = resolved;
+    let derived: Result<Result<TokenStream, Vec<Violation>>, _> = within_limits(|| {
+        let system = nonholonomic_core::compile::compile(model)?;
+        about(Subject::Code);
+        Ok(emit(&system, &layout))
+    });
+    let errors: Vec<_> = match derived {
+        Ok(Ok(items)) => return items,
+        Ok(Err(violations)) => {
+            violations.into_iter().map(|violation| origins.diagnostic(violation)).collect()
         }
-    }
+        Err(too_large) => vec![declaration.too_large(too_large)],
+    };
+    with_errors(&errors, &stubs(&layout, &outline))
 }
 
 /// Errors, and what stands beside them.

@@ -3,6 +3,7 @@
 use super::graph::{Function, Function2, Graph, Node};
 use super::number::Rational;
 use crate::id::{ExprId, SymbolId};
+use crate::limits;
 
 /// A floating-point value and a bound on how far it is from the exact one.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -65,6 +66,7 @@ impl Graph {
         let mut known: Vec<Bounded> = Vec::with_capacity(order.len());
         points.map(move |value| {
             known.clear();
+            limits::spend(order.len());
             for (id, operands) in order.iter().zip(&operands) {
                 known.push(self.evaluate_node(*id, operands, &known, &value));
             }

@@ -12,6 +12,7 @@ use super::places::Places;
 use super::visited::Visited;
 use super::zero_test::Verdict;
 use crate::id::{ConstantId, ExprId, SymbolId, Table};
+use crate::limits;
 use rustc_hash::{FxHashMap, FxHasher};
 use std::cell::RefCell;
 use std::hash::{Hash, Hasher};
@@ -112,6 +113,17 @@ pub enum Node {
 }
 
 impl Node {
+    /// How many operands there are.
+    #[must_use]
+    pub fn breadth(&self) -> usize {
+        match self {
+            Self::Number(_) | Self::Pi | Self::Constant(_) | Self::Symbol(_) => 0,
+            Self::Sum { terms: list, .. } | Self::Product { factors: list, .. } => list.len(),
+            Self::Apply(..) => 1,
+            Self::Apply2(..) => 2,
+        }
+    }
+
     /// The operands, in order.
     pub fn operands(&self) -> impl Iterator<Item = ExprId> + '_ {
         let (list, pair): (&[(ExprId, Rational)], [Option<ExprId>; 2]) = match self {
@@ -247,6 +259,7 @@ impl Graph {
     }
 
     fn store(&mut self, hash: u32, node: Node) -> ExprId {
+        limits::store(1 + node.breadth());
         let id = self.nodes.push(node);
         self.constants.note(id, &self.nodes[id]);
         self.places.insert(hash, id);
@@ -318,11 +331,13 @@ impl Graph {
     /// `visit` wishes to go on.
     pub(super) fn each_reachable(&self, roots: &[ExprId], mut visit: impl FnMut(ExprId) -> bool) {
         let mut visited = self.visited.take();
+        let mut steps = 0;
         visited.begin(self.nodes.len(), roots);
         while let Some(id) = visited.next() {
             if !visit(id) {
                 break;
             }
+            steps += 1 + self.node(id).breadth();
             match self.node(id) {
                 Node::Number(_) | Node::Pi | Node::Constant(_) | Node::Symbol(_) => {}
                 Node::Sum { terms: list, .. } | Node::Product { factors: list, .. } => {
@@ -336,6 +351,8 @@ impl Graph {
             }
         }
         self.visited.replace(visited);
+        // reading is the quickest of all work
+        limits::spend(steps / 4);
     }
 
     /// All expressions that `roots` are made of, themselves included, operands first.

@@ -7,6 +7,7 @@ use super::field::Residue;
 use super::graph::Graph;
 use super::modular::{FieldPoint, NoValue};
 use crate::id::ExprId;
+use crate::limits;
 
 /// Rows of expressions.
 pub type Matrix = Vec<Vec<ExprId>>;
@@ -37,9 +38,11 @@ impl Echelon {
                 *entry = *entry * inverse;
             }
             let leading = rows[done].clone();
+            limits::spend(rows.len() / 16);
             for (index, other) in rows.iter_mut().enumerate() {
                 let factor = other[column];
                 if index != done && factor != Residue::ZERO {
+                    limits::spend(columns / 8);
                     for (entry, lead) in other.iter_mut().zip(&leading) {
                         *entry = *entry - factor * *lead;
                     }
@@ -108,9 +111,11 @@ pub fn determinant_in_field(mut rows: Vec<Vec<Residue>>) -> Residue {
         determinant = determinant * pivot;
         let Some(inverse) = pivot.inverse() else { return Residue::ZERO };
         let leading = rows[column].clone();
+        limits::spend(n / 16);
         for other in rows.iter_mut().skip(column + 1) {
             let factor = other[column] * inverse;
             if factor != Residue::ZERO {
+                limits::spend((n - column) / 8);
                 for (entry, lead) in other.iter_mut().zip(&leading).skip(column) {
                     *entry = *entry - factor * *lead;
                 }
@@ -191,7 +196,11 @@ impl Graph {
 
     /// The matrix applied to a vector.
     pub fn image(&mut self, matrix: &[Vec<ExprId>], vector: &[ExprId]) -> Vec<ExprId> {
-        matrix.iter().map(|row| self.inner_product(row, vector)).collect()
+        let zero = self.zero();
+        let present: Vec<usize> = (0..vector.len()).filter(|k| vector[*k] != zero).collect();
+        let entries: Vec<ExprId> = present.iter().map(|k| vector[*k]).collect();
+        let row = |row: &Vec<ExprId>| present.iter().map(|k| row[*k]).collect::<Vec<_>>();
+        matrix.iter().map(row).map(|row| self.inner_product(&row, &entries)).collect()
     }
 
     /// The identity matrix.

@@ -10,6 +10,7 @@ use super::field::Residue;
 use super::graph::{Function, Function2, Graph, Node};
 use super::number::Rational;
 use crate::id::{ExprId, Id, SymbolId};
+use crate::limits;
 use rustc_hash::FxHashMap;
 
 /// A random point: values of the symbols, and of the circle above each angle.
@@ -106,6 +107,7 @@ impl<'a> FieldPass<'a> {
     fn evaluate_in_order(&mut self, order: Vec<ExprId>) -> Result<(), NoValue> {
         for id in order {
             if !self.known.contains_key(&id) {
+                limits::spend(1 + self.graph.node(id).breadth());
                 let value = self.value(id)?;
                 self.known.insert(id, value);
             }

@@ -12,6 +12,7 @@ use super::graph::{Graph, Node};
 use super::number::Rational;
 use super::sum::collect_like;
 use crate::id::ExprId;
+use crate::limits;
 use std::rc::Rc;
 
 /// Factors collected while a product is built.
@@ -212,6 +213,7 @@ impl Graph {
     /// Adds the exponents of equal bases.
     fn merge(&mut self, factors: &mut Factors) {
         loop {
+            limits::spend(1 + factors.powers.len());
             collect_like(&mut factors.powers);
             let mut reopened: Vec<(ExprId, Rational)> = Vec::new();
             factors.powers.retain(|(base, exponent)| {

@@ -4,6 +4,7 @@
 use super::graph::{Graph, Node};
 use super::number::Rational;
 use crate::id::ExprId;
+use crate::limits;
 
 impl Graph {
     /// `Σ coefficient · term`.
@@ -48,6 +49,7 @@ impl Graph {
 
     /// Collects like terms and stores the sum.
     fn sum_of_terms(&mut self, mut constant: Rational, terms: &mut Vec<(ExprId, Rational)>) -> ExprId {
+        limits::spend(1 + terms.len());
         collect_like(terms);
         terms.retain(|(_, coefficient)| !coefficient.is_zero());
         self.cancel_by_value(&mut constant, terms);
@@ -83,7 +85,10 @@ impl Graph {
 
     /// `Σ a_i b_i`.
     pub fn inner_product(&mut self, a: &[ExprId], b: &[ExprId]) -> ExprId {
-        let summands: Vec<_> = a.iter().zip(b).map(|(a, b)| self.mul(*a, *b)).collect();
+        let zero = self.zero();
+        let pairs = a.iter().zip(b).filter(|(a, b)| **a != zero && **b != zero);
+        let summands: Vec<_> = pairs.map(|(a, b)| self.mul(*a, *b)).collect();
+        limits::spend(a.len() / 16);
         self.sum(&summands)
     }
 

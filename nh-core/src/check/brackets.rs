@@ -22,7 +22,7 @@ pub fn structure_functions(model: &mut Model, motion: &Motion) -> Result<Structu
     if matches!(model.kinematics, Kinematics::Tangent) {
         return Err(vec![brackets_of_coordinates(model)]);
     }
-    let mut structure = StructureFunctions::commuting(&mut model.graph, rank);
+    let mut structure = StructureFunctions::commuting(rank);
     let mut seen: BTreeMap<(SectionId, SectionId), (Vec<ExprId>, BracketDecl)> = BTreeMap::new();
     let mut violations = Vec::new();
     for declaration in model.brackets.clone() {
@@ -42,7 +42,7 @@ fn derived(model: &mut Model, motion: &Motion) -> Result<StructureFunctions, Vio
     let rank = model.sections.len();
     // a single section commutes with itself
     if matches!(model.kinematics, Kinematics::Tangent) || rank < 2 {
-        return Ok(StructureFunctions::commuting(&mut model.graph, rank));
+        return Ok(StructureFunctions::commuting(rank));
     }
     if let Some(coframe) = &motion.coframe {
         let (frame, coordinates) = (&motion.anchor.entries, &motion.anchor.coordinates);

@@ -4,6 +4,7 @@ use super::evidence::{listed, not_zero, shown};
 use crate::algebra::{Graph, Rational, Verdict};
 use crate::geometry::{Algebroid, Manifold, hamel};
 use crate::id::{CoordId, ExprId, Id, Origin, SectionId};
+use crate::limits;
 use crate::model::{Kinematics, Model};
 use crate::violation::{Law, Violation};
 use std::collections::BTreeMap;
@@ -80,6 +81,9 @@ fn homomorphism(
     reported: usize,
 ) -> Vec<Violation> {
     let mut violations = Vec::new();
+    if algebroid.anchor.coordinates.is_empty() {
+        return violations;
+    }
     for alpha in algebroid.sections() {
         for beta in algebroid.sections().filter(|beta| alpha < *beta) {
             if violations.len() == reported {
@@ -159,6 +163,7 @@ fn jacobi(model: &mut Model, algebroid: &Algebroid, base: &Manifold, reported: u
     let mut violations = Vec::new();
     for (i, alpha) in sections.iter().enumerate() {
         for (j, beta) in sections.iter().enumerate().skip(i + 1) {
+            limits::spend((sections.len() - j) / 8);
             for (k, gamma) in sections.iter().enumerate().skip(j + 1) {
                 // three sections that commute with each other obey it
                 if [&brackets[i][j], &brackets[i][k], &brackets[j][k]].iter().all(|terms| terms.is_empty()) {
@@ -179,11 +184,19 @@ fn jacobi(model: &mut Model, algebroid: &Algebroid, base: &Manifold, reported: u
 type Brackets = Vec<Vec<Vec<(SectionId, ExprId)>>>;
 
 fn written_brackets(graph: &mut Graph, algebroid: &Algebroid, sections: &[SectionId]) -> Brackets {
-    let mut written = |alpha: SectionId, beta: SectionId| -> Vec<(SectionId, ExprId)> {
-        let components = algebroid.sections().zip(bracket_of(graph, algebroid, alpha, beta));
-        components.filter(|(_, component)| !graph.is_literal_zero(*component)).collect()
-    };
-    sections.iter().map(|alpha| sections.iter().map(|beta| written(*alpha, *beta)).collect()).collect()
+    let mut brackets: Brackets = vec![vec![Vec::new(); sections.len()]; sections.len()];
+    let nonzero = algebroid.structure.nonzero(graph);
+    let nonzero: Vec<_> =
+        nonzero.map(|(alpha, beta, components)| (alpha, beta, components.to_vec())).collect();
+    for (alpha, beta, components) in nonzero {
+        for (gamma, component) in algebroid.sections().zip(components) {
+            if !graph.is_literal_zero(component) {
+                brackets[alpha.index()][beta.index()].push((gamma, component));
+                brackets[beta.index()][alpha.index()].push((gamma, graph.neg(component)));
+            }
+        }
+    }
+    brackets
 }
 
 fn jacobi_of_triple(

@@ -21,6 +21,7 @@ use crate::functions::{
 };
 use crate::geometry::ConstraintDistribution;
 use crate::id::ExprId;
+use crate::limits::{Subject, about};
 use crate::mechanics::{Flow, Procedure, energy};
 use crate::model::{Formulation, Request};
 use crate::report::{Derived, equations_of_motion, report};
@@ -53,6 +54,7 @@ pub(super) fn derive(
     let singular = check::reduced_regularity(&mut proved.model, &equations, &proved.base);
     fence(singular.into_iter().collect())?;
     // 2. v̇
+    about(Subject::Solution);
     let velocities = &proved.system.algebroid.velocities;
     let mut restriction = kept.restriction(&proved.model.graph, velocities);
     let calls = calls(&mut proved.model, &mut proved.motion, &mut restriction);
@@ -60,6 +62,7 @@ pub(super) fn derive(
         .or_else(|| plain_derivative(&mut proved, &reference, kept, &calls, &mut chosen));
     proved.ledger.decisions.push(chosen);
     let derivative = derivative.ok_or_else(|| nothing_proved(proved.model.origin, &proved.ledger))?;
+    about(Subject::Requests);
     let gibbs_appell = gibbs_appell::on_distribution(&mut proved, kept, &calls);
     gibbs_appell::prove_it(&mut proved, &reference, gibbs_appell.as_ref())?;
     let (multipliers, reactions) =
@@ -82,6 +85,7 @@ pub(super) fn derive(
     let energy = if is_large(&proved) { energy } else { proved.model.graph.simplify(energy) };
     let observables = observables(&mut proved.model, &mut proved.motion, &mut restriction);
     // 4. the claims, along the flow
+    about(Subject::Claims);
     let claims: Vec<ExprId> = proved
         .model
         .claims
@@ -93,6 +97,7 @@ pub(super) fn derive(
         fence(check::claims(&mut proved.model, &claims, flow, &proved.base))?;
     }
     // 5. the report
+    about(Subject::Requests);
     let embedding = embedding(&mut proved.model, &proved.base);
     let derived = Derived::Adapted { distribution, kept, equations: &equations };
     let (phase_space, sections) =

@@ -30,6 +30,7 @@ use crate::choose::{Called, Fate, Ledger};
 use crate::forms::Registry;
 use crate::geometry::{Algebroid, ConstraintDistribution, Manifold, Rank};
 use crate::id::{Id, Origin, SymbolId};
+use crate::limits::{Subject, about, within_limits};
 use crate::mechanics::LagrangianSystem;
 use crate::model::{ForceDirection, Model};
 use crate::system::System;
@@ -96,9 +97,18 @@ pub fn compile(model: Model) -> Result<System, Vec<Violation>> {
 /// # Errors
 /// As [`compile`].
 pub fn compile_with(model: Model, registry: &Registry) -> Result<System, Vec<Violation>> {
+    let origin = model.lagrangian.origin;
+    within_limits(|| compiled(model, registry)).unwrap_or_else(|too_large| {
+        let (what, way_out) = (too_large.what(), too_large.way_out().to_owned());
+        Err(vec![Violation { law: Law::Size, origin, what, evidence: String::new(), way_out }])
+    })
+}
+
+fn compiled(model: Model, registry: &Registry) -> Result<System, Vec<Violation>> {
     let (mut proved, chosen) = prove(model)?;
     let quadratures = proved.quadratures.clone();
     // 7. the equations, proved regular, and the claims about them
+    about(Subject::Equations);
     let system = match chosen {
         Chosen::Adapted { distribution, conditions, reason } => {
             match levels::on_levels(&mut proved, &distribution)? {
@@ -113,6 +123,7 @@ pub fn compile_with(model: Model, registry: &Registry) -> Result<System, Vec<Vio
     };
     let system = strangers::without_strangers(system)?;
     // 8. what is tracked
+    about(Subject::Requests);
     let mut system = slice::slice(routh::without(system, &quadratures))?;
     constants::in_numbers(&mut system);
     // 9. Taylor series exist where they are asked for
@@ -131,16 +142,20 @@ pub(crate) fn prove(mut model: Model) -> Result<(Proved, Chosen), Vec<Violation>
     let facts = both(broken, facts)?;
     model.assume(&facts);
     // 2. the anchor: linear and homogeneous; a coframe is inverted
+    about(Subject::Kinematics);
     let mut motion = check::kinematics(&mut model)?;
     // 3. the embedded base, which the anchor keeps; the brackets, declared or derived
+    about(Subject::Embedding);
     let base = check::embedding(&mut model, &motion)?;
     fence(check::declared_on(&mut model, &base))?;
+    about(Subject::Brackets);
     let structure = check::structure_functions(&mut model, &motion)?;
     let velocities = model.sections.iter().map(|section| section.symbol).collect();
     let algebroid = Algebroid { anchor: motion.anchor.clone(), structure, velocities };
     // 4. the structure equations, and D: by constraints or by sections, in the basis of the frame
     let laws = check::structure_equations(&mut model, &algebroid, &base);
     let kind = Kind::of(&mut model, &algebroid, &base, &facts);
+    about(Subject::Constraints);
     let described = describe(&mut model, &mut motion, algebroid, &base, &facts);
     let (broken_laws, broken) =
         laws.map_or_else(|broken| (BrokenLaws::default(), broken), |laws| (laws, Vec::new()));
@@ -148,11 +163,13 @@ pub(crate) fn prove(mut model: Model) -> Result<(Proved, Chosen), Vec<Violation>
     let kind = kind.in_basis(&model, &algebroid);
     let constraint_rank = constraints.rank(&mut model, &algebroid, spanned.as_ref(), &facts);
     // 5. the Lagrangian system on E, and its symmetries
+    about(Subject::Symmetries);
     let system = lagrangian_system(&mut model, &mut motion, algebroid);
     let symmetries = momenta::symmetries(&mut model, &motion, &system, &constraints, spanned.as_ref())?;
     let levels = routh::levels(&mut model, &symmetries)?;
     let quadratures = routh::quadratures(&mut model, &system, &symmetries, &levels);
     // 6. the formulation: a basis of D valid everywhere, or multipliers
+    about(Subject::Constraints);
     let chosen = match spanned {
         Some(distribution) => {
             let reason = "the declared sections span D".into();

@@ -18,6 +18,7 @@ use crate::functions::{
     ENERGY, GIBBS_APPELL, GYROSCOPIC, MULTIPLIERS, OUTPUTS, PARAMETER_JACOBIAN, REACTIONS, RESIDUAL, VELOCITY,
 };
 use crate::id::ExprId;
+use crate::limits::{Subject, about};
 use crate::mechanics::{
     Definiteness, Flow, Procedure, SaddleEquations, definiteness, energy, saddle_equations,
 };
@@ -37,6 +38,7 @@ pub(super) fn derive(mut proved: Proved, reason: &str) -> Result<System, Vec<Vio
     let all_residuals = levels::residuals(&mut proved)?;
     let on_levels = saddle_equations(&mut proved.model.graph, &proved.system, &all_residuals);
     // 2. ẏ and λ
+    about(Subject::Solution);
     let parameters: Vec<_> = proved.model.parameters.iter().map(|parameter| parameter.symbol).collect();
     let facts = proved.facts.clone();
     let judge = |graph: &Graph, matrix: &Matrix| definiteness(graph, matrix, &parameters, &facts);
@@ -50,12 +52,14 @@ pub(super) fn derive(mut proved: Proved, reason: &str) -> Result<System, Vec<Vio
     let Solved { derivative, multipliers, reactions } =
         proved_solution(&mut proved, &equations, &reference, &derivative, judge)?;
     // 3. E_L, y and the observables
+    about(Subject::Requests);
     let graph = &mut proved.model.graph;
     let velocity = proved.system.algebroid.velocity(graph);
     let energy = energy(graph, &proved.system);
     let energy = graph.simplify(energy);
     let observables = observables(&mut proved.model, &mut proved.motion, &mut everywhere);
     // 4. the claims, along the flow
+    about(Subject::Claims);
     let claims: Vec<ExprId> = proved
         .model
         .claims
@@ -69,6 +73,7 @@ pub(super) fn derive(mut proved: Proved, reason: &str) -> Result<System, Vec<Vio
         let manifold = levels::manifold(&mut proved);
         fence(check::claims(&mut proved.model, &claims, flow, &manifold))?;
     }
+    about(Subject::Requests);
     let jacobian = requested_jacobian(&mut proved.model, &derivative, &velocities)
         .map_err(|violation| vec![violation])?;
     let parameter_jacobian =

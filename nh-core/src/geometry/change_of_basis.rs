@@ -46,7 +46,7 @@ impl ChangeOfBasis {
         let columns = Graph::transposed(&self.sections);
         let entries: Matrix = old.anchor.entries.iter().map(|row| graph.image(&columns, row)).collect();
         let anchor = Anchor { entries, ..old.anchor.clone() };
-        let mut structure = StructureFunctions::commuting(graph, old.rank());
+        let mut structure = StructureFunctions::commuting(old.rank());
         for (alpha, first) in columns.iter().enumerate() {
             for (beta, second) in columns.iter().enumerate().skip(alpha + 1) {
                 let bracket = old.bracket(graph, first, second);

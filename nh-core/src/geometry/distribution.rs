@@ -4,6 +4,7 @@ use super::algebroid::Algebroid;
 use super::manifold::Manifold;
 use crate::algebra::{Derivation, Graph, Matrix, Solution, Substitution, Verdict};
 use crate::id::{ExprId, Id, SectionId, SymbolId};
+use crate::limits;
 
 /// Constraints that are linear or affine in the velocities: Φ^A_α(t, x) y^α + b^A(t, x) = 0.
 #[derive(Clone, Debug)]
@@ -271,19 +272,31 @@ impl ConstraintDistribution {
         time: SymbolId,
         base: &Manifold,
     ) -> Option<bool> {
+        limits::attempt(limits::REMARK, || self.is_closed(graph, algebroid, time, base)).flatten()
+    }
+
+    fn is_closed(
+        &self,
+        graph: &mut Graph,
+        algebroid: &Algebroid,
+        time: SymbolId,
+        base: &Manifold,
+    ) -> Option<bool> {
         let mut undecided = false;
         for a in 0..self.rank() {
             let section = self.section(a);
-            let mut brackets: Vec<Vec<ExprId>> =
-                (a + 1..self.rank()).map(|b| algebroid.bracket(graph, &section, &self.section(b))).collect();
-            // [∂_t + y₀, B_a]
-            let along = algebroid.bracket(graph, &self.offset, &section);
-            let drift = along.into_iter().zip(&section).map(|(component, entry)| {
-                let change = graph.partial(*entry, time);
-                graph.add(component, change)
-            });
-            brackets.push(drift.collect());
-            for bracket in brackets {
+            for b in a + 1..=self.rank() {
+                let bracket = if b < self.rank() {
+                    algebroid.bracket(graph, &section, &self.section(b))
+                } else {
+                    // [∂_t + y₀, B_a]
+                    let along = algebroid.bracket(graph, &self.offset, &section);
+                    let drift = along.into_iter().zip(&section).map(|(component, entry)| {
+                        let change = graph.partial(*entry, time);
+                        graph.add(component, change)
+                    });
+                    drift.collect()
+                };
                 for row in &self.constraints.annihilator {
                     let component = graph.inner_product(row, &bracket);
                     match base.zero_test(graph, component) {

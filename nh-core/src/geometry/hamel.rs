@@ -35,7 +35,7 @@ pub fn from_injective_anchor(
 ) -> Result<Option<StructureFunctions>, String> {
     let independent = graph.independent_rows(&anchor.entries)?;
     if independent.len() < rank || anchor.entries.is_empty() {
-        return Ok((rank == 0).then(|| StructureFunctions::commuting(graph, 0)));
+        return Ok((rank == 0).then(|| StructureFunctions::commuting(0)));
     }
     let square: Matrix = independent.iter().map(|row| anchor.entries[*row].clone()).collect();
     let pairs: Vec<(SectionId, SectionId)> = (0..rank)
@@ -48,7 +48,7 @@ pub fn from_injective_anchor(
             row.push(graph.simplify(components[*coordinate]));
         }
     }
-    let mut structure = StructureFunctions::commuting(graph, rank);
+    let mut structure = StructureFunctions::commuting(rank);
     if pairs.is_empty() {
         return Ok(Some(structure));
     }
@@ -71,7 +71,7 @@ pub fn from_coframe(
 ) -> StructureFunctions {
     let n = coordinates.len();
     let curls: Vec<Matrix> = coframe.iter().map(|row| curl(graph, row, coordinates)).collect();
-    let mut structure = StructureFunctions::commuting(graph, n);
+    let mut structure = StructureFunctions::commuting(n);
     for m in 0..n {
         for l in m + 1..n {
             let components = curls

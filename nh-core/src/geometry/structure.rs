@@ -10,15 +10,16 @@ use crate::id::{ExprId, Id, SectionId};
 #[derive(Clone, Debug)]
 pub struct StructureFunctions {
     rank: usize,
-    /// The components of each bracket, pairs in lexicographic order.
+    /// The components of each bracket, pairs in lexicographic order. A bracket that is written as 0 has none:
+    /// most are, where there are many sections.
     brackets: Vec<Vec<ExprId>>,
 }
 
 impl StructureFunctions {
     /// All brackets zero.
-    pub fn commuting(graph: &mut Graph, rank: usize) -> Self {
-        let zero = graph.zero();
-        Self { rank, brackets: vec![vec![zero; rank]; rank * rank.saturating_sub(1) / 2] }
+    #[must_use]
+    pub fn commuting(rank: usize) -> Self {
+        Self { rank, brackets: vec![Vec::new(); rank * rank.saturating_sub(1) / 2] }
     }
 
     /// The rank of the bundle.
@@ -35,6 +36,8 @@ impl StructureFunctions {
     /// Sets `[e_α, e_β]`, and with it `[e_β, e_α]`. The bracket of a section with itself stays 0.
     pub fn set(&mut self, graph: &mut Graph, alpha: SectionId, beta: SectionId, components: Vec<ExprId>) {
         let (a, b) = (alpha.index(), beta.index());
+        let is_zero = components.iter().all(|component| graph.is_literal_zero(*component));
+        let components = if is_zero { Vec::new() } else { components };
         if a < b {
             let position = self.position(a, b);
             self.brackets[position] = components;
@@ -48,13 +51,17 @@ impl StructureFunctions {
     pub fn get(&self, graph: &mut Graph, gamma: SectionId, alpha: SectionId, beta: SectionId) -> ExprId {
         let (a, b) = (alpha.index(), beta.index());
         match a.cmp(&b) {
-            std::cmp::Ordering::Less => self.brackets[self.position(a, b)][gamma.index()],
+            std::cmp::Ordering::Less => self.component(graph, self.position(a, b), gamma),
             std::cmp::Ordering::Equal => graph.zero(),
             std::cmp::Ordering::Greater => {
-                let entry = self.brackets[self.position(b, a)][gamma.index()];
+                let entry = self.component(graph, self.position(b, a), gamma);
                 graph.neg(entry)
             }
         }
+    }
+
+    fn component(&self, graph: &mut Graph, position: usize, gamma: SectionId) -> ExprId {
+        self.brackets[position].get(gamma.index()).copied().unwrap_or_else(|| graph.zero())
     }
 
     /// The structure functions with every entry replaced by its image.

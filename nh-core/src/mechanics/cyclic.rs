@@ -18,6 +18,8 @@ pub fn cyclic_coordinates(graph: &mut Graph, system: &LagrangianSystem, more: &[
     functions.extend(&system.forces);
     functions.extend(system.forces_on_distribution.iter().map(|(_, force)| *force));
     functions.extend(more);
+    functions.sort_unstable();
+    functions.dedup();
     let present = graph.symbols_in(&functions);
     let coordinates = algebroid.anchor.coordinates.clone();
     let is_cyclic =

@@ -3,7 +3,7 @@
 use super::symmetric_solve::Definiteness;
 use crate::algebra::{Facts, Graph, Range, Residue};
 use crate::id::{ExprId, Id, SymbolId};
-use std::collections::BTreeMap;
+use crate::limits;
 
 /// Parameter sets tried.
 const PARAMETER_SETS: u64 = 120;
@@ -119,26 +119,36 @@ fn unit(seed: u64, symbol: SymbolId) -> f64 {
     (word % (1 << 20)) as f64 / (1u64 << 20) as f64
 }
 
-/// Whether `sign · matrix` is positive definite at a point: Cholesky in floating point.
+/// Whether `sign · matrix` is positive definite at a point: Cholesky in floating point, which fills in no row before
+/// its first entry.
 fn is_positive_at(graph: &Graph, matrix: &[Vec<ExprId>], sign: f64, value: impl Fn(SymbolId) -> f64) -> bool {
-    let n = matrix.len();
-    let entries: Vec<ExprId> = matrix.iter().flatten().copied().collect();
-    let values: Vec<f64> = graph.evaluate(&entries, value).into_iter().map(|b| sign * b.value).collect();
-    let mut factor: BTreeMap<(usize, usize), f64> = BTreeMap::new();
-    for j in 0..n {
-        for i in j..n {
-            let sum: f64 = (0..j).map(|k| factor[&(i, k)] * factor[&(j, k)]).sum();
-            let rest = values[i * n + j] - sum;
-            let entry = if i == j {
-                if rest.is_nan() || rest <= values[j * n + j].abs() * 1e-12 {
+    let first = |row: &Vec<ExprId>| row.iter().position(|entry| !graph.is_literal_zero(*entry)).unwrap_or(0);
+    let begin: Vec<usize> = matrix.iter().enumerate().map(|(i, row)| first(row).min(i)).collect();
+    // the rows below the diagonal, one after the other, from their first entry on
+    let lower = || matrix.iter().enumerate().map(|(i, row)| &row[begin[i]..=i]);
+    let entries: Vec<ExprId> = lower().flatten().copied().collect();
+    let mut values = graph.evaluate(&entries, value).into_iter().map(|bounded| sign * bounded.value);
+    let mut factor: Vec<Vec<f64>> = Vec::with_capacity(matrix.len());
+    for (i, entries) in lower().enumerate() {
+        let mut row: Vec<f64> = values.by_ref().take(entries.len()).collect();
+        for j in begin[i]..=i {
+            let from = begin[i].max(begin[j]);
+            limits::spend((j - from) / 64);
+            let own = &row[from - begin[i]..j - begin[i]];
+            let other = if j == i { own } else { &factor[j][from - begin[j]..j - begin[j]] };
+            let sum: f64 = own.iter().zip(other).map(|(a, b)| a * b).sum();
+            let whole = row[j - begin[i]];
+            let rest = whole - sum;
+            row[j - begin[i]] = if i == j {
+                if rest.is_nan() || rest <= whole.abs() * 1e-12 {
                     return false;
                 }
                 rest.sqrt()
             } else {
-                rest / factor[&(j, j)]
+                rest / factor[j][j - begin[j]]
             };
-            factor.insert((i, j), entry);
         }
+        factor.push(row);
     }
     true
 }

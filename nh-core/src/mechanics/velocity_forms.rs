@@ -205,6 +205,7 @@ fn equations(
     // the turning of pairs: ȧ + ω(y)
     let turning = rates_of_turning(graph, turned, &velocity, &mut along);
     let (mut mass, mut force): (Matrix, Vec<ExprId>) = (Vec::new(), Vec::new());
+    let inertia: Matrix = derivations.iter_mut().map(|partial| partial.apply_all(graph, &slopes)).collect();
     for (a, symbol) in independent.iter().enumerate() {
         let section = &sections[a];
         let row: Vec<ExprId> = (0..independent.len())
@@ -212,8 +213,7 @@ fn equations(
                 if b < a {
                     return mass[b][a];
                 }
-                let inertia = derivations[b].apply_all(graph, &slopes);
-                graph.inner_product(&partials[a], &inertia)
+                graph.inner_product(&partials[a], &inertia[b])
             })
             .collect();
         mass.push(row);

@@ -2,6 +2,7 @@
 
 use super::nary::{Arena, Nary, Term};
 use crate::id::Id;
+use crate::limits;
 
 /// How much a product counts that other terms use too: it has to be computed for them anyway.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -15,13 +16,17 @@ pub(super) enum Sharing {
 /// The savings of one multiplication, in units that small counts of users divide.
 const ONE: u32 = 12;
 
+/// Factors of operands that are looked at, over and over: a long sum of long products takes the cube of its length.
+/// Beyond this, sums stay as they are.
+const PATIENCE: usize = 2_000_000;
+
 /// `a·x + b·x = (a + b)·x`, the factor that saves most first, inner sums in turn.
 pub(super) fn factor(arena: &mut Arena, sharing: Sharing) {
-    let mut uses = arena.uses();
+    let (mut uses, mut patience) = (arena.uses(), PATIENCE);
     let mut open: Vec<Term> = Arena::live(&uses);
     open.reverse();
     while let Some(term) = open.pop() {
-        while let Some((base, exponent)) = best_factor(arena, &uses, term, sharing) {
+        while let Some((base, exponent)) = best_factor(arena, &uses, term, sharing, &mut patience) {
             let before = arena.len();
             let inner = take_out(arena, &mut uses, term, base, exponent);
             if inner.index() >= before {
@@ -42,7 +47,13 @@ fn factors<'a>(arena: &'a Arena, alone: &'a [(Term, i32); 1]) -> &'a [(Term, i32
 }
 
 /// The power that most operands share, if taking it out pays.
-fn best_factor(arena: &Arena, uses: &[u32], sum: Term, sharing: Sharing) -> Option<(Term, i32)> {
+fn best_factor(
+    arena: &Arena,
+    uses: &[u32],
+    sum: Term,
+    sharing: Sharing,
+    patience: &mut usize,
+) -> Option<(Term, i32)> {
     let Nary::Sum(operands) = arena.get(sum) else { return None };
     // base, whether it is a denominator, exponent, what taking it out of that operand saves
     let mut powers: Vec<(Term, bool, i32, u32)> = Vec::with_capacity(4 * operands.len());
@@ -57,6 +68,8 @@ fn best_factor(arena: &Arena, uses: &[u32], sum: Term, sharing: Sharing) -> Opti
         let factors = factors(arena, &alone).iter();
         powers.extend(factors.map(|(base, exponent)| (*base, *exponent < 0, *exponent, worth)));
     }
+    limits::spend(powers.len());
+    *patience = patience.checked_sub(powers.len())?;
     powers.sort_unstable();
     let mut best: Option<(u32, Term, i32)> = None;
     for same in powers.chunk_by(|a, b| (a.0, a.1) == (b.0, b.1)) {

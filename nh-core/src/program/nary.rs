@@ -2,6 +2,7 @@
 
 use crate::algebra::{Function, Function2, Rational};
 use crate::id::{ConstantId, Id, SymbolId, Table};
+use crate::limits;
 use rustc_hash::{FxHashMap, FxHashSet};
 use std::collections::hash_map::Entry;
 use std::rc::Rc;
@@ -137,6 +138,7 @@ impl Arena {
 
     /// The form of a product: equal bases are merged, coefficients multiplied.
     pub(super) fn product_form(&mut self, mut factors: Vec<(Term, i32)>) -> Nary {
+        limits::spend(1 + factors.len());
         let mut coefficient = Rational::ONE;
         factors.retain(|(base, exponent)| match self.as_number(*base) {
             Some(value) if *exponent == 1 => {
@@ -170,6 +172,7 @@ impl Arena {
     /// The sum of signed operands, at least one and all different, up to the sign in front, which is
     /// taken out so that the first operand is added.
     pub(super) fn sum(&mut self, mut operands: Vec<(Term, bool)>) -> (Term, bool) {
+        limits::spend(1 + operands.len());
         operands.sort_unstable();
         let negative = operands[0].1;
         if let [(only, _)] = *operands {
@@ -223,6 +226,7 @@ impl Arena {
         while let Some(term) = open.pop() {
             uses[term.index()] += 1;
             if uses[term.index()] == 1 {
+                limits::spend(1);
                 self.dependencies(term, &mut open);
             }
         }
@@ -243,6 +247,7 @@ impl Arena {
                 open.push((term, true));
                 operands.clear();
                 self.dependencies(term, &mut operands);
+                limits::spend(1 + operands.len() / 2);
                 open.extend(operands.iter().rev().map(|operand| (*operand, false)));
             }
         }

@@ -4,6 +4,7 @@
 //! terms use saves n − 1 operations, whatever else is extracted.
 
 use super::nary::{Arena, Nary, Term};
+use crate::limits;
 use rustc_hash::{FxBuildHasher, FxHashMap};
 use std::cmp::Reverse;
 use std::collections::BinaryHeap;
@@ -79,6 +80,7 @@ pub(super) fn share_pairs(arena: &mut Arena, kind: Kind) {
     for index in 0..search.lists.len() {
         let length = search.lists[index].1.len();
         for first in 0..length {
+            limits::spend(WINDOW.min(length - first));
             for second in first..length.min(first + WINDOW) {
                 let operands = &search.lists[index].1;
                 let (first, second) = (operands[first], operands[second]);
@@ -92,6 +94,7 @@ pub(super) fn share_pairs(arena: &mut Arena, kind: Kind) {
         let occurrences = search.places.get(&pair).map_or(1, Places::len);
         let Some(left) = patience.checked_sub(occurrences) else { break };
         patience = left;
+        limits::spend(occurrences);
         let places = search.places_of(pair);
         let current = places.iter().map(|(_, times)| times).sum();
         if current == users {

@@ -72,8 +72,7 @@ impl Reports {
             self.steps = 0;
             self.places.insert((0, 0));
             self.errors.push(
-                Diagnostic::new(at, "this declaration is too large")
-                    .evidence(format!("up to here it takes more than {STEPS} steps to write out"))
+                Diagnostic::new(at, format!("this declaration is too large, because up to here it takes more than {STEPS} steps to write out"))
                     .way_out("shorten the ranges of `sum` and `for`, or use fewer bodies"),
             );
         }

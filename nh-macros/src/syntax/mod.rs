@@ -18,6 +18,7 @@ mod render;
 mod sections;
 mod stream;
 mod structure;
+mod too_large;
 pub(crate) mod vocabulary;
 
 #[cfg(test)]

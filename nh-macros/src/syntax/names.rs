@@ -78,9 +78,14 @@ impl Stream {
     pub(crate) fn docs(&mut self) -> Result<TokenStream, Diagnostic> {
         let start = self.position();
         while let (true, Some(TokenTree::Group(group))) = (self.at_marks("#"), self.peek_at(1)) {
-            let word = group.stream().into_iter().next();
-            let is_doc = group.delimiter() == Delimiter::Bracket
-                && matches!(word, Some(TokenTree::Ident(ident)) if ident == "doc");
+            let inside: Vec<TokenTree> = group.stream().into_iter().collect();
+            let is_text = match inside.as_slice() {
+                [TokenTree::Ident(word), TokenTree::Punct(mark), _, ..] => {
+                    word == "doc" && mark.as_char() == '='
+                }
+                _ => false,
+            };
+            let is_doc = group.delimiter() == Delimiter::Bracket && is_text;
             if !is_doc {
                 let at = self.here().to(Extent::at(group.span()));
                 return Err(Diagnostic::new(at, "attributes have no place in a declaration")

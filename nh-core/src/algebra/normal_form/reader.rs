@@ -6,6 +6,7 @@ use super::polynomial::Polynomial;
 use crate::algebra::graph::{Function, Graph, Node};
 use crate::algebra::number::Rational;
 use crate::id::ExprId;
+use crate::limits;
 use rustc_hash::{FxBuildHasher, FxHashMap};
 use std::borrow::Cow;
 use std::cell::Cell;
@@ -73,6 +74,7 @@ impl<'g> Reader<'g> {
 
     pub(super) fn spend(&mut self, work: usize) -> Option<()> {
         self.work = self.work.checked_sub(work)?;
+        limits::spend(work);
         Some(())
     }
 
