@@ -6,7 +6,12 @@
 
 extern crate proc_macro;
 
+mod collected;
 mod declarations;
+mod judge;
+mod large;
+mod mutate;
+mod tokens;
 
 #[allow(dead_code, unused_imports, reason = "the back end is the macro's")]
 #[path = "../../../nh-macros/src/emit/mod.rs"]
@@ -33,10 +38,15 @@ mod suggest;
 #[path = "../../../nh-macros/src/syntax/mod.rs"]
 mod syntax;
 
+pub use collected::collected;
 pub use declarations::{Declaration, declarations};
+pub use judge::{Defect, Verdict, judged};
+pub use large::{Family, families};
+pub use mutate::{Collection, Random, minimised};
 use nonholonomic_core::model::Model;
 use nonholonomic_core::system::System;
 use proc_macro2::TokenStream;
+pub use tokens::{errors, length};
 
 use emit::Layout;
 use syntax::Malformed;

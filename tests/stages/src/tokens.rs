@@ -1,0 +1,35 @@
+//! What can be read off expanded code.
+
+use proc_macro2::{TokenStream, TokenTree};
+
+/// The messages of all `compile_error!`s, those inside of functions included, in order.
+#[must_use]
+pub fn errors(items: &TokenStream) -> Vec<String> {
+    let tokens: Vec<TokenTree> = items.clone().into_iter().collect();
+    let mut found = Vec::new();
+    for (k, token) in tokens.iter().enumerate() {
+        let TokenTree::Group(group) = token else { continue };
+        let before = |back: usize| k.checked_sub(back).and_then(|k| tokens.get(k)).map(ToString::to_string);
+        found.extend(errors(&group.stream()));
+        if before(1).as_deref() == Some("!") && before(2).as_deref() == Some("compile_error") {
+            found.extend(syn::parse2::<syn::LitStr>(group.stream()).map(|text| text.value()));
+        }
+    }
+    found
+}
+
+/// How many tokens there are, those inside of groups included.
+#[must_use]
+pub fn length(items: &TokenStream) -> usize {
+    let mut open = vec![items.clone()];
+    let mut count = 0;
+    while let Some(tokens) = open.pop() {
+        for token in tokens {
+            count += 1;
+            if let TokenTree::Group(group) = token {
+                open.push(group.stream());
+            }
+        }
+    }
+    count
+}
