@@ -203,7 +203,7 @@ where
     ) -> Result<VecOf<S>, IntegrationError> {
         let table = &Self::TABLE;
         let (z, rests) =
-            settled(table, &self.linearization, self.tolerance, start, rest, h, work, statistics)?;
+            settled(table, &self.linearization, self.tolerance, (start, rest), h, work, statistics)?;
         let zero = DimOf::<S>::vec(T::ZERO);
         Ok(table.increment(zero, &z, &rests))
     }
@@ -223,17 +223,19 @@ where
     }
 }
 
+/// The stages z of a step, and what rounding has taken from them.
+type Stages<S, const N: usize> = ([VecOf<S>; N], [VecOf<S>; N]);
+
 /// The stages of a step, by simplified Newton iterations until their corrections stagnate in round-off.
 pub(super) fn settled<T: Real, S: Dynamics, J: Linearization<S>, const N: usize>(
     table: &Collocation<N>,
     linearization: &J,
     tolerance: T,
-    start: &Start<'_, S>,
-    rest: &VecOf<S>,
+    (start, rest): (&Start<'_, S>, &VecOf<S>),
     h: T,
     work: &mut Work<S, N>,
     statistics: &mut Statistics,
-) -> Result<([VecOf<S>; N], [VecOf<S>; N]), IntegrationError>
+) -> Result<Stages<S, N>, IntegrationError>
 where
     S::State: State<Scalar = T>,
 {

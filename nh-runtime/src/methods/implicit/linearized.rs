@@ -56,7 +56,7 @@ where
     let x = start.state.to_array();
     let mut work = Work { last: None, matrices: None };
     let (tolerance, statistics) = (T::from_f64(1e3) * T::EPSILON, &mut Statistics::default());
-    let (z, rests) = settled(table, &Analytic, tolerance, start, &[T::ZERO; N], h, &mut work, statistics)?;
+    let (z, rests) = settled(table, &Analytic, tolerance, (start, &[T::ZERO; N]), h, &mut work, statistics)?;
     let end = displaced(&x, T::ONE, &table.increment([T::ZERO; N], &z, &rests));
     let mut stages = [Stage { a: [[T::ZERO; N]; N], b: [[T::ZERO; M]; N] }; STAGES];
     for ((stage, node), z) in stages.iter_mut().zip(&table.nodes).zip(&z) {

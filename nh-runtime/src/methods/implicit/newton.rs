@@ -84,7 +84,8 @@ impl<D: Dim, T: Real> Settling<D, T> {
             correction.as_ref().iter().zip(corrected.as_ref()).map(|(c, x)| (c.abs(), half_unit * x.abs()));
         let Some(before) = &mut self.before else {
             self.before = Some(*correction);
-            return is_small && sizes.fold(true, |all, (c, unit)| all & (c <= unit));
+            let mut sizes = sizes;
+            return is_small && sizes.all(|(c, unit)| c <= unit);
         };
         let marks = self.settled.as_mut().iter_mut().zip(before.as_ref());
         let mut all = true;
