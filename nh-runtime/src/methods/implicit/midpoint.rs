@@ -120,9 +120,12 @@ impl<T: Real, J> Midpoint<T, J> {
         let mut retry = newton.is_some();
         let mut iterations = 0;
         let mut residual;
+        // before the first correction: the larger of the state, and of what the slope there moves it
+        let mut usual: Option<T> = None;
         loop {
             let slope = start.derivative_at(middle, displaced(&x, T::ONE, &half_increment));
             statistics.evaluations += 1;
+            let usual = *usual.get_or_insert_with(|| largest(&x).max(half.abs() * largest(&slope)));
             let current = if let Some(newton) = newton {
                 newton
             } else {
@@ -142,12 +145,14 @@ impl<T: Real, J> Midpoint<T, J> {
             iterations += 1;
             statistics.iterations += 1;
             residual = size(&correction, &x, &half_increment) / self.tolerance;
-            if vanishes(&correction, &x, &half_increment) {
-                break;
-            }
+            let vanishes = vanishes(&correction, &x, &half_increment);
             let ratio = preceding.map(|preceding| residual / preceding);
             let stagnates = ratio.is_some_and(|ratio| ratio >= T::from_f64(0.5));
-            if stagnates && residual <= T::ONE {
+            if vanishes || (stagnates && residual <= T::ONE) {
+                if is_elsewhere(largest(&half_increment), usual) {
+                    let reached = displaced(&x, T::from_f64(2.0), &half_increment);
+                    return Err(refusal(start, length, iterations, residual, reached.as_ref()));
+                }
                 break;
             }
             if !residual.is_finite() || iterations >= MOST_ITERATIONS {
@@ -170,6 +175,18 @@ impl<T: Real, J> Midpoint<T, J> {
         *stored = newton;
         Ok(displaced(&half_increment, T::ONE, &half_increment))
     }
+}
+
+/// The largest absolute value of a component; NaN if there is one.
+fn largest<T: Real, V: AsRef<[T]>>(vector: &V) -> T {
+    vector.as_ref().iter().fold(T::ZERO, |largest, x| largest.max(x.abs()))
+}
+
+/// Whether an increment belongs to another solution of the equation than that of a small step: so much larger than
+/// the state and than what the slope moves it that less than half of their digits are left in the sum. Equations
+/// have such solutions where the slope is infinite near by.
+fn is_elsewhere<T: Real>(increment: T, usual: T) -> bool {
+    increment * T::EPSILON.sqrt() > usual
 }
 
 /// Whether a correction is below half a rounding unit in every component.
