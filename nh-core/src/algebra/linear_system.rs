@@ -187,7 +187,7 @@ impl Graph {
                     self.operation_count(&[*entry]) + 1
                 };
                 let better = best.is_none_or(|(least, ..)| cost < least);
-                if better && self.zero_test(*entry).is_nonzero() {
+                if better && self.is_nonzero(*entry) {
                     best = Some((cost, row, column));
                 }
             }

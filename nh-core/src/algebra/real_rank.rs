@@ -18,7 +18,15 @@ impl Graph {
                 Node::Product { factors, .. } => factors.iter().any(|(_, exponent)| !exponent.is_integer()),
                 Node::Pi
                 | Node::Apply2(..)
-                | Node::Apply(Function::Ln | Function::Asin | Function::Acos | Function::Atan, _) => true,
+                | Node::Apply(
+                    Function::Ln
+                    | Function::Asin
+                    | Function::Acos
+                    | Function::Atan
+                    | Function::Abs
+                    | Function::Sign,
+                    _,
+                ) => true,
                 _ => false,
             };
             !found

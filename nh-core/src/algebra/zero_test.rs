@@ -101,6 +101,19 @@ impl Graph {
         verdict
     }
 
+    /// Whether `expression` is proved not to vanish identically. Where the field knows all identities that it
+    /// could vanish by, a point of the field shows it: a point of the reals may take many digits.
+    #[must_use]
+    pub fn is_nonzero(&self, expression: ExprId) -> bool {
+        let is_known = self.verdicts.borrow().contains_key(&expression);
+        if !is_known && !self.symbols_in(&[expression]).is_empty() && !self.is_beyond_field(&[expression]) {
+            if let Ok(vanishes) = self.vanishes_in_field(expression, false) {
+                return !vanishes;
+            }
+        }
+        self.zero_test(expression).is_nonzero()
+    }
+
     fn decided(&self, expression: ExprId) -> Verdict {
         if self.symbols_in(&[expression]).is_empty() {
             return self.decided_number(expression);

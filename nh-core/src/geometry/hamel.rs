@@ -41,19 +41,28 @@ pub fn from_injective_anchor(
     let pairs: Vec<(SectionId, SectionId)> = (0..rank)
         .flat_map(|a| (a + 1..rank).map(move |b| (SectionId::from_index(a), SectionId::from_index(b))))
         .collect();
-    let mut right: Matrix = vec![Vec::with_capacity(pairs.len()); rank];
-    for (alpha, beta) in &pairs {
-        let components = commutator(graph, anchor, *alpha, *beta);
-        for (row, coordinate) in right.iter_mut().zip(&independent) {
-            row.push(graph.simplify(components[*coordinate]));
+    let mut structure = StructureFunctions::commuting(rank);
+    // the pairs that do not commute, and their commutators
+    let mut unknown = Vec::new();
+    let mut right: Matrix = vec![Vec::new(); rank];
+    for (alpha, beta) in pairs {
+        let components = commutator(graph, anchor, alpha, beta);
+        let components: Vec<ExprId> =
+            independent.iter().map(|coordinate| graph.simplify(components[*coordinate])).collect();
+        if components.iter().any(|component| !graph.is_literal_zero(*component)) {
+            unknown.push((alpha, beta));
+            for (row, component) in right.iter_mut().zip(components) {
+                row.push(component);
+            }
         }
     }
-    let mut structure = StructureFunctions::commuting(rank);
-    if pairs.is_empty() {
+    if unknown.is_empty() {
         return Ok(Some(structure));
     }
-    let Some(solution) = graph.solve_linear(&square, &right) else { return Ok(None) };
-    for (column, (alpha, beta)) in pairs.into_iter().enumerate() {
+    let solution = graph.solve_linear(&square, &right).ok_or_else(|| {
+        format!("the anchor is injective, but its {rank} rows could not be solved for the {rank} sections")
+    })?;
+    for (column, (alpha, beta)) in unknown.into_iter().enumerate() {
         let components = solution.values.iter().map(|row| row[column]).collect::<Vec<_>>();
         let components = components.into_iter().map(|c| graph.simplify(c)).collect();
         structure.set(graph, alpha, beta, components);

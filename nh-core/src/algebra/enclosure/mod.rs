@@ -15,6 +15,7 @@ use super::field::Residue;
 use super::graph::{Function, Function2, Graph, Node};
 use super::number::Rational;
 use crate::id::{ExprId, Id, SymbolId};
+use crate::limits;
 use rustc_hash::{FxHashMap, FxHashSet};
 
 /// Where an expression is evaluated.
@@ -33,6 +34,18 @@ pub(super) struct Value {
     pub(super) ball: Ball,
     /// The exact value, where it can be written down.
     pub(super) form: Option<Form>,
+}
+
+impl Value {
+    /// The steps that an operation with a result like this takes: digits are multiplied by digits, and for
+    /// quotients of integers common divisors are sought.
+    fn work(&self) -> usize {
+        let words = |bits: u64| usize::try_from(bits / 64).unwrap_or(usize::MAX);
+        let squared = |words: usize| words.saturating_mul(words);
+        let exact = self.form.as_ref().and_then(|form| form.algebraic.rational.as_ref());
+        let exact = exact.map_or(0, |value| squared(words(value.bits())));
+        1 + squared(words(self.ball.bits().into())) / 16 + exact
+    }
 }
 
 /// The values of some expressions at one point.
@@ -70,6 +83,7 @@ impl Graph {
         pass.known.reserve(order.len());
         for id in order {
             let value = pass.value(id)?;
+            limits::spend(self.node(id).breadth().saturating_mul(value.work()));
             pass.known.insert(id, value);
         }
         let degree = pass.degree.saturating_mul((totient(pass.parts_of_a_turn) / 2).max(1));
