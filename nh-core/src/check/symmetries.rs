@@ -7,7 +7,7 @@ use super::sections::{check_gauge, combination, components};
 use crate::algebra::{Graph, Verdict, Witness};
 use crate::geometry::{ConstraintDistribution, Manifold};
 use crate::id::{CoordId, ExprId, Origin};
-use crate::mechanics::{LagrangianSystem, Momentum, complete_lift, translation};
+use crate::mechanics::{LagrangianSystem, Momentum, complete_lift, translations};
 use crate::model::{Model, SymmetryDecl};
 use crate::violation::{Law, Violation};
 
@@ -224,12 +224,11 @@ pub fn of_cyclic_coordinates(
     cyclic: &[CoordId],
 ) -> Vec<(CoordId, Symmetry)> {
     let mut found = Vec::new();
-    for coordinate in cyclic {
+    let sections = translations(&mut model.graph, &setting.system.algebroid.anchor, cyclic);
+    for (coordinate, section) in cyclic.iter().zip(sections) {
+        let Some(section) = section else { continue };
         let name = model.coordinates[*coordinate].name.clone();
         let graph = &mut model.graph;
-        let Some(section) = translation(graph, &setting.system.algebroid.anchor, *coordinate) else {
-            continue;
-        };
         // outside D there is no momentum equation: only a level of that momentum would be told so
         let along = setting.along_constraints(graph, &section);
         let in_distribution = along.iter().all(|a| setting.manifold.zero_test(graph, *a).is_zero());

@@ -7,6 +7,7 @@ use crate::check::{self, Constraints, Motion, Setting, Symmetry};
 use crate::functions::{Functions, MOMENTA, MOMENTUM_RATES};
 use crate::geometry::ConstraintDistribution;
 use crate::id::{CoordId, ExprId, SymbolId};
+use crate::limits;
 use crate::mechanics::{LagrangianSystem, Procedure, cyclic_coordinates};
 use crate::model::{Model, Request};
 use crate::violation::Violation;
@@ -50,7 +51,8 @@ pub(super) fn symmetries(
     let cyclic = cyclic_coordinates(&mut model.graph, system, &more);
     let asked = model.requests.iter().find(|(request, _)| *request == Request::Momenta).copied();
     let small = model.graph.operation_count(&[system.lagrangian]) <= SEARCHED;
-    let search = !cyclic.is_empty() && (small || asked.is_some() || !model.routh.is_empty());
+    let needed = asked.is_some() || !model.routh.is_empty();
+    let search = !cyclic.is_empty() && (small || needed);
     if model.symmetries.is_empty() && !search {
         return match asked {
             Some((_, origin)) => Err(vec![check::no_momenta(origin)]),
@@ -59,7 +61,12 @@ pub(super) fn symmetries(
     }
     let setting = Setting::new(&mut model.graph, system, constraints, spanned);
     let declared = check::symmetries(model, motion, &setting)?;
-    let mut found = if search { check::of_cyclic_coordinates(model, &setting, &cyclic) } else { Vec::new() };
+    let mut of_cyclic = || check::of_cyclic_coordinates(model, &setting, &cyclic);
+    let mut found = match (search, needed) {
+        (false, _) => Vec::new(),
+        (true, true) => of_cyclic(),
+        (true, false) => limits::attempt(limits::REMARK, of_cyclic).unwrap_or_default(),
+    };
     found.retain(|(_, symmetry)| declared.iter().all(|known| known.section != symmetry.section));
     match asked {
         Some((_, origin))

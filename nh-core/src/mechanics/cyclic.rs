@@ -44,18 +44,30 @@ fn does_not_change(graph: &mut Graph, functions: &[ExprId], symbol: SymbolId) ->
 /// The section whose motion changes one coordinate alone, at unit rate: ρ(σ) = ∂/∂x^i. `None` where
 /// the anchor does not determine it.
 pub fn translation(graph: &mut Graph, anchor: &Anchor, coordinate: CoordId) -> Option<Vec<ExprId>> {
+    translations(graph, anchor, &[coordinate]).pop()?
+}
+
+/// The same for some coordinates: the anchor is solved once.
+pub fn translations(graph: &mut Graph, anchor: &Anchor, coordinates: &[CoordId]) -> Vec<Option<Vec<ExprId>>> {
     let n = anchor.coordinates.len();
     if graph.generic_rank(&anchor.entries) != Ok(anchor.rank) {
-        return None;
+        return vec![None; coordinates.len()];
     }
-    let unit = graph.unit_vector(n, coordinate.index());
+    let units: Matrix =
+        coordinates.iter().map(|coordinate| graph.unit_vector(n, coordinate.index())).collect();
     if n != anchor.rank {
         // more coordinates than sections: a section of the basis or none
-        let moves = |alpha: &usize| anchor.entries.iter().zip(&unit).all(|(row, rate)| row[*alpha] == *rate);
-        let alpha = (0..anchor.rank).find(moves)?;
-        return Some(graph.unit_vector(anchor.rank, alpha));
+        let mut section = |unit: &Vec<ExprId>| {
+            let moves =
+                |alpha: &usize| anchor.entries.iter().zip(unit).all(|(row, rate)| row[*alpha] == *rate);
+            let alpha = (0..anchor.rank).find(moves)?;
+            Some(graph.unit_vector(anchor.rank, alpha))
+        };
+        return units.iter().map(&mut section).collect();
     }
-    let right: Matrix = unit.into_iter().map(|rate| vec![rate]).collect();
-    let solution = graph.solve_linear(&anchor.entries, &right)?;
-    Some(solution.values.into_iter().map(|row| graph.simplify(row[0])).collect())
+    let Some(solution) = graph.solve_linear(&anchor.entries, &Graph::transposed(&units)) else {
+        return vec![None; coordinates.len()];
+    };
+    let mut column = |k: usize| solution.values.iter().map(|row| graph.simplify(row[k])).collect();
+    (0..coordinates.len()).map(|k| Some(column(k))).collect()
 }

@@ -35,7 +35,7 @@ mod wheel_frames;
 
 pub use adapted::{ReducedEquations, equations_by_momenta, reaction_forces, reduced_equations};
 pub use complete_lift::complete_lift;
-pub use cyclic::{cyclic_coordinates, translation};
+pub use cyclic::{cyclic_coordinates, translation, translations};
 pub use definiteness::{definiteness, keeps_its_sign};
 pub use energy::energy;
 pub use euler_lagrange::{ForceBalance, LagrangianSystem};

@@ -43,6 +43,7 @@ fn work_has_ceilings() {
         ("dense mass matrix", 40, 3_500),
         ("pendulum, absolute angles", 10, 16_000),
         ("power of a sum", 20, 40),
+        ("dense anchor of parameters", 30, 8_000),
     ] {
         let family = families().find(|family| family.name == name).expect(name);
         let declaration = family.member(size);
@@ -51,4 +52,15 @@ fn work_has_ceilings() {
         assert!(errors.is_empty(), "{name}: {errors:?}");
         assert!(work <= thousands * 1000, "{name} {size}: {} thousand steps", work / 1000);
     }
+}
+
+/// The refusal names what is too large, by how much, and what can be done.
+#[test]
+fn the_refusal_of_a_dense_anchor_names_its_brackets() {
+    let family = families().find(|family| family.name == "dense anchor of sines").expect("a family");
+    assert_eq!(
+        nh_stages::errors(&family.member(30).expanded()),
+        ["this declaration is too large, because the brackets would take expressions of more than 2500000 \
+          entries\nhelp: use a basis whose brackets are short: that of the coordinates, or of a known algebra"]
+    );
 }
