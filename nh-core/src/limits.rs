@@ -48,6 +48,10 @@ pub enum Subject {
     Requests,
     /// The search for the shortest code.
     Code,
+    /// The proof that a map relates two systems.
+    Map,
+    /// The quotient of a system.
+    Quotient,
 }
 
 /// That a declaration is too large.
@@ -178,6 +182,8 @@ impl TooLarge {
             Subject::Claims => "the claims about the motion",
             Subject::Requests => "what is asked for",
             Subject::Code => "the search for short code",
+            Subject::Map => "the proof that the map relates the two systems",
+            Subject::Quotient => "the quotient",
         };
         let more = match self.limit {
             Limit::Work => format!("more than {} million steps", WORK / 1_000_000),
@@ -209,6 +215,8 @@ impl TooLarge {
             Subject::Claims => "leave claims out: they can be watched as `outputs`",
             Subject::Requests => "ask for less in `emit` and `outputs`",
             Subject::Code => "use fewer bodies, or `track` the variables that matter",
+            Subject::Map => "map fewer bodies, or in coordinates and velocities in which the map is short",
+            Subject::Quotient => "name invariant `velocities` that are short, or use fewer bodies",
         }
     }
 }

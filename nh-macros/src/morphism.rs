@@ -4,6 +4,7 @@
 //! declaration to another one: `morphism!` calls that of the source and is called back with its
 //! declaration, calls that of the target likewise, and has everything in the third call.
 
+use nonholonomic_core::limits::within_limits;
 use nonholonomic_core::reduction::{Refusal, reduce};
 use proc_macro2::{TokenStream, TokenTree};
 use quote::quote;
@@ -79,18 +80,19 @@ fn prove(
     source_layout.runtime = runtime(declaration);
     let proved = resolved.and_then(|resolved| {
         let origins = resolved.origins;
-        let reduction =
-            reduce(resolved.source, resolved.target, &resolved.declared).map_err(
-                |refusal| match refusal {
-                    Refusal::IllPosed => Unrelated::IllPosed,
-                    Refusal::Broken(violations) => {
-                        let errors = violations.into_iter().map(|violation| origins.diagnostic(violation));
-                        Unrelated::Errors(errors.collect())
-                    }
-                },
-            )?;
-        emit::morphism(&reduction, declaration, &source_layout, &target_layout)
-            .map_err(|error| Unrelated::Errors(vec![error]))
+        let derived = within_limits(|| {
+            let reduction = reduce(resolved.source, resolved.target, &resolved.declared)?;
+            Ok(emit::morphism(&reduction, declaration, &source_layout, &target_layout))
+        });
+        match derived {
+            Ok(Ok(written)) => written.map_err(|error| Unrelated::Errors(vec![error])),
+            Ok(Err(Refusal::IllPosed)) => Err(Unrelated::IllPosed),
+            Ok(Err(Refusal::Broken(violations))) => {
+                let errors = violations.into_iter().map(|violation| origins.diagnostic(violation));
+                Err(Unrelated::Errors(errors.collect()))
+            }
+            Err(too_large) => Err(Unrelated::Errors(vec![declaration.extent().too_large(too_large)])),
+        }
     });
     let errors = match proved {
         Ok(items) => return items,

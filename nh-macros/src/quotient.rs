@@ -1,5 +1,6 @@
 //! `quotient!`: the declaration of the full system is fetched, that of its quotient derived.
 
+use nonholonomic_core::limits::within_limits;
 use nonholonomic_core::reduction::{Refusal, quotient as derive};
 use proc_macro2::{TokenStream, TokenTree};
 use quote::quote;
@@ -54,13 +55,17 @@ fn derived(
     }
     let resolved = resolve_quotient(declaration, &full, &mut layout)?;
     let origins = resolved.origins;
-    let quotient = derive(resolved.source, &resolved.declared).map_err(|refusal| match refusal {
-        Refusal::IllPosed => Unrelated::IllPosed,
-        Refusal::Broken(violations) => {
+    let quotient = match within_limits(|| derive(resolved.source, &resolved.declared)) {
+        Ok(Ok(quotient)) => quotient,
+        Ok(Err(Refusal::IllPosed)) => return Err(Unrelated::IllPosed),
+        Ok(Err(Refusal::Broken(violations))) => {
             let errors = violations.into_iter().map(|violation| origins.diagnostic(violation));
-            Unrelated::Errors(errors.collect())
+            return Err(Unrelated::Errors(errors.collect()));
         }
-    })?;
+        Err(too_large) => {
+            return Err(Unrelated::Errors(vec![declaration.extent.too_large(too_large)]));
+        }
+    };
     if !emit::can_be_written(&quotient) {
         let error =
             Diagnostic::new(declaration.extent, "the quotient is too long to be written as a declaration")

@@ -106,10 +106,12 @@ impl Graph {
     #[must_use]
     pub fn is_nonzero(&self, expression: ExprId) -> bool {
         let is_known = self.verdicts.borrow().contains_key(&expression);
-        if !is_known && !self.symbols_in(&[expression]).is_empty() && !self.is_beyond_field(&[expression]) {
-            if let Ok(vanishes) = self.vanishes_in_field(expression, false) {
-                return !vanishes;
-            }
+        if !is_known
+            && !self.symbols_in(&[expression]).is_empty()
+            && !self.is_beyond_field(&[expression])
+            && let Ok(vanishes) = self.vanishes_in_field(expression, false)
+        {
+            return !vanishes;
         }
         self.zero_test(expression).is_nonzero()
     }

@@ -15,6 +15,7 @@ mod quotient;
 mod side;
 
 use crate::id::{CoordId, ExprId, InputId, Origin, ParamId, SymbolId};
+use crate::limits::{Subject, about};
 use crate::mechanics::Procedure;
 use crate::model::{Located, Model};
 use crate::violation::{Law, Violation};
@@ -90,6 +91,7 @@ pub enum Refusal {
 pub fn reduce(source: Model, target: Model, declared: &MorphismDecl) -> Result<Reduction, Refusal> {
     let mut source = Side::of(source)?;
     let target = Side::of(target)?;
+    about(Subject::Map);
     fence([&source, &target].into_iter().filter_map(|side| on_level(side, declared)).collect())?;
     // 1. Φ: parameters, base and fibres, and the target pulled back by it
     let map = BundleMap::of(&mut source, &target, declared).map_err(Refusal::Broken)?;

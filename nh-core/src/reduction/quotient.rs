@@ -13,6 +13,7 @@ use crate::check::evidence::shown;
 use crate::compile::{self, Proved, frame_names, moved, with_translations};
 use crate::geometry::{ChangeOfBasis, Fibres, InvariantFrame};
 use crate::id::{CoordId, ExprId, Id, Origin, SymbolId};
+use crate::limits::{Subject, about};
 use crate::model::{Located, Model};
 use crate::violation::{Law, Violation};
 
@@ -70,6 +71,7 @@ pub struct Equation {
 /// that is none.
 pub fn quotient(model: Model, declared: &QuotientDecl) -> Result<Quotient, Refusal> {
     let mut source = Side::of(model)?;
+    about(Subject::Quotient);
     // 1. the frame: w = Φ y, Ψ = Φ⁻¹
     let derived = invariant_frame(&mut source, declared);
     let no_frame = derived.as_ref().err().cloned();

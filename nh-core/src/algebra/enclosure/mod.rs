@@ -44,7 +44,7 @@ impl Value {
         let squared = |words: usize| words.saturating_mul(words);
         let exact = self.form.as_ref().and_then(|form| form.algebraic.rational.as_ref());
         let exact = exact.map_or(0, |value| squared(words(value.bits())));
-        1 + squared(words(self.ball.bits().into())) / 16 + exact
+        1 + squared(words(self.ball.bits())) / 16 + exact
     }
 }
 
