@@ -8,7 +8,8 @@
 use super::ledger::Proof;
 use super::reference::{Balance, Instant, Reference, inner};
 use crate::algebra::{
-    Degrees, Echelon, FieldPass, FieldPoint, Function, Function2, Graph, Matrix, NoValue, Node, Residue,
+    Degrees, Echelon, FieldPass, FieldPoint, Function, Function2, Graph, Matrix, NoValue, Node, Radicands,
+    Residue,
 };
 use crate::id::{ExprId, SymbolId};
 use crate::mechanics::{Definition, Procedure, ReducedEquations};
@@ -111,10 +112,15 @@ pub(crate) fn prove(graph: &Graph, reference: &Reference, claim: &Claim) -> Resu
     let division = graph.angle_division(&roots);
     let degree = claim.degree(&mut Degrees::new(graph, division));
     let bits = bits_of_a_point(graph, &roots, reference.degree(graph, division, degree))?;
-    at_points(bits, |point| {
-        let mut instant = reference.at(graph, point, division)?;
-        judge(&mut instant, reference, claim)
-    })
+    let radicands = Radicands::of(graph, &reference.roots(graph));
+    at_points(
+        bits,
+        |seed| radicands.point(graph, seed),
+        |point| {
+            let mut instant = reference.at(graph, point, division)?;
+            judge(&mut instant, reference, claim)
+        },
+    )
 }
 
 /// Proves that two procedures with the same symbols compute the same.
@@ -126,7 +132,7 @@ pub(crate) fn prove_equal(graph: &Graph, one: &Procedure, other: &Procedure) -> 
     let division = graph.angle_division(&roots);
     let degrees = || Degrees::new(graph, division);
     let bits = bits_of_a_point(graph, &roots, one.degree(&mut degrees()) + other.degree(&mut degrees()))?;
-    at_points(bits, |point| {
+    at_points(bits, FieldPoint::random, |point| {
         let evaluate = |procedure| run(&mut FieldPass::new(graph, point.clone(), division), procedure);
         if evaluate(one)? == evaluate(other)? {
             return Ok(());
@@ -163,10 +169,14 @@ fn has_branches(graph: &Graph, roots: &[ExprId]) -> bool {
 }
 
 /// Asks at points until enough of them agree.
-fn at_points(bits: f64, mut ask: impl FnMut(FieldPoint) -> Result<(), Defect>) -> Result<Proof, Defect> {
+fn at_points(
+    bits: f64,
+    point: impl Fn(u64) -> FieldPoint,
+    mut ask: impl FnMut(FieldPoint) -> Result<(), Defect>,
+) -> Result<Proof, Defect> {
     let mut proof = Proof { points: 0, bits: 0.0 };
     for seed in FIRST_SEED..FIRST_SEED + PATIENCE {
-        match ask(FieldPoint::random(seed)) {
+        match ask(point(seed)) {
             Ok(()) => {
                 proof.points += 1;
                 proof.bits += bits;

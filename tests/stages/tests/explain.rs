@@ -31,3 +31,17 @@ fn it_is_generated_as_a_text_where_it_is_asked_for() {
     let broken = declarations(&SATELLITE.replace("J[i] * (w[i]", "Q[i] * (w[i]"));
     assert!(broken[0].expanded().to_string().contains("const DERIVATION"), "stubs have it, too");
 }
+
+/// A random point of the field gives values to fifteen square roots once in 32768 times.
+#[test]
+fn many_square_roots_do_not_keep_a_form_from_being_proved() {
+    let bodies = "#[nonholonomic(
+        base { x[6], y[6] }
+        lagrangian {
+            sum(i in 0..6: m[i] / 2 * (der(x[i])^2 + der(y[i])^2))
+                + sum(i in 0..6: sum(j in i+1..6: m[i] * m[j] / sqrt((x[i] - x[j])^2 + (y[i] - y[j])^2)))
+        }
+    )] struct Bodies { m: [f64; 6] }";
+    let system = declarations(bodies)[0].system().unwrap();
+    assert!(system.ledger.at("derivative").unwrap().chosen().is_some(), "{}", system.ledger);
+}

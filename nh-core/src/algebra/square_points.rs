@@ -1,0 +1,91 @@
+//! Points of the field where given radicands are squares.
+//!
+//! An element of the field is a square with probability one half, so a random point gives values to n square roots
+//! with probability 2⁻ⁿ. Symbols that are chosen one after the other, each until the radicands that it completes are
+//! squares, take about 2ᵏ trials where k radicands wait for one symbol: a point for the distances of many bodies
+//! is found in a few hundred trials.
+
+use super::field::Residue;
+use super::graph::{Graph, Node};
+use super::modular::FieldPoint;
+use crate::id::{ExprId, Id, SymbolId};
+use num_integer::Integer;
+use std::collections::BTreeMap;
+
+/// The radicands of square roots, by the last of their symbols.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Radicands {
+    completed: BTreeMap<SymbolId, Vec<ExprId>>,
+}
+
+/// Trials for one symbol: enough for a dozen radicands.
+const TRIALS: u64 = 1 << 14;
+
+impl Radicands {
+    /// Those of even roots in expressions.
+    pub(crate) fn of(graph: &Graph, expressions: &[ExprId]) -> Self {
+        let mut completed: BTreeMap<SymbolId, Vec<ExprId>> = BTreeMap::new();
+        for id in graph.reachable(expressions) {
+            let Node::Product { factors, .. } = graph.node(id) else { continue };
+            for (base, exponent) in factors.iter() {
+                let last = graph.symbols_in(&[*base]).into_iter().max();
+                let is_even = !exponent.is_integer() && exponent.denominator().is_even();
+                if let (true, Some(last)) = (is_even, last) {
+                    let radicands = completed.entry(last).or_default();
+                    if !radicands.contains(base) {
+                        radicands.push(*base);
+                    }
+                }
+            }
+        }
+        Self { completed }
+    }
+
+    /// The random point number `seed` where they are squares, as far as such a point is found.
+    pub(crate) fn point(&self, graph: &Graph, seed: u64) -> FieldPoint {
+        let mut point = FieldPoint::random(seed);
+        for (symbol, radicands) in &self.completed {
+            for trial in 0..TRIALS {
+                if trial > 0 {
+                    let number = trial.wrapping_mul(0x1_0001).wrapping_add(symbol.index() as u64);
+                    point.chosen.insert(*symbol, Residue::mixed(!seed, number));
+                }
+                let values = graph.evaluate_in_field(radicands, &point);
+                if values.is_ok_and(|values| values.iter().all(|value| value.sqrt().is_some())) {
+                    break;
+                }
+            }
+        }
+        point
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_distances_of_six_points_have_values() {
+        let mut g = Graph::new();
+        let places: Vec<[ExprId; 2]> = (0..6)
+            .map(|body| {
+                ["x", "y"].map(|axis| {
+                    let symbol = g.new_symbol(format!("{axis}{body}"));
+                    g.symbol(symbol)
+                })
+            })
+            .collect();
+        let mut distances = Vec::new();
+        for (i, a) in places.iter().enumerate() {
+            for b in &places[i + 1..] {
+                let gaps = [g.sub(a[0], b[0]), g.sub(a[1], b[1])].map(|gap| g.square(gap));
+                let sum = g.add(gaps[0], gaps[1]);
+                distances.push(g.sqrt(sum));
+            }
+        }
+        let radicands = Radicands::of(&g, &distances);
+        for seed in 0..4 {
+            assert!(g.evaluate_in_field(&distances, &radicands.point(&g, seed)).is_ok());
+        }
+    }
+}
