@@ -46,6 +46,7 @@ pub use mutate::{Collection, Random, minimised};
 use nonholonomic_core::model::Model;
 use nonholonomic_core::system::System;
 use proc_macro2::TokenStream;
+use quote::quote;
 pub use tokens::{errors, length};
 
 use emit::Layout;
@@ -56,6 +57,26 @@ impl Declaration {
     #[must_use]
     pub fn expanded(&self) -> TokenStream {
         expand::nonholonomic(self.attribute.clone(), self.item.clone())
+    }
+
+    /// What `quotient!` makes of this system and what is written between its braces.
+    #[must_use]
+    pub fn quotient(&self, written: &TokenStream) -> TokenStream {
+        let full = self.handed_over();
+        quotient::quotient(quote!(#full #written))
+    }
+
+    /// What `morphism!` makes of this system, another one, and what is written between its braces.
+    #[must_use]
+    pub fn morphism(&self, target: &Self, written: &TokenStream) -> TokenStream {
+        let (source, target) = (self.handed_over(), target.handed_over());
+        morphism::morphism(quote!(#target #source #written))
+    }
+
+    /// As the macro beside the struct hands it over.
+    fn handed_over(&self) -> TokenStream {
+        let (attribute, item) = (&self.attribute, &self.item);
+        quote!(declaration { { #attribute } { #item } })
     }
 
     /// The declaration with its names resolved: what the engine reads.

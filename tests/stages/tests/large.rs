@@ -1,7 +1,8 @@
 //! Declarations of any size are compiled or refused, by work that is counted.
 
-use nh_stages::{Verdict, families, judged};
-use nonholonomic_core::limits::{WORK, spent, within_limits};
+use nh_stages::{Declaration, Verdict, declarations, errors, families, judged};
+use nonholonomic_core::limits::{Subject, WORK, spent, within, within_limits};
+use proc_macro2::TokenStream;
 
 /// All families at their least size, at which nothing is refused for its size.
 #[test]
@@ -11,7 +12,7 @@ fn ordinary_sizes_are_compiled() {
         let expanded = within_limits(|| (declaration.expanded(), spent()));
         let (items, work) =
             expanded.unwrap_or_else(|too_large| panic!("{}: {}", family.name, too_large.what()));
-        for error in nh_stages::errors(&items) {
+        for error in errors(&items) {
             assert!(!error.contains("too large"), "{}: {error}", family.name);
         }
         assert!(work < WORK / 4, "{}: {work} steps", family.name);
@@ -47,7 +48,7 @@ fn work_has_ceilings() {
     ] {
         let family = families().find(|family| family.name == name).expect(name);
         let declaration = family.member(size);
-        let work = within_limits(|| (nh_stages::errors(&declaration.expanded()), spent()));
+        let work = within_limits(|| (errors(&declaration.expanded()), spent()));
         let (errors, work) = work.unwrap_or_else(|too_large| panic!("{name}: {}", too_large.what()));
         assert!(errors.is_empty(), "{name}: {errors:?}");
         assert!(work <= thousands * 1000, "{name} {size}: {} thousand steps", work / 1000);
@@ -57,10 +58,56 @@ fn work_has_ceilings() {
 /// The refusal names what is too large, by how much, and what can be done.
 #[test]
 fn the_refusal_of_a_dense_anchor_names_its_brackets() {
-    let family = families().find(|family| family.name == "dense anchor of sines").expect("a family");
-    assert_eq!(
-        nh_stages::errors(&family.member(30).expanded()),
-        ["this declaration is too large, because the brackets would take expressions of more than 2500000 \
-          entries\nhelp: use a basis whose brackets are short: that of the coordinates, or of a known algebra"]
+    assert_eq!(errors(&dense_anchor().expanded()), [REFUSED]);
+}
+
+/// A map or a quotient of a system that is too large is refused likewise.
+#[test]
+fn maps_and_quotients_have_the_limits_of_declarations() {
+    let full = dense_anchor();
+    let quotient = full.quotient(&tokens(&format!("{} -> struct Reduced by {{ x[0] }}", full.name)));
+    assert_eq!(errors(&quotient), [REFUSED]);
+    let map = tokens(&format!("{0} -> {0} {{ base {{ x = x; }} velocities {{ v = v; }} }}", full.name));
+    assert_eq!(errors(&full.morphism(&full, &map)), [REFUSED]);
+}
+
+/// Where the two systems are small and what relates them is not, the refusal names that.
+#[test]
+fn maps_and_quotients_are_named_where_they_take_too_much() {
+    let system =
+        "#[nonholonomic(base { x, y } lagrangian { m / 2 * (der(x)^2 + der(y)^2) })] struct A { m: f64 }";
+    let [full] = declarations(system).try_into().expect("one declaration");
+    let map = tokens(
+        "A -> A { base { x = x; y = y; } velocities { x_dot = der(x); y_dot = der(y); } parameters { m = m; } }",
     );
+    let quotient = tokens("A -> struct B by { y }");
+    assert!(subjects(|| full.morphism(&full, &map)).contains(&Subject::Map));
+    assert!(subjects(|| full.quotient(&quotient)).contains(&Subject::Quotient));
+}
+
+const REFUSED: &str = "this declaration is too large, because the brackets would take expressions of more than \
+                       2500000 entries\nhelp: use a basis whose brackets are short: that of the coordinates, or \
+                       of a known algebra";
+
+fn dense_anchor() -> Declaration {
+    families().find(|family| family.name == "dense anchor of sines").expect("a family").member(30)
+}
+
+fn tokens(written: &str) -> TokenStream {
+    written.parse().expect("tokens")
+}
+
+/// What takes the last of the work, for every amount of it that is not enough.
+fn subjects(expansion: impl Fn() -> TokenStream) -> Vec<Subject> {
+    let mut found = Vec::new();
+    for work in 1.. {
+        match within(work, &expansion) {
+            Err(too_large) => found.push(too_large.subject),
+            Ok(items) => {
+                assert_eq!(errors(&items), <[String; 0]>::default());
+                break;
+            }
+        }
+    }
+    found
 }
