@@ -10,21 +10,21 @@ macro_rules! __nh_serde_impls {
     ($path:literal, $text:literal, { $(#[$allow:meta])* } $name:ident [$(<$t:ident>)?] {
         $($field:ident: $type:ty,)*
     }) => {
+        $(#[$allow])*
         const _: () = {
             mod mirror {
                 #[derive($crate::__private::serde::Serialize, $crate::__private::serde::Deserialize)]
                 #[serde(crate = $path, rename = $text)]
-                $(#[$allow])*
                 pub(super) struct Mirror $(<$t>)? { $(pub(super) $field: $type,)* }
             }
             #[automatically_derived]
             impl $(<$t: $crate::Scalar + $crate::__private::serde::Serialize>)?
                 $crate::__private::serde::Serialize for $name $(<$t>)?
             {
-                fn serialize<S: $crate::__private::serde::Serializer>(
+                fn serialize<__S: $crate::__private::serde::Serializer>(
                     &self,
-                    serializer: S,
-                ) -> $crate::__private::core::result::Result<S::Ok, S::Error> {
+                    serializer: __S,
+                ) -> $crate::__private::core::result::Result<__S::Ok, __S::Error> {
                     let mirror = mirror::Mirror { $($field: self.$field,)* };
                     $crate::__private::serde::Serialize::serialize(&mirror, serializer)
                 }
@@ -33,9 +33,9 @@ macro_rules! __nh_serde_impls {
             impl<'de $(, $t: $crate::Scalar + $crate::__private::serde::Deserialize<'de>)?>
                 $crate::__private::serde::Deserialize<'de> for $name $(<$t>)?
             {
-                fn deserialize<D: $crate::__private::serde::Deserializer<'de>>(
-                    deserializer: D,
-                ) -> $crate::__private::core::result::Result<Self, D::Error> {
+                fn deserialize<__D: $crate::__private::serde::Deserializer<'de>>(
+                    deserializer: __D,
+                ) -> $crate::__private::core::result::Result<Self, __D::Error> {
                     let mirror = <mirror::Mirror $(<$t>)? as
                         $crate::__private::serde::Deserialize<'de>>::deserialize(deserializer)?;
                     $crate::__private::core::result::Result::Ok(Self { $($field: mirror.$field,)* })

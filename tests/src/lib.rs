@@ -6,6 +6,7 @@ pub mod dual;
 pub mod hygiene;
 pub mod random;
 pub mod reference;
+pub mod silent;
 pub mod systems;
 pub mod trajectories;
 pub mod twins;

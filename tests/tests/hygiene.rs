@@ -6,6 +6,7 @@ use nh_tests::hygiene::narrow::{acceleration, oscillation};
 use nh_tests::hygiene::shadowed::{
     Body, BodyState, Drop, DropState, Ferry, FerryState, Sleigh, SleighInput, SleighState,
 };
+use nh_tests::silent::{narrow, underscores};
 use nonholonomic::Energy;
 
 const EXACT: f64 = 1e-14;
@@ -75,4 +76,16 @@ fn phase_space_does_not_collide_either() {
 fn narrow_items_and_user_macros_work() {
     assert!((acceleration(0.4, 9.0) + 9.0 * 0.4_f64.sin()).abs() < EXACT);
     assert!((oscillation(2.0) + 6.0).abs() < EXACT);
+}
+
+#[test]
+fn odd_names_and_narrow_items_compute_what_others_do() {
+    // a weight of 2 on a mass of 1, a weight of 4, and a force of 1/2 against a weight of 8
+    assert!((narrow::sum() + 2.0 + 4.0 + 7.5).abs() < EXACT);
+    let under = underscores::Under { _m: 2.0, __k: 3.0, k_: 4.0, _unused: 5.0 };
+    let state = underscores::UnderState { _x: 0.5, ___dot: 6.0, ..underscores::UnderState::default() };
+    let rate = under.derivative(0.0, &state, &underscores::UnderInput { _u: 1.0, _unused_input: 9.0 });
+    assert!((rate._x_dot + 1.0).abs() < EXACT, "{rate:?}");
+    assert!((rate.w___dot + 2.0).abs() < EXACT, "{rate:?}");
+    assert!((rate.__ - 6.0).abs() < EXACT, "{rate:?}");
 }

@@ -6,6 +6,7 @@ use quote::{ToTokens, quote};
 use syn::{GenericParam, Generics};
 
 use super::layout::{Family, Layout, local};
+use super::lint::inherited;
 use super::record::{Field, Record};
 use crate::syntax::ast;
 
@@ -18,6 +19,8 @@ pub(super) struct Context<'a> {
     pub(super) scalar: TokenStream,
     /// The struct's visibility, with spans that belong to the macro.
     pub(super) visibility: TokenStream,
+    /// The attributes of all generated items.
+    pub(super) lints: TokenStream,
     /// The struct's generics, with the scalar bound.
     pub(super) generics: Generics,
     pub(super) state: Record,
@@ -59,6 +62,7 @@ impl<'a> Context<'a> {
         Self {
             scalar: layout.scalar_type(),
             visibility: respan(layout.visibility.to_token_stream()),
+            lints: inherited(&layout.attributes),
             generics,
             state: Record {
                 name: layout.types.state.clone(),
@@ -134,9 +138,10 @@ impl<'a> Context<'a> {
 
     /// `impl … Trait for Sleigh { body }`.
     pub(super) fn implement(&self, of: &TokenStream, body: &TokenStream) -> TokenStream {
-        let name = &self.layout.name;
+        let (name, lints) = (&self.layout.name, &self.lints);
         let (impl_generics, ty_generics, where_clause) = self.generics.split_for_impl();
         quote! {
+            #lints
             #[automatically_derived]
             impl #impl_generics #of for #name #ty_generics #where_clause { #body }
         }
@@ -144,11 +149,11 @@ impl<'a> Context<'a> {
 
     /// `impl Sleigh { body }`.
     pub(super) fn inherent(&self, body: &TokenStream) -> TokenStream {
-        let name = &self.layout.name;
+        let (name, lints) = (&self.layout.name, &self.lints);
         let (impl_generics, ty_generics, where_clause) = self.generics.split_for_impl();
         // a group takes the tokens as they are, where quoting them copies each
         let body = Group::new(Delimiter::Brace, body.clone());
-        quote!(impl #impl_generics #name #ty_generics #where_clause #body)
+        quote!(#lints impl #impl_generics #name #ty_generics #where_clause #body)
     }
 }
 

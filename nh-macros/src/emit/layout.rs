@@ -23,6 +23,8 @@ pub(crate) struct Layout {
     pub(crate) item: TokenStream,
     /// The struct as it was written, for the macro that hands the declaration on.
     pub(crate) written: TokenStream,
+    /// The attributes of the struct and of its fields.
+    pub(crate) attributes: Vec<syn::Attribute>,
     /// The struct's name.
     pub(crate) name: Ident,
     /// Its visibility, which generated items take over.
@@ -165,6 +167,7 @@ impl Layout {
             attribute,
             item: structure.item.clone(),
             written: structure.written.clone(),
+            attributes: structure.attributes.clone(),
             name: structure.name.clone(),
             visibility: structure.visibility.clone(),
             generics: structure.generics.clone(),

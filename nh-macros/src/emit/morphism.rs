@@ -10,6 +10,7 @@ use quote::quote;
 use super::context::Context;
 use super::function::program;
 use super::layout::Layout;
+use super::lint::inherited;
 use super::program::{Body, body};
 use super::record::{Field, Record};
 use super::scope::{Argument, Scope};
@@ -42,7 +43,9 @@ pub(crate) fn morphism(
     let functions = map.reduction();
     let back = reduction.reconstruction.as_ref().map(|back| map.reconstruction(back));
     // one list has tokens of two declarations, on far lines
+    let (of_source, of_target) = (&context.lints, &target_context.lints);
     Ok(quote! {
+        #of_source #of_target
         #[allow(non_local_definitions, unused_qualifications, clippy::possible_missing_comma)]
         const _: () = { #functions #back };
     })
@@ -56,8 +59,9 @@ pub(crate) fn morphism_stub(
 ) -> Option<TokenStream> {
     let (source, target) = one_scalar(declaration, source, target).ok()?;
     let context = Context::new(&source, &[], &[]);
-    let Context { runtime, scalar, .. } = &context;
+    let Context { runtime, scalar, lints, .. } = &context;
     let types = Types::of(declaration, &source, &target);
+    let of_target = inherited(&target.attributes);
     let target = &types.target;
     let dynamics = quote!(#runtime::Dynamics);
     let items = quote! {
@@ -73,7 +77,7 @@ pub(crate) fn morphism_stub(
         }
     };
     let implementation = implement(&context, &types, &quote!(#runtime::Reduction<#target>), &items);
-    Some(quote!(#[allow(unused_qualifications)] const _: () = { #implementation };))
+    Some(quote!(#lints #of_target #[allow(unused_qualifications)] const _: () = { #implementation };))
 }
 
 /// `impl … for Full`.

@@ -63,7 +63,7 @@ fn items(
     (inlining, rest): (&TokenStream, &TokenStream),
     [has_energy, has_jacobian]: [bool; 2],
 ) -> Part {
-    let Context { runtime, scalar, visibility, layout, .. } = context;
+    let Context { runtime, scalar, visibility, layout, lints, .. } = context;
     let (t, state, input) = (&context.locals.t, &context.locals.state, &context.locals.input);
     let (state_type, input_type) = (context.type_of(&context.state), context.input_type());
     let name = &layout.name;
@@ -71,11 +71,10 @@ fn items(
     let (impl_generics, ty_generics, where_clause) = context.generics.split_for_impl();
     let length = Literal::usize_unsuffixed(count);
     let values = local("values");
-    let docs = [
+    let [doc, doc_of_prepare] = [
         format!(" [`{name}`] with what depends on its parameters alone computed ahead."),
         format!(" The same system as the [`{name}`] that it was made from, parameters included."),
     ];
-    let [doc, doc_of_prepare] = docs;
     let methods = quote! {
         #[doc = #doc_of_prepare]
         #[must_use]
@@ -102,10 +101,12 @@ fn items(
     let mut items = quote! {
         #[doc = #doc]
         #[derive(::core::clone::Clone, ::core::marker::Copy)]
+        #lints
         #visibility struct #prepared #impl_generics #where_clause {
             system: #name #ty_generics,
             values: [#scalar; #length],
         }
+        #lints
         #[automatically_derived]
         impl #impl_generics #runtime::Dynamics for #prepared #ty_generics #where_clause {
             type State = #state_type;
@@ -130,6 +131,7 @@ fn items(
     };
     if has_energy {
         items.extend(quote! {
+            #lints
             #[automatically_derived]
             impl #impl_generics #runtime::Energy for #prepared #ty_generics #where_clause {
                 #[inline]
@@ -143,6 +145,7 @@ fn items(
         let (n, m) = (context.state.len(), context.input.as_ref().map_or(0, super::record::Record::len));
         let (n, m) = (Literal::usize_unsuffixed(n), Literal::usize_unsuffixed(m));
         items.extend(quote! {
+            #lints
             #[automatically_derived]
             impl #impl_generics #runtime::Jacobian for #prepared #ty_generics #where_clause {
                 type InputDim = #runtime::D<#m>;

@@ -166,7 +166,7 @@ impl Record {
 
     /// The struct and the conversions that it has apart from any system.
     pub(super) fn emit(&self, context: &Context) -> TokenStream {
-        let Context { visibility, scalar, .. } = context;
+        let Context { visibility, scalar, lints, .. } = context;
         let (name, doc) = (&self.name, format!(" {}", self.doc));
         let generics = context.record_generics();
         let is_long = self.fields.iter().any(|field| field.lengths.iter().any(|length| *length > LONG));
@@ -188,6 +188,7 @@ impl Record {
                 ::core::clone::Clone, ::core::marker::Copy, ::core::fmt::Debug #equality #default
             )]
             #allow
+            #lints
             #visibility struct #name #generics { #(#fields,)* }
             #equality_of_parameter
             #conversions
@@ -197,10 +198,12 @@ impl Record {
 
     /// `PartialEq`, field by field.
     fn equality(&self, context: &Context) -> TokenStream {
-        let (generics, record) = (context.record_impl_generics(), context.type_of(self));
+        let (generics, record, lints) =
+            (context.record_impl_generics(), context.type_of(self), &context.lints);
         let other = local("other");
         let fields = self.fields.iter().map(|field| &field.ident);
         quote! {
+            #lints
             impl #generics ::core::cmp::PartialEq for #record {
                 fn eq(&self, #other: &Self) -> ::core::primitive::bool {
                     true #(&& self.#fields == #other.#fields)*
@@ -211,7 +214,7 @@ impl Record {
 
     /// To and from arrays and nalgebra's vectors.
     fn conversions(&self, context: &Context) -> TokenStream {
-        let Context { runtime, scalar, .. } = context;
+        let Context { runtime, scalar, lints, .. } = context;
         let generics = context.record_impl_generics();
         let record = context.type_of(self);
         let length = Literal::usize_unsuffixed(self.len());
@@ -221,16 +224,19 @@ impl Record {
         let tokens: Vec<_> = components.iter().map(ToTokens::to_token_stream).collect();
         let built = self.construct(&quote!(Self), &tokens);
         quote! {
+            #lints
             #[automatically_derived]
             impl #generics ::core::convert::From<#record> for [#scalar; #length] {
                 #[inline]
                 fn from(#value: #record) -> Self { [#(#places),*] }
             }
+            #lints
             #[automatically_derived]
             impl #generics ::core::convert::From<[#scalar; #length]> for #record {
                 #[inline]
                 fn from([#(#components),*]: [#scalar; #length]) -> Self { #built }
             }
+            #lints
             #[automatically_derived]
             impl #generics ::core::convert::From<#record> for #runtime::nalgebra::SVector<#scalar, #length> {
                 #[inline]
@@ -238,6 +244,7 @@ impl Record {
                     ::core::convert::From::<[#scalar; #length]>::from(::core::convert::From::from(#value))
                 }
             }
+            #lints
             #[automatically_derived]
             impl #generics ::core::convert::From<#runtime::nalgebra::SVector<#scalar, #length>> for #record {
                 #[inline]
@@ -250,7 +257,7 @@ impl Record {
 
     /// `Default` for arrays that have none.
     fn long_default(&self, context: &Context) -> TokenStream {
-        let Context { runtime, scalar, .. } = context;
+        let Context { runtime, scalar, lints, .. } = context;
         let (generics, record) = (context.record_impl_generics(), context.type_of(self));
         let zero = quote!(<#scalar as #runtime::Scalar>::ZERO);
         let fields = self.fields.iter().map(|field| {
@@ -262,6 +269,7 @@ impl Record {
             quote!(#ident: #value)
         });
         quote! {
+            #lints
             #[automatically_derived]
             impl #generics ::core::default::Default for #record {
                 fn default() -> Self { Self { #(#fields),* } }
@@ -271,7 +279,7 @@ impl Record {
 
     /// Hands the struct to the runtime, which knows whether its `serde` feature is on.
     fn serde(&self, context: &Context) -> TokenStream {
-        let Context { runtime, scalar, .. } = context;
+        let Context { runtime, scalar, lints, .. } = context;
         let path = format!("{runtime}::serde").replace(' ', "");
         let (name, text) = (&self.name, plain(&self.name));
         let parameter = context.parameter().map(|parameter| quote!(<#parameter>));
@@ -282,7 +290,7 @@ impl Record {
         });
         quote! {
             #runtime::serde_impls! {
-                #path, #text, { #allow } #name [#parameter] { #(#fields,)* }
+                #path, #text, { #allow #lints } #name [#parameter] { #(#fields,)* }
             }
         }
     }

@@ -60,7 +60,8 @@ pub(super) fn item(context: &Context, equations: &[String]) -> TokenStream {
     }
     let allow = allow_for(context.layout.parameters.iter().map(|family| &family.ident));
     let (attributes, rest) = (attributes.into_iter(), rest.into_iter());
-    quote!(#(#attributes)* #(#[doc = #lines])* #allow #(#rest)*)
+    // what the user writes comes later and prevails: an expectation of theirs is met
+    quote!(#allow #(#attributes)* #(#[doc = #lines])* #(#rest)*)
 }
 
 /// The tokens of the attributes of an item, and the others.

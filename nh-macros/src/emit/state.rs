@@ -13,13 +13,14 @@ pub(super) fn emit(context: &Context) -> TokenStream {
 
 /// `impl State` for a record.
 pub(super) fn of(context: &Context, record: &Record) -> TokenStream {
-    let Context { runtime, scalar, .. } = context;
+    let Context { runtime, scalar, lints, .. } = context;
     let generics = context.record_impl_generics();
     let state = context.type_of(record);
     let length = Literal::usize_unsuffixed(record.len());
     let names = record.names();
     let components = super::layout::local("components");
     quote! {
+        #lints
         #[automatically_derived]
         impl #generics #runtime::State for #state {
             type Scalar = #scalar;

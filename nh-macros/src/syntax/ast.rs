@@ -101,6 +101,8 @@ pub(crate) struct StructDecl {
     pub(crate) item: TokenStream,
     /// The item as it was written.
     pub(crate) written: TokenStream,
+    /// The attributes of the struct and of its fields.
+    pub(crate) attributes: Vec<syn::Attribute>,
     /// The struct's name, where errors about the whole declaration point.
     pub(crate) name: Ident,
     /// The visibility, which generated types take over.

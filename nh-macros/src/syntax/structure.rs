@@ -62,7 +62,7 @@ pub(crate) fn structure(item: TokenStream, errors: &mut Errors) -> Option<Struct
         return None;
     }
     let input = errors.keep(syn::parse2::<DeriveInput>(item).map_err(Diagnostic::from))?;
-    let fields = match &input.data {
+    let fields: Vec<&syn::Field> = match &input.data {
         Data::Struct(data) => match &data.fields {
             Fields::Named(fields) => fields.named.iter().collect(),
             Fields::Unit => Vec::new(),
@@ -93,17 +93,20 @@ pub(crate) fn structure(item: TokenStream, errors: &mut Errors) -> Option<Struct
     let mut reader = FieldReader { generics: &input.generics, scalar: None };
     let mut parameters = Vec::new();
     let mut skipped = Vec::new();
-    for field in fields {
+    for field in &fields {
         match reader.field(field) {
             Ok(Some(parameter)) => parameters.push(parameter),
             Ok(None) => skipped.extend(field.ident.clone().map(Name::new)),
             Err(error) => errors.push(error),
         }
     }
+    let of_fields = fields.iter().flat_map(|field| &field.attrs);
+    let attributes = input.attrs.iter().chain(of_fields).cloned().collect();
     let scalar = reader.scalar.map_or(Scalar::F64, |(scalar, _)| scalar);
     Some(StructDecl {
         item: stripped,
         written,
+        attributes,
         name: input.ident,
         visibility: input.vis,
         generics: input.generics,

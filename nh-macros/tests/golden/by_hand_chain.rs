@@ -1,9 +1,9 @@
+#[allow(non_snake_case)]
 /// # Equations of motion
 ///
 /// ```text
 /// x' = …
 /// ```
-#[allow(non_snake_case)]
 pub struct Chain<T = f64> {
     /// Inertias.
     pub I: [[T; 2]; 2],

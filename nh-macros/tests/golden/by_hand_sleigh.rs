@@ -1,3 +1,4 @@
+#[allow(non_snake_case)]
 /// A rigid body on a plane, carried by a knife edge.
 #[derive(Clone, Copy, Debug)]
 ///
@@ -6,7 +7,6 @@
 /// ```text
 /// x' = …
 /// ```
-#[allow(non_snake_case)]
 pub struct Sleigh {
     /// Mass.
     pub m: f64,

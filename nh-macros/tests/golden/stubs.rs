@@ -1,6 +1,6 @@
+#[allow(non_snake_case)]
 /// A rigid body on a plane, carried by a knife edge.
 #[derive(Clone, Copy, Debug)]
-#[allow(non_snake_case)]
 pub struct Sleigh {
     /// Mass.
     pub m: f64,
