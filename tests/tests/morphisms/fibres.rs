@@ -87,6 +87,7 @@ quotient! { Lawless -> #[derive(Clone, Copy, Debug)] struct LawlessHeading by { 
 #[test]
 fn rows_of_a_rotation() {
     let (sin, cos) = 0.5_f64.sin_cos();
+    #[allow(non_snake_case, reason = "as the coordinates are called")]
     let R = [[cos, 0.0, sin], [0.0, 1.0, 0.0], [-sin, 0.0, cos]];
     let rows = Rows { A: 0.7, m: 1.2, c: [0.1, 0.2, 0.7] };
     let start = RowsState { R, w: [0.4, 0.7, -0.3] };
