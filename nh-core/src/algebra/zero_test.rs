@@ -131,7 +131,12 @@ impl Graph {
         match in_field {
             // the sign of a root on the reals had the last word: `sqrt(x^2) − x`
             Ok(true) => Verdict::Zero,
-            _ if self.vanishes_on_reals(expression) => Verdict::Zero,
+            // nothing else vanishes on the reals that does not in the field
+            _ if (in_field.is_err() || self.is_beyond_field(&[expression]))
+                && self.vanishes_on_reals(expression) =>
+            {
+                Verdict::Zero
+            }
             Ok(false) => {
                 Verdict::Unknown("it is zero at every point tried, but not by any identity known here".into())
             }
