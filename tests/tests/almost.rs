@@ -95,8 +95,11 @@ struct Declared<const N: usize, const S: usize, const K: usize> {
     lagrangian: fn(f64, [f64; N], [f64; S]) -> f64,
     force: fn([f64; S]) -> [f64; S],
     /// Rows Φ, b.
-    constraints: fn(f64, [f64; N]) -> [([f64; S], f64); K],
+    constraints: fn(f64, [f64; N]) -> [Row<S>; K],
 }
+
+/// A row of Φ, and its b.
+type Row<const S: usize> = ([f64; S], f64);
 
 /// The derivative of a function of one number, by differences of sixth order.
 fn slope(f: impl Fn(f64) -> f64) -> f64 {
@@ -175,8 +178,9 @@ fn solved(mut rows: Vec<Vec<f64>>, mut right: Vec<f64>) -> Vec<f64> {
         right.swap(i, pivot);
         for k in (0..n).filter(|k| *k != i) {
             let factor = rows[k][i] / rows[i][i];
-            for j in 0..n {
-                rows[k][j] -= factor * rows[i][j];
+            let pivots = rows[i].clone();
+            for (entry, pivot) in rows[k].iter_mut().zip(pivots) {
+                *entry -= factor * pivot;
             }
             right[k] -= factor * right[i];
         }
@@ -261,7 +265,7 @@ fn lagrangian(_: f64, at: [f64; 3], velocity: [f64; 4]) -> f64 {
     let (north, east) = (y_dot + L * q.cos() * w, x_dot - L * q.sin() * w);
     M / 2.0 * (east * east + north * north)
         + J / 2.0 * w * w
-        + (1.0 + x * x) / 2.0 * s * s
+        + s * s * (1.0 + x * x) / 2.0
         + M / 2.0 * (u * u + v * v)
         + L * u * s * y
         - C * q.cos() * x

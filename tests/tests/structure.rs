@@ -128,10 +128,10 @@ fn steps() {
     for length in [1e6, 1e9, 1e12, 1e18, 1e100] {
         match DiscreteGradient::step(&CONTACT, 0.0, length, &start, &()) {
             Ok(state) => {
-                assert!((CONTACT.energy(length, &state) - energy).abs() < 1e-12 * energy, "{length}")
+                assert!((CONTACT.energy(length, &state) - energy).abs() < 1e-12 * energy, "{length}");
             }
             Err(IntegrationError::NoConvergence { .. } | IntegrationError::NonFiniteStep { .. }) => {
-                refused += 1
+                refused += 1;
             }
             Err(error) => panic!("{length}: {error:?}"),
         }

@@ -12,23 +12,28 @@ use crate::id::{ExprId, Id, SymbolId};
 use num_integer::Integer;
 use std::collections::BTreeMap;
 
-/// The radicands of square roots, by the last of their symbols.
+/// The radicands of square roots, by the last of their symbols that may be chosen.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Radicands {
     completed: BTreeMap<SymbolId, Vec<ExprId>>,
 }
 
-/// Trials for one symbol: enough for a dozen radicands.
-const TRIALS: u64 = 1 << 14;
+/// Trials for one symbol, for each of the patterns that the radicands waiting for it may have: a radicand that is no
+/// square whatever the symbol is, is given up after these.
+const TRIALS: u64 = 16;
+/// More radicands than this do not wait for one symbol together.
+const TOGETHER: usize = 10;
 
 impl Radicands {
-    /// Those of even roots in expressions.
-    pub(crate) fn of(graph: &Graph, expressions: &[ExprId]) -> Self {
+    /// Those of even roots in expressions. Some symbols may not be chosen, since others determine them.
+    pub(crate) fn of(graph: &Graph, expressions: &[ExprId], determined: &[SymbolId]) -> Self {
         let mut completed: BTreeMap<SymbolId, Vec<ExprId>> = BTreeMap::new();
         for id in graph.reachable(expressions) {
             let Node::Product { factors, .. } = graph.node(id) else { continue };
             for (base, exponent) in factors.iter() {
-                let last = graph.symbols_in(&[*base]).into_iter().max();
+                let free =
+                    graph.symbols_in(&[*base]).into_iter().filter(|symbol| !determined.contains(symbol));
+                let last = free.max();
                 let is_even = !exponent.is_integer() && exponent.denominator().is_even();
                 if let (true, Some(last)) = (is_even, last) {
                     let radicands = completed.entry(last).or_default();
@@ -45,7 +50,7 @@ impl Radicands {
     pub(crate) fn point(&self, graph: &Graph, seed: u64) -> FieldPoint {
         let mut point = FieldPoint::random(seed);
         for (symbol, radicands) in &self.completed {
-            for trial in 0..TRIALS {
+            for trial in 0..TRIALS << radicands.len().min(TOGETHER) {
                 if trial > 0 {
                     let number = trial.wrapping_mul(0x1_0001).wrapping_add(symbol.index() as u64);
                     point.chosen.insert(*symbol, Residue::mixed(!seed, number));
@@ -83,7 +88,7 @@ mod tests {
                 distances.push(g.sqrt(sum));
             }
         }
-        let radicands = Radicands::of(&g, &distances);
+        let radicands = Radicands::of(&g, &distances, &[]);
         for seed in 0..4 {
             assert!(g.evaluate_in_field(&distances, &radicands.point(&g, seed)).is_ok());
         }

@@ -112,7 +112,7 @@ pub(crate) fn prove(graph: &Graph, reference: &Reference, claim: &Claim) -> Resu
     let division = graph.angle_division(&roots);
     let degree = claim.degree(&mut Degrees::new(graph, division));
     let bits = bits_of_a_point(graph, &roots, reference.degree(graph, division, degree))?;
-    let radicands = Radicands::of(graph, &reference.roots(graph));
+    let radicands = Radicands::of(graph, &reference.roots(graph), &reference.determined());
     at_points(
         bits,
         |seed| radicands.point(graph, seed),

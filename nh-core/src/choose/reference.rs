@@ -83,6 +83,14 @@ impl Reference {
         Self { system: system.clone(), calls, residuals, velocities, reduced: true }
     }
 
+    /// The symbols whose values follow from others: velocities, and results of calls.
+    pub(crate) fn determined(&self) -> Vec<SymbolId> {
+        let Velocities { state, determined, .. } = &self.velocities;
+        let velocities = self.system.algebroid.velocities.iter().chain(state).copied();
+        let others = determined.iter().map(|(symbol, _)| *symbol);
+        velocities.chain(others).chain(self.calls.iter().map(|call| call.symbol)).collect()
+    }
+
     /// On all of E, with multipliers: (9).
     pub(crate) fn projected(
         graph: &mut Graph,
