@@ -1,7 +1,7 @@
 //! Facts about parameters, and contradictions among them.
 
 use super::evidence::listed;
-use crate::algebra::{Contradiction, Demand, Facts, Graph, Range};
+use crate::algebra::{Bounded, Contradiction, Demand, Facts, Graph, Range, Residue, sample};
 use crate::id::{ExprId, SymbolId};
 use crate::model::{Assumption, Model, Relation};
 use crate::violation::{Law, Violation};
@@ -40,6 +40,55 @@ pub fn facts(model: &mut Model) -> Result<Facts, Vec<Violation>> {
         facts.symbols.insert(symbol, known.intersection(range));
     }
     if violations.is_empty() { Ok(facts) } else { Err(violations) }
+}
+
+/// Whether no parameters are known that satisfy all assumptions, although nothing contradicts these: what is assumed
+/// is then accepted undecided.
+#[must_use]
+pub fn undecided(model: &Model, facts: &Facts) -> bool {
+    /// Machines that are tried, and the decades over which their parameters are spread.
+    const MACHINES: u64 = 400;
+    const DECADES: u64 = 9;
+    let sides: Vec<ExprId> = model.assumptions.iter().flat_map(|fact| [fact.left, fact.right]).collect();
+    if sides.is_empty() {
+        return false;
+    }
+    let graph = &model.graph;
+    let symbols = graph.symbols_in(&sides);
+    let parameter = |machine: u64, index: usize, symbol: SymbolId| -> f64 {
+        let number = sample(machine, index);
+        let decade = Residue::mixed(machine, 1000 + index as u64).word() % DECADES;
+        let number = if machine < MACHINES / 2 {
+            number
+        } else {
+            number * 10.0_f64.powi(i32::try_from(decade).unwrap_or(0) - 4)
+        };
+        let range = facts.symbols.get(&symbol).copied().unwrap_or(Range::ALL);
+        match (range.low.is_finite(), range.high.is_finite()) {
+            (true, true) => range.low + (range.high - range.low) * (number.abs() / (1.0 + number.abs())),
+            (true, false) => range.low + number.abs(),
+            (false, true) => range.high - number.abs(),
+            (false, false) => number,
+        }
+    };
+    (0..MACHINES).all(|machine| {
+        let value = |symbol: SymbolId| {
+            let index = symbols.iter().position(|known| *known == symbol).unwrap_or_default();
+            parameter(machine, index, symbol)
+        };
+        let values = graph.evaluate(&sides, value);
+        let broken = |(fact, pair): (&Assumption, &[Bounded])| {
+            let (left, right) = (pair[0].value, pair[1].value);
+            !match fact.relation {
+                Relation::Greater => left > right,
+                Relation::GreaterOrEqual => left >= right,
+                Relation::Less => left < right,
+                Relation::LessOrEqual => left <= right,
+                Relation::NotEqual => (left - right).abs() > 0.0,
+            }
+        };
+        model.assumptions.iter().zip(values.chunks(2)).any(broken)
+    })
 }
 
 /// An assumption as a demand on one expression.

@@ -23,7 +23,7 @@ mod structure_equations;
 mod symmetries;
 mod volume;
 
-pub use assumptions::facts;
+pub use assumptions::{facts, undecided};
 pub use brackets::structure_functions;
 pub use choice::{Chosen, choose_formulation};
 pub(crate) use choice::{eliminations, zeros};

@@ -3,7 +3,7 @@
 use super::{Derived, combination, shown};
 use crate::algebra::Graph;
 use crate::check::evidence::{counted, places};
-use crate::check::{BrokenLaws, Condition, Constraints, domain, not_conservative, singular_where};
+use crate::check::{BrokenLaws, Condition, Constraints, domain, not_conservative, singular_where, undecided};
 use crate::compile::Proved;
 use crate::geometry::{Drops, Rank};
 use crate::id::SymbolId;
@@ -37,6 +37,11 @@ pub(super) fn lines(proved: &mut Proved, derived: &Derived<'_>, reason: &str) ->
             let place = if text.contains('…') { "its determinant" } else { text.as_str() };
             lines.push(format!("{whom} singular where {place} = 0"));
         }
+    }
+    if undecided(model, facts) {
+        let doubt = "whether the assumptions can hold together was not decided: no parameters were found that satisfy \
+                     all of them, and no contradiction";
+        lines.push(doubt.into());
     }
     for condition in domain(model, facts) {
         lines.push(format!("the equations have a value only where {}", stated(&model.graph, condition)));

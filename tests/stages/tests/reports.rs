@@ -181,3 +181,17 @@ fn names_of_the_report_are_not_those_of_the_user() {
     );
     assert!(report.contains("\n  h_ = ") && report.contains("\n  p_x_dot_ = "), "{report}");
 }
+
+#[test]
+fn assumptions_that_were_not_decided_are_said_to_be() {
+    let particle = "base { x } lagrangian { (a^2 + b^2 + 1) / 2 * der(x)^2 }";
+    let doubt = "whether the assumptions can hold together was not decided";
+    let with = |assumptions: &str| format!("{particle} assume {{ {assumptions} }}");
+    check(&[
+        (&with("sin(a) > 0.9999999999; cos(b) > 0.9999999999;"), "a: f64, b: f64", &[doubt], &[]),
+        (&with("a > 1; b > 1; a * b < 4;"), "a: f64, b: f64", &[], &[doubt]),
+        (&with("a >= 1; a <= 1; b != 0;"), "a: f64, b: f64", &[], &[doubt]),
+        (&with("a > 1000; b < -1e-3;"), "a: f64, b: f64", &[], &[doubt]),
+        (particle, "a: f64, b: f64", &[], &[doubt]),
+    ]);
+}
