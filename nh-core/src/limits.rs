@@ -12,12 +12,11 @@ use std::any::Any;
 use std::cell::Cell;
 use std::panic::{AssertUnwindSafe, catch_unwind, resume_unwind};
 
-/// All work of one declaration. The largest system among the reference systems and examples takes a
-/// thirtieth of it; unoptimised this much is done in less than half a minute.
+/// All work of one declaration: chosen so that an unoptimised build refuses within half a minute what it does not
+/// compile.
 pub const WORK: u64 = 60_000_000;
 
-/// Entries of sums and products that are stored: with everything that refers to them some 200 bytes each, so
-/// that a derivation stays below a gibibyte.
+/// Entries of sums and products that are stored: chosen so that a derivation stays below a gibibyte.
 pub const STORED: u64 = 2_500_000;
 
 /// What a remark of the report may take that nothing else depends on: beyond it the report leaves it out.
