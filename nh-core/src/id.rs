@@ -5,6 +5,8 @@ use std::ops::{Index, IndexMut};
 
 /// A typed index into a [`Table`].
 pub trait Id: Copy + Eq + Ord + 'static {
+    /// The id of the first entry.
+    const FIRST: Self;
     /// The id of the entry at `index`.
     fn from_index(index: usize) -> Self;
     /// The position of the entry.
@@ -18,6 +20,7 @@ macro_rules! ids {
         pub struct $name(u32);
 
         impl Id for $name {
+            const FIRST: Self = Self(0);
             fn from_index(index: usize) -> Self {
                 Self(u32::try_from(index).expect("fewer than 2^32 entries"))
             }

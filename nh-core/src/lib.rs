@@ -24,4 +24,5 @@ pub mod program;
 pub mod reduction;
 pub mod report;
 pub mod system;
+pub mod units;
 pub mod violation;

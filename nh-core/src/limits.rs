@@ -14,7 +14,7 @@ use std::panic::{AssertUnwindSafe, catch_unwind, resume_unwind};
 
 /// All work of one declaration: chosen so that an unoptimised build refuses within half a minute what it does not
 /// compile.
-pub const WORK: u64 = 60_000_000;
+pub const WORK: u64 = 72_000_000;
 
 /// Entries of sums and products that are stored: chosen so that a derivation stays below a gibibyte.
 pub const STORED: u64 = 2_500_000;
@@ -131,6 +131,23 @@ fn caught<T>(reason: Box<dyn Any + Send>) -> Result<T, TooLarge> {
 #[must_use]
 pub fn spent() -> u64 {
     METER.get().map_or(0, |meter| meter.allowed - meter.work)
+}
+
+/// The seconds that this thread has spent on a processor, where the system tells (Linux). What is not counted as work
+/// shows there, however busy the machine is.
+#[must_use]
+pub fn processor_time() -> Option<f64> {
+    let text = std::fs::read_to_string("/proc/thread-self/schedstat").ok()?;
+    let nanoseconds: f64 = text.split(' ').next()?.parse().ok()?;
+    Some(nanoseconds * 1e-9)
+}
+
+/// What a computation gives, and the seconds of [`processor_time`] that it takes; 0 where no system tells.
+pub fn timed<T>(computation: impl FnOnce() -> T) -> (T, f64) {
+    let before = processor_time();
+    let result = computation();
+    let seconds = processor_time().zip(before).map_or(0.0, |(after, before)| after - before);
+    (result, seconds)
 }
 
 /// Does some work, unless it is too much.
@@ -266,6 +283,12 @@ mod tests {
         });
         let Ok((None::<()>, Some(()), spent)) = outcome else { panic!("{outcome:?}") };
         assert_eq!(spent, 1010);
+    }
+
+    #[test]
+    fn waiting_takes_no_time_of_the_processor() {
+        let ((), seconds) = timed(|| std::thread::sleep(std::time::Duration::from_millis(200)));
+        assert!(seconds < 0.1, "{seconds}");
     }
 
     #[test]

@@ -2,8 +2,16 @@
 //!
 //! Nothing is proved yet. Positions in the declaration are opaque [`Origin`]s.
 
+mod body;
+mod position;
+
+pub use body::{Attitude, Body, Inertia};
+pub use position::PositionDecl;
+
 use crate::algebra::{Facts, Graph};
+use crate::geometry::Clock;
 use crate::id::{ConstraintId, CoordId, ExprId, InputId, Origin, ParamId, SectionId, SymbolId, Table};
+use crate::units::Quantity;
 
 /// A declaration with its names resolved.
 #[derive(Clone, Debug)]
@@ -24,10 +32,18 @@ pub struct Model {
     pub sections: Table<SectionId, Section>,
     /// Control inputs.
     pub inputs: Table<InputId, Input>,
+    /// Auxiliary states z.
+    pub auxiliary: Vec<AuxiliaryDecl>,
     /// Identities f = 0 that embedded base coordinates satisfy (`on`).
     pub identities: Vec<Located>,
     /// What drops out of the declaration, as factors of 0 do, and has to be defined all the same.
     pub dropped: Vec<Located>,
+    /// What has to vanish on the base for words of the declaration to have their meaning.
+    pub claimed: Vec<Claimed>,
+    /// Entries of symmetric matrices that are one parameter: that above the diagonal, which is read, and that below.
+    pub symmetric: Vec<(ParamId, ParamId)>,
+    /// Bodies and material points whose kinetic energies are declared, mathematics (33).
+    pub bodies: Vec<Body>,
     /// How the anchor is given.
     pub kinematics: Kinematics,
     /// Declared brackets; known algebras are expanded by [`crate::geometry::KnownAlgebra`].
@@ -40,6 +56,10 @@ pub struct Model {
     pub frame: Vec<FrameDecl>,
     /// The Lagrangian L(t, x, y); rates ẋ^i may occur in it.
     pub lagrangian: Located,
+    /// Position constraints f = 0 (`holonomic`); their velocity forms are the first of the constraints.
+    pub positions: Vec<PositionDecl>,
+    /// Where the declaration says that some of them follow from others (`redundant`).
+    pub redundant: Option<Origin>,
     /// Constraints φ = 0.
     pub constraints: Table<ConstraintId, ConstraintDecl>,
     /// Sections that span D (`distribution`), by their velocity symbols, instead of constraints.
@@ -72,16 +92,29 @@ pub struct Model {
     pub orthonormal: Option<(Vec<SymbolId>, Origin)>,
     /// The formulation that the user asks for.
     pub formulation: Option<(Formulation, Origin)>,
+    /// The fields of the struct that stand in no expression.
+    pub idle: Vec<String>,
+    /// The units of what is declared, if `units` gives some.
+    pub units: Vec<Quantity>,
 }
 
 impl Model {
+    /// What changes whatever the velocity is.
+    #[must_use]
+    pub fn clock(&self) -> Clock {
+        let auxiliary = self.auxiliary.iter().map(|state| (state.symbol, state.rate)).collect();
+        Clock { time: self.time, auxiliary }
+    }
+
     /// Rewrites what is declared by the identities that hold under the facts.
     pub(crate) fn assume(&mut self, facts: &Facts) {
         let graph = &mut self.graph;
         let mut rewrite = |value: &mut ExprId| *value = graph.assuming(&[*value], facts)[0];
         rewrite(&mut self.lagrangian.value);
+        self.positions.iter_mut().for_each(|position| rewrite(&mut position.value));
         self.constraints.iter_mut().for_each(|constraint| rewrite(&mut constraint.residual));
         self.forces.iter_mut().for_each(|force| rewrite(&mut force.value));
+        self.auxiliary.iter_mut().for_each(|state| rewrite(&mut state.value));
         self.outputs.iter_mut().for_each(|output| rewrite(&mut output.value));
         self.claims.iter_mut().for_each(|claim| rewrite(&mut claim.value));
         for symmetry in &mut self.symmetries {
@@ -107,6 +140,21 @@ pub struct Located {
     pub value: ExprId,
     /// Where it stands.
     pub origin: Origin,
+}
+
+/// An expression that has to vanish on the base: an axis has length 1, an attitude is a rotation.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Claimed {
+    /// The expression.
+    pub value: ExprId,
+    /// Where it comes from.
+    pub origin: Origin,
+    /// What is said if it does not vanish.
+    pub what: String,
+    /// What it is of what the user wrote: the square of a length less 1.
+    pub measure: String,
+    /// What the user can do then.
+    pub way_out: String,
 }
 
 /// A scalar parameter.
@@ -152,6 +200,21 @@ pub struct Input {
     /// Its symbol.
     pub symbol: SymbolId,
     /// Where it is declared.
+    pub origin: Origin,
+}
+
+/// An auxiliary state z with ż = g(t, x, y, z, u): a current, a lag, a filter.
+#[derive(Clone, Debug)]
+pub struct AuxiliaryDecl {
+    /// `current`, or `slip[0]`.
+    pub name: String,
+    /// The state z.
+    pub symbol: SymbolId,
+    /// What stands for ż.
+    pub rate: SymbolId,
+    /// g; t, x, y, rates, inputs, calls and auxiliary states may occur in it.
+    pub value: ExprId,
+    /// Where the line stands.
     pub origin: Origin,
 }
 
@@ -296,8 +359,14 @@ pub enum Request {
     GibbsAppell,
     /// The Taylor coefficients of solutions.
     Taylor,
+    /// The power of each force and constraint.
+    Power,
+    /// ∂output/∂state and ∂output/∂input.
+    OutputJacobian,
     /// How the emitted forms were chosen, as text.
     Explain,
+    /// The generated functions as C.
+    C,
 }
 
 /// Something that is needed of a system.

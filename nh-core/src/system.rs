@@ -18,7 +18,9 @@ pub struct System {
     pub state_coordinates: Vec<SymbolId>,
     /// The velocities in the state, in declared order: all of them in the projected formulation.
     pub state_velocities: Vec<SymbolId>,
-    /// Outputs: ẋ^i for each coordinate in the state, then v̇ for each velocity in the state.
+    /// The auxiliary states in the state, in declared order.
+    pub state_auxiliary: Vec<SymbolId>,
+    /// Outputs: ẋ^i for each coordinate in the state, then v̇ for each velocity, then ż for each auxiliary state.
     pub derivative: Procedure,
     /// The functions that are generated beside the derivative.
     pub functions: Functions,
@@ -32,6 +34,8 @@ pub struct System {
     pub jacobian: Option<Procedure>,
     /// The way back to the constraint manifold; in the projected formulation.
     pub projection: Option<Projection>,
+    /// The way back to position constraints, if there are any.
+    pub positions: Option<PositionReturn>,
     /// Brackets, momenta, volume and connections; as far as they are asked for.
     pub phase_space: PhaseSpace,
     /// The identities of an embedded base.
@@ -47,10 +51,10 @@ pub struct System {
 }
 
 impl System {
-    /// The state: coordinates, then velocities.
+    /// The state: coordinates, then velocities, then auxiliary states.
     #[must_use]
     pub fn state(&self) -> Vec<SymbolId> {
-        [self.state_coordinates.as_slice(), &self.state_velocities].concat()
+        [self.state_coordinates.as_slice(), &self.state_velocities, &self.state_auxiliary].concat()
     }
 
     /// The numbers that the shapes of its functions are made of.
@@ -59,7 +63,7 @@ impl System {
         let count = |signature| self.functions.get(signature).map_or(0, |f: &Procedure| f.outputs.len());
         let sections = self.model.sections.len();
         Sizes {
-            state: self.state_coordinates.len() + self.state_velocities.len(),
+            state: self.state().len(),
             velocities: self.state_velocities.len(),
             sections,
             outputs: self.model.outputs.len(),
@@ -87,6 +91,82 @@ pub struct Projection {
     pub start: Vec<SymbolId>,
     /// Outputs: the next velocities, from the present and the starting ones.
     pub step: Procedure,
+}
+
+/// Position constraints, and the way back to where they hold.
+#[derive(Clone, Debug)]
+pub struct PositionReturn {
+    /// The labels of those that follow from others: they come last, and have no multiplier.
+    pub redundant: Vec<Option<String>>,
+    /// How many there are.
+    pub count: usize,
+    /// Outputs: what should be zero, for each of them.
+    pub residual: Procedure,
+    /// Outputs: how one Newton step changes the base coordinates.
+    pub step: Procedure,
+    /// Outputs: what the constraints were divided by to solve them for velocities, as far as it depends on the
+    /// configuration; nothing in the projected formulation.
+    pub pivots: Procedure,
+    /// What is solved from a rough start.
+    pub assembly: Assembly,
+}
+
+/// What assembling a machine from a rough start solves.
+#[derive(Clone, Debug)]
+pub struct Assembly {
+    /// The identities of the base among the equations, by position.
+    pub identities: Vec<usize>,
+    /// How many equations of positions are independent: position constraints, then identities.
+    pub independent: usize,
+    /// Position constraints, identities, and what follows from the others, by the coordinates in the state.
+    pub positions: Linearized,
+    /// How many constraints on velocities there are.
+    pub constraints: usize,
+    /// Constraints on velocities, then the rates of the coordinates, by the velocities in the state.
+    pub velocities: Linearized,
+}
+
+impl Assembly {
+    /// Leaves out coordinates that are not kept, by position, and derivatives by variables that are not.
+    pub(crate) fn restrict(&mut self, has_rate: impl Fn(usize) -> bool, is_kept: impl Fn(SymbolId) -> bool) {
+        self.positions.keep(&is_kept);
+        let constraints = self.constraints;
+        self.velocities.keep_rows(|row| row < constraints || has_rate(row - constraints));
+        self.velocities.keep(&is_kept);
+    }
+}
+
+/// Functions with their derivatives.
+#[derive(Clone, Debug)]
+pub struct Linearized {
+    /// How many functions there are.
+    pub rows: usize,
+    /// By what they are differentiated.
+    pub by: Vec<SymbolId>,
+    /// Outputs: the functions, then their derivatives row by row.
+    pub procedure: Procedure,
+}
+
+impl Linearized {
+    /// Leaves out derivatives by what is not kept.
+    pub(crate) fn keep(&mut self, is_kept: impl Fn(SymbolId) -> bool) {
+        let by: Vec<bool> = self.by.iter().map(|symbol| is_kept(*symbol)).collect();
+        let (values, slopes) = self.procedure.outputs.split_at(self.rows);
+        let kept = slopes.iter().zip(by.iter().cycle()).filter(|(_, is_kept)| **is_kept);
+        self.procedure.outputs = values.iter().copied().chain(kept.map(|(slope, _)| *slope)).collect();
+        self.by.retain(|symbol| is_kept(*symbol));
+    }
+
+    /// Leaves out functions that are not kept, by position.
+    pub(crate) fn keep_rows(&mut self, is_kept: impl Fn(usize) -> bool) {
+        let width = self.by.len();
+        let (values, slopes) = self.procedure.outputs.split_at(self.rows);
+        let rows: Vec<usize> = (0..self.rows).filter(|row| is_kept(*row)).collect();
+        let values = rows.iter().map(|row| values[*row]);
+        let slopes = rows.iter().flat_map(|row| &slopes[row * width..(row + 1) * width]);
+        self.procedure.outputs = values.chain(slopes.copied()).collect();
+        self.rows = rows.len();
+    }
 }
 
 /// Identities that embedded base coordinates satisfy, and the way back to them.

@@ -20,6 +20,8 @@ pub enum Law {
     Jacobi,
     /// Identities of embedded base coordinates, which the anchor keeps.
     Embedding,
+    /// An axis has length 1, and an attitude is a rotation matrix.
+    Attitude,
     /// Facts about parameters are about parameters and do not contradict each other.
     Assumption,
     /// A frame is a basis of sections at most points.
@@ -38,6 +40,8 @@ pub enum Law {
     Choice,
     /// The mass matrix is regular on the constraint distribution: CLMM Theorem 3.12.
     Regularity,
+    /// Auxiliary states: their rates do not go round in a circle, and nothing is asked of them that they have not.
+    Auxiliary,
     /// A force acts along a declared direction and depends on what it may.
     Force,
     /// What is asked for depends on nothing that `track` leaves out.
@@ -52,6 +56,8 @@ pub enum Law {
     Volume,
     /// A section of D* solves the Hamilton–Jacobi equation: M 2.4.
     HamiltonJacobi,
+    /// Sums, equations and arguments of functions are homogeneous in their units.
+    Units,
     /// What has to have a Taylor series is analytic.
     Analytic,
     /// The limits on the work that a declaration may take.

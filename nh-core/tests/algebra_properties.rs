@@ -133,7 +133,7 @@ proptest! {
         let simple = g.simplify(e);
         let (value, direct) = (evaluate(&g, simple, &point), tree.value(&point));
         prop_assert!(close(value, direct), "{} became {}: {value:?}, not {direct}", g.text(e), g.text(simple));
-        let defect = g.sub(e, simple);
+        let defect = g.formula(e - simple);
         prop_assert!(vanishes(&g, defect), "{} became {}", g.text(e), g.text(simple));
         prop_assert!(g.operation_count(&[simple]) <= g.operation_count(&[e]));
         prop_assert_eq!(g.simplify(e), simple);
@@ -146,7 +146,7 @@ proptest! {
         if let Some(normal) = g.normal_form(e) {
             let (value, direct) = (evaluate(&g, normal, &point), tree.value(&point));
             prop_assert!(close(value, direct), "{} became {}: {value:?}, not {direct}", g.text(e), g.text(normal));
-            let defect = g.sub(e, normal);
+            let defect = g.formula(e - normal);
             prop_assert!(vanishes(&g, defect), "{} became {}", g.text(e), g.text(normal));
         }
     }
@@ -155,7 +155,7 @@ proptest! {
     fn equal_expressions_differ_by_zero(tree in tree()) {
         let (mut g, _) = graph();
         let (e, f) = (tree.build(&mut g), tree.build_expanded(&mut g));
-        let defect = g.sub(e, f);
+        let defect = g.formula(e - f);
         prop_assert!(vanishes(&g, defect), "{} and {}", g.text(e), g.text(f));
     }
 

@@ -15,47 +15,46 @@ fn graph() -> (Graph, ExprId, ExprId) {
 /// An expression that vanishes where it is defined, number `which` of some, made with the numbers a and b.
 fn nothing(g: &mut Graph, x: ExprId, y: ExprId, which: usize, a: i64, b: i64) -> ExprId {
     let (ea, eb) = (g.number(a), g.number(b));
-    let (ax, bx) = (g.mul(ea, x), g.mul(eb, x));
+    let (ax, bx) = (g.formula(ea * x), g.formula(eb * x));
     match which {
         // √((x² − y²)² + 4 x² y²) = x² + y²
         0 => {
             let (xx, yy) = (g.square(ax), g.square(y));
-            let (difference, product, sum) = (g.sub(xx, yy), g.mul(xx, yy), g.add(xx, yy));
+            let (difference, product, sum) = (g.formula(xx - yy), g.formula(xx * yy), g.formula(xx + yy));
             let square = g.square(difference);
             let inside = g.linear_combination(&[(Rational::ONE, square), (4.into(), product)]);
             let root = g.sqrt(inside);
-            g.sub(root, sum)
+            g.formula(root - sum)
         }
         // √cosh² = cosh
         1 => {
             let c = g.apply(Function::Cosh, ax);
             let square = g.square(c);
             let one = g.one();
-            let (inner, sinh) = (g.sub(square, one), g.apply(Function::Sinh, ax));
+            let (inner, sinh) = (g.formula(square - one), g.apply(Function::Sinh, ax));
             let with = g.square(sinh);
-            let other = g.sub(inner, with);
-            let square = g.add(square, other);
+            let square = g.formula(square + (inner - with));
             let root = g.sqrt(square);
-            g.sub(root, c)
+            g.formula(root - c)
         }
         // ln(sinh + cosh)
         2 => {
             let (s, c) = (g.apply(Function::Sinh, ax), g.apply(Function::Cosh, ax));
-            let sum = g.add(s, c);
+            let sum = g.formula(s + c);
             let ln = g.apply(Function::Ln, sum);
-            g.sub(ln, ax)
+            g.formula(ln - ax)
         }
         // ln(x^a y) = a ln x + ln y
         3 => {
             let power = g.pow(x, a.into());
-            let product = g.mul(power, y);
+            let product = g.formula(power * y);
             let [whole, lx, ly] = [product, x, y].map(|e| g.apply(Function::Ln, e));
             g.linear_combination(&[(1.into(), whole), ((-a).into(), lx), ((-1).into(), ly)])
         }
         // √(a + 2√(ab) + b) = √a + √b
         4 => {
             let (ra, rb) = (g.sqrt(ea), g.sqrt(eb));
-            let ab = g.mul(ea, eb);
+            let ab = g.formula(ea * eb);
             let middle = g.sqrt(ab);
             let inside = g.linear_combination(&[(1.into(), ea), (2.into(), middle), (1.into(), eb)]);
             let root = g.sqrt(inside);
@@ -78,23 +77,23 @@ fn nothing(g: &mut Graph, x: ExprId, y: ExprId, which: usize, a: i64, b: i64) ->
                 let angle = g.scale(Rational::new(k, 2 * n + 1), pi);
                 let cosine = g.cos(angle);
                 let double = g.scale(2.into(), cosine);
-                product = g.mul(product, double);
+                product = g.formula(product * double);
             }
             let one = g.one();
-            g.sub(product, one)
+            g.formula(product - one)
         }
         // the golden ratio: φ² = φ + 1, times something that is not 0
         7 => {
             let (five, one) = (g.number(5), g.one());
             let root = g.sqrt(five);
-            let sum = g.add(one, root);
+            let sum = g.formula(one + root);
             let golden = g.scale(Rational::new(1, 2), sum);
             let square = g.square(golden);
             let nested = g.sqrt(square);
             let defect =
                 g.linear_combination(&[(1.into(), square), ((-1).into(), nested), ((-1).into(), one)]);
             let exponential = g.apply(Function::Exp, bx);
-            g.mul(defect, exponential)
+            g.formula(defect * exponential)
         }
         // sin(arc) in a triangle: asin(s) + acos(s) = π/2
         _ => {
@@ -123,7 +122,7 @@ proptest! {
         let defect = nothing(&mut g, x, y, which, a, b);
         let tiny = Rational::from(10).pow(-i64::from(digits)).unwrap();
         let tiny = g.number(if negative { -tiny } else { tiny });
-        let missed = g.add(defect, tiny);
+        let missed = g.formula(defect + tiny);
         let verdict = g.zero_test(missed);
         prop_assert!(verdict.is_nonzero(), "{}: {verdict:?}", g.text(missed));
     }
@@ -135,10 +134,10 @@ fn numbers_that_look_like_integers() {
     let mut g = Graph::new();
     let (pi, n) = (g.pi(), g.number(163));
     let root = g.sqrt(n);
-    let product = g.mul(pi, root);
+    let product = g.formula(pi * root);
     let power = g.apply(Function::Exp, product);
     let integer = g.number(262_537_412_640_768_744);
-    let defect = g.sub(power, integer);
+    let defect = g.formula(power - integer);
     let Verdict::NonZero(witness) = g.zero_test(defect) else { panic!("not decided") };
     assert!((witness.value + 7.499e-13).abs() < 1e-15, "{witness:?}");
 }
@@ -149,7 +148,7 @@ fn what_no_identity_explains_is_unknown_and_says_how_many_digits_agree() {
     let one = g.one();
     let sine = g.sin(one);
     let arc = g.apply(Function::Asin, sine);
-    let defect = g.sub(arc, one);
+    let defect = g.formula(arc - one);
     let Verdict::Unknown(why) = g.zero_test(defect) else { panic!("decided") };
     assert!(why.starts_with("it is zero to 614 digits"), "{why}");
 }

@@ -39,7 +39,7 @@ pub(crate) fn nonholonomic(attribute: TokenStream, item: TokenStream) -> TokenSt
     let derived: Result<Result<TokenStream, Vec<Violation>>, _> = within_limits(|| {
         let system = nonholonomic_core::compile::compile(model)?;
         about(Subject::Code);
-        Ok(emit(&system, &layout))
+        emit(&system, &layout)
     });
     let errors: Vec<_> = match derived {
         Ok(Ok(items)) => return items,

@@ -43,6 +43,7 @@ mod syntax;
 ///
 /// | section | meaning | without it |
 /// |---|---|---|
+/// | `let p = …;` `let h(u, v) = …;` | values and functions that all sections know: see *Machines* | none |
 /// | `constants { g = 9.81; I = [1, 2, 3]; }` | names of numbers, vectors and matrices of numbers: parameters that are known when the code is compiled. Equations are derived as with fields, and what is made of constants alone becomes a literal, so that nothing costs more than with fields. Proofs know the values: a system that is singular, or an identity that holds, for these values alone is found | none |
 /// | `base { x, q[3], R[3][3] }` | coordinates xⁱ of the base, also in families | none: a Lie algebra |
 /// | `on { dot(g, g) = 1; }` | identities that embedded coordinates satisfy; the anchor is proved to keep them | none |
@@ -54,6 +55,7 @@ mod syntax;
 /// | `frame { h = d1 - A * xi; }` | new sections as combinations of the declared ones; other sections may use them | |
 /// | `almost;` | of the declared brackets neither the Jacobi identity (3) nor (2), that the anchor is a homomorphism, is demanded; the report says which of them hold | both are proved |
 /// | `lagrangian { let …; L }` | L(t, x, y) | an error |
+/// | `holonomic { label: lhs = rhs; }` | position constraints, at will dependent on the time; generates `assemble` and `assemble_holding`; `redundant;` permits equations that follow from others | none |
 /// | `constraints { label: lhs = rhs; }` | linear, affine or nonlinear in the velocities, at will dependent on the time | none |
 /// | `distribution { s, dpsi }` | sections that span the allowed velocities, instead of linear constraints | |
 /// | `forces { omega: …; x: …; }` | generalized forces along a section or a coordinate | none |
@@ -65,6 +67,7 @@ mod syntax;
 /// | `hamilton_jacobi { omega: …; }` | momenta as functions on the base that are claimed to solve the Hamilton–Jacobi equation, proved or refused | |
 /// | `routh { spin = mu; }` | conserved momenta that become parameters: their velocities leave the state | |
 /// | `assume { m > 0; }` | facts about parameters: used in proofs, checked by `validate` | none |
+/// | `units { x, y = m; m = kg; }` | units of declared names: everything is proved to be homogeneous, see below | not looked at |
 /// | `independent { v, dphi }` | the velocities that the state keeps | chosen by the macro |
 /// | `orthonormal { u1, u2 }` | names for the velocities of a basis of D made orthonormal in the kinetic metric (Gram and Schmidt, in the order of the independent velocities): the state keeps them, and C is the identity (M 2.2) | |
 /// | `formulation { projected }` | all velocities in the state, with multipliers; or `adapted` | adapted where a choice of velocities holds everywhere |
@@ -89,8 +92,45 @@ mod syntax;
 /// for i in 0..3 { der(q[i]) = v[i]; }       // around whole items
 /// ```
 ///
+/// `v[0..2]` is a part of a vector, or of the value of any expression; the literal `0` is the zero of any shape, so that
+/// `p - q = 0` is an equation between vectors. `transpose(A)`, `A * B`, `hat(v)` (`hat(v) * w` is `cross(v, w)`), `vee(A)`
+/// (of the skew part), `norm(v)`, `diag(a, b, c)`, `identity(3)` are functions directly before `(` only, as are the words
+/// of the next section: fields and coordinates may have these names.
+///
 /// Forces may call methods of the struct, `omega: self.motor(omega, throttle);`: the macro takes their
 /// values as they come. Fields of other types, for the sake of such methods, are marked `#[nh(skip)]`.
+///
+/// # Machines
+///
+/// A `let …;` between the sections, with its `;`, is known in all of them, whatever the order. With arguments it is a
+/// function; arguments and values are numbers, vectors or matrices. What a section cannot take, as velocities in `on`, is
+/// an error where the `let` is used there.
+///
+/// `der(e)` is the rate of any expression of base coordinates, auxiliary states, parameters and `t` along the motion, entry by entry.
+/// `diff(e, x)` is the partial derivative by a coordinate, a parameter, `t`, a velocity, or an argument of the function
+/// that is defined; by a vector or a list it is a gradient. Embedded coordinates are independent there.
+///
+/// | word | meaning |
+/// |---|---|
+/// | `rot_x(a)`, `rot_y(a)`, `rot_z(a)`, `rot(axis, a)` | rotation matrices, from the axes of a body to those of space: `rot_z(a) * [1, 0, 0]` is `[cos(a), sin(a), 0]`. The axis is proved to have length 1; `n / norm(n)` has |
+/// | `body_rate(R)`, `space_rate(R)` | the angular velocity in the axes of the body, and of space; of an angle in the plane its rate |
+/// | `velocity_at(p, R, c)` | the velocity of the material point that is at `c`, of a body with the attitude `R` whose point `p` is known |
+/// | `kinetic(m, p)` | the kinetic energy of a material point, in space or in the plane |
+/// | `kinetic(m, I, p, R)` | the kinetic energy of a rigid body with its centre of mass at `p`: in space `R` is a rotation matrix, `I` a number, a vector (principal moments) or a matrix in the axes of the body; in the plane `R` is an angle and `I` a number |
+///
+/// A field marked `#[nh(symmetric)]`, a square matrix, has one parameter for the entries (i, j) and (j, i): that above the
+/// diagonal is read, and `validate` compares the two.
+///
+/// A disk that rolls on the surface z = h(x, y), with its centre in the coordinates `x`, `y`, `z`:
+///
+/// ```text
+/// let R = rot_z(yaw) * rot_x(lean) * rot_y(spin);
+/// let centre = [x, y, z];
+/// let h(u, v) = k1 * u^2 + k2 * v^2;
+/// base { x, y, z, yaw, lean, spin }
+/// lagrangian { kinetic(m, [I, J, I], centre, R) - m * g * z }
+/// outputs { height = z - h(x, y); slope = diff(h(x, y), [x, y]); rate = der(h(x, y)); }
+/// ```
 ///
 /// # Conventions
 ///
@@ -103,6 +143,24 @@ mod syntax;
 ///   [omega, v2] = −v1. `se(3) { w1, w2, w3, v1, v2, v3 }`: [wᵢ, wⱼ] = ε wₖ, [wᵢ, vⱼ] = ε vₖ. `sl(2)
 ///   { h, e, f }`: [h, e] = 2e, [h, f] = −2f, [e, f] = h. `heisenberg(n) { x…, y…, z }`: [xᵢ, yᵢ] = z.
 ///   `so(n)`, n ≥ 4: e_ij = E_ij − E_ji, i < j, in lexicographic order.
+///
+/// # Units
+///
+/// `units { x, q[2] = m; theta = rad; m = kg; torque = N m; }` gives units to declared names. Left of `=` stand
+/// coordinates, velocities, parameters, constants and inputs, families as a whole or by entry; labels of
+/// `constraints` (the unit of the multiplier) and `symmetries` (that of the momentum), `outputs`, `conserved`, `t` and
+/// `lagrangian`. Right of it stand units alone, so `m = kg` is the mass and `x = m` the metre: kg m s A K mol cd rad
+/// (= 1) Hz N J W Pa C V F ohm Wb T H, as a product `N m` or `N*m`, with powers `s^-2` and `m^(1/2)`, and one `/`
+/// in front of one unit or of parentheses: `m/s^2`, `kg/(m s)`. `1` is that of a pure number. Multiples (mm, g, deg,
+/// rpm) are refused, since the equations are in coherent units.
+///
+/// All other units follow, or stay free: the terms of a sum, both sides of an equation or comparison, and the
+/// arguments of `atan2`, `min` and `max` have one unit; arguments of `sin`, `exp` and so on are pure numbers, `der` is
+/// per second, L is an energy (`lagrangian = 1`, `t = 1` make a model without units), a force times its velocity is
+/// a power, and so is a multiplier times its constraint. 0 has any unit, other numbers have none. In `brackets`,
+/// `frame` and `symmetries` names are sections, with the unit of s⁻¹ over that of their velocity. A method of the
+/// struct takes and returns whatever its calls agree on. What contradicts something is an error that shows a set
+/// of terms of which none can be left out. `REPORT` lists the units, and the documentation of generated fields says them.
 ///
 /// # Symmetries and momenta
 ///
@@ -140,6 +198,7 @@ mod syntax;
 /// | `invariants` | the trait `Invariants` for `Conserving`: the first integrals of `conserved` and their gradients |
 /// | `leapfrog` | the trait `Leapfrog` for `ReflectedLeapfrog`: systems on TQ with constant masses, in the projected formulation |
 /// | `euler_poincare_suslov` | the trait `EulerPoincareSuslov` for `DiscreteSuslov`: systems on a Lie algebra |
+/// | `c` | `C99`, a text: the generated functions as one C file, see *C* |
 /// | `explain` | `DERIVATION`, a text: which forms competed for each function, and how the winner was proved |
 /// | `divergence` | `divergence(t, &state, &input)` of the motion in the coordinates of the state |
 /// | `volume` | `volume_density(t, &state)` of a volume that the motion keeps; refused, with the modular section, where there is none with a density on the base |
@@ -177,6 +236,20 @@ mod syntax;
 ///   equation; `vertical_velocities`, the components along S; `horizontal_force`, what curvature and
 ///   connection add to the horizontal equations. Sections are arrays of components along the basis.
 ///   MATHEMATICS.md (25), CM Propositions 8 and 9.
+///
+/// # C
+///
+/// `emit { c }` gives `C99: &str`, a C99 file that needs nothing but libm: for `struct Skate` the struct `Skate` of
+/// parameters, `SkateState` and `SkateInput` with the same fields, and a function for the derivative, each function of
+/// the default set and each that is asked for (those with time, state and input for arguments),
+/// `void skate_derivative(const Skate *p, double t, const SkateState *x, const SkateInput *u, SkateState *rate)` and
+/// `void skate_energy(const Skate *p, double t, const SkateState *x, double result[1])`; components are in the order
+/// of the Rust struct, matrices row by row, the Jacobian a row of ∂/∂state and ∂/∂input after the other. Methods of
+/// the struct that forces call are `extern` prototypes, `double skate_motor(const Skate *p, double x0)`. `f32` gives
+/// `float`; a struct with a type parameter is refused. The arithmetic is that of the Rust functions in the same order,
+/// with libm's functions for ours. No memory is allocated, nothing recurs, and no branch but those of `sign`, `min`,
+/// `max` and pivoting depends on a number. Write it from a build script or a program:
+/// `std::fs::write("skate.c", Skate::C99)`.
 ///
 /// # How accurate the emitted code is
 ///
@@ -220,6 +293,10 @@ mod syntax;
 /// - `const REPORT: &str`: the classification, the structure functions, the distribution, the mass
 ///   matrix, the equations, what is conserved, operation counts. The equations also stand in the
 ///   documentation of the struct.
+///
+/// A field that stands in no expression is listed in `REPORT`, and nothing generated reads it: where no code of
+/// yours reads it either, the compiler's own lint `dead_code` says so at the field. An underscore before its name, or
+/// `#[allow(dead_code)]`, says that this is meant.
 ///
 /// The fields are of one scalar type: `f64`, `f32`, or a type parameter, `struct Skate<T> { m: T }`,
 /// for which the generated code is generic over the runtime's `Scalar`.

@@ -65,6 +65,15 @@ impl Diagnostic {
         self
     }
 
+    /// And this shows it, before what does already.
+    pub(crate) fn because(mut self, evidence: String) -> Self {
+        let evidence = match self.message.evidence.take() {
+            Some(more) => format!("{evidence}\n{more}"),
+            None => evidence,
+        };
+        self.evidence(evidence)
+    }
+
     /// And this is what to do.
     pub(crate) fn way_out(mut self, way_out: impl Into<String>) -> Self {
         self.message.way_out = Some(way_out.into());

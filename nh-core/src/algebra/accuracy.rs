@@ -4,6 +4,8 @@ use super::field::Residue;
 use super::graph::Graph;
 use crate::count::Count;
 use crate::id::{ExprId, Id, SymbolId};
+use rustc_hash::FxHashMap;
+use std::rc::Rc;
 
 /// What emitted code is made for, where speed and accuracy are at odds.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -42,6 +44,27 @@ const LOST: f64 = 65536.0;
 const MUCH: f64 = 256.0;
 /// As many operations longer it may be, or by a quarter.
 const MORE: u64 = 8;
+/// No form is looked for that would have to be shorter than two thirds of the expression: normal forms of pivots are
+/// seldom a third shorter, and reading them is most of what a derivation takes.
+const SHORTENED: [u64; 2] = [2, 3];
+
+/// What was found of expressions that lose digits: different ways to the same solution ask for the same entries, and
+/// differ in the length that is allowed alone.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Cancelling {
+    /// The units in the last place that expressions lose where symbols are far apart.
+    lost: FxHashMap<ExprId, f64>,
+    /// Equal expressions with their lengths, and how many times less they lose.
+    others: FxHashMap<ExprId, Rc<[Other]>>,
+}
+
+/// An equal expression.
+#[derive(Clone, Copy, Debug)]
+struct Other {
+    form: ExprId,
+    length: Count,
+    gain: f64,
+}
 
 impl Graph {
     /// How many times larger the rounding error of `candidate` is than that of `reference`, an
@@ -96,20 +119,30 @@ impl Graph {
     /// An error below a few units in the last place of the value counts as that. Infinite where the reference keeps no
     /// digit and the candidate does.
     #[must_use]
-    #[allow(clippy::cast_precision_loss, reason = "there are few points")]
     pub fn gain_apart(&self, candidate: ExprId, reference: ExprId) -> f64 {
+        self.gains_apart(&[candidate], reference)[0]
+    }
+
+    /// [`Self::gain_apart`] of several candidates, which are evaluated together.
+    #[allow(clippy::cast_precision_loss, reason = "there are few points")]
+    fn gains_apart(&self, candidates: &[ExprId], reference: ExprId) -> Vec<f64> {
         let points = (0..POINTS_APART).map(|point| move |symbol| sample_apart(point, symbol));
-        let mut logarithms = Vec::new();
-        for values in self.evaluate_each(&[candidate, reference], points) {
-            let floor = 8.0 * f64::EPSILON * values[0].value.abs();
-            let gain = values[1].error.max(floor) / values[0].error.max(floor);
-            if values[0].error.is_finite() && floor > 0.0 {
-                logarithms.push(if gain.is_nan() { f64::INFINITY } else { gain.ln() });
+        let mut gains = vec![Vec::new(); candidates.len()];
+        for values in self.evaluate_each(&[&[reference], candidates].concat(), points) {
+            for (logarithms, value) in gains.iter_mut().zip(&values[1..]) {
+                let floor = 8.0 * f64::EPSILON * value.value.abs();
+                let gain = values[0].error.max(floor) / value.error.max(floor);
+                if value.error.is_finite() && floor > 0.0 {
+                    logarithms.push(if gain.is_nan() { f64::INFINITY } else { gain.ln() });
+                }
             }
         }
-        logarithms.sort_unstable_by(|a, b| b.total_cmp(a));
-        logarithms.truncate(WORST);
-        (logarithms.iter().sum::<f64>() / logarithms.len().max(1) as f64).exp()
+        let worst = |mut logarithms: Vec<f64>| {
+            logarithms.sort_unstable_by(|a, b| b.total_cmp(a));
+            logarithms.truncate(WORST);
+            (logarithms.iter().sum::<f64>() / logarithms.len().max(1) as f64).exp()
+        };
+        gains.into_iter().map(worst).collect()
     }
 
     /// The rounding error in units in the last place, in the geometric mean over the worst of the places where symbols
@@ -133,8 +166,33 @@ impl Graph {
     pub fn without_cancellation(&mut self, expression: ExprId, length: Count) -> Option<ExprId> {
         // constants are as large as they are
         let is_open = self.accuracy() != Accuracy::Fast && self.constants().is_empty();
-        if !is_open || self.units_lost_apart(expression) < LOST {
+        let is_short = |dear: Count| dear <= length + MORE || dear * 4 <= length * 5;
+        let [part, whole] = SHORTENED;
+        let shortest = Count::new(self.operation_count(&[expression]).get() * part / whole);
+        if !is_open || !is_short(shortest) || self.lost_apart(expression) < LOST {
             return None;
+        }
+        let others = self.others(expression);
+        let short = || others.iter().filter(|other| is_short(other.length));
+        let most = short().map(|other| other.gain).fold(MUCH, f64::max);
+        let best = short().filter(|other| 16.0 * other.gain >= most && other.gain > MUCH);
+        best.min_by_key(|other| other.length).map(|other| other.form)
+    }
+
+    /// [`Self::units_lost_apart`], remembered.
+    fn lost_apart(&mut self, expression: ExprId) -> f64 {
+        if let Some(lost) = self.cancelling.lost.get(&expression) {
+            return *lost;
+        }
+        let lost = self.units_lost_apart(expression);
+        self.cancelling.lost.insert(expression, lost);
+        lost
+    }
+
+    /// The expression in other forms, remembered.
+    fn others(&mut self, expression: ExprId) -> Rc<[Other]> {
+        if let Some(known) = self.cancelling.others.get(&expression) {
+            return Rc::clone(known);
         }
         // the same over one denominator: what cancels may stand on both sides of a fraction bar
         let divisors: Vec<ExprId> = self.divisors(&[expression]).into_iter().collect();
@@ -145,15 +203,11 @@ impl Graph {
         for form in self.spelled_out(numerator) {
             forms.push(self.div(form, denominator));
         }
-        let forms: Vec<(ExprId, Count, f64)> = forms
-            .into_iter()
-            .map(|form| (form, self.operation_count(&[form]), self.gain_apart(form, expression)))
-            .collect();
-        let is_short = |dear: Count| dear <= length + MORE || dear * 4 <= length * 5;
-        let short = || forms.iter().filter(|(_, dear, _)| is_short(*dear));
-        let most = short().map(|(.., gain)| *gain).fold(MUCH, f64::max);
-        let best = short().filter(|(.., gain)| 16.0 * gain >= most && *gain > MUCH);
-        best.min_by_key(|(_, dear, _)| *dear).map(|(form, ..)| *form)
+        let gains = self.gains_apart(&forms, expression);
+        let with_length = |(form, gain)| Other { form, length: self.operation_count(&[form]), gain };
+        let others: Rc<[Other]> = forms.into_iter().zip(gains).map(with_length).collect();
+        self.cancelling.others.insert(expression, Rc::clone(&others));
+        others
     }
 
     /// Whether values lose no more than the level of accuracy allows against others: overall where it allows

@@ -6,19 +6,25 @@
 //! | `abs(x) = x`, `abs(x) = −x` | `x ≥ 0`, `x ≤ 0` |
 //! | `sign(x) = 1`, `sign(x) = −1` | `x > 0`, `x < 0` |
 //! | `min(x, y)`, `max(x, y)` are one of the two | the sign of `x − y` |
+//! | `a x + b x = 0` for numbers a and b | `a + b = 0`, decided as any constant is |
 
 use super::graph::{Function, Function2, Graph, Node};
 use super::number::Rational;
 use super::range::Facts;
 use crate::id::ExprId;
-use rustc_hash::FxHashMap;
+use rustc_hash::{FxHashMap, FxHashSet};
 
 impl Graph {
     /// The expressions with these identities applied throughout.
     pub fn assuming(&mut self, roots: &[ExprId], facts: &Facts) -> Vec<ExprId> {
         let mut known: FxHashMap<ExprId, ExprId> = FxHashMap::default();
-        for id in self.reachable(roots) {
-            let image = self.assuming_node(id, &known, facts);
+        let order = self.reachable(roots);
+        let has_numbers = self.have_irrational_numbers(&order);
+        for id in order {
+            let mut image = self.assuming_node(id, &known, facts);
+            if has_numbers && matches!(self.node(image), Node::Sum { .. }) {
+                image = self.without_vanishing_numbers(image);
+            }
             known.insert(id, image);
         }
         roots.iter().map(|root| known[root]).collect()
@@ -44,6 +50,71 @@ impl Graph {
             Node::Apply(function, x) => self.assuming_function(function, known[&x], facts),
             Node::Apply2(function, x, y) => self.assuming_pair(function, known[&x], known[&y], facts),
         }
+    }
+
+    /// Whether there are numbers among nodes, operands before what is made of them, that are no rational numbers.
+    fn have_irrational_numbers(&self, order: &[ExprId]) -> bool {
+        let mut numbers: FxHashSet<ExprId> = FxHashSet::default();
+        for id in order {
+            match self.node(*id) {
+                Node::Number(_) => _ = numbers.insert(*id),
+                Node::Constant(_) | Node::Symbol(_) => {}
+                // π, or what is made of numbers
+                node => {
+                    if node.operands().all(|operand| numbers.contains(&operand)) {
+                        return true;
+                    }
+                }
+            }
+        }
+        false
+    }
+
+    /// A sum without the terms whose coefficients are numbers that add up to 0 although no identity of sums says so,
+    /// as `cos(π/5) − (1 + √5)/4` does.
+    fn without_vanishing_numbers(&mut self, sum: ExprId) -> ExprId {
+        // 1. each term as a number times something that varies
+        let (constant, terms) = self.as_linear(sum);
+        let one = self.one();
+        let mut groups: Vec<(ExprId, Vec<(Rational, ExprId)>)> = vec![(one, vec![(constant, one)])];
+        for (term, coefficient) in terms {
+            let (number, varying) = self.number_in(term);
+            match groups.iter_mut().find(|(key, _)| *key == varying) {
+                Some((_, numbers)) => numbers.push((coefficient, number)),
+                None => groups.push((varying, vec![(coefficient, number)])),
+            }
+        }
+        // 2. whether these add up to 0
+        let mut left = Vec::with_capacity(groups.len());
+        let mut is_shorter = false;
+        for (varying, numbers) in groups {
+            let number = self.linear_combination(&numbers);
+            if self.value_of(number).is_none() && self.zero_test(number).is_zero() {
+                is_shorter = true;
+            } else {
+                left.extend(
+                    numbers.into_iter().map(|(coefficient, number)| (coefficient, self.mul(number, varying))),
+                );
+            }
+        }
+        if is_shorter { self.linear_combination(&left) } else { sum }
+    }
+
+    /// A term as a number times what varies.
+    fn number_in(&mut self, term: ExprId) -> (ExprId, ExprId) {
+        let one = self.one();
+        if self.symbols_in(&[term]).is_empty() {
+            return (term, one);
+        }
+        let Node::Product { coefficient, factors } = self.node(term).clone() else { return (one, term) };
+        let (numbers, varying): (Vec<_>, Vec<_>) =
+            factors.iter().cloned().partition(|(base, _)| self.symbols_in(&[*base]).is_empty());
+        if numbers.is_empty() {
+            return (one, term);
+        }
+        let number = self.product(&numbers);
+        let varying = self.product(&varying);
+        (self.scale(coefficient, number), varying)
     }
 
     /// Takes factors that are not negative out of a root.
@@ -101,6 +172,21 @@ impl Graph {
 mod tests {
     use super::*;
     use crate::algebra::Range;
+
+    #[test]
+    fn numbers_that_add_up_to_zero_leave_nothing() {
+        let mut g = Graph::new();
+        let (x, y) = (g.new_symbol("x"), g.new_symbol("y"));
+        let (x, y, pi, five) = (g.symbol(x), g.symbol(y), g.pi(), g.number(5));
+        let fifth = g.scale(Rational::new(1, 5), pi);
+        let (cos, root, one) = (g.cos(fifth), g.sqrt(five), g.one());
+        let golden = g.formula((one + root) * x);
+        let quarter = g.scale(Rational::new(-1, 4), golden);
+        let (sum, more) = (g.formula(cos * x + quarter), g.formula(cos * x + quarter + y));
+        assert!(!g.is_literal_zero(sum));
+        let [short, rest] = g.assuming(&[sum, more], &Facts::default())[..] else { panic!("two") };
+        assert!(g.is_literal_zero(short) && rest == y, "{}", g.text(rest));
+    }
 
     #[test]
     fn roots_and_signs_under_facts() {

@@ -56,7 +56,7 @@ impl Graph {
     }
 
     /// How many times units of the circle, or of the exponential, are multiplied at most for an argument.
-    pub(super) fn angle_turns(&self, x: ExprId, division: i64) -> f64 {
+    pub(crate) fn angle_turns(&self, x: ExprId, division: i64) -> f64 {
         let is_sum = |(base, _): &(ExprId, Rational)| matches!(self.node(*base), Node::Sum { .. });
         let mut turns = 0.0;
         for (term, coefficient) in self.angle_terms(x) {
@@ -155,7 +155,7 @@ impl FieldPass<'_> {
             return Ok(*known);
         }
         let mut turned = (Residue::ONE, Residue::ZERO);
-        let pi = self.random(Stream::Pi, 0);
+        let pi = self.pi();
         for (symbol, value, coefficient) in self.normal_terms(x) {
             if value == pi
                 && let Some(twelfths) = (coefficient.clone() * Rational::from(12)).to_i64()
@@ -177,7 +177,7 @@ impl FieldPass<'_> {
     }
 
     /// The random point of the circle above `value / division`.
-    fn unit_of(&mut self, value: Residue) -> Result<(Residue, Residue), NoValue> {
+    pub(super) fn unit_of(&mut self, value: Residue) -> Result<(Residue, Residue), NoValue> {
         if let Some(unit) = self.units.get(&value.word()) {
             return Ok(*unit);
         }

@@ -7,6 +7,7 @@
 use super::graph::{Function, Graph, Node};
 use super::number::Rational;
 use crate::id::{ExprId, SymbolId};
+use crate::limits;
 use rustc_hash::FxHashMap;
 use std::rc::Rc;
 
@@ -20,6 +21,9 @@ pub(crate) struct Degree {
     factors: Rc<[(Factor, f64)]>,
 }
 
+/// As many factors are read in a step of work.
+const FACTORS_PER_STEP: usize = 2;
+
 /// What a D belongs to.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 enum Factor {
@@ -27,10 +31,12 @@ enum Factor {
     Node(ExprId),
     /// The unknown of a linear system.
     Unknown(SymbolId),
+    /// A divisor, an angle or a linear system of a program, by its place there.
+    Step(usize),
 }
 
 impl Degree {
-    fn polynomial(numerator: f64) -> Self {
+    pub(crate) fn polynomial(numerator: f64) -> Self {
         Self { numerator, factors: Rc::from([]) }
     }
 }
@@ -68,6 +74,11 @@ impl<'a> Degrees<'a> {
         Degree { numerator: degree, factors: Rc::from([(of, -1.0)]) }
     }
 
+    /// The bound of a quotient of two polynomials of a degree, at a step of a program.
+    pub(crate) fn quotient_at(&mut self, step: usize, degree: f64) -> Degree {
+        self.quotient(Factor::Step(step), degree)
+    }
+
     /// The bounds of several expressions.
     fn of_all(&mut self, roots: &[ExprId]) -> Vec<Degree> {
         if roots.iter().any(|root| !self.known.contains_key(root)) {
@@ -92,7 +103,7 @@ impl<'a> Degrees<'a> {
     }
 
     /// The larger one of the degrees of numerator and denominator.
-    fn size(&self, degree: &Degree) -> f64 {
+    pub(crate) fn size(&self, degree: &Degree) -> f64 {
         let (mut up, mut down) = (degree.numerator, 0.0);
         for (factor, exponent) in degree.factors.iter() {
             let size = self.sizes[factor] * exponent.abs();
@@ -119,13 +130,14 @@ impl<'a> Degrees<'a> {
     }
 
     /// Over the common denominator: of each D the least exponent.
-    fn of_sum(&self, terms: &[Degree]) -> Degree {
+    pub(crate) fn of_sum(&self, terms: &[Degree]) -> Degree {
         let Some(first) = terms.first() else { return Degree::polynomial(0.0) };
         if terms.iter().all(|term| Rc::ptr_eq(&term.factors, &first.factors) || term.factors == first.factors)
         {
             let numerator = terms.iter().map(|term| term.numerator).fold(0.0, f64::max);
             return Degree { numerator, factors: first.factors.clone() };
         }
+        limits::spend(terms.iter().map(|term| term.factors.len()).sum::<usize>() / FACTORS_PER_STEP);
         let mut least: FxHashMap<Factor, (f64, usize)> = FxHashMap::default();
         for (factor, exponent) in terms.iter().flat_map(|term| term.factors.iter()) {
             let slot = least.entry(*factor).or_insert((f64::INFINITY, 0));
@@ -148,14 +160,28 @@ impl<'a> Degrees<'a> {
     }
 
     fn of_product(&mut self, factors: &[(ExprId, Rational)]) -> Degree {
+        let factors = factors
+            .iter()
+            .map(|(base, power)| (Factor::Node(*base), self.known[base].clone(), power.to_f64()));
+        let factors: Vec<_> = factors.collect();
+        self.of_powers(factors)
+    }
+
+    /// The product of powers of values at steps of a program.
+    pub(crate) fn of_steps(&mut self, factors: &[(usize, &Degree, f64)]) -> Degree {
+        let factors =
+            factors.iter().map(|(step, degree, power)| (Factor::Step(*step), (*degree).clone(), *power));
+        self.of_powers(factors.collect())
+    }
+
+    fn of_powers(&mut self, powers: Vec<(Factor, Degree, f64)>) -> Degree {
         let mut numerator = 0.0;
         let mut exponents: FxHashMap<Factor, f64> = FxHashMap::default();
-        for (base, power) in factors {
-            let power = power.to_f64();
-            let degree = self.known[base].clone();
+        for (base, degree, power) in powers {
+            limits::spend(degree.factors.len() / FACTORS_PER_STEP);
             if power < 0.0 && degree.numerator > 0.0 {
-                self.sizes.insert(Factor::Node(*base), degree.numerator);
-                *exponents.entry(Factor::Node(*base)).or_insert(0.0) += power;
+                self.sizes.insert(base, degree.numerator);
+                *exponents.entry(base).or_insert(0.0) += power;
             } else if power > 0.0 {
                 numerator += power * degree.numerator;
             }
@@ -190,6 +216,7 @@ impl<'a> Degrees<'a> {
 
 fn sorted(factors: impl IntoIterator<Item = (Factor, f64)>) -> Rc<[(Factor, f64)]> {
     let mut list: Vec<(Factor, f64)> = factors.into_iter().filter(|(_, exponent)| *exponent != 0.0).collect();
+    limits::spend(list.len() / FACTORS_PER_STEP);
     list.sort_unstable_by_key(|(factor, _)| *factor);
     list.into()
 }

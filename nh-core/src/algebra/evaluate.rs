@@ -46,35 +46,62 @@ impl Bounded {
     }
 }
 
+/// Expressions that are evaluated at many points: the walk through the graph is taken once.
+#[derive(Debug)]
+pub(crate) struct Evaluator<'g> {
+    graph: &'g Graph,
+    /// All that the roots are made of, operands first.
+    order: Vec<ExprId>,
+    /// The places of the operands in that order.
+    operands: Vec<Vec<usize>>,
+    /// The places of the roots.
+    roots: Vec<usize>,
+    /// The values at the present point.
+    known: Vec<Bounded>,
+}
+
+impl Evaluator<'_> {
+    /// The values of the roots at a point.
+    pub(crate) fn at(&mut self, value: impl Fn(SymbolId) -> f64) -> Vec<Bounded> {
+        let Self { graph, order, operands, roots, known } = self;
+        known.clear();
+        limits::spend(order.len());
+        for (id, operands) in order.iter().zip(operands.iter()) {
+            let next = graph.evaluate_node(*id, operands, known, &value);
+            known.push(next);
+        }
+        roots.iter().map(|root| known[*root]).collect()
+    }
+}
+
 impl Graph {
     /// Evaluates `roots` with the given values of the symbols.
     pub fn evaluate(&self, roots: &[ExprId], value: impl Fn(SymbolId) -> f64) -> Vec<Bounded> {
         self.evaluate_each(roots, std::iter::once(value)).next().unwrap_or_default()
     }
 
-    /// Evaluates `roots` at several points, which the values of the symbols make.
+    /// The values of `roots` at one point after the other.
     pub(super) fn evaluate_each<F: Fn(SymbolId) -> f64>(
         &self,
         roots: &[ExprId],
         points: impl Iterator<Item = F>,
     ) -> impl Iterator<Item = Vec<Bounded>> {
+        let mut evaluator = self.evaluator(roots);
+        points.map(move |value| evaluator.at(value))
+    }
+
+    /// Makes `roots` ready to be evaluated at many points.
+    #[must_use]
+    pub(crate) fn evaluator(&self, roots: &[ExprId]) -> Evaluator<'_> {
         let order = self.reachable(roots);
         let place = |id: ExprId| order.binary_search(&id).expect("what is reachable is in order");
         let operands: Vec<Vec<usize>> =
             order.iter().map(|id| self.node(*id).operands().map(place).collect()).collect();
         let roots: Vec<usize> = roots.iter().map(|root| place(*root)).collect();
-        let mut known: Vec<Bounded> = Vec::with_capacity(order.len());
-        points.map(move |value| {
-            known.clear();
-            limits::spend(order.len());
-            for (id, operands) in order.iter().zip(&operands) {
-                known.push(self.evaluate_node(*id, operands, &known, &value));
-            }
-            roots.iter().map(|root| known[*root]).collect()
-        })
+        let known = Vec::with_capacity(order.len());
+        Evaluator { graph: self, order, operands, roots, known }
     }
 
-    /// A node whose operands stand at these places of what is known.
     fn evaluate_node(
         &self,
         id: ExprId,

@@ -1,8 +1,11 @@
-//! Arithmetic in the prime field of the zero test.
+//! Arithmetic in the field of the zero test.
 //!
 //! `P = 2^61 − 636873` is prime, `P ≡ 7 (mod 8)`, and every prime below 61 is a square modulo P
 //! (checked in the tests). So −1 is not a square, which makes the rational parametrisation of the
 //! circle regular everywhere, and the square roots of small integers exist.
+//!
+//! Random choices are residues modulo P. Numbers that are no squares there have their roots among a + b i, i² = −1,
+//! where a root is chosen for each prime, so that the root of a product is the product of the roots.
 
 use super::number::Rational;
 use num_bigint::BigInt;
@@ -16,32 +19,32 @@ const P: u64 = (1 << BITS) - SHORTFALL;
 /// The number of squares but 0.
 const HALF: u64 = (P - 1) / 2;
 
-/// An element of the field.
+/// An element of the field: residues a and b of a + b i. The second is zero but for some roots of numbers.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub struct Residue(u64);
+pub struct Residue(u64, u64);
 
 impl Residue {
     /// Zero.
-    pub const ZERO: Self = Self(0);
+    pub const ZERO: Self = Self(0, 0);
     /// One.
-    pub const ONE: Self = Self(1);
+    pub const ONE: Self = Self(1, 0);
 
     /// The residue of an arbitrary word.
     #[must_use]
     pub fn of_word(word: u64) -> Self {
-        Self(word % P)
+        Self(word % P, 0)
     }
 
-    /// The representative below P.
+    /// The representative below P; a word that is mixed from two of them where there are two.
     #[must_use]
     pub fn word(self) -> u64 {
-        self.0
+        if self.1 == 0 { self.0 } else { Self::mixed(self.0, self.1).0 }
     }
 
     /// The residue of an integer.
     #[must_use]
     fn of_integer(n: &BigInt) -> Self {
-        Self(n.mod_floor(&BigInt::from(P)).to_u64().unwrap_or(0))
+        Self(n.mod_floor(&BigInt::from(P)).to_u64().unwrap_or(0), 0)
     }
 
     /// The residue of a rational number; `None` where P divides the denominator.
@@ -76,11 +79,17 @@ impl Residue {
     /// The inverse, by the extended Euclidean algorithm; `None` for zero.
     #[must_use]
     pub fn inverse(self) -> Option<Self> {
+        if self.1 != 0 {
+            // 1/(a + b i) = (a − b i)/(a² + b²), and −1 is no square
+            let (a, b) = (Self(self.0, 0), Self(self.1, 0));
+            let scale = (a * a + b * b).inverse()?;
+            return Some(Self((a * scale).0, (-b * scale).0));
+        }
         if self.0 == 0 {
             return None;
         }
         let (_, inverse) = self.quotient(1);
-        Some(Self(inverse.rem_euclid(P.cast_signed()).cast_unsigned()))
+        Some(Self(inverse.rem_euclid(P.cast_signed()).cast_unsigned(), 0))
     }
 
     /// The rational number with numerator and denominator up to 2²⁰ that has this residue, if there is
@@ -88,6 +97,9 @@ impl Residue {
     #[must_use]
     pub fn recognised(self) -> Option<Rational> {
         const LARGEST: i64 = 1 << 20;
+        if self.1 != 0 {
+            return None;
+        }
         let (numerator, denominator) = self.quotient(LARGEST);
         (denominator.abs() <= LARGEST).then(|| Rational::new(numerator, denominator))
     }
@@ -114,10 +126,13 @@ impl Residue {
         Some(base.pow(exponent.unsigned_abs()))
     }
 
-    /// The square root that is itself a square; `None` if there is none. This choice is
+    /// The square root that is itself a square; `None` if there is none modulo P. This choice is
     /// multiplicative: the root of a product is the product of the roots.
     #[must_use]
     pub fn sqrt(self) -> Option<Self> {
+        if self.1 != 0 {
+            return None;
+        }
         let root = self.pow(P.div_ceil(4));
         (root * root == self).then_some(root)
     }
@@ -136,6 +151,9 @@ impl Residue {
         if order == 2 {
             return self.sqrt();
         }
+        if self.1 != 0 {
+            return None;
+        }
         // the squares are a group of odd order (P − 1)/2, in which every such root is a power
         let inverse = i128::from(order).extended_gcd(&i128::from(HALF)).x.rem_euclid(i128::from(HALF));
         let inverse = u64::try_from(inverse).ok()?;
@@ -143,11 +161,47 @@ impl Residue {
         [root, opposite].into_iter().find(|root| root.pow(order) == self)
     }
 
+    /// The square root of a positive number, as the product of those of its primes: that of q modulo P, or else
+    /// i √−q. `None` for numbers beyond 64 bits.
+    #[must_use]
+    pub fn root_of_number(number: &Rational) -> Option<Self> {
+        let (n, d) = number.to_small().filter(|(n, _)| *n > 0)?;
+        let mut root = Self::of(number)?.sqrt();
+        let primes: Vec<u64> = primes(n.unsigned_abs()).into_iter().chain(primes(d.unsigned_abs())).collect();
+        let is_square = |prime: &u64| Self::of_word(*prime).sqrt().is_some();
+        if !primes.iter().all(is_square) {
+            let of_prime = |prime: &u64| {
+                let prime = Self::of_word(*prime);
+                prime.sqrt().or_else(|| (-prime).sqrt().map(|root| root * Self(0, 1)))
+            };
+            let above = primes.iter().try_fold(Self::ONE, |product, prime| Some(product * of_prime(prime)?));
+            // √(n/d) = √(n d)/d
+            root = Some(above? * Self::of_word(d.unsigned_abs()).inverse()?);
+        }
+        root
+    }
+
+    /// A square root among all a + b i; `None` where a² + b² is no square, unless b is 0.
+    #[must_use]
+    pub(super) fn root_of_constant(self) -> Option<Self> {
+        let i = Self(0, 1);
+        if self.1 == 0 {
+            return self.sqrt().or_else(|| (-self).sqrt().map(|root| root * i));
+        }
+        // (c + d i)² with c² = (a ± √(a² + b²))/2
+        let (a, b) = (Self(self.0, 0), Self(self.1, 0));
+        let norm = (a * a + b * b).sqrt()?;
+        let half = Self::of_word(2).inverse()?;
+        let c = [a + norm, a + -norm].into_iter().find_map(|twice| (twice * half).sqrt())?;
+        let d = b * half * c.inverse()?;
+        Some(c + d * i)
+    }
+
     /// The smaller one of x and −x, and whether that is −x.
     #[must_use]
     pub(super) fn up_to_sign(self) -> (Self, bool) {
         let opposite = -self;
-        if opposite.0 < self.0 { (opposite, true) } else { (self, false) }
+        if (opposite.0, opposite.1) < (self.0, self.1) { (opposite, true) } else { (self, false) }
     }
 
     /// A word that a seed and a number determine, well mixed (the finaliser of `SplitMix64`).
@@ -173,18 +227,49 @@ fn reduce(wide: u128) -> u64 {
     value
 }
 
+/// The primes in a number as often as they occur. What has no factor below two million is taken for a prime: the
+/// product of two larger ones has a root of its own then.
+fn primes(mut number: u64) -> Vec<u64> {
+    const TRIED: u64 = 1 << 21;
+    let mut found = Vec::new();
+    let mut divisor = 2;
+    while divisor < TRIED && divisor * divisor <= number {
+        while number.is_multiple_of(divisor) {
+            found.push(divisor);
+            number /= divisor;
+        }
+        divisor += if divisor == 2 { 1 } else { 2 };
+    }
+    if number > 1 {
+        found.push(number);
+    }
+    found
+}
+
+fn sum(a: u64, b: u64) -> u64 {
+    let sum = a + b;
+    if sum >= P { sum - P } else { sum }
+}
+
+fn negative(a: u64) -> u64 {
+    if a == 0 { 0 } else { P - a }
+}
+
+fn product(a: u64, b: u64) -> u64 {
+    reduce(u128::from(a) * u128::from(b))
+}
+
 impl std::ops::Add for Residue {
     type Output = Self;
     fn add(self, other: Self) -> Self {
-        let sum = self.0 + other.0;
-        Self(if sum >= P { sum - P } else { sum })
+        Self(sum(self.0, other.0), sum(self.1, other.1))
     }
 }
 
 impl std::ops::Neg for Residue {
     type Output = Self;
     fn neg(self) -> Self {
-        Self(if self.0 == 0 { 0 } else { P - self.0 })
+        Self(negative(self.0), negative(self.1))
     }
 }
 
@@ -198,7 +283,12 @@ impl std::ops::Sub for Residue {
 impl std::ops::Mul for Residue {
     type Output = Self;
     fn mul(self, other: Self) -> Self {
-        Self(reduce(u128::from(self.0) * u128::from(other.0)))
+        let (Self(a, b), Self(c, d)) = (self, other);
+        if b == 0 && d == 0 {
+            return Self(product(a, c), 0);
+        }
+        let real = sum(product(a, c), negative(product(b, d)));
+        Self(real, sum(product(a, d), product(b, c)))
     }
 }
 
@@ -238,6 +328,46 @@ mod tests {
         for prime in (2..61).filter(|n| (2..*n).all(|d| n % d != 0)) {
             assert!(Residue::of_word(prime).sqrt().is_some(), "{prime}");
         }
+    }
+
+    #[test]
+    fn numbers_have_roots_that_are_multiplicative() {
+        let root = |n, d| Residue::root_of_number(&Rational::new(n, d)).expect("a root");
+        let mut outside = 0;
+        for n in 1..400_i64 {
+            let value = Residue::of_word(n.unsigned_abs());
+            assert_eq!(root(n, 1) * root(n, 1), value);
+            assert_eq!(root(n, 7) * root(7, 1), root(n, 1));
+            assert_eq!(root(n, 67) * root(67, n), Residue::ONE);
+            for m in [2, 61, 67, 71, 134] {
+                assert_eq!(root(n, 1) * root(m, 1), root(n * m, 1), "{n} {m}");
+            }
+            if value.sqrt().is_none() {
+                outside += 1;
+                let shifted = root(n, 1) + Residue::ONE;
+                assert_eq!(shifted * shifted.inverse().expect("not zero"), Residue::ONE);
+                assert_ne!(shifted.word(), (-shifted).word());
+            }
+        }
+        assert!(outside > 50, "{outside}");
+        assert_eq!(Residue::root_of_number(&Rational::new(9, 4)), Residue::of(&Rational::new(3, 2)));
+        assert_eq!(Residue::root_of_number(&Rational::from(-3)), None);
+    }
+
+    #[test]
+    fn roots_of_numbers_have_roots() {
+        let root = |n: i64| Residue::root_of_number(&Rational::from(n)).expect("a root");
+        let mut found = 0;
+        for n in 2..200 {
+            for shift in 1..20 {
+                let nested = root(n) + Residue::of_word(shift);
+                if let Some(root) = nested.root_of_constant() {
+                    assert_eq!(root * root, nested, "{shift} + sqrt({n})");
+                    found += 1;
+                }
+            }
+        }
+        assert!(found > 1500, "{found}");
     }
 
     #[test]

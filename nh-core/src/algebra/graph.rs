@@ -4,7 +4,7 @@
 //! (`sum.rs`, `product.rs`, `transcendental.rs` list them). Operands are created before what is
 //! built from them, so ascending ids are a topological order and no pass needs recursion.
 
-use super::accuracy::Accuracy;
+use super::accuracy::{Accuracy, Cancelling};
 use super::constants::Constants;
 use super::normal_form::{Attempts, Simplifier};
 use super::number::Rational;
@@ -149,6 +149,8 @@ pub struct Graph {
     pub(super) simplifier: Simplifier,
     /// The normal forms that it has read.
     pub(super) attempts: Attempts,
+    /// What was found of terms that cancel identically.
+    pub(super) cancelling: Cancelling,
     /// How much rounding error rewriting may cost.
     accuracy: Accuracy,
     /// Room for terms or factors that are being collected: most are found to be known.
@@ -363,7 +365,7 @@ impl Graph {
             found.push(id);
             true
         });
-        self.visited.borrow().sort(&mut found);
+        self.visited.borrow_mut().sort(&mut found);
         found
     }
 

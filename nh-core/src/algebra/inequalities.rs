@@ -14,6 +14,7 @@ use super::number::Rational;
 use super::polynomial_terms::{Terms, least_value};
 use super::range::{Facts, Range};
 use crate::id::ExprId;
+use crate::limits;
 use rustc_hash::FxHashMap;
 
 /// What an expression is required to be.
@@ -53,15 +54,25 @@ pub enum Contradiction {
 const ROUNDS: usize = 12;
 /// Expressions with more parts are not looked at.
 const LARGEST: usize = 2000;
+/// Operands of longer sums and products tell nothing of each other.
+const MANY: usize = 40;
+/// Steps of work after which intervals are left as wide as they are.
+const PROPAGATED: u64 = 1_000_000;
 
 type Known = FxHashMap<ExprId, Interval>;
+
+/// A sum: the range of a polynomial, and other terms with their coefficients.
+struct Shifted {
+    range: Interval,
+    others: Vec<(ExprId, Rational)>,
+}
 
 impl Graph {
     /// A proof that no values of the symbols satisfy all demands, if one is found.
     #[must_use]
     pub fn contradiction(&self, demands: &[(ExprId, Demand)]) -> Option<Contradiction> {
         let mut known = Known::default();
-        if let Err(index) = self.propagate(demands, &mut known) {
+        if let Err(index) = self.propagate_for_a_while(demands, &mut known) {
             return Some(Contradiction::Nowhere(index));
         }
         self.combination(demands)
@@ -71,7 +82,7 @@ impl Graph {
     #[must_use]
     pub fn consequences(&self, demands: &[(ExprId, Demand)]) -> Facts {
         let (mut known, mut facts) = (Known::default(), Facts::default());
-        if self.propagate(demands, &mut known).is_ok() {
+        if self.propagate_for_a_while(demands, &mut known).is_ok() {
             for (id, interval) in known {
                 let (low, high) = interval.to_f64();
                 let range = Range { low, high, nonzero: interval.is_nonzero() };
@@ -83,6 +94,11 @@ impl Graph {
             }
         }
         facts
+    }
+
+    /// [`Self::propagate`], as far as that goes at moderate work.
+    fn propagate_for_a_while(&self, demands: &[(ExprId, Demand)], known: &mut Known) -> Result<(), usize> {
+        limits::attempt(PROPAGATED, || self.propagate(demands, known)).unwrap_or(Ok(()))
     }
 
     /// Narrows the intervals of all parts; the index of a demand that leaves nothing, if one does.
@@ -98,12 +114,20 @@ impl Graph {
                 }
             }
         }
+        let shifted: FxHashMap<ExprId, Shifted> =
+            parts.iter().flatten().filter_map(|id| Some((*id, self.shifted_quadratic(*id)?))).collect();
         for _ in 0..ROUNDS {
             let mut changed = false;
             for (index, ((id, demand), parts)) in demands.iter().zip(&parts).enumerate() {
                 for part in parts {
                     let interval = self.interval_of_node(*part, known);
                     changed |= narrow(known, *part, &interval).map_err(|()| index)?;
+                    if let Some(Shifted { range, others }) = shifted.get(part) {
+                        let sum = others.iter().fold(range.clone(), |sum, (other, c)| {
+                            sum.plus(&known.get(other).unwrap_or(&Interval::ALL).scaled(c))
+                        });
+                        changed |= narrow(known, *part, &sum).map_err(|()| index)?;
+                    }
                 }
                 changed |= narrow(known, *id, &demand.interval()).map_err(|()| index)?;
                 for part in parts.iter().rev() {
@@ -130,6 +154,24 @@ impl Graph {
         }
         let Node::Sum { .. } = self.node(id) else { return None };
         self.polynomial_terms(id).map(|polynomial| range_of_quadratic(&polynomial))
+    }
+
+    /// A sum as a quadratic polynomial with a least or a largest value, and functions that are its other terms.
+    fn shifted_quadratic(&self, id: ExprId) -> Option<Shifted> {
+        let Node::Sum { .. } = self.node(id) else { return None };
+        let mut polynomial = self.polynomial_terms(id)?;
+        let mut others = Vec::new();
+        for (monomial, coefficient) in polynomial.clone() {
+            let [(part, exponent)] = monomial.as_slice() else { continue };
+            let is_elsewhere =
+                polynomial.keys().any(|other| *other != monomial && other.iter().any(|(p, _)| p == part));
+            if exponent.is_one() && !is_elsewhere && matches!(self.node(*part), Node::Apply(..)) {
+                polynomial.remove(&monomial);
+                others.push((*part, coefficient));
+            }
+        }
+        let range = range_of_quadratic(&polynomial);
+        (!others.is_empty() && range != Interval::ALL).then_some(Shifted { range, others })
     }
 
     /// Whether no symbol occurs.
@@ -172,7 +214,7 @@ impl Graph {
         let whole = known[&id].clone();
         let mut changed = false;
         match self.node(id) {
-            Node::Sum { constant, terms } if terms.len() <= 40 => {
+            Node::Sum { constant, terms } if terms.len() <= MANY => {
                 for (index, (term, coefficient)) in terms.iter().enumerate() {
                     let others = terms.iter().enumerate().filter(|(other, _)| *other != index);
                     let rest = others.fold(Interval::point(constant), |sum, (_, (other, c))| {
@@ -186,9 +228,12 @@ impl Graph {
             Node::Product { coefficient, factors } => {
                 for (index, (base, exponent)) in factors.iter().enumerate() {
                     let others = factors.iter().enumerate().filter(|(other, _)| *other != index);
-                    let rest = others.fold(Interval::point(coefficient), |product, (_, (other, e))| {
-                        product.times(&known[other].power(e))
-                    });
+                    let product = || {
+                        others.fold(Interval::point(coefficient), |product, (_, (other, e))| {
+                            product.times(&known[other].power(e))
+                        })
+                    };
+                    let rest = if factors.len() <= MANY { product() } else { Interval::ALL };
                     let mut share = Interval::ALL;
                     if rest.is_nonzero() {
                         share = whole.times(&rest.reciprocal());
@@ -260,6 +305,29 @@ mod tests {
                 (g.linear_combination(&terms), *demand)
             })
             .collect()
+    }
+
+    /// x² + xy + y² + a f(z) + b = 0.
+    #[test]
+    fn quadratic_polynomials_beside_functions() {
+        for (function, coefficient, constant, is_contradictory) in [
+            (Function::Exp, 1, 0, true),
+            (Function::Exp, -1, 0, false),
+            (Function::Cosh, 1, 0, true),
+            (Function::Cosh, 1, -2, false),
+            (Function::Sin, 1, 2, true),
+            (Function::Sin, 3, 2, false),
+            (Function::Ln, 1, 5, false),
+        ] {
+            let mut g = Graph::new();
+            let z = g.new_symbol("z");
+            let z = g.symbol(z);
+            let term = g.apply(function, z);
+            let found = demands(&mut g, &[([constant, 0, 0, 1, 1, 1], Demand::Zero)]);
+            let sum = g.linear_combination(&[(Rational::ONE, found[0].0), (coefficient.into(), term)]);
+            let outcome = g.contradiction(&[(sum, Demand::Zero)]);
+            assert_eq!(outcome.is_some(), is_contradictory, "{function:?} {coefficient} {constant}");
+        }
     }
 
     #[test]

@@ -6,6 +6,7 @@ use self::images::{at, cosh, exactly, power, signed_power, sinh, tanh};
 use super::ball::{Ball, Enclosed};
 use super::graph::Function;
 use super::number::Rational;
+use crate::limits;
 use std::cmp::Ordering;
 
 /// One end of an interval.
@@ -27,6 +28,8 @@ pub(super) struct Interval {
 
 /// Longer ends are rounded outwards.
 const LONGEST: u64 = 512;
+/// The square of the length of an end that takes a step of work.
+const BITS_SQUARED_PER_STEP: u64 = 1000;
 
 impl Interval {
     pub(super) const ALL: Self = Self { low: None, high: None, nonzero: false };
@@ -119,8 +122,11 @@ impl Interval {
     /// Shortens ends, outwards.
     fn rounded(mut self) -> Self {
         for (end, up) in [(&mut self.low, false), (&mut self.high, true)] {
+            let bits = end.as_ref().map_or(0, |end| end.value.bits());
+            // lowest terms take the square of the length
+            limits::spend(1 + usize::try_from(bits * bits / BITS_SQUARED_PER_STEP).unwrap_or(usize::MAX));
             if let Some(long) = end
-                && long.value.bits() > LONGEST
+                && bits > LONGEST
             {
                 let near = long.value.to_f64();
                 let outside = if up { near.next_up() } else { near.next_down() };

@@ -4,6 +4,7 @@ use super::graph::Graph;
 use super::substitute::Substitution;
 use super::zero_test::Verdict;
 use crate::id::{ExprId, SymbolId};
+use crate::limits;
 
 /// `Σ coefficients[i] · variables[i] + rest`; neither depends on the variables.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -35,7 +36,15 @@ impl Graph {
         variables: &[SymbolId],
     ) -> Result<LinearForm, NotLinear> {
         let mut coefficients = Vec::with_capacity(variables.len());
+        // sorted
+        let occurring = self.symbols_in(&[expression]);
+        let zero = self.zero();
+        limits::spend(variables.len());
         for &variable in variables {
+            if occurring.binary_search(&variable).is_err() {
+                coefficients.push(zero);
+                continue;
+            }
             let coefficient = self.partial(expression, variable);
             coefficients.push(self.freed_from(coefficient, variable, variables)?);
         }

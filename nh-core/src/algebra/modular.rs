@@ -44,6 +44,29 @@ pub enum NoValue {
 pub(super) type Value = Result<Residue, NoValue>;
 
 impl Graph {
+    /// A root of a number that the field has not, as text.
+    pub(crate) fn root_outside_field(&self, roots: &[ExprId]) -> Option<String> {
+        let is_missing = |base: ExprId, order: u64| match self.value_of(base) {
+            Some(number) if order == 2 => Residue::root_of_number(number).is_none(),
+            Some(_) => !Residue::has_roots(order),
+            None => {
+                let value = self.evaluate_in_field(&[base], &FieldPoint::random(0));
+                let root =
+                    |value: Residue| if order == 2 { value.root_of_constant() } else { value.root(order) };
+                value.is_ok_and(|values| root(values[0]).is_none())
+            }
+        };
+        self.reachable(roots).into_iter().find_map(|id| {
+            let Node::Product { factors, .. } = self.node(id) else { return None };
+            let roots = factors.iter().filter_map(|(base, exponent)| {
+                let order = exponent.to_small().map_or(1, |(_, d)| d.unsigned_abs());
+                (order > 1 && self.symbols_in(&[*base]).is_empty()).then_some((*base, order))
+            });
+            let (base, order) = roots.into_iter().find(|(base, order)| is_missing(*base, *order))?;
+            Some(format!("root of order {order} of {}", self.text(base)))
+        })
+    }
+
     /// Evaluates `roots` at a point of the field.
     ///
     /// # Errors
@@ -69,6 +92,19 @@ pub(crate) struct FieldPass<'a> {
     pub(super) units: FxHashMap<u64, (Residue, Residue)>,
     /// Cosine and sine of the angles that have occurred.
     pub(super) circles: FxHashMap<ExprId, (Residue, Residue)>,
+    /// Whether functions are those of the values of their arguments alone.
+    by_value: bool,
+}
+
+/// What a root is taken of.
+#[derive(Clone, Copy, Debug)]
+pub(crate) enum Radicand<'n> {
+    /// A rational number.
+    Number(&'n Rational),
+    /// A number that is made of such.
+    Constant,
+    /// Something that has other values at other points.
+    Varying,
 }
 
 /// Separate streams of random numbers for separate purposes.
@@ -85,11 +121,22 @@ impl<'a> FieldPass<'a> {
     /// At a point; `division` is the [`Graph::angle_division`] of all that will be evaluated.
     pub(crate) fn new(graph: &'a Graph, point: FieldPoint, division: i64) -> Self {
         let (known, units, circles) = Default::default();
-        Self { graph, point, division, known, units, circles }
+        Self { graph, point, division, known, units, circles, by_value: false }
+    }
+
+    /// The same without the addition theorems: sine, cosine and exponential are kernels of the values of their
+    /// arguments. What is equal then is equal with them, and need not be written with the same angles.
+    pub(crate) fn by_value(graph: &'a Graph, point: FieldPoint) -> Self {
+        Self { by_value: true, ..Self::new(graph, point, 1) }
     }
 
     pub(crate) fn graph(&self) -> &'a Graph {
         self.graph
+    }
+
+    /// The number of the point.
+    pub(crate) fn seed(&self) -> u64 {
+        self.point.seed
     }
 
     /// The values of `roots`.
@@ -136,14 +183,11 @@ impl<'a> FieldPass<'a> {
     fn value(&mut self, id: ExprId) -> Value {
         match self.graph.node(id) {
             Node::Number(value) => Residue::of(value).ok_or(NoValue::Here),
-            Node::Pi => Ok(self.random(Stream::Pi, 0)),
+            Node::Pi => Ok(self.pi()),
             Node::Constant(constant) => {
                 Residue::of(&self.graph.constants()[*constant].value).ok_or(NoValue::Here)
             }
-            Node::Symbol(symbol) => Ok(self.point.chosen.get(symbol).copied().unwrap_or_else(|| {
-                let word = u64::try_from(symbol.index()).unwrap_or(0);
-                self.random(Stream::Symbol, word)
-            })),
+            Node::Symbol(symbol) => Ok(self.symbol(*symbol)),
             Node::Sum { constant, terms } => {
                 let mut sum = Residue::of(constant).ok_or(NoValue::Here)?;
                 for (term, coefficient) in terms.iter() {
@@ -158,27 +202,61 @@ impl<'a> FieldPass<'a> {
                 }
                 Ok(product)
             }
-            Node::Apply(function, x) => self.function(*function, *x),
+            Node::Apply(function, x) => {
+                let value = self.known[x];
+                match function {
+                    Function::Sin | Function::Cos if !self.by_value => {
+                        let (cos, sin) = self.circle(*x)?;
+                        Ok(if *function == Function::Sin { sin } else { cos })
+                    }
+                    Function::Exp if !self.by_value => self.exponential(*x),
+                    Function::Sinh | Function::Cosh | Function::Tanh if !self.by_value => {
+                        hyperbolic(*function, self.exponential(*x)?)
+                    }
+                    _ => self.function_of_value(*function, value),
+                }
+            }
             Node::Apply2(function, x, y) => {
-                let kernel = Residue::mixed(self.known[x].word(), self.known[y].word()).word();
-                let kind = match function {
-                    Function2::Atan2 => 101,
-                    Function2::Min => 102,
-                    Function2::Max => 103,
-                };
-                Ok(self.random(Stream::Kernel, Residue::mixed(kind, kernel).word()))
+                let (x, y) = (self.known[x], self.known[y]);
+                Ok(self.function_of_values(*function, x, y))
             }
         }
     }
 
+    /// The value of a symbol.
+    pub(crate) fn symbol(&self, symbol: SymbolId) -> Residue {
+        self.point.chosen.get(&symbol).copied().unwrap_or_else(|| {
+            let word = u64::try_from(symbol.index()).unwrap_or(0);
+            self.random(Stream::Symbol, word)
+        })
+    }
+
+    /// What stands for π.
+    pub(crate) fn pi(&self) -> Residue {
+        self.random(Stream::Pi, 0)
+    }
+
     pub(super) fn power(&self, base: ExprId, exponent: &Rational) -> Value {
-        let x = self.known[&base];
+        let root = |kind| self.power_of_value(self.known[&base], kind, exponent);
+        match self.graph.value_of(base) {
+            Some(number) => root(Radicand::Number(number)),
+            None if exponent.is_integer() || !self.graph.symbols_in(&[base]).is_empty() => {
+                root(Radicand::Varying)
+            }
+            None => root(Radicand::Constant),
+        }
+    }
+
+    /// The power of a value.
+    pub(crate) fn power_of_value(&self, x: Residue, kind: Radicand, exponent: &Rational) -> Value {
         match exponent.to_small() {
             Some((n, 1)) => x.integer_power(n).ok_or(NoValue::Here),
             Some((n, d)) => {
-                let root = match self.graph.as_number(base) {
-                    Some(number) => self.root_of_number(number, d.unsigned_abs())?,
-                    None => self.root(x, d.unsigned_abs())?,
+                let order = d.unsigned_abs();
+                let root = match kind {
+                    Radicand::Number(number) => self.root_of_number(number, order)?,
+                    Radicand::Constant => self.root_of_constant(x, order),
+                    Radicand::Varying => self.root(x, order)?,
                 };
                 root.integer_power(n).ok_or(NoValue::Here)
             }
@@ -201,34 +279,64 @@ impl<'a> FieldPass<'a> {
             return Err(NoValue::Ever(format!("a root of {number} is outside what the zero test can treat")));
         }
         let value = Residue::of(number).ok_or(NoValue::Here)?;
-        let root = if Residue::has_roots(order) { value.root(order) } else { None };
+        let root = match order {
+            2 => Residue::root_of_number(number),
+            _ if Residue::has_roots(order) => value.root(order),
+            _ => None,
+        };
         Ok(root.unwrap_or_else(|| self.random(Stream::Kernel, Residue::mixed(order, value.word()).word())))
     }
 
-    fn function(&mut self, function: Function, x: ExprId) -> Value {
+    /// The root of a number that is made of others, nested roots, say: another point has no other one. Where the field
+    /// has none, any number stands for it, as for those of rational numbers.
+    fn root_of_constant(&self, x: Residue, order: u64) -> Residue {
+        let root = match order {
+            2 => x.root_of_constant(),
+            _ => x.root(order),
+        };
+        root.unwrap_or_else(|| self.random(Stream::Kernel, Residue::mixed(order, x.word()).word()))
+    }
+
+    /// A function of two values.
+    pub(crate) fn function_of_values(&self, function: Function2, x: Residue, y: Residue) -> Residue {
+        let kernel = Residue::mixed(x.word(), y.word()).word();
+        let kind = match function {
+            Function2::Atan2 => 101,
+            Function2::Min => 102,
+            Function2::Max => 103,
+        };
+        self.random(Stream::Kernel, Residue::mixed(kind, kernel).word())
+    }
+
+    /// A function of a value; sine, cosine and exponential without the addition theorems.
+    pub(crate) fn function_of_value(&mut self, function: Function, x: Residue) -> Value {
         match function {
-            Function::Sin => Ok(self.circle(x)?.1),
-            Function::Cos => Ok(self.circle(x)?.0),
-            Function::Exp => self.exponential(x),
-            Function::Sinh | Function::Cosh | Function::Tanh => {
-                let half = Residue::of_word(2).inverse().ok_or(NoValue::Here)?;
-                let up = self.exponential(x)?;
-                let down = up.inverse().ok_or(NoValue::Here)?;
-                match function {
-                    Function::Sinh => Ok((up - down) * half),
-                    Function::Cosh => Ok((up + down) * half),
-                    _ => Ok((up - down) * (up + down).inverse().ok_or(NoValue::Here)?),
-                }
+            Function::Sin | Function::Cos => {
+                let (x, is_negative) = x.up_to_sign();
+                let (cos, sin) = self.unit_of(x)?;
+                let sin = if is_negative { -sin } else { sin };
+                Ok(if function == Function::Sin { sin } else { cos })
             }
-            Function::Sign => Ok(self.sign(self.known[&x])),
+            Function::Exp => self.exponential_of_value(x),
+            Function::Sinh | Function::Cosh | Function::Tanh => {
+                hyperbolic(function, self.exponential_of_value(x)?)
+            }
+            Function::Sign => Ok(self.sign(x)),
             Function::Asin | Function::Atan => {
-                let (x, is_negative) = self.known[&x].up_to_sign();
+                let (x, is_negative) = x.up_to_sign();
                 let value = self.of_kernel(function, x);
                 Ok(if is_negative { -value } else { value })
             }
-            Function::Abs => Ok(self.of_kernel(function, self.known[&x].up_to_sign().0)),
-            Function::Acos | Function::Ln => Ok(self.of_kernel(function, self.known[&x])),
+            Function::Abs => Ok(self.sign(x) * x),
+            Function::Acos | Function::Ln => Ok(self.of_kernel(function, x)),
         }
+    }
+
+    /// exp(−x) is 1/exp x.
+    fn exponential_of_value(&self, x: Residue) -> Value {
+        let (x, is_negative) = x.up_to_sign();
+        let value = self.random(Stream::Exponential, x.word());
+        if is_negative { value.inverse().ok_or(NoValue::Here) } else { Ok(value) }
     }
 
     /// The kernel of the sign, an odd function.
@@ -240,5 +348,16 @@ impl<'a> FieldPass<'a> {
 
     fn of_kernel(&self, function: Function, x: Residue) -> Residue {
         self.random(Stream::Kernel, Residue::mixed(function as u64, x.word()).word())
+    }
+}
+
+/// A hyperbolic function of what has this exponential.
+fn hyperbolic(function: Function, up: Residue) -> Value {
+    let half = Residue::of_word(2).inverse().ok_or(NoValue::Here)?;
+    let down = up.inverse().ok_or(NoValue::Here)?;
+    match function {
+        Function::Sinh => Ok((up - down) * half),
+        Function::Cosh => Ok((up + down) * half),
+        _ => Ok((up - down) * (up + down).inverse().ok_or(NoValue::Here)?),
     }
 }

@@ -7,7 +7,7 @@
 
 use super::field::Residue;
 use super::graph::{Graph, Node};
-use super::modular::FieldPoint;
+use super::modular::{FieldPass, FieldPoint, NoValue};
 use crate::id::{ExprId, Id, SymbolId};
 use num_integer::Integer;
 use std::collections::BTreeMap;
@@ -48,6 +48,21 @@ impl Radicands {
 
     /// The random point number `seed` where they are squares, as far as such a point is found.
     pub(crate) fn point(&self, graph: &Graph, seed: u64) -> FieldPoint {
+        self.found(seed, |radicand, point| {
+            graph.evaluate_in_field(&[radicand], point).map(|values| values[0])
+        })
+    }
+
+    /// The same where functions are evaluated in passes of a kind.
+    pub(crate) fn point_in<'a>(&self, seed: u64, pass: impl Fn(FieldPoint) -> FieldPass<'a>) -> FieldPoint {
+        self.found(seed, |radicand, point| pass(point.clone()).evaluate(&[radicand]).map(|values| values[0]))
+    }
+
+    fn found(
+        &self,
+        seed: u64,
+        value: impl Fn(ExprId, &FieldPoint) -> Result<Residue, NoValue>,
+    ) -> FieldPoint {
         let mut point = FieldPoint::random(seed);
         for (symbol, radicands) in &self.completed {
             for trial in 0..TRIALS << radicands.len().min(TOGETHER) {
@@ -56,10 +71,8 @@ impl Radicands {
                     point.chosen.insert(*symbol, Residue::mixed(!seed, number));
                 }
                 // one after the other: half of the points fail at the first
-                let is_square = |radicand: &ExprId| {
-                    let values = graph.evaluate_in_field(&[*radicand], &point);
-                    values.is_ok_and(|values| values[0].sqrt().is_some())
-                };
+                let is_square =
+                    |radicand: &ExprId| value(*radicand, &point).is_ok_and(|value| value.sqrt().is_some());
                 if radicands.iter().all(is_square) {
                     break;
                 }

@@ -62,6 +62,18 @@ impl<'p, 'a> TangentPass<'p, 'a> {
         Self { pass, direction, rates: FxHashMap::default() }
     }
 
+    /// Gives a symbol a value with its rate before it occurs; false where it has another value already.
+    #[must_use]
+    pub(crate) fn choose(&mut self, symbol: SymbolId, dual: Dual) -> bool {
+        self.direction.insert(symbol, dual.rate);
+        self.pass.choose(symbol, dual.value)
+    }
+
+    /// As [`FieldPass::kernel`].
+    pub(crate) fn kernel(&self, name: &str, arguments: &[Residue]) -> Residue {
+        self.pass.kernel(name, arguments)
+    }
+
     /// The expressions with their rates.
     ///
     /// # Errors

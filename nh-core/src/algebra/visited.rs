@@ -11,6 +11,8 @@ pub(super) struct Visited {
     seen: Vec<u32>,
     /// What is yet to be seen.
     open: Vec<ExprId>,
+    /// One bit for each node between the first and the last of a walk.
+    marks: Vec<u64>,
 }
 
 impl Visited {
@@ -46,17 +48,30 @@ impl Visited {
         None
     }
 
-    /// Sorts what the last walk has found: by looking through all nodes in between, where that is shorter.
-    pub(super) fn sort(&self, found: &mut Vec<ExprId>) {
-        const SPARSE: usize = 8;
-        let first = found.iter().min().map_or(0, |id| id.index());
-        let last = found.iter().max().map_or(0, |id| id.index());
-        if found.len() < SPARSE || last - first > SPARSE * found.len() {
+    /// Sorts expressions of a walk, each of which occurs once.
+    pub(super) fn sort(&mut self, found: &mut Vec<ExprId>) {
+        const WORD: usize = u64::BITS as usize;
+        // few are sorted as they are, and so are those so far apart that most words would be empty
+        const FEW: usize = 8;
+        const EMPTY: usize = 16;
+        let first = found.iter().min().map_or(0, |id| id.index()) / WORD;
+        let last = found.iter().max().map_or(0, |id| id.index()) / WORD;
+        if found.len() < FEW || last - first > EMPTY * found.len() {
             found.sort_unstable();
             return;
         }
+        self.marks.clear();
+        self.marks.resize(last - first + 1, 0);
+        for id in found.iter() {
+            self.marks[id.index() / WORD - first] |= 1 << (id.index() % WORD);
+        }
         found.clear();
-        let seen = self.seen[first..=last].iter().enumerate().filter(|(_, walk)| **walk == self.walk);
-        found.extend(seen.map(|(index, _)| ExprId::from_index(first + index)));
+        for (index, word) in self.marks.iter().enumerate() {
+            let mut left = *word;
+            while left != 0 {
+                found.push(ExprId::from_index((first + index) * WORD + left.trailing_zeros() as usize));
+                left &= left - 1;
+            }
+        }
     }
 }

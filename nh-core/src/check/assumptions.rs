@@ -95,11 +95,11 @@ pub fn undecided(model: &Model, facts: &Facts) -> bool {
 pub(super) fn demand(graph: &mut Graph, assumption: &Assumption) -> (ExprId, Demand) {
     let (left, right) = (assumption.left, assumption.right);
     match assumption.relation {
-        Relation::Greater => (graph.sub(left, right), Demand::Positive),
-        Relation::GreaterOrEqual => (graph.sub(left, right), Demand::NotNegative),
-        Relation::Less => (graph.sub(right, left), Demand::Positive),
-        Relation::LessOrEqual => (graph.sub(right, left), Demand::NotNegative),
-        Relation::NotEqual => (graph.sub(left, right), Demand::Nonzero),
+        Relation::Greater => (graph.formula(left - right), Demand::Positive),
+        Relation::GreaterOrEqual => (graph.formula(left - right), Demand::NotNegative),
+        Relation::Less => (graph.formula(right - left), Demand::Positive),
+        Relation::LessOrEqual => (graph.formula(right - left), Demand::NotNegative),
+        Relation::NotEqual => (graph.formula(left - right), Demand::Nonzero),
     }
 }
 
@@ -155,7 +155,7 @@ fn demanded(relation: Relation) -> Range {
 
 /// Adds a fact; false if nothing satisfies it together with those known.
 fn assume(graph: &mut Graph, facts: &mut Facts, assumption: &Assumption) -> bool {
-    let difference = graph.sub(assumption.left, assumption.right);
+    let difference = graph.formula(assumption.left - assumption.right);
     let difference = graph.simplify(difference);
     let demanded = demanded(assumption.relation);
     let known = graph.range(difference, facts);
@@ -190,7 +190,7 @@ fn learn(graph: &mut Graph, facts: &mut Facts, expression: ExprId, range: Range)
         };
     };
     record(graph, expression, range);
-    let negative = graph.neg(expression);
+    let negative = graph.formula(-expression);
     record(graph, negative, range.scaled(-1.0));
     if let Some(inverse) = content.recip() {
         let primitive = graph.scale(inverse.clone(), expression);
@@ -217,7 +217,7 @@ mod tests {
         assert!(assume(&mut g, &mut facts, &assumption(em, Relation::Greater, zero)));
         assert!(assume(&mut g, &mut facts, &assumption(ea, Relation::Less, em)));
         assert!(g.vanishes_nowhere(em, &facts));
-        let gap = g.sub(em, ea);
+        let gap = g.formula(em - ea);
         assert!(g.vanishes_nowhere(gap, &facts));
         assert!(!assume(&mut g, &mut facts, &assumption(em, Relation::Less, zero)));
         assert!(!assume(&mut g, &mut facts, &assumption(one, Relation::Less, zero)));

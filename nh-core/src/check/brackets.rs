@@ -2,28 +2,32 @@
 
 use super::evidence::{listed, shown};
 use super::kinematics::Motion;
-use crate::algebra::{Echelon, FieldPoint, Graph, NotLinear, Residue};
-use crate::geometry::{StructureFunctions, hamel};
-use crate::id::{ExprId, Id, SectionId, SymbolId};
+use crate::algebra::{Echelon, FieldPoint, Graph, Matrix, NotLinear, Residue};
+use crate::geometry::{Manifold, StructureFunctions, hamel};
+use crate::id::{ExprId, Id, Origin, SectionId, SymbolId};
 use crate::model::{BracketDecl, Kinematics, Model};
 use crate::violation::{Law, Violation};
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
-/// C^γ_{αβ}: of E = TM all zero, of a coframe by (4), declared, or derived from an injective
-/// anchor by (2).
+/// C^γ_{αβ}: of E = TM all zero, of a coframe by (4), declared, or derived from the anchor by (2).
 ///
 /// # Errors
 /// Brackets that are malformed, contradict each other, or are needed and missing.
-pub fn structure_functions(model: &mut Model, motion: &Motion) -> Result<StructureFunctions, Vec<Violation>> {
+pub fn structure_functions(
+    model: &mut Model,
+    motion: &Motion,
+    base: &Manifold,
+) -> Result<StructureFunctions, Vec<Violation>> {
     let rank = model.sections.len();
-    if !model.brackets_declared {
-        return derived(model, motion).map_err(|violation| vec![violation]);
-    }
-    if matches!(model.kinematics, Kinematics::Tangent) {
-        return Err(vec![brackets_of_coordinates(model)]);
-    }
     let mut structure = StructureFunctions::commuting(rank);
-    let mut seen: BTreeMap<(SectionId, SectionId), (Vec<ExprId>, BracketDecl)> = BTreeMap::new();
+    if matches!(model.kinematics, Kinematics::Tangent) {
+        return if model.brackets_declared {
+            Err(vec![brackets_of_coordinates(model)])
+        } else {
+            Ok(structure)
+        };
+    }
+    let mut seen: BTreeMap<Pair, (Vec<ExprId>, BracketDecl)> = BTreeMap::new();
     let mut violations = Vec::new();
     for declaration in model.brackets.clone() {
         match components(model, &declaration) {
@@ -35,22 +39,82 @@ pub fn structure_functions(model: &mut Model, motion: &Motion) -> Result<Structu
             Err(violation) => violations.push(violation),
         }
     }
-    if violations.is_empty() { Ok(structure) } else { Err(violations) }
+    if !violations.is_empty() {
+        return Err(violations);
+    }
+    // where nothing has to agree with the anchor, what is not declared is 0
+    if !(model.almost && model.brackets_declared) {
+        let open = unlisted(model, &seen);
+        derived(model, motion, base, &open, &mut structure).map_err(|violation| vec![violation])?;
+    }
+    Ok(structure)
 }
 
-fn derived(model: &mut Model, motion: &Motion) -> Result<StructureFunctions, Violation> {
-    let rank = model.sections.len();
-    // a single section commutes with itself
-    if matches!(model.kinematics, Kinematics::Tangent) || rank < 2 {
-        return Ok(StructureFunctions::commuting(rank));
+/// Two sections, the first before the second.
+type Pair = (SectionId, SectionId);
+
+/// The pairs without a line. Known algebras give those of all of their sections.
+fn unlisted(model: &Model, seen: &BTreeMap<Pair, (Vec<ExprId>, BracketDecl)>) -> Vec<Pair> {
+    let section =
+        |symbol: SymbolId| model.sections.iter_ids().find(|(_, s)| s.symbol == symbol).map(|(id, _)| id);
+    let mut blocks: BTreeMap<Origin, BTreeSet<SectionId>> = BTreeMap::new();
+    for bracket in model.brackets.iter().filter(|bracket| bracket.known.is_some()) {
+        let block = blocks.entry(bracket.origin).or_default();
+        block.extend([bracket.left, bracket.right]);
+        block.extend(model.graph.symbols_in(&[bracket.value]).into_iter().filter_map(section));
+    }
+    let ids: Vec<SectionId> = model.sections.ids().collect();
+    let pairs = ids.iter().enumerate().flat_map(|(index, a)| ids[index + 1..].iter().map(move |b| (*a, *b)));
+    let is_known = |(a, b): &Pair| blocks.values().any(|block| block.contains(a) && block.contains(b));
+    pairs.filter(|pair| !seen.contains_key(pair) && !is_known(pair)).collect()
+}
+
+/// The brackets of some pairs as the coframe or the anchor determines them.
+fn derived(
+    model: &mut Model,
+    motion: &Motion,
+    base: &Manifold,
+    pairs: &[Pair],
+    structure: &mut StructureFunctions,
+) -> Result<(), Violation> {
+    if pairs.is_empty() {
+        return Ok(());
     }
     if let Some(coframe) = &motion.coframe {
         let (frame, coordinates) = (&motion.anchor.entries, &motion.anchor.coordinates);
-        return Ok(hamel::from_coframe(&mut model.graph, coframe, frame, coordinates));
+        let all = hamel::from_coframe(&mut model.graph, coframe, frame, coordinates);
+        if !model.brackets_declared {
+            *structure = all;
+            return Ok(());
+        }
+        for (alpha, beta) in pairs {
+            let graph = &mut model.graph;
+            let components = structure_row(graph, &all, *alpha, *beta);
+            structure.set(graph, *alpha, *beta, components);
+        }
+        return Ok(());
     }
-    match hamel::from_injective_anchor(&mut model.graph, &motion.anchor, rank) {
-        Ok(Some(structure)) => Ok(structure),
-        Ok(None) => Err(missing(model, motion)),
+    if model.coordinates.is_empty() {
+        // the anchor says nothing
+        return if model.brackets_declared { Ok(()) } else { Err(missing(model, motion, &[], &[])) };
+    }
+    let graph = &mut model.graph;
+    let column = |section: SectionId| motion.anchor.entries.iter().map(move |row| row[section.index()]);
+    let visible: Vec<SectionId> = model
+        .sections
+        .ids()
+        .filter(|section| column(*section).any(|entry| !base.zero_test(graph, entry).is_zero()))
+        .collect();
+    match hamel::from_anchor(graph, &motion.anchor, &visible, pairs, structure) {
+        Ok(true) => Ok(()),
+        Ok(false) => {
+            // (2) has a solution, 0, where the commutator vanishes; elsewhere it has several
+            let moving = moving(model, motion, base, pairs);
+            if moving.is_empty() && model.brackets_declared {
+                return Ok(());
+            }
+            Err(missing(model, motion, &visible, &moving))
+        }
         Err(why) => Err(Violation {
             law: Law::Decidable,
             origin: model.origin,
@@ -59,6 +123,30 @@ fn derived(model: &mut Model, motion: &Motion) -> Result<StructureFunctions, Vio
             way_out: "declare them in `brackets { … }`".into(),
         }),
     }
+}
+
+/// The components of `[e_α, e_β]`.
+fn structure_row(
+    graph: &mut Graph,
+    structure: &StructureFunctions,
+    alpha: SectionId,
+    beta: SectionId,
+) -> Vec<ExprId> {
+    let sections = (0..structure.rank()).map(SectionId::from_index);
+    sections.map(|gamma| structure.get(graph, gamma, alpha, beta)).collect()
+}
+
+/// The pairs whose brackets the anchor sends to motions of the base, so that they are not 0.
+fn moving(model: &mut Model, motion: &Motion, base: &Manifold, pairs: &[Pair]) -> Vec<String> {
+    let graph = &mut model.graph;
+    let mut found = Vec::new();
+    for (alpha, beta) in pairs {
+        let commutator = hamel::commutator(graph, &motion.anchor, *alpha, *beta);
+        if commutator.iter().any(|component| base.zero_test(graph, *component).is_nonzero()) {
+            found.push(format!("[{}, {}]", model.sections[*alpha].name, model.sections[*beta].name));
+        }
+    }
+    found
 }
 
 fn brackets_of_coordinates(model: &Model) -> Violation {
@@ -71,60 +159,64 @@ fn brackets_of_coordinates(model: &Model) -> Violation {
     }
 }
 
-/// Brackets are needed, and the anchor does not determine them.
-fn missing(model: &mut Model, motion: &Motion) -> Violation {
-    let way_out = bracket_advice(model, motion);
+/// Brackets are needed, and the anchor does not determine them; these pairs are not 0.
+fn missing(model: &Model, motion: &Motion, visible: &[SectionId], moving: &[String]) -> Violation {
+    /// Pairs that are named.
+    const NAMED: usize = 12;
     let names: Vec<&str> = model.sections.iter().map(|section| section.name.as_str()).collect();
     let evidence = if model.coordinates.is_empty() {
         format!("there are no base coordinates, so nothing is known of the brackets of {}", listed(&names))
     } else {
-        kernel_evidence(model, motion, &names)
+        kernel_evidence(model, motion, visible)
     };
-    Violation {
-        law: Law::Brackets,
-        origin: model.origin,
-        what: "the brackets are needed: they are neither declared nor derivable from the anchor".into(),
-        evidence,
-        way_out,
-    }
-}
-
-/// `brackets { }` is offered only where the anchor does not contradict it: by (2) the images of sections that
-/// commute do.
-fn bracket_advice(model: &mut Model, motion: &Motion) -> String {
-    let sections: Vec<(SectionId, String)> =
-        model.sections.iter_ids().map(|(id, section)| (id, section.name.clone())).collect();
-    let graph = &mut model.graph;
-    let moving = sections.iter().enumerate().find_map(|(index, (alpha, first))| {
-        sections[index + 1..].iter().find_map(|(beta, second)| {
-            let commutator = hamel::commutator(graph, &motion.anchor, *alpha, *beta);
-            let is_moving = commutator.iter().any(|component| graph.zero_test(*component).is_nonzero());
-            is_moving.then(|| format!("[{first}, {second}]"))
-        })
-    });
     let how = "declare them, for example `brackets so(3) { … }` or `brackets { [a, b] = …; }`";
-    match moving {
-        None => format!("{how}; `brackets {{ }}` says that all vanish"),
-        Some(pair) => format!("{how}; {pair} is not 0, since the anchor sends it to a motion of the base"),
-    }
+    let shown: Vec<&str> = moving.iter().take(NAMED).map(String::as_str).collect();
+    let more = match moving.len() - shown.len() {
+        0 => String::new(),
+        rest => format!(" and {rest} more"),
+    };
+    let what = if model.brackets_declared {
+        format!("brackets are missing, and not derivable from the anchor: {}{more}", shown.join(", "))
+    } else {
+        "the brackets are needed: they are neither declared nor derivable from the anchor".into()
+    };
+    // `brackets { }` is offered only where the anchor does not contradict it: by (2) the images of sections that
+    // commute do
+    let way_out = match shown.as_slice() {
+        [] => format!("{how}; `brackets {{ }}` says that all vanish"),
+        [first, ..] if model.brackets_declared => format!(
+            "give each of them a line, `{first} = …;`: the anchor sends it to a motion of the base, so that it is \
+             not 0; pairs without a line that it sends to 0 are 0"
+        ),
+        _ => format!(
+            "{how}; a line is needed for {}{more}, which the anchor sends to motions of the base; other pairs \
+             without a line are 0",
+            shown.join(", ")
+        ),
+    };
+    Violation { law: Law::Brackets, origin: model.origin, what, evidence, way_out }
 }
 
-/// A combination of sections that the anchor sends to zero.
-fn kernel_evidence(model: &Model, motion: &Motion, names: &[&str]) -> String {
+/// A combination of sections that the anchor sends to zero, though none of them.
+fn kernel_evidence(model: &Model, motion: &Motion, visible: &[SectionId]) -> String {
+    let columns: Matrix = motion
+        .anchor
+        .entries
+        .iter()
+        .map(|row| visible.iter().map(|section| row[section.index()]).collect())
+        .collect();
     let vector = model
         .graph
-        .matrix_in_field(&motion.anchor.entries, |seed| FieldPoint::random(7_000 + seed))
+        .matrix_in_field(&columns, |seed| FieldPoint::random(7_000 + seed))
         .ok()
-        .and_then(|rows| Echelon::of(rows).kernel_vector(names.len()));
+        .and_then(|rows| Echelon::of(rows).kernel_vector(visible.len()));
     let involved: Vec<&str> = vector
         .map(|vector| {
-            vector.iter().zip(names).filter(|(c, _)| **c != Residue::ZERO).map(|(_, name)| *name).collect()
+            let involved = vector.iter().zip(visible).filter(|(c, _)| **c != Residue::ZERO);
+            involved.map(|(_, section)| model.sections[*section].name.as_str()).collect()
         })
         .unwrap_or_default();
-    match involved.as_slice() {
-        [only] => format!("the anchor does not see `{only}`: it moves no base coordinate"),
-        several => format!("a combination of {} moves no base coordinate", listed(several)),
-    }
+    format!("a combination of {} moves no base coordinate", listed(&involved))
 }
 
 /// The components of one declared bracket.
@@ -195,7 +287,7 @@ fn pair_text(model: &Model, declaration: &BracketDecl) -> String {
 fn record(
     model: &mut Model,
     structure: &mut StructureFunctions,
-    seen: &mut BTreeMap<(SectionId, SectionId), (Vec<ExprId>, BracketDecl)>,
+    seen: &mut BTreeMap<Pair, (Vec<ExprId>, BracketDecl)>,
     declaration: &BracketDecl,
     components: Vec<ExprId>,
 ) -> Result<(), Violation> {
@@ -203,10 +295,10 @@ fn record(
     let ordered = if left < right { (left, right) } else { (right, left) };
     let graph = &mut model.graph;
     let oriented: Vec<ExprId> =
-        if left <= right { components } else { components.into_iter().map(|c| graph.neg(c)).collect() };
+        if left <= right { components } else { components.into_iter().map(|c| graph.formula(-c)).collect() };
     if let Some((earlier, first)) = seen.get(&ordered) {
         let same = earlier.iter().zip(&oriented).all(|(a, b)| {
-            let difference = graph.sub(*a, *b);
+            let difference = graph.formula(a - b);
             graph.zero_test(difference).is_zero()
         });
         if !same {

@@ -62,6 +62,11 @@ pub fn choose_formulation(
             reason: "there are no constraints: D is all of E".into(),
         });
     }
+    if !model.positions.is_empty() && model.independent.is_none() && forced.is_none() {
+        let reason = "with position constraints the state keeps every velocity, whatever the configuration; \
+                      `independent { … }` names those to keep";
+        return Ok(Chosen::Projected { reason: reason.into() });
+    }
     let parameters: Vec<SymbolId> = model.parameters.iter().map(|parameter| parameter.symbol).collect();
     let on_base = base.restrict_matrix(&mut model.graph, &constraints.annihilator);
     let setting = PivotSetting {

@@ -15,7 +15,7 @@ pub fn claims(model: &mut Model, claims: &[ExprId], mut flow: Flow, manifold: &M
         let graph = &mut model.graph;
         let rate = flow.derivative(graph, *claim);
         let verdict = manifold.zero_test(graph, rate);
-        let rate = graph.simplify(rate);
+        let rate = if verdict.is_zero() { rate } else { graph.simplify(rate) };
         let declared = &model.claims[index];
         let not_conserved = format!("`{}` is not conserved", declared.name);
         let (what, evidence) = match &verdict {

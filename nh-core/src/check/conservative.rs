@@ -3,7 +3,8 @@
 
 use super::constraints::Constraints;
 use super::evidence::shown;
-use crate::id::{ExprId, SymbolId};
+use crate::geometry::Clock;
+use crate::id::ExprId;
 use crate::mechanics::LagrangianSystem;
 use crate::model::Model;
 
@@ -15,7 +16,7 @@ pub fn not_conservative(
 ) -> Option<String> {
     let graph = &mut model.graph;
     // 1. ∂_tL
-    let change = graph.partial(system.lagrangian, system.time);
+    let change = graph.partial(system.lagrangian, system.clock.time);
     if !constraints.generic().zero_test(graph, change).is_zero() {
         return Some(format!("the Lagrangian depends on the time: its rate is {}", shown(graph, change)));
     }
@@ -38,7 +39,7 @@ pub fn not_conservative(
                 .map(|symbol| {
                     let partial = graph.partial(*residual, *symbol);
                     let velocity = graph.symbol(*symbol);
-                    graph.mul(velocity, partial)
+                    graph.formula(velocity * partial)
                 })
                 .collect();
             graph.sum(&terms)
@@ -53,13 +54,19 @@ pub fn not_conservative(
     None
 }
 
-/// The constraint that depends on the time, in words: then the motion is not that of the bracket with
+/// The constraint that depends on the time or an auxiliary state, in words: then the motion is not that of the bracket with
 /// the energy, even where it is conserved, mathematics (28).
-pub fn moving_constraint(model: &mut Model, time: SymbolId, constraints: &Constraints) -> Option<String> {
+pub fn moving_constraint(model: &mut Model, clock: &Clock, constraints: &Constraints) -> Option<String> {
     let graph = &mut model.graph;
-    let residual = constraints.residuals.iter().find(|residual| {
-        let change = graph.partial(**residual, time);
-        !constraints.generic().zero_test(graph, change).is_zero()
-    })?;
-    Some(format!("the constraint {} = 0 depends on the time", shown(graph, *residual)))
+    constraints.residuals.iter().find_map(|residual| {
+        let mover = clock.symbols().into_iter().find(|symbol| {
+            let change = graph.partial(*residual, *symbol);
+            !constraints.generic().zero_test(graph, change).is_zero()
+        })?;
+        let on = match &graph.symbols()[mover] {
+            _ if mover == clock.time => "the time".to_owned(),
+            name => format!("the auxiliary state `{name}`"),
+        };
+        Some(format!("the constraint {} = 0 depends on {on}", shown(graph, *residual)))
+    })
 }

@@ -362,9 +362,10 @@ fn position_constraint(
     name: &str,
     origin: Origin,
 ) -> Violation {
+    let clock = model.clock();
     let graph = &mut model.graph;
     let velocity = algebroid.velocity(graph);
-    let derivative = algebroid.along(graph, &velocity, model.time).apply(graph, residual);
+    let derivative = algebroid.along(graph, &velocity, &clock).apply(graph, residual);
     let derivative = graph.simplify(derivative);
     let vanishes = graph.zero_test(derivative).is_zero();
     let (what, evidence, way_out) = if vanishes {
@@ -377,7 +378,8 @@ fn position_constraint(
         (
             format!("{name} has no velocities in it: it constrains positions"),
             format!("its derivative is {} = 0", shown(graph, derivative)),
-            "constrain the velocities: write the derivative, and start on the surface".to_owned(),
+            "write it in `holonomic`: its derivative follows there, and motions are kept where it holds"
+                .to_owned(),
         )
     };
     Violation { law: Law::Constraint, origin, what, evidence, way_out }

@@ -59,6 +59,7 @@ struct Place {
 /// The expressions that are differentiated.
 pub(super) fn differentiated(model: &Model) -> Vec<(&'static str, ExprId, Origin)> {
     let mut list = vec![("Lagrangian", model.lagrangian.value, model.lagrangian.origin)];
+    list.extend(model.positions.iter().map(|p| ("position constraint", p.value, p.origin)));
     list.extend(model.constraints.iter().map(|c| ("constraint", c.residual, c.origin)));
     list.extend(model.brackets.iter().map(|b| ("bracket", b.value, b.origin)));
     match &model.kinematics {
@@ -73,6 +74,7 @@ pub(super) fn differentiated(model: &Model) -> Vec<(&'static str, ExprId, Origin
 fn evaluated(model: &Model) -> Vec<(&'static str, ExprId, Origin)> {
     let mut list: Vec<(&'static str, ExprId, Origin)> = Vec::new();
     list.extend(model.forces.iter().map(|force| ("force", force.value, force.origin)));
+    list.extend(model.auxiliary.iter().map(|state| ("rate", state.value, state.origin)));
     list.extend(model.outputs.iter().map(|output| ("output", output.value, output.origin)));
     list.extend(model.claims.iter().map(|claim| ("first integral", claim.value, claim.origin)));
     for symmetry in &model.symmetries {
@@ -217,7 +219,7 @@ fn demands(graph: &mut Graph, argument: ExprId, condition: Condition) -> Vec<(Ex
         Condition::NotNegative(e) => vec![(e, inside)],
         Condition::InUnitInterval(e) | Condition::InsideUnitInterval(e) => {
             let one = graph.one();
-            let (below, above) = (graph.sub(one, e), graph.add(one, e));
+            let (below, above) = (graph.formula(one - e), graph.formula(one + e));
             vec![(below, inside), (above, inside)]
         }
     }

@@ -70,27 +70,13 @@ fn undecided(model: &Model, why: &str) -> Violation {
 fn dependency(model: &mut Model, rows: &Matrix, drift: Option<&[ExprId]>, index: usize) -> Violation {
     let id = ConstraintId::from_index(index);
     let name = name_of(model, id);
-    let combination = combination(&mut model.graph, rows, index);
+    let combination = combination(&mut model.graph, &rows[..index], &rows[index]);
     let names: Vec<String> = (0..index).map(|i| name_of(model, ConstraintId::from_index(i))).collect();
+    let evidence = in_words(&model.graph, &name, combination.as_deref(), &names);
     let graph = &mut model.graph;
-    let terms: Vec<String> = combination
-        .iter()
-        .flatten()
-        .zip(&names)
-        .filter(|(coefficient, _)| !graph.is_literal_zero(**coefficient))
-        .map(|(coefficient, name)| match graph.as_number(*coefficient) {
-            Some(number) if number.is_one() => name.clone(),
-            _ => format!("({})*{name}", shown(graph, *coefficient)),
-        })
-        .collect();
-    let evidence = if terms.is_empty() {
-        format!("it is a combination of {}", listed(&names))
-    } else {
-        format!("{name} = {}", terms.join(" + "))
-    };
     let contradiction = combination.zip(drift).and_then(|(coefficients, drift)| {
         let combined = graph.inner_product(&coefficients, &drift[..index]);
-        let left_over = graph.sub(drift[index], combined);
+        let left_over = graph.formula(drift[index] - combined);
         let left_over = graph.simplify(left_over);
         (!graph.zero_test(left_over).is_zero()).then_some(left_over)
     });
@@ -115,9 +101,37 @@ fn dependency(model: &mut Model, rows: &Matrix, drift: Option<&[ExprId]>, index:
     }
 }
 
-/// The coefficients c with Φ^index = Σ c_A Φ^A over earlier rows.
-fn combination(graph: &mut Graph, rows: &Matrix, index: usize) -> Option<Vec<ExprId>> {
-    graph.solve_overdetermined(&Graph::transposed(&rows[..index]), &rows[index])
+/// The combination of earlier rows that a row is, as text.
+pub(super) fn combination_shown(model: &mut Model, rows: &Matrix, earlier: &[usize], index: usize) -> String {
+    let before: Matrix = earlier.iter().map(|row| rows[*row].clone()).collect();
+    let combination = combination(&mut model.graph, &before, &rows[index]);
+    let names: Vec<String> =
+        earlier.iter().map(|row| name_of(model, ConstraintId::from_index(*row))).collect();
+    let name = name_of(model, ConstraintId::from_index(index));
+    in_words(&model.graph, &name, combination.as_deref(), &names)
+}
+
+/// `c = (x)*a + b`.
+fn in_words(graph: &Graph, name: &str, combination: Option<&[ExprId]>, names: &[String]) -> String {
+    let terms: Vec<String> = combination
+        .into_iter()
+        .flatten()
+        .zip(names)
+        .filter(|(coefficient, _)| !graph.is_literal_zero(**coefficient))
+        .map(|(coefficient, name)| match graph.as_number(*coefficient) {
+            Some(number) if number.is_one() => name.clone(),
+            _ => format!("({})*{name}", shown(graph, *coefficient)),
+        })
+        .collect();
+    if terms.is_empty() {
+        return format!("it is a combination of {}", listed(names));
+    }
+    format!("{name} = {}", terms.join(" + "))
+}
+
+/// The coefficients c with `row` = Σ c_A Φ^A over earlier rows.
+fn combination(graph: &mut Graph, earlier: &[Vec<ExprId>], row: &[ExprId]) -> Option<Vec<ExprId>> {
+    graph.solve_overdetermined(&Graph::transposed(earlier), row)
 }
 
 /// The first of some vectors that is a combination of those before it, and what there is to say.

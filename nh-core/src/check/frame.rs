@@ -225,7 +225,9 @@ pub fn spanned_distribution(
 
 /// What a distribution by span leaves no room for.
 fn excluded(model: &Model, spanning: &[(SymbolId, Origin)]) -> Option<Violation> {
+    let position = model.positions.first().map(|position| ("`holonomic`", position.origin));
     let constraint = model.constraints.iter().next().map(|c| ("`constraints`", c.origin));
+    let constraint = position.or(constraint);
     let formulation = model.formulation.filter(|(asked, _)| *asked == Formulation::Projected);
     let formulation = formulation.map(|(_, origin)| ("the projected formulation", origin));
     // on levels of momenta the state keeps some of them alone
@@ -293,7 +295,7 @@ fn annihilator(model: &mut Model, spanning: &Matrix, rank: usize) -> Matrix {
         let mut row = vec![zero; rank];
         row[*other] = one;
         for (position, column) in independent.iter().enumerate() {
-            row[*column] = graph.neg(solution.values[position][index]);
+            row[*column] = graph.formula(-solution.values[position][index]);
         }
         rows.push(row);
     }

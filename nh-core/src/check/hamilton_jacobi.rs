@@ -145,7 +145,7 @@ impl Section<'_> {
         let mut equations = Vec::new();
         for (a, force) in forces.iter().enumerate() {
             let change = along.apply(graph, self.components[a]);
-            let defect = graph.sub(*force, change);
+            let defect = graph.formula(force - change);
             let defect = self.put.apply(graph, defect);
             let what = format!("R_L(p - alpha) along {}", self.name(graph, a));
             let lead = "the motion leaves the section, by forces or by constraints that are not homogeneous";

@@ -1,8 +1,10 @@
 //! The checks: each proves one law of a declaration or says how it is broken.
 
 mod assumptions;
+mod auxiliary;
 mod brackets;
 mod choice;
+mod claimed;
 mod claims;
 mod conservative;
 mod constraints;
@@ -16,17 +18,21 @@ mod hamilton_jacobi;
 mod kind;
 mod kinematics;
 mod orthonormal;
+mod positions;
 mod regularity;
 mod sections;
 mod smoothness;
 mod structure_equations;
 mod symmetries;
 mod volume;
+mod whole_base;
 
 pub use assumptions::{facts, undecided};
+pub use auxiliary::rates_in_a_circle;
 pub use brackets::structure_functions;
 pub use choice::{Chosen, choose_formulation};
 pub(crate) use choice::{eliminations, zeros};
+pub use claimed::claimed;
 pub use claims::claims;
 pub use conservative::{moving_constraint, not_conservative};
 pub(crate) use constraints::name_of;
@@ -39,6 +45,7 @@ pub use hamilton_jacobi::hamilton_jacobi;
 pub use kind::Kind;
 pub use kinematics::{Motion, kinematics};
 pub use orthonormal::orthonormal;
+pub use positions::{Positions, positions};
 pub use regularity::{reduced_regularity, saddle_regularity, singular_where};
 pub use structure_equations::{BrokenLaws, structure_equations};
 pub use symmetries::{Invariance, Setting, Symmetry, no_momenta, of_cyclic_coordinates, symmetries};

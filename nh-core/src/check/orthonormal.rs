@@ -80,9 +80,9 @@ fn gram_schmidt(graph: &mut Graph, metric: &Matrix) -> Matrix {
         let mut column = graph.unit_vector(rank, k);
         for (earlier, square) in columns.iter().zip(&squares) {
             let product = graph.inner_product(earlier, along);
-            let share = graph.div(product, *square);
+            let share = graph.formula(product / square);
             for (entry, other) in column.iter_mut().zip(earlier) {
-                let part = graph.mul(share, *other);
+                let part = graph.formula(share * other);
                 let rest = graph.linear_combination(&[(Rational::ONE, *entry), (Rational::MINUS_ONE, part)]);
                 *entry = graph.simplify(rest);
             }
@@ -94,7 +94,7 @@ fn gram_schmidt(graph: &mut Graph, metric: &Matrix) -> Matrix {
     for (column, square) in columns.iter_mut().zip(squares) {
         let length = graph.sqrt(square);
         for entry in column {
-            *entry = graph.div(*entry, length);
+            *entry = graph.formula(*entry / length);
         }
     }
     Graph::transposed(&columns)

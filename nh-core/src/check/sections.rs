@@ -59,8 +59,7 @@ pub(super) fn components(
     let mut section = vec![graph.zero(); rank];
     for ((_, row), coefficient) in known.iter().zip(form.coefficients) {
         for (slot, entry) in section.iter_mut().zip(row) {
-            let share = graph.mul(coefficient, *entry);
-            *slot = graph.add(*slot, share);
+            *slot = graph.formula(*slot + coefficient * entry);
         }
     }
     let section: Vec<ExprId> = section.into_iter().map(|component| graph.simplify(component)).collect();
@@ -96,7 +95,7 @@ fn translation_named(
     let one = graph.one();
     let mut is_translation = true;
     for (i, component) in moves.iter().enumerate() {
-        let defect = if i == coordinate.index() { graph.sub(*component, one) } else { *component };
+        let defect = if i == coordinate.index() { graph.formula(component - one) } else { *component };
         is_translation &= setting.constraints.base().zero_test(graph, defect).is_zero();
     }
     if is_translation {

@@ -21,69 +21,83 @@ pub(super) fn not_smooth(
         Node::Apply2(function @ (Function2::Min | Function2::Max), ..) => Some(function.name()),
         _ => None,
     });
-    let (uses, evidence) = match named {
-        Some(name) => (
-            format!("`{name}`"),
-            format!("`{name}` has no derivative where its branches meet, and the equations need one"),
-        ),
-        None => edge(graph, value, &parameters, facts)?,
+    let edge = match named {
+        Some(name) => Edge {
+            uses: format!("`{name}`"),
+            evidence: format!(
+                "`{name}` has no derivative where its branches meet, and the equations need one"
+            ),
+            way_out: SMOOTH.into(),
+        },
+        None => Edge::in_disguise(graph, value, &parameters, facts)?,
     };
     Some(Violation {
         law: Law::Smooth,
         origin,
-        what: format!("this {what} is not smooth: it uses {uses}"),
-        evidence,
-        way_out: "use a smooth expression, such as sqrt(x^2 + eps^2) for abs(x); `abs`, `sign`, `min` and \
-                  `max` are at home in `forces` and `outputs`"
-            .into(),
+        what: format!("this {what} is not smooth: it uses {}", edge.uses),
+        evidence: edge.evidence,
+        way_out: edge.way_out,
     })
 }
 
-/// A root of a square, and why it has an edge.
-fn edge(
-    graph: &mut Graph,
-    value: ExprId,
-    parameters: &[SymbolId],
-    facts: &Facts,
-) -> Option<(String, String)> {
-    for id in graph.reachable(&[value]) {
-        match graph.node(id).clone() {
-            Node::Product { factors, .. } => {
-                for (base, exponent) in factors.iter().filter(|(_, exponent)| !exponent.is_integer()) {
-                    let Some((inner, power)) = squared(graph, *base, parameters, facts) else { continue };
-                    let power = power * exponent.clone();
-                    // x^(2k) to the power 1/2 is x^k for even k
-                    if !power.is_integer() || power.has_odd_numerator() {
-                        let whole = graph.pow(*base, exponent.clone());
-                        let inner = shown(graph, inner);
-                        let as_power = if power.is_one() { String::new() } else { format!("^({power})") };
-                        return Some((
-                            format!("`{}`", shown(graph, whole)),
-                            format!(
-                                "it is abs({inner}){as_power} up to a factor: not smooth where {inner} = 0"
-                            ),
-                        ));
+const SMOOTH: &str = "use a smooth expression, such as sqrt(x^2 + eps^2) for abs(x); `abs`, `sign`, `min` and \
+                      `max` are at home in `forces` and `outputs`";
+
+/// Why an expression has an edge.
+struct Edge {
+    uses: String,
+    evidence: String,
+    way_out: String,
+}
+
+impl Edge {
+    /// That of a root of a square, or of an arc that touches its ends.
+    fn in_disguise(graph: &mut Graph, value: ExprId, parameters: &[SymbolId], facts: &Facts) -> Option<Self> {
+        for id in graph.reachable(&[value]) {
+            match graph.node(id).clone() {
+                Node::Product { factors, .. } => {
+                    for (base, exponent) in factors.iter().filter(|(_, exponent)| !exponent.is_integer()) {
+                        let Some((inner, power)) = squared(graph, *base, parameters, facts) else { continue };
+                        let power = power * exponent.clone();
+                        // x^(2k) to the power 1/2 is x^k for even k; 1/abs(x) is smooth wherever it is defined, as 1/x is
+                        if !power.is_negative() && (!power.is_integer() || power.has_odd_numerator()) {
+                            let whole = graph.pow(*base, exponent.clone());
+                            let inner = shown(graph, inner);
+                            let as_power = if power.is_one() { String::new() } else { format!("^({power})") };
+                            let way_out = format!(
+                                "where it is meant to keep its sign, write {inner}{as_power} instead of the root; \
+                             otherwise use a smooth expression, such as sqrt(x^2 + eps^2) for abs(x)"
+                            );
+                            return Some(Self {
+                                uses: format!("`{}`", shown(graph, whole)),
+                                evidence: format!(
+                                    "it is abs({inner}){as_power} up to a factor: not smooth where {inner} = 0"
+                                ),
+                                way_out,
+                            });
+                        }
                     }
                 }
-            }
-            Node::Apply(function @ (Function::Asin | Function::Acos), x) => {
-                let (one, square) = (graph.one(), graph.square(x));
-                let rest = graph.sub(one, square);
-                if let Some((inner, _)) = squared(graph, rest, parameters, facts) {
-                    return Some((
-                        format!("`{}`", shown(graph, id)),
-                        format!(
-                            "`{}` has an edge where its argument touches -1 or 1, at {} = 0",
-                            function.name(),
-                            shown(graph, inner)
-                        ),
-                    ));
+                Node::Apply(function @ (Function::Asin | Function::Acos), x) => {
+                    let (one, square) = (graph.one(), graph.square(x));
+                    let rest = graph.formula(one - square);
+                    if let Some((inner, _)) = squared(graph, rest, parameters, facts) {
+                        return Some(Self {
+                            uses: format!("`{}`", shown(graph, id)),
+                            evidence: format!(
+                                "`{}` has an edge where its argument touches -1 or 1, at {} = 0",
+                                function.name(),
+                                shown(graph, inner)
+                            ),
+                            way_out: SMOOTH.into(),
+                        });
+                    }
                 }
+                _ => {}
             }
-            _ => {}
         }
+        None
     }
-    None
 }
 
 /// Something that changes sign, and the even power of it that the expression contains as a factor.

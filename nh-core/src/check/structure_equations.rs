@@ -107,7 +107,7 @@ fn homomorphism_of_pair(
     let bracket = bracket_of(graph, algebroid, alpha, beta);
     let image = algebroid.anchor.vector_field(graph, &bracket);
     for (index, (left, right)) in commutator.into_iter().zip(image).enumerate() {
-        let defect = graph.sub(left, right);
+        let defect = graph.formula(left - right);
         let verdict = base.zero_test(graph, defect);
         if verdict.is_zero() {
             continue;
@@ -161,23 +161,43 @@ fn jacobi(model: &mut Model, algebroid: &Algebroid, base: &Manifold, reported: u
     let sections: Vec<SectionId> = algebroid.sections().collect();
     let brackets = written_brackets(&mut model.graph, algebroid, &sections);
     let mut violations = Vec::new();
-    for (i, alpha) in sections.iter().enumerate() {
-        for (j, beta) in sections.iter().enumerate().skip(i + 1) {
-            limits::spend((sections.len() - j) / 8);
-            for (k, gamma) in sections.iter().enumerate().skip(j + 1) {
-                // three sections that commute with each other obey it
-                if [&brackets[i][j], &brackets[i][k], &brackets[j][k]].iter().all(|terms| terms.is_empty()) {
-                    continue;
+    for triple in triples_with_summands(&model.graph, &brackets) {
+        if violations.len() == reported {
+            break;
+        }
+        let triple = triple.map(|index| sections[index]);
+        violations.extend(jacobi_of_triple(model, algebroid, &brackets, base, triple));
+    }
+    violations
+}
+
+/// The triples α < β < γ of whose double brackets one may not be 0, in their order: where there are many sections, most
+/// commute, and these obey the identity.
+fn triples_with_summands(graph: &Graph, brackets: &Brackets) -> Vec<[usize; 3]> {
+    let n = brackets.len();
+    let mut triples = Vec::new();
+    for beta in 0..n {
+        for gamma in beta + 1..n {
+            let inner = &brackets[beta][gamma];
+            if inner.is_empty() {
+                continue;
+            }
+            // [e_α, C e_μ] = ρ(e_α)(C) e_μ + C [e_α, e_μ]
+            let is_constant = inner.iter().all(|(_, component)| graph.as_number(*component).is_some());
+            limits::spend(n / 8 + inner.len());
+            for alpha in (0..n).filter(|alpha| *alpha != beta && *alpha != gamma) {
+                if !is_constant || inner.iter().any(|(mu, _)| !brackets[alpha][mu.index()].is_empty()) {
+                    limits::spend(1);
+                    let mut triple = [alpha, beta, gamma];
+                    triple.sort_unstable();
+                    triples.push(triple);
                 }
-                if violations.len() == reported {
-                    return violations;
-                }
-                let triple = [*alpha, *beta, *gamma];
-                violations.extend(jacobi_of_triple(model, algebroid, &brackets, base, triple));
             }
         }
     }
-    violations
+    triples.sort_unstable();
+    triples.dedup();
+    triples
 }
 
 /// The components of the brackets of all pairs, without those written as 0.
@@ -192,7 +212,7 @@ fn written_brackets(graph: &mut Graph, algebroid: &Algebroid, sections: &[Sectio
         for (gamma, component) in algebroid.sections().zip(components) {
             if !graph.is_literal_zero(component) {
                 brackets[alpha.index()][beta.index()].push((gamma, component));
-                brackets[beta.index()][alpha.index()].push((gamma, graph.neg(component)));
+                brackets[beta.index()][alpha.index()].push((gamma, graph.formula(-component)));
             }
         }
     }
@@ -258,11 +278,14 @@ fn jacobiator(
         if inner.is_empty() {
             continue;
         }
+        limits::spend(inner.len());
         let mut along = algebroid.anchor.along(alpha);
         for (mu, component) in inner {
-            summands.entry(*mu).or_default().push((Rational::ONE, along.apply(graph, *component)));
+            if graph.as_number(*component).is_none() {
+                summands.entry(*mu).or_default().push((Rational::ONE, along.apply(graph, *component)));
+            }
             for (nu, outer) in &brackets[alpha.index()][mu.index()] {
-                let term = graph.mul(*component, *outer);
+                let term = graph.formula(component * outer);
                 summands.entry(*nu).or_default().push((Rational::ONE, term));
             }
         }

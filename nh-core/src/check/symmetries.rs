@@ -84,7 +84,7 @@ impl<'a> Setting<'a> {
         let Some(linear) = &self.constraints.linear else { return self.constraints.residuals.clone() };
         let velocity = self.system.algebroid.velocity(graph);
         let rows = graph.image(&linear.annihilator, &velocity);
-        rows.into_iter().zip(&linear.drift).map(|(row, drift)| graph.add(row, *drift)).collect()
+        rows.into_iter().zip(&linear.drift).map(|(row, drift)| graph.formula(row + drift)).collect()
     }
 
     /// σ^α ∂φ^A/∂y^α.
@@ -118,7 +118,7 @@ fn judged(
     let momentum = Momentum::of(graph, system, &section, gauge, setting.spanned);
     let along = setting.along_constraints(graph, &section);
     let outside = first_defect(graph, manifold, &along)?;
-    let mut lift = complete_lift(graph, &system.algebroid, &section, system.time);
+    let mut lift = complete_lift(graph, &system.algebroid, &section, &system.clock);
     let functions = setting.functions(graph);
     let changes = lift.apply_all(graph, &functions);
     let moved = first_defect(graph, manifold, &changes)?;

@@ -98,8 +98,7 @@ pub fn claimed_density(
         });
     }
     let change = flow.derivative(graph, density);
-    let spread = graph.mul(density, divergence);
-    let defect = graph.add(change, spread);
+    let defect = graph.formula(change + density * divergence);
     let verdict = manifold.zero_test(graph, defect);
     let defect = graph.simplify(defect);
     let (what, evidence) = match &verdict {

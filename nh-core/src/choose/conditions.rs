@@ -3,26 +3,37 @@
 //!
 //! A divisor is admitted that the facts keep from zero; that the declaration divides by itself, or the solution
 //! of its constraints; that is a pivot of the mass matrix C on D where that is definite, or the determinant of a
-//! block of it where it is regular; and any whose zeros are zeros of these. The last is asked in one symbol after
+//! block of it where it is regular, or, where there are multipliers, a pivot of J W⁻¹ Jᵀ or the determinant of a saddle
+//! matrix; and any whose zeros are zeros of these. The last is asked in one symbol after
 //! the other: the numerator of a divisor, found from its values, has no factor but theirs. What is left is admitted where C is definite if it has one sign at all samples
 //! of parameters and configurations for which C is, a parameter 0 among them in turn: as evidence goes, that is
 //! what C itself is called definite by.
 
+use super::pivots::{Pivots, is_multiple};
 use super::proof::{Defect, FIRST_SEED, run};
-use super::reference::{Instant, Reference};
+use super::reference::{Instant, Reference, inner};
 use super::zero_set::{Polynomial, numerator, place, values_for};
-use crate::algebra::{Facts, FieldPoint, Graph, Node, Residue, Substitution, determinant_in_field};
+use crate::algebra::{
+    Echelon, Facts, FieldPoint, Graph, Matrix, Node, Residue, Substitution, determinant_in_field,
+};
 use crate::id::{ExprId, SymbolId};
-use crate::mechanics::{Definiteness, Definition, Procedure, ReducedEquations, keeps_its_sign, uncoupled};
+use crate::mechanics::{DefiniteSets, Definiteness, Definition, Procedure, keeps_its_sign, uncoupled};
 use rustc_hash::FxHashMap;
 use std::collections::BTreeSet;
+
+#[cfg(test)]
+mod tests;
 
 /// Where the declared equations are regular.
 pub(crate) struct Regular<'r> {
     pub(crate) reference: &'r Reference,
-    /// The equations that are proved, of which the mass matrix is asked.
-    pub(crate) equations: &'r ReducedEquations,
+    /// What the entries of the mass matrix are made of.
+    pub(crate) definitions: &'r Procedure,
+    /// The mass matrix that is factorised: C on D; W on E, or what weighed constraints make of it.
+    pub(crate) mass: &'r Matrix,
     pub(crate) definiteness: Definiteness,
+    /// J, where the solution has multipliers: the saddle matrix is regular.
+    pub(crate) jacobian: &'r Matrix,
     pub(crate) parameters: &'r [SymbolId],
     pub(crate) facts: &'r Facts,
 }
@@ -30,8 +41,8 @@ pub(crate) struct Regular<'r> {
 /// Values at one point.
 struct Sample {
     divisors: Vec<Residue>,
-    /// C.
     mass: Vec<Vec<Residue>>,
+    jacobian: Vec<Vec<Residue>>,
     /// What may not vanish anyway.
     declared: Vec<Residue>,
 }
@@ -41,8 +52,26 @@ struct Lines {
     asked: Vec<ExprId>,
     /// What may not vanish anyway.
     declared: Vec<ExprId>,
-    known: FxHashMap<(Varied, usize), Option<Vec<Sample>>>,
+    /// The symbols in the arguments of functions.
+    angles: Vec<SymbolId>,
+    division: i64,
+    /// The unknowns that the mass matrix couples.
+    blocks: Vec<Vec<usize>>,
+    known: FxHashMap<Varied, Line>,
 }
+
+/// Values at the first places of a line.
+#[derive(Default)]
+struct Line {
+    /// Which of the lines: those before it have places without a value.
+    seed: u64,
+    values: Values,
+    /// The most values that a line before it has.
+    most: Values,
+}
+
+/// At each place the values of the divisors, and those of what may not vanish.
+type Values = Vec<(Vec<Residue>, Vec<Residue>)>;
 
 /// Blocks of the mass matrix with so many unknowns have all their principal minors looked at.
 const SMALL_BLOCK: usize = 4;
@@ -79,14 +108,30 @@ impl Regular<'_> {
         let recognised = self.recognised(graph, procedure, &declared, &divisors);
         left.retain(|divisor| !recognised.contains(divisor));
         // 3. zeros in one symbol after the other
-        let mut lines = Lines { asked: left.clone(), declared, known: FxHashMap::default() };
+        let (angles, division) = (angles(graph, &procedure.expressions()), self.division(graph, procedure));
+        let (asked, blocks) = (left.clone(), uncoupled(graph, self.mass));
+        let mut lines = Lines { asked, declared, angles, division, blocks, known: FxHashMap::default() };
         left.retain(|divisor| !self.vanishes_with_others(graph, procedure, &mut lines, *divisor));
         // 4. signs, where C is definite
+        let mut known = DefiniteSets::default();
         left.into_iter().find(|divisor| {
             let whole = written.apply(graph, *divisor);
+            let matrix = (self.mass.as_slice(), &mut known);
             self.definiteness == Definiteness::Unknown
-                || !keeps_its_sign(graph, &self.equations.mass, whole, self.parameters, self.facts)
+                || !keeps_its_sign(graph, matrix, whole, self.parameters, self.facts)
         })
+    }
+
+    /// The same of a function that is derived from a motion, which is judged by itself.
+    pub(crate) fn added_beside(
+        &self,
+        graph: &mut Graph,
+        procedure: &Procedure,
+        motion: &Procedure,
+    ) -> Option<ExprId> {
+        let known: Vec<ExprId> = graph.divisors(&motion.expressions()).into_iter().collect();
+        let own = graph.divisors(&procedure.expressions());
+        if own.iter().all(|divisor| known.contains(divisor)) { None } else { self.added(graph, procedure) }
     }
 
     /// The data at a point where everything has a value, with the values of divisors and of what may not vanish.
@@ -102,16 +147,18 @@ impl Regular<'_> {
         run(&mut instant.pass, &procedure.with_outputs(Vec::new()))?;
         let divisors = instant.pass.evaluate(divisors)?;
         let declared = instant.pass.evaluate(declared)?;
-        run(&mut instant.pass, &self.equations.definitions)?;
-        let rows = self.equations.mass.iter().map(|row| Ok(instant.pass.evaluate(row)?));
-        Ok(Sample { divisors, mass: rows.collect::<Result<_, Defect>>()?, declared })
+        run(&mut instant.pass, self.definitions)?;
+        let rows = self.mass.iter().map(|row| Ok(instant.pass.evaluate(row)?));
+        let mass = rows.collect::<Result<Vec<_>, Defect>>()?;
+        let rows = self.jacobian.iter().map(|row| Ok(instant.pass.evaluate(row)?));
+        let jacobian = rows.collect::<Result<Vec<_>, Defect>>()?;
+        Ok(Sample { divisors, mass, jacobian, declared })
     }
 
     fn division(&self, graph: &Graph, procedure: &Procedure) -> i64 {
-        let Self { reference, equations, .. } = self;
-        let mass: Vec<ExprId> = equations.mass.concat();
-        let own = equations.definitions.expressions();
-        graph.angle_division(&[reference.roots(graph), procedure.expressions(), mass, own].concat())
+        let Self { reference, definitions, mass, jacobian, .. } = self;
+        let own = [definitions.expressions(), mass.concat(), jacobian.concat()].concat();
+        graph.angle_division(&[reference.roots(graph), procedure.expressions(), own].concat())
     }
 
     /// The divisors that are pivots, or multiples by numbers of what may not vanish.
@@ -123,7 +170,7 @@ impl Regular<'_> {
         divisors: &[ExprId],
     ) -> BTreeSet<ExprId> {
         let division = self.division(graph, procedure);
-        let blocks = uncoupled(graph, &self.equations.mass);
+        let blocks = uncoupled(graph, self.mass);
         let mut samples = Vec::new();
         for seed in FIRST_SEED..FIRST_SEED + PATIENCE {
             let point = FieldPoint::random(seed);
@@ -135,51 +182,52 @@ impl Regular<'_> {
             }
         }
         let [first, second] = samples.as_slice() else { return BTreeSet::new() };
-        let minors = [first, second].map(|sample| self.minors(&blocks, &sample.mass, &sample.declared));
-        let is_multiple = |a: [Residue; 2], b: [Residue; 2]| {
-            let ratios = [a[0] * b[1], a[1] * b[0]];
-            let ratio = b[0].inverse().map(|inverse| a[0] * inverse);
-            ratios[0] == ratios[1] && ratio.is_some_and(|ratio| ratio.recognised().is_some())
+        let minors = [first, second].map(|sample| self.minors(&blocks, sample));
+        let is_definite = self.definiteness == Definiteness::Definite;
+        let pivots = |matrices: [Option<Vec<Vec<Residue>>>; 2]| match matrices {
+            [Some(first), Some(second)] if is_definite => Some(Pivots::of([first, second])),
+            _ => None,
         };
+        let mut matrices: Vec<Pivots> = [
+            pivots([first, second].map(|sample| Some(sample.mass.clone()))),
+            pivots([first, second].map(Sample::complement)),
+        ]
+        .into_iter()
+        .flatten()
+        .collect();
         let mut recognised: BTreeSet<ExprId> = BTreeSet::new();
-        let mut pivots = [first, second].map(|sample| sample.mass.clone());
-        let mut open: Vec<usize> = (0..pivots[0].len()).collect();
         for (k, divisor) in divisors.iter().enumerate() {
             let value = [first.divisors[k], second.divisors[k]];
             let known = minors[0].iter().zip(&minors[1]).any(|(a, b)| is_multiple(value, [*a, *b]));
-            // the pivots of elimination, in whatever order
-            let pivot = open.iter().position(|i| is_multiple(value, [pivots[0][*i][*i], pivots[1][*i][*i]]));
-            if let (Some(position), Definiteness::Definite) = (pivot, self.definiteness) {
-                let index = open.remove(position);
-                for matrix in &mut pivots {
-                    eliminate(matrix, index, &open);
-                }
-                recognised.insert(*divisor);
-            } else if known {
+            if matrices.iter_mut().any(|pivots| pivots.are_met(value)) || known {
                 recognised.insert(*divisor);
             }
         }
         recognised
     }
 
-    /// What may not vanish, and quotients of it: principal minors where C is definite, determinants of blocks.
-    fn minors(&self, blocks: &[Vec<usize>], mass: &[Vec<Residue>], declared: &[Residue]) -> Vec<Residue> {
-        let mut found = declared.to_vec();
-        for block in blocks {
-            let is_small = block.len() <= SMALL_BLOCK && self.definiteness == Definiteness::Definite;
-            let subsets: Vec<Vec<usize>> = if is_small {
-                let pick = |mask: usize| {
-                    let members = block.iter().enumerate().filter(|(k, _)| mask >> k & 1 == 1);
-                    members.map(|(_, index)| *index).collect()
-                };
-                (1..1 << block.len()).map(pick).collect()
-            } else {
-                vec![block.clone()]
-            };
-            for subset in subsets {
+    /// What may not vanish, and quotients of it: principal minors where the mass matrix is definite, determinants of
+    /// blocks; with it, and some of the constraints, those of saddle matrices.
+    fn minors(&self, blocks: &[Vec<usize>], sample: &Sample) -> Vec<Residue> {
+        let Sample { mass, jacobian, declared, .. } = sample;
+        let is_definite = self.definiteness == Definiteness::Definite;
+        let mut found = declared.clone();
+        // a definite matrix is regular without the constraints
+        for block in blocks.iter().filter(|_| is_definite || jacobian.is_empty()) {
+            for subset in subsets(block, is_definite) {
                 let rows = subset.iter().map(|i| subset.iter().map(|j| mass[*i][*j]).collect());
                 found.push(determinant_in_field(rows.collect()));
             }
+        }
+        let rows: Vec<usize> = (0..jacobian.len()).collect();
+        for subset in subsets(&rows, is_definite).into_iter().filter(|subset| !subset.is_empty()) {
+            let mut saddle: Vec<Vec<Residue>> = Vec::new();
+            for (alpha, row) in mass.iter().enumerate() {
+                saddle.push(row.iter().copied().chain(subset.iter().map(|a| -jacobian[*a][alpha])).collect());
+            }
+            let rest = vec![Residue::ZERO; subset.len()];
+            saddle.extend(subset.iter().map(|a| [jacobian[*a].as_slice(), &rest].concat()));
+            found.push(determinant_in_field(saddle));
         }
         found
     }
@@ -197,62 +245,84 @@ impl Regular<'_> {
             Definition::Value { symbol, .. } | Definition::Call { symbol, .. } => _ = symbols.remove(symbol),
             Definition::Solve { unknowns, .. } => symbols.retain(|symbol| !unknowns.contains(symbol)),
         });
-        let angles = angles(graph, &procedure.expressions());
         let of_symbol = |symbol: &SymbolId| {
-            let angle = angles.contains(symbol).then_some(Varied::Angle(*symbol));
+            let angle = lines.angles.contains(symbol).then_some(Varied::Angle(*symbol));
             [Some(Varied::Value(*symbol)), angle].into_iter().flatten()
         };
-        let mut is_known =
-            |varied| self.factors_are_known(graph, procedure, (lines, &angles), divisor, varied);
-        symbols.iter().flat_map(of_symbol).all(&mut is_known)
+        let all: Vec<Varied> = symbols.iter().flat_map(of_symbol).collect();
+        all.into_iter().all(|varied| self.factors_are_known(graph, procedure, lines, divisor, varied))
     }
 
     fn factors_are_known(
         &self,
         graph: &Graph,
         procedure: &Procedure,
-        (lines, angles): (&mut Lines, &[SymbolId]),
+        lines: &mut Lines,
         divisor: ExprId,
         varied: Varied,
     ) -> bool {
-        let division = self.division(graph, procedure);
-        let blocks = uncoupled(graph, &self.equations.mass);
+        let Some(position) = lines.asked.iter().position(|asked| *asked == divisor) else { return false };
         for degree in DEGREES {
-            let Lines { asked, declared, known } = &mut *lines;
-            let Some(position) = asked.iter().position(|asked| *asked == divisor) else { return false };
-            // where there are roots, at some places all of them may be in the field
-            let sampled = || {
-                (0..SEEDS).find_map(|seed| {
-                    let places = (0..values_for(degree)).map(place);
-                    let sample = |t| {
-                        let point = varied.point(angles, t, seed);
-                        self.sampled(graph, procedure, (asked, declared), point, division).ok()
-                    };
-                    places.map(sample).collect::<Option<Vec<_>>>()
-                })
+            let Some(values) = self.values_along(graph, procedure, lines, varied, values_for(degree)) else {
+                return false;
             };
-            let Some(samples) = known.entry((varied, degree)).or_insert_with(sampled) else { return false };
-            let values: Vec<Residue> = samples.iter().map(|sample| sample.divisors[position]).collect();
-            let others: Vec<Vec<Residue>> =
-                samples.iter().map(|sample| self.minors(&blocks, &sample.mass, &sample.declared)).collect();
-            let Some(mut left) = numerator(&values) else { continue };
-            for k in 0..others[0].len() {
+            let own: Vec<Residue> = values.iter().map(|(divisors, _)| divisors[position]).collect();
+            let Some(mut left) = numerator(&own) else { continue };
+            for k in 0..values[0].1.len() {
                 if left.degree() == 0 {
                     return true;
                 }
-                let column: Vec<Residue> = others.iter().map(|row| row[k]).collect();
+                let column: Vec<Residue> = values.iter().map(|(_, others)| others[k]).collect();
                 if let Some(other) = numerator(&column) {
                     left = Polynomial::without(left, &other);
                 }
             }
-
             if left.degree() == 0 {
                 return true;
             }
         }
-
         false
     }
+
+    /// The values of divisors, and of what may not vanish, at the first places of a line; `None` where too many lines
+    /// have places without a value: where there are roots, at some places all of them may be in the field.
+    fn values_along<'l>(
+        &self,
+        graph: &Graph,
+        procedure: &Procedure,
+        lines: &'l mut Lines,
+        varied: Varied,
+        places: usize,
+    ) -> Option<&'l [(Vec<Residue>, Vec<Residue>)]> {
+        let Lines { asked, declared, angles, division, blocks, known } = lines;
+        let line = known.entry(varied).or_default();
+        while line.values.len() < places && line.seed < SEEDS {
+            let point = varied.point(angles, place(line.values.len()), line.seed);
+            if let Ok(sample) = self.sampled(graph, procedure, (asked, declared), point, *division) {
+                let others = self.minors(blocks, &sample);
+                line.values.push((sample.divisors, others));
+            } else {
+                line.seed += 1;
+                let values = std::mem::take(&mut line.values);
+                if values.len() > line.most.len() {
+                    line.most = values;
+                }
+            }
+        }
+        line.values.get(..places).or_else(|| line.most.get(..places))
+    }
+}
+
+/// All subsets that are not empty of a few, if all of them are wanted; else the whole.
+fn subsets(members: &[usize], all: bool) -> Vec<Vec<usize>> {
+    if !all || members.len() > SMALL_BLOCK {
+        return vec![members.to_vec()];
+    }
+    let pick = |mask: usize| {
+        let members = members.iter().enumerate().filter(|(k, _)| mask >> k & 1 == 1);
+        members.map(|(_, index)| *index).collect()
+    };
+    (1..1 << members.len()).map(pick).collect()
 }
 
 /// What puts the values of short intermediate results for their symbols.
@@ -269,14 +339,23 @@ fn written_out(graph: &mut Graph, procedure: &Procedure, is_vain: bool) -> Subst
     written
 }
 
-/// The Schur complement: what is left of a matrix for other unknowns when one is eliminated.
-fn eliminate(matrix: &mut [Vec<Residue>], index: usize, others: &[usize]) {
-    let Some(inverse) = matrix[index][index].inverse() else { return };
-    for i in others {
-        for j in others {
-            let update = matrix[*i][index] * inverse * matrix[index][*j];
-            matrix[*i][*j] = matrix[*i][*j] - update;
+impl Sample {
+    /// J M⁻¹ Jᵀ, which is definite where the mass matrix is: what constraints are solved by.
+    fn complement(&self) -> Option<Vec<Vec<Residue>>> {
+        let s = self.mass.len();
+        let with: Vec<Vec<Residue>> = (0..s)
+            .map(|alpha| {
+                let rows = self.jacobian.iter().map(|row| row[alpha]);
+                self.mass[alpha].iter().copied().chain(rows).collect()
+            })
+            .collect();
+        let echelon = Echelon::of(with);
+        if self.jacobian.is_empty() || echelon.pivots.iter().copied().ne(0..s) {
+            return None;
         }
+        let reach = |b: usize| echelon.rows.iter().map(|row| row[s + b]).collect::<Vec<Residue>>();
+        let entry = |row: &Vec<Residue>| (0..self.jacobian.len()).map(|b| inner(row, &reach(b))).collect();
+        Some(self.jacobian.iter().map(entry).collect())
     }
 }
 

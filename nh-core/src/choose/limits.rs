@@ -5,7 +5,7 @@ use crate::count::Count;
 
 /// Lagrangians with more operations than this are not expanded: the equations are derived in
 /// velocity forms alone.
-pub(crate) const EXPANDED: u64 = 250;
+pub(crate) const EXPANDED: u64 = 120;
 /// The same where points are carried by wheels: the recursion from wheel to wheel is shorter than what
 /// expansion comes to as soon as there are several bodies.
 pub(crate) const EXPANDED_ON_WHEELS: u64 = 60;

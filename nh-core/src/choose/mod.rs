@@ -1,15 +1,23 @@
 //! Choosing among forms: they are compared, proved, and recorded here.
 
 mod conditions;
+mod derived;
 mod ledger;
 pub(crate) mod limits;
+mod lowered;
+mod pivots;
 mod proof;
 mod reference;
 mod selection;
 mod zero_set;
 
 pub(crate) use conditions::Regular;
+pub(crate) use derived::{
+    AlmostPoissonForm, AppliedForce, BracketForm, Derived as DerivedFunction, GyroscopicForm, Motion,
+    PowerForm, SplittingForm, ValuesForm, VelocityNames, prove_derived,
+};
 pub use ledger::{Contender, Decision, Fate, Ledger, Proof};
-pub(crate) use proof::{Claim, prove, prove_equal};
-pub(crate) use reference::{Called, Reference};
+pub use lowered::{Lowered, Unproved, lowered, prove_program, prove_split};
+pub(crate) use proof::{Claim, Defect, prove, prove_equal};
+pub(crate) use reference::{Given, Reference};
 pub(crate) use selection::{Entry, admitted, cheapest, fate};

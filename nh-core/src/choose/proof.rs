@@ -56,7 +56,7 @@ impl From<NoValue> for Defect {
 
 /// What is claimed of a form.
 pub(crate) enum Claim<'p> {
-    /// Outputs: ẋ, then the accelerations of the state, (8) or (9).
+    /// Outputs: ẋ, then the accelerations of the state, (8) or (9), then ż.
     Motion(&'p Procedure),
     /// C v̇ = f for all v̇, with f and C of (8) along the sections of the state.
     Equations(&'p ReducedEquations, &'p [(SymbolId, Vec<ExprId>)]),
@@ -113,14 +113,15 @@ pub(crate) fn prove(graph: &Graph, reference: &Reference, claim: &Claim) -> Resu
     let degree = claim.degree(&mut Degrees::new(graph, division));
     let bits = bits_of_a_point(graph, &roots, reference.degree(graph, division, degree))?;
     let radicands = Radicands::of(graph, &reference.roots(graph), &reference.determined());
-    at_points(
+    let outcome = at_points(
         bits,
         |seed| radicands.point(graph, seed),
         |point| {
             let mut instant = reference.at(graph, point, division)?;
             judge(&mut instant, reference, claim)
         },
-    )
+    );
+    unless_roots_are_missing(graph, &roots, outcome)
 }
 
 /// Proves that two procedures with the same symbols compute the same.
@@ -142,7 +143,7 @@ pub(crate) fn prove_equal(graph: &Graph, one: &Procedure, other: &Procedure) -> 
 }
 
 /// What a point proves of a function of a degree: log₂ of one over the probability that it misses a defect.
-fn bits_of_a_point(graph: &Graph, roots: &[ExprId], degree: f64) -> Result<f64, Defect> {
+pub(super) fn bits_of_a_point(graph: &Graph, roots: &[ExprId], degree: f64) -> Result<f64, Defect> {
     let bits = FIELD - degree.max(1.0).log2();
     if bits.is_nan() || bits < 1.0 {
         let reason = "its degree as a rational function is too large for the field that proofs are made in";
@@ -155,10 +156,10 @@ fn bits_of_a_point(graph: &Graph, roots: &[ExprId], degree: f64) -> Result<f64, 
 fn has_branches(graph: &Graph, roots: &[ExprId]) -> bool {
     graph.reachable(roots).into_iter().any(|id| match graph.node(id) {
         Node::Product { factors, .. } => {
-            // cube roots and their like are unique, and so are those of numbers
+            // cube roots and their like are unique, and those of numbers are the same at all points
             factors.iter().any(|(base, power)| {
                 !power.is_integer()
-                    && graph.as_number(*base).is_none()
+                    && !graph.symbols_in(&[*base]).is_empty()
                     && num_integer::Integer::is_even(&power.denominator())
             })
         }
@@ -168,8 +169,23 @@ fn has_branches(graph: &Graph, roots: &[ExprId]) -> bool {
     })
 }
 
+/// What disagrees may be no defect where the field has no root of a number: what stands for it there has another square.
+pub(super) fn unless_roots_are_missing(
+    graph: &Graph,
+    roots: &[ExprId],
+    outcome: Result<Proof, Defect>,
+) -> Result<Proof, Defect> {
+    let Err(Defect::Wrong(what)) = &outcome else { return outcome };
+    match graph.root_outside_field(roots) {
+        Some(root) => {
+            Err(Defect::Unknown(format!("{what}, or the field that proofs are made in has no {root}")))
+        }
+        None => outcome,
+    }
+}
+
 /// Asks at points until enough of them agree.
-fn at_points(
+pub(super) fn at_points(
     bits: f64,
     point: impl Fn(u64) -> FieldPoint,
     mut ask: impl FnMut(FieldPoint) -> Result<(), Defect>,
@@ -249,7 +265,12 @@ fn judge(instant: &mut Instant, reference: &Reference, claim: &Claim) -> Result<
 /// Whether a procedure moves the state as the declaration says.
 fn moves(instant: &mut Instant, reference: &Reference, motion: &Procedure) -> Result<Balance, Defect> {
     let outputs = run(&mut instant.pass, motion)?;
-    let (rates, accelerations) = outputs.split_at(instant.rates.len().min(outputs.len()));
+    let auxiliary = instant.auxiliary_rates();
+    let (rest, moved) = outputs.split_at(outputs.len().saturating_sub(auxiliary.len()));
+    if moved != auxiliary {
+        return Err(Defect::Wrong("the rates of auxiliary states are not those that are declared".into()));
+    }
+    let (rates, accelerations) = rest.split_at(instant.rates.len().min(rest.len()));
     if rates != instant.rates || accelerations.len() != reference.state().len() {
         return Err(Defect::Wrong("the rates of the coordinates are not those of the anchor".into()));
     }
@@ -325,6 +346,18 @@ pub(super) fn run(pass: &mut FieldPass, procedure: &Procedure) -> Result<Vec<Res
     Ok(pass.evaluate(&procedure.outputs)?)
 }
 
+/// The symbols that a procedure gives values to.
+pub(super) fn defined(procedure: &Procedure) -> Vec<SymbolId> {
+    let mut found = Vec::new();
+    for definition in &procedure.definitions {
+        match definition {
+            Definition::Value { symbol, .. } | Definition::Call { symbol, .. } => found.push(*symbol),
+            Definition::Solve { unknowns, .. } => found.extend(unknowns),
+        }
+    }
+    found
+}
+
 impl Procedure {
     /// All expressions in it.
     pub(super) fn expressions(&self) -> Vec<ExprId> {
@@ -340,7 +373,7 @@ impl Procedure {
     }
 
     /// A bound on the degrees of the outputs.
-    fn degree(&self, degrees: &mut Degrees) -> f64 {
+    pub(super) fn degree(&self, degrees: &mut Degrees) -> f64 {
         for definition in &self.definitions {
             match definition {
                 Definition::Value { symbol, value } => {

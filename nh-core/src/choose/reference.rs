@@ -11,12 +11,30 @@ use crate::geometry::ConstraintDistribution;
 use crate::id::{ExprId, Id, SymbolId};
 use crate::mechanics::LagrangianSystem;
 
-/// A call of a method of the user's: its symbol, its name, and its arguments in quasi-velocities.
+/// What is given along a motion, in quasi-velocities.
 #[derive(Clone, Debug)]
-pub(crate) struct Called {
-    pub(crate) symbol: SymbolId,
-    pub(crate) method: String,
-    pub(crate) arguments: Vec<ExprId>,
+pub(crate) enum Given {
+    /// The result of a method of the user's.
+    Call { symbol: SymbolId, method: String, arguments: Vec<ExprId>, derivatives: Option<Vec<String>> },
+    /// The rate ż of an auxiliary state.
+    Rate { symbol: SymbolId, value: ExprId },
+}
+
+impl Given {
+    /// What stands for it.
+    pub(crate) fn symbol(&self) -> SymbolId {
+        match self {
+            Self::Call { symbol, .. } | Self::Rate { symbol, .. } => *symbol,
+        }
+    }
+
+    /// What it is made of.
+    pub(crate) fn roots(&self) -> Vec<ExprId> {
+        match self {
+            Self::Call { arguments, .. } => arguments.clone(),
+            Self::Rate { value, .. } => vec![*value],
+        }
+    }
 }
 
 /// The velocities of the state, and those that follow.
@@ -36,8 +54,8 @@ pub(crate) struct Velocities {
 #[derive(Clone, Debug)]
 pub(crate) struct Reference {
     system: LagrangianSystem,
-    calls: Vec<Called>,
-    /// φ^A(t, x, y), and the momenta on levels less these.
+    given: Vec<Given>,
+    /// φ^A(t, x, y, z), and the momenta on levels less these.
     residuals: Vec<ExprId>,
     velocities: Velocities,
     /// Whether the equations are those on D.
@@ -53,6 +71,8 @@ pub(crate) struct Instant<'a, 's> {
     y: Vec<Residue>,
     /// ẋ^i = ρ^i_α y^α.
     pub(crate) rates: Vec<Residue>,
+    /// The time and the auxiliary states, with their rates.
+    clock: Vec<(SymbolId, Residue)>,
 }
 
 /// δL_α − Υ_α for some accelerations, and the rates of y that they mean.
@@ -68,7 +88,7 @@ impl Reference {
     /// On D, in a basis: (8). `full` is D, `kept` what levels of momenta leave of it.
     pub(crate) fn adapted(
         system: &LagrangianSystem,
-        calls: Vec<Called>,
+        given: Vec<Given>,
         residuals: Vec<ExprId>,
         full: &ConstraintDistribution,
         kept: &ConstraintDistribution,
@@ -80,27 +100,27 @@ impl Reference {
             determined: kept.eliminated.clone(),
             sections,
         };
-        Self { system: system.clone(), calls, residuals, velocities, reduced: true }
+        Self { system: system.clone(), given, residuals, velocities, reduced: true }
     }
 
-    /// The symbols whose values follow from others: velocities, and results of calls.
+    /// The symbols whose values follow from others: velocities, and what is given.
     pub(crate) fn determined(&self) -> Vec<SymbolId> {
         let Velocities { state, determined, .. } = &self.velocities;
         let velocities = self.system.algebroid.velocities.iter().chain(state).copied();
         let others = determined.iter().map(|(symbol, _)| *symbol);
-        velocities.chain(others).chain(self.calls.iter().map(|call| call.symbol)).collect()
+        velocities.chain(others).chain(self.given.iter().map(Given::symbol)).collect()
     }
 
     /// On all of E, with multipliers: (9).
     pub(crate) fn projected(
         graph: &mut Graph,
         system: &LagrangianSystem,
-        calls: Vec<Called>,
+        given: Vec<Given>,
         residuals: Vec<ExprId>,
     ) -> Self {
         let (state, all) = (system.algebroid.velocities.clone(), system.algebroid.velocity(graph));
         let velocities = Velocities { state, all, determined: Vec::new(), sections: Vec::new() };
-        Self { system: system.clone(), calls, residuals, velocities, reduced: false }
+        Self { system: system.clone(), given, residuals, velocities, reduced: false }
     }
 
     /// All expressions that the equations are made of.
@@ -110,7 +130,7 @@ impl Reference {
         roots.extend(algebroid.anchor.entries.iter().flatten().chain(forces));
         roots.extend(algebroid.structure.nonzero(graph).flat_map(|(.., bracket)| bracket));
         roots.extend(forces_on_distribution.iter().map(|(_, force)| force));
-        roots.extend(self.calls.iter().flat_map(|call| &call.arguments).chain(&self.residuals));
+        roots.extend(self.given.iter().flat_map(Given::roots).chain(self.residuals.iter().copied()));
         let Velocities { all, determined, sections, .. } = &self.velocities;
         roots.extend(all.iter().chain(determined.iter().map(|(_, value)| value)));
         roots.extend(sections.iter().flat_map(|(_, section)| section));
@@ -120,15 +140,23 @@ impl Reference {
     /// A bound on the degree of (6) along sections, for accelerations of a degree.
     pub(crate) fn degree(&self, graph: &Graph, division: i64, accelerations: f64) -> f64 {
         let mut degrees = Degrees::new(graph, division);
-        let LagrangianSystem { algebroid, lagrangian, forces, forces_on_distribution, .. } = &self.system;
+        let LagrangianSystem { algebroid, lagrangian, forces, forces_on_distribution, clock } = &self.system;
         let s = count(algebroid.rank());
-        let n = count(algebroid.anchor.coordinates.len());
+        let n = count(algebroid.anchor.coordinates.len() + clock.auxiliary.len());
         // 1. of functions on E as such
         let lagrangian = degrees.most(&[*lagrangian]);
         let anchor = degrees.most(&algebroid.anchor.entries.concat());
         let brackets: Vec<ExprId> =
             algebroid.structure.nonzero(graph).flat_map(|(.., bracket)| bracket.iter().copied()).collect();
         let brackets = if brackets.is_empty() { 0.0 } else { degrees.most(&brackets) };
+        let mut given = 0.0;
+        for rate in &self.given {
+            if let Given::Rate { symbol, value } = rate {
+                let degree = degrees.of(*value);
+                degrees.name(*symbol, degree);
+                given = degrees.most(&[*value]).max(given);
+            }
+        }
         let mut forces = forces.clone();
         forces.extend(forces_on_distribution.iter().map(|(_, force)| *force));
         let force = degrees.most(&forces);
@@ -141,7 +169,7 @@ impl Reference {
         let section = degrees.most(&sections);
         // 2. at y: each of its velocities has the degree of the longest
         let y = degrees.most(&self.velocities.all);
-        let x_dot = s * (anchor + y);
+        let x_dot = (s * (anchor + y)).max(given * y);
         let y_dot = (n + s) * (2.0 * y + x_dot.max(accelerations));
         // 3. second derivatives of L along the motion, brackets, forces; the constraints' gradient
         let second = (n + s) * (4.0 * lagrangian * y + x_dot.max(y_dot));
@@ -176,17 +204,48 @@ impl Reference {
                 return Err(Defect::Wrong("a velocity has two values".into()));
             }
         }
-        for Called { symbol, method, arguments } in &self.calls {
-            let arguments = pass.evaluate(arguments)?;
-            let value = pass.kernel(method, &arguments);
-            if !pass.choose(*symbol, value) {
-                return Err(Defect::Wrong(format!("`{method}` has two values")));
+        let clock = &self.system.clock;
+        let mut moving = vec![(clock.time, Residue::ONE)];
+        for given in &self.given {
+            let (value, what) = match given {
+                Given::Call { method, arguments, .. } => {
+                    let arguments = pass.evaluate(arguments)?;
+                    (pass.kernel(method, &arguments), format!("`{method}`"))
+                }
+                Given::Rate { value, .. } => {
+                    (pass.evaluate(&[*value])?[0], "the rate of an auxiliary state".to_owned())
+                }
+            };
+            if !pass.choose(given.symbol(), value) {
+                return Err(Defect::Wrong(format!("{what} has two values")));
             }
+            let state = clock.auxiliary.iter().find(|(_, rate)| *rate == given.symbol());
+            moving.extend(state.map(|(state, _)| (*state, value)));
         }
         // 2. ẋ = ρ y
         let rates = algebroid.anchor.entries.iter().map(|row| Ok(inner(&pass.evaluate(row)?, &y)));
         let rates = rates.collect::<Result<Vec<Residue>, Defect>>()?;
-        Ok(Instant { reference: self, pass, y, rates })
+        Ok(Instant { reference: self, pass, y, rates, clock: moving })
+    }
+
+    /// The declared system.
+    pub(crate) fn system(&self) -> &LagrangianSystem {
+        &self.system
+    }
+
+    /// φ^A, and the momenta on levels less these.
+    pub(crate) fn residuals(&self) -> &[ExprId] {
+        &self.residuals
+    }
+
+    /// y in terms of the velocities of the state.
+    pub(crate) fn all_velocities(&self) -> &[ExprId] {
+        &self.velocities.all
+    }
+
+    /// Sections that span D, where the state is over them.
+    pub(crate) fn sections(&self) -> Option<&[(SymbolId, Vec<ExprId>)]> {
+        self.reduced.then_some(self.velocities.sections.as_slice())
     }
 
     /// The velocities v of the state.
@@ -207,15 +266,34 @@ impl Instant<'_, '_> {
         Ok(values.into_iter().all(|value| value == Residue::ZERO))
     }
 
+    /// y.
+    pub(crate) fn velocity(&self) -> &[Residue] {
+        &self.y
+    }
+
+    /// The rates ż of auxiliary states.
+    pub(crate) fn auxiliary_rates(&self) -> Vec<Residue> {
+        self.clock[1..].iter().map(|(_, rate)| *rate).collect()
+    }
+
+    /// E_L = y^α ∂L/∂y^α − L.
+    pub(crate) fn energy(&mut self) -> Result<Residue, Defect> {
+        let LagrangianSystem { algebroid, lagrangian, .. } = &self.reference.system;
+        let mut pass = TangentPass::new(&mut self.pass, Direction::default());
+        let momenta = pass.gradient(*lagrangian, &algebroid.velocities)?;
+        let momenta: Vec<Residue> = momenta.into_iter().map(|dual| dual.value).collect();
+        Ok(inner(&momenta, &self.y) - self.pass.evaluate(&[*lagrangian])?[0])
+    }
+
     /// The direction of the motion with given accelerations of the state.
     fn direction(&mut self, accelerations: &[Residue]) -> Result<(Direction, Vec<Residue>), Defect> {
-        let LagrangianSystem { algebroid, time, .. } = &self.reference.system;
+        let LagrangianSystem { algebroid, .. } = &self.reference.system;
         let Velocities { state, all, .. } = &self.reference.velocities;
         let mut direction: Direction =
             algebroid.anchor.coordinates.iter().copied().zip(self.rates.iter().copied()).collect();
-        direction.insert(*time, Residue::ONE);
+        direction.extend(self.clock.iter().copied());
         direction.extend(state.iter().copied().zip(accelerations.iter().copied()));
-        // ẏ along it: in a basis, Ḃ v + B v̇ + ẏ₀
+        // ẏ along it: in a basis, Ḃ v + B v̇ + ẏ₀ with ∂_z(·) ż
         let duals = TangentPass::new(&mut self.pass, direction.clone()).duals(all)?;
         let rates: Vec<Residue> = duals.into_iter().map(|dual| dual.rate).collect();
         direction.extend(algebroid.velocities.iter().copied().zip(rates.iter().copied()));
@@ -283,9 +361,10 @@ impl Instant<'_, '_> {
         &mut self,
         balance: &Balance,
     ) -> Result<(Vec<Vec<Residue>>, Vec<Residue>), Defect> {
-        let LagrangianSystem { algebroid, time, .. } = &self.reference.system;
-        let symbols = [algebroid.velocities.as_slice(), &algebroid.anchor.coordinates, &[*time]].concat();
-        let motion = [balance.rates.as_slice(), &self.rates, &[Residue::ONE]].concat();
+        let LagrangianSystem { algebroid, .. } = &self.reference.system;
+        let (clock, clock_rates): (Vec<SymbolId>, Vec<Residue>) = self.clock.iter().copied().unzip();
+        let symbols = [algebroid.velocities.as_slice(), &algebroid.anchor.coordinates, &clock].concat();
+        let motion = [balance.rates.as_slice(), &self.rates, &clock_rates].concat();
         let (mut jacobian, mut rates) = (Vec::new(), Vec::new());
         for residual in &self.reference.residuals {
             let mut pass = TangentPass::new(&mut self.pass, Direction::default());

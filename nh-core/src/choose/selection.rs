@@ -6,6 +6,7 @@ use super::ledger::{Contender, Decision, Fate, Proof};
 use super::proof::{Claim, Defect, prove};
 use super::reference::Reference;
 use crate::algebra::{Accuracy, Graph};
+use crate::id::ExprId;
 use crate::mechanics::Procedure;
 use crate::program::{Cost, Program, error_growth, error_growth_apart, order, schedule_roughly};
 
@@ -109,10 +110,7 @@ pub(crate) fn admitted(
     if let Fate::Chosen(_) = fate
         && let Some(divisor) = regular.and_then(|regular| regular.added(graph, &finished))
     {
-        let divisor = graph.text(divisor);
-        let reason =
-            format!("it divides by {divisor}, which may vanish where the declared equations are regular");
-        fate = Fate::NotAdmitted(reason);
+        fate = Fate::adds(graph, divisor);
     }
     let is_admitted = matches!(fate, Fate::Chosen(_));
     decision.contenders.push(contender(*best, fate));
@@ -129,6 +127,16 @@ pub(crate) fn admitted(
         decision.contenders.push(contender(*index, Fate::Lost(reason)));
     }
     Ok(finished)
+}
+
+impl Fate {
+    /// That a form divides by what may vanish.
+    pub(crate) fn adds(graph: &Graph, divisor: ExprId) -> Self {
+        let divisor = graph.text(divisor);
+        Self::NotAdmitted(format!(
+            "it divides by {divisor}, which may vanish where the declared equations are regular"
+        ))
+    }
 }
 
 /// What becomes of the contender of a proof.

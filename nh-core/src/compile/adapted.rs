@@ -4,28 +4,34 @@ use super::competition::{candidates, plain, plain_derivative, proved_derivative,
 use super::constraint_forces::constraint_forces;
 use super::embedded::embedding;
 use super::gibbs_appell;
+use super::given;
 use super::gyroscopic;
 use super::levels::Leveled;
 use super::momenta::momenta;
 use super::phase_space;
+use super::position_return::position_return;
+use super::power::{power, work_of_constraints};
+use super::proved_functions::{self, Given, Parts};
 use super::restricted::{
-    calls, coordinates, in_state, observables, parameter_checks, parameter_divisors, requested,
-    requested_jacobian, requested_parameter_jacobian,
+    claims_in_state, observables, parameter_divisors, requested, requested_jacobian,
+    requested_output_jacobian, requested_parameter_jacobian,
 };
 use super::{Proved, fence, nothing_proved};
+use crate::algebra::{Graph, Matrix, Substitution};
 use crate::check;
 use crate::choose::{Decision, limits};
 use crate::forms::Registry;
 use crate::functions::{
-    ENERGY, GIBBS_APPELL, GYROSCOPIC, MULTIPLIERS, OUTPUTS, PARAMETER_JACOBIAN, REACTIONS, VELOCITY,
+    ENERGY, GIBBS_APPELL, GYROSCOPIC, MULTIPLIERS, OUTPUT_JACOBIAN, OUTPUTS, PARAMETER_JACOBIAN, POWER,
+    REACTIONS, RESIDUAL, VELOCITY,
 };
 use crate::geometry::ConstraintDistribution;
-use crate::id::ExprId;
+use crate::id::{ExprId, SymbolId};
 use crate::limits::{Subject, about};
-use crate::mechanics::{Flow, Procedure, energy};
+use crate::mechanics::{Flow, Procedure, definiteness, energy, saddle_equations};
 use crate::model::{Formulation, Request};
 use crate::report::{Derived, equations_of_motion, report};
-use crate::system::System;
+use crate::system::{PositionReturn, System};
 use crate::violation::Violation;
 
 /// Derives everything from a basis of D and the velocities that levels of momenta leave.
@@ -51,51 +57,41 @@ pub(super) fn derive(
         return Err(nothing_proved(proved.model.origin, &proved.ledger));
     };
     let equations = first.equations.clone();
-    let singular = check::reduced_regularity(&mut proved.model, &equations, &proved.base);
+    let singular = check::reduced_regularity(&mut proved.model, &equations, &proved.positions.manifold);
     fence(singular.into_iter().collect())?;
     // 2. v̇
     about(Subject::Solution);
     let velocities = &proved.system.algebroid.velocities;
     let mut restriction = kept.restriction(&proved.model.graph, velocities);
-    let calls = calls(&mut proved.model, &mut proved.motion, &mut restriction);
-    let derivative = proved_derivative(&mut proved, &reference, &candidates, &calls, &mut chosen)
-        .or_else(|| plain_derivative(&mut proved, &reference, kept, &calls, &mut chosen));
+    let given = given::definitions(&mut proved.model, &mut proved.motion, &mut restriction);
+    let derivative = proved_derivative(&mut proved, &reference, &candidates, &given, &mut chosen)
+        .or_else(|| plain_derivative(&mut proved, &reference, kept, &given, &mut chosen));
     proved.ledger.decisions.push(chosen);
     let derivative = derivative.ok_or_else(|| nothing_proved(proved.model.origin, &proved.ledger))?;
     about(Subject::Requests);
-    let gibbs_appell = gibbs_appell::on_distribution(&mut proved, kept, &calls);
+    let gibbs_appell = gibbs_appell::on_distribution(&mut proved, kept, &given);
     gibbs_appell::prove_it(&mut proved, &reference, gibbs_appell.as_ref())?;
+    let work = work_of_constraints(&mut proved, distribution.constraints.annihilator.len());
     let (multipliers, reactions) =
-        if requested(&proved.model, Request::Multipliers) || requested(&proved.model, Request::Reactions) {
-            let accelerations = &derivative.outputs[equations.rates.len()..];
-            constraint_forces(&mut proved, &reference, kept, &derivative, accelerations)?
-        } else {
-            Default::default()
-        };
-    let jacobian = requested_jacobian(&mut proved.model, &derivative, &kept.independent)
-        .map_err(|violation| vec![violation])?;
-    let parameter_jacobian =
-        requested_parameter_jacobian(&mut proved.model, &derivative).map_err(|violation| vec![violation])?;
+        constraint_forces(&mut proved, &reference, (kept, &equations), &derivative, &work)?;
+    let jacobian = requested_jacobian(&mut proved.model, &derivative, &kept.independent)?;
     let (momenta, mut functions) = momenta(&mut proved, &mut restriction, &derivative, &kept.independent);
-    let (gyroscopic, gyroscopic_force) = gyroscopic::derive(&mut proved, Some(distribution))?;
+    functions.add_if(&PARAMETER_JACOBIAN, requested_parameter_jacobian(&mut proved.model, &derivative)?);
+    let (gyroscopic, force) = gyroscopic::derive(&mut proved, Some(distribution))?;
+    functions.add_if(&GYROSCOPIC, force);
     let graph = &mut proved.model.graph;
     // 3. E_L, y and the observables on D
     let energy = energy(graph, &proved.system);
     let energy = restriction.apply(graph, energy);
     let energy = if is_large(&proved) { energy } else { proved.model.graph.simplify(energy) };
     let observables = observables(&mut proved.model, &mut proved.motion, &mut restriction);
+    let power = power(&mut proved, &mut restriction, &given, &multipliers, &work);
+    let output_jacobian = requested_output_jacobian(&mut proved.model, &observables, &kept.independent)?;
     // 4. the claims, along the flow
     about(Subject::Claims);
-    let claims: Vec<ExprId> = proved
-        .model
-        .claims
-        .iter()
-        .map(|claim| in_state(&mut proved.model.graph, &mut proved.motion, &mut restriction, claim.value))
-        .collect();
-    if !claims.is_empty() {
-        let flow = Flow::of(&mut proved.model.graph, &derivative, &proved.system, &equations.independent);
-        fence(check::claims(&mut proved.model, &claims, flow, &proved.base))?;
-    }
+    let claims = proved_claims(&mut proved, &mut restriction, &derivative, &equations.independent)?;
+    let moving = (kept.independent.as_slice(), equations.velocity.as_slice());
+    let positions = positions(&mut proved, &mut restriction, moving, &distribution.pivots);
     // 5. the report
     about(Subject::Requests);
     let embedding = embedding(&mut proved.model, &proved.base);
@@ -106,34 +102,78 @@ pub(super) fn derive(
     let lines = equations_of_motion(&proved.model, &derived);
     let divisors = parameter_divisors(&mut proved.model, &derivative);
     let conditions = [conditions.as_slice(), &divisors].concat();
-    let model = proved.model;
     functions.add(&ENERGY, Procedure::of(vec![energy]));
     functions.add(&VELOCITY, Procedure::of(equations.velocity.clone()));
     functions.add(&OUTPUTS, observables);
-    functions.add_if(&MULTIPLIERS, requested(&model, Request::Multipliers).then_some(multipliers));
-    functions.add_if(&REACTIONS, requested(&model, Request::Reactions).then_some(reactions));
-    functions.add_if(&GIBBS_APPELL, gibbs_appell);
-    functions.add_if(&PARAMETER_JACOBIAN, parameter_jacobian);
-    functions.add_if(&GYROSCOPIC, gyroscopic_force);
-    Ok(System {
-        formulation: Formulation::Adapted,
-        state_coordinates: coordinates(&model),
-        state_velocities: kept.independent.clone(),
-        derivative,
+    functions.add_if(&POWER, power);
+    functions.add_if(&OUTPUT_JACOBIAN, output_jacobian);
+    functions.add_if(&RESIDUAL, positions.as_ref().map(|positions| positions.residual.clone()));
+    let parts = Parts {
+        jacobian,
         functions,
         momenta,
         gyroscopic,
-        quadratures: Vec::new(),
-        jacobian,
         projection: None,
-        phase_space,
+        positions,
         embedding,
-        parameter_checks: parameter_checks(&model, &conditions),
-        ledger: proved.ledger,
-        report: text,
-        equations: lines,
-        model,
-    })
+        phase_space,
+    };
+    let given = Given {
+        formulation: Formulation::Adapted,
+        reference: &reference,
+        derivative: &derivative,
+        velocities: &kept.independent,
+        multipliers: (&multipliers, Some(&kept.constraints.annihilator)),
+        residuals: &[],
+        conditions: &conditions,
+    };
+    let mut parts = proved_functions::prove(&mut proved, registry, &given, parts)?;
+    let model = &proved.model;
+    let functions = &mut parts.functions;
+    functions.add_if(&MULTIPLIERS, requested(model, Request::Multipliers).then_some(multipliers));
+    functions.add_if(&REACTIONS, requested(model, Request::Reactions).then_some(reactions));
+    functions.add_if(&GIBBS_APPELL, gibbs_appell);
+    let state = (Formulation::Adapted, kept.independent.clone());
+    Ok(parts.into_system(proved, state, derivative, &conditions, (text, lines)))
+}
+
+/// The claimed first integrals on D, proved along the flow.
+fn proved_claims(
+    proved: &mut Proved,
+    restriction: &mut Substitution,
+    derivative: &Procedure,
+    velocities: &[SymbolId],
+) -> Result<Vec<ExprId>, Vec<Violation>> {
+    let Proved { model, motion, system, positions, .. } = proved;
+    let claims = claims_in_state(model, motion, restriction);
+    if !claims.is_empty() {
+        let flow = Flow::of(&mut model.graph, derivative, system, velocities);
+        fence(check::claims(model, &claims, flow, &positions.manifold))?;
+    }
+    Ok(claims)
+}
+
+/// The way back to position constraints: the velocities of the state stay, and what D makes of them holds at
+/// the new place.
+fn positions(
+    proved: &mut Proved,
+    restriction: &mut Substitution,
+    (states, velocity): (&[SymbolId], &[ExprId]),
+    pivots: &[ExprId],
+) -> Option<PositionReturn> {
+    if proved.model.positions.is_empty() {
+        return None;
+    }
+    let residuals = proved.constraints.residuals.clone();
+    let saddle = saddle_equations(&mut proved.model.graph, &proved.system, &residuals);
+    let parameters: Vec<_> = proved.model.parameters.iter().map(|parameter| parameter.symbol).collect();
+    let facts = proved.facts.clone();
+    let judge = |graph: &Graph, matrix: &Matrix| definiteness(graph, matrix, &parameters, &facts);
+    let mut found = position_return(proved, &saddle, restriction, (states, velocity, &[]), judge)?;
+    let graph = &proved.model.graph;
+    let varies = |pivot: &&ExprId| graph.symbols_in(&[**pivot]).iter().any(|s| !parameters.contains(s));
+    found.pivots = Procedure::of(pivots.iter().filter(varies).copied().collect());
+    Some(found)
 }
 
 /// Whether expressions of the size of the Lagrangian are left as they are.

@@ -11,7 +11,7 @@ use crate::report::Derived;
 use crate::violation::{Law, Violation};
 
 /// {f_i, f_j}_nh = df_i · Π df_j, {f_i, E_L}_nh = df_i · Π dE_L, and R_L(f_i) + ∂_tf_i: the last two are
-/// the rate of f_i, mathematics (17).
+/// the rate of f_i, mathematics (17). Auxiliary states are given functions of the time.
 pub(super) fn of_outputs(
     proved: &mut Proved,
     derived: &Derived<'_>,
@@ -28,13 +28,18 @@ pub(super) fn of_outputs(
         }]);
     }
     let arguments = state(proved, derived);
-    let with_time: Vec<_> = arguments.iter().copied().chain([proved.system.time]).collect();
+    let clock = proved.system.clock.symbols();
+    let with_time = [arguments.as_slice(), &clock].concat();
     let mut differentials = jacobian(&mut proved.model.graph, observables, &with_time)
         .map_err(|error| vec![not_differentiable(error, origin)])?;
     let rows = std::mem::take(&mut differentials.outputs);
     let rows: Vec<&[ExprId]> = rows.chunks(with_time.len()).collect();
-    let (changes, rows): (Vec<ExprId>, Vec<&[ExprId]>) =
-        rows.into_iter().filter_map(|row| row.split_last()).map(|(change, row)| (*change, row)).unzip();
+    let (rows, slopes): (Vec<&[ExprId]>, Vec<&[ExprId]>) =
+        rows.into_iter().map(|row| row.split_at(arguments.len())).unzip();
+    // ∂_tf_i + ż ∂_zf_i
+    let graph = &mut proved.model.graph;
+    let rates: Vec<ExprId> = proved.system.clock.rates(graph).into_iter().map(|(_, rate)| rate).collect();
+    let changes: Vec<ExprId> = slopes.iter().map(|row| graph.inner_product(row, &rates)).collect();
     Ok([
         with_each_other(proved, derived, differentials.clone(), &rows),
         with_energy(proved, derived, differentials.clone(), &rows),
@@ -64,7 +69,7 @@ fn with_each_other(
             let value = graph.inner_product(differentials[i], &fields[j]);
             let value = graph.simplify(value);
             outputs[i * count + j] = value;
-            outputs[j * count + i] = graph.neg(value);
+            outputs[j * count + i] = graph.formula(-value);
         }
     }
     procedure.outputs = outputs;
@@ -89,7 +94,7 @@ fn with_energy(
     shortened(graph, procedure)
 }
 
-/// R_L(f_i) + ∂_tf_i.
+/// R_L(f_i) + ∂_tf_i + ż ∂_zf_i.
 fn drift(
     proved: &mut Proved,
     derived: &Derived<'_>,
@@ -111,7 +116,8 @@ fn drift(
     };
     let field = [field.rates, field.accelerations].concat();
     let beyond = along(graph, differentials, &field);
-    procedure.outputs = beyond.into_iter().zip(changes).map(|(f, change)| graph.add(f, *change)).collect();
+    procedure.outputs =
+        beyond.into_iter().zip(changes).map(|(f, change)| graph.formula(f + change)).collect();
     shortened(graph, procedure)
 }
 

@@ -21,10 +21,10 @@ pub(super) fn reference(
     distribution: &ConstraintDistribution,
     kept: &ConstraintDistribution,
 ) -> Reference {
-    let calls = proved.called();
+    let given = proved.given();
     let mut residuals = proved.constraints.residuals.clone();
     residuals.extend(proved.levels.iter().map(|level| level.residual));
-    Reference::adapted(&proved.system, calls, residuals, distribution, kept)
+    Reference::adapted(&proved.system, given, residuals, distribution, kept)
 }
 
 /// Equations with the name of their form.
@@ -84,7 +84,7 @@ fn in_orthonormal_basis(graph: &mut Graph, equations: &mut ReducedEquations) {
     for (a, row) in equations.mass.iter_mut().enumerate() {
         for (b, entry) in row.iter_mut().enumerate() {
             let unit = if a == b { graph.one() } else { graph.zero() };
-            let defect = graph.sub(*entry, unit);
+            let defect = graph.formula(*entry - unit);
             if graph.zero_test(defect).is_zero() {
                 *entry = unit;
             }
@@ -119,7 +119,7 @@ pub(super) fn proved_derivative(
     proved: &mut Proved,
     reference: &Reference,
     candidates: &[Candidate],
-    calls: &Procedure,
+    given: &Procedure,
     decision: &mut Decision,
 ) -> Option<Procedure> {
     decision.site = "derivative";
@@ -129,13 +129,20 @@ pub(super) fn proved_derivative(
     let shown = &candidates.first()?.equations;
     let definite = definiteness(graph, &shown.mass, &parameters, &proved.facts);
     let facts = &proved.facts;
-    let regular =
-        Regular { reference, equations: shown, definiteness: definite, parameters: &parameters, facts };
+    let regular = Regular {
+        reference,
+        definitions: &shown.definitions,
+        mass: &shown.mass,
+        definiteness: definite,
+        jacobian: &Vec::new(),
+        parameters: &parameters,
+        facts,
+    };
     let fixed = &proved.system.algebroid.anchor.coordinates;
     let mut left: Vec<&Candidate> = candidates.iter().collect();
     while !left.is_empty() {
         decision.limits.retain(|limit| !limit.contains(limits::BESIDE));
-        let entries = solved_forms(graph, &left, definite, calls, decision);
+        let entries = solved_forms(graph, &left, definite, given, decision);
         let finish = |graph: &mut Graph, procedure: &Procedure| {
             without_needless_cancellation(graph, procedure.clone(), fixed)
         };
@@ -153,7 +160,7 @@ fn solved_forms(
     graph: &mut Graph,
     candidates: &[&Candidate],
     definite: Definiteness,
-    calls: &Procedure,
+    given: &Procedure,
     decision: &mut Decision,
 ) -> Vec<Entry> {
     let lengths: Vec<Count> = candidates.iter().map(|candidate| candidate.equations.length(graph)).collect();
@@ -166,7 +173,7 @@ fn solved_forms(
             decision.limits.push(format!("{form}: {length} operations{}{shortest}", limits::BESIDE));
             continue;
         }
-        let procedure = solved(graph, equations, definite, calls);
+        let procedure = solved(graph, equations, definite, given);
         // different ways often lead to the same equations
         let values = procedure.values(graph);
         if !compared.contains(&values) {
@@ -183,7 +190,7 @@ pub(super) fn plain_derivative(
     proved: &mut Proved,
     reference: &Reference,
     kept: &ConstraintDistribution,
-    calls: &Procedure,
+    given: &Procedure,
     decision: &mut Decision,
 ) -> Option<Procedure> {
     let Candidate { equations, .. } = plain(proved, kept);
@@ -192,23 +199,23 @@ pub(super) fn plain_derivative(
     let definite = definiteness(graph, &equations.mass, &parameters, &proved.facts);
     let kinds = [("plain", definite), ("plain, with pivoting", Definiteness::Unknown)];
     kinds.into_iter().find_map(|(form, definite)| {
-        let entry = Entry { form, procedure: solved(graph, &equations, definite, calls) };
+        let entry = Entry { form, procedure: solved(graph, &equations, definite, given) };
         let finish = |_: &mut Graph, procedure: &Procedure| procedure.clone();
         admitted(graph, (reference, None), &[entry], finish, decision).ok()
     })
 }
 
-/// ẋ and v̇ by the equations.
+/// ẋ and v̇ by the equations, and ż as it is given.
 fn solved(
     graph: &mut Graph,
     equations: &ReducedEquations,
     definite: Definiteness,
-    calls: &Procedure,
+    given: &Procedure,
 ) -> Procedure {
-    let mut procedure = calls.clone();
+    let mut procedure = given.clone();
     procedure.definitions.extend(equations.definitions.definitions.iter().cloned());
     let ReducedEquations { mass, force, .. } = equations;
     let accelerations = solve_symmetric(graph, mass, force, definite, &mut procedure, "v_dot");
-    procedure.outputs = equations.rates.iter().chain(&accelerations).copied().collect();
+    procedure.outputs = equations.rates.iter().chain(&accelerations).chain(&given.outputs).copied().collect();
     procedure
 }

@@ -35,12 +35,11 @@ pub(super) fn derive(
     if proved.model.graph.generic_rank(&restricted) != Ok(metric.len()) {
         return Err(refuse("the mass matrix is singular on E".into()));
     }
-    let time = proved.system.time;
     let residuals = proved.constraints.residuals.clone();
     let is_linear = proved.constraints.linear.as_ref().is_some_and(|linear| {
         linear.drift.iter().all(|drift| proved.base.zero_test(&mut proved.model.graph, *drift).is_zero())
     });
-    if !is_linear || proved.model.graph.symbols_in(&residuals).contains(&time) {
+    if !is_linear || proved.system.clock.occurs_in(&proved.model.graph, &residuals) {
         return Err(refuse("the constraints are not linear, or depend on the time".into()));
     }
     let judge = judge(proved);
@@ -85,7 +84,7 @@ fn metric(graph: &mut Graph, system: &LagrangianSystem) -> Result<Matrix, String
         for velocity in velocities {
             let entry = graph.partial(momentum, *velocity);
             let entry = graph.simplify(entry);
-            let strangers: Vec<SymbolId> = velocities.iter().copied().chain([system.time]).collect();
+            let strangers: Vec<SymbolId> = velocities.iter().copied().chain(system.clock.symbols()).collect();
             if graph.depends_on(entry, &strangers) {
                 let text = shown(graph, entry);
                 return Err(format!(

@@ -1,18 +1,20 @@
 //! The forces of constraint on D: λ_A, and λ_A Φ^A_α.
 
+use super::restricted::requested;
 use super::{Proved, nothing_proved};
 use crate::algebra::{Graph, Matrix};
-use crate::choose::{Claim, Contender, Decision, Fate, Reference, fate, prove};
+use crate::choose::{Claim, Contender, Decision, Fate, Reference, Regular, fate, prove};
 use crate::geometry::ConstraintDistribution;
-use crate::id::{ExprId, Id};
-use crate::mechanics::{Definition, Procedure, reaction_forces};
+use crate::id::{ExprId, Id, SymbolId};
+use crate::mechanics::{Definition, Procedure, ReducedEquations, definiteness, reaction_forces};
+use crate::model::Request;
 use crate::violation::Violation;
 
 /// Forces of constraint are differences of inertial and applied forces, which may cancel. Where the
 /// accelerations put in and simplified give short expressions with no more rounding error, these
 /// are evaluated instead.
 fn without_cancellation(graph: &mut Graph, procedure: &Procedure) -> Option<Procedure> {
-    const SHORT: u64 = 240;
+    const SHORT: u64 = 100;
     let written_out = procedure.written_out(graph);
     if graph.operation_count(&written_out) > 2 * SHORT {
         return None;
@@ -29,17 +31,22 @@ fn without_cancellation(graph: &mut Graph, procedure: &Procedure) -> Option<Proc
     Some(short)
 }
 
-/// λ and λ_A Φ^A_α from δL_α − Υ_α = λ_A Φ^A_α, mathematics (7), at the accelerations found.
+/// If they are asked for, or do work: λ and λ_A Φ^A_α from δL_α − Υ_α = λ_A Φ^A_α, mathematics (7), at the accelerations found.
 ///
 /// # Errors
 /// Where they could not be proved to be that.
 pub(super) fn constraint_forces(
     proved: &mut Proved,
     reference: &Reference,
-    distribution: &ConstraintDistribution,
+    (distribution, equations): (&ConstraintDistribution, &ReducedEquations),
     derivative: &Procedure,
-    accelerations: &[ExprId],
+    work: &[ExprId],
 ) -> Result<(Procedure, Procedure), Vec<Violation>> {
+    let asked = [Request::Multipliers, Request::Reactions].map(|request| requested(&proved.model, request));
+    if asked == [false; 2] && work.iter().all(|work| proved.model.graph.is_literal_zero(*work)) {
+        return Ok(Default::default());
+    }
+    let accelerations = &derivative.outputs[proved.model.coordinates.len()..];
     let graph = &mut proved.model.graph;
     // 1. δL_α − Υ_α
     let reactions = reaction_forces(graph, &proved.system, distribution, accelerations);
@@ -54,11 +61,17 @@ pub(super) fn constraint_forces(
         distribution.dependent.iter().map(|section| vec![reactions[section.index()]]).collect();
     let solved = graph.solve_linear(&matrix, &right).map(|solution| solution.values).unwrap_or_default();
     let multipliers = solved.into_iter().map(|row| row[0]).collect();
+    // the same with numerical pivoting
+    let unknowns: Vec<SymbolId> =
+        (0..matrix.len()).map(|index| graph.new_symbol(format!("lambda{index}"))).collect();
+    let mut pivoted = derivative.with_outputs(unknowns.iter().map(|symbol| graph.symbol(*symbol)).collect());
+    let right = right.concat();
+    pivoted.definitions.push(Definition::Solve { unknowns, matrix, right });
     let [multipliers, reactions] = [multipliers, reactions].map(|outputs| derivative.with_outputs(outputs));
-    let site = Site { name: "multipliers", motion: derivative, rows: Some(annihilator) };
-    let multipliers = proved_forces(proved, reference, &site, multipliers)?;
-    let site = Site { name: "reactions", motion: derivative, rows: None };
-    let reactions = proved_forces(proved, reference, &site, reactions)?;
+    let site = Site { name: "multipliers", motion: derivative, rows: Some(annihilator), equations };
+    let multipliers = proved_forces(proved, reference, &site, (multipliers, Some(pivoted)))?;
+    let site = Site { name: "reactions", motion: derivative, rows: None, equations };
+    let reactions = proved_forces(proved, reference, &site, (reactions, None))?;
     Ok((multipliers, reactions))
 }
 
@@ -67,25 +80,41 @@ struct Site<'s> {
     name: &'static str,
     motion: &'s Procedure,
     rows: Option<&'s Matrix>,
+    /// The equations that were proved.
+    equations: &'s ReducedEquations,
 }
 
-/// Forces without needless cancellation, or else as they are derived, whichever is proved first.
+/// Forces without needless cancellation, or else as they are derived, whichever is proved first and divides by
+/// nothing that may vanish; at last with numerical pivoting.
 fn proved_forces(
     proved: &mut Proved,
     reference: &Reference,
     site: &Site,
-    derived: Procedure,
+    (derived, pivoted): (Procedure, Option<Procedure>),
 ) -> Result<Procedure, Vec<Violation>> {
+    let parameters: Vec<SymbolId> =
+        proved.model.parameters.iter().map(|parameter| parameter.symbol).collect();
+    let ReducedEquations { mass, definitions, .. } = site.equations;
     let graph = &mut proved.model.graph;
+    let definiteness = definiteness(graph, mass, &parameters, &proved.facts);
+    let (jacobian, facts) = (&Matrix::new(), &proved.facts);
+    let parameters = &parameters;
+    let regular = Regular { reference, definitions, mass, definiteness, jacobian, parameters, facts };
     let short = without_cancellation(graph, &derived);
     let mut decision = Decision { site: site.name, ..Decision::default() };
-    let forms = [("written out", short), ("by the accelerations", Some(derived))];
+    let forms = [("written out", short), ("by the accelerations", Some(derived)), ("with pivoting", pivoted)];
     for (form, procedure) in forms.into_iter().filter_map(|(form, procedure)| Some((form, procedure?))) {
         let claim = match site.rows {
             Some(rows) => Claim::Multipliers(site.motion, &procedure, Some(rows)),
             None => Claim::Reactions(site.motion, &procedure),
         };
-        let fate = fate(prove(graph, reference, &claim));
+        let mut fate = fate(prove(graph, reference, &claim));
+        if let Fate::Chosen(_) = fate
+            && form != "with pivoting"
+            && let Some(divisor) = regular.added_beside(graph, &procedure, site.motion)
+        {
+            fate = Fate::adds(graph, divisor);
+        }
         let is_admitted = matches!(fate, Fate::Chosen(_));
         decision.contenders.push(Contender { form, cost: None, rounding: None, fate });
         if is_admitted {

@@ -36,7 +36,7 @@ fn conservative(proved: &mut Proved, origin: Origin, what: &str) -> Result<(), V
     let Proved { model, system, constraints, .. } = proved;
     let evidence = match check::not_conservative(model, system, constraints) {
         None if constraints.linear.is_some() => {
-            match check::moving_constraint(model, system.time, constraints) {
+            match check::moving_constraint(model, &system.clock, constraints) {
                 None => return Ok(()),
                 Some(evidence) => evidence,
             }
@@ -87,15 +87,14 @@ fn leapfrog(proved: &mut Proved, derived: &Derived<'_>, origin: Origin) -> Resul
     for (row, coordinate) in equations.mass.iter().zip(coordinates) {
         let inertia = graph.inner_product(row, &velocity);
         let slope = graph.partial(system.lagrangian, *coordinate);
-        let kick = graph.mul(h, slope);
-        force.push(graph.add(inertia, kick));
+        force.push(graph.formula(inertia + h * slope));
     }
     let bias = equations
         .jacobian
         .iter()
         .map(|row| {
             let power = graph.inner_product(row, &velocity);
-            graph.neg(power)
+            graph.formula(-power)
         })
         .collect();
     let kick = SaddleEquations { force, bias, ..(*equations).clone() };
@@ -140,7 +139,7 @@ fn euler_poincare_suslov(
             let twice = bracket(graph, &system.algebroid, &velocity, &once);
             let [p0, p1, p2] =
                 [&section, &once, &twice].map(|section| graph.inner_product(&momenta, section));
-            let (first, second) = (graph.mul(h, p1), graph.mul(square, p2));
+            let (first, second) = (graph.formula(h * p1), graph.formula(square * p2));
             let sum = graph.linear_combination(&[
                 (1.into(), p0),
                 (crate::algebra::Rational::new(-1, 2), first),

@@ -45,7 +45,7 @@ pub(super) fn embedding(model: &mut Model, base: &Manifold) -> Option<Embedding>
             let column: Vec<ExprId> = rows.iter().map(|row| row[index]).collect();
             let correction = graph.inner_product(&column, &weights);
             let coordinate = graph.symbol(*symbol);
-            graph.sub(coordinate, correction)
+            graph.formula(coordinate - correction)
         })
         .collect();
     Some(Embedding { texts, residual: Procedure::of(functions), step })

@@ -9,11 +9,11 @@ use crate::mechanics::{GibbsAppell, Procedure, SaddleEquations, definiteness, so
 use crate::model::Request;
 use crate::violation::Violation;
 
-/// In a basis of D. `calls` are the calls of the user's methods.
+/// In a basis of D, with the results of methods and the rates of auxiliary states that are given.
 pub(super) fn on_distribution(
     proved: &mut Proved,
     distribution: &ConstraintDistribution,
-    calls: &Procedure,
+    given: &Procedure,
 ) -> Option<Procedure> {
     if !requested(&proved.model, Request::GibbsAppell) {
         return None;
@@ -30,9 +30,9 @@ pub(super) fn on_distribution(
     );
     let (mass, force) = appell.equations(graph);
     let definite = definiteness(graph, &mass, &parameters, &proved.facts);
-    let mut procedure = calls.clone();
+    let mut procedure = given.clone();
     let accelerations = solve_symmetric(graph, &mass, &force, definite, &mut procedure, "acceleration");
-    procedure.outputs = appell.rates.into_iter().chain(accelerations).collect();
+    procedure.outputs = appell.rates.into_iter().chain(accelerations).chain(given.outputs.clone()).collect();
     Some(procedure)
 }
 
@@ -41,7 +41,7 @@ pub(super) fn on_distribution(
 pub(super) fn with_multipliers(
     proved: &mut Proved,
     equations: &SaddleEquations,
-    calls: &Procedure,
+    given: &Procedure,
 ) -> Option<Procedure> {
     if !requested(&proved.model, Request::GibbsAppell) {
         return None;
@@ -53,9 +53,9 @@ pub(super) fn with_multipliers(
     let appell = GibbsAppell::of(graph, &proved.system, &velocity, &velocities, &mut everywhere);
     let (mass, force) = appell.equations(graph);
     let stationary = SaddleEquations { mass, force, ..equations.clone() };
-    let mut procedure = calls.clone();
+    let mut procedure = given.clone();
     let (accelerations, _) = stationary.solve_pivoted(graph, &mut procedure);
-    procedure.outputs = appell.rates.into_iter().chain(accelerations).collect();
+    procedure.outputs = appell.rates.into_iter().chain(accelerations).chain(given.outputs.clone()).collect();
     Some(procedure)
 }
 

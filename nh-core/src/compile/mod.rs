@@ -2,6 +2,7 @@
 
 mod adapted;
 mod analytic;
+mod assembly;
 mod brackets;
 mod cancellation;
 mod competition;
@@ -11,12 +12,16 @@ mod constraint_forces;
 mod discrete;
 mod embedded;
 mod gibbs_appell;
+mod given;
 mod gyroscopic;
 mod levels;
 mod momenta;
 mod nonholonomic_connection;
 mod phase_space;
+mod position_return;
+mod power;
 mod projected;
+mod proved_functions;
 mod restricted;
 mod routh;
 mod slice;
@@ -25,8 +30,8 @@ mod strangers;
 mod volume;
 
 use crate::algebra::Facts;
-use crate::check::{self, BrokenLaws, Chosen, Constraints, Kind, Motion};
-use crate::choose::{Called, Fate, Ledger};
+use crate::check::{self, BrokenLaws, Chosen, Constraints, Kind, Motion, Positions};
+use crate::choose::{Fate, Given, Ledger};
 use crate::forms::Registry;
 use crate::geometry::{Algebroid, ConstraintDistribution, Manifold, Rank};
 use crate::id::{Id, Origin, SymbolId};
@@ -37,6 +42,7 @@ use crate::system::System;
 use crate::violation::{Law, Violation};
 use levels::OnLevels;
 pub(crate) use momenta::Symmetries;
+use nonholonomic_connection::Split;
 pub(crate) use routh::Level;
 pub(crate) use splitting::{Reduced, declared, frame_names, moved, with_translations};
 
@@ -54,6 +60,8 @@ pub(crate) struct Proved {
     pub(crate) kind: Kind,
     /// The structure equations that it breaks.
     pub(crate) broken_laws: BrokenLaws,
+    /// The position constraints, and where they hold.
+    pub(crate) positions: Positions,
     /// The constraints.
     pub(crate) constraints: Constraints,
     /// The rank of their derivatives by the velocities, where it is known.
@@ -66,21 +74,16 @@ pub(crate) struct Proved {
     pub(crate) levels: Vec<Level>,
     /// The cyclic coordinates that these leave to quadratures.
     pub(crate) quadratures: Vec<SymbolId>,
+    /// How D is split by symmetries, where that was asked for.
+    pub(crate) split: Option<Split>,
     /// What was chosen, and from what.
     pub(crate) ledger: Ledger,
 }
 
 impl Proved {
-    /// The calls of the user's methods, with arguments in quasi-velocities.
-    fn called(&mut self) -> Vec<Called> {
-        let Self { model, motion, .. } = self;
-        let graph = &mut model.graph;
-        let calls = model.calls.iter().map(|call| Called {
-            symbol: call.symbol,
-            method: call.method.clone(),
-            arguments: motion.rates.apply_all(graph, &call.arguments),
-        });
-        calls.collect()
+    /// Results of the user's methods and rates of auxiliary states, in quasi-velocities.
+    fn given(&mut self) -> Vec<Given> {
+        given::given(&mut self.model, &mut self.motion)
     }
 }
 
@@ -116,10 +119,10 @@ fn compiled(model: Model, registry: &Registry) -> Result<System, Vec<Violation>>
                     let reason = reason + &leveled.remark;
                     adapted::derive(proved, registry, (&distribution, &leveled), (&conditions, &reason))?
                 }
-                OnLevels::Projected { reason } => projected::derive(proved, &reason)?,
+                OnLevels::Projected { reason } => projected::derive(proved, registry, &reason)?,
             }
         }
-        Chosen::Projected { reason } => projected::derive(proved, &reason)?,
+        Chosen::Projected { reason } => projected::derive(proved, registry, &reason)?,
     };
     let system = strangers::without_strangers(system)?;
     // 8. what is tracked
@@ -139,6 +142,7 @@ pub(crate) fn prove(mut model: Model) -> Result<(Proved, Chosen), Vec<Violation>
     // 1. every expression is defined, and smooth where it is differentiated; facts do not contradict
     let facts = check::facts(&mut model);
     let broken = check::declared_expressions(&mut model, facts.as_ref().unwrap_or(&Facts::default()));
+    let broken = [broken, check::rates_in_a_circle(&model)].concat();
     let facts = both(broken, facts)?;
     model.assume(&facts);
     // 2. the anchor: linear and homogeneous; a coframe is inverted
@@ -148,8 +152,9 @@ pub(crate) fn prove(mut model: Model) -> Result<(Proved, Chosen), Vec<Violation>
     about(Subject::Embedding);
     let base = check::embedding(&mut model, &motion)?;
     fence(check::declared_on(&mut model, &base))?;
+    fence(check::claimed(&mut model, &base))?;
     about(Subject::Brackets);
-    let structure = check::structure_functions(&mut model, &motion)?;
+    let structure = check::structure_functions(&mut model, &motion, &base)?;
     let velocities = model.sections.iter().map(|section| section.symbol).collect();
     let algebroid = Algebroid { anchor: motion.anchor.clone(), structure, velocities };
     // 4. the structure equations, and D: by constraints or by sections, in the basis of the frame
@@ -159,12 +164,15 @@ pub(crate) fn prove(mut model: Model) -> Result<(Proved, Chosen), Vec<Violation>
     let described = describe(&mut model, &mut motion, algebroid, &base, &facts);
     let (broken_laws, broken) =
         laws.map_or_else(|broken| (BrokenLaws::default(), broken), |laws| (laws, Vec::new()));
-    let (algebroid, constraints, spanned) = both(broken, described)?;
+    let Described { algebroid, positions, constraints, spanned } = both(broken, described)?;
     let kind = kind.in_basis(&model, &algebroid);
     let constraint_rank = constraints.rank(&mut model, &algebroid, spanned.as_ref(), &facts);
     // 5. the Lagrangian system on E, and its symmetries
-    about(Subject::Symmetries);
+    about(Subject::Kinematics);
     let system = lagrangian_system(&mut model, &mut motion, algebroid);
+    // without symmetries it is the Lagrangian that is searched for cyclic coordinates
+    let is_declared = !model.symmetries.is_empty() || !model.routh.is_empty();
+    about(if is_declared { Subject::Symmetries } else { Subject::Equations });
     let symmetries = momenta::symmetries(&mut model, &motion, &system, &constraints, spanned.as_ref())?;
     let levels = routh::levels(&mut model, &symmetries)?;
     let quadratures = routh::quadratures(&mut model, &system, &symmetries, &levels);
@@ -175,7 +183,7 @@ pub(crate) fn prove(mut model: Model) -> Result<(Proved, Chosen), Vec<Violation>
             let reason = "the declared sections span D".into();
             Chosen::Adapted { distribution: Box::new(distribution), conditions: Vec::new(), reason }
         }
-        None => check::choose_formulation(&mut model, &constraints, &facts, &base)?,
+        None => check::choose_formulation(&mut model, &constraints, &facts, &positions.manifold)?,
     };
     let chosen = check::orthonormal(&mut model, &system, chosen, &facts)?;
     let proved = Proved {
@@ -185,32 +193,46 @@ pub(crate) fn prove(mut model: Model) -> Result<(Proved, Chosen), Vec<Violation>
         facts,
         kind,
         broken_laws,
+        positions,
         constraints,
         constraint_rank,
         system,
         symmetries,
         levels,
         quadratures,
+        split: None,
         ledger: Ledger::default(),
     };
     Ok((proved, chosen))
 }
 
-/// The constraints, in the basis that the frame makes, or the distribution that sections span.
+/// What the constraints say.
+struct Described {
+    /// In the basis that the frame makes.
+    algebroid: Algebroid,
+    positions: Positions,
+    constraints: Constraints,
+    /// D, where sections span it.
+    spanned: Option<ConstraintDistribution>,
+}
+
+/// The constraints on positions and velocities, or the distribution that sections span.
 fn describe(
     model: &mut Model,
     motion: &mut Motion,
     algebroid: Algebroid,
     base: &Manifold,
     facts: &Facts,
-) -> Result<(Algebroid, Constraints, Option<ConstraintDistribution>), Vec<Violation>> {
+) -> Result<Described, Vec<Violation>> {
     if let Some(spanned) = check::spanned_distribution(model, motion, &algebroid, base)? {
+        let positions = check::positions(model, motion, &algebroid, base)?;
         let constraints = Constraints::spanned(&mut model.graph, base, &spanned, &algebroid.velocities);
-        return Ok((algebroid, constraints, Some(spanned)));
+        return Ok(Described { algebroid, positions, constraints, spanned: Some(spanned) });
     }
     let algebroid = check::change_to_frame(model, motion, algebroid, base, facts)?;
-    let constraints = check::constraints(model, motion, &algebroid, base)?;
-    Ok((algebroid, constraints, None))
+    let positions = check::positions(model, motion, &algebroid, base)?;
+    let constraints = check::constraints(model, motion, &algebroid, &positions.manifold)?;
+    Ok(Described { algebroid, positions, constraints, spanned: None })
 }
 
 fn fence(violations: Vec<Violation>) -> Result<(), Vec<Violation>> {
@@ -239,17 +261,16 @@ fn lagrangian_system(model: &mut Model, motion: &mut Motion, algebroid: Algebroi
             ForceDirection::Section(symbol) => symbol,
             ForceDirection::Coordinate(coordinate) => {
                 let slot = &mut along_base[coordinate.index()];
-                *slot = graph.add(*slot, value);
+                *slot = graph.formula(*slot + value);
                 continue;
             }
         };
         if let Some(index) = algebroid.velocities.iter().position(|velocity| *velocity == symbol) {
-            forces[index] = graph.add(forces[index], value);
+            forces[index] = graph.formula(forces[index] + value);
         } else if let Some((_, row)) = motion.replaced.iter().find(|(replaced, _)| *replaced == symbol) {
             // Υ(f_k) = Ψ^α_k Υ_α
             for (slot, component) in forces.iter_mut().zip(row) {
-                let share = graph.mul(*component, value);
-                *slot = graph.add(*slot, share);
+                *slot = graph.formula(*slot + component * value);
             }
         } else {
             forces_on_distribution.push((symbol, value));
@@ -257,8 +278,8 @@ fn lagrangian_system(model: &mut Model, motion: &mut Motion, algebroid: Algebroi
     }
     let pulled_back = algebroid.anchor.pull_back(graph, &along_base);
     let forces =
-        forces.into_iter().zip(pulled_back).map(|(direct, pulled)| graph.add(direct, pulled)).collect();
-    LagrangianSystem { algebroid, lagrangian, forces, forces_on_distribution, time: model.time }
+        forces.into_iter().zip(pulled_back).map(|(direct, pulled)| graph.formula(direct + pulled)).collect();
+    LagrangianSystem { algebroid, lagrangian, forces, forces_on_distribution, clock: model.clock() }
 }
 
 /// No form of the equations could be proved.

@@ -48,6 +48,7 @@ pub(super) fn symmetries(
     }
     more.extend(model.identities.iter().map(|identity| identity.value));
     more.extend(model.calls.iter().flat_map(|call| &call.arguments));
+    more.extend(model.auxiliary.iter().map(|state| state.value));
     let cyclic = cyclic_coordinates(&mut model.graph, system, &more);
     let asked = model.requests.iter().find(|(request, _)| *request == Request::Momenta).copied();
     let small = model.graph.operation_count(&[system.lagrangian]) <= SEARCHED;
@@ -99,8 +100,9 @@ pub(super) fn momenta(
     }
     let system = &proved.system;
     let graph = &mut proved.model.graph;
+    let auxiliary = system.clock.auxiliary.iter().map(|(state, _)| *state);
     let state: Vec<SymbolId> =
-        system.algebroid.anchor.coordinates.iter().chain(velocities).copied().collect();
+        system.algebroid.anchor.coordinates.iter().chain(velocities).copied().chain(auxiliary).collect();
     let (mut values, mut rates) = (Vec::new(), Vec::new());
     for symmetry in &symmetries {
         let value = restriction.apply(graph, symmetry.momentum.value);
@@ -112,10 +114,10 @@ pub(super) fn momenta(
             let rate = restriction.apply(graph, rate);
             graph.simplify(rate)
         } else {
-            let mut terms = vec![graph.partial(value, system.time)];
+            let mut terms = vec![graph.partial(value, system.clock.time)];
             for (symbol, velocity) in state.iter().zip(&derivative.outputs) {
                 let partial = graph.partial(value, *symbol);
-                terms.push(graph.mul(partial, *velocity));
+                terms.push(graph.formula(partial * velocity));
             }
             graph.sum(&terms)
         };

@@ -10,11 +10,23 @@ use crate::functions::{
     VERTICAL_MOMENTA, VERTICAL_MOMENTUM_RATES, VERTICAL_SECTIONS, VERTICAL_VELOCITIES,
 };
 use crate::geometry::ConstraintDistribution;
-use crate::id::{ExprId, Id, SymbolId};
+use crate::id::{CoordId, ExprId, Id, SymbolId};
 use crate::mechanics::{Momentum, NonholonomicConnection, Procedure, solve_symmetric};
 use crate::model::Request;
 use crate::report::Derived;
 use crate::violation::{Law, Violation};
+
+/// How D is split, as far as the functions do not say it.
+#[derive(Clone, Debug)]
+pub(crate) struct Split {
+    /// The coordinates of which V is the kernel.
+    pub(super) over: Vec<CoordId>,
+    /// Those of the lifts.
+    pub(super) coordinates: Vec<CoordId>,
+    /// Sections that span V, where they are those of a group.
+    pub(super) group: Vec<Vec<ExprId>>,
+    pub(super) is_embedded: bool,
+}
 
 /// The functions, if they are asked for.
 pub(super) fn derive(
@@ -54,13 +66,19 @@ pub(super) fn derive(
         ));
     };
     found.extend(functions(proved, distribution, &reduced, &connection, derivative));
+    proved.split = Some(Split {
+        over: reduced.splitting.coordinates.clone(),
+        coordinates: connection.coordinates,
+        is_embedded: reduced.splitting.embedded,
+        group: reduced.group,
+    });
     Ok(())
 }
 
 /// A momentum less what it is at rest, where L has terms linear in the velocities.
 fn without_rest(graph: &mut Graph, momentum: ExprId, velocities: &[SymbolId]) -> ExprId {
     let at_rest = graph.at_zero(momentum, velocities);
-    let moving = graph.sub(momentum, at_rest);
+    let moving = graph.formula(momentum - at_rest);
     graph.simplify(moving)
 }
 
@@ -74,7 +92,7 @@ fn brackets(graph: &mut Graph, reduced: &Reduced, connection: &NonholonomicConne
     for (kappa, lambda) in (0..h).flat_map(|kappa| (kappa + 1..h).map(move |lambda| (kappa, lambda))) {
         let bracket = connection.curvature(graph, algebroid, kappa, lambda);
         let bracket = reduced.declared(graph, &bracket);
-        curvature[lambda][kappa] = bracket.iter().map(|component| graph.neg(*component)).collect();
+        curvature[lambda][kappa] = bracket.iter().map(|component| graph.formula(-component)).collect();
         curvature[kappa][lambda] = bracket;
     }
     for (kappa, row) in coefficients.iter_mut().enumerate() {
@@ -148,7 +166,7 @@ fn functions(
             .collect();
         let speeds: Vec<ExprId> = speeds.iter().chain(&along_vertical).copied().collect();
         let sum = graph.inner_product(&brackets, &speeds);
-        let sum = graph.neg(sum);
+        let sum = graph.formula(-sum);
         force.push(graph.simplify(sum));
     }
     let mut found = Functions::default();

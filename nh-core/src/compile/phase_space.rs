@@ -1,7 +1,7 @@
 //! Brackets, the Hamiltonian side and the almost-Poisson form, as far as they are asked for.
 
 use super::restricted::requested;
-use super::{Proved, brackets, connection, discrete, fence, nonholonomic_connection, volume};
+use super::{Proved, brackets, connection, discrete, fence, given, nonholonomic_connection, volume};
 use crate::algebra::{Graph, Matrix, Rational, Substitution};
 use crate::check::{self, evidence::shown};
 use crate::functions::{BRACKET, BRACKET_WITH_ENERGY, DRIFT_OF_OUTPUTS, Functions, HAMILTON_JACOBI};
@@ -27,7 +27,7 @@ pub(super) fn derive(
     claims: &[ExprId],
     functions: &mut Functions,
 ) -> Result<(PhaseSpace, Sections), Vec<Violation>> {
-    fence(on_level(proved).into_iter().collect())?;
+    fence(on_level(proved).into_iter().chain(beyond_phase_space(proved)).collect())?;
     let mut found = PhaseSpace::default();
     let mut sections = Sections::new();
     let mut violations = Vec::new();
@@ -71,7 +71,8 @@ pub(super) fn derive(
 
 /// Routh reduction leaves velocities with an offset, which the forms derived here do not have.
 fn on_level(proved: &Proved) -> Option<Violation> {
-    const REQUESTS: [Request; 9] = [
+    const REQUESTS: [Request; 10] = [
+        Request::OutputJacobian,
         Request::Hamiltonian,
         Request::Bracket,
         Request::DiscreteGradient,
@@ -92,6 +93,33 @@ fn on_level(proved: &Proved) -> Option<Violation> {
         what: "this is not derived on a level of a momentum".into(),
         evidence: format!("`routh` puts the momentum of `{}` on one", level.name),
         way_out: "ask it of the whole system, declared without `routh`".into(),
+    })
+}
+
+/// Auxiliary states are no part of phase space: what is on it alone, and steps that are made from it, are refused.
+fn beyond_phase_space(proved: &Proved) -> Option<Violation> {
+    const REQUESTS: [(Request, &str); 5] = [
+        (Request::Hamiltonian, "Hamilton's equations are those of (x, π)"),
+        (Request::DiscreteGradient, "the step that keeps the energy moves coordinates and velocities"),
+        (Request::Volume, "an invariant volume is looked for on the coordinates and velocities"),
+        (Request::Leapfrog, "the leapfrog moves coordinates and velocities"),
+        (Request::EulerPoincareSuslov, "the discrete equations move velocities"),
+    ];
+    let Proved { model, .. } = proved;
+    let state = model.auxiliary.first()?;
+    let asked_for = REQUESTS.iter().find_map(|(request, why)| Some((asked(model, *request)?, *why)));
+    let of_section =
+        model.hamilton_jacobi.as_ref().map(|claim| (claim.origin, "momenta are claimed over the base"));
+    let of_volume = model.volume.map(|claim| (claim.origin, "the claim is about coordinates and velocities"));
+    let of_level =
+        model.routh.first().map(|level| (level.origin, "the reduced equations are those of the base"));
+    let (origin, why) = asked_for.or(of_section).or(of_volume).or(of_level)?;
+    Some(Violation {
+        law: Law::Auxiliary,
+        origin,
+        what: "this is not derived with auxiliary states".into(),
+        evidence: format!("`{}` is one, which is no coordinate and has no momentum; {why}", state.name),
+        way_out: "leave it out, or ask it of the machine without `auxiliary`".into(),
     })
 }
 
@@ -124,6 +152,13 @@ pub(super) fn state_velocities(proved: &Proved, derived: &Derived<'_>) -> Vec<Sy
 pub(super) fn state(proved: &Proved, derived: &Derived<'_>) -> Vec<SymbolId> {
     let mut symbols = proved.system.algebroid.anchor.coordinates.clone();
     symbols.extend(state_velocities(proved, derived));
+    symbols
+}
+
+/// All that the state consists of.
+pub(super) fn whole_state(proved: &Proved, derived: &Derived<'_>) -> Vec<SymbolId> {
+    let mut symbols = state(proved, derived);
+    symbols.extend(given::auxiliary_states(&proved.model));
     symbols
 }
 
@@ -271,7 +306,7 @@ fn almost_poisson(
                     .into(),
         }]);
     }
-    if let Some(evidence) = check::moving_constraint(model, system.time, constraints) {
+    if let Some(evidence) = check::moving_constraint(model, &system.clock, constraints) {
         return Err(vec![Violation {
             law: Law::Hamiltonian,
             origin,
@@ -311,7 +346,7 @@ fn invariants(
             way_out: "state them: `conserved { spin = …; }`".into(),
         }]);
     }
-    let arguments = state(proved, derived);
+    let arguments = whole_state(proved, derived);
     let graph = &mut proved.model.graph;
     let values = Procedure::of(claims.to_vec());
     let mut gradients =

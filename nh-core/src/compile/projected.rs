@@ -3,22 +3,28 @@
 use super::cancellation::without_needless_cancellation;
 use super::embedded::embedding;
 use super::gibbs_appell;
+use super::given;
 use super::gyroscopic;
 use super::momenta::momenta;
 use super::phase_space;
+use super::position_return::position_return;
+use super::power::{power, work_of_constraints};
+use super::proved_functions::{self, Given, Parts};
 use super::restricted::{
-    calls, coordinates, in_state, observables, parameter_checks, parameter_divisors, requested,
-    requested_jacobian, requested_parameter_jacobian,
+    claims_in_state, observables, parameter_divisors, requested, requested_jacobian,
+    requested_output_jacobian, requested_parameter_jacobian,
 };
 use super::{Proved, fence, levels, nothing_proved};
 use crate::algebra::{Graph, Matrix, Substitution};
 use crate::check;
-use crate::choose::{Claim, Contender, Decision, Fate, Reference, fate, prove};
+use crate::choose::{Claim, Contender, Decision, Fate, Reference, Regular, fate, prove};
+use crate::forms::Registry;
 use crate::functions::{
-    ENERGY, GIBBS_APPELL, GYROSCOPIC, MULTIPLIERS, OUTPUTS, PARAMETER_JACOBIAN, REACTIONS, RESIDUAL, VELOCITY,
+    ENERGY, GIBBS_APPELL, GYROSCOPIC, MULTIPLIERS, OUTPUT_JACOBIAN, OUTPUTS, PARAMETER_JACOBIAN, POWER,
+    REACTIONS, RESIDUAL, VELOCITY,
 };
 use crate::id::ExprId;
-use crate::limits::{Subject, about};
+use crate::limits::{Subject, about, attempt};
 use crate::mechanics::{
     Definiteness, Flow, Procedure, SaddleEquations, definiteness, energy, saddle_equations,
 };
@@ -28,7 +34,11 @@ use crate::system::{Projection, System};
 use crate::violation::Violation;
 
 /// Derives everything on E, with multipliers.
-pub(super) fn derive(mut proved: Proved, reason: &str) -> Result<System, Vec<Violation>> {
+pub(super) fn derive(
+    mut proved: Proved,
+    registry: &Registry,
+    reason: &str,
+) -> Result<System, Vec<Violation>> {
     // 1. the saddle equations, proved regular on the constraint manifold
     let residuals = proved.constraints.residuals.clone();
     let equations = saddle_equations(&mut proved.model.graph, &proved.system, &residuals);
@@ -43,14 +53,14 @@ pub(super) fn derive(mut proved: Proved, reason: &str) -> Result<System, Vec<Vio
     let facts = proved.facts.clone();
     let judge = |graph: &Graph, matrix: &Matrix| definiteness(graph, matrix, &parameters, &facts);
     let mut everywhere = Substitution::new([]);
-    let derivative = calls(&mut proved.model, &mut proved.motion, &mut everywhere);
-    let gibbs_appell = gibbs_appell::with_multipliers(&mut proved, &equations, &derivative);
-    let called = proved.called();
+    let given = given::definitions(&mut proved.model, &mut proved.motion, &mut everywhere);
+    let gibbs_appell = gibbs_appell::with_multipliers(&mut proved, &equations, &given);
+    let declared = proved.given();
     let graph = &mut proved.model.graph;
-    let reference = Reference::projected(graph, &proved.system, called, residuals.clone());
+    let reference = Reference::projected(graph, &proved.system, declared, residuals.clone());
     gibbs_appell::prove_it(&mut proved, &reference, gibbs_appell.as_ref())?;
     let Solved { derivative, multipliers, reactions } =
-        proved_solution(&mut proved, &equations, &reference, &derivative, judge)?;
+        proved_solution(&mut proved, &equations, &reference, &given, judge)?;
     // 3. E_L, y and the observables
     about(Subject::Requests);
     let graph = &mut proved.model.graph;
@@ -58,15 +68,13 @@ pub(super) fn derive(mut proved: Proved, reason: &str) -> Result<System, Vec<Vio
     let energy = energy(graph, &proved.system);
     let energy = graph.simplify(energy);
     let observables = observables(&mut proved.model, &mut proved.motion, &mut everywhere);
+    let work = work_of_constraints(&mut proved, residuals.len());
+    let power = power(&mut proved, &mut everywhere, &given, &multipliers, &work);
     // 4. the claims, along the flow
     about(Subject::Claims);
-    let claims: Vec<ExprId> = proved
-        .model
-        .claims
-        .iter()
-        .map(|claim| in_state(&mut proved.model.graph, &mut proved.motion, &mut everywhere, claim.value))
-        .collect();
+    let claims = claims_in_state(&mut proved.model, &mut proved.motion, &mut everywhere);
     let velocities = proved.system.algebroid.velocities.clone();
+    let output_jacobian = requested_output_jacobian(&mut proved.model, &observables, &velocities)?;
     if !claims.is_empty() {
         let graph = &mut proved.model.graph;
         let flow = Flow::of(graph, &derivative, &proved.system, &velocities);
@@ -74,14 +82,15 @@ pub(super) fn derive(mut proved: Proved, reason: &str) -> Result<System, Vec<Vio
         fence(check::claims(&mut proved.model, &claims, flow, &manifold))?;
     }
     about(Subject::Requests);
-    let jacobian = requested_jacobian(&mut proved.model, &derivative, &velocities)
-        .map_err(|violation| vec![violation])?;
-    let parameter_jacobian =
-        requested_parameter_jacobian(&mut proved.model, &derivative).map_err(|violation| vec![violation])?;
+    let jacobian = requested_jacobian(&mut proved.model, &derivative, &velocities)?;
     let (momenta, mut functions) = momenta(&mut proved, &mut everywhere, &derivative, &velocities);
-    let (gyroscopic, gyroscopic_force) = gyroscopic::derive(&mut proved, None)?;
+    functions.add_if(&PARAMETER_JACOBIAN, requested_parameter_jacobian(&mut proved.model, &derivative)?);
+    let (gyroscopic, force) = gyroscopic::derive(&mut proved, None)?;
+    functions.add_if(&GYROSCOPIC, force);
     // 5. the way back to the constraint manifold
     let projection = projection(&mut proved.model, &velocities, &on_levels, &all_residuals, judge);
+    let moving = (velocities.as_slice(), velocity.as_slice(), all_residuals.as_slice());
+    let positions = position_return(&mut proved, &equations, &mut everywhere, moving, judge);
     // 6. the report
     let embedding = embedding(&mut proved.model, &proved.base);
     let derived = Derived::Projected { residuals: &residuals, equations: &equations };
@@ -90,36 +99,37 @@ pub(super) fn derive(mut proved: Proved, reason: &str) -> Result<System, Vec<Vio
     let text = report(&mut proved, &derived, reason, &[], sections);
     let lines = equations_of_motion(&proved.model, &derived);
     let divisors = parameter_divisors(&mut proved.model, &derivative);
-    let model = proved.model;
     functions.add(&ENERGY, Procedure::of(vec![energy]));
     functions.add(&VELOCITY, Procedure::of(velocity));
     functions.add(&OUTPUTS, observables);
-    functions.add_if(&MULTIPLIERS, requested(&model, Request::Multipliers).then_some(multipliers));
-    functions.add_if(&REACTIONS, requested(&model, Request::Reactions).then_some(reactions));
-    functions.add_if(&GIBBS_APPELL, gibbs_appell);
-    functions.add_if(&PARAMETER_JACOBIAN, parameter_jacobian);
-    functions.add_if(&GYROSCOPIC, gyroscopic_force);
-    functions.add(&RESIDUAL, Procedure::of(all_residuals));
-    Ok(System {
+    functions.add_if(&POWER, power);
+    functions.add_if(&OUTPUT_JACOBIAN, output_jacobian);
+    let on_positions = positions.iter().flat_map(|positions| positions.residual.outputs.clone());
+    functions.add(&RESIDUAL, Procedure::of(on_positions.chain(all_residuals.iter().copied()).collect()));
+    let projection = Some(projection);
+    let parts =
+        Parts { jacobian, functions, momenta, gyroscopic, projection, positions, embedding, phase_space };
+    let given = Given {
         formulation: Formulation::Projected,
-        state_coordinates: coordinates(&model),
-        state_velocities: velocities,
-        derivative,
-        functions,
-        momenta,
-        gyroscopic,
-        quadratures: Vec::new(),
-        jacobian,
-        projection: Some(projection),
-        phase_space,
-        embedding,
-        parameter_checks: parameter_checks(&model, &divisors),
-        ledger: proved.ledger,
-        report: text,
-        equations: lines,
-        model,
-    })
+        reference: &reference,
+        derivative: &derivative,
+        velocities: &velocities,
+        multipliers: (&multipliers, None),
+        residuals: &all_residuals,
+        conditions: &divisors,
+    };
+    let mut parts = proved_functions::prove(&mut proved, registry, &given, parts)?;
+    let model = &proved.model;
+    let functions = &mut parts.functions;
+    functions.add_if(&MULTIPLIERS, requested(model, Request::Multipliers).then_some(multipliers));
+    functions.add_if(&REACTIONS, requested(model, Request::Reactions).then_some(reactions));
+    functions.add_if(&GIBBS_APPELL, gibbs_appell);
+    let state = (Formulation::Projected, velocities);
+    Ok(parts.into_system(proved, state, derivative, &divisors, (text, lines)))
 }
+
+/// What the question may take whether a solution adds a condition; numerical pivoting adds none.
+const CONDITIONS: u64 = 6_000_000;
 
 /// What solves the saddle equations.
 struct Solved {
@@ -134,15 +144,17 @@ fn proved_solution(
     proved: &mut Proved,
     equations: &SaddleEquations,
     reference: &Reference,
-    calls: &Procedure,
+    given: &Procedure,
     judge: impl Fn(&Graph, &Matrix) -> Definiteness,
 ) -> Result<Solved, Vec<Violation>> {
     let mut decision = Decision { site: "derivative", ..Decision::default() };
     let [asks_multipliers, asks_reactions] =
         [Request::Multipliers, Request::Reactions].map(|request| requested(&proved.model, request));
+    let parameters: Vec<_> = proved.model.parameters.iter().map(|parameter| parameter.symbol).collect();
     let graph = &mut proved.model.graph;
+    let factorised = equations.factorised(graph, &judge);
     for is_pivoted in [false, true] {
-        let mut procedure = calls.clone();
+        let mut procedure = given.clone();
         let (accelerations, multipliers) = if is_pivoted {
             equations.solve_pivoted(graph, &mut procedure)
         } else {
@@ -154,7 +166,8 @@ fn proved_solution(
                 graph.inner_product(&column, &multipliers)
             })
             .collect();
-        procedure.outputs = equations.rates.iter().chain(&accelerations).copied().collect();
+        procedure.outputs =
+            equations.rates.iter().chain(&accelerations).chain(&given.outputs).copied().collect();
         // those of levels are zero
         let declared = proved.constraints.residuals.len();
         let multipliers = procedure.with_outputs(multipliers.into_iter().take(declared).collect());
@@ -171,7 +184,26 @@ fn proved_solution(
             proof = proof.and_then(|_| prove(graph, reference, &claim));
         }
         let form = if is_pivoted { "with pivoting" } else { "by complement" };
-        let fate = fate(proof);
+        let mut fate = fate(proof);
+        if let (Some(mass), Fate::Chosen(_), false) = (&factorised, &fate, is_pivoted) {
+            let regular = Regular {
+                reference,
+                definitions: &Procedure::default(),
+                mass,
+                definiteness: Definiteness::Definite,
+                jacobian: &equations.jacobian,
+                parameters: &parameters,
+                facts: &proved.facts,
+            };
+            let solved = [&derivative, &multipliers, &reactions];
+            let asked =
+                attempt(CONDITIONS, || solved.into_iter().find_map(|solved| regular.added(graph, solved)));
+            fate = match asked {
+                Some(None) => fate,
+                Some(Some(divisor)) => Fate::adds(graph, divisor),
+                None => Fate::NotAdmitted("whether it adds a condition would take too many steps".into()),
+            };
+        }
         let is_admitted = matches!(fate, Fate::Chosen(_));
         decision.contenders.push(Contender { form, cost: None, rounding: None, fate });
         if is_admitted {
@@ -201,7 +233,7 @@ fn projection(
         .zip(&start)
         .map(|(now, start)| {
             let (now, start) = (graph.symbol(*now), graph.symbol(*start));
-            graph.sub(now, start)
+            graph.formula(now - start)
         })
         .collect();
     let zero = graph.zero();
@@ -211,7 +243,7 @@ fn projection(
         .zip(residuals)
         .map(|(row, residual)| {
             let moved = graph.inner_product(row, &gaps);
-            graph.sub(moved, *residual)
+            graph.formula(moved - residual)
         })
         .collect();
     let step = SaddleEquations { force: vec![zero; velocities.len()], bias, ..equations.clone() };
@@ -222,7 +254,7 @@ fn projection(
         .zip(&start)
         .map(|(change, start)| {
             let start = graph.symbol(*start);
-            graph.add(start, change)
+            graph.formula(start + change)
         })
         .collect();
     Projection { start, step: procedure }

@@ -1,5 +1,6 @@
 //! What the declaration says in quasi-velocities, put into the velocities of the state.
 
+use super::given;
 use crate::algebra::{Graph, Substitution};
 use crate::check::Motion;
 use crate::check::evidence::shown;
@@ -20,26 +21,13 @@ pub(super) fn observables(
     motion: &mut Motion,
     restriction: &mut Substitution,
 ) -> Procedure {
-    let calls = calls(model, motion, restriction);
+    let given = given::definitions(model, motion, restriction);
     let graph = &mut model.graph;
     let mut outputs = Vec::with_capacity(model.outputs.len());
     for output in &model.outputs {
         outputs.push(in_state(graph, motion, restriction, output.value));
     }
-    calls.with_outputs(outputs)
-}
-
-/// The calls of the user's methods, with arguments in the variables of the state.
-pub(super) fn calls(model: &mut Model, motion: &mut Motion, restriction: &mut Substitution) -> Procedure {
-    let graph = &mut model.graph;
-    let mut procedure = Procedure::default();
-    for call in &model.calls {
-        let arguments =
-            call.arguments.iter().map(|value| in_state(graph, motion, restriction, *value)).collect();
-        let (symbol, method, derivatives) = (call.symbol, call.method.clone(), call.derivatives.clone());
-        procedure.definitions.push(Definition::Call { symbol, method, arguments, derivatives });
-    }
-    procedure
+    given.with_outputs(outputs)
 }
 
 /// A declared expression in the coordinates and velocities of the state.
@@ -51,6 +39,16 @@ pub(super) fn in_state(
 ) -> ExprId {
     let value = motion.rates.apply(graph, value);
     restriction.apply(graph, value)
+}
+
+/// The claimed first integrals in the variables of the state.
+pub(super) fn claims_in_state(
+    model: &mut Model,
+    motion: &mut Motion,
+    restriction: &mut Substitution,
+) -> Vec<ExprId> {
+    let Model { graph, claims, .. } = model;
+    claims.iter().map(|claim| in_state(graph, motion, restriction, claim.value)).collect()
 }
 
 /// The expressions of parameters alone by which a function divides.
@@ -99,7 +97,7 @@ pub(super) fn requested(model: &Model, request: Request) -> bool {
     model.requests.iter().any(|(asked, _)| *asked == request)
 }
 
-/// ∂derivative/∂(coordinates, velocities of the state, inputs), if the declaration asks for it.
+/// ∂derivative/∂(coordinates, velocities of the state, auxiliary states, inputs), if the declaration asks for it.
 ///
 /// # Errors
 /// Where the derivative of a method of the user's is missing.
@@ -107,15 +105,45 @@ pub(super) fn requested_jacobian(
     model: &mut Model,
     derivative: &Procedure,
     velocities: &[SymbolId],
-) -> Result<Option<Procedure>, Violation> {
+) -> Result<Option<Procedure>, Vec<Violation>> {
     let Some((_, origin)) = model.requests.iter().find(|(request, _)| *request == Request::Jacobian) else {
         return Ok(None);
     };
-    let coordinates = model.coordinates.iter().map(|coordinate| coordinate.symbol);
-    let inputs = model.inputs.iter().map(|input| input.symbol);
-    let arguments: Vec<SymbolId> = coordinates.chain(velocities.iter().copied()).chain(inputs).collect();
     let origin = *origin;
-    differentiated(model, derivative, &arguments, origin)
+    let arguments = state_and_inputs(model, velocities);
+    differentiated(model, derivative, &arguments, (origin, "a force", "jacobian"))
+}
+
+/// ∂outputs/∂(coordinates, velocities of the state, auxiliary states, inputs), if the declaration asks for it.
+///
+/// # Errors
+/// Where there are no outputs, or the derivative of a method of the user's is missing.
+pub(super) fn requested_output_jacobian(
+    model: &mut Model,
+    observables: &Procedure,
+    velocities: &[SymbolId],
+) -> Result<Option<Procedure>, Vec<Violation>> {
+    let asked = model.requests.iter().find(|(request, _)| *request == Request::OutputJacobian);
+    let Some((_, origin)) = asked.copied() else { return Ok(None) };
+    if observables.outputs.is_empty() {
+        return Err(vec![Violation {
+            law: Law::Force,
+            origin,
+            what: "there are no outputs to differentiate".into(),
+            evidence: String::new(),
+            way_out: "declare them: `outputs { speed = …; }`, or leave this out".into(),
+        }]);
+    }
+    let arguments = state_and_inputs(model, velocities);
+    differentiated(model, observables, &arguments, (origin, "an output", "output_jacobian"))
+}
+
+/// The variables of the state, then the inputs.
+fn state_and_inputs(model: &Model, velocities: &[SymbolId]) -> Vec<SymbolId> {
+    let coordinates = model.coordinates.iter().map(|coordinate| coordinate.symbol);
+    let auxiliary = model.auxiliary.iter().map(|state| state.symbol);
+    let state = coordinates.chain(velocities.iter().copied()).chain(auxiliary);
+    state.chain(model.inputs.iter().map(|input| input.symbol)).collect()
 }
 
 /// ∂derivative/∂parameters, if the declaration asks for it.
@@ -125,7 +153,7 @@ pub(super) fn requested_jacobian(
 pub(super) fn requested_parameter_jacobian(
     model: &mut Model,
     derivative: &Procedure,
-) -> Result<Option<Procedure>, Violation> {
+) -> Result<Option<Procedure>, Vec<Violation>> {
     let asked = model.requests.iter().find(|(request, _)| *request == Request::ParameterJacobian);
     let Some((_, origin)) = asked else { return Ok(None) };
     let origin = *origin;
@@ -134,16 +162,16 @@ pub(super) fn requested_parameter_jacobian(
         _ => None,
     });
     if let Some(method) = called {
-        return Err(Violation {
+        return Err(vec![Violation {
             law: Law::Force,
             origin,
             what: "the derivative by the parameters cannot be derived".into(),
             evidence: format!("a force calls `self.{method}`, which may depend on any of them"),
             way_out: "write the force as a formula, or leave `parameter_jacobian` out".into(),
-        });
+        }]);
     }
     let arguments: Vec<SymbolId> = model.parameters.iter().map(|parameter| parameter.symbol).collect();
-    differentiated(model, derivative, &arguments, origin)
+    differentiated(model, derivative, &arguments, (origin, "a force", "jacobian"))
 }
 
 /// The derivatives of a function by its arguments.
@@ -151,19 +179,19 @@ fn differentiated(
     model: &mut Model,
     derivative: &Procedure,
     arguments: &[SymbolId],
-    origin: Origin,
-) -> Result<Option<Procedure>, Violation> {
+    (origin, what, word): (Origin, &str, &str),
+) -> Result<Option<Procedure>, Vec<Violation>> {
     jacobian(&mut model.graph, derivative, arguments).map(Some).map_err(|NotDifferentiable { method }| {
-        Violation {
+        vec![Violation {
             law: Law::Force,
             origin,
             what: "the Jacobian cannot be derived".into(),
             evidence: format!(
-                "a force calls `self.{method}`, which is no formula, with arguments that change"
+                "{what} calls `self.{method}`, which is no formula, with arguments that change"
             ),
             way_out: format!(
-                "give its derivatives in `derivative {{ {method}: […]; }}`, or leave `jacobian` out"
+                "give its derivatives in `derivative {{ {method}: […]; }}`, or leave `{word}` out"
             ),
-        }
+        }]
     })
 }

@@ -74,7 +74,7 @@ fn level(model: &mut Model, symmetries: &Symmetries, declared: &RouthDecl) -> Re
         return Err(not_conserved(model, symmetry, blame));
     }
     let graph = &mut model.graph;
-    let residual = graph.sub(symmetry.momentum.value, level);
+    let residual = graph.formula(symmetry.momentum.value - level);
     Ok(Level { name, section: symmetry.section.clone(), value: level, residual, origin })
 }
 
@@ -177,7 +177,8 @@ impl System {
         let projection = self.projection.iter().map(|projection| &projection.step);
         let embedded = self.embedding.iter().map(|embedding| &embedding.residual);
         let invariants = self.phase_space.invariants.iter().flat_map(|form| [&form.values, &form.gradients]);
-        let others = projection.chain(embedded).chain(invariants).chain(&self.jacobian);
+        let positions = self.positions.iter().flat_map(|positions| [&positions.residual, &positions.step]);
+        let others = projection.chain(embedded).chain(positions).chain(invariants).chain(&self.jacobian);
         self.functions.depend_on(&self.model.graph, symbol)
             || std::iter::once(&self.derivative).chain(others).any(|procedure| {
                 procedure.depends_on(&self.model.graph, &procedure.outputs).contains(&symbol)

@@ -78,7 +78,7 @@ pub(super) fn slice(mut system: System) -> Result<System, Vec<Violation>> {
 fn needs_all(request: Request) -> bool {
     let mut lines = TABLE.iter().filter(|line| line.request() == Some(request)).peekable();
     match request {
-        Request::Jacobian | Request::Taylor | Request::Prepared | Request::Explain => false,
+        Request::Jacobian | Request::Taylor | Request::Prepared | Request::Explain | Request::C => false,
         _ => lines.peek().is_none() || lines.any(|line| line.sliced == Sliced::Whole),
     }
 }
@@ -94,6 +94,13 @@ fn closure(system: &System, wanted: BTreeSet<SymbolId>) -> BTreeSet<SymbolId> {
         let functions = [system.functions.get(&RESIDUAL), system.projection.as_ref().map(|p| &p.step)];
         for function in functions.into_iter().flatten() {
             needed.extend(function.depends_on(graph, &function.outputs).iter().filter(|s| state.contains(s)));
+        }
+    }
+    // the way back to position constraints takes what these depend on
+    if let Some(positions) = &system.positions {
+        for procedure in [&positions.residual, &positions.step] {
+            let found = procedure.depends_on(graph, &procedure.outputs);
+            needed.extend(found.into_iter().filter(|symbol| state.contains(symbol)));
         }
     }
     // the way back to an embedded base takes all of its coordinates
@@ -134,6 +141,11 @@ pub(super) fn restrict(system: &mut System, whole: &[SymbolId], needed: &BTreeSe
         let rows_of = invariants.gradients.outputs.chunks(whole.len().max(1));
         invariants.gradients.outputs = rows_of.flat_map(&rows).collect();
     }
+    if let Some(positions) = &mut system.positions {
+        let coordinates = positions.step.outputs.len();
+        positions.step.outputs = rows(&positions.step.outputs[..coordinates]);
+        positions.assembly.restrict(is_kept, |symbol| needed.contains(&symbol));
+    }
     let keeps_base = match &mut system.embedding {
         None => false,
         Some(embedding) => {
@@ -150,6 +162,7 @@ pub(super) fn restrict(system: &mut System, whole: &[SymbolId], needed: &BTreeSe
     system.embedding = system.embedding.take().filter(|_| keeps_base);
     system.state_coordinates.retain(|symbol| needed.contains(symbol));
     system.state_velocities.retain(|symbol| needed.contains(symbol));
+    system.state_auxiliary.retain(|symbol| needed.contains(symbol));
 }
 
 /// Says in the report and the documentation what is left out.

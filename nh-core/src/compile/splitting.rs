@@ -8,7 +8,7 @@ use crate::geometry::{
     constant_along,
 };
 use crate::id::{CoordId, ExprId, Id, SectionId, SymbolId};
-use crate::mechanics::{Chaplygin, LagrangianSystem, NotSplit, Splitting, translation};
+use crate::mechanics::{Chaplygin, LagrangianSystem, NotSplit, Splitting, translations};
 use crate::model::Model;
 
 /// A system as its reduction by symmetries sees it.
@@ -25,6 +25,8 @@ pub(crate) struct Reduced {
     pub(crate) frame: Option<InvariantFrame>,
     /// The names of the sections.
     pub(crate) names: Vec<String>,
+    /// Sections that span V, in the declared basis, where they are those of a group.
+    pub(crate) group: Vec<Vec<ExprId>>,
 }
 
 impl Reduced {
@@ -48,7 +50,7 @@ impl Reduced {
         let graph = &mut proved.model.graph;
         let offset = distribution.offset.iter().all(|entry| graph.zero_test(*entry).is_zero());
         let entries: Vec<ExprId> = distribution.basis.iter().flatten().copied().collect();
-        if !offset || graph.symbols_in(&entries).contains(&proved.system.time) {
+        if !offset || proved.system.clock.occurs_in(graph, &entries) {
             return Err("its constraints are affine or depend on the time".into());
         }
         // the group: declared sections with the cyclic coordinates that these move, else all cyclic coordinates
@@ -70,7 +72,13 @@ impl Reduced {
             Splitting::of(&mut proved.model.graph, &proved.system, &distribution, &group, &proved.base)
                 .map_err(|why| not_split(proved, why))?;
         let names = proved.model.sections.iter().map(|section| section.name.clone()).collect();
-        Ok(Self { system: proved.system.clone(), distribution, splitting, frame: None, names })
+        let generators = if splitting.by_group {
+            with_translations(proved, &sections, |id| group.contains(&id))
+        } else {
+            Vec::new()
+        };
+        let system = proved.system.clone();
+        Ok(Self { system, distribution, splitting, frame: None, names, group: generators })
     }
 
     /// L̄, K and ⟨J, K⟩ of a Chaplygin system.
@@ -147,8 +155,11 @@ pub(crate) fn with_translations(
     cyclic: impl Fn(CoordId) -> bool,
 ) -> Vec<Vec<ExprId>> {
     let (graph, anchor) = (&mut proved.model.graph, &proved.system.algebroid.anchor);
-    let along = proved.symmetries.cyclic.iter().filter(|id| cyclic(**id));
-    let translations: Vec<Vec<ExprId>> = along.filter_map(|id| translation(graph, anchor, *id)).collect();
+    let along: Vec<CoordId> = proved.symmetries.cyclic.iter().copied().filter(|id| cyclic(*id)).collect();
+    if along.is_empty() {
+        return declared.to_vec();
+    }
+    let translations = translations(graph, anchor, &along).into_iter().flatten();
     declared.iter().cloned().chain(translations).collect()
 }
 
@@ -209,7 +220,8 @@ fn in_invariant_frame(
     let Proved { model, base, .. } = &mut *proved;
     let splitting = Splitting::of(&mut model.graph, &system, &distribution, &group, base)
         .map_err(|why| not_split(proved, why))?;
-    Ok(Reduced { system, distribution, splitting, frame: Some(frame), names })
+    let group = generators.to_vec();
+    Ok(Reduced { system, distribution, splitting, frame: Some(frame), names, group })
 }
 
 /// The system in the frame, without the coordinates along the group.
@@ -261,7 +273,13 @@ fn in_frame(
     let anchor = Anchor { entries, ..new.anchor };
     let algebroid = Algebroid { anchor, structure, velocities: new.velocities };
     let forces_on_distribution = Vec::new();
-    Ok(LagrangianSystem { algebroid, lagrangian, forces, forces_on_distribution, time: proved.system.time })
+    Ok(LagrangianSystem {
+        algebroid,
+        lagrangian,
+        forces,
+        forces_on_distribution,
+        clock: proved.system.clock.clone(),
+    })
 }
 
 /// The constraints in the frame; they have no drift.

@@ -27,6 +27,12 @@ pub(super) fn without_strangers(mut system: System) -> Result<System, Vec<Violat
     if let Some(projection) = &mut system.projection {
         functions.push(("project", &mut projection.step));
     }
+    if let Some(positions) = &mut system.positions {
+        functions.push(("project", &mut positions.step));
+        functions.push(("derivative", &mut positions.pivots));
+        functions.push(("assemble", &mut positions.assembly.positions.procedure));
+        functions.push(("assemble", &mut positions.assembly.velocities.procedure));
+    }
     let graph = &mut system.model.graph;
     let mut broken = Vec::new();
     for (what, function) in functions {
@@ -89,7 +95,7 @@ fn freed(graph: &mut Graph, value: ExprId, known: &BTreeSet<SymbolId>) -> Result
     let strangers: Vec<SymbolId> = occurring.into_iter().filter(|symbol| !known.contains(symbol)).collect();
     let Some(first) = strangers.first() else { return Ok(value) };
     let without = graph.at_zero(value, &strangers);
-    let difference = graph.sub(value, without);
+    let difference = graph.formula(value - without);
     let is_same = !graph.is_undefined(without) && graph.zero_test(difference).is_zero();
     if is_same { Ok(without) } else { Err(*first) }
 }
@@ -105,11 +111,12 @@ mod tests {
         let (ex, ey) = (g.symbol(x), g.symbol(y));
         let (sin, cos) = (g.sin(ex), g.cos(ex));
         // cos x (y sin x + 1) − sin x · y cos x
-        let (one, product) = (g.one(), g.mul(ey, sin));
-        let sum = g.add(product, one);
-        let (first, second) =
-            (g.mul(cos, sum), g.product(&[(sin, 1.into()), (ey, 1.into()), (cos, 1.into())]));
-        let value = g.sub(first, second);
+        let (one, product) = (g.one(), g.formula(ey * sin));
+        let (first, second) = (
+            g.formula(cos * (product + one)),
+            g.product(&[(sin, 1.into()), (ey, 1.into()), (cos, 1.into())]),
+        );
+        let value = g.formula(first - second);
         let known = BTreeSet::from([x]);
         assert_eq!(freed(&mut g, value, &known), Ok(cos));
         let mut function = Procedure::of(vec![value, product]);

@@ -1,6 +1,6 @@
 //! The divergence of the motion, and the volume that it keeps.
 
-use super::phase_space::{asked, not_differentiable, shortened, state, state_velocities};
+use super::phase_space::{asked, not_differentiable, shortened, state, state_velocities, whole_state};
 use super::{Proved, fence};
 use crate::algebra::{
     Echelon, FieldPoint, Function, Graph, Matrix, Node, Rational, Residue, Substitution, Verdict,
@@ -30,11 +30,11 @@ pub(super) fn derive(
         return Ok(Vec::new());
     };
     // 1. div Γ in the coordinates of the state
-    let arguments = state(proved, derived);
+    let arguments = whole_state(proved, derived);
     let mut field = divergence(&mut proved.model.graph, derivative, &arguments)
         .map_err(|error| vec![not_differentiable(error, origin)])?;
     if let Some(correction) = correction(proved, derivative) {
-        field.outputs[0] = proved.model.graph.sub(field.outputs[0], correction);
+        field.outputs[0] = proved.model.graph.formula(field.outputs[0] - correction);
     }
     let field = shortened(&mut proved.model.graph, field);
     let mut lines = Vec::new();
@@ -195,12 +195,12 @@ fn decide(proved: &mut Proved, derived: &Derived<'_>, derivative: &Procedure, di
     let mut terms = vec![divergence];
     for determinant in &moving {
         let change = flow.derivative(graph, *determinant);
-        terms.push(graph.div(change, *determinant));
+        terms.push(graph.formula(change / determinant));
     }
     let divergence = graph.sum(&terms);
     let divergence = distribution.restriction(graph, &velocities).apply(graph, divergence);
     let divergence = graph.simplify(divergence);
-    let time = proved.system.time;
+    let time = proved.system.clock.time;
     let depends_on_time =
         graph.depends_on(divergence, &[time]) || graph.symbols_in(&distribution.velocity).contains(&time);
     let anchor = &proved.system.algebroid.anchor;
@@ -281,7 +281,7 @@ fn density_expression(proved: &mut Proved, density: &Density) -> ExprId {
     let mut factors: Vec<(ExprId, Rational)> = Vec::new();
     for (factor, exponent) in density {
         if let Node::Apply(Function::Exp, logarithm) = *graph.node(*factor) {
-            exponents.push(graph.mul(*exponent, logarithm));
+            exponents.push(graph.formula(exponent * logarithm));
             continue;
         }
         let positive = graph.range(*factor, &facts).is_positive();
@@ -292,7 +292,7 @@ fn density_expression(proved: &mut Proved, density: &Density) -> ExprId {
         } else {
             let base = if positive { *factor } else { graph.apply(Function::Abs, *factor) };
             let logarithm = graph.apply(Function::Ln, base);
-            exponents.push(graph.mul(*exponent, logarithm));
+            exponents.push(graph.formula(exponent * logarithm));
         }
     }
     let exponent = graph.sum(&exponents);

@@ -15,7 +15,7 @@ use crate::algebra::Graph;
 use crate::count::Count;
 use crate::geometry::ConstraintDistribution;
 use crate::id::ExprId;
-use crate::mechanics::{LagrangianSystem, ReducedEquations};
+use crate::mechanics::{LagrangianSystem, Procedure, ReducedEquations};
 use std::fmt;
 
 /// What a form is derived from.
@@ -55,10 +55,14 @@ pub trait Form: Sync {
     fn derive(&self, graph: &mut Graph, setting: &Setting) -> Option<ReducedEquations>;
 }
 
+/// What is done to the functions beside the motion before they are proved, each by its name.
+pub type Finish = fn(&mut Graph, &str, &mut Procedure);
+
 /// The forms that compete, in the order in which they are derived.
 #[derive(Clone)]
 pub struct Registry {
     forms: Vec<&'static dyn Form>,
+    finish: Option<Finish>,
 }
 
 impl Registry {
@@ -74,13 +78,24 @@ impl Registry {
                 Self::plain(),
                 &by_momenta::ByMomenta,
             ],
+            finish: None,
         }
     }
 
     /// Some forms alone, and the plain one where none of them is admitted.
     #[must_use]
     pub fn of(forms: Vec<&'static dyn Form>) -> Self {
-        Self { forms }
+        Self { forms, finish: None }
+    }
+
+    /// The same, with something done to the functions beside the motion before they are proved.
+    #[must_use]
+    pub fn finishing(self, finish: Finish) -> Self {
+        Self { finish: Some(finish), ..self }
+    }
+
+    pub(crate) fn finish(&self) -> Option<Finish> {
+        self.finish
     }
 
     /// (8) as it stands, which is emitted where no form of the registry is admitted.

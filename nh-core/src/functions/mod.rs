@@ -11,9 +11,9 @@ use crate::model::Request;
 pub use table::{
     BRACKET, BRACKET_WITH_ENERGY, CHRISTOFFEL, CONNECTION, CONNECTION_COEFFICIENTS, CURVATURE, DIVERGENCE,
     DRIFT_OF_OUTPUTS, ENERGY, GIBBS_APPELL, GYROSCOPIC, HAMILTON_JACOBI, HORIZONTAL_FORCE, HORIZONTAL_LIFTS,
-    LOCKED_INERTIA, MOMENTA, MOMENTUM_RATES, MULTIPLIERS, OUTPUTS, PARAMETER_JACOBIAN, QUADRATURES,
-    REACTIONS, RESIDUAL, TABLE, VELOCITY, VERTICAL_MOMENTA, VERTICAL_MOMENTUM_RATES, VERTICAL_SECTIONS,
-    VERTICAL_VELOCITIES, VOLUME_DENSITY,
+    LOCKED_INERTIA, MOMENTA, MOMENTUM_RATES, MULTIPLIERS, OUTPUT_JACOBIAN, OUTPUTS, PARAMETER_JACOBIAN,
+    POWER, QUADRATURES, REACTIONS, RESIDUAL, TABLE, VELOCITY, VERTICAL_MOMENTA, VERTICAL_MOMENTUM_RATES,
+    VERTICAL_SECTIONS, VERTICAL_VELOCITIES, VOLUME_DENSITY,
 };
 
 /// What a function is called, what it takes and what it gives: a line of the table.
@@ -46,6 +46,10 @@ pub enum Shape {
     Array(&'static [Size]),
     /// A matrix, row by row.
     Matrix(Size, Size),
+    /// Two matrices, the derivatives by the state and by the inputs; rows of both together, one after the other.
+    ByStateAndInput(Size),
+    /// The power of forces and of constraints, a record each.
+    Power,
 }
 
 /// The generated structs that functions give.
@@ -69,6 +73,10 @@ pub enum Record {
     Quadratures,
     /// The gyroscopic force of a Chaplygin system.
     Gyroscopic,
+    /// Υ_α y^α for each declared force.
+    PowerOfForces,
+    /// λ_A y^α ∂φ^A/∂y^α for each constraint.
+    PowerOfConstraints,
 }
 
 /// A number that a declaration determines.

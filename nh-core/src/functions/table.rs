@@ -11,6 +11,8 @@ pub static TABLE: &[&Signature] = &[
     &MULTIPLIERS,
     &REACTIONS,
     &RESIDUAL,
+    &POWER,
+    &OUTPUT_JACOBIAN,
     &PARAMETER_JACOBIAN,
     &MOMENTA,
     &MOMENTUM_RATES,
@@ -94,6 +96,33 @@ pub static RESIDUAL: Signature = Signature {
     shape: Shape::Record(Record::Residual),
     when: When::WithConstraints,
     sliced: Sliced::Kept,
+};
+
+/// `power`.
+pub static POWER: Signature = Signature {
+    name: "power",
+    doc: &[
+        " The power of each force, by its direction, and of each constraint, by its label: that of a row with",
+        " a drift b is −λ b, that of a homogeneous row 0. The energy changes at the rate of their `total()`,",
+        " less the rate at which the Lagrangian depends on the time.",
+    ],
+    takes_input: true,
+    shape: Shape::Power,
+    when: When::Asked(Request::Power),
+    sliced: Sliced::Whole,
+};
+
+/// `output_jacobian`.
+pub static OUTPUT_JACOBIAN: Signature = Signature {
+    name: "output_jacobian",
+    doc: &[
+        " The derivatives of the outputs by the state, C, and by the inputs, D: entry (i, j) is that of output i",
+        " by component j.",
+    ],
+    takes_input: true,
+    shape: Shape::ByStateAndInput(Size::Outputs),
+    when: When::Asked(Request::OutputJacobian),
+    sliced: Sliced::Whole,
 };
 
 /// `parameter_jacobian`.

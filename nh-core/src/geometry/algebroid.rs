@@ -1,6 +1,7 @@
 //! A Lie algebroid in local coordinates, and the brackets of its sections.
 
 use super::anchor::Anchor;
+use super::clock::Clock;
 use super::structure::StructureFunctions;
 use crate::algebra::{Derivation, Graph};
 use crate::id::{ExprId, Id, SectionId, SymbolId};
@@ -38,11 +39,11 @@ impl Algebroid {
         self.anchor.vector_field(graph, velocity)
     }
 
-    /// The derivation of functions of (t, x) along ẋ = ρ(y) and ṫ = 1; velocities are constants.
-    pub fn along(&self, graph: &mut Graph, velocity: &[ExprId], time: SymbolId) -> Derivation {
+    /// The derivation of functions of (t, x, z) along ẋ = ρ(y), ṫ = 1 and ż; velocities are constants.
+    pub fn along(&self, graph: &mut Graph, velocity: &[ExprId], clock: &Clock) -> Derivation {
         let rates = self.rates(graph, velocity);
-        let one = graph.one();
-        let seeds = self.anchor.coordinates.iter().copied().zip(rates).chain([(time, one)]);
+        let clock = clock.rates(graph);
+        let seeds = self.anchor.coordinates.iter().copied().zip(rates).chain(clock);
         Derivation::new(seeds)
     }
 

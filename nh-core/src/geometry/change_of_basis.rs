@@ -34,7 +34,7 @@ impl ChangeOfBasis {
             for (a, column) in kept.enumerate() {
                 let entry = distribution.basis[row][a];
                 sections[row][column] = entry;
-                velocities[row][column] = graph.neg(entry);
+                velocities[row][column] = graph.formula(-entry);
             }
         }
         Self { sections, velocities }

@@ -200,8 +200,8 @@ mod tests {
         let (phi, l) = (g.new_symbol("phi"), g.new_symbol("l"));
         let (ephi, el) = (g.symbol(phi), g.symbol(l));
         let (s, c) = (g.sin(ephi), g.cos(ephi));
-        let (ms, lc) = (g.neg(s), g.mul(el, c));
-        let mlc = g.neg(lc);
+        let (ms, lc) = (g.formula(-s), g.formula(el * c));
+        let mlc = g.formula(-lc);
         let annihilator = vec![vec![mlc, ms, c], vec![lc, s, c]];
         let facts = Facts::default();
         let setting = PivotSetting {
@@ -221,7 +221,7 @@ mod tests {
         let theta = g.new_symbol("theta");
         let theta = g.symbol(theta);
         let (s, c) = (g.sin(theta), g.cos(theta));
-        let minus = g.neg(c);
+        let minus = g.formula(-c);
         let annihilator = vec![vec![s, minus]];
         let facts = Facts::default();
         let setting =

@@ -1,6 +1,7 @@
 //! The constraint distribution D, by its annihilator and by a basis.
 
 use super::algebroid::Algebroid;
+use super::clock::Clock;
 use super::manifold::Manifold;
 use crate::algebra::{Derivation, Graph, Matrix, Solution, Substitution, Verdict};
 use crate::id::{ExprId, Id, SectionId, SymbolId};
@@ -50,7 +51,7 @@ fn linear_velocity(
 ) -> Vec<ExprId> {
     let symbols: Vec<ExprId> = independent.iter().map(|symbol| graph.symbol(*symbol)).collect();
     let linear = graph.image(basis, &symbols);
-    linear.into_iter().zip(offset).map(|(y, offset)| graph.add(y, *offset)).collect()
+    linear.into_iter().zip(offset).map(|(y, offset)| graph.formula(y + offset)).collect()
 }
 
 impl ConstraintDistribution {
@@ -119,7 +120,7 @@ impl ConstraintDistribution {
             basis[section.index()][column] = one;
         }
         for (section, row) in dependent.iter().zip(&solution.values) {
-            let mut negated: Vec<ExprId> = row.iter().map(|entry| graph.neg(*entry)).collect();
+            let mut negated: Vec<ExprId> = row.iter().map(|entry| graph.formula(-entry)).collect();
             offset[section.index()] = negated.pop().unwrap_or(zero);
             basis[section.index()] = negated;
         }
@@ -151,8 +152,11 @@ impl ConstraintDistribution {
     ) -> Self {
         let symbols: Vec<ExprId> = velocities.iter().map(|symbol| graph.symbol(*symbol)).collect();
         let linear = graph.image(&constraints.annihilator, &symbols);
-        let residuals: Vec<ExprId> =
-            linear.into_iter().zip(&constraints.drift).map(|(row, drift)| graph.add(row, *drift)).collect();
+        let residuals: Vec<ExprId> = linear
+            .into_iter()
+            .zip(&constraints.drift)
+            .map(|(row, drift)| graph.formula(row + drift))
+            .collect();
         let is_dependent = |index: &usize| dependent.contains(&SectionId::from_index(*index));
         let independent = (0..velocities.len()).filter(|index| !is_dependent(index)).map(|i| velocities[i]);
         let unsolved = Self {
@@ -235,8 +239,7 @@ impl ConstraintDistribution {
                     let open = open.filter(is_open).map(|later| (later, zero));
                     let without = images.iter().copied().chain(open);
                     let rest = Substitution::new(without).apply(graph, residuals[*row]);
-                    let quotient = graph.div(rest, self.constraints.annihilator[*row][section]);
-                    velocity[section] = graph.neg(quotient);
+                    velocity[section] = graph.formula(-(rest / self.constraints.annihilator[*row][section]));
                 }
                 images.push((velocities[section], velocity[section]));
             }
@@ -269,17 +272,17 @@ impl ConstraintDistribution {
         &self,
         graph: &mut Graph,
         algebroid: &Algebroid,
-        time: SymbolId,
+        clock: &Clock,
         base: &Manifold,
     ) -> Option<bool> {
-        limits::attempt(limits::REMARK, || self.is_closed(graph, algebroid, time, base)).flatten()
+        limits::attempt(limits::REMARK, || self.is_closed(graph, algebroid, clock, base)).flatten()
     }
 
     fn is_closed(
         &self,
         graph: &mut Graph,
         algebroid: &Algebroid,
-        time: SymbolId,
+        clock: &Clock,
         base: &Manifold,
     ) -> Option<bool> {
         let mut undecided = false;
@@ -292,8 +295,8 @@ impl ConstraintDistribution {
                     // [∂_t + y₀, B_a]
                     let along = algebroid.bracket(graph, &self.offset, &section);
                     let drift = along.into_iter().zip(&section).map(|(component, entry)| {
-                        let change = graph.partial(*entry, time);
-                        graph.add(component, change)
+                        let change = clock.rate(graph, *entry);
+                        graph.formula(component + change)
                     });
                     drift.collect()
                 };

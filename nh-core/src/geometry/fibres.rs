@@ -61,7 +61,7 @@ impl<'a> Fibres<'a> {
     pub fn expressed(&self, graph: &mut Graph, function: ExprId, group: &[SymbolId]) -> Option<ExprId> {
         let mut parts = PARTS;
         let found = self.part(graph, function, group, &mut parts)?;
-        let difference = graph.sub(function, found);
+        let difference = graph.formula(function - found);
         self.base.zero_test(graph, difference).is_zero().then_some(found)
     }
 
@@ -133,11 +133,11 @@ impl<'a> Fibres<'a> {
             let mut terms = Vec::new();
             for (row, monomial) in solution.values.iter().zip(&monomials) {
                 let coefficient = graph.simplify(row[0]);
-                terms.push(graph.mul(coefficient, *monomial));
+                terms.push(graph.formula(coefficient * monomial));
             }
             let found = graph.sum(&terms);
             let found = graph.simplify(found);
-            let difference = graph.sub(function, found);
+            let difference = graph.formula(function - found);
             if self.base.zero_test(graph, difference).is_zero() {
                 return Some(found);
             }
@@ -255,7 +255,7 @@ fn products(graph: &mut Graph, symbols: &[SymbolId], degree: usize) -> Vec<ExprI
         for (product, first) in last {
             for (index, symbol) in symbols.iter().enumerate().skip(first) {
                 let symbol = graph.symbol(*symbol);
-                next.push((graph.mul(product, symbol), index));
+                next.push((graph.formula(product * symbol), index));
             }
         }
         found.extend(next.iter().copied());

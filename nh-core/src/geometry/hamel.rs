@@ -15,37 +15,38 @@ pub fn commutator(graph: &mut Graph, anchor: &Anchor, alpha: SectionId, beta: Se
         .map(|row| {
             let forth = along_alpha.apply(graph, row[beta.index()]);
             let back = along_beta.apply(graph, row[alpha.index()]);
-            graph.sub(forth, back)
+            graph.formula(forth - back)
         })
         .collect()
 }
 
-/// The structure functions that mathematics (2) determines where the anchor has full column rank:
-/// `ρ C_{αβ} = [ρ_α, ρ_β]`, solved on coordinates whose rows of ρ are independent.
+/// The brackets of some pairs that mathematics (2) determines, `ρ C_{αβ} = [ρ_α, ρ_β]`, where the anchor is
+/// injective on the sections that it moves: solved on coordinates whose rows of ρ are independent.
 ///
-/// Where there are more coordinates than sections, the remaining rows are left to the check of (2).
-/// `None` if the anchor is not injective at generic points.
+/// Components along sections that it does not see, ρ(e_γ) = 0, are 0. Where there are more coordinates than
+/// sections, the remaining rows are left to the check of (2). Returns whether the anchor is injective there, at
+/// generic points; if it is not, nothing is set.
 ///
 /// # Errors
 /// The reason, where the rank cannot be decided.
-pub fn from_injective_anchor(
+pub fn from_anchor(
     graph: &mut Graph,
     anchor: &Anchor,
-    rank: usize,
-) -> Result<Option<StructureFunctions>, String> {
-    let independent = graph.independent_rows(&anchor.entries)?;
-    if independent.len() < rank || anchor.entries.is_empty() {
-        return Ok((rank == 0).then(|| StructureFunctions::commuting(0)));
+    seen: &[SectionId],
+    pairs: &[(SectionId, SectionId)],
+    structure: &mut StructureFunctions,
+) -> Result<bool, String> {
+    let columns: Matrix =
+        anchor.entries.iter().map(|row| seen.iter().map(|section| row[section.index()]).collect()).collect();
+    let independent = if seen.is_empty() { Vec::new() } else { graph.independent_rows(&columns)? };
+    if independent.len() < seen.len() {
+        return Ok(false);
     }
-    let square: Matrix = independent.iter().map(|row| anchor.entries[*row].clone()).collect();
-    let pairs: Vec<(SectionId, SectionId)> = (0..rank)
-        .flat_map(|a| (a + 1..rank).map(move |b| (SectionId::from_index(a), SectionId::from_index(b))))
-        .collect();
-    let mut structure = StructureFunctions::commuting(rank);
+    let square: Matrix = independent.iter().map(|row| columns[*row].clone()).collect();
     // the pairs that do not commute, and their commutators
     let mut unknown = Vec::new();
-    let mut right: Matrix = vec![Vec::new(); rank];
-    for (alpha, beta) in pairs {
+    let mut right: Matrix = vec![Vec::new(); seen.len()];
+    for (alpha, beta) in pairs.iter().copied().filter(|(a, b)| seen.contains(a) && seen.contains(b)) {
         let components = commutator(graph, anchor, alpha, beta);
         let components: Vec<ExprId> =
             independent.iter().map(|coordinate| graph.simplify(components[*coordinate])).collect();
@@ -57,17 +58,20 @@ pub fn from_injective_anchor(
         }
     }
     if unknown.is_empty() {
-        return Ok(Some(structure));
+        return Ok(true);
     }
+    let rank = seen.len();
     let solution = graph.solve_linear(&square, &right).ok_or_else(|| {
         format!("the anchor is injective, but its {rank} rows could not be solved for the {rank} sections")
     })?;
     for (column, (alpha, beta)) in unknown.into_iter().enumerate() {
-        let components = solution.values.iter().map(|row| row[column]).collect::<Vec<_>>();
-        let components = components.into_iter().map(|c| graph.simplify(c)).collect();
+        let mut components = vec![graph.zero(); anchor.rank];
+        for (section, row) in seen.iter().zip(&solution.values) {
+            components[section.index()] = graph.simplify(row[column]);
+        }
         structure.set(graph, alpha, beta, components);
     }
-    Ok(Some(structure))
+    Ok(true)
 }
 
 /// The Hamel symbols of a coframe w^k = α^k_j ẋ^j with dual frame β = α⁻¹, mathematics (4), CNS
@@ -90,8 +94,7 @@ pub fn from_coframe(
                     for i in 0..n {
                         for j in 0..n {
                             if !graph.is_literal_zero(curl[i][j]) {
-                                let frames = graph.mul(frame[i][m], frame[j][l]);
-                                summands.push(graph.mul(frames, curl[i][j]));
+                                summands.push(graph.formula(frame[i][m] * frame[j][l] * curl[i][j]));
                             }
                         }
                     }
@@ -113,6 +116,6 @@ fn curl(graph: &mut Graph, row: &[ExprId], coordinates: &[SymbolId]) -> Matrix {
         partials.push(derivation.apply_all(graph, row));
     }
     (0..row.len())
-        .map(|i| (0..row.len()).map(|j| graph.sub(partials[j][i], partials[i][j])).collect())
+        .map(|i| (0..row.len()).map(|j| graph.formula(partials[j][i] - partials[i][j])).collect())
         .collect()
 }

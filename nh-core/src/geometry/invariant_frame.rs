@@ -92,7 +92,7 @@ fn is_orthogonal(graph: &mut Graph, base: &Manifold, sections: &Matrix) -> bool 
         sections[i..].iter().enumerate().all(|(k, second)| {
             let product = graph.inner_product(first, second);
             let wanted = if k == 0 { graph.one() } else { graph.zero() };
-            let defect = graph.sub(product, wanted);
+            let defect = graph.formula(product - wanted);
             base.zero_test(graph, defect).is_zero()
         })
     })
@@ -179,8 +179,7 @@ fn vertical(
                     row.iter().zip(&functions).map(|(c, f)| (c.clone(), *f)).collect();
                 let factor = graph.linear_combination(&terms);
                 for (component, along) in section.iter_mut().zip(generator) {
-                    let share = graph.mul(factor, *along);
-                    *component = graph.add(*component, share);
+                    *component = graph.formula(*component + factor * along);
                 }
             }
             found.push(section.into_iter().map(|component| graph.simplify(component)).collect());
@@ -215,8 +214,8 @@ fn factors(graph: &mut Graph, group: &[SymbolId], hints: &[ExprId]) -> Vec<Vec<E
                 let factor = graph.partial(*angle, *symbol);
                 multiples.push(match graph.value_of(factor).map(Rational::is_negative) {
                     Some(negative) => {
-                        let multiple = graph.mul(factor, coordinate);
-                        if negative { graph.neg(multiple) } else { multiple }
+                        let multiple = graph.formula(factor * coordinate);
+                        if negative { graph.formula(-multiple) } else { multiple }
                     }
                     None => coordinate,
                 });
@@ -253,7 +252,7 @@ fn exponentials(graph: &mut Graph, symbol: SymbolId, hints: &[ExprId]) -> Vec<Ex
             continue;
         }
         for scale in [(1, 1), (-1, 1), (1, 2), (-1, 2)].map(|(n, d)| Rational::new(n, d)) {
-            let multiple = graph.mul(rate, coordinate);
+            let multiple = graph.formula(rate * coordinate);
             let multiple = graph.scale(scale, multiple);
             found.push(graph.apply(Function::Exp, multiple));
         }
@@ -272,7 +271,7 @@ fn products(graph: &mut Graph, factors: &[Vec<ExprId>], degree: usize) -> Vec<Ex
     for choices in factors {
         for (product, count) in found.clone().into_iter().filter(|(_, count)| *count < degree) {
             for factor in choices {
-                found.push((graph.mul(product, *factor), count + 1));
+                found.push((graph.formula(product * factor), count + 1));
             }
         }
     }

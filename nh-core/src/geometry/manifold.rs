@@ -78,6 +78,12 @@ impl Manifold {
         self.chart.extend(&other.chart);
     }
 
+    /// The symbols that are functions of the others, with these.
+    #[must_use]
+    pub fn images(&self) -> &[(SymbolId, ExprId)] {
+        &self.images
+    }
+
     /// Whether a symbol is not a function of others.
     #[must_use]
     pub fn is_free(&self, symbol: SymbolId) -> bool {
@@ -144,7 +150,13 @@ impl Manifold {
     }
 
     /// Solves one function for one unknown in one way; false if that is not possible.
-    fn solve(&mut self, graph: &mut Graph, function: ExprId, unknowns: &[SymbolId], ease: Ease) -> bool {
+    pub(super) fn solve(
+        &mut self,
+        graph: &mut Graph,
+        function: ExprId,
+        unknowns: &[SymbolId],
+        ease: Ease,
+    ) -> bool {
         let present: Vec<SymbolId> = graph
             .symbols_in(&[function])
             .into_iter()
@@ -192,7 +204,7 @@ impl Manifold {
 
 /// The ways to solve a function for unknowns.
 #[derive(Clone, Copy)]
-enum Ease {
+pub(super) enum Ease {
     /// A sphere, by the stereographic projection.
     Sphere,
     /// By a division.
@@ -207,8 +219,7 @@ fn quotient(graph: &mut Graph, function: ExprId, symbol: SymbolId) -> Option<Exp
     if !graph.zero_test(form.coefficients[0]).is_nonzero() {
         return None;
     }
-    let quotient = graph.div(form.rest, form.coefficients[0]);
-    Some(graph.neg(quotient))
+    Some(graph.formula(-(form.rest / form.coefficients[0])))
 }
 
 /// `a (x_1² + … + x_m² − r²)`, m ≥ 2 with rational r: the stereographic projection.
@@ -246,13 +257,13 @@ fn sphere(graph: &mut Graph, function: ExprId, symbols: &[SymbolId]) -> Option<V
         .collect();
     let squares: Vec<ExprId> = parameters.iter().map(|u| graph.square(*u)).collect();
     let (sum, one) = (graph.sum(&squares), graph.one());
-    let (above, below) = (graph.sub(one, sum), graph.add(one, sum));
+    let (above, below) = (graph.formula(one - sum), graph.formula(one + sum));
     let mut points = Vec::with_capacity(symbols.len());
     for (symbol, u) in others.iter().zip(&parameters) {
-        let quotient = graph.div(*u, below);
+        let quotient = graph.formula(u / below);
         points.push((*symbol, graph.scale(radius.clone() * Rational::from(2), quotient)));
     }
-    let quotient = graph.div(above, below);
+    let quotient = graph.formula(above / below);
     points.push((*last, graph.scale(radius, quotient)));
     Some(points)
 }
@@ -274,28 +285,26 @@ fn root(graph: &mut Graph, function: ExprId, symbol: SymbolId) -> Option<ExprId>
     if graph.is_undefined(b) || graph.is_undefined(c) || graph.is_undefined(curvature) {
         return None;
     }
-    let (bb, ac) = (graph.square(b), graph.mul(curvature, c));
+    let (bb, ac) = (graph.square(b), graph.formula(curvature * c));
     let discriminant = graph.linear_combination(&[(1.into(), bb), ((-2).into(), ac)]);
-    let (radical, minus_b) = (graph.sqrt(discriminant), graph.neg(b));
-    let numerator = graph.add(minus_b, radical);
-    Some(graph.div(numerator, curvature))
+    let (radical, minus_b) = (graph.sqrt(discriminant), graph.formula(-b));
+    Some(graph.formula((minus_b + radical) / curvature))
 }
 
 /// The root of `a s^n + c`: there `s φ' = n (φ − c)`.
 fn pure_root(graph: &mut Graph, function: ExprId, slope: ExprId, symbol: SymbolId) -> Option<ExprId> {
     let rest = graph.at_zero(function, &[symbol]);
     let s = graph.symbol(symbol);
-    let power = graph.sub(function, rest);
-    let fibre = graph.mul(s, slope);
+    let power = graph.formula(function - rest);
+    let fibre = graph.formula(s * slope);
     let degree = (3..=6).find(|n| {
         let defect = graph.linear_combination(&[(1.into(), fibre), (Rational::from(-n), power)]);
         graph.zero_test(defect) == Verdict::Zero
     })?;
     let monomial = graph.pow(s, Rational::from(degree));
-    let coefficient = graph.div(power, monomial);
+    let coefficient = graph.formula(power / monomial);
     let coefficient = graph.simplify(coefficient);
-    let quotient = graph.div(rest, coefficient);
-    let radicand = graph.neg(quotient);
+    let radicand = graph.formula(-(rest / coefficient));
     Some(graph.pow(radicand, Rational::new(1, degree)))
 }
 
@@ -311,16 +320,16 @@ fn cayley(graph: &mut Graph) -> Vec<ExprId> {
     let mut entry = |terms: &[(i64, ExprId)]| {
         let terms: Vec<(Rational, ExprId)> = terms.iter().map(|(k, e)| (Rational::from(*k), *e)).collect();
         let numerator = graph.linear_combination(&terms);
-        graph.div(numerator, norm)
+        graph.formula(numerator / norm)
     };
     let diagonal = |x, y, z| [(1, one), (1, x), (-1, y), (-1, z)];
     let mut rows =
         vec![entry(&diagonal(aa, bb, cc)), entry(&diagonal(bb, aa, cc)), entry(&diagonal(cc, aa, bb))];
     let mut off = |x, y, z, sign: i64| {
-        let product = graph.mul(x, y);
+        let product = graph.formula(x * y);
         let terms = [(Rational::from(2), product), (Rational::from(2 * sign), z)];
         let numerator = graph.linear_combination(&terms);
-        graph.div(numerator, norm)
+        graph.formula(numerator / norm)
     };
     let (xy, xz, yz) = (off(a, b, c, -1), off(a, c, b, 1), off(b, c, a, -1));
     let (yx, zx, zy) = (off(a, b, c, 1), off(a, c, b, -1), off(b, c, a, 1));
@@ -344,7 +353,7 @@ mod tests {
         let all = symbols(&mut g, &["g1", "g2", "g3", "w1", "w2", "w3"]);
         let e: Vec<ExprId> = all.iter().map(|s| g.symbol(*s)).collect();
         let (norm, one) = (g.inner_product(&e[..3], &e[..3]), g.one());
-        let sphere = g.sub(norm, one);
+        let sphere = g.formula(norm - one);
         let plane = g.inner_product(&e[..3], &e[3..]);
         let mut manifold = Manifold::where_zero(&mut g, &[sphere], &all[..3]).unwrap();
         let tangent = Manifold::where_zero(&mut g, &[plane], &all[3..]).unwrap();
@@ -353,11 +362,11 @@ mod tests {
         let mut cross = Vec::new();
         for i in 0..3 {
             let (j, k) = ((i + 1) % 3, (i + 2) % 3);
-            let (x, y) = (g.mul(e[j], e[3 + k]), g.mul(e[k], e[3 + j]));
-            cross.push(g.sub(x, y));
+            let (x, y) = (g.formula(e[j] * e[3 + k]), g.formula(e[k] * e[3 + j]));
+            cross.push(g.formula(x - y));
         }
         let (left, right) = (g.inner_product(&cross, &cross), g.inner_product(&e[3..], &e[3..]));
-        let defect = g.sub(left, right);
+        let defect = g.formula(left - right);
         assert!(!g.zero_test(defect).is_zero());
         assert!(manifold.zero_test(&mut g, defect).is_zero());
         assert!(manifold.zero_test(&mut g, left).is_nonzero());
@@ -375,14 +384,14 @@ mod tests {
         for i in 0..3 {
             for j in i..3 {
                 let product = g.inner_product(&column(i), &column(j));
-                identities.push(if i == j { g.sub(product, one) } else { product });
+                identities.push(if i == j { g.formula(product - one) } else { product });
             }
         }
         let manifold = Manifold::where_zero(&mut g, &identities, &all).unwrap();
         // the determinant is 1
         let matrix: Matrix = e.chunks(3).map(<[ExprId]>::to_vec).collect();
         let determinant = g.small_determinant(&matrix);
-        let defect = g.sub(determinant, one);
+        let defect = g.formula(determinant - one);
         assert!(manifold.zero_test(&mut g, defect).is_zero());
     }
 
@@ -392,7 +401,7 @@ mod tests {
         let all = symbols(&mut g, &["x", "y", "c"]);
         let e: Vec<ExprId> = all.iter().map(|s| g.symbol(*s)).collect();
         let (speed, c) = (g.inner_product(&e[..2], &e[..2]), g.square(e[2]));
-        let function = g.sub(speed, c);
+        let function = g.formula(speed - c);
         let manifold = Manifold::where_zero(&mut g, &[function], &all[..2]).unwrap();
         assert!(manifold.zero_test(&mut g, function).is_zero());
     }

@@ -58,15 +58,17 @@ impl ConstraintDistribution {
         let mut right: Matrix = levels.iter().map(|level| columns(level, &kept)).collect();
         right.iter_mut().zip(levels).for_each(|(row, level)| row.push(level.rest));
         let solved = graph.solve_linear(&matrix, &right)?.values;
-        let solved: Matrix =
-            solved.into_iter().map(|row| row.into_iter().map(|entry| graph.neg(entry)).collect()).collect();
+        let solved: Matrix = solved
+            .into_iter()
+            .map(|row| row.into_iter().map(|entry| graph.formula(-entry)).collect())
+            .collect();
         let independent: Vec<SymbolId> = kept.iter().map(|a| self.independent[*a]).collect();
         let mut images = Vec::new();
         for (symbol, row) in eliminated.iter().zip(&solved) {
             let mut terms: Vec<ExprId> = row.last().copied().into_iter().collect();
             for (slope, symbol) in row.iter().zip(&independent) {
                 let velocity = graph.symbol(*symbol);
-                terms.push(graph.mul(*slope, velocity));
+                terms.push(graph.formula(slope * velocity));
             }
             images.push((*symbol, graph.sum(&terms)));
         }
@@ -78,8 +80,7 @@ impl ConstraintDistribution {
             let mut entries: Vec<ExprId> = kept.iter().map(|a| row[*a]).chain([*origin]).collect();
             for (a, solution) in gone.iter().zip(&solved) {
                 for (entry, slope) in entries.iter_mut().zip(solution) {
-                    let share = graph.mul(*slope, row[*a]);
-                    *entry = graph.add(*entry, share);
+                    *entry = graph.formula(*entry + slope * row[*a]);
                 }
             }
             offset.extend(entries.pop());

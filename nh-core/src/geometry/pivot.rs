@@ -80,7 +80,7 @@ impl PivotSetting<'_> {
             let fixed =
                 Substitution::new(coordinates.iter().map(|symbol| (*symbol, value))).apply(graph, expression);
             if !graph.is_undefined(fixed) {
-                let difference = graph.sub(expression, fixed);
+                let difference = graph.formula(expression - fixed);
                 return (graph.zero_test(difference) == Verdict::Zero).then_some(fixed);
             }
         }

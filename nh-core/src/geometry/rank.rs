@@ -105,7 +105,7 @@ impl RankSetting<'_> {
                 if self.vanishes_nowhere(graph, minor) {
                     return None;
                 }
-                let negative = graph.neg(minor);
+                let negative = graph.formula(-minor);
                 if !minors.contains(&minor) && !minors.contains(&negative) {
                     minors.push(minor);
                 }
@@ -147,7 +147,7 @@ impl RankSetting<'_> {
             let fixed =
                 Substitution::new(varying.iter().map(|symbol| (*symbol, value))).apply(graph, restricted);
             if !graph.is_undefined(fixed) {
-                let difference = graph.sub(restricted, fixed);
+                let difference = graph.formula(restricted - fixed);
                 return (graph.zero_test(difference) == Verdict::Zero).then(|| graph.simplify(fixed));
             }
         }
@@ -197,7 +197,7 @@ impl RankSetting<'_> {
         let mut sum = graph.zero();
         for chosen in subsets(narrow.len(), rank) {
             let minor = graph.small_determinant(&Graph::submatrix(&gram, &chosen));
-            sum = graph.add(sum, minor);
+            sum = graph.formula(sum + minor);
         }
         let sum = graph.simplify(sum);
         self.vanishes_nowhere(graph, sum)
@@ -284,7 +284,7 @@ fn extended(set: &[ExprId], factor: ExprId) -> Vec<ExprId> {
 
 /// The function, or its opposite where that has the shorter text: both have the same zeros.
 fn without_sign(graph: &mut Graph, function: ExprId) -> ExprId {
-    let opposite = graph.neg(function);
+    let opposite = graph.formula(-function);
     if graph.text(opposite).len() < graph.text(function).len() { opposite } else { function }
 }
 
@@ -299,11 +299,10 @@ fn without_constants(graph: &mut Graph, mut matrix: Matrix, mut rank: usize) -> 
         let Some((row, column)) = position else { return (matrix, rank) };
         let pivots = matrix.remove(row);
         for entries in &mut matrix {
-            let factor = graph.div(entries[column], pivots[column]);
+            let factor = graph.formula(entries[column] / pivots[column]);
             if !graph.is_literal_zero(factor) {
                 for (entry, pivot) in entries.iter_mut().zip(&pivots) {
-                    let product = graph.mul(factor, *pivot);
-                    *entry = graph.sub(*entry, product);
+                    *entry = graph.formula(*entry - factor * pivot);
                 }
             }
             entries.remove(column);

@@ -43,7 +43,7 @@ impl StructureFunctions {
             self.brackets[position] = components;
         } else if b < a {
             let position = self.position(b, a);
-            self.brackets[position] = components.into_iter().map(|c| graph.neg(c)).collect();
+            self.brackets[position] = components.into_iter().map(|c| graph.formula(-c)).collect();
         }
     }
 
@@ -55,7 +55,7 @@ impl StructureFunctions {
             std::cmp::Ordering::Equal => graph.zero(),
             std::cmp::Ordering::Greater => {
                 let entry = self.component(graph, self.position(b, a), gamma);
-                graph.neg(entry)
+                graph.formula(-entry)
             }
         }
     }
@@ -97,10 +97,10 @@ impl StructureFunctions {
                     continue;
                 }
                 let momentum = graph.inner_product(components, momenta);
-                let first = graph.mul(momentum, velocity[b]);
-                let second = graph.mul(momentum, velocity[a]);
+                let first = graph.formula(momentum * velocity[b]);
+                let second = graph.formula(momentum * velocity[a]);
                 summands[a].push(first);
-                summands[b].push(graph.neg(second));
+                summands[b].push(graph.formula(-second));
             }
         }
         summands.iter().map(|list| graph.sum(list)).collect()
@@ -115,11 +115,11 @@ impl StructureFunctions {
                 if components.iter().all(|c| graph.is_literal_zero(*c)) {
                     continue;
                 }
-                let (st, ts) = (graph.mul(sigma[a], tau[b]), graph.mul(sigma[b], tau[a]));
-                let wedge = graph.sub(st, ts);
+                let (st, ts) = (graph.formula(sigma[a] * tau[b]), graph.formula(sigma[b] * tau[a]));
+                let wedge = graph.formula(st - ts);
                 for (list, component) in summands.iter_mut().zip(components) {
                     if !graph.is_literal_zero(*component) {
-                        list.push(graph.mul(*component, wedge));
+                        list.push(graph.formula(component * wedge));
                     }
                 }
             }

@@ -100,10 +100,10 @@ fn reduced_equations_by(
     let mut force: Vec<ExprId> = Vec::with_capacity(sections.len());
     for (section, symbol) in sections.iter().zip(&independent) {
         let projected = graph.inner_product(section, &balance.rest);
-        let mut along = graph.neg(projected);
+        let mut along = graph.formula(-projected);
         for value in system.forces_along(*symbol) {
             let value = restriction.apply(graph, value);
-            along = graph.add(along, value);
+            along = graph.formula(along + value);
         }
         force.push(graph.simplify(along));
     }
@@ -131,7 +131,7 @@ pub fn reaction_forces(
             let mut total = vec![*rest];
             for (symbol, acceleration) in distribution.independent.iter().zip(accelerations) {
                 let inertia = graph.partial(*momentum, *symbol);
-                total.push(graph.mul(inertia, *acceleration));
+                total.push(graph.formula(inertia * acceleration));
             }
             graph.sum(&total)
         })

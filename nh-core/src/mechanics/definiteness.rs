@@ -1,9 +1,10 @@
 //! Whether a mass matrix is definite for physical parameters.
 
 use super::symmetric_solve::Definiteness;
-use crate::algebra::{Facts, Graph, Range, Residue};
+use crate::algebra::{Bounded, Evaluator, Facts, Graph, Range, Residue};
 use crate::id::{ExprId, Id, SymbolId};
 use crate::limits;
+use rustc_hash::FxHashMap;
 
 /// Parameter sets tried.
 const PARAMETER_SETS: u64 = 120;
@@ -27,23 +28,17 @@ pub fn definiteness(
     if matrix.is_empty() {
         return Definiteness::Definite;
     }
-    for set in 0..PARAMETER_SETS {
-        let signs = [1.0, -1.0].map(|sign| {
-            (0..CONFIGURATIONS).all(|configuration| {
-                is_positive_at(graph, matrix, sign, |symbol| {
-                    if parameters.contains(&symbol) {
-                        parameter_sample(set, symbol, facts)
-                    } else {
-                        configuration_sample(configuration, symbol)
-                    }
-                })
-            })
-        });
-        if signs.contains(&true) {
-            return Definiteness::Definite;
-        }
-    }
-    Definiteness::Unknown
+    let mut samples = Samples::of(graph, matrix);
+    let is_definite = |set| {
+        samples.have_one_sign(|configuration, symbol| {
+            if parameters.contains(&symbol) {
+                parameter_sample(set, symbol, facts)
+            } else {
+                configuration_sample(configuration, symbol)
+            }
+        })
+    };
+    if (0..PARAMETER_SETS).any(is_definite) { Definiteness::Definite } else { Definiteness::Unknown }
 }
 
 /// Samples: whether an expression has one sign wherever a matrix is definite, parameters at zero included.
@@ -54,12 +49,13 @@ pub fn definiteness(
 #[must_use]
 pub fn keeps_its_sign(
     graph: &Graph,
-    matrix: &[Vec<ExprId>],
+    (matrix, known): (&[Vec<ExprId>], &mut DefiniteSets),
     expression: ExprId,
     parameters: &[SymbolId],
     facts: &Facts,
 ) -> bool {
     let mut signs = [false; 2];
+    let (mut samples, mut asked) = (Samples::of(graph, matrix), graph.evaluator(&[expression]));
     let occurring = graph.symbols_in(&[expression]);
     let zeroed = occurring.into_iter().filter(|symbol| parameters.contains(symbol)).map(Some);
     for zero in std::iter::once(None).chain(zeroed) {
@@ -70,20 +66,17 @@ pub fn keeps_its_sign(
                 .is_none_or(|range| !range.nonzero && range.low <= 0.0 && range.high >= 0.0)
         });
         for set in (0..SIGN_SETS).filter(|_| may_be_zero) {
-            let value = |configuration: u64| {
-                move |symbol: SymbolId| match parameters.contains(&symbol) {
-                    true if zero == Some(symbol) => 0.0,
-                    true => parameter_sample(set, symbol, facts),
-                    false => configuration_sample(configuration, symbol),
-                }
+            let value = |configuration: u64, symbol: SymbolId| match parameters.contains(&symbol) {
+                true if zero == Some(symbol) => 0.0,
+                true => parameter_sample(set, symbol, facts),
+                false => configuration_sample(configuration, symbol),
             };
-            let definite = [1.0, -1.0]
-                .map(|sign| (0..CONFIGURATIONS).all(|c| is_positive_at(graph, matrix, sign, value(c))));
-            if !definite.contains(&true) {
+            let is_definite = known.0.entry((zero, set)).or_insert_with(|| samples.have_one_sign(value));
+            if !*is_definite {
                 continue;
             }
             for configuration in 0..CONFIGURATIONS {
-                let found = graph.evaluate(&[expression], value(configuration))[0];
+                let found = asked.at(|symbol| value(configuration, symbol))[0];
                 if !found.is_certainly_nonzero() {
                     return false;
                 }
@@ -93,6 +86,11 @@ pub fn keeps_its_sign(
     }
     signs[0] != signs[1]
 }
+
+/// At which parameter sets, with which parameter zero, a matrix is definite: found once for all that
+/// [`keeps_its_sign`] is asked of.
+#[derive(Debug, Default)]
+pub struct DefiniteSets(FxHashMap<(Option<SymbolId>, u64), bool>);
 
 /// Between 1/16 and 8, evenly on a logarithmic scale, from the bound that is known of the parameter.
 fn parameter_sample(set: u64, symbol: SymbolId, facts: &Facts) -> f64 {
@@ -119,18 +117,44 @@ fn unit(seed: u64, symbol: SymbolId) -> f64 {
     (word % (1 << 20)) as f64 / (1u64 << 20) as f64
 }
 
-/// Whether `sign · matrix` is positive definite at a point: Cholesky in floating point, which fills in no row before
-/// its first entry.
-fn is_positive_at(graph: &Graph, matrix: &[Vec<ExprId>], sign: f64, value: impl Fn(SymbolId) -> f64) -> bool {
-    let first = |row: &Vec<ExprId>| row.iter().position(|entry| !graph.is_literal_zero(*entry)).unwrap_or(0);
-    let begin: Vec<usize> = matrix.iter().enumerate().map(|(i, row)| first(row).min(i)).collect();
-    // the rows below the diagonal, one after the other, from their first entry on
-    let lower = || matrix.iter().enumerate().map(|(i, row)| &row[begin[i]..=i]);
-    let entries: Vec<ExprId> = lower().flatten().copied().collect();
-    let mut values = graph.evaluate(&entries, value).into_iter().map(|bounded| sign * bounded.value);
-    let mut factor: Vec<Vec<f64>> = Vec::with_capacity(matrix.len());
-    for (i, entries) in lower().enumerate() {
-        let mut row: Vec<f64> = values.by_ref().take(entries.len()).collect();
+/// A matrix that is evaluated at many points.
+struct Samples<'g> {
+    /// Where the rows below the diagonal begin: before their first entry elimination fills nothing in.
+    begin: Vec<usize>,
+    /// These rows, one after the other.
+    lower: Evaluator<'g>,
+}
+
+impl<'g> Samples<'g> {
+    fn of(graph: &'g Graph, matrix: &[Vec<ExprId>]) -> Self {
+        let first =
+            |row: &Vec<ExprId>| row.iter().position(|entry| !graph.is_literal_zero(*entry)).unwrap_or(0);
+        let begin: Vec<usize> = matrix.iter().enumerate().map(|(i, row)| first(row).min(i)).collect();
+        let entries = matrix.iter().enumerate().flat_map(|(i, row)| &row[begin[i]..=i]).copied();
+        let lower = graph.evaluator(&entries.collect::<Vec<_>>());
+        Self { begin, lower }
+    }
+
+    /// Whether the matrix is positive definite at every configuration, or negative definite at every one.
+    fn have_one_sign(&mut self, value: impl Fn(u64, SymbolId) -> f64) -> bool {
+        let mut signs = vec![1.0, -1.0];
+        for configuration in 0..CONFIGURATIONS {
+            let values = self.lower.at(|symbol| value(configuration, symbol));
+            signs.retain(|sign| is_positive(&self.begin, &values, *sign));
+            if signs.is_empty() {
+                return false;
+            }
+        }
+        true
+    }
+}
+
+/// Whether `sign · matrix` is positive definite, by its rows below the diagonal: Cholesky in floating point.
+fn is_positive(begin: &[usize], values: &[Bounded], sign: f64) -> bool {
+    let mut values = values.iter().map(|bounded| sign * bounded.value);
+    let mut factor: Vec<Vec<f64>> = Vec::with_capacity(begin.len());
+    for i in 0..begin.len() {
+        let mut row: Vec<f64> = values.by_ref().take(i + 1 - begin[i]).collect();
         for j in begin[i]..=i {
             let from = begin[i].max(begin[j]);
             limits::spend((j - from) / 64);

@@ -53,8 +53,8 @@ mod tests {
             let symbol = g.new_symbol(name);
             g.symbol(symbol)
         });
-        let (zero, sum, square) = (g.zero(), g.add(a, b), g.square(x));
-        let product = g.mul(a, square);
+        let (zero, sum, square) = (g.zero(), g.formula(a + b), g.square(x));
+        let product = g.formula(a * square);
         // a ring; the second and the third unknown are masses, the last is longer than both
         let matrix = vec![
             vec![a, x, x, zero],
@@ -81,7 +81,7 @@ mod tests {
                     g.sin(symbol)
                 })
                 .collect();
-            let row = |g: &mut Graph, i: usize| entries.iter().map(|e| g.mul(entries[i], *e)).collect();
+            let row = |g: &mut Graph, i: usize| entries.iter().map(|e| g.formula(entries[i] * e)).collect();
             let matrix: Vec<Vec<ExprId>> = (0..n).map(|i| row(&mut g, i)).collect();
             let all: Vec<usize> = (0..n).collect();
             let mut order = elimination_order(&g, &matrix, &all);

@@ -30,7 +30,7 @@ fn fibre_derivative(graph: &mut Graph, function: ExprId, velocities: &[SymbolId]
         .map(|symbol| {
             let partial = graph.partial(function, *symbol);
             let velocity = graph.symbol(*symbol);
-            graph.mul(velocity, partial)
+            graph.formula(velocity * partial)
         })
         .collect();
     graph.sum(&summands)

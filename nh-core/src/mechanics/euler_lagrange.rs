@@ -2,7 +2,7 @@
 
 use super::procedure::Procedure;
 use crate::algebra::{Derivation, Graph, Node, Substitution};
-use crate::geometry::Algebroid;
+use crate::geometry::{Algebroid, Clock};
 use crate::id::{ExprId, SymbolId};
 
 /// A Lagrangian system on an algebroid, before constraints.
@@ -16,8 +16,8 @@ pub struct LagrangianSystem {
     pub forces: Vec<ExprId>,
     /// Forces along sections that span D, by their velocities: they act on D alone.
     pub forces_on_distribution: Vec<(SymbolId, ExprId)>,
-    /// The time t.
-    pub time: SymbolId,
+    /// The time t and auxiliary states.
+    pub clock: Clock,
 }
 
 /// The Euler–Lagrange equations along curves with velocity `ŷ(t, x, v)`:
@@ -87,8 +87,8 @@ impl LagrangianSystem {
         let gradient = self.base_gradient(graph);
         let gradient = restriction.apply_all(graph, &gradient);
 
-        // 1. ρ^i_β y^β ∂p_α/∂x^i + ∂p_α/∂t
-        let mut along: Derivation = self.algebroid.along(graph, velocity, self.time);
+        // 1. ρ^i_β y^β ∂p_α/∂x^i + ∂p_α/∂t + ż ∂p_α/∂z
+        let mut along: Derivation = self.algebroid.along(graph, velocity, &self.clock);
         let drift = along.apply_all(graph, &momenta);
         // 2. C^γ_{αβ} y^β p_γ
         let named: Vec<ExprId> = momenta

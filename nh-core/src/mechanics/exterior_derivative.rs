@@ -45,7 +45,10 @@ impl ExteriorDerivative {
             back,
             bracket: Substitution::new(velocities.clone().zip(bracket)),
             second: Substitution::new(velocities.zip(tau.iter().copied())),
-            in_time: Derivation::partial(graph, system.time),
+            in_time: {
+                let clock = system.clock.rates(graph);
+                Derivation::new(clock)
+            },
         }
     }
 

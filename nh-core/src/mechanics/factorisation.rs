@@ -79,10 +79,10 @@ impl Block {
         let mut solution = self.factors.solve(graph, right, procedure, name);
         let Some(written_out) = &self.written_out else { return solution };
         let short = written_out.solve(graph, right, &mut Procedure::inline(), name);
-        if graph.operation_count(&short) > SIMPLIFIED {
+        if short == solution || graph.operation_count(&short) > SIMPLIFIED {
             return solution;
         }
-        let long = procedure.with_outputs(solution.clone()).written_out(graph);
+        let long = procedure.written_out_alone(graph, &solution);
         let growth = graph.accuracy().growth();
         for ((value, short), long) in solution.iter_mut().zip(short).zip(long) {
             if graph.error_growth(long, short) > growth {

@@ -42,25 +42,24 @@ impl GibbsAppell {
             accelerations.push(graph.new_symbol(name));
         }
         let rates = system.algebroid.rates(graph, velocity);
-        let one = graph.one();
+        let clock = system.clock.rates(graph);
         let along: Vec<ExprId> = accelerations.iter().map(|symbol| graph.symbol(*symbol)).collect();
         let coordinates = system.algebroid.anchor.coordinates.iter().copied();
         let seeds = coordinates.zip(rates.iter().copied()).chain(independent.iter().copied().zip(along));
-        let mut time_derivative = Derivation::new(seeds.chain([(system.time, one)]));
+        let mut time_derivative = Derivation::new(seeds.chain(clock));
         let acceleration = time_derivative.apply_all(graph, velocity);
         // 3. ½ ẏᵀ W ẏ + (h − Υ)ᵀ ẏ
         let inertia = graph.image(&mass, &acceleration);
         let (quadratic, work) =
             (graph.inner_product(&acceleration, &inertia), graph.inner_product(&force, &acceleration));
         let half = graph.scale(crate::algebra::Rational::new(1, 2), quadratic);
-        let mut function = graph.sub(half, work);
+        let mut function = graph.formula(half - work);
         // forces along the sections that span D act on their accelerations
         for (direction, value) in &system.forces_on_distribution {
             if let Some(index) = independent.iter().position(|symbol| symbol == direction) {
                 let value = restriction.apply(graph, *value);
                 let acceleration = graph.symbol(accelerations[index]);
-                let work = graph.mul(value, acceleration);
-                function = graph.sub(function, work);
+                function = graph.formula(function - value * acceleration);
             }
         }
         Self { function, accelerations, rates }
@@ -73,7 +72,7 @@ impl GibbsAppell {
             let slope = graph.partial(self.function, *symbol);
             mass.push(self.accelerations.iter().map(|other| graph.partial(slope, *other)).collect());
             let rest = graph.at_zero(slope, &self.accelerations);
-            force.push(graph.neg(rest));
+            force.push(graph.formula(-rest));
         }
         (mass, force)
     }

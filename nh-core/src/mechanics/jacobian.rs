@@ -82,8 +82,7 @@ fn differentiate(
                     return Err(NotDifferentiable { method: method.clone() });
                 };
                 let outer = call(graph, derivative, arguments, result);
-                let share = graph.mul(outer, inner);
-                change = graph.add(change, share);
+                change = graph.formula(change + outer * inner);
             }
             if !graph.is_literal_zero(change) {
                 let name = format!("d_{}", graph.symbols()[*symbol]);
@@ -99,7 +98,7 @@ fn differentiate(
                 let moved = along.apply_all(graph, row);
                 let moved = graph.inner_product(&moved, &solution);
                 let change = along.apply(graph, *entry);
-                changed.push(graph.sub(change, moved));
+                changed.push(graph.formula(change - moved));
             }
             if changed.iter().all(|change| graph.is_literal_zero(*change)) {
                 return Ok(());

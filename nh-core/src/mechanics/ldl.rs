@@ -28,7 +28,7 @@ pub(super) const SIMPLIFIED: u64 = 40;
 /// Simplified entries with no more operations than this stay in place, so that later ones simplify.
 const IN_PLACE: u64 = 6;
 /// Entries that are longer written out are not looked at any more.
-const WRITTEN_OUT: u64 = 240;
+const WRITTEN_OUT: u64 = 160;
 
 impl Entry {
     /// An entry of what is given.
@@ -47,7 +47,7 @@ impl Entry {
             let mut terms = vec![(Rational::ONE, of(&self)?)];
             for factors in products {
                 let factors: Option<Vec<ExprId>> = factors.iter().map(of).collect();
-                let product = factors?.into_iter().reduce(|a, b| graph.mul(a, b))?;
+                let product = factors?.into_iter().reduce(|a, b| graph.formula(a * b))?;
                 terms.push((Rational::MINUS_ONE, product));
             }
             Some(graph.linear_combination(&terms))
@@ -60,8 +60,8 @@ impl Entry {
 
     /// `entry / divisor`.
     fn over(self, graph: &mut Graph, divisor: Self) -> Self {
-        let value = graph.div(self.value, divisor.value);
-        let written_out = self.written_out.zip(divisor.written_out).map(|(a, b)| graph.div(a, b));
+        let value = graph.formula(self.value / divisor.value);
+        let written_out = self.written_out.zip(divisor.written_out).map(|(a, b)| graph.formula(a / b));
         Self { value, written_out }
     }
 
@@ -189,8 +189,7 @@ impl Ldl {
         for i in (0..n).rev() {
             let column: Vec<ExprId> = (i + 1..n).map(|k| self.lower[k][i].value).collect();
             let known = graph.inner_product(&column, &solution[i + 1..]);
-            let scaled = graph.div(forward[i].value, self.diagonal[i].value);
-            let value = graph.sub(scaled, known);
+            let value = graph.formula(forward[i].value / self.diagonal[i].value - known);
             let entry = Entry { value, written_out: None };
             solution[i] = entry.named(graph, procedure, &format!("{name}_x{i}")).value;
         }
@@ -215,24 +214,24 @@ mod tests {
         // two levers too long to be put in place
         let lever = |g: &mut Graph, angle: ExprId| {
             let (sin, cos, square) = (g.sin(angle), g.cos(angle), g.square(angle));
-            let terms = [g.mul(a, sin), g.mul(b, cos), square];
+            let terms = [g.formula(a * sin), g.formula(b * cos), square];
             g.sum(&terms)
         };
         let (p, q) = (lever(&mut g, x), lever(&mut g, y));
-        let (mp, mq) = (g.mul(m, p), g.mul(m, q));
-        let (mpp, mpq, mqq) = (g.mul(mp, p), g.mul(mp, q), g.mul(mq, q));
-        let (ip, kq) = (g.add(i, mpp), g.add(k, mqq));
+        let (mp, mq) = (g.formula(m * p), g.formula(m * q));
+        let (mpp, mpq, mqq) = (g.formula(mp * p), g.formula(mp * q), g.formula(mq * q));
+        let (ip, kq) = (g.formula(i + mpp), g.formula(k + mqq));
         let matrix = vec![vec![m, mp, mq], vec![mp, ip, mpq], vec![mq, mpq, kq]];
         // the force f on the mass, and moments about it
-        let (fp, fq) = (g.mul(f, p), g.mul(f, q));
-        let right = [f, g.add(h, fp), g.add(r, fq)];
+        let (fp, fq) = (g.formula(f * p), g.formula(f * q));
+        let right = [f, g.formula(h + fp), g.formula(r + fq)];
         let mut procedure = Procedure::default();
         let factors = Ldl::of(&mut g, &matrix, Numerators::Kept, &mut procedure, "m");
         let zero = g.zero();
         assert_eq!(factors.diagonal.iter().map(|d| d.value).collect::<Vec<_>>(), [m, i, k]);
         assert_eq!(factors.lower[2][1].value, zero);
         let solution = factors.solve(&mut g, &right, &mut procedure, "x");
-        assert_eq!(solution[1..], [g.div(h, i), g.div(r, k)]);
+        assert_eq!(solution[1..], [g.formula(h / i), g.formula(r / k)]);
         // the levers are all that has a name
         let named = procedure.definitions.iter().map(|definition| match definition {
             Definition::Value { symbol, .. } => g.symbols()[*symbol].as_str(),

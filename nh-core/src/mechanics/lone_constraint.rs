@@ -58,7 +58,7 @@ impl LoneConstraint {
     pub(super) fn accelerations(&self, graph: &mut Graph, procedure: &mut Procedure) -> Vec<ExprId> {
         // a velocity by itself is what the constraint says
         if let [entry] = self.row.as_slice() {
-            return vec![graph.div(self.bias, *entry)];
+            return vec![graph.formula(self.bias / entry)];
         }
         let n = self.members.len();
         let force: Vec<ExprId> =
@@ -68,32 +68,27 @@ impl LoneConstraint {
         let squares: Vec<ExprId> = self.row.iter().map(|entry| graph.square(*entry)).collect();
         let norm = graph.inner_product(&others, &squares);
         let one = graph.one();
-        let over = graph.div(one, norm);
+        let over = graph.formula(one / norm);
         let over = procedure.define(graph, "over_norm", over);
         // 2. what forces push out of the constraint, for every pair
         let mut terms: Vec<Vec<ExprId>> = vec![Vec::new(); n];
         for alpha in 0..n {
             for beta in alpha + 1..n {
-                let first = graph.mul(self.row[alpha], force[beta]);
-                let second = graph.mul(self.row[beta], force[alpha]);
-                let moment = graph.sub(first, second);
+                let moment = graph.formula(self.row[alpha] * force[beta] - self.row[beta] * force[alpha]);
                 let moment = procedure.define(graph, "moment", moment);
                 let weight = self.inertias_without(graph, &[alpha, beta]);
-                let scale = graph.mul(weight, over);
-                let turn = graph.mul(scale, moment);
+                let turn = graph.formula(weight * over * moment);
                 let turn = procedure.define(graph, "turn", turn);
-                terms[beta].push(graph.mul(self.row[alpha], turn));
-                let back = graph.mul(self.row[beta], turn);
-                terms[alpha].push(graph.neg(back));
+                terms[beta].push(graph.formula(self.row[alpha] * turn));
+                terms[alpha].push(graph.formula(-(self.row[beta] * turn)));
             }
         }
         // 3. what the constraint asks for by itself
         if !graph.is_literal_zero(self.bias) {
-            let pull = graph.mul(self.bias, over);
+            let pull = graph.formula(self.bias * over);
             let pull = procedure.define(graph, "pull", pull);
             for (alpha, terms) in terms.iter_mut().enumerate() {
-                let along = graph.mul(others[alpha], self.row[alpha]);
-                terms.push(graph.mul(along, pull));
+                terms.push(graph.formula(others[alpha] * self.row[alpha] * pull));
             }
         }
         terms.iter().map(|terms| graph.sum(terms)).collect()
@@ -104,7 +99,7 @@ impl LoneConstraint {
         let mut product = graph.one();
         for (alpha, inertia) in self.inertias.iter().enumerate() {
             if !left_out.contains(&alpha) {
-                product = graph.mul(product, *inertia);
+                product = graph.formula(product * inertia);
             }
         }
         product

@@ -36,7 +36,7 @@ mod wheel_frames;
 pub use adapted::{ReducedEquations, equations_by_momenta, reaction_forces, reduced_equations};
 pub use complete_lift::complete_lift;
 pub use cyclic::{cyclic_coordinates, translation, translations};
-pub use definiteness::{definiteness, keeps_its_sign};
+pub use definiteness::{DefiniteSets, definiteness, keeps_its_sign};
 pub use energy::energy;
 pub use euler_lagrange::{ForceBalance, LagrangianSystem};
 pub use factorisation::Factorisation;

@@ -33,13 +33,13 @@ impl Momentum {
         let algebroid = &system.algebroid;
         let momenta = system.momenta(graph);
         let mut value = graph.inner_product(section, &momenta);
-        let mut lift = complete_lift(graph, algebroid, section, system.time);
+        let mut lift = complete_lift(graph, algebroid, section, &system.clock);
         let mut variation = lift.apply(graph, system.lagrangian);
         if let Some(gauge) = gauge {
             let velocity = algebroid.velocity(graph);
-            let change = algebroid.along(graph, &velocity, system.time).apply(graph, gauge);
-            value = graph.sub(value, gauge);
-            variation = graph.sub(variation, change);
+            let change = algebroid.along(graph, &velocity, &system.clock).apply(graph, gauge);
+            value = graph.formula(value - gauge);
+            variation = graph.formula(variation - change);
         }
         let mut work = graph.inner_product(section, &system.forces);
         if !system.forces_on_distribution.is_empty()
@@ -49,8 +49,7 @@ impl Momentum {
             for (symbol, force) in &system.forces_on_distribution {
                 let along = distribution.independent.iter().position(|known| known == symbol);
                 if let Some(component) = along.and_then(|a| components.get(a)) {
-                    let share = graph.mul(*component, *force);
-                    work = graph.add(work, share);
+                    work = graph.formula(work + component * force);
                 }
             }
         }
@@ -59,6 +58,6 @@ impl Momentum {
 
     /// The right side of the momentum equation.
     pub fn rate(&self, graph: &mut Graph) -> ExprId {
-        graph.add(self.variation, self.work)
+        graph.formula(self.variation + self.work)
     }
 }

@@ -26,8 +26,7 @@ pub fn moving_energy_section(
     for ((component, function), coefficient) in candidates.iter().zip(coefficients) {
         if coefficient != Residue::ZERO {
             let factor = recognised(graph, coefficient, &scales, parameters)?;
-            let term = graph.mul(factor, *function);
-            section[*component] = graph.add(section[*component], term);
+            section[*component] = graph.formula(section[*component] + factor * function);
         }
     }
     proved(graph, system, constraints, manifold, &section).then_some(section)
@@ -51,7 +50,7 @@ fn conditions(
 ) -> Vec<ExprId> {
     let mut values = graph.image(&constraints.annihilator, section);
     let change =
-        complete_lift(graph, &system.algebroid, section, system.time).apply(graph, system.lagrangian);
+        complete_lift(graph, &system.algebroid, section, &system.clock).apply(graph, system.lagrangian);
     values.push(change);
     values.into_iter().map(|value| manifold.restrict(graph, value)).collect()
 }
@@ -84,7 +83,7 @@ fn sampled_coefficients(
     }
     let mut right: Vec<ExprId> = Vec::new();
     for drift in &constraints.drift {
-        let negative = graph.neg(*drift);
+        let negative = graph.formula(-drift);
         right.push(manifold.restrict(graph, negative));
     }
     right.push(zero);
@@ -146,7 +145,7 @@ fn proved(
     let change = values.pop();
     let horizontal = values.into_iter().zip(&constraints.drift).all(|(value, drift)| {
         let drift = manifold.restrict(graph, *drift);
-        let sum = graph.add(value, drift);
+        let sum = graph.formula(value + drift);
         graph.zero_test(sum).is_zero()
     });
     horizontal && change.is_some_and(|change| graph.zero_test(change).is_zero())

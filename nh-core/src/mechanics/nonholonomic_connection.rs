@@ -85,8 +85,7 @@ impl NonholonomicConnection {
                 let along: Vec<ExprId> = lifts.iter().map(|lift| lift[*f]).collect();
                 let share = graph.inner_product(&along, &column);
                 let own = if a == *f { graph.one() } else { graph.zero() };
-                let rest = graph.sub(own, share);
-                row.push(graph.div(rest, *scale));
+                row.push(graph.formula((own - share) / scale));
             }
             components.push(row);
         }
@@ -165,7 +164,7 @@ fn kernel(
         for divisor in solution.divisors {
             let divisor = graph.simplify(divisor);
             if !graph.vanishes_nowhere(divisor, facts) {
-                whole = graph.mul(whole, divisor);
+                whole = graph.formula(whole * divisor);
             }
         }
         solved = solution.values;
@@ -175,11 +174,11 @@ fn kernel(
         let column: Vec<ExprId> = solved.iter().map(|row| graph.simplify(row[f])).collect();
         // no more than the common denominator: the section shall vanish nowhere that it need not
         let least = common_denominator(graph, &column, facts);
-        let excess = graph.div(whole, least);
+        let excess = graph.formula(whole / least);
         let excess = graph.simplify(excess);
         let clears = graph.depends_on(excess, coordinates)
             && column.iter().all(|entry| {
-                let product = graph.mul(least, *entry);
+                let product = graph.formula(least * entry);
                 let product = graph.simplify(product);
                 !has_pole(graph, product, facts)
             });
@@ -187,8 +186,7 @@ fn kernel(
         let mut section = vec![zero; rank];
         section[*a] = scale;
         for (entry, p) in column.into_iter().zip(pivots) {
-            let share = graph.mul(scale, entry);
-            let share = graph.neg(share);
+            let share = graph.formula(-(scale * entry));
             section[*p] = graph.simplify(share);
         }
         found.push(section);
@@ -233,7 +231,8 @@ fn has_pole(graph: &Graph, expression: ExprId, facts: &Facts) -> bool {
 /// The kinetic metric in the basis of D, where it is a function on the base.
 fn metric(graph: &mut Graph, system: &LagrangianSystem, sections: &Matrix) -> Option<Matrix> {
     let metric = kinetic_metric(graph, system, sections);
-    let strangers: Vec<SymbolId> = system.algebroid.velocities.iter().copied().chain([system.time]).collect();
+    let strangers: Vec<SymbolId> =
+        system.algebroid.velocities.iter().copied().chain(system.clock.symbols()).collect();
     let constant = metric.iter().flatten().all(|entry| !graph.depends_on(*entry, &strangers));
     constant.then_some(metric)
 }
@@ -293,7 +292,7 @@ fn without_vertical(graph: &mut Graph, metric: &Matrix, inside: &Matrix, lifts: 
         for (a, component) in lift.into_iter().enumerate() {
             let column: Vec<ExprId> = inside.iter().map(|section| section[a]).collect();
             let share = graph.inner_product(&column, &along);
-            let component = graph.sub(component, share);
+            let component = graph.formula(component - share);
             rest.push(graph.simplify(component));
         }
         found.push(rest);

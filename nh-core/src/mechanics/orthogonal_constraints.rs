@@ -45,23 +45,21 @@ impl Touching {
                 if graph.is_literal_zero(along) {
                     continue;
                 }
-                let factor = graph.div(along, square);
+                let factor = graph.formula(along / square);
                 let factor = procedure.define(graph, "along", factor);
                 factors[a] = factor;
                 for matrix in [&mut self.jacobian, &mut self.reach] {
                     let (before, after) = matrix.split_at_mut(b);
                     without(graph, &mut after[0], factor, &before[a], procedure);
                 }
-                let carried = graph.mul(factor, self.bias[a]);
-                let rest = graph.sub(self.bias[b], carried);
+                let rest = graph.formula(self.bias[b] - factor * self.bias[a]);
                 self.bias[b] = procedure.define(graph, "bias", rest);
             }
             // 2. its multiplier, and the accelerations
             let reached = graph.inner_product(&self.jacobian[a], accelerations);
-            let missing = graph.sub(self.bias[a], reached);
-            let multiplier = graph.div(missing, square);
+            let multiplier = graph.formula((self.bias[a] - reached) / square);
             let multiplier = procedure.define(graph, "mu", multiplier);
-            let negative = graph.neg(multiplier);
+            let negative = graph.formula(-multiplier);
             without(graph, accelerations, negative, &self.reach[a], procedure);
             multipliers.push(multiplier);
         }
@@ -69,7 +67,7 @@ impl Touching {
         for a in (0..rows).rev() {
             let column: Vec<ExprId> = (a + 1..rows).map(|b| lower[b][a]).collect();
             let known = graph.inner_product(&column, &multipliers[a + 1..]);
-            multipliers[a] = graph.sub(multipliers[a], known);
+            multipliers[a] = graph.formula(multipliers[a] - known);
         }
         multipliers
     }
@@ -85,8 +83,7 @@ fn without(
 ) {
     for (entry, other) in row.iter_mut().zip(other) {
         if !graph.is_literal_zero(*other) {
-            let part = graph.mul(factor, *other);
-            let rest = graph.sub(*entry, part);
+            let rest = graph.formula(*entry - factor * other);
             *entry = procedure.define(graph, "rest", rest);
         }
     }

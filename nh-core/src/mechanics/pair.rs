@@ -69,11 +69,11 @@ impl Pair {
         }
         let rule = self.by_cramer(graph);
         if let Some([mean, half_difference]) = self.by_halves(graph) {
-            let values = [graph.add(mean, half_difference), graph.sub(mean, half_difference)];
+            let values = [graph.formula(mean + half_difference), graph.formula(mean - half_difference)];
             if graph.is_as_accurate(&values, &rule) {
                 let mean = procedure.define(graph, &format!("{}_mean", names[0]), mean);
                 let half_difference = procedure.define(graph, &format!("{}_half", names[0]), half_difference);
-                return [graph.add(mean, half_difference), graph.sub(mean, half_difference)];
+                return [graph.formula(mean + half_difference), graph.formula(mean - half_difference)];
             }
         }
         let whole = rule.map(|value| graph.simplify(value));
@@ -128,7 +128,7 @@ impl Pair {
         let determinant = graph.simplify(determinant);
         let first = difference_of_products(graph, (d, f), (b, g));
         let second = difference_of_products(graph, (a, g), (b, f));
-        [graph.div(first, determinant), graph.div(second, determinant)]
+        [graph.formula(first / determinant), graph.formula(second / determinant)]
     }
 
     /// Cramer's rule, with differences of products in which nothing cancels identically: `(J + m l²) m − (m l)²` as
@@ -156,20 +156,20 @@ impl Pair {
         let mut own = procedure.clone();
         own.definitions.clear();
         let determinant = own.define(graph, &format!("{name}_determinant"), determinant);
-        Some((own, [graph.div(first, determinant), graph.div(second, determinant)]))
+        Some((own, [graph.formula(first / determinant), graph.formula(second / determinant)]))
     }
 
     /// Where a = d, as for two equal wheels: (x + y)/2 and (x − y)/2, each from an equation of its own.
     fn by_halves(self, graph: &mut Graph) -> Option<[ExprId; 2]> {
         let ([a, b, d], [f, g]) = (self.matrix, self.right);
-        let difference = graph.sub(a, d);
+        let difference = graph.formula(a - d);
         if !graph.zero_test(difference).is_zero() {
             return None;
         }
         Some([Rational::ONE, Rational::MINUS_ONE].map(|sign| {
             let force = graph.linear_combination(&[(Rational::ONE, f), (sign.clone(), g)]);
             let mass = graph.linear_combination(&[(Rational::from(2), a), (sign * Rational::from(2), b)]);
-            let quotient = graph.div(force, mass);
+            let quotient = graph.formula(force / mass);
             graph.simplify(quotient)
         }))
     }
@@ -193,7 +193,7 @@ impl Pair {
         let unknowns: Vec<usize> = unknowns.collect();
         let relations = unknowns.into_iter().map(|k| {
             let relation = [right[k], b].map(|entry| {
-                let quotient = graph.div(entry, pivots[k]);
+                let quotient = graph.formula(entry / pivots[k]);
                 graph.simplify(quotient)
             });
             (k, relation)
@@ -205,13 +205,12 @@ impl Pair {
 
 /// `rest − slope · other`.
 fn substituted(graph: &mut Graph, [rest, slope]: [ExprId; 2], other: ExprId) -> ExprId {
-    let product = graph.mul(slope, other);
-    graph.sub(rest, product)
+    graph.formula(rest - slope * other)
 }
 
 fn difference_of_products(graph: &mut Graph, first: (ExprId, ExprId), second: (ExprId, ExprId)) -> ExprId {
-    let (x, y) = (graph.mul(first.0, first.1), graph.mul(second.0, second.1));
-    graph.sub(x, y)
+    let (x, y) = (graph.formula(first.0 * first.1), graph.formula(second.0 * second.1));
+    graph.formula(x - y)
 }
 
 /// Whether some quotient in the values is by a power of the divisor.

@@ -9,9 +9,9 @@
 use super::procedure::Procedure;
 use super::restricted::Restricted;
 use super::velocity_forms::VelocityForms;
-use crate::algebra::{Derivation, Graph, Matrix, Node, Rational};
+use crate::algebra::{Derivation, Graph, Matrix, Node, Rational, Residue};
 use crate::geometry::ConstraintDistribution;
-use crate::id::{ExprId, SymbolId};
+use crate::id::{ExprId, Id, SymbolId};
 
 impl Restricted {
     /// The velocities with their coefficients as intermediate results; `None` where there is nothing
@@ -70,7 +70,7 @@ fn combined(graph: &mut Graph, row: &[ExprId], independent: &[SymbolId]) -> Expr
     let mut terms: Vec<ExprId> = Vec::with_capacity(row.len());
     for (coefficient, symbol) in row.iter().zip(independent) {
         let velocity = graph.symbol(*symbol);
-        terms.push(graph.mul(*coefficient, velocity));
+        terms.push(graph.formula(coefficient * velocity));
     }
     terms.extend(&row[independent.len()..]);
     graph.sum(&terms)
@@ -113,11 +113,12 @@ impl PartialVelocities {
     /// Names them, the shortest first.
     fn define(&mut self, graph: &mut Graph) {
         self.unnamed.sort_by_key(|(core, _)| graph.operation_count(&[*core]));
-        let mut named: Vec<(ExprId, ExprId)> = Vec::new();
+        let mut named: Vec<Named> = Vec::new();
         for (core, name) in &self.unnamed {
-            let image = by_named(graph, &named, *core).unwrap_or_else(|| {
+            let samples = samples(graph, *core);
+            let image = by_named(graph, &named, *core, samples).unwrap_or_else(|| {
                 let image = self.definitions.define(graph, name, *core);
-                named.push((*core, image));
+                named.push(Named { value: *core, name: image, samples });
                 image
             });
             self.images.push((*core, image));
@@ -145,19 +146,69 @@ fn is_monomial(graph: &Graph, expression: ExprId) -> bool {
     }
 }
 
+/// A coefficient with a name.
+struct Named {
+    value: ExprId,
+    name: ExprId,
+    /// Its values at the sample points.
+    samples: [f64; 2],
+}
+
+impl Named {
+    /// Whether another coefficient may be this one times a symbol, as far as samples tell.
+    fn may_divide(&self, graph: &Graph, other: ExprId, samples: [f64; 2]) -> bool {
+        graph.symbols_in(&[self.value, other]).into_iter().any(|symbol| {
+            (0..2).all(|point| {
+                let product = sample(point, symbol) * self.samples[point];
+                is_close(product - samples[point], product)
+            })
+        })
+    }
+
+    /// Whether another coefficient, less this one times a sign, may be a number, as far as samples tell.
+    fn may_be_beside(&self, sign: &Rational, samples: [f64; 2]) -> bool {
+        let sign = sign.to_f64();
+        let [first, second] = [0, 1].map(|point| samples[point] - sign * self.samples[point]);
+        is_close(first - second, samples[0].abs() + samples[1].abs() + first.abs())
+    }
+}
+
+/// Whether a difference is nothing beside values of a size; one that is no number may be.
+fn is_close(difference: f64, size: f64) -> bool {
+    difference.is_nan() || difference.abs() <= 1e-6 * size.abs()
+}
+
+/// The values at the sample points.
+fn samples(graph: &Graph, value: ExprId) -> [f64; 2] {
+    [0, 1].map(|point| graph.evaluate(&[value], |symbol| sample(point, symbol))[0].value)
+}
+
+/// A number of ordinary size that the point and the symbol determine.
+#[allow(clippy::cast_precision_loss, reason = "a sample needs no more digits")]
+fn sample(point: usize, symbol: SymbolId) -> f64 {
+    let word = Residue::mixed(23_000 + point as u64, symbol.index() as u64).word();
+    0.5 + (word & 0xF_FFFF) as f64 / f64::from(1 << 20)
+}
+
 /// A coefficient as a named one times a length, or plus a number, as for two points of one body.
-fn by_named(graph: &mut Graph, named: &[(ExprId, ExprId)], core: ExprId) -> Option<ExprId> {
-    for (value, name) in named {
-        let quotient = graph.div(core, *value);
-        let quotient = graph.simplify(quotient);
-        if graph.as_symbol(quotient).is_some() {
-            return Some(graph.mul(quotient, *name));
+fn by_named(graph: &mut Graph, named: &[Named], core: ExprId, samples: [f64; 2]) -> Option<ExprId> {
+    for other in named {
+        // most are neither, which is seen without normal forms
+        if other.may_divide(graph, core, samples) {
+            let quotient = graph.formula(core / other.value);
+            let quotient = graph.simplify(quotient);
+            if graph.as_symbol(quotient).is_some() {
+                return Some(graph.formula(quotient * other.name));
+            }
         }
         for sign in [Rational::ONE, Rational::MINUS_ONE] {
-            let rest = graph.linear_combination(&[(Rational::ONE, core), (-sign.clone(), *value)]);
+            if !other.may_be_beside(&sign, samples) {
+                continue;
+            }
+            let rest = graph.linear_combination(&[(Rational::ONE, core), (-sign.clone(), other.value)]);
             let rest = graph.simplify(rest);
             if graph.as_number(rest).is_some() {
-                return Some(graph.linear_combination(&[(Rational::ONE, rest), (sign, *name)]));
+                return Some(graph.linear_combination(&[(Rational::ONE, rest), (sign, other.name)]));
             }
         }
     }

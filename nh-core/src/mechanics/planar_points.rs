@@ -41,8 +41,7 @@ pub(super) fn points(graph: &mut Graph, velocities: &[SymbolId], of: &VelocityFo
         let slope = graph.partial(*function, *symbol);
         let inertia = graph.partial(slope, *symbol);
         let u = graph.symbol(*symbol);
-        let product = graph.mul(inertia, u);
-        let rest = graph.sub(slope, product);
+        let rest = graph.formula(slope - inertia * u);
         if !graph.depends_on(inertia, &symbols) && graph.zero_test(rest).is_zero() {
             let coefficients = partials.iter_mut().map(|partial| partial.apply(graph, *form)).collect();
             squares.push((k, inertia, coefficients));
@@ -102,7 +101,7 @@ pub(super) fn motions<const N: usize>(
         if effect.iter().all(|entry| graph.is_literal_zero(*entry)) {
             continue;
         }
-        let opposite = effect.map(|entry| graph.neg(entry));
+        let opposite = effect.map(|entry| graph.formula(-entry));
         match motions.iter_mut().find(|motion| motion.effect == effect || motion.effect == opposite) {
             Some(motion) => motion.sections.push((section, motion.effect == opposite)),
             None => motions.push(Motion { sections: vec![(section, false)], effect }),

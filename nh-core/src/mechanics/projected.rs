@@ -19,13 +19,13 @@ pub struct SaddleEquations {
     pub force: Vec<ExprId>,
     /// J^A_α = ∂φ^A/∂y^α: a row for each constraint.
     pub jacobian: Matrix,
-    /// −(ρ y)^i ∂_iφ − ∂_tφ.
+    /// −(ρ y)^i ∂_iφ − ∂_tφ − ż ∂_zφ.
     pub bias: Vec<ExprId>,
     /// ẋ^i = ρ^i_α y^α.
     pub rates: Vec<ExprId>,
 }
 
-/// Derives the equations for constraints φ^A(t, x, y) = 0.
+/// Derives the equations for constraints φ^A(t, x, y, z) = 0.
 pub fn saddle_equations(
     graph: &mut Graph,
     system: &LagrangianSystem,
@@ -63,7 +63,7 @@ pub fn saddle_equations(
                 .collect()
         })
         .collect();
-    let mut along = system.algebroid.along(graph, &velocity, system.time);
+    let mut along = system.algebroid.along(graph, &velocity, &system.clock);
     let change = along.apply_all(graph, residuals);
     let bias = negated(graph, &change);
     let rates = system.algebroid.rates(graph, &velocity);
@@ -80,7 +80,7 @@ fn is_diagonal(graph: &Graph, matrix: &Matrix) -> bool {
 fn negated(graph: &mut Graph, list: &[ExprId]) -> Vec<ExprId> {
     list.iter()
         .map(|entry| {
-            let negative = graph.neg(*entry);
+            let negative = graph.formula(-entry);
             graph.simplify(negative)
         })
         .collect()
@@ -89,7 +89,7 @@ fn negated(graph: &mut Graph, list: &[ExprId]) -> Vec<ExprId> {
 /// The multipliers of a block where they are short and lose nothing.
 fn closed_form(graph: &mut Graph, matrix: &Matrix, right: &[ExprId]) -> Option<Vec<ExprId>> {
     match *right {
-        [only] => Some(vec![graph.div(only, matrix[0][0])]),
+        [only] => Some(vec![graph.formula(only / matrix[0][0])]),
         // where the constraints are nearly dependent it loses as many digits again
         [first, second] if graph.accuracy() == Accuracy::Fast => {
             let pair = Pair { matrix: [matrix[0][0], matrix[0][1], matrix[1][1]], right: [first, second] };
@@ -108,7 +108,7 @@ impl SaddleEquations {
         let mut rows: Matrix = Vec::new();
         for (alpha, row) in self.mass.iter().enumerate() {
             let mut row = row.clone();
-            row.extend(self.jacobian.iter().map(|constraint| graph.neg(constraint[alpha])));
+            row.extend(self.jacobian.iter().map(|constraint| graph.formula(-constraint[alpha])));
             rows.push(row);
         }
         for constraint in &self.jacobian {
@@ -135,12 +135,12 @@ impl SaddleEquations {
                 for (alpha, entry) in row.iter().enumerate() {
                     if !graph.is_literal_zero(self.mass[alpha][alpha]) {
                         let square = graph.square(*entry);
-                        terms.push(graph.div(square, self.mass[alpha][alpha]));
+                        terms.push(graph.formula(square / self.mass[alpha][alpha]));
                     }
                 }
                 let sum = graph.sum(&terms);
                 let one = graph.one();
-                let weight = if graph.zero_test(sum).is_zero() { one } else { graph.div(one, sum) };
+                let weight = if graph.zero_test(sum).is_zero() { one } else { graph.formula(one / sum) };
                 // the squares of a unit vector are one: what they do not leave need not cancel later. Brought over
                 // a common denominator, inertias that are far apart would lose digits.
                 let short = graph.simplify(weight);
@@ -153,12 +153,10 @@ impl SaddleEquations {
         let mut result = self.clone();
         for ((row, weight), bias) in self.jacobian.iter().zip(weights).zip(&self.bias) {
             for (alpha, entry) in row.iter().enumerate() {
-                let weighed = graph.mul(weight, *entry);
-                let pulled = graph.mul(weighed, *bias);
-                result.force[alpha] = graph.add(result.force[alpha], pulled);
+                let weighed = graph.formula(weight * entry);
+                result.force[alpha] = graph.formula(result.force[alpha] + weighed * bias);
                 for (cell, other) in result.mass[alpha].iter_mut().zip(row) {
-                    let product = graph.mul(weighed, *other);
-                    *cell = graph.add(*cell, product);
+                    *cell = graph.formula(*cell + weighed * other);
                 }
             }
         }
@@ -218,7 +216,7 @@ impl SaddleEquations {
             .zip(&self.bias)
             .map(|(row, bias)| {
                 let reached = graph.inner_product(row, &free);
-                graph.sub(*bias, reached)
+                graph.formula(bias - reached)
             })
             .collect();
         // 4. ẏ = free + W⁻¹ Jᵀ λ, for constraints that do not touch each other one by one
@@ -267,7 +265,7 @@ impl SaddleEquations {
         for (alpha, acceleration) in accelerations.iter_mut().enumerate() {
             let column: Vec<ExprId> = reach.iter().map(|row| row[alpha]).collect();
             let reaction = graph.inner_product(&column, multipliers);
-            *acceleration = graph.add(*acceleration, reaction);
+            *acceleration = graph.formula(*acceleration + reaction);
         }
     }
 
@@ -278,6 +276,20 @@ impl SaddleEquations {
             return None;
         }
         LoneConstraint::of(graph, (&self.mass, &self.jacobian), (&self.force, &self.bias), *a)
+    }
+
+    /// The mass matrix that [`Self::solve`] factorises, W or W + JᵀRJ; `None` where it pivots.
+    pub fn factorised(
+        &self,
+        graph: &mut Graph,
+        definiteness: impl Fn(&Graph, &Matrix) -> Definiteness,
+    ) -> Option<Matrix> {
+        let separate = self.jacobian.is_empty() || is_diagonal(graph, &self.mass);
+        if separate && definiteness(graph, &self.mass) == Definiteness::Definite {
+            return Some(self.mass.clone());
+        }
+        let weighed = self.augmented(graph, &mut Procedure::inline()).mass;
+        (definiteness(graph, &weighed) == Definiteness::Definite).then_some(weighed)
     }
 
     /// ẏ and λ by numerical pivoting, whatever the matrices are.

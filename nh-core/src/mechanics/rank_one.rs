@@ -35,18 +35,14 @@ impl RankOne {
         let mut shares: Vec<Monomial> = Vec::with_capacity(n);
         for i in 0..n {
             let (j, k) = ((i + 1) % n, (i + 2) % n);
-            let product = graph.mul(matrix[i][j], matrix[i][k]);
-            let quotient = graph.div(product, matrix[j][k]);
-            let share = graph.neg(quotient);
+            let share = graph.formula(-(matrix[i][j] * matrix[i][k] / matrix[j][k]));
             let share = graph.simplify(share);
             shares.push(Monomial::of(graph, share)?);
         }
         let (weight, first) = shares[0].taken_apart(graph, &shares)?;
         let mut vector = vec![first];
         for entry in &matrix[0][1..] {
-            let product = graph.mul(weight, first);
-            let quotient = graph.div(*entry, product);
-            let quotient = graph.neg(quotient);
+            let quotient = graph.formula(-(entry / (weight * first)));
             vector.push(graph.simplify(quotient));
         }
         // 2. it is so
@@ -56,7 +52,7 @@ impl RankOne {
         }
         for (i, j) in &pairs {
             let product = product(graph, [weight, vector[*i], vector[*j]]);
-            let defect = graph.add(matrix[*i][*j], product);
+            let defect = graph.formula(matrix[*i][*j] + product);
             if !graph.zero_test(defect).is_zero() {
                 return None;
             }
@@ -69,7 +65,7 @@ impl RankOne {
         let mut diagonal = Vec::with_capacity(n);
         for (entry, part) in entries.iter().zip(&vector) {
             let product = product(graph, [weight, *part, *part]);
-            let sum = graph.add(*entry, product);
+            let sum = graph.formula(entry + product);
             diagonal.push(graph.simplify(sum));
         }
         Some(Self { diagonal, weight, vector })
@@ -88,40 +84,35 @@ impl RankOne {
         };
         let (first, differences) = self.first(graph);
         let one = graph.one();
-        let over: Vec<ExprId> = self.diagonal.iter().map(|entry| graph.div(one, *entry)).collect();
+        let over: Vec<ExprId> = self.diagonal.iter().map(|entry| graph.formula(one / entry)).collect();
         let over = named(graph, "over", &over);
         let vector = named(graph, "u", &self.vector);
         let right = named(graph, "f", right);
         // u_j / D_j, for all but the first
         let others: Vec<usize> = (0..vector.len()).filter(|j| *j != first).collect();
-        let reach: Vec<ExprId> = others.iter().map(|j| graph.mul(vector[*j], over[*j])).collect();
+        let reach: Vec<ExprId> = others.iter().map(|j| graph.formula(vector[*j] * over[*j])).collect();
         let reach = named(graph, "reach", &reach);
         // μ (D_k − κ u·u + κ Σ_j (D_j − D_k) u_j² / D_j) = κ (u_k f_k + D_k Σ_j u_j f_j / D_j)
         let mut along = Vec::new();
         let mut turned = Vec::new();
         for (j, reach) in others.iter().zip(&reach) {
-            along.push(graph.mul(*reach, right[*j]));
+            along.push(graph.formula(reach * right[*j]));
             turned.push(product(graph, [differences[*j], vector[*j], *reach]));
         }
         let along = graph.sum(&along);
-        let along = graph.mul(self.diagonal[first], along);
-        let own = graph.mul(vector[first], right[first]);
-        let above = graph.add(own, along);
-        let above = graph.mul(self.weight, above);
+        let along = graph.formula(self.diagonal[first] * along);
+        let above = graph.formula(self.weight * (vector[first] * right[first] + along));
         let squares = graph.inner_product(&self.vector, &self.vector);
-        let squares = graph.mul(self.weight, squares);
-        let rest = graph.sub(self.diagonal[first], squares);
+        let rest = graph.formula(self.diagonal[first] - self.weight * squares);
         let rest = graph.simplify(rest);
         let turned = graph.sum(&turned);
-        let turned = graph.mul(self.weight, turned);
-        let below = graph.add(rest, turned);
-        let multiplier = graph.div(above, below);
+        let multiplier = graph.formula(above / (rest + self.weight * turned));
         let multiplier = named(graph, "mu", &[multiplier])[0];
-        let parts = right.iter().zip(&vector).zip(&over).map(|((f, u), over)| {
-            let pulled = graph.mul(*u, multiplier);
-            let force = graph.add(*f, pulled);
-            graph.mul(force, *over)
-        });
+        let parts = right
+            .iter()
+            .zip(&vector)
+            .zip(&over)
+            .map(|((f, u), over)| graph.formula((f + u * multiplier) * over));
         parts.collect()
     }
 
@@ -129,7 +120,7 @@ impl RankOne {
     fn first(&self, graph: &mut Graph) -> (usize, Vec<ExprId>) {
         let differences = |k: usize| -> Vec<ExprId> {
             let from_it = self.diagonal.iter().map(|entry| {
-                let difference = graph.sub(*entry, self.diagonal[k]);
+                let difference = graph.formula(entry - self.diagonal[k]);
                 graph.simplify(difference)
             });
             from_it.collect()
@@ -164,8 +155,7 @@ fn is_taken_off(graph: &mut Graph, weight: ExprId, vector: &[ExprId], diagonal: 
                 let others: Vec<ExprId> =
                     (0..squares.len()).filter(|j| *j != i).map(|j| squares[j]).collect();
                 let others = graph.sum(&others);
-                let point = graph.mul(factor, others);
-                let more = graph.sub(slope, point);
+                let more = graph.formula(slope - factor * others);
                 let more = graph.simplify(more);
                 is_not_negative(graph, more) && !graph.depends_on(more, &[mass])
             })
@@ -235,10 +225,10 @@ mod tests {
         let mut matrix = vec![Vec::new(); 3];
         for i in 0..3 {
             for j in 0..3 {
-                let product = g.mul(rho[i], rho[j]);
-                let rest = if i == j { g.sub(square, product) } else { g.neg(product) };
-                let point = g.mul(mass, rest);
-                let entry = if i == j { g.add(inertias[i], point) } else { point };
+                let product = g.formula(rho[i] * rho[j]);
+                let rest = if i == j { g.formula(square - product) } else { g.formula(-product) };
+                let point = g.formula(mass * rest);
+                let entry = if i == j { g.formula(inertias[i] + point) } else { point };
                 matrix[i].push(g.simplify(entry));
             }
         }
@@ -250,13 +240,13 @@ mod tests {
         let mut g = Graph::new();
         let [i, j, k, m, r, a, x, y, z, e, f, h, _] = named(&mut g);
         // the contact of a ball whose centre of mass is off its centre
-        let [u, v, w] = [x, y, z].map(|part| g.mul(r, part));
-        let w = g.sub(w, a);
+        let [u, v, w] = [x, y, z].map(|part| g.formula(r * part));
+        let w = g.formula(w - a);
         let matrix = about(&mut g, [i, j, k], m, [u, v, w]);
         let found = RankOne::of(&mut g, &matrix).expect("it has this form");
         for (inertia, entry) in [i, j, k].iter().zip(&found.diagonal) {
             let squares = g.inner_product(&[u, v, w], &[u, v, w]);
-            let point = g.mul(m, squares);
+            let point = g.formula(m * squares);
             let defect = g.linear_combination(&[
                 (Rational::ONE, *entry),
                 (Rational::MINUS_ONE, *inertia),
@@ -275,7 +265,7 @@ mod tests {
         let solution = procedure.with_outputs(solution).written_out(&mut g);
         for (row, right) in matrix.iter().zip(right) {
             let left = g.inner_product(row, &solution);
-            let defect = g.sub(left, right);
+            let defect = g.formula(left - right);
             assert!(g.zero_test(defect).is_zero());
         }
     }
@@ -320,7 +310,7 @@ mod tests {
         for (a, u) in [x, y, z].into_iter().enumerate() {
             for (b, v) in [x, y, z].into_iter().enumerate() {
                 let product = product(&mut g, [m, u, v]);
-                matrix[a][b] = if a == b { g.add(matrix[a][a], product) } else { product };
+                matrix[a][b] = if a == b { g.formula(matrix[a][a] + product) } else { product };
             }
         }
         assert!(RankOne::of(&mut g, &matrix).is_none());
@@ -328,7 +318,7 @@ mod tests {
         let matrix = vec![vec![i, e, f], vec![e, j, h], vec![f, h, k]];
         assert!(RankOne::of(&mut g, &matrix).is_none());
         // an offset of either sign is no mass
-        let offset = g.mul(m, r);
+        let offset = g.formula(m * r);
         let ball = about(&mut g, [i, j, k], offset, [x, y, z]);
         assert!(RankOne::of(&mut g, &ball).is_none());
         // four unknowns, coupled otherwise

@@ -78,7 +78,7 @@ pub(super) fn by_multiples(
             let name = format!("{}_per_{}", graph.symbols()[symbol], graph.symbols()[velocity]);
             let partial = result.define(graph, &name, partial);
             let velocity = graph.symbol(velocity);
-            images.insert(symbol, graph.mul(partial, velocity));
+            images.insert(symbol, graph.formula(partial * velocity));
         } else {
             kept.push(symbol);
             result.definitions.push(Definition::Value { symbol, value });

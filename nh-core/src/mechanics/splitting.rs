@@ -28,7 +28,7 @@ pub struct Splitting {
     /// Coordinates that determine the rates of all (by position), those of constant rates first.
     pub(super) chosen: Vec<usize>,
     /// Whether some of the coordinates are embedded, so that they have no independent rates.
-    pub(super) embedded: bool,
+    pub embedded: bool,
 }
 
 /// Why there is no splitting.
@@ -193,7 +193,7 @@ pub(super) fn left_inverse(graph: &mut Graph, rates: &Matrix, kernel: &[Vec<Expr
         let mut row = Vec::new();
         for b in 0..size {
             let mut terms = vec![graph.inner_product(&columns[a], &columns[b])];
-            terms.extend(kernel.iter().map(|section| graph.mul(section[a], section[b])));
+            terms.extend(kernel.iter().map(|section| graph.formula(section[a] * section[b])));
             let entry = graph.sum(&terms);
             row.push(graph.simplify(entry));
         }
@@ -218,7 +218,7 @@ fn commutator(
     for id in &splitting.coordinates {
         let forth = along[0].apply(graph, fields[1][id.index()]);
         let back = along[1].apply(graph, fields[0][id.index()]);
-        found.push(graph.sub(forth, back));
+        found.push(graph.formula(forth - back));
     }
     found
 }
@@ -271,7 +271,8 @@ impl Chaplygin {
                 if splitting.embedded {
                     let fields = commutator(graph, algebroid, [&lifts[i], &lifts[j]], splitting);
                     let lifted = graph.image(&Graph::transposed(&lifts), &fields);
-                    bracket = bracket.into_iter().zip(lifted).map(|(b, lift)| graph.sub(b, lift)).collect();
+                    bracket =
+                        bracket.into_iter().zip(lifted).map(|(b, lift)| graph.formula(b - lift)).collect();
                 }
                 curvature.push(bracket.into_iter().map(|c| graph.simplify(c)).collect::<Vec<_>>());
             }
@@ -293,8 +294,8 @@ impl Chaplygin {
         for i in 0..m {
             for j in i + 1..m {
                 let along = pairs.next().map_or(graph.zero(), |k| graph.inner_product(k, &momenta));
-                let (first, second) = (graph.mul(along, speeds[j]), graph.mul(along, speeds[i]));
-                terms[i].push(graph.neg(first));
+                let (first, second) = (graph.formula(along * speeds[j]), graph.formula(along * speeds[i]));
+                terms[i].push(graph.formula(-first));
                 terms[j].push(second);
             }
         }

@@ -60,7 +60,7 @@ pub fn solve_symmetric(
         let inner = Graph::submatrix(matrix, &block);
         let outer: Vec<ExprId> = block.iter().map(|i| right[*i]).collect();
         let values = match (inner.len(), definiteness) {
-            (1, _) => vec![graph.div(outer[0], inner[0][0])],
+            (1, _) => vec![graph.formula(outer[0] / inner[0][0])],
             (2, _) => {
                 let names = [0, 1].map(|k| format!("{name}_{}", block[k]));
                 let pair =

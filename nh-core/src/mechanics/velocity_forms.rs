@@ -188,7 +188,7 @@ fn equations(
     let gradient: Vec<ExprId> =
         algebroid.anchor.coordinates.iter().map(|symbol| slope(graph, symbol)).collect();
     // 3. d/dt F̂_k at v̇ = 0
-    let mut along = algebroid.along(graph, &velocity, system.time);
+    let mut along = algebroid.along(graph, &velocity, &system.clock);
     differentiate_all(graph, &mut definitions, &mut along, "rate", on.simplified);
     let changes = along.apply_all(graph, &slopes);
     // 4. contraction with B_a
@@ -223,7 +223,7 @@ fn equations(
         let mut applied = graph.inner_product(section, &forces);
         for value in system.forces_along(*symbol) {
             let value = restriction.apply(graph, value);
-            applied = graph.add(applied, value);
+            applied = graph.formula(applied + value);
         }
         let gyroscopic = graph.inner_product(section, &bracket);
         let mut total = vec![
@@ -236,13 +236,13 @@ fn equations(
         for k in &curved {
             let curl = curl.get_or_insert_with(|| ExteriorDerivative::of(graph, system, &velocity, section));
             let curl = curl.apply(graph, forms[*k].1);
-            total.push(((-1).into(), graph.mul(slopes[*k], curl)));
+            total.push(((-1).into(), graph.formula(slopes[*k] * curl)));
         }
         for ((point, _), rate) in turned.iter().zip(&turning) {
             let [s, r] = point.forms;
-            let (forth, back) = (graph.mul(slopes[s], partials[a][r]), graph.mul(slopes[r], partials[a][s]));
-            let wedge = graph.sub(forth, back);
-            total.push(((-1).into(), graph.mul(*rate, wedge)));
+            let (forth, back) =
+                (graph.formula(slopes[s] * partials[a][r]), graph.formula(slopes[r] * partials[a][s]));
+            total.push(((-1).into(), graph.formula(rate * (forth - back))));
         }
         force.push(graph.linear_combination(&total));
     }
@@ -302,7 +302,7 @@ fn rates_of_turning(
     for (point, spin) in turned {
         let change = along.apply(graph, point.angle);
         let spinning = graph.inner_product(spin, velocity);
-        rates.push(graph.add(change, spinning));
+        rates.push(graph.formula(change + spinning));
     }
     rates
 }
@@ -326,7 +326,7 @@ fn spin(
                 return zero;
             }
             let symbol = algebroid.structure.get(graph, x, section, y);
-            graph.neg(symbol)
+            graph.formula(-symbol)
         })
         .collect();
     // of each form its values on both arguments
@@ -337,8 +337,8 @@ fn spin(
     for (form, other, sign) in [(one, two, -1), (two, one, 1)] {
         let rotation = curl.apply(graph, form);
         let other = [other, curl.on_second(graph, other)];
-        let (forth, back) = (graph.mul(turning[0], other[1]), graph.mul(turning[1], other[0]));
-        let wedge = graph.sub(forth, back);
+        let (forth, back) = (graph.formula(turning[0] * other[1]), graph.formula(turning[1] * other[0]));
+        let wedge = graph.formula(forth - back);
         let difference = graph.linear_combination(&[(1.into(), rotation), (sign.into(), wedge)]);
         if !graph.zero_test(difference).is_zero() {
             return None;

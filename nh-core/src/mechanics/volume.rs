@@ -150,7 +150,7 @@ fn search(graph: &mut Graph, setting: &VolumeSetting<'_>, section: &ModularSecti
         .components
         .iter()
         .map(|component| {
-            let negative = graph.neg(*component);
+            let negative = graph.formula(-component);
             manifold.restrict(graph, negative)
         })
         .collect();
@@ -167,7 +167,7 @@ fn search(graph: &mut Graph, setting: &VolumeSetting<'_>, section: &ModularSecti
         let column: Vec<ExprId> = differential(graph, setting, *factor)
             .into_iter()
             .map(|change| {
-                let change = graph.div(change, *factor);
+                let change = graph.formula(change / factor);
                 manifold.restrict(graph, change)
             })
             .collect();
@@ -276,8 +276,7 @@ fn is_kept(
     let mut sums: Vec<Vec<ExprId>> = section.components.iter().map(|m| vec![*m]).collect();
     for (factor, exponent) in density {
         for (sum, change) in sums.iter_mut().zip(differential(graph, setting, *factor)) {
-            let share = graph.div(change, *factor);
-            sum.push(graph.mul(*exponent, share));
+            sum.push(graph.formula(exponent * (change / factor)));
         }
     }
     sums.into_iter().all(|sum| {
@@ -323,7 +322,7 @@ fn commutator(
     let (mut x, mut y) = (along(&first.0), along(&second.0));
     let mut difference = |graph: &mut Graph, of_second: ExprId, of_first: ExprId| {
         let (forth, back) = (x.apply(graph, of_second), y.apply(graph, of_first));
-        graph.sub(forth, back)
+        graph.formula(forth - back)
     };
     let pairs: Vec<(ExprId, ExprId)> = second.0.iter().copied().zip(first.0.iter().copied()).collect();
     let field =

@@ -147,8 +147,7 @@ impl Search<'_> {
         let images: Vec<_> = known.chain([(self.velocities[section], zero)]).collect();
         let changed = images.into_iter().filter(|(symbol, value)| graph.as_symbol(*value) != Some(*symbol));
         let rest = Substitution::new(changed.collect::<Vec<_>>()).apply(graph, residual);
-        let quotient = graph.div(rest, self.distribution.constraints.annihilator[row][section]);
-        graph.neg(quotient)
+        graph.formula(-(rest / self.distribution.constraints.annihilator[row][section]))
     }
 
     /// Solves a constraint across a wheel for a velocity, and turns the point on the wheel.
@@ -180,16 +179,15 @@ impl Search<'_> {
         let angle = direction(graph, phi[first], phi[second])?;
         let (sin, cos) = (graph.sin(angle), graph.cos(angle));
         let scale = if graph.is_literal_zero(phi[second]) {
-            let quotient = graph.div(phi[first], sin);
-            graph.neg(quotient)
+            graph.formula(-(phi[first] / sin))
         } else {
-            graph.div(phi[second], cos)
+            graph.formula(phi[second] / cos)
         };
         let mut excess: Vec<(usize, [ExprId; 1])> = Vec::new();
         for (s, entry) in phi.iter().enumerate() {
-            let scaled = graph.div(*entry, scale);
+            let scaled = graph.formula(entry / scale);
             let across = across(graph, angle, point.coefficients.each_ref().map(|row| row[s]));
-            let difference = graph.sub(scaled, across);
+            let difference = graph.formula(scaled - across);
             if !graph.zero_test(difference).is_zero() {
                 excess.push((s, [graph.products_to_sums(difference)]));
             }
@@ -198,7 +196,7 @@ impl Search<'_> {
             return None;
         }
         let excess = motions(graph, excess);
-        let drift = graph.div(drift, scale);
+        let drift = graph.formula(drift / scale);
         // 3. the unknown from the neighbour's velocity: with what it moves along, where that is alike
         let neighbour = self.neighbour(graph, &point, Some(section), known)?;
         let together = together(section, &neighbour.difference, &excess);
@@ -209,8 +207,8 @@ impl Search<'_> {
         let known_excess = self.total(graph, &filtered(&excess, apart)).map(|[total]| total);
         self.values[section] = None;
         let rest = graph.sum(&[across?, known_excess?, drift]);
-        let pivot = graph.div(phi[section], scale);
-        let quotient = graph.div(rest, pivot);
+        let pivot = graph.formula(phi[section] / scale);
+        let quotient = graph.formula(rest / pivot);
         self.levers.push(pivot);
         let quotient =
             if self.names_turning { self.definitions.define(graph, "turning", quotient) } else { quotient };
@@ -224,8 +222,7 @@ impl Search<'_> {
         // 4. s, and r from the constraint
         let along = self.turn(graph, &neighbour, angle)?[0];
         let [excess] = self.total(graph, &excess)?;
-        let across = graph.add(excess, drift);
-        let minus = graph.neg(across);
+        let minus = graph.formula(-(excess + drift));
         let components = self.named(graph, [along, minus]);
         let point = self.points.remove(position);
         Some((TurnedPoint { forms: point.forms, axes: point.axes, angle, components }, point.coefficients))
@@ -253,7 +250,7 @@ impl Search<'_> {
         for motion in motions {
             let value = self.value(graph, &motion.sections)?;
             for (list, effect) in terms.iter_mut().zip(motion.effect) {
-                list.push(graph.mul(effect, value));
+                list.push(graph.formula(effect * value));
             }
         }
         Some(std::array::from_fn(|k| graph.sum(&terms[k])))
@@ -283,7 +280,7 @@ impl Search<'_> {
         let mut best: Option<Neighbour> = None;
         for (angle, components, rows) in candidates {
             let effects: Vec<_> = (0..rank)
-                .map(|s| (s, [0, 1].map(|k| graph.sub(point.coefficients[k][s], rows[k][s]))))
+                .map(|s| (s, [0, 1].map(|k| graph.formula(point.coefficients[k][s] - rows[k][s]))))
                 .collect();
             let difference = motions(graph, effects);
             let mut sections = difference.iter().flat_map(|motion| &motion.sections);
@@ -298,11 +295,12 @@ impl Search<'_> {
 
     /// `e^{i(a′ − a)} (s′ + i r′) + e^{−ia} (δ₁ + i δ₂)`.
     fn turn(&self, graph: &mut Graph, neighbour: &Neighbour, angle: ExprId) -> Option<[ExprId; 2]> {
-        let between = graph.sub(angle, neighbour.angle);
+        let between = graph.formula(angle - neighbour.angle);
         let (sin, cos) = (graph.sin(between), graph.cos(between));
         let [s, r] = neighbour.components;
-        let (cs, sr, ss, cr) = (graph.mul(cos, s), graph.mul(sin, r), graph.mul(sin, s), graph.mul(cos, r));
-        let minus = graph.neg(ss);
+        let (cs, sr, ss, cr) =
+            (graph.formula(cos * s), graph.formula(sin * r), graph.formula(sin * s), graph.formula(cos * r));
+        let minus = graph.formula(-ss);
         let moved: Vec<Motion<2>> = neighbour
             .difference
             .iter()
@@ -325,7 +323,7 @@ fn along(graph: &mut Graph, angle: ExprId, [x, y]: [ExprId; 2]) -> ExprId {
 /// `−sin a x + cos a y`.
 fn across(graph: &mut Graph, angle: ExprId, [x, y]: [ExprId; 2]) -> ExprId {
     let (sin, cos) = (graph.sin(angle), graph.cos(angle));
-    let minus = graph.neg(sin);
+    let minus = graph.formula(-sin);
     combination(graph, [(minus, x), (cos, y)])
 }
 
@@ -336,7 +334,7 @@ fn combination(graph: &mut Graph, products: [(ExprId, ExprId); 2]) -> ExprId {
         let (constant, terms) = graph.as_linear(b);
         summands.push((constant, a));
         for (term, coefficient) in terms {
-            summands.push((coefficient, graph.mul(a, term)));
+            summands.push((coefficient, graph.formula(a * term)));
         }
     }
     let sum = graph.linear_combination(&summands);
@@ -356,7 +354,7 @@ fn direction(graph: &mut Graph, x: ExprId, y: ExprId) -> Option<ExprId> {
         (false, false) => {}
     }
     // tan a = −x / y
-    let quotient = graph.div(x, y);
+    let quotient = graph.formula(x / y);
     let Node::Product { coefficient, factors } = graph.node(quotient).clone() else { return None };
     let power = |function: Function, exponent: i64| {
         factors.iter().find_map(|(base, e)| match graph.node(*base) {
@@ -369,7 +367,7 @@ fn direction(graph: &mut Graph, x: ExprId, y: ExprId) -> Option<ExprId> {
     let cotangent = power(Function::Cos, 1).filter(|angle| power(Function::Sin, -1) == Some(*angle));
     let positive = !coefficient.is_negative();
     match (is_unit, tangent, cotangent) {
-        (true, Some(angle), _) => Some(if positive { graph.neg(angle) } else { angle }),
+        (true, Some(angle), _) => Some(if positive { graph.formula(-angle) } else { angle }),
         (true, None, Some(angle)) => {
             let pi = graph.pi();
             let sign = if positive { Rational::ONE } else { Rational::MINUS_ONE };

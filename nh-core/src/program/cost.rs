@@ -1,4 +1,8 @@
-//! What a program costs.
+//! What a program costs: the one model by which forms, schedules and solutions are compared.
+//!
+//! The unit is a cycle from operands to result in double precision, summed over all operations, as if each waited for
+//! the one before. It follows what is executed closely enough to rank programs: BENCHMARKS.md has it beside the
+//! instructions that callgrind counts, with the correlation.
 
 use super::fuse::constants;
 use super::step::{Program, Step, Value};

@@ -43,7 +43,7 @@ pub use cost::{Cost, order};
 pub use interpret::{Arithmetic, interpret, interpret_in};
 pub use rounding::{error_growth, error_growth_apart, reading_in_vain, units_lost};
 pub use rule::{Factor, Inner, Rule};
-pub use schedule::{schedule, schedule_grouping, schedule_roughly};
+pub use schedule::{schedule, schedule_grouping, schedule_roughly, schedules};
 pub use split::{Split, split};
 pub use step::{Program, Step, Value};
 pub use taylor::{Recurrences, Variation};

@@ -12,6 +12,7 @@ use std::rc::Rc;
 pub(super) struct Term(u32);
 
 impl Id for Term {
+    const FIRST: Self = Self(0);
     fn from_index(index: usize) -> Self {
         Self(u32::try_from(index).expect("fewer than 2^32 terms"))
     }

@@ -49,6 +49,12 @@ pub fn schedule(graph: &Graph, procedure: &Procedure) -> Program {
 /// that they can be done once per parameter set.
 #[must_use]
 pub fn schedule_grouping(graph: &Graph, procedure: &Procedure, parameters: &[SymbolId]) -> Program {
+    schedules(graph, procedure, parameters).into_iter().next().unwrap_or_default()
+}
+
+/// All programs that are found, the cheapest first.
+#[must_use]
+pub fn schedules(graph: &Graph, procedure: &Procedure, parameters: &[SymbolId]) -> Vec<Program> {
     let mut arena = import(graph, procedure, parameters);
     if graph.accuracy() == Accuracy::Fast {
         share_angles(&mut arena);
@@ -67,8 +73,9 @@ pub fn schedule_grouping(graph: &Graph, procedure: &Procedure, parameters: &[Sym
         }
         prepare(&folded(&arena), tried, &mut prepared);
     }
-    let programs = prepared.into_iter().map(straight_line);
-    programs.min_by_key(order).unwrap_or_default()
+    let mut programs: Vec<Program> = prepared.into_iter().map(straight_line).collect();
+    programs.sort_by_cached_key(order);
+    programs
 }
 
 /// Factors an arena by each strategy; what has come to the same goes the same way from here.

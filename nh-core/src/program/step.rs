@@ -9,6 +9,7 @@ use std::collections::BTreeMap;
 pub struct Value(u32);
 
 impl Id for Value {
+    const FIRST: Self = Self(0);
     fn from_index(index: usize) -> Self {
         Self(u32::try_from(index).expect("fewer than 2^32 steps"))
     }

@@ -1,8 +1,9 @@
 //! A program has the value of its procedure, and the known cases cost what they should.
 
-use super::{Cost, Program, Step, corrected, interpret, schedule, schedule_grouping};
-use crate::algebra::{Accuracy, Function, Function2, Graph, Node, Rational};
+use super::{Cost, Program, Step, corrected, interpret, interpret_in, schedule, schedule_grouping};
+use crate::algebra::{Accuracy, Bounded, Function, Function2, Graph, Node, Rational};
 use crate::id::{ExprId, Id, SymbolId};
+use crate::limits::timed;
 use crate::mechanics::{Definition, Procedure};
 use proptest::prelude::*;
 use std::collections::HashMap;
@@ -61,21 +62,20 @@ fn build(graph: &mut Graph, instructions: &[(u8, usize, usize)]) -> Procedure {
         let (x, y) = (pool[i % pool.len()], pool[j % pool.len()]);
         let coefficient = Rational::new(i64::try_from(i % 7).unwrap() - 3, 1 + i64::try_from(j % 3).unwrap());
         let result = match operation {
-            0..=2 => graph.add(x, y),
-            3 => graph.sub(x, y),
-            4..=6 => graph.mul(x, y),
+            0..=2 => graph.formula(x + y),
+            3 => graph.formula(x - y),
+            4..=6 => graph.formula(x * y),
             7 => graph.linear_combination(&[(coefficient.clone(), x), (-coefficient, y)]),
             8 => graph.sin(x),
             9 => graph.cos(x),
             10 => {
                 let (square, one) = (graph.square(y), graph.one());
-                let positive = graph.add(square, one);
-                graph.div(x, positive)
+                graph.formula(x / (square + one))
             }
             11 => graph.square(x),
             12 => {
                 let (square, one) = (graph.square(x), graph.one());
-                let positive = graph.add(square, one);
+                let positive = graph.formula(square + one);
                 graph.pow(positive, Rational::new(i64::try_from(j % 9).unwrap() - 4, 2))
             }
             13 => graph.apply(Function::Tanh, x),
@@ -96,6 +96,20 @@ fn assert_well_formed(program: &Program) {
     }
 }
 
+/// Whether a program asks for the angle of a point that is on the negative axis as far as rounding tells, where angles
+/// jump from π to −π: the sign of a zero is no part of the algebra.
+fn is_on_a_cut(program: &Program, symbol: impl Fn(SymbolId) -> f64) -> bool {
+    let points = program.steps.iter().filter_map(|step| match step {
+        Step::Apply2(Function2::Atan2, y, x) => Some([*y, *x]),
+        _ => None,
+    });
+    let mut arguments = program.clone();
+    arguments.outputs = points.flatten().collect();
+    let values = interpret_in(&arguments, |s| Bounded { value: symbol(s), error: 0.0 });
+    let is_zero = |y: &Bounded| y.value.abs() <= y.error || y.value == 0.0;
+    values.chunks_exact(2).any(|point| is_zero(&point[0]) && (point[1].value < 0.0 || is_zero(&point[1])))
+}
+
 proptest! {
     #![proptest_config(ProptestConfig::with_cases(400))]
 
@@ -106,6 +120,7 @@ proptest! {
         let program = schedule_grouping(&graph, &procedure, &[SymbolId::from_index(0)]);
         assert_well_formed(&program);
         let symbol = |s: SymbolId| values[s.index()];
+        prop_assume!(!is_on_a_cut(&program, symbol));
         let expected = evaluate(&graph, &procedure, symbol);
         // at every level of accuracy
         graph.set_accuracy(Accuracy::Fast);
@@ -148,7 +163,7 @@ fn the_kinetic_energy_is_factored() {
     let mut g = Graph::new();
     let [m, v1, v2, v3] = symbols(&mut g, ["m", "v1", "v2", "v3"]);
     let squares = [v1, v2, v3].map(|v| g.square(v));
-    let terms = squares.map(|s| g.mul(m, s));
+    let terms = squares.map(|s| g.formula(m * s));
     let sum = g.sum(&terms);
     let energy = g.scale(Rational::new(1, 2), sum);
     // m/2 (v1² + v2² + v3²)
@@ -162,8 +177,7 @@ fn a_polynomial_takes_horners_form() {
     let mut sum = d;
     for (power, coefficient) in [(1, c), (2, b), (3, a)] {
         let power = g.pow(x, Rational::from(power));
-        let term = g.mul(coefficient, power);
-        sum = g.add(sum, term);
+        sum = g.formula(sum + coefficient * power);
     }
     assert_eq!(cost(&g, &[sum]), Cost { multiply_adds: 3, ..Cost::default() });
 }
@@ -172,18 +186,18 @@ fn a_polynomial_takes_horners_form() {
 fn products_in_sums_are_fused_with_either_sign() {
     let mut g = Graph::new();
     let [a, b, c, d, x] = symbols(&mut g, ["a", "b", "c", "d", "x"]);
-    let (p, q) = (g.mul(a, b), g.mul(c, d));
+    let (p, q) = (g.formula(a * b), g.formula(c * d));
     // x − a b − c d starts with what is no product
-    let (minus_p, minus_q) = (g.neg(p), g.neg(q));
+    let (minus_p, minus_q) = (g.formula(-p), g.formula(-q));
     let sum = g.sum(&[minus_p, x, minus_q]);
     assert_eq!(cost(&g, &[sum]), Cost { multiply_adds: 2, ..Cost::default() });
-    let difference = g.sub(p, x);
+    let difference = g.formula(p - x);
     assert_eq!(cost(&g, &[difference]), Cost { multiply_adds: 1, ..Cost::default() });
     // a product that is needed itself is not computed twice
     assert_eq!(cost(&g, &[difference, p]), count(1, 1, 0));
     // x² − a² stays what it is under a root: fused it may be less than zero where x = a
     let (x2, a2) = (g.square(x), g.square(a));
-    let difference = g.sub(x2, a2);
+    let difference = g.formula(x2 - a2);
     let root = g.sqrt(difference);
     let under_root = cost(&g, &[root]);
     assert_eq!(under_root.multiply_adds, 0);
@@ -203,15 +217,15 @@ fn powers_share_their_chain() {
 fn one_reciprocal_per_shared_denominator() {
     let mut g = Graph::new();
     let [a, b, c, x, y] = symbols(&mut g, ["a", "b", "c", "x", "y"]);
-    let denominator = g.add(x, y);
-    let quotients = [a, b, c].map(|n| g.div(n, denominator));
+    let denominator = g.formula(x + y);
+    let quotients = [a, b, c].map(|n| g.formula(n / denominator));
     assert_eq!(cost(&g, &quotients), count(1, 3, 1));
-    let lone = g.div(a, denominator);
+    let lone = g.formula(a / denominator);
     assert_eq!(cost(&g, &[lone]), count(1, 0, 1));
-    let xy = g.mul(x, y);
-    let nested = g.div(a, xy);
+    let xy = g.formula(x * y);
+    let nested = g.formula(a / xy);
     assert_eq!(cost(&g, &[nested]), count(0, 1, 1));
-    let both = [a, b].map(|n| g.div(n, xy));
+    let both = [a, b].map(|n| g.formula(n / xy));
     assert_eq!(cost(&g, &both), count(0, 3, 1));
 }
 
@@ -229,12 +243,12 @@ fn differences_share_up_to_the_sign() {
     let mut g = Graph::new();
     let [x, y, z, w] = symbols(&mut g, ["x", "y", "z", "w"]);
     let a = g.sum(&[x, y, z]);
-    let negative = g.neg(y);
-    let (nx, nz) = (g.neg(x), g.neg(z));
+    let negative = g.formula(-y);
+    let (nx, nz) = (g.formula(-x), g.formula(-z));
     let b = g.sum(&[w, nx, negative, nz]);
     // w − (x + y + z)
     assert_eq!(cost(&g, &[a, b]), count(3, 0, 0));
-    let (d, e) = (g.sub(x, y), g.sub(y, x));
+    let (d, e) = (g.formula(x - y), g.formula(y - x));
     assert_eq!(cost(&g, &[d, e]), count(2, 0, 0));
 }
 
@@ -267,14 +281,12 @@ fn the_sleigh_is_as_cheap_as_by_hand() {
     let mut g = Graph::new();
     let [m, j, a, theta, omega, v] = symbols(&mut g, ["m", "J", "a", "theta", "omega", "v"]);
     let (sin, cos) = (g.sin(theta), g.cos(theta));
-    let (dx, dy) = (g.mul(v, cos), g.mul(v, sin));
+    let (dx, dy) = (g.formula(v * cos), g.formula(v * sin));
     let aa = g.square(a);
-    let maa = g.mul(m, aa);
-    let inertia = g.add(j, maa);
+    let inertia = g.formula(j + m * aa);
     let numerator = g.product(&[m, a, omega, v].map(|f| (f, Rational::ONE)));
-    let quotient = g.div(numerator, inertia);
-    let (domega, omega2) = (g.neg(quotient), g.square(omega));
-    let dv = g.mul(a, omega2);
+    let (domega, omega2) = (g.formula(-(numerator / inertia)), g.square(omega));
+    let dv = g.formula(a * omega2);
     let cost = cost(&g, &[omega, dx, dy, domega, dv]);
     // −J − (m a) a; ((m a) (ω v)) / …; a ω²
     let expected = Cost { multiply_adds: 1, sin_cos: 1, ..count(0, 7, 1) };
@@ -286,7 +298,7 @@ fn definitions_and_linear_systems_are_computed_once() {
     let mut g = Graph::new();
     let [x, y] = symbols(&mut g, ["x", "y"]);
     let mut procedure = Procedure::default();
-    let sum = g.add(x, y);
+    let sum = g.formula(x + y);
     let s = procedure.define(&mut g, "s", sum);
     let square = g.square(s);
     let (two, one) = (g.number(2), g.one());
@@ -318,12 +330,11 @@ fn large_procedures_schedule_in_linear_time() {
     let mut outputs = Vec::new();
     for i in 0..300 {
         let products: Vec<ExprId> =
-            (0..12).map(|k| g.mul(x[(i + k) % 300], x[(i * 7 + k * k) % 300])).collect();
+            (0..12).map(|k| g.formula(x[(i + k) % 300] * x[(i * 7 + k * k) % 300])).collect();
         outputs.push(g.sum(&products));
     }
-    let start = std::time::Instant::now();
-    let program = schedule(&g, &Procedure::of(outputs));
-    assert!(start.elapsed().as_secs() < 10, "{:?}", start.elapsed());
+    let (program, seconds) = timed(|| schedule(&g, &Procedure::of(outputs)));
+    assert!(seconds < 10.0, "{seconds} s");
     assert_well_formed(&program);
 }
 
@@ -331,10 +342,9 @@ fn large_procedures_schedule_in_linear_time() {
 fn negations_go_where_they_are_free() {
     let mut g = Graph::new();
     let [a, b, x, y, z] = symbols(&mut g, ["a", "b", "x", "y", "z"]);
-    let (p, q) = (g.mul(a, b), g.sub(x, y));
-    let difference = g.sub(p, z);
-    let quotient = g.div(q, difference);
-    let negative = g.neg(quotient);
+    let (p, q) = (g.formula(a * b), g.formula(x - y));
+    let difference = g.formula(p - z);
+    let negative = g.formula(-(q / difference));
     assert_eq!(cost(&g, &[negative]), Cost { multiply_adds: 1, ..count(1, 0, 1) });
     // the difference is needed with its own sign too: the divisor takes the other one
     assert_eq!(cost(&g, &[negative, q]), Cost { multiply_adds: 1, ..count(1, 0, 1) });
@@ -343,10 +353,7 @@ fn negations_go_where_they_are_free() {
     assert_eq!(interpret(&program, |symbol| values[symbol.index()]), [-1.0, 2.0]);
     // a number changes its sign
     let half = g.scale(Rational::new(1, 2), q);
-    let outputs = [p, z].map(|factor| {
-        let product = g.mul(half, factor);
-        g.neg(product)
-    });
+    let outputs = [p, z].map(|factor| g.formula(-(half * factor)));
     assert_eq!(cost(&g, &outputs), count(1, 4, 0));
     let program = schedule(&g, &Procedure::of(outputs.to_vec()));
     assert_eq!(interpret(&program, |symbol| values[symbol.index()]), [-6.0, -4.0]);
@@ -357,8 +364,7 @@ fn what_varies_is_multiplied_by_reciprocals_of_parameters() {
     let mut g = Graph::new();
     let symbols = ["m", "l", "x", "y"].map(|name| g.new_symbol(name));
     let [m, l, x, y] = symbols.map(|symbol| g.symbol(symbol));
-    let inertia = g.add(m, l);
-    let (by_parameters, by_state, fixed) = (g.div(x, inertia), g.div(x, y), g.div(m, l));
+    let (by_parameters, by_state, fixed) = (g.formula(x / (m + l)), g.formula(x / y), g.formula(m / l));
     let outputs = vec![by_parameters, by_state, fixed];
     let divisions = |parameters: &[SymbolId]| {
         let program = schedule_grouping(&g, &Procedure::of(outputs.clone()), parameters);
@@ -374,9 +380,9 @@ fn a_divisor_of_parameters_meets_other_parameters_first() {
     let mut g = Graph::new();
     let symbols = ["m", "l", "x", "y"].map(|name| g.new_symbol(name));
     let [m, l, x, y] = symbols.map(|symbol| g.symbol(symbol));
-    let inertia = g.add(m, l);
+    let inertia = g.formula(m + l);
     let force = g.product(&[m, x, y].map(|factor| (factor, Rational::ONE)));
-    let acceleration = g.div(force, inertia);
+    let acceleration = g.formula(force / inertia);
     let program = schedule_grouping(&g, &Procedure::of(vec![acceleration]), &symbols[..2]);
     // what is left to do where m/(m + l) is known
     let mut varies = vec![false; program.steps.len()];

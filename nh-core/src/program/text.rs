@@ -72,7 +72,7 @@ mod tests {
             g.symbol(symbol)
         });
         let (sine, cosine) = (g.sin(x), g.cos(x));
-        let quotient = g.div(sine, m);
+        let quotient = g.formula(sine / m);
         let program = schedule(&g, &Procedure::of(vec![quotient, cosine]));
         let text = program.text(&g);
         assert!(

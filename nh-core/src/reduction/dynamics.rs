@@ -108,7 +108,7 @@ fn residuals_of_target(source: &mut Side, target: &Side, map: &BundleMap) -> Vec
                 let graph = source.graph();
                 let row = pull_back.apply_all(graph, row);
                 let (linear, drift) = (graph.inner_product(&row, &velocity), pull_back.apply(graph, *drift));
-                graph.add(linear, drift)
+                graph.formula(linear + drift)
             })
             .collect()
         }

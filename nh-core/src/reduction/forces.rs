@@ -42,7 +42,7 @@ pub(super) fn forces(source: &mut Side, target: &Side, map: &BundleMap) -> Vec<V
         names = distribution.independent.iter().map(|symbol| symbols[*symbol].clone()).collect();
     } else {
         let graph = source.graph();
-        let defect = left.iter().zip(&right).map(|(left, right)| graph.sub(*left, *right)).collect();
+        let defect = left.iter().zip(&right).map(|(left, right)| graph.formula(left - right)).collect();
         if source.rank_on_displacements(&vec![defect]) == Ok(0) {
             return Vec::new();
         }
@@ -79,7 +79,7 @@ fn on_distribution(
         let section = distribution.section(a);
         let mut on_section = graph.inner_product(&section, left);
         for value in source.proved.system.forces_along(*symbol) {
-            on_section = graph.add(on_section, value);
+            on_section = graph.formula(on_section + value);
         }
         along.0.push(on_section);
         along.1.push(graph.inner_product(&section, right));
@@ -111,8 +111,7 @@ fn pulled_back(source: &mut Side, target: &Side, map: &BundleMap) -> Vec<ExprId>
             let value = pull_back.apply(graph, value);
             for (force, symbol) in forces.iter_mut().zip(&velocities) {
                 let share = graph.partial(reduced[a], *symbol);
-                let share = graph.mul(share, value);
-                *force = graph.add(*force, share);
+                *force = graph.formula(*force + share * value);
             }
         }
     }

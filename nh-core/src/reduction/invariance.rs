@@ -234,7 +234,7 @@ fn solved(
         let mut terms: Vec<(Rational, ExprId)> = Vec::new();
         for (entry, column) in row.iter().zip(&others) {
             let velocity = graph.symbol(velocities[*column]);
-            terms.push((Rational::MINUS_ONE, graph.mul(*entry, velocity)));
+            terms.push((Rational::MINUS_ONE, graph.formula(entry * velocity)));
         }
         terms.extend(row.last().map(|drift| (Rational::MINUS_ONE, *drift)));
         let value = graph.linear_combination(&terms);

@@ -39,7 +39,7 @@ pub(super) fn broken(
 ) -> Violation {
     let base_is_whole = source.proved.base.is_whole();
     let graph = source.graph();
-    let defect = graph.sub(sides.left, sides.right);
+    let defect = graph.formula(sides.left - sides.right);
     let [left, right, defect] = [sides.left, sides.right, defect].map(|value| graph.simplify(value));
     let difference = match verdict {
         Verdict::NonZero(witness) if base_is_whole => not_zero(graph, defect, witness),
@@ -88,7 +88,7 @@ fn admissible(source: &mut Side, target: &Side, map: &BundleMap) -> Vec<Violatio
             let graph = &mut source.proved.model.graph;
             let left = anchor.along(alpha).apply(graph, map.coordinates[i].value);
             let right = graph.inner_product(&map.anchor[i], &map.column(alpha));
-            let defect = graph.sub(left, right);
+            let defect = graph.formula(left - right);
             let defect = assuming(source, defect);
             let verdict = source.vanishes(defect);
             if verdict.is_zero() {
@@ -158,7 +158,7 @@ fn bracket_of_pair(
         let back = along_delta.apply(graph, of_alpha[beta]);
         let right =
             graph.linear_combination(&[(1.into(), forth), ((-1).into(), back), (1.into(), algebraic)]);
-        let defect = graph.sub(left, right);
+        let defect = graph.formula(left - right);
         let defect = assuming(source, defect);
         let verdict = source.vanishes(defect);
         if verdict.is_zero() {

@@ -185,13 +185,13 @@ fn velocities(source: &mut Side, map: &BundleMap, reduced: &[ExprId]) -> Option<
     let graph = source.graph();
     let matrix = Graph::transposed(&images);
     let right: Vec<ExprId> =
-        reduced.iter().zip(offset).map(|(value, offset)| graph.sub(*value, offset)).collect();
+        reduced.iter().zip(offset).map(|(value, offset)| graph.formula(value - offset)).collect();
     let state = solved(source, &matrix, &right)?;
     let graph = source.graph();
     let mut velocity = Vec::new();
     for (row, offset) in distribution.basis.iter().zip(&distribution.offset) {
         let linear = graph.inner_product(row, &state);
-        velocity.push(graph.add(linear, *offset));
+        velocity.push(graph.formula(linear + offset));
     }
     Some((velocity, state))
 }

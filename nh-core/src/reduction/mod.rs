@@ -93,6 +93,9 @@ pub fn reduce(source: Model, target: Model, declared: &MorphismDecl) -> Result<R
     let target = Side::of(target)?;
     about(Subject::Map);
     fence([&source, &target].into_iter().filter_map(|side| on_level(side, declared)).collect())?;
+    fence([&source, &target].into_iter().filter_map(|side| with_auxiliary(side, declared.origin)).collect())?;
+    let sides = [&source, &target].into_iter();
+    fence(sides.filter_map(|side| on_positions(side, declared.origin)).collect())?;
     // 1. Φ: parameters, base and fibres, and the target pulled back by it
     let map = BundleMap::of(&mut source, &target, declared).map_err(Refusal::Broken)?;
     // 2. the laws of the map, mathematics (13) and (14)
@@ -105,6 +108,21 @@ pub fn reduce(source: Model, target: Model, declared: &MorphismDecl) -> Result<R
     maps::functions(source, &target, &map).map_err(|violation| Refusal::Broken(vec![violation]))
 }
 
+/// A side whose motions are those of one level set alone, f = 0.
+fn on_positions(side: &Side, origin: Origin) -> Option<Violation> {
+    let position = side.proved.model.positions.first()?;
+    let label = position.label.as_ref().map_or_else(String::new, |label| format!(" `{label}`"));
+    Some(Violation {
+        law: Law::Morphism,
+        origin,
+        what: format!("`{}` has position constraints", side.name()),
+        evidence: format!(
+            "its motions are those on which{label} holds, and laws of maps are asked everywhere"
+        ),
+        way_out: "relate systems in coordinates that need none".into(),
+    })
+}
+
 /// A side by Routh reduction, whose motions are those on one level alone.
 fn on_level(side: &Side, declared: &MorphismDecl) -> Option<Violation> {
     let level = side.proved.levels.first()?;
@@ -114,6 +132,18 @@ fn on_level(side: &Side, declared: &MorphismDecl) -> Option<Violation> {
         what: format!("`{}` is on a level of a momentum, by `routh`", side.name()),
         evidence: format!("its motions are those on which the momentum of `{}` has this value", level.name),
         way_out: "relate the whole systems, declared without `routh`".into(),
+    })
+}
+
+/// A side with auxiliary states, which a map of bundles does not carry.
+fn with_auxiliary(side: &Side, origin: Origin) -> Option<Violation> {
+    let state = side.proved.model.auxiliary.first()?;
+    Some(Violation {
+        law: Law::Auxiliary,
+        origin,
+        what: format!("`{}` has auxiliary states", side.name()),
+        evidence: format!("`{}` is one, and the map says nothing of it", state.name),
+        way_out: "relate the machines without them: let an input stand for each".into(),
     })
 }
 

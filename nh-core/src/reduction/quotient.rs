@@ -72,6 +72,8 @@ pub struct Equation {
 pub fn quotient(model: Model, declared: &QuotientDecl) -> Result<Quotient, Refusal> {
     let mut source = Side::of(model)?;
     about(Subject::Quotient);
+    fence(super::with_auxiliary(&source, declared.origin).into_iter().collect())?;
+    fence(super::on_positions(&source, declared.origin).into_iter().collect())?;
     // 1. the frame: w = Φ y, Ψ = Φ⁻¹
     let derived = invariant_frame(&mut source, declared);
     let no_frame = derived.as_ref().err().cloned();

@@ -76,7 +76,7 @@ impl Side {
         let rows = constraints.annihilator.iter().zip(&constraints.drift);
         rows.map(|(row, drift)| {
             let linear = graph.inner_product(row, &velocity);
-            graph.add(linear, *drift)
+            graph.formula(linear + drift)
         })
         .collect()
     }

@@ -3,7 +3,9 @@
 use super::{Derived, combination, shown};
 use crate::algebra::Graph;
 use crate::check::evidence::{counted, places};
-use crate::check::{BrokenLaws, Condition, Constraints, domain, not_conservative, singular_where, undecided};
+use crate::check::{
+    BrokenLaws, Condition, Constraints, Positions, domain, not_conservative, singular_where, undecided,
+};
 use crate::compile::Proved;
 use crate::geometry::{Drops, Rank};
 use crate::id::SymbolId;
@@ -15,9 +17,11 @@ pub(super) fn lines(proved: &mut Proved, derived: &Derived<'_>, reason: &str) ->
     let kind = algebroid(proved);
     let almost = structure_equations(proved);
     let integrable = proved.broken_laws.homomorphism.is_none();
-    let Proved { model, motion, system, constraints: declared, constraint_rank: rank, facts, .. } = proved;
+    let Proved { model, motion, system, positions: on_positions, constraints: declared, .. } = proved;
+    let (rank, facts) = (&proved.constraint_rank, &proved.facts);
     let mut lines = vec![kind];
     lines.extend(almost);
+    lines.extend(positions(model, on_positions));
     lines.push(constraints(model, system, declared, rank.as_ref(), derived, integrable));
     let (name, size) = match derived {
         Derived::Adapted { kept, .. } => ("adapted", kept.rank()),
@@ -26,7 +30,11 @@ pub(super) fn lines(proved: &mut Proved, derived: &Derived<'_>, reason: &str) ->
     let coordinates = model.coordinates.len();
     let (coordinates, velocities) =
         (counted(coordinates, "coordinate", "coordinates"), counted(size, "velocity", "velocities"));
-    lines.push(format!("formulation: {name}, {coordinates} and {velocities}; {reason}"));
+    let auxiliary = match model.auxiliary.len() {
+        0 => String::new(),
+        count => format!(", with {}", counted(count, "auxiliary state", "auxiliary states")),
+    };
+    lines.push(format!("formulation: {name}, {coordinates} and {velocities}{auxiliary}; {reason}"));
     if let Derived::Adapted { equations, .. } = derived {
         let parameters: Vec<SymbolId> = model.parameters.iter().map(|parameter| parameter.symbol).collect();
         for factor in singular_where(&mut model.graph, &equations.mass, &parameters, facts) {
@@ -150,6 +158,27 @@ fn name_of_kind(proved: &Proved) -> String {
     format!("{article} {action} with orbits of dimension {rank}{nonzero}")
 }
 
+/// The position constraints: how many, what was left out, and what was not solved.
+fn positions(model: &Model, positions: &Positions) -> Vec<String> {
+    if model.positions.is_empty() {
+        return Vec::new();
+    }
+    let count = model.positions.len();
+    let mut lines = vec![format!("position constraints: {count}, whose rates are among the constraints")];
+    lines.extend(positions.dropped.iter().cloned());
+    for position in &positions.redundant {
+        let name = position.label.as_ref().map_or("an equation without a label".into(), |l| format!("`{l}`"));
+        lines.push(format!("{name} follows from the other position constraints: it has no multiplier"));
+    }
+    for value in &positions.unsolved {
+        lines.push(format!(
+            "no points were found where {} = 0: what is said to hold there was asked without it",
+            shown(&model.graph, *value)
+        ));
+    }
+    lines
+}
+
 fn constraints(
     model: &mut Model,
     system: &LagrangianSystem,
@@ -183,18 +212,22 @@ fn constraints(
             }
         }
     };
-    let holonomic =
-        match distribution.is_holonomic(&mut model.graph, &system.algebroid, model.time, declared.base()) {
-            Some(true) => {
-                let constant = constant_coordinates(model, derived);
-                // the fields of closed sections are in involution where (2) holds
-                let holonomic = if integrable { " (holonomic)" } else { "" };
-                format!("; D is closed under the bracket{holonomic}{constant}")
-            }
-            Some(false) if integrable => "; D is not closed under the bracket (nonholonomic)".to_owned(),
-            Some(false) => "; D is not closed under the bracket".to_owned(),
-            None => String::new(),
-        };
+    let holonomic = match distribution.is_holonomic(
+        &mut model.graph,
+        &system.algebroid,
+        &system.clock,
+        declared.base(),
+    ) {
+        Some(true) => {
+            let constant = constant_coordinates(model, derived);
+            // the fields of closed sections are in involution where (2) holds
+            let holonomic = if integrable { " (holonomic)" } else { "" };
+            format!("; D is closed under the bracket{holonomic}{constant}")
+        }
+        Some(false) if integrable => "; D is not closed under the bracket (nonholonomic)".to_owned(),
+        Some(false) => "; D is not closed under the bracket".to_owned(),
+        None => String::new(),
+    };
     format!("{what}{holonomic}")
 }
 
@@ -243,8 +276,8 @@ fn moving_energy(proved: &mut Proved) -> Option<String> {
     let Proved { model, system, constraints, .. } = proved;
     let linear = constraints.linear.as_ref()?;
     let graph = &mut model.graph;
-    let autonomous = !graph.symbols_in(&constraints.residuals).contains(&system.time)
-        && !graph.depends_on(system.lagrangian, &[system.time]);
+    let autonomous = !system.clock.occurs_in(graph, &constraints.residuals)
+        && !system.clock.moves(graph, system.lagrangian);
     let free = system.is_free(graph);
     if !autonomous || !free {
         return None;

@@ -5,7 +5,8 @@ use crate::algebra::Graph;
 use crate::id::{ConstraintId, ExprId, Id};
 use crate::model::Model;
 
-/// One line for each kinematic and each dynamic equation, and for each dependent velocity; the constants.
+/// One line for each kinematic and each dynamic equation, for each dependent velocity, and for each auxiliary
+/// state; the constants.
 #[must_use]
 pub fn equations_of_motion(model: &Model, derived: &Derived<'_>) -> Vec<String> {
     let graph = &model.graph;
@@ -49,6 +50,9 @@ pub fn equations_of_motion(model: &Model, derived: &Derived<'_>) -> Vec<String> 
                 lines.push(format!("{} = {}", accelerations(graph, row, &names), shown(graph, *bias)));
             }
         }
+    }
+    for state in &model.auxiliary {
+        lines.push(format!("der({}) = {}", state.name, shown(graph, state.value)));
     }
     let constants = super::constants(graph);
     if !constants.is_empty() {

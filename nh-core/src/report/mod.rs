@@ -13,6 +13,7 @@ use crate::geometry::ConstraintDistribution;
 use crate::id::{ExprId, Id};
 use crate::mechanics::{LagrangianSystem, ReducedEquations, SaddleEquations};
 use crate::model::Model;
+use crate::units;
 
 pub use equations::equations_of_motion;
 pub(crate) use hamiltonian::hamiltonian_lines;
@@ -72,6 +73,8 @@ pub(crate) fn report(
     };
     section("Classification", classification);
     section("Constants", constants(&model.graph));
+    section("Units", units::lines(&model.units));
+    section("Unused parameters", unused(model));
     section("Conditions on the parameters", nonzero(&model.graph, conditions));
     section("Anchor (kinematic equations)", anchor(model, system));
     section("Structure functions", structure_functions(model, system));
@@ -97,6 +100,11 @@ fn nonzero(graph: &Graph, conditions: &[ExprId]) -> Vec<String> {
         }
     }
     lines
+}
+
+/// The fields that stand in no expression.
+fn unused(model: &Model) -> Vec<String> {
+    model.idle.iter().map(|name| format!("{name} stands in no expression")).collect()
 }
 
 /// `m = 13/10`
@@ -154,7 +162,37 @@ fn structure_functions(model: &Model, system: &LagrangianSystem) -> Vec<String> 
             format!("[{}, {}] = {value}", names[alpha.index()], names[beta.index()])
         })
         .collect();
-    if lines.is_empty() { vec!["all brackets vanish".into()] } else { lines }
+    let mut lines = if lines.is_empty() { vec!["all brackets vanish".into()] } else { lines };
+    lines.extend(unseen(model, system));
+    lines
+}
+
+/// Sections that the anchor does not see: what no line says of their brackets was taken to be 0.
+fn unseen(model: &Model, system: &LagrangianSystem) -> Option<String> {
+    let is_listed = |name: &str| {
+        let symbol = model.sections.iter().find(|section| section.name == name).map(|section| section.symbol);
+        model.brackets.iter().any(|bracket| {
+            let pair = [bracket.left, bracket.right].map(|section| model.sections[section].symbol);
+            symbol.is_some_and(|symbol| pair.contains(&symbol))
+        })
+    };
+    let anchor = &system.algebroid.anchor;
+    if model.coordinates.is_empty() || model.almost {
+        return None;
+    }
+    let names: Vec<String> = section_names(model)
+        .into_iter()
+        .enumerate()
+        .filter(|(alpha, _)| anchor.entries.iter().all(|row| model.graph.is_literal_zero(row[*alpha])))
+        .map(|(_, name)| name)
+        .filter(|name| !is_listed(name))
+        .collect();
+    (!names.is_empty()).then(|| {
+        format!(
+            "the anchor does not see {}: brackets and components along it that no line gives are 0",
+            names.join(", ")
+        )
+    })
 }
 
 fn distribution(model: &Model, derived: &Derived<'_>) -> Vec<String> {

@@ -11,7 +11,7 @@ pub(super) fn lines(proved: &mut Proved, derived: &Derived<'_>) -> Vec<String> {
         .iter()
         .map(|level| {
             let graph = &mut proved.model.graph;
-            let momentum = graph.add(level.residual, level.value);
+            let momentum = graph.formula(level.residual + level.value);
             let momentum = graph.simplify(momentum);
             format!(
                 "the momentum of {}: {} = {}",
@@ -39,8 +39,7 @@ fn routhian(proved: &mut Proved, derived: &Derived<'_>) -> Option<String> {
             position.is_some_and(|position| distribution.section(position) == level.section)
         };
         let (_, velocity) = kept.eliminated.iter().find(|(symbol, _)| is_own(symbol))?;
-        let share = graph.mul(*velocity, level.value);
-        routhian = graph.sub(routhian, share);
+        routhian = graph.formula(routhian - velocity * level.value);
     }
     let routhian = graph.simplify(routhian);
     Some(format!("the Routhian: {}", shown(graph, routhian)))

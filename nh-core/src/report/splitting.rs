@@ -8,10 +8,16 @@ use crate::compile::{Proved, Reduced};
 use crate::geometry::{ConstraintDistribution, Manifold};
 use crate::geometry::{Drops, RankSetting};
 use crate::id::{ExprId, SymbolId};
+use crate::limits::attempt;
 use crate::mechanics::{NonholonomicConnection, Splitting};
 
 /// Lagrangians with more operations than this are classified, but their splitting is not shown.
 const SHOWN_UP_TO: u64 = 150;
+/// What the quantities of a splitting may take, in steps of work: what takes more fills pages, and nothing else
+/// depends on it.
+const SHOWN: u64 = 40_000;
+/// What stands in their place.
+const TOO_LONG: &str = "not shown: the quantities of this splitting are too long";
 
 /// The name of the reduced equations, and their quantities.
 pub(super) fn lines(proved: &mut Proved, derived: &Derived<'_>) -> (Option<String>, Vec<String>) {
@@ -34,7 +40,11 @@ pub(super) fn lines(proved: &mut Proved, derived: &Derived<'_>) -> (Option<Strin
     let small = proved.model.graph.operation_count(&[proved.system.lagrangian]) <= SHOWN_UP_TO;
     let has_basis = distribution.is_some() || reduced.frame.is_some();
     let is_horizontal = reduced.splitting.horizontal > 0 || reduced.frame.is_some();
-    let lines = if small && has_basis && is_horizontal { quantities(proved, &reduced) } else { Vec::new() };
+    let lines = if small && has_basis && is_horizontal {
+        attempt(SHOWN, || quantities(proved, &reduced)).unwrap_or_else(|| vec![TOO_LONG.into()])
+    } else {
+        Vec::new()
+    };
     (Some(name), lines)
 }
 

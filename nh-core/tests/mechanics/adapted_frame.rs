@@ -13,10 +13,10 @@ use nonholonomic_core::model::Model;
 /// The stages up to the distribution, as in `compile`.
 pub(crate) fn stages(model: &mut Model) -> (LagrangianSystem, ConstraintDistribution) {
     let mut motion = check::kinematics(model).unwrap();
-    let structure = check::structure_functions(model, &motion).unwrap();
+    let base = check::embedding(model, &motion).unwrap();
+    let structure = check::structure_functions(model, &motion, &base).unwrap();
     let velocities = model.sections.iter().map(|s| s.symbol).collect();
     let algebroid = Algebroid { anchor: motion.anchor.clone(), structure, velocities };
-    let base = check::embedding(model, &motion).unwrap();
     let constraints = check::constraints(model, &mut motion, &algebroid, &base).unwrap();
     let chosen = check::choose_formulation(model, &constraints, &Facts::default(), &base).unwrap();
     let check::Chosen::Adapted { distribution, .. } = chosen else { panic!("an adapted basis exists") };
@@ -29,7 +29,7 @@ pub(crate) fn stages(model: &mut Model) -> (LagrangianSystem, ConstraintDistribu
             lagrangian,
             forces,
             forces_on_distribution: Vec::new(),
-            time: model.time,
+            clock: model.clock(),
         },
         *distribution,
     )
@@ -89,7 +89,7 @@ fn both_forms_agree(mut model: Model) {
         let index = system.algebroid.velocities.iter().position(|symbol| symbol == a).unwrap();
         let row = distribution.independent.iter().map(|b| graph.partial(balance.momenta[index], *b));
         mass.push(row.collect::<Vec<_>>());
-        force.push(graph.neg(balance.rest[index]));
+        force.push(graph.formula(-balance.rest[index]));
     }
     let found = accelerations(graph, &mass, &force);
     for (a, b) in found.iter().zip(&expected) {

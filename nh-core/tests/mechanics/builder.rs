@@ -59,9 +59,13 @@ impl Builder {
             coordinates,
             sections,
             inputs: Table::new(),
+            auxiliary: Vec::new(),
             identities: Vec::new(),
             calls: Vec::new(),
             dropped: Vec::new(),
+            claimed: Vec::new(),
+            symmetric: Vec::new(),
+            bodies: Vec::new(),
             frame: Vec::new(),
             distribution: None,
             claims: Vec::new(),
@@ -75,6 +79,8 @@ impl Builder {
             brackets: Vec::new(),
             brackets_declared: false,
             almost: false,
+            positions: Vec::new(),
+            redundant: None,
             lagrangian: Located { value: zero, origin: origin() },
             constraints: Table::new(),
             forces: Vec::new(),
@@ -83,6 +89,8 @@ impl Builder {
             orthonormal: None,
             independent: None,
             formulation: None,
+            units: Vec::new(),
+            idle: Vec::new(),
         };
         Self { model }
     }

@@ -237,7 +237,7 @@ fn an_embedded_base_has_a_way_back() {
     let mut b = systems::Builder { model: systems::veselova() };
     let norm = b.sum(&[(1, 1, "g1*g1"), (1, 1, "g2*g2"), (1, 1, "g3*g3")]);
     let one = b.model.graph.one();
-    let identity = b.model.graph.sub(norm, one);
+    let identity = b.model.graph.formula(norm - one);
     b.model.identities.push(nonholonomic_core::model::Located { value: identity, origin: systems::origin() });
     let system = compiled(b.model.clone());
     let embedding = system.embedding.unwrap();
@@ -252,7 +252,7 @@ fn an_embedded_base_has_a_way_back() {
     assert_close(&[g.iter().map(|x| x * x).sum::<f64>()], &[1.0]);
     // a plane is left by the anchor
     let plane = b.sum(&[(1, 1, "g1"), (1, 1, "g2")]);
-    b.model.identities[0].value = b.model.graph.sub(plane, one);
+    b.model.identities[0].value = b.model.graph.formula(plane - one);
     assert_eq!(compile(b.model).unwrap_err()[0].law, Law::Embedding);
 }
 
@@ -338,12 +338,10 @@ fn texts_of_what_is_shared_are_cut() {
     let graph = &mut b.model.graph;
     for _ in 0..40 {
         let (sin, cos) = (graph.sin(shared), graph.cos(shared));
-        let product = graph.mul(sin, shared);
-        shared = graph.add(product, cos);
+        shared = graph.formula(sin * shared + cos);
     }
     let square = graph.square(w);
-    let kinetic = graph.mul(square, shared);
-    b.model.lagrangian.value = graph.add(kinetic, x);
+    b.model.lagrangian.value = graph.formula(square * shared + x);
     let system = compiled(b.model);
     assert!(!system.parameter_checks.is_empty());
     for check in &system.parameter_checks {

@@ -15,7 +15,7 @@ fn what_is_differentiated_is_smooth() {
     let mut b = systems::Builder { model: systems::sleigh() };
     let x = b.sum(&[(1, 1, "x")]);
     let fold = b.model.graph.apply(Function::Abs, x);
-    b.model.lagrangian.value = b.model.graph.add(b.model.lagrangian.value, fold);
+    b.model.lagrangian.value = b.model.graph.formula(b.model.lagrangian.value + fold);
     assert_eq!(broken(b.model), [Law::Smooth]);
 }
 
@@ -24,7 +24,7 @@ fn what_is_declared_has_a_real_value() {
     let mut b = systems::Builder { model: systems::sleigh() };
     let beyond = b.model.graph.number(2);
     let angle = b.model.graph.apply(Function::Asin, beyond);
-    b.model.lagrangian.value = b.model.graph.add(b.model.lagrangian.value, angle);
+    b.model.lagrangian.value = b.model.graph.formula(b.model.lagrangian.value + angle);
     assert_eq!(broken(b.model), [Law::Defined]);
 }
 

@@ -8,6 +8,7 @@ mod laws;
 mod operation_counts;
 mod phase_space;
 mod planted_forms;
+mod planted_programs;
 mod requests;
 mod systems;
 mod velocity_forms;

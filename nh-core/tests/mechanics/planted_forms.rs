@@ -84,7 +84,7 @@ fn reasons(ledger: &Ledger, name: &str) -> Vec<String> {
 fn a_flipped_sign() {
     static PLANTED: Planted = Planted {
         name: "a flipped sign",
-        spoil: |graph, _, equations| equations.force[0] = graph.neg(equations.force[0]),
+        spoil: |graph, _, equations| equations.force[0] = graph.formula(-equations.force[0]),
     };
     let reason = "the equation along a section is not that of the declaration";
     assert_eq!(refused(&systems::sleigh(), &PLANTED), [reason]);
@@ -129,14 +129,13 @@ fn a_divisor_that_is_a_parameter_that_may_be_zero() {
         name: "by a parameter",
         spoil: |graph, _, equations| {
             let (j, theta) = (symbol(graph, "J"), symbol(graph, "theta"));
-            let shift = graph.mul(j, theta);
+            let shift = graph.formula(j * theta);
             for force in &mut equations.force {
                 // (J f + J θ)/J − θ
-                let product = graph.mul(j, *force);
-                let sum = graph.add(product, shift);
+                let product = graph.formula(j * *force);
+                let sum = graph.formula(product + shift);
                 let name = equations.definitions.define(graph, "product", sum);
-                let quotient = graph.div(name, j);
-                *force = graph.sub(quotient, theta);
+                *force = graph.formula(name / j - theta);
             }
         },
     };
@@ -154,13 +153,12 @@ fn a_divisor_of_the_declaration_is_none() {
         name: "by the mass",
         spoil: |graph, _, equations| {
             let (m, theta) = (symbol(graph, "m"), symbol(graph, "theta"));
-            let shift = graph.mul(m, theta);
+            let shift = graph.formula(m * theta);
             for force in &mut equations.force {
-                let product = graph.mul(m, *force);
-                let sum = graph.add(product, shift);
+                let product = graph.formula(m * *force);
+                let sum = graph.formula(product + shift);
                 let name = equations.definitions.define(graph, "product", sum);
-                let quotient = graph.div(name, m);
-                *force = graph.sub(quotient, theta);
+                *force = graph.formula(name / m - theta);
             }
         },
     };
@@ -182,7 +180,7 @@ fn a_form_that_is_equal_on_an_embedded_base_only() {
             });
             let norm = graph.sum(&squares);
             for force in &mut equations.force {
-                *force = graph.mul(norm, *force);
+                *force = graph.formula(norm * *force);
             }
         },
     };
@@ -198,7 +196,7 @@ fn a_form_that_is_equal_on_an_embedded_base_only() {
     b.lagrangian(&[(1, 2, "I1*w1*w1"), (1, 2, "I2*w2*w2"), (1, 2, "I3*w3*w3"), (-1, 1, "c*g3")]);
     let mut norm = b.sum(&[(1, 1, "g1*g1"), (1, 1, "g2*g2"), (1, 1, "g3*g3")]);
     let one = b.model.graph.one();
-    norm = b.model.graph.sub(norm, one);
+    norm = b.model.graph.formula(norm - one);
     b.model.identities.push(Located { value: norm, origin: origin() });
     assert_eq!(refused(&b.model, &PLANTED).len(), 1);
 }

@@ -244,9 +244,9 @@ pub(crate) fn trailers(relative: bool, drift: bool) -> Model {
     let [w, v1, v2, dp, dq, p, q, h, c, d, m, inertia, slip] = words[..] else { unreachable!() };
     let g = &mut b.model.graph;
     // the trailers' angles against the tractor, and their angular velocities
-    let second = if relative { g.add(p, q) } else { q };
-    let turning = if relative { g.add(dp, dq) } else { dq };
-    let (w1, w2) = (g.add(w, dp), g.add(w, turning));
+    let second = if relative { g.formula(p + q) } else { q };
+    let turning = if relative { g.formula(dp + dq) } else { dq };
+    let (w1, w2) = (g.formula(w + dp), g.formula(w + turning));
     // points at a distance behind: u − i l e^{ia} w
     let behind = |g: &mut Graph, [x, y]: [ExprId; 2], l: ExprId, angle: ExprId, w: ExprId| {
         let (sin, cos) = (g.sin(angle), g.cos(angle));
@@ -254,35 +254,35 @@ pub(crate) fn trailers(relative: bool, drift: bool) -> Model {
             g.product(&[l, sin, w].map(|f| (f, Rational::ONE))),
             g.product(&[l, cos, w].map(|f| (f, Rational::ONE))),
         );
-        [g.add(x, dx), g.sub(y, dy)]
+        [g.formula(x + dx), g.formula(y - dy)]
     };
     let zero = g.zero();
     let hitch = behind(g, [v1, v2], h, zero, w);
     let first_wheels = behind(g, hitch, d, p, w1);
-    let before = g.sub(d, c);
+    let before = g.formula(d - c);
     let load = behind(g, hitch, before, p, w1);
     let wheels = behind(g, first_wheels, d, second, w2);
     let mut terms = Vec::new();
     for [x, y] in [[v1, v2], load, wheels] {
         for u in [x, y] {
             let square = g.square(u);
-            terms.push(g.mul(m, square));
+            terms.push(g.formula(m * square));
         }
     }
     for u in [w, w1, w2] {
         let square = g.square(u);
-        terms.push(g.mul(inertia, square));
+        terms.push(g.formula(inertia * square));
     }
     let sum = g.sum(&terms);
     b.model.lagrangian.value = g.scale(Rational::new(1, 2), sum);
     let across = |g: &mut Graph, [x, y]: [ExprId; 2], angle: ExprId| {
         let (sin, cos) = (g.sin(angle), g.cos(angle));
-        let (sx, cy) = (g.mul(sin, x), g.mul(cos, y));
-        g.sub(cy, sx)
+        let (sx, cy) = (g.formula(sin * x), g.formula(cos * y));
+        g.formula(cy - sx)
     };
     let mut last = across(g, wheels, second);
     if drift {
-        last = g.sub(last, slip);
+        last = g.formula(last - slip);
     }
     for residual in [v2, across(g, first_wheels, p), last] {
         b.model.constraints.push(ConstraintDecl {

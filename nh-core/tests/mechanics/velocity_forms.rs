@@ -30,7 +30,7 @@ fn forms_agree(mut model: Model) -> bool {
         let others = candidate.definitions.with_outputs(others.copied().collect()).written_out(graph);
         assert_eq!(entries.clone().count(), others.len());
         for (entry, other) in entries.zip(others) {
-            let defect = graph.sub(*entry, other);
+            let defect = graph.formula(entry - other);
             let (found, meant) = (graph.text(other), graph.text(*entry));
             assert!(graph.zero_test(defect).is_zero(), "{found} is not {meant}");
         }

@@ -231,7 +231,7 @@ impl Tree {
                 let mut sum = graph.zero();
                 for term in terms.iter().rev() {
                     let term = term.build_expanded(graph);
-                    sum = graph.add(sum, term);
+                    sum = graph.formula(sum + term);
                 }
                 sum
             }
@@ -278,13 +278,13 @@ impl Tree {
 fn distributed(graph: &mut Graph, a: ExprId, b: ExprId) -> ExprId {
     let ((constant_a, terms_a), (constant_b, terms_b)) = (graph.as_linear(a), graph.as_linear(b));
     if terms_a.len() * terms_b.len() > 40 {
-        return graph.mul(a, b);
+        return graph.formula(a * b);
     }
     let one = graph.one();
     let mut summands = Vec::new();
     for (x, c) in terms_a.iter().cloned().chain([(one, constant_a)]) {
         for (y, d) in terms_b.iter().cloned().chain([(one, constant_b.clone())]) {
-            let product = graph.mul(x, y);
+            let product = graph.formula(x * y);
             summands.push((c.clone() * d, product));
         }
     }
@@ -303,7 +303,7 @@ fn taken_apart(graph: &mut Graph, x: &Tree) -> (ExprId, ExprId) {
         let (c, s) = (graph.cos(term), graph.sin(term));
         let (cc, ss) = (distributed(graph, cos, c), distributed(graph, sin, s));
         let (cs, sc) = (distributed(graph, cos, s), distributed(graph, sin, c));
-        (cos, sin) = (graph.sub(cc, ss), graph.add(cs, sc));
+        (cos, sin) = (graph.formula(cc - ss), graph.formula(cs + sc));
     }
     (cos, sin)
 }

@@ -6,7 +6,7 @@ use quote::quote;
 
 use super::context::Context;
 use super::expression::element;
-use super::function::{Part, program};
+use super::function::Part;
 use super::layout::local;
 use super::program::body;
 use super::scope::{Argument, Scope};
@@ -15,8 +15,8 @@ use super::scope::{Argument, Scope};
 pub(super) fn emit(context: &Context, scope: &Scope, system: &System) -> Part {
     let Some(form) = &system.phase_space.almost_poisson else { return Part::default() };
     let covector = local("covector");
-    let of_gradient = program(&system.model, &form.gradient);
-    let of_sharp = program(&system.model, &form.sharp);
+    let of_gradient = context.lowering.program(&system.model, &form.gradient);
+    let of_sharp = context.lowering.program(&system.model, &form.sharp);
     let with_covector = Scope::new(context, &system.model, &system.state()).with_array(
         Argument::Covector,
         &covector,

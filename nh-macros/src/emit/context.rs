@@ -7,6 +7,7 @@ use syn::{GenericParam, Generics};
 
 use super::layout::{Family, Layout, local};
 use super::lint::inherited;
+use super::lowering::Lowering;
 use super::record::{Field, Record};
 use crate::syntax::ast;
 
@@ -30,6 +31,7 @@ pub(super) struct Context<'a> {
     /// `None` without outputs.
     pub(super) outputs: Option<Record>,
     pub(super) locals: Locals,
+    pub(super) lowering: Lowering,
 }
 
 /// The parameters of generated functions.
@@ -40,7 +42,7 @@ pub(super) struct Locals {
 }
 
 impl<'a> Context<'a> {
-    /// `in_state` are the coordinates and velocities in the state, `basis` the velocities of all
+    /// `in_state` are the coordinates, velocities and auxiliary states in the state, `basis` the velocities of all
     /// sections of the basis.
     pub(super) fn new(layout: &'a Layout, in_state: &[SymbolId], basis: &[SymbolId]) -> Self {
         let path = &layout.runtime;
@@ -58,6 +60,8 @@ impl<'a> Context<'a> {
         };
         let mut state = coordinate_fields(layout, in_state, "coordinate");
         state.extend(velocity_fields(layout, in_state));
+        state.extend(auxiliary_fields(layout, in_state));
+        let more = if layout.auxiliary.is_empty() { "" } else { ", then auxiliary states" };
         let some = |record: Record| (!record.fields.is_empty()).then_some(record);
         Self {
             scalar: layout.scalar_type(),
@@ -66,7 +70,7 @@ impl<'a> Context<'a> {
             generics,
             state: Record {
                 name: layout.types.state.clone(),
-                doc: format!("The state of [`{name}`]: base coordinates, then velocities."),
+                doc: format!("The state of [`{name}`]: base coordinates, then velocities{more}."),
                 fields: state,
             },
             velocity: Record {
@@ -87,6 +91,7 @@ impl<'a> Context<'a> {
             locals: Locals { t: local("t"), state: local("state"), input: local("input") },
             layout,
             runtime,
+            lowering: Lowering::default(),
         }
     }
 
@@ -166,6 +171,11 @@ pub(super) fn coordinate_fields(layout: &Layout, symbols: &[SymbolId], what: &st
 fn velocity_fields(layout: &Layout, symbols: &[SymbolId]) -> Vec<Field> {
     let families = layout.velocities.iter().chain(&layout.frame);
     entry_fields(families, &layout.velocity_symbols, symbols, "quasi-velocity")
+}
+
+/// The fields of the auxiliary states among some symbols.
+fn auxiliary_fields(layout: &Layout, symbols: &[SymbolId]) -> Vec<Field> {
+    entry_fields(layout.auxiliary.iter(), &layout.auxiliary_symbols, symbols, "auxiliary state")
 }
 
 /// The fields of those of some symbols that are entries of families, in order. Entries of a family

@@ -9,7 +9,7 @@ use quote::quote;
 
 use super::context::Context;
 use super::expression::element;
-use super::function::{Part, drops_of, program};
+use super::function::{Part, drops_of};
 use super::layout::local;
 use super::program::body;
 use super::scope::{Argument, Scope};
@@ -28,7 +28,7 @@ pub(super) fn emit(context: &Context, system: &System) -> Part {
             &[*length],
             vec![quote!(#name)],
         );
-        let program = program(&system.model, map);
+        let program = context.lowering.program(&system.model, map);
         let body = body(context, &scope, &program);
         let mut drops = drops_of(context, &[Argument::This, Argument::State], &body.used);
         if !body.used.contains(&Argument::Length) {

@@ -6,7 +6,7 @@ use quote::quote;
 
 use super::context::Context;
 use super::expression::element;
-use super::function::{Part, program};
+use super::function::Part;
 use super::layout::local;
 use super::program::body;
 use super::projection::{closure, entries};
@@ -17,7 +17,7 @@ pub(super) fn emit(context: &Context, scope: &Scope, system: &System) -> Part {
     let Some(embedding) = &system.embedding else { return Part::default() };
     let mut methods = residual(context, scope, system, embedding);
     methods.extend(normalize(context, system, embedding));
-    let programs = vec![("normalize, each step", program(&system.model, &embedding.step))];
+    let programs = vec![("normalize, each step", context.lowering.program(&system.model, &embedding.step))];
     Part { methods, programs, ..Part::default() }
 }
 
@@ -35,7 +35,7 @@ pub(super) fn stub(context: &Context, identities: usize) -> Part {
 }
 
 fn residual(context: &Context, scope: &Scope, system: &System, embedding: &Embedding) -> TokenStream {
-    let body = body(context, scope, &program(&system.model, &embedding.residual));
+    let body = body(context, scope, &context.lowering.program(&system.model, &embedding.residual));
     let this = (!body.used.contains(&Argument::This)).then(|| quote!(_ = self;));
     let (statements, outputs) = (&body.statements, body.outputs.iter().map(element));
     let texts = &embedding.texts;
@@ -66,7 +66,8 @@ fn normalize(context: &Context, system: &System, embedding: &Embedding) -> Token
     let mut moved = entries(&present, coordinates.len());
     moved.extend_from_slice(velocities);
     let moved = context.state.construct(&context.state_name(), &moved);
-    let step = closure(context, system, &[], symbols, &program(&system.model, &embedding.step));
+    let step =
+        closure(context, system, &[], symbols, &context.lowering.program(&system.model, &embedding.step));
     let iteration = quote! {
         [#(#coordinates),*] = #runtime::project(
             [#(#coordinates),*],
@@ -101,7 +102,7 @@ pub(super) fn check_state(context: &Context, scope: &Scope, system: &System) -> 
     let (t, state, state_type) = (&context.locals.t, &context.locals.state, context.type_of(&context.state));
     let outputs = [embedding.step.outputs.as_slice(), &embedding.residual.outputs].concat();
     let both = embedding.step.with_outputs(outputs);
-    let body = body(context, scope, &program(&system.model, &both));
+    let body = body(context, scope, &context.lowering.program(&system.model, &both));
     let (next, residuals) = body.outputs.split_at(embedding.step.outputs.len().min(body.outputs.len()));
     let this = (!body.used.contains(&Argument::This)).then(|| quote!(_ = self;));
     let places = context.state.places(state);

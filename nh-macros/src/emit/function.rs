@@ -2,11 +2,7 @@
 
 use std::collections::BTreeSet;
 
-use nonholonomic_core::algebra::Accuracy;
-use nonholonomic_core::id::SymbolId;
-use nonholonomic_core::mechanics::Procedure;
-use nonholonomic_core::model::Model;
-use nonholonomic_core::program::{Program, corrected, schedule_grouping};
+use nonholonomic_core::program::Program;
 use proc_macro2::{Delimiter, Group, Ident, Span, TokenStream};
 use quote::quote;
 
@@ -149,16 +145,4 @@ impl Part {
         self.programs.extend(other.programs);
         self
     }
-}
-
-/// The program of a procedure, at the level of accuracy that is asked for.
-pub(super) fn program(model: &Model, procedure: &Procedure) -> Program {
-    let program = uncorrected(model, procedure);
-    if model.graph.accuracy() == Accuracy::Careful { corrected(&program) } else { program }
-}
-
-/// The program of a procedure, with operations among parameters kept together.
-pub(super) fn uncorrected(model: &Model, procedure: &Procedure) -> Program {
-    let parameters: Vec<SymbolId> = model.parameters.iter().map(|parameter| parameter.symbol).collect();
-    schedule_grouping(&model.graph, procedure, &parameters)
 }

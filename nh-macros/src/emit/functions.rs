@@ -10,7 +10,8 @@ use quote::{ToTokens, quote};
 
 use super::context::Context;
 use super::expression::element;
-use super::function::{Head, Part, program};
+use super::function::{Head, Part};
+use super::power;
 use super::program::body;
 use super::results::Results;
 use super::scope::{Argument, Scope};
@@ -20,8 +21,11 @@ use crate::resolve::Outline;
 pub(super) fn emit(context: &Context, scope: &Scope, system: &System) -> Part {
     let printer = Printer { context, sizes: system.sizes(), results: Results::of(context, system) };
     let mut part = Part { items: printer.results.emit(context), ..Part::default() };
+    if system.functions.get(&functions::POWER).is_some() {
+        part.items.extend(power::item(context, &printer.results));
+    }
     for Function { signature, procedure } in system.functions.iter() {
-        let program = program(&system.model, procedure);
+        let program = context.lowering.program(&system.model, procedure);
         let mut body = body(context, scope, &program);
         if signature.shape == Shape::OverThePoint && !system.state_coordinates.is_empty() {
             // the coordinates are handed through
@@ -91,7 +95,9 @@ impl Printer<'_> {
             Shape::Scalar | Shape::OverThePoint => true,
             Shape::Record(record) => self.results.get(self.context, record).is_some(),
             Shape::Array(lengths) => lengths.iter().all(is_known),
-            Shape::Matrix(rows, _) => is_known(&rows),
+            Shape::Matrix(rows, _) | Shape::ByStateAndInput(rows) => is_known(&rows),
+            // its fields are those of what is derived
+            Shape::Power => false,
         }
     }
 
@@ -113,7 +119,21 @@ impl Printer<'_> {
                     [rows, columns].map(|size| Literal::usize_unsuffixed(self.sizes.of(size)));
                 quote!(#runtime::nalgebra::SMatrix<#scalar, #rows, #columns>)
             }
+            Shape::ByStateAndInput(rows) => {
+                let rows = Literal::usize_unsuffixed(self.sizes.of(rows));
+                let [state, inputs] = self.columns().map(Literal::usize_unsuffixed);
+                quote! {(
+                    #runtime::nalgebra::SMatrix<#scalar, #rows, #state>,
+                    #runtime::nalgebra::SMatrix<#scalar, #rows, #inputs>,
+                )}
+            }
+            Shape::Power => power::type_of(self.context),
         }
+    }
+
+    /// The numbers of state variables and of inputs.
+    fn columns(&self) -> [usize; 2] {
+        [self.sizes.state, self.context.input.as_ref().map_or(0, super::record::Record::len)]
     }
 
     /// The value that is made of the outputs of a program.
@@ -139,6 +159,17 @@ impl Printer<'_> {
             Shape::Matrix(rows, columns) => {
                 matrix(context, self.sizes.of(rows), self.sizes.of(columns), outputs)
             }
+            Shape::ByStateAndInput(rows) => {
+                let (rows, [state, inputs]) = (self.sizes.of(rows), self.columns());
+                let part = |columns: std::ops::Range<usize>| -> Vec<TokenStream> {
+                    let chunks = outputs.chunks((state + inputs).max(1));
+                    chunks.flat_map(|row| row[columns.clone()].to_vec()).collect()
+                };
+                let by_state = matrix(context, rows, state, &part(0..state));
+                let by_input = matrix(context, rows, inputs, &part(state..state + inputs));
+                quote!((#by_state, #by_input))
+            }
+            Shape::Power => power::value(context, &self.results, outputs),
         }
     }
 
@@ -152,7 +183,17 @@ impl Printer<'_> {
                 let zeros = quote!([[<#scalar as #runtime::Scalar>::ZERO; #r]; #c]);
                 of_columns(self.context, rows, columns, &zeros)
             }
-            Shape::Record(_) | Shape::OverThePoint | Shape::Array(_) => {
+            Shape::ByStateAndInput(rows) => {
+                let zeros = |columns: usize| {
+                    let rows = self.sizes.of(rows);
+                    let [r, c] = [rows, columns].map(Literal::usize_unsuffixed);
+                    let zeros = quote!([[<#scalar as #runtime::Scalar>::ZERO; #r]; #c]);
+                    of_columns(self.context, rows, columns, &zeros)
+                };
+                let [by_state, by_input] = self.columns().map(zeros);
+                quote!((#by_state, #by_input))
+            }
+            Shape::Record(_) | Shape::OverThePoint | Shape::Array(_) | Shape::Power => {
                 quote!(::core::default::Default::default())
             }
         }

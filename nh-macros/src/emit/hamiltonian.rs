@@ -8,7 +8,7 @@ use proc_macro2::{Literal, TokenStream};
 use quote::{format_ident, quote};
 
 use super::context::Context;
-use super::function::{Part, Signature, program};
+use super::function::{Part, Signature};
 use super::functions::matrix;
 use super::layout::{local, plain};
 use super::program::body;
@@ -67,7 +67,7 @@ pub(super) fn emit(context: &Context, scope: &Scope, system: &System) -> Part {
                    procedure: &Procedure,
                    shape: &dyn Fn(&[TokenStream]) -> TokenStream,
                    kept: bool| {
-        let program = program(&system.model, procedure);
+        let program = context.lowering.program(&system.model, procedure);
         let body = body(context, scope, &program);
         let mut used = body.used.clone();
         if kept && n > 0 {

@@ -7,7 +7,7 @@ use quote::quote;
 
 use super::context::Context;
 use super::expression::element;
-use super::function::{Part, drops_of, program};
+use super::function::{Part, drops_of};
 use super::program::body;
 use super::scope::{Argument, Scope};
 
@@ -15,8 +15,10 @@ use super::scope::{Argument, Scope};
 pub(super) fn emit(context: &Context, scope: &Scope, system: &System) -> Part {
     let Some(form) = &system.phase_space.invariants else { return Part::default() };
     let arguments = [Argument::This, Argument::Time, Argument::State];
-    let (of_values, of_gradients) =
-        (program(&system.model, &form.values), program(&system.model, &form.gradients));
+    let (of_values, of_gradients) = (
+        context.lowering.program(&system.model, &form.values),
+        context.lowering.program(&system.model, &form.gradients),
+    );
     let values = {
         let body = body(context, scope, &of_values);
         let (drops, statements) = (drops_of(context, &arguments, &body.used), &body.statements);

@@ -9,7 +9,7 @@ use quote::quote;
 
 use super::context::Context;
 use super::expression::element;
-use super::function::{Head, Part, drops, program};
+use super::function::{Head, Part, drops};
 use super::layout::local;
 use super::program::{Body, body};
 use super::scope::{Argument, Scope};
@@ -25,7 +25,7 @@ pub(super) fn emit(context: &Context, scope: &Scope, system: &System) -> Part {
     let within = |columns: Range<usize>| {
         let row = |row: &[_]| row.get(columns.clone()).unwrap_or_default().to_vec();
         let outputs = jacobian.outputs.chunks((n + m).max(1)).flat_map(row).collect();
-        program(&system.model, &jacobian.with_outputs(outputs))
+        context.lowering.program(&system.model, &jacobian.with_outputs(outputs))
     };
     let by_state = within(0..n);
     let state_body = body(context, scope, &by_state);

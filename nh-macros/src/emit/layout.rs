@@ -6,7 +6,7 @@
 //! in that of `SectionId`, parameters in that of `ParamId`, inputs in that of `InputId`, outputs in
 //! that of `System::observables`.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 use nonholonomic_core::id::SymbolId;
 use proc_macro2::{Ident, Span, TokenStream};
@@ -43,6 +43,8 @@ pub(crate) struct Layout {
     pub(crate) types: TypeNames,
     /// The fields that are parameters, in order.
     pub(crate) parameters: Vec<Family>,
+    /// Those of them, by their names without `r#`, that stand in no expression.
+    pub(crate) idle: BTreeSet<String>,
     /// The base coordinates.
     pub(crate) coordinates: Vec<Family>,
     /// What the engine knows their entries by.
@@ -53,6 +55,10 @@ pub(crate) struct Layout {
     pub(crate) frame: Vec<Family>,
     /// What the engine knows the entries of `velocities`, then of `frame`, by.
     pub(crate) velocity_symbols: Vec<SymbolId>,
+    /// The auxiliary states.
+    pub(crate) auxiliary: Vec<Family>,
+    /// What the engine knows their entries by.
+    pub(crate) auxiliary_symbols: Vec<SymbolId>,
     /// The control inputs.
     pub(crate) inputs: Vec<Family>,
     /// The observables.
@@ -86,6 +92,10 @@ pub(crate) struct TypeNames {
     pub(crate) quadratures: Ident,
     /// `SleighGyroscopic`
     pub(crate) gyroscopic: Ident,
+    /// `SleighPower`, with `SleighPowerOfForces` and `SleighPowerOfConstraints`
+    pub(crate) power: Ident,
+    /// `SleighCoordinate`
+    pub(crate) coordinate: Ident,
 }
 
 impl TypeNames {
@@ -103,6 +113,8 @@ impl TypeNames {
             phase: format_ident!("{name}Phase"),
             quadratures: format_ident!("{name}Quadratures"),
             gyroscopic: format_ident!("{name}Gyroscopic"),
+            power: format_ident!("{name}Power"),
+            coordinate: format_ident!("{name}Coordinate"),
         }
     }
 }
@@ -116,6 +128,8 @@ pub(crate) struct Family {
     pub(crate) lengths: Vec<u32>,
     /// The user's doc comments, as attributes; may be empty.
     pub(crate) docs: TokenStream,
+    /// The units of its entries; empty where they are not known.
+    pub(crate) units: Vec<String>,
 }
 
 impl Family {
@@ -156,6 +170,7 @@ impl From<&ast::Declared> for Family {
             ident: declared.name.ident.clone(),
             lengths: declared.lengths.clone(),
             docs: declared.docs.clone(),
+            units: Vec::new(),
         }
     }
 }
@@ -177,11 +192,14 @@ impl Layout {
             runtime: quote!(::nonholonomic),
             types: TypeNames::of(&structure.name),
             parameters: structure.parameters.iter().map(Family::from).collect(),
+            idle: BTreeSet::new(),
             coordinates: Vec::new(),
             coordinate_symbols: Vec::new(),
             velocities: Vec::new(),
             frame: Vec::new(),
             velocity_symbols: Vec::new(),
+            auxiliary: Vec::new(),
+            auxiliary_symbols: Vec::new(),
             inputs: Vec::new(),
             outputs: Vec::new(),
             methods: BTreeMap::new(),

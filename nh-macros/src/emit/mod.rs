@@ -5,6 +5,8 @@
 //! statements for all of them.
 
 mod almost_poisson;
+mod assembly;
+mod c;
 mod callback;
 mod context;
 mod discrete;
@@ -17,12 +19,16 @@ mod functions;
 mod hamiltonian;
 mod invariants;
 mod jacobian;
+mod labels;
 mod layout;
 mod lint;
+mod lowering;
 mod morphism;
 mod names;
 mod number;
 mod observed;
+mod positions;
+mod power;
 mod prepared;
 mod program;
 mod projection;
@@ -44,10 +50,10 @@ mod validate;
 use nonholonomic_core::functions::{ENERGY, VELOCITY};
 use nonholonomic_core::id::SymbolId;
 use nonholonomic_core::system::System;
+use nonholonomic_core::violation::Violation;
 use proc_macro2::TokenStream;
 
 use context::Context;
-use function::program;
 use scope::Scope;
 
 pub(crate) use callback::alias;
@@ -57,17 +63,21 @@ pub(crate) use quotient::{Written, can_be_written, quotient};
 pub(crate) use stubs::stubs;
 
 /// The struct and everything that its declaration gives it.
-pub(crate) fn emit(system: &System, layout: &Layout) -> TokenStream {
+///
+/// # Errors
+/// A program that is not proved to compute what was derived.
+pub(crate) fn emit(system: &System, layout: &Layout) -> Result<TokenStream, Vec<Violation>> {
     let model = &system.model;
     let in_state = &system.state();
     let basis: Vec<SymbolId> = model.sections.iter().map(|section| section.symbol).collect();
     let context = &Context::new(layout, in_state, &basis);
     let scope = &Scope::new(context, model, in_state);
-    let derivative = program(model, &system.derivative);
+    let derivative = context.lowering.program(model, &system.derivative);
     let part = functions::emit(context, scope, system)
         .with(taylor::emit(context, scope, system, &derivative))
         .with(embedding::emit(context, scope, system))
         .with(projection::emit(context, system))
+        .with(assembly::emit(context, scope, system))
         .with(jacobian::emit(context, scope, system))
         .with(prepared::emit(context, system, &derivative))
         .with(hamiltonian::emit(context, scope, system))
@@ -77,12 +87,13 @@ pub(crate) fn emit(system: &System, layout: &Layout) -> TokenStream {
     let mut programs = vec![("derivative", &derivative)];
     programs.extend(part.programs.iter().map(|(name, program)| (*name, program)));
     let mut methods = report::constant(context, system, &programs);
-    methods.extend(report::derivation(context, system));
+    methods.extend(c::constant(context, scope, system, &programs));
     methods.extend(dynamics::method(context, scope, &derivative));
     let mut items = report::item(context, &system.equations);
     items.extend(records(context, system.functions.get(&VELOCITY).is_some()));
     items.extend(state::emit(context));
-    let check_state = embedding::check_state(context, scope, system);
+    let mut check_state = embedding::check_state(context, scope, system);
+    check_state.extend(positions::hooks(context, system));
     items.extend(dynamics::implementation(context, &dynamics::inlining(&derivative), &check_state));
     items.extend(system.functions.get(&ENERGY).map(|_| energy::implementation(context)));
     if let Some(outputs) = &context.outputs {
@@ -91,9 +102,14 @@ pub(crate) fn emit(system: &System, layout: &Layout) -> TokenStream {
     methods.extend(part.methods);
     items.extend(part.items);
     methods.extend(validate::method(context, scope, system));
+    // the ledger tells of all programs
+    methods.extend(report::derivation(context, system));
     items.extend(context.inherent(&methods));
     items.extend(callback::emit(context));
-    items
+    match context.lowering.violation(model.origin) {
+        Some(violation) => Err(vec![violation]),
+        None => Ok(items),
+    }
 }
 
 /// The generated structs; that of all velocities only with the method that returns it.

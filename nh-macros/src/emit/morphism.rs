@@ -8,9 +8,9 @@ use proc_macro2::{Literal, TokenStream};
 use quote::quote;
 
 use super::context::Context;
-use super::function::program;
 use super::layout::Layout;
 use super::lint::inherited;
+use super::lowering::{DEFECT, REFUTED};
 use super::program::{Body, body};
 use super::record::{Field, Record};
 use super::scope::{Argument, Scope};
@@ -42,6 +42,9 @@ pub(crate) fn morphism(
     };
     let functions = map.reduction();
     let back = reduction.reconstruction.as_ref().map(|back| map.reconstruction(back));
+    if context.lowering.is_refuted() {
+        return Err(Diagnostic::new(declaration.extent(), REFUTED).way_out(DEFECT.to_owned()));
+    }
     // one list has tokens of two declarations, on far lines
     let (of_source, of_target) = (&context.lints, &target_context.lints);
     Ok(quote! {
@@ -178,7 +181,7 @@ pub(super) struct Map<'a> {
 
 impl Map<'_> {
     pub(super) fn body(&self, scope: &Scope, procedure: &Procedure) -> Body {
-        body(self.context, scope, &program(&self.reduction.source, procedure))
+        body(self.context, scope, &self.context.lowering.program(&self.reduction.source, procedure))
     }
 
     pub(super) fn implement(&self, of: &TokenStream, items: &TokenStream) -> TokenStream {

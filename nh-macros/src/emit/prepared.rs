@@ -3,9 +3,8 @@
 use std::collections::BTreeSet;
 
 use nonholonomic_core::functions::ENERGY;
-use nonholonomic_core::id::SymbolId;
 use nonholonomic_core::model::Request;
-use nonholonomic_core::program::{Program, Split, split};
+use nonholonomic_core::program::{Program, Split};
 use nonholonomic_core::system::System;
 use proc_macro2::{Literal, TokenStream};
 use quote::{format_ident, quote};
@@ -25,8 +24,7 @@ pub(super) fn emit(context: &Context, system: &System, derivative: &Program) -> 
     if !requested(Request::Prepared) {
         return Part::default();
     }
-    let parameters: Vec<SymbolId> = model.parameters.iter().map(|parameter| parameter.symbol).collect();
-    let Split { ahead, rest, symbols } = split(derivative, &parameters, model.graph.symbols().len());
+    let Split { ahead, rest, symbols } = context.lowering.split(model, &system.derivative, derivative);
     let in_state = system.state();
     let scope =
         Scope::new(context, model, &in_state).with_array(Argument::Values, &local("values"), &symbols);

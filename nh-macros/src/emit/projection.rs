@@ -1,7 +1,7 @@
 //! The way back to where a state belongs: base coordinates to their identities, velocities to the
 //! constraints.
 
-use nonholonomic_core::functions::RESIDUAL;
+use nonholonomic_core::functions::{RESIDUAL, Record};
 use nonholonomic_core::id::SymbolId;
 use nonholonomic_core::program::Program;
 use nonholonomic_core::system::{Projection, System};
@@ -10,9 +10,10 @@ use quote::quote;
 
 use super::context::Context;
 use super::expression::element;
-use super::function::{Part, program};
+use super::function::Part;
 use super::layout::local;
 use super::program::body;
+use super::results::Results;
 use super::scope::{Argument, Scope};
 
 /// The inherent method `project`, and `impl Constrained for Sleigh`; nothing where every state is
@@ -21,15 +22,25 @@ pub(super) fn emit(context: &Context, system: &System) -> Part {
     let mut part = Part::default();
     let mut constraints = None;
     let count = system.functions.get(&RESIDUAL).map_or(0, |residual| residual.outputs.len());
-    if let (Some(projection), true) = (&system.projection, count > 0) {
-        let step = program(&system.model, &projection.step);
-        part.methods = method(context, system, projection, &step);
-        part.programs.push(("project, each step", step));
+    if count > 0 && (system.projection.is_some() || system.positions.is_some()) {
+        part.methods = method(context, system);
+        let velocities = system.projection.iter().map(|projection| ("project, each step", &projection.step));
+        let positions = system.positions.iter().map(|p| ("project, each step of positions", &p.step));
+        let steps = positions.chain(velocities);
+        part.programs.extend(steps.map(|(name, step)| (name, context.lowering.program(&system.model, step))));
         constraints = Some(count);
     }
-    let identities = system.embedding.as_ref().map(|embedding| embedding.texts.len());
-    if constraints.or(identities).is_some() {
-        part.items = implementation(context, identities.unwrap_or(0), constraints.unwrap_or(0));
+    let identities = system.embedding.as_ref().map(|embedding| embedding.texts.as_slice());
+    if identities.is_some() || constraints.is_some() {
+        let results = Results::of(context, system);
+        let residual = results.get(context, Record::Residual).filter(|_| constraints.is_some());
+        let names: Vec<&String> = identities
+            .into_iter()
+            .flatten()
+            .chain(residual.into_iter().flat_map(super::record::Record::names))
+            .collect();
+        let counts = [identities.map_or(0, <[_]>::len), constraints.unwrap_or(0)];
+        part.items = implementation(context, counts, &constraint_names(&names));
     }
     part
 }
@@ -39,54 +50,95 @@ pub(super) fn stub(context: &Context, identities: usize, constraints: usize) -> 
     let mut part = Part::default();
     let (t, state) = (&context.locals.t, &context.locals.state);
     if constraints > 0 {
-        part.methods = with_body(context, false, &quote!(_ = (self, #t, #state);));
+        part.methods = with_body(context, What::default(), &quote!(_ = (self, #t, #state);));
     }
     if identities + constraints > 0 {
-        part.items = implementation(context, identities, constraints);
+        part.items = implementation(context, [identities, constraints], &TokenStream::new());
     }
     part
 }
 
-/// The inherent method.
-fn method(context: &Context, system: &System, projection: &Projection, step: &Program) -> TokenStream {
-    let (runtime, t, state) = (&context.runtime, &context.locals.t, &context.locals.state);
-    let present = local("present");
-    let places = context.state.places(state);
-    let coordinates = places.len().saturating_sub(system.state_velocities.len());
-    let velocities = &places[coordinates..];
-    let mut moved = places[..coordinates].to_vec();
-    moved.extend(entries(&present, velocities.len()));
-    let moved = context.state.construct(&context.state_name(), &moved);
-    let step = closure(context, system, &projection.start, &system.state_velocities, step);
-    let iteration = quote! {
-        [#(#velocities),*] = #runtime::project(
-            [#(#velocities),*],
-            #step,
-            |#present| ::core::convert::From::from(Self::constraint_residual(self, #t, &#moved)),
-        )?;
-    };
-    if system.embedding.is_none() {
-        return with_body(context, false, &iteration);
+/// The inherent method: coordinates first, then velocities.
+fn method(context: &Context, system: &System) -> TokenStream {
+    let state = &context.locals.state;
+    let of_velocities = system.projection.as_ref().map(|projection| velocities(context, system, projection));
+    let of_positions = system.positions.as_ref().map(|p| super::positions::iteration(context, system, p));
+    let normalize = system.embedding.as_ref().map(|_| quote!(Self::normalize(self, &mut #state)?;));
+    let what = What { normalizes: normalize.is_some(), returns: of_positions.is_some() };
+    if normalize.is_none() && (of_positions.is_none() || of_velocities.is_none()) {
+        let body = of_positions.or(of_velocities);
+        return with_body(context, what, &quote!(#body));
     }
+    // the anchor keeps identities to first order: what is left of them goes, and what that moves comes back
+    let again = of_positions.as_ref().filter(|_| normalize.is_some()).map(|again| quote!(#normalize #again));
     let given = local("given");
     let body = quote! {
         let #given = #state;
         let mut #state = *#given;
-        Self::normalize(self, &mut #state)?;
-        #iteration
+        #normalize
+        #of_positions
+        #again
+        #of_velocities
         *#given = #state;
     };
-    with_body(context, true, &body)
+    with_body(context, what, &body)
+}
+
+/// The statement that moves the velocities of `state`.
+fn velocities(context: &Context, system: &System, projection: &Projection) -> TokenStream {
+    let (runtime, t, state) = (&context.runtime, &context.locals.t, &context.locals.state);
+    let step = &context.lowering.program(&system.model, &projection.step);
+    let present = local("present");
+    let places = context.state.places(state);
+    let (coordinates, rest) = places.split_at(system.state_coordinates.len().min(places.len()));
+    let (velocities, auxiliary) = rest.split_at(system.state_velocities.len().min(rest.len()));
+    let mut moved = coordinates.to_vec();
+    moved.extend(entries(&present, velocities.len()));
+    moved.extend_from_slice(auxiliary);
+    let moved = context.state.construct(&context.state_name(), &moved);
+    let step = closure(context, system, &projection.start, &system.state_velocities, step);
+    let residual = quote!(::core::convert::From::from(Self::constraint_residual(self, #t, &#moved)));
+    let of_positions = system.positions.as_ref().map_or(0, |positions| positions.count);
+    let residual = if of_positions == 0 {
+        residual
+    } else {
+        let count = system.functions.get(&RESIDUAL).map_or(0, |residual| residual.outputs.len());
+        let rates: Vec<Ident> =
+            (of_positions..count).map(|index| local(&format!("residual_{}", index + 1))).collect();
+        let skipped = (0..of_positions).map(|_| quote!(_));
+        let (count, scalar) = (Literal::usize_unsuffixed(count), &context.scalar);
+        quote!({ let [#(#skipped,)* #(#rates),*]: [#scalar; #count] = #residual; [#(#rates),*] })
+    };
+    quote! {
+        [#(#velocities),*] = #runtime::project([#(#velocities),*], #step, |#present| #residual)?;
+    }
+}
+
+/// What `project` does beside moving velocities.
+#[derive(Clone, Copy, Default)]
+struct What {
+    normalizes: bool,
+    returns: bool,
 }
 
 /// `project` with a body; the base coordinates may have to be normalized.
-fn with_body(context: &Context, normalizes: bool, body: &TokenStream) -> TokenStream {
+fn with_body(context: &Context, what: What, body: &TokenStream) -> TokenStream {
     let Context { runtime, visibility, scalar, .. } = context;
     let (t, state, state_type) = (&context.locals.t, &context.locals.state, context.type_of(&context.state));
-    let first = normalizes.then(|| quote!(#[doc = " The base coordinates are normalized first."]));
+    let first = what.normalizes.then(|| quote!(#[doc = " The base coordinates are normalized first."]));
+    let text = if what.returns {
+        [
+            " Moves the base coordinates to where the position constraints hold, by steps along the anchor that are the",
+            " least where distance is measured by the kinetic energy, and then the velocities to the constraints there.",
+        ]
+    } else {
+        [
+            " Moves the velocities to the nearest ones that satisfy the constraints, where distance is",
+            " measured by the kinetic energy.",
+        ]
+    };
     quote! {
-        /// Moves the velocities to the nearest ones that satisfy the constraints, where distance is
-        /// measured by the kinetic energy.
+        #(#[doc = #text])*
         #first
         ///
         /// # Errors
@@ -131,8 +183,20 @@ pub(super) fn entries(array: &Ident, count: usize) -> Vec<TokenStream> {
     entries.collect()
 }
 
+/// `constraint_names`, in the order of the residuals.
+fn constraint_names(names: &[&String]) -> TokenStream {
+    let count = Literal::usize_unsuffixed(names.len());
+    quote! {
+        fn constraint_names() -> [&'static ::core::primitive::str; #count] { [#(#names),*] }
+    }
+}
+
 /// `impl Constrained for Sleigh`, with the identities of the base before the constraints.
-fn implementation(context: &Context, identities: usize, constraints: usize) -> TokenStream {
+fn implementation(
+    context: &Context,
+    [identities, constraints]: [usize; 2],
+    names: &TokenStream,
+) -> TokenStream {
     let Context { runtime, scalar, .. } = context;
     let (t, state, state_type) = (&context.locals.t, &context.locals.state, context.type_of(&context.state));
     let count = Literal::usize_unsuffixed(identities + constraints);
@@ -163,6 +227,7 @@ fn implementation(context: &Context, identities: usize, constraints: usize) -> T
         type Constraints = #runtime::D<#count>;
         #[inline]
         fn constraint_residual(&self, #t: #scalar, #state: &#state_type) -> [#scalar; #count] { #residual }
+        #names
         #[inline]
         fn project(
             &self, #t: #scalar, #state: &mut #state_type

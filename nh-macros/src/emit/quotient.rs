@@ -9,6 +9,7 @@ use nonholonomic_core::reduction::Quotient;
 use proc_macro2::{Literal, TokenStream, TokenTree};
 use quote::quote;
 
+use super::labels::{Group, grouped};
 use super::layout::{Family, Layout};
 use crate::syntax::ast::Scalar;
 use crate::syntax::quotient::QuotientDecl;
@@ -148,6 +149,19 @@ fn definitions<'a>(constants: impl Iterator<Item = &'a Constant>) -> TokenStream
     quote!(#(#definitions)*)
 }
 
+/// Values in an array of these lengths, row by row.
+fn in_rows(lengths: &[u32], values: impl Iterator<Item = TokenStream>) -> TokenStream {
+    let values: Vec<TokenStream> = values.collect();
+    match *lengths {
+        [] => values.into_iter().collect(),
+        [_] => quote!([#(#values),*]),
+        [_, columns, ..] => {
+            let rows = values.chunks(columns.max(1) as usize).map(|row| quote!([#(#row),*]));
+            quote!([#(#rows),*])
+        }
+    }
+}
+
 /// What was printed, as tokens.
 fn tokens(text: &str) -> TokenStream {
     text.parse().unwrap_or_default()
@@ -207,12 +221,16 @@ impl Written<'_> {
             sections.extend(quote!(almost;));
         }
         if !quotient.constraints.is_empty() {
-            let constraints = quotient.constraints.iter().map(|equation| {
-                let label = equation.label.as_ref().map(|label| {
-                    let label = tokens(label);
-                    quote!(#label:)
+            let labels: Vec<_> =
+                quotient.constraints.iter().map(|equation| equation.label.as_deref()).collect();
+            let constraints = grouped(&labels).into_iter().map(|Group { name, lengths, places }| {
+                let label = name.map(|name| {
+                    let name = tokens(&name);
+                    quote!(#name:)
                 });
-                let (left, right) = (self.text(equation.left), self.text(equation.right));
+                let equations = &quotient.constraints[places];
+                let left = in_rows(&lengths, equations.iter().map(|equation| self.text(equation.left)));
+                let right = in_rows(&lengths, equations.iter().map(|equation| self.text(equation.right)));
                 quote!(#label #left = #right;)
             });
             sections.extend(quote!(constraints { #(#constraints)* }));

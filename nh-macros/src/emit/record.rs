@@ -45,6 +45,7 @@ impl Field {
         } else {
             family.docs.clone()
         };
+        let docs = with_units(docs, &family.units);
         Self { ident: family.ident.clone(), lengths: family.lengths.clone(), docs, names }
     }
 
@@ -59,6 +60,9 @@ impl Field {
             docs.extend(quote!(#[doc = ""]));
         }
         docs.extend(quote!(#[doc = #doc]));
+        let position = family.entries().iter().position(|known| known == entry);
+        let unit = position.and_then(|position| family.units.get(position));
+        let docs = with_units(docs, unit.map_or(&[], std::slice::from_ref));
         Self {
             ident: Ident::new(&field, family.ident.span()),
             lengths: Vec::new(),
@@ -90,6 +94,11 @@ impl Field {
     /// The number of its components.
     pub(super) fn len(&self) -> usize {
         self.names.len()
+    }
+
+    /// The names of its components in the declaration.
+    pub(super) fn names(&self) -> &[String] {
+        &self.names
     }
 
     /// Whether it is an array.
@@ -125,7 +134,12 @@ impl Field {
     /// `.theta[0]` for each component.
     fn places(&self) -> Vec<TokenStream> {
         let ident = &self.ident;
-        let family = Family { ident: ident.clone(), lengths: self.lengths.clone(), docs: TokenStream::new() };
+        let family = Family {
+            ident: ident.clone(),
+            lengths: self.lengths.clone(),
+            docs: TokenStream::new(),
+            units: Vec::new(),
+        };
         let place = |entry: &Vec<u32>| {
             let indices = entry.iter().map(|index| Literal::u32_unsuffixed(*index));
             quote!(.#ident #([#indices])*)
@@ -134,7 +148,24 @@ impl Field {
     }
 }
 
+/// Documentation with the units of the components behind it.
+fn with_units(mut docs: TokenStream, units: &[String]) -> TokenStream {
+    let Some(first) = units.first() else { return docs };
+    let doc = if units.iter().all(|unit| unit == first) {
+        format!(" Unit: {first}.")
+    } else {
+        format!(" Units: {}.", units.join(", "))
+    };
+    docs.extend(quote!(#[doc = ""] #[doc = #doc]));
+    docs
+}
+
 impl Record {
+    /// The fields with the lengths of their indices.
+    pub(super) fn declared(&self) -> Vec<(String, &[u32])> {
+        self.fields.iter().map(|field| (plain(&field.ident), field.lengths.as_slice())).collect()
+    }
+
     /// The number of components.
     pub(super) fn len(&self) -> usize {
         self.fields.iter().map(|field| field.names.len()).sum()

@@ -32,7 +32,11 @@ pub(super) fn with_text(context: &Context, text: &str) -> TokenStream {
 /// `const DERIVATION`, if it is asked for.
 pub(super) fn derivation(context: &Context, system: &System) -> TokenStream {
     let is_asked = system.model.requests.iter().any(|(request, _)| *request == Request::Explain);
-    if is_asked { derivation_with(context, &system.ledger.to_string()) } else { TokenStream::new() }
+    if is_asked {
+        derivation_with(context, &(system.ledger.to_string() + &context.lowering.text()))
+    } else {
+        TokenStream::new()
+    }
 }
 
 /// `const DERIVATION` with this text.

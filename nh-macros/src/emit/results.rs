@@ -9,6 +9,7 @@ use nonholonomic_core::system::System;
 use proc_macro2::{Ident, Span, TokenStream};
 
 use super::context::{Context, coordinate_fields};
+use super::labels::{Group, flat, grouped, with_suffix};
 use super::layout::{Family, plain};
 use super::record::{Field, Record};
 use crate::resolve::Outline;
@@ -31,7 +32,10 @@ impl Results {
         if number(&REACTIONS) > 0 {
             found.add(functions::Record::Reactions, reactions(context));
         }
-        found.add_if(functions::Record::Residual, residual(context, &labels, number(&RESIDUAL)));
+        let named = (system.positions.is_some()).then(|| residual_names(system));
+        let named = named.iter().flatten().map(|name| Some(name.as_str())).collect::<Vec<_>>();
+        let of_residual = if named.is_empty() { labels.as_slice() } else { named.as_slice() };
+        found.add_if(functions::Record::Residual, residual(context, of_residual, number(&RESIDUAL)));
         if !system.momenta.is_empty() && system.functions.get(&functions::MOMENTA).is_some() {
             found.add(functions::Record::Momenta, momenta(context, &system.momenta));
         }
@@ -46,6 +50,13 @@ impl Results {
             let (about, what) = ("The gyroscopic force of the constraints", "force along the coordinate");
             let record = of_coordinates(context, &types.gyroscopic, about, &system.gyroscopic, what);
             found.add(functions::Record::Gyroscopic, record);
+        }
+        if let Some(procedure) = system.functions.get(&functions::POWER) {
+            let directions = super::power::directions(system);
+            let constraints = procedure.outputs.len().saturating_sub(directions.len());
+            found.add_if(functions::Record::PowerOfForces, super::power::of_forces(context, &directions));
+            let record = super::power::of_constraints(context, fields(&labels, constraints, "power"));
+            found.add_if(functions::Record::PowerOfConstraints, record);
         }
         found
     }
@@ -98,7 +109,7 @@ fn multipliers(context: &Context, labels: &[Option<&str>], count: usize) -> Opti
     (count > 0).then(|| Record {
         name: context.layout.types.multipliers.clone(),
         doc: format!("The multipliers of the constraints of [`{name}`], which enter as +λ ∂φ/∂y."),
-        fields: fields(labels, count, "multiplier of the constraint"),
+        fields: fields(labels, count, "multiplier"),
     })
 }
 
@@ -126,7 +137,7 @@ fn residual(context: &Context, labels: &[Option<&str>], count: usize) -> Option<
     (count > 0).then(|| Record {
         name: context.layout.types.residual.clone(),
         doc: format!("The constraints of [`{name}`] at a state: left-hand sides less right-hand sides."),
-        fields: fields(labels, count, "residual of the constraint"),
+        fields: fields(labels, count, "residual"),
     })
 }
 
@@ -134,7 +145,8 @@ fn residual(context: &Context, labels: &[Option<&str>], count: usize) -> Option<
 fn momenta(context: &Context, names: &[String]) -> Record {
     let fields = names.iter().map(|name| {
         let field = name.replace('[', "_").replace(']', "");
-        let family = Family { ident: ident(&field), lengths: Vec::new(), docs: TokenStream::new() };
+        let family =
+            Family { ident: ident(&field), lengths: Vec::new(), docs: TokenStream::new(), units: Vec::new() };
         Field::of(&family, "").described(&format!(" Of the symmetry `{name}`."))
     });
     let name = context.layout.name.to_string();
@@ -171,20 +183,61 @@ fn labels(system: &System) -> Vec<Option<&str>> {
     labels
 }
 
-/// A field for each constraint, by its label, or `constraint_1`, ….
+/// The names of what `constraint_residual` gives where there are position constraints: these by the names of
+/// their multipliers, those without one behind them, then velocity forms as rates, `closure_dot`, and the other
+/// constraints.
+pub(super) fn residual_names(system: &System) -> Vec<String> {
+    let Some(positions) = &system.positions else { return Vec::new() };
+    let count = system.model.positions.len();
+    let labels = labels(system);
+    let of_multipliers: Vec<String> =
+        fields(&labels, labels.len(), "").iter().flat_map(Field::names).cloned().collect();
+    let (forms, others) = of_multipliers.split_at(count.min(of_multipliers.len()));
+    let mut names: Vec<String> = forms.to_vec();
+    let followers = positions.redundant.iter().enumerate();
+    names.extend(
+        followers.map(|(index, label)| label.clone().unwrap_or_else(|| format!("redundant_{}", index + 1))),
+    );
+    if system.projection.is_some() {
+        names.extend(forms.iter().map(|form| with_suffix(form, "_dot")));
+        names.extend(others.iter().cloned());
+    }
+    let mut taken = BTreeSet::new();
+    for name in &mut names {
+        while !taken.insert(name.clone()) {
+            *name = flat(name) + "_";
+        }
+    }
+    names
+}
+
+/// A field for each label, or `constraint_1`, …; `what` is what it holds for each of its constraints.
 fn fields(labels: &[Option<&str>], count: usize, what: &str) -> Vec<Field> {
     let declared = labels.len() >= count;
     let labels = if declared { labels[..count].to_vec() } else { vec![None; count] };
-    let mut taken: BTreeSet<String> = labels.iter().flatten().map(|label| (*label).to_owned()).collect();
-    let mut fields = Vec::with_capacity(count);
-    for (index, label) in labels.into_iter().enumerate() {
-        let number = index + 1;
-        let (name, doc) = match label {
-            Some(label) => (label.to_owned(), format!(" The {what} `{label}`.")),
-            None if declared => (unused(number, &mut taken), format!(" The {what} number {number}.")),
-            None => (unused(number, &mut taken), format!(" The {what} number {number} of those derived.")),
+    let groups = grouped(&labels);
+    let mut taken: BTreeSet<String> = groups.iter().filter_map(|group| group.name.clone()).collect();
+    let mut fields = Vec::with_capacity(groups.len());
+    for Group { name, lengths, places } in groups {
+        let number = places.start + 1;
+        let (name, doc) = match name {
+            Some(name) if lengths.is_empty() => {
+                let doc = format!(" The {what} of the constraint `{name}`.");
+                (name, doc)
+            }
+            Some(name) => {
+                let doc = format!(" The {what}s of the constraints `{name}`.");
+                (name, doc)
+            }
+            None if declared => {
+                (unused(number, &mut taken), format!(" The {what} of the constraint number {number}."))
+            }
+            None => (
+                unused(number, &mut taken),
+                format!(" The {what} of the constraint number {number} of those derived."),
+            ),
         };
-        let family = Family { ident: ident(&name), lengths: Vec::new(), docs: TokenStream::new() };
+        let family = Family { ident: ident(&name), lengths, docs: TokenStream::new(), units: Vec::new() };
         fields.push(Field::of(&family, "").described(&doc));
     }
     fields

@@ -38,6 +38,7 @@ pub(crate) fn layout(sample: &Sample) -> Layout {
                 ident: definition.name.ident.clone(),
                 lengths: Vec::new(),
                 docs: definition.docs.clone(),
+                units: Vec::new(),
             });
         }
     }
@@ -80,11 +81,14 @@ impl Builder {
             parameters: table(parameters, |name, symbol| Parameter { name, symbol, origin }),
             coordinates: table(coordinates, |name, symbol| Coordinate { name, symbol, rate: symbol, origin }),
             sections: table(sections, |name, symbol| Section { name, symbol, origin }),
+            auxiliary: Vec::new(),
             inputs: table(inputs, |name, symbol| Input { name, symbol, origin }),
             kinematics: Kinematics::Tangent,
             brackets: Vec::new(),
             brackets_declared: false,
             almost: false,
+            positions: Vec::new(),
+            redundant: None,
             lagrangian: Located { value: zero, origin },
             constraints: Table::new(),
             forces: Vec::new(),
@@ -99,12 +103,17 @@ impl Builder {
             routh: Vec::new(),
             calls: Vec::new(),
             dropped: Vec::new(),
+            claimed: Vec::new(),
+            symmetric: Vec::new(),
+            bodies: Vec::new(),
             assumptions: Vec::new(),
             requests: Vec::new(),
             tracked: None,
             orthonormal: None,
             independent: None,
             formulation: None,
+            units: Vec::new(),
+            idle: Vec::new(),
         };
         Self { graph, model }
     }
@@ -143,11 +152,13 @@ impl Builder {
             formulation: Formulation::Adapted,
             state_coordinates: coordinates,
             state_velocities: kept.iter().map(|index| velocities[*index]).collect(),
+            state_auxiliary: Vec::new(),
             derivative,
             functions,
             momenta: Vec::new(),
             quadratures: Vec::new(),
             gyroscopic: Vec::new(),
+            positions: None,
             projection: None,
             jacobian: None,
             phase_space: nonholonomic_core::phase_space::PhaseSpace::default(),
@@ -188,15 +199,14 @@ pub(crate) fn sleigh_system(layout: &Layout) -> System {
     let mut b = Builder::new(layout);
     let [theta, v1, omega, torque, j] = ["theta", "v1", "omega", "torque", "J"].map(|name| b.symbol(name));
     let (sin, cos) = (b.graph.sin(theta), b.graph.cos(theta));
-    let (dx, dy) = (b.graph.mul(v1, cos), b.graph.mul(v1, sin));
+    let (dx, dy) = (b.graph.formula(v1 * cos), b.graph.formula(v1 * sin));
     let maa = b.term(Rational::ONE, &[("m", 1), ("a", 2)]);
-    let inertia = b.graph.add(j, maa);
+    let inertia = b.graph.formula(j + maa);
     let gyroscopic = b.term(Rational::ONE, &[("m", 1), ("a", 1), ("omega", 1), ("v1", 1)]);
-    let moment = b.graph.sub(torque, gyroscopic);
-    let domega = b.graph.div(moment, inertia);
+    let domega = b.graph.formula((torque - gyroscopic) / inertia);
     let dv = b.term(Rational::ONE, &[("a", 1), ("omega", 2)]);
     let squared = b.graph.square(omega);
-    let rotation = b.graph.mul(inertia, squared);
+    let rotation = b.graph.formula(inertia * squared);
     let translation = b.term(Rational::ONE, &[("m", 1), ("v1", 2)]);
     let (half, zero) = (Rational::new(1, 2), b.graph.zero());
     let energy = b.graph.linear_combination(&[(half.clone(), rotation), (half, translation)]);
@@ -226,21 +236,21 @@ pub(crate) fn chain_system(layout: &Layout) -> System {
     let matrix = [["I[0][0]", "I[0][1]"], ["I[1][0]", "I[1][1]"]];
     let matrix: Vec<Vec<ExprId>> =
         matrix.iter().map(|row| row.iter().map(|name| b.symbol(name)).collect()).collect();
-    let angle = b.graph.sub(q0, q1);
+    let angle = b.graph.formula(q0 - q1);
     let (sin, cos) = (b.graph.sin(angle), b.graph.cos(angle));
     let third = b.graph.scale(Rational::new(1, 3), cos);
     let exp = b.graph.apply(nonholonomic_core::algebra::Function::Exp, q0);
     let root = b.graph.pow(exp, Rational::new(2, 7));
     let (pi, one) = (b.graph.pi(), b.graph.one());
-    let shifted = b.graph.add(root, pi);
+    let shifted = b.graph.formula(root + pi);
     let unknowns = vec![b.graph.new_symbol("a_w0"), b.graph.new_symbol("a_w2")];
     let (a0, a2) = (b.graph.symbol(unknowns[0]), b.graph.symbol(unknowns[1]));
     let mut derivative = Procedure::default();
-    let ratio = b.graph.div(sin, mass);
+    let ratio = b.graph.formula(sin / mass);
     let forced = derivative.define(&mut b.graph, "force_1", ratio);
     derivative.definitions.push(Definition::Solve { unknowns, matrix, right: vec![forced, third] });
-    let decay = b.graph.sub(one, shifted);
-    let sum = b.graph.add(a2, forced);
+    let decay = b.graph.formula(one - shifted);
+    let sum = b.graph.formula(a2 + forced);
     derivative.outputs = vec![w0, w2, sin, third, exp, decay, a0, sum];
     let energy = b.term(Rational::new(1, 2), &[("type", 1), ("w[0]", 2)]);
     let zero = b.graph.zero();
@@ -268,16 +278,16 @@ pub(crate) fn rails_system(layout: &Layout) -> System {
     let start = ["w_0_start", "w_1_start", "v_start"].map(|name| b.graph.new_symbol(name));
     let [s0, s1, s2] = start.map(|symbol| b.graph.symbol(symbol));
     let zero = b.graph.zero();
-    let along = b.graph.mul(x, w0);
-    let residual = [b.graph.sub(w1, along), b.graph.sub(v, w1)];
-    let gap = b.graph.sub(w1, s1);
+    let along = b.graph.formula(x * w0);
+    let residual = [b.graph.formula(w1 - along), b.graph.formula(v - w1)];
+    let gap = b.graph.formula(w1 - s1);
     let mut step = Procedure::default();
-    let mu = b.graph.div(gap, mass);
+    let mu = b.graph.formula(gap / mass);
     let mu = step.define(&mut b.graph, "mu", mu);
-    let reached = b.graph.add(s2, mu);
-    step.outputs = vec![s0, b.graph.mul(x, s0), reached];
-    let lambda = b.graph.mul(mass, along);
-    let forces = vec![lambda, zero, b.graph.neg(lambda)];
+    let reached = b.graph.formula(s2 + mu);
+    step.outputs = vec![s0, b.graph.formula(x * s0), reached];
+    let lambda = b.graph.formula(mass * along);
+    let forces = vec![lambda, zero, b.graph.formula(-lambda)];
     let procedures = [
         Procedure::of(vec![w0, zero, zero, zero]),
         Procedure::of(vec![zero]),

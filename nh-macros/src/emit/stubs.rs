@@ -12,8 +12,8 @@ use super::function::Part;
 use super::layout::Layout;
 use super::taylor;
 use super::{
-    almost_poisson, callback, discrete, dynamics, embedding, energy, functions, hamiltonian, invariants,
-    jacobian, observed, prepared, projection, report, state, validate,
+    almost_poisson, assembly, c, callback, discrete, dynamics, embedding, energy, functions, hamiltonian,
+    invariants, jacobian, observed, prepared, projection, report, state, validate,
 };
 use crate::resolve::Outline;
 
@@ -26,6 +26,9 @@ pub(crate) fn stubs(layout: &Layout, outline: &Outline) -> TokenStream {
     let mut methods = report::with_text(context, "");
     if outline.requests.contains(&Request::Explain) {
         methods.extend(report::derivation_with(context, ""));
+    }
+    if outline.requests.contains(&Request::C) {
+        methods.extend(c::with_text(context, ""));
     }
     methods.extend(dynamics::head(context).with_body(context, &BTreeSet::new(), &default));
     methods.extend(validate::with_body(context, &TokenStream::new()));
@@ -58,6 +61,11 @@ fn on_request(context: &Context, outline: &Outline) -> Part {
         .with(asked(Request::Taylor, &|| taylor::stub(context)))
         .with(embedding::stub(context, identities))
         .with(projection::stub(context, identities, constraints))
+        .with(if outline.has_positions {
+            assembly::stub(context, &outline.in_state)
+        } else {
+            Part::default()
+        })
         .with(asked(Request::DiscreteGradient, &|| almost_poisson::stub(context)))
         .with(discrete::stub(context, requests))
         .with(invariants::stub(context, requests))

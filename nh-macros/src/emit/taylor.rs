@@ -17,7 +17,7 @@ use quote::quote;
 
 use self::orders::Writer;
 use super::context::Context;
-use super::function::{Part, drops, uncorrected};
+use super::function::{Part, drops};
 use super::layout::local;
 use super::program::{Body, body};
 use super::scope::{Argument, Scope};
@@ -31,7 +31,8 @@ pub(super) fn emit(context: &Context, scope: &Scope, system: &System, derivative
         return Part::default();
     }
     let state = system.state();
-    let plain = (model.graph.accuracy() == Accuracy::Careful).then(|| uncorrected(model, &system.derivative));
+    let plain = (model.graph.accuracy() == Accuracy::Careful)
+        .then(|| context.lowering.uncorrected(model, &system.derivative));
     let recurrences = Recurrences::of(plain.as_ref().unwrap_or(derivative), |symbol| {
         if symbol == model.time {
             Variation::Time

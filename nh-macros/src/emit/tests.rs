@@ -32,19 +32,19 @@ fn golden(name: &str, tokens: TokenStream) {
 #[test]
 fn a_sleigh() {
     let layout = layout(&sleigh());
-    golden("by_hand_sleigh", emit(&sleigh_system(&layout), &layout));
+    golden("by_hand_sleigh", emit(&sleigh_system(&layout), &layout).expect("proved programs"));
 }
 
 #[test]
 fn families_and_a_type_parameter() {
     let layout = layout(&chain());
-    golden("by_hand_chain", emit(&chain_system(&layout), &layout));
+    golden("by_hand_chain", emit(&chain_system(&layout), &layout).expect("proved programs"));
 }
 
 #[test]
 fn constraints_and_the_way_back_to_them() {
     let layout = layout(&rails());
-    golden("by_hand_rails", emit(&rails_system(&layout), &layout));
+    golden("by_hand_rails", emit(&rails_system(&layout), &layout).expect("proved programs"));
 }
 
 #[test]
@@ -52,7 +52,8 @@ fn a_sleigh_with_taylor_series() {
     let layout = layout(&sleigh());
     let mut system = sleigh_system(&layout);
     system.model.requests.push((Request::Taylor, system.model.origin));
-    let (whole, without) = (emit(&system, &layout), emit(&sleigh_system(&layout), &layout));
+    let [whole, without] =
+        [&system, &sleigh_system(&layout)].map(|system| emit(system, &layout).expect("proved programs"));
     let items = |tokens: TokenStream| syn::parse2::<syn::File>(tokens).expect("a list of items").items;
     // what is asked for beyond the default
     let is_series = |item: &syn::Item| quote::quote!(#item).to_string().contains("TaylorSeries for");
@@ -123,6 +124,7 @@ fn stubs_stand_in() {
         momenta: Vec::new(),
         identities: 0,
         velocities: 2,
+        has_positions: false,
         claims_section: false,
     };
     golden("stubs", stubs(&layout, &outline));

@@ -1,6 +1,6 @@
 //! `validate`: every parameter is finite, assumptions hold, and no parameter pivot is zero.
 
-use nonholonomic_core::id::ExprId;
+use nonholonomic_core::id::{ExprId, Id};
 use nonholonomic_core::mechanics::Procedure;
 use nonholonomic_core::model::{Model, Relation};
 use nonholonomic_core::system::System;
@@ -8,8 +8,7 @@ use proc_macro2::TokenStream;
 use quote::quote;
 
 use super::context::Context;
-use super::function::program;
-use super::layout::{Family, local};
+use super::layout::{Family, local, plain};
 use super::program::body;
 use super::scope::{Scope, parameter_places};
 
@@ -37,13 +36,20 @@ pub(super) fn with_body(context: &Context, checks: &TokenStream) -> TokenStream 
     }
 }
 
-/// Every scalar parameter is finite.
+/// Every scalar parameter is finite. One that stands in no expression is not read, so that the compiler can say of
+/// its field that nothing reads it.
 fn finite(context: &Context) -> TokenStream {
     let Context { runtime, .. } = context;
     let (name, value) = (local("name"), local("value"));
-    let names = context.layout.parameters.iter().flat_map(Family::names);
-    let pairs: Vec<_> =
-        names.zip(parameter_places(context)).map(|(text, place)| quote!((#text, #place))).collect();
+    let layout = context.layout;
+    let is_idle = |family: &Family| layout.idle.contains(&plain(&family.ident));
+    let families = layout.parameters.iter();
+    let names = families.flat_map(|family| family.names().into_iter().map(move |name| (family, name)));
+    let pairs: Vec<_> = names
+        .zip(parameter_places(context))
+        .filter(|((family, _), _)| !is_idle(family))
+        .map(|((_, text), place)| quote!((#text, #place)))
+        .collect();
     if pairs.is_empty() {
         return quote!(_ = self;);
     }
@@ -67,9 +73,10 @@ fn checks(context: &Context, scope: &Scope, system: &System) -> TokenStream {
     let sides = assumptions.iter().flat_map(|assumption| [assumption.left, assumption.right]);
     let pivots = system.parameter_checks.iter().map(|check| check.nonzero);
     let procedure = Procedure::of(sides.chain(pivots).collect());
-    let body = body(context, scope, &program(&system.model, &procedure));
+    let body = body(context, scope, &context.lowering.program(&system.model, &procedure));
     let (sides, pivots) = body.outputs.split_at((2 * assumptions.len()).min(body.outputs.len()));
-    let mut tokens = body.statements.clone();
+    let mut tokens = symmetric(context, &system.model);
+    tokens.extend(body.statements.clone());
     for (assumption, sides) in assumptions.iter().zip(sides.chunks(2)) {
         let text = &assumption.text;
         let fault = quote!(#runtime::ParameterFault::Assumption { text: #text });
@@ -99,6 +106,40 @@ fn checks(context: &Context, scope: &Scope, system: &System) -> TokenStream {
         tokens.extend(check(context, scope, &system.model, &[pivot.nonzero], &holds, &fault));
     }
     tokens
+}
+
+/// Entries of symmetric matrices agree to 4 ε of the larger. A scalar that is a type parameter does not say its ε:
+/// 3 (4/3 − 1) − 1 is ε in any binary arithmetic, since 4/3 is rounded once.
+fn symmetric(context: &Context, model: &Model) -> TokenStream {
+    let Context { runtime, scalar, .. } = context;
+    let places = parameter_places(context);
+    let number = quote!(<#scalar as #runtime::Scalar>);
+    let epsilon = local("epsilon");
+    let checks = model.symmetric.iter().filter_map(|(upper, lower)| {
+        let (a, b) = (places.get(upper.index())?, places.get(lower.index())?);
+        let (name, opposite) = (&model.parameters[*lower].name, &model.parameters[*upper].name);
+        Some(quote! {
+            if !#number::all_ge(
+                #number::from_f64(4.0) * #epsilon * #number::max(#number::abs(#a), #number::abs(#b)),
+                #number::abs(#a - #b),
+            ) {
+                return ::core::result::Result::Err(#runtime::ParameterError {
+                    parameter: #name,
+                    value: #runtime::Scalar::to_f64(#b),
+                    fault: #runtime::ParameterFault::NotSymmetric { opposite: #opposite },
+                });
+            }
+        })
+    });
+    let checks: Vec<TokenStream> = checks.collect();
+    if checks.is_empty() {
+        return TokenStream::new();
+    }
+    let (one, three) = (quote!(#number::ONE), quote!(#number::from_f64(3.0)));
+    quote! {
+        let #epsilon = #number::abs(#three * (#number::from_f64(4.0) / #three - #one) - #one);
+        #(#checks)*
+    }
 }
 
 /// Returns the error unless a condition holds; the first parameter in the expressions is blamed.

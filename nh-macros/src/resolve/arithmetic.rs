@@ -17,8 +17,14 @@ const STEEP: i64 = 1_000_000;
 const TOGETHER: u64 = 2 * BITS;
 
 impl Resolver {
-    /// `Σ coefficient · term`
+    /// `Σ coefficient · term`, of terms that have the same unit.
     pub(super) fn sum_of(&mut self, at: &Expr, terms: Vec<(Rational, ExprId)>) -> Outcome<ExprId> {
+        self.terms_are_alike(at, &terms);
+        self.combination_of(at, terms)
+    }
+
+    /// `Σ coefficient · term`
+    pub(super) fn combination_of(&mut self, at: &Expr, terms: Vec<(Rational, ExprId)>) -> Outcome<ExprId> {
         let mut constant = Rational::ZERO;
         let mut chunk: Vec<(Rational, ExprId)> = Vec::new();
         let mut bits = 0;

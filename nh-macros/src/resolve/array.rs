@@ -5,7 +5,7 @@ use std::fmt;
 use nonholonomic_core::id::ExprId;
 
 /// How many entries there are, and how they are indexed.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(super) enum Shape {
     /// One entry, no index.
     Number,
@@ -40,6 +40,15 @@ impl Shape {
             Self::Number => None,
             Self::Vector(n) => Some((n, Self::Number)),
             Self::Matrix(rows, columns) => Some((rows, Self::Vector(columns))),
+        }
+    }
+
+    /// The same with so many values of the first index.
+    pub(super) fn with_length(self, n: usize) -> Self {
+        match self {
+            Self::Number => Self::Number,
+            Self::Vector(_) => Self::Vector(n),
+            Self::Matrix(_, columns) => Self::Matrix(n, columns),
         }
     }
 
@@ -95,7 +104,7 @@ impl Part {
 }
 
 /// Expressions in a shape, row by row.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(super) struct Array {
     /// The shape.
     pub(super) shape: Shape,

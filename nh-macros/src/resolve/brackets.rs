@@ -1,16 +1,19 @@
 //! Declared brackets, and known algebras written out.
 
 use std::collections::BTreeSet;
+use std::ptr;
 
 use nonholonomic_core::algebra::Rational;
 use nonholonomic_core::geometry::KnownAlgebra;
 use nonholonomic_core::id::SectionId;
 use nonholonomic_core::model::BracketDecl;
+use nonholonomic_core::units::Kind;
 
 use super::context::Context;
+use super::homogeneity::Measured;
 use super::reports::Outcome;
 use super::resolver::Resolver;
-use crate::report::Diagnostic;
+use crate::report::{Diagnostic, Extent};
 use crate::suggest::did_you_mean;
 use crate::syntax::ast::{self, BracketLine, Brackets, Section};
 use crate::syntax::vocabulary::ALGEBRAS;
@@ -40,7 +43,18 @@ impl Resolver {
         let (left, right) = (self.single_section(&line.first), self.single_section(&line.second));
         let value = self.number_value(&line.value);
         let origin = self.origin(line.extent.to(line.value.extent));
-        Ok(BracketDecl { left: left?, right: right?, value: value?, origin, known: None })
+        let (left, right, value) = (left?, right?, value?);
+        let expected = self.bracket_of(left, right, line.extent);
+        let given = self.written(&line.value, value, None);
+        self.same_unit(line, "equals", vec![expected, given]);
+        Ok(BracketDecl { left, right, value, origin, known: None })
+    }
+
+    /// A bracket of sections: its unit is the product of theirs.
+    fn bracket_of(&self, left: SectionId, right: SectionId, extent: Extent) -> Measured {
+        let (left, right) = (&self.tables.sections[left], &self.tables.sections[right]);
+        let text = format!("the bracket `[{}, {}]`", left.name, right.name);
+        Measured::expected(text, extent).section(left.symbol).section(right.symbol)
     }
 
     fn known_algebra(&mut self, written: &ast::KnownAlgebra) -> Outcome<Vec<BracketDecl>> {
@@ -81,6 +95,13 @@ impl Resolver {
                 .collect();
             let value = self.graph.linear_combination(&terms);
             let (left, right) = (sections[bracket.left], sections[bracket.right]);
+            for (_, term) in &terms {
+                let expected = self.bracket_of(left, right, written.extent);
+                let given =
+                    Measured::expected(format!("`{}`", self.graph.text_within(*term, 60)), written.extent)
+                        .expression(*term, Kind::Sections, 1);
+                self.same_unit_in("brackets", ptr::from_ref(written).addr(), "equals", vec![expected, given]);
+            }
             found.push(BracketDecl { left, right, value, origin, known });
         }
         Ok(found)

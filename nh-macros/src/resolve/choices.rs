@@ -108,9 +108,9 @@ impl Resolver {
         }
         let mut taken = BTreeSet::from([layout.name.to_string()]);
         let types = layout.types.clone();
-        let of_motion = [types.state, types.velocity, types.input, types.outputs];
+        let of_motion = [types.state, types.coordinate, types.velocity, types.input, types.outputs];
         let of_constraints = [types.multipliers, types.reactions, types.residual];
-        let of_momenta = [types.momenta, types.phase, types.quadratures, types.gyroscopic];
+        let of_momenta = [types.momenta, types.phase, types.quadratures, types.gyroscopic, types.power];
         let mut is_twice = false;
         for name in of_motion.into_iter().chain(of_constraints).chain(of_momenta) {
             if !taken.insert(name.to_string()) {
@@ -147,6 +147,8 @@ fn slot<'a>(types: &'a mut TypeNames, role: &str) -> Option<&'a mut Ident> {
         "phase" => Some(&mut types.phase),
         "quadratures" => Some(&mut types.quadratures),
         "gyroscopic" => Some(&mut types.gyroscopic),
+        "power" => Some(&mut types.power),
+        "coordinate" => Some(&mut types.coordinate),
         _ => None,
     }
 }

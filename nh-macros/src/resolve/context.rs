@@ -19,10 +19,14 @@ pub(super) enum Context {
     Frame,
     /// `lagrangian`
     Lagrangian,
+    /// `holonomic`
+    Holonomic,
     /// `constraints`
     Constraints,
     /// `forces`
     Forces,
+    /// `auxiliary`
+    Auxiliary,
     /// `outputs`
     Outputs,
     /// `conserved`
@@ -45,6 +49,8 @@ pub(super) enum Context {
     MapVelocities,
     /// `inputs` of a map between systems
     MapInputs,
+    /// Between the sections: what a value contains is asked for where it is used.
+    Shared,
 }
 
 /// Something that not every section may use.
@@ -62,6 +68,10 @@ pub(super) enum Usage {
     Branches,
     /// `self.motor(…)`.
     Method,
+    /// An auxiliary state.
+    Auxiliary,
+    /// The rate of one.
+    AuxiliaryRate,
 }
 
 /// Where what is no constant belongs.
@@ -79,8 +89,10 @@ impl Context {
             Self::Brackets => "brackets",
             Self::Frame => "frame",
             Self::Lagrangian => "lagrangian",
+            Self::Holonomic => "holonomic",
             Self::Constraints => "constraints",
             Self::Forces => "forces",
+            Self::Auxiliary => "auxiliary",
             Self::Outputs => "outputs",
             Self::Conserved => "conserved",
             Self::Symmetries => "symmetries",
@@ -91,6 +103,7 @@ impl Context {
             Self::MapParameters => "parameters",
             Self::MapBase => "base",
             Self::MapInputs => "inputs",
+            Self::Shared => "let",
         }
     }
 
@@ -98,19 +111,23 @@ impl Context {
         match self {
             Self::Anchor | Self::Brackets => usage == Usage::Velocity,
             Self::Velocities => usage == Usage::Rate,
+            Self::Holonomic => usage == Usage::Time,
             // where E = TM the rates are the sections
             Self::Frame => matches!(usage, Usage::Velocity | Usage::Rate),
             // moving constraints have moving sections
             Self::Symmetries => matches!(usage, Usage::Velocity | Usage::Rate | Usage::Time),
             Self::Constants | Self::On | Self::HamiltonJacobi | Self::MapParameters | Self::MapBase => false,
             Self::MapVelocities => matches!(usage, Usage::Velocity | Usage::Rate),
-            Self::MapInputs => !matches!(usage, Usage::Method),
-            Self::Lagrangian | Self::Constraints | Self::Conserved | Self::Volume => {
-                !matches!(usage, Usage::Input | Usage::Branches | Usage::Method)
+            Self::MapInputs => !matches!(usage, Usage::Method | Usage::AuxiliaryRate),
+            Self::Constraints | Self::Conserved => {
+                matches!(usage, Usage::Velocity | Usage::Rate | Usage::Time | Usage::Auxiliary)
             }
-            Self::Forces | Self::Outputs => true,
+            Self::Lagrangian | Self::Volume => matches!(usage, Usage::Velocity | Usage::Rate | Usage::Time),
+            Self::Forces | Self::Outputs | Self::Auxiliary | Self::Shared => true,
             // that facts and levels are about parameters alone is a law of its own
-            Self::Assume | Self::Routh => !matches!(usage, Usage::Branches | Usage::Method),
+            Self::Assume | Self::Routh => {
+                matches!(usage, Usage::Velocity | Usage::Rate | Usage::Time | Usage::Input)
+            }
         }
     }
 
@@ -123,6 +140,8 @@ impl Context {
         let role = match usage {
             Usage::Velocity => "the quasi-velocity ",
             Usage::Input => "the input ",
+            Usage::Auxiliary => "the auxiliary state ",
+            Usage::AuxiliaryRate => "the rate of an auxiliary state ",
             Usage::Rate | Usage::Time | Usage::Branches | Usage::Method => "",
         };
         let error = Diagnostic::new(at, format!("{role}`{written}` cannot be used in `{keyword}`"));
@@ -133,6 +152,9 @@ impl Context {
             (Usage::Velocity | Usage::Rate, Self::On) => error
                 .evidence("identities are functions of the base coordinates")
                 .way_out("relations between velocities have their place in `constraints`"),
+            (Usage::Velocity | Usage::Rate, Self::Holonomic) => error
+                .evidence("a position constraint relates base coordinates, parameters and `t`")
+                .way_out("constrain velocities in `constraints`"),
             (_, Self::MapParameters) => error
                 .evidence("the parameters of a system are constants")
                 .way_out("write them in the parameters of the first system"),
@@ -157,6 +179,30 @@ impl Context {
             (Usage::Rate, _) => error
                 .evidence("the anchor gives every `der(…)` as a combination of the quasi-velocities")
                 .way_out("write it with the names of the quasi-velocities"),
+            (Usage::Input, Self::Constraints) => error
+                .evidence("a constraint holds at all times, and an input may jump")
+                .way_out(format!(
+                    "command its rate: `auxiliary {{ der(rate) = {written}; }} constraints {{ der(delta) = rate; }}`, \
+                     or let it act through `forces`"
+                )),
+            (Usage::Auxiliary, Self::Assume | Self::Routh) => error
+                .evidence("facts and levels are about parameters")
+                .way_out("write parameters and numbers"),
+            (Usage::Auxiliary, _) => error
+                .evidence("it has no inertia: it acts through `forces` and through coefficients of `constraints`")
+                .way_out(format!(
+                    "make it a base coordinate whose velocity is commanded: `base {{ {written} }} auxiliary \
+                     {{ der(rate) = …; }} constraints {{ der({written}) = rate; }}`"
+                )),
+            (Usage::AuxiliaryRate, Self::Constraints | Self::Conserved) => error
+                .evidence("an input may be in it, and what stands here is differentiated")
+                .way_out(
+                    "where no input is in it, write its right-hand side; a rate that an input commands is a state of \
+                     its own: `auxiliary { der(rate) = command; }`",
+                ),
+            (Usage::AuxiliaryRate, _) => {
+                error.way_out("rates of auxiliary states have their place in `forces`, `outputs` and `auxiliary`")
+            }
             (Usage::Input, _) => error.way_out(
                 "inputs act through `forces`, and can be watched in `outputs`; make a constant a parameter",
             ),

@@ -4,8 +4,8 @@ use std::collections::BTreeSet;
 use std::rc::Rc;
 
 use nonholonomic_core::algebra::Constant;
-use nonholonomic_core::id::{ConstantId, SymbolId};
-use nonholonomic_core::model::{Coordinate, Input, Located, Parameter, Section};
+use nonholonomic_core::id::{ConstantId, Id, ParamId, SymbolId};
+use nonholonomic_core::model::{AuxiliaryDecl, Coordinate, Input, Located, Parameter, Section};
 use quote::format_ident;
 
 use super::array::{Array, Shape};
@@ -38,6 +38,8 @@ impl Resolver {
             None => Vec::new(),
         };
         layout.inputs = self.list(sections.inputs.as_ref(), Role::Input);
+        self.declare_auxiliary(sections.auxiliary.as_ref(), layout);
+        self.share(declaration);
         let names =
             sections.velocities.iter().chain(&sections.frame).flat_map(|s| items::statements(&s.body));
         self.scope.pending = names.map(|definition| definition.name.text.clone()).collect();
@@ -85,9 +87,24 @@ impl Resolver {
             return Err(reported);
         }
         let text = &declared.name.text;
-        let named = self.enter(text, Shape::of(&declared.lengths), role, declared.extent)?;
+        let mut named = self.enter(text, Shape::of(&declared.lengths), role, declared.extent)?;
+        if let (true, Shape::Matrix(n, _)) = (declared.symmetric, named.shape) {
+            self.symmetric_entries(&mut named, n);
+        }
         let outcome = self.scope.declare(&declared.name, Meaning::Named(Rc::new(named)));
         self.keep(&declared.name, outcome)
+    }
+
+    /// Entries below the diagonal stand for those above it.
+    fn symmetric_entries(&mut self, named: &mut Named, n: usize) {
+        for row in 0..n {
+            for column in 0..row {
+                let (upper, lower) = (column * n + row, row * n + column);
+                named.symbols[lower] = named.symbols[upper];
+                let id = |entry: usize| ParamId::from_index(named.first + entry);
+                self.symmetric.push((id(upper), id(lower)));
+            }
+        }
     }
 
     /// A name for numbers.
@@ -160,6 +177,7 @@ impl Resolver {
             Role::Velocity | Role::ImpliedVelocity => self.tables.sections.len(),
             Role::FrameVelocity => self.tables.frame.len(),
             Role::Input => self.tables.inputs.len(),
+            Role::Auxiliary => self.tables.auxiliary.len(),
         };
         let (mut symbols, mut rates): (Vec<SymbolId>, Vec<SymbolId>) = (Vec::new(), Vec::new());
         for entry in 0..shape.len() {
@@ -182,6 +200,13 @@ impl Resolver {
                 Role::FrameVelocity => {}
                 Role::Input => {
                     self.tables.inputs.push(Input { name, symbol, origin });
+                }
+                Role::Auxiliary => {
+                    let rate = self.graph.new_symbol(format!("der({name})"));
+                    rates.push(rate);
+                    // its value is read when all names are known
+                    let value = self.graph.zero();
+                    self.tables.auxiliary.push(AuxiliaryDecl { name, symbol, rate, value, origin });
                 }
             }
         }
@@ -225,6 +250,7 @@ impl Resolver {
                 ident: format_ident!("{text}", span = declared.name.ident.span()),
                 lengths: declared.lengths.clone(),
                 docs: proc_macro2::TokenStream::new(),
+                units: Vec::new(),
             });
         }
         families

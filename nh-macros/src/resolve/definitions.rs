@@ -3,10 +3,11 @@
 //! right-hand side.
 
 use std::collections::BTreeMap;
+use std::ops::Range;
 
 use nonholonomic_core::id::ExprId;
 
-use super::array::Shape;
+use super::array::{Array, Shape};
 use super::context::Context;
 use super::items::statements;
 use super::reports::Outcome;
@@ -14,7 +15,7 @@ use super::resolver::Resolver;
 use super::scope::{Meaning, check_reserved};
 use crate::emit::Family;
 use crate::report::{Diagnostic, Extent};
-use crate::syntax::ast::{Definition, Item, Name, Subscript};
+use crate::syntax::ast::{Definition, Expr, ExprKind, Item, Name, Subscript};
 use crate::syntax::limits;
 
 /// A family that definitions imply.
@@ -39,8 +40,32 @@ impl Defined<'_> {
 
     /// As a field of a generated type.
     pub(super) fn family(&self) -> Family {
-        Family { ident: self.name.ident.clone(), lengths: self.lengths.clone(), docs: self.docs.clone() }
+        let (ident, lengths) = (self.name.ident.clone(), self.lengths.clone());
+        Family { ident, lengths, docs: self.docs.clone(), units: Vec::new() }
     }
+}
+
+/// An index on the left-hand side.
+#[derive(Clone)]
+enum Slot {
+    /// `w[0]`, and each value of `w[i in 0..3]`.
+    Entry(usize),
+    /// `w[0..2]`: the entries of the value one after the other.
+    Part(Range<usize>),
+}
+
+/// The indices that an entry of the value defines: its own run through the parts, what is left of them comes behind.
+fn filled(slots: &[Slot], indices: &[usize]) -> Vec<usize> {
+    let mut own = indices.iter().copied();
+    let mut found = Vec::with_capacity(slots.len() + indices.len());
+    for slot in slots {
+        found.push(match slot {
+            Slot::Entry(index) => *index,
+            Slot::Part(part) => part.start + own.next().unwrap_or(0),
+        });
+    }
+    found.extend(own);
+    found
 }
 
 /// A family while its definitions are read.
@@ -101,13 +126,17 @@ impl Resolver {
         &mut self,
         definition: &Definition,
         subscripts: &[Subscript],
-        before: &mut Vec<usize>,
+        before: &mut Vec<Slot>,
         growing: &mut Growing<'_>,
     ) -> Outcome<()> {
         match subscripts.split_first() {
             None => self.enter_value(definition, before, growing),
             Some((Subscript::Entry(expr), rest)) => {
-                before.push(self.new_index(expr, expr.extent)?);
+                let slot = match &expr.kind {
+                    ExprKind::Range(from, to) => Slot::Part(self.new_part(expr, from, to)?),
+                    _ => Slot::Entry(self.new_index(expr, expr.extent)?),
+                };
+                before.push(slot);
                 let outcome = self.define(definition, rest, before, growing);
                 before.pop();
                 outcome
@@ -116,7 +145,7 @@ impl Resolver {
                 let mut outcome = Ok(());
                 self.each_value(std::slice::from_ref(&**binder), &mut |this| {
                     let each = this.new_index_of(&binder.name.text, binder).and_then(|index| {
-                        before.push(index);
+                        before.push(Slot::Entry(index));
                         let each = this.define(definition, rest, before, growing);
                         before.pop();
                         each
@@ -129,7 +158,7 @@ impl Resolver {
     }
 
     /// The index that a variable on the left-hand side stands for.
-    fn new_index_of(&mut self, name: &str, binder: &crate::syntax::ast::Binder) -> Outcome<usize> {
+    pub(super) fn new_index_of(&mut self, name: &str, binder: &crate::syntax::ast::Binder) -> Outcome<usize> {
         let value = match self.scope.get(name) {
             Some(Meaning::Index(value)) => usize::try_from(*value).ok(),
             _ => None,
@@ -140,17 +169,59 @@ impl Resolver {
         })
     }
 
+    /// The entries that `w[0..2]` on the left-hand side stands for.
+    pub(super) fn new_part(&mut self, expr: &Expr, from: &Expr, to: &Expr) -> Outcome<Range<usize>> {
+        let (first, end) = (self.new_index(from, from.extent)?, self.new_index(to, to.extent)?);
+        if first < end && end <= limits::FAMILY as usize {
+            return Ok(first..end);
+        }
+        let error = if first < end {
+            let most = format!("families have at most {} entries", limits::FAMILY);
+            Diagnostic::new(expr.extent, format!("the part {first}..{end} is too long")).way_out(most)
+        } else {
+            Diagnostic::new(expr.extent, format!("the part {first}..{end} has no entries"))
+        };
+        Err(self.report(expr, error))
+    }
+
+    /// A value whose first indices run through the parts on the left-hand side.
+    fn in_parts(&mut self, definition: &Definition, slots: &[Slot], value: Array) -> Outcome<Array> {
+        let lengths: Vec<usize> = slots
+            .iter()
+            .filter_map(|slot| match slot {
+                Slot::Entry(_) => None,
+                Slot::Part(part) => Some(part.len()),
+            })
+            .collect();
+        let left = match *lengths {
+            [] => return Ok(value),
+            [n] => Shape::Vector(n),
+            [rows, columns, ..] => Shape::Matrix(rows, columns),
+        };
+        if let Some(value) = self.in_shape(&value, left) {
+            return Ok(value);
+        }
+        // the rows of a matrix: `w[0..2] = A` defines `w[0][0]` and so on
+        if matches!((left, value.shape), (Shape::Vector(n), Shape::Matrix(rows, _)) if n == rows) {
+            return Ok(value);
+        }
+        let error = Diagnostic::new(definition.value.extent, "the two sides have different shapes")
+            .evidence(format!("on the left is {left}, on the right {}", value.shape));
+        Err(self.report(definition, error))
+    }
+
     fn enter_value(
         &mut self,
         definition: &Definition,
-        before: &[usize],
+        before: &[Slot],
         growing: &mut Growing<'_>,
     ) -> Outcome<()> {
         let value = self.value(&definition.value)?;
+        let value = self.in_parts(definition, before, value)?;
         let whole = definition.extent.to(definition.value.extent);
         let name = &definition.name.text;
         for (k, entry) in value.entries.iter().enumerate() {
-            let indices = [before, &value.shape.indices(k)].concat();
+            let indices = filled(before, &value.shape.indices(k));
             if indices.len() > 2 {
                 let error =
                     Diagnostic::new(whole, "a third index").way_out("families have one or two indices");

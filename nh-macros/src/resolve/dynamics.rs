@@ -2,10 +2,15 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use nonholonomic_core::id::{ConstraintId, ExprId, SymbolId, Table};
-use nonholonomic_core::model::{AnchorDecl, ConstraintDecl, ForceDecl, Kinematics, Located, OutputDecl};
+use nonholonomic_core::id::{ExprId, SymbolId};
+use nonholonomic_core::model::{
+    AnchorDecl, ConstraintDecl, ForceDecl, ForceDirection, Kinematics, Located, OutputDecl,
+};
 
+use super::array::Shape;
 use super::context::Context;
+use super::holonomic::Labels;
+use super::homogeneity::Measured;
 use super::reports::Outcome;
 use super::resolver::Resolver;
 use crate::emit::Layout;
@@ -17,11 +22,18 @@ impl Resolver {
     pub(super) fn lagrangian(&mut self, lagrangian: &Lagrangian) -> Outcome<Located> {
         self.context = Context::Lagrangian;
         let depth = self.scope.depth();
+        self.open_conditions();
         for line in &lagrangian.lets {
             // an abbreviation in error was reported, and its uses are silent
             let _ = self.abbreviation(line);
         }
         let value = self.number_value(&lagrangian.value);
+        if let Ok(value) = value {
+            let expected = Measured::expected("the Lagrangian", lagrangian.value.extent).energy(1);
+            let given = self.written(&lagrangian.value, value, None);
+            self.same_unit(lagrangian, "is", vec![expected, given]);
+        }
+        self.close_conditions();
         self.scope.leave(depth);
         let origin = self.origin(lagrangian.value.extent);
         Ok(Located { value: value?, origin })
@@ -34,25 +46,23 @@ impl Resolver {
         items: &[Item<Equation>],
         lost: &[Option<Box<Expr>>],
         kinematics: &Kinematics,
-    ) -> Table<ConstraintId, ConstraintDecl> {
-        let mut found = Table::new();
-        let mut labels = BTreeSet::new();
+        labels: &mut Labels,
+    ) -> Vec<ConstraintDecl> {
+        let mut found = Vec::new();
         let lone = self.lone_rates(kinematics);
         self.section(Context::Constraints, items, &mut |this, equation| {
-            let constraints = this.constraint(equation, &lone, &mut labels).inspect_err(|_| {
+            let constraints = this.constraint(equation, &lone, labels).inspect_err(|_| {
                 let placeholder = this.placeholder(Some(&equation.left), &lone);
                 found.push(placeholder);
             })?;
-            for constraint in constraints {
-                found.push(constraint);
-            }
+            found.extend(constraints);
             Ok(())
         });
         for left in lost {
             let placeholder = self.placeholder(left.as_deref(), &lone);
             found.push(placeholder);
         }
-        found
+        by_label(found, |constraint| constraint.label.as_deref())
     }
 
     /// Stands for a constraint in error, in a model that is not compiled.
@@ -69,26 +79,21 @@ impl Resolver {
         &mut self,
         equation: &Equation,
         lone: &Lone,
-        labels: &mut BTreeSet<String>,
+        labels: &mut Labels,
     ) -> Outcome<Vec<ConstraintDecl>> {
         let (left, right) = self.sides(equation)?;
         let origin = self.origin(equation.extent);
         let around = self.scope.loop_values();
         let mut found = Vec::new();
         for (k, (left_entry, right_entry)) in left.entries.iter().zip(&right.entries).enumerate() {
-            let label = equation
-                .label
-                .as_ref()
-                .map(|label| entry_label(&label.text, &around, &left.shape.indices(k)));
-            if let (Some(text), Some(name)) = (&label, &equation.label)
-                && !labels.insert(text.clone())
-            {
-                let error = Diagnostic::new(name.extent(), format!("the label `{text}` is given twice"))
-                    .way_out("choose another label");
-                return Err(self.report(name, error));
-            }
-            let residual = self.difference(&equation.left, *left_entry, *right_entry)?;
-            let solved_for = self.solved_for(&equation.left, *left_entry, *right_entry, lone)?;
+            let indices = left.shape.indices(k);
+            let label = self.new_label(equation.label.as_ref(), &around, &indices, labels)?;
+            let residual = self.residual(equation, *left_entry, *right_entry)?;
+            // a vector equation says nothing of which velocity it is to be solved for
+            let solved_for = match left.shape {
+                Shape::Number => self.solved_for(&equation.left, *left_entry, *right_entry, lone)?,
+                _ => None,
+            };
             found.push(ConstraintDecl { label, residual, solved_for, origin });
         }
         Ok(found)
@@ -102,7 +107,7 @@ impl Resolver {
         right: ExprId,
         lone: &Lone,
     ) -> Outcome<Option<SymbolId>> {
-        if !matches!(left.kind, ExprKind::Name(_) | ExprKind::Index(..) | ExprKind::Der(_)) {
+        if !stands_alone(left) {
             return Ok(None);
         }
         let Some(symbol) = self.graph.as_symbol(entry) else { return Ok(None) };
@@ -174,6 +179,7 @@ impl Resolver {
                 return Err(super::reports::Reported);
             };
             let values = this.components(force, part, &force.value)?;
+            let (shape, first) = (part.shape, seen.len());
             let origin = this.origin(force.along.extent.to(force.value.extent));
             for (direction, value) in directions.into_iter().zip(values) {
                 if seen.contains(&direction) {
@@ -184,12 +190,34 @@ impl Resolver {
                     .way_out("write one line with the sum");
                     return Err(this.report(force, error));
                 }
+                let entry = (shape != Shape::Number).then(|| seen.len() - first);
+                let expected = this.force_along(direction, force, entry);
+                let given = this.written(&force.value, value, entry);
+                this.same_unit(force, "is", vec![expected, given]);
                 seen.push(direction);
                 found.push(ForceDecl { direction, value, origin });
             }
             Ok(())
         });
         found
+    }
+
+    /// What a force is expected to be: along a section, Υ_α times y^α is a power.
+    fn force_along(&self, direction: ForceDirection, force: &Force, entry: Option<usize>) -> Measured {
+        let along = match direction {
+            ForceDirection::Section(symbol) => symbol,
+            ForceDirection::Coordinate(id) => self.tables.coordinates[id].symbol,
+        };
+        let name = match (entry, force.along.indices.as_slice()) {
+            (None, []) => &force.along.name.text,
+            _ => &self.graph.symbols()[along],
+        };
+        let text = format!("the force along `{name}`");
+        let expected = Measured::expected(text, force.along.extent).energy(1).symbol(along, -1);
+        match direction {
+            ForceDirection::Section(_) => expected.time(-1),
+            ForceDirection::Coordinate(_) => expected,
+        }
     }
 
     /// Named observables.
@@ -207,11 +235,26 @@ impl Resolver {
     }
 }
 
-/// The label of an entry: `roll_1` for the second of a vector, `roll_0_1` in a `for` around it.
-pub(super) fn entry_label(label: &str, around: &[i64], indices: &[usize]) -> String {
-    let around = around.iter().map(ToString::to_string);
-    let parts = around.chain(indices.iter().map(ToString::to_string));
-    parts.fold(label.to_owned(), |text, part| text + "_" + &part)
+/// Whether an expression is a name, an entry, or the rate of one of these.
+fn stands_alone(expr: &Expr) -> bool {
+    match &expr.kind {
+        ExprKind::Name(_) | ExprKind::Index(..) => true,
+        ExprKind::Der(of) => matches!(of.kind, ExprKind::Name(_) | ExprKind::Index(..)),
+        _ => false,
+    }
+}
+
+/// Equations with those of the same array beside them, in the order of the first of each.
+pub(super) fn by_label<T>(equations: Vec<T>, label: impl Fn(&T) -> Option<&str>) -> Vec<T> {
+    let mut first: BTreeMap<String, usize> = BTreeMap::new();
+    let place = |(index, equation): (usize, T)| {
+        let array = label(&equation).and_then(|label| label.split_once('['));
+        let place = array.map_or(index, |(name, _)| *first.entry(name.to_owned()).or_insert(index));
+        (place, equation)
+    };
+    let mut placed: Vec<(usize, T)> = equations.into_iter().enumerate().map(place).collect();
+    placed.sort_by_key(|(place, _)| *place);
+    placed.into_iter().map(|(_, equation)| equation).collect()
 }
 
 /// Rates that are a quasi-velocity, and rates in which one occurs.

@@ -7,6 +7,7 @@ use nonholonomic_core::id::ExprId;
 
 use super::array::{Array, Part, Shape};
 use super::context::{Context, Usage};
+use super::homogeneity::ADDED;
 use super::reports::{Outcome, Reported};
 use super::resolver::Resolver;
 use super::scope::{Meaning, Named, Numbers, Role};
@@ -34,6 +35,13 @@ impl Resolver {
     /// A number, vector or matrix.
     pub(super) fn value(&mut self, expr: &Expr) -> Outcome<Array> {
         self.reports.visit(expr)?;
+        self.open_conditions();
+        let value = self.value_of(expr);
+        self.close_conditions();
+        value
+    }
+
+    fn value_of(&mut self, expr: &Expr) -> Outcome<Array> {
         match &expr.kind {
             ExprKind::Number(number) => self.literal(expr, number),
             ExprKind::Name(name) => self.named(expr, name, &[]),
@@ -45,7 +53,8 @@ impl Resolver {
                 let part = self.part("this", whole.shape, indices)?;
                 Ok(whole.part(part))
             }
-            ExprKind::Der(place) => self.rate(expr, place),
+            ExprKind::Range(..) => Err(self.no_value(expr)),
+            ExprKind::Der(of) => self.rate(expr, of),
             ExprKind::Call(name, arguments) => self.call(expr, name, arguments),
             ExprKind::Method(name, arguments) => self.method(expr, name, arguments),
             ExprKind::Sum(binders, body) => self.summation(expr, binders, body),
@@ -102,13 +111,25 @@ impl Resolver {
             let error = self.scope.unknown(name);
             return Err(self.report(expr, error));
         };
+        let meaning = match meaning {
+            Meaning::Shared(_) if self.context == Context::Constants => {
+                let what = format!("the `let` `{}` cannot be used in `constants`", name.text);
+                let error = Diagnostic::new(expr.extent, what)
+                    .evidence("constants come before everything else")
+                    .way_out("make it a constant as well");
+                return Err(self.report(expr, error));
+            }
+            Meaning::Shared(place) => Meaning::Value(self.shared_value(place, name)?),
+            meaning => meaning,
+        };
         let whole = format!("`{}`", name.text);
         let shape = match &meaning {
             Meaning::Named(named) => named.shape,
             Meaning::Constant(constant) => constant.values.shape,
-            Meaning::Value(value) => value.shape,
+            Meaning::Value(value) | Meaning::Argument(value) => value.shape,
             Meaning::Time | Meaning::Pi | Meaning::Index(_) => Shape::Number,
-            Meaning::Broken => return Err(Reported),
+            Meaning::Function(place) => return Err(self.bare_function(*place, expr, name)),
+            Meaning::Shared(_) | Meaning::Broken => return Err(Reported),
         };
         let part = self.part(&whole, shape, indices)?;
         match meaning {
@@ -116,7 +137,12 @@ impl Resolver {
                 let usage = match named.role {
                     Role::Velocity | Role::ImpliedVelocity | Role::FrameVelocity => Some(Usage::Velocity),
                     Role::Input => Some(Usage::Input),
-                    Role::Parameter | Role::Coordinate => None,
+                    Role::Auxiliary => Some(Usage::Auxiliary),
+                    Role::Parameter => {
+                        self.mentioned.insert(name.text.clone());
+                        None
+                    }
+                    Role::Coordinate => None,
                 };
                 if let Some(usage) = usage {
                     self.check_usage(expr, usage, &name.text, expr.extent)?;
@@ -127,8 +153,9 @@ impl Resolver {
                 self.reports.spend(expr.extent, part.shape.len())?;
                 Ok(self.constants(&constant, part))
             }
-            Meaning::Value(value) => {
+            Meaning::Value(value) | Meaning::Argument(value) => {
                 self.reports.spend(expr.extent, part.shape.len())?;
+                self.uses_abbreviation(&name.text);
                 Ok(value.part(part))
             }
             Meaning::Time => {
@@ -137,7 +164,7 @@ impl Resolver {
             }
             Meaning::Pi => Ok(Array::number(self.graph.pi())),
             Meaning::Index(value) => Ok(Array::number(self.graph.number(value))),
-            Meaning::Broken => Err(Reported),
+            Meaning::Shared(_) | Meaning::Function(_) | Meaning::Broken => Err(Reported),
         }
     }
 
@@ -157,20 +184,27 @@ impl Resolver {
     /// A velocity of `velocities` or `frame` where it has no meaning yet.
     fn not_yet_defined(&mut self, expr: &Expr, name: &Name) -> Reported {
         let text = &name.text;
-        if self.check_usage(expr, Usage::Velocity, text, name.extent()).is_err() {
+        let context = self.shared.user().unwrap_or(self.context);
+        let checked = context.check(Usage::Velocity, text, name.extent());
+        if self.keep(expr, checked).is_err() {
             return Reported;
         }
         let error = Diagnostic::new(
             name.extent(),
-            format!("the section `{text}` of the frame cannot be used in `{}`", self.context.keyword()),
+            format!("the section `{text}` of the frame cannot be used in `{}`", context.keyword()),
         )
         .evidence("the frame is made of the sections that `basis`, `anchor` and `brackets` declare")
         .way_out("write its definition out");
         self.report(expr, error)
     }
 
+    /// A range is an index, and nothing else.
+    fn no_value(&mut self, expr: &Expr) -> Reported {
+        self.report(expr, Diagnostic::new(expr.extent, "a range is not a value"))
+    }
+
     /// The symbols of a part of a family.
-    fn symbols(
+    pub(super) fn symbols(
         &mut self,
         expr: &Expr,
         symbols: &[nonholonomic_core::id::SymbolId],
@@ -179,13 +213,6 @@ impl Resolver {
         self.reports.spend(expr.extent, part.shape.len())?;
         let entries = symbols[part.positions()].iter().map(|symbol| self.graph.symbol(*symbol)).collect();
         Ok(Array { shape: part.shape, entries })
-    }
-
-    /// `der(x)`
-    fn rate(&mut self, expr: &Expr, place: &Place) -> Outcome<Array> {
-        let (named, part) = self.coordinate(place)?;
-        self.check_usage(expr, Usage::Rate, "der(…)", expr.extent)?;
-        self.symbols(expr, &named.rates, part)
     }
 
     /// A base coordinate, a family of them, or a row.
@@ -213,13 +240,19 @@ impl Resolver {
                         Role::Input => {
                             ("an input", "derivatives of inputs are not known; make it a base coordinate")
                         }
+                        Role::Auxiliary => {
+                            ("an auxiliary state", "its rate is given in `auxiliary`, and nowhere else")
+                        }
                         _ => ("a velocity", "accelerations are what is derived; they cannot be used"),
                     },
                     Meaning::Time => ("the time, whose derivative is 1", "write `1`"),
                     Meaning::Pi | Meaning::Index(_) | Meaning::Constant(_) => {
                         ("a constant", "leave the term out")
                     }
-                    Meaning::Value(_) | Meaning::Broken => ("an abbreviation", "write the chain rule out"),
+                    Meaning::Function(_) => ("a function", "give it its arguments"),
+                    Meaning::Value(_) | Meaning::Argument(_) | Meaning::Shared(_) | Meaning::Broken => {
+                        ("an abbreviation", "name the coordinates in it")
+                    }
                 };
                 Diagnostic::new(at, format!("`der` takes a base coordinate, and `{text}` is {what}"))
                     .way_out(way_out)
@@ -240,9 +273,16 @@ impl Resolver {
         self.added(expr, &terms)
     }
 
-    /// Adds values of the same shape, at least one.
+    /// Adds values of the same shape, at least one; 0 is the zero of any shape.
     fn added(&mut self, expr: &Expr, terms: &[(Sign, &Expr, Array)]) -> Outcome<Array> {
-        let shape = terms[0].2.shape;
+        let mut shape = terms[0].2.shape;
+        let mut kept = Vec::new();
+        if terms.iter().any(|(_, _, term)| term.shape != Shape::Number) {
+            let is_zero = |term: &Array| term.as_number().is_some_and(|n| self.graph.is_literal_zero(n));
+            kept.extend(terms.iter().filter(|(_, _, term)| !is_zero(term)).cloned());
+            shape = kept.first().map_or(shape, |(_, _, first)| first.shape);
+        }
+        let terms = if kept.is_empty() { terms } else { kept.as_slice() };
         if let Some((_, term, other)) = terms.iter().find(|(_, _, term)| term.shape != shape) {
             let error = Diagnostic::new(term.extent, "only what has the same shape can be added")
                 .evidence(format!("this is {}, what stands before it is {shape}", other.shape));
@@ -254,7 +294,10 @@ impl Resolver {
                 Sign::Plus => (Rational::ONE, term.entries[k]),
                 Sign::Minus => (Rational::MINUS_ONE, term.entries[k]),
             };
-            entries.push(self.sum_of(expr, terms.iter().map(summand).collect())?);
+            let entry = (shape != Shape::Number).then_some(k);
+            let sides = terms.iter().map(|(_, at, term)| self.written(at, term.entries[k], entry)).collect();
+            self.same_unit(expr, ADDED, sides);
+            entries.push(self.combination_of(expr, terms.iter().map(summand).collect())?);
         }
         Ok(Array { shape, entries })
     }
@@ -263,7 +306,12 @@ impl Resolver {
     fn vector(&mut self, expr: &Expr, parts: &[Expr]) -> Outcome<Array> {
         let values: Vec<_> = parts.iter().map(|part| self.value(part)).collect();
         let values = values.into_iter().collect::<Outcome<Vec<_>>>()?;
-        let shape = values.first().map_or(Shape::Number, |first| first.shape);
+        let known = values.iter().find(|value| value.shape != Shape::Number).or(values.first());
+        let shape = known.map_or(Shape::Number, |first| first.shape);
+        let values: Vec<Array> =
+            values.iter().map(|value| self.in_shape(value, shape).unwrap_or_else(|| value.clone())).collect();
+        let first = values.first().map_or(Shape::Number, |first| first.shape);
+        let shape = if values.iter().all(|value| value.shape == shape) { shape } else { first };
         if let Some((part, value)) = parts.iter().zip(&values).find(|(_, value)| value.shape != shape) {
             let error = Diagnostic::new(part.extent, "the entries of a vector have the same shape")
                 .evidence(format!("this is {}, the first entry is {shape}", value.shape));

@@ -9,6 +9,7 @@ use nonholonomic_core::model::{
 
 use super::array::{Array, Shape};
 use super::context::Context;
+use super::homogeneity::Measured;
 use super::reports::Outcome;
 use super::resolver::Resolver;
 use crate::report::Diagnostic;
@@ -19,10 +20,12 @@ use crate::syntax::ast::{self, Comparison, Definition, Equation, Item, Momentum,
 const SHOWN: usize = 160;
 
 /// What `emit` can ask for.
-pub(super) const REQUESTS: [(&str, Request); 20] = [
+pub(super) const REQUESTS: [(&str, Request); 23] = [
     ("jacobian", Request::Jacobian),
     ("taylor", Request::Taylor),
     ("parameter_jacobian", Request::ParameterJacobian),
+    ("output_jacobian", Request::OutputJacobian),
+    ("power", Request::Power),
     ("prepared", Request::Prepared),
     ("multipliers", Request::Multipliers),
     ("reactions", Request::Reactions),
@@ -40,6 +43,7 @@ pub(super) const REQUESTS: [(&str, Request); 20] = [
     ("leapfrog", Request::Leapfrog),
     ("euler_poincare_suslov", Request::EulerPoincareSuslov),
     ("explain", Request::Explain),
+    ("c", Request::C),
 ];
 
 /// What is generated anyway.
@@ -53,7 +57,7 @@ impl Resolver {
             let (left, right) = this.sides(equation)?;
             let origin = this.origin(equation.extent);
             for (left, right) in left.entries.iter().zip(&right.entries) {
-                let value = this.difference(&equation.left, *left, *right)?;
+                let value = this.residual(equation, *left, *right)?;
                 found.push(Located { value, origin });
             }
             Ok(())
@@ -64,14 +68,12 @@ impl Resolver {
     /// Both sides of an equation, in one shape. `= 0` is said of vectors too.
     pub(super) fn sides(&mut self, equation: &Equation) -> Outcome<(Array, Array)> {
         let (left, right) = (self.value(&equation.left), self.value(&equation.right));
-        let (left, mut right) = (left?, right?);
-        if let Some(number) = right.as_number()
-            && self.graph.is_literal_zero(number)
-        {
-            right = Array { shape: left.shape, entries: vec![number; left.shape.len()] };
-        }
-        if left.shape == right.shape {
-            return Ok((left, right));
+        let (left, right) = (left?, right?);
+        let (as_left, as_right) = (self.in_shape(&right, left.shape), self.in_shape(&left, right.shape));
+        match (as_left, as_right) {
+            (Some(right), _) => return Ok((left, right)),
+            (None, Some(left)) => return Ok((left, right)),
+            (None, None) => {}
         }
         let error = Diagnostic::new(equation.extent, "the two sides have different shapes")
             .evidence(format!("on the left is {}, on the right {}", left.shape, right.shape));
@@ -81,6 +83,15 @@ impl Resolver {
     /// `left − right`
     pub(super) fn difference(&mut self, at: &ast::Expr, left: ExprId, right: ExprId) -> Outcome<ExprId> {
         self.sum_of(at, vec![(Rational::ONE, left), (Rational::MINUS_ONE, right)])
+    }
+
+    /// What an equation says is 0: left − right.
+    pub(super) fn residual(&mut self, equation: &Equation, left: ExprId, right: ExprId) -> Outcome<ExprId> {
+        let sides =
+            vec![self.written(&equation.left, left, None), self.written(&equation.right, right, None)];
+        self.same_unit(equation, "equals", sides);
+        let terms = vec![(Rational::ONE, left), (Rational::MINUS_ONE, right)];
+        self.combination_of(&equation.left, terms)
     }
 
     /// Claimed first integrals.
@@ -120,6 +131,9 @@ impl Resolver {
             }
             let origin = this.origin(extent.to(momentum.value.extent));
             for (velocity, value) in velocities.into_iter().zip(value.entries) {
+                let expected = Measured::expected("the momentum", extent).energy(1).symbol(velocity, -1);
+                let given = this.written(&momentum.value, value, None);
+                this.same_unit(momentum, "is", vec![expected, given]);
                 if components.iter().any(|(known, _)| *known == velocity) {
                     let name = this.graph.symbols()[velocity].clone();
                     let error =
@@ -149,6 +163,11 @@ impl Resolver {
             for k in 0..shape.len() {
                 let side = |side: &Array| side.as_number().unwrap_or_else(|| side.entries[k]);
                 let (left, right) = (side(&left), side(&right));
+                let sides = vec![
+                    this.written(&comparison.left, left, None),
+                    this.written(&comparison.right, right, None),
+                ];
+                this.same_unit(comparison, "is compared with", sides);
                 let (relation, sign) = relation(comparison.relation);
                 let side = |side| this.graph.text_within(side, SHOWN);
                 let text = format!("{} {sign} {}", side(left), side(right));
@@ -160,7 +179,12 @@ impl Resolver {
     }
 
     /// What to generate beyond the default.
-    pub(super) fn requests(&mut self, names: &[Name], constrained: bool) -> Vec<(Request, Origin)> {
+    pub(super) fn requests(
+        &mut self,
+        names: &[Name],
+        constrained: bool,
+        generic: bool,
+    ) -> Vec<(Request, Origin)> {
         let mut found: Vec<(Request, Origin)> = Vec::new();
         for name in names {
             let text = name.text.as_str();
@@ -185,6 +209,13 @@ impl Resolver {
             };
             if found.iter().any(|(earlier, _)| earlier == request) {
                 self.report(name, Diagnostic::new(name.extent(), format!("`{text}` is asked for twice")));
+                continue;
+            }
+            if *request == Request::C && generic {
+                let error = Diagnostic::new(name.extent(), "C is written for `f64` or `f32`")
+                    .evidence("the fields of this struct are of a type that is a parameter")
+                    .way_out("declare a struct with fields of one of these types beside it");
+                self.report(name, error);
                 continue;
             }
             if matches!(request, Request::Multipliers | Request::Reactions) && !constrained {

@@ -7,6 +7,7 @@ use nonholonomic_core::id::{Origin, SymbolId};
 use nonholonomic_core::model::FrameDecl;
 
 use super::context::Context;
+use super::homogeneity::Measured;
 use super::resolver::Resolver;
 use super::scope::{Meaning, Role};
 use crate::emit::Family;
@@ -31,6 +32,9 @@ impl Resolver {
             for (k, (value, extent)) in family.entries.iter().enumerate() {
                 let name = family.shape().entry_name(text, k);
                 let origin = self.origin(*extent);
+                let expected = Measured::expected(format!("the section `{name}`"), *extent);
+                let given = self.shown(*value, *extent);
+                self.same_unit(value, "equals", vec![expected.section(named.symbols[k]), given]);
                 self.tables.frame.push(FrameDecl { name, symbol: named.symbols[k], value: *value, origin });
             }
             self.scope.insert(text.clone(), Meaning::Named(Rc::new(named)));

@@ -3,18 +3,22 @@
 use nonholonomic_core::algebra::{Function, Function2, Rational};
 use nonholonomic_core::id::ExprId;
 use nonholonomic_core::model::MethodCall;
+use nonholonomic_core::units::Unknown;
 
 use super::array::{Array, Shape};
 use super::context::Usage;
+use super::homogeneity::Measured;
 use super::reports::{Outcome, Reported};
 use super::resolver::Resolver;
+use super::scope::Meaning;
+use super::vectors::{Tensor, tensor_names};
 use crate::report::Diagnostic;
 use crate::suggest::did_you_mean;
 use crate::syntax::ast::{Expr, Name};
 use crate::syntax::vocabulary::FUNCTIONS;
 
 /// What is called by a name.
-enum Called {
+pub(super) enum Called {
     One(Function),
     Two(Function2),
     Tan,
@@ -27,11 +31,10 @@ enum Called {
 const ARGUMENT: usize = 40;
 
 /// What other languages call our functions, and what to write.
-const ELSEWHERE: [(&str, &str); 27] = [
+const ELSEWHERE: [(&str, &str); 23] = [
     ("d", "der(x)"),
     ("dt", "der(x)"),
     ("ddt", "der(x)"),
-    ("diff", "der(x)"),
     ("log", "ln(x)"),
     ("log10", "ln(x) / ln(10)"),
     ("log2", "ln(x) / ln(2)"),
@@ -41,7 +44,6 @@ const ELSEWHERE: [(&str, &str); 27] = [
     ("sq", "x^2"),
     ("square", "x^2"),
     ("cbrt", "x^(1/3)"),
-    ("norm", "sqrt(dot(v, v))"),
     ("hypot", "sqrt(x^2 + y^2)"),
     ("arcsin", "asin(x)"),
     ("arccos", "acos(x)"),
@@ -51,16 +53,12 @@ const ELSEWHERE: [(&str, &str); 27] = [
     ("sec", "1 / cos(x)"),
     ("fabs", "abs(x)"),
     ("signum", "sign(x)"),
-    ("diag", "[[a, 0, 0], [0, b, 0], [0, 0, c]]"),
-    ("hat", SKEW),
-    ("skew", SKEW),
-    ("eye", "[[1, 0, 0], [0, 1, 0], [0, 0, 1]]"),
+    ("skew", "hat(v)"),
+    ("eye", "identity(3)"),
 ];
-/// The matrix of `cross(w, …)`.
-const SKEW: &str = "[[0, -w[2], w[1]], [w[2], 0, -w[0]], [-w[1], w[0], 0]]";
 
 impl Called {
-    fn named(name: &str) -> Option<Self> {
+    pub(super) fn named(name: &str) -> Option<Self> {
         Some(match name {
             "sin" => Self::One(Function::Sin),
             "cos" => Self::One(Function::Cos),
@@ -110,7 +108,23 @@ impl Called {
 impl Resolver {
     /// `f(a, b)`
     pub(super) fn call(&mut self, expr: &Expr, name: &Name, arguments: &[Expr]) -> Outcome<Array> {
-        let Some(called) = Called::named(&name.text) else { return Err(self.not_a_function(name)) };
+        if matches!(self.scope.get(&name.text), Some(Meaning::Broken)) {
+            // a function of the user's that carries the name of one of the language was reported
+            return Err(Reported);
+        }
+        if let Some(tensor) = Tensor::named(&name.text) {
+            return self.tensor(expr, name, tensor, arguments);
+        }
+        let Some(called) = Called::named(&name.text) else {
+            let values: Vec<_> = arguments.iter().map(|argument| self.value(argument)).collect();
+            return match self.scope.get(&name.text).cloned() {
+                Some(Meaning::Function(place)) => {
+                    self.called(place, (expr, name), values.into_iter().collect::<Outcome<_>>()?)
+                }
+                Some(Meaning::Broken) => Err(Reported),
+                _ => Err(self.not_a_function(name)),
+            };
+        };
         if called.branches() {
             self.check_usage(name, Usage::Branches, &name.text, name.extent())?;
         }
@@ -144,6 +158,7 @@ impl Resolver {
         let numbers: Vec<_> =
             arguments.iter().zip(values).map(|(argument, value)| self.as_number(argument, value)).collect();
         let numbers = numbers.into_iter().collect::<Outcome<Vec<_>>>()?;
+        self.arguments_fit(expr, called, arguments, &numbers);
         let result = match (called, numbers.as_slice()) {
             (Called::One(function), [x]) => self.apply(*function, *x),
             (Called::Tan, [x]) => {
@@ -159,7 +174,21 @@ impl Resolver {
         Ok(Array::number(self.checked(expr, result, 1)?))
     }
 
-    fn apply(&mut self, function: Function, x: ExprId) -> ExprId {
+    /// Arguments are pure numbers, or alike.
+    fn arguments_fit(&mut self, expr: &Expr, called: &Called, arguments: &[Expr], values: &[ExprId]) {
+        let mut sides: Vec<_> =
+            arguments.iter().zip(values).map(|(at, value)| self.written(at, *value, None)).collect();
+        match called {
+            Called::One(Function::Abs | Function::Sign) | Called::Sqrt | Called::Dot | Called::Cross => {}
+            Called::Two(_) => self.same_unit(expr, "stands beside", sides),
+            Called::One(_) | Called::Tan => {
+                sides.insert(0, Measured::expected("the argument of a function", expr.extent));
+                self.same_unit(expr, "is", sides);
+            }
+        }
+    }
+
+    pub(super) fn apply(&mut self, function: Function, x: ExprId) -> ExprId {
         match function {
             Function::Sin | Function::Cos => {
                 // multiples of an angle have to do with each other
@@ -183,7 +212,7 @@ impl Resolver {
         }
     }
 
-    fn cross(&mut self, expr: &Expr, u: &Array, v: &Array) -> Outcome<Array> {
+    pub(super) fn cross(&mut self, expr: &Expr, u: &Array, v: &Array) -> Outcome<Array> {
         if (u.shape, v.shape) != (Shape::Vector(3), Shape::Vector(3)) {
             let error = Diagnostic::new(expr.extent, "`cross` takes two vectors of 3 entries")
                 .evidence(format!("these are {} and {}", u.shape, v.shape));
@@ -202,7 +231,15 @@ impl Resolver {
     pub(super) fn method(&mut self, expr: &Expr, name: &Name, arguments: &[Expr]) -> Outcome<Array> {
         self.check_usage(expr, Usage::Method, &format!("self.{}(…)", name.text), expr.extent)?;
         let values: Vec<_> = arguments.iter().map(|argument| self.number_value(argument)).collect();
-        let arguments = values.into_iter().collect::<Outcome<Vec<_>>>()?;
+        let values = values.into_iter().collect::<Outcome<Vec<_>>>()?;
+        for (k, (at, value)) in arguments.iter().zip(&values).enumerate() {
+            let text = format!("argument {} of `self.{}`", k + 1, name.text);
+            let expected = Measured::expected(text, expr.extent);
+            let expected = expected.unknown(Unknown::Argument(name.text.clone(), k));
+            let given = self.written(at, *value, None);
+            self.same_unit(at, "is", vec![expected, given]);
+        }
+        let arguments = values;
         let same = |call: &&MethodCall| call.method == name.text && call.arguments == arguments;
         if let Some(call) = self.calls.iter().find(same) {
             let symbol = call.symbol;
@@ -225,7 +262,8 @@ impl Resolver {
             Diagnostic::new(name.extent(), format!("`{text}` is not a function"))
                 .way_out(format!("for a product write `{text} * (…)`"))
         } else {
-            let known = FUNCTIONS.iter().copied().chain(["sum", "dot", "cross"]);
+            let known = FUNCTIONS.into_iter().chain(["sum", "dot", "cross"]).chain(tensor_names());
+            let known: Vec<&str> = known.chain(self.scope.functions()).collect();
             let elsewhere = ELSEWHERE.iter().find(|(other, _)| other == text);
             let way_out = match elsewhere {
                 _ if text == "ddot" => "accelerations follow from the equations; `der(x)` is a velocity".to_owned(),

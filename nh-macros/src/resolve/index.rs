@@ -1,5 +1,7 @@
 //! Indices and bounds: integers that are known while the declaration is read.
 
+use nonholonomic_core::id::ExprId;
+
 use super::reports::{Outcome, Reported};
 use super::resolver::Resolver;
 use super::scope::Meaning;
@@ -47,18 +49,19 @@ impl Resolver {
     fn named_index(&mut self, expr: &Expr, name: &Name) -> Outcome<i64> {
         match self.scope.get(&name.text).cloned() {
             Some(Meaning::Index(value)) => Ok(value),
+            Some(Meaning::Shared(place)) => {
+                let value = self.shared_value(place, name)?;
+                self.integer_of(expr, name, value.as_number())
+            }
+            Some(Meaning::Function(place)) => Err(self.bare_function(place, expr, name)),
             Some(Meaning::Broken) => Err(Reported),
-            Some(meaning @ (Meaning::Value(_) | Meaning::Constant(_))) => {
+            Some(meaning @ (Meaning::Value(_) | Meaning::Argument(_) | Meaning::Constant(_))) => {
                 let entry = match &meaning {
                     Meaning::Constant(constant) => constant.values.as_number(),
-                    Meaning::Value(value) => value.as_number(),
+                    Meaning::Value(value) | Meaning::Argument(value) => value.as_number(),
                     _ => None,
                 };
-                let number = entry.and_then(|entry| self.graph.value_of(entry)?.to_i64());
-                match number {
-                    Some(number) => Ok(number),
-                    None => Err(self.no_index(expr, format!("`{}` is not an integer", name.text))),
-                }
+                self.integer_of(expr, name, entry)
             }
             Some(Meaning::Named(named)) => {
                 Err(self.no_index(expr, format!("`{}` is {}", name.text, named.role.noun())))
@@ -70,6 +73,14 @@ impl Resolver {
                 let error = self.scope.unknown(name);
                 Err(self.report(expr, error))
             }
+        }
+    }
+
+    /// The integer that a named number is.
+    fn integer_of(&mut self, expr: &Expr, name: &Name, entry: Option<ExprId>) -> Outcome<i64> {
+        match entry.and_then(|entry| self.graph.value_of(entry)?.to_i64()) {
+            Some(number) => Ok(number),
+            None => Err(self.no_index(expr, format!("`{}` is not an integer", name.text))),
         }
     }
 

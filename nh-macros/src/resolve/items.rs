@@ -25,6 +25,19 @@ pub(super) fn statements<T>(items: &[Item<T>]) -> Vec<&T> {
     found
 }
 
+/// The lets of a section, in order, as they are written.
+pub(super) fn lets<T>(items: &[Item<T>]) -> Vec<&Let> {
+    let mut found = Vec::new();
+    for item in items {
+        match item {
+            Item::Let(line) => found.push(line),
+            Item::For(block) => found.extend(lets(&block.items)),
+            Item::One(_) => {}
+        }
+    }
+    found
+}
+
 impl Resolver {
     /// Visits every statement of a section, once for all values of the variables around it.
     pub(super) fn section<T>(
@@ -40,6 +53,7 @@ impl Resolver {
     fn items<T>(&mut self, items: &[Item<T>], visit: &mut dyn FnMut(&mut Self, &T) -> Outcome<()>) {
         let depth = self.scope.depth();
         for item in items {
+            self.open_conditions();
             // an item in error was reported; the others go on
             let _ = match item {
                 Item::Let(line) => self.abbreviation(line),
@@ -48,6 +62,7 @@ impl Resolver {
                 }
                 Item::One(statement) => visit(self, statement),
             };
+            self.close_conditions();
         }
         self.scope.leave(depth);
     }
@@ -56,14 +71,17 @@ impl Resolver {
     pub(super) fn abbreviation(&mut self, line: &Let) -> Outcome<()> {
         let checked = self.scope.check_new(&line.name);
         let fresh = self.keep(&line.name, checked);
+        self.open_conditions();
         let value = self.abbreviated(line);
+        self.abbreviates(&line.name.text);
+        self.close_conditions();
         fresh?;
         let meaning = value.as_ref().map_or(Meaning::Broken, |value| Meaning::Value(Rc::new(value.clone())));
         self.scope.bind(&line.name.text, meaning);
         value.map(|_| ())
     }
 
-    fn abbreviated(&mut self, line: &Let) -> Outcome<Array> {
+    pub(super) fn abbreviated(&mut self, line: &Let) -> Outcome<Array> {
         let mut entries: Vec<(Vec<i64>, Array)> = Vec::new();
         let mut failed = false;
         let depth = self.scope.loop_values().len();

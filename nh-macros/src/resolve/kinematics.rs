@@ -6,8 +6,9 @@ use std::rc::Rc;
 use nonholonomic_core::id::{CoordId, Id};
 use nonholonomic_core::model::{AnchorDecl, Kinematics, Located};
 
-use super::array::Part;
+use super::array::{Part, Shape};
 use super::context::Context;
+use super::homogeneity::Measured;
 use super::reports::Outcome;
 use super::resolver::Resolver;
 use super::scope::{Meaning, Role};
@@ -60,6 +61,15 @@ impl Resolver {
             let rates = this.components(line, part, &line.value)?;
             let origin = this.origin(line.extent.to(line.value.extent));
             for (coordinate, rate) in ids.into_iter().zip(rates) {
+                let declared = &this.tables.coordinates[coordinate];
+                let expected = Measured::expected(format!("`der({})`", declared.name), line.extent);
+                let expected = expected.symbol(declared.symbol, 1).time(-1);
+                let given = if part.shape == Shape::Number {
+                    this.written(&line.value, rate, None)
+                } else {
+                    this.shown(rate, line.value.extent)
+                };
+                this.same_unit(line, "equals", vec![expected, given]);
                 found.insert(coordinate, Some(AnchorDecl { coordinate, rate, origin }));
             }
             Ok(())
@@ -67,7 +77,10 @@ impl Resolver {
         if !lost {
             self.missing_lines(declaration, &found);
         }
-        Kinematics::Anchor(found.into_values().flatten().collect())
+        let lines: Vec<AnchorDecl> = found.into_values().flatten().collect();
+        let rate = |line: &AnchorDecl| (self.tables.coordinates[line.coordinate].rate, line.rate);
+        self.anchor_lines = Some(lines.iter().map(rate).collect());
+        Kinematics::Anchor(lines)
     }
 
     /// The entries of a value that has the shape of a left-hand side.
@@ -78,7 +91,7 @@ impl Resolver {
         value: &ast::Expr,
     ) -> Outcome<Vec<nonholonomic_core::id::ExprId>> {
         let right = self.value(value)?;
-        if right.shape == left.shape {
+        if let Some(right) = self.in_shape(&right, left.shape) {
             return Ok(right.entries);
         }
         let error = Diagnostic::new(value.extent, "the two sides have different shapes")
@@ -133,9 +146,14 @@ impl Resolver {
             else {
                 continue;
             };
+            let symbols = named.symbols.clone();
             self.scope.insert(family.name.text.clone(), Meaning::Named(Rc::new(named)));
             layout.velocities.push(family.family());
-            for (value, extent) in &family.entries {
+            for ((value, extent), symbol) in family.entries.iter().zip(symbols) {
+                let name = format!("`{}`", self.graph.symbols()[symbol]);
+                let expected = Measured::expected(name, *extent).symbol(symbol, 1);
+                let given = self.shown(*value, *extent);
+                self.same_unit(value, "equals", vec![expected, given]);
                 rows.push(Located { value: *value, origin: self.origin(*extent) });
             }
         }

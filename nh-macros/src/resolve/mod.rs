@@ -5,6 +5,8 @@
 
 mod arithmetic;
 mod array;
+mod auxiliary;
+mod bodies;
 mod brackets;
 mod choices;
 mod context;
@@ -15,6 +17,8 @@ mod expression;
 mod facts;
 mod frame;
 mod function;
+mod holonomic;
+mod homogeneity;
 mod index;
 mod items;
 mod kinematics;
@@ -22,17 +26,26 @@ mod methods;
 mod morphism;
 mod origins;
 mod outline;
+mod partial;
 mod places;
 mod product;
 mod quotient;
+mod rate;
 mod reports;
 mod resolver;
+mod rotations;
 mod scope;
+mod shared;
 mod symmetries;
 mod track;
+mod units;
+mod vectors;
+mod written;
 
 #[cfg(test)]
 mod tests;
+
+use std::collections::BTreeSet;
 
 use nonholonomic_core::model::{Located, Model};
 
@@ -43,7 +56,7 @@ pub(crate) use self::quotient::resolve_quotient;
 use self::resolver::Resolver;
 use crate::emit::Layout;
 use crate::report::Diagnostic;
-use crate::syntax::ast::SystemDecl;
+use crate::syntax::ast::{Scalar, SystemDecl};
 
 /// A declaration with its names resolved.
 #[derive(Debug)]
@@ -67,6 +80,7 @@ pub(crate) struct Unresolved {
 /// filled in also in case of errors, for stubs to be made of.
 pub(crate) fn resolve(declaration: &SystemDecl, layout: &mut Layout) -> Result<Resolved, Unresolved> {
     let mut resolver = Resolver::new(choices::whole(declaration));
+    resolver.homogeneity.wanted = declaration.sections.units.is_some();
     resolver.declare(declaration, layout);
     resolver.surroundings(declaration, layout);
     let model = resolver.model(declaration, layout);
@@ -76,6 +90,12 @@ pub(crate) fn resolve(declaration: &SystemDecl, layout: &mut Layout) -> Result<R
 }
 
 impl Resolver {
+    /// The parameters that stand in no expression.
+    fn idle(&self, declaration: &SystemDecl) -> BTreeSet<String> {
+        let fields = declaration.structure.parameters.iter().map(|declared| declared.name.text.clone());
+        fields.filter(|name| !self.mentioned.contains(name)).collect()
+    }
+
     /// The model, of which parts in error are left out.
     fn model(&mut self, declaration: &SystemDecl, layout: &mut Layout) -> Model {
         let sections = &declaration.sections;
@@ -85,10 +105,17 @@ impl Resolver {
         layout.frame = sections.frame.as_ref().map(|s| self.frame(&s.body)).unwrap_or_default();
         let distribution = sections.distribution.as_ref().map(|s| self.distribution(&s.body));
         let lagrangian = sections.lagrangian.as_ref().and_then(|s| self.lagrangian(&s.body).ok());
+        let mut labels = holonomic::Labels::default();
+        let positions = sections.holonomic.as_ref().map(|s| self.positions(&s.body, &mut labels));
+        let (positions, redundant) = positions.unwrap_or_default();
+        let constraints = sections.constraints.as_ref();
         let constraints =
-            sections.constraints.as_ref().map(|s| self.constraints(&s.body, &sections.lost, &kinematics));
-        let constraints = constraints.unwrap_or_default();
+            constraints.map(|s| self.constraints(&s.body, &sections.lost, &kinematics, &mut labels));
+        let constraints = self.with_velocity_forms(&positions, constraints.unwrap_or_default());
         let forces = sections.forces.as_ref().map(|s| self.forces(&s.body)).unwrap_or_default();
+        if let Some(section) = &sections.auxiliary {
+            self.auxiliary(&section.body);
+        }
         let outputs = sections.outputs.as_ref().map(|s| self.outputs(&s.body, layout)).unwrap_or_default();
         if let Some(section) = &sections.derivative {
             self.derivatives(&section.body);
@@ -100,20 +127,32 @@ impl Resolver {
         let hamilton_jacobi = sections.hamilton_jacobi.as_ref().map(|s| self.hamilton_jacobi(s));
         let routh = sections.routh.as_ref().map(|s| self.routh(&s.body, &symmetries)).unwrap_or_default();
         let assumptions = sections.assume.as_ref().map(|s| self.assumptions(&s.body)).unwrap_or_default();
-        let constrained = sections.constraints.is_some() || sections.distribution.is_some();
+        let generic = matches!(declaration.structure.scalar, Scalar::Parameter(_));
+        let constrained =
+            sections.constraints.is_some() || sections.distribution.is_some() || sections.holonomic.is_some();
         let requests =
-            sections.emit.as_ref().map(|s| self.requests(&s.body, constrained)).unwrap_or_default();
+            sections.emit.as_ref().map(|s| self.requests(&s.body, constrained, generic)).unwrap_or_default();
+        self.unused();
         let orthonormal = sections.orthonormal.as_ref().map(|s| self.orthonormal(s, layout));
         let tracked = sections.track.as_ref().map(|s| self.tracked(s, &outputs));
         let independent = sections.independent.as_ref().map(|s| self.independent(&s.body));
         let formulation = sections.formulation.as_ref().map(|s| self.formulation(s));
         let accuracy = sections.accuracy.as_ref().map(|s| self.accuracy(s)).unwrap_or_default();
         self.graph.set_accuracy(accuracy);
+        layout.idle = self.idle(declaration);
+        let named = units::Named {
+            outputs: &outputs,
+            claims: &claims,
+            constraints: &constraints,
+            symmetries: &symmetries,
+        };
+        let units = sections.units.as_ref().map(|s| self.units(&s.body, &named, layout)).unwrap_or_default();
         let origin = Self::whole();
         let lagrangian = lagrangian.unwrap_or(Located { value: self.time(), origin });
         let tables = std::mem::take(&mut self.tables);
         let declared = tables.sections.iter().map(|section| section.symbol);
         layout.coordinate_symbols = tables.coordinates.iter().map(|coordinate| coordinate.symbol).collect();
+        layout.auxiliary_symbols = tables.auxiliary.iter().map(|state| state.symbol).collect();
         let frame = tables.frame.iter().map(|section| section.symbol);
         let basis = orthonormal.iter().flat_map(|(symbols, _)| symbols.iter().copied());
         layout.velocity_symbols = declared.chain(frame).chain(basis).collect();
@@ -126,6 +165,7 @@ impl Resolver {
             coordinates: tables.coordinates,
             sections: tables.sections,
             inputs: tables.inputs,
+            auxiliary: tables.auxiliary,
             identities,
             kinematics,
             brackets,
@@ -133,8 +173,13 @@ impl Resolver {
             almost: sections.almost.is_some(),
             calls: std::mem::take(&mut self.calls),
             dropped: std::mem::take(&mut self.dropped),
+            claimed: std::mem::take(&mut self.claimed),
+            symmetric: std::mem::take(&mut self.symmetric),
+            bodies: std::mem::take(&mut self.bodies),
             frame: tables.frame,
             lagrangian,
+            positions,
+            redundant,
             constraints,
             distribution,
             forces,
@@ -150,6 +195,8 @@ impl Resolver {
             orthonormal,
             independent,
             formulation,
+            units,
+            idle: layout.idle.iter().cloned().collect(),
         }
     }
 }

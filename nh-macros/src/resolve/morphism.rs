@@ -63,7 +63,9 @@ pub(crate) fn resolve_morphism(
     let mut source = resolver.model(source, source_layout);
     let ill_posed = resolver.reports.any();
     resolver.graph = std::mem::take(&mut source.graph);
+    resolver.share_also(&declaration.lets);
     let declared = resolver.map(declaration, target_layout);
+    resolver.unused();
     source.graph = std::mem::take(&mut resolver.graph);
     let Resolver { origins, reports, .. } = resolver;
     match reports.finish(()) {

@@ -17,6 +17,12 @@ impl Origins {
         self.extents.push(extent)
     }
 
+    /// The whole declaration: what stands at the first origin.
+    pub(super) fn whole(&self) -> Extent {
+        let whole = self.extents.get(Origin::from_index(0)).copied();
+        whole.unwrap_or(Extent::at(proc_macro2::Span::call_site()))
+    }
+
     /// A violation as an error at its place.
     pub(crate) fn diagnostic(&self, violation: Violation) -> Diagnostic {
         let extent = self.extents.get(violation.origin).or_else(|| self.extents.get(Origin::from_index(0)));

@@ -21,6 +21,8 @@ pub(crate) struct Outline {
     pub(crate) identities: usize,
     /// The number of velocities in the state.
     pub(crate) velocities: usize,
+    /// Whether there are position constraints.
+    pub(crate) has_positions: bool,
     /// Whether a section of D* is claimed to solve the Hamilton–Jacobi equation.
     pub(crate) claims_section: bool,
 }
@@ -35,6 +37,7 @@ impl Outline {
             momenta: momenta(model),
             identities: model.identities.len(),
             velocities: kept(model).len(),
+            has_positions: !model.positions.is_empty(),
             claims_section: model.hamilton_jacobi.is_some(),
         }
     }
@@ -56,7 +59,10 @@ fn in_state(model: &Model) -> Vec<SymbolId> {
     let coordinates = model.coordinates.iter().map(|coordinate| coordinate.symbol);
     let coordinates = coordinates.filter(|symbol| !gone.contains(symbol));
     let velocities = kept(model).into_iter().filter(|symbol| !reduced.contains(symbol));
-    let Some(tracked) = &model.tracked else { return coordinates.chain(velocities).collect() };
+    let auxiliary = model.auxiliary.iter().map(|state| state.symbol);
+    let Some(tracked) = &model.tracked else {
+        return coordinates.chain(velocities).chain(auxiliary).collect();
+    };
     let mut declared = vec![model.lagrangian.value];
     declared.extend(model.constraints.iter().map(|constraint| constraint.residual));
     declared.extend(model.forces.iter().map(|force| force.value));
@@ -75,7 +81,8 @@ fn in_state(model: &Model) -> Vec<SymbolId> {
         let rates: Vec<ExprId> = lines.iter().filter(tracked).map(|line| line.rate).collect();
         needed.extend(model.graph.symbols_in(&rates));
     }
-    coordinates.filter(|symbol| needed.contains(symbol)).chain(velocities).collect()
+    let auxiliary = auxiliary.filter(|symbol| needed.contains(symbol));
+    coordinates.filter(|symbol| needed.contains(symbol)).chain(velocities).chain(auxiliary).collect()
 }
 
 /// The coordinates and velocities that Routh reduction probably takes out of the state.
@@ -103,7 +110,8 @@ fn kept(model: &Model) -> Vec<SymbolId> {
         return named.iter().map(|(symbol, _)| *symbol).collect();
     }
     let all: Vec<SymbolId> = model.sections.iter().map(|section| section.symbol).collect();
-    if matches!(model.formulation, Some((Formulation::Projected, _))) {
+    let projects = matches!(model.formulation, Some((Formulation::Projected, _)));
+    if projects || (!model.positions.is_empty() && model.formulation.is_none()) {
         return all;
     }
     let mut kept = all.clone();

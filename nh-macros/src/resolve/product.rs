@@ -84,7 +84,9 @@ impl Resolver {
                         entries.push(self.inner_product(expr, row, column)?);
                     }
                 }
-                Ok(Array { shape: Shape::Matrix(rows, columns), entries })
+                let product = Array { shape: Shape::Matrix(rows, columns), entries };
+                self.rotations.multiplied(a, b, &product);
+                Ok(product)
             }
             (Shape::Matrix(_, columns), Shape::Vector(n) | Shape::Matrix(n, _)) => {
                 let error =

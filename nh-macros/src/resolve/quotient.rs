@@ -42,6 +42,7 @@ pub(crate) fn resolve_quotient(
     let mut source = resolver.model(source, layout);
     let ill_posed = resolver.reports.any();
     resolver.graph = std::mem::take(&mut source.graph);
+    resolver.share_also(&declaration.lets);
     let dropped = resolver.dropped(declaration);
     let velocities = declaration.velocities.as_ref().map(|section| {
         let (defined, _) = resolver.definitions(Context::MapVelocities, &section.body);
@@ -56,6 +57,7 @@ pub(crate) fn resolve_quotient(
         }
         (values, families)
     });
+    resolver.unused();
     source.graph = std::mem::take(&mut resolver.graph);
     let origin = resolver.origin(declaration.extent);
     let (coordinates, renamed) = left(layout, &dropped);
@@ -109,7 +111,12 @@ fn left(layout: &Layout, dropped: &[CoordId]) -> (Vec<Family>, Vec<(CoordId, Str
             let name = entry.iter().fold(family.ident.to_string(), |name, index| format!("{name}_{index}"));
             let ident = quote::format_ident!("{name}", span = family.ident.span());
             renamed.push((CoordId::from_index(place), name));
-            families.push(Family { ident, lengths: Vec::new(), docs: family.docs.clone() });
+            families.push(Family {
+                ident,
+                lengths: Vec::new(),
+                docs: family.docs.clone(),
+                units: Vec::new(),
+            });
         }
     }
     (families, renamed)

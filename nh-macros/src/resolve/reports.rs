@@ -27,23 +27,33 @@ pub(super) struct Reports {
     /// Places reported already: address and size of the node, which lives as long as the stage.
     places: BTreeSet<(usize, usize)>,
     steps: usize,
+    /// What is added to errors at present: the arguments of the function that is read.
+    note: Option<String>,
 }
 
 impl Reports {
     /// Nothing reported, nothing spent.
     pub(super) fn new() -> Self {
-        Self { errors: Errors::new(), places: BTreeSet::new(), steps: STEPS }
+        Self { errors: Errors::new(), places: BTreeSet::new(), steps: STEPS, note: None }
     }
 
     /// Reports an error about a node of the declaration, unless there was one.
     pub(super) fn report<T>(&mut self, node: &T, error: Diagnostic) -> Reported {
         if self.places.insert((std::ptr::from_ref(node).addr(), size_of::<T>())) {
-            self.errors.push(error);
+            self.errors.push(match &self.note {
+                Some(note) => error.because(note.clone()),
+                None => error,
+            });
         }
         if self.places.len() >= ENOUGH {
             self.steps = 0;
         }
         Reported
+    }
+
+    /// Adds this to errors from here on; what was added before is given back.
+    pub(super) fn annotate(&mut self, note: Option<String>) -> Option<String> {
+        std::mem::replace(&mut self.note, note)
     }
 
     /// Reports an error about something that is missing, which is no node.

@@ -1,20 +1,25 @@
 //! The state of this stage, and what every part of it needs.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 use nonholonomic_core::algebra::Graph;
 use nonholonomic_core::id::{CoordId, ExprId, Id, InputId, Origin, ParamId, SectionId, SymbolId, Table};
-use nonholonomic_core::model::{Coordinate, FrameDecl, Input, Located, MethodCall, Parameter, Section};
+use nonholonomic_core::model::{
+    AuxiliaryDecl, Body, Claimed, Coordinate, FrameDecl, Input, Located, MethodCall, Parameter, Section,
+};
 
 use proc_macro2::Ident;
 
 use super::array::{Part, Shape};
 use super::context::{Context, Usage};
+use super::homogeneity::Homogeneity;
 use super::origins::Origins;
 use super::reports::{Outcome, Reported, Reports};
+use super::rotations::Rotations;
 use super::scope::{Meaning, Scope};
+use super::shared::Shared;
 use crate::report::{Diagnostic, Extent};
-use crate::syntax::ast::{Binder, Expr};
+use crate::syntax::ast::{Binder, Expr, ExprKind};
 use crate::syntax::limits;
 
 /// The declared quantities of the model.
@@ -28,6 +33,8 @@ pub(super) struct Tables {
     pub(super) sections: Table<SectionId, Section>,
     /// Inputs.
     pub(super) inputs: Table<InputId, Input>,
+    /// Auxiliary states.
+    pub(super) auxiliary: Vec<AuxiliaryDecl>,
     /// Sections of the frame.
     pub(super) frame: Vec<FrameDecl>,
 }
@@ -48,8 +55,24 @@ pub(super) struct Resolver {
     pub(super) scope: Scope,
     /// The section that is read.
     pub(super) context: Context,
+    /// What stands between the sections.
+    pub(super) shared: Shared,
+    /// ẋ^i in the quasi-velocities, where the anchor is given and was read.
+    pub(super) anchor_lines: Option<Vec<(SymbolId, ExprId)>>,
+    /// Matrices that are rotations.
+    pub(super) rotations: Rotations,
+    /// What has to vanish on the base.
+    pub(super) claimed: Vec<Claimed>,
+    /// Entries of symmetric matrices that are one parameter: above the diagonal, and below.
+    pub(super) symmetric: Vec<(ParamId, ParamId)>,
+    /// Bodies and material points.
+    pub(super) bodies: Vec<Body>,
     /// What drops out of the declaration.
     pub(super) dropped: Vec<Located>,
+    /// Parameters that stand in an expression, by the names of their fields.
+    pub(super) mentioned: BTreeSet<String>,
+    /// What has to have the same unit.
+    pub(super) homogeneity: Homogeneity,
     /// The span table.
     pub(super) origins: Origins,
     /// What went wrong.
@@ -71,7 +94,15 @@ impl Resolver {
             methods: BTreeMap::new(),
             scope: Scope::new(),
             context: Context::Lagrangian,
+            shared: Shared::default(),
+            anchor_lines: None,
+            rotations: Rotations::default(),
+            claimed: Vec::new(),
+            symmetric: Vec::new(),
+            bodies: Vec::new(),
             dropped: Vec::new(),
+            mentioned: BTreeSet::new(),
+            homogeneity: Homogeneity::default(),
             origins,
             reports: Reports::new(),
         }
@@ -110,6 +141,10 @@ impl Resolver {
         written: &str,
         at: Extent,
     ) -> Outcome<()> {
+        if self.shared.reading() {
+            self.shared.record(usage, written);
+            return Ok(());
+        }
         let checked = self.context.check(usage, written, at);
         self.keep(node, checked)
     }
@@ -153,7 +188,10 @@ impl Resolver {
     pub(super) fn part(&mut self, whole: &str, shape: Shape, indices: &[Expr]) -> Outcome<Part> {
         let mut part = Part { first: 0, shape };
         for (k, expr) in indices.iter().enumerate() {
-            let index = self.index(expr)?;
+            let bounds = match &expr.kind {
+                ExprKind::Range(from, to) => (self.index(from)?, Some(self.index(to)?)),
+                _ => (self.index(expr)?, None),
+            };
             let Some((length, inner)) = part.shape.split() else {
                 let what = match shape {
                     Shape::Number => format!("{whole} is a number and has no entries"),
@@ -163,12 +201,35 @@ impl Resolver {
                     self.report(expr, Diagnostic::new(expr.extent, what).way_out("leave this index out"))
                 );
             };
-            match usize::try_from(index).ok().filter(|index| *index < length) {
-                Some(index) => part = Part { first: part.first + index * inner.len(), shape: inner },
-                None => return Err(self.out_of_range(whole, expr, index, k, length)),
-            }
+            let within = |index: i64, end: usize| usize::try_from(index).ok().filter(|index| *index < end);
+            part = match bounds {
+                (index, None) => match within(index, length) {
+                    Some(index) => Part { first: part.first + index * inner.len(), shape: inner },
+                    None => return Err(self.out_of_range(whole, expr, index, k, length)),
+                },
+                (from, Some(to)) => match (within(from, length), within(to, length + 1)) {
+                    (Some(from), Some(to)) if from < to => Part {
+                        first: part.first + from * inner.len(),
+                        shape: part.shape.with_length(to - from),
+                    },
+                    _ => return Err(self.no_part(whole, expr, (from, to), length)),
+                },
+            };
         }
         Ok(part)
+    }
+
+    fn no_part(&mut self, whole: &str, expr: &Expr, bounds: (i64, i64), length: usize) -> Reported {
+        let (from, to) = bounds;
+        let error = if from < to {
+            Diagnostic::new(expr.extent, format!("the part {from}..{to} is out of range"))
+        } else {
+            Diagnostic::new(expr.extent, format!("the part {from}..{to} has no entries"))
+        };
+        let entries = if length == 1 { "1 entry".to_owned() } else { format!("{length} entries") };
+        let error =
+            error.evidence(format!("{whole} has {entries}, counted from 0, and a range leaves out its end"));
+        self.report(expr, error)
     }
 
     fn out_of_range(&mut self, whole: &str, expr: &Expr, index: i64, k: usize, length: usize) -> Reported {

@@ -29,6 +29,8 @@ pub(super) enum Role {
     FrameVelocity,
     /// A control input.
     Input,
+    /// An auxiliary state.
+    Auxiliary,
 }
 
 impl Role {
@@ -41,6 +43,7 @@ impl Role {
             Self::ImpliedVelocity => "the velocity of a base coordinate",
             Self::FrameVelocity => "a section of the frame",
             Self::Input => "an input",
+            Self::Auxiliary => "an auxiliary state",
         }
     }
 }
@@ -56,7 +59,7 @@ pub(super) struct Named {
     pub(super) first: usize,
     /// Its symbols, row by row.
     pub(super) symbols: Vec<SymbolId>,
-    /// Of a coordinate: the symbols of its rates.
+    /// Of a coordinate or an auxiliary state: the symbols of its rates.
     pub(super) rates: Vec<SymbolId>,
     /// Where it is declared.
     pub(super) extent: Extent,
@@ -84,6 +87,12 @@ pub(super) enum Meaning {
     Constant(Rc<Numbers>),
     /// A `let`.
     Value(Rc<Array>),
+    /// An argument of the function that is read.
+    Argument(Rc<Array>),
+    /// A `let` between the sections, by its place there.
+    Shared(usize),
+    /// A function, by its place between the sections.
+    Function(usize),
     /// The value of a loop variable.
     Index(i64),
     /// Something that was in error, which was reported.
@@ -102,7 +111,9 @@ impl Meaning {
             Self::Time => "the time",
             Self::Pi => "the number π",
             Self::Constant(_) => "a constant",
-            Self::Value(_) => "an abbreviation (a `let`)",
+            Self::Value(_) | Self::Shared(_) => "an abbreviation (a `let`)",
+            Self::Function(_) => "a function (a `let`)",
+            Self::Argument(_) => "an argument",
             Self::Index(_) => "a loop variable",
             Self::Broken => "declared",
         }
@@ -120,6 +131,8 @@ pub(super) struct Scope {
     pub(super) outputs: BTreeSet<String>,
     /// Fields that are left alone.
     pub(super) skipped: BTreeSet<String>,
+    /// Names of lets inside sections, with the section.
+    pub(super) elsewhere: BTreeMap<String, &'static str>,
 }
 
 impl Scope {
@@ -132,6 +145,7 @@ impl Scope {
             pending: BTreeSet::new(),
             outputs: BTreeSet::new(),
             skipped: BTreeSet::new(),
+            elsewhere: BTreeMap::new(),
         }
     }
 
@@ -156,17 +170,29 @@ impl Scope {
     /// Refuses names that mean something already.
     pub(super) fn check_new(&self, name: &Name) -> Result<(), Diagnostic> {
         check_reserved(name)?;
-        match self.get(&name.text) {
-            None => Ok(()),
-            Some(first) => Err(Diagnostic::new(name.extent(), format!("`{}` is declared twice", name.text))
-                .evidence(format!("it is {} already", first.noun()))
-                .way_out("choose another name: every name has one meaning in the whole declaration")),
-        }
+        self.get(&name.text).map_or(Ok(()), |first| Err(declared_twice(name, first)))
+    }
+
+    /// Refuses names that mean something already in the whole declaration.
+    pub(super) fn check_new_global(&self, name: &Name) -> Result<(), Diagnostic> {
+        check_reserved(name)?;
+        self.globals.get(&name.text).map_or(Ok(()), |first| Err(declared_twice(name, first)))
+    }
+
+    /// Binds these names alone beside those of the whole declaration; what was bound is given back.
+    pub(super) fn exchange(&mut self, bound: Vec<(String, Meaning)>) -> Vec<(String, Meaning)> {
+        std::mem::replace(&mut self.locals, bound)
     }
 
     /// Binds a name until [`Scope::leave`].
     pub(super) fn bind(&mut self, name: &str, meaning: Meaning) {
         self.locals.push((name.to_owned(), meaning));
+    }
+
+    /// Gives a bound name another meaning, and what it had.
+    pub(super) fn rebind(&mut self, name: &str, meaning: Meaning) -> Option<Meaning> {
+        let (_, bound) = self.locals.iter_mut().rev().find(|(known, _)| known == name)?;
+        Some(std::mem::replace(bound, meaning))
     }
 
     /// How many names are bound.
@@ -202,6 +228,11 @@ impl Scope {
                 .evidence(format!("`{text}` is an output, and outputs are not used in expressions"))
                 .way_out("name the value with a `let`, and use that");
         }
+        if let Some(keyword) = self.elsewhere.get(text) {
+            return error
+                .evidence(format!("`{text}` is a `let` of `{keyword}`, where it stays, from its line on"))
+                .way_out("put that `let` between the sections, where all of them know it");
+        }
         if text == "time" {
             return error.way_out("the time is `t`");
         }
@@ -222,6 +253,12 @@ impl Scope {
         }))
     }
 
+    /// The names of functions.
+    pub(super) fn functions(&self) -> impl Iterator<Item = &str> {
+        let is_function = |meaning: &Meaning| matches!(meaning, Meaning::Function(_));
+        self.globals.iter().filter(move |(_, meaning)| is_function(meaning)).map(|(name, _)| name.as_str())
+    }
+
     fn is_coordinate(&self, name: &str) -> bool {
         matches!(self.globals.get(name), Some(Meaning::Named(named)) if named.role == Role::Coordinate)
     }
@@ -234,6 +271,13 @@ impl Scope {
             self.globals.iter().filter(|(_, meaning)| fits(meaning)).map(|(known, _)| known.as_str());
         did_you_mean(name, candidates.take(COMPARED))
     }
+}
+
+/// A name that means something already.
+fn declared_twice(name: &Name, first: &Meaning) -> Diagnostic {
+    Diagnostic::new(name.extent(), format!("`{}` is declared twice", name.text))
+        .evidence(format!("it is {} already", first.noun()))
+        .way_out("choose another name: every name has one meaning in the whole declaration")
 }
 
 /// Refuses names that belong to the language.

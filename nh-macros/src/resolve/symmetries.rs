@@ -3,10 +3,11 @@
 use std::collections::BTreeSet;
 
 use nonholonomic_core::model::{RouthDecl, SymmetryDecl};
+use nonholonomic_core::units::Kind;
 
 use super::array::Shape;
 use super::context::Context;
-use super::dynamics::entry_label;
+use super::homogeneity::Measured;
 use super::reports::Outcome;
 use super::resolver::Resolver;
 use crate::report::Diagnostic;
@@ -47,10 +48,23 @@ impl Resolver {
                 return Err(self.report(&symmetry.label, error));
             }
             let gauge = gauge.as_ref().map(|array| array.entries[k]);
+            if let (Some(gauge), Some(at)) = (gauge, &symmetry.gauge) {
+                let expected = Measured::expected(format!("the momentum of `{name}`"), symmetry.extent);
+                let expected = expected.expression(*section, Kind::Sections, 1).energy(1).time(1);
+                let given = self.written(at, gauge, None);
+                self.same_unit(at, "is compared with", vec![expected, given]);
+            }
             found.push(SymmetryDecl { name, value: *section, gauge, origin });
         }
         Ok(found)
     }
+}
+
+/// The label of an entry: `spin_1` for the second of a vector, `spin_0_1` in a `for` around it.
+fn entry_label(label: &str, around: &[i64], indices: &[usize]) -> String {
+    let around = around.iter().map(ToString::to_string);
+    let parts = around.chain(indices.iter().map(ToString::to_string));
+    parts.fold(label.to_owned(), |text, part| text + "_" + &part)
 }
 
 impl Resolver {

@@ -48,6 +48,10 @@ impl Resolver {
     fn tracked_place(&mut self, place: &Place, outputs: &[OutputDecl]) -> Outcome<Vec<TrackedItem>> {
         let text = &place.name.text;
         if let Some(Meaning::Named(named)) = self.scope.get(text).cloned() {
+            if named.role == Role::Auxiliary {
+                let part = self.part(&format!("`{text}`"), named.shape, &place.indices)?;
+                return Ok(variables(named.symbols[part.positions()].to_vec()));
+            }
             if named.role == Role::Coordinate {
                 let (named, part) = self.coordinate(place)?;
                 return Ok(variables(named.symbols[part.positions()].to_vec()));
@@ -78,7 +82,13 @@ impl Resolver {
         let error = Diagnostic::new(place.extent, what);
         let names = outputs.iter().map(|output| output.name.as_str());
         let question = did_you_mean(text, names).or_else(|| {
-            let roles = [Role::Coordinate, Role::Velocity, Role::ImpliedVelocity, Role::FrameVelocity];
+            let roles = [
+                Role::Coordinate,
+                Role::Velocity,
+                Role::ImpliedVelocity,
+                Role::FrameVelocity,
+                Role::Auxiliary,
+            ];
             self.scope.did_you_mean(text, &roles)
         });
         let known = "`track` names coordinates, velocities and outputs";

@@ -1,13 +1,18 @@
 //! What was written: the declaration as a tree, names unresolved, every node with its extent.
 //!
-//! Scope of a `let`: from its line to the end of the section, or of the `for` block, that it
-//! stands in. The variable of a `for`, of a `sum` and of an indexed `let` is seen in its body.
+//! Scope of a `let`: the whole declaration where it stands between the sections, else from its line to the
+//! end of the section, or of the `for` block, that it stands in. The variable of a `for`, of a `sum` and of an
+//! indexed `let` is seen in its body.
 
 mod expr;
+mod units;
+
+use std::rc::Rc;
 
 use proc_macro2::{Ident, TokenStream};
 
 pub(crate) use self::expr::{Expr, ExprKind, Factor, Number, Sign};
+pub(crate) use self::units::{UnitFactor, UnitLine};
 use crate::report::Extent;
 
 /// A whole declaration: the struct and the sections of the attribute.
@@ -22,6 +27,8 @@ pub(crate) struct SystemDecl {
 /// The sections of the attribute, each where it was given.
 #[derive(Debug, Default)]
 pub(crate) struct Sections {
+    /// `let …;` between the sections, known in all of them.
+    pub(crate) lets: Vec<Rc<Let>>,
     /// `constants`: names of numbers.
     pub(crate) constants: Option<Section<Vec<Definition>>>,
     /// `base`: the coordinates x^i.
@@ -42,6 +49,8 @@ pub(crate) struct Sections {
     pub(crate) almost: Option<Extent>,
     /// `lagrangian`: L(t, x, y, parameters).
     pub(crate) lagrangian: Option<Section<Lagrangian>>,
+    /// `holonomic`: equations between positions.
+    pub(crate) holonomic: Option<Section<Vec<Item<PositionLine>>>>,
     /// `constraints`: equations between velocities.
     pub(crate) constraints: Option<Section<Vec<Item<Equation>>>>,
     /// The left-hand sides of constraints in error, as far as they are known.
@@ -52,6 +61,8 @@ pub(crate) struct Sections {
     pub(crate) forces: Option<Section<Vec<Item<Force>>>>,
     /// `inputs`: the control inputs.
     pub(crate) inputs: Option<Section<Vec<Declared>>>,
+    /// `auxiliary`: states that follow from rates of their own.
+    pub(crate) auxiliary: Option<Section<Vec<Item<Definition>>>>,
     /// `outputs`: named observables.
     pub(crate) outputs: Option<Section<Vec<Item<Definition>>>>,
     /// `conserved`: claimed first integrals.
@@ -66,6 +77,8 @@ pub(crate) struct Sections {
     pub(crate) routh: Option<Section<Vec<Item<Definition>>>>,
     /// `assume`: sign and range facts about parameters.
     pub(crate) assume: Option<Section<Vec<Item<Comparison>>>>,
+    /// `units`: the units of declared names.
+    pub(crate) units: Option<Section<Vec<UnitLine>>>,
     /// `independent`: the velocities that the adapted state keeps.
     pub(crate) independent: Option<Section<Vec<Velocity>>>,
     /// `orthonormal`: names for the velocities of an orthonormal basis of D.
@@ -146,6 +159,8 @@ pub(crate) struct Declared {
     pub(crate) name: Name,
     /// The length of every index: none for a scalar, at most two.
     pub(crate) lengths: Vec<u32>,
+    /// Whether entries (i, j) and (j, i) are one.
+    pub(crate) symmetric: bool,
     /// The name with its lengths.
     pub(crate) extent: Extent,
 }
@@ -205,11 +220,13 @@ pub(crate) struct Binder {
     pub(crate) extent: Extent,
 }
 
-/// `let name = expr;` or `let name[i in 0..4] = expr;`
+/// `let name = expr;`, `let name[i in 0..4] = expr;` or `let name(u, v) = expr;`
 #[derive(Debug)]
 pub(crate) struct Let {
     /// The name it declares.
     pub(crate) name: Name,
+    /// The arguments of a function.
+    pub(crate) arguments: Option<Vec<Name>>,
     /// Its indices: none for a plain abbreviation, at most two.
     pub(crate) binders: Vec<Binder>,
     /// What the name stands for.
@@ -231,6 +248,15 @@ pub(crate) struct Equation {
     pub(crate) right: Expr,
     /// Both sides without the label.
     pub(crate) extent: Extent,
+}
+
+/// A line of `holonomic`.
+#[derive(Debug)]
+pub(crate) enum PositionLine {
+    /// An equation between positions.
+    Equation(Box<Equation>),
+    /// `redundant`: equations that follow from others are meant.
+    Redundant(Extent),
 }
 
 /// `name = expr`, which declares the name: a velocity, a section, an output, a claim.

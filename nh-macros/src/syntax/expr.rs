@@ -122,16 +122,30 @@ impl Stream {
         })
     }
 
-    /// `[i][j]`, at most two.
+    /// `i`, or the part `0..2`.
+    pub(crate) fn index_or_part(&mut self) -> Result<Expr, Diagnostic> {
+        let start = self.position();
+        let index = self.expression()?;
+        if !self.at_marks("..") || self.at_marks("..=") {
+            return Ok(index);
+        }
+        self.eat("..");
+        let end = self.expression()?;
+        let kind = ExprKind::Range(Box::new(index), Box::new(end));
+        Ok(Expr { kind, extent: self.since(start) })
+    }
+
+    /// `[i][j]`, at most two, and parts `[0..2]`.
     pub(crate) fn indices(&mut self, indices: &mut Vec<Expr>) -> Result<(), Diagnostic> {
         while let Some(group) = self.peek_group(Delimiter::Bracket).cloned() {
-            if indices.len() == 2 {
+            let single = indices.iter().filter(|index| !matches!(index.kind, ExprKind::Range(..))).count();
+            if single == 2 || indices.len() == limits::PARTS {
                 return Err(Diagnostic::new(Extent::at(group.span()), "a third index")
                     .way_out("families and arrays have one or two indices"));
             }
             self.advance();
             let mut inner = self.nested(&group);
-            let index = inner.expression()?;
+            let index = inner.index_or_part()?;
             if inner.at_marks(",") {
                 return Err(Diagnostic::new(Extent::at(group.span()), "two indices in one bracket")
                     .way_out("write `A[i][j]`"));
@@ -217,7 +231,7 @@ impl Stream {
             };
         };
         let kind = match name.text.as_str() {
-            "der" => ExprKind::Der(self.differentiated(&group)?),
+            "der" => ExprKind::Der(Box::new(self.rate(&group)?)),
             "sum" => self.summed(&group)?,
             _ => ExprKind::Call(name, self.list(&group, "`,` or `)`")?),
         };
@@ -254,7 +268,17 @@ impl Stream {
         Ok(Expr { kind: ExprKind::Method(name, arguments), extent: self.since(start) })
     }
 
-    /// The coordinate in `der(x)`.
+    /// What stands in `der(…)` in an expression.
+    fn rate(&self, group: &Group) -> Parsed {
+        let mut inner = self.nested(group);
+        if inner.is_empty() {
+            return Err(Diagnostic::new(Extent::at(group.span()), "`der` of nothing")
+                .way_out("`der` takes a base coordinate or an expression of them: `der(x)`, `der(p - q)`"));
+        }
+        inner.last_expression("`)`")
+    }
+
+    /// The coordinate in `der(x)` on a left-hand side.
     pub(crate) fn differentiated(&self, group: &Group) -> Result<Place, Diagnostic> {
         let mut inner = self.nested(group);
         let way_out = "`der` takes the name of a base coordinate: `der(x)`, `der(theta[0])`; the \

@@ -212,9 +212,8 @@ fn malformed_expressions_are_explained() {
             "expected an expression, found `type`, a word that Rust keeps for itself\nhelp: choose another name, or write `r#type`",
         ),
         (
-            "der(x^2)",
-            "this is not a base coordinate\nhelp: `der` takes the name of a base coordinate: `der(x)`, \
-             `der(theta[0])`; the chain rule is written out",
+            "der()",
+            "`der` of nothing\nhelp: `der` takes a base coordinate or an expression of them: `der(x)`, `der(p - q)`",
         ),
         (
             "sum(i in 0..2, x[i])",

@@ -104,7 +104,15 @@ pub(crate) fn foreign_word(stream: &Stream) -> Checked {
     {
         return Err(Diagnostic::new(at, format!("macros are not expanded here: `{word}!`")));
     }
+    let before_operator = match stream.peek_at(1) {
+        None => true,
+        // `if -x`, `match *x` begin control flow
+        Some(TokenTree::Punct(mark)) => word == "loop" || !"-*&!".contains(mark.as_char()),
+        Some(_) => false,
+    };
     match word.as_str() {
+        // a name that Rust does not permit, as is said of names
+        "if" | "match" | "loop" | "while" if before_operator => Ok(()),
         "if" | "match" | "loop" | "while" => {
             Err(Diagnostic::new(at, format!("`{word}` has no place in an expression"))
                 .way_out("expressions do not branch; forces and outputs have `abs`, `sign`, `min`, `max`"))

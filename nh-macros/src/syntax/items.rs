@@ -2,7 +2,7 @@
 
 use proc_macro2::{Delimiter, Group, TokenTree};
 
-use super::ast::{Binder, For, Item, Lagrangian, Let};
+use super::ast::{Binder, For, Item, Lagrangian, Let, Name};
 use super::limits;
 use super::names::is_mark;
 use super::stream::Stream;
@@ -25,7 +25,7 @@ fn block<T>(body: &Group, blocks: u32, errors: &mut Errors, statement: Statement
     for mut chunk in chunks(body) {
         let parsed = match first_word(&chunk).as_deref() {
             Some("for") => for_block(&mut chunk, blocks, errors, statement).map(Item::For),
-            Some("let") => let_line(&mut chunk).map(Item::Let),
+            Some("let") => let_line(&mut chunk).and_then(local).map(Item::Let),
             _ => statement(&mut chunk).and_then(|one| chunk.end(END).map(|()| Item::One(one))),
         };
         found.extend(errors.keep(parsed));
@@ -41,7 +41,7 @@ pub(crate) fn lagrangian(body: &Group, errors: &mut Errors) -> Option<Lagrangian
     for mut chunk in chunks(body) {
         let start = chunk.whole();
         if first_word(&chunk).as_deref() == Some("let") {
-            let kept = errors.keep(let_line(&mut chunk));
+            let kept = errors.keep(let_line(&mut chunk).and_then(local));
             in_error |= kept.is_none();
             lets.extend(kept);
             if value.is_some() {
@@ -144,8 +144,18 @@ fn for_block<T>(
     Ok(For { binders, items, extent: chunk.since(start) })
 }
 
-/// `let name = expr`, `let name[i in 0..4] = expr`
-fn let_line(chunk: &mut Stream) -> Result<Let, Diagnostic> {
+/// What a `let` inside a section may be.
+fn local(line: Let) -> Result<Let, Diagnostic> {
+    if line.arguments.is_none() {
+        return Ok(line);
+    }
+    let what = format!("the function `{}` stands inside a section", line.name.text);
+    Err(Diagnostic::new(line.extent, what)
+        .way_out("put its `let` between the sections, where all of them know it"))
+}
+
+/// `let name = expr`, `let name[i in 0..4] = expr`, `let name(u, v) = expr`
+pub(super) fn let_line(chunk: &mut Stream) -> Result<Let, Diagnostic> {
     chunk.docs()?;
     let start = chunk.position();
     chunk.advance();
@@ -154,7 +164,12 @@ fn let_line(chunk: &mut Stream) -> Result<Let, Diagnostic> {
             .way_out("leave out `mut`"));
     }
     let name = chunk.name("a name")?;
+    let arguments = chunk.eat_group(Delimiter::Parenthesis).map(|group| arguments(&group)).transpose()?;
     let mut binders: Vec<Binder> = Vec::new();
+    if let (true, Some(group)) = (arguments.is_some(), chunk.peek_group(Delimiter::Bracket)) {
+        return Err(Diagnostic::new(Extent::at(group.span()), "an index behind the arguments of a function")
+            .way_out("let its value be a vector: `let e(q) = [cos(q), sin(q)];`"));
+    }
     while let Some(group) = chunk.eat_group(Delimiter::Bracket) {
         let mut inner = Stream::inside(&group);
         if !matches!(inner.peek_at(1), Some(TokenTree::Ident(word)) if word == "in") {
@@ -173,5 +188,22 @@ fn let_line(chunk: &mut Stream) -> Result<Let, Diagnostic> {
     }
     chunk.equals("an abbreviation reads `let name = …;`")?;
     let value = chunk.last_expression(END)?;
-    Ok(Let { name, binders, value, extent: chunk.since(start) })
+    Ok(Let { name, arguments, binders, value, extent: chunk.since(start) })
+}
+
+/// `(u, v)`
+fn arguments(group: &Group) -> Result<Vec<Name>, Diagnostic> {
+    let mut inner = Stream::inside(group);
+    let mut names = Vec::new();
+    while !inner.is_empty() {
+        names.push(inner.name("the name of an argument")?);
+        if !inner.eat(",") && !inner.is_empty() {
+            return Err(inner.expected("`,` or `)`").way_out("a function reads `let h(u, v) = …;`"));
+        }
+    }
+    if names.is_empty() {
+        return Err(Diagnostic::new(Extent::at(group.span()), "a function without arguments")
+            .way_out("leave the parentheses out: `let name = …;`"));
+    }
+    Ok(names)
 }

@@ -4,7 +4,7 @@ use proc_macro2::{Delimiter, TokenStream, TokenTree};
 
 use super::ast::{
     AnchorLine, BracketLine, Comparison, Definition, Equation, Expr, Force, MethodDerivative, Momentum, Name,
-    Place, Relation, Renaming, Subscript, Symmetry,
+    Place, PositionLine, Relation, Renaming, Subscript, Symmetry,
 };
 use super::habits;
 use super::items::END;
@@ -35,6 +35,16 @@ impl Stream {
     /// `label: left = right`
     pub(crate) fn equation(&mut self) -> Result<Equation, Diagnostic> {
         self.equation_or_left().map_err(|(error, _)| error)
+    }
+
+    /// `label: left = right`, or `redundant`
+    pub(crate) fn position_line(&mut self) -> Result<PositionLine, Diagnostic> {
+        let extent = self.whole();
+        if self.at_word("redundant") && self.tokens().len() == 1 {
+            self.advance();
+            return Ok(PositionLine::Redundant(extent));
+        }
+        self.equation().map(|equation| PositionLine::Equation(Box::new(equation)))
     }
 
     /// An equation, or the error with the left-hand side, if that could be read.
@@ -72,6 +82,35 @@ impl Stream {
         }
         let docs = self.docs()?;
         let start = self.position();
+        let (name, subscripts) = self.defined()?;
+        let extent = self.since(start);
+        self.equals(reads)?;
+        let value = self.last_expression(END)?;
+        Ok(Definition { docs, name, subscripts, value, extent })
+    }
+
+    /// `der(name) = expr`, `der(name[i in 0..4]) = expr`
+    pub(crate) fn auxiliary_line(&mut self) -> Result<Definition, Diagnostic> {
+        let reads = "an auxiliary state is declared by its rate: `der(current) = …;`";
+        let docs = self.docs()?;
+        let start = self.position();
+        if !self.eat_word("der") {
+            return Err(self.expected("`der(…)`").way_out(reads));
+        }
+        let Some(group) = self.eat_group(Delimiter::Parenthesis) else {
+            return Err(self.expected("a name in parentheses").way_out(reads));
+        };
+        let mut inner = Self::inside(&group);
+        let (name, subscripts) = inner.defined().map_err(|error| error.or_way_out(reads))?;
+        inner.end("`)`")?;
+        let extent = self.since(start);
+        self.equals(reads)?;
+        let value = self.last_expression(END)?;
+        Ok(Definition { docs, name, subscripts, value, extent })
+    }
+
+    /// The name that a line defines, with its indices.
+    fn defined(&mut self) -> Result<(Name, Vec<Subscript>), Diagnostic> {
         let name = self.name("the name that is defined")?;
         let mut subscripts = Vec::new();
         while let Some(group) = self.eat_group(Delimiter::Bracket) {
@@ -79,7 +118,7 @@ impl Stream {
             if matches!(inner.peek_at(1), Some(TokenTree::Ident(word)) if word == "in") {
                 subscripts.extend(inner.binders()?.into_iter().map(|each| Subscript::Each(Box::new(each))));
             } else {
-                subscripts.push(Subscript::Entry(inner.expression()?));
+                subscripts.push(Subscript::Entry(inner.index_or_part()?));
             }
             inner.end("`]`")?;
             if subscripts.len() > 2 {
@@ -87,10 +126,7 @@ impl Stream {
                     .way_out("families have one or two indices"));
             }
         }
-        let extent = self.since(start);
-        self.equals(reads)?;
-        let value = self.last_expression(END)?;
-        Ok(Definition { docs, name, subscripts, value, extent })
+        Ok((name, subscripts))
     }
 
     /// `der(x) = expr`

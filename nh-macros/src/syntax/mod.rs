@@ -19,6 +19,7 @@ mod sections;
 mod stream;
 mod structure;
 mod too_large;
+mod units;
 pub(crate) mod vocabulary;
 
 #[cfg(test)]

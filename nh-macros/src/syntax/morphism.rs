@@ -1,11 +1,13 @@
 //! `Full -> Reduced { … }`: a map between two declared systems.
 
+use std::rc::Rc;
+
 use proc_macro2::{Delimiter, Group, Ident, TokenStream, TokenTree};
 use quote::quote;
 
-use super::ast::{Definition, Item, Name, Section};
+use super::ast::{Definition, Item, Let, Name, Section};
 use super::items::items;
-use super::sections::runtime;
+use super::sections::{runtime, shared};
 use super::stream::Stream;
 use crate::report::{Diagnostic, Errors, Extent};
 use crate::suggest::did_you_mean;
@@ -34,6 +36,8 @@ pub(crate) struct MorphismDecl {
     pub(crate) velocities: Definitions,
     /// `inputs`: those of the target.
     pub(crate) inputs: Definitions,
+    /// `let …;` between the sections, in the names of the source.
+    pub(crate) lets: Vec<Rc<Let>>,
     /// `crate`: the path of the runtime, where the dependency was renamed.
     pub(crate) runtime: Option<Section<TokenStream>>,
 }
@@ -78,6 +82,7 @@ pub(crate) fn morphism(tokens: TokenStream) -> Result<MorphismDecl, Vec<Diagnost
             base: None,
             velocities: None,
             inputs: None,
+            lets: Vec::new(),
             runtime: None,
         };
         let mut inner = Stream::inside(&body);
@@ -144,6 +149,10 @@ fn section(
 ) -> Result<(), Diagnostic> {
     while stream.eat(";") {}
     if stream.is_empty() {
+        return Ok(());
+    }
+    if stream.at_word("let") {
+        declaration.lets.push(Rc::new(shared(stream)?));
         return Ok(());
     }
     let Some(ident) = stream.eat_ident() else {

@@ -91,6 +91,14 @@ impl Stream {
                 return Err(Diagnostic::new(at, "attributes have no place in a declaration")
                     .way_out("only doc comments may stand before a name"));
             }
+            // what is handed on has to be readable
+            let text: TokenStream = inside[2..].iter().cloned().collect();
+            let is_literal = matches!(&inside[2..], [TokenTree::Literal(_)]);
+            if !is_literal && syn::parse2::<syn::Expr>(text).is_err() {
+                let at = self.here().to(Extent::at(group.span()));
+                return Err(Diagnostic::new(at, "this is no documentation")
+                    .way_out("write `#[doc = \"…\"]`, or `///`"));
+            }
             self.advance();
             self.advance();
         }
@@ -117,7 +125,7 @@ impl Stream {
         }
         let extent = self.since(start);
         check_lengths(&lengths, extent)?;
-        Ok(Declared { docs, name, lengths, extent })
+        Ok(Declared { docs, name, lengths, symmetric: false, extent })
     }
 
     /// An integer literal.

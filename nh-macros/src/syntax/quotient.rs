@@ -1,13 +1,16 @@
 //! `Full -> pub struct Reduced by { x, y } { … }`: the quotient of a declared system.
 
+use std::collections::BTreeSet;
+use std::rc::Rc;
+
 use proc_macro2::{Delimiter, Ident, TokenStream, TokenTree};
 use quote::quote;
 
-use super::ast::{Definition, Item, Name, Place, Section};
+use super::ast::{Definition, Item, Let, Name, Place, Section};
 use super::items::items;
 use super::morphism::{SystemPath, path};
 use super::names::list;
-use super::sections::runtime;
+use super::sections::{runtime, shared};
 use super::stream::Stream;
 use crate::report::{Diagnostic, Errors, Extent};
 
@@ -27,7 +30,9 @@ pub(crate) struct QuotientDecl {
     pub(crate) dropped: Vec<Place>,
     /// The invariant quasi-velocities.
     pub(crate) velocities: Option<Section<Vec<Item<Definition>>>>,
-    /// Sections for the new declaration.
+    /// `let …;` between the sections, as far as the new declaration does not take them.
+    pub(crate) lets: Vec<Rc<Let>>,
+    /// Sections for the new declaration, and the lets that they use.
     pub(crate) passed: TokenStream,
     /// `crate`: the path of the runtime, where the dependency was renamed.
     pub(crate) runtime: Option<Section<TokenStream>>,
@@ -88,6 +93,7 @@ fn header(stream: &mut Stream, errors: &mut Errors) -> Result<QuotientDecl, Diag
         name,
         dropped,
         velocities: None,
+        lets: Vec::new(),
         passed: TokenStream::new(),
         runtime: None,
         extent,
@@ -100,7 +106,15 @@ fn sections(
     declaration: &mut QuotientDecl,
     errors: &mut Errors,
 ) -> Result<(), Diagnostic> {
+    let mut lets = Vec::new();
+    let mut of_the_map = BTreeSet::new();
     while !stream.is_empty() {
+        if stream.at_word("let") {
+            let first = stream.position();
+            let line = Rc::new(shared(stream)?);
+            lets.push((line, stream.consumed(first).iter().cloned().collect()));
+            continue;
+        }
         let Some(TokenTree::Ident(ident)) = stream.advance() else {
             return Err(stream.expected("a section").way_out(READS));
         };
@@ -110,6 +124,7 @@ fn sections(
         };
         match keyword.text.as_str() {
             "velocities" => {
+                words(body.stream(), &mut of_the_map);
                 let body = items(&body, errors, &Stream::definition);
                 declaration.velocities = Some(Section { keyword, body });
             }
@@ -126,5 +141,52 @@ fn sections(
         }
         while stream.eat(";") {}
     }
+    declaration.share(&lets, of_the_map);
     Ok(())
+}
+
+impl QuotientDecl {
+    /// A `let` belongs to what uses it: `velocities`, in the names of the full system, or the sections that are
+    /// passed on, in those of the new one.
+    fn share(&mut self, lets: &[(Rc<Let>, TokenStream)], mut of_the_map: BTreeSet<String>) {
+        let mut of_the_new = BTreeSet::new();
+        words(self.passed.clone(), &mut of_the_new);
+        for used in [&mut of_the_map, &mut of_the_new] {
+            // what a line names is used, too; no chain of lines is longer than their number
+            for _ in lets {
+                for (line, tokens) in lets {
+                    if used.contains(&line.name.text) {
+                        words(tokens.clone(), used);
+                    }
+                }
+            }
+        }
+        let mut passed = TokenStream::new();
+        for (line, tokens) in lets {
+            let is_passed = of_the_new.contains(&line.name.text);
+            if is_passed {
+                passed.extend(tokens.clone());
+            }
+            // what nothing uses is read with the names of the full system
+            if !is_passed || of_the_map.contains(&line.name.text) {
+                self.lets.push(Rc::clone(line));
+            }
+        }
+        passed.extend(std::mem::take(&mut self.passed));
+        self.passed = passed;
+    }
+}
+
+/// All words in some tokens.
+fn words(tokens: TokenStream, found: &mut BTreeSet<String>) {
+    let mut open = vec![tokens];
+    while let Some(tokens) = open.pop() {
+        for token in tokens {
+            match token {
+                TokenTree::Ident(ident) => drop(found.insert(Name::new(ident).text)),
+                TokenTree::Group(group) => open.push(group.stream()),
+                TokenTree::Punct(_) | TokenTree::Literal(_) => {}
+            }
+        }
+    }
 }

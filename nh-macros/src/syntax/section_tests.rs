@@ -188,13 +188,13 @@ fn errors_in_lines_are_explained() {
         (
             "names { sate = A; }",
             "there is no generated type `sate`\ntypes that can be renamed: `state`, `velocity`, `input`, \
-             `multipliers`, `outputs`, `reactions`, `residual`, `momenta`, `phase`, `quadratures`, `gyroscopic`\nhelp: did you mean `state`?"
+             `multipliers`, `outputs`, `reactions`, `residual`, `momenta`, `phase`, `quadratures`, `gyroscopic`, `power`, `coordinate`\nhelp: did you mean `state`?"
                 .to_owned(),
         ),
         (
             "names { everything = A; }",
             "there is no generated type `everything`\nhelp: types that can be renamed: `state`, `velocity`, \
-             `input`, `multipliers`, `outputs`, `reactions`, `residual`, `momenta`, `phase`, `quadratures`, `gyroscopic`"
+             `input`, `multipliers`, `outputs`, `reactions`, `residual`, `momenta`, `phase`, `quadratures`, `gyroscopic`, `power`, `coordinate`"
                 .to_owned(),
         ),
         ("derivative { motor = 2 }", format!("expected `:`, found `=`\nhelp: {methods}")),
@@ -237,6 +237,11 @@ fn errors_in_lists_are_explained() {
             "inputs { #[serde(skip)] u }",
             "attributes have no place in a declaration\nhelp: only doc comments may stand before a name",
         ),
+        (
+            "inputs { #[doc = edge \"torque\"] u }",
+            "this is no documentation\nhelp: write `#[doc = \"…\"]`, or `///`",
+        ),
+        ("inputs { #[doc = +] u }", "this is no documentation\nhelp: write `#[doc = \"…\"]`, or `///`"),
         (
             "inputs { type }",
             "expected a name, found `type`, a word that Rust keeps for itself\nhelp: choose another name, or \
@@ -317,9 +322,20 @@ fn errors_between_sections_are_explained() {
         ("constraint { w = 0; }", "unknown section `constraint`\nhelp: did you mean `constraints`?".to_owned()),
         ("potential { w }", format!("unknown section `potential`\nhelp: sections: {}", SECTIONS.join(", "))),
         (
-            "let c = cos(x);",
-            "a `let` outside the sections\nhelp: put it inside the section that uses it: `lagrangian { let c = \
-             cos(x); … }`"
+            "let c = cos(x)",
+            "a `;` is missing behind this `let`\nhelp: between the sections every `let` ends with `;`".to_owned(),
+        ),
+        ("let h() = 1;", "a function without arguments\nhelp: leave the parentheses out: `let name = …;`".to_owned()),
+        (
+            "let e(q)[i in 0..2] = q;",
+            "an index behind the arguments of a function\nhelp: let its value be a vector: `let e(q) = [cos(q), \
+             sin(q)];`"
+                .to_owned(),
+        ),
+        (
+            "outputs { let h(u) = u; y = h(1); }",
+            "the function `h` stands inside a section\nhelp: put its `let` between the sections, where all of them \
+             know it"
                 .to_owned(),
         ),
         ("inputs { a } inputs { b }", "a second `inputs`\n`inputs` was declared above already\nhelp: move its content into the first one".to_owned()),

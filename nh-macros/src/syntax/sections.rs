@@ -1,12 +1,13 @@
 //! The attribute: sections in any order, each at most once except `brackets`.
 
 use std::cell::RefCell;
+use std::rc::Rc;
 
 use proc_macro2::{Delimiter, Group, TokenStream, TokenTree};
 use syn::parse::Parser;
 
-use super::ast::{Brackets, Expr, Formulation, KnownAlgebra, Name, Section, Sections};
-use super::items::{items, lagrangian};
+use super::ast::{Brackets, Expr, Formulation, KnownAlgebra, Let, Name, Section, Sections};
+use super::items::{items, lagrangian, let_line};
 use super::names::list;
 use super::render::render;
 use super::stream::Stream;
@@ -44,6 +45,11 @@ fn section(
     }
     while stream.eat(";") {}
     if stream.is_empty() {
+        return Ok(());
+    }
+    if stream.at_word("let") {
+        let line = shared(stream)?;
+        sections.lets.push(Rc::new(line));
         return Ok(());
     }
     let Some(ident) = stream.eat_ident() else {
@@ -94,6 +100,29 @@ fn section(
     Ok(())
 }
 
+/// `let …;` between the sections. Without its `;` it ends before the next section all the same.
+pub(super) fn shared(stream: &mut Stream) -> Result<Let, Diagnostic> {
+    let mut tokens = Vec::new();
+    let around = stream.here();
+    while !stream.is_empty() && !stream.at_marks(";") && !at_section(stream) {
+        tokens.extend(stream.advance());
+    }
+    let ended = stream.eat(";");
+    let line = let_line(&mut Stream::over(tokens, around))?;
+    if ended {
+        return Ok(line);
+    }
+    Err(Diagnostic::new(line.extent, "a `;` is missing behind this `let`")
+        .way_out("between the sections every `let` ends with `;`"))
+}
+
+/// Whether a section begins at the cursor.
+fn at_section(stream: &Stream) -> bool {
+    let begins = |token: Option<&TokenTree>| matches!(token, Some(TokenTree::Ident(ident)) if SECTIONS.contains(&ident.to_string().as_str()));
+    let opens = |token: Option<&TokenTree>| matches!(token, Some(TokenTree::Group(group)) if group.delimiter() == Delimiter::Brace);
+    begins(stream.peek()) && opens(stream.peek_at(1))
+}
+
 /// Reads the body of a section into its place.
 fn fill(sections: &mut Sections, keyword: Name, algebra: Option<Algebra>, body: &Group, errors: &mut Errors) {
     let text = keyword.text.clone();
@@ -119,6 +148,7 @@ fn fill(sections: &mut Sections, keyword: Name, algebra: Option<Algebra>, body: 
         "lagrangian" => {
             s.lagrangian = lagrangian(body, errors).and_then(|body| Section::some(keyword, body));
         }
+        "holonomic" => s.holonomic = Section::some(keyword, items(body, errors, &Stream::position_line)),
         "constraints" => {
             let lost = RefCell::new(Vec::new());
             let equation = |stream: &mut Stream| {
@@ -135,6 +165,7 @@ fn fill(sections: &mut Sections, keyword: Name, algebra: Option<Algebra>, body: 
         }
         "forces" => s.forces = Section::some(keyword, items(body, errors, &Stream::force)),
         "inputs" => s.inputs = Section::some(keyword, list(body, errors, Stream::declared)),
+        "auxiliary" => s.auxiliary = Section::some(keyword, items(body, errors, &Stream::auxiliary_line)),
         "outputs" => s.outputs = Section::some(keyword, items(body, errors, &Stream::definition)),
         "conserved" => s.conserved = Section::some(keyword, items(body, errors, &Stream::definition)),
         "volume" => {
@@ -146,6 +177,7 @@ fn fill(sections: &mut Sections, keyword: Name, algebra: Option<Algebra>, body: 
         "symmetries" => s.symmetries = Section::some(keyword, items(body, errors, &Stream::symmetry)),
         "routh" => s.routh = Section::some(keyword, items(body, errors, &Stream::definition)),
         "assume" => s.assume = Section::some(keyword, items(body, errors, &Stream::comparison)),
+        "units" => s.units = Section::some(keyword, plain(body, errors, &Stream::unit_line)),
         "independent" => s.independent = Section::some(keyword, list(body, errors, Stream::velocity)),
         "orthonormal" => s.orthonormal = Section::some(keyword, list(body, errors, Stream::declared)),
         "formulation" => {
@@ -297,10 +329,6 @@ fn probably_meant(
 
 /// A section that does not exist.
 fn unknown(keyword: &Name) -> Diagnostic {
-    if keyword.text == "let" {
-        return Diagnostic::new(keyword.extent(), "a `let` outside the sections")
-            .way_out("put it inside the section that uses it: `lagrangian { let c = cos(x); … }`");
-    }
     let error = Diagnostic::new(keyword.extent(), format!("unknown section `{}`", keyword.text));
     match did_you_mean(&keyword.text, SECTIONS) {
         Some(question) => error.way_out(question),
@@ -313,10 +341,9 @@ fn recover(stream: &mut Stream) {
     if stream.eat(",") || stream.eat(";") {
         return;
     }
-    let begins = |token: Option<&TokenTree>| matches!(token, Some(TokenTree::Ident(ident)) if SECTIONS.contains(&ident.to_string().as_str()));
     let opens = |token: Option<&TokenTree>| matches!(token, Some(TokenTree::Group(group)) if group.delimiter() == Delimiter::Brace);
     while !stream.is_empty() {
-        if begins(stream.peek()) && opens(stream.peek_at(1)) {
+        if at_section(stream) || stream.at_word("let") {
             return;
         }
         if opens(stream.advance().as_ref()) {

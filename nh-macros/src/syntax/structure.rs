@@ -158,7 +158,8 @@ impl FieldReader<'_> {
     /// A parameter, or nothing for a field to be left alone.
     fn field(&mut self, field: &syn::Field) -> Result<Option<Declared>, Diagnostic> {
         let Some(ident) = field.ident.clone() else { return Ok(None) };
-        if is_skipped(field)? {
+        let marks = marks(field)?;
+        if marks.skipped {
             return Ok(None);
         }
         if let Some(attribute) = field.attrs.iter().find(|attribute| attribute.path().is_ident("cfg")) {
@@ -172,7 +173,19 @@ impl FieldReader<'_> {
         let docs = quote!(#(#docs)*);
         let extent = Extent::at(ident.span());
         check_lengths(&lengths, of(&field.ty))?;
-        Ok(Some(Declared { docs, name: Name::new(ident), lengths, extent }))
+        if let (Some(attribute), false) =
+            (marks.symmetric, matches!(lengths.as_slice(), [rows, columns] if rows == columns))
+        {
+            let written = render(&field.ty.to_token_stream().into_iter().collect::<Vec<_>>());
+            return Err(Diagnostic::new(
+                of(attribute),
+                format!("`{ident}` is marked symmetric, and is no square matrix"),
+            )
+            .evidence(format!("it is `{written}`"))
+            .way_out("a symmetric matrix reads `#[nh(symmetric)] I: [[f64; 3]; 3]`"));
+        }
+        let symmetric = marks.symmetric.is_some();
+        Ok(Some(Declared { docs, name: Name::new(ident), lengths, symmetric, extent }))
     }
 
     /// Reads the scalar type of a field; all fields have the same.
@@ -245,20 +258,30 @@ fn primitive(path: &syn::Path) -> Option<&Ident> {
     }
 }
 
-/// Whether `#[nh(skip)]` stands before the field.
-fn is_skipped(field: &syn::Field) -> Result<bool, Diagnostic> {
-    let mut skipped = false;
+/// What `#[nh(…)]` before a field says.
+#[derive(Default)]
+struct Marks<'a> {
+    /// The field is left alone.
+    skipped: bool,
+    /// Entries (i, j) and (j, i) are one parameter: where that is said.
+    symmetric: Option<&'a syn::Attribute>,
+}
+
+/// Reads the marks of a field.
+fn marks(field: &syn::Field) -> Result<Marks<'_>, Diagnostic> {
+    let mut marks = Marks::default();
     for attribute in field.attrs.iter().filter(|attribute| attribute.path().is_ident("nh")) {
-        let word = attribute.parse_args::<Ident>();
-        match word {
-            Ok(word) if word == "skip" => skipped = true,
+        match attribute.parse_args::<Ident>() {
+            Ok(word) if word == "skip" => marks.skipped = true,
+            Ok(word) if word == "symmetric" => marks.symmetric = Some(attribute),
             _ => {
-                return Err(Diagnostic::new(of(attribute), "unknown attribute of a field")
-                    .way_out("write `#[nh(skip)]`, which leaves the field alone"));
+                return Err(Diagnostic::new(of(attribute), "unknown attribute of a field").way_out(
+                    "write `#[nh(skip)]`, which leaves the field alone, or `#[nh(symmetric)]` before a square matrix",
+                ));
             }
         }
     }
-    Ok(skipped)
+    Ok(marks)
 }
 
 /// The lengths of an array type and what it is an array of.

@@ -99,7 +99,8 @@ fn fields_of_other_types_are_refused() {
         ),
         (
             "#[nh(ignore)] m: f64",
-            "unknown attribute of a field\nhelp: write `#[nh(skip)]`, which leaves the field alone",
+            "unknown attribute of a field\nhelp: write `#[nh(skip)]`, which leaves the field alone, or `#[nh(symmetric)]` before a \
+             square matrix",
         ),
     ] {
         assert_eq!(refused(&format!("struct S {{ {fields} }}")), [message], "{fields}");

@@ -52,7 +52,8 @@ pub(crate) fn shown(expr: &Expr) -> String {
         ExprKind::Number(number) => number.text.clone(),
         ExprKind::Name(name) => name.text.clone(),
         ExprKind::Index(of, indices) => format!("{}{}", shown(of), entry(indices)),
-        ExprKind::Der(place) => format!("der({}{})", place.name.text, entry(&place.indices)),
+        ExprKind::Range(from, to) => format!("{}..{}", shown(from), shown(to)),
+        ExprKind::Der(of) => format!("der({})", shown(of)),
         ExprKind::Call(name, arguments) => format!("{}({})", name.text, list(arguments)),
         ExprKind::Method(name, arguments) => format!("self.{}({})", name.text, list(arguments)),
         ExprKind::Sum(binders, body) => {

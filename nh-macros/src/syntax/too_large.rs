@@ -21,7 +21,10 @@ impl SystemDecl {
             Subject::Embedding => keyword(sections.on.as_ref()),
             Subject::Brackets => sections.brackets.first().map(|section| &section.keyword).or(kinematics()),
             Subject::Constraints => {
-                keyword(sections.constraints.as_ref()).or(keyword(sections.distribution.as_ref()))
+                let velocities = keyword(sections.constraints.as_ref());
+                velocities
+                    .or(keyword(sections.holonomic.as_ref()))
+                    .or(keyword(sections.distribution.as_ref()))
             }
             Subject::Symmetries => keyword(sections.symmetries.as_ref()),
             Subject::Claims => keyword(sections.conserved.as_ref()),

@@ -1,7 +1,7 @@
 //! The words of the language.
 
 /// The sections, as they are written.
-pub(crate) const SECTIONS: [&str; 30] = [
+pub(crate) const SECTIONS: [&str; 33] = [
     "constants",
     "base",
     "on",
@@ -12,10 +12,12 @@ pub(crate) const SECTIONS: [&str; 30] = [
     "frame",
     "almost",
     "lagrangian",
+    "holonomic",
     "constraints",
     "distribution",
     "forces",
     "inputs",
+    "auxiliary",
     "outputs",
     "conserved",
     "volume",
@@ -23,6 +25,7 @@ pub(crate) const SECTIONS: [&str; 30] = [
     "symmetries",
     "routh",
     "assume",
+    "units",
     "independent",
     "orthonormal",
     "formulation",
@@ -44,7 +47,7 @@ pub(crate) const FUNCTIONS: [&str; 18] = [
 pub(crate) const RESERVED: [&str; 5] = ["t", "pi", "sum", "dot", "cross"];
 
 /// The generated types that `names` renames.
-pub(crate) const TYPES: [&str; 11] = [
+pub(crate) const TYPES: [&str; 13] = [
     "state",
     "velocity",
     "input",
@@ -56,6 +59,8 @@ pub(crate) const TYPES: [&str; 11] = [
     "phase",
     "quadratures",
     "gyroscopic",
+    "power",
+    "coordinate",
 ];
 
 /// The known algebras of `brackets`.

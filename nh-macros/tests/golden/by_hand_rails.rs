@@ -350,6 +350,9 @@ impl ::nonholonomic::__private::Constrained for Rails {
     ) -> [::core::primitive::f64; 2] {
         ::core::convert::From::from(Self::constraint_residual(self, t, state))
     }
+    fn constraint_names() -> [&'static ::core::primitive::str; 2] {
+        ["constraint_1", "type"]
+    }
     #[inline]
     fn project(
         &self,

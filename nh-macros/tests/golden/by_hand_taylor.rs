@@ -37,14 +37,12 @@ impl ::nonholonomic::__private::TaylorSeries for Sleigh {
         let end = if series.len() < P { series.len() } else { P };
         for index in 1..end {
             k += <::core::primitive::f64 as ::nonholonomic::__private::Scalar>::ONE;
-            let over_k = ::nonholonomic::__private::Scalar::recip(k);
-            let step = over_k * unit;
             let state_k = SleighState {
-                theta: step * rates[0],
-                x: step * rates[1],
-                y: step * rates[2],
-                omega: step * rates[3],
-                v1: step * rates[4],
+                theta: unit * rates[0] / k,
+                x: unit * rates[1] / k,
+                y: unit * rates[2] / k,
+                omega: unit * rates[3] / k,
+                v1: unit * rates[4] / k,
             };
             if let ::core::option::Option::Some(slot) = series.get_mut(index) {
                 *slot = state_k;
@@ -59,12 +57,12 @@ impl ::nonholonomic::__private::TaylorSeries for Sleigh {
                 e3,
                 cos_theta,
                 sums[0],
-            ) * over_k;
+            ) / k;
             let cos_theta_k = -(::nonholonomic::__private::Scalar::mul_add(
                 e3,
                 sin_theta,
                 sums[1],
-            ) * over_k);
+            ) / k);
             let e4 = ::nonholonomic::__private::Scalar::mul_add(
                 state.v1,
                 cos_theta_k,

@@ -48,6 +48,9 @@ impl Value {
     }
 }
 
+/// The terms of the series of a function.
+const SERIES: usize = 16;
+
 /// The values of some expressions at one point.
 pub(super) struct Evaluated {
     pub(super) values: Vec<Value>,
@@ -83,7 +86,10 @@ impl Graph {
         pass.known.reserve(order.len());
         for id in order {
             let value = pass.value(id)?;
-            limits::spend(self.node(id).breadth().saturating_mul(value.work()));
+            let node = self.node(id);
+            let terms =
+                if matches!(node, Node::Apply(..) | Node::Apply2(..)) { SERIES } else { node.breadth() };
+            limits::spend(terms.saturating_mul(value.work()));
             pass.known.insert(id, value);
         }
         let degree = pass.degree.saturating_mul((totient(pass.parts_of_a_turn) / 2).max(1));

@@ -56,7 +56,8 @@ impl Factors {
 
 impl Default for Factors {
     fn default() -> Self {
-        Self::Short(0, [Factor::none(); PLACES])
+        const EMPTY: Factors = Factors::Short(0, [Factor::NONE; PLACES]);
+        EMPTY
     }
 }
 

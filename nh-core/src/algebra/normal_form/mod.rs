@@ -82,12 +82,16 @@ impl Graph {
         image
     }
 
-    /// Equal expressions, whatever they cost: simplified, and as sums in which every term occurs once.
+    /// Equal expressions, whatever they cost: as sums in which every term occurs once, and simplified, unless these
+    /// sums are beyond any attempt.
     pub(super) fn spelled_out(&mut self, e: ExprId) -> Vec<ExprId> {
-        let mut found = vec![self.simplify(e)];
+        let mut found = Vec::new();
         for style in [STYLES[1], CANONICAL] {
             let forms = self.forms(e, style, ATTEMPT).forms;
             found.extend(forms.iter().flat_map(|(collected, factored)| [*collected, *factored]));
+        }
+        if !found.is_empty() {
+            found.push(self.simplify(e));
         }
         found.sort_unstable();
         found.dedup();
@@ -118,12 +122,17 @@ impl Graph {
 
     /// The expression in a style: the same again if it was read before, and for the same work.
     fn forms(&mut self, e: ExprId, style: Style, work: usize) -> Attempt {
-        if let Some(known) = self.attempts.0.get(&(e, style)).filter(|known| known.spent <= work) {
+        if let Some(known) = self.attempts.made.get(&(e, style)).filter(|known| known.spent <= work) {
             return *known;
+        }
+        if let Some(failed) = self.attempts.failed.get(&(e, style, work)) {
+            return *failed;
         }
         let attempt = self.read_forms(e, style, work);
         if attempt.forms.is_some() {
-            self.attempts.0.insert((e, style), attempt);
+            self.attempts.made.insert((e, style), attempt);
+        } else {
+            self.attempts.failed.insert((e, style, work), attempt);
         }
         attempt
     }
@@ -147,7 +156,11 @@ impl Graph {
 
 /// What came of expressions in styles.
 #[derive(Clone, Debug, Default)]
-pub(super) struct Attempts(FxHashMap<(ExprId, Style), Attempt>);
+pub(super) struct Attempts {
+    made: FxHashMap<(ExprId, Style), Attempt>,
+    /// Those for which so much work was not enough, which it would not be a second time.
+    failed: FxHashMap<(ExprId, Style, usize), Attempt>,
+}
 
 /// What came of reading an expression in a style.
 #[derive(Clone, Copy, Debug)]

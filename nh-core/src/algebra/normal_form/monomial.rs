@@ -126,9 +126,7 @@ pub(super) struct Factor {
 
 impl Factor {
     /// What stands in a place that is not taken.
-    pub(super) fn none() -> Self {
-        Self { atom: ExprId::from_index(0), kind: Kind::Plain, exponent: Exponent::ZERO }
-    }
+    pub(super) const NONE: Self = Self { atom: ExprId::FIRST, kind: Kind::Plain, exponent: Exponent::ZERO };
 }
 
 /// A product of powers of atoms, in ascending order of the atoms.
@@ -249,24 +247,30 @@ impl Monomial {
     }
 }
 
+/// Written with indices and plain comparisons: unoptimised builds spend much of a derivation here.
 impl Ord for Monomial {
     fn cmp(&self, other: &Self) -> Ordering {
-        let sign = |exponent: Exponent| exponent.cmp(&Exponent::ZERO);
-        let (mut left, mut right) = (self.0.iter(), other.0.iter());
+        let (left, right): (&[Factor], &[Factor]) = (&self.0, &other.0);
+        let mut place = 0;
         loop {
-            let order = match (left.next(), right.next()) {
-                (None, None) => return Ordering::Equal,
-                (Some(a), None) => sign(a.exponent),
-                (None, Some(b)) => sign(b.exponent).reverse(),
-                (Some(a), Some(b)) => match a.atom.cmp(&b.atom) {
-                    Ordering::Less => sign(a.exponent),
-                    Ordering::Greater => sign(b.exponent).reverse(),
-                    Ordering::Equal => a.exponent.cmp(&b.exponent),
-                },
-            };
-            if order != Ordering::Equal {
-                return order;
+            let (one, two) = (place < left.len(), place < right.len());
+            if !(one || two) {
+                return Ordering::Equal;
             }
+            if one && two && left[place].atom.index() == right[place].atom.index() {
+                let (a, b) = (left[place].exponent, right[place].exponent);
+                if a.numerator != b.numerator || a.denominator != b.denominator {
+                    return a.cmp(&b);
+                }
+                place += 1;
+                continue;
+            }
+            // no factor of the one is among those of the other: its exponent is compared with 0
+            let is_first = one && (!two || left[place].atom.index() < right[place].atom.index());
+            let numerator =
+                if is_first { left[place].exponent.numerator } else { right[place].exponent.numerator };
+            // an exponent of 0 says nothing, and stands in no monomial
+            return if (numerator > 0) == is_first { Ordering::Greater } else { Ordering::Less };
         }
     }
 }

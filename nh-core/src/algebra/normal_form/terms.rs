@@ -5,6 +5,7 @@
 
 use super::monomial::Monomial;
 use crate::algebra::number::Rational;
+use std::cmp::Ordering;
 
 /// Coefficients by monomial; none is zero.
 #[derive(Clone, Debug)]
@@ -108,10 +109,18 @@ impl Terms {
     /// Where a monomial stands or would stand: mostly at the end.
     fn place(&self, monomial: &Monomial) -> Result<usize, usize> {
         let list = self.list();
-        match list.last() {
-            Some((last, _)) if monomial <= last => list.binary_search_by(|(key, _)| key.cmp(monomial)),
-            _ => Err(list.len()),
+        let (mut low, mut high) = (0, list.len());
+        // the last one is asked first
+        let mut middle = high.wrapping_sub(1);
+        while low < high {
+            match list[middle].0.cmp(monomial) {
+                Ordering::Less => low = middle + 1,
+                Ordering::Equal => return Ok(middle),
+                Ordering::Greater => high = middle,
+            }
+            middle = low + (high - low) / 2;
         }
+        Err(low)
     }
 }
 

@@ -83,7 +83,7 @@ impl NonholonomicBracket {
         for (alpha, beta, components) in brackets {
             let entry = graph.inner_product(&components, &momenta);
             curl[alpha.index()][beta.index()] = entry;
-            curl[beta.index()][alpha.index()] = graph.neg(entry);
+            curl[beta.index()][alpha.index()] = graph.formula(-entry);
         }
         let coordinates = algebroid.anchor.coordinates.clone();
         Self {
@@ -154,7 +154,7 @@ impl NonholonomicBracket {
             .iter()
             .map(|row| {
                 let change = graph.inner_product(row, &rates);
-                graph.neg(change)
+                graph.formula(-change)
             })
             .collect();
         let second = SaddleEquations { force, bias, ..self.saddle.clone() };
@@ -197,7 +197,7 @@ pub(super) fn antisymmetric(
         let value = entry(graph, a, b);
         let value = graph.simplify(value);
         matrix[a][b] = value;
-        matrix[b][a] = graph.neg(value);
+        matrix[b][a] = graph.formula(-value);
     }
     matrix
 }

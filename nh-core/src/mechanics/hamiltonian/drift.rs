@@ -40,7 +40,7 @@ pub(super) fn normal_velocity(
         for (velocity, entry) in system.algebroid.velocities.iter().zip(offset) {
             let inertia = graph.partial(momentum, *velocity);
             let inertia = restriction.apply(graph, inertia);
-            terms.push(graph.mul(inertia, *entry));
+            terms.push(graph.formula(inertia * entry));
         }
         weighed.push(graph.sum(&terms));
     }
@@ -58,7 +58,7 @@ pub(super) fn normal_velocity(
         .iter()
         .zip(tangent)
         .map(|(offset, tangent)| {
-            let rest = graph.sub(*offset, tangent);
+            let rest = graph.formula(offset - tangent);
             let rest = graph.simplify(rest);
             procedure.define(graph, "normal", rest)
         })
@@ -115,7 +115,7 @@ impl Drift {
         let forces = restriction.apply_all(graph, &system.forces);
         let mut total = Vec::with_capacity(turned.len());
         for ((turned, force), momentum) in turned.iter().zip(&forces).zip(&momenta) {
-            let change = graph.partial(*momentum, system.time);
+            let change = system.clock.rate(graph, *momentum);
             total.push(graph.linear_combination(&[
                 (1.into(), *turned),
                 (1.into(), *force),
@@ -180,7 +180,7 @@ impl Drift {
         let pushes = algebroid.anchor.pull_back(graph, &pushes);
         let mut force = Vec::with_capacity(velocity.len());
         for alpha in 0..velocity.len() {
-            let change = graph.partial(momenta[alpha], system.time);
+            let change = system.clock.rate(graph, momenta[alpha]);
             force.push(graph.linear_combination(&[
                 (1.into(), turned[alpha]),
                 ((-1).into(), pushes[alpha]),
@@ -194,9 +194,8 @@ impl Drift {
             .zip(&inclines)
             .map(|(residual, row)| {
                 let moved = graph.inner_product(row, &rates);
-                let change = graph.partial(*residual, system.time);
-                let sum = graph.add(moved, change);
-                graph.neg(sum)
+                let change = system.clock.rate(graph, *residual);
+                graph.formula(-(moved + change))
             })
             .collect();
         let accelerations = if force.iter().chain(&bias).all(|entry| graph.is_literal_zero(*entry)) {

@@ -63,7 +63,7 @@ impl Inversion<'_> {
             .zip(&self.at_rest)
             .map(|(symbol, offset)| {
                 let momentum = graph.symbol(*symbol);
-                graph.sub(momentum, *offset)
+                graph.formula(momentum - offset)
             })
             .collect();
         let solved = solve_symmetric(graph, &self.equations.mass, &right, self.definiteness, procedure, "v");
@@ -177,9 +177,9 @@ fn drift(graph: &mut Graph, inversion: &Inversion<'_>, momenta: &[ExprId]) -> Pr
         let mut terms = vec![graph.inner_product(&field, &carried), force_along(graph, inversion, a)];
         for ((entry, turned), momentum) in section.iter().zip(turned).zip(momenta) {
             let moved = along.apply(graph, *entry);
-            let change = graph.partial(*entry, system.time);
+            let change = system.clock.rate(graph, *entry);
             let sum = graph.sum(&[moved, turned, change]);
-            terms.push(graph.mul(sum, *momentum));
+            terms.push(graph.formula(sum * momentum));
         }
         outputs.push(graph.sum(&terms));
     }
@@ -229,7 +229,7 @@ fn hamiltonian(graph: &mut Graph, inversion: &Inversion<'_>) -> Procedure {
             ((-1).into(), inversion.at_rest[a]),
             (2.into(), slope),
         ]);
-        terms.push((crate::algebra::Rational::new(1, 2), graph.mul(factor, *velocity)));
+        terms.push((crate::algebra::Rational::new(1, 2), graph.formula(factor * velocity)));
     }
     procedure.outputs = vec![graph.linear_combination(&terms)];
     procedure
@@ -243,11 +243,11 @@ fn momentum_rates(graph: &mut Graph, inversion: &Inversion<'_>) -> Vec<ExprId> {
     (0..distribution.rank())
         .map(|a| {
             let section = distribution.section(a);
-            let mut lift = complete_lift(graph, &system.algebroid, &section, system.time);
+            let mut lift = complete_lift(graph, &system.algebroid, &section, &system.clock);
             let lifted = lift.apply(graph, system.lagrangian);
             let lifted = restriction.apply(graph, lifted);
             let force = force_along(graph, inversion, a);
-            let sum = graph.add(lifted, force);
+            let sum = graph.formula(lifted + force);
             graph.simplify(sum)
         })
         .collect()
@@ -267,7 +267,7 @@ fn phase_bracket(graph: &mut Graph, inversion: &Inversion<'_>, momenta: &[ExprId
         (false, _) => {
             let bracket = algebroid.bracket(graph, &sections[row - n], &sections[column - n]);
             let value = graph.inner_product(momenta, &bracket);
-            graph.neg(value)
+            graph.formula(-value)
         }
     })
 }

@@ -10,14 +10,14 @@ use crate::program::{Program, Step, corrected, error_growth, error_growth_apart,
 fn corrected_sums_and_quotients_are_exact_where_rounding_would_tell() {
     let mut g = Graph::new();
     let [x, y, z] = symbols(&mut g, ["x", "y", "z"]);
-    let (sum, product) = (g.add(x, y), g.mul(x, y));
+    let (sum, product) = (g.formula(x + y), g.formula(x * y));
     // intermediate results, which the algebra does not cancel
     let mut procedure = Procedure::default();
     let sum = procedure.define(&mut g, "s", sum);
     let product = procedure.define(&mut g, "p", product);
-    let quotient = g.div(product, y);
+    let quotient = g.formula(product / y);
     let quotient = procedure.define(&mut g, "q", quotient);
-    procedure.outputs = vec![g.sub(sum, x), g.sub(quotient, x), g.sub(z, x)];
+    procedure.outputs = vec![g.formula(sum - x), g.formula(quotient - x), g.formula(z - x)];
     let values = [1.0, 1e-30, 3.0];
     let run = |program: &Program| interpret(program, |symbol| values[symbol.index()]);
     let program = schedule(&g, &procedure);
@@ -30,15 +30,14 @@ fn a_divisor_is_corrected_before_anything_is_divided_by_it() {
     let mut g = Graph::new();
     let [x, y, z] = symbols(&mut g, ["x", "y", "z"]);
     let mut procedure = Procedure::default();
-    let sum = g.add(x, y);
+    let sum = g.formula(x + y);
     let sum = procedure.define(&mut g, "s", sum);
-    let difference = g.sub(sum, x);
+    let difference = g.formula(sum - x);
     let difference = procedure.define(&mut g, "d", difference);
     // y² z / y and z / y, where the computed sum keeps nothing of y
     let square = g.square(difference);
     let square = procedure.define(&mut g, "dd", square);
-    let whole = g.mul(square, z);
-    procedure.outputs = vec![g.div(whole, difference), g.div(z, difference)];
+    procedure.outputs = vec![g.formula(square * z / difference), g.formula(z / difference)];
     let values = [1.0, 2f64.powi(-60), 3.0];
     let run = |program: &Program| interpret(program, |symbol| values[symbol.index()]);
     let program = schedule(&g, &procedure);
@@ -52,15 +51,13 @@ fn programs_that_differ_where_symbols_are_far_apart_are_told_apart() {
     let mut g = Graph::new();
     let [j, m, l, cart] = symbols(&mut g, ["J", "m", "l", "M"]);
     let mut procedure = Procedure::default();
-    let lever = g.mul(m, l);
+    let lever = g.formula(m * l);
     let lever = procedure.define(&mut g, "lever", lever);
-    let (mass, squared, turned) = (g.add(cart, m), g.square(lever), g.mul(lever, l));
-    let (carried, sum) = (g.div(squared, mass), g.add(j, turned));
-    procedure.outputs = vec![g.sub(sum, carried)];
-    let (rest, square) = (g.mul(m, cart), g.square(l));
-    let rest = g.mul(rest, square);
-    let rest = g.div(rest, mass);
-    let short = Procedure::of(vec![g.add(j, rest)]);
+    let (mass, squared, turned) = (g.formula(cart + m), g.square(lever), g.formula(lever * l));
+    let (carried, sum) = (g.formula(squared / mass), g.formula(j + turned));
+    procedure.outputs = vec![g.formula(sum - carried)];
+    let (rest, square) = (g.formula(m * cart), g.square(l));
+    let short = Procedure::of(vec![g.formula(j + rest * square / mass)]);
     let programs = [schedule(&g, &procedure), schedule(&g, &short)];
     let (ordinary, apart) = (error_growth(&programs), error_growth_apart(&programs));
     assert!(ordinary[0] < 64.0 && ordinary[1] < 2.0, "{ordinary:?}");
@@ -71,7 +68,7 @@ fn programs_that_differ_where_symbols_are_far_apart_are_told_apart() {
 fn fast_code_takes_sines_of_sums_from_those_of_the_parts() {
     let mut g = Graph::new();
     let [x, y] = symbols(&mut g, ["x", "y"]);
-    let (sum, difference) = (g.add(x, y), g.sub(x, y));
+    let (sum, difference) = (g.formula(x + y), g.formula(x - y));
     let twice = g.scale(Rational::from(-2), x);
     let angles = [x, y, sum, difference, twice];
     let outputs: Vec<ExprId> = angles.into_iter().flat_map(|angle| [g.sin(angle), g.cos(angle)]).collect();
@@ -93,10 +90,10 @@ fn fast_code_takes_sines_of_sums_from_those_of_the_parts() {
 fn no_sine_is_taken_from_angles_that_contain_it() {
     let mut g = Graph::new();
     let [x, y] = symbols(&mut g, ["x", "y"]);
-    let inner = g.sub(x, y);
+    let inner = g.formula(x - y);
     let sine = g.sin(inner);
     // their difference is the angle of the sine in both
-    let angles = [g.add(x, sine), g.add(y, sine)];
+    let angles = [g.formula(x + sine), g.formula(y + sine)];
     let outputs = angles.map(|angle| g.sin(angle)).to_vec();
     g.set_accuracy(Accuracy::Fast);
     let program = schedule(&g, &Procedure::of(outputs));
@@ -112,9 +109,9 @@ fn no_sine_is_taken_from_angles_that_contain_it() {
 fn a_form_that_cancels_has_the_larger_error() {
     let mut g = Graph::new();
     let [x, y] = symbols(&mut g, ["x", "y"]);
-    let difference = g.sub(x, y);
+    let difference = g.formula(x - y);
     let square = g.square(difference);
-    let (x2, y2, xy) = (g.square(x), g.square(y), g.mul(x, y));
+    let (x2, y2, xy) = (g.square(x), g.square(y), g.formula(x * y));
     let two = Rational::from(2);
     let expanded = g.linear_combination(&[(Rational::ONE, x2), (-two, xy), (Rational::ONE, y2)]);
     let programs = [square, expanded].map(|form| schedule(&g, &Procedure::of(vec![form])));

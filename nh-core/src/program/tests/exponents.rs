@@ -12,14 +12,14 @@ fn steep_exponents_keep_their_parity() {
         let [x, y, a] = symbols(&mut graph, ["x", "y", "a"]);
         let steep = graph.pow(x, Rational::from(exponent));
         let cube = graph.pow(y, Rational::from(-3));
-        let product = graph.mul(steep, cube);
-        let more = graph.mul(product, a);
+        let product = graph.formula(steep * cube);
+        let more = graph.formula(product * a);
         let sum = graph.sum(&[more, product, x]);
         // x stands behind a definition, which is put in place
         let inner = graph.new_symbol("inner");
         let named = graph.symbol(inner);
         let steeper = graph.pow(named, Rational::from(2));
-        let outputs = vec![steep, product, sum, graph.mul(steeper, cube)];
+        let outputs = vec![steep, product, sum, graph.formula(steeper * cube)];
         let mut procedure = Procedure::of(outputs.clone());
         procedure.definitions.push(Definition::Value { symbol: inner, value: steep });
         let program = schedule_grouping(&graph, &procedure, &[]);

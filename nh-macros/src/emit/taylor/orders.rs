@@ -43,8 +43,6 @@ pub(super) struct Writer<'a> {
 pub(super) struct Own {
     /// The order, as a number.
     k: Ident,
-    /// Its reciprocal.
-    over_k: Ident,
     /// The coefficients of order k of the state.
     pub(super) series_k: Ident,
     /// The coefficient of order k of the time.
@@ -66,7 +64,6 @@ impl<'a> Writer<'a> {
     ) -> Self {
         let own = Own {
             k: names.unique("k"),
-            over_k: names.unique("over_k"),
             series_k: names.unique("state_k"),
             time_k: names.unique("t_k"),
             rates: names.unique("rates"),
@@ -150,7 +147,7 @@ impl<'a> Writer<'a> {
     pub(super) fn rule(&mut self, value: Value, rule: &Rule) {
         let of = |this: &Self, operand: &Value| this.coefficient(*operand);
         let at = |this: &Self, operand: &Value| this.value(*operand);
-        let over_k = self.own.over_k.clone();
+        let k = self.own.k.clone();
         let tokens = match rule {
             Rule::Constant | Rule::Seed | Rule::Unknown => return,
             Rule::Variable(symbol) => {
@@ -212,24 +209,24 @@ impl<'a> Writer<'a> {
                 let (weighted, exponent) = (self.weighted(*a), self.number(exponent));
                 let (over, second) = (at(self, over), self.sum(*second));
                 let sum = self.fused(&weighted, &at(self, &value), &self.sum(*first));
-                quote!((#sum * #exponent - #second) * #over * #over_k)
+                quote!((#sum * #exponent - #second) * #over / #k)
             }
             Rule::Integral { of: a, rate, negative, inner } => {
                 let weighted = self.weighted(*a);
                 let sum = self.fused(&weighted, &at(self, rate), &self.sum(*inner));
-                if *negative { quote!(-(#sum * #over_k)) } else { quote!(#sum * #over_k) }
+                if *negative { quote!(-(#sum / #k)) } else { quote!(#sum / #k) }
             }
             Rule::IntegralOver { of: a, over, negative, inner } => {
                 let (weighted, over, inner) = (self.weighted(*a), at(self, over), self.sum(*inner));
                 let sign = negative.then(|| quote!(-));
-                quote!((#sign #weighted - #inner) * #over * #over_k)
+                quote!((#sign #weighted - #inner) * #over / #k)
             }
             Rule::Angle { y, x, over, inner: [first, second, third] } => {
                 let (y_weighted, x_weighted) = (self.weighted(*y), self.weighted(*x));
                 let forth = self.fused(&y_weighted, &at(self, x), &self.sum(*first));
                 let back = self.fused(&x_weighted, &at(self, y), &self.sum(*second));
                 let (third, over) = (self.sum(*third), at(self, over));
-                quote!((#forth - #back - #third) * #over * #over_k)
+                quote!((#forth - #back - #third) * #over / #k)
             }
         };
         self.bind(value, &tokens);
@@ -290,9 +287,9 @@ impl<'a> Writer<'a> {
             start.outputs.iter().map(|output| element(&self.coefficient(*output))).collect();
         let Context { runtime, scalar, state, .. } = self.context;
         let (zero, one) = (self.zero(), quote!(<#scalar as #runtime::Scalar>::ONE));
-        let [index, end, step, slot] = ["index", "end", "step", "slot"].map(|name| self.names.unique(name));
+        let [index, end, slot] = ["index", "end", "slot"].map(|name| self.names.unique(name));
         let [unit, series, workspace] = ["unit", "series", "workspace"].map(local);
-        let Own { k, over_k, series_k, time_k, rates, sums, squared: of_squares } = &self.own;
+        let Own { k, series_k, time_k, rates, sums, squared: of_squares } = &self.own;
         let sum = (!products.is_empty()).then(|| quote!(let #sums = #workspace.products();));
         let sum_squares = (!squares.is_empty()).then(|| quote!(let #of_squares = #workspace.squares();));
         let terms = super::terms(self.context);
@@ -302,7 +299,7 @@ impl<'a> Writer<'a> {
         let no_time = self.has_time.then(|| quote!(#time_k = #zero;));
         let entries = (0..state.len()).map(|index| {
             let index = Literal::usize_unsuffixed(index);
-            quote!(#step * #rates[#index])
+            quote!(#unit * #rates[#index] / #k)
         });
         let entry = state.construct(&self.context.state_name(), &entries.collect::<Vec<_>>());
         let first: Vec<TokenStream> = first.iter().map(element).collect();
@@ -319,8 +316,6 @@ impl<'a> Writer<'a> {
             let #end = if #series.len() < #terms { #series.len() } else { #terms };
             for #index in 1..#end {
                 #k += #one;
-                let #over_k = #runtime::Scalar::recip(#k);
-                let #step = #over_k * #unit;
                 let #series_k = #entry;
                 if let ::core::option::Option::Some(#slot) = #series.get_mut(#index) {
                     *#slot = #series_k;

@@ -1,5 +1,7 @@
 //! The reference systems, as they stand in their files, pass the stages up to here and the engine.
 
+use std::path::Path;
+
 use proc_macro2::{Delimiter, TokenStream, TokenTree};
 
 use super::{super::Resolved, resolve};
@@ -22,7 +24,11 @@ fn declarations(tokens: TokenStream) -> Vec<(TokenStream, TokenStream)> {
                 continue;
             }
         };
-        let is_body = |token: &&TokenTree| matches!(token, TokenTree::Group(group) if group.delimiter() == Delimiter::Brace);
+        let is_body = |token: &&TokenTree| match token {
+            TokenTree::Group(group) => group.delimiter() == Delimiter::Brace,
+            TokenTree::Punct(mark) => mark.as_char() == ';',
+            _ => false,
+        };
         let end = k + 1 + tokens[k + 1..].iter().position(|token| is_body(&token)).expect("a struct");
         found.push((attribute.stream(), tokens[k + 1..=end].iter().cloned().collect()));
     }
@@ -37,9 +43,15 @@ pub(super) fn resolved(attribute: TokenStream, item: TokenStream) -> Resolved {
 
 /// Every declaration of the catalogue; none where the crate is built without its workspace.
 pub(super) fn all() -> Vec<(TokenStream, TokenStream)> {
-    let folder = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("../tests/src/systems");
+    in_folder(Path::new("../tests/src/systems"))
+}
+
+/// Every declaration in the files of a folder, beside the crate.
+pub(super) fn in_folder(folder: &Path) -> Vec<(TokenStream, TokenStream)> {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join(folder);
     let Ok(files) = std::fs::read_dir(folder) else { return Vec::new() };
     let mut paths: Vec<_> = files.map(|file| file.expect("a file").path()).collect();
+    paths.retain(|path| path.extension().is_some_and(|extension| extension == "rs"));
     paths.sort();
     let text = |path| std::fs::read_to_string(path).expect("text");
     paths.iter().flat_map(|path| declarations(text(path).parse().expect("tokens"))).collect()

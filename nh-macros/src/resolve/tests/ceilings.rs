@@ -11,23 +11,6 @@ fn operations(declaration: &Declaration) -> usize {
     Cost::of(&derivative(&compiled(declaration).expect("regular"))).operations()
 }
 
-/// The declaration in a file of the benchmark of record.
-fn contest(source: &str) -> Declaration {
-    let file = syn::parse_file(source).expect("it is Rust");
-    let declared = file.items.into_iter().find_map(|item| match item {
-        syn::Item::Struct(mut item) => {
-            let attribute = item.attrs.iter().find_map(|attribute| match &attribute.meta {
-                syn::Meta::List(list) if list.path.is_ident("nonholonomic") => Some(list.tokens.clone()),
-                _ => None,
-            });
-            item.attrs.clear();
-            attribute.map(|attribute| (attribute, parse_quote!(#item)))
-        }
-        _ => None,
-    });
-    declared.expect("a declaration")
-}
-
 /// The tractor whose trailers are all alike.
 fn alike(trailers: usize) -> Declaration {
     let (attribute, _) = tractor(trailers);
@@ -82,15 +65,6 @@ fn trailers_that_are_alike_are_no_dearer() {
         let (same, different) = (operations(&alike(trailers)), operations(&tractor(trailers)));
         assert!(same <= different, "{trailers} trailers: {same} operations, {different} if they differ");
     }
-}
-
-/// A hitch behind the axle, in the axes of the tractor; a pendulum on wheels.
-#[test]
-fn what_moves_one_body_with_another_is_named() {
-    let hitched = contest(include_str!("../../../../tests/bench/src/systems/hitched_trailer.rs"));
-    let balancing = contest(include_str!("../../../../tests/bench/src/systems/balancing_robot.rs"));
-    assert!(operations(&hitched) <= 42);
-    assert!(operations(&balancing) <= 49);
 }
 
 /// A momentum that a bracket turns is computed once: a satellite with three wheels takes less than in

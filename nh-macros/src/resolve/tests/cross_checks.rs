@@ -115,7 +115,7 @@ fn geometry(model: &mut Model) -> Option<Geometry> {
     let facts = check::facts(model).unwrap();
     let mut motion = check::kinematics(model).unwrap();
     let base = check::embedding(model, &motion).unwrap();
-    let structure = check::structure_functions(model, &motion).unwrap();
+    let structure = check::structure_functions(model, &motion, &base).unwrap();
     let velocities = model.sections.iter().map(|section| section.symbol).collect();
     let algebroid = Algebroid { anchor: motion.anchor.clone(), structure, velocities };
     let algebroid = check::change_to_frame(model, &mut motion, algebroid, &base, &facts).unwrap();
@@ -127,7 +127,7 @@ fn geometry(model: &mut Model) -> Option<Geometry> {
         lagrangian,
         forces,
         forces_on_distribution: Vec::new(),
-        time: model.time,
+        clock: model.clock(),
     };
     let autonomous = |expressions: &[ExprId]| !model.graph.symbols_in(expressions).contains(&model.time);
     let homogeneous = |linear: &LinearConstraints| {

@@ -1,6 +1,6 @@
 //! No declaration hangs the compiler: what is too large is refused, and soon.
 
-use std::time::{Duration, Instant};
+use nonholonomic_core::limits::timed;
 
 use super::messages;
 
@@ -9,12 +9,10 @@ fn joined(texts: impl Iterator<Item = String>) -> String {
     texts.collect::<Vec<_>>().concat()
 }
 
-/// The first lines of the errors. Unoptimised and beside other tests this takes its time, but not
-/// much.
+/// The first lines of the errors. Unoptimised this takes its time on the processor, but not much.
 fn first_lines(attribute: &str, item: &str) -> Vec<String> {
-    let start = Instant::now();
-    let found = messages(attribute, item);
-    assert!(start.elapsed() < Duration::from_secs(20), "{:?}", start.elapsed());
+    let (found, seconds) = timed(|| messages(attribute, item));
+    assert!(seconds < 20.0, "{seconds} s");
     found.iter().map(|message| message.lines().next().unwrap_or_default().to_owned()).collect()
 }
 

@@ -202,15 +202,6 @@ fn calls_and_powers_are_checked() {
         ("sine(x)", "unknown function `sine`\nhelp: did you mean `sin`?".to_owned()),
         ("ddt(x)", "unknown function `ddt`\nhelp: write `der(x)`".to_owned()),
         ("log(x)", "unknown function `log`\nhelp: write `ln(x)`".to_owned()),
-        (
-            "dot(I, diag(I) * I)",
-            "unknown function `diag`\nhelp: write `[[a, 0, 0], [0, b, 0], [0, 0, c]]`".to_owned(),
-        ),
-        (
-            "dot(I, hat(I) * I)",
-            "unknown function `hat`\nhelp: write `[[0, -w[2], w[1]], [w[2], 0, -w[0]], [-w[1], w[0], 0]]`"
-                .to_owned(),
-        ),
         ("sin(x, m)", "`sin` takes 1 argument, and 2 are given\nhelp: write `sin(x)`".to_owned()),
         ("atan2(x)", "`atan2` takes 2 arguments, and 1 are given\nhelp: write `atan2(y, x)`".to_owned()),
         (

@@ -37,7 +37,9 @@ const SYSTEMS: [(&str, &str); 5] = [
 ];
 
 /// What is derived on levels; where there are no constraints, less what belongs to these.
-const DERIVED: [&str; 10] = [
+const DERIVED: [&str; 12] = [
+    "power",
+    "c",
     "jacobian",
     "explain",
     "taylor",

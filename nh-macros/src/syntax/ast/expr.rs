@@ -1,6 +1,6 @@
 //! Expressions as they were written.
 
-use super::{Binder, Name, Place};
+use super::{Binder, Name};
 use crate::report::Extent;
 
 /// An expression.
@@ -19,10 +19,12 @@ pub(crate) enum ExprKind {
     Number(Number),
     /// A name, a whole family, an array; `pi` and `t` too.
     Name(Name),
-    /// An entry, `I[0]` or `A[i][j]`: at most two indices.
+    /// An entry or a part, `I[0]`, `A[i][j]`, `p[0..2]`.
     Index(Box<Expr>, Vec<Expr>),
+    /// `0..2`, which is an index only.
+    Range(Box<Expr>, Box<Expr>),
     /// `der(x)`.
-    Der(Place),
+    Der(Box<Expr>),
     /// `f(a, b)`: a function of the vocabulary, `dot` and `cross` included; any other name is
     /// still in here.
     Call(Name, Vec<Expr>),
@@ -40,6 +42,41 @@ pub(crate) enum ExprKind {
     Multiply(Vec<(Factor, Expr)>),
     /// `a ^ b`.
     Power(Box<Expr>, Box<Expr>),
+}
+
+impl Expr {
+    /// Visits this expression and all that it is made of, in the order they are written.
+    pub(crate) fn walk<'a>(&'a self, visit: &mut dyn FnMut(&'a Self)) {
+        visit(self);
+        match &self.kind {
+            ExprKind::Number(_) | ExprKind::Name(_) => {}
+            ExprKind::Index(of, indices) => {
+                of.walk(visit);
+                for index in indices {
+                    index.walk(visit);
+                }
+            }
+            ExprKind::Range(a, b) | ExprKind::Power(a, b) => {
+                a.walk(visit);
+                b.walk(visit);
+            }
+            ExprKind::Der(of) | ExprKind::Negate(of) => of.walk(visit),
+            ExprKind::Call(_, parts) | ExprKind::Method(_, parts) | ExprKind::Vector(parts) => {
+                for part in parts {
+                    part.walk(visit);
+                }
+            }
+            ExprKind::Sum(binders, body) => {
+                for binder in binders {
+                    binder.from.walk(visit);
+                    binder.to.walk(visit);
+                }
+                body.walk(visit);
+            }
+            ExprKind::Add(terms) => terms.iter().for_each(|(_, term)| term.walk(visit)),
+            ExprKind::Multiply(factors) => factors.iter().for_each(|(_, factor)| factor.walk(visit)),
+        }
+    }
 }
 
 /// How a term enters a sum.

@@ -1,0 +1,283 @@
+//! Position constraints f(t, x) = 0: the manifold N where they hold, and that each of them says something
+//! there that the others do not.
+
+use super::constraints::name_of;
+use super::dependence::combination_shown;
+use super::evidence::shown;
+use super::kinematics::Motion;
+use super::whole_base::beside_positions;
+use crate::algebra::{Demand, Graph, Matrix};
+use crate::geometry::{Algebroid, Manifold, NearManifold};
+use crate::id::{ConstraintId, ExprId, Id, Origin, SymbolId, Table};
+use crate::model::{ConstraintDecl, Model, PositionDecl};
+use crate::violation::{Law, Violation};
+
+/// Position constraints, proved independent where they hold.
+#[derive(Clone, Debug, Default)]
+pub struct Positions {
+    /// N over the embedded base.
+    pub manifold: Manifold,
+    /// Those that were solved for no coordinate and no parameter: N is asked near them.
+    pub unsolved: Vec<ExprId>,
+    /// A^a_α = ρ^i_α ∂_i f^a, a row for each of the independent ones.
+    pub jacobian: Matrix,
+    /// Equations that follow from the others wherever these hold, which the declaration permits.
+    pub redundant: Vec<PositionDecl>,
+    /// Entries of vector equations that say nothing, or what an earlier one says: for the report.
+    pub dropped: Vec<String>,
+}
+
+/// Reads the position constraints; those that are not independent leave the model, or are refused.
+///
+/// # Errors
+/// Equations that hold always or never, that the anchor keeps by itself, that nothing moves, or that follow
+/// from others.
+pub fn positions(
+    model: &mut Model,
+    motion: &mut Motion,
+    algebroid: &Algebroid,
+    base: &Manifold,
+) -> Result<Positions, Vec<Violation>> {
+    if model.positions.is_empty() {
+        let manifold = base.clone();
+        return Ok(Positions { manifold, ..Positions::default() });
+    }
+    let refused = beside_positions(model);
+    if !refused.is_empty() {
+        return Err(refused);
+    }
+    let mut found = Positions::default();
+    drop_empty_entries(model, base, &mut found);
+    let mut violations = Vec::new();
+    for index in 0..model.positions.len() {
+        violations.extend(says_nothing(model, motion, algebroid, base, index));
+    }
+    violations.extend(without_real_point(model));
+    if !violations.is_empty() {
+        return Err(violations);
+    }
+    let values: Vec<ExprId> = model.positions.iter().map(|position| position.value).collect();
+    let coordinates: Vec<SymbolId> = model.coordinates.iter().map(|c| c.symbol).collect();
+    let parameters: Vec<SymbolId> = model.parameters.iter().map(|p| p.symbol).collect();
+    let NearManifold { manifold, unsolved } =
+        Manifold::of_positions(&mut model.graph, base, &values, [&coordinates, &parameters]);
+    found.unsolved = unsolved.iter().map(|index| values[*index]).collect();
+    found.manifold = manifold;
+    let rows = jacobian(model, motion, algebroid);
+    independent(model, &rows, &mut found)?;
+    Ok(found)
+}
+
+/// A^a_α, simplified.
+fn jacobian(model: &mut Model, motion: &mut Motion, algebroid: &Algebroid) -> Matrix {
+    let forms: Vec<ExprId> =
+        model.constraints.iter().take(model.positions.len()).map(|c| c.residual).collect();
+    let graph = &mut model.graph;
+    let forms = motion.rates.apply_all(graph, &forms);
+    let row = |form: &ExprId| {
+        let entries = algebroid.velocities.iter().map(|symbol| {
+            let entry = graph.partial(*form, *symbol);
+            graph.simplify(entry)
+        });
+        entries.collect()
+    };
+    forms.iter().map(row).collect()
+}
+
+/// Leaves out entries of vector equations that are 0 = 0.
+fn drop_empty_entries(model: &mut Model, base: &Manifold, found: &mut Positions) {
+    let mut kept = Vec::new();
+    for index in 0..model.positions.len() {
+        let position = &model.positions[index];
+        let (value, is_entry) = (position.value, position.is_entry);
+        if is_entry && base.zero_test(&mut model.graph, value).is_zero() {
+            let name = name_of(model, ConstraintId::from_index(index));
+            found.dropped.push(format!("{name} is left out: its sides are equal everywhere"));
+        } else {
+            kept.push(index);
+        }
+    }
+    keep(model, &kept);
+}
+
+/// Keeps some of the position constraints, with their velocity forms.
+fn keep(model: &mut Model, kept: &[usize]) {
+    let count = model.positions.len();
+    if kept.len() == count {
+        return;
+    }
+    let all: Vec<ConstraintDecl> = model.constraints.iter().cloned().collect();
+    let mut table = Table::new();
+    let forms = kept.iter().map(|index| all[*index].clone());
+    for constraint in forms.chain(all[count..].iter().cloned()) {
+        table.push(constraint);
+    }
+    model.constraints = table;
+    model.positions = kept.iter().map(|index| model.positions[*index].clone()).collect();
+}
+
+/// An equation that holds always or never, or that nothing changes.
+fn says_nothing(
+    model: &mut Model,
+    motion: &mut Motion,
+    algebroid: &Algebroid,
+    base: &Manifold,
+    index: usize,
+) -> Option<Violation> {
+    let PositionDecl { value, origin, .. } = model.positions[index];
+    let id = ConstraintId::from_index(index);
+    let name = name_of(model, id);
+    let graph = &mut model.graph;
+    let blame = |what: String, evidence: String, way_out: &str| {
+        let law = Law::Constraint;
+        Some(Violation { law, origin, what, evidence, way_out: way_out.into() })
+    };
+    if base.zero_test(graph, value).is_zero() {
+        return blame(format!("{name} says nothing: its two sides are equal"), String::new(), "leave it out");
+    }
+    if graph.contradiction(&[(value, Demand::Zero)]).is_some() {
+        return blame(
+            format!("{name} holds nowhere: its two sides are never equal"),
+            format!("{} should be 0, and is not at any real positions", shown(graph, value)),
+            "correct it, or leave it out",
+        );
+    }
+    let form = motion.rates.apply(graph, model.constraints[id].residual);
+    let coefficients: Vec<ExprId> =
+        algebroid.velocities.iter().map(|symbol| graph.partial(form, *symbol)).collect();
+    if !coefficients.iter().all(|entry| base.zero_test(graph, *entry).is_zero()) {
+        return None;
+    }
+    let symbols = graph.symbols_in(&[value]);
+    let has_coordinates = model.coordinates.iter().any(|coordinate| symbols.contains(&coordinate.symbol));
+    if symbols.contains(&model.time) {
+        return blame(
+            format!("{name} can be kept by no motion: it changes with time alone"),
+            format!("along every section {} stays as it is", shown(graph, value)),
+            "write the coordinates that follow the time: `x - a * t = 0`",
+        );
+    }
+    if has_coordinates {
+        return blame(
+            format!("{name} is kept by the anchor: no motion changes it"),
+            format!("the rate of {} is 0 along every section", shown(graph, value)),
+            "it is no constraint: write it in `on`",
+        );
+    }
+    blame(
+        format!("{name} constrains nothing that moves"),
+        format!("{} is the same at all times: it is 0 always or never", shown(graph, value)),
+        "leave it out; a fact about parameters belongs in `assume`",
+    )
+}
+
+/// Equations that no real positions satisfy together, for parameters as they are assumed.
+fn without_real_point(model: &mut Model) -> Option<Violation> {
+    let assumptions = model.assumptions.clone();
+    let graph = &mut model.graph;
+    let mut demands: Vec<(ExprId, Demand)> =
+        assumptions.iter().map(|assumption| super::assumptions::demand(graph, assumption)).collect();
+    for index in 0..model.positions.len() {
+        let PositionDecl { value, origin, .. } = model.positions[index];
+        demands.push((value, Demand::Zero));
+        if index > 0 && graph.contradiction(&demands).is_some() {
+            let name = name_of(model, ConstraintId::from_index(index));
+            return Some(Violation {
+                law: Law::Independence,
+                origin,
+                what: format!("{name} contradicts the constraints before it"),
+                evidence: format!(
+                    "no real positions satisfy {} = 0 together with those",
+                    shown(&model.graph, value)
+                ),
+                way_out: "change or leave out one of them".into(),
+            });
+        }
+    }
+    None
+}
+
+/// Finds those whose rows of A are independent on N; the others are dropped, kept aside or refused.
+fn independent(model: &mut Model, rows: &Matrix, found: &mut Positions) -> Result<(), Vec<Violation>> {
+    let restricted = found.manifold.restrict_matrix(&mut model.graph, rows);
+    let mut kept: Vec<usize> = Vec::new();
+    let mut violations = Vec::new();
+    for index in 0..rows.len() {
+        let mut trial: Vec<usize> = kept.clone();
+        trial.push(index);
+        let matrix: Matrix = trial.iter().map(|row| restricted[*row].clone()).collect();
+        match model.graph.generic_rank(&matrix) {
+            Ok(rank) if rank == trial.len() => kept = trial,
+            Ok(_) => match followed(model, rows, &kept, index, found) {
+                Follows::Dropped(line) => found.dropped.push(line),
+                Follows::Permitted => found.redundant.push(model.positions[index].clone()),
+                Follows::Refused(violation) => violations.push(violation),
+            },
+            Err(why) => violations.push(undecided(model.positions[index].origin, why)),
+        }
+    }
+    if !violations.is_empty() {
+        return Err(violations);
+    }
+    found.jacobian = kept.iter().map(|row| rows[*row].clone()).collect();
+    keep(model, &kept);
+    Ok(())
+}
+
+fn undecided(origin: Origin, why: String) -> Violation {
+    Violation {
+        law: Law::Decidable,
+        origin,
+        what: "whether the position constraints are independent could not be decided".into(),
+        evidence: why,
+        way_out: "write them without roots of negative numbers and divisions by zero".into(),
+    }
+}
+
+/// What becomes of an equation whose row depends on earlier ones.
+enum Follows {
+    Dropped(String),
+    Permitted,
+    Refused(Violation),
+}
+
+fn followed(model: &mut Model, rows: &Matrix, kept: &[usize], index: usize, found: &Positions) -> Follows {
+    let PositionDecl { value, is_entry, origin, .. } = model.positions[index];
+    let name = name_of(model, ConstraintId::from_index(index));
+    let repeated = kept.iter().copied().find(|earlier| {
+        let other = model.positions[*earlier].value;
+        let graph = &mut model.graph;
+        let (sum, difference) = (graph.formula(value + other), graph.formula(value - other));
+        graph.zero_test(sum).is_zero() || graph.zero_test(difference).is_zero()
+    });
+    if let (true, Some(earlier)) = (is_entry, repeated) {
+        let earlier = name_of(model, ConstraintId::from_index(earlier));
+        return Follows::Dropped(format!("{name} is left out: it says what {earlier} says"));
+    }
+    let graph = &mut model.graph;
+    let on_manifold = |graph: &mut Graph, entry: &ExprId| found.manifold.zero_test(graph, *entry).is_zero();
+    let vanishes = rows[index].iter().all(|entry| on_manifold(graph, entry));
+    if model.redundant.is_some() {
+        return Follows::Permitted;
+    }
+    let law = Law::Independence;
+    if vanishes {
+        return Follows::Refused(Violation {
+            law,
+            origin,
+            what: format!("{name} exerts no force: its derivative vanishes where it holds"),
+            evidence: format!("the rate of {} is 0 along every section on {name}", shown(graph, value)),
+            way_out: "write it without the power, as `a = b` instead of `(a - b)^2 = 0`".into(),
+        });
+    }
+    let evidence = combination_shown(model, rows, kept, index);
+    Follows::Refused(Violation {
+        law,
+        origin,
+        what: format!("{name} follows from the position constraints before it"),
+        evidence,
+        way_out: "leave it out; or write `redundant;` in `holonomic`: it then stays in residual and return, \
+                  without a multiplier"
+            .into(),
+    })
+}

@@ -1,0 +1,437 @@
+//! Proofs of the functions that are derived beside the motion: each is compared, at points of the field, with what
+//! its definition says of the declared data and of the motion that is proved already. Derivatives are taken there in
+//! numbers (`algebra/tangent.rs`), linear systems are solved there, with no rule of those that made the expressions.
+
+mod bracket;
+mod conditions;
+mod connection;
+mod flow;
+mod place;
+mod returns;
+mod splitting;
+mod tangent;
+#[cfg(test)]
+mod tests;
+
+use super::ledger::Proof;
+use super::proof::{Defect, at_points, bits_of_a_point, defined, run, unless_roots_are_missing};
+use super::reference::{Reference, inner};
+use crate::algebra::{Degrees, Direction, FieldPass, FieldPoint, Graph, Node, Radicands, Residue};
+use crate::id::{CoordId, ExprId, SymbolId};
+use crate::mechanics::{HamiltonianSide, Procedure};
+use crate::phase_space::StepForm;
+use crate::system::{Embedding, PositionReturn, Projection};
+use place::Place;
+
+/// What is claimed of a derived function.
+#[derive(Clone, Copy)]
+pub(crate) enum Derived<'p> {
+    /// The derivatives of a function by arguments, a row for each of its outputs.
+    Jacobian(&'p Procedure, &'p Procedure, &'p [SymbolId]),
+    /// The derivatives of a function along the motion.
+    Rates(&'p Procedure, &'p Procedure),
+    /// Σ ∂f_i/∂x_i of the motion, on the base where identities hold.
+    Divergence(&'p Procedure, &'p [ExprId]),
+    /// The density of a volume that the motion keeps there.
+    Density(&'p Procedure, &'p [ExprId]),
+    /// Π and ∂E.
+    Sharp(AlmostPoissonForm<'p>),
+    /// Brackets of outputs.
+    Bracket(BracketForm<'p>),
+    /// E_L, mathematics (6).
+    Energy(&'p Procedure),
+    /// The momenta, their inverse, h, brackets and Hamilton's equations, mathematics (16), (17), with the energy.
+    Hamiltonian(&'p HamiltonianSide, &'p Procedure),
+    /// Velocities over the base whose momenta are claimed, and which the motion keeps.
+    Section(&'p Procedure, &'p [ExprId]),
+    /// The symbols of the Levi-Civita connection.
+    Christoffel(&'p Procedure),
+    /// Those of the constrained connection, beside the former.
+    Connection(&'p Procedure, &'p Procedure),
+    /// The nonholonomic connection.
+    Splitting(SplittingForm<'p>),
+    /// ⟨J, K⟩ of a Chaplygin system.
+    Gyroscopic(GyroscopicForm<'p>),
+    /// The power of forces and constraints.
+    Power(PowerForm<'p>),
+    /// Declared functions at the state.
+    Values(ValuesForm<'p>),
+    /// σ^α p_α − f, by sections and gauges.
+    Momenta(&'p Procedure, &'p [(Vec<ExprId>, Option<ExprId>)]),
+    /// y at the state.
+    Velocity(&'p Procedure),
+    /// Functions of (t, x, y).
+    Residual(&'p Procedure, &'p [ExprId]),
+    /// A step back to these constraints on velocities.
+    Projection(&'p Projection, &'p [ExprId]),
+    /// A step back to constraints on positions, the first of so many.
+    Return(&'p PositionReturn, usize),
+    /// A step back to an embedded base.
+    Normalisation(&'p Embedding, &'p [ExprId]),
+    /// The kick of the leapfrog.
+    Leapfrog(&'p StepForm),
+    /// The discrete momentum on a Lie algebra.
+    DiscreteMomentum(&'p StepForm),
+}
+
+/// Π applied to a covector, and the covector of the energy.
+#[derive(Clone, Copy)]
+pub(crate) struct AlmostPoissonForm<'p> {
+    pub(crate) gradient: &'p Procedure,
+    pub(crate) covector: &'p [SymbolId],
+    pub(crate) sharp: &'p Procedure,
+    pub(crate) energy: &'p Procedure,
+}
+
+/// The brackets of outputs with each other and with the energy, and what is left of their rates.
+#[derive(Clone, Copy)]
+pub(crate) struct BracketForm<'p> {
+    pub(crate) outputs: &'p Procedure,
+    pub(crate) bracket: &'p Procedure,
+    pub(crate) with_energy: &'p Procedure,
+    pub(crate) drift: &'p Procedure,
+    pub(crate) energy: &'p Procedure,
+}
+
+/// The functions of the splitting: an array without entries is none.
+#[derive(Clone, Copy)]
+pub(crate) struct SplittingForm<'p> {
+    pub(crate) vertical: Option<&'p Procedure>,
+    pub(crate) lifts: Option<&'p Procedure>,
+    pub(crate) inertia: Option<&'p Procedure>,
+    pub(crate) coefficients: Option<&'p Procedure>,
+    pub(crate) curvature: Option<&'p Procedure>,
+    pub(crate) momenta: Option<&'p Procedure>,
+    pub(crate) velocities: Option<&'p Procedure>,
+    pub(crate) force: Option<&'p Procedure>,
+    /// The coordinates of which V is the kernel.
+    pub(crate) over: &'p [CoordId],
+    /// Those of the lifts.
+    pub(crate) coordinates: &'p [CoordId],
+    /// Sections that span V, where a group is declared.
+    pub(crate) group: &'p [Vec<ExprId>],
+    pub(crate) is_embedded: bool,
+}
+
+/// The force of the curvature, with the coordinates along which it acts.
+#[derive(Clone, Copy)]
+pub(crate) struct GyroscopicForm<'p> {
+    pub(crate) force: &'p Procedure,
+    pub(crate) over: &'p [CoordId],
+}
+
+/// The power of each force, then of each constraint.
+#[derive(Clone, Copy)]
+pub(crate) struct PowerForm<'p> {
+    pub(crate) power: &'p Procedure,
+    pub(crate) energy: &'p Procedure,
+    pub(crate) forces: &'p [AppliedForce],
+    /// What may stand in the forces.
+    pub(crate) names: VelocityNames<'p>,
+    /// λ, where it is known, with the rows Φ unless these are those of the reference.
+    pub(crate) multipliers: Option<&'p Procedure>,
+    pub(crate) rows: Option<&'p [Vec<ExprId>]>,
+}
+
+/// A declared force.
+#[derive(Clone, Debug)]
+pub(crate) struct AppliedForce {
+    pub(crate) value: ExprId,
+    /// The velocity along which it acts: a combination of y, or one of the state.
+    pub(crate) along: Result<Vec<ExprId>, SymbolId>,
+}
+
+/// Declared functions, in which rates and replaced velocities may stand.
+#[derive(Clone, Copy)]
+pub(crate) struct ValuesForm<'p> {
+    pub(crate) values: &'p Procedure,
+    pub(crate) declared: &'p [ExprId],
+    pub(crate) names: VelocityNames<'p>,
+}
+
+/// What stands for velocities in declared functions, beside y.
+#[derive(Clone, Copy)]
+pub(crate) struct VelocityNames<'p> {
+    /// The symbols of ẋ.
+    pub(crate) rates: &'p [SymbolId],
+    /// Further velocities, by the rows that make them of y.
+    pub(crate) replaced: &'p [(SymbolId, Vec<ExprId>)],
+}
+
+/// The motion: rates of the state, by the state, and the time.
+#[derive(Clone, Copy)]
+pub(crate) struct Motion<'p> {
+    pub(crate) derivative: &'p Procedure,
+    pub(crate) state: &'p [SymbolId],
+    pub(crate) time: SymbolId,
+}
+
+/// Where something is claimed: everywhere, or where symbols are these functions of others.
+pub(crate) type Images<'p> = &'p [(SymbolId, ExprId)];
+
+impl Derived<'_> {
+    fn procedures(&self) -> Vec<&Procedure> {
+        match *self {
+            Self::Jacobian(a, b, _) | Self::Rates(a, b) | Self::Connection(a, b) => vec![a, b],
+            Self::Divergence(a, _)
+            | Self::Density(a, _)
+            | Self::Energy(a)
+            | Self::Section(a, _)
+            | Self::Christoffel(a)
+            | Self::Momenta(a, _)
+            | Self::Velocity(a)
+            | Self::Residual(a, _) => vec![a],
+            Self::Sharp(form) => vec![form.gradient, form.sharp, form.energy],
+            Self::Bracket(form) => {
+                vec![form.outputs, form.bracket, form.with_energy, form.drift, form.energy]
+            }
+            Self::Hamiltonian(side, energy) => {
+                let HamiltonianSide { legendre, inverse, hamiltonian, equations, bracket, drift, .. } = side;
+                vec![energy, legendre, inverse, hamiltonian, equations, bracket, drift]
+            }
+            Self::Splitting(form) => {
+                let SplittingForm { vertical, lifts, inertia, coefficients, curvature, .. } = form;
+                let SplittingForm { momenta, velocities, force, .. } = form;
+                let all = [vertical, lifts, inertia, coefficients, curvature, momenta, velocities, force];
+                all.into_iter().flatten().collect()
+            }
+            Self::Gyroscopic(form) => vec![form.force],
+            Self::Power(form) => [form.power, form.energy].into_iter().chain(form.multipliers).collect(),
+            Self::Values(form) => vec![form.values],
+            Self::Projection(projection, _) => vec![&projection.step],
+            Self::Return(positions, _) => vec![&positions.residual, &positions.step],
+            Self::Normalisation(embedding, _) => vec![&embedding.step],
+            Self::Leapfrog(form) | Self::DiscreteMomentum(form) => vec![&form.map],
+        }
+    }
+
+    /// The expressions that it is about beside procedures and the declared equations.
+    fn further(&self) -> Vec<ExprId> {
+        match *self {
+            Self::Divergence(_, functions)
+            | Self::Density(_, functions)
+            | Self::Section(_, functions)
+            | Self::Residual(_, functions)
+            | Self::Projection(_, functions)
+            | Self::Normalisation(_, functions) => functions.to_vec(),
+            Self::Splitting(form) => form.group.concat(),
+            Self::Power(form) => {
+                let row = |force: &AppliedForce| force.along.clone().unwrap_or_default();
+                let forces = form.forces.iter().flat_map(|force| [vec![force.value], row(force)].concat());
+                let rows = form.rows.iter().flat_map(|rows| rows.iter().flatten().copied());
+                forces.chain(rows).chain(form.names.expressions()).collect()
+            }
+            Self::Values(form) => form.declared.iter().copied().chain(form.names.expressions()).collect(),
+            Self::Momenta(_, sections) => {
+                sections.iter().flat_map(|(section, gauge)| section.iter().chain(gauge)).copied().collect()
+            }
+            _ => Vec::new(),
+        }
+    }
+
+    /// Whether it is claimed where the constraints and the identities of the base hold, and need not be so elsewhere.
+    pub(crate) fn is_about_constraints(&self) -> bool {
+        matches!(
+            self,
+            Self::Rates(..)
+                | Self::Divergence(..)
+                | Self::Density(..)
+                | Self::Sharp(_)
+                | Self::Bracket(_)
+                | Self::Hamiltonian(..)
+                | Self::Section(..)
+                | Self::Christoffel(_)
+                | Self::Connection(..)
+                | Self::Splitting(_)
+                | Self::Gyroscopic(_)
+                | Self::Power(_)
+        )
+    }
+
+    fn holds(&self, place: &mut Place) -> Result<bool, Defect> {
+        match *self {
+            Self::Jacobian(function, jacobian, arguments) => {
+                is_jacobian(place, function, jacobian, arguments)
+            }
+            Self::Rates(function, rates) => Ok(place.slopes(function, &place.flow()?)? == place.run(rates)?),
+            Self::Divergence(stored, identities) => {
+                Ok(place.run(stored)? == [flow::divergence(place, identities)?])
+            }
+            Self::Density(density, identities) => flow::is_kept(place, density, identities),
+            Self::Sharp(form) => bracket::sharp(place, &form),
+            Self::Bracket(form) => bracket::of_outputs(place, &form),
+            Self::Energy(energy) => Ok(place.run(energy)? == [place.instant.energy()?]),
+            Self::Hamiltonian(side, energy) => flow::is_hamiltonian(place, side, energy),
+            Self::Section(lifted, claimed) => flow::is_solution(place, lifted, claimed),
+            Self::Christoffel(symbols) => connection::is_christoffel(place, symbols),
+            Self::Connection(symbols, christoffel) => connection::is_constrained(place, symbols, christoffel),
+            Self::Splitting(form) => splitting::holds(place, &form),
+            Self::Gyroscopic(form) => splitting::is_gyroscopic(place, &form),
+            Self::Power(form) => flow::is_power(place, &form),
+            Self::Values(form) => are_values(place, &form),
+            Self::Momenta(momenta, sections) => are_momenta(place, momenta, sections),
+            Self::Velocity(velocity) => Ok(place.run(velocity)? == place.instant.velocity()),
+            Self::Residual(residual, functions) => Ok(place.run(residual)? == place.values(functions)?),
+            Self::Projection(projection, residuals) => returns::is_projection(place, projection, residuals),
+            Self::Return(positions, constraints) => returns::is_return(place, positions, constraints),
+            Self::Normalisation(embedding, identities) => {
+                returns::is_normalised(place, embedding, identities)
+            }
+            Self::Leapfrog(form) => returns::is_leapfrog(place, form),
+            Self::DiscreteMomentum(form) => returns::is_discrete_momentum(place, form),
+        }
+    }
+}
+
+/// Proves a claim; parameters that may be 0 for the motion may be 0 for a function of it.
+///
+/// # Errors
+/// What is wrong, or why it could not be decided.
+pub(crate) fn prove_derived(
+    graph: &Graph,
+    (reference, motion): (&Reference, Motion),
+    claim: &Derived,
+    images: Images,
+    may_vanish: &[SymbolId],
+) -> Result<Proof, Defect> {
+    let procedures: Vec<&Procedure> = claim.procedures().into_iter().chain([motion.derivative]).collect();
+    let mut roots: Vec<ExprId> = procedures.iter().flat_map(|procedure| procedure.expressions()).collect();
+    roots.extend(claim.further().into_iter().chain(reference.roots(graph)));
+    let solved: Vec<SymbolId> = images.iter().map(|(symbol, _)| *symbol).collect();
+    if is_inside_functions(graph, &roots, &solved) {
+        let reason =
+            "it is claimed where constraints determine what stands in functions that are no formulas";
+        return Err(Defect::Unknown(reason.into()));
+    }
+    let values: Vec<ExprId> = images.iter().map(|(_, image)| *image).collect();
+    roots.extend(&values);
+    let division = graph.angle_division(&roots);
+    let degree = degree(graph, reference, division, (&procedures, &claim.further(), &values));
+    let bits = bits_of_a_point(graph, &roots, degree)?;
+    let mut determined: Vec<SymbolId> = procedures.iter().flat_map(|procedure| defined(procedure)).collect();
+    determined.extend(reference.determined().iter().chain(&solved));
+    let radicands = Radicands::of(graph, &roots, &determined);
+    let at = |mut point: FieldPoint| -> Result<Place, Defect> {
+        let on = FieldPass::new(graph, point.clone(), division).evaluate(&values)?;
+        point.chosen.extend(solved.iter().copied().zip(on));
+        let instant = reference.at(graph, point.clone(), division)?;
+        Ok(Place { reference, instant, motion, point, division })
+    };
+    let point = |seed| radicands.point(graph, seed);
+    let outcome = at_points(bits, point, |point| {
+        if claim.holds(&mut at(point)?)? {
+            return Ok(());
+        }
+        Err(Defect::Wrong("it is not what its definition says".into()))
+    });
+    let proof = unless_roots_are_missing(graph, &roots, outcome)?;
+    match conditions::parameter_that_may_not_vanish(claim, may_vanish, point, at) {
+        Some(parameter) => Err(Defect::Wrong(format!(
+            "it has no value where `{}` is 0, and the motion has one",
+            graph.symbols()[parameter]
+        ))),
+        None => Ok(proof),
+    }
+}
+
+/// Whether symbols stand in the arguments of functions whose values in the field are chosen beside theirs.
+fn is_inside_functions(graph: &Graph, roots: &[ExprId], symbols: &[SymbolId]) -> bool {
+    !symbols.is_empty()
+        && graph.reachable(roots).into_iter().any(|id| match graph.node(id) {
+            Node::Apply(_, x) => graph.depends_on(*x, symbols),
+            Node::Apply2(_, x, y) => graph.depends_on(*x, symbols) || graph.depends_on(*y, symbols),
+            _ => false,
+        })
+}
+
+/// A bound on the degrees of what is compared: entries are data, procedures and their derivatives, which have at most
+/// three times the degree of their functions, at the images; what is solved are as many equations at most as
+/// there are coordinates and velocities, twice.
+fn degree(
+    graph: &Graph,
+    reference: &Reference,
+    division: i64,
+    (procedures, further, images): (&[&Procedure], &[ExprId], &[ExprId]),
+) -> f64 {
+    let mut degrees = Degrees::new(graph, division);
+    let own: f64 = procedures.iter().map(|procedure| procedure.degree(&mut degrees)).sum();
+    let functions = if further.is_empty() { 0.0 } else { degrees.most(further) };
+    let declared = reference.degree(graph, division, own);
+    let at = if images.is_empty() { 1.0 } else { 1.0 + Degrees::new(graph, division).most(images) };
+    let algebroid = &reference.system().algebroid;
+    let equations =
+        2 * (algebroid.rank() + algebroid.anchor.coordinates.len() + reference.residuals().len()) + 1;
+    let equations = f64::from(u32::try_from(equations).unwrap_or(u32::MAX));
+    equations * equations * 3.0 * (own + functions + declared) * at
+}
+
+impl Motion<'_> {
+    /// The direction in which the state moves.
+    fn direction(&self, pass: &mut FieldPass) -> Result<Direction, Defect> {
+        let rates = run(pass, self.derivative)?;
+        let mut direction: Direction = self.state.iter().copied().zip(rates).collect();
+        direction.insert(self.time, Residue::ONE);
+        Ok(direction)
+    }
+}
+
+/// J u for some u against the derivative along it.
+fn is_jacobian(
+    place: &Place,
+    function: &Procedure,
+    jacobian: &Procedure,
+    arguments: &[SymbolId],
+) -> Result<bool, Defect> {
+    let pass = place.pass();
+    let along: Vec<Residue> =
+        (0..arguments.len()).map(|k| pass.kernel("direction", &[Residue::of_word(k as u64)])).collect();
+    let direction: Direction = arguments.iter().copied().zip(along.iter().copied()).collect();
+    let changes = place.slopes(function, &direction)?;
+    let rows = place.run(jacobian)?;
+    let rows = rows.chunks(arguments.len().max(1)).map(|row| inner(row, &along));
+    Ok(arguments.is_empty() || changes.into_iter().eq(rows))
+}
+
+impl VelocityNames<'_> {
+    fn expressions(&self) -> impl Iterator<Item = ExprId> {
+        self.replaced.iter().flat_map(|(_, row)| row.clone())
+    }
+
+    /// An evaluation that knows them, ẋ = ρ(y).
+    fn known<'a>(&self, place: &Place<'a, '_>) -> Result<FieldPass<'a>, Defect> {
+        let mut pass = place.pass();
+        choose_all(&mut pass, self.rates, &place.instant.rates)?;
+        for (symbol, row) in self.replaced {
+            let value = inner(&pass.evaluate(row)?, place.instant.velocity());
+            choose_all(&mut pass, &[*symbol], &[value])?;
+        }
+        Ok(pass)
+    }
+}
+
+/// The declared functions.
+fn are_values(place: &Place, form: &ValuesForm) -> Result<bool, Defect> {
+    Ok(form.names.known(place)?.evaluate(form.declared)? == place.run(form.values)?)
+}
+
+/// σ^α p_α − f.
+fn are_momenta(
+    place: &Place,
+    momenta: &Procedure,
+    sections: &[(Vec<ExprId>, Option<ExprId>)],
+) -> Result<bool, Defect> {
+    let p: Vec<Residue> = place.momenta(Direction::default())?.iter().map(|dual| dual.value).collect();
+    let mut wanted = Vec::new();
+    for (section, gauge) in sections {
+        let along = inner(&place.values(section)?, &p);
+        let gauge =
+            gauge.map_or(Ok(Residue::ZERO), |gauge| place.values(&[gauge]).map(|values| values[0]))?;
+        wanted.push(along - gauge);
+    }
+    Ok(place.run(momenta)? == wanted)
+}
+
+fn choose_all(pass: &mut FieldPass, symbols: &[SymbolId], values: &[Residue]) -> Result<(), Defect> {
+    let is_free = symbols.iter().zip(values).all(|(symbol, value)| pass.choose(*symbol, *value));
+    if is_free { Ok(()) } else { Err(Defect::Wrong("a symbol has two values".into())) }
+}

@@ -1,0 +1,47 @@
+//! Pivots of definite matrices, recognised by their values at two points.
+
+use crate::algebra::Residue;
+
+/// Whether a quantity is a multiple by a number of another one, at two points.
+pub(super) fn is_multiple(a: [Residue; 2], b: [Residue; 2]) -> bool {
+    let ratios = [a[0] * b[1], a[1] * b[0]];
+    let ratio = b[0].inverse().map(|inverse| a[0] * inverse);
+    ratios[0] == ratios[1] && ratio.is_some_and(|ratio| ratio.recognised().is_some())
+}
+
+/// The pivots of the elimination of a definite matrix at two points, in whatever order they are met.
+pub(super) struct Pivots {
+    matrices: [Vec<Vec<Residue>>; 2],
+    open: Vec<usize>,
+}
+
+impl Pivots {
+    pub(super) fn of(matrices: [Vec<Vec<Residue>>; 2]) -> Self {
+        let open = (0..matrices[0].len()).collect();
+        Self { matrices, open }
+    }
+
+    /// Whether a quantity is the next one.
+    pub(super) fn are_met(&mut self, value: [Residue; 2]) -> bool {
+        let Self { matrices: [first, second], open } = self;
+        let Some(position) = open.iter().position(|i| is_multiple(value, [first[*i][*i], second[*i][*i]]))
+        else {
+            return false;
+        };
+        let index = open.remove(position);
+        eliminate(first, index, open);
+        eliminate(second, index, open);
+        true
+    }
+}
+
+/// The Schur complement: what is left of a matrix for other unknowns when one is eliminated.
+fn eliminate(matrix: &mut [Vec<Residue>], index: usize, others: &[usize]) {
+    let Some(inverse) = matrix[index][index].inverse() else { return };
+    for i in others {
+        for j in others {
+            let update = matrix[*i][index] * inverse * matrix[index][*j];
+            matrix[*i][*j] = matrix[*i][*j] - update;
+        }
+    }
+}

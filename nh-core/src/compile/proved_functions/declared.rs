@@ -1,0 +1,93 @@
+//! What claims refer to that the functions do not hold themselves: the declared data, as they are written.
+
+use super::super::Proved;
+use super::Derivatives;
+use crate::choose::AppliedForce;
+use crate::id::{CoordId, ExprId, Id, SymbolId};
+use crate::model::{ForceDecl, ForceDirection};
+
+/// The declared data.
+pub(super) struct Declared {
+    /// The variables of the state, then the inputs.
+    pub(super) arguments: Vec<SymbolId>,
+    pub(super) state: Vec<SymbolId>,
+    pub(super) parameters: Vec<SymbolId>,
+    /// The symbols of ẋ.
+    pub(super) rates: Vec<SymbolId>,
+    pub(super) identities: Vec<ExprId>,
+    pub(super) outputs: Vec<ExprId>,
+    pub(super) forces: Vec<AppliedForce>,
+    /// σ and f of each momentum.
+    pub(super) sections: Vec<(Vec<ExprId>, Option<ExprId>)>,
+    /// α_a of a claimed section of D*.
+    pub(super) claimed: Vec<ExprId>,
+    /// The coordinates along which the gyroscopic force acts.
+    pub(super) gyroscopic: Vec<CoordId>,
+    /// What `constraint_residual` gives: positions, then velocities where the state does not solve these.
+    pub(super) residuals: Vec<ExprId>,
+    /// The constraints among the residuals of the reference.
+    pub(super) constraints: usize,
+}
+
+impl Declared {
+    pub(super) fn of(proved: &mut Proved, found: &Derivatives) -> Self {
+        let Derivatives { given, parts } = found;
+        let forces = forces(proved);
+        let Proved { model, symmetries, positions, constraints, .. } = proved;
+        let zero = model.graph.zero();
+        let section = model.hamilton_jacobi.as_ref();
+        let component = |velocity: &SymbolId| {
+            let components = section.iter().flat_map(|claim| &claim.components);
+            components.filter(|(known, _)| known == velocity).map(|(_, value)| value.value).next()
+        };
+        let claimed = given.velocities.iter().map(|velocity| component(velocity).unwrap_or(zero)).collect();
+        let coordinates: Vec<SymbolId> =
+            model.coordinates.iter().map(|coordinate| coordinate.symbol).collect();
+        let auxiliary = model.auxiliary.iter().map(|state| state.symbol);
+        let state: Vec<SymbolId> =
+            coordinates.iter().copied().chain(given.velocities.iter().copied()).chain(auxiliary).collect();
+        let inputs = model.inputs.iter().map(|input| input.symbol);
+        let with_momentum = |name: &String| {
+            let further = symmetries.found.iter().map(|(_, symmetry)| symmetry);
+            let symmetry =
+                symmetries.declared.iter().chain(further).find(|symmetry| symmetry.name == *name)?;
+            let gauge = model.symmetries.iter().find(|symmetry| symmetry.name == *name);
+            Some((symmetry.section.clone(), gauge.and_then(|symmetry| symmetry.gauge)))
+        };
+        let place = |symbol: &SymbolId| coordinates.iter().position(|known| known == symbol);
+        let on_positions = model.positions.iter().chain(&positions.redundant).map(|position| position.value);
+        Self {
+            arguments: state.iter().copied().chain(inputs).collect(),
+            state,
+            parameters: model.parameters.iter().map(|parameter| parameter.symbol).collect(),
+            rates: model.coordinates.iter().map(|coordinate| coordinate.rate).collect(),
+            identities: model.identities.iter().map(|identity| identity.value).collect(),
+            outputs: model.outputs.iter().map(|output| output.value).collect(),
+            forces,
+            sections: parts.momenta.iter().filter_map(with_momentum).collect(),
+            claimed,
+            gyroscopic: parts.gyroscopic.iter().filter_map(place).map(CoordId::from_index).collect(),
+            residuals: on_positions.chain(given.residuals.iter().copied()).collect(),
+            constraints: constraints.residuals.len(),
+        }
+    }
+}
+
+/// The forces with the velocities along which they act.
+fn forces(proved: &mut Proved) -> Vec<AppliedForce> {
+    let Proved { model, motion, system, .. } = proved;
+    let algebroid = &system.algebroid;
+    let units = model.graph.identity(algebroid.rank());
+    let along = |direction: &ForceDirection| match direction {
+        ForceDirection::Coordinate(coordinate) => Ok(algebroid.anchor.entries[coordinate.index()].clone()),
+        ForceDirection::Section(symbol) => {
+            if let Some(alpha) = algebroid.velocities.iter().position(|velocity| velocity == symbol) {
+                return Ok(units[alpha].clone());
+            }
+            let replaced = motion.replaced.iter().find(|(replaced, _)| replaced == symbol);
+            replaced.map(|(_, row)| row.clone()).ok_or(*symbol)
+        }
+    };
+    let force = |force: &ForceDecl| AppliedForce { value: force.value, along: along(&force.direction) };
+    model.forces.iter().map(force).collect()
+}

@@ -1,0 +1,145 @@
+//! Rigid bodies and material points: velocities and kinetic energies.
+
+use nonholonomic_core::algebra::Rational;
+use nonholonomic_core::id::ExprId;
+use nonholonomic_core::model::{Attitude, Body, Inertia};
+
+use super::array::{Array, Shape};
+use super::reports::Outcome;
+use super::resolver::Resolver;
+use crate::syntax::ast::Expr;
+
+/// What `velocity_at` takes.
+const AT: &str = "`velocity_at` takes a point of the body, its attitude, and where the material point is";
+/// What `kinetic` takes.
+const BODY: &str = "`kinetic` takes a mass, an inertia, the centre of mass and the attitude";
+
+impl Resolver {
+    /// `velocity_at(p, R, c)` = ṗ + space_rate(R) × (c − p): the velocity of the material point that is at c.
+    pub(super) fn velocity_at(&mut self, expr: &Expr, p: &Array, r: &Array, c: &Array) -> Outcome<Array> {
+        let point = match r.shape {
+            Shape::Matrix(3, 3) => Shape::Vector(3),
+            Shape::Number => Shape::Vector(2),
+            _ => return Err(self.no_attitude(expr, AT, &[p, r, c])),
+        };
+        let (Some(at), Some(to)) = (self.in_shape(p, point), self.in_shape(c, point)) else {
+            return Err(self.no_attitude(expr, AT, &[p, r, c]));
+        };
+        let velocity = self.rate_of_value(expr, at.clone())?;
+        let rate = self.space_rate(expr, r)?;
+        let mut arm = Vec::with_capacity(3);
+        for (to, from) in to.entries.iter().zip(&at.entries) {
+            arm.push(self.difference(expr, *to, *from)?);
+        }
+        let turned = match arm.as_slice() {
+            [x, y] => {
+                let back = self.graph.formula(-y);
+                let rate = rate.entries[0];
+                vec![self.times(expr, rate, back)?, self.times(expr, rate, *x)?]
+            }
+            _ => self.cross(expr, &rate, &Array::vector(arm))?.entries,
+        };
+        let mut entries = Vec::with_capacity(3);
+        for (along, turned) in velocity.entries.iter().zip(turned) {
+            entries.push(self.sum_of(expr, vec![(Rational::ONE, *along), (Rational::ONE, turned)])?);
+        }
+        Ok(Array::vector(entries))
+    }
+
+    /// `kinetic(m, p)` = m/2 ṗ².
+    pub(super) fn kinetic_of_point(
+        &mut self,
+        expr: &Expr,
+        mass: (&Expr, &Array),
+        p: &Array,
+    ) -> Outcome<Array> {
+        let mass = self.as_number(mass.0, mass.1)?;
+        if !matches!(p.shape, Shape::Vector(2 | 3)) {
+            return Err(self.wrong_shapes(
+                expr,
+                "`kinetic(m, p)` takes a point: a vector of 2 or 3 entries",
+                &[p],
+            ));
+        }
+        let origin = self.origin(expr.extent);
+        self.bodies.push(Body {
+            mass,
+            inertia: Inertia::None,
+            position: p.entries.clone(),
+            attitude: Attitude::None,
+            origin,
+        });
+        Ok(Array::number(self.of_translation(expr, mass, p)?))
+    }
+
+    /// `kinetic(m, I, p, R)` = m/2 ṗ² + ωᵀIω/2 with ω in the axes of the body, mathematics (33).
+    pub(super) fn kinetic_of_body(
+        &mut self,
+        expr: &Expr,
+        mass: (&Expr, &Array),
+        inertia: &Array,
+        p: &Array,
+        r: &Array,
+    ) -> Outcome<Array> {
+        let mass = self.as_number(mass.0, mass.1)?;
+        let position = match r.shape {
+            Shape::Matrix(3, 3) => Shape::Vector(3),
+            Shape::Number => Shape::Vector(2),
+            _ => return Err(self.no_attitude(expr, BODY, &[inertia, p, r])),
+        };
+        let fits = matches!(
+            (r.shape, inertia.shape),
+            (_, Shape::Number) | (Shape::Matrix(..), Shape::Vector(3) | Shape::Matrix(3, 3))
+        );
+        let (Some(p), true) = (self.in_shape(p, position), fits) else {
+            return Err(self.no_attitude(expr, BODY, &[inertia, p, r]));
+        };
+        let rate = self.body_rate(expr, r)?;
+        let momentum = match inertia.shape {
+            Shape::Number => {
+                let number = inertia.entries[0];
+                self.entrywise(rate.clone(), |this, entry| this.times(expr, number, entry))?.entries
+            }
+            Shape::Vector(_) => {
+                let pairs = inertia.entries.iter().zip(&rate.entries);
+                let products: Vec<_> = pairs.map(|(a, b)| self.times(expr, *a, *b)).collect();
+                products.into_iter().collect::<Outcome<Vec<_>>>()?
+            }
+            Shape::Matrix(..) => {
+                let rows: Vec<_> = inertia
+                    .entries
+                    .chunks(3)
+                    .map(|row| self.inner_product(expr, row, &rate.entries))
+                    .collect();
+                rows.into_iter().collect::<Outcome<Vec<_>>>()?
+            }
+        };
+        let turning = self.inner_product(expr, &momentum, &rate.entries)?;
+        let along = self.of_translation(expr, mass, &p)?;
+        let origin = self.origin(expr.extent);
+        let inertia = match inertia.shape {
+            Shape::Number => Inertia::Isotropic(inertia.entries[0]),
+            Shape::Vector(_) => Inertia::Diagonal(inertia.entries.clone()),
+            Shape::Matrix(..) => Inertia::Full(inertia.entries.clone()),
+        };
+        let attitude = if r.shape == Shape::Number {
+            Attitude::Angle(r.entries[0])
+        } else {
+            Attitude::Matrix(r.entries.clone())
+        };
+        self.bodies.push(Body { mass, inertia, position: p.entries.clone(), attitude, origin });
+        let sum = self.sum_of(expr, vec![(Rational::ONE, along), (Rational::new(1, 2), turning)])?;
+        Ok(Array::number(sum))
+    }
+
+    /// m/2 ṗ²
+    fn of_translation(&mut self, expr: &Expr, mass: ExprId, p: &Array) -> Outcome<ExprId> {
+        if self.graph.is_literal_zero(mass) {
+            return Ok(mass);
+        }
+        let velocity = self.rate_of_value(expr, p.clone())?;
+        let square = self.inner_product(expr, &velocity.entries, &velocity.entries)?;
+        let product = self.times(expr, mass, square)?;
+        self.sum_of(expr, vec![(Rational::new(1, 2), product)])
+    }
+}

@@ -1,0 +1,193 @@
+//! Units: what is inferred, and what contradicts what, in words.
+
+use nonholonomic_core::units::{Quantity, Unit};
+
+use super::{messages, model, resolved};
+
+const WAY_OUT: &str =
+    "help: a factor is missing, is too much or has a wrong power, or `units` gives a name a wrong unit";
+
+/// The units of a declaration as `name: unit`.
+fn units(attribute: &str, item: &str) -> Vec<String> {
+    let text = |Quantity { name, unit }: Quantity| match unit {
+        Unit::Known(unit) => format!("{name}: {unit}"),
+        Unit::Free => format!("{name}: ?"),
+    };
+    model(attribute, item).units.into_iter().map(text).collect()
+}
+
+#[test]
+fn units_follow_from_each_other() {
+    let found = units(
+        "base { x, q }
+         lagrangian { m / 2 * der(x)^2 + J / 2 * der(q)^2 - k / 2 * x^2 }
+         constraints { rolling: der(x) = r * der(q); }
+         inputs { torque }
+         forces { q: torque - self.friction(c * der(q)); }
+         outputs { speed = r * der(q); }
+         units { x = m; q = rad; m = kg; }",
+        "struct S { m: f64, J: f64, k: f64, r: f64, c: f64, unseen: f64 }",
+    );
+    let expected = [
+        "x: m",
+        "q: rad",
+        "x_dot: m s⁻¹",
+        "q_dot: s⁻¹",
+        "torque: J",
+        "m: kg",
+        "J: kg m²",
+        "k: N m⁻¹",
+        "r: m",
+        "c: ?",
+        "unseen: ?",
+        "speed: m s⁻¹",
+        "rolling: N",
+    ];
+    assert_eq!(found, expected);
+}
+
+#[test]
+fn sections_have_the_units_of_what_they_generate() {
+    let found = units(
+        "base { x, y, th }
+         basis { v, side, omega }
+         anchor {
+             der(x) = v * cos(th) - side * sin(th); der(y) = v * sin(th) + side * cos(th); der(th) = omega;
+         }
+         frame { turn = e * omega + v; across = side; ahead = v; }
+         lagrangian { m / 2 * (v^2 + side^2) + J / 2 * omega^2 }
+         symmetries { spin: omega; }
+         units { x, y = m; m = kg; }",
+        "struct S { m: f64, J: f64, e: f64 }",
+    );
+    // e turns a rate into a speed: e omega + v is a section, so e is that of omega over that of v
+    assert!(found.contains(&"e: m⁻¹".to_owned()), "{found:?}");
+    assert!(found.contains(&"turn: m s⁻¹".to_owned()), "{found:?}");
+    assert!(found.contains(&"spin: J s".to_owned()), "{found:?}");
+}
+
+#[test]
+fn a_model_may_have_no_units() {
+    let found = units(
+        "base { x, q } lagrangian { (der(x)^2 + der(q)^2) / 2 } units { x, q, t, lagrangian = 1; }",
+        "struct S;",
+    );
+    assert_eq!(found, ["x: 1", "q: 1", "x_dot: 1", "q_dot: 1"]);
+}
+
+#[test]
+fn shared_lines_and_bodies_are_seen() {
+    let declared = |radius: &str| {
+        format!(
+            "base {{ x, y, th, roll }}
+             let p = [x, y, {radius}];
+             let R = rot_z(th) * rot_y(roll);
+             let h(u) = k * u;
+             lagrangian {{ kinetic(m, I, p, R) - m * g * p[2] - h(x)^2 / 2 }}
+             constraints {{ rolling: velocity_at(p, R, [x, y, 0])[0..2] = 0; }}
+             units {{ x, y, r = m; th, roll = rad; m = kg; g = m/s^2; }}"
+        )
+    };
+    let item = "struct S { m: f64, I: [f64; 3], g: f64, r: f64, k: f64 }";
+    let found = units(&declared("r"), item);
+    assert!(found.contains(&"I[2]: kg m²".to_owned()), "{found:?}");
+    assert!(found.contains(&"k: kg^(1/2) s⁻¹".to_owned()), "{found:?}");
+    let wrong = messages(&declared("r^2"), item);
+    assert!(wrong.len() <= 3 && wrong[0].starts_with("the units do not fit: "), "{wrong:#?}");
+}
+
+#[test]
+fn contradictions_are_said() {
+    let item = "struct S { m: f64, g: f64, k: f64 }";
+    for (attribute, expected) in [
+        (
+            "base { x } lagrangian { m / 2 * der(x)^2 - m * g * x - k * x }
+             units { x = m; m = kg; g = m/s^2; k = N/m; }",
+            vec![format!(
+                "the units do not fit: `m/2*der(x)^2` is J, `k*x` is N\n`k*x` is added to `m/2*der(x)^2`; `m` is kg, \
+                 `k` is N m⁻¹, `x` is m\n{WAY_OUT}"
+            )],
+        ),
+        (
+            "base { x } lagrangian { m / 2 * der(x)^2 - k / 2 * (x - 1)^2 } units { x = m; m = kg; }",
+            vec![format!(
+                "the units do not fit: `x` is m, `1` is a pure number\n`1` is added to `x`\n{WAY_OUT}"
+            )],
+        ),
+        (
+            "base { x } lagrangian { m / 2 * der(x)^2 - k * sin(x) } units { x = m; m = kg; }",
+            vec![format!(
+                "the units do not fit: the argument of a function is a pure number, `x` is m\n\
+                 `x` is the argument of a function\n{WAY_OUT}"
+            )],
+        ),
+        (
+            "base { x, y } lagrangian { m / 2 * (der(x)^2 + der(y)^2) - k * x } forces { y: -k * y; }
+             units { x, y = m; m = kg; }",
+            vec![
+                "the units contradict each other: `k` would be N m⁻¹ here, N elsewhere\n\
+                 here `-k*y` is the force along `y`\n\
+                 in `lagrangian` `k*x` is added to `m/2*(der(x)^2 + der(y)^2)`\n\
+                 help: give the unit of `k` in `units` to see which of these is wrong"
+                    .to_owned(),
+                "`k` would be N here\n`k*x` is added to `m/2*(der(x)^2 + der(y)^2)`".to_owned(),
+            ],
+        ),
+        (
+            "base { x } lagrangian { m / 2 * der(x)^2 } units { x = m; x_dot = m/s^2; }",
+            vec![
+                "the units do not fit: its unit in `units` is m s⁻², `x_dot` is m s⁻¹\n\
+                 the units of `t`, `x`, `x_dot` belong together\n\
+                 help: leave one of them out: it follows from the others"
+                    .to_owned(),
+            ],
+        ),
+    ] {
+        assert_eq!(messages(attribute, item), expected, "{attribute}");
+    }
+}
+
+#[test]
+fn units_that_are_none_are_refused() {
+    let of = |line: &str| {
+        let attribute = format!("base {{ x }} lagrangian {{ m / 2 * der(x)^2 }} units {{ {line} }}");
+        let found = messages(&attribute, "struct S { m: f64 }");
+        found.first().map(|message| message.lines().next().unwrap_or_default().to_owned())
+    };
+    for (line, expected) in [
+        ("x = mm;", "`mm` is a multiple: 1e-3 m"),
+        ("m = g;", "`g` is a multiple: 1e-3 kg"),
+        ("x = meter;", "unknown unit `meter`"),
+        ("z = m;", "unknown name `z`"),
+        ("x = m; x = m;", "the unit of `x` is given twice"),
+        ("x = 10 m;", "the number `10` in a unit"),
+        ("m = kg/m/s;", "a unit has one `/`, in front of its last factor"),
+        ("x = m^200;", "this exponent is too large"),
+    ] {
+        assert_eq!(of(line).as_deref(), Some(expected), "{line}");
+    }
+    assert_eq!(of("m = kg^(2/2) rad; x = m*rad/(kg kg^-1);"), None);
+}
+
+#[test]
+fn fields_say_their_units() {
+    let (_, layout) = resolved(
+        "base { q[2] } lagrangian { m / 2 * dot(der(q), der(q)) } units { q = m; m = kg; }",
+        "struct S { m: f64 }",
+    )
+    .expect("in order");
+    assert_eq!(layout.coordinates[0].units, ["m", "m"]);
+    assert_eq!(layout.velocities[0].units, ["m s⁻¹", "m s⁻¹"]);
+    assert!(layout.idle.is_empty());
+}
+
+#[test]
+fn parameters_in_no_expression_are_known() {
+    let (resolved, layout) = resolved(
+        "base { x } let h(u) = a * u; lagrangian { m / 2 * der(x)^2 - h(x) } assume { b > 0; } units { k = kg; }",
+        "struct S { m: f64, a: f64, b: f64, k: f64, G: [f64; 3] }",
+    )
+    .expect("in order");
+    assert_eq!(resolved.model.idle, ["G", "k"]);
+    assert!(layout.idle.contains("k"));
+}

@@ -1,0 +1,247 @@
+//! Functions of vectors and matrices, by names that mean them directly before `(` only.
+
+use nonholonomic_core::algebra::Rational;
+
+use super::array::{Array, Shape};
+use super::function::Called;
+use super::reports::{Outcome, Reported};
+use super::resolver::Resolver;
+use crate::report::Diagnostic;
+use crate::syntax::ast::{Expr, Name};
+
+/// A function of vectors, matrices and bodies.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Tensor {
+    /// `diff(e, x)`
+    Diff,
+    /// `transpose(A)`
+    Transpose,
+    /// `hat(v)`
+    Hat,
+    /// `vee(A)`
+    Vee,
+    /// `norm(v)`
+    Norm,
+    /// `diag(a, b, c)`
+    Diag,
+    /// `identity(3)`
+    Identity,
+    /// `rot_x(a)`, `rot_y(a)`, `rot_z(a)`
+    About(usize),
+    /// `rot(axis, a)`
+    Rot,
+    /// `body_rate(R)`
+    BodyRate,
+    /// `space_rate(R)`
+    SpaceRate,
+    /// `velocity_at(p, R, c)`
+    VelocityAt,
+    /// `kinetic(m, p)`, `kinetic(m, I, p, R)`
+    Kinetic,
+}
+
+/// Their names, and how calls of them read.
+const TENSORS: [(&str, Tensor, &str); 15] = [
+    ("diff", Tensor::Diff, "diff(e, x)"),
+    ("transpose", Tensor::Transpose, "transpose(A)"),
+    ("hat", Tensor::Hat, "hat(v)"),
+    ("vee", Tensor::Vee, "vee(A)"),
+    ("norm", Tensor::Norm, "norm(v)"),
+    ("diag", Tensor::Diag, "diag(a, b, c)"),
+    ("identity", Tensor::Identity, "identity(3)"),
+    ("rot_x", Tensor::About(0), "rot_x(a)"),
+    ("rot_y", Tensor::About(1), "rot_y(a)"),
+    ("rot_z", Tensor::About(2), "rot_z(a)"),
+    ("rot", Tensor::Rot, "rot(axis, a)"),
+    ("body_rate", Tensor::BodyRate, "body_rate(R)"),
+    ("space_rate", Tensor::SpaceRate, "space_rate(R)"),
+    ("velocity_at", Tensor::VelocityAt, "velocity_at(p, R, c)"),
+    ("kinetic", Tensor::Kinetic, "kinetic(m, I, p, R)"),
+];
+
+/// Whether a function of the language has this name.
+pub(super) fn is_built_in(name: &str) -> bool {
+    Called::named(name).is_some() || Tensor::named(name).is_some() || name == "sum" || name == "der"
+}
+
+/// The names of the functions of vectors, matrices and bodies.
+pub(super) fn tensor_names<'a>() -> impl Iterator<Item = &'a str> {
+    TENSORS.iter().map(|(name, ..)| *name)
+}
+
+impl Tensor {
+    pub(super) fn named(name: &str) -> Option<Self> {
+        TENSORS.iter().find(|(known, ..)| *known == name).map(|(_, tensor, _)| *tensor)
+    }
+
+    /// The least and the largest number of arguments.
+    fn arity(self) -> (usize, usize) {
+        match self {
+            Self::Diff | Self::Rot => (2, 2),
+            Self::Diag => (1, usize::MAX),
+            Self::VelocityAt => (3, 3),
+            Self::Kinetic => (2, 4),
+            _ => (1, 1),
+        }
+    }
+}
+
+impl Resolver {
+    /// A call of such a function.
+    pub(super) fn tensor(
+        &mut self,
+        expr: &Expr,
+        name: &Name,
+        tensor: Tensor,
+        arguments: &[Expr],
+    ) -> Outcome<Array> {
+        let (least, most) = tensor.arity();
+        let given = arguments.len();
+        if given < least || given > most || (tensor == Tensor::Kinetic && given == 3) {
+            let usage =
+                TENSORS.iter().find(|(known, ..)| *known == name.text).map_or("", |(_, _, usage)| usage);
+            let wanted = match tensor {
+                Tensor::Kinetic => "2 or 4 arguments".to_owned(),
+                _ if least == 1 => "1 argument".to_owned(),
+                _ => format!("{least} arguments"),
+            };
+            let usage =
+                if tensor == Tensor::Kinetic { "kinetic(m, p)` or `kinetic(m, I, p, R)" } else { usage };
+            let what = format!("`{}` takes {wanted}, and {given} are given", name.text);
+            let error = Diagnostic::new(expr.extent, what).way_out(format!("write `{usage}`"));
+            return Err(self.report(expr, error));
+        }
+        match (tensor, arguments) {
+            (Tensor::Diff, [of, by]) => return self.partial(expr, of, by),
+            (Tensor::Identity, [size]) => return self.identity_matrix(size),
+            _ => {}
+        }
+        let values: Vec<_> = arguments.iter().map(|argument| self.value(argument)).collect();
+        let values = values.into_iter().collect::<Outcome<Vec<_>>>()?;
+        match (tensor, values.as_slice()) {
+            (Tensor::Transpose, [a]) => self.transpose(expr, a),
+            (Tensor::Hat, [v]) => self.hat(expr, v),
+            (Tensor::Vee, [a]) => self.vee(expr, a),
+            (Tensor::Norm, [v]) => self.norm(expr, v),
+            (Tensor::Diag, values) => self.diag(expr, arguments, values),
+            (Tensor::About(axis), [angle]) => {
+                let angle = self.as_number(&arguments[0], angle)?;
+                self.about(expr, axis, angle)
+            }
+            (Tensor::Rot, [axis, angle]) => {
+                let angle = self.as_number(&arguments[1], angle)?;
+                self.about_axis(expr, &arguments[0], axis, angle)
+            }
+            (Tensor::BodyRate, [r]) => self.body_rate(expr, r),
+            (Tensor::SpaceRate, [r]) => self.space_rate(expr, r),
+            (Tensor::VelocityAt, [p, r, c]) => self.velocity_at(expr, p, r, c),
+            (Tensor::Kinetic, [m, p]) => self.kinetic_of_point(expr, (&arguments[0], m), p),
+            (Tensor::Kinetic, [m, i, p, r]) => self.kinetic_of_body(expr, (&arguments[0], m), i, p, r),
+            _ => Err(Reported),
+        }
+    }
+
+    /// Arguments of these shapes have no place in a function.
+    pub(super) fn wrong_shapes(&mut self, expr: &Expr, takes: &str, values: &[&Array]) -> Reported {
+        let shapes: Vec<String> = values.iter().map(|value| value.shape.to_string()).collect();
+        let these = match shapes.as_slice() {
+            [one] => format!("this is {one}"),
+            [others @ .., last] => format!("these are {} and {last}", others.join(", ")),
+            [] => String::new(),
+        };
+        self.report(expr, Diagnostic::new(expr.extent, takes).evidence(these))
+    }
+
+    /// A value in a shape, where the number 0 is the zero of any shape.
+    pub(super) fn in_shape(&self, value: &Array, shape: Shape) -> Option<Array> {
+        if value.shape == shape {
+            return Some(value.clone());
+        }
+        let zero = value.as_number().filter(|number| self.graph.is_literal_zero(*number))?;
+        Some(Array { shape, entries: vec![zero; shape.len()] })
+    }
+
+    pub(super) fn transposed(&mut self, a: &Array) -> Option<Array> {
+        let Shape::Matrix(rows, columns) = a.shape else { return None };
+        let entries = (0..columns).flat_map(|j| a.column(j)).collect();
+        let transposed = Array { shape: Shape::Matrix(columns, rows), entries };
+        self.rotations.transposed(&mut self.graph, a, &transposed);
+        Some(transposed)
+    }
+
+    fn transpose(&mut self, expr: &Expr, a: &Array) -> Outcome<Array> {
+        match self.transposed(a) {
+            Some(transposed) => Ok(transposed),
+            None => Err(self.wrong_shapes(expr, "`transpose` takes a matrix", &[a])),
+        }
+    }
+
+    /// The matrix of `cross(v, …)`.
+    pub(super) fn hat(&mut self, expr: &Expr, v: &Array) -> Outcome<Array> {
+        let (Shape::Vector(3), [x, y, z]) = (v.shape, v.entries.as_slice()) else {
+            return Err(self.wrong_shapes(expr, "`hat` takes a vector of 3 entries", &[v]));
+        };
+        let zero = self.graph.zero();
+        let [minus_x, minus_y, minus_z] = [*x, *y, *z].map(|entry| self.graph.formula(-entry));
+        let entries = vec![zero, minus_z, *y, *z, zero, minus_x, minus_y, *x, zero];
+        Ok(Array { shape: Shape::Matrix(3, 3), entries })
+    }
+
+    /// The vector of the skew part of a matrix.
+    pub(super) fn vee(&mut self, expr: &Expr, a: &Array) -> Outcome<Array> {
+        if a.shape != Shape::Matrix(3, 3) {
+            return Err(self.wrong_shapes(expr, "`vee` takes a matrix of 3 × 3 entries", &[a]));
+        }
+        let half = Rational::new(1, 2);
+        let mut entries = Vec::with_capacity(3);
+        for (plus, minus) in [(7, 5), (2, 6), (3, 1)] {
+            let terms = vec![(half.clone(), a.entries[plus]), (-half.clone(), a.entries[minus])];
+            entries.push(self.sum_of(expr, terms)?);
+        }
+        Ok(Array::vector(entries))
+    }
+
+    fn norm(&mut self, expr: &Expr, v: &Array) -> Outcome<Array> {
+        let Shape::Vector(_) = v.shape else {
+            return Err(self.wrong_shapes(expr, "`norm` takes a vector", &[v]));
+        };
+        let square = self.inner_product(expr, &v.entries, &v.entries)?;
+        Ok(Array::number(self.product_of(expr, &[(square, Rational::new(1, 2))])?))
+    }
+
+    /// `diag(a, b, c)`, or of a vector.
+    fn diag(&mut self, expr: &Expr, arguments: &[Expr], values: &[Array]) -> Outcome<Array> {
+        let entries = match values {
+            [Array { shape: Shape::Vector(_), entries }] => entries.clone(),
+            values => {
+                let numbers = arguments.iter().zip(values);
+                let numbers: Vec<_> = numbers.map(|(at, value)| self.as_number(at, value)).collect();
+                numbers.into_iter().collect::<Outcome<Vec<_>>>()?
+            }
+        };
+        let n = entries.len();
+        self.reports.spend(expr.extent, n * n)?;
+        let zero = self.graph.zero();
+        let mut matrix = Array { shape: Shape::Matrix(n, n), entries: vec![zero; n * n] };
+        for (k, entry) in entries.into_iter().enumerate() {
+            matrix.entries[k * (n + 1)] = entry;
+        }
+        Ok(matrix)
+    }
+
+    fn identity_matrix(&mut self, size: &Expr) -> Outcome<Array> {
+        const LARGEST: i64 = 64;
+        let n = self.index(size)?;
+        let Some(n) = usize::try_from(n).ok().filter(|_| (1..=LARGEST).contains(&n)) else {
+            let what = format!("an identity matrix of {n} rows");
+            let error =
+                Diagnostic::new(size.extent, what).way_out(format!("it has from 1 to {LARGEST} rows"));
+            return Err(self.report(size, error));
+        };
+        self.reports.spend(size.extent, n * n)?;
+        let (zero, one) = (self.graph.zero(), self.graph.one());
+        let mut matrix = Array { shape: Shape::Matrix(n, n), entries: vec![zero; n * n] };
+        (0..n).for_each(|k| matrix.entries[k * (n + 1)] = one);
+        Ok(matrix)
+    }
+}
