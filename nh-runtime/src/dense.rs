@@ -1,5 +1,7 @@
 //! The state between the ends of a step.
 
+use core::fmt;
+
 use crate::arrays::{Array, first_non_finite};
 use crate::methods::{Arrival, Method, Start, non_finite_derivative};
 use crate::{Dynamics, IntegrationError, Integrator, Real, Scalar, ScalarOf, State};
@@ -11,6 +13,18 @@ pub struct DenseOutput<'a, S: Dynamics, M: Method<S>> {
     step: Option<(Start<'a, S>, Arrival<S>, M::Dense)>,
     /// The state that the integration stands at.
     here: Arrival<S>,
+    /// Whether states are returned to position constraints.
+    returns: bool,
+}
+
+impl<S: Dynamics, M: Method<S>> fmt::Debug for DenseOutput<'_, S, M>
+where
+    S::State: fmt::Debug,
+{
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let from = self.step.as_ref().map(|(start, ..)| start);
+        f.debug_struct("DenseOutput").field("from", &from).field("here", &self.here).finish_non_exhaustive()
+    }
 }
 
 impl<'a, S: Dynamics, M: Method<S>> DenseOutput<'a, S, M>
@@ -23,7 +37,8 @@ where
             let dense = method.dense(memory, &start, &arrival);
             (start, arrival, dense)
         });
-        Self { method, step, here: Arrival { time: sim.time(), state: *sim.state() } }
+        let here = Arrival { time: sim.time(), state: *sim.state() };
+        Self { method, step, here, returns: sim.is_returned() }
     }
 
     /// The state at a time within the step.
@@ -44,11 +59,15 @@ where
         if time == from {
             return Ok(*start.state);
         }
-        let state = self.method.interpolate(dense, start, arrival, time);
-        match first_non_finite(state.to_array().as_ref()) {
-            None => Ok(state),
-            Some(found) => Err(non_finite_derivative::<S::State>(found, time.to_f64())),
+        let mut state = self.method.interpolate(dense, start, arrival, time);
+        if let Some(found) = first_non_finite(state.to_array().as_ref()) {
+            return Err(non_finite_derivative::<S::State>(found, time.to_f64()));
         }
+        if self.returns {
+            let returned = start.system.return_to_positions(time, &mut state);
+            returned.map_err(|error| IntegrationError::Projection { time: time.to_f64(), error })?;
+        }
+        Ok(state)
     }
 }
 

@@ -5,7 +5,7 @@
 ///
 /// Implemented by [`D<N>`](D) alone: `<D<5> as Dim>::Vec<f64>` is `[f64; 5]`, and `Mat<f64>` is
 /// `[[f64; 5]; 5]`, an array of rows.
-pub trait Dim: Copy + 'static {
+pub trait Dim: sealed::Sealed + Copy + 'static {
     /// `[K; N]`.
     type Vec<K: Copy + 'static>: Copy + AsRef<[K]> + AsMut<[K]> + 'static;
     /// `[[K; N]; N]`: the rows of a square matrix.
@@ -18,6 +18,13 @@ pub trait Dim: Copy + 'static {
     /// The square matrix with all entries equal.
     fn mat<K: Copy + 'static>(value: K) -> Self::Mat<K>;
 }
+
+mod sealed {
+    /// What keeps [`Dim`](super::Dim) to this crate.
+    pub trait Sealed {}
+}
+
+impl<const N: usize> sealed::Sealed for D<N> {}
 
 /// The dimension `N`.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]

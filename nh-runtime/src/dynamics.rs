@@ -63,6 +63,49 @@ pub trait Dynamics {
         Ok(())
     }
 
+    /// Whether the state has to satisfy position constraints: an [`Integrator`](crate::Integrator) then returns
+    /// it to them after every step.
+    #[inline]
+    fn has_positions(&self) -> bool {
+        false
+    }
+
+    /// Moves a state to where its position constraints hold, and its velocities to all constraints there, and
+    /// gives the largest residual that was found. Without position constraints nothing happens.
+    ///
+    /// # Errors
+    /// If the constraints are not reached; the state is then as it was.
+    #[inline]
+    fn return_to_positions(
+        &self,
+        t: ScalarOf<Self>,
+        state: &mut Self::State,
+    ) -> Result<ScalarOf<Self>, ProjectionError> {
+        let _ = (t, state);
+        Ok(ScalarOf::<Self>::ZERO)
+    }
+
+    /// One step of that return for the positions and one for the velocities, whatever they lead to: the same
+    /// instructions at every call.
+    #[inline]
+    fn correct_positions(&self, t: ScalarOf<Self>, state: &mut Self::State) {
+        let _ = (t, state);
+    }
+
+    /// The sign of what the velocities in the state leave to be divided by, 1 or −1: where it changes, as at the dead
+    /// centre of a crank, they do not determine the others.
+    #[inline]
+    fn side(&self, t: ScalarOf<Self>, state: &Self::State) -> ScalarOf<Self> {
+        let _ = (t, state);
+        ScalarOf::<Self>::ONE
+    }
+
+    /// The constraint that a state leaves the largest residual in.
+    fn worst_constraint(&self, t: ScalarOf<Self>, state: &Self::State) -> StateFault {
+        let _ = (t, state);
+        StateFault { identity: "", residual: 0.0 }
+    }
+
     /// Checks an input that a user gives. An integrator does so before it steps with it.
     ///
     /// # Errors
@@ -91,12 +134,40 @@ impl<S: Dynamics + ?Sized> Dynamics for &S {
         (**self).check_state(t, state)
     }
     #[inline]
+    fn has_positions(&self) -> bool {
+        (**self).has_positions()
+    }
+    #[inline]
+    fn return_to_positions(
+        &self,
+        t: ScalarOf<S>,
+        state: &mut S::State,
+    ) -> Result<ScalarOf<S>, ProjectionError> {
+        (**self).return_to_positions(t, state)
+    }
+    #[inline]
+    fn correct_positions(&self, t: ScalarOf<S>, state: &mut S::State) {
+        (**self).correct_positions(t, state);
+    }
+    #[inline]
+    fn side(&self, t: ScalarOf<S>, state: &S::State) -> ScalarOf<S> {
+        (**self).side(t, state)
+    }
+    fn worst_constraint(&self, t: ScalarOf<S>, state: &S::State) -> StateFault {
+        (**self).worst_constraint(t, state)
+    }
+    #[inline]
     fn check_input(&self, input: &S::Input) -> Result<(), InputFault> {
         (**self).check_input(input)
     }
 }
 
 /// A system with an energy.
+#[diagnostic::on_unimplemented(
+    message = "`{Self}` has no energy",
+    label = "needs the trait `Energy`",
+    note = "systems declared with `#[nonholonomic]` have one; implement `Energy` by hand for others"
+)]
 pub trait Energy: Dynamics {
     /// E(t, x) = yᵅ ∂L/∂yᵅ − L, which is conserved where the system is autonomous, its constraints
     /// are homogeneous in the velocities, and no forces act.
@@ -113,6 +184,11 @@ impl<S: Energy + ?Sized> Energy for &S {
 /// A system that moves by its energy alone, ẋ = Π(x) ∂E(x) with an antisymmetric Π: the nonholonomic
 /// bracket. Declared with `emit { discrete_gradient }`, which is refused where the energy is not
 /// conserved.
+#[diagnostic::on_unimplemented(
+    message = "`{Self}` has no gradient of its energy and bracket",
+    label = "needs the trait `AlmostPoisson`",
+    note = "add `emit {{ discrete_gradient }}` to its declaration, or implement `AlmostPoisson` by hand"
+)]
 pub trait AlmostPoisson: Energy {
     /// ∂E/∂x.
     fn energy_gradient(&self, t: ScalarOf<Self>, state: &Self::State) -> VecOf<Self>;
@@ -134,6 +210,11 @@ impl<S: AlmostPoisson + ?Sized> AlmostPoisson for &S {
 }
 
 /// A system with stated first integrals: declared with `conserved { … }` and `emit { invariants }`.
+#[diagnostic::on_unimplemented(
+    message = "`{Self}` has no first integrals",
+    label = "needs the trait `Invariants`",
+    note = "state them in `conserved {{ … }}` and add `emit {{ invariants }}` to its declaration, or implement `Invariants` by hand"
+)]
 pub trait Invariants: Dynamics {
     /// The number of first integrals: `D<K>`.
     type Count: Dim;
@@ -164,6 +245,11 @@ impl<S: Invariants + ?Sized> Invariants for &S {
 }
 
 /// A system on TQ with constant masses, for the leapfrog method: declared with `emit { leapfrog }`.
+#[diagnostic::on_unimplemented(
+    message = "`{Self}` has no kick",
+    label = "needs the trait `Leapfrog`",
+    note = "add `emit {{ leapfrog }}` to its declaration, or implement `Leapfrog` by hand"
+)]
 pub trait Leapfrog: Dynamics {
     /// The state after a kick of length h at its place: velocities v⁺ with W (v⁺ − v⁻) = −h ∂V + Aᵀμ and
     /// A (v⁺ + v⁻) = 0.
@@ -179,6 +265,11 @@ impl<S: Leapfrog + ?Sized> Leapfrog for &S {
 
 /// A system on a Lie algebra with its discrete momentum: declared with
 /// `emit { euler_poincare_suslov }`.
+#[diagnostic::on_unimplemented(
+    message = "`{Self}` has no discrete momentum",
+    label = "needs the trait `EulerPoincareSuslov`",
+    note = "add `emit {{ euler_poincare_suslov }}` to its declaration, or implement `EulerPoincareSuslov` by hand"
+)]
 pub trait EulerPoincareSuslov: Dynamics {
     /// ⟨p, B_a − h/2 [y, B_a] + h²/12 [y, [y, B_a]]⟩ at the velocities y = B v, for each a.
     fn discrete_momentum(&self, state: &Self::State, h: ScalarOf<Self>) -> VecOf<Self>;
@@ -192,6 +283,11 @@ impl<S: EulerPoincareSuslov + ?Sized> EulerPoincareSuslov for &S {
 }
 
 /// A system with named observables.
+#[diagnostic::on_unimplemented(
+    message = "`{Self}` has no observables",
+    label = "needs the trait `Observed`",
+    note = "name some in `outputs {{ … }}` of its declaration, or implement `Observed` by hand"
+)]
 pub trait Observed: Dynamics {
     /// The observables, one named field each.
     type Outputs;
@@ -210,6 +306,11 @@ impl<S: Observed + ?Sized> Observed for &S {
 }
 
 /// A system whose derivative has a derivative.
+#[diagnostic::on_unimplemented(
+    message = "`{Self}` has no Jacobian",
+    label = "needs the trait `Jacobian`",
+    note = "add `emit {{ jacobian }}` to its declaration, or implement `Jacobian` by hand"
+)]
 pub trait Jacobian: Dynamics {
     /// The number of scalar inputs: `D<M>`.
     type InputDim: Dim;
@@ -245,6 +346,11 @@ impl<S: Jacobian + ?Sized> Jacobian for &S {
 }
 
 /// A system with the recurrences of the Taylor coefficients of its solutions.
+#[diagnostic::on_unimplemented(
+    message = "`{Self}` has no Taylor coefficients",
+    label = "needs the trait `TaylorSeries`",
+    note = "add `emit {{ taylor }}` to its declaration, or implement `TaylorSeries` by hand"
+)]
 pub trait TaylorSeries: Dynamics {
     /// What an expansion keeps from order to order, with room for `P` coefficients.
     type Workspace<const P: usize>: Copy + Default;
@@ -297,6 +403,11 @@ impl<S: TaylorSeries + ?Sized> TaylorSeries for &S {
 
 /// A system whose state has to satisfy equations that a numerical solution drifts away from: the
 /// identities of embedded coordinates, and the constraints of the projected formulation.
+#[diagnostic::on_unimplemented(
+    message = "`{Self}` has no equations that its state has to satisfy",
+    label = "needs the trait `Constrained`",
+    note = "add `formulation {{ projected }}` to its declaration, which keeps all velocities in the state, or integrate it without `Projected`"
+)]
 pub trait Constrained: Dynamics {
     /// The number of equations: `D<M>`.
     type Constraints: Dim;
@@ -307,6 +418,13 @@ pub trait Constrained: Dynamics {
         t: ScalarOf<Self>,
         state: &Self::State,
     ) -> <Self::Constraints as Dim>::Vec<ScalarOf<Self>>;
+
+    /// What the equations are called in the declaration, in the same order: an identity as it is written there, a
+    /// constraint by its name. Empty where they have none.
+    #[must_use]
+    fn constraint_names() -> <Self::Constraints as Dim>::Vec<&'static str> {
+        Self::Constraints::vec("")
+    }
 
     /// Moves the state to where it belongs: embedded coordinates by the shortest way, and then the
     /// velocities along the kinetic energy's orthogonal complement of the constraint distribution.
@@ -326,6 +444,9 @@ impl<S: Constrained + ?Sized> Constrained for &S {
         state: &S::State,
     ) -> <S::Constraints as Dim>::Vec<ScalarOf<S>> {
         (**self).constraint_residual(t, state)
+    }
+    fn constraint_names() -> <S::Constraints as Dim>::Vec<&'static str> {
+        S::constraint_names()
     }
     #[inline]
     fn project(&self, t: ScalarOf<S>, state: &mut S::State) -> Result<(), ProjectionError> {

@@ -31,6 +31,7 @@ pub struct ParameterError {
 
 /// What is wrong with a parameter.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
 pub enum ParameterFault {
     /// It is infinite or not a number.
     NotFinite,
@@ -38,6 +39,11 @@ pub enum ParameterFault {
     Assumption {
         /// The assumption as it is written there.
         text: &'static str,
+    },
+    /// It is an entry of a symmetric matrix, and differs from the entry opposite.
+    NotSymmetric {
+        /// The entry opposite.
+        opposite: &'static str,
     },
     /// It makes an expression zero that the equations divide by.
     ZeroPivot {
@@ -59,6 +65,10 @@ impl Display for ParameterError {
                 "the declaration assumes `{text}`: give a value that satisfies it, or change the \
                  assumption"
             ),
+            ParameterFault::NotSymmetric { opposite } => write!(
+                f,
+                "the matrix is declared symmetric, and `{opposite}` is another number: give both the same"
+            ),
             ParameterFault::ZeroPivot { expression } => write!(
                 f,
                 "the equations divide by `{expression}`, which it makes zero: give another value, \
@@ -79,6 +89,15 @@ pub struct InputFault {
     pub value: f64,
 }
 
+impl Display for InputFault {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        let Self { input, value } = self;
+        write!(f, "the input `{input}` is {value:?}: give finite numbers")
+    }
+}
+
+impl Error for InputFault {}
+
 /// A state that a system cannot start from.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct StateFault {
@@ -87,6 +106,15 @@ pub struct StateFault {
     /// Left-hand side less right-hand side.
     pub residual: f64,
 }
+
+impl Display for StateFault {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        let Self { identity, residual } = self;
+        write!(f, "the given state does not satisfy `{identity}`, by {residual:?}: normalize it first")
+    }
+}
+
+impl Error for StateFault {}
 
 /// A state that could not be moved to the constraint manifold, or to the level of the invariants.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -136,11 +164,25 @@ pub enum IntegrationError {
     },
     /// A given state does not satisfy the identities of its coordinates.
     InvalidState(StateFault),
+    /// A given state is off the position constraints, or its velocities are off the constraints, by more than
+    /// the tolerance.
+    OffConstraints {
+        /// The constraint with the largest residual, by its label.
+        constraint: &'static str,
+        /// That residual.
+        residual: f64,
+        /// The first component that a return to the constraints would move too far.
+        component: &'static str,
+        /// By how much.
+        correction: f64,
+    },
     /// A given state is off the constraints by more than the tolerance.
     InconsistentStart {
         /// The constraint with the largest residual, in the order of
         /// [`constraint_residual`](crate::Constrained::constraint_residual).
         constraint: usize,
+        /// What it is called in the declaration; empty where it has no name.
+        name: &'static str,
         /// That residual.
         residual: f64,
         /// The first component that a return to the constraints would move too far.
@@ -216,6 +258,13 @@ pub enum IntegrationError {
         /// What the projection came to.
         error: ProjectionError,
     },
+    /// A step has led past a configuration where the velocities in the state do not determine the others.
+    DeadCentre {
+        /// The time at the start of the step.
+        time: f64,
+        /// The length of the step.
+        step: f64,
+    },
     /// The target was not reached within the permitted number of steps.
     TooManySteps {
         /// The time reached.
@@ -224,6 +273,20 @@ pub enum IntegrationError {
         target: f64,
         /// The permitted number of steps.
         limit: u64,
+    },
+    /// The target was not reached within the permitted number of evaluations of the derivative.
+    TooManyEvaluations {
+        /// The time reached.
+        time: f64,
+        /// The time to reach.
+        target: f64,
+        /// The permitted number of evaluations.
+        limit: u64,
+    },
+    /// The run was interrupted by the function that [`Interruptible`](crate::methods::Interruptible) asks.
+    Interrupted {
+        /// The time reached.
+        time: f64,
     },
     /// An event function is infinite or not a number.
     NonFiniteEvent {
@@ -262,19 +325,20 @@ impl Display for IntegrationError {
             Self::NonFiniteState { component, value } => {
                 write!(f, "the component `{component}` of the given state is {value:?}: give finite numbers")
             }
-            Self::InvalidState(StateFault { identity, residual }) => write!(
-                f,
-                "the given state does not satisfy `{identity}`, by {residual:?}: normalize it first"
-            ),
-            Self::InconsistentStart { constraint, residual, component, correction } => write!(
-                f,
-                "the given state leaves a residual of {residual:?} in constraint {constraint}, and a return \
-                 to the constraints would move `{component}` by {correction:?}: give a state that satisfies \
-                 them, or `project` it first"
-            ),
-            Self::Input(InputFault { input, value }) => {
-                write!(f, "the input `{input}` is {value:?}: give finite numbers")
+            Self::InvalidState(fault) => fault.fmt(f),
+            Self::OffConstraints { constraint, residual, component, correction } => {
+                let place = format_args!("`{constraint}`");
+                off_constraints(f, residual, place, (component, correction), "`project` or `assemble`")
             }
+            Self::InconsistentStart { constraint, name: "", residual, component, correction } => {
+                let place = format_args!("constraint {constraint}");
+                off_constraints(f, residual, place, (component, correction), "`project`")
+            }
+            Self::InconsistentStart { name, residual, component, correction, .. } => {
+                let place = format_args!("the constraint `{name}`");
+                off_constraints(f, residual, place, (component, correction), "`project`")
+            }
+            Self::Input(fault) => fault.fmt(f),
             Self::NonFiniteTime { time } => {
                 write!(f, "the time {time:?} cannot be reached: times have to be finite")
             }
@@ -312,10 +376,26 @@ impl Display for IntegrationError {
                  smaller step"
             ),
             Self::Projection { time, error } => write!(f, "at t = {time:?} {error}"),
+            Self::DeadCentre { time, step } => write!(
+                f,
+                "the step of length {step:?} from t = {time:?} leads past a configuration where the velocities that \
+                 `independent` names do not determine the others, such as a dead centre: name others, or keep all \
+                 of them with `formulation {{ projected }}`"
+            ),
             Self::TooManySteps { time, target, limit } => write!(
                 f,
                 "{limit} steps have led to t = {time:?} and not to {target:?}: permit more with \
                  `max_steps`, take longer steps, or an implicit method if the system is stiff"
+            ),
+            Self::TooManyEvaluations { time, target, limit } => write!(
+                f,
+                "{limit} evaluations of the derivative have led to t = {time:?} and not to {target:?}: permit more \
+                 with `max_evaluations`, take a larger tolerance, or an implicit method if the system is stiff"
+            ),
+            Self::Interrupted { time } => write!(
+                f,
+                "the run was interrupted at t = {time:?} by the function that `Interruptible` asks: call again to \
+                 go on"
             ),
             Self::NonFiniteEvent { event, time, value } => write!(
                 f,
@@ -337,11 +417,28 @@ impl Display for IntegrationError {
     }
 }
 
+/// What is said of a start that is off its constraints.
+fn off_constraints(
+    f: &mut Formatter<'_>,
+    residual: f64,
+    place: fmt::Arguments<'_>,
+    (component, correction): (&str, f64),
+    way_out: &str,
+) -> fmt::Result {
+    write!(
+        f,
+        "the given state leaves a residual of {residual:?} in {place}, and a return to the constraints would move \
+         `{component}` by {correction:?}: give a state that satisfies them, or {way_out} it first"
+    )
+}
+
 impl Error for IntegrationError {
     fn source(&self) -> Option<&(dyn Error + 'static)> {
         match self {
             Self::Parameter(error) => Some(error),
             Self::Projection { error, .. } => Some(error),
+            Self::InvalidState(fault) => Some(fault),
+            Self::Input(fault) => Some(fault),
             _ => None,
         }
     }

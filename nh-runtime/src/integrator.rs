@@ -1,5 +1,6 @@
 //! Carrying a state through time.
 
+mod returns;
 mod sampling;
 
 use core::fmt;
@@ -84,10 +85,20 @@ pub struct Integrator<S: Dynamics, M: Method<S>> {
     stop: Option<Stop<ScalarOf<S>>>,
     statistics: Statistics,
     max_steps: u64,
+    max_evaluations: u64,
+    /// Whether states are returned to position constraints.
+    returns: bool,
     /// Whether the parameters and settings have been checked.
     validated: bool,
     /// Whether the state, the time and the input as the user gave them have been checked.
     admitted: bool,
+}
+
+/// What a call has spent of its limits.
+#[derive(Clone, Copy, Default)]
+pub(crate) struct Spent {
+    steps: u64,
+    evaluations: u64,
 }
 
 /// The start of a step, with the input that acted during it.
@@ -122,6 +133,8 @@ impl<S: Dynamics, M: Method<S>> Integrator<S, M> {
             stop: None,
             statistics: Statistics::default(),
             max_steps: 10_000_000,
+            max_evaluations: u64::MAX,
+            returns: true,
             validated: false,
             admitted: false,
         }
@@ -134,6 +147,28 @@ impl<S: Dynamics, M: Method<S>> Integrator<S, M> {
     #[must_use]
     pub fn max_steps(mut self, limit: u64) -> Self {
         self.max_steps = limit;
+        self
+    }
+
+    /// Permits no further step in a call once it has evaluated the derivative `limit` times: the calls are those of
+    /// [`max_steps`](Self::max_steps). The step that has begun is ended, so that a call may evaluate it some more
+    /// times. Unlimited if not given.
+    ///
+    /// For limits of other kinds, such as of the time that a computation may take, see
+    /// [`Interruptible`](crate::methods::Interruptible).
+    #[must_use]
+    pub fn max_evaluations(mut self, limit: u64) -> Self {
+        self.max_evaluations = limit;
+        self
+    }
+
+    /// Leaves the states as the method computes them. Otherwise they are returned to position constraints, where
+    /// the system has any, after every step and within it, positions first, then velocities: the method's
+    /// order stays, [`Statistics`] say how far they were moved, and what the method has stored about the state
+    /// is computed anew.
+    #[must_use]
+    pub fn without_return(mut self) -> Self {
+        self.returns = false;
         self
     }
 
@@ -153,6 +188,16 @@ impl<S: Dynamics, M: Method<S>> Integrator<S, M> {
         self.origin = None;
         self.beyond = None;
         self.statistics = Statistics::default();
+        self.admitted = false;
+    }
+
+    /// Goes on from another state at the same time, with the statistics, the length of the step and the limits as they
+    /// are: after an impact, say. The state is checked as one that [`new`](Self::new) is given.
+    pub fn set_state(&mut self, state: S::State) {
+        self.state = state;
+        self.method.restart(&mut self.memory);
+        self.origin = None;
+        self.beyond = None;
         self.admitted = false;
     }
 
@@ -225,7 +270,7 @@ where
         if self.time == target {
             return Ok(());
         }
-        self.limit_steps(0, target)?;
+        self.permit(&Spent::default(), target)?;
         self.advance(Some(target))
     }
 
@@ -238,17 +283,39 @@ where
     /// the last good step; a further call continues from there.
     #[inline]
     pub fn advance_to(&mut self, target: ScalarOf<S>) -> Result<(), IntegrationError> {
-        self.travel(target, self.max_steps).map(|_| ())
+        self.travel(target, &mut Spent::default())
     }
 
-    /// As [`advance_to`](Self::advance_to), with a limit to the steps of this leg; their number.
+    /// As [`advance_to`](Self::advance_to) in a call that has spent something already, and adds to that.
     #[inline]
-    pub(crate) fn travel(&mut self, target: ScalarOf<S>, limit: u64) -> Result<u64, IntegrationError> {
+    pub(crate) fn travel(&mut self, target: ScalarOf<S>, spent: &mut Spent) -> Result<(), IntegrationError> {
         self.admit()?;
         check_time(target)?;
+        if self.is_returned() {
+            return self.travel_with_returns(target, spent);
+        }
         let mut place = Place { time: self.time, state: self.state, before: None };
+        let steps = self.max_steps.saturating_sub(spent.steps);
+        let evaluations = self.max_evaluations.saturating_sub(spent.evaluations);
         let Self { method, system, input, memory, statistics, .. } = self;
-        let result = method.travel(system, input, &mut place, (target, limit), memory, statistics);
+        let begun = *statistics;
+        let result = if self.max_evaluations == u64::MAX {
+            method.travel(system, input, &mut place, (target, steps), memory, statistics)
+        } else {
+            let mut done = 0;
+            loop {
+                let is_spent = statistics.evaluations - begun.evaluations >= evaluations;
+                if is_spent || done >= steps || place.time == target {
+                    break Ok(done);
+                }
+                match method.travel(system, input, &mut place, (target, 1), memory, statistics) {
+                    Ok(taken) => done += taken,
+                    Err(error) => break Err(error),
+                }
+            }
+        };
+        spent.steps += statistics.steps - begun.steps;
+        spent.evaluations += statistics.evaluations - begun.evaluations;
         if let Some((time, state)) = place.before {
             self.stop = None;
             self.origin = Some(Origin { time, state, input: self.input });
@@ -256,25 +323,42 @@ where
         }
         self.time = place.time;
         self.state = place.state;
-        let steps = result?;
-        if self.time == target { Ok(steps) } else { Err(self.too_many_steps(target)) }
+        result?;
+        if self.time == target { Ok(()) } else { Err(self.exceeded(spent, target)) }
     }
 
-    /// Refuses a step beyond the limit of a call that has taken this many.
+    /// Refuses a step beyond the limits of a call that has spent this much.
     #[inline]
-    pub(crate) fn limit_steps(&self, steps: u64, target: ScalarOf<S>) -> Result<(), IntegrationError> {
-        if steps < self.max_steps { Ok(()) } else { Err(self.too_many_steps(target)) }
+    pub(crate) fn permit(&self, spent: &Spent, target: ScalarOf<S>) -> Result<(), IntegrationError> {
+        if spent.steps < self.max_steps && spent.evaluations < self.max_evaluations {
+            Ok(())
+        } else {
+            Err(self.exceeded(spent, target))
+        }
+    }
+
+    /// As [`step_towards`](Self::step_towards) in a call that has spent something already, and adds to that.
+    #[inline]
+    pub(crate) fn step_within(
+        &mut self,
+        spent: &mut Spent,
+        target: ScalarOf<S>,
+    ) -> Result<(), IntegrationError> {
+        self.permit(spent, target)?;
+        let begun = self.statistics;
+        self.step_towards(target)?;
+        spent.steps += self.statistics.steps - begun.steps;
+        spent.evaluations += self.statistics.evaluations - begun.evaluations;
+        Ok(())
     }
 
     #[cold]
-    fn too_many_steps(&self, target: ScalarOf<S>) -> IntegrationError {
+    fn exceeded(&self, spent: &Spent, target: ScalarOf<S>) -> IntegrationError {
         let (time, target) = (self.time.to_f64(), target.to_f64());
+        if spent.steps < self.max_steps {
+            return IntegrationError::TooManyEvaluations { time, target, limit: self.max_evaluations };
+        }
         IntegrationError::TooManySteps { time, target, limit: self.max_steps }
-    }
-
-    /// The most steps of one call.
-    pub(crate) fn step_limit(&self) -> u64 {
-        self.max_steps
     }
 
     /// Checks what the user gave, and a target.
@@ -318,6 +402,7 @@ where
         if self.origin.is_none() {
             let checked = self.system.check_state(self.time, &self.state);
             checked.map_err(IntegrationError::InvalidState)?;
+            self.admit_positions()?;
         }
         self.admitted = true;
         Ok(())
@@ -327,8 +412,17 @@ where
     #[inline]
     fn advance(&mut self, target: Option<ScalarOf<S>>) -> Result<(), IntegrationError> {
         let start = Start { system: &self.system, input: &self.input, time: self.time, state: &self.state };
-        let Arrival { time, state } =
-            self.method.advance(&start, target, &mut self.memory, &mut self.statistics)?;
+        let mut arrival = self.method.advance(&start, target, &mut self.memory, &mut self.statistics)?;
+        if self.returns && self.system.has_positions() {
+            returns::correct(
+                &self.system,
+                &self.method,
+                &mut arrival,
+                (&mut self.memory, &mut self.statistics),
+            )?;
+            returns::stays_on_its_side(&start, &self.method, &arrival, &mut self.memory)?;
+        }
+        let Arrival { time, state } = arrival;
         self.beyond = None;
         self.stop = None;
         self.origin = Some(Origin { time: self.time, state: self.state, input: self.input });

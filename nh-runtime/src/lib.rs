@@ -55,6 +55,7 @@
 //! The crate is `no_std` with or without them, allocates nothing, contains no `unsafe` and has no
 //! code path that panics.
 #![no_std]
+#![cfg_attr(docsrs, feature(doc_cfg))]
 
 #[cfg(any(feature = "std", test))]
 extern crate std;
@@ -66,6 +67,7 @@ compile_error!(
 );
 
 mod arrays;
+mod assembly;
 pub mod batch;
 mod complex;
 pub mod control;
@@ -76,11 +78,15 @@ mod elementary;
 mod error;
 mod events;
 mod fast;
+#[cfg(feature = "macros")]
+pub mod guide;
+pub mod impacts;
 mod integrator;
 mod jet;
 mod lanes;
 mod linear;
 pub mod methods;
+mod newton_return;
 #[cfg(test)]
 mod pair;
 pub mod prelude;
@@ -91,8 +97,10 @@ mod serde_impls;
 mod series;
 mod sine;
 mod step_control;
+mod tangent;
 mod tolerance;
 
+pub use assembly::AssemblyError;
 pub use dense::DenseOutput;
 pub use dim::{D, Dim};
 pub use dynamics::TaylorSeries;
@@ -114,6 +122,7 @@ pub use methods::{
 };
 pub use reduction::{ByStages, Reconstructed, Reconstruction, Reduction};
 pub use scalar::{Real, Scalar};
+pub use tangent::{ChartError, OnConstraints, linearize_on_constraints};
 
 /// # Examples
 ///
@@ -220,6 +229,40 @@ pub use scalar::{Real, Scalar};
 /// assert!((next.w[2] - 1.0).abs() < 1e-6);
 /// ```
 ///
+/// With units, which are proved to fit. Those of what is not listed follow: the velocities, the input, the output.
+///
+/// ```
+/// # use nonholonomic::prelude::*;
+/// #[nonholonomic(
+///     base        { x, theta, roll }
+///     lagrangian  { m / 2 * der(x)^2 + J / 2 * der(roll)^2 - m * g * x * sin(slope) }
+///     constraints { contact: der(x) = r * der(roll); der(theta) = 0; }
+///     inputs      { torque }
+///     forces      { roll: torque - c * der(roll); }
+///     outputs     { speed = r * der(roll); }
+///     units       { x, r = m; theta, roll, slope = rad; m = kg; J = kg m^2; g = m/s^2; }
+/// )]
+/// #[derive(Clone, Copy, Debug)]
+/// struct Wheel { m: f64, J: f64, g: f64, r: f64, c: f64, slope: f64 }
+///
+/// assert!(Wheel::REPORT.contains("J: torque"));
+/// assert!(Wheel::REPORT.contains("m s⁻¹: x_dot, speed"));
+/// assert!(Wheel::REPORT.contains("N: contact"));
+/// ```
+///
+/// Here a radius is missing in the constraint, so that a speed would be a rate:
+///
+/// ```compile_fail
+/// # use nonholonomic::prelude::*;
+/// #[nonholonomic(
+///     base        { x, roll }
+///     lagrangian  { m / 2 * der(x)^2 + J / 2 * der(roll)^2 }
+///     constraints { contact: der(x) = der(roll); }
+///     units       { x = m; roll = rad; m = kg; J = kg m^2; }
+/// )]
+/// struct Wheel { m: f64, J: f64 }
+/// ```
+///
 /// A declaration that is ill-posed does not compile: here the constraint is one of positions.
 ///
 /// ```compile_fail
@@ -317,17 +360,28 @@ pub use nonholonomic_macros::morphism;
 #[cfg(feature = "macros")]
 pub use nonholonomic_macros::quotient;
 
-/// The crate whose packs of lanes are scalars with the feature `wide`.
+/// The crate of the vectors and matrices in signatures (0.35): states convert to and from its `SVector`, Jacobians are
+/// its `SMatrix`. A crate that names it by this path cannot have another version by accident.
+pub use ::nalgebra;
+
+/// The crate (1.x) whose packs of lanes are scalars with the feature `wide`.
 #[cfg(feature = "wide")]
 pub use ::wide;
+
+/// The front page of the package: its example is tested with the others.
+#[cfg(all(doctest, feature = "macros"))]
+#[doc = include_str!("../README.md")]
+struct FrontPage;
 
 /// What generated code names. Not part of the public interface: it may change in any release.
 #[doc(hidden)]
 pub mod __private {
     pub use crate::__nh_serde_impls as serde_impls;
     pub use crate::TaylorSeries;
+    pub use crate::assembly::{AssemblyError, Loops, assemble, assemble_holding};
     pub use crate::linear::{inverse_pivoted, solve_pivoted, times};
-    pub use crate::projection::{check_identities, project};
+    pub use crate::newton_return::{corrected, first_iterate, newton, product_of_signs, worst};
+    pub use crate::projection::{check_identities, largest, project};
     pub use crate::series::History;
     pub use crate::{
         AlmostPoisson, Constrained, D, Dim, Dynamics, Energy, EulerPoincareSuslov, InputFault, Invariants,

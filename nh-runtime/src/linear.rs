@@ -164,6 +164,22 @@ impl<Dm: Dim, F: Entry> Factors<Dm, F> {
         Self { lu, rows }
     }
 
+    /// The sign of the determinant; 0 where a pivot is not above `least` in size, or not a number.
+    pub(crate) fn sign(&self, least: F) -> i8
+    where
+        F: Real,
+    {
+        let mut sign = 1;
+        for (k, lu) in self.lu.as_ref().iter().enumerate() {
+            let pivot = entry(lu, k);
+            sign *= i8::from(pivot > least) - i8::from(pivot < -least);
+        }
+        let rows = self.rows.as_ref();
+        let later = |(k, row): (usize, &usize)| rows.iter().skip(k + 1).filter(|other| *other < row).count();
+        let exchanges: usize = rows.iter().enumerate().map(later).sum();
+        if exchanges.is_multiple_of(2) { sign } else { -sign }
+    }
+
     /// The solution of A x = b.
     pub(crate) fn solve(&self, b: &Dm::Vec<F>) -> Dm::Vec<F> {
         let mut x = Dm::vec(F::NOUGHT);
@@ -236,6 +252,16 @@ mod tests {
         for (s, x) in Factors::<D<2>, Complex<f64>>::new(&a).solve(&b).into_iter().zip(x) {
             assert!((s - x).size() < 1e-14, "{s:?} {x:?}");
         }
+    }
+
+    #[test]
+    fn determinants_have_signs() {
+        let sign = |a| Factors::<D<3>, f64>::new(&a).sign(1e-15);
+        assert_eq!(sign([[1.0, 0.0, 0.0], [0.0, 2.0, 0.0], [0.0, 0.0, 3.0]]), 1);
+        assert_eq!(sign([[0.0, 2.0, 0.0], [1.0, 0.0, 0.0], [0.0, 0.0, 3.0]]), -1);
+        assert_eq!(sign([[0.0, 2.0, 0.0], [0.0, 0.0, 3.0], [1.0, 0.0, 0.0]]), 1);
+        assert_eq!(sign([[0.0, 2.0, 0.0], [0.0, 0.0, -3.0], [1.0, 0.0, 0.0]]), -1);
+        assert_eq!(sign([[1.0, 2.0, 0.0], [2.0, 4.0, 0.0], [0.0, 0.0, 1.0]]), 0);
     }
 
     #[test]

@@ -79,14 +79,14 @@ pub fn check_identities<T: Scalar, const N: usize, const M: usize>(
 
 /// The largest absolute value.
 #[inline]
-pub(crate) fn largest<T: Scalar>(x: &[T]) -> T {
+pub fn largest<T: Scalar>(x: &[T]) -> T {
     x.iter().fold(T::ZERO, |largest, x| largest.max(x.abs()))
 }
 
 /// Whether, in every lane, the change is round-off. How large that is shows in the sum with the
 /// scale: lanes have no number for it.
 #[inline]
-fn is_settled<T: Scalar>(change: T, scale: T, preceding: Option<T>) -> bool {
+pub(crate) fn is_settled<T: Scalar>(change: T, scale: T, preceding: Option<T>) -> bool {
     let beyond =
         |fraction: f64, then: T| (scale + change * T::from_f64(fraction)).select_gt(scale, then, T::ZERO);
     let still_falls = match preceding {

@@ -1,7 +1,7 @@
 //! How much error a step may add to which component.
 
 use crate::arrays::Array;
-use crate::{Dim, IntegrationError, Real, State};
+use crate::{Dim, IntegrationError, Real, Scalar, State};
 
 /// The permitted error of the components of a state of type `X`: in component i, the absolute
 /// tolerance plus the relative one times the larger of |xᵢ| at both ends of the step
@@ -95,6 +95,62 @@ impl<T: Real, X: State<Scalar = T>> Tolerance<X> for PerComponent<X> {
         let each = rtol.as_ref().iter().copied().zip(atol.as_ref().iter().copied());
         mean_square(e, x0, x1, each)
     }
+}
+
+/// The norm of e in units of the permitted error, for any e in the range of the numbers: the root of the mean square,
+/// of which neither may be.
+#[inline]
+pub(crate) fn norm<X: State>(
+    tolerance: &impl Tolerance<X>,
+    e: &VecOf<X>,
+    x0: &VecOf<X>,
+    x1: &VecOf<X>,
+) -> X::Scalar
+where
+    X::Scalar: Real,
+{
+    let square = tolerance.mean_square(e, x0, x1);
+    if square >= X::Scalar::MIN_POSITIVE / X::Scalar::EPSILON && square.is_finite() {
+        return square.sqrt();
+    }
+    norm_of_scaled(tolerance, e, [x0, x1]).unwrap_or_else(|| square.sqrt())
+}
+
+/// The same by components in units of a power of two near the largest ratio, if that is a number.
+#[cold]
+fn norm_of_scaled<X: State>(
+    tolerance: &impl Tolerance<X>,
+    e: &VecOf<X>,
+    [x0, x1]: [&VecOf<X>; 2],
+) -> Option<X::Scalar>
+where
+    X::Scalar: Real,
+{
+    let (before, after) = (tolerance.permitted(x0), tolerance.permitted(x1));
+    let permitted = before.as_ref().iter().zip(after.as_ref()).map(|(a, b)| a.max(*b));
+    let present = e.as_ref().iter().zip(permitted).filter(|(e, _)| **e != X::Scalar::ZERO);
+    let largest = present.fold(X::Scalar::ZERO, |most, (e, permitted)| most.max(e.abs() / permitted));
+    if largest == X::Scalar::ZERO || !largest.is_finite() {
+        return None;
+    }
+    let unit = power_of_two(largest);
+    let mut scaled = *e;
+    scaled.as_mut().iter_mut().for_each(|e| *e = *e / unit);
+    Some(tolerance.mean_square(&scaled, x0, x1).sqrt() * unit)
+}
+
+/// The largest power of two that is at most this positive number.
+pub(crate) fn power_of_two<T: Real>(number: T) -> T {
+    let mut power = T::ONE;
+    for stride in [T::from_f64(4_294_967_296.0), T::from_f64(2.0)] {
+        while power <= number / stride {
+            power *= stride;
+        }
+        while power > number {
+            power = power / stride;
+        }
+    }
+    power
 }
 
 /// Checks the tolerances of a component.

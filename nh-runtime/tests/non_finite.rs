@@ -176,8 +176,8 @@ fn check<T: Real, M: Method<Spoiled<T>> + Clone>(name: &str, method: &M, may: Ma
     let before = sim.system().calls.get();
     sim.step().unwrap();
     let calls = before..sim.system().calls.get();
-    // in single precision steps of other lengths round otherwise
-    let round_off = 32.0 * T::EPSILON.to_f64();
+    // in single precision steps of other lengths round otherwise: Vern9 by ten units, everything else by less
+    let round_off = 16.0 * T::EPSILON.to_f64();
     let allowed = 2.0 * off(sim.time(), sim.state()) + round_off.max(1e-6);
     assert!(allowed < 0.02, "{name}: {allowed}");
     let mut failures = Vec::new();

@@ -29,6 +29,7 @@ pub(super) const MOST_HALVINGS: u32 = 1025 + 32;
 /// # Errors
 /// [`ControlError::NotFinite`] if an argument, or the result, is not finite; [`ControlError::TooFast`] if a mode that
 /// does not decay turns or drifts so fast that rounding decides the result.
+#[doc(alias("c2d", "expm"))]
 pub fn zero_order_hold<T: Entry, const N: usize, const M: usize>(
     a: &SMatrix<T, N, N>,
     b: &SMatrix<T, N, M>,

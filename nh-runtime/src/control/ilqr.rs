@@ -28,6 +28,7 @@ const DERIVATIVES: &str = "the derivatives of model and cost";
 /// ```compile_fail,E0080
 /// nonholonomic::control::Ilqr::<f64, 2, 1, 0>::new(nalgebra::vector![0.0]);
 /// ```
+#[doc(alias("MPC", "DDP"))]
 #[derive(Clone, Copy, Debug)]
 pub struct Ilqr<T, const N: usize, const M: usize, const H: usize> {
     inputs: [SVector<T, M>; H],

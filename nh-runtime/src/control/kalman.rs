@@ -7,6 +7,7 @@ use super::square_root::Measured;
 use super::{ControlError, Entry, finite, squares, symmetrized};
 
 /// What is known of a state: a mean and a covariance.
+#[doc(alias("EKF", "Kalman"))]
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Estimate<T, const N: usize> {
     /// The mean; a generated state is made of it with `into()`, and the other way round.

@@ -17,6 +17,7 @@ fn longest_horizon<T: Entry>() -> T {
 ///
 /// For e' = a e + b u and the cost Σ eᵀ q e + uᵀ r u, with q symmetric and positive semidefinite and
 /// r symmetric and positive definite.
+#[doc(alias("LQR", "DARE", "Riccati"))]
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Regulator<T, const N: usize, const M: usize> {
     /// K.

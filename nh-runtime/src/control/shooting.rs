@@ -6,6 +6,7 @@ use super::{ControlError, Cost, Entry, Model, finite};
 
 /// The cost of a sequence of inputs from a state, without its gradient. Inputs that lead out of the numbers
 /// cost infinity or NaN, which a line search steps back from.
+#[doc(alias("MPPI"))]
 pub fn shooting_cost<T: Entry, const N: usize, const M: usize>(
     model: &impl Model<T, N, M>,
     cost: &impl Cost<T, N, M>,

@@ -19,6 +19,7 @@ use super::{ControlError, Correction, Entry, Estimate, finite, squares, symmetri
 /// Σ (o oᵀ + e eᵀ)/c² + (β − α²) m mᵀ. As a sum of squares that is positive semidefinite wherever
 /// κ ≥ 0 and β ≥ 0, and so is what a correction leaves. Where other settings make it indefinite that is an
 /// error.
+#[doc(alias("UKF", "sigma points"))]
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Unscented<T> {
     /// α: how far the points lie from the mean.

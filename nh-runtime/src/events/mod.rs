@@ -7,6 +7,7 @@ mod turns;
 
 use core::ops::ControlFlow;
 
+use crate::integrator::Spent;
 use crate::methods::Method;
 use crate::{Dynamics, IntegrationError, Integrator, Real, Scalar, ScalarOf};
 
@@ -241,11 +242,9 @@ where
         let is_given = self.last_step().is_none();
         let stop = self.stop();
         let mut sides = None;
-        let mut steps = 0;
+        let mut spent = Spent::default();
         while self.time() != target {
-            self.limit_steps(steps, target)?;
-            self.step_towards(target)?;
-            steps += 1;
+            self.step_within(&mut spent, target)?;
             let sides = sides.get_or_insert_with(|| self.beginning(events, &here, stop, is_given));
             match self.look_back(events, &mut here, sides, one, &mut visit) {
                 Ok(None) => {}

@@ -183,8 +183,28 @@ fn find<T: Real, F, const N: usize>(
         return Ok(None);
     }
     let value_at = |time| values_at(time).map(|values| values.get(index).copied().unwrap_or(value));
-    let time = locate(before, ((here.time, old), (there.time, value)), value_at)?;
+    let start = in_flight(before, ((here.time, old), there.time), &value_at)?;
+    let time = locate(before, (start, (there.time, value)), value_at)?;
     Ok(Some((time, direction)))
+}
+
+/// A point at which a function that leaves zero shows the side that it moves to: nearer and nearer to where it left,
+/// as far as time resolves it, and that place itself if there is none.
+fn in_flight<T: Real>(
+    to: Side,
+    ((time, value), end): ((T, T), T),
+    value_at: &impl Fn(T) -> Result<T, IntegrationError>,
+) -> Result<(T, T), IntegrationError> {
+    let half = T::from_f64(0.5);
+    let mut distance = end - time;
+    while side(value) != to && time + distance != time {
+        distance *= half;
+        let there = value_at(time + distance)?;
+        if side(there) == to {
+            return Ok((time + distance, there));
+        }
+    }
+    Ok((time, value))
 }
 
 /// Times that are taken one after the other.

@@ -1,6 +1,6 @@
 //! States within steps, and stops on the way.
 
-use super::Integrator;
+use super::{Integrator, Spent};
 use crate::dense::DenseOutput;
 use crate::methods::{Arrival, Method, Start};
 use crate::{Dynamics, IntegrationError, Real, ScalarOf};
@@ -45,9 +45,9 @@ where
         stops: impl IntoIterator<Item = ScalarOf<S>>,
         mut visit: impl FnMut(&mut Self),
     ) -> Result<(), IntegrationError> {
-        let mut left = self.step_limit();
+        let mut spent = Spent::default();
         for stop in stops {
-            left = left.saturating_sub(self.travel(stop, left)?);
+            self.travel(stop, &mut spent)?;
             visit(self);
         }
         Ok(())
@@ -67,7 +67,7 @@ where
         let times = times.into_iter();
         let Some(last) = times.clone().last() else { return Ok(()) };
         let mut times = times.peekable();
-        let mut steps = 0;
+        let mut spent = Spent::default();
         loop {
             let dense = self.dense();
             while let Some(&time) = times.peek()
@@ -80,9 +80,7 @@ where
                 // a time that has been passed already
                 return times.next().map_or(Ok(()), |time| dense.at(time).map(|_| ()));
             }
-            self.limit_steps(steps, last)?;
-            self.step_towards(last)?;
-            steps += 1;
+            self.step_within(&mut spent, last)?;
         }
     }
 

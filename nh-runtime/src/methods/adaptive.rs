@@ -1,6 +1,8 @@
 //! What the adaptive methods share: their settings, the first step, acceptance and rejection, and the
 //! landing on a target.
 
+use core::fmt;
+
 use super::explicit::Tableau;
 use super::first_step::first_length;
 use super::fixed::Fixed;
@@ -217,6 +219,13 @@ pub struct Trial<S: Dynamics> {
     pub error: ScalarOf<S>,
 }
 
+impl<S: Dynamics> fmt::Debug for Trial<S> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let state = self.state.as_ref();
+        f.debug_struct("Trial").field("state", &state).field("error", &self.error).finish()
+    }
+}
+
 /// What an adaptive method remembers.
 #[derive(Clone, Copy)]
 pub struct Memory<T, K> {
@@ -242,6 +251,11 @@ where
     #[inline]
     fn forget(&self, memory: &mut Self::Memory) {
         memory.past = self.control.controller.unwrap_or_else(P::usual_controller).no_past();
+        self.scheme.forget(&mut memory.work);
+    }
+
+    #[inline]
+    fn forget_state(&self, memory: &mut Self::Memory) {
         self.scheme.forget(&mut memory.work);
     }
 

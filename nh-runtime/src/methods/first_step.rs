@@ -4,7 +4,7 @@ use super::Start;
 use crate::arrays::{difference, displaced};
 use crate::projection::largest;
 use crate::step_control::StepControl;
-use crate::tolerance::Tolerance;
+use crate::tolerance::{Tolerance, norm as norm_of};
 use crate::{Dynamics, Real, Scalar, ScalarOf, State, Statistics, VecOf};
 
 /// The share of its size by which an explicit Euler step changes the solution where it is probed, and the error in
@@ -34,7 +34,7 @@ where
     let one = ScalarOf::<S>::ONE;
     let x = start.state.to_array();
     let norm = |v: &VecOf<S>| {
-        let norm = tolerance.mean_square(v, &x, &x).sqrt();
+        let norm = norm_of(tolerance, v, &x, &x);
         if norm.is_finite() {
             return norm;
         }
@@ -43,7 +43,7 @@ where
         for (v, x) in judged.as_mut().iter_mut().zip(x.as_ref()) {
             *v = if *x == ScalarOf::<S>::ZERO { *x } else { *v };
         }
-        tolerance.mean_square(&judged, &x, &x).sqrt()
+        norm_of(tolerance, &judged, &x, &x)
     };
     let size = norm(&x).max(one);
     let slope = norm(first);

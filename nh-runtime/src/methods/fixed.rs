@@ -103,7 +103,8 @@ impl<P: Tableau, T: Scalar> Fixed<P, T> {
     }
 
     /// One step of length `dt` as a pure function: the state at `t + dt`. A negative `dt` goes back in
-    /// time.
+    /// time. Where the system has position constraints, one correction towards these and one of the velocities
+    /// is part of the step.
     ///
     /// ```
     /// use nonholonomic::{D, Dynamics, Rk4, State};
@@ -139,7 +140,9 @@ impl<P: Tableau, T: Scalar> Fixed<P, T> {
         let start = Start { system, input, time: t, state };
         let x = state.to_array();
         let (_, slope) = stages_of::<S, P>(&start, &x, dt);
-        S::State::from_array(displaced(&x, dt * T::from_f64(P::SCALE), &slope))
+        let mut state = S::State::from_array(displaced(&x, dt * T::from_f64(P::SCALE), &slope));
+        system.correct_positions(t + dt, &mut state);
+        state
     }
 }
 
@@ -368,7 +371,7 @@ where
 /// What rounding has taken from a + b, exactly (Møller 1965, Knuth, The Art of Computer Programming 2,
 /// 4.2.2, theorem B).
 #[inline]
-fn rounding<T: Scalar, V: Array<T>>(a: &V, b: &V, sum: &V) -> V {
+pub(super) fn rounding<T: Scalar, V: Array<T>>(a: &V, b: &V, sum: &V) -> V {
     let mut lost = *sum;
     for ((lost, &a), &b) in lost.as_mut().iter_mut().zip(a.as_ref()).zip(b.as_ref()) {
         let added = *lost - a;

@@ -47,6 +47,7 @@ mod first_step;
 mod fixed;
 mod grid;
 mod implicit;
+mod interruptible;
 mod leg;
 mod projected;
 mod structure;
@@ -65,6 +66,7 @@ pub use implicit::{
     Analytic, FiniteDifferences, Gauss, GaussLegendre4, GaussLegendre6, ImplicitMidpoint, Linearization,
     Midpoint, Radau, Radau5, Rodas, Rodas5P,
 };
+pub use interruptible::Interruptible;
 pub use projected::Projected;
 pub use structure::{
     Composed, Conserving, DiscreteGradient, DiscreteMomentum, DiscreteSuslov, DriftKickDrift, Gonzalez,
@@ -131,6 +133,8 @@ pub type Dop853<T, W = Uniform<T>> = Adaptive<DormandPrince8, T, W>;
 /// Algorithms 53 (2010), the "most efficient" 9(8) pair with the coefficients that he publishes).
 pub type Vern9<T, W = Uniform<T>> = Adaptive<Verner9, T, W>;
 
+use core::fmt;
+
 use crate::arrays::first_non_finite;
 use crate::{Dim, DimOf, Dynamics, IntegrationError, Real, Scalar, ScalarOf, State, Statistics, VecOf};
 
@@ -171,6 +175,22 @@ pub struct Place<S: Dynamics> {
     pub before: Option<(ScalarOf<S>, S::State)>,
 }
 
+/// Debug of a point by its time and state.
+macro_rules! debug_point {
+    ($($name:ident <$($life:lifetime)?>)*) => {$(
+        impl<S: Dynamics> fmt::Debug for $name<$($life,)? S>
+        where
+            S::State: fmt::Debug,
+        {
+            fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+                let name = stringify!($name);
+                f.debug_struct(name).field("time", &self.time).field("state", &self.state).finish_non_exhaustive()
+            }
+        }
+    )*};
+}
+debug_point!(Start<'_> Arrival<> Place<>);
+
 impl<S: Dynamics> Place<S> {
     /// Takes the step to `arrival`.
     #[inline]
@@ -197,6 +217,17 @@ pub trait Method<S: Dynamics> {
     /// Removes from the memory what depends on the input or on the state at the end of the last
     /// step, because one of them has been changed.
     fn forget(&self, memory: &mut Self::Memory);
+
+    /// Removes from the memory what depends on the state, because another one has been given.
+    fn restart(&self, memory: &mut Self::Memory) {
+        self.forget(memory);
+    }
+
+    /// The same where the state at the end of the last step has been moved by no more than the method's own error:
+    /// what it has learnt about the length of its steps still holds.
+    fn forget_state(&self, memory: &mut Self::Memory) {
+        self.forget(memory);
+    }
 
     /// Checks the settings.
     ///

@@ -101,6 +101,11 @@ where
         self.method.forget(&mut memory.method);
     }
 
+    fn restart(&self, memory: &mut Self::Memory) {
+        self.method.restart(&mut memory.method);
+        memory.started = false;
+    }
+
     fn permitted(&self, state: &S::State) -> VecOf<S> {
         self.method.permitted(state)
     }
@@ -226,6 +231,7 @@ impl<M> Projected<M> {
             if !permitted.all_ge(correction) {
                 return Err(IntegrationError::InconsistentStart {
                     constraint,
+                    name: S::constraint_names().as_ref().get(constraint).copied().unwrap_or_default(),
                     residual: residual.to_f64(),
                     component: component::<S::State>(index),
                     correction: correction.to_f64(),

@@ -5,11 +5,12 @@ mod series;
 use series::Series;
 
 use super::first_step::first_length;
+use super::fixed::rounding;
 use super::leg::Leg;
 use super::{Arrival, Method, Start, component, non_finite_derivative};
-use crate::arrays::{all_finite, difference, first_non_finite};
+use crate::arrays::{all_finite, difference, displaced, first_non_finite};
 use crate::step_control::StepControl;
-use crate::tolerance::{PerComponent, Tolerance, Uniform};
+use crate::tolerance::{PerComponent, Tolerance, Uniform, norm};
 use crate::{Dim, Dynamics, IntegrationError, Real, Scalar, State, Statistics, TaylorSeries, VecOf};
 
 /// The Taylor method: each step is a partial sum of the Taylor series of the solution, of an order
@@ -152,6 +153,8 @@ pub struct Memory<X: State, W, const P: usize> {
     series: [Series<X, P>; 2],
     /// The unit of the next series: the length of the last step as the series would have it.
     next: Option<X::Scalar>,
+    /// What rounding has taken from the state.
+    carry: <X::Dim as Dim>::Vec<X::Scalar>,
     workspace: W,
 }
 
@@ -165,12 +168,14 @@ where
     fn memory(&self) -> Self::Memory {
         let zero = S::State::from_array(crate::DimOf::<S>::vec(T::ZERO));
         let empty = Series { terms: [zero; P], unit: T::ONE };
-        Memory { series: [empty; 2], next: None, workspace: S::Workspace::default() }
+        Memory { series: [empty; 2], next: None, carry: zero.to_array(), workspace: S::Workspace::default() }
     }
 
-    /// What is stored belongs to the last step, of which the dense output is asked for later.
+    /// The series belongs to the last step, of which the dense output is asked for later.
     #[inline]
-    fn forget(&self, _memory: &mut Self::Memory) {}
+    fn forget(&self, memory: &mut Self::Memory) {
+        memory.carry = crate::DimOf::<S>::vec(T::ZERO);
+    }
 
     fn check(&self) -> Result<(), IntegrationError> {
         self.tolerance.check()?;
@@ -220,18 +225,20 @@ where
             unit = (unit * T::from_f64(SHRINK)).max(shortest);
         };
         let mut proposed = self.control.limited(length).max(shortest);
-        let (leg, reached) = loop {
+        let x = start.state.to_array();
+        let (leg, change, reached) = loop {
             let leg = Leg::new(start.time, proposed, target);
             if !leg.time.is_finite() {
                 return Err(IntegrationError::NonFiniteTime { time: leg.time.to_f64() });
             }
-            let reached = next.at::<S>(self.order, leg.length);
+            let change = displaced(&next.change::<S>(self.order, leg.length), T::ONE, &memory.carry);
+            let reached = displaced(&x, T::ONE, &change);
             if !all_finite::<T, _>(&reached) {
                 return Err(refusal(start, &next.terms, leg.length));
             }
             let excess = self.excess(start, next, leg.length);
             if excess <= T::ONE {
-                break (leg, reached);
+                break (leg, change, reached);
             }
             if proposed <= shortest {
                 let (time, step) = (start.time.to_f64(), leg.length.to_f64());
@@ -243,6 +250,7 @@ where
             let share = if share >= least { share.min(most) } else { least };
             proposed = (proposed.min(leg.length.abs()) * share).max(shortest);
         };
+        memory.carry = rounding(&x, &change, &reached);
         memory.series.swap(0, 1);
         memory.next = Some(proposed);
         Ok(Arrival { time: leg.time, state: S::State::from_array(reached) })
@@ -310,7 +318,7 @@ impl<T: Real, const P: usize, W> Taylor<T, P, W> {
         let rate = start.derivative_at(start.time + elapsed, there);
         let by_series = series.rate_at::<S>(self.order, elapsed);
         let x = start.state.to_array();
-        let change = |rate: &VecOf<S>| length.abs() * self.tolerance.mean_square(rate, &x, &there).sqrt();
+        let change = |rate: &VecOf<S>| length.abs() * norm(&self.tolerance, rate, &x, &there);
         let noise = T::from_f64(NOISE) * T::EPSILON * (change(&rate) + change(&by_series));
         let defect = change(&difference(&by_series, &rate));
         // that of the first term left out, at a share of its length and divided by its order

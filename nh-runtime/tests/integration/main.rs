@@ -3,6 +3,7 @@
 // exact values are meant
 #![allow(clippy::float_cmp)]
 
+mod api;
 mod conservation;
 mod errors;
 mod events;

@@ -6,7 +6,7 @@ use nonholonomic::prelude::*;
 #[nonholonomic(
     base { x, y, z }
     lagrangian { 1 / 2 * (der(x)^2 + der(y)^2 + der(z)^2) - k / 2 * (x^2 + y^2 + z^2) }
-    constraints { der(x) = -b * y * der(z); }
+    constraints { roll: der(x) = -b * y * der(z); }
     formulation { projected }
     conserved { total = 1 / 2 * (der(x)^2 + der(y)^2 + der(z)^2) + k / 2 * (x^2 + y^2 + z^2); }
     assume { k > 0; }

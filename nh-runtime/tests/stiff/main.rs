@@ -2,6 +2,7 @@
 //! `cargo test --release -p nonholonomic --test stiff -- --nocapture`.
 
 mod problems;
+mod quotients;
 mod radau5;
 
 use nonholonomic::prelude::*;

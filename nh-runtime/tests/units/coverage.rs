@@ -74,6 +74,8 @@ const NO_METHODS: &[&str] = &[
     "Gonzalez",
     "KahanLi6",
     "Suzuki4",
+    // takes the steps of another method, and computes nothing
+    "Interruptible",
     // systems made of systems, which compute nothing but their derivatives
     "ByStages",
     "Reconstructed",

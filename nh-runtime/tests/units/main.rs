@@ -69,7 +69,7 @@ pub(crate) struct Change {
 
 /// The changes of units that every method is tried with; odd powers show roots of what has a dimension.
 pub(crate) fn changes(far: bool) -> Vec<Change> {
-    let powers: &[i32] = if far { &[-300, -31, 101, 300] } else { &[-21, -7, 2, 21] };
+    let powers: &[i32] = if far { &[-600, -31, 101, 600] } else { &[-21, -7, 2, 21] };
     let mut all = Vec::new();
     for &power in powers {
         all.push(Change { part: Part::Time, time: power, state: [0; 4], other: 0 });

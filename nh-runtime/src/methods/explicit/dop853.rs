@@ -44,7 +44,7 @@ impl Pair for DormandPrince8 {
         stages: &DormandPrince8Stages<V>,
         _last: &V,
         h: T,
-        mean_square: impl Fn(&V) -> T,
+        norm: impl Fn(&V) -> T,
     ) -> T {
         let w = T::from_f64;
         let fifth = combined(
@@ -71,9 +71,9 @@ impl Pair for DormandPrince8 {
                 (w(0.022_651_792_198_360_825), &stages.k12),
             ],
         );
-        let (e5, e3) = (mean_square(&fifth), mean_square(&third));
-        let sum = w(0.01).mul_add(e3, e5);
-        if sum == T::ZERO { T::ZERO } else { h.abs() * e5 / sum.sqrt() }
+        let (e5, e3) = (norm(&fifth), norm(&third));
+        let ratio = e3 / e5;
+        if e5 == T::ZERO { e3 * T::ZERO } else { h.abs() * e5 / (w(0.01) * ratio * ratio + T::ONE).sqrt() }
     }
 }
 

@@ -5,7 +5,7 @@ use crate::arrays::{all_finite, displaced, first_non_finite, nought};
 use crate::methods::adaptive::{Scheme, Trial};
 use crate::methods::fixed::OneStep;
 use crate::methods::{Arrival, Start, non_finite_derivative};
-use crate::tolerance::Tolerance;
+use crate::tolerance::{Tolerance, norm};
 use crate::{Dim, DimOf, Dynamics, IntegrationError, Real, Scalar, ScalarOf, State, Statistics, VecOf};
 
 /// Zeros in the shape of a state.
@@ -186,7 +186,7 @@ where
             statistics.evaluations += 1;
             work.last = start.derivative_at(start.time + h, state);
         }
-        let error = P::error(&stages, &work.last, h, |e| tolerance.mean_square(e, &x, &state));
+        let error = P::error(&stages, &work.last, h, |e| norm(tolerance, e, &x, &state));
         if KEEP {
             work.stages = stages;
         }

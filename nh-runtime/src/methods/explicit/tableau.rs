@@ -61,13 +61,8 @@ pub trait Pair: Tableau {
     const FIRST_SAME_AS_LAST: bool;
 
     /// The size of the error, from the stages, the derivative at the end (where it is used), and the
-    /// mean of the squared components in units of the tolerance.
-    fn error<T: Real, V: Array<T>>(
-        stages: &Self::Stages<V>,
-        last: &V,
-        h: T,
-        mean_square: impl Fn(&V) -> T,
-    ) -> T;
+    /// norm in units of the tolerance.
+    fn error<T: Real, V: Array<T>>(stages: &Self::Stages<V>, last: &V, h: T, norm: impl Fn(&V) -> T) -> T;
 }
 
 /// What the states within a step are computed from: with s the fraction of the step, the cubic
@@ -261,14 +256,14 @@ macro_rules! embedded {
                 stages: &Self::Stages<V>,
                 last: &V,
                 h: T,
-                mean_square: impl Fn(&V) -> T,
+                norm: impl Fn(&V) -> T,
             ) -> T {
                 let w = T::from_f64;
                 let _ = last;
                 let defect = $crate::arrays::combined(
                     (w($e0), &stages.$e0k), [$((w($e), &stages.$ek),)* $((w($el), last))?],
                 );
-                h.abs() * mean_square(&defect).sqrt()
+                h.abs() * norm(&defect)
             }
         }
 

@@ -97,10 +97,10 @@ impl<T: Real, J> ImplicitMidpoint<T, J> {
 }
 
 impl<T: Real, J> Midpoint<T, J> {
-    /// Solves d = h/2 f(t₀ + h/2, x₀ + d) for half the increment, and gives the whole.
+    /// Solves d = h/2 f(t₀ + h/2, x₀ + rest + d) for half the increment, and gives the whole.
     fn solve<S>(
         &self,
-        start: &Start<'_, S>,
+        (start, rest): (&Start<'_, S>, &VecOf<S>),
         length: T,
         stored: &mut Option<Newton<S>>,
         statistics: &mut Statistics,
@@ -123,13 +123,13 @@ impl<T: Real, J> Midpoint<T, J> {
         // before the first correction: the larger of the state, and of what the slope there moves it
         let mut usual: Option<T> = None;
         loop {
-            let slope = start.derivative_at(middle, displaced(&x, T::ONE, &half_increment));
+            let point = displaced(&x, T::ONE, &displaced(&half_increment, T::ONE, rest));
+            let slope = start.derivative_at(middle, point);
             statistics.evaluations += 1;
             let usual = *usual.get_or_insert_with(|| largest(&x).max(half.abs() * largest(&slope)));
             let current = if let Some(newton) = newton {
                 newton
             } else {
-                let point = displaced(&x, T::ONE, &half_increment);
                 let jacobian =
                     self.linearization.state_jacobian(start, middle, &point, &slope, length, statistics);
                 statistics.jacobians += 1;
@@ -242,12 +242,23 @@ where
     fn increment(
         &self,
         start: &Start<'_, S>,
-        _x: &VecOf<S>,
+        x: &VecOf<S>,
         h: T,
         work: &mut Option<Newton<S>>,
         statistics: &mut Statistics,
     ) -> Result<VecOf<S>, IntegrationError> {
-        self.solve(start, h, work, statistics)
+        self.increment_beyond(start, (x, &DimOf::<S>::vec(T::ZERO)), h, work, statistics)
+    }
+
+    fn increment_beyond(
+        &self,
+        start: &Start<'_, S>,
+        (_, rest): (&VecOf<S>, &VecOf<S>),
+        h: T,
+        work: &mut Option<Newton<S>>,
+        statistics: &mut Statistics,
+    ) -> Result<VecOf<S>, IntegrationError> {
+        self.solve((start, rest), h, work, statistics)
     }
 
     fn dense(

@@ -50,7 +50,9 @@ where
     check_length(dt)?;
     let x = start.state.to_array();
     let increment = scheme.increment(start, &x, dt, &mut scheme.work(), &mut Statistics::default())?;
-    Ok(S::State::from_array(displaced(&x, T::ONE, &increment)))
+    let mut state = S::State::from_array(displaced(&x, T::ONE, &increment));
+    start.system.correct_positions(start.time + dt, &mut state);
+    Ok(state)
 }
 
 /// The largest correction, relative to the largest |x| + |increment|; NaN if there is one.

@@ -12,7 +12,7 @@ use crate::dense::hermite;
 use crate::methods::adaptive::{Adaptive, Scheme, Trial};
 use crate::methods::{Arrival, Start};
 use crate::step_control::Controller;
-use crate::tolerance::{Tolerance, Uniform};
+use crate::tolerance::{Tolerance, Uniform, norm};
 use crate::{Dim, DimOf, Dynamics, MatOf, Real, Scalar, ScalarOf, State, Statistics, VecOf};
 
 /// The adaptive method Radau IIA with three stages, of order 5 with an error estimate of order 3 and
@@ -139,7 +139,7 @@ impl<J> Radau<J> {
         };
         // how many tolerances the state has: the estimate is of lower order than the step, so that
         // the equations have to be solved the better the smaller the tolerance is
-        let resolution = tolerance.mean_square(&x, &x, &x).sqrt();
+        let resolution = norm(tolerance, &x, &x, &x);
         let enough = w(ENOUGH).min(resolution.sqrt().recip());
         let enough = enough.max(w(RESOLVED) * ScalarOf::<S>::EPSILON * resolution);
         let failed = Some(w(0.5));
@@ -304,13 +304,13 @@ where
         let slope = displaced(&work.first, one / h, &by_stages);
         let Some(factors) = &matrices.real else { return Trial { state, error: infinite } };
         let mut defect = factors.solve(&slope);
-        let mut error = tolerance.mean_square(&defect, &x, &state).sqrt();
+        let mut error = norm(tolerance, &defect, &x, &state);
         if error >= one && !first_time {
             // a second filtering keeps the estimate from overrating fast components, eq. (IV.8.20)
             statistics.evaluations += 1;
             let moved = start.derivative_at(start.time, displaced(&x, one, &defect));
             defect = factors.solve(&displaced(&moved, one / h, &by_stages));
-            error = tolerance.mean_square(&defect, &x, &state).sqrt();
+            error = norm(tolerance, &defect, &x, &state);
         }
         Trial { state, error: error + nought(&state) }
     }

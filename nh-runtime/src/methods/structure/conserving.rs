@@ -4,6 +4,7 @@ use crate::arrays::displaced;
 use crate::linear::Factors;
 use crate::methods::{Arrival, Method, Start};
 use crate::projection::largest;
+use crate::tolerance::power_of_two;
 use crate::{
     Dim, IntegrationError, Invariants, ProjectionError, Real, Scalar, ScalarOf, State, Statistics, VecOf,
 };
@@ -28,6 +29,8 @@ impl<M> Conserving<M> {
     }
 }
 
+/// The gradients of a system's invariants.
+type Rows<S> = <<S as Invariants>::Count as Dim>::Vec<VecOf<S>>;
 /// The numbers of a system's invariants.
 type Values<S> = <<S as Invariants>::Count as Dim>::Vec<ScalarOf<S>>;
 
@@ -60,6 +63,11 @@ where
 
     fn forget(&self, memory: &mut Self::Memory) {
         self.method.forget(&mut memory.method);
+        memory.values = None;
+    }
+
+    fn restart(&self, memory: &mut Self::Memory) {
+        self.method.restart(&mut memory.method);
         memory.values = None;
     }
 
@@ -117,15 +125,16 @@ where
     let mut residual = ScalarOf::<S>::ZERO;
     for iteration in 0..MOST_ITERATIONS {
         let state = S::State::from_array(x);
-        let mut defect = system.invariants(arrival.time, &state);
-        for (defect, value) in defect.as_mut().iter_mut().zip(values.as_ref()) {
+        let mut off = system.invariants(arrival.time, &state);
+        for (defect, value) in off.as_mut().iter_mut().zip(values.as_ref()) {
             *defect -= *value;
         }
         // at rest the gradients may vanish, and there is nothing to do
-        if defect.as_ref().iter().all(|defect| *defect == ScalarOf::<S>::ZERO) {
+        if off.as_ref().iter().all(|defect| *defect == ScalarOf::<S>::ZERO) {
             return Ok(state);
         }
-        let gradients = system.invariant_gradients(arrival.time, &state);
+        residual = largest(off.as_ref());
+        let (gradients, defect) = in_their_units::<S>(system.invariant_gradients(arrival.time, &state), &off);
         let mut gram = <S::Count as Dim>::mat(ScalarOf::<S>::ZERO);
         for (row, first) in gram.as_mut().iter_mut().zip(gradients.as_ref()) {
             for (entry, second) in row.as_mut().iter_mut().zip(gradients.as_ref()) {
@@ -138,13 +147,12 @@ where
             moved = moved.max(largest(gradient.as_ref()) * weight.abs());
             x = displaced(&x, -*weight, gradient);
         }
-        residual = largest(defect.as_ref());
         if !moved.is_finite() {
             return Err(ProjectionError { iterations: iteration + 1, residual: residual.to_f64() });
         }
         // far from the level Newton's iteration need not halve its corrections; near it, only round-off does not
         let round_off = ScalarOf::<S>::from_f64(64.0) * ScalarOf::<S>::EPSILON;
-        let mut levels = defect.as_ref().iter().zip(values.as_ref());
+        let mut levels = off.as_ref().iter().zip(values.as_ref());
         let is_near = moved <= ScalarOf::<S>::EPSILON.sqrt() * largest(x.as_ref())
             || levels.all(|(defect, value)| defect.abs() <= round_off * value.abs());
         let stagnates = best.is_some_and(|best| moved >= best * ScalarOf::<S>::from_f64(0.5));
@@ -154,6 +162,24 @@ where
         best = Some(moved);
     }
     Err(ProjectionError { iterations: MOST_ITERATIONS, residual: residual.to_f64() })
+}
+
+/// Gradients and defects, each pair in units of a power of two near its largest derivative: their products are then in
+/// the range of the numbers wherever the gradients are.
+fn in_their_units<S: Invariants>(mut gradients: Rows<S>, off: &Values<S>) -> (Rows<S>, Values<S>)
+where
+    ScalarOf<S>: Real,
+{
+    let mut off = *off;
+    for (gradient, off) in gradients.as_mut().iter_mut().zip(off.as_mut()) {
+        let size = largest(gradient.as_ref());
+        if size > ScalarOf::<S>::ZERO && size.is_finite() {
+            let unit = power_of_two(size);
+            gradient.as_mut().iter_mut().for_each(|entry| *entry = *entry / unit);
+            *off = *off / unit;
+        }
+    }
+    (gradients, off)
 }
 
 fn dot<S: Invariants>(a: &VecOf<S>, b: &VecOf<S>) -> ScalarOf<S> {

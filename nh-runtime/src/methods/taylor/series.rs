@@ -43,6 +43,21 @@ impl<X: State, const P: usize> Series<X, P> {
         sum
     }
 
+    /// Σ x_k (τ/unit)ᵏ without its first term, by Horner's rule: what is small is summed before it meets the state.
+    #[inline]
+    pub(super) fn change<S: Dynamics<State = X>>(&self, order: usize, elapsed: X::Scalar) -> VecOf<S> {
+        let s = elapsed / self.unit;
+        let mut sum: VecOf<S> = crate::DimOf::<S>::vec(X::Scalar::ZERO);
+        for term in self.terms.get(1..=order).unwrap_or_default().iter().rev() {
+            let term = term.to_array();
+            for (sum, term) in sum.as_mut().iter_mut().zip(term.as_ref()) {
+                *sum = sum.mul_add(s, *term);
+            }
+        }
+        sum.as_mut().iter_mut().for_each(|sum| *sum *= s);
+        sum
+    }
+
     /// Σ x_k (τ/unit)ᵏ by Horner's rule.
     #[inline]
     pub(super) fn at<S: Dynamics<State = X>>(&self, order: usize, elapsed: X::Scalar) -> VecOf<S> {

@@ -1,0 +1,93 @@
+//! Why there is no jump.
+
+use core::error::Error;
+use core::fmt::{self, Display, Formatter};
+
+use crate::IntegrationError;
+
+/// Why an impact has no solution, or an integration with impacts stopped.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
+pub enum ImpactError {
+    /// A coefficient of restitution is outside 0 … 1.
+    Restitution {
+        /// Its value.
+        value: f64,
+    },
+    /// There are more rows than are tried in all combinations.
+    TooManyRows {
+        /// How many.
+        rows: usize,
+    },
+    /// A number of a row is infinite or not a number.
+    NotFinite {
+        /// The row.
+        row: &'static str,
+        /// The time.
+        time: f64,
+    },
+    /// A row is a combination of others on the constraints, so that its impulse is not determined.
+    Dependent {
+        /// The row.
+        row: &'static str,
+        /// The time.
+        time: f64,
+    },
+    /// Rows that were open close by the jump of others, again and again.
+    Unsettled {
+        /// A row that still closes.
+        row: &'static str,
+        /// The time.
+        time: f64,
+        /// How many jumps were made in one instant.
+        jumps: u32,
+    },
+    /// A step between two impacts.
+    Integration(IntegrationError),
+}
+
+impl Display for ImpactError {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Restitution { value } => {
+                write!(f, "the coefficient of restitution is {value:?}, but has to be from 0 to 1")
+            }
+            Self::TooManyRows { rows } => write!(
+                f,
+                "the impact has {rows} rows, more than the six that are tried in all combinations: tell those apart \
+                 that cannot be closed together"
+            ),
+            Self::NotFinite { row, time } => write!(
+                f,
+                "the row `{row}` has a number that is not finite at t = {time:?}: look at the last good state, and \
+                 at the parameters"
+            ),
+            Self::Dependent { row, time } => write!(
+                f,
+                "the row `{row}` is a combination of the others on the constraints at t = {time:?}, so that its \
+                 impulse is not determined: leave it out"
+            ),
+            Self::Unsettled { row, time, jumps } => write!(
+                f,
+                "the row `{row}` still closes at t = {time:?} after {jumps} jumps in one instant: give less \
+                 restitution, or let the rows land together"
+            ),
+            Self::Integration(error) => error.fmt(f),
+        }
+    }
+}
+
+impl Error for ImpactError {
+    fn source(&self) -> Option<&(dyn Error + 'static)> {
+        match self {
+            Self::Integration(error) => error.source(),
+            _ => None,
+        }
+    }
+}
+
+impl From<IntegrationError> for ImpactError {
+    fn from(error: IntegrationError) -> Self {
+        Self::Integration(error)
+    }
+}

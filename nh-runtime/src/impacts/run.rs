@@ -1,0 +1,213 @@
+//! The jump, and an integration from jump to jump.
+
+use core::ops::ControlFlow;
+
+use super::complementarity::{Dependent, Problem};
+use super::{Impact, ImpactError, MOST_ROWS};
+use crate::arrays::{all_finite, displaced};
+use crate::methods::Method;
+use crate::{Direction, Dynamics, Events, IntegrationError, Integrator, Real, Scalar, ScalarOf, State};
+
+/// The jumps that may follow one another in one instant.
+const MOST_JUMPS: u32 = 8;
+
+/// What an impact has done.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
+pub struct Struck<T, X, const R: usize> {
+    /// When.
+    pub time: T,
+    /// The state before.
+    pub before: X,
+    /// The state after.
+    pub after: X,
+    /// The impulse of each row.
+    pub impulses: [T; R],
+    /// The energy that is lost, ½ (1 − e)/(1 + e) μᵀKμ, where the rows and the constraints are homogeneous and the jump
+    /// is one.
+    pub lost: T,
+}
+
+/// How an integration with impacts has ended.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
+pub enum End<T> {
+    /// At the target.
+    Target,
+    /// After an impact at which it was told to.
+    Stopped,
+    /// Impacts of a row follow one another sooner than time resolves: it has come to rest on it, and stands there, with
+    /// the row landed. What goes on from there is another motion, with the row as a constraint.
+    Accumulated {
+        /// The row.
+        row: usize,
+        /// When.
+        time: T,
+    },
+}
+
+/// A jump of a system.
+type StruckOf<S, const R: usize> = Struck<ScalarOf<S>, <S as Dynamics>::State, R>;
+
+/// The state after an impact, mathematics (50): all bilateral rows are met, and of the unilateral ones those that are
+/// closed, with a gap of at most `closed`, and do not open. Rows that the jump closes jump again.
+///
+/// # Errors
+/// [`ImpactError`], with nothing done.
+pub fn strike<S: Dynamics, I: Impact<S, R>, const R: usize>(
+    system: &S,
+    impact: &I,
+    t: ScalarOf<S>,
+    state: &S::State,
+    closed: ScalarOf<S>,
+) -> Result<StruckOf<S, R>, ImpactError>
+where
+    ScalarOf<S>: Real,
+{
+    let place = Place { system, time: t, state, closed };
+    struck(&place, impact, impact.restitution(system), None)
+}
+
+/// Where an impact happens.
+struct Place<'a, S: Dynamics> {
+    system: &'a S,
+    time: ScalarOf<S>,
+    state: &'a S::State,
+    /// The gap up to which a row is closed.
+    closed: ScalarOf<S>,
+}
+
+/// The jump with this coefficient of restitution; the row that has come to rest is met whatever its rate.
+fn struck<S: Dynamics, I: Impact<S, R>, const R: usize>(
+    place: &Place<'_, S>,
+    impact: &I,
+    restitution: ScalarOf<S>,
+    resting: Option<usize>,
+) -> Result<StruckOf<S, R>, ImpactError>
+where
+    ScalarOf<S>: Real,
+{
+    let Place { system, time: t, state, closed } = *place;
+    let (zero, one) = (ScalarOf::<S>::ZERO, ScalarOf::<S>::ONE);
+    if R > MOST_ROWS {
+        return Err(ImpactError::TooManyRows { rows: R });
+    }
+    if !(restitution >= zero && restitution <= one) {
+        return Err(ImpactError::Restitution { value: restitution.to_f64() });
+    }
+    let time = t.to_f64();
+    let row = |index: usize| impact.names().get(index).copied().unwrap_or_default();
+    let mut gaps = impact.gaps(system, t, state);
+    if let Some(gap) = resting.and_then(|row| gaps.get_mut(row)) {
+        *gap = None;
+    }
+    let bilateral = gaps.map(|gap| gap.is_none());
+    let mut after = *state;
+    let mut impulses = [zero; R];
+    let mut lost = zero;
+    for jump in 0..=MOST_JUMPS {
+        let rows = impact.rows(system, t, &after);
+        let are_finite = |index: usize| {
+            let mobility = rows.mobility.get(index).is_some_and(all_finite::<ScalarOf<S>, _>);
+            let response = rows.response.get(index).is_some_and(all_finite::<ScalarOf<S>, _>);
+            mobility && response && rows.approach.get(index).is_some_and(|s| s.is_finite())
+        };
+        if let Some(index) = (0..R).find(|index| !are_finite(*index)) {
+            return Err(ImpactError::NotFinite { row: row(index), time });
+        }
+        // what a jump has left to round-off does not close
+        let speed = |index: usize| {
+            let own = rows.mobility.get(index).and_then(|row| row.get(index)).map_or(zero, |k| k.sqrt());
+            let most = rows.mobility.iter().zip(&impulses).enumerate();
+            let moved = most.fold(zero, |most, (i, (row, mu))| {
+                most.max(mu.abs() * row.get(i).map_or(zero, |k| k.sqrt()))
+            });
+            ScalarOf::<S>::from_f64(256.0) * ScalarOf::<S>::EPSILON * own * moved
+        };
+        let mut present = [false; R];
+        let mut is_over = true;
+        for (index, (present, (gap, s))) in
+            present.iter_mut().zip(gaps.iter().zip(&rows.approach)).enumerate()
+        {
+            *present = gap.is_none_or(|gap| gap <= closed && *s <= zero);
+            is_over &= match gap {
+                None => s.abs() <= speed(index),
+                Some(_) => !*present || -*s <= speed(index),
+            };
+        }
+        if jump > 0 && (is_over || bilateral.iter().all(|is| *is)) {
+            break;
+        }
+        if jump == MOST_JUMPS {
+            let closes = (0..R).find(|index| present.get(*index) == Some(&true)).unwrap_or(0);
+            return Err(ImpactError::Unsettled { row: row(closes), time, jumps: jump });
+        }
+        let offset = rows.approach.map(|s| (one + restitution) * s);
+        let problem = Problem { mobility: &rows.mobility, offset, present, bilateral };
+        let found =
+            problem.solve().map_err(|Dependent(index)| ImpactError::Dependent { row: row(index), time })?;
+        let mut x = after.to_array();
+        for ((impulse, response), sum) in found.iter().zip(&rows.response).zip(&mut impulses) {
+            x = displaced(&x, *impulse, response);
+            *sum += *impulse;
+        }
+        let quadratic = rows.mobility.iter().zip(&found).fold(zero, |sum, (row, mu)| {
+            row.iter().zip(&found).fold(sum, |sum, (k, other)| sum + *mu * *k * *other)
+        });
+        lost += ScalarOf::<S>::from_f64(0.5) * (one - restitution) / (one + restitution) * quadratic;
+        after = S::State::from_array(x);
+    }
+    Ok(Struck { time: t, before: *state, after, impulses, lost })
+}
+
+/// Takes steps to `target`, and makes the jump of `impact` wherever a gap closes; `visit` sees each and may end the run
+/// there. Statistics, input and step length go on from jump to jump.
+///
+/// # Errors
+/// [`ImpactError`]; state and time are those before the impact, or of the last good step.
+pub fn advance_with_impacts<S, M, I, const R: usize>(
+    sim: &mut Integrator<S, M>,
+    target: ScalarOf<S>,
+    impact: &I,
+    closed: ScalarOf<S>,
+    mut visit: impl FnMut(&StruckOf<S, R>) -> ControlFlow<()>,
+) -> Result<End<ScalarOf<S>>, ImpactError>
+where
+    S: Dynamics + Clone,
+    M: Method<S>,
+    I: Impact<S, R>,
+    ScalarOf<S>: Real,
+{
+    let system = sim.system().clone();
+    // how deep in its contact, by rounding, each row has been left
+    let mut depths = [ScalarOf::<S>::ZERO; R];
+    loop {
+        let over = |t: ScalarOf<S>, state: &S::State, _: &S::Input| {
+            let mut gaps = impact.gaps(&system, t, state).map(|gap| gap.unwrap_or(ScalarOf::<S>::ONE));
+            gaps.iter_mut().zip(&depths).for_each(|(gap, depth)| *gap -= *depth);
+            gaps
+        };
+        let events = Events::new(over).directions([Direction::Falling; R]);
+        match sim.advance_until(target, &events) {
+            Ok(None) => return Ok(End::Target),
+            Ok(Some(_)) => {
+                let struck = strike(&system, impact, sim.time(), sim.state(), closed)?;
+                depths = impact
+                    .gaps(&system, struck.time, &struck.after)
+                    .map(|gap| gap.unwrap_or_default().min(ScalarOf::<S>::ZERO));
+                sim.set_state(struck.after);
+                if visit(&struck).is_break() {
+                    return Ok(End::Stopped);
+                }
+            }
+            Err(IntegrationError::EventsAccumulate { event, .. }) => {
+                let (time, state) = (sim.time(), *sim.state());
+                let place = Place { system: &system, time, state: &state, closed };
+                let landed = struck(&place, impact, ScalarOf::<S>::ZERO, Some(event))?;
+                sim.set_state(landed.after);
+                return Ok(End::Accumulated { row: event, time });
+            }
+            Err(error) => return Err(error.into()),
+        }
+    }
+}

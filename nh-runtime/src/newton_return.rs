@@ -1,0 +1,148 @@
+//! Newton's iteration by which generated code returns to position constraints, and to linear ones on
+//! velocities.
+
+use crate::arrays::all_finite;
+use crate::projection::{is_settled, largest};
+use crate::{ProjectionError, Scalar, StateFault};
+
+/// The iterations after which a return is given up.
+const MOST_ITERATIONS: u32 = 50;
+
+/// The limit of x := x + change(x) from x = start.
+///
+/// The iteration stops where every residual is zero; where a change is of the order of rounding, or changes
+/// near that no longer fall; and where the next change would be of that order: to first order it is to this
+/// one as the residual that is left is to the one before, row by row. Near to where it leads it is one step.
+/// Lanes stop together, when the last one does.
+///
+/// # Errors
+/// If the changes do not vanish, or one is not finite.
+pub fn newton<T: Scalar, const N: usize, const M: usize>(
+    start: [T; N],
+    change: impl Fn(&[T; N]) -> [T; N],
+    residual: impl Fn(&[T; N]) -> [T; M],
+) -> Result<[T; N], ProjectionError> {
+    let mut present = start;
+    let mut left = residual(&present);
+    let mut scale = largest(&present);
+    let mut preceding = None;
+    let mut iterations = 0;
+    while left.iter().any(|r| *r != T::ZERO) {
+        if iterations == MOST_ITERATIONS {
+            return Err(ProjectionError { iterations, residual: largest(&left).to_f64() });
+        }
+        let change = change(&present);
+        iterations += 1;
+        for (x, change) in present.iter_mut().zip(&change) {
+            *x += *change;
+        }
+        let before = left;
+        left = residual(&present);
+        if !all_finite::<T, _>(&present) {
+            return Err(ProjectionError { iterations, residual: largest(&before).to_f64() });
+        }
+        let size = largest(&change);
+        scale = scale.max(largest(&present));
+        if is_settled(size, scale, preceding) || is_last(size, scale, &before, &left) {
+            break;
+        }
+        preceding = Some(size);
+    }
+    Ok(present)
+}
+
+/// x + change(x).
+#[inline]
+pub fn corrected<T: Scalar, const N: usize>(start: [T; N], change: impl Fn(&[T; N]) -> [T; N]) -> [T; N] {
+    let mut next = change(&start);
+    for (next, start) in next.iter_mut().zip(&start) {
+        *next = *start + *next;
+    }
+    next
+}
+
+/// The first iterate of [`project`](crate::projection::project).
+#[inline]
+pub fn first_iterate<T: Scalar, const N: usize>(
+    start: [T; N],
+    step: impl Fn(&[T; N], &[T; N]) -> [T; N],
+) -> [T; N] {
+    step(&start, &start)
+}
+
+/// Whether, in every lane, the next change would be round-off.
+#[inline]
+fn is_last<T: Scalar, const M: usize>(change: T, scale: T, before: &[T; M], left: &[T; M]) -> bool {
+    before.iter().zip(left).all(|(before, left)| {
+        // change · left/before beside the scale, without a quotient
+        let (before, left) = (before.abs(), left.abs());
+        let whole = scale * before;
+        let beyond = (whole + change * left).select_gt(whole, T::ONE, T::ZERO);
+        T::ZERO.all_ge(beyond)
+    })
+}
+
+/// 1, −1, or 0 where one of the numbers is.
+#[inline]
+#[must_use]
+pub fn product_of_signs<T: Scalar, const N: usize>(numbers: [T; N]) -> T {
+    numbers.iter().fold(T::ONE, |product, number| product * number.sign())
+}
+
+/// The constraint that a state leaves the largest residual in.
+#[must_use]
+pub fn worst<T: Scalar, const M: usize>(residuals: [(&'static str, T); M]) -> StateFault {
+    let mut worst = StateFault { identity: "", residual: 0.0 };
+    for (identity, residual) in residuals {
+        let residual = residual.to_f64();
+        let is_worse = residual.abs() > worst.residual.abs() || !residual.is_finite();
+        if worst.identity.is_empty() || is_worse {
+            worst = StateFault { identity, residual };
+        }
+    }
+    worst
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use core::cell::Cell;
+
+    /// x² + y² = 1, along the gradient.
+    fn circle([x, y]: &[f64; 2]) -> [f64; 1] {
+        [x * x + y * y - 1.0]
+    }
+    fn change(p: &[f64; 2]) -> [f64; 2] {
+        let factor = circle(p)[0] / (2.0 * (p[0] * p[0] + p[1] * p[1]));
+        [-factor * p[0], -factor * p[1]]
+    }
+
+    #[test]
+    fn near_to_where_it_leads_it_is_one_step() {
+        let steps = Cell::new(0);
+        let counted = |p: &[f64; 2]| {
+            steps.set(steps.get() + 1);
+            change(p)
+        };
+        let [x, y] = newton([0.6 + 1e-10, 0.8], counted, circle).unwrap();
+        assert!((x * x + y * y - 1.0).abs() < 3e-16);
+        assert_eq!(steps.get(), 1);
+        let [x, y] = newton([3.0, 4.0], counted, circle).unwrap();
+        assert!((x - 0.6).abs() < 2e-16 && (y - 0.8).abs() < 2e-16);
+        assert!(steps.get() <= 8, "{}", steps.get());
+        assert_eq!(newton([1.0, 0.0], |_| [f64::NAN; 2], circle), Ok([1.0, 0.0]));
+    }
+
+    #[test]
+    fn what_is_not_reached_is_said() {
+        assert_eq!(newton([0.0, 0.0], change, circle).unwrap_err().iterations, 1);
+        let never = newton([1.0_f32], |_| [1.0], |_| [2.0]).unwrap_err();
+        assert_eq!(never, ProjectionError { iterations: 50, residual: 2.0 });
+    }
+
+    #[test]
+    fn the_worst_constraint_is_named() {
+        assert_eq!(worst([("a", 0.1), ("b", -0.2)]), StateFault { identity: "b", residual: -0.2 });
+        assert!(worst([("a", 0.1), ("b", f64::NAN)]).residual.is_nan());
+    }
+}

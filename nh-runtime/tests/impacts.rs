@@ -1,0 +1,213 @@
+//! Impacts against what is known of them, mathematics (50), and the law of units, mathematics (29).
+
+// bits and exact zeros are meant
+#![allow(clippy::float_cmp)]
+
+use core::ops::ControlFlow;
+
+use nonholonomic::impacts::{End, Impact, ImpactError, Rows, advance_with_impacts, strike};
+use nonholonomic::prelude::*;
+use nonholonomic::{D, Dynamics, Method};
+
+/// A particle in the plane, in a field.
+#[derive(Clone, Copy, Debug)]
+struct Particle {
+    mass: f64,
+    field: f64,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Place([f64; 4]);
+
+impl State for Place {
+    type Scalar = f64;
+    type Dim = D<4>;
+    fn to_array(&self) -> [f64; 4] {
+        self.0
+    }
+    fn from_array(x: [f64; 4]) -> Self {
+        Self(x)
+    }
+    fn names() -> [&'static str; 4] {
+        ["x", "y", "u", "v"]
+    }
+}
+
+impl Dynamics for Particle {
+    type State = Place;
+    type Input = ();
+    fn derivative(&self, _t: f64, Place([_, _, u, v]): &Place, (): &()) -> Place {
+        Place([*u, *v, 0.0, -self.field])
+    }
+}
+
+/// Walls with these normals, inside of which the particle is; `None` for a wall that it is to stop at.
+struct Walls<const R: usize> {
+    normals: [[f64; 2]; R],
+    bilateral: bool,
+    restitution: f64,
+}
+
+impl<const R: usize> Impact<Particle, R> for Walls<R> {
+    fn names(&self) -> [&'static str; R] {
+        core::array::from_fn(|i| ["first", "second", "third", "fourth", "fifth", "sixth", "seventh"][i])
+    }
+    fn restitution(&self, _system: &Particle) -> f64 {
+        self.restitution
+    }
+    fn gaps(&self, _system: &Particle, _t: f64, Place([x, y, ..]): &Place) -> [Option<f64>; R] {
+        self.normals.map(|[a, b]| (!self.bilateral).then_some(a * x + b * y))
+    }
+    fn rows(&self, system: &Particle, _t: f64, Place([_, _, u, v]): &Place) -> Rows<f64, [f64; 4], R> {
+        let n = &self.normals;
+        Rows {
+            approach: n.map(|[a, b]| a * u + b * v),
+            response: n.map(|[a, b]| [0.0, 0.0, a / system.mass, b / system.mass]),
+            mobility: core::array::from_fn(|i| {
+                core::array::from_fn(|j| (n[i][0] * n[j][0] + n[i][1] * n[j][1]) / system.mass)
+            }),
+        }
+    }
+}
+
+const HEAVY: Particle = Particle { mass: 3.0, field: 9.81 };
+
+fn energy(system: &Particle, Place([_, y, u, v]): &Place) -> f64 {
+    system.mass * (0.5 * (u * u + v * v) + system.field * y)
+}
+
+#[test]
+fn bilateral_rows_project_and_lose_what_is_said() {
+    let edge = |restitution| Walls { normals: [[0.6, 0.8]], bilateral: true, restitution };
+    let before = Place([1.0, 2.0, 0.3, -0.7]);
+    for restitution in [0.0, 0.4, 1.0] {
+        let struck = strike(&HEAVY, &edge(restitution), 0.0, &before, 0.0).unwrap();
+        let along = |Place([_, _, u, v]): &Place| (0.6 * u + 0.8 * v, 0.8 * u - 0.6 * v);
+        let ((s, slip), (s_after, slip_after)) = (along(&before), along(&struck.after));
+        assert!((s_after + restitution * s).abs() < 1e-15 && (slip - slip_after).abs() < 1e-15);
+        assert_eq!(struck.after.0[..2], before.0[..2]);
+        let lost = energy(&HEAVY, &before) - energy(&HEAVY, &struck.after);
+        assert!((lost - struck.lost).abs() < 1e-14, "{lost} {}", struck.lost);
+        assert!((lost - 0.5 * (1.0 - restitution * restitution) * s * s * HEAVY.mass).abs() < 1e-14);
+    }
+}
+
+#[test]
+fn in_a_corner_walls_push_together_or_one_alone() {
+    // an acute corner: whatever is thrown into it ends there, without restitution
+    let corner = |normals| Walls { normals, bilateral: false, restitution: 0.0 };
+    let acute = corner([[0.0, 1.0], [1.0, -0.2]]);
+    let struck = strike(&HEAVY, &acute, 0.0, &Place([0.0, 0.0, -1.0, -1.0]), 0.0).unwrap();
+    assert!(struck.after.0.iter().all(|x| x.abs() < 1e-15), "{struck:?}");
+    assert!(struck.impulses.iter().all(|mu| *mu > 0.0));
+    // an obtuse one: it slides along the second wall, which turns it away from the first
+    let obtuse = corner([[0.0, 1.0], [0.8, 0.6]]);
+    let struck = strike(&HEAVY, &obtuse, 0.0, &Place([0.0, 0.0, -1.0, -0.1]), 0.0).unwrap();
+    assert_eq!(struck.impulses[0], 0.0);
+    let along = -0.6 + 0.8 * 0.1;
+    assert!(
+        (struck.after.0[2] - 0.6 * along).abs() < 1e-15 && (struck.after.0[3] + 0.8 * along).abs() < 1e-15
+    );
+    // the first wall is open at first, and closes by the push of the second
+    let struck = strike(&HEAVY, &acute, 0.0, &Place([0.0, 0.0, -1.0, 0.05]), 0.0).unwrap();
+    assert!(struck.after.0.iter().all(|x| x.abs() < 1e-15), "{struck:?}");
+    // a wall that is left pushes nothing
+    let struck = strike(&HEAVY, &acute, 0.0, &Place([0.0, 0.0, 1.0, 0.1]), 0.0).unwrap();
+    assert_eq!((struck.impulses, struck.after), ([0.0; 2], struck.before));
+}
+
+/// The bounces of a ball that is dropped, and how its way has ended.
+fn dropped(
+    method: impl Method<Particle>,
+    particle: Particle,
+    start: Place,
+    unit: f64,
+) -> (u32, End<f64>, Place, u64) {
+    let ground = Walls { normals: [[0.0, 1.0]], bilateral: false, restitution: 0.5 };
+    let mut sim = Integrator::new(particle, method, 0.0, start);
+    let mut bounces = 0;
+    let end = advance_with_impacts(&mut sim, 100.0 * unit, &ground, 0.0, |_| {
+        bounces += 1;
+        ControlFlow::Continue(())
+    });
+    let end = end.unwrap_or_else(|error| panic!("{error}"));
+    (bounces, end, *sim.state(), sim.statistics().steps)
+}
+
+#[test]
+fn bounces_without_end_are_an_event_and_no_fall_through_the_ground() {
+    fn check(name: &str, method: impl Method<Particle>) {
+        let (bounces, end, Place([x, y, u, v]), steps) =
+            dropped(method, HEAVY, Place([0.0, 1.0, 0.1, 0.0]), 1.0);
+        let over = 3.0 * (2.0_f64 / 9.81).sqrt();
+        let End::Accumulated { row: 0, time } = end else { panic!("{name}: {end:?}") };
+        assert!((time - over).abs() < 1e-4, "{name}: {time} {over}");
+        assert!(bounces > 15 && steps > u64::from(bounces), "{name}: {bounces}, {steps}");
+        assert!(
+            y.abs() < 1e-9 && v == 0.0 && (x - u * time).abs() < 1e-6 && u == 0.1,
+            "{name}: {x} {y} {u} {v}"
+        );
+    }
+    check("Dopri5", Dopri5::new().rtol(1e-9).atol(1e-12));
+    check("Dop853", Dop853::new().rtol(1e-9).atol(1e-12));
+    check("Rk4", Rk4::new(0.01));
+    check("Radau5", Radau5::new().rtol(1e-9).atol(1e-12));
+}
+
+#[test]
+fn units_change_nothing() {
+    let method = |sigma: f64, tau: f64| {
+        let units = [sigma, sigma, sigma / tau, sigma / tau];
+        Dopri5::new().tolerances(Place([1e-9; 4]), Place(units.map(|unit| 1e-12 * unit)))
+    };
+    let (bounces, end, Place(state), steps) =
+        dropped(method(1.0, 1.0), HEAVY, Place([0.0, 1.0, 0.1, 0.0]), 1.0);
+    let End::Accumulated { time, .. } = end else { panic!("{end:?}") };
+    for (s, t) in [(40, 0), (0, 30), (-100, 60), (200, -200)] {
+        let (sigma, tau) = (2.0_f64.powi(s), 2.0_f64.powi(t));
+        let particle = Particle { mass: HEAVY.mass, field: HEAVY.field * sigma / tau / tau };
+        let start = Place([0.0, sigma, 0.1 * sigma / tau, 0.0]);
+        let (again, end, Place([x, y, u, v]), more) = dropped(method(sigma, tau), particle, start, tau);
+        let state_again = [x / sigma, y / sigma, u * tau / sigma, v * tau / sigma];
+        assert_eq!((again, state_again, more), (bounces, state, steps), "2^{s}, 2^{t}");
+        assert_eq!(end, End::Accumulated { row: 0, time: time * tau }, "2^{s}, 2^{t}");
+    }
+}
+
+#[test]
+fn what_has_no_solution_is_told() {
+    let walls = |normals, restitution| Walls { normals, bilateral: false, restitution };
+    let into = Place([0.0, 0.0, -1.0, -1.0]);
+    let told = |refused: Result<_, ImpactError>| match refused {
+        Err(error) => error.to_string(),
+        Ok(()) => String::new(),
+    };
+    let strike = |walls: &Walls<2>, at: &Place| told(strike(&HEAVY, walls, 0.5, at, 0.0).map(|_| ()));
+    assert_eq!(
+        strike(&walls([[0.0, 1.0], [0.0, 2.0]], 0.0), &into),
+        "the row `second` is a combination of the others on the constraints at t = 0.5, so that its impulse is not \
+         determined: leave it out"
+    );
+    assert_eq!(
+        strike(&walls([[0.0, 1.0], [1.0, 0.0]], 1.5), &into),
+        "the coefficient of restitution is 1.5, but has to be from 0 to 1"
+    );
+    assert_eq!(
+        strike(&walls([[0.0, f64::NAN], [1.0, 0.0]], 0.0), &into),
+        "the row `first` has a number that is not finite at t = 0.5: look at the last good state, and at the \
+         parameters"
+    );
+    // in a narrow corner a ball goes to and fro more often than eight times
+    let narrow = walls([[0.0, 1.0], [0.02, -1.0]], 1.0);
+    assert_eq!(
+        strike(&narrow, &Place([0.0, 0.0, -1.0, 0.1])),
+        "the row `second` still closes at t = 0.5 after 8 jumps in one instant: give less restitution, or let the \
+         rows land together"
+    );
+    let seven = Walls { normals: [[0.0, 1.0]; 7], bilateral: false, restitution: 0.0 };
+    assert_eq!(
+        told(nonholonomic::impacts::strike(&HEAVY, &seven, 0.0, &into, 0.0).map(|_| ())),
+        "the impact has 7 rows, more than the six that are tried in all combinations: tell those apart that cannot \
+         be closed together"
+    );
+}
