@@ -302,7 +302,7 @@ pub mod narrow {
 
         #[nonholonomic(
             base { x, Y, Z }
-            lagrangian { m / 2 * (der(x)^2 + der(Y)^2 + der(Z)^2) - g * sin(x) }
+            lagrangian { m / 2 * (der(x)^2 + der(Y)^2 + der(Z)^2) - g * sin(x) + 0 * unused }
             constraints { Label: der(Z) = x * der(Y); }
             inputs { U }
             forces { x: U; }

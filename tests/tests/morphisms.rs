@@ -8,5 +8,6 @@ mod morphisms {
     mod invariant_frames;
     mod planar;
     mod quotients;
+    mod shared_lets;
     mod support;
 }

@@ -1,7 +1,7 @@
 //! What the macro must not do with any declaration, well-posed or not.
 
 use crate::{Declaration, errors};
-use nonholonomic_core::limits::within;
+use nonholonomic_core::limits::{timed, within};
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
 /// Something that no declaration may lead to.
@@ -15,7 +15,7 @@ pub enum Defect {
     Empty(String),
     /// An error in words of the macro's own workings.
     Internal(String),
-    /// More seconds than a step of work takes.
+    /// More seconds of the processor than a step of work takes.
     Slow(String),
 }
 
@@ -43,10 +43,10 @@ pub enum Verdict {
 /// # Errors
 /// The defect of the macro that it shows.
 pub fn judged(declaration: &Declaration, work: u64) -> Result<Verdict, Defect> {
-    let start = std::time::Instant::now();
-    let expanded = catch_unwind(AssertUnwindSafe(|| within(work, || declaration.expanded())));
-    let seconds = start.elapsed().as_secs();
-    if seconds > 20 + work / 100_000 {
+    let expansion = AssertUnwindSafe(|| within(work, || declaration.expanded()));
+    let (expanded, seconds) = timed(|| catch_unwind(expansion));
+    #[allow(clippy::cast_precision_loss, reason = "a limit needs no more digits")]
+    if seconds > 20.0 + work as f64 * 1e-5 {
         return Err(Defect::Slow(format!("{seconds} s")));
     }
     let items = match expanded {

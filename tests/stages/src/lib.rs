@@ -11,6 +11,7 @@ mod declarations;
 mod judge;
 mod large;
 mod mutate;
+mod record;
 mod tokens;
 
 #[allow(dead_code, unused_imports, reason = "the back end is the macro's")]
@@ -47,6 +48,7 @@ use nonholonomic_core::model::Model;
 use nonholonomic_core::system::System;
 use proc_macro2::TokenStream;
 use quote::quote;
+pub use record::{arms, record};
 pub use tokens::{errors, length};
 
 use emit::Layout;

@@ -26,6 +26,7 @@ fn it_is_generated_as_a_text_where_it_is_asked_for() {
     let declaration = &declarations(SATELLITE)[0];
     let expanded = declaration.expanded().to_string();
     assert!(expanded.contains("const DERIVATION") && expanded.contains("chosen, proved at"), "{expanded}");
+    assert!(expanded.contains("lowered: each proved to 2^-"), "{expanded}");
     let silent = declarations(&SATELLITE.replace("emit { explain }", ""));
     assert!(!silent[0].expanded().to_string().contains("DERIVATION"));
     let broken = declarations(&SATELLITE.replace("J[i] * (w[i]", "Q[i] * (w[i]"));
@@ -44,4 +45,25 @@ fn many_square_roots_do_not_keep_a_form_from_being_proved() {
     )] struct Bodies { m: [f64; 6] }";
     let system = declarations(bodies)[0].system().unwrap();
     assert!(system.ledger.at("derivative").unwrap().chosen().is_some(), "{}", system.ledger);
+}
+
+/// 67 is no square modulo the prime of the proofs, and neither is 71; their product is one.
+#[test]
+fn roots_of_any_numbers_are_proved() {
+    for constraint in [
+        "der(x) = sqrt(67) * der(y)",
+        "der(x) = sqrt(67) * sqrt(71) * der(y) + sqrt(4757) * der(z)",
+        "der(x) = sqrt(67 / 2) * sin(z) * der(y)",
+    ] {
+        let source = format!(
+            "#[nonholonomic(base {{ x, y, z }} constraints {{ {constraint}; }} emit {{ jacobian }}
+             lagrangian {{ m / 2 * (der(x)^2 + der(y)^2 + der(z)^2) + sqrt(73) * m * x * y }})]
+             struct Rooted {{ m: f64 }}"
+        );
+        let declaration = &declarations(&source)[0];
+        let system = declaration.system().unwrap_or_else(|errors| panic!("{constraint}: {errors:?}"));
+        assert!(system.ledger.at("derivative").unwrap().chosen().is_some(), "{}", system.ledger);
+        assert!(system.ledger.at("jacobian").unwrap().chosen().is_some(), "{}", system.ledger);
+        assert_eq!(nh_stages::errors(&declaration.expanded()), <[String; 0]>::default());
+    }
 }

@@ -172,3 +172,28 @@ fn nothing_else_compares_with_zero() {
     }
     assert!(broken.is_empty(), "{}", broken.join("\n"));
 }
+
+/// Beyond the algebra formulas are written with operators, `graph.formula(a * b - c)`, not as chains of calls.
+#[test]
+fn formulas_are_written_with_operators() {
+    let mut chains = Vec::new();
+    for folder in ["nh-core", "nh-macros"] {
+        for (path, text) in sources(&root().join(folder)) {
+            if path.starts_with(root().join("nh-core/src/algebra")) {
+                continue;
+            }
+            // rustfmt may have broken a chain of calls into lines
+            let text: String = text.lines().map(str::trim).collect();
+            for call in ["add(", "sub(", "mul(", "div(", "neg("] {
+                for graph in ["graph", "g"] {
+                    let call = format!("{graph}.{call}");
+                    let starts = text.match_indices(&call).map(|(start, _)| start);
+                    let is_name =
+                        |start: &usize| !text[..*start].ends_with(|c: char| c.is_alphanumeric() || c == '_');
+                    chains.extend(starts.filter(is_name).map(|_| format!("{}: {call}", path.display())));
+                }
+            }
+        }
+    }
+    assert!(chains.is_empty(), "{}", chains.join("\n"));
+}

@@ -15,44 +15,56 @@ fn ordinary_sizes_are_compiled() {
         for error in errors(&items) {
             assert!(!error.contains("too large"), "{}: {error}", family.name);
         }
-        assert!(work < WORK / 4, "{}: {work} steps", family.name);
+        assert!(work < WORK / 3, "{}: {work} steps", family.name);
     }
 }
 
-/// What is too large says so, at once, by the steps that it takes.
+/// What is too large says so, at once, by the steps that it takes: where something is not counted, the processor's time
+/// betrays it.
 #[test]
 fn what_is_too_large_is_refused() {
     for family in families() {
-        let declaration = family.member(family.sizes[1]);
-        let verdict = judged(&declaration, 20_000);
-        assert!(
-            matches!(verdict, Ok(Verdict::Compiled | Verdict::Refused | Verdict::TooLarge)),
-            "{}: {verdict:?}",
-            family.name
-        );
+        for size in &family.sizes[1..] {
+            let declaration = family.member(*size);
+            let verdict = judged(&declaration, 20_000);
+            assert!(
+                matches!(verdict, Ok(Verdict::Compiled | Verdict::Refused | Verdict::TooLarge)),
+                "{} {size}: {verdict:?}",
+                family.name
+            );
+        }
     }
 }
 
 /// Ceilings of the work, so that nothing gets slower by an order: sizes that are met, and steps in thousands.
 #[test]
 fn work_has_ceilings() {
+    let mut too_many = Vec::new();
     for (name, size, thousands) in [
-        ("chain of exponentials", 20, 2_000),
-        ("sum of sines", 400, 300),
-        ("free coordinates", 100, 600),
-        ("free velocities", 100, 250),
-        ("dense mass matrix", 40, 3_500),
+        ("chain of exponentials", 20, 2_200),
+        ("sum of sines", 400, 400),
+        ("free coordinates", 100, 3_600),
+        ("free velocities", 100, 2_100),
+        ("dense mass matrix", 40, 10_500),
         ("pendulum, absolute angles", 10, 16_000),
         ("power of a sum", 20, 40),
-        ("dense anchor of parameters", 30, 8_000),
+        ("dense anchor of parameters", 30, 23_900),
+        ("so(n)", 16, 10_500),
+        ("closed loops", 5, 2_000),
+        ("bodies in space", 5, 2_000),
+        ("long vectors", 300, 10_900),
+        ("shared lets that double in functions", 40, 5_000),
     ] {
         let family = families().find(|family| family.name == name).expect(name);
         let declaration = family.member(size);
         let work = within_limits(|| (errors(&declaration.expanded()), spent()));
         let (errors, work) = work.unwrap_or_else(|too_large| panic!("{name}: {}", too_large.what()));
         assert!(errors.is_empty(), "{name}: {errors:?}");
-        assert!(work <= thousands * 1000, "{name} {size}: {} thousand steps", work / 1000);
+        if work > thousands * 1000 {
+            too_many.push(format!("{name} {size}: {} thousand steps, {thousands} allowed", work / 1000));
+        }
     }
+    assert!(too_many.is_empty(), "{}", too_many.join("\n"));
 }
 
 /// The refusal names what is too large, by how much, and what can be done.

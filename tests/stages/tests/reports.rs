@@ -195,3 +195,17 @@ fn assumptions_that_were_not_decided_are_said_to_be() {
         (particle, "a: f64, b: f64", &[], &[doubt]),
     ]);
 }
+
+/// A splitting whose quantities would fill pages is classified, and its quantities are left out in so many words.
+#[test]
+fn quantities_of_a_splitting_are_shown_as_long_as_they_are_short() {
+    let too_long = "Splitting of D\n  not shown: the quantities of this splitting are too long";
+    let (_, arm) =
+        nh_stages::arms().into_iter().find(|(name, _)| name == "arm on a skate, 2 links").expect("an arm");
+    let long = arm.system().expect("regular").report;
+    assert!(long.contains(too_long) && long.contains("Lagrange–d'Alembert–Poincaré"), "{long}");
+    let (_, snakeboard) =
+        nh_stages::record().into_iter().find(|(name, _)| name == "snakeboard").expect("a board");
+    let short = snakeboard.system().expect("regular").report;
+    assert!(short.contains("horizontal lift") && !short.contains(too_long), "{short}");
+}

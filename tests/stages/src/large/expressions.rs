@@ -52,6 +52,18 @@ pub(super) const FAMILIES: &[Family] = &[
     Family { name: "many facts", source: facts, sizes: &[20, 200, 1000] },
     Family { name: "many constants", source: constants, sizes: &[20, 200, 1000] },
     Family { name: "matrix powers", source: matrix_powers, sizes: &[4, 8, 16] },
+    Family { name: "square matrices", source: square_matrices, sizes: &[10, 40, 100] },
+    Family { name: "long vectors", source: long_vectors, sizes: &[30, 300, 1000] },
+    Family { name: "lets that nest", source: nested_lets, sizes: &[30, 300, 3000] },
+    Family { name: "shared lets that double", source: |n| shared(n, "@ + @ ^ 2"), sizes: &[5, 19, 140] },
+    Family {
+        name: "shared lets that double in functions",
+        source: |n| shared(n, "@ + sin(@)"),
+        sizes: &[5, 40, 200],
+    },
+    Family { name: "functions that call functions", source: calls, sizes: &[5, 40, 400] },
+    Family { name: "powers of powers", source: power_tower, sizes: &[2, 60, 1000] },
+    Family { name: "signs", source: signs, sizes: &[10, 100, 5000] },
 ];
 
 /// An oscillator in a potential that is the last of n abbreviations, each made of the one before it, `@`.
@@ -177,4 +189,60 @@ fn matrix_powers(n: usize) -> String {
         ),
         &format!("A: [[f64; {n}]; {n}]"),
     )
+}
+
+fn square_matrices(n: usize) -> String {
+    declared(
+        &format!(
+            "base {{ x }} lagrangian {{ let C = A * B; let D = C + A - B; m / 2 * der(x)^2 - x * sum(i in 0..{n}: C[i][i] * D[0][i]) }}"
+        ),
+        &format!("m: f64, A: [[f64; {n}]; {n}], B: [[f64; {n}]; {n}]"),
+    )
+}
+
+fn long_vectors(n: usize) -> String {
+    declared(
+        &format!(
+            "base {{ x }} lagrangian {{ let v[i in 0..{n}] = a[i] * cos(i * x); let w = 2 * v + a; m / 2 * der(x)^2 - dot(v, w) }}"
+        ),
+        &format!("m: f64, a: [f64; {n}]"),
+    )
+}
+
+fn nested_lets(n: usize) -> String {
+    let lines = joined(n, |k| format!("let a{} = (a{k});", k + 1));
+    declared(
+        &format!("base {{ x }} lagrangian {{ let a0 = x; {lines} m / 2 * der(x)^2 - a{n}^2 }}"),
+        "m: f64",
+    )
+}
+
+/// Abbreviations for all sections.
+fn shared(n: usize, step: &str) -> String {
+    let lines = joined(n, |k| format!("let a{} = {};", k + 1, step.replace('@', &format!("a{k}"))));
+    declared(
+        &format!(
+            "base {{ x, y }} let a0 = x; {lines} lagrangian {{ m / 2 * (der(x)^2 + der(y)^2) - a{n} }} constraints {{ der(y) = a1 * der(x); }}"
+        ),
+        "m: f64",
+    )
+}
+
+/// Functions, each of which calls the one before it twice.
+fn calls(n: usize) -> String {
+    let lines = joined(n, |k| format!("let f{}(u) = f{k}(u) + f{k}(u + 1);", k + 1));
+    declared(
+        &format!("base {{ x }} let f0(u) = sin(u); {lines} lagrangian {{ m / 2 * der(x)^2 - f{n}(x) }}"),
+        "m: f64",
+    )
+}
+
+fn power_tower(n: usize) -> String {
+    let powers = "^2".repeat(n);
+    declared(&format!("base {{ x }} lagrangian {{ m / 2 * der(x)^2 - x{powers} }}"), "m: f64")
+}
+
+fn signs(n: usize) -> String {
+    let signs = "-".repeat(n);
+    declared(&format!("base {{ x }} lagrangian {{ m / 2 * der(x)^2 - {signs}x^2 }}"), "m: f64")
 }

@@ -1,0 +1,190 @@
+//! `emit { c }`: the file compiles without a warning, and computes what the programs say, bit for bit where both take
+//! the sine of the C library.
+
+use std::fmt::Write;
+use std::path::PathBuf;
+use std::process::Command;
+
+use nh_stages::{Declaration, declarations};
+use nonholonomic_core::functions::ENERGY;
+use nonholonomic_core::id::SymbolId;
+use nonholonomic_core::mechanics::Procedure;
+use nonholonomic_core::program::{interpret, schedule_grouping};
+use nonholonomic_core::system::System;
+use proc_macro2::{TokenStream, TokenTree};
+
+/// What the compiler is asked: no warning, no fused operations that were not written.
+const FLAGS: [&str; 8] =
+    ["-std=c99", "-pedantic", "-Wall", "-Wextra", "-Wconversion", "-Wshadow", "-Werror", "-ffp-contract=off"];
+
+const MACHINES: &str = "
+#[nonholonomic(
+    base { theta, x, y } basis { omega, v1, v2 }
+    anchor {
+        der(theta) = omega; der(x) = v1 * cos(theta) - v2 * sin(theta); der(y) = v1 * sin(theta) + v2 * cos(theta);
+    }
+    lagrangian { J / 2 * omega^2 + m / 2 * ((v1 - b * omega)^2 + (v2 + a * omega)^2) }
+    constraints { edge: v2 = 0; } inputs { torque } forces { omega: torque - c * omega^3; }
+    outputs { speed = sqrt(v1^2 + v2^2); } emit { c, jacobian, multipliers }
+)]
+struct Sleigh { m: f64, J: f64, a: f64, b: f64, c: f64 }
+
+#[nonholonomic(
+    base { g[3] } on { dot(g, g) = 1; } basis { w[3] } anchor { der(g) = cross(g, w); } brackets so(3) { w }
+    lagrangian { sum(i in 0..3: I[i] * w[i]^2) / 2 - dot(double, g) } constraints { dot(g, w) = 0; } emit { c }
+)]
+struct VeselovaBody { I: [f64; 3], double: [f64; 3] }
+
+#[nonholonomic(
+    base { q[5] }
+    lagrangian {
+        sum(i in 0..5: m / 2 * der(q[i])^2) + k * sum(i in 0..4: cos(q[i] - q[i+1]) * der(q[i]) * der(q[i+1])) / 3
+    }
+    forces { for i in 0..5 { q[i]: min(q[i], 1) * sign(der(q[i])) - abs(q[i])^(5/2) + max(t, atan2(q[i], 2)); } }
+    emit { c }
+)]
+struct Chain { m: f64, k: f64 }
+
+#[nonholonomic(
+    base { x, y, z }
+    lagrangian { a * der(x) * der(y) + b * der(y) * der(z) + c * der(z) * der(x) + sin(x) * der(x)^2 - k * x * y * z }
+    emit { c }
+)]
+struct Indefinite { a: f64, b: f64, c: f64, k: f64 }
+";
+
+/// Prints a number so that it reads back as itself.
+const PRINT: &str = r#"printf("%.17g\n", "#;
+
+fn text_of(declaration: &Declaration) -> String {
+    fn find(tokens: TokenStream) -> Option<String> {
+        let tokens: Vec<TokenTree> = tokens.into_iter().collect();
+        for (k, token) in tokens.iter().enumerate() {
+            if matches!(token, TokenTree::Ident(ident) if ident == "C99") {
+                let literal = tokens[k..].iter().find_map(|token| match token {
+                    TokenTree::Literal(literal) => syn::parse_str::<syn::LitStr>(&literal.to_string()).ok(),
+                    _ => None,
+                });
+                return literal.map(|literal| literal.value());
+            }
+            if let TokenTree::Group(group) = token
+                && let Some(found) = find(group.stream())
+            {
+                return Some(found);
+            }
+        }
+        None
+    }
+    find(declaration.expanded()).expect("`C99`")
+}
+
+/// A value for every symbol, not the same for any two.
+fn value(symbol: SymbolId) -> f64 {
+    let k = f64::from(u32::try_from(nonholonomic_core::id::Id::index(symbol)).expect("small"));
+    0.3 + (k * 0.618).fract()
+}
+
+/// A program that prints the derivative and the energy at these values.
+fn main_of(system: &System, name: &str, prefix: &str, text: &str) -> String {
+    let names = system.model.graph.symbols();
+    let mut main =
+        format!("{text}\n#include <stdio.h>\nint main(void)\n{{\n    {name} p;\n    {name}State x;\n");
+    let mut arguments = format!("&p, {:?}, &x", value(system.model.time));
+    if !system.model.inputs.is_empty() {
+        _ = writeln!(main, "    {name}Input u;");
+    }
+    main.push_str("    double e[1];\n");
+    _ = writeln!(main, "    {name}State rate;");
+    let c = |name: &str| name.replace("double", "double_");
+    for parameter in &system.model.parameters {
+        _ = writeln!(main, "    p.{} = {:?};", c(&parameter.name), value(parameter.symbol));
+    }
+    for symbol in system.state() {
+        _ = writeln!(main, "    x.{} = {:?};", names[symbol], value(symbol));
+    }
+    for input in &system.model.inputs {
+        _ = writeln!(main, "    u.{} = {:?};", input.name, value(input.symbol));
+    }
+    _ = writeln!(main, "    {prefix}_energy({arguments}, e);");
+    if !system.model.inputs.is_empty() {
+        arguments.push_str(", &u");
+    }
+    _ = writeln!(main, "    {prefix}_derivative({arguments}, &rate);");
+    for symbol in system.state() {
+        _ = writeln!(main, "    {PRINT}rate.{});", names[symbol]);
+    }
+    _ = write!(main, "    {PRINT}e[0]);\n    return 0;\n}}\n");
+    main
+}
+
+fn scratch(name: &str) -> PathBuf {
+    PathBuf::from(env!("CARGO_TARGET_TMPDIR")).join(name)
+}
+
+fn compiled(name: &str, text: &str, more: &[&str]) -> PathBuf {
+    let (source, binary) = (scratch(&format!("{name}.c")), scratch(name));
+    std::fs::write(&source, text).expect("written");
+    let run =
+        Command::new("gcc").args(FLAGS).args(more).arg(&source).arg("-o").arg(&binary).arg("-lm").output();
+    let output = run.expect("gcc is there");
+    assert!(output.status.success(), "{}\n{text}", String::from_utf8_lossy(&output.stderr));
+    binary
+}
+
+#[test]
+fn c_computes_what_the_programs_say() {
+    for declaration in declarations(MACHINES) {
+        let name = declaration.name.clone();
+        let prefix = match name.as_str() {
+            "VeselovaBody" => "veselova_body".to_owned(),
+            _ => name.to_lowercase(),
+        };
+        let text = text_of(&declaration);
+        let system = declaration.system().unwrap_or_else(|errors| panic!("{name}: {errors:?}"));
+        assert_eq!(text.contains("solve_3("), name == "Indefinite", "{text}");
+        let binary = compiled(&name, &main_of(&system, &name, &prefix, &text), &[]);
+        let printed = String::from_utf8(Command::new(binary).output().expect("runs").stdout).expect("text");
+        let found: Vec<f64> = printed.lines().map(|line| line.parse().expect("a number")).collect();
+        let parameters: Vec<_> = system.model.parameters.iter().map(|parameter| parameter.symbol).collect();
+        let run = |procedure: &Procedure| {
+            interpret(&schedule_grouping(&system.model.graph, procedure, &parameters), value)
+        };
+        let mut expected = run(&system.derivative);
+        expected.extend(run(system.functions.get(&ENERGY).expect("an energy")));
+        assert_eq!(found.len(), expected.len(), "{name}");
+        for (k, (found, expected)) in found.iter().zip(&expected).enumerate() {
+            // the interpreter chooses other pivots than the runtime, and C
+            let apart = found.to_bits().abs_diff(expected.to_bits());
+            let allowed = if name == "Indefinite" { 2 } else { 0 };
+            assert!(apart <= allowed, "{name}, component {k}: {found} and {expected}\n{text}");
+        }
+    }
+}
+
+#[test]
+fn methods_are_prototypes_and_single_precision_is_float() {
+    let source = "
+        #[nonholonomic(
+            base { x } lagrangian { m / 2 * der(x)^2 - m * g * sin(x) } inputs { auto }
+            forces { x: auto - self.friction(der(x), 1/3); } emit { c }
+        )]
+        struct S { m: f32, g: f32 }";
+    let text = text_of(&declarations(source)[0]);
+    assert!(text.contains("extern float s_friction(const S *p, float x0, float x1);"), "{text}");
+    assert!(text.contains("float auto_;") && !text.contains("double"), "{text}");
+    compiled("single", &text, &["-c", "-Wdouble-promotion"]);
+}
+
+#[test]
+fn a_type_parameter_is_refused() {
+    let source =
+        "#[nonholonomic(base { x } lagrangian { m / 2 * der(x)^2 } emit { c })] struct S<T> { m: T }";
+    let errors = declarations(source)[0].system().expect_err("refused");
+    assert_eq!(
+        errors,
+        [
+            "C is written for `f64` or `f32`\nthe fields of this struct are of a type that is a parameter\nhelp: declare a \
+          struct with fields of one of these types beside it"
+        ]
+    );
+}

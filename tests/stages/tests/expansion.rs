@@ -1,0 +1,58 @@
+//! What expansions take, in counted steps of work, never in time.
+
+use nh_stages::{Declaration, arms, declarations, record};
+use nonholonomic_core::limits::{spent, within_limits};
+use std::path::Path;
+
+/// The most that a reference system may take, and all of them together.
+const REFERENCE: u64 = 1_200_000;
+const REFERENCES: u64 = 8_350_000;
+/// The most that a machine of the benchmark of record may take.
+const RECORD: u64 = 930_000;
+/// The most that arms of 2 to 8 links may take, in thousands: on two wheels, then on a skate.
+const ARMS: [u64; 14] = [193, 282, 571, 723, 1_090, 1_470, 2_050, 560, 360, 500, 667, 986, 2_920, 4_090];
+
+fn steps(declaration: &Declaration) -> u64 {
+    let work = within_limits(|| {
+        drop(declaration.expanded());
+        spent()
+    });
+    work.unwrap_or_else(|too_large| panic!("{}: {}", declaration.name, too_large.what()))
+}
+
+/// Asserts that each takes no more than is allowed, and names all that do.
+fn assert_within(found: impl Iterator<Item = (String, u64, u64)>) {
+    let too_many: Vec<String> = found
+        .filter(|(_, steps, allowed)| steps > allowed)
+        .map(|(name, steps, allowed)| format!("{name}: {steps} steps, {allowed} allowed"))
+        .collect();
+    assert!(too_many.is_empty(), "{}", too_many.join("\n"));
+}
+
+#[test]
+fn reference_systems_have_a_ceiling() {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../src/systems");
+    let files = std::fs::read_dir(folder).expect("the catalogue").flatten();
+    let texts = files.filter_map(|file| std::fs::read_to_string(file.path()).ok());
+    let found: Vec<Declaration> = texts.flat_map(|text| declarations(&text)).collect();
+    assert!(found.len() > 30, "only {} declarations were found", found.len());
+    let each: Vec<(String, u64, u64)> =
+        found.iter().map(|declaration| (declaration.name.clone(), steps(declaration), REFERENCE)).collect();
+    let together: u64 = each.iter().map(|(_, steps, _)| steps).sum();
+    assert!(together <= REFERENCES, "{together} steps together");
+    assert_within(each.into_iter());
+}
+
+#[test]
+fn machines_of_the_benchmark_have_a_ceiling() {
+    assert_within(record().iter().map(|(name, declaration)| (name.clone(), steps(declaration), RECORD)));
+}
+
+#[test]
+fn arms_have_ceilings() {
+    let arms = arms();
+    assert_eq!(arms.len(), ARMS.len());
+    assert_within(
+        arms.iter().zip(ARMS).map(|((name, arm), thousands)| (name.clone(), steps(arm), 1000 * thousands)),
+    );
+}

@@ -1,0 +1,115 @@
+//! Auxiliary states: to geometry and mechanics they are given functions of the time, mathematics (40).
+#![allow(non_snake_case, reason = "parameters are written as in mechanics: J, I")]
+
+use nh_tests::random::Random;
+use nonholonomic::prelude::*;
+
+/// A sleigh whose blade is turned by an angle, on a floor that moves: with forces, outputs and a claim.
+macro_rules! sleigh {
+    ($name:ident, $s:tt, $($more:tt)*) => {
+        #[nonholonomic(
+            base   { theta, x, y }
+            basis  { omega, v1, v2 }
+            anchor {
+                der(theta) = omega;
+                der(x) = v1 * cos(theta) - v2 * sin(theta);
+                der(y) = v1 * sin(theta) + v2 * cos(theta);
+            }
+            lagrangian  { (J + m * a^2) / 2 * omega^2 + m / 2 * (v1^2 + v2^2) + m * a * omega * v2 - m * x * sin(theta) }
+            constraints { blade: v2 = tan($s / 3) * v1 - U * sin(theta) * $s^2; }
+            forces      { omega: -c * omega * (1 + $s^2); x: sin($s) }
+            outputs     { slip = v1 * $s; turn = omega + x; }
+            emit        { multipliers, reactions, gibbs_appell, bracket, momenta }
+            symmetries  { up: sin(theta) * v1 + cos(theta) * v2; }
+            $($more)*
+        )]
+        #[derive(Clone, Copy, Debug)]
+        struct $name { m: f64, J: f64, a: f64, U: f64, c: f64 }
+    };
+}
+
+sleigh!(TimedSleigh, (c * t),);
+sleigh!(ClockedSleigh, s, auxiliary { der(s) = c; });
+sleigh!(ProjectedTimedSleigh, (c * t), formulation { projected });
+sleigh!(ProjectedClockedSleigh, s, auxiliary { der(s) = rate; } inputs { rate } formulation { projected });
+
+/// A law of two declarations: what they have in common is equal.
+fn close(what: &str, one: &[f64], other: &[f64]) {
+    assert_eq!(one.len(), other.len(), "{what}");
+    let scale = one.iter().chain(other).fold(1.0, |most: f64, x| most.max(x.abs()));
+    for (a, b) in one.iter().zip(other) {
+        assert!((a - b).abs() <= 1e-12 * scale, "{what}: {a} and {b} of {one:?} and {other:?}");
+    }
+}
+
+/// With the time in their places, and with a clock that runs at the rate c, coefficients, drift, forces and
+/// outputs mean the same; so does all that is derived of them.
+#[test]
+fn a_clock_is_as_good_as_the_time() {
+    macro_rules! compare {
+        ($random:ident, $n:literal, $timed:ident, $timed_state:ident, $clocked:ident, $clocked_state:ident, $input:expr) => {
+            for _ in 0..20 {
+                let [m, J, a, U, c] = std::array::from_fn(|_| $random.between(0.3, 2.0));
+                let (timed, clocked) = ($timed { m, J, a, U, c }, $clocked { m, J, a, U, c });
+                let t = $random.between(-1.0, 1.0);
+                let numbers: [f64; $n] = std::array::from_fn(|_| $random.between(-1.0, 1.0));
+                let mut with_clock = [c * t; $n + 1];
+                with_clock[..$n].copy_from_slice(&numbers);
+                let (x, z) = ($timed_state::from(numbers), $clocked_state::from(with_clock));
+                let input = &$input(c);
+                let rate: [f64; $n + 1] = clocked.derivative(t, &z, input).into();
+                close("derivative", &<[f64; $n]>::from(timed.derivative(t, &x, &())), &rate[..$n]);
+                close("rate of the clock", &rate[$n..], &[c]);
+                let appell: [f64; $n + 1] = clocked.gibbs_appell(t, &z, input).into();
+                close("gibbs_appell", &appell, &rate);
+                close("energy", &[timed.energy(t, &x)], &[clocked.energy(t, &z)]);
+                close(
+                    "velocity",
+                    &<[f64; 3]>::from(timed.velocity(t, &x)),
+                    &<[f64; 3]>::from(clocked.velocity(t, &z)),
+                );
+                close(
+                    "multipliers",
+                    &[timed.multipliers(t, &x, &()).blade],
+                    &[clocked.multipliers(t, &z, input).blade],
+                );
+                close(
+                    "reactions",
+                    &<[f64; 3]>::from(timed.reactions(t, &x, &())),
+                    &<[f64; 3]>::from(clocked.reactions(t, &z, input)),
+                );
+                close(
+                    "outputs",
+                    &<[f64; 2]>::from(timed.outputs(t, &x, &())),
+                    &<[f64; 2]>::from(clocked.outputs(t, &z, input)),
+                );
+                let drift = timed.drift_of_outputs(t, &x, &());
+                close(
+                    "drift",
+                    &<[f64; 2]>::from(drift),
+                    &<[f64; 2]>::from(clocked.drift_of_outputs(t, &z, input)),
+                );
+                let bracket = timed.bracket_with_energy(t, &x, &());
+                close(
+                    "bracket",
+                    &<[f64; 2]>::from(bracket),
+                    &<[f64; 2]>::from(clocked.bracket_with_energy(t, &z, input)),
+                );
+                let (one, other) = (timed.momentum_rates(t, &x, &()), clocked.momentum_rates(t, &z, input));
+                close("momentum rate", &[one.up], &[other.up]);
+            }
+        };
+    }
+    let mut random = Random::new(31);
+    compare!(random, 5, TimedSleigh, TimedSleighState, ClockedSleigh, ClockedSleighState, |_| ());
+    let rate = |rate| ProjectedClockedSleighInput { rate };
+    compare!(
+        random,
+        6,
+        ProjectedTimedSleigh,
+        ProjectedTimedSleighState,
+        ProjectedClockedSleigh,
+        ProjectedClockedSleighState,
+        rate
+    );
+}

@@ -1,0 +1,12 @@
+//! Position constraints, mathematics (34) and (35): the equations against minimal coordinates, and runs that stay
+//! where the constraints hold.
+
+mod holonomic {
+    mod assembly;
+    mod car_axis;
+    mod four_bar;
+    mod hoop;
+    mod long_runs;
+    mod pendulum;
+    mod slider_crank;
+}

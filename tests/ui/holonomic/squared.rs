@@ -1,0 +1,10 @@
+use nonholonomic::prelude::*;
+
+#[nonholonomic(
+    base { x, y }
+    holonomic { a: (x - y)^2 = 0; }
+    lagrangian { m / 2 * (der(x)^2 + der(y)^2) }
+)]
+struct S { m: f64, l: f64 }
+
+fn main() {}

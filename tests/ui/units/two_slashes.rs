@@ -1,0 +1,10 @@
+use nonholonomic::prelude::*;
+
+#[nonholonomic(
+    base { x }
+    lagrangian { m / 2 * der(x)^2 }
+    units { x = m; m = kg/m/s; }
+)]
+struct S { m: f64 }
+
+fn main() {}
