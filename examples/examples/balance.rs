@@ -51,6 +51,15 @@ use nonholonomic::prelude::*;
         fall: 2 * l * cos(tilt) * push - left_wheel - right_wheel;
     }
     assume { wheels > 0; turning > 0; m > 0; J > 0; r > 0; l > 0; }
+    units {
+        x, y, l, r, track = m;
+        theta, tilt = rad;
+        wheels, m = kg;
+        turning, J = kg m^2;
+        push = N;
+        g = m/s^2;
+        left_wheel, right_wheel = N m;
+    }
     emit { jacobian }
 )]
 #[derive(Clone, Copy, Debug)]

@@ -39,6 +39,7 @@ use nonholonomic::prelude::*;
     lagrangian { J / 2 * omega^2 + m / 2 * ((v1 - b * omega)^2 + (v2 + a * omega)^2) }
     constraints { edge: v2 = 0; }
     outputs { turning = (J + m * (a^2 + b^2)) / 2 * omega^2; speed = sqrt(v1^2 + v2^2); }
+    units { x, y, a, b = m; theta = rad; m = kg; J = kg m^2; turning = J; speed = m/s; edge = N; }
 )]
 #[derive(Clone, Copy, Debug)]
 pub struct Sleigh {
@@ -107,23 +108,33 @@ fn draw(sleigh: &Sleigh, track: &[(f64, SleighState)]) -> Picture {
         let style = format!(r#"font-size="12" fill="{INK}" text-anchor="middle""#);
         picture.text(view.at(pose.point(0.1, 0.4)), &format!("t = {t} s"), &style);
     }
+    // the sleigh itself, along its track
+    let hull = HULL.map(|(ahead, left)| Page { x: view.length(ahead), y: -view.length(left) });
+    let poses: Vec<(Page, f64)> = track[1..]
+        .iter()
+        .step_by(5)
+        .map(|(_, state)| (view.at((state.x, state.y)), -state.theta.to_degrees()))
+        .collect();
+    picture.moving(&hull, &poses, END, &format!(r##"fill="#e8623e" stroke="{INK}" stroke-width="1.4""##));
     colours.key(&mut picture, Page { x: 764.0, y: 560.0 }, 150.0, "speed of the contact point", "m/s");
     draw_energy(&mut picture, sleigh, track);
     picture
 }
 
+/// The body, ahead and to the left of the contact.
+const HULL: [(f64, f64); 8] = [
+    (-0.15, 0.0),
+    (-0.12, 0.06),
+    (0.30, 0.21),
+    (0.38, 0.18),
+    (0.41, 0.0),
+    (0.38, -0.18),
+    (0.30, -0.21),
+    (-0.12, -0.06),
+];
+
 /// The body as a rounded triangle: the edge behind, two smooth points in front, the centre of mass.
 fn draw_sleigh(picture: &mut Picture, view: &View, sleigh: &Sleigh, state: &SleighState) {
-    const HULL: [(f64, f64); 8] = [
-        (-0.15, 0.0),
-        (-0.12, 0.06),
-        (0.30, 0.21),
-        (0.38, 0.18),
-        (0.41, 0.0),
-        (0.38, -0.18),
-        (0.30, -0.21),
-        (-0.12, -0.06),
-    ];
     let pose = Pose { x: state.x, y: state.y, heading: state.theta };
     let hull = view.body(pose, &HULL);
     picture.polygon(

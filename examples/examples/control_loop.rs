@@ -32,6 +32,7 @@ use nonholonomic::prelude::*;
     forces { v: (torque_right + torque_left) / r; omega: c / r * (torque_right - torque_left); }
     inputs { torque_right, torque_left }
     assume { m > 0; J > 0; r > 0; }
+    units { x, y, l, c, r = m; theta = rad; m = kg; J = kg m^2; torque_right, torque_left = N m; }
     emit { jacobian }
 )]
 #[derive(Clone, Copy, Debug)]

@@ -38,6 +38,13 @@ use nonholonomic::prelude::*;
     forces { right: torque_right; left: torque_left; }
     inputs { torque_right, torque_left }
     assume { r > 0; c > 0; }
+    units {
+        x, y, l, c, r = m;
+        theta, right, left = rad;
+        m = kg;
+        J, Jw = kg m^2;
+        torque_right, torque_left = N m;
+    }
 )]
 #[derive(Clone, Copy, Debug)]
 struct Full {
@@ -68,6 +75,7 @@ macro_rules! without_wheels {
             forces { v: (torque_right + torque_left) / r; omega: c / r * (torque_right - torque_left); }
             inputs { torque_right, torque_left }
             assume { r > 0; }
+    units { x, y, l, c, r = m; theta = rad; m = kg; J, Jw = kg m^2; torque_right, torque_left = N m; }
             $($more)*
         )]
         #[derive(Clone, Copy, Debug)]
@@ -105,6 +113,8 @@ without_wheels! {
     constraints { side = 0; }
     forces { v: acceleration; omega: turning; }
     inputs { acceleration, turning }
+ // lengths are pure numbers here: the kinetic energy of a command adds up squares of speeds and of rates
+    units { x, y = 1; theta = rad; acceleration, turning = s^-2; lagrangian = s^-2; }
 )]
 #[derive(Clone, Copy, Debug)]
 struct Kinematic;

@@ -33,6 +33,15 @@ use nonholonomic::prelude::*;
     forces { theta: drive * (1 + pulse * sin(2 * swing * t)); phi: J * turn * swing * cos(swing * t); }
     emit { multipliers }
     assume { m > 0; I > 0; J > 0; R > 0; }
+    units {
+        x, y, R = m;
+        theta, phi = rad;
+        m = kg;
+        I, J = kg m^2;
+        drive = N m;
+        pulse = 1;
+        turn, swing = rad/s;
+    }
 )]
 #[derive(Clone, Copy, Debug)]
 pub struct Disk {

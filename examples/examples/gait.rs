@@ -55,6 +55,15 @@ use nonholonomic::wide::f32x8;
         dphi: 2 * J1 * rate^2 * (steering - phi) - 4 * J1 * rate * dphi;
     }
     assume { m > 0; l > 0; J0 > 0; J1 > 0; }
+    units {
+        x, y, l = m;
+        theta, psi, phi = rad;
+        m = kg;
+        J0, J1 = kg m^2;
+        drag = kg/s;
+        rate = s^-1;
+        rotor, steering = rad;
+    }
 )]
 #[derive(Clone, Copy, Debug)]
 pub struct Snakeboard<T> {

@@ -20,6 +20,7 @@ use nonholonomic::prelude::*;
     constraints { ground: der(y) = (bump * k * cos(k * x) - slope) * der(x); }
     emit { multipliers }
     assume { m > 0; }
+    units { x, y, bump = m; m = kg; g = m/s^2; k = m^-1; slope = 1; ground = N; }
 )]
 #[derive(Clone, Copy, Debug)]
 pub struct Sliding {
@@ -40,6 +41,7 @@ pub struct Sliding {
     base { x, y }
     lagrangian { m / 2 * (der(x)^2 + der(y)^2) - m * g * y }
     assume { m > 0; }
+    units { x, y = m; m = kg; g = m/s^2; }
 )]
 #[derive(Clone, Copy, Debug)]
 pub struct Flying {

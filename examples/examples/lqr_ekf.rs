@@ -35,6 +35,14 @@ use nonholonomic::prelude::*;
     inputs { torque_right, torque_left }
     outputs { rate_right = (v + c * omega) / r; rate_left = (v - c * omega) / r; }
     assume { m > 0; J > 0; Jw > 0; r > 0; c > 0; }
+    units {
+        x, y, l, c, r = m;
+        theta = rad;
+        m = kg;
+        J, Jw = kg m^2;
+        torque_right, torque_left = N m;
+        rate_right, rate_left = rad/s;
+    }
     emit { jacobian }
 )]
 #[derive(Clone, Copy, Debug)]

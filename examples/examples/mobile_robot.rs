@@ -47,6 +47,13 @@ use nonholonomic::prelude::*;
     forces { right: torque_right; left: torque_left; }
     inputs { torque_right, torque_left }
     assume { r > 0; c > 0; }
+    units {
+        x, y, l, c, r = m;
+        theta, right, left = rad;
+        m = kg;
+        J, Jw = kg m^2;
+        torque_right, torque_left = N m;
+    }
 )]
 #[derive(Clone, Copy, Debug)]
 pub struct Robot {

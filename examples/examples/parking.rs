@@ -57,6 +57,15 @@ use nonholonomic::prelude::*;
     inputs { push, steer }
     forces { v: push - drag * v; omega: steer - drag * d^2 * omega; }
     assume { m > 0; J > 0; load > 0; d > 0; }
+    units {
+        x, y, d = m;
+        theta, bend = rad;
+        m, load = kg;
+        J, load_J = kg m^2;
+        drag = kg/s;
+        push = N;
+        steer = N m;
+    }
     emit { jacobian }
 )]
 #[derive(Clone, Copy, Debug)]

@@ -35,6 +35,14 @@ use nonholonomic::prelude::*;
     forces { spin_right: torque_right; spin_left: torque_left; }
     inputs { torque_right, torque_left }
     assume { m > 0; J > 0; Jw > 0; r > 0; c > 0; }
+    units {
+        x, y, l, c, r = m;
+        theta = rad;
+        spin_right, spin_left = rad/s;
+        m = kg;
+        J, Jw = kg m^2;
+        torque_left, torque_right = N m;
+    }
     emit { multipliers }
 )]
 #[derive(Clone, Copy, Debug)]
@@ -74,6 +82,16 @@ struct Rolling {
     }
     inputs { torque_right, torque_left }
     assume { m > 0; J > 0; Jw > 0; grip >= 0; soft > 0; }
+    units {
+        x, y, l, c, r = m;
+        theta = rad;
+        spin_right, spin_left = rad/s;
+        m = kg;
+        J, Jw = kg m^2;
+        grip = N;
+        soft = m/s;
+        torque_right, torque_left = N m;
+    }
 )]
 #[derive(Clone, Copy, Debug)]
 struct Slipping {

@@ -44,6 +44,14 @@ use nonholonomic::prelude::*;
         steering: dphi = steering_amplitude * steering_rate * cos(steering_rate * t);
     }
     independent { u1 }
+    units {
+        x, y, l = m;
+        theta, psi, phi = rad;
+        m = kg;
+        J0, J1 = kg m^2;
+        rotor_amplitude, steering_amplitude = rad;
+        rotor_rate, steering_rate = s^-1;
+    }
     emit { multipliers }
 )]
 #[derive(Clone, Copy, Debug)]

@@ -34,6 +34,7 @@ use nonholonomic::prelude::*;
     lagrangian  { sum(i in 0..3: I[i] * w[i]^2) / 2 - dot(c, g) }
     constraints { veselova: dot(g, w) = 0; }
     assume      { I > 0; }
+ units       { g = 1; I = kg m^2; c = J; }
 )]
 #[derive(Clone, Copy, Debug)]
 pub struct Veselova {

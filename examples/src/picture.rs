@@ -89,6 +89,25 @@ impl Picture {
         self.element(&format!(r#"<text x="{x:.1}" y="{y:.1}" {style}>{text}</text>"#));
     }
 
+    /// A closed line that moves for ever: its points around the origin, and where it is at equal intervals of
+    /// time with its angle in degrees, clockwise on the page.
+    pub fn moving(&mut self, shape: &[Page], poses: &[(Page, f64)], seconds: f64, style: &str) {
+        let places: Vec<String> = poses.iter().map(|(Page { x, y }, _)| format!("{x:.1} {y:.1}")).collect();
+        let angles: Vec<String> = poses.iter().map(|(_, angle)| format!("{angle:.1}")).collect();
+        let turn = format!(r#"attributeName="transform" dur="{seconds}s" repeatCount="indefinite""#);
+        self.element("<g>");
+        self.element(&format!(
+            r#"<animateTransform {turn} type="translate" values="{}"/>"#,
+            places.join(";")
+        ));
+        let angles = angles.join(";");
+        self.element(&format!(
+            r#"<animateTransform {turn} type="rotate" additive="sum" values="{angles}"/>"#
+        ));
+        self.polygon(shape, style);
+        self.element("</g>");
+    }
+
     fn element(&mut self, element: &str) {
         self.elements.push_str(element);
         self.elements.push('\n');
