@@ -12,7 +12,7 @@ use quote::quote;
 use crate::emit::{self, Layout, alias};
 use crate::report::compile_errors;
 use crate::resolve::{Unrelated, resolve_morphism};
-use crate::syntax::morphism::{MorphismDecl, SystemPath, handed_over, morphism as parse};
+use crate::syntax::map_syntax::{MorphismDecl, SystemPath, handed_over, morphism as parse};
 use crate::syntax::{self};
 
 /// The expansion of the macro, in each of its three calls.

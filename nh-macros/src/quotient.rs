@@ -9,8 +9,8 @@ use crate::emit::{self, Layout, Written, alias};
 use crate::report::{Diagnostic, compile_errors};
 use crate::resolve::{Unrelated, resolve_quotient};
 use crate::syntax::ast::Scalar;
-use crate::syntax::morphism::handed_over;
-use crate::syntax::quotient::{QuotientDecl, quotient as parse};
+use crate::syntax::map_syntax::handed_over;
+use crate::syntax::quotient_syntax::{QuotientDecl, quotient as parse};
 use crate::syntax::{self};
 
 /// The expansion of the macro, in each of its two calls.

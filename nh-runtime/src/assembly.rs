@@ -2,7 +2,7 @@
 //! close its loops, and velocities that keep them closed.
 
 mod descent;
-mod error;
+mod failure;
 
 use crate::arrays::first_non_finite;
 use crate::linear::Factors;
@@ -10,7 +10,7 @@ use crate::{D, ProjectionError, Real, Scalar, State, StateFault};
 use descent::{Linearized, descend, follow, lower, no_solution, sign, singular, square};
 
 pub use descent::Loops;
-pub use error::AssemblyError;
+pub use failure::AssemblyError;
 
 /// Moves a guess to where the constraints on positions hold, by steps that are halved until residuals fall, and
 /// then its velocities.

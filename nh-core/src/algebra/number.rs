@@ -386,4 +386,4 @@ impl fmt::Display for Rational {
 }
 
 #[cfg(test)]
-mod tests;
+mod number_tests;

@@ -310,4 +310,4 @@ pub(crate) fn sample(attempt: u64, index: usize) -> f64 {
 }
 
 #[cfg(test)]
-mod tests;
+mod zero_test_tests;

@@ -1,7 +1,7 @@
 //! A basis of D that is orthonormal in the kinetic metric, where the declaration asks for one.
 
-use super::choice::Chosen;
 use super::evidence::{counted, shown};
+use super::formulation::Chosen;
 use crate::algebra::{Facts, Graph, Matrix, Rational};
 use crate::id::{ExprId, SymbolId};
 use crate::mechanics::{Definiteness, LagrangianSystem, definiteness, kinetic_metric};

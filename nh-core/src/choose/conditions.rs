@@ -22,7 +22,7 @@ use rustc_hash::FxHashMap;
 use std::collections::BTreeSet;
 
 #[cfg(test)]
-mod tests;
+mod multiplier_tests;
 
 /// Where the declared equations are regular.
 pub(crate) struct Regular<'r> {

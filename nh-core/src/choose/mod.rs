@@ -3,12 +3,12 @@
 mod conditions;
 mod derived;
 mod ledger;
-pub(crate) mod limits;
 mod lowered;
 mod pivots;
 mod proof;
 mod reference;
 mod selection;
+pub(crate) mod sizes;
 mod zero_set;
 
 pub(crate) use conditions::Regular;

@@ -5,7 +5,7 @@ use super::cancellation::without_needless_cancellation;
 use super::levels::again;
 use crate::algebra::Graph;
 use crate::choose::{
-    Claim, Contender, Decision, Entry, Fate, Reference, Regular, admitted, fate, limits, prove,
+    Claim, Contender, Decision, Entry, Fate, Reference, Regular, admitted, fate, prove, sizes,
 };
 use crate::count::Count;
 use crate::forms::{Form, Registry, Setting};
@@ -61,7 +61,7 @@ pub(super) fn candidates(
     let size = graph.operation_count(&[system.lagrangian]);
     let setting = Setting { system, distribution: kept, chained: chained.as_ref(), residuals, size };
     let mut found: Vec<Candidate> = Vec::new();
-    let mut most = if is_orthonormal { Count::TOO_MANY } else { Count::new(limits::EXPANDED) };
+    let mut most = if is_orthonormal { Count::TOO_MANY } else { Count::new(sizes::EXPANDED) };
     for form in registry.forms() {
         if form.expands() && size > most {
             let name = form.name();
@@ -141,7 +141,7 @@ pub(super) fn proved_derivative(
     let fixed = &proved.system.algebroid.anchor.coordinates;
     let mut left: Vec<&Candidate> = candidates.iter().collect();
     while !left.is_empty() {
-        decision.limits.retain(|limit| !limit.contains(limits::BESIDE));
+        decision.limits.retain(|limit| !limit.contains(sizes::BESIDE));
         let entries = solved_forms(graph, &left, definite, given, decision);
         let finish = |graph: &mut Graph, procedure: &Procedure| {
             without_needless_cancellation(graph, procedure.clone(), fixed)
@@ -169,8 +169,8 @@ fn solved_forms(
     let mut compared: Vec<Vec<ExprId>> = Vec::new();
     for (Candidate { form, equations }, length) in candidates.iter().zip(lengths) {
         let form = form.name();
-        if limits::is_much_longer(length, shortest) {
-            decision.limits.push(format!("{form}: {length} operations{}{shortest}", limits::BESIDE));
+        if sizes::is_much_longer(length, shortest) {
+            decision.limits.push(format!("{form}: {length} operations{}{shortest}", sizes::BESIDE));
             continue;
         }
         let procedure = solved(graph, equations, definite, given);

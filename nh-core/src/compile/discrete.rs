@@ -1,7 +1,7 @@
 //! Discrete Lagrange–d'Alembert equations: on TQ, and on a Lie algebra.
 
 use super::Proved;
-use super::phase_space::{asked, judge};
+use super::phase_space_functions::{asked, judge};
 use crate::algebra::Graph;
 use crate::check::{self, evidence::shown};
 use crate::geometry::Algebroid;

@@ -2,7 +2,7 @@
 //!
 //! Both are symbols to the algebra, and intermediate results of what is generated.
 
-use super::restricted::in_state;
+use super::velocities_of_state::in_state;
 use crate::algebra::{Graph, Substitution};
 use crate::check::Motion;
 use crate::choose::Given;

@@ -1,8 +1,8 @@
 //! The gyroscopic force of a Chaplygin system, as far as it is asked for.
 
 use super::Proved;
-use super::phase_space::asked;
-use super::splitting::Reduced;
+use super::phase_space_functions::asked;
+use super::vertical_splitting::Reduced;
 use crate::algebra::Substitution;
 use crate::geometry::ConstraintDistribution;
 use crate::id::{CoordId, SymbolId};

@@ -12,7 +12,7 @@ use super::Proved;
 use super::routh::Level;
 use crate::algebra::{Graph, Matrix};
 use crate::check::{eliminations, zeros};
-use crate::geometry::choice::{Choice, NoChoice, judge, search};
+use crate::geometry::independent_velocities::{Choice, NoChoice, judge, search};
 use crate::geometry::{ConstraintDistribution, Manifold, MomentumLevel, PivotSetting};
 use crate::id::{ExprId, Id, SectionId, SymbolId};
 use crate::mechanics::{Definiteness, definiteness, kinetic_metric};

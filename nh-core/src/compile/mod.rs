@@ -1,33 +1,33 @@
 //! The way of the data: every stage takes a value and returns a value of another type.
 
-mod adapted;
+mod adapted_functions;
 mod analytic;
 mod assembly;
-mod brackets;
 mod cancellation;
 mod competition;
-mod connection;
-mod constants;
+mod connection_functions;
 mod constraint_forces;
 mod discrete;
 mod embedded;
-mod gibbs_appell;
+mod folded_constants;
+mod gibbs_appell_function;
 mod given;
 mod gyroscopic;
+mod kept_volume;
 mod levels;
 mod momenta;
-mod nonholonomic_connection;
-mod phase_space;
+mod momentum_equation;
+mod observed_brackets;
+mod phase_space_functions;
 mod position_return;
 mod power;
-mod projected;
+mod projected_functions;
 mod proved_functions;
-mod restricted;
 mod routh;
 mod slice;
-mod splitting;
 mod strangers;
-mod volume;
+mod velocities_of_state;
+mod vertical_splitting;
 
 use crate::algebra::Facts;
 use crate::check::{self, BrokenLaws, Chosen, Constraints, Kind, Motion, Positions};
@@ -42,9 +42,9 @@ use crate::system::System;
 use crate::violation::{Law, Violation};
 use levels::OnLevels;
 pub(crate) use momenta::Symmetries;
-use nonholonomic_connection::Split;
+use momentum_equation::Split;
 pub(crate) use routh::Level;
-pub(crate) use splitting::{Reduced, declared, frame_names, moved, with_translations};
+pub(crate) use vertical_splitting::{Reduced, declared, frame_names, moved, with_translations};
 
 /// What the later stages share.
 pub(crate) struct Proved {
@@ -117,18 +117,23 @@ fn compiled(model: Model, registry: &Registry) -> Result<System, Vec<Violation>>
             match levels::on_levels(&mut proved, &distribution)? {
                 OnLevels::Adapted(leveled) => {
                     let reason = reason + &leveled.remark;
-                    adapted::derive(proved, registry, (&distribution, &leveled), (&conditions, &reason))?
+                    adapted_functions::derive(
+                        proved,
+                        registry,
+                        (&distribution, &leveled),
+                        (&conditions, &reason),
+                    )?
                 }
-                OnLevels::Projected { reason } => projected::derive(proved, registry, &reason)?,
+                OnLevels::Projected { reason } => projected_functions::derive(proved, registry, &reason)?,
             }
         }
-        Chosen::Projected { reason } => projected::derive(proved, registry, &reason)?,
+        Chosen::Projected { reason } => projected_functions::derive(proved, registry, &reason)?,
     };
     let system = strangers::without_strangers(system)?;
     // 8. what is tracked
     about(Subject::Requests);
     let mut system = slice::slice(routh::without(system, &quadratures))?;
-    constants::in_numbers(&mut system);
+    folded_constants::in_numbers(&mut system);
     // 9. Taylor series exist where they are asked for
     fence(analytic::check(&system).err().into_iter().collect())?;
     Ok(system)

@@ -1,7 +1,7 @@
 //! Momenta of symmetries: which there are, and the functions that compute them.
 
 use super::Proved;
-use super::restricted::requested;
+use super::velocities_of_state::requested;
 use crate::algebra::Substitution;
 use crate::check::{self, Constraints, Motion, Setting, Symmetry};
 use crate::functions::{Functions, MOMENTA, MOMENTUM_RATES};

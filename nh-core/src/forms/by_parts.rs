@@ -2,7 +2,7 @@
 
 use super::{Form, Setting};
 use crate::algebra::{Accuracy, Graph};
-use crate::choose::limits;
+use crate::choose::sizes;
 use crate::mechanics::{ReducedEquations, equations_by_partial_velocities};
 
 pub(super) struct ByParts;
@@ -23,8 +23,8 @@ impl Form for ByParts {
     fn derive(&self, graph: &mut Graph, setting: &Setting) -> Option<ReducedEquations> {
         setting.chained?;
         // careful code carries the errors of divisions along, and every quotient put in place has its own
-        let is_short = setting.size <= limits::EXPANDED
-            && graph.operation_count(&setting.distribution.velocity) <= limits::NAMED;
+        let is_short = setting.size <= sizes::EXPANDED
+            && graph.operation_count(&setting.distribution.velocity) <= sizes::NAMED;
         match graph.accuracy() {
             Accuracy::Fast | Accuracy::Balanced if is_short => {
                 equations_by_partial_velocities(graph, setting.system, setting.distribution)

@@ -2,7 +2,7 @@
 
 use super::{Form, Setting};
 use crate::algebra::Graph;
-use crate::choose::limits;
+use crate::choose::sizes;
 use crate::count::Count;
 use crate::mechanics::{ReducedEquations, equations_in_wheel_frames};
 
@@ -19,7 +19,7 @@ impl Form for OnWheels {
         "mathematics (8), by dθ of section 5 for turned pairs of forms"
     }
     fn others_expand_up_to(&self) -> Count {
-        Count::new(limits::EXPANDED_ON_WHEELS)
+        Count::new(sizes::EXPANDED_ON_WHEELS)
     }
     fn rank(&self) -> u8 {
         4

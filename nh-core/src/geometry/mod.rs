@@ -3,12 +3,12 @@
 mod algebroid;
 mod anchor;
 mod change_of_basis;
-pub mod choice;
 mod clock;
 mod connection;
 mod distribution;
 mod fibres;
 pub mod hamel;
+pub mod independent_velocities;
 mod invariant_frame;
 mod known_algebra;
 mod level_set;

@@ -18,6 +18,7 @@
 mod angles;
 mod correct;
 mod cost;
+mod denominators;
 mod factor;
 mod fold;
 mod fuse;
@@ -26,7 +27,8 @@ mod interpret;
 mod lower;
 mod nary;
 mod pairs;
-mod powers;
+#[cfg(test)]
+mod program_tests;
 mod rounding;
 mod rule;
 mod schedule;
@@ -34,8 +36,6 @@ mod signs;
 mod split;
 mod step;
 mod taylor;
-#[cfg(test)]
-mod tests;
 mod text;
 
 pub use correct::corrected;

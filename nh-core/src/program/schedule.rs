@@ -2,13 +2,13 @@
 
 use super::angles::share_angles;
 use super::cost::order;
+use super::denominators::separate_powers;
 use super::factor::{Sharing, factor};
 use super::fold::folded;
 use super::import::import;
 use super::lower::lower;
 use super::nary::Arena;
 use super::pairs::{Kind, share_pairs};
-use super::powers::separate_powers;
 use super::step::Program;
 use crate::algebra::{Accuracy, Graph};
 use crate::id::SymbolId;

@@ -3,8 +3,8 @@
 mod classification;
 mod equations;
 mod hamiltonian;
-mod routh;
-mod splitting;
+mod reduction_kind;
+mod routhian;
 mod symmetry;
 
 use crate::algebra::Graph;
@@ -55,10 +55,10 @@ pub(crate) fn report(
     more: Vec<(&str, Vec<String>)>,
 ) -> String {
     let mut classification = classification::lines(proved, derived, reason);
-    let (kind, splitting) = splitting::lines(proved, derived);
+    let (kind, splitting) = reduction_kind::lines(proved, derived);
     classification.extend(kind);
     let symmetries = symmetry::lines(proved, derived);
-    let routh = routh::lines(proved, derived);
+    let routh = routhian::lines(proved, derived);
     let mut conserved = classification::conserved(proved);
     conserved.extend(symmetry::conserved(proved, derived));
     let (model, system) = (&proved.model, &proved.system);

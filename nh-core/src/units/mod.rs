@@ -5,17 +5,17 @@
 //! names (Kennedy 1996). Equations are taken up one after the other, so that whatever contradicts those before it
 //! does so together with a set of them of which none can be left out: that set is shown.
 
+mod consistency;
 mod dimension;
 mod elimination;
 mod form;
 mod inferred;
-mod proof;
 mod reading;
 mod wording;
 
+pub use consistency::{Condition, Conflict, Side, infer};
 pub use dimension::{Dimension, Refused, UNITS, raised};
 pub use form::{Form, Unknown};
 pub(crate) use inferred::lines;
 pub use inferred::{Inferred, Quantity, Unit};
-pub use proof::{Condition, Conflict, Side, infer};
 pub use reading::{Kind, Reading};

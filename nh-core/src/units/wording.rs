@@ -2,10 +2,10 @@
 
 use std::collections::BTreeSet;
 
+use super::consistency::{Condition, Conflict, Equation, given, solved};
 use super::dimension::Dimension;
 use super::elimination::Elimination;
 use super::form::Unknown;
-use super::proof::{Condition, Conflict, Equation, given, solved};
 use crate::algebra::Graph;
 use crate::violation::{Law, Violation};
 

@@ -4,12 +4,12 @@ use nonholonomic_core::system::System;
 use proc_macro2::{Literal, TokenStream};
 use quote::quote;
 
-use super::context::Context;
-use super::expression::element;
-use super::function::Part;
+use super::infix::element;
+use super::inherent_method::Part;
 use super::layout::local;
 use super::program::body;
-use super::scope::{Argument, Scope};
+use super::setting::Context;
+use super::symbols::{Argument, Scope};
 
 /// `impl AlmostPoisson for Sleigh`, if it is asked for.
 pub(super) fn emit(context: &Context, scope: &Scope, system: &System) -> Part {
@@ -27,7 +27,7 @@ pub(super) fn emit(context: &Context, scope: &Scope, system: &System) -> Part {
         let outputs = body.outputs.iter().map(element);
         let statements = &body.statements;
         let arguments = [Argument::This, Argument::Time, Argument::State];
-        let mut drops = super::function::drops_of(context, &arguments, &body.used);
+        let mut drops = super::inherent_method::drops_of(context, &arguments, &body.used);
         if takes_covector && !body.used.contains(&Argument::Covector) {
             drops.extend(quote!(_ = #covector;));
         }

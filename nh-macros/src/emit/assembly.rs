@@ -5,13 +5,13 @@ use nonholonomic_core::system::{Assembly, Linearized, PositionReturn, System};
 use proc_macro2::{Ident, Literal, Span, TokenStream};
 use quote::quote;
 
-use super::context::{Context, coordinate_fields};
-use super::expression::element;
-use super::function::Part;
+use super::infix::element;
+use super::inherent_method::Part;
 use super::layout::local;
 use super::program::body;
 use super::results::residual_names;
-use super::scope::{Argument, Scope};
+use super::setting::{Context, coordinate_fields};
+use super::symbols::{Argument, Scope};
 
 /// The methods and the enum of the coordinates; nothing without position constraints.
 pub(super) fn emit(context: &Context, scope: &Scope, system: &System) -> Part {

@@ -12,11 +12,11 @@ use nonholonomic_core::system::System;
 use proc_macro2::TokenStream;
 use quote::quote;
 
-use super::context::Context;
 use super::layout::plain;
-use super::number;
+use super::literal;
 use super::record::Record;
-use super::scope::{Argument, Scope};
+use super::setting::Context;
+use super::symbols::{Argument, Scope};
 use crate::syntax::ast;
 
 /// Words that C keeps for itself and Rust does not, and names that its headers define.
@@ -337,7 +337,7 @@ impl Writer<'_> {
 
     /// A number; a negative one in parentheses.
     fn number(&self, number: &nonholonomic_core::algebra::Rational) -> String {
-        let text = number::literal(self.file.context, number).tokens.to_string().replace(' ', "");
+        let text = literal::literal(self.file.context, number).tokens.to_string().replace(' ', "");
         let (sign, digits) = text.strip_prefix('-').map_or(("", text.as_str()), |digits| ("-", digits));
         let f = self.file.suffix;
         let digits =

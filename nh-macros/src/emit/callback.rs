@@ -4,8 +4,8 @@
 use proc_macro2::{Ident, Span, TokenStream};
 use quote::{format_ident, quote};
 
-use super::context::Context;
 use super::layout::plain;
+use super::setting::Context;
 
 /// The macro and its alias.
 ///

@@ -7,12 +7,12 @@ use nonholonomic_core::system::System;
 use proc_macro2::{Literal, TokenStream};
 use quote::quote;
 
-use super::context::Context;
-use super::expression::element;
-use super::function::{Part, drops_of};
+use super::infix::element;
+use super::inherent_method::{Part, drops_of};
 use super::layout::local;
 use super::program::body;
-use super::scope::{Argument, Scope};
+use super::setting::Context;
+use super::symbols::{Argument, Scope};
 
 /// The traits `Leapfrog` and `EulerPoincareSuslov`, as far as they are asked for.
 pub(super) fn emit(context: &Context, system: &System) -> Part {

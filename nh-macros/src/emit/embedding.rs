@@ -4,13 +4,13 @@ use nonholonomic_core::system::{Embedding, System};
 use proc_macro2::{Literal, TokenStream};
 use quote::quote;
 
-use super::context::Context;
-use super::expression::element;
-use super::function::Part;
+use super::infix::element;
+use super::inherent_method::Part;
 use super::layout::local;
 use super::program::body;
 use super::projection::{closure, entries};
-use super::scope::{Argument, Scope};
+use super::setting::Context;
+use super::symbols::{Argument, Scope};
 
 /// The inherent methods `identity_residual` and `normalize`; nothing without identities.
 pub(super) fn emit(context: &Context, scope: &Scope, system: &System) -> Part {

@@ -3,7 +3,7 @@
 use proc_macro2::TokenStream;
 use quote::quote;
 
-use super::context::Context;
+use super::setting::Context;
 
 /// `impl Energy for Sleigh`.
 pub(super) fn implementation(context: &Context) -> TokenStream {

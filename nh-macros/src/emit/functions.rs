@@ -8,13 +8,13 @@ use nonholonomic_core::system::System;
 use proc_macro2::{Literal, TokenStream};
 use quote::{ToTokens, quote};
 
-use super::context::Context;
-use super::expression::element;
-use super::function::{Head, Part};
+use super::infix::element;
+use super::inherent_method::{Head, Part};
 use super::power;
 use super::program::body;
 use super::results::Results;
-use super::scope::{Argument, Scope};
+use super::setting::Context;
+use super::symbols::{Argument, Scope};
 use crate::resolve::Outline;
 
 /// The inherent methods, with the structs that they give.
@@ -49,7 +49,7 @@ pub(super) fn stubs(context: &Context, outline: &Outline) -> Part {
         velocities: outline.velocities,
         sections: context.velocity.len(),
         outputs: context.outputs.as_ref().map_or(0, super::record::Record::len),
-        parameters: super::scope::parameter_places(context).len(),
+        parameters: super::symbols::parameter_places(context).len(),
         ..Sizes::default()
     };
     let printer = Printer { context, sizes, results: Results::expected(context, outline) };

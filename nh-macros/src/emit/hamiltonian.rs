@@ -7,14 +7,14 @@ use nonholonomic_core::system::System;
 use proc_macro2::{Literal, TokenStream};
 use quote::{format_ident, quote};
 
-use super::context::Context;
-use super::function::{Part, Signature};
 use super::functions::matrix;
+use super::inherent_method::{Part, Signature};
 use super::layout::{local, plain};
 use super::program::body;
 use super::record::Record;
-use super::scope::{Argument, Scope};
+use super::setting::Context;
 use super::state;
+use super::symbols::{Argument, Scope};
 
 /// The struct of coordinates and momenta.
 fn phase(context: &Context, velocities: usize) -> Record {

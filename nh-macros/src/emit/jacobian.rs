@@ -7,12 +7,12 @@ use nonholonomic_core::system::System;
 use proc_macro2::{Literal, TokenStream};
 use quote::quote;
 
-use super::context::Context;
-use super::expression::element;
-use super::function::{Head, Part, drops};
+use super::infix::element;
+use super::inherent_method::{Head, Part, drops};
 use super::layout::local;
 use super::program::{Body, body};
-use super::scope::{Argument, Scope};
+use super::setting::Context;
+use super::symbols::{Argument, Scope};
 
 /// The inherent method `jacobian` and `impl Jacobian for Sleigh`, if they are asked for.
 ///

@@ -6,8 +6,8 @@ use proc_macro2::{Ident, TokenStream, TokenTree};
 use quote::quote;
 use syn::{Attribute, Meta};
 
-use super::context::respan;
 use super::layout::plain;
+use super::setting::respan;
 
 /// Whether the compiler accepts a name for a field or a variable.
 pub(super) fn is_snake_case(name: &str) -> bool {

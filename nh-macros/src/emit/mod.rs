@@ -8,40 +8,40 @@ mod almost_poisson;
 mod assembly;
 mod c;
 mod callback;
-mod context;
 mod discrete;
-mod dynamics;
 mod embedding;
 mod energy;
-mod expression;
-mod function;
 mod functions;
 mod hamiltonian;
+mod infix;
+mod inherent_method;
+mod intermediate_names;
 mod invariants;
 mod jacobian;
 mod labels;
 mod layout;
 mod lint;
+mod literal;
 mod lowering;
-mod morphism;
-mod names;
-mod number;
+mod map_functions;
+mod motion;
 mod observed;
 mod positions;
 mod power;
 mod prepared;
 mod program;
 mod projection;
-mod quotient;
 mod reconstruction;
 mod record;
-mod report;
+mod reduced_declaration;
+mod report_text;
 mod results;
 #[cfg(test)]
 mod samples;
-mod scope;
+mod setting;
 mod state;
 mod stubs;
+mod symbols;
 mod taylor;
 #[cfg(test)]
 mod tests;
@@ -53,13 +53,13 @@ use nonholonomic_core::system::System;
 use nonholonomic_core::violation::Violation;
 use proc_macro2::TokenStream;
 
-use context::Context;
-use scope::Scope;
+use setting::Context;
+use symbols::Scope;
 
 pub(crate) use callback::alias;
 pub(crate) use layout::{Family, Layout, TypeNames};
-pub(crate) use morphism::{morphism, morphism_stub};
-pub(crate) use quotient::{Written, can_be_written, quotient};
+pub(crate) use map_functions::{morphism, morphism_stub};
+pub(crate) use reduced_declaration::{Written, can_be_written, quotient};
 pub(crate) use stubs::stubs;
 
 /// The struct and everything that its declaration gives it.
@@ -86,15 +86,15 @@ pub(crate) fn emit(system: &System, layout: &Layout) -> Result<TokenStream, Vec<
         .with(invariants::emit(context, scope, system));
     let mut programs = vec![("derivative", &derivative)];
     programs.extend(part.programs.iter().map(|(name, program)| (*name, program)));
-    let mut methods = report::constant(context, system, &programs);
+    let mut methods = report_text::constant(context, system, &programs);
     methods.extend(c::constant(context, scope, system, &programs));
-    methods.extend(dynamics::method(context, scope, &derivative));
-    let mut items = report::item(context, &system.equations);
+    methods.extend(motion::method(context, scope, &derivative));
+    let mut items = report_text::item(context, &system.equations);
     items.extend(records(context, system.functions.get(&VELOCITY).is_some()));
     items.extend(state::emit(context));
     let mut check_state = embedding::check_state(context, scope, system);
     check_state.extend(positions::hooks(context, system));
-    items.extend(dynamics::implementation(context, &dynamics::inlining(&derivative), &check_state));
+    items.extend(motion::implementation(context, &motion::inlining(&derivative), &check_state));
     items.extend(system.functions.get(&ENERGY).map(|_| energy::implementation(context)));
     if let Some(outputs) = &context.outputs {
         items.extend(observed::implementation(context, outputs));
@@ -103,7 +103,7 @@ pub(crate) fn emit(system: &System, layout: &Layout) -> Result<TokenStream, Vec<
     items.extend(part.items);
     methods.extend(validate::method(context, scope, system));
     // the ledger tells of all programs
-    methods.extend(report::derivation(context, system));
+    methods.extend(report_text::derivation(context, system));
     items.extend(context.inherent(&methods));
     items.extend(callback::emit(context));
     match context.lowering.violation(model.origin) {

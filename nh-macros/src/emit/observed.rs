@@ -3,8 +3,8 @@
 use proc_macro2::TokenStream;
 use quote::quote;
 
-use super::context::Context;
 use super::record::Record;
+use super::setting::Context;
 
 /// `impl Observed for Sleigh`.
 pub(super) fn implementation(context: &Context, outputs: &Record) -> TokenStream {

@@ -6,13 +6,13 @@ use nonholonomic_core::system::{PositionReturn, System};
 use proc_macro2::{Literal, TokenStream};
 use quote::quote;
 
-use super::context::Context;
-use super::expression::element;
+use super::infix::element;
 use super::layout::local;
 use super::program::body;
 use super::projection::closure;
 use super::results::residual_names;
-use super::scope::{Argument, Scope};
+use super::setting::Context;
+use super::symbols::{Argument, Scope};
 
 /// `|present| { … }`: outputs of a procedure, in the array of the coordinates.
 fn of_coordinates(context: &Context, system: &System, procedure: &Procedure) -> TokenStream {

@@ -6,10 +6,10 @@ use nonholonomic_core::system::System;
 use proc_macro2::{Ident, Span, TokenStream};
 use quote::{ToTokens, format_ident, quote};
 
-use super::context::Context;
 use super::layout::Family;
 use super::record::{Field, Record};
 use super::results::Results;
+use super::setting::Context;
 
 /// What each declared force acts along, as it is written.
 pub(super) fn directions(system: &System) -> Vec<String> {

@@ -9,13 +9,13 @@ use nonholonomic_core::system::System;
 use proc_macro2::{Literal, TokenStream};
 use quote::{format_ident, quote};
 
-use super::context::Context;
-use super::dynamics::inlining;
-use super::expression::element;
-use super::function::{Part, drops};
+use super::infix::element;
+use super::inherent_method::{Part, drops};
 use super::layout::local;
+use super::motion::inlining;
 use super::program::body;
-use super::scope::{Argument, Scope};
+use super::setting::Context;
+use super::symbols::{Argument, Scope};
 
 /// `PreparedSleigh` and `prepare`, if they are asked for.
 pub(super) fn emit(context: &Context, system: &System, derivative: &Program) -> Part {

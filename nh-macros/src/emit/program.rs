@@ -8,11 +8,11 @@ use nonholonomic_core::program::{Program, Step, Value};
 use proc_macro2::{Ident, Literal, Span, TokenStream};
 use quote::quote;
 
-use super::context::Context;
-use super::expression::{Expression, element};
-use super::names::{Names, unknowns};
-use super::number;
-use super::scope::{Argument, Scope};
+use super::infix::{Expression, element};
+use super::intermediate_names::{Names, unknowns};
+use super::literal;
+use super::setting::Context;
+use super::symbols::{Argument, Scope};
 
 /// The operations in one expression at most.
 const LONGEST: usize = 10;
@@ -99,10 +99,10 @@ impl Writer<'_> {
         let of = |operand: &Value| &self.expressions[*operand];
         match step {
             Step::Constant(number) if self.context.parameter().is_some() => {
-                Expression::atom(number::converted(self.context, number), 0)
+                Expression::atom(literal::converted(self.context, number), 0)
             }
-            Step::Constant(number) => number::literal(self.context, number),
-            Step::Pi => number::pi(self.context),
+            Step::Constant(number) => literal::literal(self.context, number),
+            Step::Pi => literal::pi(self.context),
             Step::Load(symbol) => self.load(*symbol),
             Step::Add(a, b) => of(a).add(of(b)),
             Step::Sub(a, b) => of(a).sub(of(b)),
@@ -120,8 +120,8 @@ impl Writer<'_> {
             Step::Cbrt(a) => self.call("cbrt", &[*a]),
             Step::PowReal(a, exponent) => {
                 let exponent = match self.context.parameter() {
-                    Some(_) => number::converted(self.context, exponent),
-                    None => number::literal(self.context, exponent).tokens,
+                    Some(_) => literal::converted(self.context, exponent),
+                    None => literal::literal(self.context, exponent).tokens,
                 };
                 self.call_with("powf", *a, &[exponent])
             }

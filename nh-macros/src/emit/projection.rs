@@ -8,13 +8,13 @@ use nonholonomic_core::system::{Projection, System};
 use proc_macro2::{Ident, Literal, TokenStream};
 use quote::quote;
 
-use super::context::Context;
-use super::expression::element;
-use super::function::Part;
+use super::infix::element;
+use super::inherent_method::Part;
 use super::layout::local;
 use super::program::body;
 use super::results::Results;
-use super::scope::{Argument, Scope};
+use super::setting::Context;
+use super::symbols::{Argument, Scope};
 
 /// The inherent method `project`, and `impl Constrained for Sleigh`; nothing where every state is
 /// where it belongs.

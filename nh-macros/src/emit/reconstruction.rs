@@ -4,11 +4,11 @@ use nonholonomic_core::reduction::Reconstruction;
 use proc_macro2::{Literal, TokenStream};
 use quote::{format_ident, quote};
 
-use super::context::Context;
 use super::layout::local;
-use super::morphism::{Map, dropped};
+use super::map_functions::{Map, dropped};
 use super::record::Record;
-use super::scope::{Argument, Scope};
+use super::setting::Context;
+use super::symbols::{Argument, Scope};
 
 impl Map<'_> {
     /// The dropped coordinates as a struct, the joint state, and `impl Reconstruction`.

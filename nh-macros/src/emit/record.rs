@@ -3,10 +3,10 @@
 use proc_macro2::{Ident, Literal, TokenStream};
 use quote::{ToTokens, quote};
 
-use super::context::Context;
-use super::expression::element;
+use super::infix::element;
 use super::layout::{Family, indexed, local, plain};
 use super::lint::allow_for;
+use super::setting::Context;
 
 /// A struct of numbers and arrays of numbers.
 pub(super) struct Record {

@@ -8,10 +8,10 @@ use nonholonomic_core::model::{Formulation, Request};
 use nonholonomic_core::system::System;
 use proc_macro2::{Ident, Span, TokenStream};
 
-use super::context::{Context, coordinate_fields};
 use super::labels::{Group, flat, grouped, with_suffix};
 use super::layout::{Family, plain};
 use super::record::{Field, Record};
+use super::setting::{Context, coordinate_fields};
 use crate::resolve::Outline;
 
 /// The structs of one system.

@@ -3,8 +3,8 @@
 use proc_macro2::{Literal, TokenStream};
 use quote::quote;
 
-use super::context::Context;
 use super::record::Record;
+use super::setting::Context;
 
 /// `impl State for SleighState`.
 pub(super) fn emit(context: &Context) -> TokenStream {

@@ -7,13 +7,13 @@ use nonholonomic_core::model::Request;
 use proc_macro2::TokenStream;
 use quote::quote;
 
-use super::context::Context;
-use super::function::Part;
+use super::inherent_method::Part;
 use super::layout::Layout;
+use super::setting::Context;
 use super::taylor;
 use super::{
-    almost_poisson, assembly, c, callback, discrete, dynamics, embedding, energy, functions, hamiltonian,
-    invariants, jacobian, observed, prepared, projection, report, state, validate,
+    almost_poisson, assembly, c, callback, discrete, embedding, energy, functions, hamiltonian, invariants,
+    jacobian, motion, observed, prepared, projection, report_text, state, validate,
 };
 use crate::resolve::Outline;
 
@@ -23,19 +23,19 @@ pub(crate) fn stubs(layout: &Layout, outline: &Outline) -> TokenStream {
     let declared = layout.velocity_symbols.get(..declared).unwrap_or_default();
     let context = &Context::new(layout, &outline.in_state, declared);
     let default = quote!(::core::default::Default::default());
-    let mut methods = report::with_text(context, "");
+    let mut methods = report_text::with_text(context, "");
     if outline.requests.contains(&Request::Explain) {
-        methods.extend(report::derivation_with(context, ""));
+        methods.extend(report_text::derivation_with(context, ""));
     }
     if outline.requests.contains(&Request::C) {
         methods.extend(c::with_text(context, ""));
     }
-    methods.extend(dynamics::head(context).with_body(context, &BTreeSet::new(), &default));
+    methods.extend(motion::head(context).with_body(context, &BTreeSet::new(), &default));
     methods.extend(validate::with_body(context, &TokenStream::new()));
-    let mut items = report::item(context, &[]);
+    let mut items = report_text::item(context, &[]);
     items.extend(super::records(context, true));
     items.extend(state::emit(context));
-    items.extend(dynamics::implementation(context, &quote!(#[inline]), &TokenStream::new()));
+    items.extend(motion::implementation(context, &quote!(#[inline]), &TokenStream::new()));
     items.extend(energy::implementation(context));
     if let Some(outputs) = &context.outputs {
         items.extend(observed::implementation(context, outputs));

@@ -16,11 +16,11 @@ use proc_macro2::{Ident, Literal, Span, TokenStream};
 use quote::quote;
 
 use self::orders::Writer;
-use super::context::Context;
-use super::function::{Part, drops};
+use super::inherent_method::{Part, drops};
 use super::layout::local;
 use super::program::{Body, body};
-use super::scope::{Argument, Scope};
+use super::setting::Context;
+use super::symbols::{Argument, Scope};
 
 /// The inherent method `taylor` and `impl TaylorSeries for Sleigh`, if they are asked for.
 ///

@@ -7,10 +7,10 @@ use nonholonomic_core::system::System;
 use proc_macro2::TokenStream;
 use quote::quote;
 
-use super::context::Context;
 use super::layout::{Family, local, plain};
 use super::program::body;
-use super::scope::{Scope, parameter_places};
+use super::setting::Context;
+use super::symbols::{Scope, parameter_places};
 
 /// The inherent method `validate`.
 pub(super) fn method(context: &Context, scope: &Scope, system: &System) -> TokenStream {

@@ -32,7 +32,7 @@ impl Resolver {
         self.context = Context::Auxiliary;
         let mut order: Vec<Declared<'_>> = Vec::new();
         let mut positions: BTreeMap<&str, usize> = BTreeMap::new();
-        for definition in super::items::statements(&section.body) {
+        for definition in super::statements::statements(&section.body) {
             positions.entry(definition.name.text.as_str()).or_insert_with(|| {
                 order.push(Declared { definition, lengths: Some(Vec::new()) });
                 order.len() - 1

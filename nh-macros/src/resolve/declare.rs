@@ -10,10 +10,10 @@ use quote::format_ident;
 
 use super::array::{Array, Shape};
 use super::context::{Context, VARYING};
-use super::items;
 use super::reports::Outcome;
 use super::resolver::Resolver;
 use super::scope::{Meaning, Named, Numbers, Role};
+use super::statements;
 use crate::emit::{Family, Layout};
 use crate::report::Diagnostic;
 use crate::syntax::ast::{self, Declared, Definition, Name, SystemDecl};
@@ -41,13 +41,13 @@ impl Resolver {
         self.declare_auxiliary(sections.auxiliary.as_ref(), layout);
         self.share(declaration);
         let names =
-            sections.velocities.iter().chain(&sections.frame).flat_map(|s| items::statements(&s.body));
+            sections.velocities.iter().chain(&sections.frame).flat_map(|s| statements::statements(&s.body));
         self.scope.pending = names.map(|definition| definition.name.text.clone()).collect();
         for constant in sections.constants.iter().flat_map(|section| &section.body) {
             // one in error was reported
             let _ = self.constant(constant);
         }
-        let names = sections.outputs.iter().flat_map(|s| items::statements(&s.body));
+        let names = sections.outputs.iter().flat_map(|s| statements::statements(&s.body));
         self.scope.outputs = names.map(|definition| definition.name.text.clone()).collect();
     }
 

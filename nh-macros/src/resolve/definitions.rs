@@ -9,10 +9,10 @@ use nonholonomic_core::id::ExprId;
 
 use super::array::{Array, Shape};
 use super::context::Context;
-use super::items::statements;
 use super::reports::Outcome;
 use super::resolver::Resolver;
 use super::scope::{Meaning, check_reserved};
+use super::statements::statements;
 use crate::emit::Family;
 use crate::report::{Diagnostic, Extent};
 use crate::syntax::ast::{Definition, Expr, ExprKind, Item, Name, Subscript};

@@ -8,37 +8,37 @@ mod array;
 mod auxiliary;
 mod bodies;
 mod brackets;
+mod calls;
 mod choices;
 mod context;
 mod declare;
 mod definitions;
+mod dimensions;
+mod dropped;
 mod dynamics;
 mod expression;
 mod facts;
 mod frame;
-mod function;
 mod holonomic;
 mod homogeneity;
 mod index;
-mod items;
 mod kinematics;
 mod methods;
-mod morphism;
 mod origins;
 mod outline;
 mod partial;
 mod places;
 mod product;
-mod quotient;
 mod rate;
+mod related_systems;
 mod reports;
 mod resolver;
 mod rotations;
 mod scope;
 mod shared;
+mod statements;
 mod symmetries;
 mod track;
-mod units;
 mod vectors;
 mod written;
 
@@ -49,10 +49,10 @@ use std::collections::BTreeSet;
 
 use nonholonomic_core::model::{Located, Model};
 
-pub(crate) use self::morphism::{Unrelated, resolve_morphism};
+pub(crate) use self::dropped::resolve_quotient;
 pub(crate) use self::origins::Origins;
 pub(crate) use self::outline::Outline;
-pub(crate) use self::quotient::resolve_quotient;
+pub(crate) use self::related_systems::{Unrelated, resolve_morphism};
 use self::resolver::Resolver;
 use crate::emit::Layout;
 use crate::report::Diagnostic;
@@ -140,7 +140,7 @@ impl Resolver {
         let accuracy = sections.accuracy.as_ref().map(|s| self.accuracy(s)).unwrap_or_default();
         self.graph.set_accuracy(accuracy);
         layout.idle = self.idle(declaration);
-        let named = units::Named {
+        let named = dimensions::Named {
             outputs: &outputs,
             claims: &claims,
             constraints: &constraints,

@@ -8,10 +8,10 @@ use std::rc::Rc;
 
 use super::array::Array;
 use super::context::{Context, Usage};
-use super::items::lets;
 use super::reports::{Outcome, Reported};
 use super::resolver::Resolver;
 use super::scope::Meaning;
+use super::statements::lets;
 use super::vectors::is_built_in;
 use crate::report::Diagnostic;
 use crate::syntax::ast::{Expr, ExprKind, Let, Name, SystemDecl};

@@ -3,7 +3,7 @@
 use nonholonomic_core::algebra::Rational;
 
 use super::array::{Array, Shape};
-use super::function::Called;
+use super::calls::Called;
 use super::reports::{Outcome, Reported};
 use super::resolver::Resolver;
 use crate::report::Diagnostic;

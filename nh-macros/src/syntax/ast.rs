@@ -4,15 +4,15 @@
 //! end of the section, or of the `for` block, that it stands in. The variable of a `for`, of a `sum` and of an
 //! indexed `let` is seen in its body.
 
-mod expr;
-mod units;
+mod expression_tree;
+mod unit_tree;
 
 use std::rc::Rc;
 
 use proc_macro2::{Ident, TokenStream};
 
-pub(crate) use self::expr::{Expr, ExprKind, Factor, Number, Sign};
-pub(crate) use self::units::{UnitFactor, UnitLine};
+pub(crate) use self::expression_tree::{Expr, ExprKind, Factor, Number, Sign};
+pub(crate) use self::unit_tree::{UnitFactor, UnitLine};
 use crate::report::Extent;
 
 /// A whole declaration: the struct and the sections of the attribute.

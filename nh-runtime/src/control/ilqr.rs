@@ -333,4 +333,4 @@ fn clamped<T: Entry, const M: usize>(
 }
 
 #[cfg(test)]
-mod tests;
+mod ilqr_tests;

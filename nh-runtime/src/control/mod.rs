@@ -94,7 +94,7 @@
 
 mod box_quadratic;
 mod cholesky;
-mod error;
+mod fault;
 mod hold;
 mod horizon;
 mod ilqr;
@@ -111,7 +111,7 @@ mod unscented;
 use nalgebra::{ClosedAddAssign, ClosedMulAssign, ClosedSubAssign, SMatrix};
 use num_traits::{One, Zero};
 
-pub use error::ControlError;
+pub use fault::ControlError;
 pub use hold::zero_order_hold;
 pub use horizon::{Cost, Expansion, Model, Quadratic};
 pub use ilqr::{Ilqr, Improvement};

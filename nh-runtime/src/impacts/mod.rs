@@ -6,10 +6,10 @@
 //! jump, and ends it with [`End::Accumulated`] where the jumps come without end, as those of a ball that comes to rest.
 
 mod complementarity;
-mod error;
+mod no_jump;
 mod run;
 
-pub use error::ImpactError;
+pub use no_jump::ImpactError;
 pub use run::{End, Struck, advance_with_impacts, strike};
 
 use crate::{Dynamics, ScalarOf, VecOf};

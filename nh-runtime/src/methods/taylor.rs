@@ -1,8 +1,8 @@
 //! The Taylor method.
 
-mod series;
+mod step_series;
 
-use series::Series;
+use step_series::Series;
 
 use super::first_step::first_length;
 use super::fixed::rounding;

@@ -14,7 +14,7 @@
 
 mod far;
 #[cfg(test)]
-mod tests;
+mod kernel_tests;
 
 use crate::Scalar;
 

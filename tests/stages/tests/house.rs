@@ -1,6 +1,6 @@
 //! The rules of the house, held against its files: formula numbers, directions of imports, lengths of files.
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
 use std::path::{Path, PathBuf};
 
@@ -72,7 +72,7 @@ fn every_formula_is_cited_where_it_is_computed_and_where_it_is_checked() {
         if path.ends_with("house.rs") {
             continue;
         }
-        let is_test = path.starts_with("tests/") || path.contains("/tests/") || path.ends_with("/tests.rs");
+        let is_test = path.starts_with("tests/") || path.contains("/tests/") || path.ends_with("_tests.rs");
         let (product, test) = match text.split_once("#[cfg(test)]\nmod tests {") {
             _ if is_test => ("", text.as_str()),
             Some((product, test)) => (product, test),
@@ -154,13 +154,80 @@ fn files_are_rooms() {
     assert!(long.is_empty(), "{}", long.join("\n"));
 }
 
+/// A room has a name of its own: no two files of a crate are called the same, but for the heads of folders.
+#[test]
+fn no_two_files_have_one_name() {
+    let mut twice = Vec::new();
+    for folder in ["nh-core/src", "nh-macros/src", "nh-runtime/src"] {
+        let mut seen = BTreeMap::new();
+        for (path, _) in sources(&root().join(folder)) {
+            let name = path.file_name().unwrap_or_default().to_string_lossy().into_owned();
+            if name == "mod.rs" {
+                continue;
+            }
+            if let Some(first) = seen.insert(name, path.clone()) {
+                twice.push(format!("{} and {}", first.display(), path.display()));
+            }
+        }
+    }
+    assert!(twice.is_empty(), "{}", twice.join("\n"));
+}
+
+/// What a page puts between backquotes and calls a Rust file is the end of some file's path, braces multiplied out.
+#[test]
+fn pages_name_files_that_exist() {
+    let files: Vec<String> = ["nh-core", "nh-macros", "nh-runtime", "tests", "examples"]
+        .iter()
+        .flat_map(|folder| sources(&root().join(folder)))
+        .map(|(path, _)| path.to_string_lossy().replace('\\', "/"))
+        .collect();
+    let mut named = 0;
+    let mut missing = Vec::new();
+    for page in [
+        "ARCHITECTURE.md",
+        "CONTRIBUTING.md",
+        "MATHEMATICS.md",
+        "BENCHMARKS.md",
+        "README.md",
+        "tests/README.md",
+    ] {
+        let text = fs::read_to_string(root().join(page)).unwrap();
+        let words = text
+            .split('`')
+            .skip(1)
+            .step_by(2)
+            .filter(|word| Path::new(word).extension() == Some("rs".as_ref()));
+        for word in words.filter(|word| !word.contains([' ', '<', '*'])) {
+            for name in multiplied_out(word) {
+                named += 1;
+                if !files.iter().any(|file| file.ends_with(&format!("/{name}"))) {
+                    missing.push(format!("{page}: {name}"));
+                }
+            }
+        }
+    }
+    assert!(named > 80, "{named}");
+    assert!(missing.is_empty(), "{}", missing.join("\n"));
+}
+
+/// `check/{volume,brackets}.rs` as the two names that it stands for.
+fn multiplied_out(word: &str) -> Vec<String> {
+    let parts = word.split_once('{').and_then(|(head, rest)| Some((head, rest.split_once('}')?)));
+    match parts {
+        Some((head, (choices, tail))) => {
+            choices.split(',').map(|choice| format!("{head}{}{tail}", choice.trim())).collect()
+        }
+        None => vec![word.to_owned()],
+    }
+}
+
 /// Only the zero test decides whether an expression vanishes: no code compares one with the zero of its graph.
 #[test]
 fn nothing_else_compares_with_zero() {
     let mut broken = Vec::new();
     for (path, text) in sources(&root().join("nh-core/src")) {
         let product = text.split("#[cfg(test)]\nmod tests {").next().unwrap_or_default();
-        let is_test = path.ends_with("tests.rs");
+        let is_test = path.to_string_lossy().ends_with("_tests.rs");
         for (number, line) in product.lines().enumerate().filter(|_| !is_test) {
             if ["== graph.zero()", "!= graph.zero()", "== self.zero()", "!= self.zero()"]
                 .iter()

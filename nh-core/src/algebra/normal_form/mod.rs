@@ -16,15 +16,15 @@
 //!
 //! What exceeds the budget is left as it is: nothing here grows without bound.
 
-mod cost;
 mod division;
+mod evaluation_cost;
 mod factors;
 mod harmonics;
 mod monomial;
 mod polynomial;
-mod powers;
 mod reader;
 mod rebuild;
+mod roots;
 mod terms;
 mod trigonometry;
 
@@ -350,4 +350,4 @@ impl Choice {
 }
 
 #[cfg(test)]
-mod tests;
+mod normal_form_tests;

@@ -2,16 +2,16 @@
 //! its definition says of the declared data and of the motion that is proved already. Derivatives are taken there in
 //! numbers (`algebra/tangent.rs`), linear systems are solved there, with no rule of those that made the expressions.
 
-mod bracket;
-mod conditions;
-mod connection;
-mod flow;
+mod added_conditions;
 mod place;
+mod procedure_derivative;
+mod proof_of_bracket;
+mod proof_of_connection;
+mod proof_of_flow;
+mod proof_of_splitting;
 mod returns;
-mod splitting;
-mod tangent;
 #[cfg(test)]
-mod tests;
+mod wrong_derivative_tests;
 
 use super::ledger::Proof;
 use super::proof::{Defect, at_points, bits_of_a_point, defined, run, unless_roots_are_missing};
@@ -255,19 +255,21 @@ impl Derived<'_> {
             }
             Self::Rates(function, rates) => Ok(place.slopes(function, &place.flow()?)? == place.run(rates)?),
             Self::Divergence(stored, identities) => {
-                Ok(place.run(stored)? == [flow::divergence(place, identities)?])
+                Ok(place.run(stored)? == [proof_of_flow::divergence(place, identities)?])
             }
-            Self::Density(density, identities) => flow::is_kept(place, density, identities),
-            Self::Sharp(form) => bracket::sharp(place, &form),
-            Self::Bracket(form) => bracket::of_outputs(place, &form),
+            Self::Density(density, identities) => proof_of_flow::is_kept(place, density, identities),
+            Self::Sharp(form) => proof_of_bracket::sharp(place, &form),
+            Self::Bracket(form) => proof_of_bracket::of_outputs(place, &form),
             Self::Energy(energy) => Ok(place.run(energy)? == [place.instant.energy()?]),
-            Self::Hamiltonian(side, energy) => flow::is_hamiltonian(place, side, energy),
-            Self::Section(lifted, claimed) => flow::is_solution(place, lifted, claimed),
-            Self::Christoffel(symbols) => connection::is_christoffel(place, symbols),
-            Self::Connection(symbols, christoffel) => connection::is_constrained(place, symbols, christoffel),
-            Self::Splitting(form) => splitting::holds(place, &form),
-            Self::Gyroscopic(form) => splitting::is_gyroscopic(place, &form),
-            Self::Power(form) => flow::is_power(place, &form),
+            Self::Hamiltonian(side, energy) => proof_of_flow::is_hamiltonian(place, side, energy),
+            Self::Section(lifted, claimed) => proof_of_flow::is_solution(place, lifted, claimed),
+            Self::Christoffel(symbols) => proof_of_connection::is_christoffel(place, symbols),
+            Self::Connection(symbols, christoffel) => {
+                proof_of_connection::is_constrained(place, symbols, christoffel)
+            }
+            Self::Splitting(form) => proof_of_splitting::holds(place, &form),
+            Self::Gyroscopic(form) => proof_of_splitting::is_gyroscopic(place, &form),
+            Self::Power(form) => proof_of_flow::is_power(place, &form),
             Self::Values(form) => are_values(place, &form),
             Self::Momenta(momenta, sections) => are_momenta(place, momenta, sections),
             Self::Velocity(velocity) => Ok(place.run(velocity)? == place.instant.velocity()),
@@ -325,7 +327,7 @@ pub(crate) fn prove_derived(
         Err(Defect::Wrong("it is not what its definition says".into()))
     });
     let proof = unless_roots_are_missing(graph, &roots, outcome)?;
-    match conditions::parameter_that_may_not_vanish(claim, may_vanish, point, at) {
+    match added_conditions::parameter_that_may_not_vanish(claim, may_vanish, point, at) {
         Some(parameter) => Err(Defect::Wrong(format!(
             "it has no value where `{}` is 0, and the motion has one",
             graph.symbols()[parameter]

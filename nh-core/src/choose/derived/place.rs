@@ -3,7 +3,7 @@
 use super::super::proof::{Defect, run};
 use super::super::reference::{Instant, Reference, inner};
 use super::Motion;
-use super::tangent::tangent;
+use super::procedure_derivative::tangent;
 use crate::algebra::{Direction, Dual, Echelon, FieldPass, FieldPoint, Residue, TangentPass};
 use crate::id::{ExprId, Id, SymbolId};
 use crate::mechanics::{LagrangianSystem, Procedure};

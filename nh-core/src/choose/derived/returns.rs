@@ -4,7 +4,7 @@ use super::super::proof::{Defect, run};
 use super::super::reference::inner;
 use super::choose_all;
 use super::place::{Place, rank, spans};
-use super::tangent::solution;
+use super::procedure_derivative::solution;
 use crate::algebra::{Direction, Residue};
 use crate::id::{ExprId, SymbolId};
 use crate::phase_space::StepForm;

@@ -1,9 +1,9 @@
 //! Functions beside the motion, proved to be what their definitions say.
 
-mod claims;
-mod declared;
+mod claimed_functions;
+mod declared_data;
 
-use super::restricted::{coordinates, parameter_checks};
+use super::velocities_of_state::{coordinates, parameter_checks};
 use super::{Proved, given, levels};
 use crate::algebra::{Graph, Substitution};
 use crate::choose::{
@@ -20,8 +20,8 @@ use crate::model::Formulation;
 use crate::phase_space::PhaseSpace;
 use crate::system::{Embedding, PositionReturn, Projection, System};
 use crate::violation::{Law, Violation};
-use claims::{of_geometry, of_motion, of_phase_space, of_state};
-use declared::Declared;
+use claimed_functions::{of_geometry, of_motion, of_phase_space, of_state};
+use declared_data::Declared;
 
 /// What functions are derived from.
 pub(super) struct Given<'d> {

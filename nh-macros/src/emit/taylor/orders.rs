@@ -8,12 +8,12 @@ use nonholonomic_core::program::{Factor, Inner, Recurrences, Rule, Step, Value};
 use proc_macro2::{Ident, Literal, TokenStream};
 use quote::quote;
 
-use super::super::context::Context;
-use super::super::expression::element;
+use super::super::infix::element;
+use super::super::intermediate_names::{Names, unknowns};
 use super::super::layout::local;
-use super::super::names::{Names, unknowns};
-use super::super::number;
-use super::super::scope::Scope;
+use super::super::literal;
+use super::super::setting::Context;
+use super::super::symbols::Scope;
 
 /// Writes the loop.
 pub(super) struct Writer<'a> {
@@ -138,8 +138,8 @@ impl<'a> Writer<'a> {
 
     fn number(&self, value: &Rational) -> TokenStream {
         match self.context.parameter() {
-            Some(_) => number::converted(self.context, value),
-            None => number::literal(self.context, value).tokens,
+            Some(_) => literal::converted(self.context, value),
+            None => literal::literal(self.context, value).tokens,
         }
     }
 

@@ -1,26 +1,26 @@
 //! Tests of this stage: the meaning of expressions, evaluated, and every error text.
 
 mod almost;
-mod auxiliary;
+mod auxiliary_states;
 mod cancellation;
 mod catalogue;
 mod ceilings;
 mod constants;
 mod cross_checks;
 mod fuzz;
+mod hostile_sizes;
 mod irrational;
-mod limits;
 mod machine_errors;
 mod machine_words;
 mod meaning;
-mod names;
+mod name_errors;
 mod on_levels;
 mod planted;
 mod planted_functions;
 mod proved;
 mod requests;
-mod sections;
-mod units;
+mod section_errors;
+mod unit_errors;
 
 use nonholonomic_core::id::ExprId;
 use nonholonomic_core::model::Model;

@@ -1,8 +1,8 @@
 //! The method Radau IIA of order 5.
 
-mod table;
+mod coefficients;
 
-pub(super) use table::RADAU;
+pub(super) use coefficients::RADAU;
 
 use super::collocation::{Matrices, weighted};
 use super::linearization::{Analytic, FiniteDifferences, Linearization};

@@ -12,7 +12,7 @@ use quote::quote;
 use super::labels::{Group, grouped};
 use super::layout::{Family, Layout};
 use crate::syntax::ast::Scalar;
-use crate::syntax::quotient::QuotientDecl;
+use crate::syntax::quotient_syntax::QuotientDecl;
 
 /// What the quotient is written with.
 pub(crate) struct Written<'a> {

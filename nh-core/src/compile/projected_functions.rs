@@ -2,15 +2,15 @@
 
 use super::cancellation::without_needless_cancellation;
 use super::embedded::embedding;
-use super::gibbs_appell;
+use super::gibbs_appell_function;
 use super::given;
 use super::gyroscopic;
 use super::momenta::momenta;
-use super::phase_space;
+use super::phase_space_functions;
 use super::position_return::position_return;
 use super::power::{power, work_of_constraints};
 use super::proved_functions::{self, Given, Parts};
-use super::restricted::{
+use super::velocities_of_state::{
     claims_in_state, observables, parameter_divisors, requested, requested_jacobian,
     requested_output_jacobian, requested_parameter_jacobian,
 };
@@ -54,11 +54,11 @@ pub(super) fn derive(
     let judge = |graph: &Graph, matrix: &Matrix| definiteness(graph, matrix, &parameters, &facts);
     let mut everywhere = Substitution::new([]);
     let given = given::definitions(&mut proved.model, &mut proved.motion, &mut everywhere);
-    let gibbs_appell = gibbs_appell::with_multipliers(&mut proved, &equations, &given);
+    let gibbs_appell = gibbs_appell_function::with_multipliers(&mut proved, &equations, &given);
     let declared = proved.given();
     let graph = &mut proved.model.graph;
     let reference = Reference::projected(graph, &proved.system, declared, residuals.clone());
-    gibbs_appell::prove_it(&mut proved, &reference, gibbs_appell.as_ref())?;
+    gibbs_appell_function::prove_it(&mut proved, &reference, gibbs_appell.as_ref())?;
     let Solved { derivative, multipliers, reactions } =
         proved_solution(&mut proved, &equations, &reference, &given, judge)?;
     // 3. E_L, y and the observables
@@ -94,8 +94,14 @@ pub(super) fn derive(
     // 6. the report
     let embedding = embedding(&mut proved.model, &proved.base);
     let derived = Derived::Projected { residuals: &residuals, equations: &equations };
-    let (phase_space, sections) =
-        phase_space::derive(&mut proved, &derived, &derivative, &observables, &claims, &mut functions)?;
+    let (phase_space, sections) = phase_space_functions::derive(
+        &mut proved,
+        &derived,
+        &derivative,
+        &observables,
+        &claims,
+        &mut functions,
+    )?;
     let text = report(&mut proved, &derived, reason, &[], sections);
     let lines = equations_of_motion(&proved.model, &derived);
     let divisors = parameter_divisors(&mut proved.model, &derivative);

@@ -4,8 +4,8 @@ use super::Proved;
 use crate::algebra::{Graph, Matrix, Substitution};
 use crate::check::Invariance;
 use crate::geometry::{
-    Algebroid, Anchor, ConstraintDistribution, InvariantFrame, LinearConstraints, PivotSetting, choice,
-    constant_along,
+    Algebroid, Anchor, ConstraintDistribution, InvariantFrame, LinearConstraints, PivotSetting,
+    constant_along, independent_velocities,
 };
 use crate::id::{CoordId, ExprId, Id, SectionId, SymbolId};
 use crate::mechanics::{Chaplygin, LagrangianSystem, NotSplit, Splitting, translations};
@@ -313,10 +313,11 @@ fn invariant_basis(
         parameters: &parameters,
         facts: &proved.facts,
     };
-    let dependent: Vec<SectionId> = match choice::search(graph, &setting, &[], velocities.len()).ok()? {
-        Ok(choice) => choice.dependent,
-        Err(none) => none.tried.into_iter().next()?.0,
-    };
+    let dependent: Vec<SectionId> =
+        match independent_velocities::search(graph, &setting, &[], velocities.len()).ok()? {
+            Ok(choice) => choice.dependent,
+            Err(none) => none.tried.into_iter().next()?.0,
+        };
     let mut found = ConstraintDistribution::solved_for(graph, constraints, &dependent, velocities)?;
     for entry in found.basis.iter_mut().flatten().chain(&mut found.velocity) {
         *entry = constant_along(graph, &proved.base, *entry, group).ok()?;

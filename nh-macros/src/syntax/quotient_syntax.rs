@@ -8,7 +8,7 @@ use quote::quote;
 
 use super::ast::{Definition, Item, Let, Name, Place, Section};
 use super::items::items;
-use super::morphism::{SystemPath, path};
+use super::map_syntax::{SystemPath, path};
 use super::names::list;
 use super::sections::{runtime, shared};
 use super::stream::Stream;

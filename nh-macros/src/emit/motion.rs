@@ -4,11 +4,11 @@ use nonholonomic_core::program::{Cost, Program};
 use proc_macro2::TokenStream;
 use quote::quote;
 
-use super::context::Context;
-use super::function::Head;
+use super::inherent_method::Head;
 use super::layout::local;
 use super::program::body;
-use super::scope::Scope;
+use super::setting::Context;
+use super::symbols::Scope;
 
 /// The head of `derivative`.
 pub(super) fn head(context: &Context) -> Head {

@@ -1,7 +1,7 @@
 //! The Levi-Civita connection of the kinetic metric on E and the constrained connection.
 
 use super::Proved;
-use super::phase_space::{asked, judge, shortened};
+use super::phase_space_functions::{asked, judge, shortened};
 use crate::algebra::{Graph, Matrix};
 use crate::check::evidence::shown;
 use crate::functions::{CHRISTOFFEL, CONNECTION, Functions};

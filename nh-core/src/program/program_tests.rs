@@ -8,7 +8,7 @@ use crate::mechanics::{Definition, Procedure};
 use proptest::prelude::*;
 use std::collections::HashMap;
 
-mod accuracy;
+mod accuracy_levels;
 mod exponents;
 
 /// The value of a procedure, node by node.

@@ -3,7 +3,7 @@
 use super::constraints::Constraints;
 use super::evidence::{counted, listed, shown};
 use crate::algebra::{Facts, Graph};
-use crate::geometry::choice::{Choice, NoChoice, Subsets, judge, search};
+use crate::geometry::independent_velocities::{Choice, NoChoice, Subsets, judge, search};
 use crate::geometry::{ConstraintDistribution, LinearConstraints, Manifold, PivotSetting};
 use crate::id::{ExprId, Id, Origin, SectionId, SymbolId};
 use crate::model::{Formulation, Model};

@@ -1,6 +1,6 @@
 //! The claims: each function beside its definition.
 
-use super::super::nonholonomic_connection::Split;
+use super::super::momentum_equation::Split;
 use super::{Claims, Declared, Derivatives, Parts};
 use crate::choose::{
     AlmostPoissonForm, BracketForm, DerivedFunction, GyroscopicForm, PowerForm, SplittingForm, ValuesForm,

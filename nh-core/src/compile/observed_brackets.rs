@@ -1,7 +1,7 @@
 //! Brackets of the declared observables, and what their rates have beyond the bracket with the energy.
 
 use super::Proved;
-use super::phase_space::{
+use super::phase_space_functions::{
     energy_gradient, judge, nonholonomic_bracket, not_differentiable, shortened, state,
 };
 use crate::algebra::Graph;

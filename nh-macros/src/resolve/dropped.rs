@@ -8,13 +8,13 @@ use nonholonomic_core::reduction::QuotientDecl;
 
 use super::choices;
 use super::context::Context;
-use super::morphism::Unrelated;
 use super::origins::Origins;
+use super::related_systems::Unrelated;
 use super::resolver::Resolver;
 use crate::emit::{Family, Layout};
 use crate::report::Diagnostic;
 use crate::syntax::ast::SystemDecl;
-use crate::syntax::quotient;
+use crate::syntax::quotient_syntax;
 
 /// A quotient with its names resolved.
 pub(crate) struct ResolvedQuotient {
@@ -32,7 +32,7 @@ pub(crate) struct ResolvedQuotient {
 
 /// Resolves the declaration of the full system, and what its quotient says of it.
 pub(crate) fn resolve_quotient(
-    declaration: &quotient::QuotientDecl,
+    declaration: &quotient_syntax::QuotientDecl,
     source: &SystemDecl,
     layout: &mut Layout,
 ) -> Result<ResolvedQuotient, Unrelated> {
@@ -73,7 +73,7 @@ pub(crate) fn resolve_quotient(
 
 impl Resolver {
     /// The dropped coordinates, each once.
-    fn dropped(&mut self, declaration: &quotient::QuotientDecl) -> Vec<CoordId> {
+    fn dropped(&mut self, declaration: &quotient_syntax::QuotientDecl) -> Vec<CoordId> {
         let mut found = Vec::new();
         for place in &declaration.dropped {
             let Ok((named, part)) = self.coordinate(place) else { continue };

@@ -4,8 +4,8 @@ use nonholonomic_core::algebra::Rational;
 use proc_macro2::{Literal, TokenStream};
 use quote::quote;
 
-use super::context::Context;
-use super::expression::Expression;
+use super::infix::Expression;
+use super::setting::Context;
 use crate::syntax::ast;
 
 /// The number nearest to an exact one, as the shortest decimal that reads back as it.

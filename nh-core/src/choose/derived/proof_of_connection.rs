@@ -3,7 +3,7 @@
 use super::super::proof::Defect;
 use super::super::reference::inner;
 use super::place::Place;
-use super::tangent::solved;
+use super::procedure_derivative::solved;
 use crate::algebra::{Dual, FieldPass, Residue, TangentPass};
 use crate::mechanics::Procedure;
 

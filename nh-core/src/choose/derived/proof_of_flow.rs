@@ -2,8 +2,8 @@
 
 use super::super::proof::{Defect, run};
 use super::super::reference::inner;
-use super::bracket::on_momenta;
 use super::place::{Place, rank};
+use super::proof_of_bracket::on_momenta;
 use super::{PowerForm, choose_all};
 use crate::algebra::{Direction, Echelon, Residue};
 use crate::id::ExprId;

@@ -1,6 +1,8 @@
 //! The divergence of the motion, and the volume that it keeps.
 
-use super::phase_space::{asked, not_differentiable, shortened, state, state_velocities, whole_state};
+use super::phase_space_functions::{
+    asked, not_differentiable, shortened, state, state_velocities, whole_state,
+};
 use super::{Proved, fence};
 use crate::algebra::{
     Echelon, FieldPoint, Function, Graph, Matrix, Node, Rational, Residue, Substitution, Verdict,

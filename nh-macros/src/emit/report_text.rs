@@ -6,8 +6,8 @@ use nonholonomic_core::system::System;
 use proc_macro2::{Delimiter, TokenStream, TokenTree};
 use quote::quote;
 
-use super::context::Context;
 use super::lint::allow_for;
+use super::setting::Context;
 
 /// `const REPORT`, with the operation counts of the named programs.
 pub(super) fn constant(context: &Context, system: &System, programs: &[(&str, &Program)]) -> TokenStream {

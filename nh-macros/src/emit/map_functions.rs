@@ -7,16 +7,16 @@ use nonholonomic_core::reduction::Reduction;
 use proc_macro2::{Literal, TokenStream};
 use quote::quote;
 
-use super::context::Context;
 use super::layout::Layout;
 use super::lint::inherited;
 use super::lowering::{DEFECT, REFUTED};
 use super::program::{Body, body};
 use super::record::{Field, Record};
-use super::scope::{Argument, Scope};
+use super::setting::Context;
+use super::symbols::{Argument, Scope};
 use crate::report::Diagnostic;
 use crate::syntax::ast::Scalar;
-use crate::syntax::morphism::MorphismDecl;
+use crate::syntax::map_syntax::MorphismDecl;
 
 /// `impl Reduction<Reduced> for Full`, and the way back.
 ///

@@ -1,7 +1,9 @@
 //! Brackets, the Hamiltonian side and the almost-Poisson form, as far as they are asked for.
 
-use super::restricted::requested;
-use super::{Proved, brackets, connection, discrete, fence, given, nonholonomic_connection, volume};
+use super::velocities_of_state::requested;
+use super::{
+    Proved, connection_functions, discrete, fence, given, kept_volume, momentum_equation, observed_brackets,
+};
 use crate::algebra::{Graph, Matrix, Rational, Substitution};
 use crate::check::{self, evidence::shown};
 use crate::functions::{BRACKET, BRACKET_WITH_ENERGY, DRIFT_OF_OUTPUTS, Functions, HAMILTON_JACOBI};
@@ -44,7 +46,7 @@ pub(super) fn derive(
         }));
     }
     if let Some(origin) = asked(&proved.model, Request::Bracket) {
-        keep(brackets::of_outputs(proved, derived, observables, origin).map(
+        keep(observed_brackets::of_outputs(proved, derived, observables, origin).map(
             |[bracket, with_energy, drift]| {
                 functions.add(&BRACKET, bracket);
                 functions.add(&BRACKET_WITH_ENERGY, with_energy);
@@ -58,10 +60,10 @@ pub(super) fn derive(
     if let Some(origin) = asked(&proved.model, Request::Invariants) {
         keep(invariants(proved, derived, claims, origin).map(|form| found.invariants = Some(form)));
     }
-    keep(connection::derive(proved, derived, functions));
-    keep(nonholonomic_connection::derive(proved, derived, derivative, functions));
+    keep(connection_functions::derive(proved, derived, functions));
+    keep(momentum_equation::derive(proved, derived, derivative, functions));
     keep(discrete::derive(proved, derived, &mut found));
-    keep(volume::derive(proved, derived, derivative, functions).map(|lines| {
+    keep(kept_volume::derive(proved, derived, derivative, functions).map(|lines| {
         if !lines.is_empty() {
             sections.push(("Volume", lines));
         }

@@ -3,7 +3,7 @@
 
 use super::super::proof::{Defect, FIRST_SEED};
 use super::place::Place;
-use super::{Derived, flow};
+use super::{Derived, proof_of_flow};
 use crate::algebra::{Direction, FieldPoint, Residue};
 use crate::id::SymbolId;
 
@@ -55,7 +55,7 @@ fn is_defined(claim: &Derived, place: &mut Place) -> Result<bool, Defect> {
             place.slopes(function, &along)?;
         }
         Derived::Rates(function, _) => _ = place.slopes(function, &flow)?,
-        Derived::Divergence(_, identities) => _ = flow::divergence(place, identities)?,
+        Derived::Divergence(_, identities) => _ = proof_of_flow::divergence(place, identities)?,
         Derived::Energy(_) => _ = place.instant.energy()?,
         Derived::Values(form) => _ = form.names.known(place)?.evaluate(form.declared)?,
         Derived::Velocity(_) => {}

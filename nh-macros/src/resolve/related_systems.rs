@@ -15,7 +15,7 @@ use crate::emit::{Family, Layout};
 use crate::report::{Diagnostic, Extent};
 use crate::suggest::did_you_mean;
 use crate::syntax::ast::SystemDecl;
-use crate::syntax::morphism::{self, Definitions};
+use crate::syntax::map_syntax::{self, Definitions};
 
 /// A map with its names resolved.
 pub(crate) struct ResolvedMorphism {
@@ -52,7 +52,7 @@ type Entries = Vec<(usize, Located)>;
 
 /// Resolves both declarations and the map between them.
 pub(crate) fn resolve_morphism(
-    declaration: &morphism::MorphismDecl,
+    declaration: &map_syntax::MorphismDecl,
     (source, source_layout): (&SystemDecl, &mut Layout),
     (target, target_layout): (&SystemDecl, &mut Layout),
 ) -> Result<ResolvedMorphism, Unrelated> {
@@ -77,7 +77,7 @@ pub(crate) fn resolve_morphism(
 
 impl Resolver {
     /// The map; what is in error is left out.
-    fn map(&mut self, declaration: &morphism::MorphismDecl, layout: &Layout) -> MorphismDecl {
+    fn map(&mut self, declaration: &map_syntax::MorphismDecl, layout: &Layout) -> MorphismDecl {
         let origin = self.origin(declaration.extent());
         let mut read = |definitions: &Definitions, families: &[Family], kind: Kind| {
             self.quantities(declaration, definitions, families, &kind)
@@ -131,7 +131,7 @@ impl Resolver {
     /// The entries of the target's families: as defined, or else what has the same name in the source.
     fn quantities(
         &mut self,
-        declaration: &morphism::MorphismDecl,
+        declaration: &map_syntax::MorphismDecl,
         definitions: &Definitions,
         families: &[Family],
         kind: &Kind,
@@ -195,7 +195,7 @@ impl Resolver {
     }
 
     /// Something of the target that is neither given nor has the name of something in the source.
-    fn not_given(&mut self, declaration: &morphism::MorphismDecl, text: &str, shape: Shape, kind: &Kind) {
+    fn not_given(&mut self, declaration: &map_syntax::MorphismDecl, text: &str, shape: Shape, kind: &Kind) {
         let (source, target) = (&declaration.source.name, &declaration.target.name);
         let (noun, keyword) = (kind.noun, kind.context.keyword());
         let of_shape = if shape == Shape::Number { String::new() } else { format!(", {shape},") };

@@ -8,7 +8,7 @@ use nonholonomic_core::program::{Program, Step, Value};
 use proc_macro2::Ident;
 
 use super::layout::local;
-use super::scope::Scope;
+use super::symbols::Scope;
 
 /// Hands out each name once.
 pub(super) struct Names {

@@ -2,8 +2,8 @@
 //! mathematics (25), CM Propositions 8 and 9.
 
 use super::Proved;
-use super::phase_space::{asked, judge};
-use super::splitting::Reduced;
+use super::phase_space_functions::{asked, judge};
+use super::vertical_splitting::Reduced;
 use crate::algebra::{Graph, Matrix, Substitution};
 use crate::functions::{
     CONNECTION_COEFFICIENTS, CURVATURE, Functions, HORIZONTAL_FORCE, HORIZONTAL_LIFTS, LOCKED_INERTIA,

@@ -6,7 +6,7 @@
 use super::super::proof::Defect;
 use super::super::reference::inner;
 use super::place::{Arrow, Place};
-use super::tangent::solution;
+use super::procedure_derivative::solution;
 use super::{AlmostPoissonForm, BracketForm, choose_all};
 use crate::algebra::{Direction, Residue};
 use crate::mechanics::{HamiltonianSide, Procedure};

@@ -6,8 +6,8 @@ use nonholonomic_core::program::Program;
 use proc_macro2::{Delimiter, Group, Ident, Span, TokenStream};
 use quote::quote;
 
-use super::context::Context;
-use super::scope::Argument;
+use super::setting::Context;
+use super::symbols::Argument;
 
 /// The head of a method of time, state, and perhaps input.
 pub(super) struct Head {

@@ -7,7 +7,7 @@ use nonholonomic_core::model::Model;
 use proc_macro2::{Ident, Literal, TokenStream};
 use quote::quote;
 
-use super::context::Context;
+use super::setting::Context;
 
 /// One parameter of a generated function.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]

@@ -3,7 +3,7 @@
 use super::super::proof::Defect;
 use super::super::reference::inner;
 use super::place::{Place, rank, spans};
-use super::tangent::solved;
+use super::procedure_derivative::solved;
 use super::{GyroscopicForm, SplittingForm};
 use crate::algebra::{Direction, Dual, Residue, TangentPass};
 use crate::id::Id;

@@ -3,23 +3,23 @@
 use super::competition::{candidates, plain, plain_derivative, proved_derivative, reference, show_proved};
 use super::constraint_forces::constraint_forces;
 use super::embedded::embedding;
-use super::gibbs_appell;
+use super::gibbs_appell_function;
 use super::given;
 use super::gyroscopic;
 use super::levels::Leveled;
 use super::momenta::momenta;
-use super::phase_space;
+use super::phase_space_functions;
 use super::position_return::position_return;
 use super::power::{power, work_of_constraints};
 use super::proved_functions::{self, Given, Parts};
-use super::restricted::{
+use super::velocities_of_state::{
     claims_in_state, observables, parameter_divisors, requested, requested_jacobian,
     requested_output_jacobian, requested_parameter_jacobian,
 };
 use super::{Proved, fence, nothing_proved};
 use crate::algebra::{Graph, Matrix, Substitution};
 use crate::check;
-use crate::choose::{Decision, limits};
+use crate::choose::{Decision, sizes};
 use crate::forms::Registry;
 use crate::functions::{
     ENERGY, GIBBS_APPELL, GYROSCOPIC, MULTIPLIERS, OUTPUT_JACOBIAN, OUTPUTS, PARAMETER_JACOBIAN, POWER,
@@ -69,8 +69,8 @@ pub(super) fn derive(
     proved.ledger.decisions.push(chosen);
     let derivative = derivative.ok_or_else(|| nothing_proved(proved.model.origin, &proved.ledger))?;
     about(Subject::Requests);
-    let gibbs_appell = gibbs_appell::on_distribution(&mut proved, kept, &given);
-    gibbs_appell::prove_it(&mut proved, &reference, gibbs_appell.as_ref())?;
+    let gibbs_appell = gibbs_appell_function::on_distribution(&mut proved, kept, &given);
+    gibbs_appell_function::prove_it(&mut proved, &reference, gibbs_appell.as_ref())?;
     let work = work_of_constraints(&mut proved, distribution.constraints.annihilator.len());
     let (multipliers, reactions) =
         constraint_forces(&mut proved, &reference, (kept, &equations), &derivative, &work)?;
@@ -96,8 +96,14 @@ pub(super) fn derive(
     about(Subject::Requests);
     let embedding = embedding(&mut proved.model, &proved.base);
     let derived = Derived::Adapted { distribution, kept, equations: &equations };
-    let (phase_space, sections) =
-        phase_space::derive(&mut proved, &derived, &derivative, &observables, &claims, &mut functions)?;
+    let (phase_space, sections) = phase_space_functions::derive(
+        &mut proved,
+        &derived,
+        &derivative,
+        &observables,
+        &claims,
+        &mut functions,
+    )?;
     let text = report(&mut proved, &derived, reason, conditions, sections);
     let lines = equations_of_motion(&proved.model, &derived);
     let divisors = parameter_divisors(&mut proved.model, &derivative);
@@ -178,5 +184,5 @@ fn positions(
 
 /// Whether expressions of the size of the Lagrangian are left as they are.
 fn is_large(proved: &Proved) -> bool {
-    proved.model.graph.operation_count(&[proved.system.lagrangian]) > limits::EXPANDED
+    proved.model.graph.operation_count(&[proved.system.lagrangian]) > sizes::EXPANDED
 }
