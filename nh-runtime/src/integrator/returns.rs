@@ -81,7 +81,7 @@ where
         return Err(IntegrationError::Projection { time, error });
     }
     if correction != ScalarOf::<S>::ZERO {
-        method.forget_state(memory);
+        method.moved(memory);
     }
     statistics.projections += 1;
     statistics.last_residual = residual.to_f64();

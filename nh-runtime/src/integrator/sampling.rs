@@ -91,6 +91,7 @@ where
             self.time = time;
             self.state = state;
             self.method.forget(&mut self.memory);
+            self.method.moved(&mut self.memory);
         }
     }
 
@@ -100,6 +101,7 @@ where
             self.time = origin.time;
             self.state = origin.state;
             self.method.forget(&mut self.memory);
+            self.method.moved(&mut self.memory);
         }
     }
 

@@ -157,6 +157,11 @@ pub trait Scheme<S: Dynamics>: Copy {
     /// Drops what depends on the input or on the state at the end of the last step.
     fn forget(&self, work: &mut Self::Work);
 
+    /// As [`Method::moved`].
+    fn moved(&self, work: &mut Self::Work) {
+        self.forget(work);
+    }
+
     /// Prepares steps from a new start, and gives the derivative there.
     fn begin<'w>(
         &self,
@@ -255,8 +260,8 @@ where
     }
 
     #[inline]
-    fn forget_state(&self, memory: &mut Self::Memory) {
-        self.scheme.forget(&mut memory.work);
+    fn moved(&self, memory: &mut Self::Memory) {
+        self.scheme.moved(&mut memory.work);
     }
 
     fn check(&self) -> Result<(), IntegrationError> {

@@ -36,6 +36,11 @@ pub trait OneStep<S: Dynamics>: Copy {
     /// Drops what depends on the input or on the state at the end of the last step.
     fn forget(&self, work: &mut Self::Work);
 
+    /// As [`Method::moved`].
+    fn moved(&self, work: &mut Self::Work) {
+        self.forget(work);
+    }
+
     /// Checks the settings beside the length of the step.
     ///
     /// # Errors
@@ -178,6 +183,11 @@ where
     #[inline]
     fn forget(&self, memory: &mut Self::Memory) {
         self.scheme.forget(&mut memory.work);
+    }
+
+    #[inline]
+    fn moved(&self, memory: &mut Self::Memory) {
+        self.scheme.moved(&mut memory.work);
     }
 
     fn check(&self) -> Result<(), IntegrationError> {
@@ -331,6 +341,18 @@ where
     #[inline]
     fn forget(&self, memory: &mut Self::Memory) {
         self.method.forget(&mut memory.memory);
+    }
+
+    /// What rounding has taken from one state is nothing of another.
+    fn restart(&self, memory: &mut Self::Memory) {
+        self.method.restart(&mut memory.memory);
+        memory.carry = DimOf::<S>::vec(T::ZERO);
+    }
+
+    #[inline]
+    fn moved(&self, memory: &mut Self::Memory) {
+        self.method.moved(&mut memory.memory);
+        memory.carry = DimOf::<S>::vec(T::ZERO);
     }
 
     fn check(&self) -> Result<(), IntegrationError> {

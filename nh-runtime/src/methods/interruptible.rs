@@ -1,7 +1,7 @@
 //! Any method, asked before each step whether to go on.
 
 use super::{Arrival, Method, Place, Start};
-use crate::{Dynamics, IntegrationError, Scalar, ScalarOf, Statistics, VecOf};
+use crate::{Dynamics, IntegrationError, Real, Scalar, ScalarOf, Statistics, VecOf};
 
 /// A method that asks, before each of its steps, whether it may go on: for limits that the crate knows nothing of,
 /// such as of the time that a computation takes, or a button that is pressed.
@@ -60,42 +60,34 @@ impl<M, F: Fn(&Statistics) -> bool> Interruptible<M, F> {
     }
 }
 
+/// What the method remembers.
+#[derive(Clone, Copy)]
+pub struct Memory<K> {
+    method: K,
+}
+
 impl<S: Dynamics, M: Method<S>, F: Fn(&Statistics) -> bool> Method<S> for Interruptible<M, F> {
-    type Memory = M::Memory;
-    type Dense = M::Dense;
+    type Memory = Memory<M::Memory>;
 
-    fn memory(&self) -> M::Memory {
-        self.method.memory()
-    }
+    handed_on!(forget {} restart {});
 
-    fn forget(&self, memory: &mut M::Memory) {
-        self.method.forget(memory);
-    }
-
-    fn restart(&self, memory: &mut M::Memory) {
-        self.method.restart(memory);
+    fn memory(&self) -> Self::Memory {
+        Memory { method: self.method.memory() }
     }
 
     fn check(&self) -> Result<(), IntegrationError> {
         self.method.check()
     }
 
-    fn permitted(&self, state: &S::State) -> VecOf<S>
-    where
-        ScalarOf<S>: crate::Real,
-    {
-        self.method.permitted(state)
-    }
-
     fn advance(
         &self,
         start: &Start<'_, S>,
         target: Option<ScalarOf<S>>,
-        memory: &mut M::Memory,
+        memory: &mut Self::Memory,
         statistics: &mut Statistics,
     ) -> Result<Arrival<S>, IntegrationError> {
         self.ask(start.time, statistics)?;
-        self.method.advance(start, target, memory, statistics)
+        self.method.advance(start, target, &mut memory.method, statistics)
     }
 
     fn travel(
@@ -104,28 +96,14 @@ impl<S: Dynamics, M: Method<S>, F: Fn(&Statistics) -> bool> Method<S> for Interr
         input: &S::Input,
         place: &mut Place<S>,
         (target, limit): (ScalarOf<S>, u64),
-        memory: &mut M::Memory,
+        memory: &mut Self::Memory,
         statistics: &mut Statistics,
     ) -> Result<u64, IntegrationError> {
         let mut steps = 0;
         while place.time != target && steps < limit {
             self.ask(place.time, statistics)?;
-            steps += self.method.travel(system, input, place, (target, 1), memory, statistics)?;
+            steps += self.method.travel(system, input, place, (target, 1), &mut memory.method, statistics)?;
         }
         Ok(steps)
-    }
-
-    fn dense(&self, memory: &M::Memory, start: &Start<'_, S>, arrival: &Arrival<S>) -> M::Dense {
-        self.method.dense(memory, start, arrival)
-    }
-
-    fn interpolate(
-        &self,
-        dense: &M::Dense,
-        start: &Start<'_, S>,
-        arrival: &Arrival<S>,
-        time: ScalarOf<S>,
-    ) -> S::State {
-        self.method.interpolate(dense, start, arrival, time)
     }
 }

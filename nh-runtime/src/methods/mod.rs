@@ -41,6 +41,9 @@
 //! explicit methods have it, [`ImplicitMidpoint`], the Gauss methods and [`Radau5`]; not [`Rodas5P`], whose
 //! step contains the Jacobian, so that its derivative would need second derivatives.
 
+#[macro_use]
+mod handed_on;
+
 mod adaptive;
 mod explicit;
 mod first_step;
@@ -223,9 +226,10 @@ pub trait Method<S: Dynamics> {
         self.forget(memory);
     }
 
-    /// The same where the state at the end of the last step has been moved by no more than the method's own error:
-    /// what it has learnt about the length of its steps still holds.
-    fn forget_state(&self, memory: &mut Self::Memory) {
+    /// Removes from the memory what holds at the state at the end of the last step alone, because that has been moved
+    /// by no more than the method's own error: what has been learnt on the way, about the length of steps, the
+    /// Jacobian, a level that is kept, still holds.
+    fn moved(&self, memory: &mut Self::Memory) {
         self.forget(memory);
     }
 

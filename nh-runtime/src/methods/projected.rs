@@ -90,24 +90,11 @@ where
     ScalarOf<S>: Real,
 {
     type Memory = Memory<M::Memory>;
-    type Dense = M::Dense;
+
+    handed_on!(forget {} restart { started = false });
 
     fn memory(&self) -> Self::Memory {
         Memory { method: self.method.memory(), steps: 0, started: false }
-    }
-
-    #[inline]
-    fn forget(&self, memory: &mut Self::Memory) {
-        self.method.forget(&mut memory.method);
-    }
-
-    fn restart(&self, memory: &mut Self::Memory) {
-        self.method.restart(&mut memory.method);
-        memory.started = false;
-    }
-
-    fn permitted(&self, state: &S::State) -> VecOf<S> {
-        self.method.permitted(state)
     }
 
     fn check(&self) -> Result<(), IntegrationError> {
@@ -142,7 +129,7 @@ where
         let corrected = correct(start.system, &mut arrival, statistics);
         if !matches!(corrected, Ok(false)) {
             // the state at the end is not the one that the method has led to
-            self.method.forget(&mut memory.method);
+            self.method.moved(&mut memory.method);
         }
         corrected?;
         memory.steps = 0;
@@ -181,22 +168,6 @@ where
             }
         }
         Ok(done)
-    }
-
-    #[inline]
-    fn dense(&self, memory: &Self::Memory, start: &Start<'_, S>, arrival: &Arrival<S>) -> M::Dense {
-        self.method.dense(&memory.method, start, arrival)
-    }
-
-    #[inline]
-    fn interpolate(
-        &self,
-        dense: &M::Dense,
-        start: &Start<'_, S>,
-        arrival: &Arrival<S>,
-        time: ScalarOf<S>,
-    ) -> S::State {
-        self.method.interpolate(dense, start, arrival, time)
     }
 }
 

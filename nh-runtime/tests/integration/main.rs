@@ -10,6 +10,7 @@ mod events;
 mod implicit;
 mod landing;
 mod lanes;
+mod made_of_others;
 mod orders;
 mod projected;
 mod step_control;

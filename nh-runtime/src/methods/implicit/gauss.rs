@@ -178,6 +178,9 @@ where
         *work = Work { last: None, matrices: None };
     }
 
+    /// Stages that the next ones start from, and matrices of an iteration, serve states beside theirs.
+    fn moved(&self, _work: &mut Work<S, N>) {}
+
     fn check(&self) -> Result<(), IntegrationError> {
         check_tolerance(self.tolerance)
     }

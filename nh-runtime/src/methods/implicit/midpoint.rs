@@ -235,6 +235,9 @@ where
         *work = None;
     }
 
+    /// The matrix of an iteration serves states beside its own.
+    fn moved(&self, _work: &mut Option<Newton<S>>) {}
+
     fn check(&self) -> Result<(), IntegrationError> {
         check_tolerance(self.tolerance)
     }

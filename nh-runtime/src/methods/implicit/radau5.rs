@@ -253,6 +253,9 @@ where
         work.ahead = ScalarOf::<S>::ZERO.recip();
     }
 
+    /// The derivative is evaluated at every start, and the Jacobian serves many of them.
+    fn moved(&self, _work: &mut Work<S>) {}
+
     fn begin<'w>(
         &self,
         start: &Start<'_, S>,

@@ -89,6 +89,12 @@ where
         }
     }
 
+    fn moved(&self, work: &mut Self::Work) {
+        for work in work {
+            self.base.moved(work);
+        }
+    }
+
     fn check(&self) -> Result<(), IntegrationError> {
         self.base.check()
     }

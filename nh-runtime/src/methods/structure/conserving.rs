@@ -55,28 +55,15 @@ where
     ScalarOf<S>: Real,
 {
     type Memory = Memory<S, M::Memory>;
-    type Dense = M::Dense;
+
+    handed_on!(forget { values = None } restart {});
 
     fn memory(&self) -> Self::Memory {
         Memory { method: self.method.memory(), values: None }
     }
 
-    fn forget(&self, memory: &mut Self::Memory) {
-        self.method.forget(&mut memory.method);
-        memory.values = None;
-    }
-
-    fn restart(&self, memory: &mut Self::Memory) {
-        self.method.restart(&mut memory.method);
-        memory.values = None;
-    }
-
     fn check(&self) -> Result<(), IntegrationError> {
         self.method.check()
-    }
-
-    fn permitted(&self, state: &S::State) -> VecOf<S> {
-        self.method.permitted(state)
     }
 
     fn advance(
@@ -91,23 +78,9 @@ where
         arrival.state = returned(start.system, &arrival, &values)
             .map_err(|error| IntegrationError::Projection { time: arrival.time.to_f64(), error })?;
         statistics.projections += 1;
-        self.method.forget(&mut memory.method);
+        self.method.moved(&mut memory.method);
         memory.values = Some(values);
         Ok(arrival)
-    }
-
-    fn dense(&self, memory: &Self::Memory, start: &Start<'_, S>, arrival: &Arrival<S>) -> M::Dense {
-        self.method.dense(&memory.method, start, arrival)
-    }
-
-    fn interpolate(
-        &self,
-        dense: &M::Dense,
-        start: &Start<'_, S>,
-        arrival: &Arrival<S>,
-        time: ScalarOf<S>,
-    ) -> S::State {
-        self.method.interpolate(dense, start, arrival, time)
     }
 }
 

@@ -291,6 +291,9 @@ where
         *work = OneStep::<S>::work(self);
     }
 
+    /// The energy to keep stays that of the first state.
+    fn moved(&self, _work: &mut Work<S>) {}
+
     fn check(&self) -> Result<(), IntegrationError> {
         check_tolerance(self.tolerance)
     }
