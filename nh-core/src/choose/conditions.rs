@@ -182,8 +182,13 @@ impl Regular<'_> {
             }
         }
         let [first, second] = samples.as_slice() else { return BTreeSet::new() };
-        let minors = [first, second].map(|sample| self.minors(&blocks, sample));
         let is_definite = self.definiteness == Definiteness::Definite;
+        let minors = [first, second].map(|sample| {
+            let mut minors = self.minors(&blocks, sample);
+            // the diagonal of a definite matrix, whatever is eliminated before
+            minors.extend((0..sample.mass.len()).filter(|_| is_definite).map(|i| sample.mass[i][i]));
+            minors
+        });
         let pivots = |matrices: [Option<Vec<Vec<Residue>>>; 2]| match matrices {
             [Some(first), Some(second)] if is_definite => Some(Pivots::of([first, second])),
             _ => None,

@@ -3,14 +3,55 @@
 
 use super::super::proof::{Defect, FIRST_SEED};
 use super::place::Place;
-use super::{Derived, proof_of_flow};
-use crate::algebra::{Direction, FieldPoint, Residue};
-use crate::id::SymbolId;
+use super::{Derived, Motion, proof_of_flow};
+use crate::algebra::{Direction, FieldPoint, Graph, Residue};
+use crate::id::{ExprId, SymbolId};
+use crate::mechanics::Definition;
+use std::collections::BTreeSet;
 
 /// Points that are looked at, as far as they have values.
 const POINTS: usize = 3;
 /// Points that are tried for these.
 const SEEDS: u64 = 24;
+
+/// Those of some parameters that stand in what a claim divides by, and what defines it does not: nothing else can lose
+/// its value where they are 0.
+pub(super) fn parameters_of_added_divisors(
+    graph: &Graph,
+    claim: &Derived,
+    (declared, motion): (&[ExprId], Motion),
+    parameters: &[SymbolId],
+) -> Vec<SymbolId> {
+    if parameters.is_empty() {
+        return Vec::new();
+    }
+    let known = graph.divisors(&[declared, &motion.derivative.expressions()].concat());
+    let solved: BTreeSet<SymbolId> =
+        motion.derivative.definitions.iter().flat_map(unknowns).copied().collect();
+    let mut symbols: BTreeSet<SymbolId> = BTreeSet::new();
+    for procedure in claim.procedures() {
+        let mut added: Vec<ExprId> =
+            graph.divisors(&procedure.expressions()).difference(&known).copied().collect();
+        for definition in &procedure.definitions {
+            if let Definition::Solve { matrix, unknowns, .. } = definition
+                && !unknowns.iter().all(|unknown| solved.contains(unknown))
+            {
+                added.extend(matrix.iter().flatten());
+            }
+        }
+        if !added.is_empty() {
+            symbols.extend(procedure.depends_on(graph, &added));
+        }
+    }
+    parameters.iter().copied().filter(|parameter| symbols.contains(parameter)).collect()
+}
+
+fn unknowns(definition: &Definition) -> &[SymbolId] {
+    match definition {
+        Definition::Solve { unknowns, .. } => unknowns,
+        Definition::Value { .. } | Definition::Call { .. } => &[],
+    }
+}
 
 /// The first parameter that may be 0 for the motion, and not for the function.
 pub(super) fn parameter_that_may_not_vanish<'a, 's>(

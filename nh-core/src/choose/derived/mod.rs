@@ -327,7 +327,9 @@ pub(crate) fn prove_derived(
         Err(Defect::Wrong("it is not what its definition says".into()))
     });
     let proof = unless_roots_are_missing(graph, &roots, outcome)?;
-    match added_conditions::parameter_that_may_not_vanish(claim, may_vanish, point, at) {
+    let declared = reference.roots(graph);
+    let asked = added_conditions::parameters_of_added_divisors(graph, claim, (&declared, motion), may_vanish);
+    match added_conditions::parameter_that_may_not_vanish(claim, &asked, point, at) {
         Some(parameter) => Err(Defect::Wrong(format!(
             "it has no value where `{}` is 0, and the motion has one",
             graph.symbols()[parameter]
