@@ -96,7 +96,9 @@ mod scalar;
 mod serde_impls;
 mod series;
 mod sine;
+mod statistics;
 mod step_control;
+mod stop;
 mod tangent;
 mod tolerance;
 
@@ -109,9 +111,9 @@ pub use dynamics::{
     MatOf, Observed, ScalarOf, State, VecOf,
 };
 pub use error::{InputFault, IntegrationError, ParameterError, ParameterFault, ProjectionError, StateFault};
-pub use events::{Direction, Event, Events};
+pub use events::{Event, Events};
 pub use fast::Fast;
-pub use integrator::{Integrator, Statistics};
+pub use integrator::Integrator;
 pub use jet::Jet;
 pub use lanes::Lanes;
 pub use methods::Taylor;
@@ -122,6 +124,8 @@ pub use methods::{
 };
 pub use reduction::{ByStages, Reconstructed, Reconstruction, Reduction};
 pub use scalar::{Real, Scalar};
+pub use statistics::Statistics;
+pub use stop::Direction;
 pub use tangent::{ChartError, OnConstraints, linearize_on_constraints};
 
 /// # Examples

@@ -2,34 +2,11 @@
 
 use super::field::Residue;
 use super::graph::Graph;
+use super::level::Accuracy;
+use super::memory::Other;
 use crate::count::Count;
 use crate::id::{ExprId, Id, SymbolId};
-use rustc_hash::FxHashMap;
 use std::rc::Rc;
-
-/// What emitted code is made for, where speed and accuracy are at odds.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum Accuracy {
-    /// Whatever is fastest.
-    Fast,
-    /// What is faster, unless it loses more than a factor of four.
-    #[default]
-    Balanced,
-    /// What is more accurate, at some cost.
-    Careful,
-}
-
-impl Accuracy {
-    /// How many times larger the rounding error of an expression may become for fewer operations.
-    #[must_use]
-    pub fn growth(self) -> f64 {
-        match self {
-            Self::Fast => f64::INFINITY,
-            Self::Balanced => 4.0,
-            Self::Careful => 1.0,
-        }
-    }
-}
 
 /// Points at which two forms are compared.
 const POINTS: u64 = 24;
@@ -47,24 +24,6 @@ const MORE: u64 = 8;
 /// No form is looked for that would have to be shorter than two thirds of the expression: normal forms of pivots are
 /// seldom a third shorter, and reading them is most of what a derivation takes.
 const SHORTENED: [u64; 2] = [2, 3];
-
-/// What was found of expressions that lose digits: different ways to the same solution ask for the same entries, and
-/// differ in the length that is allowed alone.
-#[derive(Clone, Debug, Default)]
-pub(super) struct Cancelling {
-    /// The units in the last place that expressions lose where symbols are far apart.
-    lost: FxHashMap<ExprId, f64>,
-    /// Equal expressions with their lengths, and how many times less they lose.
-    others: FxHashMap<ExprId, Rc<[Other]>>,
-}
-
-/// An equal expression.
-#[derive(Clone, Copy, Debug)]
-struct Other {
-    form: ExprId,
-    length: Count,
-    gain: f64,
-}
 
 impl Graph {
     /// How many times larger the rounding error of `candidate` is than that of `reference`, an

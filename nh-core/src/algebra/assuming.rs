@@ -8,7 +8,8 @@
 //! | `min(x, y)`, `max(x, y)` are one of the two | the sign of `x − y` |
 //! | `a x + b x = 0` for numbers a and b | `a + b = 0`, decided as any constant is |
 
-use super::graph::{Function, Function2, Graph, Node};
+use super::graph::Graph;
+use super::node::{Function, Function2, Node};
 use super::number::Rational;
 use super::range::Facts;
 use crate::id::ExprId;

@@ -2,8 +2,9 @@
 //! unit, for each term of the argument's normal form.
 
 use super::field::Residue;
-use super::graph::{Function, Graph, Node};
+use super::graph::Graph;
 use super::modular::{FieldPass, NoValue, Stream, Value};
+use super::node::{Function, Node};
 use super::number::Rational;
 use crate::id::{ExprId, SymbolId};
 use num_integer::Integer;

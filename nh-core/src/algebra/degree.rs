@@ -4,7 +4,8 @@
 //! A function of degree d that is not zero vanishes at a random point of the field of P elements with
 //! probability d/P at most (Schwartz, Zippel).
 
-use super::graph::{Function, Graph, Node};
+use super::graph::Graph;
+use super::node::{Function, Node};
 use super::number::Rational;
 use crate::id::{ExprId, SymbolId};
 use crate::limits;

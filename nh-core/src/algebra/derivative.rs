@@ -1,6 +1,7 @@
 //! Derivatives on the graph, memoised: each distinct subexpression is differentiated once.
 
-use super::graph::{Function, Function2, Graph, Node};
+use super::graph::Graph;
+use super::node::{Function, Function2, Node};
 use super::number::Rational;
 use crate::id::{ExprId, SymbolId};
 use rustc_hash::FxHashMap;

@@ -1,6 +1,7 @@
 //! Expressions as text, in the syntax of the declaration: what is printed can be typed.
 
-use super::graph::{Function2, Graph, Node};
+use super::graph::Graph;
+use super::node::{Function2, Node};
 use super::number::Rational;
 use crate::id::ExprId;
 

@@ -1,6 +1,7 @@
 //! Evaluation in floating point, with a bound on the rounding error of every value.
 
-use super::graph::{Function, Function2, Graph, Node};
+use super::graph::Graph;
+use super::node::{Function, Function2, Node};
 use super::number::Rational;
 use crate::id::{ExprId, SymbolId};
 use crate::limits;

@@ -1,6 +1,7 @@
 //! Expressions that do not depend on symbols which occur in them.
 
-use super::graph::{Function, Function2, Graph, Node};
+use super::graph::Graph;
+use super::node::{Function, Function2, Node};
 use super::zero_test::sample;
 use crate::id::{ExprId, SymbolId};
 use std::collections::BTreeSet;

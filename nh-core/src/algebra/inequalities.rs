@@ -8,8 +8,9 @@
 
 use super::combination::negative;
 use super::enclosure::Point;
-use super::graph::{Function, Graph, Node};
+use super::graph::Graph;
 use super::interval::Interval;
+use super::node::{Function, Node};
 use super::number::Rational;
 use super::polynomial_terms::{Terms, least_value};
 use super::range::{Facts, Range};

@@ -4,7 +4,7 @@ mod images;
 
 use self::images::{at, cosh, exactly, power, signed_power, sinh, tanh};
 use super::ball::{Ball, Enclosed};
-use super::graph::Function;
+use super::node::Function;
 use super::number::Rational;
 use crate::limits;
 use std::cmp::Ordering;

@@ -2,7 +2,7 @@
 
 use super::graph::Graph;
 use super::substitute::Substitution;
-use super::zero_test::Verdict;
+use super::verdict::Verdict;
 use crate::id::{ExprId, SymbolId};
 use crate::limits;
 

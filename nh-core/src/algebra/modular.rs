@@ -7,7 +7,8 @@
 //! kernels of their argument's value.
 
 use super::field::Residue;
-use super::graph::{Function, Function2, Graph, Node};
+use super::graph::Graph;
+use super::node::{Function, Function2, Node};
 use super::number::Rational;
 use crate::id::{ExprId, Id, SymbolId};
 use crate::limits;

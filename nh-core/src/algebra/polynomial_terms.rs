@@ -1,6 +1,7 @@
 //! Expressions as polynomials in whatever they are made of, for questions about their sign.
 
-use super::graph::{Graph, Node};
+use super::graph::Graph;
+use super::node::Node;
 use super::number::Rational;
 use crate::id::ExprId;
 use std::collections::BTreeMap;

@@ -8,7 +8,8 @@
 //! | `c · (a + b) = ca + cb` | `c` a number |
 //! | `(2a + 2b)^n · x = 2^n (a + b)^n x` | sums among factors are primitive, their first coefficient positive; `n` an integer, or `2` a positive number as far as its root is rational |
 
-use super::graph::{Graph, Node};
+use super::graph::Graph;
+use super::node::Node;
 use super::number::Rational;
 use super::sum::collect_like;
 use crate::id::ExprId;

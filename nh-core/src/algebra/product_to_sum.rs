@@ -4,7 +4,8 @@
 //! |---|---|
 //! | `2 cos x cos y = cos(x − y) + cos(x + y)` and its kin | – |
 
-use super::graph::{Function, Graph, Node};
+use super::graph::Graph;
+use super::node::{Function, Node};
 use super::number::Rational;
 use crate::id::ExprId;
 

@@ -1,6 +1,7 @@
 //! Ranges of expressions over all real points, and proofs that an expression vanishes nowhere.
 
-use super::graph::{Function, Graph, Node};
+use super::graph::Graph;
+use super::node::{Function, Node};
 use super::number::Rational;
 use crate::id::{ExprId, SymbolId};
 use rustc_hash::FxHashMap;

@@ -3,7 +3,8 @@
 use super::ball::{Ball, Bits, NoBall};
 use super::enclosure::{Evaluated, Point};
 use super::exact::{Decision, Form, Number};
-use super::graph::{Function, Graph, Node};
+use super::graph::Graph;
+use super::node::{Function, Node};
 use super::number::Rational;
 use super::zero_test::sample;
 use crate::id::{ExprId, SymbolId};

@@ -1,6 +1,7 @@
 //! Squares in disguise: something whose square divides an expression.
 
-use super::graph::{Function, Graph, Node};
+use super::graph::Graph;
+use super::node::{Function, Node};
 use super::number::Rational;
 use super::zero_test::sample;
 use crate::id::{ExprId, SymbolId};

@@ -6,8 +6,9 @@
 //! is found in a few hundred trials.
 
 use super::field::Residue;
-use super::graph::{Graph, Node};
+use super::graph::Graph;
 use super::modular::{FieldPass, FieldPoint, NoValue};
+use super::node::Node;
 use crate::id::{ExprId, Id, SymbolId};
 use num_integer::Integer;
 use std::collections::BTreeMap;

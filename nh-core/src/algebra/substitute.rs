@@ -1,6 +1,7 @@
 //! Simultaneous substitution of expressions for symbols.
 
-use super::graph::{Graph, Node};
+use super::graph::Graph;
+use super::node::Node;
 use crate::id::{ExprId, SymbolId};
 use rustc_hash::FxHashMap;
 

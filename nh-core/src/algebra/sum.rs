@@ -1,7 +1,8 @@
 //! Sums. Automatic identities, true everywhere: nested sums are flattened, numbers are added,
 //! like terms are collected, a number times a sum is distributed.
 
-use super::graph::{Graph, Node};
+use super::graph::Graph;
+use super::node::Node;
 use super::number::Rational;
 use crate::id::ExprId;
 use crate::limits;

@@ -5,8 +5,8 @@
 //! (`derivative.rs`): what these come to is proved against it.
 
 use super::field::Residue;
-use super::graph::{Function, Function2, Node};
 use super::modular::{FieldPass, NoValue};
+use super::node::{Function, Function2, Node};
 use super::number::Rational;
 use crate::id::{ExprId, SymbolId};
 use rustc_hash::FxHashMap;

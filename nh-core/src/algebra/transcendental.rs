@@ -10,7 +10,8 @@
 //! | `sin(asin x) = x`, `cos(asin x) = √(1−x²)` and their kin | where `asin x` is defined |
 //! | `exp(ln x) = x`, `ln(exp x) = x` | where the left side is defined |
 
-use super::graph::{Function, Function2, Graph, Node};
+use super::graph::Graph;
+use super::node::{Function, Function2, Node};
 use super::number::Rational;
 use crate::id::ExprId;
 

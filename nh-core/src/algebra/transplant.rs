@@ -1,6 +1,7 @@
 //! Expressions of one graph in the terms of another.
 
-use super::graph::{Graph, Node};
+use super::graph::Graph;
+use super::node::Node;
 use crate::id::{ExprId, SymbolId};
 use rustc_hash::FxHashMap;
 

@@ -12,18 +12,11 @@
 use super::ball::{Bits, NoBall};
 use super::enclosure::Point;
 use super::exact::Decision;
-use super::graph::{Graph, Node};
+use super::graph::Graph;
 use super::modular::{FieldPoint, NoValue};
+use super::node::Node;
+use super::verdict::{Verdict, Witness};
 use crate::id::{ExprId, SymbolId};
-
-/// A point where an expression is not zero.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Witness {
-    /// The values of the symbols in the expression.
-    pub point: Vec<(SymbolId, f64)>,
-    /// The value there.
-    pub value: f64,
-}
 
 impl Witness {
     /// `x = 0.7, m = 1.2`.
@@ -35,31 +28,6 @@ impl Witness {
             .map(|(symbol, value)| format!("{} = {value}", graph.symbols()[*symbol]))
             .collect();
         entries.join(", ")
-    }
-}
-
-/// The answer of the zero test.
-#[derive(Clone, Debug, PartialEq)]
-pub enum Verdict {
-    /// The expression vanishes wherever it is defined.
-    Zero,
-    /// It does not, and here is where.
-    NonZero(Witness),
-    /// It could not be decided, and why.
-    Unknown(String),
-}
-
-impl Verdict {
-    /// Whether the expression is proved to vanish.
-    #[must_use]
-    pub fn is_zero(&self) -> bool {
-        matches!(self, Self::Zero)
-    }
-
-    /// Whether the expression is proved not to vanish identically.
-    #[must_use]
-    pub fn is_nonzero(&self) -> bool {
-        matches!(self, Self::NonZero(_))
     }
 }
 

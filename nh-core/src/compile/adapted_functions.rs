@@ -11,12 +11,12 @@ use super::momenta::momenta;
 use super::phase_space_functions;
 use super::position_return::position_return;
 use super::power::{power, work_of_constraints};
+use super::proved::{Derived, Proved, fence, nothing_proved};
 use super::proved_functions::{self, Given, Parts};
 use super::velocities_of_state::{
     claims_in_state, observables, parameter_divisors, requested, requested_jacobian,
     requested_output_jacobian, requested_parameter_jacobian,
 };
-use super::{Proved, fence, nothing_proved};
 use crate::algebra::{Graph, Matrix, Substitution};
 use crate::check;
 use crate::choose::{Decision, sizes};
@@ -30,7 +30,7 @@ use crate::id::{ExprId, SymbolId};
 use crate::limits::{Subject, about};
 use crate::mechanics::{Flow, Procedure, definiteness, energy, saddle_equations};
 use crate::model::{Formulation, Request};
-use crate::report::{Derived, equations_of_motion, report};
+use crate::report::{equations_of_motion, report};
 use crate::system::{PositionReturn, System};
 use crate::violation::Violation;
 

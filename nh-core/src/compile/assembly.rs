@@ -1,6 +1,6 @@
 //! What assembling a machine from a rough start solves.
 
-use super::Proved;
+use super::proved::Proved;
 use crate::algebra::{Graph, Matrix};
 use crate::id::{ExprId, SymbolId};
 use crate::mechanics::Procedure;

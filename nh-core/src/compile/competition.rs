@@ -1,8 +1,9 @@
 //! The forms of the equations on D: derived, shown, compared and proved.
 
-use super::Proved;
 use super::cancellation::without_needless_cancellation;
+use super::given;
 use super::levels::again;
+use super::proved::Proved;
 use crate::algebra::Graph;
 use crate::choose::{
     Claim, Contender, Decision, Entry, Fate, Reference, Regular, admitted, fate, prove, sizes,
@@ -21,7 +22,7 @@ pub(super) fn reference(
     distribution: &ConstraintDistribution,
     kept: &ConstraintDistribution,
 ) -> Reference {
-    let given = proved.given();
+    let given = given::given(&mut proved.model, &mut proved.motion);
     let mut residuals = proved.constraints.residuals.clone();
     residuals.extend(proved.levels.iter().map(|level| level.residual));
     Reference::adapted(&proved.system, given, residuals, distribution, kept)

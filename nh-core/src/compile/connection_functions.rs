@@ -1,7 +1,7 @@
 //! The Levi-Civita connection of the kinetic metric on E and the constrained connection.
 
-use super::Proved;
-use super::phase_space_functions::{asked, judge, shortened};
+use super::on_request::{asked, judge, shortened};
+use super::proved::{Derived, Proved};
 use crate::algebra::{Graph, Matrix};
 use crate::check::evidence::shown;
 use crate::functions::{CHRISTOFFEL, CONNECTION, Functions};
@@ -9,7 +9,6 @@ use crate::geometry::{Christoffel, koszul};
 use crate::id::{ExprId, SymbolId};
 use crate::mechanics::{LagrangianSystem, Procedure, SaddleEquations, solve_symmetric};
 use crate::model::Request;
-use crate::report::Derived;
 use crate::violation::{Law, Violation};
 
 /// Both connections, if they are asked for.

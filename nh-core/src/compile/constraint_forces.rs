@@ -1,7 +1,7 @@
 //! The forces of constraint on D: λ_A, and λ_A Φ^A_α.
 
+use super::proved::{Proved, nothing_proved};
 use super::velocities_of_state::requested;
-use super::{Proved, nothing_proved};
 use crate::algebra::{Graph, Matrix};
 use crate::choose::{Claim, Contender, Decision, Fate, Reference, Regular, fate, prove};
 use crate::geometry::ConstraintDistribution;

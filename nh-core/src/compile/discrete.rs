@@ -1,7 +1,7 @@
 //! Discrete Lagrange–d'Alembert equations: on TQ, and on a Lie algebra.
 
-use super::Proved;
-use super::phase_space_functions::{asked, judge};
+use super::on_request::{asked, judge};
+use super::proved::{Derived, Proved};
 use crate::algebra::Graph;
 use crate::check::{self, evidence::shown};
 use crate::geometry::Algebroid;
@@ -9,7 +9,6 @@ use crate::id::{ExprId, Id, Origin, SymbolId};
 use crate::mechanics::{Procedure, SaddleEquations};
 use crate::model::{Kinematics, Request};
 use crate::phase_space::{PhaseSpace, StepForm};
-use crate::report::Derived;
 use crate::violation::{Law, Violation};
 
 /// Both, if they are asked for.

@@ -1,7 +1,7 @@
 //! The derivative by the Gibbs–Appell function, where the declaration asks for it.
 
+use super::proved::{Proved, nothing_proved};
 use super::velocities_of_state::requested;
-use super::{Proved, nothing_proved};
 use crate::algebra::Substitution;
 use crate::choose::{Claim, Contender, Decision, Fate, Reference, fate, prove};
 use crate::geometry::ConstraintDistribution;

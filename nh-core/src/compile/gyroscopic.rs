@@ -1,7 +1,7 @@
 //! The gyroscopic force of a Chaplygin system, as far as it is asked for.
 
-use super::Proved;
-use super::phase_space_functions::asked;
+use super::on_request::asked;
+use super::proved::Proved;
 use super::vertical_splitting::Reduced;
 use crate::algebra::Substitution;
 use crate::geometry::ConstraintDistribution;

@@ -1,9 +1,7 @@
 //! The divergence of the motion, and the volume that it keeps.
 
-use super::phase_space_functions::{
-    asked, not_differentiable, shortened, state, state_velocities, whole_state,
-};
-use super::{Proved, fence};
+use super::on_request::{asked, not_differentiable, shortened, state, state_velocities, whole_state};
+use super::proved::{Derived, Proved, fence};
 use crate::algebra::{
     Echelon, FieldPoint, Function, Graph, Matrix, Node, Rational, Residue, Substitution, Verdict,
 };
@@ -15,7 +13,6 @@ use crate::mechanics::{
     Density, Flow, Procedure, Volume, VolumeSetting, divergence, invariant_volume, uncoupled,
 };
 use crate::model::Request;
-use crate::report::Derived;
 use crate::violation::Violation;
 
 /// Derives the divergence and decides about volumes, as far as it is asked for; what the report says.

@@ -8,8 +8,8 @@
 //! nowhere, or those that the declaration does not name as independent. Else the state keeps all of them: the
 //! motion keeps the levels by itself, and the way back to the constraints knows of them.
 
-use super::Proved;
-use super::routh::Level;
+use super::proved::Level;
+use super::proved::Proved;
 use crate::algebra::{Graph, Matrix};
 use crate::check::{eliminations, zeros};
 use crate::geometry::independent_velocities::{Choice, NoChoice, judge, search};

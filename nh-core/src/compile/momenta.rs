@@ -1,27 +1,16 @@
 //! Momenta of symmetries: which there are, and the functions that compute them.
 
-use super::Proved;
+use super::proved::{Proved, Symmetries};
 use super::velocities_of_state::requested;
 use crate::algebra::Substitution;
-use crate::check::{self, Constraints, Motion, Setting, Symmetry};
+use crate::check::{self, Constraints, Motion, Setting};
 use crate::functions::{Functions, MOMENTA, MOMENTUM_RATES};
 use crate::geometry::ConstraintDistribution;
-use crate::id::{CoordId, ExprId, SymbolId};
+use crate::id::{ExprId, SymbolId};
 use crate::limits;
 use crate::mechanics::{LagrangianSystem, Procedure, cyclic_coordinates};
 use crate::model::{Model, Request};
 use crate::violation::Violation;
-
-/// What is known of the symmetries of a system.
-#[derive(Clone, Debug, Default)]
-pub(crate) struct Symmetries {
-    /// The declared sections.
-    pub(crate) declared: Vec<Symmetry>,
-    /// Coordinates that nothing depends on.
-    pub(crate) cyclic: Vec<CoordId>,
-    /// Their translations, as far as the anchor determines them; those in D, unless levels are declared.
-    pub(crate) found: Vec<(CoordId, Symmetry)>,
-}
 
 /// Lagrangians with more operations than this are searched for cyclic coordinates, but not for
 /// their momenta unless these are asked for.

@@ -1,8 +1,8 @@
 //! The nonholonomic connection and the momentum equation as functions, as far as they are asked for:
 //! mathematics (25), CM Propositions 8 and 9.
 
-use super::Proved;
-use super::phase_space_functions::{asked, judge};
+use super::on_request::{asked, judge};
+use super::proved::{Derived, Proved, Split};
 use super::vertical_splitting::Reduced;
 use crate::algebra::{Graph, Matrix, Substitution};
 use crate::functions::{
@@ -10,23 +10,10 @@ use crate::functions::{
     VERTICAL_MOMENTA, VERTICAL_MOMENTUM_RATES, VERTICAL_SECTIONS, VERTICAL_VELOCITIES,
 };
 use crate::geometry::ConstraintDistribution;
-use crate::id::{CoordId, ExprId, Id, SymbolId};
+use crate::id::{ExprId, Id, SymbolId};
 use crate::mechanics::{Momentum, NonholonomicConnection, Procedure, solve_symmetric};
 use crate::model::Request;
-use crate::report::Derived;
 use crate::violation::{Law, Violation};
-
-/// How D is split, as far as the functions do not say it.
-#[derive(Clone, Debug)]
-pub(crate) struct Split {
-    /// The coordinates of which V is the kernel.
-    pub(super) over: Vec<CoordId>,
-    /// Those of the lifts.
-    pub(super) coordinates: Vec<CoordId>,
-    /// Sections that span V, where they are those of a group.
-    pub(super) group: Vec<Vec<ExprId>>,
-    pub(super) is_embedded: bool,
-}
 
 /// The functions, if they are asked for.
 pub(super) fn derive(

@@ -1,13 +1,10 @@
 //! Brackets of the declared observables, and what their rates have beyond the bracket with the energy.
 
-use super::Proved;
-use super::phase_space_functions::{
-    energy_gradient, judge, nonholonomic_bracket, not_differentiable, shortened, state,
-};
+use super::on_request::{energy_gradient, judge, nonholonomic_bracket, not_differentiable, shortened, state};
+use super::proved::{Derived, Proved};
 use crate::algebra::Graph;
 use crate::id::{ExprId, Origin};
 use crate::mechanics::{Drift, Procedure, jacobian};
-use crate::report::Derived;
 use crate::violation::{Law, Violation};
 
 /// {f_i, f_j}_nh = df_i · Π df_j, {f_i, E_L}_nh = df_i · Π dE_L, and R_L(f_i) + ∂_tf_i: the last two are

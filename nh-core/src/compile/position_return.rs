@@ -1,7 +1,7 @@
 //! The way back to position constraints.
 
-use super::Proved;
 use super::assembly::assembly;
+use super::proved::Proved;
 use crate::algebra::{Graph, Matrix, Substitution};
 use crate::id::{ExprId, SymbolId};
 use crate::mechanics::{Definiteness, Procedure, SaddleEquations};

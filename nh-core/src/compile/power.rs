@@ -1,6 +1,6 @@
 //! The power of forces and constraints, mathematics (41): dE_L/dt = Υ_α y^α + λ_A y^α ∂φ^A/∂y^α − ∂_tL.
 
-use super::Proved;
+use super::proved::Proved;
 use super::velocities_of_state::{in_state, requested};
 use crate::algebra::Substitution;
 use crate::id::{ExprId, Id};

@@ -5,16 +5,17 @@ use super::embedded::embedding;
 use super::gibbs_appell_function;
 use super::given;
 use super::gyroscopic;
+use super::levels;
 use super::momenta::momenta;
 use super::phase_space_functions;
 use super::position_return::position_return;
 use super::power::{power, work_of_constraints};
+use super::proved::{Derived, Proved, fence, nothing_proved};
 use super::proved_functions::{self, Given, Parts};
 use super::velocities_of_state::{
     claims_in_state, observables, parameter_divisors, requested, requested_jacobian,
     requested_output_jacobian, requested_parameter_jacobian,
 };
-use super::{Proved, fence, levels, nothing_proved};
 use crate::algebra::{Graph, Matrix, Substitution};
 use crate::check;
 use crate::choose::{Claim, Contender, Decision, Fate, Reference, Regular, fate, prove};
@@ -29,7 +30,7 @@ use crate::mechanics::{
     Definiteness, Flow, Procedure, SaddleEquations, definiteness, energy, saddle_equations,
 };
 use crate::model::{Formulation, Model, Request};
-use crate::report::{Derived, equations_of_motion, report};
+use crate::report::{equations_of_motion, report};
 use crate::system::{Projection, System};
 use crate::violation::Violation;
 
@@ -55,7 +56,7 @@ pub(super) fn derive(
     let mut everywhere = Substitution::new([]);
     let given = given::definitions(&mut proved.model, &mut proved.motion, &mut everywhere);
     let gibbs_appell = gibbs_appell_function::with_multipliers(&mut proved, &equations, &given);
-    let declared = proved.given();
+    let declared = given::given(&mut proved.model, &mut proved.motion);
     let graph = &mut proved.model.graph;
     let reference = Reference::projected(graph, &proved.system, declared, residuals.clone());
     gibbs_appell_function::prove_it(&mut proved, &reference, gibbs_appell.as_ref())?;

@@ -3,30 +3,15 @@
 
 use std::collections::BTreeSet;
 
-use super::momenta::Symmetries;
+use super::proved::{Level, Symmetries};
 use crate::check::Symmetry;
 use crate::check::evidence::shown;
 use crate::functions::QUADRATURES;
-use crate::id::{ExprId, Id, Origin, SymbolId};
+use crate::id::{ExprId, Id, SymbolId};
 use crate::mechanics::LagrangianSystem;
 use crate::model::{Model, RouthDecl};
 use crate::system::System;
 use crate::violation::{Law, Violation};
-
-/// A momentum on a level.
-#[derive(Clone, Debug)]
-pub(crate) struct Level {
-    /// The label of the symmetry.
-    pub(crate) name: String,
-    /// σ.
-    pub(crate) section: Vec<ExprId>,
-    /// μ.
-    pub(crate) value: ExprId,
-    /// σ^α p_α − f − μ, on E.
-    pub(crate) residual: ExprId,
-    /// Where it is declared.
-    pub(crate) origin: Origin,
-}
 
 /// The levels that are declared.
 ///

@@ -2,6 +2,7 @@
 
 use std::collections::BTreeSet;
 
+use super::proved::fence;
 use crate::algebra::Graph;
 use crate::functions::{Function, OUTPUTS, RESIDUAL, Sliced, TABLE};
 use crate::id::{ExprId, Origin, SymbolId};
@@ -66,7 +67,7 @@ pub(super) fn slice(mut system: System) -> Result<System, Vec<Violation>> {
             refused.push(left_out(&system, "what is asked for here", &dropped, *origin));
         }
     }
-    super::fence(refused)?;
+    fence(refused)?;
     note(&mut system, &needed, &without);
     let is_there = |function: &Function| !matches!(function.signature.sliced, Sliced::Named(name) if without.contains(&name));
     system.functions.retain(is_there);

@@ -1,6 +1,7 @@
 //! Symbols in a function that are none of its arguments: velocities that the constraints determine, whose
 //! coefficients vanish identically where the algebra did not see it.
 
+use super::proved::fence;
 use crate::algebra::Graph;
 use crate::id::{ExprId, SymbolId};
 use crate::mechanics::{Definition, Procedure};
@@ -49,7 +50,7 @@ pub(super) fn without_strangers(mut system: System) -> Result<System, Vec<Violat
             });
         }
     }
-    super::fence(broken)?;
+    fence(broken)?;
     Ok(system)
 }
 

@@ -1,6 +1,6 @@
 //! The splitting of D by the vertical sections, in an invariant frame where symmetries are declared.
 
-use super::Proved;
+use super::proved::Proved;
 use crate::algebra::{Graph, Matrix, Substitution};
 use crate::check::Invariance;
 use crate::geometry::{

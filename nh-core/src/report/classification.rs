@@ -1,12 +1,12 @@
 //! What kind of system it is.
 
-use super::{Derived, combination, shown};
+use super::{combination, shown};
 use crate::algebra::Graph;
 use crate::check::evidence::{counted, places};
 use crate::check::{
     BrokenLaws, Condition, Constraints, Positions, domain, not_conservative, singular_where, undecided,
 };
-use crate::compile::Proved;
+use crate::compile::{Derived, Proved};
 use crate::geometry::{Drops, Rank};
 use crate::id::SymbolId;
 use crate::mechanics::{LagrangianSystem, moving_energy_section};

@@ -1,14 +1,15 @@
 //! The equations of motion as lines of text.
 
-use super::{Derived, combination, shown};
+use super::{combination, shown};
 use crate::algebra::Graph;
+use crate::compile::Derived;
 use crate::id::{ConstraintId, ExprId, Id};
 use crate::model::Model;
 
 /// One line for each kinematic and each dynamic equation, for each dependent velocity, and for each auxiliary
 /// state; the constants.
 #[must_use]
-pub fn equations_of_motion(model: &Model, derived: &Derived<'_>) -> Vec<String> {
+pub(crate) fn equations_of_motion(model: &Model, derived: &Derived<'_>) -> Vec<String> {
     let graph = &model.graph;
     let rates = match derived {
         Derived::Adapted { equations, .. } => &equations.rates,

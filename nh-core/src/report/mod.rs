@@ -8,36 +8,14 @@ mod routhian;
 mod symmetry;
 
 use crate::algebra::Graph;
-use crate::compile::Proved;
-use crate::geometry::ConstraintDistribution;
+use crate::compile::{Derived, Proved};
 use crate::id::{ExprId, Id};
-use crate::mechanics::{LagrangianSystem, ReducedEquations, SaddleEquations};
+use crate::mechanics::LagrangianSystem;
 use crate::model::Model;
 use crate::units;
 
-pub use equations::equations_of_motion;
+pub(crate) use equations::equations_of_motion;
 pub(crate) use hamiltonian::hamiltonian_lines;
-
-/// The derived objects that the report shows.
-#[derive(Clone, Copy, Debug)]
-pub enum Derived<'a> {
-    /// In a basis of D.
-    Adapted {
-        /// D.
-        distribution: &'a ConstraintDistribution,
-        /// Its velocities on the levels of momenta.
-        kept: &'a ConstraintDistribution,
-        /// Its equations.
-        equations: &'a ReducedEquations,
-    },
-    /// On all of E, with multipliers.
-    Projected {
-        /// φ^A.
-        residuals: &'a [ExprId],
-        /// The equations.
-        equations: &'a SaddleEquations,
-    },
-}
 
 /// Longest expression shown, in bytes.
 const SHOWN: usize = 400;

@@ -1,10 +1,10 @@
 //! What reduction theory calls a system, and the quantities that it names.
 
-use super::{Derived, combination, shown};
+use super::{combination, shown};
 use crate::algebra::{Graph, Matrix};
 use crate::check::evidence::places;
 use crate::check::singular_where;
-use crate::compile::{Proved, Reduced};
+use crate::compile::{Derived, Proved, Reduced};
 use crate::geometry::{ConstraintDistribution, Manifold};
 use crate::geometry::{Drops, RankSetting};
 use crate::id::{ExprId, SymbolId};

@@ -1,7 +1,7 @@
 //! Routh reduction: the levels, and the Routhian.
 
-use super::{Derived, shown};
-use crate::compile::Proved;
+use super::shown;
+use crate::compile::{Derived, Proved};
 use crate::id::SymbolId;
 
 /// A line for each level, and the Routhian R = L − v^ρ μ_ρ on the levels, mathematics (22) (CM section 5).

@@ -1,9 +1,9 @@
 //! Symmetries and momenta.
 
-use super::{Derived, combination, section_names, shown};
+use super::{combination, section_names, shown};
 use crate::algebra::Substitution;
 use crate::check::{Invariance, Symmetry};
-use crate::compile::Proved;
+use crate::compile::{Derived, Proved};
 use crate::id::ExprId;
 
 /// A line for each declared section, and for the cyclic coordinates.

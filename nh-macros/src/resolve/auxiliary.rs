@@ -5,9 +5,9 @@ use std::rc::Rc;
 
 use nonholonomic_core::model::AuxiliaryDecl;
 
+use super::alike::Measured;
 use super::array::Shape;
 use super::context::Context;
-use super::homogeneity::Measured;
 use super::resolver::Resolver;
 use super::scope::{Meaning, Named, Role};
 use crate::emit::{Family, Layout};

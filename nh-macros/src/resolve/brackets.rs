@@ -9,8 +9,8 @@ use nonholonomic_core::id::SectionId;
 use nonholonomic_core::model::BracketDecl;
 use nonholonomic_core::units::Kind;
 
+use super::alike::Measured;
 use super::context::Context;
-use super::homogeneity::Measured;
 use super::reports::Outcome;
 use super::resolver::Resolver;
 use crate::report::{Diagnostic, Extent};

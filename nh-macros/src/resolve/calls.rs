@@ -5,9 +5,9 @@ use nonholonomic_core::id::ExprId;
 use nonholonomic_core::model::MethodCall;
 use nonholonomic_core::units::Unknown;
 
+use super::alike::Measured;
 use super::array::{Array, Shape};
 use super::context::Usage;
-use super::homogeneity::Measured;
 use super::reports::{Outcome, Reported};
 use super::resolver::Resolver;
 use super::scope::Meaning;

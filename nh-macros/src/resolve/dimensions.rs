@@ -9,7 +9,7 @@ use nonholonomic_core::units::{
     Dimension, Form, Kind, Quantity, Reading, Refused, UNITS, Unit, Unknown, infer, raised,
 };
 
-use super::homogeneity::Measured;
+use super::alike::Measured;
 use super::reports::{Outcome, Reported};
 use super::resolver::Resolver;
 use super::scope::Meaning;

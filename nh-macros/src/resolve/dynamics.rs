@@ -7,10 +7,10 @@ use nonholonomic_core::model::{
     AnchorDecl, ConstraintDecl, ForceDecl, ForceDirection, Kinematics, Located, OutputDecl,
 };
 
+use super::alike::Measured;
 use super::array::Shape;
 use super::context::Context;
 use super::holonomic::Labels;
-use super::homogeneity::Measured;
 use super::reports::Outcome;
 use super::resolver::Resolver;
 use crate::emit::Layout;

@@ -7,9 +7,9 @@ use nonholonomic_core::model::{
     Assumption, Located, OutputDecl, Relation, Request, SectionClaim, VolumeClaim,
 };
 
+use super::alike::Measured;
 use super::array::{Array, Shape};
 use super::context::Context;
-use super::homogeneity::Measured;
 use super::reports::Outcome;
 use super::resolver::Resolver;
 use crate::report::Diagnostic;

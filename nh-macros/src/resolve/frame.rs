@@ -6,8 +6,8 @@ use std::rc::Rc;
 use nonholonomic_core::id::{Origin, SymbolId};
 use nonholonomic_core::model::FrameDecl;
 
+use super::alike::Measured;
 use super::context::Context;
-use super::homogeneity::Measured;
 use super::resolver::Resolver;
 use super::scope::{Meaning, Role};
 use crate::emit::Family;

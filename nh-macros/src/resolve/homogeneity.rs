@@ -1,12 +1,10 @@
 //! What has to have the same unit: noted while expressions are read, as they were written.
 
-use std::collections::BTreeMap;
-use std::ops::Range;
-
 use nonholonomic_core::algebra::Rational;
-use nonholonomic_core::id::{ExprId, SymbolId};
-use nonholonomic_core::units::{Condition, Dimension, Form, Kind, Reading, Side, Unknown};
+use nonholonomic_core::id::ExprId;
+use nonholonomic_core::units::{Condition, Form, Kind, Reading, Side};
 
+use super::alike::{Homogeneity, Measured, Noted, Quantity};
 use super::context::Context;
 use super::resolver::Resolver;
 use super::written::quoted;
@@ -15,103 +13,6 @@ use crate::syntax::ast::Expr;
 
 /// Letters of an expression that is shown in the words of the graph.
 const SHOWN: usize = 60;
-
-/// What is noted; nothing, unless units are given.
-#[derive(Debug, Default)]
-pub(super) struct Homogeneity {
-    /// Whether units are given.
-    pub(super) wanted: bool,
-    noted: Vec<Noted>,
-    /// For every expression that is being read: how much was noted, and used, before.
-    open: Vec<(usize, usize)>,
-    /// Where in the notes the abbreviations are that were used.
-    used: Vec<Range<usize>>,
-    /// Where abbreviations are, and what they are made of.
-    abbreviations: BTreeMap<String, Vec<Range<usize>>>,
-}
-
-/// Things that have the same unit.
-#[derive(Debug)]
-struct Noted {
-    sides: Vec<Measured>,
-    relation: &'static str,
-    section: &'static str,
-    place: usize,
-    within: Vec<Range<usize>>,
-}
-
-/// Something that has a unit: a product.
-#[derive(Clone, Debug)]
-pub(super) struct Measured {
-    text: String,
-    extent: Extent,
-    factors: Vec<(Quantity, i64)>,
-}
-
-#[derive(Clone, Debug)]
-enum Quantity {
-    Expression(ExprId, Kind),
-    Symbol(SymbolId, Kind),
-    Time,
-    Known(Form),
-}
-
-impl Measured {
-    /// What is expected, in words, where a condition stands.
-    pub(super) fn expected(text: impl Into<String>, extent: Extent) -> Self {
-        Self { text: text.into(), extent, factors: Vec::new() }
-    }
-
-    fn with(mut self, quantity: Quantity, exponent: i64) -> Self {
-        self.factors.push((quantity, exponent));
-        self
-    }
-
-    /// Times a power of an energy: the unit of the Lagrangian.
-    pub(super) fn energy(self, exponent: i64) -> Self {
-        self.with(Quantity::Known(Form::of(Unknown::Lagrangian)), exponent)
-    }
-
-    /// Times a power of the time.
-    pub(super) fn time(self, exponent: i64) -> Self {
-        self.with(Quantity::Time, exponent)
-    }
-
-    /// Times a power of what a symbol stands for.
-    pub(super) fn symbol(self, symbol: SymbolId, exponent: i64) -> Self {
-        self.with(Quantity::Symbol(symbol, Kind::Velocities), exponent)
-    }
-
-    /// Times the section of which a symbol is the velocity.
-    pub(super) fn section(self, symbol: SymbolId) -> Self {
-        self.with(Quantity::Symbol(symbol, Kind::Sections), 1)
-    }
-
-    /// Times a power of an expression.
-    pub(super) fn expression(self, value: ExprId, kind: Kind, exponent: i64) -> Self {
-        self.with(Quantity::Expression(value, kind), exponent)
-    }
-
-    /// Times a unit.
-    pub(super) fn unit(self, unit: Dimension) -> Self {
-        self.with(Quantity::Known(Form::known(unit)), 1)
-    }
-
-    /// Times something of unknown unit.
-    pub(super) fn unknown(self, unknown: Unknown) -> Self {
-        self.with(Quantity::Known(Form::of(unknown)), 1)
-    }
-}
-
-impl Homogeneity {
-    /// What was noted and used since what is being read was begun.
-    fn within(&self) -> Vec<Range<usize>> {
-        let now = (self.noted.len(), self.used.len());
-        let (noted, used) = self.open.last().copied().unwrap_or(now);
-        let used = self.used[used..].iter().filter(|range| !range.is_empty()).cloned();
-        std::iter::once(noted..now.0).chain(used).collect()
-    }
-}
 
 impl Resolver {
     /// What velocities stand for in the section that is read, or that uses what is read between the sections.

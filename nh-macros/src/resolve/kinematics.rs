@@ -6,9 +6,9 @@ use std::rc::Rc;
 use nonholonomic_core::id::{CoordId, Id};
 use nonholonomic_core::model::{AnchorDecl, Kinematics, Located};
 
+use super::alike::Measured;
 use super::array::{Part, Shape};
 use super::context::Context;
-use super::homogeneity::Measured;
 use super::reports::Outcome;
 use super::resolver::Resolver;
 use super::scope::{Meaning, Role};

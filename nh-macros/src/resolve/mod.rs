@@ -3,9 +3,11 @@
 //! After this point there are no identifiers and no tokens but in the layout; positions are opaque
 //! origins. Every section is read on its own, so that one mistake does not hide another.
 
+mod alike;
 mod arithmetic;
 mod array;
 mod auxiliary;
+mod between_sections;
 mod bodies;
 mod brackets;
 mod calls;
@@ -39,6 +41,7 @@ mod shared;
 mod statements;
 mod symmetries;
 mod track;
+mod turns;
 mod vectors;
 mod written;
 

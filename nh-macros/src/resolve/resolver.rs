@@ -10,14 +10,14 @@ use nonholonomic_core::model::{
 
 use proc_macro2::Ident;
 
+use super::alike::Homogeneity;
 use super::array::{Part, Shape};
+use super::between_sections::Shared;
 use super::context::{Context, Usage};
-use super::homogeneity::Homogeneity;
 use super::origins::Origins;
 use super::reports::{Outcome, Reported, Reports};
-use super::rotations::Rotations;
 use super::scope::{Meaning, Scope};
-use super::shared::Shared;
+use super::turns::Rotations;
 use crate::report::{Diagnostic, Extent};
 use crate::syntax::ast::{Binder, Expr, ExprKind};
 use crate::syntax::limits;

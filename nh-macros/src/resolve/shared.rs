@@ -7,7 +7,8 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::rc::Rc;
 
 use super::array::Array;
-use super::context::{Context, Usage};
+use super::between_sections::{Contained, Contents, Known, State};
+use super::context::Context;
 use super::reports::{Outcome, Reported};
 use super::resolver::Resolver;
 use super::scope::Meaning;
@@ -18,82 +19,6 @@ use crate::syntax::ast::{Expr, ExprKind, Let, Name, SystemDecl};
 
 /// Functions that call each other, at most so many in a row.
 const NESTED: usize = 32;
-
-/// Something in a shared value that not every section may use.
-#[derive(Clone, Debug)]
-struct Contained {
-    usage: Usage,
-    /// As it is written.
-    written: String,
-    /// The shared names that lead to it, the outermost first.
-    path: Vec<String>,
-}
-
-/// What a shared value contains: one example of each kind.
-#[derive(Clone, Debug, Default)]
-pub(super) struct Contents {
-    found: Vec<Contained>,
-}
-
-impl Contents {
-    fn add(&mut self, contained: Contained) {
-        if self.found.iter().all(|known| known.usage != contained.usage) {
-            self.found.push(contained);
-        }
-    }
-}
-
-/// A shared value, with what it contains.
-type Known = (Rc<Array>, Rc<Contents>);
-
-/// What is known of a `let` between the sections.
-#[derive(Clone, Debug)]
-enum State {
-    /// Nothing yet.
-    Unread,
-    /// Its value.
-    Read(Known),
-    /// That it is in error, which was reported.
-    Broken,
-}
-
-/// The lines between the sections.
-#[derive(Debug, Default)]
-pub(super) struct Shared {
-    lines: Vec<Rc<Let>>,
-    /// For each line, the lines that it names.
-    needs: Vec<Vec<usize>>,
-    states: Vec<State>,
-    /// Functions that were called.
-    called: BTreeSet<usize>,
-    /// The values of functions that were called with these arguments.
-    values: BTreeMap<(usize, Vec<Array>), Option<Known>>,
-    /// The functions whose values are read, the outermost first.
-    calling: Vec<usize>,
-    /// What is found in the values that are read, the outermost first.
-    recording: Vec<Contents>,
-    /// The section that uses the value that is read.
-    user: Option<Context>,
-}
-
-impl Shared {
-    /// Whether a value between the sections is read.
-    pub(super) fn reading(&self) -> bool {
-        !self.recording.is_empty()
-    }
-
-    /// The section that uses what is read, if that stands between the sections.
-    pub(super) fn user(&self) -> Option<Context> {
-        self.user
-    }
-
-    /// Remembers what is found in the value that is read.
-    pub(super) fn record(&mut self, usage: Usage, written: &str) {
-        if let Some(contents) = self.recording.last_mut() {
-            contents.add(Contained { usage, written: written.to_owned(), path: Vec::new() });
-        }
-    }
-}
 
 impl Resolver {
     /// Declares the names of the lines between the sections.

@@ -5,9 +5,9 @@ use std::collections::BTreeSet;
 use nonholonomic_core::model::{RouthDecl, SymmetryDecl};
 use nonholonomic_core::units::Kind;
 
+use super::alike::Measured;
 use super::array::Shape;
 use super::context::Context;
-use super::homogeneity::Measured;
 use super::reports::Outcome;
 use super::resolver::Resolver;
 use crate::report::Diagnostic;

@@ -1,29 +1,15 @@
 //! Events: where functions of time and state change their sign.
 
 mod search;
+mod standing;
 mod start;
-mod stop;
 mod turns;
 
 use core::ops::ControlFlow;
 
 use crate::integrator::Spent;
 use crate::methods::Method;
-use crate::{Dynamics, IntegrationError, Integrator, Real, Scalar, ScalarOf};
-
-pub(crate) use stop::Stop;
-
-/// Which changes of sign are events.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum Direction {
-    /// Both.
-    #[default]
-    Either,
-    /// From negative to positive, in the direction in which the integration goes.
-    Rising,
-    /// From positive to negative.
-    Falling,
-}
+use crate::{Direction, Dynamics, IntegrationError, Integrator, Real, Scalar, ScalarOf};
 
 /// `N` event functions, given as one closure of time, state and input, and what to look for.
 ///

@@ -3,11 +3,11 @@
 use core::ops::ControlFlow;
 
 use super::start::Sides;
-use super::stop::Stop;
 use super::turns::double_changes;
-use super::{Direction, Event, EventOf, Events, Side, Station, crossing, side};
+use super::{Event, EventOf, Events, Side, Station, crossing, side};
 use crate::methods::Method;
-use crate::{Dynamics, IntegrationError, Integrator, Real, Scalar, ScalarOf};
+use crate::stop::Stop;
+use crate::{Direction, Dynamics, IntegrationError, Integrator, Real, Scalar, ScalarOf};
 
 /// Changes of sign within so many rounding units of time happen at the same time.
 const SAME_TIME: f64 = 4.0;

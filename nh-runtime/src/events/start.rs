@@ -1,10 +1,10 @@
 //! On which side of zero event functions start.
 
-use super::stop::Stop;
-use super::{Direction, Events, Side, Station, side};
+use super::{Events, Side, Station, side};
 use crate::arrays::displaced;
 use crate::methods::{Method, Start};
-use crate::{Dynamics, Integrator, Real, Scalar, ScalarOf, State};
+use crate::stop::Stop;
+use crate::{Direction, Dynamics, Integrator, Real, Scalar, ScalarOf, State};
 
 /// A zero within so many rounding units of the time is at that time.
 const RESOLUTION: f64 = 64.0;

@@ -1,8 +1,10 @@
 //! The return to position constraints: at the start, after every step.
 
-use super::{Integrator, Spent, Statistics};
+use super::{Integrator, Spent};
 use crate::methods::{Arrival, Method, Start, component};
-use crate::{Dynamics, IntegrationError, ProjectionError, Real, Scalar, ScalarOf, State, StateFault};
+use crate::{
+    Dynamics, IntegrationError, ProjectionError, Real, Scalar, ScalarOf, State, StateFault, Statistics,
+};
 
 impl<S: Dynamics, M: Method<S>> Integrator<S, M>
 where

@@ -3,7 +3,7 @@
 use super::super::ball::{Ball, Enclosed, NoBall};
 use super::super::exact::{Form, Number, complex_product};
 use super::super::field::Residue;
-use super::super::graph::{Function, Function2, Node};
+use super::super::node::{Function, Function2, Node};
 use super::super::number::Rational;
 use super::{Pass, Point, Stream, Value};
 use crate::id::{ExprId, Id};

@@ -1,6 +1,7 @@
 //! What an expression costs to evaluate, roughly.
 
-use crate::algebra::graph::{Function, Function2, Graph, Node};
+use crate::algebra::graph::Graph;
+use crate::algebra::node::{Function, Function2, Node};
 use crate::algebra::number::Rational;
 use crate::count::Count;
 use crate::id::ExprId;

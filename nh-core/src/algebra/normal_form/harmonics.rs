@@ -1,6 +1,7 @@
 //! Sums of sines and cosines of different angles, with which the addition theorems do nothing.
 
-use crate::algebra::graph::{Function, Graph, Node};
+use crate::algebra::graph::Graph;
+use crate::algebra::node::{Function, Node};
 use crate::id::ExprId;
 use rustc_hash::FxHashSet;
 

@@ -28,13 +28,14 @@ mod roots;
 mod terms;
 mod trigonometry;
 
-use super::accuracy::Accuracy;
-use super::graph::Function::{Cos, Cosh, Exp, Sin, Sinh};
-use super::graph::{Graph, Node};
+use super::graph::Graph;
+use super::level::Accuracy;
+use super::memory::{Attempt, Image, STYLE_COUNT, Simplifier, Style};
+use super::node::Function::{Cos, Cosh, Exp, Sin, Sinh};
+use super::node::Node;
 use crate::count::Count;
 use crate::id::ExprId;
-use reader::{Reader, Style};
-use rustc_hash::FxHashMap;
+use reader::Reader;
 
 /// Most monomials that a normal form, or a polynomial on the way to it, may have.
 const MONOMIALS: usize = 2000;
@@ -59,7 +60,7 @@ const ROUNDS: usize = 3;
 const CANONICAL: Style = Style { expand: true, angles: true, canonical: true };
 
 /// The forms among which simplification chooses, besides the canonical one.
-const STYLES: [Style; 3] = [
+const STYLES: [Style; STYLE_COUNT] = [
     Style { expand: false, angles: false, canonical: false },
     Style { expand: true, angles: false, canonical: false },
     CANONICAL,
@@ -152,45 +153,6 @@ impl Graph {
         }
         Attempt { forms, spent: work - reader.work, kept_sums: reader.kept_sums.get() }
     }
-}
-
-/// What came of expressions in styles.
-#[derive(Clone, Debug, Default)]
-pub(super) struct Attempts {
-    made: FxHashMap<(ExprId, Style), Attempt>,
-    /// Those for which so much work was not enough, which it would not be a second time.
-    failed: FxHashMap<(ExprId, Style, usize), Attempt>,
-}
-
-/// What came of reading an expression in a style.
-#[derive(Clone, Copy, Debug)]
-struct Attempt {
-    /// The canonical and the factored form; `None` beyond the budget.
-    forms: Option<(ExprId, ExprId)>,
-    /// The work it took.
-    spent: usize,
-    /// Whether a power of a sum was left that another style would have multiplied out.
-    kept_sums: bool,
-}
-
-/// Simplifies expressions and remembers what became of them.
-#[derive(Clone, Debug, Default)]
-pub(super) struct Simplifier {
-    known: FxHashMap<ExprId, Image>,
-    /// The work done for all expressions so far.
-    spent: usize,
-}
-
-/// What became of an expression, and what could be simplified in anything that contains it.
-#[derive(Clone, Copy, Debug)]
-struct Image {
-    id: ExprId,
-    has_sum: bool,
-    has_angle: bool,
-    /// Whether it had the budget of a whole expression.
-    is_whole: bool,
-    /// The styles in which some part of it was beyond the budget, so that it is, too.
-    beyond: [bool; STYLES.len()],
 }
 
 impl Simplifier {

@@ -3,7 +3,9 @@
 
 use super::monomial::{Exponent, Kind, Monomial};
 use super::polynomial::Polynomial;
-use crate::algebra::graph::{Function, Graph, Node};
+use crate::algebra::graph::Graph;
+use crate::algebra::memory::Style;
+use crate::algebra::node::{Function, Node};
 use crate::algebra::number::Rational;
 use crate::id::ExprId;
 use crate::limits;
@@ -12,17 +14,6 @@ use std::borrow::Cow;
 use std::cell::Cell;
 use std::collections::BTreeMap;
 use std::rc::Rc;
-
-/// How far an expression is taken apart.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub(super) struct Style {
-    /// Multiply out the positive powers of sums.
-    pub(super) expand: bool,
-    /// Apply the addition theorems.
-    pub(super) angles: bool,
-    /// Prefer the canonical form of trigonometric polynomials to a shorter one.
-    pub(super) canonical: bool,
-}
 
 /// Reads expressions within a budget; every method that may exceed it returns an `Option`.
 pub(super) struct Reader<'g> {

@@ -3,7 +3,7 @@
 use super::monomial::{Exponent, Factor, Kind, Monomial};
 use super::polynomial::Polynomial;
 use super::reader::Reader;
-use crate::algebra::graph::{Function, Node};
+use crate::algebra::node::{Function, Node};
 use crate::algebra::number::Rational;
 use crate::id::ExprId;
 use std::borrow::Cow;

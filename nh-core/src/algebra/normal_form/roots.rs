@@ -4,7 +4,7 @@
 use super::monomial::{Exponent, Kind, Monomial};
 use super::polynomial::Polynomial;
 use super::reader::{Reader, plain};
-use crate::algebra::graph::Node;
+use crate::algebra::node::Node;
 use crate::algebra::number::Rational;
 use std::borrow::Cow;
 

@@ -1,6 +1,6 @@
 //! The claims: each function beside its definition.
 
-use super::super::momentum_equation::Split;
+use super::super::proved::Split;
 use super::{Claims, Declared, Derivatives, Parts};
 use crate::choose::{
     AlmostPoissonForm, BracketForm, DerivedFunction, GyroscopicForm, PowerForm, SplittingForm, ValuesForm,

@@ -3,8 +3,9 @@
 mod claimed_functions;
 mod declared_data;
 
+use super::proved::Proved;
 use super::velocities_of_state::{coordinates, parameter_checks};
-use super::{Proved, given, levels};
+use super::{given, levels};
 use crate::algebra::{Graph, Substitution};
 use crate::choose::{
     Contender, Decision, Defect, DerivedFunction, Fate, Motion, Proof, Reference, VelocityNames,

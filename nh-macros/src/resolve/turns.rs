@@ -1,0 +1,54 @@
+//! The rotations that a matrix is the product of.
+
+use std::collections::BTreeMap;
+use std::rc::Rc;
+
+use nonholonomic_core::algebra::Graph;
+use nonholonomic_core::id::ExprId;
+
+use super::array::{Array, Shape};
+
+/// A factor of an attitude.
+#[derive(Clone, Debug)]
+pub(super) struct Turn {
+    /// Its matrix.
+    pub(super) matrix: Vec<ExprId>,
+    /// The axis, of length 1, and the angle, unless it is a matrix that is only claimed to be a rotation.
+    pub(super) about: Option<(Vec<ExprId>, ExprId)>,
+}
+
+/// Matrices that are known to be products of rotations about axes.
+#[derive(Debug, Default)]
+pub(super) struct Rotations {
+    pub(super) known: BTreeMap<Vec<ExprId>, Rc<Vec<Turn>>>,
+    /// Matrices that are claimed to be rotations, so that the claim stands once.
+    pub(super) claimed: Vec<Vec<ExprId>>,
+}
+
+impl Rotations {
+    /// A product of two of them is one; so it is with one of them alone, if the other factor is a rotation.
+    pub(super) fn multiplied(&mut self, left: &Array, right: &Array, product: &Array) {
+        let cube = Shape::Matrix(3, 3);
+        let known = [left, right].map(|factor| self.known.get(&factor.entries).cloned());
+        if known.iter().all(Option::is_none) || left.shape != cube || right.shape != cube {
+            return;
+        }
+        let turns = known.into_iter().zip([left, right]).flat_map(|(known, factor)| match known {
+            Some(turns) => turns.to_vec(),
+            None => vec![Turn { matrix: factor.entries.clone(), about: None }],
+        });
+        let turns = Rc::new(turns.collect());
+        self.known.insert(product.entries.clone(), turns);
+    }
+
+    /// The transposed of one is one.
+    pub(super) fn transposed(&mut self, graph: &mut Graph, of: &Array, transposed: &Array) {
+        let Some(turns) = self.known.get(&of.entries) else { return };
+        let back = turns.iter().rev().map(|turn| Turn {
+            matrix: (0..9).map(|k| turn.matrix[3 * (k % 3) + k / 3]).collect(),
+            about: turn.about.as_ref().map(|(axis, angle)| (axis.clone(), graph.formula(-angle))),
+        });
+        let back = Rc::new(back.collect());
+        self.known.insert(transposed.entries.clone(), back);
+    }
+}

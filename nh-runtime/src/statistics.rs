@@ -1,0 +1,25 @@
+//! What an integration has cost.
+
+/// What an integration has cost.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[non_exhaustive]
+pub struct Statistics {
+    /// The steps taken.
+    pub steps: u64,
+    /// The steps tried and rejected, because of the error estimate or a stage that is not finite.
+    pub rejected: u64,
+    /// The evaluations of the derivative, those for Jacobians included.
+    pub evaluations: u64,
+    /// The Jacobians formed.
+    pub jacobians: u64,
+    /// The factorizations of matrices.
+    pub factorizations: u64,
+    /// The iterations of implicit methods.
+    pub iterations: u64,
+    /// The projections to the constraints, those included that found nothing to correct.
+    pub projections: u64,
+    /// The largest change that a projection has made to a component of the state.
+    pub largest_correction: f64,
+    /// The largest constraint residual that the last projection found, before it corrected it.
+    pub last_residual: f64,
+}
