@@ -36,6 +36,8 @@ pub struct System {
     pub projection: Option<Projection>,
     /// The way back to position constraints, if there are any.
     pub positions: Option<PositionReturn>,
+    /// What linearising the motion on the constraint manifold takes; if asked for.
+    pub linearization: Option<Linearization>,
     /// Brackets, momenta, volume and connections; as far as they are asked for.
     pub phase_space: PhaseSpace,
     /// The identities of an embedded base.
@@ -134,6 +136,16 @@ impl Assembly {
         self.velocities.keep_rows(|row| row < constraints || has_rate(row - constraints));
         self.velocities.keep(&is_kept);
     }
+}
+
+/// What linearising the motion on the constraint manifold takes beside the motion: mathematics (36).
+#[derive(Clone, Debug)]
+pub struct Linearization {
+    /// The variables that are kept, by their places in the state.
+    pub kept: Vec<usize>,
+    /// Outputs: what vanishes on the manifold, the constraints that a state can be off and then the identities of an
+    /// embedded base.
+    pub residuals: Procedure,
 }
 
 /// Functions with their derivatives.

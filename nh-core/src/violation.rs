@@ -46,6 +46,8 @@ pub enum Law {
     Force,
     /// What is asked for depends on nothing that `track` leaves out.
     Tracking,
+    /// What a linearisation keeps is in the state, each once.
+    Linearization,
     /// A map between two systems is a reduction: mathematics (13), (14), CLMM Theorem 4.6.
     Morphism,
     /// What a quotient drops, nothing depends on: CM section 4, CLMM 4.8–4.12.

@@ -73,6 +73,7 @@ mod syntax;
 /// | `formulation { projected }` | all velocities in the state, with multipliers; or `adapted` | adapted where a choice of velocities holds everywhere |
 /// | `accuracy { careful }` | where emitted code stands between speed and accuracy: `fast`, `balanced` or `careful`, see below | `balanced` |
 /// | `emit { jacobian, momenta }` | what to generate beyond the default: see below | |
+/// | `linearization { keep: v, omega; }` | the variables of the state in which `linearize` gives a linear model on the constraint manifold, and which are steady where `trim` finds a steady motion | |
 /// | `track { v, speed }` | the state variables and outputs that matter: what does not flow into them is neither stored nor computed | everything |
 /// | `derivative { motor: [self.motor_speed]; }` | the partial derivatives of a method used in a force, for `emit { jacobian }` | |
 /// | `names { state = RobotState; }` | names of generated types, by their roles | `…State` and so on |

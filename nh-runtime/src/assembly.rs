@@ -7,7 +7,8 @@ mod failure;
 use crate::arrays::first_non_finite;
 use crate::linear::Factors;
 use crate::{D, ProjectionError, Real, Scalar, State, StateFault};
-use descent::{Linearized, descend, follow, lower, no_solution, sign, singular, square};
+pub(crate) use descent::descend;
+use descent::{Linearized, follow, lower, no_solution, sign, singular, square};
 
 pub use descent::Loops;
 pub use failure::AssemblyError;

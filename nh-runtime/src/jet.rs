@@ -60,6 +60,16 @@ impl<T: Scalar, const N: usize, const M: usize> Jet<T, N, M> {
         }
     }
 
+    /// A function of some numbers, by its value and derivatives there.
+    #[inline]
+    #[must_use]
+    pub fn of_call<const K: usize>(value: T, derivatives: [T; K], arguments: [Self; K]) -> Self {
+        let along = |sum: Self, (derivative, argument): (T, Self)| {
+            sum.combined(argument, value, |sum, partial| derivative.mul_add(partial, sum))
+        };
+        derivatives.into_iter().zip(arguments).fold(Self::constant(value), along)
+    }
+
     /// A function of two numbers, by its value and what it does to a pair of their partial derivatives.
     #[inline]
     fn combined(self, other: Self, value: T, partial: impl Fn(T, T) -> T) -> Self {

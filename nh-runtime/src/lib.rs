@@ -85,6 +85,7 @@ mod integrator;
 mod jet;
 mod lanes;
 mod linear;
+mod linearization;
 pub mod methods;
 mod newton_return;
 #[cfg(test)]
@@ -101,6 +102,7 @@ mod step_control;
 mod stop;
 mod tangent;
 mod tolerance;
+mod trim;
 
 pub use assembly::AssemblyError;
 pub use dense::DenseOutput;
@@ -116,6 +118,7 @@ pub use fast::Fast;
 pub use integrator::Integrator;
 pub use jet::Jet;
 pub use lanes::Lanes;
+pub use linearization::{Linearization, LinearizationError};
 pub use methods::Taylor;
 pub use methods::{
     Bs23, Conserving, Controller, DiscreteGradient, DiscreteSuslov, Dop853, Dopri5, Euler, GaussLegendre4,
@@ -127,6 +130,7 @@ pub use scalar::{Real, Scalar};
 pub use statistics::Statistics;
 pub use stop::Direction;
 pub use tangent::{ChartError, OnConstraints, linearize_on_constraints};
+pub use trim::TrimError;
 
 /// # Examples
 ///
@@ -384,13 +388,17 @@ pub mod __private {
     pub use crate::TaylorSeries;
     pub use crate::assembly::{AssemblyError, Loops, assemble, assemble_holding};
     pub use crate::linear::{inverse_pivoted, solve_pivoted, times};
+    pub use crate::linearization::{
+        FirstOrder, Linearization, LinearizationError, Names, Parts, linearize, variables,
+    };
     pub use crate::newton_return::{corrected, first_iterate, newton, product_of_signs, worst};
     pub use crate::projection::{check_identities, largest, project};
     pub use crate::series::History;
+    pub use crate::trim::{Steady, TrimError, equations, trim};
     pub use crate::{
         AlmostPoisson, Constrained, D, Dim, Dynamics, Energy, EulerPoincareSuslov, InputFault, Invariants,
-        Jacobian, Leapfrog, Observed, ParameterError, ParameterFault, ProjectionError, Real, Reconstruction,
-        Reduction, Scalar, ScalarOf, State, StateFault,
+        Jacobian, Jet, Leapfrog, Observed, ParameterError, ParameterFault, ProjectionError, Real,
+        Reconstruction, Reduction, Scalar, ScalarOf, State, StateFault,
     };
     pub use core;
     pub use nalgebra;

@@ -6,101 +6,14 @@ use nalgebra::{Matrix2, Matrix4};
 use nonholonomic::prelude::*;
 use nonholonomic::{ChartError, Jet, linearize_on_constraints};
 
-/// Axes as in the paper: x forwards, y to the right, z down. The base has the contact of the rear wheel, yaw, lean, pitch
-/// of the rear frame, steer, and the turns of the wheels.
-#[nonholonomic(
-    base { x, y, yaw, lean, pitch, steer, rear, front }
-
-    let down = [0, 0, 1];
-    let roll = rot_z(yaw) * rot_x(lean);
-    let frame = roll * rot_y(pitch);
-    let tilt = rot_y(lambda);
-    let fork = frame * tilt * rot_z(steer) * transpose(tilt);
-    let contact = [x, y, 0];
-    let hub = contact - rR * (roll * down);
-    let head = hub + frame * [w + c, 0, rR];
-    let rider = hub + frame * [xB, 0, zB + rR];
-    let bars = head + fork * [xH - w - c, 0, zH];
-    let axle = head - fork * [c, 0, rF];
-    let side = fork * [0, 1, 0];
-    let slope = sqrt(1 - side[2]^2);
-    let touch = axle + rF / slope * (down - side[2] * side);
-
-    holonomic { ground: axle[2] + rF * slope = 0; }
-    constraints {
-        rear_rolls: velocity_at(hub, frame * rot_y(rear), contact)[0..2] = 0;
-        front_rolls: velocity_at(axle, fork * rot_y(front), touch)[0..2] = 0;
-    }
-    independent { der(lean), der(steer), der(rear) }
-    lagrangian {
-        kinetic(mR, [IRx, IRy, IRx], hub, frame * rot_y(rear))
-        + kinetic(mB, [[IBx, 0, IBxz], [0, IBy, 0], [IBxz, 0, IBz]], rider, frame)
-        + kinetic(mH, [[IHx, 0, IHxz], [0, IHy, 0], [IHxz, 0, IHz]], bars, fork)
-        + kinetic(mF, [IFx, IFy, IFx], axle, fork * rot_y(front))
-        + g * (mR * hub[2] + mB * rider[2] + mH * bars[2] + mF * axle[2])
-    }
-)]
-#[derive(Clone, Copy, Debug)]
-struct Bicycle<T> {
-    w: T,
-    c: T,
-    lambda: T,
-    g: T,
-    rR: T,
-    mR: T,
-    IRx: T,
-    IRy: T,
-    xB: T,
-    zB: T,
-    mB: T,
-    IBx: T,
-    IBxz: T,
-    IBy: T,
-    IBz: T,
-    xH: T,
-    zH: T,
-    mH: T,
-    IHx: T,
-    IHxz: T,
-    IHy: T,
-    IHz: T,
-    rF: T,
-    mF: T,
-    IFx: T,
-    IFy: T,
+nh_models::bicycle! {
+    #[derive(Clone, Copy, Debug)]
+    struct Bicycle<T>;
 }
 
 /// The published parameters, with gravity.
 fn bicycle<T: Scalar>(g: f64) -> Bicycle<T> {
-    let n = T::from_f64;
-    Bicycle {
-        w: n(1.02),
-        c: n(0.08),
-        lambda: n(core::f64::consts::PI / 10.0),
-        g: n(g),
-        rR: n(0.3),
-        mR: n(2.0),
-        IRx: n(0.0603),
-        IRy: n(0.12),
-        xB: n(0.3),
-        zB: n(-0.9),
-        mB: n(85.0),
-        IBx: n(9.2),
-        IBxz: n(2.4),
-        IBy: n(11.0),
-        IBz: n(2.8),
-        xH: n(0.9),
-        zH: n(-0.7),
-        mH: n(4.0),
-        IHx: n(0.05892),
-        IHxz: n(-0.00756),
-        IHy: n(0.06),
-        IHz: n(0.00708),
-        rF: n(0.35),
-        mF: n(3.0),
-        IFx: n(0.1405),
-        IFy: n(0.28),
-    }
+    nh_models::published_bicycle!(Bicycle, g, T::from_f64)
 }
 
 const GRAVITY: f64 = 9.81;

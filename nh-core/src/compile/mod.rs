@@ -15,6 +15,7 @@ mod given;
 mod gyroscopic;
 mod kept_volume;
 mod levels;
+mod linearization;
 mod momenta;
 mod momentum_equation;
 mod observed_brackets;

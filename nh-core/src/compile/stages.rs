@@ -3,7 +3,7 @@
 use super::levels::OnLevels;
 use super::proved::{Proved, both, fence};
 use super::{
-    adapted_functions, analytic, folded_constants, levels, momenta, projected_functions, routh, slice,
+    adapted_functions, analytic, folded_constants, levels, linearization, momenta, projected_functions, routh, slice,
     strangers,
 };
 use crate::algebra::Facts;
@@ -66,6 +66,7 @@ fn compiled(model: Model, registry: &Registry) -> Result<System, Vec<Violation>>
     about(Subject::Requests);
     let mut system = slice::slice(routh::without(system, &quadratures))?;
     folded_constants::in_numbers(&mut system);
+    linearization::derive(&mut system)?;
     // 9. Taylor series exist where they are asked for
     fence(analytic::check(&system).err().into_iter().collect())?;
     Ok(system)

@@ -86,6 +86,7 @@ impl Builder {
             forces: Vec::new(),
             outputs: Vec::new(),
             tracked: None,
+            linearization: None,
             orthonormal: None,
             independent: None,
             formulation: None,

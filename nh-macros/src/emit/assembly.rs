@@ -9,6 +9,7 @@ use super::infix::element;
 use super::inherent_method::Part;
 use super::layout::local;
 use super::program::body;
+use super::record::Field;
 use super::results::residual_names;
 use super::setting::{Context, coordinate_fields};
 use super::symbols::{Argument, Scope};
@@ -43,10 +44,21 @@ pub(super) fn stub(context: &Context, in_state: &[SymbolId]) -> Part {
 
 /// The enum of the coordinates in the state.
 fn coordinates(context: &Context, in_state: &[SymbolId]) -> TokenStream {
-    let Context { visibility, lints, layout, .. } = context;
-    let name = &layout.types.coordinate;
+    let Context { layout, .. } = context;
     let doc = format!(" The base coordinates of [`{}`], by their names in the declaration.", layout.name);
-    let variants = coordinate_fields(layout, in_state, "coordinate").into_iter().flat_map(|field| {
+    let fields = coordinate_fields(layout, in_state, "coordinate");
+    by_name(context, &layout.types.coordinate, &doc, fields.iter().map(|field| ("coordinate", field)))
+}
+
+/// An enum with a variant for each component of some fields, documented as what it is.
+pub(super) fn by_name<'a>(
+    context: &Context,
+    name: &Ident,
+    doc: &str,
+    fields: impl Iterator<Item = (&'static str, &'a Field)>,
+) -> TokenStream {
+    let Context { visibility, lints, .. } = context;
+    let variants = fields.flat_map(|(what, field)| {
         let is_family = field.is_family();
         let span = field.ident.span().resolved_at(Span::call_site());
         let ident = field.ident.clone();
@@ -54,7 +66,7 @@ fn coordinates(context: &Context, in_state: &[SymbolId]) -> TokenStream {
         names.into_iter().map(move |component| {
             let text = component.replace("][", "_").replace('[', "_").replace(']', "");
             let ident = if is_family { Ident::new(&text, span) } else { ident.clone() };
-            let doc = format!(" The coordinate `{component}`.");
+            let doc = format!(" The {what} `{component}`.");
             quote!(#[doc = #doc] #ident)
         })
     });

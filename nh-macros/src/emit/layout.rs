@@ -96,6 +96,8 @@ pub(crate) struct TypeNames {
     pub(crate) power: Ident,
     /// `SleighCoordinate`
     pub(crate) coordinate: Ident,
+    /// `SleighVariable`
+    pub(crate) variable: Ident,
 }
 
 impl TypeNames {
@@ -115,6 +117,7 @@ impl TypeNames {
             gyroscopic: format_ident!("{name}Gyroscopic"),
             power: format_ident!("{name}Power"),
             coordinate: format_ident!("{name}Coordinate"),
+            variable: format_ident!("{name}Variable"),
         }
     }
 }

@@ -72,7 +72,8 @@ pub(super) fn pi(context: &Context) -> Expression {
     match &context.layout.scalar {
         ast::Scalar::F64 => Expression::atom(quote!(::core::f64::consts::PI), 0),
         ast::Scalar::F32 => Expression::atom(quote!(::core::f32::consts::PI), 0),
-        ast::Scalar::Parameter(scalar) => {
+        ast::Scalar::Parameter(_) => {
+            let scalar = &context.scalar;
             Expression::atom(quote!(<#scalar as #runtime::Scalar>::from_f64(::core::f64::consts::PI)), 0)
         }
     }

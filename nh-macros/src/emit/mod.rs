@@ -20,6 +20,7 @@ mod invariants;
 mod jacobian;
 mod labels;
 mod layout;
+mod linearization;
 mod lint;
 mod literal;
 mod lowering;
@@ -79,6 +80,7 @@ pub(crate) fn emit(system: &System, layout: &Layout) -> Result<TokenStream, Vec<
         .with(projection::emit(context, system))
         .with(assembly::emit(context, scope, system))
         .with(jacobian::emit(context, scope, system))
+        .with(linearization::emit(context, system, &derivative))
         .with(prepared::emit(context, system, &derivative))
         .with(hamiltonian::emit(context, scope, system))
         .with(almost_poisson::emit(context, scope, system))

@@ -133,6 +133,9 @@ impl Writer<'_> {
             },
             Step::Apply(function, a) => self.call(function.name(), &[*a]),
             Step::Apply2(function, a, b) => self.call(function.name(), &[*a, *b]),
+            Step::Call { method, arguments } if self.context.differentiates => {
+                self.differentiated_call(method, arguments)
+            }
             Step::Call { method, arguments } => self.call_of_user(method, arguments),
             Step::Solve { matrix, right } => self.solve(value, matrix, right),
             Step::Component(system, index) => {
@@ -183,6 +186,29 @@ impl Writer<'_> {
         let method = self.context.layout.method(method);
         let arguments = arguments.iter().map(|value| &self.expressions[*value].tokens);
         Expression::atom(quote!(self.#method(#(#arguments),*)), 0)
+    }
+
+    /// The same with its partial derivatives, which other methods of the user's give.
+    fn differentiated_call(&mut self, method: &str, arguments: &[Value]) -> Expression {
+        self.used.insert(Argument::This);
+        let runtime = &self.context.runtime;
+        let names: Vec<Ident> = arguments.iter().map(|_| self.names.numbered()).collect();
+        for (name, value) in names.iter().zip(arguments) {
+            let tokens = &self.expressions[*value].tokens;
+            self.statements.extend(quote!(let #name = #tokens;));
+        }
+        let derivatives = self.scope.derivatives(method);
+        let layout = self.context.layout;
+        let partial = derivatives.iter().map(|derivative| layout.method(derivative));
+        let method = layout.method(method);
+        let values = quote!(#(#names.value),*);
+        let partial = partial.map(|derivative| quote!(self.#derivative(#values)));
+        // an argument that does not change needs no derivative
+        let names = names.iter().take(derivatives.len());
+        Expression::atom(
+            quote!(#runtime::Jet::of_call(self.#method(#values), [#(#partial),*], [#(#names),*])),
+            0,
+        )
     }
 
     /// `Scalar::method(a, b)`.

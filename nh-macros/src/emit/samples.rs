@@ -109,6 +109,7 @@ impl Builder {
             assumptions: Vec::new(),
             requests: Vec::new(),
             tracked: None,
+            linearization: None,
             orthonormal: None,
             independent: None,
             formulation: None,
@@ -161,6 +162,7 @@ impl Builder {
             positions: None,
             projection: None,
             jacobian: None,
+            linearization: None,
             phase_space: nonholonomic_core::phase_space::PhaseSpace::default(),
             embedding: None,
             parameter_checks: nonzero

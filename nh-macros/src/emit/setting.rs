@@ -32,6 +32,8 @@ pub(super) struct Context<'a> {
     pub(super) outputs: Option<Record>,
     pub(super) locals: Locals,
     pub(super) lowering: Lowering,
+    /// Whether numbers are printed with their partial derivatives, `Jet`s.
+    pub(super) differentiates: bool,
 }
 
 /// The parameters of generated functions.
@@ -92,7 +94,18 @@ impl<'a> Context<'a> {
             layout,
             runtime,
             lowering: Lowering::default(),
+            differentiates: false,
         }
+    }
+
+    /// The same where every number is one with `n` and `m` partial derivatives; `layout` is to have a type parameter.
+    pub(super) fn with_jets(&self, layout: &'a Layout, in_state: &[SymbolId], n: usize, m: usize) -> Self {
+        let (runtime, scalar) = (&self.runtime, &self.scalar);
+        let [n, m] = [n, m].map(proc_macro2::Literal::usize_unsuffixed);
+        let mut jets = Self::new(layout, in_state, &[]);
+        jets.scalar = quote!(#runtime::Jet<#scalar, #n, #m>);
+        jets.differentiates = true;
+        jets
     }
 
     /// The type parameter, if the scalar is one.

@@ -12,8 +12,13 @@ use super::layout::Layout;
 use super::setting::Context;
 use super::taylor;
 use super::{
+<<<<<<< HEAD
     almost_poisson, assembly, c, callback, discrete, embedding, energy, functions, hamiltonian, invariants,
     jacobian, motion, observed, prepared, projection, report_text, state, validate,
+=======
+    almost_poisson, assembly, c, callback, discrete, dynamics, embedding, energy, functions, hamiltonian,
+    invariants, jacobian, linearization, observed, prepared, projection, report, state, validate,
+>>>>>>> bf5b4ca (Linear models in named variables on the manifold, and steady motions)
 };
 use crate::resolve::Outline;
 
@@ -72,4 +77,5 @@ fn on_request(context: &Context, outline: &Outline) -> Part {
         .with(asked(Request::Hamiltonian, &|| hamiltonian::stub(context, velocities)))
         .with(asked(Request::Prepared, &|| prepared::stub(context, has_jacobian)))
         .with(asked(Request::Jacobian, &|| jacobian::stub(context)))
+        .with(outline.kept.map_or_else(Part::default, |kept| linearization::stub(context, kept)))
 }

@@ -88,6 +88,12 @@ impl<'a> Scope<'a> {
         self.places.get(&symbol)
     }
 
+    /// The methods that differentiate a method of the user's by its arguments, if they are declared.
+    pub(super) fn derivatives(&self, method: &str) -> &[String] {
+        let call = self.model.calls.iter().find(|call| call.method == method);
+        call.and_then(|call| call.derivatives.as_deref()).unwrap_or_default()
+    }
+
     /// A symbol's name in the declaration.
     pub(super) fn name(&self, symbol: SymbolId) -> &str {
         let symbols = self.model.graph.symbols();

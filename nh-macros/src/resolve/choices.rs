@@ -108,7 +108,8 @@ impl Resolver {
         }
         let mut taken = BTreeSet::from([layout.name.to_string()]);
         let types = layout.types.clone();
-        let of_motion = [types.state, types.coordinate, types.velocity, types.input, types.outputs];
+        let of_motion =
+            [types.state, types.coordinate, types.variable, types.velocity, types.input, types.outputs];
         let of_constraints = [types.multipliers, types.reactions, types.residual];
         let of_momenta = [types.momenta, types.phase, types.quadratures, types.gyroscopic, types.power];
         let mut is_twice = false;
@@ -149,6 +150,7 @@ fn slot<'a>(types: &'a mut TypeNames, role: &str) -> Option<&'a mut Ident> {
         "gyroscopic" => Some(&mut types.gyroscopic),
         "power" => Some(&mut types.power),
         "coordinate" => Some(&mut types.coordinate),
+        "variable" => Some(&mut types.variable),
         _ => None,
     }
 }

@@ -25,6 +25,7 @@ mod holonomic;
 mod homogeneity;
 mod index;
 mod kinematics;
+mod linearization;
 mod methods;
 mod origins;
 mod outline;
@@ -138,6 +139,7 @@ impl Resolver {
         self.unused();
         let orthonormal = sections.orthonormal.as_ref().map(|s| self.orthonormal(s, layout));
         let tracked = sections.track.as_ref().map(|s| self.tracked(s, &outputs));
+        let linearization = sections.linearization.as_ref().map(|s| self.linearization(s));
         let independent = sections.independent.as_ref().map(|s| self.independent(&s.body));
         let formulation = sections.formulation.as_ref().map(|s| self.formulation(s));
         let accuracy = sections.accuracy.as_ref().map(|s| self.accuracy(s)).unwrap_or_default();
@@ -195,6 +197,7 @@ impl Resolver {
             assumptions,
             requests,
             tracked,
+            linearization,
             orthonormal,
             independent,
             formulation,

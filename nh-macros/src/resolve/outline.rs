@@ -23,6 +23,8 @@ pub(crate) struct Outline {
     pub(crate) velocities: usize,
     /// Whether there are position constraints.
     pub(crate) has_positions: bool,
+    /// How many variables a linearisation keeps.
+    pub(crate) kept: Option<usize>,
     /// Whether a section of D* is claimed to solve the Hamilton–Jacobi equation.
     pub(crate) claims_section: bool,
 }
@@ -38,6 +40,7 @@ impl Outline {
             identities: model.identities.len(),
             velocities: kept(model).len(),
             has_positions: !model.positions.is_empty(),
+            kept: model.linearization.as_ref().map(Vec::len),
             claims_section: model.hamilton_jacobi.is_some(),
         }
     }

@@ -10,6 +10,10 @@ use crate::report::Diagnostic;
 use crate::suggest::did_you_mean;
 use crate::syntax::ast::{Place, Section, Velocity};
 
+/// What the state consists of.
+pub(super) const STATE: [Role; 5] =
+    [Role::Coordinate, Role::Velocity, Role::ImpliedVelocity, Role::FrameVelocity, Role::Auxiliary];
+
 impl Resolver {
     /// The tracked items; a family stands for its entries.
     pub(super) fn tracked(
@@ -47,18 +51,8 @@ impl Resolver {
     /// Coordinates, velocities, or outputs by their name.
     fn tracked_place(&mut self, place: &Place, outputs: &[OutputDecl]) -> Outcome<Vec<TrackedItem>> {
         let text = &place.name.text;
-        if let Some(Meaning::Named(named)) = self.scope.get(text).cloned() {
-            if named.role == Role::Auxiliary {
-                let part = self.part(&format!("`{text}`"), named.shape, &place.indices)?;
-                return Ok(variables(named.symbols[part.positions()].to_vec()));
-            }
-            if named.role == Role::Coordinate {
-                let (named, part) = self.coordinate(place)?;
-                return Ok(variables(named.symbols[part.positions()].to_vec()));
-            }
-            if matches!(named.role, Role::Velocity | Role::ImpliedVelocity | Role::FrameVelocity) {
-                return self.section_velocities(place).map(variables);
-            }
+        if let Some(found) = self.variables_of_state(place) {
+            return found.map(variables);
         }
         let mut entry = text.clone();
         for index in &place.indices {
@@ -76,21 +70,32 @@ impl Resolver {
         if meant.is_empty() { Err(self.not_trackable(place, outputs)) } else { Ok(meant) }
     }
 
+    /// Coordinates, velocities or auxiliary states by their name; nothing if the name is none of theirs.
+    pub(super) fn variables_of_state(&mut self, place: &Place) -> Option<Outcome<Vec<SymbolId>>> {
+        let text = &place.name.text;
+        let Some(Meaning::Named(named)) = self.scope.get(text).cloned() else { return None };
+        match named.role {
+            Role::Auxiliary => {
+                let part = self.part(&format!("`{text}`"), named.shape, &place.indices);
+                Some(part.map(|part| named.symbols[part.positions()].to_vec()))
+            }
+            Role::Coordinate => {
+                let found = self.coordinate(place);
+                Some(found.map(|(named, part)| named.symbols[part.positions()].to_vec()))
+            }
+            Role::Velocity | Role::ImpliedVelocity | Role::FrameVelocity => {
+                Some(self.section_velocities(place))
+            }
+            _ => None,
+        }
+    }
+
     fn not_trackable(&mut self, place: &Place, outputs: &[OutputDecl]) -> super::reports::Reported {
         let text = &place.name.text;
         let what = format!("`{text}` is neither a state variable nor an output");
         let error = Diagnostic::new(place.extent, what);
         let names = outputs.iter().map(|output| output.name.as_str());
-        let question = did_you_mean(text, names).or_else(|| {
-            let roles = [
-                Role::Coordinate,
-                Role::Velocity,
-                Role::ImpliedVelocity,
-                Role::FrameVelocity,
-                Role::Auxiliary,
-            ];
-            self.scope.did_you_mean(text, &roles)
-        });
+        let question = did_you_mean(text, names).or_else(|| self.scope.did_you_mean(text, &STATE));
         let known = "`track` names coordinates, velocities and outputs";
         self.report(place, error.way_out(question.unwrap_or_else(|| known.to_owned())))
     }

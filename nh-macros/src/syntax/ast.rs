@@ -79,6 +79,8 @@ pub(crate) struct Sections {
     pub(crate) assume: Option<Section<Vec<Item<Comparison>>>>,
     /// `units`: the units of declared names.
     pub(crate) units: Option<Section<Vec<UnitLine>>>,
+    /// `linearization`: the variables of the state that it keeps.
+    pub(crate) linearization: Option<Section<Vec<Velocity>>>,
     /// `independent`: the velocities that the adapted state keeps.
     pub(crate) independent: Option<Section<Vec<Velocity>>>,
     /// `orthonormal`: names for the velocities of an orthonormal basis of D.
@@ -179,7 +181,7 @@ pub(crate) struct Place {
 /// A velocity named in a list.
 #[derive(Clone, Debug)]
 pub(crate) enum Velocity {
-    /// A quasi-velocity (or, in `track`, another variable): `v1`, `w[0]`.
+    /// A quasi-velocity (or, in `track` and `linearization`, another variable): `v1`, `w[0]`.
     Named(Place),
     /// The velocity of a base coordinate, `der(x)`; the extent covers the call.
     Der(Place, Extent),

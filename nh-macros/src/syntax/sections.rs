@@ -6,7 +6,7 @@ use std::rc::Rc;
 use proc_macro2::{Delimiter, Group, TokenStream, TokenTree};
 use syn::parse::Parser;
 
-use super::ast::{Brackets, Expr, Formulation, KnownAlgebra, Let, Name, Section, Sections};
+use super::ast::{Brackets, Expr, Formulation, KnownAlgebra, Let, Name, Section, Sections, Velocity};
 use super::items::{items, lagrangian, let_line};
 use super::names::list;
 use super::render::render;
@@ -178,6 +178,9 @@ fn fill(sections: &mut Sections, keyword: Name, algebra: Option<Algebra>, body: 
         "routh" => s.routh = Section::some(keyword, items(body, errors, &Stream::definition)),
         "assume" => s.assume = Section::some(keyword, items(body, errors, &Stream::comparison)),
         "units" => s.units = Section::some(keyword, plain(body, errors, &Stream::unit_line)),
+        "linearization" => {
+            s.linearization = errors.keep(kept(body)).and_then(|body| Section::some(keyword, body));
+        }
         "independent" => s.independent = Section::some(keyword, list(body, errors, Stream::velocity)),
         "orthonormal" => s.orthonormal = Section::some(keyword, list(body, errors, Stream::declared)),
         "formulation" => {
@@ -272,6 +275,25 @@ fn formulation(body: &Group) -> Result<Formulation, Diagnostic> {
     } else {
         Err(stream.expected("`}`").way_out("there is one formulation"))
     }
+}
+
+/// The variables in `linearization { keep: …; }`.
+fn kept(body: &Group) -> Result<Vec<Velocity>, Diagnostic> {
+    let mut stream = Stream::inside(body);
+    let known =
+        "write `linearization { keep: x, der(x); }` with the variables of the state that are to be kept";
+    if !(stream.eat_word("keep") && stream.eat(":")) {
+        return Err(stream.expected("`keep:`").way_out(known));
+    }
+    let mut found = Vec::new();
+    while !stream.is_empty() && !stream.at_marks(";") {
+        found.push(stream.velocity().map_err(|error| error.way_out(known))?);
+        if !stream.eat(",") {
+            break;
+        }
+    }
+    stream.eat(";");
+    if stream.is_empty() { Ok(found) } else { Err(stream.expected("`,` or `;`").way_out(known)) }
 }
 
 /// The one word in `accuracy { … }`.

@@ -1,7 +1,7 @@
 //! The words of the language.
 
 /// The sections, as they are written.
-pub(crate) const SECTIONS: [&str; 33] = [
+pub(crate) const SECTIONS: [&str; 34] = [
     "constants",
     "base",
     "on",
@@ -26,6 +26,7 @@ pub(crate) const SECTIONS: [&str; 33] = [
     "routh",
     "assume",
     "units",
+    "linearization",
     "independent",
     "orthonormal",
     "formulation",
@@ -47,7 +48,7 @@ pub(crate) const FUNCTIONS: [&str; 18] = [
 pub(crate) const RESERVED: [&str; 5] = ["t", "pi", "sum", "dot", "cross"];
 
 /// The generated types that `names` renames.
-pub(crate) const TYPES: [&str; 13] = [
+pub(crate) const TYPES: [&str; 14] = [
     "state",
     "velocity",
     "input",
@@ -61,6 +62,7 @@ pub(crate) const TYPES: [&str; 13] = [
     "gyroscopic",
     "power",
     "coordinate",
+    "variable",
 ];
 
 /// The known algebras of `brackets`.

@@ -13,7 +13,7 @@ const MOST_ITERATIONS: u32 = 200;
 const MOST_HALVINGS: u32 = 40;
 
 /// Functions and their derivatives, row by row.
-pub(super) type Linearized<T, const N: usize, const M: usize> = ([T; M], [[T; N]; M]);
+pub(crate) type Linearized<T, const N: usize, const M: usize> = ([T; M], [[T; N]; M]);
 
 /// The equations of positions: the first `independent` of them determine where to go, the others follow.
 #[derive(Clone, Copy, Debug)]
@@ -28,7 +28,7 @@ pub struct Loops<const N: usize, const M: usize> {
 
 /// Newton's iteration from `start`, with steps halved until the residuals fall: each is measured by how much the
 /// full step would change its equation, so that units do not matter.
-pub(super) fn descend<T: Real, const N: usize, const M: usize>(
+pub(crate) fn descend<T: Real, const N: usize, const M: usize>(
     start: &[T; N],
     equations: impl Fn(&[T; N]) -> Linearized<T, N, M>,
     step: impl Fn(&[T; N], &Linearized<T, N, M>) -> [T; N],

@@ -14,6 +14,7 @@
 //! | understand what was derived, and what it costs | [`reading_a_report`] |
 //! | choose a method of integration | [`which_integrator`] |
 //! | stabilise it, estimate its state, plan ahead | [`control_loops`] |
+//! | find steady motions, and the linear model about them | [`steady_motions`] |
 //! | run thousands of them at once | [`many_at_once`] |
 //! | put it on a microcontroller | [`microcontrollers`] |
 //! | share one model between plant, controller and estimator | [`one_model_many_uses`] |
@@ -53,6 +54,9 @@ pub mod reading_a_report {}
 
 #[doc = include_str!("which_integrator.md")]
 pub mod which_integrator {}
+
+#[doc = include_str!("steady_motions.md")]
+pub mod steady_motions {}
 
 #[doc = include_str!("control_loops.md")]
 pub mod control_loops {}

@@ -237,3 +237,112 @@ macro_rules! car {
         $parameters
     };
 }
+
+/// The bicycle of Meijaard, Papadopoulos, Ruina, Schwab (Proc. R. Soc. A 463, 2007, 1955–1982), declared by its
+/// geometry. Axes as in the paper: x forwards, y to the right, z down. The base has the contact of the rear wheel, yaw,
+/// lean, pitch of the rear frame, steer, and the turns of the wheels.
+///
+/// `w`: wheelbase; `c`: trail; `lambda`: tilt of the steering axis; `g`: gravity; `rR`, `rF`: radii of the wheels; and for
+/// rear wheel, body, handlebar and front wheel the masses `m`, places `x`, `z` and moments of inertia `I`.
+#[macro_export]
+macro_rules! bicycle {
+    ($(#[$attribute:meta])* $visibility:vis struct $name:ident<$t:ident>; $($sections:tt)*) => {
+        #[nonholonomic::nonholonomic(
+            base { x, y, yaw, lean, pitch, steer, rear, front }
+
+            let down = [0, 0, 1];
+            let roll = rot_z(yaw) * rot_x(lean);
+            let frame = roll * rot_y(pitch);
+            let tilt = rot_y(lambda);
+            let fork = frame * tilt * rot_z(steer) * transpose(tilt);
+            let contact = [x, y, 0];
+            let hub = contact - rR * (roll * down);
+            let head = hub + frame * [w + c, 0, rR];
+            let rider = hub + frame * [xB, 0, zB + rR];
+            let bars = head + fork * [xH - w - c, 0, zH];
+            let axle = head - fork * [c, 0, rF];
+            let side = fork * [0, 1, 0];
+            let slope = sqrt(1 - side[2]^2);
+            let touch = axle + rF / slope * (down - side[2] * side);
+
+            holonomic { ground: axle[2] + rF * slope = 0; }
+            constraints {
+                rear_rolls: velocity_at(hub, frame * rot_y(rear), contact)[0..2] = 0;
+                front_rolls: velocity_at(axle, fork * rot_y(front), touch)[0..2] = 0;
+            }
+            independent { der(lean), der(steer), der(rear) }
+            lagrangian {
+                kinetic(mR, [IRx, IRy, IRx], hub, frame * rot_y(rear))
+                + kinetic(mB, [[IBx, 0, IBxz], [0, IBy, 0], [IBxz, 0, IBz]], rider, frame)
+                + kinetic(mH, [[IHx, 0, IHxz], [0, IHy, 0], [IHxz, 0, IHz]], bars, fork)
+                + kinetic(mF, [IFx, IFy, IFx], axle, fork * rot_y(front))
+                + g * (mR * hub[2] + mB * rider[2] + mH * bars[2] + mF * axle[2])
+            }
+            $($sections)*
+        )]
+        $(#[$attribute])*
+        $visibility struct $name<$t> {
+            pub w: $t,
+            pub c: $t,
+            pub lambda: $t,
+            pub g: $t,
+            pub rR: $t,
+            pub mR: $t,
+            pub IRx: $t,
+            pub IRy: $t,
+            pub xB: $t,
+            pub zB: $t,
+            pub mB: $t,
+            pub IBx: $t,
+            pub IBxz: $t,
+            pub IBy: $t,
+            pub IBz: $t,
+            pub xH: $t,
+            pub zH: $t,
+            pub mH: $t,
+            pub IHx: $t,
+            pub IHxz: $t,
+            pub IHy: $t,
+            pub IHz: $t,
+            pub rF: $t,
+            pub mF: $t,
+            pub IFx: $t,
+            pub IFy: $t,
+        }
+    };
+}
+
+/// The published parameters of [`bicycle!`], with gravity `g`, as numbers of the type that `number` makes of an `f64`.
+#[macro_export]
+macro_rules! published_bicycle {
+    ($name:ident, $g:expr, $number:expr) => {
+        $name {
+            w: ($number)(1.02),
+            c: ($number)(0.08),
+            lambda: ($number)(core::f64::consts::PI / 10.0),
+            g: ($number)($g),
+            rR: ($number)(0.3),
+            mR: ($number)(2.0),
+            IRx: ($number)(0.0603),
+            IRy: ($number)(0.12),
+            xB: ($number)(0.3),
+            zB: ($number)(-0.9),
+            mB: ($number)(85.0),
+            IBx: ($number)(9.2),
+            IBxz: ($number)(2.4),
+            IBy: ($number)(11.0),
+            IBz: ($number)(2.8),
+            xH: ($number)(0.9),
+            zH: ($number)(-0.7),
+            mH: ($number)(4.0),
+            IHx: ($number)(0.05892),
+            IHxz: ($number)(-0.00756),
+            IHy: ($number)(0.06),
+            IHz: ($number)(0.00708),
+            rF: ($number)(0.35),
+            mF: ($number)(3.0),
+            IFx: ($number)(0.1405),
+            IFy: ($number)(0.28),
+        }
+    };
+}

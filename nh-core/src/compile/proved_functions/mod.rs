@@ -71,6 +71,7 @@ impl Parts {
     ) -> System {
         let model = proved.model;
         System {
+            linearization: None,
             formulation,
             state_coordinates: coordinates(&model),
             state_velocities: velocities,

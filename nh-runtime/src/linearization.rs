@@ -1,0 +1,186 @@
+//! Linearisation where constraints hold, by named variables: what `linearization { keep: …; }` generates stands on it.
+
+mod elimination;
+mod error;
+
+use nalgebra::SMatrix;
+
+use crate::{Dynamics, Jet, Real, Scalar, ScalarOf};
+pub(crate) use elimination::{reduce, reduce_in_order};
+pub use error::LinearizationError;
+
+/// A motion to first order in some variables z of the state, δż = A δz + B δu and δh = C δz + D δu, with what rows and
+/// columns are called.
+///
+/// Made by the method `linearize` that `linearization { keep: …; }` generates: A = Z (∂F/∂x) T, B = Z ∂F/∂u,
+/// C = (∂h/∂x) T and D = ∂h/∂u, mathematics (36), where T leads along the manifold of all constraints.
+///
+/// # Examples
+///
+/// ```
+/// use nonholonomic::prelude::*;
+///
+/// /// A cart with a pole on it; the place of the cart matters to nothing.
+/// #[nonholonomic(
+///     base { x, tilt }
+///     lagrangian {
+///         (M + m) / 2 * der(x)^2 + m * l * cos(tilt) * der(x) * der(tilt) + m * l^2 / 2 * der(tilt)^2
+///             - m * g * l * cos(tilt)
+///     }
+///     forces { x: push; }
+///     inputs { push }
+///     outputs { height = l * cos(tilt); aside = l * sin(tilt); }
+///     linearization { keep: tilt, der(x), der(tilt); }
+/// )]
+/// #[derive(Clone, Copy, Debug)]
+/// struct Cart { M: f64, m: f64, l: f64, g: f64 }
+///
+/// let cart = Cart { M: 2.0, m: 1.0, l: 0.5, g: 9.81 };
+/// let upright = CartState::default();
+/// let found = cart.linearize(0.0, &upright, &CartInput::default())?;
+/// assert_eq!(found.states, ["tilt", "x_dot", "tilt_dot"]);
+/// assert_eq!((found.inputs, found.outputs), (["push"], ["height", "aside"]));
+/// // l δẗ = (M + m)/M g δtilt − δpush/M
+/// assert!((found.a[(2, 0)] - 3.0 / 2.0 * 9.81 / 0.5).abs() < 1e-13);
+/// assert!((found.b[(2, 0)] + 1.0 / (2.0 * 0.5)).abs() < 1e-15);
+/// assert_eq!((found.c[(0, 0)], found.c[(1, 0)]), (0.0, 0.5));
+/// # Ok::<(), nonholonomic::LinearizationError>(())
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Linearization<T, const K: usize, const M: usize, const P: usize> {
+    /// In row i, the derivatives of ż_i by the variables z.
+    pub a: SMatrix<T, K, K>,
+    /// In row i, the derivatives of ż_i by the inputs.
+    pub b: SMatrix<T, K, M>,
+    /// In row i, the derivatives of the output h_i by the variables z.
+    pub c: SMatrix<T, P, K>,
+    /// In row i, the derivatives of the output h_i by the inputs.
+    pub d: SMatrix<T, P, M>,
+    /// What the variables z are called.
+    pub states: [&'static str; K],
+    /// What the inputs are called.
+    pub inputs: [&'static str; M],
+    /// What the outputs are called.
+    pub outputs: [&'static str; P],
+}
+
+/// What components are called: those of the state, the inputs, the outputs.
+#[derive(Clone, Copy, Debug)]
+pub struct Names<const N: usize, const M: usize, const P: usize> {
+    /// Those of the state.
+    pub states: [&'static str; N],
+    /// Those of the inputs.
+    pub inputs: [&'static str; M],
+    /// Those of the outputs.
+    pub outputs: [&'static str; P],
+}
+
+/// A motion with its outputs and with what vanishes on the constraint manifold, to first order in N components of the
+/// state and M inputs.
+#[derive(Clone, Copy, Debug)]
+pub struct Parts<T, const N: usize, const M: usize, const R: usize, const P: usize> {
+    /// What vanishes on the manifold.
+    pub residuals: [Jet<T, N, M>; R],
+    /// The rates of the components.
+    pub rates: [Jet<T, N, M>; N],
+    /// The outputs.
+    pub outputs: [Jet<T, N, M>; P],
+}
+
+/// A system that gives these.
+pub trait FirstOrder: Dynamics {
+    /// [`Parts`] of its numbers of components.
+    type Parts;
+
+    /// Everything to first order at a state.
+    fn first_order(&self, t: ScalarOf<Self>, state: &Self::State, input: &Self::Input) -> Self::Parts;
+}
+
+/// Components of the state and inputs as variables.
+#[must_use]
+pub fn variables<T: Scalar, const N: usize, const M: usize>(
+    state: [T; N],
+    input: [T; M],
+) -> ([Jet<T, N, M>; N], [Jet<T, N, M>; M]) {
+    let mut inputs = input.map(Jet::constant);
+    for (index, input) in inputs.iter_mut().enumerate() {
+        if let Some(own) = input.by_others.get_mut(index) {
+            *own = T::ONE;
+        }
+    }
+    (Jet::variables(state), inputs)
+}
+
+/// The linearisation in the components `kept`: mathematics (36).
+///
+/// # Errors
+/// Where the kept components are not free, or move with components that are not kept.
+pub fn linearize<T: Real, const N: usize, const M: usize, const P: usize, const R: usize, const K: usize>(
+    names: &Names<N, M, P>,
+    kept: &[usize; K],
+    Parts { residuals, rates, outputs }: &Parts<T, N, M, R, P>,
+) -> Result<Linearization<T, K, M, P>, LinearizationError>
+where
+    T: nalgebra::Scalar,
+{
+    let all = residuals.iter().chain(rates).chain(outputs);
+    if !all.flat_map(|jet| jet.by.iter().chain(&jet.by_others)).all(|entry| entry.is_finite()) {
+        return Err(LinearizationError::NotFinite);
+    }
+    let constraints = residuals.map(|residual| residual.by);
+    let (by_state, by_input) = (rates.map(|rate| rate.by), rates.map(|rate| rate.by_others));
+    let is_kept = |column: usize| kept.contains(&column);
+    let reduced = reduce(&constraints, &[T::ZERO; R], |column| (!is_kept(column)).then_some(0));
+    if let Some(column) = reduced.bound() {
+        return Err(LinearizationError::NotFree { kept: name(&names.states, column) });
+    }
+    // the change of what f = 0 determines, by a component that is free
+    let change = |of: usize, column: usize| reduced.change(of, column);
+    let along = |row: &dyn Fn(usize) -> T, column: usize| {
+        (0..N).filter(|of| reduced.is_pivot(*of)).fold(row(column), |sum, of| {
+            let change = change(of, column);
+            if change == T::ZERO { sum } else { row(of).mul_add(change, sum) }
+        })
+    };
+    let rate = |i: usize, column: usize| entry(&by_state, i, column);
+    let output = |i: usize, column: usize| outputs.get(i).and_then(|output| output.by.get(column)).copied();
+    let a = SMatrix::<T, K, K>::from_fn(|i, j| along(&|c| rate(at(kept, i), c), at(kept, j)));
+    let c = SMatrix::<T, P, K>::from_fn(|i, j| along(&|c| output(i, c).unwrap_or(T::ZERO), at(kept, j)));
+    for (i, row) in kept.iter().enumerate() {
+        let own = a.row(i).iter().fold(T::ZERO, |most, entry| most.max(entry.abs()));
+        let largest = (0..M).fold(own, |most, input| most.max(entry(&by_input, *row, input).abs()));
+        let mut worst = None;
+        for column in (0..N).filter(|column| !is_kept(*column) && !reduced.is_pivot(*column)) {
+            let value = along(&|c| rate(*row, c), column);
+            let is_rounding = value.abs() <= T::EPSILON.sqrt() * largest;
+            if !is_rounding && worst.is_none_or(|(_, most): (usize, T)| value.abs() > most.abs()) {
+                worst = Some((column, value));
+            }
+        }
+        if let Some((column, value)) = worst {
+            return Err(LinearizationError::DependsOnOthers {
+                kept: name(&names.states, *row),
+                other: name(&names.states, column),
+                value: value.to_f64(),
+            });
+        }
+    }
+    let b = SMatrix::<T, K, M>::from_fn(|i, j| entry(&by_input, at(kept, i), j));
+    let d = SMatrix::<T, P, M>::from_fn(|i, j| {
+        outputs.get(i).and_then(|output| output.by_others.get(j)).copied().unwrap_or(T::ZERO)
+    });
+    let states = kept.map(|component| name(&names.states, component));
+    Ok(Linearization { a, b, c, d, states, inputs: names.inputs, outputs: names.outputs })
+}
+
+fn at<const K: usize>(kept: &[usize; K], index: usize) -> usize {
+    kept.get(index).copied().unwrap_or(usize::MAX)
+}
+
+fn entry<T: Real, const C: usize, const R: usize>(rows: &[[T; C]; R], row: usize, column: usize) -> T {
+    rows.get(row).and_then(|row| row.get(column)).copied().unwrap_or(T::ZERO)
+}
+
+fn name<const N: usize>(names: &[&'static str; N], index: usize) -> &'static str {
+    names.get(index).copied().unwrap_or("")
+}

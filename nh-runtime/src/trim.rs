@@ -1,0 +1,247 @@
+//! Steady motions: equilibria and relative equilibria, by the method `trim` that `linearization { keep: …; }` generates.
+
+use core::cell::Cell;
+use core::error::Error;
+use core::fmt::{self, Display, Formatter};
+
+use crate::arrays::{all_finite, first_non_finite};
+use crate::assembly::{AssemblyError, Loops, descend};
+use crate::linearization::{Parts, reduce, reduce_in_order};
+use crate::{Jet, Real};
+
+/// Why no steady motion was found.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
+pub enum TrimError {
+    /// A component of the guess is not finite.
+    NonFiniteGuess {
+        /// The variable.
+        variable: &'static str,
+        /// Its value.
+        value: f64,
+    },
+    /// Steady motions come in families where the search came to, along which a variable changes that is not held.
+    Undetermined {
+        /// The variable.
+        variable: &'static str,
+    },
+    /// Nothing near the guess satisfies all equations with what is held.
+    NoSolution {
+        /// The equation with the largest residual: a constraint, or the rate of a variable.
+        equation: &'static str,
+        /// That residual.
+        residual: f64,
+    },
+    /// The motion or its derivatives are not finite where the search came to.
+    NotFinite,
+}
+
+impl Display for TrimError {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        match *self {
+            Self::NonFiniteGuess { variable, value } => {
+                write!(f, "`{variable}` of the guess is {value:?}: give finite numbers")
+            }
+            Self::Undetermined { variable } => write!(
+                f,
+                "the motion stays steady where `{variable}` changes, as far as the derivatives tell where the search \
+                 came to: hold it, or another variable of that family"
+            ),
+            Self::NoSolution { equation, residual } => write!(
+                f,
+                "no steady motion was found: {equation} is left with {residual:?}; hold fewer variables or other \
+                 values, or guess nearer to a solution"
+            ),
+            Self::NotFinite => write!(
+                f,
+                "the motion or its derivatives are not finite where the search came to: guess away from there"
+            ),
+        }
+    }
+}
+
+impl Error for TrimError {}
+
+/// What the variables and the equations of a trim are: N components of the state among W variables with the inputs,
+/// and Q equations, first the constraints, then the rates of the N components.
+#[derive(Clone, Copy, Debug)]
+pub struct Steady<const N: usize, const W: usize, const Q: usize> {
+    /// What the variables are called.
+    pub variables: [&'static str; W],
+    /// What the equations are called.
+    pub equations: [&'static str; Q],
+    /// The components that a linearisation keeps.
+    pub kept: [bool; N],
+    /// How many of the components are coordinates.
+    pub coordinates: usize,
+}
+
+/// Functions and their derivatives, row by row.
+type Equations<T, const W: usize, const Q: usize> = ([T; Q], [[T; W]; Q]);
+
+impl<const N: usize, const W: usize, const Q: usize> Steady<N, W, Q> {
+    fn constraints(&self) -> usize {
+        Q.saturating_sub(N)
+    }
+
+    fn is_kept(&self, component: usize) -> bool {
+        self.kept.get(component).copied().unwrap_or(false)
+    }
+
+    /// A coordinate that is not kept may run on.
+    fn is_loose(&self, component: usize) -> bool {
+        component < self.coordinates && !self.is_kept(component)
+    }
+
+    /// The components that the constraints determine at the guess by the others: those that are not kept first.
+    fn dependent<T: Real>(&self, (_, slopes): &Equations<T, W, Q>, held: &[bool; W]) -> [bool; W] {
+        let mut constraints = *slopes;
+        constraints.iter_mut().skip(self.constraints()).for_each(|row| *row = [T::ZERO; W]);
+        let is_held = |column: usize| held.get(column).copied().unwrap_or(true);
+        let reduced = reduce(&constraints, &[T::ZERO; Q], |column| {
+            (column < N && !is_held(column)).then_some(u8::from(self.is_kept(column)))
+        });
+        core::array::from_fn(|column| reduced.is_pivot(column))
+    }
+
+    /// Whether an equation is a constraint or the rate of what is kept.
+    fn is_first(&self, equation: usize) -> bool {
+        equation.checked_sub(self.constraints()).is_none_or(|component| self.is_kept(component))
+    }
+
+    /// Whether an equation is asked for: a constraint, or the rate of what is to be steady. Rates of what follows from
+    /// the constraints follow, too.
+    fn is_asked(&self, equation: usize, dependent: &[bool; W]) -> bool {
+        let Some(component) = equation.checked_sub(self.constraints()) else { return true };
+        !self.is_loose(component) && !dependent.get(component).copied().unwrap_or(false)
+    }
+}
+
+/// Finds a steady motion from a guess: constraints hold, and kept coordinates, velocities and auxiliary states have rates
+/// that are zero. Variables that are held keep their values, coordinates that are neither kept nor needed by the
+/// constraints keep those of the guess.
+///
+/// Newton's iteration with halved steps; there may be more equations than unknowns, if they agree, as where a symmetry
+/// makes an acceleration vanish by itself.
+///
+/// # Errors
+/// What stops the search; [`TrimError`] names it.
+pub fn trim<T: Real, const N: usize, const W: usize, const Q: usize>(
+    guess: &[T; W],
+    held: &[bool; W],
+    steady: &Steady<N, W, Q>,
+    equations: impl Fn(&[T; W]) -> Equations<T, W, Q>,
+) -> Result<[T; W], TrimError> {
+    if let Some((index, value)) = first_non_finite(guess) {
+        return Err(TrimError::NonFiniteGuess { variable: name(&steady.variables, index), value });
+    }
+    let here = equations(guess);
+    if !is_finite(&here) {
+        return Err(TrimError::NotFinite);
+    }
+    let dependent = steady.dependent(&here, held);
+    let is_free = |column: usize| {
+        let is = |list: &[bool; W]| list.get(column).copied().unwrap_or(false);
+        !is(held) && (is(&dependent) || !steady.is_loose(column))
+    };
+    let asked = |x: &[T; W]| only(equations(x), |row| steady.is_asked(row, &dependent));
+    // constraints and kept rates first: those of the others may follow, and then are poor equations to solve
+    let solved = |(left, slopes): &Equations<T, W, Q>| {
+        reduce_in_order(
+            slopes,
+            &left.map(|left| -left),
+            |row| steady.is_first(row),
+            |column| is_free(column).then_some(0),
+        )
+    };
+    let chosen = solved(&asked(guess));
+    let taken = |x: &[T; W]| only(equations(x), |row| !chosen.is_open(row));
+    let undetermined = Cell::new(None);
+    let step = |there: &Equations<T, W, Q>| {
+        if !is_finite(there) {
+            return [T::ZERO / T::ZERO; W];
+        }
+        let reduced = solved(there);
+        undetermined.set((0..W).find(|column| is_free(*column) && !reduced.is_pivot(*column)));
+        if undetermined.get().is_some() { [T::ZERO / T::ZERO; W] } else { reduced.solution() }
+    };
+    let loops = Loops { names: steady.equations, independent: Q, depends: [true; W] };
+    let found = descend(guess, taken, |_, there| step(there), |x| Some(*x), |_| true, &loops);
+    let found = found.map_err(|error| match (undetermined.get(), error) {
+        (Some(column), _) => TrimError::Undetermined { variable: name(&steady.variables, column) },
+        (
+            None,
+            AssemblyError::NoSolution { constraint, residual }
+            | AssemblyError::Singular { constraint, residual },
+        ) if residual.is_finite() => TrimError::NoSolution { equation: constraint, residual },
+        _ => TrimError::NotFinite,
+    })?;
+    let end = asked(&found);
+    let reduced = solved(&end);
+    if let Some(column) = (0..W).find(|column| is_free(*column) && !reduced.is_pivot(*column)) {
+        return Err(TrimError::Undetermined { variable: name(&steady.variables, column) });
+    }
+    agree(steady, &end, |row| reduced.is_open(row), (guess, &found))?;
+    Ok(found)
+}
+
+/// Some of the equations, the others being satisfied whatever the variables are.
+fn only<T: Real, const W: usize, const Q: usize>(
+    (mut left, mut slopes): Equations<T, W, Q>,
+    is_meant: impl Fn(usize) -> bool,
+) -> Equations<T, W, Q> {
+    for (row, (left, slopes)) in left.iter_mut().zip(&mut slopes).enumerate() {
+        if !is_meant(row) {
+            (*left, *slopes) = (T::ZERO, [T::ZERO; W]);
+        }
+    }
+    (left, slopes)
+}
+
+/// Whether the equations that nothing was solved from hold, but for what the digits of the variables explain.
+fn agree<T: Real, const N: usize, const W: usize, const Q: usize>(
+    steady: &Steady<N, W, Q>,
+    (left, slopes): &Equations<T, W, Q>,
+    is_open: impl Fn(usize) -> bool,
+    (guess, found): (&[T; W], &[T; W]),
+) -> Result<(), TrimError> {
+    for (row, (left, slopes)) in left.iter().zip(slopes).enumerate().filter(|(row, _)| is_open(*row)) {
+        let sizes = guess.iter().zip(found).map(|(guess, found)| guess.abs().max(found.abs()));
+        let explained = slopes.iter().zip(sizes).fold(T::ZERO, |sum, (slope, size)| sum + slope.abs() * size);
+        if left.abs() > T::EPSILON.sqrt() * explained {
+            let (equation, residual) = (name(&steady.equations, row), left.to_f64());
+            return Err(TrimError::NoSolution { equation, residual });
+        }
+    }
+    Ok(())
+}
+
+fn is_finite<T: Real, const W: usize, const Q: usize>((left, slopes): &Equations<T, W, Q>) -> bool {
+    all_finite::<T, _>(left) && slopes.iter().all(all_finite::<T, _>)
+}
+
+/// Constraints and rates as one list of equations, by all variables.
+#[must_use]
+pub fn equations<
+    T: Real,
+    const N: usize,
+    const M: usize,
+    const R: usize,
+    const P: usize,
+    const W: usize,
+    const Q: usize,
+>(
+    Parts { residuals, rates, .. }: &Parts<T, N, M, R, P>,
+) -> ([T; Q], [[T; W]; Q]) {
+    let mut all = residuals.iter().chain(rates);
+    let jets: [Jet<T, N, M>; Q] = core::array::from_fn(|_| all.next().copied().unwrap_or_default());
+    let row = |jet: Jet<T, N, M>| {
+        let mut entries = jet.by.iter().chain(&jet.by_others);
+        core::array::from_fn(|_| entries.next().copied().unwrap_or(T::ZERO))
+    };
+    (jets.map(|jet| jet.value), jets.map(row))
+}
+
+fn name<const N: usize>(names: &[&'static str; N], index: usize) -> &'static str {
+    names.get(index).copied().unwrap_or("")
+}
