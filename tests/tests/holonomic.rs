@@ -9,4 +9,5 @@ mod holonomic {
     mod long_runs;
     mod pendulum;
     mod slider_crank;
+    mod squeezer;
 }

@@ -12,13 +12,8 @@ use super::layout::Layout;
 use super::setting::Context;
 use super::taylor;
 use super::{
-<<<<<<< HEAD
     almost_poisson, assembly, c, callback, discrete, embedding, energy, functions, hamiltonian, invariants,
-    jacobian, motion, observed, prepared, projection, report_text, state, validate,
-=======
-    almost_poisson, assembly, c, callback, discrete, dynamics, embedding, energy, functions, hamiltonian,
-    invariants, jacobian, linearization, observed, prepared, projection, report, state, validate,
->>>>>>> bf5b4ca (Linear models in named variables on the manifold, and steady motions)
+    jacobian, linearization, motion, observed, prepared, projection, report_text, state, validate,
 };
 use crate::resolve::Outline;
 

@@ -51,13 +51,14 @@ mod tests;
 
 use std::collections::BTreeSet;
 
+use nonholonomic_core::id::{Origin, SymbolId};
 use nonholonomic_core::model::{Located, Model};
 
 pub(crate) use self::dropped::resolve_quotient;
 pub(crate) use self::origins::Origins;
 pub(crate) use self::outline::Outline;
 pub(crate) use self::related_systems::{Unrelated, resolve_morphism};
-use self::resolver::Resolver;
+use self::resolver::{Resolver, Tables};
 use crate::emit::Layout;
 use crate::report::Diagnostic;
 use crate::syntax::ast::{Scalar, SystemDecl};
@@ -155,12 +156,7 @@ impl Resolver {
         let origin = Self::whole();
         let lagrangian = lagrangian.unwrap_or(Located { value: self.time(), origin });
         let tables = std::mem::take(&mut self.tables);
-        let declared = tables.sections.iter().map(|section| section.symbol);
-        layout.coordinate_symbols = tables.coordinates.iter().map(|coordinate| coordinate.symbol).collect();
-        layout.auxiliary_symbols = tables.auxiliary.iter().map(|state| state.symbol).collect();
-        let frame = tables.frame.iter().map(|section| section.symbol);
-        let basis = orthonormal.iter().flat_map(|(symbols, _)| symbols.iter().copied());
-        layout.velocity_symbols = declared.chain(frame).chain(basis).collect();
+        know_symbols(layout, &tables, orthonormal.as_ref());
         Model {
             graph: std::mem::take(&mut self.graph),
             name: declaration.structure.name.to_string(),
@@ -205,4 +201,14 @@ impl Resolver {
             idle: layout.idle.iter().cloned().collect(),
         }
     }
+}
+
+/// Tells the layout what the engine knows the entries of its families by.
+fn know_symbols(layout: &mut Layout, tables: &Tables, orthonormal: Option<&(Vec<SymbolId>, Origin)>) {
+    let declared = tables.sections.iter().map(|section| section.symbol);
+    let frame = tables.frame.iter().map(|section| section.symbol);
+    let basis = orthonormal.into_iter().flat_map(|(symbols, _)| symbols.iter().copied());
+    layout.velocity_symbols = declared.chain(frame).chain(basis).collect();
+    layout.coordinate_symbols = tables.coordinates.iter().map(|coordinate| coordinate.symbol).collect();
+    layout.auxiliary_symbols = tables.auxiliary.iter().map(|state| state.symbol).collect();
 }
