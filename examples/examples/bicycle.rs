@@ -189,8 +189,8 @@ fn draw(
         corner: Page { x: 70.0, y: 520.0 },
         width: 400.0,
         height: 200.0,
-        across: [0.0, 46.0],
-        up: [-1.0, 9.0],
+        across: [-6.0, 46.0],
+        up: [-4.0, 9.0],
     };
     let lean = Chart {
         corner: Page { x: 560.0, y: 520.0 },
@@ -211,7 +211,7 @@ fn draw(
     for ((how, speed, film), colour) in rides.iter().zip(colours) {
         let style = format!(r#"stroke="{colour}" stroke-width="1.5""#);
         let path = film.iter().map(|moment| (moment.state.x, moment.state.y));
-        track.line(&mut picture, path.filter(|(x, y)| *x <= 46.0 && (-1.0..=9.0).contains(y)), &style);
+        track.line(&mut picture, path.take_while(|(x, y)| *x <= 46.0 && (-4.0..=9.0).contains(y)), &style);
         let shown = film.iter().take_while(|moment| moment.state.lean.abs() <= 0.5);
         lean.line(&mut picture, shown.map(|moment| (moment.t, moment.state.lean)), &style);
         let row = rides.iter().position(|ride| ride.1 == *speed).unwrap_or(0);

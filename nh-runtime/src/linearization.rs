@@ -115,14 +115,18 @@ pub fn variables<T: Scalar, const N: usize, const M: usize>(
 ///
 /// # Errors
 /// Where the kept components are not free, or move with components that are not kept.
-pub fn linearize<T: Real, const N: usize, const M: usize, const P: usize, const R: usize, const K: usize>(
+pub fn linearize<
+    T: Real + nalgebra::Scalar,
+    const N: usize,
+    const M: usize,
+    const P: usize,
+    const R: usize,
+    const K: usize,
+>(
     names: &Names<N, M, P>,
     kept: &[usize; K],
     Parts { residuals, rates, outputs }: &Parts<T, N, M, R, P>,
-) -> Result<Linearization<T, K, M, P>, LinearizationError>
-where
-    T: nalgebra::Scalar,
-{
+) -> Result<Linearization<T, K, M, P>, LinearizationError> {
     let all = residuals.iter().chain(rates).chain(outputs);
     if !all.flat_map(|jet| jet.by.iter().chain(&jet.by_others)).all(|entry| entry.is_finite()) {
         return Err(LinearizationError::NotFinite);

@@ -80,9 +80,8 @@ pub struct Steady<const N: usize, const W: usize, const Q: usize> {
 type Equations<T, const W: usize, const Q: usize> = ([T; Q], [[T; W]; Q]);
 
 impl<const N: usize, const W: usize, const Q: usize> Steady<N, W, Q> {
-    fn constraints(&self) -> usize {
-        Q.saturating_sub(N)
-    }
+    /// How many of the equations are constraints.
+    const CONSTRAINTS: usize = Q.saturating_sub(N);
 
     fn is_kept(&self, component: usize) -> bool {
         self.kept.get(component).copied().unwrap_or(false)
@@ -96,7 +95,7 @@ impl<const N: usize, const W: usize, const Q: usize> Steady<N, W, Q> {
     /// The components that the constraints determine at the guess by the others: those that are not kept first.
     fn dependent<T: Real>(&self, (_, slopes): &Equations<T, W, Q>, held: &[bool; W]) -> [bool; W] {
         let mut constraints = *slopes;
-        constraints.iter_mut().skip(self.constraints()).for_each(|row| *row = [T::ZERO; W]);
+        constraints.iter_mut().skip(Self::CONSTRAINTS).for_each(|row| *row = [T::ZERO; W]);
         let is_held = |column: usize| held.get(column).copied().unwrap_or(true);
         let reduced = reduce(&constraints, &[T::ZERO; Q], |column| {
             (column < N && !is_held(column)).then_some(u8::from(self.is_kept(column)))
@@ -106,13 +105,13 @@ impl<const N: usize, const W: usize, const Q: usize> Steady<N, W, Q> {
 
     /// Whether an equation is a constraint or the rate of what is kept.
     fn is_first(&self, equation: usize) -> bool {
-        equation.checked_sub(self.constraints()).is_none_or(|component| self.is_kept(component))
+        equation.checked_sub(Self::CONSTRAINTS).is_none_or(|component| self.is_kept(component))
     }
 
     /// Whether an equation is asked for: a constraint, or the rate of what is to be steady. Rates of what follows from
     /// the constraints follow, too.
     fn is_asked(&self, equation: usize, dependent: &[bool; W]) -> bool {
-        let Some(component) = equation.checked_sub(self.constraints()) else { return true };
+        let Some(component) = equation.checked_sub(Self::CONSTRAINTS) else { return true };
         !self.is_loose(component) && !dependent.get(component).copied().unwrap_or(false)
     }
 }
@@ -159,11 +158,11 @@ pub fn trim<T: Real, const N: usize, const W: usize, const Q: usize>(
     let undetermined = Cell::new(None);
     let step = |there: &Equations<T, W, Q>| {
         if !is_finite(there) {
-            return [T::ZERO / T::ZERO; W];
+            return [T::from_f64(f64::NAN); W];
         }
         let reduced = solved(there);
         undetermined.set((0..W).find(|column| is_free(*column) && !reduced.is_pivot(*column)));
-        if undetermined.get().is_some() { [T::ZERO / T::ZERO; W] } else { reduced.solution() }
+        if undetermined.get().is_some() { [T::from_f64(f64::NAN); W] } else { reduced.solution() }
     };
     let loops = Loops { names: steady.equations, independent: Q, depends: [true; W] };
     let found = descend(guess, taken, |_, there| step(there), |x| Some(*x), |_| true, &loops);

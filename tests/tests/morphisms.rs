@@ -6,6 +6,7 @@ mod morphisms {
     mod elsewhere;
     mod fibres;
     mod invariant_frames;
+    mod motors;
     mod planar;
     mod quotients;
     mod shared_lets;

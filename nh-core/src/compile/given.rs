@@ -11,7 +11,7 @@ use crate::mechanics::{Definition, Procedure};
 use crate::model::Model;
 
 /// What is given, in quasi-velocities, each after what occurs in it.
-pub(super) fn given(model: &mut Model, motion: &mut Motion) -> Vec<Given> {
+pub(crate) fn given(model: &mut Model, motion: &mut Motion) -> Vec<Given> {
     let graph = &mut model.graph;
     let calls = model.calls.iter().map(|call| Given::Call {
         symbol: call.symbol,

@@ -33,6 +33,7 @@ mod strangers;
 mod velocities_of_state;
 mod vertical_splitting;
 
+pub(crate) use given::given;
 pub(crate) use proved::{Derived, Proved};
 pub(crate) use stages::prove;
 pub use stages::{compile, compile_with};

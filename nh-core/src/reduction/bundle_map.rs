@@ -25,6 +25,8 @@ pub(super) struct BundleMap {
     pub(super) velocity: Vec<Located>,
     /// The target's inputs.
     pub(super) inputs: Vec<Located>,
+    /// The target's auxiliary states: those of the source of the same names.
+    pub(super) auxiliary: Vec<ExprId>,
     /// ρ'∘φ: a row for each coordinate of the target.
     pub(super) anchor: Matrix,
     /// C'∘φ.
@@ -72,6 +74,14 @@ impl BundleMap {
                 Err(violation) => violations.push(violation),
             }
         }
+        let mut auxiliary = Vec::new();
+        for state in &model.auxiliary {
+            let known = source.proved.model.auxiliary.iter().find(|known| known.name == state.name);
+            match known.map(|known| known.symbol) {
+                Some(symbol) => auxiliary.push(source.graph().symbol(symbol)),
+                None => violations.push(unmatched(source, target, declared.origin, &state.name)),
+            }
+        }
         if !violations.is_empty() {
             return Err(violations);
         }
@@ -87,6 +97,7 @@ impl BundleMap {
             .chain(model.coordinates.iter().map(|coordinate| coordinate.symbol).zip(values(&coordinates)))
             .chain(target.velocities().iter().copied().zip(values(&velocity)))
             .chain(model.inputs.iter().map(|input| input.symbol).zip(values(&inputs)))
+            .chain(model.auxiliary.iter().map(|state| state.symbol).zip(auxiliary.iter().copied()))
             .chain([(model.time, time)])
             .collect();
         let mut pull_back = Transplant::new(&model.graph, images.iter().copied());
@@ -95,7 +106,18 @@ impl BundleMap {
         let anchor = algebroid.anchor.entries.iter().map(|row| pull_back.apply_all(graph, row)).collect();
         let structure = algebroid.structure.mapped(|entry| pull_back.apply(graph, entry));
         let origin = declared.origin;
-        Ok(Self { origin, parameters, coordinates, fibre, velocity, inputs, anchor, structure, images })
+        Ok(Self {
+            origin,
+            parameters,
+            coordinates,
+            fibre,
+            velocity,
+            inputs,
+            auxiliary,
+            anchor,
+            structure,
+            images,
+        })
     }
 
     /// The pull-back of functions of the target along Φ.
@@ -172,6 +194,23 @@ fn missing(source: &Side, target: &Side, origin: Origin, name: &str) -> Violatio
             "add `{name} = …;` to `velocities`, linear in the velocities of `{}`",
             source.name()
         ),
+    }
+}
+
+/// An auxiliary state of the target that the source has not.
+fn unmatched(source: &Side, target: &Side, origin: Origin, name: &str) -> Violation {
+    let (from, to) = (source.name(), target.name());
+    let states = &source.proved.model.auxiliary;
+    let known: Vec<String> = states.iter().map(|state| format!("`{}`", state.name)).collect();
+    Violation {
+        law: Law::Auxiliary,
+        origin,
+        what: format!("`{to}` has the auxiliary state `{name}`, `{from}` has none of that name"),
+        evidence: match known.is_empty() {
+            true => format!("`{from}` has no auxiliary states"),
+            false => format!("those of `{from}` are {}", known.join(", ")),
+        },
+        way_out: "call what corresponds alike in both systems".into(),
     }
 }
 

@@ -1,6 +1,7 @@
 //! What moves is related: L = L'∘Φ and Φ(D) = D', CLMM Theorems 4.6 and 7.8.
 
 use super::assuming;
+use super::auxiliary::auxiliary_states;
 use super::bundle_map::BundleMap;
 use super::forces::{forces, opaque};
 use super::laws::{Sides, broken};
@@ -21,7 +22,10 @@ pub(super) fn related(source: &mut Side, target: &Side, map: &BundleMap) -> Vec<
     violations.extend(constraints);
     match opaque(source, target, map) {
         Some(violation) => violations.push(violation),
-        None if comparable => violations.extend(forces(source, target, map)),
+        None if comparable => {
+            violations.extend(forces(source, target, map));
+            violations.extend(auxiliary_states(source, target, map));
+        }
         None => {}
     }
     violations

@@ -14,15 +14,20 @@ use crate::violation::{Law, Violation};
 pub(super) fn opaque(source: &Side, target: &Side, map: &BundleMap) -> Option<Violation> {
     [source, target].into_iter().find_map(|side| {
         let model = &side.proved.model;
-        let forces: Vec<ExprId> = model.forces.iter().map(|force| force.value).collect();
-        let symbols = model.graph.symbols_in(&forces);
-        let call = model.calls.iter().find(|call| symbols.contains(&call.symbol))?;
+        let called = |values: Vec<ExprId>| {
+            let symbols = model.graph.symbols_in(&values);
+            model.calls.iter().find(|call| symbols.contains(&call.symbol))
+        };
+        let by_a_force = called(model.forces.iter().map(|force| force.value).collect());
+        let by_a_rate = || called(model.auxiliary.iter().map(|state| state.value).collect());
+        let (caller, call) =
+            by_a_force.map(|call| ("force", call)).or_else(|| Some(("rate", by_a_rate()?)))?;
         Some(Violation {
             law: Law::Morphism,
             origin: map.origin,
             what: "whether the forces are related cannot be known".into(),
             evidence: format!(
-                "a force of `{}` calls `self.{}`, which is no formula",
+                "a {caller} of `{}` calls `self.{}`, which is no formula",
                 model.name, call.method
             ),
             way_out: "let the force be an input of both systems, or write it as a formula".into(),

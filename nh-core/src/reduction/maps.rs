@@ -77,7 +77,9 @@ fn reduced_state(source: &mut Side, target: &Side, map: &BundleMap) -> Vec<(Symb
     let model = &target.proved.model;
     let coordinates = model.coordinates.iter().map(|coordinate| coordinate.symbol);
     let values = map.coordinates.iter().map(|located| located.value).chain(velocities);
-    let all: Vec<(SymbolId, ExprId)> = coordinates.chain(kept.iter().copied()).zip(values).collect();
+    let along_base = coordinates.chain(kept.iter().copied()).zip(values);
+    let auxiliary = model.auxiliary.iter().map(|state| state.symbol).zip(map.auxiliary.iter().copied());
+    let all: Vec<(SymbolId, ExprId)> = along_base.chain(auxiliary).collect();
     let find = |symbol: &SymbolId| all.iter().find(|(known, _)| known == symbol).copied();
     target.state.iter().filter_map(find).collect()
 }
@@ -122,13 +124,22 @@ fn reconstruction(source: &mut Side, target: &Side, map: &BundleMap) -> Option<R
             kept.push((coordinate, graph.symbol(*symbol)));
         }
     }
+    let velocities_end = reduced.len() - map.auxiliary.len();
+    for (value, symbol) in map.auxiliary.iter().zip(&reduced[velocities_end..]) {
+        kept.extend(graph.as_symbol(*value).map(|state| (state, graph.symbol(*symbol))));
+    }
+    let auxiliary: Vec<SymbolId> = source.proved.model.auxiliary.iter().map(|state| state.symbol).collect();
+    if auxiliary.iter().any(|state| kept.iter().all(|(known, _)| known != state)) {
+        return None;
+    }
     // 2. y' from the state of the target
+    let graph = source.graph();
     let values: Vec<ExprId> = reduced.iter().map(|symbol| graph.symbol(*symbol)).collect();
     let parameters = model.parameters.iter().map(|p| p.symbol).zip(map.parameters.iter().map(|l| l.value));
     let images = target.state.iter().copied().zip(values).chain([(model.time, graph.symbol(time))]);
     let images: Vec<(SymbolId, ExprId)> = images.chain(parameters).collect();
     let mut in_reduced = Transplant::new(&model.graph, images);
-    let kept_velocities = &reduced[map.coordinates.len()..];
+    let kept_velocities = &reduced[map.coordinates.len()..velocities_end];
     let velocity = match &target.distribution {
         Some(distribution) => in_reduced.apply_all(source.graph(), &distribution.velocity),
         None => kept_velocities.iter().map(|symbol| source.graph().symbol(*symbol)).collect(),
@@ -155,6 +166,10 @@ fn reconstruction(source: &mut Side, target: &Side, map: &BundleMap) -> Option<R
         state.push(finished(graph, value));
     }
     for value in state_velocities {
+        state.push(finished(graph, value));
+    }
+    for symbol in &auxiliary {
+        let value = graph.symbol(*symbol);
         state.push(finished(graph, value));
     }
     let (rates, state) = (Procedure::of(rates), Procedure::of(state));

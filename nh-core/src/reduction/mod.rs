@@ -5,6 +5,7 @@
 //! on every fibre, L = L'∘Φ, Φ(D) = D', and the forces are related. Everything is proved; what fails
 //! is a [`Violation`] with its defect, in the symbols of the first system.
 
+mod auxiliary;
 mod bundle_map;
 mod dynamics;
 mod forces;
@@ -93,7 +94,6 @@ pub fn reduce(source: Model, target: Model, declared: &MorphismDecl) -> Result<R
     let target = Side::of(target)?;
     about(Subject::Map);
     fence([&source, &target].into_iter().filter_map(|side| on_level(side, declared)).collect())?;
-    fence([&source, &target].into_iter().filter_map(|side| with_auxiliary(side, declared.origin)).collect())?;
     let sides = [&source, &target].into_iter();
     fence(sides.filter_map(|side| on_positions(side, declared.origin)).collect())?;
     // 1. Φ: parameters, base and fibres, and the target pulled back by it
@@ -132,18 +132,6 @@ fn on_level(side: &Side, declared: &MorphismDecl) -> Option<Violation> {
         what: format!("`{}` is on a level of a momentum, by `routh`", side.name()),
         evidence: format!("its motions are those on which the momentum of `{}` has this value", level.name),
         way_out: "relate the whole systems, declared without `routh`".into(),
-    })
-}
-
-/// A side with auxiliary states, which a map of bundles does not carry.
-fn with_auxiliary(side: &Side, origin: Origin) -> Option<Violation> {
-    let state = side.proved.model.auxiliary.first()?;
-    Some(Violation {
-        law: Law::Auxiliary,
-        origin,
-        what: format!("`{}` has auxiliary states", side.name()),
-        evidence: format!("`{}` is one, and the map says nothing of it", state.name),
-        way_out: "relate the machines without them: let an input stand for each".into(),
     })
 }
 

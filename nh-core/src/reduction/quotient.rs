@@ -51,6 +51,8 @@ pub struct Quotient {
     pub constraints: Vec<Equation>,
     /// Forces along sections.
     pub forces: Vec<(usize, ExprId)>,
+    /// The rates of the auxiliary states, which go along, by their names.
+    pub auxiliary: Vec<(String, ExprId)>,
 }
 
 /// A constraint of the quotient.
@@ -72,7 +74,6 @@ pub struct Equation {
 pub fn quotient(model: Model, declared: &QuotientDecl) -> Result<Quotient, Refusal> {
     let mut source = Side::of(model)?;
     about(Subject::Quotient);
-    fence(super::with_auxiliary(&source, declared.origin).into_iter().collect())?;
     fence(super::on_positions(&source, declared.origin).into_iter().collect())?;
     // 1. the frame: w = Φ y, Ψ = Φ⁻¹
     let derived = invariant_frame(&mut source, declared);
@@ -119,6 +120,7 @@ pub fn quotient(model: Model, declared: &QuotientDecl) -> Result<Quotient, Refus
     let lagrangian = invariant.checked(lagrangian, "the Lagrangian");
     let constraints = constraints(&mut invariant, &algebroid.velocities, &change, &mut in_frame);
     let forces = forces(&mut invariant, &change, &mut in_frame, &names);
+    let auxiliary = auxiliary(&mut invariant, &mut in_frame);
     let identities = identities(&mut invariant);
     // 3. what was found to depend on them
     let violations = std::mem::take(&mut invariant.violations);
@@ -133,6 +135,7 @@ pub fn quotient(model: Model, declared: &QuotientDecl) -> Result<Quotient, Refus
         lagrangian,
         constraints,
         forces,
+        auxiliary,
         source: source.proved.model,
     })
 }
@@ -238,6 +241,28 @@ fn forces(
         if !invariant.side.graph().is_literal_zero(force) {
             found.push((k, force));
         }
+    }
+    found
+}
+
+/// The rates of the auxiliary states in the frame.
+fn auxiliary(invariant: &mut Invariant<'_>, in_frame: &mut Substitution) -> Vec<(String, ExprId)> {
+    let rates = invariant.side.rates.clone();
+    let names: Vec<String> =
+        invariant.side.proved.model.auxiliary.iter().map(|state| state.name.clone()).collect();
+    let model = &invariant.side.proved.model;
+    let symbols = model.graph.symbols_in(&rates);
+    if let Some(call) = model.calls.iter().find(|call| symbols.contains(&call.symbol)) {
+        let evidence = format!("it calls `self.{}`, which is no formula", call.method);
+        let what = "the rate of an auxiliary state cannot be rewritten".to_owned();
+        invariant.refuse(what, evidence, "write it as a formula, or use an input in its place");
+        return Vec::new();
+    }
+    let mut found = Vec::with_capacity(names.len());
+    for (name, rate) in names.into_iter().zip(rates) {
+        let rate = in_frame.apply(invariant.side.graph(), rate);
+        let rate = invariant.checked(rate, &format!("the rate of `{name}`"));
+        found.push((name, rate));
     }
     found
 }

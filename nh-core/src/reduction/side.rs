@@ -1,6 +1,7 @@
 //! One of the two systems of a morphism, with what the first stages prove of it.
 
 use super::Refusal;
+use super::auxiliary::rates;
 use crate::algebra::{Graph, Matrix, Substitution, Verdict};
 use crate::check::Chosen;
 use crate::compile::{Proved, compile, prove};
@@ -14,8 +15,10 @@ pub(super) struct Side {
     pub(super) proved: Proved,
     /// D with its basis, in the adapted formulation.
     pub(super) distribution: Option<Box<ConstraintDistribution>>,
-    /// The state: coordinates, then velocities.
+    /// The state: coordinates, then velocities, then auxiliary states.
     pub(super) state: Vec<SymbolId>,
+    /// The rates of the auxiliary states, in quasi-velocities.
+    pub(super) rates: Vec<ExprId>,
     /// Where the constraints hold over the embedded base.
     manifold: Manifold,
 }
@@ -39,9 +42,11 @@ impl Side {
         } else {
             let coordinates = proved.model.coordinates.iter().map(|coordinate| coordinate.symbol);
             let kept = distribution.as_ref().map_or(velocities, |d| d.independent.clone());
-            coordinates.chain(kept).collect()
+            let auxiliary = proved.model.auxiliary.iter().map(|state| state.symbol);
+            coordinates.chain(kept).chain(auxiliary).collect()
         };
-        Ok(Self { proved, distribution, state, manifold })
+        let rates = rates(&mut proved);
+        Ok(Self { proved, distribution, state, rates, manifold })
     }
 
     /// The expressions.

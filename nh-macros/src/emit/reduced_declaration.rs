@@ -108,11 +108,13 @@ pub(crate) fn can_be_written(quotient: &Quotient) -> bool {
         lagrangian,
         constraints,
         forces,
+        auxiliary,
     } = quotient;
     let sides = constraints.iter().flat_map(|equation| [equation.left, equation.right]);
     let facts = source.assumptions.iter().flat_map(|fact| [fact.left, fact.right]);
     let all = map.iter().chain(identities).copied().chain([*lagrangian]).chain(sides).chain(facts);
     let all = all.chain(anchor.iter().map(|(_, rate)| *rate)).chain(forces.iter().map(|(_, force)| *force));
+    let all = all.chain(auxiliary.iter().map(|(_, rate)| *rate));
     let mut all = all.chain(brackets.iter().map(|(.., value)| *value));
     all.all(|expression| source.graph.text_within(expression, LONGEST).len() <= LONGEST)
 }
@@ -241,6 +243,13 @@ impl Written<'_> {
                 quote!(#name: #force;)
             });
             sections.extend(quote!(forces { #(#forces)* }));
+        }
+        if !quotient.auxiliary.is_empty() {
+            let rates = quotient.auxiliary.iter().map(|(name, rate)| {
+                let (name, rate) = (tokens(name), self.text(*rate));
+                quote!(der(#name) = #rate;)
+            });
+            sections.extend(quote!(auxiliary { #(#rates)* }));
         }
         if !layout.inputs.is_empty() {
             let inputs = list(&layout.inputs);

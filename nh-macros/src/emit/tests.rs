@@ -125,6 +125,7 @@ fn stubs_stand_in() {
         identities: 0,
         velocities: 2,
         has_positions: false,
+        kept: None,
         claims_section: false,
     };
     golden("stubs", stubs(&layout, &outline));

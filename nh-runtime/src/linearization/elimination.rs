@@ -34,7 +34,9 @@ pub(crate) fn reduce_in_order<T: Real, const N: usize, const R: usize>(
     for (row, right) in reduced.rows.iter_mut().zip(&mut reduced.right) {
         let largest = row.iter().fold(T::ZERO, |largest, x| largest.max(x.abs()));
         if largest > T::ZERO {
-            row.iter_mut().for_each(|entry| *entry = *entry / largest);
+            for entry in row.iter_mut() {
+                *entry = *entry / largest;
+            }
             *right = *right / largest;
         }
     }
