@@ -4,9 +4,12 @@
 mod holonomic {
     mod assembly;
     mod car_axis;
+    mod delta;
+    mod five_bar;
     mod four_bar;
     mod hoop;
     mod long_runs;
+    mod long_swing;
     mod pendulum;
     mod slider_crank;
     mod squeezer;

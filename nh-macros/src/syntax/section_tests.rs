@@ -190,7 +190,7 @@ fn errors_in_lines_are_explained() {
         (
             "names { sate = A; }",
             "there is no generated type `sate`\ntypes that can be renamed: `state`, `velocity`, `input`, \
-             `multipliers`, `outputs`, `reactions`, `residual`, `momenta`, `phase`, `quadratures`, `gyroscopic`, `power`, `coordinate`\nhelp: did you mean `state`?"
+             `multipliers`, `outputs`, `reactions`, `residual`, `momenta`, `phase`, `quadratures`, `gyroscopic`, `power`, `coordinate`, `variable`\nhelp: did you mean `state`?"
                 .to_owned(),
         ),
         (

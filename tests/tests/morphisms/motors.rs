@@ -20,7 +20,7 @@ use nonholonomic::prelude::*;
     }
 )]
 #[derive(Clone, Copy, Debug)]
-pub struct Driven {
+struct Driven {
     m: f64,
     J: f64,
     b: f64,
@@ -43,7 +43,7 @@ pub struct Driven {
     forces { v: k * (current[0] + current[1]); omega: k * b * (current[1] - current[0]); }
 )]
 #[derive(Clone, Copy, Debug)]
-pub struct Reduced {
+struct Reduced {
     m: f64,
     J: f64,
     b: f64,
@@ -64,7 +64,7 @@ quotient! {
     Driven ->
     /// The same, derived.
     #[derive(Clone, Copy, Debug)]
-    pub struct Derived by { x, y, theta } {
+    struct Derived by { x, y, theta } {
         velocities {
             v = cos(theta) * der(x) + sin(theta) * der(y);
             side = cos(theta) * der(y) - sin(theta) * der(x);
@@ -96,13 +96,13 @@ fn motions_with_currents_go_to_motions() {
     whole.set_input(input);
     whole.advance_to(2.0).unwrap();
     let reduced: Reduced = DRIVEN.reduced();
-    let first: ReducedState = DRIVEN.reduce(0.0, &start());
+    let first = Reduction::<Reduced>::reduce(&DRIVEN, 0.0, &start());
     assert_eq!(first.current, [0.3, -0.2]);
     let mut alone = Integrator::new(reduced, Dop853::new().rtol(1e-12).atol(1e-12), 0.0, first);
     alone.set_input(ReducedInput { volts: input.volts });
     alone.advance_to(2.0).unwrap();
-    let image: ReducedState = DRIVEN.reduce(2.0, whole.state());
-    let derived: DerivedState = DRIVEN.reduce(2.0, whole.state());
+    let image = Reduction::<Reduced>::reduce(&DRIVEN, 2.0, whole.state());
+    let derived = Reduction::<Derived>::reduce(&DRIVEN, 2.0, whole.state());
     let pairs = image.to_array().into_iter().zip(alone.state().to_array());
     for (image, alone) in pairs {
         assert!((image - alone).abs() < 1e-10, "{image} {alone}");
