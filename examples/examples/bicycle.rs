@@ -208,14 +208,13 @@ fn draw(
     );
     let seconds = [(0.0, "0"), (10.0, "10"), (20.0, "20 s")];
     lean.axes(&mut picture, "lean (rad)", &seconds, &[(-0.5, "−0.5"), (0.0, "0"), (0.5, "0.5")]);
-    for ((how, speed, film), colour) in rides.iter().zip(colours) {
+    for (row, ((how, speed, film), colour)) in (0_u32..).zip(rides.iter().zip(colours)) {
         let style = format!(r#"stroke="{colour}" stroke-width="1.5""#);
         let path = film.iter().map(|moment| (moment.state.x, moment.state.y));
         track.line(&mut picture, path.take_while(|(x, y)| *x <= 46.0 && (-4.0..=9.0).contains(y)), &style);
         let shown = film.iter().take_while(|moment| moment.state.lean.abs() <= 0.5);
         lean.line(&mut picture, shown.map(|moment| (moment.t, moment.state.lean)), &style);
-        let row = rides.iter().position(|ride| ride.1 == *speed).unwrap_or(0);
-        let x = 560.0 + 130.0 * f64::from(u32::try_from(row)?);
+        let x = 560.0 + 130.0 * f64::from(row);
         picture.line(&[Page { x, y: 770.0 }, Page { x: x + 18.0, y: 770.0 }], &style);
         let text = format!("{speed} m/s {how}");
         picture.text(Page { x: x + 24.0, y: 774.0 }, &text, &format!(r#"font-size="12" fill="{INK}""#));

@@ -85,7 +85,7 @@ mod integrator;
 mod jet;
 mod lanes;
 mod linear;
-mod linearization;
+mod linear_model;
 pub mod methods;
 mod newton_return;
 #[cfg(test)]
@@ -118,7 +118,7 @@ pub use fast::Fast;
 pub use integrator::Integrator;
 pub use jet::Jet;
 pub use lanes::Lanes;
-pub use linearization::{Linearization, LinearizationError};
+pub use linear_model::{Linearization, LinearizationError};
 pub use methods::Taylor;
 pub use methods::{
     Bs23, Conserving, Controller, DiscreteGradient, DiscreteSuslov, Dop853, Dopri5, Euler, GaussLegendre4,
@@ -388,7 +388,7 @@ pub mod __private {
     pub use crate::TaylorSeries;
     pub use crate::assembly::{AssemblyError, Loops, assemble, assemble_holding};
     pub use crate::linear::{inverse_pivoted, solve_pivoted, times};
-    pub use crate::linearization::{
+    pub use crate::linear_model::{
         FirstOrder, Linearization, LinearizationError, Names, Parts, linearize, variables,
     };
     pub use crate::newton_return::{corrected, first_iterate, newton, product_of_signs, worst};

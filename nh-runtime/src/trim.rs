@@ -6,7 +6,7 @@ use core::fmt::{self, Display, Formatter};
 
 use crate::arrays::{all_finite, first_non_finite};
 use crate::assembly::{AssemblyError, Loops, descend};
-use crate::linearization::{Parts, reduce, reduce_in_order};
+use crate::linear_model::{Parts, reduce, reduce_in_order};
 use crate::{Jet, Real};
 
 /// Why no steady motion was found.

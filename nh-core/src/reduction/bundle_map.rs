@@ -206,9 +206,10 @@ fn unmatched(source: &Side, target: &Side, origin: Origin, name: &str) -> Violat
         law: Law::Auxiliary,
         origin,
         what: format!("`{to}` has the auxiliary state `{name}`, `{from}` has none of that name"),
-        evidence: match known.is_empty() {
-            true => format!("`{from}` has no auxiliary states"),
-            false => format!("those of `{from}` are {}", known.join(", ")),
+        evidence: if known.is_empty() {
+            format!("`{from}` has no auxiliary states")
+        } else {
+            format!("those of `{from}` are {}", known.join(", "))
         },
         way_out: "call what corresponds alike in both systems".into(),
     }

@@ -1,7 +1,7 @@
 //! What moves is related: L = L'∘Φ and Φ(D) = D', CLMM Theorems 4.6 and 7.8.
 
 use super::assuming;
-use super::auxiliary::auxiliary_states;
+use super::auxiliary_rates::auxiliary_states;
 use super::bundle_map::BundleMap;
 use super::forces::{forces, opaque};
 use super::laws::{Sides, broken};

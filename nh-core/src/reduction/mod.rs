@@ -5,7 +5,7 @@
 //! on every fibre, L = L'∘Φ, Φ(D) = D', and the forces are related. Everything is proved; what fails
 //! is a [`Violation`] with its defect, in the symbols of the first system.
 
-mod auxiliary;
+mod auxiliary_rates;
 mod bundle_map;
 mod dynamics;
 mod forces;

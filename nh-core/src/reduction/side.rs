@@ -1,7 +1,7 @@
 //! One of the two systems of a morphism, with what the first stages prove of it.
 
 use super::Refusal;
-use super::auxiliary::rates;
+use super::auxiliary_rates::rates;
 use crate::algebra::{Graph, Matrix, Substitution, Verdict};
 use crate::check::Chosen;
 use crate::compile::{Proved, compile, prove};

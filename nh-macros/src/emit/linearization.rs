@@ -9,14 +9,14 @@ use proc_macro2::{Literal, TokenStream};
 use quote::quote;
 
 use super::assembly::by_name;
-use super::context::Context;
-use super::expression::element;
-use super::function::Part;
+use super::infix::element;
+use super::inherent_method::Part;
 use super::layout::{Layout, local};
 use super::program::body;
 use super::record::Record;
 use super::results::residual_names;
-use super::scope::{Argument, Scope, parameter_places};
+use super::setting::Context;
+use super::symbols::{Argument, Scope, parameter_places};
 use crate::syntax::ast;
 
 /// The two methods, the enum, and what both stand on; nothing where no linearisation is declared.

@@ -196,7 +196,7 @@ fn errors_in_lines_are_explained() {
         (
             "names { everything = A; }",
             "there is no generated type `everything`\nhelp: types that can be renamed: `state`, `velocity`, \
-             `input`, `multipliers`, `outputs`, `reactions`, `residual`, `momenta`, `phase`, `quadratures`, `gyroscopic`, `power`, `coordinate`"
+             `input`, `multipliers`, `outputs`, `reactions`, `residual`, `momenta`, `phase`, `quadratures`, `gyroscopic`, `power`, `coordinate`, `variable`"
                 .to_owned(),
         ),
         ("derivative { motor = 2 }", format!("expected `:`, found `=`\nhelp: {methods}")),

@@ -1,13 +1,13 @@
 //! Linearisation where constraints hold, by named variables: what `linearization { keep: …; }` generates stands on it.
 
 mod elimination;
-mod error;
+mod linearization_error;
 
 use nalgebra::SMatrix;
 
 use crate::{Dynamics, Jet, Real, Scalar, ScalarOf};
 pub(crate) use elimination::{reduce, reduce_in_order};
-pub use error::LinearizationError;
+pub use linearization_error::LinearizationError;
 
 /// A motion to first order in some variables z of the state, δż = A δz + B δu and δh = C δz + D δu, with what rows and
 /// columns are called.
