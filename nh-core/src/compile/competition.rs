@@ -1,7 +1,7 @@
 //! The forms of the equations on D: derived, shown, compared and proved.
 
 use super::cancellation::without_needless_cancellation;
-use super::given;
+use super::given::given;
 use super::levels::again;
 use super::proved::Proved;
 use crate::algebra::Graph;
@@ -22,7 +22,7 @@ pub(super) fn reference(
     distribution: &ConstraintDistribution,
     kept: &ConstraintDistribution,
 ) -> Reference {
-    let given = given::given(&mut proved.model, &mut proved.motion);
+    let given = given(&mut proved.model, &mut proved.motion);
     let mut residuals = proved.constraints.residuals.clone();
     residuals.extend(proved.levels.iter().map(|level| level.residual));
     Reference::adapted(&proved.system, given, residuals, distribution, kept)

@@ -1,5 +1,6 @@
 //! What linearising a motion on the constraint manifold takes.
 
+use super::proved::fence;
 use crate::functions::RESIDUAL;
 use crate::id::{Origin, SymbolId};
 use crate::mechanics::{NotDifferentiable, Procedure, jacobian};
@@ -25,7 +26,7 @@ pub(super) fn derive(system: &mut System) -> Result<(), Vec<Violation>> {
     if let Some((_, origin)) = named.first().filter(|_| !system.model.calls.is_empty()) {
         refused.extend(not_differentiable(system, &state, *origin));
     }
-    super::fence(refused)?;
+    fence(refused)?;
     let on_constraints = system.functions.get(&RESIDUAL).map(|residual| residual.outputs.clone());
     let on_base = system.embedding.as_ref().map(|embedding| embedding.residual.outputs.clone());
     let residuals = Procedure::of(on_constraints.into_iter().chain(on_base).flatten().collect());

@@ -3,8 +3,8 @@
 use super::levels::OnLevels;
 use super::proved::{Proved, both, fence};
 use super::{
-    adapted_functions, analytic, folded_constants, levels, linearization, momenta, projected_functions, routh, slice,
-    strangers,
+    adapted_functions, analytic, folded_constants, levels, linearization, momenta, projected_functions,
+    routh, slice, strangers,
 };
 use crate::algebra::Facts;
 use crate::check::BrokenLaws;

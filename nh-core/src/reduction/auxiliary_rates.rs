@@ -4,10 +4,6 @@ use super::assuming;
 use super::bundle_map::BundleMap;
 use super::laws::{Sides, broken};
 use super::side::Side;
-use crate::algebra::Substitution;
-use crate::choose::Given;
-use crate::compile::{Proved, given};
-use crate::id::ExprId;
 use crate::violation::Violation;
 
 /// ż = g and ż' = g' are related where the constraints hold: g = g' after the map, for each z' with its z. A source may
@@ -33,24 +29,4 @@ pub(super) fn auxiliary_states(source: &mut Side, target: &Side, map: &BundleMap
         violations.push(broken(source, map.origin, what, &Sides { left, right, words }, &verdict, way_out));
     }
     violations
-}
-
-/// The rates of the auxiliary states in quasi-velocities, with those that occur in others put in.
-pub(super) fn rates(proved: &mut Proved) -> Vec<ExprId> {
-    let mut known = Substitution::new([]);
-    for given in given(&mut proved.model, &mut proved.motion) {
-        // each after those that occur in it
-        if let Given::Rate { symbol, value } = given {
-            let value = known.apply(&mut proved.model.graph, value);
-            known.insert(symbol, value);
-        }
-    }
-    let rates: Vec<_> = proved.model.auxiliary.iter().map(|state| state.rate).collect();
-    let graph = &mut proved.model.graph;
-    let mut found = Vec::with_capacity(rates.len());
-    for rate in rates {
-        let rate = graph.symbol(rate);
-        found.push(known.apply(graph, rate));
-    }
-    found
 }

@@ -1,10 +1,10 @@
 //! One of the two systems of a morphism, with what the first stages prove of it.
 
 use super::Refusal;
-use super::auxiliary_rates::rates;
 use crate::algebra::{Graph, Matrix, Substitution, Verdict};
 use crate::check::Chosen;
-use crate::compile::{Proved, compile, prove};
+use crate::choose::Given;
+use crate::compile::{Proved, compile, given, prove};
 use crate::geometry::{ConstraintDistribution, Manifold};
 use crate::id::{ExprId, SymbolId};
 use crate::model::Model;
@@ -137,4 +137,24 @@ impl Side {
         });
         Ok(all?.saturating_sub(alone?))
     }
+}
+
+/// The rates of the auxiliary states in quasi-velocities, with those that occur in others put in.
+fn rates(proved: &mut Proved) -> Vec<ExprId> {
+    let mut known = Substitution::new([]);
+    for given in given(&mut proved.model, &mut proved.motion) {
+        // each after those that occur in it
+        if let Given::Rate { symbol, value } = given {
+            let value = known.apply(&mut proved.model.graph, value);
+            known.insert(symbol, value);
+        }
+    }
+    let rates: Vec<_> = proved.model.auxiliary.iter().map(|state| state.rate).collect();
+    let graph = &mut proved.model.graph;
+    let mut found = Vec::with_capacity(rates.len());
+    for rate in rates {
+        let rate = graph.symbol(rate);
+        found.push(known.apply(graph, rate));
+    }
+    found
 }
