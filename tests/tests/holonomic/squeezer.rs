@@ -178,20 +178,31 @@ fn the_end_is_the_published_one() {
     }
 }
 
-/// Positions and rates are published to more digits than what follows from them as an equation of index 3.
+/// What the published angles and rates have for accelerations, by `tests/reference/squeezer.py`. The published ones, of
+/// an equation of index 3, are 1e-7 of their largest away, since the published rates leave 1e-9 in the loops.
 #[test]
 fn accelerations_and_multipliers_at_the_published_end() {
     let mut end = [0.0; 14];
     end[..7].copy_from_slice(&ANGLES);
     end[7..].copy_from_slice(&RATES);
     let end = SqueezerState::from(end);
+    let exact = [
+        -24_631.764_251_062,
+        51_850.321_376_498,
+        324_102.600_586_73,
+        566_749.421_788_61,
+        16_743.635_403_113,
+        -566_749.421_788_63,
+        9_826.507_826_265,
+    ];
     let rates = SQUEEZER.derivative(0.03, &end, &()).to_array();
-    for (found, published) in rates[7..].iter().zip(ACCELERATIONS) {
-        assert!((found - published).abs() < 1e-8 * ACCELERATIONS[3], "{found} {published}");
+    for ((found, exact), published) in rates[7..].iter().zip(exact).zip(ACCELERATIONS) {
+        assert!((found - exact).abs() < 1e-12 * ACCELERATIONS[3], "{found} {exact}");
+        assert!((found - published).abs() < 2e-7 * ACCELERATIONS[3], "{found} {published}");
     }
     let lambda = SQUEEZER.multipliers(0.03, &end, &());
     let found = [lambda.first, lambda.second, lambda.third];
     for (found, published) in found.as_flattened().iter().zip(MULTIPLIERS) {
-        assert!((found + published).abs() < 1e-8 * MULTIPLIERS[0], "{found} {published}");
+        assert!((found + published).abs() < 2e-7 * MULTIPLIERS[0], "{found} {published}");
     }
 }
