@@ -140,7 +140,7 @@ impl<S: Dynamics, M: Method<S>> Integrator<S, M> {
 
     /// Leaves the states as the method computes them. Otherwise they are returned to position constraints, where
     /// the system has any, after every step and within it, positions first, then velocities: the method's
-    /// order stays, [`Statistics`] say how far they were moved, and what the method has stored about the state
+    /// order stays, [`Statistics`] say how far they were moved, and what the method has stored of that state alone
     /// is computed anew.
     #[must_use]
     pub fn without_return(mut self) -> Self {

@@ -13,7 +13,7 @@ use crate::{
 /// error (Hairer, Lubich, Wanner, Geometric Numerical
 /// Integration, section IV.4). The projection keeps the order of the method. It comes after the
 /// method's own error estimate, changes the state at the end of a step and nothing before it, and
-/// makes the method drop what it has stored about the state; dense output leads to the corrected
+/// makes the method drop what it has stored of that state alone; dense output leads to the corrected
 /// state. [`Statistics`] say how often that happened and how much it changed.
 ///
 /// A start that a return to the constraints would move by more than the method's tolerance in some component,
