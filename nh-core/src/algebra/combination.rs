@@ -19,6 +19,13 @@ impl Graph {
         let polynomials: Option<Vec<Terms>> =
             demands.iter().map(|(id, _)| self.polynomial_terms(*id)).collect();
         let polynomials = polynomials?;
+        if polynomials
+            .iter()
+            .zip(demands)
+            .all(|(polynomial, (_, demand))| is_met_by_constant(polynomial, *demand))
+        {
+            return None;
+        }
         let mut rows: Vec<Row> = Vec::new();
         for (index, (polynomial, (_, demand))) in polynomials.iter().zip(demands).enumerate() {
             match demand {
@@ -53,6 +60,18 @@ impl Graph {
             used.push((*index, sign.clone() * multiplier));
         }
         Some(Contradiction::Combination(used))
+    }
+}
+
+/// Whether a demand is met where all monomials but the constant are 0: where all are, squares and products do not
+/// add up to a contradiction.
+fn is_met_by_constant(polynomial: &Terms, demand: Demand) -> bool {
+    let constant = polynomial.get(&Monomial::new()).cloned().unwrap_or(Rational::ZERO);
+    match demand {
+        Demand::Positive => !constant.is_zero() && !constant.is_negative(),
+        Demand::NotNegative => !constant.is_negative(),
+        Demand::Zero => constant.is_zero(),
+        Demand::Nonzero => !constant.is_zero(),
     }
 }
 

@@ -83,11 +83,9 @@ impl<'a> Degrees<'a> {
     /// The bounds of several expressions.
     fn of_all(&mut self, roots: &[ExprId]) -> Vec<Degree> {
         if roots.iter().any(|root| !self.known.contains_key(root)) {
-            for id in self.graph.reachable(roots) {
-                if !self.known.contains_key(&id) {
-                    let degree = self.of_node(id);
-                    self.known.insert(id, degree);
-                }
+            for id in self.graph.reachable_beyond(roots, |id| self.known.contains_key(&id)) {
+                let degree = self.of_node(id);
+                self.known.insert(id, degree);
             }
         }
         roots.iter().map(|root| self.known[root].clone()).collect()

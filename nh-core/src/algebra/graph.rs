@@ -22,7 +22,7 @@ use std::rc::Rc;
 /// The expressions of one declaration, and the names that occur in them.
 #[derive(Clone, Debug, Default)]
 pub struct Graph {
-    nodes: Table<ExprId, Node>,
+    pub(super) nodes: Table<ExprId, Node>,
     places: Places,
     symbols: Table<SymbolId, String>,
     /// Numbers that have names.
@@ -41,7 +41,7 @@ pub struct Graph {
     pub(super) partials: FxHashMap<(ExprId, SymbolId), ExprId>,
     /// What the zero test has said.
     pub(super) verdicts: RefCell<FxHashMap<ExprId, Verdict>>,
-    visited: RefCell<Visited>,
+    pub(super) visited: RefCell<Visited>,
 }
 
 /// What distinguishes sums from products of the same numbers.
@@ -210,73 +210,7 @@ impl Graph {
             _ => None,
         }
     }
-
-    /// Visits the expressions that `roots` are made of, themselves included, each once, for as long as
-    /// `visit` wishes to go on.
-    pub(super) fn each_reachable(&self, roots: &[ExprId], mut visit: impl FnMut(ExprId) -> bool) {
-        let mut visited = self.visited.take();
-        let mut steps = 0;
-        visited.begin(self.nodes.len(), roots);
-        while let Some(id) = visited.next() {
-            if !visit(id) {
-                break;
-            }
-            steps += 1 + self.node(id).breadth();
-            match self.node(id) {
-                Node::Number(_) | Node::Pi | Node::Constant(_) | Node::Symbol(_) => {}
-                Node::Sum { terms: list, .. } | Node::Product { factors: list, .. } => {
-                    list.iter().for_each(|(operand, _)| visited.open(*operand));
-                }
-                Node::Apply(_, x) => visited.open(*x),
-                Node::Apply2(_, x, y) => {
-                    visited.open(*x);
-                    visited.open(*y);
-                }
-            }
-        }
-        self.visited.replace(visited);
-        // reading is the quickest of all work
-        limits::spend(steps / 4);
-    }
-
-    /// All expressions that `roots` are made of, themselves included, operands first.
-    #[must_use]
-    pub fn reachable(&self, roots: &[ExprId]) -> Vec<ExprId> {
-        let mut found = Vec::with_capacity(USUAL);
-        self.each_reachable(roots, |id| {
-            found.push(id);
-            true
-        });
-        self.visited.borrow_mut().sort(&mut found);
-        found
-    }
-
-    /// The symbols that occur in `roots`, in order of their introduction.
-    #[must_use]
-    pub fn symbols_in(&self, roots: &[ExprId]) -> Vec<SymbolId> {
-        let mut found = Vec::new();
-        self.each_reachable(roots, |id| {
-            found.extend(self.as_symbol(id));
-            true
-        });
-        found.sort_unstable();
-        found
-    }
-
-    /// Whether any of `symbols` occurs in `expression`.
-    #[must_use]
-    pub fn depends_on(&self, expression: ExprId, symbols: &[SymbolId]) -> bool {
-        let mut occurs = false;
-        self.each_reachable(&[expression], |id| {
-            occurs |= self.as_symbol(id).is_some_and(|symbol| symbols.contains(&symbol));
-            !occurs
-        });
-        occurs
-    }
 }
-
-/// Room for the distinct expressions of most that are walked through.
-const USUAL: usize = 32;
 
 #[allow(clippy::cast_possible_truncation, reason = "half of the bits are enough")]
 fn hashed(content: &impl Hash) -> u32 {

@@ -146,19 +146,17 @@ impl<'a> FieldPass<'a> {
     /// Where some root has no value there, or ever.
     pub(crate) fn evaluate(&mut self, roots: &[ExprId]) -> Result<Vec<Residue>, NoValue> {
         if roots.iter().any(|root| !self.known.contains_key(root)) {
-            let order = self.graph.reachable(roots);
+            let order = self.graph.reachable_beyond(roots, |id| self.known.contains_key(&id));
             self.evaluate_in_order(order)?;
         }
         Ok(roots.iter().map(|root| self.known[root]).collect())
     }
 
     fn evaluate_in_order(&mut self, order: Vec<ExprId>) -> Result<(), NoValue> {
+        limits::spend(order.iter().map(|id| 1 + self.graph.node(*id).breadth()).sum());
         for id in order {
-            if !self.known.contains_key(&id) {
-                limits::spend(1 + self.graph.node(id).breadth());
-                let value = self.value(id)?;
-                self.known.insert(id, value);
-            }
+            let value = self.value(id)?;
+            self.known.insert(id, value);
         }
         Ok(())
     }

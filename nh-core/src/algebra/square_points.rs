@@ -9,6 +9,7 @@ use super::field::Residue;
 use super::graph::Graph;
 use super::modular::{FieldPass, FieldPoint, NoValue};
 use super::node::Node;
+use super::number::Rational;
 use crate::id::{ExprId, Id, SymbolId};
 use num_integer::Integer;
 use std::collections::BTreeMap;
@@ -31,12 +32,10 @@ impl Radicands {
         let mut completed: BTreeMap<SymbolId, Vec<ExprId>> = BTreeMap::new();
         for id in graph.reachable(expressions) {
             let Node::Product { factors, .. } = graph.node(id) else { continue };
-            for (base, exponent) in factors.iter() {
-                let free =
-                    graph.symbols_in(&[*base]).into_iter().filter(|symbol| !determined.contains(symbol));
-                let last = free.max();
-                let is_even = !exponent.is_integer() && exponent.denominator().is_even();
-                if let (true, Some(last)) = (is_even, last) {
+            let is_even = |exponent: &Rational| !exponent.is_integer() && exponent.denominator().is_even();
+            for (base, _) in factors.iter().filter(|(_, exponent)| is_even(exponent)) {
+                let symbols = graph.symbols_in(&[*base]).into_iter();
+                if let Some(last) = symbols.filter(|symbol| !determined.contains(symbol)).max() {
                     let radicands = completed.entry(last).or_default();
                     if !radicands.contains(base) {
                         radicands.push(*base);

@@ -80,18 +80,16 @@ impl<'p, 'a> TangentPass<'p, 'a> {
     /// As [`FieldPass::evaluate`].
     pub(crate) fn duals(&mut self, roots: &[ExprId]) -> Result<Vec<Dual>, NoValue> {
         self.pass.evaluate(roots)?;
-        for id in self.pass.graph.reachable(roots) {
-            if !self.rates.contains_key(&id) {
-                let mut rate = Residue::ZERO;
-                if let Node::Symbol(symbol) = self.pass.graph.node(id) {
-                    rate = self.direction.get(symbol).copied().unwrap_or(rate);
-                } else if self.pass.graph.node(id).operands().any(|x| self.rates[&x] != Residue::ZERO) {
-                    for (operand, slope) in self.slopes(id)? {
-                        rate = rate + slope.value * self.rates[&operand];
-                    }
+        for id in self.pass.graph.reachable_beyond(roots, |id| self.rates.contains_key(&id)) {
+            let mut rate = Residue::ZERO;
+            if let Node::Symbol(symbol) = self.pass.graph.node(id) {
+                rate = self.direction.get(symbol).copied().unwrap_or(rate);
+            } else if self.pass.graph.node(id).operands().any(|x| self.rates[&x] != Residue::ZERO) {
+                for (operand, slope) in self.slopes(id)? {
+                    rate = rate + slope.value * self.rates[&operand];
                 }
-                self.rates.insert(id, rate);
             }
+            self.rates.insert(id, rate);
         }
         Ok(roots.iter().map(|root| self.dual(*root)).collect())
     }

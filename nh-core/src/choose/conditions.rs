@@ -107,7 +107,11 @@ impl Regular<'_> {
         let declared: Vec<ExprId> = declared.into_iter().collect();
         let recognised = self.recognised(graph, procedure, &declared, &divisors);
         left.retain(|divisor| !recognised.contains(divisor));
+        if left.is_empty() {
+            return None;
+        }
         // 3. zeros in one symbol after the other
+        let procedure = &procedure.as_far_as(graph, &left);
         let (angles, division) = (angles(graph, &procedure.expressions()), self.division(graph, procedure));
         let (asked, blocks) = (left.clone(), uncoupled(graph, self.mass));
         let mut lines = Lines { asked, declared, angles, division, blocks, known: FxHashMap::default() };

@@ -229,4 +229,15 @@ impl Procedure {
         }
         found
     }
+
+    /// Other outputs, with the intermediate results that they depend on.
+    pub(crate) fn as_far_as(&self, graph: &Graph, outputs: &[ExprId]) -> Self {
+        let needed = self.depends_on(graph, outputs);
+        let mut part = self.with_outputs(outputs.to_vec());
+        part.definitions.retain(|definition| match definition {
+            Definition::Value { symbol, .. } | Definition::Call { symbol, .. } => needed.contains(symbol),
+            Definition::Solve { unknowns, .. } => unknowns.iter().any(|unknown| needed.contains(unknown)),
+        });
+        part
+    }
 }
