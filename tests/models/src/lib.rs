@@ -39,6 +39,7 @@ macro_rules! sleigh {
             constraints { v2 = 0; }
             forces      { omega: torque - c * omega; }
             inputs      { torque }
+            units { theta = rad; x, y, a, b = m; m = kg; J = kg m^2; torque = N m; }
             $($sections)*
         )]
         $parameters
@@ -59,6 +60,7 @@ macro_rules! veselova {
             brackets so(3) { w }
             lagrangian  { sum(i in 0..3: I[i] * w[i]^2) / 2 - dot(c, g) }
             constraints { dot(g, w) = 0; }
+            units { g = 1; I = kg m^2; c = J; w = rad/s; }
             $($sections)*
         )]
         $parameters
@@ -91,6 +93,7 @@ macro_rules! snakeboard {
             }
             forces { psi: rotor; phi: steering; }
             inputs { rotor, steering }
+            units { x, y, l = m; theta, psi, phi = rad; m = kg; J0, J1 = kg m^2; rotor, steering = N m; }
             $($sections)*
         )]
         $parameters
@@ -117,6 +120,7 @@ macro_rules! robot {
                 der(y) = -R / 2 * (der(psi1) + der(psi2)) * sin(theta);
                 der(theta) = R / (2 * c) * (der(psi2) - der(psi1));
             }
+            units { psi1, psi2, theta = rad; x, y, l, c, R = m; m0, m1 = kg; J, J2 = kg m^2; }
             $($sections)*
         )]
         $parameters
@@ -146,6 +150,7 @@ macro_rules! driven_robot {
             forces { phi_r: right; phi_l: left; }
             inputs { right, left }
             assume { m > 0; J > 0; I > 0; b > 0; r > 0; }
+            units { x, y, d, b, r = m; theta, phi_r, phi_l = rad; m = kg; J, I = kg m^2; right, left = N m; }
             $($sections)*
         )]
         $parameters
@@ -165,6 +170,7 @@ macro_rules! ball {
             brackets { [wx, wy] = -wz; [wy, wz] = -wx; [wz, wx] = -wy; }
             lagrangian { m / 2 * (dx^2 + dy^2 + k2 * (wx^2 + wy^2 + wz^2)) }
             constraints { dx = r * wy - Omega * y; dy = -r * wx + Omega * x; }
+            units { x, y, r = m; m = kg; k2 = m^2; Omega = rad/s; }
             $($sections)*
         )]
         $parameters
@@ -205,6 +211,7 @@ macro_rules! tractor {
             }
             inputs { push, steer }
             forces { v: push; omega: steer; }
+            units { x, y, a, d = m; th, rel = rad; m = kg; J = kg m^2; push = N; steer = N m; }
             $($sections)*
         )]
         $parameters
@@ -232,6 +239,7 @@ macro_rules! car {
             independent { v, turn }
             inputs { drive, steer }
             forces { v: drive; turn: steer; }
+            units { x, y, a, L = m; th, delta = rad; m = kg; J, Js = kg m^2; drive = N; steer = N m; }
             $($sections)*
         )]
         $parameters
@@ -277,6 +285,13 @@ macro_rules! bicycle {
                 + kinetic(mH, [[IHx, 0, IHxz], [0, IHy, 0], [IHxz, 0, IHz]], bars, fork)
                 + kinetic(mF, [IFx, IFy, IFx], axle, fork * rot_y(front))
                 + g * (mR * hub[2] + mB * rider[2] + mH * bars[2] + mF * axle[2])
+            }
+            units {
+                x, y, w, c, rR, rF, xB, zB, xH, zH = m;
+                yaw, lean, pitch, steer, rear, front, lambda = rad;
+                mR, mB, mH, mF = kg;
+                IRx, IRy, IBx, IBxz, IBy, IBz, IHx, IHxz, IHy, IHz, IFx, IFy = kg m^2;
+                g = m/s^2;
             }
             $($sections)*
         )]
