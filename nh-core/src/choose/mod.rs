@@ -4,6 +4,7 @@ mod conditions;
 mod derived;
 mod ledger;
 mod lowered;
+mod lowering;
 mod pivots;
 mod proof;
 mod reference;
@@ -18,6 +19,7 @@ pub(crate) use derived::{
 };
 pub use ledger::{Contender, Decision, Fate, Ledger, Proof};
 pub use lowered::{Lowered, Unproved, lowered, prove_program, prove_split};
+pub use lowering::{DEFECT, Lowering, REFUTED};
 pub(crate) use proof::{Claim, Defect, prove, prove_equal};
 pub(crate) use reference::{Given, Reference};
 pub(crate) use selection::{Entry, admitted, cheapest, fate};

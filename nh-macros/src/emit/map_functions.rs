@@ -2,6 +2,7 @@
 
 use std::collections::BTreeSet;
 
+use nonholonomic_core::choose::{DEFECT, REFUTED};
 use nonholonomic_core::mechanics::Procedure;
 use nonholonomic_core::reduction::Reduction;
 use proc_macro2::{Literal, TokenStream};
@@ -9,7 +10,6 @@ use quote::quote;
 
 use super::layout::Layout;
 use super::lint::inherited;
-use super::lowering::{DEFECT, REFUTED};
 use super::program::{Body, body};
 use super::record::{Field, Record};
 use super::setting::Context;

@@ -23,7 +23,6 @@ mod layout;
 mod linearization;
 mod lint;
 mod literal;
-mod lowering;
 mod map_functions;
 mod motion;
 mod observed;

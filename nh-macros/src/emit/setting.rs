@@ -1,5 +1,6 @@
 //! What every emitter needs: paths, generics, and the shapes of the generated structs.
 
+use nonholonomic_core::choose::Lowering;
 use nonholonomic_core::id::SymbolId;
 use proc_macro2::{Delimiter, Group, Ident, Span, TokenStream, TokenTree};
 use quote::{ToTokens, quote};
@@ -7,7 +8,6 @@ use syn::{GenericParam, Generics};
 
 use super::layout::{Family, Layout, local};
 use super::lint::inherited;
-use super::lowering::Lowering;
 use super::record::{Field, Record};
 use crate::syntax::ast;
 

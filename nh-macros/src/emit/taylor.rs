@@ -7,7 +7,6 @@ mod orders;
 
 use std::collections::BTreeSet;
 
-use nonholonomic_core::algebra::Accuracy;
 use nonholonomic_core::id::SymbolId;
 use nonholonomic_core::model::Request;
 use nonholonomic_core::program::{Program, Recurrences, Rule, Step, Value, Variation};
@@ -31,9 +30,8 @@ pub(super) fn emit(context: &Context, scope: &Scope, system: &System, derivative
         return Part::default();
     }
     let state = system.state();
-    let plain = (model.graph.accuracy() == Accuracy::Careful)
-        .then(|| context.lowering.uncorrected(model, &system.derivative));
-    let recurrences = Recurrences::of(plain.as_ref().unwrap_or(derivative), |symbol| {
+    let plain = context.lowering.without_corrections(model, &system.derivative, derivative);
+    let recurrences = Recurrences::of(&plain, |symbol| {
         if symbol == model.time {
             Variation::Time
         } else if state.contains(&symbol) {

@@ -1,37 +1,49 @@
 //! Procedures become programs, each of which is proved to compute the same before it is printed.
 
+use std::borrow::Cow;
 use std::cell::RefCell;
 use std::fmt::Write;
 
-use nonholonomic_core::algebra::Accuracy;
-use nonholonomic_core::choose::{Lowered, Proof, Unproved, lowered, prove_split};
-use nonholonomic_core::id::{Origin, SymbolId};
-use nonholonomic_core::mechanics::Procedure;
-use nonholonomic_core::model::Model;
-use nonholonomic_core::program::{Program, Split, corrected, split};
-use nonholonomic_core::violation::{Law, Violation};
+use super::ledger::Proof;
+use super::lowered::{Lowered, Unproved, lowered, prove_split};
+use crate::algebra::Accuracy;
+use crate::id::{Origin, SymbolId};
+use crate::mechanics::Procedure;
+use crate::model::Model;
+use crate::program::{Program, Split, corrected, split};
+use crate::violation::{Law, Violation};
 
 /// What is said of a program that is refuted, and what can be done.
-pub(super) const REFUTED: &str =
-    "no program for a generated function could be proved to compute what was derived";
-pub(super) const DEFECT: &str = "please report this declaration: it is a defect of the derivation";
+pub const REFUTED: &str = "no program for a generated function could be proved to compute what was derived";
+/// The way out.
+pub const DEFECT: &str = "please report this declaration: it is a defect of the derivation";
 
 /// What came of the programs of one declaration.
-#[derive(Default)]
-pub(super) struct Lowering {
+#[derive(Debug, Default)]
+pub struct Lowering {
     outcomes: RefCell<Vec<Result<Proof, Unproved>>>,
 }
 
 impl Lowering {
     /// The program of a procedure, at the level of accuracy that is asked for.
-    pub(super) fn program(&self, model: &Model, procedure: &Procedure) -> Program {
+    #[must_use]
+    pub fn program(&self, model: &Model, procedure: &Procedure) -> Program {
         let is_careful = model.graph.accuracy() == Accuracy::Careful;
         self.finished(model, procedure, |program| if is_careful { corrected(&program) } else { program })
     }
 
-    /// The program of a procedure without corrections of rounding errors.
-    pub(super) fn uncorrected(&self, model: &Model, procedure: &Procedure) -> Program {
-        self.finished(model, procedure, |program| program)
+    /// The same program without corrections of rounding errors, where it has any: those of power series are zero.
+    #[must_use]
+    pub fn without_corrections<'p>(
+        &self,
+        model: &Model,
+        procedure: &Procedure,
+        program: &'p Program,
+    ) -> Cow<'p, Program> {
+        match model.graph.accuracy() {
+            Accuracy::Fast | Accuracy::Balanced => Cow::Borrowed(program),
+            Accuracy::Careful => Cow::Owned(self.finished(model, procedure, |program| program)),
+        }
     }
 
     fn finished(&self, model: &Model, procedure: &Procedure, finish: impl Fn(Program) -> Program) -> Program {
@@ -48,7 +60,8 @@ impl Lowering {
     }
 
     /// A program of a procedure in two parts, of which the first depends on parameters alone.
-    pub(super) fn split(&self, model: &Model, procedure: &Procedure, program: &Program) -> Split {
+    #[must_use]
+    pub fn split(&self, model: &Model, procedure: &Procedure, program: &Program) -> Split {
         let split = split(program, &parameters(model), model.graph.symbols().len());
         self.note(prove_split(&model.graph, procedure, &split));
         split
@@ -59,12 +72,14 @@ impl Lowering {
     }
 
     /// Whether a program computes something else than its procedure.
-    pub(super) fn is_refuted(&self) -> bool {
+    #[must_use]
+    pub fn is_refuted(&self) -> bool {
         self.outcomes.borrow().contains(&Err(Unproved::Wrong))
     }
 
     /// That one does.
-    pub(super) fn violation(&self, origin: Origin) -> Option<Violation> {
+    #[must_use]
+    pub fn violation(&self, origin: Origin) -> Option<Violation> {
         self.is_refuted().then(|| Violation {
             law: Law::Decidable,
             origin,
@@ -75,7 +90,8 @@ impl Lowering {
     }
 
     /// What was proved, as lines of the ledger.
-    pub(super) fn text(&self) -> String {
+    #[must_use]
+    pub fn text(&self) -> String {
         let outcomes = self.outcomes.borrow();
         let proofs = outcomes.iter().filter_map(|outcome| outcome.as_ref().ok());
         let points: u64 = proofs.clone().map(|proof| proof.points).sum();
