@@ -157,7 +157,7 @@ macro_rules! fast {
             fast! { @forward $float;
                 sqrt() cbrt() tan() asin() acos() atan() atan2(x) sinh() cosh() tanh()
                 exp() ln() powf(exponent) abs() sign() min(other) max(other) recip()
-                mul_add(factor, summand)
+                mul_add(factor, summand) mul_add_exact(factor, summand)
             }
             #[inline]
             fn is_finite(self) -> bool {

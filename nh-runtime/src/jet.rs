@@ -226,6 +226,11 @@ impl<T: Scalar, const N: usize, const M: usize> Scalar for Jet<T, N, M> {
         let product = Self { value: T::ZERO, ..self * factor };
         Self { value: self.value.mul_add(factor.value, summand.value), ..product + summand }
     }
+    #[inline]
+    fn mul_add_exact(self, factor: Self, summand: Self) -> Self {
+        let product = Self { value: T::ZERO, ..self * factor };
+        Self { value: self.value.mul_add_exact(factor.value, summand.value), ..product + summand }
+    }
 
     #[inline]
     fn is_finite(self) -> bool {

@@ -144,6 +144,23 @@ pub trait Scalar:
     fn mul_add(self, factor: Self, summand: Self) -> Self {
         self * factor + summand
     }
+    /// `self * factor + summand` where the summand is the negative of the product but for roundings, so that nothing
+    /// is left without the exact product: the rounding error of `self * factor`, or what a quotient leaves.
+    ///
+    /// With the halves of both factors where the target has no fused multiply-add (T. J. Dekker, *Numerische
+    /// Mathematik* 18 (1971)); there, factors beyond the range of these give what [`mul_add`](Self::mul_add) does.
+    ///
+    /// ```
+    /// use nonholonomic::Scalar;
+    /// let (x, y) = (1.0 + 2f64.powi(-30), 1.0 - 2f64.powi(-30));
+    /// assert_eq!(x * y, 1.0);
+    /// assert_eq!(Scalar::mul_add_exact(x, y, -1.0), -2f64.powi(-60));
+    /// ```
+    #[inline]
+    #[must_use]
+    fn mul_add_exact(self, factor: Self, summand: Self) -> Self {
+        self.mul_add(factor, summand)
+    }
 
     /// Whether the number, in every lane, is neither infinite nor NaN.
     fn is_finite(self) -> bool;
@@ -174,7 +191,7 @@ pub trait Real: Scalar + PartialOrd {
 
 /// Implements [`Scalar`] and [`Real`] for a primitive floating-point type.
 macro_rules! primitive {
-    ($float:ident, $functions:ident, $angle:ident, $tolerance:literal) => {
+    ($float:ident, $functions:ident, $angle:ident, $tolerance:literal, $splitter:literal) => {
         impl Scalar for $float {
             const ZERO: Self = 0.0;
             const ONE: Self = 1.0;
@@ -239,6 +256,27 @@ macro_rules! primitive {
                 }
             }
             #[inline]
+            fn mul_add_exact(self, factor: Self, summand: Self) -> Self {
+                #[cfg(all(feature = "std", any(target_feature = "fma", target_arch = "aarch64")))]
+                {
+                    $float::mul_add(self, factor, summand)
+                }
+                #[cfg(not(all(feature = "std", any(target_feature = "fma", target_arch = "aarch64"))))]
+                {
+                    // halves of the digits, whose products are exact
+                    let halves = |x: Self| {
+                        let large = x * $splitter;
+                        let high = large - (large - x);
+                        (high, x - high)
+                    };
+                    let product = self * factor;
+                    let ((a, b), (c, d)) = (halves(self), halves(factor));
+                    let rest = ((a * c - product) + a * d + b * c) + b * d;
+                    let sum = product + summand;
+                    if $float::is_finite(rest) { sum + rest } else { sum }
+                }
+            }
+            #[inline]
             fn is_finite(self) -> bool {
                 $float::is_finite(self)
             }
@@ -283,8 +321,9 @@ macro_rules! primitive {
     };
 }
 
-primitive!(f64, double, double_angle, 1e-6);
-primitive!(f32, single, single_angle, 1e-4);
+// the last number is 2 to half of the digits, and one
+primitive!(f64, double, double_angle, 1e-6, 134_217_729.0);
+primitive!(f32, single, single_angle, 1e-4, 4097.0);
 
 #[cfg(test)]
 #[allow(clippy::float_cmp)] // exact values are meant
@@ -299,6 +338,19 @@ mod tests {
         }
         assert_eq!(Scalar::powi(0.0_f64, 0), 1.0);
         assert_eq!(Scalar::powi(2.0_f32, i32::MIN), 0.0);
+    }
+
+    /// The error of a product, of a quotient, and where the halves of factors are out of range.
+    #[test]
+    fn what_rounding_took_is_found() {
+        let (x, y) = (1.0 + f64::EPSILON, 1.0 - f64::EPSILON);
+        assert_eq!(x.mul_add_exact(y, -(x * y)), -f64::EPSILON * f64::EPSILON);
+        let quotient = 1.0_f64 / 3.0;
+        assert_eq!((-quotient).mul_add_exact(3.0, 1.0), 2f64.powi(-54));
+        let (x, y) = (1.0 + f32::EPSILON, 1.0 - f32::EPSILON);
+        assert_eq!(x.mul_add_exact(y, -(x * y)), -f32::EPSILON * f32::EPSILON);
+        let large = 2f64.powi(1010);
+        assert_eq!(large.mul_add_exact(3.0, -3.0 * large), 0.0);
     }
 
     #[test]

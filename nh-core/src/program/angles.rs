@@ -2,7 +2,9 @@
 //!
 //! An evaluation of a sine costs as much as some fifteen multiplications, so that
 //! `sin(a − b) = sin a cos b − cos a sin b` pays wherever the parts are needed anyway. It costs the
-//! relative accuracy of small angles: what is left of two products of order one is as wrong as these.
+//! relative accuracy of small angles: what is left of two products of order one is as wrong as these. Careful code, which
+//! carries what rounding took of the products, loses no more than an ulp of the parts explains; there it is done so that
+//! sines of sums and those of their parts, each rounded for itself, do not break what cancels by the theorems.
 
 use super::nary::{Arena, Nary, Term};
 use crate::algebra::{Function, Rational};

@@ -14,9 +14,11 @@
 //! A divisor in which terms may have cancelled is corrected before anything is divided by it: to first order nothing
 //! is gained where its error is as large as itself.
 //!
-//! Where the target has no fused multiply-add, the errors of products come out as zero: nothing is lost,
-//! and less is gained. Sines and cosines keep the error of their function, and pass on that of the angle.
-//! Other functions, methods of the user's and pivoted solutions take corrected operands.
+//! The errors of products and quotients are exact on every target ([`Program::is_rest`]). Sines and cosines keep the
+//! error of their function, and pass on that of the angle. Where a program divides, what elimination leaves of light
+//! inertias beside heavy ones may be smaller than an ulp of what they are made of: there the sine and the cosine of an
+//! angle are brought back to the circle, mathematics (60), and solutions of linear systems are refined, mathematics
+//! (61). Other functions and methods of the user's take corrected operands.
 
 use super::fuse::fuse;
 use super::lower::{rename, without_dead_steps};
@@ -24,19 +26,43 @@ use super::signs::absorb_signs;
 use super::step::{Program, Step, Value};
 use crate::algebra::{Function, Rational};
 use crate::id::{Id, Table};
+use std::collections::{BTreeMap, BTreeSet};
 
 /// The same program with the rounding errors of its outputs corrected.
 #[must_use]
 pub fn corrected(program: &Program) -> Program {
-    let mut corrector = Corrector { steps: Table::new(), may_cancel: Table::new(), images: Vec::new() };
-    for step in &program.steps {
+    let (steps, may_cancel, images) = Default::default();
+    let mut corrector = Corrector { steps, may_cancel, images, defects: BTreeMap::new() };
+    let pairs = pairs_beside_quotients(program);
+    for (value, step) in program.steps.iter_ids() {
         let image = corrector.step(step);
         corrector.images.push(image);
+        if pairs.contains(&value) {
+            corrector.turn_back(image.value);
+        }
     }
     let outputs = program.outputs.iter().map(|output| corrector.whole(*output)).collect();
     let names = program.names.iter().map(|(value, symbol)| (corrector.of(*value).value, *symbol)).collect();
     let program = Program { steps: corrector.steps, outputs, names };
     without_dead_steps(&absorb_signs(fuse(without_dead_steps(&program))))
+}
+
+/// The pairs of which both sine and cosine are taken, in a program that divides.
+fn pairs_beside_quotients(program: &Program) -> BTreeSet<Value> {
+    let (mut sines, mut cosines, mut divides) = (BTreeSet::new(), BTreeSet::new(), false);
+    for step in &program.steps {
+        match step {
+            Step::SinOf(pair) => {
+                sines.insert(*pair);
+            }
+            Step::CosOf(pair) => {
+                cosines.insert(*pair);
+            }
+            Step::Div(..) | Step::Recip(_) | Step::Solve { .. } => divides = true,
+            _ => {}
+        }
+    }
+    if divides { sines.intersection(&cosines).copied().collect() } else { BTreeSet::new() }
 }
 
 /// A value and what is missing, if it is not zero.
@@ -52,6 +78,8 @@ struct Corrector {
     may_cancel: Table<Value, bool>,
     /// Of each step of the program.
     images: Vec<Estimate>,
+    /// By what sine and cosine of a pair are too short, relative to them.
+    defects: BTreeMap<Value, Value>,
 }
 
 impl Corrector {
@@ -127,20 +155,51 @@ impl Corrector {
                 let pair = self.push(Step::SinCos(value));
                 self.turned(Estimate { value: pair, error }, function)
             }
-            _ => {
-                let mut wholes: Vec<(Value, Value)> = Vec::new();
-                for operand in step.operands() {
-                    // the components of a solution are taken out of it as it is
-                    let whole = match step {
-                        Step::Component(..) => self.of(operand).value,
-                        _ => self.whole(operand),
-                    };
-                    wholes.push((operand, whole));
-                }
-                let image = |old: Value| wholes.iter().find(|(o, _)| *o == old).map_or(old, |(_, new)| *new);
-                self.exact(rename(step, &image))
+            Step::Solve { ref matrix, ref right } => self.refined(matrix, right),
+            // a component, and what was missing of it
+            Step::Component(system, index) => {
+                let value = self.push(Step::Component(self.of(system).value, index));
+                let error = self.of(system).error;
+                let error = error.map(|system| self.push(Step::Component(system, index)));
+                Estimate { value, error }
             }
+            _ => self.of_wholes(step),
         }
+    }
+
+    /// The solution of a linear system, and as its error that with what the first one leaves of the right-hand side:
+    /// S d = b − S x, mathematics (61), with the errors of S and b.
+    fn refined(&mut self, matrix: &[Vec<Value>], right: &[Value]) -> Estimate {
+        let mut renewed = |values: &[Value]| -> Vec<Estimate> {
+            values.iter().map(|value| self.renewed(self.of(*value))).collect()
+        };
+        let (matrix, right): (Vec<_>, _) = (matrix.iter().map(|row| renewed(row)).collect(), renewed(right));
+        let values = |list: &[Estimate]| list.iter().map(|estimate| estimate.value).collect::<Vec<Value>>();
+        let rows: Vec<Vec<Value>> = matrix.iter().map(|row| values(row)).collect();
+        let solution = self.push(Step::Solve { matrix: rows.clone(), right: values(&right) });
+        let unknowns: Vec<Estimate> =
+            (0..right.len()).map(|index| self.exact(Step::Component(solution, index))).collect();
+        let mut left = Vec::with_capacity(right.len());
+        for (row, right) in matrix.into_iter().zip(right) {
+            let mut rest = right;
+            for (entry, unknown) in row.into_iter().zip(&unknowns) {
+                let product = self.product(entry, *unknown);
+                rest = self.difference(rest, product);
+            }
+            left.push(self.corrected_value(rest));
+        }
+        let error = self.push(Step::Solve { matrix: rows, right: left });
+        Estimate { value: solution, error: Some(error) }
+    }
+
+    /// A step as it is, of corrected operands.
+    fn of_wholes(&mut self, step: &Step) -> Estimate {
+        let mut wholes: Vec<(Value, Value)> = Vec::new();
+        for operand in step.operands() {
+            wholes.push((operand, self.whole(operand)));
+        }
+        let image = |old: Value| wholes.iter().find(|(o, _)| *o == old).map_or(old, |(_, new)| *new);
+        self.exact(rename(step, &image))
     }
 
     fn exact(&mut self, step: Step) -> Estimate {
@@ -214,16 +273,34 @@ impl Corrector {
         Estimate { value, error: Some(self.push(Step::Div(rest, b.value))) }
     }
 
-    /// The sine or cosine out of a pair, whose error is that of the angle.
+    /// Finds what the squares of sine and cosine miss of one, mathematics (60).
+    fn turn_back(&mut self, pair: Value) {
+        let [sin, cos] = [Step::SinOf(pair), Step::CosOf(pair)].map(|step| self.exact(step));
+        let [one, half] = [Rational::ONE, Rational::new(1, 2)].map(|n| self.exact(Step::Constant(n)));
+        let (sin, cos) = (self.product(sin, sin), self.product(cos, cos));
+        let squares = self.sum(sin, cos);
+        let defect = self.difference(one, squares);
+        let defect = self.corrected_value(defect);
+        let defect = self.push(Step::Mul(half.value, defect));
+        self.defects.insert(pair, defect);
+    }
+
+    /// The sine or cosine out of a pair, whose error is that of the angle, and of its length.
     fn turned(&mut self, pair: Estimate, function: Function) -> Estimate {
         let (sin, cos) = (Step::SinOf(pair.value), Step::CosOf(pair.value));
         let (this, slope) = if function == Function::Sin { (sin, cos) } else { (cos, sin) };
         let value = self.push(this);
-        let error = pair.error.map(|error| {
+        let length = self.defects.get(&pair.value).copied();
+        let length = length.map(|defect| self.push(Step::Mul(value, defect)));
+        let angle = pair.error.map(|error| {
             let slope = self.push(slope);
             let error = self.push(Step::Mul(slope, error));
             if function == Function::Sin { error } else { self.push(Step::Neg(error)) }
         });
+        let error = match (length, angle) {
+            (Some(length), Some(angle)) => Some(self.push(Step::Add(length, angle))),
+            (length, angle) => length.or(angle),
+        };
         Estimate { value, error }
     }
 

@@ -24,6 +24,11 @@ pub trait Arithmetic: Clone {
     fn mul_add(&self, other: &Self, summand: &Self) -> Self {
         self.mul(other).add(summand)
     }
+    /// `self · other + summand` where that is the rounding error of a product or a quotient, [`Program::is_rest`].
+    #[must_use]
+    fn rest(&self, other: &Self, summand: &Self) -> Self {
+        self.mul_add(other, summand)
+    }
     /// `self / other`.
     #[must_use]
     fn div(&self, other: &Self) -> Self;
@@ -61,6 +66,9 @@ impl Arithmetic for f64 {
     }
     fn mul(&self, other: &Self) -> Self {
         self * other
+    }
+    fn rest(&self, other: &Self, summand: &Self) -> Self {
+        f64::mul_add(*self, *other, *summand)
     }
     fn div(&self, other: &Self) -> Self {
         self / other
@@ -136,7 +144,12 @@ pub fn interpret_in<A: Arithmetic>(program: &Program, mut symbol: impl FnMut(Sym
             Step::MulAdd { a, b, c, minus_product, minus_c } => {
                 let signed = |value: &A, minus: bool| if minus { zero.sub(value) } else { value.clone() };
                 let factor = signed(&results[*a], *minus_product);
-                factor.mul_add(&results[*b], &signed(&results[*c], *minus_c))
+                let summand = signed(&results[*c], *minus_c);
+                if program.is_rest(step) {
+                    factor.rest(&results[*b], &summand)
+                } else {
+                    factor.mul_add(&results[*b], &summand)
+                }
             }
             Step::Div(a, b) => results[*a].div(&results[*b]),
             Step::Neg(a) => zero.sub(&results[*a]),
@@ -168,14 +181,17 @@ pub fn interpret_in<A: Arithmetic>(program: &Program, mut symbol: impl FnMut(Sym
     program.outputs.iter().map(|output| results[*output].clone()).collect()
 }
 
-/// Elimination with partial pivoting.
+/// Elimination with partial pivoting, rows compared by their largest entries, as emitted code does it.
 fn solve<A: Arithmetic>(mut matrix: Vec<Vec<A>>, mut right: Vec<A>) -> Vec<A> {
     let n = right.len();
+    let largest = |row: &Vec<A>| row.iter().map(A::magnitude).fold(0.0, f64::max);
+    let mut scales: Vec<f64> = matrix.iter().map(|row| largest(row).recip()).collect();
     for column in 0..n {
-        let size = |row: &usize| matrix[*row][column].magnitude();
-        let pivot = (column..n).max_by(|a, b| size(a).total_cmp(&size(b))).unwrap_or(column);
+        let size = |row: usize| matrix[row][column].magnitude() * scales[row];
+        let pivot = (column..n).fold(column, |best, row| if size(row) > size(best) { row } else { best });
         matrix.swap(column, pivot);
         right.swap(column, pivot);
+        scales.swap(column, pivot);
         let (above, below) = matrix.split_at_mut(column + 1);
         let pivots = &above[column];
         for (offset, row) in below.iter_mut().enumerate() {

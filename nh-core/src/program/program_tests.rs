@@ -10,6 +10,7 @@ use std::collections::HashMap;
 
 mod accuracy_levels;
 mod exponents;
+mod kept_digits;
 
 /// The value of a procedure, node by node.
 fn evaluate(graph: &Graph, procedure: &Procedure, symbol: impl Fn(SymbolId) -> f64) -> Vec<f64> {

@@ -56,7 +56,9 @@ pub fn schedule_grouping(graph: &Graph, procedure: &Procedure, parameters: &[Sym
 #[must_use]
 pub fn schedules(graph: &Graph, procedure: &Procedure, parameters: &[SymbolId]) -> Vec<Program> {
     let mut arena = import(graph, procedure, parameters);
-    if graph.accuracy() == Accuracy::Fast {
+    // fast code saves evaluations; in careful code, which carries what rounding took, whatever cancels by an addition
+    // theorem cancels in both words
+    if graph.accuracy() != Accuracy::Balanced {
         share_angles(&mut arena);
     }
     let tried = if arena.len() > LARGE { &STRATEGIES[..2] } else { &STRATEGIES[..] };

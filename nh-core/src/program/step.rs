@@ -152,6 +152,26 @@ impl Program {
         uses
     }
 
+    /// Whether a multiply-add is the rounding error of a product, `a b − (a b)`, or what a quotient leaves,
+    /// `c − (c / b) b`: nothing without its exact product.
+    #[must_use]
+    pub fn is_rest(&self, step: &Step) -> bool {
+        let Step::MulAdd { a, b, c, .. } = step else { return false };
+        let is_same = |x: Value, y: Value| match (&self.steps[x], &self.steps[y]) {
+            _ if x == y => true,
+            (Step::Constant(x), Step::Constant(y)) => *x == -y.clone(),
+            _ => false,
+        };
+        let is_product = matches!(&self.steps[*c], Step::Mul(x, y)
+            if (is_same(*x, *a) && is_same(*y, *b)) || (is_same(*x, *b) && is_same(*y, *a)));
+        let is_quotient = |quotient: Value, divisor: Value| match &self.steps[quotient] {
+            Step::Div(x, y) => is_same(*x, *c) && is_same(*y, divisor),
+            Step::Recip(y) => *y == divisor && matches!(&self.steps[*c], Step::Constant(_)),
+            _ => false,
+        };
+        is_product || is_quotient(*a, *b) || is_quotient(*b, *a)
+    }
+
     /// Which values are made of numbers and parameters alone.
     pub(super) fn fixed(&self, is_parameter: impl Fn(SymbolId) -> bool) -> Vec<bool> {
         let mut fixed: Vec<bool> = Vec::with_capacity(self.steps.len());

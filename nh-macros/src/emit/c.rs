@@ -304,7 +304,10 @@ impl Writer<'_> {
             Step::MulAdd { a, b, c, minus_product, minus_c } => {
                 let sign = |minus: &bool| if *minus { "-" } else { "" };
                 let (product, summand) = (sign(minus_product), sign(minus_c));
-                format!("multiply_add({product}{}, {}, {summand}{})", of(a), of(b), of(c))
+                // a rounding error is nothing without its exact product
+                let function =
+                    if self.program.is_rest(step) { format!("fma{f}") } else { "multiply_add".into() };
+                format!("{function}({product}{}, {}, {summand}{})", of(a), of(b), of(c))
             }
             Step::Sqrt(a) => call("sqrt", a),
             Step::Cbrt(a) => call("cbrt", a),

@@ -108,7 +108,8 @@ impl Writer<'_> {
             Step::Sub(a, b) => of(a).sub(of(b)),
             Step::Mul(a, b) => of(a).mul(of(b)),
             Step::MulAdd { a, b, c, minus_product, minus_c } => {
-                self.multiply_add([*a, *b], *c, *minus_product, *minus_c)
+                let method = if self.program.is_rest(step) { "mul_add_exact" } else { "mul_add" };
+                self.multiply_add(method, [*a, *b], *c, [*minus_product, *minus_c])
             }
             Step::Div(a, b) => of(a).div(of(b)),
             Step::Neg(a) => of(a).neg(),
@@ -145,13 +146,14 @@ impl Writer<'_> {
         }
     }
 
-    /// `Scalar::mul_add(a, b, c)`: the runtime fuses it where the target has an instruction for it.
+    /// `Scalar::mul_add(a, b, c)`: the runtime fuses it where the target has an instruction for it. Where it is a
+    /// rounding error, it is exact on every target.
     fn multiply_add(
         &self,
+        method: &str,
         factors: [Value; 2],
         summand: Value,
-        minus_product: bool,
-        minus_summand: bool,
+        [minus_product, minus_summand]: [bool; 2],
     ) -> Expression {
         let Context { runtime, scalar, .. } = self.context;
         let signed = |expression: &Expression, minus: bool| {
@@ -161,10 +163,11 @@ impl Writer<'_> {
         // the receiver determines the type
         let (a, b) = if a.literal { (b, a) } else { (a, b) };
         let (a, c) = (signed(a, minus_product), signed(&self.expressions[summand], minus_summand));
+        let method = Ident::new(method, Span::call_site());
         let path = if a.literal {
-            quote!(<#scalar as #runtime::Scalar>::mul_add)
+            quote!(<#scalar as #runtime::Scalar>::#method)
         } else {
-            quote!(#runtime::Scalar::mul_add)
+            quote!(#runtime::Scalar::#method)
         };
         let size = a.size + b.size + c.size + 2;
         let (a, b, c) = (&a.tokens, &b.tokens, &c.tokens);

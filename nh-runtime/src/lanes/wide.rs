@@ -95,6 +95,11 @@ macro_rules! pack {
                 }
             }
             #[inline]
+            fn mul_add_exact(self, factor: Self, summand: Self) -> Self {
+                let (a, b, c) = (self.to_array(), factor.to_array(), summand.to_array());
+                Self::new(core::array::from_fn(|i| Scalar::mul_add_exact(a[i], b[i], c[i])))
+            }
+            #[inline]
             fn is_finite(self) -> bool {
                 $pack::is_finite(self).all()
             }

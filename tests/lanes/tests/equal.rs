@@ -74,6 +74,7 @@ where
             "/" |a, b, _| a / b;
             "neg" |a, _, _| -a;
             "mul_add" |a, b, c| a.mul_add(b, c);
+            "mul_add_exact" |a, b, _| a.mul_add_exact(b, -(a * b));
             "recip" |a, _, _| a.recip();
             "sin" |a, _, _| a.sin();
             "cos" |a, _, _| a.cos();

@@ -1,15 +1,13 @@
 //! What the macro would emit, run without a compiler.
 
 use nh_stages::Declaration;
-use nonholonomic_core::algebra::{Accuracy, Function, Function2, Rational};
+use nonholonomic_core::algebra::Accuracy;
 use nonholonomic_core::compile::compile;
 use nonholonomic_core::functions::MULTIPLIERS;
 use nonholonomic_core::id::SymbolId;
 use nonholonomic_core::mechanics::Procedure;
 use nonholonomic_core::model::{Formulation, Model};
-use nonholonomic_core::program::{
-    Arithmetic, Program, corrected, interpret, interpret_in, schedule_grouping,
-};
+use nonholonomic_core::program::{Program, corrected, interpret, schedule_grouping};
 use nonholonomic_core::system::System;
 
 use crate::generator::Machine;
@@ -27,7 +25,6 @@ pub struct Emitted {
     pub system: System,
     derivative: Program,
     multipliers: Option<Program>,
-    is_careful: bool,
 }
 
 impl Emitted {
@@ -49,7 +46,7 @@ impl Emitted {
         };
         let derivative = program(&system.derivative);
         let multipliers = system.functions.get(&MULTIPLIERS).map(program);
-        Ok(Self { model, system, derivative, multipliers, is_careful })
+        Ok(Self { model, system, derivative, multipliers })
     }
 
     /// Whether multipliers are computed.
@@ -67,63 +64,10 @@ impl Emitted {
     #[must_use]
     pub fn run(&self, place: &Place) -> Vec<f64> {
         let at = |symbol: SymbolId| place.values.get(&symbol).copied().unwrap_or(f64::NAN);
-        let run = |program: &Program| -> Vec<f64> {
-            if self.is_careful {
-                interpret_in(program, |symbol| Fused(at(symbol))).into_iter().map(|x| x.0).collect()
-            } else {
-                interpret(program, at)
-            }
-        };
-        let mut results = run(&self.derivative).split_off(self.system.state_coordinates.len());
+        let mut results = interpret(&self.derivative, at).split_off(self.system.state_coordinates.len());
         if let Some(multipliers) = &self.multipliers {
-            results.extend(run(multipliers));
+            results.extend(interpret(multipliers, at));
         }
         results
-    }
-}
-
-/// Numbers whose products are added without rounding, which is what careful code needs to know its errors.
-#[derive(Clone)]
-struct Fused(f64);
-
-impl Arithmetic for Fused {
-    fn number(value: &Rational) -> Self {
-        Self(value.to_f64())
-    }
-    fn pi() -> Self {
-        Self(std::f64::consts::PI)
-    }
-    fn add(&self, other: &Self) -> Self {
-        Self(self.0 + other.0)
-    }
-    fn sub(&self, other: &Self) -> Self {
-        Self(self.0 - other.0)
-    }
-    fn mul(&self, other: &Self) -> Self {
-        Self(self.0 * other.0)
-    }
-    fn mul_add(&self, other: &Self, summand: &Self) -> Self {
-        Self(f64::mul_add(self.0, other.0, summand.0))
-    }
-    fn div(&self, other: &Self) -> Self {
-        Self(self.0 / other.0)
-    }
-    fn sqrt(&self) -> Self {
-        Self(self.0.sqrt())
-    }
-    fn cbrt(&self) -> Self {
-        Self(self.0.cbrt())
-    }
-    fn pow(&self, exponent: &Rational) -> Self {
-        Self(self.0.powf(exponent.to_f64()))
-    }
-    fn apply(&self, function: Function) -> Self {
-        Self(self.0.apply(function))
-    }
-    fn apply2(&self, function: Function2, other: &Self) -> Self {
-        Self(self.0.apply2(function, &other.0))
-    }
-    fn magnitude(&self) -> f64 {
-        self.0.abs()
     }
 }

@@ -44,7 +44,7 @@ fn members() -> impl Iterator<Item = u64> {
 /// Asserts that nothing loses both more than so many units of what its inputs explain, and more than so much of
 /// its value.
 fn assert_kept(found: &[Found], units: f64, error: f64) {
-    assert!(found.len() > 20, "only {} components were compared", found.len());
+    assert!(found.len() >= 20, "only {} components were compared", found.len());
     for Found { machine, is_multiplier, worst: Worst { component, loss } } in found {
         let kind = if *is_multiplier { "multiplier" } else { "acceleration" };
         assert!(
@@ -67,7 +67,19 @@ fn at_ordinary_parameters_no_level_loses_digits() {
 /// With parameters up to eight decades apart.
 #[test]
 fn accelerations_keep_their_digits_at_extreme_parameters() {
-    let mut found = found("balanced", members(), Scale::Apart(4.0), 2);
+    for level in ["balanced", "careful"] {
+        let mut found = found(level, members(), Scale::Apart(4.0), 2);
+        found.retain(|found| !found.is_multiplier);
+        assert_kept(&found, 1e4, 1e-3);
+    }
+}
+
+/// Of 1201 machines, these lost most digits of an acceleration at other levels or while `careful` rounded sines and
+/// cosines each for itself.
+#[test]
+fn careful_code_keeps_what_elimination_leaves() {
+    let members = [90, 248, 321, 372, 520, 678, 857, 904, 1014, 1164, 1170];
+    let mut found = found("careful", members.into_iter(), Scale::Apart(4.0), 2);
     found.retain(|found| !found.is_multiplier);
     assert_kept(&found, 1e4, 1e-3);
 }
