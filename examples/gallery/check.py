@@ -19,6 +19,8 @@ import zlib
 
 HERE = pathlib.Path(__file__).parent
 SITE = HERE / "site"
+# without npm the page does without it
+KATEX = (SITE / "fonts").is_dir()
 TILES = (16, 12)
 # a tile may differ by so much of the brightest: fonts differ from machine to machine
 LOOSE = 0.12
@@ -84,7 +86,7 @@ def main():
     address = f"http://127.0.0.1:{server.server_address[1]}"
     faults = []
 
-    page, spoken = browser("--virtual-time-budget=20000", "--dump-dom", f"{address}/?check")
+    page, spoken = browser("--virtual-time-budget=20000", "--window-size=390,844", "--dump-dom", f"{address}/?check")
     faults += spoken
     found = re.search(r'<pre id="checked">(.*?)</pre>', page, re.S)
     if not found:
@@ -100,9 +102,15 @@ def main():
             faults.append(f"{name}: the energy drifts by {machine['drift']}")
         if not machine["off"] < 1e-9:
             faults.append(f"{name}: off its constraints by {machine['off']}")
+        if machine["wider"] > 0:
+            faults.append(f"{name}: the page is {machine['wider']} pixels wider than a phone")
+        if not machine["equations"] or machine["wrong"]:
+            faults.append(f"{name}: {machine['equations']} equations, {machine['wrong']} wrong")
+        if machine["set"] != machine["equations"] and KATEX:
+            faults.append(f"{name}: equations that are not set")
         print(f"{name:18} energy off by {machine['drift']:.1e}")
-    if len(machines) < 12:
-        faults.append(f"{len(machines)} machines, not twelve")
+    if len(machines) < 14:
+        faults.append(f"{len(machines)} machines, not fourteen")
 
     pictures = {}
     for machine in machines:

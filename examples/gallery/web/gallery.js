@@ -1,9 +1,11 @@
 // The page: time, canvas, sliders. What moves, and how it looks, comes from the machines.
 import load, { Shown, names } from "./machines.js";
+import katex from "./katex.js";
 
 const byId = (id) => document.getElementById(id);
 const picture = byId("picture");
 const energyPlot = byId("energy");
+const driftPlot = byId("drift");
 const COLOURS = ["--faint", "--body", "--contact", "--track", "--accent"];
 const KEPT = 600;
 
@@ -11,6 +13,7 @@ let machine = null;
 let running = !matchMedia("(prefers-reduced-motion: reduce)").matches;
 let before = null;
 let energies = [];
+let drifts = [];
 let view = { x: 0, y: 0, scale: 1 };
 
 function palette() {
@@ -77,6 +80,62 @@ function drawEnergy() {
   context.stroke();
 }
 
+// decades of the drift plot, from the least up
+const DECADES = [-18, -6];
+
+// how far the state is off its constraints, on a logarithmic scale
+function drawDrift() {
+  if (driftPlot.hidden) return;
+  const { context, width, height } = sharp(driftPlot);
+  const colours = palette();
+  const down = (decade) => height * (DECADES[1] - decade) / (DECADES[1] - DECADES[0]);
+  const style = getComputedStyle(document.documentElement);
+  context.font = "11px system-ui, sans-serif";
+  context.fillStyle = style.getPropertyValue("--quiet").trim();
+  context.strokeStyle = colours[0];
+  context.lineWidth = 1;
+  for (let decade = DECADES[0] + 3; decade < DECADES[1]; decade += 3) {
+    context.beginPath();
+    context.moveTo(0, down(decade));
+    context.lineTo(width, down(decade));
+    context.stroke();
+    context.fillText(`1e${decade}`, 4, down(decade) - 3);
+  }
+  context.strokeStyle = colours[4];
+  context.lineWidth = 1.5;
+  context.beginPath();
+  drifts.forEach((drift, k) => {
+    const decade = Math.log10(Math.max(drift, 10 ** DECADES[0]));
+    context.lineTo(width * k / (KEPT - 1), down(Math.min(decade, DECADES[1])));
+  });
+  context.stroke();
+}
+
+// the line in the diagram that says where the state stands
+function moveDiagram() {
+  const share = machine.diagram_share();
+  const line = byId("diagram").querySelector(".now");
+  if (share === undefined || !line) return;
+  line.setAttribute("transform", `translate(${share * Number(line.dataset.width)} 0)`);
+}
+
+function drawDiagram() {
+  const picture = machine.diagram();
+  byId("diagram").hidden = picture === undefined;
+  byId("diagram").innerHTML = picture ?? "";
+}
+
+function equations() {
+  const box = byId("equations");
+  box.replaceChildren();
+  for (const equation of machine.equations()) {
+    const line = document.createElement("div");
+    if (katex) katex.render(equation, line, { displayMode: true, throwOnError: false });
+    else line.textContent = equation;
+    box.append(line);
+  }
+}
+
 function say() {
   byId("clock").textContent = `${machine.time().toFixed(1)} s`;
   const energy = machine.energy();
@@ -90,7 +149,7 @@ function say() {
   const off = machine.off_constraints();
   words += off === undefined
     ? "; the constraints hold exactly, since forbidden velocities are not in the state"
-    : `; off the constraint by ${off.toExponential(1)}`;
+    : `; off the constraint by ${off.toExponential(1)}, below`;
   byId("balance").textContent = words;
 }
 
@@ -103,10 +162,13 @@ function frame(now) {
         setRunning(false);
       }
       energies.push(machine.energy());
-      if (energies.length > KEPT) energies.shift();
+      drifts.push(machine.off_constraints());
+      if (energies.length > KEPT) { energies.shift(); drifts.shift(); }
     }
     draw();
     drawEnergy();
+    drawDrift();
+    moveDiagram();
     say();
   }
   before = now;
@@ -120,6 +182,7 @@ function setRunning(on) {
 
 function touched() {
   energies = [];
+  drifts = [];
   byId("fault").textContent = "";
 }
 
@@ -140,6 +203,7 @@ function sliders() {
       machine.set(k, Number(input.value));
       value.textContent = machine.value(k).toPrecision(3);
       touched();
+      drawDiagram();
     });
     label.append(words, input, value);
     box.append(label);
@@ -160,6 +224,9 @@ function show(name) {
     if (link.hash === `#${name}`) link.setAttribute("aria-current", "page");
     else link.removeAttribute("aria-current");
   }
+  driftPlot.hidden = machine.off_constraints() === undefined;
+  equations();
+  drawDiagram();
   sliders();
 }
 
@@ -174,7 +241,7 @@ function push(right, up) {
 }
 
 byId("run").addEventListener("click", () => setRunning(!running));
-byId("reset").addEventListener("click", () => { machine?.reset(); touched(); sliders(); });
+byId("reset").addEventListener("click", () => { machine?.reset(); touched(); sliders(); drawDiagram(); });
 picture.addEventListener("keydown", (event) => {
   const pushes = { ArrowLeft: [-0.3, 0], ArrowRight: [0.3, 0], ArrowUp: [0, 0.3], ArrowDown: [0, -0.3] };
   const [right, up] = pushes[event.key] ?? [];
@@ -225,6 +292,14 @@ function tried(name, seconds) {
 if (location.search === "?check") {
   const checked = document.createElement("pre");
   checked.id = "checked";
-  checked.textContent = JSON.stringify(names().map((name) => tried(name, 5)));
+  checked.textContent = JSON.stringify(names().map((name) => {
+    show(name);
+    const page = document.documentElement;
+    return {
+      ...tried(name, 5), wider: page.scrollWidth - page.clientWidth,
+      equations: document.querySelectorAll("#equations > div").length,
+      set: document.querySelectorAll("#equations .katex").length, wrong: document.querySelectorAll(".katex-error").length,
+    };
+  }));
   document.body.append(checked);
 }

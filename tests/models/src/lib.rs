@@ -251,10 +251,11 @@ macro_rules! car {
 /// lean, pitch of the rear frame, steer, and the turns of the wheels.
 ///
 /// `w`: wheelbase; `c`: trail; `lambda`: tilt of the steering axis; `g`: gravity; `rR`, `rF`: radii of the wheels; and for
-/// rear wheel, body, handlebar and front wheel the masses `m`, places `x`, `z` and moments of inertia `I`.
+/// rear wheel, body, handlebar and front wheel the masses `m`, places `x`, `z` and moments of inertia `I`. Further fields
+/// may stand behind the name, `struct Bicycle<T> with { … };`.
 #[macro_export]
 macro_rules! bicycle {
-    ($(#[$attribute:meta])* $visibility:vis struct $name:ident<$t:ident>; $($sections:tt)*) => {
+    ($(#[$attribute:meta])* $visibility:vis struct $name:ident<$t:ident> $(with { $($fields:tt)* })?; $($sections:tt)*) => {
         #[nonholonomic::nonholonomic(
             base { x, y, yaw, lean, pitch, steer, rear, front }
 
@@ -323,14 +324,16 @@ macro_rules! bicycle {
             pub mF: $t,
             pub IFx: $t,
             pub IFy: $t,
+            $($($fields)*)?
         }
     };
 }
 
-/// The published parameters of [`bicycle!`], with gravity `g`, as numbers of the type that `number` makes of an `f64`.
+/// The published parameters of [`bicycle!`], with gravity `g`, as numbers of the type that `number` makes of an `f64`;
+/// further fields with their values.
 #[macro_export]
 macro_rules! published_bicycle {
-    ($name:ident, $g:expr, $number:expr) => {
+    ($name:ident, $g:expr, $number:expr $(, $field:ident: $value:expr)*) => {
         $name {
             w: ($number)(1.02),
             c: ($number)(0.08),
@@ -358,6 +361,7 @@ macro_rules! published_bicycle {
             mF: ($number)(3.0),
             IFx: ($number)(0.1405),
             IFy: ($number)(0.28),
+            $($field: $value,)*
         }
     };
 }

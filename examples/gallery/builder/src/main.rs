@@ -3,7 +3,7 @@
 
 use std::error::Error;
 use std::path::Path;
-use std::process::Command;
+use std::process::{Command, Stdio};
 use std::{env, fs};
 
 fn main() -> Result<(), Box<dyn Error>> {
@@ -31,16 +31,54 @@ fn main() -> Result<(), Box<dyn Error>> {
         .typescript(false)
         .out_name("machines")
         .generate(&site)?;
-    let mut size = 0;
+    equations(&gallery, &site)?;
     for entry in fs::read_dir(gallery.join("web"))? {
         let path = entry?.path();
         if let Some(name) = path.file_name() {
             fs::copy(&path, site.join(name))?;
         }
     }
-    for entry in fs::read_dir(&site)? {
-        size += entry?.metadata()?.len();
-    }
-    println!("{} kB in {}", size / 1000, site.canonicalize()?.display());
+    println!("{} kB in {}", size(&site)? / 1000, site.canonicalize()?.display());
     Ok(())
+}
+
+/// Puts KaTeX beside the page, as `package-lock.json` names it. Without npm, equations are shown as they are typed.
+fn equations(gallery: &Path, site: &Path) -> Result<(), Box<dyn Error>> {
+    let arguments = ["ci", "--ignore-scripts", "--no-audit", "--no-fund", "--loglevel=error"];
+    let installed = Command::new("npm").current_dir(gallery).args(arguments).stdout(Stdio::null()).status();
+    if !installed.is_ok_and(|status| status.success()) {
+        eprintln!("WARNING: npm does not give KaTeX, so the page shows its equations as TeX");
+        fs::write(site.join("katex.js"), "export default null;\n")?;
+        fs::write(site.join("katex.css"), "")?;
+        return Ok(());
+    }
+    let katex = gallery.join("node_modules/katex/dist");
+    let script = fs::read_to_string(katex.join("katex.min.js"))?;
+    // as a module, which it is not by itself
+    let module = format!(
+        "const module = {{ exports: {{}} }}, exports = module.exports;\n{script}\nexport default module.exports;\n"
+    );
+    fs::write(site.join("katex.js"), module)?;
+    fs::copy(katex.join("katex.min.css"), site.join("katex.css"))?;
+    fs::create_dir_all(site.join("fonts"))?;
+    for entry in fs::read_dir(katex.join("fonts"))? {
+        let path = entry?.path();
+        // one of three formats, which every browser of this decade reads
+        if let (Some(name), Some("woff2")) = (path.file_name(), path.extension().and_then(|end| end.to_str()))
+        {
+            fs::copy(&path, site.join("fonts").join(name))?;
+        }
+    }
+    Ok(())
+}
+
+/// The size of a folder in bytes.
+fn size(folder: &Path) -> Result<u64, Box<dyn Error>> {
+    let mut size = 0;
+    for entry in fs::read_dir(folder)? {
+        let entry = entry?;
+        let metadata = entry.metadata()?;
+        size += if metadata.is_dir() { self::size(&entry.path())? } else { metadata.len() };
+    }
+    Ok(size)
 }

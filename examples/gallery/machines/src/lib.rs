@@ -3,11 +3,14 @@
 //! A page asks for a machine by its name, lets time pass, and draws what [`Scene`] lists; sliders change the fields of
 //! the declared struct, a push changes velocities. Nothing of mechanics is in the page.
 
+mod diagram;
+mod equations;
 mod live;
 mod machines;
 mod scene;
 mod space;
 
+pub use diagram::Diagram;
 pub use live::{Fault, Live, Machine, Model, Slider};
 pub use machines::{NAMES, machine};
 pub use scene::{Colour, Scene};
@@ -48,13 +51,31 @@ impl Shown {
     /// The declaration as it is compiled.
     #[must_use]
     pub fn declaration(&self) -> String {
-        self.0.declaration().to_owned()
+        self.0.declaration()
     }
 
     /// What was derived from it.
     #[must_use]
     pub fn report(&self) -> String {
         self.0.report().to_owned()
+    }
+
+    /// The equations of motion of the report, in the words of TeX.
+    #[must_use]
+    pub fn equations(&self) -> Vec<String> {
+        equations::of(self.0.report())
+    }
+
+    /// A picture in SVG beside the motion, for the parameters as they stand.
+    #[must_use]
+    pub fn diagram(&self) -> Option<String> {
+        self.0.diagram()
+    }
+
+    /// Where the state stands in that picture, from 0 at its left to 1 at its right.
+    #[must_use]
+    pub fn diagram_share(&self) -> Option<f64> {
+        self.0.diagram_share()
     }
 
     /// How a slider is labelled, its unit included; empty if there is none of this number.

@@ -4,6 +4,7 @@ use std::fmt;
 
 use nonholonomic::prelude::*;
 
+use crate::diagram::Diagram;
 use crate::scene::{Colour, Scene};
 
 /// A slider: a parameter by its label and range.
@@ -45,6 +46,19 @@ where
     /// Whether nothing drives or brakes it.
     const CONSERVATIVE: bool = true;
 
+    /// The declaration as it is compiled, cut out of [`Self::SOURCE`].
+    #[must_use]
+    fn declaration() -> String {
+        let from = Self::SOURCE.find("#[nonholonomic(").unwrap_or(0);
+        let end = Self::SOURCE[from..].find("\n}\n").map_or(Self::SOURCE.len(), |at| from + at + 2);
+        Self::SOURCE[from..end].to_owned()
+    }
+
+    /// Whether nothing drives or brakes it as its sliders stand.
+    fn is_conservative(&self) -> bool {
+        Self::CONSERVATIVE
+    }
+
     /// Ordinary parameters, and a start worth seeing.
     fn start() -> (Self, Self::State);
 
@@ -78,6 +92,21 @@ where
         None
     }
 
+    /// The state that goes on after a slider was moved.
+    fn adjusted(&self, _t: f64, state: &Self::State) -> Self::State {
+        *state
+    }
+
+    /// What is drawn beside the motion, for the parameters as they stand.
+    fn diagram(&self) -> Option<Diagram> {
+        None
+    }
+
+    /// Where the state stands in the diagram, from 0 at its left to 1 at its right.
+    fn diagram_share(&self, _state: &Self::State) -> Option<f64> {
+        None
+    }
+
     /// The state after a push (m/s, in the plane of the picture).
     fn pushed(&self, state: &Self::State, push: [f64; 2]) -> Self::State;
 
@@ -97,7 +126,7 @@ where
 pub trait Machine {
     fn title(&self) -> &'static str;
     fn text(&self) -> &'static str;
-    fn declaration(&self) -> &'static str;
+    fn declaration(&self) -> String;
     fn report(&self) -> &'static str;
     fn is_conservative(&self) -> bool;
     fn sliders(&self) -> Vec<Labelled>;
@@ -112,6 +141,10 @@ pub trait Machine {
     fn energy(&self) -> f64;
     fn off_constraints(&self) -> Option<f64>;
     fn scene(&self) -> Scene;
+    /// A picture in SVG that depends on the parameters alone.
+    fn diagram(&self) -> Option<String>;
+    /// Where the state stands in it, from 0 at its left to 1 at its right.
+    fn diagram_share(&self) -> Option<f64>;
 }
 
 /// The time between two looks at the input, and two points of the track (s).
@@ -165,10 +198,8 @@ where
         S::TEXT
     }
 
-    fn declaration(&self) -> &'static str {
-        let from = S::SOURCE.find("#[nonholonomic(").unwrap_or(0);
-        let end = S::SOURCE[from..].find("\n}\n").map_or(S::SOURCE.len(), |at| from + at + 2);
-        &S::SOURCE[from..end]
+    fn declaration(&self) -> String {
+        S::declaration()
     }
 
     fn report(&self) -> &'static str {
@@ -176,7 +207,7 @@ where
     }
 
     fn is_conservative(&self) -> bool {
-        S::CONSERVATIVE
+        self.system.is_conservative()
     }
 
     fn sliders(&self) -> Vec<Labelled> {
@@ -190,7 +221,16 @@ where
     fn set(&mut self, slider: usize, value: f64) {
         if let Some(slider) = S::sliders().get(slider) {
             (slider.set)(&mut self.system, value.clamp(slider.range[0], slider.range[1]));
+            self.state = self.system.adjusted(self.t, &self.state);
         }
+    }
+
+    fn diagram(&self) -> Option<String> {
+        self.system.diagram().map(|diagram| diagram.svg())
+    }
+
+    fn diagram_share(&self) -> Option<f64> {
+        self.system.diagram_share(&self.state)
     }
 
     fn advance(&mut self, span: f64) -> Result<(), Fault> {

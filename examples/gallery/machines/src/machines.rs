@@ -3,8 +3,10 @@
 use crate::live::{Live, Machine};
 
 mod balancing;
+mod bicycle;
 mod chaplygin_sphere;
 mod disk;
+mod four_bar;
 mod rattleback;
 mod robot;
 mod roller_racer;
@@ -38,10 +40,12 @@ gallery! {
     "snakeboard" => snakeboard::Snakeboard,
     "roller_racer" => roller_racer::RollerRacer,
     "trailers" => trailers::Trailers,
+    "bicycle" => bicycle::Bicycle<f64>,
     "balancing" => balancing::Balancing,
     "disk" => disk::Disk,
     "rattleback" => rattleback::Rattleback,
     "chaplygin_sphere" => chaplygin_sphere::ChaplyginSphere,
     "turntable" => turntable::Turntable,
     "veselova" => veselova::Veselova,
+    "four_bar" => four_bar::FourBar,
 }

@@ -3,9 +3,12 @@
 pub type Vector = [f64; 3];
 
 /// A view from above and aside, without perspective: the ground's x to the right, z up.
-pub fn seen([x, y, z]: Vector) -> [f64; 2] {
-    // turned by 0.5 about the vertical, then looked at from 0.5 above the ground
-    let (turn, above) = (0.5_f64, 0.5_f64);
+pub fn seen(point: Vector) -> [f64; 2] {
+    seen_from([0.5, 0.5], point)
+}
+
+/// The same turned by an angle about the vertical, then looked at from another one above the ground.
+pub fn seen_from([turn, above]: [f64; 2], [x, y, z]: Vector) -> [f64; 2] {
     let right = x * turn.cos() + y * turn.sin();
     let away = y * turn.cos() - x * turn.sin();
     [right, away * above.sin() + z * above.cos()]

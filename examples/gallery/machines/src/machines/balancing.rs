@@ -18,6 +18,7 @@ use crate::scene::{Colour, Scene};
     forces { x: torque / r; tilt: -torque; }
     assume { wheels > 0; m > 0; J > 0; r > 0; l > 0; }
     emit { jacobian }
+    units  { x, l, r = m; tilt = rad; wheels, m = kg; J = kg m^2; g = m/s^2; torque = N m; }
 )]
 #[derive(Clone, Copy, Debug)]
 pub struct Balancing {

@@ -2,7 +2,7 @@ use nonholonomic::prelude::*;
 
 use crate::live::{Fault, Model, Slider};
 use crate::scene::{Colour, Scene};
-use crate::space::{cross, in_space, seen, turn};
+use crate::space::{cross, dot, in_space, seen, turn};
 
 /// Chaplygin's sphere: a ball with three moments of inertia, its centre of mass in the middle, rolls on a plane.
 #[nonholonomic(
@@ -24,6 +24,7 @@ use crate::space::{cross, in_space, seen, turn};
         vy = -r * dot(e, w);
     }
     assume { m > 0; I > 0; r > 0; }
+    units { g, e = 1; x, y, r = m; w = s^-1; m = kg; I = kg m^2; }
 )]
 #[derive(Clone, Copy, Debug)]
 pub struct ChaplyginSphere {
@@ -81,11 +82,16 @@ impl Model for ChaplyginSphere {
         Ok(state)
     }
 
+    fn off_constraints(&self, _t: f64, state: &ChaplyginSphereState) -> Option<f64> {
+        let (g, e) = (state.g, state.e);
+        Some([dot(g, g) - 1.0, dot(e, e) - 1.0, dot(e, g)].map(f64::abs).into_iter().fold(0.0, f64::max))
+    }
+
     fn pushed(&self, state: &ChaplyginSphereState, [right, up]: [f64; 2]) -> ChaplyginSphereState {
         let frame = cross(state.g, state.e);
         let mut pushed = *state;
-        for i in 0..3 {
-            pushed.w[i] += (right * frame[i] - up * state.e[i]) / self.r;
+        for ((w, across), along) in pushed.w.iter_mut().zip(frame).zip(state.e) {
+            *w += (right * across - up * along) / self.r;
         }
         pushed
     }

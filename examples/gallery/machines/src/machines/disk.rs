@@ -25,6 +25,7 @@ use crate::space::{seen, turn};
         der(y) = R * sin(heading) * der(roll);
     }
     assume { m > 0; A > 0; C > 0; R > 0; }
+    units { x, y, R = m; heading, lean, roll = rad; m = kg; A, C = kg m^2; g = m/s^2; }
 )]
 #[derive(Clone, Copy, Debug)]
 pub struct Disk {

@@ -40,6 +40,7 @@ use crate::space::{cross, dot, in_space, seen, turn};
     }
     forces { for i in 0..3 { w[i]: -c * w[i]; } }
     assume { m > 0; I > 0; a > 0; }
+    units { g, e = 1; x, y, a, h = m; w = s^-1; m = kg; I, D = kg m^2; gravity = m/s^2; c = N m s; }
 )]
 #[derive(Clone, Copy, Debug)]
 pub struct Rattleback {
@@ -62,6 +63,10 @@ impl Model for Rattleback {
         it goes on for much longer. Its axes of inertia are turned against those of its bottom: the slider's deviation moment.";
     const SOURCE: &'static str = include_str!("rattleback.rs");
     const DERIVED: &'static str = Self::REPORT;
+
+    fn is_conservative(&self) -> bool {
+        self.c == 0.0
+    }
 
     fn start() -> (Self, RattlebackState) {
         let stone = Self {
@@ -106,6 +111,11 @@ impl Model for Rattleback {
         // back onto the unit sphere of directions
         let _ = self.normalize(&mut state);
         Ok(state)
+    }
+
+    fn off_constraints(&self, _t: f64, state: &RattlebackState) -> Option<f64> {
+        let (g, e) = (state.g, state.e);
+        Some([dot(g, g) - 1.0, dot(e, e) - 1.0, dot(e, g)].map(f64::abs).into_iter().fold(0.0, f64::max))
     }
 
     fn pushed(&self, state: &RattlebackState, [right, up]: [f64; 2]) -> RattlebackState {

@@ -25,6 +25,14 @@ use crate::scene::{Colour, Scene, placed};
     inputs  { torque_left, torque_right }
     forces  { dleft: torque_left - c * dleft; dright: torque_right - c * dright; }
     assume  { m > 0; J > 0; Jw > 0; r > 0; }
+    units   {
+        x, y, a, b, r = m;
+        theta, left, right = rad;
+        m = kg;
+        J, Jw = kg m^2;
+        c = N m s;
+        torque_left, torque_right = N m;
+    }
 )]
 #[derive(Clone, Copy, Debug)]
 pub struct Robot {

@@ -22,6 +22,7 @@ use crate::scene::{Colour, Scene, placed};
     }
     independent { v }
     assume { m > 0; J1 > 0; J2 > 0; l1 > 0; l2 > 0; }
+    units { x, y, l1, l2 = m; theta, phi, swing = rad; t = s; rate = s^-1; m = kg; J1, J2 = kg m^2; }
 )]
 #[derive(Clone, Copy, Debug)]
 pub struct RollerRacer {

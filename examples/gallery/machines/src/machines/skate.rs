@@ -15,6 +15,7 @@ use crate::scene::{Colour, Scene, placed};
     lagrangian  { J / 2 * omega^2 + m / 2 * (v^2 + side^2) - m * g * sin(slope) * y }
     constraints { blade: side = 0; }
     assume      { m > 0; J > 0; }
+    units       { theta, slope = rad; x, y = m; m = kg; J = kg m^2; g = m/s^2; blade = N; }
 )]
 #[derive(Clone, Copy, Debug)]
 pub struct Skate {

@@ -15,6 +15,7 @@ use crate::scene::{Colour, Scene, placed};
     lagrangian  { J / 2 * omega^2 + m / 2 * (v^2 + (side + a * omega)^2) }
     constraints { edge: side = 0; }
     assume      { m > 0; J > 0; }
+    units       { theta = rad; x, y, a = m; m = kg; J = kg m^2; edge = N; }
 )]
 #[derive(Clone, Copy, Debug)]
 pub struct Sleigh {

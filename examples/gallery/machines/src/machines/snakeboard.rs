@@ -24,6 +24,7 @@ use crate::scene::{Colour, Scene, placed};
         steering: dphi = steer * rate * cos(rate * t);
     }
     independent { u1 }
+    units { x, y, l = m; theta, psi, phi, swing, steer = rad; t = s; rate = s^-1; m = kg; J0, J1 = kg m^2; }
 )]
 #[derive(Clone, Copy, Debug)]
 pub struct Snakeboard {

@@ -25,6 +25,7 @@ use crate::scene::{Colour, Scene, placed};
     inputs { drive, turn }
     forces { v: drive; ddelta: turn; }
     assume { m > 0; J > 0; Js > 0; d > 0; wheelbase > 0; }
+    units { x, y, d, wheelbase = m; th, delta = rad; m = kg; J, Js = kg m^2; drive = N; turn = N m; }
 )]
 #[derive(Clone, Copy, Debug)]
 pub struct Trailers {

@@ -18,6 +18,7 @@ use crate::space::turn;
     }
     conserved { spin = w[2]; }
     assume { r > 0; k > 0; m > 0; }
+    units { x, y, k, r = m; w, rate = s^-1; m = kg; g = m/s^2; slope = 1; }
 )]
 #[derive(Clone, Copy, Debug)]
 pub struct Turntable {

@@ -17,6 +17,7 @@ use crate::space::{seen, turn};
     lagrangian  { sum(i in 0..3: I[i] * w[i]^2) / 2 - c * g[2] }
     constraints { veselova: dot(g, w) = 0; }
     assume      { I > 0; }
+    units       { g = 1; w = s^-1; I = kg m^2; c = J; }
 )]
 #[derive(Clone, Copy, Debug)]
 pub struct Veselova {
