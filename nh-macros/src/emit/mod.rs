@@ -9,6 +9,7 @@ mod assembly;
 mod c;
 mod callback;
 mod discrete;
+mod editor;
 mod embedding;
 mod energy;
 mod functions;
@@ -106,6 +107,7 @@ pub(crate) fn emit(system: &System, layout: &Layout) -> Result<TokenStream, Vec<
     // the ledger tells of all programs
     methods.extend(report_text::derivation(context, system));
     items.extend(context.inherent(&methods));
+    items.extend(editor::emit(context, system.functions.get(&VELOCITY).is_some()));
     items.extend(callback::emit(context));
     match context.lowering.violation(model.origin) {
         Some(violation) => Err(vec![violation]),

@@ -12,8 +12,9 @@ use super::layout::Layout;
 use super::setting::Context;
 use super::taylor;
 use super::{
-    almost_poisson, assembly, c, callback, discrete, embedding, energy, functions, hamiltonian, invariants,
-    jacobian, linearization, motion, observed, prepared, projection, report_text, state, validate,
+    almost_poisson, assembly, c, callback, discrete, editor, embedding, energy, functions, hamiltonian,
+    invariants, jacobian, linearization, motion, observed, prepared, projection, report_text, state,
+    validate,
 };
 use crate::resolve::Outline;
 
@@ -44,6 +45,7 @@ pub(crate) fn stubs(layout: &Layout, outline: &Outline) -> TokenStream {
     methods.extend(part.methods);
     items.extend(part.items);
     items.extend(context.inherent(&methods));
+    items.extend(editor::emit(context, true));
     items.extend(callback::emit(context));
     items
 }

@@ -35,6 +35,7 @@ pub(crate) mod testing;
 
 use proc_macro2::{Span, TokenStream};
 
+pub(crate) use names::is_mark;
 pub(crate) use structure::without_own_attributes;
 
 use crate::report::{Diagnostic, Errors, Extent};

@@ -281,6 +281,28 @@ where
         ::core::result::Result::Ok(())
     }
 }
+#[allow(unexpected_cfgs)]
+const _: () = {
+    #[cfg(rust_analyzer)]
+    #[allow(warnings)]
+    fn names<T>(system: &Chain<T>, state: &ChainState<T>, velocity: &ChainVelocity<T>)
+    where
+        T: ::nonholonomic::__private::Scalar,
+    {
+        {
+            _ = state.q;
+            _ = state.R;
+        }
+        {
+            _ = velocity.w;
+            _ = velocity.u;
+        }
+        {
+            _ = velocity.u;
+            _ = velocity.w;
+        }
+    }
+};
 #[doc(hidden)]
 #[allow(non_local_definitions)]
 #[macro_export]

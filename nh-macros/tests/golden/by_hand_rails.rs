@@ -518,6 +518,27 @@ impl Rails {
         ::core::result::Result::Ok(())
     }
 }
+#[allow(unexpected_cfgs)]
+const _: () = {
+    #[cfg(rust_analyzer)]
+    #[allow(warnings)]
+    fn names(system: &Rails, state: &RailsState, velocity: &RailsVelocity) {
+        {
+            _ = state.x;
+        }
+        {
+            _ = state.w;
+            _ = state.v;
+        }
+        {
+            _ = state.w;
+            _ = state.x;
+            _ = state.w;
+            _ = state.v;
+            _ = state.w;
+        }
+    }
+};
 #[doc(hidden)]
 macro_rules! __nh_declaration_Rails_2c1c7c1b4234c327 {
     () => {};

@@ -456,6 +456,41 @@ impl Sleigh {
         ::core::result::Result::Ok(())
     }
 }
+#[allow(unexpected_cfgs)]
+const _: () = {
+    #[cfg(rust_analyzer)]
+    #[allow(warnings)]
+    fn names(
+        system: &Sleigh,
+        state: &SleighState,
+        velocity: &SleighVelocity,
+        input: &SleighInput,
+        outputs: &SleighOutputs,
+    ) {
+        {
+            _ = state.theta;
+            _ = state.x;
+            _ = state.y;
+        }
+        {
+            _ = state.omega;
+            _ = state.v1;
+            _ = velocity.v2;
+        }
+        {
+            _ = velocity.v2;
+        }
+        {
+            _ = input.torque;
+        }
+        {
+            _ = outputs.speed;
+            _ = state.v1;
+            _ = outputs.E;
+            _ = state.v1;
+        }
+    }
+};
 #[doc(hidden)]
 #[allow(non_local_definitions)]
 #[macro_export]
