@@ -17,13 +17,23 @@ impl Graph {
     /// Multiples of the demands that add up to a contradiction.
     pub(super) fn combination(&self, demands: &[(ExprId, Demand)]) -> Option<Contradiction> {
         let polynomials: Option<Vec<Terms>> =
-            demands.iter().map(|(id, _)| self.polynomial_terms(*id)).collect();
+            demands.iter().map(|(id, _)| self.without_denominators(self.polynomial_terms(*id)?)).collect();
         let polynomials = polynomials?;
-        if polynomials
-            .iter()
-            .zip(demands)
-            .all(|(polynomial, (_, demand))| is_met_by_constant(polynomial, *demand))
-        {
+        // all monomials are 0 where symbols are
+        let has_symbol = |monomial: &Monomial| {
+            monomial.is_empty()
+                || monomial.iter().any(|(part, e)| !e.is_negative() && self.as_symbol(*part).is_some())
+        };
+        let met = |(polynomial, (_, demand)): (&Terms, &(ExprId, Demand))| {
+            is_met_by_constant(polynomial, *demand) && polynomial.keys().all(has_symbol)
+        };
+        if polynomials.iter().zip(demands).all(met) || self.are_met_at_a_corner(&polynomials, demands) {
+            return None;
+        }
+        let known = self.known_of_functions(&polynomials);
+        let own = polynomials.iter().zip(demands).map(|(polynomial, (_, demand))| (polynomial, *demand));
+        let all = known.iter().map(|(polynomial, demand)| (polynomial, *demand)).chain(own);
+        if all.into_iter().all(|(polynomial, demand)| is_met_by_constant(polynomial, demand)) {
             return None;
         }
         let mut rows: Vec<Row> = Vec::new();
@@ -38,7 +48,15 @@ impl Graph {
                 Demand::Nonzero => {}
             }
         }
-        let squares = squares(&polynomials);
+        for (polynomial, demand) in &known {
+            rows.push((None, Rational::ONE, polynomial.clone(), *demand == Demand::Positive));
+            if *demand == Demand::Zero {
+                rows.push((None, Rational::ONE, negative(polynomial), false));
+            }
+        }
+        let with_known: Vec<Terms> =
+            polynomials.iter().chain(known.iter().map(|(polynomial, _)| polynomial)).cloned().collect();
+        let squares = squares(&with_known);
         rows.extend(squares.into_iter().map(|square| (None, Rational::ONE, square, false)));
         let found = refuted(&rows).or_else(|| refuted(&with_products(&rows))).or_else(|| {
             // what is between 0 and 0 is 0
@@ -63,6 +81,33 @@ impl Graph {
     }
 }
 
+impl Graph {
+    /// Whether polynomials in symbols are as demanded where one of these is 1 and the others are 0, or where those are 1
+    /// that stand on the diagonal of a square: what spheres and rotations are met by.
+    fn are_met_at_a_corner(&self, polynomials: &[Terms], demands: &[(ExprId, Demand)]) -> bool {
+        let parts: BTreeSet<ExprId> =
+            polynomials.iter().flat_map(|p| p.keys().flatten().map(|(part, _)| *part)).collect();
+        let parts: Vec<ExprId> = parts.into_iter().collect();
+        let exponents = || polynomials.iter().flat_map(|p| p.keys().flatten().map(|(_, exponent)| exponent));
+        if parts.iter().any(|part| self.as_symbol(*part).is_none()) || exponents().any(Rational::is_negative)
+        {
+            return false;
+        }
+        let size = parts.len().isqrt();
+        let diagonal =
+            (size * size == parts.len()).then(|| parts.iter().step_by(size + 1).copied().collect());
+        let corners = parts.iter().map(|part| vec![*part]).chain(diagonal);
+        corners.into_iter().any(|ones: Vec<ExprId>| {
+            polynomials.iter().zip(demands).all(|(polynomial, (_, demand))| {
+                let stays = |monomial: &Monomial| monomial.iter().all(|(part, _)| ones.contains(part));
+                let kept = polynomial.iter().filter(|(monomial, _)| stays(monomial));
+                let value = kept.fold(Rational::ZERO, |sum, (_, coefficient)| sum + coefficient.clone());
+                is_met_by_constant(&Terms::from([(Monomial::new(), value)]), *demand)
+            })
+        })
+    }
+}
+
 /// Whether a demand is met where all monomials but the constant are 0: where all are, squares and products do not
 /// add up to a contradiction.
 fn is_met_by_constant(polynomial: &Terms, demand: Demand) -> bool {
@@ -80,16 +125,28 @@ pub(super) fn negative(polynomial: &Terms) -> Terms {
     polynomial.iter().map(|(monomial, c)| (monomial.clone(), -c.clone())).collect()
 }
 
-/// (x ± y)² and (x ± 1)² for the variables of products and squares.
+/// (x ± y)² and (x ± 1)² for the variables of products and squares, and for what fourth powers are squares of.
 fn squares(polynomials: &[Terms]) -> Vec<Terms> {
-    let is_square = |m: &&Monomial| m.len() == 2 || m.iter().any(|(_, e)| *e == Rational::from(2));
-    let variables: BTreeSet<ExprId> = polynomials
-        .iter()
-        .flat_map(|p| p.keys().filter(is_square).flatten().map(|(base, _)| *base))
-        .collect();
+    let is_square = |m: &&Monomial| {
+        m.len() == 2 || m.iter().any(|(_, e)| *e == Rational::from(2) || *e == Rational::from(3))
+    };
+    let monomials = || polynomials.iter().flat_map(|polynomial| polynomial.keys());
+    let variables: BTreeSet<ExprId> =
+        monomials().filter(is_square).flatten().map(|(base, _)| *base).collect();
+    let half = Rational::new(1, 2);
+    let root = |monomial: &Monomial| -> Option<Monomial> {
+        let root = monomial.iter().map(|(base, exponent)| (*base, exponent.clone() * half.clone()));
+        let root: Monomial = root.collect();
+        let is_higher = root.len() > 1 || root.iter().any(|(_, exponent)| !exponent.is_one());
+        let is_whole = root.iter().all(|(_, exponent)| exponent.is_integer() && !exponent.is_negative());
+        (is_higher && is_whole && !root.is_empty()).then_some(root)
+    };
+    let mut higher: BTreeSet<Monomial> = monomials().filter_map(root).collect();
+    let mixed = higher.iter().flat_map(|a| higher.iter().filter_map(|b| root(&product_of(a, b))));
+    higher = mixed.chain(higher.iter().cloned()).collect();
     let one = Monomial::new();
-    let mut linear: Vec<Monomial> =
-        variables.into_iter().take(VARIABLES).map(|x| vec![(x, Rational::ONE)]).collect();
+    let variables = variables.into_iter().map(|x| vec![(x, Rational::ONE)]);
+    let mut linear: Vec<Monomial> = variables.chain(higher).take(VARIABLES).collect();
     if linear.is_empty() {
         return Vec::new();
     }
@@ -111,10 +168,22 @@ fn squares(polynomials: &[Terms]) -> Vec<Terms> {
     found
 }
 
-/// The same with the products of two of them, as far as these are few.
+/// The same with the products of two of them, and of each with squares, as far as these are few.
 fn with_products(rows: &[Row]) -> Vec<Row> {
     const FACTORS: usize = 8;
+    /// Demands and squares that are multiplied with each other.
+    const SQUARED: usize = 3;
+    const SQUARES: usize = 24;
     let mut all = rows.to_vec();
+    let squares: Vec<&Row> = rows.iter().filter(|(index, ..)| index.is_none()).collect();
+    let squared = rows.iter().filter(|(index, ..)| index.is_some());
+    if squared.clone().count() <= SQUARED && squares.len() <= SQUARES {
+        for ((_, _, one, _), (_, _, square, _)) in
+            squared.flat_map(|row| squares.iter().map(move |s| (row, *s)))
+        {
+            all.extend(multiplied(one, square).map(|product| (None, Rational::ONE, product, false)));
+        }
+    }
     let factors: Vec<&Row> = rows.iter().filter(|(index, ..)| index.is_some()).collect();
     if factors.len() <= FACTORS {
         for (place, (_, _, one, strict)) in factors.iter().enumerate() {

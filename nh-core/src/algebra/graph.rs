@@ -7,7 +7,7 @@
 use super::constants::Constants;
 use super::level::Accuracy;
 use super::memory::{Attempts, Cancelling, Simplifier};
-use super::node::Node;
+use super::node::{Function, Node};
 use super::number::Rational;
 use super::places::Places;
 use super::verdict::Verdict;
@@ -114,6 +114,12 @@ impl Graph {
         let hash = hashed(&node);
         let found = self.places.find(hash, |id| self.nodes[id] == node);
         found.unwrap_or_else(|| self.store(hash, node))
+    }
+
+    /// A function of an expression, if that has been built.
+    pub(super) fn known_application(&self, function: Function, x: ExprId) -> Option<ExprId> {
+        let node = Node::Apply(function, x);
+        self.places.find(hashed(&node), |id| self.nodes[id] == node)
     }
 
     /// Stores a sum that is already canonical.

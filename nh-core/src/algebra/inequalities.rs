@@ -14,7 +14,8 @@ use super::node::{Function, Node};
 use super::number::Rational;
 use super::polynomial_terms::{Terms, least_value};
 use super::range::{Facts, Range};
-use crate::id::ExprId;
+use super::zero_test::sample;
+use crate::id::{ExprId, Id, SymbolId};
 use crate::limits;
 use rustc_hash::FxHashMap;
 
@@ -51,6 +52,8 @@ pub enum Contradiction {
     Combination(Vec<(usize, Rational)>),
 }
 
+/// Points that are tried before anything is proved.
+const SAMPLES: u64 = 6;
 /// Times that intervals are propagated.
 const ROUNDS: usize = 12;
 /// Expressions with more parts are not looked at.
@@ -62,7 +65,7 @@ const PROPAGATED: u64 = 1_000_000;
 
 type Known = FxHashMap<ExprId, Interval>;
 
-/// A sum: the range of a polynomial, and other terms with their coefficients.
+/// A sum: the range of a part of it, and other terms with their coefficients.
 struct Shifted {
     range: Interval,
     others: Vec<(ExprId, Rational)>,
@@ -72,11 +75,33 @@ impl Graph {
     /// A proof that no values of the symbols satisfy all demands, if one is found.
     #[must_use]
     pub fn contradiction(&self, demands: &[(ExprId, Demand)]) -> Option<Contradiction> {
+        if self.are_met_somewhere(demands) {
+            return None;
+        }
         let mut known = Known::default();
         if let Err(index) = self.propagate_for_a_while(demands, &mut known) {
             return Some(Contradiction::Nowhere(index));
         }
         self.combination(demands)
+    }
+
+    /// Whether one of a few points is found that certainly satisfies all demands.
+    fn are_met_somewhere(&self, demands: &[(ExprId, Demand)]) -> bool {
+        if demands.iter().any(|(_, demand)| *demand == Demand::Zero) {
+            return false;
+        }
+        let roots: Vec<ExprId> = demands.iter().map(|(id, _)| *id).collect();
+        let points = (0..SAMPLES).map(|point| {
+            move |symbol: SymbolId| {
+                let number = sample(point, symbol.index());
+                if point % 2 == 0 { number.abs() } else { number }
+            }
+        });
+        self.evaluate_each(&roots, points).any(|values| {
+            values.iter().zip(demands).all(|(value, (_, demand))| {
+                value.is_certainly_nonzero() && (*demand == Demand::Nonzero || value.value > 0.0)
+            })
+        })
     }
 
     /// Facts that follow from demands that do not contradict each other.
@@ -116,7 +141,7 @@ impl Graph {
             }
         }
         let shifted: FxHashMap<ExprId, Shifted> =
-            parts.iter().flatten().filter_map(|id| Some((*id, self.shifted_quadratic(*id)?))).collect();
+            parts.iter().flatten().filter_map(|id| Some((*id, self.shifted_sum(*id)?))).collect();
         for _ in 0..ROUNDS {
             let mut changed = false;
             for (index, ((id, demand), parts)) in demands.iter().zip(&parts).enumerate() {
@@ -157,22 +182,35 @@ impl Graph {
         self.polynomial_terms(id).map(|polynomial| range_of_quadratic(&polynomial))
     }
 
-    /// A sum as a quadratic polynomial with a least or a largest value, and functions that are its other terms.
-    fn shifted_quadratic(&self, id: ExprId) -> Option<Shifted> {
+    /// A sum as a part with a range whatever its symbols are, and parts that stand in no other term: sines and cosines,
+    /// and a quadratic polynomial with a least or a largest value.
+    fn shifted_sum(&self, id: ExprId) -> Option<Shifted> {
         let Node::Sum { .. } = self.node(id) else { return None };
-        let mut polynomial = self.polynomial_terms(id)?;
+        let polynomial = self.polynomial_terms(id)?;
+        let harmonics = self.without_harmonics(&polynomial);
+        let is_harmonic = harmonics.is_some();
+        let (range, mut polynomial) =
+            harmonics.unwrap_or_else(|| (Interval::point(&Rational::ZERO), polynomial.clone()));
         let mut others = Vec::new();
         for (monomial, coefficient) in polynomial.clone() {
             let [(part, exponent)] = monomial.as_slice() else { continue };
             let is_elsewhere =
                 polynomial.keys().any(|other| *other != monomial && other.iter().any(|(p, _)| p == part));
-            if exponent.is_one() && !is_elsewhere && matches!(self.node(*part), Node::Apply(..)) {
+            let stands_alone = is_harmonic || matches!(self.node(*part), Node::Apply(..));
+            if exponent.is_one() && !is_elsewhere && stands_alone {
                 polynomial.remove(&monomial);
                 others.push((*part, coefficient));
             }
         }
-        let range = range_of_quadratic(&polynomial);
-        (!others.is_empty() && range != Interval::ALL).then_some(Shifted { range, others })
+        let rest = match polynomial.len() {
+            0 => Interval::point(&Rational::ZERO),
+            _ if is_harmonic && polynomial.keys().all(Vec::is_empty) => {
+                polynomial.values().fold(Interval::point(&Rational::ZERO), |_, value| Interval::point(value))
+            }
+            _ => range_of_quadratic(&polynomial),
+        };
+        let range = range.plus(&rest);
+        ((is_harmonic || !others.is_empty()) && range != Interval::ALL).then_some(Shifted { range, others })
     }
 
     /// Whether no symbol occurs.

@@ -59,6 +59,15 @@ impl Interval {
         Self::above(value.clone(), false).meet(&Self::below(value.clone(), false))
     }
 
+    /// Between −√(square) and √(square).
+    pub(super) fn amplitude(square: &Rational) -> Self {
+        let size = Self::point(square).power(&Rational::new(1, 2));
+        match size.high {
+            Some(end) => Self::symmetric(end.value, false),
+            None => Self::ALL,
+        }
+    }
+
     fn symmetric(by: Rational, open: bool) -> Self {
         Self::above(-by.clone(), open).meet(&Self::below(by, open))
     }

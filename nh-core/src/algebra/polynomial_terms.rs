@@ -78,6 +78,15 @@ pub(super) fn multiplied(a: &Terms, b: &Terms) -> Option<Terms> {
     Some(product)
 }
 
+/// The sum of two polynomials.
+pub(super) fn sum_of(a: &Terms, b: &Terms) -> Terms {
+    let mut sum = a.clone();
+    for (monomial, coefficient) in b {
+        add(&mut sum, monomial.clone(), coefficient.clone());
+    }
+    sum
+}
+
 /// The product of two monomials.
 pub(super) fn product_of(a: &Monomial, b: &Monomial) -> Monomial {
     let mut powers: BTreeMap<ExprId, Rational> = a.iter().cloned().collect();

@@ -2,6 +2,7 @@
 //! lemma), by the simplex algorithm with Bland's rule, exactly.
 
 use super::number::Rational;
+use crate::limits;
 
 /// `Σ coefficients[k] · x_k + constant ≥ 0`, or `> 0`.
 #[derive(Clone, Debug)]
@@ -13,6 +14,8 @@ pub(super) struct Inequality {
 
 /// Pivots after which nothing is said.
 const PIVOTS: usize = 200;
+/// Entries, most of them 0, that a step of work reads.
+const ENTRIES_PER_STEP: usize = 8;
 
 /// Multipliers y ≥ 0 for which Σ y (inequality) is `0 ≥ c` with c < 0 hidden in it, or `0 > 0`. `None`
 /// where there are none, or none were found in time.
@@ -126,6 +129,7 @@ impl Tableau {
 
     fn pivot(&mut self, row: usize, column: usize) {
         let Some(inverse) = self.rows[row][column].recip() else { return };
+        limits::spend(self.rows.len() * self.rows[row].len() / ENTRIES_PER_STEP);
         for entry in &mut self.rows[row] {
             *entry = entry.clone() * inverse.clone();
         }

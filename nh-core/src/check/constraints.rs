@@ -216,7 +216,7 @@ fn constraint_manifold(
         Ok(manifold) => Ok(manifold),
         Err(index) => {
             let id = ConstraintId::from_index(index);
-            if let Some(violation) = contradiction(model, algebroid, residuals, id) {
+            if let Some((_, violation)) = contradiction(model, algebroid, residuals, id) {
                 return Err(violation);
             }
             Err(Violation {
@@ -248,8 +248,13 @@ fn without_real_point(model: &mut Model, algebroid: &Algebroid, residuals: &[Exp
             continue;
         }
         let id = ConstraintId::from_index(index);
+        // what is left of it is shown in the words of the declaration, or not at all
         if index > 0
-            && let Some(violation) = contradiction(model, algebroid, residuals, id)
+            && let Some((left_over, violation)) = contradiction(model, algebroid, residuals, id)
+            && {
+                let declared = model.graph.symbols_in(residuals);
+                model.graph.symbols_in(&[left_over]).iter().all(|symbol| declared.contains(symbol))
+            }
         {
             return Some(violation);
         }
@@ -272,24 +277,26 @@ fn without_real_point(model: &mut Model, algebroid: &Algebroid, residuals: &[Exp
     None
 }
 
-/// A constraint that holds nowhere that those before it do.
+/// A constraint that holds nowhere that those before it do, with what is left of it there.
 fn contradiction(
     model: &mut Model,
     algebroid: &Algebroid,
     residuals: &[ExprId],
     id: ConstraintId,
-) -> Option<Violation> {
+) -> Option<(ExprId, Violation)> {
     let graph = &mut model.graph;
     let earlier = Manifold::where_zero(graph, &residuals[..id.index()], &algebroid.velocities).ok()?;
     let left_over = earlier.restrict(graph, residuals[id.index()]);
     let left_over = graph.simplify(left_over);
-    graph.contradiction(&[(left_over, Demand::Zero)]).is_some().then(|| Violation {
+    let violation = |model: &Model| Violation {
         law: Law::Independence,
         origin: model.constraints[id].origin,
         what: format!("{} contradicts the constraints before it", name_of(model, id)),
         evidence: format!("where those hold, it says {} = 0", shown(&model.graph, left_over)),
         way_out: "change or leave out one of them".into(),
-    })
+    };
+    let is_contradictory = graph.contradiction(&[(left_over, Demand::Zero)]).is_some();
+    is_contradictory.then(|| (left_over, violation(model)))
 }
 
 /// How a constraint is called in messages.
