@@ -4,9 +4,9 @@
 use super::field::Residue;
 use super::graph::Graph;
 use super::modular::{FieldPass, NoValue, Stream, Value};
-use super::node::{Function, Node};
+use super::node::{Function, Function2, Node};
 use super::number::Rational;
-use crate::id::{ExprId, SymbolId};
+use crate::id::ExprId;
 use num_integer::Integer;
 use num_traits::ToPrimitive;
 
@@ -56,6 +56,12 @@ impl Graph {
         }
     }
 
+    /// The terms of an angle that are no numbers, with their coefficients.
+    pub(crate) fn terms_of_angle(&self, x: ExprId) -> Vec<(ExprId, Rational)> {
+        let terms = self.angle_terms(x).into_iter();
+        terms.filter_map(|(term, coefficient)| Some((term?, coefficient))).collect()
+    }
+
     /// How many times units of the circle, or of the exponential, are multiplied at most for an argument.
     pub(crate) fn angle_turns(&self, x: ExprId, division: i64) -> f64 {
         let is_sum = |(base, _): &(ExprId, Rational)| matches!(self.node(*base), Node::Sum { .. });
@@ -69,6 +75,27 @@ impl Graph {
             turns += times.to_f64() * if expands { EXPANDED_TERMS } else { 1.0 };
         }
         turns
+    }
+
+    /// What stands in the arcs and logarithms that are terms of an argument: points above it are made of their values.
+    pub(crate) fn inside_arcs(&self, x: ExprId) -> Vec<ExprId> {
+        let mut found = Vec::new();
+        for (term, _) in self.terms_of_angle(x) {
+            let parts = match self.node(term) {
+                Node::Product { factors, .. } => factors.iter().map(|(base, _)| *base).collect(),
+                _ => vec![term],
+            };
+            for part in parts {
+                match self.node(part) {
+                    Node::Apply(Function::Asin | Function::Acos | Function::Atan | Function::Ln, u) => {
+                        found.push(*u);
+                    }
+                    Node::Apply2(Function2::Atan2, y, x) => found.extend([*y, *x]),
+                    _ => {}
+                }
+            }
+        }
+        found
     }
 
     /// The constants among the factors of a term of an angle, which count as its coefficient. With a long
@@ -89,8 +116,9 @@ const EXPANDED_TERMS: f64 = 16_777_216.0;
 const LARGEST_DIVISION: i64 = 1 << 20;
 
 impl FieldPass<'_> {
-    /// The terms of an angle, products of sums multiplied out, as field values with coefficients.
-    fn normal_terms(&self, x: ExprId) -> Vec<(Option<SymbolId>, Residue, Rational)> {
+    /// The terms of an angle, products of sums multiplied out, as field values with coefficients; those that are one
+    /// expression times a number with it.
+    fn normal_terms(&self, x: ExprId) -> Vec<(Option<ExprId>, Residue, Rational)> {
         let mut list = Vec::new();
         for (term, coefficient) in self.graph.angle_terms(x) {
             match term {
@@ -102,9 +130,8 @@ impl FieldPass<'_> {
     }
 
     /// Multiplies out the positive powers of sums in a product, within a budget.
-    fn expanded(&self, term: ExprId, scale: &Rational) -> Vec<(Option<SymbolId>, Residue, Rational)> {
-        let whole =
-            |coefficient: Rational, value: Residue| vec![(self.graph.as_symbol(term), value, coefficient)];
+    fn expanded(&self, term: ExprId, scale: &Rational) -> Vec<(Option<ExprId>, Residue, Rational)> {
+        let whole = |coefficient: Rational, value: Residue| vec![(Some(term), value, coefficient)];
         let constant = self.graph.angle_factor(term);
         let over = |number: Rational| Residue::of(&number).and_then(Residue::inverse).unwrap_or(Residue::ONE);
         let unit = over(constant.clone().unwrap_or(Rational::ONE));
@@ -143,11 +170,11 @@ impl FieldPass<'_> {
                 }
             }
         }
-        let symbol = match factors.as_slice() {
-            [(base, exponent)] if exponent.is_one() => self.graph.as_symbol(*base),
+        let alone = match factors.as_slice() {
+            [(base, exponent)] if exponent.is_one() => Some(*base),
             _ => None,
         };
-        list.into_iter().map(|(value, c)| (symbol, value, c)).collect()
+        list.into_iter().map(|(value, c)| (alone, value, c)).collect()
     }
 
     /// `(cos x, sin x)`.
@@ -157,16 +184,20 @@ impl FieldPass<'_> {
         }
         let mut turned = (Residue::ONE, Residue::ZERO);
         let pi = self.pi();
-        for (symbol, value, coefficient) in self.normal_terms(x) {
+        for (alone, value, coefficient) in self.normal_terms(x) {
             if value == pi
                 && let Some(twelfths) = (coefficient.clone() * Rational::from(12)).to_i64()
             {
                 turned = rotate(turned, circle_power(twelfth_of_pi()?, twelfths));
                 continue;
             }
+            let symbol = alone.and_then(|alone| self.graph.as_symbol(alone));
             let chosen = symbol.and_then(|symbol| self.point.circle.get(&symbol));
+            let arc = alone.filter(|_| self.relates_arcs && coefficient.is_integer());
             let (unit, times) = if let Some(unit) = chosen {
                 (*unit, coefficient.to_i64().ok_or(NoValue::Here)?)
+            } else if let Some(unit) = arc.and_then(|arc| self.unit_of_arc(arc)) {
+                (unit?, coefficient.to_i64().ok_or(NoValue::Here)?)
             } else {
                 let (value, times) = self.multiple(value, &coefficient)?;
                 (self.unit_of(value)?, times)
@@ -175,6 +206,23 @@ impl FieldPass<'_> {
         }
         self.circles.insert(x, turned);
         Ok(turned)
+    }
+
+    /// The point of the circle above an arc; `None` of what is none.
+    fn unit_of_arc(&self, arc: ExprId) -> Option<Result<(Residue, Residue), NoValue>> {
+        let of = |x: &ExprId| self.known.get(x).copied();
+        let leg = |square: Residue| square.sqrt().ok_or(NoValue::Here);
+        let over = |x: Residue, y: Residue| {
+            let scale = leg(x * x + y * y)?.inverse().ok_or(NoValue::Here)?;
+            Ok((x * scale, y * scale))
+        };
+        match self.graph.node(arc) {
+            Node::Apply(Function::Asin, x) => of(x).map(|x| Ok((leg(Residue::ONE - x * x)?, x))),
+            Node::Apply(Function::Acos, x) => of(x).map(|x| Ok((x, leg(Residue::ONE - x * x)?))),
+            Node::Apply(Function::Atan, x) => of(x).map(|x| over(Residue::ONE, x)),
+            Node::Apply2(Function2::Atan2, y, x) => of(y).zip(of(x)).map(|(y, x)| over(x, y)),
+            _ => None,
+        }
     }
 
     /// The random point of the circle above `value / division`.
@@ -191,7 +239,15 @@ impl FieldPass<'_> {
 
     pub(super) fn exponential(&self, x: ExprId) -> Value {
         let mut product = Residue::ONE;
-        for (_, value, coefficient) in self.normal_terms(x) {
+        for (alone, value, coefficient) in self.normal_terms(x) {
+            if self.relates_arcs
+                && let Some(times) = coefficient.to_i64()
+                && let Some(Node::Apply(Function::Ln, inside)) = alone.map(|alone| self.graph.node(alone))
+                && let Some(inside) = self.known.get(inside)
+            {
+                product = product * inside.integer_power(times).ok_or(NoValue::Here)?;
+                continue;
+            }
             let (value, times) = self.multiple(value, &coefficient)?;
             let unit = self.random(Stream::Exponential, value.word());
             product = product * unit.integer_power(times).ok_or(NoValue::Here)?;

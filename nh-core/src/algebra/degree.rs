@@ -200,8 +200,10 @@ impl<'a> Degrees<'a> {
             | Function::Sinh
             | Function::Cosh
             | Function::Tanh => {
+                let inside = self.graph.inside_arcs(x);
+                let inside = inside.iter().map(|u| self.size(&self.known[u])).sum::<f64>();
                 let turns = 2.0 * self.graph.angle_turns(x, self.division);
-                self.quotient(Factor::Node(x), turns)
+                self.quotient(Factor::Node(x), turns * (1.0 + inside))
             }
             Function::Asin
             | Function::Acos

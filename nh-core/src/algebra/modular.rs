@@ -95,6 +95,8 @@ pub(crate) struct FieldPass<'a> {
     pub(super) circles: FxHashMap<ExprId, (Residue, Residue)>,
     /// Whether functions are those of the values of their arguments alone.
     by_value: bool,
+    /// Whether sines of arcs are algebraic, as exponentials of logarithms are, and logarithms of products sums.
+    pub(super) relates_arcs: bool,
 }
 
 /// What a root is taken of.
@@ -122,13 +124,18 @@ impl<'a> FieldPass<'a> {
     /// At a point; `division` is the [`Graph::angle_division`] of all that will be evaluated.
     pub(crate) fn new(graph: &'a Graph, point: FieldPoint, division: i64) -> Self {
         let (known, units, circles) = Default::default();
-        Self { graph, point, division, known, units, circles, by_value: false }
+        Self { graph, point, division, known, units, circles, by_value: false, relates_arcs: true }
+    }
+
+    /// The same with arcs and logarithms as kernels of their values: what is written in other steps has these.
+    pub(crate) fn without_arcs(graph: &'a Graph, point: FieldPoint, division: i64) -> Self {
+        Self { relates_arcs: false, ..Self::new(graph, point, division) }
     }
 
     /// The same without the addition theorems: sine, cosine and exponential are kernels of the values of their
     /// arguments. What is equal then is equal with them, and need not be written with the same angles.
     pub(crate) fn by_value(graph: &'a Graph, point: FieldPoint) -> Self {
-        Self { by_value: true, ..Self::new(graph, point, 1) }
+        Self { by_value: true, ..Self::without_arcs(graph, point, 1) }
     }
 
     pub(crate) fn graph(&self) -> &'a Graph {
@@ -209,6 +216,7 @@ impl<'a> FieldPass<'a> {
                         Ok(if *function == Function::Sin { sin } else { cos })
                     }
                     Function::Exp if !self.by_value => self.exponential(*x),
+                    Function::Ln if self.relates_arcs => self.logarithm(*x),
                     Function::Sinh | Function::Cosh | Function::Tanh if !self.by_value => {
                         hyperbolic(*function, self.exponential(*x)?)
                     }
@@ -220,6 +228,24 @@ impl<'a> FieldPass<'a> {
                 Ok(self.function_of_values(*function, x, y))
             }
         }
+    }
+
+    /// The logarithm of the magnitude: of a product it is a sum.
+    fn logarithm(&self, x: ExprId) -> Value {
+        let of = |value: Residue| self.of_kernel(Function::Ln, value.up_to_sign().0);
+        let Node::Product { coefficient, factors } = self.graph.node(x) else {
+            return Ok(of(self.known[&x]));
+        };
+        let magnitude = coefficient.abs();
+        let mut sum = if magnitude.is_one() {
+            Residue::ZERO
+        } else {
+            of(Residue::of(&magnitude).ok_or(NoValue::Here)?)
+        };
+        for (base, exponent) in factors.iter() {
+            sum = sum + Residue::of(exponent).ok_or(NoValue::Here)? * of(self.known[base]);
+        }
+        Ok(sum)
     }
 
     /// The value of a symbol.

@@ -81,7 +81,7 @@ fn proved_with(
         if angles.is_empty() {
             FieldPass::by_value(graph, point)
         } else {
-            FieldPass::new(graph, point, division)
+            FieldPass::without_arcs(graph, point, division)
         }
     };
     at_points(
@@ -218,7 +218,7 @@ impl<'r, 'a> Run<'r, 'a> {
         division: i64,
     ) -> Self {
         let point = FieldPoint::random(pass.seed());
-        let angles = angles.map(|angles| (angles, FieldPass::new(&angles.graph, point, division)));
+        let angles = angles.map(|angles| (angles, FieldPass::without_arcs(&angles.graph, point, division)));
         let (values, is_constant, solutions) = Default::default();
         Self { program, pass, angles, values, is_constant, solutions }
     }

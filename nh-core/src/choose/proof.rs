@@ -153,7 +153,7 @@ pub(super) fn bits_of_a_point(graph: &Graph, roots: &[ExprId], degree: f64) -> R
 }
 
 /// Whether there are functions whose value in the field depends on what is a square there.
-fn has_branches(graph: &Graph, roots: &[ExprId]) -> bool {
+pub(super) fn has_branches(graph: &Graph, roots: &[ExprId]) -> bool {
     graph.reachable(roots).into_iter().any(|id| match graph.node(id) {
         Node::Product { factors, .. } => {
             // cube roots and their like are unique, and those of numbers are the same at all points
@@ -165,6 +165,8 @@ fn has_branches(graph: &Graph, roots: &[ExprId]) -> bool {
         }
         Node::Apply(Function::Asin | Function::Acos, _)
         | Node::Apply2(Function2::Min | Function2::Max, ..) => true,
+        // above arcs the circle has roots
+        Node::Apply(Function::Sin | Function::Cos, x) => !graph.inside_arcs(*x).is_empty(),
         _ => false,
     })
 }

@@ -111,6 +111,12 @@ fn what_cannot_be_decided_is_unknown() {
     let lx = g.add(lx, ly);
     let (square, other) = (g.square(lx), g.square(lxy));
     let defect = g.sub(square, other);
+    assert_eq!(g.zero_test(defect), Verdict::Zero);
+    // x² − y² is not written as a product
+    let squares = g.formula(x.square() - y.square());
+    let (sum, difference) = (g.add(x, y), g.sub(x, y));
+    let [sum, difference, squares] = [sum, difference, squares].map(|e| g.apply(Function::Ln, e));
+    let defect = g.formula((sum + difference).square() - squares.square());
     assert!(matches!(g.zero_test(defect), Verdict::Unknown(_)));
     let zero = g.zero();
     let poison = g.div(x, zero);
