@@ -72,7 +72,8 @@ fn every_formula_is_cited_where_it_is_computed_and_where_it_is_checked() {
         if path.ends_with("house.rs") {
             continue;
         }
-        let is_test = path.starts_with("tests/") || path.contains("/tests/") || path.ends_with("_tests.rs");
+        let is_test = path.starts_with("tests/") || path.contains("/tests/");
+        let is_test = is_test || path.ends_with("_tests.rs") || path.contains("_tests/");
         let (product, test) = match text.split_once("#[cfg(test)]\nmod tests {") {
             _ if is_test => ("", text.as_str()),
             Some((product, test)) => (product, test),

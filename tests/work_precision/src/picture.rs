@@ -36,6 +36,75 @@ pub(crate) fn draw(name: &str, outcomes: &[Outcome]) -> String {
         svg,
         "<text x=\"{left}\" y=\"24\" font-size=\"15\">{name}: {unit} against the error at the end</text>"
     );
+    draw_decades(&mut svg, &horizontal, &vertical, &x, &y);
+    let mut variants: Vec<&str> = Vec::new();
+    let mut methods: Vec<&str> = Vec::new();
+    let mut lines: Vec<(&str, &str)> = Vec::new();
+    for outcome in &shown {
+        let line = (outcome.variant.as_str(), outcome.method);
+        if !lines.contains(&line) {
+            lines.push(line);
+        }
+        if !variants.contains(&line.0) {
+            variants.push(line.0);
+        }
+        if !methods.contains(&line.1) {
+            methods.push(line.1);
+        }
+    }
+    let at = |list: &[&str], name: &str| list.iter().position(|known| *known == name).unwrap_or(0);
+    let colour = |method: &str| COLOURS[at(&methods, method) % COLOURS.len()];
+    let style = |variant: &str, colour: &str| {
+        let dashes = ["", "6 3", "2 3", "8 3 2 3"][at(&variants, variant) % 4];
+        format!("fill=\"none\" stroke=\"{colour}\" stroke-width=\"1.8\" stroke-dasharray=\"{dashes}\"")
+    };
+    // where each method's first line ends, from the top down
+    let mut ends: Vec<(f64, f64, &str)> = Vec::new();
+    for (variant, method) in lines {
+        let of_line = shown.iter().filter(|o| o.variant == variant && o.method == method);
+        let points: Vec<(f64, f64)> = of_line.map(|o| (x(o.error), y(cost(o)))).collect();
+        let mut written = String::new();
+        for (x, y) in &points {
+            let _ = write!(written, "{x:.1},{y:.1} ");
+        }
+        let _ = writeln!(svg, "<polyline points=\"{written}\" {}/>", style(variant, colour(method)));
+        let end = points.into_iter().max_by(|a, b| a.0.total_cmp(&b.0));
+        if let (Some((x, y)), false) = (end, ends.iter().any(|(_, _, known)| *known == method)) {
+            ends.push((y, x, method));
+        }
+    }
+    label_ends(&mut svg, ends, &colour);
+    // what the styles mean, where no line comes
+    for (index, variant) in (0_u32..).zip(&variants) {
+        let row = top + 18.0 + 16.0 * f64::from(index);
+        let (from, to) = (left + 14.0, left + 44.0);
+        let style = style(variant, "#4b5d67");
+        let _ = writeln!(
+            svg,
+            "<line x1=\"{from}\" y1=\"{row}\" x2=\"{to}\" y2=\"{row}\" {style}/>\
+             <text x=\"{}\" y=\"{}\">{variant}</text>",
+            to + 6.0,
+            row + 4.0
+        );
+    }
+    let _ = writeln!(
+        svg,
+        "<text x=\"{}\" y=\"{}\" text-anchor=\"middle\">error at the end</text>\n</svg>",
+        left + width / 2.0,
+        top + height + 42.0
+    );
+    svg
+}
+
+/// The lines of the decades with their numbers.
+fn draw_decades(
+    svg: &mut String,
+    horizontal: &Axis,
+    vertical: &Axis,
+    x: &impl Fn(f64) -> f64,
+    y: &impl Fn(f64) -> f64,
+) {
+    let [left, top, width, height] = PANEL;
     for decade in horizontal.decades() {
         let (at, bottom) = (x(10.0_f64.powi(decade)), top + height);
         let _ = writeln!(
@@ -55,47 +124,24 @@ pub(crate) fn draw(name: &str, outcomes: &[Outcome]) -> String {
             at + 4.0
         );
     }
-    let mut variants: Vec<&str> = Vec::new();
-    let mut methods: Vec<&str> = Vec::new();
-    let mut lines: Vec<(&str, &str)> = Vec::new();
-    for outcome in &shown {
-        let line = (outcome.variant.as_str(), outcome.method);
-        if !lines.contains(&line) {
-            lines.push(line);
-        }
-        if !variants.contains(&line.0) {
-            variants.push(line.0);
-        }
-        if !methods.contains(&line.1) {
-            methods.push(line.1);
-        }
-    }
-    for (index, (variant, method)) in lines.into_iter().enumerate() {
-        let at = |list: &[&str], name: &str| list.iter().position(|known| *known == name).unwrap_or(0);
-        let colour = COLOURS[at(&methods, method) % COLOURS.len()];
-        let dashes = ["", "6 3", "2 3", "8 3 2 3"][at(&variants, variant) % 4];
-        let mut points = String::new();
-        for outcome in shown.iter().filter(|o| o.variant == variant && o.method == method) {
-            let _ = write!(points, "{:.1},{:.1} ", x(outcome.error), y(cost(outcome)));
-        }
-        #[allow(clippy::cast_precision_loss)] // a few lines
-        let row = top + 8.0 + 16.0 * index as f64;
-        let style =
-            format!("fill=\"none\" stroke=\"{colour}\" stroke-width=\"1.8\" stroke-dasharray=\"{dashes}\"");
+}
+
+/// Names the methods beside the ends of their lines, one below the other.
+fn label_ends(svg: &mut String, mut ends: Vec<(f64, f64, &str)>, colour: &impl Fn(&str) -> &'static str) {
+    let [left, top, width, _] = PANEL;
+    ends.sort_by(|a, b| a.0.total_cmp(&b.0));
+    let mut row = top;
+    for (y, x, method) in ends {
+        row = y.max(row + 15.0);
+        let (colour, beside) = (colour(method), left + width + 16.0);
         let _ = writeln!(
             svg,
-            "<polyline points=\"{points}\" {style}/><line x1=\"604\" y1=\"{row}\" x2=\"630\" y2=\"{row}\" {style}/>\
-             <text x=\"636\" y=\"{}\">{method} ({variant})</text>",
+            "<path d=\"M{x:.1} {y:.1}L{:.1} {row:.1}\" stroke=\"{colour}\" stroke-width=\"0.6\" opacity=\"0.6\"/>\
+             <text x=\"{beside}\" y=\"{:.1}\" fill=\"{colour}\">{method}</text>",
+            beside - 4.0,
             row + 4.0
         );
     }
-    let _ = writeln!(
-        svg,
-        "<text x=\"{}\" y=\"{}\" text-anchor=\"middle\">error at the end</text>\n</svg>",
-        left + width / 2.0,
-        top + height + 42.0
-    );
-    svg
 }
 
 /// A logarithmic axis over whole decades.
