@@ -28,6 +28,8 @@ impl Residue {
     pub const ZERO: Self = Self(0, 0);
     /// One.
     pub const ONE: Self = Self(1, 0);
+    /// The number of residues modulo P.
+    pub const ORDER: u64 = P;
 
     /// The residue of an arbitrary word.
     #[must_use]

@@ -4,7 +4,7 @@
 //! symbols to the whole and back (F. Benhamou, F. Goualard, L. Granvilliers, J.-F. Puget, *Revising hull and box
 //! consistency*, ICLP 1999). Quadratic polynomials have the least value that completing squares gives.
 //! And non-negative multiples of the inequalities, with the squares of sums and differences of their
-//! variables, may add up to `0 > 0` (`simplex.rs`). A system that none of them refutes is *not* known to have a solution.
+//! variables, may add up to `0 > 0` (`simplex.rs`). Points that satisfy all of them are looked for first. A system that none of them refutes is *not* known to have a solution.
 
 use super::combination::negative;
 use super::enclosure::Point;

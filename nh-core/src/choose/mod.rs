@@ -14,8 +14,8 @@ mod zero_set;
 
 pub(crate) use conditions::Regular;
 pub(crate) use derived::{
-    AlmostPoissonForm, AppliedForce, BracketForm, Derived as DerivedFunction, GyroscopicForm, Motion,
-    PowerForm, SplittingForm, ValuesForm, VelocityNames, prove_derived,
+    Allowed, AlmostPoissonForm, AppliedForce, BracketForm, Derived as DerivedFunction, GyroscopicForm,
+    Motion, PowerForm, SplittingForm, ValuesForm, VelocityNames, prove_derived,
 };
 pub use ledger::{Contender, Decision, Fate, Ledger, Proof};
 pub use lowered::{Lowered, Unproved, lowered, prove_program, prove_split};

@@ -2,6 +2,7 @@
 //! vanishes only where others do.
 
 use crate::algebra::Residue;
+use crate::limits;
 
 /// A polynomial by its coefficients, the constant first, the last one not zero.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -70,6 +71,55 @@ impl Polynomial {
         a
     }
 
+    /// Its zeros in the field of P elements, each once, by Rabin's splitting (M. O. Rabin, *Probabilistic algorithms in
+    /// finite fields*, SIAM J. Comput. 9, 1980).
+    pub(super) fn zeros(&self) -> Vec<Residue> {
+        let mut found = Vec::new();
+        if self.degree() == 0 {
+            return found;
+        }
+        // x^P − x has all elements as zeros, each once
+        let x = Self(vec![Residue::ZERO, Residue::ONE]);
+        let split = self.common(&x.power_modulo(Residue::ORDER, self).minus(&x));
+        let mut whole = vec![split];
+        for trial in 0..64 {
+            // (x + c)^((P − 1)/2) is 1 at half of them
+            let shifted = Self(vec![Residue::mixed(577, trial), Residue::ONE]);
+            let mut left = Vec::new();
+            for polynomial in whole {
+                if polynomial.degree() <= 1 {
+                    found.extend(polynomial.zero_of_line());
+                    continue;
+                }
+                let power = shifted.power_modulo(Residue::ORDER / 2, &polynomial);
+                let some = polynomial.common(&power.minus(&Self(vec![Residue::ONE])));
+                let others = polynomial.divided(&some).0;
+                left.extend([some, others]);
+            }
+            whole = left;
+        }
+        found
+    }
+
+    /// The zero of a polynomial of degree 1.
+    fn zero_of_line(&self) -> Option<Residue> {
+        let [constant, slope] = self.0.as_slice() else { return None };
+        Some(-*constant * slope.inverse()?)
+    }
+
+    fn power_modulo(&self, mut exponent: u64, modulus: &Self) -> Self {
+        let (mut base, mut result) = (self.divided(modulus).1, Self(vec![Residue::ONE]));
+        while exponent > 0 {
+            limits::spend(1 + modulus.degree());
+            if exponent & 1 == 1 {
+                result = result.times(&base).divided(modulus).1;
+            }
+            base = base.times(&base).divided(modulus).1;
+            exponent >>= 1;
+        }
+        result
+    }
+
     /// Without the factors that it has in common with another one, however often.
     pub(super) fn without(self, other: &Self) -> Self {
         let mut left = self;
@@ -88,16 +138,21 @@ pub(super) const fn values_for(degree: usize) -> usize {
     2 * degree + 3
 }
 
-/// Where the values are taken.
+/// Where values are taken.
 pub(super) fn place(index: usize) -> Residue {
     Residue::mixed(2_029, index as u64)
 }
 
-/// The numerator of the quotient of two polynomials that has these values at the places; `None` where there is
+/// The numerator of the quotient of two polynomials that has these values at the first places; `None` where there is
 /// none of so low a degree.
 pub(super) fn numerator(values: &[Residue]) -> Option<Polynomial> {
-    const CHECKS: usize = 2;
     let points: Vec<Residue> = (0..values.len()).map(place).collect();
+    numerator_at(&points, values)
+}
+
+/// The same of values at any points.
+pub(super) fn numerator_at(points: &[Residue], values: &[Residue]) -> Option<Polynomial> {
+    const CHECKS: usize = 2;
     let used = values.len().checked_sub(CHECKS)?;
     // 1. the polynomial with these values, by divided differences, and the one that vanishes at the points
     let mut whole = Polynomial(vec![Residue::ONE]);
@@ -128,6 +183,19 @@ mod tests {
 
     fn polynomial(coefficients: &[u64]) -> Polynomial {
         Polynomial::new(coefficients.iter().map(|c| Residue::of_word(*c)).collect())
+    }
+
+    #[test]
+    fn zeros_are_found_each_once() {
+        // (x − 3)² (x − 5) (x − 7) (x² + 1), and −1 is no square
+        let line = |zero: u64| Polynomial::new(vec![-Residue::of_word(zero), Residue::ONE]);
+        let product = line(3).times(&line(3)).times(&line(5)).times(&line(7));
+        let product = product.times(&polynomial(&[1, 0, 1])).times(&polynomial(&[11]));
+        let mut words: Vec<u64> = product.zeros().into_iter().map(Residue::word).collect();
+        words.sort_unstable();
+        assert_eq!(words, [3, 5, 7]);
+        assert!(polynomial(&[4]).zeros().is_empty());
+        assert!(polynomial(&[1, 0, 1]).zeros().is_empty());
     }
 
     #[test]

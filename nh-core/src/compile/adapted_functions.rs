@@ -23,7 +23,7 @@ use crate::choose::{Decision, sizes};
 use crate::forms::Registry;
 use crate::functions::{
     ENERGY, GIBBS_APPELL, GYROSCOPIC, MULTIPLIERS, OUTPUT_JACOBIAN, OUTPUTS, PARAMETER_JACOBIAN, POWER,
-    REACTIONS, RESIDUAL, VELOCITY,
+    REACTIONS, RESIDUAL, VELOCITY, VERTICAL_SECTIONS,
 };
 use crate::geometry::ConstraintDistribution;
 use crate::id::{ExprId, SymbolId};
@@ -106,7 +106,11 @@ pub(super) fn derive(
     )?;
     let text = report(&mut proved, &derived, reason, conditions, sections);
     let lines = equations_of_motion(&proved.model, &derived);
-    let divisors = parameter_divisors(&mut proved.model, &derivative);
+    let mut divisors = parameter_divisors(&mut proved.model, &derivative);
+    if let Some(vertical) = functions.get(&VERTICAL_SECTIONS) {
+        // the basis of S is a choice, as that of D is
+        divisors.extend(parameter_divisors(&mut proved.model, vertical));
+    }
     let conditions = [conditions.as_slice(), &divisors].concat();
     functions.add(&ENERGY, Procedure::of(vec![energy]));
     functions.add(&VELOCITY, Procedure::of(equations.velocity.clone()));

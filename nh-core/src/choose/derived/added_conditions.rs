@@ -1,60 +1,89 @@
-//! Functions of the motion and of what is declared add no condition: where a parameter is 0 they have a value if that
-//! which defines them has.
+//! Functions of the motion and of what is declared add no condition: they have a value wherever that which defines
+//! them has.
+//!
+//! What a function divides by is asked where it is 0. Along random lines through all parameters and states it is a
+//! quotient of polynomials, found from its values; at the zeros of its numerator the definition has no value either, or
+//! the divisor is an added condition. Two parameters that are equal are met like a parameter that is 0. The field has
+//! zeros that no real number is: only a divisor that vanishes at real points, too, where the motion has a value and the
+//! kinetic energy is definite, is refused.
 
 use super::super::proof::{Defect, FIRST_SEED};
+use super::definition::is_defined;
+use super::divisors::{Lines, Zeros, asked};
 use super::place::Place;
-use super::{Derived, Motion, proof_of_flow};
-use crate::algebra::{Direction, FieldPoint, Graph, Residue};
+use super::real_zeros::RealPoints;
+use super::{Allowed, Derived, Images, Motion};
+use crate::algebra::{FieldPoint, Graph, Residue};
 use crate::id::{ExprId, SymbolId};
-use crate::mechanics::Definition;
-use std::collections::BTreeSet;
+use crate::mechanics::LagrangianSystem;
 
 /// Points that are looked at, as far as they have values.
 const POINTS: usize = 3;
 /// Points that are tried for these.
 const SEEDS: u64 = 24;
+/// Lines on which zeros are looked for: an irreducible divisor has some on half of them, or more.
+const LINES: u64 = 16;
+/// Zeros where the definition has no value either, after which no others are looked for.
+const ZEROS: usize = 8;
 
-/// Those of some parameters that stand in what a claim divides by, and what defines it does not: nothing else can lose
-/// its value where they are 0.
-pub(super) fn parameters_of_added_divisors(
+/// What is not defined where a function divides by 0, and that which defines it is.
+pub(super) fn added_condition<'a, 's>(
     graph: &Graph,
     claim: &Derived,
-    (declared, motion): (&[ExprId], Motion),
-    parameters: &[SymbolId],
-) -> Vec<SymbolId> {
-    if parameters.is_empty() {
-        return Vec::new();
+    (declared, motion, images): (&[ExprId], Motion, Images),
+    system: &LagrangianSystem,
+    allowed: &Allowed,
+    point: impl Fn(u64) -> FieldPoint,
+    at: impl Fn(FieldPoint) -> Result<Place<'a, 's>, Defect>,
+) -> Option<String> {
+    let asked = asked(graph, claim, (declared, motion), allowed);
+    if asked.is_empty() {
+        return None;
     }
-    let known = graph.divisors(&[declared, &motion.derivative.expressions()].concat());
-    let solved: BTreeSet<SymbolId> =
-        motion.derivative.definitions.iter().flat_map(unknowns).copied().collect();
-    let mut symbols: BTreeSet<SymbolId> = BTreeSet::new();
-    for procedure in claim.procedures() {
-        let mut added: Vec<ExprId> =
-            graph.divisors(&procedure.expressions()).difference(&known).copied().collect();
-        for definition in &procedure.definitions {
-            if let Definition::Solve { matrix, unknowns, .. } = definition
-                && !unknowns.iter().all(|unknown| solved.contains(unknown))
-            {
-                added.extend(matrix.iter().flatten());
+    let open = asked.unrecognised(claim, &point, &at);
+    if open.is_empty() {
+        return None;
+    }
+    let mut lines = Lines::of(graph, claim, &asked, images);
+    let mut real: Option<RealPoints> = None;
+    let expressions = (declared, motion, images);
+    let mut is_decided = true;
+    for index in open {
+        let mut harmless = 0;
+
+        for seed in 0..LINES {
+            let zeros = match lines.zeros(index, seed, &at) {
+                Zeros::At(zeros) => zeros,
+                Zeros::Nowhere => break,
+                Zeros::Unknown => {
+                    is_decided = false;
+                    break;
+                }
+            };
+            let is_added = |zero: &Residue| lines.is_added(claim, index, (seed, *zero), allowed, &at);
+            if zeros.iter().any(is_added) {
+                let real =
+                    real.get_or_insert_with(|| RealPoints::of(graph, claim, expressions, system, allowed));
+                if real.has_zero(asked.place(index)) {
+                    return Some(asked.text(graph, index));
+                }
+                break;
+            }
+            harmless += zeros.len();
+            if harmless >= ZEROS {
+                break;
             }
         }
-        if !added.is_empty() {
-            symbols.extend(procedure.depends_on(graph, &added));
-        }
     }
-    parameters.iter().copied().filter(|parameter| symbols.contains(parameter)).collect()
-}
-
-fn unknowns(definition: &Definition) -> &[SymbolId] {
-    match definition {
-        Definition::Solve { unknowns, .. } => unknowns,
-        Definition::Value { .. } | Definition::Call { .. } => &[],
+    if is_decided {
+        return None;
     }
+    let parameter = parameter_that_may_not_vanish(claim, &asked.parameters, point, at)?;
+    Some(graph.symbols()[parameter].clone())
 }
 
 /// The first parameter that may be 0 for the motion, and not for the function.
-pub(super) fn parameter_that_may_not_vanish<'a, 's>(
+fn parameter_that_may_not_vanish<'a, 's>(
     claim: &Derived,
     parameters: &[SymbolId],
     point: impl Fn(u64) -> FieldPoint,
@@ -69,7 +98,7 @@ pub(super) fn parameter_that_may_not_vanish<'a, 's>(
             if !is_defined(claim, &mut place).unwrap_or(false) {
                 continue;
             }
-            if claim.procedures().iter().all(|procedure| place.run(procedure).is_ok()) {
+            if claim.procedures().iter().all(|procedure| claim.has_values(&place, procedure)) {
                 return false;
             }
             without_value += 1;
@@ -79,28 +108,4 @@ pub(super) fn parameter_that_may_not_vanish<'a, 's>(
         }
         false
     })
-}
-
-/// Whether the motion, and what defines the function, have values; false for those whose existence is another
-/// question, as that of momenta and densities is.
-fn is_defined(claim: &Derived, place: &mut Place) -> Result<bool, Defect> {
-    let flow = place.flow()?;
-    place.values(&place.reference.roots(place.pass().graph()))?;
-    match *claim {
-        Derived::Jacobian(function, _, arguments) => {
-            let pass = place.pass();
-            let along = |(k, symbol): (usize, &SymbolId)| {
-                (*symbol, pass.kernel("direction", &[Residue::of_word(k as u64)]))
-            };
-            let along: Direction = arguments.iter().enumerate().map(along).collect();
-            place.slopes(function, &along)?;
-        }
-        Derived::Rates(function, _) => _ = place.slopes(function, &flow)?,
-        Derived::Divergence(_, identities) => _ = proof_of_flow::divergence(place, identities)?,
-        Derived::Energy(_) => _ = place.instant.energy()?,
-        Derived::Values(form) => _ = form.names.known(place)?.evaluate(form.declared)?,
-        Derived::Velocity(_) => {}
-        _ => return Ok(false),
-    }
-    Ok(true)
 }

@@ -3,21 +3,27 @@
 //! numbers (`algebra/tangent.rs`), linear systems are solved there, with no rule of those that made the expressions.
 
 mod added_conditions;
+mod definition;
+mod divisors;
 mod place;
 mod procedure_derivative;
 mod proof_of_bracket;
 mod proof_of_connection;
 mod proof_of_flow;
 mod proof_of_splitting;
+mod real_zeros;
 mod returns;
 #[cfg(test)]
 mod wrong_derivative_tests;
 
 use super::ledger::Proof;
-use super::proof::{Defect, at_points, bits_of_a_point, defined, run, unless_roots_are_missing};
+use super::proof::{
+    Defect, FIRST_SEED, at_points, bits_of_a_point, defined, has_branches, run, unless_roots_are_missing,
+};
 use super::reference::{Reference, inner};
-use crate::algebra::{Degrees, Direction, FieldPass, FieldPoint, Graph, Node, Radicands, Residue};
+use crate::algebra::{Degrees, Direction, Facts, FieldPass, FieldPoint, Graph, Node, Radicands, Residue};
 use crate::id::{CoordId, ExprId, SymbolId};
+use crate::limits;
 use crate::mechanics::{HamiltonianSide, Procedure};
 use crate::phase_space::StepForm;
 use crate::system::{Embedding, PositionReturn, Projection};
@@ -166,6 +172,17 @@ pub(crate) struct Motion<'p> {
     pub(crate) time: SymbolId,
 }
 
+/// What is known of parameters, and of the rest.
+#[derive(Clone, Copy)]
+pub(crate) struct Allowed<'f> {
+    pub(crate) parameters: &'f [SymbolId],
+    /// The parameters that nothing forbids to be 0.
+    pub(crate) may_vanish: &'f [SymbolId],
+    pub(crate) facts: &'f Facts,
+    /// What `validate` checks not to be 0.
+    pub(crate) conditions: &'f [ExprId],
+}
+
 /// Where something is claimed: everywhere, or where symbols are these functions of others.
 pub(crate) type Images<'p> = &'p [(SymbolId, ExprId)];
 
@@ -248,6 +265,16 @@ impl Derived<'_> {
         )
     }
 
+    /// Whether its definition leaves factors open: that of a density, and the basis of S, which has none without poles
+    /// where S turns.
+    fn has_open_factors(&self) -> bool {
+        match self {
+            Self::Density(..) => true,
+            Self::Splitting(form) => form.vertical.is_some(),
+            _ => false,
+        }
+    }
+
     fn holds(&self, place: &mut Place) -> Result<bool, Defect> {
         match *self {
             Self::Jacobian(function, jacobian, arguments) => {
@@ -285,7 +312,12 @@ impl Derived<'_> {
     }
 }
 
-/// Proves a claim; parameters that may be 0 for the motion may be 0 for a function of it.
+/// Points at which branches of roots are tried.
+const BRANCHES: u64 = 48;
+/// Steps of work after which it is not known whether a function adds a condition.
+const CONDITIONS: u64 = 400_000;
+
+/// Proves a claim; a function of the motion has values where that has, and what defines it.
 ///
 /// # Errors
 /// What is wrong, or why it could not be decided.
@@ -294,7 +326,7 @@ pub(crate) fn prove_derived(
     (reference, motion): (&Reference, Motion),
     claim: &Derived,
     images: Images,
-    may_vanish: &[SymbolId],
+    allowed: &Allowed,
 ) -> Result<Proof, Defect> {
     let procedures: Vec<&Procedure> = claim.procedures().into_iter().chain([motion.derivative]).collect();
     let mut roots: Vec<ExprId> = procedures.iter().flat_map(|procedure| procedure.expressions()).collect();
@@ -320,20 +352,33 @@ pub(crate) fn prove_derived(
         Ok(Place { reference, instant, motion, point, division })
     };
     let point = |seed| radicands.point(graph, seed);
+    let holds = |point: FieldPoint| claim.holds(&mut at(point)?);
     let outcome = at_points(bits, point, |point| {
-        if claim.holds(&mut at(point)?)? {
+        if holds(point)? {
             return Ok(());
         }
         Err(Defect::Wrong("it is not what its definition says".into()))
     });
+    // what is wrong agrees nowhere; what holds for one choice of its roots does so at some points
+    let agrees = |seed: u64| holds(point(seed)).is_ok_and(|holds| holds);
+    let is_of_a_branch = matches!(outcome, Err(Defect::Wrong(_)))
+        && has_branches(graph, &roots)
+        && (FIRST_SEED..FIRST_SEED + BRANCHES).any(agrees);
+    if is_of_a_branch {
+        let reason =
+            "it holds for one choice of its roots of roots, and the field does not tell which is taken";
+        return Err(Defect::Unknown(reason.into()));
+    }
     let proof = unless_roots_are_missing(graph, &roots, outcome)?;
     let declared = reference.roots(graph);
-    let asked = added_conditions::parameters_of_added_divisors(graph, claim, (&declared, motion), may_vanish);
-    match added_conditions::parameter_that_may_not_vanish(claim, &asked, point, at) {
-        Some(parameter) => Err(Defect::Wrong(format!(
-            "it has no value where `{}` is 0, and the motion has one",
-            graph.symbols()[parameter]
-        ))),
+    let about = (declared.as_slice(), motion, images);
+    let added = limits::attempt(CONDITIONS, || {
+        added_conditions::added_condition(graph, claim, about, reference.system(), allowed, point, at)
+    });
+    match added.flatten() {
+        Some(divisor) => {
+            Err(Defect::Wrong(format!("it has no value where `{divisor}` is 0, and the motion has one")))
+        }
         None => Ok(proof),
     }
 }

@@ -4,7 +4,9 @@ use super::super::proof::{Defect, run};
 use super::super::reference::{Instant, Reference, inner};
 use super::Motion;
 use super::procedure_derivative::tangent;
-use crate::algebra::{Direction, Dual, Echelon, FieldPass, FieldPoint, Residue, TangentPass};
+use crate::algebra::{
+    Direction, Dual, Echelon, FieldPass, FieldPoint, Residue, TangentPass, determinant_in_field,
+};
 use crate::id::{ExprId, Id, SymbolId};
 use crate::mechanics::{LagrangianSystem, Procedure};
 
@@ -201,4 +203,17 @@ pub(super) fn spans(rows: &[Vec<Residue>], vectors: &[Vec<Residue>]) -> bool {
 pub(super) fn rank(rows: &[Vec<Residue>]) -> usize {
     let rows: Vec<Vec<Residue>> = rows.iter().filter(|row| !row.is_empty()).cloned().collect();
     Echelon::of(rows).rank()
+}
+
+/// A metric on sections.
+pub(super) fn gram(metric: &[Vec<Residue>], sections: &[Vec<Residue>]) -> Vec<Vec<Residue>> {
+    let lowered =
+        |section: &[Residue]| metric.iter().map(|row| inner(row, section)).collect::<Vec<Residue>>();
+    let lowered: Vec<Vec<Residue>> = sections.iter().map(|section| lowered(section)).collect();
+    sections.iter().map(|a| lowered.iter().map(|b| inner(a, b)).collect()).collect()
+}
+
+/// Whether a metric is regular on the span of sections.
+pub(super) fn is_regular_on(metric: &[Vec<Residue>], sections: &[Vec<Residue>]) -> bool {
+    determinant_in_field(gram(metric, sections)) != Residue::ZERO
 }

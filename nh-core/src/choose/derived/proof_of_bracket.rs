@@ -5,7 +5,7 @@
 
 use super::super::proof::Defect;
 use super::super::reference::inner;
-use super::place::{Arrow, Place};
+use super::place::{Arrow, Place, rank};
 use super::procedure_derivative::solution;
 use super::{AlmostPoissonForm, BracketForm, choose_all};
 use crate::algebra::{Direction, Residue};
@@ -34,6 +34,11 @@ impl Symplectic {
             }
         }
         Ok(Self { arrows, matrix })
+    }
+
+    /// Whether it determines the fields of all functions.
+    pub(super) fn is_regular(&self) -> bool {
+        rank(&self.matrix) == self.matrix.len()
     }
 
     /// X_g as a direction of the state, from dg along the basis.

@@ -2,7 +2,7 @@
 
 use super::super::proof::Defect;
 use super::super::reference::inner;
-use super::place::Place;
+use super::place::{Place, is_regular_on, rank};
 use super::procedure_derivative::solved;
 use crate::algebra::{Dual, FieldPass, Residue, TangentPass};
 use crate::mechanics::Procedure;
@@ -101,6 +101,13 @@ fn is_metric_without_torsion(
         }
     }
     Ok(true)
+}
+
+/// Whether the metric is regular on E, and on D where that is asked for.
+pub(super) fn is_regular(place: &Place, on_distribution: bool) -> Result<bool, Defect> {
+    let metric = Metric::at(place)?.entries;
+    let is_regular = rank(&metric) == metric.len();
+    Ok(is_regular && (!on_distribution || is_regular_on(&metric, &place.distribution()?)))
 }
 
 /// ∇ on E.

@@ -2,10 +2,10 @@
 
 use super::super::proof::Defect;
 use super::super::reference::inner;
-use super::place::{Place, rank, spans};
+use super::place::{Place, is_regular_on, rank, spans};
 use super::procedure_derivative::solved;
 use super::{GyroscopicForm, SplittingForm};
-use crate::algebra::{Direction, Dual, Residue, TangentPass};
+use crate::algebra::{Direction, Dual, Echelon, Residue, TangentPass};
 use crate::id::Id;
 use crate::mechanics::Procedure;
 
@@ -13,6 +13,27 @@ use crate::mechanics::Procedure;
 fn rows(place: &Place, procedure: Option<&Procedure>, width: usize) -> Result<Vec<Vec<Residue>>, Defect> {
     let Some(procedure) = procedure else { return Ok(Vec::new()) };
     Ok(place.run(procedure)?.chunks(width.max(1)).map(<[Residue]>::to_vec).collect())
+}
+
+/// Whether S has its rank here, and the metric is regular on D and on S.
+pub(super) fn is_regular(place: &Place, form: &SplittingForm) -> Result<bool, Defect> {
+    let s = place.system().algebroid.rank().max(1);
+    let distribution = place.distribution()?;
+    let anchor = place.matrix(&place.system().algebroid.anchor.entries)?;
+    // σ = Σ c_a B_a with ẋ = 0 over the coordinates
+    let over = form.over.iter().map(|id| {
+        distribution.iter().map(|section| inner(&anchor[id.index()], section)).collect::<Vec<Residue>>()
+    });
+    let kernel: Vec<Vec<Residue>> = Echelon::of(over.collect()).kernel(distribution.len()).collect();
+    let section = |components: &Vec<Residue>| -> Vec<Residue> {
+        let entry = |alpha: usize| distribution.iter().map(|section| section[alpha]).collect::<Vec<_>>();
+        (0..s).map(|alpha| inner(components, &entry(alpha))).collect()
+    };
+    let shared: Vec<Vec<Residue>> = kernel.iter().map(section).collect();
+    let mass = place.mass()?;
+    Ok(shared.len() == form.vertical.map_or(0, |vertical| vertical.outputs.len() / s)
+        && is_regular_on(&mass, &distribution)
+        && is_regular_on(&mass, &shared))
 }
 
 /// Every function of the splitting.
@@ -144,8 +165,13 @@ fn velocities_and_forces(
     is_stored(form.force, &force)
 }
 
-/// ⟨J, K⟩_i = −p([h_i, h_j]) ẋ^j of a Chaplygin system, with lifts that D and ρ(h_i) = ∂_i determine.
+/// The force of the curvature.
 pub(super) fn is_gyroscopic(place: &Place, form: &GyroscopicForm) -> Result<bool, Defect> {
+    Ok(place.run(form.force)? == gyroscopic(place, form)?)
+}
+
+/// ⟨J, K⟩_i = −p([h_i, h_j]) ẋ^j of a Chaplygin system, with lifts that D and ρ(h_i) = ∂_i determine.
+pub(super) fn gyroscopic(place: &Place, form: &GyroscopicForm) -> Result<Vec<Residue>, Defect> {
     let algebroid = &place.system().algebroid;
     let (s, m) = (algebroid.rank(), form.over.len());
     let basis = place.reference.sections();
@@ -202,7 +228,7 @@ pub(super) fn is_gyroscopic(place: &Place, form: &GyroscopicForm) -> Result<bool
         }
         force.push(total);
     }
-    Ok(place.run(form.force)? == force)
+    Ok(force)
 }
 
 fn sum(a: &[Dual], b: &[Dual]) -> Dual {

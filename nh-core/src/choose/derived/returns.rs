@@ -10,6 +10,9 @@ use crate::id::{ExprId, SymbolId};
 use crate::phase_space::StepForm;
 use crate::system::{Embedding, PositionReturn, Projection};
 
+/// A matrix by its rows.
+type Rows = Vec<Vec<Residue>>;
+
 fn difference(a: &[Residue], b: &[Residue]) -> Vec<Residue> {
     a.iter().zip(b).map(|(a, b)| *a - *b).collect()
 }
@@ -39,7 +42,11 @@ pub(super) fn is_projection(
     Ok(left && spans(&rows, &[pushed]))
 }
 
-fn slopes(place: &Place, functions: &[ExprId], symbols: &[SymbolId]) -> Result<Vec<Vec<Residue>>, Defect> {
+pub(super) fn slopes(
+    place: &Place,
+    functions: &[ExprId],
+    symbols: &[SymbolId],
+) -> Result<Vec<Vec<Residue>>, Defect> {
     let row = |function: &ExprId| {
         let row = place.gradient(*function, symbols, &Direction::default())?;
         Ok(row.into_iter().map(|dual| dual.value).collect())
@@ -56,18 +63,8 @@ pub(super) fn is_return(
 ) -> Result<bool, Defect> {
     let count = positions.count - positions.redundant.len();
     let functions = &positions.residual.outputs[..count];
-    // A = ρ ∂f
-    let anchor = place.matrix(&place.system().algebroid.anchor.entries)?;
-    let inclines = slopes(place, functions, place.coordinates())?;
+    let (anchor, mut rows) = pulled_back(place, functions)?;
     let s = place.system().algebroid.rank();
-    let pulled = |incline: &Vec<Residue>| -> Vec<Residue> {
-        (0..s)
-            .map(|alpha| {
-                anchor.iter().zip(incline).fold(Residue::ZERO, |sum, (row, slope)| sum + row[alpha] * *slope)
-            })
-            .collect()
-    };
-    let mut rows: Vec<Vec<Residue>> = inclines.iter().map(pulled).collect();
     let mut wanted: Vec<Residue> = place.values(functions)?.into_iter().map(|value| -value).collect();
     let mass = place.mass()?;
     let stored = place.run(&positions.step)?;
@@ -91,6 +88,34 @@ pub(super) fn is_return(
     rows.extend(place.jacobian()?.into_iter().take(constraints).skip(count));
     wanted.resize(rows.len(), Residue::ZERO);
     moved(&rows, &wanted)
+}
+
+/// ρ, and A = ρ ∂f.
+pub(super) fn pulled_back(place: &Place, functions: &[ExprId]) -> Result<(Rows, Rows), Defect> {
+    let anchor = place.matrix(&place.system().algebroid.anchor.entries)?;
+    let inclines = slopes(place, functions, place.coordinates())?;
+    let entry = |incline: &[Residue], alpha: usize| {
+        anchor.iter().zip(incline).fold(Residue::ZERO, |sum, (row, slope)| sum + row[alpha] * *slope)
+    };
+    let s = place.system().algebroid.rank();
+    let rows = inclines.iter().map(|incline| (0..s).map(|alpha| entry(incline, alpha)).collect()).collect();
+    Ok((anchor, rows))
+}
+
+/// The gradients of the identities that do not follow from others.
+pub(super) fn independent_slopes(place: &Place, identities: &[ExprId]) -> Result<Rows, Defect> {
+    let mut kept = Vec::new();
+    for row in slopes(place, identities, place.coordinates())? {
+        if rank(&[kept.as_slice(), std::slice::from_ref(&row)].concat()) > kept.len() {
+            kept.push(row);
+        }
+    }
+    Ok(kept)
+}
+
+/// The products of rows with each other.
+pub(super) fn products(rows: &[Vec<Residue>]) -> Rows {
+    rows.iter().map(|a| rows.iter().map(|b| inner(a, b)).collect()).collect()
 }
 
 /// x⁺ − x in the span of the gradients of the identities, ∂f (x⁺ − x) = −f.

@@ -1,7 +1,7 @@
 //! Wrong derivatives of a small motion are refused.
 
 use super::*;
-use crate::algebra::Rational;
+use crate::algebra::{Facts, Rational};
 use crate::geometry::{Algebroid, Anchor, Clock, StructureFunctions};
 use crate::mechanics::{Definition, LagrangianSystem, divergence, jacobian};
 
@@ -54,7 +54,9 @@ fn is_proved(graph: &mut Graph, motion: Motion, claim: &Derived) -> bool {
         clock: Clock::of_time(motion.time),
     };
     let reference = Reference::projected(graph, &system, Vec::new(), Vec::new());
-    match prove_derived(graph, (&reference, motion), claim, &[], &[]) {
+    let facts = Facts::default();
+    let allowed = Allowed { parameters: &[], may_vanish: &[], facts: &facts, conditions: &[] };
+    match prove_derived(graph, (&reference, motion), claim, &[], &allowed) {
         Ok(proof) => proof.bits >= 80.0,
         Err(Defect::Wrong(_)) => false,
         Err(other) => panic!("{other}"),

@@ -8,7 +8,7 @@ use super::velocities_of_state::{coordinates, parameter_checks};
 use super::{given, levels};
 use crate::algebra::{Graph, Substitution};
 use crate::choose::{
-    Contender, Decision, Defect, DerivedFunction, Fate, Motion, Proof, Reference, VelocityNames,
+    Allowed, Contender, Decision, Defect, DerivedFunction, Fate, Motion, Proof, Reference, VelocityNames,
     prove_derived,
 };
 use crate::forms::Registry;
@@ -185,9 +185,11 @@ pub(super) fn prove(
     for (site, claim) in claims {
         let mut decision = Decision { site, ..Decision::default() };
         let prove = |proved: &Proved, images: &[(SymbolId, ExprId)]| {
-            let graph = &proved.model.graph;
-            let proof =
-                attempt(WORK, || prove_derived(graph, (reference, motion), &claim, images, &may_vanish));
+            let Proved { model, facts, .. } = proved;
+            let (parameters, conditions) = (&declared.parameters, given.conditions);
+            let allowed = Allowed { parameters, may_vanish: &may_vanish, facts, conditions };
+            let about = (*reference, motion);
+            let proof = attempt(WORK, || prove_derived(&model.graph, about, &claim, images, &allowed));
             proof.unwrap_or_else(|| Err(Defect::Unknown("that would take too many steps".into())))
         };
         let solution = match claim {

@@ -79,8 +79,25 @@ enum Slip {
     Sign,
     /// A share of 1e-9 is missing; of what is 0 there is so much.
     Small,
-    /// It is multiplied and divided by a parameter.
-    Divisor,
+    /// It is multiplied and divided by something.
+    Divisor(Divisor),
+}
+
+/// What may be 0 where the motion is regular.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Divisor {
+    /// a
+    Parameter,
+    /// a − b
+    Difference,
+    /// a² − b c
+    Cone,
+    /// a² − 2 a b + b², which does not change its sign
+    Square,
+    /// x − a
+    State,
+    /// x² + y² + c, which no positive c makes 0
+    Positive,
 }
 
 thread_local! {
@@ -116,12 +133,23 @@ fn spoil(graph: &mut Graph, name: &str, procedure: &mut Procedure) {
         }
         Slip::Sign => graph.scale(Rational::MINUS_ONE, output),
         Slip::Small => graph.scale(Rational::ONE - small, output),
-        Slip::Divisor => {
-            // ((f + x) a)/a − x
-            let (a, x) = (find(graph, "a"), find(graph, "x"));
-            let product = graph.formula((output + x) * a);
+        Slip::Divisor(divisor) => {
+            // ((f + x) d)/d − x
+            let [a, b, c, x, y] = ["a", "b", "c", "x", "y"].map(|name| find(graph, name));
+            let divisor = match divisor {
+                Divisor::Parameter => a,
+                Divisor::Difference => graph.formula(a - b),
+                Divisor::Cone => graph.formula(a.square() - b * c),
+                Divisor::Square => {
+                    let twice = graph.scale(Rational::from(2), a);
+                    graph.formula(a.square() + b.square() - twice * b)
+                }
+                Divisor::State => graph.formula(x - a),
+                Divisor::Positive => graph.formula(x.square() + y.square() + c),
+            };
+            let product = graph.formula((output + x) * divisor);
             let name = procedure.define(graph, "product", product);
-            graph.formula(name / a - x)
+            graph.formula(name / divisor - x)
         }
         Slip::Seen => output,
     };
@@ -180,26 +208,93 @@ fn a_sign_and_a_term_of_1e_9_in_every_function() {
     assert_eq!(all.len(), 42, "{all:?}");
 }
 
+/// Divisors with what makes them harmless, and the text of what is 0.
+const DIVISORS: [(Divisor, &str, &str); 5] = [
+    (Divisor::Parameter, "a > 0;", "a"),
+    (Divisor::Difference, "a > b;", "a - b"),
+    (Divisor::Cone, "a^2 - b*c > 0;", "b*c - a^2"),
+    (Divisor::Square, "a > b;", "a^2 + b^2 - 2*a*b"),
+    (Divisor::State, "", "a - x"),
+];
+
+/// Declarations with the parameters a, b, c and coordinates x, y, between which every function that divisors are
+/// planted in is asked for.
+const WITH_PARAMETERS: [(&str, &str, &[&str]); 4] = [
+    (
+        "base { x, y, z } lagrangian { (der(x)^2 + der(y)^2 + der(z)^2)/2 - (a + b*c)*x^2*y }
+         constraints { der(z) = y*der(x); }",
+        "outputs { ahead = a*x*der(y); fast = y*der(x)^2; } symmetries { up: der(x) + y*der(z); } inputs { u } forces { y: u; }
+         emit { jacobian, parameter_jacobian, output_jacobian, divergence, power, connection }",
+        &[
+            "energy", "velocity", "outputs", "momenta", "momentum_rates", "jacobian", "parameter_jacobian",
+            "output_jacobian", "divergence", "power", "christoffel", "connection",
+        ],
+    ),
+    (
+        "base { x, y, z } lagrangian { (der(x)^2 + der(y)^2 + der(z)^2)/2 - (a + b*c)*x^2*y }
+         constraints { der(z) = y*der(x); }",
+        "outputs { ahead = a*x*der(y); fast = y*der(x)^2; } conserved { h = (der(x)^2 + der(y)^2 + der(z)^2)/2 + (a + b*c)*x^2*y; }
+         emit { hamiltonian, bracket, discrete_gradient, volume, gyroscopic, splitting, invariants }",
+        &[
+            "legendre", "inverse", "hamiltonian", "equations", "bracket_of_momenta", "drift_of_momenta",
+            "energy_gradient", "sharp", "bracket", "bracket_with_energy", "drift_of_outputs", "volume_density",
+            "gyroscopic", "horizontal_lifts", "curvature", "horizontal_force", "invariant_gradients",
+        ],
+    ),
+    (
+        "base { x, y, z } lagrangian { (der(x)^2 + der(y)^2 + der(z)^2)/2 - (a + b*c)*x^2*y }
+         constraints { der(z) = y*der(x); } formulation { projected }",
+        "emit { power, multipliers, leapfrog }",
+        &["constraint_residual", "projection", "power", "leapfrog"],
+    ),
+    (
+        "base { x, y, z } lagrangian { (der(x)^2 + der(y)^2 + der(z)^2)/2 - (a + b*c)*z }
+         holonomic { rod: x^2 + y^2 = 4; }",
+        "emit { power, multipliers }",
+        &["position_return", "power"],
+    ),
+];
+
 #[test]
-fn a_divisor_that_is_a_parameter_that_may_be_zero() {
-    let declared = |assumed: &str| {
-        let attribute = format!(
-            "base {{ x, y, z }} lagrangian {{ (der(x)^2 + der(y)^2 + der(z)^2)/2 - a*x^2*y }}
-             constraints {{ der(z) = y*der(x); }} {assumed} outputs {{ ahead = a*x*der(y); }}
-             emit {{ jacobian, parameter_jacobian, output_jacobian, divergence }}"
-        );
-        model(&attribute, "struct S { a: f64 }")
-    };
-    let model = declared("");
-    let names =
-        ["energy", "velocity", "outputs", "jacobian", "parameter_jacobian", "output_jacobian", "divergence"];
-    for name in names {
-        let found = planted(&model, Slip::Divisor, name, 0).expect_err(name);
-        let expected = format!(
-            "`{name}` was not derived as what its definition says: compared in exact numbers with the declared \
-             equations and the motion: it has no value where `a` is 0, and the motion has one"
-        );
-        assert!(found.contains(&expected), "{name}: {found:?}");
-        assert_eq!(planted(&declared("assume { a > 0; }"), Slip::Divisor, name, 0), Ok(()), "{name}");
+fn a_divisor_that_may_be_zero_where_the_motion_is_regular() {
+    let (mut tried, mut wrong): (BTreeSet<&str>, Vec<String>) = Default::default();
+    for (moving, asked, names) in WITH_PARAMETERS {
+        let declared = |assumed: &str| {
+            let assumed = if assumed.is_empty() { String::new() } else { format!("assume {{ {assumed} }}") };
+            model(&format!("{moving} {assumed} {asked}"), "struct S { a: f64, b: f64, c: f64 }")
+        };
+        let (free, positive) = (declared(""), declared("c > 0;"));
+        SEEN.take();
+        assert_eq!(planted(&free, Slip::Seen, "", 0), Ok(()), "{asked}");
+        let seen = SEEN.take();
+        for name in names {
+            assert!(seen.iter().any(|(found, _)| found == name), "{name}: {seen:?}");
+            for (divisor, assumed, text) in DIVISORS {
+                // what a density is multiplied by is another one's
+                if *name == "volume_density" && divisor == Divisor::State {
+                    continue;
+                }
+                let found = planted(&free, Slip::Divisor(divisor), name, 0).err().unwrap_or_default();
+                let expected = format!(
+                    "`{}` was not derived as what its definition says: compared in exact numbers with the declared \
+                     equations and the motion: it has no value where `{text}` is 0, and the motion has one",
+                    site(name)
+                );
+                if !found.contains(&expected) {
+                    wrong.push(format!("{name}, {divisor:?}: {found:?}"));
+                }
+                if !assumed.is_empty()
+                    && let Err(found) = planted(&declared(assumed), Slip::Divisor(divisor), name, 0)
+                {
+                    wrong.push(format!("{name}, {divisor:?}, {assumed}: {found:?}"));
+                }
+            }
+            if let Err(found) = planted(&positive, Slip::Divisor(Divisor::Positive), name, 0) {
+                wrong.push(format!("{name}, positive: {found:?}"));
+            }
+            tried.insert(name);
+        }
     }
+    assert!(wrong.is_empty(), "{}", wrong.join("\n"));
+    assert_eq!(tried.len(), 33, "{tried:?}");
 }

@@ -1,0 +1,152 @@
+//! Declarations that are right and unusual: arcs inside of sines, logarithms of products, roots of roots, redundant
+//! angles, other coordinates.
+
+use nh_stages::{declarations, errors};
+
+const RIGHT: &str = r"
+#[nonholonomic(base { a } let p = l2 * sin(a); let q = l1 - l2 * cos(a); let r2 = p^2 + q^2;
+ let b = atan2(p, q) + acos((r2 + l3^2 - l4^2) / (2 * l3 * sqrt(r2)));
+ lagrangian { J1/2*der(a)^2 + J2/2*der(b)^2 })]
+struct FourBar { l1: f64, l2: f64, l3: f64, l4: f64, J1: f64, J2: f64 }
+#[nonholonomic(base { a } let s = asin(r*sin(a)/l);
+ lagrangian { J/2*der(a)^2 + K/2*der(s)^2 })]
+struct Crank { r: f64, l: f64, J: f64, K: f64 }
+#[nonholonomic(base { x, y } let ph = atan2(y, x); let r = sqrt(x^2+y^2);
+ lagrangian { m/2*(der(r)^2 + r^2*der(ph)^2) })]
+struct Polar { m: f64 }
+#[nonholonomic(base { x, y } let ph = atan2(y, x); let r = sqrt(x^2+y^2);
+ lagrangian { m/2*(der(r)^2 + r^2*der(ph)^2) } conserved { spin = m*(x*der(y)-y*der(x)); })]
+struct PolarSpin { m: f64 }
+#[nonholonomic(base { x, y } lagrangian { m/2*(der(x)^2+der(y)^2) - k/2*atan2(y,x)^2 } conserved { h = m/2*(der(x)^2+der(y)^2) + k/2*atan2(y,x)^2; })]
+struct Spiral { m: f64, k: f64 }
+#[nonholonomic(base { x, y } constraints { turn: der(atan2(y, x)) = w; } lagrangian { m/2*(der(x)^2+der(y)^2) })]
+struct Swept { m: f64, w: f64 }
+#[nonholonomic(base { x, y } holonomic { ray: atan2(y, x) = w*t; } lagrangian { m/2*(der(x)^2+der(y)^2) })]
+struct Ray { m: f64, w: f64 }
+#[nonholonomic(base { x, y } holonomic { el: sqrt((x-c)^2+y^2) + sqrt((x+c)^2+y^2) = 2*a; } lagrangian { m/2*(der(x)^2+der(y)^2) - m*g*y })]
+struct Ellipse { m: f64, g: f64, a: f64, c: f64 }
+#[nonholonomic(base { x, y } holonomic { el: acos(x/2) + acos(y/2) = 2; } lagrangian { m/2*(der(x)^2+der(y)^2) - m*g*y })]
+struct ArcSum { m: f64, g: f64 }
+#[nonholonomic(base { s } let x = ln(cosh(s)); let y = 2*atan(tanh(s/2)); lagrangian { m/2*(der(x)^2+der(y)^2) } conserved { e = m/2*(tanh(s)^2*der(s)^2 + der(s)^2/cosh(s)^2); })]
+struct Catenary { m: f64 }
+#[nonholonomic(base { s } let x = asin(tanh(s)); lagrangian { m/2*der(x)^2 } conserved { p = m*der(s)/cosh(s); })]
+struct Gudermann { m: f64 }
+#[nonholonomic(base { s } let x = 2*atan(exp(s)); lagrangian { m/2*der(x)^2 } conserved { p = m*der(s)/cosh(s); })]
+struct Mercator { m: f64 }
+#[nonholonomic(base { s } let x = atan(s) + atan(1/s); lagrangian { m/2*der(s)^2 + k*x } conserved { p = der(s); })]
+struct RightAngle { m: f64, k: f64 }
+#[nonholonomic(base { s } let x = asin(s) + acos(s); lagrangian { m/2*der(s)^2 + k*x } conserved { p = der(s); })]
+struct Complement { m: f64, k: f64 }
+#[nonholonomic(base { s, q } let x = ln(s*q) - ln(s) - ln(q); lagrangian { m/2*(der(s)^2+der(q)^2) + k*x } assume { k > 0; } conserved { p = der(s); })]
+struct LnProduct { m: f64, k: f64 }
+#[nonholonomic(base { s } let x = sqrt(2 + 2*cos(s)); lagrangian { m/2*(der(x)^2 + (2 - x^2/2)/2*der(s)^2) })]
+struct HalfAngle { m: f64 }
+#[nonholonomic(base { s } lagrangian { m/2*der(s)^2 + k*(sqrt(5 + 2*sqrt(6)) - sqrt(2) - sqrt(3))*s } conserved { p = der(s); })]
+struct NestedRoots { m: f64, k: f64 }
+#[nonholonomic(base { s } let r = sqrt(1 + s^2); lagrangian { m/2*der(s)^2 + k*(sqrt(2*s^2 + 1 + 2*s*r) - s - r) } conserved { p = der(s); })]
+struct NestedRootOfState { m: f64, k: f64 }
+#[nonholonomic(base { x, y, th } let u = tan(th/2); constraints { blade: der(x)*2*u = der(y)*(1-u^2); } lagrangian { m/2*(der(x)^2+der(y)^2) + J/2*der(th)^2 } )]
+struct TanHalf { m: f64, J: f64 }
+#[nonholonomic(base { x, y, th } let c = (exp(th)+exp(-th))/2; lagrangian { m/2*(der(x)^2+der(y)^2) + J/2*(c^2 - sinh(th)^2)*der(th)^2 } conserved { p = der(th); })]
+struct HypSum { m: f64, J: f64 }
+#[nonholonomic(base { th, ph } let n = [sin(th)*cos(ph), sin(th)*sin(ph), cos(th)]; lagrangian { m/2*dot(der(n), der(n)) } conserved { c = sin(th)^2*der(ph); })]
+struct Spherical { m: f64 }
+#[nonholonomic(base { q0, q1, q2, q3 } on { q0^2+q1^2+q2^2+q3^2 = 1; } basis { w[3] } anchor { der(q0) = (-q1*w[0]-q2*w[1]-q3*w[2])/2; der(q1) = (q0*w[0]+q2*w[2]-q3*w[1])/2; der(q2) = (q0*w[1]+q3*w[0]-q1*w[2])/2; der(q3) = (q0*w[2]+q1*w[1]-q2*w[0])/2; } brackets so(3) { w } lagrangian { A/2*w[0]^2+B/2*w[1]^2+C/2*w[2]^2 - k*(2*(q1*q3-q0*q2)) } )]
+struct Quaternion { A: f64, B: f64, C: f64, k: f64 }
+#[nonholonomic(base { u, v } let x = cosh(u)*cos(v); let y = sinh(u)*sin(v); lagrangian { m/2*(der(x)^2+der(y)^2) } conserved { e = m/2*(sinh(u)^2+sin(v)^2)*(der(u)^2+der(v)^2); })]
+struct Elliptic { m: f64 }
+#[nonholonomic(base { u, v } let x = u*v; let y = (u^2-v^2)/2; lagrangian { m/2*(der(x)^2+der(y)^2) + k/sqrt(x^2+y^2) } conserved { e = m/2*(u^2+v^2)*(der(u)^2+der(v)^2) - 2*k/(u^2+v^2); })]
+struct Parabolic { m: f64, k: f64 }
+#[nonholonomic(base { x, y, a } let r = sqrt(x^2+y^2); constraints { der(a) = (x*der(y)-y*der(x))/r^2; } lagrangian { m/2*(der(x)^2+der(y)^2)+J/2*der(a)^2 })]
+struct AngleState { m: f64, J: f64 }
+#[nonholonomic(base { x, y, a } holonomic { follow: a = atan2(y, x); } lagrangian { m/2*(der(x)^2+der(y)^2)+J/2*der(a)^2 })]
+struct AngleHolonomic { m: f64, J: f64 }
+#[nonholonomic(base { a, b } let d = atan2(sin(a-b), cos(a-b)); lagrangian { J/2*(der(a)^2+der(b)^2) - k/2*d^2 } conserved { p = der(a)+der(b); })]
+struct Wrapped { J: f64, k: f64 }
+#[nonholonomic(base { a } let d = atan2(sin(a), cos(a)); lagrangian { J/2*der(d)^2 } conserved { p = der(a); })]
+struct WrappedRate { J: f64 }
+#[nonholonomic(base { x, y } let rho = (x^2+y^2)^(3/2); let s = sqrt(x^2+y^2); lagrangian { m/2*(der(x)^2+der(y)^2)*rho/s^3 + k*(rho - s*x^2 - s*y^2)*x } conserved { px = der(x); })]
+struct ThreeHalves { m: f64, k: f64 }
+#[nonholonomic(base { x } lagrangian { m/2*der(x)^2 - k*(x^6)^(1/3) } conserved { e = m/2*der(x)^2 + k*x^2; })]
+struct RootOfPower { m: f64, k: f64 }
+#[nonholonomic(base { x } lagrangian { m/2*der(x)^2 - k*sqrt(x^4+2*x^2+1) } conserved { e = m/2*der(x)^2 + k*(x^2+1); })]
+struct PerfectSquare { m: f64, k: f64 }
+#[nonholonomic(base { x } lagrangian { m/2*der(x)^2 - k*exp(2*ln(cosh(x))) } conserved { e = m/2*der(x)^2 + k*cosh(x)^2; })]
+struct ExpLn { m: f64, k: f64 }
+#[nonholonomic(base { x } lagrangian { m/2*der(x)^2 - k*sinh(ln(x)) } conserved { e = m/2*der(x)^2 + k*(x-1/x)/2; })]
+struct SinhLn { m: f64, k: f64 }
+#[nonholonomic(base { x } lagrangian { m/2*der(x)^2 - k*cos(3*acos(x)) } conserved { e = m/2*der(x)^2 + k*(4*x^3-3*x); })]
+struct Chebyshev { m: f64, k: f64 }
+#[nonholonomic(base { x } lagrangian { m/2*der(x)^2 - k*sin(asin(x)+acos(x))*x } conserved { e = m/2*der(x)^2 + k*x; })]
+struct SinOfArcs { m: f64, k: f64 }
+#[nonholonomic(base { x, y } lagrangian { m/2*(der(x)^2+der(y)^2) - k*cos(atan2(y,x))*sqrt(x^2+y^2) } conserved { e = m/2*(der(x)^2+der(y)^2) + k*x; })]
+struct CosAtan { m: f64, k: f64 }
+#[nonholonomic(base { x } lagrangian { m/2*der(x)^2 - k*tan(atan(x)) } conserved { e = m/2*der(x)^2 + k*x; })]
+struct TanAtan { m: f64, k: f64 }
+#[nonholonomic(base { x } lagrangian { m/2*der(x)^2 - k*atan(tan(x)) } conserved { e = m/2*der(x)^2 + k*atan(tan(x)); })]
+struct AtanTan { m: f64, k: f64 }
+#[nonholonomic(base { a, b, c } let q = [l2*cos(a) - l1, l2*sin(a)];
+ holonomic { cx: l2*cos(a) + l3*cos(b) = l1 + l4*cos(c); cy: l2*sin(a) + l3*sin(b) = l4*sin(c); }
+ lagrangian { J/2*(der(a)^2+der(b)^2+der(c)^2) })]
+struct FourBarClosed { l1: f64, l2: f64, l3: f64, l4: f64, J: f64 }
+#[nonholonomic(base { a } let p = l1 - l2 * cos(a); let q = l2 * sin(a); let r = sqrt(p^2+q^2);
+ let b = acos((r^2 + l4^2 - l3^2) / (2 * l4 * r)) + atan2(q, p);
+ let ex = l2*cos(a) - l1 + l4*cos(b); let ey = l2*sin(a) - l4*sin(b);
+ lagrangian { J1/2*der(a)^2 + J2/2*der(b)^2 - k*(ex^2 + ey^2 - l3^2)*a } conserved { e = J1/2*der(a)^2 + J2/2*der(b)^2; })]
+struct FourBarEnergy { l1: f64, l2: f64, l3: f64, l4: f64, J1: f64, J2: f64, k: f64 }
+#[nonholonomic(base { a, x } let b = asin(r*sin(a)/l);
+ lagrangian { J/2*der(a)^2 + m/2*der(x)^2 } constraints { slide: der(x) = der(r*cos(a) + l*cos(b)); } conserved { e = J/2*der(a)^2 + m/2*(r*sin(a)*der(a) + l*sin(b)*der(b))^2; })]
+struct CrankSlide { r: f64, l: f64, J: f64, m: f64 }
+#[nonholonomic(base { x } lagrangian { m/2*der(x)^2 - k*cos(acos(x) - asin(x)) } conserved { e = m/2*der(x)^2 + 2*k*x*sqrt(1-x^2); })]
+struct CosDifference { m: f64, k: f64 }
+#[nonholonomic(base { x, y } lagrangian { m/2*(der(x)^2+der(y)^2) - k*sin(2*atan2(y, x))*(x^2+y^2) } conserved { e = m/2*(der(x)^2+der(y)^2) + 2*k*x*y; })]
+struct SinTwice { m: f64, k: f64 }
+#[nonholonomic(base { x, y } lagrangian { m/2*(der(x)^2+der(y)^2) - k*exp(ln(x) + 2*ln(y)) } conserved { e = m/2*(der(x)^2+der(y)^2) + k*x*y^2; })]
+struct ExpOfLns { m: f64, k: f64 }
+#[nonholonomic(base { x, y } lagrangian { m/2*(der(x)^2+der(y)^2) - k*ln(x^2*y) } conserved { e = m/2*(der(x)^2+der(y)^2) + k*(2*ln(x) + ln(y)); })]
+struct LnOfPowers { m: f64, k: f64 }
+#[nonholonomic(base { x } lagrangian { m/2*der(x)^2 - k*cosh(ln(x))*x } conserved { e = m/2*der(x)^2 + k*(x^2+1)/2; })]
+struct CoshLn { m: f64, k: f64 }
+#[nonholonomic(base { x } lagrangian { m/2*der(x)^2 - k*tan(2*atan(x)) } conserved { e = m/2*der(x)^2 + 2*k*x/(1-x^2); })]
+struct TanTwice { m: f64, k: f64 }
+";
+
+#[test]
+fn right_declarations_are_accepted() {
+    let found = declarations(RIGHT);
+    assert_eq!(found.len(), 47);
+    let mut refused = Vec::new();
+    for declaration in found {
+        let errors = errors(&declaration.expanded());
+        if !errors.is_empty() {
+            refused.push(format!("{}: {errors:?}", declaration.name));
+        }
+    }
+    assert!(refused.is_empty(), "{}", refused.join("\n"));
+}
+
+/// The same with a slip: none of them is accepted.
+#[test]
+fn slips_in_them_are_refused() {
+    let mut accepted = Vec::new();
+    for (right, wrong) in [
+        ("+ 2*k*x*sqrt(1-x^2)", "+ 3*k*x*sqrt(1-x^2)"),
+        ("+ 2*k*x*y", "- 2*k*x*y"),
+        ("k*(4*x^3-3*x)", "k*(4*x^3-2*x)"),
+        ("k*x*y^2", "k*x^2*y"),
+        ("k*(2*ln(x) + ln(y))", "k*(ln(x) + ln(y))"),
+        ("k*(x^2+1)/2", "k*(x^2+x)/2"),
+        ("2*k*x/(1-x^2)", "2*k*x/(1+x^2)"),
+        ("/ (2 * l4 * r)) + atan2(q, p)", "/ (2 * l4 * r)) - atan2(q, p)"),
+        ("l*sin(b)*der(b))^2", "l*cos(b)*der(b))^2"),
+    ] {
+        let mut with = RIGHT.split("#[").filter(|text| text.contains(right));
+        let (Some(text), None) = (with.next(), with.next()) else { panic!("{right} stands in one of them") };
+        let changed = format!("#[{}", text.replace(right, wrong));
+        let [changed] = declarations(&changed).try_into().expect("one declaration");
+        if errors(&changed.expanded()).is_empty() {
+            accepted.push(wrong);
+        }
+    }
+    assert!(accepted.is_empty(), "{accepted:?}");
+}
