@@ -28,7 +28,7 @@ use crate::functions::{
 use crate::geometry::ConstraintDistribution;
 use crate::id::{ExprId, SymbolId};
 use crate::limits::{Subject, about};
-use crate::mechanics::{Flow, Procedure, definiteness, energy, saddle_equations};
+use crate::mechanics::{Definiteness, Flow, Procedure, definiteness, energy, saddle_equations};
 use crate::model::{Formulation, Request};
 use crate::report::{equations_of_motion, report};
 use crate::system::{PositionReturn, System};
@@ -91,7 +91,9 @@ pub(super) fn derive(
     about(Subject::Claims);
     let claims = proved_claims(&mut proved, &mut restriction, &derivative, &equations.independent)?;
     let moving = (kept.independent.as_slice(), equations.velocity.as_slice());
-    let positions = positions(&mut proved, &mut restriction, moving, &distribution.pivots);
+    let mut divisors = parameter_divisors(&mut proved.model, &derivative);
+    let known = [conditions.as_slice(), &divisors].concat();
+    let positions = positions(&mut proved, &mut restriction, moving, (&distribution.pivots, &known));
     // 5. the report
     about(Subject::Requests);
     let embedding = embedding(&mut proved.model, &proved.base);
@@ -106,7 +108,6 @@ pub(super) fn derive(
     )?;
     let text = report(&mut proved, &derived, reason, conditions, sections);
     let lines = equations_of_motion(&proved.model, &derived);
-    let mut divisors = parameter_divisors(&mut proved.model, &derivative);
     if let Some(vertical) = functions.get(&VERTICAL_SECTIONS) {
         // the basis of S is a choice, as that of D is
         divisors.extend(parameter_divisors(&mut proved.model, vertical));
@@ -164,12 +165,13 @@ fn proved_claims(
 }
 
 /// The way back to position constraints: the velocities of the state stay, and what D makes of them holds at
-/// the new place.
+/// the new place. Parameters that the motion may have at 0 are no divisors: where the kinetic energy is not definite
+/// without them, pivots are numerical.
 fn positions(
     proved: &mut Proved,
     restriction: &mut Substitution,
     (states, velocity): (&[SymbolId], &[ExprId]),
-    pivots: &[ExprId],
+    (pivots, known): (&[ExprId], &[ExprId]),
 ) -> Option<PositionReturn> {
     if proved.model.positions.is_empty() {
         return None;
@@ -179,7 +181,14 @@ fn positions(
     let parameters: Vec<_> = proved.model.parameters.iter().map(|parameter| parameter.symbol).collect();
     let facts = proved.facts.clone();
     let judge = |graph: &Graph, matrix: &Matrix| definiteness(graph, matrix, &parameters, &facts);
-    let mut found = position_return(proved, &saddle, restriction, (states, velocity, &[]), judge)?;
+    let moving = (states, velocity, [].as_slice());
+    let mut found = position_return(proved, &saddle, restriction, moving, judge)?;
+    let divisors = parameter_divisors(&mut proved.model, &found.step);
+    let graph = &proved.model.graph;
+    let is_free = |divisor: &ExprId| !known.contains(divisor) && !graph.vanishes_nowhere(*divisor, &facts);
+    if divisors.iter().any(is_free) {
+        found = position_return(proved, &saddle, restriction, moving, |_, _| Definiteness::Unknown)?;
+    }
     let graph = &proved.model.graph;
     let varies = |pivot: &&ExprId| graph.symbols_in(&[**pivot]).iter().any(|s| !parameters.contains(s));
     found.pivots = Procedure::of(pivots.iter().filter(varies).copied().collect());
