@@ -325,6 +325,12 @@ pub struct SectionClaim {
 pub enum Request {
     /// ∂derivative/∂state and ∂derivative/∂input.
     Jacobian,
+    /// Both without their zeros.
+    SparseJacobian,
+    /// The Jacobian of the derivative times a direction in state and inputs.
+    JacobianProduct,
+    /// The transpose of that Jacobian times weights of the components of the derivative.
+    AdjointProduct,
     /// ∂derivative/∂parameter.
     ParameterJacobian,
     /// The derivative with what depends on parameters alone computed ahead.

@@ -32,6 +32,8 @@ pub struct System {
     pub quadratures: Vec<SymbolId>,
     /// Outputs: ∂derivative/∂(state, input) row by row; if asked for.
     pub jacobian: Option<Procedure>,
+    /// Products of that Jacobian with vectors, as far as they are asked for.
+    pub products: Vec<VectorProduct>,
     /// The way back to the constraint manifold; in the projected formulation.
     pub projection: Option<Projection>,
     /// The way back to position constraints, if there are any.
@@ -72,6 +74,37 @@ impl System {
             parameters: self.model.parameters.len(),
             vertical: count(&functions::VERTICAL_MOMENTA),
             lifted: count(&functions::HORIZONTAL_LIFTS) / sections.max(1),
+        }
+    }
+}
+
+/// A product of the Jacobian of the derivative by state and inputs with a vector.
+#[derive(Clone, Debug)]
+pub struct VectorProduct {
+    /// Where the vector stands.
+    pub side: Side,
+    /// Its components: a direction in state and inputs, or weights of the components of the derivative.
+    pub vector: Vec<SymbolId>,
+    /// Outputs: a component for each of the derivative, or for each variable of the state, then for each input.
+    pub procedure: Procedure,
+}
+
+/// On which side of a matrix a vector stands.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Side {
+    /// J w.
+    Right,
+    /// Jᵀ p.
+    Left,
+}
+
+impl Side {
+    /// The word that asks for the product, and the name of its method.
+    #[must_use]
+    pub fn word(self) -> &'static str {
+        match self {
+            Self::Right => "jacobian_product",
+            Self::Left => "adjoint_product",
         }
     }
 }

@@ -185,6 +185,9 @@ mod syntax;
 /// | word | methods |
 /// |---|---|
 /// | `jacobian` | `jacobian(t, &state, &input)`, the trait `Jacobian` |
+/// | `sparse_jacobian` | `sparse_jacobian(t, &state, &input)`: its entries that are not always zero, in one array, column by column; the constants `JACOBIAN_ROWS` and `JACOBIAN_COLUMNS` say where they stand, inputs behind the state |
+/// | `jacobian_product` | `jacobian_product(t, &state, &input, &direction, &input_direction)`: the Jacobian times a direction, a state and inputs, at the cost of about two derivatives |
+/// | `adjoint_product` | `adjoint_product(t, &state, &input, &weights)`: the transpose of the Jacobian times weights of the components of the derivative, by state and by inputs, whatever their number at the cost of a few derivatives |
 /// | `parameter_jacobian` | `parameter_jacobian(t, &state, &input)`: ∂derivative/∂parameters, a column for each number in the struct's fields, in order |
 /// | `prepared` | `prepare()`: a `Copy` value of the type `Prepared…`, the same system with what depends on parameters alone computed once; the struct has to be `Copy` |
 /// | `multipliers`, `reactions` | `multipliers(t, &state, &input)`, `reactions(…)` |

@@ -131,7 +131,8 @@ pub mod shadowed {
             inputs      { torque }
             outputs     { phase = v1; covector = omega; }
             emit        {
-                jacobian, parameter_jacobian, prepared, hamiltonian, bracket, divergence, connection, gibbs_appell,
+                jacobian, sparse_jacobian, jacobian_product, adjoint_product,
+                parameter_jacobian, prepared, hamiltonian, bracket, divergence, connection, gibbs_appell,
                 taylor
             }
         )]

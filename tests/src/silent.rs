@@ -17,7 +17,8 @@ pub mod attributes {
         conserved { length = der(x)^2 * (1 + x^2); }
         formulation { projected }
         emit {
-            jacobian, parameter_jacobian, prepared, bracket, multipliers, reactions, divergence, volume, connection,
+            jacobian, sparse_jacobian, jacobian_product, adjoint_product,
+            parameter_jacobian, prepared, bracket, multipliers, reactions, divergence, volume, connection,
             invariants, gibbs_appell, taylor
         }
     )]

@@ -91,7 +91,9 @@ impl Derivation {
                 let outer = graph.derivative_of_function(function, x, id);
                 graph.mul(outer, dx)
             }
-            Node::Apply2(function, x, y) => self.of_pair(graph, function, x, y),
+            Node::Apply2(function, x, y) => {
+                graph.derivative_of_function_of_two(function, (x, y), (self.known[&x], self.known[&y]))
+            }
         }
     }
 
@@ -117,37 +119,42 @@ impl Derivation {
         }
         graph.linear_combination(&summands)
     }
+}
 
-    fn of_pair(&self, graph: &mut Graph, function: Function2, x: ExprId, y: ExprId) -> ExprId {
-        let (dx, dy) = (self.known[&x], self.known[&y]);
-        if graph.is_literal_zero(dx) && graph.is_literal_zero(dy) {
-            return graph.zero();
+impl Graph {
+    /// The derivative of `f(x, y)`, where the arguments change by `dx` and `dy`.
+    pub(crate) fn derivative_of_function_of_two(
+        &mut self,
+        function: Function2,
+        (x, y): (ExprId, ExprId),
+        (dx, dy): (ExprId, ExprId),
+    ) -> ExprId {
+        if self.is_literal_zero(dx) && self.is_literal_zero(dy) {
+            return self.zero();
         }
         match function {
             // d atan2(y, x) with the arguments in that order
             Function2::Atan2 => {
-                let (a, b) = (graph.mul(y, dx), graph.mul(x, dy));
-                let numerator = graph.sub(a, b);
-                let (xx, yy) = (graph.square(x), graph.square(y));
-                let radius = graph.add(xx, yy);
-                graph.div(numerator, radius)
+                let (a, b) = (self.mul(y, dx), self.mul(x, dy));
+                let numerator = self.sub(a, b);
+                let (xx, yy) = (self.square(x), self.square(y));
+                let radius = self.add(xx, yy);
+                self.div(numerator, radius)
             }
             // the one-sided mean where the two agree
             Function2::Min | Function2::Max => {
-                let gap = graph.sub(x, y);
-                let side = graph.apply(Function::Sign, gap);
-                let side = if function == Function2::Max { side } else { graph.neg(side) };
-                let (sum, difference) = (graph.add(dx, dy), graph.sub(dx, dy));
-                let turned = graph.mul(side, difference);
-                graph.linear_combination(&[(Rational::new(1, 2), sum), (Rational::new(1, 2), turned)])
+                let gap = self.sub(x, y);
+                let side = self.apply(Function::Sign, gap);
+                let side = if function == Function2::Max { side } else { self.neg(side) };
+                let (sum, difference) = (self.add(dx, dy), self.sub(dx, dy));
+                let turned = self.mul(side, difference);
+                self.linear_combination(&[(Rational::new(1, 2), sum), (Rational::new(1, 2), turned)])
             }
         }
     }
-}
 
-impl Graph {
     /// `f'(x)`, where `value` is `f(x)`.
-    fn derivative_of_function(&mut self, function: Function, x: ExprId, value: ExprId) -> ExprId {
+    pub(crate) fn derivative_of_function(&mut self, function: Function, x: ExprId, value: ExprId) -> ExprId {
         let one = self.one();
         match function {
             Function::Sin => self.cos(x),

@@ -59,6 +59,12 @@ impl Ledger {
     pub fn at(&self, site: &str) -> Option<&Decision> {
         self.decisions.iter().rev().find(|decision| decision.site == site)
     }
+
+    /// Takes out what was decided at a site, to be completed.
+    pub(crate) fn take(&mut self, site: &str) -> Option<Decision> {
+        let place = self.decisions.iter().position(|decision| decision.site == site)?;
+        Some(self.decisions.remove(place))
+    }
 }
 
 impl Decision {

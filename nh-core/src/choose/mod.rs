@@ -15,11 +15,11 @@ mod zero_set;
 pub(crate) use conditions::Regular;
 pub(crate) use derived::{
     Allowed, AlmostPoissonForm, AppliedForce, BracketForm, Derived as DerivedFunction, GyroscopicForm,
-    Motion, PowerForm, SplittingForm, ValuesForm, VelocityNames, prove_derived,
+    Motion, PowerForm, SplittingForm, ValuesForm, VelocityNames, prove_derived, prove_product,
 };
 pub use ledger::{Contender, Decision, Fate, Ledger, Proof};
 pub use lowered::{Lowered, Unproved, lowered, prove_program, prove_split};
 pub use lowering::{DEFECT, Lowering, REFUTED};
 pub(crate) use proof::{Claim, Defect, prove, prove_equal};
 pub(crate) use reference::{Given, Reference};
-pub(crate) use selection::{Entry, admitted, cheapest, fate};
+pub(crate) use selection::{Entry, admitted, cheapest, fate, ranking, rate};

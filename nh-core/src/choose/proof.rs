@@ -362,7 +362,7 @@ pub(super) fn defined(procedure: &Procedure) -> Vec<SymbolId> {
 
 impl Procedure {
     /// All expressions in it.
-    pub(super) fn expressions(&self) -> Vec<ExprId> {
+    pub(crate) fn expressions(&self) -> Vec<ExprId> {
         let mut found = self.outputs.clone();
         for definition in &self.definitions {
             match definition {

@@ -20,6 +20,21 @@ pub(crate) struct Rating {
     growth: f64,
 }
 
+impl Rating {
+    /// Why something so rated is not chosen.
+    pub(crate) fn loss(&self) -> Fate {
+        Fate::Lost(if self.sound {
+            "it is no cheaper"
+        } else {
+            "its rounding errors are larger than the level allows"
+        })
+    }
+
+    pub(crate) fn contender(&self, form: &'static str, fate: Fate) -> Contender {
+        Contender { form, cost: Some(self.cost as u64), rounding: Some(self.growth), fate }
+    }
+}
+
 /// The ratings of procedures of the same value.
 pub(crate) fn rate(graph: &Graph, procedures: &[Procedure]) -> Vec<Rating> {
     let programs: Vec<Program> =
@@ -98,11 +113,10 @@ pub(crate) fn admitted(
     // a single one needs no comparison
     let ratings = if procedures.len() < 2 { Vec::new() } else { rate(graph, &procedures) };
     let ranking = if ratings.is_empty() { (0..procedures.len()).collect() } else { ranking(&ratings) };
-    let contender = |index: usize, fate: Fate| Contender {
-        form: entries[index].form,
-        cost: ratings.get(index).map(|rating| rating.cost as u64),
-        rounding: ratings.get(index).map(|rating| rating.growth),
-        fate,
+    let contender = |index: usize, fate: Fate| {
+        let form = entries[index].form;
+        let unrated = Contender { form, cost: None, rounding: None, fate: fate.clone() };
+        ratings.get(index).map_or(unrated, |rating| rating.contender(form, fate))
     };
     let Some((best, others)) = ranking.split_first() else { return Err(None) };
     let finished = finish(graph, &procedures[*best]);
@@ -118,13 +132,7 @@ pub(crate) fn admitted(
         return Err(Some(entries[*best].form));
     }
     for index in others {
-        let is_sound = ratings.get(*index).is_some_and(|rating| rating.sound);
-        let reason = if is_sound {
-            "it is no cheaper"
-        } else {
-            "its rounding errors are larger than the level allows"
-        };
-        decision.contenders.push(contender(*index, Fate::Lost(reason)));
+        decision.contenders.push(contender(*index, ratings[*index].loss()));
     }
     Ok(finished)
 }

@@ -23,3 +23,9 @@ pub(crate) const BESIDE: &str = " before it is solved, beside ";
 pub(crate) fn is_much_longer(length: Count, shortest: Count) -> bool {
     length > shortest + LONGER && length * 2 > shortest * 3
 }
+
+/// Functions of more operations than this are not differentiated as expressions: the derivatives of one step by
+/// another are fewer than those of what is written out.
+pub(crate) const DIFFERENTIATED_AS_EXPRESSIONS: u64 = 400;
+/// Functions of more operations than this are differentiated in one way alone: several are as many programs to compare.
+pub(crate) const DIFFERENTIATED_ONCE: u64 = 2000;

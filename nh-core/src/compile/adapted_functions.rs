@@ -2,6 +2,7 @@
 
 use super::competition::{candidates, plain, plain_derivative, proved_derivative, reference, show_proved};
 use super::constraint_forces::constraint_forces;
+use super::differentiated::{requested_jacobian, requested_output_jacobian, requested_parameter_jacobian};
 use super::embedded::embedding;
 use super::gibbs_appell_function;
 use super::given;
@@ -13,10 +14,7 @@ use super::position_return::position_return;
 use super::power::{power, work_of_constraints};
 use super::proved::{Derived, Proved, fence, nothing_proved};
 use super::proved_functions::{self, Given, Parts};
-use super::velocities_of_state::{
-    claims_in_state, observables, parameter_divisors, requested, requested_jacobian,
-    requested_output_jacobian, requested_parameter_jacobian,
-};
+use super::velocities_of_state::{claims_in_state, observables, parameter_divisors, requested};
 use crate::algebra::{Graph, Matrix, Substitution};
 use crate::check;
 use crate::choose::{Decision, sizes};
@@ -74,9 +72,9 @@ pub(super) fn derive(
     let work = work_of_constraints(&mut proved, distribution.constraints.annihilator.len());
     let (multipliers, reactions) =
         constraint_forces(&mut proved, &reference, (kept, &equations), &derivative, &work)?;
-    let jacobian = requested_jacobian(&mut proved.model, &derivative, &kept.independent)?;
+    let jacobian = requested_jacobian(&mut proved, &derivative, &kept.independent)?;
     let (momenta, mut functions) = momenta(&mut proved, &mut restriction, &derivative, &kept.independent);
-    functions.add_if(&PARAMETER_JACOBIAN, requested_parameter_jacobian(&mut proved.model, &derivative)?);
+    functions.add_if(&PARAMETER_JACOBIAN, requested_parameter_jacobian(&mut proved, &derivative)?);
     let (gyroscopic, force) = gyroscopic::derive(&mut proved, Some(distribution))?;
     functions.add_if(&GYROSCOPIC, force);
     let graph = &mut proved.model.graph;
@@ -86,7 +84,7 @@ pub(super) fn derive(
     let energy = if is_large(&proved) { energy } else { proved.model.graph.simplify(energy) };
     let observables = observables(&mut proved.model, &mut proved.motion, &mut restriction);
     let power = power(&mut proved, &mut restriction, &given, &multipliers, &work);
-    let output_jacobian = requested_output_jacobian(&mut proved.model, &observables, &kept.independent)?;
+    let output_jacobian = requested_output_jacobian(&mut proved, &observables, &kept.independent)?;
     // 4. the claims, along the flow
     about(Subject::Claims);
     let claims = proved_claims(&mut proved, &mut restriction, &derivative, &equations.independent)?;

@@ -7,6 +7,7 @@ mod cancellation;
 mod competition;
 mod connection_functions;
 mod constraint_forces;
+mod differentiated;
 mod discrete;
 mod embedded;
 mod folded_constants;
@@ -30,6 +31,7 @@ mod routh;
 mod slice;
 mod stages;
 mod strangers;
+mod vector_products;
 mod velocities_of_state;
 mod vertical_splitting;
 

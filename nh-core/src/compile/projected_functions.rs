@@ -1,6 +1,7 @@
 //! The functions of a system in the projected formulation.
 
 use super::cancellation::without_needless_cancellation;
+use super::differentiated::{requested_jacobian, requested_output_jacobian, requested_parameter_jacobian};
 use super::embedded::embedding;
 use super::gibbs_appell_function;
 use super::given;
@@ -12,10 +13,7 @@ use super::position_return::position_return;
 use super::power::{power, work_of_constraints};
 use super::proved::{Derived, Proved, fence, nothing_proved};
 use super::proved_functions::{self, Given, Parts};
-use super::velocities_of_state::{
-    claims_in_state, observables, parameter_divisors, requested, requested_jacobian,
-    requested_output_jacobian, requested_parameter_jacobian,
-};
+use super::velocities_of_state::{claims_in_state, observables, parameter_divisors, requested};
 use crate::algebra::{Graph, Matrix, Substitution};
 use crate::check;
 use crate::choose::{Claim, Contender, Decision, Fate, Reference, Regular, fate, prove};
@@ -75,7 +73,7 @@ pub(super) fn derive(
     about(Subject::Claims);
     let claims = claims_in_state(&mut proved.model, &mut proved.motion, &mut everywhere);
     let velocities = proved.system.algebroid.velocities.clone();
-    let output_jacobian = requested_output_jacobian(&mut proved.model, &observables, &velocities)?;
+    let output_jacobian = requested_output_jacobian(&mut proved, &observables, &velocities)?;
     if !claims.is_empty() {
         let graph = &mut proved.model.graph;
         let flow = Flow::of(graph, &derivative, &proved.system, &velocities);
@@ -83,9 +81,9 @@ pub(super) fn derive(
         fence(check::claims(&mut proved.model, &claims, flow, &manifold))?;
     }
     about(Subject::Requests);
-    let jacobian = requested_jacobian(&mut proved.model, &derivative, &velocities)?;
+    let jacobian = requested_jacobian(&mut proved, &derivative, &velocities)?;
     let (momenta, mut functions) = momenta(&mut proved, &mut everywhere, &derivative, &velocities);
-    functions.add_if(&PARAMETER_JACOBIAN, requested_parameter_jacobian(&mut proved.model, &derivative)?);
+    functions.add_if(&PARAMETER_JACOBIAN, requested_parameter_jacobian(&mut proved, &derivative)?);
     let (gyroscopic, force) = gyroscopic::derive(&mut proved, None)?;
     functions.add_if(&GYROSCOPIC, force);
     // 5. the way back to the constraint manifold

@@ -79,7 +79,14 @@ pub(super) fn slice(mut system: System) -> Result<System, Vec<Violation>> {
 fn needs_all(request: Request) -> bool {
     let mut lines = TABLE.iter().filter(|line| line.request() == Some(request)).peekable();
     match request {
-        Request::Jacobian | Request::Taylor | Request::Prepared | Request::Explain | Request::C => false,
+        Request::Jacobian
+        | Request::SparseJacobian
+        | Request::JacobianProduct
+        | Request::AdjointProduct
+        | Request::Taylor
+        | Request::Prepared
+        | Request::Explain
+        | Request::C => false,
         _ => lines.peek().is_none() || lines.any(|line| line.sliced == Sliced::Whole),
     }
 }

@@ -4,7 +4,7 @@ use super::levels::OnLevels;
 use super::proved::{Proved, both, fence};
 use super::{
     adapted_functions, analytic, folded_constants, levels, linearization, momenta, projected_functions,
-    routh, slice, strangers,
+    routh, slice, strangers, vector_products,
 };
 use crate::algebra::Facts;
 use crate::check::BrokenLaws;
@@ -67,6 +67,7 @@ fn compiled(model: Model, registry: &Registry) -> Result<System, Vec<Violation>>
     let mut system = slice::slice(routh::without(system, &quadratures))?;
     folded_constants::in_numbers(&mut system);
     linearization::derive(&mut system)?;
+    vector_products::derive(&mut system)?;
     // 9. Taylor series exist where they are asked for
     fence(analytic::check(&system).err().into_iter().collect())?;
     Ok(system)

@@ -34,6 +34,24 @@ pub fn jacobian(
     Ok(result)
 }
 
+/// The derivatives of all outputs along a direction: how fast each argument changes, as an expression.
+///
+/// # Errors
+/// As [`jacobian`].
+pub fn derivative_along(
+    graph: &mut Graph,
+    procedure: &Procedure,
+    direction: impl IntoIterator<Item = (SymbolId, ExprId)>,
+) -> Result<Procedure, NotDifferentiable> {
+    let mut result = procedure.clone();
+    let mut along = Derivation::new(direction);
+    for definition in &procedure.definitions {
+        differentiate(graph, definition, &mut along, &mut result)?;
+    }
+    result.outputs = along.apply_all(graph, &procedure.outputs);
+    Ok(result)
+}
+
 /// Σ ∂f_i/∂x_i of a vector field whose component i is output i, along argument i.
 ///
 /// # Errors
@@ -81,7 +99,7 @@ fn differentiate(
                 let Some(derivative) = derivatives.as_ref().and_then(|all| all.get(index)) else {
                     return Err(NotDifferentiable { method: method.clone() });
                 };
-                let outer = call(graph, derivative, arguments, result);
+                let outer = result.call(graph, derivative, arguments);
                 change = graph.formula(change + outer * inner);
             }
             if !graph.is_literal_zero(change) {
@@ -118,21 +136,4 @@ fn differentiate(
         }
     }
     Ok(())
-}
-
-/// The result of a call with these arguments, which is made once.
-fn call(graph: &mut Graph, called: &str, with: &[ExprId], result: &mut Procedure) -> ExprId {
-    let known = result.definitions.iter().find_map(|definition| match definition {
-        Definition::Call { symbol, method, arguments, .. } if method == called && arguments == with => {
-            Some(*symbol)
-        }
-        _ => None,
-    });
-    let symbol = known.unwrap_or_else(|| {
-        let symbol = graph.new_symbol(format!("self.{called}(…)"));
-        let (method, arguments) = (called.to_owned(), with.to_vec());
-        result.definitions.push(Definition::Call { symbol, method, arguments, derivatives: None });
-        symbol
-    });
-    graph.symbol(symbol)
 }

@@ -1,7 +1,7 @@
 //! Definite matrices as L D Lᵀ with unit lower triangular L, unrolled and without pivoting.
 
 use super::procedure::Procedure;
-use crate::algebra::{Graph, Rational};
+use crate::algebra::{Graph, Matrix, Rational};
 use crate::id::ExprId;
 
 /// An entry on the way to the solution: as it is computed, from intermediate results, and in terms of
@@ -166,6 +166,13 @@ impl Ldl {
             }
         }
         Self { lower, diagonal }
+    }
+
+    /// The rows of L left of the diagonal, and D.
+    pub(super) fn into_factors(self) -> (Matrix, Vec<ExprId>) {
+        let left = |(i, row): (usize, Vec<Entry>)| row[..i].iter().map(|entry| entry.value).collect();
+        let lower = self.lower.into_iter().enumerate().map(left).collect();
+        (lower, self.diagonal.iter().map(|entry| entry.value).collect())
     }
 
     pub(super) fn solve(

@@ -1,6 +1,6 @@
 //! What a generated function computes, before it is scheduled.
 
-use crate::algebra::{Graph, Node};
+use crate::algebra::{Graph, Matrix, Node};
 use crate::id::{ExprId, SymbolId};
 use rustc_hash::FxHashMap;
 
@@ -46,8 +46,30 @@ pub struct Procedure {
     pub definitions: Vec<Definition>,
     /// The results.
     pub outputs: Vec<ExprId>,
+    /// The linear systems among the intermediate results that are solved in closed form.
+    pub(crate) solved: Vec<Solved>,
     /// Whether `define` puts values in place instead of naming them.
     inline: bool,
+}
+
+/// Unknowns that were solved for: `matrix · unknowns = right`, and the matrix is L D Lᵀ.
+#[derive(Clone, Debug)]
+pub(crate) struct Solved {
+    pub(crate) unknowns: Vec<SymbolId>,
+    pub(crate) matrix: Matrix,
+    pub(crate) right: Vec<ExprId>,
+    /// The rows of L left of the diagonal.
+    pub(crate) lower: Matrix,
+    /// D.
+    pub(crate) diagonal: Vec<ExprId>,
+}
+
+impl Solved {
+    /// All expressions in it.
+    pub(crate) fn expressions(&self) -> Vec<ExprId> {
+        let entries = self.matrix.iter().chain(&self.lower).flatten();
+        entries.chain(&self.right).chain(&self.diagonal).copied().collect()
+    }
 }
 
 impl Procedure {
@@ -105,6 +127,23 @@ impl Procedure {
         }
         let symbol = graph.new_symbol(name);
         self.definitions.push(Definition::Value { symbol, value });
+        graph.symbol(symbol)
+    }
+
+    /// The result of a call with these arguments, which is made once.
+    pub(crate) fn call(&mut self, graph: &mut Graph, called: &str, with: &[ExprId]) -> ExprId {
+        let known = self.definitions.iter().find_map(|definition| match definition {
+            Definition::Call { symbol, method, arguments, .. } if method == called && arguments == with => {
+                Some(*symbol)
+            }
+            _ => None,
+        });
+        let symbol = known.unwrap_or_else(|| {
+            let symbol = graph.new_symbol(format!("self.{called}(…)"));
+            let (method, arguments) = (called.to_owned(), with.to_vec());
+            self.definitions.push(Definition::Call { symbol, method, arguments, derivatives: None });
+            symbol
+        });
         graph.symbol(symbol)
     }
 }

@@ -7,10 +7,9 @@
 use super::elimination_order::elimination_order;
 use super::ldl::{Ldl, Numerators};
 use super::pair::Pair;
-use super::procedure::{Definition, Procedure};
+use super::procedure::{Definition, Procedure, Solved};
 use super::rank_one::RankOne;
 use crate::algebra::{Graph, Matrix};
-use crate::count::Count;
 use crate::id::{ExprId, SymbolId};
 
 /// Whether elimination may go down the diagonal.
@@ -59,6 +58,7 @@ pub fn solve_symmetric(
         let block = elimination_order(graph, matrix, &block);
         let inner = Graph::submatrix(matrix, &block);
         let outer: Vec<ExprId> = block.iter().map(|i| right[*i]).collect();
+        let mut factors = None;
         let values = match (inner.len(), definiteness) {
             (1, _) => vec![graph.formula(outer[0] / inner[0][0])],
             (2, _) => {
@@ -67,14 +67,29 @@ pub fn solve_symmetric(
                     Pair { matrix: [inner[0][0], inner[0][1], inner[1][1]], right: [outer[0], outer[1]] };
                 pair.solve(graph, definiteness, procedure, &names).to_vec()
             }
-            (_, Definiteness::Definite) => solve_definite(graph, &inner, &outer, procedure, name),
-            (_, Definiteness::Unknown) => solve_pivoted(graph, inner, outer, procedure, name),
+            (_, Definiteness::Definite) => {
+                let solution = solve_definite(graph, &inner, &outer, procedure, name);
+                factors = solution.factors;
+                solution.values
+            }
+            (_, Definiteness::Unknown) => solve_pivoted(graph, &inner, &outer, procedure, name),
         };
         for (index, value) in block.iter().zip(values) {
             solution[*index] = procedure.define(graph, &format!("{name}_{index}"), value);
         }
+        let unknowns = block.iter().map(|index| graph.as_symbol(solution[*index]));
+        if let Some((factors, unknowns)) = factors.zip(unknowns.collect()) {
+            let (lower, diagonal) = factors.into_factors();
+            procedure.solved.push(Solved { unknowns, matrix: inner, right: outer, lower, diagonal });
+        }
     }
     solution
+}
+
+/// The unknowns, with the factors if they were found by these.
+struct DefiniteSolution {
+    values: Vec<ExprId>,
+    factors: Option<Ldl>,
 }
 
 /// By L D Lᵀ, or by a form that takes less work and loses no more digits than the level of accuracy
@@ -85,48 +100,42 @@ fn solve_definite(
     right: &[ExprId],
     procedure: &mut Procedure,
     name: &str,
-) -> Vec<ExprId> {
+) -> DefiniteSolution {
     let rank_one = RankOne::of(graph, matrix);
-    let mut ways: Vec<(Procedure, Vec<ExprId>)> = Vec::new();
-    let mut way = procedure.clone();
-    let solution =
-        Ldl::of(graph, matrix, Numerators::Kept, &mut way, name).solve(graph, right, &mut way, name);
-    ways.push((way, solution));
+    let mut by_factors = procedure.clone();
+    let factors = Ldl::of(graph, matrix, Numerators::Kept, &mut by_factors, name);
+    let values = factors.solve(graph, right, &mut by_factors, name);
     if let Some(rank_one) = rank_one {
         let mut way = procedure.clone();
         let solution = rank_one.solve(graph, right, &mut way, name);
-        ways.push((way, solution));
-    }
-    let costs = ways.iter().map(|(way, solution)| {
-        let values = way.with_outputs(solution.clone()).values(graph);
-        graph.operation_count(&values)
-    });
-    let costs: Vec<Count> = costs.collect();
-    let mut best = 0;
-    for k in 1..ways.len() {
-        if costs[k] < costs[best] {
-            let [values, reference] = [&ways[k], &ways[0]]
-                .map(|(way, solution)| way.with_outputs(solution.clone()).written_out(graph));
-            if graph.is_as_accurate(&values, &reference) {
-                best = k;
+        let ways = [(&way, &solution), (&by_factors, &values)];
+        let [short, long] = ways.map(|(way, values)| {
+            let values = way.with_outputs(values.clone()).values(graph);
+            graph.operation_count(&values)
+        });
+        if short < long {
+            let [short, long] = ways.map(|(way, values)| way.with_outputs(values.clone()).written_out(graph));
+            if graph.is_as_accurate(&short, &long) {
+                *procedure = way;
+                return DefiniteSolution { values: solution, factors: None };
             }
         }
     }
-    let (way, solution) = ways.swap_remove(best);
-    *procedure = way;
-    solution
+    *procedure = by_factors;
+    DefiniteSolution { values, factors: Some(factors) }
 }
 
 fn solve_pivoted(
     graph: &mut Graph,
-    matrix: Matrix,
-    right: Vec<ExprId>,
+    matrix: &Matrix,
+    right: &[ExprId],
     procedure: &mut Procedure,
     name: &str,
 ) -> Vec<ExprId> {
     let unknowns: Vec<SymbolId> =
         (0..matrix.len()).map(|index| graph.new_symbol(format!("{name}_solved{index}"))).collect();
     let solution = unknowns.iter().map(|symbol| graph.symbol(*symbol)).collect();
+    let (matrix, right) = (matrix.clone(), right.to_vec());
     procedure.definitions.push(Definition::Solve { unknowns, matrix, right });
     solution
 }

@@ -11,6 +11,7 @@ use rustc_hash::FxHashMap;
 pub(super) fn folded(arena: &Arena) -> Arena {
     let mut into = Arena::default();
     into.parameters.clone_from(&arena.parameters);
+    into.nameless.clone_from(&arena.nameless);
     let mut fold = Fold { from: arena, into, images: vec![None; arena.len()] };
     for term in arena.operands_first(&arena.outputs) {
         let image = fold.image(term);

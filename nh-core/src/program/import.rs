@@ -10,6 +10,16 @@ use rustc_hash::FxHashMap;
 pub(super) fn import(graph: &Graph, procedure: &Procedure, parameters: &[SymbolId]) -> Arena {
     let mut arena = Arena::default();
     arena.parameters.extend(parameters);
+    let is_nameless = |symbol: &SymbolId| graph.symbols()[*symbol].is_empty();
+    for definition in &procedure.definitions {
+        let defined = match definition {
+            Definition::Value { symbol, .. } | Definition::Call { symbol, .. } => {
+                std::slice::from_ref(symbol)
+            }
+            Definition::Solve { unknowns, .. } => unknowns,
+        };
+        arena.nameless.extend(defined.iter().copied().filter(is_nameless));
+    }
     let mut importer = Importer { graph, arena, images: vec![None; graph.len()] };
     importer.run(procedure);
     importer.arena

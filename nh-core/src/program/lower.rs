@@ -99,7 +99,7 @@ impl Lowering<'_> {
 
     /// The first definition of a value names it.
     fn note_name(&mut self, value: Value, symbol: SymbolId) {
-        if !self.steps[value].is_leaf() {
+        if !self.steps[value].is_leaf() && !self.arena.nameless.contains(&symbol) {
             self.names.entry(value).or_insert(symbol);
         }
     }

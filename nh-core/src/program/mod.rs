@@ -10,11 +10,15 @@
 //! 5. `lower`: binary steps in an order in which every value precedes its uses.
 //! 6. `fuse`: sums with products become multiply-adds; `signs`: negations go where they are free.
 //!
+//! [`accumulated`] differentiates step by step: `opened` leaves the unknowns of linear systems free, `tape` has the
+//! partial derivatives of all steps, `vertex_order` says in which order they are multiplied.
+//!
 //! Constants become numbers before 2 or after it (`fold`), or at last (`lower`), whichever is cheapest.
 //!
 //! [`corrected`] makes a program carry its rounding errors along; [`error_growth`] compares programs by
 //! theirs, and [`units_lost`] finds terms that cancel identically. [`Recurrences`] extend a program from numbers to power series in the time.
 
+mod accumulate;
 mod angles;
 mod correct;
 mod cost;
@@ -26,6 +30,7 @@ mod import;
 mod interpret;
 mod lower;
 mod nary;
+mod opened;
 mod pairs;
 #[cfg(test)]
 mod program_tests;
@@ -35,9 +40,12 @@ mod schedule;
 mod signs;
 mod split;
 mod step;
+mod tape;
 mod taylor;
 mod text;
+mod vertex_order;
 
+pub use accumulate::{Systems, Wanted, accumulated};
 pub use correct::corrected;
 pub use cost::{Cost, order};
 pub use interpret::{Arithmetic, interpret, interpret_in};

@@ -84,6 +84,8 @@ pub(super) struct Arena {
     pub(super) outputs: Vec<Term>,
     /// Symbols that do not change while a system moves.
     pub(super) parameters: FxHashSet<SymbolId>,
+    /// Symbols of intermediate results that nobody has named.
+    pub(super) nameless: FxHashSet<SymbolId>,
 }
 
 /// The sum of two exponents, if it and its opposite fit.

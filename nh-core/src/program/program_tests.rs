@@ -9,6 +9,7 @@ use proptest::prelude::*;
 use std::collections::HashMap;
 
 mod accuracy_levels;
+mod derivatives;
 mod exponents;
 mod kept_digits;
 

@@ -3,6 +3,7 @@
 use std::collections::BTreeSet;
 use std::ops::Range;
 
+use nonholonomic_core::model::Request;
 use nonholonomic_core::system::System;
 use proc_macro2::{Literal, TokenStream};
 use quote::quote;
@@ -20,7 +21,8 @@ use super::symbols::{Argument, Scope};
 /// of them, so that an implicit integrator does not pay for the other; without inputs there is only
 /// one, and the method forwards to it.
 pub(super) fn emit(context: &Context, scope: &Scope, system: &System) -> Part {
-    let Some(jacobian) = &system.jacobian else { return Part::default() };
+    let is_asked = system.model.requests.iter().any(|(request, _)| *request == Request::Jacobian);
+    let Some(jacobian) = system.jacobian.as_ref().filter(|_| is_asked) else { return Part::default() };
     let (n, m) = sizes(context);
     let within = |columns: Range<usize>| {
         let row = |row: &[_]| row.get(columns.clone()).unwrap_or_default().to_vec();

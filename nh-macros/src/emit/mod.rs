@@ -40,6 +40,7 @@ mod results;
 #[cfg(test)]
 mod samples;
 mod setting;
+mod sparse_jacobian;
 mod state;
 mod stubs;
 mod symbols;
@@ -47,6 +48,7 @@ mod taylor;
 #[cfg(test)]
 mod tests;
 mod validate;
+mod vector_products;
 
 use nonholonomic_core::functions::{ENERGY, VELOCITY};
 use nonholonomic_core::id::SymbolId;
@@ -80,6 +82,8 @@ pub(crate) fn emit(system: &System, layout: &Layout) -> Result<TokenStream, Vec<
         .with(projection::emit(context, system))
         .with(assembly::emit(context, scope, system))
         .with(jacobian::emit(context, scope, system))
+        .with(sparse_jacobian::emit(context, scope, system))
+        .with(vector_products::emit(context, system))
         .with(linearization::emit(context, system, &derivative))
         .with(prepared::emit(context, system, &derivative))
         .with(hamiltonian::emit(context, scope, system))

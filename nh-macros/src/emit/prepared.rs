@@ -39,7 +39,8 @@ pub(super) fn emit(context: &Context, system: &System, derivative: &Program) -> 
     let values = local("values");
     let unused = (!rest_body.used.contains(&Argument::Values)).then(|| quote!(_ = #values;));
     let rest_tokens = quote!(#drops #unused #statements #result);
-    let has = [system.functions.get(&ENERGY).is_some(), system.jacobian.is_some()];
+    let has_jacobian = system.model.requests.iter().any(|(request, _)| *request == Request::Jacobian);
+    let has = [system.functions.get(&ENERGY).is_some(), has_jacobian];
     let mut part = items(context, symbols.len(), &ahead_tokens, (&inlining(&rest), &rest_tokens), has);
     part.programs = vec![("prepare", ahead), ("derivative, prepared", rest)];
     part

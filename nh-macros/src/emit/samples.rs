@@ -162,6 +162,7 @@ impl Builder {
             positions: None,
             projection: None,
             jacobian: None,
+            products: Vec::new(),
             linearization: None,
             phase_space: nonholonomic_core::phase_space::PhaseSpace::default(),
             embedding: None,

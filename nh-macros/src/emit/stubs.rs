@@ -4,6 +4,7 @@
 use std::collections::BTreeSet;
 
 use nonholonomic_core::model::Request;
+use nonholonomic_core::system::Side;
 use proc_macro2::TokenStream;
 use quote::quote;
 
@@ -13,8 +14,8 @@ use super::setting::Context;
 use super::taylor;
 use super::{
     almost_poisson, assembly, c, callback, discrete, editor, embedding, energy, functions, hamiltonian,
-    invariants, jacobian, linearization, motion, observed, prepared, projection, report_text, state,
-    validate,
+    invariants, jacobian, linearization, motion, observed, prepared, projection, report_text, sparse_jacobian,
+    state, validate, vector_products,
 };
 use crate::resolve::Outline;
 
@@ -74,5 +75,8 @@ fn on_request(context: &Context, outline: &Outline) -> Part {
         .with(asked(Request::Hamiltonian, &|| hamiltonian::stub(context, velocities)))
         .with(asked(Request::Prepared, &|| prepared::stub(context, has_jacobian)))
         .with(asked(Request::Jacobian, &|| jacobian::stub(context)))
+        .with(asked(Request::SparseJacobian, &|| sparse_jacobian::stub(context)))
+        .with(asked(Request::JacobianProduct, &|| vector_products::stub(context, Side::Right)))
+        .with(asked(Request::AdjointProduct, &|| vector_products::stub(context, Side::Left)))
         .with(outline.kept.map_or_else(Part::default, |kept| linearization::stub(context, kept)))
 }

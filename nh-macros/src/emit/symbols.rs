@@ -32,6 +32,12 @@ pub(super) enum Argument {
     Covector,
     /// `length`, of a step
     Length,
+    /// `direction`, in which the state changes
+    Direction,
+    /// `input_direction`, in which the inputs change
+    InputDirection,
+    /// `weights`, of the components of the derivative
+    Weights,
 }
 
 /// The tokens of every symbol, and the argument that each comes from.

@@ -114,12 +114,39 @@ fn reference_systems() {
     }
 }
 
+/// The sleigh's Jacobian without its zeros, and its products with vectors.
+#[test]
+fn products_with_vectors() {
+    let (attribute, item) = declared("sleigh");
+    let attribute = attribute
+        .to_string()
+        .replace("{ jacobian }", "{ sparse_jacobian , jacobian_product , adjoint_product }");
+    let attribute = attribute.parse().expect("tokens");
+    let items = syn::parse2::<syn::File>(crate::expand::nonholonomic(attribute, quote::quote!(#item)));
+    let is_product = |item: &syn::ImplItem| matches!(item, syn::ImplItem::Fn(f) if ["sparse_jacobian", "jacobian_product", "adjoint_product"].contains(&f.sig.ident.to_string().as_str()));
+    let functions = items.expect("a list of items").items.into_iter().filter_map(|item| match item {
+        syn::Item::Impl(mut item) if item.trait_.is_none() => {
+            item.items.retain(is_product);
+            (!item.items.is_empty()).then_some(item)
+        }
+        _ => None,
+    });
+    golden("products", quote::quote!(#(#functions)*));
+}
+
 #[test]
 fn stubs_stand_in() {
     let layout = layout(&sleigh());
     let outline = Outline {
         in_state: [layout.coordinate_symbols.as_slice(), &layout.velocity_symbols[..2]].concat(),
-        requests: vec![Request::Jacobian, Request::Multipliers, Request::Taylor],
+        requests: vec![
+            Request::Jacobian,
+            Request::SparseJacobian,
+            Request::JacobianProduct,
+            Request::AdjointProduct,
+            Request::Multipliers,
+            Request::Taylor,
+        ],
         labels: vec![Some("blade".to_owned())],
         momenta: Vec::new(),
         identities: 0,

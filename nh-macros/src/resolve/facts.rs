@@ -20,9 +20,12 @@ use crate::syntax::ast::{self, Comparison, Definition, Equation, Item, Momentum,
 const SHOWN: usize = 160;
 
 /// What `emit` can ask for.
-pub(super) const REQUESTS: [(&str, Request); 23] = [
+pub(super) const REQUESTS: [(&str, Request); 26] = [
     ("jacobian", Request::Jacobian),
     ("taylor", Request::Taylor),
+    ("sparse_jacobian", Request::SparseJacobian),
+    ("jacobian_product", Request::JacobianProduct),
+    ("adjoint_product", Request::AdjointProduct),
     ("parameter_jacobian", Request::ParameterJacobian),
     ("output_jacobian", Request::OutputJacobian),
     ("power", Request::Power),

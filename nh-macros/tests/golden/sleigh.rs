@@ -88,28 +88,23 @@ impl Sleigh {
         let (sin_theta, cos_theta) = ::nonholonomic::__private::Scalar::sin_cos(
             state.theta,
         );
-        let b_omega = self.b * state.omega;
         let m_a = self.m * self.a;
-        let d_v_dot_0 = 1.0
-            / ::nonholonomic::__private::Scalar::mul_add(self.a, m_a, self.J);
-        let e1 = d_v_dot_0
-            * ::nonholonomic::__private::Scalar::mul_add(
+        let e1 = 1.0 / ::nonholonomic::__private::Scalar::mul_add(self.a, m_a, self.J);
+        let e2 = -(m_a * state.omega);
+        let e3 = ::nonholonomic::__private::Scalar::mul_add(
+            -self.b,
+            e2,
+            -::nonholonomic::__private::Scalar::mul_add(
                 m_a,
-                b_omega,
-                -::nonholonomic::__private::Scalar::mul_add(
-                    m_a,
-                    state.v1 - b_omega,
-                    self.c,
+                ::nonholonomic::__private::Scalar::mul_add(
+                    -self.b,
+                    state.omega,
+                    state.v1,
                 ),
-            );
-        let d_v_dot_0_2 = -(d_v_dot_0 * m_a * state.omega);
-        let d_v_dot_1 = ::nonholonomic::__private::Scalar::mul_add(
-            2.0 * self.a,
-            state.omega,
-            self.b * e1,
+                self.c,
+            ),
         );
-        let d_v_dot_1_2 = self.b * d_v_dot_0_2;
-        let d_v_dot_1_3 = self.b * d_v_dot_0;
+        let e4 = self.b * e1;
         (
             <::nonholonomic::__private::nalgebra::SMatrix<
                 ::core::primitive::f64,
@@ -121,8 +116,18 @@ impl Sleigh {
                 [0.0, -(state.v1 * sin_theta), (state.v1 * cos_theta), 0.0, 0.0],
                 [0.0, 0.0, 0.0, 0.0, 0.0],
                 [0.0, 0.0, 0.0, 0.0, 0.0],
-                [1.0, 0.0, 0.0, e1, d_v_dot_1],
-                [0.0, cos_theta, sin_theta, d_v_dot_0_2, d_v_dot_1_2],
+                [
+                    1.0,
+                    0.0,
+                    0.0,
+                    (e1 * e3),
+                    ::nonholonomic::__private::Scalar::mul_add(
+                        2.0 * self.a,
+                        state.omega,
+                        e4 * e3,
+                    ),
+                ],
+                [0.0, cos_theta, sin_theta, (e1 * e2), (e4 * e2)],
             ]),
             <::nonholonomic::__private::nalgebra::SMatrix<
                 ::core::primitive::f64,
@@ -130,7 +135,7 @@ impl Sleigh {
                 1,
             > as ::core::convert::From<
                 [[::core::primitive::f64; 5]; 1],
-            >>::from([[0.0, 0.0, 0.0, d_v_dot_0, d_v_dot_1_3]]),
+            >>::from([[0.0, 0.0, 0.0, e1, e4]]),
         )
     }
 }

@@ -670,6 +670,65 @@ impl Sleigh {
             ),
         )
     }
+    /// The row of each entry of `sparse_jacobian`: a component of the derivative.
+    pub const JACOBIAN_ROWS: [::core::primitive::usize; 0] = [];
+    /// The column of each entry of `sparse_jacobian`, ascending: a variable of the state, or behind these an
+    /// input.
+    pub const JACOBIAN_COLUMNS: [::core::primitive::usize; 0] = [];
+    /// The entries of the Jacobian of the derivative that are not always zero, column by column: those in
+    /// the rows `JACOBIAN_ROWS` and the columns `JACOBIAN_COLUMNS`.
+    #[must_use]
+    #[inline]
+    pub fn sparse_jacobian(
+        &self,
+        t: ::core::primitive::f64,
+        state: &SleighState,
+        input: &SleighInput,
+    ) -> [::core::primitive::f64; 0] {
+        _ = self;
+        _ = t;
+        _ = state;
+        _ = input;
+        []
+    }
+    /// The Jacobian of the derivative times a direction: how the derivative changes where the state
+    /// changes along `direction`, and the inputs along `input_direction`.
+    #[must_use]
+    #[inline]
+    pub fn jacobian_product(
+        &self,
+        t: ::core::primitive::f64,
+        state: &SleighState,
+        input: &SleighInput,
+        direction: &SleighState,
+        input_direction: &SleighInput,
+    ) -> SleighState {
+        _ = self;
+        _ = t;
+        _ = state;
+        _ = input;
+        _ = direction;
+        _ = input_direction;
+        ::core::default::Default::default()
+    }
+    /// The transpose of the Jacobian of the derivative times `weights`: the derivatives by the state,
+    /// and by the inputs, of the sum of the components of ẋ with these weights.
+    #[must_use]
+    #[inline]
+    pub fn adjoint_product(
+        &self,
+        t: ::core::primitive::f64,
+        state: &SleighState,
+        input: &SleighInput,
+        weights: &SleighState,
+    ) -> (SleighState, SleighInput) {
+        _ = self;
+        _ = t;
+        _ = state;
+        _ = input;
+        _ = weights;
+        ::core::default::Default::default()
+    }
 }
 #[allow(unexpected_cfgs)]
 const _: () = {

@@ -21,7 +21,8 @@ macro_rules! declarations {
             assume { state > 0; }
             emit {
                 hamiltonian, bracket, discrete_gradient, divergence, volume, connection, invariants, gyroscopic,
-                splitting, gibbs_appell, taylor, momenta, multipliers, reactions, jacobian, parameter_jacobian, prepared
+                splitting, gibbs_appell, taylor, momenta, multipliers, reactions, jacobian,
+                sparse_jacobian, jacobian_product, adjoint_product, parameter_jacobian, prepared
             }
         )]
         #[derive(Clone, Copy, Debug)]

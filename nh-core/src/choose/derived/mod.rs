@@ -10,6 +10,7 @@ mod procedure_derivative;
 mod proof_of_bracket;
 mod proof_of_connection;
 mod proof_of_flow;
+mod proof_of_product;
 mod proof_of_splitting;
 mod real_zeros;
 mod returns;
@@ -28,6 +29,7 @@ use crate::mechanics::{HamiltonianSide, Procedure};
 use crate::phase_space::StepForm;
 use crate::system::{Embedding, PositionReturn, Projection};
 use place::Place;
+pub(crate) use proof_of_product::prove_product;
 
 /// What is claimed of a derived function.
 #[derive(Clone, Copy)]

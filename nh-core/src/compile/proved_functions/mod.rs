@@ -82,6 +82,7 @@ impl Parts {
             gyroscopic: self.gyroscopic,
             quadratures: Vec::new(),
             jacobian: self.jacobian,
+            products: Vec::new(),
             projection: self.projection,
             positions: self.positions,
             phase_space: self.phase_space,
@@ -183,7 +184,7 @@ pub(super) fn prove(
     let mut manifold: Option<Manifold> = None;
     let mut refuted = Vec::new();
     for (site, claim) in claims {
-        let mut decision = Decision { site, ..Decision::default() };
+        let mut decision = proved.ledger.take(site).unwrap_or(Decision { site, ..Decision::default() });
         let prove = |proved: &Proved, images: &[(SymbolId, ExprId)]| {
             let Proved { model, facts, .. } = proved;
             let (parameters, conditions) = (&declared.parameters, given.conditions);
@@ -209,13 +210,22 @@ pub(super) fn prove(
                 proof = prove(proved, &images);
             }
         }
-        match proof {
-            Ok(proof) => decision.contenders.push(contender(form, Fate::Chosen(proof))),
+        let fate = match proof {
+            Ok(proof) => Some(Fate::Chosen(proof)),
             Err(defect @ Defect::Wrong(_)) => {
                 refuted.push(is_something_else(proved, site, &defect));
-                decision.contenders.push(contender(form, Fate::NotAdmitted(defect.to_string())));
+                Some(Fate::NotAdmitted(defect.to_string()))
             }
-            Err(defect) => decision.limits.push(format!("not proved: {defect}")),
+            Err(defect) => {
+                decision.limits.push(format!("not proved: {defect}"));
+                None
+            }
+        };
+        // the best of several ways is there already
+        match (fate, decision.contenders.first_mut()) {
+            (Some(fate), Some(best)) => best.fate = fate,
+            (Some(fate), None) => decision.contenders.push(contender(form, fate)),
+            (None, _) => {}
         }
         proved.ledger.decisions.push(decision);
     }

@@ -37,10 +37,13 @@ const SYSTEMS: [(&str, &str); 5] = [
 ];
 
 /// What is derived on levels; where there are no constraints, less what belongs to these.
-const DERIVED: [&str; 12] = [
+const DERIVED: [&str; 15] = [
     "power",
     "c",
     "jacobian",
+    "jacobian_product",
+    "adjoint_product",
+    "sparse_jacobian",
     "explain",
     "taylor",
     "parameter_jacobian",

@@ -60,5 +60,7 @@ fn explained(system: &System) -> String {
     let graph = &system.model.graph;
     let program = schedule(graph, &system.derivative);
     let cost = Cost::of(&program);
-    format!("Choices\n\n{}\nDerivative: {cost}\n\n{}", system.ledger, program.text(graph))
+    let jacobian = system.jacobian.as_ref().map(|jacobian| Cost::of(&schedule(graph, jacobian)));
+    let jacobian = jacobian.map_or_else(String::new, |cost| format!("Jacobian: {cost}\n"));
+    format!("Choices\n\n{}\n{jacobian}Derivative: {cost}\n\n{}", system.ledger, program.text(graph))
 }

@@ -1,0 +1,190 @@
+//! Jacobians that are asked for, by the cheapest of several ways.
+
+use super::proved::Proved;
+use crate::algebra::Graph;
+use crate::choose::{Contender, Decision, Fate, ranking, rate, sizes};
+use crate::id::{Origin, SymbolId};
+use crate::mechanics::{Definition, NotDifferentiable, Procedure, jacobian};
+use crate::model::{Model, Request};
+use crate::program::{Systems, Wanted, accumulated};
+use crate::violation::{Law, Violation};
+
+// the ways, as the ledger names them
+pub(super) const BY_EXPRESSIONS: &str = "differentiated as expressions";
+pub(super) const BY_STEPS: &str = "differentiated step by step";
+pub(super) const BY_RESIDUALS: &str = "differentiated step by step, with the factors of C";
+
+/// The fate of the winner until it is proved.
+const UNPROVED: Fate = Fate::Lost("it could not be proved");
+
+/// ∂derivative/∂(coordinates, velocities of the state, auxiliary states, inputs), if the declaration asks for it.
+///
+/// # Errors
+/// Where the derivative of a method of the user's is missing.
+pub(super) fn requested_jacobian(
+    proved: &mut Proved,
+    derivative: &Procedure,
+    velocities: &[SymbolId],
+) -> Result<Option<Procedure>, Vec<Violation>> {
+    let model = &proved.model;
+    let is_asked =
+        |(request, _): &&(Request, Origin)| matches!(request, Request::Jacobian | Request::SparseJacobian);
+    let Some((request, origin)) = model.requests.iter().find(is_asked).copied() else {
+        return Ok(None);
+    };
+    let word = if request == Request::Jacobian { "jacobian" } else { "sparse_jacobian" };
+    let arguments = state_and_inputs(model, velocities);
+    differentiated(proved, (derivative, "jacobian"), &arguments, (origin, "a force", word))
+}
+
+/// ∂outputs/∂(coordinates, velocities of the state, auxiliary states, inputs), if the declaration asks for it.
+///
+/// # Errors
+/// Where there are no outputs, or the derivative of a method of the user's is missing.
+pub(super) fn requested_output_jacobian(
+    proved: &mut Proved,
+    observables: &Procedure,
+    velocities: &[SymbolId],
+) -> Result<Option<Procedure>, Vec<Violation>> {
+    let model = &proved.model;
+    let asked = model.requests.iter().find(|(request, _)| *request == Request::OutputJacobian);
+    let Some((_, origin)) = asked.copied() else { return Ok(None) };
+    if observables.outputs.is_empty() {
+        return Err(vec![Violation {
+            law: Law::Force,
+            origin,
+            what: "there are no outputs to differentiate".into(),
+            evidence: String::new(),
+            way_out: "declare them: `outputs { speed = …; }`, or leave this out".into(),
+        }]);
+    }
+    let arguments = state_and_inputs(model, velocities);
+    let asked = (origin, "an output", "output_jacobian");
+    differentiated(proved, (observables, "output_jacobian"), &arguments, asked)
+}
+
+/// The variables of the state, then the inputs.
+fn state_and_inputs(model: &Model, velocities: &[SymbolId]) -> Vec<SymbolId> {
+    let coordinates = model.coordinates.iter().map(|coordinate| coordinate.symbol);
+    let auxiliary = model.auxiliary.iter().map(|state| state.symbol);
+    let state = coordinates.chain(velocities.iter().copied()).chain(auxiliary);
+    state.chain(model.inputs.iter().map(|input| input.symbol)).collect()
+}
+
+/// ∂derivative/∂parameters, if the declaration asks for it.
+///
+/// # Errors
+/// Where a method of the user's is called: it may depend on any parameter.
+pub(super) fn requested_parameter_jacobian(
+    proved: &mut Proved,
+    derivative: &Procedure,
+) -> Result<Option<Procedure>, Vec<Violation>> {
+    let model = &proved.model;
+    let asked = model.requests.iter().find(|(request, _)| *request == Request::ParameterJacobian);
+    let Some((_, origin)) = asked else { return Ok(None) };
+    let origin = *origin;
+    let called = derivative.definitions.iter().find_map(|definition| match definition {
+        Definition::Call { method, .. } => Some(method.clone()),
+        _ => None,
+    });
+    if let Some(method) = called {
+        return Err(vec![Violation {
+            law: Law::Force,
+            origin,
+            what: "the derivative by the parameters cannot be derived".into(),
+            evidence: format!("a force calls `self.{method}`, which may depend on any of them"),
+            way_out: "write the force as a formula, or leave `parameter_jacobian` out".into(),
+        }]);
+    }
+    let arguments: Vec<SymbolId> = model.parameters.iter().map(|parameter| parameter.symbol).collect();
+    let asked = (origin, "a force", "parameter_jacobian");
+    differentiated(proved, (derivative, "parameter_jacobian"), &arguments, asked)
+}
+
+/// The derivatives of a function by its arguments: `word` asks for them.
+fn differentiated(
+    proved: &mut Proved,
+    (function, site): (&Procedure, &'static str),
+    arguments: &[SymbolId],
+    (origin, what, word): (Origin, &str, &str),
+) -> Result<Option<Procedure>, Vec<Violation>> {
+    match cheapest_jacobian(&mut proved.model, function, arguments, site) {
+        Ok((found, decision)) => {
+            proved.ledger.decisions.push(decision);
+            Ok(Some(found))
+        }
+        Err(NotDifferentiable { method }) => Err(vec![Violation {
+            law: Law::Force,
+            origin,
+            what: "the Jacobian cannot be derived".into(),
+            evidence: format!(
+                "{what} calls `self.{method}`, which is no formula, with arguments that change"
+            ),
+            way_out: format!(
+                "give its derivatives in `derivative {{ {method}: […]; }}`, or leave `{word}` out"
+            ),
+        }]),
+    }
+}
+
+/// The derivatives of all outputs by all `arguments`, row by row; the decision is left in the ledger's form, to be
+/// completed by the proof.
+///
+/// # Errors
+/// Where an output depends on an argument through a method of the user's whose derivative is missing.
+fn cheapest_jacobian(
+    model: &mut Model,
+    procedure: &Procedure,
+    arguments: &[SymbolId],
+    site: &'static str,
+) -> Result<(Procedure, Decision), NotDifferentiable> {
+    let parameters: Vec<SymbolId> = model.parameters.iter().map(|parameter| parameter.symbol).collect();
+    let graph = &mut model.graph;
+    let mut decision = Decision { site, ..Decision::default() };
+    let size = graph.operation_count(&procedure.values(graph));
+    let mut ways: Vec<(&'static str, Procedure)> = Vec::new();
+    for (name, systems) in [(BY_RESIDUALS, Systems::All), (BY_STEPS, Systems::Pivoted)] {
+        // of what is large one way is enough
+        if size > sizes::DIFFERENTIATED_ONCE && !ways.is_empty() {
+            continue;
+        }
+        if let Some(found) =
+            accumulated(graph, procedure, (arguments, &parameters), systems, Wanted::Jacobian)?
+        {
+            ways.push((name, found));
+        }
+    }
+    if size <= sizes::DIFFERENTIATED_AS_EXPRESSIONS || ways.is_empty() {
+        ways.push((BY_EXPRESSIONS, jacobian(graph, procedure, arguments)?));
+    } else {
+        let most = sizes::DIFFERENTIATED_AS_EXPRESSIONS;
+        decision
+            .limits
+            .push(format!("{BY_EXPRESSIONS}: the function has {size} operations, more than {most}"));
+    }
+    let (found, favoured) = favourite(graph, ways, site);
+    decision.contenders = favoured.contenders;
+    Ok((found, decision))
+}
+
+/// The best of several ways to the same function, each with its name.
+pub(super) fn favourite(
+    graph: &Graph,
+    mut ways: Vec<(&'static str, Procedure)>,
+    site: &'static str,
+) -> (Procedure, Decision) {
+    let mut decision = Decision { site, ..Decision::default() };
+    if ways.len() == 1 {
+        let (form, found) = ways.remove(0);
+        decision.contenders.push(Contender { form, cost: None, rounding: None, fate: UNPROVED });
+        return (found, decision);
+    }
+    let (names, mut procedures): (Vec<&'static str>, Vec<Procedure>) = ways.into_iter().unzip();
+    let ratings = rate(graph, &procedures);
+    let ranking = ranking(&ratings);
+    for (place, index) in ranking.iter().enumerate() {
+        let fate = if place == 0 { UNPROVED } else { ratings[*index].loss() };
+        decision.contenders.push(ratings[*index].contender(names[*index], fate));
+    }
+    (procedures.swap_remove(ranking.first().copied().unwrap_or_default()), decision)
+}

@@ -1,0 +1,116 @@
+//! A procedure in which linear systems are open: their unknowns are free, and what they have to satisfy is computed.
+
+use crate::algebra::Graph;
+use crate::id::{ExprId, SymbolId};
+use crate::mechanics::{Definition, Procedure, Solved};
+use rustc_hash::FxHashMap;
+use std::collections::BTreeSet;
+use std::ops::Range;
+
+/// The procedure, and how the unknowns are found.
+pub(super) struct Opened {
+    /// The outputs of the procedure, and for each system its residuals, then what closes it.
+    pub(super) procedure: Procedure,
+    /// In an order in which each may depend on those before.
+    pub(super) systems: Vec<OpenSystem>,
+}
+
+/// Unknowns x, with residuals f − C x; all others are places among the outputs.
+pub(super) struct OpenSystem {
+    pub(super) unknowns: Vec<SymbolId>,
+    /// What stands for x in the residuals, where it does not vary.
+    pub(super) held: Vec<SymbolId>,
+    pub(super) residuals: Range<usize>,
+    pub(super) closing: Closing,
+}
+
+/// How unknowns are found, and the solution for other right-hand sides.
+pub(super) enum Closing {
+    /// In closed form, by these values; C = L D Lᵀ, the rows of L left of the diagonal.
+    Factorised { values: Range<usize>, lower: Vec<Range<usize>>, diagonal: Range<usize> },
+    /// By elimination with pivoting.
+    Pivoted { matrix: Vec<Range<usize>>, right: Range<usize> },
+}
+
+impl Opened {
+    /// Opens the systems that elimination with pivoting solves, and those in closed form if they are asked for.
+    pub(super) fn of(graph: &mut Graph, procedure: &Procedure, is_closed_form_opened: bool) -> Self {
+        let values: FxHashMap<SymbolId, ExprId> = procedure
+            .definitions
+            .iter()
+            .filter_map(|definition| match definition {
+                Definition::Value { symbol, value } => Some((*symbol, *value)),
+                _ => None,
+            })
+            .collect();
+        // what was simplified since may have taken with it what a solution was made of
+        let known: BTreeSet<SymbolId> =
+            graph.symbols_in(&procedure.expressions()).into_iter().chain(values.keys().copied()).collect();
+        let is_whole = |solved: &&Solved| {
+            let symbols = graph.symbols_in(&solved.expressions());
+            solved.unknowns.iter().all(|unknown| values.contains_key(unknown))
+                && symbols.iter().all(|symbol| known.contains(symbol))
+        };
+        let mut closed: Vec<&Solved> =
+            procedure.solved.iter().filter(|_| is_closed_form_opened).filter(is_whole).collect();
+        let cut: BTreeSet<SymbolId> = closed.iter().flat_map(|solved| solved.unknowns.clone()).collect();
+        let mut open = Self { procedure: Procedure::default(), systems: Vec::new() };
+        open.procedure.outputs.clone_from(&procedure.outputs);
+        for definition in &procedure.definitions {
+            match definition {
+                Definition::Value { symbol, .. } if cut.contains(symbol) => {
+                    let place = closed.iter().position(|solved| solved.unknowns.contains(symbol));
+                    if let Some(place) = place {
+                        open.factorised(graph, closed.remove(place), &values);
+                    }
+                }
+                Definition::Value { .. } | Definition::Call { .. } => {
+                    open.procedure.definitions.push(definition.clone());
+                }
+                Definition::Solve { unknowns, matrix, right } => {
+                    let (held, residuals) = open.residuals(graph, unknowns.len(), matrix, right);
+                    let matrix = matrix.iter().map(|row| open.put(row)).collect();
+                    let closing = Closing::Pivoted { matrix, right: open.put(right) };
+                    open.systems.push(OpenSystem { unknowns: unknowns.clone(), held, residuals, closing });
+                }
+            }
+        }
+        open
+    }
+
+    /// Further outputs.
+    fn put(&mut self, values: &[ExprId]) -> Range<usize> {
+        let start = self.procedure.outputs.len();
+        self.procedure.outputs.extend(values);
+        start..self.procedure.outputs.len()
+    }
+
+    /// x as it is held, and f − C x.
+    fn residuals(
+        &mut self,
+        graph: &mut Graph,
+        unknowns: usize,
+        matrix: &[Vec<ExprId>],
+        right: &[ExprId],
+    ) -> (Vec<SymbolId>, Range<usize>) {
+        let held: Vec<SymbolId> = (0..unknowns).map(|_| graph.new_symbol("")).collect();
+        let values: Vec<ExprId> = held.iter().map(|held| graph.symbol(*held)).collect();
+        let mut rows = Vec::with_capacity(right.len());
+        for (row, right) in matrix.iter().zip(right) {
+            let product = graph.inner_product(row, &values);
+            rows.push(graph.formula(*right - product));
+        }
+        (held, self.put(&rows))
+    }
+
+    fn factorised(&mut self, graph: &mut Graph, solved: &Solved, values: &FxHashMap<SymbolId, ExprId>) {
+        let Solved { unknowns, matrix, right, lower, diagonal } = solved;
+        let (held, residuals) = self.residuals(graph, unknowns.len(), matrix, right);
+        let values: Vec<ExprId> =
+            unknowns.iter().filter_map(|unknown| values.get(unknown)).copied().collect();
+        let values = self.put(&values);
+        let lower = lower.iter().map(|row| self.put(row)).collect();
+        let closing = Closing::Factorised { values, lower, diagonal: self.put(diagonal) };
+        self.systems.push(OpenSystem { unknowns: unknowns.clone(), held, residuals, closing });
+    }
+}
