@@ -96,20 +96,20 @@ macro_rules! agree {
             let (w, p) = (direction.to_array(), weights.to_array());
             for (row, found) in found.into_iter().enumerate() {
                 let mut wanted = <$number as Scalar>::ZERO;
-                (0..w.len()).for_each(|column| wanted = wanted + a[(row, column)] * w[column]);
-                (0..$inputs).for_each(|column| wanted = wanted + b[(row, column)] * along[column]);
+                (0..w.len()).for_each(|column| wanted += a[(row, column)] * w[column]);
+                (0..$inputs).for_each(|column| wanted += b[(row, column)] * along[column]);
                 near($name, f64::from(found), f64::from(wanted), $tolerance);
             }
             let (by_state, by_input) = system.adjoint_product(t, &state, &at, &weights);
             for (column, found) in by_state.to_array().into_iter().enumerate() {
                 let mut wanted = <$number as Scalar>::ZERO;
-                (0..p.len()).for_each(|row| wanted = wanted + a[(row, column)] * p[row]);
+                (0..p.len()).for_each(|row| wanted += a[(row, column)] * p[row]);
                 near($name, f64::from(found), f64::from(wanted), $tolerance);
             }
             let by_input: [$number; $inputs] = by_input.into();
             for (column, found) in by_input.into_iter().enumerate() {
                 let mut wanted = <$number as Scalar>::ZERO;
-                (0..p.len()).for_each(|row| wanted = wanted + b[(row, column)] * p[row]);
+                (0..p.len()).for_each(|row| wanted += b[(row, column)] * p[row]);
                 near($name, f64::from(found), f64::from(wanted), $tolerance);
             }
         }

@@ -14,8 +14,8 @@ use super::setting::Context;
 use super::taylor;
 use super::{
     almost_poisson, assembly, c, callback, discrete, editor, embedding, energy, functions, hamiltonian,
-    invariants, jacobian, linearization, motion, observed, prepared, projection, report_text, sparse_jacobian,
-    state, validate, vector_products,
+    invariants, jacobian, linearization, motion, observed, prepared, projection, report_text,
+    sparse_jacobian, state, validate, vector_products,
 };
 use crate::resolve::Outline;
 

@@ -1,9 +1,10 @@
 """C for one system of the benchmark by CasADi: Kane's equations with partial velocities.
 
-    python casadi_peer.py <system> typed|expert <file.c>
+    python casadi_peer.py <system> typed|expert|jacobian <file.c>
 
 `typed`: all speeds with multipliers, the saddle system and the dependent speeds solved symbolically by
-CasADi. `expert`: the dependent speeds put in by hand.
+CasADi. `expert`: the dependent speeds put in by hand. `jacobian`: the derivative with the non-zeros of its Jacobian by
+state and inputs, after an expert where there is an elimination by hand.
 """
 
 import sys
@@ -75,10 +76,22 @@ def derivative(system, by_expert):
     return casadi.Function("casadi_peer", arguments, [derivative])
 
 
+def with_jacobian(name):
+    try:
+        function = derivative(SYSTEMS[name](casadi), True)
+    except Exception:
+        # there is no elimination by hand that is valid everywhere
+        function = derivative(SYSTEMS[name](casadi), False)
+    arguments = [function.sx_in(index) for index in range(3)]
+    value = function(*arguments)
+    slopes = jacobian(value, vertcat(*arguments[1:]))
+    return casadi.Function("casadi_peer", arguments, casadi.cse([value, slopes]))
+
+
 def main(name, style, path):
     import time
     start = time.perf_counter()
-    function = derivative(SYSTEMS[name](casadi), style == "expert")
+    function = with_jacobian(name) if style == "jacobian" else derivative(SYSTEMS[name](casadi), style == "expert")
     print(f"{(time.perf_counter() - start) * 1e3:.1f}")
     generator = casadi.CodeGenerator("peer.c")
     generator.add(function)
@@ -88,7 +101,8 @@ def main(name, style, path):
         file.write(f"""
 void peer(const double *p, const double *x, const double *u, double *dx) {{
   const double *arg[{function.sz_arg()}] = {{p, x, u}};
-  double *res[{function.sz_res()}] = {{dx}};
+  {"static double values[%d];" % function.nnz_out(1) if function.n_out() > 1 else ""}
+  double *res[{function.sz_res()}] = {{{"dx, values" if function.n_out() > 1 else "dx"}}};
   casadi_int iw[{max(1, function.sz_iw())}];
   double w[{width}];
   casadi_peer(arg, res, iw, w, 0);

@@ -10,11 +10,12 @@ use crate::callgrind;
 use crate::runner::{Data, Run, agree};
 
 /// A tool, and what it is given: constraints as typed, or an expert's elimination by hand.
-pub const PEERS: [(&str, &str, &str); 4] = [
+pub const PEERS: [(&str, &str, &str); 5] = [
     ("CasADi, typed", "casadi_peer", "typed"),
     ("CasADi, expert", "casadi_peer", "expert"),
     ("SymPy, typed", "sympy_peer", "typed"),
     ("SymPy, expert", "sympy_peer", "expert"),
+    ("CasADi, with jacobian", "casadi_peer", "jacobian"),
 ];
 
 /// The flags of gcc: those of this benchmark, and no others that change values.
@@ -64,11 +65,11 @@ impl Workshop {
     ///
     /// # Errors
     /// A peer that computes something else.
-    pub fn measure(&self, system: &dyn Run) -> Result<[Option<Measured>; 4], String> {
+    pub fn measure(&self, system: &dyn Run) -> Result<[Option<Measured>; PEERS.len()], String> {
         let data = system.data();
         let input = self.results.join("samples.txt");
         std::fs::write(&input, text(&data)).map_err(|error| error.to_string())?;
-        let mut measured = [None; 4];
+        let mut measured = [None; PEERS.len()];
         for (slot, peer) in measured.iter_mut().zip(PEERS) {
             let Some((program, derivation)) = self.build(system.name(), peer) else { continue };
             let values = succeeds(Command::new(&program).arg(&input).arg("values"))?;

@@ -39,17 +39,23 @@ pub fn print(rows: &[Row]) {
 }
 
 /// Prints instructions, times and derivation times of the peers beside our own.
-pub fn print_peers(rows: &[Row], peers: &[[Option<Measured>; 4]]) {
+pub fn print_peers(rows: &[Row], peers: &[[Option<Measured>; PEERS.len()]]) {
     let names = PEERS.map(|(name, ..)| name).join(" | ");
     for (what, digits, own, of) in [
-        ("instructions", 0, (|row| row.instructions[1]) as fn(&Row) -> Option<f64>, INSTRUCTIONS),
-        ("ns", 1, |row| Some(row.nanoseconds[1]), |peer| Some(peer.nanoseconds)),
-        ("ms to derive", 0, |_| None, |peer| Some(peer.derivation)),
+        (
+            "instructions",
+            0,
+            (|row, which| row.instructions[which]) as fn(&Row, usize) -> Option<f64>,
+            INSTRUCTIONS,
+        ),
+        ("ns", 1, |row, which| Some(row.nanoseconds[which]), |peer| Some(peer.nanoseconds)),
+        ("ms to derive", 0, |_, _| None, |peer| Some(peer.derivation)),
     ] {
-        println!("\n| {what} | derivative | {names} |\n|---|--:|--:|--:|--:|--:|");
+        println!("\n| {what} | derivative | with jacobian | {names} |\n|---|--:|--:|--:|--:|--:|--:|--:|");
         for (row, peers) in rows.iter().zip(peers) {
             let cells = peers.map(|peer| cell(peer.as_ref().and_then(of), digits)).join(" | ");
-            println!("| {} | {} | {cells} |", row.name, cell(own(row), digits));
+            let [derivative, jacobian] = [1, 2].map(|which| cell(own(row, which), digits));
+            println!("| {} | {derivative} | {jacobian} | {cells} |", row.name);
         }
     }
 }
