@@ -88,7 +88,7 @@ impl Regular<'_> {
     /// What a procedure divides by that may vanish where the declared equations are regular.
     pub(crate) fn added(&self, graph: &mut Graph, procedure: &Procedure) -> Option<ExprId> {
         // 1. divisors of the declaration, and those that the facts keep from zero
-        let roots = self.reference.roots(graph);
+        let roots = self.reference.roots();
         let declared = graph.singularities(&roots);
         let divisors: Vec<ExprId> = graph.divisors(&procedure.expressions()).into_iter().collect();
         let mut written = written_out(graph, procedure, divisors.is_empty());
@@ -162,7 +162,7 @@ impl Regular<'_> {
     fn division(&self, graph: &Graph, procedure: &Procedure) -> i64 {
         let Self { reference, definitions, mass, jacobian, .. } = self;
         let own = [definitions.expressions(), mass.concat(), jacobian.concat()].concat();
-        graph.angle_division(&[reference.roots(graph), procedure.expressions(), own].concat())
+        graph.angle_division(&[reference.roots(), procedure.expressions(), own].concat())
     }
 
     /// The divisors that are pivots, or multiples by numbers of what may not vanish.

@@ -108,11 +108,11 @@ impl Claim<'_> {
 /// # Errors
 /// What is wrong, or why it could not be decided.
 pub(crate) fn prove(graph: &Graph, reference: &Reference, claim: &Claim) -> Result<Proof, Defect> {
-    let roots = [reference.roots(graph), claim.roots()].concat();
+    let roots = [reference.roots(), claim.roots()].concat();
     let division = graph.angle_division(&roots);
     let degree = claim.degree(&mut Degrees::new(graph, division));
     let bits = bits_of_a_point(graph, &roots, reference.degree(graph, division, degree))?;
-    let radicands = Radicands::of(graph, &reference.roots(graph), &reference.determined());
+    let radicands = Radicands::of(graph, &reference.roots(), &reference.determined());
     let outcome = at_points(
         bits,
         |seed| radicands.point(graph, seed),

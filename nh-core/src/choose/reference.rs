@@ -124,11 +124,11 @@ impl Reference {
     }
 
     /// All expressions that the equations are made of.
-    pub(crate) fn roots(&self, graph: &Graph) -> Vec<ExprId> {
+    pub(crate) fn roots(&self) -> Vec<ExprId> {
         let LagrangianSystem { algebroid, lagrangian, forces, forces_on_distribution, .. } = &self.system;
         let mut roots = vec![*lagrangian];
         roots.extend(algebroid.anchor.entries.iter().flatten().chain(forces));
-        roots.extend(algebroid.structure.nonzero(graph).flat_map(|(.., bracket)| bracket));
+        roots.extend(algebroid.structure.terms().map(|(.., component)| component));
         roots.extend(forces_on_distribution.iter().map(|(_, force)| force));
         roots.extend(self.given.iter().flat_map(Given::roots).chain(self.residuals.iter().copied()));
         let Velocities { all, determined, sections, .. } = &self.velocities;
@@ -146,8 +146,7 @@ impl Reference {
         // 1. of functions on E as such
         let lagrangian = degrees.most(&[*lagrangian]);
         let anchor = degrees.most(&algebroid.anchor.entries.concat());
-        let brackets: Vec<ExprId> =
-            algebroid.structure.nonzero(graph).flat_map(|(.., bracket)| bracket.iter().copied()).collect();
+        let brackets: Vec<ExprId> = algebroid.structure.terms().map(|(.., component)| component).collect();
         let brackets = if brackets.is_empty() { 0.0 } else { degrees.most(&brackets) };
         let mut given = 0.0;
         for rate in &self.given {
@@ -310,11 +309,8 @@ impl Instant<'_, '_> {
         let (momenta, slopes) = gradient.split_at(algebroid.rank());
         let mut unbalanced: Vec<Residue> = momenta.iter().map(|momentum| momentum.rate).collect();
         // 2. C^γ_{αβ} y^β p_γ
-        for (alpha, beta, bracket) in algebroid.structure.nonzero(self.pass.graph()) {
-            let mut along = Residue::ZERO;
-            for (component, momentum) in self.pass.evaluate(bracket)?.into_iter().zip(momenta) {
-                along = along + component * momentum.value;
-            }
+        for (alpha, beta, gamma, component) in algebroid.structure.terms() {
+            let along = self.pass.evaluate(&[component])?[0] * momenta[gamma.index()].value;
             let (alpha, beta) = (alpha.index(), beta.index());
             unbalanced[alpha] = unbalanced[alpha] + along * self.y[beta];
             unbalanced[beta] = unbalanced[beta] - along * self.y[alpha];

@@ -13,13 +13,16 @@ pub struct StructureFunctions {
     /// The components of each bracket, pairs in lexicographic order. A bracket that is written as 0 has none:
     /// most are, where there are many sections.
     brackets: Vec<Vec<ExprId>>,
+    /// Those of them that are not written as 0.
+    terms: Vec<Vec<(SectionId, ExprId)>>,
 }
 
 impl StructureFunctions {
     /// All brackets zero.
     #[must_use]
     pub fn commuting(rank: usize) -> Self {
-        Self { rank, brackets: vec![Vec::new(); rank * rank.saturating_sub(1) / 2] }
+        let pairs = rank * rank.saturating_sub(1) / 2;
+        Self { rank, brackets: vec![Vec::new(); pairs], terms: vec![Vec::new(); pairs] }
     }
 
     /// The rank of the bundle.
@@ -38,13 +41,17 @@ impl StructureFunctions {
         let (a, b) = (alpha.index(), beta.index());
         let is_zero = components.iter().all(|component| graph.is_literal_zero(*component));
         let components = if is_zero { Vec::new() } else { components };
-        if a < b {
-            let position = self.position(a, b);
-            self.brackets[position] = components;
-        } else if b < a {
-            let position = self.position(b, a);
-            self.brackets[position] = components.into_iter().map(|c| graph.formula(-c)).collect();
-        }
+        let (position, components) = match a.cmp(&b) {
+            std::cmp::Ordering::Less => (self.position(a, b), components),
+            std::cmp::Ordering::Equal => return,
+            std::cmp::Ordering::Greater => {
+                (self.position(b, a), components.into_iter().map(|c| graph.formula(-c)).collect())
+            }
+        };
+        let terms =
+            components.iter().enumerate().filter(|(_, component)| !graph.is_literal_zero(**component));
+        self.terms[position] = terms.map(|(gamma, c)| (SectionId::from_index(gamma), *c)).collect();
+        self.brackets[position] = components;
     }
 
     /// C^γ_{αβ}.
@@ -67,9 +74,22 @@ impl StructureFunctions {
     /// The structure functions with every entry replaced by its image.
     #[must_use]
     pub fn mapped(&self, mut image: impl FnMut(ExprId) -> ExprId) -> Self {
-        let brackets =
+        let brackets: Vec<Vec<ExprId>> =
             self.brackets.iter().map(|bracket| bracket.iter().map(|entry| image(*entry)).collect()).collect();
-        Self { rank: self.rank, brackets }
+        let image_of =
+            |(gamma, _): &(SectionId, ExprId), bracket: &Vec<ExprId>| (*gamma, bracket[gamma.index()]);
+        let terms = self.terms.iter().zip(&brackets);
+        let terms = terms.map(|(terms, bracket)| terms.iter().map(|term| image_of(term, bracket)).collect());
+        Self { rank: self.rank, terms: terms.collect(), brackets }
+    }
+
+    /// The components that are not written as 0, with α < β: (α, β, γ, C^γ_{αβ}).
+    pub fn terms(&self) -> impl Iterator<Item = (SectionId, SectionId, SectionId, ExprId)> + '_ {
+        let pairs = (0..self.rank).flat_map(move |a| (a + 1..self.rank).map(move |b| (a, b)));
+        pairs.zip(&self.terms).flat_map(|((a, b), terms)| {
+            let (alpha, beta) = (SectionId::from_index(a), SectionId::from_index(b));
+            terms.iter().map(move |(gamma, component)| (alpha, beta, *gamma, *component))
+        })
     }
 
     /// The non-zero brackets with α < β.
@@ -92,11 +112,13 @@ impl StructureFunctions {
         let mut summands: Vec<Vec<ExprId>> = vec![Vec::new(); self.rank];
         for a in 0..self.rank {
             for b in a + 1..self.rank {
-                let components = &self.brackets[self.position(a, b)];
-                if components.iter().all(|c| graph.is_literal_zero(*c)) {
+                let terms = &self.terms[self.position(a, b)];
+                if terms.is_empty() {
                     continue;
                 }
-                let momentum = graph.inner_product(components, momenta);
+                let (components, along): (Vec<ExprId>, Vec<ExprId>) =
+                    terms.iter().map(|(gamma, component)| (*component, momenta[gamma.index()])).unzip();
+                let momentum = graph.inner_product(&components, &along);
                 let first = graph.formula(momentum * velocity[b]);
                 let second = graph.formula(momentum * velocity[a]);
                 summands[a].push(first);
@@ -111,16 +133,14 @@ impl StructureFunctions {
         let mut summands: Vec<Vec<ExprId>> = vec![Vec::new(); self.rank];
         for a in 0..self.rank {
             for b in a + 1..self.rank {
-                let components = &self.brackets[self.position(a, b)];
-                if components.iter().all(|c| graph.is_literal_zero(*c)) {
+                let terms = &self.terms[self.position(a, b)];
+                if terms.is_empty() {
                     continue;
                 }
                 let (st, ts) = (graph.formula(sigma[a] * tau[b]), graph.formula(sigma[b] * tau[a]));
                 let wedge = graph.formula(st - ts);
-                for (list, component) in summands.iter_mut().zip(components) {
-                    if !graph.is_literal_zero(*component) {
-                        list.push(graph.formula(component * wedge));
-                    }
+                for (gamma, component) in terms {
+                    summands[gamma.index()].push(graph.formula(component * wedge));
                 }
             }
         }

@@ -14,7 +14,7 @@ pub fn cyclic_coordinates(graph: &mut Graph, system: &LagrangianSystem, more: &[
     let algebroid = &system.algebroid;
     let mut functions = vec![system.lagrangian];
     functions.extend(algebroid.anchor.entries.iter().flatten());
-    functions.extend(algebroid.structure.nonzero(graph).flat_map(|(.., components)| components.to_vec()));
+    functions.extend(algebroid.structure.terms().map(|(.., component)| component));
     functions.extend(&system.forces);
     functions.extend(system.forces_on_distribution.iter().map(|(_, force)| *force));
     functions.extend(more);

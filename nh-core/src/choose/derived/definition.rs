@@ -11,7 +11,7 @@ use crate::id::SymbolId;
 /// question, as that of solutions over the base is.
 pub(super) fn is_defined(claim: &Derived, place: &mut Place) -> Result<bool, Defect> {
     let flow = place.flow()?;
-    place.values(&place.reference.roots(place.pass().graph()))?;
+    place.values(&place.reference.roots())?;
     match *claim {
         Derived::Jacobian(function, _, arguments) => {
             let pass = place.pass();

@@ -332,7 +332,7 @@ pub(crate) fn prove_derived(
 ) -> Result<Proof, Defect> {
     let procedures: Vec<&Procedure> = claim.procedures().into_iter().chain([motion.derivative]).collect();
     let mut roots: Vec<ExprId> = procedures.iter().flat_map(|procedure| procedure.expressions()).collect();
-    roots.extend(claim.further().into_iter().chain(reference.roots(graph)));
+    roots.extend(claim.further().into_iter().chain(reference.roots()));
     let solved: Vec<SymbolId> = images.iter().map(|(symbol, _)| *symbol).collect();
     if is_inside_functions(graph, &roots, &solved) {
         let reason =
@@ -372,7 +372,7 @@ pub(crate) fn prove_derived(
         return Err(Defect::Unknown(reason.into()));
     }
     let proof = unless_roots_are_missing(graph, &roots, outcome)?;
-    let declared = reference.roots(graph);
+    let declared = reference.roots();
     let about = (declared.as_slice(), motion, images);
     let added = limits::attempt(CONDITIONS, || {
         added_conditions::added_condition(graph, claim, about, reference.system(), allowed, point, at)

@@ -131,12 +131,10 @@ impl<'a, 's> Place<'a, 's> {
         let mut pass = self.pass();
         let algebroid = &self.system().algebroid;
         let mut found = vec![Residue::ZERO; algebroid.rank()];
-        for (alpha, beta, bracket) in algebroid.structure.nonzero(pass.graph()) {
-            let (alpha, beta) = (alpha.index(), beta.index());
+        for (alpha, beta, gamma, component) in algebroid.structure.terms() {
+            let (alpha, beta, gamma) = (alpha.index(), beta.index(), gamma.index());
             let weight = sigma[alpha] * tau[beta] - sigma[beta] * tau[alpha];
-            for (slot, component) in found.iter_mut().zip(pass.evaluate(bracket)?) {
-                *slot = *slot + component * weight;
-            }
+            found[gamma] = found[gamma] + pass.evaluate(&[component])?[0] * weight;
         }
         Ok(found)
     }
