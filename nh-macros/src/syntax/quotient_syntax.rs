@@ -77,8 +77,13 @@ fn header(stream: &mut Stream, errors: &mut Errors) -> Result<QuotientDecl, Diag
         }
     }
     let before: TokenStream = stream.consumed(first).iter().cloned().collect();
+    let between = stream.since(first);
     stream.eat_word("struct");
     let name = stream.name("the name of the new struct")?.ident;
+    if syn::parse2::<syn::DeriveInput>(quote!(#before struct #name;)).is_err() {
+        let what = "before `struct` stand attributes and a visibility, and nothing else";
+        return Err(Diagnostic::new(between, what).way_out(READS));
+    }
     let extent = stream.since(start);
     if !stream.eat_word("by") {
         return Err(stream.expected("`by` and the coordinates that are dropped").way_out(READS));

@@ -1,6 +1,6 @@
 //! The declarations that stand in the repository: in code, in tests of what is refused, in documentation.
 
-use crate::{Declaration, declarations};
+use crate::{Declaration, Relation, declarations, relations};
 use std::path::Path;
 
 /// Every declaration in the files of the repository, in the order of their paths; none where this crate is built
@@ -13,6 +13,29 @@ pub fn collected() -> Vec<Declaration> {
         from(&root.join(folder), &mut found);
     }
     found
+}
+
+/// Every map and quotient there of systems in the same file.
+#[must_use]
+pub fn collected_relations() -> Vec<Relation> {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("..");
+    let mut found = Vec::new();
+    for folder in ["tests", "ui"] {
+        relations_from(&root.join(folder), &mut found);
+    }
+    found
+}
+
+fn relations_from(path: &Path, found: &mut Vec<Relation>) {
+    if let Ok(entries) = std::fs::read_dir(path) {
+        let mut paths: Vec<_> = entries.flatten().map(|entry| entry.path()).collect();
+        paths.sort();
+        for path in &paths {
+            relations_from(path, found);
+        }
+    } else if path.extension().is_some_and(|extension| extension == "rs") {
+        found.extend(std::fs::read_to_string(path).iter().flat_map(|text| relations(text)));
+    }
 }
 
 fn from(path: &Path, found: &mut Vec<Declaration>) {

@@ -1,7 +1,8 @@
 //! What the macro must not do with any declaration, well-posed or not.
 
-use crate::{Declaration, errors};
+use crate::{Declaration, Relation, errors};
 use nonholonomic_core::limits::{timed, within};
+use proc_macro2::TokenStream;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
 /// Something that no declaration may lead to.
@@ -43,7 +44,19 @@ pub enum Verdict {
 /// # Errors
 /// The defect of the macro that it shows.
 pub fn judged(declaration: &Declaration, work: u64) -> Result<Verdict, Defect> {
-    let expansion = AssertUnwindSafe(|| within(work, || declaration.expanded()));
+    expansion(work, || declaration.expanded())
+}
+
+/// The same for a map or a quotient.
+///
+/// # Errors
+/// The defect of the macro that it shows.
+pub fn judged_relation(relation: &Relation, work: u64) -> Result<Verdict, Defect> {
+    expansion(work, || relation.expanded())
+}
+
+fn expansion(work: u64, expanded: impl Fn() -> TokenStream) -> Result<Verdict, Defect> {
+    let expansion = AssertUnwindSafe(|| within(work, &expanded));
     let (expanded, seconds) = timed(|| catch_unwind(expansion));
     #[allow(clippy::cast_precision_loss, reason = "a limit needs no more digits")]
     if seconds > 20.0 + work as f64 * 1e-5 {

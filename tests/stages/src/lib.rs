@@ -12,6 +12,7 @@ mod judge;
 mod large;
 mod mutate;
 mod record;
+mod relations;
 mod tokens;
 
 #[allow(dead_code, unused_imports, reason = "the back end is the macro's")]
@@ -39,16 +40,17 @@ mod suggest;
 #[path = "../../../nh-macros/src/syntax/mod.rs"]
 mod syntax;
 
-pub use collected::collected;
+pub use collected::{collected, collected_relations};
 pub use declarations::{Declaration, declarations};
-pub use judge::{Defect, Verdict, judged};
+pub use judge::{Defect, Verdict, judged, judged_relation};
 pub use large::{Family, families};
-pub use mutate::{Collection, Random, minimised};
+pub use mutate::{Collection, Random, minimised, minimised_relation};
 use nonholonomic_core::model::Model;
 use nonholonomic_core::system::System;
 use proc_macro2::TokenStream;
 use quote::quote;
 pub use record::{arms, record};
+pub use relations::{Relation, relations};
 pub use tokens::{errors, length};
 
 use emit::Layout;

@@ -1,6 +1,6 @@
 //! Declarations that are changed here and there: most are ill-posed, and all have to be refused in words or compiled.
 
-use crate::Declaration;
+use crate::{Declaration, Relation};
 use proc_macro2::{Group, Ident, Literal, Punct, Spacing, Span, TokenStream, TokenTree};
 
 /// Random numbers that are the same in every run: SplitMix64.
@@ -117,6 +117,8 @@ pub struct Collection {
     leaves: Vec<TokenTree>,
     /// Sections with their braces.
     sections: Vec<[TokenTree; 2]>,
+    /// Maps and quotients that are changed.
+    relations: Vec<Relation>,
 }
 
 impl Collection {
@@ -136,6 +138,34 @@ impl Collection {
         let is_well_posed = |declaration: &Declaration| declaration.model().is_ok();
         collection.declarations = declarations.into_iter().filter(is_well_posed).collect();
         collection
+    }
+
+    /// The same with maps and quotients.
+    #[must_use]
+    pub fn with_relations(mut self, relations: Vec<Relation>) -> Self {
+        for relation in &relations {
+            leaves(&relation.written, &mut self.leaves);
+        }
+        self.relations = relations;
+        self
+    }
+
+    /// One of the maps and quotients with something changed in what is written of it, or in one of its systems.
+    pub fn changed_relation(&self, random: &mut Random) -> Option<Relation> {
+        let mut relation = random.pick(&self.relations)?.clone();
+        for _ in 0..[1, 1, 1, 2, 3][random.below(5)] {
+            let changed = match (random.below(8), &mut relation.target) {
+                (0, _) => &mut relation.source.attribute,
+                (1, Some(target)) => &mut target.attribute,
+                _ => &mut relation.written,
+            };
+            let mut own = Vec::new();
+            leaves(changed, &mut own);
+            let list = if random.below(4) == 0 || own.is_empty() { &self.leaves } else { &own };
+            let mut place = random.below(count(changed));
+            *changed = changed_at(changed.clone(), &mut place, list, random);
+        }
+        Some(relation)
     }
 
     /// How many declarations there are.
@@ -296,16 +326,31 @@ fn count(tokens: &TokenStream) -> usize {
 #[must_use]
 pub fn minimised(
     declaration: &Declaration,
-    mut tries: usize,
+    tries: usize,
     is_wrong: impl Fn(&Declaration) -> bool,
 ) -> Declaration {
-    let mut smallest = declaration.clone();
+    let with = |attribute: &TokenStream| Declaration { attribute: attribute.clone(), ..declaration.clone() };
+    with(&smallest(declaration.attribute.clone(), tries, |attribute| is_wrong(&with(attribute))))
+}
+
+/// The same of what is written of a map or a quotient.
+#[must_use]
+pub fn minimised_relation(
+    relation: &Relation,
+    tries: usize,
+    is_wrong: impl Fn(&Relation) -> bool,
+) -> Relation {
+    let with = |written: &TokenStream| Relation { written: written.clone(), ..relation.clone() };
+    with(&smallest(relation.written.clone(), tries, |written| is_wrong(&with(written))))
+}
+
+fn smallest(tokens: TokenStream, mut tries: usize, is_wrong: impl Fn(&TokenStream) -> bool) -> TokenStream {
+    let mut smallest = tokens;
     let mut place = 0;
-    while place < count(&smallest.attribute) && tries > 0 {
+    while place < count(&smallest) && tries > 0 {
         tries -= 1;
         let mut at = place;
-        let attribute = without(smallest.attribute.clone(), &mut at);
-        let smaller = Declaration { attribute, ..smallest.clone() };
+        let smaller = without(smallest.clone(), &mut at);
         if is_wrong(&smaller) {
             smallest = smaller;
         } else {
