@@ -12,6 +12,7 @@ pub mod check;
 pub mod choose;
 pub mod compile;
 pub mod count;
+mod findings;
 pub mod forms;
 pub mod functions;
 pub mod geometry;

@@ -377,6 +377,38 @@ pub enum Request {
     C,
 }
 
+impl Request {
+    /// The words by which `emit` asks for them.
+    pub const WORDS: [(&str, Self); 26] = [
+        ("jacobian", Self::Jacobian),
+        ("taylor", Self::Taylor),
+        ("sparse_jacobian", Self::SparseJacobian),
+        ("jacobian_product", Self::JacobianProduct),
+        ("adjoint_product", Self::AdjointProduct),
+        ("parameter_jacobian", Self::ParameterJacobian),
+        ("output_jacobian", Self::OutputJacobian),
+        ("power", Self::Power),
+        ("prepared", Self::Prepared),
+        ("multipliers", Self::Multipliers),
+        ("reactions", Self::Reactions),
+        ("momenta", Self::Momenta),
+        ("gyroscopic", Self::Gyroscopic),
+        ("splitting", Self::Splitting),
+        ("gibbs_appell", Self::GibbsAppell),
+        ("hamiltonian", Self::Hamiltonian),
+        ("bracket", Self::Bracket),
+        ("discrete_gradient", Self::DiscreteGradient),
+        ("divergence", Self::Divergence),
+        ("volume", Self::Volume),
+        ("connection", Self::Connection),
+        ("invariants", Self::Invariants),
+        ("leapfrog", Self::Leapfrog),
+        ("euler_poincare_suslov", Self::EulerPoincareSuslov),
+        ("explain", Self::Explain),
+        ("c", Self::C),
+    ];
+}
+
 /// Something that is needed of a system.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum TrackedItem {

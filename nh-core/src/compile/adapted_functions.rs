@@ -1,34 +1,28 @@
 //! The functions of a system in the adapted formulation.
 
 use super::competition::{candidates, plain, plain_derivative, proved_derivative, reference, show_proved};
+use super::completion::{Derivation, complete};
 use super::constraint_forces::constraint_forces;
 use super::differentiated::{requested_jacobian, requested_output_jacobian, requested_parameter_jacobian};
-use super::embedded::embedding;
 use super::gibbs_appell_function;
 use super::given;
 use super::gyroscopic;
 use super::levels::Leveled;
 use super::momenta::momenta;
-use super::phase_space_functions;
 use super::position_return::position_return;
 use super::power::{power, work_of_constraints};
 use super::proved::{Derived, Proved, fence, nothing_proved};
-use super::proved_functions::{self, Given, Parts};
-use super::velocities_of_state::{claims_in_state, observables, parameter_divisors, requested};
+use super::proved_functions::Parts;
+use super::velocities_of_state::{claims_in_state, observables, parameter_divisors};
 use crate::algebra::{Graph, Matrix, Substitution};
 use crate::check;
 use crate::choose::{Decision, sizes};
 use crate::forms::Registry;
-use crate::functions::{
-    ENERGY, GIBBS_APPELL, GYROSCOPIC, MULTIPLIERS, OUTPUT_JACOBIAN, OUTPUTS, PARAMETER_JACOBIAN, POWER,
-    REACTIONS, RESIDUAL, VELOCITY, VERTICAL_SECTIONS,
-};
+use crate::functions::{ENERGY, GYROSCOPIC, OUTPUT_JACOBIAN, PARAMETER_JACOBIAN, POWER, RESIDUAL, VELOCITY};
 use crate::geometry::ConstraintDistribution;
 use crate::id::{ExprId, SymbolId};
 use crate::limits::{Subject, about};
 use crate::mechanics::{Definiteness, Flow, Procedure, definiteness, energy, saddle_equations};
-use crate::model::{Formulation, Request};
-use crate::report::{equations_of_motion, report};
 use crate::system::{PositionReturn, System};
 use crate::violation::Violation;
 
@@ -89,61 +83,33 @@ pub(super) fn derive(
     about(Subject::Claims);
     let claims = proved_claims(&mut proved, &mut restriction, &derivative, &equations.independent)?;
     let moving = (kept.independent.as_slice(), equations.velocity.as_slice());
-    let mut divisors = parameter_divisors(&mut proved.model, &derivative);
+    let divisors = parameter_divisors(&mut proved.model, &derivative);
     let known = [conditions.as_slice(), &divisors].concat();
     let positions = positions(&mut proved, &mut restriction, moving, (&distribution.pivots, &known));
-    // 5. the report
+    // 5. what both formulations end with
     about(Subject::Requests);
-    let embedding = embedding(&mut proved.model, &proved.base);
-    let derived = Derived::Adapted { distribution, kept, equations: &equations };
-    let (phase_space, sections) = phase_space_functions::derive(
-        &mut proved,
-        &derived,
-        &derivative,
-        &observables,
-        &claims,
-        &mut functions,
-    )?;
-    let text = report(&mut proved, &derived, reason, conditions, sections);
-    let lines = equations_of_motion(&proved.model, &derived);
-    if let Some(vertical) = functions.get(&VERTICAL_SECTIONS) {
-        // the basis of S is a choice, as that of D is
-        divisors.extend(parameter_divisors(&mut proved.model, vertical));
-    }
-    let conditions = [conditions.as_slice(), &divisors].concat();
     functions.add(&ENERGY, Procedure::of(vec![energy]));
     functions.add(&VELOCITY, Procedure::of(equations.velocity.clone()));
-    functions.add(&OUTPUTS, observables);
     functions.add_if(&POWER, power);
     functions.add_if(&OUTPUT_JACOBIAN, output_jacobian);
     functions.add_if(&RESIDUAL, positions.as_ref().map(|positions| positions.residual.clone()));
-    let parts = Parts {
-        jacobian,
-        functions,
-        momenta,
-        gyroscopic,
-        projection: None,
-        positions,
-        embedding,
-        phase_space,
-    };
-    let given = Given {
-        formulation: Formulation::Adapted,
+    let parts = Parts { jacobian, functions, momenta, gyroscopic, positions, ..Parts::default() };
+    let derivation = Derivation {
+        derived: Derived::Adapted { distribution, kept, equations: &equations },
+        reason,
         reference: &reference,
-        derivative: &derivative,
-        velocities: &kept.independent,
-        multipliers: (&multipliers, Some(&kept.constraints.annihilator)),
+        conditions,
+        divisors,
         residuals: &[],
-        conditions: &conditions,
+        claims: &claims,
+        derivative,
+        multipliers,
+        reactions,
+        gibbs_appell,
+        observables,
+        parts,
     };
-    let mut parts = proved_functions::prove(&mut proved, registry, &given, parts)?;
-    let model = &proved.model;
-    let functions = &mut parts.functions;
-    functions.add_if(&MULTIPLIERS, requested(model, Request::Multipliers).then_some(multipliers));
-    functions.add_if(&REACTIONS, requested(model, Request::Reactions).then_some(reactions));
-    functions.add_if(&GIBBS_APPELL, gibbs_appell);
-    let state = (Formulation::Adapted, kept.independent.clone());
-    Ok(parts.into_system(proved, state, derivative, &conditions, (text, lines)))
+    complete(proved, registry, derivation)
 }
 
 /// The claimed first integrals on D, proved along the flow.

@@ -5,6 +5,7 @@ mod analytic;
 mod assembly;
 mod cancellation;
 mod competition;
+mod completion;
 mod connection_functions;
 mod constraint_forces;
 mod differentiated;

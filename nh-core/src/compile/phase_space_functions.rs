@@ -9,6 +9,7 @@ use super::velocities_of_state::requested;
 use super::{connection_functions, discrete, kept_volume, momentum_equation, observed_brackets};
 use crate::algebra::{Graph, Matrix, Rational, Substitution};
 use crate::check::{self, evidence::shown};
+use crate::findings::BracketEntries;
 use crate::functions::{BRACKET, BRACKET_WITH_ENERGY, DRIFT_OF_OUTPUTS, Functions, HAMILTON_JACOBI};
 use crate::id::{ExprId, Origin, SymbolId};
 use crate::mechanics::{HamiltonianSide, NoInverse, Procedure, hamiltonian_side, jacobian};
@@ -36,7 +37,8 @@ pub(super) fn derive(
     let mut keep = |result: Result<(), Vec<Violation>>| violations.extend(result.err().into_iter().flatten());
     if needs_hamiltonian(&proved.model) {
         keep(hamiltonian(proved, derived, derivative).and_then(|(side, momenta)| {
-            sections.push(("Hamiltonian side", hamiltonian_lines(&mut proved.model, &side, &proved.base)));
+            let entries = BracketEntries::of(&mut proved.model, &side, &proved.base);
+            sections.push(("Hamiltonian side", hamiltonian_lines(&proved.model.graph, &entries)));
             let fields = fields(proved, derived);
             let Proved { model, base, .. } = &mut *proved;
             functions

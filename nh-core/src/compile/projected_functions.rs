@@ -1,34 +1,29 @@
 //! The functions of a system in the projected formulation.
 
 use super::cancellation::without_needless_cancellation;
+use super::completion::{Derivation, complete};
 use super::differentiated::{requested_jacobian, requested_output_jacobian, requested_parameter_jacobian};
-use super::embedded::embedding;
 use super::gibbs_appell_function;
 use super::given;
 use super::gyroscopic;
 use super::levels;
 use super::momenta::momenta;
-use super::phase_space_functions;
 use super::position_return::position_return;
 use super::power::{power, work_of_constraints};
 use super::proved::{Derived, Proved, fence, nothing_proved};
-use super::proved_functions::{self, Given, Parts};
+use super::proved_functions::Parts;
 use super::velocities_of_state::{claims_in_state, observables, parameter_divisors, requested};
 use crate::algebra::{Graph, Matrix, Substitution};
 use crate::check;
 use crate::choose::{Claim, Contender, Decision, Fate, Reference, Regular, fate, prove};
 use crate::forms::Registry;
-use crate::functions::{
-    ENERGY, GIBBS_APPELL, GYROSCOPIC, MULTIPLIERS, OUTPUT_JACOBIAN, OUTPUTS, PARAMETER_JACOBIAN, POWER,
-    REACTIONS, RESIDUAL, VELOCITY,
-};
+use crate::functions::{ENERGY, GYROSCOPIC, OUTPUT_JACOBIAN, PARAMETER_JACOBIAN, POWER, RESIDUAL, VELOCITY};
 use crate::id::ExprId;
 use crate::limits::{Subject, about, attempt};
 use crate::mechanics::{
     Definiteness, Flow, Procedure, SaddleEquations, definiteness, energy, saddle_equations,
 };
-use crate::model::{Formulation, Model, Request};
-use crate::report::{equations_of_motion, report};
+use crate::model::{Model, Request};
 use crate::system::{Projection, System};
 use crate::violation::Violation;
 
@@ -90,47 +85,32 @@ pub(super) fn derive(
     let projection = projection(&mut proved.model, &velocities, &on_levels, &all_residuals, judge);
     let moving = (velocities.as_slice(), velocity.as_slice(), all_residuals.as_slice());
     let positions = position_return(&mut proved, &equations, &mut everywhere, moving, judge);
-    // 6. the report
-    let embedding = embedding(&mut proved.model, &proved.base);
-    let derived = Derived::Projected { residuals: &residuals, equations: &equations };
-    let (phase_space, sections) = phase_space_functions::derive(
-        &mut proved,
-        &derived,
-        &derivative,
-        &observables,
-        &claims,
-        &mut functions,
-    )?;
-    let text = report(&mut proved, &derived, reason, &[], sections);
-    let lines = equations_of_motion(&proved.model, &derived);
-    let divisors = parameter_divisors(&mut proved.model, &derivative);
+    // 6. what both formulations end with
     functions.add(&ENERGY, Procedure::of(vec![energy]));
     functions.add(&VELOCITY, Procedure::of(velocity));
-    functions.add(&OUTPUTS, observables);
     functions.add_if(&POWER, power);
     functions.add_if(&OUTPUT_JACOBIAN, output_jacobian);
     let on_positions = positions.iter().flat_map(|positions| positions.residual.outputs.clone());
     functions.add(&RESIDUAL, Procedure::of(on_positions.chain(all_residuals.iter().copied()).collect()));
     let projection = Some(projection);
-    let parts =
-        Parts { jacobian, functions, momenta, gyroscopic, projection, positions, embedding, phase_space };
-    let given = Given {
-        formulation: Formulation::Projected,
+    let parts = Parts { jacobian, functions, momenta, gyroscopic, projection, positions, ..Parts::default() };
+    let divisors = parameter_divisors(&mut proved.model, &derivative);
+    let derivation = Derivation {
+        derived: Derived::Projected { residuals: &residuals, equations: &equations },
+        reason,
         reference: &reference,
-        derivative: &derivative,
-        velocities: &velocities,
-        multipliers: (&multipliers, None),
+        conditions: &[],
+        divisors,
         residuals: &all_residuals,
-        conditions: &divisors,
+        claims: &claims,
+        derivative,
+        multipliers,
+        reactions,
+        gibbs_appell,
+        observables,
+        parts,
     };
-    let mut parts = proved_functions::prove(&mut proved, registry, &given, parts)?;
-    let model = &proved.model;
-    let functions = &mut parts.functions;
-    functions.add_if(&MULTIPLIERS, requested(model, Request::Multipliers).then_some(multipliers));
-    functions.add_if(&REACTIONS, requested(model, Request::Reactions).then_some(reactions));
-    functions.add_if(&GIBBS_APPELL, gibbs_appell);
-    let state = (Formulation::Projected, velocities);
-    Ok(parts.into_system(proved, state, derivative, &divisors, (text, lines)))
+    complete(proved, registry, derivation)
 }
 
 /// What the question may take whether a solution adds a condition; numerical pivoting adds none.

@@ -1,28 +1,27 @@
 //! What kind of system it is.
 
-use super::{combination, shown};
+use super::{combination, section_names, shown};
 use crate::algebra::Graph;
 use crate::check::evidence::{counted, places};
-use crate::check::{
-    BrokenLaws, Condition, Constraints, Positions, domain, not_conservative, singular_where, undecided,
-};
+use crate::check::{BrokenLaws, Condition, Positions, domain, undecided};
 use crate::compile::{Derived, Proved};
+use crate::findings::{Closure, Findings};
 use crate::geometry::{Drops, Rank};
 use crate::id::SymbolId;
-use crate::mechanics::{LagrangianSystem, moving_energy_section};
 use crate::model::{Kinematics, Model};
 
 /// The classification, a line for each property.
-pub(super) fn lines(proved: &mut Proved, derived: &Derived<'_>, reason: &str) -> Vec<String> {
-    let kind = algebroid(proved);
-    let almost = structure_equations(proved);
-    let integrable = proved.broken_laws.homomorphism.is_none();
-    let Proved { model, motion, system, positions: on_positions, constraints: declared, .. } = proved;
-    let (rank, facts) = (&proved.constraint_rank, &proved.facts);
-    let mut lines = vec![kind];
-    lines.extend(almost);
-    lines.extend(positions(model, on_positions));
-    lines.push(constraints(model, system, declared, rank.as_ref(), derived, integrable));
+pub(super) fn lines(
+    proved: &Proved,
+    derived: &Derived<'_>,
+    findings: &Findings,
+    reason: &str,
+) -> Vec<String> {
+    let Proved { model, motion, facts, .. } = proved;
+    let mut lines = vec![algebroid(proved)];
+    lines.extend(structure_equations(proved));
+    lines.extend(positions(model, &proved.positions));
+    lines.push(constraints(proved, derived, findings.closure));
     let (name, size) = match derived {
         Derived::Adapted { kept, .. } => ("adapted", kept.rank()),
         Derived::Projected { .. } => ("projected", model.sections.len()),
@@ -35,16 +34,14 @@ pub(super) fn lines(proved: &mut Proved, derived: &Derived<'_>, reason: &str) ->
         count => format!(", with {}", counted(count, "auxiliary state", "auxiliary states")),
     };
     lines.push(format!("formulation: {name}, {coordinates} and {velocities}{auxiliary}; {reason}"));
-    if let Derived::Adapted { equations, .. } = derived {
-        let parameters: Vec<SymbolId> = model.parameters.iter().map(|parameter| parameter.symbol).collect();
-        for factor in singular_where(&mut model.graph, &equations.mass, &parameters, facts) {
-            let of_parameters = model.graph.depends_on(factor, &parameters);
-            let whom =
-                if of_parameters { "for some parameters the mass matrix is" } else { "the mass matrix is" };
-            let text = shown(&model.graph, factor);
-            let place = if text.contains('…') { "its determinant" } else { text.as_str() };
-            lines.push(format!("{whom} singular where {place} = 0"));
-        }
+    let parameters: Vec<SymbolId> = model.parameters.iter().map(|parameter| parameter.symbol).collect();
+    for factor in &findings.singular_mass {
+        let of_parameters = model.graph.depends_on(*factor, &parameters);
+        let whom =
+            if of_parameters { "for some parameters the mass matrix is" } else { "the mass matrix is" };
+        let text = shown(&model.graph, *factor);
+        let place = if text.contains('…') { "its determinant" } else { text.as_str() };
+        lines.push(format!("{whom} singular where {place} = 0"));
     }
     if undecided(model, facts) {
         let doubt = "whether the assumptions can hold together was not decided: no parameters were found that satisfy \
@@ -179,16 +176,10 @@ fn positions(model: &Model, positions: &Positions) -> Vec<String> {
     lines
 }
 
-fn constraints(
-    model: &mut Model,
-    system: &LagrangianSystem,
-    declared: &Constraints,
-    rank: Option<&Rank>,
-    derived: &Derived<'_>,
-    integrable: bool,
-) -> String {
+fn constraints(proved: &Proved, derived: &Derived<'_>, closure: Option<Closure>) -> String {
+    let Proved { model, constraints: declared, .. } = proved;
     let (count, spanned) = (model.constraints.len(), model.distribution.as_ref().map(Vec::len));
-    let dependent = dependent(model, rank);
+    let dependent = dependent(model, proved.constraint_rank.as_ref());
     let kind = match &declared.linear {
         None => "nonlinear",
         Some(linear) if linear.drift.iter().all(|drift| model.graph.zero_test(*drift).is_zero()) => "linear",
@@ -199,34 +190,19 @@ fn constraints(
         (0, None) => return "constraints: none".into(),
         (_, None) => format!("constraints: {count}, {kind} in the velocities{dependent}"),
     };
-    let generic;
-    let distribution = match derived {
-        Derived::Adapted { distribution, .. } => *distribution,
-        Derived::Projected { .. } => {
-            match declared.generic_distribution(&mut model.graph, &system.algebroid.velocities) {
-                None => return what,
-                Some(found) => {
-                    generic = found;
-                    &generic
-                }
-            }
-        }
-    };
-    let holonomic = match distribution.is_holonomic(
-        &mut model.graph,
-        &system.algebroid,
-        &system.clock,
-        declared.base(),
-    ) {
-        Some(true) => {
+    // the fields of closed sections are in involution where (2) holds
+    let is_integrable = proved.broken_laws.homomorphism.is_none();
+    let holonomic = match (closure, is_integrable) {
+        (Some(Closure::Closed), true) => {
             let constant = constant_coordinates(model, derived);
-            // the fields of closed sections are in involution where (2) holds
-            let holonomic = if integrable { " (holonomic)" } else { "" };
-            format!("; D is closed under the bracket{holonomic}{constant}")
+            format!("; D is closed under the bracket (holonomic){constant}")
         }
-        Some(false) if integrable => "; D is not closed under the bracket (nonholonomic)".to_owned(),
-        Some(false) => "; D is not closed under the bracket".to_owned(),
-        None => String::new(),
+        (Some(Closure::Closed), false) => {
+            format!("; D is closed under the bracket{}", constant_coordinates(model, derived))
+        }
+        (Some(Closure::NotClosed), true) => "; D is not closed under the bracket (nonholonomic)".to_owned(),
+        (Some(Closure::NotClosed), false) => "; D is not closed under the bracket".to_owned(),
+        (Some(Closure::Undecided) | None, _) => String::new(),
     };
     format!("{what}{holonomic}")
 }
@@ -257,38 +233,21 @@ fn constant_coordinates(model: &Model, derived: &Derived<'_>) -> String {
 }
 
 /// What is conserved by the theorems that need no search.
-pub(super) fn conserved(proved: &mut Proved) -> Vec<String> {
+pub(super) fn conserved(proved: &Proved, findings: &Findings) -> Vec<String> {
+    let model = &proved.model;
     let mut lines: Vec<String> =
-        proved.model.claims.iter().map(|claim| format!("{} (claimed, and proved)", claim.name)).collect();
-    let Proved { model, system, constraints, .. } = &mut *proved;
-    if not_conservative(model, system, constraints).is_none() {
+        model.claims.iter().map(|claim| format!("{} (claimed, and proved)", claim.name)).collect();
+    if findings.keeps_energy {
         let reason =
             "CLMM Theorems 3.4 and 7.6: L does not depend on time, no power of constraints and forces";
         lines.push(format!("the energy ({reason})"));
-    } else {
-        lines.extend(moving_energy(proved));
     }
+    lines.extend(findings.moving_energy.as_ref().map(|section| {
+        let section = combination(&model.graph, section, &section_names(model));
+        let [energy, along, momentum] = ["E", "xi", "p"].map(|name| model.graph.free_name(name));
+        format!(
+            "the moving energy {energy} - {along}.{momentum} with {along} = {section} (Fassò, Sansonetto)"
+        )
+    }));
     lines
-}
-
-/// E_L − ξ^α p_α, where a section ξ for it is found (mathematics section 4).
-fn moving_energy(proved: &mut Proved) -> Option<String> {
-    let Proved { model, system, constraints, .. } = proved;
-    let linear = constraints.linear.as_ref()?;
-    let graph = &mut model.graph;
-    let autonomous = !system.clock.occurs_in(graph, &constraints.residuals)
-        && !system.clock.moves(graph, system.lagrangian);
-    let free = system.is_free(graph);
-    if !autonomous || !free {
-        return None;
-    }
-    let parameters: Vec<SymbolId> = model.parameters.iter().map(|parameter| parameter.symbol).collect();
-    let manifold = constraints.manifold(graph, &system.algebroid.velocities);
-    let section = moving_energy_section(graph, system, linear, &parameters, &manifold)?;
-    let names: Vec<String> = model.sections.iter().map(|section| section.name.clone()).collect();
-    let section = combination(&model.graph, &section, &names);
-    let [energy, along, momentum] = ["E", "xi", "p"].map(|name| model.graph.free_name(name));
-    Some(format!(
-        "the moving energy {energy} - {along}.{momentum} with {along} = {section} (Fassò, Sansonetto)"
-    ))
 }

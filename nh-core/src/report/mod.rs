@@ -9,6 +9,7 @@ mod symmetry;
 
 use crate::algebra::Graph;
 use crate::compile::{Derived, Proved};
+use crate::findings::Findings;
 use crate::id::{ExprId, Id};
 use crate::mechanics::LagrangianSystem;
 use crate::model::Model;
@@ -24,22 +25,23 @@ fn shown(graph: &Graph, expression: ExprId) -> String {
     graph.text_within(expression, SHOWN)
 }
 
-/// The report of a derived system.
+/// The report of a derived system: what the stages found, printed.
 pub(crate) fn report(
-    proved: &mut Proved,
+    proved: &Proved,
     derived: &Derived<'_>,
+    findings: &Findings,
     reason: &str,
     conditions: &[ExprId],
     more: Vec<(&str, Vec<String>)>,
 ) -> String {
-    let mut classification = classification::lines(proved, derived, reason);
-    let (kind, splitting) = reduction_kind::lines(proved, derived);
-    classification.extend(kind);
-    let symmetries = symmetry::lines(proved, derived);
-    let routh = routhian::lines(proved, derived);
-    let mut conserved = classification::conserved(proved);
-    conserved.extend(symmetry::conserved(proved, derived));
     let (model, system) = (&proved.model, &proved.system);
+    let mut classification = classification::lines(proved, derived, findings, reason);
+    classification.extend(reduction_kind::name(proved, &findings.reduced));
+    let splitting = reduction_kind::quantities(model, &findings.reduced);
+    let symmetries = symmetry::lines(proved, &findings.symmetries);
+    let routh = routhian::lines(&model.graph, findings);
+    let mut conserved = classification::conserved(proved, findings);
+    conserved.extend(symmetry::conserved(&model.graph, &findings.conserved_momenta));
     let mut text = format!("{}\n", model.name);
     let mut section = |title: &str, lines: Vec<String>| {
         if !lines.is_empty() {

@@ -19,36 +19,6 @@ use crate::syntax::ast::{self, Comparison, Definition, Equation, Item, Momentum,
 /// Longest side of an assumption shown, in bytes.
 const SHOWN: usize = 160;
 
-/// What `emit` can ask for.
-pub(super) const REQUESTS: [(&str, Request); 26] = [
-    ("jacobian", Request::Jacobian),
-    ("taylor", Request::Taylor),
-    ("sparse_jacobian", Request::SparseJacobian),
-    ("jacobian_product", Request::JacobianProduct),
-    ("adjoint_product", Request::AdjointProduct),
-    ("parameter_jacobian", Request::ParameterJacobian),
-    ("output_jacobian", Request::OutputJacobian),
-    ("power", Request::Power),
-    ("prepared", Request::Prepared),
-    ("multipliers", Request::Multipliers),
-    ("reactions", Request::Reactions),
-    ("momenta", Request::Momenta),
-    ("gyroscopic", Request::Gyroscopic),
-    ("splitting", Request::Splitting),
-    ("gibbs_appell", Request::GibbsAppell),
-    ("hamiltonian", Request::Hamiltonian),
-    ("bracket", Request::Bracket),
-    ("discrete_gradient", Request::DiscreteGradient),
-    ("divergence", Request::Divergence),
-    ("volume", Request::Volume),
-    ("connection", Request::Connection),
-    ("invariants", Request::Invariants),
-    ("leapfrog", Request::Leapfrog),
-    ("euler_poincare_suslov", Request::EulerPoincareSuslov),
-    ("explain", Request::Explain),
-    ("c", Request::C),
-];
-
 /// What is generated anyway.
 const GENERATED: [&str; 5] = ["derivative", "energy", "velocity", "outputs", "validate"];
 
@@ -191,7 +161,7 @@ impl Resolver {
         let mut found: Vec<(Request, Origin)> = Vec::new();
         for name in names {
             let text = name.text.as_str();
-            let Some((_, request)) = REQUESTS.iter().find(|(known, _)| *known == text) else {
+            let Some((_, request)) = Request::WORDS.iter().find(|(known, _)| *known == text) else {
                 if GENERATED.contains(&text) {
                     let error = Diagnostic::new(
                         name.extent(),
@@ -200,10 +170,10 @@ impl Resolver {
                     self.report(name, error.way_out("leave it out"));
                     continue;
                 }
-                let all = REQUESTS.map(|(known, _)| format!("`{known}`")).join(", ");
+                let all = Request::WORDS.map(|(known, _)| format!("`{known}`")).join(", ");
                 let error = Diagnostic::new(name.extent(), format!("`{text}` cannot be emitted"));
                 let known = format!("what can be asked for: {all}");
-                let error = match did_you_mean(text, REQUESTS.map(|(known, _)| known)) {
+                let error = match did_you_mean(text, Request::WORDS.map(|(known, _)| known)) {
                     Some(question) => error.evidence(known).way_out(question),
                     None => error.way_out(known),
                 };

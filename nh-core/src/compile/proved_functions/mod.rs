@@ -40,6 +40,7 @@ pub(super) struct Given<'d> {
 }
 
 /// What was derived.
+#[derive(Default)]
 pub(super) struct Parts {
     pub(super) jacobian: Option<Procedure>,
     pub(super) functions: Functions,

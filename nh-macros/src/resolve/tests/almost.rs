@@ -1,7 +1,7 @@
 //! Almost Lie algebroids: what rests on the structure equations is refused where they are broken.
 
-use super::super::facts::REQUESTS;
 use crate::expand::nonholonomic;
+use nonholonomic_core::model::Request;
 
 /// The errors of a declaration, or nothing.
 fn errors(attribute: &str) -> Vec<String> {
@@ -19,7 +19,7 @@ fn what_is_asked_for_is_derived_or_refused_in_words() {
     let algebra = "basis { a, b, c } brackets { [a, b] = c; [b, c] = a + b; [c, a] = b + c; } almost;
         lagrangian { m/2*a^2 + b^2 + k*c^2 } outputs { s = a; } conserved { e = m*a^2 + 2*b^2 + 2*k*c^2; }";
     let refused = |attribute: &str| -> Vec<&str> {
-        let words = REQUESTS.map(|(word, _)| word).into_iter();
+        let words = Request::WORDS.map(|(word, _)| word).into_iter();
         words.filter(|word| !errors(&format!("{attribute} emit {{ {word} }}")).is_empty()).collect()
     };
     assert_eq!(

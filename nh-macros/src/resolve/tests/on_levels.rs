@@ -1,7 +1,7 @@
 //! Everything that can be asked for, beside levels of momenta: derived, or refused in the field's words.
 
-use super::super::facts::REQUESTS;
 use crate::expand::nonholonomic;
+use nonholonomic_core::model::Request;
 
 /// A particle in a plane under a central force, turned about the origin: x ẏ − y ẋ determines neither
 /// velocity everywhere. A claim holds on the level alone.
@@ -58,7 +58,7 @@ const DERIVED: [&str; 15] = [
 #[test]
 fn everything_is_derived_or_refused() {
     for (attribute, more) in SYSTEMS {
-        for (word, _) in REQUESTS {
+        for (word, _) in Request::WORDS {
             let attribute = format!("{attribute} {more} emit {{ {word} }}");
             let item = "struct S { m: f64, k: f64, mu: f64 }";
             let tokens = nonholonomic(attribute.parse().unwrap(), item.parse().unwrap());

@@ -2,7 +2,6 @@
 
 use nonholonomic_core::model::{Request, TrackedItem};
 
-use super::super::facts::REQUESTS;
 use super::{STRUCT, assert_errors, evaluated, model, of, of_name};
 
 #[test]
@@ -11,7 +10,7 @@ fn requests() {
     let model = model(&format!("{constrained} emit {{ reactions, multipliers }}"), STRUCT);
     let asked: Vec<_> = model.requests.iter().map(|(request, _)| *request).collect();
     assert_eq!(asked, [Request::Reactions, Request::Multipliers]);
-    let all = REQUESTS.map(|(known, _)| format!("`{known}`")).join(", ");
+    let all = Request::WORDS.map(|(known, _)| format!("`{known}`")).join(", ");
     let known = format!("what can be asked for: {all}");
     let mistyped = format!("`multiplier` cannot be emitted\n{known}\nhelp: did you mean `multipliers`?");
     assert_errors(&[

@@ -1,0 +1,91 @@
+//! What is found about a derived system beside its functions: the last stage before the report, which prints it.
+
+mod bracket_entries;
+mod closure;
+mod momentum_lines;
+mod reduced_form;
+
+use crate::check::{not_conservative, singular_where};
+use crate::compile::{Derived, Proved};
+use crate::id::{ExprId, SymbolId};
+use crate::mechanics::moving_energy_section;
+
+pub(crate) use bracket_entries::{BracketEntries, Jacobi};
+pub(crate) use closure::Closure;
+pub(crate) use momentum_lines::{LevelMomentum, Rate, SymmetryMomentum};
+pub(crate) use reduced_form::{Connection, Quantities, ReducedForm, Split};
+
+/// What the report says beyond the declaration and the equations.
+#[derive(Clone, Debug)]
+pub(crate) struct Findings {
+    /// Whether D is closed under the bracket; `None` where its sections are not known.
+    pub(crate) closure: Option<Closure>,
+    /// Factors of the determinant of the mass matrix that vanish in some states, or for some parameters.
+    pub(crate) singular_mass: Vec<ExprId>,
+    /// What reduction theory calls the equations.
+    pub(crate) reduced: ReducedForm,
+    /// The declared symmetries.
+    pub(crate) symmetries: Vec<SymmetryMomentum>,
+    /// The momenta on levels.
+    pub(crate) levels: Vec<LevelMomentum>,
+    /// R = L − v^ρ μ_ρ on the levels, mathematics (22).
+    pub(crate) routhian: Option<ExprId>,
+    /// Whether the energy is conserved.
+    pub(crate) keeps_energy: bool,
+    /// ξ of a moving energy E_L − ξ^α p_α, where the energy itself is not conserved.
+    pub(crate) moving_energy: Option<Vec<ExprId>>,
+    /// The symmetries whose momenta are conserved, with these.
+    pub(crate) conserved_momenta: Vec<(String, ExprId)>,
+}
+
+impl Findings {
+    /// Finds them.
+    pub(crate) fn of(proved: &mut Proved, derived: &Derived<'_>) -> Self {
+        let closure = Closure::of(proved, derived);
+        let singular_mass = singular_mass(proved, derived);
+        let reduced = ReducedForm::of(proved, derived);
+        let symmetries = momentum_lines::symmetries(proved, derived);
+        let (levels, routhian) = momentum_lines::levels(proved, derived);
+        let Proved { model, system, constraints, .. } = &mut *proved;
+        let keeps_energy = not_conservative(model, system, constraints).is_none();
+        let moving_energy = if keeps_energy { None } else { moving_energy(proved) };
+        let conserved_momenta = momentum_lines::conserved(proved, derived);
+        Self {
+            closure,
+            singular_mass,
+            reduced,
+            symmetries,
+            levels,
+            routhian,
+            keeps_energy,
+            moving_energy,
+            conserved_momenta,
+        }
+    }
+}
+
+fn singular_mass(proved: &mut Proved, derived: &Derived<'_>) -> Vec<ExprId> {
+    let Derived::Adapted { equations, .. } = derived else { return Vec::new() };
+    let parameters = parameters(proved);
+    singular_where(&mut proved.model.graph, &equations.mass, &parameters, &proved.facts)
+}
+
+/// ξ for which E_L − ξ^α p_α is conserved, where one is found (mathematics section 4).
+fn moving_energy(proved: &mut Proved) -> Option<Vec<ExprId>> {
+    let parameters = parameters(proved);
+    let Proved { model, system, constraints, .. } = proved;
+    let linear = constraints.linear.as_ref()?;
+    let graph = &mut model.graph;
+    let autonomous = !system.clock.occurs_in(graph, &constraints.residuals)
+        && !system.clock.moves(graph, system.lagrangian);
+    let free = system.is_free(graph);
+    if !autonomous || !free {
+        return None;
+    }
+    let manifold = constraints.manifold(graph, &system.algebroid.velocities);
+    moving_energy_section(graph, system, linear, &parameters, &manifold)
+}
+
+fn parameters(proved: &Proved) -> Vec<SymbolId> {
+    proved.model.parameters.iter().map(|parameter| parameter.symbol).collect()
+}
