@@ -335,6 +335,8 @@ pub enum Request {
     ParameterJacobian,
     /// The derivative with what depends on parameters alone computed ahead.
     Prepared,
+    /// The derivative with sines and cosines from those of angles nearby.
+    AngleCache,
     /// The multipliers λ_A.
     Multipliers,
     /// The reaction forces λ_A ∂φ^A/∂y^α along the sections.
@@ -379,7 +381,7 @@ pub enum Request {
 
 impl Request {
     /// The words by which `emit` asks for them.
-    pub const WORDS: [(&str, Self); 26] = [
+    pub const WORDS: [(&str, Self); 27] = [
         ("jacobian", Self::Jacobian),
         ("taylor", Self::Taylor),
         ("sparse_jacobian", Self::SparseJacobian),
@@ -389,6 +391,7 @@ impl Request {
         ("output_jacobian", Self::OutputJacobian),
         ("power", Self::Power),
         ("prepared", Self::Prepared),
+        ("angle_cache", Self::AngleCache),
         ("multipliers", Self::Multipliers),
         ("reactions", Self::Reactions),
         ("momenta", Self::Momenta),

@@ -189,6 +189,7 @@ mod syntax;
 /// | `jacobian_product` | `jacobian_product(t, &state, &input, &direction, &input_direction)`: the Jacobian times a direction, a state and inputs, at the cost of about two derivatives |
 /// | `adjoint_product` | `adjoint_product(t, &state, &input, &weights)`: the transpose of the Jacobian times weights of the components of the derivative, by state and by inputs, whatever their number at the cost of a few derivatives |
 /// | `parameter_jacobian` | `parameter_jacobian(t, &state, &input)`: ∂derivative/∂parameters, a column for each number in the struct's fields, in order |
+/// | `angle_cache` | `with_angle_cache()`: a value of the type `AngleCached…`, the same system, which takes sines and cosines from those of angles nearby, with errors of two units in the last place of 1; the struct has to be `Copy` |
 /// | `prepared` | `prepare()`: a `Copy` value of the type `Prepared…`, the same system with what depends on parameters alone computed once; the struct has to be `Copy` |
 /// | `multipliers`, `reactions` | `multipliers(t, &state, &input)`, `reactions(…)` |
 /// | `momenta` | `momenta(t, &state)`, `momentum_rates(t, &state, &input)` |

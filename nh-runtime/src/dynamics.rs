@@ -117,51 +117,6 @@ pub trait Dynamics {
     }
 }
 
-impl<S: Dynamics + ?Sized> Dynamics for &S {
-    type State = S::State;
-    type Input = S::Input;
-
-    #[inline]
-    fn derivative(&self, t: ScalarOf<S>, state: &S::State, input: &S::Input) -> S::State {
-        (**self).derivative(t, state, input)
-    }
-    #[inline]
-    fn validate(&self) -> Result<(), ParameterError> {
-        (**self).validate()
-    }
-    #[inline]
-    fn check_state(&self, t: ScalarOf<S>, state: &S::State) -> Result<(), StateFault> {
-        (**self).check_state(t, state)
-    }
-    #[inline]
-    fn has_positions(&self) -> bool {
-        (**self).has_positions()
-    }
-    #[inline]
-    fn return_to_positions(
-        &self,
-        t: ScalarOf<S>,
-        state: &mut S::State,
-    ) -> Result<ScalarOf<S>, ProjectionError> {
-        (**self).return_to_positions(t, state)
-    }
-    #[inline]
-    fn correct_positions(&self, t: ScalarOf<S>, state: &mut S::State) {
-        (**self).correct_positions(t, state);
-    }
-    #[inline]
-    fn side(&self, t: ScalarOf<S>, state: &S::State) -> ScalarOf<S> {
-        (**self).side(t, state)
-    }
-    fn worst_constraint(&self, t: ScalarOf<S>, state: &S::State) -> StateFault {
-        (**self).worst_constraint(t, state)
-    }
-    #[inline]
-    fn check_input(&self, input: &S::Input) -> Result<(), InputFault> {
-        (**self).check_input(input)
-    }
-}
-
 /// A system with an energy.
 #[diagnostic::on_unimplemented(
     message = "`{Self}` has no energy",
@@ -172,13 +127,6 @@ pub trait Energy: Dynamics {
     /// E(t, x) = yᵅ ∂L/∂yᵅ − L, which is conserved where the system is autonomous, its constraints
     /// are homogeneous in the velocities, and no forces act.
     fn energy(&self, t: ScalarOf<Self>, state: &Self::State) -> ScalarOf<Self>;
-}
-
-impl<S: Energy + ?Sized> Energy for &S {
-    #[inline]
-    fn energy(&self, t: ScalarOf<S>, state: &S::State) -> ScalarOf<S> {
-        (**self).energy(t, state)
-    }
 }
 
 /// A system that moves by its energy alone, ẋ = Π(x) ∂E(x) with an antisymmetric Π: the nonholonomic
@@ -196,17 +144,6 @@ pub trait AlmostPoisson: Energy {
     /// Π(x) applied to a covector, antisymmetric at every x: also where the state does not satisfy its
     /// constraints. With the gradient of the energy it gives the derivative of the state where it does.
     fn almost_poisson(&self, t: ScalarOf<Self>, state: &Self::State, covector: &VecOf<Self>) -> VecOf<Self>;
-}
-
-impl<S: AlmostPoisson + ?Sized> AlmostPoisson for &S {
-    #[inline]
-    fn energy_gradient(&self, t: ScalarOf<S>, state: &S::State) -> VecOf<S> {
-        (**self).energy_gradient(t, state)
-    }
-    #[inline]
-    fn almost_poisson(&self, t: ScalarOf<S>, state: &S::State, covector: &VecOf<S>) -> VecOf<S> {
-        (**self).almost_poisson(t, state, covector)
-    }
 }
 
 /// A system with stated first integrals: declared with `conserved { … }` and `emit { invariants }`.
@@ -231,19 +168,6 @@ pub trait Invariants: Dynamics {
     ) -> <Self::Count as Dim>::Vec<VecOf<Self>>;
 }
 
-impl<S: Invariants + ?Sized> Invariants for &S {
-    type Count = S::Count;
-
-    #[inline]
-    fn invariants(&self, t: ScalarOf<S>, state: &S::State) -> <S::Count as Dim>::Vec<ScalarOf<S>> {
-        (**self).invariants(t, state)
-    }
-    #[inline]
-    fn invariant_gradients(&self, t: ScalarOf<S>, state: &S::State) -> <S::Count as Dim>::Vec<VecOf<S>> {
-        (**self).invariant_gradients(t, state)
-    }
-}
-
 /// A system on TQ with constant masses, for the leapfrog method: declared with `emit { leapfrog }`.
 #[diagnostic::on_unimplemented(
     message = "`{Self}` has no kick",
@@ -254,13 +178,6 @@ pub trait Leapfrog: Dynamics {
     /// The state after a kick of length h at its place: velocities v⁺ with W (v⁺ − v⁻) = −h ∂V + Aᵀμ and
     /// A (v⁺ + v⁻) = 0.
     fn kick(&self, state: &Self::State, h: ScalarOf<Self>) -> Self::State;
-}
-
-impl<S: Leapfrog + ?Sized> Leapfrog for &S {
-    #[inline]
-    fn kick(&self, state: &S::State, h: ScalarOf<S>) -> S::State {
-        (**self).kick(state, h)
-    }
 }
 
 /// A system on a Lie algebra with its discrete momentum: declared with
@@ -275,13 +192,6 @@ pub trait EulerPoincareSuslov: Dynamics {
     fn discrete_momentum(&self, state: &Self::State, h: ScalarOf<Self>) -> VecOf<Self>;
 }
 
-impl<S: EulerPoincareSuslov + ?Sized> EulerPoincareSuslov for &S {
-    #[inline]
-    fn discrete_momentum(&self, state: &S::State, h: ScalarOf<S>) -> VecOf<S> {
-        (**self).discrete_momentum(state, h)
-    }
-}
-
 /// A system with named observables.
 #[diagnostic::on_unimplemented(
     message = "`{Self}` has no observables",
@@ -294,15 +204,6 @@ pub trait Observed: Dynamics {
 
     /// The observables at a state.
     fn outputs(&self, t: ScalarOf<Self>, state: &Self::State, input: &Self::Input) -> Self::Outputs;
-}
-
-impl<S: Observed + ?Sized> Observed for &S {
-    type Outputs = S::Outputs;
-
-    #[inline]
-    fn outputs(&self, t: ScalarOf<S>, state: &S::State, input: &S::Input) -> S::Outputs {
-        (**self).outputs(t, state, input)
-    }
 }
 
 /// A system whose derivative has a derivative.
@@ -325,24 +226,6 @@ pub trait Jacobian: Dynamics {
         state: &Self::State,
         input: &Self::Input,
     ) -> <DimOf<Self> as Dim>::Vec<<Self::InputDim as Dim>::Vec<ScalarOf<Self>>>;
-}
-
-impl<S: Jacobian + ?Sized> Jacobian for &S {
-    type InputDim = S::InputDim;
-
-    #[inline]
-    fn state_jacobian(&self, t: ScalarOf<S>, state: &S::State, input: &S::Input) -> MatOf<S> {
-        (**self).state_jacobian(t, state, input)
-    }
-    #[inline]
-    fn input_jacobian(
-        &self,
-        t: ScalarOf<S>,
-        state: &S::State,
-        input: &S::Input,
-    ) -> <DimOf<S> as Dim>::Vec<<S::InputDim as Dim>::Vec<ScalarOf<S>>> {
-        (**self).input_jacobian(t, state, input)
-    }
 }
 
 /// A system with the recurrences of the Taylor coefficients of its solutions.
@@ -384,23 +267,6 @@ pub trait TaylorSeries: Dynamics {
     }
 }
 
-impl<S: TaylorSeries + ?Sized> TaylorSeries for &S {
-    type Workspace<const P: usize> = S::Workspace<P>;
-
-    #[inline]
-    fn expand<const P: usize>(
-        &self,
-        t: ScalarOf<S>,
-        state: &S::State,
-        input: &S::Input,
-        unit: ScalarOf<S>,
-        series: &mut [S::State],
-        workspace: &mut S::Workspace<P>,
-    ) {
-        (**self).expand(t, state, input, unit, series, workspace);
-    }
-}
-
 /// A system whose state has to satisfy equations that a numerical solution drifts away from: the
 /// identities of embedded coordinates, and the constraints of the projected formulation.
 #[diagnostic::on_unimplemented(
@@ -432,24 +298,4 @@ pub trait Constrained: Dynamics {
     /// # Errors
     /// If the manifold is not reached; the state is then as it was.
     fn project(&self, t: ScalarOf<Self>, state: &mut Self::State) -> Result<(), ProjectionError>;
-}
-
-impl<S: Constrained + ?Sized> Constrained for &S {
-    type Constraints = S::Constraints;
-
-    #[inline]
-    fn constraint_residual(
-        &self,
-        t: ScalarOf<S>,
-        state: &S::State,
-    ) -> <S::Constraints as Dim>::Vec<ScalarOf<S>> {
-        (**self).constraint_residual(t, state)
-    }
-    fn constraint_names() -> <S::Constraints as Dim>::Vec<&'static str> {
-        S::constraint_names()
-    }
-    #[inline]
-    fn project(&self, t: ScalarOf<S>, state: &mut S::State) -> Result<(), ProjectionError> {
-        (**self).project(t, state)
-    }
 }

@@ -66,6 +66,7 @@ compile_error!(
      `std` on a target with an operating system, or `libm` on one without"
 );
 
+mod angle_cache;
 mod arrays;
 mod assembly;
 pub mod batch;
@@ -80,6 +81,7 @@ mod events;
 mod fast;
 #[cfg(feature = "macros")]
 pub mod guide;
+mod holders;
 pub mod impacts;
 mod integrator;
 mod jet;
@@ -91,6 +93,7 @@ mod newton_return;
 #[cfg(test)]
 mod pair;
 pub mod prelude;
+mod prepared;
 mod projection;
 mod reduction;
 mod scalar;
@@ -104,6 +107,7 @@ mod tangent;
 mod tolerance;
 mod trim;
 
+pub use angle_cache::{Angle, AngleCache, AngleCached};
 pub use assembly::AssemblyError;
 pub use dense::DenseOutput;
 pub use dim::{D, Dim};
@@ -125,6 +129,7 @@ pub use methods::{
     GaussLegendre6, Heun, ImplicitMidpoint, Method, Projected, Radau5, Ralston, ReflectedLeapfrog, Rk4,
     Rodas5P, Tsit5, Vern9,
 };
+pub use prepared::{Prepare, Prepared};
 pub use reduction::{ByStages, Reconstructed, Reconstruction, Reduction};
 pub use scalar::{Real, Scalar};
 pub use statistics::Statistics;
@@ -396,9 +401,10 @@ pub mod __private {
     pub use crate::series::History;
     pub use crate::trim::{Steady, TrimError, equations, trim};
     pub use crate::{
-        AlmostPoisson, Constrained, D, Dim, Dynamics, Energy, EulerPoincareSuslov, InputFault, Invariants,
-        Jacobian, Jet, Leapfrog, Observed, ParameterError, ParameterFault, ProjectionError, Real,
-        Reconstruction, Reduction, Scalar, ScalarOf, State, StateFault,
+        AlmostPoisson, Angle, AngleCache, AngleCached, Constrained, D, Dim, Dynamics, Energy,
+        EulerPoincareSuslov, InputFault, Invariants, Jacobian, Jet, Leapfrog, Observed, ParameterError,
+        ParameterFault, Prepare, Prepared, ProjectionError, Real, Reconstruction, Reduction, Scalar,
+        ScalarOf, State, StateFault,
     };
     pub use core;
     pub use nalgebra;

@@ -125,6 +125,11 @@ impl<A, B> ByStages<A, B> {
     pub const fn new(system: A) -> Self {
         Self { system, stage: PhantomData }
     }
+
+    /// The system.
+    pub const fn system(&self) -> &A {
+        &self.system
+    }
 }
 
 impl<A: Clone, B> Clone for ByStages<A, B> {
@@ -136,25 +141,6 @@ impl<A: Clone, B> Clone for ByStages<A, B> {
 impl<A: fmt::Debug, B> fmt::Debug for ByStages<A, B> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.debug_tuple("ByStages").field(&self.system).finish()
-    }
-}
-
-impl<A: Dynamics, B> Dynamics for ByStages<A, B> {
-    type State = A::State;
-    type Input = A::Input;
-
-    #[inline]
-    fn derivative(&self, t: ScalarOf<A>, state: &A::State, input: &A::Input) -> A::State {
-        self.system.derivative(t, state, input)
-    }
-    fn validate(&self) -> Result<(), ParameterError> {
-        self.system.validate()
-    }
-    fn check_state(&self, t: ScalarOf<A>, state: &A::State) -> Result<(), StateFault> {
-        self.system.check_state(t, state)
-    }
-    fn check_input(&self, input: &A::Input) -> Result<(), InputFault> {
-        self.system.check_input(input)
     }
 }
 

@@ -132,7 +132,7 @@ pub mod shadowed {
             outputs     { phase = v1; covector = omega; }
             emit        {
                 jacobian, sparse_jacobian, jacobian_product, adjoint_product,
-                parameter_jacobian, prepared, hamiltonian, bracket, divergence, connection, gibbs_appell,
+                parameter_jacobian, prepared, angle_cache, hamiltonian, bracket, divergence, connection, gibbs_appell,
                 taylor
             }
         )]
@@ -159,7 +159,7 @@ pub mod shadowed {
             conserved { length = der(start); }
             volume;
             emit {
-                jacobian, parameter_jacobian, prepared, multipliers, reactions, leapfrog, bracket, discrete_gradient,
+                jacobian, parameter_jacobian, prepared, angle_cache, multipliers, reactions, leapfrog, bracket, discrete_gradient,
                 divergence, volume, connection, invariants, gibbs_appell, taylor
             }
             lagrangian { (der(start)^2 + J * der(present)^2 + der(project)^2) / 2 - project }

@@ -18,7 +18,7 @@ pub mod attributes {
         formulation { projected }
         emit {
             jacobian, sparse_jacobian, jacobian_product, adjoint_product,
-            parameter_jacobian, prepared, bracket, multipliers, reactions, divergence, volume, connection,
+            parameter_jacobian, prepared, angle_cache, bracket, multipliers, reactions, divergence, volume, connection,
             invariants, gibbs_appell, taylor
         }
     )]
@@ -36,7 +36,7 @@ pub mod attributes {
     #[nonholonomic(
         base { x }
         lagrangian { m / 2 * der(x)^2 - k * x^2 }
-        emit { jacobian, prepared, hamiltonian, explain, discrete_gradient }
+        emit { jacobian, prepared, angle_cache, hamiltonian, explain, discrete_gradient }
     )]
     #[doc(hidden)]
     #[cfg_attr(all(), derive(Clone, Copy, Debug), cfg_attr(all(), deprecated))]
@@ -51,7 +51,7 @@ pub mod attributes {
     #[nonholonomic(
         base { x }
         lagrangian { m / 2 * der(x)^2 - k * x^2 }
-        emit { jacobian, prepared, hamiltonian }
+        emit { jacobian, prepared, angle_cache, hamiltonian }
     )]
     #[derive(Clone, Copy, Debug)]
     pub struct OldField {
@@ -66,7 +66,7 @@ pub mod attributes {
     #[nonholonomic(
         base { X }
         lagrangian { M / 2 * der(X)^2 - _k * X^2 }
-        emit { jacobian, prepared, hamiltonian }
+        emit { jacobian, prepared, angle_cache, hamiltonian }
     )]
     #[expect(non_snake_case, clippy::pub_underscore_fields, reason = "as in mechanics")]
     #[derive(Clone, Copy, Debug)]
@@ -84,7 +84,7 @@ pub mod attributes {
         inputs { u }
         forces { x: u; }
         outputs { place = x; }
-        emit { jacobian, prepared, hamiltonian }
+        emit { jacobian, prepared, angle_cache, hamiltonian }
     )]
     #[allow(non_camel_case_types, deprecated, reason = "as in another language")]
     #[deprecated]
@@ -129,7 +129,7 @@ pub mod underscores {
         forces { _x: _u; }
         outputs { _speed = der(_x); __o = der(__y) * _m; }
         emit {
-            jacobian, parameter_jacobian, prepared, hamiltonian, bracket, multipliers, reactions, divergence, volume,
+            jacobian, parameter_jacobian, prepared, angle_cache, hamiltonian, bracket, multipliers, reactions, divergence, volume,
             connection, gibbs_appell, taylor, explain
         }
     )]
@@ -159,7 +159,7 @@ pub mod underscores {
         conserved { _e = _v^2 * _m / 2 + _m * _x^2; }
         formulation { projected }
         emit {
-            jacobian, parameter_jacobian, prepared, bracket, multipliers, reactions, divergence, volume, connection,
+            jacobian, parameter_jacobian, prepared, angle_cache, bracket, multipliers, reactions, divergence, volume, connection,
             invariants, gibbs_appell, taylor
         }
     )]
@@ -176,7 +176,7 @@ pub mod underscores {
         constraints { _l: der(_q[2]) = sin(_q[0]) * der(_q[1]); }
         inputs { _u[2] }
         forces { _q[0]: _u[0] - _u[1]; }
-        emit { jacobian, prepared, hamiltonian, taylor }
+        emit { jacobian, prepared, angle_cache, hamiltonian, taylor }
     )]
     #[derive(Clone, Copy, Debug)]
     pub struct Families<_T = f64>
@@ -217,7 +217,7 @@ pub mod names {
         forces { values: input * state - workspace; }
         outputs { present = der(values) + start; unit = input; }
         emit {
-            jacobian, parameter_jacobian, prepared, hamiltonian, bracket, multipliers, reactions, divergence, volume,
+            jacobian, parameter_jacobian, prepared, angle_cache, hamiltonian, bracket, multipliers, reactions, divergence, volume,
             connection, gibbs_appell, taylor, explain
         }
     )]
@@ -248,7 +248,7 @@ pub mod names {
         forces { r#move: r#in; ω_: τ * 2; }
         outputs { r#fn = r#move; Ψ = Ω; }
         emit {
-            jacobian, parameter_jacobian, prepared, bracket, multipliers, reactions, divergence, connection,
+            jacobian, parameter_jacobian, prepared, angle_cache, bracket, multipliers, reactions, divergence, connection,
             gibbs_appell, taylor, explain
         }
     )]
@@ -274,7 +274,7 @@ pub mod names {
         forces { x: u; }
         outputs { s = der(x); }
         emit {
-            jacobian, parameter_jacobian, prepared, hamiltonian, bracket, multipliers, reactions, divergence, volume,
+            jacobian, parameter_jacobian, prepared, angle_cache, hamiltonian, bracket, multipliers, reactions, divergence, volume,
             connection, gibbs_appell, taylor, explain
         }
     )]
@@ -309,7 +309,7 @@ pub mod narrow {
             forces { x: U; }
             outputs { S = der(x); }
             emit {
-                jacobian, parameter_jacobian, prepared, hamiltonian, bracket, multipliers, reactions, divergence,
+                jacobian, parameter_jacobian, prepared, angle_cache, hamiltonian, bracket, multipliers, reactions, divergence,
                 volume, connection, gibbs_appell, taylor, explain
             }
         )]
@@ -330,7 +330,7 @@ pub mod narrow {
             constraints { der(z) = x * der(y); }
             formulation { projected }
             emit {
-                jacobian, parameter_jacobian, prepared, multipliers, reactions, divergence, volume, connection,
+                jacobian, parameter_jacobian, prepared, angle_cache, multipliers, reactions, divergence, volume, connection,
                 gibbs_appell, taylor, explain
             }
         )]

@@ -1,8 +1,9 @@
-//! A prepared system is the same system, and does less at every evaluation.
+//! A prepared system, or one with its angles at hand, is the same system, and does less at every evaluation.
 #![allow(non_snake_case, reason = "parameters are written as in mechanics: J")]
 
 use nh_tests::random::Random;
 use nonholonomic::prelude::*;
+use nonholonomic::{ByStages, Fast, IntegrationError};
 
 #[nonholonomic(
     base   { theta, x, y }
@@ -17,7 +18,7 @@ use nonholonomic::prelude::*;
     forces      { omega: torque - self.friction(omega); }
     derivative  { friction: [self.slope]; }
     inputs      { torque }
-    emit        { prepared, jacobian }
+    emit        { prepared, angle_cache, jacobian }
 )]
 #[derive(Clone, Copy, Debug)]
 struct Sleigh<T> {
@@ -75,4 +76,99 @@ fn what_is_computed_ahead_is_not_computed_again() {
         (operations("derivative:"), operations("prepare:"), operations("derivative, prepared:"));
     assert!(ahead >= 2, "{ahead}");
     assert_eq!(whole, ahead + rest);
+}
+
+/// A pendulum in the plane, whose rod is a position constraint.
+#[nonholonomic(
+    base { x, y }
+    holonomic { rod: x^2 + y^2 = l^2; }
+    lagrangian { m/2 * (der(x)^2 + der(y)^2) - m * g * y }
+    emit { prepared, angle_cache }
+)]
+#[derive(Clone, Copy, Debug)]
+struct Pendulum {
+    m: f64,
+    g: f64,
+    l: f64,
+}
+
+/// Whether a motion does not start.
+fn refused<S: Dynamics<State = PendulumState>>(system: S, start: PendulumState) -> bool {
+    let mut motion = Integrator::new(system, Rk4::new(0.02), 0.0, start);
+    matches!(motion.advance_to(1.0), Err(IntegrationError::OffConstraints { .. }))
+}
+
+/// What holds a system hands on all of it: the way back to position constraints, too.
+#[test]
+fn holders_stay_where_position_constraints_hold() {
+    fn off<S: Dynamics<State = PendulumState>>(system: S, start: PendulumState) -> f64 {
+        assert!(system.has_positions());
+        let mut motion = Integrator::new(system, Rk4::new(0.02), 0.0, start);
+        motion.advance_to(20.0).expect("a regular motion");
+        let PendulumState { x, y, .. } = *motion.state();
+        (x.hypot(y) - 1.3).abs()
+    }
+    let pendulum = Pendulum { m: 0.7, g: 9.81, l: 1.3 };
+    let start = PendulumState { x: 1.3, y: 0.0, ..PendulumState::default() };
+    let borrowed: &Pendulum = &pendulum;
+    let found = [
+        off(pendulum, start),
+        off(borrowed, start),
+        off(pendulum.prepare(), start),
+        off(pendulum.with_angle_cache(), start),
+        off(ByStages::<_, Pendulum>::new(pendulum), start),
+    ];
+    assert!(found.iter().all(|off| *off < 1e-13), "{found:?}");
+    // one that is off them is refused, whoever holds it
+    let bad = PendulumState { x: 1.4, ..start };
+    assert!(refused(pendulum, bad) && refused(pendulum.prepare(), bad));
+    assert!(refused(pendulum.with_angle_cache(), bad));
+}
+
+/// In double and single precision and with the kernel for sines: the derivative differs by rounding errors alone, near the
+/// last angle and far from it.
+#[test]
+fn angles_at_hand_cost_no_more_than_rounding() {
+    fn worst<T: Real>(of: impl Fn(f64) -> T) -> f64 {
+        let mut random = Random::new(5);
+        let sleigh = Sleigh { m: of(1.3), J: of(0.4), a: of(0.2), c: of(0.1) };
+        let near = sleigh.with_angle_cache();
+        let input = SleighInput { torque: of(0.3) };
+        let (mut theta, mut worst) = (0.0, 0.0_f64);
+        for _ in 0..2000 {
+            theta += random.between(-0.2, 0.25);
+            let [omega, v1] = [random.between(-2.0, 2.0), random.between(-2.0, 2.0)];
+            let state = SleighState::from([theta, 0.1, 0.2, omega, v1].map(&of));
+            let expected: [T; 5] = sleigh.derivative(T::ZERO, &state, &input).into();
+            let found: [T; 5] = near.derivative(T::ZERO, &state, &input).into();
+            for (found, expected) in found.into_iter().zip(expected) {
+                worst = worst.max((found - expected).abs().to_f64() / T::EPSILON.to_f64());
+            }
+        }
+        worst
+    }
+    let found = [worst(|x| x), worst(f32::from_f64), worst(Fast)];
+    // velocities are at most 2, and the error of a sine at most two units
+    assert!(found.iter().all(|worst| *worst < 6.0), "{found:?}");
+}
+
+/// The state after 200 s.
+fn end<S: Dynamics<State = SleighState<f64>, Input = SleighInput<f64>>>(
+    system: S,
+    start: SleighState<f64>,
+) -> [f64; 5] {
+    let mut motion = Integrator::new(system, Rk4::new(0.01), 0.0, start);
+    motion.advance_to(200.0).expect("a regular motion");
+    (*motion.state()).into()
+}
+
+/// A motion is the same up to rounding, without drift.
+#[test]
+fn a_motion_with_angles_at_hand_is_the_same() {
+    let sleigh = Sleigh { m: 1.3, J: 0.4, a: 0.2, c: 0.0 };
+    let start = SleighState { omega: 2.0, v1: 0.5, ..SleighState::default() };
+    let [run, near]: [[f64; 5]; 2] = [end(sleigh, start), end(sleigh.with_angle_cache(), start)];
+    for (run, near) in run.into_iter().zip(near) {
+        assert!((run - near).abs() < 1e-11, "{run} {near}");
+    }
 }

@@ -5,6 +5,7 @@
 //! statements for all of them.
 
 mod almost_poisson;
+mod angle_cache;
 mod assembly;
 mod c;
 mod callback;
@@ -86,6 +87,7 @@ pub(crate) fn emit(system: &System, layout: &Layout) -> Result<TokenStream, Vec<
         .with(vector_products::emit(context, system))
         .with(linearization::emit(context, system, &derivative))
         .with(prepared::emit(context, system, &derivative))
+        .with(angle_cache::emit(context, scope, system, &derivative))
         .with(hamiltonian::emit(context, scope, system))
         .with(almost_poisson::emit(context, scope, system))
         .with(discrete::emit(context, system))

@@ -2,7 +2,6 @@
 
 use std::collections::BTreeSet;
 
-use nonholonomic_core::functions::ENERGY;
 use nonholonomic_core::model::Request;
 use nonholonomic_core::program::{Program, Split};
 use nonholonomic_core::system::System;
@@ -20,8 +19,7 @@ use super::symbols::{Argument, Scope};
 /// `PreparedSleigh` and `prepare`, if they are asked for.
 pub(super) fn emit(context: &Context, system: &System, derivative: &Program) -> Part {
     let model = &system.model;
-    let requested = |request| model.requests.iter().any(|(asked, _)| *asked == request);
-    if !requested(Request::Prepared) {
+    if !model.requests.iter().any(|(asked, _)| *asked == Request::Prepared) {
         return Part::default();
     }
     let Split { ahead, rest, symbols } = context.lowering.split(model, &system.derivative, derivative);
@@ -39,35 +37,33 @@ pub(super) fn emit(context: &Context, system: &System, derivative: &Program) -> 
     let values = local("values");
     let unused = (!rest_body.used.contains(&Argument::Values)).then(|| quote!(_ = #values;));
     let rest_tokens = quote!(#drops #unused #statements #result);
-    let has_jacobian = system.model.requests.iter().any(|(request, _)| *request == Request::Jacobian);
-    let has = [system.functions.get(&ENERGY).is_some(), has_jacobian];
-    let mut part = items(context, symbols.len(), &ahead_tokens, (&inlining(&rest), &rest_tokens), has);
+    let mut part = items(context, symbols.len(), &ahead_tokens, (&inlining(&rest), &rest_tokens));
     part.programs = vec![("prepare", ahead), ("derivative, prepared", rest)];
     part
 }
 
 /// The same items with zeros.
-pub(super) fn stub(context: &Context, has_jacobian: bool) -> Part {
+pub(super) fn stub(context: &Context) -> Part {
     let values = local("values");
     let drops = drops(context, &BTreeSet::new(), true);
     let rest = quote!(#drops _ = #values; ::core::default::Default::default());
-    items(context, 0, &quote!(_ = self; []), (&quote!(#[inline]), &rest), [true, has_jacobian])
+    items(context, 0, &quote!(_ = self; []), (&quote!(#[inline]), &rest))
 }
 
-/// The type, its traits, and the methods that make it.
+/// The name of the type, `impl Prepare`, and the method that prepares.
 fn items(
     context: &Context,
     count: usize,
     ahead: &TokenStream,
     (inlining, rest): (&TokenStream, &TokenStream),
-    [has_energy, has_jacobian]: [bool; 2],
 ) -> Part {
     let Context { runtime, scalar, visibility, layout, lints, .. } = context;
     let (t, state, input) = (&context.locals.t, &context.locals.state, &context.locals.input);
     let (state_type, input_type) = (context.type_of(&context.state), context.input_type());
     let name = &layout.name;
     let prepared = format_ident!("Prepared{name}");
-    let (impl_generics, ty_generics, where_clause) = context.generics.split_for_impl();
+    let (_, ty_generics, _) = context.generics.split_for_impl();
+    let parameters = context.parameters_of_alias();
     let length = Literal::usize_unsuffixed(count);
     let values = local("values");
     let [doc, doc_of_prepare] = [
@@ -78,90 +74,31 @@ fn items(
         #[doc = #doc_of_prepare]
         #[must_use]
         #[inline]
-        #visibility fn prepare(&self) -> #prepared #ty_generics {
-            #prepared { system: *self, values: self.computed_ahead() }
-        }
-        /// What the derivative needs of the parameters alone.
-        #[inline]
-        fn computed_ahead(&self) -> [#scalar; #length] {
-            #ahead
-        }
-        /// The derivative from what was computed ahead.
-        #inlining
-        fn derivative_from(
-            &self, #values: &[#scalar; #length], #t: #scalar, #state: &#state_type, #input: &#input_type
-        ) -> #state_type {
-            #rest
+        #visibility fn prepare(&self) -> #runtime::Prepared<Self> {
+            #runtime::Prepared::new(*self)
         }
     };
-    let result = |fault: TokenStream| quote!(::core::result::Result<(), #runtime::#fault>);
-    let (parameters, of_state, of_input) =
-        (result(quote!(ParameterError)), result(quote!(StateFault)), result(quote!(InputFault)));
-    let mut items = quote! {
-        #[doc = #doc]
-        #[derive(::core::clone::Clone, ::core::marker::Copy)]
-        #lints
-        #visibility struct #prepared #impl_generics #where_clause {
-            system: #name #ty_generics,
-            values: [#scalar; #length],
-        }
-        #lints
-        #[automatically_derived]
-        impl #impl_generics #runtime::Dynamics for #prepared #ty_generics #where_clause {
-            type State = #state_type;
-            type Input = #input_type;
+    let implementation = context.implement(
+        &quote!(#runtime::Prepare),
+        &quote! {
+            type Ahead = [#scalar; #length];
+            #[inline]
+            fn computed_ahead(&self) -> Self::Ahead {
+                #ahead
+            }
             #inlining
-            fn derivative(&self, #t: #scalar, #state: &#state_type, #input: &#input_type) -> #state_type {
-                self.system.derivative_from(&self.values, #t, #state, #input)
+            fn derivative_from(
+                &self, #values: &Self::Ahead, #t: #scalar, #state: &#state_type, #input: &#input_type
+            ) -> #state_type {
+                #rest
             }
-            #[inline]
-            fn validate(&self) -> #parameters {
-                #runtime::Dynamics::validate(&self.system)
-            }
-            #[inline]
-            fn check_state(&self, #t: #scalar, #state: &#state_type) -> #of_state {
-                #runtime::Dynamics::check_state(&self.system, #t, #state)
-            }
-            #[inline]
-            fn check_input(&self, #input: &#input_type) -> #of_input {
-                #runtime::Dynamics::check_input(&self.system, #input)
-            }
-        }
+        },
+    );
+    let items = quote! {
+        #[doc = #doc]
+        #lints
+        #visibility type #prepared #parameters = #runtime::Prepared<#name #ty_generics>;
+        #implementation
     };
-    if has_energy {
-        items.extend(quote! {
-            #lints
-            #[automatically_derived]
-            impl #impl_generics #runtime::Energy for #prepared #ty_generics #where_clause {
-                #[inline]
-                fn energy(&self, #t: #scalar, #state: &#state_type) -> #scalar {
-                    #runtime::Energy::energy(&self.system, #t, #state)
-                }
-            }
-        });
-    }
-    if has_jacobian {
-        let (n, m) = (context.state.len(), context.input.as_ref().map_or(0, super::record::Record::len));
-        let (n, m) = (Literal::usize_unsuffixed(n), Literal::usize_unsuffixed(m));
-        items.extend(quote! {
-            #lints
-            #[automatically_derived]
-            impl #impl_generics #runtime::Jacobian for #prepared #ty_generics #where_clause {
-                type InputDim = #runtime::D<#m>;
-                #[inline]
-                fn state_jacobian(
-                    &self, #t: #scalar, #state: &#state_type, #input: &#input_type
-                ) -> [[#scalar; #n]; #n] {
-                    #runtime::Jacobian::state_jacobian(&self.system, #t, #state, #input)
-                }
-                #[inline]
-                fn input_jacobian(
-                    &self, #t: #scalar, #state: &#state_type, #input: &#input_type
-                ) -> [[#scalar; #m]; #n] {
-                    #runtime::Jacobian::input_jacobian(&self.system, #t, #state, #input)
-                }
-            }
-        });
-    }
     Part { methods, items, programs: Vec::new() }
 }

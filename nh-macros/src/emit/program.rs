@@ -3,6 +3,7 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
+use nonholonomic_core::algebra::Function;
 use nonholonomic_core::id::{SymbolId, Table};
 use nonholonomic_core::program::{Program, Step, Value};
 use proc_macro2::{Ident, Literal, Span, TokenStream};
@@ -31,6 +32,20 @@ pub(super) struct Body {
 
 /// Turns a program into statements.
 pub(super) fn body(context: &Context, scope: &Scope, program: &Program) -> Body {
+    written(context, scope, program, None).0
+}
+
+/// The same with every sine and cosine taken from angles at hand, and the number of these.
+pub(super) fn body_near_angles(
+    context: &Context,
+    scope: &Scope,
+    program: &Program,
+    angles: &Ident,
+) -> (Body, usize) {
+    written(context, scope, program, Some(angles))
+}
+
+fn written(context: &Context, scope: &Scope, program: &Program, at_hand: Option<&Ident>) -> (Body, usize) {
     let mut writer = Writer {
         context,
         scope,
@@ -41,6 +56,8 @@ pub(super) fn body(context: &Context, scope: &Scope, program: &Program) -> Body 
         systems: BTreeMap::new(),
         statements: TokenStream::new(),
         used: BTreeSet::new(),
+        at_hand,
+        angles: 0,
     };
     let uses = program.uses();
     for (value, step) in program.steps.iter_ids() {
@@ -55,7 +72,8 @@ pub(super) fn body(context: &Context, scope: &Scope, program: &Program) -> Body 
         writer.expressions.push(expression);
     }
     let outputs = program.outputs.iter().map(|output| writer.expressions[*output].tokens.clone()).collect();
-    Body { statements: writer.statements, outputs, used: writer.used, names: writer.names }
+    let body = Body { statements: writer.statements, outputs, used: writer.used, names: writer.names };
+    (body, writer.angles)
 }
 
 struct Writer<'a> {
@@ -70,6 +88,10 @@ struct Writer<'a> {
     systems: BTreeMap<Value, Vec<Option<Ident>>>,
     statements: TokenStream,
     used: BTreeSet<Argument>,
+    /// The array of angles at hand, where sines and cosines are taken from these.
+    at_hand: Option<&'a Ident>,
+    /// How many there are.
+    angles: usize,
 }
 
 impl Writer<'_> {
@@ -132,6 +154,14 @@ impl Writer<'_> {
                 Some((_, cos)) => Expression::atom(quote!(#cos), 0),
                 None => Expression::atom(TokenStream::new(), 0),
             },
+            Step::Apply(Function::Sin, a) if self.at_hand.is_some() => {
+                let pair = self.pair_of(*a);
+                Expression::atom(quote!(#pair.0), 1)
+            }
+            Step::Apply(Function::Cos, a) if self.at_hand.is_some() => {
+                let pair = self.pair_of(*a);
+                Expression::atom(quote!(#pair.1), 1)
+            }
             Step::Apply(function, a) => self.call(function.name(), &[*a]),
             Step::Apply2(function, a, b) => self.call(function.name(), &[*a, *b]),
             Step::Call { method, arguments } if self.context.differentiates => {
@@ -235,8 +265,17 @@ impl Writer<'_> {
         Expression::atom(quote!(#path(#tokens #(, #rest)*)), receiver.size + 1)
     }
 
+    /// Sine and cosine of an angle, as a pair.
+    fn pair_of(&mut self, angle: Value) -> TokenStream {
+        let Some(angles) = self.at_hand else { return self.call("sin_cos", &[angle]).tokens };
+        let index = Literal::usize_unsuffixed(self.angles);
+        self.angles += 1;
+        let (runtime, angle) = (&self.context.runtime, &self.expressions[angle].tokens);
+        quote!(#runtime::Angle::sin_cos(&mut #angles[#index], #angle))
+    }
+
     fn sin_cos(&mut self, pair: Value, angle: Value) -> Expression {
-        let call = self.call("sin_cos", &[angle]).tokens;
+        let call = self.pair_of(angle);
         let mut variable = |function: &Step| {
             let of = self.program.steps.iter_ids().find(|(_, step)| *step == function);
             match of {

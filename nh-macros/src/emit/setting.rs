@@ -165,6 +165,31 @@ impl<'a> Context<'a> {
         }
     }
 
+    /// `impl Trait for Sleigh { body }`, where the numbers have an order.
+    pub(super) fn implement_for_reals(&self, of: &TokenStream, body: &TokenStream) -> TokenStream {
+        let (name, lints, runtime) = (&self.layout.name, &self.lints, &self.runtime);
+        let mut generics = self.generics.clone();
+        if let Some(parameter) = self.parameter() {
+            generics.make_where_clause().predicates.push(syn::parse_quote!(#parameter: #runtime::Real));
+        }
+        let (impl_generics, ty_generics, where_clause) = generics.split_for_impl();
+        quote! {
+            #lints
+            #[automatically_derived]
+            impl #impl_generics #of for #name #ty_generics #where_clause { #body }
+        }
+    }
+
+    /// The generics of an alias of the struct: names without bounds, which an alias does not check.
+    pub(super) fn parameters_of_alias(&self) -> Generics {
+        let mut generics = self.layout.generics.clone();
+        generics.where_clause = None;
+        for parameter in generics.type_params_mut() {
+            parameter.bounds.clear();
+        }
+        generics
+    }
+
     /// `impl Sleigh { body }`.
     pub(super) fn inherent(&self, body: &TokenStream) -> TokenStream {
         let (name, lints) = (&self.layout.name, &self.lints);

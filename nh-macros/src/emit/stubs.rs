@@ -13,8 +13,8 @@ use super::layout::Layout;
 use super::setting::Context;
 use super::taylor;
 use super::{
-    almost_poisson, assembly, c, callback, discrete, editor, embedding, energy, functions, hamiltonian,
-    invariants, jacobian, linearization, motion, observed, prepared, projection, report_text,
+    almost_poisson, angle_cache, assembly, c, callback, discrete, editor, embedding, energy, functions,
+    hamiltonian, invariants, jacobian, linearization, motion, observed, prepared, projection, report_text,
     sparse_jacobian, state, validate, vector_products,
 };
 use crate::resolve::Outline;
@@ -59,7 +59,6 @@ fn on_request(context: &Context, outline: &Outline) -> Part {
     let asked = |request, stub: &dyn Fn() -> Part| {
         if requests.contains(&request) { stub() } else { Part::default() }
     };
-    let has_jacobian = requests.contains(&Request::Jacobian);
     functions::stubs(context, outline)
         .with(asked(Request::Taylor, &|| taylor::stub(context)))
         .with(embedding::stub(context, identities))
@@ -73,7 +72,8 @@ fn on_request(context: &Context, outline: &Outline) -> Part {
         .with(discrete::stub(context, requests))
         .with(invariants::stub(context, requests))
         .with(asked(Request::Hamiltonian, &|| hamiltonian::stub(context, velocities)))
-        .with(asked(Request::Prepared, &|| prepared::stub(context, has_jacobian)))
+        .with(asked(Request::Prepared, &|| prepared::stub(context)))
+        .with(asked(Request::AngleCache, &|| angle_cache::stub(context)))
         .with(asked(Request::Jacobian, &|| jacobian::stub(context)))
         .with(asked(Request::SparseJacobian, &|| sparse_jacobian::stub(context)))
         .with(asked(Request::JacobianProduct, &|| vector_products::stub(context, Side::Right)))

@@ -22,7 +22,7 @@ macro_rules! declarations {
             emit {
                 hamiltonian, bracket, discrete_gradient, divergence, volume, connection, invariants, gyroscopic,
                 splitting, gibbs_appell, taylor, momenta, multipliers, reactions, jacobian,
-                sparse_jacobian, jacobian_product, adjoint_product, parameter_jacobian, prepared
+                sparse_jacobian, jacobian_product, adjoint_product, parameter_jacobian, prepared, angle_cache
             }
         )]
         #[derive(Clone, Copy, Debug)]
@@ -50,7 +50,7 @@ macro_rules! declarations {
             assume { state > 0; }
             emit {
                 leapfrog, bracket, discrete_gradient, divergence, volume, connection, invariants,
-                gibbs_appell, taylor, momenta, multipliers, reactions, jacobian, parameter_jacobian, prepared
+                gibbs_appell, taylor, momenta, multipliers, reactions, jacobian, parameter_jacobian, prepared, angle_cache
             }
         )]
         #[derive(Clone, Copy, Debug)]
@@ -75,7 +75,7 @@ macro_rules! declarations {
             outputs { matrix = present[0]; length = series; }
             emit {
                 splitting, hamiltonian, bracket, discrete_gradient, divergence, connection, gibbs_appell, taylor,
-                multipliers, reactions, jacobian, parameter_jacobian, prepared
+                multipliers, reactions, jacobian, parameter_jacobian, prepared, angle_cache
             }
         )]
         #[derive(Clone, Copy, Debug)]
@@ -97,7 +97,7 @@ macro_rules! declarations {
             volume;
             emit {
                 euler_poincare_suslov, hamiltonian, bracket, discrete_gradient, divergence, volume, connection,
-                invariants, gibbs_appell, taylor, multipliers, reactions, jacobian, parameter_jacobian, prepared
+                invariants, gibbs_appell, taylor, multipliers, reactions, jacobian, parameter_jacobian, prepared, angle_cache
             }
         )]
         #[derive(Clone, Copy, Debug)]
@@ -121,7 +121,7 @@ macro_rules! declarations {
             symmetries { g: out[0]; }
             emit {
                 hamiltonian, bracket, divergence, gibbs_appell, taylor, momenta,
-                multipliers, reactions, jacobian, parameter_jacobian, prepared
+                multipliers, reactions, jacobian, parameter_jacobian, prepared, angle_cache
             }
         )]
         #[derive(Clone, Copy, Debug)]

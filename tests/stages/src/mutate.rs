@@ -61,7 +61,7 @@ const EXTREME: [&str; 22] = [
 ];
 
 /// Words with a meaning of their own.
-const WORDS: [&str; 44] = [
+const WORDS: [&str; 45] = [
     "t",
     "pi",
     "der",
@@ -104,6 +104,7 @@ const WORDS: [&str; 44] = [
     "momenta",
     "reactions",
     "prepared",
+    "angle_cache",
     "parameter_jacobian",
     "gyroscopic",
 ];

@@ -37,7 +37,7 @@ const SYSTEMS: [(&str, &str); 5] = [
 ];
 
 /// What is derived on levels; where there are no constraints, less what belongs to these.
-const DERIVED: [&str; 15] = [
+const DERIVED: [&str; 16] = [
     "power",
     "c",
     "jacobian",
@@ -48,6 +48,7 @@ const DERIVED: [&str; 15] = [
     "taylor",
     "parameter_jacobian",
     "prepared",
+    "angle_cache",
     "momenta",
     "gibbs_appell",
     "invariants",

@@ -25,6 +25,15 @@ nh_models::sleigh! {
     /// A sleigh with a basis of D: sine and cosine.
     #[derive(Clone, Copy, Debug)]
     struct Sleigh<T> { m: T, J: T, a: T, b: T, c: T }
+    emit { angle_cache }
+}
+
+nh_models::snakeboard! {
+    /// The snakeboard: sine and cosine of two angles.
+    #[derive(Clone, Copy, Debug)]
+    struct Snakeboard<T> { m: T, l: T, J0: T, J1: T }
+    independent { u1, dpsi, dphi }
+    emit { angle_cache }
 }
 
 nh_models::veselova! {
@@ -80,11 +89,11 @@ fn anywhere<S: Dynamics + 'static>(
 /// The steps of a simulation after its first.
 fn running<S, M>(system: S, method: M, start: S::State) -> Box<dyn Fn()>
 where
-    S: Dynamics<State: State<Scalar: Real>> + Copy + 'static,
+    S: Dynamics<State: State<Scalar: Real>> + Clone + 'static,
     M: Method<S> + Copy + 'static,
 {
     Box::new(move || {
-        let mut sim = Integrator::new(system, method, Scalar::from_f64(0.0), start);
+        let mut sim = Integrator::new(system.clone(), method, Scalar::from_f64(0.0), start);
         let _ = sim.step();
         for _ in 0..STEPS {
             counted_step(&mut || _ = black_box(sim.step()));
@@ -98,6 +107,12 @@ fn sleigh<T: Scalar>() -> Sleigh<T> {
     Sleigh { m, J, a, b, c }
 }
 
+/// The parameters of the snakeboard over any number.
+fn snakeboard<T: Scalar>() -> Snakeboard<T> {
+    let [m, l, J0, J1] = [1.4, 0.5, 0.09, 0.03].map(T::from_f64);
+    Snakeboard { m, l, J0, J1 }
+}
+
 /// The parameters of the Veselova system over any number.
 fn veselova<T: Scalar>() -> Veselova<T> {
     Veselova { I: [1.3, 0.8, 2.1].map(T::from_f64), c: [0.2, -0.5, 0.9].map(T::from_f64) }
@@ -106,6 +121,24 @@ fn veselova<T: Scalar>() -> Veselova<T> {
 /// A state of the sleigh that keeps turning.
 fn turning<T: Scalar>() -> SleighState<T> {
     SleighState::from([0.3, 0.0, 0.0, 2.0, 1.0].map(T::from_f64))
+}
+
+/// A state of the snakeboard that moves in all of its coordinates.
+fn rolling<T: Scalar>() -> SnakeboardState<T> {
+    SnakeboardState::from([0.0, 0.0, 0.2, 0.1, 0.4, 1.0, 0.7, 0.3].map(T::from_f64))
+}
+
+/// Steps of simulations with angles at hand, beside those that compute every sine.
+macro_rules! cases_with_angles {
+    ($cases:ident, $number:ty: $($Method:ident::$make:ident),*) => {$(
+        let h = <$number as Scalar>::from_f64(0.01);
+        let mut add = |system, run| {
+            $cases.push(case::<$number>(system, "a simulation", stringify!($Method), false, run));
+        };
+        add("snakeboard", running(snakeboard::<$number>(), $Method::$make(h), rolling()));
+        add("snakeboard, angles at hand", running(snakeboard::<$number>().with_angle_cache(), $Method::$make(h), rolling()));
+        add("sleigh, angles at hand", running(sleigh::<$number>().with_angle_cache(), $Method::$make(h), turning()));
+    )*};
 }
 
 /// The steps of a method as a pure function, and in a simulation.
@@ -144,7 +177,9 @@ fn cases() -> Vec<Case> {
     let mut cases = Vec::new();
     cases_of!(cases, Fast<f64>, true: Euler::new, Heun::new, Ralston::new, Rk4::new);
     cases_of!(cases, Fast<f64>, true: Bs23::fixed, Dopri5::fixed, Tsit5::fixed, Dop853::fixed, Vern9::fixed);
-    cases_of!(cases, f64, false: Rk4::new);
+    cases_of!(cases, f64, false: Rk4::new, Dop853::fixed);
+    cases_with_angles!(cases, f64: Rk4::new, Dop853::fixed);
+    cases_with_angles!(cases, Fast<f64>: Rk4::new, Dop853::fixed);
     let h = 0.01;
     let implicit = [
         ("ImplicitMidpoint", running(sleigh(), ImplicitMidpoint::new(Fast(h)), turning())),
