@@ -35,6 +35,57 @@ impl Pivots {
     }
 }
 
+/// As many unknowns that touch each other are tried in every order; more stay as they are.
+const TOGETHER: usize = 9;
+
+/// Whether a quantity is a pivot of a definite matrix, at two points, whatever was eliminated before it.
+pub(super) fn is_pivot([first, second]: &[Vec<Vec<Residue>>; 2], value: [Residue; 2]) -> bool {
+    (0..first.len()).any(|index| {
+        let mut others = touching(first, index);
+        others.retain(|other| *other != index);
+        others.len() < TOGETHER && is_pivot_after(first, second, index, &others, value)
+    })
+}
+
+/// The same where nothing but some of the others was eliminated: in which order does not matter.
+fn is_pivot_after(
+    first: &[Vec<Residue>],
+    second: &[Vec<Residue>],
+    index: usize,
+    others: &[usize],
+    value: [Residue; 2],
+) -> bool {
+    if is_multiple(value, [first[index][index], second[index][index]]) {
+        return true;
+    }
+    others.iter().enumerate().any(|(k, other)| {
+        let (rest, mut left) = (&others[k + 1..], others[k + 1..].to_vec());
+        left.push(index);
+        let [first, second] = [first, second].map(|matrix| {
+            let mut matrix = matrix.to_vec();
+            eliminate(&mut matrix, *other, &left);
+            matrix
+        });
+        is_pivot_after(&first, &second, index, rest, value)
+    })
+}
+
+/// The unknowns that an unknown is coupled with, by entries that are not 0.
+fn touching(matrix: &[Vec<Residue>], index: usize) -> Vec<usize> {
+    let mut found = vec![index];
+    let mut next = 0;
+    while let Some(from) = found.get(next).copied() {
+        let row = matrix[from].iter().enumerate();
+        let new: Vec<usize> = row
+            .filter(|(to, entry)| **entry != Residue::ZERO && !found.contains(to))
+            .map(|(to, _)| to)
+            .collect();
+        found.extend(new);
+        next += 1;
+    }
+    found
+}
+
 /// The Schur complement: what is left of a matrix for other unknowns when one is eliminated.
 fn eliminate(matrix: &mut [Vec<Residue>], index: usize, others: &[usize]) {
     let Some(inverse) = matrix[index][index].inverse() else { return };

@@ -1,6 +1,6 @@
 //! What a function divides by, as a function of one number along lines through the field.
 
-use super::super::pivots::{Pivots, is_multiple};
+use super::super::pivots::{is_multiple, is_pivot};
 use super::super::proof::{Defect, FIRST_SEED, defined};
 use super::super::zero_set::{Polynomial, numerator_at, values_for};
 use super::definition::is_defined;
@@ -162,8 +162,8 @@ impl Asked {
             && let [Ok(first), Ok(second)] = both.map(|place| independent_slopes(place, identities))
         {
             // products of gradients are definite
-            let mut pivots = Pivots::of([first, second].map(|rows| products(&rows)));
-            open.retain(|k| pair(&divisors, *k).is_none_or(|value| !pivots.are_met(value)));
+            let matrices = [first, second].map(|rows| products(&rows));
+            open.retain(|k| pair(&divisors, *k).is_none_or(|value| !is_pivot(&matrices, value)));
         }
         open
     }
