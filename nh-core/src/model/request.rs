@@ -1,0 +1,94 @@
+//! What `emit { … }` asks for, and the words for it.
+
+/// Something to generate beyond the default.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+#[non_exhaustive]
+pub enum Request {
+    /// ∂derivative/∂state and ∂derivative/∂input.
+    Jacobian,
+    /// Both without their zeros.
+    SparseJacobian,
+    /// The Jacobian of the derivative times a direction in state and inputs.
+    JacobianProduct,
+    /// The transpose of that Jacobian times weights of the components of the derivative.
+    AdjointProduct,
+    /// ∂derivative/∂parameter.
+    ParameterJacobian,
+    /// The derivative with what depends on parameters alone computed ahead.
+    Prepared,
+    /// The derivative with sines and cosines from those of angles nearby.
+    AngleCache,
+    /// The multipliers λ_A.
+    Multipliers,
+    /// The reaction forces λ_A ∂φ^A/∂y^α along the sections.
+    Reactions,
+    /// The momenta of the symmetries, and their rates.
+    Momenta,
+    /// ⟨J, K⟩ of a Chaplygin system.
+    Gyroscopic,
+    /// The nonholonomic connection, its curvature, and the momentum equation.
+    Splitting,
+    /// Momenta, the Legendre transformation, h, Hamilton's equations and the almost-Poisson matrix.
+    Hamiltonian,
+    /// The nonholonomic brackets of the observables.
+    Bracket,
+    /// The almost-Poisson form for methods that keep the energy.
+    DiscreteGradient,
+    /// The divergence of the motion.
+    Divergence,
+    /// The density of an invariant volume.
+    Volume,
+    /// The symbols of the Levi-Civita and of the constrained connection.
+    Connection,
+    /// The stated first integrals and their gradients.
+    Invariants,
+    /// The leapfrog method on TQ.
+    Leapfrog,
+    /// The discrete Euler–Poincaré–Suslov equations on a Lie algebra.
+    EulerPoincareSuslov,
+    /// The derivative by the Gibbs–Appell function.
+    GibbsAppell,
+    /// The Taylor coefficients of solutions.
+    Taylor,
+    /// The power of each force and constraint.
+    Power,
+    /// ∂output/∂state and ∂output/∂input.
+    OutputJacobian,
+    /// How the emitted forms were chosen, as text.
+    Explain,
+    /// The generated functions as C.
+    C,
+}
+
+impl Request {
+    /// The words by which `emit` asks for them.
+    pub const WORDS: [(&str, Self); 27] = [
+        ("jacobian", Self::Jacobian),
+        ("taylor", Self::Taylor),
+        ("sparse_jacobian", Self::SparseJacobian),
+        ("jacobian_product", Self::JacobianProduct),
+        ("adjoint_product", Self::AdjointProduct),
+        ("parameter_jacobian", Self::ParameterJacobian),
+        ("output_jacobian", Self::OutputJacobian),
+        ("power", Self::Power),
+        ("prepared", Self::Prepared),
+        ("angle_cache", Self::AngleCache),
+        ("multipliers", Self::Multipliers),
+        ("reactions", Self::Reactions),
+        ("momenta", Self::Momenta),
+        ("gyroscopic", Self::Gyroscopic),
+        ("splitting", Self::Splitting),
+        ("gibbs_appell", Self::GibbsAppell),
+        ("hamiltonian", Self::Hamiltonian),
+        ("bracket", Self::Bracket),
+        ("discrete_gradient", Self::DiscreteGradient),
+        ("divergence", Self::Divergence),
+        ("volume", Self::Volume),
+        ("connection", Self::Connection),
+        ("invariants", Self::Invariants),
+        ("leapfrog", Self::Leapfrog),
+        ("euler_poincare_suslov", Self::EulerPoincareSuslov),
+        ("explain", Self::Explain),
+        ("c", Self::C),
+    ];
+}
