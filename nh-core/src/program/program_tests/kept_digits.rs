@@ -2,7 +2,7 @@
 
 use super::symbols;
 use crate::algebra::Graph;
-use crate::id::{Id, SymbolId};
+use crate::id::{ExprId, Id, SymbolId};
 use crate::mechanics::{Definition, Procedure};
 use crate::program::{Program, corrected, interpret, schedule};
 
@@ -19,9 +19,16 @@ fn is_near(found: f64, expected: f64) -> bool {
     (found - expected).abs() < 1e-12 * expected.abs()
 }
 
-/// i k² + m l² − (m l)² / m.
-#[test]
-fn what_elimination_leaves_keeps_its_digits() {
+/// A body on a lever, with what its elimination starts from: m, m l, i k² + m l².
+struct Body {
+    g: Graph,
+    procedure: Procedure,
+    m: ExprId,
+    lever: ExprId,
+    turned: ExprId,
+}
+
+fn body() -> Body {
     let mut g = Graph::new();
     let [m, l, i, k] = symbols(&mut g, ["m", "l", "i", "k"]);
     let inertia = g.formula(i * k.square());
@@ -30,6 +37,13 @@ fn what_elimination_leaves_keeps_its_digits() {
     let lever = procedure.define(&mut g, "lever", lever);
     let turned = g.formula(inertia + lever * l);
     let turned = procedure.define(&mut g, "turned", turned);
+    Body { g, procedure, m, lever, turned }
+}
+
+/// i k² + m l² − (m l)² / m.
+#[test]
+fn what_elimination_leaves_keeps_its_digits() {
+    let Body { mut g, mut procedure, m, lever, turned } = body();
     let ratio = g.formula(lever / m);
     let ratio = procedure.define(&mut g, "ratio", ratio);
     let pivot = g.formula(turned - lever * ratio);
@@ -72,14 +86,7 @@ fn sine_and_cosine_lie_on_the_circle_where_that_matters() {
 /// Mathematics (61), on [[i k² + m l², m l], [m l, m]].
 #[test]
 fn pivoted_solutions_are_refined() {
-    let mut g = Graph::new();
-    let [m, l, i, k] = symbols(&mut g, ["m", "l", "i", "k"]);
-    let inertia = g.formula(i * k.square());
-    let mut procedure = Procedure::default();
-    let lever = g.formula(m * l);
-    let lever = procedure.define(&mut g, "lever", lever);
-    let turned = g.formula(inertia + lever * l);
-    let turned = procedure.define(&mut g, "turned", turned);
+    let Body { mut g, mut procedure, m, lever, turned } = body();
     let unknowns: Vec<SymbolId> = ["a", "b"].map(|name| g.new_symbol(name)).to_vec();
     procedure.outputs = unknowns.iter().map(|symbol| g.symbol(*symbol)).collect();
     let matrix = vec![vec![turned, lever], vec![lever, m]];
