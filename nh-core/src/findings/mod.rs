@@ -2,7 +2,7 @@
 
 mod bracket_entries;
 mod closure;
-mod momentum_lines;
+mod momenta_found;
 mod reduced_form;
 
 use crate::check::{not_conservative, singular_where};
@@ -12,7 +12,7 @@ use crate::mechanics::moving_energy_section;
 
 pub(crate) use bracket_entries::{BracketEntries, Jacobi};
 pub(crate) use closure::Closure;
-pub(crate) use momentum_lines::{LevelMomentum, Rate, SymmetryMomentum};
+pub(crate) use momenta_found::{LevelMomentum, Rate, SymmetryMomentum};
 pub(crate) use reduced_form::{Connection, Quantities, ReducedForm, Split};
 
 /// What the report says beyond the declaration and the equations.
@@ -44,12 +44,12 @@ impl Findings {
         let closure = Closure::of(proved, derived);
         let singular_mass = singular_mass(proved, derived);
         let reduced = ReducedForm::of(proved, derived);
-        let symmetries = momentum_lines::symmetries(proved, derived);
-        let (levels, routhian) = momentum_lines::levels(proved, derived);
+        let symmetries = momenta_found::symmetries(proved, derived);
+        let (levels, routhian) = momenta_found::levels(proved, derived);
         let Proved { model, system, constraints, .. } = &mut *proved;
         let keeps_energy = not_conservative(model, system, constraints).is_none();
         let moving_energy = if keeps_energy { None } else { moving_energy(proved) };
-        let conserved_momenta = momentum_lines::conserved(proved, derived);
+        let conserved_momenta = momenta_found::conserved(proved, derived);
         Self {
             closure,
             singular_mass,

@@ -3,7 +3,7 @@
 use nh_bench::callgrind::Counts;
 
 use crate::measured::{LEVELS, Study};
-use crate::random::REGIMES;
+use crate::places::REGIMES;
 
 /// Prints instructions and errors of every system.
 pub fn print(systems: &[Box<dyn Study>], counts: &[Counts]) {

@@ -5,10 +5,10 @@
 //! same parameters, states and inputs, which are exact.
 
 mod double_double;
+pub mod errors_by_level;
 pub mod measured;
-pub mod random;
+pub mod places;
 pub mod regular;
 pub mod systems;
-pub mod table;
 
 pub use double_double::DoubleDouble;

@@ -7,7 +7,7 @@
 use std::process::ExitCode;
 
 use nh_accuracy::measured::LEVELS;
-use nh_accuracy::{systems, table};
+use nh_accuracy::{errors_by_level, systems};
 use nh_bench::callgrind::{self, Counts};
 use nh_bench::program;
 
@@ -33,7 +33,7 @@ fn measure() -> Result<(), String> {
         println!("valgrind is not installed: instructions are not counted\n");
         vec![Counts::default(); LEVELS.len()]
     };
-    table::print(&systems::all(), &counts);
+    errors_by_level::print(&systems::all(), &counts);
     Ok(())
 }
 

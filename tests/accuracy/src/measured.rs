@@ -6,7 +6,7 @@ use nh_bench::callgrind::Counts;
 use nonholonomic::Scalar;
 
 use crate::DoubleDouble;
-use crate::random::{Numbers, Place, Random, Regime};
+use crate::places::{Numbers, Place, Random, Regime};
 use crate::regular::{self, Regular};
 
 /// Places at which a system is evaluated in each regime.

@@ -7,7 +7,7 @@ use nonholonomic::Scalar;
 
 use crate::DoubleDouble;
 use crate::measured::{Level, Measured, Twin, larger, largest};
-use crate::random::{Place, Random, Regime};
+use crate::places::{Place, Random, Regime};
 
 /// How many places are tried.
 pub const PLACES: usize = 400;

@@ -1,6 +1,6 @@
 //! Inertias over eighteen decades cost the default level no digits where one constraint stands alone.
 
-use nh_accuracy::random::Regime;
+use nh_accuracy::places::Regime;
 use nh_accuracy::systems;
 
 /// The factor that the default level gives away for speed.

@@ -3,8 +3,8 @@
 
 pub mod callgrind;
 pub mod contest;
+pub mod contest_table;
 pub mod peers;
 pub mod program;
 pub mod runner;
 pub mod systems;
-pub mod table;

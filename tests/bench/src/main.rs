@@ -8,10 +8,10 @@
 use std::process::ExitCode;
 
 use nh_bench::callgrind::{self, Counts};
+use nh_bench::contest_table::{Row, print, print_peers};
 use nh_bench::peers::Workshop;
 use nh_bench::program;
 use nh_bench::runner::{OWN, Run, all};
-use nh_bench::table::{Row, print, print_peers};
 
 fn main() -> ExitCode {
     let evaluate = |_: &[String]| {

@@ -38,9 +38,9 @@
 //! under callgrind once, and each run of a method is a profile of its own.
 
 mod instructions;
+mod lists_of_runs;
 mod picture;
 mod study;
-mod table;
 mod variant;
 
 pub use study::{Outcome, Study};

@@ -7,7 +7,7 @@ use nonholonomic::ScalarOf;
 use nonholonomic::prelude::*;
 
 use crate::variant::Variant;
-use crate::{instructions, picture, table};
+use crate::{instructions, lists_of_runs, picture};
 
 /// One motion, over a span of time, in any number of variants and methods.
 pub struct Study {
@@ -114,9 +114,9 @@ impl Study {
     pub fn finish(self) -> std::io::Result<()> {
         let (name, from, to) = (self.name.clone(), self.from, self.to);
         let Some((outcomes, converged)) = self.measure() else { return Ok(()) };
-        println!("{}", table::head(&name, from, to, converged));
-        println!("{}", table::runs(&outcomes));
-        println!("{}", table::cheapest(&outcomes));
+        println!("{}", lists_of_runs::head(&name, from, to, converged));
+        println!("{}", lists_of_runs::runs(&outcomes));
+        println!("{}", lists_of_runs::cheapest(&outcomes));
         let path = std::path::Path::new("target/work_precision").join(format!("{name}.svg"));
         std::fs::create_dir_all("target/work_precision")?;
         std::fs::write(&path, picture::draw(&name, &outcomes))?;

@@ -1,6 +1,6 @@
 //! Systems of fixed size.
 
-use crate::random::Numbers;
+use crate::places::Numbers;
 use std::f64::consts::FRAC_PI_2;
 
 measured! {

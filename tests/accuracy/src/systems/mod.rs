@@ -32,7 +32,7 @@ macro_rules! measured {
 
         impl $crate::measured::Measured for $module::Levels {
             const NAME: &'static str = $name;
-            const NUMBERS: $crate::random::Numbers = $numbers;
+            const NUMBERS: $crate::places::Numbers = $numbers;
             type Fast = $module::fast::Emitted;
             type Balanced = $module::balanced::Emitted;
             type Careful = $module::careful::Emitted;
@@ -72,7 +72,7 @@ macro_rules! measured {
                     let velocity: [T; SECTIONS] = system(parameters).velocity(T::ZERO, &state(at)).into();
                     velocity.to_vec()
                 }
-                fn evaluated(place: &$crate::random::Place) {
+                fn evaluated(place: &$crate::places::Place) {
                     let (system, state) = (system(&place.parameters), state(&place.state));
                     std::hint::black_box(counted(&system, &state, &input(&place.input)));
                 }

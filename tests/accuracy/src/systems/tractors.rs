@@ -3,7 +3,7 @@
 //! The benchmark of record has them too, each beside its hand-written equations; `tests/same_systems.rs` says that
 //! these agree.
 
-use crate::random::Numbers;
+use crate::places::Numbers;
 use std::f64::consts::FRAC_PI_2;
 
 macro_rules! tractor {

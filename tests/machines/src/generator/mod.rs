@@ -1,12 +1,12 @@
 //! Random machines as declarations.
 
+mod draws;
 mod groups;
 mod particles;
 mod planar;
-mod random;
 mod spatial;
 
-pub use random::Random;
+pub use draws::Random;
 
 /// A declaration as text, as a user writes it.
 #[derive(Clone, Debug)]

@@ -25,7 +25,7 @@ pub(crate) fn print(points: &[Point]) {
         let upper: Vec<&Point> = members.into_iter().filter(|point| point.size >= from).collect();
         let exponents = [0, 1, 2, 3].map(|kind| {
             let of = |point: &&Point| Some(((point.size as f64).ln(), point.measured[kind]?.ln()));
-            nh_bench::table::cell(slope(&upper.iter().filter_map(of).collect::<Vec<_>>()), 2)
+            nh_bench::contest_table::cell(slope(&upper.iter().filter_map(of).collect::<Vec<_>>()), 2)
         });
         let first = upper.first().map_or(0, |point| point.size);
         println!("| {family} | {first} | {} |", exponents.join(" | "));

@@ -19,7 +19,7 @@ mod families;
 mod growth;
 mod stopwatch;
 
-use nh_bench::table::cell;
+use nh_bench::contest_table::cell;
 
 #[allow(dead_code, unused_imports, reason = "the other macros use more")]
 #[path = "../../../../../nh-macros/src/emit/mod.rs"]
