@@ -3,10 +3,12 @@
 //! Nothing is proved yet. Positions in the declaration are opaque [`Origin`]s.
 
 mod body;
+mod impact;
 mod position;
 mod request;
 
 pub use body::{Attitude, Body, Inertia};
+pub use impact::{ImpactDecl, ImpactRowDecl};
 pub use position::PositionDecl;
 pub use request::Request;
 
@@ -64,6 +66,8 @@ pub struct Model {
     pub redundant: Option<Origin>,
     /// Constraints φ = 0.
     pub constraints: Table<ConstraintId, ConstraintDecl>,
+    /// What velocities jump to (`impacts`).
+    pub impacts: Vec<ImpactDecl>,
     /// Sections that span D (`distribution`), by their velocity symbols, instead of constraints.
     pub distribution: Option<Vec<(SymbolId, Origin)>>,
     /// Generalized forces.
@@ -117,6 +121,10 @@ impl Model {
         rewrite(&mut self.lagrangian.value);
         self.positions.iter_mut().for_each(|position| rewrite(&mut position.value));
         self.constraints.iter_mut().for_each(|constraint| rewrite(&mut constraint.residual));
+        for impact in &mut self.impacts {
+            impact.rows.iter_mut().for_each(|row| rewrite(&mut row.value));
+            impact.restitution.iter_mut().for_each(|restitution| rewrite(&mut restitution.value));
+        }
         self.forces.iter_mut().for_each(|force| rewrite(&mut force.value));
         self.auxiliary.iter_mut().for_each(|state| rewrite(&mut state.value));
         self.outputs.iter_mut().for_each(|output| rewrite(&mut output.value));

@@ -38,6 +38,8 @@ pub struct System {
     pub projection: Option<Projection>,
     /// The way back to position constraints, if there are any.
     pub positions: Option<PositionReturn>,
+    /// What velocities jump to.
+    pub impacts: Vec<ImpactForm>,
     /// What linearising the motion on the constraint manifold takes; if asked for.
     pub linearization: Option<Linearization>,
     /// Brackets, momenta, volume and connections; as far as they are asked for.
@@ -179,6 +181,34 @@ pub struct Linearization {
     /// Outputs: what vanishes on the manifold, the constraints that a state can be off and then the identities of an
     /// embedded base.
     pub residuals: Procedure,
+}
+
+/// An impact: mathematics (50).
+#[derive(Clone, Debug)]
+pub struct ImpactForm {
+    /// Its label.
+    pub label: String,
+    /// What the rows are called.
+    pub names: Vec<String>,
+    /// For each row, its place among the outputs of `gaps`; none for a row on velocities.
+    pub places: Vec<Option<usize>>,
+    /// Which rows push and never pull.
+    pub unilateral: Vec<bool>,
+    /// Outputs: h of each row on positions.
+    pub gaps: Procedure,
+    /// Outputs: x^i ∂_i h, row by row, by which a gap is known up to rounding.
+    pub terms: Procedure,
+    /// Output: e.
+    pub restitution: Procedure,
+    /// Outputs: Ψ y + b of each row; C⁻¹ Nᵀ, row by row; K = N C⁻¹ Nᵀ, row by row.
+    pub jump: Procedure,
+}
+
+impl ImpactForm {
+    /// Every procedure, with what it is a part of.
+    pub(crate) fn procedures(&mut self) -> [&mut Procedure; 4] {
+        [&mut self.gaps, &mut self.terms, &mut self.restitution, &mut self.jump]
+    }
 }
 
 /// Functions with their derivatives.

@@ -48,6 +48,8 @@ pub enum Law {
     Tracking,
     /// What a linearisation keeps is in the state, each once.
     Linearization,
+    /// Impacts: what velocities jump to is linear in them, and independent of what holds all the time.
+    Impact,
     /// A map between two systems is a reduction: mathematics (13), (14), CLMM Theorem 4.6.
     Morphism,
     /// What a quotient drops, nothing depends on: CM section 4, CLMM 4.8–4.12.

@@ -57,6 +57,7 @@ mod syntax;
 /// | `lagrangian { let …; L }` | L(t, x, y) | an error |
 /// | `holonomic { label: lhs = rhs; }` | position constraints, at will dependent on the time; generates `assemble` and `assemble_holding`; `redundant;` permits equations that follow from others | none |
 /// | `constraints { label: lhs = rhs; }` | linear, affine or nonlinear in the velocities, at will dependent on the time | none |
+/// | `impacts { floor: h >= 0 with restitution e; blade: u = 0, w = 0; }` | jumps of the velocities: gaps that close, and equations that hold afterwards; what acts together stands in one item; generates `impact_floor`, `event_floor` and a type for `advance_with_impacts` | none |
 /// | `distribution { s, dpsi }` | sections that span the allowed velocities, instead of linear constraints | |
 /// | `forces { omega: …; x: …; }` | generalized forces along a section or a coordinate | none |
 /// | `inputs { torque }` | control inputs, constant within a step | none |

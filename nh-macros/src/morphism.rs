@@ -5,7 +5,7 @@
 //! declaration, calls that of the target likewise, and has everything in the third call.
 
 use nonholonomic_core::limits::within_limits;
-use nonholonomic_core::reduction::{Refusal, reduce};
+use nonholonomic_core::reduction::{Refusal, Related, reduce};
 use proc_macro2::{TokenStream, TokenTree};
 use quote::quote;
 
@@ -81,8 +81,15 @@ fn prove(
     let proved = resolved.and_then(|resolved| {
         let origins = resolved.origins;
         let derived = within_limits(|| {
-            let reduction = reduce(resolved.source, resolved.target, &resolved.declared)?;
-            Ok(emit::morphism(&reduction, declaration, &source_layout, &target_layout))
+            let related = reduce(resolved.source, resolved.target, &resolved.declared)?;
+            Ok(match related {
+                Related::Reduction(reduction) => {
+                    emit::morphism(&reduction, declaration, &source_layout, &target_layout)
+                }
+                Related::Inclusion(inclusion) => {
+                    emit::inclusion(&inclusion, declaration, &source_layout, &target_layout)
+                }
+            })
         });
         match derived {
             Ok(Ok(written)) => written.map_err(|error| Unrelated::Errors(vec![error])),

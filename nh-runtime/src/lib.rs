@@ -83,6 +83,7 @@ mod fast;
 pub mod guide;
 mod holders;
 pub mod impacts;
+mod inclusion;
 mod integrator;
 mod jet;
 mod lanes;
@@ -119,6 +120,7 @@ pub use dynamics::{
 pub use error::{InputFault, IntegrationError, ParameterError, ParameterFault, ProjectionError, StateFault};
 pub use events::{Event, Events};
 pub use fast::Fast;
+pub use inclusion::{Inclusion, NotInMode};
 pub use integrator::Integrator;
 pub use jet::Jet;
 pub use lanes::Lanes;
@@ -392,6 +394,8 @@ pub mod __private {
     pub use crate::__nh_serde_impls as serde_impls;
     pub use crate::TaylorSeries;
     pub use crate::assembly::{AssemblyError, Loops, assemble, assemble_holding};
+    pub use crate::impacts;
+    pub use crate::inclusion::restricted;
     pub use crate::linear::{inverse_pivoted, solve_pivoted, times};
     pub use crate::linear_model::{
         FirstOrder, Linearization, LinearizationError, Names, Parts, linearize, variables,
@@ -402,9 +406,9 @@ pub mod __private {
     pub use crate::trim::{Steady, TrimError, equations, trim};
     pub use crate::{
         AlmostPoisson, Angle, AngleCache, AngleCached, Constrained, D, Dim, Dynamics, Energy,
-        EulerPoincareSuslov, InputFault, Invariants, Jacobian, Jet, Leapfrog, Observed, ParameterError,
-        ParameterFault, Prepare, Prepared, ProjectionError, Real, Reconstruction, Reduction, Scalar,
-        ScalarOf, State, StateFault,
+        EulerPoincareSuslov, Inclusion, InputFault, Invariants, Jacobian, Jet, Leapfrog, NotInMode, Observed,
+        ParameterError, ParameterFault, Prepare, Prepared, ProjectionError, Real, Reconstruction, Reduction,
+        Scalar, ScalarOf, State, StateFault, VecOf,
     };
     pub use core;
     pub use nalgebra;

@@ -6,9 +6,9 @@ pub use crate::methods::{
     Tsit5, Vern9,
 };
 pub use crate::{
-    AlmostPoisson, Constrained, Direction, Dynamics, Energy, Event, Events, Fast, IntegrationError,
-    Integrator, Jacobian, Lanes, Observed, ParameterError, Real, Reconstructed, Reconstruction, Reduction,
-    Scalar, State, Statistics,
+    AlmostPoisson, Constrained, Direction, Dynamics, Energy, Event, Events, Fast, Inclusion,
+    IntegrationError, Integrator, Jacobian, Lanes, Observed, ParameterError, Real, Reconstructed,
+    Reconstruction, Reduction, Scalar, State, Statistics,
 };
 
 pub use crate::{Taylor, TaylorSeries};

@@ -61,6 +61,8 @@ pub(super) fn differentiated(model: &Model) -> Vec<(&'static str, ExprId, Origin
     let mut list = vec![("Lagrangian", model.lagrangian.value, model.lagrangian.origin)];
     list.extend(model.positions.iter().map(|p| ("position constraint", p.value, p.origin)));
     list.extend(model.constraints.iter().map(|c| ("constraint", c.residual, c.origin)));
+    let rows = model.impacts.iter().flat_map(|impact| &impact.rows);
+    list.extend(rows.map(|row| ("row of an impact", row.value, row.origin)));
     list.extend(model.brackets.iter().map(|b| ("bracket", b.value, b.origin)));
     match &model.kinematics {
         Kinematics::Tangent => {}
@@ -76,6 +78,8 @@ fn evaluated(model: &Model) -> Vec<(&'static str, ExprId, Origin)> {
     list.extend(model.forces.iter().map(|force| ("force", force.value, force.origin)));
     list.extend(model.auxiliary.iter().map(|state| ("rate", state.value, state.origin)));
     list.extend(model.outputs.iter().map(|output| ("output", output.value, output.origin)));
+    let restitutions = model.impacts.iter().filter_map(|impact| impact.restitution);
+    list.extend(restitutions.map(|e| ("coefficient of restitution", e.value, e.origin)));
     list.extend(model.claims.iter().map(|claim| ("first integral", claim.value, claim.origin)));
     for symmetry in &model.symmetries {
         list.push(("symmetry", symmetry.value, symmetry.origin));

@@ -111,6 +111,18 @@ pub(super) fn combination_shown(model: &mut Model, rows: &Matrix, earlier: &[usi
     in_words(&model.graph, &name, combination.as_deref(), &names)
 }
 
+/// The combination of some rows that another is, as text.
+pub(super) fn combination_of(
+    graph: &mut Graph,
+    before: &[Vec<ExprId>],
+    row: &[ExprId],
+    names: &[String],
+    name: &str,
+) -> String {
+    let combination = combination(graph, before, row);
+    in_words(graph, name, combination.as_deref(), names)
+}
+
 /// `c = (x)*a + b`.
 fn in_words(graph: &Graph, name: &str, combination: Option<&[ExprId]>, names: &[String]) -> String {
     let terms: Vec<String> = combination

@@ -7,6 +7,7 @@ use super::differentiated::{requested_jacobian, requested_output_jacobian, reque
 use super::gibbs_appell_function;
 use super::given;
 use super::gyroscopic;
+use super::impact_functions;
 use super::levels::Leveled;
 use super::momenta::momenta;
 use super::position_return::position_return;
@@ -86,6 +87,7 @@ pub(super) fn derive(
     let divisors = parameter_divisors(&mut proved.model, &derivative);
     let known = [conditions.as_slice(), &divisors].concat();
     let positions = positions(&mut proved, &mut restriction, moving, (&distribution.pivots, &known));
+    let impacts = impact_functions::adapted(&mut proved, &mut restriction, kept);
     // 5. what both formulations end with
     about(Subject::Requests);
     functions.add(&ENERGY, Procedure::of(vec![energy]));
@@ -93,7 +95,7 @@ pub(super) fn derive(
     functions.add_if(&POWER, power);
     functions.add_if(&OUTPUT_JACOBIAN, output_jacobian);
     functions.add_if(&RESIDUAL, positions.as_ref().map(|positions| positions.residual.clone()));
-    let parts = Parts { jacobian, functions, momenta, gyroscopic, positions, ..Parts::default() };
+    let parts = Parts { jacobian, functions, momenta, gyroscopic, positions, impacts, ..Parts::default() };
     let derivation = Derivation {
         derived: Derived::Adapted { distribution, kept, equations: &equations },
         reason,

@@ -6,6 +6,7 @@ use super::differentiated::{requested_jacobian, requested_output_jacobian, reque
 use super::gibbs_appell_function;
 use super::given;
 use super::gyroscopic;
+use super::impact_functions;
 use super::levels;
 use super::momenta::momenta;
 use super::position_return::position_return;
@@ -85,6 +86,7 @@ pub(super) fn derive(
     let projection = projection(&mut proved.model, &velocities, &on_levels, &all_residuals, judge);
     let moving = (velocities.as_slice(), velocity.as_slice(), all_residuals.as_slice());
     let positions = position_return(&mut proved, &equations, &mut everywhere, moving, judge);
+    let impacts = impact_functions::projected(&mut proved, &equations);
     // 6. what both formulations end with
     functions.add(&ENERGY, Procedure::of(vec![energy]));
     functions.add(&VELOCITY, Procedure::of(velocity));
@@ -93,7 +95,16 @@ pub(super) fn derive(
     let on_positions = positions.iter().flat_map(|positions| positions.residual.outputs.clone());
     functions.add(&RESIDUAL, Procedure::of(on_positions.chain(all_residuals.iter().copied()).collect()));
     let projection = Some(projection);
-    let parts = Parts { jacobian, functions, momenta, gyroscopic, projection, positions, ..Parts::default() };
+    let parts = Parts {
+        jacobian,
+        functions,
+        momenta,
+        gyroscopic,
+        projection,
+        positions,
+        impacts,
+        ..Parts::default()
+    };
     let divisors = parameter_divisors(&mut proved.model, &derivative);
     let derivation = Derivation {
         derived: Derived::Projected { residuals: &residuals, equations: &equations },

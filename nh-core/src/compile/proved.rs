@@ -1,7 +1,7 @@
 //! What the stages of the derivation hand on to each other, and what they say where they end it.
 
 use crate::algebra::Facts;
-use crate::check::{BrokenLaws, Constraints, Kind, Motion, Positions, Symmetry};
+use crate::check::{BrokenLaws, Constraints, Impact, Kind, Motion, Positions, Symmetry};
 use crate::choose::{Fate, Ledger};
 use crate::geometry::{ConstraintDistribution, Manifold, Rank};
 use crate::id::{CoordId, ExprId, Origin, SymbolId};
@@ -33,6 +33,8 @@ pub(crate) struct Proved {
     pub(crate) system: LagrangianSystem,
     /// Its symmetries.
     pub(crate) symmetries: Symmetries,
+    /// What velocities jump to.
+    pub(crate) impacts: Vec<Impact>,
     /// Momenta on levels.
     pub(crate) levels: Vec<Level>,
     /// The cyclic coordinates that these leave to quadratures.

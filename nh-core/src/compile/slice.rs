@@ -111,6 +111,14 @@ fn closure(system: &System, wanted: BTreeSet<SymbolId>) -> BTreeSet<SymbolId> {
             needed.extend(found.into_iter().filter(|symbol| state.contains(symbol)));
         }
     }
+    // a jump changes all velocities
+    for impact in &system.impacts {
+        needed.extend(&system.state_velocities);
+        for procedure in [&impact.gaps, &impact.terms, &impact.jump] {
+            let found = procedure.depends_on(graph, &procedure.outputs);
+            needed.extend(found.into_iter().filter(|symbol| state.contains(symbol)));
+        }
+    }
     // the way back to an embedded base takes all of its coordinates
     let embedded: BTreeSet<SymbolId> = match &system.embedding {
         None => BTreeSet::new(),

@@ -125,7 +125,16 @@ pub(crate) fn prove(mut model: Model) -> Result<(Proved, Chosen), Vec<Violation>
         None => check::choose_formulation(&mut model, &constraints, &facts, &positions.manifold)?,
     };
     let chosen = check::orthonormal(&mut model, &system, chosen, &facts)?;
+    let between = &mut check::Between {
+        motion: &mut motion,
+        system: &system,
+        constraints: &constraints,
+        positions: &positions,
+        chosen: &chosen,
+    };
+    let impacts = check::impacts(&mut model, between)?;
     let proved = Proved {
+        impacts,
         model,
         motion,
         base,

@@ -34,6 +34,9 @@ pub(super) fn without_strangers(mut system: System) -> Result<System, Vec<Violat
         functions.push(("assemble", &mut positions.assembly.positions.procedure));
         functions.push(("assemble", &mut positions.assembly.velocities.procedure));
     }
+    for impact in &mut system.impacts {
+        functions.extend(impact.procedures().map(|procedure| ("impact", procedure)));
+    }
     let graph = &mut system.model.graph;
     let mut broken = Vec::new();
     for (what, function) in functions {

@@ -11,11 +11,11 @@ use crate::check::{evidence::shown, name_of};
 use crate::id::{ConstraintId, ExprId, Id};
 use crate::violation::{Law, Violation};
 
-/// Proves that the systems are related. Forces are compared where the constraints are.
-pub(super) fn related(source: &mut Side, target: &Side, map: &BundleMap) -> Vec<Violation> {
+/// Proves that the systems are related, D going onto D' if that `is_asked`. Forces are compared where the constraints are.
+pub(super) fn related(source: &mut Side, target: &Side, map: &BundleMap, is_asked: bool) -> Vec<Violation> {
     let mut violations: Vec<Violation> = lagrangian(source, target, map).into_iter().collect();
     let mut constraints = included(source, target, map);
-    if constraints.is_empty() {
+    if is_asked && constraints.is_empty() {
         constraints.extend(covered(source, target, map));
     }
     let comparable = constraints.is_empty();

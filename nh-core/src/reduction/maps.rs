@@ -42,7 +42,7 @@ pub(super) fn functions(mut source: Side, target: &Side, map: &BundleMap) -> Res
 }
 
 /// A function on E in the variables of the state.
-fn in_state(source: &mut Side, value: ExprId) -> ExprId {
+pub(super) fn in_state(source: &mut Side, value: ExprId) -> ExprId {
     let value = source.restricted(value);
     source.graph().simplify(value)
 }
@@ -71,7 +71,7 @@ fn solved(side: &mut Side, matrix: &Matrix, right: &[ExprId]) -> Option<Vec<Expr
 }
 
 /// The state of the target, each variable with its value as a function on E.
-fn reduced_state(source: &mut Side, target: &Side, map: &BundleMap) -> Vec<(SymbolId, ExprId)> {
+pub(super) fn reduced_state(source: &mut Side, target: &Side, map: &BundleMap) -> Vec<(SymbolId, ExprId)> {
     let velocities = reduced_velocities(source, target, map);
     let kept = target.distribution.as_ref().map_or(target.velocities(), |d| d.independent.as_slice());
     let model = &target.proved.model;
@@ -85,7 +85,7 @@ fn reduced_state(source: &mut Side, target: &Side, map: &BundleMap) -> Vec<(Symb
 }
 
 /// What the source tracks determines the state of the target.
-fn all_tracked(
+pub(super) fn all_tracked(
     source: &Side,
     map: &BundleMap,
     reduced: &[ExprId],

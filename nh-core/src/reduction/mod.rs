@@ -9,6 +9,7 @@ mod auxiliary_rates;
 mod bundle_map;
 mod dynamics;
 mod forces;
+mod inclusion;
 mod invariance;
 mod laws;
 mod maps;
@@ -21,6 +22,7 @@ use crate::mechanics::Procedure;
 use crate::model::{Located, Model};
 use crate::violation::{Law, Violation};
 
+pub use inclusion::Inclusion;
 pub use quotient::{Equation, Quotient, QuotientDecl, quotient};
 
 use bundle_map::BundleMap;
@@ -76,6 +78,15 @@ pub struct Reconstruction {
     pub state: Procedure,
 }
 
+/// What a declared map was proved to be.
+#[derive(Clone, Debug)]
+pub enum Related {
+    /// Motions of the source go to motions of the target.
+    Reduction(Box<Reduction>),
+    /// The source is the target with further constraints.
+    Inclusion(Box<Inclusion>),
+}
+
 /// Why there is no reduction.
 #[derive(Clone, Debug)]
 pub enum Refusal {
@@ -85,11 +96,11 @@ pub enum Refusal {
     Broken(Vec<Violation>),
 }
 
-/// Proves that a declared map is a reduction, and derives its functions.
+/// Proves that a declared map is a reduction, or the inclusion of a mode, and derives its functions.
 ///
 /// # Errors
 /// The laws that the map breaks, each with its defect.
-pub fn reduce(source: Model, target: Model, declared: &MorphismDecl) -> Result<Reduction, Refusal> {
+pub fn reduce(source: Model, target: Model, declared: &MorphismDecl) -> Result<Related, Refusal> {
     let mut source = Side::of(source)?;
     let target = Side::of(target)?;
     about(Subject::Map);
@@ -98,14 +109,21 @@ pub fn reduce(source: Model, target: Model, declared: &MorphismDecl) -> Result<R
     fence(sides.filter_map(|side| on_positions(side, declared.origin)).collect())?;
     // 1. Φ: parameters, base and fibres, and the target pulled back by it
     let map = BundleMap::of(&mut source, &target, declared).map_err(Refusal::Broken)?;
-    // 2. the laws of the map, mathematics (13) and (14)
-    let broken = laws::of_the_map(&mut source, &target, &map);
+    // 2. the laws of the map, mathematics (13) and (14): onto, unless the source is a mode of the target
+    let places = inclusion::places(&mut source, &target, &map);
+    let broken = laws::of_the_map(&mut source, &target, &map, places.is_none());
     fence(broken)?;
     // 3. what moves is related: L, D, forces
-    let broken = dynamics::related(&mut source, &target, &map);
+    let broken = dynamics::related(&mut source, &target, &map, places.is_none());
     fence(broken)?;
     // 4. the functions
-    maps::functions(source, &target, &map).map_err(|violation| Refusal::Broken(vec![violation]))
+    let related = match places {
+        Some(places) => {
+            inclusion::functions(source, &target, &map, places).map(Box::new).map(Related::Inclusion)
+        }
+        None => maps::functions(source, &target, &map).map(Box::new).map(Related::Reduction),
+    };
+    related.map_err(|violation| Refusal::Broken(vec![violation]))
 }
 
 /// A side whose motions are those of one level set alone, f = 0.

@@ -3,6 +3,7 @@
 mod classification;
 mod equations;
 mod hamiltonian;
+mod impact_lines;
 mod reduction_kind;
 mod routhian;
 mod symmetry;
@@ -34,6 +35,7 @@ pub(crate) fn report(
     conditions: &[ExprId],
     more: Vec<(&str, Vec<String>)>,
 ) -> String {
+    let impacts = impact_lines::lines(proved);
     let (model, system) = (&proved.model, &proved.system);
     let mut classification = classification::lines(proved, derived, findings, reason);
     classification.extend(reduction_kind::name(proved, &findings.reduced));
@@ -63,6 +65,7 @@ pub(crate) fn report(
     section("Mass matrix", mass_matrix(model, derived));
     section("Routh reduction", routh);
     section("Equations of motion", equations_of_motion(model, derived));
+    section("Impacts", impacts);
     section("Symmetries", symmetries);
     section("Conserved quantities", conserved);
     for (title, lines) in more {

@@ -67,6 +67,7 @@ impl Builder {
             symmetric: Vec::new(),
             bodies: Vec::new(),
             frame: Vec::new(),
+            impacts: Vec::new(),
             distribution: None,
             claims: Vec::new(),
             routh: Vec::new(),

@@ -98,6 +98,8 @@ pub(crate) struct TypeNames {
     pub(crate) coordinate: Ident,
     /// `SleighVariable`
     pub(crate) variable: Ident,
+    /// `SleighImpulses`
+    pub(crate) impulses: Ident,
 }
 
 impl TypeNames {
@@ -118,6 +120,7 @@ impl TypeNames {
             power: format_ident!("{name}Power"),
             coordinate: format_ident!("{name}Coordinate"),
             variable: format_ident!("{name}Variable"),
+            impulses: format_ident!("{name}Impulses"),
         }
     }
 }

@@ -84,7 +84,12 @@ pub(crate) fn morphism_stub(
 }
 
 /// `impl … for Full`.
-fn implement(context: &Context, types: &Types, of: &TokenStream, items: &TokenStream) -> TokenStream {
+pub(super) fn implement(
+    context: &Context,
+    types: &Types,
+    of: &TokenStream,
+    items: &TokenStream,
+) -> TokenStream {
     let source = &types.source;
     let (impl_generics, _, where_clause) = context.generics.split_for_impl();
     quote! {
@@ -98,11 +103,11 @@ pub(super) struct Types {
     source: TokenStream,
     pub(super) target: TokenStream,
     /// The target as it is constructed.
-    target_path: TokenStream,
+    pub(super) target_path: TokenStream,
 }
 
 impl Types {
-    fn of(declaration: &MorphismDecl, source: &Layout, target: &Layout) -> Self {
+    pub(super) fn of(declaration: &MorphismDecl, source: &Layout, target: &Layout) -> Self {
         let (_, source_generics, _) = source.generics.split_for_impl();
         let path = &declaration.source.path;
         let target_path = declaration.target.path.clone();
@@ -122,7 +127,7 @@ impl Types {
 }
 
 /// The layouts with one scalar: a parameter meets a type by becoming it.
-fn one_scalar(
+pub(super) fn one_scalar(
     declaration: &MorphismDecl,
     source: &Layout,
     target: &Layout,

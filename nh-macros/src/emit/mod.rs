@@ -15,6 +15,8 @@ mod embedding;
 mod energy;
 mod functions;
 mod hamiltonian;
+mod impact_methods;
+mod inclusion;
 mod infix;
 mod inherent_method;
 mod intermediate_names;
@@ -61,6 +63,7 @@ use setting::Context;
 use symbols::Scope;
 
 pub(crate) use callback::alias;
+pub(crate) use inclusion::inclusion;
 pub(crate) use layout::{Family, Layout, TypeNames};
 pub(crate) use map_functions::{morphism, morphism_stub};
 pub(crate) use reduced_declaration::{Written, can_be_written, quotient};
@@ -86,6 +89,7 @@ pub(crate) fn emit(system: &System, layout: &Layout) -> Result<TokenStream, Vec<
         .with(sparse_jacobian::emit(context, scope, system))
         .with(vector_products::emit(context, system))
         .with(linearization::emit(context, system, &derivative))
+        .with(impact_methods::emit(context, scope, system))
         .with(prepared::emit(context, system, &derivative))
         .with(angle_cache::emit(context, scope, system, &derivative))
         .with(hamiltonian::emit(context, scope, system))

@@ -95,6 +95,7 @@ impl Builder {
             outputs: Vec::new(),
             identities: Vec::new(),
             frame: Vec::new(),
+            impacts: Vec::new(),
             distribution: None,
             claims: Vec::new(),
             symmetries: Vec::new(),
@@ -164,6 +165,7 @@ impl Builder {
             jacobian: None,
             products: Vec::new(),
             linearization: None,
+            impacts: Vec::new(),
             phase_space: nonholonomic_core::phase_space::PhaseSpace::default(),
             embedding: None,
             parameter_checks: nonzero

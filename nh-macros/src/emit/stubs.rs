@@ -14,8 +14,8 @@ use super::setting::Context;
 use super::taylor;
 use super::{
     almost_poisson, angle_cache, assembly, c, callback, discrete, editor, embedding, energy, functions,
-    hamiltonian, invariants, jacobian, linearization, motion, observed, prepared, projection, report_text,
-    sparse_jacobian, state, validate, vector_products,
+    hamiltonian, impact_methods, invariants, jacobian, linearization, motion, observed, prepared, projection,
+    report_text, sparse_jacobian, state, validate, vector_products,
 };
 use crate::resolve::Outline;
 
@@ -78,5 +78,6 @@ fn on_request(context: &Context, outline: &Outline) -> Part {
         .with(asked(Request::SparseJacobian, &|| sparse_jacobian::stub(context)))
         .with(asked(Request::JacobianProduct, &|| vector_products::stub(context, Side::Right)))
         .with(asked(Request::AdjointProduct, &|| vector_products::stub(context, Side::Left)))
+        .with(impact_methods::stub(context, &outline.impacts))
         .with(outline.kept.map_or_else(Part::default, |kept| linearization::stub(context, kept)))
 }

@@ -153,7 +153,43 @@ fn stubs_stand_in() {
         velocities: 2,
         has_positions: false,
         kept: None,
+        impacts: Vec::new(),
         claims_section: false,
     };
     golden("stubs", stubs(&layout, &outline));
+}
+
+/// What an impact generates beside the motion.
+#[test]
+fn impacts_of_a_wheel() {
+    let attribute = quote::quote! {
+        base { x, y, phi }
+        lagrangian { m / 2 * (der(x)^2 + der(y)^2) + J / 2 * der(phi)^2 - m * g * y }
+        impacts { touch: y >= r, der(x) + r * der(phi) = 0 with restitution e; stop: der(phi) = 0; }
+    };
+    let item = quote::quote!(
+        struct Wheel {
+            m: f64,
+            J: f64,
+            g: f64,
+            r: f64,
+            e: f64,
+        }
+    );
+    let items = syn::parse2::<syn::File>(crate::expand::nonholonomic(attribute, item));
+    let is_about = |item: &syn::ImplItem| {
+        matches!(item, syn::ImplItem::Fn(f) if {
+            let name = f.sig.ident.to_string();
+            name.starts_with("impact_") || name.starts_with("event_")
+        })
+    };
+    let found = items.expect("a list of items").items.into_iter().filter_map(|item| match item {
+        syn::Item::Impl(mut item) if item.trait_.is_none() => {
+            item.items.retain(is_about);
+            (!item.items.is_empty()).then_some(syn::Item::Impl(item))
+        }
+        item => quote::quote!(#item).to_string().contains("Impact").then_some(item),
+    });
+    let is_declaration = |item: &syn::Item| matches!(item, syn::Item::Macro(_));
+    golden("impacts", found.filter(|item| !is_declaration(item)).map(|item| quote::quote!(#item)).collect());
 }

@@ -111,7 +111,8 @@ impl Resolver {
         let of_motion =
             [types.state, types.coordinate, types.variable, types.velocity, types.input, types.outputs];
         let of_constraints = [types.multipliers, types.reactions, types.residual];
-        let of_momenta = [types.momenta, types.phase, types.quadratures, types.gyroscopic, types.power];
+        let of_momenta =
+            [types.momenta, types.phase, types.quadratures, types.gyroscopic, types.power, types.impulses];
         let mut is_twice = false;
         for name in of_motion.into_iter().chain(of_constraints).chain(of_momenta) {
             if !taken.insert(name.to_string()) {
@@ -151,6 +152,7 @@ fn slot<'a>(types: &'a mut TypeNames, role: &str) -> Option<&'a mut Ident> {
         "power" => Some(&mut types.power),
         "coordinate" => Some(&mut types.coordinate),
         "variable" => Some(&mut types.variable),
+        "impulses" => Some(&mut types.impulses),
         _ => None,
     }
 }

@@ -23,6 +23,8 @@ pub(super) enum Context {
     Holonomic,
     /// `constraints`
     Constraints,
+    /// `impacts`
+    Impacts,
     /// `forces`
     Forces,
     /// `auxiliary`
@@ -91,6 +93,7 @@ impl Context {
             Self::Lagrangian => "lagrangian",
             Self::Holonomic => "holonomic",
             Self::Constraints => "constraints",
+            Self::Impacts => "impacts",
             Self::Forces => "forces",
             Self::Auxiliary => "auxiliary",
             Self::Outputs => "outputs",
@@ -119,7 +122,7 @@ impl Context {
             Self::Constants | Self::On | Self::HamiltonJacobi | Self::MapParameters | Self::MapBase => false,
             Self::MapVelocities => matches!(usage, Usage::Velocity | Usage::Rate),
             Self::MapInputs => !matches!(usage, Usage::Method | Usage::AuxiliaryRate),
-            Self::Constraints | Self::Conserved => {
+            Self::Constraints | Self::Impacts | Self::Conserved => {
                 matches!(usage, Usage::Velocity | Usage::Rate | Usage::Time | Usage::Auxiliary)
             }
             Self::Lagrangian | Self::Volume => matches!(usage, Usage::Velocity | Usage::Rate | Usage::Time),

@@ -14,6 +14,7 @@ mod calls;
 mod choices;
 mod context;
 mod declare;
+mod declared_impacts;
 mod definitions;
 mod dimensions;
 mod dropped;
@@ -56,7 +57,7 @@ use nonholonomic_core::model::{Located, Model};
 
 pub(crate) use self::dropped::resolve_quotient;
 pub(crate) use self::origins::Origins;
-pub(crate) use self::outline::Outline;
+pub(crate) use self::outline::{Outline, OutlinedImpact};
 pub(crate) use self::related_systems::{Unrelated, resolve_morphism};
 use self::resolver::{Resolver, Tables};
 use crate::emit::Layout;
@@ -117,6 +118,7 @@ impl Resolver {
         let constraints =
             constraints.map(|s| self.constraints(&s.body, &sections.lost, &kinematics, &mut labels));
         let constraints = self.with_velocity_forms(&positions, constraints.unwrap_or_default());
+        let impacts = sections.impacts.as_ref().map(|s| self.impacts(&s.body)).unwrap_or_default();
         let forces = sections.forces.as_ref().map(|s| self.forces(&s.body)).unwrap_or_default();
         if let Some(section) = &sections.auxiliary {
             self.auxiliary(&section.body);
@@ -182,6 +184,7 @@ impl Resolver {
             positions,
             redundant,
             constraints,
+            impacts,
             distribution,
             forces,
             outputs,

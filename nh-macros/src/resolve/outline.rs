@@ -3,7 +3,8 @@
 use nonholonomic_core::algebra::{Derivation, Graph};
 use nonholonomic_core::id::{ExprId, SymbolId};
 use nonholonomic_core::model::{
-    AnchorDecl, ConstraintDecl, Formulation, Kinematics, Model, Request, TrackedItem,
+    AnchorDecl, ConstraintDecl, Formulation, ImpactDecl, ImpactRowDecl, Kinematics, Model, Request,
+    TrackedItem,
 };
 
 /// The shape that the generated items of a declaration in error would probably have.
@@ -25,8 +26,33 @@ pub(crate) struct Outline {
     pub(crate) has_positions: bool,
     /// How many variables a linearisation keeps.
     pub(crate) kept: Option<usize>,
+    /// What velocities jump to.
+    pub(crate) impacts: Vec<OutlinedImpact>,
     /// Whether a section of D* is claimed to solve the Hamilton–Jacobi equation.
     pub(crate) claims_section: bool,
+}
+
+/// The shape of an impact.
+#[derive(Clone, Debug)]
+pub(crate) struct OutlinedImpact {
+    /// Its label.
+    pub(crate) label: String,
+    /// How many rows act together.
+    pub(crate) rows: usize,
+    /// How many of them are on positions.
+    pub(crate) positions: usize,
+}
+
+fn outlined(model: &Model, impact: &ImpactDecl) -> OutlinedImpact {
+    let rates = model.coordinates.iter().map(|coordinate| coordinate.rate);
+    let sections = model.sections.iter().map(|section| section.symbol);
+    let frame = model.frame.iter().map(|section| section.symbol);
+    let moving: Vec<SymbolId> = rates.chain(sections).chain(frame).collect();
+    let is_position = |row: &&ImpactRowDecl| {
+        !model.graph.symbols_in(&[row.value]).iter().any(|symbol| moving.contains(symbol))
+    };
+    let positions = impact.rows.iter().filter(is_position).count();
+    OutlinedImpact { label: impact.label.clone(), rows: impact.rows.len(), positions }
 }
 
 impl Outline {
@@ -41,6 +67,7 @@ impl Outline {
             velocities: kept(model).len(),
             has_positions: !model.positions.is_empty(),
             kept: model.linearization.as_ref().map(Vec::len),
+            impacts: model.impacts.iter().map(|impact| outlined(model, impact)).collect(),
             claims_section: model.hamilton_jacobi.is_some(),
         }
     }

@@ -5,6 +5,7 @@
 //! indexed `let` is seen in its body.
 
 mod expression_tree;
+mod impact_tree;
 mod unit_tree;
 
 use std::rc::Rc;
@@ -12,6 +13,7 @@ use std::rc::Rc;
 use proc_macro2::{Ident, TokenStream};
 
 pub(crate) use self::expression_tree::{Expr, ExprKind, Factor, Number, Sign};
+pub(crate) use self::impact_tree::{ImpactLine, ImpactRow};
 pub(crate) use self::unit_tree::{UnitFactor, UnitLine};
 use crate::report::Extent;
 
@@ -55,6 +57,8 @@ pub(crate) struct Sections {
     pub(crate) constraints: Option<Section<Vec<Item<Equation>>>>,
     /// The left-hand sides of constraints in error, as far as they are known.
     pub(crate) lost: Vec<Option<Box<Expr>>>,
+    /// `impacts`: what velocities jump to.
+    pub(crate) impacts: Option<Section<Vec<Item<ImpactLine>>>>,
     /// `distribution`: sections that span the constraint distribution.
     pub(crate) distribution: Option<Section<Vec<Place>>>,
     /// `forces`: a generalized force along a section or a base coordinate.

@@ -63,7 +63,7 @@ impl Stream {
     }
 
     /// Documentation and a label, where there are any.
-    fn label(&mut self) -> Result<(TokenStream, Option<Name>), Diagnostic> {
+    pub(super) fn label(&mut self) -> Result<(TokenStream, Option<Name>), Diagnostic> {
         let docs = self.docs()?;
         let labelled = matches!(self.peek(), Some(TokenTree::Ident(_)))
             && self.peek_at(1).is_some_and(|token| is_mark(token, ':'))

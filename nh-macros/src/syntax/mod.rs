@@ -7,6 +7,7 @@ pub(crate) mod ast;
 mod check;
 mod expr;
 mod habits;
+mod impact_lines;
 mod items;
 pub(crate) mod limits;
 mod lines;

@@ -17,6 +17,7 @@ const SLEIGH: &str = "
     lagrangian  { let I = J + m * (a^2 + b^2); I / 2 * omega^2 + m / 2 * (v1^2 + v2^2) }
     constraints { /// the knife
                   knife: v2 = 0; }
+    impacts     { wall: x >= 0, v1 = 0 with restitution c; }
     forces      { omega: torque - c * omega; }
     inputs      { torque, u[2] }
     outputs     { speed = sqrt(v1^2 + v2^2); }
@@ -63,6 +64,10 @@ fn a_whole_declaration_is_read() {
     let constraints = s.constraints.expect("constraints").body;
     assert_eq!(one(&constraints[0]).label.as_ref().expect("a label").text, "knife");
     assert_eq!(one(&constraints[0]).docs.to_string(), "# [doc = \" the knife\"]");
+    let wall = s.impacts.expect("impacts").body;
+    let wall = one(&wall[0]);
+    assert_eq!(wall.rows.iter().map(|row| row.is_unilateral).collect::<Vec<_>>(), [true, false]);
+    assert_eq!(wall.restitution.as_ref().map(shown).as_deref(), Some("c"));
     assert_eq!(one(&s.forces.expect("forces").body[0]).along.name.text, "omega");
     assert_eq!(s.inputs.expect("inputs").body[1].lengths, [2]);
     assert_eq!(one(&s.outputs.expect("outputs").body[0]).name.text, "speed");
@@ -190,13 +195,13 @@ fn errors_in_lines_are_explained() {
         (
             "names { sate = A; }",
             "there is no generated type `sate`\ntypes that can be renamed: `state`, `velocity`, `input`, \
-             `multipliers`, `outputs`, `reactions`, `residual`, `momenta`, `phase`, `quadratures`, `gyroscopic`, `power`, `coordinate`, `variable`\nhelp: did you mean `state`?"
+             `multipliers`, `outputs`, `reactions`, `residual`, `momenta`, `phase`, `quadratures`, `gyroscopic`, `power`, `coordinate`, `variable`, `impulses`\nhelp: did you mean `state`?"
                 .to_owned(),
         ),
         (
             "names { everything = A; }",
             "there is no generated type `everything`\nhelp: types that can be renamed: `state`, `velocity`, \
-             `input`, `multipliers`, `outputs`, `reactions`, `residual`, `momenta`, `phase`, `quadratures`, `gyroscopic`, `power`, `coordinate`, `variable`"
+             `input`, `multipliers`, `outputs`, `reactions`, `residual`, `momenta`, `phase`, `quadratures`, `gyroscopic`, `power`, `coordinate`, `variable`, `impulses`"
                 .to_owned(),
         ),
         ("derivative { motor = 2 }", format!("expected `:`, found `=`\nhelp: {methods}")),

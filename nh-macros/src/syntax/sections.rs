@@ -160,6 +160,7 @@ fn fill(sections: &mut Sections, keyword: Name, algebra: Option<Algebra>, body: 
             s.constraints = Section::some(keyword, items(body, errors, &equation));
             s.lost = lost.into_inner();
         }
+        "impacts" => s.impacts = Section::some(keyword, items(body, errors, &Stream::impact_line)),
         "distribution" => {
             s.distribution = Section::some(keyword, list(body, errors, |entry| entry.place("a section")));
         }

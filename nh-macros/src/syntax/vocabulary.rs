@@ -1,7 +1,7 @@
 //! The words of the language.
 
 /// The sections, as they are written.
-pub(crate) const SECTIONS: [&str; 34] = [
+pub(crate) const SECTIONS: [&str; 35] = [
     "constants",
     "base",
     "on",
@@ -14,6 +14,7 @@ pub(crate) const SECTIONS: [&str; 34] = [
     "lagrangian",
     "holonomic",
     "constraints",
+    "impacts",
     "distribution",
     "forces",
     "inputs",
@@ -48,7 +49,7 @@ pub(crate) const FUNCTIONS: [&str; 18] = [
 pub(crate) const RESERVED: [&str; 5] = ["t", "pi", "sum", "dot", "cross"];
 
 /// The generated types that `names` renames.
-pub(crate) const TYPES: [&str; 14] = [
+pub(crate) const TYPES: [&str; 15] = [
     "state",
     "velocity",
     "input",
@@ -63,6 +64,7 @@ pub(crate) const TYPES: [&str; 14] = [
     "power",
     "coordinate",
     "variable",
+    "impulses",
 ];
 
 /// The known algebras of `brackets`.

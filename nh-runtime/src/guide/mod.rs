@@ -6,6 +6,8 @@
 //! | know when to write `base`, `basis`, `anchor`, `velocities` or none of them | [`coordinates_and_velocities`] |
 //! | say that a wheel rolls, a blade does not slip, a joint is prescribed | [`constraints`] |
 //! | close a loop of links, stand on the ground, start from a rough guess | [`closed_loops`] |
+//! | let it bounce, land, come to a stop | [`impacts`] |
+//! | let it go from rolling to flying and back | [`modes`] |
 //! | declare it by where its bodies are | [`geometry`] |
 //! | see all sections and words at a glance | [`language`] |
 //! | drive it, brake it, read a sensor | [`forces_and_inputs`] |
@@ -33,6 +35,12 @@ pub mod constraints {}
 
 #[doc = include_str!("closed_loops.md")]
 pub mod closed_loops {}
+
+#[doc = include_str!("impacts.md")]
+pub mod impacts {}
+
+#[doc = include_str!("modes.md")]
+pub mod modes {}
 
 #[doc = include_str!("geometry.md")]
 pub mod geometry {}

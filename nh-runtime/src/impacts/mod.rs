@@ -2,7 +2,8 @@
 //!
 //! An [`Impact`] tells of rows Ψ y + b at a state: bilateral ones, which hold after the jump (a blade that is set down,
 //! a ball that begins to roll), and unilateral ones with a gap h ≥ 0, of which those that are closed push and never
-//! pull. [`strike`] makes the jump, mathematics (50); [`advance_with_impacts`] carries an integration from jump to
+//! pull. Where there are unilateral rows, the bilateral ones act with them: a wheel that touches the ground begins to
+//! roll, and one above it does not. [`strike`] makes the jump, mathematics (50); [`advance_with_impacts`] carries an integration from jump to
 //! jump, and ends it with [`End::Accumulated`] where the jumps come without end, as those of a ball that comes to rest.
 
 mod complementarity;
@@ -12,7 +13,7 @@ mod run;
 pub use no_jump::ImpactError;
 pub use run::{End, Struck, advance_with_impacts, strike};
 
-use crate::{Dynamics, ScalarOf, VecOf};
+use crate::{Dynamics, Scalar, ScalarOf, VecOf};
 
 /// What an impact knows of itself at a state: for each row A, with N = Ψ B and C the masses on the constraints.
 #[derive(Clone, Copy, Debug)]
@@ -82,6 +83,19 @@ pub trait Impact<S: Dynamics, const R: usize> {
 
     /// The coefficient of restitution e of all rows, from 0 (they land) to 1 (no energy is lost).
     fn restitution(&self, system: &S) -> ScalarOf<S>;
+
+    /// Which rows the restitution acts on: it acts on gaps, and not on what has to vanish of the velocities. All, unless
+    /// said otherwise.
+    fn bounces(&self) -> [bool; R] {
+        [true; R]
+    }
+
+    /// The size of the terms of which each gap is the difference: a gap that is within the root of the machine's epsilon
+    /// of that is closed. 0 unless said otherwise.
+    fn sizes(&self, system: &S, t: ScalarOf<S>, state: &S::State) -> [ScalarOf<S>; R] {
+        _ = (system, t, state);
+        [ScalarOf::<S>::ZERO; R]
+    }
 
     /// The gap of each unilateral row, positive outside; `None` for a bilateral row.
     fn gaps(&self, system: &S, t: ScalarOf<S>, state: &S::State) -> [Option<ScalarOf<S>>; R];

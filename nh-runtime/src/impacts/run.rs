@@ -23,8 +23,8 @@ pub struct Struck<T, X, const R: usize> {
     pub after: X,
     /// The impulse of each row.
     pub impulses: [T; R],
-    /// The energy that is lost, ½ (1 − e)/(1 + e) μᵀKμ, where the rows and the constraints are homogeneous and the jump
-    /// is one.
+    /// The energy that is lost where the rows and the constraints are homogeneous, −½ (1 − e) μᵀs of each jump: with
+    /// one e for all rows, ½ (1 − e)/(1 + e) μᵀKμ.
     pub lost: T,
 }
 
@@ -50,7 +50,8 @@ pub enum End<T> {
 type StruckOf<S, const R: usize> = Struck<ScalarOf<S>, <S as Dynamics>::State, R>;
 
 /// The state after an impact, mathematics (50): all bilateral rows are met, and of the unilateral ones those that are
-/// closed, with a gap of at most `closed`, and do not open. Rows that the jump closes jump again.
+/// closed, with a gap of at most `closed` or of rounding, and do not open. Rows that the jump closes jump again. Where
+/// all unilateral rows are open or separate, the state stays as it is.
 ///
 /// # Errors
 /// [`ImpactError`], with nothing done.
@@ -102,6 +103,9 @@ where
         *gap = None;
     }
     let bilateral = gaps.map(|gap| gap.is_none());
+    let sizes = impact.sizes(system, t, state);
+    // restitution acts on gaps alone, and lands what has come to rest
+    let coefficients = impact.bounces().map(|bounces| if bounces { restitution } else { zero });
     let mut after = *state;
     let mut impulses = [zero; R];
     let mut lost = zero;
@@ -126,23 +130,28 @@ where
         };
         let mut present = [false; R];
         let mut is_over = true;
+        let mut pushes = bilateral.iter().all(|is| *is) || resting.is_some();
         for (index, (present, (gap, s))) in
             present.iter_mut().zip(gaps.iter().zip(&rows.approach)).enumerate()
         {
-            *present = gap.is_none_or(|gap| gap <= closed && *s <= zero);
+            let rounding = sizes.get(index).map_or(zero, |size| ScalarOf::<S>::EPSILON.sqrt() * *size)
+                + ScalarOf::<S>::from_f64(64.0) * ScalarOf::<S>::EPSILON * (*s * t).abs();
+            *present = gap.is_none_or(|gap| gap <= closed.max(rounding) && *s <= zero);
+            pushes |= gap.is_some() && *present;
             is_over &= match gap {
                 None => s.abs() <= speed(index),
                 Some(_) => !*present || -*s <= speed(index),
             };
         }
-        if jump > 0 && (is_over || bilateral.iter().all(|is| *is)) {
+        if !pushes || jump > 0 && (is_over || bilateral.iter().all(|is| *is)) {
             break;
         }
         if jump == MOST_JUMPS {
             let closes = (0..R).find(|index| present.get(*index) == Some(&true)).unwrap_or(0);
             return Err(ImpactError::Unsettled { row: row(closes), time, jumps: jump });
         }
-        let offset = rows.approach.map(|s| (one + restitution) * s);
+        let mut offset = rows.approach;
+        offset.iter_mut().zip(&coefficients).for_each(|(s, e)| *s *= one + *e);
         let problem = Problem { mobility: &rows.mobility, offset, present, bilateral };
         let found =
             problem.solve().map_err(|Dependent(index)| ImpactError::Dependent { row: row(index), time })?;
@@ -151,10 +160,9 @@ where
             x = displaced(&x, *impulse, response);
             *sum += *impulse;
         }
-        let quadratic = rows.mobility.iter().zip(&found).fold(zero, |sum, (row, mu)| {
-            row.iter().zip(&found).fold(sum, |sum, (k, other)| sum + *mu * *k * *other)
-        });
-        lost += ScalarOf::<S>::from_f64(0.5) * (one - restitution) / (one + restitution) * quadratic;
+        let worked = found.iter().zip(&rows.approach).zip(&coefficients);
+        let worked = worked.fold(zero, |sum, ((mu, s), e)| sum - (one - *e) * *mu * *s);
+        lost += ScalarOf::<S>::from_f64(0.5) * worked;
         after = S::State::from_array(x);
     }
     Ok(Struck { time: t, before: *state, after, impulses, lost })

@@ -66,6 +66,11 @@ pub(super) fn is_defined(claim: &Derived, place: &mut Place) -> Result<bool, Def
             }
         }
         Derived::Residual(_, functions) => _ = place.values(functions)?,
+        // a motion may have values where C is singular; a jump has none there
+        Derived::Jump(_, rows) => {
+            place.values(rows)?;
+            return Ok(is_solvable(&place.mass()?, &place.jacobian()?));
+        }
         Derived::Projection(_, residuals) => {
             let rows = returns::slopes(place, residuals, &place.system().algebroid.velocities)?;
             return Ok(is_solvable(&place.mass()?, &rows));

@@ -5,6 +5,7 @@
 mod added_conditions;
 mod definition;
 mod divisors;
+mod jumps;
 mod place;
 mod procedure_derivative;
 mod proof_of_bracket;
@@ -27,7 +28,7 @@ use crate::id::{CoordId, ExprId, SymbolId};
 use crate::limits;
 use crate::mechanics::{HamiltonianSide, Procedure};
 use crate::phase_space::StepForm;
-use crate::system::{Embedding, PositionReturn, Projection};
+use crate::system::{Embedding, ImpactForm, PositionReturn, Projection};
 use place::Place;
 pub(crate) use proof_of_product::prove_product;
 
@@ -74,6 +75,8 @@ pub(crate) enum Derived<'p> {
     Projection(&'p Projection, &'p [ExprId]),
     /// A step back to constraints on positions, the first of so many.
     Return(&'p PositionReturn, usize),
+    /// A jump of the velocities, with the rows Ψ y + b.
+    Jump(&'p ImpactForm, &'p [ExprId]),
     /// A step back to an embedded base.
     Normalisation(&'p Embedding, &'p [ExprId]),
     /// The kick of the leapfrog.
@@ -219,6 +222,7 @@ impl Derived<'_> {
             Self::Values(form) => vec![form.values],
             Self::Projection(projection, _) => vec![&projection.step],
             Self::Return(positions, _) => vec![&positions.residual, &positions.step],
+            Self::Jump(impact, _) => vec![&impact.jump],
             Self::Normalisation(embedding, _) => vec![&embedding.step],
             Self::Leapfrog(form) | Self::DiscreteMomentum(form) => vec![&form.map],
         }
@@ -232,6 +236,7 @@ impl Derived<'_> {
             | Self::Section(_, functions)
             | Self::Residual(_, functions)
             | Self::Projection(_, functions)
+            | Self::Jump(_, functions)
             | Self::Normalisation(_, functions) => functions.to_vec(),
             Self::Splitting(form) => form.group.concat(),
             Self::Power(form) => {
@@ -305,6 +310,7 @@ impl Derived<'_> {
             Self::Residual(residual, functions) => Ok(place.run(residual)? == place.values(functions)?),
             Self::Projection(projection, residuals) => returns::is_projection(place, projection, residuals),
             Self::Return(positions, constraints) => returns::is_return(place, positions, constraints),
+            Self::Jump(impact, rows) => jumps::is_jump(place, impact, rows),
             Self::Normalisation(embedding, identities) => {
                 returns::is_normalised(place, embedding, identities)
             }

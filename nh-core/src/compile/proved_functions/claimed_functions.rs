@@ -49,6 +49,9 @@ pub(super) fn of_state<'d>(
     if let Some(positions) = &parts.positions {
         claims.push(("position_return", DerivedFunction::Return(positions, declared.constraints)));
     }
+    for (impact, rows) in parts.impacts.iter().zip(&declared.impacts) {
+        claims.push(("impact", DerivedFunction::Jump(impact, rows)));
+    }
     if let Some(embedding) = &parts.embedding {
         claims.push(("normalize", DerivedFunction::Normalisation(embedding, &declared.identities)));
     }

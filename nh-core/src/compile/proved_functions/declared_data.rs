@@ -25,6 +25,8 @@ pub(super) struct Declared {
     pub(super) gyroscopic: Vec<CoordId>,
     /// What `constraint_residual` gives: positions, then velocities where the state does not solve these.
     pub(super) residuals: Vec<ExprId>,
+    /// Ψ y + b of the rows of each impact.
+    pub(super) impacts: Vec<Vec<ExprId>>,
     /// The constraints among the residuals of the reference.
     pub(super) constraints: usize,
 }
@@ -33,7 +35,9 @@ impl Declared {
     pub(super) fn of(proved: &mut Proved, found: &Derivatives) -> Self {
         let Derivatives { given, parts } = found;
         let forces = forces(proved);
-        let Proved { model, symmetries, positions, constraints, .. } = proved;
+        let Proved { model, symmetries, positions, constraints, impacts, .. } = proved;
+        let forms = impacts.iter().map(|impact| impact.rows.iter().map(|row| row.form).collect());
+        let impacts = forms.collect();
         let zero = model.graph.zero();
         let section = model.hamilton_jacobi.as_ref();
         let component = |velocity: &SymbolId| {
@@ -68,6 +72,7 @@ impl Declared {
             claimed,
             gyroscopic: parts.gyroscopic.iter().filter_map(place).map(CoordId::from_index).collect(),
             residuals: on_positions.chain(given.residuals.iter().copied()).collect(),
+            impacts,
             constraints: constraints.residuals.len(),
         }
     }

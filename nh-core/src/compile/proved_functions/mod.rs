@@ -19,7 +19,7 @@ use crate::limits::attempt;
 use crate::mechanics::Procedure;
 use crate::model::Formulation;
 use crate::phase_space::PhaseSpace;
-use crate::system::{Embedding, PositionReturn, Projection, System};
+use crate::system::{Embedding, ImpactForm, PositionReturn, Projection, System};
 use crate::violation::{Law, Violation};
 use claimed_functions::{of_geometry, of_motion, of_phase_space, of_state};
 use declared_data::Declared;
@@ -50,6 +50,7 @@ pub(super) struct Parts {
     pub(super) gyroscopic: Vec<SymbolId>,
     pub(super) projection: Option<Projection>,
     pub(super) positions: Option<PositionReturn>,
+    pub(super) impacts: Vec<ImpactForm>,
     pub(super) embedding: Option<Embedding>,
     pub(super) phase_space: PhaseSpace,
 }
@@ -72,6 +73,7 @@ impl Parts {
     ) -> System {
         let model = proved.model;
         System {
+            impacts: self.impacts,
             linearization: None,
             formulation,
             state_coordinates: coordinates(&model),
@@ -104,6 +106,7 @@ impl Parts {
         self.jacobian.iter_mut().for_each(|jacobian| finish("jacobian", jacobian));
         self.projection.iter_mut().for_each(|projection| finish("projection", &mut projection.step));
         self.positions.iter_mut().for_each(|positions| finish("position_return", &mut positions.step));
+        self.impacts.iter_mut().for_each(|impact| finish("impact", &mut impact.jump));
         self.embedding.iter_mut().for_each(|embedding| finish("normalize", &mut embedding.step));
         let PhaseSpace { hamiltonian, almost_poisson, invariants, leapfrog, euler_poincare_suslov } =
             &mut self.phase_space;

@@ -12,7 +12,7 @@ use nonholonomic_core::model::Model;
 use super::model;
 
 /// Declarations that ask for everything between them, on D and on E, over coordinates and an embedded base.
-const DECLARED: [(&str, &str); 9] = [
+const DECLARED: [(&str, &str); 11] = [
     (
         "base { x, y, th } lagrangian { m/2*(der(x)^2 + der(y)^2) + J/2*der(th)^2 - m*g*x*sin(al) }
          constraints { blade: der(x)*sin(th) = der(y)*cos(th); } inputs { u } forces { th: u; }
@@ -68,6 +68,17 @@ const DECLARED: [(&str, &str); 9] = [
     (
         "base { x, y } lagrangian { (der(x)^2 + der(y)^2)/2 } hamilton_jacobi { der(x): 2; der(y): a; } emit { hamiltonian }",
         "struct S { a: f64 }",
+    ),
+    (
+        "base { x, y, th } lagrangian { m/2*(der(x)^2 + der(y)^2) + J/2*der(th)^2 + m*a*der(x)*der(th)*cos(th) }
+         constraints { cart: der(y) = x*der(x) + b; }
+         impacts { wall: x + l*sin(th) >= 0, x - l*sin(th) >= 0 with restitution e; }",
+        "struct S { m: f64, J: f64, a: f64, b: f64, l: f64, e: f64 }",
+    ),
+    (
+        "base { x, y, th } lagrangian { m/2*(der(x)^2 + der(y)^2) + J/2*der(th)^2 }
+         holonomic { rod: x^2 + y^2 = l^2; } impacts { stop: x >= t, der(th) = x*der(x) + b with restitution e; }",
+        "struct S { m: f64, J: f64, b: f64, l: f64, e: f64 }",
     ),
 ];
 
@@ -205,7 +216,7 @@ fn a_sign_and_a_term_of_1e_9_in_every_function() {
         }
     }
     let all: Vec<&str> = tried.iter().map(String::as_str).collect();
-    assert_eq!(all.len(), 42, "{all:?}");
+    assert_eq!(all.len(), 43, "{all:?}");
 }
 
 /// Divisors with what makes them harmless, and the text of what is 0.

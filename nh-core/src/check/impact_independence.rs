@@ -1,0 +1,140 @@
+//! Whether the rows of an impact are independent of each other and of the constraints, where they act.
+
+use super::assumptions::demand;
+use super::constraints::name_of;
+use super::dependence::combination_of;
+use super::formulation::Chosen;
+use super::impact_rows::{Between, ImpactRow, refused};
+use crate::algebra::{Demand, Matrix};
+use crate::geometry::Manifold;
+use crate::id::{ExprId, SymbolId};
+use crate::model::Model;
+use crate::violation::Violation;
+
+/// A row that follows from others where they act.
+pub(super) fn dependent(model: &mut Model, between: &Between, rows: &[ImpactRow]) -> Option<Violation> {
+    let (holding, names) = holding(model, between);
+    let bilateral: Vec<usize> = (0..rows.len()).filter(|row| !rows[*row].is_unilateral).collect();
+    let mut kept: Vec<usize> = Vec::new();
+    for row in &bilateral {
+        if let Some(violation) = follows(model, between, (&holding, &names), rows, &kept, *row) {
+            return Some(violation);
+        }
+        kept.push(*row);
+    }
+    let unilateral: Vec<usize> = (0..rows.len()).filter(|row| rows[*row].is_unilateral).collect();
+    // few rows together first, so that a combination is shown by the rows that it takes
+    let mut choices: Vec<u32> = (1..1_u32 << unilateral.len()).collect();
+    choices.sort_by_key(|choice| choice.count_ones());
+    let mut apart: Vec<u32> = Vec::new();
+    for choice in choices {
+        if apart.iter().any(|known| known & choice == *known) {
+            continue;
+        }
+        let chosen = unilateral.iter().enumerate().filter(|(bit, _)| choice >> bit & 1 == 1);
+        let mut together: Vec<usize> = chosen.map(|(_, row)| *row).collect();
+        let Some(last) = together.pop() else { continue };
+        let before = [kept.as_slice(), &together].concat();
+        let Some(violation) = follows(model, between, (&holding, &names), rows, &before, last) else {
+            continue;
+        };
+        together.push(last);
+        if together.len() > 1 && never_together(model, rows, &together) {
+            apart.push(choice);
+        } else {
+            return Some(violation);
+        }
+    }
+    None
+}
+
+/// The rows of the constraints along the velocities of the state, with what they are called; none where the state
+/// satisfies them by itself.
+fn holding(model: &Model, between: &Between) -> (Matrix, Vec<String>) {
+    match (between.chosen, &between.constraints.linear) {
+        (Chosen::Projected { .. }, Some(linear)) => {
+            let names = model.constraints.ids().map(|id| name_of(model, id));
+            (linear.annihilator.clone(), names.collect())
+        }
+        _ => (Matrix::new(), Vec::new()),
+    }
+}
+
+/// That a row is a combination of others where all of them act.
+fn follows(
+    model: &mut Model,
+    between: &Between,
+    (holding, names): (&Matrix, &[String]),
+    rows: &[ImpactRow],
+    before: &[usize],
+    row: usize,
+) -> Option<Violation> {
+    let others = before.iter().map(|other| &rows[*other]);
+    let matrix: Matrix =
+        holding.iter().cloned().chain(others.clone().map(|other| other.coefficients.clone())).collect();
+    let names: Vec<String> =
+        names.iter().cloned().chain(others.clone().map(|other| format!("`{}`", other.name))).collect();
+    let closed: Vec<ExprId> = others.chain([&rows[row]]).filter_map(|row| row.position).collect();
+    let manifold = where_closed(model, between, &closed);
+    let whole: Matrix = matrix.iter().cloned().chain([rows[row].coefficients.clone()]).collect();
+    let restricted = manifold.restrict_matrix(&mut model.graph, &whole);
+    let rank = match model.graph.generic_rank(&restricted) {
+        Ok(rank) if rank == restricted.len() => return None,
+        Ok(rank) => rank,
+        Err(why) => {
+            return Some(refused(
+                rows[row].origin,
+                format!("whether `{}` follows from what holds already could not be decided", rows[row].name),
+                why,
+                "write it without roots of negative numbers and divisions by zero",
+            ));
+        }
+    };
+    let name = format!("`{}`", rows[row].name);
+    let last = restricted.last().cloned().unwrap_or_default();
+    if rank < matrix.len() {
+        // those before it are reported by themselves
+        return None;
+    }
+    if last.iter().all(|entry| model.graph.zero_test(*entry).is_zero()) {
+        return Some(refused(
+            rows[row].origin,
+            format!("{name} takes no impulse: the constraints permit no velocity that changes it"),
+            format!("the rate of {name} is 0 for all velocities that they permit where it acts"),
+            "leave it out, or write it without a power: `a - b >= 0` instead of `(a - b)^2 >= 0`",
+        ));
+    }
+    let may_be_apart = rows[row].is_unilateral && before.iter().any(|other| rows[*other].is_unilateral);
+    let way_out = if may_be_apart {
+        "leave it out; or, if they cannot be closed together, say in `assume` what keeps them apart"
+    } else {
+        "leave it out"
+    };
+    let evidence = combination_of(&mut model.graph, &restricted[..matrix.len()], &last, &names, &name);
+    Some(refused(
+        rows[row].origin,
+        format!("{name} follows from what holds already where it acts"),
+        evidence,
+        way_out,
+    ))
+}
+
+/// Where the position constraints hold and gaps are closed, as far as that is solved for coordinates: parameters keep
+/// their freedom, since what is refused has to be wrong for all of them.
+fn where_closed(model: &mut Model, between: &Between, gaps: &[ExprId]) -> Manifold {
+    let coordinates: Vec<SymbolId> = model.coordinates.iter().map(|c| c.symbol).collect();
+    let positions = &between.positions.manifold;
+    Manifold::of_positions(&mut model.graph, positions, gaps, [&coordinates, &[]]).manifold
+}
+
+/// Whether what is assumed keeps gaps from being closed together.
+fn never_together(model: &mut Model, rows: &[ImpactRow], together: &[usize]) -> bool {
+    let mut demands: Vec<(ExprId, Demand)> = Vec::new();
+    for assumption in model.assumptions.clone() {
+        demands.push(demand(&mut model.graph, &assumption));
+    }
+    let positions = model.positions.iter().map(|position| position.value);
+    let gaps = together.iter().filter_map(|row| rows[*row].position);
+    demands.extend(positions.chain(gaps).map(|value| (value, Demand::Zero)));
+    model.graph.contradiction(&demands).is_some()
+}

@@ -1,0 +1,72 @@
+//! What velocities jump to.
+
+use nonholonomic_core::model::{ImpactDecl, ImpactRowDecl, Located};
+
+use super::context::Context;
+use super::reports::Outcome;
+use super::resolver::Resolver;
+use crate::report::Diagnostic;
+use crate::syntax::ast::{Equation, ImpactLine, Item};
+
+impl Resolver {
+    /// The impacts; rows of one label that stand in a `for` act together.
+    pub(super) fn impacts(&mut self, items: &[Item<ImpactLine>]) -> Vec<ImpactDecl> {
+        let mut found: Vec<ImpactDecl> = Vec::new();
+        self.section(Context::Impacts, items, &mut |this, line| {
+            let impact = this.impact(line)?;
+            let is_in_loop = !this.scope.loop_values().is_empty();
+            match found.iter_mut().find(|known| known.label == impact.label) {
+                None => found.push(impact),
+                Some(known)
+                    if is_in_loop
+                        && known.restitution.map(|e| e.value) == impact.restitution.map(|e| e.value) =>
+                {
+                    known.rows.extend(impact.rows);
+                }
+                Some(_) => {
+                    let text = &line.label.text;
+                    let error = Diagnostic::new(
+                        line.label.extent(),
+                        format!("the label `{text}` is given twice"),
+                    )
+                    .evidence("rows that act together stand in one item, with one coefficient of restitution")
+                    .way_out("separate them by commas, or choose another label");
+                    return Err(this.report(&line.label, error));
+                }
+            }
+            Ok(())
+        });
+        found
+    }
+
+    fn impact(&mut self, line: &ImpactLine) -> Outcome<ImpactDecl> {
+        let mut rows = Vec::new();
+        let mut outcome = Ok(());
+        for row in &line.rows {
+            match self.impact_row(&row.sides, row.is_unilateral) {
+                Ok(entries) => rows.extend(entries),
+                Err(reported) => outcome = Err(reported),
+            }
+        }
+        let restitution = line.restitution.as_ref().map(|value| {
+            let origin = self.origin(value.extent);
+            self.number_value(value).map(|value| Located { value, origin })
+        });
+        let restitution = restitution.transpose();
+        outcome?;
+        let origin = self.origin(line.label.extent());
+        Ok(ImpactDecl { label: line.label.text.clone(), rows, restitution: restitution?, origin })
+    }
+
+    /// left − right, vectors entry by entry.
+    fn impact_row(&mut self, sides: &Equation, is_unilateral: bool) -> Outcome<Vec<ImpactRowDecl>> {
+        let (left, right) = self.sides(sides)?;
+        let origin = self.origin(sides.extent);
+        let mut rows = Vec::new();
+        for (left, right) in left.entries.iter().zip(&right.entries) {
+            let value = self.residual(sides, *left, *right)?;
+            rows.push(ImpactRowDecl { value, is_unilateral, origin });
+        }
+        Ok(rows)
+    }
+}

@@ -1,0 +1,133 @@
+//! A ball on the ground: its bounces, its rest, and a ground that moves.
+
+use core::ops::ControlFlow;
+
+use nonholonomic::impacts::{End, ImpactError, advance_with_impacts};
+use nonholonomic::prelude::*;
+use nonholonomic::{Direction, Events};
+
+/// A ball that is thrown.
+#[nonholonomic(
+    base { x, y }
+    lagrangian { m / 2 * (der(x)^2 + der(y)^2) - m * g * y }
+    impacts { floor: y >= 0 with restitution e; }
+)]
+#[derive(Clone, Copy, Debug)]
+struct Ball<T> {
+    m: T,
+    g: T,
+    e: T,
+}
+
+const BALL: Ball<f64> = Ball { m: 0.3, g: 9.81, e: 0.8 };
+
+#[test]
+fn bounces_are_those_of_the_exact_solution() {
+    for e in [1.0, 0.8, 0.3] {
+        let ball = Ball { e, ..BALL };
+        let start = BallState { y: 1.0, x_dot: 0.7, ..BallState::default() };
+        let mut sim = Integrator::new(ball, Dopri5::new().rtol(1e-11).atol(1e-12), 0.0, start);
+        let floor = Events::new(|t, state: &BallState<f64>, (): &()| [ball.event_floor(t, state)])
+            .directions([Direction::Falling]);
+        let fall = (2.0 / ball.g).sqrt();
+        // the instants and the speeds: t + 2 v / g, and e v
+        let (mut time, mut speed) = (fall, ball.g * fall);
+        for _ in 0..5 {
+            let event = sim.advance_until(20.0, &floor).unwrap().unwrap();
+            assert!((event.time - time).abs() < 1e-9, "{e}: {} {time}", event.time);
+            assert!((event.state.y_dot + speed).abs() < 1e-9, "{e}");
+            let (after, impulses) = ball.impact_floor(event.time, &event.state).unwrap();
+            assert!((after.y_dot - e * speed).abs() < 1e-9 && after.x_dot == event.state.x_dot, "{e}");
+            assert!((impulses.floor - ball.m * (1.0 + e) * speed).abs() < 1e-9, "{e}");
+            sim.reset(event.time, after);
+            speed *= e;
+            time += 2.0 * speed / ball.g;
+        }
+    }
+}
+
+#[test]
+fn a_ball_that_is_away_or_separates_stays_as_it_is() {
+    let above = BallState { y: 0.5, y_dot: -3.0, ..BallState::default() };
+    let rising = BallState { y: 0.0, y_dot: 2.0, x: 3.0, x_dot: 1.0 };
+    for state in [above, rising] {
+        let (after, impulses) = BALL.impact_floor(0.7, &state).unwrap();
+        assert_eq!((after, impulses), (state, BallImpulses { floor: 0.0 }));
+    }
+}
+
+#[test]
+fn bounces_without_end_are_an_event_and_no_fall_through_the_ground() {
+    let start = BallState { y: 1.0, x_dot: 0.5, ..BallState::default() };
+    let mut sim = Integrator::new(BALL, Tsit5::new().rtol(1e-10).atol(1e-12), 0.0, start);
+    let mut energy = BALL.energy(0.0, &start);
+    let mut bounces = 0;
+    let end = advance_with_impacts(&mut sim, 30.0, &BallFloorImpact, 0.0, |struck| {
+        let after = BALL.energy(struck.time, &struck.after);
+        assert!(after <= energy + 1e-12 && struck.after.y > -1e-11, "{after} {energy} {struck:?}");
+        let lost = BALL.energy(struck.time, &struck.before) - after;
+        assert!((lost - struck.lost).abs() < 1e-14, "{lost} {}", struck.lost);
+        energy = after;
+        bounces += 1;
+        ControlFlow::Continue(())
+    });
+    // all bounces are over after (1 + e)/(1 − e) times the first fall
+    let over = (2.0_f64 / 9.81).sqrt() * 1.8 / 0.2;
+    let Ok(End::Accumulated { row: 0, time }) = end else { panic!("{end:?}") };
+    assert!((time - over).abs() < 1e-4 && bounces > 40, "{time} {over} {bounces}");
+    let rest = sim.state();
+    assert!(rest.y.abs() < 1e-10 && rest.y_dot == 0.0 && (rest.x - 0.5 * time).abs() < 1e-9, "{rest:?}");
+}
+
+#[test]
+fn in_f32_it_bounces_too() {
+    let ball = Ball::<f32> { m: 0.3, g: 9.81, e: 0.5 };
+    let start = BallState::<f32> { y: 1.0, ..BallState::default() };
+    let mut sim = Integrator::new(ball, Dopri5::new().rtol(1e-5).atol(1e-6), 0.0, start);
+    let end = advance_with_impacts(&mut sim, 30.0, &BallFloorImpact, 0.0, |struck| {
+        assert!(struck.after.y > -1e-5 && struck.after.y_dot >= 0.0);
+        ControlFlow::Continue(())
+    });
+    let Ok(End::Accumulated { row: 0, time }) = end else { panic!("{end:?}") };
+    assert!((time - 3.0 * (2.0_f32 / 9.81).sqrt()).abs() < 1e-2, "{time}");
+    assert!(sim.state().y.abs() < 1e-5 && sim.state().y_dot == 0.0);
+}
+
+#[test]
+fn a_coefficient_that_is_none_is_told() {
+    let ball = Ball { e: 1.5, ..BALL };
+    let falling = BallState { y_dot: -1.0, ..BallState::default() };
+    assert_eq!(ball.impact_floor(0.0, &falling), Err(ImpactError::Restitution { value: 1.5 }));
+}
+
+/// A ball on a table that shakes, and that keeps it from below on demand.
+#[nonholonomic(
+    base { y }
+    lagrangian { m / 2 * der(y)^2 - m * g * y }
+    impacts {
+        table: y >= A * sin(w * t) with restitution 1/2;
+        glue: y = A * sin(w * t);
+    }
+)]
+#[derive(Clone, Copy, Debug)]
+struct Shaken {
+    m: f64,
+    g: f64,
+    A: f64,
+    w: f64,
+}
+
+#[test]
+fn a_table_that_moves_gives_its_speed() {
+    let shaken = Shaken { m: 2.0, g: 9.81, A: 0.1, w: 7.0 };
+    let t = 0.3;
+    let table = shaken.A * shaken.w * (shaken.w * t).cos();
+    let state = ShakenState { y: shaken.A * (shaken.w * t).sin(), y_dot: -1.0 };
+    assert_eq!(shaken.event_table(t, &state), 0.0);
+    let (after, impulses) = shaken.impact_table(t, &state).unwrap();
+    assert!((after.y_dot - (table + 0.5 * (1.0 + table))).abs() < 1e-14);
+    assert!((impulses.table - 2.0 * (after.y_dot + 1.0)).abs() < 1e-14 && impulses.glue == 0.0);
+    // what is bilateral pulls as well
+    let (held, impulses) = shaken.impact_glue(t, &ShakenState { y_dot: 4.0, ..state }).unwrap();
+    assert!((held.y_dot - table).abs() < 1e-14 && impulses.glue < 0.0);
+}

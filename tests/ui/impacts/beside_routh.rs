@@ -1,0 +1,12 @@
+use nonholonomic::prelude::*;
+
+#[nonholonomic(
+    base { x, y }
+    lagrangian { m / 2 * (der(x)^2 + der(y)^2) - m * y }
+    symmetries { along: der(x); }
+    routh { along = p; }
+    impacts { floor: y >= 0 with restitution e; }
+)]
+struct S { m: f64, e: f64, p: f64 }
+
+fn main() {}
