@@ -23,6 +23,7 @@ use nonholonomic::prelude::*;
     }
     forces { x: pull; phi: -R * pull; }
     impacts { touch: y >= R; grip: y >= R, der(x) = R * der(phi); }
+    units { x, y, R, c = m; phi = rad; m = kg; J = kg m^2; g = m/s^2; pull = N; }
 )]
 #[derive(Clone, Copy, Debug)]
 pub struct Flying {
@@ -46,6 +47,7 @@ pub struct Flying {
             + J / 2 * der(phi)^2 - m * g * (y + c * cos(phi))
     }
     constraints { contact: der(y) = 0; grip: der(x) = R * der(phi); }
+    units { x, y, R, c = m; phi = rad; m = kg; J = kg m^2; g = m/s^2; }
     emit { multipliers }
 )]
 #[derive(Clone, Copy, Debug)]
@@ -79,6 +81,7 @@ morphism! { Rolling -> Flying { base { x = x; y = y; phi = phi; } inputs { pull 
     }
     constraints { contact: der(y) = 0; }
     forces { x: -mu * s * normal; phi: R * mu * s * normal; }
+    units { x, y, R, c = m; phi = rad; m = kg; J = kg m^2; g = m/s^2; mu, s = 1; }
     emit { multipliers }
 )]
 #[derive(Clone, Copy, Debug)]
@@ -216,6 +219,10 @@ impl Wheel {
             Mode::Slipping(s) => {
                 let slipping = self.slipping(s);
                 let start = slipping.restrict(t, &wheel)?;
+                if slipping.multipliers(t, &start, &()).contact <= 0.0 {
+                    // the ground would have to pull at once: it swings up from the blow
+                    return Ok((t, wheel, Mode::Flying));
+                }
                 let ends = |t: f64, x: &SlippingState| {
                     let slip = x.x_dot - slipping.R * x.phi_dot;
                     [s * slip, slipping.multipliers(t, x, &()).contact]
