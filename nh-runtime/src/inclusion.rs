@@ -1,5 +1,6 @@
 //! Modes: a system that is another one with further constraints.
 
+use core::cmp::Ordering;
 use core::error::Error;
 use core::fmt::{self, Display, Formatter};
 
@@ -69,9 +70,8 @@ where
     residuals.as_mut().iter_mut().zip(wanted.as_ref()).for_each(|(residual, wanted)| *residual -= *wanted);
     let both = given.as_ref().iter().zip(wanted.as_ref());
     let sizes = both.map(|(a, b)| a.abs().max(b.abs()));
-    let largest = |from: usize, to: usize| {
-        sizes.clone().skip(from).take(to - from.min(to)).fold(zero, |most, size| most.max(size))
-    };
+    let largest =
+        |from: usize, to: usize| sizes.clone().skip(from).take(to - from.min(to)).fold(zero, W::Scalar::max);
     let scales = [largest(0, coordinates), largest(coordinates, given.as_ref().len())];
     let mut worst: Option<(usize, W::Scalar)> = None;
     for (index, residual) in residuals.as_ref().iter().enumerate() {
@@ -80,7 +80,8 @@ where
         // what is no number is off, too
         let is_met = residual.abs() <= tolerance * scale;
         let share = residual.abs() / scale;
-        if !is_met && worst.is_none_or(|(_, known)| !(share <= known)) {
+        let is_least = |known| matches!(share.partial_cmp(&known), Some(Ordering::Less | Ordering::Equal));
+        if !is_met && worst.is_none_or(|(_, known)| !is_least(known)) {
             worst = Some((index, share));
         }
     }

@@ -276,10 +276,11 @@ fn closed(context: &Context, impact: &ImpactForm, outline: &OutlinedImpact, this
         several => quote!(let [#(#several),*] = #this.#event(#t, #state);),
     };
     let entries = impact.places.iter().zip(&impact.unilateral).map(|(place, is_unilateral)| {
-        match place.and_then(|place| gaps.get(place)).filter(|_| *is_unilateral) {
-            Some(gap) => quote!(::core::option::Option::Some(#gap)),
-            None => quote!(::core::option::Option::None),
-        }
+        let gap = place.and_then(|place| gaps.get(place)).filter(|_| *is_unilateral);
+        gap.map_or_else(
+            || quote!(::core::option::Option::None),
+            |gap| quote!(::core::option::Option::Some(#gap)),
+        )
     });
     let idle = impact.places.iter().zip(&impact.unilateral).filter(|(_, is_unilateral)| !**is_unilateral);
     let idle =

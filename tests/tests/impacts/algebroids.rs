@@ -37,8 +37,8 @@ fn impulses_turn_a_body_about_its_own_axes() {
     let inertia = [1.0, 2.0, 2.5];
     let along: f64 = state.w.iter().zip(&state.g).map(|(w, g)| w * g).sum();
     let mobility: f64 = state.g.iter().zip(&inertia).map(|(g, i)| g * g / i).sum();
-    for k in 0..3 {
-        let wanted = state.w[k] - along / mobility * state.g[k] / inertia[k];
+    for (k, i) in inertia.iter().enumerate() {
+        let wanted = state.w[k] - along / mobility * state.g[k] / i;
         assert!((after.w[k] - wanted).abs() < 1e-15, "{after:?}");
     }
     assert!((impulses.brake + along / mobility).abs() < 1e-15 && impulses.lid == 0.0);
