@@ -2,9 +2,11 @@
 
 use nonholonomic_core::model::{ImpactDecl, ImpactRowDecl, Located};
 
+use super::alike::Measured;
 use super::context::Context;
 use super::reports::Outcome;
 use super::resolver::Resolver;
+
 use crate::report::Diagnostic;
 use crate::syntax::ast::{Equation, ImpactLine, Item};
 
@@ -50,7 +52,14 @@ impl Resolver {
         }
         let restitution = line.restitution.as_ref().map(|value| {
             let origin = self.origin(value.extent);
-            self.number_value(value).map(|value| Located { value, origin })
+            let number = self.number_value(value)?;
+            // a quotient of two rates of one gap
+            let sides = vec![
+                Measured::expected("a coefficient of restitution", value.extent),
+                self.written(value, number, None),
+            ];
+            self.same_unit(value, "is", sides);
+            Ok(Located { value: number, origin })
         });
         let restitution = restitution.transpose();
         outcome?;

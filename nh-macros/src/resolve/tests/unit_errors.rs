@@ -122,6 +122,14 @@ fn contradictions_are_said() {
             )],
         ),
         (
+            "base { x } lagrangian { m / 2 * der(x)^2 - m * g * x } impacts { floor: x >= 0 with restitution k; }
+             units { x = m; m = kg; k = m; }",
+            vec![format!(
+                "the units do not fit: a coefficient of restitution is a pure number, `k` is m\n\
+                 `k` is a coefficient of restitution\n{WAY_OUT}"
+            )],
+        ),
+        (
             "base { x, y } lagrangian { m / 2 * (der(x)^2 + der(y)^2) - k * x } forces { y: -k * y; }
              units { x, y = m; m = kg; }",
             vec![
