@@ -117,7 +117,7 @@ fn expressions(declaration: &mut SystemDecl, visit: &mut dyn FnMut(&mut Expr)) {
     if let Some(section) = &mut s.impacts {
         let rows = &mut |line: &mut ImpactLine, visit: &mut dyn FnMut(&mut Expr)| {
             line.rows.iter_mut().for_each(|row| sides(&mut row.sides, visit));
-            line.restitution.iter_mut().for_each(|value| visit(value));
+            line.restitution.iter_mut().for_each(visit);
         };
         lines(&mut section.body, rows, visit);
     }
