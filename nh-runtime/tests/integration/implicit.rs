@@ -88,6 +88,23 @@ fn gauss_methods_keep_quadratic_invariants_and_are_reversible() {
 }
 
 #[test]
+fn smooth_steps_take_two_iterations() {
+    fn iterations<M: Method<Pendulum<f64>>>(method: M) -> u64 {
+        let mut sim = Integrator::new(Pendulum { g: 2.0 }, method, 0.0, Plane { q: 1.0, p: 0.5 });
+        for _ in 0..500 {
+            sim.step().unwrap();
+        }
+        sim.statistics().iterations
+    }
+    let counts = [
+        iterations(GaussLegendre6::new(0.01)),
+        iterations(GaussLegendre4::new(0.01)),
+        iterations(ImplicitMidpoint::new(0.01)),
+    ];
+    assert!(counts.iter().all(|count| *count < 5 * 500 / 2), "{counts:?}");
+}
+
+#[test]
 fn stiffness_does_not_shorten_the_steps() {
     for rate in [1e3, 1e6, 1e9, 1e12] {
         fn run<M: Method<Stiff>>(rate: f64, method: M) -> (f64, Statistics) {

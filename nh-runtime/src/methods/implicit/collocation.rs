@@ -39,35 +39,21 @@ impl<T: Real> Sum<T> {
         Self { sum, rest: self.rest + ((self.sum - (sum - added)) + (x - added)) }
     }
 
-    /// Adds c x, whose rounding error is that of products of halves (Dekker, A floating-point technique for
-    /// extending the available precision, Numer. Math. 18 (1971)).
+    /// Adds c x. The rounding error of the product has no common sign, as that of x has none.
     #[inline]
     fn add_product(self, c: Exact, x: T) -> Self {
         let (c, c_rest) = split::<T>(c);
-        let ((c1, c2), (x1, x2)) = (halves(c), halves(x));
-        let product = c * x;
-        let lost = ((c1 * x1 - product) + c1 * x2 + c2 * x1) + c2 * x2;
-        let next = self.add(product);
-        // halves of the largest numbers have no room
-        let lost = if lost.is_finite() { lost } else { T::ZERO };
-        Self { rest: next.rest + (lost + c_rest * x), ..next }
+        let next = self.add(c * x);
+        Self { rest: next.rest + c_rest * x, ..next }
     }
-}
-
-/// Two numbers of half the digits with this sum.
-#[inline]
-fn halves<T: Real>(x: T) -> (T, T) {
-    // 2²⁷ + 1 and 2¹² + 1: a little more than one over the root of the rounding unit
-    let factor = if T::EPSILON < T::from_f64(1e-10) { 134_217_729.0 } else { 4097.0 };
-    let scaled = x * T::from_f64(factor);
-    let first = scaled - (scaled - x);
-    (first, x - first)
 }
 
 /// A collocation method of `S` stages, 2 or 3, with the unknowns zᵢ = h Σ aᵢⱼ f(t₀ + cⱼh, x₀ + zⱼ).
 pub(super) struct Collocation<const S: usize> {
     /// The nodes c.
     pub(super) nodes: [f64; S],
+    /// The weights of z in the stages that it is continued to, for a step as long: [`continued`] of the nodes.
+    pub(super) ahead: [[f64; S]; S],
     /// The Runge–Kutta matrix A.
     pub(super) matrix: [[Exact; S]; S],
     /// x₁ − x₀ = Σ dᵢ zᵢ, d = bA⁻¹.
@@ -82,8 +68,46 @@ pub(super) struct Collocation<const S: usize> {
     pub(super) to_blocks: [[f64; S]; S],
 }
 
+/// The weights of z in the stages of the next step, if this is as long.
+pub(super) const fn continued<const S: usize>(nodes: [f64; S]) -> [[f64; S]; S] {
+    let mut rows = [[0.0; S]; S];
+    let mut row = 0;
+    while row < S {
+        let mut i = 0;
+        while i < S {
+            let (mut there, mut end) = ((1.0 + nodes[row]) / nodes[i], 1.0 / nodes[i]);
+            let mut j = 0;
+            while j < S {
+                if i != j {
+                    there *= (1.0 + nodes[row] - nodes[j]) / (nodes[i] - nodes[j]);
+                    end *= (1.0 - nodes[j]) / (nodes[i] - nodes[j]);
+                }
+                j += 1;
+            }
+            rows[row][i] = there - end;
+            i += 1;
+        }
+        row += 1;
+    }
+    rows
+}
+
 /// So many times its length the polynomial of a step is continued at most.
 const FARTHEST: f64 = 32.0;
+
+/// The weights of z in the collocation polynomial less x₀, through zero and the zᵢ, at the fraction s of its step.
+fn weights<T: Real, const N: usize>(nodes: &[T; N], s: T) -> [T; N] {
+    let mut weights = [T::ZERO; N];
+    for (i, (weight, ci)) in weights.iter_mut().zip(nodes).enumerate() {
+        *weight = s / *ci;
+        for (j, cj) in nodes.iter().enumerate() {
+            if i != j {
+                *weight *= (s - *cj) / (*ci - *cj);
+            }
+        }
+    }
+    weights
+}
 
 /// The factorized matrices λ/h − ∂f/∂x of the iteration.
 pub(super) struct Matrices<S: Dynamics> {
@@ -145,24 +169,62 @@ impl<const N: usize> Collocation<N> {
     pub(super) fn iterate<S: Dynamics>(
         &self,
         start: &Start<'_, S>,
-        (x, rest): (&VecOf<S>, &VecOf<S>),
+        x: &VecOf<S>,
         h: ScalarOf<S>,
         matrices: &Matrices<S>,
-        (z, rests): (&mut [VecOf<S>; N], &mut [VecOf<S>; N]),
+        z: &mut [VecOf<S>; N],
     ) -> [VecOf<S>; N]
     where
         ScalarOf<S>: Real,
     {
-        let zero = DimOf::<S>::vec(ScalarOf::<S>::ZERO);
-        let mut slopes = [zero; N];
-        for ((slope, node), z) in slopes.iter_mut().zip(&self.nodes).zip(z.iter()) {
-            let time = start.time + ScalarOf::<S>::from_f64(*node) * h;
-            *slope = start.derivative_at(
-                time,
-                displaced(x, ScalarOf::<S>::ONE, &displaced(z, ScalarOf::<S>::ONE, rest)),
-            );
+        let slopes = self.slopes(start, h, z, |z| displaced(x, ScalarOf::<S>::ONE, z));
+        let mut left = *z;
+        for (left, row) in left.iter_mut().zip(&self.matrix) {
+            for left in left.as_mut() {
+                *left = -*left;
+            }
+            for ((a, _), slope) in row.iter().zip(&slopes) {
+                *left = displaced(left, ScalarOf::<S>::from_f64(*a) * h, slope);
+            }
         }
-        self.corrected(h, matrices, &slopes, (z, rests))
+        let change = self.correction(h, matrices, &left);
+        for (z, change) in z.iter_mut().zip(&change) {
+            *z = displaced(z, ScalarOf::<S>::ONE, change);
+        }
+        change
+    }
+
+    /// One iteration with the rounding errors of sums, from the state x + rest.
+    pub(super) fn iterate_exactly<S: Dynamics>(
+        &self,
+        start: &Start<'_, S>,
+        (x, rest): (&VecOf<S>, &VecOf<S>),
+        h: ScalarOf<S>,
+        matrices: &Matrices<S>,
+        unknowns: (&mut [VecOf<S>; N], &mut [VecOf<S>; N]),
+    ) -> [VecOf<S>; N]
+    where
+        ScalarOf<S>: Real,
+    {
+        let one = ScalarOf::<S>::ONE;
+        let slopes = self.slopes(start, h, unknowns.0, |z| displaced(x, one, &displaced(z, one, rest)));
+        self.corrected(h, matrices, &slopes, unknowns)
+    }
+
+    /// The derivatives at the stages.
+    #[inline]
+    fn slopes<S: Dynamics>(
+        &self,
+        start: &Start<'_, S>,
+        h: ScalarOf<S>,
+        z: &[VecOf<S>; N],
+        point: impl Fn(&VecOf<S>) -> VecOf<S>,
+    ) -> [VecOf<S>; N] {
+        let mut slopes = [DimOf::<S>::vec(ScalarOf::<S>::ZERO); N];
+        for ((slope, node), z) in slopes.iter_mut().zip(&self.nodes).zip(z) {
+            *slope = start.derivative_at(start.time + ScalarOf::<S>::from_f64(*node) * h, point(z));
+        }
+        slopes
     }
 
     /// One iteration from the derivatives at the unknowns, h Σ aᵢⱼ fⱼ − zᵢ being what is left of their equations.
@@ -177,21 +239,47 @@ impl<const N: usize> Collocation<N> {
         ScalarOf<S>: Real,
     {
         let zero = DimOf::<S>::vec(ScalarOf::<S>::ZERO);
-        let scaled = |v: f64| ScalarOf::<S>::from_f64(v) / h;
-        let increments = slopes.map(|slope| displaced(&zero, h, &slope));
+        let mut increments = [zero; N];
+        for (increment, slope) in increments.iter_mut().zip(slopes) {
+            *increment = displaced(&zero, h, slope);
+        }
         let mut left = [zero; N];
         for ((left, row), (z, rest)) in left.iter_mut().zip(&self.matrix).zip(z.iter().zip(rests.iter())) {
             let known = z.as_ref().iter().zip(rest.as_ref()).enumerate();
             for (left, (k, (z, rest))) in left.as_mut().iter_mut().zip(known) {
                 let terms = row.iter().zip(&increments).filter_map(|(a, f)| Some((*a, *f.as_ref().get(k)?)));
-                let sum = terms.fold(Sum::ZERO, |sum, (a, f)| sum.add_product(a, f)).add(-*z);
-                *left = sum.sum + (sum.rest - *rest);
+                let known = Sum { sum: -*z, rest: -*rest };
+                let sum = terms.fold(known, |sum, (a, f)| sum.add_product(a, f));
+                *left = sum.sum + sum.rest;
             }
         }
+        let change = self.correction(h, matrices, &left);
+        for ((z, rest), change) in z.iter_mut().zip(rests).zip(&change) {
+            for ((z, rest), change) in z.as_mut().iter_mut().zip(rest.as_mut()).zip(change.as_ref()) {
+                let sum = Sum { sum: *z, rest: *rest }.add(*change);
+                (*z, *rest) = (sum.sum, sum.rest);
+            }
+        }
+        change
+    }
+
+    /// What the unknowns change by, from what is left of their equations.
+    #[inline]
+    fn correction<S: Dynamics>(
+        &self,
+        h: ScalarOf<S>,
+        matrices: &Matrices<S>,
+        left: &[VecOf<S>; N],
+    ) -> [VecOf<S>; N]
+    where
+        ScalarOf<S>: Real,
+    {
+        let zero = DimOf::<S>::vec(ScalarOf::<S>::ZERO);
+        let scaled = |v: f64| ScalarOf::<S>::from_f64(v) / h;
         // in blocks: Λ/h T⁻¹ of it
         let mut blocks = [zero; N];
         for (block, row) in blocks.iter_mut().zip(&self.to_blocks) {
-            *block = weighted(zero, row, &left);
+            *block = weighted(zero, row, left);
         }
         let mut correction = [zero; N];
         let (alpha, beta) = (scaled(self.pair.0), scaled(self.pair.1));
@@ -214,14 +302,8 @@ impl<const N: usize> Collocation<N> {
             }
         }
         let mut change = [zero; N];
-        let unknowns = z.iter_mut().zip(rests.iter_mut());
-        for ((change, (z, rest)), row) in change.iter_mut().zip(unknowns).zip(&self.from_blocks) {
+        for (change, row) in change.iter_mut().zip(&self.from_blocks) {
             *change = weighted(zero, row, &correction);
-            let changes = change.as_ref().iter();
-            for ((z, rest), change) in z.as_mut().iter_mut().zip(rest.as_mut()).zip(changes) {
-                let sum = Sum { sum: *z, rest: *rest }.add(*change);
-                (*z, *rest) = (sum.sum, sum.rest);
-            }
         }
         change
     }
@@ -245,25 +327,15 @@ impl<const N: usize> Collocation<N> {
         increment
     }
 
-    /// The collocation polynomial less x₀, through zero and the zᵢ, at the fraction s of its step.
+    /// The collocation polynomial less x₀, at the fraction s of its step.
     pub(super) fn polynomial<T: Real, V: Copy + AsRef<[T]> + AsMut<[T]>>(
         &self,
         zero: V,
         z: &[V; N],
         s: T,
     ) -> V {
-        let w = T::from_f64;
-        let mut sum = zero;
-        for (i, (z, ci)) in z.iter().zip(&self.nodes).enumerate() {
-            let mut weight = s / w(*ci);
-            for (j, cj) in self.nodes.iter().enumerate() {
-                if i != j {
-                    weight *= (s - w(*cj)) / (w(*ci) - w(*cj));
-                }
-            }
-            sum = displaced(&sum, weight, z);
-        }
-        sum
+        let weights = weights(&self.nodes.map(T::from_f64), s);
+        weights.iter().zip(z).fold(zero, |sum, (w, z)| displaced(&sum, *w, z))
     }
 
     /// Starting values for a step that is `ratio` times as long as the last one, from its polynomial; zero where
@@ -278,10 +350,19 @@ impl<const N: usize> Collocation<N> {
         if ratio.abs() > T::from_f64(FARTHEST) {
             return next;
         }
-        let end = self.polynomial(zero, z, T::ONE);
-        for (next, node) in next.iter_mut().zip(&self.nodes) {
-            let there = self.polynomial(zero, z, T::ONE + ratio * T::from_f64(*node));
-            *next = displaced(&there, -T::ONE, &end);
+        if ratio == T::ONE {
+            for (next, row) in next.iter_mut().zip(&self.ahead) {
+                *next = weighted(zero, row, z);
+            }
+            return next;
+        }
+        let nodes = self.nodes.map(T::from_f64);
+        let end = weights(&nodes, T::ONE);
+        for (next, node) in next.iter_mut().zip(nodes) {
+            let there = weights(&nodes, T::ONE + ratio * node);
+            for ((there, end), z) in there.iter().zip(&end).zip(z) {
+                *next = displaced(next, *there - *end, z);
+            }
         }
         next
     }
@@ -328,8 +409,10 @@ pub(super) mod tests {
         let x = |s: f64| 2.0 * s - 3.0 * s * s + 0.5 * s * s * s;
         let z = method.nodes.map(|c| [x(c)]);
         assert!((method.polynomial([0.0], &z, 0.3)[0] - x(0.3)).abs() < 1e-14);
-        for (next, c) in method.extrapolated([0.0], &z, 0.7).iter().zip(method.nodes) {
-            assert!((next[0] - (x(1.0 + 0.7 * c) - x(1.0))).abs() < 1e-13);
+        for ratio in [0.7, 1.0] {
+            for (next, c) in method.extrapolated([0.0], &z, ratio).iter().zip(method.nodes) {
+                assert!((next[0] - (x(1.0 + ratio * c) - x(1.0))).abs() < 1e-13);
+            }
         }
     }
 }

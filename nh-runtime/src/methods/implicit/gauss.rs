@@ -1,21 +1,22 @@
 //! The methods of Gauss and Legendre.
 
-use super::collocation::{Collocation, Matrices};
+use super::collocation::{Collocation, Matrices, continued};
 use super::linearization::{Analytic, FiniteDifferences, Linearization};
 use super::newton::{MOST_ITERATIONS, SLOW, Settling, check_tolerance, is_first_term, once, refusal, size};
+use super::starting_values::Misses;
 use crate::arrays::{displaced, first_non_finite};
 use crate::methods::fixed::{self, Fixed, OneStep, Slopes};
 use crate::methods::{Arrival, Start};
-use crate::{Dim, DimOf, Dynamics, IntegrationError, Real, ScalarOf, State, Statistics, VecOf};
+use crate::{Dim, DimOf, Dynamics, IntegrationError, Real, Scalar, ScalarOf, State, Statistics, VecOf};
 
 /// The method of Gauss and Legendre with two stages and fixed steps, of order 4
 /// (Hairer, Nørsett, Wanner, Solving Ordinary Differential Equations I, table II.7.3).
 ///
 /// Symmetric, A-stable, and it keeps quadratic invariants (Hairer, Lubich, Wanner, Geometric Numerical
 /// Integration, theorem IV.2.1) to the accuracy to which its equations are solved: simplified Newton
-/// iterations go on until the corrections stagnate in round-off. The Jacobian comes from difference
-/// quotients, or [from the system](Self::with_jacobian); it is kept as long as the iteration converges
-/// well.
+/// iterations start from the stages of the last steps, continued, and go on until a hundredth of a rounding unit
+/// is missing, or the corrections stagnate in round-off. The Jacobian comes from difference quotients, or
+/// [from the system](Self::with_jacobian); it is kept as long as the iteration converges well.
 pub type GaussLegendre4<T, J = FiniteDifferences> = Fixed<Gauss<T, J, 2>, T>;
 
 /// The method of Gauss and Legendre with three stages and fixed steps, of order 6
@@ -38,6 +39,7 @@ pub(super) trait Table<const N: usize> {
 impl<T, J> Table<2> for Gauss<T, J, 2> {
     const TABLE: Collocation<2> = Collocation {
         nodes: [0.211_324_865_405_187_1, 0.788_675_134_594_812_9],
+        ahead: continued([0.211_324_865_405_187_1, 0.788_675_134_594_812_9]),
         matrix: [
             [(0.25, 0.0), (-0.038_675_134_594_812_88, -2.847_352_561_863_714_5e-18)],
             [(0.538_675_134_594_812_9, 1.672_514_036_967_817_2e-17), (0.25, 0.0)],
@@ -56,6 +58,7 @@ impl<T, J> Table<2> for Gauss<T, J, 2> {
 impl<T, J> Table<3> for Gauss<T, J, 3> {
     const TABLE: Collocation<3> = Collocation {
         nodes: [0.112_701_665_379_258_31, 0.5, 0.887_298_334_620_741_7],
+        ahead: continued([0.112_701_665_379_258_31, 0.5, 0.887_298_334_620_741_7]),
         matrix: [
             [
                 (0.138_888_888_888_888_9, -6.167_905_692_361_980_4e-18),
@@ -151,6 +154,8 @@ constructors!(GaussLegendre6, 3);
 pub struct Work<S: Dynamics, const N: usize> {
     /// The length of the last step, and its stages.
     pub(super) last: Option<(ScalarOf<S>, [VecOf<S>; N])>,
+    /// By how much the steps of this length missed the continued polynomial of the step before.
+    misses: [Misses<VecOf<S>>; N],
     pub(super) matrices: Option<(ScalarOf<S>, Matrices<S>)>,
 }
 
@@ -161,6 +166,14 @@ impl<S: Dynamics, const N: usize> Clone for Work<S, N> {
 }
 impl<S: Dynamics, const N: usize> Copy for Work<S, N> {}
 
+impl<S: Dynamics, const N: usize> Work<S, N> {
+    /// Before any step.
+    pub(super) fn none() -> Self {
+        let zero = DimOf::<S>::vec(ScalarOf::<S>::ZERO);
+        Self { last: None, misses: [Misses::none(zero); N], matrices: None }
+    }
+}
+
 impl<T: Real, S: Dynamics, J: Linearization<S>, const N: usize> OneStep<S> for Gauss<T, J, N>
 where
     S::State: State<Scalar = T>,
@@ -170,12 +183,12 @@ where
     type Dense = Slopes<VecOf<S>>;
 
     fn work(&self) -> Work<S, N> {
-        Work { last: None, matrices: None }
+        Work::none()
     }
 
     #[inline]
     fn forget(&self, work: &mut Work<S, N>) {
-        *work = Work { last: None, matrices: None };
+        *work = Work::none();
     }
 
     /// Stages that the next ones start from, and matrices of an iteration, serve states beside theirs.
@@ -242,54 +255,84 @@ pub(super) fn settled<T: Real, S: Dynamics, J: Linearization<S>, const N: usize>
 where
     S::State: State<Scalar = T>,
 {
-    let x = &start.state.to_array();
     let zero = DimOf::<S>::vec(T::ZERO);
     if is_first_term(h) {
+        *work = Work::none();
         statistics.evaluations += 1;
         let slope = start.derivative();
         if first_non_finite::<T>(slope.as_ref()).is_some() {
             return Err(refusal(start, h, 0, T::ZERO, slope.as_ref()));
         }
-        *work = Work { last: None, matrices: None };
         return Ok((table.nodes.map(|node| displaced(&zero, T::from_f64(node) * h, &slope)), [zero; N]));
     }
-    let mut z = match &work.last {
-        Some((length, z)) => table.extrapolated(zero, z, h / *length),
-        None => [zero; N],
+    if work.matrices.as_ref().is_some_and(|(length, _)| *length != h) {
+        work.matrices = None;
+    }
+    let guess = work.last.as_ref().map(|(length, z)| table.extrapolated(zero, z, h / *length));
+    if work.last.as_ref().is_some_and(|(length, _)| *length != h) {
+        work.misses = [Misses::none(zero); N];
+    }
+    let mut z = guess.unwrap_or([zero; N]);
+    for (z, misses) in z.iter_mut().zip(&work.misses) {
+        misses.mend(z);
+    }
+    let solved = solve(table, linearization, tolerance, (start, rest), h, (z, work), statistics);
+    let Ok((z, _)) = &solved else {
+        *work = Work::none();
+        return solved;
     };
-    let mut matrices = work.matrices.filter(|(length, _)| *length == h).map(|(_, matrices)| matrices);
+    if let Some(guess) = guess {
+        for (misses, (z, guess)) in work.misses.iter_mut().zip(z.iter().zip(&guess)) {
+            misses.note(z, guess);
+        }
+    }
+    work.last = Some((h, *z));
+    solved
+}
+
+/// The same from given starting values.
+fn solve<T: Real, S: Dynamics, J: Linearization<S>, const N: usize>(
+    table: &Collocation<N>,
+    linearization: &J,
+    tolerance: T,
+    (start, rest): (&Start<'_, S>, &VecOf<S>),
+    h: T,
+    (mut z, work): ([VecOf<S>; N], &mut Work<S, N>),
+    statistics: &mut Statistics,
+) -> Result<Stages<S, N>, IntegrationError>
+where
+    S::State: State<Scalar = T>,
+{
+    let x = &start.state.to_array();
+    let zero = DimOf::<S>::vec(T::ZERO);
     // stored matrices and starting values that fail get one chance more with new ones
-    let mut retry = work.last.is_some() || matrices.is_some();
-    *work = Work { last: None, matrices: None };
+    let mut retry = work.last.is_some() || work.matrices.is_some();
     let mut preceding: Option<T> = None;
     let mut rests = [zero; N];
     let mut settling = [Settling::<DimOf<S>, T>::new(); N];
     let mut iterations = 0;
-    let mut residual;
     loop {
-        let current = if let Some(matrices) = matrices {
-            matrices
-        } else {
+        if work.matrices.is_none() {
             let slope = start.derivative();
             let jacobian = linearization.state_jacobian(start, start.time, x, &slope, h, statistics);
             statistics.evaluations += 1;
             statistics.jacobians += 1;
             statistics.factorizations += 2;
-            *matrices.insert(table.matrices::<S>(&jacobian, h))
-        };
-        let change = table.iterate(start, (x, rest), h, &current, (&mut z, &mut rests));
+            work.matrices = Some((h, table.matrices::<S>(&jacobian, h)));
+        }
+        let Some((_, matrices)) = &work.matrices else { continue };
+        let change = table.iterate_exactly(start, (x, rest), h, matrices, (&mut z, &mut rests));
         iterations += 1;
         statistics.iterations += 1;
         statistics.evaluations += N as u64;
         let sizes = change.iter().zip(&z).map(|(c, z)| size(c, x, z));
-        let largest = sizes.fold(T::ZERO, T::max);
-        residual = largest / tolerance;
+        let residual = sizes.fold(T::ZERO, T::max) / tolerance;
         let ratio = preceding.map(|preceding| residual / preceding);
         let is_small = residual <= T::ONE;
         let stages = settling.iter_mut().zip(change.iter().zip(&z));
-        let all = stages.fold(true, |all, (stage, (c, z))| stage.after(c, z, is_small) & all);
+        let all = stages.fold(true, |all, (stage, (c, z))| stage.after(c, z, is_small, ratio) & all);
         if all || (is_small && iterations >= MOST_ITERATIONS) {
-            break;
+            return Ok((z, rests));
         }
         if !residual.is_finite() || iterations >= MOST_ITERATIONS {
             if !retry {
@@ -297,19 +340,17 @@ where
                 return Err(refusal(start, h, iterations, residual, reached.as_ref()));
             }
             retry = false;
-            (z, matrices, preceding, iterations) = ([zero; N], None, None, 0);
-            rests = [zero; N];
+            (z, rests) = ([zero; N], [zero; N]);
+            (work.matrices, preceding, iterations) = (None, None, 0);
             settling = [Settling::new(); N];
             continue;
         }
         if ratio.is_some_and(|ratio| ratio >= T::from_f64(SLOW)) && residual > T::ONE && retry {
             retry = false;
-            matrices = None;
+            work.matrices = None;
         }
         preceding = Some(residual);
     }
-    *work = Work { last: Some((h, z)), matrices: matrices.map(|matrices| (h, matrices)) };
-    Ok((z, rests))
 }
 
 #[cfg(test)]

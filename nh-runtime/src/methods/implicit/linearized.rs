@@ -54,7 +54,7 @@ where
 {
     check_length(h)?;
     let x = start.state.to_array();
-    let mut work = Work { last: None, matrices: None };
+    let mut work = Work::none();
     let (tolerance, statistics) = (T::from_f64(1e3) * T::EPSILON, &mut Statistics::default());
     let (z, rests) = settled(table, &Analytic, tolerance, (start, &[T::ZERO; N]), h, &mut work, statistics)?;
     let end = displaced(&x, T::ONE, &table.increment([T::ZERO; N], &z, &rests));

@@ -1,22 +1,23 @@
 //! The implicit midpoint rule.
 
 use super::linearization::{Analytic, FiniteDifferences, Linearization};
-use super::newton::{MOST_ITERATIONS, SLOW, check_tolerance, once, one_less, refusal, size};
+use super::newton::{MOST_ITERATIONS, SLOW, check_tolerance, once, one_less, refusal, size, still_missing};
+use super::starting_values::Misses;
 use crate::arrays::displaced;
 use crate::linear::Factors;
 use crate::methods::fixed::{self, Fixed, OneStep, Slopes};
 use crate::methods::{Arrival, Start};
 use crate::{
-    Dim, DimOf, Dynamics, IntegrationError, Jacobian, MatOf, Real, ScalarOf, State, Statistics, VecOf,
+    Dim, DimOf, Dynamics, IntegrationError, Jacobian, Real, Scalar, ScalarOf, State, Statistics, VecOf,
 };
 
 /// The implicit midpoint rule x₁ = x₀ + h f(t₀ + h/2, (x₀ + x₁)/2) with fixed steps, of order 2.
 ///
 /// Symmetric and A-stable; it keeps every quadratic invariant (Hairer, Lubich, Wanner, Geometric
 /// Numerical Integration, theorem IV.2.1) to the accuracy to which its equations are solved. They
-/// are solved by Newton's iteration, with a Jacobian that is kept as long as it converges well,
-/// until the corrections vanish or stagnate in round-off. The Jacobian comes from difference
-/// quotients, or [from the system](Self::with_jacobian).
+/// are solved by Newton's iteration, from the last increments, continued, with a Jacobian that is kept as long
+/// as it converges well, until what is missing vanishes or the corrections stagnate in round-off. The Jacobian
+/// comes from difference quotients, or [from the system](Self::with_jacobian).
 pub type ImplicitMidpoint<T, J = FiniteDifferences> = Fixed<Midpoint<T, J>, T>;
 
 /// The computation of a step of [`ImplicitMidpoint`].
@@ -102,7 +103,7 @@ impl<T: Real, J> Midpoint<T, J> {
         &self,
         (start, rest): (&Start<'_, S>, &VecOf<S>),
         length: T,
-        stored: &mut Option<Newton<S>>,
+        work: &mut Work<S>,
         statistics: &mut Statistics,
     ) -> Result<VecOf<S>, IntegrationError>
     where
@@ -111,69 +112,95 @@ impl<T: Real, J> Midpoint<T, J> {
         J: Linearization<S>,
     {
         let half = length * T::from_f64(0.5);
+        let zero = DimOf::<S>::vec(T::ZERO);
+        if work.half != half {
+            *work = Work { half, ..Work::none() };
+        }
+        let mut found = work.last.unwrap_or(zero);
+        work.misses.mend(&mut found);
+        if let Err(error) = self.iterate((start, rest), &mut found, work, length, statistics) {
+            *work = Work::none();
+            return Err(error);
+        }
+        if let Some(last) = &work.last {
+            work.misses.note(&found, last);
+        }
+        work.last = Some(found);
+        Ok(displaced(&found, T::ONE, &found))
+    }
+
+    /// The same from a starting value of half the increment.
+    fn iterate<S>(
+        &self,
+        (start, rest): (&Start<'_, S>, &VecOf<S>),
+        half_increment: &mut VecOf<S>,
+        work: &mut Work<S>,
+        length: T,
+        statistics: &mut Statistics,
+    ) -> Result<(), IntegrationError>
+    where
+        S: Dynamics,
+        S::State: State<Scalar = T>,
+        J: Linearization<S>,
+    {
+        let half = work.half;
         let middle = start.time + half;
         let x = start.state.to_array();
-        let mut newton = stored.filter(|newton| newton.half == half);
-        let mut half_increment = DimOf::<S>::vec(T::ZERO);
         let mut preceding: Option<T> = None;
-        // a stored matrix that fails gets one chance more with a new one
-        let mut retry = newton.is_some();
+        // a stored matrix and a starting value that fail get one chance more with new ones
+        let mut retry = work.last.is_some() || work.newton.is_some();
         let mut iterations = 0;
-        let mut residual;
         // before the first correction: the larger of the state, and of what the slope there moves it
         let mut usual: Option<T> = None;
         loop {
-            let point = displaced(&x, T::ONE, &displaced(&half_increment, T::ONE, rest));
+            let point = displaced(&x, T::ONE, &displaced(half_increment, T::ONE, rest));
             let slope = start.derivative_at(middle, point);
             statistics.evaluations += 1;
             let usual = *usual.get_or_insert_with(|| largest(&x).max(half.abs() * largest(&slope)));
-            let current = if let Some(newton) = newton {
-                newton
-            } else {
+            if work.newton.is_none() {
                 let jacobian =
                     self.linearization.state_jacobian(start, middle, &point, &slope, length, statistics);
                 statistics.jacobians += 1;
                 statistics.factorizations += 1;
-                *newton.insert(Newton::new(half, jacobian))
-            };
+                work.newton = Some(Factors::new(&one_less::<DimOf<S>, _>(half, jacobian)));
+            }
+            let Some(newton) = &work.newton else { continue };
             let mut defect = slope;
             for (r, d) in defect.as_mut().iter_mut().zip(half_increment.as_ref()) {
                 *r = half * *r - *d;
             }
-            let correction = current.factors.solve(&defect);
-            half_increment = displaced(&half_increment, T::ONE, &correction);
+            let correction = newton.solve(&defect);
+            *half_increment = displaced(half_increment, T::ONE, &correction);
             iterations += 1;
             statistics.iterations += 1;
-            residual = size(&correction, &x, &half_increment) / self.tolerance;
-            let vanishes = vanishes(&correction, &x, &half_increment);
+            let residual = size(&correction, &x, half_increment) / self.tolerance;
             let ratio = preceding.map(|preceding| residual / preceding);
+            let vanishes = vanishes(&correction, &x, half_increment, still_missing(ratio));
             let stagnates = ratio.is_some_and(|ratio| ratio >= T::from_f64(0.5));
             if vanishes || (stagnates && residual <= T::ONE) {
-                if is_elsewhere(largest(&half_increment), usual) {
-                    let reached = displaced(&x, T::from_f64(2.0), &half_increment);
+                if is_elsewhere(largest(half_increment), usual) {
+                    let reached = displaced(&x, T::from_f64(2.0), half_increment);
                     return Err(refusal(start, length, iterations, residual, reached.as_ref()));
                 }
-                break;
+                return Ok(());
             }
             if !residual.is_finite() || iterations >= MOST_ITERATIONS {
                 if !retry {
-                    let reached = displaced(&x, T::from_f64(2.0), &half_increment);
+                    let reached = displaced(&x, T::from_f64(2.0), half_increment);
                     return Err(refusal(start, length, iterations, residual, reached.as_ref()));
                 }
                 retry = false;
-                half_increment = DimOf::<S>::vec(T::ZERO);
-                newton = None;
+                *half_increment = DimOf::<S>::vec(T::ZERO);
+                work.newton = None;
                 preceding = None;
                 iterations = 0;
                 continue;
             }
             if ratio.is_some_and(|ratio| ratio >= T::from_f64(SLOW)) && residual > T::ONE {
-                newton = None;
+                work.newton = None;
             }
             preceding = Some(residual);
         }
-        *stored = newton;
-        Ok(displaced(&half_increment, T::ONE, &half_increment))
     }
 }
 
@@ -189,33 +216,37 @@ fn is_elsewhere<T: Real>(increment: T, usual: T) -> bool {
     increment * T::EPSILON.sqrt() > usual
 }
 
-/// Whether a correction is below half a rounding unit in every component.
-fn vanishes<T: Real, V: AsRef<[T]>>(correction: &V, x: &V, increment: &V) -> bool {
+/// Whether a share of a correction is below half a rounding unit in every component.
+fn vanishes<T: Real, V: AsRef<[T]>>(correction: &V, x: &V, increment: &V, share: T) -> bool {
     let half_unit = T::EPSILON * T::from_f64(0.5);
     let terms = correction.as_ref().iter().zip(x.as_ref().iter().zip(increment.as_ref()));
-    terms.fold(true, |all, (c, (x, d))| all & (c.abs() <= half_unit * (x.abs() + d.abs())))
+    terms.fold(true, |all, (c, (x, d))| all & (share * c.abs() <= half_unit * (x.abs() + d.abs())))
 }
 
-/// The factorized matrix 1 − h/2 ∂f/∂x of Newton's iteration.
-pub struct Newton<S: Dynamics> {
+/// What the midpoint rule keeps while its steps have one length.
+pub struct Work<S: Dynamics> {
+    /// Half that length.
     half: ScalarOf<S>,
-    factors: Factors<DimOf<S>, ScalarOf<S>>,
+    /// Half the increment of the last step.
+    last: Option<VecOf<S>>,
+    /// By how much the steps differed from those before.
+    misses: Misses<VecOf<S>>,
+    /// The factorized matrix 1 − h/2 ∂f/∂x of Newton's iteration.
+    newton: Option<Factors<DimOf<S>, ScalarOf<S>>>,
 }
 
-impl<S: Dynamics> Clone for Newton<S> {
+impl<S: Dynamics> Clone for Work<S> {
     fn clone(&self) -> Self {
         *self
     }
 }
-impl<S: Dynamics> Copy for Newton<S> {}
+impl<S: Dynamics> Copy for Work<S> {}
 
-impl<S: Dynamics> Newton<S>
-where
-    ScalarOf<S>: Real,
-{
-    /// The matrix of a Jacobian.
-    fn new(half: ScalarOf<S>, jacobian: MatOf<S>) -> Self {
-        Self { half, factors: Factors::new(&one_less::<DimOf<S>, _>(half, jacobian)) }
+impl<S: Dynamics> Work<S> {
+    /// Before any step.
+    fn none() -> Self {
+        let zero = ScalarOf::<S>::ZERO;
+        Self { half: zero, last: None, misses: Misses::none(DimOf::<S>::vec(zero)), newton: None }
     }
 }
 
@@ -223,20 +254,20 @@ impl<T: Real, S: Dynamics, J: Linearization<S>> OneStep<S> for Midpoint<T, J>
 where
     S::State: State<Scalar = T>,
 {
-    type Work = Option<Newton<S>>;
+    type Work = Work<S>;
     type Dense = Slopes<VecOf<S>>;
 
-    fn work(&self) -> Option<Newton<S>> {
-        None
+    fn work(&self) -> Work<S> {
+        Work::none()
     }
 
     #[inline]
-    fn forget(&self, work: &mut Option<Newton<S>>) {
-        *work = None;
+    fn forget(&self, work: &mut Work<S>) {
+        *work = Work::none();
     }
 
-    /// The matrix of an iteration serves states beside its own.
-    fn moved(&self, _work: &mut Option<Newton<S>>) {}
+    /// The matrix of an iteration, and what it starts from, serve states beside theirs.
+    fn moved(&self, _work: &mut Work<S>) {}
 
     fn check(&self) -> Result<(), IntegrationError> {
         check_tolerance(self.tolerance)
@@ -247,7 +278,7 @@ where
         start: &Start<'_, S>,
         x: &VecOf<S>,
         h: T,
-        work: &mut Option<Newton<S>>,
+        work: &mut Work<S>,
         statistics: &mut Statistics,
     ) -> Result<VecOf<S>, IntegrationError> {
         self.increment_beyond(start, (x, &DimOf::<S>::vec(T::ZERO)), h, work, statistics)
@@ -258,18 +289,13 @@ where
         start: &Start<'_, S>,
         (_, rest): (&VecOf<S>, &VecOf<S>),
         h: T,
-        work: &mut Option<Newton<S>>,
+        work: &mut Work<S>,
         statistics: &mut Statistics,
     ) -> Result<VecOf<S>, IntegrationError> {
         self.solve((start, rest), h, work, statistics)
     }
 
-    fn dense(
-        &self,
-        _work: &Option<Newton<S>>,
-        start: &Start<'_, S>,
-        arrival: &Arrival<S>,
-    ) -> Slopes<VecOf<S>> {
+    fn dense(&self, _work: &Work<S>, start: &Start<'_, S>, arrival: &Arrival<S>) -> Slopes<VecOf<S>> {
         fixed::slopes(start, arrival)
     }
 

@@ -8,6 +8,7 @@ mod midpoint;
 pub(super) mod newton;
 mod radau5;
 mod rodas5p;
+mod starting_values;
 
 pub use gauss::{Gauss, GaussLegendre4, GaussLegendre6};
 pub use linearization::{Analytic, FiniteDifferences, Linearization};

@@ -10,6 +10,9 @@ pub(super) const MOST_ITERATIONS: u32 = 50;
 /// The ratio of successive corrections from which a new Jacobian is formed.
 pub(in crate::methods) const SLOW: f64 = 0.1;
 
+/// The share of half a rounding unit that an iteration may leave.
+const NEGLIGIBLE: f64 = 1.0 / 64.0;
+
 /// Up to this multiple of the least number 1/h has no room.
 const SHORT: f64 = 8.0;
 
@@ -63,10 +66,19 @@ pub(super) fn size<T: Real, V: AsRef<[T]>>(correction: &V, x: &V, increment: &V)
     if largest == T::ZERO { largest } else { largest / scale }
 }
 
-/// Which components of a correction have come down to round-off: they no longer shrink, or they have vanished next to
-/// what they correct. An iteration that ends before all of them have leaves an error that has the same sign from
-/// step to step (Hairer, McLachlan, Razakarivony, Achieving Brouwer's law with implicit Runge–Kutta
-/// methods, BIT 48 (2008)).
+/// The share of a correction that has to be within rounding, where corrections shrink by a ratio: what is missing after
+/// this one is the rest of a geometric series, which may come to a hundredth of a rounding unit. The whole, where the
+/// ratio is not known yet.
+pub(super) fn still_missing<T: Real>(ratio: Option<T>) -> T {
+    let missing = ratio.map_or(T::ONE, |ratio| T::from_f64(NEGLIGIBLE.recip()) * ratio / (T::ONE - ratio));
+    if missing >= T::ZERO && missing < T::ONE { missing } else { T::ONE }
+}
+
+/// Which components of a correction have come down to round-off: what is still missing vanishes next to what they
+/// correct, or the correction shrinks no longer, neither as a whole nor in that component. An iteration that ends before
+/// all of them have leaves an error that has the same sign from step to step (Hairer, McLachlan, Razakarivony,
+/// Achieving Brouwer's law with implicit Runge–Kutta methods, BIT 48 (2008)); a component alone may grow once for
+/// another reason, when its correction has just passed through zero.
 #[derive(Clone, Copy)]
 pub(super) struct Settling<D: Dim, T: Real> {
     before: Option<D::Vec<T>>,
@@ -80,19 +92,27 @@ impl<D: Dim, T: Real> Settling<D, T> {
     }
 
     /// Whether all components of a correction that is small as a whole have settled, now or before.
-    pub(super) fn after(&mut self, correction: &D::Vec<T>, corrected: &D::Vec<T>, is_small: bool) -> bool {
-        let half_unit = T::EPSILON * T::from_f64(0.5);
+    pub(super) fn after(
+        &mut self,
+        correction: &D::Vec<T>,
+        corrected: &D::Vec<T>,
+        is_small: bool,
+        ratio: Option<T>,
+    ) -> bool {
+        let half = T::from_f64(0.5);
+        let (share, stagnates) = (still_missing(ratio), ratio.is_some_and(|ratio| ratio >= half));
+        let half_unit = T::EPSILON * half;
         let sizes =
             correction.as_ref().iter().zip(corrected.as_ref()).map(|(c, x)| (c.abs(), half_unit * x.abs()));
         let Some(before) = &mut self.before else {
             self.before = Some(*correction);
             let mut sizes = sizes;
-            return is_small && sizes.all(|(c, unit)| c <= unit);
+            return is_small && sizes.all(|(c, unit)| share * c <= unit);
         };
         let marks = self.settled.as_mut().iter_mut().zip(before.as_ref());
         let mut all = true;
         for ((settled, before), (c, unit)) in marks.zip(sizes) {
-            *settled = is_small && (*settled || c <= unit || c >= before.abs() * T::from_f64(0.5));
+            *settled = is_small && (*settled || share * c <= unit || (stagnates && c >= before.abs() * half));
             all &= *settled;
         }
         *before = *correction;
@@ -133,5 +153,34 @@ where
         step: length.to_f64(),
         iterations,
         residual: residual.to_f64(),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::D;
+
+    #[test]
+    fn what_is_missing_is_the_rest_of_a_geometric_series() {
+        assert!((still_missing(Some(1e-3_f64)) - 64.0 * 1e-3 / 0.999).abs() < 1e-15);
+        for unknown in [None, Some(0.5), Some(1.0), Some(3.0), Some(f64::NAN), Some(f64::INFINITY)] {
+            assert!((still_missing(unknown) - 1.0_f64).abs() < 1e-15, "{unknown:?}");
+        }
+        assert!(still_missing(Some(0.0_f64)) < f64::MIN_POSITIVE);
+    }
+
+    #[test]
+    fn a_component_that_grows_alone_has_not_settled() {
+        let corrected = [1.0, 1.0];
+        let mut settling = Settling::<D<2>, f64>::new();
+        assert!(!settling.after(&[1e-10, 1e-15], &corrected, true, None));
+        // passed through zero, and is moved by the other
+        assert!(!settling.after(&[1e-13, 1e-14], &corrected, true, Some(1e-3)));
+        assert!(settling.after(&[1e-16, 1e-17], &corrected, true, Some(1e-3)));
+        // rounding alone is left
+        let mut settling = Settling::<D<2>, f64>::new();
+        assert!(!settling.after(&[1e-14, 2e-14], &corrected, true, None));
+        assert!(settling.after(&[1e-14, 1e-14], &corrected, true, Some(0.5)));
     }
 }

@@ -147,7 +147,7 @@ impl<J> Radau<J> {
         work.rate = w(FAST);
         let (mut last, mut last_ratio) = (one, one);
         for iteration in 1..=MOST_ITERATIONS {
-            let change = RADAU.iterate(start, (&x, &zero), h, matrices, (&mut work.trial, &mut [zero; 3]));
+            let change = RADAU.iterate(start, &x, h, matrices, &mut work.trial);
             work.iterations = iteration;
             statistics.iterations += 1;
             statistics.evaluations += 3;

@@ -1,9 +1,10 @@
 //! The coefficients of Radau IIA of order 5 (Hairer, Wanner II, table IV.5.6).
 
-use crate::methods::implicit::collocation::Collocation;
+use crate::methods::implicit::collocation::{Collocation, continued};
 
 pub(in crate::methods::implicit) const RADAU: Collocation<3> = Collocation {
     nodes: [0.155_051_025_721_682_2, 0.644_948_974_278_317_8, 1.0],
+    ahead: continued([0.155_051_025_721_682_2, 0.644_948_974_278_317_8, 1.0]),
     matrix: [
         [
             (0.196_815_477_223_660_4, 1.367_017_216_709_343_2e-17),
