@@ -225,8 +225,48 @@ pub trait Jacobian: Dynamics {
         t: ScalarOf<Self>,
         state: &Self::State,
         input: &Self::Input,
-    ) -> <DimOf<Self> as Dim>::Vec<<Self::InputDim as Dim>::Vec<ScalarOf<Self>>>;
+    ) -> RowsByInput<Self>;
+
+    /// f, A and B at once. Generated code computes all of them in one function, where what they share is computed
+    /// once.
+    ///
+    /// ```
+    /// use nonholonomic::prelude::*;
+    ///
+    /// /// A mass on a spring, pushed.
+    /// #[nonholonomic(
+    ///     base       { x }
+    ///     lagrangian { m / 2 * der(x)^2 - k / 2 * x^2 }
+    ///     forces     { x: push; }
+    ///     inputs     { push }
+    ///     emit       { jacobian }
+    /// )]
+    /// #[derive(Clone, Copy, Debug)]
+    /// struct Oscillator { m: f64, k: f64 }
+    ///
+    /// let oscillator = Oscillator { m: 2.0, k: 8.0 };
+    /// let state = OscillatorState { x: 1.0, x_dot: 0.5 };
+    /// let (rates, a, b) = oscillator.linearized(0.0, &state, &OscillatorInput { push: 2.0 });
+    /// assert_eq!(rates, OscillatorState { x: 0.5, x_dot: -3.0 });
+    /// assert_eq!((a, b), ([[0.0, 1.0], [-4.0, 0.0]], [[0.0], [0.5]]));
+    /// ```
+    #[inline]
+    fn linearized(
+        &self,
+        t: ScalarOf<Self>,
+        state: &Self::State,
+        input: &Self::Input,
+    ) -> (Self::State, MatOf<Self>, RowsByInput<Self>) {
+        (
+            self.derivative(t, state, input),
+            self.state_jacobian(t, state, input),
+            self.input_jacobian(t, state, input),
+        )
+    }
 }
+
+/// In row i, the derivatives of component i of ẋ by the inputs of a system: what [`Jacobian::input_jacobian`] returns.
+pub type RowsByInput<S> = <DimOf<S> as Dim>::Vec<<<S as Jacobian>::InputDim as Dim>::Vec<ScalarOf<S>>>;
 
 /// A system with the recurrences of the Taylor coefficients of its solutions.
 #[diagnostic::on_unimplemented(

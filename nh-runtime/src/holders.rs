@@ -10,7 +10,7 @@ use crate::dynamics::{
 use crate::error::{InputFault, ParameterError, ProjectionError, StateFault};
 use crate::linear_model::FirstOrder;
 use crate::reduction::ByStages;
-use crate::{AngleCache, AngleCached, Dim, DimOf, MatOf, Prepare, Prepared, ScalarOf, VecOf};
+use crate::{AngleCache, AngleCached, Dim, MatOf, Prepare, Prepared, RowsByInput, ScalarOf, VecOf};
 
 /// All traits of a system for what holds one: the type of the system first, with what is asked of it.
 macro_rules! holders {
@@ -152,9 +152,19 @@ macro_rules! holders {
                 t: ScalarOf<$s>,
                 state: &$s::State,
                 input: &$s::Input,
-            ) -> <DimOf<$s> as Dim>::Vec<<$s::InputDim as Dim>::Vec<ScalarOf<$s>>> {
+            ) -> RowsByInput<$s> {
                 let $this = self;
                 $system.input_jacobian(t, state, input)
+            }
+            #[inline]
+            fn linearized(
+                &self,
+                t: ScalarOf<$s>,
+                state: &$s::State,
+                input: &$s::Input,
+            ) -> ($s::State, MatOf<$s>, RowsByInput<$s>) {
+                let $this = self;
+                $system.linearized(t, state, input)
             }
         }
 

@@ -115,7 +115,7 @@ pub use dim::{D, Dim};
 pub use dynamics::TaylorSeries;
 pub use dynamics::{
     AlmostPoisson, Constrained, DimOf, Dynamics, Energy, EulerPoincareSuslov, Invariants, Jacobian, Leapfrog,
-    MatOf, Observed, ScalarOf, State, VecOf,
+    MatOf, Observed, RowsByInput, ScalarOf, State, VecOf,
 };
 pub use error::{InputFault, IntegrationError, ParameterError, ParameterFault, ProjectionError, StateFault};
 pub use events::{Event, Events};

@@ -1,5 +1,7 @@
 //! The time derivative of the state, and the system as the integrators see it.
 
+use std::collections::BTreeSet;
+
 use nonholonomic_core::program::{Cost, Program};
 use proc_macro2::TokenStream;
 use quote::quote;
@@ -8,7 +10,7 @@ use super::inherent_method::Head;
 use super::layout::local;
 use super::program::body;
 use super::setting::Context;
-use super::symbols::Scope;
+use super::symbols::{Argument, Scope};
 
 /// The head of `derivative`.
 pub(super) fn head(context: &Context) -> Head {
@@ -36,11 +38,21 @@ pub(super) fn inlining(program: &Program) -> TokenStream {
 
 /// The inherent method `derivative`.
 pub(super) fn method(context: &Context, scope: &Scope, program: &Program) -> TokenStream {
+    let (used, statements) = statements(context, scope, program);
+    head(context).with_inlining(context, &used, &statements, &inlining(program))
+}
+
+/// The arguments that the derivative reads, and the statements that compute it.
+pub(super) fn statements(
+    context: &Context,
+    scope: &Scope,
+    program: &Program,
+) -> (BTreeSet<Argument>, TokenStream) {
     let body = body(context, scope, program);
     let name = &context.state.name;
     let result = context.state.construct(&quote!(#name), &body.outputs);
     let statements = &body.statements;
-    head(context).with_inlining(context, &body.used, &quote!(#statements #result), &inlining(program))
+    (body.used, quote!(#statements #result))
 }
 
 /// `impl Dynamics for Sleigh`, with how states are checked.

@@ -128,11 +128,9 @@ where
     #[inline]
     fn derivative(&self, t: Jet<T, N, M>, state: &Jets<T, N, M>, input: &S::Input) -> Jets<T, N, M> {
         let point = S::State::from_array(state.0.map(|jet| jet.value));
-        let f = self.0.derivative(t.value, &point, input).to_array();
-        let a = self.0.state_jacobian(t.value, &point, input);
-        let b = self.0.input_jacobian(t.value, &point, input);
+        let (f, a, b) = self.0.linearized(t.value, &point, input);
         let mut rates = [Jet::ZERO; N];
-        for (rate, ((f, a), b)) in rates.iter_mut().zip(f.into_iter().zip(a).zip(b)) {
+        for (rate, ((f, a), b)) in rates.iter_mut().zip(f.to_array().into_iter().zip(a).zip(b)) {
             *rate = Jet { value: f, by: [T::ZERO; N], by_others: b };
             for (a, jet) in a.into_iter().zip(&state.0) {
                 add(&mut rate.by, a, &jet.by);

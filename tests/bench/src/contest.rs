@@ -23,11 +23,16 @@ pub trait Contest: Dynamics<State: State<Scalar = f64>> + Sized {
     fn inputs(input: &Self::Input) -> Vec<f64>;
     /// The emitted `derivative`.
     fn emitted(&self, t: f64, state: &Self::State, input: &Self::Input) -> Self::State;
-    /// The emitted `jacobian`, together with `derivative`.
+    /// The emitted `linearized`: the derivative and its Jacobians.
     fn linearised(&self, t: f64, state: &Self::State, input: &Self::Input) -> Self::Linearised;
     /// The derivative written by hand.
     fn by_hand(&self, t: f64, state: &Self::State, input: &Self::Input) -> Self::State;
 }
+
+/// A system with its derivative by hand, as an expert would hand it to the integrators: everything else is that of the
+/// declared system.
+#[derive(Clone, Copy, Debug)]
+pub struct ByHand<S>(pub S);
 
 /// The states and inputs at which a system is evaluated, the same in every run.
 #[must_use]
@@ -77,11 +82,7 @@ macro_rules! contest {
         hand |$s:ident, $t:ident, $x:ident, $u:ident| $body:block
     ) => {
         impl $crate::contest::Contest for $System {
-            type Linearised = (
-                Self::State,
-                ::nalgebra::SMatrix<f64, $states, $states>,
-                ::nalgebra::SMatrix<f64, $states, $inputs>,
-            );
+            type Linearised = (Self::State, [[f64; $states]; $states], [[f64; $inputs]; $states]);
             const NAME: &'static str = $name;
             fn ordinary() -> Self {
                 $ordinary
@@ -103,12 +104,21 @@ macro_rules! contest {
             }
             #[inline(never)]
             fn linearised(&self, t: f64, state: &Self::State, input: &Self::Input) -> Self::Linearised {
-                let (a, b) = self.jacobian(t, state, input);
-                (self.derivative(t, state, input), a, b)
+                ::nonholonomic::Jacobian::linearized(self, t, state, input)
             }
             #[inline(never)]
             fn by_hand(&self, $t: f64, $x: &Self::State, $u: &Self::Input) -> Self::State {
                 let $s = self;
+                $body
+            }
+        }
+
+        impl ::nonholonomic::Dynamics for $crate::contest::ByHand<$System> {
+            type State = <$System as ::nonholonomic::Dynamics>::State;
+            type Input = <$System as ::nonholonomic::Dynamics>::Input;
+            #[inline]
+            fn derivative(&self, $t: f64, $x: &Self::State, $u: &Self::Input) -> Self::State {
+                let $s = &self.0;
                 $body
             }
         }

@@ -60,6 +60,23 @@ pub fn print_peers(rows: &[Row], peers: &[[Option<Measured>; PEERS.len()]]) {
     }
 }
 
+/// Prints the derivative with its Jacobians beside that of the peer which has them, and the mean and the worst ratio.
+pub fn print_jacobians(rows: &[Row], peers: &[[Option<Measured>; PEERS.len()]]) {
+    let Some(place) = PEERS.iter().position(|(.., style)| *style == "jacobian") else { return };
+    println!("\n| instructions | with jacobian | {} | ratio |\n|---|--:|--:|--:|", PEERS[place].0);
+    let mut ratios = Vec::new();
+    for (row, peers) in rows.iter().zip(peers) {
+        let [_, _, ours] = row.instructions;
+        let theirs = peers[place].as_ref().and_then(INSTRUCTIONS);
+        let ratio = ours.zip(theirs).map(|(ours, theirs)| ours / theirs);
+        ratios.extend(ratio);
+        println!("| {} | {} | {} | {} |", row.name, cell(ours, 0), cell(theirs, 0), cell(ratio, 2));
+    }
+    let worst = ratios.iter().copied().reduce(f64::max);
+    let mean = geometric_mean(ratios.into_iter().map(Some));
+    println!("| geometric mean | | | {} |\n| worst | | | {} |", cell(mean, 2), cell(worst, 2));
+}
+
 const INSTRUCTIONS: fn(&Measured) -> Option<f64> = |peer| peer.instructions;
 
 /// Five cells: by hand, the derivative and its ratio to that, the Jacobian and its ratio to the derivative.

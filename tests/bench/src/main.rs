@@ -8,7 +8,7 @@
 use std::process::ExitCode;
 
 use nh_bench::callgrind::{self, Counts};
-use nh_bench::contest_table::{Row, print, print_peers};
+use nh_bench::contest_table::{Row, print, print_jacobians, print_peers};
 use nh_bench::peers::Workshop;
 use nh_bench::program;
 use nh_bench::runner::{OWN, Run, all};
@@ -40,7 +40,9 @@ fn measure() -> Result<(), String> {
         Ok(workshop) => {
             let peers: Result<Vec<_>, String> =
                 systems.iter().map(|system| workshop.measure(system.as_ref())).collect();
-            print_peers(&rows, &peers?);
+            let peers = peers?;
+            print_peers(&rows, &peers);
+            print_jacobians(&rows, &peers);
         }
         Err(missing) => println!("\n{missing}"),
     }
