@@ -10,8 +10,8 @@ use nonholonomic::State;
 use crate::callgrind::Counts;
 use crate::contest::{Contest, samples};
 use crate::systems::{
-    balancing_robot, ball, car, chaplygin_ball, hitched_trailer, pendulum, robot, roller_racer, satellite,
-    sleigh, snakeboard, tractor, veselova,
+    arm, balancing_robot, ball, car, chaplygin_ball, four_bar, hitched_trailer, pendulum, quadrotor, robot,
+    roller_racer, satellite, sleigh, snakeboard, tractor, veselova,
 };
 
 /// Values of different contestants agree to this, relative to numbers of ordinary size.
@@ -70,6 +70,11 @@ pub fn all() -> Vec<Box<dyn Run>> {
         Box::new(Of::<satellite::Satellite>(PhantomData)),
         Box::new(Of::<chaplygin_ball::ChaplyginBall>(PhantomData)),
         Box::new(Of::<pendulum::Pendulum>(PhantomData)),
+        Box::new(Of::<arm::Arm2>(PhantomData)),
+        Box::new(Of::<arm::Arm4>(PhantomData)),
+        Box::new(Of::<arm::Arm6>(PhantomData)),
+        Box::new(Of::<quadrotor::Quadrotor>(PhantomData)),
+        Box::new(Of::<four_bar::FourBar>(PhantomData)),
     ]
 }
 

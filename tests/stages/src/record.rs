@@ -2,7 +2,7 @@
 
 use crate::{Declaration, declarations, families};
 
-/// The machines of the benchmark of record with their names there, in the order of its tables.
+/// The machines of the benchmark of record with their names there, in the order of its tables, up to the pendulum.
 ///
 /// # Panics
 /// If a file of the benchmark holds no declaration where it is looked for.

@@ -1,0 +1,171 @@
+//! Instructions of whole steps around emitted derivatives, and of the same steps around derivatives by hand.
+//!
+//! ```sh
+//! RUSTFLAGS="-C target-cpu=x86-64-v3" cargo run --release -p nh-bench --bin whole_steps
+//! ```
+//!
+//! Steps of explicit methods are pure functions, at the states of the contest; those of implicit ones are of
+//! simulations from each of these states. Each figure is the mean over all of them.
+#![allow(clippy::cast_precision_loss, reason = "counts stay far below 2⁵²")]
+
+use std::hint::black_box;
+use std::process::ExitCode;
+
+use nh_bench::contest::{ByHand, Contest, SAMPLES, samples};
+use nh_bench::contest_table::{cell, geometric_mean};
+use nh_bench::systems::{
+    arm, balancing_robot, ball, car, chaplygin_ball, four_bar, hitched_trailer, pendulum, quadrotor, robot,
+    roller_racer, satellite, sleigh, snakeboard, tractor, veselova,
+};
+use nh_bench::{callgrind, program};
+use nonholonomic::Method;
+use nonholonomic::prelude::*;
+
+/// Instructions are counted from the beginning of the one function to that of the other.
+const COUNTED: [&str; 2] = ["*counted_steps*", "*end_of_steps*"];
+/// The steps that are counted together.
+const STEPS: u32 = 4;
+/// Their length.
+const H: f64 = 0.01;
+/// The methods, in the order in which they are counted.
+const METHODS: [&str; 4] = ["Rk4", "Dop853", "ImplicitMidpoint", "Radau5"];
+
+/// Callgrind counts from the beginning of this function to that of the next.
+#[inline(never)]
+fn counted_steps(steps: &mut dyn FnMut()) {
+    steps();
+    end_of_steps();
+}
+
+#[inline(never)]
+fn end_of_steps() {
+    black_box(());
+}
+
+/// Counts the steps of a method as a pure function, from each sample.
+macro_rules! functions {
+    ($Method:ident, $system:ident, $samples:ident) => {
+        for (state, input) in $samples {
+            counted_steps(&mut || {
+                for _ in 0..STEPS {
+                    black_box($Method::step(black_box(&$system), 0.0, H, black_box(state), input));
+                }
+            });
+        }
+    };
+}
+
+/// Counts the steps of a simulation, after the first few, from each sample.
+fn simulation<S, M>(system: &S, method: M, samples: &[(S::State, S::Input)])
+where
+    S: Dynamics<State: State<Scalar = f64>> + Clone,
+    M: Method<S> + Copy,
+{
+    for (state, input) in samples {
+        let mut sim = Integrator::new(system.clone(), method, 0.0, *state);
+        sim.set_input(*input);
+        for _ in 0..STEPS {
+            let _ = sim.step();
+        }
+        counted_steps(&mut || {
+            for _ in 0..STEPS {
+                let _ = black_box(sim.step());
+            }
+        });
+    }
+}
+
+/// Counts the steps of all methods.
+fn count<S>(system: S, samples: &[(S::State, S::Input)])
+where
+    S: Dynamics<State: State<Scalar = f64>> + Copy,
+{
+    functions!(Rk4, system, samples);
+    functions!(Dop853, system, samples);
+    simulation(&system, ImplicitMidpoint::new(H), samples);
+    simulation(&system, Radau5::new().rtol(1e-6).first_step(H).max_step(H), samples);
+}
+
+/// The systems of the contest: their names, and what counts the steps around the emitted derivative and around
+/// that by hand.
+macro_rules! systems {
+    ($($System:path),* $(,)?) => {
+        /// The names in the tables.
+        const NAMES: &[&str] = &[$(<$System>::NAME),*];
+
+        fn count_all() {
+            $(
+                count(<$System>::ordinary(), &samples::<$System>());
+                count(ByHand(<$System>::ordinary()), &samples::<$System>());
+            )*
+        }
+    };
+}
+systems!(
+    sleigh::Sleigh,
+    veselova::Veselova,
+    snakeboard::Snakeboard,
+    robot::Robot,
+    ball::Ball,
+    tractor::Tractor1,
+    tractor::Tractor2,
+    tractor::Tractor3,
+    tractor::Tractor4,
+    tractor::Tractor5,
+    tractor::Tractor6,
+    car::Car,
+    roller_racer::RollerRacer,
+    hitched_trailer::HitchedTrailer,
+    balancing_robot::BalancingRobot,
+    satellite::Satellite,
+    chaplygin_ball::ChaplyginBall,
+    pendulum::Pendulum,
+    arm::Arm2,
+    arm::Arm4,
+    arm::Arm6,
+    quadrotor::Quadrotor,
+    four_bar::FourBar,
+);
+
+fn main() -> ExitCode {
+    let evaluate = |_: &[String]| {
+        count_all();
+        Ok(())
+    };
+    program::main(evaluate, measure)
+}
+
+fn measure() -> Result<(), String> {
+    program::warn_without_fma();
+    if !callgrind::is_present() {
+        println!("valgrind is not there: nothing is counted");
+        return Ok(());
+    }
+    let counts = program::count_each(COUNTED, NAMES.len() * 2 * METHODS.len() * SAMPLES)?;
+    let per_step = 1.0 / (SAMPLES as f64 * f64::from(STEPS));
+    let means: Vec<f64> =
+        counts.chunks(SAMPLES).map(|counts| counts.iter().sum::<u64>() as f64 * per_step).collect();
+    println!(
+        "| system | {} |",
+        METHODS.map(|method| format!("`{method}`, by hand | emitted | ratio")).join(" | ")
+    );
+    println!("|---|{}", "--:|--:|--:|".repeat(METHODS.len()));
+    let mut ratios = [const { Vec::new() }; METHODS.len()];
+    for (name, means) in NAMES.iter().zip(means.chunks(2 * METHODS.len())) {
+        let (emitted, by_hand) = means.split_at(METHODS.len());
+        let mut cells = Vec::new();
+        for ((emitted, by_hand), ratios) in emitted.iter().zip(by_hand).zip(&mut ratios) {
+            ratios.push(emitted / by_hand);
+            cells.push(format!("{by_hand:.0} | {emitted:.0} | {:.2}", emitted / by_hand));
+        }
+        println!("| {name} | {} |", cells.join(" | "));
+    }
+    let mean = |ratios: &Vec<f64>| cell(geometric_mean(ratios.iter().copied().map(Some)), 3);
+    let worst = |ratios: &Vec<f64>| cell(ratios.iter().copied().reduce(f64::max), 2);
+    println!(
+        "| geometric mean | {} |",
+        ratios.each_ref().map(|ratios| format!("| | {}", mean(ratios))).join(" | ")
+    );
+    println!("| worst | {} |", ratios.each_ref().map(|ratios| format!("| | {}", worst(ratios))).join(" | "));
+    Ok(())
+}
