@@ -265,3 +265,21 @@ fn formulas_are_written_with_operators() {
     }
     assert!(chains.is_empty(), "{}", chains.join("\n"));
 }
+
+/// A library whose systems would be expanded twice is not compiled for its own tests: those are taken in by a file of
+/// `tests`, so that none is left out.
+#[test]
+fn no_test_is_left_out() {
+    for package in ["tests", "tests/accuracy", "tests/bench"].map(|name| root().join(name)) {
+        let manifest = fs::read_to_string(package.join("Cargo.toml")).unwrap();
+        assert!(manifest.contains("[lib]\ntest = false"), "{}: name it no longer here", package.display());
+        let taken_in: String = sources(&package.join("tests")).into_iter().map(|(_, text)| text).collect();
+        for (path, text) in sources(&package.join("src")) {
+            let inside = path.strip_prefix(&package).unwrap();
+            let mut files =
+                inside.ancestors().flat_map(|part| [part.with_extension("rs"), part.join("mod.rs")]);
+            let is_taken_in = files.any(|file| taken_in.contains(&format!("\"../{}\"", file.display())));
+            assert!(is_taken_in || !text.contains("#[test]"), "nothing runs the tests of {}", path.display());
+        }
+    }
+}
