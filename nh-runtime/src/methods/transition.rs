@@ -129,12 +129,14 @@ where
     fn derivative(&self, t: Jet<T, N, M>, state: &Jets<T, N, M>, input: &S::Input) -> Jets<T, N, M> {
         let point = S::State::from_array(state.0.map(|jet| jet.value));
         let (f, a, b) = self.0.linearized(t.value, &point, input);
+        let f = f.to_array();
         let mut rates = [Jet::ZERO; N];
-        for (rate, ((f, a), b)) in rates.iter_mut().zip(f.to_array().into_iter().zip(a).zip(b)) {
-            *rate = Jet { value: f, by: [T::ZERO; N], by_others: b };
-            for (a, jet) in a.into_iter().zip(&state.0) {
-                add(&mut rate.by, a, &jet.by);
-                add(&mut rate.by_others, a, &jet.by_others);
+        for (rate, ((f, a), b)) in rates.iter_mut().zip(f.iter().zip(&a).zip(&b)) {
+            rate.value = *f;
+            rate.by_others = *b;
+            for (a, jet) in a.iter().zip(&state.0) {
+                add(&mut rate.by, *a, &jet.by);
+                add(&mut rate.by_others, *a, &jet.by_others);
             }
         }
         Jets(rates)
@@ -143,7 +145,7 @@ where
 
 /// sum += a x.
 #[inline]
-fn add<T: Scalar>(sum: &mut [T], a: T, x: &[T]) {
+fn add<T: Scalar, const N: usize>(sum: &mut [T; N], a: T, x: &[T; N]) {
     for (sum, x) in sum.iter_mut().zip(x) {
         *sum = a.mul_add(*x, *sum);
     }

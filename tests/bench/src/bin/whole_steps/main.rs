@@ -5,8 +5,12 @@
 //! ```
 //!
 //! Steps of explicit methods are pure functions, at the states of the contest; those of implicit ones are of
-//! simulations from each of these states. Each figure is the mean over all of them.
+//! simulations from each of these states. Each figure is the mean over all of them. A second table has three systems
+//! in single precision, and steps with their derivatives.
 #![allow(clippy::cast_precision_loss, reason = "counts stay far below 2⁵²")]
+#![allow(non_snake_case, reason = "parameters are written as in mechanics: J, I")]
+
+mod generic;
 
 use std::hint::black_box;
 use std::process::ExitCode;
@@ -130,6 +134,7 @@ systems!(
 fn main() -> ExitCode {
     let evaluate = |_: &[String]| {
         count_all();
+        generic::count_all();
         Ok(())
     };
     program::main(evaluate, measure)
@@ -137,22 +142,34 @@ fn main() -> ExitCode {
 
 fn measure() -> Result<(), String> {
     program::warn_without_fma();
+    generic::compare_all()?;
     if !callgrind::is_present() {
         println!("valgrind is not there: nothing is counted");
         return Ok(());
     }
-    let counts = program::count_each(COUNTED, NAMES.len() * 2 * METHODS.len() * SAMPLES)?;
+    let own = NAMES.len() * 2 * METHODS.len() * SAMPLES;
+    let generic = generic::NAMES.len() * 2 * generic::COLUMNS.len() * SAMPLES;
+    let counts = program::count_each(COUNTED, own + generic)?;
+    let (own, generic) = counts.split_at(own);
+    print(NAMES, METHODS.map(|method| format!("`{method}`")).each_ref(), own);
+    println!();
+    print(&generic::NAMES, generic::COLUMNS.map(str::to_owned).each_ref(), generic);
+    Ok(())
+}
+
+/// Prints a table of counts by rows, emitted before by hand, and by columns.
+fn print<const N: usize>(names: &[&str], columns: [&String; N], counts: &[u64]) {
     let per_step = 1.0 / (SAMPLES as f64 * f64::from(STEPS));
     let means: Vec<f64> =
         counts.chunks(SAMPLES).map(|counts| counts.iter().sum::<u64>() as f64 * per_step).collect();
     println!(
         "| system | {} |",
-        METHODS.map(|method| format!("`{method}`, by hand | emitted | ratio")).join(" | ")
+        columns.map(|column| format!("{column}, by hand | emitted | ratio")).join(" | ")
     );
-    println!("|---|{}", "--:|--:|--:|".repeat(METHODS.len()));
-    let mut ratios = [const { Vec::new() }; METHODS.len()];
-    for (name, means) in NAMES.iter().zip(means.chunks(2 * METHODS.len())) {
-        let (emitted, by_hand) = means.split_at(METHODS.len());
+    println!("|---|{}", "--:|--:|--:|".repeat(N));
+    let mut ratios = [const { Vec::new() }; N];
+    for (name, means) in names.iter().zip(means.chunks(2 * N)) {
+        let (emitted, by_hand) = means.split_at(N);
         let mut cells = Vec::new();
         for ((emitted, by_hand), ratios) in emitted.iter().zip(by_hand).zip(&mut ratios) {
             ratios.push(emitted / by_hand);
@@ -162,10 +179,6 @@ fn measure() -> Result<(), String> {
     }
     let mean = |ratios: &Vec<f64>| cell(geometric_mean(ratios.iter().copied().map(Some)), 3);
     let worst = |ratios: &Vec<f64>| cell(ratios.iter().copied().reduce(f64::max), 2);
-    println!(
-        "| geometric mean | {} |",
-        ratios.each_ref().map(|ratios| format!("| | {}", mean(ratios))).join(" | ")
-    );
-    println!("| worst | {} |", ratios.each_ref().map(|ratios| format!("| | {}", worst(ratios))).join(" | "));
-    Ok(())
+    println!("| geometric mean | {} |", ratios.each_ref().map(|r| format!("| | {}", mean(r))).join(" | "));
+    println!("| worst | {} |", ratios.each_ref().map(|r| format!("| | {}", worst(r))).join(" | "));
 }
