@@ -122,7 +122,7 @@ pub(crate) use catalogued;
 
 /// An entry of the catalogue: a declared system with lists of numbers in place of its types, so
 /// that checks can walk over systems of any shape.
-pub trait Entry {
+pub trait Entry: Sync {
     /// The name of the declaration.
     fn name(&self) -> &'static str;
     /// The reference data.
@@ -175,7 +175,7 @@ pub struct Solution {
     pub steps: usize,
 }
 
-struct Declaration<S>(PhantomData<S>);
+struct Declaration<S>(PhantomData<fn() -> S>);
 
 /// The name of a declaration.
 #[must_use]
@@ -303,5 +303,5 @@ fn unpacked<X: State<Scalar = f64>>(state: &X) -> Vec<f64> {
 /// The entry of a declaration.
 #[must_use]
 pub fn entry<S: Catalogued + 'static>() -> Box<dyn Entry> {
-    Box::new(Declaration(PhantomData::<S>))
+    Box::new(Declaration::<S>(PhantomData))
 }

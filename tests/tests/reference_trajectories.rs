@@ -1,5 +1,7 @@
 //! Every declared system, integrated, follows the trajectories of the reference data.
 
+use std::thread;
+
 use nh_tests::catalogue::Entry;
 use nh_tests::systems::catalogue;
 use nh_tests::trajectories::deviations;
@@ -15,7 +17,12 @@ fn extreme_parameters() {
 }
 
 fn follow(extreme: bool) {
-    let failures: Vec<String> = catalogue().iter().flat_map(|entry| failures(&**entry, extreme)).collect();
+    let catalogue = catalogue();
+    let failures: Vec<String> = thread::scope(|scope| {
+        let follow = |entry| scope.spawn(move || failures(entry, extreme));
+        let threads: Vec<_> = catalogue.iter().map(|entry| follow(&**entry)).collect();
+        threads.into_iter().flat_map(|thread| thread.join().expect("a system that panics fails")).collect()
+    });
     assert!(failures.is_empty(), "\n{}", failures.join("\n"));
 }
 
