@@ -1,6 +1,6 @@
 //! What is derived about the flow on phase space, on request.
 
-use crate::id::SymbolId;
+use crate::id::{ExprId, SymbolId};
 use crate::mechanics::{HamiltonianSide, Procedure};
 
 /// What has a form of its own: each only if it is asked for.
@@ -10,12 +10,24 @@ pub struct PhaseSpace {
     pub hamiltonian: Option<HamiltonianSide>,
     /// The equations as Π ∇E.
     pub almost_poisson: Option<AlmostPoisson>,
+    /// The equations that a step can keep by itself.
+    pub held: Option<HeldEquations>,
     /// The stated first integrals.
     pub invariants: Option<InvariantForm>,
     /// The kick of the leapfrog method on TQ: outputs are the velocities after it.
     pub leapfrog: Option<StepForm>,
     /// The discrete momentum of the Euler–Poincaré–Suslov equations, a component for each velocity.
     pub euler_poincare_suslov: Option<StepForm>,
+}
+
+/// Equations g = 0 that a step can keep by itself, mathematics (37).
+#[derive(Clone, Debug)]
+pub struct HeldEquations {
+    /// g.
+    pub functions: Vec<ExprId>,
+    /// Outputs: g, the derivatives of each by the variables of the state, and of each the direction in which it is
+    /// corrected.
+    pub map: Procedure,
 }
 
 /// First integrals and their gradients.

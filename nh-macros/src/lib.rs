@@ -200,7 +200,8 @@ mod syntax;
 /// | `gibbs_appell` | `gibbs_appell(t, &state, &input)`: the derivative by the function of Gibbs and Appell, an independent derivation |
 /// | `hamiltonian` | the struct `…Phase` of coordinates and momenta π = ∂L/∂v on the constraint distribution; `legendre(t, &state)`, `inverse_legendre(t, &phase)`, `hamiltonian(t, &phase)`, Hamilton's equations `hamilton(t, &phase, &input)`, the matrix `poisson(t, &phase)` of the nonholonomic brackets, and what is not in the bracket with the energy, `drift(t, &phase, &input)` |
 /// | `bracket` | `bracket(t, &state, &input)`: the brackets of the `outputs` with each other; `bracket_with_energy(t, &state, &input)` and `drift_of_outputs(t, &state, &input)`, R_L: together the rates of the outputs. Any regular Lagrangian, any constraints, both formulations: declare momenta as outputs where there is no closed `hamiltonian` |
-/// | `discrete_gradient` | the trait `AlmostPoisson`, for methods that keep the energy; refused, with the reason, where it is not conserved |
+/// | `discrete_gradient` | the trait `AlmostPoisson`, for methods that keep the energy, and position constraints with it; refused, with the reason, where it is not conserved |
+/// | `symmetric_projection` | the trait `Holding` for `symmetrically_projected()`: steps of symmetric methods that keep position constraints, and those of the projected formulation |
 /// | `invariants` | the trait `Invariants` for `Conserving`: the first integrals of `conserved` and their gradients |
 /// | `leapfrog` | the trait `Leapfrog` for `ReflectedLeapfrog`: systems on TQ with constant masses, in the projected formulation |
 /// | `euler_poincare_suslov` | the trait `EulerPoincareSuslov` for `DiscreteSuslov`: systems on a Lie algebra |

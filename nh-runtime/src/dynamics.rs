@@ -1,6 +1,7 @@
 //! What a system is to an integrator.
 
 use crate::error::{InputFault, ParameterError, ProjectionError, StateFault};
+use crate::held::Held;
 use crate::{Dim, Scalar};
 
 /// A point of the phase space: a plain struct with one named field per component.
@@ -144,6 +145,23 @@ pub trait AlmostPoisson: Energy {
     /// Π(x) applied to a covector, antisymmetric at every x: also where the state does not satisfy its
     /// constraints. With the gradient of the energy it gives the derivative of the state where it does.
     fn almost_poisson(&self, t: ScalarOf<Self>, state: &Self::State, covector: &VecOf<Self>) -> VecOf<Self>;
+
+    /// Whether steps have to hold equations beside the energy: position constraints.
+    const HOLDS: bool = false;
+
+    /// As [`Holding::held`](crate::Holding::held).
+    #[inline]
+    fn held_equations(&self, t: ScalarOf<Self>, state: &Self::State) -> Held<Self::State> {
+        let _ = (t, state);
+        Held::none()
+    }
+
+    /// As [`Holding::equations`](crate::Holding::equations).
+    #[inline]
+    fn residuals(&self, t: ScalarOf<Self>, state: &Self::State) -> VecOf<Self> {
+        let _ = (t, state);
+        DimOf::<Self>::vec(ScalarOf::<Self>::ZERO)
+    }
 }
 
 /// A system with stated first integrals: declared with `conserved { … }` and `emit { invariants }`.

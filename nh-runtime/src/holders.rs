@@ -8,6 +8,7 @@ use crate::dynamics::{
     Observed, TaylorSeries,
 };
 use crate::error::{InputFault, ParameterError, ProjectionError, StateFault};
+use crate::held::{Held, Holding};
 use crate::linear_model::FirstOrder;
 use crate::reduction::ByStages;
 use crate::{AngleCache, AngleCached, Dim, MatOf, Prepare, Prepared, RowsByInput, ScalarOf, VecOf};
@@ -90,6 +91,32 @@ macro_rules! holders {
             fn almost_poisson(&self, t: ScalarOf<$s>, state: &$s::State, covector: &VecOf<$s>) -> VecOf<$s> {
                 let $this = self;
                 $system.almost_poisson(t, state, covector)
+            }
+
+            const HOLDS: bool = $s::HOLDS;
+
+            #[inline]
+            fn held_equations(&self, t: ScalarOf<$s>, state: &$s::State) -> Held<$s::State> {
+                let $this = self;
+                $system.held_equations(t, state)
+            }
+            #[inline]
+            fn residuals(&self, t: ScalarOf<$s>, state: &$s::State) -> VecOf<$s> {
+                let $this = self;
+                $system.residuals(t, state)
+            }
+        }
+
+        impl<$s: Holding + $($bound)*, $($other),*> Holding for $holder {
+            #[inline]
+            fn held(&self, t: ScalarOf<$s>, state: &$s::State) -> Held<$s::State> {
+                let $this = self;
+                $system.held(t, state)
+            }
+            #[inline]
+            fn equations(&self, t: ScalarOf<$s>, state: &$s::State) -> VecOf<$s> {
+                let $this = self;
+                $system.equations(t, state)
             }
         }
 

@@ -390,12 +390,14 @@ where
         let start = Start { system: &self.system, input: &self.input, time: self.time, state: &self.state };
         let mut arrival = self.method.advance(&start, target, &mut self.memory, &mut self.statistics)?;
         if self.returns && self.system.has_positions() {
-            returns::correct(
-                &self.system,
-                &self.method,
-                &mut arrival,
-                (&mut self.memory, &mut self.statistics),
-            )?;
+            if !self.method.keeps_positions() {
+                returns::correct(
+                    &self.system,
+                    &self.method,
+                    &mut arrival,
+                    (&mut self.memory, &mut self.statistics),
+                )?;
+            }
             returns::stays_on_its_side(&start, &self.method, &arrival, &mut self.memory)?;
         }
         let Arrival { time, state } = arrival;

@@ -81,6 +81,7 @@ mod events;
 mod fast;
 #[cfg(feature = "macros")]
 pub mod guide;
+mod held;
 mod holders;
 pub mod impacts;
 mod inclusion;
@@ -120,6 +121,7 @@ pub use dynamics::{
 pub use error::{InputFault, IntegrationError, ParameterError, ParameterFault, ProjectionError, StateFault};
 pub use events::{Event, Events};
 pub use fast::Fast;
+pub use held::{Held, Holding};
 pub use inclusion::{Inclusion, NotInMode};
 pub use integrator::Integrator;
 pub use jet::Jet;
@@ -406,9 +408,9 @@ pub mod __private {
     pub use crate::trim::{Steady, TrimError, equations, trim};
     pub use crate::{
         AlmostPoisson, Angle, AngleCache, AngleCached, Constrained, D, Dim, Dynamics, Energy,
-        EulerPoincareSuslov, Inclusion, InputFault, Invariants, Jacobian, Jet, Leapfrog, NotInMode, Observed,
-        ParameterError, ParameterFault, Prepare, Prepared, ProjectionError, Real, Reconstruction, Reduction,
-        Scalar, ScalarOf, State, StateFault, VecOf,
+        EulerPoincareSuslov, Held, Holding, Inclusion, InputFault, Invariants, Jacobian, Jet, Leapfrog,
+        NotInMode, Observed, ParameterError, ParameterFault, Prepare, Prepared, ProjectionError, Real,
+        Reconstruction, Reduction, Scalar, ScalarOf, State, StateFault, VecOf,
     };
     pub use core;
     pub use nalgebra;

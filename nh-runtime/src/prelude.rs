@@ -6,7 +6,7 @@ pub use crate::methods::{
     Tsit5, Vern9,
 };
 pub use crate::{
-    AlmostPoisson, Constrained, Direction, Dynamics, Energy, Event, Events, Fast, Inclusion,
+    AlmostPoisson, Constrained, Direction, Dynamics, Energy, Event, Events, Fast, Holding, Inclusion,
     IntegrationError, Integrator, Jacobian, Lanes, Observed, ParameterError, Real, Reconstructed,
     Reconstruction, Reduction, Scalar, State, Statistics,
 };

@@ -8,6 +8,7 @@ mod holonomic {
     mod five_bar;
     mod four_bar;
     mod hoop;
+    mod kept_by_steps;
     mod long_runs;
     mod long_swing;
     mod pendulum;

@@ -14,10 +14,6 @@ pub(super) fn beside_positions(model: &Model) -> Vec<Violation> {
     let mut found = Vec::new();
     for (request, origin) in &model.requests {
         let (name, why) = match request {
-            Request::DiscreteGradient => (
-                "discrete_gradient",
-                "its steps keep the energy and leave the position constraints; a return to these would lose it",
-            ),
             Request::Leapfrog => ("leapfrog", "its steps keep constraints on velocities alone"),
             Request::Volume => ("volume", densities),
             Request::Splitting => ("splitting", fibres),

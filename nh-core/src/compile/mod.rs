@@ -15,6 +15,7 @@ mod folded_constants;
 mod gibbs_appell_function;
 mod given;
 mod gyroscopic;
+mod held_equations;
 mod impact_functions;
 mod kept_volume;
 mod levels;

@@ -1,5 +1,6 @@
 //! Brackets, the Hamiltonian side and the almost-Poisson form, as far as they are asked for.
 
+use super::held_equations::held_equations;
 use super::on_request::{
     asked, calls_of, energy_gradient, judge, nonholonomic_bracket, not_differentiable, shortened, state,
     whole_state,
@@ -14,7 +15,7 @@ use crate::functions::{BRACKET, BRACKET_WITH_ENERGY, DRIFT_OF_OUTPUTS, Functions
 use crate::id::{ExprId, Origin, SymbolId};
 use crate::mechanics::{HamiltonianSide, NoInverse, Procedure, hamiltonian_side, jacobian};
 use crate::model::{Model, Request};
-use crate::phase_space::{AlmostPoisson, InvariantForm, PhaseSpace};
+use crate::phase_space::{AlmostPoisson, HeldEquations, InvariantForm, PhaseSpace};
 use crate::report::hamiltonian_lines;
 use crate::violation::{Law, Violation};
 
@@ -59,6 +60,7 @@ pub(super) fn derive(
     if let Some(origin) = asked(&proved.model, Request::DiscreteGradient) {
         keep(almost_poisson(proved, derived, origin).map(|form| found.almost_poisson = Some(form)));
     }
+    keep(held(proved, derived).map(|form| found.held = form));
     if let Some(origin) = asked(&proved.model, Request::Invariants) {
         keep(invariants(proved, derived, claims, origin).map(|form| found.invariants = Some(form)));
     }
@@ -228,6 +230,40 @@ fn almost_poisson(
     let (rates, accelerations) = bracket.sharp(graph, judge, (along_base, along_fibre), &mut sharp);
     sharp.outputs = [rates, accelerations].concat();
     Ok(AlmostPoisson { gradient: Procedure::of(gradient), covector, sharp })
+}
+
+/// What a step keeps by itself, if that is asked for.
+fn held(proved: &mut Proved, derived: &Derived<'_>) -> Result<Option<HeldEquations>, Vec<Violation>> {
+    let by_energy = asked(&proved.model, Request::DiscreteGradient).is_some();
+    let Some(origin) = asked(&proved.model, Request::SymmetricProjection) else {
+        let is_needed = by_energy && !proved.model.positions.is_empty();
+        return Ok(is_needed.then(|| held_equations(proved, derived)));
+    };
+    let refused = |what: &str, evidence: &str, way_out: &str| {
+        vec![Violation {
+            law: Law::Hamiltonian,
+            origin,
+            what: what.into(),
+            evidence: evidence.into(),
+            way_out: way_out.into(),
+        }]
+    };
+    if !proved.model.identities.is_empty() {
+        return Err(refused(
+            "a symmetric projection is not derived over an embedded base",
+            "the directions in which it returns leave the identities of `on`",
+            "declare coordinates without identities, or return by `Projected`",
+        ));
+    }
+    let equations = held_equations(proved, derived);
+    if equations.functions.is_empty() {
+        return Err(refused(
+            "there is nothing that a symmetric projection could keep",
+            "the velocities of the state satisfy all constraints by themselves",
+            "leave it out: every symmetric method keeps them",
+        ));
+    }
+    Ok(Some(equations))
 }
 
 /// The claims, which are proved, with their gradients.

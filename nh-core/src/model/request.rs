@@ -34,6 +34,8 @@ pub enum Request {
     Bracket,
     /// The almost-Poisson form for methods that keep the energy.
     DiscreteGradient,
+    /// The equations that a step can keep by itself, with the directions in which they are corrected.
+    SymmetricProjection,
     /// The divergence of the motion.
     Divergence,
     /// The density of an invariant volume.
@@ -62,7 +64,7 @@ pub enum Request {
 
 impl Request {
     /// The words by which `emit` asks for them.
-    pub const WORDS: [(&str, Self); 27] = [
+    pub const WORDS: [(&str, Self); 28] = [
         ("jacobian", Self::Jacobian),
         ("taylor", Self::Taylor),
         ("sparse_jacobian", Self::SparseJacobian),
@@ -82,6 +84,7 @@ impl Request {
         ("hamiltonian", Self::Hamiltonian),
         ("bracket", Self::Bracket),
         ("discrete_gradient", Self::DiscreteGradient),
+        ("symmetric_projection", Self::SymmetricProjection),
         ("divergence", Self::Divergence),
         ("volume", Self::Volume),
         ("connection", Self::Connection),

@@ -33,7 +33,7 @@ pub(super) fn emit(context: &Context, scope: &Scope, system: &System) -> Part {
         }
         quote!(#drops #statements [#(#outputs),*])
     });
-    let items = implementation(context, &gradient, &sharp);
+    let items = implementation(context, &gradient, &sharp, system.phase_space.held.is_some());
     Part {
         items,
         methods: TokenStream::new(),
@@ -42,19 +42,37 @@ pub(super) fn emit(context: &Context, scope: &Scope, system: &System) -> Part {
 }
 
 /// The same with zeros.
-pub(super) fn stub(context: &Context) -> Part {
+pub(super) fn stub(context: &Context, holds: bool) -> Part {
     let zeros = quote!(::core::default::Default::default());
     let drop = |names: TokenStream| quote!(_ = (self, #names); #zeros);
     let (t, state, covector) = (&context.locals.t, &context.locals.state, local("covector"));
     let gradient = drop(quote!(#t, #state));
     let sharp = drop(quote!(#t, #state, #covector));
-    Part { items: implementation(context, &gradient, &sharp), ..Part::default() }
+    Part { items: implementation(context, &gradient, &sharp, holds), ..Part::default() }
 }
 
-fn implementation(context: &Context, gradient: &TokenStream, sharp: &TokenStream) -> TokenStream {
+fn implementation(
+    context: &Context,
+    gradient: &TokenStream,
+    sharp: &TokenStream,
+    holds: bool,
+) -> TokenStream {
     let Context { runtime, scalar, .. } = context;
     let (t, state, state_type) = (&context.locals.t, &context.locals.state, context.type_of(&context.state));
     let (covector, n) = (local("covector"), Literal::usize_unsuffixed(context.state.len()));
+    let held = holds.then(|| {
+        quote! {
+            const HOLDS: bool = true;
+            #[inline]
+            fn held_equations(&self, #t: #scalar, #state: &#state_type) -> #runtime::Held<#state_type> {
+                #runtime::Holding::held(self, #t, #state)
+            }
+            #[inline]
+            fn residuals(&self, #t: #scalar, #state: &#state_type) -> [#scalar; #n] {
+                #runtime::Holding::equations(self, #t, #state)
+            }
+        }
+    });
     let body = quote! {
         #[inline]
         fn energy_gradient(&self, #t: #scalar, #state: &#state_type) -> [#scalar; #n] { #gradient }
@@ -64,6 +82,7 @@ fn implementation(context: &Context, gradient: &TokenStream, sharp: &TokenStream
         ) -> [#scalar; #n] {
             #sharp
         }
+        #held
     };
     context.implement(&quote!(#runtime::AlmostPoisson), &body)
 }

@@ -15,6 +15,7 @@ mod embedding;
 mod energy;
 mod functions;
 mod hamiltonian;
+mod held;
 mod impact_methods;
 mod inclusion;
 mod infix;
@@ -94,6 +95,7 @@ pub(crate) fn emit(system: &System, layout: &Layout) -> Result<TokenStream, Vec<
         .with(angle_cache::emit(context, scope, system, &derivative))
         .with(hamiltonian::emit(context, scope, system))
         .with(almost_poisson::emit(context, scope, system))
+        .with(held::emit(context, scope, system))
         .with(discrete::emit(context, system))
         .with(invariants::emit(context, scope, system));
     let mut programs = vec![("derivative", &derivative)];

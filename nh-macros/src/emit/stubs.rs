@@ -14,8 +14,8 @@ use super::setting::Context;
 use super::taylor;
 use super::{
     almost_poisson, angle_cache, assembly, c, callback, discrete, editor, embedding, energy, functions,
-    hamiltonian, impact_methods, invariants, jacobian, linearization, motion, observed, prepared, projection,
-    report_text, sparse_jacobian, state, validate, vector_products,
+    hamiltonian, held, impact_methods, invariants, jacobian, linearization, motion, observed, prepared,
+    projection, report_text, sparse_jacobian, state, validate, vector_products,
 };
 use crate::resolve::Outline;
 
@@ -59,6 +59,8 @@ fn on_request(context: &Context, outline: &Outline) -> Part {
     let asked = |request, stub: &dyn Fn() -> Part| {
         if requests.contains(&request) { stub() } else { Part::default() }
     };
+    let holds = requests.contains(&Request::SymmetricProjection)
+        || (requests.contains(&Request::DiscreteGradient) && outline.has_positions);
     functions::stubs(context, outline)
         .with(asked(Request::Taylor, &|| taylor::stub(context)))
         .with(embedding::stub(context, identities))
@@ -68,7 +70,8 @@ fn on_request(context: &Context, outline: &Outline) -> Part {
         } else {
             Part::default()
         })
-        .with(asked(Request::DiscreteGradient, &|| almost_poisson::stub(context)))
+        .with(asked(Request::DiscreteGradient, &|| almost_poisson::stub(context, holds)))
+        .with(if holds { held::stub(context) } else { Part::default() })
         .with(discrete::stub(context, requests))
         .with(invariants::stub(context, requests))
         .with(asked(Request::Hamiltonian, &|| hamiltonian::stub(context, velocities)))

@@ -49,6 +49,12 @@ pub trait OneStep<S: Dynamics>: Copy {
         Ok(())
     }
 
+    /// As [`Method::keeps_positions`].
+    #[inline]
+    fn keeps_positions(&self) -> bool {
+        false
+    }
+
     /// The change of the state, which is `x` at the start, over a step of length `h`; components that
     /// are not finite if there is none.
     ///
@@ -193,6 +199,11 @@ where
     fn check(&self) -> Result<(), IntegrationError> {
         grid::check_step(self.step)?;
         self.scheme.check()
+    }
+
+    #[inline]
+    fn keeps_positions(&self) -> bool {
+        self.scheme.keeps_positions()
     }
 
     #[inline]

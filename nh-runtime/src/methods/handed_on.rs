@@ -24,6 +24,11 @@ macro_rules! handed_on {
             self.method.moved(&mut memory.method);
         }
 
+        #[inline]
+        fn keeps_positions(&self) -> bool {
+            self.method.keeps_positions()
+        }
+
         fn permitted(&self, state: &S::State) -> VecOf<S>
         where
             ScalarOf<S>: Real,

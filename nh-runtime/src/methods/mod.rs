@@ -73,7 +73,7 @@ pub use interruptible::Interruptible;
 pub use projected::Projected;
 pub use structure::{
     Composed, Conserving, DiscreteGradient, DiscreteMomentum, DiscreteSuslov, DriftKickDrift, Gonzalez,
-    KahanLi6, ReflectedLeapfrog, Substeps, Suzuki4, Symmetric,
+    KahanLi6, ReflectedLeapfrog, Substeps, Suzuki4, Symmetric, SymmetricProjection,
 };
 pub use taylor::Taylor;
 pub use transition::Transition;
@@ -231,6 +231,12 @@ pub trait Method<S: Dynamics> {
     /// Jacobian, a level that is kept, still holds.
     fn moved(&self, memory: &mut Self::Memory) {
         self.forget(memory);
+    }
+
+    /// Whether steps end where position constraints hold: an [`Integrator`](crate::Integrator) does not return them then.
+    #[inline]
+    fn keeps_positions(&self) -> bool {
+        false
     }
 
     /// Checks the settings.

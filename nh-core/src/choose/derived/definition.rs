@@ -84,7 +84,9 @@ pub(super) fn is_defined(claim: &Derived, place: &mut Place) -> Result<bool, Def
             let rows = returns::independent_slopes(place, identities)?;
             return Ok(determinant_in_field(returns::products(&rows)) != Residue::ZERO);
         }
-        Derived::Leapfrog(_) => return Ok(is_solvable(&place.mass()?, &place.jacobian()?)),
+        Derived::Leapfrog(_) | Derived::Held(..) => {
+            return Ok(is_solvable(&place.mass()?, &place.jacobian()?));
+        }
         Derived::DiscreteMomentum(_) => _ = place.distribution()?,
         Derived::Section(..) => return Ok(false),
     }

@@ -5,6 +5,7 @@
 mod added_conditions;
 mod definition;
 mod divisors;
+mod held;
 mod jumps;
 mod place;
 mod procedure_derivative;
@@ -27,7 +28,7 @@ use crate::algebra::{Degrees, Direction, Facts, FieldPass, FieldPoint, Graph, No
 use crate::id::{CoordId, ExprId, SymbolId};
 use crate::limits;
 use crate::mechanics::{HamiltonianSide, Procedure};
-use crate::phase_space::StepForm;
+use crate::phase_space::{HeldEquations, StepForm};
 use crate::system::{Embedding, ImpactForm, PositionReturn, Projection};
 use place::Place;
 pub(crate) use proof_of_product::prove_product;
@@ -75,6 +76,8 @@ pub(crate) enum Derived<'p> {
     Projection(&'p Projection, &'p [ExprId]),
     /// A step back to constraints on positions, the first of so many.
     Return(&'p PositionReturn, usize),
+    /// Equations that a step keeps by itself, the first of them so many on positions.
+    Held(&'p HeldEquations, usize),
     /// A jump of the velocities, with the rows Ψ y + b.
     Jump(&'p ImpactForm, &'p [ExprId]),
     /// A step back to an embedded base.
@@ -222,6 +225,7 @@ impl Derived<'_> {
             Self::Values(form) => vec![form.values],
             Self::Projection(projection, _) => vec![&projection.step],
             Self::Return(positions, _) => vec![&positions.residual, &positions.step],
+            Self::Held(held, _) => vec![&held.map],
             Self::Jump(impact, _) => vec![&impact.jump],
             Self::Normalisation(embedding, _) => vec![&embedding.step],
             Self::Leapfrog(form) | Self::DiscreteMomentum(form) => vec![&form.map],
@@ -238,6 +242,7 @@ impl Derived<'_> {
             | Self::Projection(_, functions)
             | Self::Jump(_, functions)
             | Self::Normalisation(_, functions) => functions.to_vec(),
+            Self::Held(held, _) => held.functions.clone(),
             Self::Splitting(form) => form.group.concat(),
             Self::Power(form) => {
                 let row = |force: &AppliedForce| force.along.clone().unwrap_or_default();
@@ -310,6 +315,7 @@ impl Derived<'_> {
             Self::Residual(residual, functions) => Ok(place.run(residual)? == place.values(functions)?),
             Self::Projection(projection, residuals) => returns::is_projection(place, projection, residuals),
             Self::Return(positions, constraints) => returns::is_return(place, positions, constraints),
+            Self::Held(held, positions) => held::are_held(place, held, positions),
             Self::Jump(impact, rows) => jumps::is_jump(place, impact, rows),
             Self::Normalisation(embedding, identities) => {
                 returns::is_normalised(place, embedding, identities)

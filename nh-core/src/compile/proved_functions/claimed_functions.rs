@@ -100,6 +100,11 @@ pub(super) fn of_phase_space<'d>(found: &'d Derivatives, declared: &'d Declared)
         let claim = DerivedFunction::Jacobian(&form.values, &form.gradients, &declared.state);
         claims.push(("invariant_gradients", claim));
     }
+    if let Some(form) = &phase_space.held {
+        let positions = found.parts.positions.as_ref();
+        let positions = positions.map_or(0, |positions| positions.count - positions.redundant.len());
+        claims.push(("held_equations", DerivedFunction::Held(form, positions)));
+    }
     if let Some(form) = &phase_space.leapfrog {
         claims.push(("leapfrog", DerivedFunction::Leapfrog(form)));
     }

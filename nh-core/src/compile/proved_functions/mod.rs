@@ -108,7 +108,7 @@ impl Parts {
         self.positions.iter_mut().for_each(|positions| finish("position_return", &mut positions.step));
         self.impacts.iter_mut().for_each(|impact| finish("impact", &mut impact.jump));
         self.embedding.iter_mut().for_each(|embedding| finish("normalize", &mut embedding.step));
-        let PhaseSpace { hamiltonian, almost_poisson, invariants, leapfrog, euler_poincare_suslov } =
+        let PhaseSpace { hamiltonian, almost_poisson, held, invariants, leapfrog, euler_poincare_suslov } =
             &mut self.phase_space;
         if let Some(side) = hamiltonian {
             finish("legendre", &mut side.legendre);
@@ -121,6 +121,9 @@ impl Parts {
         if let Some(form) = almost_poisson {
             finish("energy_gradient", &mut form.gradient);
             finish("sharp", &mut form.sharp);
+        }
+        if let Some(form) = held {
+            finish("held_equations", &mut form.map);
         }
         if let Some(form) = invariants {
             finish("invariant_gradients", &mut form.gradients);

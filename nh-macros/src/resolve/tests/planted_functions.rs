@@ -12,7 +12,7 @@ use nonholonomic_core::model::Model;
 use super::model;
 
 /// Declarations that ask for everything between them, on D and on E, over coordinates and an embedded base.
-const DECLARED: [(&str, &str); 11] = [
+const DECLARED: [(&str, &str); 12] = [
     (
         "base { x, y, th } lagrangian { m/2*(der(x)^2 + der(y)^2) + J/2*der(th)^2 - m*g*x*sin(al) }
          constraints { blade: der(x)*sin(th) = der(y)*cos(th); } inputs { u } forces { th: u; }
@@ -62,7 +62,13 @@ const DECLARED: [(&str, &str); 11] = [
     ),
     (
         "base { x, y, z } lagrangian { (der(x)^2 + der(y)^2 + der(z)^2)/2 } constraints { der(z) = a*der(x) + b; }
-         holonomic { rod: x^2 + y^2 = l^2; } inputs { u } forces { y: u; } emit { power, multipliers }",
+         holonomic { rod: x^2 + y^2 = l^2; } inputs { u } forces { y: u; }
+         emit { power, multipliers, symmetric_projection }",
+        "struct S { a: f64, b: f64, l: f64 }",
+    ),
+    (
+        "base { x, z, y } lagrangian { (der(x)^2 + a*der(y)^2 + der(z)^2)/2 - b*y } constraints { der(z) = y*der(x); }
+         holonomic { rod: x^2 + y^2 = l^2; } independent { der(x) } emit { discrete_gradient }",
         "struct S { a: f64, b: f64, l: f64 }",
     ),
     (
@@ -216,7 +222,7 @@ fn a_sign_and_a_term_of_1e_9_in_every_function() {
         }
     }
     let all: Vec<&str> = tried.iter().map(String::as_str).collect();
-    assert_eq!(all.len(), 43, "{all:?}");
+    assert_eq!(all.len(), 44, "{all:?}");
 }
 
 /// Divisors with what makes them harmless, and the text of what is 0.

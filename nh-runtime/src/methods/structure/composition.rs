@@ -99,6 +99,10 @@ where
         self.base.check()
     }
 
+    fn keeps_positions(&self) -> bool {
+        self.base.keeps_positions()
+    }
+
     fn increment(
         &self,
         start: &Start<'_, S>,

@@ -21,7 +21,9 @@ use crate::{AlmostPoisson, DimOf, Dynamics, IntegrationError, Real, ScalarOf, St
 /// (Gonzalez, Time integration and discrete Hamiltonian systems, J. Nonlinear Sci. 6 (1996); for
 /// nonholonomic systems Celledoni, Farré Puiggalí, Høiseth, Martín de Diego, arXiv 1605.02845). It
 /// is symmetric. Quadratic constraints and identities of coordinates (|γ| = 1, RᵀR = 1, γ·ω = 0) stay
-/// too, since they are Casimir functions of Π. For systems declared with `emit { discrete_gradient }`.
+/// too, since they are Casimir functions of Π. Position constraints, and all others beside them, are kept by every
+/// step: Π(x̄) is projected so that their discrete gradients are Casimir functions, too, mathematics (37).
+/// For systems declared with `emit { discrete_gradient }`.
 ///
 /// Gonzalez takes d = Δ, which adds lengths to velocities: where these differ by orders of magnitude, as on
 /// a stiff spring, the correction goes astray. Here dᵢ is the change of ∂E/∂xᵢ with the sign of Δᵢ, rounded
@@ -289,6 +291,10 @@ where
     #[inline]
     fn forget(&self, work: &mut Work<S>) {
         *work = OneStep::<S>::work(self);
+    }
+
+    fn keeps_positions(&self) -> bool {
+        S::HOLDS
     }
 
     /// The energy to keep stays that of the first state.

@@ -5,9 +5,11 @@ mod conserving;
 mod discrete_gradient;
 mod leapfrog;
 mod suslov;
+mod symmetric_projection;
 
 pub use composition::{Composed, KahanLi6, Substeps, Suzuki4, Symmetric};
 pub use conserving::Conserving;
 pub use discrete_gradient::{DiscreteGradient, Gonzalez};
 pub use leapfrog::{DriftKickDrift, ReflectedLeapfrog};
 pub use suslov::{DiscreteMomentum, DiscreteSuslov};
+pub use symmetric_projection::SymmetricProjection;

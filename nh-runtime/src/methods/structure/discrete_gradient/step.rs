@@ -70,7 +70,40 @@ where
             let rest = (gain - part) / length / dot::<S>(&unit, &unit);
             corrected = if rest.is_finite() { displaced(&corrected, rest, &unit) } else { corrected };
         }
-        (difference(&self.turned(change, &corrected), change), factor)
+        let turned = if S::HOLDS {
+            self.turned_on_constraints(change, &corrected, (&direction, along))
+        } else {
+            self.turned(change, &corrected)
+        };
+        (difference(&turned, change), factor)
+    }
+
+    /// h P Π(x̄) Pᵀ p with the projection P for which ∂̄g P = 0, so that g(x₁) = 0: mathematics (37). The discrete
+    /// gradient ∂̄g is corrected along d as that of the energy is.
+    fn turned_on_constraints(
+        &self,
+        change: &VecOf<S>,
+        covector: &VecOf<S>,
+        (direction, along): (&VecOf<S>, ScalarOf<S>),
+    ) -> VecOf<S> {
+        let (time, system) = (self.start.time, self.start.system);
+        let held = system.held_equations(time, &self.middle(change));
+        let end = S::State::from_array(displaced(self.x, ScalarOf::<S>::ONE, change));
+        // in place of g(x₀) stands 0, so that round-off does not add up
+        let mut gains = difference(&system.residuals(time, &end), &held.rates(change));
+        // where d says nothing, along Δ
+        let (covector_of_gains, scale) = if along > ScalarOf::<S>::ZERO {
+            (*direction, along)
+        } else {
+            let Along { unit, length } = Along::new(change);
+            (unit, length * dot::<S>(&unit, &unit))
+        };
+        gains.as_mut().iter_mut().for_each(|gain| {
+            let factor = *gain / scale;
+            *gain = if factor.is_finite() { factor } else { ScalarOf::<S>::ZERO };
+        });
+        let projector = held.tilted(&gains, &covector_of_gains).projector();
+        projector.of_vector(&self.turned(change, &projector.of_covector(covector)))
     }
 
     /// What ∂̄E = ∂E(x̄) + f d is made of.
