@@ -77,11 +77,12 @@ pub(super) fn derive(
 
 /// Routh reduction leaves velocities with an offset, which the forms derived here do not have.
 fn on_level(proved: &Proved) -> Option<Violation> {
-    const REQUESTS: [Request; 10] = [
+    const REQUESTS: [Request; 11] = [
         Request::OutputJacobian,
         Request::Hamiltonian,
         Request::Bracket,
         Request::DiscreteGradient,
+        Request::SymmetricProjection,
         Request::Connection,
         Request::Volume,
         Request::Divergence,

@@ -1,11 +1,12 @@
 //! A system in other units.
 
 use nonholonomic::{
-    AlmostPoisson, Constrained, Dim, DimOf, Dynamics, Energy, EulerPoincareSuslov, Invariants, Jacobian,
-    Leapfrog, MatOf, ProjectionError, Scalar, ScalarOf, State, TaylorSeries, VecOf,
+    AlmostPoisson, Constrained, Dim, DimOf, Dynamics, Energy, EulerPoincareSuslov, Held, Holding, Invariants,
+    Jacobian, Leapfrog, MatOf, ProjectionError, Real, Scalar, ScalarOf, State, TaylorSeries, VecOf,
 };
 
 use crate::Change;
+use crate::problems::{Four, Problem};
 
 /// Two to a power, exactly.
 pub(crate) fn two<T: Scalar>(power: i32) -> T {
@@ -194,6 +195,25 @@ impl<S: Constrained> Constrained for Scaled<S> {
         self.system.project(t, &mut inner)?;
         *state = multiplied(&inner, &self.units);
         Ok(())
+    }
+}
+
+/// A planet that keeps its angular momentum of 0.8, which a turn of the velocity corrects.
+impl<T: Real> Holding for Scaled<Problem<T>> {
+    fn held(&self, t: T, state: &Four<T>) -> Held<Four<T>> {
+        let (_, Four([x, y, u, v])) = self.inner(t, state);
+        let square = x * x + y * y;
+        let (mut slope, mut direction) = ([v, -u, -y, x], [T::ZERO, T::ZERO, -y / square, x / square]);
+        for (i, (slope, direction)) in slope.iter_mut().zip(&mut direction).enumerate() {
+            *slope *= self.other / self.unit(i);
+            *direction *= self.unit(i) / self.other;
+        }
+        Held::new([slope], [direction])
+    }
+
+    fn equations(&self, t: T, state: &Four<T>) -> [T; 4] {
+        let (_, Four([x, y, u, v])) = self.inner(t, state);
+        [(x * v - y * u - T::from_f64(0.8)) * self.other, T::ZERO, T::ZERO, T::ZERO]
     }
 }
 

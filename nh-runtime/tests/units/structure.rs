@@ -162,6 +162,12 @@ impl Trial {
         self.of("DiscreteGradient, order 6", false, planet, &course, |tau, _| {
             DiscreteGradient::new(h * tau).sixth_order()
         });
+        self.of("SymmetricProjection", false, planet, &course, |tau, _| {
+            ImplicitMidpoint::new(h * tau).symmetrically_projected()
+        });
+        self.of("SymmetricProjection, order 4", false, planet, &course, |tau, _| {
+            ImplicitMidpoint::new(h * tau).symmetrically_projected().fourth_order()
+        });
         self.of("Conserving<Rk4>", false, planet, &course, |tau, _| Conserving::new(Rk4::new(h * tau)));
         self.of("Conserving<Dopri5>", false, planet, &course, |_, unit| {
             Conserving::new(Dopri5::new().rtol(w(1e-5)).atol(w(1e-6) * unit))

@@ -30,6 +30,7 @@ fn what_is_asked_for_is_derived_or_refused_in_words() {
             "momenta",
             "gyroscopic",
             "splitting",
+            "symmetric_projection",
             "volume",
             "leapfrog",
             "euler_poincare_suslov"
