@@ -19,7 +19,7 @@ use crate::report::Diagnostic;
 use crate::syntax::ast::{self, Declared, Definition, Name, SystemDecl};
 
 /// Coordinates or velocities of a system: matrices of this size are inverted.
-const DIMENSION: usize = 512;
+pub(super) const DIMENSION: usize = 512;
 
 impl Resolver {
     /// Declares everything that lists and fields name. After this point every name is known

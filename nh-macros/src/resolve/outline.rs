@@ -7,6 +7,12 @@ use nonholonomic_core::model::{
     TrackedItem,
 };
 
+use super::declare::DIMENSION;
+
+/// The entries of a record beyond which there are more than a system can have: the declaration is refused, and a compiler
+/// may run out of stack over what is derived for a record of many thousands.
+const MOST: usize = 2 * DIMENSION;
+
 /// The shape that the generated items of a declaration in error would probably have.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Outline {
@@ -58,12 +64,13 @@ fn outlined(model: &Model, impact: &ImpactDecl) -> OutlinedImpact {
 impl Outline {
     /// The outline of a model, of which parts in error are left out.
     pub(crate) fn of(model: &Model) -> Self {
+        let labels = model.constraints.iter().map(|constraint| constraint.label.clone());
         Self {
             in_state: in_state(model),
             requests: model.requests.iter().map(|(request, _)| *request).collect(),
-            labels: model.constraints.iter().map(|constraint| constraint.label.clone()).collect(),
+            labels: labels.take(MOST).collect(),
             momenta: momenta(model),
-            identities: model.identities.len(),
+            identities: model.identities.len().min(MOST),
             velocities: kept(model).len(),
             has_positions: !model.positions.is_empty(),
             kept: model.linearization.as_ref().map(Vec::len),
@@ -80,6 +87,7 @@ fn momenta(model: &Model) -> Vec<String> {
     if names.is_empty() && asked {
         names.extend(model.coordinates.iter().map(|coordinate| coordinate.name.clone()));
     }
+    names.truncate(MOST);
     names
 }
 

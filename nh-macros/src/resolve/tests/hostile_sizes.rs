@@ -99,6 +99,27 @@ fn dimensions() {
     );
 }
 
+/// What a compiler gets of a declaration in error is no longer than that of a large system: records of many thousand entries
+/// let it run out of stack.
+#[test]
+fn the_expansion_of_an_error_is_short() {
+    for attribute in [
+        "base { x[9] } lagrangian { dot(der(x), der(x)) }
+         constraints { for i in 0..4000 { for j in 0..4000 { der(x[0]) = i * j; } } }",
+        "base { x[9] } lagrangian { dot(der(x), der(x)) } constraints { for i in 0..20000 { der(x[0]) = i; } }",
+        "base { x[9] } lagrangian { dot(der(x), der(x)) } on { for i in 0..20000 { x[0] = i; } }",
+        "base { x[9] } lagrangian { dot(der(x), der(x)) } holonomic { for i in 0..20000 { x[0] = i; } }",
+        "base { x[9] } lagrangian { dot(der(x), der(x)) } symmetries { for i in 0..20000 { turn[i]: der(x[0]); } }",
+        "base { x[9] } lagrangian { dot(der(x), der(x)) } outputs { for i in 0..20000 { o[i] = i; } }",
+        "base { x[9] } lagrangian { dot(der(x), der(x)) } conserved { for i in 0..20000 { o[i] = i; } }",
+        "base { x[9] } lagrangian { dot(der(x), der(x)) } impacts { for i in 0..20000 { floor: x[0] >= i; } }",
+    ] {
+        let tokens = crate::expand::nonholonomic(attribute.parse().unwrap(), "struct S;".parse().unwrap());
+        let length = tokens.to_string().len();
+        assert!(length < 1_000_000, "{attribute}: {length}");
+    }
+}
+
 #[test]
 fn many_errors() {
     let names = joined((0..5000).map(|k| format!("+ name{k}")));
