@@ -10,8 +10,10 @@
 //!    reversal the methods keep both nearly; where it has none they fail, the one that keeps the sum of
 //!    both exactly included.
 //! 5. Suslov's problem in general position: every motion settles, and energy alone says nothing there.
+//! 6. A four-bar linkage: returns after each step against steps that keep the loop closed by themselves.
 
 mod keeps;
+mod loops;
 mod systems;
 
 use keeps::{
@@ -34,6 +36,7 @@ fn main() {
     chaotic_quartic();
     gearbox();
     suslov();
+    loops::linkage();
 }
 
 /// The steps over which the table is measured.
