@@ -4,7 +4,6 @@ use super::explicit::{Tableau, stages_of};
 use super::grid::{self, Grid, Leg, Stride};
 use super::{Arrival, Method, Place, Start, explain_non_finite};
 use crate::arrays::{Array, all_finite, displaced};
-use crate::dense::hermite;
 use crate::{Dim, DimOf, Dynamics, IntegrationError, Real, Scalar, ScalarOf, State, Statistics, VecOf};
 
 /// A method with steps of a given length: `P` computes a step, `T` is the type of numbers.
@@ -411,35 +410,4 @@ pub(super) fn rounding<T: Scalar, V: Array<T>>(a: &V, b: &V, sum: &V) -> V {
         *lost = (a - (*lost - added)) + (b - added);
     }
     lost
-}
-
-/// The derivatives at both ends of a step.
-#[derive(Clone, Copy)]
-pub struct Slopes<V> {
-    first: V,
-    last: V,
-}
-
-/// Evaluates the derivatives at both ends of the step.
-pub(in crate::methods) fn slopes<S: Dynamics>(
-    start: &Start<'_, S>,
-    arrival: &Arrival<S>,
-) -> Slopes<VecOf<S>> {
-    Slopes { first: start.derivative(), last: start.derivative_at(arrival.time, arrival.state.to_array()) }
-}
-
-/// The cubic through both ends of the step with the derivatives there.
-pub(in crate::methods) fn interpolate<S: Dynamics>(
-    Slopes { first, last }: &Slopes<VecOf<S>>,
-    start: &Start<'_, S>,
-    arrival: &Arrival<S>,
-    time: ScalarOf<S>,
-) -> S::State
-where
-    ScalarOf<S>: Real,
-{
-    let x1 = arrival.state.to_array();
-    let length = arrival.time - start.time;
-    let fraction = (time - start.time) / length;
-    S::State::from_array(hermite((&start.state.to_array(), first), (&x1, last), length, fraction))
 }

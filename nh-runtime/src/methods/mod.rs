@@ -42,6 +42,8 @@
 //! step contains the Jacobian, so that its derivative would need second derivatives.
 
 #[macro_use]
+mod cubic;
+#[macro_use]
 mod handed_on;
 
 mod adaptive;

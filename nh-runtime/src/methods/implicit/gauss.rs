@@ -5,7 +5,7 @@ use super::linearization::{Analytic, FiniteDifferences, Linearization};
 use super::newton::{MOST_ITERATIONS, SLOW, Settling, check_tolerance, is_first_term, once, refusal, size};
 use super::starting_values::Misses;
 use crate::arrays::{displaced, first_non_finite};
-use crate::methods::fixed::{self, Fixed, OneStep, Slopes};
+use crate::methods::fixed::{Fixed, OneStep};
 use crate::methods::{Arrival, Start};
 use crate::{Dim, DimOf, Dynamics, IntegrationError, Real, Scalar, ScalarOf, State, Statistics, VecOf};
 
@@ -180,7 +180,7 @@ where
     Self: Table<N>,
 {
     type Work = Work<S, N>;
-    type Dense = Slopes<VecOf<S>>;
+    dense_by_cubic!();
 
     fn work(&self) -> Work<S, N> {
         Work::none()
@@ -222,20 +222,6 @@ where
             settled(table, &self.linearization, self.tolerance, (start, rest), h, work, statistics)?;
         let zero = DimOf::<S>::vec(T::ZERO);
         Ok(table.increment(zero, &z, &rests))
-    }
-
-    fn dense(&self, _work: &Work<S, N>, start: &Start<'_, S>, arrival: &Arrival<S>) -> Slopes<VecOf<S>> {
-        fixed::slopes(start, arrival)
-    }
-
-    fn interpolate(
-        &self,
-        dense: &Slopes<VecOf<S>>,
-        start: &Start<'_, S>,
-        arrival: &Arrival<S>,
-        time: T,
-    ) -> S::State {
-        fixed::interpolate(dense, start, arrival, time)
     }
 }
 

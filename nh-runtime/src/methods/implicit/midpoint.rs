@@ -5,7 +5,7 @@ use super::newton::{MOST_ITERATIONS, SLOW, check_tolerance, once, one_less, refu
 use super::starting_values::Misses;
 use crate::arrays::displaced;
 use crate::linear::Factors;
-use crate::methods::fixed::{self, Fixed, OneStep, Slopes};
+use crate::methods::fixed::{Fixed, OneStep};
 use crate::methods::{Arrival, Start};
 use crate::{
     Dim, DimOf, Dynamics, IntegrationError, Jacobian, Real, Scalar, ScalarOf, State, Statistics, VecOf,
@@ -255,7 +255,7 @@ where
     S::State: State<Scalar = T>,
 {
     type Work = Work<S>;
-    type Dense = Slopes<VecOf<S>>;
+    dense_by_cubic!();
 
     fn work(&self) -> Work<S> {
         Work::none()
@@ -293,19 +293,5 @@ where
         statistics: &mut Statistics,
     ) -> Result<VecOf<S>, IntegrationError> {
         self.solve((start, rest), h, work, statistics)
-    }
-
-    fn dense(&self, _work: &Work<S>, start: &Start<'_, S>, arrival: &Arrival<S>) -> Slopes<VecOf<S>> {
-        fixed::slopes(start, arrival)
-    }
-
-    fn interpolate(
-        &self,
-        dense: &Slopes<VecOf<S>>,
-        start: &Start<'_, S>,
-        arrival: &Arrival<S>,
-        time: T,
-    ) -> S::State {
-        fixed::interpolate(dense, start, arrival, time)
     }
 }

@@ -3,7 +3,6 @@
 use core::marker::PhantomData;
 
 use crate::arrays::displaced;
-use crate::methods::fixed::{self, Slopes};
 use crate::methods::{Arrival, Fixed, Midpoint, OneStep, Start};
 use crate::{Dim, DimOf, Dynamics, IntegrationError, Real, ScalarOf, State, Statistics, VecOf};
 
@@ -77,7 +76,7 @@ where
 {
     /// What the method keeps for each length.
     type Work = [P::Work; LENGTHS];
-    type Dense = Slopes<VecOf<S>>;
+    dense_by_cubic!();
 
     fn work(&self) -> Self::Work {
         [self.base.work(); LENGTHS]
@@ -132,20 +131,6 @@ where
 
     fn blame(&self, start: &Start<'_, S>, h: ScalarOf<S>) -> Option<IntegrationError> {
         self.base.blame(start, h)
-    }
-
-    fn dense(&self, _work: &Self::Work, start: &Start<'_, S>, arrival: &Arrival<S>) -> Slopes<VecOf<S>> {
-        fixed::slopes(start, arrival)
-    }
-
-    fn interpolate(
-        &self,
-        dense: &Slopes<VecOf<S>>,
-        start: &Start<'_, S>,
-        arrival: &Arrival<S>,
-        time: T,
-    ) -> S::State {
-        fixed::interpolate(dense, start, arrival, time)
     }
 }
 

@@ -7,7 +7,6 @@ use step::{Along, Parts, Step, dot};
 use super::Symmetric;
 use crate::arrays::displaced;
 use crate::linear::Factors;
-use crate::methods::fixed::{self, Slopes};
 use crate::methods::implicit::newton::{SLOW, check_tolerance, once, one_less, refusal};
 use crate::methods::{Analytic, Arrival, FiniteDifferences, Fixed, Linearization, OneStep, Start};
 use crate::{AlmostPoisson, DimOf, Dynamics, IntegrationError, Real, ScalarOf, State, Statistics, VecOf};
@@ -282,7 +281,7 @@ where
     S::State: State<Scalar = T>,
 {
     type Work = Work<S>;
-    type Dense = Slopes<VecOf<S>>;
+    dense_by_cubic!();
 
     fn work(&self) -> Work<S> {
         Work { matrix: None, energy: None }
@@ -320,19 +319,5 @@ where
         let energy = *work.energy.get_or_insert(present);
         let gradient = start.system.energy_gradient(start.time, start.state);
         self.solve(&Step { start, x, h, energy, gradient }, work, statistics)
-    }
-
-    fn dense(&self, _work: &Work<S>, start: &Start<'_, S>, arrival: &Arrival<S>) -> Slopes<VecOf<S>> {
-        fixed::slopes(start, arrival)
-    }
-
-    fn interpolate(
-        &self,
-        dense: &Slopes<VecOf<S>>,
-        start: &Start<'_, S>,
-        arrival: &Arrival<S>,
-        time: T,
-    ) -> S::State {
-        fixed::interpolate(dense, start, arrival, time)
     }
 }

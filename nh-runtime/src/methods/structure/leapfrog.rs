@@ -1,9 +1,8 @@
 //! The nonholonomic leapfrog method on TQ.
 
 use crate::arrays::difference;
-use crate::methods::fixed::{self, Slopes};
 use crate::methods::{Arrival, Fixed, OneStep, Start};
-use crate::{IntegrationError, Leapfrog, Real, Scalar, State, Statistics, VecOf};
+use crate::{IntegrationError, Leapfrog, Real, Scalar, ScalarOf, State, Statistics, VecOf};
 
 /// The method of McLachlan and Perlmutter with fixed steps, of order 2, explicit but for the linear
 /// equations of the constraints: q½ = q₀ + h/2 v₀, a kick with the forces at q½ that reflects what the
@@ -43,7 +42,7 @@ where
     S::State: State<Scalar = T>,
 {
     type Work = ();
-    type Dense = Slopes<VecOf<S>>;
+    dense_by_cubic!();
 
     fn work(&self) {}
 
@@ -63,19 +62,5 @@ where
         statistics.evaluations += 1;
         let end = drifted(&kicked, half);
         Ok(difference(&end, x))
-    }
-
-    fn dense(&self, (): &(), start: &Start<'_, S>, arrival: &Arrival<S>) -> Slopes<VecOf<S>> {
-        fixed::slopes(start, arrival)
-    }
-
-    fn interpolate(
-        &self,
-        dense: &Slopes<VecOf<S>>,
-        start: &Start<'_, S>,
-        arrival: &Arrival<S>,
-        time: T,
-    ) -> S::State {
-        fixed::interpolate(dense, start, arrival, time)
     }
 }

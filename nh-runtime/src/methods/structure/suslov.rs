@@ -2,10 +2,9 @@
 
 use crate::arrays::{displaced, first_non_finite};
 use crate::linear::Factors;
-use crate::methods::fixed::{self, Slopes};
 use crate::methods::{Arrival, Fixed, OneStep, Start, Symmetric, explain_non_finite};
 use crate::projection::largest;
-use crate::{Dim, DimOf, EulerPoincareSuslov, IntegrationError, Real, State, Statistics, VecOf};
+use crate::{Dim, DimOf, EulerPoincareSuslov, IntegrationError, Real, ScalarOf, State, Statistics, VecOf};
 
 /// The discrete Euler–Poincaré–Suslov equations with fixed steps, of order 2: P(h, v₁) = P(−h, v₀) with
 /// the discrete momentum P of the constrained velocities on a Lie algebra (Fedorov, Zenkov, Discrete
@@ -40,7 +39,7 @@ where
     S::State: State<Scalar = T>,
 {
     type Work = ();
-    type Dense = Slopes<VecOf<S>>;
+    dense_by_cubic!();
 
     fn work(&self) {}
 
@@ -108,19 +107,5 @@ where
             iterations: MOST_ITERATIONS,
             residual: (best / self.tolerance).to_f64(),
         })
-    }
-
-    fn dense(&self, (): &(), start: &Start<'_, S>, arrival: &Arrival<S>) -> Slopes<VecOf<S>> {
-        fixed::slopes(start, arrival)
-    }
-
-    fn interpolate(
-        &self,
-        dense: &Slopes<VecOf<S>>,
-        start: &Start<'_, S>,
-        arrival: &Arrival<S>,
-        time: T,
-    ) -> S::State {
-        fixed::interpolate(dense, start, arrival, time)
     }
 }

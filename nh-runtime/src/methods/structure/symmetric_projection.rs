@@ -3,7 +3,6 @@
 use super::Symmetric;
 use crate::arrays::displaced;
 use crate::held::Holding;
-use crate::methods::fixed::{self, Slopes};
 use crate::methods::implicit::newton::refusal;
 use crate::methods::{Arrival, Fixed, OneStep, Start};
 use crate::{Dim, DimOf, IntegrationError, Real, Scalar, ScalarOf, State, Statistics, VecOf};
@@ -55,7 +54,7 @@ where
     S::State: State<Scalar = T>,
 {
     type Work = Work<S, P::Work>;
-    type Dense = Slopes<VecOf<S>>;
+    dense_by_cubic!();
 
     fn work(&self) -> Self::Work {
         Work { base: self.base.work(), amounts: DimOf::<S>::vec(T::ZERO) }
@@ -125,20 +124,6 @@ where
 
     fn blame(&self, start: &Start<'_, S>, h: ScalarOf<S>) -> Option<IntegrationError> {
         self.base.blame(start, h)
-    }
-
-    fn dense(&self, _work: &Self::Work, start: &Start<'_, S>, arrival: &Arrival<S>) -> Slopes<VecOf<S>> {
-        fixed::slopes(start, arrival)
-    }
-
-    fn interpolate(
-        &self,
-        dense: &Slopes<VecOf<S>>,
-        start: &Start<'_, S>,
-        arrival: &Arrival<S>,
-        time: T,
-    ) -> S::State {
-        fixed::interpolate(dense, start, arrival, time)
     }
 }
 
