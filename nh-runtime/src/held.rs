@@ -11,6 +11,49 @@ type Matrix<X> = <<X as State>::Dim as Dim>::Mat<<X as State>::Scalar>;
 
 /// A system whose steps can keep its constraints by themselves: declared with `emit { symmetric_projection }`, or with
 /// `emit { discrete_gradient }` beside `holonomic`.
+///
+/// ```
+/// use nonholonomic::prelude::*;
+/// use nonholonomic::{D, Held};
+///
+/// /// A point that goes round the unit circle, at a speed that varies.
+/// #[derive(Clone, Copy)]
+/// struct Circle;
+/// #[derive(Clone, Copy)]
+/// struct Point { x: f64, y: f64 }
+/// impl State for Point {
+///     type Scalar = f64;
+///     type Dim = D<2>;
+///     fn to_array(&self) -> [f64; 2] { [self.x, self.y] }
+///     fn from_array([x, y]: [f64; 2]) -> Self { Self { x, y } }
+///     fn names() -> [&'static str; 2] { ["x", "y"] }
+/// }
+/// impl Dynamics for Circle {
+///     type State = Point;
+///     type Input = ();
+///     fn derivative(&self, _t: f64, s: &Point, (): &()) -> Point {
+///         let speed = 2.0 + s.x.sin();
+///         // and outwards where it has left the circle
+///         let out = s.x * s.x + s.y * s.y - 1.0;
+///         Point { x: -speed * s.y + out * s.x, y: speed * s.x + out * s.y }
+///     }
+/// }
+/// impl Holding for Circle {
+///     fn held(&self, _t: f64, s: &Point) -> Held<Point> {
+///         let square = 2.0 * (s.x * s.x + s.y * s.y);
+///         Held::new([[2.0 * s.x, 2.0 * s.y]], [[s.x / square, s.y / square]])
+///     }
+///     fn equations(&self, _t: f64, s: &Point) -> [f64; 2] { [s.x * s.x + s.y * s.y - 1.0, 0.0] }
+/// }
+///
+/// # fn main() -> Result<(), IntegrationError> {
+/// let method = ImplicitMidpoint::new(0.05).symmetrically_projected();
+/// let mut sim = Integrator::new(Circle, method, 0.0, Point { x: 1.0, y: 0.0 });
+/// sim.advance_to(100.0)?;
+/// assert!((sim.state().x.hypot(sim.state().y) - 1.0).abs() < 1e-14);
+/// # Ok(())
+/// # }
+/// ```
 #[diagnostic::on_unimplemented(
     message = "`{Self}` does not say how its constraints are corrected within a step",
     label = "needs the trait `Holding`",
