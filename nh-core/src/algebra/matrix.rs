@@ -6,6 +6,7 @@
 use super::field::Residue;
 use super::graph::Graph;
 use super::modular::{FieldPoint, NoValue};
+use super::square_points::Radicands;
 use crate::id::ExprId;
 use crate::limits;
 
@@ -150,6 +151,26 @@ impl Graph {
             .into())
     }
 
+    /// The matrix at a random point of the field: one where the radicands of roots are squares, where points without
+    /// regard to them have no value.
+    ///
+    /// # Errors
+    /// The reason, where no point has a value.
+    pub(crate) fn matrix_at_random(
+        &self,
+        matrix: &[Vec<ExprId>],
+        start: u64,
+    ) -> Result<Vec<Vec<Residue>>, String> {
+        self.matrix_in_field(matrix, |seed| FieldPoint::random(start + seed)).or_else(|reason| {
+            let entries: Vec<ExprId> = matrix.iter().flatten().copied().collect();
+            let radicands = Radicands::of(self, &entries, &[]);
+            if radicands.is_empty() {
+                return Err(reason);
+            }
+            self.matrix_in_field(matrix, |seed| radicands.point(self, start + seed))
+        })
+    }
+
     /// The rank at generic points.
     ///
     /// The field knows no identities among roots, arcs and logarithms of numbers: where there are any, the
@@ -161,7 +182,7 @@ impl Graph {
         let entries: Vec<ExprId> = matrix.iter().flatten().copied().collect();
         let mut rank = 0;
         for start in [1_000, 2_000] {
-            match self.matrix_in_field(matrix, |seed| FieldPoint::random(start + seed)) {
+            match self.matrix_at_random(matrix, start) {
                 Ok(rows) => rank = rank.max(Echelon::of(rows).rank()),
                 // such as a root that the field does not have
                 Err(reason) => return self.rank_without_field(matrix).ok_or(reason),
@@ -175,7 +196,7 @@ impl Graph {
     /// # Errors
     /// The reason, where it cannot be decided.
     pub fn independent_columns(&self, matrix: &[Vec<ExprId>]) -> Result<Vec<usize>, String> {
-        let rows = self.matrix_in_field(matrix, |seed| FieldPoint::random(3_000 + seed))?;
+        let rows = self.matrix_at_random(matrix, 3_000)?;
         Ok(Echelon::of(rows).pivots)
     }
 

@@ -46,6 +46,11 @@ impl Radicands {
         Self { completed }
     }
 
+    /// Whether no symbol has to be chosen with care.
+    pub(crate) fn is_empty(&self) -> bool {
+        self.completed.is_empty()
+    }
+
     /// The random point number `seed` where they are squares, as far as such a point is found.
     pub(crate) fn point(&self, graph: &Graph, seed: u64) -> FieldPoint {
         self.found(seed, |radicand, point| {

@@ -15,6 +15,7 @@ use super::exact::Decision;
 use super::graph::Graph;
 use super::modular::{FieldPoint, NoValue};
 use super::node::Node;
+use super::square_points::Radicands;
 use super::verdict::{Verdict, Witness};
 use crate::id::{ExprId, SymbolId};
 
@@ -232,8 +233,16 @@ impl Graph {
     fn vanishes_in_field(&self, expression: ExprId, has_roots: bool) -> Result<bool, String> {
         let wanted = if has_roots { POINTS_WITH_ROOTS } else { POINTS };
         let mut seen = 0;
+        let mut radicands = None;
         for seed in 0..wanted * PATIENCE {
-            match self.evaluate_in_field(&[expression], &FieldPoint::random(seed)) {
+            // where few points have roots for all radicands, those to come are chosen so that they have
+            let point = if has_roots && seed >= PATIENCE && seen < seed / 8 {
+                let radicands = radicands.get_or_insert_with(|| Radicands::of(self, &[expression], &[]));
+                radicands.point(self, seed)
+            } else {
+                FieldPoint::random(seed)
+            };
+            match self.evaluate_in_field(&[expression], &point) {
                 Ok(values) if values[0] != super::field::Residue::ZERO => return Ok(false),
                 Ok(_) => seen += 1,
                 Err(NoValue::Here) => {}

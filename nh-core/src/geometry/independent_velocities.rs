@@ -1,7 +1,7 @@
 //! The choice of the independent velocities.
 
 use super::pivot::{PivotSetting, PivotZeros};
-use crate::algebra::{FieldPoint, Graph, Residue, determinant_in_field};
+use crate::algebra::{Graph, Residue, determinant_in_field};
 use crate::id::{ExprId, Id, SectionId};
 
 /// Which velocities the constraints are solved for.
@@ -53,7 +53,7 @@ impl Samples {
     fn of(graph: &Graph, setting: &PivotSetting<'_>) -> Result<Self, String> {
         [5_000, 6_000]
             .into_iter()
-            .map(|start| graph.matrix_in_field(setting.on_base, |seed| FieldPoint::random(start + seed)))
+            .map(|start| graph.matrix_at_random(setting.on_base, start))
             .collect::<Result<_, _>>()
             .map(Self)
     }

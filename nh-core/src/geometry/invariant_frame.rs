@@ -9,9 +9,7 @@ use super::algebroid::Algebroid;
 use super::change_of_basis::ChangeOfBasis;
 use super::manifold::Manifold;
 use super::orbits::Factor;
-use crate::algebra::{
-    Derivation, Echelon, FieldPoint, Function, Graph, Matrix, Node, Rational, Residue, Substitution,
-};
+use crate::algebra::{Derivation, Echelon, Function, Graph, Matrix, Node, Rational, Residue, Substitution};
 use crate::id::{ExprId, SymbolId};
 
 /// An invariant frame.
@@ -135,7 +133,7 @@ fn structure_constants(
     let rows = base.restrict_matrix(graph, &Graph::transposed(&columns));
     let mut found: Option<Vec<Vec<Residue>>> = None;
     for start in [25_000, 26_000] {
-        let sampled = graph.matrix_in_field(&rows, |seed| FieldPoint::random(start + seed))?;
+        let sampled = graph.matrix_at_random(&rows, start)?;
         let echelon = Echelon::of(sampled);
         let here: Vec<Vec<Residue>> = echelon.rows.iter().map(|row| row[r..].to_vec()).collect();
         let is_constant = found.as_ref().is_none_or(|known| *known == here);
@@ -299,7 +297,7 @@ fn solutions(
     let table = base.restrict_matrix(graph, &table);
     let mut equations: Vec<Vec<Residue>> = Vec::new();
     for point in 0..(m as u64 + 3) {
-        let values = graph.matrix_in_field(&table, |seed| FieldPoint::random(30_000 + 97 * point + seed))?;
+        let values = graph.matrix_at_random(&table, 30_000 + 97 * point)?;
         for (b, slopes) in values[1..].iter().enumerate() {
             for a in 0..r {
                 let mut row = vec![Residue::ZERO; r * m];
@@ -346,7 +344,7 @@ fn at_identity(
         let combined = graph.unit_vector(r, k);
         rows.push(order.iter().map(|index| here[*index]).chain(combined).collect());
     }
-    let Ok(sampled) = graph.matrix_in_field(&rows, |seed| FieldPoint::random(27_000 + seed)) else {
+    let Ok(sampled) = graph.matrix_at_random(&rows, 27_000) else {
         return beside_kept(graph, vertical, kept);
     };
     let echelon = Echelon::of(sampled);

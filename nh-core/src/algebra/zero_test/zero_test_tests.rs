@@ -132,3 +132,29 @@ fn a_near_miss_is_not_zero() {
     let defect = g.sub(sum, x);
     assert!(g.zero_test(defect).is_nonzero());
 }
+
+/// A point of the field has values for nine roots with probability 2⁻⁹, and one of the reals hardly ever here.
+#[test]
+fn many_roots_at_once() {
+    let mut g = Graph::new();
+    let [level] = symbols(&mut g, ["level"]);
+    let heights = symbols(&mut g, ["a", "b", "c", "d", "e", "f", "g", "h", "i"]);
+    let roots = heights.map(|height| {
+        let radicand = g.formula(height.square() - 3 * height * level - level.square());
+        g.sqrt(radicand)
+    });
+    let sum = g.sum(&roots);
+    let (squared, squares) = (g.square(sum), g.inner_product(&roots, &roots));
+    let products: Vec<ExprId> =
+        (0..9).flat_map(|i| (0..i).map(move |j| (i, j))).map(|(i, j)| g.mul(roots[i], roots[j])).collect();
+    let products = g.sum(&products);
+    let defect = g.formula(squared - squares - 2 * products);
+    assert_eq!(g.zero_test(defect), Verdict::Zero);
+    let identity = g.identity(9);
+    let matrix: Vec<Vec<ExprId>> = identity
+        .iter()
+        .zip(&roots)
+        .map(|(row, root)| row.iter().map(|entry| g.formula(entry * root + level)).collect())
+        .collect();
+    assert_eq!(g.generic_rank(&matrix), Ok(9));
+}
