@@ -14,4 +14,5 @@ mod holonomic {
     mod pendulum;
     mod slider_crank;
     mod squeezer;
+    mod stewart;
 }
