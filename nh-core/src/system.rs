@@ -52,7 +52,7 @@ pub struct System {
     pub ledger: Ledger,
     /// What was derived, as text.
     pub report: String,
-    /// The equations of motion as lines of text for the documentation of the struct.
+    /// The equations of motion as lines of text for the documentation of the struct, and what it says beside them.
     pub equations: Vec<String>,
 }
 

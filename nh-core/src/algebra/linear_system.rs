@@ -33,14 +33,12 @@ impl Graph {
             .iter()
             .map(|row| row.iter().map(|entry| !self.zero_test(*entry).is_zero()).collect())
             .collect();
-        let row_of = perfect_matching(&pattern)?;
+        let blocks = triangular_blocks(&pattern)?;
         let columns = right.first().map_or(0, Vec::len);
         let zero = self.zero();
         let mut values = vec![vec![zero; columns]; n];
-        let (mut divisors, mut solved_blocks) = (Vec::new(), Vec::new());
-        for block in blocks(&pattern, &row_of) {
-            let mut rows: Vec<usize> = block.iter().map(|unknown| row_of[*unknown]).collect();
-            rows.sort_unstable();
+        let mut divisors = Vec::new();
+        for (rows, block) in &blocks {
             let inner: Matrix =
                 rows.iter().map(|row| block.iter().map(|unknown| matrix[*row][*unknown]).collect()).collect();
             let reduced: Matrix = rows
@@ -48,7 +46,7 @@ impl Graph {
                 .map(|row| {
                     (0..columns)
                         .map(|column| {
-                            self.moved_over(&matrix[*row], right[*row][column], &block, &values, column)
+                            self.moved_over(&matrix[*row], right[*row][column], block, &values, column)
                         })
                         .collect()
                 })
@@ -57,9 +55,8 @@ impl Graph {
             for (unknown, row) in block.iter().zip(solved) {
                 values[*unknown].clone_from_slice(&row);
             }
-            solved_blocks.push((rows, block));
         }
-        Some(Solution { values, divisors, blocks: solved_blocks })
+        Some(Solution { values, divisors, blocks })
     }
 
     /// Solves a system of equations of which some follow from the others; simplified. `None` if they do
@@ -194,6 +191,18 @@ impl Graph {
         }
         best.map(|(_, row, column)| (row, column))
     }
+}
+
+/// The equations and unknowns of each block of a matrix by where its entries are not 0, each block after those that
+/// it needs; `None` where no choice of entries makes the matrix regular.
+pub(crate) fn triangular_blocks(pattern: &[Vec<bool>]) -> Option<Vec<(Vec<usize>, Vec<usize>)>> {
+    let row_of = perfect_matching(pattern)?;
+    let with_rows = |block: Vec<usize>| {
+        let mut rows: Vec<usize> = block.iter().map(|unknown| row_of[*unknown]).collect();
+        rows.sort_unstable();
+        (rows, block)
+    };
+    Some(blocks(pattern, &row_of).into_iter().map(with_rows).collect())
 }
 
 /// A row for each column along non-zero entries (augmenting paths).

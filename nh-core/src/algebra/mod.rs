@@ -60,6 +60,7 @@ pub use inequalities::{Contradiction, Demand};
 pub use level::Accuracy;
 pub use linear_form::{LinearForm, NotLinear};
 pub use linear_system::Solution;
+pub(crate) use linear_system::triangular_blocks;
 pub use matrix::{Echelon, Matrix, determinant_in_field};
 pub(crate) use modular::{FieldPass, Radicand};
 pub use modular::{FieldPoint, NoValue};

@@ -63,8 +63,8 @@ pub fn choose_formulation(
         });
     }
     if !model.positions.is_empty() && model.independent.is_none() && forced.is_none() {
-        let reason = "with position constraints the state keeps every velocity, whatever the configuration; \
-                      `independent { … }` names those to keep";
+        let reason = "with position constraints the state keeps every velocity, whatever the configuration, \
+                      unless `independent { … }` names those to keep";
         return Ok(Chosen::Projected { reason: reason.into() });
     }
     let parameters: Vec<SymbolId> = model.parameters.iter().map(|parameter| parameter.symbol).collect();

@@ -14,7 +14,7 @@ use crate::functions::{GIBBS_APPELL, MULTIPLIERS, OUTPUTS, REACTIONS, VERTICAL_S
 use crate::id::ExprId;
 use crate::mechanics::Procedure;
 use crate::model::{Formulation, Request};
-use crate::report::{equations_of_motion, report};
+use crate::report::{equations_of_motion, report, suggestion};
 use crate::system::System;
 use crate::violation::Violation;
 
@@ -62,7 +62,10 @@ pub(super) fn complete(
     parts.phase_space = phase_space;
     let findings = Findings::of(&mut proved, &derived);
     let text = report(&proved, &derived, &findings, derivation.reason, derivation.conditions, sections);
-    let lines = equations_of_motion(&proved.model, &derived);
+    let mut lines = equations_of_motion(&proved.model, &derived);
+    if let Some(suggested) = &findings.suggested {
+        lines.extend([String::new(), suggestion(&proved.model, suggested)]);
+    }
     let mut conditions = [derivation.conditions, &derivation.divisors].concat();
     if let (Derived::Adapted { .. }, Some(vertical)) = (&derived, parts.functions.get(&VERTICAL_SECTIONS)) {
         // the basis of S is a choice, as that of D is

@@ -4,9 +4,11 @@ mod bracket_entries;
 mod closure;
 mod momenta_found;
 mod reduced_form;
+mod velocities_to_name;
 
 use crate::check::{not_conservative, singular_where};
 use crate::compile::{Derived, Proved};
+use crate::geometry::suggested_velocities::Suggested;
 use crate::id::{ExprId, SymbolId};
 use crate::mechanics::moving_energy_section;
 
@@ -36,6 +38,8 @@ pub(crate) struct Findings {
     pub(crate) moving_energy: Option<Vec<ExprId>>,
     /// The symmetries whose momenta are conserved, with these.
     pub(crate) conserved_momenta: Vec<(String, ExprId)>,
+    /// The velocities that the declaration might name, where the state keeps all of them unasked.
+    pub(crate) suggested: Option<Suggested>,
 }
 
 impl Findings {
@@ -50,6 +54,7 @@ impl Findings {
         let keeps_energy = not_conservative(model, system, constraints).is_none();
         let moving_energy = if keeps_energy { None } else { moving_energy(proved) };
         let conserved_momenta = momenta_found::conserved(proved, derived);
+        let suggested = velocities_to_name::suggestion(proved, derived);
         Self {
             closure,
             singular_mass,
@@ -60,6 +65,7 @@ impl Findings {
             keeps_energy,
             moving_energy,
             conserved_momenta,
+            suggested,
         }
     }
 }

@@ -23,11 +23,18 @@ impl Choice {
         Self { dependent, conditions: Vec::new(), rank_drops: Vec::new(), breaks_down: Vec::new() }
     }
 
-    fn record(&mut self, conditions: Vec<ExprId>, rank_drops: Vec<ExprId>) {
-        self.conditions.extend(conditions);
-        for drop in rank_drops {
-            if !self.rank_drops.contains(&drop) {
-                self.rank_drops.push(drop);
+    /// Adds the zeros of a pivot.
+    fn record(&mut self, zeros: PivotZeros) {
+        let kinds = [
+            (&mut self.conditions, zeros.conditions),
+            (&mut self.rank_drops, zeros.rank_drops),
+            (&mut self.breaks_down, zeros.elsewhere),
+        ];
+        for (known, more) in kinds {
+            for factor in more {
+                if !known.contains(&factor) {
+                    known.push(factor);
+                }
             }
         }
     }
@@ -81,10 +88,7 @@ pub fn judge(
     }
     let mut choice = Choice::of(dependent.to_vec());
     for pivot in pivots(graph, setting, dependent) {
-        match setting.zeros(graph, pivot) {
-            PivotZeros::Harmless { conditions, rank_drops } => choice.record(conditions, rank_drops),
-            PivotZeros::Perhaps(factor) => choice.breaks_down.push(factor),
-        }
+        choice.record(setting.zeros(graph, pivot));
     }
     Ok(Some(choice))
 }
@@ -127,9 +131,9 @@ pub fn search(
 fn study(graph: &mut Graph, setting: &PivotSetting<'_>, dependent: &[SectionId]) -> Result<Choice, ExprId> {
     let mut choice = Choice::of(dependent.to_vec());
     for pivot in pivots(graph, setting, dependent) {
-        match setting.zeros(graph, pivot) {
-            PivotZeros::Harmless { conditions, rank_drops } => choice.record(conditions, rank_drops),
-            PivotZeros::Perhaps(factor) => return Err(factor),
+        choice.record(setting.zeros(graph, pivot));
+        if let Some(factor) = choice.breaks_down.first() {
+            return Err(*factor);
         }
     }
     Ok(choice)

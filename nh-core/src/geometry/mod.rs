@@ -18,6 +18,7 @@ mod orbits;
 mod pivot;
 mod rank;
 mod structure;
+pub mod suggested_velocities;
 
 pub use algebroid::Algebroid;
 pub use anchor::Anchor;

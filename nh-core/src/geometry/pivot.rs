@@ -5,19 +5,15 @@ use crate::algebra::{
 };
 use crate::id::{ExprId, SymbolId};
 
-/// What is known of the zeros of a pivot.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub enum PivotZeros {
-    /// It vanishes only where the constraints are dependent, or where an expression of parameters
-    /// alone does.
-    Harmless {
-        /// The expressions of parameters.
-        conditions: Vec<ExprId>,
-        /// Where one of these vanishes the constraints are dependent.
-        rank_drops: Vec<ExprId>,
-    },
-    /// This factor of it may vanish somewhere else.
-    Perhaps(ExprId),
+/// What is known of the zeros of a pivot: it vanishes nowhere but where one of these factors of it does.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct PivotZeros {
+    /// Expressions of parameters alone.
+    pub conditions: Vec<ExprId>,
+    /// Where one of these vanishes the constraints are dependent.
+    pub rank_drops: Vec<ExprId>,
+    /// These may vanish somewhere else.
+    pub elsewhere: Vec<ExprId>,
 }
 
 /// The setting in which pivots are judged.
@@ -42,20 +38,21 @@ impl PivotSetting<'_> {
             Node::Product { factors, .. } => factors.to_vec(),
             _ => vec![(simple, 1.into())],
         };
-        let (mut conditions, mut rank_drops) = (Vec::new(), Vec::new());
+        let mut found = PivotZeros::default();
         for (base, exponent) in factors {
             if exponent.is_negative() || self.vanishes_nowhere(graph, base) {
                 continue;
             }
-            if self.is_of_parameters(graph, base) {
-                conditions.push(base);
+            let kind = if self.is_of_parameters(graph, base) {
+                &mut found.conditions
             } else if self.constraints_are_dependent_where(graph, base) {
-                rank_drops.push(base);
+                &mut found.rank_drops
             } else {
-                return PivotZeros::Perhaps(base);
-            }
+                &mut found.elsewhere
+            };
+            kind.push(base);
         }
-        PivotZeros::Harmless { conditions, rank_drops }
+        found
     }
 
     /// By its range, or as a number.

@@ -1,6 +1,6 @@
 //! What kind of system it is.
 
-use super::{combination, section_names, shown};
+use super::{combination, section_names, shown, suggestion};
 use crate::algebra::Graph;
 use crate::check::evidence::{counted, places};
 use crate::check::{BrokenLaws, Condition, Positions, domain, undecided};
@@ -34,6 +34,7 @@ pub(super) fn lines(
         count => format!(", with {}", counted(count, "auxiliary state", "auxiliary states")),
     };
     lines.push(format!("formulation: {name}, {coordinates} and {velocities}{auxiliary}; {reason}"));
+    lines.extend(findings.suggested.as_ref().map(|suggested| suggestion(model, suggested)));
     let parameters: Vec<SymbolId> = model.parameters.iter().map(|parameter| parameter.symbol).collect();
     for factor in &findings.singular_mass {
         let of_parameters = model.graph.depends_on(*factor, &parameters);

@@ -6,6 +6,7 @@ mod hamiltonian;
 mod impact_lines;
 mod reduction_kind;
 mod routhian;
+mod suggestion_line;
 mod symmetry;
 
 use crate::algebra::Graph;
@@ -18,6 +19,7 @@ use crate::units;
 
 pub(crate) use equations::equations_of_motion;
 pub(crate) use hamiltonian::hamiltonian_lines;
+pub(crate) use suggestion_line::suggestion;
 
 /// Longest expression shown, in bytes.
 const SHOWN: usize = 400;

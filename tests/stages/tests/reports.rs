@@ -135,6 +135,75 @@ fn a_pivot_of_parameters_is_named_where_the_choice_is() {
     )]);
 }
 
+/// Velocities that could be named, where the state keeps all of them unasked; where they do, and what for.
+#[test]
+fn velocities_to_name_are_suggested_where_all_are_kept() {
+    let skate = "base { x, y, theta } lagrangian { m / 2 * (der(x)^2 + der(y)^2) + J / 2 * der(theta)^2 }
+        constraints { sin(theta) * der(x) = cos(theta) * der(y); }";
+    let hoop = "base { x, y, z } lagrangian { m / 2 * (der(x)^2 + der(y)^2 + der(z)^2) - m * g * z }
+        holonomic { plane: sin(W * t) * x = cos(W * t) * y; hoop: x^2 + y^2 + z^2 = r^2; }";
+    let wire =
+        "base { x, y } lagrangian { m / 2 * (der(x)^2 + der(y)^2) - m * g * y } holonomic { y = a * x^2; }";
+    let trailer = "base { x, y, theta, phi }
+        lagrangian { m / 2 * (der(x)^2 + der(y)^2) + J / 2 * der(theta)^2 + I / 2 * der(phi)^2 }
+        constraints {
+            sin(theta) * der(x) = cos(theta) * der(y);
+            d * der(phi) + cos(phi) * der(y) = sin(phi) * der(x);
+        }";
+    let one = "with 1 acceleration to solve for in place of";
+    check(&[
+        (
+            skate,
+            "m: f64, J: f64",
+            &[
+                "`independent { der(x), der(theta) }` would keep 2 velocities in the state, with 2 accelerations to solve \
+               for in place of 3 accelerations and 1 multiplier; it is valid where cos(theta) != 0\n",
+            ],
+            &["it is valid everywhere"],
+        ),
+        (
+            &format!("{skate} track {{ x, der(y) }}"),
+            "m: f64, J: f64",
+            &["`independent { der(y), der(theta) }` would keep"],
+            &[],
+        ),
+        (&format!("{skate} formulation {{ projected }}"), "m: f64, J: f64", &[], &["would keep"]),
+        (&format!("{skate} independent {{ der(x), der(theta) }}"), "m: f64, J: f64", &[], &["would keep"]),
+        // x or y would break down at times that no motion avoids
+        (
+            hoop,
+            "m: f64, g: f64, W: f64, r: f64",
+            &["`independent { der(z) }` would keep 1 velocity", one],
+            &[],
+        ),
+        (
+            wire,
+            "m: f64, g: f64, a: f64",
+            &[
+                "`independent { der(x) }` would keep 1 velocity",
+                "2 accelerations and 1 multiplier; it is valid everywhere\n",
+            ],
+            &[],
+        ),
+        (
+            trailer,
+            "m: f64, J: f64, I: f64, d: f64",
+            &[
+                "`independent { der(x), der(theta) }`",
+                "it is valid where cos(theta) != 0, for parameters with d != 0\n",
+            ],
+            &[],
+        ),
+        // nothing is known of where a pivot would have to be other than 0
+        (
+            "base { a, b } holonomic { sin(a) + b^5 * sin(b) + b = 0; } lagrangian { (der(a)^2 + der(b)^2) / 2 }",
+            "",
+            &["no points were found where"],
+            &["would keep"],
+        ),
+    ]);
+}
+
 #[test]
 fn powers_of_velocities_say_where_they_break_down() {
     check(&[
