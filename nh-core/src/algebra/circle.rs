@@ -248,6 +248,14 @@ impl FieldPass<'_> {
                 product = product * inside.integer_power(times).ok_or(NoValue::Here)?;
                 continue;
             }
+            let symbol = alone.and_then(|alone| self.graph.as_symbol(alone));
+            let chosen = symbol.and_then(|symbol| self.point.exponentials.get(&symbol));
+            if let Some(unit) = chosen {
+                let times = coefficient * Rational::from(self.division);
+                let times = times.to_i64().ok_or(NoValue::Here)?;
+                product = product * unit.integer_power(times).ok_or(NoValue::Here)?;
+                continue;
+            }
             let (value, times) = self.multiple(value, &coefficient)?;
             let unit = self.random(Stream::Exponential, value.word());
             product = product * unit.integer_power(times).ok_or(NoValue::Here)?;

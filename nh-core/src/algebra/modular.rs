@@ -23,6 +23,8 @@ pub struct FieldPoint {
     pub chosen: FxHashMap<SymbolId, Residue>,
     /// `(cos, sin)` of angles that are a single symbol, chosen by the caller.
     pub circle: FxHashMap<SymbolId, (Residue, Residue)>,
+    /// exp of symbols over the common denominator of the coefficients, chosen by the caller.
+    pub exponentials: FxHashMap<SymbolId, Residue>,
 }
 
 impl FieldPoint {

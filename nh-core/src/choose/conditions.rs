@@ -14,15 +14,17 @@ use super::proof::{Defect, FIRST_SEED, run};
 use super::reference::{Instant, Reference, inner};
 use super::zero_set::{Polynomial, numerator, place, values_for};
 use crate::algebra::{
-    Echelon, Facts, FieldPoint, Graph, Matrix, Node, Residue, Substitution, determinant_in_field,
+    Echelon, Facts, FieldPoint, Graph, Matrix, Residue, Substitution, determinant_in_field,
 };
 use crate::id::{ExprId, SymbolId};
 use crate::mechanics::{DefiniteSets, Definiteness, Definition, Procedure, keeps_its_sign, uncoupled};
 use rustc_hash::FxHashMap;
 use std::collections::BTreeSet;
+use varied::{Arguments, Varied};
 
 #[cfg(test)]
 mod multiplier_tests;
+mod varied;
 
 /// Where the declared equations are regular.
 pub(crate) struct Regular<'r> {
@@ -52,8 +54,7 @@ struct Lines {
     asked: Vec<ExprId>,
     /// What may not vanish anyway.
     declared: Vec<ExprId>,
-    /// The symbols in the arguments of functions.
-    angles: Vec<SymbolId>,
+    arguments: Arguments,
     division: i64,
     /// The unknowns that the mass matrix couples.
     blocks: Vec<Vec<usize>>,
@@ -112,9 +113,10 @@ impl Regular<'_> {
         }
         // 3. zeros in one symbol after the other
         let procedure = &procedure.as_far_as(graph, &left);
-        let (angles, division) = (angles(graph, &procedure.expressions()), self.division(graph, procedure));
+        let (arguments, division) =
+            (Arguments::of(graph, procedure, &declared), self.division(graph, procedure));
         let (asked, blocks) = (left.clone(), uncoupled(graph, self.mass));
-        let mut lines = Lines { asked, declared, angles, division, blocks, known: FxHashMap::default() };
+        let mut lines = Lines { asked, declared, arguments, division, blocks, known: FxHashMap::default() };
         left.retain(|divisor| !self.vanishes_with_others(graph, procedure, &mut lines, *divisor));
         // 4. signs, where C is definite
         let mut known = DefiniteSets::default();
@@ -254,11 +256,7 @@ impl Regular<'_> {
             Definition::Value { symbol, .. } | Definition::Call { symbol, .. } => _ = symbols.remove(symbol),
             Definition::Solve { unknowns, .. } => symbols.retain(|symbol| !unknowns.contains(symbol)),
         });
-        let of_symbol = |symbol: &SymbolId| {
-            let angle = lines.angles.contains(symbol).then_some(Varied::Angle(*symbol));
-            [Some(Varied::Value(*symbol)), angle].into_iter().flatten()
-        };
-        let all: Vec<Varied> = symbols.iter().flat_map(of_symbol).collect();
+        let all: Vec<Varied> = symbols.iter().flat_map(|symbol| lines.arguments.ways(*symbol)).collect();
         all.into_iter().all(|varied| self.factors_are_known(graph, procedure, lines, divisor, varied))
     }
 
@@ -277,6 +275,9 @@ impl Regular<'_> {
             };
             let own: Vec<Residue> = values.iter().map(|(divisors, _)| divisors[position]).collect();
             let Some(mut left) = numerator(&own) else { continue };
+            if matches!(varied, Varied::Exponential(_)) {
+                left = left.without(&Polynomial::variable());
+            }
             for k in 0..values[0].1.len() {
                 if left.degree() == 0 {
                     return true;
@@ -303,10 +304,10 @@ impl Regular<'_> {
         varied: Varied,
         places: usize,
     ) -> Option<&'l [(Vec<Residue>, Vec<Residue>)]> {
-        let Lines { asked, declared, angles, division, blocks, known } = lines;
+        let Lines { asked, declared, arguments, division, blocks, known } = lines;
         let line = known.entry(varied).or_default();
         while line.values.len() < places && line.seed < SEEDS {
-            let point = varied.point(angles, place(line.values.len()), line.seed);
+            let point = varied.point(arguments, place(line.values.len()), line.seed);
             if let Ok(sample) = self.sampled(graph, procedure, (asked, declared), point, *division) {
                 let others = self.minors(blocks, &sample);
                 line.values.push((sample.divisors, others));
@@ -366,38 +367,4 @@ impl Sample {
         let entry = |row: &Vec<Residue>| (0..self.jacobian.len()).map(|b| inner(row, &reach(b))).collect();
         Some(self.jacobian.iter().map(entry).collect())
     }
-}
-
-/// What a divisor is a function of, all else at rest.
-#[derive(Clone, Copy, PartialEq, Eq, Hash)]
-enum Varied {
-    Value(SymbolId),
-    Angle(SymbolId),
-}
-
-impl Varied {
-    /// A point where angles that are symbols have chosen places on the circle, the varied one at t.
-    fn point(self, angles: &[SymbolId], t: Residue, seed: u64) -> FieldPoint {
-        let mut point = FieldPoint::random(FIRST_SEED - 1 - seed);
-        for (k, angle) in angles.iter().enumerate() {
-            let word = Residue::mixed(1_777 + seed, k as u64);
-            let u = if matches!(self, Self::Angle(symbol) if symbol == *angle) { t } else { word };
-            if let Some(scale) = (Residue::ONE + u * u).inverse() {
-                point.circle.insert(*angle, ((Residue::ONE - u * u) * scale, (u + u) * scale));
-            }
-        }
-        if let Self::Value(symbol) = self {
-            point.chosen.insert(symbol, t);
-        }
-        point
-    }
-}
-
-/// The symbols in the arguments of functions.
-fn angles(graph: &Graph, roots: &[ExprId]) -> Vec<SymbolId> {
-    let arguments = graph.reachable(roots).into_iter().filter_map(|id| match graph.node(id) {
-        Node::Apply(_, x) => Some(*x),
-        _ => None,
-    });
-    graph.symbols_in(&arguments.collect::<Vec<_>>())
 }

@@ -16,6 +16,11 @@ impl Polynomial {
         Self(coefficients)
     }
 
+    /// That which is its variable.
+    pub(super) fn variable() -> Self {
+        Self(vec![Residue::ZERO, Residue::ONE])
+    }
+
     fn is_zero(&self) -> bool {
         self.0.is_empty()
     }
@@ -79,7 +84,7 @@ impl Polynomial {
             return found;
         }
         // x^P − x has all elements as zeros, each once
-        let x = Self(vec![Residue::ZERO, Residue::ONE]);
+        let x = Self::variable();
         let split = self.common(&x.power_modulo(Residue::ORDER, self).minus(&x));
         let mut whole = vec![split];
         for trial in 0..64 {

@@ -2,9 +2,10 @@
 
 use super::on_request::{judge, state};
 use super::proved::{Derived, Proved};
-use crate::algebra::Matrix;
+use crate::algebra::{Graph, Matrix};
+use crate::geometry::ConstraintDistribution;
 use crate::id::ExprId;
-use crate::mechanics::{Procedure, SaddleEquations, saddle_equations};
+use crate::mechanics::{Definiteness, Procedure, SaddleEquations, saddle_equations};
 use crate::phase_space::HeldEquations;
 
 /// g: the position constraints and, where the state has all velocities, the constraints on these; ∂g by the state; and
@@ -16,35 +17,28 @@ pub(super) fn held_equations(proved: &mut Proved, derived: &Derived<'_>) -> Held
     let residuals = proved.constraints.residuals.clone();
     let judge = judge(proved);
     let graph = &mut proved.model.graph;
-    let (saddle, in_state, mut restriction) = match derived {
-        Derived::Projected { equations, residuals } => ((*equations).clone(), residuals.to_vec(), None),
+    let (mut map, mut along_base, mut along_fibre) = (Procedure::default(), Matrix::new(), Matrix::new());
+    let (in_state, sections) = match derived {
+        Derived::Projected { equations, residuals } => {
+            let count = positions.len().max(residuals.len());
+            let sections: Matrix =
+                (0..count).map(|row| section_on_all(graph, equations, row, &judge, &mut map)).collect();
+            (residuals.to_vec(), sections)
+        }
         Derived::Adapted { distribution, .. } => {
             let saddle = saddle_equations(graph, &proved.system, &residuals);
-            let restriction = distribution.restriction(graph, &proved.system.algebroid.velocities);
-            (saddle, Vec::new(), Some(restriction))
+            let mut restriction = distribution.restriction(graph, &proved.system.algebroid.velocities);
+            let mass: Matrix = saddle.mass.iter().map(|row| restriction.apply_all(graph, row)).collect();
+            let lifts = distribution.lifts(graph);
+            let sections = lifts
+                .iter()
+                .take(positions.len())
+                .map(|lift| section_beside(graph, distribution, (&mass, lift), &judge, &mut map));
+            (Vec::new(), sections.collect())
         }
     };
-    let mut in_velocities = |graph: &mut _, matrix: &Matrix| -> Matrix {
-        let Some(restriction) = &mut restriction else { return matrix.clone() };
-        matrix.iter().map(|row| restriction.apply_all(graph, row)).collect()
-    };
-    let mass = in_velocities(graph, &saddle.mass);
-    let jacobian = in_velocities(graph, &saddle.jacobian);
     let coordinates = proved.system.algebroid.anchor.coordinates.len();
-    let mut map = Procedure::default();
-    let (mut along_base, mut along_fibre) = (Matrix::new(), Matrix::new());
-    for row in 0..positions.len().max(in_state.len()) {
-        let mut bias = vec![graph.zero(); jacobian.len()];
-        bias[row] = graph.one();
-        let force = vec![graph.zero(); mass.len()];
-        let equations = SaddleEquations {
-            mass: mass.clone(),
-            force,
-            jacobian: jacobian.clone(),
-            bias,
-            rates: Vec::new(),
-        };
-        let (section, _) = equations.solve(graph, &judge, &mut map);
+    for (row, section) in sections.into_iter().enumerate() {
         if row < positions.len() {
             let mut direction = proved.system.algebroid.anchor.vector_field(graph, &section);
             direction.resize(arguments.len(), graph.zero());
@@ -67,4 +61,43 @@ pub(super) fn held_equations(proved: &mut Proved, derived: &Derived<'_>) -> Held
     let directions = along_base.into_iter().chain(along_fibre).flatten();
     map.outputs = values.iter().copied().chain(gradients).chain(directions).collect();
     HeldEquations { functions: values, map }
+}
+
+/// w by multipliers.
+fn section_on_all(
+    graph: &mut Graph,
+    equations: &SaddleEquations,
+    row: usize,
+    judge: impl Fn(&Graph, &Matrix) -> Definiteness,
+    map: &mut Procedure,
+) -> Vec<ExprId> {
+    let mut bias = vec![graph.zero(); equations.jacobian.len()];
+    bias[row] = graph.one();
+    let force = vec![graph.zero(); equations.mass.len()];
+    SaddleEquations { force, bias, rates: Vec::new(), ..equations.clone() }.solve(graph, judge, map).0
+}
+
+/// w = l + B a with J l = 1 in its row and Bᵀ W w = 0: W is asked on D alone, as by the motion, for which bodies
+/// without inertia may be carried along.
+fn section_beside(
+    graph: &mut Graph,
+    distribution: &ConstraintDistribution,
+    (mass, lift): (&Matrix, &[ExprId]),
+    judge: impl Fn(&Graph, &Matrix) -> Definiteness,
+    map: &mut Procedure,
+) -> Vec<ExprId> {
+    let sections = distribution.sections();
+    let mut metric = Matrix::new();
+    for section in &sections {
+        let momentum = graph.image(mass, section);
+        let row = graph.image(&sections, &momentum);
+        metric.push(row.into_iter().map(|entry| graph.simplify(entry)).collect());
+    }
+    let momentum = graph.image(mass, lift);
+    let along = graph.image(&sections, &momentum);
+    let force = along.into_iter().map(|entry| graph.formula(-entry)).collect();
+    let (jacobian, bias, rates) = Default::default();
+    let (moves, _) = SaddleEquations { mass: metric, force, jacobian, bias, rates }.solve(graph, judge, map);
+    let back = graph.image(&distribution.basis, &moves);
+    lift.iter().zip(back).map(|(lift, back)| graph.formula(lift + back)).collect()
 }

@@ -215,6 +215,25 @@ impl ConstraintDistribution {
         (0..self.rank()).map(|a| self.section(a)).collect()
     }
 
+    /// For each constraint a section of dependent velocities l with Φ l = 1 in its row and 0 in the others.
+    pub fn lifts(&self, graph: &mut Graph) -> Matrix {
+        let rows = &self.constraints.annihilator;
+        let matrix: Matrix =
+            rows.iter().map(|row| self.dependent.iter().map(|s| row[s.index()]).collect()).collect();
+        let unit = graph.identity(rows.len());
+        let Some(solution) = graph.solve_linear(&matrix, &unit) else { return Matrix::new() };
+        let zero = graph.zero();
+        (0..rows.len())
+            .map(|row| {
+                let mut lift = vec![zero; self.basis.len()];
+                for (section, values) in self.dependent.iter().zip(&solution.values) {
+                    lift[section.index()] = values[row];
+                }
+                lift
+            })
+            .collect()
+    }
+
     /// The components along the B_a of a section that lies in D.
     pub fn components(&self, graph: &mut Graph, section: &[ExprId]) -> Option<Vec<ExprId>> {
         graph.solve_overdetermined(&self.basis, section)

@@ -112,6 +112,12 @@ fn what_is_suggested_for_the_gallery_is_accepted() {
 #[test]
 fn what_is_suggested_for_loops_is_accepted() {
     assert_right(declared_in("tests/tests/holonomic").into_iter(), 10);
+    assert_right(declared_in("examples/examples/structure").into_iter(), 2);
+}
+
+#[test]
+fn what_is_suggested_for_further_systems_is_accepted() {
+    assert_right(declared_in("tests/tests/more_systems").into_iter(), 12);
 }
 
 /// The benchmark bicycle, which rides straight ahead: what keeps it from falling, and its rear wheel.

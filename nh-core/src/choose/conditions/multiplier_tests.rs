@@ -1,7 +1,7 @@
 //! Divisors of solutions with multipliers.
 
 use super::*;
-use crate::algebra::Rational;
+use crate::algebra::{Function, Rational};
 use crate::geometry::{Algebroid, Anchor, Clock, StructureFunctions};
 use crate::mechanics::{LagrangianSystem, saddle_equations};
 
@@ -63,5 +63,37 @@ fn a_parameter_that_may_be_zero_is_none_of_theirs() {
         let quotient = Procedure::of(vec![graph.formula(one / divisor)]);
         let added = regular.added(graph, &quotient);
         assert_eq!(added, is_added.then_some(divisor), "{}", graph.text(divisor));
+    }
+}
+
+/// Where exp y + x y exp y is declared not to vanish, neither does 1 + x y; sums with other powers of exp y may.
+#[test]
+fn exponentials_vary_by_themselves() {
+    let graph = &mut Graph::new();
+    let (system, _, parameters) = particle(graph);
+    let [x, y] = [0, 1].map(|k| graph.symbol(system.algebroid.anchor.coordinates[k]));
+    let [u, w] = [0, 2].map(|k| graph.symbol(system.algebroid.velocities[k]));
+    let (one, exp) = (graph.one(), graph.apply(Function::Exp, y));
+    let declared = graph.formula(exp + x * y * exp);
+    let residual = graph.formula(w - u / declared);
+    let equations = saddle_equations(graph, &system, &[residual]);
+    let reference = Reference::projected(graph, &system, Vec::new(), vec![residual]);
+    let regular = Regular {
+        reference: &reference,
+        definitions: &Procedure::default(),
+        mass: &equations.mass,
+        definiteness: Definiteness::Definite,
+        jacobian: &equations.jacobian,
+        parameters: &parameters,
+        facts: &Facts::default(),
+    };
+    let bare = graph.formula(one + x * y);
+    let times = graph.formula(exp * bare);
+    let other = graph.formula(exp + x * y);
+    let alone = graph.formula(exp - one - one);
+    for (divisor, is_added) in [(bare, false), (times, false), (other, true), (alone, true)] {
+        let quotient = Procedure::of(vec![graph.formula(one / divisor)]);
+        let added = regular.added(graph, &quotient);
+        assert_eq!(added.is_some(), is_added, "{}", graph.text(divisor));
     }
 }
