@@ -128,6 +128,9 @@ pub struct Projection {
     pub start: Vec<SymbolId>,
     /// Outputs: the next velocities, from the present and the starting ones.
     pub step: Procedure,
+    /// Whether a step ends on the constraints, but for its rounding: they are affine in the velocities, and W is free of
+    /// these.
+    pub is_affine: bool,
 }
 
 /// Position constraints, and the way back to where they hold.

@@ -402,8 +402,8 @@ pub mod __private {
     pub use crate::linear_model::{
         FirstOrder, Linearization, LinearizationError, Names, Parts, linearize, variables,
     };
-    pub use crate::newton_return::{corrected, first_iterate, newton, product_of_signs, worst};
-    pub use crate::projection::{check_identities, largest, project};
+    pub use crate::newton_return::{corrected, first_iterate, newton, newton_from, product_of_signs, worst};
+    pub use crate::projection::{check_identities, holds, largest, project, project_affine};
     pub use crate::series::History;
     pub use crate::trim::{Steady, TrimError, equations, trim};
     pub use crate::{

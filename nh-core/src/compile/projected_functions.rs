@@ -233,6 +233,8 @@ fn projection(
         })
         .collect();
     let zero = graph.zero();
+    let entries: Vec<ExprId> = equations.mass.iter().chain(&equations.jacobian).flatten().copied().collect();
+    let is_affine = graph.symbols_in(&entries).iter().all(|symbol| !velocities.contains(symbol));
     let bias = equations
         .jacobian
         .iter()
@@ -253,5 +255,5 @@ fn projection(
             graph.formula(start + change)
         })
         .collect();
-    Projection { start, step: procedure }
+    Projection { start, step: procedure, is_affine }
 }

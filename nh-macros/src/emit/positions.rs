@@ -9,7 +9,7 @@ use quote::quote;
 use super::infix::element;
 use super::layout::local;
 use super::program::body;
-use super::projection::closure;
+use super::projection::{Way, closure, velocities};
 use super::results::residual_names;
 use super::setting::Context;
 use super::symbols::{Argument, Scope};
@@ -30,13 +30,61 @@ fn of_coordinates(context: &Context, system: &System, procedure: &Procedure) -> 
 
 /// The statement of `project` that moves the coordinates of `state`.
 pub(super) fn iteration(context: &Context, system: &System, positions: &PositionReturn) -> TokenStream {
+    iteration_from(context, system, positions, None)
+}
+
+/// The same, with the residuals if they are known.
+fn iteration_from(
+    context: &Context,
+    system: &System,
+    positions: &PositionReturn,
+    known: Option<&[TokenStream]>,
+) -> TokenStream {
     let runtime = &context.runtime;
     let places = context.state.places(&context.locals.state);
     let coordinates = &places[..system.state_coordinates.len().min(places.len())];
     let change = of_coordinates(context, system, &positions.step);
     let residual = of_coordinates(context, system, &positions.residual);
+    let start = quote!([#(#coordinates),*]);
+    match known {
+        None => quote!(#start = #runtime::newton(#start, #change, #residual)?;),
+        Some(known) => {
+            quote!(#start = #runtime::newton_from((#start, [#(#known),*]), #change, #residual)?;)
+        }
+    }
+}
+
+/// The body of `return_to_positions`: `project` for states that are near to the constraints, with one look at these where
+/// nothing has to move.
+fn body_of_return(context: &Context, system: &System, positions: &PositionReturn) -> TokenStream {
+    let Context { runtime, scalar, .. } = context;
+    let (t, state) = (&context.locals.t, &context.locals.state);
+    let (residual, given) = (local("residual"), local("given"));
+    let count = system.functions.get(&RESIDUAL).map_or(0, |residual| residual.outputs.len());
+    let literal = Literal::usize_unsuffixed(count);
+    let moves = if system.embedding.is_some() {
+        // identities of the base do not stand among the residuals
+        quote!(Self::project(self, #t, #state)?;)
+    } else {
+        let known = super::projection::entries(&residual, positions.count);
+        let of_positions = iteration_from(context, system, positions, Some(&known));
+        let of_velocities =
+            system.projection.as_ref().map(|projection| velocities(context, system, projection, Way::Short));
+        quote! {
+            if !#runtime::holds(&#residual) {
+                let #given = #state;
+                let mut #state = *#given;
+                #of_positions
+                #of_velocities
+                *#given = #state;
+            }
+        }
+    };
     quote! {
-        [#(#coordinates),*] = #runtime::newton([#(#coordinates),*], #change, #residual)?;
+        let #residual: [#scalar; #literal] =
+            ::core::convert::From::from(Self::constraint_residual(self, #t, #state));
+        #moves
+        ::core::result::Result::Ok(#runtime::largest(&#residual))
     }
 }
 
@@ -61,6 +109,7 @@ pub(super) fn hooks(context: &Context, system: &System) -> TokenStream {
     });
     let count = system.functions.get(&RESIDUAL).map_or(0, |residual| residual.outputs.len());
     let count = Literal::usize_unsuffixed(count);
+    let body = body_of_return(context, system, positions);
     let names = residual_names(system);
     let side = side(context, system, positions);
     let residuals = super::projection::entries(&local("residual"), names.len());
@@ -71,10 +120,7 @@ pub(super) fn hooks(context: &Context, system: &System) -> TokenStream {
         fn return_to_positions(
             &self, #t: #scalar, #state: &mut #state_type
         ) -> ::core::result::Result<#scalar, #runtime::ProjectionError> {
-            let #residual: [#scalar; #count] =
-                ::core::convert::From::from(Self::constraint_residual(self, #t, #state));
-            Self::project(self, #t, #state)?;
-            ::core::result::Result::Ok(#runtime::largest(&#residual))
+            #body
         }
         fn correct_positions(&self, #t: #scalar, #state: &mut #state_type) {
             _ = #t;

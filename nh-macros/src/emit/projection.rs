@@ -61,7 +61,8 @@ pub(super) fn stub(context: &Context, identities: usize, constraints: usize) -> 
 /// The inherent method: coordinates first, then velocities.
 fn method(context: &Context, system: &System) -> TokenStream {
     let state = &context.locals.state;
-    let of_velocities = system.projection.as_ref().map(|projection| velocities(context, system, projection));
+    let of_velocities =
+        system.projection.as_ref().map(|projection| velocities(context, system, projection, Way::Whole));
     let of_positions = system.positions.as_ref().map(|p| super::positions::iteration(context, system, p));
     let normalize = system.embedding.as_ref().map(|_| quote!(Self::normalize(self, &mut #state)?;));
     let what = What { normalizes: normalize.is_some(), returns: of_positions.is_some() };
@@ -84,8 +85,22 @@ fn method(context: &Context, system: &System) -> TokenStream {
     with_body(context, what, &body)
 }
 
+/// How velocities are moved.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub(super) enum Way {
+    /// Not at all where they belong there, and as near as rounding lets them.
+    Whole,
+    /// In a run, by one step where that is enough.
+    Short,
+}
+
 /// The statement that moves the velocities of `state`.
-fn velocities(context: &Context, system: &System, projection: &Projection) -> TokenStream {
+pub(super) fn velocities(
+    context: &Context,
+    system: &System,
+    projection: &Projection,
+    way: Way,
+) -> TokenStream {
     let (runtime, t, state) = (&context.runtime, &context.locals.t, &context.locals.state);
     let step = &context.lowering.program(&system.model, &projection.step);
     let present = local("present");
@@ -97,6 +112,8 @@ fn velocities(context: &Context, system: &System, projection: &Projection) -> To
     moved.extend_from_slice(auxiliary);
     let moved = context.state.construct(&context.state_name(), &moved);
     let step = closure(context, system, &projection.start, &system.state_velocities, step);
+    let is_short = projection.is_affine && way == Way::Short;
+    let project = if is_short { quote!(project_affine) } else { quote!(project) };
     let residual = quote!(::core::convert::From::from(Self::constraint_residual(self, #t, &#moved)));
     let of_positions = system.positions.as_ref().map_or(0, |positions| positions.count);
     let residual = if of_positions == 0 {
@@ -110,7 +127,7 @@ fn velocities(context: &Context, system: &System, projection: &Projection) -> To
         quote!({ let [#(#skipped,)* #(#rates),*]: [#scalar; #count] = #residual; [#(#rates),*] })
     };
     quote! {
-        [#(#velocities),*] = #runtime::project([#(#velocities),*], #step, |#present| #residual)?;
+        [#(#velocities),*] = #runtime::#project([#(#velocities),*], #step, |#present| #residual)?;
     }
 }
 
