@@ -331,7 +331,8 @@ const BRANCHES: u64 = 48;
 /// Steps of work after which it is not known whether a function adds a condition.
 const CONDITIONS: u64 = 400_000;
 
-/// Proves a claim; a function of the motion has values where that has, and what defines it.
+/// Proves a claim; a function of the motion has values where that has, and what defines it, or it is said that this was
+/// not decided.
 ///
 /// # Errors
 /// What is wrong, or why it could not be decided.
@@ -341,7 +342,7 @@ pub(crate) fn prove_derived(
     claim: &Derived,
     images: Images,
     allowed: &Allowed,
-) -> Result<Proof, Defect> {
+) -> Result<(Proof, Option<String>), Defect> {
     let procedures: Vec<&Procedure> = claim.procedures().into_iter().chain([motion.derivative]).collect();
     let mut roots: Vec<ExprId> = procedures.iter().flat_map(|procedure| procedure.expressions()).collect();
     roots.extend(claim.further().into_iter().chain(reference.roots()));
@@ -389,12 +390,7 @@ pub(crate) fn prove_derived(
     let added = limits::attempt(CONDITIONS, || {
         added_conditions::added_condition(graph, claim, about, reference.system(), allowed, point, at)
     });
-    match added.flatten() {
-        Some(divisor) => {
-            Err(Defect::Wrong(format!("it has no value where `{divisor}` is 0, and the motion has one")))
-        }
-        None => Ok(proof),
-    }
+    added_conditions::judged(proof, added)
 }
 
 /// Whether symbols stand in the arguments of functions whose values in the field are chosen beside theirs.

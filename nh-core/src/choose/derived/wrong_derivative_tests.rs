@@ -57,7 +57,7 @@ fn is_proved(graph: &mut Graph, motion: Motion, claim: &Derived) -> bool {
     let facts = Facts::default();
     let allowed = Allowed { parameters: &[], may_vanish: &[], facts: &facts, conditions: &[] };
     match prove_derived(graph, (&reference, motion), claim, &[], &allowed) {
-        Ok(proof) => proof.bits >= 80.0,
+        Ok((proof, _)) => proof.bits >= 80.0,
         Err(Defect::Wrong(_)) => false,
         Err(other) => panic!("{other}"),
     }

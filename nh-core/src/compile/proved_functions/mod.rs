@@ -206,7 +206,7 @@ pub(super) fn prove(
         };
         let at: Vec<(SymbolId, ExprId)> = given.velocities.iter().copied().zip(solution).collect();
         let mut form = "derived";
-        let mut proof: Result<Proof, Defect> = prove(proved, &at);
+        let mut proof: Result<(Proof, Option<String>), Defect> = prove(proved, &at);
         if claim.is_about_constraints()
             && let Err(Defect::Wrong(_)) = proof
         {
@@ -218,7 +218,10 @@ pub(super) fn prove(
             }
         }
         let fate = match proof {
-            Ok(proof) => Some(Fate::Chosen(proof)),
+            Ok((proof, undecided)) => {
+                decision.limits.extend(undecided);
+                Some(Fate::Chosen(proof))
+            }
             Err(defect @ Defect::Wrong(_)) => {
                 refuted.push(is_something_else(proved, site, &defect));
                 Some(Fate::NotAdmitted(defect.to_string()))

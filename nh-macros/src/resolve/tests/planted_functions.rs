@@ -8,6 +8,7 @@ use nonholonomic_core::compile::compile_with;
 use nonholonomic_core::forms::Registry;
 use nonholonomic_core::mechanics::Procedure;
 use nonholonomic_core::model::Model;
+use nonholonomic_core::system::System;
 
 use super::model;
 
@@ -115,6 +116,8 @@ enum Divisor {
     State,
     /// x² + y² + c, which no positive c makes 0
     Positive,
+    /// x¹⁵ − a, of a degree that is not looked for
+    Long,
 }
 
 thread_local! {
@@ -163,6 +166,10 @@ fn spoil(graph: &mut Graph, name: &str, procedure: &mut Procedure) {
                 }
                 Divisor::State => graph.formula(x - a),
                 Divisor::Positive => graph.formula(x.square() + y.square() + c),
+                Divisor::Long => {
+                    let power = graph.pow(x, Rational::from(15));
+                    graph.formula(power - a)
+                }
             };
             let product = graph.formula((output + x) * divisor);
             let name = procedure.define(graph, "product", product);
@@ -174,13 +181,18 @@ fn spoil(graph: &mut Graph, name: &str, procedure: &mut Procedure) {
 
 /// What is said of a declaration with a slip.
 fn planted(model: &Model, slip: Slip, name: &str, index: usize) -> Result<(), Vec<String>> {
+    compiled(model, slip, name, index).map(drop)
+}
+
+/// What becomes of a declaration with a slip.
+fn compiled(model: &Model, slip: Slip, name: &str, index: usize) -> Result<System, Vec<String>> {
     PLANTED.set((slip, name.to_owned(), index));
     let outcome = compile_with(model.clone(), &Registry::standard().finishing(spoil));
     PLANTED.set((Slip::Seen, String::new(), 0));
     let text = |violation: &nonholonomic_core::violation::Violation| {
         format!("{}: {}", violation.what, violation.evidence)
     };
-    outcome.map(drop).map_err(|violations| violations.iter().map(text).collect())
+    outcome.map_err(|violations| violations.iter().map(text).collect())
 }
 
 /// The name under which a function is proved.
@@ -314,4 +326,30 @@ fn a_divisor_that_may_be_zero_where_the_motion_is_regular() {
     }
     assert!(wrong.is_empty(), "{}", wrong.join("\n"));
     assert_eq!(tried.len(), 33, "{tried:?}");
+}
+
+/// A divisor of a degree that is not looked for is named in the ledger, under the function that has it.
+#[test]
+fn a_divisor_that_was_not_decided_is_named() {
+    let mut unnamed: Vec<String> = Vec::new();
+    for (moving, asked, names) in WITH_PARAMETERS {
+        let model = model(&format!("{moving} {asked}"), "struct S { a: f64, b: f64, c: f64 }");
+        let doubts = |system: &System, name: &str| -> Vec<String> {
+            let decision = system.ledger.at(site(name));
+            decision.map_or_else(Vec::new, |decision| decision.limits.clone())
+        };
+        let right = compiled(&model, Slip::Seen, "", 0).expect("regular");
+        for name in names.iter().filter(|name| **name != "volume_density") {
+            let system = compiled(&model, Slip::Divisor(Divisor::Long), name, 0).expect("not refuted");
+            let said = doubts(&system, name);
+            let is_named = |doubt: &String| {
+                doubt.starts_with("whether it adds a condition was not decided: where ")
+                    && doubt.contains("x^15")
+            };
+            if !said.iter().any(is_named) || doubts(&right, name).iter().any(is_named) {
+                unnamed.push(format!("{name}: {said:?}"));
+            }
+        }
+    }
+    assert!(unnamed.is_empty(), "{}", unnamed.join("\n"));
 }
