@@ -27,12 +27,12 @@ pub(crate) struct Linkage {
     pub(crate) J: [f64; 3],
 }
 
-const LINKAGE: Linkage = Linkage { l: [1.0, 3.0, 2.5], d: 3.0, m: 1.0, J: [0.1, 0.3, 0.4] };
+pub(crate) const LINKAGE: Linkage = Linkage { l: [1.0, 3.0, 2.5], d: 3.0, m: 1.0, J: [0.1, 0.3, 0.4] };
 /// About a hundred steps for each turn of the crank (s).
 const STEP: f64 = 0.003;
 
 /// The crank turns at 20 rad/s.
-fn start() -> LinkageState {
+pub(crate) fn start() -> LinkageState {
     let rough = LinkageState { crank: 0.2, coupler: 0.9, rocker: 1.6, crank_dot: 20.0, ..Default::default() };
     LINKAGE.assemble_holding(0.0, &rough, &[LinkageCoordinate::crank]).expect("a crank of that length turns")
 }

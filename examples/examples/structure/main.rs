@@ -11,9 +11,11 @@
 //!    both exactly included.
 //! 5. Suslov's problem in general position: every motion settles, and energy alone says nothing there.
 //! 6. A four-bar linkage: returns after each step against steps that keep the loop closed by themselves.
+//! 7. What returns cost: derivatives that are computed anew, and the time of a return beside that of a derivative.
 
 mod keeps;
 mod loops;
+mod returns;
 mod systems;
 
 use keeps::{
@@ -37,6 +39,7 @@ fn main() {
     gearbox();
     suslov();
     loops::linkage();
+    returns::table();
 }
 
 /// The steps over which the table is measured.
