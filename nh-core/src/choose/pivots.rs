@@ -10,24 +10,43 @@ pub(super) fn is_multiple(a: [Residue; 2], b: [Residue; 2]) -> bool {
 }
 
 /// The pivots of the elimination of a definite matrix at two points, in whatever order they are met.
+#[derive(Clone)]
 pub(super) struct Pivots {
     matrices: [Vec<Vec<Residue>>; 2],
     open: Vec<usize>,
+    met: Vec<[Residue; 2]>,
 }
 
 impl Pivots {
     pub(super) fn of(matrices: [Vec<Vec<Residue>>; 2]) -> Self {
         let open = (0..matrices[0].len()).collect();
-        Self { matrices, open }
+        Self { matrices, open, met: Vec::new() }
     }
 
     /// Whether a quantity is the next one.
     pub(super) fn are_met(&mut self, value: [Residue; 2]) -> bool {
-        let Self { matrices: [first, second], open } = self;
-        let Some(position) = open.iter().position(|i| is_multiple(value, [first[*i][*i], second[*i][*i]]))
-        else {
-            return false;
-        };
+        if self.is_next(&[value]) {
+            self.met.push(value);
+            return true;
+        }
+        // several pivots that are equal, those of equal arms of one body, are one expression: they may be met again
+        let mut others = self.clone();
+        while others.is_next(&self.met) {
+            if others.is_next(&[value]) {
+                others.met.push(value);
+                *self = others;
+                return true;
+            }
+        }
+        false
+    }
+
+    /// Eliminates an unknown whose pivot is one of these, if there is such.
+    fn is_next(&mut self, values: &[[Residue; 2]]) -> bool {
+        let Self { matrices: [first, second], open, .. } = self;
+        let is_one =
+            |i: &usize| values.iter().any(|value| is_multiple(*value, [first[*i][*i], second[*i][*i]]));
+        let Some(position) = open.iter().position(is_one) else { return false };
         let index = open.remove(position);
         eliminate(first, index, open);
         eliminate(second, index, open);

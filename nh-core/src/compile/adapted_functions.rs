@@ -40,13 +40,13 @@ pub(super) fn derive(
     let reference = reference(&mut proved, distribution, kept);
     let (mut shown, mut chosen) = (Decision::default(), Decision::default());
     let mut candidates = candidates(&mut proved, registry, distribution, kept, &mut chosen);
-    show_proved(&proved.model.graph, &reference, kept, &mut candidates, &mut shown);
-    if candidates.is_empty() {
-        candidates.push(plain(&mut proved, kept));
-        show_proved(&proved.model.graph, &reference, kept, &mut candidates, &mut shown);
+    show_proved(&proved.model.graph, &reference, kept, &mut candidates.equations, &mut shown);
+    if candidates.equations.is_empty() {
+        candidates.equations.push(plain(&mut proved, kept));
+        show_proved(&proved.model.graph, &reference, kept, &mut candidates.equations, &mut shown);
     }
     proved.ledger.decisions.push(shown);
-    let Some(first) = candidates.first() else {
+    let Some(first) = candidates.equations.first() else {
         return Err(nothing_proved(proved.model.origin, &proved.ledger));
     };
     let equations = first.equations.clone();

@@ -13,7 +13,7 @@ use crate::forms::{Form, Registry, Setting};
 use crate::geometry::ConstraintDistribution;
 use crate::id::ExprId;
 use crate::mechanics::{
-    Definiteness, Procedure, ReducedEquations, definiteness, reduced_equations, solve_symmetric,
+    Definiteness, Definition, Procedure, ReducedEquations, definiteness, reduced_equations, solve_symmetric,
 };
 
 /// What forms are proved against: (8), with the velocities that `kept` leaves.
@@ -26,6 +26,13 @@ pub(super) fn reference(
     let mut residuals = proved.constraints.residuals.clone();
     residuals.extend(proved.levels.iter().map(|level| level.residual));
     Reference::adapted(&proved.system, given, residuals, distribution, kept)
+}
+
+/// The equations in several forms, and the accelerations of forms that solve for them on their own.
+#[derive(Default)]
+pub(super) struct Candidates {
+    pub(super) equations: Vec<Candidate>,
+    solved: Vec<Entry>,
 }
 
 /// Equations with the name of their form.
@@ -48,7 +55,7 @@ pub(super) fn candidates(
     distribution: &ConstraintDistribution,
     kept: &ConstraintDistribution,
     decision: &mut Decision,
-) -> Vec<Candidate> {
+) -> Candidates {
     let is_orthonormal = proved.model.orthonormal.is_some();
     let chained = (!is_orthonormal).then(|| {
         let (system, graph) = (&proved.system, &mut proved.model.graph);
@@ -61,7 +68,7 @@ pub(super) fn candidates(
     let residuals = proved.levels.is_empty().then_some(proved.constraints.residuals.as_slice());
     let size = graph.operation_count(&[system.lagrangian]);
     let setting = Setting { system, distribution: kept, chained: chained.as_ref(), residuals, size };
-    let mut found: Vec<Candidate> = Vec::new();
+    let mut found = Candidates::default();
     let mut most = if is_orthonormal { Count::TOO_MANY } else { Count::new(sizes::EXPANDED) };
     for form in registry.forms() {
         if form.expands() && size > most {
@@ -69,14 +76,18 @@ pub(super) fn candidates(
             decision.limits.push(format!("{name}: the Lagrangian has {size} operations, more than {most}"));
             continue;
         }
+        if let Some(procedure) = form.solve(graph, &setting) {
+            most = most.min(form.others_expand_up_to());
+            found.solved.push(Entry { form: form.name(), procedure });
+        }
         let Some(mut equations) = form.derive(graph, &setting) else { continue };
         if is_orthonormal {
             in_orthonormal_basis(graph, &mut equations);
         }
         most = most.min(form.others_expand_up_to());
-        found.push(Candidate { form: *form, equations });
+        found.equations.push(Candidate { form: *form, equations });
     }
-    found.sort_by_key(|candidate| candidate.form.rank());
+    found.equations.sort_by_key(|candidate| candidate.form.rank());
     found
 }
 
@@ -119,10 +130,11 @@ pub(super) fn show_proved(
 pub(super) fn proved_derivative(
     proved: &mut Proved,
     reference: &Reference,
-    candidates: &[Candidate],
+    candidates: &Candidates,
     given: &Procedure,
     decision: &mut Decision,
 ) -> Option<Procedure> {
+    let Candidates { equations: candidates, solved: alone } = candidates;
     decision.site = "derivative";
     let parameters: Vec<_> = proved.model.parameters.iter().map(|parameter| parameter.symbol).collect();
     let graph = &mut proved.model.graph;
@@ -141,32 +153,42 @@ pub(super) fn proved_derivative(
     };
     let fixed = &proved.system.algebroid.anchor.coordinates;
     let mut left: Vec<&Candidate> = candidates.iter().collect();
-    while !left.is_empty() {
+    let mut alone: Vec<&Entry> = alone.iter().filter(|_| definite == Definiteness::Definite).collect();
+    while !left.is_empty() || !alone.is_empty() {
         decision.limits.retain(|limit| !limit.contains(sizes::BESIDE));
-        let entries = solved_forms(graph, &left, definite, given, decision);
+        let mut entries: Vec<Entry> = Vec::with_capacity(left.len() + alone.len());
+        for Entry { form, procedure } in &alone {
+            let procedure = moving(given, &procedure.definitions, &procedure.outputs);
+            entries.push(Entry { form, procedure });
+        }
+        solved_forms(graph, &left, definite, given, (&mut entries, decision));
         let finish = |graph: &mut Graph, procedure: &Procedure| {
             without_needless_cancellation(graph, procedure.clone(), fixed)
         };
         match admitted(graph, (reference, Some(&regular)), &entries, finish, decision) {
             Ok(procedure) => return Some(procedure),
             // no limit, and no comparison, is by a form that is wrong
-            Err(refused) => left.retain(|candidate| Some(candidate.form.name()) != refused),
+            Err(refused) => {
+                left.retain(|candidate| Some(candidate.form.name()) != refused);
+                alone.retain(|entry| Some(entry.form) != refused);
+            }
         }
     }
     None
 }
 
-/// The derivatives by forms that are not much longer than the shortest.
+/// The derivatives by forms that are not much longer than the shortest, those among them that solve for the
+/// accelerations on their own.
 fn solved_forms(
     graph: &mut Graph,
     candidates: &[&Candidate],
     definite: Definiteness,
     given: &Procedure,
-    decision: &mut Decision,
-) -> Vec<Entry> {
+    (entries, decision): (&mut Vec<Entry>, &mut Decision),
+) {
     let lengths: Vec<Count> = candidates.iter().map(|candidate| candidate.equations.length(graph)).collect();
-    let shortest = lengths.iter().copied().min().unwrap_or_default();
-    let mut entries: Vec<Entry> = Vec::with_capacity(candidates.len());
+    let alone = entries.iter().map(|entry| graph.operation_count(&entry.procedure.values(graph)));
+    let shortest = alone.chain(lengths.iter().copied()).min().unwrap_or_default();
     let mut compared: Vec<Vec<ExprId>> = Vec::new();
     for (Candidate { form, equations }, length) in candidates.iter().zip(lengths) {
         let form = form.name();
@@ -182,7 +204,6 @@ fn solved_forms(
             entries.push(Entry { form, procedure });
         }
     }
-    entries
 }
 
 /// (8) as it stands, where no form is admitted: with the pivots that its solution has, which `validate` names
@@ -213,10 +234,17 @@ fn solved(
     definite: Definiteness,
     given: &Procedure,
 ) -> Procedure {
-    let mut procedure = given.clone();
-    procedure.definitions.extend(equations.definitions.definitions.iter().cloned());
+    let mut procedure = moving(given, &equations.definitions.definitions, &equations.rates);
     let ReducedEquations { mass, force, .. } = equations;
     let accelerations = solve_symmetric(graph, mass, force, definite, &mut procedure, "v_dot");
-    procedure.outputs = equations.rates.iter().chain(&accelerations).chain(&given.outputs).copied().collect();
+    procedure.outputs.splice(equations.rates.len()..equations.rates.len(), accelerations);
+    procedure
+}
+
+/// Intermediate results after those that are given, and outputs before them.
+fn moving(given: &Procedure, definitions: &[Definition], outputs: &[ExprId]) -> Procedure {
+    let mut procedure = given.clone();
+    procedure.definitions.extend(definitions.iter().cloned());
+    procedure.outputs = outputs.iter().chain(&given.outputs).copied().collect();
     procedure
 }

@@ -9,6 +9,7 @@ mod by_momenta;
 mod by_parts;
 mod by_velocities;
 mod expanded;
+mod from_the_tips;
 mod on_wheels;
 
 use crate::algebra::Graph;
@@ -53,6 +54,10 @@ pub trait Form: Sync {
     fn rank(&self) -> u8;
     /// The equations; `None` where the form does not exist, or is known not to be worth while.
     fn derive(&self, graph: &mut Graph, setting: &Setting) -> Option<ReducedEquations>;
+    /// ẋ and v̇ where C is definite, of a form that has no C and f of its own.
+    fn solve(&self, _graph: &mut Graph, _setting: &Setting) -> Option<Procedure> {
+        None
+    }
 }
 
 /// What is done to the functions beside the motion before they are proved, each by its name.
@@ -73,6 +78,7 @@ impl Registry {
             forms: vec![
                 &along_chain::AlongChain,
                 &on_wheels::OnWheels,
+                &from_the_tips::FromTheTips,
                 &by_parts::ByParts,
                 &by_velocities::ByVelocities,
                 Self::plain(),

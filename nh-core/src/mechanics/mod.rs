@@ -1,6 +1,7 @@
 //! Lagrangian mechanics on a Lie algebroid.
 
 mod adapted;
+mod articulated;
 mod complete_lift;
 mod cyclic;
 mod definiteness;
@@ -34,6 +35,7 @@ mod volume;
 mod wheel_frames;
 
 pub use adapted::{ReducedEquations, equations_by_momenta, reaction_forces, reduced_equations};
+pub use articulated::accelerations_from_the_tips;
 pub use complete_lift::complete_lift;
 pub use cyclic::{cyclic_coordinates, translation, translations};
 pub use definiteness::{DefiniteSets, definiteness, keeps_its_sign};

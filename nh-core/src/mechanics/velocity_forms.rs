@@ -29,7 +29,7 @@ pub(super) struct VelocityForms {
 
 impl VelocityForms {
     /// Takes out every sum that is linear in the velocities and enters L nonlinearly.
-    fn of(graph: &mut Graph, system: &LagrangianSystem) -> Self {
+    pub(super) fn of(graph: &mut Graph, system: &LagrangianSystem) -> Self {
         let velocities = &system.algebroid.velocities;
         let nodes = graph.reachable(&[system.lagrangian]);
         let mut linear = vec![false; graph.len()];
@@ -149,7 +149,7 @@ pub fn equations_in_wheel_frames(
         .into_iter()
         .filter_map(|point| {
             let curl = curl.get_or_insert_with(|| ExteriorDerivative::anywhere(graph, system));
-            spin(graph, system, &forms, &point, curl).map(|spin| (point, spin))
+            spin(graph, system, &forms, (point.forms, point.axes), curl).map(|spin| (point, spin))
         })
         .collect();
     let independent = &distribution.independent;
@@ -307,16 +307,17 @@ fn rates_of_turning(
     rates
 }
 
-/// ω with dθ¹ = ω∧θ² and dθ² = −ω∧θ¹, by its components on the sections, if there is such.
-fn spin(
+/// ω with dθ¹ = ω∧θ² and dθ² = −ω∧θ¹ for a pair of forms with axes, by its components on the sections, if there
+/// is such.
+pub(super) fn spin(
     graph: &mut Graph,
     system: &LagrangianSystem,
     forms: &VelocityForms,
-    point: &TurnedPoint,
+    (pair, axes): ([usize; 2], [usize; 2]),
     curl: &mut ExteriorDerivative,
 ) -> Option<Vec<ExprId>> {
     let algebroid = &system.algebroid;
-    let [x, y] = point.axes.map(SectionId::from_index);
+    let [x, y] = axes.map(SectionId::from_index);
     let zero = graph.zero();
     // dy^x(e_β, e_y) = −C^x_{βy} = ω_β
     let omega: Vec<ExprId> = algebroid
@@ -333,7 +334,7 @@ fn spin(
     let velocity = algebroid.velocity(graph);
     let turning = graph.inner_product(&omega, &velocity);
     let turning = [turning, curl.on_second(graph, turning)];
-    let [one, two] = point.forms.map(|k| forms.forms[k].1);
+    let [one, two] = pair.map(|k| forms.forms[k].1);
     for (form, other, sign) in [(one, two, -1), (two, one, 1)] {
         let rotation = curl.apply(graph, form);
         let other = [other, curl.on_second(graph, other)];

@@ -7,6 +7,7 @@ mod catalogue;
 mod ceilings;
 mod constants;
 mod cross_checks;
+mod from_the_tips;
 mod fuzz;
 mod hostile_sizes;
 mod irrational;

@@ -98,19 +98,29 @@ fn nothing_is_emitted_that_is_not_known() {
 }
 
 /// Numbers that a seed determines.
-struct Dice(u64);
+pub(super) struct Dice(u64);
 
 impl Dice {
+    pub(super) fn of(seed: u64) -> Self {
+        Self(seed.wrapping_mul(0x9E37_79B9) + 1)
+    }
+
     fn below(&mut self, n: usize) -> usize {
         self.0 = self.0.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
         usize::try_from(self.0 >> 33).unwrap_or(0) % n
     }
 }
 
-/// A tree of bodies in the plane, hinged to each other, some on wheels, some on sliders, in coordinates.
+/// A tree of two to four bodies in the plane, some on wheels.
 fn planar_machine(seed: u64) -> String {
-    let mut dice = Dice(seed.wrapping_mul(0x9E37_79B9) + 1);
+    let mut dice = Dice::of(seed);
     let bodies = 2 + dice.below(3);
+    planar_tree(&mut dice, bodies, bodies)
+}
+
+/// A tree of bodies in the plane, hinged to each other, the first and perhaps others on wheels, if there are any, in
+/// coordinates.
+pub(super) fn planar_tree(dice: &mut Dice, bodies: usize, most_wheels: usize) -> String {
     let mut base = "x, y".to_owned();
     // the velocity of the reference point of each body, by components, and its angular velocity
     let mut points: Vec<([String; 2], String)> = Vec::new();
@@ -146,7 +156,7 @@ fn planar_machine(seed: u64) -> String {
     }
     let mut rows = String::new();
     for (k, ([u, v], turning)) in points.iter().enumerate() {
-        if wheels < bodies && (k == 0 || dice.below(3) > 0) {
+        if wheels < most_wheels && (k == 0 || dice.below(3) > 0) {
             let a = &angles[k];
             let back =
                 if dice.below(2) == 0 { format!(" - l[{}]*{turning}", dice.below(4)) } else { String::new() };
@@ -154,7 +164,8 @@ fn planar_machine(seed: u64) -> String {
             wheels += 1;
         }
     }
-    format!("base {{ {base} }} lagrangian {{ {energy} }} constraints {{ {rows} }}")
+    let constraints = if rows.is_empty() { rows } else { format!("constraints {{ {rows} }}") };
+    format!("base {{ {base} }} lagrangian {{ {energy} }} {constraints}")
 }
 
 const BODIES: &str = "struct S { m: [f64; 5], J: [f64; 5], l: [f64; 4], c: [f64; 4] }";

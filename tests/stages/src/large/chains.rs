@@ -1,5 +1,7 @@
 //! Machines of many bodies, as engineers declare them.
 
+use std::fmt::Write;
+
 use super::{Family, declared};
 
 pub(super) const FAMILIES: &[Family] = &[
@@ -11,6 +13,8 @@ pub(super) const FAMILIES: &[Family] = &[
     Family { name: "trailers, relative angles", source: trailers, sizes: &[2, 5, 10, 20] },
     Family { name: "arm on two wheels", source: arm_on_wheels, sizes: &[2, 5, 8, 16] },
     Family { name: "arm on a skate", source: arm_on_skate, sizes: &[2, 5, 8, 16] },
+    Family { name: "arm in a vertical plane", source: vertical_arm, sizes: &[2, 5, 8, 16] },
+    Family { name: "fast arms in pairs", source: pairs_of_arms, sizes: &[2, 5, 8, 16] },
     Family { name: "bodies in space", source: bodies, sizes: &[1, 5, 30] },
     Family { name: "closed loops", source: loops, sizes: &[1, 5, 20] },
     Family { name: "units of a pendulum", source: units, sizes: &[3, 10, 40] },
@@ -91,6 +95,38 @@ fn arm_on_skate(n: usize) -> String {
             "base {{ x, y, th, q[{n}] }} basis {{ v, side, omega, qd[{n}] }} anchor {{ der(x) = v * cos(th) - side * sin(th); der(y) = v * sin(th) + side * cos(th); der(th) = omega; for i in 0..{n} {{ der(q[i]) = qd[i]; }} }} lagrangian {{ let ang[i in 0..{n}] = sum(j in 0..i + 1: q[j]); let w[i in 0..{n}] = omega + sum(j in 0..i + 1: qd[j]); let vx[i in 0..{n}] = v - sum(j in 0..i: l[j] * sin(ang[j]) * w[j]) - c[i] * sin(ang[i]) * w[i]; let vy[i in 0..{n}] = side + a * omega + sum(j in 0..i: l[j] * cos(ang[j]) * w[j]) + c[i] * cos(ang[i]) * w[i]; M / 2 * (v^2 + side^2) + I / 2 * omega^2 + sum(i in 0..{n}: m[i] / 2 * (vx[i]^2 + vy[i]^2) + J[i] / 2 * w[i]^2) }} constraints {{ side = 0; }} inputs {{ push, steer, torque[{n}] }} forces {{ v: push; omega: steer; for i in 0..{n} {{ qd[i]: torque[i]; }} }}"
         ),
         &format!("M: f64, I: f64, a: f64, m: [f64; {n}], J: [f64; {n}], l: [f64; {n}], c: [f64; {n}]"),
+    )
+}
+
+/// A planar arm on the ground, by its bodies, against gravity.
+fn vertical_arm(n: usize) -> String {
+    let (mut places, mut bodies) = (String::new(), Vec::new());
+    for i in 0..n {
+        let (joint, angle) = match i.checked_sub(1) {
+            None => ("[0, 0]".to_owned(), format!("th[{i}]")),
+            Some(h) => (format!("(o{h} + l[{h}] * [cos(q{h}), sin(q{h})])"), format!("q{h} + th[{i}]")),
+        };
+        let _ = write!(places, "let q{i} = {angle}; let o{i} = {joint}; ");
+        let _ = write!(places, "let p{i} = o{i} + c[{i}] * [cos(q{i}), sin(q{i})]; ");
+        bodies.push(format!("kinetic(m[{i}], J[{i}], p{i}, q{i}) - m[{i}] * g * p{i}[1]"));
+    }
+    declared(
+        &format!(
+            "base {{ th[{n}] }} lagrangian {{ {places} {} }} inputs {{ u[{n}] }} forces {{ for i in 0..{n} {{ th[i]: u[i]; }} }}",
+            bodies.join(" + ")
+        ),
+        &format!("m: [f64; {n}], J: [f64; {n}], l: [f64; {n}], c: [f64; {n}], g: f64"),
+    )
+}
+
+/// Two arms on a body that floats in the plane, in absolute angles, with springs in the joints: a tree. The bounds on
+/// rounding errors of the balanced level prefer the whole mass matrix here, since a light body carries heavy arms.
+fn pairs_of_arms(n: usize) -> String {
+    declared(
+        &format!(
+            "base {{ x, y, th, q[2][{n}] }} lagrangian {{ let wx[k in 0..2, i in 0..{n}] = -sum(j in 0..i: l * sin(q[k][j]) * der(q[k][j])) - l / 2 * sin(q[k][i]) * der(q[k][i]); let wy[k in 0..2, i in 0..{n}] = sum(j in 0..i: l * cos(q[k][j]) * der(q[k][j])) + l / 2 * cos(q[k][i]) * der(q[k][i]); M / 2 * (der(x)^2 + der(y)^2) + I / 2 * der(th)^2 + sum(k in 0..2, i in 0..{n}: m / 2 * ((der(x) + (1 - 2 * k) * a * sin(th) * der(th) + wx[k][i])^2 + (der(y) - (1 - 2 * k) * a * cos(th) * der(th) + wy[k][i])^2) + J / 2 * der(q[k][i])^2) - sum(k in 0..2, i in 1..{n}: s / 2 * (q[k][i] - q[k][i - 1])^2) }} accuracy {{ fast }}"
+        ),
+        "M: f64, I: f64, a: f64, m: f64, J: f64, l: f64, s: f64",
     )
 }
 

@@ -1,0 +1,53 @@
+//! What a further body of a chain costs, in operations of the derivative: a constant, by mathematics (39).
+
+use nh_stages::families;
+use nonholonomic_core::program::{Cost, schedule_grouping};
+use nonholonomic_core::system::System;
+
+fn member(family: &str, links: usize) -> System {
+    let family = families().find(|known| known.name == family).expect("a family");
+    family.member(links).system().unwrap_or_else(|messages| panic!("{}", messages.join("\n")))
+}
+
+fn operations(system: &System) -> f64 {
+    let parameters: Vec<_> = system.model.parameters.iter().map(|parameter| parameter.symbol).collect();
+    let cost = Cost::of(&schedule_grouping(&system.model.graph, &system.derivative, &parameters));
+    u32::try_from(cost.operations()).map_or(f64::INFINITY, f64::from)
+}
+
+/// From eight links on, one more takes what the last one took, within a twentieth.
+#[track_caller]
+fn grows_by_a_constant(family: &str) {
+    let counts: Vec<f64> = (8..=14).map(|links| operations(&member(family, links))).collect();
+    let more: Vec<f64> = counts.windows(2).map(|pair| pair[1] - pair[0]).collect();
+    let mean = more.iter().sum::<f64>() / 6.0;
+    assert!(more.iter().all(|more| (more - mean).abs() <= mean / 20.0), "{family}: {counts:?}, {more:?}");
+}
+
+/// The form that is chosen for the derivative.
+fn chosen(system: &System) -> String {
+    let ledger = system.ledger.to_string();
+    let derivative = ledger.split("\nderivative\n").nth(1).expect("a derivative");
+    derivative.split(',').next().expect("a form").trim().to_owned()
+}
+
+#[test]
+fn arms_grow_by_a_constant() {
+    for family in ["arm on two wheels", "arm on a skate", "arm in a vertical plane", "fast arms in pairs"] {
+        grows_by_a_constant(family);
+    }
+}
+
+#[test]
+fn pendulums_grow_by_a_constant() {
+    for family in ["pendulum, absolute angles", "pendulum, relative angles"] {
+        grows_by_a_constant(family);
+    }
+}
+
+#[test]
+fn it_is_the_elimination_from_the_tips_that_does_it() {
+    for family in ["arm on two wheels", "arm on a skate", "arm in a vertical plane", "fast arms in pairs"] {
+        assert!(chosen(&member(family, 6)).starts_with("from the tips"), "{family}");
+    }
+}
