@@ -5,6 +5,7 @@ use super::rates::Rates;
 use super::written::in_numbers;
 use crate::algebra::{Derivation, Function, Graph, Matrix, Node, Rational, Substitution};
 use crate::id::{ExprId, SymbolId};
+use crate::limits;
 use crate::mechanics::{LagrangianSystem, Procedure};
 
 /// Sums of coordinates that sines and cosines are taken of, and turn at a rate Σ c_α y^α in numbers c_α.
@@ -81,21 +82,31 @@ impl Along {
     }
 }
 
-/// A velocity by others: an unknown, a point between two bodies, or one that the Lagrangian is written in.
+/// What a velocity belongs to, in the order in which it is carried by the same unknown.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+enum Kind {
+    /// A point between two bodies, which all unknowns move but the last one of what it carries.
+    Joint,
+    Unknown,
+    /// What the Lagrangian is written in.
+    Body,
+}
+
+/// A velocity by others.
 #[derive(Clone, Debug)]
-struct Body {
+struct Carried {
     /// Its coefficients on the unknowns.
     row: Vec<ExprId>,
     /// By whom it is carried, and how.
     by: Vec<(usize, ExprId)>,
     /// Its place: after the last unknown that moves it, or between this and those before.
-    place: (usize, u8),
+    place: (usize, Kind),
 }
 
 /// The unknowns, then other velocities by them.
 #[derive(Debug)]
 pub(super) struct Bodies {
-    all: Vec<Body>,
+    all: Vec<Carried>,
     unknowns: usize,
     /// Which of them the rows are.
     rows: Vec<usize>,
@@ -119,10 +130,6 @@ pub(super) struct Dependent {
     pub(super) bias: ExprId,
 }
 
-const JOINT: u8 = 0;
-const UNKNOWN: u8 = 1;
-const BODY: u8 = 2;
-
 /// A velocity that more unknowns than this move otherwise than any neighbour belongs to no chain.
 const ALONE: usize = 3;
 
@@ -134,7 +141,7 @@ impl Bodies {
         let unit = |index: usize| {
             let mut row = vec![zero; unknowns];
             row[index] = one;
-            Body { row, by: Vec::new(), place: (index, UNKNOWN) }
+            Carried { row, by: Vec::new(), place: (index, Kind::Unknown) }
         };
         let mut found = Self { all: (0..unknowns).map(unit).collect(), unknowns, rows: vec![0; rows.len()] };
         let moving = |row: &Vec<ExprId>| (0..unknowns).filter(|j| row[*j] != zero).collect::<Vec<usize>>();
@@ -160,17 +167,19 @@ impl Bodies {
 
     fn are_carried_by_earlier_ones(&self) -> bool {
         let place = |index: usize| (self.all[index].place, index);
-        let is_after = |(index, body): (usize, &Body)| body.by.iter().all(|(j, _)| place(*j) < place(index));
+        let is_after =
+            |(index, body): (usize, &Carried)| body.by.iter().all(|(j, _)| place(*j) < place(index));
         self.all.iter().enumerate().all(is_after)
     }
 
     /// How many unknowns move it otherwise than what moves most alike, a joint rather than a body, if that saves
     /// anything.
     fn neighbour(&self, row: &[ExprId], moving: &[usize]) -> Option<(usize, usize)> {
+        limits::spend((self.all.len() - self.unknowns) * row.len() / 64);
         let others = self.all.iter().enumerate().skip(self.unknowns);
         let nearest = others.map(|(index, other)| {
             let differing = row.iter().zip(&other.row).filter(|(one, other)| one != other).count();
-            (differing, other.place.1 == BODY, index)
+            (differing, other.place.1 == Kind::Body, index)
         });
         let nearest = nearest.min().filter(|(differing, ..)| moving.len() > 1 && *differing < moving.len());
         nearest.map(|(differing, _, index)| (differing, index))
@@ -196,18 +205,18 @@ impl Bodies {
         let last = moving.last().copied().unwrap_or_default();
         let (own, outer): (Vec<_>, Vec<_>) = by.iter().copied().partition(|(index, _)| *index == last);
         // a neighbour behind the same joint is no joint
-        let is_before = neighbour.is_none_or(|index| self.all[index].place < (last, BODY));
+        let is_before = neighbour.is_none_or(|index| self.all[index].place < (last, Kind::Body));
         if !own.is_empty() && outer.len() > 1 && is_before {
             let mut joint = row.to_vec();
             joint[last] = zero;
             let known = self.all.iter().position(|body| body.row == joint);
             let index = known.unwrap_or(self.all.len());
             if known.is_none() {
-                self.all.push(Body { row: joint, by: outer, place: (last, JOINT) });
+                self.all.push(Carried { row: joint, by: outer, place: (last, Kind::Joint) });
             }
             by = [vec![(index, one)], own].concat();
         }
-        self.all.push(Body { row: row.to_vec(), by, place: (last, BODY) });
+        self.all.push(Carried { row: row.to_vec(), by, place: (last, Kind::Body) });
         self.all.len() - 1
     }
 

@@ -7,6 +7,7 @@
 
 use crate::algebra::{Graph, Node, Rational};
 use crate::id::ExprId;
+use crate::limits;
 use crate::mechanics::Procedure;
 use std::collections::BTreeMap;
 
@@ -138,6 +139,7 @@ impl GaussFunction {
         i: usize,
         procedure: &mut Procedure,
     ) -> (Option<Coefficient>, Vec<(usize, Coefficient)>, Option<Coefficient>) {
+        limits::spend(self.quadratic.len() / 64);
         let touching: Vec<(usize, usize)> =
             self.quadratic.keys().copied().filter(|(a, b)| *a == i || *b == i).collect();
         let (mut own, mut others) = (None, Vec::new());

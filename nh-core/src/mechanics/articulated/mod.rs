@@ -171,7 +171,9 @@ impl Setting<'_> {
         let function = written.forms.function;
         let slopes: Vec<ExprId> = symbols.iter().map(|symbol| graph.partial(function, *symbol)).collect();
         for (k, slope) in slopes.iter().enumerate() {
-            for (l, symbol) in symbols.iter().enumerate().skip(k) {
+            let occurring = graph.symbols_in(&[*slope]);
+            let coupled = symbols.iter().enumerate().skip(k);
+            for (l, symbol) in coupled.filter(|(_, symbol)| occurring.contains(symbol)) {
                 let entry = graph.partial(*slope, *symbol);
                 let entry = values.apply(graph, entry);
                 gauss.couple(graph, order.of_rows[k], order.of_rows[l], entry);

@@ -6,6 +6,8 @@
 
 use crate::algebra::{Graph, Rational};
 use crate::id::ExprId;
+use crate::limits;
+use std::collections::BTreeMap;
 
 /// Σ number · quantity.
 pub(super) type Combination = Vec<(usize, Rational)>;
@@ -78,23 +80,10 @@ impl Rates {
 
     /// An unknown ω in place of a velocity: from the rate before it that is most like it.
     fn replace(&mut self, section: usize, row: &[(usize, Rational)], known: &[(usize, Combination)]) {
-        let difference = |other: &[(usize, Rational)]| {
-            let mut rest: Combination = row.to_vec();
-            for (s, c) in other {
-                match rest.iter_mut().find(|(t, _)| t == s) {
-                    Some((_, value)) => *value = value.clone() - c.clone(),
-                    None => rest.push((*s, -c.clone())),
-                }
-            }
-            rest.retain(|(_, c)| !c.is_zero());
-            rest
-        };
-        let nearest = known
-            .iter()
-            .map(|(unknown, other)| (Some(*unknown), difference(other)))
-            .min_by_key(|(_, rest)| rest.len())
-            .filter(|(_, rest)| rest.len() + 1 < row.len() || rest.len() == 1);
-        let (base, rest) = nearest.unwrap_or_else(|| (None, row.to_vec()));
+        let nearest = known.iter().map(|(unknown, other)| (distance(row, other), *unknown, other)).min();
+        let nearest = nearest.filter(|(distance, ..)| distance + 1 < row.len() || *distance == 1);
+        let base = nearest.map(|(_, unknown, _)| unknown);
+        let rest = nearest.map_or_else(|| row.to_vec(), |(_, _, other)| difference(row, other));
         let mut made_of: Vec<(Quantity, Rational)> =
             base.iter().map(|unknown| (Quantity::Unknown(*unknown), Rational::ONE)).collect();
         made_of.extend(rest.iter().map(|(s, c)| (Quantity::Velocity(*s), c.clone())));
@@ -140,4 +129,31 @@ impl Rates {
         }
         terms.iter().map(|terms| graph.linear_combination(terms)).collect()
     }
+}
+
+/// In how many entries two rows differ; their sections ascend.
+fn distance(one: &[(usize, Rational)], other: &[(usize, Rational)]) -> usize {
+    limits::spend((one.len() + other.len()) / 16);
+    let (mut left, mut right, mut differing) = (one.iter().peekable(), other.iter().peekable(), 0);
+    while let (Some((s, c)), Some((t, d))) = (left.peek(), right.peek()) {
+        differing += usize::from(s != t || c != d);
+        let order = s.cmp(t);
+        if order.is_le() {
+            left.next();
+        }
+        if order.is_ge() {
+            right.next();
+        }
+    }
+    differing + left.count() + right.count()
+}
+
+/// A row less another one.
+fn difference(one: &[(usize, Rational)], other: &[(usize, Rational)]) -> Combination {
+    let mut rest: BTreeMap<usize, Rational> = one.iter().cloned().collect();
+    for (section, number) in other {
+        let entry = rest.entry(*section).or_insert(Rational::ZERO);
+        *entry = entry.clone() - number.clone();
+    }
+    rest.into_iter().filter(|(_, number)| !number.is_zero()).collect()
 }
