@@ -4,6 +4,7 @@ pub mod catalogue;
 pub mod comparison;
 pub mod dual;
 pub mod hygiene;
+pub mod linear;
 pub mod random;
 pub mod reference;
 pub mod silent;

@@ -2,6 +2,7 @@
 //! equations are (6)–(8) of what is declared, evaluated here by differences from the anchor, the brackets,
 //! the Lagrangian and the constraints.
 
+use nh_tests::linear::solved;
 use nh_tests::random::Random;
 use nonholonomic::prelude::*;
 
@@ -168,24 +169,6 @@ impl<const N: usize, const S: usize, const K: usize> Declared<N, S, K> {
         }
         solved(matrix, right)[..S].to_vec()
     }
-}
-
-fn solved(mut rows: Vec<Vec<f64>>, mut right: Vec<f64>) -> Vec<f64> {
-    let n = right.len();
-    for i in 0..n {
-        let pivot = (i..n).max_by(|a, b| rows[*a][i].abs().total_cmp(&rows[*b][i].abs())).unwrap();
-        rows.swap(i, pivot);
-        right.swap(i, pivot);
-        for k in (0..n).filter(|k| *k != i) {
-            let factor = rows[k][i] / rows[i][i];
-            let pivots = rows[i].clone();
-            for (entry, pivot) in rows[k].iter_mut().zip(pivots) {
-                *entry -= factor * pivot;
-            }
-            right[k] -= factor * right[i];
-        }
-    }
-    (0..n).map(|i| right[i] / rows[i][i]).collect()
 }
 
 /// A system of points and a rotor on a bundle that breaks both laws; the velocities of the points are no
