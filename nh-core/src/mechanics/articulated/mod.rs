@@ -56,9 +56,9 @@ pub fn accelerations_from_the_tips(
     let dependent = kept.dependent(graph, &rates, &mut along);
     let order = bodies.ordered(graph, &mut along, (&unknowns, &dependent), &mut procedure);
     // 3. the minimum of Z
-    let setting =
-        Setting { kept: &kept, written: &written, rates: &rates, order: &order, velocity: &velocity };
-    let gauss = setting.gauss_function(graph, &mut along);
+    let problem =
+        Problem { kept: &kept, written: &written, rates: &rates, order: &order, velocity: &velocity };
+    let gauss = problem.gauss_function(graph, &mut along);
     let found = gauss.minimum(graph, &order.accelerations, &mut procedure)?;
     let mut outputs = system.algebroid.rates(graph, &velocity);
     for section in &kept.independent {
@@ -153,7 +153,7 @@ fn unknowns(graph: &mut Graph, rates: &Rates, velocity: &[ExprId], procedure: &m
 }
 
 /// What Z is made of.
-struct Setting<'s> {
+struct Problem<'s> {
     kept: &'s Kept<'s>,
     written: &'s Written,
     rates: &'s Rates,
@@ -162,7 +162,7 @@ struct Setting<'s> {
     velocity: &'s [ExprId],
 }
 
-impl Setting<'_> {
+impl Problem<'_> {
     fn gauss_function(&self, graph: &mut Graph, along: &mut Along) -> GaussFunction {
         let Self { written, order, .. } = self;
         let mut gauss = GaussFunction::default();
