@@ -177,8 +177,8 @@ pub(super) fn proved_derivative(
     None
 }
 
-/// The derivatives by forms that are not much longer than the shortest, those among them that solve for the
-/// accelerations on their own.
+/// Adds the derivatives by forms that are not much longer than the shortest. What is there already, by forms that solve
+/// for the accelerations on their own, counts among these.
 fn solved_forms(
     graph: &mut Graph,
     candidates: &[&Candidate],

@@ -77,7 +77,7 @@ impl Collected {
     }
 }
 
-/// A sum or a quotient as an intermediate result.
+/// A sum as an intermediate result; products stay in place.
 fn named(graph: &mut Graph, procedure: &mut Procedure, name: &str, value: ExprId) -> ExprId {
     match graph.node(value) {
         Node::Sum { .. } => procedure.define(graph, name, value),
