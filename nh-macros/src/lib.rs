@@ -208,7 +208,7 @@ mod syntax;
 /// | `c` | `C99`, a text: the generated functions as one C file, see *C* |
 /// | `explain` | `DERIVATION`, a text: which forms competed for each function, and how the winner was proved |
 /// | `divergence` | `divergence(t, &state, &input)` of the motion in the coordinates of the state |
-/// | `volume` | `volume_density(t, &state)` of a volume that the motion keeps; refused, with the modular section, where there is none with a density on the base |
+/// | `volume` | `volume_density(t, &state)` of a volume that the motion keeps; refused, with the modular section, where there is none with a density on the base. Beside `holonomic` it is kept where the position constraints hold, divided by their differentials, and `divergence` belongs to the same volume |
 /// | `connection` | `connection(t, &state)`, the symbols of the constrained connection, and `christoffel(t, &state)` of the kinetic metric without constraints |
 ///
 /// `hamilton_jacobi { … }` gives `hamilton_jacobi(t, &state)`: the state over the same point of the base

@@ -15,4 +15,5 @@ mod holonomic {
     mod slider_crank;
     mod squeezer;
     mod stewart;
+    mod volumes;
 }

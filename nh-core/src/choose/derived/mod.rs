@@ -40,7 +40,7 @@ pub(crate) enum Derived<'p> {
     Jacobian(&'p Procedure, &'p Procedure, &'p [SymbolId]),
     /// The derivatives of a function along the motion.
     Rates(&'p Procedure, &'p Procedure),
-    /// Σ ∂f_i/∂x_i of the motion, on the base where identities hold.
+    /// Σ ∂f_i/∂x_i of the motion, where functions of time and place vanish.
     Divergence(&'p Procedure, &'p [ExprId]),
     /// The density of a volume that the motion keeps there.
     Density(&'p Procedure, &'p [ExprId]),
@@ -293,10 +293,10 @@ impl Derived<'_> {
                 is_jacobian(place, function, jacobian, arguments)
             }
             Self::Rates(function, rates) => Ok(place.slopes(function, &place.flow()?)? == place.run(rates)?),
-            Self::Divergence(stored, identities) => {
-                Ok(place.run(stored)? == [proof_of_flow::divergence(place, identities)?])
+            Self::Divergence(stored, vanishing) => {
+                Ok(place.run(stored)? == [proof_of_flow::divergence(place, vanishing)?])
             }
-            Self::Density(density, identities) => proof_of_flow::is_kept(place, density, identities),
+            Self::Density(density, vanishing) => proof_of_flow::is_kept(place, density, vanishing),
             Self::Sharp(form) => proof_of_bracket::sharp(place, &form),
             Self::Bracket(form) => proof_of_bracket::of_outputs(place, &form),
             Self::Energy(energy) => Ok(place.run(energy)? == [place.instant.energy()?]),
