@@ -24,6 +24,7 @@ macro_rules! ids {
             fn from_index(index: usize) -> Self {
                 Self(u32::try_from(index).expect("fewer than 2^32 entries"))
             }
+            #[inline(always)]
             fn index(self) -> usize {
                 self.0 as usize
             }
@@ -119,6 +120,7 @@ impl<I: Id, T> Table<I, T> {
 
 impl<I: Id, T> Index<I> for Table<I, T> {
     type Output = T;
+    #[inline(always)]
     fn index(&self, id: I) -> &T {
         &self.entries[id.index()]
     }

@@ -17,6 +17,7 @@ pub mod forms;
 pub mod functions;
 pub mod geometry;
 pub mod id;
+mod id_map;
 pub mod limits;
 pub mod mechanics;
 pub mod model;

@@ -11,6 +11,7 @@ use super::graph::Graph;
 use super::node::{Function, Function2, Node};
 use super::number::Rational;
 use crate::id::{ExprId, Id, SymbolId};
+use crate::id_map::IdMap;
 use crate::limits;
 use rustc_hash::FxHashMap;
 
@@ -90,11 +91,11 @@ pub(crate) struct FieldPass<'a> {
     pub(super) point: FieldPoint,
     /// The common denominator of the coefficients inside sine, cosine and exp.
     pub(super) division: i64,
-    pub(super) known: FxHashMap<ExprId, Residue>,
+    pub(super) known: IdMap<ExprId, Residue>,
     /// The points of the circle above values: sine and cosine share them, and so do sums of angles.
     pub(super) units: FxHashMap<u64, (Residue, Residue)>,
     /// Cosine and sine of the angles that have occurred.
-    pub(super) circles: FxHashMap<ExprId, (Residue, Residue)>,
+    pub(super) circles: IdMap<ExprId, (Residue, Residue)>,
     /// Whether functions are those of the values of their arguments alone.
     by_value: bool,
     /// Whether sines of arcs are algebraic, as exponentials of logarithms are, and logarithms of products sums.

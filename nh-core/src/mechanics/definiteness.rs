@@ -118,15 +118,15 @@ fn unit(seed: u64, symbol: SymbolId) -> f64 {
 }
 
 /// A matrix that is evaluated at many points.
-struct Samples<'g> {
+struct Samples {
     /// Where the rows below the diagonal begin: before their first entry elimination fills nothing in.
     begin: Vec<usize>,
     /// These rows, one after the other.
-    lower: Evaluator<'g>,
+    lower: Evaluator,
 }
 
-impl<'g> Samples<'g> {
-    fn of(graph: &'g Graph, matrix: &[Vec<ExprId>]) -> Self {
+impl Samples {
+    fn of(graph: &Graph, matrix: &[Vec<ExprId>]) -> Self {
         let first =
             |row: &Vec<ExprId>| row.iter().position(|entry| !graph.is_literal_zero(*entry)).unwrap_or(0);
         let begin: Vec<usize> = matrix.iter().enumerate().map(|(i, row)| first(row).min(i)).collect();

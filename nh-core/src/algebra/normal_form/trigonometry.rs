@@ -3,6 +3,7 @@
 use super::monomial::{Exponent, Factor, Kind, Monomial};
 use super::polynomial::Polynomial;
 use super::reader::Reader;
+use crate::algebra::memory::Asked;
 use crate::algebra::node::{Function, Node};
 use crate::algebra::number::Rational;
 use crate::id::ExprId;
@@ -43,6 +44,7 @@ impl Reader<'_> {
             Function::Sinh | Function::Cosh | Function::Exp => false,
             _ => return self.read_opaque(function, argument),
         };
+        self.asked.set(Asked { angles: true, ..self.asked.get() });
         if !self.style.angles || argument.len() > TERMS || argument.is_zero() {
             return self.read_opaque(function, argument);
         }
@@ -131,18 +133,18 @@ impl Reader<'_> {
     pub(super) fn has_squares(&self, polynomial: &Polynomial) -> bool {
         use Function::{Cos, Cosh, Sin, Sinh};
         let is_square = |factor: &Factor| {
-            factor.kind == Kind::Plain
-                && factor.exponent >= Exponent::whole(2)
+            matches!(factor.kind, Kind::Plain)
+                && factor.exponent.is_at_least(2)
                 && matches!(self.graph.node(factor.atom), Node::Apply(Sin | Cos | Sinh | Cosh, _))
         };
-        polynomial.0.keys().any(|monomial| monomial.0.iter().any(is_square))
+        polynomial.0.keys().any(|monomial| monomial.has(is_square))
     }
 
     /// The angles whose cosine or sine occurs at least squared.
     fn squared_angles(&mut self, polynomial: &Polynomial) -> Vec<Angle> {
         let mut arguments = BTreeSet::new();
         for factor in polynomial.0.keys().flat_map(|monomial| monomial.0.iter()) {
-            if factor.kind == Kind::Plain && factor.exponent >= Exponent::whole(2) {
+            if factor.kind == Kind::Plain && factor.exponent.is_at_least(2) {
                 match *self.graph.node(factor.atom) {
                     Node::Apply(Function::Sin | Function::Cos, x) => _ = arguments.insert((true, x)),
                     Node::Apply(Function::Sinh | Function::Cosh, x) => _ = arguments.insert((false, x)),
