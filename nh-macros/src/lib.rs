@@ -136,8 +136,13 @@ mod syntax;
 ///
 /// # Conventions
 ///
-/// - The equations are those of Lagrange and d'Alembert on the Lie algebroid (nonlinear constraints:
-///   Chetaev's rule). The energy is yᵅ ∂L/∂yᵅ − L.
+/// - The equations are those of Lagrange and d'Alembert on the Lie algebroid, with p = ∂L/∂y and, where constraints are
+///   not linear, the rows of ∂φ/∂y for Φ (Chetaev's rule). The energy is yᵅ ∂L/∂yᵅ − L.
+///
+///   ```math
+///   \frac{d p_\alpha}{dt} + C^\gamma_{\alpha\beta}\, y^\beta p_\gamma - \rho^i_\alpha\,\partial_i L
+///     = \Upsilon_\alpha + \lambda_A \Phi^A_\alpha
+///   ```
 /// - `lhs = rhs` is φ = lhs − rhs. Its multiplier acts as +λ ∂φ/∂y on the right-hand side: for
 ///   `side = 0` it is the force along `side`.
 /// - A force along a coordinate is pulled back by the anchor; along a section it is Υ_α.
