@@ -79,6 +79,11 @@ impl<I: Id, T> Table<I, T> {
         I::from_index(self.entries.len() - 1)
     }
 
+    /// Takes out the entries from an id on.
+    pub fn split_off(&mut self, from: I) -> Vec<T> {
+        self.entries.split_off(from.index())
+    }
+
     /// The number of entries.
     #[must_use]
     pub fn len(&self) -> usize {
