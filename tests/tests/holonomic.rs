@@ -12,6 +12,7 @@ mod holonomic {
     mod long_runs;
     mod long_swing;
     mod pendulum;
+    mod plate;
     mod slider_crank;
     mod squeezer;
     mod stewart;
