@@ -350,6 +350,9 @@ pub fn nonholonomic(
 /// - L = L' after the map; D goes onto D', for linear, affine and nonlinear constraints;
 /// - the forces do the same work on every velocity that the constraints allow.
 ///
+/// Either system may have position constraints that do not depend on the time. Then all of this is asked where those
+/// of `Full` hold, for velocities that are tangent to them, and those of `Reduced` have to hold there after the map.
+///
 /// Then motions go to motions (CLMM Theorems 4.6 and 7.8), and the macro implements
 /// `Reduction<Reduced> for Full`. Where the velocities of `Reduced` determine those of `Full` it also
 /// implements `Reconstruction<Reduced> for Full`: the dropped coordinates follow from the reduced
@@ -386,7 +389,8 @@ pub fn morphism(input: proc_macro::TokenStream) -> proc_macro::TokenStream {
 /// or refused with the derivative that should have been zero. Constraints that are not invariant
 /// themselves, though what they allow is, are solved for velocities. Of an embedded family a part may be dropped
 /// – two rows of a rotation matrix –: on the embedded base everything is rewritten in the coordinates that are
-/// left, with the identities that these satisfy.
+/// left, with the identities that these satisfy. Position constraints are passed on: their functions have to be
+/// invariant, as everything else, on all of the base, and may not depend on the time.
 ///
 /// The macro emits the struct, with the parameters of the full system as public fields, its
 /// declaration by `#[nonholonomic]` (read it in `Sleigh::REPORT`), and `morphism!` between the two, so

@@ -11,6 +11,7 @@ mod holonomic {
     mod kept_by_steps;
     mod long_runs;
     mod long_swing;
+    mod maps;
     mod pendulum;
     mod plate;
     mod slider_crank;
