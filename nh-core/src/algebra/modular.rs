@@ -200,14 +200,22 @@ impl<'a> FieldPass<'a> {
             Node::Sum { constant, terms } => {
                 let mut sum = Residue::of(constant).ok_or(NoValue::Here)?;
                 for (term, coefficient) in terms.iter() {
-                    sum = sum + Residue::of(coefficient).ok_or(NoValue::Here)? * self.known[term];
+                    let value = self.known[term];
+                    sum = sum
+                        + if coefficient.is_one() {
+                            value
+                        } else {
+                            Residue::of(coefficient).ok_or(NoValue::Here)? * value
+                        };
                 }
                 Ok(sum)
             }
             Node::Product { coefficient, factors } => {
                 let mut product = Residue::of(coefficient).ok_or(NoValue::Here)?;
                 for (base, exponent) in factors.iter() {
-                    product = product * self.power(*base, exponent)?;
+                    let power =
+                        if exponent.is_one() { self.known[base] } else { self.power(*base, exponent)? };
+                    product = product * power;
                 }
                 Ok(product)
             }

@@ -197,21 +197,27 @@ impl Reader<'_> {
     /// Leaves at most first powers of the cosine (or else the sine) of an angle.
     fn eliminate(&mut self, polynomial: &Polynomial, angle: Angle, cosine: bool) -> Option<Polynomial> {
         let (gone, kept) = if cosine { (angle.cos, angle.sin) } else { (angle.sin, angle.cos) };
-        let mut square = Polynomial::term(Monomial::of(kept, Kind::Plain, Exponent::whole(2)), angle.sign());
-        square.add_term(Monomial::default(), if cosine { Rational::ONE } else { -angle.sign() });
+        let (sign, one) = (angle.sign(), if cosine { Rational::ONE } else { -angle.sign() });
+        let square = Monomial::of(kept, Kind::Plain, Exponent::whole(2));
         let mut result = Polynomial::default();
         for (monomial, coefficient) in polynomial.0.iter() {
-            match monomial.exponent(gone).integer() {
-                Some(power @ 2..) => {
-                    let removed = Monomial::of(gone, Kind::Plain, Exponent::whole(power - power % 2));
-                    let mut product = Polynomial::term(monomial.over(&removed)?, coefficient.clone());
-                    for _ in 0..power / 2 {
-                        product = self.multiply(&product, &square)?;
-                    }
-                    result.add(product);
+            let Some(power @ 2..) = monomial.exponent(gone).integer() else {
+                result.add_term(monomial.clone(), coefficient.clone());
+                continue;
+            };
+            let removed = Monomial::of(gone, Kind::Plain, Exponent::whole(power - power % 2));
+            let mut product = Polynomial::term(monomial.over(&removed)?, coefficient.clone());
+            for _ in 0..power / 2 {
+                // times `σ kept² + 1` or `σ kept² − σ`
+                self.spend(2 * product.len())?;
+                let mut next = Polynomial::default();
+                for (monomial, coefficient) in product.0 {
+                    next.add_term(monomial.times(&square)?, coefficient.clone() * sign.clone());
+                    next.add_term(monomial, coefficient * one.clone());
                 }
-                _ => result.add_term(monomial.clone(), coefficient.clone()),
+                product = next;
             }
+            result.add(product);
         }
         self.spend(polynomial.len())?;
         Some(result)
@@ -254,6 +260,10 @@ fn contract_at(
     let steps = [Rational::MINUS_ONE, -angle.sign(), Rational::ONE];
     let count = |values: &[Rational; 3]| values.iter().filter(|value| !value.is_zero()).count();
     let mut best = (count(&values), None);
+    if best.0 < 2 {
+        // instead of one there would be two
+        return Some(false);
+    }
     for (value, step) in values.iter().zip(&steps) {
         // each step is ±1, its own inverse
         let times = -(value.clone() * step.clone());
