@@ -9,6 +9,7 @@ mod holonomic {
     mod four_bar;
     mod hoop;
     mod kept_by_steps;
+    mod kept_levels;
     mod long_runs;
     mod long_swing;
     mod maps;

@@ -20,9 +20,6 @@ pub(super) fn beside_positions(model: &Model) -> Vec<Violation> {
         };
         found.push(refused(name, why, *origin));
     }
-    let levels = model.routh.first();
-    let why = "what is left on a level is derived for motions on the whole base";
-    found.extend(levels.map(|level| refused("routh", why, level.origin)));
     found
 }
 
