@@ -6,8 +6,8 @@
 //! surfaces. It is text in the language of the macro, so that whatever reads declarations can be fed with it.
 //!
 //! [`Motion::of`] is the reference: mathematics (7), (9) and (34), unreduced, from the declared L, anchor, brackets and
-//! constraints, those on positions differentiated twice, by automatic differentiation and one pivoted solution in numbers of 71 digits ([`Jet`]). It shares
-//! no formula and no code with the derivation.
+//! constraints, those on positions differentiated twice, by automatic differentiation and one pivoted solution in
+//! numbers of 71 digits ([`Jet`]). It shares no formula and no code with the derivation.
 //!
 //! [`Emitted::of`] derives the system as the macro does and runs its program in `f64`; [`losses`] compares. What an
 //! ulp of every input changes is no loss: it is measured with the reference, and the rest counts in units of it.
