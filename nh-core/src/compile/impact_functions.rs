@@ -70,7 +70,7 @@ fn jump(
         .map(|row| {
             let pushed =
                 SaddleEquations { force: row.coefficients.clone(), bias: bias.clone(), ..equations.clone() };
-            pushed.solve(graph, judge, &mut procedure).0
+            pushed.moves(graph, judge, &mut procedure)
         })
         .collect();
     let mut mobility: Matrix = Vec::new();
