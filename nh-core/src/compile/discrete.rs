@@ -98,7 +98,7 @@ fn leapfrog(proved: &mut Proved, derived: &Derived<'_>, origin: Origin) -> Resul
         .collect();
     let kick = SaddleEquations { force, bias, ..(*equations).clone() };
     let mut map = Procedure::default();
-    let after = kick.moves(graph, judge, &mut map);
+    let (after, _) = kick.solve(graph, judge, &mut map);
     map.outputs = after;
     Ok(StepForm { length, map })
 }

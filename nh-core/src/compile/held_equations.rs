@@ -74,7 +74,7 @@ fn section_on_all(
     let mut bias = vec![graph.zero(); equations.jacobian.len()];
     bias[row] = graph.one();
     let force = vec![graph.zero(); equations.mass.len()];
-    SaddleEquations { force, bias, rates: Vec::new(), ..equations.clone() }.moves(graph, judge, map)
+    SaddleEquations { force, bias, rates: Vec::new(), ..equations.clone() }.solve(graph, judge, map).0
 }
 
 /// w = l + B a with J l = 1 in its row and Bᵀ W w = 0: W is asked on D alone, as by the motion, for which bodies

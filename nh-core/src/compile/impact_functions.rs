@@ -70,7 +70,7 @@ fn jump(
         .map(|row| {
             let pushed =
                 SaddleEquations { force: row.coefficients.clone(), bias: bias.clone(), ..equations.clone() };
-            pushed.moves(graph, judge, &mut procedure)
+            pushed.solve(graph, judge, &mut procedure).0
         })
         .collect();
     let mut mobility: Matrix = Vec::new();

@@ -31,7 +31,6 @@ mod projected_functions;
 mod proved;
 mod proved_functions;
 mod routh;
-mod saddle_competition;
 mod slice;
 mod stages;
 mod strangers;

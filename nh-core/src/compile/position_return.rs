@@ -44,7 +44,7 @@ pub(super) fn position_return(
         }
     }
     let mut step = Procedure::default();
-    let moves = equations.moves(graph, judge, &mut step);
+    let (moves, _) = equations.solve(graph, judge, &mut step);
     let anchor = &proved.system.algebroid.anchor;
     step.outputs = anchor.vector_field(graph, &moves);
     let assembly = assembly(proved, (states, velocity), residuals);

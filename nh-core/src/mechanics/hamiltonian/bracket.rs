@@ -117,7 +117,7 @@ impl NonholonomicBracket {
             bias: vec![zero; self.constraint_gradients.len()],
             ..self.saddle.clone()
         };
-        let (velocity, multipliers) = first.moves_and_multipliers(graph, &definiteness, procedure);
+        let (velocity, multipliers) = first.solve(graph, &definiteness, procedure);
         let velocity: Vec<ExprId> =
             velocity.into_iter().map(|value| procedure.define(graph, "u", value)).collect();
         // 2. ẋ = ρ u
@@ -158,7 +158,7 @@ impl NonholonomicBracket {
             })
             .collect();
         let second = SaddleEquations { force, bias, ..self.saddle.clone() };
-        let accelerations = second.moves(graph, &definiteness, procedure);
+        let (accelerations, _) = second.solve(graph, &definiteness, procedure);
         (rates, accelerations)
     }
 }
