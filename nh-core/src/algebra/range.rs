@@ -4,7 +4,6 @@ use super::graph::Graph;
 use super::node::{Function, Node};
 use super::number::Rational;
 use crate::id::{ExprId, SymbolId};
-use crate::id_map::IdMap;
 use rustc_hash::FxHashMap;
 
 /// A closed range of real values, perhaps known to leave out zero.
@@ -158,7 +157,7 @@ impl Graph {
     /// A range that contains every value of the expression where it is defined.
     #[must_use]
     pub fn range(&self, expression: ExprId, facts: &Facts) -> Range {
-        let mut known: IdMap<ExprId, Range> = IdMap::default();
+        let mut known: FxHashMap<ExprId, Range> = FxHashMap::default();
         for id in self.reachable(&[expression]) {
             let range = match facts.expressions.get(&id) {
                 Some(range) => *range,
@@ -169,7 +168,7 @@ impl Graph {
         known[&expression]
     }
 
-    fn range_of_node(&self, id: ExprId, known: &IdMap<ExprId, Range>, facts: &Facts) -> Range {
+    fn range_of_node(&self, id: ExprId, known: &FxHashMap<ExprId, Range>, facts: &Facts) -> Range {
         if let Some(number) = self.value_of(id) {
             let value = number.to_f64();
             return Range::new(value, value, !number.is_zero());

@@ -16,7 +16,6 @@ pub(super) enum Factors {
 }
 
 impl Factors {
-    #[inline(always)]
     pub(super) fn push(&mut self, factor: Factor) {
         match self {
             Self::Short(len, places) if usize::from(*len) < PLACES => {
@@ -34,10 +33,8 @@ impl Factors {
     }
 
     pub(super) fn extend_from_slice(&mut self, more: &[Factor]) {
-        let mut place = 0;
-        while place < more.len() {
-            self.push(more[place]);
-            place += 1;
+        for factor in more {
+            self.push(*factor);
         }
     }
 
@@ -58,7 +55,6 @@ impl Factors {
 }
 
 impl Default for Factors {
-    #[inline(always)]
     fn default() -> Self {
         const EMPTY: Factors = Factors::Short(0, [Factor::NONE; PLACES]);
         EMPTY
@@ -67,7 +63,6 @@ impl Default for Factors {
 
 impl Deref for Factors {
     type Target = [Factor];
-    #[inline(always)]
     fn deref(&self) -> &[Factor] {
         match self {
             Self::Short(len, places) => &places[..usize::from(*len)],
@@ -77,7 +72,6 @@ impl Deref for Factors {
 }
 
 impl DerefMut for Factors {
-    #[inline(always)]
     fn deref_mut(&mut self) -> &mut [Factor] {
         match self {
             Self::Short(len, places) => &mut places[..usize::from(*len)],
