@@ -11,7 +11,7 @@
 use std::error::Error;
 
 use nalgebra::{SVector, vector};
-use nh_examples::{Chart, FAINT, INK, MUTED, Page, Picture, View};
+use nh_examples::{BLUE, Chart, FAINT, INK, MUTED, Page, Picture, View};
 use nonholonomic::control::{ControlError, Ilqr, Model, Residuals, Sampled, Squares};
 use nonholonomic::prelude::*;
 
@@ -246,22 +246,15 @@ fn draw(film: &[Moment]) -> Picture {
         }
     }
     let end = TICK * 3000.0;
-    let charts = [("tilt (rad)", 90.0, 0.4, "0.4"), ("torque of the left motor (N m)", 560.0, 2.5, "2.5")];
-    for (index, (name, x, size, label)) in charts.into_iter().enumerate() {
-        let chart = Chart {
-            corner: Page { x, y: 500.0 },
-            width: 380.0,
-            height: 150.0,
-            across: [0.0, end],
-            up: [-size, size],
-        };
-        let marks = [(0.0, "0"), (20.0, "20"), (40.0, "40"), (60.0, "60 s")];
-        chart.axes(&mut picture, name, &marks, &[(-size, &format!("−{label}")), (0.0, "0"), (size, label)]);
+    let charts = [("tilt (rad)", 90.0, 0.4), ("torque of the left motor (N m)", 560.0, 2.5)];
+    for (index, (name, x, size)) in charts.into_iter().enumerate() {
+        let mut chart = Chart::new(Page { x, y: 500.0 }, [380.0, 150.0], [0.0, end], [-size, size]);
         let curve = film.iter().map(|moment| {
             let value = if index == 0 { moment.state.tilt } else { moment.torque[0] };
             (moment.t, value.clamp(-size, size))
         });
-        chart.line(&mut picture, curve, r##"stroke="#5b7bb0" stroke-width="1.2""##);
+        chart.line("", BLUE, curve);
+        chart.draw(&mut picture, name, "s");
     }
     picture
 }

@@ -10,7 +10,7 @@
 use std::error::Error;
 
 use nalgebra::{SMatrix, vector};
-use nh_examples::{Chart, FAINT, INK, MUTED, Page, Picture};
+use nh_examples::{BLUE, Chart, GREEN, INK, MUTED, ORANGE, Page, Picture};
 use nonholonomic::control::{Regulator, zero_order_hold};
 use nonholonomic::prelude::*;
 use nonholonomic::{Linearization, TrimError};
@@ -153,75 +153,39 @@ fn draw(
     let subtitle = "The benchmark bicycle, declared by its geometry. Eigenvalues in lean and steer over the speed, and \
                     three rides after a push.";
     let mut picture = Picture::new(1000.0, 800.0, title, subtitle);
-    let chart = Chart {
-        corner: Page { x: 70.0, y: 110.0 },
-        width: 860.0,
-        height: 330.0,
-        across: [0.0, 10.0],
-        up: [-10.0, 10.0],
-    };
-    let stable = [(weave, -10.0, 10.0), (capsize, -10.0, 10.0)];
-    chart.band(&mut picture, stable, r##"fill="#e7efe4""##);
-    let across = [(0.0, "0"), (2.0, "2"), (4.0, "4"), (6.0, "6"), (8.0, "8"), (10.0, "10 m/s")];
-    let up = [(-10.0, "−10"), (-5.0, "−5"), (0.0, "0"), (5.0, "5"), (10.0, "10")];
-    chart.axes(&mut picture, "eigenvalues (1/s): real parts, and dashed imaginary parts", &across, &up);
+    let mut chart = Chart::new(Page { x: 70.0, y: 110.0 }, [840.0, 330.0], [0.0, 10.0], [-10.0, 10.0]);
+    chart.band("", "#e7efe4", [(weave, -10.0, 10.0), (capsize, -10.0, 10.0)]);
+    let speeds = (0..=400_u32).map(|step| f64::from(step) / 40.0);
+    let spectrum: Vec<(f64, [(f64, f64); 4])> = speeds
+        .map(|speed| Ok((speed, eigenvalues(bicycle, speed)?)))
+        .collect::<Result<_, Box<dyn Error>>>()?;
+    // the k-th smallest real part is continuous in the speed, also where modes meet and part
+    for (k, name) in ["real parts", "", "", ""].into_iter().enumerate() {
+        let real = spectrum.iter().map(|(speed, values)| (*speed, values[k].0));
+        chart.line(name, BLUE, real.filter(|(_, re)| re.abs() <= 10.0));
+    }
+    let swinging = spectrum
+        .iter()
+        .map(|(speed, values)| (*speed, values.iter().fold(0.0, |most: f64, (_, im)| most.max(*im))));
+    chart.line("imaginary parts", ORANGE, swinging.filter(|(_, im)| *im > 1e-6 && *im <= 10.0));
+    chart.draw(&mut picture, "Eigenvalues (1/s)", "m/s");
     for (speed, name) in [(weave, "weave"), (capsize, "capsize")] {
         let style = format!(r#"stroke="{MUTED}" stroke-width="1" stroke-dasharray="2 3""#);
-        chart.line(&mut picture, [(speed, -10.0), (speed, 10.0)], &style);
+        picture.line(&[chart.at(speed, -10.0), chart.at(speed, 10.0)], &style);
         let at = chart.at(speed, 9.0);
         let beside = Page { x: at.x + 6.0, ..at };
         picture.text(beside, &format!("{name} {speed:.3}"), &format!(r#"font-size="12" fill="{INK}""#));
     }
-    // dots rather than lines, since modes meet and part
-    for step in 0..=400_u32 {
-        let speed = f64::from(step) / 40.0;
-        for (re, im) in eigenvalues(bicycle, speed)? {
-            if re.abs() <= 10.0 {
-                picture.circle(chart.at(speed, re), 1.5, r##"fill="#5b7bb0""##);
-            }
-            if im > 1e-6 && im <= 10.0 && step % 3 != 0 {
-                picture.circle(chart.at(speed, im), 0.9, r##"fill="#e8623e""##);
-            }
-        }
-    }
-    let colours = ["#5b7bb0", "#e8623e", "#3c8a5a"];
-    let track = Chart {
-        corner: Page { x: 70.0, y: 520.0 },
-        width: 400.0,
-        height: 200.0,
-        across: [-6.0, 46.0],
-        up: [-4.0, 9.0],
-    };
-    let lean = Chart {
-        corner: Page { x: 560.0, y: 520.0 },
-        width: 370.0,
-        height: 200.0,
-        across: [0.0, RIDE],
-        up: [-0.5, 0.5],
-    };
-    let metres = [(0.0, "0"), (20.0, "20"), (40.0, "40 m")];
-    track.axes(
-        &mut picture,
-        "where the rear wheel rolls, to the right upwards (m)",
-        &metres,
-        &[(0.0, "0"), (4.0, "4"), (8.0, "8")],
-    );
-    let seconds = [(0.0, "0"), (10.0, "10"), (20.0, "20 s")];
-    lean.axes(&mut picture, "lean (rad)", &seconds, &[(-0.5, "−0.5"), (0.0, "0"), (0.5, "0.5")]);
-    for (row, ((how, speed, film), colour)) in (0_u32..).zip(rides.iter().zip(colours)) {
-        let style = format!(r#"stroke="{colour}" stroke-width="1.5""#);
+    let mut track = Chart::new(Page { x: 70.0, y: 540.0 }, [380.0, 200.0], [-6.0, 46.0], [-4.0, 9.0]);
+    let mut lean = Chart::new(Page { x: 540.0, y: 540.0 }, [370.0, 200.0], [0.0, RIDE], [-0.5, 0.5]);
+    for ((how, speed, film), colour) in rides.iter().zip([BLUE, ORANGE, GREEN]) {
         let path = film.iter().map(|moment| (moment.state.x, moment.state.y));
-        track.line(&mut picture, path.take_while(|(x, y)| *x <= 46.0 && (-4.0..=9.0).contains(y)), &style);
+        track.line("", colour, path.take_while(|(x, y)| *x <= 46.0 && (-4.0..=9.0).contains(y)));
         let shown = film.iter().take_while(|moment| moment.state.lean.abs() <= 0.5);
-        lean.line(&mut picture, shown.map(|moment| (moment.t, moment.state.lean)), &style);
-        let x = 560.0 + 130.0 * f64::from(row);
-        picture.line(&[Page { x, y: 770.0 }, Page { x: x + 18.0, y: 770.0 }], &style);
-        let text = format!("{speed} m/s {how}");
-        picture.text(Page { x: x + 24.0, y: 774.0 }, &text, &format!(r#"font-size="12" fill="{INK}""#));
+        let name = if *how == "by LQR" { format!("{speed} m/s, LQR") } else { format!("{speed} m/s") };
+        lean.line(&name, colour, shown.map(|moment| (moment.t, moment.state.lean)));
     }
-    picture.line(
-        &[Page { x: 70.0, y: 480.0 }, Page { x: 930.0, y: 480.0 }],
-        &format!(r#"stroke="{FAINT}" stroke-width="1""#),
-    );
+    track.draw(&mut picture, "Where the rear wheel rolls, to the right upwards (m)", "m");
+    lean.draw(&mut picture, "Lean (rad)", "s");
     Ok(picture)
 }

@@ -10,7 +10,7 @@
 
 use std::error::Error;
 
-use nh_examples::{BACKGROUND, Chart, Colours, INK, MUTED, Page, Picture, Pose, View};
+use nh_examples::{BACKGROUND, Chart, Colours, INK, MUTED, ORANGE, PALE, Page, Picture, Pose, View};
 use nonholonomic::prelude::*;
 
 /// A rigid body on a plane, carried by a knife edge.
@@ -156,27 +156,14 @@ fn draw_sleigh(picture: &mut Picture, view: &View, sleigh: &Sleigh, state: &Slei
 fn draw_energy(picture: &mut Picture, sleigh: &Sleigh, track: &[(f64, SleighState)]) {
     let total = sleigh.energy(0.0, &track[0].1);
     let corner = Page { x: 76.0, y: 654.0 };
-    let chart = Chart { corner, width: 848.0, height: 90.0, across: [0.0, END], up: [0.0, total * 1.08] };
+    let mut chart = Chart::new(corner, [848.0, 90.0], [0.0, END], [0.0, total * 1.08]);
     let turning = |t: f64, s: &SleighState| sleigh.outputs(t, s, &()).turning;
     let shares: Vec<(f64, f64, f64)> =
         track.iter().map(|(t, s)| (*t, turning(*t, s), sleigh.energy(*t, s))).collect();
-    chart.band(
-        picture,
-        shares.iter().map(|(t, part, _)| (*t, 0.0, *part)),
-        r##"fill="#e8623e" fill-opacity="0.75""##,
-    );
-    chart.band(picture, shares.iter().map(|(t, part, all)| (*t, *part, *all)), r##"fill="#c9d3e2""##);
-    chart.line(
-        picture,
-        shares.iter().map(|(t, _, all)| (*t, *all)),
-        &format!(r#"stroke="{INK}" stroke-width="1.5""#),
-    );
-    chart.axes(
-        picture,
-        "Energy: turning (orange), sliding (blue)",
-        &[(0.0, "0"), (6.0, "6"), (12.0, "12"), (18.0, "18"), (24.0, "24 s")],
-        &[(0.0, "0"), (total, &format!("{total:.2} J"))],
-    );
+    chart.band("turning", ORANGE, shares.iter().map(|(t, part, _)| (*t, 0.0, *part)));
+    chart.band("sliding", PALE, shares.iter().map(|(t, part, all)| (*t, *part, *all)));
+    chart.line("all", INK, shares.iter().map(|(t, _, all)| (*t, *all)));
+    chart.draw(picture, "Energy (J)", "s");
     let note = format!(
         "m = {} kg, J = {} kg m², a = {} m; drawn every second: stroke the edge, circle the centre of mass",
         sleigh.m, sleigh.J, sleigh.a

@@ -14,7 +14,7 @@ use std::thread;
 use std::time::{Duration, Instant};
 
 use nalgebra::{SMatrix, SVector};
-use nh_examples::{Chart, MUTED, Page, Picture};
+use nh_examples::{BLUE, Chart, MUTED, ORANGE, Page, Picture, Scale};
 use nonholonomic::control::{Estimate, zero_order_hold};
 use nonholonomic::prelude::*;
 
@@ -100,29 +100,19 @@ fn main() -> Result<(), Box<dyn Error>> {
 fn draw(busy: &[f64], late: &[f64]) -> Picture {
     let title = "A thousand ticks a second";
     let subtitle =
-        "The share of the ticks that took longer than a time: computing (orange), waking up late (blue).";
+        "The share of the ticks that took longer than a time to compute, or woke up later than that.";
     let mut picture = Picture::new(960.0, 400.0, title, subtitle);
-    let chart = Chart {
-        corner: Page { x: 90.0, y: 130.0 },
-        width: 800.0,
-        height: 200.0,
-        across: [-1.0, 4.0],
-        up: [-3.5, 0.0],
-    };
-    chart.axes(
-        &mut picture,
-        "Share of the ticks",
-        &[(-1.0, "0.1"), (0.0, "1"), (1.0, "10"), (2.0, "100"), (3.0, "1000"), (4.0, "10000 µs")],
-        &[(-3.0, "0.1 %"), (-2.0, "1 %"), (-1.0, "10 %"), (0.0, "100 %")],
-    );
-    for (values, colour) in [(late, "#5b7bb0"), (busy, "#e8623e")] {
+    let mut chart = Chart::new(Page { x: 90.0, y: 130.0 }, [790.0, 200.0], [0.1, 1e4], [0.03, 100.0])
+        .scales(Scale::Logarithmic, Scale::Logarithmic);
+    for (name, values, colour) in [("waking up late", late, BLUE), ("computing", busy, ORANGE)] {
         let count = f64::from(TICKS);
         let curve = (0..TICKS).zip(values).map(|(index, value)| {
             let share = (count - f64::from(index)) / count;
-            (value.max(0.1).log10().min(4.0), share.log10().max(-3.5))
+            (value.clamp(0.1, 1e4), (100.0 * share).max(0.03))
         });
-        chart.line(&mut picture, curve, &format!(r#"stroke="{colour}" stroke-width="2""#));
+        chart.line(name, colour, curve);
     }
+    chart.draw(&mut picture, "Share of the ticks (%)", "µs");
     let note = "time on a logarithmic scale; an ordinary thread of an operating system";
     let at = Page { x: 890.0, y: 384.0 };
     picture.text(at, note, &format!(r#"font-size="12" fill="{MUTED}" text-anchor="end""#));

@@ -12,7 +12,7 @@ use std::f64::consts::TAU;
 use std::hint::black_box;
 use std::time::Instant;
 
-use nh_examples::{Chart, INK, MUTED, Page, Picture};
+use nh_examples::{BLUE, Chart, MUTED, ORANGE, Page, Picture, Scale};
 use nonholonomic::prelude::*;
 
 /// The robot with wheels that turn: pose, angles and everything that the constraints know.
@@ -290,32 +290,22 @@ fn draw(truth: &[Vec<[f64; 3]>; 3], kinematic: &[Vec<[f64; 3]>; 3]) -> Picture {
     let title = "When is a kinematic model enough?";
     let subtitle = "Its distance from the full model along a slalom, at three levels of haste.";
     let mut picture = Picture::new(960.0, 420.0, title, subtitle);
-    let chart = Chart {
-        corner: Page { x: 76.0, y: 130.0 },
-        width: 760.0,
-        height: 220.0,
-        across: [0.0, TICK * f64::from(TICKS)],
-        up: [-4.0, 1.0],
-    };
-    chart.axes(
-        &mut picture,
-        "Distance (m)",
-        &[(0.0, "0"), (2.5, "2.5"), (5.0, "5"), (7.5, "7.5"), (10.0, "10 s")],
-        &[(-4.0, "0.0001"), (-3.0, "0.001"), (-2.0, "0.01"), (-1.0, "0.1"), (0.0, "1"), (1.0, "10")],
-    );
-    let styles = ["#5b7bb0", "#be3074", "#e8623e"];
+    let across = [0.0, TICK * f64::from(TICKS)];
+    let mut chart = Chart::new(Page { x: 76.0, y: 130.0 }, [760.0, 220.0], across, [1e-4, 10.0])
+        .scales(Scale::Linear, Scale::Logarithmic);
+    let styles = [BLUE, "#be3074", ORANGE];
     for ((full, believed), (colour, name)) in truth.iter().zip(kinematic).zip(styles.iter().zip(NAMES)) {
         let distance = full.iter().zip(believed).map(|(a, b)| (a[0] - b[0]).hypot(a[1] - b[1]).max(1e-4));
         let curve: Vec<(f64, f64)> =
-            distance.zip(0_u32..).map(|(d, tick)| (TICK * f64::from(tick), d.log10())).collect();
+            distance.zip(0_u32..).map(|(d, tick)| (TICK * f64::from(tick), d)).collect();
         let end = curve.last().map_or(Page { x: 0.0, y: 0.0 }, |(t, d)| chart.at(*t, *d));
-        chart.line(&mut picture, curve, &format!(r#"stroke="{colour}" stroke-width="1.8""#));
+        chart.line("", colour, curve);
         let beside = Page { x: end.x + 8.0, y: end.y + 4.0 };
         picture.text(beside, name, &format!(r#"font-size="13" fill="{colour}""#));
     }
+    chart.draw(&mut picture, "Distance (m)", "s");
     let note = "Motors of at most 0.6 N m; proportional control of the wheels at 500 Hz";
     let at = Page { x: 836.0, y: 400.0 };
     picture.text(at, note, &format!(r#"font-size="12" fill="{MUTED}" text-anchor="end""#));
-    picture.circle(chart.at(0.0, -4.0), 2.0, &format!(r#"fill="{INK}""#));
     picture
 }

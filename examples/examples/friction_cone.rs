@@ -10,7 +10,7 @@
 
 use std::error::Error;
 
-use nh_examples::{Chart, Colours, INK, MUTED, Page, Picture, View};
+use nh_examples::{Chart, Colours, INK, MUTED, ORANGE, Page, Picture, View};
 use nonholonomic::prelude::*;
 
 /// An upright disk that rolls on a floor.
@@ -200,13 +200,10 @@ fn draw_cone(picture: &mut Picture, ride: &Ride) {
     const REACH: f64 = 0.75;
     let corner = Page { x: 76.0, y: 434.0 };
     let range = [-REACH, REACH];
-    let chart = Chart { corner, width: 310.0, height: 310.0, across: range, up: range };
-    chart.axes(
-        picture,
-        "Force of the floor: sideways, forwards (share of m g)",
-        &[(-0.6, "0.6 left"), (0.0, "0"), (0.6, "0.6 right")],
-        &[(-0.5, "−0.5"), (0.0, "0"), (0.5, "0.5")],
-    );
+    let mut chart = Chart::new(corner, [310.0, 310.0], range, range);
+    let forces = ride.track.iter().map(|moment| (-moment.demand.across, moment.demand.along));
+    chart.line("", ORANGE, forces);
+    chart.draw(picture, "Force of the floor: to the right, forwards (share of m g)", "");
     for (name, grip) in FLOORS {
         let pixels = chart.at(grip, 0.0).x - chart.at(0.0, 0.0).x;
         let ring = format!(r#"fill="none" stroke="{MUTED}" stroke-width="1" stroke-dasharray="4 4""#);
@@ -215,8 +212,6 @@ fn draw_cone(picture: &mut Picture, ride: &Ride) {
         let style = format!(r#"font-size="11" fill="{MUTED}" text-anchor="middle""#);
         picture.text(Page { y: label.y + 12.0, ..label }, name, &style);
     }
-    let forces = ride.track.iter().map(|moment| (-moment.demand.across, moment.demand.along));
-    chart.line(picture, forces, r##"stroke="#e8623e" stroke-width="1.6""##);
     for slip in ride.slips.iter().flatten() {
         mark(picture, chart.at(-slip.demand.across, slip.demand.along));
     }
@@ -225,13 +220,16 @@ fn draw_cone(picture: &mut Picture, ride: &Ride) {
 /// The friction that is needed, over time.
 fn draw_history(picture: &mut Picture, ride: &Ride) {
     let corner = Page { x: 500.0, y: 434.0 };
-    let chart = Chart { corner, width: 424.0, height: 310.0, across: [0.0, END], up: [0.0, 0.75] };
-    let levels: Vec<(f64, String)> = FLOORS.iter().map(|(_, grip)| (*grip, format!("{grip}"))).collect();
-    let levels: Vec<(f64, &str)> = levels.iter().map(|(grip, label)| (*grip, label.as_str())).collect();
-    let seconds = [(0.0, "0"), (2.0, "2"), (4.0, "4"), (6.0, "6"), (8.0, "8"), (10.0, "10 s")];
-    chart.axes(picture, "Coefficient of friction that is needed", &seconds, &levels);
+    let mut chart = Chart::new(corner, [404.0, 310.0], [0.0, END], [0.0, 0.75]);
     let needed = ride.track.iter().map(|moment| (moment.t, moment.demand.friction()));
-    chart.line(picture, needed, &format!(r#"stroke="{INK}" stroke-width="1.6""#));
+    chart.line("", INK, needed);
+    chart.draw(picture, "Coefficient of friction that is needed", "s");
+    for (name, grip) in FLOORS {
+        let ends = [0.0, END].map(|t| chart.at(t, grip));
+        picture.line(&ends, &format!(r#"stroke="{MUTED}" stroke-width="1" stroke-dasharray="4 4""#));
+        let above = Page { x: ends[0].x + 34.0, y: ends[0].y - 5.0 };
+        picture.text(above, name, &format!(r#"font-size="11" fill="{MUTED}""#));
+    }
     for slip in ride.slips.iter().flatten() {
         mark(picture, chart.at(slip.t, slip.demand.friction()));
     }

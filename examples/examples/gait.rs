@@ -12,7 +12,7 @@
 use std::error::Error;
 use std::time::Instant;
 
-use nh_examples::{Chart, INK, MUTED, Page, Picture, Pose, Random, View};
+use nh_examples::{BLUE, Chart, INK, MUTED, ORANGE, Page, Picture, Pose, Random, View};
 use nonholonomic::batch::{for_each, gather, par_for_each, scatter};
 use nonholonomic::prelude::*;
 use nonholonomic::wide::f32x8;
@@ -273,38 +273,15 @@ fn draw(film: &[Moment]) -> Picture {
         board(&mut picture, &view, &moment.state);
     }
     let end = film.last().map_or(1.0, |moment| moment.t);
-    let marks = [(0.0, "0"), (5.0, "5"), (10.0, "10"), (15.0, "15"), (19.95, "20 s")];
-    let chart = |y: f64, height: f64, up: [f64; 2]| Chart {
-        corner: Page { x: 76.0, y },
-        width: 848.0,
-        height,
-        across: [0.0, end],
-        up,
-    };
-    let angles = chart(330.0, 110.0, [-2.0, 2.0]);
-    angles.axes(
-        &mut picture,
-        "Rotor (orange) and steering (blue), rad",
-        &marks,
-        &[(-2.0, "-2"), (0.0, "0"), (2.0, "2")],
-    );
-    angles.line(
-        &mut picture,
-        film.iter().map(|m| (m.t, m.state.psi)),
-        r##"stroke="#e8623e" stroke-width="1.8""##,
-    );
-    angles.line(
-        &mut picture,
-        film.iter().map(|m| (m.t, m.state.phi)),
-        r##"stroke="#5b7bb0" stroke-width="1.8""##,
-    );
-    let speeds = chart(500.0, 80.0, [0.0, 0.75]);
-    speeds.axes(&mut picture, "Speed, m/s", &marks, &[(0.0, "0"), (0.5, "0.5")]);
-    speeds.line(
-        &mut picture,
-        film.iter().map(|m| (m.t, m.state.u1)),
-        &format!(r#"stroke="{INK}" stroke-width="1.8""#),
-    );
+    let chart =
+        |y: f64, height: f64, up: [f64; 2]| Chart::new(Page { x: 76.0, y }, [848.0, height], [0.0, end], up);
+    let mut angles = chart(330.0, 110.0, [-2.0, 2.0]);
+    angles.line("rotor", ORANGE, film.iter().map(|m| (m.t, m.state.psi)));
+    angles.line("steering", BLUE, film.iter().map(|m| (m.t, m.state.phi)));
+    angles.draw(&mut picture, "Angles (rad)", "s");
+    let mut speeds = chart(500.0, 80.0, [0.0, 0.75]);
+    speeds.line("", INK, film.iter().map(|m| (m.t, m.state.u1)));
+    speeds.draw(&mut picture, "Speed (m/s)", "s");
     picture
 }
 

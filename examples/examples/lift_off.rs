@@ -10,7 +10,7 @@
 
 use std::error::Error;
 
-use nh_examples::{Chart, Colours, INK, MUTED, Page, Picture, View};
+use nh_examples::{Chart, Colours, INK, MUTED, ORANGE, Page, Picture, View};
 use nonholonomic::prelude::*;
 
 /// A skier who stays on the ground y = bump sin(k x) − slope x.
@@ -209,20 +209,12 @@ fn draw_reaction(picture: &mut Picture, descent: &Descent) {
     let end = descent.track.last().map_or(1.0, |moment| moment.t);
     let most = descent.track.iter().filter_map(|moment| moment.reaction).fold(1.0, f64::max);
     let corner = Page { x: 76.0, y: 450.0 };
-    let chart = Chart { corner, width: 848.0, height: 130.0, across: [0.0, end], up: [0.0, most * 1.05] };
-    let seconds: Vec<(f64, String)> = (0_u8..50)
-        .map(|i| 2.0 * f64::from(i))
-        .take_while(|t| *t < end)
-        .map(|t| (t, format!("{t} s")))
-        .collect();
-    let seconds: Vec<(f64, &str)> = seconds.iter().map(|(t, label)| (*t, label.as_str())).collect();
-    let weights = [(0.0, "0"), (1.0, "1"), (2.0, "2"), (3.0, "3"), (4.0, "4")];
-    let weights: Vec<(f64, &str)> = weights.into_iter().filter(|(level, _)| *level < most).collect();
-    chart.axes(picture, "Reaction of the ground (in units of the weight)", &seconds, &weights);
+    let mut chart = Chart::new(corner, [848.0, 130.0], [0.0, end], [0.0, most * 1.05]);
     for stretch in descent.track.split(|moment| moment.reaction.is_none()) {
         let pairs = stretch.iter().filter_map(|moment| Some((moment.t, moment.reaction?)));
-        chart.line(picture, pairs, r##"stroke="#e8623e" stroke-width="1.8""##);
+        chart.line("", ORANGE, pairs);
     }
+    chart.draw(picture, "Reaction of the ground (in units of the weight)", "s");
     mark(picture, descent, |moment| chart.at(moment.t, 0.0));
     let note = format!(
         "open circles: take-off, full circles: landing; moguls of {} m on a slope of {}",

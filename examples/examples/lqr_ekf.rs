@@ -12,7 +12,7 @@ use std::error::Error;
 use std::f64::consts::TAU;
 
 use nalgebra::{Matrix2, SMatrix, SVector, matrix, vector};
-use nh_examples::{Chart, FAINT, INK, MUTED, Page, Picture, Random, View};
+use nh_examples::{BLUE, Chart, MUTED, ORANGE, Page, Picture, Random, View};
 use nonholonomic::control::{Estimate, Regulator, zero_order_hold};
 use nonholonomic::prelude::*;
 
@@ -261,18 +261,11 @@ fn draw(film: &[Moment]) -> Picture {
     picture.line(&real, r##"stroke="#e8623e" stroke-width="2.4""##);
     let corner = Page { x: 76.0, y: 654.0 };
     let end = film.last().map_or(1.0, |moment| moment.t);
-    let chart = Chart { corner, width: 848.0, height: 90.0, across: [0.0, end], up: [0.0, 0.75] };
-    chart.axes(
-        &mut picture,
-        "Distance from the curve (orange), and of the estimate from the truth (blue)",
-        &[(0.0, "0"), (5.0, "5"), (10.0, "10"), (15.0, "15"), (19.99, "20 s")],
-        &[(0.0, "0"), (0.25, "0.25"), (0.5, "0.5"), (0.75, "0.75 m")],
-    );
+    let mut chart = Chart::new(corner, [848.0, 90.0], [0.0, end], [0.0, 0.75]);
     let wrong = film.iter().map(|m| (m.t, (m.real.x - m.belief.mean[0]).hypot(m.real.y - m.belief.mean[1])));
-    chart.line(&mut picture, wrong, r##"stroke="#5b7bb0" stroke-width="1.4""##);
+    chart.line("of the estimate from the truth", BLUE, wrong);
     let off = film.iter().map(|moment| (moment.t, moment.off[0].hypot(moment.off[1])));
-    chart.line(&mut picture, off, r##"stroke="#e8623e" stroke-width="1.6""##);
-    let start = chart.at(0.0, 0.0);
-    picture.circle(start, 2.0, &format!(r#"fill="{FAINT}" stroke="{INK}" stroke-width="0.8""#));
+    chart.line("from the curve", ORANGE, off);
+    chart.draw(&mut picture, "Distance (m)", "s");
     picture
 }

@@ -10,7 +10,7 @@
 use std::error::Error;
 use std::f64::consts::TAU;
 
-use nh_examples::{BACKGROUND, Chart, Colours, INK, MUTED, Page, Picture, Pose, View};
+use nh_examples::{BACKGROUND, BLUE, Chart, Colours, INK, MUTED, ORANGE, Page, Picture, Pose, View};
 use nonholonomic::prelude::*;
 
 /// A body on two coaxial wheels that roll without slipping, its centre of mass ahead of the axle.
@@ -219,15 +219,10 @@ fn draw_robot(picture: &mut Picture, view: &View, robot: &Robot, state: &RobotSt
 fn draw_torques(picture: &mut Picture, film: &[Moment]) {
     let end = TICK * f64::from(ROUND);
     let corner = Page { x: 76.0, y: 654.0 };
-    let chart = Chart { corner, width: 848.0, height: 90.0, across: [0.0, end], up: [-0.44, 0.44] };
-    chart.axes(
-        picture,
-        "Torque on the right wheel (orange) and on the left (blue)",
-        &[(0.0, "0"), (5.0, "5"), (10.0, "10"), (15.0, "15"), (20.0, "20 s")],
-        &[(-0.4, "-0.4"), (0.0, "0"), (0.4, "0.4 N m")],
-    );
+    let mut chart = Chart::new(corner, [848.0, 90.0], [0.0, end], [-0.5, 0.5]);
     let left = film.iter().map(|moment| (moment.t, moment.torques.torque_left));
-    chart.line(picture, left, r##"stroke="#5b7bb0" stroke-width="1.6""##);
+    chart.line("left wheel", BLUE, left);
     let right = film.iter().map(|moment| (moment.t, moment.torques.torque_right));
-    chart.line(picture, right, r##"stroke="#e8623e" stroke-width="1.6""##);
+    chart.line("right wheel", ORANGE, right);
+    chart.draw(picture, "Torque (N m)", "s");
 }

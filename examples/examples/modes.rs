@@ -308,17 +308,11 @@ fn draw(flying: &Flying, track: &[Moment]) -> Picture {
         track.iter().map(|(t, state, mode)| (*t, flying.energy(*t, state), *mode)).collect();
     let most = energies[0].1 * 1.05;
     let corner = Page { x: 76.0, y: 380.0 };
-    let chart = Chart { corner, width: 848.0, height: 120.0, across: [0.0, END], up: [0.0, most] };
+    let mut chart = Chart::new(corner, [848.0, 120.0], [0.0, END], [0.0, most]);
     for pair in energies.windows(2) {
-        let style = format!(r#"stroke="{}" stroke-width="2""#, pair[1].2.colour());
-        chart.line(&mut picture, pair.iter().map(|(t, energy, _)| (*t, *energy)), &style);
+        chart.line("", pair[1].2.colour(), pair.iter().map(|(t, energy, _)| (*t, *energy)));
     }
-    chart.axes(
-        &mut picture,
-        "Energy: it falls at impacts and while the wheel slips",
-        &[(0.0, "0"), (1.0, "1"), (2.0, "2"), (3.0, "3"), (4.0, "4 s")],
-        &[(0.0, "0"), (energies[0].1, &format!("{:.0} J", energies[0].1))],
-    );
+    chart.draw(&mut picture, "Energy: it falls at impacts and while the wheel slips (J)", "s");
     for (index, mode) in [Mode::Flying, Mode::Slipping(1.0), Mode::Rolling].into_iter().enumerate() {
         let across = 690.0 + 85.0 * f64::from(u32::try_from(index).unwrap_or(0));
         picture.circle(Page { x: across, y: 348.0 }, 5.0, &format!(r#"fill="{}""#, mode.colour()));

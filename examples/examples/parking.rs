@@ -16,7 +16,7 @@ use argmin::core::{CostFunction, Executor, Gradient, State as _};
 use argmin::solver::linesearch::MoreThuenteLineSearch;
 use argmin::solver::quasinewton::LBFGS;
 use nalgebra::{SVector, vector};
-use nh_examples::{BACKGROUND, Chart, INK, MUTED, Page, Picture, Pose, View};
+use nh_examples::{BACKGROUND, Chart, INK, MUTED, ORANGE, Page, Picture, Pose, View};
 use nonholonomic::control::{
     ControlError, Ilqr, Model, Residuals, Sampled, Squares, shooting_cost, shooting_gradient,
 };
@@ -320,12 +320,10 @@ fn draw(film: &[SVector<f64, 7>], plan: &Plan) -> Picture {
         [("push (N)", [-12.0, 12.0]), ("steer (N m)", [-6.0, 6.0])].into_iter().enumerate()
     {
         let corner = Page { x: 90.0 + 470.0 * if input == 0 { 0.0 } else { 1.0 }, y: 480.0 };
-        let chart = Chart { corner, width: 370.0, height: 110.0, across: [0.0, end], up };
-        let (low, high) = (format!("{}", up[0]), format!("{}", up[1]));
-        let marks = [(0.0, "0"), (5.0, "5"), (10.0, "10"), (15.0, "15 s")];
-        chart.axes(&mut picture, name, &marks, &[(up[0], &low), (0.0, "0"), (up[1], &high)]);
+        let mut chart = Chart::new(corner, [370.0, 110.0], [0.0, end], up);
         let curve = (0u32..).zip(plan.inputs()).map(|(tick, u)| (TICK * f64::from(tick), u[input]));
-        chart.line(&mut picture, curve, r##"stroke="#e8623e" stroke-width="1.8""##);
+        chart.line("", ORANGE, curve);
+        chart.draw(&mut picture, name, "s");
     }
     picture
 }

@@ -10,7 +10,7 @@
 
 use std::error::Error;
 
-use nh_examples::{Chart, INK, MUTED, Page, Picture, View};
+use nh_examples::{BLUE, Chart, INK, MUTED, ORANGE, Page, Picture, View};
 use nonholonomic::prelude::*;
 
 /// The robot that rolls without slipping, by two constraints on each wheel.
@@ -187,32 +187,16 @@ fn draw(film: &[Moment]) -> Picture {
     let slipping = path(&|moment| (moment.slipping.x, moment.slipping.y));
     picture.line(&slipping, r##"stroke="#e8623e" stroke-width="2""##);
     let end = TICK * f64::from(TICKS);
-    let upper = Chart {
-        corner: Page { x: 540.0, y: 130.0 },
-        width: 380.0,
-        height: 160.0,
-        across: [0.0, end],
-        up: [0.0, 1.5],
-    };
-    upper.axes(
-        &mut picture,
-        "Friction that the worse wheel needs",
-        &[],
-        &[(0.0, "0"), (0.5, "0.5"), (1.0, "1"), (1.5, "1.5")],
-    );
+    let mut upper = Chart::new(Page { x: 540.0, y: 130.0 }, [380.0, 160.0], [0.0, end], [0.0, 1.5]);
     let needs = film.iter().map(|moment| (moment.t, moment.needs[0].max(moment.needs[1]).min(1.5)));
-    upper.line(&mut picture, needs, r##"stroke="#5b7bb0" stroke-width="1.8""##);
+    upper.line("", BLUE, needs);
+    upper.draw(&mut picture, "Friction that the worse wheel needs, in units of what there is", "s");
     let limit = [upper.at(0.0, 1.0), upper.at(end, 1.0)];
     picture.line(&limit, &format!(r#"stroke="{INK}" stroke-width="1" stroke-dasharray="4 4""#));
-    let lower = Chart { corner: Page { x: 540.0, y: 350.0 }, up: [0.0, 1.0], height: 130.0, ..upper };
-    lower.axes(
-        &mut picture,
-        "Speed of slipping across",
-        &[(0.0, "0"), (2.0, "2"), (4.0, "4"), (6.0, "6 s")],
-        &[(0.0, "0"), (0.5, "0.5"), (1.0, "1 m/s")],
-    );
+    let mut lower = Chart::new(Page { x: 540.0, y: 366.0 }, [380.0, 130.0], [0.0, end], [0.0, 1.0]);
     let slips = film.iter().map(|moment| (moment.t, moment.slipping.side.abs().min(1.0)));
-    lower.line(&mut picture, slips, r##"stroke="#e8623e" stroke-width="1.8""##);
+    lower.line("", ORANGE, slips);
+    lower.draw(&mut picture, "Speed of slipping across (m/s)", "s");
     let note = format!("friction coefficient {FRICTION}; radius {RADIUS} m");
     let at = Page { x: 924.0, y: 546.0 };
     picture.text(at, &note, &format!(r#"font-size="12" fill="{MUTED}" text-anchor="end""#));

@@ -9,7 +9,7 @@
 use std::error::Error;
 use std::f64::consts::FRAC_PI_2;
 
-use nh_examples::{BACKGROUND, Chart, Colours, INK, MUTED, Page, Picture, Pose, View};
+use nh_examples::{BACKGROUND, Chart, Colours, INK, MUTED, ORANGE, Page, Picture, Pose, View};
 use nonholonomic::prelude::*;
 
 /// A snakeboard with a prescribed gait. The total inertia is m l².
@@ -263,13 +263,8 @@ fn draw_torque(picture: &mut Picture, film: &[Moment]) {
     let largest = film.iter().map(|moment| moment.torques.rotor.abs()).fold(0.0, f64::max);
     let corner = Page { x: 76.0, y: 654.0 };
     let up = [-1.1 * largest, 1.1 * largest];
-    let chart = Chart { corner, width: 848.0, height: 90.0, across: [0.0, 24.0], up };
-    chart.axes(
-        picture,
-        "Driving: the torque on the rotor, the multiplier of its constraint",
-        &[(0.0, "0"), (6.0, "6"), (12.0, "12"), (18.0, "18"), (24.0, "24 s")],
-        &[(-largest, &format!("-{largest:.2}")), (0.0, "0"), (largest, &format!("{largest:.2} N m"))],
-    );
+    let mut chart = Chart::new(corner, [848.0, 90.0], [0.0, 24.0], up);
     let torque = film.iter().map(|moment| (moment.t, moment.torques.rotor));
-    chart.line(picture, torque, r##"stroke="#e8623e" stroke-width="1.6""##);
+    chart.line("", ORANGE, torque);
+    chart.draw(picture, "Driving: the torque on the rotor, the multiplier of its constraint (N m)", "s");
 }

@@ -11,7 +11,7 @@
 use std::error::Error;
 use std::f64::consts::{PI, TAU};
 
-use nh_examples::{Chart, Colours, FAINT, INK, MUTED, Page, Picture};
+use nh_examples::{Chart, Colours, FAINT, INK, MUTED, ORANGE, PALE, Page, Picture};
 use nonholonomic::prelude::*;
 
 /// A rigid body in a linear potential, its angular velocity `w` orthogonal to `g`.
@@ -180,26 +180,10 @@ fn draw_energy(picture: &mut Picture, body: &Veselova, trace: &[(f64, VeselovaSt
     let lowest = trace.iter().map(|(_, state)| potential(state)).fold(0.0, f64::min);
     let corner = Page { x: 76.0, y: 654.0 };
     let up = [lowest * 1.1, total.max(0.0) * 1.1];
-    let chart = Chart { corner, width: 848.0, height: 90.0, across: [0.0, END], up };
-    chart.band(
-        picture,
-        trace.iter().map(|(t, state)| (*t, potential(state), body.energy(*t, state))),
-        r##"fill="#c9d3e2""##,
-    );
-    chart.axes(
-        picture,
-        "Energy: the sum (black) and the potential part (orange); between them the kinetic part",
-        &[(0.0, "0"), (15.0, "15"), (30.0, "30"), (45.0, "45"), (60.0, "60 s")],
-        &[(0.0, "0"), (total, &format!("{total:.2} J"))],
-    );
-    chart.line(
-        picture,
-        trace.iter().map(|(t, state)| (*t, potential(state))),
-        r##"stroke="#e8623e" stroke-width="1.6""##,
-    );
-    chart.line(
-        picture,
-        trace.iter().map(|(t, state)| (*t, body.energy(*t, state))),
-        &format!(r#"stroke="{INK}" stroke-width="1.6""#),
-    );
+    let mut chart = Chart::new(corner, [848.0, 90.0], [0.0, END], up);
+    let between = trace.iter().map(|(t, state)| (*t, potential(state), body.energy(*t, state)));
+    chart.band("kinetic", PALE, between);
+    chart.line("potential", ORANGE, trace.iter().map(|(t, state)| (*t, potential(state))));
+    chart.line("all", INK, trace.iter().map(|(t, state)| (*t, body.energy(*t, state))));
+    chart.draw(picture, "Energy (J)", "s");
 }

@@ -11,6 +11,15 @@ pub const MUTED: &str = "#6b7280";
 /// Grids and frames.
 pub const FAINT: &str = "#e4e2dc";
 
+/// Curves: what is believed, or the first of several.
+pub const BLUE: &str = "#5b7bb0";
+/// What is real, or the second.
+pub const ORANGE: &str = "#e8623e";
+/// The third.
+pub const GREEN: &str = "#3c8a5a";
+/// Areas below a curve.
+pub const PALE: &str = "#a9bad6";
+
 /// Dark blue, violet, magenta, orange, amber: lightness grows evenly, so that the order also shows
 /// in grey and to most colour-blind readers.
 const STOPS: [[f64; 3]; 5] = [

@@ -6,6 +6,9 @@ use std::{env, fs, io};
 
 use crate::colour::{BACKGROUND, INK, MUTED};
 
+/// The letters, by what machines have.
+pub(crate) const FONTS: &str = "Helvetica, Arial, 'DejaVu Sans', sans-serif";
+
 /// A point of the page: `x` to the right, `y` downwards, in pixels.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Page {
@@ -108,6 +111,22 @@ impl Picture {
         self.element("</g>");
     }
 
+    /// Puts a whole SVG document onto a part of the page.
+    pub(crate) fn embed(&mut self, corner: Page, size: [f64; 2], document: &str) {
+        let body = document.split_once('>').map_or("", |(_, body)| body).trim_end();
+        let view = document.split_once("viewBox=").and_then(|(_, rest)| rest.split('"').nth(1)).unwrap_or("");
+        let (Page { x, y }, [width, height]) = (corner, size);
+        self.element(&format!(
+            r#"<svg x="{x:.1}" y="{y:.1}" width="{width:.1}" height="{height:.1}" viewBox="{view}">{body}"#
+        ));
+    }
+
+    /// What was drawn.
+    #[cfg(test)]
+    pub(crate) fn text_of(&self) -> &str {
+        &self.elements
+    }
+
     fn element(&mut self, element: &str) {
         self.elements.push_str(element);
         self.elements.push('\n');
@@ -126,7 +145,7 @@ impl Picture {
         let Self { width, height, elements } = self;
         let text = format!(
             "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{width}\" height=\"{height}\" \
-             viewBox=\"0 0 {width} {height}\" font-family=\"Helvetica, Arial, 'DejaVu Sans', sans-serif\" \
+             viewBox=\"0 0 {width} {height}\" font-family=\"{FONTS}\" \
              stroke-linecap=\"round\" stroke-linejoin=\"round\">\n{elements}</svg>\n"
         );
         fs::write(&path, text)?;

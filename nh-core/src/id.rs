@@ -24,6 +24,7 @@ macro_rules! ids {
             fn from_index(index: usize) -> Self {
                 Self(u32::try_from(index).expect("fewer than 2^32 entries"))
             }
+            #[inline(always)]
             fn index(self) -> usize {
                 self.0 as usize
             }
@@ -78,6 +79,11 @@ impl<I: Id, T> Table<I, T> {
         I::from_index(self.entries.len() - 1)
     }
 
+    /// Takes out the entries from an id on.
+    pub fn split_off(&mut self, from: I) -> Vec<T> {
+        self.entries.split_off(from.index())
+    }
+
     /// The number of entries.
     #[must_use]
     pub fn len(&self) -> usize {
@@ -119,6 +125,7 @@ impl<I: Id, T> Table<I, T> {
 
 impl<I: Id, T> Index<I> for Table<I, T> {
     type Output = T;
+    #[inline(always)]
     fn index(&self, id: I) -> &T {
         &self.entries[id.index()]
     }

@@ -6,6 +6,17 @@
 //! CNS (Cariñena, Nunes da Costa, Santos, *Quasi-coordinates from the point of view of Lie
 //! algebroid structures*), CM (Crampin, Mestdag, *Reduction of invariant constrained systems using
 //! anholonomic frames*) and M (Marrero, *Nonholonomic mechanics: a Lie algebroid perspective*).
+//!
+//! In them, a velocity y moves the base by the anchor ρ, sections have the bracket C, and the motion with constraints
+//! Φ y + b = 0 is that of Lagrange and d'Alembert, with W and p of the Lagrangian:
+//!
+//! ```math
+//! \begin{gathered}
+//! \dot x^i = \rho^i_\alpha y^\alpha, \qquad [e_\alpha, e_\beta] = C^\gamma_{\alpha\beta} e_\gamma, \\
+//! W_{\alpha\beta}\,\dot y^\beta + \rho^i_\beta y^\beta \partial_i p_\alpha + C^\gamma_{\alpha\beta} y^\beta p_\gamma
+//!   - \rho^i_\alpha \partial_i L + \partial_t p_\alpha = \Upsilon_\alpha + \lambda_A \Phi^A_\alpha
+//! \end{gathered}
+//! ```
 
 pub mod algebra;
 pub mod check;
@@ -17,6 +28,7 @@ pub mod forms;
 pub mod functions;
 pub mod geometry;
 pub mod id;
+mod id_map;
 pub mod limits;
 pub mod mechanics;
 pub mod model;

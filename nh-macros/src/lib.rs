@@ -136,8 +136,13 @@ mod syntax;
 ///
 /// # Conventions
 ///
-/// - The equations are those of Lagrange and d'Alembert on the Lie algebroid (nonlinear constraints:
-///   Chetaev's rule). The energy is yᵅ ∂L/∂yᵅ − L.
+/// - The equations are those of Lagrange and d'Alembert on the Lie algebroid, with p = ∂L/∂y and, where constraints are
+///   not linear, the rows of ∂φ/∂y for Φ (Chetaev's rule). The energy is yᵅ ∂L/∂yᵅ − L.
+///
+///   ```math
+///   \frac{d p_\alpha}{dt} + C^\gamma_{\alpha\beta}\, y^\beta p_\gamma - \rho^i_\alpha\,\partial_i L
+///     = \Upsilon_\alpha + \lambda_A \Phi^A_\alpha
+///   ```
 /// - `lhs = rhs` is φ = lhs − rhs. Its multiplier acts as +λ ∂φ/∂y on the right-hand side: for
 ///   `side = 0` it is the force along `side`.
 /// - A force along a coordinate is pulled back by the anchor; along a section it is Υ_α.
@@ -208,7 +213,7 @@ mod syntax;
 /// | `c` | `C99`, a text: the generated functions as one C file, see *C* |
 /// | `explain` | `DERIVATION`, a text: which forms competed for each function, and how the winner was proved |
 /// | `divergence` | `divergence(t, &state, &input)` of the motion in the coordinates of the state |
-/// | `volume` | `volume_density(t, &state)` of a volume that the motion keeps; refused, with the modular section, where there is none with a density on the base |
+/// | `volume` | `volume_density(t, &state)` of a volume that the motion keeps; refused, with the modular section, where there is none with a density on the base. Beside `holonomic` it is kept where the position constraints hold, divided by their differentials, and `divergence` belongs to the same volume |
 /// | `connection` | `connection(t, &state)`, the symbols of the constrained connection, and `christoffel(t, &state)` of the kinetic metric without constraints |
 ///
 /// `hamilton_jacobi { … }` gives `hamilton_jacobi(t, &state)`: the state over the same point of the base
@@ -345,6 +350,9 @@ pub fn nonholonomic(
 /// - L = L' after the map; D goes onto D', for linear, affine and nonlinear constraints;
 /// - the forces do the same work on every velocity that the constraints allow.
 ///
+/// Either system may have position constraints that do not depend on the time. Then all of this is asked where those
+/// of `Full` hold, for velocities that are tangent to them, and those of `Reduced` have to hold there after the map.
+///
 /// Then motions go to motions (CLMM Theorems 4.6 and 7.8), and the macro implements
 /// `Reduction<Reduced> for Full`. Where the velocities of `Reduced` determine those of `Full` it also
 /// implements `Reconstruction<Reduced> for Full`: the dropped coordinates follow from the reduced
@@ -381,7 +389,8 @@ pub fn morphism(input: proc_macro::TokenStream) -> proc_macro::TokenStream {
 /// or refused with the derivative that should have been zero. Constraints that are not invariant
 /// themselves, though what they allow is, are solved for velocities. Of an embedded family a part may be dropped
 /// – two rows of a rotation matrix –: on the embedded base everything is rewritten in the coordinates that are
-/// left, with the identities that these satisfy.
+/// left, with the identities that these satisfy. Position constraints are passed on: their functions have to be
+/// invariant, as everything else, on all of the base, and may not depend on the time.
 ///
 /// The macro emits the struct, with the parameters of the full system as public fields, its
 /// declaration by `#[nonholonomic]` (read it in `Sleigh::REPORT`), and `morphism!` between the two, so

@@ -4,7 +4,7 @@ use core::cmp::Ordering;
 use core::error::Error;
 use core::fmt::{self, Display, Formatter};
 
-use crate::{Dynamics, Real, Scalar, ScalarOf, State};
+use crate::{Constrained, Dynamics, Real, Scalar, ScalarOf, State};
 
 /// A mode of a larger system: what rolls is a mode of what flies.
 ///
@@ -25,7 +25,9 @@ pub trait Inclusion<W: Dynamics>: Dynamics {
     ///
     /// # Errors
     /// [`NotInMode`] where the further constraints do not hold: to the root of the machine's epsilon, coordinates against
-    /// the largest coordinate and velocities against the largest velocity.
+    /// the largest coordinate and velocities against the largest velocity. A mode that has equations for its state is
+    /// [projected](Constrained::project) to them: off is what that moves by more. Where it does not get there, residuals
+    /// are no numbers.
     fn restrict(&self, t: ScalarOf<Self>, state: &W::State) -> Result<Self::State, NotInMode<W::State>>
     where
         ScalarOf<W>: Real;
@@ -54,6 +56,16 @@ impl<X> Display for NotInMode<X> {
 }
 
 impl<X: fmt::Debug> Error for NotInMode<X> {}
+
+/// A state of a mode, moved to where the mode's equations for its state hold; no numbers where that fails.
+pub fn returned<S: Constrained>(mode: &S, t: ScalarOf<S>, mut own: S::State) -> S::State {
+    if mode.project(t, &mut own).is_ok() {
+        return own;
+    }
+    let mut components = own.to_array();
+    components.as_mut().fill(ScalarOf::<S>::from_f64(f64::NAN));
+    S::State::from_array(components)
+}
 
 /// `own`, if it is what `state` is made of: `included` is what it gives, `coordinates` is how many of the components are
 /// no velocities.

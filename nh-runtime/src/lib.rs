@@ -397,7 +397,7 @@ pub mod __private {
     pub use crate::TaylorSeries;
     pub use crate::assembly::{AssemblyError, Loops, assemble, assemble_holding};
     pub use crate::impacts;
-    pub use crate::inclusion::restricted;
+    pub use crate::inclusion::{restricted, returned};
     pub use crate::linear::{inverse_pivoted, solve_pivoted, times};
     pub use crate::linear_model::{
         FirstOrder, Linearization, LinearizationError, Names, Parts, linearize, variables,

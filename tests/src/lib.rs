@@ -3,6 +3,7 @@
 pub mod catalogue;
 pub mod comparison;
 pub mod dual;
+pub mod flux;
 pub mod hygiene;
 pub mod linear;
 pub mod random;

@@ -9,10 +9,14 @@ mod holonomic {
     mod four_bar;
     mod hoop;
     mod kept_by_steps;
+    mod kept_levels;
     mod long_runs;
     mod long_swing;
+    mod maps;
     mod pendulum;
+    mod plate;
     mod slider_crank;
     mod squeezer;
     mod stewart;
+    mod volumes;
 }

@@ -13,12 +13,13 @@ use super::node::{Function, Function2, Node};
 use super::number::Rational;
 use super::range::Facts;
 use crate::id::ExprId;
-use rustc_hash::{FxHashMap, FxHashSet};
+use crate::id_map::IdMap;
+use rustc_hash::FxHashSet;
 
 impl Graph {
     /// The expressions with these identities applied throughout.
     pub fn assuming(&mut self, roots: &[ExprId], facts: &Facts) -> Vec<ExprId> {
-        let mut known: FxHashMap<ExprId, ExprId> = FxHashMap::default();
+        let mut known: IdMap<ExprId, ExprId> = IdMap::default();
         let order = self.reachable(roots);
         let has_numbers = self.have_irrational_numbers(&order);
         for id in order {
@@ -31,7 +32,7 @@ impl Graph {
         roots.iter().map(|root| known[root]).collect()
     }
 
-    fn assuming_node(&mut self, id: ExprId, known: &FxHashMap<ExprId, ExprId>, facts: &Facts) -> ExprId {
+    fn assuming_node(&mut self, id: ExprId, known: &IdMap<ExprId, ExprId>, facts: &Facts) -> ExprId {
         match self.node(id).clone() {
             Node::Number(_) | Node::Pi | Node::Constant(_) | Node::Symbol(_) => id,
             Node::Sum { constant, terms } => {

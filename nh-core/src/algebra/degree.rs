@@ -8,6 +8,7 @@ use super::graph::Graph;
 use super::node::{Function, Node};
 use super::number::Rational;
 use crate::id::{ExprId, SymbolId};
+use crate::id_map::IdMap;
 use crate::limits;
 use rustc_hash::FxHashMap;
 use std::rc::Rc;
@@ -46,7 +47,7 @@ impl Degree {
 pub(crate) struct Degrees<'a> {
     graph: &'a Graph,
     division: i64,
-    known: FxHashMap<ExprId, Degree>,
+    known: IdMap<ExprId, Degree>,
     named: FxHashMap<SymbolId, Degree>,
     /// The degrees of the D.
     sizes: FxHashMap<Factor, f64>,

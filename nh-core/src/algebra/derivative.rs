@@ -4,6 +4,7 @@ use super::graph::Graph;
 use super::node::{Function, Function2, Node};
 use super::number::Rational;
 use crate::id::{ExprId, SymbolId};
+use crate::id_map::IdMap;
 use rustc_hash::FxHashMap;
 
 /// A derivation: the linear map with the Leibniz rule that sends each symbol to its seed.
@@ -22,14 +23,14 @@ use rustc_hash::FxHashMap;
 #[derive(Clone, Debug)]
 pub struct Derivation {
     seeds: FxHashMap<SymbolId, ExprId>,
-    known: FxHashMap<ExprId, ExprId>,
+    known: IdMap<ExprId, ExprId>,
 }
 
 impl Derivation {
     /// The derivation with the given seeds.
     #[must_use]
     pub fn new(seeds: impl IntoIterator<Item = (SymbolId, ExprId)>) -> Self {
-        Self { seeds: seeds.into_iter().collect(), known: FxHashMap::default() }
+        Self { seeds: seeds.into_iter().collect(), known: IdMap::default() }
     }
 
     /// `∂/∂symbol`.

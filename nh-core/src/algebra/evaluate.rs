@@ -4,6 +4,7 @@ use super::graph::Graph;
 use super::node::{Function, Function2, Node};
 use super::number::Rational;
 use crate::id::{ExprId, SymbolId};
+use crate::id_map::IdMap;
 use crate::limits;
 
 /// A floating-point value and a bound on how far it is from the exact one.
@@ -47,29 +48,53 @@ impl Bounded {
     }
 }
 
-/// Expressions that are evaluated at many points: the walk through the graph is taken once.
+/// Expressions that are evaluated at many points: the walk through the graph is taken once, and numbers are read once.
 #[derive(Debug)]
-pub(crate) struct Evaluator<'g> {
-    graph: &'g Graph,
+pub(crate) struct Evaluator {
     /// All that the roots are made of, operands first.
-    order: Vec<ExprId>,
-    /// The places of the operands in that order.
-    operands: Vec<Vec<usize>>,
+    steps: Box<[Step]>,
     /// The places of the roots.
     roots: Vec<usize>,
     /// The values at the present point.
-    known: Vec<Bounded>,
+    known: Box<[Bounded]>,
 }
 
-impl Evaluator<'_> {
+/// A node with the places of its operands.
+#[derive(Debug)]
+enum Step {
+    Given(Bounded),
+    Symbol(SymbolId),
+    Sum { constant: f64, terms: Box<[(usize, f64)]> },
+    Product { coefficient: f64, factors: Box<[(usize, Power)]> },
+    Apply(Function, usize),
+    Apply2(Function2, [usize; 2]),
+}
+
+/// An exponent, and the correctly rounded operation where there is one.
+#[derive(Clone, Copy, Debug)]
+struct Power {
+    operation: Operation,
+    exponent: f64,
+}
+
+#[derive(Clone, Copy, Debug)]
+enum Operation {
+    Nothing,
+    Square,
+    Root,
+    Reciprocal,
+    Any,
+}
+
+impl Evaluator {
     /// The values of the roots at a point.
     pub(crate) fn at(&mut self, value: impl Fn(SymbolId) -> f64) -> Vec<Bounded> {
-        let Self { graph, order, operands, roots, known } = self;
-        known.clear();
-        limits::spend(order.len());
-        for (id, operands) in order.iter().zip(operands.iter()) {
-            let next = graph.evaluate_node(*id, operands, known, &value);
-            known.push(next);
+        let Self { steps, roots, known } = self;
+        limits::spend(steps.len());
+        let mut place = 0;
+        while place < steps.len() {
+            known[place] = steps[place].value(known, &value);
+            place += 1;
         }
         roots.iter().map(|root| known[*root]).collect()
     }
@@ -93,56 +118,79 @@ impl Graph {
 
     /// Makes `roots` ready to be evaluated at many points.
     #[must_use]
-    pub(crate) fn evaluator(&self, roots: &[ExprId]) -> Evaluator<'_> {
+    pub(crate) fn evaluator(&self, roots: &[ExprId]) -> Evaluator {
         let order = self.reachable(roots);
-        let place = |id: ExprId| order.binary_search(&id).expect("what is reachable is in order");
-        let operands: Vec<Vec<usize>> =
-            order.iter().map(|id| self.node(*id).operands().map(place).collect()).collect();
-        let roots: Vec<usize> = roots.iter().map(|root| place(*root)).collect();
-        let known = Vec::with_capacity(order.len());
-        Evaluator { graph: self, order, operands, roots, known }
+        let mut places = IdMap::default();
+        places.reserve(order.len());
+        let mut steps = Vec::with_capacity(order.len());
+        for (place, id) in order.iter().enumerate() {
+            steps.push(self.step(*id, &places));
+            places.insert(*id, place);
+        }
+        let roots = roots.iter().map(|root| places[root]).collect();
+        let known = vec![Bounded::exact(0.0); steps.len()].into_boxed_slice();
+        Evaluator { steps: steps.into_boxed_slice(), roots, known }
     }
 
-    fn evaluate_node(
-        &self,
-        id: ExprId,
-        operands: &[usize],
-        known: &[Bounded],
-        value: &impl Fn(SymbolId) -> f64,
-    ) -> Bounded {
+    fn step(&self, id: ExprId, places: &IdMap<ExprId, usize>) -> Step {
         match self.node(id) {
-            Node::Number(number) => Bounded::of_number(number),
-            Node::Constant(constant) => Bounded::of_number(&self.constants()[*constant].value),
-            Node::Pi => Bounded::rounded(std::f64::consts::PI, 0.0),
-            Node::Symbol(symbol) => Bounded::exact(value(*symbol)),
-            Node::Sum { constant, terms } => {
-                let mut sum = constant.to_f64();
+            Node::Number(number) => Step::Given(Bounded::of_number(number)),
+            Node::Constant(constant) => Step::Given(Bounded::of_number(&self.constants()[*constant].value)),
+            Node::Pi => Step::Given(Bounded::rounded(std::f64::consts::PI, 0.0)),
+            Node::Symbol(symbol) => Step::Symbol(*symbol),
+            Node::Sum { constant, terms } => Step::Sum {
+                constant: constant.to_f64(),
+                terms: terms.iter().map(|(term, coefficient)| (places[term], coefficient.to_f64())).collect(),
+            },
+            Node::Product { coefficient, factors } => Step::Product {
+                coefficient: coefficient.to_f64(),
+                factors: factors.iter().map(|(base, exponent)| (places[base], Power::of(exponent))).collect(),
+            },
+            Node::Apply(function, x) => Step::Apply(*function, places[x]),
+            Node::Apply2(function, x, y) => Step::Apply2(*function, [places[x], places[y]]),
+        }
+    }
+}
+
+impl Step {
+    /// Written with indices: unoptimised builds spend much of a derivation here.
+    fn value(&self, known: &[Bounded], value: &impl Fn(SymbolId) -> f64) -> Bounded {
+        match self {
+            Self::Given(number) => *number,
+            Self::Symbol(symbol) => Bounded::exact(value(*symbol)),
+            Self::Sum { constant, terms } => {
+                let mut sum = *constant;
                 let mut error = sum.abs() * f64::EPSILON;
-                for ((_, coefficient), place) in terms.iter().zip(operands) {
-                    let coefficient = coefficient.to_f64();
-                    let x = known[*place];
+                let mut number = 0;
+                while number < terms.len() {
+                    let (place, coefficient) = terms[number];
+                    let x = known[place];
                     sum += coefficient * x.value;
                     error += coefficient.abs() * (x.error + 2.0 * f64::EPSILON * x.value.abs())
                         + f64::EPSILON * sum.abs();
+                    number += 1;
                 }
                 Bounded { value: sum, error }
             }
-            Node::Product { coefficient, factors } => {
-                let mut product = coefficient.to_f64();
+            Self::Product { coefficient, factors } => {
+                let mut product = *coefficient;
                 let mut relative = 2.0 * f64::EPSILON;
-                let powers = || factors.iter().zip(operands).map(|((_, e), place)| (known[*place], e));
-                for (x, exponent) in powers() {
-                    product *= real_power(x.value, exponent);
-                    let exponent = exponent.to_f64();
-                    relative += (2.0 + exponent.abs()) * f64::EPSILON;
+                let mut number = 0;
+                while number < factors.len() {
+                    let (place, power) = factors[number];
+                    let x = known[place];
+                    product *= power.of_real(x.value);
+                    relative += (2.0 + power.exponent.abs()) * f64::EPSILON;
                     if x.error > 0.0 {
-                        relative += relative_spread(x, exponent);
+                        relative += relative_spread(x, power.exponent);
                     }
+                    number += 1;
                 }
                 if product == 0.0 {
                     // its factors moved by their errors
-                    let moved = powers().fold(coefficient.to_f64().abs(), |product, (x, exponent)| {
-                        product * real_power(x.value.abs() + x.error, exponent)
+                    let moved = factors.iter().fold(coefficient.abs(), |product, (place, power)| {
+                        let x = known[*place];
+                        product * power.of_real(x.value.abs() + x.error)
                     });
                     return Bounded { value: product, error: moved };
                 }
@@ -150,10 +198,32 @@ impl Graph {
                 let relative = if relative > 0.1 { relative.exp_m1() } else { 1.1 * relative };
                 Bounded { value: product, error: product.abs() * relative + f64::MIN_POSITIVE }
             }
-            Node::Apply(function, _) => Bounded::of_function(*function, known[operands[0]]),
-            Node::Apply2(function, ..) => {
-                Bounded::of_function2(*function, known[operands[0]], known[operands[1]])
-            }
+            Self::Apply(function, x) => Bounded::of_function(*function, known[*x]),
+            Self::Apply2(function, [x, y]) => Bounded::of_function2(*function, known[*x], known[*y]),
+        }
+    }
+}
+
+impl Power {
+    fn of(exponent: &Rational) -> Self {
+        let operation = match exponent.to_small() {
+            Some((1, 1)) => Operation::Nothing,
+            Some((2, 1)) => Operation::Square,
+            Some((1, 2)) => Operation::Root,
+            Some((-1, 1)) => Operation::Reciprocal,
+            _ => Operation::Any,
+        };
+        Self { operation, exponent: exponent.to_f64() }
+    }
+
+    /// `x^exponent`.
+    fn of_real(self, x: f64) -> f64 {
+        match self.operation {
+            Operation::Nothing => x,
+            Operation::Square => x * x,
+            Operation::Root => x.sqrt(),
+            Operation::Reciprocal => x.recip(),
+            Operation::Any => x.powf(self.exponent),
         }
     }
 }
@@ -175,17 +245,6 @@ fn relative_spread(x: Bounded, exponent: f64) -> f64 {
         exponent * relative.ln_1p() + 3f64.ln()
     } else {
         f64::INFINITY
-    }
-}
-
-/// `x^exponent`, by the correctly rounded operation where there is one.
-fn real_power(x: f64, exponent: &Rational) -> f64 {
-    match exponent.to_small() {
-        Some((1, 1)) => x,
-        Some((2, 1)) => x * x,
-        Some((1, 2)) => x.sqrt(),
-        Some((-1, 1)) => x.recip(),
-        _ => x.powf(exponent.to_f64()),
     }
 }
 

@@ -219,6 +219,7 @@ impl Residue {
 
 /// Brings a value below 2^123 under P.
 #[allow(clippy::cast_possible_truncation, reason = "the folds leave less than 2^63")]
+#[inline(always)]
 fn reduce(wide: u128) -> u64 {
     let once = (wide & u128::from(MASK)) + (wide >> BITS) * u128::from(SHORTFALL);
     let twice = (once & u128::from(MASK)) + (once >> BITS) * u128::from(SHORTFALL);
@@ -248,21 +249,25 @@ fn primes(mut number: u64) -> Vec<u64> {
     found
 }
 
+#[inline(always)]
 fn sum(a: u64, b: u64) -> u64 {
     let sum = a + b;
     if sum >= P { sum - P } else { sum }
 }
 
+#[inline(always)]
 fn negative(a: u64) -> u64 {
     if a == 0 { 0 } else { P - a }
 }
 
+#[inline(always)]
 fn product(a: u64, b: u64) -> u64 {
     reduce(u128::from(a) * u128::from(b))
 }
 
 impl std::ops::Add for Residue {
     type Output = Self;
+    #[inline(always)]
     fn add(self, other: Self) -> Self {
         Self(sum(self.0, other.0), sum(self.1, other.1))
     }
@@ -270,6 +275,7 @@ impl std::ops::Add for Residue {
 
 impl std::ops::Neg for Residue {
     type Output = Self;
+    #[inline(always)]
     fn neg(self) -> Self {
         Self(negative(self.0), negative(self.1))
     }
@@ -284,6 +290,7 @@ impl std::ops::Sub for Residue {
 
 impl std::ops::Mul for Residue {
     type Output = Self;
+    #[inline(always)]
     fn mul(self, other: Self) -> Self {
         let (Self(a, b), Self(c, d)) = (self, other);
         if b == 0 && d == 0 {

@@ -93,6 +93,7 @@ impl Graph {
 
     /// What stands at `id`.
     #[must_use]
+    #[inline(always)]
     pub fn node(&self, id: ExprId) -> &Node {
         &self.nodes[id]
     }

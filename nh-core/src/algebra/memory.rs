@@ -34,8 +34,26 @@ pub(super) struct Attempt {
     pub(super) forms: Option<(ExprId, ExprId)>,
     /// The work it took.
     pub(super) spent: usize,
-    /// Whether a power of a sum was left that another style would have multiplied out.
-    pub(super) kept_sums: bool,
+    /// What it depends on of the style.
+    pub(super) asked: Asked,
+}
+
+/// What a style was asked for while an expression was read: one that differs from it elsewhere reads the same.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Asked {
+    /// Whether there was a power of a sum.
+    pub(super) expand: bool,
+    /// Whether there was a function with an addition theorem.
+    pub(super) angles: bool,
+}
+
+impl Asked {
+    /// Whether two styles read what asked for this alike.
+    pub(super) fn nothing_between(self, one: Style, other: Style) -> bool {
+        let with_angles = |style: Style| (style.angles, style.canonical);
+        (!self.expand || one.expand == other.expand)
+            && (!self.angles || with_angles(one) == with_angles(other))
+    }
 }
 
 /// Simplifies expressions and remembers what became of them.

@@ -11,6 +11,7 @@ use super::graph::Graph;
 use super::node::{Function, Function2, Node};
 use super::number::Rational;
 use crate::id::{ExprId, Id, SymbolId};
+use crate::id_map::IdMap;
 use crate::limits;
 use rustc_hash::FxHashMap;
 
@@ -90,11 +91,11 @@ pub(crate) struct FieldPass<'a> {
     pub(super) point: FieldPoint,
     /// The common denominator of the coefficients inside sine, cosine and exp.
     pub(super) division: i64,
-    pub(super) known: FxHashMap<ExprId, Residue>,
+    pub(super) known: IdMap<ExprId, Residue>,
     /// The points of the circle above values: sine and cosine share them, and so do sums of angles.
     pub(super) units: FxHashMap<u64, (Residue, Residue)>,
     /// Cosine and sine of the angles that have occurred.
-    pub(super) circles: FxHashMap<ExprId, (Residue, Residue)>,
+    pub(super) circles: IdMap<ExprId, (Residue, Residue)>,
     /// Whether functions are those of the values of their arguments alone.
     by_value: bool,
     /// Whether sines of arcs are algebraic, as exponentials of logarithms are, and logarithms of products sums.
@@ -199,14 +200,22 @@ impl<'a> FieldPass<'a> {
             Node::Sum { constant, terms } => {
                 let mut sum = Residue::of(constant).ok_or(NoValue::Here)?;
                 for (term, coefficient) in terms.iter() {
-                    sum = sum + Residue::of(coefficient).ok_or(NoValue::Here)? * self.known[term];
+                    let value = self.known[term];
+                    sum = sum
+                        + if coefficient.is_one() {
+                            value
+                        } else {
+                            Residue::of(coefficient).ok_or(NoValue::Here)? * value
+                        };
                 }
                 Ok(sum)
             }
             Node::Product { coefficient, factors } => {
                 let mut product = Residue::of(coefficient).ok_or(NoValue::Here)?;
                 for (base, exponent) in factors.iter() {
-                    product = product * self.power(*base, exponent)?;
+                    let power =
+                        if exponent.is_one() { self.known[base] } else { self.power(*base, exponent)? };
+                    product = product * power;
                 }
                 Ok(product)
             }

@@ -30,7 +30,7 @@ enum Repr {
 }
 
 impl Clone for Repr {
-    #[inline]
+    #[inline(always)]
     fn clone(&self) -> Self {
         #[cold]
         fn of_large(big: &Big) -> Repr {
@@ -139,6 +139,7 @@ impl Rational {
 
     /// Numerator and denominator if both fit.
     #[must_use]
+    #[inline(always)]
     pub fn to_small(&self) -> Option<(i64, i64)> {
         match self.0 {
             Repr::Small(n, d) => Some((n, d)),
@@ -158,12 +159,14 @@ impl Rational {
 
     /// Whether this is 0.
     #[must_use]
+    #[inline(always)]
     pub fn is_zero(&self) -> bool {
         matches!(self.0, Repr::Small(0, _))
     }
 
     /// Whether this is 1.
     #[must_use]
+    #[inline(always)]
     pub fn is_one(&self) -> bool {
         matches!(self.0, Repr::Small(1, 1))
     }

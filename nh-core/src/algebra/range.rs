@@ -4,6 +4,7 @@ use super::graph::Graph;
 use super::node::{Function, Node};
 use super::number::Rational;
 use crate::id::{ExprId, SymbolId};
+use crate::id_map::IdMap;
 use rustc_hash::FxHashMap;
 
 /// A closed range of real values, perhaps known to leave out zero.
@@ -157,7 +158,7 @@ impl Graph {
     /// A range that contains every value of the expression where it is defined.
     #[must_use]
     pub fn range(&self, expression: ExprId, facts: &Facts) -> Range {
-        let mut known: FxHashMap<ExprId, Range> = FxHashMap::default();
+        let mut known: IdMap<ExprId, Range> = IdMap::default();
         for id in self.reachable(&[expression]) {
             let range = match facts.expressions.get(&id) {
                 Some(range) => *range,
@@ -168,7 +169,7 @@ impl Graph {
         known[&expression]
     }
 
-    fn range_of_node(&self, id: ExprId, known: &FxHashMap<ExprId, Range>, facts: &Facts) -> Range {
+    fn range_of_node(&self, id: ExprId, known: &IdMap<ExprId, Range>, facts: &Facts) -> Range {
         if let Some(number) = self.value_of(id) {
             let value = number.to_f64();
             return Range::new(value, value, !number.is_zero());

@@ -3,20 +3,21 @@
 use super::graph::Graph;
 use super::node::Node;
 use crate::id::{ExprId, SymbolId};
+use crate::id_map::IdMap;
 use rustc_hash::FxHashMap;
 
 /// Replaces symbols by expressions, all at once; each distinct subexpression is rebuilt once.
 #[derive(Clone, Debug)]
 pub struct Substitution {
     images: FxHashMap<SymbolId, ExprId>,
-    known: FxHashMap<ExprId, ExprId>,
+    known: IdMap<ExprId, ExprId>,
 }
 
 impl Substitution {
     /// The substitution with the given images; other symbols stay.
     #[must_use]
     pub fn new(images: impl IntoIterator<Item = (SymbolId, ExprId)>) -> Self {
-        Self { images: images.into_iter().collect(), known: FxHashMap::default() }
+        Self { images: images.into_iter().collect(), known: IdMap::default() }
     }
 
     /// Adds an image for a symbol that has not occurred so far.

@@ -9,6 +9,7 @@ use super::modular::{FieldPass, NoValue};
 use super::node::{Function, Function2, Node};
 use super::number::Rational;
 use crate::id::{ExprId, SymbolId};
+use crate::id_map::IdMap;
 use rustc_hash::FxHashMap;
 
 /// A direction: the rates of symbols. The others rest.
@@ -54,12 +55,12 @@ impl std::ops::Mul for Dual {
 pub(crate) struct TangentPass<'p, 'a> {
     pass: &'p mut FieldPass<'a>,
     direction: Direction,
-    rates: FxHashMap<ExprId, Residue>,
+    rates: IdMap<ExprId, Residue>,
 }
 
 impl<'p, 'a> TangentPass<'p, 'a> {
     pub(crate) fn new(pass: &'p mut FieldPass<'a>, direction: Direction) -> Self {
-        Self { pass, direction, rates: FxHashMap::default() }
+        Self { pass, direction, rates: IdMap::default() }
     }
 
     /// Gives a symbol a value with its rate before it occurs; false where it has another value already.

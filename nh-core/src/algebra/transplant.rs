@@ -3,6 +3,7 @@
 use super::graph::Graph;
 use super::node::Node;
 use crate::id::{ExprId, SymbolId};
+use crate::id_map::IdMap;
 use rustc_hash::FxHashMap;
 
 /// Carries expressions from one graph to another, with expressions there for the symbols here: the
@@ -11,14 +12,14 @@ use rustc_hash::FxHashMap;
 pub struct Transplant<'a> {
     from: &'a Graph,
     images: FxHashMap<SymbolId, ExprId>,
-    known: FxHashMap<ExprId, ExprId>,
+    known: IdMap<ExprId, ExprId>,
 }
 
 impl<'a> Transplant<'a> {
     /// With these images of the symbols of `from`. A symbol without one gets a new symbol of the same
     /// name where it is met.
     pub fn new(from: &'a Graph, images: impl IntoIterator<Item = (SymbolId, ExprId)>) -> Self {
-        Self { from, images: images.into_iter().collect(), known: FxHashMap::default() }
+        Self { from, images: images.into_iter().collect(), known: IdMap::default() }
     }
 
     /// The image of an expression of the first graph in the second.

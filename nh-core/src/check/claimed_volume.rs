@@ -78,10 +78,11 @@ fn modular_section(graph: &Graph, section: &ModularSection) -> String {
     if text.is_empty() { "0".into() } else { text }
 }
 
-/// Whether a claimed density μ(t, x, v) is one and is kept: Γ(μ) + μ div Γ = 0 on the constraint manifold.
+/// Whether a claimed density μ(t, x, v) is one and is kept: Γ(μ) + μ div Γ = 0 on the constraint manifold, or on a
+/// larger one if there are functions of which no zeros were found.
 pub fn claimed_density(
     model: &mut Model,
-    manifold: &Manifold,
+    (manifold, unsolved): (&Manifold, &[ExprId]),
     density: ExprId,
     divergence: ExprId,
     flow: &mut Flow,
@@ -99,8 +100,15 @@ pub fn claimed_density(
     }
     let change = flow.derivative(graph, density);
     let defect = graph.formula(change + density * divergence);
-    let verdict = manifold.zero_test(graph, defect);
+    let mut verdict = manifold.zero_test(graph, defect);
     let defect = graph.simplify(defect);
+    if let (Verdict::NonZero(_), Some(function)) = (&verdict, unsolved.first()) {
+        let why = format!(
+            "no points were found where {} = 0, so that it was asked elsewhere",
+            shown(graph, *function)
+        );
+        verdict = Verdict::Unknown(why);
+    }
     let (what, evidence) = match &verdict {
         Verdict::Zero => return None,
         Verdict::NonZero(witness) if manifold.is_whole() => {

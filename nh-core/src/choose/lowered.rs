@@ -1,10 +1,11 @@
-//! The last proof: a program, as it is emitted, computes what its procedure says.
+//! The last proof: a program, as it is emitted, computes what its procedure says, and divides by nothing else.
 //!
 //! A program is run over the field, step by step, at points where the procedure was evaluated. Sines, cosines and
 //! exponentials are kernels of the values of their arguments, which is enough wherever lowering leaves angles
 //! alone; where it writes them by those of others, a second trial has the addition theorems. Points are counted
 //! as in `proof.rs`, with the degrees of both.
 
+use super::divisions::{Divisions, OTHER_DIVISOR, are_those_of_the_procedure};
 use super::ledger::Proof;
 use super::proof::{Defect, at_points, bits_of_a_point, defined, run};
 use crate::algebra::{
@@ -13,10 +14,10 @@ use crate::algebra::{
 use crate::id::{ExprId, Id, SymbolId, Table};
 use crate::limits;
 use crate::mechanics::Procedure;
-use crate::program::{Program, Split, Step, Value, schedules};
+use crate::program::{Program, Split, Step, Value};
 use rustc_hash::FxHashMap;
 
-/// Proves that a program computes what a procedure says.
+/// Proves that a program computes what a procedure says, wherever that has a value.
 ///
 /// # Errors
 /// What is wrong, or why it could not be decided.
@@ -49,7 +50,7 @@ fn prove_parts(graph: &Graph, procedure: &Procedure, parts: &Parts) -> Result<Pr
     let first = proved_with(graph, procedure, parts, &mut angles);
     let has_angles = parts.iter().any(|(_, program)| program.steps.iter().any(|step| angle(step).is_some()));
     let outcome = match first {
-        Err(Defect::Wrong(_)) if has_angles => {
+        Err(Defect::Wrong(_) | Defect::Unknown(_)) if has_angles => {
             angles.extend(parts.iter().map(|(_, program)| Angles::of(program)));
             proved_with(graph, procedure, parts, &mut angles)
         }
@@ -84,25 +85,39 @@ fn proved_with(
             FieldPass::without_arcs(graph, point, division)
         }
     };
-    at_points(
+    let mut divisions: Vec<Divisions> = Vec::new();
+    let proof = at_points(
         bits,
         |seed| radicands.point_in(seed, pass),
         |point| {
             let mut own = pass(point.clone());
             let wanted = run(&mut own, procedure)?;
             let mut pass = pass(point);
-            let mut outputs = Vec::new();
+            let (mut outputs, mut values) = (Vec::new(), Vec::new());
             for (index, (symbols, program)) in parts.iter().enumerate() {
-                outputs = Run::new(program, &mut pass, angles.get(index), division).outputs()?;
+                let all = Run::new(program, &mut pass, angles.get(index), division).values()?;
+                outputs = program.outputs.iter().map(|output| all[*output]).collect();
+                values.push(all);
                 for (symbol, value) in symbols.iter().zip(&outputs) {
                     if !pass.choose(*symbol, *value) {
                         return Err(Defect::Wrong("a symbol has two values".into()));
                     }
                 }
             }
-            if outputs == wanted { Ok(()) } else { Err(Defect::Wrong("it computes something else".into())) }
+            if outputs != wanted {
+                return Err(Defect::Wrong("it computes something else".into()));
+            }
+            if divisions.len() < 2 {
+                divisions.push(Divisions::at((graph, procedure), &mut own, values));
+            }
+            Ok(())
         },
-    )
+    )?;
+    let programs: Vec<&Program> = parts.iter().map(|(_, program)| *program).collect();
+    match <[Divisions; 2]>::try_from(divisions) {
+        Ok(points) if are_those_of_the_procedure(&programs, &points) => Ok(proof),
+        _ => Err(Defect::Unknown(OTHER_DIVISOR.into())),
+    }
 }
 
 /// The argument of a periodic function or an exponential.
@@ -223,7 +238,8 @@ impl<'r, 'a> Run<'r, 'a> {
         Self { program, pass, angles, values, is_constant, solutions }
     }
 
-    fn outputs(mut self) -> Result<Vec<Residue>, Defect> {
+    /// Every value.
+    fn values(mut self) -> Result<Table<Value, Residue>, Defect> {
         limits::spend(self.program.steps.len());
         for (value, step) in self.program.steps.iter_ids() {
             let result = self.step(value, step)?;
@@ -238,7 +254,7 @@ impl<'r, 'a> Run<'r, 'a> {
                 return Err(Defect::Wrong("an angle has two values".into()));
             }
         }
-        Ok(self.program.outputs.iter().map(|output| self.values[*output]).collect())
+        Ok(self.values)
     }
 
     fn step(&mut self, value: Value, step: &Step) -> Result<Residue, Defect> {
@@ -357,35 +373,4 @@ fn degree_of(graph: &Graph, program: &Program, angles: Option<&Angles>, division
     let outputs = program.outputs.iter().map(|output| degrees.size(&known[*output]));
     // two kernels are one where their arguments happen to be equal
     outputs.fold(1.0, f64::max) + kernels * kernels * arguments
-}
-
-/// A program with its proof, or why there could be none.
-#[derive(Clone, Debug)]
-pub struct Lowered {
-    /// What is emitted.
-    pub program: Program,
-    /// How it was proved; the reason where that could not be decided.
-    pub proof: Result<Proof, String>,
-}
-
-/// The cheapest program of a procedure that is not refuted, with operations among parameters kept together;
-/// `finish` makes of a program what is emitted.
-///
-/// # Errors
-/// [`Unproved::Wrong`] where every program is refuted.
-pub fn lowered(
-    graph: &Graph,
-    procedure: &Procedure,
-    parameters: &[SymbolId],
-    finish: impl Fn(Program) -> Program,
-) -> Result<Lowered, Unproved> {
-    for program in schedules(graph, procedure, parameters) {
-        let program = finish(program);
-        match prove_program(graph, procedure, &program) {
-            Ok(proof) => return Ok(Lowered { program, proof: Ok(proof) }),
-            Err(Unproved::Unknown(reason)) => return Ok(Lowered { program, proof: Err(reason) }),
-            Err(Unproved::Wrong) => {}
-        }
-    }
-    Err(Unproved::Wrong)
 }

@@ -5,12 +5,12 @@ use std::cell::RefCell;
 use std::fmt::Write;
 
 use super::ledger::Proof;
-use super::lowered::{Lowered, Unproved, lowered, prove_split};
-use crate::algebra::Accuracy;
+use super::lowered::{Unproved, prove_program, prove_split};
+use crate::algebra::{Accuracy, Graph};
 use crate::id::{Origin, SymbolId};
 use crate::mechanics::Procedure;
 use crate::model::Model;
-use crate::program::{Program, Split, corrected, split};
+use crate::program::{Program, Split, corrected, schedules, split};
 use crate::violation::{Law, Violation};
 
 /// What is said of a program that is refuted, and what can be done.
@@ -112,4 +112,35 @@ impl Lowering {
 
 fn parameters(model: &Model) -> Vec<SymbolId> {
     model.parameters.iter().map(|parameter| parameter.symbol).collect()
+}
+
+/// A program with its proof, or why there could be none.
+#[derive(Clone, Debug)]
+pub struct Lowered {
+    /// What is emitted.
+    pub program: Program,
+    /// How it was proved; the reason where that could not be decided.
+    pub proof: Result<Proof, String>,
+}
+
+/// The cheapest program of a procedure that is not refuted, with operations among parameters kept together;
+/// `finish` makes of a program what is emitted.
+///
+/// # Errors
+/// [`Unproved::Wrong`] where every program is refuted.
+pub fn lowered(
+    graph: &Graph,
+    procedure: &Procedure,
+    parameters: &[SymbolId],
+    finish: impl Fn(Program) -> Program,
+) -> Result<Lowered, Unproved> {
+    for program in schedules(graph, procedure, parameters) {
+        let program = finish(program);
+        match prove_program(graph, procedure, &program) {
+            Ok(proof) => return Ok(Lowered { program, proof: Ok(proof) }),
+            Err(Unproved::Unknown(reason)) => return Ok(Lowered { program, proof: Err(reason) }),
+            Err(Unproved::Wrong) => {}
+        }
+    }
+    Err(Unproved::Wrong)
 }

@@ -2,6 +2,7 @@
 
 mod conditions;
 mod derived;
+mod divisions;
 mod ledger;
 mod lowered;
 mod lowering;
@@ -18,8 +19,8 @@ pub(crate) use derived::{
     Motion, PowerForm, SplittingForm, ValuesForm, VelocityNames, prove_derived, prove_product,
 };
 pub use ledger::{Contender, Decision, Fate, Ledger, Proof};
-pub use lowered::{Lowered, Unproved, lowered, prove_program, prove_split};
-pub use lowering::{DEFECT, Lowering, REFUTED};
+pub use lowered::{Unproved, prove_program, prove_split};
+pub use lowering::{DEFECT, Lowered, Lowering, REFUTED, lowered};
 pub(crate) use proof::{Claim, Defect, prove, prove_equal};
 pub(crate) use reference::{Given, Reference};
 pub(crate) use selection::{Entry, admitted, cheapest, fate, ranking, rate};

@@ -4,9 +4,8 @@ use crate::algebra::Residue;
 
 /// Whether a quantity is a multiple by a number of another one, at two points.
 pub(super) fn is_multiple(a: [Residue; 2], b: [Residue; 2]) -> bool {
-    let ratios = [a[0] * b[1], a[1] * b[0]];
-    let ratio = b[0].inverse().map(|inverse| a[0] * inverse);
-    ratios[0] == ratios[1] && ratio.is_some_and(|ratio| ratio.recognised().is_some())
+    let ratio = || b[0].inverse().and_then(|inverse| (a[0] * inverse).recognised());
+    a[0] * b[1] == a[1] * b[0] && ratio().is_some()
 }
 
 /// The pivots of the elimination of a definite matrix at two points, in whatever order they are met.

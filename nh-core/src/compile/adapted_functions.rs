@@ -14,7 +14,9 @@ use super::position_return::position_return;
 use super::power::{power, work_of_constraints};
 use super::proved::{Derived, Proved, fence, nothing_proved};
 use super::proved_functions::Parts;
-use super::velocities_of_state::{claims_in_state, observables, parameter_divisors};
+use super::velocities_of_state::{
+    claims_in_state, divides_by_free_parameters, observables, parameter_divisors,
+};
 use crate::algebra::{Graph, Matrix, Substitution};
 use crate::check;
 use crate::choose::{Decision, sizes};
@@ -83,7 +85,7 @@ pub(super) fn derive(
     // 4. the claims, along the flow
     about(Subject::Claims);
     let claims = proved_claims(&mut proved, &mut restriction, &derivative, &equations.independent)?;
-    let moving = (kept.independent.as_slice(), equations.velocity.as_slice());
+    let moving = (kept.independent.as_slice(), kept.velocity.as_slice());
     let divisors = parameter_divisors(&mut proved.model, &derivative);
     let known = [conditions.as_slice(), &divisors].concat();
     let positions = positions(&mut proved, &mut restriction, moving, (&distribution.pivots, &known));
@@ -91,7 +93,7 @@ pub(super) fn derive(
     // 5. what both formulations end with
     about(Subject::Requests);
     functions.add(&ENERGY, Procedure::of(vec![energy]));
-    functions.add(&VELOCITY, Procedure::of(equations.velocity.clone()));
+    functions.add(&VELOCITY, Procedure::of(kept.velocity.clone()));
     functions.add_if(&POWER, power);
     functions.add_if(&OUTPUT_JACOBIAN, output_jacobian);
     functions.add_if(&RESIDUAL, positions.as_ref().map(|positions| positions.residual.clone()));
@@ -149,10 +151,7 @@ fn positions(
     let judge = |graph: &Graph, matrix: &Matrix| definiteness(graph, matrix, &parameters, &facts);
     let moving = (states, velocity, [].as_slice());
     let mut found = position_return(proved, &saddle, restriction, moving, judge)?;
-    let divisors = parameter_divisors(&mut proved.model, &found.step);
-    let graph = &proved.model.graph;
-    let is_free = |divisor: &ExprId| !known.contains(divisor) && !graph.vanishes_nowhere(*divisor, &facts);
-    if divisors.iter().any(is_free) {
+    if divides_by_free_parameters(&mut proved.model, &found.step, known, &facts) {
         found = position_return(proved, &saddle, restriction, moving, |_, _| Definiteness::Unknown)?;
     }
     let graph = &proved.model.graph;

@@ -10,9 +10,9 @@ use crate::functions::{DIVERGENCE, Functions, VOLUME_DENSITY};
 use crate::geometry::{ConstraintDistribution, Manifold};
 use crate::id::{ExprId, SymbolId};
 use crate::mechanics::{
-    Density, Flow, Procedure, Volume, VolumeSetting, divergence, invariant_volume, uncoupled,
+    Density, Flow, Procedure, SaddleEquations, Volume, VolumeSetting, divergence, invariant_volume, uncoupled,
 };
-use crate::model::Request;
+use crate::model::{Formulation, Model, Request};
 use crate::violation::Violation;
 
 /// Derives the divergence and decides about volumes, as far as it is asked for; what the report says.
@@ -32,7 +32,8 @@ pub(super) fn derive(
     let arguments = whole_state(proved, derived);
     let mut field = divergence(&mut proved.model.graph, derivative, &arguments)
         .map_err(|error| vec![not_differentiable(error, origin)])?;
-    if let Some(correction) = correction(proved, derivative) {
+    let vanishing = vanishing(&proved.model, derived.formulation());
+    if let Some(correction) = correction(proved, derivative, &vanishing) {
         field.outputs[0] = proved.model.graph.formula(field.outputs[0] - correction);
     }
     let field = shortened(&mut proved.model.graph, field);
@@ -44,9 +45,9 @@ pub(super) fn derive(
             let velocities = state_velocities(proved, derived);
             let mut flow = Flow::of(&mut proved.model.graph, derivative, &proved.system, &velocities);
             let manifold = manifold(proved, derived);
-            let model = &mut proved.model;
-            let broken =
-                check::claimed_density(model, &manifold, density, written_out, &mut flow, claim.origin);
+            let asked = (&manifold, proved.positions.unsolved.as_slice());
+            let (model, origin) = (&mut proved.model, claim.origin);
+            let broken = check::claimed_density(model, asked, density, written_out, &mut flow, origin);
             fence(broken.into_iter().collect())?;
             let text = model.graph.text_within(density, 400);
             lines.push(format!("the density {text} is kept (claimed, and proved)"));
@@ -70,7 +71,7 @@ pub(super) fn derive(
 /// The constraint manifold as far as the state can leave it.
 fn manifold(proved: &mut Proved, derived: &Derived<'_>) -> Manifold {
     match derived {
-        Derived::Adapted { .. } => proved.base.clone(),
+        Derived::Adapted { .. } => proved.positions.manifold.clone(),
         Derived::Projected { .. } => {
             proved.constraints.manifold(&mut proved.model.graph, &proved.system.algebroid.velocities)
         }
@@ -83,7 +84,8 @@ fn line(proved: &Proved, derived: &Derived<'_>, density: ExprId) -> String {
     let names: Vec<String> =
         state(proved, derived).iter().map(|symbol| format!("d({})", graph.symbols()[*symbol])).collect();
     let on = match derived {
-        Derived::Adapted { .. } => "",
+        Derived::Adapted { .. } if proved.model.positions.is_empty() => "",
+        Derived::Adapted { .. } => ", divided by the differentials of the position constraints",
         Derived::Projected { .. } => ", divided by the differentials of the constraints",
     };
     let text = graph.text_within(density, 400);
@@ -108,16 +110,28 @@ fn not_periodic(proved: &Proved, density: &Density) -> String {
     format!("; the density is not periodic in {}: no function of an angle", coordinates.join(", "))
 }
 
-/// On an embedded base f = 0 with Γ(f) = g f the volume is that of dx/df: the divergence on the base is
-/// less by the trace of g. `None` where that is 0.
-fn correction(proved: &mut Proved, derivative: &Procedure) -> Option<ExprId> {
-    if proved.model.identities.is_empty() {
+/// Functions f on the base, (∂_t + Γ) f = g f, that vanish at the states of the system: identities of embedded
+/// coordinates, and position constraints where a state has no velocities across them. Where it has them, (∂_t + Γ) f
+/// is the constraint φ on velocities, whose rate is 0: their share in the trace of g is none.
+pub(super) fn vanishing(model: &Model, formulation: Formulation) -> Vec<ExprId> {
+    let identities = model.identities.iter().map(|identity| identity.value);
+    let positions = model.positions.iter().map(|position| position.value);
+    match formulation {
+        Formulation::Adapted => identities.chain(positions).collect(),
+        Formulation::Projected => identities.collect(),
+    }
+}
+
+/// Where functions f with (∂_t + Γ) f = g f vanish the volume is that of dx/df: the divergence there is less by the
+/// trace of g. `None` where that is 0.
+fn correction(proved: &mut Proved, derivative: &Procedure, functions: &[ExprId]) -> Option<ExprId> {
+    if functions.is_empty() {
         return None;
     }
-    let graph = &mut proved.model.graph;
-    let coordinates = proved.system.algebroid.anchor.coordinates.clone();
+    let Proved { model, system, positions, .. } = proved;
+    let (graph, manifold) = (&mut model.graph, &positions.manifold);
+    let coordinates = system.algebroid.anchor.coordinates.clone();
     let rates = derivative.written_out(graph)[..coordinates.len()].to_vec();
-    let functions: Vec<ExprId> = proved.model.identities.iter().map(|identity| identity.value).collect();
     let gradient = |graph: &mut Graph, function: ExprId| -> Vec<ExprId> {
         coordinates.iter().map(|symbol| graph.partial(function, *symbol)).collect()
     };
@@ -125,17 +139,20 @@ fn correction(proved: &mut Proved, derivative: &Procedure) -> Option<ExprId> {
     let mut changes: Matrix = slopes
         .clone()
         .iter()
-        .map(|slope| {
-            let change = graph.inner_product(slope, &rates);
+        .zip(functions)
+        .map(|(slope, function)| {
+            let (along, by_time) =
+                (graph.inner_product(slope, &rates), graph.partial(*function, system.clock.time));
+            let change = graph.formula(along + by_time);
             gradient(graph, change)
         })
         .collect();
-    // identities that follow from others say nothing more
-    let independent = proved.base.independent_rows(graph, &slopes).ok()?;
+    // functions that follow from others say nothing more
+    let independent = manifold.independent_rows(graph, &slopes).ok()?;
     slopes = independent.iter().map(|row| slopes[*row].clone()).collect();
     changes = independent.iter().map(|row| changes[*row].clone()).collect();
     let (at_slopes, at_changes) =
-        (proved.base.restrict_matrix(graph, &slopes), proved.base.restrict_matrix(graph, &changes));
+        (manifold.restrict_matrix(graph, &slopes), manifold.restrict_matrix(graph, &changes));
     if trace_vanishes(graph, &at_slopes, &at_changes) {
         return None;
     }
@@ -187,7 +204,13 @@ fn decide(proved: &mut Proved, derived: &Derived<'_>, derivative: &Procedure, di
     };
     let in_state = state_velocities(proved, derived);
     let graph = &mut proved.model.graph;
-    let determinants = determinants(graph, proved.system.lagrangian, distribution, &velocities);
+    let of_saddle = match derived {
+        Derived::Adapted { .. } => None,
+        Derived::Projected { equations, .. } => of_saddle(graph, equations),
+    };
+    let lagrangian = proved.system.lagrangian;
+    let determinants =
+        of_saddle.unwrap_or_else(|| determinants(graph, lagrangian, distribution, &velocities));
     let (moving, on_base): (Vec<ExprId>, Vec<ExprId>) =
         determinants.into_iter().partition(|factor| graph.depends_on(*factor, &in_state));
     let mut flow = Flow::of(graph, derivative, &proved.system, &in_state);
@@ -221,7 +244,8 @@ fn decide(proved: &mut Proved, derived: &Derived<'_>, derivative: &Procedure, di
         base,
         velocities: distribution.independent.clone(),
         parameters: proved.model.parameters.iter().map(|parameter| parameter.symbol).collect(),
-        manifold: &proved.base,
+        manifold: &proved.positions.manifold,
+        is_larger: !proved.positions.unsolved.is_empty(),
         hints,
     };
     match invariant_volume(graph, &setting) {
@@ -242,6 +266,19 @@ fn on_nonlinear_constraints(proved: &mut Proved, derived: &Derived<'_>, divergen
         Verdict::Zero => Volume::Kept(Vec::new()),
         _ => Volume::Undecided("a density is looked for under linear constraints alone".into()),
     }
+}
+
+/// The determinant of the saddle matrix of (9), block by block: det C times the square of a minor of the constraints,
+/// whichever velocities C keeps, so that it does not divide by pivots. `None` for large blocks.
+fn of_saddle(graph: &mut Graph, equations: &SaddleEquations) -> Option<Vec<ExprId>> {
+    const BLOCK: usize = 6;
+    let saddle = equations.matrix(graph);
+    let blocks = uncoupled(graph, &saddle);
+    let is_small = blocks.iter().all(|block| block.len() <= BLOCK);
+    is_small.then(|| {
+        let determinant = |block: &Vec<usize>| graph.small_determinant(&Graph::submatrix(&saddle, block));
+        blocks.iter().map(determinant).collect()
+    })
 }
 
 /// det C, block by block.

@@ -157,7 +157,8 @@ fn momenta_on_distribution(
         })?;
         found.push(momentum);
         let rows: Matrix = found.iter().map(|momentum| momentum.coefficients.clone()).collect();
-        if proved.base.independent_rows(graph, &rows).is_ok_and(|rows| rows.len() < found.len()) {
+        if proved.positions.manifold.independent_rows(graph, &rows).is_ok_and(|rows| rows.len() < found.len())
+        {
             return Err(not_independent(level, found.len() == 1));
         }
     }
@@ -183,7 +184,7 @@ fn chosen(
     let parameters: Vec<SymbolId> = proved.model.parameters.iter().map(|p| p.symbol).collect();
     let graph = &mut proved.model.graph;
     let rows: Matrix = levels.iter().map(|level| level.coefficients.clone()).collect();
-    let on_base = proved.base.restrict_matrix(graph, &rows);
+    let on_base = proved.positions.manifold.restrict_matrix(graph, &rows);
     let facts = &proved.facts;
     let setting = PivotSetting { annihilator: &rows, on_base: &on_base, parameters: &parameters, facts };
     let origin = proved.levels.first().map_or(proved.model.origin, |level| level.origin);
@@ -278,7 +279,7 @@ fn apart_from_levels(
         let row = graph.image(&sections, &momentum);
         gram.push(row.into_iter().map(|entry| graph.simplify(entry)).collect());
     }
-    let on_base = proved.base.restrict_matrix(graph, &gram);
+    let on_base = proved.positions.manifold.restrict_matrix(graph, &gram);
     let facts = &proved.facts;
     let setting = PivotSetting { annihilator: &gram, on_base: &on_base, parameters: &parameters, facts };
     let all: Vec<SectionId> = (0..count).map(SectionId::from_index).collect();

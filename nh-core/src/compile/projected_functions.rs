@@ -13,7 +13,9 @@ use super::position_return::position_return;
 use super::power::{power, work_of_constraints};
 use super::proved::{Derived, Proved, fence, nothing_proved};
 use super::proved_functions::Parts;
-use super::velocities_of_state::{claims_in_state, observables, parameter_divisors, requested};
+use super::velocities_of_state::{
+    claims_in_state, divides_by_free_parameters, observables, parameter_divisors, requested,
+};
 use crate::algebra::{Graph, Matrix, Substitution};
 use crate::check;
 use crate::choose::{Claim, Contender, Decision, Fate, Reference, Regular, fate, prove};
@@ -82,10 +84,23 @@ pub(super) fn derive(
     functions.add_if(&PARAMETER_JACOBIAN, requested_parameter_jacobian(&mut proved, &derivative)?);
     let (gyroscopic, force) = gyroscopic::derive(&mut proved, None)?;
     functions.add_if(&GYROSCOPIC, force);
-    // 5. the way back to the constraint manifold
-    let projection = projection(&mut proved.model, &velocities, &on_levels, &all_residuals, judge);
+    // 5. the way back to the constraint manifold; parameters that the motion may have at 0 are no divisors of it
+    let divisors = parameter_divisors(&mut proved.model, &derivative);
+    let is_free =
+        |model: &mut Model, step: &Procedure| divides_by_free_parameters(model, step, &divisors, &facts);
+    let by_pivots = |_: &Graph, _: &Matrix| Definiteness::Unknown;
+    let model = &mut proved.model;
+    let mut back = projection(model, &velocities, &on_levels, &all_residuals, judge);
+    if is_free(model, &back.step) {
+        back = projection(model, &velocities, &on_levels, &all_residuals, by_pivots);
+    }
     let moving = (velocities.as_slice(), velocity.as_slice(), all_residuals.as_slice());
-    let positions = position_return(&mut proved, &equations, &mut everywhere, moving, judge);
+    let mut positions = position_return(&mut proved, &equations, &mut everywhere, moving, judge);
+    if let Some(found) = &positions
+        && is_free(&mut proved.model, &found.step)
+    {
+        positions = position_return(&mut proved, &equations, &mut everywhere, moving, by_pivots);
+    }
     let impacts = impact_functions::projected(&mut proved, &equations);
     // 6. what both formulations end with
     functions.add(&ENERGY, Procedure::of(vec![energy]));
@@ -94,7 +109,7 @@ pub(super) fn derive(
     functions.add_if(&OUTPUT_JACOBIAN, output_jacobian);
     let on_positions = positions.iter().flat_map(|positions| positions.residual.outputs.clone());
     functions.add(&RESIDUAL, Procedure::of(on_positions.chain(all_residuals.iter().copied()).collect()));
-    let projection = Some(projection);
+    let projection = Some(back);
     let parts = Parts {
         jacobian,
         functions,
@@ -105,7 +120,6 @@ pub(super) fn derive(
         impacts,
         ..Parts::default()
     };
-    let divisors = parameter_divisors(&mut proved.model, &derivative);
     let derivation = Derivation {
         derived: Derived::Projected { residuals: &residuals, equations: &equations },
         reason,

@@ -6,7 +6,7 @@ use crate::choose::{Fate, Ledger};
 use crate::geometry::{ConstraintDistribution, Manifold, Rank};
 use crate::id::{CoordId, ExprId, Origin, SymbolId};
 use crate::mechanics::{LagrangianSystem, ReducedEquations, SaddleEquations};
-use crate::model::Model;
+use crate::model::{Formulation, Model};
 use crate::violation::{Law, Violation};
 
 /// What the later stages share.
@@ -102,6 +102,16 @@ pub(crate) enum Derived<'a> {
         /// The equations.
         equations: &'a SaddleEquations,
     },
+}
+
+impl Derived<'_> {
+    /// The form of the state.
+    pub(crate) fn formulation(&self) -> Formulation {
+        match self {
+            Self::Adapted { .. } => Formulation::Adapted,
+            Self::Projected { .. } => Formulation::Projected,
+        }
+    }
 }
 
 pub(super) fn fence(violations: Vec<Violation>) -> Result<(), Vec<Violation>> {

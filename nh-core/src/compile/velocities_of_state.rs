@@ -1,7 +1,7 @@
 //! What the declaration says in quasi-velocities, put into the velocities of the state.
 
 use super::given;
-use crate::algebra::{Graph, Substitution};
+use crate::algebra::{Facts, Graph, Substitution};
 use crate::check::Motion;
 use crate::check::evidence::shown;
 use crate::id::{ExprId, SymbolId};
@@ -48,6 +48,18 @@ pub(super) fn claims_in_state(
 ) -> Vec<ExprId> {
     let Model { graph, claims, .. } = model;
     claims.iter().map(|claim| in_state(graph, motion, restriction, claim.value)).collect()
+}
+
+/// Whether a procedure divides by what is made of parameters, and may be 0 for the motion, which divides by `known`.
+pub(super) fn divides_by_free_parameters(
+    model: &mut Model,
+    procedure: &Procedure,
+    known: &[ExprId],
+    facts: &Facts,
+) -> bool {
+    let divisors = parameter_divisors(model, procedure);
+    let graph = &model.graph;
+    divisors.iter().any(|divisor| !known.contains(divisor) && !graph.vanishes_nowhere(*divisor, facts))
 }
 
 /// The expressions of parameters alone by which a function divides.

@@ -203,7 +203,10 @@ pub static DIVERGENCE: Signature = Signature {
     doc: &[
         " The divergence of the vector field of the motion in the coordinates of the state.",
         "",
-        " Where base coordinates are embedded it is that of the motion on the embedded base.",
+        " Where base coordinates are embedded it is that of the motion on the embedded base. Where position",
+        " constraints f = 0 hold it is that of the motion on these positions, for the volume that is divided by df,",
+        " and in a state with all velocities by the differentials of the constraints on velocities as well. At other",
+        " states it is that in all coordinates of the state.",
     ],
     takes_input: true,
     shape: Shape::Scalar,
@@ -217,7 +220,8 @@ pub static VOLUME_DENSITY: Signature = Signature {
     doc: &[
         " The density, in the coordinates of the state, of a volume that the motion keeps.",
         "",
-        " Where the state satisfies identities or constraints it is relative to their differentials.",
+        " Where the state satisfies identities or constraints it is divided by their differentials. It is kept at",
+        " states that satisfy them, position constraints included, and may be anything else at others.",
     ],
     takes_input: false,
     shape: Shape::Scalar,

@@ -55,6 +55,10 @@ pub fn keeps_its_sign(
     facts: &Facts,
 ) -> bool {
     let mut signs = [false; 2];
+    let mut given: Vec<bool> = graph.symbols().iter().map(|_| false).collect();
+    for parameter in parameters {
+        given[parameter.index()] = true;
+    }
     let (mut samples, mut asked) = (Samples::of(graph, matrix), graph.evaluator(&[expression]));
     let occurring = graph.symbols_in(&[expression]);
     let zeroed = occurring.into_iter().filter(|symbol| parameters.contains(symbol)).map(Some);
@@ -66,7 +70,7 @@ pub fn keeps_its_sign(
                 .is_none_or(|range| !range.nonzero && range.low <= 0.0 && range.high >= 0.0)
         });
         for set in (0..SIGN_SETS).filter(|_| may_be_zero) {
-            let value = |configuration: u64, symbol: SymbolId| match parameters.contains(&symbol) {
+            let value = |configuration: u64, symbol: SymbolId| match given[symbol.index()] {
                 true if zero == Some(symbol) => 0.0,
                 true => parameter_sample(set, symbol, facts),
                 false => configuration_sample(configuration, symbol),
@@ -118,15 +122,15 @@ fn unit(seed: u64, symbol: SymbolId) -> f64 {
 }
 
 /// A matrix that is evaluated at many points.
-struct Samples<'g> {
+struct Samples {
     /// Where the rows below the diagonal begin: before their first entry elimination fills nothing in.
     begin: Vec<usize>,
     /// These rows, one after the other.
-    lower: Evaluator<'g>,
+    lower: Evaluator,
 }
 
-impl<'g> Samples<'g> {
-    fn of(graph: &'g Graph, matrix: &[Vec<ExprId>]) -> Self {
+impl Samples {
+    fn of(graph: &Graph, matrix: &[Vec<ExprId>]) -> Self {
         let first =
             |row: &Vec<ExprId>| row.iter().position(|entry| !graph.is_literal_zero(*entry)).unwrap_or(0);
         let begin: Vec<usize> = matrix.iter().enumerate().map(|(i, row)| first(row).min(i)).collect();

@@ -37,8 +37,10 @@ pub struct VolumeSetting<'a> {
     pub velocities: Vec<SymbolId>,
     /// Symbols that do not move.
     pub parameters: Vec<SymbolId>,
-    /// The embedded base.
+    /// Where the coordinates are: the embedded base, or a part of it that motions keep.
     pub manifold: &'a Manifold,
+    /// Whether they are known to be in a part of that, of which no points were found.
+    pub is_larger: bool,
     /// Where the factors of a density are looked for first.
     pub hints: Vec<ExprId>,
 }
@@ -77,7 +79,8 @@ pub fn invariant_volume(graph: &mut Graph, setting: &VolumeSetting<'_>) -> Volum
         return Volume::Kept(density);
     }
     // 3. no μ at all
-    if is_excluded(graph, setting, &section) { Volume::None(section) } else { Volume::Unknown(section) }
+    let is_none = !setting.is_larger && is_excluded(graph, setting, &section);
+    if is_none { Volume::None(section) } else { Volume::Unknown(section) }
 }
 
 fn modular_section(graph: &mut Graph, setting: &VolumeSetting<'_>) -> Result<ModularSection, Volume> {
@@ -86,7 +89,7 @@ fn modular_section(graph: &mut Graph, setting: &VolumeSetting<'_>) -> Result<Mod
             let slope = graph.partial(setting.divergence, first);
             let curvature = graph.partial(slope, second);
             match setting.manifold.zero_test(graph, curvature) {
-                Verdict::NonZero(_) => Volume::Nonlinear,
+                Verdict::NonZero(_) if !setting.is_larger => Volume::Nonlinear,
                 _ => Volume::Undecided("it is not written as a linear function of the velocities".into()),
             }
         }

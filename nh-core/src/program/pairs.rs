@@ -111,7 +111,8 @@ fn lists(arena: &Arena, kind: Kind) -> Vec<(Term, List)> {
     let mut lists = Vec::new();
     for term in Arena::live(&uses) {
         match (arena.get(term), kind) {
-            (Nary::Sum(operands), Kind::Sums) => {
+            // one that has an operand twice stays as it is
+            (Nary::Sum(operands), Kind::Sums) if operands.windows(2).all(|two| two[0].0 < two[1].0) => {
                 let weight = |negative| if negative { -1 } else { 1 };
                 lists.push((term, operands.iter().map(|(o, negative)| (*o, weight(*negative))).collect()));
             }
@@ -190,19 +191,22 @@ impl Search<'_> {
             if self.lists[index].0 == whole {
                 continue;
             }
-            let times = i32::try_from(times).unwrap_or(1);
+            let there = self.operand(index, whole).map_or(0, |(_, weight)| weight);
             let weight = match self.kind {
+                // a sum has each operand once
+                Kind::Sums if there != 0 => continue,
                 Kind::Sums => sign * self.operand(index, pair.0).map_or(1, |(_, weight)| weight),
-                Kind::Products => times,
+                Kind::Products => there.saturating_add(i32::try_from(times).unwrap_or(1)),
             };
             let operands = &mut self.lists[index].1;
             match self.kind {
                 Kind::Sums => operands.retain(|(operand, _)| *operand != pair.0 && *operand != pair.1),
                 Kind::Products => {
+                    let times = weight - there;
                     for end in [pair.0, pair.1] {
                         operands.iter_mut().filter(|(o, _)| *o == end).for_each(|(_, e)| *e -= times);
                     }
-                    operands.retain(|(_, exponent)| *exponent > 0);
+                    operands.retain(|(operand, exponent)| *exponent > 0 && *operand != whole);
                 }
             }
             let position = operands.partition_point(|(operand, _)| *operand < whole);

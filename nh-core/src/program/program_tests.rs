@@ -12,6 +12,7 @@ mod accuracy_levels;
 mod derivatives;
 mod exponents;
 mod kept_digits;
+mod shared_pairs;
 
 /// The value of a procedure, node by node.
 fn evaluate(graph: &Graph, procedure: &Procedure, symbol: impl Fn(SymbolId) -> f64) -> Vec<f64> {

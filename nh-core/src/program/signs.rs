@@ -4,6 +4,7 @@
 //! uses them changes with them: sums become differences, products change their sign in turn, and
 //! negations disappear. That is done wherever more negations disappear than come.
 
+use super::lower::rename;
 use super::step::{Program, Step, Value};
 use crate::algebra::Rational;
 use crate::id::{Id, Table};
@@ -21,21 +22,22 @@ pub(super) fn absorb_signs(mut program: Program) -> Program {
         return program;
     }
     let mut settled = 0;
-    while let Some((negation, better)) = improved(&program, settled) {
-        (settled, program) = (negation, better);
+    while let Some((negation, start, opposite)) = improvement(&program, settled) {
+        program = rebuilt(program, start, &opposite);
+        settled = negation.index().saturating_sub(1);
     }
     program
 }
 
-/// The first negation from `settled` on that can be got rid of, and the program without it.
-fn improved(program: &Program, settled: usize) -> Option<(usize, Program)> {
+/// The first negation from `settled` on that can be got rid of, where that begins, and what is opposite then.
+fn improvement(program: &Program, settled: usize) -> Option<(Value, Value, Opposite)> {
     let users = Users::of(program);
-    for (value, step) in program.steps.iter_ids().skip(settled) {
-        let Step::Neg(inner) = step else { continue };
-        for candidate in candidates(program, *inner) {
+    for value in (settled..program.steps.len()).map(Value::from_index) {
+        let Step::Neg(inner) = program.steps[value] else { continue };
+        for candidate in candidates(program, inner) {
             let opposite = opposite(program, &users, candidate);
             if gain(program, &users, &opposite) > 0 {
-                return Some((value.index().saturating_sub(1), rebuilt(program, candidate, &opposite)));
+                return Some((value, candidate, opposite));
             }
         }
     }
@@ -85,7 +87,7 @@ fn candidates(program: &Program, value: Value) -> Vec<Value> {
                 open.push(*inner);
             }
             step @ (Step::Mul(a, b) | Step::Div(a, b)) => {
-                if number(program, step).is_some() {
+                if number(&program.steps, step).is_some() {
                     found.push(value);
                 }
                 open.extend([*b, *a]);
@@ -100,9 +102,9 @@ fn candidates(program: &Program, value: Value) -> Vec<Value> {
 }
 
 /// The number that is a factor of a product, and the other factor.
-fn number<'a>(program: &'a Program, step: &Step) -> Option<(&'a Rational, Value)> {
+fn number<'a>(steps: &'a Table<Value, Step>, step: &Step) -> Option<(&'a Rational, Value)> {
     let Step::Mul(a, b) = step else { return None };
-    [(a, b), (b, a)].into_iter().find_map(|(factor, other)| match &program.steps[*factor] {
+    [(a, b), (b, a)].into_iter().find_map(|(factor, other)| match &steps[*factor] {
         Step::Constant(number) => Some((number, *other)),
         _ => None,
     })
@@ -153,13 +155,31 @@ fn change(step: &Step, is_opposite: impl Fn(&Value) -> bool) -> Change {
     }
 }
 
+/// Values with the opposite sign: in order, and one by one.
+struct Opposite {
+    values: Vec<Value>,
+    is: Vec<bool>,
+}
+
+impl Opposite {
+    fn add(&mut self, value: Value) {
+        self.values.push(value);
+        self.is[value.index()] = true;
+    }
+
+    fn contains(&self, value: Value) -> bool {
+        self.is[value.index()]
+    }
+}
+
 /// The values that change their sign with `start`.
-fn opposite(program: &Program, users: &Users, start: Value) -> BTreeSet<Value> {
-    let mut opposite = BTreeSet::from([start]);
+fn opposite(program: &Program, users: &Users, start: Value) -> Opposite {
+    let mut opposite = Opposite { values: Vec::new(), is: vec![false; program.steps.len()] };
+    opposite.add(start);
     let mut open: BTreeSet<Value> = users.of_value(start).iter().copied().collect();
     while let Some(value) = open.pop_first() {
-        if let Change::Opposite(_) = change(&program.steps[value], |operand| opposite.contains(operand)) {
-            opposite.insert(value);
+        if let Change::Opposite(_) = change(&program.steps[value], |operand| opposite.contains(*operand)) {
+            opposite.add(value);
             open.extend(users.of_value(value));
         }
     }
@@ -167,12 +187,12 @@ fn opposite(program: &Program, users: &Users, start: Value) -> BTreeSet<Value> {
 }
 
 /// How many negations fewer there are with these values of opposite sign.
-fn gain(program: &Program, users: &Users, opposite: &BTreeSet<Value>) -> i32 {
+fn gain(program: &Program, users: &Users, opposite: &Opposite) -> i32 {
     let mut gain = 0;
-    for value in opposite {
+    for value in &opposite.values {
         let mut needed = program.outputs.contains(value);
         for user in users.of_value(*value) {
-            match change(&program.steps[*user], |operand| opposite.contains(operand)) {
+            match change(&program.steps[*user], |operand| opposite.contains(*operand)) {
                 Change::Vanishes(_) => gain += 1,
                 Change::Refused => needed = true,
                 _ => {}
@@ -184,70 +204,67 @@ fn gain(program: &Program, users: &Users, opposite: &BTreeSet<Value>) -> i32 {
 }
 
 /// The program with these values of opposite sign, the first of which is computed so.
-fn rebuilt(program: &Program, start: Value, opposite: &BTreeSet<Value>) -> Program {
-    let mut steps: Table<Value, Step> = Table::new();
+fn rebuilt(program: Program, start: Value, opposite: &Opposite) -> Program {
+    let Program { mut steps, outputs, mut names } = program;
+    // what comes before stays where it is
+    let rest = steps.split_off(start);
+    let mut named = names.split_off(&start).into_iter().peekable();
     // where each value is now, with its own sign or, of those in `opposite`, with the other one
-    let mut images: Vec<Value> = Vec::with_capacity(program.steps.len());
-    let mut names = program.names.clone();
-    names.clear();
-    let mut restored: Vec<Option<Value>> = vec![None; program.steps.len()];
-    for (value, step) in program.steps.iter_ids() {
-        let changed = match change(step, |operand| opposite.contains(operand)) {
-            _ if value == start => None,
-            Change::None => Some(step.clone()),
-            Change::Same(step) | Change::Opposite(step) => Some(step),
+    let mut images: Table<Value, Value> = steps.ids().collect();
+    let mut restored: Vec<Option<Value>> = vec![None; steps.len() + rest.len()];
+    images.push(turned(&mut steps, &rest[0]));
+    for step in &rest[1..] {
+        let value = Value::from_index(images.len());
+        match change(step, |operand| opposite.contains(*operand)) {
+            Change::None => images.push(steps.push(rename(step, &|old: Value| images[old]))),
+            Change::Same(step) | Change::Opposite(step) => {
+                images.push(steps.push(rename(&step, &|old: Value| images[old])))
+            }
             Change::Vanishes(operand) => {
-                images.push(images[operand.index()]);
+                images.push(images[operand]);
                 continue;
             }
             Change::Refused => {
                 for operand in step.operands() {
-                    if opposite.contains(&operand) && restored[operand.index()].is_none() {
-                        let image = images[operand.index()];
+                    if opposite.contains(operand) && restored[operand.index()].is_none() {
+                        let image = images[operand];
                         restored[operand.index()] = Some(steps.push(Step::Neg(image)));
                     }
                 }
-                let of = |old: Value| restored[old.index()].unwrap_or(images[old.index()]);
-                images.push(steps.push(super::lower::rename(step, &of)));
+                let of = |old: Value| restored[old.index()].unwrap_or(images[old]);
+                images.push(steps.push(rename(step, &of)));
                 continue;
             }
         };
-        let step = changed.unwrap_or_else(|| match *step {
-            Step::Mul(..) => {
-                // its image is put in place below
-                if let Some((number, other)) = number(program, step) {
-                    let minus = steps.push(Step::Constant(-number.clone()));
-                    images.push(steps.push(Step::Mul(minus, images[other.index()])));
-                }
-                Step::Pi
-            }
-            Step::Sub(a, b) => Step::Sub(b, a),
-            Step::MulAdd { a, b, c, minus_product, minus_c } => {
-                Step::MulAdd { a, b, c, minus_product: !minus_product, minus_c: !minus_c }
-            }
-            Step::Recip(a) => {
-                // its image is put in place below
-                let minus_one = steps.push(Step::Constant(Rational::MINUS_ONE));
-                images.push(steps.push(Step::Div(minus_one, images[a.index()])));
-                Step::Pi
-            }
-            _ => step.clone(),
-        });
-        if images.len() == value.index() {
-            images.push(steps.push(super::lower::rename(&step, &|old: Value| images[old.index()])));
-        }
-        if let Some(name) = program.names.get(&value).filter(|_| !opposite.contains(&value)) {
-            names.insert(images[value.index()], *name);
+        while named.next_if(|(other, _)| *other < value).is_some() {}
+        if let Some((_, name)) = named.next_if(|(other, _)| *other == value && !opposite.contains(value)) {
+            names.insert(images[value], name);
         }
     }
-    let mut outputs = Vec::with_capacity(program.outputs.len());
-    for output in &program.outputs {
-        let image = images[output.index()];
-        outputs.push(if opposite.contains(output) {
+    let outputs = outputs.into_iter().map(|output| {
+        let image = images[output];
+        if opposite.contains(output) {
             *restored[output.index()].get_or_insert_with(|| steps.push(Step::Neg(image)))
         } else {
             image
-        });
-    }
+        }
+    });
+    let outputs = outputs.collect();
     Program { steps, outputs, names }
+}
+
+/// Takes a step with the opposite sign, whose operands stay where they are.
+fn turned(steps: &mut Table<Value, Step>, step: &Step) -> Value {
+    let turned = match *step {
+        Step::Sub(a, b) => Step::Sub(b, a),
+        Step::MulAdd { a, b, c, minus_product, minus_c } => {
+            Step::MulAdd { a, b, c, minus_product: !minus_product, minus_c: !minus_c }
+        }
+        Step::Recip(a) => Step::Div(steps.push(Step::Constant(Rational::MINUS_ONE)), a),
+        _ => match number(steps, step).map(|(number, other)| (-number.clone(), other)) {
+            Some((minus, other)) => Step::Mul(steps.push(Step::Constant(minus)), other),
+            None => step.clone(),
+        },
+    };
+    steps.push(turned)
 }

@@ -102,9 +102,14 @@ impl Step {
         match self {
             Self::Constant(_) | Self::Pi | Self::Load(_) => {}
             Self::Add(a, b) | Self::Sub(a, b) | Self::Mul(a, b) | Self::Div(a, b) | Self::Apply2(_, a, b) => {
-                [*a, *b].into_iter().for_each(visit);
+                visit(*a);
+                visit(*b);
             }
-            Self::MulAdd { a, b, c, .. } => [*a, *b, *c].into_iter().for_each(visit),
+            Self::MulAdd { a, b, c, .. } => {
+                visit(*a);
+                visit(*b);
+                visit(*c);
+            }
             Self::Neg(a)
             | Self::Recip(a)
             | Self::Sqrt(a)

@@ -129,11 +129,6 @@ impl BundleMap {
     pub(super) fn image(&self, source: &mut Side, section: &[ExprId]) -> Vec<ExprId> {
         self.fibre.iter().map(|row| source.graph().inner_product(row, section)).collect()
     }
-
-    /// Φ(e_α): column α.
-    pub(super) fn column(&self, alpha: SectionId) -> Vec<ExprId> {
-        self.fibre.iter().map(|row| row[alpha.index()]).collect()
-    }
 }
 
 /// The values in the order of their ids.

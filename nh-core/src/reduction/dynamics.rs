@@ -31,11 +31,13 @@ pub(super) fn related(source: &mut Side, target: &Side, map: &BundleMap, is_aske
     violations
 }
 
-/// L = L'∘Φ.
+/// L = L'∘Φ, on the velocities that are tangent to the positions.
 fn lagrangian(source: &mut Side, target: &Side, map: &BundleMap) -> Option<Violation> {
     let right = map.pull_back(target).apply(source.graph(), target.proved.system.lagrangian);
     let right = assuming(source, right);
+    let right = source.on_tangent(right);
     let left = source.proved.system.lagrangian;
+    let left = source.on_tangent(left);
     let defect = source.graph().sub(left, right);
     let verdict = source.vanishes(defect);
     if verdict.is_zero() {

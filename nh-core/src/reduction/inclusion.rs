@@ -28,6 +28,8 @@ pub struct Inclusion {
     pub included: Procedure,
     /// For each variable of the source's state, the variable of the target's that is the same.
     pub places: Vec<usize>,
+    /// Whether the source has equations for its state, to which states of the target are returned.
+    pub has_equations: bool,
     /// What was proved, as text.
     pub report: String,
 }
@@ -70,7 +72,9 @@ pub(super) fn functions(
     let included = images(&mut source, target, map);
     maps::all_tracked(&source, map, &included, &[])?;
     let report = report(&mut source, target, &included);
+    let has_equations = source.distribution.is_none() || !source.proved.model.positions.is_empty();
     Ok(Inclusion {
+        has_equations,
         state: source.state.clone(),
         target_state: target.state.clone(),
         parameters: Procedure::of(parameters),

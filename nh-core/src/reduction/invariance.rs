@@ -122,7 +122,7 @@ impl<'a> Invariant<'a> {
 }
 
 /// D in the frame: the constraints as they are where they are invariant; where only D is, in the form
-/// that is solved for velocities, which D alone determines.
+/// that is solved for velocities, which D alone determines. Rates of position constraints are left to these.
 pub(super) fn constraints(
     invariant: &mut Invariant<'_>,
     velocities: &[SymbolId],
@@ -133,7 +133,8 @@ pub(super) fn constraints(
     let zero = invariant.side.graph().zero();
     let mut as_declared = Vec::new();
     let mut broken = None;
-    for (index, residual) in residuals.into_iter().enumerate() {
+    let of_positions = invariant.side.proved.model.positions.len();
+    for (index, residual) in residuals.into_iter().enumerate().skip(of_positions) {
         let value = in_frame.apply(invariant.side.graph(), residual);
         let label =
             invariant.side.proved.model.constraints.get(Id::from_index(index)).and_then(|c| c.label.clone());
@@ -177,10 +178,11 @@ fn linear(
         Some(distribution) => distribution.constraints.clone(),
         None => invariant.side.proved.constraints.linear.clone()?,
     };
+    let of_positions = invariant.side.proved.model.positions.len();
     let graph = invariant.side.graph();
     let columns = Graph::transposed(&change.sections);
     let mut rows = Matrix::new();
-    for row in &linear.annihilator {
+    for row in linear.annihilator.iter().skip(of_positions) {
         let mut new = Vec::new();
         for column in &columns {
             let entry = graph.inner_product(row, column);
@@ -188,7 +190,7 @@ fn linear(
         }
         rows.push(new);
     }
-    let drift = in_frame.apply_all(graph, &linear.drift);
+    let drift = in_frame.apply_all(graph, linear.drift.get(of_positions..).unwrap_or_default());
     Some((rows, drift))
 }
 

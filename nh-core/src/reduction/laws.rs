@@ -3,9 +3,11 @@
 use super::assuming;
 use super::bundle_map::BundleMap;
 use super::side::Side;
-use crate::algebra::Verdict;
+use crate::algebra::{Derivation, Matrix, Verdict};
 use crate::check::evidence::{not_zero, shown};
-use crate::id::{ExprId, Id, Origin, SectionId};
+use crate::check::name_of;
+use crate::compile::Proved;
+use crate::id::{ConstraintId, ExprId, Id, Origin, SectionId};
 use crate::violation::{Law, Violation};
 
 /// At most so many broken instances of one law are reported.
@@ -43,7 +45,7 @@ pub(super) fn broken(
     verdict: &Verdict,
     way_out: String,
 ) -> Violation {
-    let base_is_whole = source.proved.base.is_whole();
+    let base_is_whole = source.proved.positions.manifold.is_whole();
     let graph = source.graph();
     let defect = graph.formula(sides.left - sides.right);
     let [left, right, defect] = [sides.left, sides.right, defect].map(|value| graph.simplify(value));
@@ -82,25 +84,58 @@ fn into_the_base(source: &mut Side, target: &Side, map: &BundleMap) -> Vec<Viola
             way_out: "map the coordinates to points of the embedded base".into(),
         });
     }
+    for index in 0..target.proved.model.positions.len() {
+        violations.extend(off_positions(source, target, map, index));
+    }
     violations
 }
 
-/// Mathematics (13): `ρ^j_α ∂_jφ^i = ρ'^i_β Φ^β_α`, so that admissible curves go to admissible ones.
+/// A position constraint of the target that does not hold where the source is.
+fn off_positions(source: &mut Side, target: &Side, map: &BundleMap, index: usize) -> Option<Violation> {
+    let position = &target.proved.model.positions[index];
+    let value = map.pull_back(target).apply(source.graph(), position.value);
+    let value = assuming(source, value);
+    let undecided = match source.vanishes(value) {
+        Verdict::Zero => return None,
+        Verdict::NonZero(_) => String::new(),
+        Verdict::Unknown(why) => format!(" ({why})"),
+    };
+    let value = source.graph().simplify(value);
+    let (from, to) = (source.name(), target.name());
+    let name = name_of(&target.proved.model, ConstraintId::from_index(index));
+    let where_from = if source.proved.model.positions.is_empty() {
+        "on"
+    } else {
+        "where the position constraints hold on"
+    };
+    Some(Violation {
+        law: Law::Morphism,
+        origin: map.origin,
+        what: format!("the positions of `{to}` are left: {name} does not hold"),
+        evidence: format!(
+            "it becomes {} = 0, which is not so {where_from} the base of `{from}`{undecided}",
+            shown(source.graph(), value)
+        ),
+        way_out: format!("correct the map, or add the constraint to `{from}`"),
+    })
+}
+
+/// Mathematics (13): `ρ^j_α ∂_jφ^i = ρ'^i_β Φ^β_α`, so that admissible curves go to admissible ones; along the sections
+/// that are tangent to the positions.
 fn admissible(source: &mut Side, target: &Side, map: &BundleMap) -> Vec<Violation> {
     let mut violations = Vec::new();
     for (i, coordinate) in target.proved.model.coordinates.iter().enumerate() {
-        for alpha in source.proved.system.algebroid.sections() {
-            let anchor = &source.proved.system.algebroid.anchor;
-            let graph = &mut source.proved.model.graph;
-            let left = anchor.along(alpha).apply(graph, map.coordinates[i].value);
-            let right = graph.inner_product(&map.anchor[i], &map.column(alpha));
+        for (section, components) in source.tangent.clone() {
+            let image = map.image(source, &components);
+            let left = along(source, &components).apply(source.graph(), map.coordinates[i].value);
+            let right = source.graph().inner_product(&map.anchor[i], &image);
+            let graph = source.graph();
             let defect = graph.formula(left - right);
             let defect = assuming(source, defect);
             let verdict = source.vanishes(defect);
             if verdict.is_zero() {
                 continue;
             }
-            let section = source.proved.model.sections[alpha].name.clone();
             let name = &coordinate.name;
             violations.push(broken(
                 source,
@@ -126,17 +161,26 @@ fn admissible(source: &mut Side, target: &Side, map: &BundleMap) -> Vec<Violatio
     violations
 }
 
+/// ρ(σ).
+fn along(source: &mut Side, section: &[ExprId]) -> Derivation {
+    let Proved { model, system, .. } = &mut source.proved;
+    let anchor = &system.algebroid.anchor;
+    let field = anchor.vector_field(&mut model.graph, section);
+    Derivation::new(anchor.coordinates.iter().copied().zip(field))
+}
+
 /// Mathematics (14): Φ [e_α, e_δ] against the bracket of the images,
-/// `Φ^β_γ C^γ_{αδ} = ρ^i_α ∂_iΦ^β_δ − ρ^i_δ ∂_iΦ^β_α + C'^β_{θσ} Φ^θ_α Φ^σ_δ`.
+/// `Φ^β_γ C^γ_{αδ} = ρ^i_α ∂_iΦ^β_δ − ρ^i_δ ∂_iΦ^β_α + C'^β_{θσ} Φ^θ_α Φ^σ_δ`, which is linear over functions in both
+/// sections: where position constraints hold, at places of these for sections tangent to them.
 fn bracket(source: &mut Side, target: &Side, map: &BundleMap) -> Vec<Violation> {
     let mut violations = Vec::new();
-    let sections: Vec<SectionId> = source.proved.system.algebroid.sections().collect();
+    let sections = source.tangent.clone();
     for (k, alpha) in sections.iter().enumerate() {
         for delta in &sections[k + 1..] {
             if violations.len() == REPORTED {
                 return violations;
             }
-            violations.extend(bracket_of_pair(source, target, map, *alpha, *delta));
+            violations.extend(bracket_of_pair(source, target, map, [alpha, delta]));
         }
     }
     violations
@@ -146,22 +190,22 @@ fn bracket_of_pair(
     source: &mut Side,
     target: &Side,
     map: &BundleMap,
-    alpha: SectionId,
-    delta: SectionId,
+    [alpha, delta]: [&(String, Vec<ExprId>); 2],
 ) -> Option<Violation> {
-    let algebroid = source.proved.system.algebroid.clone();
-    let graph = source.graph();
-    let bracket: Vec<ExprId> =
-        algebroid.sections().map(|gamma| algebroid.structure.get(graph, gamma, alpha, delta)).collect();
+    let Proved { model, system, .. } = &mut source.proved;
+    let bracket = system.algebroid.structure.contract(&mut model.graph, &alpha.1, &delta.1);
     let image = map.image(source, &bracket);
-    let (of_alpha, of_delta) = (map.column(alpha), map.column(delta));
-    let graph = source.graph();
-    let algebraic = map.structure.contract(graph, &of_alpha, &of_delta);
-    let (mut along_alpha, mut along_delta) = (algebroid.anchor.along(alpha), algebroid.anchor.along(delta));
+    let (of_alpha, of_delta) = (map.image(source, &alpha.1), map.image(source, &delta.1));
+    let algebraic = map.structure.contract(source.graph(), &of_alpha, &of_delta);
+    let (mut along_alpha, mut along_delta) = (along(source, &alpha.1), along(source, &delta.1));
     for (beta, (left, algebraic)) in image.into_iter().zip(algebraic).enumerate() {
         let graph = source.graph();
-        let forth = along_alpha.apply(graph, of_delta[beta]);
-        let back = along_delta.apply(graph, of_alpha[beta]);
+        // the components of the sections stay as they are
+        let row = &map.fibre[beta];
+        let changes: Vec<ExprId> = row.iter().map(|entry| along_alpha.apply(graph, *entry)).collect();
+        let forth = graph.inner_product(&changes, &delta.1);
+        let changes: Vec<ExprId> = row.iter().map(|entry| along_delta.apply(graph, *entry)).collect();
+        let back = graph.inner_product(&changes, &alpha.1);
         let right =
             graph.linear_combination(&[(1.into(), forth), ((-1).into(), back), (1.into(), algebraic)]);
         let defect = graph.formula(left - right);
@@ -170,7 +214,7 @@ fn bracket_of_pair(
         if verdict.is_zero() {
             continue;
         }
-        let [a, d] = [alpha, delta].map(|section| source.proved.model.sections[section].name.clone());
+        let (a, d) = (&alpha.0, &delta.0);
         let b = &target.proved.model.sections[SectionId::from_index(beta)].name;
         return Some(broken(
             source,
@@ -191,10 +235,12 @@ fn bracket_of_pair(
     None
 }
 
-/// Φ is onto on the fibres.
+/// Φ is onto on the fibres, of the velocities that are tangent to the positions.
 fn onto(source: &mut Side, target: &Side, map: &BundleMap) -> Vec<Violation> {
-    let wanted = map.fibre.len();
-    let rank = if wanted == 0 { Ok(0) } else { source.rank_over_base(&map.fibre) };
+    let wanted = target.tangent.len();
+    let sections: Matrix = source.tangent.iter().map(|(_, section)| section.clone()).collect();
+    let images: Matrix = sections.iter().map(|section| map.image(source, section)).collect();
+    let rank = if wanted == 0 || images.is_empty() { Ok(0) } else { source.rank_over_base(&images) };
     let evidence = match rank {
         Ok(rank) if rank == wanted => return Vec::new(),
         Ok(rank) => format!("the rank of the map is {rank}, that of `{}` is {wanted}", target.name()),

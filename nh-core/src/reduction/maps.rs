@@ -5,7 +5,9 @@ use super::side::Side;
 use super::{Reconstruction, Reduction};
 use crate::algebra::{Graph, Matrix, Substitution, Transplant};
 use crate::compile::Proved;
-use crate::id::{ExprId, SymbolId};
+use crate::geometry::PivotSetting;
+use crate::geometry::independent_velocities::search;
+use crate::id::{ExprId, Id, SymbolId};
 use crate::mechanics::Procedure;
 use crate::model::Located;
 use crate::violation::{Law, Violation};
@@ -65,9 +67,23 @@ pub(super) fn reduced_velocities(source: &mut Side, target: &Side, map: &BundleM
 
 /// The unknowns of an overdetermined linear system that has a solution, by rows that determine them.
 fn solved(side: &mut Side, matrix: &Matrix, right: &[ExprId]) -> Option<Vec<ExprId>> {
-    let Proved { model, base, .. } = &mut side.proved;
-    let rows = base.independent_rows(&mut model.graph, matrix).ok()?;
+    let Proved { model, positions, .. } = &mut side.proved;
+    let rows = positions.manifold.independent_rows(&mut model.graph, matrix).ok()?;
     model.graph.solve_by_rows(matrix, right, &rows)
+}
+
+/// Rows that determine the unknowns wherever all of them do: position constraints leave more rows than unknowns, of
+/// which some may say nothing where the motion goes on.
+fn rows_everywhere(side: &mut Side, matrix: &Matrix) -> Option<Vec<usize>> {
+    let Proved { model, positions, facts, .. } = &mut side.proved;
+    let parameters: Vec<SymbolId> = model.parameters.iter().map(|parameter| parameter.symbol).collect();
+    let graph = &mut model.graph;
+    let columns = Graph::transposed(matrix);
+    let on_base = positions.manifold.restrict_matrix(graph, &columns);
+    let setting =
+        PivotSetting { annihilator: &columns, on_base: &on_base, parameters: &parameters, facts: &*facts };
+    let choice = search(graph, &setting, &[], matrix.len()).ok()?.ok()?;
+    Some(choice.dependent.iter().map(|row| row.index()).collect())
 }
 
 /// The state of the target, each variable with its value as a function on E.
@@ -145,7 +161,8 @@ fn reconstruction(source: &mut Side, target: &Side, map: &BundleMap) -> Option<R
         None => kept_velocities.iter().map(|symbol| source.graph().symbol(*symbol)).collect(),
     };
     // 3. y and v from y'
-    let (velocity, state_velocities) = velocities(source, map, &velocity)?;
+    let on_positions = !target.proved.model.positions.is_empty();
+    let (velocity, state_velocities) = velocities(source, map, &velocity, on_positions)?;
     let coordinates: Vec<SymbolId> = source.proved.model.coordinates.iter().map(|c| c.symbol).collect();
     let dropped: Vec<SymbolId> =
         coordinates.iter().copied().filter(|symbol| kept.iter().all(|(known, _)| known != symbol)).collect();
@@ -177,9 +194,15 @@ fn reconstruction(source: &mut Side, target: &Side, map: &BundleMap) -> Option<R
 }
 
 /// y and the velocities of the source's state from y'.
-fn velocities(source: &mut Side, map: &BundleMap, reduced: &[ExprId]) -> Option<(Vec<ExprId>, Vec<ExprId>)> {
+fn velocities(
+    source: &mut Side,
+    map: &BundleMap,
+    reduced: &[ExprId],
+    on_positions: bool,
+) -> Option<(Vec<ExprId>, Vec<ExprId>)> {
+    let on_positions = on_positions || !source.proved.model.positions.is_empty();
     let rank = source.velocities().len();
-    if map.fibre.len() == rank {
+    if map.fibre.len() == rank && !on_positions {
         // an isomorphism on the fibres: y = Φ⁻¹ y'
         let right: Matrix = reduced.iter().map(|value| vec![*value]).collect();
         let solution = source.graph().solve_linear(&map.fibre, &right)?;
@@ -201,7 +224,12 @@ fn velocities(source: &mut Side, map: &BundleMap, reduced: &[ExprId]) -> Option<
     let matrix = Graph::transposed(&images);
     let right: Vec<ExprId> =
         reduced.iter().zip(offset).map(|(value, offset)| graph.formula(value - offset)).collect();
-    let state = solved(source, &matrix, &right)?;
+    let state = if on_positions {
+        let rows = rows_everywhere(source, &matrix)?;
+        source.graph().solve_by_rows(&matrix, &right, &rows)?
+    } else {
+        solved(source, &matrix, &right)?
+    };
     let graph = source.graph();
     let mut velocity = Vec::new();
     for (row, offset) in distribution.basis.iter().zip(&distribution.offset) {
@@ -214,7 +242,7 @@ fn velocities(source: &mut Side, map: &BundleMap, reduced: &[ExprId]) -> Option<
 /// What was proved, as text.
 fn report(source: &mut Side, target: &Side, map: &BundleMap, back: Option<&Reconstruction>) -> String {
     let (from, to) = (source.name(), target.name());
-    let (rank, image) = (source.velocities().len(), map.fibre.len());
+    let (rank, image) = (source.tangent.len(), target.tangent.len());
     let kind = if rank == image { "an isomorphism on every fibre" } else { "onto on every fibre" };
     let mut lines = vec![
         format!("{from} -> {to}"),
@@ -225,6 +253,13 @@ fn report(source: &mut Side, target: &Side, map: &BundleMap, back: Option<&Recon
             .to_owned(),
         String::new(),
     ];
+    let on_positions = [&*source, target].map(|side| !side.proved.model.positions.is_empty());
+    if on_positions.contains(&true) {
+        lines.insert(
+            4,
+            "All of it where the position constraints hold, for velocities tangent to them.".to_owned(),
+        );
+    }
     let graph = &mut source.proved.model.graph;
     let model = &target.proved.model;
     let names = model.coordinates.iter().map(|c| &c.name).chain(model.sections.iter().map(|s| &s.name));
@@ -234,6 +269,9 @@ fn report(source: &mut Side, target: &Side, map: &BundleMap, back: Option<&Recon
     }
     lines.push(String::new());
     lines.push(match back {
+        None if on_positions.contains(&true) => {
+            "No way back was found by rates that hold wherever the motion does.".to_owned()
+        }
         None => "The motion cannot be reconstructed from the reduced one by quadratures alone.".to_owned(),
         Some(back) if back.dropped.is_empty() => "No coordinate is dropped.".to_owned(),
         Some(back) => {

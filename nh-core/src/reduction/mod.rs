@@ -16,6 +16,7 @@ mod maps;
 mod quotient;
 mod side;
 
+use crate::compile::Proved;
 use crate::id::{CoordId, ExprId, InputId, Origin, ParamId, SymbolId};
 use crate::limits::{Subject, about};
 use crate::mechanics::Procedure;
@@ -106,7 +107,7 @@ pub fn reduce(source: Model, target: Model, declared: &MorphismDecl) -> Result<R
     about(Subject::Map);
     fence([&source, &target].into_iter().filter_map(|side| on_level(side, declared)).collect())?;
     let sides = [&source, &target].into_iter();
-    fence(sides.filter_map(|side| on_positions(side, declared.origin)).collect())?;
+    fence(sides.filter_map(|side| on_moving_positions(side, declared.origin)).collect())?;
     // 1. Φ: parameters, base and fibres, and the target pulled back by it
     let map = BundleMap::of(&mut source, &target, declared).map_err(Refusal::Broken)?;
     // 2. the laws of the map, mathematics (13) and (14): onto, unless the source is a mode of the target
@@ -126,18 +127,21 @@ pub fn reduce(source: Model, target: Model, declared: &MorphismDecl) -> Result<R
     related.map_err(|violation| Refusal::Broken(vec![violation]))
 }
 
-/// A side whose motions are those of one level set alone, f = 0.
-fn on_positions(side: &Side, origin: Origin) -> Option<Violation> {
-    let position = side.proved.model.positions.first()?;
-    let label = position.label.as_ref().map_or_else(String::new, |label| format!(" `{label}`"));
+/// A side whose positions move: its velocities are no vector bundle over them.
+fn on_moving_positions(side: &Side, origin: Origin) -> Option<Violation> {
+    let Proved { model, positions, .. } = &side.proved;
+    let all = model.positions.iter().chain(&positions.redundant);
+    let position = all.into_iter().find(|position| model.graph.depends_on(position.value, &[model.time]))?;
+    let label =
+        position.label.as_ref().map_or_else(|| "a position constraint".to_owned(), |l| format!("`{l}`"));
     Some(Violation {
         law: Law::Morphism,
         origin,
-        what: format!("`{}` has position constraints", side.name()),
-        evidence: format!(
-            "its motions are those on which{label} holds, and laws of maps are asked everywhere"
-        ),
-        way_out: "relate systems in coordinates that need none".into(),
+        what: format!("{label} of `{}` depends on the time", side.name()),
+        evidence:
+            "the velocities of its motions are not closed under sums, and laws of maps are linear in them"
+                .into(),
+        way_out: "relate systems in coordinates that need no such constraint".into(),
     })
 }
 

@@ -14,7 +14,7 @@ use crate::compile::{self, Proved, frame_names, moved, with_translations};
 use crate::geometry::{ChangeOfBasis, Fibres, InvariantFrame};
 use crate::id::{CoordId, ExprId, Id, Origin, SymbolId};
 use crate::limits::{Subject, about};
-use crate::model::{Located, Model};
+use crate::model::{Located, Model, PositionDecl};
 use crate::violation::{Law, Violation};
 
 /// A quotient, as it is declared.
@@ -45,6 +45,10 @@ pub struct Quotient {
     pub brackets: Vec<(usize, usize, ExprId)>,
     /// The identities of an embedded base that are left.
     pub identities: Vec<ExprId>,
+    /// Position constraints, those that follow from others last.
+    pub positions: Vec<Equation>,
+    /// Whether some follow from others.
+    pub is_redundant: bool,
     /// L.
     pub lagrangian: ExprId,
     /// Constraints, as two sides of an equation.
@@ -74,7 +78,7 @@ pub struct Equation {
 pub fn quotient(model: Model, declared: &QuotientDecl) -> Result<Quotient, Refusal> {
     let mut source = Side::of(model)?;
     about(Subject::Quotient);
-    fence(super::on_positions(&source, declared.origin).into_iter().collect())?;
+    fence(super::on_moving_positions(&source, declared.origin).into_iter().collect())?;
     // 1. the frame: w = Φ y, Ψ = Φ⁻¹
     let derived = invariant_frame(&mut source, declared);
     let no_frame = derived.as_ref().err().cloned();
@@ -122,6 +126,7 @@ pub fn quotient(model: Model, declared: &QuotientDecl) -> Result<Quotient, Refus
     let forces = forces(&mut invariant, &change, &mut in_frame, &names);
     let auxiliary = auxiliary(&mut invariant, &mut in_frame);
     let identities = identities(&mut invariant);
+    let positions = positions(&mut invariant);
     // 3. what was found to depend on them
     let violations = std::mem::take(&mut invariant.violations);
     fence(violations)?;
@@ -132,6 +137,8 @@ pub fn quotient(model: Model, declared: &QuotientDecl) -> Result<Quotient, Refus
         anchor,
         brackets,
         identities,
+        positions,
+        is_redundant: !source.proved.positions.redundant.is_empty(),
         lagrangian,
         constraints,
         forces,
@@ -277,6 +284,20 @@ fn opaque(side: &Side) -> Option<String> {
     }
     let (direction, _) = side.proved.system.forces_on_distribution.first()?;
     Some(format!("the force along `{}` is known on D only", model.graph.symbols()[*direction]))
+}
+
+/// The position constraints, whose functions have to be invariant themselves.
+fn positions(invariant: &mut Invariant<'_>) -> Vec<Equation> {
+    let Proved { model, positions, .. } = &invariant.side.proved;
+    let all: Vec<_> = model.positions.iter().chain(&positions.redundant).cloned().collect();
+    let zero = invariant.side.graph().zero();
+    let mut found = Vec::new();
+    for PositionDecl { label, value, .. } in all {
+        let name =
+            label.as_ref().map_or_else(|| "a position constraint".to_owned(), |label| format!("`{label}`"));
+        found.push(Equation { left: invariant.checked(value, &name), right: zero, label });
+    }
+    found
 }
 
 /// The identities in which no dropped coordinate occurs; the others say how those are embedded.

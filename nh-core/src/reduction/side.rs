@@ -5,8 +5,8 @@ use crate::algebra::{Graph, Matrix, Substitution, Verdict};
 use crate::check::Chosen;
 use crate::choose::Given;
 use crate::compile::{Proved, compile, given, prove};
-use crate::geometry::{ConstraintDistribution, Manifold};
-use crate::id::{ExprId, SymbolId};
+use crate::geometry::{ConstraintDistribution, LinearConstraints, Manifold};
+use crate::id::{ExprId, Id, SectionId, SymbolId};
 use crate::model::Model;
 
 /// A checked system.
@@ -19,6 +19,11 @@ pub(super) struct Side {
     pub(super) state: Vec<SymbolId>,
     /// The rates of the auxiliary states, in quasi-velocities.
     pub(super) rates: Vec<ExprId>,
+    /// Sections that span the velocities tangent to the positions, at most places, each with its name: those of the
+    /// basis, where no position constraints hold.
+    pub(super) tangent: Vec<(String, Vec<ExprId>)>,
+    /// All velocities, by those that name these sections.
+    on_tangent: Vec<(SymbolId, ExprId)>,
     /// Where the constraints hold over the embedded base.
     manifold: Manifold,
 }
@@ -34,7 +39,7 @@ impl Side {
             Chosen::Projected { .. } => None,
         };
         let manifold = match distribution {
-            Some(_) => proved.base.clone(),
+            Some(_) => proved.positions.manifold.clone(),
             None => proved.constraints.manifold(&mut proved.model.graph, &velocities),
         };
         let state = if let Some(system) = whole {
@@ -46,7 +51,8 @@ impl Side {
             coordinates.chain(kept).chain(auxiliary).collect()
         };
         let rates = rates(&mut proved);
-        Ok(Self { proved, distribution, state, rates, manifold })
+        let (tangent, on_tangent) = tangent(&mut proved).unwrap_or_else(|| all_velocities(&mut proved));
+        Ok(Self { proved, distribution, state, rates, tangent, on_tangent, manifold })
     }
 
     /// The expressions.
@@ -97,20 +103,43 @@ impl Side {
         restriction.apply(graph, function)
     }
 
+    /// A function on E, on the velocities that are tangent to the positions.
+    pub(super) fn on_tangent(&mut self, function: ExprId) -> ExprId {
+        let mut restriction = Substitution::new(self.on_tangent.iter().copied());
+        restriction.apply(&mut self.proved.model.graph, function)
+    }
+
     /// Whether a function on E vanishes where the constraints hold.
     pub(super) fn vanishes_on_constraints(&mut self, function: ExprId) -> Verdict {
         let restricted = self.restricted(function);
-        self.manifold.zero_test(&mut self.proved.model.graph, restricted)
+        let verdict = self.manifold.zero_test(&mut self.proved.model.graph, restricted);
+        self.unless_elsewhere(verdict)
     }
 
-    /// Whether a function on E or on the base vanishes over the embedded base.
+    /// Whether a function on E or on the base vanishes over the positions: the embedded base, or the part of it where
+    /// position constraints hold.
     pub(super) fn vanishes(&mut self, function: ExprId) -> Verdict {
-        self.proved.base.zero_test(&mut self.proved.model.graph, function)
+        let Proved { model, positions, .. } = &mut self.proved;
+        let verdict = positions.manifold.zero_test(&mut model.graph, function);
+        self.unless_elsewhere(verdict)
     }
 
-    /// The generic rank of a matrix over the embedded base.
+    /// What is not 0 may be so where position constraints hold of which no points were found.
+    fn unless_elsewhere(&self, verdict: Verdict) -> Verdict {
+        let Proved { model, positions, .. } = &self.proved;
+        match (&verdict, positions.unsolved.first()) {
+            (Verdict::NonZero(_), Some(function)) => {
+                let function = model.graph.text_within(*function, 200);
+                Verdict::Unknown(format!("no points were found where {function} = 0"))
+            }
+            _ => verdict,
+        }
+    }
+
+    /// The generic rank of a matrix over the positions.
     pub(super) fn rank_over_base(&mut self, matrix: &Matrix) -> Result<usize, String> {
-        let restricted = self.proved.base.restrict_matrix(&mut self.proved.model.graph, matrix);
+        let Proved { model, positions, .. } = &mut self.proved;
+        let restricted = positions.manifold.restrict_matrix(&mut model.graph, matrix);
         self.proved.model.graph.generic_rank(&restricted)
     }
 
@@ -137,6 +166,35 @@ impl Side {
         });
         Ok(all?.saturating_sub(alone?))
     }
+}
+
+/// Sections that span the kernel of A = ∂f ρ at most places where f = 0, and the velocities in them.
+type Tangent = (Vec<(String, Vec<ExprId>)>, Vec<(SymbolId, ExprId)>);
+
+/// `None` without position constraints, or where they could not be solved.
+fn tangent(proved: &mut Proved) -> Option<Tangent> {
+    let Proved { model, system, positions, .. } = proved;
+    let velocities = &system.algebroid.velocities;
+    let graph = &mut model.graph;
+    let drift = vec![graph.zero(); positions.jacobian.len()];
+    let rows = LinearConstraints { annihilator: positions.jacobian.clone(), drift };
+    if rows.annihilator.is_empty() {
+        return None;
+    }
+    let on_positions = positions.manifold.restrict_matrix(graph, &rows.annihilator);
+    let dependent = graph.independent_columns(&on_positions).ok()?;
+    let dependent: Vec<SectionId> = dependent.into_iter().map(SectionId::from_index).collect();
+    let found = ConstraintDistribution::solved_for(graph, rows, &dependent, velocities)?;
+    let names = found.independent.iter().map(|symbol| graph.symbols()[*symbol].clone());
+    let sections = names.zip(found.sections()).collect();
+    Some((sections, velocities.iter().copied().zip(found.velocity).collect()))
+}
+
+/// The basis: what holds for all velocities does for those that are tangent.
+fn all_velocities(proved: &mut Proved) -> Tangent {
+    let names = proved.model.sections.iter().map(|section| section.name.clone());
+    let identity = proved.model.graph.identity(proved.system.algebroid.rank());
+    (names.zip(identity).collect(), Vec::new())
 }
 
 /// The rates of the auxiliary states in quasi-velocities, with those that occur in others put in.

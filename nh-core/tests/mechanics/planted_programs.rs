@@ -92,3 +92,41 @@ fn outputs_in_another_order_and_parts_that_are_mixed_up() {
     parts.ahead.outputs.rotate_left(1);
     assert_eq!(prove_split(&model.graph, &derivative, &parts), Err(Unproved::Wrong));
 }
+
+/// The same numbers, multiplied and divided by some value.
+fn with_a_divisor(program: &Program, output: usize, divisor: Value) -> Program {
+    let mut program = program.clone();
+    let value = program.outputs[output];
+    let product = program.steps.push(Step::Mul(value, divisor));
+    program.outputs[output] = program.steps.push(Step::Div(product, divisor));
+    program
+}
+
+#[test]
+fn a_divisor_that_the_procedure_does_not_have() {
+    let mut counts = [0, 0];
+    for model in [systems::sleigh(), systems::robot(), systems::sleigh_on_the_plane()] {
+        let System { model, derivative, .. } = compile(model).expect("the declaration is right");
+        let parameters: Vec<_> = model.parameters.iter().map(|parameter| parameter.symbol).collect();
+        let program = schedule_grouping(&model.graph, &derivative, &parameters);
+        for (value, step) in program.steps.iter_ids() {
+            if matches!(step, Step::SinCos(_) | Step::Constant(_) | Step::Solve { .. }) {
+                continue;
+            }
+            let is_divisor = |other: &Step| matches!(other, Step::Div(_, b) | Step::Recip(b) if *b == value);
+            let is_harmless = program.steps.iter().any(is_divisor) || matches!(step, Step::Recip(_));
+            let output = value.index() % program.outputs.len();
+            let verdict = prove_program(&model.graph, &derivative, &with_a_divisor(&program, output, value));
+            match verdict {
+                Ok(_) => counts[0] += 1,
+                Err(Unproved::Unknown(reason)) => {
+                    assert!(reason.contains("it divides by what was not recognised"), "{reason}");
+                    assert!(!is_harmless, "{step:?} in {program:?}");
+                    counts[1] += 1;
+                }
+                Err(Unproved::Wrong) => panic!("it computes the same: {step:?}"),
+            }
+        }
+    }
+    assert!(counts[0] < 20 && counts[1] > 100, "{counts:?}");
+}

@@ -87,6 +87,7 @@ fn functions(inclusion: &Inclusion, context: &Context, target: &Context, types: 
         .min(coordinates);
     let coordinates = Literal::usize_unsuffixed(coordinates);
     let bound = context.parameter().map(|parameter| quote!(where #parameter: #runtime::Real));
+    let returned = inclusion.has_equations.then(|| quote!(let #own = #runtime::returned(self, #t, #own);));
     let restrict = quote! {
         fn restrict(
             &self, #t: #scalar, #state: &<#whole_type as #dynamics>::State
@@ -95,6 +96,7 @@ fn functions(inclusion: &Inclusion, context: &Context, target: &Context, types: 
         > #bound {
             let #all = #runtime::State::to_array(#state);
             let #own = <<Self as #dynamics>::State as #runtime::State>::from_array([#(#all[#places]),*]);
+            #returned
             #runtime::restricted(
                 #own, &<Self as #runtime::Inclusion<#whole_type>>::include(self, #t, &#own), #state, #coordinates
             )

@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use nonholonomic_core::algebra::Constant;
 use nonholonomic_core::id::{CoordId, ExprId};
 use nonholonomic_core::model::Relation;
-use nonholonomic_core::reduction::Quotient;
+use nonholonomic_core::reduction::{Equation, Quotient};
 use proc_macro2::{Literal, TokenStream, TokenTree};
 use quote::quote;
 
@@ -105,12 +105,14 @@ pub(crate) fn can_be_written(quotient: &Quotient) -> bool {
         anchor,
         brackets,
         identities,
+        positions,
+        is_redundant: _,
         lagrangian,
         constraints,
         forces,
         auxiliary,
     } = quotient;
-    let sides = constraints.iter().flat_map(|equation| [equation.left, equation.right]);
+    let sides = constraints.iter().chain(positions).flat_map(|equation| [equation.left, equation.right]);
     let facts = source.assumptions.iter().flat_map(|fact| [fact.left, fact.right]);
     let all = map.iter().chain(identities).copied().chain([*lagrangian]).chain(sides).chain(facts);
     let all = all.chain(anchor.iter().map(|(_, rate)| *rate)).chain(forces.iter().map(|(_, force)| *force));
@@ -222,20 +224,14 @@ impl Written<'_> {
         if quotient.source.almost {
             sections.extend(quote!(almost;));
         }
+        if !quotient.positions.is_empty() {
+            let equations = self.equations(&quotient.positions);
+            let redundant = quotient.is_redundant.then(|| quote!(redundant;));
+            sections.extend(quote!(holonomic { #equations #redundant }));
+        }
         if !quotient.constraints.is_empty() {
-            let labels: Vec<_> =
-                quotient.constraints.iter().map(|equation| equation.label.as_deref()).collect();
-            let constraints = grouped(&labels).into_iter().map(|Group { name, lengths, places }| {
-                let label = name.map(|name| {
-                    let name = tokens(&name);
-                    quote!(#name:)
-                });
-                let equations = &quotient.constraints[places];
-                let left = in_rows(&lengths, equations.iter().map(|equation| self.text(equation.left)));
-                let right = in_rows(&lengths, equations.iter().map(|equation| self.text(equation.right)));
-                quote!(#label #left = #right;)
-            });
-            sections.extend(quote!(constraints { #(#constraints)* }));
+            let equations = self.equations(&quotient.constraints);
+            sections.extend(quote!(constraints { #equations }));
         }
         if !quotient.forces.is_empty() {
             let forces = quotient.forces.iter().map(|(k, force)| {
@@ -271,6 +267,22 @@ impl Written<'_> {
         }
         let passed = &declaration.passed;
         quote!(#sections #passed crate { #runtime })
+    }
+
+    /// Equations with their labels, those of an array together.
+    fn equations(&self, equations: &[Equation]) -> TokenStream {
+        let labels: Vec<_> = equations.iter().map(|equation| equation.label.as_deref()).collect();
+        let lines = grouped(&labels).into_iter().map(|Group { name, lengths, places }| {
+            let label = name.map(|name| {
+                let name = tokens(&name);
+                quote!(#name:)
+            });
+            let equations = &equations[places];
+            let left = in_rows(&lengths, equations.iter().map(|equation| self.text(equation.left)));
+            let right = in_rows(&lengths, equations.iter().map(|equation| self.text(equation.right)));
+            quote!(#label #left = #right;)
+        });
+        lines.collect()
     }
 
     /// The sections of the map.

@@ -50,8 +50,11 @@ pub(crate) fn descend<T: Real, const N: usize, const M: usize>(
             return Err(singular(&here.0, &loops.names));
         }
         let size = largest(&change);
-        let weights =
-            here.1.map(|row| row.iter().zip(&change).fold(T::ZERO, |sum, (a, x)| sum + (*a * *x).abs()));
+        // what the step makes of an equation, and its rounding: one that already holds has nothing but that
+        let rounding = T::from_f64(16.0) * T::EPSILON * scale.max(size);
+        let weights = here.1.map(|row| {
+            row.iter().zip(&change).fold(T::ZERO, |sum, (a, x)| sum + a.abs() * (x.abs() + rounding))
+        });
         let excess = |left: [T; M]| {
             let rows = left.iter().zip(&weights).take(loops.independent);
             let rows = rows.filter(|(_, weight)| **weight > T::ZERO);

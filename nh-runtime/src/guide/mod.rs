@@ -14,6 +14,7 @@
 //! | have motors with currents, filters, commanded rates | [`auxiliary_states`] |
 //! | be told of a wrong formula by its units | [`units`] |
 //! | understand what was derived, and what it costs | [`reading_a_report`] |
+//! | see the formulas behind it | [`the_equations`] |
 //! | choose a method of integration | [`which_integrator`] |
 //! | stabilise it, estimate its state, plan ahead | [`control_loops`] |
 //! | find steady motions, and the linear model about them | [`steady_motions`] |
@@ -59,6 +60,9 @@ pub mod units {}
 
 #[doc = include_str!("reading_a_report.md")]
 pub mod reading_a_report {}
+
+#[doc = include_str!("the_equations.md")]
+pub mod the_equations {}
 
 #[doc = include_str!("which_integrator.md")]
 pub mod which_integrator {}

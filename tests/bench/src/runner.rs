@@ -10,8 +10,10 @@ use nonholonomic::State;
 use crate::callgrind::Counts;
 use crate::contest::{Contest, samples};
 use crate::systems::{
-    arm, balancing_robot, ball, car, chaplygin_ball, four_bar, hitched_trailer, pendulum, quadrotor, robot,
-    roller_racer, satellite, sleigh, snakeboard, tractor, veselova,
+    arm, balancing_robot, ball, ball_with_rotors, car, chaplygin_ball, disk, elbow, finned_body, five_bar,
+    four_bar, four_wheels, furuta, heavy_top, hitched_trailer, leg, pendulum, quadrotor, rattleback,
+    rear_steered, robot, roller_racer, roller_walker, satellite, sleigh, slider_crank, snakeboard, tractor,
+    veselova,
 };
 
 /// Values of different contestants agree to this, relative to numbers of ordinary size.
@@ -75,6 +77,20 @@ pub fn all() -> Vec<Box<dyn Run>> {
         Box::new(Of::<arm::Arm6>(PhantomData)),
         Box::new(Of::<quadrotor::Quadrotor>(PhantomData)),
         Box::new(Of::<four_bar::FourBar>(PhantomData)),
+        Box::new(Of::<roller_walker::RollerWalker>(PhantomData)),
+        Box::new(Of::<rattleback::Rattleback>(PhantomData)),
+        Box::new(Of::<rattleback::Stone>(PhantomData)),
+        Box::new(Of::<four_wheels::FourWheels>(PhantomData)),
+        Box::new(Of::<finned_body::FinnedBody>(PhantomData)),
+        Box::new(Of::<ball_with_rotors::BallWithRotors>(PhantomData)),
+        Box::new(Of::<heavy_top::HeavyTop>(PhantomData)),
+        Box::new(Of::<disk::Disk>(PhantomData)),
+        Box::new(Of::<rear_steered::RearSteered>(PhantomData)),
+        Box::new(Of::<furuta::Furuta>(PhantomData)),
+        Box::new(Of::<leg::Leg>(PhantomData)),
+        Box::new(Of::<elbow::Elbow>(PhantomData)),
+        Box::new(Of::<five_bar::FiveBar>(PhantomData)),
+        Box::new(Of::<slider_crank::SliderCrank>(PhantomData)),
     ]
 }
 

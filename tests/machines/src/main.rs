@@ -1,6 +1,7 @@
 //! Random machines against the reference: how many lose digits, which, and at which level.
 //!
-//! `LEVEL=balanced` looks at one level, `MEMBERS=17,42` at some machines.
+//! `LEVEL=balanced` looks at one level, `MEMBERS=17,42` at some machines; the word `closed` behind the numbers stands for
+//! machines with constraints on positions.
 
 use nh_machines::{Emitted, LEVELS, Machine, Place, Random, Scale, losses};
 
@@ -13,8 +14,10 @@ fn main() {
     let arguments: Vec<String> = std::env::args().skip(1).collect();
     let number = |index: usize| arguments.get(index).and_then(|text| text.parse::<u64>().ok());
     let seed = number(1).unwrap_or(1);
+    let is_closed = arguments.iter().any(|word| word == "closed");
+    let machine = if is_closed { Machine::closed } else { Machine::of };
     if arguments.first().is_some_and(|word| word == "show") {
-        let machine = Machine::of(number(2).unwrap_or(1), seed);
+        let machine = machine(number(2).unwrap_or(1), seed);
         println!("{}\n{}", machine.item(), machine.sections);
         look(&machine, true);
         return;
@@ -26,7 +29,7 @@ fn main() {
         Err(_) => (0..count).collect(),
     };
     for member in members {
-        total.add(look(&Machine::of(seed, member), false));
+        total.add(look(&machine(seed, member), false));
     }
     println!("{} machines, {} refused", total.machines, total.refused);
     println!("off by more than 1e-3 (rows: levels; columns: ordinary a, λ; apart a, λ): {:?}", total.off);
@@ -76,6 +79,9 @@ fn look(machine: &Machine, is_shown: bool) -> Option<[[(f64, f64); 4]; 3]> {
             let mut random = Random::of(machine.member, 77);
             for _ in 0..PLACES {
                 let place = Place::draw(&emitted.model, scale, &mut random);
+                if !place.is_closed(&emitted.model) {
+                    continue;
+                }
                 let Some(losses) = losses(&emitted, &place, SUSPICIOUS) else { continue };
                 for (kind, worst) in losses.into_iter().enumerate() {
                     let Some(worst) = worst else { continue };

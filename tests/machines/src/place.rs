@@ -30,7 +30,8 @@ pub struct Place {
 const POSITIVE: &str = "mJIACkr";
 
 impl Place {
-    /// A place on the embedded base and on the constraint manifold, as nearly as rounding allows.
+    /// A place on the embedded base, on closed loops and on the constraint manifold, as nearly as rounding allows where
+    /// there is one nearby.
     #[must_use]
     pub fn draw(model: &Model, scale: Scale, random: &mut Random) -> Self {
         let mut values = BTreeMap::new();
@@ -53,12 +54,29 @@ impl Place {
             values.insert(symbol, if random.happens(50) { -size } else { size });
         }
         let mut place = Self { values };
-        let identities: Vec<ExprId> = model.identities.iter().map(|identity| identity.value).collect();
-        place.return_to(model, &identities, &coordinates);
+        let identities = model.identities.iter().map(|identity| identity.value);
+        let positions = model.positions.iter().map(|position| position.value);
+        let residuals: Vec<ExprId> = identities.chain(positions).collect();
+        place.return_to(model, &residuals, &coordinates);
         let constraints: Vec<ExprId> =
             model.constraints.iter().map(|constraint| constraint.residual).collect();
         place.return_to(model, &constraints, &velocities);
         place
+    }
+
+    /// Whether the position constraints hold as far as numbers of 53 bits can say.
+    #[must_use]
+    pub fn is_closed(&self, model: &Model) -> bool {
+        let residuals: Vec<ExprId> = model.positions.iter().map(|position| position.value).collect();
+        let coordinates: Vec<SymbolId> = model.coordinates.iter().map(|x| x.symbol).collect();
+        let residuals = Declared::at(model, self).jets(&residuals, &coordinates);
+        residuals.iter().all(|residual| {
+            let moves = coordinates.iter().zip(&residual.first).map(|(x, slope)| {
+                let size = self.values[x].abs().max(1e-3);
+                rounded(slope.abs()) * size
+            });
+            rounded(residual.value.abs()) <= 8.0 * f64::EPSILON * moves.sum::<f64>()
+        })
     }
 
     /// Newton's method for zeros of residuals, with the least change relative to the size of each variable.

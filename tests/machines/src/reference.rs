@@ -1,4 +1,4 @@
-//! Mathematics (7) and (9) as they are declared, unreduced.
+//! Mathematics (7), (9) and (34) as they are declared, unreduced.
 
 use f256::f256;
 use nonholonomic_core::id::{ExprId, Id, SymbolId};
@@ -146,6 +146,36 @@ impl<'a> Declared<'a> {
     }
 }
 
+/// A constraint as it is differentiated: Σ J_α ẏ^α + change = 0.
+struct Row {
+    slope: Vec<f256>,
+    change: f256,
+}
+
+impl Declared<'_> {
+    /// The constraints on positions, differentiated twice, then those on velocities, by variables (t, x, y).
+    fn rows(&self, variables: &[SymbolId], rates: &[Jet], along: &impl Fn(&[f256]) -> f256) -> Vec<Row> {
+        let n = rates.len();
+        let (positions, of_y) = (self.model.positions.len(), 1 + n);
+        let roots: Vec<ExprId> = self.model.positions.iter().map(|position| position.value).collect();
+        let twice = self.with_rates(&roots, variables, rates).into_iter().map(|f| {
+            // φ = ∂_tf + ẋ^i ∂_if, with the rates as functions of (t, x, y)
+            let by = |k: usize| -> f256 { along(&(0..of_y).map(|l| f.second(l, k)).collect::<Vec<_>>()) };
+            let first: Vec<f256> = (0..of_y).map(by).collect();
+            let turn = (0..n).map(|i| f.first[1 + i] * along(&rates[i].first));
+            let slope = (of_y..variables.len())
+                .map(|k| (0..n).fold(f256::ZERO, |sum, i| sum + f.first[1 + i] * rates[i].first[k]));
+            Row { slope: slope.collect(), change: turn.fold(along(&first), |sum, x| sum + x) }
+        });
+        let twice: Vec<Row> = twice.collect();
+        let roots: Vec<ExprId> =
+            self.model.constraints.iter().skip(positions).map(|constraint| constraint.residual).collect();
+        let once = self.with_rates(&roots, variables, rates).into_iter();
+        let once = once.map(|c| Row { slope: c.first[of_y..].to_vec(), change: along(&c.first) });
+        twice.into_iter().chain(once).collect()
+    }
+}
+
 /// Elimination by the largest values.
 fn solve_jets(mut matrix: Vec<Vec<Jet>>, mut right: Vec<Jet>) -> Vec<Jet> {
     let n = right.len();
@@ -219,18 +249,17 @@ impl Motion {
             }
         }
         // 3. the saddle system
-        let roots: Vec<ExprId> = model.constraints.iter().map(|constraint| constraint.residual).collect();
-        let constraints = declared.with_rates(&roots, &variables, &rates);
-        let mut matrix: Vec<Vec<f256>> = Vec::with_capacity(s + constraints.len());
+        let rows = declared.rows(&variables, &rates, &along);
+        let mut matrix: Vec<Vec<f256>> = Vec::with_capacity(s + rows.len());
         for alpha in 0..s {
             let mass = (0..s).map(|beta| lagrangian.second(of_y + alpha, of_y + beta));
-            let pull = constraints.iter().map(|c| -c.first[of_y + alpha]);
+            let pull = rows.iter().map(|row| -row.slope[alpha]);
             matrix.push(mass.chain(pull).collect());
         }
-        for constraint in &constraints {
-            let slope = constraint.first[of_y..].iter().copied();
-            matrix.push(slope.chain(std::iter::repeat_n(f256::ZERO, constraints.len())).collect());
-            right.push(-along(&constraint.first));
+        let none = vec![f256::ZERO; rows.len()];
+        for Row { slope, change } in rows {
+            matrix.push([slope, none.clone()].concat());
+            right.push(-change);
         }
         let right = right.into_iter().map(|x| vec![x]).collect();
         let mut accelerations: Vec<f256> = solve(matrix, right)?.into_iter().map(|row| row[0]).collect();

@@ -19,14 +19,34 @@ struct Found {
 }
 
 fn found(level: &str, members: impl Iterator<Item = u64>, scale: Scale, places: usize) -> Vec<Found> {
+    found_of(Machine::of, level, members, scale, places)
+}
+
+fn found_of(
+    machine: impl Fn(u64, u64) -> Machine,
+    level: &str,
+    members: impl Iterator<Item = u64>,
+    scale: Scale,
+    places: usize,
+) -> Vec<Found> {
     let mut all = Vec::new();
     for member in members {
-        let machine = Machine::of(SEED, member);
+        let machine = machine(SEED, member);
         // some are refused: constraints that follow from others, masses that are missing
-        let Ok(emitted) = Emitted::of(&machine, level) else { continue };
+        let emitted = match Emitted::of(&machine, level) {
+            Ok(emitted) => emitted,
+            Err(errors) => {
+                assert!(!is_defect(&errors), "machine {member}, {level}: {errors:?}");
+                continue;
+            }
+        };
         let mut random = Random::of(member, 77);
         for _ in 0..places {
             let place = Place::draw(&emitted.model, scale, &mut random);
+            // loops that do not close with these lengths
+            if !place.is_closed(&emitted.model) {
+                continue;
+            }
             let Some(worst) = losses(&emitted, &place, SUSPICIOUS) else { continue };
             for (worst, is_multiplier) in worst.into_iter().zip([false, true]) {
                 all.extend(worst.map(|worst| Found { machine: member, is_multiplier, worst }));
@@ -34,6 +54,21 @@ fn found(level: &str, members: impl Iterator<Item = u64>, scale: Scale, places: 
         }
     }
     all
+}
+
+/// Whether something is refused for what the derivation did.
+fn is_defect(errors: &[String]) -> bool {
+    errors.iter().any(|error| error.contains("report"))
+}
+
+/// The inertia of the last bar, whose mass is at its joint, may be 0: the motion divides by pivots that do not vanish there,
+/// and so does the way back to the loop.
+#[test]
+fn loops_close_without_an_inertia_that_the_motion_does_not_need() {
+    for member in [54, 87] {
+        let found = Emitted::of(&Machine::closed(5, member), "balanced");
+        assert!(found.is_ok(), "machine {member}: {:?}", found.err());
+    }
 }
 
 fn members() -> impl Iterator<Item = u64> {
@@ -60,6 +95,16 @@ fn assert_kept(found: &[Found], units: f64, error: f64) {
 fn at_ordinary_parameters_no_level_loses_digits() {
     for (level, rest) in [("fast", 0), ("balanced", 1), ("careful", 2)] {
         let found = found(level, members().filter(|member| member % 3 == rest), Scale::Ordinary, 3);
+        assert_kept(&found, 4096.0, 0.0);
+    }
+}
+
+/// Linkages, bodies on pins, particles on surfaces, with blades beside and velocities that are kept.
+#[test]
+fn closed_loops_lose_no_digits_at_ordinary_parameters() {
+    for (level, rest) in [("fast", 0), ("balanced", 1), ("careful", 2)] {
+        let members = members().filter(|member| member % 3 == rest);
+        let found = found_of(Machine::closed, level, members, Scale::Ordinary, 3);
         assert_kept(&found, 4096.0, 0.0);
     }
 }

@@ -1,6 +1,7 @@
-//! The machines of the benchmark of record, and arms on driven bases, as declarations.
+//! The reference systems, the machines of the benchmark of record, and arms on driven bases, as declarations.
 
 use crate::{Declaration, declarations, families};
+use std::path::Path;
 
 /// The machines of the benchmark of record with their names there, in the order of its tables, up to the pendulum.
 ///
@@ -21,6 +22,44 @@ pub fn record() -> Vec<(String, Declaration)> {
         found.push(((*name).to_owned(), declaration));
     }
     found
+}
+
+/// The same with the arms and what comes after them.
+///
+/// # Panics
+/// As [`record`].
+#[must_use]
+pub fn whole_record() -> Vec<(String, Declaration)> {
+    let mut found = record();
+    for links in [2, 4, 6] {
+        found.push((format!("arm, {links} links"), shared(&arm(links))));
+    }
+    for source in LAST {
+        for declaration in declarations(source) {
+            // as the contest names it
+            let (_, rest) = source.split_once(&format!("{} as \"", declaration.name)).expect("a contestant");
+            let (name, _) = rest.split_once('"').expect("the end of its name");
+            found.push((name.to_owned(), declaration));
+        }
+    }
+    found
+}
+
+/// The reference systems with their names, one file after the other.
+///
+/// # Panics
+/// If the catalogue cannot be read.
+#[must_use]
+pub fn references() -> Vec<(String, Declaration)> {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../src/systems");
+    let mut paths: Vec<_> =
+        std::fs::read_dir(folder).expect("the catalogue").flatten().map(|file| file.path()).collect();
+    paths.sort();
+    let texts = paths.iter().map(|path| std::fs::read_to_string(path).expect("text"));
+    texts
+        .flat_map(|text| declarations(&text))
+        .map(|declaration| (declaration.name.clone(), declaration))
+        .collect()
 }
 
 /// Planar arms of 2 to 8 links, on two driven wheels and on a driven skate.
@@ -59,6 +98,25 @@ const OWN: &[(&str, &str)] = &[
     ("pendulum", include_str!("../../bench/src/systems/pendulum.rs")),
 ];
 
+/// Those of them that come after the arms.
+const LAST: &[&str] = &[
+    include_str!("../../bench/src/systems/quadrotor.rs"),
+    include_str!("../../bench/src/systems/four_bar.rs"),
+    include_str!("../../bench/src/systems/roller_walker.rs"),
+    include_str!("../../bench/src/systems/rattleback.rs"),
+    include_str!("../../bench/src/systems/four_wheels.rs"),
+    include_str!("../../bench/src/systems/finned_body.rs"),
+    include_str!("../../bench/src/systems/ball_with_rotors.rs"),
+    include_str!("../../bench/src/systems/heavy_top.rs"),
+    include_str!("../../bench/src/systems/disk.rs"),
+    include_str!("../../bench/src/systems/rear_steered.rs"),
+    include_str!("../../bench/src/systems/furuta.rs"),
+    include_str!("../../bench/src/systems/leg.rs"),
+    include_str!("../../bench/src/systems/elbow.rs"),
+    include_str!("../../bench/src/systems/five_bar.rs"),
+    include_str!("../../bench/src/systems/slider_crank.rs"),
+];
+
 /// What stands in `#[nonholonomic(…)]`, and the struct.
 struct Text {
     attribute: String,
@@ -94,4 +152,15 @@ fn tractor(trailers: usize) -> Text {
             .replace("$Tractor", "Tractor")
     };
     Text { attribute: of_size(&attribute), item: of_size(&item) }
+}
+
+/// An arm on a skate.
+fn arm(links: usize) -> Text {
+    let source = include_str!("../../bench/src/systems/arm.rs");
+    let (_, rest) = source.split_once("#[nonholonomic(").expect("a declaration");
+    let (attribute, rest) = rest.split_once(")]").expect("the end of its sections");
+    let (_, rest) = rest.split_once("pub struct").expect("a struct");
+    let (fields, _) = rest.split_once('}').expect("the end of the struct");
+    let of_size = |text: &str| text.replace("$links", &links.to_string()).replace("$Arm", "Arm");
+    Text { attribute: of_size(attribute), item: of_size(&format!("struct{fields}}}")) }
 }

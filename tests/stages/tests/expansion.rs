@@ -1,16 +1,16 @@
 //! What expansions take, in counted steps of work, never in time.
 
-use nh_stages::{Declaration, arms, declarations, record};
+use nh_stages::{Declaration, arms, record, references, whole_record};
 use nonholonomic_core::limits::{spent, within_limits};
-use std::path::Path;
 
 /// The most that a reference system may take, and all of them together.
-const REFERENCE: u64 = 714_000;
-const REFERENCES: u64 = 5_626_000;
-/// The most that a machine of the benchmark of record may take.
-const RECORD: u64 = 529_000;
+const REFERENCE: u64 = 690_000;
+const REFERENCES: u64 = 5_000_000;
+/// The most that a machine of the benchmark of record may take up to the pendulum, and those after it.
+const RECORD: u64 = 420_000;
+const LATER: u64 = 2_410_000;
 /// The most that arms of 2 to 8 links may take, in thousands: on two wheels, then on a skate.
-const ARMS: [u64; 14] = [154, 169, 327, 215, 269, 321, 391, 364, 308, 342, 382, 293, 368, 443];
+const ARMS: [u64; 14] = [155, 170, 329, 217, 271, 322, 392, 364, 308, 342, 382, 293, 368, 444];
 
 fn steps(declaration: &Declaration) -> u64 {
     let work = within_limits(|| {
@@ -31,13 +31,10 @@ fn assert_within(found: impl Iterator<Item = (String, u64, u64)>) {
 
 #[test]
 fn reference_systems_have_a_ceiling() {
-    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../src/systems");
-    let files = std::fs::read_dir(folder).expect("the catalogue").flatten();
-    let texts = files.filter_map(|file| std::fs::read_to_string(file.path()).ok());
-    let found: Vec<Declaration> = texts.flat_map(|text| declarations(&text)).collect();
+    let found = references();
     assert!(found.len() > 30, "only {} declarations were found", found.len());
     let each: Vec<(String, u64, u64)> =
-        found.iter().map(|declaration| (declaration.name.clone(), steps(declaration), REFERENCE)).collect();
+        found.into_iter().map(|(name, declaration)| (name, steps(&declaration), REFERENCE)).collect();
     let together: u64 = each.iter().map(|(_, steps, _)| steps).sum();
     assert!(together <= REFERENCES, "{together} steps together");
     assert_within(each.into_iter());
@@ -45,7 +42,9 @@ fn reference_systems_have_a_ceiling() {
 
 #[test]
 fn machines_of_the_benchmark_have_a_ceiling() {
-    assert_within(record().iter().map(|(name, declaration)| (name.clone(), steps(declaration), RECORD)));
+    let allowed = std::iter::repeat_n(RECORD, record().len()).chain(std::iter::repeat(LATER));
+    let found = whole_record().into_iter().zip(allowed);
+    assert_within(found.map(|((name, declaration), allowed)| (name, steps(&declaration), allowed)));
 }
 
 #[test]

@@ -1,21 +1,14 @@
 //! What derivatives of the motion cost beside the motion: a law over the reference systems and the machines of the
 //! benchmark of record.
 
-use nh_stages::{Declaration, declarations, record};
+use nh_stages::{Declaration, record, references};
 use nonholonomic_core::mechanics::Procedure;
 use nonholonomic_core::program::{Cost, schedule_grouping};
 use nonholonomic_core::system::{Side, System};
 
 /// The catalogue and the record, with both products and the Jacobian asked for.
 fn systems() -> Vec<(String, System)> {
-    let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/../src/systems");
-    let mut paths: Vec<_> = std::fs::read_dir(folder)
-        .expect("the catalogue")
-        .map(|entry| entry.expect("a file").path())
-        .collect();
-    paths.sort();
-    let of_file = |path: &std::path::PathBuf| declarations(&std::fs::read_to_string(path).expect("text"));
-    let catalogue = paths.iter().flat_map(of_file).map(|declaration| (declaration.name.clone(), declaration));
+    let catalogue = references().into_iter();
     catalogue.chain(record()).filter_map(|(name, declaration)| Some((name, derived(declaration)?))).collect()
 }
 

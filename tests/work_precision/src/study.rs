@@ -119,7 +119,7 @@ impl Study {
         println!("{}", lists_of_runs::cheapest(&outcomes));
         let path = std::path::Path::new("target/work_precision").join(format!("{name}.svg"));
         std::fs::create_dir_all("target/work_precision")?;
-        std::fs::write(&path, picture::draw(&name, &outcomes))?;
+        std::fs::write(&path, picture::draw(&name, &outcomes)?)?;
         println!("picture: {}", path.display());
         Ok(())
     }

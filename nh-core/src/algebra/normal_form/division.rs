@@ -5,6 +5,7 @@ use super::polynomial::Polynomial;
 use super::reader::Reader;
 use crate::algebra::node::{Function, Node};
 use crate::algebra::number::Rational;
+use crate::id::ExprId;
 use std::collections::BTreeMap;
 
 /// Sums of more fractions than this are not brought over a common denominator.
@@ -24,12 +25,12 @@ impl Reader<'_> {
     pub(super) fn quotient(&mut self, dividend: &Polynomial, divisor: &Polynomial) -> Option<Polynomial> {
         let (leading, coefficient) = divisor.leading()?;
         let inverse = coefficient.recip()?;
+        if !spans_fit(dividend, divisor) {
+            return None;
+        }
         // the exponents of the quotient lie in a box, which ends the division if it is not exact
         let lowest = dividend.meet().over(&divisor.meet())?;
         let highest = dividend.join().over(&divisor.join())?;
-        if lowest.meet(&highest) != lowest {
-            return None;
-        }
         let (mut rest, mut quotient) = (dividend.clone(), Polynomial::default());
         while let Some((monomial, coefficient)) = rest.leading() {
             let monomial = monomial.over(leading)?;
@@ -48,9 +49,9 @@ impl Reader<'_> {
     pub(super) fn has_denominator(&self, polynomial: &Polynomial) -> bool {
         let is_denominator = |factor: &Factor| {
             factor.exponent.is_negative()
-                && (factor.kind == Kind::Sum || self.is_trigonometric_denominator(factor))
+                && (matches!(factor.kind, Kind::Sum) || self.is_trigonometric_denominator(factor))
         };
-        polynomial.0.keys().any(|monomial| monomial.0.iter().any(is_denominator))
+        polynomial.0.keys().any(|monomial| monomial.has(is_denominator))
     }
 
     /// Removes the denominators that divide their numerators.
@@ -200,4 +201,26 @@ impl Reader<'_> {
         }
         Some(product)
     }
+}
+
+/// Whether the exponents of every atom range over as much in the dividend as in the divisor: those of factors add up.
+fn spans_fit(dividend: &Polynomial, divisor: &Polynomial) -> bool {
+    let mut asked: Vec<ExprId> = Vec::new();
+    for factor in divisor.0.keys().flat_map(|monomial| monomial.0.iter()) {
+        if asked.contains(&factor.atom) {
+            continue;
+        }
+        asked.push(factor.atom);
+        let (least, most) = divisor.span(factor.atom);
+        if least == most {
+            continue;
+        }
+        let (lowest, highest) = dividend.span(factor.atom);
+        let is_narrow = |wide: Exponent, narrow: Exponent| wide.plus(least).zip(narrow.plus(most));
+        // highest − lowest ≥ most − least
+        if is_narrow(highest, lowest).is_some_and(|(wide, narrow)| wide < narrow) {
+            return false;
+        }
+    }
+    true
 }

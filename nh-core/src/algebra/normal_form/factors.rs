@@ -16,6 +16,7 @@ pub(super) enum Factors {
 }
 
 impl Factors {
+    #[inline(always)]
     pub(super) fn push(&mut self, factor: Factor) {
         match self {
             Self::Short(len, places) if usize::from(*len) < PLACES => {
@@ -33,8 +34,10 @@ impl Factors {
     }
 
     pub(super) fn extend_from_slice(&mut self, more: &[Factor]) {
-        for factor in more {
-            self.push(*factor);
+        let mut place = 0;
+        while place < more.len() {
+            self.push(more[place]);
+            place += 1;
         }
     }
 
@@ -55,6 +58,7 @@ impl Factors {
 }
 
 impl Default for Factors {
+    #[inline(always)]
     fn default() -> Self {
         const EMPTY: Factors = Factors::Short(0, [Factor::NONE; PLACES]);
         EMPTY
@@ -63,6 +67,7 @@ impl Default for Factors {
 
 impl Deref for Factors {
     type Target = [Factor];
+    #[inline(always)]
     fn deref(&self) -> &[Factor] {
         match self {
             Self::Short(len, places) => &places[..usize::from(*len)],
@@ -72,6 +77,7 @@ impl Deref for Factors {
 }
 
 impl DerefMut for Factors {
+    #[inline(always)]
     fn deref_mut(&mut self) -> &mut [Factor] {
         match self {
             Self::Short(len, places) => &mut places[..usize::from(*len)],

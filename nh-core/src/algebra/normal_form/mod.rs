@@ -121,7 +121,7 @@ impl Graph {
         chosen
     }
 
-    /// The expression in a style: the same again if it was read before, and for the same work.
+    /// The expression in a style: the same again if it was read before in one that reads it alike, and for the same work.
     fn forms(&mut self, e: ExprId, style: Style, work: usize) -> Attempt {
         if let Some(known) = self.attempts.made.get(&(e, style)).filter(|known| known.spent <= work) {
             return *known;
@@ -130,10 +130,12 @@ impl Graph {
             return *failed;
         }
         let attempt = self.read_forms(e, style, work);
-        if attempt.forms.is_some() {
-            self.attempts.made.insert((e, style), attempt);
-        } else {
-            self.attempts.failed.insert((e, style, work), attempt);
+        for alike in STYLES.into_iter().filter(|other| attempt.asked.nothing_between(style, *other)) {
+            if attempt.forms.is_some() {
+                self.attempts.made.insert((e, alike), attempt);
+            } else {
+                self.attempts.failed.insert((e, alike, work), attempt);
+            }
         }
         attempt
     }
@@ -151,7 +153,7 @@ impl Graph {
                 break;
             }
         }
-        Attempt { forms, spent: work - reader.work, kept_sums: reader.kept_sums.get() }
+        Attempt { forms, spent: work - reader.work, asked: reader.asked.get() }
     }
 }
 
@@ -299,10 +301,10 @@ impl Choice {
             self.work -= spent;
             return false;
         }
-        let Attempt { forms, spent, kept_sums } = graph.forms(self.rebuilt, style, budget);
+        let Attempt { forms, spent, asked } = graph.forms(self.rebuilt, style, budget);
         self.work -= spent;
         if let Some((expression, factored)) = forms {
-            self.unexpanded = (!style.expand && !kept_sums).then_some(spent);
+            self.unexpanded = (!style.expand && !asked.expand).then_some(spent);
             self.consider(graph, expression);
             self.consider(graph, factored);
             return false;

@@ -17,6 +17,7 @@ impl Exponent {
     pub(super) const ZERO: Self = Self::whole(0);
     pub(super) const ONE: Self = Self::whole(1);
 
+    #[inline(always)]
     pub(super) const fn whole(numerator: i16) -> Self {
         Self { numerator, denominator: 1 }
     }
@@ -42,9 +43,13 @@ impl Exponent {
         Rational::new(self.numerator.into(), self.denominator.into())
     }
 
+    #[inline(always)]
     pub(super) fn plus(self, other: Self) -> Option<Self> {
         if self.denominator == 1 && other.denominator == 1 {
-            return Self::reduced(i64::from(self.numerator) + i64::from(other.numerator), 1);
+            return match self.numerator.checked_add(other.numerator) {
+                None | Some(i16::MIN) => None,
+                Some(sum) => Some(Self::whole(sum)),
+            };
         }
         let (a, b) = (i64::from(self.numerator), i64::from(self.denominator));
         let (c, d) = (i64::from(other.numerator), i64::from(other.denominator));
@@ -65,16 +70,24 @@ impl Exponent {
         )
     }
 
+    #[inline(always)]
     pub(super) fn is_zero(self) -> bool {
         self.numerator == 0
     }
 
+    #[inline(always)]
     pub(super) fn is_negative(self) -> bool {
         self.numerator < 0
     }
 
+    #[inline(always)]
     pub(super) fn is_integer(self) -> bool {
         self.denominator == 1
+    }
+
+    #[inline(always)]
+    pub(super) fn is_at_least(self, whole: i16) -> bool {
+        i32::from(self.numerator) >= i32::from(whole) * i32::from(self.denominator)
     }
 
     /// The value if it is an integer.
@@ -149,38 +162,53 @@ impl Monomial {
     }
 
     pub(super) fn exponent(&self, atom: ExprId) -> Exponent {
-        match self.0.binary_search_by_key(&atom, |factor| factor.atom) {
-            Ok(index) => self.0[index].exponent,
-            Err(_) => Exponent::ZERO,
+        let (factors, atom): (&[Factor], usize) = (&self.0, atom.index());
+        let mut place = 0;
+        while place < factors.len() {
+            let other = factors[place].atom.index();
+            if other >= atom {
+                return if other == atom { factors[place].exponent } else { Exponent::ZERO };
+            }
+            place += 1;
         }
+        Exponent::ZERO
     }
 
     /// The product; `None` where an exponent leaves the range.
     pub(super) fn times(&self, other: &Self) -> Option<Self> {
-        let mut factors = Factors::default();
-        let (mut left, mut right) = (&self.0[..], &other.0[..]);
-        while let ([a, after_a @ ..], [b, after_b @ ..]) = (left, right) {
-            match a.atom.cmp(&b.atom) {
-                Ordering::Less => {
-                    factors.push(*a);
-                    left = after_a;
-                }
-                Ordering::Greater => {
-                    factors.push(*b);
-                    right = after_b;
-                }
-                Ordering::Equal => {
-                    let exponent = a.exponent.plus(b.exponent)?;
-                    if !exponent.is_zero() {
-                        factors.push(Factor { exponent, ..*a });
-                    }
-                    (left, right) = (after_a, after_b);
-                }
-            }
+        let (left, right): (&[Factor], &[Factor]) = (&self.0, &other.0);
+        if left.is_empty() || right.is_empty() {
+            return Some(if left.is_empty() { other.clone() } else { self.clone() });
         }
-        factors.extend_from_slice(left);
-        factors.extend_from_slice(right);
+        let mut factors = Factors::default();
+        let (mut i, mut j) = (0, 0);
+        while i < left.len() && j < right.len() {
+            let (a, b) = (&left[i], &right[j]);
+            let (first, second) = (a.atom.index(), b.atom.index());
+            if first == second {
+                let exponent = a.exponent.plus(b.exponent)?;
+                if exponent.numerator != 0 {
+                    factors.push(Factor { exponent, ..*a });
+                }
+            } else {
+                factors.push(if first < second { *a } else { *b });
+            }
+            i += usize::from(first <= second);
+            j += usize::from(second <= first);
+        }
+        factors.extend_from_slice(&left[i..]);
+        factors.extend_from_slice(&right[j..]);
         Some(Self(factors))
+    }
+
+    /// Whether some factor satisfies a condition.
+    pub(super) fn has(&self, condition: impl Fn(&Factor) -> bool) -> bool {
+        let factors: &[Factor] = &self.0;
+        let mut place = 0;
+        while place < factors.len() && !condition(&factors[place]) {
+            place += 1;
+        }
+        place < factors.len()
     }
 
     /// Every exponent multiplied.
@@ -199,9 +227,12 @@ impl Monomial {
 
     /// The factors that satisfy a condition, and the others.
     pub(super) fn split(&self, condition: impl Fn(&Factor) -> bool) -> (Self, Self) {
+        let factors: &[Factor] = &self.0;
         let (mut yes, mut no) = (Factors::default(), Factors::default());
-        for factor in self.0.iter() {
-            if condition(factor) { &mut yes } else { &mut no }.push(*factor);
+        let mut place = 0;
+        while place < factors.len() {
+            if condition(&factors[place]) { &mut yes } else { &mut no }.push(factors[place]);
+            place += 1;
         }
         (Self(yes), Self(no))
     }
@@ -218,31 +249,24 @@ impl Monomial {
 
     /// One exponent for each atom, of the two that it has.
     fn merged(&self, other: &Self, choose: impl Fn(Exponent, Exponent) -> Exponent) -> Self {
+        let (left, right): (&[Factor], &[Factor]) = (&self.0, &other.0);
         let mut factors = Factors::default();
-        let mut add = |factor: &Factor, other: Exponent| {
-            let exponent = choose(factor.exponent, other);
-            if !exponent.is_zero() {
+        let (mut i, mut j) = (0, 0);
+        while i < left.len() || j < right.len() {
+            let first = if i < left.len() { left[i].atom.index() } else { usize::MAX };
+            let second = if j < right.len() { right[j].atom.index() } else { usize::MAX };
+            let factor = if first <= second { &left[i] } else { &right[j] };
+            let exponent = if first == second {
+                choose(factor.exponent, right[j].exponent)
+            } else {
+                choose(factor.exponent, Exponent::ZERO)
+            };
+            if exponent.numerator != 0 {
                 factors.push(Factor { exponent, ..*factor });
             }
-        };
-        let (mut left, mut right) = (&self.0[..], &other.0[..]);
-        while let ([a, after_a @ ..], [b, after_b @ ..]) = (left, right) {
-            match a.atom.cmp(&b.atom) {
-                Ordering::Less => {
-                    add(a, Exponent::ZERO);
-                    left = after_a;
-                }
-                Ordering::Greater => {
-                    add(b, Exponent::ZERO);
-                    right = after_b;
-                }
-                Ordering::Equal => {
-                    add(a, b.exponent);
-                    (left, right) = (after_a, after_b);
-                }
-            }
+            i += usize::from(first <= second);
+            j += usize::from(second <= first);
         }
-        left.iter().chain(right).for_each(|factor| add(factor, Exponent::ZERO));
         Self(factors)
     }
 }
@@ -251,27 +275,29 @@ impl Monomial {
 impl Ord for Monomial {
     fn cmp(&self, other: &Self) -> Ordering {
         let (left, right): (&[Factor], &[Factor]) = (&self.0, &other.0);
+        let both = if left.len() < right.len() { left.len() } else { right.len() };
         let mut place = 0;
-        loop {
-            let (one, two) = (place < left.len(), place < right.len());
-            if !(one || two) {
-                return Ordering::Equal;
+        // no factor of the one is among those of the other: its exponent is compared with 0
+        let mut is_first = left.len() > right.len();
+        while place < both {
+            let (a, b) = (&left[place], &right[place]);
+            if a.atom.index() != b.atom.index() {
+                is_first = a.atom.index() < b.atom.index();
+                break;
             }
-            if one && two && left[place].atom.index() == right[place].atom.index() {
-                let (a, b) = (left[place].exponent, right[place].exponent);
-                if a.numerator != b.numerator || a.denominator != b.denominator {
-                    return a.cmp(&b);
-                }
-                place += 1;
-                continue;
+            let (a, b) = (a.exponent, b.exponent);
+            if a.numerator != b.numerator || a.denominator != b.denominator {
+                return a.cmp(&b);
             }
-            // no factor of the one is among those of the other: its exponent is compared with 0
-            let is_first = one && (!two || left[place].atom.index() < right[place].atom.index());
-            let numerator =
-                if is_first { left[place].exponent.numerator } else { right[place].exponent.numerator };
-            // an exponent of 0 says nothing, and stands in no monomial
-            return if (numerator > 0) == is_first { Ordering::Greater } else { Ordering::Less };
+            place += 1;
         }
+        if place == left.len() && place == right.len() {
+            return Ordering::Equal;
+        }
+        let numerator =
+            if is_first { left[place].exponent.numerator } else { right[place].exponent.numerator };
+        // an exponent of 0 says nothing, and stands in no monomial
+        if (numerator > 0) == is_first { Ordering::Greater } else { Ordering::Less }
     }
 }
 

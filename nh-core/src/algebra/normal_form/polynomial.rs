@@ -1,8 +1,9 @@
 //! Laurent polynomials over atoms: exact coefficients, rational exponents of either sign.
 
-use super::monomial::Monomial;
+use super::monomial::{Exponent, Monomial};
 use super::terms::Terms;
 use crate::algebra::number::Rational;
+use crate::id::ExprId;
 
 /// `Σ coefficient · monomial`; no coefficient is zero.
 #[derive(Clone, Debug, PartialEq, Default)]
@@ -23,10 +24,12 @@ impl Polynomial {
         polynomial
     }
 
+    #[inline(always)]
     pub(super) fn len(&self) -> usize {
         self.0.len()
     }
 
+    #[inline(always)]
     pub(super) fn is_zero(&self) -> bool {
         self.0.is_empty()
     }
@@ -64,7 +67,11 @@ impl Polynomial {
             return self.clone();
         }
         let mut result = Self(Terms::with_capacity(self.len()));
-        result.add_scaled(self, scale);
+        if !scale.is_zero() {
+            for (monomial, coefficient) in self.0.iter() {
+                result.0.append(monomial.clone(), coefficient.clone() * scale.clone());
+            }
+        }
         result
     }
 
@@ -82,6 +89,15 @@ impl Polynomial {
     pub(super) fn content(&self) -> Rational {
         self.0.values().fold(Rational::ZERO, |gcd, coefficient| {
             if gcd.is_one() && coefficient.is_integer() { gcd } else { gcd.gcd(coefficient) }
+        })
+    }
+
+    /// The smallest and the largest exponent of an atom, that of absent ones being 0.
+    pub(super) fn span(&self, atom: ExprId) -> (Exponent, Exponent) {
+        let mut exponents = self.0.keys().map(|monomial| monomial.exponent(atom));
+        let first = exponents.next().unwrap_or(Exponent::ZERO);
+        exponents.fold((first, first), |(least, most), next| {
+            (if next < least { next } else { least }, if next > most { next } else { most })
         })
     }
 
@@ -103,7 +119,8 @@ impl Polynomial {
     pub(super) fn shifted(&self, by: &Monomial) -> Option<Self> {
         let mut result = Self(Terms::with_capacity(self.len()));
         for (monomial, coefficient) in self.0.iter() {
-            result.add_term(monomial.times(by)?, coefficient.clone());
+            // multiplication keeps the order
+            result.0.append(monomial.times(by)?, coefficient.clone());
         }
         Some(result)
     }

@@ -1,15 +1,16 @@
 //! Expressions read as polynomials over atoms: products are multiplied out, roots and
 //! denominators become atoms with their base in normal form.
 
-use super::monomial::{Exponent, Kind, Monomial};
+use super::monomial::{Exponent, Factor, Kind, Monomial};
 use super::polynomial::Polynomial;
 use crate::algebra::graph::Graph;
-use crate::algebra::memory::Style;
+use crate::algebra::memory::{Asked, Style};
 use crate::algebra::node::{Function, Node};
 use crate::algebra::number::Rational;
 use crate::id::ExprId;
+use crate::id_map::IdMap;
 use crate::limits;
-use rustc_hash::{FxBuildHasher, FxHashMap};
+use rustc_hash::FxHashMap;
 use std::borrow::Cow;
 use std::cell::Cell;
 use std::collections::BTreeMap;
@@ -27,9 +28,9 @@ pub(super) struct Reader<'g> {
     pub(super) divisions: FxHashMap<ExprId, i64>,
     /// Whether a common denominator has grown after it was used.
     pub(super) stale: bool,
-    /// Whether multiplying out would have read anything otherwise.
-    pub(super) kept_sums: Cell<bool>,
-    known: FxHashMap<ExprId, Rc<Polynomial>>,
+    /// What the style was asked for.
+    pub(super) asked: Cell<Asked>,
+    known: IdMap<ExprId, Rc<Polynomial>>,
     /// What composite atoms stand for.
     pub(super) composites: BTreeMap<ExprId, Rc<Polynomial>>,
     depth: usize,
@@ -37,8 +38,6 @@ pub(super) struct Reader<'g> {
 
 /// Expressions that appear while reading (`sin(acos x)`) are read in turn up to this depth.
 const DEPTH: usize = 6;
-/// Room for the subexpressions of most that are read.
-const USUAL: usize = 24;
 
 impl<'g> Reader<'g> {
     pub(super) fn new(graph: &'g mut Graph, style: Style, work: usize, monomials: usize) -> Self {
@@ -49,8 +48,8 @@ impl<'g> Reader<'g> {
             monomials,
             divisions: FxHashMap::default(),
             stale: false,
-            kept_sums: Cell::new(false),
-            known: FxHashMap::with_capacity_and_hasher(USUAL, FxBuildHasher),
+            asked: Cell::default(),
+            known: IdMap::default(),
             composites: BTreeMap::new(),
             depth: 0,
         }
@@ -196,7 +195,16 @@ impl<'g> Reader<'g> {
 
     /// Whether all factors stay what they are.
     pub(super) fn has_settled(&self, monomial: &Monomial) -> bool {
-        monomial.0.iter().all(|factor| self.is_settled(factor.kind, factor.exponent))
+        let factors: &[Factor] = &monomial.0;
+        let mut place = 0;
+        while place < factors.len() {
+            let Factor { kind, exponent, .. } = factors[place];
+            if !matches!(kind, Kind::Plain) && !self.is_settled(kind, exponent) {
+                return false;
+            }
+            place += 1;
+        }
+        true
     }
 
     /// Replaces integer powers of composite atoms by what they stand for.
@@ -222,9 +230,7 @@ impl<'g> Reader<'g> {
 
     /// Whether a positive power of a sum is multiplied out.
     pub(super) fn expands(&self) -> bool {
-        if !self.style.expand {
-            self.kept_sums.set(true);
-        }
+        self.asked.set(Asked { expand: true, ..self.asked.get() });
         self.style.expand
     }
 

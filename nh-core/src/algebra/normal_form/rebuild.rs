@@ -6,6 +6,7 @@ use super::reader::Reader;
 use crate::algebra::node::{Function, Node};
 use crate::algebra::number::Rational;
 use crate::id::ExprId;
+use crate::id_map::IdMap;
 use std::borrow::Cow;
 use std::collections::BTreeMap;
 
@@ -210,16 +211,32 @@ fn most_frequent(polynomial: &Polynomial) -> Option<Factor> {
     if polynomial.len() < 2 {
         return None;
     }
-    let mut factors: Vec<&Factor> = polynomial.0.keys().flat_map(|monomial| monomial.0.iter()).collect();
-    // the first of equal ones is that of the first term
-    let key = |factor: &Factor| (factor.atom, factor.exponent.is_negative());
-    factors.sort_by_key(|factor| key(factor));
+    // how many terms an atom stands in, above the fraction bar and below, and the factor of the first of them
+    let mut atoms: IdMap<ExprId, [(usize, Factor); 2]> = IdMap::default();
+    for (monomial, _) in polynomial.0.iter() {
+        let factors: &[Factor] = &monomial.0;
+        let mut place = 0;
+        while place < factors.len() {
+            let factor = factors[place];
+            let (terms, first) =
+                &mut atoms.entry(factor.atom, [(0, factor); 2])[usize::from(factor.exponent.is_negative())];
+            if *terms == 0 {
+                *first = factor;
+            }
+            *terms += 1;
+            place += 1;
+        }
+    }
     let mut best: Option<(usize, Factor)> = None;
-    for group in factors.chunk_by(|a, b| key(a) == key(b)) {
-        let terms = group.len();
-        let count = if group[0].exponent.is_negative() { 2 * terms } else { terms };
-        if terms > 1 && best.is_none_or(|(most, _)| count > most) {
-            best = Some((count, *group[0]));
+    for (atom, counted) in atoms.iter() {
+        for (below, (terms, factor)) in counted.iter().enumerate() {
+            let count = (1 + below) * terms;
+            // of equally frequent ones the first atom, above the fraction bar
+            let is_more =
+                |(most, other): (usize, Factor)| count > most || (count == most && *atom < other.atom);
+            if *terms > 1 && best.is_none_or(is_more) {
+                best = Some((count, *factor));
+            }
         }
     }
     best.map(|(_, factor)| factor)

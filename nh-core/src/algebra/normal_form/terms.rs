@@ -16,13 +16,14 @@ pub(super) enum Terms {
     Many(Vec<Term>),
 }
 
-type Term = (Monomial, Rational);
+pub(super) type Term = (Monomial, Rational);
 
 impl Terms {
     pub(super) fn with_capacity(capacity: usize) -> Self {
         if capacity < 2 { Self::default() } else { Self::Many(Vec::with_capacity(capacity)) }
     }
 
+    #[inline(always)]
     fn list(&self) -> &[Term] {
         match self {
             Self::Few(term) => term.as_slice(),
@@ -30,16 +31,18 @@ impl Terms {
         }
     }
 
+    #[inline(always)]
     pub(super) fn len(&self) -> usize {
         self.list().len()
     }
 
+    #[inline(always)]
     pub(super) fn is_empty(&self) -> bool {
         self.list().is_empty()
     }
 
-    pub(super) fn iter(&self) -> impl Iterator<Item = (&Monomial, &Rational)> {
-        self.list().iter().map(|(monomial, coefficient)| (monomial, coefficient))
+    pub(super) fn iter(&self) -> std::slice::Iter<'_, Term> {
+        self.list().iter()
     }
 
     pub(super) fn keys(&self) -> impl Iterator<Item = &Monomial> {
@@ -84,8 +87,14 @@ impl Terms {
                 list.insert(index, term);
                 *self = Self::Many(list);
             }
+            Self::Many(list) if index == list.len() => list.push(term),
             Self::Many(list) => list.insert(index, term),
         }
+    }
+
+    /// Adds a coefficient that is not zero, of a monomial beyond all others.
+    pub(super) fn append(&mut self, monomial: Monomial, coefficient: Rational) {
+        self.insert_at(self.len(), (monomial, coefficient));
     }
 
     /// Adds a coefficient that is not zero.

@@ -3,6 +3,7 @@
 use super::monomial::{Exponent, Factor, Kind, Monomial};
 use super::polynomial::Polynomial;
 use super::reader::Reader;
+use crate::algebra::memory::Asked;
 use crate::algebra::node::{Function, Node};
 use crate::algebra::number::Rational;
 use crate::id::ExprId;
@@ -43,6 +44,7 @@ impl Reader<'_> {
             Function::Sinh | Function::Cosh | Function::Exp => false,
             _ => return self.read_opaque(function, argument),
         };
+        self.asked.set(Asked { angles: true, ..self.asked.get() });
         if !self.style.angles || argument.len() > TERMS || argument.is_zero() {
             return self.read_opaque(function, argument);
         }
@@ -131,18 +133,18 @@ impl Reader<'_> {
     pub(super) fn has_squares(&self, polynomial: &Polynomial) -> bool {
         use Function::{Cos, Cosh, Sin, Sinh};
         let is_square = |factor: &Factor| {
-            factor.kind == Kind::Plain
-                && factor.exponent >= Exponent::whole(2)
+            matches!(factor.kind, Kind::Plain)
+                && factor.exponent.is_at_least(2)
                 && matches!(self.graph.node(factor.atom), Node::Apply(Sin | Cos | Sinh | Cosh, _))
         };
-        polynomial.0.keys().any(|monomial| monomial.0.iter().any(is_square))
+        polynomial.0.keys().any(|monomial| monomial.has(is_square))
     }
 
     /// The angles whose cosine or sine occurs at least squared.
     fn squared_angles(&mut self, polynomial: &Polynomial) -> Vec<Angle> {
         let mut arguments = BTreeSet::new();
         for factor in polynomial.0.keys().flat_map(|monomial| monomial.0.iter()) {
-            if factor.kind == Kind::Plain && factor.exponent >= Exponent::whole(2) {
+            if factor.kind == Kind::Plain && factor.exponent.is_at_least(2) {
                 match *self.graph.node(factor.atom) {
                     Node::Apply(Function::Sin | Function::Cos, x) => _ = arguments.insert((true, x)),
                     Node::Apply(Function::Sinh | Function::Cosh, x) => _ = arguments.insert((false, x)),
@@ -195,21 +197,27 @@ impl Reader<'_> {
     /// Leaves at most first powers of the cosine (or else the sine) of an angle.
     fn eliminate(&mut self, polynomial: &Polynomial, angle: Angle, cosine: bool) -> Option<Polynomial> {
         let (gone, kept) = if cosine { (angle.cos, angle.sin) } else { (angle.sin, angle.cos) };
-        let mut square = Polynomial::term(Monomial::of(kept, Kind::Plain, Exponent::whole(2)), angle.sign());
-        square.add_term(Monomial::default(), if cosine { Rational::ONE } else { -angle.sign() });
+        let (sign, one) = (angle.sign(), if cosine { Rational::ONE } else { -angle.sign() });
+        let square = Monomial::of(kept, Kind::Plain, Exponent::whole(2));
         let mut result = Polynomial::default();
         for (monomial, coefficient) in polynomial.0.iter() {
-            match monomial.exponent(gone).integer() {
-                Some(power @ 2..) => {
-                    let removed = Monomial::of(gone, Kind::Plain, Exponent::whole(power - power % 2));
-                    let mut product = Polynomial::term(monomial.over(&removed)?, coefficient.clone());
-                    for _ in 0..power / 2 {
-                        product = self.multiply(&product, &square)?;
-                    }
-                    result.add(product);
+            let Some(power @ 2..) = monomial.exponent(gone).integer() else {
+                result.add_term(monomial.clone(), coefficient.clone());
+                continue;
+            };
+            let removed = Monomial::of(gone, Kind::Plain, Exponent::whole(power - power % 2));
+            let mut product = Polynomial::term(monomial.over(&removed)?, coefficient.clone());
+            for _ in 0..power / 2 {
+                // times `σ kept² + 1` or `σ kept² − σ`
+                self.spend(2 * product.len())?;
+                let mut next = Polynomial::default();
+                for (monomial, coefficient) in product.0 {
+                    next.add_term(monomial.times(&square)?, coefficient.clone() * sign.clone());
+                    next.add_term(monomial, coefficient * one.clone());
                 }
-                _ => result.add_term(monomial.clone(), coefficient.clone()),
+                product = next;
             }
+            result.add(product);
         }
         self.spend(polynomial.len())?;
         Some(result)
@@ -252,6 +260,10 @@ fn contract_at(
     let steps = [Rational::MINUS_ONE, -angle.sign(), Rational::ONE];
     let count = |values: &[Rational; 3]| values.iter().filter(|value| !value.is_zero()).count();
     let mut best = (count(&values), None);
+    if best.0 < 2 {
+        // instead of one there would be two
+        return Some(false);
+    }
     for (value, step) in values.iter().zip(&steps) {
         // each step is ±1, its own inverse
         let times = -(value.clone() * step.clone());

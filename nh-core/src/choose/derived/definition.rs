@@ -7,8 +7,7 @@ use super::{Derived, proof_of_connection, proof_of_flow, proof_of_splitting, ret
 use crate::algebra::{Direction, Residue, determinant_in_field};
 use crate::id::SymbolId;
 
-/// Whether the motion, and what defines the function, have values; false for those whose existence is another
-/// question, as that of solutions over the base is.
+/// Whether the motion, and what defines the function, have values.
 pub(super) fn is_defined(claim: &Derived, place: &mut Place) -> Result<bool, Defect> {
     let flow = place.flow()?;
     place.values(&place.reference.roots())?;
@@ -88,7 +87,10 @@ pub(super) fn is_defined(claim: &Derived, place: &mut Place) -> Result<bool, Def
             return Ok(is_solvable(&place.mass()?, &place.jacobian()?));
         }
         Derived::DiscreteMomentum(_) => _ = place.distribution()?,
-        Derived::Section(..) => return Ok(false),
+        Derived::Section(_, claimed) => {
+            place.values(claimed)?;
+            return Ok(is_regular_on(&place.mass()?, &place.distribution()?));
+        }
     }
     Ok(true)
 }

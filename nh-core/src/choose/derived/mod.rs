@@ -40,7 +40,7 @@ pub(crate) enum Derived<'p> {
     Jacobian(&'p Procedure, &'p Procedure, &'p [SymbolId]),
     /// The derivatives of a function along the motion.
     Rates(&'p Procedure, &'p Procedure),
-    /// Σ ∂f_i/∂x_i of the motion, on the base where identities hold.
+    /// Σ ∂f_i/∂x_i of the motion, where functions of time and place vanish.
     Divergence(&'p Procedure, &'p [ExprId]),
     /// The density of a volume that the motion keeps there.
     Density(&'p Procedure, &'p [ExprId]),
@@ -52,7 +52,7 @@ pub(crate) enum Derived<'p> {
     Energy(&'p Procedure),
     /// The momenta, their inverse, h, brackets and Hamilton's equations, mathematics (16), (17), with the energy.
     Hamiltonian(&'p HamiltonianSide, &'p Procedure),
-    /// Velocities over the base whose momenta are claimed, and which the motion keeps.
+    /// Velocities over the base whose momenta are claimed, and which the motion keeps: the last images.
     Section(&'p Procedure, &'p [ExprId]),
     /// The symbols of the Levi-Civita connection.
     Christoffel(&'p Procedure),
@@ -293,10 +293,10 @@ impl Derived<'_> {
                 is_jacobian(place, function, jacobian, arguments)
             }
             Self::Rates(function, rates) => Ok(place.slopes(function, &place.flow()?)? == place.run(rates)?),
-            Self::Divergence(stored, identities) => {
-                Ok(place.run(stored)? == [proof_of_flow::divergence(place, identities)?])
+            Self::Divergence(stored, vanishing) => {
+                Ok(place.run(stored)? == [proof_of_flow::divergence(place, vanishing)?])
             }
-            Self::Density(density, identities) => proof_of_flow::is_kept(place, density, identities),
+            Self::Density(density, vanishing) => proof_of_flow::is_kept(place, density, vanishing),
             Self::Sharp(form) => proof_of_bracket::sharp(place, &form),
             Self::Bracket(form) => proof_of_bracket::of_outputs(place, &form),
             Self::Energy(energy) => Ok(place.run(energy)? == [place.instant.energy()?]),
@@ -352,7 +352,8 @@ pub(crate) fn prove_derived(
             "it is claimed where constraints determine what stands in functions that are no formulas";
         return Err(Defect::Unknown(reason.into()));
     }
-    let values: Vec<ExprId> = images.iter().map(|(_, image)| *image).collect();
+    let values_of = |images: Images| images.iter().map(|(_, image)| *image).collect::<Vec<ExprId>>();
+    let values = values_of(images);
     roots.extend(&values);
     let division = graph.angle_division(&roots);
     let degree = degree(graph, reference, division, (&procedures, &claim.further(), &values));
@@ -360,20 +361,16 @@ pub(crate) fn prove_derived(
     let mut determined: Vec<SymbolId> = procedures.iter().flat_map(|procedure| defined(procedure)).collect();
     determined.extend(reference.determined().iter().chain(&solved));
     let radicands = Radicands::of(graph, &roots, &determined);
-    let at = |mut point: FieldPoint| -> Result<Place, Defect> {
-        let on = FieldPass::new(graph, point.clone(), division).evaluate(&values)?;
-        point.chosen.extend(solved.iter().copied().zip(on));
+    let at = |mut point: FieldPoint, images: Images| -> Result<Place, Defect> {
+        let on = FieldPass::new(graph, point.clone(), division).evaluate(&values_of(images))?;
+        point.chosen.extend(images.iter().map(|(symbol, _)| *symbol).zip(on));
         let instant = reference.at(graph, point.clone(), division)?;
         Ok(Place { reference, instant, motion, point, division })
     };
     let point = |seed| radicands.point(graph, seed);
-    let holds = |point: FieldPoint| claim.holds(&mut at(point)?);
-    let outcome = at_points(bits, point, |point| {
-        if holds(point)? {
-            return Ok(());
-        }
-        Err(Defect::Wrong("it is not what its definition says".into()))
-    });
+    let holds = |point: FieldPoint| claim.holds(&mut at(point, images)?);
+    let wrong = || Defect::Wrong("it is not what its definition says".into());
+    let outcome = at_points(bits, point, |point| if holds(point)? { Ok(()) } else { Err(wrong()) });
     // what is wrong agrees nowhere; what holds for one choice of its roots does so at some points
     let agrees = |seed: u64| holds(point(seed)).is_ok_and(|holds| holds);
     let is_of_a_branch = matches!(outcome, Err(Defect::Wrong(_)))
@@ -386,8 +383,14 @@ pub(crate) fn prove_derived(
     }
     let proof = unless_roots_are_missing(graph, &roots, outcome)?;
     let declared = reference.roots();
-    let about = (declared.as_slice(), motion, images);
+    // where a section of D* is defined depends on the base alone, and its own velocities are known only there
+    let given = match claim {
+        Derived::Section(lifted, _) => &images[..images.len() - lifted.outputs.len().min(images.len())],
+        _ => images,
+    };
+    let about = (declared.as_slice(), motion, given);
     let added = limits::attempt(CONDITIONS, || {
+        let at = |point| at(point, given);
         added_conditions::added_condition(graph, claim, about, reference.system(), allowed, point, at)
     });
     added_conditions::judged(proof, added)

@@ -9,8 +9,8 @@ use crate::algebra::{Direction, Echelon, Residue};
 use crate::id::ExprId;
 use crate::mechanics::{HamiltonianSide, Procedure};
 
-/// Σ ∂f_i/∂x_i, less the trace of g where Γ(f) = g f on an embedded base f = 0.
-pub(super) fn divergence(place: &Place, identities: &[ExprId]) -> Result<Residue, Defect> {
+/// Σ ∂f_i/∂x_i, less the trace of g where (∂_t + Γ) f = g f of functions f of time and place that vanish.
+pub(super) fn divergence(place: &Place, vanishing: &[ExprId]) -> Result<Residue, Defect> {
     let motion = place.motion;
     let mut sum = Residue::ZERO;
     let mut along_base = Vec::new();
@@ -19,16 +19,14 @@ pub(super) fn divergence(place: &Place, identities: &[ExprId]) -> Result<Residue
         sum = sum + slopes[index];
         along_base.push(slopes);
     }
-    if identities.is_empty() {
+    if vanishing.is_empty() {
         return Ok(sum);
     }
-    let coordinates = place.coordinates();
-    let rates = place.run(motion.derivative)?;
-    let flow: Direction = coordinates.iter().copied().zip(rates).collect();
-    // ∂_i(Γ f) = ∂_iΓ^m ∂_mf + Γ(∂_if), of identities that do not follow from others
+    let (coordinates, flow) = (place.coordinates(), place.flow()?);
+    // ∂_i(∂_tf + Γ f) = ∂_iΓ^m ∂_mf + (∂_t + Γ)(∂_if), of functions that do not follow from others
     let (mut slopes, mut changes) = (Vec::new(), Vec::new());
-    for identity in identities {
-        let gradient = place.gradient(*identity, coordinates, &flow)?;
+    for function in vanishing {
+        let gradient = place.gradient(*function, coordinates, &flow)?;
         let row: Vec<Residue> = gradient.iter().map(|dual| dual.value).collect();
         if rank(&[slopes.as_slice(), std::slice::from_ref(&row)].concat()) == slopes.len() {
             continue;
@@ -47,10 +45,10 @@ pub(super) fn divergence(place: &Place, identities: &[ExprId]) -> Result<Residue
 }
 
 /// ∂_tμ + Γ(μ) + μ div Γ = 0.
-pub(super) fn is_kept(place: &Place, density: &Procedure, identities: &[ExprId]) -> Result<bool, Defect> {
+pub(super) fn is_kept(place: &Place, density: &Procedure, vanishing: &[ExprId]) -> Result<bool, Defect> {
     let change = place.slopes(density, &place.flow()?)?;
     let value = place.run(density)?;
-    let divergence = divergence(place, identities)?;
+    let divergence = divergence(place, vanishing)?;
     Ok(value.len() == 1 && value[0] != Residue::ZERO && change[0] + value[0] * divergence == Residue::ZERO)
 }
 

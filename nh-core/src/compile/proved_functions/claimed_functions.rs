@@ -84,10 +84,10 @@ pub(super) fn of_motion<'d>(
         claims.push(("power", DerivedFunction::Power(form)));
     }
     if let Some(divergence) = functions.get(&DIVERGENCE) {
-        claims.push(("divergence", DerivedFunction::Divergence(divergence, &declared.identities)));
+        claims.push(("divergence", DerivedFunction::Divergence(divergence, &declared.vanishing)));
     }
     if let Some(density) = functions.get(&VOLUME_DENSITY) {
-        claims.push(("volume_density", DerivedFunction::Density(density, &declared.identities)));
+        claims.push(("volume_density", DerivedFunction::Density(density, &declared.vanishing)));
     }
     claims
 }

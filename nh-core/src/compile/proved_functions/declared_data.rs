@@ -1,6 +1,7 @@
 //! What claims refer to that the functions do not hold themselves: the declared data, as they are written.
 
 use super::super::Proved;
+use super::super::kept_volume::vanishing;
 use super::Derivatives;
 use crate::choose::AppliedForce;
 use crate::id::{CoordId, ExprId, Id, SymbolId};
@@ -15,6 +16,8 @@ pub(super) struct Declared {
     /// The symbols of ẋ.
     pub(super) rates: Vec<SymbolId>,
     pub(super) identities: Vec<ExprId>,
+    /// What volumes are divided by.
+    pub(super) vanishing: Vec<ExprId>,
     pub(super) outputs: Vec<ExprId>,
     pub(super) forces: Vec<AppliedForce>,
     /// σ and f of each momentum.
@@ -66,6 +69,7 @@ impl Declared {
             parameters: model.parameters.iter().map(|parameter| parameter.symbol).collect(),
             rates: model.coordinates.iter().map(|coordinate| coordinate.rate).collect(),
             identities: model.identities.iter().map(|identity| identity.value).collect(),
+            vanishing: vanishing(model, given.formulation),
             outputs: model.outputs.iter().map(|output| output.value).collect(),
             forces,
             sections: parts.momenta.iter().filter_map(with_momentum).collect(),

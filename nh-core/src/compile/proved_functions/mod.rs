@@ -201,7 +201,7 @@ pub(super) fn prove(
             proof.unwrap_or_else(|| Err(Defect::Unknown("that would take too many steps".into())))
         };
         let solution = match claim {
-            DerivedFunction::Section(lifted, _) => lifted.outputs.clone(),
+            DerivedFunction::Section(lifted, _) => lifted.written_out(&mut proved.model.graph),
             _ => Vec::new(),
         };
         let at: Vec<(SymbolId, ExprId)> = given.velocities.iter().copied().zip(solution).collect();

@@ -248,7 +248,7 @@ const DIVISORS: [(Divisor, &str, &str); 5] = [
 
 /// Declarations with the parameters a, b, c and coordinates x, y, between which every function that divisors are
 /// planted in is asked for.
-const WITH_PARAMETERS: [(&str, &str, &[&str]); 4] = [
+const WITH_PARAMETERS: [(&str, &str, &[&str]); 5] = [
     (
         "base { x, y, z } lagrangian { (der(x)^2 + der(y)^2 + der(z)^2)/2 - (a + b*c)*x^2*y }
          constraints { der(z) = y*der(x); }",
@@ -281,6 +281,11 @@ const WITH_PARAMETERS: [(&str, &str, &[&str]); 4] = [
          holonomic { rod: x^2 + y^2 = 4; }",
         "emit { power, multipliers }",
         &["position_return", "power"],
+    ),
+    (
+        "base { x, y, z } lagrangian { ((1 + y^2)*der(x)^2 + der(y)^2 + (a + b*c)*der(z)^2)/2 }",
+        "hamilton_jacobi { der(x): 0; der(y): a - b; der(z): 1 + c; } emit { hamiltonian }",
+        &["hamilton_jacobi"],
     ),
 ];
 
@@ -325,7 +330,7 @@ fn a_divisor_that_may_be_zero_where_the_motion_is_regular() {
         }
     }
     assert!(wrong.is_empty(), "{}", wrong.join("\n"));
-    assert_eq!(tried.len(), 33, "{tried:?}");
+    assert_eq!(tried.len(), 34, "{tried:?}");
 }
 
 /// A divisor of a degree that is not looked for is named in the ledger, under the function that has it.

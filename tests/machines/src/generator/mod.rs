@@ -2,6 +2,7 @@
 
 mod draws;
 mod groups;
+mod loops;
 mod particles;
 mod planar;
 mod spatial;
@@ -39,6 +40,15 @@ impl Machine {
         Self { member, family, sections: draft.sections(), parameters: draft.parameters }
     }
 
+    /// A member of the family of a seed, with constraints on positions.
+    #[must_use]
+    pub fn closed(seed: u64, member: u64) -> Self {
+        let mut random = Random::of(seed, member);
+        let mut draft = Draft::default();
+        let family = loops::machine(&mut draft, &mut random);
+        Self { member, family, sections: draft.sections(), parameters: draft.parameters }
+    }
+
     /// What stands in `#[nonholonomic(…)]` at a level of accuracy.
     #[must_use]
     pub fn attribute(&self, level: &str) -> String {
@@ -66,6 +76,7 @@ pub(crate) struct Draft {
     pub(crate) lets: Vec<String>,
     /// The terms of the Lagrangian.
     pub(crate) lagrangian: Vec<String>,
+    pub(crate) holonomic: Vec<String>,
     pub(crate) constraints: Vec<String>,
     pub(crate) forces: Vec<String>,
     pub(crate) inputs: Vec<String>,
@@ -120,8 +131,12 @@ impl Draft {
         let lets = self.lets.join("\n    ");
         let whole = |body: String| vec![format!("{lets}\n    {body}")];
         section("lagrangian", &whole(self.lagrangian.join(" + ").replace("+ -", "- ")), "");
-        if !self.constraints.is_empty() {
-            section("constraints", &whole(self.constraints.join(" ")), "");
+        for (name, rows) in [("holonomic", &self.holonomic), ("constraints", &self.constraints)] {
+            if !rows.is_empty() {
+                section(name, &whole(rows.join(" ")), "");
+            }
+        }
+        if !self.holonomic.is_empty() || !self.constraints.is_empty() {
             section("emit", &["multipliers".into()], "");
         }
         section("forces", &self.forces, " ");

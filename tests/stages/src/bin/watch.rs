@@ -1,14 +1,16 @@
 //! What becomes of declarations, as text: `cargo run -p nh-stages -- FILE [NAME …]` prints the report of every
 //! declaration in a Rust file, or of those that are named, and the errors of those that are refused. Without a
-//! file, or with `-`, it reads the standard input. With `--explain` it prints besides which forms competed for each
-//! function, and the program of the derivative, step by step; with `--times` only what each expansion costs, in
-//! milliseconds on the processor's clock, the lesser of two runs.
+//! file, or with `-`, it reads the standard input; with `--family NAME SIZE …` it takes the members of a growing
+//! family, and with `--all [NAME …]` the reference systems, the machines of the benchmark of record and the arms.
+//! With `--explain` it prints besides which forms competed for each function, and the program of the derivative,
+//! step by step; with `--times` only what each expansion costs: milliseconds on the processor's clock, the lesser of
+//! two runs, and counted steps of work.
 
-use std::io::Read;
+use std::io::{Error, Read};
 use std::time::Instant;
 
-use nh_stages::Declaration;
-use nonholonomic_core::limits::{processor_time, timed};
+use nh_stages::{Declaration, arms, declarations, families, references, whole_record};
+use nonholonomic_core::limits::{processor_time, spent, timed, within_limits};
 use nonholonomic_core::program::{Cost, schedule};
 use nonholonomic_core::system::System;
 
@@ -16,7 +18,34 @@ fn main() -> std::io::Result<()> {
     let (options, arguments): (Vec<String>, Vec<String>) =
         std::env::args().skip(1).partition(|argument| argument.starts_with("--"));
     let is_asked = |wanted: &str| options.iter().any(|option| option == wanted);
-    let (is_explained, is_timed) = (is_asked("--explain"), is_asked("--times"));
+    let chosen = if is_asked("--all") {
+        named([references(), whole_record(), arms()].concat(), &arguments)
+    } else if is_asked("--family") {
+        members(&arguments)?
+    } else {
+        of_file(&arguments)?
+    };
+    for (name, declaration) in chosen {
+        if is_asked("--times") {
+            let [(one, steps), (two, _)] = [(); 2].map(|()| cost(&declaration));
+            println!("{:8.1}  {steps:9}  {name}", one.min(two));
+            continue;
+        }
+        match declaration.system() {
+            Ok(system) => {
+                println!("{}", system.report);
+                if is_asked("--explain") {
+                    println!("{}", explained(&system));
+                }
+            }
+            Err(errors) => println!("{name}: refused\n{}\n", errors.join("\n")),
+        }
+    }
+    Ok(())
+}
+
+/// The declarations of a file, or those of them that are named.
+fn of_file(arguments: &[String]) -> std::io::Result<Vec<(String, Declaration)>> {
     let (path, wanted) = arguments.split_first().map_or(("-", &[][..]), |(path, rest)| (path.as_str(), rest));
     let mut source = String::new();
     if path == "-" {
@@ -24,35 +53,43 @@ fn main() -> std::io::Result<()> {
     } else {
         source = std::fs::read_to_string(path)?;
     }
-    for declaration in nh_stages::declarations(&source) {
-        if !wanted.is_empty() && !wanted.contains(&declaration.name) {
-            continue;
-        }
-        if is_timed {
-            let least = milliseconds(&declaration).min(milliseconds(&declaration));
-            println!("{least:8.1}  {}", declaration.name);
-            continue;
-        }
-        match declaration.system() {
-            Ok(system) => {
-                println!("{}", system.report);
-                if is_explained {
-                    println!("{}", explained(&system));
-                }
-            }
-            Err(errors) => println!("{}: refused\n{}\n", declaration.name, errors.join("\n")),
-        }
-    }
-    Ok(())
+    let found = declarations(&source).into_iter();
+    Ok(named(found.map(|declaration| (declaration.name.clone(), declaration)).collect(), wanted))
 }
 
-/// What one expansion takes, from tokens to tokens.
-fn milliseconds(declaration: &Declaration) -> f64 {
+/// Those with these names, or all if none are given.
+fn named(mut found: Vec<(String, Declaration)>, wanted: &[String]) -> Vec<(String, Declaration)> {
+    found.retain(|(name, _)| wanted.is_empty() || wanted.contains(name));
+    found
+}
+
+/// The members of a family at sizes.
+fn members(arguments: &[String]) -> std::io::Result<Vec<(String, Declaration)>> {
+    let known = |name: &String| families().find(|family| family.name == name);
+    let Some((family, sizes)) = arguments.split_first().and_then(|(name, sizes)| Some((known(name)?, sizes)))
+    else {
+        let names: Vec<&str> = families().map(|family| family.name).collect();
+        return Err(Error::other(format!("a family is one of these: {}", names.join("; "))));
+    };
+    let of_size = |size: &String| {
+        let size = size.parse().map_err(|_| Error::other(format!("`{size}` is no size")))?;
+        Ok((format!("{}, {size}", family.name), family.member(size)))
+    };
+    sizes.iter().map(of_size).collect()
+}
+
+/// What one expansion takes, from tokens to tokens: milliseconds, and steps of work.
+fn cost(declaration: &Declaration) -> (f64, u64) {
     let start = Instant::now();
-    let (tokens, seconds) = timed(|| declaration.expanded());
+    let (work, seconds) = timed(|| {
+        within_limits(|| {
+            drop(declaration.expanded());
+            spent()
+        })
+    });
     let wall = start.elapsed().as_secs_f64();
-    drop(tokens);
-    1e3 * if processor_time().is_some() { seconds } else { wall }
+    let milliseconds = 1e3 * if processor_time().is_some() { seconds } else { wall };
+    (milliseconds, work.unwrap_or(u64::MAX))
 }
 
 /// The ledger, and the program of the derivative.
