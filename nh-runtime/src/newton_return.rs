@@ -13,7 +13,8 @@ const MOST_ITERATIONS: u32 = 50;
 /// The iteration stops where every residual is zero; where a change is of the order of rounding, or changes
 /// near that no longer fall; and where the next change would be of that order: to first order it is to this
 /// one as the residual that is left is to the one before, row by row. Near to where it leads it is one step.
-/// Lanes stop together, when the last one does.
+/// Where all of x is near to zero, as upright and at the origin, rounding is that of lengths inside the equations: there
+/// it stops where changes no longer fall, and jump on their own way. Lanes stop together, when the last one does.
 ///
 /// # Errors
 /// If the changes do not vanish, or one is not finite.
@@ -46,19 +47,24 @@ pub fn newton_from<T: Scalar, const N: usize, const M: usize>(
         if iterations == MOST_ITERATIONS {
             return Err(ProjectionError { iterations, residual: largest(&left).to_f64() });
         }
-        let change = change(&present);
+        let moved = change(&present);
         iterations += 1;
-        for (x, change) in present.iter_mut().zip(&change) {
-            *x += *change;
+        for (x, moved) in present.iter_mut().zip(&moved) {
+            *x += *moved;
         }
         let before = left;
         left = residual(&present);
         if !all_finite::<T, _>(&present) {
             return Err(ProjectionError { iterations, residual: largest(&before).to_f64() });
         }
-        let size = largest(&change);
+        let size = largest(&moved);
         scale = scale.max(largest(&present));
         if is_settled(size, scale, preceding) || is_last(size, scale, &before, &left) {
+            break;
+        }
+        if preceding.is_some_and(|preceding| is_level(preceding, size))
+            && is_rounding(&present, &moved, &change)
+        {
             break;
         }
         preceding = Some(size);
@@ -95,6 +101,65 @@ fn is_last<T: Scalar, const M: usize>(change: T, scale: T, before: &[T; M], left
         let beyond = (whole + change * left).select_gt(whole, T::ONE, T::ZERO);
         T::ZERO.all_ge(beyond)
     })
+}
+
+/// Whether a change is, in some lane, of the size of the preceding one.
+#[inline]
+fn is_level<T: Scalar>(preceding: T, change: T) -> bool {
+    let falls = (preceding * T::from_f64(0.5)).select_gt(change, T::ZERO, T::ONE);
+    let grows = change.select_gt(preceding * T::from_f64(64.0), T::ZERO, T::ONE);
+    !T::ZERO.all_ge(falls * grows)
+}
+
+/// Whether, in every lane, a change that led here was rounding: changes follow a multiple of it as those of smooth
+/// equations do, nearly linearly, and on the way of it they jump, as those of smooth equations do at poles alone.
+#[cold]
+fn is_rounding<T: Scalar, const N: usize>(
+    present: &[T; N],
+    moved: &[T; N],
+    change: impl Fn(&[T; N]) -> [T; N],
+) -> bool {
+    let after = |part: T| {
+        let mut there = *present;
+        for (x, moved) in there.iter_mut().zip(moved) {
+            *x += (part - T::ONE) * *moved;
+        }
+        change(&there)
+    };
+    let (size, half) = (largest(moved), T::from_f64(0.5));
+    let multiple = T::from_f64(MULTIPLE);
+    let beyond = moved.map(|moved| (T::ONE - multiple) * moved);
+    let follows =
+        (size * multiple).select_gt(apart(&after(multiple), &beyond) * T::from_f64(8.0), T::ONE, T::ZERO);
+    // the half in which changes differ more, again and again
+    let (mut near, mut far) = (T::ZERO, T::ONE);
+    let (mut at_near, mut at_far) = (after(near), after(far));
+    for _ in 0..HALVINGS {
+        let middle = half * (near + far);
+        let there = after(middle);
+        let (first, second) = (apart(&at_near, &there), apart(&there, &at_far));
+        near = second.select_gt(first, middle, near);
+        far = second.select_gt(first, far, middle);
+        for ((at_near, at_far), there) in at_near.iter_mut().zip(&mut at_far).zip(&there) {
+            *at_near = second.select_gt(first, *there, *at_near);
+            *at_far = second.select_gt(first, *at_far, *there);
+        }
+    }
+    let jumps = (apart(&at_near, &at_far) * T::from_f64(8.0)).select_gt(size, T::ONE, T::ZERO);
+    let pole = size * T::from_f64(64.0);
+    let is_finite = pole.select_gt(largest(&at_near).max(largest(&at_far)), T::ONE, T::ZERO);
+    let is_moved = size.select_gt(T::ZERO, T::ONE, T::ZERO);
+    T::ZERO.all_ge(is_moved * (T::ONE - follows * jumps * is_finite))
+}
+
+/// A multiple of a change of the size of rounding that is beyond its noise, and nothing beside the lengths of a machine.
+const MULTIPLE: f64 = 1024.0;
+/// How often the way of a change is halved in the search for a jump: what is smooth differs by no more than 2⁻²⁴ then.
+const HALVINGS: u32 = 24;
+
+/// The largest difference of components.
+fn apart<T: Scalar, const N: usize>(a: &[T; N], b: &[T; N]) -> T {
+    a.iter().zip(b).fold(T::ZERO, |most, (a, b)| most.max((*a - *b).abs()))
 }
 
 /// 1, −1, or 0 where one of the numbers is.
@@ -146,6 +211,31 @@ mod tests {
         assert!((x - 0.6).abs() < 2e-16 && (y - 0.8).abs() < 2e-16);
         assert!(steps.get() <= 8, "{}", steps.get());
         assert_eq!(newton([1.0, 0.0], |_| [f64::NAN; 2], circle), Ok([1.0, 0.0]));
+    }
+
+    /// Heights beside which the coordinate is nothing.
+    #[test]
+    fn near_to_zero_it_ends_at_the_rounding_of_lengths() {
+        let height = |x: f64| (0.3 * x.cos() + 0.1) - (0.3 + 0.1 * (1.0 - x).cos() / 1.0_f64.cos()) - 0.7 * x;
+        let slope = -0.7 - 0.1 * 1.0_f64.tan();
+        for unit in [1.0, 1e200, 1e-200] {
+            let change = |p: &[f64; 1]| [-height(p[0]) / slope];
+            let residual = |p: &[f64; 1]| [height(p[0]) * unit];
+            for start in [1e-2, 1e-9, 1e-15, 3.7e-17, -1e-18, 1e-40, 1e-300] {
+                let [x] = newton([start], change, residual).unwrap();
+                assert!(x.abs() < 1e-15, "{start} {x}");
+            }
+        }
+        // what is smooth is not rounding: x² + 1, √(x² + 1), and both with 10⁻²⁰ from near to zero
+        for (height, root) in [(1.0, false), (1e-20, false), (1.0, true), (1e-20, true)] {
+            let square = |x: f64| x * x + height;
+            let never = |p: &[f64; 1]| [if root { square(p[0]).sqrt() } else { square(p[0]) }];
+            for start in [0.3, 0.577, 1.0, 1e-10, 3e-9] {
+                let change = |p: &[f64; 1]| [-square(p[0]) / (if root { p[0] } else { 2.0 * p[0] })];
+                let end = newton([start * height.sqrt()], change, never);
+                assert!(end.is_err(), "{height} {root} {start} {end:?}");
+            }
+        }
     }
 
     #[test]

@@ -17,6 +17,7 @@ mod holonomic {
     mod plate;
     mod slider_crank;
     mod squeezer;
+    mod steered_bicycle;
     mod stewart;
     mod volumes;
 }

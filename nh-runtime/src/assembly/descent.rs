@@ -50,17 +50,7 @@ pub(crate) fn descend<T: Real, const N: usize, const M: usize>(
             return Err(singular(&here.0, &loops.names));
         }
         let size = largest(&change);
-        // what the step makes of an equation, and its rounding: one that already holds has nothing but that
-        let rounding = T::from_f64(16.0) * T::EPSILON * scale.max(size);
-        let weights = here.1.map(|row| {
-            row.iter().zip(&change).fold(T::ZERO, |sum, (a, x)| sum + a.abs() * (x.abs() + rounding))
-        });
-        let excess = |left: [T; M]| {
-            let rows = left.iter().zip(&weights).take(loops.independent);
-            let rows = rows.filter(|(_, weight)| **weight > T::ZERO);
-            rows.fold(T::ZERO, |largest, (left, weight)| largest.max(left.abs() / *weight))
-        };
-        let before = excess(here.0);
+        let asked = Asked::new(&present, &here, &change, loops.independent);
         let is_settled = is_settled(size, scale.max(size), preceding);
         // so near a regular solution a step that does not take the residuals away meets their rounding
         let is_near = preceding.is_some() && size <= T::EPSILON.sqrt() * scale;
@@ -74,12 +64,7 @@ pub(crate) fn descend<T: Real, const N: usize, const M: usize>(
             }
             let trial = settle(&trial).filter(all_finite::<T, _>);
             accepted = trial.map(|trial| (trial, equations(&trial))).filter(|(_, there)| {
-                // residuals are what is left of a step in part, but for half of what it takes away
-                let mut beyond = there.0;
-                for (beyond, left) in beyond.iter_mut().zip(&here.0) {
-                    *beyond -= (T::ONE - part) * *left;
-                }
-                let falls = excess(beyond) <= half * part * before;
+                let falls = asked.is_brought(part, &there.0);
                 is_last |= !falls && is_near;
                 admits(&there.1) && (falls || is_last)
             });
@@ -99,6 +84,69 @@ pub(crate) fn descend<T: Real, const N: usize, const M: usize>(
         preceding = (part == T::ONE).then_some(size);
     }
     Err(no_solution(&here.0, &loops.names))
+}
+
+/// What a step is to do to one equation, in the units of the equation.
+#[derive(Clone, Copy)]
+struct Share<T> {
+    left: T,
+    /// How much the full step moves the terms of the equation.
+    weight: T,
+    /// What rounding leaves of it: by the digits of the variables and, where it holds before the step, by the solution
+    /// of the linear equations.
+    rounding: T,
+}
+
+/// What a step is to do to each equation. No two equations and no two variables are compared but by ratios, so that
+/// units do not matter.
+struct Asked<T, const M: usize> {
+    shares: [Share<T>; M],
+    /// The largest part of its weight that is left of an equation.
+    most: T,
+}
+
+impl<T: Real, const M: usize> Asked<T, M> {
+    fn new<const N: usize>(
+        present: &[T; N],
+        (left, slopes): &Linearized<T, N, M>,
+        change: &[T; N],
+        independent: usize,
+    ) -> Self {
+        let relative = T::from_f64(16.0) * T::EPSILON;
+        let mut rows = left.iter().zip(slopes).take(independent);
+        let shares = [(); M].map(|()| {
+            let mut share = Share { left: T::ZERO, weight: T::ZERO, rounding: T::ZERO };
+            let Some((left, slopes)) = rows.next() else { return share };
+            let (mut open, mut size) = (*left, T::ZERO);
+            for ((slope, x), change) in slopes.iter().zip(present).zip(change) {
+                let moved = *slope * *change;
+                open += moved;
+                share.weight += moved.abs();
+                size += (*slope * *x).abs() + moved.abs();
+            }
+            share.left = *left;
+            let by_solution = if *left == T::ZERO { T::from_f64(2.0) * open.abs() } else { T::ZERO };
+            share.rounding = by_solution + relative * size;
+            share
+        });
+        let part = |share: &Share<T>| share.left.abs() / share.weight;
+        let most = shares.iter().filter(|share| share.weight > T::ZERO).map(part).fold(T::ZERO, T::max);
+        Self { shares, most }
+    }
+
+    /// Whether a part of the step brought the equations to where it should: what is left of them is what a step in part
+    /// leaves, but for half of what it takes away, and for rounding. Rounding counts only where the step knows digits of
+    /// its own.
+    fn is_brought(&self, part: T, there: &[T; M]) -> bool {
+        let is_known = self.most > T::EPSILON.sqrt();
+        let moved = self.shares.iter().zip(there).filter(|(share, _)| share.weight > T::ZERO);
+        let mut ends = moved.map(|(share, there)| {
+            let beyond = (*there - (T::ONE - part) * share.left).abs();
+            let rounding = if is_known { share.rounding } else { T::ZERO };
+            beyond <= T::from_f64(0.5) * part * self.most * share.weight + rounding
+        });
+        ends.all(|falls| falls)
+    }
 }
 
 /// That equations which follow from the others do.
@@ -183,4 +231,79 @@ pub(super) fn no_solution<T: Real, const M: usize>(
 pub(super) fn singular<T: Real, const M: usize>(left: &[T; M], names: &[&'static str; M]) -> AssemblyError {
     let StateFault { identity, residual } = named(left, names);
     AssemblyError::Singular { constraint: identity, residual }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn found<const N: usize>(
+        start: [f64; N],
+        equations: impl Fn(&[f64; N]) -> Linearized<f64, N, N>,
+    ) -> Result<[f64; N], AssemblyError> {
+        let loops = Loops { names: [""; N], independent: N, depends: [true; N] };
+        let step = |left: &[f64; N], slopes: &[[f64; N]; N]| {
+            Factors::<D<N>, f64>::new(slopes).solve(&left.map(|left| -left))
+        };
+        descend(&start, equations, |_, (left, slopes)| step(left, slopes), |x| Some(*x), |_| true, &loops)
+    }
+
+    /// Equations that are linear, one of which holds before the step and has nothing but rounding after it, in any units
+    /// of equations and variables: units that are powers of two change no digit.
+    #[test]
+    fn what_holds_already_stops_no_step() {
+        let slopes = [[1.1, 0.7, -0.4], [0.3, 0.0, 0.0], [-0.2, 1.3, 0.9]];
+        let right = [0.1, 0.0, 2.0];
+        let solved = |rows: [i32; 3], columns: [i32; 3], x: f64| {
+            let unit = |power: i32| 2.0_f64.powi(power);
+            let (mut a, mut b) = (slopes, right);
+            for (row, by) in rows.into_iter().enumerate() {
+                b[row] *= unit(by);
+                for (column, of) in columns.into_iter().enumerate() {
+                    a[row][column] *= unit(by - of);
+                }
+            }
+            let equations = |x: &[f64; 3]| {
+                let left = |row: usize| a[row].iter().zip(x).map(|(a, x)| a * x).sum::<f64>() - b[row];
+                ([0, 1, 2].map(left), a)
+            };
+            let start = [0.0, x * unit(columns[1]), 0.0];
+            let found = found(start, equations).unwrap();
+            [0, 1, 2].map(|column: usize| found[column] * unit(-columns[column]))
+        };
+        let (y, z) = (0.89 / 1.15, 1.27 / 1.15);
+        for x in [0.0, 1.0, -30.0] {
+            let plain = solved([0; 3], [0; 3], x);
+            let bits = |x: [f64; 3]| x.map(f64::to_bits);
+            assert!(plain[0].abs() < 1e-16, "{plain:?}");
+            assert!((plain[1] - y).abs() < 1e-14 && (plain[2] - z).abs() < 1e-14, "{plain:?} {y} {z}");
+            for power in [-900, -60, 60, 900] {
+                assert_eq!(bits(solved([0, power, 0], [0; 3], x)), bits(plain));
+                assert_eq!(bits(solved([power; 3], [0; 3], x)), bits(plain));
+                assert_eq!(bits(solved([0; 3], [power; 3], x)), bits(plain));
+            }
+        }
+    }
+
+    /// Two loops that have nothing to do with one another: p cos a = 0.3 p, wherever p is, holds to rounding, the other is
+    /// open.
+    #[test]
+    fn a_loop_that_is_closed_does_not_stop_another() {
+        for closed in 0..40_u32 {
+            let a = 0.05 * f64::from(closed);
+            let height = 0.7 * a.cos();
+            for off in [-1.0, 0.1, 1e-3, 1e-9, 1e-13] {
+                let equations = |[a, b]: &[f64; 2]| {
+                    ([0.7 * a.cos() - height, b.sin() - 0.5], [[-0.7 * a.sin(), 0.0], [0.0, b.cos()]])
+                };
+                for shift in [-1e-16, 0.0, 1e-16] {
+                    if closed > 0 {
+                        let found = found([a + shift, 0.5_f64.asin() + off], equations);
+                        let [_, b] = found.unwrap_or_else(|error| panic!("{a} {off} {shift}: {error}"));
+                        assert!((b.sin() - 0.5).abs() < 1e-15, "{b}");
+                    }
+                }
+            }
+        }
+    }
 }
