@@ -106,6 +106,7 @@ pub(super) fn derive(
         divisors,
         residuals: &[],
         claims: &claims,
+        regular: derivative.clone(),
         derivative,
         multipliers,
         reactions,

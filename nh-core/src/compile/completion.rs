@@ -35,6 +35,8 @@ pub(super) struct Derivation<'d> {
     /// The claimed first integrals, in the variables of the state.
     pub(super) claims: &'d [ExprId],
     pub(super) derivative: Procedure,
+    /// The motion by which the functions beside it are proved: it has a value where the declared equations are regular.
+    pub(super) regular: Procedure,
     pub(super) multipliers: Procedure,
     pub(super) reactions: Procedure,
     pub(super) gibbs_appell: Option<Procedure>,
@@ -82,7 +84,7 @@ pub(super) fn complete(
     let given = Given {
         formulation,
         reference: derivation.reference,
-        derivative: &derivative,
+        derivative: &derivation.regular,
         velocities: &velocities,
         multipliers: (&multipliers, rows),
         residuals: derivation.residuals,

@@ -31,6 +31,7 @@ mod projected_functions;
 mod proved;
 mod proved_functions;
 mod routh;
+mod saddle_competition;
 mod slice;
 mod stages;
 mod strangers;

@@ -3,6 +3,8 @@
 use super::assembly::assembly;
 use super::proved::Proved;
 use crate::algebra::{Graph, Matrix, Substitution};
+use crate::choose::cheapest;
+use crate::geometry::Anchor;
 use crate::id::{ExprId, SymbolId};
 use crate::mechanics::{Definiteness, Procedure, SaddleEquations};
 use crate::system::PositionReturn;
@@ -43,10 +45,28 @@ pub(super) fn position_return(
             equations.bias.push(graph.zero());
         }
     }
-    let mut step = Procedure::default();
-    let (moves, _) = equations.solve(graph, judge, &mut step);
-    let anchor = &proved.system.algebroid.anchor;
-    step.outputs = anchor.vector_field(graph, &moves);
+    let step = step(graph, &equations, &proved.system.algebroid.anchor, &judge);
     let assembly = assembly(proved, (states, velocity), residuals);
     Some(PositionReturn { redundant, count, residual, step, pivots: Procedure::default(), assembly })
+}
+
+/// ρ(δ), by (10), or along free directions where that is cheaper: its digits are those of a correction, which the next
+/// one mends.
+fn step(
+    graph: &mut Graph,
+    equations: &SaddleEquations,
+    anchor: &Anchor,
+    judge: &dyn Fn(&Graph, &Matrix) -> Definiteness,
+) -> Procedure {
+    let mut by_complement = Procedure::default();
+    let (moves, _) = equations.solve(graph, judge, &mut by_complement);
+    by_complement.outputs = anchor.vector_field(graph, &moves);
+    let mut along = Procedure::default();
+    let Some(moves) = equations.solve_along_free_directions(graph, judge, &mut along) else {
+        return by_complement;
+    };
+    along.outputs = anchor.vector_field(graph, &moves);
+    let mut ways = [by_complement, along];
+    let cheapest = cheapest(graph, &ways);
+    core::mem::take(&mut ways[cheapest])
 }

@@ -1,6 +1,5 @@
 //! The functions of a system in the projected formulation.
 
-use super::cancellation::without_needless_cancellation;
 use super::completion::{Derivation, complete};
 use super::differentiated::{requested_jacobian, requested_output_jacobian, requested_parameter_jacobian};
 use super::gibbs_appell_function;
@@ -11,22 +10,23 @@ use super::levels;
 use super::momenta::momenta;
 use super::position_return::position_return;
 use super::power::{power, work_of_constraints};
-use super::proved::{Derived, Proved, fence, nothing_proved};
+use super::proved::{Derived, Proved, fence};
 use super::proved_functions::Parts;
+use super::saddle_competition::{Solved, proved_solution};
 use super::velocities_of_state::{
-    claims_in_state, divides_by_free_parameters, observables, parameter_divisors, requested,
+    claims_in_state, divides_by_free_parameters, observables, parameter_divisors,
 };
 use crate::algebra::{Graph, Matrix, Substitution};
 use crate::check;
-use crate::choose::{Claim, Contender, Decision, Fate, Reference, Regular, fate, prove};
+use crate::choose::Reference;
 use crate::forms::Registry;
 use crate::functions::{ENERGY, GYROSCOPIC, OUTPUT_JACOBIAN, PARAMETER_JACOBIAN, POWER, RESIDUAL, VELOCITY};
 use crate::id::ExprId;
-use crate::limits::{Subject, about, attempt};
+use crate::limits::{Subject, about};
 use crate::mechanics::{
     Definiteness, Flow, Procedure, SaddleEquations, definiteness, energy, saddle_equations,
 };
-use crate::model::{Model, Request};
+use crate::model::Model;
 use crate::system::{Projection, System};
 use crate::violation::Violation;
 
@@ -56,8 +56,8 @@ pub(super) fn derive(
     let graph = &mut proved.model.graph;
     let reference = Reference::projected(graph, &proved.system, declared, residuals.clone());
     gibbs_appell_function::prove_it(&mut proved, &reference, gibbs_appell.as_ref())?;
-    let Solved { derivative, multipliers, reactions } =
-        proved_solution(&mut proved, &equations, &reference, &given, judge)?;
+    let Solved { derivative, regular, multipliers, reactions } =
+        proved_solution(&mut proved, registry, &equations, (&reference, &given), &judge)?;
     // 3. E_L, y and the observables
     about(Subject::Requests);
     let graph = &mut proved.model.graph;
@@ -85,7 +85,7 @@ pub(super) fn derive(
     let (gyroscopic, force) = gyroscopic::derive(&mut proved, None)?;
     functions.add_if(&GYROSCOPIC, force);
     // 5. the way back to the constraint manifold; parameters that the motion may have at 0 are no divisors of it
-    let divisors = parameter_divisors(&mut proved.model, &derivative);
+    let divisors = parameter_divisors(&mut proved.model, &regular);
     let is_free =
         |model: &mut Model, step: &Procedure| divides_by_free_parameters(model, step, &divisors, &facts);
     let by_pivots = |_: &Graph, _: &Matrix| Definiteness::Unknown;
@@ -129,6 +129,7 @@ pub(super) fn derive(
         residuals: &all_residuals,
         claims: &claims,
         derivative,
+        regular,
         multipliers,
         reactions,
         gibbs_appell,
@@ -136,93 +137,6 @@ pub(super) fn derive(
         parts,
     };
     complete(proved, registry, derivation)
-}
-
-/// What the question may take whether a solution adds a condition; numerical pivoting adds none.
-const CONDITIONS: u64 = 6_000_000;
-
-/// What solves the saddle equations.
-struct Solved {
-    derivative: Procedure,
-    multipliers: Procedure,
-    reactions: Procedure,
-}
-
-/// The solution of the saddle equations that is proved to be what is declared: by elimination without
-/// pivoting where that is known to be possible, else with it.
-fn proved_solution(
-    proved: &mut Proved,
-    equations: &SaddleEquations,
-    reference: &Reference,
-    given: &Procedure,
-    judge: impl Fn(&Graph, &Matrix) -> Definiteness,
-) -> Result<Solved, Vec<Violation>> {
-    let mut decision = Decision { site: "derivative", ..Decision::default() };
-    let [asks_multipliers, asks_reactions] =
-        [Request::Multipliers, Request::Reactions].map(|request| requested(&proved.model, request));
-    let parameters: Vec<_> = proved.model.parameters.iter().map(|parameter| parameter.symbol).collect();
-    let graph = &mut proved.model.graph;
-    let factorised = equations.factorised(graph, &judge);
-    for is_pivoted in [false, true] {
-        let mut procedure = given.clone();
-        let (accelerations, multipliers) = if is_pivoted {
-            equations.solve_pivoted(graph, &mut procedure)
-        } else {
-            equations.solve(graph, &judge, &mut procedure)
-        };
-        let reactions = (0..accelerations.len())
-            .map(|alpha| {
-                let column: Vec<ExprId> = equations.jacobian.iter().map(|row| row[alpha]).collect();
-                graph.inner_product(&column, &multipliers)
-            })
-            .collect();
-        procedure.outputs =
-            equations.rates.iter().chain(&accelerations).chain(&given.outputs).copied().collect();
-        // those of levels are zero
-        let declared = proved.constraints.residuals.len();
-        let multipliers = procedure.with_outputs(multipliers.into_iter().take(declared).collect());
-        let reactions = procedure.with_outputs(reactions);
-        let fixed = &proved.system.algebroid.anchor.coordinates;
-        let derivative = without_needless_cancellation(graph, procedure, fixed);
-        let mut proof = prove(graph, reference, &Claim::Motion(&derivative));
-        if asks_multipliers {
-            let claim = Claim::Multipliers(&derivative, &multipliers, None);
-            proof = proof.and_then(|_| prove(graph, reference, &claim));
-        }
-        if asks_reactions {
-            let claim = Claim::Reactions(&derivative, &reactions);
-            proof = proof.and_then(|_| prove(graph, reference, &claim));
-        }
-        let form = if is_pivoted { "with pivoting" } else { "by complement" };
-        let mut fate = fate(proof);
-        if let (Some(mass), Fate::Chosen(_), false) = (&factorised, &fate, is_pivoted) {
-            let regular = Regular {
-                reference,
-                definitions: &Procedure::default(),
-                mass,
-                definiteness: Definiteness::Definite,
-                jacobian: &equations.jacobian,
-                parameters: &parameters,
-                facts: &proved.facts,
-            };
-            let solved = [&derivative, &multipliers, &reactions];
-            let asked =
-                attempt(CONDITIONS, || solved.into_iter().find_map(|solved| regular.added(graph, solved)));
-            fate = match asked {
-                Some(None) => fate,
-                Some(Some(divisor)) => Fate::adds(graph, divisor),
-                None => Fate::NotAdmitted("whether it adds a condition would take too many steps".into()),
-            };
-        }
-        let is_admitted = matches!(fate, Fate::Chosen(_));
-        decision.contenders.push(Contender { form, cost: None, rounding: None, fate });
-        if is_admitted {
-            proved.ledger.decisions.push(decision);
-            return Ok(Solved { derivative, multipliers, reactions });
-        }
-    }
-    proved.ledger.decisions.push(decision);
-    Err(nothing_proved(proved.model.origin, &proved.ledger))
 }
 
 /// One Newton step towards the point of the constraint manifold that is nearest to y₀ in the

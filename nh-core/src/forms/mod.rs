@@ -5,6 +5,7 @@
 //! equations wrong, and need not be right for every declaration.
 
 mod along_chain;
+mod along_free_directions;
 mod by_momenta;
 mod by_parts;
 mod by_velocities;
@@ -12,11 +13,11 @@ mod expanded;
 mod from_the_tips;
 mod on_wheels;
 
-use crate::algebra::Graph;
+use crate::algebra::{Graph, Matrix};
 use crate::count::Count;
 use crate::geometry::ConstraintDistribution;
 use crate::id::ExprId;
-use crate::mechanics::{LagrangianSystem, Procedure, ReducedEquations};
+use crate::mechanics::{Definiteness, LagrangianSystem, Procedure, ReducedEquations, SaddleEquations};
 use std::fmt;
 
 /// What a form is derived from.
@@ -60,6 +61,27 @@ pub trait Form: Sync {
     }
 }
 
+/// Judges mass matrices.
+pub type Judge<'j> = &'j dyn Fn(&Graph, &Matrix) -> Definiteness;
+
+/// One way to solve the equations with multipliers, mathematics (9), for ẏ.
+pub trait Solution: Sync {
+    /// Its name in the ledger.
+    fn name(&self) -> &'static str;
+    /// Where it exists.
+    fn condition(&self) -> &'static str;
+    /// The formulas that it writes.
+    fn formulas(&self) -> &'static str;
+    /// ẏ, of intermediate results of the procedure; `None` where the solution does not exist.
+    fn solve(
+        &self,
+        graph: &mut Graph,
+        equations: &SaddleEquations,
+        judge: Judge,
+        procedure: &mut Procedure,
+    ) -> Option<Vec<ExprId>>;
+}
+
 /// What is done to the functions beside the motion before they are proved, each by its name.
 pub type Finish = fn(&mut Graph, &str, &mut Procedure);
 
@@ -67,6 +89,7 @@ pub type Finish = fn(&mut Graph, &str, &mut Procedure);
 #[derive(Clone)]
 pub struct Registry {
     forms: Vec<&'static dyn Form>,
+    solutions: Vec<&'static dyn Solution>,
     finish: Option<Finish>,
 }
 
@@ -84,6 +107,7 @@ impl Registry {
                 Self::plain(),
                 &by_momenta::ByMomenta,
             ],
+            solutions: vec![&along_free_directions::AlongFreeDirections],
             finish: None,
         }
     }
@@ -91,7 +115,13 @@ impl Registry {
     /// Some forms alone, and the plain one where none of them is admitted.
     #[must_use]
     pub fn of(forms: Vec<&'static dyn Form>) -> Self {
-        Self { forms, finish: None }
+        Self { forms, solutions: Vec::new(), finish: None }
+    }
+
+    /// The same with these ways to solve the equations with multipliers, beside (10).
+    #[must_use]
+    pub fn solving(self, solutions: Vec<&'static dyn Solution>) -> Self {
+        Self { solutions, ..self }
     }
 
     /// The same, with something done to the functions beside the motion before they are proved.
@@ -110,6 +140,12 @@ impl Registry {
         &expanded::Expanded
     }
 
+    /// The ways to solve the equations with multipliers that compete with (10).
+    #[must_use]
+    pub fn solutions(&self) -> &[&'static dyn Solution] {
+        &self.solutions
+    }
+
     /// The forms, in the order in which they are derived.
     #[must_use]
     pub fn forms(&self) -> &[&'static dyn Form] {
@@ -119,7 +155,8 @@ impl Registry {
 
 impl fmt::Debug for Registry {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.debug_list().entries(self.forms.iter().map(|form| form.name())).finish()
+        let solutions = self.solutions.iter().map(|solution| solution.name());
+        f.debug_list().entries(self.forms.iter().map(|form| form.name()).chain(solutions)).finish()
     }
 }
 
@@ -139,6 +176,10 @@ mod tests {
         assert_eq!((names.len(), ranks.len()), (registry.forms().len(), registry.forms().len()));
         for form in registry.forms() {
             assert!(!form.condition().is_empty() && form.formulas().contains('('), "{}", form.name());
+        }
+        for solution in registry.solutions() {
+            assert!(!names.contains(&solution.name()), "{}", solution.name());
+            assert!(!solution.condition().is_empty() && solution.formulas().contains('('));
         }
     }
 }

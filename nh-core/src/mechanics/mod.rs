@@ -11,6 +11,8 @@ mod euler_lagrange;
 mod exterior_derivative;
 mod factorisation;
 mod flow;
+mod free_direction;
+mod free_plane;
 mod gibbs_appell;
 mod hamiltonian;
 mod jacobian;

@@ -1,5 +1,6 @@
 //! What competes: the emitted functions of a declared system, and what an expert writes by hand.
 
+use nonholonomic::ProjectionError;
 use nonholonomic::prelude::*;
 
 /// The number of states at which a system is evaluated.
@@ -34,11 +35,29 @@ pub trait Contest: Dynamics<State: State<Scalar = f64>> + Sized {
 #[derive(Clone, Copy, Debug)]
 pub struct ByHand<S>(pub S);
 
-/// The states and inputs at which a system is evaluated, the same in every run.
+/// The way back to position constraints by hand, as an expert would hand it to the integrators beside a derivative.
+pub trait ClosedByHand: Contest {
+    /// What is left of the constraints on positions.
+    fn open(&self, state: &Self::State) -> [f64; 2];
+    /// Moves the positions by a Newton step.
+    fn close(&self, state: &mut Self::State);
+    /// Moves the velocities to what the constraints make of those that are given.
+    fn follow(&self, state: &mut Self::State);
+}
+
+/// The states and inputs at which a system is evaluated, the same in every run; where there are constraints on positions,
+/// the nearby states at which these hold.
 #[must_use]
 pub fn samples<S: Contest>() -> Vec<(S::State, S::Input)> {
-    let mut random = Random::new();
-    (0..SAMPLES).map(|_| S::sample(&mut random)).collect()
+    let (mut random, system) = (Random::new(), S::ordinary());
+    let mut found = Vec::with_capacity(SAMPLES);
+    while found.len() < SAMPLES {
+        let (mut state, input) = S::sample(&mut random);
+        if system.return_to_positions(0.0, &mut state).is_ok() {
+            found.push((state, input));
+        }
+    }
+    found
 }
 
 /// A small generator of numbers in (−1, 1): Marsaglia's xorshift.
@@ -80,6 +99,7 @@ macro_rules! contest {
         parameters [$($parameter:expr),* $(,)?] of $this:ident,
         $ordinary:expr,
         hand |$s:ident, $t:ident, $x:ident, $u:ident| $body:block
+        $($closed:ident)?
     ) => {
         impl $crate::contest::Contest for $System {
             type Linearised = (Self::State, [[f64; $states]; $states], [[f64; $inputs]; $states]);
@@ -121,7 +141,50 @@ macro_rules! contest {
                 let $s = &self.0;
                 $body
             }
+            $(contest!(@$closed);)?
         }
     };
+    (@closed) => {
+        fn has_positions(&self) -> bool {
+            true
+        }
+        fn return_to_positions(
+            &self,
+            _t: f64,
+            state: &mut Self::State,
+        ) -> Result<f64, ::nonholonomic::ProjectionError> {
+            $crate::contest::closed_by_hand(&self.0, state)
+        }
+        fn correct_positions(&self, _t: f64, state: &mut Self::State) {
+            use $crate::contest::ClosedByHand;
+            self.0.close(state);
+            self.0.follow(state);
+        }
+    };
+}
+
+/// Newton steps until they are round-off, and the velocities after them; the largest residual that was found.
+///
+/// # Errors
+/// If the steps do not settle.
+#[inline]
+pub(crate) fn closed_by_hand<S: ClosedByHand>(
+    system: &S,
+    state: &mut S::State,
+) -> Result<f64, ProjectionError> {
+    const MOST: u32 = 20;
+    const SETTLED: f64 = 4.0 * f64::EPSILON;
+    let largest = |[x, y]: [f64; 2]| x.abs().max(y.abs());
+    let found = largest(system.open(state));
+    let mut left = found;
+    for _ in 0..MOST {
+        if left <= SETTLED {
+            system.follow(state);
+            return Ok(found);
+        }
+        system.close(state);
+        left = largest(system.open(state));
+    }
+    Err(ProjectionError { iterations: MOST, residual: left })
 }
 pub(crate) use contest;

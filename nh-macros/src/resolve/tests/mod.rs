@@ -1,6 +1,7 @@
 //! Tests of this stage: the meaning of expressions, evaluated, and every error text.
 
 mod almost;
+mod along_free_directions;
 mod auxiliary_states;
 mod cancellation;
 mod catalogue;

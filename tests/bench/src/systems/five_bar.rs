@@ -2,7 +2,7 @@
 
 use nonholonomic::prelude::*;
 
-use crate::contest::contest;
+use crate::contest::{ClosedByHand, contest};
 
 /// Cranks `a`, `d` and couplers `b`, `c` by their angles, and a load at the joint of the couplers.
 #[nonholonomic(
@@ -88,5 +88,43 @@ contest! {
             c_dot: r.mul_add(a, t.mul_add(d, h)),
             d_dot: d,
         }
+    }
+    closed
+}
+
+/// The cranks keep their angles and velocities, the couplers follow.
+impl ClosedByHand for FiveBar {
+    #[inline]
+    fn open(&self, x: &FiveBarState) -> [f64; 2] {
+        let ((sa, ca), (sb, cb)) = (x.a.sin_cos(), x.b.sin_cos());
+        let ((sc, cc), (sd, cd)) = (x.c.sin_cos(), x.d.sin_cos());
+        [
+            self.l1.mul_add(ca, self.l2.mul_add(cb, self.l3.mul_add(-cc, self.l4.mul_add(-cd, -self.base)))),
+            self.l1.mul_add(sa, self.l2.mul_add(sb, self.l3.mul_add(-sc, -(self.l4 * sd)))),
+        ]
+    }
+
+    #[inline]
+    fn close(&self, x: &mut FiveBarState) {
+        let ((sa, ca), (sb, cb)) = (x.a.sin_cos(), x.b.sin_cos());
+        let ((sc, cc), (sd, cd)) = (x.c.sin_cos(), x.d.sin_cos());
+        let gx =
+            self.l1.mul_add(ca, self.l2.mul_add(cb, self.l3.mul_add(-cc, self.l4.mul_add(-cd, -self.base))));
+        let gy = self.l1.mul_add(sa, self.l2.mul_add(sb, self.l3.mul_add(-sc, -(self.l4 * sd))));
+        let over = 1.0 / sc.mul_add(cb, -(cc * sb));
+        x.b -= gx.mul_add(cc, gy * sc) * over / self.l2;
+        x.c -= gx.mul_add(cb, gy * sb) * over / self.l3;
+    }
+
+    #[inline]
+    fn follow(&self, x: &mut FiveBarState) {
+        let (sa, ca) = (x.a - x.b).sin_cos();
+        let (sc, cc) = (x.c - x.b).sin_cos();
+        let (sd, cd) = (x.d - x.b).sin_cos();
+        let (sac, sdc) = (sa.mul_add(cc, -(ca * sc)), sd.mul_add(cc, -(cd * sc)));
+        let over = 1.0 / sc;
+        let (left, right) = (self.l1 * x.a_dot * over, self.l4 * x.d_dot * over);
+        x.b_dot = left.mul_add(sac, -(right * sdc)) / self.l2;
+        x.c_dot = left.mul_add(sa, -(right * sd)) / self.l3;
     }
 }

@@ -2,7 +2,7 @@
 
 use nonholonomic::prelude::*;
 
-use crate::contest::contest;
+use crate::contest::{ClosedByHand, contest};
 
 /// Crank, coupler and rocker; the coupler's mass is in its middle, a torque acts on the crank.
 #[nonholonomic(
@@ -72,5 +72,39 @@ contest! {
             b_dot: k2.mul_add(a, g2),
             c_dot: k3.mul_add(a, g3),
         }
+    }
+    closed
+}
+
+/// The crank keeps its angle and its velocity, coupler and rocker follow.
+impl ClosedByHand for FourBar {
+    #[inline]
+    fn open(&self, x: &FourBarState) -> [f64; 2] {
+        let ((sa, ca), (sb, cb), (sc, cc)) = (x.a.sin_cos(), x.b.sin_cos(), x.c.sin_cos());
+        [
+            self.l1.mul_add(ca, self.l2.mul_add(cb, self.l3.mul_add(-cc, -self.d))),
+            self.l1.mul_add(sa, self.l2.mul_add(sb, -(self.l3 * sc))),
+        ]
+    }
+
+    #[inline]
+    fn close(&self, x: &mut FourBarState) {
+        let ((sa, ca), (sb, cb), (sc, cc)) = (x.a.sin_cos(), x.b.sin_cos(), x.c.sin_cos());
+        let gx = self.l1.mul_add(ca, self.l2.mul_add(cb, self.l3.mul_add(-cc, -self.d)));
+        let gy = self.l1.mul_add(sa, self.l2.mul_add(sb, -(self.l3 * sc)));
+        // along the rocker the coupler moves alone, and along the coupler the rocker
+        let over = 1.0 / sc.mul_add(cb, -(cc * sb));
+        x.b -= gx.mul_add(cc, gy * sc) * over / self.l2;
+        x.c -= gx.mul_add(cb, gy * sb) * over / self.l3;
+    }
+
+    #[inline]
+    fn follow(&self, x: &mut FourBarState) {
+        let (sin_ab, cos_ab) = (x.a - x.b).sin_cos();
+        let (sin_ac, cos_ac) = (x.a - x.c).sin_cos();
+        let sin_cb = sin_ab.mul_add(cos_ac, -(cos_ab * sin_ac));
+        let drive = self.l1 * x.a_dot / sin_cb;
+        x.b_dot = drive * sin_ac / self.l2;
+        x.c_dot = drive * sin_ab / self.l3;
     }
 }

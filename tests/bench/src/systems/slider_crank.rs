@@ -2,7 +2,7 @@
 
 use nonholonomic::prelude::*;
 
-use crate::contest::contest;
+use crate::contest::{ClosedByHand, contest};
 
 /// Crank, rod and piston; the rod's mass is in its middle.
 #[nonholonomic(
@@ -61,5 +61,32 @@ contest! {
             b_dot: k.mul_add(a, g),
             s_dot: e.mul_add(a, h),
         }
+    }
+    closed
+}
+
+/// The crank keeps its angle and its velocity, rod and piston follow.
+impl ClosedByHand for SliderCrank {
+    #[inline]
+    fn open(&self, x: &SliderCrankState) -> [f64; 2] {
+        let ((sa, ca), (sb, cb)) = (x.a.sin_cos(), x.b.sin_cos());
+        [self.l1.mul_add(ca, self.l2.mul_add(cb, -x.s)), self.l1.mul_add(sa, self.l2 * sb)]
+    }
+
+    #[inline]
+    fn close(&self, x: &mut SliderCrankState) {
+        let ((sa, ca), (sb, cb)) = (x.a.sin_cos(), x.b.sin_cos());
+        let (rod_up, rod_ahead) = (self.l2 * sb, self.l2 * cb);
+        let turn = -self.l1.mul_add(sa, rod_up) / rod_ahead;
+        x.b += turn;
+        x.s = rod_up.mul_add(-turn, self.l1.mul_add(ca, rod_ahead));
+    }
+
+    #[inline]
+    fn follow(&self, x: &mut SliderCrankState) {
+        let ((sa, ca), (sb, cb)) = (x.a.sin_cos(), x.b.sin_cos());
+        let drive = self.l1 * x.a_dot;
+        x.b_dot = -(drive * ca) / (self.l2 * cb);
+        x.s_dot = -drive.mul_add(sa, self.l2 * sb * x.b_dot);
     }
 }

@@ -6,18 +6,20 @@
 //! ```
 //!
 //! The machines are those of the benchmark of record, arms of 2 to 8 links on driven bases, and random ones of a
-//! fixed seed. Costs are in the unit of [`Cost::weighted`].
+//! fixed seed, some of them with closed loops. Costs are in the unit of [`Cost::weighted`].
 
 use nh_machines::Machine;
-use nh_stages::{Declaration, arms, record};
+use nh_stages::{Declaration, arms, whole_record};
 use nonholonomic_core::compile::compile_with;
-use nonholonomic_core::forms::{Form, Registry};
+use nonholonomic_core::forms::{Form, Registry, Solution};
 use nonholonomic_core::model::Model;
 use nonholonomic_core::program::{Cost, schedule_grouping};
 
 /// The seed of the random machines, and how many members are drawn.
 const SEED: u64 = 15;
 const MEMBERS: u64 = 60;
+/// As many of those with constraints on positions.
+const CLOSED: u64 = 20;
 
 /// A form goes if dropping it costs less than this on the geometric mean …
 const MEAN: f64 = 1.01;
@@ -39,17 +41,31 @@ fn main() {
     println!("{} machines\n", machines.len());
     println!("| dropped form | geometric mean | dearer on | worst | on | verdict |");
     println!("|---|--:|--:|--:|---|---|");
-    let forms = Registry::standard();
-    for dropped in forms.forms() {
+    let all = Registry::standard();
+    for dropped in all.forms() {
         let others: Vec<&'static dyn Form> =
-            forms.forms().iter().copied().filter(|form| form.name() != dropped.name()).collect();
-        let registry = Registry::of(others);
-        let ratios = machines.iter().filter_map(|(name, model, with)| {
-            let without = cost(model, &registry)?;
-            Some((ratio(without, *with), name.as_str()))
-        });
-        println!("{}", Row::of(dropped.name(), ratios.collect()));
+            all.forms().iter().copied().filter(|form| form.name() != dropped.name()).collect();
+        let registry = Registry::of(others).solving(all.solutions().to_vec());
+        println!("{}", without(dropped.name(), &registry, &machines));
     }
+    for dropped in all.solutions() {
+        let others: Vec<&'static dyn Solution> =
+            all.solutions().iter().copied().filter(|other| other.name() != dropped.name()).collect();
+        println!("{}", without(dropped.name(), &all.clone().solving(others), &machines));
+    }
+}
+
+/// The row of what is dropped, by the registry that is left.
+fn without<'m>(
+    dropped: &'static str,
+    registry: &Registry,
+    machines: &'m [(String, Model, usize)],
+) -> Row<'m> {
+    let ratios = machines.iter().filter_map(|(name, model, with)| {
+        let without = cost(model, registry)?;
+        Some((ratio(without, *with), name.as_str()))
+    });
+    Row::of(dropped, ratios.collect())
 }
 
 /// What dropping a form does.
@@ -87,19 +103,19 @@ fn ratio(without: usize, with: usize) -> f64 {
 
 /// The models of all machines that are declarations.
 fn systems() -> Vec<(String, Model)> {
-    let mut found: Vec<(String, Model)> = record()
+    let mut found: Vec<(String, Model)> = whole_record()
         .into_iter()
         .chain(arms())
         .filter_map(|(name, declaration)| Some((name, declaration.model().ok()?)))
         .collect();
-    for member in 0..MEMBERS {
-        let machine = Machine::of(SEED, member);
+    let random = (0..MEMBERS).map(|member| Machine::of(SEED, member));
+    for machine in random.chain((0..CLOSED).map(|member| Machine::closed(SEED, member))) {
         let tokens = |text: String| text.parse().ok();
         let declaration = tokens(machine.attribute("balanced"))
             .zip(tokens(machine.item()))
             .map(|(attribute, item)| Declaration { name: "Machine".into(), attribute, item });
         if let Some(Ok(model)) = declaration.map(|declaration| declaration.model()) {
-            found.push((format!("random {member}, {}", machine.family), model));
+            found.push((format!("random {}, {}", machine.member, machine.family), model));
         }
     }
     found

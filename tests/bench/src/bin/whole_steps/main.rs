@@ -18,8 +18,10 @@ use std::process::ExitCode;
 use nh_bench::contest::{ByHand, Contest, SAMPLES, samples};
 use nh_bench::contest_table::{cell, geometric_mean};
 use nh_bench::systems::{
-    arm, balancing_robot, ball, car, chaplygin_ball, four_bar, hitched_trailer, pendulum, quadrotor, robot,
-    roller_racer, satellite, sleigh, snakeboard, tractor, veselova,
+    arm, balancing_robot, ball, ball_with_rotors, car, chaplygin_ball, disk, elbow, finned_body, five_bar,
+    four_bar, four_wheels, furuta, heavy_top, hitched_trailer, leg, pendulum, quadrotor, rattleback,
+    rear_steered, robot, roller_racer, roller_walker, satellite, sleigh, slider_crank, snakeboard, tractor,
+    veselova,
 };
 use nh_bench::{callgrind, program};
 use nonholonomic::Method;
@@ -129,6 +131,20 @@ systems!(
     arm::Arm6,
     quadrotor::Quadrotor,
     four_bar::FourBar,
+    roller_walker::RollerWalker,
+    rattleback::Rattleback,
+    rattleback::Stone,
+    four_wheels::FourWheels,
+    finned_body::FinnedBody,
+    ball_with_rotors::BallWithRotors,
+    heavy_top::HeavyTop,
+    disk::Disk,
+    rear_steered::RearSteered,
+    furuta::Furuta,
+    leg::Leg,
+    elbow::Elbow,
+    five_bar::FiveBar,
+    slider_crank::SliderCrank,
 );
 
 fn main() -> ExitCode {
