@@ -71,7 +71,8 @@ pub(crate) fn structure(item: TokenStream, errors: &mut Errors) -> Option<Struct
                     Diagnostic::new(of(fields), "the fields of this struct have no names")
                         .way_out("parameters are named: `struct Sleigh { m: f64, a: f64 }`"),
                 );
-                return None;
+                // what is said of it is enough
+                Vec::new()
             }
         },
         Data::Enum(_) | Data::Union(_) => return None,
