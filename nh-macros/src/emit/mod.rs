@@ -25,6 +25,7 @@ mod invariants;
 mod jacobian;
 mod labels;
 mod layout;
+mod line_breaks;
 mod linearization;
 mod lint;
 mod literal;

@@ -6,6 +6,7 @@ use nonholonomic_core::system::System;
 use proc_macro2::{Delimiter, TokenStream, TokenTree};
 use quote::quote;
 
+use super::line_breaks::broken;
 use super::lint::allow_for;
 use super::setting::Context;
 
@@ -59,7 +60,8 @@ pub(super) fn item(context: &Context, equations: &[String]) -> TokenStream {
             lines.push(String::new());
         }
         lines.extend([" # Equations of motion", "", " ```text"].map(str::to_owned));
-        lines.extend(equations.iter().map(|line| format!(" {line}").trim_end().to_owned()));
+        let parts = equations.iter().flat_map(|line| broken(line));
+        lines.extend(parts.map(|line| format!(" {line}").trim_end().to_owned()));
         lines.push(" ```".to_owned());
     }
     let allow = allow_for(context.layout.parameters.iter().map(|family| &family.ident));
