@@ -112,7 +112,8 @@ fn is_level<T: Scalar>(preceding: T, change: T) -> bool {
 }
 
 /// Whether, in every lane, a change that led here was rounding: changes follow a multiple of it as those of smooth
-/// equations do, nearly linearly, and on the way of it they jump, as those of smooth equations do at poles alone.
+/// equations do, nearly linearly, and they jump before and behind its way, as those of smooth equations do at poles
+/// alone.
 #[cold]
 fn is_rounding<T: Scalar, const N: usize>(
     present: &[T; N],
@@ -126,17 +127,30 @@ fn is_rounding<T: Scalar, const N: usize>(
         }
         change(&there)
     };
-    let (size, half) = (largest(moved), T::from_f64(0.5));
+    let size = largest(moved);
     let multiple = T::from_f64(MULTIPLE);
     let beyond = moved.map(|moved| (T::ONE - multiple) * moved);
-    let follows =
-        (size * multiple).select_gt(apart(&after(multiple), &beyond) * T::from_f64(8.0), T::ONE, T::ZERO);
-    // the half in which changes differ more, again and again
-    let (mut near, mut far) = (T::ZERO, T::ONE);
-    let (mut at_near, mut at_far) = (after(near), after(far));
+    let off = apart(&after(multiple), &beyond) * T::from_f64(8.0);
+    let follows = (size * multiple).select_gt(off, T::ONE, T::ZERO);
+    let jumps = [-SURROUNDINGS, 1.0].into_iter().fold(T::ONE, |jumps, near| {
+        jumps * jumps_between(after, (T::from_f64(near), T::from_f64(near + SURROUNDINGS)), size)
+    });
+    let is_moved = size.select_gt(T::ZERO, T::ONE, T::ZERO);
+    T::ZERO.all_ge(is_moved * (T::ONE - follows * jumps))
+}
+
+/// 1 in lanes where a function jumps between two places, by no less than 1/8 of a size and far from poles, else 0.
+fn jumps_between<T: Scalar, const N: usize>(
+    function: impl Fn(T) -> [T; N],
+    (mut near, mut far): (T, T),
+    size: T,
+) -> T {
+    let half = T::from_f64(0.5);
+    // the half in which values differ more, again and again
+    let (mut at_near, mut at_far) = (function(near), function(far));
     for _ in 0..HALVINGS {
         let middle = half * (near + far);
-        let there = after(middle);
+        let there = function(middle);
         let (first, second) = (apart(&at_near, &there), apart(&there, &at_far));
         near = second.select_gt(first, middle, near);
         far = second.select_gt(first, far, middle);
@@ -146,16 +160,16 @@ fn is_rounding<T: Scalar, const N: usize>(
         }
     }
     let jumps = (apart(&at_near, &at_far) * T::from_f64(8.0)).select_gt(size, T::ONE, T::ZERO);
-    let pole = size * T::from_f64(64.0);
-    let is_finite = pole.select_gt(largest(&at_near).max(largest(&at_far)), T::ONE, T::ZERO);
-    let is_moved = size.select_gt(T::ZERO, T::ONE, T::ZERO);
-    T::ZERO.all_ge(is_moved * (T::ONE - follows * jumps * is_finite))
+    let pole = size * T::from_f64(4.0 * SURROUNDINGS);
+    jumps * pole.select_gt(largest(&at_near).max(largest(&at_far)), T::ONE, T::ZERO)
 }
 
 /// A multiple of a change of the size of rounding that is beyond its noise, and nothing beside the lengths of a machine.
 const MULTIPLE: f64 = 1024.0;
-/// How often the way of a change is halved in the search for a jump: what is smooth differs by no more than 2⁻²⁴ then.
-const HALVINGS: u32 = 24;
+/// How many changes before and behind one are searched for jumps: a few steps of rounding.
+const SURROUNDINGS: f64 = 32.0;
+/// How often the way is halved in the search for a jump: then its ends are neighbours among the numbers.
+const HALVINGS: u32 = 60;
 
 /// The largest difference of components.
 fn apart<T: Scalar, const N: usize>(a: &[T; N], b: &[T; N]) -> T {
@@ -227,13 +241,29 @@ mod tests {
             }
         }
         // what is smooth is not rounding: x² + 1, √(x² + 1), and both with 10⁻²⁰ from near to zero
-        for (height, root) in [(1.0, false), (1e-20, false), (1.0, true), (1e-20, true)] {
+        for (height, root) in [(1.0_f64, false), (1e-20, false), (1.0, true), (1e-20, true)] {
             let square = |x: f64| x * x + height;
             let never = |p: &[f64; 1]| [if root { square(p[0]).sqrt() } else { square(p[0]) }];
             for start in [0.3, 0.577, 1.0, 1e-10, 3e-9] {
                 let change = |p: &[f64; 1]| [-square(p[0]) / (if root { p[0] } else { 2.0 * p[0] })];
                 let end = newton([start * height.sqrt()], change, never);
                 assert!(end.is_err(), "{height} {root} {start} {end:?}");
+            }
+        }
+    }
+
+    /// √(x² + ε²) + 1, without a zero, bends at one place as if it jumped there.
+    #[test]
+    fn an_edge_that_is_rounded_is_not_rounding() {
+        for edge in [1e-3_f64, 1e-7, 1e-9, 1e-12, 1e-15, 1e-20, 0.0] {
+            let height = |x: f64| (x * x + edge * edge).sqrt() + 1.0;
+            let change = |p: &[f64; 1]| {
+                let [x] = *p;
+                [-height(x) * (height(x) - 1.0) / x]
+            };
+            for start in [1.0, 0.7, -3.0, 1e-6, 1e-9] {
+                let end = newton([start], change, |p: &[f64; 1]| [height(p[0])]);
+                assert!(end.is_err(), "{edge} {start} {end:?}");
             }
         }
     }
