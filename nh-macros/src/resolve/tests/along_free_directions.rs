@@ -5,12 +5,11 @@ use nonholonomic_core::algebra::{Graph, Rational};
 use nonholonomic_core::choose::Fate;
 use nonholonomic_core::compile::{compile, compile_with};
 use nonholonomic_core::forms::{Judge, Registry, Solution};
-use nonholonomic_core::id::{ExprId, Id, SymbolId};
+use nonholonomic_core::id::ExprId;
 use nonholonomic_core::mechanics::{Definition, Procedure, SaddleEquations};
-use nonholonomic_core::program::{interpret, schedule};
 use nonholonomic_core::system::System;
 
-use super::model;
+use super::{derivative_of, fates, model};
 
 /// Two velocities and one constraint, three and two, four and two.
 const LOOPS: [(&str, &str); 3] = [
@@ -48,17 +47,8 @@ fn alone(solution: &'static dyn Solution) -> Registry {
     Registry::of(Vec::new()).solving(vec![solution])
 }
 
-fn values(system: &System) -> Vec<f64> {
-    let program = schedule(&system.model.graph, &system.derivative);
-    interpret(&program, |symbol: SymbolId| {
-        0.3 + 0.17 * f64::from(u32::try_from(symbol.index() % 11).expect("small"))
-    })
-}
-
 fn fate(system: &System, name: &str) -> Option<Fate> {
-    let decision = system.ledger.at("derivative").expect("a derivative");
-    let found = decision.contenders.iter().find(|contender| contender.form == name);
-    found.map(|contender| contender.fate.clone())
+    fates(system).into_iter().find(|(form, _)| *form == name).map(|(_, fate)| fate)
 }
 
 #[test]
@@ -71,7 +61,7 @@ fn loops_are_solved_along_them() {
         let fate = fate(&with, NAME).expect("it exists");
         assert!(!matches!(fate, Fate::NotAdmitted(_)), "{declared}: {}", with.ledger);
         chosen += usize::from(matches!(fate, Fate::Chosen(_)));
-        for (one, other) in values(&with).into_iter().zip(values(&without)) {
+        for (one, other) in derivative_of(&with).into_iter().zip(derivative_of(&without)) {
             assert!((one - other).abs() <= 1e-9 * one.abs().max(1.0), "{declared}: {one}, {other}");
         }
     }

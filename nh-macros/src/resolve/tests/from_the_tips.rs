@@ -5,13 +5,10 @@ use nonholonomic_core::algebra::{Graph, Rational};
 use nonholonomic_core::choose::Fate;
 use nonholonomic_core::compile::{compile, compile_with};
 use nonholonomic_core::forms::{Form, Registry, Setting};
-use nonholonomic_core::id::{Id, SymbolId};
 use nonholonomic_core::mechanics::{Definition, Procedure, ReducedEquations};
-use nonholonomic_core::program::{interpret, schedule};
-use nonholonomic_core::system::System;
 
-use super::model;
 use super::proved::{Dice, planar_tree};
+use super::{derivative_of, fates, model};
 
 const BODIES: &str = "struct S { m: [f64; 6], J: [f64; 6], l: [f64; 5], c: [f64; 4] }";
 
@@ -20,18 +17,6 @@ const NAME: &str = "from the tips";
 fn form() -> &'static dyn Form {
     let registry = Registry::standard();
     registry.forms().iter().copied().find(|form| form.name() == NAME).expect("a form of the registry")
-}
-
-fn values(system: &System) -> Vec<f64> {
-    let program = schedule(&system.model.graph, &system.derivative);
-    interpret(&program, |symbol: SymbolId| {
-        0.3 + 0.17 * f64::from(u32::try_from(symbol.index() % 11).expect("small"))
-    })
-}
-
-fn fates(system: &System) -> Vec<(&'static str, Fate)> {
-    let decision = system.ledger.at("derivative").expect("a derivative");
-    decision.contenders.iter().map(|contender| (contender.form, contender.fate.clone())).collect()
 }
 
 #[test]
@@ -47,7 +32,7 @@ fn trees_of_bodies_are_solved_from_the_tips() {
         let refused = fates.iter().any(|(_, fate)| matches!(fate, Fate::NotAdmitted(_)));
         assert!(!refused, "{declared}\n{}", alone.ledger);
         competed += usize::from(fates.iter().any(|(name, _)| *name == NAME));
-        for (one, other) in values(&all).into_iter().zip(values(&alone)) {
+        for (one, other) in derivative_of(&all).into_iter().zip(derivative_of(&alone)) {
             assert!((one - other).abs() <= 1e-9 * one.abs().max(1.0), "{declared}: {one}, {other}");
         }
     }

@@ -24,8 +24,11 @@ mod requests;
 mod section_errors;
 mod unit_errors;
 
-use nonholonomic_core::id::ExprId;
+use nonholonomic_core::choose::Fate;
+use nonholonomic_core::id::{ExprId, Id, SymbolId};
 use nonholonomic_core::model::Model;
+use nonholonomic_core::program::{interpret, schedule};
+use nonholonomic_core::system::System;
 
 use super::{Resolved, resolve};
 use crate::emit::Layout;
@@ -81,4 +84,18 @@ fn evaluated(model: &Model, expression: ExprId) -> f64 {
 fn of_name(name: &str) -> f64 {
     let hash = name.bytes().fold(17_u32, |hash, byte| hash.wrapping_mul(31).wrapping_add(u32::from(byte)));
     1.0 + f64::from(hash % 1009) / 1009.0
+}
+
+/// The derivative at a point.
+fn derivative_of(system: &System) -> Vec<f64> {
+    let program = schedule(&system.model.graph, &system.derivative);
+    interpret(&program, |symbol: SymbolId| {
+        0.3 + 0.17 * f64::from(u32::try_from(symbol.index() % 11).expect("small"))
+    })
+}
+
+/// What became of the forms of the derivative that competed.
+fn fates(system: &System) -> Vec<(&'static str, Fate)> {
+    let decision = system.ledger.at("derivative").expect("a derivative");
+    decision.contenders.iter().map(|contender| (contender.form, contender.fate.clone())).collect()
 }
