@@ -3,10 +3,10 @@
 
 /// The number of components of a state, as a type.
 ///
-/// Implemented by [`D<N>`](D) alone: `<D<5> as Dim>::Vec<f64>` is `[f64; 5]`, and `Mat<f64>` is
-/// `[[f64; 5]; 5]`, an array of rows.
+/// Implemented by [`D<N>`](D): `<D<5> as Dim>::Vec<f64>` is `[f64; 5]`, and `Mat<f64>` is
+/// `[[f64; 5]; 5]`, an array of rows; and by [`Stack`](crate::sensitivity::Stack), a state with columns beside it.
 pub trait Dim: sealed::Sealed + Copy + 'static {
-    /// `[K; N]`.
+    /// `[K; N]`, or what is laid out like it.
     type Vec<K: Copy + 'static>: Copy + AsRef<[K]> + AsMut<[K]> + 'static;
     /// `[[K; N]; N]`: the rows of a square matrix.
     type Mat<K: Copy + 'static>: Copy + AsRef<[Self::Vec<K>]> + AsMut<[Self::Vec<K>]> + 'static;
@@ -19,7 +19,7 @@ pub trait Dim: sealed::Sealed + Copy + 'static {
     fn mat<K: Copy + 'static>(value: K) -> Self::Mat<K>;
 }
 
-mod sealed {
+pub(crate) mod sealed {
     /// What keeps [`Dim`](super::Dim) to this crate.
     pub trait Sealed {}
 }

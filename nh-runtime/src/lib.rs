@@ -99,6 +99,7 @@ mod prepared;
 mod projection;
 mod reduction;
 mod scalar;
+pub mod sensitivity;
 mod serde_impls;
 mod series;
 mod sine;

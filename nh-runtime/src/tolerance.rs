@@ -46,6 +46,22 @@ impl<T: Real> Uniform<T> {
     }
 }
 
+impl<T> Uniform<T> {
+    /// A relative and an absolute tolerance.
+    #[must_use]
+    pub const fn of(rtol: T, atol: T) -> Self {
+        Self { rtol, atol: Some(atol) }
+    }
+}
+
+impl<X> PerComponent<X> {
+    /// A relative and an absolute tolerance for each component.
+    #[must_use]
+    pub const fn of(rtol: X, atol: X) -> Self {
+        Self { rtol, atol }
+    }
+}
+
 impl<T: Real, X: State<Scalar = T>> Tolerance<X> for Uniform<T> {
     fn check(&self) -> Result<(), IntegrationError> {
         check_pair("rtol", self.rtol, "atol", self.atol.unwrap_or(self.rtol))

@@ -17,6 +17,21 @@ pub trait Model<T, const N: usize, const M: usize> {
         x: &SVector<T, N>,
         u: &SVector<T, M>,
     ) -> (SMatrix<T, N, N>, SMatrix<T, N, M>);
+    /// A covector λ at tick `tick + 1`, pulled back to this one: λ ∂f/∂x and λ ∂f/∂u, as columns. By the matrices, unless
+    /// there is a shorter way.
+    fn pulled_back(
+        &self,
+        tick: usize,
+        x: &SVector<T, N>,
+        u: &SVector<T, M>,
+        covector: &SVector<T, N>,
+    ) -> (SVector<T, N>, SVector<T, M>)
+    where
+        T: Entry,
+    {
+        let (a, b) = self.linearized(tick, x, u);
+        (a.transpose() * covector, b.transpose() * covector)
+    }
 }
 
 /// What is to be made small: Σ stage(k, x_k, u_k) + end(x_H), with its derivatives.

@@ -70,4 +70,19 @@ where
         let step = Rk4::linearized_step(&self.system, self.time(tick), self.dt, &state, &input);
         (step.by_state, step.by_input)
     }
+
+    fn pulled_back(
+        &self,
+        tick: usize,
+        x: &SVector<T, N>,
+        u: &SVector<T, M>,
+        covector: &SVector<T, N>,
+    ) -> (SVector<T, N>, SVector<T, M>) {
+        let (state, input) = (S::State::from_array((*x).into()), S::Input::from((*u).into()));
+        let none = |_, _: &S::State, _: &S::Input| SMatrix::<T, N, 0>::from([[T::ZERO; N]; 0]);
+        let covector = |_: &S::State| (*covector).into();
+        let back =
+            Rk4::pulled_back_step(&self.system, self.time(tick), self.dt, (&state, &input), covector, none);
+        (SVector::from(back.by_state), SVector::from(back.by_input))
+    }
 }

@@ -30,6 +30,9 @@ pub fn shooting_cost<T: Entry, const N: usize, const M: usize>(
 /// crate `argmin`, for instance, takes a cost and a gradient from an implementation of its traits
 /// `CostFunction` and `Gradient`, each a line that calls this module; the example `parking` shows it.
 ///
+/// Of long sequences, by the start and by parameters, and with few states kept:
+/// [`Adjoint`](crate::sensitivity::Adjoint), by the same adjoint of a step.
+///
 /// # Errors
 /// [`ControlError::Length`] if the three slices differ in length, [`ControlError::NotFinite`] if the cost or
 /// its gradient is not finite; `states` and `gradient` then hold what was computed.
@@ -62,11 +65,11 @@ pub fn shooting_gradient<T: Entry, const N: usize, const M: usize>(
     let mut adjoint = cost.end_expansion(&x).x;
     let sweep = inputs.iter().enumerate().zip(states.iter()).zip(gradient.iter_mut());
     for (((tick, u), x), slot) in sweep.rev() {
-        let (a, b) = model.linearized(tick, x, u);
+        let (by_state, by_input) = model.pulled_back(tick, x, u, &adjoint);
         let stage = cost.stage_expansion(tick, x, u);
-        *slot = stage.u + b.transpose() * adjoint;
+        *slot = stage.u + by_input;
         finite("gradient", slot)?;
-        adjoint = stage.x + a.transpose() * adjoint;
+        adjoint = stage.x + by_state;
     }
     Ok(total)
 }

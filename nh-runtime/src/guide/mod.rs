@@ -18,6 +18,7 @@
 //! | choose a method of integration | [`which_integrator`] |
 //! | stabilise it, estimate its state, plan ahead | [`control_loops`] |
 //! | find steady motions, and the linear model about them | [`steady_motions`] |
+//! | have gradients for an optimiser, sensitivities for identification | [`derivatives_of_motions`] |
 //! | run thousands of them at once | [`many_at_once`] |
 //! | put it on a microcontroller | [`microcontrollers`] |
 //! | share one model between plant, controller and estimator | [`one_model_many_uses`] |
@@ -72,6 +73,9 @@ pub mod steady_motions {}
 
 #[doc = include_str!("control_loops.md")]
 pub mod control_loops {}
+
+#[doc = include_str!("derivatives_of_motions.md")]
+pub mod derivatives_of_motions {}
 
 #[doc = include_str!("many_at_once.md")]
 pub mod many_at_once {}

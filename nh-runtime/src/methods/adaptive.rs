@@ -76,8 +76,15 @@ impl<P, T: Real> Adaptive<P, T> {
     /// ```
     #[must_use]
     pub fn tolerances<X: State<Scalar = T>>(self, rtol: X, atol: X) -> Adaptive<P, T, PerComponent<X>> {
+        self.tolerance(PerComponent { rtol, atol })
+    }
+
+    /// Tolerances of another kind, such as those of a state with its derivatives,
+    /// [`ColumnTolerance`](crate::sensitivity::ColumnTolerance).
+    #[must_use]
+    pub fn tolerance<V>(self, tolerance: V) -> Adaptive<P, T, V> {
         let Self { scheme, control, .. } = self;
-        Adaptive { scheme, control, tolerance: PerComponent { rtol, atol } }
+        Adaptive { scheme, tolerance, control }
     }
 }
 

@@ -16,7 +16,7 @@ use crate::{Dim, DimOf, Dynamics, IntegrationError, Real, Scalar, ScalarOf, Stat
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Fixed<P, T> {
     pub(in crate::methods) scheme: P,
-    pub(in crate::methods) step: T,
+    pub(crate) step: T,
 }
 
 /// How a method of fixed step computes a step.

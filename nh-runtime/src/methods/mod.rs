@@ -80,6 +80,8 @@ pub use structure::{
 pub use taylor::Taylor;
 pub use transition::Transition;
 
+pub(crate) use explicit::stages_of;
+
 pub use crate::step_control::Controller;
 pub use crate::tolerance::{PerComponent, Tolerance, Uniform};
 

@@ -1,7 +1,7 @@
 //! That nothing which computes is left out: what the crate exports is tried, or is told here to be no method.
 
 /// Where names are exported, and from which modules.
-const EXPORTS: [(&str, &[&str]); 3] = [
+const EXPORTS: [(&str, &[&str]); 4] = [
     (include_str!("../../src/lib.rs"), &["methods", "events", "reduction", "__private"]),
     (
         include_str!("../../src/methods/mod.rs"),
@@ -22,11 +22,16 @@ const EXPORTS: [(&str, &[&str]); 3] = [
             "unscented",
         ],
     ),
+    (
+        include_str!("../../src/sensitivity/mod.rs"),
+        &["across", "adjoint", "checkpoints", "column_tolerance", "crossing", "motion", "pull_back", "steps"],
+    ),
 ];
 
 /// What these tests try, by the files that do.
-const TRIALS: [&str; 6] = [
+const TRIALS: [&str; 7] = [
     include_str!("methods.rs"),
+    include_str!("motions.rs"),
     include_str!("series.rs"),
     include_str!("structure.rs"),
     include_str!("events.rs"),
@@ -42,6 +47,9 @@ const NO_METHODS: &[&str] = &[
     "Correction",
     "Improvement",
     "Expansion",
+    "Gradient",
+    "AfterEvent",
+    "Jumped",
     "Controller",
     "Uniform",
     "PerComponent",
@@ -79,6 +87,8 @@ const NO_METHODS: &[&str] = &[
     // systems made of systems, which compute nothing but their derivatives
     "ByStages",
     "Reconstructed",
+    // what `advance_across` computes, of given numbers
+    "Crossing",
 ];
 
 /// The names in `pub use module::Name;`, `pub use module::{…};` and `pub type Name`.

@@ -24,6 +24,7 @@ mod blocks;
 mod coverage;
 mod events;
 mod methods;
+mod motions;
 mod not_yet;
 mod plans;
 mod problems;

@@ -15,7 +15,7 @@ pub use bs23::BogackiShampine3;
 pub use dop853::DormandPrince8;
 pub use dopri5::DormandPrince5;
 pub use low_order::{Euler1, Heun2, Kutta4, Ralston3};
-pub(super) use scheme::stages_of;
+pub(crate) use scheme::stages_of;
 pub use tableau::{Pair, Tableau};
 pub use tsit5::Tsitouras5;
 pub use vern9::Verner9;

@@ -17,7 +17,7 @@ fn zero<S: Dynamics>() -> VecOf<S> {
 /// All stages of a step, anew, and its slope, with components that are not finite if any stage has.
 #[inline(always)]
 #[allow(clippy::inline_always)] // the step in one piece: see `Tableau::slope`
-pub(in crate::methods) fn stages_of<S: Dynamics, P: Tableau>(
+pub(crate) fn stages_of<S: Dynamics, P: Tableau>(
     start: &Start<'_, S>,
     x: &VecOf<S>,
     h: ScalarOf<S>,

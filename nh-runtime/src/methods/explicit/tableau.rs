@@ -21,6 +21,16 @@ pub trait Tableau: Copy + Default + Debug + PartialEq + 'static {
     /// Vectors of the dense output, beyond the derivatives at both ends.
     type Bulge<V: Copy>: Copy + AsRef<[V]>;
 
+    /// An array with an entry for each stage.
+    type List<V: Copy>: Copy + AsRef<[V]> + AsMut<[V]>;
+    /// The table as numbers, k₁ first: cᵢ, and the aᵢⱼ that are not zero, each with its j counted from 0.
+    const ROWS: &'static [(f64, &'static [(usize, f64)])];
+    /// The bᵢ without their common factor, each with its i counted from 0.
+    const WEIGHTS: &'static [(usize, f64)];
+
+    /// The stages in order.
+    fn list<V: Copy>(stages: &Self::Stages<V>) -> Self::List<V>;
+
     /// Room for the stages.
     fn room<V: Copy>(zero: V) -> Self::Stages<V>;
 
@@ -97,6 +107,25 @@ pub(in crate::methods) fn interpolate<S: Dynamics, B: AsRef<[VecOf<S>]>>(
 /// Methods of so many stages take a small system in at each of them: in four copies it stays small.
 pub(in crate::methods) const FEW: u32 = 4;
 
+/// The place of a stage among all, by its name.
+pub(super) const fn place(name: &str, stages: &[&str]) -> usize {
+    let mut place = 0;
+    while place < stages.len() {
+        let (a, b) = (name.as_bytes(), stages[place].as_bytes());
+        let mut same = a.len() == b.len();
+        let mut i = 0;
+        while same && i < a.len() {
+            same = a[i] == b[i];
+            i += 1;
+        }
+        if same {
+            return place;
+        }
+        place += 1;
+    }
+    place
+}
+
 /// Writes down a [`Tableau`]. Coefficients that are not listed are zero, and cost nothing.
 ///
 /// `unweighted` lists the stages that are not in the sum, `last` names the derivative at the end of the
@@ -133,6 +162,27 @@ macro_rules! tableau {
             const STAGES: u32 = 1 $(+ { let _ = stringify!($k); 1 })*;
             type Stages<V: Copy> = $stages<V>;
             type Bulge<V: Copy> = [V; 0 $(+ { let _ = stringify!($d0k); 1 })*];
+            type List<V: Copy> = [V; 1 $(+ { let _ = stringify!($k); 1 })*];
+            const ROWS: &'static [(f64, &'static [(usize, f64)])] = {
+                #[allow(dead_code)] // Euler's method looks for no stage
+                const NAMES: &[&str] = &[stringify!($first) $(, stringify!($k))*];
+                &[(0.0, &[]) $(, ($c, &[
+                    ($crate::methods::explicit::tableau::place(stringify!($a0k), NAMES), $a0)
+                    $(, ($crate::methods::explicit::tableau::place(stringify!($ak), NAMES), $a))*
+                ]))*]
+            };
+            const WEIGHTS: &'static [(usize, f64)] = {
+                const NAMES: &[&str] = &[stringify!($first) $(, stringify!($k))*];
+                &[
+                    ($crate::methods::explicit::tableau::place(stringify!($b0k), NAMES), $b0)
+                    $(, ($crate::methods::explicit::tableau::place(stringify!($bk), NAMES), $b))*
+                ]
+            };
+
+            #[inline]
+            fn list<V: Copy>(stages: &$stages<V>) -> Self::List<V> {
+                [stages.$first $(, stages.$k)*]
+            }
 
             #[inline]
             fn room<V: Copy>(zero: V) -> $stages<V> {

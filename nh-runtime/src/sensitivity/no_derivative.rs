@@ -1,0 +1,110 @@
+//! Why there are no derivatives of a motion.
+
+use core::error::Error;
+use core::fmt::{self, Display, Formatter};
+
+use crate::IntegrationError;
+
+/// Why a motion has no derivatives, or they could not be computed.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
+pub enum SensitivityError {
+    /// A column is to be taken by something that there is not.
+    NoSuchColumn {
+        /// What kind.
+        what: &'static str,
+        /// Its number, from 0.
+        index: usize,
+        /// How many there are.
+        count: usize,
+    },
+    /// The system has position constraints to which states are returned, and the return is not differentiated.
+    Returned,
+    /// The motion only touches where an event function is zero, so that the time of the event has no derivative.
+    Grazing {
+        /// The event.
+        event: usize,
+        /// When.
+        time: f64,
+        /// The rate of the event function along the motion, as a part of the size of its terms.
+        rate: f64,
+    },
+    /// Events happen at one time, and their order, on which what follows depends, changes with the motion.
+    Simultaneous {
+        /// Two of them.
+        events: [usize; 2],
+        /// When.
+        time: f64,
+    },
+    /// A slice has the wrong length.
+    Length {
+        /// Which.
+        slice: &'static str,
+        /// Its length.
+        length: usize,
+        /// What it has to be.
+        expected: usize,
+    },
+    /// A number is infinite or not a number.
+    NotFinite {
+        /// What it is of.
+        what: &'static str,
+        /// The time.
+        time: f64,
+    },
+    /// A step.
+    Integration(IntegrationError),
+}
+
+impl Display for SensitivityError {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::NoSuchColumn { what, index, count } => {
+                write!(
+                    f,
+                    "a column is to be taken by number {index} of the {what}, of which there are {count}: count from 0"
+                )
+            }
+            Self::Returned => write!(
+                f,
+                "the system has position constraints to which its states are returned, and the return is not \
+                 differentiated: integrate `Variational`, or steps over `Jet` numbers, which contain the return"
+            ),
+            Self::Grazing { event, time, rate } => write!(
+                f,
+                "at t = {time:?} the event function {event} changes at {rate:.1e} of the size of its terms: the motion \
+                 touches its zeros, and the time of the event has no derivative"
+            ),
+            Self::Simultaneous { events: [first, second], time } => write!(
+                f,
+                "the events {first} and {second} happen together at t = {time:?}: what follows depends on their order, and \
+                 has no derivative"
+            ),
+            Self::Length { slice, length, expected } => {
+                write!(f, "the slice `{slice}` has {length} entries, but has to have {expected}")
+            }
+            Self::NotFinite { what, time } => {
+                write!(
+                    f,
+                    "the {what} at t = {time:?} is not finite: look at the state there, and at the cost"
+                )
+            }
+            Self::Integration(error) => error.fmt(f),
+        }
+    }
+}
+
+impl Error for SensitivityError {
+    fn source(&self) -> Option<&(dyn Error + 'static)> {
+        match self {
+            Self::Integration(error) => error.source(),
+            _ => None,
+        }
+    }
+}
+
+impl From<IntegrationError> for SensitivityError {
+    fn from(error: IntegrationError) -> Self {
+        Self::Integration(error)
+    }
+}
