@@ -205,6 +205,18 @@ impl<S: Dynamics, M: Method<S>> Integrator<S, M> {
         &self.system
     }
 
+    /// The system, to change its parameters: they act from now on, and are checked before the next step. What the
+    /// method has stored of the old ones is dropped, the dense output of the last step included.
+    #[must_use]
+    pub fn system_mut(&mut self) -> &mut S {
+        self.validated = false;
+        self.admitted = false;
+        self.origin = None;
+        self.beyond = None;
+        self.method.forget(&mut self.memory);
+        &mut self.system
+    }
+
     /// The method.
     #[inline]
     #[must_use]

@@ -108,6 +108,7 @@ mod step_control;
 mod stop;
 mod tangent;
 mod tolerance;
+mod trajectory;
 mod trim;
 
 pub use angle_cache::{Angle, AngleCache, AngleCached};
@@ -120,7 +121,7 @@ pub use dynamics::{
     MatOf, Observed, RowsByInput, ScalarOf, State, VecOf,
 };
 pub use error::{InputFault, IntegrationError, ParameterError, ParameterFault, ProjectionError, StateFault};
-pub use events::{Event, Events};
+pub use events::{Event, Events, Simultaneous};
 pub use fast::Fast;
 pub use held::{Held, Holding};
 pub use inclusion::{Inclusion, NotInMode};
@@ -140,6 +141,7 @@ pub use scalar::{Real, Scalar};
 pub use statistics::Statistics;
 pub use stop::Direction;
 pub use tangent::{ChartError, OnConstraints, linearize_on_constraints};
+pub use trajectory::{Buffer, RecordingError, Segment, Trajectory};
 pub use trim::TrimError;
 
 /// # Examples

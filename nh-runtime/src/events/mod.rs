@@ -1,9 +1,12 @@
 //! Events: where functions of time and state change their sign.
 
+mod acting;
 mod search;
 mod standing;
 mod start;
 mod turns;
+
+pub use acting::Simultaneous;
 
 use core::ops::ControlFlow;
 
@@ -186,7 +189,7 @@ where
     where
         F: Fn(ScalarOf<S>, &S::State, &S::Input) -> [ScalarOf<S>; N],
     {
-        self.watch(target, events, false, visit)
+        self.watch((target, &mut Spent::default()), events, false, visit, |_| Ok(()))
     }
 
     /// Takes steps to `target`, or to the first event before it, which is returned. Otherwise as
@@ -206,17 +209,19 @@ where
     where
         F: Fn(ScalarOf<S>, &S::State, &S::Input) -> [ScalarOf<S>; N],
     {
-        self.watch(target, events, true, |_| ControlFlow::Break(()))
+        let stops = |_: &EventOf<S>| ControlFlow::Break(());
+        self.watch((target, &mut Spent::default()), events, true, stops, |_| Ok(()))
     }
 
-    /// Takes steps and looks back at each; of simultaneous events `one` alone may be visited.
-    fn watch<F, const N: usize>(
+    /// Takes steps and looks back at each, then hands it to `kept`; of simultaneous events `one` alone may be visited.
+    fn watch<E: From<IntegrationError>, F, const N: usize>(
         &mut self,
-        target: ScalarOf<S>,
+        (target, spent): (ScalarOf<S>, &mut Spent),
         events: &Events<F, N>,
         one: bool,
         mut visit: impl FnMut(&EventOf<S>) -> ControlFlow<()>,
-    ) -> Result<Option<EventOf<S>>, IntegrationError>
+        mut kept: impl FnMut(&Self) -> Result<(), E>,
+    ) -> Result<Option<EventOf<S>>, E>
     where
         F: Fn(ScalarOf<S>, &S::State, &S::Input) -> [ScalarOf<S>; N],
     {
@@ -228,11 +233,11 @@ where
         let is_given = self.last_step().is_none();
         let stop = self.stop();
         let mut sides = None;
-        let mut spent = Spent::default();
         while self.time() != target {
-            self.step_within(&mut spent, target)?;
+            self.step_within(spent, target)?;
             let sides = sides.get_or_insert_with(|| self.beginning(events, &here, stop, is_given));
-            match self.look_back(events, &mut here, sides, one, &mut visit) {
+            let looked = self.look_back(events, &mut here, sides, one, &mut visit);
+            match looked.map_err(E::from).and_then(|event| kept(self).map(|()| event)) {
                 Ok(None) => {}
                 Ok(event) => return Ok(event),
                 Err(error) => {

@@ -3,11 +3,13 @@
 // exact values are meant
 #![allow(clippy::float_cmp)]
 
+mod acting_events;
 mod api;
 mod conservation;
 mod errors;
 mod events;
 mod implicit;
+mod kept_motions;
 mod landing;
 mod lanes;
 mod made_of_others;
