@@ -76,6 +76,7 @@ mod dense;
 mod dim;
 mod dynamics;
 mod elementary;
+pub mod ensemble;
 mod error;
 mod events;
 mod fast;

@@ -6,6 +6,7 @@
 mod acting_events;
 mod api;
 mod conservation;
+mod ensembles;
 mod errors;
 mod events;
 mod implicit;
