@@ -106,6 +106,7 @@ mod series;
 mod sine;
 mod statistics;
 mod step_control;
+mod stiffness;
 mod stop;
 mod tangent;
 mod tolerance;

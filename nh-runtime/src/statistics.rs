@@ -16,6 +16,10 @@ pub struct Statistics {
     pub factorizations: u64,
     /// The iterations of implicit methods.
     pub iterations: u64,
+    /// The time at which an explicit adaptive method has noticed that the equations are stiff: fifteen times its steps were
+    /// as long as stability permits, and not as the tolerance does. An implicit method, or
+    /// [`Auto`](crate::methods::Auto), takes longer steps then. [`Bs23`](crate::Bs23) and methods of fixed step do not look.
+    pub stiff_at: Option<f64>,
     /// The projections to the constraints, those included that found nothing to correct.
     pub projections: u64,
     /// The largest change that a projection has made to a component of the state.

@@ -10,7 +10,8 @@ use super::leg::Leg;
 use super::{Arrival, Method, Place, Start, component, non_finite_derivative};
 use crate::arrays::{all_finite, first_non_finite};
 use crate::step_control::{Controller, Past, StepControl};
-use crate::tolerance::{PerComponent, Tolerance, Uniform};
+use crate::stiffness::Stiffness;
+use crate::tolerance::{PerComponent, Tolerance, Uniform, norm};
 use crate::{Dynamics, IntegrationError, Real, Scalar, ScalarOf, State, Statistics, VecOf};
 
 /// A method that chooses the lengths of its steps from an estimate of their errors: `P` computes the
@@ -144,6 +145,8 @@ impl<P: Default, T: Real> Default for Adaptive<P, T> {
 pub trait Scheme<S: Dynamics>: Copy {
     /// One more than the order of the error estimate.
     const ERROR_ORDER: u32;
+    /// As [`Pair::HELD`](super::Pair::HELD); infinite for a method that stability does not hold back.
+    const HELD: f64 = f64::INFINITY;
     /// What is kept of a step.
     type Work: Copy;
     /// What the states within a step are computed from.
@@ -205,6 +208,18 @@ pub trait Scheme<S: Dynamics>: Copy {
         next
     }
 
+    /// Asks the next step that is accepted for what [`spread`](Self::spread) gives, if the method has it.
+    fn watch(&self, work: &mut Self::Work) {
+        let _ = work;
+    }
+
+    /// The difference between two states at the start, one of which was a stage of the step before, and that of the
+    /// derivatives there: once, after a step that was watched.
+    fn spread(&self, start: &Start<'_, S>, work: &mut Self::Work) -> Option<(VecOf<S>, VecOf<S>)> {
+        let _ = (start, work);
+        None
+    }
+
     /// A derivative that was not finite in the step just computed: component, value, and its time as
     /// a fraction of the step.
     fn blame(&self, start: &Start<'_, S>, h: ScalarOf<S>, work: &Self::Work) -> Option<((usize, f64), f64)>;
@@ -246,6 +261,7 @@ pub struct Memory<T, K> {
     /// What control remembers.
     past: Past<T>,
     work: K,
+    stiffness: Stiffness<T>,
 }
 
 impl<T: Real, S: Dynamics, P: Scheme<S>, W: Tolerance<S::State>> Method<S> for Adaptive<P, T, W>
@@ -257,7 +273,7 @@ where
 
     fn memory(&self) -> Self::Memory {
         let past = self.control.controller.unwrap_or_else(P::usual_controller).no_past();
-        Memory { proposed: None, past, work: self.scheme.work() }
+        Memory { proposed: None, past, work: self.scheme.work(), stiffness: Stiffness::new() }
     }
 
     #[inline]
@@ -351,6 +367,9 @@ impl<P, T: Real, W> Adaptive<P, T, W> {
             first_length((start, first), target, P::ERROR_ORDER, settings, statistics)
         };
         let proposed = if proposed > shortest { proposed } else { shortest };
+        if memory.stiffness.is_due() {
+            self.look_for_stiffness(start, memory, statistics);
+        }
         let mut h = proposed;
         let mut rejected = false;
         loop {
@@ -377,6 +396,9 @@ impl<P, T: Real, W> Adaptive<P, T, W> {
                 let next = if leg.cut && !rejected { next.max(proposed) } else { next };
                 memory.proposed = Some(next);
                 memory.past = past;
+                if memory.stiffness.count(leg.length) {
+                    self.scheme.watch(&mut memory.work);
+                }
                 return Ok(Arrival { time: leg.time, state: S::State::from_array(trial.state) });
             }
             statistics.rejected += 1;
@@ -389,6 +411,33 @@ impl<P, T: Real, W> Adaptive<P, T, W> {
                 None => length * controller.after_rejection(trial.error, P::ERROR_ORDER),
             };
             h = shorter.max(shortest);
+        }
+    }
+
+    /// Looks whether the step before was as long as stability permits: how far derivatives at two states at its end are
+    /// apart for the distance of these, both in units of the tolerance, is an estimate of the largest eigenvalue.
+    #[cold]
+    #[inline(never)]
+    fn look_for_stiffness<S: Dynamics>(
+        &self,
+        start: &Start<'_, S>,
+        memory: &mut Memory<T, P::Work>,
+        statistics: &mut Statistics,
+    ) where
+        S::State: State<Scalar = T>,
+        P: Scheme<S>,
+        W: Tolerance<S::State>,
+    {
+        let rate = self.scheme.spread(start, &mut memory.work).map(|(apart, derivatives_apart)| {
+            let x = start.state.to_array();
+            let size = |e| norm(&self.tolerance, e, &x, &x);
+            size(&derivatives_apart) / size(&apart)
+        });
+        if memory.stiffness.judge(rate, T::from_f64(P::HELD)) {
+            self.scheme.watch(&mut memory.work);
+        }
+        if memory.stiffness.is_certain() && statistics.stiff_at.is_none() {
+            statistics.stiff_at = Some(start.time.to_f64());
         }
     }
 

@@ -1,6 +1,7 @@
 //! What accuracy costs on stiff problems of the literature, next to the code RADAU5. The table is printed by
 //! `cargo test --release -p nonholonomic --test stiff -- --nocapture`.
 
+mod noticed;
 mod problems;
 mod quotients;
 mod radau5;

@@ -35,6 +35,7 @@ tableau! {
 
 impl Pair for DormandPrince8 {
     const ERROR_ORDER: u32 = 8;
+    const HELD: f64 = 5.4;
     const FIRST_SAME_AS_LAST: bool = false;
 
     /// h |e₅|² / √(|e₅|² + |e₃|²/100) with estimates of order 5 and 3

@@ -151,3 +151,38 @@ fn pairs_of_high_order_have_their_orders() {
     check::<Verner9>(9, 1e-13);
     check_errors::<Verner9>(&[8], 1e-13);
 }
+
+/// Where the method leaves the unit disk on y' = λ y, going along the negative real axis.
+fn reach<P: Coefficients>() -> f64 {
+    let table = Table::of::<P>();
+    let stages = P::rows().len();
+    let leaves = |z: f64| {
+        // the derivative at the end is taken at the solution, which is the row of the weights
+        let mut values: Vec<f64> = Vec::new();
+        for row in table.rows.iter().take(stages + 1) {
+            values.push(1.0 - z * row.iter().map(|(j, a)| a * values[*j]).sum::<f64>());
+        }
+        values[stages].abs() > 1.0
+    };
+    let first = (1_u32..).map(|i| f64::from(i) * 1e-3).find(|z| leaves(*z));
+    let (mut inside, mut outside) = (first.unwrap() - 1e-3, first.unwrap());
+    for _ in 0..40 {
+        let middle = 0.5 * (inside + outside);
+        if leaves(middle) { outside = middle } else { inside = middle }
+    }
+    inside
+}
+
+#[test]
+fn steps_are_held_within_the_stable_interval() {
+    fn check<P: Coefficients + super::Pair>(stable: f64) {
+        let reach = reach::<P>();
+        assert!((reach - stable).abs() < 1e-4 && P::HELD < reach, "{:?}: {reach}", P::default());
+    }
+    // those of the method alone; the error estimate, which is a method too, holds steps back before
+    check::<BogackiShampine3>(2.512_75);
+    check::<DormandPrince5>(3.306_57);
+    check::<Tsitouras5>(3.506_8);
+    check::<DormandPrince8>(6.393_65);
+    check::<Verner9>(4.476_2);
+}

@@ -1,7 +1,7 @@
 //! How a table takes a step.
 
 use super::tableau::{Dense, FEW, Pair, Tableau, interpolate};
-use crate::arrays::{all_finite, displaced, first_non_finite, nought};
+use crate::arrays::{all_finite, difference, displaced, first_non_finite, nought};
 use crate::methods::adaptive::{Scheme, Trial};
 use crate::methods::fixed::OneStep;
 use crate::methods::{Arrival, Start, non_finite_derivative};
@@ -119,6 +119,10 @@ pub struct Work<S: Dynamics, P: Tableau> {
     current: bool,
     /// The start and the length of the step that the stages belong to.
     step: (ScalarOf<S>, ScalarOf<S>),
+    /// Whether the next step is looked at for stiffness.
+    is_watched: bool,
+    /// State and derivative at the last stage of the step looked at.
+    beside: Option<(VecOf<S>, VecOf<S>)>,
 }
 
 impl<S: Dynamics, P: Tableau> Clone for Work<S, P> {
@@ -133,18 +137,35 @@ where
     ScalarOf<S>: Real,
 {
     const ERROR_ORDER: u32 = P::ERROR_ORDER;
+    const HELD: f64 = P::HELD;
     type Work = Work<S, P>;
     type Dense = Dense<VecOf<S>, P::Bulge<VecOf<S>>>;
 
     fn work(&self) -> Work<S, P> {
         let never = ScalarOf::<S>::from_f64(f64::NAN);
         let (first, last) = (zero::<S>(), zero::<S>());
-        Work { first, stages: P::room(first), last, current: false, step: (never, never) }
+        let step = (never, never);
+        Work { first, stages: P::room(first), last, current: false, step, is_watched: false, beside: None }
     }
 
     #[inline]
     fn forget(&self, work: &mut Work<S, P>) {
         work.current = false;
+        work.beside = None;
+    }
+
+    #[inline]
+    fn moved(&self, work: &mut Work<S, P>) {
+        work.current = false;
+    }
+
+    fn watch(&self, work: &mut Work<S, P>) {
+        work.is_watched = true;
+    }
+
+    fn spread(&self, start: &Start<'_, S>, work: &mut Work<S, P>) -> Option<(VecOf<S>, VecOf<S>)> {
+        let (state, derivative) = work.beside.take()?;
+        Some((difference(&start.state.to_array(), &state), difference(&work.first, &derivative)))
     }
 
     #[inline]
@@ -187,6 +208,9 @@ where
             work.last = start.derivative_at(start.time + h, state);
         }
         let error = P::error(&stages, &work.last, h, |e| norm(tolerance, e, &x, &state));
+        if work.is_watched {
+            work.beside = P::last_stage(&x, h, &stages);
+        }
         if KEEP {
             work.stages = stages;
         }
@@ -196,6 +220,7 @@ where
     #[inline]
     fn accept<const KEEP: bool>(&self, start: &Start<'_, S>, h: ScalarOf<S>, work: &mut Work<S, P>) {
         work.current = P::FIRST_SAME_AS_LAST;
+        work.is_watched = false;
         if KEEP {
             work.step = (start.time, h);
         }

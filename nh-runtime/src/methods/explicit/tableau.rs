@@ -58,6 +58,9 @@ pub trait Tableau: Copy + Default + Debug + PartialEq + 'static {
         last: &VecOf<S>,
     ) -> Self::Bulge<VecOf<S>>;
 
+    /// The last stage, if it is at the end of the step: its state and the derivative there.
+    fn last_stage<T: Scalar, V: Array<T>>(x: &V, h: T, stages: &Self::Stages<V>) -> Option<(V, V)>;
+
     /// The first stage whose derivative is not finite: component, value, and the time of the stage
     /// as a fraction of the step.
     fn blame<T: Scalar, V: Array<T>>(stages: &Self::Stages<V>) -> Option<((usize, f64), f64)>;
@@ -67,6 +70,9 @@ pub trait Tableau: Copy + Default + Debug + PartialEq + 'static {
 pub trait Pair: Tableau {
     /// One more than the order of the estimate: the power of h that the error goes with.
     const ERROR_ORDER: u32;
+    /// Steps that stability holds back, by a fast decay at the rate λ, are longer than this over λ: a little less than what
+    /// the error estimate lets them grow to, which is at most the stable interval of the negative real axis.
+    const HELD: f64;
     /// Whether the estimate uses the derivative at the end, which is the next step's first.
     const FIRST_SAME_AS_LAST: bool;
 
@@ -245,6 +251,26 @@ macro_rules! tableau {
             }
 
             #[cold]
+            #[inline(never)]
+            #[allow(unused_assignments, unused_mut, clippy::float_cmp)] // the last one stays; a node at the end is 1
+            fn last_stage<T: $crate::Scalar, V: $crate::arrays::Array<T>>(
+                x: &V,
+                h: T,
+                stages: &$stages<V>,
+            ) -> Option<(V, V)> {
+                let w = T::from_f64;
+                let mut last = None;
+                $(
+                    last = ($c == 1.0).then(|| {
+                        let rest = [$((w($a), &stages.$ak)),*];
+                        ($crate::arrays::ahead(x, h, (w($a0), &stages.$a0k), rest), stages.$k)
+                    });
+                )*
+                let _ = (x, h, stages, w);
+                last
+            }
+
+            #[cold]
             fn blame<T: $crate::Scalar, V: $crate::arrays::Array<T>>(
                 stages: &$stages<V>,
             ) -> Option<((usize, f64), f64)> {
@@ -294,11 +320,12 @@ macro_rules! tableau {
 /// Stages without a weight act through the others alone: what they leave unused is not computed.
 macro_rules! embedded {
     (
-        $name:ident: error order $order:literal, first same as last $fsal:literal;
+        $name:ident: error order $order:literal, first same as last $fsal:literal, held at $held:literal;
         error [$e0k:ident: $e0:expr $(, $ek:ident: $e:expr)*] $(last [$el:expr])?;
     ) => {
         impl $crate::methods::explicit::tableau::Pair for $name {
             const ERROR_ORDER: u32 = $order;
+            const HELD: f64 = $held;
             const FIRST_SAME_AS_LAST: bool = $fsal;
 
             #[inline]
