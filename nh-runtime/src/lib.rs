@@ -133,9 +133,9 @@ pub use lanes::Lanes;
 pub use linear_model::{Linearization, LinearizationError};
 pub use methods::Taylor;
 pub use methods::{
-    Bs23, Conserving, Controller, DiscreteGradient, DiscreteSuslov, Dop853, Dopri5, Euler, GaussLegendre4,
-    GaussLegendre6, Heun, ImplicitMidpoint, Method, Projected, Radau5, Ralston, ReflectedLeapfrog, Rk4,
-    Rodas5P, Tsit5, Vern9,
+    Auto, Bs23, Conserving, Controller, DiscreteGradient, DiscreteSuslov, Dop853, Dopri5, Euler,
+    GaussLegendre4, GaussLegendre6, Heun, ImplicitMidpoint, Method, Projected, Radau5, Ralston,
+    ReflectedLeapfrog, Rk4, Rodas5P, Tsit5, Vern9,
 };
 pub use prepared::{Prepare, Prepared};
 pub use reduction::{ByStages, Reconstructed, Reconstruction, Reduction};

@@ -1,7 +1,7 @@
 //! Everything that a model and its simulation name: `use nonholonomic::prelude::*;`.
 
 pub use crate::methods::{
-    Bs23, Conserving, DiscreteGradient, DiscreteSuslov, Dop853, Dopri5, Euler, GaussLegendre4,
+    Auto, Bs23, Conserving, DiscreteGradient, DiscreteSuslov, Dop853, Dopri5, Euler, GaussLegendre4,
     GaussLegendre6, Heun, ImplicitMidpoint, Projected, Radau5, Ralston, ReflectedLeapfrog, Rk4, Rodas5P,
     Tsit5, Vern9,
 };

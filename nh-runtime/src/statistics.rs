@@ -20,6 +20,8 @@ pub struct Statistics {
     /// as long as stability permits, and not as the tolerance does. An implicit method, or
     /// [`Auto`](crate::methods::Auto), takes longer steps then. [`Bs23`](crate::Bs23) and methods of fixed step do not look.
     pub stiff_at: Option<f64>,
+    /// How often [`Auto`](crate::methods::Auto) has gone from explicit to implicit steps, or back.
+    pub switches: u64,
     /// The projections to the constraints, those included that found nothing to correct.
     pub projections: u64,
     /// The largest change that a projection has made to a component of the state.

@@ -263,7 +263,7 @@ fn tolerances_out_of_range() {
             assert!(sim.state().v1.is_finite());
         )*};
     }
-    each! { Bs23 Dopri5 Tsit5 Dop853 Vern9 Taylor Radau5 Rodas5P }
+    each! { Bs23 Dopri5 Tsit5 Dop853 Vern9 Taylor Radau5 Rodas5P Auto }
 }
 
 /// The same numbers from a run as a whole, step by step, after a reset, and from a clone.

@@ -235,6 +235,7 @@ fn all<T: Real>() {
     check::<T, _>("Radau5", &Radau5::new(), May::Recover);
     check::<T, _>("Radau5 with Jacobian", &Radau5::new().with_jacobian(), May::Recover);
     check::<T, _>("Rodas5P", &Rodas5P::new(), May::Recover);
+    check::<T, _>("Auto", &Auto::new(), May::Recover);
     check::<T, _>("Rodas5P with Jacobian", &Rodas5P::new().with_jacobian(), May::Recover);
     check::<T, _>("ImplicitMidpoint", &ImplicitMidpoint::new(h(0.1)), May::Recover);
     check::<T, _>(

@@ -150,7 +150,7 @@ fn implicit_methods() {
         ImplicitMidpoint::new(0.02).fourth_order(), ImplicitMidpoint::new(0.02).sixth_order(),
         GaussLegendre4::new(0.02), GaussLegendre4::new(0.02).with_jacobian(),
         GaussLegendre6::new(0.02), GaussLegendre6::new(0.02).with_jacobian(),
-        Radau5::new(), Radau5::new().with_jacobian(), Rodas5P::new(), Rodas5P::new().with_jacobian(),
+        Radau5::new(), Radau5::new().with_jacobian(), Rodas5P::new(), Rodas5P::new().with_jacobian(), Auto::new(),
     }
 }
 

@@ -15,7 +15,7 @@
 //! | be told of a wrong formula by its units | [`units`] |
 //! | understand what was derived, and what it costs | [`reading_a_report`] |
 //! | see the formulas behind it | [`the_equations`] |
-//! | choose a method of integration | [`which_integrator`] |
+//! | choose a method of integration; keep a whole motion | [`which_integrator`] |
 //! | stabilise it, estimate its state, plan ahead | [`control_loops`] |
 //! | find steady motions, and the linear model about them | [`steady_motions`] |
 //! | have gradients for an optimiser, sensitivities for identification | [`derivatives_of_motions`] |

@@ -264,6 +264,23 @@ pub struct Memory<T, K> {
     stiffness: Stiffness<T>,
 }
 
+impl<T: Real, K> Memory<T, K> {
+    /// Whether the equations have been found stiff for the method.
+    pub(super) fn is_stiff(&self) -> bool {
+        self.stiffness.is_certain()
+    }
+
+    /// The length proposed for the next step.
+    pub(super) fn proposed(&self) -> Option<T> {
+        self.proposed
+    }
+
+    /// The same with another proposal.
+    pub(super) fn proposing(self, proposed: Option<T>) -> Self {
+        Self { proposed, ..self }
+    }
+}
+
 impl<T: Real, S: Dynamics, P: Scheme<S>, W: Tolerance<S::State>> Method<S> for Adaptive<P, T, W>
 where
     S::State: State<Scalar = T>,

@@ -20,6 +20,7 @@
 //! | [`GaussLegendre6`] | 6 | fixed, stiff systems too | quadratic invariants, reversibility |
 //! | [`Radau5`] | 5 | adaptive, for stiff systems | |
 //! | [`Rodas5P`] | 5 | adaptive, for stiff systems | |
+//! | [`Auto`] | 5 | adaptive, explicit where it can be, implicit where the equations are stiff | |
 //! | [`Conserving`] | that of the method it is made of | likewise | the first integrals stated in `conserved` |
 //! | [`Projected`] | that of the method it is made of | likewise | the constraints of the projected formulation |
 //!
@@ -47,6 +48,7 @@ mod cubic;
 mod handed_on;
 
 mod adaptive;
+mod auto;
 mod explicit;
 mod first_step;
 mod fixed;
@@ -62,6 +64,7 @@ mod transition;
 mod trees;
 
 pub use adaptive::{Adaptive, Scheme, Trial};
+pub use auto::Auto;
 pub use explicit::{
     BogackiShampine3, DormandPrince5, DormandPrince8, Euler1, Heun2, Kutta4, Pair, Ralston3, Tableau,
     Tsitouras5, Verner9,

@@ -147,9 +147,12 @@ where
     pub fn at(&self, time: X::Scalar) -> Option<X> {
         let segments = self.segments();
         let is_backwards = segments.first().is_some_and(|first| first.to() < first.from());
-        let ended = segments.partition_point(|segment| {
-            if is_backwards { segment.to() >= time } else { segment.to() <= time }
-        });
+        let ended =
+            segments.partition_point(
+                |segment| {
+                    if is_backwards { segment.to() >= time } else { segment.to() <= time }
+                },
+            );
         match segments.get(ended) {
             Some(segment) => segment.at(time),
             None => segments.last().and_then(|segment| segment.at(time)),

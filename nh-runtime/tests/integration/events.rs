@@ -44,6 +44,7 @@ fn every_method_finds_all_zeros() {
     finds_all_zeros(GaussLegendre6::new(0.1), 1e-6);
     finds_all_zeros(Radau5::new().rtol(1e-9), 1e-6);
     finds_all_zeros(Rodas5P::new().rtol(1e-9), 1e-6);
+    finds_all_zeros(Auto::new().rtol(1e-9), 1e-7);
     finds_all_zeros(Dop853::fixed(0.5), 1e-7);
 }
 

@@ -51,6 +51,7 @@ fn every_method_is_kept_to_its_tolerance() {
     keeps::<_, 12>(Vern9::new().rtol(1e-14), 4.0);
     keeps::<_, 8>(Radau5::new().rtol(1e-8), 4.0);
     keeps::<_, 8>(Rodas5P::new().rtol(1e-8), 4.0);
+    keeps::<_, 8>(Auto::new().rtol(1e-8), 4.0);
     keeps::<_, 8>(ImplicitMidpoint::new(0.05), 4.0);
     keeps::<_, 8>(GaussLegendre6::new(0.05), -4.0);
 }
@@ -79,9 +80,14 @@ fn too_few_states_are_refused_and_the_step_is_taken_back() {
     let mut sim = Integrator::new(Driven, Dop853::new().rtol(1e-12), 0.0, START);
     let mut motion: Trajectory<Plane<f64>, _, 3> = Trajectory::new(Vec::new());
     let error = sim.record(5.0, &mut motion).unwrap_err();
-    let RecordingError::TooFewNodes { difference, permitted, nodes: 3, .. } = error else { panic!("{error}") };
+    let RecordingError::TooFewNodes { difference, permitted, nodes: 3, .. } = error else {
+        panic!("{error}")
+    };
     assert!(difference > permitted);
-    assert!(error.to_string().contains("keep more states of each step, as in `Trajectory<_, _, 6>`"), "{error}");
+    assert!(
+        error.to_string().contains("keep more states of each step, as in `Trajectory<_, _, 6>`"),
+        "{error}"
+    );
     let stands = motion.end().unwrap_or(0.0);
     assert_eq!(sim.time(), stands);
     // and goes on from there
@@ -169,7 +175,8 @@ fn other_units_give_the_same_bits() {
         }
         let method = Dopri5::new().rtol(T::from_f64(1e-6)).atol(T::from_f64(1e-9) * unit);
         let start = Plane { q: unit, p: T::ZERO };
-        let mut sim = Integrator::new(Decay(unit), method.first_step(T::from_f64(0.125) * unit), T::ZERO, start);
+        let mut sim =
+            Integrator::new(Decay(unit), method.first_step(T::from_f64(0.125) * unit), T::ZERO, start);
         let mut motion: Trajectory<Plane<T>, _> = Trajectory::new([Segment::default(); 64]);
         sim.record(unit * T::from_f64(3.0), &mut motion).unwrap();
         let at = |t: f64| motion.at(T::from_f64(t) * unit).unwrap();

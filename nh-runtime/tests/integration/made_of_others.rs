@@ -78,6 +78,7 @@ fn a_method_that_may_be_interrupted_takes_the_same_steps() {
     check(Dop853::new().rtol(1e-9).atol(1e-9));
     check(Radau5::new());
     check(Rodas5P::new());
+    check(Auto::new());
     check(ImplicitMidpoint::new(0.05));
     check(GaussLegendre6::new(0.1));
 }

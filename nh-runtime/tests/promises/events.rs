@@ -62,6 +62,7 @@ macro_rules! methods {
         call!(Vern9::new());
         call!(Radau5::new());
         call!(Rodas5P::new());
+        call!(Auto::new());
     }};
 }
 

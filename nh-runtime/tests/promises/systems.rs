@@ -81,6 +81,7 @@ macro_rules! every_adaptive {
         call!(Radau5::new().with_jacobian());
         call!(Rodas5P::new());
         call!(Rodas5P::new().with_jacobian());
+        call!(Auto::new());
         call!(Conserving::new(Dopri5::new()));
         call!(Projected::new(Tsit5::new(), 2));
     }};

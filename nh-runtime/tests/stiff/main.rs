@@ -5,6 +5,7 @@ mod noticed;
 mod problems;
 mod quotients;
 mod radau5;
+mod switching;
 
 use nonholonomic::prelude::*;
 use nonholonomic::{D, Dynamics};

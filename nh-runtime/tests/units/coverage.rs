@@ -44,6 +44,7 @@ const NO_METHODS: &[&str] = &[
     // results and settings
     "Direction",
     "Event",
+    "Simultaneous",
     "Correction",
     "Improvement",
     "Expansion",

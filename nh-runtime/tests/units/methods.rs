@@ -126,6 +126,7 @@ where
         )*};
     }
     stiff! { Radau5 Rodas5P }
+    each.of::<T, _>("Auto", Together, |s| Auto::new().rtol(s.rtol).atol(s.atol));
     each.of::<T, _>("ImplicitMidpoint", Together, |s| ImplicitMidpoint::new(s.step));
     each.of::<T, _>("ImplicitMidpoint, with Jacobian", Together, |s| {
         ImplicitMidpoint::new(s.step).with_jacobian()

@@ -94,6 +94,7 @@ where
     }
     note(free.time(), free.state());
     let mut statistics = sim.statistics();
+    statistics.stiff_at = statistics.stiff_at.map(|time| time / tau.to_f64());
     statistics.last_residual /= scaled.other.to_f64();
     statistics.largest_correction /= scaled.units.to_array().as_ref()[0].to_f64();
     Record { numbers, statistics, end }
