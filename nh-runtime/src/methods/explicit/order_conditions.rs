@@ -164,7 +164,7 @@ fn reach<P: Coefficients>() -> f64 {
         }
         values[stages].abs() > 1.0
     };
-    let first = (1_u32..).map(|i| f64::from(i) * 1e-3).find(|z| leaves(*z));
+    let first = (1_u32..10_000).map(|i| f64::from(i) * 1e-3).find(|z| leaves(*z));
     let (mut inside, mut outside) = (first.unwrap() - 1e-3, first.unwrap());
     for _ in 0..40 {
         let middle = 0.5 * (inside + outside);
