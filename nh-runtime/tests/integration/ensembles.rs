@@ -18,8 +18,10 @@ fn members() -> Vec<Swing> {
     (0..200).map(member).collect()
 }
 
-/// What there is to compare, bit for bit.
-fn seen(members: &[Swing]) -> Vec<(f64, Plane<f64>, Statistics, Result<(), IntegrationError>)> {
+/// What there is to compare of a member, bit for bit.
+type Seen = (f64, Plane<f64>, Statistics, Result<(), IntegrationError>);
+
+fn seen(members: &[Swing]) -> Vec<Seen> {
     members.iter().map(|m| (m.sim.time(), *m.state(), m.sim.statistics(), m.outcome)).collect()
 }
 
