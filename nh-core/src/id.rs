@@ -21,8 +21,12 @@ macro_rules! ids {
 
         impl Id for $name {
             const FIRST: Self = Self(0);
+            #[inline(always)]
+            #[allow(clippy::cast_possible_truncation, reason = "it fits")]
             fn from_index(index: usize) -> Self {
-                Self(u32::try_from(index).expect("fewer than 2^32 entries"))
+                // compared in place: a conversion that may fail takes several calls in unoptimised builds
+                assert!((index as u64) < 1 << u32::BITS, "fewer than 2^32 entries");
+                Self(index as u32)
             }
             #[inline(always)]
             fn index(self) -> usize {
@@ -127,7 +131,8 @@ impl<I: Id, T> Index<I> for Table<I, T> {
     type Output = T;
     #[inline(always)]
     fn index(&self, id: I) -> &T {
-        &self.entries[id.index()]
+        // as a slice: a vector takes calls of its own to index in unoptimised builds
+        &self.entries.as_slice()[id.index()]
     }
 }
 

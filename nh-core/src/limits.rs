@@ -73,15 +73,16 @@ pub enum Limit {
 
 #[derive(Clone, Copy, Debug)]
 struct Meter {
-    work: u64,
     allowed: u64,
     stored: u64,
     subject: Subject,
 }
 
 thread_local! {
-    /// What is left; nothing is counted outside of [`within_limits`].
+    /// What else is counted; nothing is outside of [`within_limits`].
     static METER: Cell<Option<Meter>> = const { Cell::new(None) };
+    /// The work that is left. By itself, since it is counted at every turn.
+    static LEFT: Cell<u64> = const { Cell::new(u64::MAX) };
 }
 
 /// Runs a derivation within the limits of a declaration. Inside of another run it draws on what that has left.
@@ -100,7 +101,8 @@ pub fn within<T>(work: u64, derivation: impl FnOnce() -> T) -> Result<T, TooLarg
     if METER.get().is_some() {
         return Ok(derivation());
     }
-    METER.set(Some(Meter { work, allowed: work, stored: STORED, subject: Subject::Declaration }));
+    METER.set(Some(Meter { allowed: work, stored: STORED, subject: Subject::Declaration }));
+    LEFT.set(work);
     // nothing of an unfinished derivation is seen again
     let outcome = catch_unwind(AssertUnwindSafe(derivation));
     METER.set(None);
@@ -110,13 +112,12 @@ pub fn within<T>(work: u64, derivation: impl FnOnce() -> T) -> Result<T, TooLarg
 /// Runs what may be left out with so much work at most; `None` where that is not enough.
 pub fn attempt<T>(work: u64, question: impl FnOnce() -> T) -> Option<T> {
     let Some(outer) = METER.get() else { return Some(question()) };
-    let kept_back = outer.work.saturating_sub(work);
-    METER.set(Some(Meter { work: outer.work - kept_back, ..outer }));
+    let kept_back = LEFT.get().saturating_sub(work);
+    LEFT.set(LEFT.get() - kept_back);
     // an unfinished question leaves expressions behind that nobody refers to
     let answer = catch_unwind(AssertUnwindSafe(question));
-    if let Some(meter) = METER.get() {
-        METER.set(Some(Meter { work: meter.work + kept_back, subject: outer.subject, ..meter }));
-    }
+    LEFT.set(LEFT.get() + kept_back);
+    about(outer.subject);
     answer.map_or_else(|reason| caught(reason).ok(), Some)
 }
 
@@ -130,7 +131,7 @@ fn caught<T>(reason: Box<dyn Any + Send>) -> Result<T, TooLarge> {
 /// How much work is done so far.
 #[must_use]
 pub fn spent() -> u64 {
-    METER.get().map_or(0, |meter| meter.allowed - meter.work)
+    METER.get().map_or(0, |meter| meter.allowed - LEFT.get())
 }
 
 /// The seconds that this thread has spent on a processor, where the system tells (Linux). What is not counted as work
@@ -152,12 +153,26 @@ pub fn timed<T>(computation: impl FnOnce() -> T) -> (T, f64) {
 
 /// Does some work, unless it is too much.
 pub fn spend(work: usize) {
-    let Some(mut meter) = METER.get() else { return };
-    match meter.work.checked_sub(u64::try_from(work).unwrap_or(u64::MAX)) {
-        Some(left) => meter.work = left,
-        None => refuse(meter.subject, Limit::Work),
+    let is_enough = LEFT.with(|left| {
+        // as wide as any work on all targets
+        let (before, work) = (left.get(), work as u64);
+        if work <= before {
+            left.set(before - work);
+        }
+        work <= before
+    });
+    if !is_enough {
+        too_much();
     }
-    METER.set(Some(meter));
+}
+
+/// Refuses more work, where it is counted.
+#[cold]
+fn too_much() {
+    match METER.get() {
+        Some(meter) => refuse(meter.subject, Limit::Work),
+        None => LEFT.set(u64::MAX),
+    }
 }
 
 /// Stores some entries, unless they are too many.

@@ -7,7 +7,7 @@
 use super::graph::Graph;
 use super::node::{Function, Node};
 use super::number::Rational;
-use crate::id::{ExprId, SymbolId};
+use crate::id::{ExprId, Id, SymbolId};
 use crate::id_map::IdMap;
 use crate::limits;
 use rustc_hash::FxHashMap;
@@ -27,14 +27,41 @@ pub(crate) struct Degree {
 const FACTORS_PER_STEP: usize = 2;
 
 /// What a D belongs to.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
-enum Factor {
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+struct Factor(usize);
+
+/// The exponents of D, ascending by what D belongs to.
+type Exponents = [(Factor, f64)];
+
+/// Kinds of what a D belongs to.
+const KINDS: usize = 3;
+
+impl Factor {
     /// A divisor, or the argument of a periodic function.
-    Node(ExprId),
+    fn node(id: ExprId) -> Self {
+        Self(KINDS * id.index())
+    }
+
     /// The unknown of a linear system.
-    Unknown(SymbolId),
+    fn unknown(symbol: SymbolId) -> Self {
+        Self(KINDS * symbol.index() + 1)
+    }
+
     /// A divisor, an angle or a linear system of a program, by its place there.
-    Step(usize),
+    fn step(place: usize) -> Self {
+        Self(KINDS * place + 2)
+    }
+}
+
+impl Id for Factor {
+    const FIRST: Self = Self(0);
+    fn from_index(index: usize) -> Self {
+        Self(index)
+    }
+    #[inline(always)]
+    fn index(self) -> usize {
+        self.0
+    }
 }
 
 impl Degree {
@@ -50,7 +77,7 @@ pub(crate) struct Degrees<'a> {
     known: IdMap<ExprId, Degree>,
     named: FxHashMap<SymbolId, Degree>,
     /// The degrees of the D.
-    sizes: FxHashMap<Factor, f64>,
+    sizes: IdMap<Factor, f64>,
 }
 
 impl<'a> Degrees<'a> {
@@ -66,7 +93,7 @@ impl<'a> Degrees<'a> {
 
     /// Gives an unknown the bound of a quotient of two polynomials of a degree before it occurs.
     pub(crate) fn name_quotient(&mut self, symbol: SymbolId, degree: f64) {
-        let degree = self.quotient(Factor::Unknown(symbol), degree);
+        let degree = self.quotient(Factor::unknown(symbol), degree);
         self.name(symbol, degree);
     }
 
@@ -78,7 +105,7 @@ impl<'a> Degrees<'a> {
 
     /// The bound of a quotient of two polynomials of a degree, at a step of a program.
     pub(crate) fn quotient_at(&mut self, step: usize, degree: f64) -> Degree {
-        self.quotient(Factor::Step(step), degree)
+        self.quotient(Factor::step(step), degree)
     }
 
     /// The bounds of several expressions.
@@ -137,32 +164,38 @@ impl<'a> Degrees<'a> {
             let numerator = terms.iter().map(|term| term.numerator).fold(0.0, f64::max);
             return Degree { numerator, factors: first.factors.clone() };
         }
-        limits::spend(terms.iter().map(|term| term.factors.len()).sum::<usize>() / FACTORS_PER_STEP);
-        let mut least: FxHashMap<Factor, (f64, usize)> = FxHashMap::default();
-        for (factor, exponent) in terms.iter().flat_map(|term| term.factors.iter()) {
-            let slot = least.entry(*factor).or_insert((f64::INFINITY, 0));
-            *slot = (slot.0.min(*exponent), slot.1 + 1);
-        }
-        // a term without it has the exponent 0
-        for (exponent, terms_with) in least.values_mut() {
-            if *terms_with < terms.len() {
-                *exponent = exponent.min(0.0);
+        let mut least: Rc<Exponents> = first.factors.clone();
+        let mut read = 0;
+        for (place, term) in terms.iter().enumerate().skip(1) {
+            // neighbours often are of one kind
+            if !Rc::ptr_eq(&term.factors, &terms[place - 1].factors) {
+                read += least.len() + term.factors.len();
+                least = lower_ones(&least, &term.factors).into();
             }
         }
-        let common: f64 = least.iter().map(|(factor, (exponent, _))| self.sizes[factor] * exponent).sum();
+        limits::spend(read / FACTORS_PER_STEP);
+        let common = self.size_together(&least);
         let mut numerator = 0.0_f64;
         for term in terms {
-            let own: f64 = term.factors.iter().map(|(factor, exponent)| self.sizes[factor] * exponent).sum();
-            numerator = numerator.max(term.numerator + own - common);
+            numerator = numerator.max(term.numerator + self.size_together(&term.factors) - common);
         }
-        let factors = least.into_iter().map(|(factor, (exponent, _))| (factor, exponent));
-        Degree { numerator, factors: sorted(factors) }
+        Degree { numerator, factors: least }
+    }
+
+    /// `Σ k deg D`.
+    fn size_together(&self, factors: &Exponents) -> f64 {
+        let (mut sum, mut place) = (0.0, 0);
+        while place < factors.len() {
+            sum += self.sizes[&factors[place].0] * factors[place].1;
+            place += 1;
+        }
+        sum
     }
 
     fn of_product(&mut self, factors: &[(ExprId, Rational)]) -> Degree {
         let factors = factors
             .iter()
-            .map(|(base, power)| (Factor::Node(*base), self.known[base].clone(), power.to_f64()));
+            .map(|(base, power)| (Factor::node(*base), self.known[base].clone(), power.to_f64()));
         let factors: Vec<_> = factors.collect();
         self.of_powers(factors)
     }
@@ -170,26 +203,29 @@ impl<'a> Degrees<'a> {
     /// The product of powers of values at steps of a program.
     pub(crate) fn of_steps(&mut self, factors: &[(usize, &Degree, f64)]) -> Degree {
         let factors =
-            factors.iter().map(|(step, degree, power)| (Factor::Step(*step), (*degree).clone(), *power));
+            factors.iter().map(|(step, degree, power)| (Factor::step(*step), (*degree).clone(), *power));
         self.of_powers(factors.collect())
     }
 
+    #[allow(clippy::float_cmp, reason = "an exponent that is exactly one")]
     fn of_powers(&mut self, powers: Vec<(Factor, Degree, f64)>) -> Degree {
         let mut numerator = 0.0;
-        let mut exponents: FxHashMap<Factor, f64> = FxHashMap::default();
+        let mut exponents: Rc<Exponents> = Rc::from([]);
         for (base, degree, power) in powers {
-            limits::spend(degree.factors.len() / FACTORS_PER_STEP);
             if power < 0.0 && degree.numerator > 0.0 {
                 self.sizes.insert(base, degree.numerator);
-                *exponents.entry(base).or_insert(0.0) += power;
+                exponents = with_multiple(&exponents, &[(base, 1.0)], power).into();
             } else if power > 0.0 {
                 numerator += power * degree.numerator;
             }
-            for (factor, exponent) in degree.factors.iter() {
-                *exponents.entry(*factor).or_insert(0.0) += power * exponent;
+            if exponents.is_empty() && power == 1.0 {
+                exponents = degree.factors;
+            } else if !degree.factors.is_empty() {
+                limits::spend((exponents.len() + degree.factors.len()) / FACTORS_PER_STEP);
+                exponents = with_multiple(&exponents, &degree.factors, power).into();
             }
         }
-        Degree { numerator, factors: sorted(exponents) }
+        Degree { numerator, factors: exponents }
     }
 
     /// Multiples of an angle are powers of a point of the circle, which has degree 2.
@@ -204,7 +240,7 @@ impl<'a> Degrees<'a> {
                 let inside = self.graph.inside_arcs(x);
                 let inside = inside.iter().map(|u| self.size(&self.known[u])).sum::<f64>();
                 let turns = 2.0 * self.graph.angle_turns(x, self.division);
-                self.quotient(Factor::Node(x), turns * (1.0 + inside))
+                self.quotient(Factor::node(x), turns * (1.0 + inside))
             }
             Function::Asin
             | Function::Acos
@@ -216,11 +252,43 @@ impl<'a> Degrees<'a> {
     }
 }
 
-fn sorted(factors: impl IntoIterator<Item = (Factor, f64)>) -> Rc<[(Factor, f64)]> {
-    let mut list: Vec<(Factor, f64)> = factors.into_iter().filter(|(_, exponent)| *exponent != 0.0).collect();
-    limits::spend(list.len() / FACTORS_PER_STEP);
-    list.sort_unstable_by_key(|(factor, _)| *factor);
-    list.into()
+/// The lower one of two exponents of every D, of which those that are not listed are 0.
+///
+/// Plain loops, here and below: a proof reads the factors of every step, in unoptimised builds.
+fn lower_ones(left: &Exponents, right: &Exponents) -> Vec<(Factor, f64)> {
+    let mut found = Vec::with_capacity(left.len() + right.len());
+    let (mut i, mut j) = (0, 0);
+    while i < left.len() || j < right.len() {
+        let first = if i < left.len() { left[i].0.index() } else { usize::MAX };
+        let second = if j < right.len() { right[j].0.index() } else { usize::MAX };
+        let one = if first <= second { left[i].1 } else { 0.0 };
+        let other = if second <= first { right[j].1 } else { 0.0 };
+        let exponent = if one < other { one } else { other };
+        if exponent != 0.0 {
+            found.push((if first <= second { left[i].0 } else { right[j].0 }, exponent));
+        }
+        i += usize::from(first <= second);
+        j += usize::from(second <= first);
+    }
+    found
+}
+
+/// The exponents with a multiple of others.
+fn with_multiple(left: &Exponents, right: &Exponents, times: f64) -> Vec<(Factor, f64)> {
+    let mut found = Vec::with_capacity(left.len() + right.len());
+    let (mut i, mut j) = (0, 0);
+    while i < left.len() || j < right.len() {
+        let first = if i < left.len() { left[i].0.index() } else { usize::MAX };
+        let second = if j < right.len() { right[j].0.index() } else { usize::MAX };
+        let one = if first <= second { left[i].1 } else { 0.0 };
+        let other = if second <= first { times * right[j].1 } else { 0.0 };
+        if one + other != 0.0 {
+            found.push((if first <= second { left[i].0 } else { right[j].0 }, one + other));
+        }
+        i += usize::from(first <= second);
+        j += usize::from(second <= first);
+    }
+    found
 }
 
 #[cfg(test)]

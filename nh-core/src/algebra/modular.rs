@@ -92,6 +92,8 @@ pub(crate) struct FieldPass<'a> {
     /// The common denominator of the coefficients inside sine, cosine and exp.
     pub(super) division: i64,
     pub(super) known: IdMap<ExprId, Residue>,
+    /// What is yet to be evaluated.
+    open: Vec<ExprId>,
     /// The points of the circle above values: sine and cosine share them, and so do sums of angles.
     pub(super) units: FxHashMap<u64, (Residue, Residue)>,
     /// Cosine and sine of the angles that have occurred.
@@ -126,8 +128,8 @@ pub(super) enum Stream {
 impl<'a> FieldPass<'a> {
     /// At a point; `division` is the [`Graph::angle_division`] of all that will be evaluated.
     pub(crate) fn new(graph: &'a Graph, point: FieldPoint, division: i64) -> Self {
-        let (known, units, circles) = Default::default();
-        Self { graph, point, division, known, units, circles, by_value: false, relates_arcs: true }
+        let (known, open, units, circles) = Default::default();
+        Self { graph, point, division, known, open, units, circles, by_value: false, relates_arcs: true }
     }
 
     /// The same with arcs and logarithms as kernels of their values: what is written in other steps has these.
@@ -155,11 +157,66 @@ impl<'a> FieldPass<'a> {
     /// # Errors
     /// Where some root has no value there, or ever.
     pub(crate) fn evaluate(&mut self, roots: &[ExprId]) -> Result<Vec<Residue>, NoValue> {
-        if roots.iter().any(|root| !self.known.contains_key(root)) {
-            let order = self.graph.reachable_beyond(roots, |id| self.known.contains_key(&id));
-            self.evaluate_in_order(order)?;
+        let mut values = Vec::with_capacity(roots.len());
+        for root in roots {
+            values.push(self.evaluate_one(*root)?);
         }
-        Ok(roots.iter().map(|root| self.known[root]).collect())
+        Ok(values)
+    }
+
+    /// The value of one expression.
+    ///
+    /// # Errors
+    /// Where it has no value there, or ever.
+    pub(crate) fn evaluate_one(&mut self, root: ExprId) -> Value {
+        if let Some(value) = self.known.get(&root) {
+            return Ok(*value);
+        }
+        let graph = self.graph;
+        let mut open = std::mem::take(&mut self.open);
+        open.clear();
+        open.push(root);
+        let mut steps = 0;
+        // operands first; most of what is asked for is one step from what is known
+        while let Some(&id) = open.last() {
+            let before = open.len();
+            match graph.node(id) {
+                Node::Number(_) | Node::Pi | Node::Constant(_) | Node::Symbol(_) => {}
+                Node::Sum { terms: list, .. } | Node::Product { factors: list, .. } => {
+                    let (list, mut place): (&[(ExprId, Rational)], usize) = (list, 0);
+                    while place < list.len() {
+                        if !self.known.contains_key(&list[place].0) {
+                            open.push(list[place].0);
+                        }
+                        place += 1;
+                    }
+                    steps += place;
+                }
+                Node::Apply(_, x) => {
+                    if !self.known.contains_key(x) {
+                        open.push(*x);
+                    }
+                }
+                Node::Apply2(_, x, y) => {
+                    for operand in [*x, *y] {
+                        if !self.known.contains_key(&operand) {
+                            open.push(operand);
+                        }
+                    }
+                }
+            }
+            if open.len() == before {
+                open.pop();
+                if !self.known.contains_key(&id) {
+                    steps += 1;
+                    let value = self.value(id)?;
+                    self.known.insert(id, value);
+                }
+            }
+        }
+        self.open = open;
+        limits::spend(steps);
+        Ok(self.known[&root])
     }
 
     fn evaluate_in_order(&mut self, order: Vec<ExprId>) -> Result<(), NoValue> {
@@ -191,31 +248,30 @@ impl<'a> FieldPass<'a> {
 
     fn value(&mut self, id: ExprId) -> Value {
         match self.graph.node(id) {
-            Node::Number(value) => Residue::of(value).ok_or(NoValue::Here),
+            Node::Number(value) => residue(value),
             Node::Pi => Ok(self.pi()),
-            Node::Constant(constant) => {
-                Residue::of(&self.graph.constants()[*constant].value).ok_or(NoValue::Here)
-            }
+            Node::Constant(constant) => residue(&self.graph.constants()[*constant].value),
             Node::Symbol(symbol) => Ok(self.symbol(*symbol)),
             Node::Sum { constant, terms } => {
-                let mut sum = Residue::of(constant).ok_or(NoValue::Here)?;
-                for (term, coefficient) in terms.iter() {
+                let mut sum = if constant.is_zero() { Residue::ZERO } else { residue(constant)? };
+                let (terms, mut place): (&[(ExprId, Rational)], usize) = (terms, 0);
+                while place < terms.len() {
+                    let (term, coefficient) = &terms[place];
                     let value = self.known[term];
-                    sum = sum
-                        + if coefficient.is_one() {
-                            value
-                        } else {
-                            Residue::of(coefficient).ok_or(NoValue::Here)? * value
-                        };
+                    sum = sum + if coefficient.is_one() { value } else { residue(coefficient)? * value };
+                    place += 1;
                 }
                 Ok(sum)
             }
             Node::Product { coefficient, factors } => {
-                let mut product = Residue::of(coefficient).ok_or(NoValue::Here)?;
-                for (base, exponent) in factors.iter() {
+                let mut product = if coefficient.is_one() { Residue::ONE } else { residue(coefficient)? };
+                let (factors, mut place): (&[(ExprId, Rational)], usize) = (factors, 0);
+                while place < factors.len() {
+                    let (base, exponent) = &factors[place];
                     let power =
                         if exponent.is_one() { self.known[base] } else { self.power(*base, exponent)? };
                     product = product * power;
+                    place += 1;
                 }
                 Ok(product)
             }
@@ -273,12 +329,13 @@ impl<'a> FieldPass<'a> {
     }
 
     pub(super) fn power(&self, base: ExprId, exponent: &Rational) -> Value {
+        if let Some((times, 1)) = exponent.to_small() {
+            return self.known[&base].integer_power(times).ok_or(NoValue::Here);
+        }
         let root = |kind| self.power_of_value(self.known[&base], kind, exponent);
         match self.graph.value_of(base) {
             Some(number) => root(Radicand::Number(number)),
-            None if exponent.is_integer() || !self.graph.symbols_in(&[base]).is_empty() => {
-                root(Radicand::Varying)
-            }
+            None if !self.graph.symbols_in(&[base]).is_empty() => root(Radicand::Varying),
             None => root(Radicand::Constant),
         }
     }
@@ -384,6 +441,13 @@ impl<'a> FieldPass<'a> {
 
     fn of_kernel(&self, function: Function, x: Residue) -> Residue {
         self.random(Stream::Kernel, Residue::mixed(function as u64, x.word()).word())
+    }
+}
+
+fn residue(number: &Rational) -> Value {
+    match Residue::of(number) {
+        Some(value) => Ok(value),
+        None => Err(NoValue::Here),
     }
 }
 

@@ -2,6 +2,7 @@
 
 use super::graph::Graph;
 use super::node::Node;
+use super::number::Rational;
 use crate::id::{ExprId, Id, SymbolId};
 use crate::limits;
 
@@ -34,48 +35,62 @@ impl Visited {
         self.open.extend_from_slice(roots);
     }
 
-    /// Goes to a node later.
-    pub(super) fn open(&mut self, id: ExprId) {
-        if self.seen[id.index()] != self.walk {
-            self.open.push(id);
-        }
-    }
-
-    /// The next node that has not been seen.
-    pub(super) fn next(&mut self) -> Option<ExprId> {
-        while let Some(id) = self.open.pop() {
-            if std::mem::replace(&mut self.seen[id.index()], self.walk) != self.walk {
-                return Some(id);
-            }
-        }
-        None
-    }
-
     /// Sorts expressions of a walk, each of which occurs once.
-    pub(super) fn sort(&mut self, found: &mut Vec<ExprId>) {
+    pub(super) fn sort(&mut self, found: &mut [ExprId]) {
         const WORD: usize = u64::BITS as usize;
         // few are sorted as they are, and so are those so far apart that most words would be empty
         const FEW: usize = 8;
         const EMPTY: usize = 16;
-        let first = found.iter().min().map_or(0, |id| id.index()) / WORD;
-        let last = found.iter().max().map_or(0, |id| id.index()) / WORD;
+        let (mut least, mut most, mut place) = (usize::MAX, 0, 0);
+        let list: &[ExprId] = found;
+        while place < list.len() {
+            let index = list[place].index();
+            least = if index < least { index } else { least };
+            most = if index > most { index } else { most };
+            place += 1;
+        }
+        let (first, last) = (least / WORD, most / WORD);
         if found.len() < FEW || last - first > EMPTY * found.len() {
-            found.sort_unstable();
+            sort_few(found);
             return;
         }
         self.marks.clear();
         self.marks.resize(last - first + 1, 0);
-        for id in found.iter() {
-            self.marks[id.index() / WORD - first] |= 1 << (id.index() % WORD);
+        let (list, marks): (&mut [ExprId], &mut [u64]) = (found, &mut self.marks);
+        let mut place = 0;
+        while place < list.len() {
+            let index = list[place].index();
+            marks[index / WORD - first] |= 1 << (index % WORD);
+            place += 1;
         }
-        found.clear();
-        for (index, word) in self.marks.iter().enumerate() {
-            let mut left = *word;
+        let (mut next, mut word) = (0, 0);
+        while word < marks.len() {
+            let mut left = marks[word];
             while left != 0 {
-                found.push(ExprId::from_index((first + index) * WORD + left.trailing_zeros() as usize));
+                list[next] = ExprId::from_index((first + word) * WORD + left.trailing_zeros() as usize);
+                next += 1;
                 left &= left - 1;
             }
+            word += 1;
         }
+    }
+}
+
+/// Sorts by insertion, which is quickest for few.
+fn sort_few(list: &mut [ExprId]) {
+    if list.len() > 2 * USUAL {
+        list.sort_unstable();
+        return;
+    }
+    let mut end = 1;
+    while end < list.len() {
+        let (id, mut place) = (list[end], end);
+        while place > 0 && list[place - 1].index() > id.index() {
+            list[place] = list[place - 1];
+            place -= 1;
+        }
+        list[place] = id;
+        end += 1;
     }
 }
 
@@ -98,28 +113,67 @@ impl Graph {
     }
 
     /// Visits expressions from `roots` on, each once.
+    ///
+    /// Written with indices and a stack of its own: most passes begin with a walk, and unoptimised builds take several
+    /// calls for whatever is asked of a list.
     fn walk(&self, roots: &[ExprId], mut visit: impl FnMut(ExprId) -> Onward) {
         let mut visited = self.visited.take();
         let mut steps = 0;
         visited.begin(self.nodes.len(), roots);
-        while let Some(id) = visited.next() {
+        let Visited { walk, seen, open, .. } = &mut visited;
+        let (walk, seen): (u32, &mut [u32]) = (*walk, seen);
+        let mut top = open.len();
+        while top > 0 {
+            top -= 1;
+            let id = open.as_slice()[top];
+            if seen[id.index()] == walk {
+                continue;
+            }
+            seen[id.index()] = walk;
             steps += 1;
             match visit(id) {
                 Onward::Into => {}
                 Onward::Past => continue,
                 Onward::End => break,
             }
-            steps += self.node(id).breadth();
-            match self.node(id) {
-                Node::Number(_) | Node::Pi | Node::Constant(_) | Node::Symbol(_) => {}
+            let node = self.node(id);
+            let pair;
+            let list: &[(ExprId, Rational)] = match node {
+                Node::Number(_) | Node::Pi | Node::Constant(_) | Node::Symbol(_) => continue,
                 Node::Sum { terms: list, .. } | Node::Product { factors: list, .. } => {
-                    list.iter().for_each(|(operand, _)| visited.open(*operand));
+                    pair = [id; 2];
+                    list
                 }
-                Node::Apply(_, x) => visited.open(*x),
+                Node::Apply(_, x) => {
+                    pair = [*x; 2];
+                    &[]
+                }
                 Node::Apply2(_, x, y) => {
-                    visited.open(*x);
-                    visited.open(*y);
+                    pair = [*x, *y];
+                    &[]
                 }
+            };
+            let room = top + list.len() + pair.len();
+            if open.len() < room {
+                open.resize(2 * room, id);
+            }
+            let open: &mut [ExprId] = open;
+            steps += list.len();
+            let mut place = 0;
+            while place < list.len() {
+                let operand = list[place].0;
+                if seen[operand.index()] != walk {
+                    open[top] = operand;
+                    top += 1;
+                }
+                place += 1;
+            }
+            if list.is_empty() {
+                // a function of one argument has it twice
+                steps += 1 + usize::from(pair[0] != pair[1]);
+                open[top] = pair[0];
+                open[top + 1] = pair[1];
+                top += 2;
             }
         }
         self.visited.replace(visited);

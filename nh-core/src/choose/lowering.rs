@@ -22,14 +22,25 @@ pub const DEFECT: &str = "please report this declaration: it is a defect of the 
 #[derive(Debug, Default)]
 pub struct Lowering {
     outcomes: RefCell<Vec<Result<Proof, Unproved>>>,
+    /// What was lowered: a step of a projection, say, is printed in several methods.
+    known: RefCell<Vec<Known>>,
+}
+
+/// A procedure of a model whose program is known.
+#[derive(Debug)]
+struct Known {
+    model: *const Model,
+    procedure: Procedure,
+    has_corrections: bool,
+    program: Program,
+    outcome: Result<Proof, Unproved>,
 }
 
 impl Lowering {
     /// The program of a procedure, at the level of accuracy that is asked for.
     #[must_use]
     pub fn program(&self, model: &Model, procedure: &Procedure) -> Program {
-        let is_careful = model.graph.accuracy() == Accuracy::Careful;
-        self.finished(model, procedure, |program| if is_careful { corrected(&program) } else { program })
+        self.finished(model, procedure, model.graph.accuracy() == Accuracy::Careful)
     }
 
     /// The same program without corrections of rounding errors, where it has any: those of power series are zero.
@@ -42,21 +53,29 @@ impl Lowering {
     ) -> Cow<'p, Program> {
         match model.graph.accuracy() {
             Accuracy::Fast | Accuracy::Balanced => Cow::Borrowed(program),
-            Accuracy::Careful => Cow::Owned(self.finished(model, procedure, |program| program)),
+            Accuracy::Careful => Cow::Owned(self.finished(model, procedure, false)),
         }
     }
 
-    fn finished(&self, model: &Model, procedure: &Procedure, finish: impl Fn(Program) -> Program) -> Program {
-        match lowered(&model.graph, procedure, &parameters(model), finish) {
-            Ok(Lowered { program, proof }) => {
-                self.note(proof.map_err(Unproved::Unknown));
-                program
-            }
-            Err(unproved) => {
-                self.note(Err(unproved));
-                Program::default()
-            }
+    fn finished(&self, model: &Model, procedure: &Procedure, has_corrections: bool) -> Program {
+        let is_known = |known: &&Known| {
+            std::ptr::eq(known.model, model)
+                && known.has_corrections == has_corrections
+                && known.procedure.computes_alike(procedure)
+        };
+        if let Some(Known { program, outcome, .. }) = self.known.borrow().iter().find(is_known) {
+            self.note(outcome.clone());
+            return program.clone();
         }
+        let finish = |program| if has_corrections { corrected(&program) } else { program };
+        let (program, outcome) = match lowered(&model.graph, procedure, &parameters(model), finish) {
+            Ok(Lowered { program, proof }) => (program, proof.map_err(Unproved::Unknown)),
+            Err(unproved) => (Program::default(), Err(unproved)),
+        };
+        self.note(outcome.clone());
+        let (procedure, known) = (procedure.clone(), program.clone());
+        self.known.borrow_mut().push(Known { model, procedure, has_corrections, program: known, outcome });
+        program
     }
 
     /// A program of a procedure in two parts, of which the first depends on parameters alone.

@@ -315,7 +315,7 @@ pub(super) fn run(pass: &mut FieldPass, procedure: &Procedure) -> Result<Vec<Res
     for definition in &procedure.definitions {
         match definition {
             Definition::Value { symbol, value } => {
-                let value = pass.evaluate(&[*value])?[0];
+                let value = pass.evaluate_one(*value)?;
                 if !pass.choose(*symbol, value) {
                     return Err(twice());
                 }
@@ -330,7 +330,7 @@ pub(super) fn run(pass: &mut FieldPass, procedure: &Procedure) -> Result<Vec<Res
             Definition::Solve { unknowns, matrix, right } => {
                 let rows = matrix.iter().zip(right).map(|(row, right)| {
                     let mut row = pass.evaluate(row)?;
-                    row.extend(pass.evaluate(&[*right])?);
+                    row.push(pass.evaluate_one(*right)?);
                     Ok(row)
                 });
                 let echelon = Echelon::of(rows.collect::<Result<Vec<_>, Defect>>()?);

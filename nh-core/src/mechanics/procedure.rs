@@ -8,7 +8,7 @@ use rustc_hash::FxHashMap;
 ///
 /// Intermediate results are barriers: the algebra does not merge what is inside with what is
 /// outside, so that the order of the arithmetic of a factorisation is the one written down.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Definition {
     /// `symbol = value`.
     Value {
@@ -73,6 +73,12 @@ impl Solved {
 }
 
 impl Procedure {
+    /// Whether this is the same function in the same steps.
+    #[must_use]
+    pub(crate) fn computes_alike(&self, other: &Self) -> bool {
+        self.outputs == other.outputs && self.definitions == other.definitions
+    }
+
     /// A function without intermediate results.
     #[must_use]
     pub fn of(outputs: Vec<ExprId>) -> Self {

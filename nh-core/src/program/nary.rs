@@ -207,9 +207,25 @@ impl Arena {
                     list.extend(matrix.iter().flatten().chain(right));
                 }
             },
-            Nary::Sum(operands) => list.extend(operands.iter().map(|(operand, _)| *operand)),
-            Nary::Product(factors) => list.extend(factors.iter().map(|(base, _)| *base)),
-            Nary::Quotient(a, b) | Nary::Apply2(_, a, b) => list.extend([*a, *b]),
+            // plain loops: every pass over the terms asks for their operands
+            Nary::Sum(operands) => {
+                let (operands, mut place): (&[(Term, bool)], usize) = (operands, 0);
+                while place < operands.len() {
+                    list.push(operands[place].0);
+                    place += 1;
+                }
+            }
+            Nary::Product(factors) => {
+                let (factors, mut place): (&[(Term, i32)], usize) = (factors, 0);
+                while place < factors.len() {
+                    list.push(factors[place].0);
+                    place += 1;
+                }
+            }
+            Nary::Quotient(a, b) | Nary::Apply2(_, a, b) => {
+                list.push(*a);
+                list.push(*b);
+            }
             Nary::Power(a, _)
             | Nary::Neg(a)
             | Nary::Recip(a)
@@ -222,38 +238,51 @@ impl Arena {
 
     /// Which terms the outputs depend on, and by how many others (or outputs) each is used.
     pub(super) fn uses(&self) -> Vec<u32> {
-        let mut uses = vec![0; self.len()];
+        let mut counts: Vec<u32> = vec![0; self.len()];
+        let uses: &mut [u32] = &mut counts;
         // every use once; what a term depends on is listed at its first
         let mut open: Vec<Term> = Vec::with_capacity(self.len());
         open.extend(&self.outputs);
+        let mut terms = 0;
         while let Some(term) = open.pop() {
             uses[term.index()] += 1;
             if uses[term.index()] == 1 {
-                limits::spend(1);
+                terms += 1;
                 self.dependencies(term, &mut open);
             }
         }
-        uses
+        limits::spend(terms);
+        counts
     }
 
     /// `roots` and the terms that they depend on, each after its operands.
     pub(super) fn operands_first(&self, roots: &[Term]) -> Vec<Term> {
         let mut seen = vec![false; self.len()];
+        let seen: &mut [bool] = &mut seen;
         let mut order = Vec::with_capacity(self.len());
         let mut operands = Vec::new();
         let mut open: Vec<(Term, bool)> = Vec::with_capacity(self.len());
         open.extend(roots.iter().rev().map(|term| (*term, false)));
+        let mut steps = 0;
         while let Some((term, ready)) = open.pop() {
             if ready {
                 order.push(term);
-            } else if !std::mem::replace(&mut seen[term.index()], true) {
+            } else if !seen[term.index()] {
+                seen[term.index()] = true;
                 open.push((term, true));
                 operands.clear();
                 self.dependencies(term, &mut operands);
-                limits::spend(1 + operands.len() / 2);
-                open.extend(operands.iter().rev().map(|operand| (*operand, false)));
+                let (operands, mut place): (&[Term], usize) = (&operands, operands.len());
+                steps += 1 + place / 2;
+                while place > 0 {
+                    place -= 1;
+                    if !seen[operands[place].index()] {
+                        open.push((operands[place], false));
+                    }
+                }
             }
         }
+        limits::spend(steps);
         order
     }
 
