@@ -2,12 +2,11 @@
 //!
 //! Nothing is proved yet. Positions in the declaration are opaque [`Origin`]s.
 
-mod body;
 mod impact;
 mod position;
 mod request;
 
-pub use body::{Attitude, Body, Inertia};
+pub use crate::mechanics::{Attitude, Body, Inertia, Turn};
 pub use impact::{ImpactDecl, ImpactRowDecl};
 pub use position::PositionDecl;
 pub use request::Request;
@@ -119,6 +118,7 @@ impl Model {
         let graph = &mut self.graph;
         let mut rewrite = |value: &mut ExprId| *value = graph.assuming(&[*value], facts)[0];
         rewrite(&mut self.lagrangian.value);
+        self.bodies.iter_mut().for_each(|body| rewrite(&mut body.energy));
         self.positions.iter_mut().for_each(|position| rewrite(&mut position.value));
         self.constraints.iter_mut().for_each(|constraint| rewrite(&mut constraint.residual));
         for impact in &mut self.impacts {

@@ -15,6 +15,7 @@ use crate::id::ExprId;
 use crate::mechanics::{
     Definiteness, Definition, Procedure, ReducedEquations, definiteness, reduced_equations, solve_symmetric,
 };
+use crate::model::Body;
 
 /// What forms are proved against: (8), with the velocities that `kept` leaves.
 pub(super) fn reference(
@@ -67,7 +68,15 @@ pub(super) fn candidates(
     // some forms solve the constraints anew, and know nothing of levels
     let residuals = proved.levels.is_empty().then_some(proved.constraints.residuals.as_slice());
     let size = graph.operation_count(&[system.lagrangian]);
-    let setting = Setting { system, distribution: kept, chained: chained.as_ref(), residuals, size };
+    let mut bodies: Vec<Body> = Vec::with_capacity(proved.model.bodies.len());
+    for body in &proved.model.bodies {
+        let body = Body { energy: proved.motion.rates.apply(graph, body.energy), ..body.clone() };
+        if bodies.iter().all(|known| Body { origin: known.origin, ..body.clone() } != *known) {
+            bodies.push(body);
+        }
+    }
+    let setting =
+        Setting { system, bodies: &bodies, distribution: kept, chained: chained.as_ref(), residuals, size };
     let mut found = Candidates::default();
     let mut most = if is_orthonormal { Count::TOO_MANY } else { Count::new(sizes::EXPANDED) };
     for form in registry.forms() {

@@ -11,6 +11,7 @@ mod by_parts;
 mod by_velocities;
 mod expanded;
 mod from_the_tips;
+mod in_body_axes;
 mod on_wheels;
 
 use crate::algebra::{Graph, Matrix};
@@ -18,6 +19,7 @@ use crate::count::Count;
 use crate::geometry::ConstraintDistribution;
 use crate::id::ExprId;
 use crate::mechanics::{Definiteness, LagrangianSystem, Procedure, ReducedEquations, SaddleEquations};
+use crate::model::Body;
 use std::fmt;
 
 /// What a form is derived from.
@@ -25,6 +27,8 @@ use std::fmt;
 pub struct Setting<'s> {
     /// L, ρ, C and Υ.
     pub system: &'s LagrangianSystem,
+    /// The bodies that are declared, with their kinetic energies in quasi-velocities.
+    pub bodies: &'s [Body],
     /// D, on the levels of momenta that are declared.
     pub distribution: &'s ConstraintDistribution,
     /// The same with the dependent velocities one after the other; `None` in a basis that is orthonormal.
@@ -102,6 +106,8 @@ impl Registry {
                 &along_chain::AlongChain,
                 &on_wheels::OnWheels,
                 &from_the_tips::FromTheTips,
+                &in_body_axes::JointByJoint,
+                &in_body_axes::ByCompositeBodies,
                 &by_parts::ByParts,
                 &by_velocities::ByVelocities,
                 Self::plain(),

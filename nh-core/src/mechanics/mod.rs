@@ -2,6 +2,7 @@
 
 mod adapted;
 mod articulated;
+mod body;
 mod complete_lift;
 mod cyclic;
 mod definiteness;
@@ -16,6 +17,7 @@ mod free_plane;
 mod gibbs_appell;
 mod hamiltonian;
 mod jacobian;
+mod joints;
 mod kinetic_metric;
 mod ldl;
 mod lone_constraint;
@@ -38,6 +40,7 @@ mod wheel_frames;
 
 pub use adapted::{ReducedEquations, equations_by_momenta, reaction_forces, reduced_equations};
 pub use articulated::accelerations_from_the_tips;
+pub use body::{Attitude, Body, Inertia, Turn};
 pub use complete_lift::complete_lift;
 pub use cyclic::{cyclic_coordinates, translation, translations};
 pub use definiteness::{DefiniteSets, definiteness, keeps_its_sign};
@@ -48,6 +51,7 @@ pub use flow::Flow;
 pub use gibbs_appell::GibbsAppell;
 pub use hamiltonian::{Drift, HamiltonianSide, NoInverse, NonholonomicBracket, hamiltonian_side};
 pub use jacobian::{NotDifferentiable, derivative_along, divergence, jacobian};
+pub use joints::{Elimination, accelerations_of_joints};
 pub use kinetic_metric::kinetic_metric;
 pub use momentum::Momentum;
 pub use moving_energy::moving_energy_section;

@@ -2,7 +2,7 @@
 
 use nonholonomic_core::algebra::Rational;
 use nonholonomic_core::id::ExprId;
-use nonholonomic_core::model::{Attitude, Body, Inertia};
+use nonholonomic_core::model::{Attitude, Body, Inertia, Turn};
 
 use super::array::{Array, Shape};
 use super::reports::Outcome;
@@ -62,14 +62,16 @@ impl Resolver {
             ));
         }
         let origin = self.origin(expr.extent);
+        let energy = self.of_translation(expr, mass, p)?;
         self.bodies.push(Body {
             mass,
             inertia: Inertia::None,
             position: p.entries.clone(),
             attitude: Attitude::None,
+            energy,
             origin,
         });
-        Ok(Array::number(self.of_translation(expr, mass, p)?))
+        Ok(Array::number(energy))
     }
 
     /// `kinetic(m, I, p, R)` = m/2 ṗ² + ωᵀIω/2 with ω in the axes of the body, mathematics (33).
@@ -125,11 +127,18 @@ impl Resolver {
         let attitude = if r.shape == Shape::Number {
             Attitude::Angle(r.entries[0])
         } else {
-            Attitude::Matrix(r.entries.clone())
+            Attitude::Turns(self.turns_of(r))
         };
-        self.bodies.push(Body { mass, inertia, position: p.entries.clone(), attitude, origin });
-        let sum = self.sum_of(expr, vec![(Rational::ONE, along), (Rational::new(1, 2), turning)])?;
-        Ok(Array::number(sum))
+        let energy = self.sum_of(expr, vec![(Rational::ONE, along), (Rational::new(1, 2), turning)])?;
+        self.bodies.push(Body { mass, inertia, position: p.entries.clone(), attitude, energy, origin });
+        Ok(Array::number(energy))
+    }
+
+    /// The rotations that an attitude is the product of.
+    fn turns_of(&self, attitude: &Array) -> Vec<Turn> {
+        let known = self.rotations.known.get(&attitude.entries);
+        let claimed = || vec![Turn { matrix: attitude.entries.clone(), about: None }];
+        known.map_or_else(claimed, |turns| turns.to_vec())
     }
 
     /// m/2 ṗ²

@@ -8,14 +8,13 @@ use std::rc::Rc;
 
 use nonholonomic_core::algebra::{Function, Rational};
 use nonholonomic_core::id::{ExprId, SymbolId};
-use nonholonomic_core::model::Claimed;
+use nonholonomic_core::model::{Claimed, Turn};
 
 use super::alike::Measured;
 use super::array::{Array, Shape};
 use super::context::Usage;
 use super::reports::Outcome;
 use super::resolver::Resolver;
-use super::turns::Turn;
 use crate::report::Diagnostic;
 use crate::syntax::ast::Expr;
 

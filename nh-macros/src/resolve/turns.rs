@@ -5,17 +5,9 @@ use std::rc::Rc;
 
 use nonholonomic_core::algebra::Graph;
 use nonholonomic_core::id::ExprId;
+use nonholonomic_core::model::Turn;
 
 use super::array::{Array, Shape};
-
-/// A factor of an attitude.
-#[derive(Clone, Debug)]
-pub(super) struct Turn {
-    /// Its matrix.
-    pub(super) matrix: Vec<ExprId>,
-    /// The axis, of length 1, and the angle, unless it is a matrix that is only claimed to be a rotation.
-    pub(super) about: Option<(Vec<ExprId>, ExprId)>,
-}
 
 /// Matrices that are known to be products of rotations about axes.
 #[derive(Debug, Default)]

@@ -5,6 +5,7 @@ mod bundles;
 mod chains;
 mod expressions;
 mod requests;
+mod spatial_arms;
 
 use crate::{Declaration, declarations};
 
@@ -32,7 +33,7 @@ impl Family {
 
 /// Every family.
 pub fn families() -> impl Iterator<Item = Family> {
-    [expressions::FAMILIES, bundles::FAMILIES, chains::FAMILIES, requests::FAMILIES]
+    [expressions::FAMILIES, bundles::FAMILIES, chains::FAMILIES, spatial_arms::FAMILIES, requests::FAMILIES]
         .into_iter()
         .flatten()
         .copied()

@@ -11,6 +11,7 @@ mod cross_checks;
 mod from_the_tips;
 mod fuzz;
 mod hostile_sizes;
+mod in_body_axes;
 mod irrational;
 mod machine_errors;
 mod machine_words;

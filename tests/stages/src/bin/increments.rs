@@ -1,4 +1,5 @@
-//! What a further link of an arm costs: a table of the operations of the derivative of arms and pendulums.
+//! What a further link of an arm costs: a table of the operations of the derivative of arms and pendulums, with `--space`
+//! of arms in space.
 
 use nh_stages::families;
 use nonholonomic_core::program::{Cost, schedule_grouping};
@@ -11,8 +12,8 @@ fn operations(family: &str, links: usize) -> Result<usize, String> {
     Ok(Cost::of(&schedule_grouping(&system.model.graph, &system.derivative, &parameters)).operations())
 }
 
-/// The families, in the order of the columns.
-const FAMILIES: [&str; 6] = [
+/// The families in the plane, in the order of the columns.
+const IN_THE_PLANE: [&str; 6] = [
     "arm on two wheels",
     "arm on a skate",
     "arm in a vertical plane",
@@ -21,16 +22,32 @@ const FAMILIES: [&str; 6] = [
     "pendulum, relative angles",
 ];
 
+/// Those in space.
+const IN_SPACE: [&str; 5] = [
+    "arm in space",
+    "arm in space, parallel axes",
+    "arm in space, skew axes",
+    "fast arm in space, on wheels",
+    "fast arm in space, afloat",
+];
+
 fn main() -> Result<(), String> {
+    if std::env::args().any(|argument| argument == "--space") {
+        return table(&IN_SPACE, 12);
+    }
+    table(&IN_THE_PLANE, 20)
+}
+
+fn table(families: &[&str], most: usize) -> Result<(), String> {
     println!(
         "| links | {} |\n|--:|{}",
-        FAMILIES.join(" | more | ") + " | more",
-        "--:|--:|".repeat(FAMILIES.len())
+        families.join(" | more | ") + " | more",
+        "--:|--:|".repeat(families.len())
     );
-    let mut before = [None; FAMILIES.len()];
-    for links in 2..=20 {
+    let mut before = vec![None; families.len()];
+    for links in 2..=most {
         print!("| {links} |");
-        for (family, before) in FAMILIES.into_iter().zip(&mut before) {
+        for (family, before) in families.iter().zip(&mut before) {
             let now = operations(family, links)?.cast_signed();
             let more = before.replace(now).map_or(String::new(), |before| format!("{:+}", now - before));
             print!(" {now} | {more} |");

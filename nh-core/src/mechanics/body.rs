@@ -13,6 +13,8 @@ pub struct Body {
     pub position: Vec<ExprId>,
     /// How the axes of the body lie in space.
     pub attitude: Attitude,
+    /// Its kinetic energy, as it occurs in the Lagrangian.
+    pub energy: ExprId,
     /// Where it is declared.
     pub origin: Origin,
 }
@@ -37,6 +39,15 @@ pub enum Attitude {
     None,
     /// In the plane.
     Angle(ExprId),
-    /// From the axes of the body to those of space, row by row.
-    Matrix(Vec<ExprId>),
+    /// In space, as a product of rotations.
+    Turns(Vec<Turn>),
+}
+
+/// A factor of an attitude.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Turn {
+    /// From the axes behind it to those before it, row by row.
+    pub matrix: Vec<ExprId>,
+    /// The axis, of length 1, and the angle, unless it is a matrix that is only claimed to be a rotation.
+    pub about: Option<(Vec<ExprId>, ExprId)>,
 }
