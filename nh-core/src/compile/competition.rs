@@ -1,6 +1,7 @@
 //! The forms of the equations on D: derived, shown, compared and proved.
 
 use super::cancellation::without_needless_cancellation;
+use super::common_turn::counted_from_an_angle;
 use super::given::given;
 use super::levels::again;
 use super::proved::Proved;
@@ -175,7 +176,14 @@ pub(super) fn proved_derivative(
             without_needless_cancellation(graph, procedure.clone(), fixed)
         };
         match admitted(graph, (reference, Some(&regular)), &entries, finish, decision) {
-            Ok(procedure) => return Some(procedure),
+            Ok(procedure) => {
+                let admit = |graph: &mut Graph, procedure: &Procedure| {
+                    let fate = fate(prove(graph, reference, &Claim::Motion(procedure)));
+                    regular.added(graph, procedure).map_or(fate, |divisor| Fate::adds(graph, divisor))
+                };
+                let judged = (admit, &mut proved.ledger.decisions);
+                return Some(counted_from_an_angle(graph, &procedure, fixed, judged).unwrap_or(procedure));
+            }
             // no limit, and no comparison, is by a form that is wrong
             Err(refused) => {
                 left.retain(|candidate| Some(candidate.form.name()) != refused);

@@ -4,6 +4,7 @@ mod adapted_functions;
 mod analytic;
 mod assembly;
 mod cancellation;
+mod common_turn;
 mod competition;
 mod completion;
 mod connection_functions;

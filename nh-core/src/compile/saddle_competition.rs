@@ -1,6 +1,7 @@
 //! The ways to solve the equations with multipliers: derived, compared and proved.
 
 use super::cancellation::without_needless_cancellation;
+use super::common_turn::counted_from_an_angle;
 use super::proved::{Proved, nothing_proved};
 use super::velocities_of_state::requested;
 use crate::algebra::{Graph, Matrix};
@@ -114,9 +115,11 @@ pub(super) fn proved_solution(
             let fate = fate_of(prove(graph, reference, &Claim::Motion(derivative)));
             without_conditions(graph, regular, fate, &[derivative])
         };
-        let better = better(graph, (entries, fate), (finish, admit_motion), &mut decision);
+        let better = better(graph, (entries, fate), (finish, &admit_motion), &mut decision);
         proved.ledger.decisions.push(decision);
         let derivative = better.unwrap_or_else(|| own.clone());
+        let judged = (admit_motion, &mut proved.ledger.decisions);
+        let derivative = counted_from_an_angle(graph, &derivative, fixed, judged).unwrap_or(derivative);
         return Ok(Solved { derivative, regular: own, multipliers, reactions });
     }
     proved.ledger.decisions.push(decision);

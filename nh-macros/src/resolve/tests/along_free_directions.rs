@@ -7,6 +7,7 @@ use nonholonomic_core::compile::{compile, compile_with};
 use nonholonomic_core::forms::{Judge, Registry, Solution};
 use nonholonomic_core::id::ExprId;
 use nonholonomic_core::mechanics::{Definition, Procedure, SaddleEquations};
+use nonholonomic_core::program::{Cost, schedule};
 use nonholonomic_core::system::System;
 
 use super::{derivative_of, fates, model};
@@ -66,6 +67,16 @@ fn loops_are_solved_along_them() {
         }
     }
     assert!(chosen >= 2, "{chosen} of 3");
+}
+
+/// Links without weight turn together without a change, so that their angles are counted from one of them.
+#[test]
+fn loops_take_a_sine_and_a_cosine_less_than_they_have_angles() {
+    for (declared, item) in &LOOPS[1..] {
+        let system = compile(model(declared, item)).expect("regular");
+        let program = schedule(&system.model.graph, &system.derivative);
+        assert_eq!(Cost::of(&program).sin_cos, system.state_coordinates.len() - 1, "{}", system.ledger);
+    }
 }
 
 /// The solution with one of its steps changed.
