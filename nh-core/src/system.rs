@@ -30,8 +30,8 @@ pub struct System {
     pub gyroscopic: Vec<SymbolId>,
     /// The coordinates that are left to quadratures, since nothing depends on them.
     pub quadratures: Vec<SymbolId>,
-    /// Outputs: ∂derivative/∂(state, input) row by row; if asked for.
-    pub jacobian: Option<Procedure>,
+    /// Outputs: the derivative, then ∂derivative/∂(state, input) row by row, in one; if asked for.
+    pub linearized: Option<Procedure>,
     /// Products of that Jacobian with vectors, as far as they are asked for.
     pub products: Vec<VectorProduct>,
     /// The way back to the constraint manifold; in the projected formulation.
@@ -61,6 +61,14 @@ impl System {
     #[must_use]
     pub fn state(&self) -> Vec<SymbolId> {
         [self.state_coordinates.as_slice(), &self.state_velocities, &self.state_auxiliary].concat()
+    }
+
+    /// ∂derivative/∂(state, input) row by row; if asked for.
+    #[must_use]
+    pub fn jacobian(&self) -> Option<Procedure> {
+        let linearized = self.linearized.as_ref()?;
+        let rows = linearized.outputs.get(self.derivative.outputs.len()..)?;
+        Some(linearized.with_outputs(rows.to_vec()))
     }
 
     /// The numbers that the shapes of its functions are made of.

@@ -245,8 +245,8 @@ pub trait Jacobian: Dynamics {
         input: &Self::Input,
     ) -> RowsByInput<Self>;
 
-    /// f, A and B at once. Generated code computes all of them in one function, where what they share is computed
-    /// once.
+    /// f, A and B at once. Generated code computes all of them in one program, where what they share is computed
+    /// once; they are then those of the other functions up to rounding.
     ///
     /// ```
     /// use nonholonomic::prelude::*;

@@ -182,6 +182,13 @@ where
         let (a, b) = dual.jacobian(system, &state, &input);
         let by_state = system.state_jacobian(T, &state, &input);
         let by_input = system.input_jacobian(T, &state, &input);
+        // all in one program, whose bits are its own
+        let (rates, of_state, of_input) = system.linearized(T, &state, &input);
+        for (found, expected) in
+            rates.to_array().as_ref().iter().zip(system.derivative(T, &state, &input).to_array().as_ref())
+        {
+            assert!((found - expected).abs() <= 1e-12 * expected.abs().max(1.0), "{found} is not {expected}");
+        }
         for column in 0..n + m {
             let seeded = |(index, value): (usize, &f64)| {
                 let slope = if index == column { 1.0 } else { 0.0 };
@@ -192,10 +199,18 @@ where
             let scale = slopes.iter().fold(1.0_f64, |scale, s| scale.max(s.slope.abs()));
             for (row, expected) in slopes.iter().enumerate() {
                 let found = if column < n {
-                    [a[row * n + column], by_state.as_ref()[row].as_ref()[column]]
+                    [
+                        a[row * n + column],
+                        by_state.as_ref()[row].as_ref()[column],
+                        of_state.as_ref()[row].as_ref()[column],
+                    ]
                 } else {
                     let column = column - n;
-                    [b[row * m + column], by_input.as_ref()[row].as_ref()[column]]
+                    [
+                        b[row * m + column],
+                        by_input.as_ref()[row].as_ref()[column],
+                        of_input.as_ref()[row].as_ref()[column],
+                    ]
                 };
                 for found in found {
                     let error = (found - expected.slope).abs();

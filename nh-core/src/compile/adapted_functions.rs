@@ -3,7 +3,7 @@
 use super::competition::{candidates, plain, plain_derivative, proved_derivative, reference, show_proved};
 use super::completion::{Derivation, complete};
 use super::constraint_forces::constraint_forces;
-use super::differentiated::{requested_jacobian, requested_output_jacobian, requested_parameter_jacobian};
+use super::differentiated::{requested_linearized, requested_output_jacobian, requested_parameter_jacobian};
 use super::gibbs_appell_function;
 use super::given;
 use super::gyroscopic;
@@ -69,7 +69,7 @@ pub(super) fn derive(
     let work = work_of_constraints(&mut proved, distribution.constraints.annihilator.len());
     let (multipliers, reactions) =
         constraint_forces(&mut proved, &reference, (kept, &equations), &derivative, &work)?;
-    let jacobian = requested_jacobian(&mut proved, &derivative, &kept.independent)?;
+    let linearized = requested_linearized(&mut proved, &derivative, &kept.independent)?;
     let (momenta, mut functions) = momenta(&mut proved, &mut restriction, &derivative, &kept.independent);
     functions.add_if(&PARAMETER_JACOBIAN, requested_parameter_jacobian(&mut proved, &derivative)?);
     let (gyroscopic, force) = gyroscopic::derive(&mut proved, Some(distribution))?;
@@ -97,7 +97,7 @@ pub(super) fn derive(
     functions.add_if(&POWER, power);
     functions.add_if(&OUTPUT_JACOBIAN, output_jacobian);
     functions.add_if(&RESIDUAL, positions.as_ref().map(|positions| positions.residual.clone()));
-    let parts = Parts { jacobian, functions, momenta, gyroscopic, positions, impacts, ..Parts::default() };
+    let parts = Parts { linearized, functions, momenta, gyroscopic, positions, impacts, ..Parts::default() };
     let derivation = Derivation {
         derived: Derived::Adapted { distribution, kept, equations: &equations },
         reason,

@@ -3,7 +3,7 @@
 use super::proved::Proved;
 use crate::algebra::Graph;
 use crate::choose::{Contender, Decision, Fate, ranking, rate, sizes};
-use crate::id::{Origin, SymbolId};
+use crate::id::{ExprId, Origin, SymbolId};
 use crate::mechanics::{Definition, NotDifferentiable, Procedure, jacobian};
 use crate::model::{Model, Request};
 use crate::program::{Systems, Wanted, accumulated};
@@ -17,11 +17,12 @@ pub(super) const BY_RESIDUALS: &str = "differentiated step by step, with the fac
 /// The fate of the winner until it is proved.
 const UNPROVED: Fate = Fate::Lost("it could not be proved");
 
-/// ∂derivative/∂(coordinates, velocities of the state, auxiliary states, inputs), if the declaration asks for it.
+/// The derivative, then ∂derivative/∂(coordinates, velocities of the state, auxiliary states, inputs), if the
+/// declaration asks for it.
 ///
 /// # Errors
 /// Where the derivative of a method of the user's is missing.
-pub(super) fn requested_jacobian(
+pub(super) fn requested_linearized(
     proved: &mut Proved,
     derivative: &Procedure,
     velocities: &[SymbolId],
@@ -34,7 +35,12 @@ pub(super) fn requested_jacobian(
     };
     let word = if request == Request::Jacobian { "jacobian" } else { "sparse_jacobian" };
     let arguments = state_and_inputs(model, velocities);
-    differentiated(proved, (derivative, "jacobian"), &arguments, (origin, "a force", word))
+    differentiated(
+        proved,
+        (derivative, "jacobian", Wanted::Linearized),
+        &arguments,
+        (origin, "a force", word),
+    )
 }
 
 /// ∂outputs/∂(coordinates, velocities of the state, auxiliary states, inputs), if the declaration asks for it.
@@ -60,7 +66,7 @@ pub(super) fn requested_output_jacobian(
     }
     let arguments = state_and_inputs(model, velocities);
     let asked = (origin, "an output", "output_jacobian");
-    differentiated(proved, (observables, "output_jacobian"), &arguments, asked)
+    differentiated(proved, (observables, "output_jacobian", Wanted::Jacobian), &arguments, asked)
 }
 
 /// The variables of the state, then the inputs.
@@ -98,17 +104,17 @@ pub(super) fn requested_parameter_jacobian(
     }
     let arguments: Vec<SymbolId> = model.parameters.iter().map(|parameter| parameter.symbol).collect();
     let asked = (origin, "a force", "parameter_jacobian");
-    differentiated(proved, (derivative, "parameter_jacobian"), &arguments, asked)
+    differentiated(proved, (derivative, "parameter_jacobian", Wanted::Jacobian), &arguments, asked)
 }
 
 /// The derivatives of a function by its arguments: `word` asks for them.
 fn differentiated(
     proved: &mut Proved,
-    (function, site): (&Procedure, &'static str),
+    (function, site, wanted): (&Procedure, &'static str, Wanted),
     arguments: &[SymbolId],
     (origin, what, word): (Origin, &str, &str),
 ) -> Result<Option<Procedure>, Vec<Violation>> {
-    match cheapest_jacobian(&mut proved.model, function, arguments, site) {
+    match cheapest_jacobian(&mut proved.model, (function, wanted), arguments, site) {
         Ok((found, decision)) => {
             proved.ledger.decisions.push(decision);
             Ok(Some(found))
@@ -127,14 +133,14 @@ fn differentiated(
     }
 }
 
-/// The derivatives of all outputs by all `arguments`, row by row; the decision is left in the ledger's form, to be
-/// completed by the proof.
+/// The derivatives of all outputs by all `arguments`, row by row, with the outputs before them or without: the way is the
+/// same. The decision is left in the ledger's form, to be completed by the proof.
 ///
 /// # Errors
 /// Where an output depends on an argument through a method of the user's whose derivative is missing.
 fn cheapest_jacobian(
     model: &mut Model,
-    procedure: &Procedure,
+    (procedure, wanted): (&Procedure, Wanted),
     arguments: &[SymbolId],
     site: &'static str,
 ) -> Result<(Procedure, Decision), NotDifferentiable> {
@@ -148,21 +154,30 @@ fn cheapest_jacobian(
         if size > sizes::DIFFERENTIATED_ONCE && !ways.is_empty() {
             continue;
         }
-        if let Some(found) =
-            accumulated(graph, procedure, (arguments, &parameters), systems, Wanted::Jacobian)?
-        {
+        if let Some(found) = accumulated(graph, procedure, (arguments, &parameters), systems, wanted)? {
             ways.push((name, found));
         }
     }
     if size <= sizes::DIFFERENTIATED_AS_EXPRESSIONS || ways.is_empty() {
-        ways.push((BY_EXPRESSIONS, jacobian(graph, procedure, arguments)?));
+        let mut found = jacobian(graph, procedure, arguments)?;
+        if let Wanted::Linearized = wanted {
+            found.outputs.splice(0..0, procedure.outputs.iter().copied());
+        }
+        ways.push((BY_EXPRESSIONS, found));
     } else {
         let most = sizes::DIFFERENTIATED_AS_EXPRESSIONS;
         decision
             .limits
             .push(format!("{BY_EXPRESSIONS}: the function has {size} operations, more than {most}"));
     }
-    let (found, favoured) = favourite(graph, ways, site);
+    let outputs = if let Wanted::Linearized = wanted { procedure.outputs.len() } else { 0 };
+    let values: Vec<Vec<ExprId>> =
+        ways.iter_mut().map(|(_, way)| way.outputs.drain(..outputs).collect()).collect();
+    let names: Vec<&str> = ways.iter().map(|(name, _)| *name).collect();
+    let (mut found, favoured) = favourite(graph, ways, site);
+    let best = favoured.contenders.first().map(|contender| contender.form);
+    let values = names.into_iter().zip(values).find(|(name, _)| Some(*name) == best);
+    found.outputs.splice(0..0, values.map(|(_, values)| values).unwrap_or_default());
     decision.contenders = favoured.contenders;
     Ok((found, decision))
 }

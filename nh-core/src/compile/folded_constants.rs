@@ -16,7 +16,7 @@ pub(super) fn in_numbers(system: &mut System) {
         return;
     }
     let functions = system.functions.iter_mut().map(|function| &mut function.procedure);
-    for function in [&mut system.derivative].into_iter().chain(&mut system.jacobian).chain(functions) {
+    for function in [&mut system.derivative].into_iter().chain(&mut system.linearized).chain(functions) {
         if function.length(graph) <= SHORT {
             system.ledger.decisions.extend(shorten(graph, function));
         }

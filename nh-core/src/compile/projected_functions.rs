@@ -1,7 +1,7 @@
 //! The functions of a system in the projected formulation.
 
 use super::completion::{Derivation, complete};
-use super::differentiated::{requested_jacobian, requested_output_jacobian, requested_parameter_jacobian};
+use super::differentiated::{requested_linearized, requested_output_jacobian, requested_parameter_jacobian};
 use super::gibbs_appell_function;
 use super::given;
 use super::gyroscopic;
@@ -79,7 +79,7 @@ pub(super) fn derive(
         fence(check::claims(&mut proved.model, &claims, flow, &manifold))?;
     }
     about(Subject::Requests);
-    let jacobian = requested_jacobian(&mut proved, &derivative, &velocities)?;
+    let linearized = requested_linearized(&mut proved, &derivative, &velocities)?;
     let (momenta, mut functions) = momenta(&mut proved, &mut everywhere, &derivative, &velocities);
     functions.add_if(&PARAMETER_JACOBIAN, requested_parameter_jacobian(&mut proved, &derivative)?);
     let (gyroscopic, force) = gyroscopic::derive(&mut proved, None)?;
@@ -111,7 +111,7 @@ pub(super) fn derive(
     functions.add(&RESIDUAL, Procedure::of(on_positions.chain(all_residuals.iter().copied()).collect()));
     let projection = Some(back);
     let parts = Parts {
-        jacobian,
+        linearized,
         functions,
         momenta,
         gyroscopic,

@@ -149,9 +149,10 @@ pub(super) fn restrict(system: &mut System, whole: &[SymbolId], needed: &BTreeSe
         function.keep_rows(whole.len(), is_kept);
     }
     let width = whole.len() + system.model.inputs.len();
-    if let Some(jacobian) = &mut system.jacobian {
-        let kept = jacobian.outputs.chunks(width.max(1)).enumerate().filter(|(row, _)| is_kept(*row));
-        jacobian.outputs = kept.flat_map(|(_, row)| rows(row)).collect();
+    if let Some(linearized) = &mut system.linearized {
+        let (rates, matrix) = linearized.outputs.split_at(whole.len().min(linearized.outputs.len()));
+        let kept = matrix.chunks(width.max(1)).enumerate().filter(|(row, _)| is_kept(*row));
+        linearized.outputs = rows(rates).into_iter().chain(kept.flat_map(|(_, row)| rows(row))).collect();
     }
     if let Some(invariants) = &mut system.phase_space.invariants {
         let rows_of = invariants.gradients.outputs.chunks(whole.len().max(1));

@@ -22,7 +22,7 @@ pub(super) fn without_strangers(mut system: System) -> Result<System, Vec<Violat
         state.into_iter().chain(parameters).chain(inputs).chain([model.time]).collect();
     known.extend(system.projection.iter().flat_map(|projection| &projection.start));
     let mut functions: Vec<(&str, &mut Procedure)> = vec![("derivative", &mut system.derivative)];
-    functions.extend(system.jacobian.as_mut().map(|jacobian| ("jacobian", jacobian)));
+    functions.extend(system.linearized.as_mut().map(|linearized| ("jacobian", linearized)));
     let listed = system.functions.iter_mut();
     functions.extend(listed.map(|function| (function.signature.name, &mut function.procedure)));
     if let Some(projection) = &mut system.projection {

@@ -29,6 +29,8 @@ pub enum Systems {
 pub enum Wanted<'w> {
     /// ∂output/∂argument, row by row: one row for each output.
     Jacobian,
+    /// The outputs, then the same.
+    Linearized,
     /// The derivatives of the outputs along the direction with these components.
     AlongDirection(&'w [SymbolId]),
     /// The derivatives by the arguments of the sum of the outputs with these weights.
@@ -58,7 +60,7 @@ pub fn accumulated(
     let rows = procedure.outputs.len();
     let mut accumulation = Accumulation::of(graph, tape, arguments, (&opened.systems, rows))?;
     let (rows, columns) = match wanted {
-        Wanted::Jacobian => (0..rows, 0..arguments.len()),
+        Wanted::Jacobian | Wanted::Linearized => (0..rows, 0..arguments.len()),
         Wanted::AlongDirection(direction) => {
             accumulation.along(graph, direction);
             (0..rows, 0..1)
@@ -74,8 +76,13 @@ pub fn accumulated(
     if !matches!(wanted, Wanted::OfWeightedSum(_)) {
         opened.systems.iter().for_each(|system| accumulation.push_forward(graph, system, columns.clone()));
     }
+    let values = match wanted {
+        Wanted::Linearized => accumulation.tape.outputs(&rows).unwrap_or_default(),
+        _ => Vec::new(),
+    };
     let places = rows.flat_map(|row| columns.clone().map(move |column| (row, column)));
-    let outputs = places.map(|(row, column)| accumulation.entry(graph, row, column)).collect();
+    let entries = places.map(|(row, column)| accumulation.entry(graph, row, column));
+    let outputs = values.into_iter().chain(entries).collect();
     Ok(Some(accumulation.tape.procedure.with_outputs(outputs)))
 }
 

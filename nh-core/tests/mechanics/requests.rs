@@ -26,7 +26,7 @@ fn jacobians_agree_with_differences() {
         let system = compiled(model);
         let graph = &system.model.graph;
         let derivative = schedule(graph, &system.derivative);
-        let jacobian = interpret(&schedule(graph, system.jacobian.as_ref().unwrap()), sample);
+        let jacobian = interpret(&schedule(graph, &system.jacobian().unwrap()), sample);
         let coordinates = system.model.coordinates.iter().map(|c| c.symbol);
         let arguments: Vec<_> = coordinates.chain(system.state_velocities.iter().copied()).collect();
         for (column, argument) in arguments.iter().enumerate() {

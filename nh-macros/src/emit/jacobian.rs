@@ -4,7 +4,6 @@ use std::collections::BTreeSet;
 use std::ops::Range;
 
 use nonholonomic_core::model::Request;
-use nonholonomic_core::program::Program;
 use nonholonomic_core::system::System;
 use proc_macro2::{Literal, TokenStream};
 use quote::quote;
@@ -12,7 +11,6 @@ use quote::quote;
 use super::infix::element;
 use super::inherent_method::{Head, Part, drops};
 use super::layout::local;
-use super::motion;
 use super::program::{Body, body};
 use super::setting::Context;
 use super::symbols::{Argument, Scope};
@@ -20,13 +18,15 @@ use super::symbols::{Argument, Scope};
 /// The inherent method `jacobian` and `impl Jacobian for Sleigh`, if they are asked for.
 ///
 /// The method computes both matrices in one program. The trait has a program of its own for each
-/// of them, so that an implicit integrator does not pay for the other, and one function with all statements of the
-/// derivative and of both, of which compilers compute once what they share; without inputs there is only one
-/// matrix, and the method forwards to it.
-pub(super) fn emit(context: &Context, scope: &Scope, system: &System, derivative: &Program) -> Part {
+/// of them, so that an implicit integrator does not pay for the other, and one for the derivative with both; without
+/// inputs there is only one matrix, and the method forwards to it.
+pub(super) fn emit(context: &Context, scope: &Scope, system: &System) -> Part {
     let is_asked = system.model.requests.iter().any(|(request, _)| *request == Request::Jacobian);
-    let Some(jacobian) = system.jacobian.as_ref().filter(|_| is_asked) else { return Part::default() };
+    let (Some(linearized), Some(jacobian), true) = (&system.linearized, system.jacobian(), is_asked) else {
+        return Part::default();
+    };
     let (n, m) = sizes(context);
+    let all = together(context, &body(context, scope, &context.lowering.program(&system.model, linearized)));
     let within = |columns: Range<usize>| {
         let row = |row: &[_]| row.get(columns.clone()).unwrap_or_default().to_vec();
         let outputs = jacobian.outputs.chunks((n + m).max(1)).flat_map(row).collect();
@@ -35,17 +35,9 @@ pub(super) fn emit(context: &Context, scope: &Scope, system: &System, derivative
     let by_state = within(0..n);
     let state_body = body(context, scope, &by_state);
     let of_state = trait_body(context, &state_body, n);
-    let (mut used, motion) = motion::statements(context, scope, derivative);
     if m == 0 {
         let methods = forwarded(context);
         let of_input = by_input_of_none(context);
-        used.extend(state_body.used.iter().copied());
-        let all = together(
-            context,
-            &used,
-            &motion,
-            [&TokenStream::new(), &quote!({ #of_state }), &quote!({ #of_input })],
-        );
         let items = implementation(context, &of_state, &of_input, &all);
         return Part { methods, items, programs: vec![("jacobian", by_state)] };
     }
@@ -64,16 +56,6 @@ pub(super) fn emit(context: &Context, scope: &Scope, system: &System, derivative
     let a = from_columns(context, n, &quote!([#(#a),*]));
     let b = from_columns(context, m, &quote!([#(#b),*]));
     let both = quote!(#statements (#a, #b));
-    let rows = |columns: Range<usize>| {
-        let rows = body.outputs.chunks(n + m).map(|row| {
-            let row = row.get(columns.clone()).unwrap_or_default().iter().map(element);
-            quote!([#(#row),*])
-        });
-        quote!([#(#rows),*])
-    };
-    let (by_state_rows, by_input_rows) = (rows(0..n), rows(n..n + m));
-    used.extend(body.used.iter().copied());
-    let all = together(context, &used, &motion, [statements, &by_state_rows, &by_input_rows]);
     let items = implementation(context, &of_state, &of_input, &all);
     Part {
         methods: head(context).with_body(context, &body.used, &both),
@@ -174,28 +156,32 @@ fn by_input_of_none(context: &Context) -> TokenStream {
     quote!(#drops [[]; #rows])
 }
 
-/// The method of the trait that computes the derivative and both matrices: the statements of the former, then those of
-/// the latter, with their rows.
-fn together(
-    context: &Context,
-    used: &BTreeSet<Argument>,
-    motion: &TokenStream,
-    [statements, by_state, by_input]: [&TokenStream; 3],
-) -> TokenStream {
+/// The method of the trait that computes the derivative and both matrices.
+fn together(context: &Context, body: &Body) -> TokenStream {
     let scalar = &context.scalar;
     let (t, state, input) = (&context.locals.t, &context.locals.state, &context.locals.input);
     let (state_type, input_type) = (context.type_of(&context.state), context.input_type());
     let (n, m) = sizes(context);
+    let (rates, matrix) = body.outputs.split_at(n.min(body.outputs.len()));
+    let name = &context.state.name;
+    let rates = context.state.construct(&quote!(#name), rates);
+    let rows = |columns: Range<usize>| {
+        let rows = matrix.chunks((n + m).max(1)).map(|row| {
+            let row = row.get(columns.clone()).unwrap_or_default().iter().map(element);
+            quote!([#(#row),*])
+        });
+        quote!([#(#rows),*])
+    };
+    let (by_state, by_input) = (rows(0..n), rows(n..n + m));
     let (n, m) = (Literal::usize_unsuffixed(n), Literal::usize_unsuffixed(m));
-    let rates = local("rates");
-    let drops = drops(context, used, true);
+    let drops = drops(context, &body.used, true);
+    let statements = &body.statements;
     quote! {
         #[inline]
         fn linearized(
             &self, #t: #scalar, #state: &#state_type, #input: &#input_type
         ) -> (#state_type, [[#scalar; #n]; #n], [[#scalar; #m]; #n]) {
             #drops
-            let #rates = { #motion };
             #statements
             (#rates, #by_state, #by_input)
         }

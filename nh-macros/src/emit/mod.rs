@@ -87,7 +87,7 @@ pub(crate) fn emit(system: &System, layout: &Layout) -> Result<TokenStream, Vec<
         .with(embedding::emit(context, scope, system))
         .with(projection::emit(context, system))
         .with(assembly::emit(context, scope, system))
-        .with(jacobian::emit(context, scope, system, &derivative))
+        .with(jacobian::emit(context, scope, system))
         .with(sparse_jacobian::emit(context, scope, system))
         .with(vector_products::emit(context, system))
         .with(linearization::emit(context, system, &derivative))

@@ -162,7 +162,7 @@ impl Builder {
             gyroscopic: Vec::new(),
             positions: None,
             projection: None,
-            jacobian: None,
+            linearized: None,
             products: Vec::new(),
             linearization: None,
             impacts: Vec::new(),

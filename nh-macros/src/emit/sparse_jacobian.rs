@@ -16,7 +16,7 @@ use super::symbols::Scope;
 /// The pattern and the method, if they are asked for.
 pub(super) fn emit(context: &Context, scope: &Scope, system: &System) -> Part {
     let is_asked = system.model.requests.iter().any(|(request, _)| *request == Request::SparseJacobian);
-    let Some(jacobian) = system.jacobian.as_ref().filter(|_| is_asked) else { return Part::default() };
+    let Some(jacobian) = system.jacobian().filter(|_| is_asked) else { return Part::default() };
     let inputs = context.input.as_ref().map_or(0, super::record::Record::len);
     let width = (context.state.len() + inputs).max(1);
     let graph = &system.model.graph;

@@ -12,7 +12,7 @@ pub(super) fn is_defined(claim: &Derived, place: &mut Place) -> Result<bool, Def
     let flow = place.flow()?;
     place.values(&place.reference.roots())?;
     match *claim {
-        Derived::Jacobian(function, _, arguments) => {
+        Derived::Jacobian(function, _, arguments) | Derived::Linearized(function, _, arguments) => {
             let pass = place.pass();
             let along = |(k, symbol): (usize, &SymbolId)| {
                 (*symbol, pass.kernel("direction", &[Residue::of_word(k as u64)]))

@@ -12,6 +12,7 @@ mod procedure_derivative;
 mod proof_of_bracket;
 mod proof_of_connection;
 mod proof_of_flow;
+mod proof_of_jacobian;
 mod proof_of_product;
 mod proof_of_splitting;
 mod real_zeros;
@@ -38,6 +39,8 @@ pub(crate) use proof_of_product::prove_product;
 pub(crate) enum Derived<'p> {
     /// The derivatives of a function by arguments, a row for each of its outputs.
     Jacobian(&'p Procedure, &'p Procedure, &'p [SymbolId]),
+    /// The values of a function, then its derivatives in the same way.
+    Linearized(&'p Procedure, &'p Procedure, &'p [SymbolId]),
     /// The derivatives of a function along the motion.
     Rates(&'p Procedure, &'p Procedure),
     /// Σ ∂f_i/∂x_i of the motion, where functions of time and place vanish.
@@ -197,7 +200,12 @@ pub(crate) type Images<'p> = &'p [(SymbolId, ExprId)];
 impl Derived<'_> {
     fn procedures(&self) -> Vec<&Procedure> {
         match *self {
-            Self::Jacobian(a, b, _) | Self::Rates(a, b) | Self::Connection(a, b) => vec![a, b],
+            Self::Jacobian(a, b, _)
+            | Self::Linearized(a, b, _)
+            | Self::Rates(a, b)
+            | Self::Connection(a, b) => {
+                vec![a, b]
+            }
             Self::Divergence(a, _)
             | Self::Density(a, _)
             | Self::Energy(a)
@@ -290,7 +298,10 @@ impl Derived<'_> {
     fn holds(&self, place: &mut Place) -> Result<bool, Defect> {
         match *self {
             Self::Jacobian(function, jacobian, arguments) => {
-                is_jacobian(place, function, jacobian, arguments)
+                proof_of_jacobian::is_jacobian(place, (function, arguments), &place.run(jacobian)?)
+            }
+            Self::Linearized(function, linearized, arguments) => {
+                proof_of_jacobian::is_linearized(place, (function, arguments), &place.run(linearized)?)
             }
             Self::Rates(function, rates) => Ok(place.slopes(function, &place.flow()?)? == place.run(rates)?),
             Self::Divergence(stored, vanishing) => {
@@ -435,23 +446,6 @@ impl Motion<'_> {
         direction.insert(self.time, Residue::ONE);
         Ok(direction)
     }
-}
-
-/// J u for some u against the derivative along it.
-fn is_jacobian(
-    place: &Place,
-    function: &Procedure,
-    jacobian: &Procedure,
-    arguments: &[SymbolId],
-) -> Result<bool, Defect> {
-    let pass = place.pass();
-    let along: Vec<Residue> =
-        (0..arguments.len()).map(|k| pass.kernel("direction", &[Residue::of_word(k as u64)])).collect();
-    let direction: Direction = arguments.iter().copied().zip(along.iter().copied()).collect();
-    let changes = place.slopes(function, &direction)?;
-    let rows = place.run(jacobian)?;
-    let rows = rows.chunks(arguments.len().max(1)).map(|row| inner(row, &along));
-    Ok(arguments.is_empty() || changes.into_iter().eq(rows))
 }
 
 impl VelocityNames<'_> {

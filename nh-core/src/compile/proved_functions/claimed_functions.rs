@@ -64,11 +64,11 @@ pub(super) fn of_motion<'d>(
     declared: &'d Declared,
     names: VelocityNames<'d>,
 ) -> Claims<'d> {
-    let Derivatives { given, parts: Parts { functions, jacobian, .. } } = found;
+    let Derivatives { given, parts: Parts { functions, linearized, .. } } = found;
     let derivative = given.derivative;
     let mut claims = Claims::new();
-    if let Some(jacobian) = jacobian {
-        claims.push(("jacobian", DerivedFunction::Jacobian(derivative, jacobian, &declared.arguments)));
+    if let Some(linearized) = linearized {
+        claims.push(("jacobian", DerivedFunction::Linearized(derivative, linearized, &declared.arguments)));
     }
     if let Some(jacobian) = functions.get(&PARAMETER_JACOBIAN) {
         let claim = DerivedFunction::Jacobian(derivative, jacobian, &declared.parameters);

@@ -42,7 +42,7 @@ pub(super) struct Given<'d> {
 /// What was derived.
 #[derive(Default)]
 pub(super) struct Parts {
-    pub(super) jacobian: Option<Procedure>,
+    pub(super) linearized: Option<Procedure>,
     pub(super) functions: Functions,
     /// The names of the momenta.
     pub(super) momenta: Vec<String>,
@@ -84,7 +84,7 @@ impl Parts {
             momenta: self.momenta,
             gyroscopic: self.gyroscopic,
             quadratures: Vec::new(),
-            jacobian: self.jacobian,
+            linearized: self.linearized,
             products: Vec::new(),
             projection: self.projection,
             positions: self.positions,
@@ -103,7 +103,7 @@ impl Parts {
         let Some(finish) = registry.finish() else { return };
         let mut finish = |name: &str, procedure: &mut Procedure| finish(graph, name, procedure);
         self.functions.iter_mut().for_each(|f| finish(f.signature.name, &mut f.procedure));
-        self.jacobian.iter_mut().for_each(|jacobian| finish("jacobian", jacobian));
+        self.linearized.iter_mut().for_each(|linearized| finish("jacobian", linearized));
         self.projection.iter_mut().for_each(|projection| finish("projection", &mut projection.step));
         self.positions.iter_mut().for_each(|positions| finish("position_return", &mut positions.step));
         self.impacts.iter_mut().for_each(|impact| finish("impact", &mut impact.jump));

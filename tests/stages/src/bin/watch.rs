@@ -11,6 +11,7 @@ use std::time::Instant;
 
 use nh_stages::{Declaration, arms, declarations, families, references, whole_record};
 use nonholonomic_core::limits::{processor_time, spent, timed, within_limits};
+use nonholonomic_core::mechanics::Procedure;
 use nonholonomic_core::program::{Cost, schedule};
 use nonholonomic_core::system::System;
 
@@ -97,7 +98,11 @@ fn explained(system: &System) -> String {
     let graph = &system.model.graph;
     let program = schedule(graph, &system.derivative);
     let cost = Cost::of(&program);
-    let jacobian = system.jacobian.as_ref().map(|jacobian| Cost::of(&schedule(graph, jacobian)));
-    let jacobian = jacobian.map_or_else(String::new, |cost| format!("Jacobian: {cost}\n"));
-    format!("Choices\n\n{}\n{jacobian}Derivative: {cost}\n\n{}", system.ledger, program.text(graph))
+    let of = |name: &str, procedure: Option<&Procedure>| {
+        let cost = procedure.map(|procedure| Cost::of(&schedule(graph, procedure)));
+        cost.map_or_else(String::new, |cost| format!("{name}: {cost}\n"))
+    };
+    let jacobian = of("Jacobian", system.jacobian().as_ref());
+    let both = of("Derivative with Jacobian", system.linearized.as_ref());
+    format!("Choices\n\n{}\n{both}{jacobian}Derivative: {cost}\n\n{}", system.ledger, program.text(graph))
 }
