@@ -240,9 +240,11 @@ impl<T: Real> StepControl<T> {
         self.controller.map_or(Ok(()), |controller| controller.check())
     }
 
-    /// The length, at most `max_step`.
+    /// The length, at most `max_step`, and at most a quarter of the largest number: a step that is no number can be
+    /// shortened for ever.
     #[inline]
     pub(crate) fn limited(&self, h: T) -> T {
+        let h = h.min(T::MIN_POSITIVE.recip());
         match self.max_step {
             Some(longest) => h.min(longest),
             None => h,

@@ -34,7 +34,7 @@ pub(super) fn minimum<T: Entry, const M: usize>(
     let clamp = |u: SVector<T, M>| u.zip_zip_map(lower, upper, |u, low, high| between(u, low, high));
     let value = |u: &SVector<T, M>| (u.dot(&(hessian * u))) * T::from_f64(0.5) + u.dot(slope);
     let mut at = clamp(*guess);
-    let mut size = largest(&at);
+    let mut size = at.map(Scalar::abs);
     // the free components on which a whole step of Newton's has ended
     let mut ended: Option<[bool; M]> = None;
     for _ in 0..MOST_ITERATIONS {
@@ -58,11 +58,12 @@ pub(super) fn minimum<T: Entry, const M: usize>(
             share *= T::from_f64(0.5);
             next = clamp(at + newton * share);
         }
-        let moved = largest(&(next - at));
-        size = size.max(largest(&next));
+        let moved = (next - at).map(Scalar::abs);
+        size = size.zip_map(&next, |size, next| size.max(Scalar::abs(next)));
         ended = (next == at + newton).then_some(free);
         at = next;
-        if moved <= T::from_f64(4.0) * T::EPSILON * size {
+        // of each input in its own unit
+        if moved.iter().zip(&size).all(|(moved, size)| *moved <= T::from_f64(4.0) * T::EPSILON * *size) {
             return Ok(Minimum { at, free, factors });
         }
     }
@@ -70,10 +71,6 @@ pub(super) fn minimum<T: Entry, const M: usize>(
     let free = held_by_none(&at, &gradient, lower, upper);
     let factors = Cholesky::new(CURVATURE, &masked(hessian, free))?;
     Ok(Minimum { at, free, factors })
-}
-
-fn largest<T: Entry, const M: usize>(u: &SVector<T, M>) -> T {
-    u.iter().fold(T::ZERO, |largest, x| largest.max(Scalar::abs(*x)))
 }
 
 pub(super) fn between<T: Entry>(u: T, low: T, high: T) -> T {

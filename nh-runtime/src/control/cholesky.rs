@@ -55,7 +55,7 @@ impl<T: Entry, const N: usize> Cholesky<T, N> {
 }
 
 /// The sum of absolute values on the diagonal: how large a matrix of squares is.
-pub(super) fn trace<T: Entry, const N: usize>(a: &SMatrix<T, N, N>) -> T {
+fn trace<T: Entry, const N: usize>(a: &SMatrix<T, N, N>) -> T {
     (0..N).fold(T::ZERO, |sum, k| sum + a[(k, k)].abs())
 }
 
@@ -65,31 +65,45 @@ pub(super) fn semidefinite<T: Entry, const N: usize>(
     name: &'static str,
     a: &SMatrix<T, N, N>,
 ) -> Result<(), ControlError> {
-    semidefinite_beside(trace(a), name, a)
+    semidefinite_beside(a, name, a)
 }
 
-/// The same for what is left of a difference of matrices, of which the larger has the trace `scale`. The count
-/// of operations does not depend on the numbers.
+/// The same for what is left of a difference of matrices, of which `larger` is the larger. The count of operations does
+/// not depend on the numbers.
+///
+/// Components have units of their own: what is left of one is compared with its own place on the diagonal of the larger
+/// matrix, and an entry beside the diagonal with both of its. Where that place is zero or negative, it is the round-off
+/// of others in whatever unit: √ε of the trace is what it is compared with.
 ///
 /// Schur complements are taken by pivots that are no round-off; where a pivot vanishes, so does its
 /// column: |a_ik|² ≤ a_ii a_kk. Round-off means √ε of the scale, and more than rounding explains.
 pub(super) fn semidefinite_beside<T: Entry, const N: usize>(
-    scale: T,
+    larger: &SMatrix<T, N, N>,
     name: &'static str,
     a: &SMatrix<T, N, N>,
 ) -> Result<(), ControlError> {
     super::finite(name, a)?;
-    let nothing = T::EPSILON.sqrt() * scale;
-    let negligible = T::EPSILON.sqrt().sqrt() * scale;
+    let nothing = T::EPSILON.sqrt();
+    let floor = nothing * trace(larger);
+    let scale = |k: usize| larger[(k, k)].select_gt(T::ZERO, larger[(k, k)], floor);
     let mut rest = symmetrized(a);
-    let (mut lowest, mut widest) = (T::ZERO, T::ZERO);
+    // the lowest pivot, and the widest entry in the column of one that vanishes, with their shares
+    let (mut lowest, mut widest) = ((T::ZERO, T::ZERO), (T::ZERO, T::ZERO));
     for k in 0..N {
         let pivot = rest[(k, k)];
-        lowest = lowest.min(pivot);
-        let inverse = pivot.select_gt(nothing, pivot.recip(), T::ZERO);
+        let share = pivot / scale(k);
+        if share < lowest.1 {
+            lowest = (pivot, share);
+        }
+        let inverse = share.select_gt(nothing, pivot.recip(), T::ZERO);
         for j in k + 1..N {
             let below = rest[(j, k)];
-            widest = widest.max(pivot.select_gt(nothing, T::ZERO, below.abs()));
+            // squares of shares: the product of two ratios
+            let square = (below / scale(k)) * (below / scale(j));
+            let square = share.select_gt(nothing, T::ZERO, square);
+            if square > widest.1 {
+                widest = (below.abs(), square);
+            }
             let factor = below * inverse;
             for i in j..N {
                 let reduced = factor * rest[(i, k)];
@@ -97,8 +111,8 @@ pub(super) fn semidefinite_beside<T: Entry, const N: usize>(
             }
         }
     }
-    let pivot = if widest > negligible { -widest } else { lowest };
-    if pivot < -nothing {
+    if widest.1 > nothing || lowest.1 < -nothing {
+        let pivot = if widest.1 > nothing { -widest.0 } else { lowest.0 };
         return Err(ControlError::NotDefinite { matrix: name, pivot: pivot.to_f64() });
     }
     Ok(())
@@ -147,6 +161,8 @@ mod tests {
             matrix![1e-12, 1e-6; 1e-6, 1.0],
             matrix![-1e-17, 0.0; 0.0, 1.0],
             matrix![1e300, 0.0; 0.0, 1e-300],
+            // of rank one, whatever the units
+            matrix![1e300, 1.0; 1.0, 1e-300],
         ];
         for a in fine {
             assert_eq!(semidefinite("a", &a), Ok(()), "{a}");
@@ -160,6 +176,10 @@ mod tests {
             // by its symmetric part
             matrix![1.0, 100.0; 0.0, 1.0],
             matrix![1.0, 0.0; 100.0, 1.0],
+            // by components in small units
+            matrix![1e6, 0.0; 0.0, -1e-4],
+            matrix![1e12, 1e3; 1e3, 1e-9],
+            matrix![1e200, 2.0; 2.0, 1e-200],
         ];
         for a in wrong {
             let refused = semidefinite("a", &a);

@@ -2,6 +2,7 @@
 
 use nalgebra::SMatrix;
 
+use super::balance::{balanced, restored};
 use super::{ControlError, Entry, finite, norm};
 
 /// The highest power in the series of φ₁: the rest is below 2⁻⁵³ where the norm is at most 1/2.
@@ -41,8 +42,9 @@ pub fn zero_order_hold<T: Entry, const N: usize, const M: usize>(
         return Err(ControlError::NotFinite { argument: "dt", value: dt.to_f64() });
     }
     let half = T::from_f64(0.5);
-    let mut x = a * dt;
+    let x = a * dt;
     finite("a dt", &x)?;
+    let (mut x, units) = balanced(&x);
     let mut halvings = 0;
     while norm(&x) > half && halvings < MOST_HALVINGS {
         x *= half;
@@ -61,6 +63,7 @@ pub fn zero_order_hold<T: Entry, const N: usize, const M: usize>(
         exponential *= exponential;
         witness.compare(&exponential)?;
     }
+    let (exponential, phi) = (restored(&exponential, &units), restored(&phi, &units));
     let held = phi * b * dt;
     finite("exp(a dt)", &exponential)?;
     finite("B_d", &held)?;

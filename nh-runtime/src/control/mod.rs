@@ -92,6 +92,7 @@
 //! A deviation of angles is taken by [`angle_difference`]. The gain of a stationary filter is the transpose of that
 //! of [`Regulator::stationary`] for the transposed matrices, with the covariances in the place of the weights.
 
+mod balance;
 mod box_quadratic;
 mod cholesky;
 mod fault;

@@ -2,6 +2,7 @@
 
 use nalgebra::SMatrix;
 
+use super::balance::{balanced, in_units};
 use super::cholesky::semidefinite;
 use super::hold::{MOST_HALVINGS, Witness};
 use super::{ControlError, Entry, finite, norm, symmetrized};
@@ -49,8 +50,9 @@ pub fn held_noise<T: Entry, const N: usize>(
         });
     }
     let half = T::from_f64(0.5);
-    let mut x = a * dt;
+    let x = a * dt;
     finite("a dt", &x)?;
+    let (mut x, units) = balanced(&x);
     let mut h = dt;
     let mut halvings = 0;
     while (norm(&x) > half || norm(&x.transpose()) > half) && halvings < MOST_HALVINGS {
@@ -58,7 +60,7 @@ pub fn held_noise<T: Entry, const N: usize>(
         h *= half;
         halvings += 1;
     }
-    let mut term = symmetrized(density) * h;
+    let mut term = in_units(&in_units(&symmetrized(density), &units).transpose(), &units) * h;
     let mut sum = term;
     for k in 2..=TERMS {
         let image = x * term;
@@ -76,6 +78,7 @@ pub fn held_noise<T: Entry, const N: usize>(
         through *= through;
         witness.compare(&through)?;
     }
+    let sum = SMatrix::from_fn(|i, j| sum[(i, j)] * units[i] * units[j]);
     finite("the noise of a tick", &sum)?;
     Ok(symmetrized(&sum))
 }

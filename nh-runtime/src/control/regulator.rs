@@ -2,10 +2,10 @@
 
 use nalgebra::{SMatrix, SVector};
 
-use super::cholesky::{Cholesky, semidefinite, semidefinite_beside, trace};
+use super::cholesky::{Cholesky, semidefinite, semidefinite_beside};
 use super::{ControlError, Entry, finite, norm, symmetrized};
-use crate::D;
 use crate::linear::Factors;
+use crate::{D, Scalar};
 
 /// A doubling covers twice the horizon of the one before. Beyond this horizon, in ticks, nothing decays: an
 /// eigenvalue 1 that belongs to two modes is known to the root of the rounding error.
@@ -93,11 +93,10 @@ impl<T: Entry, const N: usize, const M: usize> Regulator<T, N, M> {
             transition = through * transition;
             cost += more;
             iterations += 1;
-            let (added, size) = (norm(&more), norm(&cost));
-            if size.is_finite() && added <= settled * size {
+            change = most_added(&more, &cost);
+            if change <= settled {
                 return Self::checked(a, b, q, r, &cost);
             }
-            change = added / size;
         }
         if iterations == 1 {
             // beyond the range of the scalar at once, rather than by growing
@@ -143,7 +142,7 @@ impl<T: Entry, const N: usize, const M: usize> Regulator<T, N, M> {
         let transition = a - b * at_once;
         finite("a − b r⁻¹crossᵀ", &transition)?;
         let weight = symmetrized(&(q - cross * at_once));
-        semidefinite_beside(trace(q), "q − cross r⁻¹crossᵀ", &weight)?;
+        semidefinite_beside(q, "q − cross r⁻¹crossᵀ", &weight)?;
         let shifted = Self::doubled(&transition, b, &weight, r)?;
         let gain = shifted.gain + at_once;
         finite("the gain of the regulator", &gain)?;
@@ -208,9 +207,9 @@ impl<T: Entry, const N: usize, const M: usize> Regulator<T, N, M> {
         cost: &SMatrix<T, N, N>,
     ) -> Result<Self, ControlError> {
         let regulator = Self::before(cost, a, b, q, r)?;
-        let residual = norm(&(regulator.cost - cost)) / norm(cost);
-        // half the digits of the scalar; nothing costs anything if the cost is zero
-        if residual > T::EPSILON.sqrt() && norm(cost) > T::ZERO {
+        let residual = most_added(&(regulator.cost - cost), cost);
+        // half the digits of the scalar
+        if residual > T::EPSILON.sqrt() {
             return Err(ControlError::Residual { residual: residual.to_f64() });
         }
         regulator.bounded(a, b)
@@ -232,6 +231,17 @@ impl<T: Entry, const N: usize, const M: usize> Regulator<T, N, M> {
         }
         Ok(self)
     }
+}
+
+/// The largest share of the cost of a component that is added to it: components have units of their own, and a part of a
+/// semidefinite matrix is bounded by its diagonal. Not finite where a cost is not.
+fn most_added<T: Entry, const N: usize>(more: &SMatrix<T, N, N>, cost: &SMatrix<T, N, N>) -> T {
+    (0..N).fold(T::ZERO, |most, k| {
+        let (more, cost) = (Scalar::abs(more[(k, k)]), Scalar::abs(cost[(k, k)]));
+        // nothing costs anything if the cost is zero; infinity beside infinity is no number
+        let share = if more == T::ZERO && cost.is_finite() { T::ZERO } else { more / cost };
+        Scalar::max(most, share)
+    })
 }
 
 /// The inverse of a square matrix, with entries that are not finite if there is none.

@@ -194,3 +194,19 @@ fn times_that_are_none_are_refused_and_far_ones_limited() {
     every_fixed!(hostile, 0.01_f32);
     every_adaptive!(hostile::<f32>);
 }
+
+fn all_of_time<T: Real>(name: &str, method: impl Method<Contact<T>>) {
+    // at rest, where steps grow as they like, over a time that is no number
+    let end = T::MIN_POSITIVE.recip() * T::from_f64(3.5);
+    let rest = crate::systems::ContactState::from_array([T::ZERO; 6]);
+    let mut sim = Integrator::new(contact::<T>(), method, -end, rest).max_steps(2000);
+    let ended = sim.advance_to(end);
+    assert!(ended.is_ok() && sim.time() == end, "{name}: {ended:?} {}", sim.time().to_f64());
+    assert!(sim.state().to_array().iter().all(|x| *x == T::ZERO), "{name}");
+}
+
+#[test]
+fn runs_over_all_of_time_end() {
+    every_adaptive!(all_of_time::<f64>);
+    every_adaptive!(all_of_time::<f32>);
+}

@@ -21,6 +21,7 @@
 #![allow(clippy::float_cmp)]
 
 mod blocks;
+mod blocks_by_component;
 mod coverage;
 mod events;
 mod methods;
