@@ -1,10 +1,10 @@
 //! Intervals of real numbers with exact ends, open or closed: what inequalities are propagated through.
 
+mod functions;
 mod images;
 
-use self::images::{at, cosh, exactly, power, signed_power, sinh, tanh};
-use super::ball::{Ball, Enclosed};
-use super::node::Function;
+use self::images::{power, signed_power};
+use super::ball::Ball;
 use super::number::Rational;
 use crate::limits;
 use std::cmp::Ordering;
@@ -287,82 +287,6 @@ impl Interval {
             Some(End { value: if up { high } else { low }, open: end.open && exact })
         };
         Self { low: image(&self.low, false), high: image(&self.high, true), nonzero: self.nonzero }.rounded()
-    }
-
-    /// The image under a function.
-    pub(super) fn function(&self, function: Function) -> Self {
-        let one = || Rational::ONE;
-        let monotone = |f: fn(&Ball) -> Enclosed, at_zero: i64| {
-            let mut image = self.increasing(|x| if x.is_zero() { Some(exactly(at_zero)) } else { at(x, f) });
-            image.nonzero = self.is_nonzero() && at_zero == 0;
-            image
-        };
-        match function {
-            Function::Sin | Function::Cos => Self::symmetric(one(), false),
-            Function::Tanh => monotone(tanh, 0).meet(&Self::symmetric(one(), true)),
-            Function::Sign => {
-                let sign =
-                    if self.is_positive() { Self::point(&one()) } else { Self::symmetric(one(), false) };
-                Self { nonzero: self.is_nonzero(), ..sign }
-            }
-            Function::Exp => monotone(Ball::exp, 1).meet(&Self::positive()),
-            Function::Sinh => monotone(sinh, 0),
-            Function::Cosh => self
-                .magnitude()
-                .increasing(|x| if x.is_zero() { Some(exactly(1)) } else { at(x, cosh) })
-                .meet(&Self::at_least(one()))
-                .without_exclusion(),
-            Function::Abs => self.magnitude(),
-            Function::Atan => {
-                let quarter = Rational::new(157_079_633, 100_000_000);
-                monotone(Ball::arctangent, 0).meet(&Self::symmetric(quarter, true))
-            }
-            Function::Ln => {
-                let domain = self.meet(&Self::positive());
-                let image = |x: &Rational| match x {
-                    x if x.is_one() => Some(exactly(0)),
-                    x if x.is_zero() => None,
-                    x => at(x, Ball::ln),
-                };
-                domain.increasing(image).without_exclusion()
-            }
-            Function::Asin => Self { nonzero: self.nonzero, ..Self::symmetric(Rational::new(8, 5), true) },
-            Function::Acos => Self::not_negative().meet(&Self::below(Rational::new(16, 5), true)),
-        }
-    }
-
-    fn without_exclusion(self) -> Self {
-        Self { nonzero: false, ..self }
-    }
-
-    /// Where a function takes values in `self`, for arguments in `known`.
-    pub(super) fn argument_of(&self, function: Function, known: &Self) -> Self {
-        match function {
-            Function::Exp => self.meet(&Self::positive()).function(Function::Ln),
-            Function::Ln => self.function(Function::Exp).meet(&Self::positive()),
-            Function::Asin | Function::Acos => Self::symmetric(Rational::ONE, false),
-            Function::Abs => self.unsigned(known),
-            Function::Atan | Function::Sinh | Function::Tanh | Function::Sign if self.is_positive() => {
-                Self::positive()
-            }
-            Function::Atan | Function::Sinh | Function::Tanh | Function::Sign
-                if self.negative().is_positive() =>
-            {
-                Self::positive().negative()
-            }
-            _ => Self::ALL,
-        }
-    }
-
-    /// Where |x| is in `self`.
-    fn unsigned(&self, known: &Self) -> Self {
-        let size = self.meet(&Self::not_negative());
-        match (&size.high, known.is_not_negative()) {
-            _ if size.is_empty() => size,
-            (_, true) => size,
-            (Some(high), _) => Self::symmetric(high.value.clone(), high.open),
-            _ => Self { nonzero: size.is_nonzero(), ..Self::ALL },
-        }
     }
 }
 

@@ -18,15 +18,12 @@ pub fn declared_expressions(model: &mut Model, facts: &Facts) -> Vec<Violation> 
     let mut violations = Vec::new();
     let differentiated = differentiated(model);
     let others = evaluated(model);
-    let assumed: Vec<(ExprId, Demand)> = {
-        let assumptions = model.assumptions.clone();
-        assumptions.iter().map(|assumption| demand(&mut model.graph, assumption)).collect()
-    };
+    let assumed = Premises::assumed(model);
     for (what, value, origin) in differentiated.iter().chain(&others).copied() {
         let place = Place { what, value, origin };
         let found = undefined(&model.graph, place)
-            .or_else(|| vanishing(&mut model.graph, place, &Manifold::whole()))
-            .or_else(|| nowhere_real(&mut model.graph, place, &assumed));
+            .or_else(|| vanishing(&mut model.graph, place, &Manifold::whole(), ""))
+            .or_else(|| nowhere_real(&mut model.graph, facts, place, &assumed));
         violations.extend(found);
     }
     for (what, value, origin) in differentiated {
@@ -35,17 +32,42 @@ pub fn declared_expressions(model: &mut Model, facts: &Facts) -> Vec<Violation> 
     violations
 }
 
-/// No division by what is 0 everywhere on an embedded base.
+/// The same where the identities of an embedded base hold, and position constraints once they are solved: no
+/// division by what is 0 everywhere there, no root or logarithm of what is nowhere in their domain there.
 #[must_use]
-pub fn declared_on(model: &mut Model, base: &Manifold) -> Vec<Violation> {
-    if base.is_whole() {
+pub fn declared_on(model: &mut Model, facts: &Facts, base: &Manifold, holding: &[ExprId]) -> Vec<Violation> {
+    if base.is_whole() && holding.is_empty() {
         return Vec::new();
     }
     let declared = differentiated(model).into_iter().chain(evaluated(model));
+    let mut premises = Premises::assumed(model);
+    premises.demands.extend(model.identities.iter().map(|identity| (identity.value, Demand::Zero)));
+    premises.demands.extend(holding.iter().map(|value| (*value, Demand::Zero)));
+    premises.place =
+        if holding.is_empty() { " on the embedded base" } else { " where the position constraints hold" };
     let graph = &mut model.graph;
     declared
-        .filter_map(|(what, value, origin)| vanishing(graph, Place { what, value, origin }, base))
+        .filter_map(|(what, value, origin)| {
+            let place = Place { what, value, origin };
+            vanishing(graph, place, base, premises.place)
+                .or_else(|| nowhere_real(graph, facts, place, &premises))
+        })
         .collect()
+}
+
+/// What holds wherever an expression is asked for its values.
+struct Premises {
+    demands: Vec<(ExprId, Demand)>,
+    /// In words; nothing for the whole base.
+    place: &'static str,
+}
+
+impl Premises {
+    fn assumed(model: &mut Model) -> Self {
+        let assumptions = model.assumptions.clone();
+        let demands = assumptions.iter().map(|assumption| demand(&mut model.graph, assumption)).collect();
+        Self { demands, place: "" }
+    }
 }
 
 /// An expression, what it is called, and where it stands.
@@ -118,7 +140,7 @@ fn undefined(graph: &Graph, place: Place) -> Option<Violation> {
 }
 
 /// A divisor, or the argument of a logarithm, that is zero everywhere by an identity.
-fn vanishing(graph: &mut Graph, place: Place, base: &Manifold) -> Option<Violation> {
+fn vanishing(graph: &mut Graph, place: Place, base: &Manifold, on: &str) -> Option<Violation> {
     let Place { what, value, origin } = place;
     for id in graph.reachable(&[value]) {
         if let Node::Apply2(Function2::Atan2, y, x) = *graph.node(id)
@@ -144,13 +166,12 @@ fn vanishing(graph: &mut Graph, place: Place, base: &Manifold) -> Option<Violati
             let logarithm = matches!(graph.node(id), Node::Apply(..));
             let verdict = base.zero_test(graph, divisor);
             if verdict.is_zero() {
-                let on_base = if base.is_whole() { "" } else { " on the embedded base" };
                 let does = if logarithm { "takes the logarithm of 0" } else { "divides by 0" };
                 return Some(Violation {
                     law: Law::Defined,
                     origin,
                     what: format!("this {what} is defined nowhere: it {does}"),
-                    evidence: format!("{} is 0 everywhere{on_base}", shown(graph, divisor)),
+                    evidence: format!("{} is 0 everywhere{on}", shown(graph, divisor)),
                     way_out: "write a denominator, or an argument, that is not".into(),
                 });
             }
@@ -172,11 +193,12 @@ fn vanishing(graph: &mut Graph, place: Place, base: &Manifold) -> Option<Violati
 
 /// A root of something negative everywhere, a logarithm of something positive nowhere, an `asin` or
 /// `acos` of something beyond 1; or several that exclude each other.
-fn nowhere_real(graph: &mut Graph, place: Place, assumed: &[(ExprId, Demand)]) -> Option<Violation> {
+fn nowhere_real(graph: &mut Graph, facts: &Facts, place: Place, premises: &Premises) -> Option<Violation> {
     /// Conditions that are taken together.
     const TOGETHER: usize = 12;
     let Place { what, value, origin } = place;
-    let mut all: Vec<(ExprId, Demand)> = assumed.to_vec();
+    let (assumed, on) = (&premises.demands, premises.place);
+    let mut all: Vec<(ExprId, Demand)> = assumed.clone();
     let mut texts: Vec<String> = Vec::new();
     let violation = |what: String, evidence: String| Violation {
         law: Law::Defined,
@@ -188,15 +210,19 @@ fn nowhere_real(graph: &mut Graph, place: Place, assumed: &[(ExprId, Demand)]) -
     for id in graph.reachable(&[value]) {
         for (argument, condition) in conditions(graph, id, 0) {
             let demands = demands(graph, argument, condition);
-            if demands.is_empty() {
+            // a square root of a sum of squares is left alone: only what has signs is asked about
+            let is_signed = matches!(condition, Condition::Positive(_) | Condition::NotNegative(_));
+            let holds_anyway = !on.is_empty() && is_signed && graph.range(argument, facts).is_not_negative();
+            if demands.is_empty() || holds_anyway {
                 continue;
             }
             let own: Vec<(ExprId, Demand)> = assumed.iter().copied().chain(demands.clone()).collect();
             if graph.contradiction(&own).is_some() {
                 let by_itself = graph.contradiction(&demands).is_some();
-                let as_assumed = if by_itself { "" } else { ", for parameters as they are assumed" };
+                let as_assumed =
+                    if by_itself || !on.is_empty() { "" } else { ", for parameters as they are assumed" };
                 let evidence = never(graph, id, argument) + as_assumed;
-                return Some(violation(format!("this {what} has no real value anywhere"), evidence));
+                return Some(violation(format!("this {what} has no real value anywhere{on}"), evidence));
             }
             for (expression, _) in &demands {
                 texts.push(format!("{} > 0", shown(graph, *expression)));
@@ -209,7 +235,7 @@ fn nowhere_real(graph: &mut Graph, place: Place, assumed: &[(ExprId, Demand)]) -
         return None;
     }
     let evidence = format!("it asks for {}, which exclude each other", listed(&texts));
-    Some(violation(format!("this {what} has no real value anywhere"), evidence))
+    Some(violation(format!("this {what} has no real value anywhere{on}"), evidence))
 }
 
 /// What a condition demands at the points of an open set; of numbers, at all.

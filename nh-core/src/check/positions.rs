@@ -17,6 +17,8 @@ use crate::violation::{Law, Violation};
 pub struct Positions {
     /// N over the embedded base.
     pub manifold: Manifold,
+    /// What is 0 on it, as declared.
+    pub values: Vec<ExprId>,
     /// Those that were solved for no coordinate and no parameter: N is asked near them.
     pub unsolved: Vec<ExprId>,
     /// A^a_α = ρ^i_α ∂_i f^a, a row for each of the independent ones.
@@ -52,7 +54,9 @@ pub fn positions(
     for index in 0..model.positions.len() {
         violations.extend(says_nothing(model, motion, algebroid, base, index));
     }
-    violations.extend(without_real_point(model));
+    if violations.is_empty() {
+        violations.extend(without_real_point(model));
+    }
     if !violations.is_empty() {
         return Err(violations);
     }
@@ -63,6 +67,7 @@ pub fn positions(
         Manifold::of_positions(&mut model.graph, base, &values, [&coordinates, &parameters]);
     found.unsolved = unsolved.iter().map(|index| values[*index]).collect();
     found.manifold = manifold;
+    found.values = values;
     let rows = jacobian(model, motion, algebroid);
     independent(model, &rows, &mut found)?;
     Ok(found)
@@ -171,28 +176,32 @@ fn says_nothing(
     )
 }
 
-/// Equations that no real positions satisfy together, for parameters as they are assumed.
+/// Equations that no real positions of the base satisfy together, for parameters as they are assumed.
 fn without_real_point(model: &mut Model) -> Option<Violation> {
     let assumptions = model.assumptions.clone();
     let graph = &mut model.graph;
     let mut demands: Vec<(ExprId, Demand)> =
         assumptions.iter().map(|assumption| super::assumptions::demand(graph, assumption)).collect();
+    demands.extend(model.identities.iter().map(|identity| (identity.value, Demand::Zero)));
+    let is_alone = demands.is_empty();
     for index in 0..model.positions.len() {
         let PositionDecl { value, origin, .. } = model.positions[index];
         demands.push((value, Demand::Zero));
-        if index > 0 && graph.contradiction(&demands).is_some() {
-            let name = name_of(model, ConstraintId::from_index(index));
-            return Some(Violation {
-                law: Law::Independence,
-                origin,
-                what: format!("{name} contradicts the constraints before it"),
-                evidence: format!(
-                    "no real positions satisfy {} = 0 together with those",
-                    shown(&model.graph, value)
-                ),
-                way_out: "change or leave out one of them".into(),
-            });
+        if (index == 0 && is_alone) || model.graph.contradiction(&demands).is_none() {
+            continue;
         }
+        let name = name_of(model, ConstraintId::from_index(index));
+        let (what, with) = match index {
+            0 => (format!("{name} holds nowhere"), "for parameters as they are assumed, on the base"),
+            _ => (format!("{name} contradicts the constraints before it"), "together with those"),
+        };
+        return Some(Violation {
+            law: Law::Independence,
+            origin,
+            what,
+            evidence: format!("no real positions satisfy {} = 0 {with}", shown(&model.graph, value)),
+            way_out: "change or leave out one of them".into(),
+        });
     }
     None
 }

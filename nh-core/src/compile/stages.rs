@@ -90,7 +90,7 @@ pub(crate) fn prove(mut model: Model) -> Result<(Proved, Chosen), Vec<Violation>
     // 3. the embedded base, which the anchor keeps; the brackets, declared or derived
     about(Subject::Embedding);
     let base = check::embedding(&mut model, &motion)?;
-    fence(check::declared_on(&mut model, &base))?;
+    fence(check::declared_on(&mut model, &facts, &base, &[]))?;
     fence(check::claimed(&mut model, &base))?;
     about(Subject::Brackets);
     let structure = check::structure_functions(&mut model, &motion, &base)?;
@@ -104,6 +104,7 @@ pub(crate) fn prove(mut model: Model) -> Result<(Proved, Chosen), Vec<Violation>
     let (broken_laws, broken) =
         laws.map_or_else(|broken| (BrokenLaws::default(), broken), |laws| (laws, Vec::new()));
     let Described { algebroid, positions, constraints, spanned } = both(broken, described)?;
+    fence(check::declared_on(&mut model, &facts, &positions.manifold, &positions.values))?;
     let kind = kind.in_basis(&model, &algebroid);
     let constraint_rank = constraints.rank(&mut model, &algebroid, spanned.as_ref(), &facts);
     // 5. the Lagrangian system on E, and its symmetries

@@ -44,7 +44,7 @@ impl Manifold {
                 ways.into_iter().find_map(|(ease, unknowns)| {
                     let solved = restricted
                         .iter()
-                        .find(|(_, function)| manifold.solve(graph, *function, unknowns, ease));
+                        .find(|(_, function)| manifold.solve(graph, *function, unknowns, ease, parameters));
                     solved.map(|(index, _)| *index)
                 })
             });

@@ -59,7 +59,7 @@ impl Manifold {
             let solved = order.into_iter().find_map(|ease| {
                 restricted.iter().find_map(|(index, function)| {
                     let holds = graph.zero_test(*function) == Verdict::Zero;
-                    (holds || manifold.solve(graph, *function, unknowns, ease)).then_some(*index)
+                    (holds || manifold.solve(graph, *function, unknowns, ease, &[])).then_some(*index)
                 })
             });
             let solved = solved.ok_or(open[0])?;
@@ -149,14 +149,20 @@ impl Manifold {
         self.images.push((symbol, image));
     }
 
-    /// Solves one function for one unknown in one way; false if that is not possible.
+    /// Solves one function for one unknown in one way; false if that is not possible. Of the symbols in `any`,
+    /// of which all values are meant, none becomes a function of others of them alone: a length that is a factor
+    /// is not 0 for that.
     pub(super) fn solve(
         &mut self,
         graph: &mut Graph,
         function: ExprId,
         unknowns: &[SymbolId],
         ease: Ease,
+        any: &[SymbolId],
     ) -> bool {
+        let is_special = |graph: &Graph, symbol: SymbolId, image: ExprId| {
+            any.contains(&symbol) && graph.symbols_in(&[image]).iter().all(|other| any.contains(other))
+        };
         let present: Vec<SymbolId> = graph
             .symbols_in(&[function])
             .into_iter()
@@ -167,13 +173,17 @@ impl Manifold {
             Ease::Linear => present
                 .iter()
                 .rev()
-                .find_map(|s| Some((*s, quotient(graph, function, *s)?)))
+                .find_map(|s| {
+                    Some((*s, quotient(graph, function, *s)?)).filter(|(s, e)| !is_special(graph, *s, *e))
+                })
                 .into_iter()
                 .collect(),
             Ease::Root => present
                 .iter()
                 .rev()
-                .find_map(|s| Some((*s, root(graph, function, *s)?)))
+                .find_map(|s| {
+                    Some((*s, root(graph, function, *s)?)).filter(|(s, e)| !is_special(graph, *s, *e))
+                })
                 .into_iter()
                 .collect(),
         };

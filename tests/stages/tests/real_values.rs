@@ -110,7 +110,7 @@ const UNDEFINED_AS_ASSUMED: [(&str, &str); 3] = [
 const DEFINED_AS_ASSUMED: [(&str, &str); 1] = [("sqrt(a*sin(x)+a*cos(x)-a)", "a > 0;")];
 
 /// Assumptions that no numbers satisfy.
-const CONTRADICTORY: [&str; 34] = [
+const CONTRADICTORY: [&str; 43] = [
     "sin(a)+cos(a) > 3/2;",
     "a > exp(a);",
     "a^2+b^2 < 1; a+b > 3/2;",
@@ -145,10 +145,19 @@ const CONTRADICTORY: [&str; 34] = [
     "a != 0; a^2 <= 0;",
     "a > 1; ln(a) < 0;",
     "a > 1; b > a^2; b < a;",
+    "asin(a) > 1; a < 1/2;",
+    "acos(a) < 1; a < 1/2;",
+    "sinh(a) > 2; tanh(a) < 1/2;",
+    "cosh(a) < 2; a > 1.4;",
+    "atan(a) > 1; ln(a) < 0.4;",
+    "a > 0; a < 3; sin(a) < 0;",
+    "a > 4; a < 6; sin(a) > -1/4;",
+    "a > -1; a < 1; cos(a) < 1/2;",
+    "a > 1; a < 2; b > 0; b < 1; cos(a*b) < -0.42;",
 ];
 
 /// Assumptions that some do.
-const CONSISTENT: [&str; 7] = [
+const CONSISTENT: [&str; 14] = [
     "a^2+b^2 < 1; a+b > 7/5;",
     "a^2 + b^2 + c^2 < 2*a*b + b*c;",
     "a > 0; b > 0; (a+b)^2 < 5*a*b;",
@@ -156,10 +165,17 @@ const CONSISTENT: [&str; 7] = [
     "a^2 >= 4; a > -2; a < 3;",
     "a + b > c; b + c > a; c + a > b; a > 0;",
     "a > 1/2; b > a^2; b < a;",
+    "asin(a) > 1; a < 0.9;",
+    "acos(a) < 1; a < 3/5;",
+    "sinh(a) > 2; tanh(a) < 0.9;",
+    "atan(a) > 1; ln(a) < 0.5;",
+    "a > 4; a < 6; sin(a) > -0.29;",
+    "a > 1.5; a < 1.6; sin(a) > 0.9999;",
+    "a > 100; sin(a) > 0.999999; cos(a) < 0;",
 ];
 
 /// Constraints on x, y and z that hold at no real point.
-const NOWHERE: [&str; 11] = [
+const NOWHERE: [&str; 14] = [
     "constraints { der(x)*(sin(x)+cos(x)-3/2)^(1/2) = der(y); }",
     "holonomic { sin(x)+cos(x) = 2; }",
     "holonomic { x^4+y^4+1 = x*y; }",
@@ -171,11 +187,43 @@ const NOWHERE: [&str; 11] = [
     "holonomic { (x-1)^2 + y^2 = 1; (x+2)^2 + y^2 = 1; }",
     "holonomic { x^2 + y^2 + z^2 = 2*x - 2*y - 3; }",
     "constraints { der(x)^2 + der(y)^2 + 2 = 2*der(x)*sin(z); }",
+    "holonomic { x^2 + y^2 = -a; } assume { a > 0; }",
+    "holonomic { x^2 + y^2 = -a^2; } assume { a > 0; }",
+    "holonomic { sin(x) = a; } assume { a > 1; }",
 ];
 
 /// Constraints that hold at some.
-const SOMEWHERE: [&str; 2] =
-    ["holonomic { sin(x)+cos(y) = 1; }", "constraints { der(x)^2+der(y)^2 = 1; der(x)+der(y) = 1; }"];
+const SOMEWHERE: [&str; 4] = [
+    "holonomic { sin(x)+cos(y) = 1; }",
+    "constraints { der(x)^2+der(y)^2 = 1; der(x)+der(y) = 1; }",
+    "holonomic { x^2 + y^2 = a; } assume { a > 0; }",
+    "holonomic { a*sin(x) + b*cos(y) = c; } assume { a > 0; b > 0; c > a + b/2; }",
+];
+
+const CIRCLE: &str = "base { c, s } on { c^2+s^2 = 1; } basis { w } anchor { der(c) = -s*w; der(s) = c*w; }";
+const ROD: &str = "base { x, y } holonomic { x^2+y^2 = 1; } lagrangian { (der(x)^2+der(y)^2)/2 }";
+
+/// Functions on an embedded circle, and on positions that a constraint leaves, without a real value there.
+const UNDEFINED_THERE: [(&str, &str); 9] = [
+    (CIRCLE, "lagrangian { w^2 - ln(c + s - 3/2) }"),
+    (CIRCLE, "lagrangian { w^2 } forces { w: sqrt(c - 2); }"),
+    (CIRCLE, "lagrangian { w^2 } outputs { q = 1/(c^2 + s^2 - 1); }"),
+    (CIRCLE, "lagrangian { w^2 - sqrt(c*s - 1) }"),
+    (ROD, "forces { x: sqrt(x*y - 1); }"),
+    (ROD, "forces { x: ln(x + y - 2); }"),
+    (ROD, "forces { x: 1/(x^2 + y^2 - 1); }"),
+    (ROD, "outputs { q = ln(x^2 + y^2 - 1); }"),
+    (ROD, "outputs { q = acos(x + 3); }"),
+];
+
+/// The same with one somewhere.
+const DEFINED_THERE: [(&str, &str); 5] = [
+    (CIRCLE, "lagrangian { w^2 - ln(c + s - 1.4) }"),
+    (CIRCLE, "lagrangian { w^2 } forces { w: sqrt(c - 0.9); }"),
+    (ROD, "forces { x: sqrt(x*y - 0.4); }"),
+    (ROD, "outputs { q = ln(x^2 + y^2) + 1/sqrt(x^2 + y^2); }"),
+    (ROD, "outputs { q = acos(x + 1); }"),
+];
 
 /// Identities of c and s that hold at no real point.
 const NO_BASE: [&str; 3] = ["c^2+s^2 = -1;", "c^4+s^4 = c*s - 1;", "c^2+s^2 = 2*c - 2;"];
@@ -189,8 +237,9 @@ fn found(attribute: &str) -> Vec<String> {
 
 /// Whether declarations are refused with words about real values, or accepted; names those that are not.
 fn assert_judged(list: impl IntoIterator<Item = String>, refused: bool) {
-    const WORDS: [&str; 7] = [
+    const WORDS: [&str; 8] = [
         "no real value",
+        "defined nowhere",
         "contradict",
         "exclude",
         "holds nowhere",
@@ -249,4 +298,12 @@ fn constraints_and_identities_have_real_points_or_are_refused() {
     let identity =
         |on: &&str| format!("base {{ c, s }} on {{ {on} }} lagrangian {{ (der(c)^2 + der(s)^2)/2 }}");
     assert_judged(NO_BASE.iter().map(identity), true);
+}
+
+#[test]
+fn functions_are_asked_where_positions_may_be() {
+    let there =
+        |list: &[(&str, &str)]| list.iter().map(|(on, what)| format!("{on} {what}")).collect::<Vec<_>>();
+    assert_judged(there(&UNDEFINED_THERE), true);
+    assert_judged(there(&DEFINED_THERE), false);
 }

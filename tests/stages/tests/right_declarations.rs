@@ -4,6 +4,13 @@
 use nh_stages::{declarations, errors};
 
 const RIGHT: &str = r"
+#[nonholonomic(base { a, p[2], b, q[2], c } let along(z) = [cos(z), sin(z)];
+ let load = q + e*along(c) + f*[-sin(c), cos(c)];
+ holonomic { cross: p = l/2*along(a); roller: p[1] - l/2*sin(b) = 0; hinge: q = p + l/2*along(b); slide: dot(l*along(a) - q, [-sin(c), cos(c)]) = 0; }
+ lagrangian { kinetic(m, J, l/2*along(a), a) + kinetic(m, J, p, b) + kinetic(M, K, load, c) - m*g*p[1] - M*g*load[1] })]
+struct ScissorLift { l: f64, m: f64, J: f64, M: f64, K: f64, e: f64, f: f64, g: f64 }
+#[nonholonomic(base { x, y, z } holonomic { flat: y = 0; b: l*(sin(x) - sin(z)) = 0; } lagrangian { m/2*(der(x)^2+der(y)^2+der(z)^2) })]
+struct LengthAsFactor { l: f64, m: f64 }
 #[nonholonomic(base { a } let p = l2 * sin(a); let q = l1 - l2 * cos(a); let r2 = p^2 + q^2;
  let b = atan2(p, q) + acos((r2 + l3^2 - l4^2) / (2 * l3 * sqrt(r2)));
  lagrangian { J1/2*der(a)^2 + J2/2*der(b)^2 })]
@@ -114,7 +121,7 @@ struct TanTwice { m: f64, k: f64 }
 #[test]
 fn right_declarations_are_accepted() {
     let found = declarations(RIGHT);
-    assert_eq!(found.len(), 47);
+    assert_eq!(found.len(), 49);
     let mut refused = Vec::new();
     for declaration in found {
         let errors = errors(&declaration.expanded());
