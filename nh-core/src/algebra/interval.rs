@@ -1,7 +1,7 @@
 //! Intervals of real numbers with exact ends, open or closed: what inequalities are propagated through.
 
-mod functions;
 mod images;
+mod through_functions;
 
 use self::images::{power, signed_power};
 use super::ball::Ball;

@@ -42,6 +42,15 @@ pub fn facts(model: &mut Model) -> Result<Facts, Vec<Violation>> {
     if violations.is_empty() { Ok(facts) } else { Err(violations) }
 }
 
+/// What holds at every point of the base: what is assumed of parameters, and the identities of embedded coordinates.
+pub fn on_the_base(model: &mut Model) -> Vec<(ExprId, Demand)> {
+    let assumptions = model.assumptions.clone();
+    let assumed =
+        assumptions.iter().map(|assumption| demand(&mut model.graph, assumption)).collect::<Vec<_>>();
+    let identities = model.identities.iter().map(|identity| (identity.value, Demand::Zero));
+    assumed.into_iter().chain(identities).collect()
+}
+
 /// Whether no parameters are known that satisfy all assumptions, although nothing contradicts these: what is assumed
 /// is then accepted undecided.
 #[must_use]

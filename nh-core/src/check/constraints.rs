@@ -1,7 +1,7 @@
 //! The constraints: independent, and fewer than the sections. Linear, affine and nonlinear ones are
 //! told apart here.
 
-use super::assumptions::demand;
+use super::assumptions::{demand, on_the_base};
 use super::dependence::dependent_rows;
 use super::evidence::shown;
 use super::kinematics::Motion;
@@ -80,7 +80,10 @@ impl Constraints {
         if jacobian.is_empty() {
             return None;
         }
+        let mut holding = on_the_base(model);
+        holding.extend(model.positions.iter().map(|position| (position.value, Demand::Zero)));
         let setting = RankSetting {
+            holding: &holding,
             manifold: self.generic(),
             residuals: &self.residuals,
             facts,

@@ -1,6 +1,6 @@
 //! Every declared expression is defined somewhere, and smooth where it is differentiated.
 
-use super::assumptions::demand;
+use super::assumptions::{demand, on_the_base};
 use super::domain::{Condition, conditions};
 use super::evidence::{listed, shown};
 use super::smoothness::not_smooth;
@@ -18,7 +18,9 @@ pub fn declared_expressions(model: &mut Model, facts: &Facts) -> Vec<Violation> 
     let mut violations = Vec::new();
     let differentiated = differentiated(model);
     let others = evaluated(model);
-    let assumed = Premises::assumed(model);
+    let assumptions = model.assumptions.clone();
+    let demands = assumptions.iter().map(|assumption| demand(&mut model.graph, assumption)).collect();
+    let assumed = Premises { demands, place: "" };
     for (what, value, origin) in differentiated.iter().chain(&others).copied() {
         let place = Place { what, value, origin };
         let found = undefined(&model.graph, place)
@@ -40,11 +42,11 @@ pub fn declared_on(model: &mut Model, facts: &Facts, base: &Manifold, holding: &
         return Vec::new();
     }
     let declared = differentiated(model).into_iter().chain(evaluated(model));
-    let mut premises = Premises::assumed(model);
-    premises.demands.extend(model.identities.iter().map(|identity| (identity.value, Demand::Zero)));
-    premises.demands.extend(holding.iter().map(|value| (*value, Demand::Zero)));
-    premises.place =
+    let mut demands = on_the_base(model);
+    demands.extend(holding.iter().map(|value| (*value, Demand::Zero)));
+    let place =
         if holding.is_empty() { " on the embedded base" } else { " where the position constraints hold" };
+    let premises = Premises { demands, place };
     let graph = &mut model.graph;
     declared
         .filter_map(|(what, value, origin)| {
@@ -60,14 +62,6 @@ struct Premises {
     demands: Vec<(ExprId, Demand)>,
     /// In words; nothing for the whole base.
     place: &'static str,
-}
-
-impl Premises {
-    fn assumed(model: &mut Model) -> Self {
-        let assumptions = model.assumptions.clone();
-        let demands = assumptions.iter().map(|assumption| demand(&mut model.graph, assumption)).collect();
-        Self { demands, place: "" }
-    }
 }
 
 /// An expression, what it is called, and where it stands.

@@ -1,6 +1,6 @@
 //! Impacts: rows that are linear in the velocities, and say at the instant what the constraints do not, mathematics (50).
 
-use super::assumptions::demand;
+use super::assumptions::{demand, on_the_base};
 use super::constraints::Constraints;
 use super::evidence::shown;
 use super::formulation::Chosen;
@@ -150,6 +150,9 @@ fn impact(
         violations.extend(restitution(model, declaration, &rows));
     }
     if violations.is_empty() {
+        violations.extend(never_open(model, label, &rows));
+    }
+    if violations.is_empty() {
         violations.extend(dependent(model, between, &rows));
     }
     if !violations.is_empty() {
@@ -220,15 +223,41 @@ fn read(
     })?;
     let coefficients = read.coefficients.into_iter().map(|entry| graph.simplify(entry)).collect();
     let position = is_position.then_some(value);
-    if is_position && graph.contradiction(&[(value, Demand::Zero)]).is_some() {
+    if is_position && cannot(model, &[(value, Demand::Zero)]) {
         return Err(refused(
             origin,
             format!("`{name}` is never met: its two sides are equal nowhere"),
-            format!("{} is not 0 at any real positions", shown(graph, value)),
+            format!("{} is not 0 at any real positions", shown(&model.graph, value)),
             "correct it, or leave it out",
         ));
     }
     Ok(ImpactRow { name, form, position, is_unilateral, coefficients, origin })
+}
+
+/// Whether no positions that the system can have are as demanded, for parameters as they are assumed.
+fn cannot(model: &mut Model, demanded: &[(ExprId, Demand)]) -> bool {
+    let mut demands = on_the_base(model);
+    demands.extend(model.positions.iter().map(|position| (position.value, Demand::Zero)));
+    demands.extend(demanded);
+    model.graph.contradiction(&demands).is_some()
+}
+
+/// Gaps of one item that are open together nowhere: the system would have no place to be.
+fn never_open(model: &mut Model, label: &str, rows: &[ImpactRow]) -> Option<Violation> {
+    let gaps: Vec<(ExprId, Demand)> = rows
+        .iter()
+        .filter(|row| row.is_unilateral)
+        .filter_map(|row| Some((row.position?, Demand::NotNegative)))
+        .collect();
+    let origin = rows.iter().rev().find(|row| row.is_unilateral)?.origin;
+    cannot(model, &gaps).then(|| {
+        refused(
+            origin,
+            format!("the gaps of `{label}` are nowhere open together"),
+            "there is no position at which all of these inequalities hold".into(),
+            "correct a sign, or leave one of them out",
+        )
+    })
 }
 
 /// The first auxiliary state among some symbols.

@@ -1,6 +1,7 @@
 //! What kind of algebroid a declaration is: properties that do not depend on the frame or the chart, but for
 //! what is said of the declared frame itself.
 
+use super::assumptions::on_the_base;
 use crate::algebra::Facts;
 use crate::geometry::{Algebroid, Drops, Manifold, Rank, RankSetting};
 use crate::id::{ExprId, SymbolId};
@@ -28,7 +29,9 @@ impl Kind {
             Some(Rank { generic: model.coordinates.len(), drops: Drops::Nowhere })
         } else {
             let parameters: Vec<SymbolId> = model.parameters.iter().map(|p| p.symbol).collect();
-            let setting = RankSetting { manifold: base, residuals: &[], facts, parameters: &parameters };
+            let holding = &on_the_base(model);
+            let setting =
+                RankSetting { manifold: base, residuals: &[], holding, facts, parameters: &parameters };
             setting.rank(&mut model.graph, &algebroid.anchor.entries).ok()
         };
         let (commutes, is_action) = (commutes(model, algebroid), has_constant_structure(model, algebroid));

@@ -178,11 +178,7 @@ fn says_nothing(
 
 /// Equations that no real positions of the base satisfy together, for parameters as they are assumed.
 fn without_real_point(model: &mut Model) -> Option<Violation> {
-    let assumptions = model.assumptions.clone();
-    let graph = &mut model.graph;
-    let mut demands: Vec<(ExprId, Demand)> =
-        assumptions.iter().map(|assumption| super::assumptions::demand(graph, assumption)).collect();
-    demands.extend(model.identities.iter().map(|identity| (identity.value, Demand::Zero)));
+    let mut demands = super::assumptions::on_the_base(model);
     let is_alone = demands.is_empty();
     for index in 0..model.positions.len() {
         let PositionDecl { value, origin, .. } = model.positions[index];

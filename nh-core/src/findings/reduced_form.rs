@@ -2,7 +2,7 @@
 
 use super::parameters;
 use crate::algebra::{Graph, Matrix};
-use crate::check::singular_where;
+use crate::check::{on_the_base, singular_where};
 use crate::compile::{Derived, Proved, Reduced};
 use crate::geometry::{ConstraintDistribution, Drops, Manifold, RankSetting};
 use crate::id::ExprId;
@@ -125,7 +125,8 @@ fn larger(proved: &mut Proved, reduced: &Reduced) -> Drops {
     let parameters = parameters(proved);
     let Proved { model, facts, base, .. } = proved;
     let together = reduced.splitting.constraints_and_rates(&reduced.system, &reduced.distribution);
-    let setting = RankSetting { manifold: base, residuals: &[], facts, parameters: &parameters };
+    let holding = &on_the_base(model);
+    let setting = RankSetting { manifold: base, residuals: &[], holding, facts, parameters: &parameters };
     setting.rank(&mut model.graph, &together).map_or(Drops::Undecided, |rank| rank.drops)
 }
 

@@ -5,7 +5,7 @@
 //! of it comes with the places where it drops, or with the word that this is not known.
 
 use super::manifold::Manifold;
-use crate::algebra::{Facts, Graph, Matrix, Node, Rational, Substitution, Verdict};
+use crate::algebra::{Demand, Facts, Graph, Matrix, Node, Rational, Substitution, Verdict};
 use crate::id::{ExprId, SymbolId};
 
 /// The rank at generic points, and where it drops.
@@ -36,6 +36,8 @@ pub struct RankSetting<'a> {
     pub manifold: &'a Manifold,
     /// Functions that vanish on it.
     pub residuals: &'a [ExprId],
+    /// What else holds there: facts, identities of embedded coordinates, positions.
+    pub holding: &'a [(ExprId, Demand)],
     /// What is known of the ranges of symbols.
     pub facts: &'a Facts,
     /// Symbols that do not change along a motion.
@@ -180,6 +182,16 @@ impl RankSetting<'_> {
         })
     }
 
+    /// Whether what holds on the manifold excludes that functions vanish.
+    fn is_contradictory(&self, graph: &Graph, functions: &[ExprId]) -> bool {
+        if self.residuals.is_empty() && self.holding.is_empty() {
+            return false;
+        }
+        let zeros = self.residuals.iter().chain(functions).map(|function| (*function, Demand::Zero));
+        let demands: Vec<(ExprId, Demand)> = self.holding.iter().copied().chain(zeros).collect();
+        graph.contradiction(&demands).is_some()
+    }
+
     /// Whether AᵀA has principal minors of the size of the rank whose sum vanishes nowhere: it is the sum of
     /// the squares of all minors of A (Cauchy and Binet).
     fn is_regular_by_squares(&self, graph: &mut Graph, matrix: &Matrix, rank: usize) -> bool {
@@ -220,7 +232,11 @@ impl RankSetting<'_> {
         let Some(first) = lists.first().cloned() else { return Vec::new() };
         let common: Vec<ExprId> =
             first.into_iter().filter(|factor| lists.iter().all(|list| list.contains(factor))).collect();
-        let mut sets: Vec<Vec<ExprId>> = common.iter().map(|factor| vec![*factor]).collect();
+        let mut sets: Vec<Vec<ExprId>> = common
+            .iter()
+            .filter(|factor| !self.is_contradictory(graph, &[**factor]))
+            .map(|factor| vec![*factor])
+            .collect();
         // what is left of each minor: factors that may vanish, of which one does
         for list in &mut lists {
             list.retain(|factor| !common.contains(factor));
@@ -259,8 +275,10 @@ impl RankSetting<'_> {
             }
         }
         for candidate in candidates {
-            if self.vanish_nowhere_together(graph, &candidate) || self.is_off_the_manifold(graph, &candidate)
-            {
+            let is_off = self.vanish_nowhere_together(graph, &candidate)
+                || self.is_off_the_manifold(graph, &candidate)
+                || self.is_contradictory(graph, &candidate);
+            if is_off {
                 continue;
             }
             let set = candidate.into_iter().map(|factor| without_sign(graph, factor)).collect();

@@ -201,8 +201,12 @@ fn constraints(proved: &Proved, derived: &Derived<'_>, closure: Option<Closure>)
         (Some(Closure::Closed), false) => {
             format!("; D is closed under the bracket{}", constant_coordinates(model, derived))
         }
-        (Some(Closure::NotClosed), true) => "; D is not closed under the bracket (nonholonomic)".to_owned(),
-        (Some(Closure::NotClosed), false) => "; D is not closed under the bracket".to_owned(),
+        (Some(Closure::NotClosed), _) => {
+            // with a drift, or as time passes, it is the bracket with the drift that may lead out of D
+            let with_drift = if kind == "affine" { " with the drift" } else { "" };
+            let nonholonomic = if is_integrable { " (nonholonomic)" } else { "" };
+            format!("; D{with_drift} is not closed under the bracket{nonholonomic}")
+        }
         (Some(Closure::Undecided) | None, _) => String::new(),
     };
     format!("{what}{holonomic}")

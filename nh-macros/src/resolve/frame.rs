@@ -12,7 +12,7 @@ use super::resolver::Resolver;
 use super::scope::{Meaning, Role};
 use crate::emit::Family;
 use crate::report::Diagnostic;
-use crate::syntax::ast::{Definition, Item, Place};
+use crate::syntax::ast::{Definition, Item, Place, Section};
 
 impl Resolver {
     /// The sections of a frame, whose names have a meaning from here on, and their families.
@@ -44,10 +44,18 @@ impl Resolver {
     }
 
     /// The sections that span D, each once.
-    pub(super) fn distribution(&mut self, places: &[Place]) -> Vec<(SymbolId, Origin)> {
+    pub(super) fn distribution(&mut self, section: &Section<Vec<Place>>) -> Vec<(SymbolId, Origin)> {
+        if section.body.is_empty() {
+            let error = Diagnostic::new(
+                section.keyword.extent(),
+                "no section spans the distribution: nothing can move",
+            )
+            .way_out("name the sections that span D, or leave `distribution` out");
+            self.report(section, error);
+        }
         let mut found = Vec::new();
         let mut seen = BTreeSet::new();
-        for place in places {
+        for place in &section.body {
             let Ok(symbols) = self.section_velocities(place) else { continue };
             let origin = self.origin(place.extent);
             for symbol in symbols {

@@ -109,7 +109,7 @@ impl Resolver {
         let identities = sections.on.as_ref().map(|s| self.identities(&s.body)).unwrap_or_default();
         let brackets = self.brackets(&sections.brackets);
         layout.frame = sections.frame.as_ref().map(|s| self.frame(&s.body)).unwrap_or_default();
-        let distribution = sections.distribution.as_ref().map(|s| self.distribution(&s.body));
+        let distribution = sections.distribution.as_ref().map(|section| self.distribution(section));
         let lagrangian = sections.lagrangian.as_ref().and_then(|s| self.lagrangian(&s.body).ok());
         let mut labels = holonomic::Labels::default();
         let positions = sections.holonomic.as_ref().map(|s| self.positions(&s.body, &mut labels));

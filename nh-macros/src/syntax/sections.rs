@@ -328,7 +328,10 @@ pub(super) fn runtime(body: &Group) -> Result<TokenStream, Diagnostic> {
     match syn::Path::parse_mod_style.parse2(tokens.clone()) {
         Ok(_) => Ok(tokens),
         Err(_) => Err(Diagnostic::new(Extent::at(body.span()), "expected the path of the runtime crate")
-            .evidence(format!("found `{}`", render(&tokens.into_iter().collect::<Vec<_>>())))
+            .evidence(match render(&tokens.into_iter().collect::<Vec<_>>()).as_str() {
+                "" => "found nothing".into(),
+                found => format!("found `{found}`"),
+            })
             .way_out("write `crate { ::my_name_for_nonholonomic }`")),
     }
 }

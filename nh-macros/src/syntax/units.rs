@@ -106,7 +106,7 @@ impl Stream {
     fn unit_integer(&mut self) -> Result<i64, Diagnostic> {
         let sign = if self.eat("-") { -1 } else { 1 };
         let at = self.here();
-        let value = self.integer("an integer").map_err(|error| error.or_way_out(READS))?;
+        let value = self.integer("an exponent").map_err(|error| error.or_way_out(READS))?;
         if value > EXPONENT {
             return Err(Diagnostic::new(at, "this exponent is too large").way_out(READS));
         }

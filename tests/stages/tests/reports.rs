@@ -36,6 +36,45 @@ fn the_kind_of_algebroid_does_not_depend_on_the_frame() {
     check(&[(top, "", &[kind], &[]), (&turned, "", &[kind], &[])]);
 }
 
+/// A basis in which the rank would drop at the origin, which is not on the sphere; and a speed that is not 0.
+#[test]
+fn no_rank_is_said_to_drop_where_nothing_is() {
+    check(&[
+        (
+            "base { g[3] } on { dot(g, g) = 1; } basis { a, b, c } anchor { der(g) = cross(g, [a + b, b, c]); }
+             brackets { [a, b] = c; [a, c] = a - b; [b, c] = 2 * a - b; } lagrangian { (a^2 + b^2 + c^2) / 2 }",
+            "",
+            &["a transitive action Lie algebroid with isotropy of rank 1, rank 3"],
+            &["but not where"],
+        ),
+        (
+            "base { x, y } lagrangian { (der(x)^2 + der(y)^2) / 2 } assume { c > 0; }
+             constraints { der(x)^2 + 2 * der(y)^2 - der(x) * der(y) = c^2; }",
+            "c: f64",
+            &["1, nonlinear in the velocities"],
+            &["dependent where"],
+        ),
+        (
+            "base { x, y, z } holonomic { x^2 + y^2 = 1; } constraints { x * der(z) = 2 * der(x) - y * der(z); }
+             lagrangian { (der(x)^2 + der(y)^2 + der(z)^2) / 2 }",
+            "",
+            &[],
+            &["where y = 0 and x = 0", "where x = 0 and y = 0"],
+        ),
+    ]);
+}
+
+/// With a drift it is the bracket with the drift that leaves D: D itself, along x and th, is closed.
+#[test]
+fn what_is_not_closed_is_named() {
+    check(&[(
+        "base { x, y, th } lagrangian { (der(x)^2 + der(y)^2 + der(th)^2) / 2 } constraints { der(y) = v * sin(th); }",
+        "v: f64",
+        &["D with the drift is not closed under the bracket (nonholonomic)"],
+        &["; D is not closed"],
+    )]);
+}
+
 #[test]
 fn an_anchor_that_drops_rank_says_where() {
     check(&[

@@ -94,4 +94,7 @@ fn tracked_variables_and_outputs() {
     assert_eq!(with("x, x"), ["this is tracked already"]);
     let nothing = "help: name the state variables and outputs that are needed, or leave the section out";
     assert_eq!(with(""), [format!("nothing is tracked\n{nothing}")]);
+    let spanned = of(&format!("{text} distribution {{ }}"));
+    let nothing = "help: name the sections that span D, or leave `distribution` out";
+    assert_eq!(spanned, [format!("no section spans the distribution: nothing can move\n{nothing}")]);
 }
