@@ -69,20 +69,24 @@ impl<'a> Invariant<'a> {
             Err(Varies { along, change: Change::By(slope, verdict) }) => {
                 let graph = &mut self.side.proved.model.graph;
                 let (value, slope) = (graph.simplify(value), graph.simplify(slope));
-                let occurs = |symbol: &&SymbolId| graph.depends_on(value, &[**symbol]);
-                let (symbol, by) = if self.dropped.contains(&along) {
-                    (along, String::new())
-                } else {
+                // by a parameter of the embedded base, which has no name that was declared
+                if !self.dropped.contains(&along) {
+                    let occurs = |symbol: &&SymbolId| graph.depends_on(value, &[**symbol]);
                     let first = self.dropped.iter().find(occurs).copied().unwrap_or(along);
-                    (first, format!(" along `{}` on the embedded base", graph.symbols()[along]))
-                };
-                let name = graph.symbols()[symbol].clone();
-                let by = if by.is_empty() { format!(" by `{name}`") } else { by };
+                    let name = graph.symbols()[first].clone();
+                    let evidence = format!(
+                        "it is {}, which changes along what is dropped of the embedded base",
+                        shown(graph, value)
+                    );
+                    self.depends(format!("{what} depends on `{name}`"), evidence);
+                    return value;
+                }
+                let name = graph.symbols()[along].clone();
                 let defect = match &verdict {
                     Verdict::NonZero(witness) => not_zero(graph, slope, witness),
                     _ => format!("{} should be 0", shown(graph, slope)),
                 };
-                let evidence = format!("it is {}; its derivative{by} {defect}", shown(graph, value));
+                let evidence = format!("it is {}; its derivative by `{name}` {defect}", shown(graph, value));
                 self.depends(format!("{what} depends on `{name}`"), evidence);
                 value
             }

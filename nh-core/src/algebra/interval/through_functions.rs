@@ -168,3 +168,79 @@ fn tame(f: fn(&Ball) -> Enclosed) -> impl Fn(&Rational) -> Option<(Rational, Rat
 fn cosine_below_pi(x: &Rational) -> Option<(Rational, Rational)> {
     if x.abs() < Rational::from(3) { at(x, Ball::cosine) } else { None }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::algebra::Residue;
+
+    fn values() -> [(Function, fn(f64) -> f64); 12] {
+        [
+            (Function::Sin, f64::sin),
+            (Function::Cos, f64::cos),
+            (Function::Asin, f64::asin),
+            (Function::Acos, f64::acos),
+            (Function::Atan, f64::atan),
+            (Function::Sinh, f64::sinh),
+            (Function::Cosh, f64::cosh),
+            (Function::Tanh, f64::tanh),
+            (Function::Exp, f64::exp),
+            (Function::Ln, f64::ln),
+            (Function::Abs, f64::abs),
+            (Function::Sign, f64::signum),
+        ]
+    }
+
+    fn around(x: f64, by: f64) -> Interval {
+        let number = |x: f64| Rational::of_f64(x).expect("finite");
+        Interval::above(number(x - by), false).meet(&Interval::below(number(x + by), false))
+    }
+
+    fn contains(interval: &Interval, x: f64) -> bool {
+        let (low, high) = interval.to_f64();
+        let margin = 1e-12 * (1.0 + x.abs());
+        !interval.is_empty() && low - margin <= x && x <= high + margin
+    }
+
+    /// Values of points of an interval are in its image, and the points are where functions have these values.
+    #[test]
+    fn no_point_is_lost() {
+        let random = |k: u64, scale: f64| {
+            let word = Residue::mixed(k, 77).word() % 2_000_001;
+            #[allow(clippy::cast_precision_loss, reason = "below 2^21")]
+            let unit = word as f64 / 1_000_000.0 - 1.0;
+            unit * scale
+        };
+        for k in 0..400 {
+            let scale = [1.0, 3.0, 12.0][k as usize % 3];
+            let (x, by) = (random(4 * k, scale), random(4 * k + 1, scale / 2.0).abs());
+            let inside = x + by * random(4 * k + 2, 1.0);
+            for (function, f) in values() {
+                let value = f(inside);
+                if !value.is_finite() || inside == 0.0 {
+                    continue;
+                }
+                let image = around(x, by).function(function);
+                assert!(contains(&image, value), "{function:?} of {x} ± {by}: {value} in {image:?}");
+                let back = around(value, by).argument_of(function, &Interval::ALL);
+                assert!(contains(&back, inside), "{function:?}: {inside} where {value} ± {by}: {back:?}");
+            }
+        }
+    }
+
+    #[test]
+    fn images_are_narrow() {
+        for (function, [low, high], expected) in [
+            (Function::Sin, [0.5, 2.5], [0.5_f64.sin(), 1.0]),
+            (Function::Sin, [4.0, 6.0], [-1.0, 6.0_f64.sin()]),
+            (Function::Cos, [-1.0, 0.5], [1.0_f64.cos(), 1.0]),
+            (Function::Cos, [3.0, 9.0], [-1.0, 1.0]),
+            (Function::Asin, [-2.0, 0.5], [-1.570_796_4, 0.5_f64.asin()]),
+            (Function::Acos, [0.5, 3.0], [0.0, 0.5_f64.acos()]),
+        ] {
+            let image = around((low + high) / 2.0, (high - low) / 2.0).function(function).to_f64();
+            let near = |a: f64, b: f64| (a - b).abs() < 1e-6;
+            assert!(near(image.0, expected[0]) && near(image.1, expected[1]), "{function:?}: {image:?}");
+        }
+    }
+}
