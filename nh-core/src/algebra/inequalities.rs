@@ -85,6 +85,24 @@ impl Graph {
         self.combination(demands)
     }
 
+    /// Those demands that are about expressions, or about what others of them are about.
+    #[must_use]
+    pub fn related_demands(&self, demands: &[(ExprId, Demand)], to: &[ExprId]) -> Vec<(ExprId, Demand)> {
+        let mut symbols = self.symbols_in(to);
+        let (mut found, mut open) = (Vec::new(), demands.to_vec());
+        loop {
+            let is_near = |(id, _): &(ExprId, Demand)| self.depends_on(*id, &symbols);
+            let (near, far): (Vec<_>, Vec<_>) = open.into_iter().partition(is_near);
+            if near.is_empty() {
+                return found;
+            }
+            let roots: Vec<ExprId> = near.iter().map(|(id, _)| *id).collect();
+            symbols.extend(self.symbols_in(&roots));
+            found.extend(near);
+            open = far;
+        }
+    }
+
     /// Whether one of a few points is found that certainly satisfies all demands.
     fn are_met_somewhere(&self, demands: &[(ExprId, Demand)]) -> bool {
         if demands.iter().any(|(_, demand)| *demand == Demand::Zero) {

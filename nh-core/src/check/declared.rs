@@ -210,7 +210,9 @@ fn nowhere_real(graph: &mut Graph, facts: &Facts, place: Place, premises: &Premi
             if demands.is_empty() || holds_anyway {
                 continue;
             }
-            let own: Vec<(ExprId, Demand)> = assumed.iter().copied().chain(demands.clone()).collect();
+            let near =
+                if on.is_empty() { assumed.clone() } else { graph.related_demands(assumed, &[argument]) };
+            let own: Vec<(ExprId, Demand)> = near.into_iter().chain(demands.clone()).collect();
             if graph.contradiction(&own).is_some() {
                 let by_itself = graph.contradiction(&demands).is_some();
                 let as_assumed =

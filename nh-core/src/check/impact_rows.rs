@@ -238,6 +238,8 @@ fn read(
 fn cannot(model: &mut Model, demanded: &[(ExprId, Demand)]) -> bool {
     let mut demands = on_the_base(model);
     demands.extend(model.positions.iter().map(|position| (position.value, Demand::Zero)));
+    let values: Vec<ExprId> = demanded.iter().map(|(value, _)| *value).collect();
+    demands = model.graph.related_demands(&demands, &values);
     demands.extend(demanded);
     model.graph.contradiction(&demands).is_some()
 }

@@ -184,11 +184,12 @@ impl RankSetting<'_> {
 
     /// Whether what holds on the manifold excludes that functions vanish.
     fn is_contradictory(&self, graph: &Graph, functions: &[ExprId]) -> bool {
-        if self.residuals.is_empty() && self.holding.is_empty() {
+        let mut demands = graph.related_demands(self.holding, functions);
+        // what is known of parameters alone is in the facts
+        if !demands.iter().any(|(_, demand)| *demand == Demand::Zero) {
             return false;
         }
-        let zeros = self.residuals.iter().chain(functions).map(|function| (*function, Demand::Zero));
-        let demands: Vec<(ExprId, Demand)> = self.holding.iter().copied().chain(zeros).collect();
+        demands.extend(functions.iter().map(|function| (*function, Demand::Zero)));
         graph.contradiction(&demands).is_some()
     }
 

@@ -196,12 +196,7 @@ fn arguments(group: &Group) -> Result<Vec<Name>, Diagnostic> {
     let mut inner = Stream::inside(group);
     let mut names = Vec::new();
     while !inner.is_empty() {
-        let name = inner.name("the name of an argument")?;
-        if names.iter().any(|known: &Name| known.text == name.text) {
-            return Err(Diagnostic::new(name.extent(), format!("a second argument `{}`", name.text))
-                .way_out("the arguments of a function have names of their own"));
-        }
-        names.push(name);
+        names.push(inner.name("the name of an argument")?);
         if !inner.eat(",") && !inner.is_empty() {
             return Err(inner.expected("`,` or `)`").way_out("a function reads `let h(u, v) = …;`"));
         }

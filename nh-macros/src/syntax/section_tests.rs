@@ -332,7 +332,6 @@ fn errors_between_sections_are_explained() {
             "let c = cos(x)",
             "a `;` is missing behind this `let`\nhelp: between the sections every `let` ends with `;`".to_owned(),
         ),
-        ("let h(u, u) = 1;", "a second argument `u`\nhelp: the arguments of a function have names of their own".to_owned()),
         ("let h() = 1;", "a function without arguments\nhelp: leave the parentheses out: `let name = …;`".to_owned()),
         (
             "let e(q)[i in 0..2] = q;",

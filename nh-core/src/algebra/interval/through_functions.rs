@@ -174,7 +174,9 @@ mod tests {
     use super::*;
     use crate::algebra::Residue;
 
-    fn values() -> [(Function, fn(f64) -> f64); 12] {
+    type Value = fn(f64) -> f64;
+
+    fn values() -> [(Function, Value); 12] {
         [
             (Function::Sin, f64::sin),
             (Function::Cos, f64::cos),
@@ -211,8 +213,7 @@ mod tests {
             let unit = word as f64 / 1_000_000.0 - 1.0;
             unit * scale
         };
-        for k in 0..400 {
-            let scale = [1.0, 3.0, 12.0][k as usize % 3];
+        for (k, scale) in (0..400).zip([1.0, 3.0, 12.0].into_iter().cycle()) {
             let (x, by) = (random(4 * k, scale), random(4 * k + 1, scale / 2.0).abs());
             let inside = x + by * random(4 * k + 2, 1.0);
             for (function, f) in values() {
@@ -238,7 +239,7 @@ mod tests {
             (Function::Asin, [-2.0, 0.5], [-1.570_796_4, 0.5_f64.asin()]),
             (Function::Acos, [0.5, 3.0], [0.0, 0.5_f64.acos()]),
         ] {
-            let image = around((low + high) / 2.0, (high - low) / 2.0).function(function).to_f64();
+            let image = around(f64::midpoint(low, high), (high - low) / 2.0).function(function).to_f64();
             let near = |a: f64, b: f64| (a - b).abs() < 1e-6;
             assert!(near(image.0, expected[0]) && near(image.1, expected[1]), "{function:?}: {image:?}");
         }
