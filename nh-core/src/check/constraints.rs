@@ -82,6 +82,10 @@ impl Constraints {
         }
         let mut holding = on_the_base(model);
         holding.extend(model.positions.iter().map(|position| (position.value, Demand::Zero)));
+        // the coefficients of linear constraints have no velocities
+        if self.linear.is_none() {
+            holding.extend(self.residuals.iter().map(|residual| (*residual, Demand::Zero)));
+        }
         let setting = RankSetting {
             holding: &holding,
             manifold: self.generic(),
