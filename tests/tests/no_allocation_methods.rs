@@ -12,6 +12,9 @@ use nonholonomic::control::{
 };
 use nonholonomic::methods::Method;
 use nonholonomic::prelude::*;
+use nonholonomic::sensitivity::{
+    Adjoint, By, Checkpoint, ColumnTolerance, Jumps, Objective, Slope, Variational, advance_across,
+};
 
 /// McLachlan and Perlmutter's contact oscillator, with all that a method may ask for in a basis of D.
 #[nonholonomic(
@@ -66,7 +69,7 @@ struct Suslov {
     constraints { v2 = 0; }
     forces      { omega: torque; }
     inputs      { torque }
-    emit        { jacobian }
+    emit        { jacobian, parameter_jacobian }
 )]
 #[derive(Clone, Copy, Debug)]
 struct Sleigh {
@@ -231,5 +234,57 @@ fn optimal_control() {
         let (state, input) = (SleighState::from(<[f64; 5]>::from(start)), SleighInput { torque: 0.1 });
         black_box(Rk4::linearized_step(&SLEIGH, 0.0, 0.05, &state, &input));
         ImplicitMidpoint::linearized_step(&SLEIGH, 0.0, 0.05, &state, &input).map(|step| _ = black_box(step))
+    });
+}
+
+/// The heading turns back at 0.3.
+struct Turn;
+
+impl Jumps<5, 2, 1> for Turn {
+    fn events<A: Scalar>(&self, _t: A, state: &[A; 5], _by: &[A; 2]) -> [A; 1] {
+        [A::from_f64(0.3) - state[0]]
+    }
+    fn reset<A: Scalar>(&self, _event: usize, _t: A, state: &[A; 5], by: &[A; 2]) -> [A; 5] {
+        let mut after = *state;
+        after[3] = -(A::ONE + by[1]) * after[3];
+        after
+    }
+}
+
+/// The place at the end, and the squares of the torques.
+struct Far;
+
+impl Objective<Sleigh, 5, 1> for Far {
+    fn running(&self, _tick: usize, _t: f64, _x: &SleighState, u: &SleighInput) -> Slope<f64, 5, 1> {
+        Slope { value: u.torque * u.torque, by_input: [2.0 * u.torque], ..Slope::zero() }
+    }
+    fn end(&self, _t: f64, state: &SleighState) -> Slope<f64, 5, 1> {
+        Slope { value: state.x, by_state: [0.0, 1.0, 0.0, 0.0, 0.0], by_input: [0.0] }
+    }
+}
+
+#[test]
+fn derivatives_of_motions() {
+    let start = SleighState { omega: 1.0, v1: 0.5, ..SleighState::default() };
+    let motion = || {
+        Variational::new(SLEIGH, [By::Start(3), By::Parameter(2)]).by_parameters(
+            |sleigh: &Sleigh, t, x: &SleighState, u: &SleighInput| sleigh.parameter_jacobian(t, x, u),
+        )
+    };
+    assert_quiet("columns", || {
+        let with = motion().start(&start)?;
+        let method = Dopri5::new().tolerance(ColumnTolerance::new(1e-6, 1e-6));
+        let mut sim = Integrator::new(motion(), method, 0.0, with);
+        let jump = advance_across(&mut sim, 1.0, &Turn, |_| ControlFlow::Continue(()))?;
+        black_box((sim.state(), jump));
+        let (mut plain, mut columns) = (Integrator::new(SLEIGH, Radau5::new(), 0.0, start), with.columns);
+        motion().advance(&mut plain, 1.0, &mut columns).map(|()| _ = black_box(columns))
+    });
+    assert_quiet("adjoints", || {
+        let (inputs, mut by_inputs) = ([SleighInput { torque: 0.1 }; 50], [[0.0]; 50]);
+        let mut places = [Checkpoint::room(start); 5];
+        let steps = Adjoint::new(&SLEIGH, Rk4::new(0.02));
+        let gradient = steps.gradient(0.0, &start, &inputs, &Far, &mut places, &mut by_inputs);
+        gradient.map(|gradient| _ = black_box(gradient))
     });
 }
