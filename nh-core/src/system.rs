@@ -54,6 +54,8 @@ pub struct System {
     pub report: String,
     /// The equations of motion as lines of text for the documentation of the struct, and what it says beside them.
     pub equations: Vec<String>,
+    /// The sections of a text in TeX about it, if that is asked for.
+    pub latex: Option<String>,
 }
 
 impl System {

@@ -211,6 +211,7 @@ mod syntax;
 /// | `leapfrog` | the trait `Leapfrog` for `ReflectedLeapfrog`: systems on TQ with constant masses, in the projected formulation |
 /// | `euler_poincare_suslov` | the trait `EulerPoincareSuslov` for `DiscreteSuslov`: systems on a Lie algebra |
 /// | `c` | `C99`, a text: the generated functions as one C file, see *C* |
+/// | `latex` | `LATEX`, a text in TeX: the declaration and what was derived in the notation of papers, see *TeX* |
 /// | `explain` | `DERIVATION`, a text: which forms competed for each function, and how the winner was proved |
 /// | `divergence` | `divergence(t, &state, &input)` of the motion in the coordinates of the state |
 /// | `volume` | `volume_density(t, &state)` of a volume that the motion keeps; refused, with the modular section, where there is none with a density on the base. Beside `holonomic` it is kept where the position constraints hold, divided by their differentials, and `divergence` belongs to the same volume |
@@ -262,6 +263,15 @@ mod syntax;
 /// with libm's functions for ours. No memory is allocated, nothing recurs, and no branch but those of `sign`, `min`,
 /// `max` and pivoting depends on a number. Write it from a build script or a program:
 /// `std::fs::write("skate.c", Skate::C99)`.
+///
+/// # TeX
+///
+/// `emit { latex }` gives `LATEX: &str`: variables with their units, anchor, brackets, Lagrangian, constraints, forces, what
+/// kind of system it is, D, mass matrix, equations of motion, symmetries and what is conserved. One text serves two uses:
+/// written to a file by `std::fs::write("skate.tex", Skate::LATEX)` it is a document that `pdflatex` compiles, and in
+/// another document that loads amsmath `\input{skate}` puts its text there. It needs amsmath alone. Names of Greek letters are
+/// letters, what follows `_` and indices stand below, `x_dot` has a dot: `theta_1` is θ₁, `phi_dot[2]` is φ̇₂. Expressions
+/// that would fill pages end with dots.
 ///
 /// # How accurate the emitted code is
 ///

@@ -14,7 +14,7 @@ use crate::functions::{GIBBS_APPELL, MULTIPLIERS, OUTPUTS, REACTIONS, VERTICAL_S
 use crate::id::ExprId;
 use crate::mechanics::Procedure;
 use crate::model::{Formulation, Request};
-use crate::report::{equations_of_motion, report, suggestion};
+use crate::report::{equations_of_motion, latex, report, suggestion};
 use crate::system::System;
 use crate::violation::Violation;
 
@@ -64,6 +64,8 @@ pub(super) fn complete(
     parts.phase_space = phase_space;
     let findings = Findings::of(&mut proved, &derived);
     let text = report(&proved, &derived, &findings, derivation.reason, derivation.conditions, sections);
+    let in_tex = requested(&proved.model, Request::Latex)
+        .then(|| latex::sections(&proved, &derived, &findings, derivation.reason, derivation.conditions));
     let mut lines = equations_of_motion(&proved.model, &derived);
     if let Some(suggested) = &findings.suggested {
         lines.extend([String::new(), suggestion(&proved.model, suggested)]);
@@ -96,5 +98,6 @@ pub(super) fn complete(
     functions.add_if(&MULTIPLIERS, requested(model, Request::Multipliers).then_some(multipliers));
     functions.add_if(&REACTIONS, requested(model, Request::Reactions).then_some(derivation.reactions));
     functions.add_if(&GIBBS_APPELL, derivation.gibbs_appell);
-    Ok(parts.into_system(proved, (formulation, velocities), derivative, &conditions, (text, lines)))
+    let system = parts.into_system(proved, (formulation, velocities), derivative, &conditions, (text, lines));
+    Ok(System { latex: in_tex, ..system })
 }

@@ -8,6 +8,7 @@ use crate::functions::{Function, OUTPUTS, RESIDUAL, Sliced, TABLE};
 use crate::id::{ExprId, Origin, SymbolId};
 use crate::mechanics::{Definition, Procedure};
 use crate::model::{Formulation, Request, TrackedItem};
+use crate::report::latex;
 use crate::system::System;
 use crate::violation::{Law, Violation};
 
@@ -86,6 +87,7 @@ fn needs_all(request: Request) -> bool {
         | Request::Taylor
         | Request::Prepared
         | Request::Explain
+        | Request::Latex
         | Request::C => false,
         _ => lines.peek().is_none() || lines.any(|line| line.sliced == Sliced::Whole),
     }
@@ -196,6 +198,9 @@ fn note(system: &mut System, needed: &BTreeSet<SymbolId>, without: &[&str]) {
     let kept = names(system, &kept).join(", ");
     system.report.extend(["\nTracked variables\n  ", &kept, "\n  left out: ", &left_out, "\n"]);
     system.equations.extend([String::new(), format!("left out: {left_out}")]);
+    if let Some(sections) = &mut system.latex {
+        sections.push_str(&latex::tracked(&kept, &left_out));
+    }
 }
 
 fn names(system: &System, symbols: &[SymbolId]) -> Vec<String> {

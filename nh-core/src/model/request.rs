@@ -58,13 +58,15 @@ pub enum Request {
     OutputJacobian,
     /// How the emitted forms were chosen, as text.
     Explain,
+    /// The declaration and what was derived, in TeX.
+    Latex,
     /// The generated functions as C.
     C,
 }
 
 impl Request {
     /// The words by which `emit` asks for them.
-    pub const WORDS: [(&str, Self); 28] = [
+    pub const WORDS: [(&str, Self); 29] = [
         ("jacobian", Self::Jacobian),
         ("taylor", Self::Taylor),
         ("sparse_jacobian", Self::SparseJacobian),
@@ -92,6 +94,7 @@ impl Request {
         ("leapfrog", Self::Leapfrog),
         ("euler_poincare_suslov", Self::EulerPoincareSuslov),
         ("explain", Self::Explain),
+        ("latex", Self::Latex),
         ("c", Self::C),
     ];
 }

@@ -4,6 +4,8 @@ mod classification;
 mod equations;
 mod hamiltonian;
 mod impact_lines;
+pub mod latex;
+pub mod line_breaks;
 mod reduction_kind;
 mod routhian;
 mod suggestion_line;

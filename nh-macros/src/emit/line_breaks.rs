@@ -1,5 +1,7 @@
 //! Long equations in documentation, broken where a reader would.
 
+use nonholonomic_core::report::line_breaks::{Extent, first_line};
+
 /// Columns of a line of code in documentation that are seen without scrolling.
 const COLUMNS: usize = 100;
 /// What stands before the rest of an equation.
@@ -7,45 +9,46 @@ const INDENT: &str = "    ";
 
 /// The line, broken before signs that stand outside of as many brackets as possible.
 pub(super) fn broken(line: &str) -> Vec<String> {
+    let (mut texts, mut extents) = pieces(line);
     let mut lines = Vec::new();
-    let mut rest = line.to_owned();
-    while let Some(end) = place(&rest) {
-        let tail = rest.split_off(end);
-        lines.push(rest);
-        rest = format!("{INDENT}{}", tail.trim_start());
+    while !texts.is_empty() {
+        let (indent, room) = if lines.is_empty() { ("", COLUMNS) } else { (INDENT, COLUMNS - INDENT.len()) };
+        let count = first_line(&extents, room);
+        let text: String = texts.drain(..count).collect();
+        extents.drain(..count);
+        lines.push(format!("{indent}{}", if lines.is_empty() { &text } else { text.trim_start() }));
     }
-    lines.push(rest);
+    if lines.is_empty() {
+        lines.push(String::new());
+    }
     lines
 }
 
-/// Where a line that is too long is broken: at the last of the outermost signs that leave it short enough, or else at the
-/// first sign.
-fn place(line: &str) -> Option<usize> {
-    if line.chars().count() <= COLUMNS {
-        return None;
-    }
-    let mut depth = 0_usize;
-    let mut best: Option<(usize, usize)> = None;
-    let rest = line.char_indices().enumerate().skip(INDENT.len() + 1);
-    for (column, (place, character)) in rest {
+/// What stands between signs, each with the brackets around its sign.
+fn pieces(line: &str) -> (Vec<&str>, Vec<Extent>) {
+    let (mut texts, mut extents) = (Vec::new(), Vec::new());
+    let (mut depth, mut start, mut outside) = (0_usize, 0, 0);
+    let mut piece = |text: &'_ str, depth| extents.push(Extent { width: text.chars().count(), depth });
+    for (place, character) in line.char_indices() {
         match character {
             '(' | '[' | '{' => depth += 1,
             ')' | ']' | '}' => depth = depth.saturating_sub(1),
             _ => {}
         }
-        let is_sign =
-            line.get(place..).is_some_and(|tail| tail.starts_with(" + ") || tail.starts_with(" - "));
-        if !is_sign {
-            continue;
-        }
-        if column > COLUMNS && best.is_some() {
-            break;
-        }
-        if best.is_none_or(|(least, _)| depth <= least) {
-            best = Some((depth, place));
+        let (before, tail) = line.split_at(place);
+        if (tail.starts_with(" + ") || tail.starts_with(" - ")) && !before.trim().is_empty() {
+            let text = before.get(start..).unwrap_or_default();
+            piece(text, outside);
+            texts.push(text);
+            (start, outside) = (place, depth);
         }
     }
-    best.map(|(_, place)| place)
+    let last = line.get(start..).unwrap_or_default();
+    if !last.is_empty() {
+        piece(last, outside);
+        texts.push(last);
+    }
+    (texts, extents)
 }
 
 #[cfg(test)]

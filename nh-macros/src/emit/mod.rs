@@ -24,6 +24,7 @@ mod intermediate_names;
 mod invariants;
 mod jacobian;
 mod labels;
+mod latex;
 mod layout;
 mod line_breaks;
 mod linearization;
@@ -103,6 +104,7 @@ pub(crate) fn emit(system: &System, layout: &Layout) -> Result<TokenStream, Vec<
     programs.extend(part.programs.iter().map(|(name, program)| (*name, program)));
     let mut methods = report_text::constant(context, system, &programs);
     methods.extend(c::constant(context, scope, system, &programs));
+    methods.extend(latex::constant(context, system));
     methods.extend(motion::method(context, scope, &derivative));
     let mut items = report_text::item(context, &system.equations);
     items.extend(records(context, system.functions.get(&VELOCITY).is_some()));

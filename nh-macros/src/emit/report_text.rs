@@ -71,7 +71,7 @@ pub(super) fn item(context: &Context, equations: &[String]) -> TokenStream {
 }
 
 /// The tokens of the attributes of an item, and the others.
-fn split_attributes(item: TokenStream) -> (Vec<TokenTree>, Vec<TokenTree>) {
+pub(super) fn split_attributes(item: TokenStream) -> (Vec<TokenTree>, Vec<TokenTree>) {
     let mut tokens: Vec<TokenTree> = item.into_iter().collect();
     let mut end = 0;
     while let [TokenTree::Punct(pound), TokenTree::Group(group), ..] = &tokens[end..] {
@@ -85,7 +85,7 @@ fn split_attributes(item: TokenStream) -> (Vec<TokenTree>, Vec<TokenTree>) {
 }
 
 /// Whether this is the bracket of a doc attribute.
-fn is_doc(token: &TokenTree) -> bool {
+pub(super) fn is_doc(token: &TokenTree) -> bool {
     let TokenTree::Group(group) = token else { return false };
     matches!(group.stream().into_iter().next(), Some(TokenTree::Ident(ident)) if ident == "doc")
 }

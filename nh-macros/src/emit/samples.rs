@@ -175,6 +175,7 @@ impl Builder {
             ledger: nonholonomic_core::choose::Ledger::default(),
             report: "Derived by hand.".to_owned(),
             equations: vec!["x' = …".to_owned()],
+            latex: None,
         }
     }
 }

@@ -14,8 +14,8 @@ use super::setting::Context;
 use super::taylor;
 use super::{
     almost_poisson, angle_cache, assembly, c, callback, discrete, editor, embedding, energy, functions,
-    hamiltonian, held, impact_methods, invariants, jacobian, linearization, motion, observed, prepared,
-    projection, report_text, sparse_jacobian, state, validate, vector_products,
+    hamiltonian, held, impact_methods, invariants, jacobian, latex, linearization, motion, observed,
+    prepared, projection, report_text, sparse_jacobian, state, validate, vector_products,
 };
 use crate::resolve::Outline;
 
@@ -28,6 +28,9 @@ pub(crate) fn stubs(layout: &Layout, outline: &Outline) -> TokenStream {
     let mut methods = report_text::with_text(context, "");
     if outline.requests.contains(&Request::Explain) {
         methods.extend(report_text::derivation_with(context, ""));
+    }
+    if outline.requests.contains(&Request::Latex) {
+        methods.extend(latex::with_text(context, ""));
     }
     if outline.requests.contains(&Request::C) {
         methods.extend(c::with_text(context, ""));

@@ -1,6 +1,6 @@
 //! Declarations found in source text.
 
-use proc_macro2::{Delimiter, Group, TokenStream, TokenTree};
+use proc_macro2::{Delimiter, Group, Ident, Span, TokenStream, TokenTree};
 
 /// A struct with `#[nonholonomic(…)]`.
 #[derive(Clone, Debug)]
@@ -11,6 +11,32 @@ pub struct Declaration {
     pub attribute: TokenStream,
     /// The struct, with its other attributes.
     pub item: TokenStream,
+}
+
+impl Declaration {
+    /// The same with one word more in `emit { … }`.
+    #[must_use]
+    pub fn asking_for(&self, word: &str) -> Self {
+        let mut tokens: Vec<TokenTree> = self.attribute.clone().into_iter().collect();
+        let is_emit = |token: &TokenTree| matches!(token, TokenTree::Ident(ident) if ident == "emit");
+        let place =
+            tokens.windows(2).position(|pair| is_emit(&pair[0]) && matches!(pair[1], TokenTree::Group(_)));
+        let asked = |others: &TokenStream| -> TokenStream {
+            let others: Vec<String> =
+                others.to_string().split(',').map(|other| other.trim().to_owned()).collect();
+            let others =
+                others.iter().filter(|other| !other.is_empty() && *other != word).map(String::as_str);
+            let words = others.chain([word]).collect::<Vec<_>>().join(", ");
+            words.parse().unwrap_or_default()
+        };
+        if let Some(TokenTree::Group(group)) = place.and_then(|place| tokens.get_mut(place + 1)) {
+            *group = Group::new(Delimiter::Brace, asked(&group.stream()));
+        } else {
+            tokens.push(TokenTree::Ident(Ident::new("emit", Span::call_site())));
+            tokens.push(TokenTree::Group(Group::new(Delimiter::Brace, asked(&TokenStream::new()))));
+        }
+        Self { attribute: tokens.into_iter().collect(), ..self.clone() }
+    }
 }
 
 /// Every declaration in a Rust source text, those inside modules, functions and macros included, in their

@@ -51,7 +51,7 @@ use proc_macro2::TokenStream;
 use quote::quote;
 pub use record::{arms, record, references, whole_record};
 pub use relations::{Relation, relations};
-pub use tokens::{errors, length};
+pub use tokens::{constant, errors, length};
 
 use emit::Layout;
 use syntax::Malformed;

@@ -33,3 +33,24 @@ pub fn length(items: &TokenStream) -> usize {
     }
     count
 }
+
+/// The text of a generated constant.
+#[must_use]
+pub fn constant(tokens: TokenStream, name: &str) -> Option<String> {
+    let tokens: Vec<TokenTree> = tokens.into_iter().collect();
+    for (k, token) in tokens.iter().enumerate() {
+        if matches!(token, TokenTree::Ident(ident) if ident == name) {
+            let literal = tokens[k..].iter().find_map(|token| match token {
+                TokenTree::Literal(literal) => syn::parse_str::<syn::LitStr>(&literal.to_string()).ok(),
+                _ => None,
+            });
+            return literal.map(|literal| literal.value());
+        }
+        if let TokenTree::Group(group) = token
+            && let Some(found) = constant(group.stream(), name)
+        {
+            return Some(found);
+        }
+    }
+    None
+}

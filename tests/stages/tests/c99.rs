@@ -5,13 +5,12 @@ use std::fmt::Write;
 use std::path::PathBuf;
 use std::process::Command;
 
-use nh_stages::{Declaration, declarations};
+use nh_stages::{Declaration, constant, declarations};
 use nonholonomic_core::functions::ENERGY;
 use nonholonomic_core::id::SymbolId;
 use nonholonomic_core::mechanics::Procedure;
 use nonholonomic_core::program::{interpret, schedule_grouping};
 use nonholonomic_core::system::System;
-use proc_macro2::{TokenStream, TokenTree};
 
 /// What the compiler is asked: no warning, no fused operations that were not written.
 const FLAGS: [&str; 8] =
@@ -57,25 +56,7 @@ struct Indefinite { a: f64, b: f64, c: f64, k: f64 }
 const PRINT: &str = r#"printf("%.17g\n", "#;
 
 fn text_of(declaration: &Declaration) -> String {
-    fn find(tokens: TokenStream) -> Option<String> {
-        let tokens: Vec<TokenTree> = tokens.into_iter().collect();
-        for (k, token) in tokens.iter().enumerate() {
-            if matches!(token, TokenTree::Ident(ident) if ident == "C99") {
-                let literal = tokens[k..].iter().find_map(|token| match token {
-                    TokenTree::Literal(literal) => syn::parse_str::<syn::LitStr>(&literal.to_string()).ok(),
-                    _ => None,
-                });
-                return literal.map(|literal| literal.value());
-            }
-            if let TokenTree::Group(group) = token
-                && let Some(found) = find(group.stream())
-            {
-                return Some(found);
-            }
-        }
-        None
-    }
-    find(declaration.expanded()).expect("`C99`")
+    constant(declaration.expanded(), "C99").expect("`C99`")
 }
 
 /// A value for every symbol, not the same for any two.

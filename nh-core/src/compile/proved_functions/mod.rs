@@ -94,6 +94,7 @@ impl Parts {
             ledger: proved.ledger,
             report,
             equations,
+            latex: None,
             model,
         }
     }

@@ -37,7 +37,8 @@ const SYSTEMS: [(&str, &str); 5] = [
 ];
 
 /// What is derived on levels; where there are no constraints, less what belongs to these.
-const DERIVED: [&str; 16] = [
+const DERIVED: [&str; 17] = [
+    "latex",
     "power",
     "c",
     "jacobian",
