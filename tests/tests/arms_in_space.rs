@@ -171,9 +171,7 @@ fn by_bodies(arms: &Arms<f64>, state: &ArmsState<f64>, torque: &[f64; BODIES]) -
             matrix[at + 9 + i][at + 12] = -axis[i];
         }
         // 4. n · M is what the motor gives
-        for i in 0..3 {
-            matrix[at + 12][moment + i] = axis[i];
-        }
+        matrix[at + 12][moment..moment + 3].copy_from_slice(&axis);
         right[at + 12] = torque[k];
         if let Some(h) = PARENTS[k] {
             let before = PER_BODY * h;
