@@ -2,7 +2,7 @@
 //!
 //! Where [`batch`](crate::batch) takes the same steps for a whole group, in lanes, members here go each at
 //! its own pace. They stand in a slice of the caller and stay in its order; a member that fails keeps its error and its last
-//! good state, and the others go on. With the feature `rayon`, [`par_advance_to`] and [`par_each`] share the members out to
+//! good state, and the others go on. With the feature `rayon`, `par_advance_to` and `par_each` share the members out to
 //! all cores one by one, as their runs may be of very different lengths; the results are those of [`advance_to`] and
 //! [`each`], bit for bit. Nothing is allocated.
 //!

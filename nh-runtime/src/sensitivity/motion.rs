@@ -66,12 +66,12 @@ pub type NoParameters<S, T, const N: usize> =
 ///
 /// It is a system like others, whose state is [`WithColumns`]. What an integration of it gives is
 ///
-/// - the derivative of the **exact motion**, to the tolerance of an adaptive method: [`ColumnTolerance`] says what the
+/// - the derivative of the **exact motion**, to the tolerance of an adaptive method: [`ColumnTolerance`](super::ColumnTolerance) says what the
 ///   columns may err by, and whether they are looked at;
 /// - the derivative of the **steps that are taken**, their lengths held, to round-off, where the method is explicit:
 ///   a step of the variational equation is the derivative of the step (Hairer, Lubich, Wanner, Geometric Numerical
 ///   Integration, lemma VI.4.1). For an adaptive one the columns then should have no part in the choice of the lengths:
-///   [`ColumnTolerance::of_state`].
+///   [`ColumnTolerance::of_state`](super::ColumnTolerance::of_state).
 ///
 /// Implicit methods solve it like any other system, with a Jacobian by differences of (K + 1) times the size: for few
 /// columns. [`advance`](Self::advance) differentiates the steps of an implicit method without that.
