@@ -34,7 +34,7 @@ use nonholonomic::sensitivity::{By, ColumnTolerance, Variational};
     inputs      { torque }
     forces      { omega: torque - c * omega; }
     assume      { m > 0; J > 0; }
-    units       { x, y, a = m; theta = rad; m = kg; J = kg m^2; torque = N m; }
+    units       { x, y, a = m; theta = rad; m = kg; J = kg m^2; torque = N m; c = N m s; }
     emit        { jacobian, parameter_jacobian }
 )]
 #[derive(Clone, Copy, Debug)]
