@@ -51,7 +51,11 @@ fn agrees<P: Tableau>(name: &str) {
     let (start, input) = (SleighState::from(START), SleighInput::from(INPUT));
     let step: Transition<_, f64, 5, 2> =
         Fixed::<P, f64>::linearized_step(&SLEIGH, TIME, STEP, &start, &input);
-    assert_eq!(step.state, Fixed::<P, f64>::step(&SLEIGH, TIME, STEP, &start, &input), "{name}");
+    // the derivative comes from one program with its Jacobians, which rounds in an order of its own
+    let expected = Fixed::<P, f64>::step(&SLEIGH, TIME, STEP, &start, &input).to_array();
+    for (ours, expected) in step.state.to_array().iter().zip(expected) {
+        assert!((ours - expected).abs() <= 4.0 * f64::EPSILON, "{name}: {ours} {expected}");
+    }
     for (i, jet) in by_jets::<P>().into_iter().enumerate() {
         for (j, expected) in jet.by.into_iter().enumerate() {
             let ours = if j < 5 { step.by_state[(i, j)] } else { step.by_input[(i, j - 5)] };
