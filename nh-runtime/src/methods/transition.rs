@@ -16,7 +16,8 @@ use crate::{D, Dynamics, IntegrationError, Jacobian, Jet, Real, Scalar, State};
 /// zero-order hold.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Transition<X, T, const N: usize, const M: usize> {
-    /// The state at the end.
+    /// The state at the end: that of the step alone, to rounding where the derivative comes in one program with its
+    /// Jacobians ([`Jacobian::linearized`](crate::Jacobian::linearized)), as it does in generated systems.
     pub state: X,
     /// A_d: in row i, the derivatives of component i of it by the components of the state at the start.
     pub by_state: SMatrix<T, N, N>,

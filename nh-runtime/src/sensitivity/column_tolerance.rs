@@ -26,7 +26,8 @@ impl<T: Real, const K: usize> ColumnTolerance<T, Uniform<T>, Uniform<T>, K> {
 }
 
 impl<T: Real, W, const K: usize> ColumnTolerance<T, W, Uniform<T>, K> {
-    /// The error of the state alone decides about steps, which are then those of an integration without columns: these
+    /// The error of the state alone decides about steps, which are then those of an integration without columns, to
+    /// rounding where a derivative and its Jacobians are one program, as in generated systems: these
     /// become the derivatives of the steps that are taken.
     #[must_use]
     pub fn of_state(state: W) -> Self {
