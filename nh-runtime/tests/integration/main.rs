@@ -10,6 +10,8 @@ mod ensembles;
 mod errors;
 mod events;
 mod implicit;
+// they are kept in a `Vec`, which needs the standard library
+#[cfg(feature = "std")]
 mod kept_motions;
 mod landing;
 mod lanes;
