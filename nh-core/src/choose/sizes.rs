@@ -6,9 +6,12 @@ use crate::count::Count;
 /// Lagrangians with more operations than this are not expanded: the equations are derived in
 /// velocity forms alone.
 pub(crate) const EXPANDED: u64 = 120;
-/// The same where points are carried by wheels: the recursion from wheel to wheel is shorter than what
+/// The same where nothing is constrained, so that nothing is put into what is expanded: three links on the ground are
+/// shorter expanded than from the tips.
+const EXPANDED_ON_ALL: u64 = 150;
+/// The same where constraints are chained: the recursion from wheel to wheel, or from the tips, is shorter than what
 /// expansion comes to as soon as there are several bodies.
-pub(crate) const EXPANDED_ON_WHEELS: u64 = 60;
+pub(crate) const EXPANDED_IN_CHAINS: u64 = 60;
 /// The coefficients of longer velocities on D are not named one by one: expressions of that size are those of
 /// chains, which are shorter from wheel to wheel.
 pub(crate) const NAMED: u64 = 60;
@@ -22,6 +25,11 @@ pub(crate) const BESIDE: &str = " before it is solved, beside ";
 /// Whether equations of a length are left aside beside those of the shortest.
 pub(crate) fn is_much_longer(length: Count, shortest: Count) -> bool {
     length > shortest + LONGER && length * 2 > shortest * 3
+}
+
+/// How many operations a Lagrangian may have that is expanded.
+pub(crate) fn expanded(is_constrained: bool) -> u64 {
+    if is_constrained { EXPANDED } else { EXPANDED_ON_ALL }
 }
 
 /// Functions of more operations than this are not differentiated as expressions: the derivatives of one step by

@@ -79,7 +79,8 @@ pub(super) fn candidates(
     let setting =
         Setting { system, bodies: &bodies, distribution: kept, chained: chained.as_ref(), residuals, size };
     let mut found = Candidates::default();
-    let mut most = if is_orthonormal { Count::TOO_MANY } else { Count::new(sizes::EXPANDED) };
+    let is_constrained = !kept.dependent.is_empty();
+    let mut most = if is_orthonormal { Count::TOO_MANY } else { Count::new(sizes::expanded(is_constrained)) };
     for form in registry.forms() {
         if form.expands() && size > most {
             let name = form.name();
@@ -87,14 +88,14 @@ pub(super) fn candidates(
             continue;
         }
         if let Some(procedure) = form.solve(graph, &setting) {
-            most = most.min(form.others_expand_up_to());
+            most = most.min(form.others_expand_up_to(&setting));
             found.solved.push(Entry { form: form.name(), procedure });
         }
         let Some(mut equations) = form.derive(graph, &setting) else { continue };
         if is_orthonormal {
             in_orthonormal_basis(graph, &mut equations);
         }
-        most = most.min(form.others_expand_up_to());
+        most = most.min(form.others_expand_up_to(&setting));
         found.equations.push(Candidate { form: *form, equations });
     }
     found.equations.sort_by_key(|candidate| candidate.form.rank());

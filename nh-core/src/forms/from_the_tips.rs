@@ -18,8 +18,11 @@ impl Form for FromTheTips {
     fn formulas(&self) -> &'static str {
         "mathematics (39)"
     }
-    fn others_expand_up_to(&self) -> Count {
-        Count::new(sizes::EXPANDED_ON_WHEELS)
+    fn others_expand_up_to(&self, setting: &Setting) -> Count {
+        if setting.distribution.dependent.is_empty() {
+            return Count::TOO_MANY;
+        }
+        Count::new(sizes::EXPANDED_IN_CHAINS)
     }
     fn rank(&self) -> u8 {
         6

@@ -52,7 +52,7 @@ pub trait Form: Sync {
         false
     }
     /// Where it exists, other forms expand Lagrangians of so many operations at most.
-    fn others_expand_up_to(&self) -> Count {
+    fn others_expand_up_to(&self, _setting: &Setting) -> Count {
         Count::TOO_MANY
     }
     /// The place among forms of equal cost, and among those that the report may show: the least is first.

@@ -18,8 +18,8 @@ impl Form for OnWheels {
     fn formulas(&self) -> &'static str {
         "mathematics (8), by dθ of section 5 for turned pairs of forms"
     }
-    fn others_expand_up_to(&self) -> Count {
-        Count::new(sizes::EXPANDED_ON_WHEELS)
+    fn others_expand_up_to(&self, _: &Setting) -> Count {
+        Count::new(sizes::EXPANDED_IN_CHAINS)
     }
     fn rank(&self) -> u8 {
         4
