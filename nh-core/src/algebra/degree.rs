@@ -164,16 +164,14 @@ impl<'a> Degrees<'a> {
             let numerator = terms.iter().map(|term| term.numerator).fold(0.0, f64::max);
             return Degree { numerator, factors: first.factors.clone() };
         }
-        let mut least: Rc<Exponents> = first.factors.clone();
-        let mut read = 0;
-        for (place, term) in terms.iter().enumerate().skip(1) {
+        let mut kinds: Vec<Rc<Exponents>> = Vec::with_capacity(terms.len());
+        for term in terms {
             // neighbours often are of one kind
-            if !Rc::ptr_eq(&term.factors, &terms[place - 1].factors) {
-                read += least.len() + term.factors.len();
-                least = lower_ones(&least, &term.factors).into();
+            if !kinds.last().is_some_and(|last| Rc::ptr_eq(last, &term.factors)) {
+                kinds.push(term.factors.clone());
             }
         }
-        limits::spend(read / FACTORS_PER_STEP);
+        let least = together(kinds, lower_ones);
         let common = self.size_together(&least);
         let mut numerator = 0.0_f64;
         for term in terms {
@@ -210,22 +208,25 @@ impl<'a> Degrees<'a> {
     #[allow(clippy::float_cmp, reason = "an exponent that is exactly one")]
     fn of_powers(&mut self, powers: Vec<(Factor, Degree, f64)>) -> Degree {
         let mut numerator = 0.0;
-        let mut exponents: Rc<Exponents> = Rc::from([]);
+        let mut kinds: Vec<Rc<Exponents>> = Vec::with_capacity(powers.len());
         for (base, degree, power) in powers {
             if power < 0.0 && degree.numerator > 0.0 {
                 self.sizes.insert(base, degree.numerator);
-                exponents = with_multiple(&exponents, &[(base, 1.0)], power).into();
+                kinds.push(Rc::from([(base, power)]));
             } else if power > 0.0 {
                 numerator += power * degree.numerator;
             }
-            if exponents.is_empty() && power == 1.0 {
-                exponents = degree.factors;
-            } else if !degree.factors.is_empty() {
-                limits::spend((exponents.len() + degree.factors.len()) / FACTORS_PER_STEP);
-                exponents = with_multiple(&exponents, &degree.factors, power).into();
+            if degree.factors.is_empty() {
+                continue;
+            }
+            if power == 1.0 {
+                kinds.push(degree.factors);
+            } else {
+                limits::spend(degree.factors.len() / FACTORS_PER_STEP);
+                kinds.push(multiple(&degree.factors, power));
             }
         }
-        Degree { numerator, factors: exponents }
+        Degree { numerator, factors: together(kinds, sums) }
     }
 
     /// Multiples of an angle are powers of a point of the circle, which has degree 2.
@@ -273,15 +274,15 @@ fn lower_ones(left: &Exponents, right: &Exponents) -> Vec<(Factor, f64)> {
     found
 }
 
-/// The exponents with a multiple of others.
-fn with_multiple(left: &Exponents, right: &Exponents, times: f64) -> Vec<(Factor, f64)> {
+/// The sums of exponents.
+fn sums(left: &Exponents, right: &Exponents) -> Vec<(Factor, f64)> {
     let mut found = Vec::with_capacity(left.len() + right.len());
     let (mut i, mut j) = (0, 0);
     while i < left.len() || j < right.len() {
         let first = if i < left.len() { left[i].0.index() } else { usize::MAX };
         let second = if j < right.len() { right[j].0.index() } else { usize::MAX };
         let one = if first <= second { left[i].1 } else { 0.0 };
-        let other = if second <= first { times * right[j].1 } else { 0.0 };
+        let other = if second <= first { right[j].1 } else { 0.0 };
         if one + other != 0.0 {
             found.push((if first <= second { left[i].0 } else { right[j].0 }, one + other));
         }
@@ -289,6 +290,29 @@ fn with_multiple(left: &Exponents, right: &Exponents, times: f64) -> Vec<(Factor
         j += usize::from(second <= first);
     }
     found
+}
+
+/// A multiple of exponents.
+fn multiple(exponents: &Exponents, times: f64) -> Rc<Exponents> {
+    exponents.iter().map(|(factor, exponent)| (*factor, times * exponent)).collect()
+}
+
+/// Lists of exponents taken together, two of equal length where possible: the first with all others, one after the
+/// other, would be read as often as there are others.
+fn together(
+    mut lists: Vec<Rc<Exponents>>,
+    two: fn(&Exponents, &Exponents) -> Vec<(Factor, f64)>,
+) -> Rc<Exponents> {
+    let mut apart = 1;
+    while apart < lists.len() {
+        for place in (0..lists.len() - apart).step_by(2 * apart) {
+            let (left, right) = (&lists[place], &lists[place + apart]);
+            limits::spend((left.len() + right.len()) / FACTORS_PER_STEP);
+            lists[place] = two(left, right).into();
+        }
+        apart *= 2;
+    }
+    lists.into_iter().next().unwrap_or_else(|| Rc::from([]))
 }
 
 #[cfg(test)]
@@ -328,5 +352,39 @@ mod tests {
         }
         let found = Degrees::new(&g, 1).most(&degrees[9..]);
         assert!(found > 10.0 && found < 2048.0, "{found}");
+    }
+
+    /// Of a sum, or of a product, of sines of different angles.
+    #[allow(clippy::cast_precision_loss, clippy::float_cmp, reason = "small whole numbers")]
+    fn work_of_many(count: i64, build: fn(&mut Graph, &[ExprId]) -> ExprId) -> u64 {
+        let mut g = Graph::new();
+        let x = g.new_symbol("x");
+        let x = g.symbol(x);
+        let sines: Vec<ExprId> = (1..=count)
+            .map(|times| {
+                let angle = g.scale(Rational::from(times), x);
+                g.sin(angle)
+            })
+            .collect();
+        let whole = build(&mut g, &sines);
+        let work = limits::within_limits(|| {
+            let turns = count * (count + 1);
+            assert_eq!(Degrees::new(&g, 1).most(&[whole]), turns as f64);
+            limits::spent()
+        });
+        work.unwrap()
+    }
+
+    #[test]
+    fn long_sums_and_products_are_not_read_again_for_every_term() {
+        let sum = |count| work_of_many(count, Graph::sum);
+        let product = |count| {
+            work_of_many(count, |g, sines| {
+                let powers: Vec<_> = sines.iter().map(|sine| (*sine, Rational::from(1))).collect();
+                g.product(&powers)
+            })
+        };
+        assert!(sum(1600) < 5 * sum(400), "{} and {}", sum(400), sum(1600));
+        assert!(product(1600) < 5 * product(400), "{} and {}", product(400), product(1600));
     }
 }
