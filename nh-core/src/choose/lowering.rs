@@ -10,7 +10,9 @@ use crate::algebra::{Accuracy, Graph};
 use crate::id::{Origin, SymbolId};
 use crate::mechanics::Procedure;
 use crate::model::Model;
-use crate::program::{Program, Split, corrected, schedules, split};
+use crate::program::{
+    Program, Scheduled, Split, corrected, error_growth, error_growth_apart, schedules, split,
+};
 use crate::violation::{Law, Violation};
 
 /// What is said of a program that is refuted, and what can be done.
@@ -153,13 +155,30 @@ pub fn lowered(
     parameters: &[SymbolId],
     finish: impl Fn(Program) -> Program,
 ) -> Result<Lowered, Unproved> {
-    for program in schedules(graph, procedure, parameters) {
+    for Scheduled { program, is_conjecture, beside } in schedules(graph, procedure, parameters) {
+        if beside.as_ref().is_some_and(|plain| loses_digits(graph, plain, &program)) {
+            continue;
+        }
         let program = finish(program);
         match prove_program(graph, procedure, &program) {
             Ok(proof) => return Ok(Lowered { program, proof: Ok(proof) }),
+            Err(Unproved::Unknown(_)) if is_conjecture => {}
             Err(Unproved::Unknown(reason)) => return Ok(Lowered { program, proof: Err(reason) }),
             Err(Unproved::Wrong) => {}
         }
     }
     Err(Unproved::Wrong)
 }
+
+/// Whether a program has larger rounding errors than one without what was done to it.
+fn loses_digits(graph: &Graph, plain: &Program, program: &Program) -> bool {
+    if graph.accuracy() == Accuracy::Fast {
+        return false;
+    }
+    let programs = [plain, program];
+    let loses = |growth: Vec<f64>| growth[1] > SLACK * growth[0];
+    loses(error_growth(&programs)) || loses(error_growth_apart(&programs))
+}
+
+/// How much larger rounding errors may be by that, which is how far bounds of equal errors are apart.
+const SLACK: f64 = 1.25;

@@ -2,8 +2,9 @@
 //!
 //! An evaluation of a sine costs as much as some fifteen multiplications, so that
 //! `sin(a − b) = sin a cos b − cos a sin b` pays wherever the parts are needed anyway. It costs the
-//! relative accuracy of small angles: what is left of two products of order one is as wrong as these. Careful code, which
-//! carries what rounding took of the products, loses no more than an ulp of the parts explains; there it is done so that
+//! relative accuracy of small angles: what is left of two products of order one is as wrong as these, which is what one or
+//! two ulps of the parts explain. Fast code has it so; balanced code where bounds on the errors of the results grow
+//! no larger by it. Careful code, which carries what rounding took of the products, has it so that
 //! sines of sums and those of their parts, each rounded for itself, do not break what cancels by the theorems.
 
 use super::nary::{Arena, Nary, Term};
@@ -27,11 +28,12 @@ struct Angle {
 /// A term, and whether it is subtracted.
 type Signed = (Term, bool);
 
-/// Replaces sines and cosines whose angles are sums or differences of two others.
-pub(super) fn share_angles(arena: &mut Arena) {
+/// Replaces sines and cosines whose angles are sums or differences of two others; whether there are any.
+pub(super) fn share_angles(arena: &mut Arena) -> bool {
     let angles = angles(arena);
     let wholes = from_other_angles(arena, &angles);
-    from_terms(arena, &angles, &wholes);
+    let from_terms = from_terms(arena, &angles, &wholes);
+    from_terms || !wholes.is_empty()
 }
 
 /// Takes angles from two others each, the longest sums first; those that were replaced.
@@ -75,8 +77,9 @@ fn from_other_angles(arena: &mut Arena, angles: &[Angle]) -> Vec<Term> {
     angles.iter().zip(is_whole).filter(|(_, is_whole)| *is_whole).map(|(angle, _)| angle.term).collect()
 }
 
-/// Takes sums of two terms from these, if that makes fewer angles; none of them is written by others already.
-fn from_terms(arena: &mut Arena, angles: &[Angle], wholes: &[Term]) {
+/// Takes sums of two terms from these, if that makes fewer angles, and whether it does; none of them is written by others
+/// already.
+fn from_terms(arena: &mut Arena, angles: &[Angle], wholes: &[Term]) -> bool {
     let is_pair = |angle: &&Angle| {
         let is_free = !wholes.contains(&angle.term) && angle.form.keys().all(|term| !wholes.contains(term));
         is_free && angle.form.len() == 2 && angle.form.values().all(|coefficient| coefficient.abs().is_one())
@@ -86,7 +89,8 @@ fn from_terms(arena: &mut Arena, angles: &[Angle], wholes: &[Term]) {
     new.sort_unstable();
     new.dedup();
     new.retain(|term| angles.iter().all(|angle| angle.term != *term));
-    if new.len() < pairs.len() {
+    let is_shorter = new.len() < pairs.len();
+    if is_shorter {
         for angle in pairs {
             let parts: Vec<Signed> = angle.form.iter().map(|(term, c)| (*term, c.is_negative())).collect();
             if let [first, second] = *parts {
@@ -94,6 +98,7 @@ fn from_terms(arena: &mut Arena, angles: &[Angle], wholes: &[Term]) {
             }
         }
     }
+    is_shorter
 }
 
 /// The angles whose sine or cosine is needed.

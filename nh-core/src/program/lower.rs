@@ -13,7 +13,7 @@ use std::collections::BTreeMap;
 /// Longer sums are split in halves, which do not wait for each other.
 const LONGEST_CHAIN: usize = 16;
 
-/// The program of an arena without powers in its products.
+/// The program of an arena without powers in its products, to be [`fused`].
 ///
 /// Sines and cosines come first, since they take longest; everything else comes right before what
 /// needs it first. Parameters are combined with each other before they meet anything that varies.
@@ -44,8 +44,12 @@ pub(super) fn lower(arena: &Arena) -> Program {
         lowering.values[term.index()] = Some(value);
     }
     let outputs = arena.outputs.iter().map(|output| lowering.value(*output)).collect();
-    let program = Program { steps: lowering.steps, outputs, names: lowering.names };
-    let program = fuse(quotients(without_dead_steps(&program), |symbol| arena.parameters.contains(&symbol)));
+    without_dead_steps(&Program { steps: lowering.steps, outputs, names: lowering.names })
+}
+
+/// The program with products fused to sums, divisions in the place of reciprocals, and signs where they are free.
+pub(super) fn fused(program: Program, is_parameter: impl Fn(SymbolId) -> bool) -> Program {
+    let program = fuse(quotients(program, is_parameter));
     without_dead_steps(&absorb_signs(without_dead_steps(&program)))
 }
 

@@ -1,6 +1,6 @@
 //! Straight-line programs: what is emitted, and what the interpreter runs.
 //!
-//! [`schedule`] takes a procedure through these steps, each of which keeps its value:
+//! [`schedule`] takes a procedure through these steps, each of which but the sixth keeps its value:
 //!
 //! 1. `import`: what the outputs depend on becomes n-ary sums and products with integer exponents.
 //!    Where accuracy may go, `angles` are shared by the addition theorems.
@@ -8,7 +8,8 @@
 //! 3. `powers`: denominators are gathered or inverted once.
 //! 4. `pairs`: pairs of operands that several sums or products share are computed once.
 //! 5. `lower`: binary steps in an order in which every value precedes its uses.
-//! 6. `fuse`: sums with products become multiply-adds; `signs`: negations go where they are free.
+//! 6. `coincide`: steps that have one value become one step. That is a conjecture, and beside what it is one of.
+//! 7. `fuse`: sums with products become multiply-adds; `signs`: negations go where they are free.
 //!
 //! [`accumulated`] differentiates step by step: `opened` leaves the unknowns of linear systems free, `tape` has the
 //! partial derivatives of all steps, `vertex_order` says in which order they are multiplied.
@@ -20,6 +21,7 @@
 
 mod accumulate;
 mod angles;
+mod coincide;
 mod correct;
 mod cost;
 mod denominators;
@@ -51,7 +53,7 @@ pub use cost::{Cost, order};
 pub use interpret::{Arithmetic, interpret, interpret_in};
 pub use rounding::{error_growth, error_growth_apart, reading_in_vain, units_lost};
 pub use rule::{Factor, Inner, Rule};
-pub use schedule::{schedule, schedule_grouping, schedule_roughly, schedules};
+pub use schedule::{Scheduled, schedule, schedule_grouping, schedule_roughly, schedules};
 pub use split::{Split, split};
 pub use step::{Program, Step, Value};
 pub use taylor::{Recurrences, Variation};

@@ -178,7 +178,7 @@ fn under_functions(program: &Program) -> Vec<bool> {
 /// A number between 1/8 and 8 that the point and the symbol determine: masses and lengths are positive,
 /// and signs of states are as good as any.
 #[allow(clippy::cast_precision_loss, reason = "a sample needs no more digits")]
-fn sample(point: u32, symbol: SymbolId) -> f64 {
+pub(super) fn sample(point: u32, symbol: SymbolId) -> f64 {
     let word = Residue::mixed(23_000 + u64::from(point), symbol.index() as u64).word();
     let unit = (word & 0xF_FFFF) as f64 / f64::from(1 << 20);
     2f64.powf(6.0 * unit - 3.0)

@@ -1,12 +1,13 @@
 //! The search for the cheapest straight-line form.
 
 use super::angles::share_angles;
+use super::coincide::coincided;
 use super::cost::order;
 use super::denominators::separate_powers;
 use super::factor::{Sharing, factor};
 use super::fold::folded;
 use super::import::import;
-use super::lower::lower;
+use super::lower::{fused, lower};
 use super::nary::Arena;
 use super::pairs::{Kind, share_pairs};
 use super::step::Program;
@@ -39,7 +40,10 @@ const LARGE: usize = 4000;
 /// sums, after that, or at last. Mostly the first is as good as any.
 const SMALL: usize = 250;
 
-/// The cheapest program found for a procedure. Deterministic.
+/// In so many programs, the cheapest, is looked for steps that coincide.
+const CONJECTURED: usize = 2;
+
+/// The cheapest program found for a procedure without conjectures and without larger rounding errors. Deterministic.
 #[must_use]
 pub fn schedule(graph: &Graph, procedure: &Procedure) -> Program {
     schedule_grouping(graph, procedure, &[])
@@ -49,35 +53,83 @@ pub fn schedule(graph: &Graph, procedure: &Procedure) -> Program {
 /// that they can be done once per parameter set.
 #[must_use]
 pub fn schedule_grouping(graph: &Graph, procedure: &Procedure, parameters: &[SymbolId]) -> Program {
-    schedules(graph, procedure, parameters).into_iter().next().unwrap_or_default()
+    let mut found = schedules(graph, procedure, parameters).into_iter();
+    found.find(|scheduled| scheduled.beside.is_none()).map(|scheduled| scheduled.program).unwrap_or_default()
+}
+
+/// A program that was found for a procedure.
+#[derive(Clone, Debug)]
+pub struct Scheduled {
+    /// The program.
+    pub program: Program,
+    /// Whether it takes steps for one that coincide at a few points, so that it is to be proved.
+    pub is_conjecture: bool,
+    /// Where its rounding errors may be larger for something that was done to it: the program without that.
+    pub beside: Option<Program>,
 }
 
 /// All programs that are found, the cheapest first.
 #[must_use]
-pub fn schedules(graph: &Graph, procedure: &Procedure, parameters: &[SymbolId]) -> Vec<Program> {
-    let mut arena = import(graph, procedure, parameters);
+pub fn schedules(graph: &Graph, procedure: &Procedure, parameters: &[SymbolId]) -> Vec<Scheduled> {
+    let arena = import(graph, procedure, parameters);
+    let mut shared = arena.clone();
+    let is_shared = share_angles(&mut shared);
     // fast code saves evaluations; in careful code, which carries what rounding took, whatever cancels by an addition
-    // theorem cancels in both words
+    // theorem cancels in both words; otherwise it is done where the results do not lose by it
     if graph.accuracy() != Accuracy::Balanced {
-        share_angles(&mut arena);
+        return found(graph, if is_shared { &shared } else { &arena });
     }
+    let mut programs = found(graph, &arena);
+    let plain = programs.iter().find(|scheduled| scheduled.beside.is_none());
+    if is_shared && let Some(plain) = plain.map(|scheduled| scheduled.program.clone()) {
+        for Scheduled { program, is_conjecture, .. } in found(graph, &shared) {
+            if order(&program) < order(&plain) {
+                programs.push(Scheduled { program, is_conjecture, beside: Some(plain.clone()) });
+            }
+        }
+        programs.sort_by_cached_key(|scheduled| order(&scheduled.program));
+    }
+    programs
+}
+
+/// The programs of an arena, the cheapest first.
+fn found(graph: &Graph, arena: &Arena) -> Vec<Scheduled> {
     let tried = if arena.len() > LARGE { &STRATEGIES[..2] } else { &STRATEGIES[..] };
     let mut prepared = Vec::new();
     if graph.constants().is_empty() {
-        prepare(&arena, tried, &mut prepared);
+        prepare(arena, tried, &mut prepared);
     } else {
         if arena.len() <= SMALL {
-            prepare(&arena, tried, &mut prepared);
+            prepare(arena, tried, &mut prepared);
             for index in 0..prepared.len() {
                 let in_numbers = folded(&prepared[index]);
                 add(&mut prepared, in_numbers);
             }
         }
-        prepare(&folded(&arena), tried, &mut prepared);
+        prepare(&folded(arena), tried, &mut prepared);
     }
-    let mut programs: Vec<Program> = prepared.into_iter().map(straight_line).collect();
-    programs.sort_by_cached_key(order);
-    programs
+    let is_parameter = |symbol| arena.parameters.contains(&symbol);
+    let mut found: Vec<(Program, Program)> = Vec::with_capacity(prepared.len());
+    for prepared in prepared {
+        let lowered = straight_line(prepared);
+        found.push((fused(lowered.clone(), is_parameter), lowered));
+    }
+    found.sort_by_cached_key(|(program, _)| order(program));
+    let mut scheduled = Vec::with_capacity(found.len());
+    for (place, (plain, lowered)) in found.into_iter().enumerate() {
+        if place < CONJECTURED {
+            for program in coincided(&lowered, is_parameter) {
+                let program = fused(program, is_parameter);
+                if order(&program) < order(&plain) {
+                    let beside = Some(plain.clone());
+                    scheduled.push(Scheduled { program, is_conjecture: true, beside });
+                }
+            }
+        }
+        scheduled.push(Scheduled { program: plain, is_conjecture: false, beside: None });
+    }
+    scheduled.sort_by_cached_key(|scheduled| order(&scheduled.program));
+    scheduled
 }
 
 /// Factors an arena by each strategy; what has come to the same goes the same way from here.
@@ -104,7 +156,8 @@ fn add(prepared: &mut Vec<Arena>, arena: Arena) {
 pub fn schedule_roughly(graph: &Graph, procedure: &Procedure) -> Program {
     let arena = import(graph, procedure, &[]);
     let arena = if graph.constants().is_empty() { arena } else { folded(&arena) };
-    straight_line(STRATEGIES[0].factored(arena))
+    let parameters = arena.parameters.clone();
+    fused(straight_line(STRATEGIES[0].factored(arena)), |symbol| parameters.contains(&symbol))
 }
 
 fn with_shared_sums(mut arena: Arena) -> Arena {
@@ -121,7 +174,7 @@ impl Strategy {
     }
 }
 
-/// The program of an arena whose sums are factored.
+/// The program of an arena whose sums are factored, to be [`fused`].
 fn straight_line(mut arena: Arena) -> Program {
     separate_powers(&mut arena);
     share_pairs(&mut arena, Kind::Products);

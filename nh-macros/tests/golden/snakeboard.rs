@@ -92,39 +92,30 @@ impl Snakeboard {
             state.theta,
         );
         let (sin_phi, cos_phi) = ::nonholonomic::__private::Scalar::sin_cos(state.phi);
-        let e1 = -1.0 / cos_phi;
-        let e2 = sin_phi * e1;
+        let e1 = sin_phi / cos_phi;
+        let e2 = ::nonholonomic::__private::Scalar::mul_add(e1, e1, 1.0);
         let e3 = -1.0 / self.l;
-        let u1_dphi = state.u1 * state.dphi;
-        let e4 = self.J0 * u1_dphi;
         let m_l = self.m * self.l;
-        let e5 = ::nonholonomic::__private::Scalar::mul_add(
+        let e4 = self.l * m_l;
+        let e5 = sin_phi * sin_phi;
+        let e6 = -1.0 / ::nonholonomic::__private::Scalar::mul_add(self.J0, e5, -e4);
+        let l_rotor = self.l * input.rotor;
+        let e7 = 2.0 * e6;
+        let u1_dphi = state.u1 * state.dphi;
+        let e8 = self.J0 * u1_dphi;
+        let e9 = ::nonholonomic::__private::Scalar::mul_add(
             self.l,
             ::nonholonomic::__private::Scalar::mul_add(
                 -m_l,
                 u1_dphi,
                 cos_phi * cos_phi * input.rotor,
             ),
-            e4,
+            e8,
         );
-        let l_rotor = self.l * input.rotor;
-        let e6 = sin_phi * sin_phi;
-        let e7 = self.l * m_l;
-        let e8 = -1.0 / ::nonholonomic::__private::Scalar::mul_add(self.J0, e6, -e7);
-        let e9 = 2.0 * e8;
-        let e10 = ::nonholonomic::__private::Scalar::mul_add(
-            ::nonholonomic::__private::Scalar::mul_add(
-                -l_rotor,
-                2.0,
-                e5 * ::nonholonomic::__private::Scalar::mul_add(self.J0, e9, e1 * e1),
-            ),
-            e6,
-            e5,
-        ) * e8;
-        let e11 = e2 * ((e7 - self.J0) * e8);
-        let e12 = sin_phi * cos_phi;
-        let e13 = m_l * e8;
-        let d_v_dot_1 = (e4 + l_rotor) * e13 * e9 * e12;
+        let e10 = e1 * ((self.J0 - e4) * e6);
+        let e11 = sin_phi * cos_phi;
+        let e12 = m_l * e6;
+        let d_v_dot_1 = (e8 + l_rotor) * e12 * e7 * e11;
         let d_v_dot_2 = 0.5 / self.J1;
         (
             <::nonholonomic::__private::nalgebra::SMatrix<
@@ -150,26 +141,38 @@ impl Snakeboard {
                 [
                     0.0,
                     0.0,
-                    (e3 * state.u1
-                        * ::nonholonomic::__private::Scalar::mul_add(e2, e2, 1.0)),
+                    (e3 * state.u1 * e2),
                     0.0,
                     0.0,
-                    e10,
+                    (::nonholonomic::__private::Scalar::mul_add(
+                        ::nonholonomic::__private::Scalar::mul_add(
+                            -l_rotor,
+                            2.0,
+                            e9
+                                * ::nonholonomic::__private::Scalar::mul_add(
+                                    self.J0,
+                                    e7,
+                                    e2,
+                                ),
+                        ),
+                        e5,
+                        e9,
+                    ) * e6),
                     d_v_dot_1,
                     0.0,
                 ],
                 [
                     cos_theta,
                     sin_theta,
-                    -(e3 * e2),
+                    (e3 * e1),
                     0.0,
                     0.0,
-                    (state.dphi * e11),
-                    (state.dphi * e13),
+                    (state.dphi * e10),
+                    (state.dphi * e12),
                     0.0,
                 ],
                 [0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0],
-                [0.0, 0.0, 0.0, 0.0, 1.0, (state.u1 * e11), (state.u1 * e13), 0.0],
+                [0.0, 0.0, 0.0, 0.0, 1.0, (state.u1 * e10), (state.u1 * e12), 0.0],
             ]),
             <::nonholonomic::__private::nalgebra::SMatrix<
                 ::core::primitive::f64,
@@ -184,8 +187,8 @@ impl Snakeboard {
                     0.0,
                     0.0,
                     0.0,
-                    (self.l * e8 * e12),
-                    (self.l / self.J0 * e13),
+                    (self.l * e6 * e11),
+                    (self.l / self.J0 * e12),
                     0.0,
                 ],
                 [0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, d_v_dot_2],

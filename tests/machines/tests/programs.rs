@@ -5,7 +5,7 @@
 use nh_machines::{Emitted, LEVELS, Machine};
 use nonholonomic_core::choose::prove_program;
 use nonholonomic_core::id::SymbolId;
-use nonholonomic_core::program::schedules;
+use nonholonomic_core::program::{Scheduled, schedules};
 
 /// The seed, and as many machines of each kind.
 const SEED: u64 = 2;
@@ -23,7 +23,7 @@ fn none_is_refuted() {
             let parameters: Vec<SymbolId> = system.model.parameters.iter().map(|p| p.symbol).collect();
             let functions = system.functions.iter().map(|f| (f.signature.name, &f.procedure));
             for (name, procedure) in functions.chain([("derivative", &system.derivative)]) {
-                for program in schedules(graph, procedure, &parameters) {
+                for Scheduled { program, .. } in schedules(graph, procedure, &parameters) {
                     let verdict = prove_program(graph, procedure, &program);
                     assert!(
                         verdict.is_ok(),

@@ -2,6 +2,7 @@
 
 use super::{assert_well_formed, symbols};
 use crate::algebra::{Accuracy, Graph, Rational};
+use crate::choose::lowered;
 use crate::id::{ExprId, Id};
 use crate::mechanics::Procedure;
 use crate::program::{Program, Step, corrected, error_growth, error_growth_apart, interpret, schedule};
@@ -84,6 +85,27 @@ fn fast_code_takes_sines_of_sums_from_those_of_the_parts() {
     assert_eq!(evaluations(&g), 5);
     g.set_accuracy(Accuracy::Fast);
     assert_eq!(evaluations(&g), 2);
+}
+
+/// Balanced code does where nothing is lost by it: what is left of a small sine is the result here, and a summand there.
+#[test]
+fn balanced_code_takes_sines_of_sums_from_parts_where_results_keep_their_digits() {
+    let mut g = Graph::new();
+    let [x, y, mass, load] = symbols(&mut g, ["x", "y", "mass", "load"]);
+    let difference = g.formula(x - y);
+    let parts: Vec<ExprId> = [x, y].into_iter().flat_map(|angle| [g.sin(angle), g.cos(angle)]).collect();
+    let of = |g: &mut Graph, turned: ExprId| {
+        let mut outputs = parts.clone();
+        outputs.push(turned);
+        let lowered = lowered(g, &Procedure::of(outputs), &[], |program| program).unwrap();
+        assert!(lowered.proof.is_ok());
+        lowered.program.steps.iter().filter(|step| matches!(step, Step::SinCos(_) | Step::Apply(..))).count()
+    };
+    let sine = g.sin(difference);
+    assert_eq!(of(&mut g, sine), 3);
+    let cosine = g.cos(difference);
+    let inertia = g.formula(mass + load.square() * (mass + load * cosine).square());
+    assert_eq!(of(&mut g, inertia), 2);
 }
 
 #[test]

@@ -4,7 +4,7 @@ use super::symbols;
 use crate::algebra::{Graph, Rational};
 use crate::choose::prove_program;
 use crate::mechanics::Procedure;
-use crate::program::schedules;
+use crate::program::{Scheduled, schedules};
 
 /// T = c r + 2 c s is factored to c (r + 2 s): where both factors stand beside T, all three are there.
 #[test]
@@ -23,7 +23,7 @@ fn a_product_beside_its_own_factors() {
         g.product(&factors(&[whole, whole, sum, y])),
     ];
     let procedure = Procedure::of(outputs);
-    for program in schedules(&g, &procedure, &[]) {
+    for Scheduled { program, .. } in schedules(&g, &procedure, &[]) {
         prove_program(&g, &procedure, &program).unwrap_or_else(|_| panic!("{}", program.text(&g)));
     }
 }
@@ -43,7 +43,7 @@ fn a_sum_beside_its_own_summands() {
         g.formula(f * a + f * b + product + twice + b + d),
     ];
     let procedure = Procedure::of(outputs);
-    for program in schedules(&g, &procedure, &[]) {
+    for Scheduled { program, .. } in schedules(&g, &procedure, &[]) {
         prove_program(&g, &procedure, &program).unwrap_or_else(|_| panic!("{}", program.text(&g)));
     }
 }

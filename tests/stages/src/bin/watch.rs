@@ -10,9 +10,10 @@ use std::io::{Error, Read};
 use std::time::Instant;
 
 use nh_stages::{Declaration, arms, declarations, families, references, whole_record};
+use nonholonomic_core::choose::{Lowered, lowered};
 use nonholonomic_core::limits::{processor_time, spent, timed, within_limits};
 use nonholonomic_core::mechanics::Procedure;
-use nonholonomic_core::program::{Cost, schedule};
+use nonholonomic_core::program::Cost;
 use nonholonomic_core::system::System;
 
 fn main() -> std::io::Result<()> {
@@ -93,16 +94,20 @@ fn cost(declaration: &Declaration) -> (f64, u64) {
     (milliseconds, work.unwrap_or(u64::MAX))
 }
 
-/// The ledger, and the program of the derivative.
+/// The ledger, and the program of the derivative, as they are emitted.
 fn explained(system: &System) -> String {
     let graph = &system.model.graph;
-    let program = schedule(graph, &system.derivative);
-    let cost = Cost::of(&program);
+    let parameters: Vec<_> = system.model.parameters.iter().map(|parameter| parameter.symbol).collect();
+    let emitted = |procedure: &Procedure| lowered(graph, procedure, &parameters, |program| program);
+    let Ok(Lowered { program, .. }) = emitted(&system.derivative) else {
+        return format!("Choices\n\n{}\nno program of the derivative is proved", system.ledger);
+    };
     let of = |name: &str, procedure: Option<&Procedure>| {
-        let cost = procedure.map(|procedure| Cost::of(&schedule(graph, procedure)));
-        cost.map_or_else(String::new, |cost| format!("{name}: {cost}\n"))
+        let emitted = procedure.map(emitted).and_then(Result::ok);
+        emitted.map_or_else(String::new, |emitted| format!("{name}: {}\n", Cost::of(&emitted.program)))
     };
     let jacobian = of("Jacobian", system.jacobian().as_ref());
     let both = of("Derivative with Jacobian", system.linearized.as_ref());
+    let cost = Cost::of(&program);
     format!("Choices\n\n{}\n{both}{jacobian}Derivative: {cost}\n\n{}", system.ledger, program.text(graph))
 }
