@@ -311,6 +311,20 @@ pub enum Relation {
     NotEqual,
 }
 
+impl Relation {
+    /// As it is written.
+    #[must_use]
+    pub fn sign(self) -> &'static str {
+        match self {
+            Self::Less => "<",
+            Self::LessOrEqual => "<=",
+            Self::Greater => ">",
+            Self::GreaterOrEqual => ">=",
+            Self::NotEqual => "!=",
+        }
+    }
+}
+
 /// The claim that the motion keeps a volume.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct VolumeClaim {

@@ -1,7 +1,9 @@
 //! Multiples of inequalities that add up to a contradiction, with the help of squares and of products.
 
+use super::bounded_terms::Bounding;
 use super::graph::Graph;
-use super::inequalities::{Contradiction, Demand};
+use super::inequalities::{Contradiction, Demand, Known};
+use super::node::Node;
 use super::number::Rational;
 use super::polynomial_terms::{Monomial, Terms, multiplied, product_of};
 use super::simplex::{Inequality, contradiction};
@@ -15,7 +17,11 @@ type Row = (Option<usize>, Rational, Terms, bool);
 
 impl Graph {
     /// Multiples of the demands that add up to a contradiction.
-    pub(super) fn combination(&self, demands: &[(ExprId, Demand)]) -> Option<Contradiction> {
+    pub(super) fn combination(
+        &self,
+        demands: &[(ExprId, Demand)],
+        intervals: &Known,
+    ) -> Option<Contradiction> {
         let polynomials: Option<Vec<Terms>> =
             demands.iter().map(|(id, _)| self.without_denominators(self.polynomial_terms(*id)?)).collect();
         let polynomials = polynomials?;
@@ -71,14 +77,62 @@ impl Graph {
                 let other = with(negative(&polynomials[index]))?;
                 Some(one.into_iter().chain(other).collect())
             })
-        })?;
-        let mut used: Vec<(usize, Rational)> = Vec::new();
-        for (row, multiplier) in found {
-            let Some((Some(index), sign, ..)) = rows.get(row) else { continue };
-            used.push((*index, sign.clone() * multiplier));
-        }
-        Some(Contradiction::Combination(used))
+        });
+        let found = found.map(|multipliers| used(&rows, multipliers));
+        found
+            .or_else(|| self.refuted_by_bounds(&polynomials, demands, intervals))
+            .map(Contradiction::Combination)
     }
+
+    /// The same of what demands say where functions have their extreme values.
+    fn refuted_by_bounds(
+        &self,
+        polynomials: &[Terms],
+        demands: &[(ExprId, Demand)],
+        known: &Known,
+    ) -> Option<Vec<(usize, Rational)>> {
+        let demanded: Vec<(&Terms, Demand)> =
+            polynomials.iter().zip(demands).map(|(polynomial, (_, demand))| (polynomial, *demand)).collect();
+        let bounding = Bounding { graph: self, known, demands: &demanded };
+        let consequences = bounding.consequences();
+        if consequences.is_empty() {
+            return None;
+        }
+        let is_function = |part: &ExprId| matches!(self.node(*part), Node::Apply(..));
+        let has_functions =
+            |polynomial: &Terms| polynomial.keys().flatten().any(|(part, _)| is_function(part));
+        let as_they_are =
+            demanded.iter().enumerate().filter(|(_, (polynomial, _))| !has_functions(polynomial));
+        let as_they_are =
+            as_they_are.map(|(index, (polynomial, demand))| (index, (*polynomial).clone(), *demand));
+        let mut rows: Vec<Row> = Vec::new();
+        for (index, polynomial, demand) in as_they_are.chain(consequences) {
+            let is_strict = demand == Demand::Positive;
+            let is_known =
+                rows.iter().any(|(_, _, known, strict)| *known == polynomial && *strict == is_strict);
+            if demand == Demand::Nonzero || is_known {
+                continue;
+            }
+            if demand == Demand::Zero {
+                rows.push((Some(index), Rational::MINUS_ONE, negative(&polynomial), false));
+            }
+            rows.push((Some(index), Rational::ONE, polynomial, is_strict));
+        }
+        let all: Vec<Terms> = rows.iter().map(|(_, _, polynomial, _)| polynomial.clone()).collect();
+        rows.extend(squares(&all).into_iter().map(|square| (None, Rational::ONE, square, false)));
+        let multipliers = refuted(&rows).or_else(|| refuted(&with_products(&rows)))?;
+        Some(used(&rows, multipliers))
+    }
+}
+
+/// The demands that rows with multipliers come from.
+fn used(rows: &[Row], multipliers: Vec<(usize, Rational)>) -> Vec<(usize, Rational)> {
+    let mut used: Vec<(usize, Rational)> = Vec::new();
+    for (row, multiplier) in multipliers {
+        let Some((Some(index), sign, ..)) = rows.get(row) else { continue };
+        used.push((*index, sign.clone() * multiplier));
+    }
+    used
 }
 
 impl Graph {

@@ -5,12 +5,15 @@ use super::graph::Graph;
 use super::interval::Interval;
 use super::node::{Function, Node};
 use super::number::Rational;
-use super::polynomial_terms::{Monomial, Terms};
+use super::polynomial_terms::{Monomial, Terms, sum_of};
 use crate::id::ExprId;
 use std::collections::BTreeMap;
 
 /// a sin u + b cos u for each angle u, a polynomial.
 type Harmonics = BTreeMap<Terms, (Rational, Rational)>;
+
+/// The same where a and b are polynomials.
+pub(super) type Amplitudes = BTreeMap<Terms, (Terms, Terms)>;
 
 /// Sines and cosines in one product; more are left as they are.
 const FACTORS: usize = 6;
@@ -46,6 +49,38 @@ impl Graph {
             range = range.plus(&own);
         }
         Some((range, others))
+    }
+
+    /// A polynomial as a sum of sines and cosines with coefficients that are polynomials in whatever else there is, and
+    /// the terms without sines and cosines.
+    pub(super) fn amplitudes(&self, polynomial: &Terms) -> (Amplitudes, Terms) {
+        let (mut amplitudes, mut others) = (Amplitudes::new(), Terms::new());
+        for (monomial, coefficient) in polynomial {
+            let (circular, beside): (Monomial, Monomial) =
+                monomial.iter().cloned().partition(|(part, exponent)| {
+                    let function = self.node(*part);
+                    !exponent.is_negative()
+                        && matches!(function, Node::Apply(Function::Sin | Function::Cos, _))
+                });
+            let Some(harmonics) = self.harmonics_of(&circular) else {
+                others.insert(monomial.clone(), coefficient.clone());
+                continue;
+            };
+            for (angle, (sine, cosine)) in harmonics {
+                let entry = amplitudes.entry(angle).or_default();
+                let times = |sum: &Terms, number: Rational| {
+                    let term = number * coefficient.clone();
+                    if term.is_zero() {
+                        sum.clone()
+                    } else {
+                        sum_of(sum, &Terms::from([(beside.clone(), term)]))
+                    }
+                };
+                *entry = (times(&entry.0, sine), times(&entry.1, cosine));
+            }
+        }
+        amplitudes.retain(|_, (sine, cosine)| !(sine.is_empty() && cosine.is_empty()));
+        (amplitudes, others)
     }
 
     /// A product of sines and cosines as a sum of them.

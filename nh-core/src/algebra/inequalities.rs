@@ -1,10 +1,11 @@
 //! Whether inequalities contradict each other, over all real values of their symbols.
 //!
-//! Three proofs are tried. Intervals are propagated through every part of the expressions, from the
+//! Four proofs are tried. Intervals are propagated through every part of the expressions, from the
 //! symbols to the whole and back (F. Benhamou, F. Goualard, L. Granvilliers, J.-F. Puget, *Revising hull and box
 //! consistency*, ICLP 1999). Quadratic polynomials have the least value that completing squares gives.
 //! And non-negative multiples of the inequalities, with the squares of sums and differences of their
-//! variables, may add up to `0 > 0` (`simplex.rs`). Points that satisfy all of them are looked for first. A system that none of them refutes is *not* known to have a solution.
+//! variables, may add up to `0 > 0` (`simplex.rs`), as they are or where functions have their extreme values
+//! (`bounded_terms.rs`). Points that satisfy all of them are looked for first. A system that none of them refutes is *not* known to have a solution.
 
 use super::combination::negative;
 use super::enclosure::Point;
@@ -33,7 +34,7 @@ pub enum Demand {
 }
 
 impl Demand {
-    fn interval(self) -> Interval {
+    pub(super) fn interval(self) -> Interval {
         match self {
             Self::Positive => Interval::positive(),
             Self::NotNegative => Interval::not_negative(),
@@ -63,7 +64,7 @@ const MANY: usize = 40;
 /// Steps of work after which intervals are left as wide as they are.
 const PROPAGATED: u64 = 1_000_000;
 
-type Known = FxHashMap<ExprId, Interval>;
+pub(super) type Known = FxHashMap<ExprId, Interval>;
 
 /// A sum: the range of a part of it, and other terms with their coefficients.
 struct Shifted {
@@ -82,7 +83,7 @@ impl Graph {
         if let Err(index) = self.propagate_for_a_while(demands, &mut known) {
             return Some(Contradiction::Nowhere(index));
         }
-        self.combination(demands)
+        self.combination(demands, &known)
     }
 
     /// Those demands that are about expressions, or about what others of them are about.

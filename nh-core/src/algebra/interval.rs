@@ -110,6 +110,16 @@ impl Interval {
         }
     }
 
+    /// The largest value, and whether it is left out.
+    pub(super) fn highest(&self) -> Option<(Rational, bool)> {
+        self.high.as_ref().map(|end| (end.value.clone(), end.open))
+    }
+
+    /// The smallest value, and whether it is left out.
+    pub(super) fn lowest(&self) -> Option<(Rational, bool)> {
+        self.low.as_ref().map(|end| (end.value.clone(), end.open))
+    }
+
     pub(super) fn is_nonzero(&self) -> bool {
         self.nonzero || self.is_positive() || self.negative().is_positive()
     }
@@ -120,7 +130,7 @@ impl Interval {
             .is_some_and(|low| !low.value.is_negative() && (!low.value.is_zero() || low.open || self.nonzero))
     }
 
-    fn is_not_negative(&self) -> bool {
+    pub(super) fn is_not_negative(&self) -> bool {
         self.low.as_ref().is_some_and(|low| !low.value.is_negative())
     }
 

@@ -3,12 +3,14 @@
 mod accuracy;
 mod assuming;
 mod ball;
+mod bounded_terms;
 mod circle;
 mod combination;
 mod constants;
 mod degree;
 mod derivative;
 mod display;
+mod double_zero;
 mod enclosure;
 mod evaluate;
 mod exact;

@@ -51,18 +51,56 @@ pub fn on_the_base(model: &mut Model) -> Vec<(ExprId, Demand)> {
     assumed.into_iter().chain(identities).collect()
 }
 
+/// What [`on_the_base`] says, in words behind "no real values satisfy this".
+pub(super) fn as_on_the_base(model: &Model) -> &'static str {
+    match (model.assumptions.is_empty(), model.identities.is_empty()) {
+        (true, true) => "",
+        (false, true) => " for parameters as they are assumed",
+        (true, false) => " on the embedded base",
+        (false, false) => " on the embedded base, for parameters as they are assumed",
+    }
+}
+
 /// Whether no parameters are known that satisfy all assumptions, although nothing contradicts these: what is assumed
 /// is then accepted undecided.
 #[must_use]
 pub fn undecided(model: &Model, facts: &Facts) -> bool {
+    !model.assumptions.is_empty() && !are_met_by_a_machine(&model.graph, facts, &model.assumptions)
+}
+
+/// Whether a further fact about the parameters follows from what is assumed of them; `None` where neither a proof was
+/// found nor parameters that satisfy the assumptions and not it.
+pub fn follows(model: &mut Model, facts: &Facts, fact: &Assumption) -> Option<bool> {
+    let opposite = match fact.relation {
+        Relation::Greater => Some(Relation::LessOrEqual),
+        Relation::GreaterOrEqual => Some(Relation::Less),
+        Relation::Less => Some(Relation::GreaterOrEqual),
+        Relation::LessOrEqual => Some(Relation::Greater),
+        Relation::NotEqual => None,
+    };
+    let opposite = opposite.map(|relation| Assumption { relation, ..fact.clone() });
+    let assumed = model.assumptions.clone();
+    let graph = &mut model.graph;
+    let mut demands: Vec<(ExprId, Demand)> =
+        assumed.iter().map(|assumption| demand(graph, assumption)).collect();
+    demands.push(match &opposite {
+        Some(opposite) => demand(graph, opposite),
+        None => (graph.formula(fact.left - fact.right), Demand::Zero),
+    });
+    if graph.contradiction(&demands).is_some() {
+        return Some(true);
+    }
+    let all: Vec<Assumption> = assumed.into_iter().chain(opposite).collect();
+    let is_broken = fact.relation != Relation::NotEqual && are_met_by_a_machine(graph, facts, &all);
+    is_broken.then_some(false)
+}
+
+/// Whether one of some machines is as assumed: parameters over some decades, within the ranges that are known.
+fn are_met_by_a_machine(graph: &Graph, facts: &Facts, assumptions: &[Assumption]) -> bool {
     /// Machines that are tried, and the decades over which their parameters are spread.
     const MACHINES: u64 = 400;
     const DECADES: u64 = 9;
-    let sides: Vec<ExprId> = model.assumptions.iter().flat_map(|fact| [fact.left, fact.right]).collect();
-    if sides.is_empty() {
-        return false;
-    }
-    let graph = &model.graph;
+    let sides: Vec<ExprId> = assumptions.iter().flat_map(|fact| [fact.left, fact.right]).collect();
     let symbols = graph.symbols_in(&sides);
     let parameter = |machine: u64, index: usize, symbol: SymbolId| -> f64 {
         let number = sample(machine, index);
@@ -80,7 +118,7 @@ pub fn undecided(model: &Model, facts: &Facts) -> bool {
             (false, false) => number,
         }
     };
-    (0..MACHINES).all(|machine| {
+    (0..MACHINES).any(|machine| {
         let value = |symbol: SymbolId| {
             let index = symbols.iter().position(|known| *known == symbol).unwrap_or_default();
             parameter(machine, index, symbol)
@@ -96,7 +134,7 @@ pub fn undecided(model: &Model, facts: &Facts) -> bool {
                 Relation::NotEqual => (left - right).abs() > 0.0,
             }
         };
-        model.assumptions.iter().zip(values.chunks(2)).any(broken)
+        !assumptions.iter().zip(values.chunks(2)).any(broken)
     })
 }
 

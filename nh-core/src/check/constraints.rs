@@ -1,7 +1,7 @@
 //! The constraints: independent, and fewer than the sections. Linear, affine and nonlinear ones are
 //! told apart here.
 
-use super::assumptions::{demand, on_the_base};
+use super::assumptions::{as_on_the_base, on_the_base};
 use super::dependence::dependent_rows;
 use super::evidence::shown;
 use super::kinematics::Motion;
@@ -243,17 +243,22 @@ fn constraint_manifold(
     }
 }
 
-/// A constraint that holds at no real point at which those before it do, for parameters as they are assumed.
+/// A constraint that holds at no real point at which those before it do, on the base and for parameters as they are
+/// assumed.
 fn without_real_point(model: &mut Model, algebroid: &Algebroid, residuals: &[ExprId]) -> Option<Violation> {
-    let assumptions = model.assumptions.clone();
-    let graph = &mut model.graph;
-    let mut demands: Vec<(ExprId, Demand)> =
-        assumptions.iter().map(|assumption| demand(graph, assumption)).collect();
+    let mut demands = on_the_base(model);
+    demands.extend(model.positions.iter().map(|position| (position.value, Demand::Zero)));
     for (index, residual) in residuals.iter().enumerate() {
         demands.push((*residual, Demand::Zero));
-        if graph.contradiction(&demands).is_none() {
+        if model.graph.contradiction(&demands).is_none() {
             continue;
         }
+        let own: Vec<(ExprId, Demand)> =
+            residuals[..=index].iter().map(|residual| (*residual, Demand::Zero)).collect();
+        let there = match model.graph.contradiction(&own) {
+            Some(_) => "",
+            None => as_on_the_base(model),
+        };
         let id = ConstraintId::from_index(index);
         // what is left of it is shown in the words of the declaration, or not at all
         if index > 0
@@ -265,8 +270,9 @@ fn without_real_point(model: &mut Model, algebroid: &Algebroid, residuals: &[Exp
         {
             return Some(violation);
         }
-        let what = match index {
-            0 => format!("{} holds nowhere: its two sides are never equal", name_of(model, id)),
+        let what = match (index, there) {
+            (0, "") => format!("{} holds nowhere: its two sides are never equal", name_of(model, id)),
+            (0, _) => format!("{} holds nowhere", name_of(model, id)),
             _ => format!("{} contradicts the constraints before it", name_of(model, id)),
         };
         return Some(Violation {
@@ -274,7 +280,7 @@ fn without_real_point(model: &mut Model, algebroid: &Algebroid, residuals: &[Exp
             origin: model.constraints[id].origin,
             what,
             evidence: format!(
-                "no real velocities satisfy {} = 0{}",
+                "no real velocities satisfy {} = 0{}{there}",
                 shown(&model.graph, *residual),
                 if index == 0 { "" } else { " together with those" }
             ),

@@ -29,7 +29,7 @@ mod structure_equations;
 mod symmetries;
 mod whole_base;
 
-pub use assumptions::{facts, on_the_base, undecided};
+pub use assumptions::{facts, follows, on_the_base, undecided};
 pub use auxiliary::rates_in_a_circle;
 pub use brackets::structure_functions;
 pub use claimed::claimed;

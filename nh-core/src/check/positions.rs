@@ -187,15 +187,21 @@ fn without_real_point(model: &mut Model) -> Option<Violation> {
             continue;
         }
         let name = name_of(model, ConstraintId::from_index(index));
+        let of_positions: Vec<(ExprId, Demand)> =
+            model.positions[..=index].iter().map(|position| (position.value, Demand::Zero)).collect();
+        let there = match model.graph.contradiction(&of_positions) {
+            Some(_) => "",
+            None => super::assumptions::as_on_the_base(model),
+        };
         let (what, with) = match index {
-            0 => (format!("{name} holds nowhere"), "for parameters as they are assumed, on the base"),
-            _ => (format!("{name} contradicts the constraints before it"), "together with those"),
+            0 => (format!("{name} holds nowhere"), ""),
+            _ => (format!("{name} contradicts the constraints before it"), " together with those"),
         };
         return Some(Violation {
             law: Law::Independence,
             origin,
             what,
-            evidence: format!("no real positions satisfy {} = 0 {with}", shown(&model.graph, value)),
+            evidence: format!("no real positions satisfy {} = 0{with}{there}", shown(&model.graph, value)),
             way_out: "change or leave out one of them".into(),
         });
     }

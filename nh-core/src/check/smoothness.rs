@@ -57,31 +57,16 @@ impl Edge {
             match graph.node(id).clone() {
                 Node::Product { factors, .. } => {
                     for (base, exponent) in factors.iter().filter(|(_, exponent)| !exponent.is_integer()) {
-                        let Some((inner, power)) = squared(graph, *base, parameters, facts) else { continue };
-                        let power = power * exponent.clone();
-                        // x^(2k) to the power 1/2 is x^k for even k; 1/abs(x) is smooth wherever it is defined, as 1/x is
-                        if !power.is_negative() && (!power.is_integer() || power.has_odd_numerator()) {
-                            let whole = graph.pow(*base, exponent.clone());
-                            let inner = shown(graph, inner);
-                            let as_power = if power.is_one() { String::new() } else { format!("^({power})") };
-                            let way_out = format!(
-                                "where it is meant to keep its sign, write {inner}{as_power} instead of the root; \
-                             otherwise use a smooth expression, such as sqrt(x^2 + eps^2) for abs(x)"
-                            );
-                            return Some(Self {
-                                uses: format!("`{}`", shown(graph, whole)),
-                                evidence: format!(
-                                    "it is abs({inner}){as_power} up to a factor: not smooth where {inner} = 0"
-                                ),
-                                way_out,
-                            });
+                        if let Some(edge) = Self::of_root(graph, *base, exponent, parameters, facts) {
+                            return Some(edge);
                         }
                     }
                 }
                 Node::Apply(function @ (Function::Asin | Function::Acos), x) => {
                     let (one, square) = (graph.one(), graph.square(x));
                     let rest = graph.formula(one - square);
-                    if let Some((inner, _)) = squared(graph, rest, parameters, facts) {
+                    let squared = squared(graph, rest, parameters, facts).map(|(inner, _)| inner);
+                    if let Some(inner) = squared.or_else(|| graph.double_zero(rest, parameters)) {
                         return Some(Self {
                             uses: format!("`{}`", shown(graph, id)),
                             evidence: format!(
@@ -97,6 +82,63 @@ impl Edge {
             }
         }
         None
+    }
+
+    /// That of a root of a square, or of something that touches 0 as a square does.
+    fn of_root(
+        graph: &mut Graph,
+        base: ExprId,
+        exponent: &Rational,
+        parameters: &[SymbolId],
+        facts: &Facts,
+    ) -> Option<Self> {
+        // x^(2k) to the power 1/2 is x^k for even k; 1/abs(x) is smooth wherever it is defined, as 1/x is
+        let has_edge =
+            |power: &Rational| !power.is_negative() && (!power.is_integer() || power.has_odd_numerator());
+        if exponent.is_negative() {
+            return None;
+        }
+        let whole = graph.pow(base, exponent.clone());
+        let uses = format!("`{}`", shown(graph, whole));
+        if let Some((inner, power)) = squared(graph, base, parameters, facts) {
+            let power = power * exponent.clone();
+            let inner = shown(graph, inner);
+            let as_power = if power.is_one() { String::new() } else { format!("^({power})") };
+            return has_edge(&power).then(|| Self {
+                uses,
+                evidence: format!("it is abs({inner}){as_power} up to a factor: not smooth where {inner} = 0"),
+                way_out: format!(
+                    "where it is meant to keep its sign, write {inner}{as_power} instead of the root; otherwise use \
+                     a smooth expression, such as sqrt(x^2 + eps^2) for abs(x)"
+                ),
+            });
+        }
+        let power = exponent.clone() * Rational::from(2);
+        let simple = graph.simplify(base);
+        let touching = match graph.node(simple).clone() {
+            Node::Product { factors, .. } => {
+                let mut simple_ones =
+                    factors.iter().filter(|(_, exponent)| exponent.is_one()).map(|(factor, _)| *factor);
+                simple_ones.find_map(|factor| Some((factor, graph.double_zero(factor, parameters)?)))
+            }
+            _ => graph.double_zero(simple, parameters).map(|inner| (simple, inner)),
+        };
+        let (touching, inner) = touching.filter(|_| has_edge(&power))?;
+        let place =
+            if touching == inner { String::new() } else { format!(" at {} = 0", shown(graph, inner)) };
+        let as_power = if power.is_one() { String::new() } else { format!("^({power})") };
+        Some(Self {
+            uses,
+            evidence: format!(
+                "{} touches 0{place} without a change of sign: there the root has an edge, as abs(x){as_power} has \
+                 at 0",
+                shown(graph, touching)
+            ),
+            way_out: "write the function of which this is the square, such as sqrt(2)*sin(x/2) for sqrt(1 - cos(x)), \
+                      if it is meant to keep its sign; otherwise use a smooth expression, such as sqrt(x^2 + eps^2) \
+                      for abs(x)"
+                .into(),
+        })
     }
 }
 

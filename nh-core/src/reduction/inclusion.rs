@@ -67,11 +67,12 @@ pub(super) fn functions(
     target: &Side,
     map: &BundleMap,
     places: Vec<usize>,
+    undecided: &[String],
 ) -> Result<Inclusion, Violation> {
     let parameters = map.parameters.iter().map(|located| located.value).collect();
     let included = images(&mut source, target, map);
     maps::all_tracked(&source, map, &included, &[])?;
-    let report = report(&mut source, target, &included);
+    let report = report(&mut source, target, &included, undecided);
     let has_equations = source.distribution.is_none() || !source.proved.model.positions.is_empty();
     Ok(Inclusion {
         has_equations,
@@ -86,7 +87,7 @@ pub(super) fn functions(
 }
 
 /// What was proved, as text.
-fn report(source: &mut Side, target: &Side, included: &[ExprId]) -> String {
+fn report(source: &mut Side, target: &Side, included: &[ExprId], undecided: &[String]) -> String {
     let (from, to) = (source.name(), target.name());
     let mut lines = vec![
         format!("{from} -> {to}"),
@@ -103,5 +104,6 @@ fn report(source: &mut Side, target: &Side, included: &[ExprId]) -> String {
         lines.push(format!("  {name} = {}", crate::check::evidence::shown(graph, *value)));
     }
     lines.push(String::new());
+    lines.extend(undecided.iter().cloned().chain((!undecided.is_empty()).then(String::new)));
     lines.join("\n")
 }

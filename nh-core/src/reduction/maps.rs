@@ -16,7 +16,12 @@ use crate::violation::{Law, Violation};
 ///
 /// # Errors
 /// Where the state of the target depends on what the source does not track.
-pub(super) fn functions(mut source: Side, target: &Side, map: &BundleMap) -> Result<Reduction, Violation> {
+pub(super) fn functions(
+    mut source: Side,
+    target: &Side,
+    map: &BundleMap,
+    undecided: &[String],
+) -> Result<Reduction, Violation> {
     // 1. parameters, state, inputs
     let values = |list: &[Located]| list.iter().map(|located| located.value).collect::<Vec<_>>();
     let parameters = values(&map.parameters);
@@ -30,7 +35,11 @@ pub(super) fn functions(mut source: Side, target: &Side, map: &BundleMap) -> Res
     let is_whole = |side: &Side| side.proved.model.tracked.is_none();
     let reconstruction =
         if is_whole(&source) && is_whole(target) { reconstruction(&mut source, target, map) } else { None };
-    let report = report(&mut source, target, map, reconstruction.as_ref());
+    let mut report = report(&mut source, target, map, reconstruction.as_ref());
+    for line in undecided {
+        report += line;
+        report += "\n";
+    }
     Ok(Reduction {
         state: source.state.clone(),
         target_state: target.state.clone(),

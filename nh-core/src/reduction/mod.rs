@@ -5,6 +5,7 @@
 //! on every fibre, L = L'∘Φ, Φ(D) = D', and the forces are related. Everything is proved; what fails
 //! is a [`Violation`] with its defect, in the symbols of the first system.
 
+mod assumed;
 mod auxiliary_rates;
 mod bundle_map;
 mod dynamics;
@@ -110,6 +111,8 @@ pub fn reduce(source: Model, target: Model, declared: &MorphismDecl) -> Result<R
     fence(sides.filter_map(|side| on_moving_positions(side, declared.origin)).collect())?;
     // 1. Φ: parameters, base and fibres, and the target pulled back by it
     let map = BundleMap::of(&mut source, &target, declared).map_err(Refusal::Broken)?;
+    let (broken, undecided) = assumed::assumed(&mut source, &target, &map);
+    fence(broken)?;
     // 2. the laws of the map, mathematics (13) and (14): onto, unless the source is a mode of the target
     let places = inclusion::places(&mut source, &target, &map);
     let broken = laws::of_the_map(&mut source, &target, &map, places.is_none());
@@ -119,10 +122,10 @@ pub fn reduce(source: Model, target: Model, declared: &MorphismDecl) -> Result<R
     fence(broken)?;
     // 4. the functions
     let related = match places {
-        Some(places) => {
-            inclusion::functions(source, &target, &map, places).map(Box::new).map(Related::Inclusion)
-        }
-        None => maps::functions(source, &target, &map).map(Box::new).map(Related::Reduction),
+        Some(places) => inclusion::functions(source, &target, &map, places, &undecided)
+            .map(Box::new)
+            .map(Related::Inclusion),
+        None => maps::functions(source, &target, &map, &undecided).map(Box::new).map(Related::Reduction),
     };
     related.map_err(|violation| Refusal::Broken(vec![violation]))
 }

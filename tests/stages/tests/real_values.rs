@@ -85,7 +85,7 @@ const DEFINED: [&str; 29] = [
     "sqrt(sin(x)*cos(y) - cos(x)*sin(y) - 9/10)",
     "ln(sin(x)*sin(y)+cos(x) - 7/5)",
     "sqrt(2*sin(x)*y - y^2 - 1/2)",
-    "acos(1/2 + sin(x)*cos(x))",
+    "acos(1/3 + sin(x)*cos(x))",
     "sqrt(x^2 - sqrt(x^4 - 1))",
     "sqrt(sqrt(x) - x)",
     "ln(x/(x^2+1) - 2/5)",
@@ -94,7 +94,7 @@ const DEFINED: [&str; 29] = [
     "acos(x)*acos(y)*ln(x^2+y^2-1)",
     "sqrt((x-1)^2+y^2) + 1/sqrt((x+1)^2+y^2)",
     "(sqrt(x^2+y^2) - 1)^2 + ln(x^2+y^2)",
-    "sqrt(5 + 4*cos(x) - cos(y)) + sqrt(2 - 2*cos(x-y))",
+    "sqrt(5 + 4*cos(x) - cos(y)) + sqrt(3 - 2*cos(x-y))",
     "acos((x^2+y^2-5)/4) + atan2(y, x)",
     "sqrt(sin(x)^4 + cos(x)^4 - 9/10)",
 ];
@@ -110,7 +110,10 @@ const UNDEFINED_AS_ASSUMED: [(&str, &str); 3] = [
 const DEFINED_AS_ASSUMED: [(&str, &str); 1] = [("sqrt(a*sin(x)+a*cos(x)-a)", "a > 0;")];
 
 /// Assumptions that no numbers satisfy.
-const CONTRADICTORY: [&str; 43] = [
+const CONTRADICTORY: [&str; 46] = [
+    "a*sin(b) > c; a > 0; c > a;",
+    "a*sin(b) + a*cos(c) > 2*a; a > 0;",
+    "a*tanh(b) >= a; a > 0;",
     "sin(a)+cos(a) > 3/2;",
     "a > exp(a);",
     "a^2+b^2 < 1; a+b > 3/2;",
@@ -157,7 +160,9 @@ const CONTRADICTORY: [&str; 43] = [
 ];
 
 /// Assumptions that some do.
-const CONSISTENT: [&str; 14] = [
+const CONSISTENT: [&str; 16] = [
+    "a*sin(b) > c; a > 0; c > a/2;",
+    "a*tanh(b) >= c; a > 0; c > a - 1;",
     "a^2+b^2 < 1; a+b > 7/5;",
     "a^2 + b^2 + c^2 < 2*a*b + b*c;",
     "a > 0; b > 0; (a+b)^2 < 5*a*b;",
@@ -175,7 +180,7 @@ const CONSISTENT: [&str; 14] = [
 ];
 
 /// Constraints on x, y and z that hold at no real point.
-const NOWHERE: [&str; 14] = [
+const NOWHERE: [&str; 33] = [
     "constraints { der(x)*(sin(x)+cos(x)-3/2)^(1/2) = der(y); }",
     "holonomic { sin(x)+cos(x) = 2; }",
     "holonomic { x^4+y^4+1 = x*y; }",
@@ -190,14 +195,48 @@ const NOWHERE: [&str; 14] = [
     "holonomic { x^2 + y^2 = -a; } assume { a > 0; }",
     "holonomic { x^2 + y^2 = -a^2; } assume { a > 0; }",
     "holonomic { sin(x) = a; } assume { a > 1; }",
+    "holonomic { a*sin(x) + b*cos(y) = c; } assume { a > 0; b > 0; c > a + b; }",
+    "holonomic { a*sin(x) - b*cos(y) = c; } assume { a > 0; b < 0; c > a - b; }",
+    "holonomic { a*sin(x) + b*cos(x) = c; } assume { c > 0; c^2 > a^2 + b^2; }",
+    "holonomic { a*sin(x) = c; } assume { c^2 > a^2; }",
+    "holonomic { (a - b)*sin(x) = c; } assume { a > b; c > a - b; }",
+    "holonomic { a*sin(x)*cos(y) = c; } assume { a > 0; c < -a; }",
+    "holonomic { (a + b*cos(x))*sin(y) = c; } assume { a > 0; b > 0; c > a + b; }",
+    "holonomic { a*exp(-x^2) + b*tanh(y) = c; } assume { a > 0; b > 0; c > a + b; }",
+    "holonomic { a*tanh(x) = c; } assume { a > 0; c >= a; }",
+    "holonomic { a*cosh(x) + b*sin(y) = c; } assume { a > 0; b > 0; c + b < a; }",
+    "holonomic { a*atan(x) = c; } assume { a > 0; c > 2*a; }",
+    "holonomic { a*sin(x) + b*y^2 + c = 0; } assume { a > 0; b > 0; c > a; }",
+    "holonomic { a*cosh(y)*sin(x) + c*cosh(y) = -1; } assume { a > 0; c > a; }",
+    "holonomic { a*cos(x) + b*cos(y) = c; a*sin(x) + b*sin(y) = 0; } assume { a > 0; b > 0; c > 0; a > b + c; }",
+    "holonomic { a*cos(x) - b*cos(y) + c*cos(z) = 1; a*sin(x) - b*sin(y) + c*sin(z) = 0; } \
+     assume { a > 0; b > 0; c > 0; b > a + c + 1; }",
+    "constraints { der(x)^2 + a*sin(y) + c = 0; } assume { a > 0; c > a; }",
+    "constraints { der(x)^2 + der(y)^2 = a*sin(x)*cos(y) - c; } assume { a > 0; c > a; }",
+    "constraints { der(x)^2 + a*sin(x) + b*cos(x) + c = 0; } assume { c > 0; c^2 > a^2 + b^2; }",
+    "holonomic { z = 1; } constraints { der(x)^2 + der(y)^2 + z = 0; }",
 ];
 
 /// Constraints that hold at some.
-const SOMEWHERE: [&str; 4] = [
+const SOMEWHERE: [&str; 18] = [
     "holonomic { sin(x)+cos(y) = 1; }",
     "constraints { der(x)^2+der(y)^2 = 1; der(x)+der(y) = 1; }",
     "holonomic { x^2 + y^2 = a; } assume { a > 0; }",
     "holonomic { a*sin(x) + b*cos(y) = c; } assume { a > 0; b > 0; c > a + b/2; }",
+    "holonomic { a*sin(x) + b*cos(y) = c; } assume { a > 0; b > 0; c >= a + b; }",
+    "holonomic { a*sin(x) - b*cos(y) = c; } assume { a > 0; b < 0; c > a + b; }",
+    "holonomic { a*sin(x) + b*cos(y) = c; } assume { a > 0; c > a + b; }",
+    "holonomic { a*sin(x) + b*cos(x) = c; } assume { c > 0; c^2 > a^2 + b^2/2; }",
+    "holonomic { a*sin(x) + b*cos(y) = c; } assume { c > 0; c^2 > a^2 + b^2; }",
+    "holonomic { (a - b)*sin(x) = c; } assume { b > a; c > a - b; }",
+    "holonomic { (a + b*cos(x))*sin(y) = c; } assume { a > 0; b > 0; c > a; }",
+    "holonomic { a*exp(-x^2) + b*tanh(y) = c; } assume { a > 0; b > 0; c > a; }",
+    "holonomic { a*cosh(x) + b*sin(y) = c; } assume { a > 0; b > 0; c < a; }",
+    "holonomic { a*atan(x) = c; } assume { a > 0; c > 3/2*a; }",
+    "holonomic { a*sin(x) + b*y^2 + c = 0; } assume { a > 0; b > 0; c > 0; }",
+    "holonomic { a*cos(x) + b*cos(y) = c; a*sin(x) + b*sin(y) = 0; } assume { a > 0; b > 0; c > 0; a > b; c > b; }",
+    "constraints { der(x)^2 + a*sin(y) + c = 0; } assume { a > 0; c > 0; }",
+    "constraints { der(x)^2 + der(y)^2 = a*sin(x)*cos(y) - c; } assume { a > 0; c > 0; }",
 ];
 
 const CIRCLE: &str = "base { c, s } on { c^2+s^2 = 1; } basis { w } anchor { der(c) = -s*w; der(s) = c*w; }";
