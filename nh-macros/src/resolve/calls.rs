@@ -129,22 +129,32 @@ impl Resolver {
             self.check_usage(name, Usage::Branches, &name.text, name.extent())?;
         }
         let values: Vec<_> = arguments.iter().map(|argument| self.value(argument)).collect();
-        if arguments.len() != called.arity() {
-            let (wanted, given) = (called.arity(), arguments.len());
-            let plural = if wanted == 1 { "argument" } else { "arguments" };
-            let error = Diagnostic::new(
-                expr.extent,
-                format!("`{}` takes {wanted} {plural}, and {given} are given", name.text),
-            )
-            .way_out(format!("write `{}`", called.usage(&name.text)));
-            return Err(self.report(expr, error));
-        }
+        self.count_of_called(&called, expr, name, arguments.len())?;
         let values = values.into_iter().collect::<Outcome<Vec<_>>>()?;
         match (called, values.as_slice()) {
             (Called::Dot, [u, v]) => self.dot(expr, u, v),
             (Called::Cross, [u, v]) => self.cross(expr, u, v),
             (called, values) => self.elementary(expr, &called, arguments, values),
         }
+    }
+
+    /// Whether a function of the language has as many arguments as it takes.
+    pub(super) fn count_of_called(
+        &mut self,
+        called: &Called,
+        expr: &Expr,
+        name: &Name,
+        given: usize,
+    ) -> Outcome<()> {
+        let wanted = called.arity();
+        if given == wanted {
+            return Ok(());
+        }
+        let plural = if wanted == 1 { "argument" } else { "arguments" };
+        let what = format!("`{}` takes {wanted} {plural}, and {given} are given", name.text);
+        let error =
+            Diagnostic::new(expr.extent, what).way_out(format!("write `{}`", called.usage(&name.text)));
+        Err(self.report(expr, error))
     }
 
     /// A function of numbers.
@@ -256,7 +266,7 @@ impl Resolver {
         Ok(Array::number(self.graph.symbol(symbol)))
     }
 
-    fn not_a_function(&mut self, name: &Name) -> Reported {
+    pub(super) fn not_a_function(&mut self, name: &Name) -> Reported {
         let text = &name.text;
         let error = if self.scope.get(text).is_some() {
             Diagnostic::new(name.extent(), format!("`{text}` is not a function"))

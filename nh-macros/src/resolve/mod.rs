@@ -44,6 +44,7 @@ mod statements;
 mod symmetries;
 mod track;
 mod turns;
+mod uncalled;
 mod vectors;
 mod written;
 

@@ -3,7 +3,7 @@
 //! A value is read when it is first needed, those that it is made of before it, so that their order does not
 //! matter. What it contains – velocities, inputs – is remembered, and asked for where it is used.
 
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeMap;
 use std::rc::Rc;
 
 use super::array::Array;
@@ -219,18 +219,7 @@ impl Resolver {
         let (expr, name) = at;
         let line = Rc::clone(&self.shared.lines[place]);
         let arguments = line.arguments.as_deref().unwrap_or_default();
-        if arguments.len() != values.len() {
-            let (wanted, given) = (arguments.len(), values.len());
-            let plural = if wanted == 1 { "argument" } else { "arguments" };
-            let names: Vec<&str> = arguments.iter().map(|argument| argument.text.as_str()).collect();
-            let what = format!("`{}` takes {wanted} {plural}, and {given} are given", name.text);
-            let error = Diagnostic::new(expr.extent, what).way_out(format!(
-                "write `{}({})`",
-                name.text,
-                names.join(", ")
-            ));
-            return Err(self.report(expr, error));
-        }
+        self.count_of_own(arguments, expr, name, values.len())?;
         self.shared.called.insert(place);
         let key = (place, values);
         if !self.shared.values.contains_key(&key) {
@@ -246,6 +235,41 @@ impl Resolver {
         Ok((*value).clone())
     }
 
+    /// Whether a function between the sections has as many arguments as it takes.
+    pub(super) fn count_of_own(
+        &mut self,
+        arguments: &[Name],
+        expr: &Expr,
+        name: &Name,
+        given: usize,
+    ) -> Outcome<()> {
+        let wanted = arguments.len();
+        if given == wanted {
+            return Ok(());
+        }
+        let plural = if wanted == 1 { "argument" } else { "arguments" };
+        let names: Vec<&str> = arguments.iter().map(|argument| argument.text.as_str()).collect();
+        let what = format!("`{}` takes {wanted} {plural}, and {given} are given", name.text);
+        let way_out = format!("write `{}({})`", name.text, names.join(", "));
+        Err(self.report(expr, Diagnostic::new(expr.extent, what).way_out(way_out)))
+    }
+
+    /// Whether the arguments of a function have names of their own; each that has not is reported once.
+    fn fresh_arguments(&mut self, arguments: &[Name]) -> Outcome<()> {
+        let mut outcome = Ok(());
+        for (k, argument) in arguments.iter().enumerate() {
+            let twice = arguments[..k].iter().any(|earlier| earlier.text == argument.text);
+            let fresh = if twice {
+                let what = format!("two arguments are called `{}`", argument.text);
+                Err(Diagnostic::new(argument.extent(), what).way_out("give each its own name"))
+            } else {
+                self.scope.check_new_global(argument)
+            };
+            outcome = outcome.and(self.keep(argument, fresh));
+        }
+        outcome
+    }
+
     /// The body of a function with these values for its arguments.
     fn body(&mut self, line: &Let, call: &Expr, place: usize, values: &[Array]) -> Outcome<Known> {
         if self.shared.calling.len() >= NESTED {
@@ -253,19 +277,7 @@ impl Resolver {
             return Err(self.report(call, Diagnostic::new(call.extent, what).way_out("write shorter chains")));
         }
         let arguments = line.arguments.as_deref().unwrap_or_default();
-        for (k, argument) in arguments.iter().enumerate() {
-            let twice = arguments[..k].iter().any(|earlier| earlier.text == argument.text);
-            let fresh = if twice {
-                Err(Diagnostic::new(
-                    argument.extent(),
-                    format!("two arguments are called `{}`", argument.text),
-                )
-                .way_out("give each its own name"))
-            } else {
-                self.scope.check_new_global(argument)
-            };
-            self.keep(argument, fresh)?;
-        }
+        self.fresh_arguments(arguments)?;
         let meanings = values.iter().map(|value| Meaning::Argument(Rc::new(value.clone())));
         let bound = arguments.iter().map(|argument| argument.text.clone()).zip(meanings).collect();
         self.shared.calling.push(place);
@@ -298,31 +310,9 @@ impl Resolver {
             if self.shared.called.contains(&place) || !matches!(self.shared.states[place], State::Unread) {
                 continue;
             }
-            // with no values for the arguments, only names can be looked at
-            let mut bound: BTreeSet<&str> = arguments.iter().map(|argument| argument.text.as_str()).collect();
-            line.value.walk(&mut |expr| {
-                if let ExprKind::Sum(binders, _) = &expr.kind {
-                    bound.extend(binders.iter().map(|binder| binder.name.text.as_str()));
-                }
-            });
-            let mut unknown = Vec::new();
-            line.value.walk(&mut |expr| {
-                if let ExprKind::Name(name) = &expr.kind
-                    && !bound.contains(name.text.as_str())
-                    && self.scope.get(&name.text).is_none()
-                {
-                    unknown.push(name);
-                }
-            });
-            for name in unknown {
-                let error = self.scope.unknown(name);
-                self.report(name, error);
-            }
-            for argument in arguments {
-                let fresh = self.scope.check_new_global(argument);
-                // a name with another meaning was reported
-                let _ = self.keep(argument, fresh);
-            }
+            // what is wrong is reported there
+            let _ = self.fresh_arguments(arguments);
+            self.uncalled(&line.value, arguments);
         }
     }
 

@@ -87,16 +87,15 @@ impl Tensor {
 }
 
 impl Resolver {
-    /// A call of such a function.
-    pub(super) fn tensor(
+    /// Whether a function of vectors has as many arguments as it takes.
+    pub(super) fn count_of_tensor(
         &mut self,
+        tensor: Tensor,
         expr: &Expr,
         name: &Name,
-        tensor: Tensor,
-        arguments: &[Expr],
-    ) -> Outcome<Array> {
+        given: usize,
+    ) -> Outcome<()> {
         let (least, most) = tensor.arity();
-        let given = arguments.len();
         if given < least || given > most || (tensor == Tensor::Kinetic && given == 3) {
             let usage =
                 TENSORS.iter().find(|(known, ..)| *known == name.text).map_or("", |(_, _, usage)| usage);
@@ -111,6 +110,18 @@ impl Resolver {
             let error = Diagnostic::new(expr.extent, what).way_out(format!("write `{usage}`"));
             return Err(self.report(expr, error));
         }
+        Ok(())
+    }
+
+    /// A call of such a function.
+    pub(super) fn tensor(
+        &mut self,
+        expr: &Expr,
+        name: &Name,
+        tensor: Tensor,
+        arguments: &[Expr],
+    ) -> Outcome<Array> {
+        self.count_of_tensor(tensor, expr, name, arguments.len())?;
         match (tensor, arguments) {
             (Tensor::Diff, [of, by]) => return self.partial(expr, of, by),
             (Tensor::Identity, [size]) => return self.identity_matrix(size),

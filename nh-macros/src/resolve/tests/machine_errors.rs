@@ -40,6 +40,17 @@ fn cycles_are_shown() {
 }
 
 #[test]
+fn functions_that_nothing_calls_are_looked_at() {
+    starts("let f(u) = g(u);", "x", "unknown function `g`");
+    starts("let f(u) = zz * u;", "x", "unknown name `zz`");
+    starts("let f(u) = sin(u, u);", "x", "`sin` takes 1 argument, and 2 are given");
+    starts("let f(u) = diff(u);", "x", "`diff` takes 2 arguments, and 1 are given");
+    starts("let g(u) = u; let f(u) = g(u, u);", "x", "`g` takes 1 argument, and 2 are given");
+    starts("let g(u) = u; let f(u) = g * u;", "x", "`g` is a function and needs its arguments");
+    starts("let f(u) = m(u);", "x", "`m` is not a function");
+}
+
+#[test]
 fn one_name_has_one_meaning() {
     starts("let k = 1;", "let k = 2; x", "`k` is declared twice\nit is an abbreviation (a `let`) already");
     starts(
@@ -50,6 +61,8 @@ fn one_name_has_one_meaning() {
     starts("let f(x) = x;", "f(1)", "`x` is declared twice\nit is a base coordinate already");
     starts("let f(x) = x;", "1", "`x` is declared twice\nit is a base coordinate already");
     starts("let f(u, u) = u;", "f(x, y)", "two arguments are called `u`");
+    starts("let f(u, u) = u;", "x", "two arguments are called `u`");
+    starts("let f(u) = sum(u in 0..3: x);", "x", "`u` is declared twice\nit is an argument already");
     starts("let norm(v) = v;", "x", "`norm` is a function already");
     starts("let m = 1;", "x", "`m` is declared twice\nit is a parameter (a field of the struct) already");
 }
