@@ -297,12 +297,26 @@ pub enum IntegrationError {
         /// Its value.
         value: f64,
     },
-    /// An event function that starts from zero is back there within the resolution of time.
+    /// An event function that starts from zero is back there after hardly more than rounding units of time: at once, or
+    /// many times in a row.
     EventsAccumulate {
         /// Which of the functions.
         event: usize,
-        /// The time.
+        /// The time at which it left zero the last time.
         time: f64,
+        /// How long it was away.
+        flight: f64,
+        /// A rounding unit of the time there.
+        resolution: f64,
+    },
+    /// Times at which states were asked for do not follow one another in one direction.
+    UnorderedTimes {
+        /// The first that does not.
+        time: f64,
+        /// The one before it.
+        before: f64,
+        /// The last one, towards which they should lead.
+        last: f64,
     },
     /// A state was asked for at a time outside the last step.
     OutsideLastStep {
@@ -402,11 +416,13 @@ impl Display for IntegrationError {
                 "the event function {event} is {value:?} at t = {time:?}, so that its zeros cannot be \
                  found: it has to be finite wherever the solution leads"
             ),
-            Self::EventsAccumulate { event, time } => write!(
+            Self::EventsAccumulate { event, time, flight, resolution } => {
+                accumulating(f, event, [time, flight, resolution])
+            }
+            Self::UnorderedTimes { time, before, last } => write!(
                 f,
-                "the event function {event} leaves zero at t = {time:?} and is back sooner than time \
-                 resolves: events accumulate there, as the impacts of a ball that comes to rest; go on with \
-                 what holds from then on, such as the contact as a constraint"
+                "states were asked for at t = {before:?} and then at {time:?}, on the way to {last:?}: sort the \
+                 times, or go through them with `advance_through`, which may turn back"
             ),
             Self::OutsideLastStep { time, from, to } => write!(
                 f,
@@ -415,6 +431,17 @@ impl Display for IntegrationError {
             ),
         }
     }
+}
+
+/// What is said where events accumulate.
+fn accumulating(f: &mut Formatter<'_>, event: usize, [time, flight, resolution]: [f64; 3]) -> fmt::Result {
+    write!(
+        f,
+        "the event function {event} leaves zero at t = {time:?} and is back after {flight:?}, where the rounding of the \
+         time is {resolution:?}: that is too little, or has been so too often in a row, to go on; events accumulate \
+         there, as the impacts of a ball that comes to rest: go on with what holds from then on, such as the contact as \
+         a constraint; or time is counted from too far away"
+    )
 }
 
 /// What is said of a start that is off its constraints.

@@ -48,11 +48,16 @@ impl<T: Real> Stop<T> {
     /// Takes note that this stop ends a flight from zero to zero that began at `start`, at the stop `before`;
     /// whether there will be an end to such flights.
     pub(crate) fn ends_flight(&mut self, start: T, before: Option<&Self>) -> bool {
-        let length = (self.time - start).abs() / (T::EPSILON * start.abs().max(self.time.abs()));
+        let length = (self.time - start).abs() / Self::resolution(start, self.time);
         if length <= T::from_f64(SHORT_FLIGHT) {
             self.short_flights = before.map_or(0, |stop| stop.short_flights) + 1;
         }
         length > T::from_f64(NO_FLIGHT) && self.short_flights <= MOST_SHORT_FLIGHTS
+    }
+
+    /// A rounding unit of time on a flight.
+    pub(crate) fn resolution(start: T, end: T) -> T {
+        T::EPSILON * start.abs().max(end.abs())
     }
 
     /// Takes note of a function that has changed its sign.

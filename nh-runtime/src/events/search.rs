@@ -138,7 +138,12 @@ where
                         }
                     });
                     if let Some(event) = accumulating {
-                        return Err(IntegrationError::EventsAccumulate { event, time: start.to_f64() });
+                        return Err(IntegrationError::EventsAccumulate {
+                            event,
+                            time: start.to_f64(),
+                            flight: (time - start).abs().to_f64(),
+                            resolution: Stop::resolution(start, time).to_f64(),
+                        });
                     }
                     if stopped.is_some() {
                         self.stand_at(time, state);

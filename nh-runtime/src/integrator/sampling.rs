@@ -3,7 +3,7 @@
 use super::{Integrator, Spent};
 use crate::dense::DenseOutput;
 use crate::methods::{Arrival, Method, Start};
-use crate::{Dynamics, IntegrationError, Real, ScalarOf};
+use crate::{Dynamics, IntegrationError, Real, Scalar, ScalarOf};
 
 impl<S: Dynamics, M: Method<S>> Integrator<S, M>
 where
@@ -53,12 +53,13 @@ where
         Ok(())
     }
 
-    /// Gives the states at these times, which follow one another in one direction, to `visit`. Unlike
+    /// Gives the states at these times, which follow one another in one direction, repeated or not, to `visit`. Unlike
     /// [`advance_through`](Self::advance_through), the steps go their own way, and the states within
     /// them come from the dense output; the last time is landed on.
     ///
     /// # Errors
-    /// As [`advance_to`](Self::advance_to).
+    /// As [`advance_to`](Self::advance_to); [`IntegrationError::UnorderedTimes`] for a time within a step that goes
+    /// back, [`IntegrationError::OutsideLastStep`] for one in a step that was left.
     pub fn sample(
         &mut self,
         times: impl IntoIterator<Item = ScalarOf<S>, IntoIter: Clone>,
@@ -66,6 +67,8 @@ where
     ) -> Result<(), IntegrationError> {
         let times = times.into_iter();
         let Some(last) = times.clone().last() else { return Ok(()) };
+        let is_forwards = times.clone().next().is_some_and(|first| first <= last);
+        let mut before = None;
         let mut times = times.peekable();
         let mut spent = Spent::default();
         loop {
@@ -73,6 +76,13 @@ where
             while let Some(&time) = times.peek()
                 && let Ok(state) = dense.at(time)
             {
+                if let Some(before) = before
+                    && (if is_forwards { time < before } else { time > before })
+                {
+                    let [time, before, last] = [time, before, last].map(|time: ScalarOf<S>| time.to_f64());
+                    return Err(IntegrationError::UnorderedTimes { time, before, last });
+                }
+                before = Some(time);
                 visit(time, &state);
                 times.next();
             }

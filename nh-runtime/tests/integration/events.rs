@@ -199,6 +199,21 @@ fn stops_and_samples_come_in_turn() {
     .unwrap();
     assert_eq!((times.len(), sim.time()), (401, 20.0));
     assert!(sim.statistics().steps < 120, "{:?}", sim.statistics());
+    // within a step, too, times follow one another; what repeats is given again
+    sim.reset(0.0, START);
+    let mut seen = Vec::new();
+    let unordered = sim.sample([1e-3, 3e-3, 3e-3, 2e-3, 4e-3], |t, _| seen.push(t));
+    let expected = IntegrationError::UnorderedTimes { time: 2e-3, before: 3e-3, last: 4e-3 };
+    assert_eq!((unordered, seen), (Err(expected), vec![1e-3, 3e-3, 3e-3]));
+    assert_eq!(
+        expected.to_string(),
+        "states were asked for at t = 0.003 and then at 0.002, on the way to 0.004: sort the times, or go through them \
+         with `advance_through`, which may turn back"
+    );
+    sim.reset(0.0, START);
+    let backwards = sim.sample([-1e-3, -3e-3, -2e-3, -4e-3], |_, _| {});
+    assert!(matches!(backwards, Err(IntegrationError::UnorderedTimes { time: -2e-3, .. })), "{backwards:?}");
+    sim.reset(20.0, START);
     let late = sim.sample([20.0, 3.0, 21.0], |_, _| {});
     assert!(matches!(late, Err(IntegrationError::OutsideLastStep { time: 3.0, .. })));
 }

@@ -125,11 +125,31 @@ fn a_bouncing_ball_comes_to_rest_on_the_floor() {
     comes_to_rest("Dopri5", Dopri5::<f64>::new(), 0.98, Direction::Falling, true);
     comes_to_rest("Rk4", Rk4::<f64>::new(0.5), 0.99, Direction::Either, false);
     assert_eq!(
-        IntegrationError::EventsAccumulate { event: 2, time: 1.5 }.to_string(),
-        "the event function 2 leaves zero at t = 1.5 and is back sooner than time resolves: events accumulate \
-         there, as the impacts of a ball that comes to rest; go on with what holds from then on, such as the \
-         contact as a constraint"
+        IntegrationError::EventsAccumulate { event: 2, time: 1.5, flight: 2e-15, resolution: 3.5e-16 }
+            .to_string(),
+        "the event function 2 leaves zero at t = 1.5 and is back after 2e-15, where the rounding of the time is \
+         3.5e-16: that is too little, or has been so too often in a row, to go on; events accumulate there, as the \
+         impacts of a ball that comes to rest: go on with what holds from then on, such as the contact as a \
+         constraint; or time is counted from too far away"
     );
+}
+
+/// Where time is counted from far away, flights of many seconds are a few hundred of its rounding units: an end of the
+/// run says so.
+#[test]
+fn flights_that_far_times_do_not_resolve_are_told_with_their_lengths() {
+    let start = Flight { height: [0.0, 1e6], speed: [29.0, 0.0] };
+    let mut sim = Integrator::new(Balls { g: 1.0 }, Dopri5::new(), 1e15, start);
+    let floor = Events::new(|_, x: &Flight<f64>, (): &()| [x.height[0]]).directions([Direction::Falling]);
+    let end = (0..200).find_map(|_| {
+        let found = sim.advance_until(2e15, &floor);
+        sim.set_state(start);
+        found.err()
+    });
+    let Some(IntegrationError::EventsAccumulate { event: 0, flight, resolution, .. }) = end else {
+        panic!("{end:?}")
+    };
+    assert!((flight - 58.0).abs() < 1.0 && (resolution - 0.22).abs() < 0.01, "{end:?}");
 }
 
 /// Two balls that hit the floor at the same time, each sent up again by its own event.
