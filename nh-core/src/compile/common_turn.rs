@@ -1,7 +1,7 @@
 //! Motions that stay what they are when all angles turn together, as those of linkages and arms do without gravity:
 //! every angle is counted from one of them, which leaves a sine and a cosine less, and products with them.
 
-use crate::algebra::{Function, Graph, Node, Substitution};
+use crate::algebra::{Bounded, Function, Graph, Node, Substitution};
 use crate::choose::{Contender, Decision, Fate, ranking, rate};
 use crate::id::{ExprId, SymbolId};
 use crate::mechanics::{Definition, Procedure};
@@ -10,7 +10,7 @@ use std::collections::BTreeSet;
 
 /// An angle by which the others turn where it is looked whether something changes.
 const TURN: f64 = 0.7;
-/// The share of a value that rounding may take there.
+/// The share of a value, and of what it is the sum of, that rounding may take there.
 const ROUNDING: f64 = 1e-9;
 
 /// The motion with its angles counted from the one that leaves the fewest sines, if that is proved and cheaper than the
@@ -103,14 +103,16 @@ fn turned_outputs(graph: &Graph, procedure: &Procedure, angles: &[SymbolId]) -> 
         .collect();
     let pairs = procedure.outputs.iter().zip(before.into_iter().zip(after));
     let is_turned = pairs.map(|(output, (before, after))| {
-        let is_same = (before - after).abs() <= ROUNDING * before.abs().max(1.0);
+        // what was rounded on the way is as large as the bound on it says
+        let size = (before.error + after.error) / f64::EPSILON;
+        let is_same = (before.value - after.value).abs() <= ROUNDING * size;
         (is_same || !graph.depends_on(*output, &named)).then_some(is_same)
     });
     is_turned.collect()
 }
 
 /// The outputs at some place, with the angles turned.
-fn values(graph: &Graph, procedure: &Procedure, (angles, turn): (&[SymbolId], f64)) -> Vec<f64> {
+fn values(graph: &Graph, procedure: &Procedure, (angles, turn): (&[SymbolId], f64)) -> Vec<Bounded> {
     let mut known: FxHashMap<SymbolId, f64> = FxHashMap::default();
     let at = |known: &FxHashMap<SymbolId, f64>, symbol: SymbolId| {
         // numbers between 1/2 and 3/2 without a pattern
@@ -125,8 +127,7 @@ fn values(graph: &Graph, procedure: &Procedure, (angles, turn): (&[SymbolId], f6
             known.extend(value.first().map(|bounded| (*symbol, bounded.value)));
         }
     }
-    let values = graph.evaluate(&procedure.outputs, |symbol| at(&known, symbol));
-    values.into_iter().map(|bounded| bounded.value).collect()
+    graph.evaluate(&procedure.outputs, |symbol| at(&known, symbol))
 }
 
 /// The procedure at the place that all angles turn to when one of them is turned to 0.
@@ -233,6 +234,20 @@ mod tests {
         let weight = links.graph.sin(heading);
         links.procedure.outputs[0] = links.graph.formula(links.procedure.outputs[0] + weight);
         assert!(matches!(counted_of(&mut links), (None, 0)));
+    }
+
+    /// In whatever units the values are written.
+    #[test]
+    fn a_small_weight_is_noticed_in_small_units() {
+        for exponent in [-40, -12, 12] {
+            let mut links = links();
+            let heading = links.graph.symbol(links.angles[0]);
+            let unit = links.graph.number(crate::algebra::Rational::from(10).pow(exponent).expect("not 0"));
+            let weight = links.graph.sin(heading);
+            let output = links.procedure.outputs[0];
+            links.procedure.outputs[0] = links.graph.formula(unit * output + unit * weight);
+            assert!(matches!(counted_of(&mut links), (None, 0)), "10^{exponent}");
+        }
     }
 
     #[test]
