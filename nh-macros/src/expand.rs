@@ -6,7 +6,7 @@ use quote::quote;
 use nonholonomic_core::limits::{Subject, about, within_limits};
 use nonholonomic_core::violation::Violation;
 
-use crate::emit::{Layout, emit, stubs};
+use crate::emit::{Layout, collision, emit, stubs};
 use crate::report::{Diagnostic, compile_errors};
 use crate::resolve::{Outline, Resolved, resolve};
 use crate::syntax::{self, Malformed};
@@ -42,7 +42,10 @@ pub(crate) fn nonholonomic(attribute: TokenStream, item: TokenStream) -> TokenSt
         emit(&system, &layout)
     });
     let errors: Vec<_> = match derived {
-        Ok(Ok(items)) => return items,
+        Ok(Ok(items)) => match collision(&items) {
+            None => return items,
+            Some(error) => vec![error],
+        },
         Ok(Err(violations)) => {
             violations.into_iter().map(|violation| origins.diagnostic(violation)).collect()
         }
@@ -89,6 +92,35 @@ mod tests {
             assert!(text.contains(error), "{text}");
             assert!(text.contains("struct SState"), "{text}");
         }
+    }
+
+    #[test]
+    fn generated_names_do_not_meet() {
+        let plane = "base { x, y } lagrangian { m / 2 * (der(x)^2 + der(y)^2) }";
+        for (attribute, error) in [
+            (
+                format!("{plane} impacts {{ Wall: x >= 0; wall: y >= 0; }}"),
+                "two types that are generated are called `SWallImpact`",
+            ),
+            (
+                format!("{plane} impacts {{ a_b: x >= 0; aB: y >= 0; }}"),
+                "two types that are generated are called `SABImpact`",
+            ),
+            (
+                "base { q[2], q_0 } holonomic { h: q[0] = q_0; }
+                 lagrangian { m / 2 * (der(q[0])^2 + der(q[1])^2 + der(q_0)^2) }"
+                    .to_owned(),
+                "two fields or variants of `SCoordinate` that are generated are called `q_0`",
+            ),
+        ] {
+            let text = expanded(&attribute, "struct S { m: f64 }");
+            assert!(text.contains("compile_error!") && text.contains(error), "{attribute}: {text}");
+        }
+        let text = expanded(
+            "base { q[2], q_0 } lagrangian { m / 2 * (der(q[0])^2 + der(q[1])^2 + der(q_0)^2) }",
+            "struct S { m: f64 }",
+        );
+        assert!(!text.contains("compile_error!"), "{text}");
     }
 
     #[test]

@@ -9,6 +9,7 @@ mod angle_cache;
 mod assembly;
 mod c;
 mod callback;
+mod collisions;
 mod discrete;
 mod editor;
 mod embedding;
@@ -66,6 +67,7 @@ use setting::Context;
 use symbols::Scope;
 
 pub(crate) use callback::alias;
+pub(crate) use collisions::collision;
 pub(crate) use inclusion::inclusion;
 pub(crate) use layout::{Family, Layout, TypeNames};
 pub(crate) use map_functions::{morphism, morphism_stub};
