@@ -92,7 +92,8 @@ fn arguments(graph: &Graph, procedure: &Procedure) -> BTreeSet<ExprId> {
 /// Which outputs do not change, in numbers, when the angles turn together; `None` where an output does that is made of
 /// intermediate results. Others, as the rates of a place on the plane, can stay as they are.
 fn turned_outputs(graph: &Graph, procedure: &Procedure, angles: &[SymbolId]) -> Option<Vec<bool>> {
-    let [before, after] = [0.0, TURN].map(|turn| values(graph, procedure, (angles, turn)));
+    let [before, after, rounded] = [(0.0, 0.0), (TURN, 0.0), (0.0, ROUNDING)]
+        .map(|(turn, rounding)| values(graph, procedure, (angles, turn), rounding));
     let named: Vec<SymbolId> = procedure
         .definitions
         .iter()
@@ -101,18 +102,28 @@ fn turned_outputs(graph: &Graph, procedure: &Procedure, angles: &[SymbolId]) -> 
             _ => None,
         })
         .collect();
-    let pairs = procedure.outputs.iter().zip(before.into_iter().zip(after));
-    let is_turned = pairs.map(|(output, (before, after))| {
-        // what was rounded on the way is as large as the bound on it says
-        let size = (before.error + after.error) / f64::EPSILON;
-        let is_same = (before.value - after.value).abs() <= ROUNDING * size;
+    let pairs = procedure.outputs.iter().zip(before.into_iter().zip(after).zip(rounded));
+    let is_turned = pairs.map(|(output, ((before, after), rounded))| {
+        let own = ROUNDING * (size(before) + size(after));
+        let of_intermediate = (rounded.value - before.value).abs();
+        let is_same = (before.value - after.value).abs() <= own + of_intermediate;
         (is_same || !graph.depends_on(*output, &named)).then_some(is_same)
     });
     is_turned.collect()
 }
 
-/// The outputs at some place, with the angles turned.
-fn values(graph: &Graph, procedure: &Procedure, (angles, turn): (&[SymbolId], f64)) -> Vec<Bounded> {
+/// How large the terms of a value are: what was rounded on the way is as large as the bound on it says.
+fn size(value: Bounded) -> f64 {
+    value.error / f64::EPSILON
+}
+
+/// The outputs at some place, with the angles turned, and with intermediate results that are off by a share of their size.
+fn values(
+    graph: &Graph,
+    procedure: &Procedure,
+    (angles, turn): (&[SymbolId], f64),
+    rounding: f64,
+) -> Vec<Bounded> {
     let mut known: FxHashMap<SymbolId, f64> = FxHashMap::default();
     let at = |known: &FxHashMap<SymbolId, f64>, symbol: SymbolId| {
         // numbers between 1/2 and 3/2 without a pattern
@@ -124,7 +135,8 @@ fn values(graph: &Graph, procedure: &Procedure, (angles, turn): (&[SymbolId], f6
     for definition in &procedure.definitions {
         if let Definition::Value { symbol, value } = definition {
             let value = graph.evaluate(&[*value], |symbol| at(&known, symbol));
-            known.extend(value.first().map(|bounded| (*symbol, bounded.value)));
+            let off = rounding * at(&FxHashMap::default(), *symbol);
+            known.extend(value.first().map(|bounded| (*symbol, bounded.value + off * size(*bounded))));
         }
     }
     graph.evaluate(&procedure.outputs, |symbol| at(&known, symbol))
