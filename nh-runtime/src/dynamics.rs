@@ -281,6 +281,29 @@ pub trait Jacobian: Dynamics {
             self.input_jacobian(t, state, input),
         )
     }
+
+    /// Whether component `row` of ẋ may depend on component `column` of the state: where this is false, A has a zero there
+    /// at every state. Generated code knows its zeros; products with A leave them out, at no cost where loops over the
+    /// components are unrolled.
+    ///
+    /// ```
+    /// use nonholonomic::prelude::*;
+    ///
+    /// /// A mass on a spring.
+    /// #[nonholonomic(base { x } lagrangian { m / 2 * der(x)^2 - k / 2 * x^2 } emit { jacobian })]
+    /// #[derive(Clone, Copy, Debug)]
+    /// struct Oscillator { m: f64, k: f64 }
+    ///
+    /// // ẋ is a velocity, which depends on the position alone
+    /// let depends = [0, 1].map(|row| [0, 1].map(|column| Oscillator::state_depends(row, column)));
+    /// assert_eq!(depends, [[false, true], [true, false]]);
+    /// ```
+    #[inline]
+    #[must_use]
+    fn state_depends(row: usize, column: usize) -> bool {
+        let _ = (row, column);
+        true
+    }
 }
 
 /// In row i, the derivatives of component i of ẋ by the inputs of a system: what [`Jacobian::input_jacobian`] returns.

@@ -193,6 +193,10 @@ macro_rules! holders {
                 let $this = self;
                 $system.linearized(t, state, input)
             }
+            #[inline]
+            fn state_depends(row: usize, column: usize) -> bool {
+                $s::state_depends(row, column)
+            }
         }
 
         impl<$s: TaylorSeries + $($bound)*, $($other),*> TaylorSeries for $holder {

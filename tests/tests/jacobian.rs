@@ -174,6 +174,7 @@ where
 {
     let (n, m) = (<S::State as State>::Dim::N, S::InputDim::N);
     let mut random = Random::new(7);
+    let mut zeros = 0;
     for _ in 0..50 {
         let point = random.list(n + m, -1.0, 1.0);
         let mut array = <S::State as State>::Dim::vec(0.0);
@@ -212,6 +213,11 @@ where
                         of_input.as_ref()[row].as_ref()[column],
                     ]
                 };
+                // what is said to be zero everywhere is
+                if column < n && !S::state_depends(row, column) {
+                    zeros += 1;
+                    assert_eq!(found, [0.0; 3], "({row}, {column})");
+                }
                 for found in found {
                     let error = (found - expected.slope).abs();
                     assert!(error <= 1e-11 * scale, "({row}, {column}): {found} is not {}", expected.slope);
@@ -219,6 +225,7 @@ where
             }
         }
     }
+    assert!(zeros > 0, "a rate of a coordinate does not depend on that coordinate in any of these");
 }
 
 /// A parameter of either kind.

@@ -3,6 +3,7 @@
 use std::collections::BTreeSet;
 use std::ops::Range;
 
+use nonholonomic_core::mechanics::Procedure;
 use nonholonomic_core::model::Request;
 use nonholonomic_core::system::System;
 use proc_macro2::{Literal, TokenStream};
@@ -26,7 +27,9 @@ pub(super) fn emit(context: &Context, scope: &Scope, system: &System) -> Part {
         return Part::default();
     };
     let (n, m) = sizes(context);
-    let all = together(context, &body(context, scope, &context.lowering.program(&system.model, linearized)));
+    let mut all =
+        together(context, &body(context, scope, &context.lowering.program(&system.model, linearized)));
+    all.extend(dependence(context, system, &jacobian));
     let within = |columns: Range<usize>| {
         let row = |row: &[_]| row.get(columns.clone()).unwrap_or_default().to_vec();
         let outputs = jacobian.outputs.chunks((n + m).max(1)).flat_map(row).collect();
@@ -184,6 +187,43 @@ fn together(context: &Context, body: &Body) -> TokenStream {
             #drops
             #statements
             (#rates, #by_state, #by_input)
+        }
+    }
+}
+
+/// The function of the trait that knows which derivatives by the state are zero everywhere.
+fn dependence(context: &Context, system: &System, jacobian: &Procedure) -> TokenStream {
+    let (n, m) = sizes(context);
+    let graph = &system.model.graph;
+    let by_state = jacobian.outputs.chunks((n + m).max(1)).flat_map(|row| row.iter().take(n));
+    // places row by row, as ranges
+    let mut ranges: Vec<(usize, usize)> = Vec::new();
+    for (place, _) in by_state.enumerate().filter(|(_, entry)| !graph.is_literal_zero(**entry)) {
+        match ranges.last_mut() {
+            Some((_, last)) if *last + 1 == place => *last = place,
+            _ => ranges.push((place, place)),
+        }
+    }
+    let (row, column) = (local("row"), local("column"));
+    let n = Literal::usize_unsuffixed(n);
+    let depends = if ranges.is_empty() {
+        quote!({
+            let _ = (#row, #column);
+            false
+        })
+    } else {
+        let ranges = ranges.iter().map(|(first, last)| {
+            let [from, to] = [first, last].map(|place| Literal::usize_unsuffixed(*place));
+            if first == last { quote!(#from) } else { quote!(#from..=#to) }
+        });
+        quote!(::core::matches!(#row.wrapping_mul(#n).wrapping_add(#column), #(#ranges)|*))
+    };
+    quote! {
+        #[inline]
+        fn state_depends(
+            #row: ::core::primitive::usize, #column: ::core::primitive::usize
+        ) -> ::core::primitive::bool {
+            #depends
         }
     }
 }

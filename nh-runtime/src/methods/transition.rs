@@ -132,12 +132,14 @@ where
         let (f, a, b) = self.0.linearized(t.value, &point, input);
         let f = f.to_array();
         let mut rates = [Jet::ZERO; N];
-        for (rate, ((f, a), b)) in rates.iter_mut().zip(f.iter().zip(&a).zip(&b)) {
+        for (i, (rate, ((f, a), b))) in rates.iter_mut().zip(f.iter().zip(&a).zip(&b)).enumerate() {
             rate.value = *f;
             rate.by_others = *b;
-            for (a, jet) in a.iter().zip(&state.0) {
-                add(&mut rate.by, *a, &jet.by);
-                add(&mut rate.by_others, *a, &jet.by_others);
+            for (j, (a, jet)) in a.iter().zip(&state.0).enumerate() {
+                if S::state_depends(i, j) {
+                    add(&mut rate.by, *a, &jet.by);
+                    add(&mut rate.by_others, *a, &jet.by_others);
+                }
             }
         }
         Jets(rates)

@@ -217,8 +217,12 @@ where
         let (state, a, mut columns) = self.equations(t, &point.state, input);
         for (rate, column) in columns.iter_mut().zip(&point.columns) {
             let column = column.to_array();
-            for (rate, row) in rate.iter_mut().zip(&a) {
-                *rate = row.iter().zip(&column).fold(*rate, |sum, (a, x)| a.mul_add(*x, sum));
+            for (i, (rate, row)) in rate.iter_mut().zip(&a).enumerate() {
+                for (j, (a, x)) in row.iter().zip(&column).enumerate() {
+                    if S::state_depends(i, j) {
+                        *rate = a.mul_add(*x, *rate);
+                    }
+                }
             }
         }
         WithColumns { state, columns: columns.map(S::State::from_array) }

@@ -98,8 +98,12 @@ impl<P: Tableau, T: Scalar> Fixed<P, T> {
             let (time, point) = (t + T::from_f64(*c) * dt, S::State::from_array(point));
             let (_, a, b) = system.linearized(time, &point, input);
             let mut own = [T::ZERO; N];
-            for ((kappa, a), b) in kappa.iter().zip(&a).zip(&b) {
-                add(&mut own, *kappa, a);
+            for (i, ((kappa, a), b)) in kappa.iter().zip(&a).zip(&b).enumerate() {
+                for (j, (own, a)) in own.iter_mut().zip(a).enumerate() {
+                    if S::state_depends(i, j) {
+                        *own = kappa.mul_add(*a, *own);
+                    }
+                }
                 add(&mut back.by_input, *kappa, b);
             }
             if Q > 0 {

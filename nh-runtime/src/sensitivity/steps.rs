@@ -208,4 +208,8 @@ where
         }
         (rate, a, rows)
     }
+    #[inline]
+    fn state_depends(row: usize, column: usize) -> bool {
+        S::state_depends(row, column)
+    }
 }
