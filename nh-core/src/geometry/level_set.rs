@@ -7,6 +7,7 @@
 use super::manifold::{Ease, Manifold};
 use crate::algebra::{Graph, Verdict};
 use crate::id::{ExprId, SymbolId};
+use crate::limits::{attempt, spent};
 
 /// A manifold in whose place a larger one stands, if some functions could not be solved.
 #[derive(Clone, Debug)]
@@ -16,6 +17,10 @@ pub struct NearManifold {
     /// The others, by position.
     pub unsolved: Vec<usize>,
 }
+
+/// The work that the search for points may take. Roots of what has roots take many trials for a point where all of
+/// them are numbers.
+const SEARCH: u64 = 20_000_000;
 
 impl Manifold {
     /// Where position constraints hold over an embedded base, solved for coordinates or parameters: linear
@@ -34,23 +39,69 @@ impl Manifold {
             (Ease::Root, &charted),
             (Ease::Root, coordinates),
         ];
-        let mut manifold = base.clone();
-        let mut open: Vec<usize> = (0..functions.len()).collect();
-        while !open.is_empty() {
-            let restricted: Vec<(usize, ExprId)> =
-                open.iter().map(|index| (*index, manifold.restrict(graph, functions[*index]))).collect();
-            let holds = restricted.iter().find(|(_, function)| graph.zero_test(*function) == Verdict::Zero);
-            let solved = holds.map(|(index, _)| *index).or_else(|| {
-                ways.into_iter().find_map(|(ease, unknowns)| {
-                    let solved = restricted
-                        .iter()
-                        .find(|(_, function)| manifold.solve(graph, *function, unknowns, ease, parameters));
-                    solved.map(|(index, _)| *index)
-                })
+        let mut found = NearManifold { manifold: base.clone(), unsolved: (0..functions.len()).collect() };
+        let start = spent();
+        while !found.unsolved.is_empty() {
+            let left = SEARCH.saturating_sub(spent() - start);
+            let step = attempt(left, || {
+                let mut manifold = found.manifold.clone();
+                let restricted: Vec<(usize, ExprId)> = found
+                    .unsolved
+                    .iter()
+                    .map(|index| (*index, manifold.restrict(graph, functions[*index])))
+                    .collect();
+                let holds =
+                    restricted.iter().find(|(_, function)| graph.zero_test(*function) == Verdict::Zero);
+                let solved = holds.map(|(index, _)| *index).or_else(|| {
+                    ways.into_iter().find_map(|(ease, unknowns)| {
+                        let solved = restricted.iter().find(|(_, function)| {
+                            manifold.solve(graph, *function, unknowns, ease, parameters)
+                        });
+                        solved.map(|(index, _)| *index)
+                    })
+                });
+                solved.map(|index| (index, manifold))
             });
-            let Some(solved) = solved else { break };
-            open.retain(|index| *index != solved);
+            let Some(Some((solved, manifold))) = step else { break };
+            found.manifold = manifold;
+            found.unsolved.retain(|index| *index != solved);
         }
-        NearManifold { manifold, unsolved: open }
+        found
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::limits::within_limits;
+
+    /// A row of bars, all as long as they are apart: each joint is where two circles meet, one of them about the joint
+    /// before it.
+    #[test]
+    fn points_that_are_hard_to_find_are_left_open() {
+        let mut g = Graph::new();
+        let length = g.new_symbol("length");
+        let coordinates: Vec<SymbolId> = (0..10).map(|i| g.new_symbol(format!("x{i}"))).collect();
+        let l = g.symbol(length);
+        let joints: Vec<[ExprId; 2]> =
+            coordinates.chunks(2).map(|joint| [g.symbol(joint[0]), g.symbol(joint[1])]).collect();
+        let mut functions = Vec::new();
+        for (place, [x, y]) in joints.iter().copied().enumerate() {
+            let foot = g.number(i64::try_from(place).unwrap());
+            functions.push(g.formula((x - foot * l).square() + y.square() - l.square()));
+        }
+        for bar in joints.windows(2) {
+            let [[x, y], [u, v]] = [bar[0], bar[1]];
+            functions.push(g.formula((u - x).square() + (v - y).square() - l.square()));
+        }
+        let found = within_limits(|| {
+            Manifold::of_positions(&mut g, &Manifold::whole(), &functions, [&coordinates, &[length]])
+        });
+        let found = found.expect("within limits");
+        assert!((1..=4).contains(&found.unsolved.len()), "{:?}", found.unsolved);
+        for (index, function) in functions.iter().enumerate() {
+            let holds = found.manifold.zero_test(&mut g, *function).is_zero();
+            assert_eq!(holds, !found.unsolved.contains(&index));
+        }
     }
 }
