@@ -55,7 +55,10 @@ impl Manifold {
                 let solved = holds.map(|(index, _)| *index).or_else(|| {
                     ways.into_iter().find_map(|(ease, unknowns)| {
                         let solved = restricted.iter().find(|(_, function)| {
-                            manifold.solve(graph, *function, unknowns, ease, parameters)
+                            let is_meant = |graph: &mut Graph, solution| {
+                                is_meant(graph, *function, solution, parameters)
+                            };
+                            manifold.solve(graph, *function, unknowns, ease, &is_meant)
                         });
                         solved.map(|(index, _)| *index)
                     })
@@ -70,10 +73,51 @@ impl Manifold {
     }
 }
 
+/// Whether a solution of a function is one of what the function says as a whole. Parameters have all values: a length
+/// that is a factor is not 0 for that. Neither is a factor of coordinates: in `r (sin a - sin b)` it is not known which
+/// of the two is 0, so that a solution has to contain the other coordinates.
+fn is_meant(
+    graph: &mut Graph,
+    function: ExprId,
+    (symbol, image): (SymbolId, ExprId),
+    parameters: &[SymbolId],
+) -> bool {
+    if parameters.contains(&symbol)
+        && graph.symbols_in(&[image]).iter().all(|other| parameters.contains(other))
+    {
+        return false;
+    }
+    graph.symbols_in(&[function]).into_iter().all(|other| {
+        let mut depends = |expression| {
+            let slope = graph.partial(expression, other);
+            !graph.zero_test(slope).is_zero()
+        };
+        other == symbol || parameters.contains(&other) || depends(image) || !depends(function)
+    })
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
     use crate::limits::within_limits;
+
+    /// Two arms of one length r at one height: r (sin a − sin b) is left of the second.
+    #[test]
+    fn a_factor_is_not_zero_for_that() {
+        let mut g = Graph::new();
+        let length = g.new_symbol("length");
+        let coordinates = ["r", "z", "a", "b"].map(|name| g.new_symbol(name));
+        let [r, z, a, b] = coordinates.map(|symbol| g.symbol(symbol));
+        let (sin_a, sin_b, l) = (g.sin(a), g.sin(b), g.symbol(length));
+        let functions = [
+            g.formula(r * sin_a - z),
+            g.formula(r * sin_b - z),
+            g.formula(r.square() - z.square() - l.square()),
+        ];
+        let found = Manifold::of_positions(&mut g, &Manifold::whole(), &functions, [&coordinates, &[length]]);
+        assert_eq!(found.unsolved, [1]);
+        assert!(found.manifold.zero_test(&mut g, r).is_nonzero());
+    }
 
     /// A row of bars, all as long as they are apart: each joint is where two circles meet, one of them about the joint
     /// before it.

@@ -59,7 +59,8 @@ impl Manifold {
             let solved = order.into_iter().find_map(|ease| {
                 restricted.iter().find_map(|(index, function)| {
                     let holds = graph.zero_test(*function) == Verdict::Zero;
-                    (holds || manifold.solve(graph, *function, unknowns, ease, &[])).then_some(*index)
+                    (holds || manifold.solve(graph, *function, unknowns, ease, &|_, _| true))
+                        .then_some(*index)
                 })
             });
             let solved = solved.ok_or(open[0])?;
@@ -149,43 +150,32 @@ impl Manifold {
         self.images.push((symbol, image));
     }
 
-    /// Solves one function for one unknown in one way; false if that is not possible. Of the symbols in `any`,
-    /// of which all values are meant, none becomes a function of others of them alone: a length that is a factor
-    /// is not 0 for that.
+    /// Solves one function for one unknown in one way; false if that is not possible. A solution by a division or a
+    /// root is taken if it is meant.
     pub(super) fn solve(
         &mut self,
         graph: &mut Graph,
         function: ExprId,
         unknowns: &[SymbolId],
         ease: Ease,
-        any: &[SymbolId],
+        is_meant: &dyn Fn(&mut Graph, (SymbolId, ExprId)) -> bool,
     ) -> bool {
-        let is_special = |graph: &Graph, symbol: SymbolId, image: ExprId| {
-            any.contains(&symbol) && graph.symbols_in(&[image]).iter().all(|other| any.contains(other))
-        };
         let present: Vec<SymbolId> = graph
             .symbols_in(&[function])
             .into_iter()
             .filter(|symbol| unknowns.contains(symbol) && self.is_free(*symbol))
             .collect();
-        let images = match ease {
+        let mut by = |solution: fn(&mut Graph, ExprId, SymbolId) -> Option<ExprId>| {
+            let solved = present.iter().rev().find_map(|symbol| {
+                let found = (*symbol, solution(graph, function, *symbol)?);
+                is_meant(graph, found).then_some(found)
+            });
+            solved.into_iter().collect()
+        };
+        let images: Vec<(SymbolId, ExprId)> = match ease {
+            Ease::Linear => by(quotient),
+            Ease::Root => by(root),
             Ease::Sphere => sphere(graph, function, &present).unwrap_or_default(),
-            Ease::Linear => present
-                .iter()
-                .rev()
-                .find_map(|s| {
-                    Some((*s, quotient(graph, function, *s)?)).filter(|(s, e)| !is_special(graph, *s, *e))
-                })
-                .into_iter()
-                .collect(),
-            Ease::Root => present
-                .iter()
-                .rev()
-                .find_map(|s| {
-                    Some((*s, root(graph, function, *s)?)).filter(|(s, e)| !is_special(graph, *s, *e))
-                })
-                .into_iter()
-                .collect(),
         };
         if matches!(ease, Ease::Sphere) {
             let values: Vec<ExprId> = images.iter().map(|(_, image)| *image).collect();
