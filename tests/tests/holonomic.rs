@@ -5,6 +5,7 @@ mod holonomic {
     mod assembly;
     mod car_axis;
     mod delta;
+    mod equal_parts;
     mod five_bar;
     mod four_bar;
     mod hoop;
@@ -16,6 +17,7 @@ mod holonomic {
     mod pendulum;
     mod plate;
     mod slider_crank;
+    mod spatial_slider_crank;
     mod squeezer;
     mod steered_bicycle;
     mod stewart;
