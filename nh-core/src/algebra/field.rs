@@ -30,6 +30,8 @@ impl Residue {
     pub const ONE: Self = Self(1, 0);
     /// The number of residues modulo P.
     pub const ORDER: u64 = P;
+    /// The steps of work that a root takes, which is a power of 60 bits.
+    pub(super) const ROOT_WORK: usize = 4;
 
     /// The residue of an arbitrary word.
     #[must_use]

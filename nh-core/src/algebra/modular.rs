@@ -219,6 +219,28 @@ impl<'a> FieldPass<'a> {
         Ok(self.known[&root])
     }
 
+    /// Gives a symbol another value; what depends on it is to be evaluated again.
+    pub(super) fn change(&mut self, symbol: SymbolId, value: Residue) {
+        self.point.chosen.insert(symbol, value);
+        if !self.circles.is_empty() {
+            self.circles.clear();
+        }
+    }
+
+    /// The value of one of some expressions, operands first, all of which are evaluated whether they have values or not.
+    pub(super) fn evaluate_again(&mut self, expressions: &[ExprId], root: ExprId) -> Value {
+        for id in expressions {
+            let value = self.value(*id)?;
+            self.known.insert(*id, value);
+        }
+        self.known.get(&root).copied().ok_or(NoValue::Here)
+    }
+
+    /// The point with all that was chosen.
+    pub(super) fn into_point(self) -> FieldPoint {
+        self.point
+    }
+
     fn evaluate_in_order(&mut self, order: Vec<ExprId>) -> Result<(), NoValue> {
         limits::spend(order.iter().map(|id| 1 + self.graph.node(*id).breadth()).sum());
         for id in order {
@@ -362,6 +384,7 @@ impl<'a> FieldPass<'a> {
         if !Residue::has_roots(order) {
             return Ok(self.random(Stream::Kernel, Residue::mixed(order, x.word()).word()));
         }
+        limits::spend(Residue::ROOT_WORK);
         x.root(order).ok_or(NoValue::Here)
     }
 

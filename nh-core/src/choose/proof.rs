@@ -115,7 +115,7 @@ pub(crate) fn prove(graph: &Graph, reference: &Reference, claim: &Claim) -> Resu
     let radicands = Radicands::of(graph, &reference.roots(), &reference.determined());
     let outcome = at_points(
         bits,
-        |seed| radicands.point(graph, seed),
+        |seed| radicands.point_in(seed, |point| FieldPass::new(graph, point, division)),
         |point| {
             let mut instant = reference.at(graph, point, division)?;
             judge(&mut instant, reference, claim)

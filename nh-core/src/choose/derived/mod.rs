@@ -378,7 +378,7 @@ pub(crate) fn prove_derived(
         let instant = reference.at(graph, point.clone(), division)?;
         Ok(Place { reference, instant, motion, point, division })
     };
-    let point = |seed| radicands.point(graph, seed);
+    let point = |seed| radicands.point_in(seed, |point| FieldPass::new(graph, point, division));
     let holds = |point: FieldPoint| claim.holds(&mut at(point, images)?);
     let wrong = || Defect::Wrong("it is not what its definition says".into());
     let outcome = at_points(bits, point, |point| if holds(point)? { Ok(()) } else { Err(wrong()) });

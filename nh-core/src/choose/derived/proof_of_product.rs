@@ -50,5 +50,6 @@ pub(crate) fn prove_product(
         };
         if is_so { Ok(()) } else { Err(Defect::Wrong("it is not the product with the Jacobian".into())) }
     };
-    at_points(bits, |seed| radicands.point(graph, seed), at)
+    let point = |seed| radicands.point_in(seed, |point| FieldPass::new(graph, point, division));
+    at_points(bits, point, at)
 }
