@@ -21,6 +21,8 @@ use rustc_hash::FxHashMap;
 const POINTS: [u32; 3] = [101, 102, 103];
 /// Values that are less certain than this, relatively, are not compared.
 const CERTAIN: f64 = 1e-9;
+/// How often all steps are looked through for shorter ways.
+const PASSES: usize = 8;
 /// Numbers have denominators up to this.
 const DENOMINATORS: i64 = 12;
 
@@ -163,9 +165,9 @@ impl Classes {
     fn shortest(&self, program: &Program, fixed: &[bool]) -> Vec<usize> {
         let mut costs = vec![f64::INFINITY; self.all.len()];
         let mut chosen = vec![0; self.all.len()];
-        let mut settled = false;
-        while !settled {
-            settled = true;
+        // a step costs more than each of its operands at any time, so that no choice waits for itself
+        for _ in 0..PASSES {
+            let mut settled = true;
             for (class, Class { members, number, .. }) in self.all.iter().enumerate() {
                 if number.is_some() {
                     costs[class] = 0.0;
@@ -179,6 +181,9 @@ impl Classes {
                         (costs[class], chosen[class], settled) = (cost, place, false);
                     }
                 }
+            }
+            if settled {
+                break;
             }
         }
         chosen
