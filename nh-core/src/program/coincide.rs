@@ -13,6 +13,7 @@ use super::interpret::{Arithmetic, interpret_in};
 use super::lower::{rename, without_dead_steps};
 use super::rounding::sample;
 use super::step::{Program, Step, Value};
+use super::where_defined::{Conditions, is_partial};
 use crate::algebra::{Bounded, Function, Function2, Rational, Residue};
 use crate::id::{Id, SymbolId, Table};
 use rustc_hash::FxHashMap;
@@ -46,12 +47,15 @@ pub(super) fn coincided(program: &Program, is_parameter: impl Fn(SymbolId) -> bo
 /// A value at the points.
 type Values = [Bounded; POINTS.len()];
 
-/// Steps of one value.
+/// Steps of one value, which all have it under the same conditions: a multiple of what is divided by zero somewhere may
+/// not take the place of a value that exists there.
 struct Class {
     /// The value, of the first of them.
     values: Values,
     /// Each, and whether it has the opposite value.
     members: Vec<(Value, bool)>,
+    /// What it takes for them to have a value, by the number of this set.
+    conditions: usize,
     /// The number that all of them are.
     number: Option<Rational>,
 }
@@ -77,6 +81,7 @@ impl Classes {
         let mut found = Self { all: Vec::new(), coincide: false, of: Table::new() };
         let mut by_size: FxHashMap<u64, Vec<usize>> = FxHashMap::default();
         let mut angles: FxHashMap<(usize, bool), usize> = FxHashMap::default();
+        let mut conditions = Conditions::new();
         for (value, step) in program.steps.iter_ids() {
             let values: Values = std::array::from_fn(|point| runs[point][value.index()].0);
             if let Step::Neg(operand) = step {
@@ -84,14 +89,15 @@ impl Classes {
                 found.join(class, value, !minus);
                 continue;
             }
+            let asked = found.asked(step, &mut conditions);
             let known = match step {
                 Step::SinCos(angle) => angles.get(&found.of[*angle]).map(|class| (*class, false)),
                 Step::Solve { .. } | Step::Call { .. } => None,
                 _ if found.is_zero(&runs, step, &values) => {
-                    found.add(value, values, Some(Rational::ZERO));
+                    found.add(value, values, 0, Some(Rational::ZERO));
                     continue;
                 }
-                _ => found.equal(&by_size, &values),
+                _ => found.equal(&by_size, &values, asked),
             };
             if let Some((class, minus)) = known {
                 found.coincide = true;
@@ -100,7 +106,8 @@ impl Classes {
             }
             let is_compared = !matches!(step, Step::SinCos(_) | Step::Solve { .. } | Step::Call { .. });
             let number = (is_compared && !numbers[value.index()]).then(|| short_number(&values)).flatten();
-            let class = found.add(value, values, number);
+            let asked = if number.is_some() { 0 } else { asked };
+            let class = found.add(value, values, asked, number);
             if let Step::SinCos(angle) = step {
                 angles.insert(found.of[*angle], class);
             } else if is_compared && is_certain(&values) {
@@ -110,9 +117,9 @@ impl Classes {
         found
     }
 
-    fn add(&mut self, value: Value, values: Values, number: Option<Rational>) -> usize {
+    fn add(&mut self, value: Value, values: Values, conditions: usize, number: Option<Rational>) -> usize {
         self.coincide |= number.is_some();
-        self.all.push(Class { values, members: vec![(value, false)], number });
+        self.all.push(Class { values, members: vec![(value, false)], conditions, number });
         self.of.push((self.all.len() - 1, false));
         self.all.len() - 1
     }
@@ -120,6 +127,25 @@ impl Classes {
     fn join(&mut self, class: usize, value: Value, minus: bool) {
         self.all[class].members.push((value, minus));
         self.of.push((class, minus));
+    }
+
+    /// What it takes for a step to have a value. Those of what is divided by, or under a root, are the class of that.
+    fn asked(&self, step: &Step, conditions: &mut Conditions) -> usize {
+        let mut asked = 0;
+        step.each_operand(|operand| {
+            asked = conditions.union(asked, self.all[self.of[operand].0].conditions);
+        });
+        if !is_partial(step) {
+            return asked;
+        }
+        let operands = match step {
+            Step::Div(_, divisor) => vec![*divisor],
+            _ => step.operands(),
+        };
+        operands.into_iter().fold(asked, |asked, operand| {
+            let single = conditions.single(self.of[operand].0);
+            conditions.union(asked, single)
+        })
     }
 
     /// Whether a step is zero: a sum that is nothing beside its operands, as far as rounding tells, or a multiple of zero.
@@ -137,14 +163,20 @@ impl Classes {
         }
     }
 
-    /// The class with a value, and whether with the opposite one.
-    fn equal(&self, by_size: &FxHashMap<u64, Vec<usize>>, values: &Values) -> Option<(usize, bool)> {
+    /// The class with a value under these conditions, and whether with the opposite one.
+    fn equal(
+        &self,
+        by_size: &FxHashMap<u64, Vec<usize>>,
+        values: &Values,
+        asked: usize,
+    ) -> Option<(usize, bool)> {
         if !is_certain(values) {
             return None;
         }
         let place = key(values[0].value);
         let near = [place - 1, place, place + 1];
-        near.iter().filter_map(|place| by_size.get(place)).flatten().find_map(|class| {
+        let near = near.iter().filter_map(|place| by_size.get(place)).flatten();
+        near.filter(|class| self.all[**class].conditions == asked).find_map(|class| {
             let known = &self.all[*class].values;
             let is = |sign: f64| {
                 known.iter().zip(values).all(|(a, b)| {

@@ -46,6 +46,7 @@ mod tape;
 mod taylor;
 mod text;
 mod vertex_order;
+mod where_defined;
 
 pub use accumulate::{Systems, Wanted, accumulated};
 pub use correct::corrected;

@@ -5,7 +5,7 @@ use crate::algebra::{Function, Graph, Rational};
 use crate::choose::lowered;
 use crate::id::{ExprId, SymbolId};
 use crate::mechanics::Procedure;
-use crate::program::{Cost, Program, interpret};
+use crate::program::{Cost, Program, Scheduled, interpret, schedules};
 
 /// What is emitted for some expressions, which is proved.
 fn emitted(g: &Graph, outputs: Vec<ExprId>) -> Program {
@@ -54,4 +54,22 @@ fn seeming_is_not_being() {
     let tiny = g.number(Rational::from(10).pow(-25).unwrap());
     let outputs = vec![g.formula(a * b), g.formula(a * b + tiny * c)];
     assert_eq!(of(&emitted(&g, outputs), [0.0, 3.0, 2.0]), [0.0, 2e-25]);
+}
+
+/// What exists at a place does not become what does not, though it is the same elsewhere and shorter.
+#[test]
+fn values_stay_where_they_exist() {
+    let mut g = Graph::new();
+    let [q, b] = symbols(&mut g, ["q", "b"]);
+    let one = g.one();
+    let powers: Vec<ExprId> = (0..8).map(|exponent| g.pow(q, Rational::from(exponent))).collect();
+    let series = g.sum(&powers);
+    let last = g.pow(q, Rational::from(8));
+    // (1 − q⁸) / (1 − q), which is the series where q is not 1
+    let closed = g.formula((one - last) / (one - q));
+    let outputs = vec![closed, g.formula(series * b)];
+    for Scheduled { program, .. } in schedules(&g, &Procedure::of(outputs), &[]) {
+        let found = interpret(&program, |symbol| [1.0, 3.0][crate::id::Id::index(symbol)]);
+        assert!((found[1] - 24.0).abs() < 1e-12, "{}", program.text(&g));
+    }
 }
