@@ -12,30 +12,52 @@ const MOST_SWEEPS: usize = 64;
 /// factor of two (Parlett, Reinsch, Numer. Math. 13 (1969) 293–304): how often a matrix is squared, and what is round-off
 /// in it, should not depend on the units of its components.
 pub(super) fn balanced<T: Entry, const N: usize>(a: &SMatrix<T, N, N>) -> (SMatrix<T, N, N>, SVector<T, N>) {
-    let (mut a, mut units) = (*a, SVector::repeat(T::ONE));
+    let (mut a, mut units) = (*a, SVector::<T, N>::repeat(T::ONE));
     for _ in 0..MOST_SWEEPS {
         let mut has_changed = false;
-        for k in 0..N {
-            let other = |sum: T, i: usize, x: T| if i == k { sum } else { sum.max(Scalar::abs(x)) };
-            let row = (0..N).fold(T::ZERO, |sum, i| other(sum, i, a[(k, i)]));
-            let column = (0..N).fold(T::ZERO, |sum, i| other(sum, i, a[(i, k)]));
+        for (k, of_component) in units.iter_mut().enumerate() {
+            let (row, column) = sizes(&a, k);
             let unit = unit(row, column);
-            let next = units[k] * unit;
+            let next = *of_component * unit;
             if unit == T::ONE || !(next.is_finite() && next.recip().is_finite()) {
                 continue;
             }
             has_changed = true;
-            units[k] = next;
-            for i in (0..N).filter(|i| *i != k) {
-                a[(i, k)] *= unit;
-                a[(k, i)] = a[(k, i)] / unit;
-            }
+            *of_component = next;
+            each_beside(&mut a, k, |x| *x *= unit, |x| *x = *x / unit);
         }
         if !has_changed {
             break;
         }
     }
     (a, units)
+}
+
+/// The largest entries of row and column k beside the diagonal.
+fn sizes<T: Entry, const N: usize>(a: &SMatrix<T, N, N>, k: usize) -> (T, T) {
+    let (mut row, mut column) = (T::ZERO, T::ZERO);
+    let mut a = *a;
+    each_beside(&mut a, k, |x| column = column.max(Scalar::abs(*x)), |x| row = row.max(Scalar::abs(*x)));
+    (row, column)
+}
+
+/// Visits the entries of column k and those of row k beside the diagonal. Entries are not asked for by their places,
+/// which the compiler would have to prove to exist.
+fn each_beside<T: Entry, const N: usize>(
+    a: &mut SMatrix<T, N, N>,
+    k: usize,
+    mut of_column: impl FnMut(&mut T),
+    mut of_row: impl FnMut(&mut T),
+) {
+    for (j, mut column) in a.column_iter_mut().enumerate() {
+        for (i, x) in column.iter_mut().enumerate().filter(|(i, _)| *i != j) {
+            if j == k {
+                of_column(x);
+            } else if i == k {
+                of_row(x);
+            }
+        }
+    }
 }
 
 /// The power of two by which a column grows and its row shrinks, so that both are of one size up to a factor of two.
@@ -55,19 +77,38 @@ fn unit<T: Entry>(row: T, column: T) -> T {
     unit
 }
 
-/// The rows of a matrix, divided by units.
-pub(super) fn in_units<T: Entry, const N: usize, const M: usize>(
-    a: &SMatrix<T, N, M>,
+/// D⁻¹ S D⁻¹ of a symmetric matrix.
+pub(super) fn in_units<T: Entry, const N: usize>(
+    mut s: SMatrix<T, N, N>,
     units: &SVector<T, N>,
-) -> SMatrix<T, N, M> {
-    SMatrix::from_fn(|i, j| a[(i, j)] / units[i])
+) -> SMatrix<T, N, N> {
+    for (mut column, of_column) in s.column_iter_mut().zip(units) {
+        column.iter_mut().zip(units).for_each(|(x, of_row)| *x = *x / *of_row / *of_column);
+    }
+    s
+}
+
+/// D S D of a symmetric matrix.
+pub(super) fn out_of_units<T: Entry, const N: usize>(
+    mut s: SMatrix<T, N, N>,
+    units: &SVector<T, N>,
+) -> SMatrix<T, N, N> {
+    for (mut column, of_column) in s.column_iter_mut().zip(units) {
+        column.iter_mut().zip(units).for_each(|(x, of_row)| *x = *x * *of_row * *of_column);
+    }
+    s
 }
 
 /// D A D⁻¹.
 pub(super) fn restored<T: Entry, const N: usize>(
-    a: &SMatrix<T, N, N>,
+    mut a: SMatrix<T, N, N>,
     units: &SVector<T, N>,
 ) -> SMatrix<T, N, N> {
-    // what is zero stays so where the quotient is out of range
-    SMatrix::from_fn(|i, j| if a[(i, j)] == T::ZERO { T::ZERO } else { a[(i, j)] * (units[i] / units[j]) })
+    for (mut column, of_column) in a.column_iter_mut().zip(units) {
+        // what is zero stays so where the quotient is out of range
+        for (x, of_row) in column.iter_mut().zip(units).filter(|(x, _)| **x != T::ZERO) {
+            *x *= *of_row / *of_column;
+        }
+    }
+    a
 }

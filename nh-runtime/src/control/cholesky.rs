@@ -85,29 +85,26 @@ pub(super) fn semidefinite_beside<T: Entry, const N: usize>(
     super::finite(name, a)?;
     let nothing = T::EPSILON.sqrt();
     let floor = nothing * trace(larger);
-    let scale = |k: usize| larger[(k, k)].select_gt(T::ZERO, larger[(k, k)], floor);
+    let scales = larger.diagonal().map(|place| place.select_gt(T::ZERO, place, floor));
     let mut rest = symmetrized(a);
     // the lowest pivot, and the widest entry in the column of one that vanishes, with their shares
     let (mut lowest, mut widest) = ((T::ZERO, T::ZERO), (T::ZERO, T::ZERO));
     for k in 0..N {
         let pivot = rest[(k, k)];
-        let share = pivot / scale(k);
-        if share < lowest.1 {
-            lowest = (pivot, share);
-        }
+        let share = pivot / scales[k];
+        lowest = (lowest.1.select_gt(share, pivot, lowest.0), lowest.1.select_gt(share, share, lowest.1));
         let inverse = share.select_gt(nothing, pivot.recip(), T::ZERO);
         for j in k + 1..N {
             let below = rest[(j, k)];
             // squares of shares: the product of two ratios
-            let square = (below / scale(k)) * (below / scale(j));
+            let square = (below / scales[k]) * (below / scales[j]);
             let square = share.select_gt(nothing, T::ZERO, square);
-            if square > widest.1 {
-                widest = (below.abs(), square);
-            }
+            let wider = square.select_gt(widest.1, below.abs(), widest.0);
+            widest = (wider, square.select_gt(widest.1, square, widest.1));
             let factor = below * inverse;
-            for i in j..N {
-                let reduced = factor * rest[(i, k)];
-                rest[(i, j)] -= reduced;
+            let along = rest.column(k).into_owned();
+            for (entry, along) in rest.column_mut(j).iter_mut().zip(&along).skip(j) {
+                *entry -= factor * *along;
             }
         }
     }

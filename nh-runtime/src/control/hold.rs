@@ -63,7 +63,7 @@ pub fn zero_order_hold<T: Entry, const N: usize, const M: usize>(
         exponential *= exponential;
         witness.compare(&exponential)?;
     }
-    let (exponential, phi) = (restored(&exponential, &units), restored(&phi, &units));
+    let (exponential, phi) = (restored(exponential, &units), restored(phi, &units));
     let held = phi * b * dt;
     finite("exp(a dt)", &exponential)?;
     finite("B_d", &held)?;

@@ -2,7 +2,7 @@
 
 use nalgebra::SMatrix;
 
-use super::balance::{balanced, in_units};
+use super::balance::{balanced, in_units, out_of_units};
 use super::cholesky::semidefinite;
 use super::hold::{MOST_HALVINGS, Witness};
 use super::{ControlError, Entry, finite, norm, symmetrized};
@@ -60,7 +60,7 @@ pub fn held_noise<T: Entry, const N: usize>(
         h *= half;
         halvings += 1;
     }
-    let mut term = in_units(&in_units(&symmetrized(density), &units).transpose(), &units) * h;
+    let mut term = in_units(symmetrized(density), &units) * h;
     let mut sum = term;
     for k in 2..=TERMS {
         let image = x * term;
@@ -78,7 +78,7 @@ pub fn held_noise<T: Entry, const N: usize>(
         through *= through;
         witness.compare(&through)?;
     }
-    let sum = SMatrix::from_fn(|i, j| sum[(i, j)] * units[i] * units[j]);
+    let sum = out_of_units(sum, &units);
     finite("the noise of a tick", &sum)?;
     Ok(symmetrized(&sum))
 }

@@ -236,8 +236,8 @@ impl<T: Entry, const N: usize, const M: usize> Regulator<T, N, M> {
 /// The largest share of the cost of a component that is added to it: components have units of their own, and a part of a
 /// semidefinite matrix is bounded by its diagonal. Not finite where a cost is not.
 fn most_added<T: Entry, const N: usize>(more: &SMatrix<T, N, N>, cost: &SMatrix<T, N, N>) -> T {
-    (0..N).fold(T::ZERO, |most, k| {
-        let (more, cost) = (Scalar::abs(more[(k, k)]), Scalar::abs(cost[(k, k)]));
+    more.diagonal().zip_fold(&cost.diagonal(), T::ZERO, |most, more, cost| {
+        let (more, cost) = (Scalar::abs(more), Scalar::abs(cost));
         // nothing costs anything if the cost is zero; infinity beside infinity is no number
         let share = if more == T::ZERO && cost.is_finite() { T::ZERO } else { more / cost };
         Scalar::max(most, share)
