@@ -5,16 +5,14 @@
 //! run at a few points; steps that have one value at all of them, up to its sign, are taken for one, and what has the
 //! value of a short number for that number. This is a conjecture: a program that rests on it is emitted if it is proved
 //! as a whole ([`lowered`](crate::choose::lowered)).
-//!
-//! A function with branches has a number of its own for each argument, so that nothing is taken for equal that is so on
-//! one branch only: √(x²) is not x at points where x > 0.
 
-use super::interpret::{Arithmetic, interpret_in};
+use super::interpret::interpret_in;
 use super::lower::{rename, without_dead_steps};
+use super::random_points::Sampled;
 use super::rounding::sample;
 use super::step::{Program, Step, Value};
 use super::where_defined::{Conditions, is_partial};
-use crate::algebra::{Bounded, Function, Function2, Rational, Residue};
+use crate::algebra::{Bounded, Function, Rational};
 use crate::id::{Id, SymbolId, Table};
 use rustc_hash::FxHashMap;
 
@@ -391,69 +389,4 @@ fn short_number(values: &Values) -> Option<Rational> {
         let is_number = values.iter().all(|value| apart(value, number));
         is_number.then(|| Rational::new(numerator as i64, denominator))
     })
-}
-
-/// A value at a point, where functions with branches have numbers of their own.
-#[derive(Clone, Copy, Debug)]
-struct Sampled(Bounded);
-
-impl Sampled {
-    /// A number that a function and what it is applied to determine.
-    #[allow(clippy::cast_precision_loss, reason = "a sample needs no more digits")]
-    fn own(tag: u64, arguments: &[Self]) -> Self {
-        let word = arguments
-            .iter()
-            .fold(41_000 + tag, |word, argument| Residue::mixed(word, argument.0.value.to_bits()).word());
-        if arguments.iter().any(|argument| argument.0.value.is_nan()) {
-            return Self(Bounded { value: f64::NAN, error: f64::NAN });
-        }
-        Self(Bounded { value: 0.5 + (word & 0xFFFF_FFFF) as f64 / f64::from(u32::MAX), error: 0.0 })
-    }
-}
-
-impl Arithmetic for Sampled {
-    fn number(value: &Rational) -> Self {
-        Self(Bounded::number(value))
-    }
-    fn pi() -> Self {
-        Self(Bounded::pi())
-    }
-    fn add(&self, other: &Self) -> Self {
-        Self(self.0.add(&other.0))
-    }
-    fn sub(&self, other: &Self) -> Self {
-        Self(self.0.sub(&other.0))
-    }
-    fn mul(&self, other: &Self) -> Self {
-        Self(self.0.mul(&other.0))
-    }
-    fn div(&self, other: &Self) -> Self {
-        Self(self.0.div(&other.0))
-    }
-    fn sqrt(&self) -> Self {
-        Self::own(1, &[*self])
-    }
-    fn cbrt(&self) -> Self {
-        Self::own(2, &[*self])
-    }
-    fn pow(&self, exponent: &Rational) -> Self {
-        Self::own(3, &[*self, Self::number(exponent)])
-    }
-    fn apply(&self, function: Function) -> Self {
-        match function {
-            Function::Sin
-            | Function::Cos
-            | Function::Sinh
-            | Function::Cosh
-            | Function::Tanh
-            | Function::Exp => Self(self.0.apply(function)),
-            _ => Self::own(4 + function as u64, &[*self]),
-        }
-    }
-    fn apply2(&self, function: Function2, other: &Self) -> Self {
-        Self::own(64 + function as u64, &[*self, *other])
-    }
-    fn magnitude(&self) -> f64 {
-        self.0.magnitude()
-    }
 }

@@ -36,6 +36,7 @@ mod opened;
 mod pairs;
 #[cfg(test)]
 mod program_tests;
+mod random_points;
 mod rounding;
 mod rule;
 mod schedule;
