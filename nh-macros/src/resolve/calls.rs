@@ -146,14 +146,24 @@ impl Resolver {
         name: &Name,
         given: usize,
     ) -> Outcome<()> {
-        let wanted = called.arity();
+        self.counted(expr, name, given, called.arity(), || called.usage(&name.text))
+    }
+
+    /// Whether a function has as many arguments as it takes; `usage` is how it is written.
+    pub(super) fn counted(
+        &mut self,
+        expr: &Expr,
+        name: &Name,
+        given: usize,
+        wanted: usize,
+        usage: impl FnOnce() -> String,
+    ) -> Outcome<()> {
         if given == wanted {
             return Ok(());
         }
         let plural = if wanted == 1 { "argument" } else { "arguments" };
         let what = format!("`{}` takes {wanted} {plural}, and {given} are given", name.text);
-        let error =
-            Diagnostic::new(expr.extent, what).way_out(format!("write `{}`", called.usage(&name.text)));
+        let error = Diagnostic::new(expr.extent, what).way_out(format!("write `{}`", usage()));
         Err(self.report(expr, error))
     }
 

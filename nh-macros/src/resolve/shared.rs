@@ -243,15 +243,10 @@ impl Resolver {
         name: &Name,
         given: usize,
     ) -> Outcome<()> {
-        let wanted = arguments.len();
-        if given == wanted {
-            return Ok(());
-        }
-        let plural = if wanted == 1 { "argument" } else { "arguments" };
-        let names: Vec<&str> = arguments.iter().map(|argument| argument.text.as_str()).collect();
-        let what = format!("`{}` takes {wanted} {plural}, and {given} are given", name.text);
-        let way_out = format!("write `{}({})`", name.text, names.join(", "));
-        Err(self.report(expr, Diagnostic::new(expr.extent, what).way_out(way_out)))
+        self.counted(expr, name, given, arguments.len(), || {
+            let names: Vec<&str> = arguments.iter().map(|argument| argument.text.as_str()).collect();
+            format!("{}({})", name.text, names.join(", "))
+        })
     }
 
     /// Whether the arguments of a function have names of their own; each that has not is reported once.
