@@ -91,10 +91,12 @@ pub struct Model {
     pub requests: Vec<(Request, Origin)>,
     /// The state variables and observables that are needed (`track`); all of them if not given.
     pub tracked: Option<Vec<(TrackedItem, Origin)>>,
-    /// The variables of the state that a linearisation keeps (`linearization`).
+    /// The variables of the state that a linearisation keeps (`linearization`); the independent ones if none is named.
     pub linearization: Option<Vec<(SymbolId, Origin)>>,
     /// The velocities that the user wants the adapted state to keep.
     pub independent: Option<Vec<(SymbolId, Origin)>>,
+    /// The base coordinates that the user names as independent: a chart of N.
+    pub chart: Option<Vec<(SymbolId, Origin)>>,
     /// Velocities of an orthonormal basis of D (`orthonormal`), and where they are named.
     pub orthonormal: Option<(Vec<SymbolId>, Origin)>,
     /// The formulation that the user asks for.

@@ -69,12 +69,12 @@ mod syntax;
 /// | `routh { spin = mu; }` | conserved momenta that become parameters: their velocities leave the state | |
 /// | `assume { m > 0; }` | facts about parameters: used in proofs, checked by `validate` | none |
 /// | `units { x, y = m; m = kg; }` | units of declared names: everything is proved to be homogeneous, see below | not looked at |
-/// | `independent { v, dphi }` | the velocities that the state keeps | chosen by the macro |
+/// | `independent { v, dphi }` | the velocities that the state keeps; beside `holonomic` and `on` also coordinates, a chart of where these hold: each kind is complete or left out | chosen by the macro |
 /// | `orthonormal { u1, u2 }` | names for the velocities of a basis of D made orthonormal in the kinetic metric (Gram and Schmidt, in the order of the independent velocities): the state keeps them, and C is the identity (M 2.2) | |
 /// | `formulation { projected }` | all velocities in the state, with multipliers; or `adapted` | adapted where a choice of velocities holds everywhere |
 /// | `accuracy { careful }` | where emitted code stands between speed and accuracy: `fast`, `balanced` or `careful`, see below | `balanced` |
 /// | `emit { jacobian, momenta }` | what to generate beyond the default: see below | |
-/// | `linearization { keep: v, omega; }` | the variables of the state in which `linearize` gives a linear model on the constraint manifold, and which are steady where `trim` finds a steady motion | |
+/// | `linearization { keep: v, omega; }` | the variables of the state in which `linearize` gives a linear model on the constraint manifold, and which are steady where `trim` finds a steady motion | `linearization { }`: the independent ones |
 /// | `track { v, speed }` | the state variables and outputs that matter: what does not flow into them is neither stored nor computed | everything |
 /// | `derivative { motor: [self.motor_speed]; }` | the partial derivatives of a method used in a force, for `emit { jacobian }` | |
 /// | `names { state = RobotState; }` | names of generated types, by their roles | `…State` and so on |
@@ -291,6 +291,10 @@ mod syntax;
 /// counts, and `validate` refuses its zero. Where there is no such choice (a knife edge in `x`, `y`,
 /// `theta`) the state keeps all velocities: the projected formulation. A choice by `independent` is
 /// taken even if its pivot vanishes somewhere; the report says where.
+///
+/// Beside `holonomic` and `on` the list may name coordinates, too: as many as the equations leave free, which determine
+/// the others wherever the derivatives of the equations by these are invertible. The state keeps all coordinates; those
+/// that are named are what `linearization { }` keeps, with the velocities.
 ///
 /// # What is generated
 ///

@@ -339,6 +339,120 @@ fn methods_are_differentiated_by_the_declared_methods() {
     assert!((found.b[(1, 0)] - 1.0).abs() < 1e-15);
 }
 
+/// A slider and its crank, by what is independent and what a linearisation keeps.
+macro_rules! slider_crank {
+    ($name:ident, $state:ident, $independent:tt, $linearization:tt) => {
+        #[nonholonomic(
+            base { crank, rod, slide }
+            holonomic {
+                along: r * cos(crank) + l * cos(rod) = slide;
+                across: r * sin(crank) + l * sin(rod) = 0;
+            }
+            lagrangian {
+                J / 2 * der(crank)^2 + j / 2 * der(rod)^2 + m / 2 * der(slide)^2 - k / 2 * (slide - l)^2
+            }
+            inputs { torque }
+            forces { crank: torque; }
+            outputs { place = slide; }
+            independent $independent
+            linearization $linearization
+        )]
+        #[derive(Clone, Copy, Debug)]
+        struct $name {
+            r: f64,
+            l: f64,
+            J: f64,
+            j: f64,
+            m: f64,
+            k: f64,
+        }
+
+        impl $name {
+            /// What is linearised where the crank is at 0.4, and turns at 1.5.
+            fn turning() -> nonholonomic::Linearization<f64, 2, 1, 1> {
+                let machine = Self { r: 0.3, l: 0.8, J: 0.02, j: 0.01, m: 0.6, k: 40.0 };
+                let (sine, cosine) = 0.4_f64.sin_cos();
+                let rod = -(0.3 * sine / 0.8).asin();
+                let slide = 0.3 * cosine + 0.8 * rod.cos();
+                let mut state = $state { crank: 0.4, rod, slide, crank_dot: 1.5, ..$state::default() };
+                machine.with_rates(&mut state);
+                machine.linearize(0.0, &state, &Default::default()).unwrap()
+            }
+        }
+    };
+}
+
+slider_crank!(Named, NamedState, { der(crank) }, { keep: crank, der(crank); });
+slider_crank!(Charted, ChartedState, { crank, der(crank) }, {});
+// every velocity is in the state, and the rate of the chart's coordinate is kept
+slider_crank!(Placed, PlacedState, { crank }, {});
+
+impl Named {
+    fn with_rates(&self, _: &mut NamedState) {}
+}
+
+impl Charted {
+    fn with_rates(&self, _: &mut ChartedState) {}
+}
+
+impl Placed {
+    fn with_rates(&self, state: &mut PlacedState) {
+        let (sine, cosine) = state.crank.sin_cos();
+        state.rod_dot = -self.r * cosine * state.crank_dot / (self.l * state.rod.cos());
+        state.slide_dot = -self.r * sine * state.crank_dot - self.l * state.rod.sin() * state.rod_dot;
+    }
+}
+
+#[test]
+fn what_is_independent_is_kept_by_a_linearisation() {
+    let named = Named::turning();
+    for other in [Charted::turning(), Placed::turning()] {
+        assert_eq!(other.states, ["crank", "crank_dot"]);
+        let scale = named.a.amax();
+        assert!((other.a - named.a).amax() < 1e-13 * scale, "{} {}", other.a, named.a);
+        assert!((other.b - named.b).amax() < 1e-13 * named.b.amax(), "{} {}", other.b, named.b);
+        assert!((other.c - named.c).amax() < 1e-14, "{} {}", other.c, named.c);
+    }
+    // ds/dcrank = -r sin crank + r cos crank tan rod
+    let rod = -(0.3 * 0.4_f64.sin() / 0.8).asin();
+    let slope = 0.3 * (0.4_f64.cos() * rod.tan() - 0.4_f64.sin());
+    assert!((named.c[(0, 0)] - slope).abs() < 1e-14, "{} {slope}", named.c);
+    assert!(
+        Placed::REPORT.contains("independent coordinates: crank, as named; it is valid where cos(rod) != 0"),
+        "{}",
+        Placed::REPORT
+    );
+    // without constraints every variable is independent; an embedded place has a chart
+    let all = Free { m: 2.0, k: 8.0 }.linearize(0.0, &FreeState::default(), &()).unwrap();
+    assert_eq!((all.states, all.a[(1, 0)]), (["x", "x_dot"], -4.0));
+    let rod = OnCircle { m: 2.0, l: 0.5, g: 9.81 };
+    let hanging = OnCircleState { c: 1.0, ..OnCircleState::default() };
+    let found = rod.linearize(0.0, &hanging, &()).unwrap();
+    assert_eq!(found.states, ["s", "w"]);
+    assert!((found.a[(1, 0)] + 9.81 / 0.5).abs() < 1e-13, "{}", found.a);
+}
+
+#[nonholonomic(base { x } lagrangian { m / 2 * der(x)^2 - k / 2 * x^2 } linearization {})]
+struct Free {
+    m: f64,
+    k: f64,
+}
+
+#[nonholonomic(
+    base { c, s }
+    on { c^2 + s^2 = 1; }
+    basis { w }
+    anchor { der(c) = -s * w; der(s) = c * w; }
+    lagrangian { m / 2 * l^2 * w^2 + m * g * l * c }
+    independent { s }
+    linearization {}
+)]
+struct OnCircle {
+    m: f64,
+    l: f64,
+    g: f64,
+}
+
 #[test]
 fn refusals_say_what_to_do() {
     let texts = [

@@ -3,6 +3,7 @@
 mod assumptions;
 mod auxiliary;
 mod brackets;
+mod chart;
 mod claimed;
 mod claimed_volume;
 mod claims;
@@ -32,6 +33,7 @@ mod whole_base;
 pub use assumptions::{facts, follows, on_the_base, undecided};
 pub use auxiliary::rates_in_a_circle;
 pub use brackets::structure_functions;
+pub use chart::chart;
 pub use claimed::claimed;
 pub use claimed_volume::{claimed_density, volume};
 pub use claims::claims;

@@ -4,6 +4,7 @@ use super::proved::fence;
 use crate::functions::RESIDUAL;
 use crate::id::{Origin, SymbolId};
 use crate::mechanics::{NotDifferentiable, Procedure, jacobian};
+use crate::model::{Formulation, Kinematics};
 use crate::system::{Linearization, System};
 use crate::violation::{Law, Violation};
 
@@ -11,9 +12,11 @@ use crate::violation::{Law, Violation};
 /// places of what is kept.
 ///
 /// # Errors
-/// Where something is kept that is not in the state, or a method of the user's has no derivative.
+/// Where something is kept that is not in the state, or a method of the user's has no derivative; where nothing is named
+/// and the independent variables are not known.
 pub(super) fn derive(system: &mut System) -> Result<(), Vec<Violation>> {
     let Some(named) = system.model.linearization.clone() else { return Ok(()) };
+    let named = if named.is_empty() { independent_variables(system)? } else { named };
     let state = system.state();
     let mut kept = Vec::with_capacity(named.len());
     let mut refused = Vec::new();
@@ -32,6 +35,48 @@ pub(super) fn derive(system: &mut System) -> Result<(), Vec<Violation>> {
     let residuals = Procedure::of(on_constraints.into_iter().chain(on_base).flatten().collect());
     system.linearization = Some(Linearization { kept, residuals });
     Ok(())
+}
+
+/// The coordinates and velocities that the declaration names as independent, or leaves all of them independent, and the
+/// auxiliary states.
+fn independent_variables(system: &System) -> Result<Vec<(SymbolId, Origin)>, Vec<Violation>> {
+    let model = &system.model;
+    let chart = model.chart.as_ref();
+    let origin = chart.and_then(|named| named.first()).map_or(model.origin, |(_, origin)| *origin);
+    let open = |what: &str, way_out: &str| Violation {
+        law: Law::Linearization,
+        origin,
+        what: format!("which {what} the linearisation keeps is open"),
+        evidence: "it names no variables, and neither does `independent`".into(),
+        way_out: way_out.into(),
+    };
+    let is_open = !model.positions.is_empty() || !model.identities.is_empty();
+    let coordinates: Vec<SymbolId> = match chart {
+        Some(named) => named.iter().map(|(symbol, _)| *symbol).collect(),
+        None if is_open => {
+            let way_out = "name coordinates in `independent { x, der(x) }`, or variables in `keep`";
+            return Err(vec![open("coordinates", way_out)]);
+        }
+        None => system.state_coordinates.clone(),
+    };
+    let are_bound = !model.constraints.is_empty() || !model.routh.is_empty();
+    let velocities = if are_bound && system.formulation == Formulation::Projected {
+        // where only positions are constrained the rates of a chart of N are coordinates of the velocities on it
+        let rates_do = matches!(model.kinematics, Kinematics::Tangent)
+            && model.constraints.len() == model.positions.len()
+            && model.routh.is_empty()
+            && chart.is_some();
+        if !rates_do {
+            let way_out = "name velocities in `independent { x, der(x) }`, or variables in `keep`";
+            return Err(vec![open("velocities", way_out)]);
+        }
+        let kept = model.coordinates.iter().filter(|coordinate| coordinates.contains(&coordinate.symbol));
+        kept.map(|coordinate| coordinate.rate).collect()
+    } else {
+        system.state_velocities.clone()
+    };
+    let all = [coordinates, velocities, system.state_auxiliary.clone()].concat();
+    Ok(all.into_iter().map(|symbol| (symbol, origin)).collect())
 }
 
 fn not_in_the_state(system: &System, state: &[SymbolId], symbol: SymbolId, origin: Origin) -> Violation {

@@ -3,6 +3,7 @@
 use crate::algebra::Facts;
 use crate::check::{BrokenLaws, Constraints, Impact, Kind, Motion, Positions, Symmetry};
 use crate::choose::{Fate, Ledger};
+use crate::geometry::independent_velocities::Choice;
 use crate::geometry::{ConstraintDistribution, Manifold, Rank};
 use crate::id::{CoordId, ExprId, Origin, SymbolId};
 use crate::mechanics::{LagrangianSystem, ReducedEquations, SaddleEquations};
@@ -25,6 +26,8 @@ pub(crate) struct Proved {
     pub(crate) broken_laws: BrokenLaws,
     /// The position constraints, and where they hold.
     pub(crate) positions: Positions,
+    /// What the coordinates that are named as independent determine, and where.
+    pub(crate) chart: Option<Choice<CoordId>>,
     /// The constraints.
     pub(crate) constraints: Constraints,
     /// The rank of their derivatives by the velocities, where it is known.

@@ -118,6 +118,7 @@ pub(crate) fn prove(mut model: Model) -> Result<(Proved, Chosen), Vec<Violation>
     let quadratures = routh::quadratures(&mut model, &system, &symmetries, &levels);
     // 6. the formulation: a basis of D valid everywhere, or multipliers
     about(Subject::Constraints);
+    let chart = check::chart(&mut model, &positions, &facts)?;
     let chosen = match spanned {
         Some(distribution) => {
             let reason = "the declared sections span D".into();
@@ -136,6 +137,7 @@ pub(crate) fn prove(mut model: Model) -> Result<(Proved, Chosen), Vec<Violation>
     let impacts = check::impacts(&mut model, between)?;
     let proved = Proved {
         impacts,
+        chart,
         model,
         motion,
         base,

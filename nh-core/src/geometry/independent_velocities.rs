@@ -1,14 +1,14 @@
-//! The choice of the independent velocities.
+//! The choice of the independent velocities, and the judgement of one, of velocities or of coordinates.
 
 use super::pivot::{PivotSetting, PivotZeros};
 use crate::algebra::{Graph, Residue, determinant_in_field};
 use crate::id::{ExprId, Id, SectionId};
 
-/// Which velocities the constraints are solved for.
+/// Which velocities the constraints are solved for, or which coordinates.
 #[derive(Clone, Debug)]
-pub struct Choice {
+pub struct Choice<I = SectionId> {
     /// The velocities to eliminate.
-    pub dependent: Vec<SectionId>,
+    pub dependent: Vec<I>,
     /// Expressions of parameters that must not vanish.
     pub conditions: Vec<ExprId>,
     /// Where one of these vanishes the constraints are dependent.
@@ -18,8 +18,8 @@ pub struct Choice {
     pub breaks_down: Vec<ExprId>,
 }
 
-impl Choice {
-    fn of(dependent: Vec<SectionId>) -> Self {
+impl<I> Choice<I> {
+    fn of(dependent: Vec<I>) -> Self {
         Self { dependent, conditions: Vec::new(), rank_drops: Vec::new(), breaks_down: Vec::new() }
     }
 
@@ -66,7 +66,7 @@ impl Samples {
     }
 
     /// Whether the columns are independent at generic points.
-    fn are_independent(&self, columns: &[SectionId]) -> bool {
+    fn are_independent<I: Id>(&self, columns: &[I]) -> bool {
         self.0.iter().any(|rows| {
             let minor = rows.iter().map(|row| columns.iter().map(|c| row[c.index()]).collect()).collect();
             determinant_in_field(minor) != Residue::ZERO
@@ -78,11 +78,11 @@ impl Samples {
 ///
 /// # Errors
 /// The reason, where the algebra cannot evaluate the constraints.
-pub fn judge(
+pub fn judge<I: Id>(
     graph: &mut Graph,
     setting: &PivotSetting<'_>,
-    dependent: &[SectionId],
-) -> Result<Option<Choice>, String> {
+    dependent: &[I],
+) -> Result<Option<Choice<I>>, String> {
     if !Samples::of(graph, setting)?.are_independent(dependent) {
         return Ok(None);
     }
@@ -140,7 +140,7 @@ fn study(graph: &mut Graph, setting: &PivotSetting<'_>, dependent: &[SectionId])
 }
 
 /// The block determinants of the columns.
-fn pivots(graph: &mut Graph, setting: &PivotSetting<'_>, dependent: &[SectionId]) -> Vec<ExprId> {
+fn pivots<I: Id>(graph: &mut Graph, setting: &PivotSetting<'_>, dependent: &[I]) -> Vec<ExprId> {
     let matrix: Vec<Vec<ExprId>> =
         setting.annihilator.iter().map(|row| dependent.iter().map(|c| row[c.index()]).collect()).collect();
     let nothing: Vec<Vec<ExprId>> = vec![Vec::new(); matrix.len()];

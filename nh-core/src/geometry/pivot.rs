@@ -19,7 +19,7 @@ pub struct PivotZeros {
 /// The setting in which pivots are judged.
 #[derive(Clone, Copy, Debug)]
 pub struct PivotSetting<'a> {
-    /// Φ.
+    /// Φ, a column for each velocity; or derivatives of what vanishes, a column for each coordinate.
     pub annihilator: &'a Matrix,
     /// Φ on the embedded base, where independence is judged.
     pub on_base: &'a Matrix,

@@ -1,13 +1,15 @@
 //! What kind of system it is.
 
+use super::suggestion_line::validity;
 use super::{combination, section_names, shown, suggestion};
 use crate::algebra::Graph;
-use crate::check::evidence::{counted, places};
+use crate::check::evidence::{counted, listed, places};
 use crate::check::{BrokenLaws, Condition, Positions, domain, undecided};
 use crate::compile::{Derived, Proved};
 use crate::findings::{Closure, Findings};
+use crate::geometry::independent_velocities::Choice;
 use crate::geometry::{Drops, Rank};
-use crate::id::SymbolId;
+use crate::id::{CoordId, SymbolId};
 use crate::model::{Kinematics, Model};
 
 /// The classification, a line for each property.
@@ -21,6 +23,7 @@ pub(super) fn lines(
     let mut lines = vec![algebroid(proved)];
     lines.extend(structure_equations(proved));
     lines.extend(positions(model, &proved.positions));
+    lines.extend(proved.chart.as_ref().map(|choice| chart(model, choice)));
     lines.push(constraints(proved, derived, findings.closure));
     let (name, size) = match derived {
         Derived::Adapted { kept, .. } => ("adapted", kept.rank()),
@@ -175,6 +178,14 @@ fn positions(model: &Model, positions: &Positions) -> Vec<String> {
         ));
     }
     lines
+}
+
+/// The chart that the declaration names, and where it is one.
+fn chart(model: &Model, choice: &Choice<CoordId>) -> String {
+    let is_free = |id: &CoordId| !choice.dependent.contains(id);
+    let names: Vec<&str> =
+        model.coordinates.ids().filter(is_free).map(|id| model.coordinates[id].name.as_str()).collect();
+    format!("independent coordinates: {}, as named; {}", listed(&names), validity(model, choice))
 }
 
 fn constraints(proved: &Proved, derived: &Derived<'_>, closure: Option<Closure>) -> String {

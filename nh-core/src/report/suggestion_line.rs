@@ -38,7 +38,7 @@ fn as_written(model: &Model, section: SectionId) -> String {
 }
 
 /// Where a choice is valid, and what it asks of the parameters.
-fn validity(model: &Model, choice: &Choice) -> String {
+pub(super) fn validity<I>(model: &Model, choice: &Choice<I>) -> String {
     let independent = choice.rank_drops.first().map(|_| "the constraints are independent".to_owned());
     let places: Vec<String> = independent.into_iter().chain(nonzero(model, &choice.breaks_down)).collect();
     let place = match places.as_slice() {

@@ -113,6 +113,7 @@ impl Builder {
             linearization: None,
             orthonormal: None,
             independent: None,
+            chart: None,
             formulation: None,
             units: Vec::new(),
             idle: Vec::new(),

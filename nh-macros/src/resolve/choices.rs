@@ -10,32 +10,64 @@ use proc_macro2::Ident;
 use quote::quote;
 
 use super::array::Shape;
+use super::reports::Outcome;
 use super::resolver::Resolver;
 use super::scope::{Meaning, Role};
 use crate::emit::{Family, Layout, TypeNames};
 use crate::report::{Diagnostic, Extent};
 use crate::suggest::did_you_mean;
-use crate::syntax::ast::{self, Declared, Name, Renaming, Section, SystemDecl, Velocity};
+use crate::syntax::ast::{self, Declared, Name, Renaming, Section, Sections, SystemDecl, Velocity};
+
+/// Variables that a section lists, and where.
+type Listed = Vec<(SymbolId, Origin)>;
 
 impl Resolver {
-    /// The velocities that the adapted state keeps, each once.
-    pub(super) fn independent(&mut self, named: &[Velocity]) -> Vec<(SymbolId, Origin)> {
-        let mut found: Vec<(SymbolId, Origin)> = Vec::new();
+    /// The coordinates that are a chart of where positions are bound, and the velocities that the adapted state keeps,
+    /// each once; a kind of which none is named is left to be chosen.
+    pub(super) fn independent(&mut self, sections: &Sections) -> (Option<Listed>, Option<Listed>) {
+        let Some(Section { body: named, .. }) = &sections.independent else { return (None, None) };
+        let positions_are_bound = sections.holonomic.is_some() || sections.on.is_some();
+        let (mut coordinates, mut velocities) = (Listed::new(), Listed::new());
         let mut seen = BTreeSet::new();
-        for velocity in named {
-            let Ok((sections, extent)) = self.velocities(velocity) else { continue };
+        let mut is_broken = false;
+        for entry in named {
+            let chart = if positions_are_bound { self.coordinates_named(entry) } else { None };
+            let (found, kind) = match chart {
+                Some(_) => (&mut coordinates, "coordinate"),
+                None => (&mut velocities, "velocity"),
+            };
+            let Ok((symbols, extent)) = chart.unwrap_or_else(|| self.velocities(entry)) else {
+                is_broken = true;
+                continue;
+            };
             let origin = self.origin(extent);
-            for symbol in sections {
+            for symbol in symbols {
                 if seen.insert(symbol) {
                     found.push((symbol, origin));
                 } else {
                     let name = &self.graph.symbols()[symbol];
-                    let error = Diagnostic::new(extent, format!("the velocity `{name}` is named twice"));
-                    self.report(velocity, error);
+                    let error = Diagnostic::new(extent, format!("the {kind} `{name}` is named twice"));
+                    self.report(entry, error);
                 }
             }
         }
-        found
+        // an empty list names no velocities, of which there may be none to name
+        let velocities =
+            (!velocities.is_empty() || coordinates.is_empty() || is_broken).then_some(velocities);
+        ((!coordinates.is_empty()).then_some(coordinates), velocities)
+    }
+
+    /// The coordinates of an entry that names some, with its extent.
+    fn coordinates_named(&mut self, entry: &Velocity) -> Option<Outcome<(Vec<SymbolId>, Extent)>> {
+        let Velocity::Named(place) = entry else { return None };
+        match self.scope.get(&place.name.text) {
+            Some(Meaning::Named(named)) if named.role == Role::Coordinate => {}
+            _ => return None,
+        }
+        Some(
+            self.coordinate(place)
+                .map(|(named, part)| (named.symbols[part.positions()].to_vec(), place.extent)),
+        )
     }
 
     /// The velocities of an orthonormal basis of D: named when every expression has been read, since

@@ -8,15 +8,20 @@ use crate::report::Diagnostic;
 use crate::syntax::ast::{Section, Velocity};
 
 impl Resolver {
-    /// The kept variables, each once; a family stands for its entries.
-    pub(super) fn linearization(&mut self, section: &Section<Vec<Velocity>>) -> Vec<(SymbolId, Origin)> {
-        if section.body.is_empty() {
+    /// The kept variables, each once; a family stands for its entries. None where nothing is said of them: then the
+    /// independent ones are kept.
+    pub(super) fn linearization(
+        &mut self,
+        section: &Section<Option<Vec<Velocity>>>,
+    ) -> Vec<(SymbolId, Origin)> {
+        let Some(listed) = &section.body else { return Vec::new() };
+        if listed.is_empty() {
             let error = Diagnostic::new(section.keyword.extent(), "the linearisation keeps nothing")
                 .way_out("name variables of the state: `linearization { keep: x, der(x); }`");
             self.report(section, error);
         }
         let mut found: Vec<(SymbolId, Origin)> = Vec::new();
-        for named in &section.body {
+        for named in listed {
             let (symbols, extent) = match named {
                 Velocity::Named(place) => (self.variables_of_state(place), place.extent),
                 Velocity::Der(_, extent) => {

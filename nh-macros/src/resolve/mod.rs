@@ -144,7 +144,7 @@ impl Resolver {
         let orthonormal = sections.orthonormal.as_ref().map(|s| self.orthonormal(s, layout));
         let tracked = sections.track.as_ref().map(|s| self.tracked(s, &outputs));
         let linearization = sections.linearization.as_ref().map(|s| self.linearization(s));
-        let independent = sections.independent.as_ref().map(|s| self.independent(&s.body));
+        let (chart, independent) = self.independent(sections);
         let formulation = sections.formulation.as_ref().map(|s| self.formulation(s));
         let accuracy = sections.accuracy.as_ref().map(|s| self.accuracy(s)).unwrap_or_default();
         self.graph.set_accuracy(accuracy);
@@ -200,6 +200,7 @@ impl Resolver {
             linearization,
             orthonormal,
             independent,
+            chart,
             formulation,
             units,
             idle: layout.idle.iter().cloned().collect(),

@@ -1,7 +1,7 @@
 //! What stubs are made of: a guess at the outcome of a declaration in error.
 
 use nonholonomic_core::algebra::{Derivation, Graph};
-use nonholonomic_core::id::{ExprId, SymbolId};
+use nonholonomic_core::id::{ExprId, Origin, SymbolId};
 use nonholonomic_core::model::{
     AnchorDecl, ConstraintDecl, Formulation, ImpactDecl, ImpactRowDecl, Kinematics, Model, Request,
     TrackedItem,
@@ -73,7 +73,7 @@ impl Outline {
             identities: model.identities.len().min(MOST),
             velocities: kept(model).len(),
             has_positions: !model.positions.is_empty(),
-            kept: model.linearization.as_ref().map(Vec::len),
+            kept: model.linearization.as_ref().map(|named| linearized(model, named)),
             impacts: model.impacts.iter().map(|impact| outlined(model, impact)).collect(),
             claims_section: model.hamilton_jacobi.is_some(),
         }
@@ -137,6 +137,17 @@ fn reduced(model: &Model) -> (Vec<SymbolId>, Vec<SymbolId>) {
         velocities.extend(velocity.or(coordinate.map(|coordinate| coordinate.rate)));
     }
     (coordinates, velocities)
+}
+
+/// How many variables a linearisation keeps.
+fn linearized(model: &Model, named: &[(SymbolId, Origin)]) -> usize {
+    if !named.is_empty() {
+        return named.len();
+    }
+    let coordinates = model.chart.as_ref().map_or(model.coordinates.len(), Vec::len);
+    let velocities =
+        if model.independent.is_none() && model.chart.is_some() { coordinates } else { kept(model).len() };
+    coordinates + velocities + model.auxiliary.len()
 }
 
 /// The velocities in the state.

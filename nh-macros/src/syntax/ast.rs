@@ -83,8 +83,8 @@ pub(crate) struct Sections {
     pub(crate) assume: Option<Section<Vec<Item<Comparison>>>>,
     /// `units`: the units of declared names.
     pub(crate) units: Option<Section<Vec<UnitLine>>>,
-    /// `linearization`: the variables of the state that it keeps.
-    pub(crate) linearization: Option<Section<Vec<Velocity>>>,
+    /// `linearization`: the variables of the state that it keeps, unless they are left to be chosen.
+    pub(crate) linearization: Option<Section<Option<Vec<Velocity>>>>,
     /// `independent`: the velocities that the adapted state keeps.
     pub(crate) independent: Option<Section<Vec<Velocity>>>,
     /// `orthonormal`: names for the velocities of an orthonormal basis of D.

@@ -278,9 +278,12 @@ fn formulation(body: &Group) -> Result<Formulation, Diagnostic> {
     }
 }
 
-/// The variables in `linearization { keep: …; }`.
-fn kept(body: &Group) -> Result<Vec<Velocity>, Diagnostic> {
+/// The variables in `linearization { keep: …; }`; in `linearization { }` they are left to be chosen.
+fn kept(body: &Group) -> Result<Option<Vec<Velocity>>, Diagnostic> {
     let mut stream = Stream::inside(body);
+    if stream.is_empty() {
+        return Ok(None);
+    }
     let known =
         "write `linearization { keep: x, der(x); }` with the variables of the state that are to be kept";
     if !(stream.eat_word("keep") && stream.eat(":")) {
@@ -294,7 +297,7 @@ fn kept(body: &Group) -> Result<Vec<Velocity>, Diagnostic> {
         }
     }
     stream.eat(";");
-    if stream.is_empty() { Ok(found) } else { Err(stream.expected("`,` or `;`").way_out(known)) }
+    if stream.is_empty() { Ok(Some(found)) } else { Err(stream.expected("`,` or `;`").way_out(known)) }
 }
 
 /// The one word in `accuracy { … }`.
