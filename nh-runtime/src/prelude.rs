@@ -6,9 +6,9 @@ pub use crate::methods::{
     Tsit5, Vern9,
 };
 pub use crate::{
-    AlmostPoisson, Constrained, Direction, Dynamics, Energy, Event, Events, Fast, Holding, Inclusion,
-    IntegrationError, Integrator, Jacobian, Lanes, Observed, ParameterError, Real, Reconstructed,
-    Reconstruction, Reduction, Scalar, State, Statistics,
+    AlmostPoisson, AssemblyError, Constrained, Direction, Dynamics, Energy, Event, Events, Fast, Holding,
+    Inclusion, IntegrationError, Integrator, Jacobian, Lanes, LinearizationError, Observed, ParameterError,
+    Real, Reconstructed, Reconstruction, Reduction, Scalar, State, Statistics, TrimError,
 };
 
 pub use crate::{Taylor, TaylorSeries};

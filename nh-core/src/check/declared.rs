@@ -1,10 +1,11 @@
 //! Every declared expression is defined somewhere, and smooth where it is differentiated.
 
 use super::assumptions::{demand, on_the_base};
+use super::circles::by_angles;
 use super::domain::{Condition, conditions};
 use super::evidence::{listed, shown};
 use super::smoothness::not_smooth;
-use crate::algebra::{Demand, Facts, Function2, Graph, Node, Rational, Verdict};
+use crate::algebra::{Demand, Facts, Function2, Graph, Node, Rational, Substitution, Verdict};
 use crate::geometry::Manifold;
 use crate::id::{ExprId, Origin};
 use crate::model::{Kinematics, Model};
@@ -41,6 +42,7 @@ pub fn declared_on(model: &mut Model, facts: &Facts, base: &Manifold, holding: &
     if base.is_whole() && holding.is_empty() {
         return Vec::new();
     }
+    let rough = rough_on_circles(model, facts, holding);
     let declared = differentiated(model).into_iter().chain(evaluated(model));
     let mut demands = on_the_base(model);
     demands.extend(holding.iter().map(|value| (*value, Demand::Zero)));
@@ -48,13 +50,28 @@ pub fn declared_on(model: &mut Model, facts: &Facts, base: &Manifold, holding: &
         if holding.is_empty() { " on the embedded base" } else { " where the position constraints hold" };
     let premises = Premises { demands, place };
     let graph = &mut model.graph;
-    declared
-        .filter_map(|(what, value, origin)| {
-            let place = Place { what, value, origin };
-            vanishing(graph, place, base, premises.place)
-                .or_else(|| nowhere_real(graph, facts, place, &premises))
-        })
-        .collect()
+    let undefined = declared.filter_map(|(what, value, origin)| {
+        let place = Place { what, value, origin };
+        vanishing(graph, place, base, premises.place).or_else(|| nowhere_real(graph, facts, place, &premises))
+    });
+    undefined.chain(rough).collect()
+}
+
+/// What is differentiated and not smooth in the angles of circles on which coordinates lie.
+fn rough_on_circles(model: &mut Model, facts: &Facts, holding: &[ExprId]) -> Vec<Violation> {
+    let identities = model.identities.iter().map(|identity| identity.value);
+    let vanishing: Vec<ExprId> = identities.chain(holding.iter().copied()).collect();
+    let angles = by_angles(model, &vanishing);
+    if angles.is_empty() {
+        return Vec::new();
+    }
+    let mut on_circles = Substitution::new(angles.iter().copied());
+    let restricted: Vec<_> = differentiated(model)
+        .into_iter()
+        .map(|(what, value, origin)| (what, value, on_circles.apply(&mut model.graph, value), origin))
+        .collect();
+    let moved = restricted.into_iter().filter(|(_, value, restricted, _)| value != restricted);
+    moved.filter_map(|(what, _, value, origin)| not_smooth(model, facts, what, value, origin)).collect()
 }
 
 /// What holds wherever an expression is asked for its values.

@@ -4,6 +4,7 @@ mod assumptions;
 mod auxiliary;
 mod brackets;
 mod chart;
+mod circles;
 mod claimed;
 mod claimed_volume;
 mod claims;

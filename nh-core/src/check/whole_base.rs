@@ -1,6 +1,5 @@
 //! What is derived for motions on the whole base alone, and refused where position constraints hold.
 
-use crate::id::Origin;
 use crate::model::{Model, Request};
 use crate::violation::{Law, Violation};
 
@@ -10,25 +9,25 @@ pub(super) fn beside_positions(model: &Model) -> Vec<Violation> {
         return Vec::new();
     }
     let fibres = "its fibres and orbits are those of the whole base, and motions stay on a part of it";
+    let elsewhere = "leave one of them out, or declare coordinates that need no position constraint";
+    let by_others = "leave it out for methods that keep the positions: `emit { discrete_gradient }` for the energy, \
+                     `emit { symmetric_projection }` for steps that lead back when they are reversed; or declare \
+                     coordinates that need no position constraint";
     let mut found = Vec::new();
     for (request, origin) in &model.requests {
-        let (name, why) = match request {
-            Request::Leapfrog => ("leapfrog", "its steps keep constraints on velocities alone"),
-            Request::Splitting => ("splitting", fibres),
-            Request::Gyroscopic => ("gyroscopic", fibres),
+        let (name, why, way_out) = match request {
+            Request::Leapfrog => ("leapfrog", "its steps keep constraints on velocities alone", by_others),
+            Request::Splitting => ("splitting", fibres, elsewhere),
+            Request::Gyroscopic => ("gyroscopic", fibres, elsewhere),
             _ => continue,
         };
-        found.push(refused(name, why, *origin));
+        found.push(Violation {
+            law: Law::Constraint,
+            origin: *origin,
+            what: format!("`{name}` is not derived beside `holonomic`"),
+            evidence: why.into(),
+            way_out: way_out.into(),
+        });
     }
     found
-}
-
-fn refused(name: &str, why: &str, origin: Origin) -> Violation {
-    Violation {
-        law: Law::Constraint,
-        origin,
-        what: format!("`{name}` is not derived beside `holonomic`"),
-        evidence: why.into(),
-        way_out: "leave one of them out, or declare coordinates that need no position constraint".into(),
-    }
 }

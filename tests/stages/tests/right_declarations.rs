@@ -15,6 +15,15 @@ struct LengthAsFactor { l: f64, m: f64 }
  let b = atan2(p, q) + acos((r2 + l3^2 - l4^2) / (2 * l3 * sqrt(r2)));
  lagrangian { J1/2*der(a)^2 + J2/2*der(b)^2 })]
 struct FourBar { l1: f64, l2: f64, l3: f64, l4: f64, J1: f64, J2: f64 }
+#[nonholonomic(base { c, s } on { c^2 + s^2 = 1; } basis { w } anchor { der(c) = -s*w; der(s) = c*w; }
+ lagrangian { J/2*w^2 - k*sqrt(2 - c) + h*asin(s/2) - k*(c^2 + s^2 - s^2)^2 + k/sqrt(1 - c) })]
+struct OnOneInside { J: f64, k: f64, h: f64 }
+#[nonholonomic(base { g[3] } on { dot(g, g) = 1; } basis { w[3] } anchor { der(g) = cross(g, w); } brackets so(3) { w }
+ lagrangian { J/2*dot(w, w) - k*sqrt(1 - g[2]) })]
+struct AtThePole { J: f64, k: f64 }
+#[nonholonomic(base { x, y } holonomic { circle: x^2 + y^2 = l^2; }
+ lagrangian { m/2*(der(x)^2 + der(y)^2) - k*sqrt(2*l^2 + h^2 + 2*l*y) })]
+struct Spring { m: f64, k: f64, l: f64, h: f64 }
 #[nonholonomic(base { a } let s = asin(r*sin(a)/l);
  lagrangian { J/2*der(a)^2 + K/2*der(s)^2 })]
 struct Crank { r: f64, l: f64, J: f64, K: f64 }
@@ -121,7 +130,7 @@ struct TanTwice { m: f64, k: f64 }
 #[test]
 fn right_declarations_are_accepted() {
     let found = declarations(RIGHT);
-    assert_eq!(found.len(), 49);
+    assert_eq!(found.len(), 52);
     let mut refused = Vec::new();
     for declaration in found {
         let errors = errors(&declaration.expanded());
