@@ -40,6 +40,9 @@ const LARGE: usize = 4000;
 /// sums, after that, or at last. Mostly the first is as good as any.
 const SMALL: usize = 250;
 
+/// So many strategies are tried where angles are shared, beside all of them where they are not.
+const BESIDE: usize = 2;
+
 /// In so many programs, the cheapest, is looked for steps that coincide.
 const CONJECTURED: usize = 2;
 
@@ -77,12 +80,12 @@ pub fn schedules(graph: &Graph, procedure: &Procedure, parameters: &[SymbolId]) 
     // fast code saves evaluations; in careful code, which carries what rounding took, whatever cancels by an addition
     // theorem cancels in both words; otherwise it is done where the results do not lose by it
     if graph.accuracy() != Accuracy::Balanced {
-        return found(graph, if is_shared { &shared } else { &arena });
+        return found(graph, if is_shared { &shared } else { &arena }, &STRATEGIES);
     }
-    let mut programs = found(graph, &arena);
+    let mut programs = found(graph, &arena, &STRATEGIES);
     let plain = programs.iter().find(|scheduled| scheduled.beside.is_none());
     if is_shared && let Some(plain) = plain.map(|scheduled| scheduled.program.clone()) {
-        for Scheduled { program, is_conjecture, .. } in found(graph, &shared) {
+        for Scheduled { program, is_conjecture, .. } in found(graph, &shared, &STRATEGIES[..BESIDE]) {
             if order(&program) < order(&plain) {
                 programs.push(Scheduled { program, is_conjecture, beside: Some(plain.clone()) });
             }
@@ -93,8 +96,8 @@ pub fn schedules(graph: &Graph, procedure: &Procedure, parameters: &[SymbolId]) 
 }
 
 /// The programs of an arena, the cheapest first.
-fn found(graph: &Graph, arena: &Arena) -> Vec<Scheduled> {
-    let tried = if arena.len() > LARGE { &STRATEGIES[..2] } else { &STRATEGIES[..] };
+fn found(graph: &Graph, arena: &Arena, strategies: &[Strategy]) -> Vec<Scheduled> {
+    let tried = if arena.len() > LARGE { &strategies[..2] } else { strategies };
     let mut prepared = Vec::new();
     if graph.constants().is_empty() {
         prepare(arena, tried, &mut prepared);
