@@ -341,7 +341,7 @@ fn methods_are_differentiated_by_the_declared_methods() {
 
 /// A slider and its crank, by what is independent and what a linearisation keeps.
 macro_rules! slider_crank {
-    ($name:ident, $state:ident, $independent:tt, $linearization:tt) => {
+    ($name:ident, $independent:tt, $linearization:tt, $state:expr) => {
         #[nonholonomic(
             base { crank, rod, slide }
             holonomic {
@@ -374,34 +374,26 @@ macro_rules! slider_crank {
                 let (sine, cosine) = 0.4_f64.sin_cos();
                 let rod = -(0.3 * sine / 0.8).asin();
                 let slide = 0.3 * cosine + 0.8 * rod.cos();
-                let mut state = $state { crank: 0.4, rod, slide, crank_dot: 1.5, ..$state::default() };
-                machine.with_rates(&mut state);
+                let state = $state(&machine, rod, slide);
                 machine.linearize(0.0, &state, &Default::default()).unwrap()
             }
         }
     };
 }
 
-slider_crank!(Named, NamedState, { der(crank) }, { keep: crank, der(crank); });
-slider_crank!(Charted, ChartedState, { crank, der(crank) }, {});
+slider_crank!(Named, { der(crank) }, { keep: crank, der(crank); }, |_: &Self, rod, slide| {
+    NamedState { crank: 0.4, rod, slide, crank_dot: 1.5 }
+});
+slider_crank!(Charted, { crank, der(crank) }, {}, |_: &Self, rod, slide| {
+    ChartedState { crank: 0.4, rod, slide, crank_dot: 1.5 }
+});
 // every velocity is in the state, and the rate of the chart's coordinate is kept
-slider_crank!(Placed, PlacedState, { crank }, {});
-
-impl Named {
-    fn with_rates(&self, _: &mut NamedState) {}
-}
-
-impl Charted {
-    fn with_rates(&self, _: &mut ChartedState) {}
-}
-
-impl Placed {
-    fn with_rates(&self, state: &mut PlacedState) {
-        let (sine, cosine) = state.crank.sin_cos();
-        state.rod_dot = -self.r * cosine * state.crank_dot / (self.l * state.rod.cos());
-        state.slide_dot = -self.r * sine * state.crank_dot - self.l * state.rod.sin() * state.rod_dot;
-    }
-}
+slider_crank!(Placed, { crank }, {}, |machine: &Self, rod: f64, slide| {
+    let (sine, cosine) = 0.4_f64.sin_cos();
+    let rod_dot = -machine.r * cosine * 1.5 / (machine.l * rod.cos());
+    let slide_dot = -machine.r * sine * 1.5 - machine.l * rod.sin() * rod_dot;
+    PlacedState { crank: 0.4, rod, slide, crank_dot: 1.5, rod_dot, slide_dot }
+});
 
 #[test]
 fn what_is_independent_is_kept_by_a_linearisation() {
