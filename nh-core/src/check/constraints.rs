@@ -3,8 +3,10 @@
 
 use super::assumptions::{as_on_the_base, on_the_base};
 use super::dependence::dependent_rows;
-use super::evidence::shown;
+use super::evidence::{name_of, shown};
 use super::kinematics::Motion;
+use super::parts_of_positions::dependent_on_part;
+use super::positions::Positions;
 use crate::algebra::{Demand, Facts, Graph, Matrix, NotLinear};
 use crate::geometry::{Algebroid, ConstraintDistribution, LinearConstraints, Manifold, Rank, RankSetting};
 use crate::id::{ConstraintId, ExprId, Id, Origin, SectionId, SymbolId};
@@ -125,8 +127,9 @@ pub fn constraints(
     model: &mut Model,
     motion: &mut Motion,
     algebroid: &Algebroid,
-    base: &Manifold,
+    positions: &Positions,
 ) -> Result<Constraints, Vec<Violation>> {
+    let base = &positions.manifold;
     let mut residuals = Vec::new();
     let mut shapes = Vec::new();
     let mut violations = Vec::new();
@@ -144,7 +147,11 @@ pub fn constraints(
     let linear = all_affine(shapes);
     // linear ones before they are solved, so that a contradiction is shown as a combination
     if let Some(linear) = &linear {
-        violations.extend(dependent_rows(model, &linear.annihilator, Some(&linear.drift), base));
+        let dependent = dependent_rows(model, &linear.annihilator, Some(&linear.drift), base);
+        violations.extend(dependent.or_else(|| {
+            positions.part.as_ref()?;
+            dependent_on_part(model, &positions.values, &linear.annihilator)
+        }));
         if !violations.is_empty() {
             return Err(violations);
         }
@@ -310,14 +317,6 @@ fn contradiction(
     };
     let is_contradictory = graph.contradiction(&[(left_over, Demand::Zero)]).is_some();
     is_contradictory.then(|| (left_over, violation(model)))
-}
-
-/// How a constraint is called in messages.
-pub(crate) fn name_of(model: &Model, id: ConstraintId) -> String {
-    match &model.constraints[id].label {
-        Some(label) => format!("`{label}`"),
-        None => format!("constraint {}", id.index() + 1),
-    }
 }
 
 fn shape(

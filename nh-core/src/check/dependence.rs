@@ -1,7 +1,6 @@
 //! Dependent constraints, with the dependency shown.
 
-use super::constraints::name_of;
-use super::evidence::{listed, shown};
+use super::evidence::{listed, name_of, shown};
 use crate::algebra::{Graph, Matrix};
 use crate::geometry::Manifold;
 use crate::id::{ConstraintId, ExprId, Id};

@@ -2,7 +2,8 @@
 
 use crate::algebra::{Graph, Witness};
 use crate::geometry::Drops;
-use crate::id::ExprId;
+use crate::id::{ConstraintId, ExprId, Id};
+use crate::model::Model;
 
 /// Longest expression shown in a message, in bytes.
 const SHOWN: usize = 160;
@@ -10,6 +11,14 @@ const SHOWN: usize = 160;
 /// The expression as shown in messages.
 pub(crate) fn shown(graph: &Graph, expression: ExprId) -> String {
     graph.text_within(expression, SHOWN)
+}
+
+/// How a constraint is called in messages.
+pub(crate) fn name_of(model: &Model, id: ConstraintId) -> String {
+    match &model.constraints[id].label {
+        Some(label) => format!("`{label}`"),
+        None => format!("constraint {}", id.index() + 1),
+    }
 }
 
 /// What should have been zero, and where it is not.

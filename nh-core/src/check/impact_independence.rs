@@ -1,8 +1,8 @@
 //! Whether the rows of an impact are independent of each other and of the constraints, where they act.
 
 use super::assumptions::demand;
-use super::constraints::name_of;
 use super::dependence::combination_of;
+use super::evidence::name_of;
 use super::formulation::Chosen;
 use super::impact_rows::{Between, ImpactRow, refused};
 use crate::algebra::{Demand, Matrix};

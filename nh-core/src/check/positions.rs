@@ -1,13 +1,13 @@
 //! Position constraints f(t, x) = 0: the manifold N where they hold, and that each of them says something
 //! there that the others do not.
 
-use super::constraints::name_of;
 use super::dependence::combination_shown;
-use super::evidence::shown;
+use super::evidence::{name_of, shown};
 use super::kinematics::Motion;
+use super::parts_of_positions::{part_of_positions, rates_on_part, unknown_motion};
 use super::whole_base::beside_positions;
 use crate::algebra::{Demand, Graph, Matrix};
-use crate::geometry::{Algebroid, Manifold, NearManifold};
+use crate::geometry::{Algebroid, Manifold, NearManifold, RowsOnPart};
 use crate::id::{ConstraintId, ExprId, Id, Origin, SymbolId, Table};
 use crate::model::{ConstraintDecl, Model, PositionDecl};
 use crate::violation::{Law, Violation};
@@ -21,6 +21,10 @@ pub struct Positions {
     pub values: Vec<ExprId>,
     /// Those that were solved for no coordinate and no parameter: N is asked near them.
     pub unsolved: Vec<ExprId>,
+    /// The part of N where it was asked which are independent, if some were not solved and points were found.
+    pub part: Option<RowsOnPart>,
+    /// How many are independent on other parts that points were found of.
+    pub elsewhere: Vec<usize>,
     /// A^a_α = ρ^i_α ∂_i f^a, a row for each of the independent ones.
     pub jacobian: Matrix,
     /// Equations that follow from the others wherever these hold, which the declaration permits.
@@ -69,7 +73,13 @@ pub fn positions(
     found.manifold = manifold;
     found.values = values;
     let rows = jacobian(model, motion, algebroid);
+    if !found.unsolved.is_empty() {
+        (found.part, found.elsewhere) = part_of_positions(model, &found.values, &rows);
+    }
     independent(model, &rows, &mut found)?;
+    if !found.unsolved.is_empty() && found.part.is_none() && model.positions.len() >= model.sections.len() {
+        return Err(vec![unknown_motion(model)]);
+    }
     Ok(found)
 }
 
@@ -217,7 +227,11 @@ fn independent(model: &mut Model, rows: &Matrix, found: &mut Positions) -> Resul
         let mut trial: Vec<usize> = kept.clone();
         trial.push(index);
         let matrix: Matrix = trial.iter().map(|row| restricted[*row].clone()).collect();
-        match model.graph.generic_rank(&matrix) {
+        let rank = match &found.part {
+            Some(part) => Ok(kept.len() + usize::from(part.rows.contains(&index))),
+            None => model.graph.generic_rank(&matrix),
+        };
+        match rank {
             Ok(rank) if rank == trial.len() => kept = trial,
             Ok(_) => match followed(model, rows, &kept, index, found) {
                 Follows::Dropped(line) => found.dropped.push(line),
@@ -281,7 +295,10 @@ fn followed(model: &mut Model, rows: &Matrix, kept: &[usize], index: usize, foun
             way_out: "write it without the power, as `a = b` instead of `(a - b)^2 = 0`".into(),
         });
     }
-    let evidence = combination_shown(model, rows, kept, index);
+    let evidence = match &found.part {
+        Some(part) => rates_on_part(part),
+        None => combination_shown(model, rows, kept, index),
+    };
     Follows::Refused(Violation {
         law,
         origin,

@@ -182,7 +182,7 @@ fn describe(
     }
     let algebroid = check::change_to_frame(model, motion, algebroid, base, facts)?;
     let positions = check::positions(model, motion, &algebroid, base)?;
-    let constraints = check::constraints(model, motion, &algebroid, &positions.manifold)?;
+    let constraints = check::constraints(model, motion, &algebroid, &positions)?;
     Ok(Described { algebroid, positions, constraints, spanned: None })
 }
 

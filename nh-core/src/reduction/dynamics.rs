@@ -7,7 +7,7 @@ use super::forces::{forces, opaque};
 use super::laws::{Sides, broken};
 use super::side::Side;
 use crate::algebra::Verdict;
-use crate::check::{evidence::shown, name_of};
+use crate::check::evidence::{name_of, shown};
 use crate::id::{ConstraintId, ExprId, Id};
 use crate::violation::{Law, Violation};
 

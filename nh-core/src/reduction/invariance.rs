@@ -3,10 +3,7 @@
 use super::quotient::{Equation, QuotientDecl};
 use super::side::Side;
 use crate::algebra::{Graph, Matrix, Rational, Substitution, Verdict};
-use crate::check::{
-    evidence::{not_zero, shown},
-    name_of,
-};
+use crate::check::evidence::{name_of, not_zero, shown};
 use crate::compile::Proved;
 use crate::geometry::{Change, ChangeOfBasis, Varies, constant_along};
 use crate::id::{ExprId, Id, Origin, SymbolId};

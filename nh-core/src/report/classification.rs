@@ -171,6 +171,22 @@ fn positions(model: &Model, positions: &Positions) -> Vec<String> {
         let name = position.label.as_ref().map_or("an equation without a label".into(), |l| format!("`{l}`"));
         lines.push(format!("{name} follows from the other position constraints: it has no multiplier"));
     }
+    if let Some(part) = &positions.part {
+        let unsolved = positions.unsolved.len();
+        lines.push(format!(
+            "which of them are independent was asked at {} where all hold; what else is said to hold there was \
+             asked without {unsolved}, which could not be solved for coordinates or parameters",
+            part.points_shown()
+        ));
+        for count in &positions.elsewhere {
+            lines.push(format!(
+                "they hold as well on another part of the base, where {count} of the rates are independent: what \
+                 is said is said of the part where {} are",
+                part.rows.len()
+            ));
+        }
+        return lines;
+    }
     for value in &positions.unsolved {
         lines.push(format!(
             "no points were found where {} = 0: what is said to hold there was asked without it",

@@ -1,0 +1,91 @@
+//! Position constraints that could not be solved for anything: which of them, and of the constraints on velocities beside
+//! them, are independent is asked at points of N that are found modulo powers of primes.
+
+use super::evidence::name_of;
+use crate::algebra::Matrix;
+use crate::geometry::{RowsOnPart, rows_on_parts};
+use crate::id::{ConstraintId, ExprId, Id, SymbolId};
+use crate::limits::attempt;
+use crate::model::Model;
+use crate::violation::{Law, Violation};
+
+/// The work that the points may take.
+const SEARCH: u64 = 12_000_000;
+
+/// The part of N that is meant, by the rows that are independent there; and how many are on other parts.
+pub(super) fn part_of_positions(
+    model: &mut Model,
+    positions: &[ExprId],
+    rows: &Matrix,
+) -> (Option<RowsOnPart>, Vec<usize>) {
+    let identities = model.identities.iter().map(|identity| identity.value);
+    let functions: Vec<ExprId> = identities.chain(positions.iter().copied()).collect();
+    let coordinates: Vec<SymbolId> = model.coordinates.iter().map(|coordinate| coordinate.symbol).collect();
+    let graph = &mut model.graph;
+    let parts = attempt(SEARCH, || rows_on_parts(graph, &functions, &coordinates, rows));
+    chosen_part(parts.unwrap_or_default(), model.sections.len())
+}
+
+/// Of the parts on which something moves the one with the most independent rows: where fewer are independent these
+/// cannot be solved for multipliers, which is noticed, while one too few would go unnoticed.
+fn chosen_part(parts: Vec<RowsOnPart>, sections: usize) -> (Option<RowsOnPart>, Vec<usize>) {
+    let counts: Vec<usize> = parts.iter().map(|part| part.rows.len()).collect();
+    let most = |limit: usize| counts.iter().copied().filter(|count| *count < limit).max();
+    let chosen = most(sections).or(most(usize::MAX));
+    let mut elsewhere: Vec<usize> = counts.iter().copied().filter(|count| Some(*count) != chosen).collect();
+    elsewhere.sort_unstable();
+    elsewhere.dedup();
+    (parts.into_iter().find(|part| Some(part.rows.len()) == chosen), elsewhere)
+}
+
+/// So many equations that nothing moves where they are independent, which they were not asked to be on N.
+pub(super) fn unknown_motion(model: &Model) -> Violation {
+    let (positions, sections) = (model.positions.len(), model.sections.len());
+    Violation {
+        law: Law::Decidable,
+        origin: model.positions.last().map_or(model.origin, |position| position.origin),
+        what: "whether the position constraints leave anything that moves could not be decided".into(),
+        evidence: format!(
+            "in general positions as many of them are independent as there are sections ({positions} of \
+             {sections}); no point was found where all of them hold, and fewer may be independent there"
+        ),
+        way_out:
+            "declare lengths as parameters, which loops are solved for; or leave out what follows from the \
+                  others"
+                .into(),
+    }
+}
+
+/// How many position constraints are independent on a part of N.
+pub(super) fn rates_on_part(part: &RowsOnPart) -> String {
+    format!(
+        "where all position constraints hold, {} of their rates are independent, as was seen at {}",
+        part.rows.len(),
+        part.points_shown()
+    )
+}
+
+/// The first constraint on velocities that depends on those before it where the position constraints hold.
+pub(super) fn dependent_on_part(model: &mut Model, positions: &[ExprId], rows: &Matrix) -> Option<Violation> {
+    let count = model.positions.len();
+    if rows.len() == count {
+        return None;
+    }
+    let (part, _) = part_of_positions(model, positions, rows);
+    let part = part?;
+    let index = (count..rows.len()).find(|row| !part.rows.contains(row))?;
+    let id = ConstraintId::from_index(index);
+    Some(Violation {
+        law: Law::Independence,
+        origin: model.constraints[id].origin,
+        what: format!("{} follows from the constraints before it", name_of(model, id)),
+        evidence: format!(
+            "where the position constraints hold, {} of the {} constraints on velocities are independent, as was \
+             seen at {}",
+            part.rows.len(),
+            rows.len(),
+            part.points_shown()
+        ),
+        way_out: "leave it out: the constraints of a system are independent".into(),
+    })
+}
