@@ -54,7 +54,7 @@ impl PrimePower {
 
     #[allow(clippy::cast_possible_truncation, reason = "a remainder is smaller than the modulus")]
     pub(crate) fn product(self, a: u64, b: u64) -> u64 {
-        if self.modulus <= u64::from(u32::MAX) {
+        if u32::try_from(self.modulus).is_ok() {
             return a * b % self.modulus;
         }
         (u128::from(a) * u128::from(b) % u128::from(self.modulus)) as u64

@@ -150,7 +150,7 @@ pub fn constraints(
         let dependent = dependent_rows(model, &linear.annihilator, Some(&linear.drift), base);
         violations.extend(dependent.or_else(|| {
             positions.part.as_ref()?;
-            dependent_on_part(model, &positions.values, &linear.annihilator)
+            dependent_on_part(model, &positions.where_unsolved(), &linear.annihilator)
         }));
         if !violations.is_empty() {
             return Err(violations);

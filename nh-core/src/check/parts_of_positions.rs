@@ -3,7 +3,7 @@
 
 use super::evidence::name_of;
 use crate::algebra::Matrix;
-use crate::geometry::{RowsOnPart, rows_on_parts};
+use crate::geometry::{Manifold, NearManifold, RowsOnPart, rows_on_parts};
 use crate::id::{ConstraintId, ExprId, Id, SymbolId};
 use crate::limits::attempt;
 use crate::model::Model;
@@ -12,17 +12,41 @@ use crate::violation::{Law, Violation};
 /// The work that the points may take.
 const SEARCH: u64 = 12_000_000;
 
+/// Position constraints, some of which could not be solved.
+pub(super) struct Unsolved<'a> {
+    /// All of them.
+    pub values: &'a [ExprId],
+    /// The base that they are on.
+    pub base: &'a Manifold,
+}
+
 /// The part of N that is meant, by the rows that are independent there; and how many are on other parts.
 pub(super) fn part_of_positions(
     model: &mut Model,
-    positions: &[ExprId],
+    positions: &Unsolved<'_>,
     rows: &Matrix,
 ) -> (Option<RowsOnPart>, Vec<usize>) {
     let identities = model.identities.iter().map(|identity| identity.value);
-    let functions: Vec<ExprId> = identities.chain(positions.iter().copied()).collect();
+    let functions: Vec<ExprId> = identities.chain(positions.values.iter().copied()).collect();
     let coordinates: Vec<SymbolId> = model.coordinates.iter().map(|coordinate| coordinate.symbol).collect();
+    let parameters: Vec<SymbolId> = model.parameters.iter().map(|parameter| parameter.symbol).collect();
     let graph = &mut model.graph;
-    let parts = attempt(SEARCH, || rows_on_parts(graph, &functions, &coordinates, rows));
+    let mut parts = attempt(SEARCH, || rows_on_parts(graph, &functions, &coordinates, rows));
+    if parts.as_ref().is_none_or(Vec::is_empty) {
+        // an angle that follows a length, as on a rack, has no digits of both; solved for, the length has those that follow
+        parts = attempt(SEARCH, || {
+            let NearManifold { manifold, unsolved } = Manifold::of_linear_positions(
+                graph,
+                positions.base,
+                positions.values,
+                [&coordinates, &parameters],
+            );
+            let restrict = |index: &usize| manifold.restrict(graph, positions.values[*index]);
+            let functions: Vec<ExprId> = unsolved.iter().map(restrict).collect();
+            let rows = manifold.restrict_matrix(graph, rows);
+            rows_on_parts(graph, &functions, &coordinates, &rows)
+        });
+    }
     chosen_part(parts.unwrap_or_default(), model.sections.len())
 }
 
@@ -66,7 +90,11 @@ pub(super) fn rates_on_part(part: &RowsOnPart) -> String {
 }
 
 /// The first constraint on velocities that depends on those before it where the position constraints hold.
-pub(super) fn dependent_on_part(model: &mut Model, positions: &[ExprId], rows: &Matrix) -> Option<Violation> {
+pub(super) fn dependent_on_part(
+    model: &mut Model,
+    positions: &Unsolved<'_>,
+    rows: &Matrix,
+) -> Option<Violation> {
     let count = model.positions.len();
     if rows.len() == count {
         return None;

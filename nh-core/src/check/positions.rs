@@ -4,7 +4,7 @@
 use super::dependence::combination_shown;
 use super::evidence::{name_of, shown};
 use super::kinematics::Motion;
-use super::parts_of_positions::{part_of_positions, rates_on_part, unknown_motion};
+use super::parts_of_positions::{Unsolved, part_of_positions, rates_on_part, unknown_motion};
 use super::whole_base::beside_positions;
 use crate::algebra::{Demand, Graph, Matrix};
 use crate::geometry::{Algebroid, Manifold, NearManifold, RowsOnPart};
@@ -17,6 +17,8 @@ use crate::violation::{Law, Violation};
 pub struct Positions {
     /// N over the embedded base.
     pub manifold: Manifold,
+    /// The embedded base.
+    base: Manifold,
     /// What is 0 on it, as declared.
     pub values: Vec<ExprId>,
     /// Those that were solved for no coordinate and no parameter: N is asked near them.
@@ -33,6 +35,19 @@ pub struct Positions {
     pub dropped: Vec<String>,
 }
 
+impl Positions {
+    /// No position constraints on an embedded base.
+    #[must_use]
+    pub fn none(base: &Manifold) -> Self {
+        Self { manifold: base.clone(), base: base.clone(), ..Self::default() }
+    }
+
+    /// What was not solved, on the base.
+    pub(super) fn where_unsolved(&self) -> Unsolved<'_> {
+        Unsolved { values: &self.values, base: &self.base }
+    }
+}
+
 /// Reads the position constraints; those that are not independent leave the model, or are refused.
 ///
 /// # Errors
@@ -45,14 +60,13 @@ pub fn positions(
     base: &Manifold,
 ) -> Result<Positions, Vec<Violation>> {
     if model.positions.is_empty() {
-        let manifold = base.clone();
-        return Ok(Positions { manifold, ..Positions::default() });
+        return Ok(Positions::none(base));
     }
     let refused = beside_positions(model);
     if !refused.is_empty() {
         return Err(refused);
     }
-    let mut found = Positions::default();
+    let mut found = Positions::none(base);
     drop_empty_entries(model, base, &mut found);
     let mut violations = Vec::new();
     for index in 0..model.positions.len() {
@@ -74,7 +88,7 @@ pub fn positions(
     found.values = values;
     let rows = jacobian(model, motion, algebroid);
     if !found.unsolved.is_empty() {
-        (found.part, found.elsewhere) = part_of_positions(model, &found.values, &rows);
+        (found.part, found.elsewhere) = part_of_positions(model, &found.where_unsolved(), &rows);
     }
     independent(model, &rows, &mut found)?;
     if !found.unsolved.is_empty() && found.part.is_none() && model.positions.len() >= model.sections.len() {

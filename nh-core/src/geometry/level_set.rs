@@ -5,7 +5,7 @@
 //! open: the points found are then those of a larger set.
 
 use super::manifold::{Ease, Manifold};
-use crate::algebra::{Graph, Verdict};
+use crate::algebra::{Graph, Node, Verdict};
 use crate::id::{ExprId, SymbolId};
 use crate::limits::{attempt, spent};
 
@@ -33,12 +33,38 @@ impl Manifold {
         [coordinates, parameters]: [&[SymbolId]; 2],
     ) -> NearManifold {
         let charted: Vec<SymbolId> = parameters.iter().chain(&base.chart).copied().collect();
-        let ways: [(Ease, &[SymbolId]); 4] = [
+        let lengths = lengths_among(graph, functions, coordinates);
+        let ways: [(Ease, &[SymbolId]); 5] = [
+            (Ease::Linear, &lengths),
             (Ease::Linear, coordinates),
             (Ease::Linear, &charted),
             (Ease::Root, &charted),
             (Ease::Root, coordinates),
         ];
+        Self::by_ways(graph, base, functions, parameters, &ways)
+    }
+
+    /// The same by divisions for coordinates alone: what is left is for any parameters as it was.
+    #[must_use]
+    pub fn of_linear_positions(
+        graph: &mut Graph,
+        base: &Self,
+        functions: &[ExprId],
+        [coordinates, parameters]: [&[SymbolId]; 2],
+    ) -> NearManifold {
+        let lengths = lengths_among(graph, functions, coordinates);
+        let ways: [(Ease, &[SymbolId]); 2] = [(Ease::Linear, &lengths), (Ease::Linear, coordinates)];
+        Self::by_ways(graph, base, functions, parameters, &ways)
+    }
+
+    /// Where functions vanish, each solved by the first of some ways that is possible.
+    fn by_ways(
+        graph: &mut Graph,
+        base: &Self,
+        functions: &[ExprId],
+        parameters: &[SymbolId],
+        ways: &[(Ease, &[SymbolId])],
+    ) -> NearManifold {
         let mut found = NearManifold { manifold: base.clone(), unsolved: (0..functions.len()).collect() };
         let start = spent();
         while !found.unsolved.is_empty() {
@@ -53,12 +79,12 @@ impl Manifold {
                 let holds =
                     restricted.iter().find(|(_, function)| graph.zero_test(*function) == Verdict::Zero);
                 let solved = holds.map(|(index, _)| *index).or_else(|| {
-                    ways.into_iter().find_map(|(ease, unknowns)| {
+                    ways.iter().find_map(|(ease, unknowns)| {
                         let solved = restricted.iter().find(|(_, function)| {
                             let is_meant = |graph: &mut Graph, solution| {
                                 is_meant(graph, *function, solution, parameters)
                             };
-                            manifold.solve(graph, *function, unknowns, ease, &is_meant)
+                            manifold.solve(graph, *function, unknowns, *ease, &is_meant)
                         });
                         solved.map(|(index, _)| *index)
                     })
@@ -71,6 +97,18 @@ impl Manifold {
         }
         found
     }
+}
+
+/// The coordinates that are not arguments of functions: what these are solved for gets into no sine.
+fn lengths_among(graph: &Graph, functions: &[ExprId], coordinates: &[SymbolId]) -> Vec<SymbolId> {
+    let arguments: Vec<ExprId> = graph
+        .reachable(functions)
+        .into_iter()
+        .filter(|id| matches!(graph.node(*id), Node::Apply(..) | Node::Apply2(..)))
+        .flat_map(|id| graph.node(id).operands().collect::<Vec<_>>())
+        .collect();
+    let inside = graph.symbols_in(&arguments);
+    coordinates.iter().copied().filter(|coordinate| !inside.contains(coordinate)).collect()
 }
 
 /// Whether a solution of a function is one of what the function says as a whole. Parameters have all values: a length

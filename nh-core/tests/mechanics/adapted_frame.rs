@@ -17,7 +17,7 @@ pub(crate) fn stages(model: &mut Model) -> (LagrangianSystem, ConstraintDistribu
     let structure = check::structure_functions(model, &motion, &base).unwrap();
     let velocities = model.sections.iter().map(|s| s.symbol).collect();
     let algebroid = Algebroid { anchor: motion.anchor.clone(), structure, velocities };
-    let on_base = check::Positions { manifold: base.clone(), ..Default::default() };
+    let on_base = check::Positions::none(&base);
     let constraints = check::constraints(model, &mut motion, &algebroid, &on_base).unwrap();
     let chosen = check::choose_formulation(model, &constraints, &Facts::default(), &base).unwrap();
     let check::Chosen::Adapted { distribution, .. } = chosen else { panic!("an adapted basis exists") };

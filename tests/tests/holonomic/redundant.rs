@@ -73,6 +73,59 @@ fn trihedral(a: f64, rate: f64) -> BricardState {
     }
 }
 
+/// A table on two pairs of bars of one length, one above the other, on a sliding foot; without masses but those two.
+#[nonholonomic(
+    base { foot, a, b, c, d, height }
+    let e(q) = [cos(q), sin(q)];
+    let back(q) = [-cos(q), sin(q)];
+    holonomic {
+        lower: L * e(a) = [foot, 0] + L * back(b);
+        upper: L * e(c) = [foot, 0] + L * back(d);
+        straight: c = a;
+        table: height = L * (sin(a) + sin(c));
+        redundant;
+    }
+    lagrangian { M / 2 * der(height)^2 + m / 2 * der(foot)^2 - M * g * height }
+)]
+#[derive(Clone, Copy, Debug)]
+struct Scissors {
+    L: f64,
+    M: f64,
+    m: f64,
+    g: f64,
+}
+
+/// A bar's angle that is also compared as a number, and a foot that is solved for.
+#[test]
+fn a_lifting_table_falls() {
+    let machine = Scissors { L: 0.8, M: 30.0, m: 2.0, g: 9.81 };
+    let Scissors { L, M, m, g } = machine;
+    let (angle, rate) = (0.6_f64, -0.3);
+    let (s, c) = angle.sin_cos();
+    let state = ScissorsState {
+        foot: 2.0 * L * c,
+        a: angle,
+        b: angle,
+        c: angle,
+        d: angle,
+        height: 2.0 * L * s,
+        foot_dot: -2.0 * L * s * rate,
+        a_dot: rate,
+        b_dot: rate,
+        c_dot: rate,
+        d_dot: rate,
+        height_dot: 2.0 * L * c * rate,
+    };
+    let rates = machine.derivative(0.0, &state, &());
+    // 2 L (M c^2 + m s^2) a'' = 2 L (M - m) s c a'^2 - M g c
+    let expected = ((M - m) * s * c * rate * rate - M * g * c / (2.0 * L)) / (M * c * c + m * s * s);
+    for found in [rates.a_dot, rates.b_dot, rates.c_dot, rates.d_dot] {
+        assert!((found - expected).abs() < 1e-12 * expected.abs(), "{found} {expected}");
+    }
+    let table = 2.0 * L * (c * expected - s * rate * rate);
+    assert!((rates.height_dot - table).abs() < 1e-12 * table.abs(), "{} {table}", rates.height_dot);
+}
+
 #[test]
 fn three_cranks_swing_like_one() {
     let Cranks { r, J, m, g, .. } = CRANKS;

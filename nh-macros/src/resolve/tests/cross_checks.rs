@@ -119,7 +119,7 @@ fn geometry(model: &mut Model) -> Option<Geometry> {
     let velocities = model.sections.iter().map(|section| section.symbol).collect();
     let algebroid = Algebroid { anchor: motion.anchor.clone(), structure, velocities };
     let algebroid = check::change_to_frame(model, &mut motion, algebroid, &base, &facts).unwrap();
-    let on_base = check::Positions { manifold: base.clone(), ..Default::default() };
+    let on_base = check::Positions::none(&base);
     let constraints = check::constraints(model, &mut motion, &algebroid, &on_base).unwrap();
     let lagrangian = motion.rates.apply(&mut model.graph, model.lagrangian.value);
     let forces = vec![model.graph.zero(); algebroid.rank()];
