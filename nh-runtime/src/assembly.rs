@@ -47,7 +47,7 @@ pub fn assemble<S: State<Scalar: Real>, const N: usize, const M: usize>(
         |_| true,
         loops,
     )?);
-    follow(&positions(&state), loops, &first(&state), &first(guess))?;
+    follow(|x| positions(&moved(x)), loops, &first(&state), &first(guess))?;
     project(&mut state).map_err(|_| velocities(fault(&state)))?;
     Ok(state)
 }
@@ -110,13 +110,13 @@ pub fn assemble_holding<
     };
     let found =
         search(&|slopes| sign(matrix(slopes)) == branch).map_err(|error| match search(&|_| true) {
-            Ok(other) if follow(&positions(&moved(&other)), loops, &other, &start).is_ok() => {
+            Ok(other) if follow(|x| positions(&moved(x)), loops, &other, &start).is_ok() => {
                 let (coordinate, value) = farthest::<S, N>(&start, &other);
                 AssemblyError::OtherBranch { coordinate, value }
             }
             _ => error,
         })?;
-    follow(&positions(&moved(&found)), loops, &found, &start)?;
+    follow(|x| positions(&moved(x)), loops, &found, &start)?;
     let mut state = moved(&found);
     let free = V.saturating_sub(constraints.len());
     if held.iter().filter(|held| **held).count() == free {

@@ -149,20 +149,44 @@ impl<T: Real, const M: usize> Asked<T, M> {
     }
 }
 
-/// That equations which follow from the others do.
+/// That equations which follow from the others do. What is left of them is compared with what moving each variable by half
+/// of its digits would do, and of those whose derivatives vanish where they hold, as the diagonal of a rotation that is to
+/// be none, with what the derivatives would be at such a distance.
 pub(super) fn follow<T: Real, const N: usize, const M: usize>(
-    (left, slopes): &Linearized<T, N, M>,
+    equations: impl Fn(&[T; N]) -> Linearized<T, N, M>,
     loops: &Loops<N, M>,
     found: &[T; N],
     start: &[T; N],
 ) -> Result<(), AssemblyError> {
-    let scale = largest(found).max(largest(start)) * T::EPSILON.sqrt();
-    let rows = left.iter().zip(slopes).skip(loops.independent);
-    let mut bounds = rows.map(|(left, slopes)| {
+    let (left, slopes) = equations(found);
+    let scale = largest(found).max(largest(start));
+    let half = scale * T::EPSILON.sqrt();
+    let change = |row: usize| {
+        let bends = |x: usize| {
+            let mut there = *found;
+            if let Some(x) = there.get_mut(x) {
+                *x += half;
+            }
+            let (_, there) = equations(&there);
+            let pairs = there
+                .get(row)
+                .into_iter()
+                .zip(slopes.get(row))
+                .flat_map(|(there, here)| there.iter().zip(here));
+            pairs.fold(T::ZERO, |sum, (there, here)| sum + (*there - *here).abs())
+        };
+        (0..N).fold(T::ZERO, |sum, x| sum + bends(x))
+    };
+    let mut rows = left.iter().zip(&slopes).enumerate().skip(loops.independent);
+    let open = rows.find(|(row, (left, slopes))| {
         let slope = slopes.iter().fold(T::ZERO, |sum, slope| sum + slope.abs());
-        left.abs() <= slope * scale
+        let holds = left.abs() <= slope * half || left.abs() <= slope * half + change(*row) * scale;
+        !holds
     });
-    if bounds.all(|holds| holds) { Ok(()) } else { Err(no_solution(left, &loops.names)) }
+    open.map_or(Ok(()), |(row, (left, _))| {
+        let constraint = loops.names.get(row).copied().unwrap_or("");
+        Err(AssemblyError::NoSolution { constraint, residual: left.to_f64() })
+    })
 }
 
 /// The sign of a determinant; 0 where rounding alone keeps the matrix from being singular, with the rows and columns
@@ -281,6 +305,30 @@ mod tests {
                 assert_eq!(bits(solved([0, power, 0], [0; 3], x)), bits(plain));
                 assert_eq!(bits(solved([power; 3], [0; 3], x)), bits(plain));
                 assert_eq!(bits(solved([0; 3], [power; 3], x)), bits(plain));
+            }
+        }
+    }
+
+    /// A turn that is to be none: its sine is 0, and from that its cosine is 1 on one of two branches. The derivative of the
+    /// cosine vanishes there, so that rounding is all that is left of both.
+    #[test]
+    fn what_follows_by_its_square_is_compared_with_that() {
+        let loops = Loops { names: ["sine", "cosine", "offset"], independent: 1, depends: [true; 2] };
+        for power in [-60, 0, 60] {
+            let unit = 2.0_f64.powi(power);
+            for rounding in [-4e-16, 0.0, 4e-16] {
+                let equations = |[x, y]: &[f64; 2]| {
+                    let left = [unit * x.sin(), unit * (x.cos() - 1.0 + rounding), y * x.sin()];
+                    (left, [[unit * x.cos(), 0.0], [-unit * x.sin(), 0.0], [y * x.cos(), x.sin()]])
+                };
+                let follows = |x: f64| follow(equations, &loops, &[x, 0.3], &[x + 0.1, 0.3]);
+                assert_eq!(follows(1e-17), Ok(()), "{power} {rounding}");
+                let error = follows(core::f64::consts::PI);
+                assert!(
+                    matches!(error, Err(AssemblyError::NoSolution { constraint: "cosine", .. })),
+                    "{error:?}"
+                );
+                assert!(follows(1e-3).is_err());
             }
         }
     }

@@ -170,3 +170,23 @@ fn a_loop_in_space_moves_by_its_one_coordinate() {
     let drift = BRICARD.energy(0.0, &end) - BRICARD.energy(0.0, &start);
     assert!(drift.abs() < 1e-8, "{drift:e}");
 }
+
+/// From angles that are off by a tenth, and with one of them held.
+#[test]
+fn a_loop_in_space_is_assembled() {
+    let near = trihedral(1.2, 0.7);
+    let mut guess = near;
+    for (angle, off) in guess.q.iter_mut().zip([0.06, -0.1, 0.03, 0.08, -0.05, 0.1]) {
+        *angle += off;
+    }
+    let found = BRICARD.assemble(0.0, &guess).unwrap();
+    let left: [f64; 17] = BRICARD.constraint_residual(0.0, &found).into();
+    assert!(left.iter().all(|left| left.abs() < 1e-14), "{left:?}");
+    let expected = trihedral(found.q[0], found.q_dot[0]);
+    for (found, expected) in found.to_array().iter().zip(expected.to_array()) {
+        assert!((found - expected).abs() < 1e-12, "{found} {expected}");
+    }
+    let held = BRICARD.assemble_holding(0.0, &guess, &[BricardCoordinate::q_0]).unwrap();
+    assert_eq!((held.q[0], held.q_dot[0]), (guess.q[0], 0.7));
+    assert!((held.q[3] - trihedral(guess.q[0], 0.7).q[3]).abs() < 1e-13);
+}
