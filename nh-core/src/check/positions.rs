@@ -2,7 +2,7 @@
 //! there that the others do not.
 
 use super::dependence::combination_shown;
-use super::evidence::{name_of, shown};
+use super::evidence::{listed, name_of, shown};
 use super::kinematics::Motion;
 use super::parts_of_positions::{Unsolved, part_of_positions, rates_on_part, unknown_motion};
 use super::whole_base::beside_positions;
@@ -29,6 +29,9 @@ pub struct Positions {
     pub elsewhere: Vec<usize>,
     /// A^a_α = ρ^i_α ∂_i f^a, a row for each of the independent ones.
     pub jacobian: Matrix,
+    /// How many rates are independent, and how many dimensions the equations take away, if these are more: then one of
+    /// them is a square.
+    curved: Option<[usize; 2]>,
     /// Equations that follow from the others wherever these hold, which the declaration permits.
     pub redundant: Vec<PositionDecl>,
     /// Entries of vector equations that say nothing, or what an earlier one says: for the report.
@@ -235,6 +238,9 @@ fn without_real_point(model: &mut Model) -> Option<Violation> {
 /// Finds those whose rows of A are independent on N; the others are dropped, kept aside or refused.
 fn independent(model: &mut Model, rows: &Matrix, found: &mut Positions) -> Result<(), Vec<Violation>> {
     let restricted = found.manifold.restrict_matrix(&mut model.graph, rows);
+    let solved = found.manifold.images().len() - found.base.images().len();
+    let rank = model.graph.generic_rank(&restricted).ok().filter(|rank| *rank < solved);
+    found.curved = rank.filter(|_| found.part.is_none()).map(|rank| [rank, solved]);
     let mut kept: Vec<usize> = Vec::new();
     let mut violations = Vec::new();
     for index in 0..rows.len() {
@@ -273,6 +279,37 @@ fn undecided(origin: Origin, why: String) -> Violation {
     }
 }
 
+/// Parameters, or the time, that an equation would have to fix: its row depends on others by the velocities, and does not
+/// with these. Points that are found for any parameters show that there are none.
+fn fixes(
+    model: &mut Model,
+    rows: &Matrix,
+    kept: &[usize],
+    index: usize,
+    found: &Positions,
+) -> Option<String> {
+    if found.part.is_some() {
+        return None;
+    }
+    let named = model.parameters.iter().map(|parameter| (parameter.symbol, format!("`{}`", parameter.name)));
+    let candidates: Vec<(SymbolId, String)> = named.chain([(model.time, "the time".to_owned())]).collect();
+    let graph = &mut model.graph;
+    let fixed = candidates.into_iter().filter_map(|(symbol, name)| {
+        let matrix: Matrix = kept
+            .iter()
+            .chain([&index])
+            .map(|row| {
+                let change = graph.partial(model.positions[*row].value, symbol);
+                rows[*row].iter().copied().chain([change]).collect()
+            })
+            .collect();
+        let restricted = found.manifold.restrict_matrix(graph, &matrix);
+        (graph.generic_rank(&restricted) == Ok(matrix.len())).then_some(name)
+    });
+    let fixed: Vec<String> = fixed.collect();
+    (!fixed.is_empty()).then(|| listed(&fixed))
+}
+
 /// What becomes of an equation whose row depends on earlier ones.
 enum Follows {
     Dropped(String),
@@ -293,13 +330,24 @@ fn followed(model: &mut Model, rows: &Matrix, kept: &[usize], index: usize, foun
         let earlier = name_of(model, ConstraintId::from_index(earlier));
         return Follows::Dropped(format!("{name} is left out: it says what {earlier} says"));
     }
+    let law = Law::Independence;
+    if let Some(fixed) = fixes(model, rows, kept, index, found) {
+        return Follows::Refused(Violation {
+            law,
+            origin,
+            what: format!("{name} contradicts the position constraints before it"),
+            evidence: format!("its rate follows from theirs, but what they leave of it changes with {fixed} alone"),
+            way_out: "change or leave out one of them; a parameter that follows from others is written as such, in \
+                      a `let`"
+                .into(),
+        });
+    }
     let graph = &mut model.graph;
     let on_manifold = |graph: &mut Graph, entry: &ExprId| found.manifold.zero_test(graph, *entry).is_zero();
     let vanishes = rows[index].iter().all(|entry| on_manifold(graph, entry));
-    if model.redundant.is_some() {
+    if model.redundant.is_some() && found.curved.is_none() {
         return Follows::Permitted;
     }
-    let law = Law::Independence;
     if vanishes {
         return Follows::Refused(Violation {
             law,
@@ -307,6 +355,20 @@ fn followed(model: &mut Model, rows: &Matrix, kept: &[usize], index: usize, foun
             what: format!("{name} exerts no force: its derivative vanishes where it holds"),
             evidence: format!("the rate of {} is 0 along every section on {name}", shown(graph, value)),
             way_out: "write it without the power, as `a = b` instead of `(a - b)^2 = 0`".into(),
+        });
+    }
+    if let Some([rates, dimensions]) = found.curved {
+        return Follows::Refused(Violation {
+            law,
+            origin,
+            what: format!(
+                "{name} says nothing of velocities that those before it do not say, but of positions"
+            ),
+            evidence: format!(
+                "where all position constraints hold, they take away {dimensions} dimensions, and {rates} of their \
+                 rates are independent"
+            ),
+            way_out: "write what is 0 as a square without it, as `a = b` instead of `(a - b)^2 = 0`".into(),
         });
     }
     let evidence = match &found.part {

@@ -34,7 +34,9 @@ impl Manifold {
     ) -> NearManifold {
         let charted: Vec<SymbolId> = parameters.iter().chain(&base.chart).copied().collect();
         let lengths = lengths_among(graph, functions, coordinates);
-        let ways: [(Ease, &[SymbolId]); 5] = [
+        let ways: [(Ease, &[SymbolId]); 7] = [
+            (Ease::Number, &lengths),
+            (Ease::Number, coordinates),
             (Ease::Linear, &lengths),
             (Ease::Linear, coordinates),
             (Ease::Linear, &charted),
@@ -53,7 +55,12 @@ impl Manifold {
         [coordinates, parameters]: [&[SymbolId]; 2],
     ) -> NearManifold {
         let lengths = lengths_among(graph, functions, coordinates);
-        let ways: [(Ease, &[SymbolId]); 2] = [(Ease::Linear, &lengths), (Ease::Linear, coordinates)];
+        let ways: [(Ease, &[SymbolId]); 4] = [
+            (Ease::Number, &lengths),
+            (Ease::Number, coordinates),
+            (Ease::Linear, &lengths),
+            (Ease::Linear, coordinates),
+        ];
         Self::by_ways(graph, base, functions, parameters, &ways)
     }
 
@@ -84,7 +91,13 @@ impl Manifold {
                             let is_meant = |graph: &mut Graph, solution| {
                                 is_meant(graph, *function, solution, parameters)
                             };
-                            manifold.solve(graph, *function, unknowns, *ease, &is_meant)
+                            let mut trial = manifold.clone();
+                            let is_solved = trial.solve(graph, *function, unknowns, *ease, &is_meant)
+                                && trial.is_defined(graph);
+                            if is_solved {
+                                manifold = trial;
+                            }
+                            is_solved
                         });
                         solved.map(|(index, _)| *index)
                     })
@@ -155,6 +168,34 @@ mod tests {
         let found = Manifold::of_positions(&mut g, &Manifold::whole(), &functions, [&coordinates, &[length]]);
         assert_eq!(found.unsolved, [1]);
         assert!(found.manifold.zero_test(&mut g, r).is_nonzero());
+    }
+
+    /// Two unit vectors at right angles, of which the second is given: solved in the order of the equations, an image of the
+    /// first divides by what the last equation says is 0.
+    #[test]
+    fn no_image_divides_by_what_vanishes() {
+        let mut g = Graph::new();
+        let coordinates = ["a", "b", "u", "v"].map(|name| g.new_symbol(name));
+        let [a, b, u, v] = coordinates.map(|symbol| g.symbol(symbol));
+        let one = g.one();
+        let functions = [
+            g.formula(a * u + b * v),
+            g.formula(a.square() + b.square() - one),
+            g.formula(u.square() + v.square() - one),
+            g.formula(u + v * v - one),
+            v,
+        ];
+        for order in [[0, 1, 2, 3, 4], [0, 4, 3, 1, 2], [3, 0, 1, 4, 2]] {
+            let functions = order.map(|place| functions[place]);
+            let found = Manifold::of_positions(&mut g, &Manifold::whole(), &functions, [&coordinates, &[]]);
+            assert_eq!(found.unsolved, [0; 0], "{order:?}");
+            for (function, value) in [(a, 0), (u, 1), (v, 0)] {
+                let value = g.number(value);
+                let defect = g.formula(function - value);
+                assert!(found.manifold.zero_test(&mut g, defect).is_zero(), "{order:?}");
+            }
+            assert!(found.manifold.zero_test(&mut g, b).is_nonzero());
+        }
     }
 
     /// A row of bars, all as long as they are apart: each joint is where two circles meet, one of them about the joint

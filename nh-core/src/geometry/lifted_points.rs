@@ -47,8 +47,10 @@ impl RowsOnPart {
 const PRIMES: [u64; 5] = [7, 11, 19, 23, 31];
 /// Searches, each with other values of the parameters.
 const SEARCHES: usize = 24;
-/// Points looked for.
+/// Points looked for where all rows are independent at one of them, and else; and of one search.
 const POINTS: usize = 8;
+const POINTS_OF_DEPENDENT: usize = 48;
+const POINTS_OF_SEARCH: usize = 4;
 /// First digits that a search lifts at most.
 const LEAVES: usize = 24;
 /// One search may take the inverse of this of what is left.
@@ -71,6 +73,9 @@ pub fn rows_on_parts(
     let present = graph.symbols_in(functions);
     let coordinates: Vec<SymbolId> =
         coordinates.iter().copied().filter(|symbol| present.contains(symbol)).collect();
+    if coordinates.is_empty() {
+        return Vec::new();
+    }
     let mut all = functions.to_vec();
     for function in functions {
         all.extend(coordinates.iter().map(|symbol| graph.partial(*function, *symbol)));
@@ -94,16 +99,22 @@ pub fn rows_on_parts(
         let allowed = left / SHARE;
         let seed = u64::try_from(search).unwrap_or(0);
         let mut search = Search::new(&steps, &trial, &order, functions.len(), seed, allowed);
+        let mut points = 0;
         search.run(&mut |seed, digits| {
-            let Some(rows) = lifting.independent_rows(&trial, &lifted, digits, seed) else { return true };
-            match found.iter_mut().find(|part| part.rows == rows) {
+            let independent = lifting.independent_rows(&trial, &lifted, digits, seed);
+            let Some(independent) = independent else { return true };
+            points += 1;
+            match found.iter_mut().find(|part| part.rows == independent) {
                 Some(part) => part.count(prime),
-                None => found.push(RowsOnPart { rows, primes: vec![prime], points: 1 }),
+                None => found.push(RowsOnPart { rows: independent, primes: vec![prime], points: 1 }),
             }
-            false
+            points < POINTS_OF_SEARCH
         });
         left -= allowed - search.left;
-        if left < SHARE || found.iter().map(|part| part.points).sum::<usize>() >= POINTS {
+        let points: usize = found.iter().map(|part| part.points).sum();
+        // where fewer are independent a part is larger, and has more of the points
+        let is_any_whole = found.iter().any(|part| part.rows.len() == rows.len());
+        if left < SHARE || points >= if is_any_whole { POINTS } else { POINTS_OF_DEPENDENT } {
             break;
         }
     }
@@ -194,25 +205,31 @@ impl<'a> Search<'a> {
         taken.is_some() && functions.iter().all(|function| self.values[*function] == 0)
     }
 
-    /// False, once nothing more is wanted.
-    fn descend(&mut self, level: usize, visit: &mut dyn FnMut(u64, &[u64]) -> bool) -> bool {
+    /// The level at which to go on; `None` once nothing more is wanted.
+    fn descend(&mut self, level: usize, visit: &mut dyn FnMut(u64, &[u64]) -> bool) -> Option<usize> {
         let Some(coordinate) = self.order.get(level).copied() else {
             self.leaves -= 1;
-            let leaf = u64::try_from(self.leaves).unwrap_or(0);
-            return visit(random(self.seed, leaf), &self.digits) && self.leaves > 0;
+            let leaf = random(self.seed, u64::try_from(self.leaves).unwrap_or(0));
+            let is_enough = !visit(leaf, &self.digits) || self.leaves == 0;
+            // neighbours are of one part: others come sooner where earlier coordinates have other digits
+            let levels = u64::try_from(level.max(1)).unwrap_or(1);
+            return (!is_enough).then(|| usize::try_from(leaf % levels).unwrap_or(0));
         };
         let prime = self.trial.power.prime();
         let start = random(self.seed ^ u64::MAX, u64::try_from(coordinate).unwrap_or(0));
         for digit in 0..prime {
             if self.left == 0 {
-                return false;
+                return None;
             }
             self.digits[coordinate] = (start % prime + digit) % prime;
-            if self.holds(level + 1) && !self.descend(level + 1, visit) {
-                return false;
+            if self.holds(level + 1) {
+                let going_on = self.descend(level + 1, visit)?;
+                if going_on < level {
+                    return Some(going_on);
+                }
             }
         }
-        true
+        Some(level)
     }
 }
 

@@ -4,7 +4,7 @@
 //! Both are parametrised rationally where possible, by a square root where need be, so that a
 //! claim on the manifold becomes a claim about the parameters.
 
-use crate::algebra::{Graph, Matrix, Rational, Substitution, Verdict, Witness};
+use crate::algebra::{Graph, Matrix, Node, Rational, Substitution, Verdict, Witness};
 use crate::id::{ExprId, SymbolId};
 
 /// A manifold, by symbols that are functions of the others.
@@ -150,6 +150,18 @@ impl Manifold {
         self.images.push((symbol, image));
     }
 
+    /// Whether no image divides by what is 0 on the manifold.
+    pub(super) fn is_defined(&self, graph: &Graph) -> bool {
+        let images: Vec<ExprId> = self.images.iter().map(|(_, image)| *image).collect();
+        let divisors = graph.reachable(&images).into_iter().flat_map(|id| match graph.node(id) {
+            Node::Product { factors, .. } => {
+                factors.iter().filter(|(_, exponent)| exponent.is_negative()).map(|(base, _)| *base).collect()
+            }
+            _ => Vec::new(),
+        });
+        divisors.into_iter().all(|divisor| !graph.zero_test(divisor).is_zero())
+    }
+
     /// Solves one function for one unknown in one way; false if that is not possible. A solution by a division or a
     /// root is taken if it is meant.
     pub(super) fn solve(
@@ -173,6 +185,7 @@ impl Manifold {
             solved.into_iter().collect()
         };
         let images: Vec<(SymbolId, ExprId)> = match ease {
+            Ease::Number => by(difference),
             Ease::Linear => by(quotient),
             Ease::Root => by(root),
             Ease::Sphere => sphere(graph, function, &present).unwrap_or_default(),
@@ -207,10 +220,18 @@ impl Manifold {
 pub(super) enum Ease {
     /// A sphere, by the stereographic projection.
     Sphere,
+    /// By a division by a number.
+    Number,
     /// By a division.
     Linear,
     /// By a root.
     Root,
+}
+
+/// The root of a function that is linear in the symbol, with a number for its coefficient.
+fn difference(graph: &mut Graph, function: ExprId, symbol: SymbolId) -> Option<ExprId> {
+    let slope = graph.partial(function, symbol);
+    graph.as_number(slope).is_some().then(|| quotient(graph, function, symbol))?
 }
 
 /// The root of a function that is linear in the symbol.
