@@ -435,6 +435,17 @@ mod tests {
         assert!(parts(&mut g, &functions, &coordinates).is_empty());
     }
 
+    /// What holds modulo each of the primes, and nowhere.
+    #[test]
+    fn first_digits_alone_are_no_point() {
+        let mut g = Graph::new();
+        let (coordinates, [x, y]) = symbols(&mut g, ["x", "y"]);
+        let product = g.number(PRIMES.iter().map(|prime| i64::try_from(*prime).unwrap()).product::<i64>());
+        let functions = [g.formula(x.square() - y), g.formula(x.square() - y + product)];
+        assert_eq!(parts(&mut g, &functions[..1], &coordinates), [[0]]);
+        assert!(parts(&mut g, &functions, &coordinates).is_empty());
+    }
+
     /// x (x² + y² − 1) = 0 and x (x + 2 y) = 0: the line x = 0, where the second rate is a multiple of the first, and
     /// points of the circle, where it is not.
     #[test]
