@@ -1,4 +1,4 @@
-//! Arithmetic modulo a power of a prime: numbers of which the last digits are known, in the p-adic sense.
+//! Arithmetic modulo a power of a prime: p-adic numbers by their first digits.
 
 use super::number::Rational;
 use num_bigint::BigInt;
@@ -13,10 +13,11 @@ pub(crate) struct PrimePower {
 
 /// Powers stay below this, so that sums fit.
 const LARGEST: u64 = 1 << 60;
-/// Steps of Newton's method for an inverse or a root: each doubles the digits.
-const DOUBLINGS: u32 = 6;
 
 impl PrimePower {
+    /// Steps of Newton's method to all digits: each doubles those that are right.
+    pub(crate) const DOUBLINGS: u32 = 6;
+
     /// The prime itself.
     pub(crate) fn first(prime: u64) -> Self {
         Self { prime, modulus: prime }
@@ -91,7 +92,7 @@ impl PrimePower {
         // right modulo p (Fermat), then y ← y (2 − a y)
         let mut inverse = Self::first(self.prime).positive_power(a % self.prime, self.prime - 2);
         if self.modulus > self.prime {
-            for _ in 0..DOUBLINGS {
+            for _ in 0..Self::DOUBLINGS {
                 let defect = self.difference(2, self.product(a, inverse));
                 inverse = self.product(inverse, defect);
             }
@@ -113,7 +114,7 @@ impl PrimePower {
         // x ← (x + a/x)/2
         let (half, value) = (self.inverse(2)?, number % self.modulus);
         let mut root = digit;
-        for _ in 0..DOUBLINGS {
+        for _ in 0..Self::DOUBLINGS {
             let quotient = self.product(value, self.inverse(root)?);
             root = self.product(half, self.sum(root, quotient));
         }

@@ -49,8 +49,8 @@ enum Step<Number> {
 const MOST_TURNS: i64 = 64;
 
 impl ResidueSteps {
-    /// The steps for some expressions, unless they have functions or roots that no digits are known of. What `varies`
-    /// is the argument of sine and cosine with whole coefficients, or of neither.
+    /// The steps for some expressions, unless they have functions or roots that no digits are known of. A symbol that
+    /// `varies` stands inside of sines and cosines or outside, not both: an angle and its t have no digits in common.
     pub(crate) fn of(graph: &Graph, expressions: &[ExprId], varies: &[SymbolId]) -> Option<Self> {
         let mut writer = Writer {
             graph,

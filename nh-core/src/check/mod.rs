@@ -52,6 +52,7 @@ pub use impact_rows::{Between, Impact, ImpactRow, impacts};
 pub use kind::Kind;
 pub use kinematics::{Motion, kinematics};
 pub use orthonormal::orthonormal;
+pub(crate) use parts_of_positions::points_shown;
 pub use positions::{Positions, positions};
 pub use regularity::{reduced_regularity, saddle_regularity, singular_where};
 pub use structure_equations::{BrokenLaws, structure_equations};

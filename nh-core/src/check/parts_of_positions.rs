@@ -1,7 +1,7 @@
 //! Position constraints that could not be solved for anything: which of them, and of the constraints on velocities beside
 //! them, are independent is asked at points of N that are found modulo powers of primes.
 
-use super::evidence::name_of;
+use super::evidence::{listed, name_of};
 use crate::algebra::Matrix;
 use crate::geometry::{Manifold, NearManifold, RowsOnPart, rows_on_parts};
 use crate::id::{ConstraintId, ExprId, Id, SymbolId};
@@ -74,10 +74,18 @@ pub(super) fn unknown_motion(model: &Model) -> Violation {
              {sections}); no point was found where all of them hold, and fewer may be independent there"
         ),
         way_out:
-            "declare lengths as parameters, which loops are solved for; or leave out what follows from the \
-                  others"
+            "declare lengths as parameters, which loops are solved for; or leave out what follows from the others"
                 .into(),
     }
+}
+
+/// `4 points modulo powers of 7 and 11`.
+pub(crate) fn points_shown(part: &RowsOnPart) -> String {
+    let mut primes = part.primes.clone();
+    primes.sort_unstable();
+    let primes: Vec<String> = primes.iter().map(u64::to_string).collect();
+    let plural = if part.points == 1 { "" } else { "s" };
+    format!("{} point{plural} modulo powers of {}", part.points, listed(&primes))
 }
 
 /// How many position constraints are independent on a part of N.
@@ -85,7 +93,7 @@ pub(super) fn rates_on_part(part: &RowsOnPart) -> String {
     format!(
         "where all position constraints hold, {} of their rates are independent, as was seen at {}",
         part.rows.len(),
-        part.points_shown()
+        points_shown(part)
     )
 }
 
@@ -112,7 +120,7 @@ pub(super) fn dependent_on_part(
              seen at {}",
             part.rows.len(),
             rows.len(),
-            part.points_shown()
+            points_shown(&part)
         ),
         way_out: "leave it out: the constraints of a system are independent".into(),
     })

@@ -33,17 +33,9 @@ impl Manifold {
         [coordinates, parameters]: [&[SymbolId]; 2],
     ) -> NearManifold {
         let charted: Vec<SymbolId> = parameters.iter().chain(&base.chart).copied().collect();
-        let lengths = lengths_among(graph, functions, coordinates);
-        let ways: [(Ease, &[SymbolId]); 7] = [
-            (Ease::Number, &lengths),
-            (Ease::Number, coordinates),
-            (Ease::Linear, &lengths),
-            (Ease::Linear, coordinates),
-            (Ease::Linear, &charted),
-            (Ease::Root, &charted),
-            (Ease::Root, coordinates),
-        ];
-        Self::by_ways(graph, base, functions, parameters, &ways)
+        let further: [(Ease, &[SymbolId]); 3] =
+            [(Ease::Linear, &charted), (Ease::Root, &charted), (Ease::Root, coordinates)];
+        Self::by_ways(graph, base, functions, [coordinates, parameters], &further)
     }
 
     /// The same by divisions for coordinates alone: what is left is for any parameters as it was.
@@ -52,26 +44,28 @@ impl Manifold {
         graph: &mut Graph,
         base: &Self,
         functions: &[ExprId],
-        [coordinates, parameters]: [&[SymbolId]; 2],
+        symbols: [&[SymbolId]; 2],
     ) -> NearManifold {
-        let lengths = lengths_among(graph, functions, coordinates);
-        let ways: [(Ease, &[SymbolId]); 4] = [
-            (Ease::Number, &lengths),
-            (Ease::Number, coordinates),
-            (Ease::Linear, &lengths),
-            (Ease::Linear, coordinates),
-        ];
-        Self::by_ways(graph, base, functions, parameters, &ways)
+        Self::by_ways(graph, base, functions, symbols, &[])
     }
 
-    /// Where functions vanish, each solved by the first of some ways that is possible.
+    /// Where functions vanish, each solved for a coordinate by a division, lengths before angles, or in the first of
+    /// some further ways.
     fn by_ways(
         graph: &mut Graph,
         base: &Self,
         functions: &[ExprId],
-        parameters: &[SymbolId],
-        ways: &[(Ease, &[SymbolId])],
+        [coordinates, parameters]: [&[SymbolId]; 2],
+        further: &[(Ease, &[SymbolId])],
     ) -> NearManifold {
+        let (angles, lengths) = angles_and_lengths(graph, functions, coordinates);
+        let mut ways: Vec<(Ease, &[SymbolId])> = vec![
+            (Ease::Number, &lengths),
+            (Ease::Number, &angles),
+            (Ease::Linear, &lengths),
+            (Ease::Linear, &angles),
+        ];
+        ways.extend(further);
         let mut found = NearManifold { manifold: base.clone(), unsolved: (0..functions.len()).collect() };
         let start = spent();
         while !found.unsolved.is_empty() {
@@ -91,13 +85,7 @@ impl Manifold {
                             let is_meant = |graph: &mut Graph, solution| {
                                 is_meant(graph, *function, solution, parameters)
                             };
-                            let mut trial = manifold.clone();
-                            let is_solved = trial.solve(graph, *function, unknowns, *ease, &is_meant)
-                                && trial.is_defined(graph);
-                            if is_solved {
-                                manifold = trial;
-                            }
-                            is_solved
+                            manifold.solve(graph, *function, unknowns, *ease, &is_meant)
                         });
                         solved.map(|(index, _)| *index)
                     })
@@ -112,8 +100,12 @@ impl Manifold {
     }
 }
 
-/// The coordinates that are not arguments of functions: what these are solved for gets into no sine.
-fn lengths_among(graph: &Graph, functions: &[ExprId], coordinates: &[SymbolId]) -> Vec<SymbolId> {
+/// The coordinates that are arguments of functions, and the others: what these are solved for gets into no sine.
+fn angles_and_lengths(
+    graph: &Graph,
+    functions: &[ExprId],
+    coordinates: &[SymbolId],
+) -> (Vec<SymbolId>, Vec<SymbolId>) {
     let arguments: Vec<ExprId> = graph
         .reachable(functions)
         .into_iter()
@@ -121,7 +113,7 @@ fn lengths_among(graph: &Graph, functions: &[ExprId], coordinates: &[SymbolId]) 
         .flat_map(|id| graph.node(id).operands().collect::<Vec<_>>())
         .collect();
     let inside = graph.symbols_in(&arguments);
-    coordinates.iter().copied().filter(|coordinate| !inside.contains(coordinate)).collect()
+    coordinates.iter().partition(|coordinate| inside.contains(coordinate))
 }
 
 /// Whether a solution of a function is one of what the function says as a whole. Parameters have all values: a length

@@ -27,20 +27,6 @@ impl RowsOnPart {
             self.primes.push(prime);
         }
     }
-
-    /// `4 points modulo powers of 7 and 11`.
-    #[must_use]
-    pub fn points_shown(&self) -> String {
-        let plural = if self.points == 1 { "" } else { "s" };
-        let mut primes = self.primes.clone();
-        primes.sort_unstable();
-        let primes: Vec<String> = primes.iter().map(u64::to_string).collect();
-        let primes = match primes.split_last() {
-            Some((last, others)) if !others.is_empty() => format!("{} and {last}", others.join(", ")),
-            _ => primes.join(""),
-        };
-        format!("{} point{plural} modulo powers of {primes}", self.points)
-    }
 }
 
 /// Primes that are 3 modulo 4: there every t is a point of the circle.
@@ -59,8 +45,6 @@ const SHARE: u64 = 4;
 const TRIALS: u64 = 6_000_000;
 /// Steps modulo a small number that count as one unit of work.
 const STEPS_PER_UNIT: u64 = 8;
-/// Newton's steps: each doubles the digits.
-const DOUBLINGS: usize = 6;
 
 /// The rows of a matrix that are independent where all functions vanish, on each of the parts of that manifold that
 /// points were found of. None, if no points were found.
@@ -279,7 +263,7 @@ impl Lifting<'_> {
             .map(|(digit, place)| digit + prime * (random(seed, place) % highest))
             .collect();
         let mut values = lifted.evaluate(&chosen)?;
-        for _ in 0..DOUBLINGS {
+        for _ in 0..PrimePower::DOUBLINGS {
             let slopes = self.slopes(lifted.power, &values, &chosen);
             let square: Vec<Vec<u64>> = pivots
                 .iter()
@@ -456,7 +440,6 @@ mod tests {
         let functions = [g.formula(x * (x.square() + y.square() - one)), g.formula(x * (x + two * y))];
         let mut found = parts(&mut g, &functions, &coordinates);
         found.sort();
-        assert_eq!(found.first(), Some(&vec![0]));
-        assert!(found.iter().all(|rows| rows == &[0] || rows == &[0, 1]), "{found:?}");
+        assert_eq!(found, [vec![0], vec![0, 1]]);
     }
 }

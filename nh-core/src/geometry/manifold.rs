@@ -151,7 +151,7 @@ impl Manifold {
     }
 
     /// Whether no image divides by what is 0 on the manifold.
-    pub(super) fn is_defined(&self, graph: &Graph) -> bool {
+    fn is_defined(&self, graph: &Graph) -> bool {
         let images: Vec<ExprId> = self.images.iter().map(|(_, image)| *image).collect();
         let divisors = graph.reachable(&images).into_iter().flat_map(|id| match graph.node(id) {
             Node::Product { factors, .. } => {
@@ -162,8 +162,8 @@ impl Manifold {
         divisors.into_iter().all(|divisor| !graph.zero_test(divisor).is_zero())
     }
 
-    /// Solves one function for one unknown in one way; false if that is not possible. A solution by a division or a
-    /// root is taken if it is meant.
+    /// Solves one function for one unknown in one way; false if that is not possible, or if an image would divide by what is 0
+    /// then. A solution by a division or a root is taken if it is meant.
     pub(super) fn solve(
         &mut self,
         graph: &mut Graph,
@@ -190,6 +190,10 @@ impl Manifold {
             Ease::Root => by(root),
             Ease::Sphere => sphere(graph, function, &present).unwrap_or_default(),
         };
+        if images.is_empty() {
+            return false;
+        }
+        let before = self.clone();
         if matches!(ease, Ease::Sphere) {
             let values: Vec<ExprId> = images.iter().map(|(_, image)| *image).collect();
             self.chart.extend(graph.symbols_in(&values));
@@ -197,7 +201,11 @@ impl Manifold {
         for (symbol, image) in &images {
             self.insert(graph, *symbol, *image);
         }
-        !images.is_empty()
+        let is_defined = self.is_defined(graph);
+        if !is_defined {
+            *self = before;
+        }
+        is_defined
     }
 
     /// Rotation matrices by Cayley's parameters, if that is where the functions vanish.
@@ -228,10 +236,17 @@ pub(super) enum Ease {
     Root,
 }
 
-/// The root of a function that is linear in the symbol, with a number for its coefficient.
+/// The root of the symbol, or of a sum in which it is a term with a number for its coefficient.
 fn difference(graph: &mut Graph, function: ExprId, symbol: SymbolId) -> Option<ExprId> {
-    let slope = graph.partial(function, symbol);
-    graph.as_number(slope).is_some().then(|| quotient(graph, function, symbol))?
+    if graph.as_symbol(function) == Some(symbol) {
+        return Some(graph.zero());
+    }
+    let Node::Sum { terms, .. } = graph.node(function) else { return None };
+    let is_term = |(term, _): &&(ExprId, Rational)| graph.as_symbol(*term) == Some(symbol);
+    let (term, factor) = terms.iter().find(is_term).cloned()?;
+    let by = -factor.recip()?;
+    let rest = graph.linear_combination(&[(Rational::ONE, function), (-factor, term)]);
+    (!graph.depends_on(rest, &[symbol])).then(|| graph.scale(by, rest))
 }
 
 /// The root of a function that is linear in the symbol.

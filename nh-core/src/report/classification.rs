@@ -4,7 +4,7 @@ use super::suggestion_line::validity;
 use super::{combination, section_names, shown, suggestion};
 use crate::algebra::Graph;
 use crate::check::evidence::{counted, listed, places};
-use crate::check::{BrokenLaws, Condition, Positions, domain, undecided};
+use crate::check::{BrokenLaws, Condition, Positions, domain, points_shown, undecided};
 use crate::compile::{Derived, Proved};
 use crate::findings::{Closure, Findings};
 use crate::geometry::independent_velocities::Choice;
@@ -175,8 +175,8 @@ fn positions(model: &Model, positions: &Positions) -> Vec<String> {
         let unsolved = positions.unsolved.len();
         lines.push(format!(
             "which of them are independent was asked at {} where all hold; what else is said to hold there was \
-             asked without {unsolved}, which could not be solved for coordinates or parameters",
-            part.points_shown()
+             asked without {unsolved} of them, which could not be solved for coordinates or parameters",
+            points_shown(part)
         ));
         for count in &positions.elsewhere {
             lines.push(format!(

@@ -95,6 +95,11 @@ struct Scissors {
     g: f64,
 }
 
+fn are_small<const N: usize>(residual: impl Into<[f64; N]>, within: f64) {
+    let left = residual.into();
+    assert!(left.iter().all(|left| left.abs() < within), "{left:?}");
+}
+
 /// A bar's angle that is also compared as a number, and a foot that is solved for.
 #[test]
 fn a_lifting_table_falls() {
@@ -140,8 +145,7 @@ fn three_cranks_swing_like_one() {
     let mut sim = Integrator::new(CRANKS, Dopri5::new().rtol(1e-9).atol(1e-9), 0.0, start);
     sim.advance_to(1.0).unwrap();
     let end = *sim.state();
-    let left: [f64; 7] = CRANKS.constraint_residual(0.0, &end).into();
-    assert!(left.iter().all(|left| left.abs() < 1e-12), "{left:?}");
+    are_small::<7>(CRANKS.constraint_residual(0.0, &end), 1e-12);
     assert!((end.a[0] - 0.3).abs() > 1.0);
     let drift = CRANKS.energy(0.0, &end) - CRANKS.energy(0.0, &start);
     assert!(drift.abs() < 1e-7, "{drift:e}");
@@ -150,8 +154,7 @@ fn three_cranks_swing_like_one() {
 #[test]
 fn a_loop_in_space_moves_by_its_one_coordinate() {
     let start = trihedral(1.2, 0.7);
-    let left: [f64; 17] = BRICARD.constraint_residual(0.0, &start).into();
-    assert!(left.iter().all(|left| left.abs() < 1e-14), "{left:?}");
+    are_small::<17>(BRICARD.constraint_residual(0.0, &start), 1e-14);
     // reference/bricard.py
     let expected = [1.188_844_082_560_149, -1.031_124_691_967_907_6];
     for (found, place) in BRICARD.derivative(0.0, &start, &()).q_dot.iter().zip(0..) {
@@ -160,8 +163,7 @@ fn a_loop_in_space_moves_by_its_one_coordinate() {
     let mut sim = Integrator::new(BRICARD, Dopri5::new().rtol(1e-10).atol(1e-10), 0.0, start);
     sim.advance_to(0.4).unwrap();
     let end = *sim.state();
-    let left: [f64; 17] = BRICARD.constraint_residual(0.0, &end).into();
-    assert!(left.iter().all(|left| left.abs() < 1e-12), "{left:?}");
+    are_small::<17>(BRICARD.constraint_residual(0.0, &end), 1e-12);
     let expected = trihedral(end.q[0], end.q_dot[0]);
     for (found, expected) in end.to_array().iter().zip(expected.to_array()) {
         assert!((found - expected).abs() < 1e-9, "{end:?}");
@@ -180,8 +182,7 @@ fn a_loop_in_space_is_assembled() {
         *angle += off;
     }
     let found = BRICARD.assemble(0.0, &guess).unwrap();
-    let left: [f64; 17] = BRICARD.constraint_residual(0.0, &found).into();
-    assert!(left.iter().all(|left| left.abs() < 1e-14), "{left:?}");
+    are_small::<17>(BRICARD.constraint_residual(0.0, &found), 1e-14);
     let expected = trihedral(found.q[0], found.q_dot[0]);
     for (found, expected) in found.to_array().iter().zip(expected.to_array()) {
         assert!((found - expected).abs() < 1e-12, "{found} {expected}");
