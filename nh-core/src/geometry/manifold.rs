@@ -150,9 +150,10 @@ impl Manifold {
         self.images.push((symbol, image));
     }
 
-    /// Whether no image divides by what is 0 on the manifold.
-    fn is_defined(&self, graph: &Graph) -> bool {
-        let images: Vec<ExprId> = self.images.iter().map(|(_, image)| *image).collect();
+    /// Whether no image that has changed since `earlier` divides by what is 0 on the manifold.
+    fn is_defined(&self, graph: &Graph, earlier: &[(SymbolId, ExprId)]) -> bool {
+        let changed = self.images.iter().zip(earlier).filter(|(now, before)| now != before);
+        let images: Vec<ExprId> = changed.map(|((_, image), _)| *image).collect();
         let divisors = graph.reachable(&images).into_iter().flat_map(|id| match graph.node(id) {
             Node::Product { factors, .. } => {
                 factors.iter().filter(|(_, exponent)| exponent.is_negative()).map(|(base, _)| *base).collect()
@@ -162,8 +163,8 @@ impl Manifold {
         divisors.into_iter().all(|divisor| !graph.zero_test(divisor).is_zero())
     }
 
-    /// Solves one function for one unknown in one way; false if that is not possible, or if an image would divide by what is 0
-    /// then. A solution by a division or a root is taken if it is meant.
+    /// Solves one function for one unknown in one way; false if that is not possible, or if an image of
+    /// another would divide by what is 0 then. A solution by a division or a root is taken if it is meant.
     pub(super) fn solve(
         &mut self,
         graph: &mut Graph,
@@ -201,7 +202,7 @@ impl Manifold {
         for (symbol, image) in &images {
             self.insert(graph, *symbol, *image);
         }
-        let is_defined = self.is_defined(graph);
+        let is_defined = self.is_defined(graph, &before.images);
         if !is_defined {
             *self = before;
         }
