@@ -7,6 +7,7 @@ mod clock;
 mod connection;
 mod distribution;
 mod fibres;
+mod first_digits;
 pub mod hamel;
 pub mod independent_velocities;
 mod invariant_frame;
