@@ -23,4 +23,5 @@ mod holonomic {
     mod steered_bicycle;
     mod stewart;
     mod volumes;
+    mod windows;
 }
