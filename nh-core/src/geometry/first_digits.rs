@@ -3,7 +3,7 @@
 use crate::algebra::{Residue, ResidueSteps, StepsModulo};
 use crate::limits;
 
-/// First digits that a search lifts at most.
+/// At most so many first digits are given by one search.
 const LEAVES: usize = 24;
 /// Steps modulo a small number that count as one unit of work.
 const STEPS_PER_UNIT: u64 = 8;

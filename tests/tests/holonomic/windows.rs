@@ -45,27 +45,33 @@ fn start() -> WindowsState {
     WindowsState { x: [0.0, 1.0, 2.0, 3.0], y: [1.0; 4], x_dot: [1.0; 4], y_dot: [0.0; 4] }
 }
 
-/// Ten seconds, in which all rods are in one line again and again. The library asks for 0.1 J.
+/// Ten seconds, in which all rods are in one line again and again: at most four times the errors that the same method at
+/// the same tolerance makes with the angle alone. The library asks for 0.1 J.
 #[test]
 fn runs_pass_where_all_rods_are_in_line() {
     let method = |tolerance: f64| Dopri5::new().rtol(tolerance).atol(tolerance);
     let begin = TurningState { angle: FRAC_PI_2, angle_dot: -1.0 };
-    let mut turning = Integrator::new(TURNING, method(1e-12), 0.0, begin);
-    turning.advance_to(10.0).unwrap();
-    let angle = turning.state().angle;
-    // ten times in line at least
+    let turned = |tolerance: f64| {
+        let mut run = Integrator::new(TURNING, method(tolerance), 0.0, begin);
+        run.advance_to(10.0).unwrap();
+        *run.state()
+    };
+    let angle = turned(1e-12).angle;
+    // ten times in line
     assert!(angle < -9.0 * PI, "{angle}");
-    for tolerance in [1e-5, 1e-6, 1e-7, 1e-8] {
+    for tolerance in [1e-5, 1e-6, 1e-7, 1e-8, 1e-9] {
+        let alone = turned(tolerance);
+        let lost_alone = (TURNING.energy(10.0, &alone) - TURNING.energy(0.0, &begin)).abs();
         let mut run = Integrator::new(WINDOWS, method(tolerance), 0.0, start());
         run.advance_to(10.0).unwrap();
         let state = run.state();
         for (place, (x, y)) in (0_u8..).zip(state.x.iter().zip(&state.y)) {
             let off = (x - f64::from(place) - angle.cos()).hypot(y - angle.sin());
-            assert!(off < 1e3 * tolerance, "{tolerance} {off} {state:?}");
+            assert!(off < 4.0 * (alone.angle - angle).abs(), "{tolerance} {off} {state:?}");
         }
         let left = WINDOWS.constraint_residual(10.0, state);
         assert!(left.upright.iter().chain(&left.top).all(|left| left.abs() < 1e-14), "{tolerance} {left:?}");
-        let lost = WINDOWS.energy(10.0, state) - WINDOWS.energy(0.0, &start());
-        assert!(lost.abs() < 2e3 * tolerance, "{tolerance} {lost}");
+        let lost = (WINDOWS.energy(10.0, state) - WINDOWS.energy(0.0, &start())).abs();
+        assert!(lost < 4.0 * lost_alone && lost < 0.1, "{tolerance} {lost}");
     }
 }
