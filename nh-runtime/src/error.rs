@@ -132,7 +132,8 @@ impl Display for ProjectionError {
             f,
             "the projection left a residual of {residual:?} after {iterations} iterations: the state is too \
              far from the constraints, or from the level of the invariants, or these are dependent there; \
-             start nearer to them, or take smaller steps"
+             start nearer to them, or take smaller steps; past a place where they are dependent, as where all links \
+             are in line, longer steps"
         )
     }
 }

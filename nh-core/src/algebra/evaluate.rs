@@ -32,6 +32,22 @@ impl Bounded {
         Self::rounded(number.to_f64(), 0.0)
     }
 
+    /// a/b, where b is certainly not zero.
+    pub(super) fn over(self, b: Self) -> Self {
+        let value = self.value / b.value;
+        let error = (self.error + value.abs() * b.error) / (b.value.abs() - b.error);
+        Self::rounded(value, error)
+    }
+
+    /// a − b c.
+    pub(super) fn less_product(self, b: Self, c: Self) -> Self {
+        let product = Self::rounded(
+            b.value * c.value,
+            b.value.abs() * c.error + c.value.abs() * b.error + b.error * c.error,
+        );
+        Self::rounded(self.value - product.value, self.error + product.error)
+    }
+
     /// Whether the exact value certainly differs from zero.
     #[must_use]
     pub fn is_certainly_nonzero(self) -> bool {

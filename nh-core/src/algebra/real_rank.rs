@@ -2,12 +2,27 @@
 
 use super::ball::{Ball, Bits, NoBall};
 use super::enclosure::{Evaluated, Point};
+use super::evaluate::Bounded;
 use super::exact::{Decision, Form, Number};
 use super::graph::Graph;
 use super::node::{Function, Node};
 use super::number::Rational;
 use super::zero_test::sample;
 use crate::id::{ExprId, SymbolId};
+use crate::limits;
+
+/// The points at which ranks are looked for with enclosures.
+const LOOKS: u64 = 8;
+
+/// The value of a symbol at one of the points with short numbers.
+fn sampled(symbols: &[SymbolId], attempt: u64, symbol: SymbolId) -> f64 {
+    sample(attempt, symbols.iter().position(|known| *known == symbol).unwrap_or(0))
+}
+
+/// The number of rows or of columns, whichever is smaller.
+fn full_rank(matrix: &[Vec<ExprId>]) -> usize {
+    matrix.len().min(matrix.first().map_or(0, Vec::len))
+}
 
 impl Graph {
     /// Whether the field of the zero test may take numbers for independent that are not: roots, and
@@ -37,6 +52,10 @@ impl Graph {
 
     /// The rank at generic points of a matrix for which the field found `in_field`.
     pub(super) fn rank_on_reals(&self, matrix: &[Vec<ExprId>], in_field: usize) -> Result<usize, String> {
+        // more than all rows or columns there are not: one point shows it, mostly with the digits of floating point
+        if in_field == full_rank(matrix) && self.is_full_in_floating_point(matrix) {
+            return Ok(in_field);
+        }
         if let Some(rank) = self.exact_rank(matrix) {
             return Ok(rank);
         }
@@ -50,20 +69,35 @@ impl Graph {
 
     /// The rank at generic points of a matrix that has no values in the field.
     pub(super) fn rank_without_field(&self, matrix: &[Vec<ExprId>]) -> Option<usize> {
-        let full = matrix.len().min(matrix.first().map_or(0, Vec::len));
+        let full = full_rank(matrix);
+        if self.is_full_in_floating_point(matrix) {
+            return Some(full);
+        }
         self.exact_rank(matrix).or_else(|| self.certain_rank(matrix).filter(|rank| *rank == full))
+    }
+
+    /// Whether values and bounds on their errors show that the rank is full, at one of some points.
+    fn is_full_in_floating_point(&self, matrix: &[Vec<ExprId>]) -> bool {
+        let entries: Vec<ExprId> = matrix.iter().flatten().copied().collect();
+        let symbols = self.symbols_in(&entries);
+        let points = (0..LOOKS).map(|attempt| {
+            let symbols = &symbols;
+            move |symbol: SymbolId| sampled(symbols, attempt, symbol)
+        });
+        self.evaluate_each(&entries, points).any(|values| {
+            let mut values = values.into_iter();
+            is_full(matrix.iter().map(|row| values.by_ref().take(row.len()).collect()).collect())
+        })
     }
 
     /// The rank that is certain from enclosures at some points; `None` where there are none.
     fn certain_rank(&self, matrix: &[Vec<ExprId>]) -> Option<usize> {
-        const POINTS: u64 = 8;
         const DIGITS: Bits = 256;
         let entries: Vec<ExprId> = matrix.iter().flatten().copied().collect();
         let symbols = self.symbols_in(&entries);
-        let found = (0..POINTS).filter_map(|attempt| {
+        let found = (0..LOOKS).filter_map(|attempt| {
             let value = |symbol: SymbolId| {
-                let index = symbols.iter().position(|known| *known == symbol).unwrap_or(0);
-                Rational::of_f64(sample(attempt, index)).unwrap_or(Rational::ONE)
+                Rational::of_f64(sampled(&symbols, attempt, symbol)).unwrap_or(Rational::ONE)
             };
             let evaluated = self.evaluate_exactly(&entries, Point::Given(&value), DIGITS).ok()?;
             let mut balls = evaluated.values.into_iter().map(|value| value.ball);
@@ -157,6 +191,34 @@ fn number_of(form: Form, degree: u64, bits: Bits) -> Result<Number, NoBall> {
         Decision::NonZero => Err(NoBall::TooLong),
         Decision::Digits(_) => Err(NoBall::TooWide),
     }
+}
+
+/// Whether the rank is certainly full, by elimination with the largest entry that is left as pivot.
+fn is_full(mut rows: Vec<Vec<Bounded>>) -> bool {
+    let columns = rows.first().map_or(0, Vec::len);
+    let full = rows.len().min(columns);
+    let mut done = Vec::with_capacity(full);
+    for rank in 0..full {
+        let free = (rank..rows.len()).flat_map(|row| (0..columns).map(move |column| (row, column)));
+        let candidates = free.filter(|(row, column)| {
+            !done.contains(column) && rows[*row][*column].is_certainly_nonzero()
+        });
+        let size = |&(row, column): &(usize, usize)| rows[row][column].value.abs();
+        let Some((row, column)) = candidates.max_by(|a, b| size(a).total_cmp(&size(b))) else {
+            return false;
+        };
+        rows.swap(rank, row);
+        done.push(column);
+        let leading = rows[rank].clone();
+        limits::spend((rows.len() - rank) * columns / 8);
+        for row in rows.iter_mut().skip(rank + 1) {
+            let factor = row[column].over(leading[column]);
+            for (entry, lead) in row.iter_mut().zip(&leading) {
+                *entry = entry.less_product(factor, *lead);
+            }
+        }
+    }
+    true
 }
 
 /// A rank that is certain, by elimination.

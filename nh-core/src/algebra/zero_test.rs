@@ -38,6 +38,11 @@ const POINTS: u64 = 2;
 const POINTS_WITH_ROOTS: u64 = 80;
 /// Failed points (poles, roots outside the field) before giving up, per point wanted.
 const PATIENCE: u64 = 24;
+/// Failed points before giving up where there was a value at none, a quarter of them without regard to roots: what
+/// divides by zero, or has the root of a negative number, does so everywhere.
+const WITHOUT_VALUE: u64 = 4 * PATIENCE;
+/// The same for points with the roots of real numbers, which are dear.
+const WITHOUT_REAL_VALUE: u64 = PATIENCE;
 /// Points tried for a witness.
 const WITNESSES: u64 = 24;
 /// Points tried for a witness with more digits, and these digits.
@@ -97,19 +102,19 @@ impl Graph {
         if let Some(witness) = self.witness(expression).or_else(|| self.closer_witness(expression)) {
             return Verdict::NonZero(witness);
         }
-        match in_field {
+        // nothing else vanishes on the reals that does not in the field, or divides by zero there and not on the reals
+        let may_vanish = || matches!(in_field, Err(NoValue::Ever(_))) || self.is_beyond_field(&[expression]);
+        match &in_field {
             // the sign of a root on the reals had the last word: `sqrt(x^2) − x`
             Ok(true) => Verdict::Zero,
-            // nothing else vanishes on the reals that does not in the field
-            _ if (in_field.is_err() || self.is_beyond_field(&[expression]))
-                && self.vanishes_on_reals(expression) =>
-            {
-                Verdict::Zero
-            }
+            _ if may_vanish() && self.vanishes_on_reals(expression) => Verdict::Zero,
             Ok(false) => {
                 Verdict::Unknown("it is zero at every point tried, but not by any identity known here".into())
             }
-            Err(reason) => Verdict::Unknown(reason),
+            Err(NoValue::Here) => Verdict::Unknown(
+                "it has no value at the points tried (a division by zero, or the root of a negative number)".into(),
+            ),
+            Err(NoValue::Ever(reason)) => Verdict::Unknown(reason.clone()),
         }
     }
 
@@ -183,6 +188,9 @@ impl Graph {
         [false, true].into_iter().any(|tied| {
             let mut seen = 0;
             for seed in 0..REAL_POINTS * PATIENCE {
+                if seen == 0 && seed == WITHOUT_REAL_VALUE {
+                    return false;
+                }
                 match self.vanishes_at(expression, Point::Random { seed, tied }) {
                     Ok(true) => seen += 1,
                     Err(NoBall::Undefined) => {}
@@ -230,11 +238,14 @@ impl Graph {
     }
 
     /// Whether the expression vanishes at every point tried of the field.
-    fn vanishes_in_field(&self, expression: ExprId, has_roots: bool) -> Result<bool, String> {
+    fn vanishes_in_field(&self, expression: ExprId, has_roots: bool) -> Result<bool, NoValue> {
         let wanted = if has_roots { POINTS_WITH_ROOTS } else { POINTS };
         let mut seen = 0;
         let mut radicands = None;
         for seed in 0..wanted * PATIENCE {
+            if seen == 0 && seed == WITHOUT_VALUE {
+                break;
+            }
             // where few points have roots for all radicands, those to come are chosen so that they have
             let point = if has_roots && seed >= PATIENCE && seen < seed / 8 {
                 let radicands = radicands.get_or_insert_with(|| Radicands::of(self, &[expression], &[]));
@@ -246,14 +257,13 @@ impl Graph {
                 Ok(values) if values[0] != super::field::Residue::ZERO => return Ok(false),
                 Ok(_) => seen += 1,
                 Err(NoValue::Here) => {}
-                Err(NoValue::Ever(reason)) => return Err(reason),
+                Err(ever) => return Err(ever),
             }
             if seen == wanted {
                 return Ok(true);
             }
         }
-        Err("it has no value at the points tried (a division by zero, or the root of a negative number)"
-            .into())
+        Err(NoValue::Here)
     }
 
     /// A point with short numbers where the expression is certainly not zero.

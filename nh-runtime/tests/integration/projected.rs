@@ -147,7 +147,7 @@ fn a_failed_projection_keeps_the_last_good_state() {
             .to_string(),
         "at t = 0.5 the projection left a residual of 0.25 after 50 iterations: the state is too far from the \
          constraints, or from the level of the invariants, or these are dependent there; start nearer to them, \
-         or take smaller steps"
+         or take smaller steps; past a place where they are dependent, as where all links are in line, longer steps"
     );
 }
 
