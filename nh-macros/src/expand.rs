@@ -44,7 +44,8 @@ pub(crate) fn nonholonomic(attribute: TokenStream, item: TokenStream) -> TokenSt
     let errors: Vec<_> = match derived {
         Ok(Ok(items)) => match collision(&items) {
             None => return items,
-            Some(error) => vec![error],
+            // the names would meet again in stubs: the struct stands alone
+            Some(error) => return with_errors(&[error], &syntax::without_own_attributes(item)),
         },
         Ok(Err(violations)) => {
             violations.into_iter().map(|violation| origins.diagnostic(violation)).collect()

@@ -200,9 +200,8 @@ fn is_full(mut rows: Vec<Vec<Bounded>>) -> bool {
     let mut done = Vec::with_capacity(full);
     for rank in 0..full {
         let free = (rank..rows.len()).flat_map(|row| (0..columns).map(move |column| (row, column)));
-        let candidates = free.filter(|(row, column)| {
-            !done.contains(column) && rows[*row][*column].is_certainly_nonzero()
-        });
+        let candidates =
+            free.filter(|(row, column)| !done.contains(column) && rows[*row][*column].is_certainly_nonzero());
         let size = |&(row, column): &(usize, usize)| rows[row][column].value.abs();
         let Some((row, column)) = candidates.max_by(|a, b| size(a).total_cmp(&size(b))) else {
             return false;

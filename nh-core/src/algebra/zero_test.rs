@@ -3,8 +3,8 @@
 //! `Zero` is proved by random points of a large prime field: a non-zero rational function of
 //! degree d vanishes at one with probability at most d/P < 2⁻⁴⁰ for any d that occurs, so two
 //! points leave less than 2⁻⁸⁰ (Schwartz–Zippel). A square root has two branches, between which
-//! the field chooses by chance; expressions with roots are tested at 80 points, and where they do
-//! not vanish there, they are tested at random points with the roots of real numbers, exactly
+//! the field chooses by chance; expressions with roots are tested at 80 points unless these are proved
+//! to be independent, and where they do not vanish there, they are tested at random points with the roots of real numbers, exactly
 //! (`enclosure.rs`). `NonZero` is proved at a point where the value exceeds its error bound, in floating
 //! point or with as many digits as it takes. Expressions without symbols are decided by these
 //! digits alone, where a bound says how many there have to be (`exact.rs`).
@@ -13,7 +13,7 @@ use super::ball::{Bits, NoBall};
 use super::enclosure::Point;
 use super::exact::Decision;
 use super::graph::Graph;
-use super::modular::{FieldPoint, NoValue};
+use super::modular::{FieldPass, FieldPoint, NoValue};
 use super::node::Node;
 use super::square_points::Radicands;
 use super::verdict::{Verdict, Witness};
@@ -36,11 +36,14 @@ impl Witness {
 const POINTS: u64 = 2;
 /// Points for an expression with square roots.
 const POINTS_WITH_ROOTS: u64 = 80;
+/// Points for an expression whose square roots are independent (`independent_roots.rs`): up to six of them take twelve
+/// bits of what a point proves.
+const POINTS_WITH_INDEPENDENT_ROOTS: u64 = 3;
 /// Failed points (poles, roots outside the field) before giving up, per point wanted.
 const PATIENCE: u64 = 24;
-/// Failed points before giving up where there was a value at none, a quarter of them without regard to roots: what
+/// Failed points before giving up where there was a value at none, half of them without regard to roots: what
 /// divides by zero, or has the root of a negative number, does so everywhere.
-const WITHOUT_VALUE: u64 = 4 * PATIENCE;
+const WITHOUT_VALUE: u64 = 2 * PATIENCE;
 /// The same for points with the roots of real numbers, which are dear.
 const WITHOUT_REAL_VALUE: u64 = PATIENCE;
 /// Points tried for a witness.
@@ -103,7 +106,12 @@ impl Graph {
             return Verdict::NonZero(witness);
         }
         // nothing else vanishes on the reals that does not in the field, or divides by zero there and not on the reals
-        let may_vanish = || matches!(in_field, Err(NoValue::Ever(_))) || self.is_beyond_field(&[expression]);
+        let may_vanish = || match in_field {
+            Err(NoValue::Ever(_)) => true,
+            // roots that are independent are no functions of each other on the reals either
+            Ok(false) => self.is_beyond_field(&[expression]) && !self.has_independent_roots(expression),
+            _ => self.is_beyond_field(&[expression]),
+        };
         match &in_field {
             // the sign of a root on the reals had the last word: `sqrt(x^2) − x`
             Ok(true) => Verdict::Zero,
@@ -112,7 +120,8 @@ impl Graph {
                 Verdict::Unknown("it is zero at every point tried, but not by any identity known here".into())
             }
             Err(NoValue::Here) => Verdict::Unknown(
-                "it has no value at the points tried (a division by zero, or the root of a negative number)".into(),
+                "it has no value at the points tried (a division by zero, or the root of a negative number)"
+                    .into(),
             ),
             Err(NoValue::Ever(reason)) => Verdict::Unknown(reason.clone()),
         }
@@ -237,6 +246,19 @@ impl Graph {
         found
     }
 
+    /// Whether there are roots in the expression, of more than numbers, that are proved to be independent.
+    fn has_independent_roots(&self, expression: ExprId) -> bool {
+        let roots = [expression];
+        let division = self.angle_division(&roots);
+        let pass = |point| FieldPass::new(self, point, division);
+        self.independent_roots(&roots, &[], pass).is_some_and(|found| !found.radicands.is_empty())
+    }
+
+    /// Whether the expression has a value at one of the points tried of the field, or may have one elsewhere.
+    pub(crate) fn has_value(&self, expression: ExprId) -> bool {
+        self.vanishes_in_field(expression, self.has_roots(expression)) != Err(NoValue::Here)
+    }
+
     /// Whether the expression vanishes at every point tried of the field.
     fn vanishes_in_field(&self, expression: ExprId, has_roots: bool) -> Result<bool, NoValue> {
         let wanted = if has_roots { POINTS_WITH_ROOTS } else { POINTS };
@@ -259,7 +281,11 @@ impl Graph {
                 Err(NoValue::Here) => {}
                 Err(ever) => return Err(ever),
             }
-            if seen == wanted {
+            if seen == wanted
+                || has_roots
+                    && seen == POINTS_WITH_INDEPENDENT_ROOTS
+                    && self.has_independent_roots(expression)
+            {
                 return Ok(true);
             }
         }

@@ -8,13 +8,25 @@ use crate::mechanics::Flow;
 use crate::model::Model;
 use crate::violation::{Law, Violation};
 
-/// Judges the claims of the declaration; `claims` are they in the variables of the state.
-pub fn claims(model: &mut Model, claims: &[ExprId], mut flow: Flow, manifold: &Manifold) -> Vec<Violation> {
+/// Judges the claims of the declaration; `claims` are they in the variables of the state. The manifold is larger than the
+/// set where claims are made if there are position constraints that could not be solved.
+pub fn claims(
+    model: &mut Model,
+    claims: &[ExprId],
+    mut flow: Flow,
+    (manifold, unsolved): (&Manifold, &[ExprId]),
+) -> Vec<Violation> {
     let mut violations = Vec::new();
     for (index, claim) in claims.iter().enumerate() {
         let graph = &mut model.graph;
         let rate = flow.derivative(graph, *claim);
-        let verdict = manifold.zero_test(graph, rate);
+        let mut verdict = manifold.zero_test(graph, rate);
+        if let (Verdict::NonZero(_), Some(function)) = (&verdict, unsolved.first()) {
+            let function = shown(graph, *function);
+            verdict = Verdict::Unknown(format!(
+                "no points were found that stand for all where {function} = 0, so that it was asked elsewhere"
+            ));
+        }
         let rate = if verdict.is_zero() { rate } else { graph.simplify(rate) };
         let declared = &model.claims[index];
         let not_conserved = format!("`{}` is not conserved", declared.name);

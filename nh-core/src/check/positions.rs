@@ -310,6 +310,24 @@ fn fixes(
     (!fixed.is_empty()).then(|| listed(&fixed))
 }
 
+/// What the others leave of an equation where they hold, if that is not 0 and the same everywhere there.
+fn left_of(model: &mut Model, kept: &[usize], value: ExprId, found: &Positions) -> Option<ExprId> {
+    let functions: Vec<ExprId> = kept.iter().map(|index| model.positions[*index].value).collect();
+    let coordinates: Vec<SymbolId> = model.coordinates.iter().map(|c| c.symbol).collect();
+    let graph = &mut model.graph;
+    let others = Manifold::of_positions(graph, &found.base, &functions, [&coordinates, &[]]);
+    let restricted = others.manifold.restrict(graph, value);
+    let left = graph.simplify(restricted);
+    let is_left = others.unsolved.is_empty()
+        && graph.zero_test(left).is_nonzero()
+        && graph.symbols_in(&[left]).into_iter().all(|symbol| {
+            let is_given = !coordinates.contains(&symbol) && found.base.is_outside_charts(symbol);
+            let slope = graph.partial(left, symbol);
+            is_given || graph.zero_test(slope).is_zero()
+        });
+    is_left.then_some(left)
+}
+
 /// What becomes of an equation whose row depends on earlier ones.
 enum Follows {
     Dropped(String),
@@ -340,6 +358,15 @@ fn followed(model: &mut Model, rows: &Matrix, kept: &[usize], index: usize, foun
             way_out: "change or leave out one of them; a parameter that follows from others is written as such, in \
                       a `let`"
                 .into(),
+        });
+    }
+    if let Some(left) = left_of(model, kept, value, found) {
+        return Follows::Refused(Violation {
+            law,
+            origin,
+            what: format!("{name} contradicts the position constraints before it"),
+            evidence: format!("where those hold, it says {} = 0", shown(&model.graph, left)),
+            way_out: "change or leave out one of them".into(),
         });
     }
     let graph = &mut model.graph;

@@ -7,7 +7,7 @@
 
 use super::divisions::{Divisions, OTHER_DIVISOR, are_those_of_the_procedure};
 use super::ledger::Proof;
-use super::proof::{Defect, at_points, bits_of_a_point, defined, run};
+use super::proof::{Defect, at_points, bits_without_branches, defined, has_branches, run, with_branches};
 use crate::algebra::{
     Degree, Degrees, Echelon, FieldPass, FieldPoint, Function, Graph, Radicand, Radicands, Rational, Residue,
 };
@@ -15,7 +15,9 @@ use crate::id::{ExprId, Id, SymbolId, Table};
 use crate::limits;
 use crate::mechanics::Procedure;
 use crate::program::{Program, Split, Step, Value};
+use num_integer::Integer;
 use rustc_hash::FxHashMap;
+use std::cell::Cell;
 
 /// Proves that a program computes what a procedure says, wherever that has a value.
 ///
@@ -76,8 +78,9 @@ fn proved_with(
     for (index, (_, program)) in parts.iter().enumerate() {
         degree += degree_of(graph, program, angles.get(index), division);
     }
-    let bits = bits_of_a_point(graph, &roots, degree)?;
-    let radicands = Radicands::of(graph, &roots, &defined(procedure));
+    let bits = bits_without_branches(degree)?;
+    let bound = defined(procedure);
+    let radicands = Radicands::of(graph, &roots, &bound);
     let pass = |point: FieldPoint| {
         if angles.is_empty() {
             FieldPass::by_value(graph, point)
@@ -85,39 +88,62 @@ fn proved_with(
             FieldPass::without_arcs(graph, point, division)
         }
     };
+    let has_branches = has_branches(graph, &roots);
+    let independent = if has_branches { graph.independent_roots(&roots, &bound, pass) } else { None };
+    let known = independent.as_ref().map_or_else(Vec::new, |roots| roots.radicands.clone());
+    let bits = if has_branches { with_branches(bits, independent.as_ref()) } else { bits };
     let mut divisions: Vec<Divisions> = Vec::new();
-    let proof = at_points(
-        bits,
-        |seed| radicands.point_in(seed, pass),
-        |point| {
-            let mut own = pass(point.clone());
-            let wanted = run(&mut own, procedure)?;
-            let mut pass = pass(point);
-            let (mut outputs, mut values) = (Vec::new(), Vec::new());
-            for (index, (symbols, program)) in parts.iter().enumerate() {
-                let all = Run::new(program, &mut pass, angles.get(index), division).values()?;
-                outputs = program.outputs.iter().map(|output| all[*output]).collect();
-                values.push(all);
-                for (symbol, value) in symbols.iter().zip(&outputs) {
-                    if !pass.choose(*symbol, *value) {
-                        return Err(Defect::Wrong("a symbol has two values".into()));
-                    }
+    let takes_others = Cell::new(false);
+    let seeds = |seed| radicands.point_in(seed, pass);
+    let mut agrees = |point: FieldPoint| {
+        let mut own = pass(point.clone());
+        let wanted = run(&mut own, procedure)?;
+        let radicands = own.evaluate(&known)?;
+        let mut pass = pass(point);
+        let (mut outputs, mut values) = (Vec::new(), Vec::new());
+        for (index, (symbols, program)) in parts.iter().enumerate() {
+            let all = Run::new(program, &mut pass, angles.get(index), division).values()?;
+            outputs = program.outputs.iter().map(|output| all[*output]).collect();
+            if independent.is_some() && takes_roots_of_others(program, &all, &radicands) {
+                takes_others.set(true);
+            }
+            values.push(all);
+            for (symbol, value) in symbols.iter().zip(&outputs) {
+                if !pass.choose(*symbol, *value) {
+                    return Err(Defect::Wrong("a symbol has two values".into()));
                 }
             }
-            if outputs != wanted {
-                return Err(Defect::Wrong("it computes something else".into()));
-            }
-            if divisions.len() < 2 {
-                divisions.push(Divisions::at((graph, procedure), &mut own, values));
-            }
-            Ok(())
-        },
-    )?;
+        }
+        if outputs != wanted {
+            return Err(Defect::Wrong("it computes something else".into()));
+        }
+        if divisions.len() < 2 {
+            divisions.push(Divisions::at((graph, procedure), &mut own, values));
+        }
+        Ok(())
+    };
+    let mut proof = at_points(bits, seeds, &mut agrees)?;
+    if takes_others.get() {
+        // nothing is known of these
+        proof = at_points(1.0, seeds, &mut agrees)?;
+    }
     let programs: Vec<&Program> = parts.iter().map(|(_, program)| *program).collect();
     match <[Divisions; 2]>::try_from(divisions) {
         Ok(points) if are_those_of_the_procedure(&programs, &points) => Ok(proof),
         _ => Err(Defect::Unknown(OTHER_DIVISOR.into())),
     }
+}
+
+/// Whether a program takes even roots of more than numbers that are not among radicands, by their values at a point.
+fn takes_roots_of_others(program: &Program, values: &Table<Value, Residue>, radicands: &[Residue]) -> bool {
+    program.steps.iter().any(|step| {
+        let radicand = match step {
+            Step::Sqrt(x) => x,
+            Step::PowReal(x, exponent) if exponent.denominator().is_even() => x,
+            _ => return false,
+        };
+        !matches!(program.steps[*radicand], Step::Constant(_)) && !radicands.contains(&values[*radicand])
+    })
 }
 
 /// The argument of a periodic function or an exponential.

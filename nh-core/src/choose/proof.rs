@@ -3,13 +3,14 @@
 //!
 //! Equality is asked as functions of the whole state. Points are taken until the probability that a wrong form
 //! passes is below 2⁻⁸⁰: at each by its degree over the number of elements of the field (`algebra/degree.rs`),
-//! and by one half only where there are roots, between whose branches the field chooses by chance.
+//! and by one half only where there are roots that are not proved to be independent (`algebra/independent_roots.rs`), between
+//! whose branches the field chooses by chance.
 
 use super::ledger::Proof;
 use super::reference::{Balance, Instant, Reference, inner};
 use crate::algebra::{
-    Degrees, Echelon, FieldPass, FieldPoint, Function, Function2, Graph, Matrix, NoValue, Node, Radicands,
-    Residue,
+    Degrees, Echelon, FieldPass, FieldPoint, Function, Function2, Graph, IndependentRoots, Matrix, NoValue,
+    Node, Radicands, Residue,
 };
 use crate::id::{ExprId, SymbolId};
 use crate::mechanics::{Definition, Procedure, ReducedEquations};
@@ -85,6 +86,17 @@ impl Claim<'_> {
         }
     }
 
+    /// The symbols of its intermediate results.
+    fn defined(&self) -> Vec<SymbolId> {
+        match self {
+            Self::Motion(motion) => defined(motion),
+            Self::Equations(equations, _) => defined(&equations.definitions),
+            Self::Multipliers(motion, forces, _) | Self::Reactions(motion, forces) => {
+                [defined(motion), defined(forces)].concat()
+            }
+        }
+    }
+
     /// A bound on the degrees of what is computed.
     fn degree(&self, degrees: &mut Degrees) -> f64 {
         match self {
@@ -111,7 +123,8 @@ pub(crate) fn prove(graph: &Graph, reference: &Reference, claim: &Claim) -> Resu
     let roots = [reference.roots(), claim.roots()].concat();
     let division = graph.angle_division(&roots);
     let degree = claim.degree(&mut Degrees::new(graph, division));
-    let bits = bits_of_a_point(graph, &roots, reference.degree(graph, division, degree))?;
+    let bound = [reference.determined(), claim.defined()].concat();
+    let bits = bits_of_a_point(graph, (&roots, &bound), reference.degree(graph, division, degree), division)?;
     let radicands = Radicands::of(graph, &reference.roots(), &reference.determined());
     let outcome = at_points(
         bits,
@@ -132,7 +145,9 @@ pub(crate) fn prove_equal(graph: &Graph, one: &Procedure, other: &Procedure) -> 
     let roots = [one.expressions(), other.expressions()].concat();
     let division = graph.angle_division(&roots);
     let degrees = || Degrees::new(graph, division);
-    let bits = bits_of_a_point(graph, &roots, one.degree(&mut degrees()) + other.degree(&mut degrees()))?;
+    let bound = [defined(one), defined(other)].concat();
+    let degree = one.degree(&mut degrees()) + other.degree(&mut degrees());
+    let bits = bits_of_a_point(graph, (&roots, &bound), degree, division)?;
     at_points(bits, FieldPoint::random, |point| {
         let evaluate = |procedure| run(&mut FieldPass::new(graph, point.clone(), division), procedure);
         if evaluate(one)? == evaluate(other)? {
@@ -142,14 +157,35 @@ pub(crate) fn prove_equal(graph: &Graph, one: &Procedure, other: &Procedure) -> 
     })
 }
 
-/// What a point proves of a function of a degree: log₂ of one over the probability that it misses a defect.
-pub(super) fn bits_of_a_point(graph: &Graph, roots: &[ExprId], degree: f64) -> Result<f64, Defect> {
+/// What a point proves of a function of a degree, some of whose symbols are bound to others: log₂ of one over the
+/// probability that it misses a defect.
+pub(super) fn bits_of_a_point(
+    graph: &Graph,
+    (roots, bound): (&[ExprId], &[SymbolId]),
+    degree: f64,
+    division: i64,
+) -> Result<f64, Defect> {
+    let bits = bits_without_branches(degree)?;
+    if !has_branches(graph, roots) {
+        return Ok(bits);
+    }
+    let pass = |point| FieldPass::new(graph, point, division);
+    Ok(with_branches(bits, graph.independent_roots(roots, bound, pass).as_ref()))
+}
+
+/// The same without regard to roots.
+pub(super) fn bits_without_branches(degree: f64) -> Result<f64, Defect> {
     let bits = FIELD - degree.max(1.0).log2();
     if bits.is_nan() || bits < 1.0 {
         let reason = "its degree as a rational function is too large for the field that proofs are made in";
         return Err(Defect::Unknown(reason.into()));
     }
-    Ok(if has_branches(graph, roots) { 1.0 } else { bits })
+    Ok(bits)
+}
+
+/// What is left of it where there are roots: one bit, or more if they are proved to be independent.
+pub(super) fn with_branches(bits: f64, roots: Option<&IndependentRoots>) -> f64 {
+    roots.map_or(1.0, |roots| (bits - roots.bits()).max(1.0))
 }
 
 /// Whether there are functions whose value in the field depends on what is a square there.

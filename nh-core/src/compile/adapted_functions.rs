@@ -128,7 +128,7 @@ fn proved_claims(
     let claims = claims_in_state(model, motion, restriction);
     if !claims.is_empty() {
         let flow = Flow::of(&mut model.graph, derivative, system, velocities);
-        fence(check::claims(model, &claims, flow, &positions.manifold))?;
+        fence(check::claims(model, &claims, flow, (&positions.manifold, &positions.unsolved)))?;
     }
     Ok(claims)
 }

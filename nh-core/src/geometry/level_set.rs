@@ -5,7 +5,7 @@
 //! open: the points found are then those of a larger set.
 
 use super::manifold::{Ease, Manifold};
-use crate::algebra::{Graph, Node, Verdict};
+use crate::algebra::{Graph, Node, Verdict, sample};
 use crate::id::{ExprId, SymbolId};
 use crate::limits::{attempt, spent};
 
@@ -67,6 +67,7 @@ impl Manifold {
         ];
         ways.extend(further);
         let mut found = NearManifold { manifold: base.clone(), unsolved: (0..functions.len()).collect() };
+        let moving = [coordinates, &base.chart].concat();
         let start = spent();
         while !found.unsolved.is_empty() {
             let left = SEARCH.saturating_sub(spent() - start);
@@ -85,7 +86,7 @@ impl Manifold {
                             let is_meant = |graph: &mut Graph, solution| {
                                 is_meant(graph, *function, solution, parameters)
                             };
-                            manifold.solve(graph, *function, unknowns, *ease, &is_meant)
+                            manifold.solve(graph, *function, (unknowns, &moving), *ease, &is_meant)
                         });
                         solved.map(|(index, _)| *index)
                     })
@@ -126,7 +127,8 @@ fn is_meant(
     parameters: &[SymbolId],
 ) -> bool {
     if parameters.contains(&symbol)
-        && graph.symbols_in(&[image]).iter().all(|other| parameters.contains(other))
+        && (graph.symbols_in(&[image]).iter().all(|other| parameters.contains(other))
+            || !is_real(graph, image))
     {
         return false;
     }
@@ -136,6 +138,17 @@ fn is_meant(
             !graph.zero_test(slope).is_zero()
         };
         other == symbol || parameters.contains(&other) || depends(image) || !depends(function)
+    })
+}
+
+/// Whether a value is a number at one of some points.
+fn is_real(graph: &Graph, image: ExprId) -> bool {
+    const POINTS: u64 = 24;
+    let symbols = graph.symbols_in(&[image]);
+    let mut evaluator = graph.evaluator(&[image]);
+    (0..POINTS).any(|point| {
+        let at = |symbol| sample(point, symbols.iter().position(|known| *known == symbol).unwrap_or(0));
+        evaluator.at(at)[0].value.is_finite()
     })
 }
 

@@ -4,6 +4,7 @@
 //! Both are parametrised rationally where possible, by a square root where need be, so that a
 //! claim on the manifold becomes a claim about the parameters.
 
+use super::common_zeros::vanish_together;
 use crate::algebra::{Graph, Matrix, Node, Rational, Substitution, Verdict, Witness};
 use crate::id::{ExprId, SymbolId};
 
@@ -13,6 +14,9 @@ pub struct Manifold {
     pub(super) images: Vec<(SymbolId, ExprId)>,
     /// The symbols in the images that are parameters of a chart.
     pub(super) chart: Vec<SymbolId>,
+    /// A function of those that define it which vanishes elsewhere, too, as a product does: what holds on this manifold
+    /// need not hold wherever the functions vanish.
+    in_parts: Option<ExprId>,
 }
 
 impl Manifold {
@@ -26,7 +30,7 @@ impl Manifold {
     #[must_use]
     pub fn of_images(graph: &Graph, images: impl IntoIterator<Item = (SymbolId, ExprId)>) -> Self {
         let moved = |(symbol, image): &(SymbolId, ExprId)| graph.as_symbol(*image) != Some(*symbol);
-        Self { images: images.into_iter().filter(moved).collect(), chart: Vec::new() }
+        Self { images: images.into_iter().filter(moved).collect(), ..Self::default() }
     }
 
     /// Where all `functions` vanish, solved for some of the symbols `unknowns`.
@@ -39,16 +43,23 @@ impl Manifold {
         }
         // a sphere takes all its coordinates; where others restrict these as well they come first
         let orders = [[Ease::Sphere, Ease::Linear, Ease::Root], [Ease::Linear, Ease::Sphere, Ease::Root]];
-        let solved = Self::solved_in_order(graph, functions, unknowns, orders[0]);
-        solved
-            .or_else(|index| Self::solved_in_order(graph, functions, unknowns, orders[1]).map_err(|_| index))
+        let mut solved = |moving: &[SymbolId]| {
+            let first = Self::solved_in_order(graph, functions, (unknowns, moving), orders[0]);
+            first.or_else(|index| {
+                Self::solved_in_order(graph, functions, (unknowns, moving), orders[1]).map_err(|_| index)
+            })
+        };
+        solved(unknowns).or_else(|index| {
+            let part = solved(&[])?;
+            Ok(Self { in_parts: Some(functions[index]), ..part })
+        })
     }
 
     /// The same, by the easiest ways first, so that no root gets into what could be solved without.
     fn solved_in_order(
         graph: &mut Graph,
         functions: &[ExprId],
-        unknowns: &[SymbolId],
+        unknowns: (&[SymbolId], &[SymbolId]),
         order: [Ease; 3],
     ) -> Result<Self, usize> {
         let mut manifold = Self::default();
@@ -77,6 +88,7 @@ impl Manifold {
             self.insert(graph, *symbol, image);
         }
         self.chart.extend(&other.chart);
+        self.in_parts = self.in_parts.or(other.in_parts);
     }
 
     /// The symbols that are functions of the others, with these.
@@ -89,6 +101,12 @@ impl Manifold {
     #[must_use]
     pub fn is_free(&self, symbol: SymbolId) -> bool {
         self.images.iter().all(|(solved, _)| *solved != symbol)
+    }
+
+    /// Whether a symbol is none of the parameters of a chart.
+    #[must_use]
+    pub(crate) fn is_outside_charts(&self, symbol: SymbolId) -> bool {
+        !self.chart.contains(&symbol)
     }
 
     /// Whether nothing is restricted.
@@ -117,10 +135,19 @@ impl Manifold {
         graph.independent_rows(&restricted)
     }
 
-    /// Whether a function vanishes on the manifold.
+    /// Whether a function vanishes on the manifold, and wherever the functions do that define it.
     pub fn zero_test(&self, graph: &mut Graph, function: ExprId) -> Verdict {
         let restricted = self.restrict(graph, function);
-        graph.zero_test(restricted)
+        let verdict = graph.zero_test(restricted);
+        match self.in_parts {
+            Some(product) if verdict.is_zero() && !graph.zero_test(function).is_zero() => {
+                let product = graph.text_within(product, 200);
+                Verdict::Unknown(format!(
+                    "{product} = 0 holds in several ways, and it was asked in one of them"
+                ))
+            }
+            _ => verdict,
+        }
     }
 
     /// The point of the manifold that belongs to values of the free symbols: the values of all
@@ -164,12 +191,13 @@ impl Manifold {
     }
 
     /// Solves one function for one unknown in one way; false if that is not possible, or if an image of
-    /// another would divide by what is 0 then. A solution by a division or a root is taken if it is meant.
+    /// another would divide by what is 0 then. A solution by a division or a root is taken if it is meant, and if it leaves
+    /// out nothing that holds where `moving` symbols have other values.
     pub(super) fn solve(
         &mut self,
         graph: &mut Graph,
         function: ExprId,
-        unknowns: &[SymbolId],
+        (unknowns, moving): (&[SymbolId], &[SymbolId]),
         ease: Ease,
         is_meant: &dyn Fn(&mut Graph, (SymbolId, ExprId)) -> bool,
     ) -> bool {
@@ -178,10 +206,12 @@ impl Manifold {
             .into_iter()
             .filter(|symbol| unknowns.contains(symbol) && self.is_free(*symbol))
             .collect();
-        let mut by = |solution: fn(&mut Graph, ExprId, SymbolId) -> Option<ExprId>| {
+        let mut by = |solution: fn(&mut Graph, ExprId, SymbolId) -> Option<Solved>| {
             let solved = present.iter().rev().find_map(|symbol| {
-                let found = (*symbol, solution(graph, function, *symbol)?);
-                is_meant(graph, found).then_some(found)
+                let Solved { image, coefficients } = solution(graph, function, *symbol)?;
+                let is_whole =
+                    is_meant(graph, (*symbol, image)) && !vanish_together(graph, &coefficients, moving);
+                is_whole.then_some((*symbol, image))
             });
             solved.into_iter().collect()
         };
@@ -218,7 +248,7 @@ impl Manifold {
         }
         let entries = cayley(graph);
         let chart = graph.symbols_in(&entries);
-        let manifold = Self { images: present.into_iter().zip(entries).collect(), chart };
+        let manifold = Self { images: present.into_iter().zip(entries).collect(), chart, in_parts: None };
         let all = functions.iter().all(|function| manifold.zero_test(graph, *function) == Verdict::Zero);
         all.then_some(manifold)
     }
@@ -237,26 +267,34 @@ pub(super) enum Ease {
     Root,
 }
 
+/// A solution, and the coefficients of the powers of the unknown, the highest first: without any where that is a number.
+struct Solved {
+    image: ExprId,
+    coefficients: Vec<ExprId>,
+}
+
 /// The root of the symbol, or of a sum in which it is a term with a number for its coefficient.
-fn difference(graph: &mut Graph, function: ExprId, symbol: SymbolId) -> Option<ExprId> {
+fn difference(graph: &mut Graph, function: ExprId, symbol: SymbolId) -> Option<Solved> {
+    let coefficients = Vec::new();
     if graph.as_symbol(function) == Some(symbol) {
-        return Some(graph.zero());
+        return Some(Solved { image: graph.zero(), coefficients });
     }
     let Node::Sum { terms, .. } = graph.node(function) else { return None };
     let is_term = |(term, _): &&(ExprId, Rational)| graph.as_symbol(*term) == Some(symbol);
     let (term, factor) = terms.iter().find(is_term).cloned()?;
     let by = -factor.recip()?;
     let rest = graph.linear_combination(&[(Rational::ONE, function), (-factor, term)]);
-    (!graph.depends_on(rest, &[symbol])).then(|| graph.scale(by, rest))
+    (!graph.depends_on(rest, &[symbol])).then(|| Solved { image: graph.scale(by, rest), coefficients })
 }
 
 /// The root of a function that is linear in the symbol.
-fn quotient(graph: &mut Graph, function: ExprId, symbol: SymbolId) -> Option<ExprId> {
+fn quotient(graph: &mut Graph, function: ExprId, symbol: SymbolId) -> Option<Solved> {
     let form = graph.linear_form(function, &[symbol]).ok()?;
     if !graph.zero_test(form.coefficients[0]).is_nonzero() {
         return None;
     }
-    Some(graph.formula(-(form.rest / form.coefficients[0])))
+    let image = graph.formula(-(form.rest / form.coefficients[0]));
+    Some(Solved { image, coefficients: vec![form.coefficients[0], form.rest] })
 }
 
 /// `a (x_1² + … + x_m² − r²)`, m ≥ 2 with rational r: the stereographic projection.
@@ -306,7 +344,7 @@ fn sphere(graph: &mut Graph, function: ExprId, symbols: &[SymbolId]) -> Option<V
 }
 
 /// A root of a function that is quadratic in the symbol, or a power of it and a rest.
-fn root(graph: &mut Graph, function: ExprId, symbol: SymbolId) -> Option<ExprId> {
+fn root(graph: &mut Graph, function: ExprId, symbol: SymbolId) -> Option<Solved> {
     let first = graph.partial(function, symbol);
     let second = graph.partial(first, symbol);
     let third = graph.partial(second, symbol);
@@ -325,15 +363,19 @@ fn root(graph: &mut Graph, function: ExprId, symbol: SymbolId) -> Option<ExprId>
     let (bb, ac) = (graph.square(b), graph.formula(curvature * c));
     let discriminant = graph.linear_combination(&[(1.into(), bb), ((-2).into(), ac)]);
     let (radical, minus_b) = (graph.sqrt(discriminant), graph.formula(-b));
-    Some(graph.formula((minus_b + radical) / curvature))
+    let image = graph.formula((minus_b + radical) / curvature);
+    Some(Solved { image, coefficients: vec![curvature, b, c] })
 }
 
 /// The root of `a s^n + c`: there `s φ' = n (φ − c)`.
-fn pure_root(graph: &mut Graph, function: ExprId, slope: ExprId, symbol: SymbolId) -> Option<ExprId> {
+fn pure_root(graph: &mut Graph, function: ExprId, slope: ExprId, symbol: SymbolId) -> Option<Solved> {
     let rest = graph.at_zero(function, &[symbol]);
     let s = graph.symbol(symbol);
     let power = graph.formula(function - rest);
     let fibre = graph.formula(s * slope);
+    if !graph.has_value(fibre) {
+        return None;
+    }
     let degree = (3..=6).find(|n| {
         let defect = graph.linear_combination(&[(1.into(), fibre), (Rational::from(-n), power)]);
         graph.zero_test(defect) == Verdict::Zero
@@ -342,7 +384,8 @@ fn pure_root(graph: &mut Graph, function: ExprId, slope: ExprId, symbol: SymbolI
     let coefficient = graph.formula(power / monomial);
     let coefficient = graph.simplify(coefficient);
     let radicand = graph.formula(-(rest / coefficient));
-    Some(graph.pow(radicand, Rational::new(1, degree)))
+    let image = graph.pow(radicand, Rational::new(1, degree));
+    Some(Solved { image, coefficients: vec![coefficient, rest] })
 }
 
 /// The entries, row by row, of the rotation with Cayley parameters (a, b, c).

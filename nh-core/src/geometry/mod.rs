@@ -4,6 +4,7 @@ mod algebroid;
 mod anchor;
 mod change_of_basis;
 mod clock;
+mod common_zeros;
 mod connection;
 mod distribution;
 mod fibres;

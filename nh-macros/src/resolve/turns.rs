@@ -5,9 +5,13 @@ use std::rc::Rc;
 
 use nonholonomic_core::algebra::Graph;
 use nonholonomic_core::id::ExprId;
+use nonholonomic_core::limits;
 use nonholonomic_core::model::Turn;
 
 use super::array::{Array, Shape};
+
+/// More turns one after the other than joints in a row: products of products of them would be told apart for ever.
+const MOST: usize = 64;
 
 /// Matrices that are known to be products of rotations about axes.
 #[derive(Debug, Default)]
@@ -29,8 +33,15 @@ impl Rotations {
             Some(turns) => turns.to_vec(),
             None => vec![Turn { matrix: factor.entries.clone(), about: None }],
         });
-        let turns = Rc::new(turns.collect());
-        self.known.insert(product.entries.clone(), turns);
+        let turns: Vec<Turn> = turns.take(MOST + 1).collect();
+        limits::spend(turns.len());
+        // a product of so many is a matrix like any other
+        let turns = if turns.len() > MOST {
+            vec![Turn { matrix: product.entries.clone(), about: None }]
+        } else {
+            turns
+        };
+        self.known.insert(product.entries.clone(), Rc::new(turns));
     }
 
     /// The transposed of one is one.

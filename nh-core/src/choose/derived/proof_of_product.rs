@@ -26,8 +26,8 @@ pub(crate) fn prove_product(
     let terms = f64::from(u32::try_from(arguments.len() + vector.len()).unwrap_or(u32::MAX));
     // a derivative has at most three times the degree of its function
     let degree = terms * (3.0 * degree_of(function) + degree_of(procedure));
-    let bits = bits_of_a_point(graph, &roots, degree)?;
     let determined = [defined(function), defined(procedure)].concat();
+    let bits = bits_of_a_point(graph, (&roots, &determined), degree, division)?;
     let radicands = Radicands::of(graph, &roots, &determined);
     let at = |point: FieldPoint| -> Result<(), Defect> {
         let pass = || FieldPass::new(graph, point.clone(), division);

@@ -52,6 +52,7 @@ pub(super) const FAMILIES: &[Family] = &[
     Family { name: "many facts", source: facts, sizes: &[20, 200, 1000] },
     Family { name: "many constants", source: constants, sizes: &[20, 200, 1000] },
     Family { name: "matrix powers", source: matrix_powers, sizes: &[4, 8, 16] },
+    Family { name: "rotations that double", source: rotations, sizes: &[4, 20, 60] },
     Family { name: "square matrices", source: square_matrices, sizes: &[10, 40, 100] },
     Family { name: "long vectors", source: long_vectors, sizes: &[30, 300, 1000] },
     Family { name: "lets that nest", source: nested_lets, sizes: &[30, 300, 3000] },
@@ -188,6 +189,16 @@ fn matrix_powers(n: usize) -> String {
             "base {{ q[{n}] }} lagrangian {{ let v[i in 0..{n}] = der(q[i]); let a = A * v; let b = A * a; let c = A * b; dot(c, c) / 2 + dot(v, v) }}"
         ),
         &format!("A: [[f64; {n}]; {n}]"),
+    )
+}
+
+fn rotations(n: usize) -> String {
+    let lines = joined(n, |k| format!("let turn{} = turn{k} * turn{k};", k + 1));
+    declared(
+        &format!(
+            "base {{ x, y }} let turn0 = rot_z(x) * rot_x(y); {lines} lagrangian {{ m / 2 * (der(x)^2 + der(y)^2) }}"
+        ),
+        "m: f64",
     )
 }
 

@@ -1,0 +1,200 @@
+//! Square roots each of which is a proper extension of what is before it.
+//!
+//! Radicands r₁, …, r_k, each a function of symbols and of the roots before it, make fields K₀ ⊂ K₁ ⊂ … ⊂ K_k, K_j =
+//! K_{j−1}(√r_j). If r_j were c g² with a number c and g in K_{j−1}, it would be a square at all points of the field
+//! where r₁, …, r_{j−1} are, or at none: it is proved not to be by two points. Then every K_j is of degree two over
+//! the one before, and a function E in K_k that is not zero has a norm in K₀ that is not zero, of at most 2^k times its
+//! degree. At a point where radicands are squares, E vanishes for some choice of roots only if its norm does; and one
+//! of about 2^k points is such a point. So a point proves what it would prove without roots but for 2 k bits. Radicands that
+//! are the same function, written in two ways, count once.
+
+use super::field::Residue;
+use super::graph::Graph;
+use super::modular::{FieldPass, FieldPoint};
+use super::node::{Function, Function2, Node};
+use crate::id::{ExprId, SymbolId};
+use num_integer::Integer;
+
+/// At so many points have radicands the same values if they are the same functions, written otherwise: each has the
+/// chance of two differing functions, which is below 2⁻²⁸ where their degree is below 2²⁰.
+const POINTS_OF_EQUALS: u32 = 3;
+/// What is a square at so many points, or at none of them, is taken for one everywhere, or nowhere.
+const HOPELESS: u32 = 24;
+/// More roots are not looked at: points where all radicands are squares are rare.
+const MOST: usize = 6;
+/// Points tried for each pattern of squares.
+const TRIALS: u64 = 48;
+/// Where these points begin.
+const FIRST_SEED: u64 = 13_000_000;
+
+/// Square roots that are proved to be independent.
+pub(crate) struct IndependentRoots {
+    /// What they are roots of, each after those in it.
+    pub(crate) radicands: Vec<ExprId>,
+    /// How many of these are not the same functions as others.
+    distinct: usize,
+}
+
+impl IndependentRoots {
+    /// How much less a point proves than without them: log₂.
+    pub(crate) fn bits(&self) -> f64 {
+        2.0 * f64::from(u32::try_from(self.distinct).unwrap_or(u32::MAX))
+    }
+}
+
+/// What was seen of a radicand.
+#[derive(Clone, Debug, Default)]
+struct Seen {
+    square: bool,
+    none: bool,
+    /// The points where it had a value.
+    points: u32,
+    /// The radicand before it whose values it has had, and at how many points.
+    same: Option<(usize, u32)>,
+    /// Whether it was at any point, and is its own function.
+    differs: bool,
+}
+
+impl Seen {
+    /// Takes note of a value, which is also that of a radicand before it; whether it is a square.
+    fn take(&mut self, value: Residue, before: Option<usize>) -> bool {
+        self.same = match (before, self.same) {
+            (Some(place), None) if !self.differs => Some((place, 1)),
+            (Some(place), Some((known, times))) if place == known => Some((known, times + 1)),
+            _ => None,
+        };
+        self.differs |= self.same.is_none();
+        // −1 is no square; what is zero, or no residue, tells nothing
+        let [square, none] = [value, -value].map(|value| value.sqrt().is_some());
+        self.points += 1;
+        self.square |= square && !none;
+        self.none |= none && !square;
+        square && !none
+    }
+
+    /// Whether it has been a square always, or never, and that is hardly by chance.
+    fn is_hopeless(&self) -> bool {
+        self.points >= HOPELESS && !self.is_enough()
+    }
+
+    /// Whether it is a function of its own, and no square, or the same function as another.
+    fn is_enough(&self) -> bool {
+        self.square && self.none || self.same.is_some_and(|(_, times)| times >= POINTS_OF_EQUALS)
+    }
+}
+
+impl Graph {
+    /// The square roots in expressions, if they are proved to be independent as functions of symbols none of which is
+    /// `bound` to others, and nothing else there has branches.
+    pub(crate) fn independent_roots<'a>(
+        &self,
+        roots: &[ExprId],
+        bound: &[SymbolId],
+        pass: impl Fn(FieldPoint) -> FieldPass<'a>,
+    ) -> Option<IndependentRoots> {
+        let radicands = self.square_radicands(roots)?;
+        let is_free = |radicand: &ExprId| bound.is_empty() || !self.depends_on(*radicand, bound);
+        if !radicands.iter().all(is_free) {
+            return None;
+        }
+        let mut seen = vec![Seen::default(); radicands.len()];
+        for seed in FIRST_SEED..FIRST_SEED + (TRIALS << radicands.len().min(MOST)) {
+            let mut pass = pass(FieldPoint::random(seed));
+            let mut values: Vec<Residue> = Vec::with_capacity(radicands.len());
+            for (radicand, seen) in radicands.iter().zip(&mut seen) {
+                let Ok(value) = pass.evaluate_one(*radicand) else { break };
+                let before = values.iter().position(|known| *known == value);
+                let goes_on = seen.take(value, before);
+                values.push(value);
+                if !goes_on {
+                    break;
+                }
+            }
+            if seen.iter().any(Seen::is_hopeless) {
+                return None;
+            }
+            let distinct = seen.iter().filter(|seen| seen.same.is_none()).count();
+            if seen.iter().all(Seen::is_enough) && distinct <= MOST {
+                return Some(IndependentRoots { radicands, distinct });
+            }
+        }
+        None
+    }
+
+    /// What square roots in expressions are taken of, but for numbers; `None` where something else has branches.
+    fn square_radicands(&self, roots: &[ExprId]) -> Option<Vec<ExprId>> {
+        let mut found: Vec<ExprId> = Vec::new();
+        for id in self.reachable(roots) {
+            match self.node(id) {
+                Node::Product { factors, .. } => {
+                    for (base, exponent) in factors.iter().filter(|(_, exponent)| !exponent.is_integer()) {
+                        let order = exponent.denominator();
+                        if order.is_odd() || self.symbols_in(&[*base]).is_empty() || found.contains(base) {
+                            continue;
+                        }
+                        if exponent.to_small().is_none_or(|(_, order)| order != 2) {
+                            return None;
+                        }
+                        found.push(*base);
+                    }
+                }
+                Node::Apply(Function::Asin | Function::Acos, _)
+                | Node::Apply2(Function2::Min | Function2::Max, ..) => return None,
+                Node::Apply(Function::Sin | Function::Cos, x) if !self.inside_arcs(*x).is_empty() => {
+                    return None;
+                }
+                _ => {}
+            }
+        }
+        Some(found)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn are_independent(graph: &Graph, roots: &[ExprId]) -> bool {
+        let found = graph.independent_roots(roots, &[], |point| FieldPass::new(graph, point, 1));
+        found.is_some_and(|found| !found.radicands.is_empty())
+    }
+
+    #[test]
+    fn what_is_a_square_of_others_is_seen() {
+        let mut g = Graph::new();
+        let [x, y] = ["x", "y"].map(|name| {
+            let symbol = g.new_symbol(name);
+            g.symbol(symbol)
+        });
+        let one = g.one();
+        let (xx, yy) = (g.square(x), g.square(y));
+        let (circle, shifted) = (g.add(xx, yy), g.add(xx, one));
+        let [first, second] = [circle, shifted].map(|radicand| g.sqrt(radicand));
+        assert!(are_independent(&g, &[first, second]));
+        // √((x² + y²)(x² + 1)) is the product of both, up to its sign
+        let product = g.mul(circle, shifted);
+        let expanded = g.simplify(product);
+        let third = g.sqrt(expanded);
+        assert!(are_independent(&g, &[first, third]) && !are_independent(&g, &[first, second, third]));
+        // 3 x² + 3 is no square, but a multiple of another radicand
+        let multiple = g.linear_combination(&[(3.into(), xx), (3.into(), one)]);
+        let multiple = g.sqrt(multiple);
+        assert!(are_independent(&g, &[multiple]) && !are_independent(&g, &[second, multiple]));
+        // one of them written otherwise is no further one
+        let written = g.sqrt(expanded);
+        let factors = g.sqrt(product);
+        assert!(are_independent(&g, &[written, factors, first]));
+        // √(x²) is x or −x
+        let length = g.sqrt(xx);
+        assert!(!are_independent(&g, &[length]));
+        // (√(x² + 1) + y)² written out, over √(x² + 1)
+        let sum = g.add(second, y);
+        let square = g.square(sum);
+        let square = g.simplify(square);
+        let [nested, beside] = [square, sum].map(|radicand| g.sqrt(radicand));
+        assert!(!are_independent(&g, &[nested]) && are_independent(&g, &[beside]));
+        // a symbol that is bound to others may make a square of anything
+        let symbols = g.symbols_in(&[y]).into_iter().collect::<Vec<_>>();
+        assert!(g.independent_roots(&[first], &symbols, |point| FieldPass::new(&g, point, 1)).is_none());
+    }
+}
