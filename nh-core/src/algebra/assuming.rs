@@ -3,6 +3,8 @@
 //! | identity | condition |
 //! |---|---|
 //! | `(x^2 y)^(1/2) = x y^(1/2)` and its kin | `x ≥ 0` |
+//! | `(x^2 y)^(1/2) = −x y^(1/2)` and its kin of even powers | `x ≤ 0` |
+//! | `(a^2 + 2 a b + b^2)^(1/2) = ±(a + b)` | the sign of `a + b`, of symbols of which something is known |
 //! | `abs(x) = x`, `abs(x) = −x` | `x ≥ 0`, `x ≤ 0` |
 //! | `sign(x) = 1`, `sign(x) = −1` | `x > 0`, `x < 0` |
 //! | `min(x, y)`, `max(x, y)` are one of the two | the sign of `x − y` |
@@ -12,7 +14,7 @@ use super::graph::Graph;
 use super::node::{Function, Function2, Node};
 use super::number::Rational;
 use super::range::Facts;
-use crate::id::ExprId;
+use crate::id::{ExprId, SymbolId};
 use crate::id_map::IdMap;
 use rustc_hash::FxHashSet;
 
@@ -127,16 +129,24 @@ impl Graph {
         facts: &Facts,
         powers: &mut Vec<(ExprId, Rational)>,
     ) {
-        let Node::Product { coefficient, factors } = self.node(base).clone() else {
-            return powers.push((base, exponent.clone()));
-        };
         if exponent.is_integer() {
             return powers.push((base, exponent.clone()));
         }
+        let Node::Product { coefficient, factors } = self.node(base).clone() else {
+            if let Some((number, root)) = self.known_square(base, facts) {
+                powers.extend([(number, exponent.clone()), (root, exponent.clone() * Rational::from(2))]);
+            } else {
+                powers.push((base, exponent.clone()));
+            }
+            return;
+        };
         let mut rest = Vec::new();
         for (inner, power) in factors.iter().cloned() {
-            if self.range(inner, facts).low >= 0.0 {
+            let range = self.range(inner, facts);
+            if range.low >= 0.0 {
                 powers.push((inner, power * exponent.clone()));
+            } else if range.high <= 0.0 && power.is_integer() && !power.has_odd_numerator() {
+                powers.push((self.neg(inner), power * exponent.clone()));
             } else {
                 rest.push((inner, power));
             }
@@ -144,6 +154,29 @@ impl Graph {
         let rest = self.product(&rest);
         let rest = self.scale(coefficient, rest);
         powers.push((rest, exponent.clone()));
+    }
+
+    /// A sum of symbols of which something is known, as a positive number times the square of what is not negative.
+    fn known_square(&mut self, sum: ExprId, facts: &Facts) -> Option<(ExprId, ExprId)> {
+        if !matches!(self.node(sum), Node::Sum { .. }) {
+            return None;
+        }
+        let expressions: Vec<ExprId> = facts.expressions.keys().copied().collect();
+        let mentioned = self.symbols_in(&expressions);
+        let is_known = |symbol: &SymbolId| facts.symbols.contains_key(symbol) || mentioned.contains(symbol);
+        if !self.symbols_in(&[sum]).iter().all(is_known) {
+            return None;
+        }
+        let factor = self.square_factor(sum, &[])?;
+        let square = self.square(factor);
+        let ratio = self.formula(sum / square);
+        let ratio = self.simplify(ratio);
+        if self.value_of(ratio)?.is_negative() {
+            return None;
+        }
+        let opposite = self.neg(factor);
+        let signed = [factor, opposite].into_iter().find(|signed| self.range(*signed, facts).low >= 0.0);
+        signed.map(|root| (ratio, root))
     }
 
     fn assuming_function(&mut self, function: Function, x: ExprId, facts: &Facts) -> ExprId {
@@ -206,5 +239,27 @@ mod tests {
         assert_eq!(opened[1], em);
         assert_eq!(g.text(opened[2]), "1");
         assert_eq!(g.assuming(&[root], &Facts::default()), [root]);
+    }
+
+    #[test]
+    fn roots_of_what_is_negative() {
+        let mut g = Graph::new();
+        let symbols = ["l", "k", "n", "x"].map(|name| g.new_symbol(name));
+        let [l, k, n, x] = symbols.map(|symbol| g.symbol(symbol));
+        let negative = Range { low: f64::NEG_INFINITY, high: 0.0, ..Range::POSITIVE };
+        let known = [(symbols[0], Range::POSITIVE), (symbols[1], Range::POSITIVE), (symbols[2], negative)];
+        let facts = Facts { symbols: known.into_iter().collect(), ..Facts::default() };
+        let (square, cube) = (g.formula(n * n * x), g.formula(n * n * n * x));
+        let sum = g.formula(l * l + k * k);
+        let twice = g.formula(l * k + l * k);
+        let whole = g.add(sum, twice);
+        let with_x = g.formula(x * x + k * k);
+        let roots = [square, cube, whole, with_x].map(|radicand| g.sqrt(radicand));
+        let opened = g.assuming(&roots, &facts);
+        assert_eq!(g.text(opened[0]), "-n*sqrt(x)");
+        assert_eq!(opened[1], roots[1]);
+        let expected = g.add(l, k);
+        assert_eq!(opened[2], expected, "{}", g.text(opened[2]));
+        assert_eq!(opened[3], roots[3]);
     }
 }

@@ -154,7 +154,23 @@ pub struct Facts {
     pub expressions: FxHashMap<ExprId, Range>,
 }
 
+impl Range {
+    fn contains(self, value: f64) -> bool {
+        self.low <= value && value <= self.high && !(self.nonzero && value == 0.0)
+    }
+}
+
 impl Graph {
+    /// Whether facts hold at a point, as far as it has values for their symbols.
+    pub(super) fn hold_at(&self, facts: &Facts, point: &[(SymbolId, f64)]) -> bool {
+        let value =
+            |symbol| point.iter().find(|(known, _)| *known == symbol).map_or(f64::NAN, |(_, value)| *value);
+        let of_symbols = facts.symbols.iter().map(|(symbol, range)| (value(*symbol), range));
+        let of_expressions =
+            facts.expressions.iter().map(|(id, range)| (self.evaluate(&[*id], value)[0].value, range));
+        of_symbols.chain(of_expressions).all(|(value, range)| value.is_nan() || range.contains(value))
+    }
+
     /// A range that contains every value of the expression where it is defined.
     #[must_use]
     pub fn range(&self, expression: ExprId, facts: &Facts) -> Range {

@@ -15,6 +15,7 @@ use super::exact::Decision;
 use super::graph::Graph;
 use super::modular::{FieldPass, FieldPoint, NoValue};
 use super::node::Node;
+use super::range::Facts;
 use super::square_points::Radicands;
 use super::verdict::{Verdict, Witness};
 use crate::id::{ExprId, SymbolId};
@@ -48,6 +49,8 @@ const WITHOUT_VALUE: u64 = 2 * PATIENCE;
 const WITHOUT_REAL_VALUE: u64 = PATIENCE;
 /// Points tried for a witness.
 const WITNESSES: u64 = 24;
+/// Points tried for a witness where facts hold.
+const WITNESSES_UNDER_FACTS: u64 = 400;
 /// Points tried for a witness with more digits, and these digits.
 const CLOSER_LOOKS: u64 = 8;
 const CLOSER: Bits = 256;
@@ -290,6 +293,35 @@ impl Graph {
             }
         }
         Err(NoValue::Here)
+    }
+
+    /// The verdict with a witness for which facts hold: without any, what is not zero elsewhere may be so where they do.
+    #[must_use]
+    pub(crate) fn verdict_under(&self, expression: ExprId, facts: &Facts, verdict: Verdict) -> Verdict {
+        let Verdict::NonZero(witness) = &verdict else { return verdict };
+        if self.hold_at(facts, &witness.point) {
+            return verdict;
+        }
+        let assumed: Vec<ExprId> = facts.expressions.keys().copied().collect();
+        let mut symbols = self.symbols_in(&[&assumed[..], &[expression]].concat());
+        symbols.extend(facts.symbols.keys());
+        let found = (0..WITNESSES_UNDER_FACTS).find_map(|attempt| {
+            let point: Vec<(SymbolId, f64)> =
+                symbols.iter().enumerate().map(|(i, symbol)| (*symbol, sample(attempt, i))).collect();
+            let value =
+                |symbol| point.iter().find(|(s, _)| *s == symbol).map_or(f64::NAN, |(_, value)| *value);
+            let result = self.evaluate(&[expression], value)[0];
+            (self.hold_at(facts, &point) && result.is_certainly_nonzero())
+                .then_some(Witness { value: result.value, point })
+        });
+        match found {
+            Some(witness) => Verdict::NonZero(witness),
+            None => Verdict::Unknown(
+                "it is not zero everywhere, but no point was found where it is not and the \
+                                      assumptions hold"
+                    .into(),
+            ),
+        }
     }
 
     /// A point with short numbers where the expression is certainly not zero.

@@ -1,7 +1,7 @@
 //! Claimed first integrals: their derivative along the motion vanishes on the constraint manifold.
 
 use super::evidence::{not_zero, shown};
-use crate::algebra::{Graph, Verdict, Witness};
+use crate::algebra::{Facts, Graph, Verdict, Witness};
 use crate::geometry::Manifold;
 use crate::id::ExprId;
 use crate::mechanics::Flow;
@@ -15,12 +15,15 @@ pub fn claims(
     claims: &[ExprId],
     mut flow: Flow,
     (manifold, unsolved): (&Manifold, &[ExprId]),
+    facts: &Facts,
 ) -> Vec<Violation> {
     let mut violations = Vec::new();
     for (index, claim) in claims.iter().enumerate() {
         let graph = &mut model.graph;
         let rate = flow.derivative(graph, *claim);
-        let mut verdict = manifold.zero_test(graph, rate);
+        let restricted = manifold.restrict(graph, rate);
+        let verdict = manifold.zero_test(graph, rate);
+        let mut verdict = graph.verdict_under(restricted, facts, verdict);
         if let (Verdict::NonZero(_), Some(function)) = (&verdict, unsolved.first()) {
             let function = shown(graph, *function);
             verdict = Verdict::Unknown(format!(

@@ -124,11 +124,11 @@ fn proved_claims(
     derivative: &Procedure,
     velocities: &[SymbolId],
 ) -> Result<Vec<ExprId>, Vec<Violation>> {
-    let Proved { model, motion, system, positions, .. } = proved;
+    let Proved { model, motion, system, positions, facts, .. } = proved;
     let claims = claims_in_state(model, motion, restriction);
     if !claims.is_empty() {
         let flow = Flow::of(&mut model.graph, derivative, system, velocities);
-        fence(check::claims(model, &claims, flow, (&positions.manifold, &positions.unsolved)))?;
+        fence(check::claims(model, &claims, flow, (&positions.manifold, &positions.unsolved), facts))?;
     }
     Ok(claims)
 }

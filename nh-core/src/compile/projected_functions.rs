@@ -76,7 +76,8 @@ pub(super) fn derive(
         let graph = &mut proved.model.graph;
         let flow = Flow::of(graph, &derivative, &proved.system, &velocities);
         let manifold = levels::manifold(&mut proved);
-        fence(check::claims(&mut proved.model, &claims, flow, (&manifold, &proved.positions.unsolved)))?;
+        let Proved { model, positions, facts, .. } = &mut proved;
+        fence(check::claims(model, &claims, flow, (&manifold, &positions.unsolved), facts))?;
     }
     about(Subject::Requests);
     let linearized = requested_linearized(&mut proved, &derivative, &velocities)?;
