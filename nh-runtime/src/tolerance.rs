@@ -162,7 +162,8 @@ pub(crate) fn power_of_two<T: Real>(number: T) -> T {
         while power <= number / stride {
             power *= stride;
         }
-        while power > number {
+        // what is no more a number is not below another
+        while power > number && power / stride > T::ZERO {
             power = power / stride;
         }
     }
@@ -230,6 +231,18 @@ mod tests {
 
     fn check(rtol: f64, atol: Option<f64>) -> Result<(), IntegrationError> {
         Tolerance::<Pair>::check(&Uniform { rtol, atol })
+    }
+
+    #[test]
+    fn powers_of_two_are_found_to_the_least_number() {
+        for number in [5e-324_f64, 1e-320, 2e-308, 1e-5, 1.0, 3.0, f64::MAX] {
+            let power = power_of_two(number);
+            assert!(power > 0.0 && power <= number && power > number / 2.0, "{number:e} {power:e}");
+        }
+        for number in [1e-45_f32, 1e-42, 2e-38, 1.5, f32::MAX] {
+            let power = power_of_two(number);
+            assert!(power > 0.0 && power <= number && power > number / 2.0, "{number:e} {power:e}");
+        }
     }
 
     #[test]
