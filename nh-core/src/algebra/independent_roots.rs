@@ -122,24 +122,28 @@ impl Graph {
     }
 
     /// What square roots in expressions are taken of, but for numbers; `None` where something else has branches.
-    fn square_radicands(&self, roots: &[ExprId]) -> Option<Vec<ExprId>> {
+    pub(crate) fn square_radicands(&self, roots: &[ExprId]) -> Option<Vec<ExprId>> {
         let mut found: Vec<ExprId> = Vec::new();
         for id in self.reachable(roots) {
             match self.node(id) {
                 Node::Product { factors, .. } => {
                     for (base, exponent) in factors.iter().filter(|(_, exponent)| !exponent.is_integer()) {
                         let order = exponent.denominator();
-                        if order.is_odd() || self.symbols_in(&[*base]).is_empty() || found.contains(base) {
+                        // cube roots and their like are unique, and those of numbers are the same at all points
+                        if order.is_odd() || self.symbols_in(&[*base]).is_empty() {
                             continue;
                         }
                         if exponent.to_small().is_none_or(|(_, order)| order != 2) {
                             return None;
                         }
-                        found.push(*base);
+                        if !found.contains(base) {
+                            found.push(*base);
+                        }
                     }
                 }
                 Node::Apply(Function::Asin | Function::Acos, _)
                 | Node::Apply2(Function2::Min | Function2::Max, ..) => return None,
+                // above arcs the circle has roots
                 Node::Apply(Function::Sin | Function::Cos, x) if !self.inside_arcs(*x).is_empty() => {
                     return None;
                 }
@@ -153,6 +157,7 @@ impl Graph {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::algebra::Rational;
 
     fn are_independent(graph: &Graph, roots: &[ExprId]) -> bool {
         let found = graph.independent_roots(roots, &[], |point| FieldPass::new(graph, point, 1));
@@ -184,6 +189,9 @@ mod tests {
         let written = g.sqrt(expanded);
         let factors = g.sqrt(product);
         assert!(are_independent(&g, &[written, factors, first]));
+        // fourth roots are not counted as square roots, beside one of the same or alone
+        let fourth = g.pow(circle, Rational::new(1, 4));
+        assert!(!are_independent(&g, &[first, fourth]) && !are_independent(&g, &[fourth]));
         // √(x²) is x or −x
         let length = g.sqrt(xx);
         assert!(!are_independent(&g, &[length]));

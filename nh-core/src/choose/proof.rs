@@ -9,8 +9,7 @@
 use super::ledger::Proof;
 use super::reference::{Balance, Instant, Reference, inner};
 use crate::algebra::{
-    Degrees, Echelon, FieldPass, FieldPoint, Function, Function2, Graph, IndependentRoots, Matrix, NoValue,
-    Node, Radicands, Residue,
+    Degrees, Echelon, FieldPass, FieldPoint, Graph, IndependentRoots, Matrix, NoValue, Radicands, Residue,
 };
 use crate::id::{ExprId, SymbolId};
 use crate::mechanics::{Definition, Procedure, ReducedEquations};
@@ -190,21 +189,7 @@ pub(super) fn with_branches(bits: f64, roots: Option<&IndependentRoots>) -> f64 
 
 /// Whether there are functions whose value in the field depends on what is a square there.
 pub(super) fn has_branches(graph: &Graph, roots: &[ExprId]) -> bool {
-    graph.reachable(roots).into_iter().any(|id| match graph.node(id) {
-        Node::Product { factors, .. } => {
-            // cube roots and their like are unique, and those of numbers are the same at all points
-            factors.iter().any(|(base, power)| {
-                !power.is_integer()
-                    && !graph.symbols_in(&[*base]).is_empty()
-                    && num_integer::Integer::is_even(&power.denominator())
-            })
-        }
-        Node::Apply(Function::Asin | Function::Acos, _)
-        | Node::Apply2(Function2::Min | Function2::Max, ..) => true,
-        // above arcs the circle has roots
-        Node::Apply(Function::Sin | Function::Cos, x) => !graph.inside_arcs(*x).is_empty(),
-        _ => false,
-    })
+    graph.square_radicands(roots).is_none_or(|radicands| !radicands.is_empty())
 }
 
 /// What disagrees may be no defect where the field has no root of a number: what stands for it there has another square.

@@ -4,7 +4,7 @@
 //! `(x − y) (s − x)` it is a solution where x = y is not. Zeros of a are looked for in floating point, by Newton's
 //! method in one symbol from several places, and b is looked at there. What is found only forbids a solution.
 
-use crate::algebra::{Graph, sample};
+use crate::algebra::{Bounded, Graph, sample};
 use crate::id::{ExprId, SymbolId};
 
 /// The places from which zeros are looked for.
@@ -57,7 +57,7 @@ pub(super) fn vanish_together(graph: &mut Graph, functions: &[ExprId], moving: &
             }
             let elsewhere = rest.at(at(start));
             let there = rest.at(at(x));
-            let vanishes = |(there, elsewhere): (&crate::algebra::Bounded, &crate::algebra::Bounded)| {
+            let vanishes = |(there, elsewhere): (&Bounded, &Bounded)| {
                 there.value.abs() <= there.error || is_zero(there.value, elsewhere.value.abs())
             };
             there.iter().zip(&elsewhere).all(vanishes)
