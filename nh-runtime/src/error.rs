@@ -298,8 +298,8 @@ pub enum IntegrationError {
         /// Its value.
         value: f64,
     },
-    /// An event function that starts from zero is back there after hardly more than rounding units of time: at once, or
-    /// many times in a row.
+    /// An event function that starts from zero is back there after hardly more than what time and function resolve: at
+    /// once, or many times in a row.
     EventsAccumulate {
         /// Which of the functions.
         event: usize,
@@ -307,7 +307,7 @@ pub enum IntegrationError {
         time: f64,
         /// How long it was away.
         flight: f64,
-        /// A rounding unit of the time there.
+        /// What rounding leaves open of the times of its zeros there.
         resolution: f64,
     },
     /// Times at which states were asked for do not follow one another in one direction.
@@ -438,8 +438,8 @@ impl Display for IntegrationError {
 fn accumulating(f: &mut Formatter<'_>, event: usize, [time, flight, resolution]: [f64; 3]) -> fmt::Result {
     write!(
         f,
-        "the event function {event} leaves zero at t = {time:?} and is back after {flight:?}, where the rounding of the \
-         time is {resolution:?}: that is too little, or has been so too often in a row, to go on; events accumulate \
+        "the event function {event} leaves zero at t = {time:?} and is back after {flight:?}, where rounding leaves \
+         {resolution:?} of its zeros' times open: that is too little, or has been so too often in a row, to go on; events accumulate \
          there, as the impacts of a ball that comes to rest: go on with what holds from then on, such as the contact as \
          a constraint; or time is counted from too far away"
     )

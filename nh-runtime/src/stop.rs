@@ -20,11 +20,17 @@ pub(crate) struct Stop<T> {
     pub(crate) time: T,
     /// The length of the step that led past it, signed.
     pub(crate) length: T,
+    /// A rounding unit of time in that step.
+    pub(crate) unit: T,
     /// Those that have changed their sign there.
     rising: u128,
     falling: u128,
     /// Those among them that have not been reported.
     pub(crate) owed: u128,
+    /// Those that have not, and are so near to zero that they may there.
+    coming: [u128; 2],
+    /// What tells the functions from others, by their values here.
+    pub(crate) print: u64,
     /// How many flights in a row from zero to zero have been hardly longer than time resolves.
     short_flights: u32,
 }
@@ -35,24 +41,52 @@ const NO_FLIGHT: f64 = 64.0;
 /// to the speed after each outweighs what an impact takes.
 const SHORT_FLIGHT: f64 = 512.0;
 const MOST_SHORT_FLIGHTS: u32 = 64;
+/// The same for how far a function gets from zero, in its own roundings.
+pub(crate) const NO_HEIGHT: f64 = 8.0;
+pub(crate) const SHORT_HEIGHT: f64 = 128.0;
+
+/// The functions that a stop has bits for.
+pub(crate) const MOST_FUNCTIONS: usize = 128;
+
+/// How long a function that left zero was away, and how far.
+#[derive(Clone, Copy)]
+pub(crate) struct Flight<T> {
+    /// When it left.
+    pub(crate) start: T,
+    /// Whether it got no farther than rounding shows it: by [`NO_HEIGHT`] and [`SHORT_HEIGHT`].
+    pub(crate) is_hidden: [bool; 2],
+}
 
 pub(crate) fn bit(index: usize) -> u128 {
     u32::try_from(index).ok().and_then(|index| 1_u128.checked_shl(index)).unwrap_or(0)
 }
 
 impl<T: Real> Stop<T> {
-    pub(crate) fn new(time: T, length: T) -> Self {
-        Self { time, length, rising: 0, falling: 0, owed: 0, short_flights: 0 }
+    pub(crate) fn new(time: T, [start, end]: [T; 2]) -> Self {
+        let (length, unit) = (end - start, Self::resolution(start, end));
+        Self {
+            time,
+            length,
+            unit,
+            rising: 0,
+            falling: 0,
+            owed: 0,
+            coming: [0; 2],
+            print: 0,
+            short_flights: 0,
+        }
     }
 
-    /// Takes note that this stop ends a flight from zero to zero that began at `start`, at the stop `before`;
-    /// whether there will be an end to such flights.
-    pub(crate) fn ends_flight(&mut self, start: T, before: Option<&Self>) -> bool {
-        let length = (self.time - start).abs() / Self::resolution(start, self.time);
-        if length <= T::from_f64(SHORT_FLIGHT) {
+    /// Takes note that this stop ends a flight from zero to zero that began at the stop `before`; whether there will be
+    /// an end to such flights.
+    pub(crate) fn ends_flight(&mut self, flight: Flight<T>, before: Option<&Self>) -> bool {
+        let length = (self.time - flight.start).abs();
+        let unit = Self::resolution(flight.start, self.time);
+        let [is_none, is_short] = flight.is_hidden;
+        if is_short || length <= T::from_f64(SHORT_FLIGHT) * unit {
             self.short_flights = before.map_or(0, |stop| stop.short_flights) + 1;
         }
-        length > T::from_f64(NO_FLIGHT) && self.short_flights <= MOST_SHORT_FLIGHTS
+        !is_none && length > T::from_f64(NO_FLIGHT) * unit && self.short_flights <= MOST_SHORT_FLIGHTS
     }
 
     /// A rounding unit of time on a flight.
@@ -69,6 +103,22 @@ impl<T: Real> Stop<T> {
         }
         if !is_reported {
             self.owed |= bit(index);
+        }
+    }
+
+    /// Takes note of a function that has not, but is at zero for all that one can tell and on its way in this direction.
+    pub(crate) fn await_change(&mut self, index: usize, direction: Direction) {
+        let [rising, falling] = &mut self.coming;
+        *(if direction == Direction::Rising { rising } else { falling }) |= bit(index);
+    }
+
+    /// The change of sign that may have to come here.
+    pub(crate) fn coming(&self, index: usize) -> Option<Direction> {
+        let [rising, falling] = self.coming;
+        if rising & bit(index) != 0 {
+            Some(Direction::Rising)
+        } else {
+            (falling & bit(index) != 0).then_some(Direction::Falling)
         }
     }
 

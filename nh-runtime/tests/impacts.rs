@@ -211,3 +211,125 @@ fn what_has_no_solution_is_told() {
          be closed together"
     );
 }
+
+/// A ground at some height, which rises along x. It tells nothing of the sizes of what its gap is a difference of.
+struct Ground {
+    height: f64,
+    slope: f64,
+    restitution: f64,
+}
+
+impl Impact<Particle, 1> for Ground {
+    fn names(&self) -> [&'static str; 1] {
+        ["ground"]
+    }
+    fn restitution(&self, _system: &Particle) -> f64 {
+        self.restitution
+    }
+    fn gaps(&self, _system: &Particle, _t: f64, Place([x, y, ..]): &Place) -> [Option<f64>; 1] {
+        [Some(y - self.slope * x - self.height)]
+    }
+    fn rows(&self, system: &Particle, _t: f64, Place([_, _, u, v]): &Place) -> Rows<f64, [f64; 4], 1> {
+        Rows {
+            approach: [v - self.slope * u],
+            response: [[0.0, 0.0, -self.slope / system.mass, 1.0 / system.mass]],
+            mobility: [[self.slope.mul_add(self.slope, 1.0) / system.mass]],
+        }
+    }
+}
+
+#[test]
+fn a_ball_rests_on_any_ground_at_any_time_and_never_falls_through() {
+    fn check(name: &str, method: &(impl Method<Particle> + Clone)) {
+        for (height, slope) in [(0.0, 0.0), (10.0, 0.0), (1000.0, 0.0), (-3.3, -0.5), (0.4, 0.2)] {
+            for restitution in [0.0, 0.02, 0.4, 0.9] {
+                for clock in [0.0, 100.0, -0.5] {
+                    let case = format!("{name}, at {height}, slope {slope}, e = {restitution}, from {clock}");
+                    let ground = Ground { height, slope, restitution };
+                    let start = Place([0.3, slope * 0.3 + height + 0.2, 0.0, 0.0]);
+                    let mut sim = Integrator::new(HEAVY, method.clone(), clock, start).max_steps(20_000);
+                    let mut bounces = 0;
+                    let gap = |x: &Place| x.0[1] - slope * x.0[0] - height;
+                    let mut run = |sim: &mut Integrator<_, _>| {
+                        advance_with_impacts(sim, clock + 30.0, &ground, 0.0, |struck| {
+                            bounces += 1;
+                            let deep = -gap(&struck.after);
+                            assert!(deep < 1e-11 * (1.0 + height.abs()), "{case}: {deep:e}");
+                            ControlFlow::Continue(())
+                        })
+                    };
+                    let end = run(&mut sim);
+                    let Ok(End::Accumulated { row: 0, time }) = end else { panic!("{case}: {end:?}") };
+                    assert!(
+                        gap(sim.state()).abs() < 1e-9 * (1.0 + height.abs()),
+                        "{case}: {:?}",
+                        sim.state()
+                    );
+                    let Place([_, _, u, v]) = *sim.state();
+                    assert!((v - slope * u).abs() < 1e-12, "{case}: {:?}", sim.state());
+                    // it does not go on from there
+                    let again = run(&mut sim);
+                    assert!(matches!(again, Ok(End::Accumulated { row: 0, .. })), "{case}: {again:?}");
+                    assert!(sim.time() - time < 1e-6, "{case}: {time} {}", sim.time());
+                    assert!(bounces > 0, "{case}");
+                }
+            }
+        }
+    }
+    check("Dopri5", &Dopri5::new().rtol(1e-9).atol(1e-12));
+    check("Rk4", &Rk4::new(0.01));
+    check("GaussLegendre6", &GaussLegendre6::new(0.05));
+    check("Radau5", &Radau5::new().rtol(1e-9).atol(1e-12));
+}
+
+#[test]
+fn a_start_on_the_ground_that_moves_into_it_jumps_at_once() {
+    for height in [0.0, 10.0] {
+        let start = Place([0.0, height, 0.5, -2.0]);
+        for restitution in [0.5, 0.0] {
+            let ground = Ground { height, slope: 0.0, restitution };
+            let mut sim = Integrator::new(HEAVY, Dopri5::new(), 1.0, start);
+            let mut speeds = Vec::new();
+            let end = advance_with_impacts(&mut sim, 1.1, &ground, 0.0, |struck| {
+                speeds.push((struck.time, struck.after.0[3]));
+                ControlFlow::Continue(())
+            });
+            assert_eq!(speeds, [(1.0, 2.0 * restitution)], "{height}");
+            if restitution > 0.0 {
+                assert_eq!(end.unwrap(), End::Target);
+                assert!((sim.state().0[1] - height - 0.1 * 1.0 + 0.5 * 9.81 * 0.01).abs() < 1e-12);
+            } else {
+                assert!(matches!(end, Ok(End::Accumulated { row: 0, .. })), "{end:?}");
+            }
+            // told to stop there, it stops there
+            let mut sim = Integrator::new(HEAVY, Dopri5::new(), 1.0, start);
+            let end = advance_with_impacts(&mut sim, 1.1, &ground, 0.0, |_| ControlFlow::Break(()));
+            assert_eq!((end.unwrap(), sim.time()), (End::Stopped, 1.0));
+        }
+    }
+}
+
+#[test]
+fn limits_hold_for_all_flights_together() {
+    let ground = Ground { height: 0.0, slope: 0.0, restitution: 1.0 };
+    let start = Place([0.0, 1.0, 0.0, 0.0]);
+    let mut sim = Integrator::new(HEAVY, Rk4::new(0.1), 0.0, start).max_steps(50);
+    let end = advance_with_impacts(&mut sim, 1e6, &ground, 0.0, |_| ControlFlow::Continue(()));
+    let expected = IntegrationError::TooManySteps { time: sim.time(), target: 1e6, limit: 50 };
+    assert!(matches!(end, Err(ImpactError::Integration(error)) if error == expected), "{end:?}");
+}
+
+#[test]
+fn a_start_inside_that_moves_out_meets_the_ground_where_it_is() {
+    let ground = Ground { height: 0.0, slope: 0.0, restitution: 0.5 };
+    let start = Place([0.0, -0.1, 0.0, 2.0]);
+    let mut sim = Integrator::new(HEAVY, Rk4::new(0.01), 0.0, start);
+    let mut first = None;
+    let end = advance_with_impacts(&mut sim, 1.0, &ground, 0.0, |struck| {
+        first = Some(*struck);
+        ControlFlow::Break(())
+    });
+    let struck = first.unwrap();
+    let expected = (2.0 + (4.0_f64 - 2.0 * 9.81 * 0.1).sqrt()) / 9.81;
+    assert!(end.unwrap() == End::Stopped && (struck.time - expected).abs() < 1e-12, "{struck:?} {expected}");
+}

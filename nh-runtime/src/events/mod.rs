@@ -1,6 +1,9 @@
 //! Events: where functions of time and state change their sign.
 
 mod acting;
+mod local;
+mod locate;
+mod pending;
 mod search;
 mod standing;
 mod start;
@@ -12,13 +15,15 @@ use core::ops::ControlFlow;
 
 use crate::integrator::Spent;
 use crate::methods::Method;
+use crate::stop::MOST_FUNCTIONS;
 use crate::{Direction, Dynamics, IntegrationError, Integrator, Real, Scalar, ScalarOf};
 
 /// `N` event functions, given as one closure of time, state and input, and what to look for.
 ///
 /// A function that is zero has changed its sign when it reaches zero. Where it starts from zero, it takes the
 /// sign that it moves to, which is no event: the sign of its rate of change, or the first sign that it shows if
-/// that vanishes. After a [`reset`](Integrator::reset), zero is whatever a function leaves or passes
+/// that vanishes. A function that reaches zero and stays there has one event, and another one where it turns back.
+/// After a [`reset`](Integrator::reset), zero is whatever a function leaves or passes
 /// within the resolution of time, so that a state that was put onto a contact starts from it.
 ///
 /// Every step is looked at where it ends and at some [`samples`](Self::samples) within it, and where these show
@@ -29,6 +34,8 @@ pub struct Events<F, const N: usize> {
     functions: F,
     directions: [Direction; N],
     samples: u32,
+    /// Whether a function that is zero where a state is given comes from above: as a gap does, which nothing enters.
+    comes_from_above: bool,
 }
 
 /// A change of sign.
@@ -55,13 +62,20 @@ impl<F, const N: usize> Events<F, N> {
     where
         F: Fn(T, &X, &U) -> [T; N],
     {
-        Self { functions, directions: [Direction::Either; N], samples: 3 }
+        const { assert!(N <= MOST_FUNCTIONS, "at most 128 event functions are told apart: give fewer to one run") };
+        Self { functions, directions: [Direction::Either; N], samples: 3, comes_from_above: false }
     }
 
     /// The events of each function are changes of its sign in this direction only.
     #[must_use]
     pub fn directions(mut self, directions: [Direction; N]) -> Self {
         self.directions = directions;
+        self
+    }
+
+    /// Of functions that nothing takes below zero: from zero they come down, too.
+    pub(crate) fn coming_from_above(mut self) -> Self {
+        self.comes_from_above = true;
         self
     }
 
@@ -75,11 +89,14 @@ impl<F, const N: usize> Events<F, N> {
     }
 }
 
-/// A sign.
-#[derive(Clone, Copy, PartialEq, Eq)]
+/// A sign. A function that has reached zero has changed it, and stays zero or goes on, or turns back, which is another
+/// change.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Side {
     Below,
     On,
+    OnFromBelow,
+    OnFromAbove,
     Above,
 }
 
@@ -103,10 +120,35 @@ fn side<T: Real>(value: T) -> Side {
 /// The direction in which a value has left a side, if it has.
 fn crossing<T: Real>(from: Side, value: T) -> Option<Direction> {
     match (from, side(value)) {
-        (Side::Below, Side::On | Side::Above) => Some(Direction::Rising),
-        (Side::Above, Side::On | Side::Below) => Some(Direction::Falling),
+        (Side::Below, Side::On | Side::Above) | (Side::OnFromAbove, Side::Above) => Some(Direction::Rising),
+        (Side::Above, Side::On | Side::Below) | (Side::OnFromBelow, Side::Below) => Some(Direction::Falling),
         _ => None,
     }
+}
+
+/// The side on which a function is that comes from another one with this value.
+fn settled<T: Real>(from: Side, value: T) -> Side {
+    match (from, side(value)) {
+        (Side::Above, Side::On) => Side::OnFromAbove,
+        (Side::Below, Side::On) => Side::OnFromBelow,
+        (from, Side::On) => from,
+        (_, side) => side,
+    }
+}
+
+/// The side that a change of sign leads to.
+fn beyond(direction: Direction) -> Side {
+    if direction == Direction::Rising { Side::Above } else { Side::Below }
+}
+
+/// The side that it comes from.
+fn before(direction: Direction) -> Side {
+    if direction == Direction::Rising { Side::Below } else { Side::Above }
+}
+
+/// Zero, reached by a change of sign in this direction.
+fn reached(direction: Direction) -> Side {
+    if direction == Direction::Rising { Side::OnFromBelow } else { Side::OnFromAbove }
 }
 
 impl<F, const N: usize> Events<F, N> {
@@ -214,7 +256,7 @@ where
     }
 
     /// Takes steps and looks back at each, then hands it to `kept`; of simultaneous events `one` alone may be visited.
-    fn watch<E: From<IntegrationError>, F, const N: usize>(
+    pub(crate) fn watch<E: From<IntegrationError>, F, const N: usize>(
         &mut self,
         (target, spent): (ScalarOf<S>, &mut Spent),
         events: &Events<F, N>,

@@ -2,65 +2,14 @@
 
 use core::ops::ControlFlow;
 
-use super::start::Sides;
+use super::local::Local;
+use super::pending::Pending;
+use super::start::{Sides, midway};
 use super::turns::double_changes;
 use super::{Event, EventOf, Events, Side, Station, crossing, side};
-use crate::methods::Method;
-use crate::stop::Stop;
-use crate::{Direction, Dynamics, IntegrationError, Integrator, Real, Scalar, ScalarOf};
-
-/// Changes of sign within so many rounding units of time happen at the same time.
-const SAME_TIME: f64 = 4.0;
-
-/// The sign changes between two stations that are still to be reported, each with its time.
-struct Pending<T, const N: usize> {
-    found: [Option<(T, Direction)>; N],
-}
-
-impl<T: Real, const N: usize> Pending<T, N> {
-    /// Those of a step that begins at `start`; the sides are then those at the second station.
-    fn between<F>(
-        events: &Events<F, N>,
-        stations: [Station<T, N>; 2],
-        start: T,
-        sides: &mut Sides<T, N>,
-        values_at: impl Fn(T) -> Result<[T; N], IntegrationError>,
-    ) -> Result<Self, IntegrationError> {
-        let mut found = [None; N];
-        for (index, slot) in found.iter_mut().enumerate() {
-            let from = sides.of;
-            let change = find(events, index, stations, &mut sides.of, &values_at)?;
-            if change.is_some_and(|(time, _)| sides.is_echo(index, start, time)) {
-                sides.of = from;
-            } else {
-                *slot = change;
-            }
-        }
-        Ok(Self { found })
-    }
-
-    /// The time at which the earliest have happened, if there is one; `forwards` says what is early.
-    fn time(&self, forwards: bool) -> Option<T> {
-        let before = |a: T, b: T| if forwards { a < b } else { a > b };
-        let times = || self.found.iter().flatten().map(|(time, _)| *time);
-        let earliest = times().reduce(|a, b| if before(b, a) { b } else { a })?;
-        let round_off = T::from_f64(SAME_TIME) * T::EPSILON * earliest.abs();
-        let same = times().filter(|time| (*time - earliest).abs() <= round_off);
-        same.reduce(|a, b| if before(a, b) { b } else { a })
-    }
-
-    /// Takes out what happens until then, and calls `visit` for it.
-    fn take(&mut self, forwards: bool, until: T, mut visit: impl FnMut(usize, Direction)) {
-        for (index, found) in self.found.iter_mut().enumerate() {
-            if let Some((time, direction)) = *found
-                && (if forwards { time <= until } else { time >= until })
-            {
-                *found = None;
-                visit(index, direction);
-            }
-        }
-    }
-}
+use crate::methods::{Method, Start};
+use crate::stop::{Flight, NO_HEIGHT, SHORT_HEIGHT, Stop};
+use crate::{Direction, Dynamics, IntegrationError, Integrator, Real, ScalarOf};
 
 impl<S: Dynamics, M: Method<S>> Integrator<S, M>
 where
@@ -120,32 +69,41 @@ where
                     None => there,
                 };
                 let mut pending = Pending::between(events, [*here, to], start, sides, values_at)?;
-                while let Some(time) = pending.time(forwards) {
-                    let state = evaluate(time)?.0;
-                    let mut stop = Stop::new(time, end - start);
-                    let mut stopped = None;
-                    let mut accumulating = None;
-                    pending.take(forwards, time, |index, direction| {
-                        let is_reported = !one || stopped.is_none();
-                        stop.note(index, direction, is_reported);
-                        if sides.is_flight(index) && !stop.ends_flight(start, sides.stop.as_ref()) {
-                            accumulating = accumulating.or(Some(index));
-                            return;
-                        }
-                        let event = Event { index, time, state, direction };
-                        if is_reported && visit(&event).is_break() && stopped.is_none() {
-                            stopped = Some(event);
-                        }
-                    });
-                    if let Some(event) = accumulating {
-                        return Err(IntegrationError::EventsAccumulate {
-                            event,
-                            time: start.to_f64(),
-                            flight: (time - start).abs().to_f64(),
-                            resolution: Stop::resolution(start, time).to_f64(),
-                        });
+                while let Some(first) = pending.first(forwards) {
+                    let mut time = first;
+                    if pending.are_several() {
+                        let (state, station) = evaluate(first)?;
+                        let local = self.local_at(events, &state, &station, end - start);
+                        time = pending.instant(forwards, first, &local, Stop::resolution(start, end));
                     }
-                    if stopped.is_some() {
+                    let (state, station) = evaluate(time)?;
+                    let mut stop = Stop::new(time, [start, end]);
+                    let mut stopped = None;
+                    let mut report = |changes: [Option<Direction>; N], stop: &mut Stop<_>| {
+                        for (index, direction) in changes.iter().enumerate() {
+                            let Some(direction) = *direction else { continue };
+                            let is_reported = !one || stopped.is_none();
+                            stop.note(index, direction, is_reported);
+                            let event = Event { index, time, state, direction };
+                            if is_reported && visit(&event).is_break() && stopped.is_none() {
+                                stopped = Some(event);
+                            }
+                        }
+                        stopped
+                    };
+                    let taken = pending.take(forwards, time, &station.values);
+                    for index in (0..N).filter(|index| taken.get(*index).is_some_and(Option::is_some)) {
+                        if sides.is_flight(index) {
+                            ends_flight(&mut stop, (index, start), sides, &values_at)?;
+                        }
+                    }
+                    if report(taken, &mut stop).is_some() {
+                        if N > 1 {
+                            let local = self.local_at(events, &state, &station, end - start);
+                            report(pending.unseen(events, &station.values, &local, stop.unit), &mut stop);
+                            note_coming(&mut stop, &local, &station);
+                        }
+                        stop.print = print(&station.values);
                         self.stand_at(time, state);
                         self.set_stop(stop);
                         return Ok(stopped);
@@ -160,56 +118,68 @@ where
         sides.go_on();
         Ok(None)
     }
+
+    /// The functions at a state within the last step.
+    fn local_at<F, const N: usize>(
+        &self,
+        events: &Events<F, N>,
+        state: &S::State,
+        here: &Station<ScalarOf<S>, N>,
+        length: ScalarOf<S>,
+    ) -> [Local<ScalarOf<S>>; N]
+    where
+        F: Fn(ScalarOf<S>, &S::State, &S::Input) -> [ScalarOf<S>; N],
+    {
+        let start = Start { system: self.system(), input: self.input(), time: here.time, state };
+        events.local(&start, (length, self.state()), &here.values)
+    }
 }
 
-/// The change of sign of a function between two stations, if it is wanted; its side is then that at the second.
-fn find<T: Real, F, const N: usize>(
-    events: &Events<F, N>,
-    index: usize,
-    [here, there]: [Station<T, N>; 2],
-    sides: &mut [Side; N],
+/// Takes note at a stop of the functions that have not changed their sign, but are at zero for all that one can tell,
+/// and on their way through it.
+fn note_coming<T: Real, const N: usize>(stop: &mut Stop<T>, local: &[Local<T>; N], here: &Station<T, N>) {
+    for (index, (value, local)) in here.values.iter().zip(local).enumerate() {
+        let Some(rate) = local.rate.filter(|_| stop.crossed(index).is_none()) else { continue };
+        if local.is_zero(stop.unit, *value) {
+            match (side(*value), side(rate)) {
+                (Side::Above, Side::Below) => stop.await_change(index, Direction::Falling),
+                (Side::Below, Side::Above) => stop.await_change(index, Direction::Rising),
+                _ => {}
+            }
+        }
+    }
+}
+
+/// What tells functions from others: their values somewhere.
+pub(super) fn print<T: Real, const N: usize>(values: &[T; N]) -> u64 {
+    values.iter().fold(0, |print: u64, value| print.rotate_left(7) ^ value.to_f64().to_bits())
+}
+
+/// Takes note at a stop of a function that has left zero where a state was given, and is back: an error where such
+/// flights do not end.
+fn ends_flight<T: Real, const N: usize>(
+    stop: &mut Stop<T>,
+    (index, start): (usize, T),
+    sides: &Sides<T, N>,
     values_at: &impl Fn(T) -> Result<[T; N], IntegrationError>,
-) -> Result<Option<(T, Direction)>, IntegrationError> {
-    let (Some(from), Some(&old), Some(&value), Some(wanted)) =
-        (sides.get_mut(index), here.values.get(index), there.values.get(index), events.directions.get(index))
-    else {
-        return Ok(None);
-    };
-    let Some(direction) = crossing(*from, value) else {
-        if *from == Side::On {
-            *from = side(value);
-        }
-        return Ok(None);
-    };
-    let before = *from;
-    // what has reached zero has crossed
-    *from = if direction == Direction::Rising { Side::Above } else { Side::Below };
-    if *wanted != Direction::Either && *wanted != direction {
-        return Ok(None);
+) -> Result<(), IntegrationError> {
+    let flight = (stop.time - start).abs();
+    let rounding = sides.local(index).rounding(flight / stop.length.abs());
+    let height = midway(index, (start, stop.time), values_at)?.abs();
+    let is_hidden = [NO_HEIGHT, SHORT_HEIGHT].map(|roundings| height <= T::from_f64(roundings) * rounding);
+    if stop.ends_flight(Flight { start, is_hidden }, sides.stop.as_ref()) {
+        return Ok(());
     }
-    let value_at = |time| values_at(time).map(|values| values.get(index).copied().unwrap_or(value));
-    let start = in_flight(before, ((here.time, old), there.time), &value_at)?;
-    let time = locate(before, (start, (there.time, value)), value_at)?;
-    Ok(Some((time, direction)))
-}
-
-/// A point at which a function that leaves zero shows the side that it moves to: nearer and nearer to where it left,
-/// as far as time resolves it, and that place itself if there is none.
-fn in_flight<T: Real>(
-    to: Side,
-    ((time, value), end): ((T, T), T),
-    value_at: &impl Fn(T) -> Result<T, IntegrationError>,
-) -> Result<(T, T), IntegrationError> {
-    let half = T::from_f64(0.5);
-    let mut distance = end - time;
-    while side(value) != to && time + distance != time {
-        distance *= half;
-        let there = value_at(time + distance)?;
-        if side(there) == to {
-            return Ok((time + distance, there));
-        }
-    }
-    Ok((time, value))
+    // a parabola's slope where it leaves zero is four times its height over its length
+    let share = T::from_f64(0.25) * rounding / height;
+    let blur =
+        if rounding == T::ZERO { T::ZERO } else { flight * if share < T::ONE { share } else { T::ONE } };
+    Err(IntegrationError::EventsAccumulate {
+        event: index,
+        time: start.to_f64(),
+        flight: flight.to_f64(),
+        resolution: Stop::resolution(start, stop.time).max(blur).to_f64(),
+    })
 }
 
 /// Times that are taken one after the other.
@@ -227,62 +197,4 @@ impl<T: Real, const N: usize> Turns<T, N> {
         }
         Some(first)
     }
-}
-
-impl<T: Real, const N: usize> Sides<T, N> {
-    /// Forgets the start of the run.
-    fn go_on(&mut self) {
-        *self = Self { of: self.of, leaving: [false; N], is_given: false, stop: None };
-    }
-
-    /// Whether a function has left zero where a state was given.
-    fn is_flight(&self, index: usize) -> bool {
-        self.is_given && self.leaving.get(index) == Some(&true)
-    }
-
-    /// Whether a change so soon after the start is round-off that follows an event which has been reported.
-    fn is_echo(&self, index: usize, start: T, time: T) -> bool {
-        let resolution = T::from_f64(SAME_TIME) * T::EPSILON * start.abs().max(time.abs());
-        !self.is_given && self.leaving.get(index) == Some(&true) && (time - start).abs() <= resolution
-    }
-}
-
-/// The first time with a new sign between two, to the resolution of time: by the Illinois variant of
-/// the regula falsi (Dowell, Jarratt, BIT 11 (1971) 168), and every third time by bisection, which
-/// halves the interval at least.
-fn locate<T: Real>(
-    from: Side,
-    (mut before, mut after): ((T, T), (T, T)),
-    value_at: impl Fn(T) -> Result<T, IntegrationError>,
-) -> Result<T, IntegrationError> {
-    let half = T::from_f64(0.5);
-    let mut kept_after = false;
-    for count in 1_u32.. {
-        let resolution = T::EPSILON * after.0.abs().max(before.0.abs());
-        if (after.0 - before.0).abs() <= resolution || after.1 == T::ZERO {
-            break;
-        }
-        let middle = before.0 + (after.0 - before.0) * half;
-        let chord = after.0 - (after.0 - before.0) * (after.1 / (after.1 - before.1));
-        let inside = (before.0 < chord && chord < after.0) || (after.0 < chord && chord < before.0);
-        let time = if count % 3 != 0 && inside { chord } else { middle };
-        if time == before.0 || time == after.0 {
-            break;
-        }
-        let value = value_at(time)?;
-        if crossing(from, value).is_some() {
-            after = (time, value);
-            if kept_after {
-                before.1 *= half;
-            }
-            kept_after = true;
-        } else {
-            before = (time, value);
-            if !kept_after {
-                after.1 *= half;
-            }
-            kept_after = false;
-        }
-    }
-    Ok(after.0)
 }

@@ -2,7 +2,7 @@
 
 use core::ops::ControlFlow;
 
-use super::start::near;
+use super::search::print;
 use super::{Event, EventOf, Events, Side, Station};
 use crate::methods::{Method, Start};
 use crate::stop::bit;
@@ -12,8 +12,8 @@ impl<S: Dynamics, M: Method<S>> Integrator<S, M>
 where
     ScalarOf<S>: Real,
 {
-    /// Reports what happened where the integration stands and has not been reported: where a function is
-    /// still on its way through zero. The event that it stops at.
+    /// Reports what happened where the integration stands and has not been reported; where another state has been given
+    /// there, of that only where a function is still on its way through zero. The event that it stops at.
     pub(super) fn pay_owed<F, const N: usize>(
         &mut self,
         events: &Events<F, N>,
@@ -27,17 +27,23 @@ where
         let mut stop = self.stop().filter(|stop| stop.owed != 0)?;
         let start =
             Start { system: self.system(), input: self.input(), time: self.time(), state: self.state() };
-        let rates = events.rates(&start, stop.length, &here.values);
+        let is_given = self.last_step().is_none();
+        // other functions have nothing to do with what these were owed
+        if !is_given && stop.print != print(&here.values) {
+            return None;
+        }
+        let beyond = self.last_step().map_or(*start.state, |(_, arrival)| arrival.state);
+        let local = events.local(&start, (stop.length, &beyond), &here.values);
         let (time, state) = (self.time(), *self.state());
         let mut stopped = None;
-        for (index, (value, rate)) in here.values.iter().zip(rates).enumerate() {
+        for (index, (value, local)) in here.values.iter().zip(local).enumerate() {
             let Some(direction) = stop.crossed(index) else { continue };
             if stop.owed & bit(index) == 0 || (one && stopped.is_some()) {
                 continue;
             }
             stop.owed &= !bit(index);
-            let goes = match rate {
-                Some(rate) if near(time, *value, rate) => super::side(rate),
+            let goes = match local.rate {
+                Some(rate) if local.is_zero(stop.unit, *value) => super::side(rate),
                 _ => Side::On,
             };
             let goes_on = match direction {
@@ -45,7 +51,7 @@ where
                 _ => goes == Side::Below,
             };
             let event = Event { index, time, state, direction };
-            if goes_on && visit(&event).is_break() && stopped.is_none() {
+            if (goes_on || !is_given) && visit(&event).is_break() && stopped.is_none() {
                 stopped = Some(event);
             }
         }

@@ -1,13 +1,11 @@
 //! On which side of zero event functions start.
 
-use super::{Events, Side, Station, side};
-use crate::arrays::displaced;
-use crate::methods::{Method, Start};
+use super::local::Local;
+use super::search::print;
+use super::{Events, Side, Station, before, beyond, reached, side};
+use crate::methods::Method;
 use crate::stop::Stop;
-use crate::{Direction, Dynamics, Integrator, Real, Scalar, ScalarOf, State};
-
-/// A zero within so many rounding units of the time is at that time.
-const RESOLUTION: f64 = 64.0;
+use crate::{Direction, Dynamics, IntegrationError, Integrator, Real, ScalarOf};
 
 /// The sides of the functions at the start of a step.
 #[derive(Clone, Copy)]
@@ -19,50 +17,50 @@ pub(super) struct Sides<T, const N: usize> {
     pub(super) is_given: bool,
     /// The stop there.
     pub(super) stop: Option<Stop<T>>,
+    /// The functions there.
+    pub(super) local: [Local<T>; N],
 }
 
-/// Whether a function with this value and rate is zero at that time, as far as time resolves it.
-pub(super) fn near<T: Real>(time: T, value: T, rate: T) -> bool {
-    value.abs() <= T::from_f64(RESOLUTION) * T::EPSILON * time.abs() * rate.abs()
-}
-
-impl<F, const N: usize> Events<F, N> {
-    /// The rates of change of the functions along the motion in the direction of a step of this length, where
-    /// they can be told: by central differences along the tangent, which have to exceed what the functions'
-    /// curvature contributes.
-    pub(super) fn rates<S: Dynamics>(
-        &self,
-        start: &Start<'_, S>,
-        length: ScalarOf<S>,
-        values: &[ScalarOf<S>; N],
-    ) -> [Option<ScalarOf<S>>; N]
-    where
-        ScalarOf<S>: Real,
-        F: Fn(ScalarOf<S>, &S::State, &S::Input) -> [ScalarOf<S>; N],
-    {
-        let c = ScalarOf::<S>::from_f64;
-        let mut rates = [None; N];
-        let (x, slope) = (start.state.to_array(), start.derivative());
-        let at = |delta: ScalarOf<S>| {
-            let state = S::State::from_array(displaced(&x, delta, &slope));
-            (self.functions)(start.time + delta, &state, start.input)
+impl<T: Real, const N: usize> Sides<T, N> {
+    /// Forgets the start of the run.
+    pub(super) fn go_on(&mut self) {
+        *self = Self {
+            of: self.of,
+            leaving: [false; N],
+            is_given: false,
+            stop: None,
+            local: [Local::UNKNOWN; N],
         };
-        let mut share = c(1.0 / 1024.0);
-        while share * share >= ScalarOf::<S>::EPSILON && rates.iter().any(Option::is_none) {
-            let delta = share * length;
-            let (ahead, behind) = (at(delta), at(-delta));
-            let pairs = ahead.iter().zip(&behind).zip(values);
-            for (rate, ((ahead, behind), value)) in rates.iter_mut().zip(pairs) {
-                let odd = *ahead - *behind;
-                let even = (*ahead - *value) + (*behind - *value);
-                if rate.is_none() && odd.abs() > even.abs() + even.abs() {
-                    *rate = Some(odd / (delta + delta).abs());
-                }
-            }
-            share *= c(1.0 / 64.0);
-        }
-        rates
     }
+
+    /// Whether a function has left zero where a state was given.
+    pub(super) fn is_flight(&self, index: usize) -> bool {
+        self.is_given && self.leaving.get(index) == Some(&true)
+    }
+
+    /// The function at the start.
+    pub(super) fn local(&self, index: usize) -> Local<T> {
+        self.local.get(index).copied().unwrap_or(Local::UNKNOWN)
+    }
+
+    /// Whether a change from this side so soon after the start is round-off that follows an event which has been
+    /// reported.
+    pub(super) fn is_echo(&self, index: usize, from: Side, (start, time): (T, T)) -> bool {
+        let just_left = !self.is_given && self.leaving.get(index) == Some(&true);
+        let stays = matches!(from, Side::OnFromBelow | Side::OnFromAbove);
+        let unit = self.stop.map_or(Stop::resolution(start, time), |stop| stop.unit);
+        just_left && !stays && (time - start).abs() <= self.local(index).blur(unit)
+    }
+}
+
+/// The value of a function midway between two times.
+pub(super) fn midway<T: Real, const N: usize>(
+    index: usize,
+    (start, end): (T, T),
+    values_at: &impl Fn(T) -> Result<[T; N], IntegrationError>,
+) -> Result<T, IntegrationError> {
+    let values = values_at(start + (end - start) * T::from_f64(0.5))?;
+    Ok(values.get(index).copied().unwrap_or(T::ZERO))
 }
 
 impl<S: Dynamics, M: Method<S>> Integrator<S, M>
@@ -80,26 +78,48 @@ where
     where
         F: Fn(ScalarOf<S>, &S::State, &S::Input) -> [ScalarOf<S>; N],
     {
-        let mut of = here.values.map(side);
-        let mut leaving = [false; N];
-        let Some((start, arrival)) = self.last_step() else {
-            return Sides { of, leaving, is_given, stop };
+        let mut sides = Sides {
+            of: here.values.map(side),
+            leaving: [false; N],
+            is_given,
+            stop,
+            local: [Local::UNKNOWN; N],
         };
-        let rates = events.rates(&start, arrival.time - start.time, &here.values);
-        let each = of.iter_mut().zip(&mut leaving).zip(here.values.iter().zip(rates));
-        for (index, ((side_of, leaving), (value, rate))) in each.enumerate() {
-            let is_near = rate.is_some_and(|rate| near(start.time, *value, rate));
+        let on_its_way = !is_given && stop.is_none() && !sides.of.contains(&Side::On);
+        let Some((start, arrival)) = self.last_step().filter(|_| !on_its_way) else { return sides };
+        let unit = stop.map_or(Stop::resolution(start.time, start.time), |stop| stop.unit);
+        sides.local = events.local(&start, (arrival.time - start.time, &arrival.state), &here.values);
+        // what has been left where it changed its sign is at zero, whatever rounding shows
+        let is_unmoved = stop.is_some_and(|stop| stop.print == print(&here.values));
+        let each = sides.of.iter_mut().zip(&mut sides.leaving).zip(here.values.iter().zip(&sides.local));
+        for (index, ((side_of, leaving), (value, local))) in each.enumerate() {
+            let crossed = stop.and_then(|stop| stop.crossed(index));
+            let is_zero = local.is_zero(unit, *value) || (is_unmoved && crossed.is_some());
             // what has changed its sign here may show the old one by round-off
-            let has_crossed = match stop.and_then(|stop| stop.crossed(index)) {
+            let has_crossed = match crossed {
                 Some(Direction::Rising) => *side_of == Side::Below,
                 Some(_) => *side_of == Side::Above,
                 None => false,
             };
-            *leaving = *side_of == Side::On || (is_near && (is_given || has_crossed));
-            if *leaving {
-                *side_of = rate.map_or(Side::On, side);
+            // what was on its way to zero at a stop, and goes on from there, has its event to come
+            let coming = stop.and_then(|stop| stop.coming(index)).filter(|_| is_given && is_zero);
+            if let Some(coming) = coming
+                && local.rate.is_none_or(|rate| side(rate) == beyond(coming))
+            {
+                *side_of = before(coming);
+                continue;
             }
+            *leaving = *side_of == Side::On || (is_zero && (is_given || has_crossed));
+            if !*leaving {
+                continue;
+            }
+            *side_of = match (local.rate, crossed) {
+                _ if events.comes_from_above && is_given => Side::Above,
+                (Some(rate), _) => side(rate),
+                (None, Some(direction)) if !is_given && *side_of == Side::On => reached(direction),
+                (None, _) => Side::On,
+            };
         }
-        Sides { of, leaving, is_given, stop }
+        sides
     }
 }

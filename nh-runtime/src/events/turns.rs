@@ -19,7 +19,7 @@ fn turn<T: Real>(from: Side, [a, b, c]: [Point<T>; 3]) -> Option<Point<T>> {
     let bends_away = match from {
         Side::Above => bend > T::ZERO,
         Side::Below => bend < T::ZERO,
-        Side::On => false,
+        Side::On | Side::OnFromBelow | Side::OnFromAbove => false,
     };
     let slope = bend.mul_add(b.0 - a.0, first);
     let offset = -slope / (bend + bend);

@@ -1,12 +1,16 @@
 //! The jump, and an integration from jump to jump.
 
+use core::cell::Cell;
 use core::ops::ControlFlow;
 
 use super::complementarity::{Dependent, Problem};
 use super::{Impact, ImpactError, MOST_ROWS};
 use crate::arrays::{all_finite, displaced};
+use crate::integrator::Spent;
 use crate::methods::Method;
-use crate::{Direction, Dynamics, Events, IntegrationError, Integrator, Real, Scalar, ScalarOf, State};
+use crate::{
+    Direction, Dynamics, Event, Events, IntegrationError, Integrator, Real, Scalar, ScalarOf, State,
+};
 
 /// The jumps that may follow one another in one instant.
 const MOST_JUMPS: u32 = 8;
@@ -66,7 +70,22 @@ where
     ScalarOf<S>: Real,
 {
     let place = Place { system, time: t, state, closed };
-    struck(&place, impact, impact.restitution(system), None)
+    struck(&place, impact, impact.restitution(system), Contact::unseen())
+}
+
+/// What is known of the contacts besides their gaps.
+#[derive(Clone, Copy)]
+struct Contact<const R: usize> {
+    /// A row that has come to rest: it is met whatever its rate.
+    resting: Option<usize>,
+    /// Rows whose gaps have been seen to close: they are closed, whatever rounding shows of them.
+    touching: [bool; R],
+}
+
+impl<const R: usize> Contact<R> {
+    fn unseen() -> Self {
+        Self { resting: None, touching: [false; R] }
+    }
 }
 
 /// Where an impact happens.
@@ -78,12 +97,12 @@ struct Place<'a, S: Dynamics> {
     closed: ScalarOf<S>,
 }
 
-/// The jump with this coefficient of restitution; the row that has come to rest is met whatever its rate.
+/// The jump with this coefficient of restitution.
 fn struck<S: Dynamics, I: Impact<S, R>, const R: usize>(
     place: &Place<'_, S>,
     impact: &I,
     restitution: ScalarOf<S>,
-    resting: Option<usize>,
+    Contact { resting, touching }: Contact<R>,
 ) -> Result<StruckOf<S, R>, ImpactError>
 where
     ScalarOf<S>: Real,
@@ -136,7 +155,8 @@ where
         {
             let rounding = sizes.get(index).map_or(zero, |size| ScalarOf::<S>::EPSILON.sqrt() * *size)
                 + ScalarOf::<S>::from_f64(64.0) * ScalarOf::<S>::EPSILON * (*s * t).abs();
-            *present = gap.is_none_or(|gap| gap <= closed.max(rounding) && *s <= zero);
+            let is_seen = touching.get(index) == Some(&true);
+            *present = gap.is_none_or(|gap| (is_seen || gap <= closed.max(rounding)) && *s <= zero);
             pushes |= gap.is_some() && *present;
             is_over &= match gap {
                 None => s.abs() <= speed(index),
@@ -168,8 +188,9 @@ where
     Ok(Struck { time: t, before: *state, after, impulses, lost })
 }
 
-/// Takes steps to `target`, and makes the jump of `impact` wherever a gap closes; `visit` sees each and may end the run
-/// there. Statistics, input and step length go on from jump to jump.
+/// Takes steps to `target`, and makes the jump of `impact` wherever a gap closes, and at the start where one is closed and
+/// does not open; `visit` sees each and may end the run there. Statistics, input and step length go on from jump to jump,
+/// and the limits on steps and evaluations hold for the whole call.
 ///
 /// # Errors
 /// [`ImpactError`]; state and time are those before the impact, or of the last good step.
@@ -186,23 +207,58 @@ where
     I: Impact<S, R>,
     ScalarOf<S>: Real,
 {
+    sim.admit_target(target)?;
+    if sim.time() == target {
+        return Ok(End::Target);
+    }
     let system = sim.system().clone();
-    // how deep in its contact, by rounding, each row has been left
-    let mut depths = [ScalarOf::<S>::ZERO; R];
+    let strike_at = |time: ScalarOf<S>, state: &S::State, contact| {
+        let place = Place { system: &system, time, state, closed };
+        struck(&place, impact, impact.restitution(&system), contact)
+    };
+    let gaps = |t: ScalarOf<S>, state: &S::State| impact.gaps(&system, t, state);
+    if gaps(sim.time(), sim.state()).iter().any(Option::is_some) {
+        let struck = strike_at(sim.time(), sim.state(), Contact::unseen())?;
+        if struck.impulses.iter().any(|impulse| *impulse != ScalarOf::<S>::ZERO) {
+            sim.set_state(struck.after);
+            if visit(&struck).is_break() {
+                return Ok(End::Stopped);
+            }
+        }
+    }
+    // how deep in its contact each row starts or has been left, until it has been out of it
+    let depths_at = |t: ScalarOf<S>, state: &S::State| {
+        gaps(t, state).map(|gap| gap.unwrap_or_default().min(ScalarOf::<S>::ZERO))
+    };
+    let depths = Cell::new(depths_at(sim.time(), sim.state()));
+    let over = |t: ScalarOf<S>, state: &S::State, _: &S::Input| {
+        let mut gaps = gaps(t, state).map(|gap| gap.unwrap_or(ScalarOf::<S>::ONE));
+        gaps.iter_mut().zip(depths.get()).for_each(|(gap, depth)| *gap -= depth);
+        gaps
+    };
+    let leave = |sim: &Integrator<S, M>| {
+        let mut left = depths.get();
+        for (depth, gap) in left.iter_mut().zip(gaps(sim.time(), sim.state())) {
+            if gap.is_some_and(|gap| gap > ScalarOf::<S>::ZERO) {
+                *depth = ScalarOf::<S>::ZERO;
+            }
+        }
+        depths.set(left);
+        Ok(())
+    };
+    let events = Events::new(over).directions([Direction::Falling; R]).coming_from_above();
+    let mut spent = Spent::default();
     loop {
-        let over = |t: ScalarOf<S>, state: &S::State, _: &S::Input| {
-            let mut gaps = impact.gaps(&system, t, state).map(|gap| gap.unwrap_or(ScalarOf::<S>::ONE));
-            gaps.iter_mut().zip(&depths).for_each(|(gap, depth)| *gap -= *depth);
-            gaps
+        let mut touching = [false; R];
+        let note = |event: &Event<ScalarOf<S>, S::State>| {
+            touching.iter_mut().skip(event.index).take(1).for_each(|row| *row = true);
+            ControlFlow::Break(())
         };
-        let events = Events::new(over).directions([Direction::Falling; R]);
-        match sim.advance_until(target, &events) {
+        match sim.watch((target, &mut spent), &events, false, note, leave) {
             Ok(None) => return Ok(End::Target),
             Ok(Some(_)) => {
-                let struck = strike(&system, impact, sim.time(), sim.state(), closed)?;
-                depths = impact
-                    .gaps(&system, struck.time, &struck.after)
-                    .map(|gap| gap.unwrap_or_default().min(ScalarOf::<S>::ZERO));
+                let struck = strike_at(sim.time(), sim.state(), Contact { resting: None, touching })?;
+                depths.set(depths_at(struck.time, &struck.after));
                 sim.set_state(struck.after);
                 if visit(&struck).is_break() {
                     return Ok(End::Stopped);
@@ -211,7 +267,8 @@ where
             Err(IntegrationError::EventsAccumulate { event, .. }) => {
                 let (time, state) = (sim.time(), *sim.state());
                 let place = Place { system: &system, time, state: &state, closed };
-                let landed = struck(&place, impact, ScalarOf::<S>::ZERO, Some(event))?;
+                let contact = Contact { resting: Some(event), ..Contact::unseen() };
+                let landed = struck(&place, impact, ScalarOf::<S>::ZERO, contact)?;
                 sim.set_state(landed.after);
                 return Ok(End::Accumulated { row: event, time });
             }

@@ -9,8 +9,9 @@ use super::motion::{Variational, WithColumns};
 use super::no_derivative::SensitivityError;
 use super::stack::Columns;
 use crate::arrays::all_finite;
+use crate::integrator::Spent;
 use crate::methods::Method;
-use crate::{D, Direction, Dynamics, Events, Integrator, Jacobian, Jet, Real, Scalar, State};
+use crate::{D, Direction, Dynamics, Event, Events, Integrator, Jacobian, Jet, Real, Scalar, State};
 
 /// Events at which the state jumps, written for any numbers, so that they are differentiated by [`Jet`]s: `N` components
 /// of the state, `K` columns, `E` events.
@@ -59,7 +60,8 @@ type JumpedOf<S, T, const K: usize> = Jumped<T, <S as Dynamics>::State, K>;
 ///
 /// # Errors
 /// [`SensitivityError::Grazing`], [`SensitivityError::Simultaneous`], [`SensitivityError::NotFinite`] with the integration
-/// standing at the event before its jump; and what [`Integrator::advance_watching`] says.
+/// standing at the event before its jump; and what [`Integrator::advance_watching`] says, with the limits on steps and
+/// evaluations for the whole call.
 ///
 /// ```
 /// use core::ops::ControlFlow;
@@ -127,6 +129,7 @@ where
     let values = |t: T, x: &WithColumns<S::State, K>| jumps.events(t, &x.state.to_array(), &[T::ZERO; K]);
     // how far beyond zero, by rounding, each function has been left
     let mut depths = [T::ZERO; E];
+    let mut spent = Spent::default();
     loop {
         let over = |t: T, x: &WithColumns<S::State, K>, _: &S::Input| {
             let mut values = values(t, x);
@@ -135,14 +138,15 @@ where
         };
         let events = Events::new(over).directions(jumps.directions());
         let (mut first, mut second) = (None, None);
-        sim.advance_watching(target, &events, |event| {
+        let note = |event: &Event<T, WithColumns<S::State, K>>| {
             if first.is_none() {
                 first = Some(event.index);
             } else {
                 second = second.or(Some(event.index));
             }
             ControlFlow::Break(())
-        })?;
+        };
+        sim.watch((target, &mut spent), &events, false, note, |_| Ok::<_, SensitivityError>(()))?;
         let Some(event) = first else { return Ok(None) };
         let time = sim.time();
         if let Some(other) = second {

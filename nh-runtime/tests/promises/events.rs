@@ -127,8 +127,8 @@ fn a_bouncing_ball_comes_to_rest_on_the_floor() {
     assert_eq!(
         IntegrationError::EventsAccumulate { event: 2, time: 1.5, flight: 2e-15, resolution: 3.5e-16 }
             .to_string(),
-        "the event function 2 leaves zero at t = 1.5 and is back after 2e-15, where the rounding of the time is \
-         3.5e-16: that is too little, or has been so too often in a row, to go on; events accumulate there, as the \
+        "the event function 2 leaves zero at t = 1.5 and is back after 2e-15, where rounding leaves 3.5e-16 of \
+         its zeros' times open: that is too little, or has been so too often in a row, to go on; events accumulate there, as the \
          impacts of a ball that comes to rest: go on with what holds from then on, such as the contact as a \
          constraint; or time is counted from too far away"
     );

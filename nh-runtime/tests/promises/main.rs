@@ -8,6 +8,7 @@ mod extremes;
 mod filters;
 mod limits;
 mod receding;
+mod rounded_events;
 mod starts;
 mod systems;
 mod time;
