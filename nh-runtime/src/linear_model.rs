@@ -2,12 +2,18 @@
 
 mod elimination;
 mod linearization_error;
+mod scales;
 
 use nalgebra::SMatrix;
 
 use crate::{Dynamics, Jet, Real, Scalar, ScalarOf};
 pub(crate) use elimination::{reduce, reduce_in_order};
 pub use linearization_error::LinearizationError;
+use scales::Scales;
+
+/// What is taken for rounding of derivatives, in units of the last place: of the terms that they are the sum of, and of the
+/// largest, with rows and columns brought to one size.
+const ROUNDING: f64 = 4096.0;
 
 /// A motion to first order in some variables z of the state, δż = A δz + B δu and δh = C δz + D δu, with what rows and
 /// columns are called.
@@ -114,7 +120,7 @@ pub fn variables<T: Scalar, const N: usize, const M: usize>(
 /// The linearisation in the components `kept`: mathematics (36).
 ///
 /// # Errors
-/// Where the kept components are not free, or move with components that are not kept.
+/// Where the kept components are not free, or move with components that are not kept, by more than rounding.
 pub fn linearize<
     T: Real + nalgebra::Scalar,
     const N: usize,
@@ -150,18 +156,22 @@ pub fn linearize<
     let output = |i: usize, column: usize| outputs.get(i).and_then(|output| output.by.get(column)).copied();
     let a = SMatrix::<T, K, K>::from_fn(|i, j| along(&|c| rate(at(kept, i), c), at(kept, j)));
     let c = SMatrix::<T, P, K>::from_fn(|i, j| along(&|c| output(i, c).unwrap_or(T::ZERO), at(kept, j)));
-    for (i, row) in kept.iter().enumerate() {
-        let own = a.row(i).iter().fold(T::ZERO, |most, entry| most.max(entry.abs()));
-        let largest = (0..M).fold(own, |most, input| most.max(entry(&by_input, *row, input).abs()));
+    let scales = Scales::of(&by_state, |_| true);
+    let least = T::from_f64(ROUNDING) * T::EPSILON;
+    for row in kept {
         let mut worst = None;
         for column in (0..N).filter(|column| !is_kept(*column) && !reduced.is_pivot(*column)) {
             let value = along(&|c| rate(*row, c), column);
-            let is_rounding = value.abs() <= T::EPSILON.sqrt() * largest;
-            if !is_rounding && worst.is_none_or(|(_, most): (usize, T)| value.abs() > most.abs()) {
-                worst = Some((column, value));
+            let terms =
+                (0..N).filter(|of| reduced.is_pivot(*of)).map(|of| rate(*row, of) * change(of, column));
+            let terms = terms.fold(rate(*row, column).abs(), |sum, term| sum + term.abs());
+            let size = scales.size(value, (*row, column));
+            let is_rounding = value.abs() <= least * terms || size <= least;
+            if !is_rounding && worst.is_none_or(|(_, _, most): (usize, T, T)| size > most) {
+                worst = Some((column, value, size));
             }
         }
-        if let Some((column, value)) = worst {
+        if let Some((column, value, _)) = worst {
             return Err(LinearizationError::DependsOnOthers {
                 kept: name(&names.states, *row),
                 other: name(&names.states, column),
@@ -187,4 +197,35 @@ fn entry<T: Real, const C: usize, const R: usize>(rows: &[[T; C]; R], row: usize
 
 fn name<const N: usize>(names: &[&'static str; N], index: usize) -> &'static str {
     names.get(index).copied().unwrap_or("")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A mass with a weak spring to a place that is not kept, and an input in any unit.
+    fn coupled(spring: f64, by_input: f64, unit: f64) -> Result<(), LinearizationError> {
+        let jet = |by: [f64; 3], input: f64| Jet { value: 0.0, by, by_others: [input] };
+        let rates = [
+            jet([0.0, 0.0, 1.0], 0.0),
+            jet([0.0, -1.0 / unit, 0.0], 0.0),
+            jet([spring, -2.0 / unit, -0.3], by_input),
+        ];
+        let names = Names { states: ["place", "angle", "speed"], inputs: ["force"], outputs: [] };
+        let parts = Parts::<f64, 3, 1, 0, 0> { residuals: [], rates, outputs: [] };
+        linearize(&names, &[1, 2], &parts).map(|_| ())
+    }
+
+    #[test]
+    fn a_weak_coupling_is_told_whatever_the_units_of_others_are() {
+        for (by_input, unit) in [(1.0, 1.0), (1e16, 1.0), (1.0, 1e-12), (1e-16, 1e9)] {
+            for spring in [1e-10, -3.0] {
+                let told = coupled(spring, by_input, unit).unwrap_err();
+                let expected =
+                    LinearizationError::DependsOnOthers { kept: "speed", other: "place", value: spring };
+                assert_eq!(told, expected, "{by_input} {unit}");
+            }
+            assert_eq!(coupled(0.0, by_input, unit), Ok(()));
+        }
+    }
 }
