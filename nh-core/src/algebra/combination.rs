@@ -5,15 +5,35 @@ use super::graph::Graph;
 use super::inequalities::{Contradiction, Demand, Known};
 use super::node::Node;
 use super::number::Rational;
-use super::polynomial_terms::{Monomial, Terms, multiplied, product_of};
+use super::polynomial_terms::{Monomial, Terms, multiplied, product_of, squares_inside};
 use super::simplex::{Inequality, contradiction};
 use crate::id::ExprId;
 use std::collections::BTreeSet;
 
 /// Variables of which the squares of sums and differences are used.
 const VARIABLES: usize = 6;
-/// A polynomial that is not negative, or positive: the demand that it comes from, with its sign.
-type Row = (Option<usize>, Rational, Terms, bool);
+/// Terms of a polynomial that is completed to squares.
+const COMPLETED: usize = 20;
+
+/// Where a polynomial that is not negative comes from.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Source {
+    /// The demand of this index.
+    Demand(usize),
+    /// A square of a polynomial.
+    Square,
+    /// What holds of functions, or a product of others.
+    Other,
+}
+
+impl Source {
+    fn is_demand(self) -> bool {
+        matches!(self, Self::Demand(_))
+    }
+}
+
+/// A polynomial that is not negative, or positive, with the sign that it has in what it comes from.
+type Row = (Source, Rational, Terms, bool);
 
 impl Graph {
     /// Multiples of the demands that add up to a contradiction.
@@ -22,8 +42,10 @@ impl Graph {
         demands: &[(ExprId, Demand)],
         intervals: &Known,
     ) -> Option<Contradiction> {
+        let declared: Option<Vec<Terms>> = demands.iter().map(|(id, _)| self.polynomial_terms(*id)).collect();
+        let declared = declared?;
         let polynomials: Option<Vec<Terms>> =
-            demands.iter().map(|(id, _)| self.without_denominators(self.polynomial_terms(*id)?)).collect();
+            declared.iter().map(|polynomial| self.without_denominators(polynomial.clone())).collect();
         let polynomials = polynomials?;
         // all monomials are 0 where symbols are
         let has_symbol = |monomial: &Monomial| {
@@ -36,63 +58,86 @@ impl Graph {
         if polynomials.iter().zip(demands).all(met) || self.are_met_at_a_corner(&polynomials, demands) {
             return None;
         }
-        let known = self.known_of_functions(&polynomials);
-        let own = polynomials.iter().zip(demands).map(|(polynomial, (_, demand))| (polynomial, *demand));
+        let demanded: Vec<Demand> = demands.iter().map(|(_, demand)| *demand).collect();
+        if let Some(found) = self.refuted_polynomials(&polynomials, &demanded, intervals) {
+            return Some(if polynomials == declared { found } else { Contradiction::Together });
+        }
+        let solved = self.with_equations_solved(&polynomials, demanded.iter().copied(), intervals)?;
+        let (polynomials, demanded): (Vec<Terms>, Vec<Demand>) = solved.into_iter().unzip();
+        self.refuted_polynomials(&polynomials, &demanded, intervals).map(|_| Contradiction::Together)
+    }
+
+    /// Multiples of polynomials that add up to a contradiction.
+    fn refuted_polynomials(
+        &self,
+        polynomials: &[Terms],
+        demands: &[Demand],
+        intervals: &Known,
+    ) -> Option<Contradiction> {
+        let known = self.known_of_functions(polynomials);
+        let own = polynomials.iter().zip(demands.iter().copied());
         let all = known.iter().map(|(polynomial, demand)| (polynomial, *demand)).chain(own);
         if all.into_iter().all(|(polynomial, demand)| is_met_by_constant(polynomial, demand)) {
             return None;
         }
         let mut rows: Vec<Row> = Vec::new();
-        for (index, (polynomial, (_, demand))) in polynomials.iter().zip(demands).enumerate() {
+        for (index, (polynomial, demand)) in polynomials.iter().zip(demands).enumerate() {
             match demand {
-                Demand::Positive => rows.push((Some(index), Rational::ONE, polynomial.clone(), true)),
-                Demand::NotNegative => rows.push((Some(index), Rational::ONE, polynomial.clone(), false)),
+                Demand::Positive => {
+                    rows.push((Source::Demand(index), Rational::ONE, polynomial.clone(), true));
+                }
+                Demand::NotNegative => {
+                    rows.push((Source::Demand(index), Rational::ONE, polynomial.clone(), false));
+                }
                 Demand::Zero => {
-                    rows.push((Some(index), Rational::ONE, polynomial.clone(), false));
-                    rows.push((Some(index), Rational::MINUS_ONE, negative(polynomial), false));
+                    rows.push((Source::Demand(index), Rational::ONE, polynomial.clone(), false));
+                    rows.push((Source::Demand(index), Rational::MINUS_ONE, negative(polynomial), false));
                 }
                 Demand::Nonzero => {}
             }
         }
         for (polynomial, demand) in &known {
-            rows.push((None, Rational::ONE, polynomial.clone(), *demand == Demand::Positive));
+            rows.push((Source::Other, Rational::ONE, polynomial.clone(), *demand == Demand::Positive));
             if *demand == Demand::Zero {
-                rows.push((None, Rational::ONE, negative(polynomial), false));
+                rows.push((Source::Other, Rational::ONE, negative(polynomial), false));
             }
         }
         let with_known: Vec<Terms> =
             polynomials.iter().chain(known.iter().map(|(polynomial, _)| polynomial)).cloned().collect();
-        let squares = squares(&with_known);
-        rows.extend(squares.into_iter().map(|square| (None, Rational::ONE, square, false)));
-        let found = refuted(&rows).or_else(|| refuted(&with_products(&rows))).or_else(|| {
+        let as_rows = |squares: Vec<Terms>| -> Vec<Row> {
+            squares.into_iter().map(|square| (Source::Square, Rational::ONE, square, false)).collect()
+        };
+        rows.extend(as_rows(squares(&with_known)));
+        let by_products = |rows: &[Row]| refuted(rows).or_else(|| refuted(&with_products(rows)));
+        let completed = || {
+            let short = polynomials.iter().filter(|polynomial| polynomial.len() <= COMPLETED);
+            let completed = as_rows(short.flat_map(squares_inside).collect());
+            if completed.is_empty() { None } else { by_products(&[rows.clone(), completed].concat()) }
+        };
+        let found = by_products(&rows).or_else(completed).or_else(|| {
             // what is between 0 and 0 is 0
-            let unequal = demands.iter().enumerate().filter(|(_, (_, demand))| *demand == Demand::Nonzero);
+            let unequal = demands.iter().enumerate().filter(|(_, demand)| **demand == Demand::Nonzero);
             unequal.into_iter().find_map(|(index, _)| {
                 let with = |polynomial: Terms| {
                     let mut rows = rows.clone();
-                    rows.push((Some(index), Rational::ONE, polynomial, true));
+                    rows.push((Source::Demand(index), Rational::ONE, polynomial, true));
                     refuted(&rows)
                 };
-                let one = with(polynomials[index].clone())?;
-                let other = with(negative(&polynomials[index]))?;
-                Some(one.into_iter().chain(other).collect())
+                with(polynomials[index].clone()).and(with(negative(&polynomials[index])))?;
+                Some(Contradiction::Together)
             })
         });
-        let found = found.map(|multipliers| used(&rows, multipliers));
-        found
-            .or_else(|| self.refuted_by_bounds(&polynomials, demands, intervals))
-            .map(Contradiction::Combination)
+        found.or_else(|| self.refuted_by_bounds(polynomials, demands, intervals))
     }
 
     /// The same of what demands say where functions have their extreme values.
     fn refuted_by_bounds(
         &self,
         polynomials: &[Terms],
-        demands: &[(ExprId, Demand)],
+        demands: &[Demand],
         known: &Known,
-    ) -> Option<Vec<(usize, Rational)>> {
-        let demanded: Vec<(&Terms, Demand)> =
-            polynomials.iter().zip(demands).map(|(polynomial, (_, demand))| (polynomial, *demand)).collect();
+    ) -> Option<Contradiction> {
+        let demanded: Vec<(&Terms, Demand)> = polynomials.iter().zip(demands.iter().copied()).collect();
         let bounding = Bounding { graph: self, known, demands: &demanded };
         let consequences = bounding.consequences();
         if consequences.is_empty() {
@@ -114,25 +159,30 @@ impl Graph {
                 continue;
             }
             if demand == Demand::Zero {
-                rows.push((Some(index), Rational::MINUS_ONE, negative(&polynomial), false));
+                rows.push((Source::Demand(index), Rational::MINUS_ONE, negative(&polynomial), false));
             }
-            rows.push((Some(index), Rational::ONE, polynomial, is_strict));
+            rows.push((Source::Demand(index), Rational::ONE, polynomial, is_strict));
         }
         let all: Vec<Terms> = rows.iter().map(|(_, _, polynomial, _)| polynomial.clone()).collect();
-        rows.extend(squares(&all).into_iter().map(|square| (None, Rational::ONE, square, false)));
-        let multipliers = refuted(&rows).or_else(|| refuted(&with_products(&rows)))?;
-        Some(used(&rows, multipliers))
+        rows.extend(squares(&all).into_iter().map(|square| (Source::Square, Rational::ONE, square, false)));
+        refuted(&rows).or_else(|| refuted(&with_products(&rows))).map(|_| Contradiction::Together)
     }
 }
 
-/// The demands that rows with multipliers come from.
-fn used(rows: &[Row], multipliers: Vec<(usize, Rational)>) -> Vec<(usize, Rational)> {
-    let mut used: Vec<(usize, Rational)> = Vec::new();
-    for (row, multiplier) in multipliers {
-        let Some((Some(index), sign, ..)) = rows.get(row) else { continue };
-        used.push((*index, sign.clone() * multiplier));
+/// What rows with multipliers say of the demands that they come from.
+fn explained(rows: &[Row], multipliers: &[Rational]) -> Contradiction {
+    let used = || rows.iter().zip(multipliers).filter(|(_, multiplier)| !multiplier.is_zero());
+    let demanded = used().filter_map(|((source, sign, ..), multiplier)| match source {
+        Source::Demand(index) => Some((*index, sign.clone() * multiplier.clone())),
+        _ => None,
+    });
+    let demanded: Vec<(usize, Rational)> = demanded.collect();
+    let has = |wanted: Source| used().any(|((source, ..), _)| *source == wanted);
+    match (demanded.as_slice(), has(Source::Square), has(Source::Other)) {
+        (_, false, false) => Contradiction::Combination(demanded),
+        ([(index, _)], true, false) => Contradiction::NegativeSquares(*index),
+        _ => Contradiction::Together,
     }
-    used
 }
 
 impl Graph {
@@ -229,29 +279,31 @@ fn with_products(rows: &[Row]) -> Vec<Row> {
     const SQUARED: usize = 3;
     const SQUARES: usize = 24;
     let mut all = rows.to_vec();
-    let squares: Vec<&Row> = rows.iter().filter(|(index, ..)| index.is_none()).collect();
-    let squared = rows.iter().filter(|(index, ..)| index.is_some());
+    let squares: Vec<&Row> = rows.iter().filter(|(source, ..)| !source.is_demand()).collect();
+    let squared = rows.iter().filter(|(source, ..)| source.is_demand());
     if squared.clone().count() <= SQUARED && squares.len() <= SQUARES {
         for ((_, _, one, _), (_, _, square, _)) in
             squared.flat_map(|row| squares.iter().map(move |s| (row, *s)))
         {
-            all.extend(multiplied(one, square).map(|product| (None, Rational::ONE, product, false)));
+            all.extend(multiplied(one, square).map(|product| (Source::Other, Rational::ONE, product, false)));
         }
     }
-    let factors: Vec<&Row> = rows.iter().filter(|(index, ..)| index.is_some()).collect();
+    let factors: Vec<&Row> = rows.iter().filter(|(source, ..)| source.is_demand()).collect();
     if factors.len() <= FACTORS {
         for (place, (_, _, one, strict)) in factors.iter().enumerate() {
             for (_, _, other, as_strict) in &factors[..=place] {
                 let product = multiplied(one, other);
-                all.extend(product.map(|product| (None, Rational::ONE, product, *strict && *as_strict)));
+                all.extend(
+                    product.map(|product| (Source::Other, Rational::ONE, product, *strict && *as_strict)),
+                );
             }
         }
     }
     all
 }
 
-/// Rows with multipliers that refute all of them together.
-fn refuted(rows: &[Row]) -> Option<Vec<(usize, Rational)>> {
+/// Why rows refute each other, if multiples of them do.
+fn refuted(rows: &[Row]) -> Option<Contradiction> {
     const MONOMIALS: usize = 60;
     let constant = Monomial::new();
     let monomials: BTreeSet<&Monomial> =
@@ -269,6 +321,5 @@ fn refuted(rows: &[Row]) -> Option<Vec<(usize, Rational)>> {
             strict: *strict,
         })
         .collect();
-    let multipliers = contradiction(&inequalities)?;
-    Some(multipliers.into_iter().enumerate().filter(|(_, y)| !y.is_zero()).collect())
+    contradiction(&inequalities).map(|multipliers| explained(rows, &multipliers))
 }

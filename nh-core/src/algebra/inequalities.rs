@@ -5,7 +5,7 @@
 //! consistency*, ICLP 1999). Quadratic polynomials have the least value that completing squares gives.
 //! And non-negative multiples of the inequalities, with the squares of sums and differences of their
 //! variables, may add up to `0 > 0` (`simplex.rs`), as they are or where functions have their extreme values
-//! (`bounded_terms.rs`). Points that satisfy all of them are looked for first. A system that none of them refutes is *not* known to have a solution.
+//! (`bounded_terms.rs`), or where the equations among them are solved (`solved_equations.rs`). Points that satisfy all of them are looked for first. A system that none of them refutes is *not* known to have a solution.
 
 use super::combination::negative;
 use super::enclosure::Point;
@@ -51,6 +51,11 @@ pub enum Contradiction {
     Nowhere(usize),
     /// These multiples of them add up to a number that is not as demanded.
     Combination(Vec<(usize, Rational)>),
+    /// One of them asks the negative of a sum of squares to be positive, or the like.
+    NegativeSquares(usize),
+    /// They exclude each other by a proof that is not shown: products of them, what holds of functions, equations that
+    /// are solved.
+    Together,
 }
 
 /// Points that are tried before anything is proved.

@@ -4,7 +4,7 @@ use super::graph::Graph;
 use super::node::Node;
 use super::number::Rational;
 use crate::id::ExprId;
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 /// A product of powers of parts of an expression that are not sums; empty for the number 1.
 pub(super) type Monomial = Vec<(ExprId, Rational)>;
@@ -106,31 +106,59 @@ pub(super) fn least_value(terms: &Terms) -> Option<Rational> {
         let Some(variable) = variable else {
             return Some(terms.remove(&Monomial::new()).unwrap_or(Rational::ZERO));
         };
-        // a x² + b x + c with b linear: less (2 a x + b)² / (4 a), c − b²/(4a) is left
-        let square = terms.remove(&vec![(variable, Rational::from(2))])?;
-        if square.is_negative() {
+        let Completed { coefficient, rest, .. } = completed(&terms, variable)?;
+        let degree = |monomial: &Monomial| {
+            monomial.iter().try_fold(0, |sum, (_, e)| Some(sum + e.to_i64().filter(|e| *e > 0)?))
+        };
+        if coefficient.is_negative() || terms.keys().any(|m| degree(m).is_none_or(|degree| degree > 2)) {
             return None;
-        }
-        let (mut linear, mut rest) = (Terms::new(), Terms::new());
-        for (monomial, coefficient) in terms {
-            let degree =
-                monomial.iter().try_fold(0, |sum, (_, e)| Some(sum + e.to_i64().filter(|e| *e > 0)?))?;
-            match monomial.iter().position(|(base, _)| *base == variable) {
-                Some(place) => {
-                    if degree > 2 || !monomial[place].1.is_one() {
-                        return None;
-                    }
-                    let mut other = monomial;
-                    other.remove(place);
-                    add(&mut linear, other, coefficient);
-                }
-                None => add(&mut rest, monomial, coefficient),
-            }
-        }
-        let scale = (square * Rational::from(-4)).recip()?;
-        for (monomial, coefficient) in multiplied(&linear, &linear)? {
-            add(&mut rest, monomial, coefficient * scale.clone());
         }
         terms = rest;
     }
+}
+
+/// The squares that are met where a polynomial is completed to squares, one variable after the other, as far as this
+/// goes.
+pub(super) fn squares_inside(terms: &Terms) -> Vec<Terms> {
+    let mut terms = terms.clone();
+    let mut found = Vec::new();
+    loop {
+        let variables: BTreeSet<ExprId> = terms.keys().flatten().map(|(base, _)| *base).collect();
+        let Some(next) = variables.into_iter().find_map(|variable| completed(&terms, variable)) else {
+            return found;
+        };
+        found.extend(multiplied(&next.root, &next.root));
+        terms = next.rest;
+    }
+}
+
+/// a x² + b x + c as (root² / a) / 4 + rest, with root = 2 a x + b.
+struct Completed {
+    coefficient: Rational,
+    root: Terms,
+    rest: Terms,
+}
+
+/// A polynomial of second degree in a variable whose square has a number as coefficient.
+fn completed(terms: &Terms, variable: ExprId) -> Option<Completed> {
+    let mut terms = terms.clone();
+    let coefficient = terms.remove(&vec![(variable, Rational::from(2))])?;
+    let (mut root, mut rest) = (Terms::new(), Terms::new());
+    for (monomial, factor) in terms {
+        match monomial.iter().position(|(base, _)| *base == variable) {
+            Some(place) if monomial[place].1.is_one() => {
+                let mut other = monomial;
+                other.remove(place);
+                add(&mut root, other, factor);
+            }
+            Some(_) => return None,
+            None => add(&mut rest, monomial, factor),
+        }
+    }
+    let scale = (coefficient.clone() * Rational::from(-4)).recip()?;
+    for (monomial, factor) in multiplied(&root, &root)? {
+        add(&mut rest, monomial, factor * scale.clone());
+    }
+    add(&mut root, vec![(variable, Rational::ONE)], coefficient.clone() * Rational::from(2));
+    Some(Completed { coefficient, root, rest })
 }

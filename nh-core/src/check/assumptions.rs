@@ -156,8 +156,18 @@ fn reason(
     last: &Assumption,
     contradiction: Option<&Contradiction>,
 ) -> String {
-    let Some(Contradiction::Combination(used)) = contradiction else {
-        return "no values of the parameters satisfy it together with the assumptions before it".into();
+    let alone = "no values of the parameters satisfy it";
+    let together = if before.is_empty() {
+        alone.to_owned()
+    } else {
+        format!("{alone} together with the assumptions before it")
+    };
+    let used = match contradiction {
+        Some(Contradiction::Combination(used)) => used,
+        Some(Contradiction::NegativeSquares(index)) if *index == before.len() => {
+            return format!("{alone}: it is the negative of a sum of squares");
+        }
+        _ => return together,
     };
     let mut names: Vec<String> = Vec::new();
     for (index, multiplier) in used {
@@ -168,8 +178,7 @@ fn reason(
         }
     }
     match names.as_slice() {
-        [] => "no values of the parameters satisfy it together with the assumptions before it".into(),
-        [_] => "no values of the parameters satisfy it: it is the negative of a sum of squares".into(),
+        [] | [_] => together,
         several => format!("{}, each times some positive number, add up to a contradiction", listed(several)),
     }
 }

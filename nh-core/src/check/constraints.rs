@@ -411,7 +411,7 @@ fn too_many(model: &Model) -> Violation {
         law: Law::Independence,
         origin: last,
         what: format!(
-            "as many independent constraints as sections ({constraints} of {sections}): nothing can move"
+            "as many independent constraints as sections ({constraints} of {sections}): no velocity is left free"
         ),
         evidence: "the constraint distribution has rank 0".into(),
         way_out: "leave a constraint out, or add the velocities that it leaves free".into(),

@@ -1,9 +1,9 @@
 //! Dependent constraints, with the dependency shown.
 
 use super::evidence::{listed, name_of, shown};
-use crate::algebra::{Graph, Matrix};
+use crate::algebra::{Demand, Graph, Matrix};
 use crate::geometry::Manifold;
-use crate::id::{ConstraintId, ExprId, Id};
+use crate::id::{ConstraintId, ExprId, Id, SymbolId};
 use crate::model::Model;
 use crate::violation::{Law, Violation};
 
@@ -72,6 +72,7 @@ fn dependency(model: &mut Model, rows: &Matrix, drift: Option<&[ExprId]>, index:
     let combination = combination(&mut model.graph, &rows[..index], &rows[index]);
     let names: Vec<String> = (0..index).map(|i| name_of(model, ConstraintId::from_index(i))).collect();
     let evidence = in_words(&model.graph, &name, combination.as_deref(), &names);
+    let coordinates: Vec<SymbolId> = model.coordinates.iter().map(|coordinate| coordinate.symbol).collect();
     let graph = &mut model.graph;
     let contradiction = combination.zip(drift).and_then(|(coefficients, drift)| {
         let combined = graph.inner_product(&coefficients, &drift[..index]);
@@ -84,6 +85,18 @@ fn dependency(model: &mut Model, rows: &Matrix, drift: Option<&[ExprId]>, index:
             format!("{name} follows from the constraints before it"),
             evidence,
             "leave it out: the constraints of a system are independent",
+        ),
+        Some(left_over) if graph.contradiction(&[(left_over, Demand::Zero)]).is_none() => (
+            format!(
+                "{name} agrees with the constraints before it only where {} = 0",
+                shown(graph, left_over)
+            ),
+            format!("as far as velocities go, {evidence}"),
+            if graph.depends_on(left_over, &coordinates) {
+                "change or leave out one of them; what constrains positions is written in `holonomic`"
+            } else {
+                "change or leave out one of them"
+            },
         ),
         Some(left_over) => (
             format!("{name} contradicts the constraints before it"),

@@ -3,6 +3,7 @@
 mod bracket_entries;
 mod closure;
 mod momenta_found;
+mod real_states;
 mod reduced_form;
 mod velocities_to_name;
 
@@ -20,6 +21,8 @@ pub(crate) use reduced_form::{Connection, Quantities, ReducedForm, Split};
 /// What the report says beyond the declaration and the equations.
 #[derive(Clone, Debug)]
 pub(crate) struct Findings {
+    /// Whether it is not known that any real state is as declared.
+    pub(crate) no_state_is_known: bool,
     /// Whether D is closed under the bracket; `None` where its sections are not known.
     pub(crate) closure: Option<Closure>,
     /// Factors of the determinant of the mass matrix that vanish in some states, or for some parameters.
@@ -45,6 +48,7 @@ pub(crate) struct Findings {
 impl Findings {
     /// Finds them.
     pub(crate) fn of(proved: &mut Proved, derived: &Derived<'_>) -> Self {
+        let no_state_is_known = real_states::undecided(proved);
         let closure = Closure::of(proved, derived);
         let singular_mass = singular_mass(proved, derived);
         let reduced = ReducedForm::of(proved, derived);
@@ -56,6 +60,7 @@ impl Findings {
         let conserved_momenta = momenta_found::conserved(proved, derived);
         let suggested = velocities_to_name::suggestion(proved, derived);
         Self {
+            no_state_is_known,
             closure,
             singular_mass,
             reduced,

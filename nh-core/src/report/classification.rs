@@ -52,6 +52,9 @@ pub(super) fn lines(
                      all of them, and no contradiction";
         lines.push(doubt.into());
     }
+    if findings.no_state_is_known {
+        lines.push(no_state_is_known(proved));
+    }
     for condition in domain(model, facts) {
         lines.push(format!("the equations have a value only where {}", stated(&model.graph, condition)));
     }
@@ -62,6 +65,19 @@ pub(super) fn lines(
         }
     }
     lines
+}
+
+/// That nothing contradicts the equations, and nothing is known to satisfy them.
+fn no_state_is_known(Proved { model, constraints, .. }: &Proved) -> String {
+    let (what, equations) = match (constraints.linear.is_some(), model.positions.is_empty()) {
+        (false, _) => ("real positions and velocities", "the constraints"),
+        (true, false) => ("real positions", "the position constraints"),
+        (true, true) => ("real values of the coordinates", "the identities of the embedded base"),
+    };
+    let assumed = if model.assumptions.is_empty() { "" } else { ", for parameters as they are assumed," };
+    format!(
+        "whether {what} satisfy {equations}{assumed} was not decided: none were found, and no contradiction"
+    )
 }
 
 fn stated(graph: &Graph, condition: Condition) -> String {

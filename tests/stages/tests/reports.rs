@@ -304,6 +304,41 @@ fn assumptions_that_were_not_decided_are_said_to_be() {
     ]);
 }
 
+#[test]
+fn equations_that_nothing_is_known_to_satisfy_are_said_to_be() {
+    let particle = |rest: &str| {
+        format!("base {{ x, y, z }} lagrangian {{ m / 2 * (der(x)^2 + der(y)^2 + der(z)^2) }} {rest}")
+    };
+    let doubt = "was not decided: none were found, and no contradiction";
+    let of_velocities = format!(
+        "whether real positions and velocities satisfy the constraints, for parameters as they \
+                                 are assumed, {doubt}"
+    );
+    let of_positions = format!("whether real positions satisfy the position constraints {doubt}");
+    let speed = |bound: &str| {
+        particle(&format!(
+            "constraints {{ der(x)^2 + der(y)^2 = 2 * e / m; }} assume {{ e > 0; m > 0; {bound} }}"
+        ))
+    };
+    let near = particle("holonomic { a: sin(x) * y + sin(y) * x + 0.01 = exp(-x^2 - y^2) * 0.01; }");
+    let far = particle("holonomic { a: x^6 + y^6 + 11 / 10 = 3 * x^2 * y^2; }");
+    let along = "constraints { der(x)^2 + der(y)^2 = 2 * e / m; b: der(x) = d; } assume { e > 0; m > 0; ";
+    check(&[
+        (
+            &particle(&format!("{along} d > sqrt(2 * e / m); }}")),
+            "m: f64, e: f64, d: f64",
+            &[&of_velocities],
+            &[],
+        ),
+        (&particle(&format!("{along} d > 0; }}")), "m: f64, e: f64, d: f64", &[], &[doubt]),
+        (&speed(""), "m: f64, e: f64", &[], &[doubt]),
+        (&near, "m: f64", &[], &[doubt]),
+        (&far, "m: f64", &[&of_positions], &[]),
+        // of second order: all of the points are singular
+        (&particle("holonomic { a: sin(x) + cos(y) = 2; }"), "m: f64", &[], &[doubt]),
+    ]);
+}
+
 /// A splitting whose quantities would fill pages is classified, and its quantities are left out in so many words.
 #[test]
 fn quantities_of_a_splitting_are_shown_as_long_as_they_are_short() {

@@ -1,0 +1,202 @@
+//! Real values that satisfy equations and inequalities, looked for in floating point.
+//!
+//! Equations are met by Gauss–Newton steps of least length, with the damping of Levenberg and Marquardt (J. J. Moré,
+//! *The Levenberg–Marquardt algorithm*, 1978), from several places. What is found is met as far as rounding tells, and
+//! proves nothing; where nothing is found, it is not known that anything is there, and the report says so.
+
+use super::evaluate::{Bounded, Evaluator};
+use super::graph::Graph;
+use super::inequalities::Demand;
+use super::zero_test::sample;
+use crate::id::{ExprId, SymbolId};
+use crate::limits;
+
+/// The places from which points are looked for.
+const PLACES: u64 = 24;
+/// Machines that are tried at each place for one that is as assumed.
+const MACHINES: u64 = 40;
+/// Steps from each.
+const STEPS: usize = 80;
+/// The damping at the first step, of the mean square of the rows.
+const DAMPING: f64 = 1e-3;
+/// The least of the damping: what is dependent does not divide by zero.
+const LEAST: f64 = 1e-14;
+/// What equations may be beside the bound of their rounding: an end of the iteration is at some roundings of it.
+const ROUNDINGS: f64 = 64.0;
+/// What is above 0 is so by as many bounds of its rounding: beside it points are met that are none.
+const MARGIN: f64 = 1e9;
+/// The work that is spent.
+const WORK: u64 = 20_000_000;
+
+/// Equations with what moves them.
+struct Search {
+    symbols: Vec<SymbolId>,
+    equations: Evaluator,
+    /// ∂f/∂symbol, a row for each equation.
+    slopes: Evaluator,
+    inequalities: Evaluator,
+    demands: Vec<Demand>,
+}
+
+impl Graph {
+    /// Whether real values are found that satisfy the demands, as far as rounding tells.
+    pub fn real_point_is_found(&mut self, demands: &[(ExprId, Demand)]) -> bool {
+        let (equations, others): (Vec<_>, Vec<_>) =
+            demands.iter().copied().partition(|(_, demand)| *demand == Demand::Zero);
+        let equations: Vec<ExprId> = equations.into_iter().map(|(equation, _)| equation).collect();
+        let (others, wanted): (Vec<ExprId>, Vec<Demand>) = others.into_iter().unzip();
+        let all: Vec<ExprId> = demands.iter().map(|(id, _)| *id).collect();
+        let symbols = self.symbols_in(&all);
+        let found = limits::attempt(WORK, || {
+            let mut slopes = Vec::with_capacity(equations.len() * symbols.len());
+            for equation in &equations {
+                slopes.extend(symbols.iter().map(|symbol| self.partial(*equation, *symbol)));
+            }
+            let mut search = Search {
+                equations: self.evaluator(&equations),
+                slopes: self.evaluator(&slopes),
+                inequalities: self.evaluator(&others),
+                symbols,
+                demands: wanted,
+            };
+            (0..PLACES).any(|place| search.succeeds_from(place))
+        });
+        found.unwrap_or(false)
+    }
+}
+
+impl Search {
+    fn at(evaluator: &mut Evaluator, symbols: &[SymbolId], point: &[f64]) -> Vec<Bounded> {
+        evaluator.at(|symbol| symbols.iter().position(|known| *known == symbol).map_or(0.0, |k| point[k]))
+    }
+
+    fn succeeds_from(&mut self, place: u64) -> bool {
+        let starts = (0..MACHINES).map(|machine| self.start(place, machine)).collect::<Vec<_>>();
+        let met = starts.iter().find(|start| self.is_allowed(start)).cloned();
+        let Some(mut point) = met.or_else(|| starts.into_iter().next()) else { return false };
+        let Some(mut size) = self.size(&point) else { return false };
+        let mut damping = DAMPING;
+        for _ in 0..STEPS {
+            if self.is_met(&point) && self.is_allowed(&point) {
+                return true;
+            }
+            let Some(step) = self.step(&point, damping) else { return false };
+            let next: Vec<f64> = point.iter().zip(&step).map(|(x, dx)| x - dx).collect();
+            match self.size(&next) {
+                Some(smaller) if smaller < size => {
+                    (point, size) = (next, smaller);
+                    damping = (damping * 0.1).max(LEAST);
+                }
+                _ => damping *= 10.0,
+            }
+            if damping > 1e12 {
+                break;
+            }
+        }
+        self.is_met(&point) && self.is_allowed(&point)
+    }
+
+    /// A place to start from: numbers of one or two digits, some of them from other decades.
+    fn start(&self, place: u64, machine: u64) -> Vec<f64> {
+        let seed = place + PLACES * machine;
+        let number = |index: usize| {
+            let number = sample(seed, index);
+            if machine.is_multiple_of(2) { number.abs() } else { number * [1.0, 8.0, 0.1][(index + 1) % 3] }
+        };
+        (0..self.symbols.len()).map(number).collect()
+    }
+
+    fn size(&mut self, point: &[f64]) -> Option<f64> {
+        let values = Self::at(&mut self.equations, &self.symbols, point);
+        let size = values.iter().map(|f| f.value * f.value).sum::<f64>();
+        size.is_finite().then_some(size)
+    }
+
+    fn is_met(&mut self, point: &[f64]) -> bool {
+        let values = Self::at(&mut self.equations, &self.symbols, point);
+        values.iter().all(|f| f.value.is_finite() && f.value.abs() <= ROUNDINGS * f.error)
+    }
+
+    fn is_allowed(&mut self, point: &[f64]) -> bool {
+        let values = Self::at(&mut self.inequalities, &self.symbols, point);
+        values.iter().zip(&self.demands).all(|(value, demand)| match demand {
+            Demand::Positive => value.value > MARGIN * value.error,
+            Demand::NotNegative => value.value >= -value.error,
+            Demand::Nonzero => value.is_certainly_nonzero(),
+            Demand::Zero => value.may_be_zero(),
+        })
+    }
+
+    /// Jᵀ (J Jᵀ + μ)⁻¹ f.
+    fn step(&mut self, point: &[f64], damping: f64) -> Option<Vec<f64>> {
+        let f = Self::at(&mut self.equations, &self.symbols, point);
+        let slopes = Self::at(&mut self.slopes, &self.symbols, point);
+        let rows: Vec<Vec<f64>> = slopes
+            .chunks(self.symbols.len())
+            .map(|row| row.iter().map(|slope| slope.value).collect())
+            .collect();
+        let product = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(x, y)| x * y).sum::<f64>();
+        let mean = rows.iter().map(|row| product(row, row)).sum::<f64>()
+            / f64::from(u32::try_from(rows.len()).ok()?);
+        let mut matrix: Vec<Vec<f64>> =
+            rows.iter().map(|row| rows.iter().map(|other| product(row, other)).collect()).collect();
+        for (k, row) in matrix.iter_mut().enumerate() {
+            row[k] += damping * mean;
+        }
+        let weights = solved(matrix, f.iter().map(|f| f.value).collect())?;
+        let step =
+            (0..self.symbols.len()).map(|k| rows.iter().zip(&weights).map(|(row, w)| row[k] * w).sum());
+        Some(step.collect::<Vec<f64>>()).filter(|step| step.iter().all(|dx| dx.is_finite()))
+    }
+}
+
+/// The solution of a positive definite system, by Gauss.
+fn solved(mut matrix: Vec<Vec<f64>>, mut right: Vec<f64>) -> Option<Vec<f64>> {
+    let size = right.len();
+    limits::spend(size * size * size);
+    for column in 0..size {
+        let pivot = matrix[column].clone();
+        let (scale, of_right) = (pivot[column], right[column]);
+        for row in column + 1..size {
+            let factor = matrix[row][column] / scale;
+            for (entry, above) in matrix[row].iter_mut().zip(&pivot) {
+                *entry -= factor * above;
+            }
+            right[row] -= factor * of_right;
+        }
+    }
+    for column in (0..size).rev() {
+        let later: f64 = (column + 1..size).map(|k| matrix[column][k] * right[k]).sum();
+        right[column] = (right[column] - later) / matrix[column][column];
+    }
+    right.iter().all(|x| x.is_finite()).then_some(right)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn points_are_found_where_there_are_some() {
+        let mut g = Graph::new();
+        let [x, y, a] = ["x", "y", "a"].map(|name| {
+            let symbol = g.new_symbol(name);
+            g.symbol(symbol)
+        });
+        let one = g.one();
+        let (sin, cos, exp) = (g.sin(x), g.cos(y), g.apply(crate::algebra::Function::Exp, x));
+        for (is_found, equation) in [
+            (true, g.formula(x * x + y * y - a * a)),
+            (false, g.formula(x * x + y * y + a * a)),
+            // points of second order: the derivative vanishes there
+            (true, g.formula(sin - one)),
+            (true, g.formula(sin + cos - one - one)),
+            // zero at infinity alone
+            (false, exp),
+            (false, g.formula(exp * exp + y * y)),
+        ] {
+            let demands = [(equation, Demand::Zero), (a, Demand::Positive)];
+            assert_eq!(g.real_point_is_found(&demands), is_found, "{:?}", g.node(equation));
+        }
+    }
+}
