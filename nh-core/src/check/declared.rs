@@ -256,7 +256,7 @@ fn demands(graph: &mut Graph, argument: ExprId, condition: Condition) -> Vec<(Ex
     let varies = !graph.symbols_in(&[argument]).is_empty();
     let inside = if varies { Demand::Positive } else { Demand::NotNegative };
     match condition {
-        Condition::Nonzero(_) => Vec::new(),
+        Condition::Nonzero(_) | Condition::NotBothZero(..) => Vec::new(),
         Condition::Positive(e) => vec![(e, Demand::Positive)],
         Condition::NotNegative(e) if varies && graph.zero_test(e).is_zero() => Vec::new(),
         Condition::NotNegative(e) => vec![(e, inside)],

@@ -73,6 +73,8 @@ fn dependency(model: &mut Model, rows: &Matrix, drift: Option<&[ExprId]>, index:
     let names: Vec<String> = (0..index).map(|i| name_of(model, ConstraintId::from_index(i))).collect();
     let evidence = in_words(&model.graph, &name, combination.as_deref(), &names);
     let coordinates: Vec<SymbolId> = model.coordinates.iter().map(|coordinate| coordinate.symbol).collect();
+    let assumed = super::assumptions::on_the_base(model);
+    let demands = |left_over: ExprId| [assumed.as_slice(), &[(left_over, Demand::Zero)]].concat();
     let graph = &mut model.graph;
     let contradiction = combination.zip(drift).and_then(|(coefficients, drift)| {
         let combined = graph.inner_product(&coefficients, &drift[..index]);
@@ -86,7 +88,7 @@ fn dependency(model: &mut Model, rows: &Matrix, drift: Option<&[ExprId]>, index:
             evidence,
             "leave it out: the constraints of a system are independent",
         ),
-        Some(left_over) if graph.contradiction(&[(left_over, Demand::Zero)]).is_none() => (
+        Some(left_over) if graph.contradiction(&demands(left_over)).is_none() => (
             format!(
                 "{name} agrees with the constraints before it only where {} = 0",
                 shown(graph, left_over)

@@ -1,7 +1,7 @@
 //! Where a declaration has no value: divisors that may vanish, roots and logarithms of what may be negative.
 
 use super::declared::differentiated;
-use crate::algebra::{Facts, Function, Graph, Node, Rational};
+use crate::algebra::{Demand, Facts, Function, Function2, Graph, Node, Rational};
 use crate::id::{ExprId, SymbolId};
 use crate::model::Model;
 
@@ -18,6 +18,8 @@ pub enum Condition {
     InUnitInterval(ExprId),
     /// The derivative of its inverse sine or cosine is taken.
     InsideUnitInterval(ExprId),
+    /// The angle of the point (second, first) is taken.
+    NotBothZero(ExprId, ExprId),
 }
 
 /// The conditions under which anchor, brackets, Lagrangian, constraints and forces have values, as far
@@ -47,6 +49,9 @@ pub fn domain(model: &Model, facts: &Facts) -> Vec<Condition> {
     let implied = |condition: &Condition| match condition {
         Condition::NotNegative(e) | Condition::Nonzero(e) => found.contains(&Condition::Positive(*e)),
         Condition::InUnitInterval(e) => found.contains(&Condition::InsideUnitInterval(*e)),
+        Condition::NotBothZero(y, x) => [y, x].into_iter().any(|part| {
+            found.contains(&Condition::Positive(*part)) || found.contains(&Condition::Nonzero(*part))
+        }),
         Condition::Positive(_) | Condition::InsideUnitInterval(_) => false,
     };
     found.iter().filter(|condition| !implied(condition)).copied().collect()
@@ -72,6 +77,7 @@ pub(super) fn conditions(graph: &Graph, id: ExprId, derivatives: u32) -> Vec<(Ex
             vec![(*x, Condition::InsideUnitInterval(*x))]
         }
         Node::Apply(Function::Asin | Function::Acos, x) => vec![(*x, Condition::InUnitInterval(*x))],
+        Node::Apply2(Function2::Atan2, y, x) => vec![(id, Condition::NotBothZero(*y, *x))],
         _ => Vec::new(),
     }
 }
@@ -88,6 +94,10 @@ fn holds(graph: &Graph, condition: Condition, facts: &Facts) -> bool {
         Condition::InsideUnitInterval(e) => {
             let range = graph.range(e, facts);
             range.low > -1.0 && range.high < 1.0
+        }
+        Condition::NotBothZero(y, x) => {
+            [y, x].into_iter().any(|part| graph.vanishes_nowhere(part, facts))
+                || graph.contradiction(&[(y, Demand::Zero), (x, Demand::Zero)]).is_some()
         }
     }
 }

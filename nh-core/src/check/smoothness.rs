@@ -78,6 +78,16 @@ impl Edge {
                         });
                     }
                 }
+                Node::Apply2(Function2::Atan2, y, x) if is_step(graph, [y, x], facts) => {
+                    return Some(Self {
+                        uses: format!("`{}`", shown(graph, id)),
+                        evidence:
+                            "its derivative is 0, and it jumps by half a turn where both arguments change \
+                                   their sign"
+                                .into(),
+                        way_out: "write the angle that is meant, as a number".into(),
+                    });
+                }
                 _ => {}
             }
         }
@@ -140,6 +150,17 @@ impl Edge {
                 .into(),
         })
     }
+}
+
+/// Whether the point (x, y) moves on a line through the origin, to both sides of it.
+fn is_step(graph: &mut Graph, [y, x]: [ExprId; 2], facts: &Facts) -> bool {
+    let symbols = graph.symbols_in(&[y, x]);
+    let turns = symbols.into_iter().any(|symbol| {
+        let [dy, dx] = [y, x].map(|part| graph.partial(part, symbol));
+        let turn = graph.formula(x * dy - y * dx);
+        !graph.zero_test(turn).is_zero()
+    });
+    !turns && [y, x].into_iter().any(|part| changes_sign(graph, part, facts))
 }
 
 /// Something that changes sign, and the even power of it that the expression contains as a factor.

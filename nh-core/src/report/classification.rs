@@ -87,6 +87,9 @@ fn stated(graph: &Graph, condition: Condition) -> String {
         Condition::NotNegative(e) => format!("{} >= 0", shown(graph, e)),
         Condition::InUnitInterval(e) => format!("|{}| <= 1", shown(graph, e)),
         Condition::InsideUnitInterval(e) => format!("|{}| < 1", shown(graph, e)),
+        Condition::NotBothZero(y, x) => {
+            format!("not both {} = 0 and {} = 0", shown(graph, y), shown(graph, x))
+        }
     }
 }
 

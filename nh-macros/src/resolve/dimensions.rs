@@ -26,8 +26,18 @@ pub(super) struct Named<'a> {
     pub(super) symmetries: &'a [SymmetryDecl],
 }
 
-/// A declared name or entry, with its unit as a product, and its declared text.
-type Declared = BTreeMap<String, String>;
+/// A declared name or entry, and whether it is that of a symbol, with the text of its unit: an output may have the name
+/// of a coordinate.
+type Declared = BTreeMap<(String, bool), String>;
+
+/// Something with a unit.
+struct Unitary {
+    /// As the report says it.
+    said: String,
+    /// As `units` names it, and whether that is the name of a symbol.
+    key: (String, bool),
+    form: Form,
+}
 
 impl Resolver {
     /// The units of everything that has a name: those declared, and what follows. Contradictions are reported.
@@ -47,12 +57,14 @@ impl Resolver {
                 let Ok((is_free, measured)) = self.unit_of(place, named) else { continue };
                 let Ok((dimension, text)) = &unit else { continue };
                 for (name, side) in measured {
-                    if !given.insert(name.clone()) {
+                    let key = (name, is_free);
+                    if !given.insert(key.clone()) {
+                        let name = &key.0;
                         let what = format!("the unit of `{name}` is given twice");
                         self.report(place, Diagnostic::new(place.extent, what).way_out("keep one of them"));
                         continue;
                     }
-                    declared.insert(name.clone(), text.clone());
+                    declared.insert(key, text.clone());
                     let unit =
                         Measured::expected("its unit in `units`", place.extent).unit(dimension.clone());
                     // what follows from expressions is compared with them, when these have been looked at
@@ -68,15 +80,12 @@ impl Resolver {
         let conditions = self.conditions(&mut reading);
         match infer(&self.graph, &conditions) {
             Ok(inferred) => {
-                let known = |name: &str, form: &Form| match declared.get(name) {
-                    Some(text) => Unit::Known(text.clone()),
-                    None => inferred.unit(form),
+                let known = |Unitary { said, key, form }: Unitary| {
+                    let unit = declared.get(&key).map(|text| Unit::Known(text.clone()));
+                    Quantity { name: said, unit: unit.unwrap_or_else(|| inferred.unit(&form)) }
                 };
-                let quantities: Vec<Quantity> = self
-                    .measured(named, &mut reading)
-                    .into_iter()
-                    .map(|(name, form)| Quantity { unit: known(&name, &form), name })
-                    .collect();
+                let quantities: Vec<Quantity> =
+                    self.measured(named, &mut reading).into_iter().map(known).collect();
                 describe(layout, &quantities);
                 quantities
             }
@@ -203,8 +212,9 @@ impl Resolver {
             name == entry || name == label || of_family || of_label.is_some_and(digits)
         };
         let all = Self::labelled(named, place.extent);
-        let known: Vec<String> = all.iter().map(|(name, _)| name.clone()).collect();
-        let found: Vec<_> = all.into_iter().filter(|(name, _)| is_meant(name)).collect();
+        let known: Vec<String> = all.iter().map(|(_, name, _)| name.clone()).collect();
+        let found = all.into_iter().filter(|(_, name, _)| is_meant(name));
+        let found: Vec<_> = found.map(|(_, name, side)| (name, side)).collect();
         if !found.is_empty() {
             return Ok(found);
         }
@@ -218,23 +228,27 @@ impl Resolver {
         Err(self.report(place, error))
     }
 
-    /// What has a name but no symbol: (7), λ times φ is a power; the momentum of a section has its unit times J s.
-    fn labelled(named: &Named<'_>, at: Extent) -> Vec<(String, Measured)> {
+    /// What has a name but no symbol, and what it is: (7), λ times φ is a power; the momentum of a section has its unit
+    /// times J s.
+    fn labelled(named: &Named<'_>, at: Extent) -> Vec<(&'static str, String, Measured)> {
         let of = |name: &str| Measured::expected(format!("`{name}`"), at);
         let mut found = Vec::new();
-        for value in named.outputs.iter().chain(named.claims) {
+        let outputs = named.outputs.iter().map(|output| (OUTPUT, output));
+        for (what, value) in outputs.chain(named.claims.iter().map(|claim| ("claim", claim))) {
             let side = of(&value.name).expression(value.value, Kind::Velocities, 1);
-            found.push((value.name.clone(), side));
+            found.push((what, value.name.clone(), side));
         }
         for constraint in named.constraints {
             if let Some(label) = &constraint.label {
                 let side = of(label).energy(1).time(-1);
-                found.push((label.clone(), side.expression(constraint.residual, Kind::Velocities, -1)));
+                let side = side.expression(constraint.residual, Kind::Velocities, -1);
+                found.push(("multiplier of", label.clone(), side));
             }
         }
         for symmetry in named.symmetries {
             let side = of(&symmetry.name).energy(1).time(1);
-            found.push((symmetry.name.clone(), side.expression(symmetry.value, Kind::Sections, 1)));
+            let side = side.expression(symmetry.value, Kind::Sections, 1);
+            found.push(("momentum of", symmetry.name.clone(), side));
         }
         found
     }
@@ -251,7 +265,7 @@ impl Resolver {
     }
 
     /// Everything with a name, in the order of the report.
-    fn measured(&self, named: &Named<'_>, reading: &mut Reading) -> Vec<(String, Form)> {
+    fn measured(&self, named: &Named<'_>, reading: &mut Reading) -> Vec<Unitary> {
         let tables = &self.tables;
         let symbols: Vec<SymbolId> = (tables.coordinates.iter().map(|coordinate| coordinate.symbol))
             .chain(tables.sections.iter().map(|section| section.symbol))
@@ -261,17 +275,26 @@ impl Resolver {
             .chain(tables.parameters.iter().map(|parameter| parameter.symbol))
             .collect();
         let name = |symbol: &SymbolId| self.graph.symbols()[*symbol].clone();
-        let mut found: Vec<(String, Form)> =
-            symbols.iter().map(|symbol| (name(symbol), reading.symbol(*symbol, Kind::Velocities))).collect();
+        let of_symbol = |name: String, form: Form| Unitary { said: name.clone(), key: (name, true), form };
+        let mut found: Vec<Unitary> = symbols
+            .iter()
+            .map(|symbol| of_symbol(name(symbol), reading.symbol(*symbol, Kind::Velocities)))
+            .collect();
         for (id, constant) in self.graph.constants().iter_ids() {
-            found.push((constant.name.clone(), Form::of(Unknown::Constant(id))));
+            found.push(of_symbol(constant.name.clone(), Form::of(Unknown::Constant(id))));
         }
-        for (name, side) in Self::labelled(named, self.origins.whole()) {
-            found.extend(self.form_of(&side, reading).map(|form| (name, form)));
+        let taken: BTreeSet<String> = found.iter().map(|unitary| unitary.said.clone()).collect();
+        for (what, name, side) in Self::labelled(named, self.origins.whole()) {
+            let said = if taken.contains(&name) { format!("{what} {name}") } else { name.clone() };
+            let form = self.form_of(&side, reading);
+            found.extend(form.map(|form| Unitary { said, key: (name, false), form }));
         }
         found
     }
 }
+
+/// What an output is called where its name is that of something else.
+const OUTPUT: &str = "output";
 
 /// The unit of a multiple, such as `m` for `1e-3 m`.
 fn coherent(multiple: &str) -> &str {
@@ -280,22 +303,21 @@ fn coherent(multiple: &str) -> &str {
 
 /// Units in the documentation of generated fields.
 fn describe(layout: &mut Layout, quantities: &[Quantity]) {
-    let known: BTreeMap<&str, &str> = quantities
-        .iter()
-        .filter_map(|quantity| match &quantity.unit {
-            Unit::Known(text) => Some((quantity.name.as_str(), text.as_str())),
-            Unit::Free => None,
-        })
-        .collect();
+    let known: BTreeMap<&str, &Unit> =
+        quantities.iter().map(|quantity| (quantity.name.as_str(), &quantity.unit)).collect();
     let Layout { parameters, coordinates, velocities, frame, auxiliary, inputs, outputs, .. } = layout;
-    for family in
-        [parameters, coordinates, velocities, frame, auxiliary, inputs, outputs].into_iter().flatten()
-    {
-        let units: Option<Vec<String>> = family
-            .names()
-            .iter()
-            .map(|name| known.get(name.as_str()).map(|unit| (*unit).to_owned()))
-            .collect();
-        family.units = units.unwrap_or_default();
+    let symbols = [parameters, coordinates, velocities, frame, auxiliary, inputs].map(|list| (list, false));
+    for (list, is_output) in symbols.into_iter().chain([(outputs, true)]) {
+        for family in list {
+            let unit = |name: &String| {
+                let of_output = is_output.then(|| known.get(format!("{OUTPUT} {name}").as_str())).flatten();
+                match of_output.or_else(|| known.get(name.as_str()))? {
+                    Unit::Known(text) => Some(text.clone()),
+                    Unit::Free => None,
+                }
+            };
+            let units: Option<Vec<String>> = family.names().iter().map(unit).collect();
+            family.units = units.unwrap_or_default();
+        }
     }
 }

@@ -339,6 +339,18 @@ fn equations_that_nothing_is_known_to_satisfy_are_said_to_be() {
     ]);
 }
 
+#[test]
+fn angles_say_where_they_are_none() {
+    let particle =
+        |of: &str| format!("base {{ x, y }} lagrangian {{ m / 2 * (der(x)^2 + der(y)^2) - k * {of} }}");
+    let nowhere = "the equations have a value only where not both y = 0 and x = 0";
+    check(&[
+        (&particle("atan2(y, x)^2"), "m: f64, k: f64", &[nowhere], &[]),
+        (&particle("atan2(sin(y), cos(y))^2 * x"), "m: f64, k: f64", &[], &["only where"]),
+        (&particle("atan2(y, 1 + x^2)"), "m: f64, k: f64", &[], &["only where"]),
+    ]);
+}
+
 /// A splitting whose quantities would fill pages is classified, and its quantities are left out in so many words.
 #[test]
 fn quantities_of_a_splitting_are_shown_as_long_as_they_are_short() {

@@ -46,6 +46,34 @@ fn units_follow_from_each_other() {
     assert_eq!(found, expected);
 }
 
+/// `units` gives a name that two things have to the coordinate; what the other is made of says its unit.
+#[test]
+fn outputs_and_claims_may_have_the_name_of_a_coordinate() {
+    let attribute = "base { x, y }
+         lagrangian { m / 2 * (der(x)^2 + der(y)^2) - m * g * y }
+         outputs { x = y^2; area = x * y; y = free * y; }
+         units { x = m; m = kg; g = m/s^2; }";
+    let item = "struct S { m: f64, g: f64, free: f64 }";
+    let found = units(attribute, item);
+    let expected = [
+        "x: m",
+        "y: m",
+        "x_dot: m s⁻¹",
+        "y_dot: m s⁻¹",
+        "m: kg",
+        "g: m s⁻²",
+        "free: ?",
+        "output x: m²",
+        "area: m²",
+        "output y: ?",
+    ];
+    assert_eq!(found, expected);
+    let (_, layout) = resolved(attribute, item).expect("declared well");
+    let outputs = layout.outputs;
+    let said: Vec<&[String]> = outputs.iter().map(|family| family.units.as_slice()).collect();
+    assert_eq!(said, [&["m²".to_owned()][..], &["m²".to_owned()][..], &[]]);
+}
+
 #[test]
 fn sections_have_the_units_of_what_they_generate() {
     let found = units(
