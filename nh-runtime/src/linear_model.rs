@@ -7,12 +7,12 @@ mod scales;
 use nalgebra::SMatrix;
 
 use crate::{Dynamics, Jet, Real, Scalar, ScalarOf};
-pub(crate) use elimination::{reduce, reduce_in_order};
+pub(crate) use elimination::{Uncertain, reduce};
 pub use linearization_error::LinearizationError;
 use scales::Scales;
 
 /// What is taken for rounding of derivatives, in units of the last place: of the terms that they are the sum of, and of the
-/// largest, with rows and columns brought to one size.
+/// others, where these have no units.
 const ROUNDING: f64 = 4096.0;
 
 /// A motion to first order in some variables z of the state, δż = A δz + B δu and δh = C δz + D δu, with what rows and
@@ -140,7 +140,8 @@ pub fn linearize<
     let constraints = residuals.map(|residual| residual.by);
     let (by_state, by_input) = (rates.map(|rate| rate.by), rates.map(|rate| rate.by_others));
     let is_kept = |column: usize| kept.contains(&column);
-    let reduced = reduce(&constraints, &[T::ZERO; R], |column| (!is_kept(column)).then_some(0));
+    let equations = Uncertain::new(&constraints, &[T::ZERO; R], &[], |column| !is_kept(column));
+    let reduced = reduce(&equations, |_| true, |column| (!is_kept(column)).then_some(0));
     if let Some(column) = reduced.bound() {
         return Err(LinearizationError::NotFree { kept: name(&names.states, column) });
     }
@@ -156,7 +157,7 @@ pub fn linearize<
     let output = |i: usize, column: usize| outputs.get(i).and_then(|output| output.by.get(column)).copied();
     let a = SMatrix::<T, K, K>::from_fn(|i, j| along(&|c| rate(at(kept, i), c), at(kept, j)));
     let c = SMatrix::<T, P, K>::from_fn(|i, j| along(&|c| output(i, c).unwrap_or(T::ZERO), at(kept, j)));
-    let scales = Scales::of(&by_state, |_| true);
+    let mut scales = None;
     let least = T::from_f64(ROUNDING) * T::EPSILON;
     for row in kept {
         let mut worst = None;
@@ -165,9 +166,12 @@ pub fn linearize<
             let terms =
                 (0..N).filter(|of| reduced.is_pivot(*of)).map(|of| rate(*row, of) * change(of, column));
             let terms = terms.fold(rate(*row, column).abs(), |sum, term| sum + term.abs());
+            if value.abs() <= least * terms {
+                continue;
+            }
+            let scales = scales.get_or_insert_with(|| Scales::of_rates(&by_state));
             let size = scales.size(value, (*row, column));
-            let is_rounding = value.abs() <= least * terms || size <= least;
-            if !is_rounding && worst.is_none_or(|(_, _, most): (usize, T, T)| size > most) {
+            if size > least && worst.is_none_or(|(_, _, most): (usize, T, T)| size > most) {
                 worst = Some((column, value, size));
             }
         }

@@ -6,7 +6,7 @@ use core::fmt::{self, Display, Formatter};
 
 use crate::arrays::{all_finite, first_non_finite};
 use crate::assembly::{AssemblyError, Loops, descend};
-use crate::linear_model::{Parts, reduce, reduce_in_order};
+use crate::linear_model::{Parts, Uncertain, reduce};
 use crate::{Jet, Real};
 
 /// Why no steady motion was found.
@@ -93,13 +93,12 @@ impl<const N: usize, const W: usize, const Q: usize> Steady<N, W, Q> {
     }
 
     /// The components that the constraints determine at the guess by the others: those that are not kept first.
-    fn dependent<T: Real>(&self, (_, slopes): &Equations<T, W, Q>, held: &[bool; W]) -> [bool; W] {
-        let mut constraints = *slopes;
-        constraints.iter_mut().skip(Self::CONSTRAINTS).for_each(|row| *row = [T::ZERO; W]);
+    fn dependent<T: Real>(&self, near: &Near<T, W, Q>, held: &[bool; W]) -> [bool; W] {
         let is_held = |column: usize| held.get(column).copied().unwrap_or(true);
-        let reduced = reduce(&constraints, &[T::ZERO; Q], |column| {
-            (column < N && !is_held(column)).then_some(u8::from(self.is_kept(column)))
-        });
+        let phase =
+            |column: usize| (column < N && !is_held(column)).then_some(u8::from(self.is_kept(column)));
+        let constraints = near.only(|row| row < Self::CONSTRAINTS);
+        let reduced = reduce(&constraints.linear(|column| phase(column).is_some()), |_| true, phase);
         core::array::from_fn(|column| reduced.is_pivot(column))
     }
 
@@ -134,38 +133,35 @@ pub fn trim<T: Real, const N: usize, const W: usize, const Q: usize>(
     if let Some((index, value)) = first_non_finite(guess) {
         return Err(TrimError::NonFiniteGuess { variable: name(&steady.variables, index), value });
     }
-    let here = equations(guess);
-    if !is_finite(&here) {
+    let near = |x: &[T; W]| Near::new(x, &equations);
+    if !is_finite(&equations(guess)) {
         return Err(TrimError::NotFinite);
     }
-    let dependent = steady.dependent(&here, held);
+    let at_guess = near(guess);
+    let dependent = steady.dependent(&at_guess, held);
     let is_free = |column: usize| {
         let is = |list: &[bool; W]| list.get(column).copied().unwrap_or(false);
         !is(held) && (is(&dependent) || !steady.is_loose(column))
     };
-    let asked = |x: &[T; W]| only(equations(x), |row| steady.is_asked(row, &dependent));
+    let is_asked = |row: usize| steady.is_asked(row, &dependent);
     // constraints and kept rates first: those of the others may follow, and then are poor equations to solve
-    let solved = |(left, slopes): &Equations<T, W, Q>| {
-        reduce_in_order(
-            slopes,
-            &left.map(|left| -left),
-            |row| steady.is_first(row),
-            |column| is_free(column).then_some(0),
-        )
+    let solved = |near: &Near<T, W, Q>| {
+        reduce(&near.linear(is_free), |row| steady.is_first(row), |column| is_free(column).then_some(0))
     };
-    let chosen = solved(&asked(guess));
-    let taken = |x: &[T; W]| only(equations(x), |row| !chosen.is_open(row));
+    let chosen = solved(&at_guess.only(is_asked));
+    let is_taken = |row: usize| is_asked(row) && !chosen.is_open(row);
+    let taken = |x: &[T; W]| only(equations(x), is_taken);
     let undetermined = Cell::new(None);
-    let step = |there: &Equations<T, W, Q>| {
+    let step = |x: &[T; W], there: &Equations<T, W, Q>| {
         if !is_finite(there) {
             return [T::from_f64(f64::NAN); W];
         }
-        let reduced = solved(there);
+        let reduced = solved(&near(x).only(is_taken));
         undetermined.set((0..W).find(|column| is_free(*column) && !reduced.is_pivot(*column)));
         if undetermined.get().is_some() { [T::from_f64(f64::NAN); W] } else { reduced.solution() }
     };
     let loops = Loops { names: steady.equations, independent: Q, depends: [true; W] };
-    let found = descend(guess, taken, |_, there| step(there), |x| Some(*x), |_| true, &loops);
+    let found = descend(guess, taken, step, |x| Some(*x), |_| true, &loops);
     let found = found.map_err(|error| match (undetermined.get(), error) {
         (Some(column), _) => TrimError::Undetermined { variable: name(&steady.variables, column) },
         (
@@ -175,13 +171,48 @@ pub fn trim<T: Real, const N: usize, const W: usize, const Q: usize>(
         ) if residual.is_finite() => TrimError::NoSolution { equation: constraint, residual },
         _ => TrimError::NotFinite,
     })?;
-    let end = asked(&found);
+    let end = near(&found).only(is_asked);
     let reduced = solved(&end);
     if let Some(column) = (0..W).find(|column| is_free(*column) && !reduced.is_pivot(*column)) {
         return Err(TrimError::Undetermined { variable: name(&steady.variables, column) });
     }
-    agree(steady, &end, |row| reduced.is_open(row), (guess, &found))?;
+    agree(steady, &end.here, |row| reduced.is_open(row), (guess, &found))?;
     Ok(found)
+}
+
+/// Equations at a point, with their derivatives at other roundings of it.
+struct Near<T, const W: usize, const Q: usize> {
+    here: Equations<T, W, Q>,
+    nearby: [[[T; W]; Q]; 2],
+}
+
+impl<T: Real, const W: usize, const Q: usize> Near<T, W, Q> {
+    fn new(x: &[T; W], equations: impl Fn(&[T; W]) -> Equations<T, W, Q>) -> Self {
+        let unit = T::from_f64(2.0) * T::EPSILON;
+        // neighbours of each component, on this side or that
+        let beside = |pattern: usize| {
+            let mut place = 0;
+            let moved = x.map(|x| {
+                place += 1;
+                let step = unit * x;
+                if (place >> pattern) % 2 == 0 { x + step } else { x - step }
+            });
+            equations(&moved).1
+        };
+        Self { here: equations(x), nearby: [beside(0), beside(1)] }
+    }
+
+    /// Some of the equations.
+    fn only(&self, is_meant: impl Fn(usize) -> bool) -> Self {
+        let of = |slopes: [[T; W]; Q]| only(([T::ZERO; Q], slopes), &is_meant).1;
+        Self { here: only(self.here, &is_meant), nearby: self.nearby.map(of) }
+    }
+
+    /// The equations of a step.
+    fn linear(&self, counts: impl Fn(usize) -> bool) -> Uncertain<T, W, Q> {
+        let (left, slopes) = &self.here;
+        Uncertain::new(slopes, &left.map(|left| -left), &self.nearby, counts)
+    }
 }
 
 /// Some of the equations, the others being satisfied whatever the variables are.

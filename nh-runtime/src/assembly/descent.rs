@@ -5,10 +5,12 @@ use crate::arrays::all_finite;
 use crate::linear::Factors;
 use crate::newton_return::worst;
 use crate::projection::{is_settled, largest};
-use crate::{D, Real, StateFault};
+use crate::{D, Real, Scalar, StateFault};
 
 /// The iterations after which an assembly is given up.
 const MOST_ITERATIONS: u32 = 200;
+/// Where along a step rounding is looked at, in roots of the rounding unit.
+const NEAR: [f64; 4] = [1.0, 0.8, 0.6, 0.35];
 /// A step is halved so often at most.
 const MOST_HALVINGS: u32 = 40;
 
@@ -39,7 +41,15 @@ pub(crate) fn descend<T: Real, const N: usize, const M: usize>(
     let mut present = *start;
     let mut here = equations(&present);
     let half = T::from_f64(0.5);
+    let moved = |present: &[T; N], change: &[T; N], part: T| {
+        let mut trial = *present;
+        for (x, change) in trial.iter_mut().zip(change) {
+            *x += part * *change;
+        }
+        settle(&trial).filter(all_finite::<T, _>)
+    };
     let (mut scale, mut preceding) = (largest(&present), None);
+    let (mut sizes, mut last_share) = (present.map(Scalar::abs), None);
     for _ in 0..MOST_ITERATIONS {
         let left = || here.0.iter().take(loops.independent);
         if left().all(|left| *left == T::ZERO) {
@@ -50,20 +60,29 @@ pub(crate) fn descend<T: Real, const N: usize, const M: usize>(
             return Err(singular(&here.0, &loops.names));
         }
         let size = largest(&change);
-        let asked = Asked::new(&present, &here, &change, loops.independent);
-        let is_settled = is_settled(size, scale.max(size), preceding);
+        let mut asked = Asked::new(&present, &here, &change, loops.independent);
+        for (size, change) in sizes.iter_mut().zip(&change) {
+            *size = Scalar::max(*size, change.abs());
+        }
+        // beside the terms of the equations, and where these are nothing but rounding themselves, beside all variables
+        let share = share(&here.1, &change, &sizes, loops.independent);
+        let still_falls = last_share.is_none_or(|last: T| share <= half * last);
+        let is_settled = share <= T::from_f64(8.0) * T::EPSILON
+            || (!still_falls && is_settled(size, scale.max(size), preceding));
         // so near a regular solution a step that does not take the residuals away meets their rounding
-        let is_near = preceding.is_some() && size <= T::EPSILON.sqrt() * scale;
+        let is_near =
+            preceding.is_some() && (size <= T::EPSILON.sqrt() * scale || share <= T::EPSILON.sqrt());
+        last_share = Some(share);
         let mut is_last = is_settled;
         let mut part = T::ONE;
         let mut accepted = None;
         for _ in 0..MOST_HALVINGS {
-            let mut trial = present;
-            for (x, change) in trial.iter_mut().zip(&change) {
-                *x += part * *change;
+            let trial = moved(&present, &change, part);
+            let trial = trial.map(|trial| (trial, equations(&trial)));
+            if part == T::ONE && trial.as_ref().is_some_and(|(_, there)| !asked.is_brought(part, &there.0)) {
+                asked.note_noise(|part| moved(&present, &change, part).map(|x| equations(&x).0));
             }
-            let trial = settle(&trial).filter(all_finite::<T, _>);
-            accepted = trial.map(|trial| (trial, equations(&trial))).filter(|(_, there)| {
+            accepted = trial.filter(|(_, there)| {
                 let falls = asked.is_brought(part, &there.0);
                 is_last |= !falls && is_near;
                 admits(&there.1) && (falls || is_last)
@@ -81,9 +100,28 @@ pub(crate) fn descend<T: Real, const N: usize, const M: usize>(
             return Ok(present);
         }
         scale = scale.max(largest(&present));
+        for (size, x) in sizes.iter_mut().zip(&present) {
+            *size = Scalar::max(*size, x.abs());
+        }
         preceding = (part == T::ONE).then_some(size);
     }
     Err(no_solution(&here.0, &loops.names))
+}
+
+/// The largest part of the terms of an equation, as they were so far, that a change of the variables moves.
+fn share<T: Real, const N: usize, const M: usize>(
+    slopes: &[[T; N]; M],
+    change: &[T; N],
+    sizes: &[T; N],
+    independent: usize,
+) -> T {
+    let of_row = |row: &[T; N]| {
+        let terms =
+            |of: &[T; N]| row.iter().zip(of).fold(T::ZERO, |sum, (slope, x)| sum + (*slope * *x).abs());
+        let (moved, all) = (terms(change), terms(sizes));
+        if moved > T::ZERO { moved / all } else { T::ZERO }
+    };
+    slopes.iter().take(independent).map(of_row).fold(T::ZERO, Scalar::max)
 }
 
 /// What a step is to do to one equation, in the units of the equation.
@@ -132,6 +170,19 @@ impl<T: Real, const M: usize> Asked<T, M> {
         let part = |share: &Share<T>| share.left.abs() / share.weight;
         let most = shares.iter().filter(|share| share.weight > T::ZERO).map(part).fold(T::ZERO, T::max);
         Self { shares, most }
+    }
+
+    /// Adds what rounding inside the equations makes of them: by what they are off their straight line a little way along
+    /// the step, where their curvature is below rounding.
+    fn note_noise(&mut self, left: impl Fn(T) -> Option<[T; M]>) {
+        for near in NEAR {
+            let part = T::EPSILON.sqrt() * T::from_f64(near);
+            let Some(there) = left(part) else { continue };
+            for (share, there) in self.shares.iter_mut().zip(&there) {
+                let noise = (*there - (T::ONE - part) * share.left).abs();
+                share.rounding = Scalar::max(share.rounding, T::from_f64(4.0) * noise);
+            }
+        }
     }
 
     /// Whether a part of the step brought the equations to where it should: what is left of them is what a step in part

@@ -1,45 +1,82 @@
 //! Which variables linear equations determine, and by which others.
 
-use crate::Real;
+use super::scales::Scales;
+use crate::{Real, Scalar};
 
-/// Entries of a row beside its largest that are taken for rounding, in units of the last place.
-const ROUNDING: f64 = 256.0;
+/// What an entry may be off by, in units of its rounding and of what rounding of the variables makes of it.
+const SAFETY: f64 = 32.0;
+/// What is rounding of an entry beside the others of its row and its column, brought to one size, in units of the last
+/// place.
+const BESIDE_OTHERS: f64 = 4.0;
 
-/// Linear equations a x = b, each solved for one of the columns that may be solved for, as far as they are independent.
+/// Linear equations a x = b with what the entries of a may be off by.
+pub(crate) struct Uncertain<T, const N: usize, const R: usize> {
+    rows: [[T; N]; R],
+    right: [T; R],
+    errors: [[T; N]; R],
+    /// By which entries of different units are compared.
+    scales: Scales<T, N, R>,
+}
+
+impl<T: Real, const N: usize, const R: usize> Uncertain<T, N, R> {
+    /// Equations whose entries are derivatives, with these derivatives at other roundings of the variables: by what they
+    /// differ is rounding. Some columns count where sizes are compared.
+    pub(crate) fn new<const K: usize>(
+        rows: &[[T; N]; R],
+        right: &[T; R],
+        nearby: &[[[T; N]; R]; K],
+        counts: impl Fn(usize) -> bool,
+    ) -> Self {
+        let at = |matrix: &[[T; N]; R], i: usize, j: usize| {
+            matrix.get(i).and_then(|row| row.get(j)).copied().unwrap_or(T::ZERO)
+        };
+        let by_place = |value: &dyn Fn(usize, usize) -> T| -> [[T; N]; R] {
+            core::array::from_fn(|i| core::array::from_fn(|j| value(i, j)))
+        };
+        let safety = T::from_f64(SAFETY);
+        let own = by_place(&|i, j| {
+            let entry = at(rows, i, j);
+            let spread = nearby.iter().map(|other| (at(other, i, j) - entry).abs());
+            // and numbers below the normal ones have lost their digits
+            safety * (spread.fold(T::ZERO, Scalar::max) + T::EPSILON * entry.abs()) + T::MIN_POSITIVE
+        });
+        let certain = by_place(&|i, j| {
+            let entry = at(rows, i, j);
+            if entry.abs() > at(&own, i, j) { entry } else { T::ZERO }
+        });
+        let scales = Scales::of(&certain, counts);
+        let beside_others = T::from_f64(BESIDE_OTHERS) * T::EPSILON;
+        let errors = by_place(&|i, j| {
+            let size = scales.size(T::ONE, (i, j));
+            // what is compared with nothing is itself alone
+            let least = if at(&certain, i, j) == T::ZERO { T::ZERO } else { beside_others / size };
+            at(&own, i, j) + least
+        });
+        Self { rows: *rows, right: *right, errors, scales }
+    }
+}
+
+/// Linear equations, each solved for one of the columns that may be solved for, as far as they are independent.
 pub(crate) struct Reduced<T, const N: usize, const R: usize> {
     rows: [[T; N]; R],
     right: [T; R],
+    errors: [[T; N]; R],
     /// The column that a row is solved for.
     pivots: [Option<usize>; R],
+    /// By which entries of different units are compared.
+    scales: Scales<T, N, R>,
 }
 
-/// Eliminates by Gauss and Jordan with complete pivoting, on rows of one size. Columns may be solved for in the order
-/// of their `phase`, or not at all.
+/// Eliminates by Gauss and Jordan with complete pivoting, on rows and columns of one size. An entry that is not larger than
+/// its error, which is carried along, is no pivot: so units matter to nothing. Columns may be solved for in the order of
+/// their `phase`, or not at all; some rows before others.
 pub(crate) fn reduce<T: Real, const N: usize, const R: usize>(
-    rows: &[[T; N]; R],
-    right: &[T; R],
-    phase: impl Fn(usize) -> Option<u8>,
-) -> Reduced<T, N, R> {
-    reduce_in_order(rows, right, |_| true, phase)
-}
-
-/// The same with rows that are solved before the others.
-pub(crate) fn reduce_in_order<T: Real, const N: usize, const R: usize>(
-    rows: &[[T; N]; R],
-    right: &[T; R],
+    equations: &Uncertain<T, N, R>,
     is_first: impl Fn(usize) -> bool,
     phase: impl Fn(usize) -> Option<u8>,
 ) -> Reduced<T, N, R> {
-    let mut reduced = Reduced { rows: *rows, right: *right, pivots: [None; R] };
-    for (row, right) in reduced.rows.iter_mut().zip(&mut reduced.right) {
-        let largest = row.iter().fold(T::ZERO, |largest, x| largest.max(x.abs()));
-        if largest > T::ZERO {
-            for entry in row.iter_mut() {
-                *entry = *entry / largest;
-            }
-            *right = *right / largest;
-        }
-    }
+    let Uncertain { rows, right, errors, scales } = *equations;
+    let mut reduced = Reduced { rows, right, errors, pivots: [None; R], scales };
     let last = (0..N).filter_map(&phase).max().map_or(0, |last| last + 1);
     for (are_all, present) in [false, true].into_iter().flat_map(|all| (0..last).map(move |p| (all, p))) {
         let is_meant =
@@ -55,33 +92,51 @@ impl<T: Real, const N: usize, const R: usize> Reduced<T, N, R> {
     /// The largest entry that is not rounding, in a row that is not solved, among some entries.
     fn largest(&self, is_meant: impl Fn(usize, usize) -> bool) -> Option<(usize, usize)> {
         let mut best: Option<(usize, usize, T)> = None;
-        for (i, row) in self.rows.iter().enumerate().filter(|(i, _)| self.is_open(*i)) {
-            for (j, entry) in row.iter().enumerate().filter(|(j, _)| is_meant(i, *j) && !self.is_pivot(*j)) {
-                if best.is_none_or(|(_, _, size)| entry.abs() > size) {
-                    best = Some((i, j, entry.abs()));
+        for (i, (row, errors)) in self.rows.iter().zip(&self.errors).enumerate() {
+            if !self.is_open(i) {
+                continue;
+            }
+            for (j, (entry, error)) in row.iter().zip(errors).enumerate() {
+                let is_certain = entry.abs() > *error;
+                if !is_certain || !is_meant(i, j) || self.is_pivot(j) {
+                    continue;
+                }
+                let size = self.scales.size(*entry, (i, j));
+                if best.is_none_or(|(_, _, largest)| size > largest) {
+                    best = Some((i, j, size));
                 }
             }
         }
-        best.filter(|(_, _, size)| *size > T::from_f64(ROUNDING) * T::EPSILON).map(|(i, j, _)| (i, j))
+        best.map(|(i, j, _)| (i, j))
     }
 
     fn eliminate(&mut self, row: usize, column: usize) {
-        let (Some(pivot_row), Some(pivot_right)) =
-            (self.rows.get(row).copied(), self.right.get(row).copied())
+        let (Some(pivot_row), Some(pivot_errors), Some(pivot_right)) =
+            (self.rows.get(row).copied(), self.errors.get(row).copied(), self.right.get(row).copied())
         else {
             return;
         };
-        let pivot = pivot_row.get(column).copied().unwrap_or(T::ONE);
-        for (i, (other, right)) in self.rows.iter_mut().zip(&mut self.right).enumerate() {
-            let factor = other.get(column).copied().unwrap_or(T::ZERO) / pivot;
-            if i == row || factor == T::ZERO {
+        let of = |list: &[T; N]| list.get(column).copied().unwrap_or(T::ONE);
+        let (pivot, pivot_error) = (of(&pivot_row), of(&pivot_errors));
+        let others = self.rows.iter_mut().zip(&mut self.errors).zip(&mut self.right).enumerate();
+        for (_, ((other, errors), right)) in others.filter(|(i, _)| *i != row) {
+            let (entry, error) = (of(other), of(errors));
+            let factor = entry / pivot;
+            let factor_error = error / pivot.abs() + factor.abs() * (pivot_error / pivot.abs());
+            if factor == T::ZERO && factor_error == T::ZERO {
                 continue;
             }
-            for (entry, above) in other.iter_mut().zip(&pivot_row) {
-                *entry -= factor * *above;
+            for ((entry, error), (above, above_error)) in
+                other.iter_mut().zip(errors.iter_mut()).zip(pivot_row.iter().zip(&pivot_errors))
+            {
+                let taken = factor * *above;
+                let by_factor = factor_error * (above.abs() + *above_error);
+                let rounding = T::EPSILON * Scalar::max(entry.abs(), taken.abs());
+                *error = *error + by_factor + factor.abs() * *above_error + rounding;
+                *entry -= taken;
             }
-            if let Some(entry) = other.get_mut(column) {
-                *entry = T::ZERO;
+            if let (Some(entry), Some(error)) = (other.get_mut(column), errors.get_mut(column)) {
+                (*entry, *error) = (T::ZERO, T::ZERO);
             }
             *right -= factor * pivot_right;
         }
@@ -132,23 +187,50 @@ impl<T: Real, const N: usize, const R: usize> Reduced<T, N, R> {
 mod tests {
     use super::*;
 
+    /// Equations of numbers that are as they stand.
+    fn exact<const N: usize, const R: usize>(
+        rows: [[f64; N]; R],
+        right: [f64; R],
+        phase: impl Fn(usize) -> Option<u8>,
+    ) -> Reduced<f64, N, R> {
+        let equations = Uncertain::new(&rows, &right, &[], |column| phase(column).is_some());
+        reduce(&equations, |_| true, phase)
+    }
+
     #[test]
     fn dependent_rows_are_left_open() {
-        let rows = [[1.0, 2.0, 3.0], [2.0, 4.0, 6.0], [0.0, 1.0, 1.0]];
-        let reduced = reduce(&rows, &[6.0, 12.0, 2.0], |column| (column < 2).then_some(0));
-        assert_eq!((0..3).filter(|row| reduced.is_open(*row)).count(), 1);
-        assert!(reduced.bound().is_none());
-        // x = 6 − 2·2 at z = 0, and x + 2 y + 3 z, y + z stay as z grows
-        let [x, y, z]: [f64; 3] = reduced.solution();
-        assert!((x - 2.0).abs() < 1e-14 && (y - 2.0).abs() < 1e-14 && z.abs() < 1e-300);
-        assert!((reduced.change(0, 2) + 1.0).abs() < 1e-14 && (reduced.change(1, 2) + 1.0).abs() < 1e-14);
+        for units in [[1.0; 3], [1e9, 1.0, 1e-9], [1e-30, 1e20, 1e150]] {
+            let rows = [[1.0, 2.0, 3.0], [2.0, 4.0, 6.0], [0.0, 1.0, 1.0]];
+            let scaled = rows.map(|[x, y, z]| [x / units[0], y / units[1], z / units[2]]);
+            let reduced = exact(scaled, [6.0, 12.0, 2.0], |column| (column < 2).then_some(0));
+            assert_eq!((0..3).filter(|row| reduced.is_open(*row)).count(), 1);
+            assert!(reduced.bound().is_none());
+            // x = 6 − 2·2 at z = 0, and x + 2 y + 3 z, y + z stay as z grows
+            let [x, y, z]: [f64; 3] = reduced.solution();
+            let [x, y] = [x / units[0], y / units[1]];
+            assert!((x - 2.0).abs() < 1e-14 && (y - 2.0).abs() < 1e-14 && z.abs() < 1e-300);
+            let change = |column: usize| reduced.change(column, 2) * units[2] / units[column];
+            assert!((change(0) + 1.0).abs() < 1e-14 && (change(1) + 1.0).abs() < 1e-14);
+        }
     }
 
     #[test]
     fn what_may_not_be_solved_for_is_told() {
-        let reduced = reduce(&[[1.0, 0.0], [1.0, 1e-3]], &[0.0; 2], |column| (column == 0).then_some(0));
+        let reduced = exact([[1.0, 0.0], [1.0, 1e-3]], [0.0; 2], |column| (column == 0).then_some(0));
         assert_eq!(reduced.bound(), Some(1));
-        let in_order = reduce(&[[1.0, 0.1]], &[0.0], |column| Some(u8::from(column == 0)));
+        let in_order = exact([[1.0, 0.1]], [0.0], |column| Some(u8::from(column == 0)));
         assert!(in_order.is_pivot(1) && !in_order.is_pivot(0));
+    }
+
+    /// A derivative that is all rounding, alone in its row and its column, and a small one that is not.
+    #[test]
+    fn rounding_is_told_from_small_derivatives() {
+        let rows = [[1.0, 0.0], [0.0, 1.2e-16]];
+        let elsewhere = [[1.0, 0.0], [0.0, -3e-16]];
+        for (nearby, pivots) in [(elsewhere, 1), (rows, 2)] {
+            let equations = Uncertain::new(&rows, &[1.0; 2], &[nearby], |_| true);
+            let reduced = reduce(&equations, |_| true, |_| Some(0));
+            assert_eq!((0..2).filter(|column| reduced.is_pivot(*column)).count(), pivots);
+        }
     }
 }
