@@ -1,5 +1,5 @@
 //! Searches for states do not know units: the same machine in other units of mass, length and time has the same trims,
-//! assemblies and linearisations.
+//! assemblies, linearisations and discrete motions.
 
 use nonholonomic::prelude::*;
 use nonholonomic::{Real, TrimError};
@@ -150,6 +150,41 @@ fn an_assembly_is_the_same_in_all_units() {
             for (a, b) in found.iter().zip(&plain) {
                 assert!((a - b).abs() <= 1e-14, "{unit:e} {crank}: {found:?} {plain:?}");
             }
+        }
+    }
+}
+
+/// A sleigh whose blade stands aside of its centre of mass.
+#[nonholonomic(
+    basis { w, u, v }
+    brackets { [w, u] = v; [w, v] = -u; }
+    lagrangian { J / 2 * w^2 + m / 2 * (u^2 + v^2) + m * a * w * v }
+    constraints { v = b * w; }
+    emit { euler_poincare_suslov }
+)]
+#[derive(Clone, Copy, Debug)]
+struct Sleigh {
+    m: f64,
+    a: f64,
+    b: f64,
+    J: f64,
+}
+
+/// A turn and a speed: what the method compares has no unit.
+#[test]
+fn a_discrete_motion_is_the_same_in_all_units() {
+    let ends = |mass: f64, length: f64, time: f64| {
+        let sleigh =
+            Sleigh { m: 2.0 * mass, a: 0.3 * length, b: 0.1 * length, J: 0.5 * mass * length * length };
+        let start = SleighState { w: 0.7 / time, u: 1.3 * length / time };
+        let mut sim = Integrator::new(sleigh, DiscreteSuslov::new(0.1 * time), 0.0, start);
+        sim.advance_to(5.0 * time).unwrap_or_else(|error| panic!("{mass:e} {length:e} {time:e}: {error}"));
+        [sim.state().w * time, sim.state().u / length * time]
+    };
+    let plain = ends(1.0, 1.0, 1.0);
+    for [mass, length, time] in UNITS.map(|units| units.map(|power| 10.0_f64.powi(power))) {
+        for (a, b) in ends(mass, length, time).iter().zip(&plain) {
+            assert!((a - b).abs() <= 1e-12 * b.abs(), "{mass:e} {length:e} {time:e}: {a} {b}");
         }
     }
 }

@@ -59,6 +59,9 @@ pub(super) fn with_more<T: Entry, const P: usize, const C: usize>(
     lower
 }
 
+/// What of a row is left by rounding alone where nothing should be left, in units of the last place.
+const ROUNDING: f64 = 4.0;
+
 impl<T: Entry, const N: usize, const P: usize> Measured<T, N, P> {
     /// The array with √R, H L and L.
     pub(super) fn new(
@@ -67,7 +70,10 @@ impl<T: Entry, const N: usize, const P: usize> Measured<T, N, P> {
         mut rest: SMatrix<T, N, N>,
     ) -> Result<Self, ControlError> {
         let mut gain = SMatrix::<T, N, P>::zeros();
+        let rounding = T::from_f64(ROUNDING) * T::EPSILON;
         for i in 0..P {
+            // rotations leave the length of a row as it is, and rounding in each of its entries
+            let row = spread.row(i).iter().chain(seen.row(i).iter()).fold(T::ZERO, |sum, x| sum + x.abs());
             for k in 0..N {
                 if let Some(turn) = rotation(spread[(i, i)], seen[(i, k)]) {
                     rotate(turn, (&mut spread, i), (&mut seen, k));
@@ -78,7 +84,7 @@ impl<T: Entry, const N: usize, const P: usize> Measured<T, N, P> {
             if !pivot.is_finite() {
                 return Err(ControlError::NotFinite { argument: matrix, value: pivot.to_f64() });
             }
-            if pivot <= T::ZERO {
+            if pivot <= rounding * row {
                 return Err(ControlError::NotDefinite { matrix, pivot: pivot.to_f64() });
             }
         }
@@ -121,5 +127,21 @@ mod tests {
         );
         let more = with_more(root, seen);
         assert!((more * more.transpose() - spread).norm() < 1e-14 && more[(0, 1)].abs() < 1e-15);
+    }
+
+    /// The same measured twice without noise: the second says nothing, whatever rounding leaves of it.
+    #[test]
+    fn what_is_certain_already_is_no_measurement() {
+        for factor in [1.0_f64, 3.0, 0.7, 1e-9, -1e12] {
+            for (a, b) in [(0.1_f64, 0.3), (1.1, -0.7), (1e-5, 1e5)] {
+                let seen = matrix![a, b; factor * a, factor * b];
+                let lower = matrix![0.3, 0.0; -0.2, 1.7];
+                let twice = Measured::new(matrix![0.0, 0.0; 0.0, 0.0], seen * lower, lower);
+                assert!(matches!(twice, Err(ControlError::NotDefinite { .. })), "{factor} {a} {b}");
+                let noise = 1e-9 * (a.abs() + b.abs());
+                let noisy = matrix![noise, 0.0; 0.0, noise * factor.abs()];
+                assert!(Measured::new(noisy, seen * lower, lower).is_ok(), "{factor} {a} {b}");
+            }
+        }
     }
 }

@@ -80,19 +80,19 @@ pub(super) fn still_missing<T: Real>(ratio: Option<T>) -> T {
 /// Achieving Brouwer's law with implicit Runge–Kutta methods, BIT 48 (2008)); a component alone may grow once for
 /// another reason, when its correction has just passed through zero.
 #[derive(Clone, Copy)]
-pub(super) struct Settling<D: Dim, T: Real> {
+pub(in crate::methods) struct Settling<D: Dim, T: Real> {
     before: Option<D::Vec<T>>,
     settled: D::Vec<bool>,
 }
 
 impl<D: Dim, T: Real> Settling<D, T> {
     /// Before the first correction.
-    pub(super) fn new() -> Self {
+    pub(in crate::methods) fn new() -> Self {
         Self { before: None, settled: D::vec(false) }
     }
 
     /// Whether all components of a correction that is small as a whole have settled, now or before.
-    pub(super) fn after(
+    pub(in crate::methods) fn after(
         &mut self,
         correction: &D::Vec<T>,
         corrected: &D::Vec<T>,

@@ -2,6 +2,7 @@
 
 use crate::arrays::{displaced, first_non_finite};
 use crate::linear::Factors;
+use crate::methods::implicit::newton::Settling;
 use crate::methods::{Arrival, Fixed, OneStep, Start, Symmetric, explain_non_finite};
 use crate::projection::largest;
 use crate::{Dim, DimOf, EulerPoincareSuslov, IntegrationError, Real, ScalarOf, State, Statistics, VecOf};
@@ -57,7 +58,8 @@ where
         let wanted = momentum(x, -h);
         statistics.evaluations += 1;
         let mut change: VecOf<S> = DimOf::<S>::vec(T::ZERO);
-        let mut best = T::EPSILON.recip();
+        let (mut best, mut before) = (T::EPSILON.recip(), None);
+        let mut settling = Settling::<DimOf<S>, T>::new();
         for _ in 0..MOST_ITERATIONS {
             let v = displaced(x, T::ONE, &change);
             let here = momentum(&v, h);
@@ -65,22 +67,25 @@ where
             statistics.jacobians += 1;
             statistics.factorizations += 1;
             statistics.iterations += 1;
-            // ∂P/∂v by difference quotients; P changes with h v, if there is no other measure
+            // ∂P/∂v by central difference quotients: a P of second degree has no error in them, however large δ is
+            // beside velocities of other units. P changes with h v, if there is no other measure
             let measure = largest(v.as_ref());
             let delta = T::EPSILON.sqrt() * if measure > T::ZERO { measure } else { h.abs().recip() };
             let mut matrix = DimOf::<S>::mat(T::ZERO);
             for j in 0..DimOf::<S>::N {
-                let mut moved = v;
-                let Some(entry) = moved.as_mut().get_mut(j) else { break };
-                let before = *entry;
-                *entry += delta;
-                let really = *entry - before;
-                let there = momentum(&moved, h);
-                statistics.evaluations += 1;
-                for (row, (a, b)) in matrix.as_mut().iter_mut().zip(there.as_ref().iter().zip(here.as_ref()))
+                let [mut before, mut after] = [v; 2];
+                let ends = before.as_mut().get_mut(j).zip(after.as_mut().get_mut(j));
+                let Some((lower, upper)) = ends else { break };
+                *lower -= delta;
+                *upper += delta;
+                let between = *upper - *lower;
+                let [before, after] = [momentum(&before, h), momentum(&after, h)];
+                statistics.evaluations += 2;
+                for (row, (a, b)) in
+                    matrix.as_mut().iter_mut().zip(after.as_ref().iter().zip(before.as_ref()))
                 {
                     if let Some(entry) = row.as_mut().get_mut(j) {
-                        *entry = (*a - *b) / really;
+                        *entry = (*a - *b) / between;
                     }
                 }
             }
@@ -89,13 +94,15 @@ where
             change = displaced(&change, T::ONE, &correction);
             let moved = largest(correction.as_ref());
             let size = if moved == T::ZERO { moved } else { moved / measure.max(largest(change.as_ref())) };
-            if size == T::ZERO || (size <= self.tolerance && size >= best * T::from_f64(0.5)) {
+            let ratio = before.map(|before| size / before);
+            let corrected = displaced(x, T::ONE, &change);
+            if size == T::ZERO || settling.after(&correction, &corrected, size <= self.tolerance, ratio) {
                 return Ok(change);
             }
             if !size.is_finite() {
                 break;
             }
-            best = best.min(size);
+            (best, before) = (best.min(size), Some(size));
         }
         let reached = displaced(x, T::ONE, &change);
         if first_non_finite(reached.as_ref()).is_some() {
