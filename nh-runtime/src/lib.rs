@@ -86,6 +86,7 @@ mod held;
 mod holders;
 pub mod impacts;
 mod inclusion;
+mod integration_error;
 mod integrator;
 mod jet;
 mod lanes;
@@ -122,11 +123,12 @@ pub use dynamics::{
     AlmostPoisson, Constrained, DimOf, Dynamics, Energy, EulerPoincareSuslov, Invariants, Jacobian, Leapfrog,
     MatOf, Observed, RowsByInput, ScalarOf, State, VecOf,
 };
-pub use error::{InputFault, IntegrationError, ParameterError, ParameterFault, ProjectionError, StateFault};
+pub use error::{InputFault, ParameterError, ParameterFault, ProjectionError, StateFault};
 pub use events::{Event, Events, Simultaneous};
 pub use fast::Fast;
 pub use held::{Held, Holding};
 pub use inclusion::{Inclusion, NotInMode};
+pub use integration_error::IntegrationError;
 pub use integrator::Integrator;
 pub use jet::Jet;
 pub use lanes::Lanes;

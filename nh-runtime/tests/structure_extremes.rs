@@ -141,7 +141,7 @@ fn inertias_of_any_ratio() {
     }
 }
 
-/// The momentum at the start; and in every iteration there, and beside it for each of the two velocities.
+/// The momentum at the start; and in every iteration there, and on both sides of it for each of the two velocities.
 #[test]
 fn what_an_iteration_costs_is_counted() {
     let system = Suslov { I: [1.0, 2.0, 3.0], s: 0.7 };
@@ -149,7 +149,7 @@ fn what_an_iteration_costs_is_counted() {
     sim.advance_to(1.0).unwrap();
     let cost = sim.statistics();
     assert!(cost.iterations >= 2 * cost.steps && cost.steps == 20, "{cost:?}");
-    assert_eq!(cost.evaluations, cost.steps + 3 * cost.iterations);
+    assert_eq!(cost.evaluations, cost.steps + 5 * cost.iterations);
     assert_eq!((cost.jacobians, cost.factorizations), (cost.iterations, cost.iterations));
 }
 

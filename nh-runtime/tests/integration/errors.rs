@@ -156,6 +156,18 @@ fn blow_up_underflows_the_step() {
          resolves no shorter one: the solution, the mass matrix or the constraints may be singular near \
          there, or the tolerance too small"
     );
+    let error = IntegrationError::StepUnderflow { time: 1.0, step: 1e-16, error: f64::NAN };
+    assert_eq!(
+        error.to_string(),
+        "at t = 1.0 a step of length 1e-16 still leads to numbers that are not finite, and the time resolves \
+         no shorter one: the solution, the mass matrix or the constraints may be singular near there"
+    );
+    let error = IntegrationError::NoConvergence { time: 1.0, step: 0.1, iterations: 2, residual: f64::NAN };
+    assert_eq!(
+        error.to_string(),
+        "the step of length 0.1 from t = 1.0 was not solved: its corrections were no longer finite after 2 \
+         iterations: take a smaller step"
+    );
 }
 
 #[test]

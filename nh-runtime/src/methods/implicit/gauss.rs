@@ -247,7 +247,7 @@ where
         statistics.evaluations += 1;
         let slope = start.derivative();
         if first_non_finite::<T>(slope.as_ref()).is_some() {
-            return Err(refusal(start, h, 0, T::ZERO, slope.as_ref()));
+            return Err(refusal(start, h, (0, T::ZERO), slope.as_ref(), None));
         }
         return Ok((table.nodes.map(|node| displaced(&zero, T::from_f64(node) * h, &slope)), [zero; N]));
     }
@@ -307,6 +307,7 @@ where
             work.matrices = Some((h, table.matrices::<S>(&jacobian, h)));
         }
         let Some((_, matrices)) = &work.matrices else { continue };
+        let before = z;
         let change = table.iterate_exactly(start, (x, rest), h, matrices, (&mut z, &mut rests));
         iterations += 1;
         statistics.iterations += 1;
@@ -323,7 +324,10 @@ where
         if !residual.is_finite() || iterations >= MOST_ITERATIONS {
             if !retry {
                 let reached = displaced(x, T::ONE, &table.increment(zero, &z, &rests));
-                return Err(refusal(start, h, iterations, residual, reached.as_ref()));
+                let stages = table.nodes.iter().zip(&before);
+                let at = |node: f64| start.time + T::from_f64(node) * h;
+                let from = stages.map(|(node, z)| (at(*node), displaced(x, T::ONE, z)));
+                return Err(refusal(start, h, (iterations, residual), reached.as_ref(), from));
             }
             retry = false;
             (z, rests) = ([zero; N], [zero; N]);

@@ -180,14 +180,16 @@ impl<T: Real, J> Midpoint<T, J> {
             if vanishes || (stagnates && residual <= T::ONE) {
                 if is_elsewhere(largest(half_increment), usual) {
                     let reached = displaced(&x, T::from_f64(2.0), half_increment);
-                    return Err(refusal(start, length, iterations, residual, reached.as_ref()));
+                    let from = [(middle, point)];
+                    return Err(refusal(start, length, (iterations, residual), reached.as_ref(), from));
                 }
                 return Ok(());
             }
             if !residual.is_finite() || iterations >= MOST_ITERATIONS {
                 if !retry {
                     let reached = displaced(&x, T::from_f64(2.0), half_increment);
-                    return Err(refusal(start, length, iterations, residual, reached.as_ref()));
+                    let from = [(middle, point)];
+                    return Err(refusal(start, length, (iterations, residual), reached.as_ref(), from));
                 }
                 retry = false;
                 *half_increment = DimOf::<S>::vec(T::ZERO);

@@ -1,9 +1,9 @@
 //! What the iterations of implicit methods share: bounds, matrices, and what they say if they fail.
 
-use crate::arrays::displaced;
+use crate::arrays::{displaced, first_non_finite};
 use crate::methods::fixed::OneStep;
-use crate::methods::{Start, explain_non_finite};
-use crate::{Dim, Dynamics, IntegrationError, Real, Scalar, ScalarOf, State, Statistics};
+use crate::methods::{Start, explain_non_finite, non_finite_derivative};
+use crate::{Dim, Dynamics, IntegrationError, Real, Scalar, ScalarOf, State, Statistics, VecOf};
 
 /// The iterations after which a solution is given up.
 pub(super) const MOST_ITERATIONS: u32 = 50;
@@ -58,12 +58,13 @@ where
     Ok(state)
 }
 
-/// The largest correction, relative to the largest |x| + |increment|; NaN if there is one.
+/// The largest correction, relative to the largest |x| + |increment|, or to the least number that has all its digits; NaN if
+/// there is one.
 pub(super) fn size<T: Real, V: AsRef<[T]>>(correction: &V, x: &V, increment: &V) -> T {
     let sizes = x.as_ref().iter().zip(increment.as_ref()).map(|(x, d)| x.abs() + d.abs());
     let scale = sizes.fold(T::ZERO, T::max);
     let largest = correction.as_ref().iter().fold(T::ZERO, |largest, c| largest.max(c.abs()));
-    if largest == T::ZERO { largest } else { largest / scale }
+    if largest == T::ZERO { largest } else { largest / scale.max(T::MIN_POSITIVE) }
 }
 
 /// The share of a correction that has to be within rounding, where corrections shrink by a ratio: what is missing after
@@ -132,14 +133,36 @@ pub(in crate::methods) fn one_less<D: Dim, T: Scalar>(h: T, a: D::Mat<T>) -> D::
     matrix
 }
 
-/// Explains why the equations were not solved.
+/// The first derivative within a step that is not finite, with the share of the step at which it is: at finite ones among
+/// the states that the stages had or, as these may be lost, on the way that the derivative at the start leads.
+#[cold]
+pub(super) fn blamed<S: Dynamics>(
+    start: &Start<'_, S>,
+    h: ScalarOf<S>,
+    nodes: &[f64],
+    state: impl Fn(usize) -> VecOf<S>,
+) -> Option<((usize, f64), f64)> {
+    let (x, slope) = (start.state.to_array(), start.derivative());
+    let along = |node: f64| displaced(&x, ScalarOf::<S>::from_f64(node) * h, &slope);
+    let had = nodes.iter().enumerate().map(|(stage, node)| (*node, state(stage)));
+    had.chain(nodes.iter().map(|node| (*node, along(*node)))).find_map(|(node, state)| {
+        if first_non_finite(state.as_ref()).is_some() {
+            return None;
+        }
+        let there = start.derivative_at(start.time + ScalarOf::<S>::from_f64(node) * h, state);
+        first_non_finite(there.as_ref()).map(|found| (found, node))
+    })
+}
+
+/// Explains why the equations were not solved: by a derivative that is not finite at the start or, where a correction is
+/// not, at one of the places with their times that it was found from.
 #[cold]
 pub(in crate::methods) fn refusal<S: Dynamics>(
     start: &Start<'_, S>,
     length: ScalarOf<S>,
-    iterations: u32,
-    residual: ScalarOf<S>,
+    (iterations, residual): (u32, ScalarOf<S>),
     reached: &[ScalarOf<S>],
+    from: impl IntoIterator<Item = (ScalarOf<S>, VecOf<S>)>,
 ) -> IntegrationError
 where
     ScalarOf<S>: Real,
@@ -147,6 +170,13 @@ where
     let explained = explain_non_finite(start, length, reached);
     if matches!(explained, IntegrationError::NonFiniteDerivative { .. }) {
         return explained;
+    }
+    if !residual.is_finite() {
+        let finite = from.into_iter().filter(|(_, x)| first_non_finite(x.as_ref()).is_none());
+        let mut found = finite.map(|(t, x)| (t, first_non_finite(start.derivative_at(t, x).as_ref())));
+        if let Some((t, found)) = found.find_map(|(t, found)| Some((t, found?))) {
+            return non_finite_derivative::<S::State>(found, t.to_f64());
+        }
     }
     IntegrationError::NoConvergence {
         time: start.time.to_f64(),

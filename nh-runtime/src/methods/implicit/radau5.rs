@@ -6,8 +6,8 @@ pub(super) use coefficients::RADAU;
 
 use super::collocation::{Matrices, weighted};
 use super::linearization::{Analytic, FiniteDifferences, Linearization};
-use super::newton::is_first_term;
-use crate::arrays::{Array, displaced, first_non_finite, nought};
+use super::newton::{blamed, is_first_term};
+use crate::arrays::{Array, displaced, nought};
 use crate::dense::hermite;
 use crate::methods::adaptive::{Adaptive, Scheme, Trial};
 use crate::methods::{Arrival, Start};
@@ -342,11 +342,8 @@ where
     #[cold]
     fn blame(&self, start: &Start<'_, S>, h: ScalarOf<S>, work: &Work<S>) -> Option<((usize, f64), f64)> {
         let x = start.state.to_array();
-        let stages = RADAU.nodes.iter().zip(&work.trial);
-        stages.into_iter().find_map(|(node, z)| {
-            let time = start.time + ScalarOf::<S>::from_f64(*node) * h;
-            let slope = start.derivative_at(time, displaced(&x, ScalarOf::<S>::ONE, z));
-            first_non_finite::<ScalarOf<S>>(slope.as_ref()).map(|found| (found, *node))
+        blamed(start, h, &RADAU.nodes, |stage| {
+            work.trial.get(stage).map_or(x, |z| displaced(&x, ScalarOf::<S>::ONE, z))
         })
     }
 

@@ -6,8 +6,8 @@ use table::{A, C, DENSE, GAMMA, NODES, TIME};
 
 use super::collocation::{shifted, weighted};
 use super::linearization::{Analytic, FiniteDifferences, Linearization};
-use super::newton::is_first_term;
-use crate::arrays::{all_finite, displaced, first_non_finite, nought};
+use super::newton::{blamed, is_first_term};
+use crate::arrays::{all_finite, displaced, nought};
 use crate::linear::Factors;
 use crate::methods::adaptive::{Adaptive, Scheme, Trial};
 use crate::methods::{Arrival, Start};
@@ -230,10 +230,8 @@ where
         let x = start.state.to_array();
         let zero = DimOf::<S>::vec(ScalarOf::<S>::ZERO);
         let [known @ .., _] = &work.stages;
-        A.iter().zip(NODES).find_map(|(a, node)| {
-            let state = displaced(&x, ScalarOf::<S>::ONE, &weighted(zero, a, known));
-            let slope = start.derivative_at(start.time + ScalarOf::<S>::from_f64(node) * h, state);
-            first_non_finite::<ScalarOf<S>>(slope.as_ref()).map(|found| (found, node))
+        blamed(start, h, &NODES, |stage| {
+            A.get(stage).map_or(x, |a| displaced(&x, ScalarOf::<S>::ONE, &weighted(zero, a, known)))
         })
     }
 

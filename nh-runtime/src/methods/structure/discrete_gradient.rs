@@ -180,6 +180,7 @@ impl<T: Real, J> Gonzalez<T, J> {
             let (defect, factor) = step.defect(&change, settled);
             statistics.evaluations += 1;
             let correction = factors.solve(&defect);
+            let before = change;
             change = displaced(&change, T::ONE, &correction);
             iterations += 1;
             statistics.iterations += 1;
@@ -208,7 +209,9 @@ impl<T: Real, J> Gonzalez<T, J> {
             if !size.is_finite() || iterations >= MOST_ITERATIONS {
                 if !retry {
                     let reached = displaced(step.x, T::ONE, &change);
-                    return Err(refusal(step.start, step.h, iterations, size, reached.as_ref()));
+                    let half = T::from_f64(0.5);
+                    let from = [(step.start.time + half * step.h, displaced(step.x, half, &before))];
+                    return Err(refusal(step.start, step.h, (iterations, size), reached.as_ref(), from));
                 }
                 (retry, matrix, best, stalled, iterations) = (false, None, most, 0, 0);
                 (settled, noise) = (None, None);

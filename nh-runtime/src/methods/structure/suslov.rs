@@ -1,6 +1,6 @@
 //! Discrete Euler–Poincaré–Suslov equations.
 
-use crate::arrays::{displaced, first_non_finite};
+use crate::arrays::{all_finite, displaced, first_non_finite};
 use crate::linear::Factors;
 use crate::methods::implicit::newton::Settling;
 use crate::methods::{Arrival, Fixed, OneStep, Start, Symmetric, explain_non_finite};
@@ -88,6 +88,11 @@ where
                         *entry = (*a - *b) / between;
                     }
                 }
+            }
+            // a derivative that is not finite would make corrections vanish
+            if !matrix.as_ref().iter().all(all_finite::<T, _>) {
+                best = T::from_f64(f64::NAN);
+                break;
             }
             let defect = displaced(&wanted, -T::ONE, &here);
             let correction = Factors::<DimOf<S>, T>::new(&matrix).solve(&defect);

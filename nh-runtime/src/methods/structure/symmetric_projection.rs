@@ -117,7 +117,7 @@ where
             let size = sizes.as_ref().iter().fold(T::ZERO, |most, size| most.max(*size));
             if iterations == MOST_ITERATIONS || !size.is_finite() {
                 work.amounts = DimOf::<S>::vec(T::ZERO);
-                return Err(refusal(start, h, iterations, size, end.as_ref()));
+                return Err(refusal(start, h, (iterations, size), end.as_ref(), None));
             }
         }
     }
