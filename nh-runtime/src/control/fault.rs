@@ -98,8 +98,9 @@ impl Display for ControlError {
             Self::NotStabilizable { iterations, change } => write!(
                 f,
                 "there is no stationary regulator: after {iterations} doublings of the horizon it still grows \
-                 (relative change {change:.1e}): a mode that does not decay cannot be steered by the inputs or does not \
-                 appear in the cost; leave it out of the state, or give it a weight"
+                 (relative change {change:.1e}): a mode that does not decay, or too slowly to be told from one that does \
+                 not, cannot be steered by the inputs or does not appear in the cost; leave it out of the state, or \
+                 give it a weight"
             ),
             Self::Residual { residual } => write!(
                 f,
@@ -148,8 +149,9 @@ mod tests {
             (
                 ControlError::NotStabilizable { iterations: 60, change: 0.5 },
                 "there is no stationary regulator: after 60 doublings of the horizon it still grows (relative \
-                 change 5.0e-1): a mode that does not decay cannot be steered by the inputs or does not appear \
-                 in the cost; leave it out of the state, or give it a weight",
+                 change 5.0e-1): a mode that does not decay, or too slowly to be told from one that does not, \
+                 cannot be steered by the inputs or does not appear in the cost; leave it out of the state, or give \
+                 it a weight",
             ),
             (
                 ControlError::Residual { residual: 0.25 },

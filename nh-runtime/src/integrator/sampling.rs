@@ -58,8 +58,8 @@ where
     /// them come from the dense output; the last time is landed on.
     ///
     /// # Errors
-    /// As [`advance_to`](Self::advance_to); [`IntegrationError::UnorderedTimes`] for a time within a step that goes
-    /// back, [`IntegrationError::OutsideLastStep`] for one in a step that was left.
+    /// As [`advance_to`](Self::advance_to); before anything moves, [`IntegrationError::UnorderedTimes`] for a time that goes
+    /// back, and [`IntegrationError::OutsideLastStep`] where the way to the last time does not lead by the first.
     pub fn sample(
         &mut self,
         times: impl IntoIterator<Item = ScalarOf<S>, IntoIter: Clone>,
@@ -67,8 +67,7 @@ where
     ) -> Result<(), IntegrationError> {
         let times = times.into_iter();
         let Some(last) = times.clone().last() else { return Ok(()) };
-        let is_forwards = times.clone().next().is_some_and(|first| first <= last);
-        let mut before = None;
+        self.follow_one_another(times.clone(), last)?;
         let mut times = times.peekable();
         let mut spent = Spent::default();
         loop {
@@ -76,13 +75,6 @@ where
             while let Some(&time) = times.peek()
                 && let Ok(state) = dense.at(time)
             {
-                if let Some(before) = before
-                    && (if is_forwards { time < before } else { time > before })
-                {
-                    let [time, before, last] = [time, before, last].map(|time: ScalarOf<S>| time.to_f64());
-                    return Err(IntegrationError::UnorderedTimes { time, before, last });
-                }
-                before = Some(time);
                 visit(time, &state);
                 times.next();
             }
@@ -92,6 +84,29 @@ where
             }
             self.step_within(&mut spent, last)?;
         }
+    }
+
+    /// Whether times go in one direction, and the way from here to the last of them leads by the first.
+    fn follow_one_another(
+        &self,
+        mut times: impl Iterator<Item = ScalarOf<S>> + Clone,
+        last: ScalarOf<S>,
+    ) -> Result<(), IntegrationError> {
+        if let Some(time) = times.clone().find(|time| !time.is_finite()) {
+            return Err(IntegrationError::NonFiniteTime { time: time.to_f64() });
+        }
+        let Some(first) = times.next() else { return Ok(()) };
+        let goes_back = |before, time| if first <= last { time < before } else { time > before };
+        let mut before = first;
+        for time in times {
+            if goes_back(before, time) {
+                let [time, before, last] = [time, before, last].map(|time: ScalarOf<S>| time.to_f64());
+                return Err(IntegrationError::UnorderedTimes { time, before, last });
+            }
+            before = time;
+        }
+        let leads_by = if first < last { first >= self.time } else { first <= self.time };
+        if first != last && !leads_by { self.dense().at(first).map(|_| ()) } else { Ok(()) }
     }
 
     /// Cuts the last step at a time and state within it.

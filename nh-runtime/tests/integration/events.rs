@@ -204,7 +204,9 @@ fn stops_and_samples_come_in_turn() {
     let mut seen = Vec::new();
     let unordered = sim.sample([1e-3, 3e-3, 3e-3, 2e-3, 4e-3], |t, _| seen.push(t));
     let expected = IntegrationError::UnorderedTimes { time: 2e-3, before: 3e-3, last: 4e-3 };
-    assert_eq!((unordered, seen), (Err(expected), vec![1e-3, 3e-3, 3e-3]));
+    assert_eq!((unordered, seen.len(), sim.time()), (Err(expected), 0, 0.0));
+    sim.sample([1e-3, 3e-3, 3e-3, 4e-3], |t, _| seen.push(t)).unwrap();
+    assert_eq!(seen, [1e-3, 3e-3, 3e-3, 4e-3]);
     assert_eq!(
         expected.to_string(),
         "states were asked for at t = 0.003 and then at 0.002, on the way to 0.004: sort the times, or go through them \
@@ -215,5 +217,15 @@ fn stops_and_samples_come_in_turn() {
     assert!(matches!(backwards, Err(IntegrationError::UnorderedTimes { time: -2e-3, .. })), "{backwards:?}");
     sim.reset(20.0, START);
     let late = sim.sample([20.0, 3.0, 21.0], |_, _| {});
-    assert!(matches!(late, Err(IntegrationError::OutsideLastStep { time: 3.0, .. })));
+    assert!(matches!(late, Err(IntegrationError::UnorderedTimes { time: 3.0, .. })));
+    // back to where the run stands, from where it has not been; nothing moves for it
+    for times in [[21.0, 21.0, 20.0], [22.0, 21.5, 21.0], [19.0, 19.0, 19.5]] {
+        let refused = sim.sample(times, |_, _| {});
+        assert!(matches!(refused, Err(IntegrationError::OutsideLastStep { .. })), "{times:?}: {refused:?}");
+        assert_eq!(sim.time(), 20.0);
+    }
+    assert_eq!(
+        sim.sample([20.0, f64::NAN], |_, _| {}).map_err(|error| error.to_string()),
+        Err("the time NaN cannot be reached: times have to be finite".into())
+    );
 }
