@@ -125,13 +125,24 @@ function drawDiagram() {
   byId("diagram").innerHTML = picture ?? "";
 }
 
+// words with formulas between dollars
+function words(text, line) {
+  text.split("$").forEach((part, index) => {
+    const span = document.createElement("span");
+    if (index % 2) katex.render(part, span, { throwOnError: false });
+    else span.textContent = part;
+    line.append(span);
+  });
+}
+
 function equations() {
   const box = byId("equations");
   box.replaceChildren();
   for (const equation of machine.equations()) {
     const line = document.createElement("div");
-    if (katex) katex.render(equation, line, { displayMode: true, throwOnError: false });
-    else line.textContent = equation;
+    if (!katex) line.textContent = equation;
+    else if (equation.startsWith("\\begin")) katex.render(equation, line, { displayMode: true, throwOnError: false });
+    else words(equation, line);
     box.append(line);
   }
 }
@@ -295,10 +306,13 @@ if (location.search === "?check") {
   checked.textContent = JSON.stringify(names().map((name) => {
     show(name);
     const page = document.documentElement;
+    const lines = [...document.querySelectorAll("#equations > div")];
+    // as formulas, or words without any
+    const isSet = (line) => line.querySelector(".katex") || !/[\\$]/.test(line.textContent);
     return {
       ...tried(name, 5), wider: page.scrollWidth - page.clientWidth,
-      equations: document.querySelectorAll("#equations > div").length,
-      set: document.querySelectorAll("#equations .katex").length, wrong: document.querySelectorAll(".katex-error").length,
+      equations: lines.length, set: lines.filter(isSet).length,
+      wrong: document.querySelectorAll(".katex-error").length,
     };
   }));
   document.body.append(checked);

@@ -60,10 +60,10 @@ impl Shown {
         self.0.report().to_owned()
     }
 
-    /// The equations of motion of the report, in the words of TeX.
+    /// The equations of motion in TeX: displayed formulas, and words about them with formulas between dollars.
     #[must_use]
     pub fn equations(&self) -> Vec<String> {
-        equations::of(self.0.report())
+        equations::of(self.0.typeset())
     }
 
     /// A picture in SVG beside the motion, for the parameters as they stand.

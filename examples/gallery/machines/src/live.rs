@@ -43,6 +43,8 @@ where
     const SOURCE: &'static str;
     /// `Self::REPORT`.
     const DERIVED: &'static str;
+    /// `Self::LATEX`.
+    const TYPESET: &'static str;
     /// Whether nothing drives or brakes it.
     const CONSERVATIVE: bool = true;
 
@@ -128,6 +130,7 @@ pub trait Machine {
     fn text(&self) -> &'static str;
     fn declaration(&self) -> String;
     fn report(&self) -> &'static str;
+    fn typeset(&self) -> &'static str;
     fn is_conservative(&self) -> bool;
     fn sliders(&self) -> Vec<Labelled>;
     fn value(&self, slider: usize) -> f64;
@@ -204,6 +207,10 @@ where
 
     fn report(&self) -> &'static str {
         S::DERIVED
+    }
+
+    fn typeset(&self) -> &'static str {
+        S::TYPESET
     }
 
     fn is_conservative(&self) -> bool {

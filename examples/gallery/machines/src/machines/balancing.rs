@@ -17,7 +17,7 @@ use crate::scene::{Colour, Scene};
     inputs { torque }
     forces { x: torque / r; tilt: -torque; }
     assume { wheels > 0; m > 0; J > 0; r > 0; l > 0; }
-    emit { jacobian }
+    emit { jacobian, latex }
     units  { x, l, r = m; tilt = rad; wheels, m = kg; J = kg m^2; g = m/s^2; torque = N m; }
 )]
 #[derive(Clone, Copy, Debug)]
@@ -53,6 +53,7 @@ impl Model for Balancing {
         holds a body upright above its wheels. Push it over; move its goal.";
     const SOURCE: &'static str = include_str!("balancing.rs");
     const DERIVED: &'static str = Self::REPORT;
+    const TYPESET: &'static str = Self::LATEX;
     const CONSERVATIVE: bool = false;
 
     fn start() -> (Self, BalancingState) {

@@ -19,6 +19,7 @@ nh_models::bicycle! {
     forces { steer: torque; }
     inputs { torque }
     linearization { keep: lean, steer, der(lean), der(steer); }
+    emit { latex }
 }
 
 /// The speeds of the diagram (m/s), and how many there are.
@@ -83,6 +84,7 @@ impl Model for Bicycle<f64> {
         push it, and it steers itself upright; slower it weaves, and slower still it falls. Trail and the spin of the front wheel move the curves.";
     const SOURCE: &'static str = include_str!("bicycle.rs");
     const DERIVED: &'static str = Self::REPORT;
+    const TYPESET: &'static str = Self::LATEX;
 
     /// The use of the declaration, and the declaration, which other programs share.
     fn declaration() -> String {

@@ -25,6 +25,7 @@ use crate::space::{cross, dot, in_space, seen, turn};
     }
     assume { m > 0; I > 0; r > 0; }
     units { g, e = 1; x, y, r = m; w = s^-1; m = kg; I = kg m^2; }
+    emit { latex }
 )]
 #[derive(Clone, Copy, Debug)]
 pub struct ChaplyginSphere {
@@ -39,6 +40,7 @@ impl Model for ChaplyginSphere {
         integrable all the same, and keeps a volume that Chaplygin found in 1903.";
     const SOURCE: &'static str = include_str!("chaplygin_sphere.rs");
     const DERIVED: &'static str = Self::REPORT;
+    const TYPESET: &'static str = Self::LATEX;
 
     fn start() -> (Self, ChaplyginSphereState) {
         let ball = Self { m: 1.0, I: [0.05, 0.09, 0.12], r: 0.5 };

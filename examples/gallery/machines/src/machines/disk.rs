@@ -26,6 +26,7 @@ use crate::space::{seen, turn};
     }
     assume { m > 0; A > 0; C > 0; R > 0; }
     units { x, y, R = m; heading, lean, roll = rad; m = kg; A, C = kg m^2; g = m/s^2; }
+    emit { latex }
 )]
 #[derive(Clone, Copy, Debug)]
 pub struct Disk {
@@ -43,6 +44,7 @@ impl Model for Disk {
         and spirals as a coin does. Five coordinates, two constraints, energy conserved.";
     const SOURCE: &'static str = include_str!("disk.rs");
     const DERIVED: &'static str = Self::REPORT;
+    const TYPESET: &'static str = Self::LATEX;
 
     fn start() -> (Self, DiskState) {
         let disk = Self { m: 1.0, A: 0.25 * 0.16, C: 0.5 * 0.16, R: 0.4, g: 9.81 };

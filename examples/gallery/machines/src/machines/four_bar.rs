@@ -26,6 +26,7 @@ use crate::scene::{Colour, Scene};
     forces { crank: motor; }
     assume { mu > 0; l1 > 0; l2 > 0; l3 > 0; d > 0; }
     units { crank, coupler, rocker = rad; l1, l2, l3, d = m; mu = kg/m; g = m/s^2; motor = N m; closure = N; }
+    emit { latex }
 )]
 #[derive(Clone, Copy, Debug)]
 pub struct FourBar {
@@ -60,6 +61,7 @@ impl Model for FourBar {
         logarithmic scale. A point of the coupler draws its curve. Other lengths close the loop anew.";
     const SOURCE: &'static str = include_str!("four_bar.rs");
     const DERIVED: &'static str = Self::REPORT;
+    const TYPESET: &'static str = Self::LATEX;
 
     fn is_conservative(&self) -> bool {
         self.torque == 0.0

@@ -41,6 +41,7 @@ use crate::space::{cross, dot, in_space, seen, turn};
     forces { for i in 0..3 { w[i]: -c * w[i]; } }
     assume { m > 0; I > 0; a > 0; }
     units { g, e = 1; x, y, a, h = m; w = s^-1; m = kg; I, D = kg m^2; gravity = m/s^2; c = N m s; }
+    emit { latex }
 )]
 #[derive(Clone, Copy, Debug)]
 pub struct Rattleback {
@@ -63,6 +64,7 @@ impl Model for Rattleback {
         it goes on for much longer. Its axes of inertia are turned against those of its bottom: the slider's deviation moment.";
     const SOURCE: &'static str = include_str!("rattleback.rs");
     const DERIVED: &'static str = Self::REPORT;
+    const TYPESET: &'static str = Self::LATEX;
 
     fn is_conservative(&self) -> bool {
         self.c == 0.0

@@ -33,6 +33,7 @@ use crate::scene::{Colour, Scene, placed};
         c = N m s;
         torque_left, torque_right = N m;
     }
+    emit { latex }
 )]
 #[derive(Clone, Copy, Debug)]
 pub struct Robot {
@@ -59,6 +60,7 @@ impl Model for Robot {
         the motors do.";
     const SOURCE: &'static str = include_str!("robot.rs");
     const DERIVED: &'static str = Self::REPORT;
+    const TYPESET: &'static str = Self::LATEX;
     const CONSERVATIVE: bool = false;
 
     fn start() -> (Self, RobotState) {

@@ -23,6 +23,7 @@ use crate::scene::{Colour, Scene, placed};
     independent { v }
     assume { m > 0; J1 > 0; J2 > 0; l1 > 0; l2 > 0; }
     units { x, y, l1, l2 = m; theta, phi, swing = rad; t = s; rate = s^-1; m = kg; J1, J2 = kg m^2; }
+    emit { latex }
 )]
 #[derive(Clone, Copy, Debug)]
 pub struct RollerRacer {
@@ -43,6 +44,7 @@ impl Model for RollerRacer {
         ahead. The swing is prescribed by a constraint; what is left is one velocity.";
     const SOURCE: &'static str = include_str!("roller_racer.rs");
     const DERIVED: &'static str = Self::REPORT;
+    const TYPESET: &'static str = Self::LATEX;
     const CONSERVATIVE: bool = false;
 
     fn start() -> (Self, RollerRacerState) {

@@ -16,6 +16,7 @@ use crate::scene::{Colour, Scene, placed};
     constraints { blade: side = 0; }
     assume      { m > 0; J > 0; }
     units       { theta, slope = rad; x, y = m; m = kg; J = kg m^2; g = m/s^2; blade = N; }
+    emit { latex }
 )]
 #[derive(Clone, Copy, Debug)]
 pub struct Skate {
@@ -32,6 +33,7 @@ impl Model for Skate {
         a cycloid, since its blade points uphill as often as downhill. Stop its spin and it is off.";
     const SOURCE: &'static str = include_str!("skate.rs");
     const DERIVED: &'static str = Self::REPORT;
+    const TYPESET: &'static str = Self::LATEX;
 
     fn start() -> (Self, SkateState) {
         let skate = Self { m: 1.0, J: 0.1, g: 9.81, slope: 0.1 };

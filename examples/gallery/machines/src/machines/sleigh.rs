@@ -16,6 +16,7 @@ use crate::scene::{Colour, Scene, placed};
     constraints { edge: side = 0; }
     assume      { m > 0; J > 0; }
     units       { theta = rad; x, y, a = m; m = kg; J = kg m^2; edge = N; }
+    emit { latex }
 )]
 #[derive(Clone, Copy, Debug)]
 pub struct Sleigh {
@@ -32,6 +33,7 @@ impl Model for Sleigh {
         motion forgets where it came from: no mechanical system without rolling or blades can do that.";
     const SOURCE: &'static str = include_str!("sleigh.rs");
     const DERIVED: &'static str = Self::REPORT;
+    const TYPESET: &'static str = Self::LATEX;
 
     fn start() -> (Self, SleighState) {
         let sleigh = Self { m: 1.0, J: 0.9, a: 0.2 };

@@ -25,6 +25,7 @@ use crate::scene::{Colour, Scene, placed};
     }
     independent { u1 }
     units { x, y, l = m; theta, psi, phi, swing, steer = rad; t = s; rate = s^-1; m = kg; J0, J1 = kg m^2; }
+    emit { latex }
 )]
 #[derive(Clone, Copy, Debug)]
 pub struct Snakeboard {
@@ -46,6 +47,7 @@ impl Model for Snakeboard {
         board ahead. Rotor and steering are prescribed by constraints that depend on time.";
     const SOURCE: &'static str = include_str!("snakeboard.rs");
     const DERIVED: &'static str = Self::REPORT;
+    const TYPESET: &'static str = Self::LATEX;
     const CONSERVATIVE: bool = false;
 
     fn start() -> (Self, SnakeboardState) {

@@ -26,6 +26,7 @@ use crate::scene::{Colour, Scene, placed};
     forces { v: drive; ddelta: turn; }
     assume { m > 0; J > 0; Js > 0; d > 0; wheelbase > 0; }
     units { x, y, d, wheelbase = m; th, delta = rad; m = kg; J, Js = kg m^2; drive = N; turn = N m; }
+    emit { latex }
 )]
 #[derive(Clone, Copy, Debug)]
 pub struct Trailers {
@@ -62,6 +63,7 @@ impl Model for Trailers {
         forty times a second, to take the last trailer round a circle. Push it, and see it recover.";
     const SOURCE: &'static str = include_str!("trailers.rs");
     const DERIVED: &'static str = Self::REPORT;
+    const TYPESET: &'static str = Self::LATEX;
     const CONSERVATIVE: bool = false;
 
     fn start() -> (Self, TrailersState) {

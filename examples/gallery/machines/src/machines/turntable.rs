@@ -19,6 +19,7 @@ use crate::space::turn;
     conserved { spin = w[2]; }
     assume { r > 0; k > 0; m > 0; }
     units { x, y, k, r = m; w, rate = s^-1; m = kg; g = m/s^2; slope = 1; }
+    emit { latex }
 )]
 #[derive(Clone, Copy, Debug)]
 pub struct Turntable {
@@ -39,6 +40,7 @@ impl Model for Turntable {
         table's rate if it is solid. Tilt the table, and the circles drift across the slope, never down.";
     const SOURCE: &'static str = include_str!("turntable.rs");
     const DERIVED: &'static str = Self::REPORT;
+    const TYPESET: &'static str = Self::LATEX;
     const CONSERVATIVE: bool = false;
 
     fn start() -> (Self, TurntableState) {

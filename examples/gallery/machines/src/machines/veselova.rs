@@ -18,6 +18,7 @@ use crate::space::{seen, turn};
     constraints { veselova: dot(g, w) = 0; }
     assume      { I > 0; }
     units       { g = 1; w = s^-1; I = kg m^2; c = J; }
+    emit { latex }
 )]
 #[derive(Clone, Copy, Debug)]
 pub struct Veselova {
@@ -33,6 +34,7 @@ impl Model for Veselova {
         all velocities are kept, and the state returns to the constraint after every step.";
     const SOURCE: &'static str = include_str!("veselova.rs");
     const DERIVED: &'static str = Self::REPORT;
+    const TYPESET: &'static str = Self::LATEX;
 
     fn start() -> (Self, VeselovaState) {
         let body = Self { I: [1.0, 1.6, 2.3], c: 0.6 };
