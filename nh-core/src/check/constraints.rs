@@ -241,10 +241,12 @@ fn constraint_manifold(
                     name_of(model, id)
                 ),
                 evidence: format!(
-                    "{} = 0 could not be solved by a division or a square root",
+                    "{} = 0 could not be solved by a division or a square root that leaves out none of its solutions",
                     shown(&model.graph, residuals[index])
                 ),
-                way_out: "write it as a polynomial of first or second degree in some velocity".into(),
+                way_out: "write it as a polynomial of first or second degree in a velocity that the constraints before it \
+                          leave free, without factors that vanish by themselves"
+                    .into(),
             })
         }
     }
