@@ -1,7 +1,7 @@
 //! What has to hold on the base for words of the declaration to have their meaning: an axis of rotation has
 //! length 1, an attitude is a rotation matrix.
 
-use super::evidence::{not_zero, shown};
+use super::evidence::{not_zero_on, shown};
 use crate::algebra::Verdict;
 use crate::geometry::Manifold;
 use crate::model::Model;
@@ -21,8 +21,8 @@ pub fn claimed(model: &mut Model, base: &Manifold) -> Vec<Violation> {
         }
         let value = model.graph.simplify(claim.value);
         let evidence = match &verdict {
-            Verdict::NonZero(witness) if base.is_whole() => {
-                format!("{}: {}", claim.measure, not_zero(&model.graph, value, witness))
+            Verdict::NonZero(witness) => {
+                format!("{}: {}", claim.measure, not_zero_on(&model.graph, value, witness, base))
             }
             _ => format!("{}: {} should be 0", claim.measure, shown(&model.graph, value)),
         };

@@ -1,6 +1,6 @@
 //! Claims about the volume that the motion keeps: M 2.5, mathematics (19).
 
-use super::evidence::{not_zero, shown};
+use super::evidence::{not_zero_on, shown};
 use crate::algebra::{Graph, Verdict};
 use crate::geometry::Manifold;
 use crate::id::{ExprId, Origin};
@@ -111,10 +111,9 @@ pub fn claimed_density(
     }
     let (what, evidence) = match &verdict {
         Verdict::Zero => return None,
-        Verdict::NonZero(witness) if manifold.is_whole() => {
-            ("this density is not kept by the motion", not_zero(graph, defect, witness))
+        Verdict::NonZero(witness) => {
+            ("this density is not kept by the motion", not_zero_on(graph, defect, witness, manifold))
         }
-        Verdict::NonZero(_) => ("this density is not kept by the motion", shown(graph, defect)),
         Verdict::Unknown(why) => (
             "whether this density is kept by the motion could not be decided",
             format!("{}: {why}", shown(graph, defect)),

@@ -1,6 +1,6 @@
 //! Embedded base coordinates: the identities that they satisfy, and that the anchor keeps them.
 
-use super::evidence::{not_zero, shown};
+use super::evidence::{not_zero_on, shown};
 use super::kinematics::Motion;
 use crate::algebra::{Demand, Verdict};
 use crate::geometry::Manifold;
@@ -105,7 +105,10 @@ fn left_by_anchor(
         let name = &model.sections[section].name;
         let evidence = match &verdict {
             Verdict::NonZero(witness) if !has_parameters(witness, model) => {
-                format!("along `{name}` it changes at the rate {}", not_zero(&model.graph, change, witness))
+                format!(
+                    "along `{name}` it changes at the rate {}",
+                    not_zero_on(&model.graph, change, witness, base)
+                )
             }
             _ => format!("along `{name}` it changes at the rate {}", shown(&model.graph, change)),
         };

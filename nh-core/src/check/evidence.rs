@@ -1,7 +1,7 @@
 //! The wording of evidence, shared by the checks.
 
 use crate::algebra::{Graph, Witness};
-use crate::geometry::Drops;
+use crate::geometry::{Drops, Manifold};
 use crate::id::{ConstraintId, ExprId, Id};
 use crate::model::Model;
 
@@ -31,6 +31,22 @@ pub(crate) fn not_zero(graph: &Graph, defect: ExprId, witness: &Witness) -> Stri
     } else {
         format!("{shown} should be 0, but is {}{at}", short(witness.value))
     }
+}
+
+/// The same of what should vanish on a manifold: the place is one on it, in the symbols that are shown.
+pub(crate) fn not_zero_on(graph: &Graph, defect: ExprId, witness: &Witness, manifold: &Manifold) -> String {
+    if manifold.is_whole() {
+        return not_zero(graph, defect, witness);
+    }
+    let shown = shown(graph, defect);
+    let Some(point) = manifold.point(graph, witness, &graph.symbols_in(&[defect])) else {
+        return format!("{shown} should be 0");
+    };
+    let place: Vec<String> = point
+        .iter()
+        .map(|(symbol, value)| format!("{} = {}", graph.symbols()[*symbol], short(*value)))
+        .collect();
+    format!("{shown} should be 0, but is {} at {}", short(witness.value), place.join(", "))
 }
 
 /// A number with four digits.

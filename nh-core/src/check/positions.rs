@@ -76,7 +76,7 @@ pub fn positions(
         violations.extend(says_nothing(model, motion, algebroid, base, index));
     }
     if violations.is_empty() {
-        violations.extend(without_real_point(model));
+        violations.extend(without_real_point(model, &found));
     }
     if !violations.is_empty() {
         return Err(violations);
@@ -204,7 +204,7 @@ fn says_nothing(
 }
 
 /// Equations that no real positions of the base satisfy together, for parameters as they are assumed.
-fn without_real_point(model: &mut Model) -> Option<Violation> {
+fn without_real_point(model: &mut Model, found: &Positions) -> Option<Violation> {
     let mut demands = super::assumptions::on_the_base(model);
     let is_alone = demands.is_empty();
     for index in 0..model.positions.len() {
@@ -214,6 +214,13 @@ fn without_real_point(model: &mut Model) -> Option<Violation> {
             continue;
         }
         let name = name_of(model, ConstraintId::from_index(index));
+        let before: Vec<usize> = (0..index).collect();
+        if index > 0
+            && let Some(left) = left_of(model, &before, value, found)
+            && model.graph.value_of(left).is_some()
+        {
+            return Some(says_left(model, origin, &name, left));
+        }
         let of_positions: Vec<(ExprId, Demand)> =
             model.positions[..=index].iter().map(|position| (position.value, Demand::Zero)).collect();
         let there = match model.graph.contradiction(&of_positions) {
@@ -328,6 +335,17 @@ fn left_of(model: &mut Model, kept: &[usize], value: ExprId, found: &Positions) 
     is_left.then_some(left)
 }
 
+/// That a number which is not 0 is left of an equation where those before it hold.
+fn says_left(model: &Model, origin: Origin, name: &str, left: ExprId) -> Violation {
+    Violation {
+        law: Law::Independence,
+        origin,
+        what: format!("{name} contradicts the position constraints before it"),
+        evidence: format!("where those hold, it says {} = 0", shown(&model.graph, left)),
+        way_out: "change or leave out one of them".into(),
+    }
+}
+
 /// What becomes of an equation whose row depends on earlier ones.
 enum Follows {
     Dropped(String),
@@ -361,13 +379,7 @@ fn followed(model: &mut Model, rows: &Matrix, kept: &[usize], index: usize, foun
         });
     }
     if let Some(left) = left_of(model, kept, value, found) {
-        return Follows::Refused(Violation {
-            law,
-            origin,
-            what: format!("{name} contradicts the position constraints before it"),
-            evidence: format!("where those hold, it says {} = 0", shown(&model.graph, left)),
-            way_out: "change or leave out one of them".into(),
-        });
+        return Follows::Refused(says_left(model, origin, &name, left));
     }
     let graph = &mut model.graph;
     let on_manifold = |graph: &mut Graph, entry: &ExprId| found.manifold.zero_test(graph, *entry).is_zero();

@@ -1,6 +1,6 @@
 //! The structure equations of a Lie algebroid, mathematics (2) and (3).
 
-use super::evidence::{listed, not_zero, shown};
+use super::evidence::{listed, not_zero_on, shown};
 use crate::algebra::{Graph, Rational, Verdict};
 use crate::geometry::{Algebroid, Manifold, hamel};
 use crate::id::{CoordId, ExprId, Id, Origin, SectionId};
@@ -120,7 +120,7 @@ fn homomorphism_of_pair(
             "along `{x}`: [rho({a}), rho({b})] is {}, but rho([{a}, {b}]) is {}; the difference {}",
             shown(graph, left),
             shown(graph, right),
-            defect_text(graph, defect, &verdict),
+            defect_text(graph, defect, &verdict, base),
         );
         let derivable = model.brackets.is_empty();
         let way_out = if derivable {
@@ -148,10 +148,10 @@ fn bracket_of(graph: &mut Graph, algebroid: &Algebroid, alpha: SectionId, beta: 
     algebroid.sections().map(|gamma| algebroid.structure.get(graph, gamma, alpha, beta)).collect()
 }
 
-fn defect_text(graph: &Graph, defect: ExprId, verdict: &Verdict) -> String {
+fn defect_text(graph: &Graph, defect: ExprId, verdict: &Verdict, base: &Manifold) -> String {
     match verdict {
         Verdict::Zero => "is 0".into(),
-        Verdict::NonZero(witness) => not_zero(graph, defect, witness),
+        Verdict::NonZero(witness) => not_zero_on(graph, defect, witness, base),
         Verdict::Unknown(why) => format!("{} could not be decided to be 0: {why}", shown(graph, defect)),
     }
 }
@@ -240,7 +240,7 @@ fn jacobi_of_triple(
         let graph = &model.graph;
         let evidence = format!(
             "[{a}, [{b}, {c}]] + [{b}, [{c}, {a}]] + [{c}, [{a}, {b}]] along `{along}`: {}",
-            defect_text(graph, component, &verdict)
+            defect_text(graph, component, &verdict, base)
         );
         let origin = declared_among(model, triple);
         return Some(Violation {
