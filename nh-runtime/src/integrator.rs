@@ -213,7 +213,7 @@ impl<S: Dynamics, M: Method<S>> Integrator<S, M> {
         self.admitted = false;
         self.origin = None;
         self.beyond = None;
-        self.method.forget(&mut self.memory);
+        self.method.restart(&mut self.memory);
         &mut self.system
     }
 

@@ -3,7 +3,7 @@
 use core::fmt;
 use core::marker::PhantomData;
 
-use crate::error::{InputFault, ParameterError, StateFault};
+use crate::error::{InputFault, ParameterError, ProjectionError, StateFault};
 use crate::{Dynamics, ScalarOf};
 
 /// A system whose motion is carried to that of `R` by a map that was proved to do so.
@@ -105,6 +105,40 @@ where
     fn check_state(&self, t: ScalarOf<F>, joint: &F::Joint) -> Result<(), StateFault> {
         self.reduced.check_state(t, &F::reduced_part(joint))?;
         self.full.check_state(t, &self.full.reconstruct(t, joint))
+    }
+
+    fn has_positions(&self) -> bool {
+        self.full.has_positions()
+    }
+
+    fn return_to_positions(
+        &self,
+        t: ScalarOf<F>,
+        joint: &mut F::Joint,
+    ) -> Result<ScalarOf<F>, ProjectionError> {
+        let mut state = self.full.reconstruct(t, joint);
+        let residual = self.full.return_to_positions(t, &mut state)?;
+        // what holds keeps the digits that it has
+        if residual != <ScalarOf<F> as crate::Scalar>::ZERO {
+            *joint = self.full.join(t, &state);
+        }
+        Ok(residual)
+    }
+
+    fn correct_positions(&self, t: ScalarOf<F>, joint: &mut F::Joint) {
+        if self.full.has_positions() {
+            let mut state = self.full.reconstruct(t, joint);
+            self.full.correct_positions(t, &mut state);
+            *joint = self.full.join(t, &state);
+        }
+    }
+
+    fn side(&self, t: ScalarOf<F>, joint: &F::Joint) -> ScalarOf<F> {
+        self.reduced.side(t, &F::reduced_part(joint))
+    }
+
+    fn worst_constraint(&self, t: ScalarOf<F>, joint: &F::Joint) -> StateFault {
+        self.full.worst_constraint(t, &self.full.reconstruct(t, joint))
     }
 
     fn check_input(&self, input: &R::Input) -> Result<(), InputFault> {

@@ -5,7 +5,7 @@ use core::fmt::{self, Display, Formatter};
 
 use nalgebra::SMatrix;
 
-use crate::linear::Factors;
+use crate::linear_model::{Uncertain, beside, reduce};
 use crate::{D, Dynamics, Jet, Real, State};
 
 /// δż = A δz + B δu: a motion to first order, in coordinates z of the manifold where the constraints hold.
@@ -33,6 +33,8 @@ pub enum ChartError {
         /// How many there are to choose.
         free: usize,
     },
+    /// There are no position constraints whose return shows the manifold.
+    NoPositions,
     /// The chosen components do not determine the others at the state.
     Singular,
     /// The derivatives at the state are not finite.
@@ -51,6 +53,11 @@ impl Display for ChartError {
                     "{chosen} components are chosen where the constraints leave {free} free: choose {free}"
                 )
             }
+            Self::NoPositions => write!(
+                f,
+                "the system has no position constraints, whose return shows the manifold: name variables in \
+                 `linearization {{ keep: … }}` and call `linearize`"
+            ),
             Self::Singular => {
                 write!(f, "the chosen components do not determine the others at this state: choose others")
             }
@@ -64,7 +71,7 @@ impl Display for ChartError {
 
 impl Error for ChartError {}
 
-/// The derivative of ẋ = F(t, x, u) in chosen components z of the state, as many as the constraints leave free:
+/// The derivative of ẋ = F(t, x, u) of a system with position constraints in chosen components z of the state, as many as the constraints leave free:
 ///
 /// A = Z ∂F/∂x T, B = Z ∂F/∂u, mathematics (36), where Z picks z from the state, and the columns of T are the
 /// changes of the state that keep all constraints and change one z by 1 each.
@@ -114,6 +121,9 @@ where
     if let Some(index) = chart.iter().copied().find(|index| *index >= N) {
         return Err(ChartError::NoSuchComponent { index });
     }
+    if !system.has_positions() {
+        return Err(ChartError::NoPositions);
+    }
     let jets = S::State::from_array(Jet::variables(*state));
     let time = Jet::constant(t);
     let mut inputs = input.map(Jet::constant);
@@ -123,9 +133,12 @@ where
         }
     }
     // one step of the return is the identity along the manifold, and leads there from beside it
-    let mut returned = jets;
-    system.correct_positions(time, &mut returned);
-    let tangent = returned.to_array().map(|component| component.by);
+    let leads = |state: [T; N]| {
+        let mut returned = S::State::from_array(Jet::variables(state));
+        system.correct_positions(time, &mut returned);
+        returned.to_array().map(|component: Jet<T, N, M>| component.by)
+    };
+    let tangent = leads(*state);
     let rate = system.derivative(time, &jets, &named(inputs)).to_array();
     let rows = tangent.iter().chain(rate.iter().map(|component| &component.by));
     if !rows.flatten().all(|entry| entry.is_finite()) {
@@ -136,8 +149,9 @@ where
     if (free - as_number(K)).abs() > 0.5 {
         return Err(ChartError::WrongNumber { chosen: K, free: nearest(free, N) });
     }
-    let picked = chart.map(|index| tangent.get(index).copied().unwrap_or([T::ZERO; N]));
-    let columns = columns(&tangent, &picked).ok_or(ChartError::Singular)?;
+    let [one, other] = beside(state).map(leads);
+    let columns =
+        columns(&tangent, &[one, other, as_product(&tangent)], chart).ok_or(ChartError::Singular)?;
     let by = |index: usize| chart.get(index).and_then(|component| rate.get(*component));
     let along = |i: usize, j: usize| {
         let (Some(rate), Some(column)) = (by(i), columns.get(j)) else { return T::ZERO };
@@ -150,33 +164,43 @@ where
     Ok(OnConstraints { a: SMatrix::from(a), b: SMatrix::from(b) })
 }
 
-/// The columns of T = P Y with Z P Y = 1, where P leads to the manifold and `picked` is Z P.
+/// The columns of T: those of P in echelon form, with 1 in the row of one chosen component and 0 in those of the others.
+/// `nearby` is P at other roundings of the state.
 fn columns<T: Real, const N: usize, const K: usize>(
     tangent: &[[T; N]; N],
-    picked: &[[T; N]; K],
+    nearby: &[[[T; N]; N]; 3],
+    chart: &[usize; K],
 ) -> Option<[[T; N]; K]> {
-    let product = |a: &[T; N], b: &[T; N]| a.iter().zip(b).fold(T::ZERO, |sum, (a, b)| a.mul_add(*b, sum));
-    let gram = picked.map(|row| picked.map(|other| product(&row, &other)));
-    let factors = Factors::<D<K>, T>::new(&gram);
-    let mut columns = [[T::ZERO; N]; K];
-    for (index, column) in columns.iter_mut().enumerate() {
-        let mut unit = [T::ZERO; K];
-        if let Some(entry) = unit.get_mut(index) {
-            *entry = T::ONE;
-        }
-        let weights = factors.solve(&unit);
-        let mut through = [T::ZERO; N];
-        for (row, weight) in picked.iter().zip(&weights) {
-            for (sum, entry) in through.iter_mut().zip(row) {
-                *sum = entry.mul_add(*weight, *sum);
-            }
-        }
-        *column = tangent.map(|row| product(&row, &through));
-        if !column.iter().all(|entry| entry.is_finite()) {
-            return None;
-        }
+    let is_chosen = |component: usize| chart.contains(&component);
+    let spanning =
+        Uncertain::new(&transposed(tangent), &[T::ZERO; N], &nearby.map(|p| transposed(&p)), is_chosen);
+    let reduced = reduce(&spanning, |_| true, |component| is_chosen(component).then_some(0));
+    if !chart.iter().all(|component| reduced.is_pivot(*component)) {
+        return None;
     }
-    Some(columns)
+    let change = |of: usize, component: usize| {
+        if of == component { T::ONE } else { -reduced.change(of, component) }
+    };
+    Some(chart.map(|of| core::array::from_fn(|component| change(of, component))))
+}
+
+/// P with the rounding added to it of P P and (1 − P)², which are P and 1 − P themselves: it is what a part of 1 is left of.
+fn as_product<T: Real, const N: usize>(tangent: &[[T; N]; N]) -> [[T; N]; N] {
+    let at = |i: usize, j: usize| tangent.get(i).and_then(|row| row.get(j)).copied().unwrap_or(T::ZERO);
+    core::array::from_fn(|i| {
+        core::array::from_fn(|j| {
+            let rest = |i: usize, j: usize| if i == j { T::ONE - at(i, j) } else { -at(i, j) };
+            let product = |k: usize| (at(i, k) * at(k, j)).abs() + (rest(i, k) * rest(k, j)).abs();
+            let terms = (0..N).fold(T::ZERO, |sum, k| sum + product(k));
+            at(i, j) + T::EPSILON * terms
+        })
+    })
+}
+
+fn transposed<T: Real, const N: usize>(rows: &[[T; N]; N]) -> [[T; N]; N] {
+    core::array::from_fn(|i| {
+        core::array::from_fn(|j| rows.get(j).and_then(|row| row.get(i)).copied().unwrap_or(T::ZERO))
+    })
 }
 
 fn as_number(count: usize) -> f64 {

@@ -6,7 +6,7 @@ use core::fmt::{self, Display, Formatter};
 
 use crate::arrays::{all_finite, first_non_finite};
 use crate::assembly::{AssemblyError, Loops, descend};
-use crate::linear_model::{Parts, Uncertain, reduce};
+use crate::linear_model::{Parts, Uncertain, beside, reduce};
 use crate::{Jet, Real};
 
 /// Why no steady motion was found.
@@ -188,18 +188,7 @@ struct Near<T, const W: usize, const Q: usize> {
 
 impl<T: Real, const W: usize, const Q: usize> Near<T, W, Q> {
     fn new(x: &[T; W], equations: impl Fn(&[T; W]) -> Equations<T, W, Q>) -> Self {
-        let unit = T::from_f64(2.0) * T::EPSILON;
-        // neighbours of each component, on this side or that
-        let beside = |pattern: usize| {
-            let mut place = 0;
-            let moved = x.map(|x| {
-                place += 1;
-                let step = unit * x;
-                if (place >> pattern) % 2 == 0 { x + step } else { x - step }
-            });
-            equations(&moved).1
-        };
-        Self { here: equations(x), nearby: [beside(0), beside(1)] }
+        Self { here: equations(x), nearby: beside(x).map(|x| equations(&x).1) }
     }
 
     /// Some of the equations.

@@ -188,6 +188,9 @@ impl<T: Entry, const N: usize, const M: usize, const H: usize> Ilqr<T, N, M, H> 
             }
         }
         self.inputs.iter().try_for_each(|u| finite("inputs", u))?;
+        for u in &mut self.inputs {
+            *u = clamped(u, &self.lower, &self.upper);
+        }
         let mut before = shooting_cost(model, cost, start, &self.inputs);
         if self.is_planned && *start != self.states[0] {
             let (inputs, held) = self.tried(model, cost, start, T::ZERO);

@@ -115,8 +115,7 @@ where
             self.beyond = Some(Arrival { time: self.time, state: self.state });
             self.time = time;
             self.state = state;
-            self.method.forget(&mut self.memory);
-            self.method.moved(&mut self.memory);
+            self.method.stand(&mut self.memory);
         }
     }
 
@@ -125,8 +124,7 @@ where
         if let Some(origin) = self.origin.take() {
             self.time = origin.time;
             self.state = origin.state;
-            self.method.forget(&mut self.memory);
-            self.method.moved(&mut self.memory);
+            self.method.stand(&mut self.memory);
         }
     }
 

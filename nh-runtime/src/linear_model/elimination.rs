@@ -9,6 +9,19 @@ const SAFETY: f64 = 32.0;
 /// place.
 const BESIDE_OTHERS: f64 = 4.0;
 
+/// Neighbours of numbers, each on this side or that: where derivatives are the same but for their rounding.
+pub(crate) fn beside<T: Real, const N: usize>(x: &[T; N]) -> [[T; N]; 2] {
+    let unit = T::from_f64(2.0) * T::EPSILON;
+    [0, 1].map(|pattern| {
+        let mut place = 0_usize;
+        x.map(|x| {
+            place += 1;
+            let step = unit * x;
+            if (place >> pattern).is_multiple_of(2) { x + step } else { x - step }
+        })
+    })
+}
+
 /// Linear equations a x = b with what the entries of a may be off by.
 pub(crate) struct Uncertain<T, const N: usize, const R: usize> {
     rows: [[T; N]; R],

@@ -159,6 +159,11 @@ where
         Method::<S>::restart(&self.implicit, &mut memory.implicit);
     }
 
+    fn stand(&self, memory: &mut Self::Memory) {
+        Method::<S>::stand(&self.explicit, &mut memory.explicit);
+        Method::<S>::stand(&self.implicit, &mut memory.implicit);
+    }
+
     fn moved(&self, memory: &mut Self::Memory) {
         Method::<S>::moved(&self.explicit, &mut memory.explicit);
         Method::<S>::moved(&self.implicit, &mut memory.implicit);

@@ -40,6 +40,11 @@ pub trait OneStep<S: Dynamics>: Copy {
         self.forget(work);
     }
 
+    /// As [`Method::stand`].
+    fn stand(&self, work: &mut Self::Work) {
+        self.forget(work);
+    }
+
     /// Checks the settings beside the length of the step.
     ///
     /// # Errors
@@ -193,6 +198,10 @@ where
     #[inline]
     fn moved(&self, memory: &mut Self::Memory) {
         self.scheme.moved(&mut memory.work);
+    }
+
+    fn stand(&self, memory: &mut Self::Memory) {
+        self.scheme.stand(&mut memory.work);
     }
 
     fn check(&self) -> Result<(), IntegrationError> {
@@ -362,6 +371,11 @@ where
     #[inline]
     fn moved(&self, memory: &mut Self::Memory) {
         self.method.moved(&mut memory.memory);
+        memory.carry = DimOf::<S>::vec(T::ZERO);
+    }
+
+    fn stand(&self, memory: &mut Self::Memory) {
+        self.method.stand(&mut memory.memory);
         memory.carry = DimOf::<S>::vec(T::ZERO);
     }
 

@@ -4,7 +4,12 @@
 /// `method` of the memory. What else stands there ends with the input (`forget`) or with the state alone (`restart`): the
 /// fields, and the values that they then have.
 macro_rules! handed_on {
-    (forget { $($forgotten:ident = $none:expr)? } restart { $($dropped:ident = $value:expr)? }) => {
+    (
+        forget { $($forgotten:ident = $none:expr)? }
+        restart { $($dropped:ident = $value:expr)? }
+        keeps_positions { |$this:ident| $keeps:expr }
+        $(interpolated { |$start:ident, $time:ident, $state:ident| $moved:expr })?
+    ) => {
         type Dense = M::Dense;
 
         #[inline]
@@ -24,9 +29,14 @@ macro_rules! handed_on {
             self.method.moved(&mut memory.method);
         }
 
+        fn stand(&self, memory: &mut Self::Memory) {
+            self.method.stand(&mut memory.method);
+        }
+
         #[inline]
         fn keeps_positions(&self) -> bool {
-            self.method.keeps_positions()
+            let $this = self;
+            $keeps
         }
 
         fn permitted(&self, state: &S::State) -> VecOf<S>
@@ -49,7 +59,12 @@ macro_rules! handed_on {
             arrival: &Arrival<S>,
             time: ScalarOf<S>,
         ) -> S::State {
-            self.method.interpolate(dense, start, arrival, time)
+            let state = self.method.interpolate(dense, start, arrival, time);
+            $(
+                let ($start, $time, mut $state) = (start, time, state);
+                let state = $moved;
+            )?
+            state
         }
     };
 }

@@ -69,7 +69,7 @@ pub struct Memory<K> {
 impl<S: Dynamics, M: Method<S>, F: Fn(&Statistics) -> bool> Method<S> for Interruptible<M, F> {
     type Memory = Memory<M::Memory>;
 
-    handed_on!(forget {} restart {});
+    handed_on!(forget {} restart {} keeps_positions { |this| this.method.keeps_positions() });
 
     fn memory(&self) -> Self::Memory {
         Memory { method: self.method.memory() }

@@ -240,6 +240,13 @@ pub trait Method<S: Dynamics> {
         self.forget(memory);
     }
 
+    /// Removes from the memory what holds at the end of the last step, because that has been cut at a state within it: of
+    /// the same motion, so that a level which is kept still holds.
+    fn stand(&self, memory: &mut Self::Memory) {
+        self.forget(memory);
+        self.moved(memory);
+    }
+
     /// Whether steps end where position constraints hold: an [`Integrator`](crate::Integrator) does not return them then.
     #[inline]
     fn keeps_positions(&self) -> bool {

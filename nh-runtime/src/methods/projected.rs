@@ -91,7 +91,19 @@ where
 {
     type Memory = Memory<M::Memory>;
 
-    handed_on!(forget {} restart { started = false });
+    handed_on!(
+        forget {}
+        restart { started = false }
+        keeps_positions { |this| this.method.keeps_positions() }
+        // what events and samples are given satisfies the constraints as ends of steps do
+        interpolated { |start, time, state| {
+            let within = state;
+            match start.system.project(time, &mut state) {
+                Ok(()) => state,
+                Err(_) => within,
+            }
+        } }
+    );
 
     fn memory(&self) -> Self::Memory {
         Memory { method: self.method.memory(), steps: 0, started: false }
@@ -155,10 +167,11 @@ where
             // all steps to the next projection but its own
             let free = u64::from(self.every - 1 - memory.steps).min(limit - done);
             let leg = (target, free);
-            let taken = self.method.travel(system, input, place, leg, &mut memory.method, statistics)?;
-            done += taken;
-            // no more than `every`, which is of this type
-            memory.steps += u32::try_from(taken).unwrap_or(0);
+            let before = statistics.steps;
+            let taken = self.method.travel(system, input, place, leg, &mut memory.method, statistics);
+            // counted where a run is interrupted, too; no more than `every`, which is of this type
+            memory.steps += u32::try_from(statistics.steps - before).unwrap_or(0);
+            done += taken?;
             if place.time != target && done < limit {
                 let start = Start { system, input, time: place.time, state: &place.state };
                 let arrival = self.advance(&start, Some(target), memory, statistics)?;

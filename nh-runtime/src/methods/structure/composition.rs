@@ -94,6 +94,12 @@ where
         }
     }
 
+    fn stand(&self, work: &mut Self::Work) {
+        for work in work {
+            self.base.stand(work);
+        }
+    }
+
     fn check(&self) -> Result<(), IntegrationError> {
         self.base.check()
     }

@@ -49,6 +49,8 @@ impl<S: Invariants, K: Copy> Copy for Memory<S, K> {}
 
 /// The iterations after which the level is given up: corrections that halve go through all digits before.
 const MOST_ITERATIONS: u32 = 64;
+/// How often level and position constraints are gone to in turn.
+const MOST_IN_TURN: u32 = 1000;
 
 impl<S: Invariants, M: Method<S>> Method<S> for Conserving<M>
 where
@@ -56,7 +58,8 @@ where
 {
     type Memory = Memory<S, M::Memory>;
 
-    handed_on!(forget { values = None } restart {});
+    // it goes back to them itself, or has to leave the level
+    handed_on!(forget { values = None } restart {} keeps_positions { |_this| true });
 
     fn memory(&self) -> Self::Memory {
         Memory { method: self.method.memory(), values: None }
@@ -75,13 +78,48 @@ where
     ) -> Result<Arrival<S>, IntegrationError> {
         let values = memory.values.unwrap_or_else(|| start.system.invariants(start.time, start.state));
         let mut arrival = self.method.advance(start, target, &mut memory.method, statistics)?;
-        arrival.state = returned(start.system, &arrival, &values)
-            .map_err(|error| IntegrationError::Projection { time: arrival.time.to_f64(), error })?;
+        let time = arrival.time.to_f64();
+        level(start.system, &mut arrival, &values)
+            .map_err(|error| IntegrationError::Projection { time, error })?;
         statistics.projections += 1;
         self.method.moved(&mut memory.method);
         memory.values = Some(values);
         Ok(arrival)
     }
+}
+
+/// Moves to the level and, where there are position constraints, to these, in turn until neither moves the other's point:
+/// as projections on two manifolds that cross each other do.
+fn level<S: Invariants>(
+    system: &S,
+    arrival: &mut Arrival<S>,
+    values: &Values<S>,
+) -> Result<(), ProjectionError>
+where
+    ScalarOf<S>: Real,
+{
+    arrival.state = returned(system, arrival, values)?;
+    if !system.has_positions() {
+        return Ok(());
+    }
+    let mut best: Option<ScalarOf<S>> = None;
+    for _ in 0..MOST_IN_TURN {
+        system.return_to_positions(arrival.time, &mut arrival.state)?;
+        let on_positions = arrival.state.to_array();
+        arrival.state = returned(system, arrival, values)?;
+        let on_level = arrival.state.to_array();
+        let pairs = on_positions.as_ref().iter().zip(on_level.as_ref());
+        let moved = pairs.fold(ScalarOf::<S>::ZERO, |most, (a, b)| most.max((*a - *b).abs()));
+        let stagnates = best.is_some_and(|best| moved >= best);
+        let is_near = moved <= ScalarOf::<S>::EPSILON.sqrt() * largest(on_level.as_ref());
+        if moved == ScalarOf::<S>::ZERO || (stagnates && is_near) {
+            // the constraints hold to rounding, the level to what is left of it there
+            arrival.state = S::State::from_array(on_positions);
+            return Ok(());
+        }
+        best = Some(best.map_or(moved, |best| best.min(moved)));
+    }
+    Err(ProjectionError { iterations: MOST_IN_TURN, residual: best.map_or(0.0, Scalar::to_f64) })
 }
 
 /// The point with these values: x − Gᵀ (G Gᵀ)⁻¹ (c(x) − c₀) until it stagnates.

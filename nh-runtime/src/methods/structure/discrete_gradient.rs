@@ -302,6 +302,9 @@ where
     /// The energy to keep stays that of the first state.
     fn moved(&self, _work: &mut Work<S>) {}
 
+    /// As at the end of a step.
+    fn stand(&self, _work: &mut Work<S>) {}
+
     fn check(&self) -> Result<(), IntegrationError> {
         check_tolerance(self.tolerance)
     }

@@ -69,6 +69,11 @@ where
         self.base.moved(&mut work.base);
     }
 
+    fn stand(&self, work: &mut Self::Work) {
+        self.base.stand(&mut work.base);
+        work.amounts = DimOf::<S>::vec(T::ZERO);
+    }
+
     fn check(&self) -> Result<(), IntegrationError> {
         self.base.check()
     }

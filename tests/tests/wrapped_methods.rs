@@ -1,0 +1,233 @@
+//! What is wrapped around methods and systems keeps what these keep: levels at events, position constraints of a
+//! reconstruction, constraints of states that are handed out.
+
+use core::ops::ControlFlow;
+
+use nonholonomic::methods::Interruptible;
+use nonholonomic::prelude::*;
+use nonholonomic::{ChartError, Jet, linearize_on_constraints};
+
+/// A pendulum by its angle.
+#[nonholonomic(
+    base { a }
+    lagrangian { der(a)^2 / 2 + g * cos(a) }
+    conserved { total = der(a)^2 / 2 - g * cos(a); }
+    emit { invariants, discrete_gradient }
+)]
+#[derive(Clone, Copy, Debug)]
+struct Swinging {
+    g: f64,
+}
+
+/// The level of a first integral is that of the first state, however often a run stands within a step.
+#[test]
+fn a_level_holds_at_events() {
+    fn drift(method: impl nonholonomic::Method<Swinging>) -> f64 {
+        let start = SwingingState { a: 1.0, a_dot: 0.0 };
+        let system = Swinging { g: 1.0 };
+        let mut sim = Integrator::new(system, method, 0.0, start);
+        let mut events = 0;
+        sim.advance_acting(300.0, &Events::new(|_, x: &SwingingState, _: &()| [x.a]), |_, _| {
+            events += 1;
+            ControlFlow::<()>::Continue(())
+        })
+        .expect("a smooth motion");
+        assert!(events > 80, "{events}");
+        sim.step().expect("a step");
+        (system.energy(0.0, sim.state()) - system.energy(0.0, &start)).abs()
+    }
+    assert!(drift(Conserving::new(Dopri5::new().rtol(1e-3))) < 1e-14);
+    assert!(drift(Conserving::new(Rk4::new(0.2))) < 1e-14);
+    assert!(drift(Conserving::new(ImplicitMidpoint::new(0.1))) < 1e-14);
+    assert!(drift(DiscreteGradient::new(0.1)) < 1e-13);
+    assert!(drift(DiscreteGradient::new(0.1).fourth_order()) < 1e-13);
+}
+
+/// A weight on a rope.
+#[nonholonomic(
+    base { x, y }
+    lagrangian { 1 / 2 * (der(x)^2 + der(y)^2) - g * y }
+    holonomic { rope: x^2 + y^2 = l^2; }
+    conserved { total = 1 / 2 * (der(x)^2 + der(y)^2) + g * y; }
+    emit { invariants, symmetric_projection }
+)]
+#[derive(Clone, Copy, Debug)]
+struct Rope {
+    l: f64,
+    g: f64,
+}
+
+/// Energy and rope together.
+#[test]
+fn a_level_is_met_with_the_position_constraints() {
+    fn off(method: impl nonholonomic::Method<Rope>) -> [f64; 2] {
+        let rope = Rope { l: 1.0, g: 9.81 };
+        let start = RopeState { x: 0.8, y: -0.6, x_dot: 0.3, y_dot: 0.4 };
+        let energy = |s: &RopeState| rope.energy(0.0, s);
+        let mut sim = Integrator::new(rope, method, 0.0, start);
+        let mut worst = [0.0_f64; 2];
+        for second in 1..=20 {
+            sim.advance_to(f64::from(second)).expect("a smooth motion");
+            let s = sim.state();
+            worst[0] = worst[0].max((s.x.hypot(s.y) - 1.0).abs());
+            worst[1] = worst[1].max((energy(s) - energy(&start)).abs());
+        }
+        worst
+    }
+    for [rope, energy] in [
+        off(Conserving::new(Rk4::new(0.1))),
+        off(Conserving::new(Dopri5::new().rtol(1e-4))),
+        off(Conserving::new(ImplicitMidpoint::new(0.1).symmetrically_projected())),
+    ] {
+        assert!(rope < 1e-13 && energy < 1e-12, "{rope:e} {energy:e}");
+    }
+}
+
+/// A bead that slides along a valley: the place along it is cyclic.
+#[nonholonomic(
+    base { x, y, z }
+    lagrangian { m / 2 * (der(x)^2 + der(y)^2 + der(z)^2) - m * g * y }
+    holonomic { bowl: y = h * x^2; }
+    independent { der(x), der(z) }
+)]
+#[derive(Clone, Copy, Debug)]
+struct Valley {
+    m: f64,
+    g: f64,
+    h: f64,
+}
+
+quotient! { Valley -> #[derive(Clone, Copy, Debug)] struct Across by { z } { } }
+
+#[test]
+fn a_reconstruction_returns_to_the_position_constraints() {
+    let full = Valley { m: 1.0, g: 9.81, h: 1.0 };
+    let start = ValleyState { x: 1.0, y: 1.0, z: 0.0, x_dot: 0.0, z_dot: 1.0 };
+    let motion = Reconstructed::<Valley, Across>::new(full);
+    assert!(motion.has_positions());
+    let mut joint = Integrator::new(motion, Rk4::new(0.05), 0.0, motion.start(0.0, &start));
+    joint.advance_to(100.0).expect("a smooth motion");
+    let reached = motion.full_state(100.0, joint.state());
+    assert!((reached.y - reached.x * reached.x).abs() < 1e-14, "{reached:?}");
+    let precise = || Vern9::new().rtol(1e-12).atol(1e-12);
+    let mut joint = Integrator::new(motion, precise(), 0.0, motion.start(0.0, &start));
+    joint.advance_to(20.0).expect("a smooth motion");
+    let reached = motion.full_state(20.0, joint.state());
+    let mut whole = Integrator::new(full, precise(), 0.0, start);
+    whole.advance_to(20.0).expect("a smooth motion");
+    assert!((whole.state().x - reached.x).abs() < 1e-9, "{reached:?} {:?}", whole.state());
+    // a start beside them is refused, as that of the full system
+    let beside = ValleyState { y: 3.0, ..start };
+    let refused = Integrator::new(motion, Rk4::new(0.05), 0.0, motion.start(0.0, &beside)).step();
+    assert!(matches!(refused, Err(IntegrationError::OffConstraints { .. })), "{refused:?}");
+}
+
+/// A skate with all rates in its state.
+#[nonholonomic(
+    base { x, y, turn }
+    lagrangian { 1 / 2 * (der(x)^2 + der(y)^2 + der(turn)^2) - g * x }
+    constraints { blade: sin(turn) * der(x) = cos(turn) * der(y); }
+    formulation { projected }
+)]
+#[derive(Clone, Copy, Debug)]
+struct Skate {
+    g: f64,
+}
+
+const GLIDING: SkateState = SkateState { x: 0.0, y: 0.0, turn: 0.3, x_dot: 0.0, y_dot: 0.0, turn_dot: 0.7 };
+
+/// States that events and samples are given satisfy the constraints, so that a run may go on from them.
+#[test]
+fn projected_states_are_handed_out_on_the_constraints() {
+    let off = |s: &SkateState| (s.turn.sin() * s.x_dot - s.turn.cos() * s.y_dot).abs();
+    for h in [0.1, 0.05] {
+        let mut sim = Integrator::new(Skate { g: 1.0 }, Projected::new(Rk4::new(h), 1), 0.0, GLIDING);
+        let mut turns = 0;
+        let events = Events::new(|_, s: &SkateState, _: &()| [s.turn - 1.0]);
+        sim.advance_acting(10.0, &events, |sim, event| {
+            turns += 1;
+            let SkateState { x_dot, y_dot, turn_dot, .. } = event.state;
+            assert!(off(&event.state) < 1e-14, "{:e}", off(&event.state));
+            sim.set_state(SkateState { x_dot: -x_dot, y_dot: -y_dot, turn_dot: -turn_dot, ..event.state });
+            ControlFlow::<()>::Continue(())
+        })
+        .unwrap_or_else(|error| panic!("{h}: {error}"));
+        assert!(turns >= 1, "{turns}");
+        let times = (1..40).map(|k| sim.time() + 0.013 * f64::from(k)).collect::<Vec<_>>();
+        sim.sample(times, |_, s| assert!(off(s) < 1e-14, "{:e}", off(s))).expect("a smooth motion");
+    }
+}
+
+#[test]
+fn interruptions_take_no_projection_away() {
+    let projections = |every: u32| {
+        let asked = core::cell::Cell::new(0_u32);
+        let goes_on = |_: &_| {
+            asked.set(asked.get() + 1);
+            every == 0 || asked.get() % every != 0
+        };
+        let method = Projected::new(Interruptible::new(Rk4::new(0.1), goes_on), 10);
+        let mut sim = Integrator::new(Skate { g: 1.0 }, method, 0.0, GLIDING);
+        while let Err(error) = sim.advance_to(20.0) {
+            assert!(matches!(error, IntegrationError::Interrupted { .. }), "{error}");
+        }
+        (sim.statistics().steps, sim.statistics().projections)
+    };
+    let plain = projections(0);
+    for every in [3, 10, 17] {
+        assert_eq!(projections(every), plain, "{every}");
+    }
+}
+
+/// A rod that two of three coordinates determine, unless these stand still together.
+#[nonholonomic(
+    base { x, y, z, w }
+    lagrangian { 1 / 2 * (der(x)^2 + der(y)^2 + der(z)^2 + der(w)^2) - k / 2 * (z^2 + w^2) }
+    holonomic { p: 0.1 * x + 0.3 * y + a * z = 0; q: 0.7 * x + 2.1 * y + 0.3 * z + w = 0; }
+)]
+#[derive(Clone, Copy, Debug)]
+struct Plane<T> {
+    a: T,
+    k: T,
+}
+
+/// A ball on a rope in space, in units of time and length.
+#[nonholonomic(
+    base { x, y, z }
+    lagrangian { 1 / 2 * (der(x)^2 + der(y)^2 + der(z)^2) - g * z }
+    holonomic { rope: x^2 + y^2 + z^2 = l^2; }
+)]
+#[derive(Clone, Copy, Debug)]
+struct Ball<T> {
+    g: T,
+    l: T,
+}
+
+#[test]
+fn charts_that_determine_nothing_are_refused_and_others_know_no_units() {
+    for a in [0.1, 0.3, 0.7, 1.3, -2.9] {
+        let plane = Plane::<Jet<f64, 8>> { a: Jet::constant(a), k: Jet::constant(2.0) };
+        let found = linearize_on_constraints(&plane, 0.0, &[0.0; 8], (&[], |[]| ()), &[2, 3, 6, 7]);
+        assert_eq!(found.map(|_| ()), Err(ChartError::Singular), "{a}");
+        let other = linearize_on_constraints(&plane, 0.0, &[0.0; 8], (&[], |[]| ()), &[0, 3, 4, 7]);
+        assert!(other.is_ok(), "{a}: {other:?}");
+    }
+    let found = |time: f64, length: f64| {
+        let jet = Jet::<f64, 6>::constant;
+        let ball = Ball { g: jet(9.81 * length / time / time), l: jet(0.5 * length) };
+        let speed = length / time;
+        // on the rope, across it
+        let state = [0.3 * length, -0.4 * length, 0.0, 0.4 * speed, 0.3 * speed, 0.7 * speed];
+        let linear = linearize_on_constraints(&ball, 0.0, &state, (&[], |[]| ()), &[0, 2, 3, 5])
+            .unwrap_or_else(|error| panic!("{time:e} {length:e}: {error}"));
+        let units = [length, length, speed, speed];
+        core::array::from_fn::<_, 16, _>(|k| linear.a[(k / 4, k % 4)] * time * units[k % 4] / units[k / 4])
+    };
+    let plain = found(1.0, 1.0);
+    assert!(plain[2] == 1.0 && plain[7] == 1.0, "{plain:?}");
+    for (time, length) in [(1e-6, 1.0), (1e-9, 1.0), (1e9, 1.0), (1.0, 1e6), (1e3, 1e-9)] {
+        for (a, b) in found(time, length).iter().zip(&plain) {
+            assert!((a - b).abs() <= 1e-11 * b.abs().max(1.0), "{time:e} {length:e}: {a} {b}");
+        }
+    }
+}
