@@ -231,3 +231,48 @@ fn charts_that_determine_nothing_are_refused_and_others_know_no_units() {
         }
     }
 }
+
+/// A weight on a rope, pushed.
+#[nonholonomic(
+    base { x, y }
+    lagrangian { 1 / 2 * (der(x)^2 + der(y)^2) - g * y }
+    holonomic { rope: x^2 + y^2 = l^2; }
+    forces { x: push; }
+    inputs { push }
+    emit { jacobian }
+)]
+#[derive(Clone, Copy, Debug)]
+struct Pushed {
+    l: f64,
+    g: f64,
+}
+
+/// The return to position constraints is a part of a step, and is not differentiated: nobody is given the derivative of
+/// another step.
+#[test]
+fn steps_with_a_return_have_no_derivative() {
+    use nalgebra::{SVector, Vector1, Vector4};
+    use nonholonomic::control::{ControlError, Ilqr, Model, Quadratic, Sampled};
+
+    let rope = Pushed { l: 1.0, g: 9.81 };
+    let start = PushedState { x: 0.6, y: -0.8, x_dot: 0.8, y_dot: 0.6 };
+    let input = PushedInput { push: 0.3 };
+    let step = Rk4::linearized_step(&rope, 0.0, 0.1, &start, &input);
+    assert_eq!(step.state, Rk4::step(&rope, 0.0, 0.1, &start, &input));
+    assert!(step.by_state.iter().chain(step.by_input.iter()).all(|entry| entry.is_nan()));
+    let refused = ImplicitMidpoint::linearized_step(&rope, 0.0, 0.1, &start, &input);
+    assert_eq!(refused.map(|_| ()), Err(IntegrationError::ReturnNotDifferentiated));
+    let model = Sampled { system: rope, start: 0.0, dt: 0.1 };
+    let x = start.to_array().into();
+    let (a, _) = model.linearized(0, &x, &Vector1::new(0.3));
+    assert!(a.iter().all(|entry| entry.is_nan()));
+    let cost = Quadratic {
+        goal: Vector4::new(0.0, -1.0, 0.0, 0.0),
+        state: Vector4::repeat(1.0),
+        input: Vector1::new(0.1),
+        end: Vector4::repeat(1.0),
+    };
+    let mut plan = Ilqr::<f64, 4, 1, 10>::new(SVector::zeros());
+    let refused = plan.solve(&model, &cost, &x, 1e-9, 20);
+    assert!(matches!(refused, Err(ControlError::NotFinite { .. })), "{refused:?}");
+}

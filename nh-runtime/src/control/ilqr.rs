@@ -90,7 +90,7 @@ impl<T: Entry, const N: usize, const M: usize, const H: usize> Ilqr<T, N, M, H> 
         &self.inputs
     }
 
-    /// The inputs, to be changed: a first guess. The next [`improve`](Self::improve) takes them as they are, without
+    /// The inputs, to be changed: a first guess. The next [`improve`](Self::improve) takes them between the bounds, without
     /// feedback along an earlier plan.
     pub fn inputs_mut(&mut self) -> &mut [SVector<T, M>; H] {
         self.is_planned = false;

@@ -38,6 +38,9 @@ impl<P: Tableau, T: Scalar> Fixed<P, T> {
     /// a Runge–Kutta step of the variational equation Ẋ = A X, U̇ = A U + B is the derivative of the
     /// Runge–Kutta step (Hairer, Lubich, Wanner, Geometric Numerical Integration, lemma VI.4.1).
     ///
+    /// Where the system returns to position constraints, the return is a part of the step and is not differentiated: the
+    /// derivatives are NaN then. Steps over [`Jet`] numbers contain it.
+    ///
     /// ```
     /// use nonholonomic::prelude::*;
     ///
@@ -71,6 +74,9 @@ impl<P: Tableau, T: Scalar> Fixed<P, T> {
         S: Jacobian<InputDim = D<M>>,
         S::State: State<Scalar = T, Dim = D<N>>,
     {
+        if system.has_positions() {
+            return Transition::unknown(Self::step(system, t, dt, state, input));
+        }
         let jets = Jets(Jet::variables(state.to_array()));
         let (t, dt) = (Jet::constant(t), Jet::constant(dt));
         let Jets(end) = Fixed::<P, Jet<T, N, M>>::step(&Differentiated(system), t, dt, &jets, input);
@@ -159,7 +165,8 @@ impl<T: Real> ImplicitMidpoint<T> {
     /// Jacobian A, B at the middle of the step: (1 − h/2 A) A_d = 1 + h/2 A and (1 − h/2 A) B_d = h B.
     ///
     /// # Errors
-    /// As [`step_with_jacobian`](ImplicitMidpoint::step_with_jacobian). A singular matrix 1 − h/2 A
+    /// [`IntegrationError::ReturnNotDifferentiated`] where the system returns to position constraints; else as
+    /// [`step_with_jacobian`](ImplicitMidpoint::step_with_jacobian). A singular matrix 1 − h/2 A
     /// gives derivatives that are not finite.
     pub fn linearized_step<S, const N: usize, const M: usize>(
         system: &S,
@@ -172,6 +179,9 @@ impl<T: Real> ImplicitMidpoint<T> {
         S: Jacobian<InputDim = D<M>>,
         S::State: State<Scalar = T, Dim = D<N>>,
     {
+        if system.has_positions() {
+            return Err(IntegrationError::ReturnNotDifferentiated);
+        }
         let end = ImplicitMidpoint::step_with_jacobian(system, t, dt, state, input)?;
         let half = dt * T::from_f64(0.5);
         let mut middle = state.to_array();

@@ -6,9 +6,9 @@ use super::checkpoints::{Checkpoint, reversed};
 use super::motion::NoParameters;
 use super::no_derivative::SensitivityError;
 use super::pull_back::{PulledBack, add};
-use crate::arrays::all_finite;
+use crate::arrays::{all_finite, first_non_finite};
 use crate::methods::{Fixed, Tableau};
-use crate::{D, Dynamics, Jacobian, Scalar, ScalarOf, State};
+use crate::{D, Dynamics, IntegrationError, Jacobian, Scalar, ScalarOf, State};
 
 /// A value with its derivatives by the state and the inputs.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -164,7 +164,7 @@ where
     /// the parameters and, in `by_inputs`, the inputs of each step.
     ///
     /// # Errors
-    /// As [`gradient_at`](Self::gradient_at).
+    /// As [`gradient_at`](Self::gradient_at), and [`SensitivityError::Integration`] for a length that is not positive.
     pub fn gradient(
         &self,
         t0: T,
@@ -175,6 +175,13 @@ where
         by_inputs: &mut [[T; M]],
     ) -> Result<Gradient<S::State, T, N, Q>, SensitivityError> {
         let step = self.method.step;
+        if !step.is_finite() || T::ZERO.all_ge(step) {
+            return Err(SensitivityError::Integration(IntegrationError::Setting {
+                setting: "step",
+                value: step.to_f64(),
+                expected: "positive and finite",
+            }));
+        }
         self.gradient_at(
             |tick| count::<T>(tick).mul_add(step, t0),
             start,
@@ -206,6 +213,13 @@ where
         if self.system.has_positions() {
             return Err(SensitivityError::Returned);
         }
+        let not_finite = |what, time: T| SensitivityError::NotFinite { what, time: time.to_f64() };
+        if first_non_finite::<T>(start.to_array().as_ref()).is_some() {
+            return Err(not_finite("start", times(0)));
+        }
+        if let Some(time) = (0..=ticks).map(&times).find(|time| !time.is_finite()) {
+            return Err(not_finite("time of a tick", time));
+        }
         let step = |tick: usize, state: &S::State| {
             let (Some(input), t) = (inputs.get(tick), times(tick)) else { return *state };
             Fixed::<P, T>::step(self.system, t, times(tick + 1) - t, state, input)
@@ -218,6 +232,9 @@ where
             by_start: begun.map_or([T::ZERO; N], |end| end.by_state),
             by_parameters: [T::ZERO; Q],
         };
+        if !gradient.value.is_finite() || !all_finite::<T, _>(&gradient.by_start) {
+            return Err(not_finite("cost or its gradient", times(0)));
+        }
         reversed(ticks, start, places, step, |tick, state| {
             let (Some(input), Some(slot)) = (inputs.get(tick), by_inputs.get_mut(tick)) else {
                 return Ok(());
@@ -244,11 +261,7 @@ where
             add(slot, h, &running.by_input);
             add(by_parameters, T::ONE, &back.by_parameters);
             let is_finite = all_finite(slot) && all_finite(by_start) && all_finite(by_parameters);
-            if is_finite && value.is_finite() {
-                Ok(())
-            } else {
-                Err(SensitivityError::NotFinite { what: "cost or its gradient", time: t.to_f64() })
-            }
+            if is_finite && value.is_finite() { Ok(()) } else { Err(not_finite("cost or its gradient", t)) }
         })?;
         Ok(gradient)
     }

@@ -51,6 +51,9 @@ impl<P: Tableau, T: Scalar> Fixed<P, T> {
     /// let [by_m, by_k] = back.by_parameters;
     /// assert!(by_m > 0.0 && by_k < 0.0);
     /// ```
+    ///
+    /// Where the system returns to position constraints all of it is NaN, as that of
+    /// [`linearized_step`](Self::linearized_step).
     #[doc(alias("vector-Jacobian product", "vjp", "adjoint"))]
     pub fn pulled_back_step<S, const N: usize, const M: usize, const Q: usize>(
         system: &S,
@@ -66,6 +69,15 @@ impl<P: Tableau, T: Scalar> Fixed<P, T> {
     {
         let start = Start { system, input, time: t, state };
         let x = state.to_array();
+        if system.has_positions() {
+            let (nan, end) = (T::from_f64(f64::NAN), Self::step(system, t, dt, state, input));
+            return PulledBack {
+                state: end,
+                by_state: [nan; N],
+                by_input: [nan; M],
+                by_parameters: [nan; Q],
+            };
+        }
         let (stages, slope) = stages_of::<S, P>(&start, &x, dt);
         let scale = T::from_f64(P::SCALE);
         let end = S::State::from_array(displaced(&x, dt * scale, &slope));

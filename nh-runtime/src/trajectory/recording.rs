@@ -171,7 +171,8 @@ where
     }
 }
 
-/// Sixteen units in the last place of the largest state of the step, which interpolation may round by.
+/// Sixteen units in the last place of the largest state of the step, which interpolation may round by, and of what the
+/// state changes by where times are rounded.
 const ROUNDING: f64 = 16.0;
 
 /// Whether the polynomial gives this state to the tolerance of the method, which a step may err by anyway.
@@ -186,13 +187,20 @@ where
 {
     let Some(kept) = segment.at(time) else { return Ok(()) };
     let permitted = sim.method().permitted(state);
+    // how many roundings of the clock stand in a rounding of the step
+    let (from, to) = (segment.from(), segment.to());
+    let clock = from.abs().max(to.abs()) / (to - from).abs();
     let (kept, given) = (kept.to_array(), state.to_array());
     let compared = kept.as_ref().iter().zip(given.as_ref()).zip(permitted.as_ref());
     for (index, ((&kept, &given), &permitted)) in compared.enumerate() {
-        let largest = segment.nodes().iter().fold(ScalarOf::<S>::ZERO, |largest, node| {
-            node.to_array().as_ref().get(index).map_or(largest, |x| largest.max(x.abs()))
-        });
-        let permitted = permitted + ScalarOf::<S>::from_f64(ROUNDING) * ScalarOf::<S>::EPSILON * largest;
+        let of_nodes = || {
+            let of_node = |node: &S::State| node.to_array().as_ref().get(index).copied();
+            segment.nodes().iter().filter_map(of_node)
+        };
+        let size = of_nodes().fold(ScalarOf::<S>::ZERO, |largest, x| largest.max(x.abs()));
+        let change = of_nodes().fold(ScalarOf::<S>::ZERO, |most, x| most.max((x - given).abs()));
+        let rounding = ScalarOf::<S>::from_f64(ROUNDING) * ScalarOf::<S>::EPSILON;
+        let permitted = permitted + rounding * (size + change * clock);
         let difference = (kept - given).abs();
         if difference > permitted {
             return Err(RecordingError::TooFewNodes {

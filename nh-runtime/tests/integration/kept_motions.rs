@@ -56,6 +56,23 @@ fn every_method_is_kept_to_its_tolerance() {
     keeps::<_, 8>(GaussLegendre6::new(0.05), -4.0);
 }
 
+/// Where times are rounded to a share of the step, as seconds since 1970 are: nothing in this motion depends on the time.
+#[test]
+fn motions_are_kept_at_any_time() {
+    let pendulum = Pendulum { g: 9.81 };
+    let start = START;
+    for origin in [0.0, 1e6, -1e9, 1.7e9] {
+        let mut sim = Integrator::new(pendulum, Rk4::new(1.0 / 1024.0), origin, start);
+        let mut motion: Trajectory<_, _> = Trajectory::new(Vec::new());
+        sim.record(origin + 1.0, &mut motion).unwrap_or_else(|error| panic!("{origin}: {error}"));
+        let mut plain = Integrator::new(pendulum, Rk4::new(1.0 / 1024.0), 0.0, start);
+        plain.advance_to(0.5).unwrap();
+        let kept = motion.at(origin + 0.5).unwrap();
+        let pairs = kept.to_array().into_iter().zip(plain.state().to_array());
+        assert!(pairs.into_iter().all(|(kept, plain)| (kept - plain).abs() < 1e-12), "{origin}");
+    }
+}
+
 #[test]
 fn a_full_buffer_is_said_and_the_run_goes_on_in_another() {
     let mut sim = Integrator::new(Driven, Rk4::new(0.1), 0.0, START);

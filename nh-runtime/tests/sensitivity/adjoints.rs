@@ -251,4 +251,15 @@ fn without_steps_and_with_wrong_slices() {
     assert_eq!(wrong, Err(SensitivityError::Length { slice: "by_inputs", length: 1, expected: 2 }));
     let off = steps.gradient(0.0, &Numbers(START), &[Push([f64::NAN]); 2], &Both, &mut room, &mut [[0.0]; 2]);
     assert!(matches!(off, Err(SensitivityError::NotFinite { .. })));
+    let nowhere = Numbers([f64::NAN, 0.0, 0.0]);
+    for inputs in [&[][..], &[Push([0.0]); 3]] {
+        let refused =
+            steps.gradient(0.0, &nowhere, inputs, &Both, &mut room, &mut [[0.0]; 3][..inputs.len()]);
+        assert_eq!(refused, Err(SensitivityError::NotFinite { what: "start", time: 0.0 }));
+    }
+    for length in [0.0, -0.1, f64::NAN] {
+        let steps = Adjoint::new(&PENDULUM, Rk4::new(length));
+        let refused = steps.gradient(0.0, &Numbers(START), &[Push([0.0])], &Both, &mut room, &mut [[0.0]]);
+        assert!(matches!(refused, Err(SensitivityError::Integration(_))), "{length}: {refused:?}");
+    }
 }

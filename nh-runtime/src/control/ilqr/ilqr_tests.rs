@@ -39,6 +39,33 @@ fn of_a_linear_system_one_iteration_is_the_regulator() {
     assert!(again.promised.abs() < 1e-12 && again.decrease.abs() < 1e-12);
 }
 
+/// A plan that was made without bounds is no start within them.
+#[test]
+fn inputs_that_are_given_are_brought_between_the_bounds() {
+    let cost = Quadratic {
+        goal: vector![0.0, 0.0],
+        state: vector![1.0, 1.0],
+        input: vector![0.5],
+        end: vector![0.0, 0.0],
+    };
+    let start = vector![5.0, 0.0];
+    let mut free = Ilqr::<f64, 2, 1, 60>::new(vector![0.0]);
+    free.solve(&Linear, &cost, &start, 1e-9, 50).unwrap();
+    assert!(free.inputs().iter().any(|u| u[0].abs() > 1.0));
+    let held = |inputs: Option<&[SVector<f64, 1>; 60]>| {
+        let mut plan = Ilqr::<f64, 2, 1, 60>::new(vector![0.0]).bounds(vector![-1.0], vector![1.0]);
+        if let Some(inputs) = inputs {
+            *plan.inputs_mut() = *inputs;
+        }
+        let last = plan.solve(&Linear, &cost, &start, 1e-9, 50).unwrap();
+        assert!(plan.inputs().iter().all(|u| u[0].abs() <= 1.0), "{:?}", plan.inputs());
+        assert!(last.promised >= 0.0, "{last:?}");
+        last.cost
+    };
+    let (from_nothing, from_free) = (held(None), held(Some(free.inputs())));
+    assert!((from_nothing - from_free).abs() < 1e-6 * from_nothing, "{from_nothing} {from_free}");
+}
+
 /// A pendulum swings up with a torque that cannot lift it at once; at the optimum the gradient
 /// vanishes wherever no bound holds, and points outwards where one does.
 #[test]
