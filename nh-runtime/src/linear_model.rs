@@ -58,7 +58,7 @@ pub struct Linearization<T, const K: usize, const M: usize, const P: usize> {
     pub a: SMatrix<T, K, K>,
     /// In row i, the derivatives of ż_i by the inputs.
     pub b: SMatrix<T, K, M>,
-    /// In row i, the derivatives of the output h_i by the variables z.
+    /// In row i, the derivatives of the output h_i by the variables z; what is not kept is held.
     pub c: SMatrix<T, P, K>,
     /// In row i, the derivatives of the output h_i by the inputs.
     pub d: SMatrix<T, P, M>,
