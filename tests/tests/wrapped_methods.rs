@@ -126,12 +126,14 @@ fn a_reconstruction_returns_to_the_position_constraints() {
 #[nonholonomic(
     base { x, y, turn }
     lagrangian { 1 / 2 * (der(x)^2 + der(y)^2 + der(turn)^2) - g * x }
-    constraints { blade: sin(turn) * der(x) = cos(turn) * der(y); }
+    constraints { blade: sin(turn) * der(x) = cos(turn) * der(y) + d * der(turn); }
     formulation { projected }
 )]
 #[derive(Clone, Copy, Debug)]
 struct Skate {
     g: f64,
+    /// The blade is so far aside.
+    d: f64,
 }
 
 const GLIDING: SkateState = SkateState { x: 0.0, y: 0.0, turn: 0.3, x_dot: 0.0, y_dot: 0.0, turn_dot: 0.7 };
@@ -141,7 +143,7 @@ const GLIDING: SkateState = SkateState { x: 0.0, y: 0.0, turn: 0.3, x_dot: 0.0, 
 fn projected_states_are_handed_out_on_the_constraints() {
     let off = |s: &SkateState| (s.turn.sin() * s.x_dot - s.turn.cos() * s.y_dot).abs();
     for h in [0.1, 0.05] {
-        let mut sim = Integrator::new(Skate { g: 1.0 }, Projected::new(Rk4::new(h), 1), 0.0, GLIDING);
+        let mut sim = Integrator::new(Skate { g: 1.0, d: 0.0 }, Projected::new(Rk4::new(h), 1), 0.0, GLIDING);
         let mut turns = 0;
         let events = Events::new(|_, s: &SkateState, _: &()| [s.turn - 1.0]);
         sim.advance_acting(10.0, &events, |sim, event| {
@@ -158,6 +160,18 @@ fn projected_states_are_handed_out_on_the_constraints() {
     }
 }
 
+/// Other parameters, other constraints: the state is looked at again.
+#[test]
+fn a_state_that_new_parameters_leave_off_the_constraints_is_refused() {
+    let mut sim = Integrator::new(Skate { g: 1.0, d: 0.0 }, Projected::new(Rk4::new(0.1), 1), 0.0, GLIDING);
+    sim.advance_to(1.0).expect("a smooth motion");
+    let before = *sim.state();
+    sim.system_mut().d = 0.7;
+    let refused = sim.step();
+    assert!(matches!(refused, Err(IntegrationError::InconsistentStart { .. })), "{refused:?}");
+    assert_eq!(*sim.state(), before);
+}
+
 #[test]
 fn interruptions_take_no_projection_away() {
     let projections = |every: u32| {
@@ -167,7 +181,7 @@ fn interruptions_take_no_projection_away() {
             every == 0 || asked.get() % every != 0
         };
         let method = Projected::new(Interruptible::new(Rk4::new(0.1), goes_on), 10);
-        let mut sim = Integrator::new(Skate { g: 1.0 }, method, 0.0, GLIDING);
+        let mut sim = Integrator::new(Skate { g: 1.0, d: 0.0 }, method, 0.0, GLIDING);
         while let Err(error) = sim.advance_to(20.0) {
             assert!(matches!(error, IntegrationError::Interrupted { .. }), "{error}");
         }

@@ -271,7 +271,16 @@ impl<T: Entry, const N: usize, const M: usize, const H: usize> Ilqr<T, N, M, H> 
             let twice = symmetrized(&(stage.uu + reached));
             let (low, high) = (self.lower - u, self.upper - u);
             let range = self.upper - self.lower;
-            let heavy = twice + self.regularization.of([&stage.uu, &reached], &by_input, &range);
+            let mut heavy = twice + self.regularization.of([&stage.uu, &reached], &by_input, &range);
+            // an input that the cost does not feel stays as it is: zero is divided by any number
+            for i in 0..M {
+                let is_felt = |list: &[T]| list.iter().any(|entry| *entry != T::ZERO);
+                let curved = core::array::from_fn::<T, M, _>(|j| twice[(i, j)]);
+                let tied = core::array::from_fn::<T, N, _>(|j| mixed[(i, j)]);
+                if !is_felt(&curved) && !is_felt(&tied) && by_input[i] == T::ZERO {
+                    heavy[(i, i)] = T::ONE;
+                }
+            }
             let best = minimum(&heavy, &by_input, [&low, &high], change)?;
             // the components that a bound holds do not answer to the state
             let mut answering = mixed;

@@ -39,6 +39,39 @@ fn of_a_linear_system_one_iteration_is_the_regulator() {
     assert!(again.promised.abs() < 1e-12 && again.decrease.abs() < 1e-12);
 }
 
+/// The last force moves the place after the end, and costs nothing: it is not felt.
+#[test]
+fn an_input_that_is_not_felt_stays_as_it_is() {
+    struct Euler;
+    impl Model<f64, 2, 1> for Euler {
+        fn step(&self, tick: usize, x: &SVector<f64, 2>, u: &SVector<f64, 1>) -> SVector<f64, 2> {
+            let (a, b) = self.linearized(tick, x, u);
+            a * x + b * u
+        }
+        fn linearized(
+            &self,
+            _tick: usize,
+            _x: &SVector<f64, 2>,
+            _u: &SVector<f64, 1>,
+        ) -> (SMatrix<f64, 2, 2>, SMatrix<f64, 2, 1>) {
+            (matrix![1.0, 0.1; 0.0, 1.0], matrix![0.0; 0.1])
+        }
+    }
+    let cost = Quadratic {
+        goal: vector![0.3, 0.0],
+        state: vector![0.0, 0.0],
+        input: vector![0.0],
+        end: vector![1.0, 0.0],
+    };
+    let start = vector![0.0, 0.0];
+    for guess in [0.0, 0.4] {
+        let mut plan = Ilqr::<f64, 2, 1, 20>::new(vector![guess]).bounds(vector![-1.0], vector![1.0]);
+        let last = plan.solve(&Euler, &cost, &start, 1e-12, 200).unwrap();
+        assert!(last.cost < 1e-9, "{last:?}");
+        assert!((plan.inputs()[19][0] - guess).abs() < 1e-15, "{:?}", plan.inputs());
+    }
+}
+
 /// A plan that was made without bounds is no start within them.
 #[test]
 fn inputs_that_are_given_are_brought_between_the_bounds() {
