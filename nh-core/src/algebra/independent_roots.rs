@@ -121,6 +121,43 @@ impl Graph {
         None
     }
 
+    /// Whether a function is the square of another one, as far as points tell: then its roots are two functions, which have
+    /// nothing to do with one another.
+    pub(crate) fn is_square_everywhere(&self, function: ExprId) -> bool {
+        if let Some(number) = self.value_of(function) {
+            return number.sqrt().is_some();
+        }
+        if self.symbols_in(&[function]).is_empty() {
+            return false;
+        }
+        let values = (FIRST_SEED..FIRST_SEED + TRIALS)
+            .filter_map(|seed| FieldPass::new(self, FieldPoint::random(seed), 1).evaluate_one(function).ok());
+        // the first that is none tells
+        let mut points = 0;
+        for value in values.take(HOPELESS as usize) {
+            if value.sqrt().is_none() {
+                return false;
+            }
+            points += 1;
+        }
+        points == HOPELESS
+    }
+
+    /// What roots of even order in expressions are taken of, as far as there are symbols in it.
+    pub(crate) fn radicands(&self, roots: &[ExprId]) -> Vec<ExprId> {
+        let mut found: Vec<ExprId> = Vec::new();
+        for id in self.reachable(roots) {
+            let Node::Product { factors, .. } = self.node(id) else { continue };
+            for (base, exponent) in factors.iter() {
+                let is_even = !exponent.is_integer() && !exponent.denominator().is_odd();
+                if is_even && !self.symbols_in(&[*base]).is_empty() && !found.contains(base) {
+                    found.push(*base);
+                }
+            }
+        }
+        found
+    }
+
     /// What square roots in expressions are taken of, but for numbers; `None` where something else has branches.
     pub(crate) fn square_radicands(&self, roots: &[ExprId]) -> Option<Vec<ExprId>> {
         let mut found: Vec<ExprId> = Vec::new();

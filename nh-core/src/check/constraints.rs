@@ -209,10 +209,13 @@ fn solved_over(
         .collect();
     unknowns.extend(velocities);
     // on the base: what vanishes there is no pivot
-    let residuals: Vec<ExprId> = residuals.iter().map(|residual| base.restrict(graph, *residual)).collect();
+    let declared = residuals;
+    let residuals: Vec<ExprId> = declared.iter().map(|residual| base.restrict(graph, *residual)).collect();
     let solved = Manifold::where_zero(graph, &residuals, velocities)
         .or_else(|_| Manifold::where_zero(graph, &residuals, &unknowns))?;
     let mut manifold = base.clone();
+    // before what the base puts for its coordinates
+    manifold.note_roots_of(graph, declared);
     manifold.extend(graph, &solved);
     Ok(manifold)
 }

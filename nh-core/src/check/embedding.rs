@@ -112,6 +112,16 @@ fn left_by_anchor(
             }
             _ => format!("along `{name}` it changes at the rate {}", shown(&model.graph, change)),
         };
+        if let Verdict::Unknown(why) = &verdict {
+            return Some(Violation {
+                law: Law::Decidable,
+                origin: identity.origin,
+                what: "whether every motion stays on the embedded base could not be decided".into(),
+                evidence: format!("{evidence}: {why}"),
+                way_out: "write the identity without factors that vanish by themselves, as `a = b` instead of `a^2 = b^2`"
+                    .into(),
+            });
+        }
         let (what, way_out) = match model.kinematics {
             Kinematics::Tangent => (
                 "the velocities do not keep this identity",

@@ -97,6 +97,7 @@ impl Manifold {
             found.manifold = manifold;
             found.unsolved.retain(|index| *index != solved);
         }
+        found.manifold.note_roots_of(graph, functions);
         found
     }
 }

@@ -17,6 +17,11 @@ pub struct Manifold {
     /// A function of those that define it which vanishes elsewhere, too, as a product does: what holds on this manifold
     /// need not hold wherever the functions vanish.
     in_parts: Option<ExprId>,
+    /// What square roots of images are taken of: the other root is as good as this one.
+    radicands: Vec<ExprId>,
+    /// A function that was solved by the root of a square, which is a function on one part of the manifold and another one on
+    /// the other, and the symbols whose images may be others there.
+    by_part: Option<(ExprId, Vec<SymbolId>)>,
 }
 
 impl Manifold {
@@ -43,15 +48,19 @@ impl Manifold {
         }
         // a sphere takes all its coordinates; where others restrict these as well they come first
         let orders = [[Ease::Sphere, Ease::Linear, Ease::Root], [Ease::Linear, Ease::Sphere, Ease::Root]];
-        let mut solved = |moving: &[SymbolId]| {
+        let solve = |graph: &mut Graph, moving: &[SymbolId]| {
             let first = Self::solved_in_order(graph, functions, (unknowns, moving), orders[0]);
             first.or_else(|index| {
                 Self::solved_in_order(graph, functions, (unknowns, moving), orders[1]).map_err(|_| index)
             })
         };
-        solved(unknowns).or_else(|index| {
-            let part = solved(&[])?;
+        let solved = solve(graph, unknowns).or_else(|index| {
+            let part = solve(graph, &[])?;
             Ok(Self { in_parts: Some(functions[index]), ..part })
+        });
+        solved.map(|mut manifold| {
+            manifold.note_roots_of(graph, functions);
+            manifold
         })
     }
 
@@ -89,6 +98,14 @@ impl Manifold {
         }
         self.chart.extend(&other.chart);
         self.in_parts = self.in_parts.or(other.in_parts);
+        if let Some((function, _)) = self.by_part.as_ref().or(other.by_part.as_ref()) {
+            let of_self = self.by_part.iter().flat_map(|(_, symbols)| symbols);
+            let all = other.images.iter().map(|(symbol, _)| symbol);
+            self.by_part = Some((*function, of_self.chain(all).copied().collect()));
+        }
+        let radicands: Vec<ExprId> =
+            other.radicands.iter().map(|radicand| self.restrict(graph, *radicand)).collect();
+        self.radicands.extend(radicands);
     }
 
     /// The symbols that are functions of the others, with these.
@@ -135,18 +152,56 @@ impl Manifold {
         graph.independent_rows(&restricted)
     }
 
+    /// One of some functions which has, by itself, a root that images have too: on another part of the manifold the image
+    /// has the other root, and the function has not.
+    pub(crate) fn with_a_root_of(&self, graph: &mut Graph, functions: &[ExprId]) -> Option<ExprId> {
+        if self.radicands.is_empty() {
+            return None;
+        }
+        functions.iter().copied().find(|function| {
+            graph.radicands(&[*function]).into_iter().any(|own| {
+                let own = self.restrict(graph, own);
+                self.radicands.iter().any(|radicand| {
+                    let product = graph.formula(own * radicand);
+                    graph.is_square_everywhere(product)
+                })
+            })
+        })
+    }
+
+    /// Takes note of functions that define it and have a root which images have too.
+    pub(crate) fn note_roots_of(&mut self, graph: &mut Graph, functions: &[ExprId]) {
+        self.in_parts = self.in_parts.or_else(|| self.with_a_root_of(graph, functions));
+    }
+
     /// Whether a function vanishes on the manifold, and wherever the functions do that define it.
     pub fn zero_test(&self, graph: &mut Graph, function: ExprId) -> Verdict {
         let restricted = self.restrict(graph, function);
         let verdict = graph.zero_test(restricted);
-        match self.in_parts {
-            Some(product) if verdict.is_zero() && !graph.zero_test(function).is_zero() => {
-                let product = graph.text_within(product, 200);
-                Verdict::Unknown(format!(
-                    "{product} = 0 holds in several ways, and it was asked in one of them"
-                ))
-            }
-            _ => verdict,
+        let is_one_part = self.in_parts.is_some() || self.by_part.is_some() || !self.radicands.is_empty();
+        if !is_one_part || !verdict.is_zero() || graph.zero_test(function).is_zero() {
+            return verdict;
+        }
+        if let Some(product) = self.in_parts {
+            let product = graph.text_within(product, 200);
+            return Verdict::Unknown(format!(
+                "{product} = 0 holds in several ways, and it was asked in one of them"
+            ));
+        }
+        if let Some((product, others)) = &self.by_part
+            && graph.depends_on(function, others)
+        {
+            let product = graph.text_within(*product, 200);
+            return Verdict::Unknown(format!(
+                "{product} = 0 holds in several ways, and it was asked in one of them"
+            ));
+        }
+        match self.with_a_root_of(graph, &[function]) {
+            None => verdict,
+            Some(_) => Verdict::Unknown(
+                "it contains a root of what the constraints are solved by a root of, and these may have the other sign"
+                    .into(),
+            ),
         }
     }
 
@@ -173,6 +228,9 @@ impl Manifold {
         let mut step = Substitution::new([(symbol, image)]);
         for (_, earlier) in &mut self.images {
             *earlier = step.apply(graph, *earlier);
+        }
+        for radicand in &mut self.radicands {
+            *radicand = step.apply(graph, *radicand);
         }
         self.images.push((symbol, image));
     }
@@ -206,12 +264,16 @@ impl Manifold {
             .into_iter()
             .filter(|symbol| unknowns.contains(symbol) && self.is_free(*symbol))
             .collect();
+        let mut root_of = None;
         let mut by = |solution: fn(&mut Graph, ExprId, SymbolId) -> Option<Solved>| {
             let solved = present.iter().rev().find_map(|symbol| {
-                let Solved { image, coefficients } = solution(graph, function, *symbol)?;
+                let Solved { image, coefficients, radicand } = solution(graph, function, *symbol)?;
                 let is_whole =
                     is_meant(graph, (*symbol, image)) && !vanish_together(graph, &coefficients, moving);
-                is_whole.then_some((*symbol, image))
+                is_whole.then(|| {
+                    root_of = radicand;
+                    (*symbol, image)
+                })
             });
             solved.into_iter().collect()
         };
@@ -228,6 +290,19 @@ impl Manifold {
         if matches!(ease, Ease::Sphere) {
             let values: Vec<ExprId> = images.iter().map(|(_, image)| *image).collect();
             self.chart.extend(graph.symbols_in(&values));
+        }
+        if let Some(radicand) = root_of {
+            self.radicands.push(radicand);
+            // both roots of a square are functions, and each has a part of the manifold
+            if self.by_part.is_none() && graph.is_square_everywhere(radicand) {
+                self.by_part = Some((function, Vec::new()));
+            }
+        }
+        if let Some((_, others)) = &mut self.by_part {
+            let solved: Vec<SymbolId> = images.iter().map(|(symbol, _)| *symbol).collect();
+            let moved = self.images.iter().filter(|(_, image)| graph.depends_on(*image, &solved));
+            others.extend(moved.map(|(symbol, _)| *symbol));
+            others.extend(solved);
         }
         for (symbol, image) in &images {
             self.insert(graph, *symbol, *image);
@@ -248,7 +323,7 @@ impl Manifold {
         }
         let entries = cayley(graph);
         let chart = graph.symbols_in(&entries);
-        let manifold = Self { images: present.into_iter().zip(entries).collect(), chart, in_parts: None };
+        let manifold = Self { images: present.into_iter().zip(entries).collect(), chart, ..Self::default() };
         let all = functions.iter().all(|function| manifold.zero_test(graph, *function) == Verdict::Zero);
         all.then_some(manifold)
     }
@@ -271,20 +346,26 @@ pub(super) enum Ease {
 struct Solved {
     image: ExprId,
     coefficients: Vec<ExprId>,
+    /// What a root of even order is taken of, whose other sign is another solution.
+    radicand: Option<ExprId>,
 }
 
 /// The root of the symbol, or of a sum in which it is a term with a number for its coefficient.
 fn difference(graph: &mut Graph, function: ExprId, symbol: SymbolId) -> Option<Solved> {
     let coefficients = Vec::new();
     if graph.as_symbol(function) == Some(symbol) {
-        return Some(Solved { image: graph.zero(), coefficients });
+        return Some(Solved { image: graph.zero(), coefficients, radicand: None });
     }
     let Node::Sum { terms, .. } = graph.node(function) else { return None };
     let is_term = |(term, _): &&(ExprId, Rational)| graph.as_symbol(*term) == Some(symbol);
     let (term, factor) = terms.iter().find(is_term).cloned()?;
     let by = -factor.recip()?;
     let rest = graph.linear_combination(&[(Rational::ONE, function), (-factor, term)]);
-    (!graph.depends_on(rest, &[symbol])).then(|| Solved { image: graph.scale(by, rest), coefficients })
+    (!graph.depends_on(rest, &[symbol])).then(|| Solved {
+        image: graph.scale(by, rest),
+        coefficients,
+        radicand: None,
+    })
 }
 
 /// The root of a function that is linear in the symbol.
@@ -294,7 +375,7 @@ fn quotient(graph: &mut Graph, function: ExprId, symbol: SymbolId) -> Option<Sol
         return None;
     }
     let image = graph.formula(-(form.rest / form.coefficients[0]));
-    Some(Solved { image, coefficients: vec![form.coefficients[0], form.rest] })
+    Some(Solved { image, coefficients: vec![form.coefficients[0], form.rest], radicand: None })
 }
 
 /// `a (x_1² + … + x_m² − r²)`, m ≥ 2 with rational r: the stereographic projection.
@@ -364,7 +445,7 @@ fn root(graph: &mut Graph, function: ExprId, symbol: SymbolId) -> Option<Solved>
     let discriminant = graph.linear_combination(&[(1.into(), bb), ((-2).into(), ac)]);
     let (radical, minus_b) = (graph.sqrt(discriminant), graph.formula(-b));
     let image = graph.formula((minus_b + radical) / curvature);
-    Some(Solved { image, coefficients: vec![curvature, b, c] })
+    Some(Solved { image, coefficients: vec![curvature, b, c], radicand: Some(discriminant) })
 }
 
 /// The root of `a s^n + c`: there `s φ' = n (φ − c)`.
@@ -385,7 +466,8 @@ fn pure_root(graph: &mut Graph, function: ExprId, slope: ExprId, symbol: SymbolI
     let coefficient = graph.simplify(coefficient);
     let radicand = graph.formula(-(rest / coefficient));
     let image = graph.pow(radicand, Rational::new(1, degree));
-    Some(Solved { image, coefficients: vec![coefficient, rest] })
+    let radicand = (degree % 2 == 0).then_some(radicand);
+    Some(Solved { image, coefficients: vec![coefficient, rest], radicand })
 }
 
 /// The entries, row by row, of the rotation with Cayley parameters (a, b, c).
