@@ -4,6 +4,7 @@ mod accuracy;
 mod assuming;
 mod ball;
 mod bounded_terms;
+mod branches;
 mod circle;
 mod combination;
 mod constants;

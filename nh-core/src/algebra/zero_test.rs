@@ -105,6 +105,21 @@ impl Graph {
         if in_field == Ok(true) && !has_roots {
             return Verdict::Zero;
         }
+        // the field has no values of kinks
+        let may_have_branches = has_roots || matches!(in_field, Err(NoValue::Ever(_)));
+        match self.decided_beyond_identities(expression, in_field) {
+            Verdict::Zero => self.zero_on_all_branches(expression),
+            Verdict::Unknown(why) if may_have_branches => match self.zero_on_all_branches(expression) {
+                found @ Verdict::NonZero(_) => found,
+                _ => Verdict::Unknown(why),
+            },
+            unknown @ Verdict::Unknown(_) => unknown,
+            found @ Verdict::NonZero(_) => found,
+        }
+    }
+
+    /// The same of what no identity of the field has decided.
+    fn decided_beyond_identities(&self, expression: ExprId, in_field: Result<bool, NoValue>) -> Verdict {
         if let Some(witness) = self.witness(expression).or_else(|| self.closer_witness(expression)) {
             return Verdict::NonZero(witness);
         }

@@ -4,7 +4,8 @@
 //! angles with one length that closes it: loops are linear in lengths. What could not be solved is left
 //! open: the points found are then those of a larger set.
 
-use super::manifold::{Ease, Manifold};
+use super::manifold::Manifold;
+use super::solutions::Ease;
 use crate::algebra::{Graph, Node, Verdict, sample};
 use crate::id::{ExprId, SymbolId};
 use crate::limits::{attempt, spent};

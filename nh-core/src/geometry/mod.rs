@@ -20,6 +20,7 @@ mod momentum_level;
 mod orbits;
 mod pivot;
 mod rank;
+mod solutions;
 mod structure;
 pub mod suggested_velocities;
 

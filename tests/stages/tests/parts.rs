@@ -58,3 +58,94 @@ fn claims_of_all_parts_are_proved() {
         assert!(refusals.is_empty(), "{claimed}: {refusals:?}");
     }
 }
+
+const PLANE: &str = "base { x, y } lagrangian { m/2*(der(x)^2 + der(y)^2) }";
+
+/// Each claim is true on one branch of a root, and false on the other.
+#[test]
+fn claims_of_one_branch_are_refused() {
+    let still = "base { x, y, z } lagrangian { m/2*(der(x)^2 + der(y)^2 + der(z)^2) }";
+    for (machine, claimed) in [
+        (PLANE, "constraints { der(x)^2 = 4; } conserved { c = x - 2*t; }"),
+        (PLANE, "constraints { der(x)^2 = 1 + y^2; } conserved { c = der(x) - sqrt(1 + y^2); }"),
+        (PLANE, "constraints { (der(x) + 5)^2 = 1 + y^2; } conserved { c = der(x) - sqrt(1 + y^2); }"),
+        (PLANE, "constraints { (der(x) - 5)^2 = (1 + y^2)^2; } conserved { c = der(x) - y^2; }"),
+        (PLANE, "holonomic { h: x^2 = (1 + y^2)^2; } conserved { c = x - y^2; }"),
+        (PLANE, "holonomic { h: x^2 = (2 + cos(y))^2; } conserved { c = x - cos(y); }"),
+        (still, "holonomic { h: x^2 = 4; } conserved { c = z*(x - 2); }"),
+        (
+            still,
+            "constraints { a: der(x)^2 = 1 + y^2; b: der(z) = (der(x) - sqrt(1 + y^2))*der(y); } conserved { c = z; }",
+        ),
+        (
+            still,
+            "holonomic { h: x^2 = (1 + y^2)^2; } constraints { b: der(z) = (x - 1 - y^2)*der(y); } conserved { c = z; }",
+        ),
+        (
+            still,
+            "holonomic { h: x^2 = 1 + y^2; } constraints { b: der(z) = (x - sqrt(1 + y^2))*der(y); } \
+             conserved { c = z; }",
+        ),
+    ] {
+        let refusals = refusals(&format!("{machine} {claimed}"));
+        assert_eq!(refusals.len(), 1, "{claimed}: {refusals:?}");
+        let is_said =
+            ["could not be decided", "is not conserved"].into_iter().any(|word| refusals[0].contains(word));
+        assert!(is_said, "{claimed}: {refusals:?}");
+    }
+    // what holds on both is proved
+    for claimed in [
+        "constraints { der(x)^2 = 4; } conserved { p = der(y); }",
+        "constraints { der(x)^2 = 1 + y^2; } conserved { e = der(x)^2 - y^2; }",
+        "constraints { der(x)^2 + der(y)^2 = 1; } conserved { e = der(x)^2 + der(y)^2; }",
+        "holonomic { h: sqrt(x^2 + y^2) + sqrt((x - w)^2 + y^2) = k; } conserved { e = der(x)^2 + der(y)^2; }",
+    ] {
+        let refusals = refusals(&format!("{PLANE} {claimed}"));
+        assert!(refusals.is_empty(), "{claimed}: {refusals:?}");
+    }
+}
+
+/// Forces that are zero where points of order one are: stops, pegs, limits, and roots with the other sign.
+#[test]
+fn forces_of_other_branches_are_seen() {
+    let force =
+        |force: &str| refusals(&format!("{PLANE} forces {{ y: {force}; }} conserved {{ p = der(y); }}"));
+    for kinked in [
+        "min(x + 1, 0)",
+        "min(x + 10, 0)",
+        "abs(x + 3) - x - 3",
+        "max(1/1000 - x^2, 0)",
+        "max(0.0004 - x^2 - y^2, 0)*y",
+        "max(exp(-x) - 1e5, 0)",
+        "sign(x^2 - 1e-7) - 1",
+        "max(der(x) - 1000000, 0)",
+        "k*max(-y - 1, 0)*max(-der(y), 0)",
+        "max(sin(x) - 0.99999, 0)",
+        "sqrt((x + 2)^2) - 2 - x",
+        "sqrt((x + pi)^2) - x - pi",
+        "((4 + x)^2)^(3/2) - (4 + x)^3",
+        "sqrt(1 + sin(x)) - sin(x/2) - cos(x/2)",
+        "sqrt((1 + cos(x/2))/2) - cos(x/4)",
+        "atan(1/(x + 5)) + atan(x + 5) - pi/2",
+        "atan2(1, x + 5) - atan(1/(x + 5))",
+        "acos((1 - (x + 5)^2)/(1 + (x + 5)^2)) - 2*atan(x + 5)",
+        "sqrt((exp(x) - 0.01)^2) - exp(x) + 0.01",
+    ] {
+        assert_eq!(force(kinked).len(), 1, "{kinked}");
+    }
+    for zero in [
+        "abs(x) - max(x, -x)",
+        "sqrt(x^2) - abs(x)",
+        "max(x, y) + min(x, y) - x - y",
+        "abs(x^2 + 1) - x^2 - 1",
+        "sqrt((x^2 + 1)^2) - x^2 - 1",
+        "asin(sin(atan(x))) - atan(x)",
+        "sqrt(1 - sin(x)^2) - abs(cos(x))",
+        "max(x^2 + 1, 0) - x^2 - 1",
+    ] {
+        assert!(force(zero).is_empty(), "{zero}: {:?}", force(zero));
+    }
+    let report = declared("base { x } lagrangian { m/2*der(x)^2 } forces { x: -k*min(x + 1, 0); }");
+    let report = report.system().expect("well posed").report;
+    assert!(!report.contains("the momentum of x") && !report.contains("the energy"), "{report}");
+}
