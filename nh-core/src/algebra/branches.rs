@@ -109,7 +109,7 @@ impl Graph {
 fn wide(attempt: u64, index: usize) -> f64 {
     let word = Residue::mixed(attempt, 5_000 + index as u64).word();
     let common = Residue::mixed(attempt, 4_999).word();
-    let decade = (if attempt % 2 == 0 { common } else { word >> 32 }) % DECADES;
+    let decade = (if attempt.is_multiple_of(2) { common } else { word >> 32 }) % DECADES;
     let digits = f64::from(u16::try_from(word % 90).unwrap_or(0) + 10) / 10.0;
     let sign = if word >> 16 & 1 == 0 { 1.0 } else { -1.0 };
     sign * digits * 10.0_f64.powi(i32::try_from(decade).unwrap_or(0) - 4)

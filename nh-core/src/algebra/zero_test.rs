@@ -107,7 +107,7 @@ impl Graph {
         }
         // the field has no values of kinks
         let may_have_branches = has_roots || matches!(in_field, Err(NoValue::Ever(_)));
-        match self.decided_beyond_identities(expression, in_field) {
+        match self.decided_beyond_identities(expression, &in_field) {
             Verdict::Zero => self.zero_on_all_branches(expression),
             Verdict::Unknown(why) if may_have_branches => match self.zero_on_all_branches(expression) {
                 found @ Verdict::NonZero(_) => found,
@@ -119,7 +119,7 @@ impl Graph {
     }
 
     /// The same of what no identity of the field has decided.
-    fn decided_beyond_identities(&self, expression: ExprId, in_field: Result<bool, NoValue>) -> Verdict {
+    fn decided_beyond_identities(&self, expression: ExprId, in_field: &Result<bool, NoValue>) -> Verdict {
         if let Some(witness) = self.witness(expression).or_else(|| self.closer_witness(expression)) {
             return Verdict::NonZero(witness);
         }
@@ -130,7 +130,7 @@ impl Graph {
             Ok(false) => self.is_beyond_field(&[expression]) && !self.has_independent_roots(expression),
             _ => self.is_beyond_field(&[expression]),
         };
-        match &in_field {
+        match in_field {
             // the sign of a root on the reals had the last word: `sqrt(x^2) − x`
             Ok(true) => Verdict::Zero,
             _ if may_vanish() && self.vanishes_on_reals(expression) => Verdict::Zero,
