@@ -121,11 +121,11 @@ impl Graph {
         None
     }
 
-    /// Whether a function is the square of another one, as far as points tell: then its roots are two functions, which have
-    /// nothing to do with one another.
+    /// Whether a function is the square of another one that is not zero, as far as points tell: then its roots are two
+    /// functions, which have nothing to do with one another.
     pub(crate) fn is_square_everywhere(&self, function: ExprId) -> bool {
         if let Some(number) = self.value_of(function) {
-            return number.sqrt().is_some();
+            return !number.is_zero() && number.sqrt().is_some();
         }
         if self.symbols_in(&[function]).is_empty() {
             return false;
@@ -134,7 +134,7 @@ impl Graph {
             .filter_map(|seed| FieldPass::new(self, FieldPoint::random(seed), 1).evaluate_one(function).ok());
         // the first that is none tells
         let mut points = 0;
-        for value in values.take(HOPELESS as usize) {
+        for value in values.filter(|value| *value != Residue::ZERO).take(HOPELESS as usize) {
             if value.sqrt().is_none() {
                 return false;
             }

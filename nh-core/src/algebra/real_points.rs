@@ -25,6 +25,10 @@ const LEAST: f64 = 1e-14;
 const ROUNDINGS: f64 = 64.0;
 /// What is above 0 is so by as many bounds of its rounding: beside it points are met that are none.
 const MARGIN: f64 = 1e9;
+/// Steps that are so small beside the start lead to a point that is as good as met.
+const NEAR: f64 = 1e-12;
+/// What is left of a positive number at least, beside its value at the start.
+const DISTANCE: f64 = 1e-4;
 /// The work that is spent.
 const WORK: u64 = 20_000_000;
 
@@ -74,13 +78,20 @@ impl Search {
         let starts = (0..MACHINES).map(|machine| self.start(place, machine)).collect::<Vec<_>>();
         let met = starts.iter().find(|start| self.is_allowed(start)).cloned();
         let Some(mut point) = met.or_else(|| starts.into_iter().next()) else { return false };
+        let start = point.clone();
         let Some(mut size) = self.size(&point) else { return false };
+        let first = size;
         let mut damping = DAMPING;
         for _ in 0..STEPS {
             if self.is_met(&point) && self.is_allowed(&point) {
                 return true;
             }
             let Some(step) = self.step(&point, damping) else { return false };
+            // where a factor is zero its product is as good as zero near to that
+            let is_near = step.iter().zip(&start).all(|(dx, x)| dx.abs() <= NEAR * x.abs());
+            if is_near && size <= NEAR * NEAR * first && self.keeps_its_distance(&point, &start) {
+                return true;
+            }
             let next: Vec<f64> = point.iter().zip(&step).map(|(x, dx)| x - dx).collect();
             match self.size(&next) {
                 Some(smaller) if smaller < size => {
@@ -125,6 +136,18 @@ impl Search {
             Demand::Nonzero => value.is_certainly_nonzero(),
             Demand::Zero => value.may_be_zero(),
         })
+    }
+
+    /// Whether inequalities are met, and not only by what is left of them on the way to where they are not.
+    fn keeps_its_distance(&mut self, point: &[f64], start: &[f64]) -> bool {
+        let before = Self::at(&mut self.inequalities, &self.symbols, start);
+        let values = Self::at(&mut self.inequalities, &self.symbols, point);
+        let keeps =
+            values.iter().zip(&before).zip(&self.demands).all(|((value, before), demand)| match demand {
+                Demand::Positive => value.value > DISTANCE * before.value.abs(),
+                _ => true,
+            });
+        keeps && self.is_allowed(point)
     }
 
     /// Jᵀ (J Jᵀ + μ)⁻¹ f.
@@ -191,6 +214,9 @@ mod tests {
             // points of second order: the derivative vanishes there
             (true, g.formula(sin - one)),
             (true, g.formula(sin + cos - one - one)),
+            // where a factor is zero, and beside an equation whose rounding ends the search
+            (true, g.formula(x * y)),
+            (true, g.formula(x * x * y)),
             // zero at infinity alone
             (false, exp),
             (false, g.formula(exp * exp + y * y)),
@@ -198,5 +224,8 @@ mod tests {
             let demands = [(equation, Demand::Zero), (a, Demand::Positive)];
             assert_eq!(g.real_point_is_found(&demands), is_found, "{:?}", g.node(equation));
         }
+        let (square, five) = (g.square(y), g.number(25));
+        let speed = g.formula(square - five);
+        assert!(g.real_point_is_found(&[(x, Demand::Zero), (speed, Demand::Zero)]));
     }
 }
