@@ -143,6 +143,23 @@ impl Graph {
         points == HOPELESS
     }
 
+    /// Whether numbers that are not rational are parts of an expression: √3, or cos(π/6).
+    pub(crate) fn has_irrational_numbers(&self, root: ExprId) -> bool {
+        let mut found = false;
+        self.each_reachable(&[root], |id| {
+            found |= match self.node(id) {
+                Node::Pi => true,
+                Node::Product { factors, .. } => factors
+                    .iter()
+                    .any(|(base, exponent)| !exponent.is_integer() && self.value_of(*base).is_some()),
+                Node::Apply(_, x) => self.value_of(*x).is_some(),
+                _ => false,
+            };
+            !found
+        });
+        found
+    }
+
     /// What roots of even order in expressions are taken of, as far as there are symbols in it.
     pub(crate) fn radicands(&self, roots: &[ExprId]) -> Vec<ExprId> {
         let mut found: Vec<ExprId> = Vec::new();

@@ -159,14 +159,17 @@ impl Manifold {
         if self.radicands.is_empty() {
             return None;
         }
+        let of_numbers = self.radicands.iter().any(|radicand| graph.symbols_in(&[*radicand]).is_empty());
         functions.iter().copied().find(|function| {
-            graph.radicands(&[*function]).into_iter().any(|own| {
-                let own = self.restrict(graph, own);
-                self.radicands.iter().any(|radicand| {
-                    let product = graph.formula(own * radicand);
-                    graph.is_square_everywhere(product)
+            // √3 has the other sign where the root of 3 has it
+            (of_numbers && graph.has_irrational_numbers(*function))
+                || graph.radicands(&[*function]).into_iter().any(|own| {
+                    let own = self.restrict(graph, own);
+                    self.radicands.iter().any(|radicand| {
+                        let product = graph.formula(own * radicand);
+                        graph.is_square_everywhere(product)
+                    })
                 })
-            })
         })
     }
 
@@ -183,16 +186,9 @@ impl Manifold {
         if !is_one_part || !verdict.is_zero() || graph.zero_test(function).is_zero() {
             return verdict;
         }
-        if let Some(product) = self.in_parts {
+        let by_part = self.by_part.as_ref().filter(|(_, others)| graph.depends_on(function, others));
+        if let Some(product) = self.in_parts.or(by_part.map(|(product, _)| *product)) {
             let product = graph.text_within(product, 200);
-            return Verdict::Unknown(format!(
-                "{product} = 0 holds in several ways, and it was asked in one of them"
-            ));
-        }
-        if let Some((product, others)) = &self.by_part
-            && graph.depends_on(function, others)
-        {
-            let product = graph.text_within(*product, 200);
             return Verdict::Unknown(format!(
                 "{product} = 0 holds in several ways, and it was asked in one of them"
             ));

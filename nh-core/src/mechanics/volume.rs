@@ -95,6 +95,23 @@ fn modular_section(graph: &mut Graph, setting: &VolumeSetting<'_>) -> Result<Mod
         }
         NotLinear::Unknown(why) => Volume::Undecided(why),
     })?;
+    // the derivative of a step is 0 on both of its sides
+    let terms = form.coefficients.iter().zip(&setting.velocities);
+    let terms: Vec<ExprId> = terms
+        .map(|(coefficient, velocity)| {
+            let velocity = graph.symbol(*velocity);
+            graph.formula(coefficient * velocity)
+        })
+        .collect();
+    let sum = graph.sum(&terms);
+    let beyond = graph.formula(setting.divergence - sum - form.rest);
+    match graph.zero_test(beyond) {
+        Verdict::Zero => {}
+        Verdict::NonZero(_) if !setting.is_larger => return Err(Volume::Nonlinear),
+        _ => {
+            return Err(Volume::Undecided("it is not written as a linear function of the velocities".into()));
+        }
+    }
     let mut components = form.coefficients;
     components.push(form.rest);
     let components = components.into_iter().map(|m| graph.simplify(m)).collect();

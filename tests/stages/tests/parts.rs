@@ -70,6 +70,11 @@ fn claims_of_one_branch_are_refused() {
         (PLANE, "constraints { der(x)^2 = 1 + y^2; } conserved { c = der(x) - sqrt(1 + y^2); }"),
         (PLANE, "constraints { (der(x) + 5)^2 = 1 + y^2; } conserved { c = der(x) - sqrt(1 + y^2); }"),
         (PLANE, "constraints { (der(x) - 5)^2 = (1 + y^2)^2; } conserved { c = der(x) - y^2; }"),
+        (PLANE, "constraints { der(x)^2 = 3; } conserved { c = x - sqrt(3)*t; }"),
+        (PLANE, "constraints { der(x)^2 = 3; } conserved { c = x - 2*cos(pi/6)*t; }"),
+        (PLANE, "constraints { der(x)^2 = 2 + 2*cos(y); } conserved { c = der(x) - 2*cos(y/2); }"),
+        (PLANE, "holonomic { h: x^2 = 2*(1 + y^2)^2; } conserved { c = x - sqrt(2)*y^2; }"),
+        (PLANE, "holonomic { h: x^2 = 1 + sinh(y)^2; } conserved { c = x - cosh(y); }"),
         (PLANE, "holonomic { h: x^2 = (1 + y^2)^2; } conserved { c = x - y^2; }"),
         (PLANE, "holonomic { h: x^2 = (2 + cos(y))^2; } conserved { c = x - cos(y); }"),
         (still, "holonomic { h: x^2 = 4; } conserved { c = z*(x - 2); }"),
@@ -96,6 +101,7 @@ fn claims_of_one_branch_are_refused() {
     // what holds on both is proved
     for claimed in [
         "constraints { der(x)^2 = 4; } conserved { p = der(y); }",
+        "constraints { der(x)^2 = 3; } conserved { p = der(y); }",
         "constraints { der(x)^2 = 1 + y^2; } conserved { e = der(x)^2 - y^2; }",
         "constraints { der(x)^2 + der(y)^2 = 1; } conserved { e = der(x)^2 + der(y)^2; }",
         "holonomic { h: sqrt(x^2 + y^2) + sqrt((x - w)^2 + y^2) = k; } conserved { e = der(x)^2 + der(y)^2; }",
@@ -145,6 +151,9 @@ fn forces_of_other_branches_are_seen() {
     ] {
         assert!(force(zero).is_empty(), "{zero}: {:?}", force(zero));
     }
+    let volume =
+        refusals("base { x } lagrangian { m/2*der(x)^2 } forces { x: -k*min(der(x) + 2, 0); } volume;");
+    assert_eq!(volume.len(), 1, "{volume:?}");
     let report = declared("base { x } lagrangian { m/2*der(x)^2 } forces { x: -k*min(x + 1, 0); }");
     let report = report.system().expect("well posed").report;
     assert!(!report.contains("the momentum of x") && !report.contains("the energy"), "{report}");
