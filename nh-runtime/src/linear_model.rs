@@ -7,7 +7,7 @@ mod scales;
 use nalgebra::SMatrix;
 
 use crate::{Dynamics, Jet, Real, Scalar, ScalarOf};
-pub(crate) use elimination::{Uncertain, beside, reduce};
+pub(crate) use elimination::{Reduced, Uncertain, beside, reduce};
 pub use linearization_error::LinearizationError;
 use scales::Scales;
 

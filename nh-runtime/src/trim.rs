@@ -6,7 +6,7 @@ use core::fmt::{self, Display, Formatter};
 
 use crate::arrays::{all_finite, first_non_finite};
 use crate::assembly::{AssemblyError, Loops, descend};
-use crate::linear_model::{Parts, Uncertain, beside, reduce};
+use crate::linear_model::{Parts, Reduced, Uncertain, beside, reduce};
 use crate::{Jet, Real};
 
 /// Why no steady motion was found.
@@ -143,6 +143,11 @@ pub fn trim<T: Real, const N: usize, const W: usize, const Q: usize>(
         let is = |list: &[bool; W]| list.get(column).copied().unwrap_or(false);
         !is(held) && (is(&dependent) || !steady.is_loose(column))
     };
+    // the first variable of a family of steady motions: which of them elimination leaves open says nothing
+    let family = |reduced: &Reduced<T, W, Q>| {
+        let open = (0..W).find(|column| is_free(*column) && !reduced.is_pivot(*column));
+        open.map(|column| reduced.first_of_family(column))
+    };
     let is_asked = |row: usize| steady.is_asked(row, &dependent);
     // constraints and kept rates first: those of the others may follow, and then are poor equations to solve
     let solved = |near: &Near<T, W, Q>| {
@@ -157,7 +162,7 @@ pub fn trim<T: Real, const N: usize, const W: usize, const Q: usize>(
             return [T::from_f64(f64::NAN); W];
         }
         let reduced = solved(&near(x).only(is_taken));
-        undetermined.set((0..W).find(|column| is_free(*column) && !reduced.is_pivot(*column)));
+        undetermined.set(family(&reduced));
         if undetermined.get().is_some() { [T::from_f64(f64::NAN); W] } else { reduced.solution() }
     };
     let loops = Loops { names: steady.equations, independent: Q, depends: [true; W] };
@@ -173,7 +178,7 @@ pub fn trim<T: Real, const N: usize, const W: usize, const Q: usize>(
     })?;
     let end = near(&found).only(is_asked);
     let reduced = solved(&end);
-    if let Some(column) = (0..W).find(|column| is_free(*column) && !reduced.is_pivot(*column)) {
+    if let Some(column) = family(&reduced) {
         return Err(TrimError::Undetermined { variable: name(&steady.variables, column) });
     }
     agree(steady, &end.here, |row| reduced.is_open(row), (guess, &found))?;

@@ -173,6 +173,16 @@ impl<T: Real, const N: usize, const R: usize> Reduced<T, N, R> {
         self.largest(|_, _| true).map(|(_, column)| column)
     }
 
+    /// The first column that moves along the family of solutions in which a column that is not solved for does.
+    pub(crate) fn first_of_family(&self, column: usize) -> usize {
+        let moves = |other: usize| {
+            let Some(row) = self.pivots.iter().position(|pivot| *pivot == Some(other)) else { return false };
+            let of = |matrix: &[[T; N]; R]| matrix.get(row).and_then(|row| row.get(column)).copied();
+            of(&self.rows).zip(of(&self.errors)).is_some_and(|(entry, error)| entry.abs() > error)
+        };
+        (0..column).find(|other| moves(*other)).unwrap_or(column)
+    }
+
     /// By how much what is solved for changes with a column that is not.
     pub(crate) fn change(&self, solved: usize, column: usize) -> T {
         let row = self.pivots.iter().position(|pivot| *pivot == Some(solved));
@@ -233,6 +243,18 @@ mod tests {
         assert_eq!(reduced.bound(), Some(1));
         let in_order = exact([[1.0, 0.1]], [0.0], |column| Some(u8::from(column == 0)));
         assert!(in_order.is_pivot(1) && !in_order.is_pivot(0));
+    }
+
+    /// x + 2 z = 0, y = 0: whichever of x and z is solved for, x is the first that moves.
+    #[test]
+    fn families_are_named_by_their_first_column() {
+        for unit in [1.0, 1e6, 1e-6] {
+            let reduced = exact([[1.0, 0.0, 2.0 * unit], [0.0, 1.0, 0.0]], [0.0; 2], |_| Some(0));
+            let open = (0..3).find(|column| !reduced.is_pivot(*column)).unwrap();
+            assert_eq!(reduced.first_of_family(open), 0, "{unit}");
+        }
+        let alone = exact([[0.0, 1.0]], [0.0], |_| Some(0));
+        assert_eq!(alone.first_of_family(0), 0);
     }
 
     /// A derivative that is all rounding, alone in its row and its column, and a small one that is not.

@@ -4,7 +4,10 @@ use super::super::{Quadratic, Regulator, shooting_gradient};
 use super::*;
 use nalgebra::{Matrix2, SMatrix, matrix, vector};
 
-struct Linear;
+/// A mass by its place and speed, with the derivatives of these by the force.
+struct Linear(SMatrix<f64, 2, 1>);
+
+const PUSHED: Linear = Linear(matrix![0.005; 0.1]);
 
 impl Model<f64, 2, 1> for Linear {
     fn step(&self, tick: usize, x: &SVector<f64, 2>, u: &SVector<f64, 1>) -> SVector<f64, 2> {
@@ -17,7 +20,7 @@ impl Model<f64, 2, 1> for Linear {
         _x: &SVector<f64, 2>,
         _u: &SVector<f64, 1>,
     ) -> (SMatrix<f64, 2, 2>, SMatrix<f64, 2, 1>) {
-        (matrix![1.0, 0.1; 0.0, 1.0], matrix![0.005; 0.1])
+        (matrix![1.0, 0.1; 0.0, 1.0], self.0)
     }
 }
 
@@ -31,32 +34,18 @@ fn of_a_linear_system_one_iteration_is_the_regulator() {
     };
     let mut plan = Ilqr::<f64, 2, 1, 300>::new(vector![0.0]);
     let start = vector![1.0, 0.0];
-    plan.improve(&Linear, &cost, &start).unwrap();
-    let (a, b) = Linear.linearized(0, &start, &vector![0.0]);
+    plan.improve(&PUSHED, &cost, &start).unwrap();
+    let (a, b) = PUSHED.linearized(0, &start, &vector![0.0]);
     let stationary = Regulator::stationary(&a, &b, &Matrix2::identity(), &matrix![0.5]).unwrap();
     assert!((plan.inputs()[0] - stationary.input(&start)).norm() < 1e-10);
-    let again = plan.improve(&Linear, &cost, &start).unwrap();
+    let again = plan.improve(&PUSHED, &cost, &start).unwrap();
     assert!(again.promised.abs() < 1e-12 && again.decrease.abs() < 1e-12);
 }
 
 /// The last force moves the place after the end, and costs nothing: it is not felt.
 #[test]
 fn an_input_that_is_not_felt_stays_as_it_is() {
-    struct Euler;
-    impl Model<f64, 2, 1> for Euler {
-        fn step(&self, tick: usize, x: &SVector<f64, 2>, u: &SVector<f64, 1>) -> SVector<f64, 2> {
-            let (a, b) = self.linearized(tick, x, u);
-            a * x + b * u
-        }
-        fn linearized(
-            &self,
-            _tick: usize,
-            _x: &SVector<f64, 2>,
-            _u: &SVector<f64, 1>,
-        ) -> (SMatrix<f64, 2, 2>, SMatrix<f64, 2, 1>) {
-            (matrix![1.0, 0.1; 0.0, 1.0], matrix![0.0; 0.1])
-        }
-    }
+    let late = Linear(matrix![0.0; 0.1]);
     let cost = Quadratic {
         goal: vector![0.3, 0.0],
         state: vector![0.0, 0.0],
@@ -66,7 +55,7 @@ fn an_input_that_is_not_felt_stays_as_it_is() {
     let start = vector![0.0, 0.0];
     for guess in [0.0, 0.4] {
         let mut plan = Ilqr::<f64, 2, 1, 20>::new(vector![guess]).bounds(vector![-1.0], vector![1.0]);
-        let last = plan.solve(&Euler, &cost, &start, 1e-12, 200).unwrap();
+        let last = plan.solve(&late, &cost, &start, 1e-12, 200).unwrap();
         assert!(last.cost < 1e-9, "{last:?}");
         assert!((plan.inputs()[19][0] - guess).abs() < 1e-15, "{:?}", plan.inputs());
     }
@@ -83,14 +72,14 @@ fn inputs_that_are_given_are_brought_between_the_bounds() {
     };
     let start = vector![5.0, 0.0];
     let mut free = Ilqr::<f64, 2, 1, 60>::new(vector![0.0]);
-    free.solve(&Linear, &cost, &start, 1e-9, 50).unwrap();
+    free.solve(&PUSHED, &cost, &start, 1e-9, 50).unwrap();
     assert!(free.inputs().iter().any(|u| u[0].abs() > 1.0));
     let held = |inputs: Option<&[SVector<f64, 1>; 60]>| {
         let mut plan = Ilqr::<f64, 2, 1, 60>::new(vector![0.0]).bounds(vector![-1.0], vector![1.0]);
         if let Some(inputs) = inputs {
             *plan.inputs_mut() = *inputs;
         }
-        let last = plan.solve(&Linear, &cost, &start, 1e-9, 50).unwrap();
+        let last = plan.solve(&PUSHED, &cost, &start, 1e-9, 50).unwrap();
         assert!(plan.inputs().iter().all(|u| u[0].abs() <= 1.0), "{:?}", plan.inputs());
         assert!(last.promised >= 0.0, "{last:?}");
         last.cost
