@@ -4,6 +4,7 @@
 //! *The Levenberg–Marquardt algorithm*, 1978), from several places. What is found is met as far as rounding tells, and
 //! proves nothing; where nothing is found, it is not known that anything is there, and the report says so.
 
+use super::eliminated::eliminated;
 use super::evaluate::{Bounded, Evaluator};
 use super::graph::Graph;
 use super::inequalities::Demand;
@@ -166,33 +167,15 @@ impl Search {
         for (k, row) in matrix.iter_mut().enumerate() {
             row[k] += damping * mean;
         }
-        let weights = solved(matrix, f.iter().map(|f| f.value).collect())?;
+        for (row, f) in matrix.iter_mut().zip(&f) {
+            row.push(f.value);
+        }
+        limits::spend(rows.len().pow(3));
+        let (_, weights) = eliminated(matrix);
         let step =
             (0..self.symbols.len()).map(|k| rows.iter().zip(&weights).map(|(row, w)| row[k] * w).sum());
         Some(step.collect::<Vec<f64>>()).filter(|step| step.iter().all(|dx| dx.is_finite()))
     }
-}
-
-/// The solution of a positive definite system, by Gauss.
-fn solved(mut matrix: Vec<Vec<f64>>, mut right: Vec<f64>) -> Option<Vec<f64>> {
-    let size = right.len();
-    limits::spend(size * size * size);
-    for column in 0..size {
-        let pivot = matrix[column].clone();
-        let (scale, of_right) = (pivot[column], right[column]);
-        for row in column + 1..size {
-            let factor = matrix[row][column] / scale;
-            for (entry, above) in matrix[row].iter_mut().zip(&pivot) {
-                *entry -= factor * above;
-            }
-            right[row] -= factor * of_right;
-        }
-    }
-    for column in (0..size).rev() {
-        let later: f64 = (column + 1..size).map(|k| matrix[column][k] * right[k]).sum();
-        right[column] = (right[column] - later) / matrix[column][column];
-    }
-    right.iter().all(|x| x.is_finite()).then_some(right)
 }
 
 #[cfg(test)]

@@ -32,8 +32,10 @@ fn names_the_rate<T: Real>(name: &str, method: impl Method<Falling<T>>) {
             assert_eq!(component, "z_dot", "{name}: {error}");
             assert!((0.02..=0.1).contains(&time), "{name}: {error}");
         }
-        // an energy that has no value stops the methods that keep it, and what grows without bound those with short steps
-        IntegrationError::NonFiniteEnergy { .. } | IntegrationError::StepUnderflow { .. } => {}
+        // an energy that has no value stops the method that keeps it
+        IntegrationError::NonFiniteEnergy { .. } if name.starts_with("DiscreteGradient") => {}
+        // what grows without bound stops series before it is reached
+        IntegrationError::StepUnderflow { .. } if name.starts_with("Taylor") => {}
         other => panic!("{name}: {other}"),
     }
 }
