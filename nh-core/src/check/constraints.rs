@@ -213,10 +213,15 @@ fn solved_over(
     let residuals: Vec<ExprId> = declared.iter().map(|residual| base.restrict(graph, *residual)).collect();
     let solved = Manifold::where_zero(graph, &residuals, velocities)
         .or_else(|_| Manifold::where_zero(graph, &residuals, &unknowns))?;
-    let mut manifold = base.clone();
+    let mut manifold = base.alone();
     // before what the base puts for its coordinates
     manifold.note_roots_of(graph, declared);
     manifold.extend(graph, &solved);
+    for part in base.parts().skip(1) {
+        if let Ok(further) = solved_over(graph, part, declared, velocities) {
+            manifold.add_parts(&further);
+        }
+    }
     Ok(manifold)
 }
 

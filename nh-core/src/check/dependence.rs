@@ -8,36 +8,87 @@ use crate::model::Model;
 use crate::violation::{Law, Violation};
 
 /// The first constraint whose row (of Φ, or of ∂φ/∂y) is a combination of those before it on the
-/// manifold; with `drift` a contradiction is told from a redundancy.
+/// manifold, or on a part of it; with `drift` a contradiction is told from a redundancy.
 pub(super) fn dependent_rows(
     model: &mut Model,
     rows: &Matrix,
     drift: Option<&[ExprId]>,
     manifold: &Manifold,
 ) -> Option<Violation> {
-    let restricted = manifold.restrict_matrix(&mut model.graph, rows);
-    if model.graph.generic_rank(&restricted) == Ok(rows.len()) {
-        return None;
+    let parts: Vec<&Manifold> = manifold.parts().collect();
+    let mut found = Vec::with_capacity(parts.len());
+    for part in &parts {
+        match first_dependent(&mut model.graph, rows, part) {
+            Ok(dependent) => found.push(dependent),
+            Err(why) => return Some(undecided(model, &why)),
+        }
+    }
+    let ill_posed = found.iter().position(Option::is_some)?;
+    let Dependent { index, is_zero } = found[ill_posed]?;
+    Some(if found.iter().any(Option::is_none) {
+        let id = ConstraintId::from_index(index);
+        let place = place_of(model, manifold, parts[ill_posed]);
+        let says =
+            if is_zero { "says nothing about velocities" } else { "follows from the constraints before it" };
+        Violation {
+            law: Law::Independence,
+            origin: model.constraints[id].origin,
+            what: format!("{} {says}{place}", name_of(model, id)),
+            evidence: PARTS.into(),
+            way_out: ONE_PART.into(),
+        }
+    } else if is_zero {
+        degenerate_constraint(model, index)
+    } else {
+        dependency(model, rows, drift, index)
+    })
+}
+
+/// A row that depends on those before it.
+#[derive(Clone, Copy)]
+struct Dependent {
+    index: usize,
+    /// Whether all of it is zero.
+    is_zero: bool,
+}
+
+/// The first such row on a part of a manifold.
+fn first_dependent(graph: &mut Graph, rows: &Matrix, part: &Manifold) -> Result<Option<Dependent>, String> {
+    let restricted = part.restrict_matrix(graph, rows);
+    if graph.generic_rank(&restricted) == Ok(rows.len()) {
+        return Ok(None);
     }
     let mut rank = 0;
-    for count in 1..=restricted.len() {
-        let found = match model.graph.generic_rank(&restricted[..count]) {
-            Ok(found) => found,
-            Err(why) => return Some(undecided(model, &why)),
-        };
+    for index in 0..restricted.len() {
+        let found = graph.generic_rank(&restricted[..=index])?;
         if found == rank {
-            let degenerate =
-                restricted[count - 1].iter().all(|entry| model.graph.zero_test(*entry).is_zero());
-            let index = count - 1;
-            return Some(if degenerate {
-                degenerate_constraint(model, index)
-            } else {
-                dependency(model, rows, drift, index)
-            });
+            let is_zero = restricted[index].iter().all(|entry| graph.zero_test(*entry).is_zero());
+            return Ok(Some(Dependent { index, is_zero }));
         }
         rank = found;
     }
-    None
+    Ok(None)
+}
+
+/// Why a question is asked several times.
+pub(super) const PARTS: &str = "the constraints hold on several parts, and a system is well-posed on all of \
+                                them, or it is refused";
+/// What to do where one part is ill-posed.
+pub(super) const ONE_PART: &str =
+    "write the constraint of the part that is meant, as `x = a` instead of `x^2 = a^2`";
+
+/// ` where x = -2`.
+pub(super) fn place_of(model: &Model, manifold: &Manifold, part: &Manifold) -> String {
+    let own = manifold.own_images(part);
+    let images = own.iter().map(|(symbol, image)| {
+        format!("{} = {}", model.graph.symbols()[*symbol], shown(&model.graph, *image))
+    });
+    let images: Vec<String> = images.collect();
+    if images.is_empty() {
+        " on a part of where they hold".into()
+    } else {
+        format!(" where {}", listed(&images))
+    }
 }
 
 /// A constraint whose derivative vanishes where it holds, such as a square.

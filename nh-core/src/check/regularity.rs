@@ -1,5 +1,6 @@
 //! Regularity: the equations determine the accelerations (CLMM Theorem 3.12, (7.5)).
 
+use super::dependence::{ONE_PART, place_of};
 use super::evidence::{listed, shown};
 use crate::algebra::{Echelon, Facts, FieldPoint, Graph, Matrix, Node, Range, Residue, sample};
 use crate::geometry::Manifold;
@@ -14,16 +15,10 @@ pub fn reduced_regularity(
     equations: &ReducedEquations,
     base: &Manifold,
 ) -> Option<Violation> {
-    let mass = base.restrict_matrix(&mut model.graph, &equations.mass);
-    let names: Vec<&str> =
-        equations.independent.iter().map(|symbol| model.graph.symbols()[*symbol].as_str()).collect();
-    let size = names.len();
+    let names: Vec<String> =
+        equations.independent.iter().map(|symbol| model.graph.symbols()[*symbol].clone()).collect();
     let what = "the mass matrix is singular on the constraint distribution: its rank is";
-    judge(model, &mass, size, what, |vector| {
-        let moving: Vec<&str> =
-            vector.iter().zip(&names).filter(|(c, _)| **c != Residue::ZERO).map(|(_, name)| *name).collect();
-        direction(&moving)
-    })
+    judge(model, base, &equations.mass, what, |vector| direction(vector, &names))
 }
 
 /// The saddle matrix is non-singular at generic points of the constraint manifold.
@@ -33,18 +28,16 @@ pub fn saddle_regularity(
     manifold: &Manifold,
 ) -> Option<Violation> {
     let matrix = equations.matrix(&mut model.graph);
-    let matrix = manifold.restrict_matrix(&mut model.graph, &matrix);
-    let names: Vec<&str> = model.sections.iter().map(|section| section.name.as_str()).collect();
+    let names: Vec<String> = model.sections.iter().map(|section| section.name.clone()).collect();
     let what = "the equations for accelerations and multipliers are singular: the rank of their matrix is";
-    judge(model, &matrix, matrix.len(), what, |vector| {
-        let moving: Vec<&str> =
-            vector.iter().zip(&names).filter(|(c, _)| **c != Residue::ZERO).map(|(_, name)| *name).collect();
-        direction(&moving)
-    })
+    judge(model, manifold, &matrix, what, |vector| direction(vector, &names))
 }
 
-fn direction(moving: &[&str]) -> String {
-    match moving {
+/// A motion without inertia.
+fn direction(vector: &[Residue], names: &[String]) -> String {
+    let moving = vector.iter().zip(names).filter(|(component, _)| **component != Residue::ZERO);
+    let moving: Vec<&str> = moving.map(|(_, name)| name.as_str()).collect();
+    match moving.as_slice() {
         [only] => format!("the Lagrangian gives the velocity `{only}` no inertia there"),
         [] => "the constraint forces are not determined".into(),
         several => {
@@ -56,48 +49,64 @@ fn direction(moving: &[&str]) -> String {
     }
 }
 
+/// Whether a matrix is singular on a manifold, or on a part of it.
 fn judge(
-    model: &Model,
+    model: &mut Model,
+    manifold: &Manifold,
     matrix: &Matrix,
-    size: usize,
     what: &str,
     evidence: impl Fn(&[Residue]) -> String,
 ) -> Option<Violation> {
-    let graph: &Graph = &model.graph;
     let origin = model.lagrangian.origin;
-    let rank = match graph.generic_rank(matrix) {
-        Ok(rank) if rank == size => return None,
-        Ok(rank) => rank,
-        Err(why) => {
-            return Some(Violation {
-                law: Law::Decidable,
-                origin,
-                what: "whether the mass matrix is regular could not be decided".into(),
-                evidence: why,
-                way_out: "write the Lagrangian without roots of negative numbers and divisions by zero"
-                    .into(),
-            });
+    let mut found = Vec::new();
+    for part in manifold.parts() {
+        let restricted = part.restrict_matrix(&mut model.graph, matrix);
+        match model.graph.generic_rank(&restricted) {
+            Ok(rank) => found.push((part, restricted, rank)),
+            Err(why) => {
+                return Some(Violation {
+                    law: Law::Decidable,
+                    origin,
+                    what: "whether the mass matrix is regular could not be decided".into(),
+                    evidence: why,
+                    way_out: "write the Lagrangian without roots of negative numbers and divisions by zero"
+                        .into(),
+                });
+            }
         }
-    };
-    let rows = graph.matrix_in_field(matrix, |seed| FieldPoint::random(9_000 + seed));
-    let echelon = rows.ok().map(Echelon::of).filter(|echelon| echelon.rank() == rank);
-    let kernel = echelon.and_then(|echelon| echelon.kernel_vector(size));
-    let hidden = matrix
-        .iter()
-        .flatten()
-        .find(|entry| !graph.is_literal_zero(**entry) && graph.zero_test(**entry).is_zero());
-    let evidence = match (kernel, hidden) {
-        (Some(vector), _) => evidence(&vector),
-        (None, Some(entry)) => format!("{} is 0", shown(graph, *entry)),
-        (None, None) => String::new(),
+    }
+    let size = matrix.len();
+    let (part, restricted, rank) = found.iter().find(|(_, _, rank)| *rank < size)?;
+    let is_everywhere = found.iter().all(|(_, _, rank)| *rank < size);
+    let (place, way_out) = if is_everywhere {
+        (String::new(), "give that motion a kinetic energy in the Lagrangian, or constrain it")
+    } else {
+        (place_of(model, manifold, part), ONE_PART)
     };
     Some(Violation {
         law: Law::Regularity,
         origin,
-        what: format!("{what} {rank} of {size}"),
-        evidence,
-        way_out: "give that motion a kinetic energy in the Lagrangian, or constrain it".into(),
+        what: format!("{what} {rank} of {size}{place}"),
+        evidence: without_inertia(&model.graph, restricted, *rank, evidence),
+        way_out: way_out.into(),
     })
+}
+
+/// A motion that a singular matrix gives no inertia, in words, or an entry that is 0 in disguise.
+fn without_inertia(
+    graph: &Graph,
+    matrix: &Matrix,
+    rank: usize,
+    evidence: impl Fn(&[Residue]) -> String,
+) -> String {
+    let rows = graph.matrix_in_field(matrix, |seed| FieldPoint::random(9_000 + seed));
+    let echelon = rows.ok().map(Echelon::of).filter(|echelon| echelon.rank() == rank);
+    if let Some(vector) = echelon.and_then(|echelon| echelon.kernel_vector(matrix.len())) {
+        return evidence(&vector);
+    }
+    let is_hidden = |entry: &&ExprId| !graph.is_literal_zero(**entry) && graph.zero_test(**entry).is_zero();
+    let hidden = matrix.iter().flatten().find(is_hidden);
+    hidden.map_or_else(String::new, |entry| format!("{} is 0", shown(graph, *entry)))
 }
 
 /// Where the mass matrix of a regular system is singular all the same, as far as short

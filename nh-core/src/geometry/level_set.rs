@@ -67,39 +67,61 @@ impl Manifold {
             (Ease::Linear, &angles),
         ];
         ways.extend(further);
-        let mut found = NearManifold { manifold: base.clone(), unsolved: (0..functions.len()).collect() };
         let moving = [coordinates, &base.chart].concat();
-        let start = spent();
+        let search = Search { functions, parameters, moving: &moving, ways: &ways, start: spent() };
+        let mut found = search.near(graph, base.alone());
+        found.manifold.others.extend(base.others.iter().cloned());
+        found.manifold.complete_others(|start| {
+            let part = search.near(graph, start.alone());
+            part.unsolved.is_empty().then_some(part.manifold)
+        });
+        found.manifold.note_roots_of(graph, functions);
+        found
+    }
+}
+
+/// What functions are solved for, and by which ways.
+struct Search<'a> {
+    functions: &'a [ExprId],
+    parameters: &'a [SymbolId],
+    moving: &'a [SymbolId],
+    ways: &'a [(Ease, &'a [SymbolId])],
+    start: u64,
+}
+
+impl Search<'_> {
+    /// The points of a manifold where as many of the functions vanish as could be solved.
+    fn near(&self, graph: &mut Graph, manifold: Manifold) -> NearManifold {
+        let mut found = NearManifold { manifold, unsolved: (0..self.functions.len()).collect() };
         while !found.unsolved.is_empty() {
-            let left = SEARCH.saturating_sub(spent() - start);
-            let step = attempt(left, || {
-                let mut manifold = found.manifold.clone();
-                let restricted: Vec<(usize, ExprId)> = found
-                    .unsolved
-                    .iter()
-                    .map(|index| (*index, manifold.restrict(graph, functions[*index])))
-                    .collect();
-                let holds =
-                    restricted.iter().find(|(_, function)| graph.zero_test(*function) == Verdict::Zero);
-                let solved = holds.map(|(index, _)| *index).or_else(|| {
-                    ways.iter().find_map(|(ease, unknowns)| {
-                        let solved = restricted.iter().find(|(_, function)| {
-                            let is_meant = |graph: &mut Graph, solution| {
-                                is_meant(graph, *function, solution, parameters)
-                            };
-                            manifold.solve(graph, *function, (unknowns, &moving), *ease, &is_meant)
-                        });
-                        solved.map(|(index, _)| *index)
-                    })
-                });
-                solved.map(|index| (index, manifold))
-            });
-            let Some(Some((solved, manifold))) = step else { break };
+            let left = SEARCH.saturating_sub(spent() - self.start);
+            let Some(Some((solved, manifold))) = attempt(left, || self.step(graph, &found)) else { break };
             found.manifold = manifold;
             found.unsolved.retain(|index| *index != solved);
         }
-        found.manifold.note_roots_of(graph, functions);
         found
+    }
+
+    /// One function more that vanishes, by its position.
+    fn step(&self, graph: &mut Graph, found: &NearManifold) -> Option<(usize, Manifold)> {
+        let mut manifold = found.manifold.clone();
+        let restricted: Vec<(usize, ExprId)> = found
+            .unsolved
+            .iter()
+            .map(|index| (*index, manifold.restrict(graph, self.functions[*index])))
+            .collect();
+        let holds = restricted.iter().find(|(_, function)| graph.zero_test(*function) == Verdict::Zero);
+        let solved = holds.map(|(index, _)| *index).or_else(|| {
+            self.ways.iter().find_map(|(ease, unknowns)| {
+                let solved = restricted.iter().find(|(_, function)| {
+                    let is_meant =
+                        |graph: &mut Graph, solution| is_meant(graph, *function, solution, self.parameters);
+                    manifold.solve(graph, *function, (unknowns, self.moving), *ease, &is_meant)
+                });
+                solved.map(|(index, _)| *index)
+            })
+        });
+        solved.map(|index| (index, manifold))
     }
 }
 

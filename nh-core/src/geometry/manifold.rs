@@ -23,6 +23,8 @@ pub struct Manifold {
     /// A function that was solved by the root of a square, which is a function on one part of the manifold and another one on
     /// the other, and the symbols whose images may be others there.
     by_part: Option<(ExprId, Vec<SymbolId>)>,
+    /// The other parts that were found, each as if it were the only one.
+    pub(super) others: Vec<Manifold>,
 }
 
 impl Manifold {
@@ -49,30 +51,33 @@ impl Manifold {
         }
         // a sphere takes all its coordinates; where others restrict these as well they come first
         let orders = [[Ease::Sphere, Ease::Linear, Ease::Root], [Ease::Linear, Ease::Sphere, Ease::Root]];
-        let solve = |graph: &mut Graph, moving: &[SymbolId]| {
-            let first = Self::solved_in_order(graph, functions, (unknowns, moving), orders[0]);
+        let solve = |graph: &mut Graph, start: &Self, moving: &[SymbolId]| {
+            let first = start.solved_in_order(graph, functions, (unknowns, moving), orders[0]);
             first.or_else(|index| {
-                Self::solved_in_order(graph, functions, (unknowns, moving), orders[1]).map_err(|_| index)
+                start.solved_in_order(graph, functions, (unknowns, moving), orders[1]).map_err(|_| index)
             })
         };
-        let solved = solve(graph, unknowns).or_else(|index| {
-            let part = solve(graph, &[])?;
-            Ok(Self { in_parts: Some(functions[index]), ..part })
-        });
-        solved.map(|mut manifold| {
-            manifold.note_roots_of(graph, functions);
-            manifold
-        })
+        let solved_from = |graph: &mut Graph, start: &Self| {
+            solve(graph, start, unknowns).or_else(|index| {
+                let part = solve(graph, start, &[]);
+                part.map(|part| Self { in_parts: Some(functions[index]), ..part })
+            })
+        };
+        let mut manifold = solved_from(graph, &Self::default())?;
+        manifold.complete_others(|start| solved_from(graph, start).ok());
+        manifold.note_roots_of(graph, functions);
+        Ok(manifold)
     }
 
     /// The same, by the easiest ways first, so that no root gets into what could be solved without.
     fn solved_in_order(
+        &self,
         graph: &mut Graph,
         functions: &[ExprId],
         unknowns: (&[SymbolId], &[SymbolId]),
         order: [Ease; 3],
     ) -> Result<Self, usize> {
-        let mut manifold = Self::default();
+        let mut manifold = self.clone();
         let mut open: Vec<usize> = (0..functions.len()).collect();
         while !open.is_empty() {
             let restricted: Vec<(usize, ExprId)> =
@@ -93,20 +98,36 @@ impl Manifold {
     /// The intersection with a manifold that is solved for other symbols than this one, as functions
     /// of all the rest.
     pub fn extend(&mut self, graph: &mut Graph, other: &Self) {
-        for (symbol, image) in &other.images {
-            let image = self.restrict(graph, *image);
-            self.insert(graph, *symbol, image);
+        let mut both = Self::default();
+        for part in self.parts() {
+            for of_other in other.parts() {
+                both.add_parts(&part.on(graph, of_other));
+            }
         }
-        self.chart.extend(&other.chart);
-        self.in_parts = self.in_parts.or(other.in_parts);
-        if let Some((function, _)) = self.by_part.as_ref().or(other.by_part.as_ref()) {
-            let of_self = self.by_part.iter().flat_map(|(_, symbols)| symbols);
+        let mut parts = both.others.into_iter();
+        if let Some(first) = parts.next() {
+            *self = Self { others: parts.collect(), ..first };
+        }
+    }
+
+    /// The intersection of one part with one part.
+    fn on(&self, graph: &mut Graph, other: &Self) -> Self {
+        let mut both = self.alone();
+        for (symbol, image) in &other.images {
+            let image = both.restrict(graph, *image);
+            both.insert(graph, *symbol, image);
+        }
+        both.chart.extend(&other.chart);
+        both.in_parts = both.in_parts.or(other.in_parts);
+        if let Some((function, _)) = both.by_part.as_ref().or(other.by_part.as_ref()) {
+            let of_self = both.by_part.iter().flat_map(|(_, symbols)| symbols);
             let all = other.images.iter().map(|(symbol, _)| symbol);
-            self.by_part = Some((*function, of_self.chain(all).copied().collect()));
+            both.by_part = Some((*function, of_self.chain(all).copied().collect()));
         }
         let radicands: Vec<ExprId> =
-            other.radicands.iter().map(|radicand| self.restrict(graph, *radicand)).collect();
-        self.radicands.extend(radicands);
+            other.radicands.iter().map(|radicand| both.restrict(graph, *radicand)).collect();
+        both.radicands.extend(radicands);
+        both
     }
 
     /// The symbols that are functions of the others, with these.
@@ -221,7 +242,7 @@ impl Manifold {
         values.iter().all(|(_, value)| value.is_finite()).then_some(values)
     }
 
-    fn insert(&mut self, graph: &mut Graph, symbol: SymbolId, image: ExprId) {
+    pub(super) fn insert(&mut self, graph: &mut Graph, symbol: SymbolId, image: ExprId) {
         let mut step = Substitution::new([(symbol, image)]);
         for (_, earlier) in &mut self.images {
             *earlier = step.apply(graph, *earlier);
@@ -233,7 +254,7 @@ impl Manifold {
     }
 
     /// Whether no image that has changed since `earlier` divides by what is 0 on the manifold.
-    fn is_defined(&self, graph: &Graph, earlier: &[(SymbolId, ExprId)]) -> bool {
+    pub(super) fn is_defined(&self, graph: &Graph, earlier: &[(SymbolId, ExprId)]) -> bool {
         let changed = self.images.iter().zip(earlier).filter(|(now, before)| now != before);
         let images: Vec<ExprId> = changed.map(|((_, image), _)| *image).collect();
         let divisors = graph.reachable(&images).into_iter().flat_map(|id| match graph.node(id) {
@@ -264,11 +285,11 @@ impl Manifold {
         let mut root_of = None;
         let mut by = |solution: fn(&mut Graph, ExprId, SymbolId) -> Option<Solved>| {
             let solved = present.iter().rev().find_map(|symbol| {
-                let Solved { image, coefficients, radicand } = solution(graph, function, *symbol)?;
+                let Solved { image, coefficients, other } = solution(graph, function, *symbol)?;
                 let is_whole =
                     is_meant(graph, (*symbol, image)) && !vanish_together(graph, &coefficients, moving);
                 is_whole.then(|| {
-                    root_of = radicand;
+                    root_of = other;
                     (*symbol, image)
                 })
             });
@@ -288,19 +309,17 @@ impl Manifold {
             let values: Vec<ExprId> = images.iter().map(|(_, image)| *image).collect();
             self.chart.extend(graph.symbols_in(&values));
         }
-        if let Some(radicand) = root_of {
+        if let Some((radicand, other)) = root_of {
             self.radicands.push(radicand);
             // both roots of a square are functions, and each has a part of the manifold
-            if self.by_part.is_none() && graph.is_square_everywhere(radicand) {
-                self.by_part = Some((function, Vec::new()));
+            if graph.is_square_everywhere(radicand) {
+                let by_part = self.by_part.take();
+                self.by_part = by_part.or_else(|| Some((function, Vec::new())));
+                self.begin_another(graph, &before, (images[0].0, other));
             }
         }
-        if let Some((_, others)) = &mut self.by_part {
-            let solved: Vec<SymbolId> = images.iter().map(|(symbol, _)| *symbol).collect();
-            let moved = self.images.iter().filter(|(_, image)| graph.depends_on(*image, &solved));
-            others.extend(moved.map(|(symbol, _)| *symbol));
-            others.extend(solved);
-        }
+        let solved: Vec<SymbolId> = images.iter().map(|(symbol, _)| *symbol).collect();
+        self.note_solved(graph, &solved);
         for (symbol, image) in &images {
             self.insert(graph, *symbol, *image);
         }
@@ -309,6 +328,14 @@ impl Manifold {
             *self = before;
         }
         is_defined
+    }
+
+    /// Takes note of what may be other functions on another part, before these symbols get their images.
+    pub(super) fn note_solved(&mut self, graph: &Graph, solved: &[SymbolId]) {
+        if let Some((_, others)) = &mut self.by_part {
+            let moved = self.images.iter().filter(|(_, image)| graph.depends_on(*image, solved));
+            others.extend(moved.map(|(symbol, _)| *symbol).chain(solved.iter().copied()));
+        }
     }
 
     /// Rotation matrices by Cayley's parameters, if that is where the functions vanish.

@@ -18,6 +18,7 @@ mod lifted_points;
 mod manifold;
 mod momentum_level;
 mod orbits;
+mod parts;
 mod pivot;
 mod rank;
 mod solutions;

@@ -20,15 +20,15 @@ pub(super) enum Ease {
 pub(super) struct Solved {
     pub(super) image: ExprId,
     pub(super) coefficients: Vec<ExprId>,
-    /// What a root of even order is taken of, whose other sign is another solution.
-    pub(super) radicand: Option<ExprId>,
+    /// What a root of even order is taken of, and the solution with the other sign of that root.
+    pub(super) other: Option<(ExprId, ExprId)>,
 }
 
 /// The root of the symbol, or of a sum in which it is a term with a number for its coefficient.
 pub(super) fn difference(graph: &mut Graph, function: ExprId, symbol: SymbolId) -> Option<Solved> {
     let coefficients = Vec::new();
     if graph.as_symbol(function) == Some(symbol) {
-        return Some(Solved { image: graph.zero(), coefficients, radicand: None });
+        return Some(Solved { image: graph.zero(), coefficients, other: None });
     }
     let Node::Sum { terms, .. } = graph.node(function) else { return None };
     let is_term = |(term, _): &&(ExprId, Rational)| graph.as_symbol(*term) == Some(symbol);
@@ -38,7 +38,7 @@ pub(super) fn difference(graph: &mut Graph, function: ExprId, symbol: SymbolId) 
     (!graph.depends_on(rest, &[symbol])).then(|| Solved {
         image: graph.scale(by, rest),
         coefficients,
-        radicand: None,
+        other: None,
     })
 }
 
@@ -49,7 +49,7 @@ pub(super) fn quotient(graph: &mut Graph, function: ExprId, symbol: SymbolId) ->
         return None;
     }
     let image = graph.formula(-(form.rest / form.coefficients[0]));
-    Some(Solved { image, coefficients: vec![form.coefficients[0], form.rest], radicand: None })
+    Some(Solved { image, coefficients: vec![form.coefficients[0], form.rest], other: None })
 }
 
 /// `a (x_1² + … + x_m² − r²)`, m ≥ 2 with rational r: the stereographic projection.
@@ -123,7 +123,8 @@ pub(super) fn root(graph: &mut Graph, function: ExprId, symbol: SymbolId) -> Opt
     let discriminant = graph.linear_combination(&[(1.into(), bb), ((-2).into(), ac)]);
     let (radical, minus_b) = (graph.sqrt(discriminant), graph.formula(-b));
     let image = graph.formula((minus_b + radical) / curvature);
-    Some(Solved { image, coefficients: vec![curvature, b, c], radicand: Some(discriminant) })
+    let other = graph.formula((minus_b - radical) / curvature);
+    Some(Solved { image, coefficients: vec![curvature, b, c], other: Some((discriminant, other)) })
 }
 
 /// The root of `a s^n + c`: there `s φ' = n (φ − c)`.
@@ -144,8 +145,8 @@ fn pure_root(graph: &mut Graph, function: ExprId, slope: ExprId, symbol: SymbolI
     let coefficient = graph.simplify(coefficient);
     let radicand = graph.formula(-(rest / coefficient));
     let image = graph.pow(radicand, Rational::new(1, degree));
-    let radicand = (degree % 2 == 0).then_some(radicand);
-    Some(Solved { image, coefficients: vec![coefficient, rest], radicand })
+    let other = (degree % 2 == 0).then(|| (radicand, graph.formula(-image)));
+    Some(Solved { image, coefficients: vec![coefficient, rest], other })
 }
 
 /// The entries, row by row, of the rotation with Cayley parameters (a, b, c).

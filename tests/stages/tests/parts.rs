@@ -158,3 +158,38 @@ fn forces_of_other_branches_are_seen() {
     let report = report.system().expect("well posed").report;
     assert!(!report.contains("the momentum of x") && !report.contains("the energy"), "{report}");
 }
+
+/// What is well-posed where one sign of a root is taken and ill-posed where the other is.
+#[test]
+fn each_part_is_well_posed() {
+    let on_slope = "base { x, y } lagrangian { m/2*(2 + x)*(der(x)^2 + der(y)^2) }";
+    for (machine, constraints, place) in [
+        (on_slope, "holonomic { c: x^2 = 4; }", "where x = -2"),
+        (on_slope, "holonomic { c: x^4 = 16; }", "where x = -16^(1/4)"),
+        (on_slope, "holonomic { c: x^2 = (2 + y^2)^2; }", ""),
+        (
+            SPACE,
+            "holonomic { c: x^2 = 4; d: (x + 2)*(y + z) = 0; }",
+            "`d` follows from the constraints before it",
+        ),
+        (SPACE, "holonomic { c: x^2 = w^2; } constraints { d: (x - w)*(der(y) - der(z)) = 0; }", "x = w"),
+        (
+            SPACE,
+            "constraints { c: der(x)^2 = 4; d: (der(x) + 2)*(der(y) - der(z)) = 0; }",
+            "`d` follows from the constraints before it where x_dot = -2",
+        ),
+        (
+            SPACE,
+            "holonomic { c: x^2 = 4; d: y^2 = 9; } constraints { e: (x + y - 1)*der(z) = 0; }",
+            "where x = -2 and y = 3",
+        ),
+    ] {
+        let refusals = refusals(&format!("{machine} {constraints}"));
+        if place.is_empty() {
+            assert!(refusals.is_empty(), "{constraints}: {refusals:?}");
+        } else {
+            assert_eq!(refusals.len(), 1, "{constraints}: {refusals:?}");
+            assert!(refusals[0].contains(place), "{constraints}: {refusals:?}");
+        }
+    }
+}
