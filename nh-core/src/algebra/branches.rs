@@ -106,7 +106,7 @@ impl Graph {
 }
 
 /// Numbers of one or two digits in many decades and of both signs; at every other point all in one decade.
-fn wide(attempt: u64, index: usize) -> f64 {
+pub(super) fn wide(attempt: u64, index: usize) -> f64 {
     let word = Residue::mixed(attempt, 5_000 + index as u64).word();
     let common = Residue::mixed(attempt, 4_999).word();
     let decade = (if attempt.is_multiple_of(2) { common } else { word >> 32 }) % DECADES;

@@ -263,6 +263,38 @@ impl FieldPass<'_> {
         Ok(product)
     }
 
+    /// An exponential, of whose value the logarithm is known then.
+    pub(super) fn noted_exponential(&mut self, x: ExprId) -> Value {
+        let value = self.exponential(x)?;
+        self.logarithms.insert(value.up_to_sign().0.word(), self.known[&x]);
+        Ok(value)
+    }
+
+    /// The logarithm of the magnitude: of a product it is a sum, and of an exponential its argument.
+    pub(super) fn logarithm(&self, x: ExprId) -> Value {
+        let of = |value: Residue| {
+            let magnitude = value.up_to_sign().0;
+            if magnitude == Residue::ONE.up_to_sign().0 {
+                return Residue::ZERO;
+            }
+            let known = self.logarithms.get(&magnitude.word()).copied();
+            known.unwrap_or_else(|| self.of_kernel(Function::Ln, magnitude))
+        };
+        let Node::Product { coefficient, factors } = self.graph.node(x) else {
+            return Ok(of(self.known[&x]));
+        };
+        let magnitude = coefficient.abs();
+        let mut sum = if magnitude.is_one() {
+            Residue::ZERO
+        } else {
+            of(Residue::of(&magnitude).ok_or(NoValue::Here)?)
+        };
+        for (base, exponent) in factors.iter() {
+            sum = sum + Residue::of(exponent).ok_or(NoValue::Here)? * of(self.known[base]);
+        }
+        Ok(sum)
+    }
+
     /// `coefficient · value` as an integer multiple of `value / division`, or of a value of its own where the
     /// coefficient is too long for that.
     fn multiple(&self, value: Residue, coefficient: &Rational) -> Result<(Residue, i64), NoValue> {

@@ -98,6 +98,8 @@ pub(crate) struct FieldPass<'a> {
     pub(super) units: FxHashMap<u64, (Residue, Residue)>,
     /// Cosine and sine of the angles that have occurred.
     pub(super) circles: IdMap<ExprId, (Residue, Residue)>,
+    /// The arguments of the exponentials that have occurred, by the magnitudes of their values.
+    pub(super) logarithms: FxHashMap<u64, Residue>,
     /// Whether functions are those of the values of their arguments alone.
     by_value: bool,
     /// Whether sines of arcs are algebraic, as exponentials of logarithms are, and logarithms of products sums.
@@ -128,8 +130,9 @@ pub(super) enum Stream {
 impl<'a> FieldPass<'a> {
     /// At a point; `division` is the [`Graph::angle_division`] of all that will be evaluated.
     pub(crate) fn new(graph: &'a Graph, point: FieldPoint, division: i64) -> Self {
-        let (known, open, units, circles) = Default::default();
-        Self { graph, point, division, known, open, units, circles, by_value: false, relates_arcs: true }
+        let (known, open, units, circles, logarithms) = Default::default();
+        let (by_value, relates_arcs) = (false, true);
+        Self { graph, point, division, known, open, units, circles, logarithms, by_value, relates_arcs }
     }
 
     /// The same with arcs and logarithms as kernels of their values: what is written in other steps has these.
@@ -304,10 +307,10 @@ impl<'a> FieldPass<'a> {
                         let (cos, sin) = self.circle(*x)?;
                         Ok(if *function == Function::Sin { sin } else { cos })
                     }
-                    Function::Exp if !self.by_value => self.exponential(*x),
+                    Function::Exp if !self.by_value => self.noted_exponential(*x),
                     Function::Ln if self.relates_arcs => self.logarithm(*x),
                     Function::Sinh | Function::Cosh | Function::Tanh if !self.by_value => {
-                        hyperbolic(*function, self.exponential(*x)?)
+                        hyperbolic(*function, self.noted_exponential(*x)?)
                     }
                     _ => self.function_of_value(*function, value),
                 }
@@ -317,24 +320,6 @@ impl<'a> FieldPass<'a> {
                 Ok(self.function_of_values(*function, x, y))
             }
         }
-    }
-
-    /// The logarithm of the magnitude: of a product it is a sum.
-    fn logarithm(&self, x: ExprId) -> Value {
-        let of = |value: Residue| self.of_kernel(Function::Ln, value.up_to_sign().0);
-        let Node::Product { coefficient, factors } = self.graph.node(x) else {
-            return Ok(of(self.known[&x]));
-        };
-        let magnitude = coefficient.abs();
-        let mut sum = if magnitude.is_one() {
-            Residue::ZERO
-        } else {
-            of(Residue::of(&magnitude).ok_or(NoValue::Here)?)
-        };
-        for (base, exponent) in factors.iter() {
-            sum = sum + Residue::of(exponent).ok_or(NoValue::Here)? * of(self.known[base]);
-        }
-        Ok(sum)
     }
 
     /// The value of a symbol.
@@ -462,7 +447,7 @@ impl<'a> FieldPass<'a> {
         if is_negative { -value } else { value }
     }
 
-    fn of_kernel(&self, function: Function, x: Residue) -> Residue {
+    pub(super) fn of_kernel(&self, function: Function, x: Residue) -> Residue {
         self.random(Stream::Kernel, Residue::mixed(function as u64, x.word()).word())
     }
 }

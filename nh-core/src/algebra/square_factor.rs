@@ -1,5 +1,6 @@
 //! Squares in disguise: something whose square divides an expression.
 
+use super::branches::wide;
 use super::graph::Graph;
 use super::node::{Function, Node};
 use super::number::Rational;
@@ -51,22 +52,31 @@ impl Graph {
         })
     }
 
-    /// Whether the expression is certainly positive at one of some points, and negative at another.
+    /// Whether the expression is certainly positive at one of some points, and negative at another: numbers of order one
+    /// for the `fixed` symbols, and for the others of order one and in many decades.
     #[must_use]
-    pub fn has_both_signs(&self, expression: ExprId) -> bool {
+    pub fn has_both_signs(&self, expression: ExprId, fixed: &[SymbolId]) -> bool {
         let symbols = self.symbols_in(&[expression]);
+        let mut evaluator = self.evaluator(&[expression]);
         let (mut positive, mut negative) = (false, false);
-        for attempt in 0..POINTS {
+        for attempt in 0..2 * POINTS {
             let value = |symbol| {
                 let index = symbols.iter().position(|known| *known == symbol).unwrap_or(0);
-                sample(attempt, index)
+                if attempt < POINTS || fixed.contains(&symbol) {
+                    sample(attempt, index)
+                } else {
+                    wide(attempt, index)
+                }
             };
-            let found = self.evaluate(&[expression], value)[0];
+            let found = evaluator.at(value)[0];
             if found.is_certainly_nonzero() {
                 positive |= found.value > 0.0;
                 negative |= found.value < 0.0;
             }
+            if positive && negative {
+                return true;
+            }
         }
-        positive && negative
+        false
     }
 }

@@ -1,5 +1,6 @@
 //! Where a declaration has no value: divisors that may vanish, roots and logarithms of what may be negative.
 
+use super::assumptions::on_the_base;
 use super::declared::differentiated;
 use crate::algebra::{Demand, Facts, Function, Function2, Graph, Node, Rational};
 use crate::id::{ExprId, SymbolId};
@@ -22,10 +23,23 @@ pub enum Condition {
     NotBothZero(ExprId, ExprId),
 }
 
+/// Of more conditions it is not asked whether they hold everywhere all the same.
+const ASKED: usize = 8;
+
 /// The conditions under which anchor, brackets, Lagrangian, constraints and forces have values, as far
 /// as these do not hold everywhere by the facts. Those of parameters alone are not among them.
 #[must_use]
-pub fn domain(model: &Model, facts: &Facts) -> Vec<Condition> {
+pub fn domain(model: &mut Model, facts: &Facts) -> Vec<Condition> {
+    let open = not_by_ranges(model, facts);
+    if open.len() > ASKED {
+        return open;
+    }
+    let holding = on_the_base(model);
+    open.into_iter().filter(|condition| !is_proved(&mut model.graph, *condition, &holding)).collect()
+}
+
+/// Those that ranges alone do not prove.
+fn not_by_ranges(model: &Model, facts: &Facts) -> Vec<Condition> {
     let graph = &model.graph;
     let parameters: Vec<SymbolId> = model.parameters.iter().map(|parameter| parameter.symbol).collect();
     let varies = |e: ExprId| graph.symbols_in(&[e]).iter().any(|symbol| !parameters.contains(symbol));
@@ -82,6 +96,29 @@ pub(super) fn conditions(graph: &Graph, id: ExprId, derivatives: u32) -> Vec<(Ex
     }
 }
 
+/// Whether the contrary contradicts what holds at every point of the base.
+fn is_proved(graph: &mut Graph, condition: Condition, holding: &[(ExprId, Demand)]) -> bool {
+    let one = graph.one();
+    let ways: Vec<Vec<(ExprId, Demand)>> = match condition {
+        Condition::Nonzero(e) => vec![vec![(e, Demand::Zero)]],
+        Condition::Positive(e) => vec![vec![(graph.formula(-e), Demand::NotNegative)]],
+        Condition::NotNegative(e) => vec![vec![(graph.formula(-e), Demand::Positive)]],
+        Condition::InUnitInterval(e) | Condition::InsideUnitInterval(e) => {
+            let demand = match condition {
+                Condition::InUnitInterval(_) => Demand::Positive,
+                _ => Demand::NotNegative,
+            };
+            [graph.formula(e - one), graph.formula(-e - one)].map(|e| vec![(e, demand)]).to_vec()
+        }
+        Condition::NotBothZero(y, x) => vec![vec![(y, Demand::Zero), (x, Demand::Zero)]],
+    };
+    ways.into_iter().all(|contrary| {
+        let about: Vec<ExprId> = contrary.iter().map(|(id, _)| *id).collect();
+        let demands = [graph.related_demands(holding, &about), contrary].concat();
+        graph.contradiction(&demands).is_some()
+    })
+}
+
 fn holds(graph: &Graph, condition: Condition, facts: &Facts) -> bool {
     match condition {
         Condition::Nonzero(e) => graph.vanishes_nowhere(e, facts),
@@ -95,9 +132,6 @@ fn holds(graph: &Graph, condition: Condition, facts: &Facts) -> bool {
             let range = graph.range(e, facts);
             range.low > -1.0 && range.high < 1.0
         }
-        Condition::NotBothZero(y, x) => {
-            [y, x].into_iter().any(|part| graph.vanishes_nowhere(part, facts))
-                || graph.contradiction(&[(y, Demand::Zero), (x, Demand::Zero)]).is_some()
-        }
+        Condition::NotBothZero(y, x) => [y, x].into_iter().any(|part| graph.vanishes_nowhere(part, facts)),
     }
 }

@@ -78,7 +78,7 @@ impl Edge {
                         });
                     }
                 }
-                Node::Apply2(Function2::Atan2, y, x) if is_step(graph, [y, x], facts) => {
+                Node::Apply2(Function2::Atan2, y, x) if is_step(graph, [y, x], parameters, facts) => {
                     return Some(Self {
                         uses: format!("`{}`", shown(graph, id)),
                         evidence:
@@ -153,14 +153,14 @@ impl Edge {
 }
 
 /// Whether the point (x, y) moves on a line through the origin, to both sides of it.
-fn is_step(graph: &mut Graph, [y, x]: [ExprId; 2], facts: &Facts) -> bool {
+fn is_step(graph: &mut Graph, [y, x]: [ExprId; 2], parameters: &[SymbolId], facts: &Facts) -> bool {
     let symbols = graph.symbols_in(&[y, x]);
     let turns = symbols.into_iter().any(|symbol| {
         let [dy, dx] = [y, x].map(|part| graph.partial(part, symbol));
         let turn = graph.formula(x * dy - y * dx);
         !graph.zero_test(turn).is_zero()
     });
-    !turns && [y, x].into_iter().any(|part| changes_sign(graph, part, facts))
+    !turns && [y, x].into_iter().any(|part| changes_sign(graph, part, parameters, facts))
 }
 
 /// Something that changes sign, and the even power of it that the expression contains as a factor.
@@ -176,18 +176,18 @@ fn squared(
         let found = factors.iter().find(|(inner, power)| {
             let is_even = power.is_integer() && !power.has_odd_numerator();
             let varies = graph.symbols_in(&[*inner]).iter().any(|symbol| !parameters.contains(symbol));
-            is_even && !power.is_negative() && varies && changes_sign(graph, *inner, facts)
+            is_even && !power.is_negative() && varies && changes_sign(graph, *inner, parameters, facts)
         });
         if let Some((inner, power)) = found {
             return Some((*inner, power.clone()));
         }
     }
     let root = graph.square_factor(simple, parameters)?;
-    changes_sign(graph, root, facts).then_some((root, Rational::from(2)))
+    changes_sign(graph, root, parameters, facts).then_some((root, Rational::from(2)))
 }
 
 /// Whether both signs were seen at some points, within the facts.
-fn changes_sign(graph: &Graph, expression: ExprId, facts: &Facts) -> bool {
+fn changes_sign(graph: &Graph, expression: ExprId, parameters: &[SymbolId], facts: &Facts) -> bool {
     let range = graph.range(expression, facts);
-    !(range.low >= 0.0 || range.high <= 0.0) && graph.has_both_signs(expression)
+    !(range.low >= 0.0 || range.high <= 0.0) && graph.has_both_signs(expression, parameters)
 }

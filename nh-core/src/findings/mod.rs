@@ -7,7 +7,8 @@ mod real_states;
 mod reduced_form;
 mod velocities_to_name;
 
-use crate::check::{not_conservative, singular_where};
+use crate::algebra::Demand;
+use crate::check::{Condition, domain, not_conservative, on_the_base, singular_where};
 use crate::compile::{Derived, Proved};
 use crate::geometry::suggested_velocities::Suggested;
 use crate::id::{ExprId, SymbolId};
@@ -23,6 +24,8 @@ pub(crate) use reduced_form::{Connection, Quantities, ReducedForm, Split};
 pub(crate) struct Findings {
     /// Whether it is not known that any real state is as declared.
     pub(crate) no_state_is_known: bool,
+    /// Where alone the equations have a value.
+    pub(crate) domain: Vec<Condition>,
     /// Whether D is closed under the bracket; `None` where its sections are not known.
     pub(crate) closure: Option<Closure>,
     /// Factors of the determinant of the mass matrix that vanish in some states, or for some parameters.
@@ -49,6 +52,7 @@ impl Findings {
     /// Finds them.
     pub(crate) fn of(proved: &mut Proved, derived: &Derived<'_>) -> Self {
         let no_state_is_known = real_states::undecided(proved);
+        let domain = domain(&mut proved.model, &proved.facts);
         let closure = Closure::of(proved, derived);
         let singular_mass = singular_mass(proved, derived);
         let reduced = ReducedForm::of(proved, derived);
@@ -61,6 +65,7 @@ impl Findings {
         let suggested = velocities_to_name::suggestion(proved, derived);
         Self {
             no_state_is_known,
+            domain,
             closure,
             singular_mass,
             reduced,
@@ -78,7 +83,22 @@ impl Findings {
 fn singular_mass(proved: &mut Proved, derived: &Derived<'_>) -> Vec<ExprId> {
     let Derived::Adapted { equations, .. } = derived else { return Vec::new() };
     let parameters = parameters(proved);
-    singular_where(&mut proved.model.graph, &equations.mass, &parameters, &proved.facts)
+    let found = singular_where(&mut proved.model.graph, &equations.mass, &parameters, &proved.facts);
+    if found.is_empty() {
+        return found;
+    }
+    let holding = on_the_base(&mut proved.model);
+    let graph = &proved.model.graph;
+    let may_vanish = |factor: &ExprId| {
+        // most do, and it is seen soon
+        if graph.has_both_signs(*factor, &parameters) {
+            return true;
+        }
+        let mut demands = graph.related_demands(&holding, &[*factor]);
+        demands.push((*factor, Demand::Zero));
+        graph.contradiction(&demands).is_none()
+    };
+    found.into_iter().filter(may_vanish).collect()
 }
 
 /// ξ for which E_L − ξ^α p_α is conserved, where one is found (mathematics section 4).

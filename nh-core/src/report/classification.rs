@@ -4,7 +4,7 @@ use super::suggestion_line::validity;
 use super::{combination, section_names, shown, suggestion};
 use crate::algebra::Graph;
 use crate::check::evidence::{counted, listed, places};
-use crate::check::{BrokenLaws, Condition, Positions, domain, points_shown, undecided};
+use crate::check::{BrokenLaws, Condition, Positions, points_shown, undecided};
 use crate::compile::{Derived, Proved};
 use crate::findings::{Closure, Findings};
 use crate::geometry::independent_velocities::Choice;
@@ -55,8 +55,8 @@ pub(super) fn lines(
     if findings.no_state_is_known {
         lines.push(no_state_is_known(proved));
     }
-    for condition in domain(model, facts) {
-        lines.push(format!("the equations have a value only where {}", stated(&model.graph, condition)));
+    for condition in &findings.domain {
+        lines.push(format!("the equations have a value only where {}", stated(&model.graph, *condition)));
     }
     for divisor in &motion.divisors {
         if model.graph.value_of(*divisor).is_none() {

@@ -172,7 +172,11 @@ fn each_part_is_well_posed() {
             "holonomic { c: x^2 = 4; d: (x + 2)*(y + z) = 0; }",
             "`d` follows from the constraints before it",
         ),
-        (SPACE, "holonomic { c: x^2 = w^2; } constraints { d: (x - w)*(der(y) - der(z)) = 0; }", "x = w"),
+        (
+            SPACE,
+            "holonomic { c: x^2 = w^2; } constraints { d: (x - w)*(der(y) - der(z)) = 0; }",
+            "where w = sqrt(x^2)",
+        ),
         (
             SPACE,
             "constraints { c: der(x)^2 = 4; d: (der(x) + 2)*(der(y) - der(z)) = 0; }",
@@ -191,5 +195,32 @@ fn each_part_is_well_posed() {
             assert_eq!(refusals.len(), 1, "{constraints}: {refusals:?}");
             assert!(refusals[0].contains(place), "{constraints}: {refusals:?}");
         }
+    }
+}
+
+/// Edges lie where they lie, not among numbers of order one.
+#[test]
+fn edges_far_from_order_one_are_seen() {
+    for edge in [
+        "sqrt((x + pi)^2)",
+        "sqrt(x^2 + 2*pi*x + pi^2)",
+        "sqrt((x + sqrt(2))^2)",
+        "sqrt((x + 1000)^2*(1 + y^2))",
+        "((x - 2e6)^2)^(3/2)",
+        "sqrt(x^2 + 1e-3*x + 25e-8)",
+        "sqrt((exp(x) - 0.001)^2)",
+        "sqrt((x + y - 50)^2)",
+    ] {
+        let found =
+            refusals(&format!("base {{ x, y }} lagrangian {{ m/2*(der(x)^2 + der(y)^2) - k*{edge} }}"));
+        assert_eq!(found.len(), 1, "{edge}: {found:?}");
+        assert!(found[0].contains("not smooth"), "{edge}: {found:?}");
+    }
+    for smooth in
+        ["sqrt((exp(x) + 0.001)^2)", "sqrt((x^2 + 1e-9)^2)", "((x + 1000)^4)^(1/2)", "sqrt(x + 1000)"]
+    {
+        let found =
+            refusals(&format!("base {{ x, y }} lagrangian {{ m/2*(der(x)^2 + der(y)^2) - k*{smooth} }}"));
+        assert!(found.is_empty(), "{smooth}: {found:?}");
     }
 }

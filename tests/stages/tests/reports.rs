@@ -339,6 +339,35 @@ fn equations_that_nothing_is_known_to_satisfy_are_said_to_be() {
     ]);
 }
 
+/// What holds everywhere is no condition, whatever it is written like.
+#[test]
+fn conditions_that_always_hold_are_not_said() {
+    let fields = "m: f64";
+    let machine = |rest: &str| format!("base {{ x, y }} lagrangian {{ m/2*(der(x)^2 + der(y)^2) - {rest} }}");
+    let only: &[&str] = &["have a value only where"];
+    for always in [
+        "x*ln(cosh(x)^2 - sinh(x)^2)",
+        "ln((1 + tanh(x))/(1 - tanh(x)))",
+        "ln(sqrt(1 + x^2) - x)",
+        "1/(sqrt(1 + x^2) - x)",
+        "asin(tanh(x))",
+        "sqrt(x^2 - x*y + y^2 + 1)",
+    ] {
+        check(&[(&machine(always), fields, &[], only)]);
+    }
+    for somewhere in ["asin(x)", "sqrt(y - 1)", "ln(1 - x^2)", "1/(exp(x) - 2)", "ln(tanh(x))"] {
+        check(&[(&machine(somewhere), fields, only, &[])]);
+    }
+    for mass in ["tanh(x) + 1", "sqrt(1 + x^2) - x", "exp(x) - x", "2 - sin(x) - cos(x)"] {
+        let machine = format!("base {{ x, y }} lagrangian {{ m/2*({mass})*(der(x)^2 + der(y)^2) }}");
+        check(&[(&machine, fields, &[], &["singular where"])]);
+    }
+    for mass in ["tanh(x) + 1/2", "sqrt(1 + x^2) - 2*x", "exp(x) - 3*x", "1 - sin(x) - cos(x)"] {
+        let machine = format!("base {{ x, y }} lagrangian {{ m/2*({mass})*(der(x)^2 + der(y)^2) }}");
+        check(&[(&machine, fields, &["mass matrix is singular where"], &[])]);
+    }
+}
+
 #[test]
 fn angles_say_where_they_are_none() {
     let particle =

@@ -125,12 +125,20 @@ struct LnOfPowers { m: f64, k: f64 }
 struct CoshLn { m: f64, k: f64 }
 #[nonholonomic(base { x } lagrangian { m/2*der(x)^2 - k*tan(2*atan(x)) } conserved { e = m/2*der(x)^2 + 2*k*x/(1-x^2); })]
 struct TanTwice { m: f64, k: f64 }
+#[nonholonomic(base { x, y } lagrangian { m/2*(der(x)^2+der(y)^2) - k*ln(exp(x)*exp(y)) } conserved { e = m/2*(der(x)^2+der(y)^2) + k*(x + y); })]
+struct LnOfExponentials { m: f64, k: f64 }
+#[nonholonomic(base { x } lagrangian { m/2*der(x)^2 - k*ln(exp(2*x)/exp(x - 1)) } conserved { e = m/2*der(x)^2 + k*x; })]
+struct LnOfQuotient { m: f64, k: f64 }
+#[nonholonomic(base { x } lagrangian { m/2*der(x)^2 - k*x*ln(cosh(x)^2 - sinh(x)^2) - k*ln(cosh(x) + sinh(x)) } conserved { e = m/2*der(x)^2 + k*x + 5; })]
+struct LnOfOne { m: f64, k: f64 }
+#[nonholonomic(base { x } lagrangian { m/2*der(x)^2 - k*x*ln((1 + tanh(x))/(1 - tanh(x))) } conserved { e = m/2*der(x)^2 + 2*k*x^2; })]
+struct LnOfTanh { m: f64, k: f64 }
 ";
 
 #[test]
 fn right_declarations_are_accepted() {
     let found = declarations(RIGHT);
-    assert_eq!(found.len(), 52);
+    assert_eq!(found.len(), 56);
     let mut refused = Vec::new();
     for declaration in found {
         let errors = errors(&declaration.expanded());
@@ -150,6 +158,8 @@ fn slips_in_them_are_refused() {
         ("+ 2*k*x*y", "- 2*k*x*y"),
         ("k*(4*x^3-3*x)", "k*(4*x^3-2*x)"),
         ("k*x*y^2", "k*x^2*y"),
+        ("+ k*(x + y); })]", "+ k*(x + 2*y); })]"),
+        ("+ k*x + 5", "- k*x + 5"),
         ("k*(2*ln(x) + ln(y))", "k*(ln(x) + ln(y))"),
         ("k*(x^2+1)/2", "k*(x^2+x)/2"),
         ("2*k*x/(1-x^2)", "2*k*x/(1+x^2)"),
