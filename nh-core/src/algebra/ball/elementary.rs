@@ -22,7 +22,8 @@ impl Ball {
 
     /// eˣ = 2^k e^r; e^(m ± ρ) is within 2 ρ e^m of e^m for ρ < 1.
     pub(in super::super) fn exp(&self) -> Enclosed {
-        const LARGEST: i64 = 100_000;
+        // beyond it, digits in front of the point alone would take seconds
+        const LARGEST: i64 = 20_000;
         let whole = self.nearest_integer().to_i64().filter(|n| n.abs() < LARGEST);
         let Some(whole) = whole else {
             let none = Self::integer(0, self.bits);

@@ -247,13 +247,36 @@ fn of_function(function: Function, x: &Ball) -> Enclosed {
         Function::Sign if x.is_positive() => Ok(Ball::of(&Rational::ONE, x.bits())),
         Function::Sign if x.is_negative() => Ok(Ball::of(&Rational::MINUS_ONE, x.bits())),
         Function::Sign => Err(NoBall::TooWide),
-        Function::Sinh | Function::Cosh | Function::Tanh => {
-            let (up, down) = (x.exp()?, x.negative().exp()?);
-            match function {
-                Function::Sinh => Ok(up.minus(&down).scaled(&Rational::new(1, 2))),
-                Function::Cosh => Ok(up.plus(&down).scaled(&Rational::new(1, 2))),
-                _ => up.minus(&down).over(&up.plus(&down)),
-            }
+        // (1 − e^(−2x))/(1 + e^(−2x)), by the exponential that is below 1
+        Function::Tanh if x.is_negative() => Ok(of_function(function, &x.negative())?.negative()),
+        Function::Tanh => {
+            let (one, down) = (Ball::of(&Rational::ONE, x.bits()), x.scaled(&(-2).into()).exp()?);
+            one.minus(&down).over(&one.plus(&down))
         }
+        Function::Sinh | Function::Cosh => {
+            let (up, down) = (x.exp()?, x.negative().exp()?);
+            let both = if function == Function::Sinh { up.minus(&down) } else { up.plus(&down) };
+            Ok(both.scaled(&Rational::new(1, 2)))
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_hyperbolic_tangent_has_no_large_numbers_in_it() {
+        let of = |n: i64, d: i64| of_function(Function::Tanh, &Ball::of(&Rational::new(n, d), 128)).unwrap();
+        // 0.46211715726000975850
+        let (half, digits) = (of(1, 2), Rational::new(462_117_157_260_009_758, 1_000_000_000_000_000_000));
+        let (low, high) = half.ends();
+        assert!(digits < high && low - digits < Rational::new(1, 1_000_000_000_000_000_000));
+        for far in [100, 100_000, i64::MAX] {
+            let value = of(far, 1);
+            assert!((value.to_f64() - 1.0).abs() < 1e-15 && (of(-far, 1).to_f64() + 1.0).abs() < 1e-15);
+        }
+        let wide = of_function(Function::Tanh, &Ball::of(&Rational::new(1, 3), 4)).unwrap();
+        assert!(wide.is_positive() || wide.to_f64().abs() < 0.5);
     }
 }
