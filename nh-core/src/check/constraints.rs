@@ -5,6 +5,7 @@ use super::assumptions::{as_on_the_base, on_the_base};
 use super::dependence::dependent_rows;
 use super::evidence::{name_of, shown};
 use super::kinematics::Motion;
+use super::no_force::constraint_without_force;
 use super::parts_of_positions::dependent_on_part;
 use super::positions::Positions;
 use crate::algebra::{Demand, Facts, Graph, Matrix, NotLinear};
@@ -161,8 +162,11 @@ pub fn constraints(
         if let Some(violation) = without_real_point(model, algebroid, &residuals) {
             return Err(vec![violation]);
         }
-        let manifold = constraint_manifold(model, algebroid, base, &residuals).map_err(|v| vec![v])?;
         let jacobian = fibre_jacobian(model, algebroid, &residuals);
+        if let Some(violation) = constraint_without_force(model, algebroid, &residuals) {
+            return Err(vec![violation]);
+        }
+        let manifold = constraint_manifold(model, algebroid, base, &residuals).map_err(|v| vec![v])?;
         violations.extend(dependent_rows(model, &jacobian, None, &manifold));
         known = Some(manifold);
     }

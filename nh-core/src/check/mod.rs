@@ -22,6 +22,7 @@ mod impact_independence;
 mod impact_rows;
 mod kind;
 mod kinematics;
+mod no_force;
 mod orthonormal;
 mod parts_of_positions;
 mod positions;

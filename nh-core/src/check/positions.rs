@@ -4,6 +4,7 @@
 use super::dependence::combination_shown;
 use super::evidence::{listed, name_of, shown};
 use super::kinematics::Motion;
+use super::no_force::position_without_force;
 use super::parts_of_positions::{Unsolved, part_of_positions, rates_on_part, unknown_motion};
 use super::whole_base::beside_positions;
 use crate::algebra::{Demand, Graph, Matrix};
@@ -90,6 +91,10 @@ pub fn positions(
     found.manifold = manifold;
     found.values = values;
     let rows = jacobian(model, motion, algebroid);
+    violations.extend((0..rows.len()).filter_map(|index| position_without_force(model, index)));
+    if !violations.is_empty() {
+        return Err(violations);
+    }
     if !found.unsolved.is_empty() {
         (found.part, found.elsewhere) = part_of_positions(model, &found.where_unsolved(), &rows);
     }

@@ -224,3 +224,33 @@ fn edges_far_from_order_one_are_seen() {
         assert!(found.is_empty(), "{smooth}: {found:?}");
     }
 }
+
+/// Sums of squares and what touches 0: no constraint is independent where it has no slope.
+#[test]
+fn what_touches_zero_exerts_no_force() {
+    for constraint in [
+        "holonomic { c: x^2 + (y - 1)^2 + z^2 = 0; }",
+        "holonomic { c: 1 - cos(x) = 0; }",
+        "holonomic { c: cosh(x - y) = 1; }",
+        "holonomic { c: sqrt(x^2 + y^2 + 1) = 1; }",
+        "holonomic { c: (x^2 + y^2 - 1)^2 + z^2 = 0; }",
+        "holonomic { c: w*(x - y)^4*(1 + z^2) = 0; }",
+        "constraints { c: der(x)^2 + (der(y) - 1)^2 = 0; }",
+        "constraints { c: (der(x) - 2*der(y))^2 = 0; }",
+        "constraints { c: der(x)^4*(1 + der(y)^2) = 0; }",
+    ] {
+        let found = refusals(&format!("{SPACE} {constraint}"));
+        assert_eq!(found.len(), 1, "{constraint}: {found:?}");
+        assert!(found[0].starts_with("`c` exerts no force"), "{constraint}: {found:?}");
+    }
+    for constraint in [
+        "holonomic { c: x^2 + y^2 + z^2 = w^2; }",
+        "holonomic { c: cosh(x - y) = 2; }",
+        "holonomic { c: x^2 + y^2 = z; }",
+        "constraints { c: der(x)^2 + der(y)^2 = w^2; }",
+        "constraints { c: der(x)^2 + der(y)^2 = der(z)^2; }",
+    ] {
+        let found = refusals(&format!("{SPACE} {constraint}"));
+        assert!(found.is_empty(), "{constraint}: {found:?}");
+    }
+}

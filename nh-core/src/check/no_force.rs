@@ -1,0 +1,96 @@
+//! Constraints that exert no force: where they hold their derivative vanishes, and no multiplier says what keeps them.
+
+use super::evidence::{name_of, shown};
+use crate::algebra::{Demand, Facts, Graph, Node, Rational};
+use crate::geometry::Algebroid;
+use crate::id::{ConstraintId, ExprId, Id, SymbolId};
+use crate::model::{Model, PositionDecl};
+use crate::violation::{Law, Violation};
+
+/// An equation whose derivative vanishes where it holds, as that of a square does.
+pub(super) fn position_without_force(model: &mut Model, index: usize) -> Option<Violation> {
+    let PositionDecl { value, origin, .. } = model.positions[index];
+    let coordinates: Vec<SymbolId> = model.coordinates.iter().map(|c| c.symbol).collect();
+    let (evidence, way_out) = without_slope(&mut model.graph, value, &coordinates)?;
+    let name = name_of(model, ConstraintId::from_index(index));
+    Some(Violation {
+        law: Law::Independence,
+        origin,
+        what: format!("{name} exerts no force: its derivative vanishes where it holds"),
+        evidence,
+        way_out: way_out.into(),
+    })
+}
+
+/// A constraint whose derivative with respect to the velocities vanishes where it holds, as that of a square does.
+pub(super) fn constraint_without_force(
+    model: &mut Model,
+    algebroid: &Algebroid,
+    residuals: &[ExprId],
+) -> Option<Violation> {
+    let graph = &mut model.graph;
+    let found = residuals.iter().map(|residual| without_slope(graph, *residual, &algebroid.velocities));
+    let (index, (evidence, way_out)) = found.enumerate().find_map(|(index, why)| Some((index, why?)))?;
+    let id = ConstraintId::from_index(index);
+    Some(Violation {
+        law: Law::Independence,
+        origin: model.constraints[id].origin,
+        what: format!(
+            "{} exerts no force: its derivative with respect to the velocities vanishes where it holds",
+            name_of(model, id)
+        ),
+        evidence,
+        way_out: way_out.into(),
+    })
+}
+
+/// Where a function has no slope although it vanishes, in words: a power has none where its base is 0, and what has one
+/// sign, as 1 - cos(x) and sums of squares have, has none where it touches 0. Symbols move that are not fixed.
+fn without_slope(graph: &mut Graph, function: ExprId, moving: &[SymbolId]) -> Option<(String, &'static str)> {
+    if let Some(base) = base_of_power(graph, function, moving) {
+        let (function, base) = (shown(graph, function), shown(graph, base));
+        return Some((format!("{function} vanishes with its derivatives where {base} = 0"), WITHOUT_POWER));
+    }
+    let varying = varying_factors(graph, function, moving);
+    let mut fixed = graph.symbols_in(&[varying]);
+    fixed.retain(|symbol| !moving.contains(symbol));
+    if graph.has_both_signs(varying, &fixed) {
+        return None;
+    }
+    let negative = graph.formula(-varying);
+    let sides = [(varying, "positive"), (negative, "negative")];
+    let (_, never) = sides.into_iter().find(|(side, _)| {
+        graph.range(*side, &Facts::default()).high <= 0.0
+            || graph.contradiction(&[(*side, Demand::Positive)]).is_some()
+    })?;
+    Some((
+        format!("{} is nowhere {never}: where it is 0, so are its derivatives", shown(graph, varying)),
+        ONE_BY_ONE,
+    ))
+}
+
+/// The function without factors of fixed symbols alone.
+fn varying_factors(graph: &mut Graph, function: ExprId, moving: &[SymbolId]) -> ExprId {
+    let Node::Product { factors, .. } = graph.node(function).clone() else { return function };
+    let varying: Vec<(ExprId, Rational)> =
+        factors.iter().filter(|(base, _)| graph.depends_on(*base, moving)).cloned().collect();
+    graph.product(&varying)
+}
+
+/// The base of a factor that vanishes to a higher order than the first, where it may vanish as symbols move.
+fn base_of_power(graph: &mut Graph, function: ExprId, moving: &[SymbolId]) -> Option<ExprId> {
+    let simple = graph.simplify(function);
+    [function, simple].into_iter().find_map(|form| {
+        let Node::Product { factors, .. } = graph.node(form) else { return None };
+        let powers = factors
+            .iter()
+            .filter(|(base, exponent)| *exponent > Rational::ONE && graph.depends_on(*base, moving));
+        powers.map(|(base, _)| *base).find(|base| graph.contradiction(&[(*base, Demand::Zero)]).is_none())
+    })
+}
+
+/// What to write in the place of a power.
+const WITHOUT_POWER: &str = "write it without the power, as `a = b` instead of `(a - b)^2 = 0`";
+/// What to write in the place of a sum of squares.
+const ONE_BY_ONE: &str =
+    "write what it says, one equation for each: `a = 0; b = 0;` instead of `a^2 + b^2 = 0`";
