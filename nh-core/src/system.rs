@@ -159,6 +159,18 @@ pub struct PositionReturn {
     pub pivots: Procedure,
     /// What is solved from a rough start.
     pub assembly: Assembly,
+    /// The derivatives of the way back, if they are asked for.
+    pub slopes: Option<SlopesOfReturn>,
+}
+
+/// The derivatives of one step back to position constraints, row by row.
+#[derive(Clone, Debug)]
+pub struct SlopesOfReturn {
+    /// Those of the changes of the coordinates by the coordinates.
+    pub positions: Procedure,
+    /// Those of the next velocities by the coordinates, by the starting velocities and by the present ones, where
+    /// velocities are moved.
+    pub velocities: Option<Procedure>,
 }
 
 /// What assembling a machine from a rough start solves.

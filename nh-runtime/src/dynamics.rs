@@ -282,6 +282,43 @@ pub trait Jacobian: Dynamics {
         )
     }
 
+    /// The derivative, by rows, of one step of the return to position constraints
+    /// ([`correct_positions`](Dynamics::correct_positions)), by which steps of methods are differentiated that end with it:
+    /// at a state where they hold, what it makes of a displacement keeps them. Systems with position constraints are
+    /// declared with `emit { jacobian, return_jacobian }` for it, and give NaN without; others give 1.
+    ///
+    /// ```
+    /// use nonholonomic::prelude::*;
+    ///
+    /// /// A weight on a rope.
+    /// #[nonholonomic(
+    ///     base       { x, y }
+    ///     lagrangian { m / 2 * (der(x)^2 + der(y)^2) - m * g * y }
+    ///     holonomic  { rope: x^2 + y^2 = l^2; }
+    ///     emit       { jacobian, return_jacobian }
+    /// )]
+    /// #[derive(Clone, Copy, Debug)]
+    /// struct Pendulum { m: f64, g: f64, l: f64 }
+    ///
+    /// let pendulum = Pendulum { m: 1.0, g: 9.81, l: 1.0 };
+    /// let hanging = PendulumState { x: 0.0, y: -1.0, ..Default::default() };
+    /// // aside is along the circle, and upwards is not
+    /// let slopes = pendulum.return_jacobian(0.0, &hanging);
+    /// assert_eq!((slopes[0][0], slopes[1][1]), (1.0, 0.0));
+    /// ```
+    fn return_jacobian(&self, t: ScalarOf<Self>, state: &Self::State) -> MatOf<Self> {
+        let _ = (t, state);
+        let zero = ScalarOf::<Self>::ZERO;
+        let other = if self.has_positions() { ScalarOf::<Self>::from_f64(f64::NAN) } else { zero };
+        let mut rows = DimOf::<Self>::mat(other);
+        for (i, row) in rows.as_mut().iter_mut().enumerate() {
+            if let Some(own) = row.as_mut().get_mut(i) {
+                *own = other + ScalarOf::<Self>::ONE;
+            }
+        }
+        rows
+    }
+
     /// Whether component `row` of ẋ may depend on component `column` of the state: where this is false, A has a zero there
     /// at every state. Generated code knows its zeros; products with A leave them out, at no cost where loops over the
     /// components are unrolled.

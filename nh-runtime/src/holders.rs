@@ -194,6 +194,11 @@ macro_rules! holders {
                 $system.linearized(t, state, input)
             }
             #[inline]
+            fn return_jacobian(&self, t: ScalarOf<$s>, state: &$s::State) -> MatOf<$s> {
+                let $this = self;
+                $system.return_jacobian(t, state)
+            }
+            #[inline]
             fn state_depends(row: usize, column: usize) -> bool {
                 $s::state_depends(row, column)
             }

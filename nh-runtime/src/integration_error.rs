@@ -175,8 +175,6 @@ pub enum IntegrationError {
         /// What rounding leaves open of the times of its zeros there.
         resolution: f64,
     },
-    /// The system has position constraints to which its states are returned, and the return is not differentiated.
-    ReturnNotDifferentiated,
     /// Times at which states were asked for do not follow one another in one direction.
     UnorderedTimes {
         /// The first that does not.
@@ -311,10 +309,6 @@ impl Display for IntegrationError {
             Self::EventsAccumulate { event, time, flight, resolution } => {
                 accumulating(f, event, [time, flight, resolution])
             }
-            Self::ReturnNotDifferentiated => f.write_str(
-                "the system has position constraints to which its states are returned, and the return is not \
-                 differentiated: take steps over `Jet` numbers, which contain it",
-            ),
             Self::UnorderedTimes { time, before, last } => write!(
                 f,
                 "states were asked for at t = {before:?} and then at {time:?}, on the way to {last:?}: sort the \

@@ -105,6 +105,7 @@ pub mod sensitivity;
 mod serde_impls;
 mod series;
 mod sine;
+mod slopes_of_return;
 mod statistics;
 mod step_control;
 mod stiffness;
@@ -412,6 +413,7 @@ pub mod __private {
     pub use crate::newton_return::{corrected, first_iterate, newton, newton_from, product_of_signs, worst};
     pub use crate::projection::{check_identities, holds, largest, project, project_affine};
     pub use crate::series::History;
+    pub use crate::slopes_of_return::slopes_of_return;
     pub use crate::trim::{Steady, TrimError, equations, trim};
     pub use crate::{
         AlmostPoisson, Angle, AngleCache, AngleCached, Constrained, D, Dim, Dynamics, Energy,

@@ -84,7 +84,7 @@ fn generated_columns_are_the_derivatives_of_the_steps() {
     base { x, y }
     holonomic { rope: x^2 + y^2 = l^2; }
     lagrangian { m / 2 * (der(x)^2 + der(y)^2) - m * g * y }
-    emit { jacobian, parameter_jacobian }
+    emit { jacobian, return_jacobian, parameter_jacobian }
 )]
 #[derive(Clone, Copy, Debug)]
 struct Rope<T> {
@@ -184,9 +184,43 @@ fn steps_in_jets_contain_the_return() {
     }
 }
 
-/// What would leave the return out is refused.
+/// The same without the derivative of its return.
+#[nonholonomic(
+    base { x, y }
+    holonomic { rope: x^2 + y^2 = l^2; }
+    lagrangian { m / 2 * (der(x)^2 + der(y)^2) - m * g * y }
+    emit { jacobian }
+)]
+#[derive(Clone, Copy, Debug)]
+struct Plain {
+    m: f64,
+    l: f64,
+    g: f64,
+}
+
+/// Nobody is given the derivative of another step.
 #[test]
-fn steps_with_returns_are_refused() {
+fn steps_with_a_return_that_is_not_differentiated_have_no_derivative() {
+    let plain = Plain { m: 1.0, l: 1.0, g: 9.81 };
+    let start = PlainState { x: 0.6, y: -0.8, x_dot: 0.8, y_dot: 0.6 };
+    let step = Rk4::linearized_step(&plain, 0.0, 0.1, &start, &());
+    let alone = Rk4::step(&plain, 0.0, 0.1, &start, &());
+    for (found, alone) in step.state.to_array().iter().zip(alone.to_array()) {
+        assert!((found - alone).abs() < 1e-15, "{found} {alone}");
+    }
+    assert!(step.by_state.iter().all(|entry| entry.is_nan()));
+    let step = ImplicitMidpoint::linearized_step(&plain, 0.0, 0.1, &start, &()).unwrap();
+    assert!(step.by_state.iter().all(|entry| entry.is_nan()));
+    let motion = Variational::new(plain, [By::Start(0)]);
+    let mut columns = motion.start(&start).unwrap().columns;
+    let mut sim = Integrator::new(plain, Radau5::new(), 0.0, start);
+    assert_eq!(motion.advance(&mut sim, 1.0, &mut columns), Err(SensitivityError::Returned));
+}
+
+/// The constraints depend on parameters: derivatives by these that would leave the return out are refused, and those by the
+/// start contain it.
+#[test]
+fn steps_with_returns_are_differentiated_by_states() {
     struct Last;
     impl Objective<Rope<f64>, 4, 0> for Last {
         fn end(&self, _t: f64, x: &RopeState<f64>) -> Slope<f64, 4, 0> {
@@ -195,15 +229,25 @@ fn steps_with_returns_are_refused() {
     }
     let start = placed(ROPE.l, BEGUN[0], BEGUN[1]);
     let mut places = [Checkpoint::room(start); 2];
-    let gradient =
-        Adjoint::new(&ROPE, Rk4::new(0.01)).gradient(0.0, &start, &[(); 4], &Last, &mut places, &mut [[]; 4]);
-    assert_eq!(gradient.unwrap_err(), SensitivityError::Returned);
-    let motion = Variational::new(ROPE, [By::Start(0)]);
+    let adjoint = Adjoint::new(&ROPE, Rk4::new(0.01));
+    let gradient = adjoint.gradient(0.0, &start, &[(); 4], &Last, &mut places, &mut [[]; 4]).unwrap();
+    let by_parameters = adjoint.by_parameters(|s: &Rope<f64>, t, x, u| s.parameter_jacobian(t, x, u));
+    let refused = by_parameters.gradient(0.0, &start, &[(); 4], &Last, &mut places, &mut [[]; 4]);
+    assert_eq!(refused.unwrap_err(), SensitivityError::Returned);
+    let motion = Variational::new(ROPE, [By::Start(0), By::Start(1), By::Start(2), By::Start(3)]);
     let mut columns = motion.start(&start).unwrap().columns;
+    let mut sim = Integrator::new(ROPE, Rk4::new(0.01), 0.0, start);
+    assert_eq!(motion.advance(&mut sim, 0.04, &mut columns), Ok(()));
+    for (column, back) in columns.iter().zip(gradient.by_start) {
+        assert!((column.x - back).abs() < 1e-14, "{} {back}", column.x);
+    }
+    let motion = Variational::new(ROPE, [By::Parameter(1)])
+        .by_parameters(|s: &Rope<f64>, t, x, u| s.parameter_jacobian(t, x, u));
+    let mut column = motion.start(&start).unwrap().columns;
     let mut sim = Integrator::new(ROPE, Radau5::new(), 0.0, start);
-    assert_eq!(motion.advance(&mut sim, 1.0, &mut columns), Err(SensitivityError::Returned));
+    assert_eq!(motion.advance(&mut sim, 1.0, &mut column), Err(SensitivityError::Returned));
     let mut free = Integrator::new(ROPE, Radau5::new(), 0.0, start).without_return();
-    assert_eq!(motion.advance(&mut free, 0.1, &mut columns), Ok(()));
+    assert_eq!(motion.advance(&mut free, 0.1, &mut column), Ok(()));
 }
 
 /// A gradient of a declared system by its parameters, against forward columns.

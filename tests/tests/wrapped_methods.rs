@@ -246,47 +246,160 @@ fn charts_that_determine_nothing_are_refused_and_others_know_no_units() {
     }
 }
 
-/// A weight on a rope, pushed.
+/// A weight on a rope that is let out, pushed, and wound up by a motor with a lag.
 #[nonholonomic(
     base { x, y }
     lagrangian { 1 / 2 * (der(x)^2 + der(y)^2) - g * y }
-    holonomic { rope: x^2 + y^2 = l^2; }
-    forces { x: push; }
+    holonomic { rope: x^2 + y^2 = (l + v * t)^2; }
+    auxiliary { der(pull) = (push - pull) / lag; }
+    forces { x: pull; }
     inputs { push }
-    emit { jacobian }
+    emit { jacobian, return_jacobian }
 )]
 #[derive(Clone, Copy, Debug)]
-struct Pushed {
-    l: f64,
-    g: f64,
+struct Pushed<T> {
+    l: T,
+    v: T,
+    g: T,
+    lag: T,
 }
 
-/// The return to position constraints is a part of a step, and is not differentiated: nobody is given the derivative of
-/// another step.
-#[test]
-fn steps_with_a_return_have_no_derivative() {
-    use nalgebra::{SVector, Vector1, Vector4};
-    use nonholonomic::control::{ControlError, Ilqr, Model, Quadratic, Sampled};
+/// A skate on the rim of a wheel: position constraints beside one on velocities, in few velocities.
+#[nonholonomic(
+    base { x, y, heading }
+    lagrangian { m / 2 * (der(x)^2 + der(y)^2) + J / 2 * der(heading)^2 }
+    holonomic { rim: x^2 + y^2 = l^2 * (1 + heading^2 / 8); }
+    constraints { edge: der(y) = (1 + x) * der(heading) / 4; }
+    forces { heading: push; }
+    inputs { push }
+    emit { jacobian, return_jacobian }
+)]
+#[derive(Clone, Copy, Debug)]
+struct Rim<T> {
+    m: T,
+    J: T,
+    l: T,
+}
 
-    let rope = Pushed { l: 1.0, g: 9.81 };
-    let start = PushedState { x: 0.6, y: -0.8, x_dot: 0.8, y_dot: 0.6 };
+/// The derivative of a step with its return is that of the whole, as steps over jets have it, and differences.
+#[test]
+fn steps_are_differentiated_with_their_return() {
+    let jet = Jet::<f64, 5, 1>::constant;
+    let plain = Pushed { l: 1.0, v: 0.2, g: 9.81, lag: 0.3 };
+    let jets = Pushed { l: jet(1.0), v: jet(0.2), g: jet(9.81), lag: jet(0.3) };
+    let start = PushedState { x: 0.6, y: -0.8, x_dot: 0.12 + 0.8, y_dot: -0.16 + 0.6, pull: 0.4 };
     let input = PushedInput { push: 0.3 };
-    let step = Rk4::linearized_step(&rope, 0.0, 0.1, &start, &input);
-    assert_eq!(step.state, Rk4::step(&rope, 0.0, 0.1, &start, &input));
-    assert!(step.by_state.iter().chain(step.by_input.iter()).all(|entry| entry.is_nan()));
-    let refused = ImplicitMidpoint::linearized_step(&rope, 0.0, 0.1, &start, &input);
-    assert_eq!(refused.map(|_| ()), Err(IntegrationError::ReturnNotDifferentiated));
-    let model = Sampled { system: rope, start: 0.0, dt: 0.1 };
-    let x = start.to_array().into();
-    let (a, _) = model.linearized(0, &x, &Vector1::new(0.3));
-    assert!(a.iter().all(|entry| entry.is_nan()));
+    let step = Rk4::linearized_step(&plain, 0.0, 0.1, &start, &input);
+    let alone = Rk4::step(&plain, 0.0, 0.1, &start, &input);
+    let begun = PushedState::from(Jet::variables(start.to_array()));
+    let push = Jet { by_others: [1.0], ..jet(0.3) };
+    let whole = Rk4::step(&jets, jet(0.0), jet(0.1), &begun, &PushedInput { push }).to_array();
+    for (i, (component, alone)) in whole.iter().zip(alone.to_array()).enumerate() {
+        assert!((step.state.to_array()[i] - alone).abs() < 1e-15);
+        for (j, by) in component.by.iter().enumerate() {
+            assert!((step.by_state[(i, j)] - by).abs() < 1e-13, "{i} {j}: {} {by}", step.by_state[(i, j)]);
+        }
+        assert!((step.by_input[(i, 0)] - component.by_others[0]).abs() < 1e-14);
+    }
+    let back = Rk4::pulled_back_step(
+        &plain,
+        0.0,
+        0.1,
+        (&start, &input),
+        |_| [1.0, -2.0, 0.5, 3.0, 1.0],
+        |_, _, _| nalgebra::SMatrix::<f64, 5, 0>::zeros(),
+    );
+    for j in 0..5 {
+        let forward: f64 =
+            [1.0, -2.0, 0.5, 3.0, 1.0].iter().zip(step.by_state.column(j).iter()).map(|(l, x)| l * x).sum();
+        assert!((back.by_state[j] - forward).abs() < 1e-13, "{j}: {} {forward}", back.by_state[j]);
+    }
+}
+
+/// By implicit methods as by explicit ones, with a constraint on velocities, against differences of whole steps.
+#[test]
+fn implicit_steps_are_differentiated_with_their_return() {
+    use nonholonomic::methods::Transition;
+    let rim = Rim { m: 1.0, J: 0.5, l: 1.0 };
+    // A = 0 leaves one direction: x ẋ + y ẏ = θ θ̇/8 l², ẏ = (1 + x) θ̇/4
+    let heading_dot = 0.7;
+    let (x, heading): (f64, f64) = (0.6, 0.4);
+    let y = (1.0 + heading * heading / 8.0 - x * x).sqrt();
+    let y_dot = (1.0 + x) * heading_dot / 4.0;
+    let x_dot = (heading * heading_dot / 8.0 - y * y_dot) / x;
+    let start = RimState { x, y, heading, x_dot, y_dot, heading_dot };
+    let input = RimInput { push: 0.3 };
+    type Step = Transition<RimState<f64>, f64, 6, 1>;
+    type Whole = fn(&Rim<f64>, &RimState<f64>, &RimInput<f64>) -> RimState<f64>;
+    let cases: [(&str, Step, Whole); 4] = [
+        ("Rk4", Rk4::linearized_step(&rim, 0.0, 0.1, &start, &input), |s, x, u| Rk4::step(s, 0.0, 0.1, x, u)),
+        (
+            "ImplicitMidpoint",
+            ImplicitMidpoint::linearized_step(&rim, 0.0, 0.1, &start, &input).unwrap(),
+            |s, x, u| ImplicitMidpoint::step_with_jacobian(s, 0.0, 0.1, x, u).unwrap(),
+        ),
+        (
+            "GaussLegendre4",
+            GaussLegendre4::linearized_step(&rim, 0.0, 0.1, &start, &input).unwrap(),
+            |s, x, u| GaussLegendre4::step(s, 0.0, 0.1, x, u).unwrap(),
+        ),
+        (
+            "GaussLegendre6",
+            GaussLegendre6::linearized_step(&rim, 0.0, 0.1, &start, &input).unwrap(),
+            |s, x, u| GaussLegendre6::step(s, 0.0, 0.1, x, u).unwrap(),
+        ),
+    ];
+    let h = 1e-6;
+    for (name, step, whole) in cases {
+        let alone = whole(&rim, &start, &input).to_array();
+        for (found, alone) in step.state.to_array().iter().zip(alone) {
+            assert!((found - alone).abs() < 1e-14, "{name}: {found} {alone}");
+        }
+        for j in 0..7 {
+            let end = |by: f64| {
+                let mut from = start.to_array();
+                let mut push = input.push;
+                if let Some(component) = from.get_mut(j) {
+                    *component += by;
+                } else {
+                    push += by;
+                }
+                whole(&rim, &RimState::from(from), &RimInput { push }).to_array()
+            };
+            for (i, (ahead, behind)) in end(h).iter().zip(end(-h)).enumerate() {
+                let found = if j < 6 { step.by_state[(i, j)] } else { step.by_input[(i, 0)] };
+                let slope = (ahead - behind) / (2.0 * h);
+                assert!((found - slope).abs() < 2e-8, "{name} {i} {j}: {found} {slope}");
+            }
+        }
+        // what is left of any displacement is along the constraints, to the size of what the return moved
+        let [x, y, heading, ..] = step.state.to_array();
+        for column in step.by_state.column_iter() {
+            let off = 2.0 * (x * column[0] + y * column[1]) - heading * column[2] / 4.0;
+            assert!(off.abs() < 1e-4, "{name}: {off:e}");
+        }
+    }
+}
+
+/// A regulator in a receding horizon sees the derivative of steps with returns.
+#[test]
+fn plans_of_machines_with_loops() {
+    use nalgebra::{SVector, Vector1};
+    use nonholonomic::control::{Ilqr, Quadratic, Sampled};
+
+    let rope = Pushed { l: 1.0, v: 0.0, g: 9.81, lag: 0.1 };
+    let start = PushedState { x: 0.6, y: -0.8, x_dot: 0.8, y_dot: 0.6, pull: 0.0 };
+    let model = Sampled { system: rope, start: 0.0, dt: 0.05 };
     let cost = Quadratic {
-        goal: Vector4::new(0.0, -1.0, 0.0, 0.0),
-        state: Vector4::repeat(1.0),
-        input: Vector1::new(0.1),
-        end: Vector4::repeat(1.0),
+        goal: [0.0, -1.0, 0.0, 0.0, 0.0].into(),
+        state: [1.0, 1.0, 0.1, 0.1, 0.0].into(),
+        input: Vector1::new(0.01),
+        end: [100.0, 100.0, 100.0, 100.0, 0.0].into(),
     };
-    let mut plan = Ilqr::<f64, 4, 1, 10>::new(SVector::zeros());
-    let refused = plan.solve(&model, &cost, &x, 1e-9, 20);
-    assert!(matches!(refused, Err(ControlError::NotFinite { .. })), "{refused:?}");
+    let mut plan = Ilqr::<f64, 5, 1, 30>::new(SVector::zeros());
+    let solved = plan.solve(&model, &cost, &start.to_array().into(), 1e-9, 200).unwrap();
+    assert!(solved.decrease.abs() <= 1e-6 * solved.cost, "{solved:?}");
+    let end = plan.states()[29];
+    assert!(end[0].abs() < 0.05 && end[2].abs() < 0.2, "{end}");
+    assert!((end[0] * end[0] + end[1] * end[1] - 1.0).abs() < 1e-6, "{end}");
 }

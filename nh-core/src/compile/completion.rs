@@ -1,6 +1,7 @@
 //! What both formulations end with: what is asked for on phase space, what is found for the report, the proof of every
 //! function, and the system.
 
+use super::differentiated::requested_slopes_of_return;
 use super::embedded::embedding;
 use super::on_request::state_velocities;
 use super::phase_space_functions;
@@ -92,6 +93,11 @@ pub(super) fn complete(
         residuals: derivation.residuals,
         conditions: &conditions,
     };
+    let way_back = parts.positions.as_ref().map(|positions| (positions, parts.projection.as_ref()));
+    let slopes = requested_slopes_of_return(&mut proved.model, way_back, &velocities)?;
+    if let Some(positions) = &mut parts.positions {
+        positions.slopes = slopes;
+    }
     let mut parts = proved_functions::prove(&mut proved, registry, &given, parts)?;
     // these are proved with the motion
     let (model, functions) = (&proved.model, &mut parts.functions);

@@ -7,6 +7,7 @@ use crate::id::{ExprId, Origin, SymbolId};
 use crate::mechanics::{Definition, NotDifferentiable, Procedure, jacobian};
 use crate::model::{Model, Request};
 use crate::program::{Systems, Wanted, accumulated};
+use crate::system::{PositionReturn, Projection, SlopesOfReturn};
 use crate::violation::{Law, Violation};
 
 // the ways, as the ledger names them
@@ -105,6 +106,45 @@ pub(super) fn requested_parameter_jacobian(
     let arguments: Vec<SymbolId> = model.parameters.iter().map(|parameter| parameter.symbol).collect();
     let asked = (origin, "a force", "parameter_jacobian");
     differentiated(proved, (derivative, "parameter_jacobian", Wanted::Jacobian), &arguments, asked)
+}
+
+/// The derivatives of one step back to position constraints, if the declaration asks for them.
+///
+/// # Errors
+/// Where there is no return, or no Jacobian beside them.
+pub(super) fn requested_slopes_of_return(
+    model: &mut Model,
+    way_back: Option<(&PositionReturn, Option<&Projection>)>,
+    velocities: &[SymbolId],
+) -> Result<Option<SlopesOfReturn>, Vec<Violation>> {
+    let asked = |wanted: Request| model.requests.iter().find(|(request, _)| *request == wanted);
+    let Some((_, origin)) = asked(Request::ReturnJacobian).copied() else { return Ok(None) };
+    let refused = |what: &str, way_out: &str| {
+        let (what, way_out, evidence) = (what.into(), way_out.into(), String::new());
+        Err(vec![Violation { law: Law::Force, origin, what, evidence, way_out }])
+    };
+    let Some((positions, projection)) = way_back else {
+        let way_out = "leave it out: without `holonomic` no step ends with a return";
+        return refused("there is no return to position constraints to differentiate", way_out);
+    };
+    if asked(Request::Jacobian).is_none() {
+        let way_out = "write `emit { jacobian, return_jacobian }`";
+        return refused("the derivative of the return goes with that of the motion", way_out);
+    }
+    let coordinates: Vec<SymbolId> = model.coordinates.iter().map(|coordinate| coordinate.symbol).collect();
+    let parameters: Vec<SymbolId> = model.parameters.iter().map(|parameter| parameter.symbol).collect();
+    let graph = &mut model.graph;
+    // no method of the user's is called on the way back
+    let mut slopes = |step: &Procedure, arguments: &[SymbolId]| {
+        let by_steps = accumulated(graph, step, (arguments, &parameters), Systems::Pivoted, Wanted::Jacobian);
+        by_steps.ok().flatten().or_else(|| jacobian(graph, step, arguments).ok()).unwrap_or_default()
+    };
+    let of_positions = slopes(&positions.step, &coordinates);
+    let of_velocities = projection.map(|projection| {
+        let arguments = [coordinates.as_slice(), &projection.start, velocities].concat();
+        slopes(&projection.step, &arguments)
+    });
+    Ok(Some(SlopesOfReturn { positions: of_positions, velocities: of_velocities }))
 }
 
 /// The derivatives of a function by its arguments: `word` asks for them.

@@ -47,7 +47,15 @@ pub(super) fn position_return(
     }
     let step = step(graph, &equations, &proved.system.algebroid.anchor, &judge);
     let assembly = assembly(proved, (states, velocity), residuals);
-    Some(PositionReturn { redundant, count, residual, step, pivots: Procedure::default(), assembly })
+    Some(PositionReturn {
+        redundant,
+        count,
+        residual,
+        step,
+        pivots: Procedure::default(),
+        assembly,
+        slopes: None,
+    })
 }
 
 /// ρ(δ), by (10), or along free directions where that is cheaper: its digits are those of a correction, which the next

@@ -85,6 +85,7 @@ fn needs_all(request: Request) -> bool {
         | Request::JacobianProduct
         | Request::AdjointProduct
         | Request::Taylor
+        | Request::ReturnJacobian
         | Request::Prepared
         | Request::Explain
         | Request::Latex
@@ -163,6 +164,23 @@ pub(super) fn restrict(system: &mut System, whole: &[SymbolId], needed: &BTreeSe
     if let Some(positions) = &mut system.positions {
         let coordinates = positions.step.outputs.len();
         positions.step.outputs = rows(&positions.step.outputs[..coordinates]);
+        if let Some(slopes) = &mut positions.slopes {
+            let matrix = &slopes.positions.outputs;
+            let kept = matrix.chunks(coordinates.max(1)).enumerate().filter(|(row, _)| is_kept(*row));
+            slopes.positions.outputs = kept.flat_map(|(_, row)| rows(row)).collect();
+            if let Some(by) = &mut slopes.velocities {
+                let velocities = system.state_velocities.len();
+                let width = coordinates + 2 * velocities;
+                let is_here = |column: &usize| *column >= coordinates || is_kept(*column);
+                let columns: Vec<usize> = (0..width).filter(is_here).collect();
+                let entry = |row: &[ExprId], column: &usize| row.get(*column).copied();
+                by.outputs = by
+                    .outputs
+                    .chunks(width.max(1))
+                    .flat_map(|row| columns.iter().filter_map(move |column| entry(row, column)))
+                    .collect();
+            }
+        }
         positions.assembly.restrict(is_kept, |symbol| needed.contains(&symbol));
     }
     let keeps_base = match &mut system.embedding {

@@ -31,6 +31,10 @@ pub(super) fn without_strangers(mut system: System) -> Result<System, Vec<Violat
     if let Some(positions) = &mut system.positions {
         functions.push(("project", &mut positions.step));
         functions.push(("derivative", &mut positions.pivots));
+        if let Some(slopes) = &mut positions.slopes {
+            functions.push(("jacobian", &mut slopes.positions));
+            functions.extend(slopes.velocities.as_mut().map(|by| ("jacobian", by)));
+        }
         functions.push(("assemble", &mut positions.assembly.positions.procedure));
         functions.push(("assemble", &mut positions.assembly.velocities.procedure));
     }

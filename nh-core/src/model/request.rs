@@ -12,6 +12,8 @@ pub enum Request {
     JacobianProduct,
     /// The transpose of that Jacobian times weights of the components of the derivative.
     AdjointProduct,
+    /// The derivative of the return to position constraints.
+    ReturnJacobian,
     /// ∂derivative/∂parameter.
     ParameterJacobian,
     /// The derivative with what depends on parameters alone computed ahead.
@@ -66,12 +68,13 @@ pub enum Request {
 
 impl Request {
     /// The words by which `emit` asks for them.
-    pub const WORDS: [(&str, Self); 29] = [
+    pub const WORDS: [(&str, Self); 30] = [
         ("jacobian", Self::Jacobian),
         ("taylor", Self::Taylor),
         ("sparse_jacobian", Self::SparseJacobian),
         ("jacobian_product", Self::JacobianProduct),
         ("adjoint_product", Self::AdjointProduct),
+        ("return_jacobian", Self::ReturnJacobian),
         ("parameter_jacobian", Self::ParameterJacobian),
         ("output_jacobian", Self::OutputJacobian),
         ("power", Self::Power),

@@ -30,6 +30,7 @@ pub(super) fn emit(context: &Context, scope: &Scope, system: &System) -> Part {
     let mut all =
         together(context, &body(context, scope, &context.lowering.program(&system.model, linearized)));
     all.extend(dependence(context, system, &jacobian));
+    all.extend(super::slopes_of_return::method(context, system));
     let within = |columns: Range<usize>| {
         let row = |row: &[_]| row.get(columns.clone()).unwrap_or_default().to_vec();
         let outputs = jacobian.outputs.chunks((n + m).max(1)).flat_map(row).collect();

@@ -47,6 +47,7 @@ mod results;
 #[cfg(test)]
 mod samples;
 mod setting;
+mod slopes_of_return;
 mod sparse_jacobian;
 mod state;
 mod stubs;

@@ -7,8 +7,8 @@ use crate::{D, Jacobian, Rk4, State};
 
 /// A system as a [`Model`]: x' is the state one step of [`Rk4`] later, under a constant input.
 ///
-/// Its derivatives are those of the step, exactly ([`Rk4::linearized_step`](crate::methods::Fixed::linearized_step)); of
-/// systems with position constraints, whose return is not differentiated, they are NaN, which regulators and filters refuse.
+/// Its derivatives are those of the step, exactly ([`Rk4::linearized_step`](crate::methods::Fixed::linearized_step)), with the
+/// return of systems that have position constraints and are declared with `emit { return_jacobian }`.
 ///
 /// ```
 /// use nalgebra::vector;

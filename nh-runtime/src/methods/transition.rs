@@ -7,7 +7,9 @@ use super::fixed::Fixed;
 use super::implicit::ImplicitMidpoint;
 use super::implicit::newton::one_less;
 use crate::linear::Factors;
-use crate::{D, Dynamics, IntegrationError, Jacobian, Jet, Real, Scalar, State};
+use crate::{
+    D, Dynamics, IntegrationError, Jacobian, Jet, MatOf, Real, RowsByInput, Scalar, ScalarOf, State,
+};
 
 /// A step with its exact derivative: x₁ = Φ(x, u), A_d = ∂Φ/∂x, B_d = ∂Φ/∂u.
 ///
@@ -31,6 +33,61 @@ impl<X, T: Scalar, const N: usize, const M: usize> Transition<X, T, N, M> {
         let nan = T::from_f64(f64::NAN);
         Self { state, by_state: SMatrix::from([[nan; N]; N]), by_input: SMatrix::from([[nan; N]; M]) }
     }
+
+    /// The step with the return to position constraints that follows it, at its end.
+    pub(crate) fn returned<S>(mut self, system: &S, t: T) -> Self
+    where
+        S: Jacobian<State = X>,
+        X: State<Scalar = T, Dim = D<N>>,
+    {
+        if system.has_positions() {
+            let slopes = system.return_jacobian(t, &self.state);
+            system.correct_positions(t, &mut self.state);
+            self.by_state = image(&slopes, &self.by_state);
+            self.by_input = image(&slopes, &self.by_input);
+        }
+        self
+    }
+}
+
+/// A product of matrices.
+fn image<T: Scalar, const N: usize, const M: usize>(
+    rows: &[[T; N]; N],
+    of: &SMatrix<T, N, M>,
+) -> SMatrix<T, N, M> {
+    let mut product = SMatrix::<T, N, M>::from([[T::ZERO; N]; M]);
+    for (mut entries, column) in product.column_iter_mut().zip(of.column_iter()) {
+        for (entry, row) in entries.iter_mut().zip(rows) {
+            *entry = row.iter().zip(column.iter()).fold(T::ZERO, |sum, (a, x)| a.mul_add(*x, sum));
+        }
+    }
+    product
+}
+
+/// A system whose states are not returned to position constraints.
+pub(super) struct WithoutReturn<'a, S>(pub(super) &'a S);
+
+impl<S: Dynamics> Dynamics for WithoutReturn<'_, S> {
+    type State = S::State;
+    type Input = S::Input;
+
+    #[inline]
+    fn derivative(&self, t: ScalarOf<S>, state: &S::State, input: &S::Input) -> S::State {
+        self.0.derivative(t, state, input)
+    }
+}
+
+impl<S: Jacobian> Jacobian for WithoutReturn<'_, S> {
+    type InputDim = S::InputDim;
+
+    #[inline]
+    fn state_jacobian(&self, t: ScalarOf<S>, state: &S::State, input: &S::Input) -> MatOf<S> {
+        self.0.state_jacobian(t, state, input)
+    }
+    #[inline]
+    fn input_jacobian(&self, t: ScalarOf<S>, state: &S::State, input: &S::Input) -> RowsByInput<S> {
+        self.0.input_jacobian(t, state, input)
+    }
 }
 
 impl<P: Tableau, T: Scalar> Fixed<P, T> {
@@ -38,8 +95,8 @@ impl<P: Tableau, T: Scalar> Fixed<P, T> {
     /// a Runge–Kutta step of the variational equation Ẋ = A X, U̇ = A U + B is the derivative of the
     /// Runge–Kutta step (Hairer, Lubich, Wanner, Geometric Numerical Integration, lemma VI.4.1).
     ///
-    /// Where the system returns to position constraints, the return is a part of the step and is not differentiated: the
-    /// derivatives are NaN then. Steps over [`Jet`] numbers contain it.
+    /// Where the system returns to position constraints, the return is a part of the step, and differentiated with it if the
+    /// system is declared with `emit { return_jacobian }` ([`Jacobian::return_jacobian`]); the derivatives are NaN if not.
     ///
     /// ```
     /// use nonholonomic::prelude::*;
@@ -74,17 +131,15 @@ impl<P: Tableau, T: Scalar> Fixed<P, T> {
         S: Jacobian<InputDim = D<M>>,
         S::State: State<Scalar = T, Dim = D<N>>,
     {
-        if system.has_positions() {
-            return Transition::unknown(Self::step(system, t, dt, state, input));
-        }
         let jets = Jets(Jet::variables(state.to_array()));
-        let (t, dt) = (Jet::constant(t), Jet::constant(dt));
-        let Jets(end) = Fixed::<P, Jet<T, N, M>>::step(&Differentiated(system), t, dt, &jets, input);
-        Transition {
+        let (from, length) = (Jet::constant(t), Jet::constant(dt));
+        let Jets(end) = Fixed::<P, Jet<T, N, M>>::step(&Differentiated(system), from, length, &jets, input);
+        let step = Transition {
             state: S::State::from_array(end.map(|jet| jet.value)),
             by_state: of_rows(&end.map(|jet| jet.by)),
             by_input: of_rows(&end.map(|jet| jet.by_others)),
-        }
+        };
+        step.returned(system, t + dt)
     }
 }
 
@@ -165,8 +220,7 @@ impl<T: Real> ImplicitMidpoint<T> {
     /// Jacobian A, B at the middle of the step: (1 − h/2 A) A_d = 1 + h/2 A and (1 − h/2 A) B_d = h B.
     ///
     /// # Errors
-    /// [`IntegrationError::ReturnNotDifferentiated`] where the system returns to position constraints; else as
-    /// [`step_with_jacobian`](ImplicitMidpoint::step_with_jacobian). A singular matrix 1 − h/2 A
+    /// As [`step_with_jacobian`](ImplicitMidpoint::step_with_jacobian). A singular matrix 1 − h/2 A
     /// gives derivatives that are not finite.
     pub fn linearized_step<S, const N: usize, const M: usize>(
         system: &S,
@@ -179,10 +233,7 @@ impl<T: Real> ImplicitMidpoint<T> {
         S: Jacobian<InputDim = D<M>>,
         S::State: State<Scalar = T, Dim = D<N>>,
     {
-        if system.has_positions() {
-            return Err(IntegrationError::ReturnNotDifferentiated);
-        }
-        let end = ImplicitMidpoint::step_with_jacobian(system, t, dt, state, input)?;
+        let end = ImplicitMidpoint::step_with_jacobian(&WithoutReturn(system), t, dt, state, input)?;
         let half = dt * T::from_f64(0.5);
         let mut middle = state.to_array();
         for (middle, end) in middle.iter_mut().zip(end.to_array()) {
@@ -197,7 +248,7 @@ impl<T: Real> ImplicitMidpoint<T> {
         let mut by_input = SMatrix::<T, N, M>::from([[T::ZERO; N]; M]);
         solve_columns(&factors, &right, T::ONE, &mut by_state);
         solve_columns(&factors, &b, dt, &mut by_input);
-        Ok(Transition { state: end, by_state, by_input })
+        Ok(Transition { state: end, by_state, by_input }.returned(system, t + dt))
     }
 }
 

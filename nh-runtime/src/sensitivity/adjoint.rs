@@ -6,6 +6,7 @@ use super::checkpoints::{Checkpoint, reversed};
 use super::motion::NoParameters;
 use super::no_derivative::SensitivityError;
 use super::pull_back::{PulledBack, add};
+use super::steps::knows_its_return;
 use crate::arrays::{all_finite, first_non_finite};
 use crate::methods::{Fixed, Tableau};
 use crate::{D, Dynamics, IntegrationError, Jacobian, Scalar, ScalarOf, State};
@@ -196,7 +197,7 @@ where
     ///
     /// # Errors
     /// [`SensitivityError::Length`] if `by_inputs` has not the length of `inputs`; [`SensitivityError::Returned`] if the
-    /// system has position constraints, whose returns are part of its steps; [`SensitivityError::NotFinite`].
+    /// system has position constraints, and derivatives by parameters are asked for or the return has none; [`SensitivityError::NotFinite`].
     pub fn gradient_at(
         &self,
         times: impl Fn(usize) -> T,
@@ -210,7 +211,7 @@ where
         if length != ticks {
             return Err(SensitivityError::Length { slice: "by_inputs", length, expected: ticks });
         }
-        if self.system.has_positions() {
+        if self.system.has_positions() && (Q > 0 || !knows_its_return(self.system, times(0), start)) {
             return Err(SensitivityError::Returned);
         }
         let not_finite = |what, time: T| SensitivityError::NotFinite { what, time: time.to_f64() };

@@ -173,6 +173,27 @@ where
         Ok(WithColumns { state: *state, columns: columns.map(S::State::from_array) })
     }
 
+    /// Whether a column is taken by a parameter.
+    pub(super) fn has_parameters(&self) -> bool {
+        self.columns.iter().any(|by| matches!(by, By::Parameter(_)))
+    }
+
+    /// What the return of a state to position constraints makes of columns, to first order. Those by parameters, on which
+    /// the constraints may depend, stay where their equations lead them, and so do all without `emit { return_jacobian }`.
+    fn return_columns(&self, t: T, displaced: &S::State, columns: &mut [S::State; K]) {
+        let slopes = self.system.return_jacobian(t, displaced);
+        if !slopes.iter().flatten().all(|slope| slope.is_finite()) {
+            return;
+        }
+        let by_state = columns.iter_mut().zip(self.columns).filter(|(_, by)| !matches!(by, By::Parameter(_)));
+        for (column, _) in by_state {
+            let before = column.to_array();
+            let image =
+                |row: &[T; N]| row.iter().zip(&before).fold(T::ZERO, |sum, (a, x)| a.mul_add(*x, sum));
+            *column = S::State::from_array(core::array::from_fn(|i| slopes.get(i).map_or(T::ZERO, image)));
+        }
+    }
+
     /// F, ∂F/∂x by rows, and ∂F/∂s, a column for each s. What a column is taken by and there is not is NaN.
     #[inline]
     pub(super) fn equations(
@@ -182,8 +203,7 @@ where
         input: &S::Input,
     ) -> (S::State, [[T; N]; N], [[T; N]; K]) {
         let (rate, a, b) = self.system.linearized(t, state, input);
-        let by_parameters = self.columns.iter().any(|by| matches!(by, By::Parameter(_)));
-        let parameters = by_parameters.then(|| (self.parameters)(&self.system, t, state, input));
+        let parameters = self.has_parameters().then(|| (self.parameters)(&self.system, t, state, input));
         let mut pushes = [[T::ZERO; N]; K];
         for (push, by) in pushes.iter_mut().zip(self.columns) {
             for (row, push) in push.iter_mut().enumerate() {
@@ -241,11 +261,19 @@ where
     }
 
     fn return_to_positions(&self, t: T, point: &mut Self::State) -> Result<T, ProjectionError> {
-        self.system.return_to_positions(t, &mut point.state)
+        let displaced = point.state;
+        let residual = self.system.return_to_positions(t, &mut point.state)?;
+        if residual != T::ZERO {
+            self.return_columns(t, &displaced, &mut point.columns);
+        }
+        Ok(residual)
     }
 
     fn correct_positions(&self, t: T, point: &mut Self::State) {
-        self.system.correct_positions(t, &mut point.state);
+        if self.system.has_positions() {
+            self.return_columns(t, &point.state, &mut point.columns);
+            self.system.correct_positions(t, &mut point.state);
+        }
     }
 
     fn side(&self, t: T, point: &Self::State) -> ScalarOf<Self> {

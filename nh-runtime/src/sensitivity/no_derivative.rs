@@ -18,7 +18,8 @@ pub enum SensitivityError {
         /// How many there are.
         count: usize,
     },
-    /// The system has position constraints to which states are returned, and the return is not differentiated.
+    /// The system has position constraints to which states are returned, and the return is not differentiated: not by
+    /// parameters, and by states not without `emit { return_jacobian }`.
     Returned,
     /// The motion only touches where an event function is zero, so that the time of the event has no derivative.
     Grazing {
@@ -68,7 +69,8 @@ impl Display for SensitivityError {
             Self::Returned => write!(
                 f,
                 "the system has position constraints to which its states are returned, and the return is not \
-                 differentiated: integrate `Variational`, or steps over `Jet` numbers, which contain the return"
+                 differentiated: by states it is with `emit {{ jacobian, return_jacobian }}`; by parameters integrate \
+                 `Variational`, or steps over `Jet` numbers, which contain the return"
             ),
             Self::Grazing { event, time, rate } => write!(
                 f,

@@ -52,8 +52,9 @@ impl<P: Tableau, T: Scalar> Fixed<P, T> {
     /// assert!(by_m > 0.0 && by_k < 0.0);
     /// ```
     ///
-    /// Where the system returns to position constraints all of it is NaN, as that of
-    /// [`linearized_step`](Self::linearized_step).
+    /// Where the system returns to position constraints, the return is a part of the step and pulled back with it, as in
+    /// [`linearized_step`](Self::linearized_step); but the constraints may depend on parameters, and what is pulled back to
+    /// these is NaN.
     #[doc(alias("vector-Jacobian product", "vjp", "adjoint"))]
     pub fn pulled_back_step<S, const N: usize, const M: usize, const Q: usize>(
         system: &S,
@@ -69,19 +70,23 @@ impl<P: Tableau, T: Scalar> Fixed<P, T> {
     {
         let start = Start { system, input, time: t, state };
         let x = state.to_array();
-        if system.has_positions() {
-            let (nan, end) = (T::from_f64(f64::NAN), Self::step(system, t, dt, state, input));
-            return PulledBack {
-                state: end,
-                by_state: [nan; N],
-                by_input: [nan; M],
-                by_parameters: [nan; Q],
-            };
-        }
         let (stages, slope) = stages_of::<S, P>(&start, &x, dt);
         let scale = T::from_f64(P::SCALE);
-        let end = S::State::from_array(displaced(&x, dt * scale, &slope));
-        let lambda = covector(&end);
+        let mut end = S::State::from_array(displaced(&x, dt * scale, &slope));
+        let mut of_parameters = T::ZERO;
+        let lambda = if system.has_positions() {
+            // the constraints may depend on parameters
+            of_parameters = T::from_f64(f64::NAN);
+            let slopes = system.return_jacobian(t + dt, &end);
+            system.correct_positions(t + dt, &mut end);
+            let mut before = [T::ZERO; N];
+            for (lambda, row) in covector(&end).iter().zip(&slopes) {
+                add(&mut before, *lambda, row);
+            }
+            before
+        } else {
+            covector(&end)
+        };
         let (slopes, mut weights) = (P::list(&stages), P::list(&P::room([T::ZERO; N])));
         // κᵢ/h, as far as they are known
         for (i, b) in P::WEIGHTS {
@@ -89,8 +94,12 @@ impl<P: Tableau, T: Scalar> Fixed<P, T> {
                 *weight = lambda.map(|lambda| lambda * (T::from_f64(*b) * scale));
             }
         }
-        let mut back =
-            PulledBack { state: end, by_state: lambda, by_input: [T::ZERO; M], by_parameters: [T::ZERO; Q] };
+        let mut back = PulledBack {
+            state: end,
+            by_state: lambda,
+            by_input: [T::ZERO; M],
+            by_parameters: [of_parameters; Q],
+        };
         for (i, (c, row)) in P::ROWS.iter().enumerate().rev() {
             let Some(kappa) = weights.as_ref().get(i).map(|weight| weight.map(|weight| weight * dt)) else {
                 continue;

@@ -87,7 +87,7 @@ where
     ///
     /// # Errors
     /// As [`Integrator::advance_to`]; [`SensitivityError::Returned`] if the integration returns its states to position
-    /// constraints; [`SensitivityError::NotFinite`] if a step has no derivative. The columns are those at the time of
+    /// constraints, and a column is taken by a parameter or the return has no derivative; [`SensitivityError::NotFinite`] if a step has no derivative. The columns are those at the time of
     /// `sim` unless its last step has none.
     ///
     /// ```
@@ -127,7 +127,9 @@ where
         A: Method<S> + LinearizedStep<T>,
     {
         sim.admit_target(target)?;
-        if sim.is_returned() {
+        if sim.is_returned()
+            && (self.has_parameters() || !knows_its_return(&self.system, sim.time(), sim.state()))
+        {
             return Err(SensitivityError::Returned);
         }
         let mut spent = Spent::default();
@@ -135,7 +137,10 @@ where
             let (t, state, input) = (sim.time(), *sim.state(), *sim.input());
             sim.step_within(&mut spent, target)?;
             let dt = sim.time() - t;
-            let step: Transition<_, T, N, K> = A::linearized(&Pushed(self), t, dt, &state, &input)?;
+            let mut step: Transition<_, T, N, K> = A::linearized(&Pushed(self), t, dt, &state, &input)?;
+            if sim.is_returned() {
+                step = step.returned(&self.system, sim.time());
+            }
             let pairs = columns.iter_mut().zip(step.by_input.column_iter());
             for (column, push) in pairs {
                 let mut moved = [T::ZERO; N];
@@ -212,4 +217,13 @@ where
     fn state_depends(row: usize, column: usize) -> bool {
         S::state_depends(row, column)
     }
+}
+
+/// Whether the return of a system to position constraints has a derivative at a state.
+pub(super) fn knows_its_return<S, T, const N: usize>(system: &S, t: T, state: &S::State) -> bool
+where
+    T: Scalar,
+    S: Jacobian<State: State<Scalar = T, Dim = D<N>>>,
+{
+    system.return_jacobian(t, state).iter().flatten().all(|slope| slope.is_finite())
 }

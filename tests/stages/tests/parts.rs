@@ -231,6 +231,7 @@ fn what_touches_zero_exerts_no_force() {
     for constraint in [
         "holonomic { c: x^2 + (y - 1)^2 + z^2 = 0; }",
         "holonomic { c: 1 - cos(x) = 0; }",
+        "holonomic { c: sin(x) + cos(y) = 2; }",
         "holonomic { c: cosh(x - y) = 1; }",
         "holonomic { c: sqrt(x^2 + y^2 + 1) = 1; }",
         "holonomic { c: (x^2 + y^2 - 1)^2 + z^2 = 0; }",

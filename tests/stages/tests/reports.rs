@@ -334,8 +334,6 @@ fn equations_that_nothing_is_known_to_satisfy_are_said_to_be() {
         (&speed(""), "m: f64, e: f64", &[], &[doubt]),
         (&near, "m: f64", &[], &[doubt]),
         (&far, "m: f64", &[&of_positions], &[]),
-        // of second order: all of the points are singular
-        (&particle("holonomic { a: sin(x) + cos(y) = 2; }"), "m: f64", &[], &[doubt]),
     ]);
 }
 

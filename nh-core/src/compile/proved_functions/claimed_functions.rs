@@ -48,6 +48,14 @@ pub(super) fn of_state<'d>(
     }
     if let Some(positions) = &parts.positions {
         claims.push(("position_return", DerivedFunction::Return(positions, declared.constraints)));
+        if let Some(slopes) = &positions.slopes {
+            let claim = DerivedFunction::Jacobian(&positions.step, &slopes.positions, &declared.coordinates);
+            claims.push(("slopes of the position return", claim));
+            if let (Some(projection), Some(by)) = (&parts.projection, &slopes.velocities) {
+                let claim = DerivedFunction::Jacobian(&projection.step, by, &declared.moved);
+                claims.push(("slopes of the projection", claim));
+            }
+        }
     }
     for (impact, rows) in parts.impacts.iter().zip(&declared.impacts) {
         claims.push(("impact", DerivedFunction::Jump(impact, rows)));

@@ -12,6 +12,9 @@ pub(super) struct Declared {
     /// The variables of the state, then the inputs.
     pub(super) arguments: Vec<SymbolId>,
     pub(super) state: Vec<SymbolId>,
+    pub(super) coordinates: Vec<SymbolId>,
+    /// The coordinates, the velocities where a projection starts, and those of the state.
+    pub(super) moved: Vec<SymbolId>,
     pub(super) parameters: Vec<SymbolId>,
     /// The symbols of ẋ.
     pub(super) rates: Vec<SymbolId>,
@@ -61,11 +64,15 @@ impl Declared {
             let gauge = model.symmetries.iter().find(|symmetry| symmetry.name == *name);
             Some((symmetry.section.clone(), gauge.and_then(|symmetry| symmetry.gauge)))
         };
+        let started = parts.projection.iter().flat_map(|projection| projection.start.iter().copied());
+        let moved = coordinates.iter().copied().chain(started).chain(given.velocities.iter().copied());
+        let moved = moved.collect();
         let place = |symbol: &SymbolId| coordinates.iter().position(|known| known == symbol);
         let on_positions = model.positions.iter().chain(&positions.redundant).map(|position| position.value);
         Self {
             arguments: state.iter().copied().chain(inputs).collect(),
             state,
+            moved,
             parameters: model.parameters.iter().map(|parameter| parameter.symbol).collect(),
             rates: model.coordinates.iter().map(|coordinate| coordinate.rate).collect(),
             identities: model.identities.iter().map(|identity| identity.value).collect(),
@@ -78,6 +85,7 @@ impl Declared {
             residuals: on_positions.chain(given.residuals.iter().copied()).collect(),
             impacts,
             constraints: constraints.residuals.len(),
+            coordinates,
         }
     }
 }

@@ -106,7 +106,13 @@ impl Parts {
         self.functions.iter_mut().for_each(|f| finish(f.signature.name, &mut f.procedure));
         self.linearized.iter_mut().for_each(|linearized| finish("jacobian", linearized));
         self.projection.iter_mut().for_each(|projection| finish("projection", &mut projection.step));
-        self.positions.iter_mut().for_each(|positions| finish("position_return", &mut positions.step));
+        if let Some(positions) = &mut self.positions {
+            finish("position_return", &mut positions.step);
+            if let Some(slopes) = &mut positions.slopes {
+                finish("slopes of the position return", &mut slopes.positions);
+                slopes.velocities.iter_mut().for_each(|by| finish("slopes of the projection", by));
+            }
+        }
         self.impacts.iter_mut().for_each(|impact| finish("impact", &mut impact.jump));
         self.embedding.iter_mut().for_each(|embedding| finish("normalize", &mut embedding.step));
         let PhaseSpace { hamiltonian, almost_poisson, held, invariants, leapfrog, euler_poincare_suslov } =

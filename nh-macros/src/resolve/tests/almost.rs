@@ -25,6 +25,7 @@ fn what_is_asked_for_is_derived_or_refused_in_words() {
     assert_eq!(
         refused(over_a_base),
         [
+            "return_jacobian",
             "multipliers",
             "reactions",
             "momenta",

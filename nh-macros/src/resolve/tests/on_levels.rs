@@ -72,6 +72,7 @@ fn everything_is_derived_or_refused() {
                     Some("without constraints")
                 }
                 _ if DERIVED.contains(&word) => None,
+                "return_jacobian" => Some("there is no return to position constraints"),
                 "gyroscopic" => Some("puts the momentum of `"),
                 _ => Some("this is not derived on a level of a momentum"),
             };

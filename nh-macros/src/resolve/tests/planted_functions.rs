@@ -64,7 +64,7 @@ const DECLARED: [(&str, &str); 12] = [
     (
         "base { x, y, z } lagrangian { (der(x)^2 + der(y)^2 + der(z)^2)/2 } constraints { der(z) = a*der(x) + b; }
          holonomic { rod: x^2 + y^2 = l^2; } inputs { u } forces { y: u; }
-         emit { power, multipliers, symmetric_projection }",
+         emit { power, multipliers, symmetric_projection, jacobian, return_jacobian }",
         "struct S { a: f64, b: f64, l: f64 }",
     ),
     (
@@ -234,7 +234,7 @@ fn a_sign_and_a_term_of_1e_9_in_every_function() {
         }
     }
     let all: Vec<&str> = tried.iter().map(String::as_str).collect();
-    assert_eq!(all.len(), 44, "{all:?}");
+    assert_eq!(all.len(), 46, "{all:?}");
 }
 
 /// Divisors with what makes them harmless, and the text of what is 0.

@@ -32,10 +32,8 @@ macro_rules! linearized_step {
                 S: Jacobian<InputDim = D<M>>,
                 S::State: State<Scalar = T, Dim = D<N>>,
             {
-                if system.has_positions() {
-                    return Err(IntegrationError::ReturnNotDifferentiated);
-                }
-                linearized($table, &Start { system, input, time: t, state }, dt)
+                let step = linearized($table, &Start { system, input, time: t, state }, dt)?;
+                Ok(step.returned(system, t + dt))
             }
         }
     };
