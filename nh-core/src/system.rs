@@ -138,9 +138,6 @@ pub struct Projection {
     pub start: Vec<SymbolId>,
     /// Outputs: the next velocities, from the present and the starting ones.
     pub step: Procedure,
-    /// Whether a step ends on the constraints, but for its rounding: they are affine in the velocities, and W is free of
-    /// these.
-    pub is_affine: bool,
 }
 
 /// Position constraints, and the way back to where they hold.
@@ -154,6 +151,9 @@ pub struct PositionReturn {
     pub residual: Procedure,
     /// Outputs: how one Newton step changes the base coordinates.
     pub step: Procedure,
+    /// Outputs: how the velocities in the state change to satisfy all constraints where they are; `None` where these
+    /// hold by themselves, and where they are not affine in the velocities: then there is a [`Projection`].
+    pub velocities: Option<Procedure>,
     /// Outputs: what the constraints were divided by to solve them for velocities, as far as it depends on the
     /// configuration; nothing in the projected formulation.
     pub pivots: Procedure,
@@ -168,8 +168,8 @@ pub struct PositionReturn {
 pub struct SlopesOfReturn {
     /// Those of the changes of the coordinates by the coordinates.
     pub positions: Procedure,
-    /// Those of the next velocities by the coordinates, by the starting velocities and by the present ones, where
-    /// velocities are moved.
+    /// Those of the change of velocities by the coordinates and the velocities; with a [`Projection`] those of the next
+    /// velocities by the coordinates, by the starting velocities and by the present ones; `None` where they stay.
     pub velocities: Option<Procedure>,
 }
 

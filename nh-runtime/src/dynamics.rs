@@ -65,7 +65,7 @@ pub trait Dynamics {
     }
 
     /// Whether the state has to satisfy position constraints: an [`Integrator`](crate::Integrator) then returns
-    /// it to them after every step.
+    /// it to them at the end of every step.
     #[inline]
     fn has_positions(&self) -> bool {
         false

@@ -3,6 +3,8 @@
 mod returns;
 mod sampling;
 
+pub use returns::Returned;
+
 use core::fmt;
 
 use crate::arrays::{all_finite, first_non_finite};
@@ -400,16 +402,14 @@ where
     #[inline]
     fn advance(&mut self, target: Option<ScalarOf<S>>) -> Result<(), IntegrationError> {
         let start = Start { system: &self.system, input: &self.input, time: self.time, state: &self.state };
-        let mut arrival = self.method.advance(&start, target, &mut self.memory, &mut self.statistics)?;
-        if self.returns && self.system.has_positions() {
-            if !self.method.keeps_positions() {
-                returns::correct(
-                    &self.system,
-                    &self.method,
-                    &mut arrival,
-                    (&mut self.memory, &mut self.statistics),
-                )?;
-            }
+        let (memory, statistics) = (&mut self.memory, &mut self.statistics);
+        let is_returned = self.returns && self.system.has_positions();
+        let arrival = if is_returned && !self.method.keeps_positions() {
+            returns::advance(&start, &self.method, target, (memory, statistics))?
+        } else {
+            self.method.advance(&start, target, memory, statistics)?
+        };
+        if is_returned {
             returns::stays_on_its_side(&start, &self.method, &arrival, &mut self.memory)?;
         }
         let Arrival { time, state } = arrival;

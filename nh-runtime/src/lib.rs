@@ -70,6 +70,7 @@ mod angle_cache;
 mod arrays;
 mod assembly;
 pub mod batch;
+mod close_angle;
 mod complex;
 pub mod control;
 mod dense;
@@ -93,6 +94,7 @@ mod lanes;
 mod linear;
 mod linear_model;
 pub mod methods;
+mod near_return;
 mod newton_return;
 #[cfg(test)]
 mod pair;
@@ -404,14 +406,16 @@ pub mod __private {
     pub use crate::__nh_serde_impls as serde_impls;
     pub use crate::TaylorSeries;
     pub use crate::assembly::{AssemblyError, Loops, assemble, assemble_holding};
+    pub use crate::close_angle::CloseAngle;
     pub use crate::impacts;
     pub use crate::inclusion::{restricted, returned};
     pub use crate::linear::{inverse_pivoted, solve_pivoted, times};
     pub use crate::linear_model::{
         FirstOrder, Linearization, LinearizationError, Names, Parts, linearize, variables,
     };
-    pub use crate::newton_return::{corrected, first_iterate, newton, newton_from, product_of_signs, worst};
-    pub use crate::projection::{check_identities, holds, largest, project, project_affine};
+    pub use crate::near_return::{NearReturn, Next};
+    pub use crate::newton_return::{corrected, first_iterate, newton, product_of_signs, worst};
+    pub use crate::projection::{check_identities, holds, largest, project};
     pub use crate::series::History;
     pub use crate::slopes_of_return::slopes_of_return;
     pub use crate::trim::{Steady, TrimError, equations, trim};

@@ -50,27 +50,6 @@ pub fn project<T: Scalar, const N: usize, const M: usize>(
     Err(refusal(iterations, &residual(&present)))
 }
 
-/// The limit of y := step(y₀, y) from y = y₀ where one step leads to it but for its rounding, as for constraints that are
-/// affine in what is moved. What rounding leaves of a step is the smaller the smaller the step: further ones are taken
-/// where the first is more than 2⁻¹³ of the largest component. After one that is not, round-off is left as long as the
-/// condition of the constraints is below 2¹⁰.
-///
-/// # Errors
-/// As [`project`].
-#[inline]
-pub fn project_affine<T: Scalar, const N: usize, const M: usize>(
-    start: [T; N],
-    step: impl Fn(&[T; N], &[T; N]) -> [T; N],
-    residual: impl Fn(&[T; N]) -> [T; M],
-) -> Result<[T; N], ProjectionError> {
-    let next = step(&start, &start);
-    let change = next.iter().zip(&start).fold(T::ZERO, |m, (a, b)| m.max((*a - *b).abs()));
-    if all_finite::<T, _>(&next) && largest(&next).all_ge(change * T::from_f64(8192.0)) {
-        return Ok(next);
-    }
-    project(start, step, residual)
-}
-
 /// Whether nothing is left to correct.
 #[inline]
 #[must_use]
@@ -149,24 +128,6 @@ mod tests {
         assert_eq!(project([0.6, 0.8], step, |_| [0.0]), Ok([0.6, 0.8]));
         let error = project([0.0, 0.0], step, circle).unwrap_err();
         assert_eq!(error, ProjectionError { iterations: 1, residual: 1.0 });
-    }
-
-    #[test]
-    fn small_steps_to_affine_constraints_are_taken_once() {
-        let steps = core::cell::Cell::new(0);
-        // x + 2 y = 5
-        let line = |[x, y]: &[f64; 2]| [x + 2.0 * y - 5.0];
-        let step = |start: &[f64; 2], _: &[f64; 2]| {
-            steps.set(steps.get() + 1);
-            let [left] = line(start);
-            [start[0] - left / 5.0, start[1] - 2.0 * left / 5.0]
-        };
-        let [x, y] = project_affine([1.0 + 1e-6, 2.0], step, line).unwrap();
-        assert!((x + 2.0 * y - 5.0).abs() < 1e-15 && steps.get() == 1);
-        let far = project_affine([3.0, 4.0], step, line).unwrap();
-        assert!((far[0] + 2.0 * far[1] - 5.0).abs() < 1e-15 && steps.get() == 4);
-        assert_eq!(project_affine([1.0, 2.0], |_, _| [f64::NAN; 2], line), Ok([1.0, 2.0]));
-        assert!(project_affine([1.0, 2.1], |_, _| [f64::NAN; 2], line).is_err());
     }
 
     #[test]

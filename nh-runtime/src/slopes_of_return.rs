@@ -3,8 +3,9 @@
 use crate::Scalar;
 
 /// The derivatives, by rows, of a state that is returned by one step of positions, x + δ(x), and one of velocities, at the
-/// next positions: from the derivatives of δ, and from those of the next velocities by the positions, by the velocities
-/// where the step starts and by the present ones, which are the same. What follows in the state stays as it is.
+/// next positions: from the derivatives of δ, and from those of the change of velocities by positions and velocities; or of
+/// the next velocities by the positions, by the velocities where the step starts and by the present ones, which are the
+/// same. What follows in the state stays as it is.
 #[must_use]
 pub fn slopes_of_return<T: Scalar, const N: usize, const X: usize, const Y: usize, const W: usize>(
     of_positions: &[[T; X]; X],
@@ -23,16 +24,19 @@ pub fn slopes_of_return<T: Scalar, const N: usize, const X: usize, const Y: usiz
     }
     let (positions, rest) = all.split_at_mut(X.min(N));
     for (row, by) in rest.iter_mut().zip(of_velocities) {
-        let (by_positions, by_both) = by.split_at(X.min(W));
-        let (by_start, by_present) = by_both.split_at(Y.min(by_both.len()));
-        *row = [T::ZERO; N];
+        let (by_positions, by_velocities) = by.split_at(X.min(W));
+        if by_velocities.len() > Y {
+            *row = [T::ZERO; N];
+        }
         for (by, position) in by_positions.iter().zip(positions.iter()) {
             for (entry, x) in row.iter_mut().zip(position) {
                 *entry = by.mul_add(*x, *entry);
             }
         }
-        for (entry, (start, present)) in row.iter_mut().skip(X).zip(by_start.iter().zip(by_present)) {
-            *entry = *start + *present;
+        for by in by_velocities.chunks(Y.max(1)) {
+            for (entry, by) in row.iter_mut().skip(X).zip(by) {
+                *entry = *entry + *by;
+            }
         }
     }
     all

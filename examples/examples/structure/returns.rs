@@ -52,6 +52,7 @@ nh_models::bicycle! {
 struct Counted<S: Dynamics> {
     system: S,
     derivatives: Cell<u64>,
+    returns: Cell<u64>,
     returned: RefCell<Vec<(ScalarOf<S>, S::State)>>,
 }
 
@@ -74,6 +75,7 @@ impl<S: Dynamics> Dynamics for Counted<S> {
         t: ScalarOf<S>,
         state: &mut S::State,
     ) -> Result<ScalarOf<S>, ProjectionError> {
+        self.returns.set(self.returns.get() + 1);
         let mut returned = self.returned.borrow_mut();
         if returned.len() < REMEMBERED {
             returned.push((t, *state));
@@ -109,7 +111,8 @@ where
     M: for<'a> Method<&'a Counted<S>>,
     ScalarOf<S>: Real,
 {
-    let counted = Counted { system, derivatives: Cell::new(0), returned: RefCell::default() };
+    let [derivatives, returns] = [Cell::new(0), Cell::new(0)];
+    let counted = Counted { system, derivatives, returns, returned: RefCell::default() };
     let mut sim = Integrator::new(&counted, method, ScalarOf::<S>::ZERO, start);
     let energy = system.energy(ScalarOf::<S>::ZERO, &start).to_f64();
     let (mut open, mut lost) = (0.0_f64, 0.0_f64);
@@ -139,11 +142,13 @@ where
     });
     let own = stages * (statistics.steps + statistics.rejected) + 1;
     let renewed = counted.derivatives.get().saturating_sub(own) as f64 / statistics.steps as f64;
+    let returns = counted.returns.get() as f64 / statistics.steps as f64;
     let each = 1e9 / returned.len() as f64;
     println!(
-        "{name:32} {:>8} {renewed:8.2} {:8.2} {:6.0} {:6.0} {open:10.1e} {lost:10.1e}",
+        "{name:32} {:>8} {returns:8.2} {renewed:8.2} {:8.2} {:8.2} {:6.0} {:6.0} {open:10.1e} {lost:10.1e}",
         statistics.steps,
         back / derivative,
+        returns * back / derivative + renewed,
         back * each,
         derivative * each,
     );
@@ -160,8 +165,8 @@ fn swing<T: Scalar>() -> (Swing<T>, SwingState<T>) {
 pub(crate) fn table() {
     println!("Returns to position constraints: by Dopri5 at rtol = atol = 1e-6 but for the last\n");
     println!(
-        "{:32} {:>8} {:>8} {:>8} {:>6} {:>6} {:>10} {:>10}",
-        "", "steps", "renewed", "return", "ns", "stage", "open", "energy"
+        "{:32} {:>8} {:>8} {:>8} {:>8} {:>8} {:>6} {:>6} {:>10} {:>10}",
+        "", "steps", "returns", "renewed", "return", "per step", "ns", "stage", "open", "energy"
     );
     let dopri5 = || (Dopri5::new().rtol(1e-6).atol(1e-6), 6);
     line("four-bar at 20 rad/s, 500 s", LINKAGE, dopri5(), start(), 500.0);

@@ -151,9 +151,9 @@ fn positions(
     let facts = proved.facts.clone();
     let judge = |graph: &Graph, matrix: &Matrix| definiteness(graph, matrix, &parameters, &facts);
     let moving = (states, velocity, [].as_slice());
-    let mut found = position_return(proved, &saddle, restriction, moving, judge)?;
+    let mut found = position_return(proved, (&saddle, None), restriction, moving, judge)?;
     if divides_by_free_parameters(&mut proved.model, &found.step, known, &facts) {
-        found = position_return(proved, &saddle, restriction, moving, |_, _| Definiteness::Unknown)?;
+        found = position_return(proved, (&saddle, None), restriction, moving, |_, _| Definiteness::Unknown)?;
     }
     let graph = &proved.model.graph;
     let varies = |pivot: &&ExprId| graph.symbols_in(&[**pivot]).iter().any(|s| !parameters.contains(s));

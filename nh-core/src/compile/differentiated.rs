@@ -140,10 +140,14 @@ pub(super) fn requested_slopes_of_return(
         by_steps.ok().flatten().or_else(|| jacobian(graph, step, arguments).ok()).unwrap_or_default()
     };
     let of_positions = slopes(&positions.step, &coordinates);
-    let of_velocities = projection.map(|projection| {
-        let arguments = [coordinates.as_slice(), &projection.start, velocities].concat();
-        slopes(&projection.step, &arguments)
-    });
+    let of_velocities = match (projection, &positions.velocities) {
+        (Some(projection), _) => {
+            let arguments = [coordinates.as_slice(), &projection.start, velocities].concat();
+            Some(slopes(&projection.step, &arguments))
+        }
+        (None, Some(change)) => Some(slopes(change, &[coordinates.as_slice(), velocities].concat())),
+        (None, None) => None,
+    };
     Ok(Some(SlopesOfReturn { positions: of_positions, velocities: of_velocities }))
 }
 

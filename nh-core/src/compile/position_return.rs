@@ -13,10 +13,11 @@ use crate::system::PositionReturn;
 /// not determine δ, the rows of the other constraints are added, Φ δ = 0. `None` without position constraints.
 ///
 /// `restriction` gives all velocities from those in the state, where W depends on them; `states` are those, `velocity`
-/// is all of them, and `residuals` are the constraints that they do not satisfy by themselves.
+/// is all of them, and `residuals` are the constraints that they do not satisfy by themselves. `rates` are the equations
+/// of a change of velocities that satisfies these.
 pub(super) fn position_return(
     proved: &mut Proved,
-    saddle: &SaddleEquations,
+    (saddle, rates): (&SaddleEquations, Option<SaddleEquations>),
     restriction: &mut Substitution,
     (states, velocity, residuals): (&[SymbolId], &[ExprId], &[ExprId]),
     judge: impl Fn(&Graph, &Matrix) -> Definiteness,
@@ -45,36 +46,55 @@ pub(super) fn position_return(
             equations.bias.push(graph.zero());
         }
     }
-    let step = step(graph, &equations, &proved.system.algebroid.anchor, &judge);
+    let (way, step) = step(graph, &equations, &proved.system.algebroid.anchor, &judge);
+    let velocities = rates.map(|rates| way.solution(graph, &rates, &judge));
     let assembly = assembly(proved, (states, velocity), residuals);
-    Some(PositionReturn {
-        redundant,
-        count,
-        residual,
-        step,
-        pivots: Procedure::default(),
-        assembly,
-        slopes: None,
-    })
+    let pivots = Procedure::default();
+    Some(PositionReturn { redundant, count, residual, step, velocities, pivots, assembly, slopes: None })
 }
 
-/// ρ(δ), by (10), or along free directions where that is cheaper: its digits are those of a correction, which the next
-/// one mends.
+/// ρ(δ), and the way that takes least.
 fn step(
     graph: &mut Graph,
     equations: &SaddleEquations,
     anchor: &Anchor,
     judge: &dyn Fn(&Graph, &Matrix) -> Definiteness,
-) -> Procedure {
-    let mut by_complement = Procedure::default();
-    let (moves, _) = equations.solve(graph, judge, &mut by_complement);
-    by_complement.outputs = anchor.vector_field(graph, &moves);
+) -> (Way, Procedure) {
+    let mut by_complement = Way::ByComplement.solution(graph, equations, judge);
+    by_complement.outputs = anchor.vector_field(graph, &by_complement.outputs);
     let mut along = Procedure::default();
     let Some(moves) = equations.solve_along_free_directions(graph, judge, &mut along) else {
-        return by_complement;
+        return (Way::ByComplement, by_complement);
     };
     along.outputs = anchor.vector_field(graph, &moves);
-    let mut ways = [by_complement, along];
-    let cheapest = cheapest(graph, &ways);
-    core::mem::take(&mut ways[cheapest])
+    let mut steps = [by_complement, along];
+    let cheapest = cheapest(graph, &steps);
+    ([Way::ByComplement, Way::AlongFreeDirections][cheapest], core::mem::take(&mut steps[cheapest]))
+}
+
+/// How (9) is solved for a correction, whose digits the next one mends. Changes of positions and of velocities that are
+/// found in one way share what they are divided by where they are computed at one place.
+#[derive(Clone, Copy)]
+enum Way {
+    /// By (10).
+    ByComplement,
+    /// Where there are any.
+    AlongFreeDirections,
+}
+
+impl Way {
+    fn solution(
+        self,
+        graph: &mut Graph,
+        equations: &SaddleEquations,
+        judge: &dyn Fn(&Graph, &Matrix) -> Definiteness,
+    ) -> Procedure {
+        let mut solution = Procedure::default();
+        let along = match self {
+            Self::ByComplement => None,
+            Self::AlongFreeDirections => equations.solve_along_free_directions(graph, judge, &mut solution),
+        };
+        solution.outputs = along.unwrap_or_else(|| equations.solve(graph, judge, &mut solution).0);
+        solution
+    }
 }

@@ -21,7 +21,7 @@ use crate::check;
 use crate::choose::Reference;
 use crate::forms::Registry;
 use crate::functions::{ENERGY, GYROSCOPIC, OUTPUT_JACOBIAN, PARAMETER_JACOBIAN, POWER, RESIDUAL, VELOCITY};
-use crate::id::ExprId;
+use crate::id::{ExprId, SymbolId};
 use crate::limits::{Subject, about};
 use crate::mechanics::{
     Definiteness, Flow, Procedure, SaddleEquations, definiteness, energy, saddle_equations,
@@ -89,19 +89,21 @@ pub(super) fn derive(
     let divisors = parameter_divisors(&mut proved.model, &regular);
     let is_free =
         |model: &mut Model, step: &Procedure| divides_by_free_parameters(model, step, &divisors, &facts);
-    let by_pivots = |_: &Graph, _: &Matrix| Definiteness::Unknown;
-    let model = &mut proved.model;
-    let mut back = projection(model, &velocities, &on_levels, &all_residuals, judge);
-    if is_free(model, &back.step) {
-        back = projection(model, &velocities, &on_levels, &all_residuals, by_pivots);
-    }
     let moving = (velocities.as_slice(), velocity.as_slice(), all_residuals.as_slice());
-    let mut positions = position_return(&mut proved, &equations, &mut everywhere, moving, judge);
+    let rates = change(&mut proved.model.graph, &velocities, &on_levels, &all_residuals);
+    let found = (&equations, rates.clone());
+    let mut positions = position_return(&mut proved, found, &mut everywhere, moving, judge);
     if let Some(found) = &positions
-        && is_free(&mut proved.model, &found.step)
+        && [&found.step].into_iter().chain(&found.velocities).any(|step| is_free(&mut proved.model, step))
     {
-        positions = position_return(&mut proved, &equations, &mut everywhere, moving, by_pivots);
+        let found = (&equations, rates);
+        positions = position_return(&mut proved, found, &mut everywhere, moving, by_pivots);
     }
+    let is_projected = positions.as_ref().is_none_or(|positions| positions.velocities.is_none());
+    let projection = is_projected.then(|| {
+        let equations = (&on_levels, all_residuals.as_slice());
+        projection(&mut proved.model, &velocities, equations, &judge, is_free)
+    });
     let impacts = impact_functions::projected(&mut proved, &equations);
     // 6. what both formulations end with
     functions.add(&ENERGY, Procedure::of(vec![energy]));
@@ -110,7 +112,6 @@ pub(super) fn derive(
     functions.add_if(&OUTPUT_JACOBIAN, output_jacobian);
     let on_positions = positions.iter().flat_map(|positions| positions.residual.outputs.clone());
     functions.add(&RESIDUAL, Procedure::of(on_positions.chain(all_residuals.iter().copied()).collect()));
-    let projection = Some(back);
     let parts = Parts {
         linearized,
         functions,
@@ -140,14 +141,47 @@ pub(super) fn derive(
     complete(proved, registry, derivation)
 }
 
-/// One Newton step towards the point of the constraint manifold that is nearest to y₀ in the
-/// kinetic metric: `W (y⁺ − y₀) = Jᵀ μ`, `J (y⁺ − y) = −φ(y)`.
-fn projection(
-    model: &mut Model,
-    velocities: &[crate::id::SymbolId],
+/// The change that leads to where the constraints hold, with least kinetic energy: `W Δ = Jᵀ μ`, `J Δ = −φ(y)`; `None`
+/// where it does not lead there, as φ is not affine, or depends on where it starts, as W does.
+fn change(
+    graph: &mut Graph,
+    velocities: &[SymbolId],
     equations: &SaddleEquations,
     residuals: &[ExprId],
-    judge: impl Fn(&Graph, &Matrix) -> Definiteness,
+) -> Option<SaddleEquations> {
+    let entries: Vec<ExprId> = equations.mass.iter().chain(&equations.jacobian).flatten().copied().collect();
+    if graph.symbols_in(&entries).iter().any(|symbol| velocities.contains(symbol)) {
+        return None;
+    }
+    let force = vec![graph.zero(); equations.mass.len()];
+    let bias = residuals.iter().map(|residual| graph.formula(-*residual)).collect();
+    Some(SaddleEquations { force, bias, ..equations.clone() })
+}
+
+/// No matrix is known to be definite: pivots are numerical.
+fn by_pivots(_: &Graph, _: &Matrix) -> Definiteness {
+    Definiteness::Unknown
+}
+
+/// A step back, with numerical pivots where it would divide by parameters that are free to be 0.
+fn projection(
+    model: &mut Model,
+    velocities: &[SymbolId],
+    equations: (&SaddleEquations, &[ExprId]),
+    judge: &dyn Fn(&Graph, &Matrix) -> Definiteness,
+    is_free: impl Fn(&mut Model, &Procedure) -> bool,
+) -> Projection {
+    let back = step_back(model, velocities, equations, judge);
+    if is_free(model, &back.step) { step_back(model, velocities, equations, &by_pivots) } else { back }
+}
+
+/// One Newton step towards the point of the constraint manifold that is nearest to y₀ in the
+/// kinetic metric: `W (y⁺ − y₀) = Jᵀ μ`, `J (y⁺ − y) = −φ(y)`.
+fn step_back(
+    model: &mut Model,
+    velocities: &[SymbolId],
+    (equations, residuals): (&SaddleEquations, &[ExprId]),
+    judge: &dyn Fn(&Graph, &Matrix) -> Definiteness,
 ) -> Projection {
     let graph = &mut model.graph;
     let start: Vec<_> =
@@ -162,8 +196,6 @@ fn projection(
         })
         .collect();
     let zero = graph.zero();
-    let entries: Vec<ExprId> = equations.mass.iter().chain(&equations.jacobian).flatten().copied().collect();
-    let is_affine = graph.symbols_in(&entries).iter().all(|symbol| !velocities.contains(symbol));
     let bias = equations
         .jacobian
         .iter()
@@ -184,5 +216,5 @@ fn projection(
             graph.formula(start + change)
         })
         .collect();
-    Projection { start, step: procedure, is_affine }
+    Projection { start, step: procedure }
 }

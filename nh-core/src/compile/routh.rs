@@ -162,7 +162,9 @@ impl System {
         let projection = self.projection.iter().map(|projection| &projection.step);
         let embedded = self.embedding.iter().map(|embedding| &embedding.residual);
         let invariants = self.phase_space.invariants.iter().flat_map(|form| [&form.values, &form.gradients]);
-        let positions = self.positions.iter().flat_map(|positions| [&positions.residual, &positions.step]);
+        let positions = self.positions.iter().flat_map(|positions| {
+            [&positions.residual, &positions.step].into_iter().chain(&positions.velocities)
+        });
         let others = projection.chain(embedded).chain(positions).chain(invariants).chain(&self.linearized);
         self.functions.depend_on(&self.model.graph, symbol)
             || std::iter::once(&self.derivative).chain(others).any(|procedure| {

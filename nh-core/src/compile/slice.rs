@@ -109,7 +109,7 @@ fn closure(system: &System, wanted: BTreeSet<SymbolId>) -> BTreeSet<SymbolId> {
     }
     // the way back to position constraints takes what these depend on
     if let Some(positions) = &system.positions {
-        for procedure in [&positions.residual, &positions.step] {
+        for procedure in [&positions.residual, &positions.step].into_iter().chain(&positions.velocities) {
             let found = procedure.depends_on(graph, &procedure.outputs);
             needed.extend(found.into_iter().filter(|symbol| state.contains(symbol)));
         }
@@ -169,8 +169,8 @@ pub(super) fn restrict(system: &mut System, whole: &[SymbolId], needed: &BTreeSe
             let kept = matrix.chunks(coordinates.max(1)).enumerate().filter(|(row, _)| is_kept(*row));
             slopes.positions.outputs = kept.flat_map(|(_, row)| rows(row)).collect();
             if let Some(by) = &mut slopes.velocities {
-                let velocities = system.state_velocities.len();
-                let width = coordinates + 2 * velocities;
+                let started = system.projection.as_ref().map_or(0, |projection| projection.start.len());
+                let width = coordinates + started + system.state_velocities.len();
                 let is_here = |column: &usize| *column >= coordinates || is_kept(*column);
                 let columns: Vec<usize> = (0..width).filter(is_here).collect();
                 let entry = |row: &[ExprId], column: &usize| row.get(*column).copied();

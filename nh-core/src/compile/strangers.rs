@@ -30,6 +30,7 @@ pub(super) fn without_strangers(mut system: System) -> Result<System, Vec<Violat
     }
     if let Some(positions) = &mut system.positions {
         functions.push(("project", &mut positions.step));
+        functions.extend(positions.velocities.as_mut().map(|velocities| ("return_to_positions", velocities)));
         functions.push(("derivative", &mut positions.pivots));
         if let Some(slopes) = &mut positions.slopes {
             functions.push(("jacobian", &mut slopes.positions));

@@ -85,6 +85,18 @@ impl Procedure {
         Self { outputs, ..Self::default() }
     }
 
+    /// Functions beside each other: the results of the first, then those of the next.
+    #[must_use]
+    pub fn joined<'p>(functions: impl IntoIterator<Item = &'p Self>) -> Self {
+        let mut joined = Self::default();
+        for function in functions {
+            joined.definitions.extend_from_slice(&function.definitions);
+            joined.outputs.extend_from_slice(&function.outputs);
+            joined.solved.extend_from_slice(&function.solved);
+        }
+        joined
+    }
+
     /// A function whose intermediate results stay in place: for expressions that are only studied.
     #[must_use]
     pub fn inline() -> Self {

@@ -332,19 +332,19 @@ impl Lowering<'_> {
 }
 
 /// Keeps what outputs depend on.
+impl Program {
+    /// The same as far as some of its outputs.
+    #[must_use]
+    pub fn giving(&self, outputs: &[Value]) -> Self {
+        without_dead_steps(&Self { outputs: outputs.to_vec(), ..self.clone() })
+    }
+}
+
 pub(super) fn without_dead_steps(program: &Program) -> Program {
-    let mut live = vec![false; program.steps.len()];
-    for output in &program.outputs {
-        live[output.index()] = true;
-    }
-    for value in program.steps.ids().rev().filter(|value| value.index() < program.steps.len()) {
-        if live[value.index()] {
-            program.steps[value].each_operand(|operand| live[operand.index()] = true);
-        }
-    }
+    let live = program.needed_by(&program.outputs);
     let mut renamed: Vec<Option<Value>> = vec![None; program.steps.len()];
     let mut steps = Table::new();
-    for (value, step) in program.steps.iter_ids().filter(|(value, _)| live[value.index()]) {
+    for (value, step) in program.steps.iter_ids().filter(|(value, _)| live[*value]) {
         let step = rename(step, &|old: Value| renamed[old.index()].unwrap_or(old));
         renamed[value.index()] = Some(steps.push(step));
     }

@@ -157,6 +157,21 @@ impl Program {
         uses
     }
 
+    /// Which values some values are computed from, themselves included.
+    #[must_use]
+    pub fn needed_by(&self, results: &[Value]) -> Table<Value, bool> {
+        let mut needed: Table<Value, bool> = self.steps.iter().map(|_| false).collect();
+        for value in results {
+            needed[*value] = true;
+        }
+        for value in self.steps.ids().rev() {
+            if needed[value] {
+                self.steps[value].each_operand(|operand| needed[operand] = true);
+            }
+        }
+        needed
+    }
+
     /// Whether a multiply-add is the rounding error of a product, `a b − (a b)`, or what a quotient leaves,
     /// `c − (c / b) b`: nothing without its exact product.
     #[must_use]

@@ -11,6 +11,7 @@ use super::layout::local;
 use super::symbols::Scope;
 
 /// Hands out each name once.
+#[derive(Clone)]
 pub(super) struct Names {
     taken: BTreeSet<String>,
     /// How many times a name was asked for: it was handed out with all lower numbers.
@@ -32,6 +33,9 @@ impl Names {
             "phase",
             "covector",
             "length",
+            "given",
+            "way",
+            "angles",
         ]
         .map(str::to_owned)
         .into();

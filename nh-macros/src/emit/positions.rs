@@ -1,28 +1,32 @@
 //! The return to position constraints: what `project` does first, and how integrators ask for it.
 
 use nonholonomic_core::functions::RESIDUAL;
-use nonholonomic_core::mechanics::Procedure;
+use nonholonomic_core::id::SymbolId;
+use nonholonomic_core::program::Program;
 use nonholonomic_core::system::{PositionReturn, System};
 use proc_macro2::{Literal, TokenStream};
 use quote::quote;
 
 use super::infix::element;
 use super::layout::local;
+use super::place::Place;
 use super::program::body;
-use super::projection::{Way, closure, velocities};
+use super::projection::step_of_velocities;
 use super::results::residual_names;
 use super::setting::Context;
 use super::symbols::{Argument, Scope};
 
-/// `|present| { … }`: outputs of a procedure, in the array of the coordinates.
-fn of_coordinates(context: &Context, system: &System, procedure: &Procedure) -> TokenStream {
+/// `|present| { … }`: outputs of a program, in the array of the coordinates, or of the velocities.
+pub(super) fn in_array(
+    context: &Context,
+    system: &System,
+    moved: &[SymbolId],
+    program: &Program,
+) -> TokenStream {
     let present = local("present");
-    let scope = Scope::new(context, &system.model, &system.state()).with_array(
-        Argument::Present,
-        &present,
-        &system.state_coordinates,
-    );
-    let body = body(context, &scope, &context.lowering.program(&system.model, procedure));
+    let scope = Scope::new(context, &system.model, &system.state());
+    let scope = scope.with_array(Argument::Present, &present, moved);
+    let body = body(context, &scope, program);
     let argument = if body.used.contains(&Argument::Present) { quote!(#present) } else { quote!(_) };
     let (statements, outputs) = (&body.statements, body.outputs.iter().map(element));
     quote!(|#argument| { #statements [#(#outputs),*] })
@@ -30,62 +34,13 @@ fn of_coordinates(context: &Context, system: &System, procedure: &Procedure) -> 
 
 /// The statement of `project` that moves the coordinates of `state`.
 pub(super) fn iteration(context: &Context, system: &System, positions: &PositionReturn) -> TokenStream {
-    iteration_from(context, system, positions, None)
-}
-
-/// The same, with the residuals if they are known.
-fn iteration_from(
-    context: &Context,
-    system: &System,
-    positions: &PositionReturn,
-    known: Option<&[TokenStream]>,
-) -> TokenStream {
     let runtime = &context.runtime;
     let places = context.state.places(&context.locals.state);
     let coordinates = &places[..system.state_coordinates.len().min(places.len())];
-    let change = of_coordinates(context, system, &positions.step);
-    let residual = of_coordinates(context, system, &positions.residual);
-    let start = quote!([#(#coordinates),*]);
-    match known {
-        None => quote!(#start = #runtime::newton(#start, #change, #residual)?;),
-        Some(known) => {
-            quote!(#start = #runtime::newton_from((#start, [#(#known),*]), #change, #residual)?;)
-        }
-    }
-}
-
-/// The body of `return_to_positions`: `project` for states that are near to the constraints, with one look at these where
-/// nothing has to move.
-fn body_of_return(context: &Context, system: &System, positions: &PositionReturn) -> TokenStream {
-    let Context { runtime, scalar, .. } = context;
-    let (t, state) = (&context.locals.t, &context.locals.state);
-    let (residual, given) = (local("residual"), local("given"));
-    let count = system.functions.get(&RESIDUAL).map_or(0, |residual| residual.outputs.len());
-    let literal = Literal::usize_unsuffixed(count);
-    let moves = if system.embedding.is_some() {
-        // identities of the base do not stand among the residuals
-        quote!(Self::project(self, #t, #state)?;)
-    } else {
-        let known = super::projection::entries(&residual, positions.count);
-        let of_positions = iteration_from(context, system, positions, Some(&known));
-        let of_velocities =
-            system.projection.as_ref().map(|projection| velocities(context, system, projection, Way::Short));
-        quote! {
-            if !#runtime::holds(&#residual) {
-                let #given = #state;
-                let mut #state = *#given;
-                #of_positions
-                #of_velocities
-                *#given = #state;
-            }
-        }
-    };
-    quote! {
-        let #residual: [#scalar; #literal] =
-            ::core::convert::From::from(Self::constraint_residual(self, #t, #state));
-        #moves
-        ::core::result::Result::Ok(#runtime::largest(&#residual))
-    }
+    let place = Place::of(context, system, positions);
+    let in_array = |program: &Program| in_array(context, system, &system.state_coordinates, program);
+    let (change, residual) = (in_array(&place.change()), in_array(&place.residual()));
+    quote!([#(#coordinates),*] = #runtime::newton([#(#coordinates),*], #change, #residual)?;)
 }
 
 /// What `impl Dynamics` says of position constraints; nothing without them.
@@ -96,20 +51,13 @@ pub(super) fn hooks(context: &Context, system: &System) -> TokenStream {
     let places = context.state.places(state);
     let (coordinates, rest) = places.split_at(system.state_coordinates.len().min(places.len()));
     let velocities = &rest[..system.state_velocities.len().min(rest.len())];
-    let change = of_coordinates(context, system, &positions.step);
-    let of_velocities = system.projection.as_ref().map(|projection| {
-        let step = closure(
-            context,
-            system,
-            &projection.start,
-            &system.state_velocities,
-            &context.lowering.program(&system.model, &projection.step),
-        );
-        quote!([#(#velocities),*] = #runtime::first_iterate([#(#velocities),*], #step);)
-    });
+    let change = Place::of(context, system, positions).change();
+    let change = in_array(context, system, &system.state_coordinates, &change);
+    let of_velocities = step_of_velocities(context, system)
+        .map(|step| quote!([#(#velocities),*] = #runtime::first_iterate([#(#velocities),*], #step);));
     let count = system.functions.get(&RESIDUAL).map_or(0, |residual| residual.outputs.len());
     let count = Literal::usize_unsuffixed(count);
-    let body = body_of_return(context, system, positions);
+    let body = super::near_return::body_of_return(context, system, positions);
     let names = residual_names(system);
     let side = side(context, system, positions);
     let residuals = super::projection::entries(&local("residual"), names.len());

@@ -35,6 +35,35 @@ pub(super) fn body(context: &Context, scope: &Scope, program: &Program) -> Body 
     written(context, scope, program, None).0
 }
 
+/// Statements of a program whose outputs come in groups: what the first group takes; then, for each of the others, what
+/// it takes beside that, to stand where the former are known. Sines and cosines are taken from angles at hand, and there
+/// are so many of these.
+pub(super) fn body_in_branches(
+    context: &Context,
+    scope: &Scope,
+    program: &Program,
+    (groups, angles): (&[usize], &Ident),
+) -> (Body, Vec<Body>, usize) {
+    let mut outputs = program.outputs.as_slice();
+    let mut next = |count: usize| {
+        let (group, rest) = outputs.split_at(count.min(outputs.len()));
+        outputs = rest;
+        group
+    };
+    let (first, others) = groups.split_first().unwrap_or((&0, &[]));
+    let mut writer = Writer::new(context, scope, program, Some(angles));
+    let always = writer.write(next(*first));
+    let mut most = writer.angles;
+    let mut branch = |count: &usize| {
+        let mut writer = writer.clone();
+        let body = writer.write(next(*count));
+        most = most.max(writer.angles);
+        body
+    };
+    let branches = others.iter().map(&mut branch).collect();
+    (always, branches, most)
+}
+
 /// The same with every sine and cosine taken from angles at hand, and the number of these.
 pub(super) fn body_near_angles(
     context: &Context,
@@ -46,41 +75,21 @@ pub(super) fn body_near_angles(
 }
 
 fn written(context: &Context, scope: &Scope, program: &Program, at_hand: Option<&Ident>) -> (Body, usize) {
-    let mut writer = Writer {
-        context,
-        scope,
-        program,
-        names: Names::new(),
-        expressions: Table::new(),
-        pairs: BTreeMap::new(),
-        systems: BTreeMap::new(),
-        statements: TokenStream::new(),
-        used: BTreeSet::new(),
-        at_hand,
-        angles: 0,
-    };
-    let uses = program.uses();
-    for (value, step) in program.steps.iter_ids() {
-        let expression = writer.step(value, step);
-        let shared = uses[value] > 1 || program.names.contains_key(&value);
-        let expression = if writer.is_stored(step) && (shared || expression.size >= LONGEST) {
-            let name = writer.names.of(program, value, scope);
-            writer.bind(&name, &expression)
-        } else {
-            expression
-        };
-        writer.expressions.push(expression);
-    }
-    let outputs = program.outputs.iter().map(|output| writer.expressions[*output].tokens.clone()).collect();
-    let body = Body { statements: writer.statements, outputs, used: writer.used, names: writer.names };
+    let mut writer = Writer::new(context, scope, program, at_hand);
+    let body = writer.write(&program.outputs);
     (body, writer.angles)
 }
 
+#[derive(Clone)]
 struct Writer<'a> {
     context: &'a Context<'a>,
     scope: &'a Scope<'a>,
     program: &'a Program,
     names: Names,
+    /// How often each value is used.
+    uses: Table<Value, usize>,
+    /// Which values are known already.
+    known: Table<Value, bool>,
     expressions: Table<Value, Expression>,
     /// The variables of each sine and cosine.
     pairs: BTreeMap<Value, (Ident, Ident)>,
@@ -94,7 +103,57 @@ struct Writer<'a> {
     angles: usize,
 }
 
-impl Writer<'_> {
+impl<'a> Writer<'a> {
+    fn new(
+        context: &'a Context<'a>,
+        scope: &'a Scope<'a>,
+        program: &'a Program,
+        at_hand: Option<&'a Ident>,
+    ) -> Self {
+        let nothing = Expression::atom(TokenStream::new(), 0);
+        Self {
+            context,
+            scope,
+            program,
+            names: Names::new(),
+            uses: program.uses(),
+            known: program.steps.iter().map(|_| false).collect(),
+            expressions: program.steps.iter().map(|_| nothing.clone()).collect(),
+            pairs: BTreeMap::new(),
+            systems: BTreeMap::new(),
+            statements: TokenStream::new(),
+            used: BTreeSet::new(),
+            at_hand,
+            angles: 0,
+        }
+    }
+
+    /// The statements of some outputs, as far as these are not known.
+    fn write(&mut self, outputs: &[Value]) -> Body {
+        let needed = self.program.needed_by(outputs);
+        for (value, step) in self.program.steps.iter_ids() {
+            if !needed[value] || self.known[value] {
+                continue;
+            }
+            let expression = self.step(value, step);
+            let shared = self.uses[value] > 1 || self.program.names.contains_key(&value);
+            let expression = if self.is_stored(step) && (shared || expression.size >= LONGEST) {
+                let name = self.names.of(self.program, value, self.scope);
+                self.bind(&name, &expression)
+            } else {
+                expression
+            };
+            self.expressions[value] = expression;
+            self.known[value] = true;
+        }
+        Body {
+            statements: std::mem::take(&mut self.statements),
+            outputs: outputs.iter().map(|output| self.expressions[*output].tokens.clone()).collect(),
+            used: self.used.clone(),
+            names: self.names.clone(),
+        }
+    }
+
     /// Whether a step may need a variable: not if it is one already, or as short as one.
     fn is_stored(&self, step: &Step) -> bool {
         match step {
@@ -270,8 +329,8 @@ impl Writer<'_> {
         let Some(angles) = self.at_hand else { return self.call("sin_cos", &[angle]).tokens };
         let index = Literal::usize_unsuffixed(self.angles);
         self.angles += 1;
-        let (runtime, angle) = (&self.context.runtime, &self.expressions[angle].tokens);
-        quote!(#runtime::Angle::sin_cos(&mut #angles[#index], #angle))
+        let angle = &self.expressions[angle].tokens;
+        quote!(#angles[#index].sin_cos(#angle))
     }
 
     fn sin_cos(&mut self, pair: Value, angle: Value) -> Expression {

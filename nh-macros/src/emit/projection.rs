@@ -4,13 +4,14 @@
 use nonholonomic_core::functions::{RESIDUAL, Record};
 use nonholonomic_core::id::SymbolId;
 use nonholonomic_core::program::Program;
-use nonholonomic_core::system::{Projection, System};
+use nonholonomic_core::system::System;
 use proc_macro2::{Ident, Literal, TokenStream};
 use quote::quote;
 
 use super::infix::element;
 use super::inherent_method::Part;
 use super::layout::local;
+use super::place::Place;
 use super::program::body;
 use super::results::Results;
 use super::setting::Context;
@@ -24,10 +25,14 @@ pub(super) fn emit(context: &Context, system: &System) -> Part {
     let count = system.functions.get(&RESIDUAL).map_or(0, |residual| residual.outputs.len());
     if count > 0 && (system.projection.is_some() || system.positions.is_some()) {
         part.methods = method(context, system);
-        let velocities = system.projection.iter().map(|projection| ("project, each step", &projection.step));
-        let positions = system.positions.iter().map(|p| ("project, each step of positions", &p.step));
-        let steps = positions.chain(velocities);
-        part.programs.extend(steps.map(|(name, step)| (name, context.lowering.program(&system.model, step))));
+        let place = system.positions.as_ref().map(|positions| Place::of(context, system, positions));
+        let of_positions = place.as_ref().map(Place::change);
+        let projection = system.projection.as_ref();
+        let of_velocities = projection
+            .map(|projection| context.lowering.program(&system.model, &projection.step))
+            .or_else(|| place.as_ref()?.change_of_velocities());
+        part.programs.extend(of_positions.map(|step| ("project, each step of positions", step)));
+        part.programs.extend(of_velocities.map(|step| ("project, each step", step)));
         constraints = Some(count);
     }
     let identities = system.embedding.as_ref().map(|embedding| embedding.texts.as_slice());
@@ -61,8 +66,7 @@ pub(super) fn stub(context: &Context, identities: usize, constraints: usize) -> 
 /// The inherent method: coordinates first, then velocities.
 fn method(context: &Context, system: &System) -> TokenStream {
     let state = &context.locals.state;
-    let of_velocities =
-        system.projection.as_ref().map(|projection| velocities(context, system, projection, Way::Whole));
+    let of_velocities = velocities(context, system);
     let of_positions = system.positions.as_ref().map(|p| super::positions::iteration(context, system, p));
     let normalize = system.embedding.as_ref().map(|_| quote!(Self::normalize(self, &mut #state)?;));
     let what = What { normalizes: normalize.is_some(), returns: of_positions.is_some() };
@@ -85,24 +89,22 @@ fn method(context: &Context, system: &System) -> TokenStream {
     with_body(context, what, &body)
 }
 
-/// How velocities are moved.
-#[derive(Clone, Copy, PartialEq, Eq)]
-pub(super) enum Way {
-    /// Not at all where they belong there, and as near as rounding lets them.
-    Whole,
-    /// In a run, by one step where that is enough.
-    Short,
+/// `|start, present| { … }`: the velocities after a step; nothing where they stay.
+pub(super) fn step_of_velocities(context: &Context, system: &System) -> Option<TokenStream> {
+    if let Some(projection) = &system.projection {
+        let step = context.lowering.program(&system.model, &projection.step);
+        return Some(closure(context, system, &projection.start, &system.state_velocities, &step));
+    }
+    let change = Place::of(context, system, system.positions.as_ref()?).change_of_velocities()?;
+    let change = super::positions::in_array(context, system, &system.state_velocities, &change);
+    let (runtime, start) = (&context.runtime, local("start"));
+    Some(quote!(|#start, _| #runtime::corrected(*#start, #change)))
 }
 
-/// The statement that moves the velocities of `state`.
-pub(super) fn velocities(
-    context: &Context,
-    system: &System,
-    projection: &Projection,
-    way: Way,
-) -> TokenStream {
+/// The statement that moves the velocities of `state`; nothing where they stay.
+pub(super) fn velocities(context: &Context, system: &System) -> Option<TokenStream> {
     let (runtime, t, state) = (&context.runtime, &context.locals.t, &context.locals.state);
-    let step = &context.lowering.program(&system.model, &projection.step);
+    let step = step_of_velocities(context, system)?;
     let present = local("present");
     let places = context.state.places(state);
     let (coordinates, rest) = places.split_at(system.state_coordinates.len().min(places.len()));
@@ -111,9 +113,6 @@ pub(super) fn velocities(
     moved.extend(entries(&present, velocities.len()));
     moved.extend_from_slice(auxiliary);
     let moved = context.state.construct(&context.state_name(), &moved);
-    let step = closure(context, system, &projection.start, &system.state_velocities, step);
-    let is_short = projection.is_affine && way == Way::Short;
-    let project = if is_short { quote!(project_affine) } else { quote!(project) };
     let residual = quote!(::core::convert::From::from(Self::constraint_residual(self, #t, &#moved)));
     let of_positions = system.positions.as_ref().map_or(0, |positions| positions.count);
     let residual = if of_positions == 0 {
@@ -126,9 +125,9 @@ pub(super) fn velocities(
         let (count, scalar) = (Literal::usize_unsuffixed(count), &context.scalar);
         quote!({ let [#(#skipped,)* #(#rates),*]: [#scalar; #count] = #residual; [#(#rates),*] })
     };
-    quote! {
-        [#(#velocities),*] = #runtime::#project([#(#velocities),*], #step, |#present| #residual)?;
-    }
+    Some(quote! {
+        [#(#velocities),*] = #runtime::project([#(#velocities),*], #step, |#present| #residual)?;
+    })
 }
 
 /// What `project` does beside moving velocities.

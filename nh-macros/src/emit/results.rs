@@ -198,7 +198,7 @@ pub(super) fn residual_names(system: &System) -> Vec<String> {
     names.extend(
         followers.map(|(index, label)| label.clone().unwrap_or_else(|| format!("redundant_{}", index + 1))),
     );
-    if system.projection.is_some() {
+    if system.formulation == Formulation::Projected {
         names.extend(forms.iter().map(|form| with_suffix(form, "_dot")));
         names.extend(others.iter().cloned());
     }

@@ -308,7 +308,7 @@ pub(crate) fn rails_system(layout: &Layout) -> System {
     }
     system.formulation = Formulation::Projected;
     system.functions.add(&RESIDUAL, Procedure::of(residual.to_vec()));
-    system.projection = Some(Projection { start: start.to_vec(), step, is_affine: true });
+    system.projection = Some(Projection { start: start.to_vec(), step });
     system.functions.add(&MULTIPLIERS, Procedure::of(vec![lambda, zero]));
     system.functions.add(&REACTIONS, Procedure::of(forces));
     system

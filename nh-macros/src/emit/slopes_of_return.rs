@@ -1,6 +1,7 @@
 //! The derivatives of one step back to position constraints, of positions and then of velocities: `return_jacobian` of
 //! `impl Jacobian`.
 
+use nonholonomic_core::id::SymbolId;
 use nonholonomic_core::mechanics::Procedure;
 use nonholonomic_core::system::System;
 use proc_macro2::{Ident, Literal, TokenStream};
@@ -31,24 +32,21 @@ pub(super) fn method(context: &Context, system: &System) -> Option<TokenStream> 
     };
     let start = quote!([#(#coordinates),*]);
     let by_coordinates = at(&slopes.positions, &present, count);
-    let (moves, by_velocities) = match (&system.projection, &slopes.velocities) {
-        (Some(projection), Some(by)) => {
+    let (moves, by_velocities) = match &slopes.velocities {
+        Some(by) => {
             let change = at(&positions.step, &present, 1);
-            let all: Vec<_> = system.state_velocities.iter().chain(&projection.start).copied().collect();
-            let scope = Scope::new(context, &system.model, &system.state());
-            // both velocities are those of the state
-            let twice: Vec<TokenStream> = velocities.iter().chain(velocities).cloned().collect();
-            let scope = scope.with_places(Argument::State, &all, twice).with_array(
-                Argument::Present,
-                &moved,
-                &system.state_coordinates,
-            );
-            let width = count + 2 * velocities.len();
+            // where a projection starts are the velocities of the state
+            let started = system.projection.iter().flat_map(|projection| &projection.start);
+            let started: Vec<SymbolId> = started.copied().collect();
+            let scope = Scope::new(context, &system.model, &system.state())
+                .with_places(Argument::State, &started, velocities.to_vec())
+                .with_array(Argument::Present, &moved, &system.state_coordinates);
+            let width = count + started.len() + velocities.len();
             let by = of_array(context, system, by, (scope, &moved), width);
             let moves = quote!(let #moved = #runtime::corrected(#start, #change););
             (moves, quote!((#by)(&#moved)))
         }
-        _ => {
+        None => {
             let width = Literal::usize_unsuffixed(count);
             (TokenStream::new(), quote!([[<#scalar as #runtime::Scalar>::ZERO; #width]; 0]))
         }

@@ -56,39 +56,65 @@ where
     }
 }
 
-/// Returns the end of a step; a method forgets what it has stored about a state that is moved.
-pub(super) fn correct<S: Dynamics, M: Method<S>>(
-    system: &S,
+/// How a state was returned to position constraints.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Returned<T> {
+    /// The largest residual that was found.
+    pub residual: T,
+    /// How far the component was moved that was moved farthest.
+    pub correction: T,
+}
+
+impl<T: Real> Returned<T> {
+    /// Returns a state.
+    ///
+    /// # Errors
+    /// If it is not reached where the constraints hold.
+    #[inline]
+    pub(crate) fn of<S: Dynamics>(system: &S, t: T, state: &mut S::State) -> Result<Self, ProjectionError>
+    where
+        S::State: State<Scalar = T>,
+    {
+        let before = state.to_array();
+        let residual = system.return_to_positions(t, state)?;
+        let after = state.to_array();
+        let pairs = before.as_ref().iter().zip(after.as_ref());
+        let correction = pairs.fold(T::ZERO, |most, (before, after)| most.max((*after - *before).abs()));
+        if !residual.is_finite() || !correction.is_finite() {
+            return Err(ProjectionError { iterations: 0, residual: residual.to_f64() });
+        }
+        Ok(Self { residual, correction })
+    }
+}
+
+/// A step whose end is returned; a method forgets what it has stored about a state that is moved.
+pub(super) fn advance<S: Dynamics, M: Method<S>>(
+    start: &Start<S>,
     method: &M,
-    arrival: &mut Arrival<S>,
+    target: Option<ScalarOf<S>>,
     (memory, statistics): (&mut M::Memory, &mut Statistics),
-) -> Result<(), IntegrationError>
+) -> Result<Arrival<S>, IntegrationError>
 where
     ScalarOf<S>: Real,
 {
-    let before = arrival.state.to_array();
-    let time = arrival.time.to_f64();
-    let residual = system.return_to_positions(arrival.time, &mut arrival.state);
-    let residual = residual.map_err(|error| {
-        method.forget(memory);
-        IntegrationError::Projection { time, error }
-    })?;
-    let after = arrival.state.to_array();
-    let pairs = before.as_ref().iter().zip(after.as_ref());
-    let correction =
-        pairs.fold(ScalarOf::<S>::ZERO, |largest, (before, after)| largest.max((*after - *before).abs()));
-    if !residual.is_finite() || !correction.is_finite() {
-        method.forget(memory);
-        let error = ProjectionError { iterations: 0, residual: residual.to_f64() };
-        return Err(IntegrationError::Projection { time, error });
-    }
-    if correction != ScalarOf::<S>::ZERO {
-        method.moved(memory);
-    }
+    let (mut arrival, returned) = method.advance_and_return(start, target, memory, statistics)?;
+    let returned = if let Some(returned) = returned {
+        returned
+    } else {
+        let returned = Returned::of(start.system, arrival.time, &mut arrival.state);
+        let returned = returned.map_err(|error| {
+            method.forget(memory);
+            IntegrationError::Projection { time: arrival.time.to_f64(), error }
+        })?;
+        if returned.correction != ScalarOf::<S>::ZERO {
+            method.moved(memory);
+        }
+        returned
+    };
     statistics.projections += 1;
-    statistics.last_residual = residual.to_f64();
-    statistics.largest_correction = statistics.largest_correction.max(correction.to_f64());
-    Ok(())
+    statistics.last_residual = returned.residual.to_f64();
+    statistics.largest_correction = statistics.largest_correction.max(returned.correction.to_f64());
+    Ok(arrival)
 }
 
 /// That a step has not led past a configuration where the velocities in the state do not determine the others.

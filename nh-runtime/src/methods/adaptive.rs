@@ -1,18 +1,17 @@
 //! What the adaptive methods share: their settings, the first step, acceptance and rejection, and the
 //! landing on a target.
 
-use core::fmt;
-
 use super::explicit::Tableau;
 use super::first_step::first_length;
 use super::fixed::Fixed;
 use super::leg::Leg;
-use super::{Arrival, Method, Place, Start, component, non_finite_derivative};
+use super::trial::{Scheme, Trial};
+use super::{Arrival, Method, Place, Start, Step, component, non_finite_derivative};
 use crate::arrays::{all_finite, first_non_finite};
 use crate::step_control::{Controller, Past, StepControl};
 use crate::stiffness::Stiffness;
 use crate::tolerance::{PerComponent, Tolerance, Uniform, norm};
-use crate::{Dynamics, IntegrationError, Real, Scalar, ScalarOf, State, Statistics, VecOf};
+use crate::{Dynamics, IntegrationError, Real, Scalar, State, Statistics, VecOf};
 
 /// A method that chooses the lengths of its steps from an estimate of their errors: `P` computes the
 /// step and the estimate, `T` is the type of numbers, `W` the kind of the tolerances.
@@ -141,118 +140,6 @@ impl<P: Default, T: Real> Default for Adaptive<P, T> {
     }
 }
 
-/// How an adaptive method computes a step and its error.
-pub trait Scheme<S: Dynamics>: Copy {
-    /// One more than the order of the error estimate.
-    const ERROR_ORDER: u32;
-    /// As [`Pair::HELD`](super::Pair::HELD); infinite for a method that stability does not hold back.
-    const HELD: f64 = f64::INFINITY;
-    /// What is kept of a step.
-    type Work: Copy;
-    /// What the states within a step are computed from.
-    type Dense: Copy;
-
-    /// The law of control where the user has given none.
-    #[must_use]
-    fn usual_controller() -> Controller<ScalarOf<S>>
-    where
-        ScalarOf<S>: Real,
-    {
-        Controller::default()
-    }
-
-    /// What there is before the first step.
-    fn work(&self) -> Self::Work;
-
-    /// Drops what depends on the input or on the state at the end of the last step.
-    fn forget(&self, work: &mut Self::Work);
-
-    /// As [`Method::moved`].
-    fn moved(&self, work: &mut Self::Work) {
-        self.forget(work);
-    }
-
-    /// Prepares steps from a new start, and gives the derivative there.
-    fn begin<'w>(
-        &self,
-        start: &Start<'_, S>,
-        work: &'w mut Self::Work,
-        statistics: &mut Statistics,
-    ) -> &'w VecOf<S>;
-
-    /// Computes a step of length `h`, which may be negative, and keeps what dense output needs if it is to
-    /// `KEEP` it; otherwise that is computed anew if it should be asked for.
-    fn attempt<const KEEP: bool, W: Tolerance<S::State>>(
-        &self,
-        start: &Start<'_, S>,
-        h: ScalarOf<S>,
-        tolerance: &W,
-        work: &mut Self::Work,
-        statistics: &mut Statistics,
-    ) -> Trial<S>;
-
-    /// Takes note that the step just computed is accepted.
-    fn accept<const KEEP: bool>(&self, start: &Start<'_, S>, h: ScalarOf<S>, work: &mut Self::Work);
-
-    /// The share of its length to try next after the step just computed has failed before there was
-    /// an error to estimate; the least that control permits if it is not known.
-    fn retry(&self, work: &Self::Work) -> Option<ScalarOf<S>> {
-        let _ = work;
-        None
-    }
-
-    /// The length of the step after one of length `h` that was accepted, where control proposes `next`: the same
-    /// for a method to which a new length costs nothing.
-    fn continued(&self, h: ScalarOf<S>, next: ScalarOf<S>, work: &Self::Work) -> ScalarOf<S> {
-        let _ = (h, work);
-        next
-    }
-
-    /// Asks the next step that is accepted for what [`spread`](Self::spread) gives, if the method has it.
-    fn watch(&self, work: &mut Self::Work) {
-        let _ = work;
-    }
-
-    /// The difference between two states at the start, one of which was a stage of the step before, and that of the
-    /// derivatives there: once, after a step that was watched.
-    fn spread(&self, start: &Start<'_, S>, work: &mut Self::Work) -> Option<(VecOf<S>, VecOf<S>)> {
-        let _ = (start, work);
-        None
-    }
-
-    /// A derivative that was not finite in the step just computed: component, value, and its time as
-    /// a fraction of the step.
-    fn blame(&self, start: &Start<'_, S>, h: ScalarOf<S>, work: &Self::Work) -> Option<((usize, f64), f64)>;
-
-    /// As [`Method::dense`].
-    fn dense(&self, work: &Self::Work, start: &Start<'_, S>, arrival: &Arrival<S>) -> Self::Dense;
-
-    /// As [`Method::interpolate`].
-    fn interpolate(
-        &self,
-        dense: &Self::Dense,
-        start: &Start<'_, S>,
-        arrival: &Arrival<S>,
-        time: ScalarOf<S>,
-    ) -> S::State;
-}
-
-/// A step that may be accepted.
-pub struct Trial<S: Dynamics> {
-    /// Its end.
-    pub state: VecOf<S>,
-    /// The norm of its error in units of the tolerance; NaN or infinite if anything in the step is
-    /// not finite.
-    pub error: ScalarOf<S>,
-}
-
-impl<S: Dynamics> fmt::Debug for Trial<S> {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let state = self.state.as_ref();
-        f.debug_struct("Trial").field("state", &state).field("error", &self.error).finish()
-    }
-}
-
 /// What an adaptive method remembers.
 #[derive(Clone, Copy)]
 pub struct Memory<T, K> {
@@ -321,7 +208,18 @@ where
         memory: &mut Self::Memory,
         statistics: &mut Statistics,
     ) -> Result<Arrival<S>, IntegrationError> {
-        self.take::<true, S>(start, target, memory, statistics)
+        Ok(self.take::<true, false, S>(start, target, memory, statistics)?.0)
+    }
+
+    #[inline]
+    fn advance_and_return(
+        &self,
+        start: &Start<'_, S>,
+        target: Option<T>,
+        memory: &mut Self::Memory,
+        statistics: &mut Statistics,
+    ) -> Result<Step<S>, IntegrationError> {
+        self.take::<true, true, S>(start, target, memory, statistics)
     }
 
     #[inline]
@@ -337,7 +235,7 @@ where
         let mut steps = 0;
         while place.time != target && steps < limit {
             let start = Start { system, input, time: place.time, state: &place.state };
-            let arrival = self.take::<false, S>(&start, Some(target), memory, statistics)?;
+            let (arrival, _) = self.take::<false, false, S>(&start, Some(target), memory, statistics)?;
             place.move_to(arrival);
             statistics.steps += 1;
             steps += 1;
@@ -355,15 +253,15 @@ where
 }
 
 impl<P, T: Real, W> Adaptive<P, T, W> {
-    /// Takes one step with error control.
+    /// Takes one step with error control, and returns it to position constraints before its last stage if it is to.
     #[inline]
-    fn take<const KEEP: bool, S: Dynamics>(
+    pub(super) fn take<const KEEP: bool, const RETURN: bool, S: Dynamics>(
         &self,
         start: &Start<'_, S>,
         target: Option<T>,
         memory: &mut Memory<T, P::Work>,
         statistics: &mut Statistics,
-    ) -> Result<Arrival<S>, IntegrationError>
+    ) -> Result<Step<S>, IntegrationError>
     where
         S::State: State<Scalar = T>,
         P: Scheme<S>,
@@ -394,13 +292,12 @@ impl<P, T: Real, W> Adaptive<P, T, W> {
             if !leg.time.is_finite() {
                 return Err(IntegrationError::NonFiniteTime { time: leg.time.to_f64() });
             }
-            let trial = self.scheme.attempt::<KEEP, _>(
-                start,
-                leg.length,
-                &self.tolerance,
-                &mut memory.work,
-                statistics,
-            );
+            let (scheme, tolerance, work) = (&self.scheme, &self.tolerance, &mut memory.work);
+            let (trial, returned) = if RETURN {
+                scheme.attempt_and_return::<KEEP, _>(start, leg.length, tolerance, work, statistics)
+            } else {
+                (scheme.attempt::<KEEP, _>(start, leg.length, tolerance, work, statistics), None)
+            };
             let length = leg.length.abs();
             if trial.error <= T::ONE {
                 self.scheme.accept::<KEEP>(start, leg.length, &mut memory.work);
@@ -416,7 +313,7 @@ impl<P, T: Real, W> Adaptive<P, T, W> {
                 if memory.stiffness.count(leg.length) {
                     self.scheme.watch(&mut memory.work);
                 }
-                return Ok(Arrival { time: leg.time, state: S::State::from_array(trial.state) });
+                return Ok((Arrival { time: leg.time, state: S::State::from_array(trial.state) }, returned));
             }
             statistics.rejected += 1;
             if h <= shortest {

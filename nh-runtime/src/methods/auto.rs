@@ -1,7 +1,8 @@
 //! An explicit method where the equations allow it, an implicit one where they are stiff.
 
-use super::adaptive::{Adaptive, Memory as Remembered, Scheme};
-use super::{Arrival, Method, Radau, Start, Tsitouras5};
+use super::adaptive::{Adaptive, Memory as Remembered};
+use super::trial::Scheme;
+use super::{Arrival, Method, Radau, Start, Step, Tsitouras5};
 use crate::arrays::{Array, difference};
 use crate::methods::FiniteDifferences;
 use crate::tolerance::{Tolerance, Uniform, norm};
@@ -185,27 +186,17 @@ where
         memory: &mut Self::Memory,
         statistics: &mut Statistics,
     ) -> Result<Arrival<S>, IntegrationError> {
-        if !memory.is_implicit {
-            match self.explicit.advance(start, target, &mut memory.explicit, statistics) {
-                Ok(arrival) => {
-                    memory.was_implicit = false;
-                    if memory.explicit.is_stiff() {
-                        self.go_implicit::<S>(memory, statistics);
-                    }
-                    return Ok(arrival);
-                }
-                Err(IntegrationError::StepUnderflow { .. }) => self.go_implicit::<S>(memory, statistics),
-                Err(error) => return Err(error),
-            }
-        }
-        let arrival = self.implicit.advance(start, target, &mut memory.implicit, statistics)?;
-        memory.was_implicit = true;
-        memory.steps_left -= 1;
-        if memory.steps_left == 0 {
-            memory.steps_left = EVERY;
-            self.look_back(start, &arrival, memory, statistics);
-        }
-        Ok(arrival)
+        Ok(self.take::<false, S>(start, target, memory, statistics)?.0)
+    }
+
+    fn advance_and_return(
+        &self,
+        start: &Start<'_, S>,
+        target: Option<T>,
+        memory: &mut Self::Memory,
+        statistics: &mut Statistics,
+    ) -> Result<Step<S>, IntegrationError> {
+        self.take::<true, S>(start, target, memory, statistics)
     }
 
     fn dense(&self, memory: &Self::Memory, start: &Start<'_, S>, arrival: &Arrival<S>) -> Self::Dense {
@@ -231,6 +222,43 @@ where
 }
 
 impl<T: Real, W, P, Q> Auto<T, W, P, Q> {
+    /// Takes one step by the method that is at work.
+    fn take<const RETURN: bool, S: Dynamics>(
+        &self,
+        start: &Start<'_, S>,
+        target: Option<T>,
+        memory: &mut MemoryOf<S, P, Q>,
+        statistics: &mut Statistics,
+    ) -> Result<Step<S>, IntegrationError>
+    where
+        S::State: State<Scalar = T>,
+        W: Tolerance<S::State>,
+        P: Scheme<S>,
+        Q: Scheme<S>,
+    {
+        if !memory.is_implicit {
+            match self.explicit.take::<true, RETURN, S>(start, target, &mut memory.explicit, statistics) {
+                Ok(step) => {
+                    memory.was_implicit = false;
+                    if memory.explicit.is_stiff() {
+                        self.go_implicit::<S>(memory, statistics);
+                    }
+                    return Ok(step);
+                }
+                Err(IntegrationError::StepUnderflow { .. }) => self.go_implicit::<S>(memory, statistics),
+                Err(error) => return Err(error),
+            }
+        }
+        let step = self.implicit.take::<true, RETURN, S>(start, target, &mut memory.implicit, statistics)?;
+        memory.was_implicit = true;
+        memory.steps_left -= 1;
+        if memory.steps_left == 0 {
+            memory.steps_left = EVERY;
+            self.look_back(start, &step.0, memory, statistics);
+        }
+        Ok(step)
+    }
+
     /// The next steps are implicit, the first as long as an explicit one would be.
     fn go_implicit<S: Dynamics>(&self, memory: &mut MemoryOf<S, P, Q>, statistics: &mut Statistics)
     where

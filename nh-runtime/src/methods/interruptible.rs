@@ -1,6 +1,6 @@
 //! Any method, asked before each step whether to go on.
 
-use super::{Arrival, Method, Place, Start};
+use super::{Arrival, Method, Place, Start, Step};
 use crate::{Dynamics, IntegrationError, Real, Scalar, ScalarOf, Statistics, VecOf};
 
 /// A method that asks, before each of its steps, whether it may go on: for limits that the crate knows nothing of,
@@ -88,6 +88,17 @@ impl<S: Dynamics, M: Method<S>, F: Fn(&Statistics) -> bool> Method<S> for Interr
     ) -> Result<Arrival<S>, IntegrationError> {
         self.ask(start.time, statistics)?;
         self.method.advance(start, target, &mut memory.method, statistics)
+    }
+
+    fn advance_and_return(
+        &self,
+        start: &Start<'_, S>,
+        target: Option<ScalarOf<S>>,
+        memory: &mut Self::Memory,
+        statistics: &mut Statistics,
+    ) -> Result<Step<S>, IntegrationError> {
+        self.ask(start.time, statistics)?;
+        self.method.advance_and_return(start, target, &mut memory.method, statistics)
     }
 
     fn travel(

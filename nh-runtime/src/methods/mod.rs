@@ -62,8 +62,9 @@ mod taylor;
 mod transition;
 #[cfg(test)]
 mod trees;
+mod trial;
 
-pub use adaptive::{Adaptive, Scheme, Trial};
+pub use adaptive::Adaptive;
 pub use auto::Auto;
 pub use explicit::{
     BogackiShampine3, DormandPrince5, DormandPrince8, Euler1, Heun2, Kutta4, Pair, Ralston3, Tableau,
@@ -82,9 +83,11 @@ pub use structure::{
 };
 pub use taylor::Taylor;
 pub use transition::Transition;
+pub use trial::{Scheme, Trial};
 
 pub(crate) use explicit::stages_of;
 
+pub use crate::integrator::Returned;
 pub use crate::step_control::Controller;
 pub use crate::tolerance::{PerComponent, Tolerance, Uniform};
 
@@ -174,6 +177,9 @@ impl<S: Dynamics> Clone for Arrival<S> {
     }
 }
 impl<S: Dynamics> Copy for Arrival<S> {}
+
+/// Where a step has led to, and how it was returned to position constraints, if it was.
+pub type Step<S> = (Arrival<S>, Option<Returned<ScalarOf<S>>>);
 
 /// Where an integration stands, and where its last step came from.
 pub struct Place<S: Dynamics> {
@@ -282,6 +288,21 @@ pub trait Method<S: Dynamics> {
         memory: &mut Self::Memory,
         statistics: &mut Statistics,
     ) -> Result<Arrival<S>, IntegrationError>;
+
+    /// As [`advance`](Self::advance), where the state at the end is to be returned to position constraints, and how that
+    /// was done, if it was: a method that evaluates the derivative at the end of a step returns the state before that.
+    ///
+    /// # Errors
+    /// As [`advance`](Self::advance); a state that cannot be returned is left to the caller.
+    fn advance_and_return(
+        &self,
+        start: &Start<'_, S>,
+        target: Option<ScalarOf<S>>,
+        memory: &mut Self::Memory,
+        statistics: &mut Statistics,
+    ) -> Result<Step<S>, IntegrationError> {
+        Ok((self.advance(start, target, memory, statistics)?, None))
+    }
 
     /// Takes steps towards `target` until it is reached or `limit` of them are done, and gives their
     /// number. They are the steps that [`advance`](Self::advance) takes; a method that can take many

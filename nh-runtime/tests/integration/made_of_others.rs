@@ -148,3 +148,31 @@ fn another_state_starts_without_what_the_last_one_lost() {
     check(GaussLegendre6::new(0.1).compensated());
     check(Interruptible::new(Rk4::new(0.01).compensated(), |_: &Statistics| true));
 }
+
+/// What is evaluated at the end of a step is evaluated once, where the return has led to.
+#[test]
+fn a_return_comes_before_the_evaluation_at_the_end() {
+    fn check<M: Method<Bob> + Copy>(method: M, stages: u64) {
+        let mut sim = Integrator::new(Bob, method, 0.0, ASIDE);
+        for _ in 0..100 {
+            sim.step().unwrap();
+        }
+        let Statistics { steps, rejected, evaluations, projections, largest_correction, .. } =
+            sim.statistics();
+        // the first length asks for one more
+        assert_eq!(evaluations, 2 + stages * (steps + rejected));
+        assert!(projections == steps && largest_correction > 0.0);
+        // and the next step is that of a fresh run
+        let before = *sim.state();
+        let mut fresh = Integrator::new(Bob, method, sim.time(), before);
+        let target = sim.time() + 1e-3;
+        sim.step_towards(target).unwrap();
+        fresh.step_towards(target).unwrap();
+        assert_eq!(sim.state(), fresh.state());
+    }
+    check(Dopri5::new(), 6);
+    check(Tsit5::new(), 6);
+    check(Bs23::new(), 3);
+    check(Interruptible::new(Dopri5::new(), |_: &Statistics| true), 6);
+    check(Auto::new(), 6);
+}

@@ -69,6 +69,7 @@ const NO_METHODS: &[&str] = &[
     // what methods with names of their own are made of
     "Adaptive",
     "Trial",
+    "Step",
     "Fixed",
     "Compensated",
     "Analytic",

@@ -74,10 +74,15 @@ pub(super) fn is_defined(claim: &Derived, place: &mut Place) -> Result<bool, Def
             let rows = returns::slopes(place, residuals, &place.system().algebroid.velocities)?;
             return Ok(is_solvable(&place.mass()?, &rows));
         }
-        Derived::Return(positions, _) => {
+        Derived::Return(positions, _, residuals) => {
             let count = positions.count - positions.redundant.len();
             let (_, rows) = returns::pulled_back(place, &positions.residual.outputs[..count])?;
-            return Ok(is_solvable(&place.mass()?, &rows));
+            let mass = place.mass()?;
+            let rates = match positions.velocities {
+                Some(_) => returns::slopes(place, residuals, &place.system().algebroid.velocities)?,
+                None => Vec::new(),
+            };
+            return Ok(is_solvable(&mass, &rows) && (rates.is_empty() || is_solvable(&mass, &rates)));
         }
         Derived::Normalisation(_, identities) => {
             let rows = returns::independent_slopes(place, identities)?;

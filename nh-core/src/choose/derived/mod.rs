@@ -77,8 +77,8 @@ pub(crate) enum Derived<'p> {
     Residual(&'p Procedure, &'p [ExprId]),
     /// A step back to these constraints on velocities.
     Projection(&'p Projection, &'p [ExprId]),
-    /// A step back to constraints on positions, the first of so many.
-    Return(&'p PositionReturn, usize),
+    /// A step back to constraints on positions, the first of so many, and one to these constraints on velocities.
+    Return(&'p PositionReturn, usize, &'p [ExprId]),
     /// Equations that a step keeps by itself, the first of them so many on positions.
     Held(&'p HeldEquations, usize),
     /// A jump of the velocities, with the rows Ψ y + b.
@@ -232,7 +232,9 @@ impl Derived<'_> {
             Self::Power(form) => [form.power, form.energy].into_iter().chain(form.multipliers).collect(),
             Self::Values(form) => vec![form.values],
             Self::Projection(projection, _) => vec![&projection.step],
-            Self::Return(positions, _) => vec![&positions.residual, &positions.step],
+            Self::Return(positions, ..) => {
+                [&positions.residual, &positions.step].into_iter().chain(&positions.velocities).collect()
+            }
             Self::Held(held, _) => vec![&held.map],
             Self::Jump(impact, _) => vec![&impact.jump],
             Self::Normalisation(embedding, _) => vec![&embedding.step],
@@ -248,6 +250,7 @@ impl Derived<'_> {
             | Self::Section(_, functions)
             | Self::Residual(_, functions)
             | Self::Projection(_, functions)
+            | Self::Return(_, _, functions)
             | Self::Jump(_, functions)
             | Self::Normalisation(_, functions) => functions.to_vec(),
             Self::Held(held, _) => held.functions.clone(),
@@ -325,7 +328,10 @@ impl Derived<'_> {
             Self::Velocity(velocity) => Ok(place.run(velocity)? == place.instant.velocity()),
             Self::Residual(residual, functions) => Ok(place.run(residual)? == place.values(functions)?),
             Self::Projection(projection, residuals) => returns::is_projection(place, projection, residuals),
-            Self::Return(positions, constraints) => returns::is_return(place, positions, constraints),
+            Self::Return(positions, constraints, residuals) => {
+                let moves = returns::is_return(place, positions, constraints)?;
+                Ok(moves && returns::is_change(place, positions.velocities.as_ref(), residuals)?)
+            }
             Self::Held(held, positions) => held::are_held(place, held, positions),
             Self::Jump(impact, rows) => jumps::is_jump(place, impact, rows),
             Self::Normalisation(embedding, identities) => {

@@ -7,6 +7,7 @@ use super::place::{Place, rank, spans};
 use super::procedure_derivative::solution;
 use crate::algebra::{Direction, Residue};
 use crate::id::{ExprId, SymbolId};
+use crate::mechanics::Procedure;
 use crate::phase_space::StepForm;
 use crate::system::{Embedding, PositionReturn, Projection};
 
@@ -34,9 +35,30 @@ pub(super) fn is_projection(
     let mut pass = place.pass();
     choose_all(&mut pass, &projection.start, &start)?;
     let after = run(&mut pass, &projection.step)?;
-    let rows = slopes(place, residuals, velocities)?;
-    let pushed = image(&place.mass()?, &difference(&after, &start));
-    let moved = image(&rows, &difference(&after, place.instant.velocity()));
+    let changes = [difference(&after, &start), difference(&after, place.instant.velocity())];
+    leads_back(place, residuals, &changes)
+}
+
+/// The same for y⁺ − y from y₀ = y, where there is such a change.
+pub(super) fn is_change(
+    place: &Place,
+    change: Option<&Procedure>,
+    residuals: &[ExprId],
+) -> Result<bool, Defect> {
+    let Some(change) = change else { return Ok(true) };
+    let change = place.run(change)?;
+    leads_back(place, residuals, &[change.clone(), change])
+}
+
+/// W (y⁺ − y₀) in the span of the rows of J, J (y⁺ − y) = −φ.
+fn leads_back(
+    place: &Place,
+    residuals: &[ExprId],
+    [from_start, from_here]: &[Vec<Residue>; 2],
+) -> Result<bool, Defect> {
+    let rows = slopes(place, residuals, &place.system().algebroid.velocities)?;
+    let pushed = image(&place.mass()?, from_start);
+    let moved = image(&rows, from_here);
     let left =
         moved.iter().zip(place.values(residuals)?).all(|(moved, value)| *moved + value == Residue::ZERO);
     Ok(left && spans(&rows, &[pushed]))

@@ -47,13 +47,15 @@ pub(super) fn of_state<'d>(
         claims.push(("projection", DerivedFunction::Projection(projection, given.residuals)));
     }
     if let Some(positions) = &parts.positions {
-        claims.push(("position_return", DerivedFunction::Return(positions, declared.constraints)));
+        let claim = DerivedFunction::Return(positions, declared.constraints, given.residuals);
+        claims.push(("position_return", claim));
         if let Some(slopes) = &positions.slopes {
             let claim = DerivedFunction::Jacobian(&positions.step, &slopes.positions, &declared.coordinates);
             claims.push(("slopes of the position return", claim));
-            if let (Some(projection), Some(by)) = (&parts.projection, &slopes.velocities) {
-                let claim = DerivedFunction::Jacobian(&projection.step, by, &declared.moved);
-                claims.push(("slopes of the projection", claim));
+            let step = parts.projection.as_ref().map(|projection| &projection.step);
+            if let (Some(step), Some(by)) = (step.or(positions.velocities.as_ref()), &slopes.velocities) {
+                let claim = DerivedFunction::Jacobian(step, by, &declared.moved);
+                claims.push(("slopes of the velocity return", claim));
             }
         }
     }

@@ -108,9 +108,10 @@ impl Parts {
         self.projection.iter_mut().for_each(|projection| finish("projection", &mut projection.step));
         if let Some(positions) = &mut self.positions {
             finish("position_return", &mut positions.step);
+            positions.velocities.iter_mut().for_each(|velocities| finish("velocity_return", velocities));
             if let Some(slopes) = &mut positions.slopes {
                 finish("slopes of the position return", &mut slopes.positions);
-                slopes.velocities.iter_mut().for_each(|by| finish("slopes of the projection", by));
+                slopes.velocities.iter_mut().for_each(|by| finish("slopes of the velocity return", by));
             }
         }
         self.impacts.iter_mut().for_each(|impact| finish("impact", &mut impact.jump));

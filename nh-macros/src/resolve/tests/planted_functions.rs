@@ -199,6 +199,7 @@ fn compiled(model: &Model, slip: Slip, name: &str, index: usize) -> Result<Syste
 fn site(name: &str) -> &str {
     match name {
         "legendre" | "inverse" | "equations" | "bracket_of_momenta" | "drift_of_momenta" => "hamiltonian",
+        "velocity_return" => "position_return",
         "energy_gradient" | "sharp" => "discrete_gradient",
         "bracket_with_energy" | "drift_of_outputs" => "bracket",
         "vertical_sections"
@@ -234,7 +235,7 @@ fn a_sign_and_a_term_of_1e_9_in_every_function() {
         }
     }
     let all: Vec<&str> = tried.iter().map(String::as_str).collect();
-    assert_eq!(all.len(), 46, "{all:?}");
+    assert_eq!(all.len(), 47, "{all:?}");
 }
 
 /// Divisors with what makes them harmless, and the text of what is 0.

@@ -2,9 +2,9 @@
 
 use super::tableau::{Dense, FEW, Pair, Tableau, interpolate};
 use crate::arrays::{all_finite, difference, displaced, first_non_finite, nought};
-use crate::methods::adaptive::{Scheme, Trial};
+use crate::integrator::Returned;
 use crate::methods::fixed::OneStep;
-use crate::methods::{Arrival, Start, non_finite_derivative};
+use crate::methods::{Arrival, Scheme, Start, Trial, non_finite_derivative};
 use crate::tolerance::{Tolerance, norm};
 use crate::{Dim, DimOf, Dynamics, IntegrationError, Real, Scalar, ScalarOf, State, Statistics, VecOf};
 
@@ -132,6 +132,41 @@ impl<S: Dynamics, P: Tableau> Clone for Work<S, P> {
 }
 impl<S: Dynamics, P: Tableau> Copy for Work<S, P> {}
 
+/// A step of a pair; `arrive` may move its end before the derivative there is evaluated.
+#[inline(always)]
+#[allow(clippy::inline_always)] // the step in one piece: see `Tableau::slope`
+fn step_of<const KEEP: bool, S: Dynamics, P: Pair, W: Tolerance<S::State>>(
+    start: &Start<'_, S>,
+    h: ScalarOf<S>,
+    tolerance: &W,
+    work: &mut Work<S, P>,
+    statistics: &mut Statistics,
+    arrive: impl FnOnce(&mut VecOf<S>),
+) -> Trial<S>
+where
+    ScalarOf<S>: Real,
+{
+    let x = start.state.to_array();
+    let mut stages = P::room(zero::<S>());
+    *P::first(&mut stages) = work.first;
+    let slope = P::slope(start, &x, h, &mut stages);
+    let mut state = displaced(&x, h * ScalarOf::<S>::from_f64(P::SCALE), &slope);
+    statistics.evaluations += u64::from(P::STAGES - 1);
+    if P::FIRST_SAME_AS_LAST {
+        arrive(&mut state);
+        statistics.evaluations += 1;
+        work.last = start.derivative_at(start.time + h, state);
+    }
+    let error = P::error(&stages, &work.last, h, |e| norm(tolerance, e, &x, &state));
+    if work.is_watched {
+        work.beside = P::last_stage(&x, h, &stages);
+    }
+    if KEEP {
+        work.stages = stages;
+    }
+    Trial { state, error: error + nought(&state) }
+}
+
 impl<S: Dynamics, P: Pair> Scheme<S> for P
 where
     ScalarOf<S>: Real,
@@ -197,24 +232,27 @@ where
         work: &mut Work<S, P>,
         statistics: &mut Statistics,
     ) -> Trial<S> {
-        let x = start.state.to_array();
-        let mut stages = P::room(zero::<S>());
-        *P::first(&mut stages) = work.first;
-        let slope = P::slope(start, &x, h, &mut stages);
-        let state = displaced(&x, h * ScalarOf::<S>::from_f64(P::SCALE), &slope);
-        statistics.evaluations += u64::from(P::STAGES - 1);
-        if P::FIRST_SAME_AS_LAST {
-            statistics.evaluations += 1;
-            work.last = start.derivative_at(start.time + h, state);
-        }
-        let error = P::error(&stages, &work.last, h, |e| norm(tolerance, e, &x, &state));
-        if work.is_watched {
-            work.beside = P::last_stage(&x, h, &stages);
-        }
-        if KEEP {
-            work.stages = stages;
-        }
-        Trial { state, error: error + nought(&state) }
+        step_of::<KEEP, S, P, W>(start, h, tolerance, work, statistics, |_| ())
+    }
+
+    #[inline]
+    fn attempt_and_return<const KEEP: bool, W: Tolerance<S::State>>(
+        &self,
+        start: &Start<'_, S>,
+        h: ScalarOf<S>,
+        tolerance: &W,
+        work: &mut Work<S, P>,
+        statistics: &mut Statistics,
+    ) -> (Trial<S>, Option<Returned<ScalarOf<S>>>) {
+        let mut returned = None;
+        let trial = step_of::<KEEP, S, P, W>(start, h, tolerance, work, statistics, |state| {
+            let mut end = S::State::from_array(*state);
+            returned = Returned::of(start.system, start.time + h, &mut end).ok();
+            if returned.is_some() {
+                *state = end.to_array();
+            }
+        });
+        (trial, returned)
     }
 
     #[inline]
