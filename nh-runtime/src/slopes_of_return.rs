@@ -19,7 +19,7 @@ pub fn slopes_of_return<T: Scalar, const N: usize, const X: usize, const Y: usiz
     }
     for (row, moved) in all.iter_mut().zip(of_positions) {
         for (entry, moved) in row.iter_mut().zip(moved) {
-            *entry = *entry + *moved;
+            *entry += *moved;
         }
     }
     let (positions, rest) = all.split_at_mut(X.min(N));
@@ -35,7 +35,7 @@ pub fn slopes_of_return<T: Scalar, const N: usize, const X: usize, const Y: usiz
         }
         for by in by_velocities.chunks(Y.max(1)) {
             for (entry, by) in row.iter_mut().skip(X).zip(by) {
-                *entry = *entry + *by;
+                *entry += *by;
             }
         }
     }

@@ -320,6 +320,9 @@ fn steps_are_differentiated_with_their_return() {
 #[test]
 fn implicit_steps_are_differentiated_with_their_return() {
     use nonholonomic::methods::Transition;
+    type Step = Transition<RimState<f64>, f64, 6, 1>;
+    type Whole = fn(&Rim<f64>, &RimState<f64>, &RimInput<f64>) -> RimState<f64>;
+
     let rim = Rim { m: 1.0, J: 0.5, l: 1.0 };
     // A = 0 leaves one direction: x ẋ + y ẏ = θ θ̇/8 l², ẏ = (1 + x) θ̇/4
     let heading_dot = 0.7;
@@ -329,8 +332,6 @@ fn implicit_steps_are_differentiated_with_their_return() {
     let x_dot = (heading * heading_dot / 8.0 - y * y_dot) / x;
     let start = RimState { x, y, heading, x_dot, y_dot, heading_dot };
     let input = RimInput { push: 0.3 };
-    type Step = Transition<RimState<f64>, f64, 6, 1>;
-    type Whole = fn(&Rim<f64>, &RimState<f64>, &RimInput<f64>) -> RimState<f64>;
     let cases: [(&str, Step, Whole); 4] = [
         ("Rk4", Rk4::linearized_step(&rim, 0.0, 0.1, &start, &input), |s, x, u| Rk4::step(s, 0.0, 0.1, x, u)),
         (

@@ -32,24 +32,21 @@ pub(super) fn method(context: &Context, system: &System) -> Option<TokenStream> 
     };
     let start = quote!([#(#coordinates),*]);
     let by_coordinates = at(&slopes.positions, &present, count);
-    let (moves, by_velocities) = match &slopes.velocities {
-        Some(by) => {
-            let change = at(&positions.step, &present, 1);
-            // where a projection starts are the velocities of the state
-            let started = system.projection.iter().flat_map(|projection| &projection.start);
-            let started: Vec<SymbolId> = started.copied().collect();
-            let scope = Scope::new(context, &system.model, &system.state())
-                .with_places(Argument::State, &started, velocities.to_vec())
-                .with_array(Argument::Present, &moved, &system.state_coordinates);
-            let width = count + started.len() + velocities.len();
-            let by = of_array(context, system, by, (scope, &moved), width);
-            let moves = quote!(let #moved = #runtime::corrected(#start, #change););
-            (moves, quote!((#by)(&#moved)))
-        }
-        None => {
-            let width = Literal::usize_unsuffixed(count);
-            (TokenStream::new(), quote!([[<#scalar as #runtime::Scalar>::ZERO; #width]; 0]))
-        }
+    let (moves, by_velocities) = if let Some(by) = &slopes.velocities {
+        let change = at(&positions.step, &present, 1);
+        // where a projection starts are the velocities of the state
+        let started = system.projection.iter().flat_map(|projection| &projection.start);
+        let started: Vec<SymbolId> = started.copied().collect();
+        let scope = Scope::new(context, &system.model, &system.state())
+            .with_places(Argument::State, &started, velocities.to_vec())
+            .with_array(Argument::Present, &moved, &system.state_coordinates);
+        let width = count + started.len() + velocities.len();
+        let by = of_array(context, system, by, (scope, &moved), width);
+        let moves = quote!(let #moved = #runtime::corrected(#start, #change););
+        (moves, quote!((#by)(&#moved)))
+    } else {
+        let width = Literal::usize_unsuffixed(count);
+        (TokenStream::new(), quote!([[<#scalar as #runtime::Scalar>::ZERO; #width]; 0]))
     };
     Some(quote! {
         fn return_jacobian(&self, #t: #scalar, #state: &#state_type) -> [[#scalar; #all]; #all] {
