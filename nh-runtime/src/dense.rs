@@ -3,7 +3,7 @@
 use core::fmt;
 
 use crate::arrays::{Array, first_non_finite};
-use crate::methods::{Arrival, Method, Start, non_finite_derivative};
+use crate::methods::{Arrival, Method, Start, component};
 use crate::{Dynamics, IntegrationError, Integrator, Real, Scalar, ScalarOf, State};
 
 /// The states within the last step of an integration: see [`Integrator::dense`].
@@ -61,7 +61,9 @@ where
         }
         let mut state = self.method.interpolate(dense, start, arrival, time);
         if let Some(found) = first_non_finite(state.to_array().as_ref()) {
-            return Err(non_finite_derivative::<S::State>(found, time.to_f64()));
+            let (index, value) = found;
+            let component = component::<S::State>(index);
+            return Err(IntegrationError::NonFiniteWithin { component, time: time.to_f64(), value });
         }
         if self.returns {
             let returned = start.system.return_to_positions(time, &mut state);

@@ -72,6 +72,15 @@ pub enum IntegrationError {
         /// Its value.
         value: f64,
     },
+    /// A state within the last step is infinite or not a number.
+    NonFiniteWithin {
+        /// The first such component.
+        component: &'static str,
+        /// The time.
+        time: f64,
+        /// Its value.
+        value: f64,
+    },
     /// The energy of a method that keeps it is infinite or not a number.
     NonFiniteEnergy {
         /// The time at which it was evaluated.
@@ -259,6 +268,11 @@ impl Display for IntegrationError {
                 "the derivative of `{component}` is {value:?} at t = {time:?}, where the mass matrix or \
                  the constraints may be singular: look at the last good state, and at inputs and \
                  parameters"
+            ),
+            Self::NonFiniteWithin { component, time, value } => write!(
+                f,
+                "`{component}` is {value:?} within the step, at t = {time:?}: what the step was made of is not finite, \
+                 or a projection finds no state on the constraints there; take shorter steps"
             ),
             Self::NonFiniteEnergy { time, value } => write!(
                 f,

@@ -3,7 +3,8 @@
 use super::{Arrival, Method, Place, Start, component};
 use crate::projection::largest;
 use crate::{
-    Constrained, IntegrationError, ProjectionError, Real, Scalar, ScalarOf, State, Statistics, VecOf,
+    Constrained, Dim, DimOf, IntegrationError, ProjectionError, Real, Scalar, ScalarOf, State, Statistics,
+    VecOf,
 };
 
 /// A method whose state is projected back to the constraint manifold after every few steps.
@@ -95,12 +96,11 @@ where
         forget {}
         restart { started = false }
         keeps_positions { |this| this.method.keeps_positions() }
-        // what events and samples are given satisfies the constraints as ends of steps do
+        // what events and samples are given satisfies the constraints as ends of steps do, or is nothing
         interpolated { |start, time, state| {
-            let within = state;
             match start.system.project(time, &mut state) {
                 Ok(()) => state,
-                Err(_) => within,
+                Err(_) => S::State::from_array(DimOf::<S>::vec(ScalarOf::<S>::from_f64(f64::NAN))),
             }
         } }
     );

@@ -184,3 +184,47 @@ fn many_steps_at_once_are_the_steps_one_by_one() {
     check(Dop853::new());
     check(Radau5::new());
 }
+
+/// A circle that has no way back to it in the middle of a step of a quarter turn.
+#[derive(Clone, Copy)]
+struct Torn;
+
+impl Dynamics for Torn {
+    type State = Plane<f64>;
+    type Input = ();
+    fn derivative(&self, _t: f64, x: &Plane<f64>, (): &()) -> Plane<f64> {
+        Plane { q: x.p, p: -x.q }
+    }
+}
+
+impl Constrained for Torn {
+    type Constraints = D<1>;
+    fn constraint_residual(&self, _t: f64, x: &Plane<f64>) -> [f64; 1] {
+        [x.q * x.q + x.p * x.p - 1.0]
+    }
+    fn project(&self, t: f64, x: &mut Plane<f64>) -> Result<(), ProjectionError> {
+        if (0.2..0.3).contains(&t) {
+            return Err(ProjectionError { iterations: 1, residual: 1.0 });
+        }
+        let r = x.q.hypot(x.p);
+        *x = Plane { q: x.q / r, p: x.p / r };
+        Ok(())
+    }
+}
+
+/// What a projection does not reach is handed out to nobody.
+#[test]
+fn states_that_are_not_projected_are_not_handed_out() {
+    let mut sim = Integrator::new(Torn, Projected::new(Rk4::new(0.5), 1), 0.0, START);
+    sim.step().unwrap();
+    let dense = sim.dense();
+    assert!(off_the_circle(&dense.at(0.1).unwrap()) < 2e-16);
+    let within = dense.at(0.25).unwrap_err();
+    assert!(
+        matches!(within, IntegrationError::NonFiniteWithin { component: "q", time: 0.25, .. }),
+        "{within:?}"
+    );
+    let text = within.to_string();
+    assert!(text.starts_with("`q` is NaN within the step, at t = 0.25"), "{text}");
+    assert!(off_the_circle(&dense.at(0.4).unwrap()) < 2e-16);
+}
