@@ -241,11 +241,11 @@ impl FieldPass<'_> {
         let mut product = Residue::ONE;
         for (alone, value, coefficient) in self.normal_terms(x) {
             if self.relates_arcs
-                && let Some(times) = coefficient.to_i64()
                 && let Some(Node::Apply(Function::Ln, inside)) = alone.map(|alone| self.graph.node(alone))
-                && let Some(inside) = self.known.get(inside)
+                && self.known.contains_key(inside)
+                && coefficient.to_small().is_some()
             {
-                product = product * inside.integer_power(times).ok_or(NoValue::Here)?;
+                product = product * self.power(*inside, &coefficient)?;
                 continue;
             }
             let symbol = alone.and_then(|alone| self.graph.as_symbol(alone));

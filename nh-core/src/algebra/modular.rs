@@ -429,7 +429,12 @@ impl<'a> FieldPass<'a> {
                 Ok(if is_negative { -value } else { value })
             }
             Function::Abs => Ok(self.sign(x) * x),
-            Function::Acos | Function::Ln => Ok(self.of_kernel(function, x)),
+            // a quarter of a turn less the arc of the sine
+            Function::Acos => {
+                let quarter = self.pi() * Residue::of_word(2).inverse().ok_or(NoValue::Here)?;
+                Ok(quarter - self.function_of_value(Function::Asin, x)?)
+            }
+            Function::Ln => Ok(self.of_kernel(function, x)),
         }
     }
 

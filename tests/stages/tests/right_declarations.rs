@@ -133,12 +133,16 @@ struct LnOfQuotient { m: f64, k: f64 }
 struct LnOfOne { m: f64, k: f64 }
 #[nonholonomic(base { x } lagrangian { m/2*der(x)^2 - k*x*ln((1 + tanh(x))/(1 - tanh(x))) } conserved { e = m/2*der(x)^2 + 2*k*x^2; })]
 struct LnOfTanh { m: f64, k: f64 }
+#[nonholonomic(base { x } lagrangian { m/2*der(x)^2 - k*x*acos(x/(1+x^2)) } conserved { e = m/2*der(x)^2 + k*x*(pi/2 - asin(x/(1+x^2))); })]
+struct ArcsOfOnePoint { m: f64, k: f64 }
+#[nonholonomic(base { x } lagrangian { m/2*der(x)^2 - k*x*exp(3*ln(1+x^2)/2) } conserved { e = m/2*der(x)^2 + k*x*(1+x^2)^(3/2); })]
+struct ExpOfHalves { m: f64, k: f64 }
 ";
 
 #[test]
 fn right_declarations_are_accepted() {
     let found = declarations(RIGHT);
-    assert_eq!(found.len(), 56);
+    assert_eq!(found.len(), 58);
     let mut refused = Vec::new();
     for declaration in found {
         let errors = errors(&declaration.expanded());
@@ -160,6 +164,8 @@ fn slips_in_them_are_refused() {
         ("k*x*y^2", "k*x^2*y"),
         ("+ k*(x + y); })]", "+ k*(x + 2*y); })]"),
         ("+ k*x + 5", "- k*x + 5"),
+        ("k*x*(pi/2 - asin(", "k*x*(pi/2 + asin("),
+        ("k*x*(1+x^2)^(3/2)", "k*x*(1+x^2)^(5/2)"),
         ("k*(2*ln(x) + ln(y))", "k*(ln(x) + ln(y))"),
         ("k*(x^2+1)/2", "k*(x^2+x)/2"),
         ("2*k*x/(1-x^2)", "2*k*x/(1+x^2)"),
