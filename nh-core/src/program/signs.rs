@@ -16,62 +16,160 @@ const CANDIDATES: usize = 16;
 const LONGEST: usize = 3000;
 
 /// The program with fewer negations.
-pub(super) fn absorb_signs(mut program: Program) -> Program {
+pub(super) fn absorb_signs(program: Program) -> Program {
     let negates = program.steps.iter().any(|step| matches!(step, Step::Neg(_)));
     if program.steps.len() > LONGEST || !negates {
         return program;
     }
+    let mut open = Open::of(program);
     let mut settled = 0;
-    while let Some((negation, start, opposite)) = improvement(&program, settled) {
-        program = rebuilt(program, start, &opposite);
-        settled = negation.index().saturating_sub(1);
+    while let Some((negation, start, opposite)) = open.improvement(settled) {
+        let before = open.count_before(negation);
+        if !open.turn(start, &opposite) {
+            let (program, start, opposite) = open.without_gaps(start, &opposite);
+            open = Open::of(rebuilt(program, start, &opposite));
+        }
+        settled = open.place(before.saturating_sub(1));
     }
-    program
+    let is_whole = open.stands.iter().all(|stands| *stands);
+    if is_whole { open.program } else { open.compact().0 }
 }
 
-/// The first negation from `settled` on that can be got rid of, where that begins, and what is opposite then.
-fn improvement(program: &Program, settled: usize) -> Option<(Value, Value, Opposite)> {
-    let users = Users::of(program);
-    for value in (settled..program.steps.len()).map(Value::from_index) {
-        let Step::Neg(inner) = program.steps[value] else { continue };
-        for candidate in candidates(program, inner) {
-            let opposite = opposite(program, &users, candidate);
-            if gain(program, &users, &opposite) > 0 {
-                return Some((value, candidate, opposite));
+/// A program in which steps disappear, and others change where they stand.
+struct Open {
+    program: Program,
+    /// The steps that have not disappeared.
+    stands: Vec<bool>,
+    users: Users,
+}
+
+impl Open {
+    fn of(program: Program) -> Self {
+        Self { stands: vec![true; program.steps.len()], users: Users::of(&program), program }
+    }
+
+    /// How many steps stand before one.
+    fn count_before(&self, value: Value) -> usize {
+        self.stands[..value.index()].iter().filter(|stands| **stands).count()
+    }
+
+    /// Where the step stands before which there are so many.
+    fn place(&self, count: usize) -> usize {
+        let standing = self.stands.iter().enumerate().filter(|(_, stands)| **stands);
+        standing.map(|(place, _)| place).nth(count).unwrap_or(self.stands.len())
+    }
+
+    /// The first negation from `settled` on that can be got rid of, where that begins, and what is opposite then.
+    fn improvement(&self, settled: usize) -> Option<(Value, Value, Opposite)> {
+        let Self { program, users, .. } = self;
+        for value in (settled..program.steps.len()).map(Value::from_index) {
+            let Step::Neg(inner) = program.steps[value] else { continue };
+            for candidate in candidates(program, inner) {
+                let opposite = opposite(program, users, candidate);
+                if gain(program, users, &opposite) > 0 {
+                    return Some((value, candidate, opposite));
+                }
             }
         }
+        None
     }
-    None
+
+    /// Computes values with the opposite sign where no step has to be added for it; whether that is so.
+    fn turn(&mut self, start: Value, opposite: &Opposite) -> bool {
+        let Self { program, stands, users } = self;
+        let Some(turned) = turned_in_place(&program.steps[start]) else { return false };
+        if program.outputs.iter().any(|output| opposite.contains(*output)) {
+            return false;
+        }
+        let mut concerned: Vec<Value> =
+            opposite.values.iter().flat_map(|value| users.of_value(*value)).copied().collect();
+        concerned.sort_unstable();
+        concerned.dedup();
+        let mut changes = Vec::with_capacity(concerned.len());
+        let mut gone = Vec::new();
+        for user in concerned {
+            match change(&program.steps[user], |operand| opposite.contains(*operand)) {
+                Change::Same(step) | Change::Opposite(step) => changes.push((user, step)),
+                Change::Vanishes(_) => gone.push(user),
+                Change::None => {}
+                Change::Refused => return false,
+            }
+        }
+        program.steps[start] = turned;
+        for (user, step) in changes {
+            program.steps[user] = step;
+        }
+        for value in opposite.values.iter().chain(&gone) {
+            program.names.remove(value);
+        }
+        for negation in gone {
+            let Step::Neg(image) = program.steps[negation] else { continue };
+            let moved = users.hand_on(negation, image);
+            for user in moved {
+                let renamed = rename(&program.steps[user], &|old| if old == negation { image } else { old });
+                program.steps[user] = renamed;
+            }
+            for output in program.outputs.iter_mut().filter(|output| **output == negation) {
+                *output = image;
+            }
+            program.steps[negation] = Step::Constant(Rational::ZERO);
+            stands[negation.index()] = false;
+        }
+        true
+    }
+
+    /// The program without the places of steps that have disappeared, and where each value is in it.
+    fn compact(self) -> (Program, Vec<Value>) {
+        let Program { steps, outputs, names } = self.program;
+        let mut compact = Table::new();
+        let mut images = Vec::with_capacity(steps.len());
+        for (step, stands) in steps.iter().zip(&self.stands) {
+            images.push(Value::from_index(compact.len()));
+            if *stands {
+                compact.push(rename(step, &|old: Value| images[old.index()]));
+            }
+        }
+        let names = names.into_iter().map(|(value, name)| (images[value.index()], name)).collect();
+        let outputs = outputs.into_iter().map(|output| images[output.index()]).collect();
+        (Program { steps: compact, outputs, names }, images)
+    }
+
+    /// The same with some of its values.
+    fn without_gaps(self, start: Value, opposite: &Opposite) -> (Program, Value, Opposite) {
+        let (program, images) = self.compact();
+        let mut moved = Opposite { values: Vec::new(), is: vec![false; program.steps.len()] };
+        for value in &opposite.values {
+            moved.add(images[value.index()]);
+        }
+        (program, images[start.index()], moved)
+    }
 }
 
-/// The steps that use each value: one list, and where the users of a value begin in it.
+/// The steps that use each value, those twice that use it twice.
 struct Users {
-    begin: Vec<usize>,
-    list: Vec<Value>,
+    lists: Vec<Vec<Value>>,
 }
 
 impl Users {
     fn of(program: &Program) -> Self {
-        let mut begin = vec![0; program.steps.len() + 1];
-        program.steps.iter().for_each(|step| step.each_operand(|operand| begin[operand.index()] += 1));
-        let mut total = 0;
-        for count in &mut begin {
-            total += std::mem::replace(count, total);
-        }
-        let mut users = Self { list: vec![Value::from_index(0); total], begin };
-        let mut end = users.begin.clone();
+        let mut lists = vec![Vec::new(); program.steps.len()];
         for (value, step) in program.steps.iter_ids() {
-            step.each_operand(|operand| {
-                users.list[end[operand.index()]] = value;
-                end[operand.index()] += 1;
-            });
+            step.each_operand(|operand| lists[operand.index()].push(value));
         }
-        users
+        Self { lists }
     }
 
-    /// The steps that use a value, those twice that use it twice.
     fn of_value(&self, value: Value) -> &[Value] {
-        &self.list[self.begin[value.index()]..self.begin[value.index() + 1]]
+        &self.lists[value.index()]
+    }
+
+    /// Those of a value use another one in its place, which it has used until now.
+    fn hand_on(&mut self, value: Value, to: Value) -> Vec<Value> {
+        let moved = std::mem::take(&mut self.lists[value.index()]);
+        let list = &mut self.lists[to.index()];
+        list.retain(|user| *user != value);
+        list.extend_from_slice(&moved);
+        moved
     }
 }
 
@@ -253,13 +351,23 @@ fn rebuilt(program: Program, start: Value, opposite: &Opposite) -> Program {
     Program { steps, outputs, names }
 }
 
+/// A step with the opposite sign that takes no other.
+fn turned_in_place(step: &Step) -> Option<Step> {
+    match *step {
+        Step::Sub(a, b) => Some(Step::Sub(b, a)),
+        Step::MulAdd { a, b, c, minus_product, minus_c } => {
+            Some(Step::MulAdd { a, b, c, minus_product: !minus_product, minus_c: !minus_c })
+        }
+        _ => None,
+    }
+}
+
 /// Takes a step with the opposite sign, whose operands stay where they are.
 fn turned(steps: &mut Table<Value, Step>, step: &Step) -> Value {
+    if let Some(turned) = turned_in_place(step) {
+        return steps.push(turned);
+    }
     let turned = match *step {
-        Step::Sub(a, b) => Step::Sub(b, a),
-        Step::MulAdd { a, b, c, minus_product, minus_c } => {
-            Step::MulAdd { a, b, c, minus_product: !minus_product, minus_c: !minus_c }
-        }
         Step::Recip(a) => Step::Div(steps.push(Step::Constant(Rational::MINUS_ONE)), a),
         _ => match number(steps, step).map(|(number, other)| (-number.clone(), other)) {
             Some((minus, other)) => Step::Mul(steps.push(Step::Constant(minus)), other),
