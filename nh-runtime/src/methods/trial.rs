@@ -34,7 +34,7 @@ pub trait Scheme<S: Dynamics>: Copy {
     /// Drops what depends on the input or on the state at the end of the last step.
     fn forget(&self, work: &mut Self::Work);
 
-    /// As [`Method::moved`].
+    /// As [`Method::moved`](super::Method::moved).
     fn moved(&self, work: &mut Self::Work) {
         self.forget(work);
     }
@@ -104,10 +104,10 @@ pub trait Scheme<S: Dynamics>: Copy {
     /// a fraction of the step.
     fn blame(&self, start: &Start<'_, S>, h: ScalarOf<S>, work: &Self::Work) -> Option<((usize, f64), f64)>;
 
-    /// As [`Method::dense`].
+    /// As [`Method::dense`](super::Method::dense).
     fn dense(&self, work: &Self::Work, start: &Start<'_, S>, arrival: &Arrival<S>) -> Self::Dense;
 
-    /// As [`Method::interpolate`].
+    /// As [`Method::interpolate`](super::Method::interpolate).
     fn interpolate(
         &self,
         dense: &Self::Dense,
