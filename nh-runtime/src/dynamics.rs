@@ -86,6 +86,17 @@ pub trait Dynamics {
         Ok(ScalarOf::<Self>::ZERO)
     }
 
+    /// By how much a return has moved each component of a state: what a start is judged by, and what statistics say. What
+    /// goes beside a state and follows it, as the columns of a [`Variational`](crate::sensitivity::Variational) do, is not
+    /// moved.
+    fn correction(&self, before: &Self::State, after: &Self::State) -> VecOf<Self> {
+        let mut moved = after.to_array();
+        for (moved, before) in moved.as_mut().iter_mut().zip(before.to_array().as_ref()) {
+            *moved = (*moved - *before).abs();
+        }
+        moved
+    }
+
     /// One step of that return for the positions and one for the velocities, whatever they lead to: the same
     /// instructions at every call.
     #[inline]

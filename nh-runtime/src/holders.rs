@@ -53,6 +53,11 @@ macro_rules! holders {
                 $system.return_to_positions(t, state)
             }
             #[inline]
+            fn correction(&self, before: &$s::State, after: &$s::State) -> VecOf<$s> {
+                let $this = self;
+                $system.correction(before, after)
+            }
+            #[inline]
             fn correct_positions(&self, t: ScalarOf<$s>, state: &mut $s::State) {
                 let $this = self;
                 $system.correct_positions(t, state);

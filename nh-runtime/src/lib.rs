@@ -415,7 +415,7 @@ pub mod __private {
     };
     pub use crate::near_return::{NearReturn, Next};
     pub use crate::newton_return::{corrected, first_iterate, newton, product_of_signs, worst};
-    pub use crate::projection::{check_identities, holds, largest, project};
+    pub use crate::projection::{MOST_RETURNS, check_identities, holds, largest, project, stays};
     pub use crate::series::History;
     pub use crate::slopes_of_return::slopes_of_return;
     pub use crate::trim::{Steady, TrimError, equations, trim};

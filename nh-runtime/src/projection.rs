@@ -50,6 +50,19 @@ pub fn project<T: Scalar, const N: usize, const M: usize>(
     Err(refusal(iterations, &residual(&present)))
 }
 
+/// How often identities of a base and position constraints, which move each other, are returned to in turn.
+pub const MOST_RETURNS: usize = 8;
+
+/// Whether, in every lane, no component has moved by more than rounding of the largest.
+#[must_use]
+pub fn stays<T: Scalar, const N: usize>(before: &[T; N], after: &[T; N]) -> bool {
+    let mut moved = *after;
+    for (moved, before) in moved.iter_mut().zip(before) {
+        *moved -= *before;
+    }
+    is_settled(largest(&moved), largest(after), None)
+}
+
 /// Whether nothing is left to correct.
 #[inline]
 #[must_use]

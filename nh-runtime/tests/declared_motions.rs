@@ -238,8 +238,9 @@ fn steps_with_returns_are_differentiated_by_states() {
     let mut columns = motion.start(&start).unwrap().columns;
     let mut sim = Integrator::new(ROPE, Rk4::new(0.01), 0.0, start);
     assert_eq!(motion.advance(&mut sim, 0.04, &mut columns), Ok(()));
+    // an integrator's returns take a second step of Newton's, and steps by themselves one
     for (column, back) in columns.iter().zip(gradient.by_start) {
-        assert!((column.x - back).abs() < 1e-14, "{} {back}", column.x);
+        assert!((column.x - back).abs() < 1e-11, "{} {back}", column.x);
     }
     let motion = Variational::new(ROPE, [By::Parameter(1)])
         .by_parameters(|s: &Rope<f64>, t, x, u| s.parameter_jacobian(t, x, u));

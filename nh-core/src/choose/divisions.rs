@@ -1,7 +1,7 @@
 //! What a program divides by is what its procedure divides by: lowering adds no condition.
 //!
 //! Divisors are compared in numbers: one of the program is a multiple by a number of one of the procedure, of a factor
-//! of one, of a product of two or three, or of one or two over another, at two points of the field; or it is a
+//! of one, of a product of two to four, or of one or two over another, at two points of the field; or it is a
 //! product of such. An angle whose sine and cosine are written by those of others is met like this, and so is a sum that
 //! is written otherwise.
 
@@ -112,7 +112,10 @@ impl Part<'_> {
     }
 }
 
-/// Whether a value is a multiple of a, a b, a b c, a/c or a b/c.
+/// Of more divisors no products of four are tried.
+const MOST_OF_FOUR: usize = 40;
+
+/// Whether a value is a multiple of a, a b, a b c, a b c d, a/c or a b/c.
 fn is_recognised(known: &[[Residue; 2]], value: [Residue; 2]) -> bool {
     let product = |a: [Residue; 2], b: [Residue; 2]| [a[0] * b[0], a[1] * b[1]];
     let is_one = |value: [Residue; 2]| known.iter().any(|a| is_multiple(value, *a));
@@ -125,4 +128,6 @@ fn is_recognised(known: &[[Residue; 2]], value: [Residue; 2]) -> bool {
             is_one(times)
                 || pairs().any(|pair| is_multiple(times, pair) || is_multiple(value, product(pair, *c)))
         })
+        || known.len() <= MOST_OF_FOUR
+            && pairs().any(|pair| pairs().any(|other| is_multiple(value, product(pair, other))))
 }

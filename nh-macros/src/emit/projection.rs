@@ -74,15 +74,27 @@ fn method(context: &Context, system: &System) -> TokenStream {
         let body = of_positions.or(of_velocities);
         return with_body(context, what, &quote!(#body));
     }
-    // the anchor keeps identities to first order: what is left of them goes, and what that moves comes back
-    let again = of_positions.as_ref().filter(|_| normalize.is_some()).map(|again| quote!(#normalize #again));
+    // the anchor keeps identities to first order: what is left of them goes, and what that moves comes back, until nothing
+    // but rounding moves
+    let (before, runtime, places) = (local("before"), &context.runtime, context.state.places(state));
+    let coordinates = &places[..system.state_coordinates.len().min(places.len())];
+    let returns = if of_positions.is_some() && normalize.is_some() {
+        quote! {
+            for _ in 0..#runtime::MOST_RETURNS {
+                let #before = [#(#coordinates),*];
+                #normalize
+                #of_positions
+                if #runtime::stays(&#before, &[#(#coordinates),*]) { break; }
+            }
+        }
+    } else {
+        quote!(#normalize #of_positions)
+    };
     let given = local("given");
     let body = quote! {
         let #given = #state;
         let mut #state = *#given;
-        #normalize
-        #of_positions
-        #again
+        #returns
         #of_velocities
         *#given = #state;
     };

@@ -1,6 +1,7 @@
 //! The return to position constraints: at the start, after every step.
 
 use super::{Integrator, Spent};
+use crate::arrays::first_non_finite;
 use crate::methods::{Arrival, Method, Start, component};
 use crate::{
     Dynamics, IntegrationError, ProjectionError, Real, Scalar, ScalarOf, State, StateFault, Statistics,
@@ -34,18 +35,16 @@ where
         }
         let mut moved = self.state;
         let returned = self.system.return_to_positions(self.time, &mut moved);
-        let (before, after) = (self.state.to_array(), moved.to_array());
+        let corrections = self.system.correction(&self.state, &moved);
         let permitted = self.method.permitted(&self.state);
-        let pairs = before.as_ref().iter().zip(after.as_ref()).zip(permitted.as_ref());
-        let mut corrections =
-            pairs.map(|((before, after), permitted)| ((*after - *before).abs(), *permitted));
+        let mut pairs = corrections.as_ref().iter().zip(permitted.as_ref());
         // what is not a number is beyond it, too
-        let found = corrections.position(|(correction, permitted)| !permitted.all_ge(correction));
+        let found = pairs.position(|(correction, permitted)| !permitted.all_ge(*correction));
         let (None, Ok(_)) = (found, returned) else {
             let StateFault { identity, residual } = self.system.worst_constraint(self.time, &self.state);
             let index = found.unwrap_or(0);
-            let correction = match (before.as_ref().get(index), after.as_ref().get(index)) {
-                (Some(before), Some(after)) if returned.is_ok() => (*after - *before).abs().to_f64(),
+            let correction = match corrections.as_ref().get(index) {
+                Some(correction) if returned.is_ok() => correction.to_f64(),
                 _ => f64::INFINITY,
             };
             let component = component::<S::State>(index);
@@ -63,6 +62,8 @@ pub struct Returned<T> {
     pub residual: T,
     /// How far the component was moved that was moved farthest.
     pub correction: T,
+    /// Whether anything was moved, what goes beside the state included.
+    pub is_moved: bool,
 }
 
 impl<T: Real> Returned<T> {
@@ -75,15 +76,19 @@ impl<T: Real> Returned<T> {
     where
         S::State: State<Scalar = T>,
     {
-        let before = state.to_array();
+        let before = *state;
         let residual = system.return_to_positions(t, state)?;
+        let moved = system.correction(&before, state);
+        let correction = moved.as_ref().iter().copied().fold(T::ZERO, T::max);
         let after = state.to_array();
-        let pairs = before.as_ref().iter().zip(after.as_ref());
-        let correction = pairs.fold(T::ZERO, |most, (before, after)| most.max((*after - *before).abs()));
-        if !residual.is_finite() || !correction.is_finite() {
+        let before = before.to_array();
+        let is_moved = before.as_ref() != after.as_ref();
+        let is_finite =
+            first_non_finite(moved.as_ref()).is_none() && first_non_finite(after.as_ref()).is_none();
+        if !residual.is_finite() || !is_finite {
             return Err(ProjectionError { iterations: 0, residual: residual.to_f64() });
         }
-        Ok(Self { residual, correction })
+        Ok(Self { residual, correction, is_moved })
     }
 }
 
@@ -106,7 +111,7 @@ where
             method.forget(memory);
             IntegrationError::Projection { time: arrival.time.to_f64(), error }
         })?;
-        if returned.correction != ScalarOf::<S>::ZERO {
+        if returned.is_moved {
             method.moved(memory);
         }
         returned

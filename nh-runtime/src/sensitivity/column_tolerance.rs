@@ -78,8 +78,11 @@ where
         let (state, columns) = permitted.parts_mut();
         *state = self.state.permitted(state);
         for (column, size) in columns.iter_mut().zip(self.sizes) {
-            let Some(tolerance) = &self.columns else { continue };
-            *column = tolerance.permitted(&column.map(|x| x * size)).map(|x| x / size);
+            *column = match &self.columns {
+                Some(tolerance) => tolerance.permitted(&column.map(|x| x * size)).map(|x| x / size),
+                // what is not looked at may be anything
+                None => [T::from_f64(f64::INFINITY); N],
+            };
         }
         permitted
     }

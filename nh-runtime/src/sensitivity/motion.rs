@@ -5,7 +5,7 @@ use nalgebra::SMatrix;
 use super::no_derivative::SensitivityError;
 use super::stack::{Columns, Stack, Stacked};
 use crate::error::{InputFault, ParameterError, ProjectionError, StateFault};
-use crate::{D, Dynamics, Jacobian, Scalar, ScalarOf, State};
+use crate::{D, Dim, Dynamics, Jacobian, Scalar, ScalarOf, State, VecOf};
 
 /// What a column of derivatives is taken by.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -263,10 +263,21 @@ where
     fn return_to_positions(&self, t: T, point: &mut Self::State) -> Result<T, ProjectionError> {
         let displaced = point.state;
         let residual = self.system.return_to_positions(t, &mut point.state)?;
-        if residual != T::ZERO {
-            self.return_columns(t, &displaced, &mut point.columns);
+        // a state that stays where it is has neighbours that are moved; returns take two steps of Newton's where one does
+        // not reach the constraints, and a second one leaves what lies along them as it is
+        let mut between = displaced;
+        for _ in 0..2 {
+            self.return_columns(t, &between, &mut point.columns);
+            self.system.correct_positions(t, &mut between);
         }
         Ok(residual)
+    }
+
+    fn correction(&self, before: &Self::State, after: &Self::State) -> VecOf<Self> {
+        let mut all = Stack::<N, K>::vec(T::ZERO);
+        let (state, _) = all.parts_mut();
+        *state = self.system.correction(&before.state, &after.state);
+        all
     }
 
     fn correct_positions(&self, t: T, point: &mut Self::State) {

@@ -139,7 +139,8 @@ where
             let dt = sim.time() - t;
             let mut step: Transition<_, T, N, K> = A::linearized(&Pushed(self), t, dt, &state, &input)?;
             if sim.is_returned() {
-                step = step.returned(&self.system, sim.time());
+                // two steps of Newton's, as returns take where one does not reach the constraints
+                step = step.returned(&self.system, sim.time()).returned(&self.system, sim.time());
             }
             let pairs = columns.iter_mut().zip(step.by_input.column_iter());
             for (column, push) in pairs {

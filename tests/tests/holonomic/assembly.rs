@@ -225,3 +225,42 @@ fn a_start_that_is_not_assembled_is_refused_with_the_way_out() {
     assert!(matches!(error, IntegrationError::OffConstraints { .. }));
     assert!(error.to_string().contains("or `project` or `assemble` it first"), "{error}");
 }
+
+/// A body that turns with its axis on a tilted cone: an identity of the base and a position constraint, each of which the
+/// way back to the other one leaves.
+#[nonholonomic(
+    base { g[3] }
+    on { unit: dot(g, g) = 1; }
+    basis { w[3] }
+    anchor { der(g) = cross(g, w); }
+    brackets so(3) { w[0], w[1], w[2] }
+    holonomic { cone: g[2] = h * (1 + g[0] / 3); }
+    lagrangian { 1 / 2 * (w[0]^2 + 2 * w[1]^2 + 3 * w[2]^2) - k * g[0] }
+)]
+#[derive(Clone, Copy, Debug)]
+struct Coned {
+    h: f64,
+    k: f64,
+}
+
+/// What was projected is where it belongs, and stays there.
+#[test]
+fn projections_end_on_identities_and_positions() {
+    let coned = Coned { h: 0.4, k: 1.0 };
+    for k in 0..200 {
+        let part = |of: i32| f64::from((k * of) % 101) / 101.0 - 0.5;
+        let g = [0.6 + 0.3 * part(7), 0.7 + 0.3 * part(13), 0.45 + 0.3 * part(29)];
+        let mut state = ConedState { g, w: [part(3), part(5), part(11)] };
+        coned.project(0.0, &mut state).unwrap();
+        let [x, y, z] = state.g;
+        let (unit, cone) = (x * x + y * y + z * z - 1.0, z - 0.4 * (1.0 + x / 3.0));
+        assert!(unit.abs() < 1e-15 && cone.abs() < 1e-15, "{k}: {unit:e} {cone:e}");
+        let mut again = state;
+        coned.project(0.0, &mut again).unwrap();
+        for (a, b) in again.to_array().iter().zip(state.to_array()) {
+            assert!((a - b).abs() < 1e-15, "{k}: {a} {b}");
+        }
+        let mut sim = Integrator::new(coned, Dopri5::new().rtol(1e-12).atol(1e-12), 0.0, state);
+        sim.advance_to(0.1).unwrap();
+    }
+}
