@@ -119,7 +119,7 @@ fn is_proved(graph: &mut Graph, condition: Condition, holding: &[(ExprId, Demand
     })
 }
 
-fn holds(graph: &Graph, condition: Condition, facts: &Facts) -> bool {
+pub(super) fn holds(graph: &Graph, condition: Condition, facts: &Facts) -> bool {
     match condition {
         Condition::Nonzero(e) => graph.vanishes_nowhere(e, facts),
         Condition::Positive(e) => graph.range(e, facts).is_positive(),

@@ -1,5 +1,6 @@
 //! Constraints that exert no force: where they hold their derivative vanishes, and no multiplier says what keeps them.
 
+use super::domain::{Condition, conditions, holds};
 use super::evidence::{name_of, shown};
 use crate::algebra::{Demand, Facts, Graph, Node, Rational};
 use crate::geometry::Algebroid;
@@ -52,6 +53,9 @@ fn without_slope(graph: &mut Graph, function: ExprId, moving: &[SymbolId]) -> Op
         return Some((format!("{function} vanishes with its derivatives where {base} = 0"), WITHOUT_POWER));
     }
     let varying = varying_factors(graph, function, moving);
+    if has_an_end(graph, varying) {
+        return None;
+    }
     let mut fixed = graph.symbols_in(&[varying]);
     fixed.retain(|symbol| !moving.contains(symbol));
     if graph.has_both_signs(varying, &fixed) {
@@ -67,6 +71,14 @@ fn without_slope(graph: &mut Graph, function: ExprId, moving: &[SymbolId]) -> Op
         format!("{} is nowhere {never}: where it is 0, so are its derivatives", shown(graph, varying)),
         ONE_BY_ONE,
     ))
+}
+
+/// Whether a function may end where a root or an arc does: there it may vanish with a slope, as sqrt(x) does.
+fn has_an_end(graph: &Graph, function: ExprId) -> bool {
+    let ends = |(_, condition): &(ExprId, Condition)| {
+        !matches!(condition, Condition::Nonzero(_)) && !holds(graph, *condition, &Facts::default())
+    };
+    graph.reachable(&[function]).into_iter().any(|id| conditions(graph, id, 1).iter().any(ends))
 }
 
 /// The function without factors of fixed symbols alone.

@@ -94,7 +94,7 @@ pub(super) fn complete(
         conditions: &conditions,
     };
     let way_back = parts.positions.as_ref().map(|positions| (positions, parts.projection.as_ref()));
-    let slopes = requested_slopes_of_return(&mut proved.model, way_back, &velocities)?;
+    let slopes = requested_slopes_of_return(&mut proved, way_back, &velocities)?;
     if let Some(positions) = &mut parts.positions {
         positions.slopes = slopes;
     }

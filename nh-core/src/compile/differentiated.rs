@@ -15,6 +15,10 @@ pub(super) const BY_EXPRESSIONS: &str = "differentiated as expressions";
 pub(super) const BY_STEPS: &str = "differentiated step by step";
 pub(super) const BY_RESIDUALS: &str = "differentiated step by step, with the factors of C";
 
+// the two derivatives of a return, as the ledger names them
+pub(super) const SLOPES_OF_POSITIONS: &str = "slopes of the position return";
+pub(super) const SLOPES_OF_VELOCITIES: &str = "slopes of the velocity return";
+
 /// The fate of the winner until it is proved.
 const UNPROVED: Fate = Fate::Lost("it could not be proved");
 
@@ -113,10 +117,11 @@ pub(super) fn requested_parameter_jacobian(
 /// # Errors
 /// Where there is no return, or no Jacobian beside them.
 pub(super) fn requested_slopes_of_return(
-    model: &mut Model,
+    proved: &mut Proved,
     way_back: Option<(&PositionReturn, Option<&Projection>)>,
     velocities: &[SymbolId],
 ) -> Result<Option<SlopesOfReturn>, Vec<Violation>> {
+    let model = &proved.model;
     let asked = |wanted: Request| model.requests.iter().find(|(request, _)| *request == wanted);
     let Some((_, origin)) = asked(Request::ReturnJacobian).copied() else { return Ok(None) };
     let refused = |what: &str, way_out: &str| {
@@ -132,23 +137,20 @@ pub(super) fn requested_slopes_of_return(
         return refused("the derivative of the return goes with that of the motion", way_out);
     }
     let coordinates: Vec<SymbolId> = model.coordinates.iter().map(|coordinate| coordinate.symbol).collect();
-    let parameters: Vec<SymbolId> = model.parameters.iter().map(|parameter| parameter.symbol).collect();
-    let graph = &mut model.graph;
-    // no method of the user's is called on the way back
-    let mut slopes = |step: &Procedure, arguments: &[SymbolId]| {
-        let by_steps = accumulated(graph, step, (arguments, &parameters), Systems::Pivoted, Wanted::Jacobian);
-        by_steps.ok().flatten().or_else(|| jacobian(graph, step, arguments).ok()).unwrap_or_default()
+    let started = projection.iter().flat_map(|projection| projection.start.iter().copied());
+    let moved: Vec<SymbolId> =
+        coordinates.iter().copied().chain(started).chain(velocities.iter().copied()).collect();
+    let mut slopes = |step: &Procedure, site, arguments: &[SymbolId]| {
+        let asked = (origin, "a position constraint", "return_jacobian");
+        differentiated(proved, (step, site, Wanted::Jacobian), arguments, asked)
     };
-    let of_positions = slopes(&positions.step, &coordinates);
-    let of_velocities = match (projection, &positions.velocities) {
-        (Some(projection), _) => {
-            let arguments = [coordinates.as_slice(), &projection.start, velocities].concat();
-            Some(slopes(&projection.step, &arguments))
-        }
-        (None, Some(change)) => Some(slopes(change, &[coordinates.as_slice(), velocities].concat())),
-        (None, None) => None,
+    let of_positions = slopes(&positions.step, SLOPES_OF_POSITIONS, &coordinates)?;
+    let of_velocities = match projection.map(|projection| &projection.step).or(positions.velocities.as_ref())
+    {
+        None => None,
+        Some(step) => slopes(step, SLOPES_OF_VELOCITIES, &moved)?,
     };
-    Ok(Some(SlopesOfReturn { positions: of_positions, velocities: of_velocities }))
+    Ok(of_positions.map(|positions| SlopesOfReturn { positions, velocities: of_velocities }))
 }
 
 /// The derivatives of a function by its arguments: `word` asks for them.

@@ -6,7 +6,7 @@ use crate::algebra::Graph;
 use crate::id::{ExprId, SymbolId};
 
 /// More parts are not looked at.
-const PARTS: usize = 8;
+const PARTS: usize = 64;
 
 impl Manifold {
     /// This part and the others that were found, each as if it were the only one.

@@ -331,7 +331,6 @@ impl Lowering<'_> {
     }
 }
 
-/// Keeps what outputs depend on.
 impl Program {
     /// The same as far as some of its outputs.
     #[must_use]
@@ -340,6 +339,7 @@ impl Program {
     }
 }
 
+/// Keeps what outputs depend on.
 pub(super) fn without_dead_steps(program: &Program) -> Program {
     let live = program.needed_by(&program.outputs);
     let mut renamed: Vec<Option<Value>> = vec![None; program.steps.len()];

@@ -1,5 +1,6 @@
 //! The claims: each function beside its definition.
 
+use super::super::differentiated::{SLOPES_OF_POSITIONS, SLOPES_OF_VELOCITIES};
 use super::super::proved::Split;
 use super::{Claims, Declared, Derivatives, Parts};
 use crate::choose::{
@@ -51,11 +52,11 @@ pub(super) fn of_state<'d>(
         claims.push(("position_return", claim));
         if let Some(slopes) = &positions.slopes {
             let claim = DerivedFunction::Jacobian(&positions.step, &slopes.positions, &declared.coordinates);
-            claims.push(("slopes of the position return", claim));
+            claims.push((SLOPES_OF_POSITIONS, claim));
             let step = parts.projection.as_ref().map(|projection| &projection.step);
             if let (Some(step), Some(by)) = (step.or(positions.velocities.as_ref()), &slopes.velocities) {
                 let claim = DerivedFunction::Jacobian(step, by, &declared.moved);
-                claims.push(("slopes of the velocity return", claim));
+                claims.push((SLOPES_OF_VELOCITIES, claim));
             }
         }
     }

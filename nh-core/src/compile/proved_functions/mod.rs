@@ -3,6 +3,7 @@
 mod claimed_functions;
 mod declared_data;
 
+use super::differentiated::{SLOPES_OF_POSITIONS, SLOPES_OF_VELOCITIES};
 use super::proved::Proved;
 use super::velocities_of_state::{coordinates, parameter_checks};
 use super::{given, levels};
@@ -110,8 +111,8 @@ impl Parts {
             finish("position_return", &mut positions.step);
             positions.velocities.iter_mut().for_each(|velocities| finish("velocity_return", velocities));
             if let Some(slopes) = &mut positions.slopes {
-                finish("slopes of the position return", &mut slopes.positions);
-                slopes.velocities.iter_mut().for_each(|by| finish("slopes of the velocity return", by));
+                finish(SLOPES_OF_POSITIONS, &mut slopes.positions);
+                slopes.velocities.iter_mut().for_each(|by| finish(SLOPES_OF_VELOCITIES, by));
             }
         }
         self.impacts.iter_mut().for_each(|impact| finish("impact", &mut impact.jump));
