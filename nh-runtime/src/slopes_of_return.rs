@@ -41,3 +41,31 @@ pub fn slopes_of_return<T: Scalar, const N: usize, const X: usize, const Y: usiz
     }
     all
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Two positions, two velocities, and a component behind them that stays.
+    #[test]
+    fn velocities_follow_the_positions_that_were_moved() {
+        let of_positions = [[-0.5, -0.5], [-0.5, -0.5]];
+        // changes of the velocities: by the positions, by the velocities
+        let changes = [[2.0, 0.0, -0.5, -0.5], [0.0, 3.0, -0.5, -0.5]];
+        let found: [[f64; 5]; 5] = slopes_of_return(&of_positions, &changes);
+        let expected = [
+            [0.5, -0.5, 0.0, 0.0, 0.0],
+            [-0.5, 0.5, 0.0, 0.0, 0.0],
+            [1.0, -1.0, 0.5, -0.5, 0.0],
+            [-1.5, 1.5, -0.5, 0.5, 0.0],
+            [0.0, 0.0, 0.0, 0.0, 1.0],
+        ];
+        assert_eq!(found, expected);
+        // the next velocities: by the positions, by those of the start, by the present ones
+        let next = [[2.0, 0.0, 1.0, 0.0, -0.5, -0.5], [0.0, 3.0, 0.0, 1.0, -0.5, -0.5]];
+        assert_eq!(slopes_of_return::<f64, 5, 2, 2, 6>(&of_positions, &next), expected);
+        // none are moved
+        let alone: [[f64; 3]; 3] = slopes_of_return(&of_positions, &[[0.0; 2]; 0]);
+        assert_eq!(alone, [[0.5, -0.5, 0.0], [-0.5, 0.5, 0.0], [0.0, 0.0, 1.0]]);
+    }
+}

@@ -234,7 +234,7 @@ fn steps_with_returns_are_differentiated_by_states() {
     let by_parameters = adjoint.by_parameters(|s: &Rope<f64>, t, x, u| s.parameter_jacobian(t, x, u));
     let refused = by_parameters.gradient(0.0, &start, &[(); 4], &Last, &mut places, &mut [[]; 4]);
     assert_eq!(refused.unwrap_err(), SensitivityError::Returned);
-    let (mut state, mut row) = (start, nalgebra::SMatrix::<f64, 4, 4>::identity());
+    let (mut state, mut row) = (start, SMatrix::<f64, 4, 4>::identity());
     for tick in 0..4 {
         let step = Rk4::linearized_step(&ROPE, 0.01 * f64::from(tick), 0.01, &state, &());
         (state, row) = (step.state, step.by_state * row);

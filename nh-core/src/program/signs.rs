@@ -376,3 +376,57 @@ fn turned(steps: &mut Table<Value, Step>, step: &Step) -> Value {
     };
     steps.push(turned)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::algebra::Residue;
+    use crate::program::interpret;
+
+    /// A program of sums, products and negations that a seed determines.
+    fn random(seed: u64) -> Program {
+        let mut steps: Table<Value, Step> = Table::new();
+        let word = |k: usize| Residue::mixed(seed, k as u64).word();
+        for number in [2, 3, 5] {
+            steps.push(Step::Constant(Rational::from(number)));
+        }
+        for k in 3..40 {
+            let of =
+                |salt: u64| Value::from_index(usize::try_from((word(k) >> salt) % k as u64).unwrap_or(0));
+            let (a, b, c) = (of(3), of(17), of(31));
+            steps.push(match word(k) % 7 {
+                0 | 1 => Step::Neg(a),
+                2 => Step::Sub(a, b),
+                3 => Step::Add(a, b),
+                4 => Step::Mul(a, b),
+                5 => Step::Div(a, Value::from_index(0)),
+                _ => Step::MulAdd { a, b, c, minus_product: word(k) & 8 == 0, minus_c: word(k) & 16 == 0 },
+            });
+        }
+        let outputs = steps.ids().rev().step_by(5).take(4).collect();
+        Program { steps, outputs, names: std::iter::empty().collect() }
+    }
+
+    /// Where steps stand or in a new program, what disappears and what is left are the same, and so are the values.
+    #[test]
+    fn steps_that_stand_become_those_of_a_new_program() {
+        let mut in_place = 0;
+        for seed in 0..400 {
+            let program = random(seed);
+            let mut open = Open::of(program.clone());
+            let Some((_, start, opposite)) = open.improvement(0) else { continue };
+            let expected = rebuilt(program.clone(), start, &opposite);
+            if open.turn(start, &opposite) {
+                in_place += 1;
+                let (found, _) = open.compact();
+                assert_eq!((&found.steps, &found.outputs), (&expected.steps, &expected.outputs), "{seed}");
+            }
+            let absorbed = absorb_signs(program.clone());
+            for (found, value) in interpret(&absorbed, |_| 1.0).iter().zip(interpret(&program, |_| 1.0)) {
+                let is_near = (found - value).abs() <= 1e-9 * value.abs();
+                assert!(is_near || !value.is_finite(), "{seed}: {found} {value}");
+            }
+        }
+        assert!(in_place > 40, "{in_place}");
+    }
+}
