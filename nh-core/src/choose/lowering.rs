@@ -6,6 +6,7 @@ use std::fmt::Write;
 
 use super::ledger::Proof;
 use super::lowered::{Unproved, prove_program, prove_split};
+use super::sizes::TAKEN_FROM;
 use crate::algebra::{Accuracy, Graph};
 use crate::id::{Origin, SymbolId};
 use crate::mechanics::Procedure;
@@ -38,6 +39,20 @@ struct Known {
     outcome: Result<Proof, Unproved>,
 }
 
+impl Known {
+    /// The program of a function whose results are among those of this one, where this one is long: what is shared
+    /// among more results is as short for some of them, and what was proved of all is proved of these.
+    fn part(&self, procedure: &Procedure) -> Option<(Program, Result<Proof, Unproved>)> {
+        if self.program.steps.len() < TAKEN_FROM {
+            return None;
+        }
+        let places = self.procedure.places_of(procedure)?;
+        let outputs: Option<Vec<_>> =
+            places.into_iter().map(|place| self.program.outputs.get(place).copied()).collect();
+        Some((self.program.giving(&outputs?), self.outcome.clone()))
+    }
+}
+
 impl Lowering {
     /// The program of a procedure, at the level of accuracy that is asked for.
     #[must_use]
@@ -68,6 +83,14 @@ impl Lowering {
         if let Some(Known { program, outcome, .. }) = self.known.borrow().iter().find(is_known) {
             self.note(outcome.clone());
             return program.clone();
+        }
+        let part = |known: &Known| {
+            let is_beside = std::ptr::eq(known.model, model) && known.has_corrections == has_corrections;
+            if is_beside { known.part(procedure) } else { None }
+        };
+        if let Some((program, outcome)) = self.known.borrow().iter().find_map(part) {
+            self.note(outcome);
+            return program;
         }
         let finish = |program| if has_corrections { corrected(&program) } else { program };
         let (program, outcome) = match lowered(&model.graph, procedure, &parameters(model), finish) {
@@ -182,3 +205,50 @@ fn loses_digits(graph: &Graph, plain: &Program, program: &Program) -> bool {
 
 /// How much larger rounding errors may be by that, which is how far bounds of equal errors are apart.
 const SLACK: f64 = 1.25;
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::id::ExprId;
+    use crate::program::{order, schedule};
+
+    /// A sum of products of shifted powers for each result: nothing of it can be shared away.
+    fn long(graph: &mut Graph, count: i64) -> Procedure {
+        let symbol = graph.new_symbol("x");
+        let x = graph.symbol(symbol);
+        let mut result = |row: i64| -> ExprId {
+            (0..12).fold(x, |product, column| {
+                let shift = graph.number(13 * row + column + 2);
+                graph.formula(product * (x + shift))
+            })
+        };
+        Procedure::of((0..count).map(&mut result).collect())
+    }
+
+    /// What gives some of the results of a long program is that program without what it does not need, and no longer
+    /// than one that is found apart; of a short one, or of other results, nothing is taken.
+    #[test]
+    fn some_results_of_a_long_program_are_taken_from_it() {
+        let mut graph = Graph::default();
+        let procedure = long(&mut graph, 20);
+        let known = |procedure: &Procedure| Known {
+            model: std::ptr::null(),
+            procedure: procedure.clone(),
+            has_corrections: false,
+            program: schedule(&graph, procedure),
+            outcome: Ok(Proof { points: 7, bits: 100.0 }),
+        };
+        let whole = known(&procedure);
+        assert!(whole.program.steps.len() >= TAKEN_FROM);
+        let some = procedure.with_outputs(vec![procedure.outputs[17], procedure.outputs[3]]);
+        let (program, outcome) = whole.part(&some).expect("results of it");
+        assert!(outcome.is_ok());
+        assert!(prove_program(&graph, &some, &program).is_ok());
+        assert!(order(&program) <= order(&schedule(&graph, &some)));
+
+        let short = procedure.with_outputs(procedure.outputs[..4].to_vec());
+        assert!(known(&short).part(&procedure.with_outputs(vec![procedure.outputs[1]])).is_none());
+        let two = graph.number(2);
+        assert!(whole.part(&procedure.with_outputs(vec![procedure.outputs[17], two])).is_none());
+    }
+}

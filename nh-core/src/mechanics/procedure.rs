@@ -3,6 +3,7 @@
 use crate::algebra::{Graph, Matrix, Node};
 use crate::id::{ExprId, SymbolId};
 use rustc_hash::FxHashMap;
+use std::collections::BTreeMap;
 
 /// An intermediate result with a symbol of its own, which later expressions use.
 ///
@@ -77,6 +78,17 @@ impl Procedure {
     #[must_use]
     pub(crate) fn computes_alike(&self, other: &Self) -> bool {
         self.outputs == other.outputs && self.definitions == other.definitions
+    }
+
+    /// Where the results of another function stand among the results of this one, if it takes the same steps.
+    #[must_use]
+    pub(crate) fn places_of(&self, other: &Self) -> Option<Vec<usize>> {
+        if self.definitions != other.definitions {
+            return None;
+        }
+        let places: BTreeMap<ExprId, usize> =
+            self.outputs.iter().enumerate().map(|(place, output)| (*output, place)).collect();
+        other.outputs.iter().map(|output| places.get(output).copied()).collect()
     }
 
     /// A function without intermediate results.
