@@ -39,6 +39,7 @@ mod program_tests;
 mod random_points;
 mod rounding;
 mod rule;
+mod scales;
 mod schedule;
 mod signs;
 mod split;

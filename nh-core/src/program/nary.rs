@@ -187,6 +187,14 @@ impl Arena {
         (self.intern(Nary::Sum(operands.into())), negative)
     }
 
+    /// The factors of all products.
+    pub(super) fn products(&self) -> impl Iterator<Item = &[(Term, i32)]> {
+        self.terms.iter().filter_map(|nary| match nary {
+            Nary::Product(factors) => Some(&**factors),
+            _ => None,
+        })
+    }
+
     pub(super) fn as_number(&self, term: Term) -> Option<&Rational> {
         match self.get(term) {
             Nary::Number(value) => Some(value),

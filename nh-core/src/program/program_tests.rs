@@ -14,6 +14,7 @@ mod derivatives;
 mod exponents;
 mod kept_digits;
 mod shared_pairs;
+mod sums_at_scales;
 
 /// The value of a procedure, node by node.
 fn evaluate(graph: &Graph, procedure: &Procedure, symbol: impl Fn(SymbolId) -> f64) -> Vec<f64> {

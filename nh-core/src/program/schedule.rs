@@ -2,7 +2,7 @@
 
 use super::angles::share_angles;
 use super::coincide::coincided;
-use super::cost::order;
+use super::cost::{Cost, order};
 use super::denominators::separate_powers;
 use super::factor::{Sharing, factor};
 use super::fold::folded;
@@ -10,6 +10,7 @@ use super::import::import;
 use super::lower::{fused, lower};
 use super::nary::Arena;
 use super::pairs::{Kind, share_pairs};
+use super::scales::scaled;
 use super::step::Program;
 use crate::algebra::{Accuracy, Graph};
 use crate::id::SymbolId;
@@ -74,7 +75,7 @@ pub struct Scheduled {
 /// All programs that are found, the cheapest first.
 #[must_use]
 pub fn schedules(graph: &Graph, procedure: &Procedure, parameters: &[SymbolId]) -> Vec<Scheduled> {
-    let arena = import(graph, procedure, parameters);
+    let arena = at_best_scales(graph, import(graph, procedure, parameters));
     let mut shared = arena.clone();
     let is_shared = share_angles(&mut shared);
     // fast code saves evaluations; in careful code, which carries what rounding took, whatever cancels by an addition
@@ -157,10 +158,22 @@ fn add(prepared: &mut Vec<Arena>, arena: Arena) {
 /// A program by the first strategy alone: close enough to the cheapest for procedures to be compared.
 #[must_use]
 pub fn schedule_roughly(graph: &Graph, procedure: &Procedure) -> Program {
-    let arena = import(graph, procedure, &[]);
+    roughly(graph, import(graph, procedure, &[]))
+}
+
+fn roughly(graph: &Graph, arena: Arena) -> Program {
     let arena = if graph.constants().is_empty() { arena } else { folded(&arena) };
     let parameters = arena.parameters.clone();
     fused(straight_line(STRATEGIES[0].factored(arena)), |symbol| parameters.contains(&symbol))
+}
+
+/// The arena with its sums at other scales, where that is cheaper.
+fn at_best_scales(graph: &Graph, arena: Arena) -> Arena {
+    let cost = |arena: &Arena| Cost::of(&roughly(graph, arena.clone())).weighted();
+    match scaled(&arena) {
+        Some(other) if cost(&other) < cost(&arena) => other,
+        _ => arena,
+    }
 }
 
 fn with_shared_sums(mut arena: Arena) -> Arena {
