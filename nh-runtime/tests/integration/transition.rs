@@ -3,7 +3,7 @@
 
 use nonholonomic::methods::{Fixed, Tableau, Transition};
 use nonholonomic::prelude::*;
-use nonholonomic::{Jet, methods};
+use nonholonomic::{D, Jet, methods};
 
 /// A sleigh whose brake and engine make everything depend on everything, time included.
 #[nonholonomic(
@@ -249,4 +249,108 @@ fn jets_know_the_derivatives_of_all_functions() {
             );
         }
     }
+}
+
+/// x' = a x² + u and one that turns it: wherever its equations are solved, the derivatives of a step are those of
+/// difference quotients, also where the matrices at its start are far from those at its stages.
+#[test]
+fn steps_that_are_solved_have_derivatives() {
+    #[nonholonomic(
+        base { q }
+        lagrangian { der(q)^2 / 2 }
+        forces { q: u - k * q^3 - c * der(q)^3; }
+        inputs { u }
+        emit { jacobian }
+    )]
+    #[derive(Clone, Copy, Debug)]
+    struct Stiff {
+        k: f64,
+        c: f64,
+    }
+    let stiff = Stiff { k: 900.0, c: 40.0 };
+    let mut solved = 0;
+    macro_rules! compare {
+        ($($method:ident)*) => { $(
+            for step in 1..40_u32 {
+                let h = 0.02 * f64::from(step);
+                for [q, q_dot] in [[0.0, 3.0], [1.0, 0.0], [-0.2, 5.0], [0.01, -0.1]] {
+                    let start = StiffState { q, q_dot };
+                    let at = |q: f64, q_dot: f64, u: f64| {
+                        $method::linearized_step(&stiff, 0.0, h, &StiffState { q, q_dot }, &StiffInput { u })
+                    };
+                    let Ok(here) = at(start.q, start.q_dot, 0.3) else { continue };
+                    let d = 1e-5;
+                    for (column, [dq, dv, du]) in [[d, 0.0, 0.0], [0.0, d, 0.0], [0.0, 0.0, d]].into_iter().enumerate() {
+                        let (Ok(ahead), Ok(behind)) =
+                            (at(q + dq, q_dot + dv, 0.3 + du), at(q - dq, q_dot - dv, 0.3 - du))
+                        else { continue };
+                        let (ahead, behind) = (ahead.state.to_array(), behind.state.to_array());
+                        // on the same branch of the solutions
+                        if ahead.iter().zip(&behind).any(|(a, b)| (a - b).abs() > 1e-3) { continue }
+                        solved += 1;
+                        for row in 0..2 {
+                            let quotient = (ahead[row] - behind[row]) / (2.0 * d);
+                            let found =
+                                if column < 2 { here.by_state[(row, column)] } else { here.by_input[(row, 0)] };
+                            let off = (quotient - found).abs();
+                            let name = stringify!($method);
+                            assert!(off < 1e-4 * (1.0 + found.abs()), "{name} {h} {q} {q_dot}: {found} {quotient}");
+                        }
+                    }
+                }
+            }
+        )* };
+    }
+    compare!(ImplicitMidpoint GaussLegendre4 GaussLegendre6 Radau5);
+    assert!(solved > 700, "{solved}");
+}
+
+/// x' = 0, whose Jacobian is none after the start.
+#[test]
+fn a_step_without_derivatives_is_an_error() {
+    #[derive(Clone, Copy)]
+    struct Place(f64);
+    impl State for Place {
+        type Scalar = f64;
+        type Dim = D<1>;
+        fn to_array(&self) -> [f64; 1] {
+            [self.0]
+        }
+        fn from_array([x]: [f64; 1]) -> Self {
+            Self(x)
+        }
+        fn names() -> [&'static str; 1] {
+            ["x"]
+        }
+    }
+    struct Rest;
+    impl Dynamics for Rest {
+        type State = Place;
+        type Input = ();
+        fn derivative(&self, _: f64, _: &Place, (): &()) -> Place {
+            Place(0.0)
+        }
+    }
+    impl Jacobian for Rest {
+        type InputDim = D<0>;
+        fn state_jacobian(&self, t: f64, _: &Place, (): &()) -> [[f64; 1]; 1] {
+            [[if t > 0.0 { f64::INFINITY } else { 0.0 }]]
+        }
+        fn input_jacobian(&self, _: f64, _: &Place, (): &()) -> [[f64; 0]; 1] {
+            [[]]
+        }
+    }
+    let expected = IntegrationError::SingularStep { time: 0.0, step: 2.0 };
+    let start = Place(1.0);
+    let ends = [
+        GaussLegendre4::linearized_step(&Rest, 0.0, 2.0, &start, &()).map(|_| ()),
+        GaussLegendre6::linearized_step(&Rest, 0.0, 2.0, &start, &()).map(|_| ()),
+        Radau5::linearized_step(&Rest, 0.0, 2.0, &start, &()).map(|_| ()),
+    ];
+    assert_eq!(ends, [const { Err(IntegrationError::SingularStep { time: 0.0, step: 2.0 }) }; 3]);
+    assert_eq!(
+        expected.to_string(),
+        "the step of length 2.0 from t = 0.0 has no derivatives: its equations are singular where they are solved, or the \
+         system's Jacobian is not finite there; take a step of another length"
+    );
 }
