@@ -1,6 +1,7 @@
 //! The derivative of a step, from the emitted Jacobian, against jets through the step and against
 //! difference quotients.
 
+use nalgebra::SMatrix;
 use nonholonomic::methods::{Fixed, Tableau, Transition};
 use nonholonomic::prelude::*;
 use nonholonomic::{D, Jet, methods};
@@ -303,6 +304,73 @@ fn steps_that_are_solved_have_derivatives() {
     }
     compare!(ImplicitMidpoint GaussLegendre4 GaussLegendre6 Radau5);
     assert!(solved > 700, "{solved}");
+}
+
+/// A spring that gets stiff within the step, at rest: the equations of the step are solved at once, and their derivatives
+/// are far from those at its start.
+#[test]
+fn derivatives_need_no_iteration_that_settles() {
+    #[nonholonomic(
+        base { q }
+        lagrangian { der(q)^2 / 2 }
+        forces { q: u - k * t * q; }
+        inputs { u }
+        emit { jacobian }
+    )]
+    #[derive(Clone, Copy, Debug)]
+    struct Spring {
+        k: f64,
+    }
+    // the first column with 60 digits
+    let rest = SpringState::default();
+    let stiff =
+        GaussLegendre4::linearized_step(&Spring { k: 1e12 }, 0.0, -1.0, &rest, &SpringInput::default())
+            .unwrap();
+    assert!((stiff.by_state[(0, 0)] - 1.000_000_000_144).abs() < 1e-14, "{stiff:?}");
+    assert!((stiff.by_state[(1, 0)] + 12.000_000_000_864).abs() < 1e-13, "{stiff:?}");
+    let root = 3.0_f64.sqrt() / 6.0;
+    let (nodes, weights) = ([0.5 - root, 0.5 + root], [[0.25, 0.25 - root], [0.25 + root, 0.25]]);
+    for (k, h) in [(1.0, 0.1), (1e3, 1.0), (-1e3, 1.0), (1e6, 2.0)] {
+        let at = |time: f64| SMatrix::<f64, 2, 2>::new(0.0, 1.0, -k * time, 0.0);
+        let (mut left, mut right) = (SMatrix::<f64, 4, 4>::identity(), SMatrix::<f64, 4, 3>::zeros());
+        for (i, row) in weights.iter().enumerate() {
+            for (j, weight) in row.iter().enumerate() {
+                let block = at(nodes[j] * h) * (h * weight);
+                for (a, b) in [(0, 0), (0, 1), (1, 0), (1, 1)] {
+                    left[(2 * i + a, 2 * j + b)] -= block[(a, b)];
+                    right[(2 * i + a, b)] += block[(a, b)];
+                }
+                right[(2 * i + 1, 2)] += h * weight;
+            }
+        }
+        let stages = left.lu().solve(&right).unwrap();
+        let mut ends = SMatrix::<f64, 2, 3>::new(1.0, 0.0, 0.0, 0.0, 1.0, h);
+        for (j, node) in nodes.iter().enumerate() {
+            for column in 0..3 {
+                let point = |row: usize| stages[(2 * j + row, column)] + f64::from(u8::from(row == column));
+                ends[(0, column)] += h / 2.0 * point(1);
+                ends[(1, column)] -= h / 2.0 * k * node * h * point(0);
+            }
+        }
+        let step =
+            GaussLegendre4::linearized_step(&Spring { k }, 0.0, h, &rest, &SpringInput::default()).unwrap();
+        for row in 0..2 {
+            for (column, found) in [step.by_state[(row, 0)], step.by_state[(row, 1)], step.by_input[(row, 0)]]
+                .into_iter()
+                .enumerate()
+            {
+                let (expected, size) = (ends[(row, column)], ends.row(row).amax());
+                assert!(
+                    (found - expected).abs() <= 1e-9 * size,
+                    "{k} {h} {row} {column}: {found} {expected}"
+                );
+            }
+        }
+        let radau = Radau5::linearized_step(&Spring { k }, 0.0, h, &rest, &SpringInput::default()).unwrap();
+        let gauss =
+            GaussLegendre6::linearized_step(&Spring { k }, 0.0, h, &rest, &SpringInput::default()).unwrap();
+        assert!(radau.by_state.iter().chain(gauss.by_state.iter()).all(|entry| entry.is_finite()));
+    }
 }
 
 /// x' = 0, whose Jacobian is none after the start.
