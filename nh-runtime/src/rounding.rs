@@ -3,7 +3,7 @@
 //! Variables and equations have units of their own. So a change of a variable is compared with that variable alone, what
 //! is left of an equation with what it was before or with its own terms, and nothing else but ratios of these.
 
-use crate::Scalar;
+use crate::{Real, Scalar};
 
 /// How many iterations lead from numbers that have converged to partial derivatives that have: each of Newton's doubles the
 /// orders that are right.
@@ -88,6 +88,21 @@ pub(crate) fn is_level<T: Scalar, const N: usize>(preceding: &[T; N], change: &[
         any = any.max(falls * grows * moves);
     }
     !T::ZERO.all_ge(any)
+}
+
+/// How often the range of exponents is halved in a search for the distance at which an equation changes.
+const HALVINGS: u32 = 24;
+
+/// How little moves an equation, and by how much: rounding of the numbers that it is the sum of. `moved` is the size of its
+/// change by a distance; 0 where that is no number.
+pub(crate) fn grain<T: Real>(moved: impl Fn(T) -> T) -> (T, T) {
+    let (mut near, mut far) = (T::MIN_POSITIVE, T::MIN_POSITIVE.recip());
+    for _ in 0..HALVINGS {
+        let middle = near.sqrt() * far.sqrt();
+        let is_near = moved(middle) == T::ZERO;
+        (near, far) = if is_near { (middle, far) } else { (near, middle) };
+    }
+    (far, moved(far))
 }
 
 /// How often the terms of equations are looked at.

@@ -5,7 +5,7 @@ use crate::arrays::all_finite;
 use crate::linear::Factors;
 use crate::newton_return::{is_rounding, worst};
 use crate::projection::largest;
-use crate::{D, Real, Scalar, StateFault};
+use crate::{D, Real, Scalar, StateFault, rounding};
 
 /// The iterations after which an assembly is given up.
 const MOST_ITERATIONS: u32 = 200;
@@ -251,17 +251,10 @@ pub(super) fn follow<T: Real, const N: usize, const M: usize>(
     // how little moves an equation by one variable alone, and by how much: rounding of the numbers that it is the sum of
     let grain = |row: usize, variable: usize| {
         let left = left.get(row).copied().unwrap_or(T::ZERO);
-        let moved = |by: T| {
+        rounding::grain(|by| {
             let there = there(variable, by).0.get(row).copied().unwrap_or(left);
             if there.is_finite() { (there - left).abs() } else { T::ZERO }
-        };
-        let (mut near, mut far) = (T::MIN_POSITIVE, T::MIN_POSITIVE.recip());
-        for _ in 0..HALVINGS {
-            let middle = near.sqrt() * far.sqrt();
-            let is_near = moved(middle) == T::ZERO;
-            (near, far) = if is_near { (middle, far) } else { (near, middle) };
-        }
-        (far, moved(far))
+        })
     };
     // and so the variables are known no better than to what moves the equations that they come from
     let is_rounding = |row: usize, left: T, slopes: &[T; N]| {
@@ -289,8 +282,6 @@ pub(super) fn follow<T: Real, const N: usize, const M: usize>(
     })
 }
 
-/// How often the range of exponents is halved in a search for the distance at which an equation changes.
-const HALVINGS: u32 = 24;
 /// So many roundings of the numbers that it is the sum of may be left of an equation that follows from others.
 const GRAINS: f64 = 16.0;
 
