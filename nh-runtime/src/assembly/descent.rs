@@ -174,15 +174,17 @@ impl<T: Real, const M: usize> Asked<T, M> {
         sizes: &[T; N],
         floors: &[T; M],
     ) -> T {
-        let of_row = |((share, floor), (left, slopes)): ((&Share<T>, &T), (&T, &[T; N]))| {
-            if left.abs() <= *floor && share.weight <= T::from_f64(4.0) * *floor {
-                return T::ZERO;
+        let rows = self.shares.iter().zip(floors).zip(left.iter().zip(slopes));
+        let mut most = T::ZERO;
+        for ((share, floor), (left, slopes)) in rows {
+            let is_rounding = left.abs() <= *floor && share.weight <= T::from_f64(4.0) * *floor;
+            if is_rounding || share.weight == T::ZERO {
+                continue;
             }
             let terms = |sum: T, (slope, size): (&T, &T)| sum + (*slope * *size).abs();
-            let all = slopes.iter().zip(sizes).fold(T::ZERO, terms);
-            if share.weight > T::ZERO { share.weight / all } else { T::ZERO }
-        };
-        self.shares.iter().zip(floors).zip(left.iter().zip(slopes)).map(of_row).fold(T::ZERO, Scalar::max)
+            most = Scalar::max(most, share.weight / slopes.iter().zip(sizes).fold(T::ZERO, terms));
+        }
+        most
     }
 
     /// Adds what rounding inside the equations makes of them: by what they are off their straight line a little way along

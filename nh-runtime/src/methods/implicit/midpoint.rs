@@ -228,6 +228,9 @@ fn vanishes<T: Real, V: AsRef<[T]>>(correction: &V, x: &V, increment: &V, share:
     terms.fold(true, |all, (c, (x, d))| all & (share * c.abs() <= half_unit * (x.abs() + d.abs())))
 }
 
+/// The matrix of an iteration, and what rounding reaches by it.
+type Newton<S> = (Factors<DimOf<S>, ScalarOf<S>>, VecOf<S>);
+
 /// What the midpoint rule keeps while its steps have one length.
 pub struct Work<S: Dynamics> {
     /// Half that length.
@@ -237,7 +240,7 @@ pub struct Work<S: Dynamics> {
     /// By how much the steps differed from those before.
     misses: Misses<VecOf<S>>,
     /// The factorized matrix 1 − h/2 ∂f/∂x of Newton's iteration, and what rounding reaches by it.
-    newton: Option<(Factors<DimOf<S>, ScalarOf<S>>, VecOf<S>)>,
+    newton: Option<Newton<S>>,
 }
 
 impl<S: Dynamics> Clone for Work<S> {
