@@ -126,6 +126,14 @@ pub enum IntegrationError {
         /// The size of the last correction, in units of the tolerance.
         residual: f64,
     },
+    /// The equations of an implicit step are solved, but singular there, or their derivatives are not finite, so that the
+    /// step has no derivatives.
+    SingularStep {
+        /// The time at the start of the step.
+        time: f64,
+        /// The length of the step.
+        step: f64,
+    },
     /// The end of a step could not be moved to the constraint manifold.
     Projection {
         /// The time at the end of the step.
@@ -221,6 +229,14 @@ fn underflow(f: &mut Formatter<'_>, time: f64, step: f64, error: f64) -> fmt::Re
     }
 }
 
+fn singular(f: &mut Formatter<'_>, time: f64, step: f64) -> fmt::Result {
+    write!(
+        f,
+        "the step of length {step:?} from t = {time:?} has no derivatives: its equations are singular where they are \
+         solved, or the system's Jacobian is not finite there; take a step of another length"
+    )
+}
+
 fn unsolved(f: &mut Formatter<'_>, (time, step): (f64, f64), iterations: u32, residual: f64) -> fmt::Result {
     write!(f, "the step of length {step:?} from t = {time:?} was not solved")?;
     if residual.is_finite() {
@@ -293,6 +309,7 @@ impl Display for IntegrationError {
             Self::NoConvergence { time, step, iterations, residual } => {
                 unsolved(f, (time, step), iterations, residual)
             }
+            Self::SingularStep { time, step } => singular(f, time, step),
             Self::Projection { time, error } => write!(f, "at t = {time:?} {error}"),
             Self::DeadCentre { time, step } => write!(
                 f,

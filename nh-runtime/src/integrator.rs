@@ -143,7 +143,9 @@ impl<S: Dynamics, M: Method<S>> Integrator<S, M> {
     /// Leaves the states as the method computes them. Otherwise they are returned to position constraints, where
     /// the system has any, after every step and within it, positions first, then velocities: the method's
     /// order stays, [`Statistics`] say how far they were moved, and what the method has stored of that state alone
-    /// is computed anew.
+    /// is computed anew. Methods whose steps are taken on the constraints, such as
+    /// [`Conserving`](crate::methods::Conserving), [`SymmetricProjection`](crate::methods::SymmetricProjection) and
+    /// [`DiscreteGradient`](crate::methods::DiscreteGradient), stay there.
     #[must_use]
     pub fn without_return(mut self) -> Self {
         self.returns = false;

@@ -164,6 +164,7 @@ macro_rules! functions {
 impl<T: Scalar, const N: usize, const M: usize> Scalar for Jet<T, N, M> {
     const ZERO: Self = Self::constant(T::ZERO);
     const ONE: Self = Self::constant(T::ONE);
+    const DERIVATIVES: u32 = T::DERIVATIVES + 1;
 
     #[inline]
     fn from_f64(value: f64) -> Self {

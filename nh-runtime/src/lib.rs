@@ -102,6 +102,7 @@ pub mod prelude;
 mod prepared;
 mod projection;
 mod reduction;
+mod rounding;
 mod scalar;
 pub mod sensitivity;
 mod serde_impls;

@@ -6,7 +6,7 @@ mod scales;
 
 use nalgebra::SMatrix;
 
-use crate::{Dynamics, Jet, Real, Scalar, ScalarOf};
+use crate::{Dynamics, Jet, Real, Scalar, ScalarOf, rounding};
 pub(crate) use elimination::{Reduced, Uncertain, beside, reduce};
 pub use linearization_error::LinearizationError;
 use scales::Scales;
@@ -120,7 +120,9 @@ pub fn variables<T: Scalar, const N: usize, const M: usize>(
 /// The linearisation in the components `kept`: mathematics (36).
 ///
 /// # Errors
-/// Where the kept components are not free, or move with components that are not kept, by more than rounding.
+/// Where the state is not on the constraints, by more than the rounding of a number in single precision or of what the
+/// constraints are made of; where the kept components are not free, or move with components that are not kept, by more
+/// than rounding.
 pub fn linearize<
     T: Real + nalgebra::Scalar,
     const N: usize,
@@ -129,14 +131,15 @@ pub fn linearize<
     const R: usize,
     const K: usize,
 >(
-    names: &Names<N, M, P>,
+    (names, constraint_names): (&Names<N, M, P>, &[&'static str; R]),
     kept: &[usize; K],
-    Parts { residuals, rates, outputs }: &Parts<T, N, M, R, P>,
+    state: &[T; N],
+    parts: impl Fn(&[T; N]) -> Parts<T, N, M, R, P>,
 ) -> Result<Linearization<T, K, M, P>, LinearizationError> {
-    let all = residuals.iter().chain(rates).chain(outputs);
-    if !all.flat_map(|jet| jet.by.iter().chain(&jet.by_others)).all(|entry| entry.is_finite()) {
-        return Err(LinearizationError::NotFinite);
-    }
+    let all = parts(state);
+    check_numbers(names, constraint_names, &all)?;
+    check_constraints(constraint_names, state, &all.residuals, |x| parts(x).residuals.map(|jet| jet.value))?;
+    let Parts { residuals, rates, outputs } = &all;
     let constraints = residuals.map(|residual| residual.by);
     let (by_state, by_input) = (rates.map(|rate| rate.by), rates.map(|rate| rate.by_others));
     let is_kept = |column: usize| kept.contains(&column);
@@ -191,6 +194,62 @@ pub fn linearize<
     Ok(Linearization { a, b, c, d, states, inputs: names.inputs, outputs: names.outputs })
 }
 
+/// Refuses what is not finite, by name where it has a value.
+fn check_numbers<T: Real, const N: usize, const M: usize, const R: usize, const P: usize>(
+    names: &Names<N, M, P>,
+    constraints: &[&'static str; R],
+    Parts { residuals, rates, outputs }: &Parts<T, N, M, R, P>,
+) -> Result<(), LinearizationError> {
+    let named = residuals.iter().zip(constraints);
+    let mut all = named.chain(rates.iter().zip(&names.states)).chain(outputs.iter().zip(&names.outputs));
+    match all.find(|(jet, _)| !jet.is_finite()) {
+        None => Ok(()),
+        Some((jet, of)) if jet.value.is_finite() => Err(LinearizationError::NotDifferentiable { of }),
+        Some(_) => Err(LinearizationError::NotFinite),
+    }
+}
+
+/// How far, relative to the terms of a constraint, a state that is given may be off it: far enough for what is rounded to
+/// single precision.
+const GIVEN: f64 = 1e-6;
+/// So many roundings of the numbers that it is the sum of may be left of a constraint.
+const GRAINS: f64 = 16.0;
+
+/// Refuses a state that is off the constraints: each is compared with its own terms, and where these are near to zero with
+/// the rounding of numbers inside of it.
+fn check_constraints<T: Real, const N: usize, const M: usize, const R: usize>(
+    names: &[&'static str; R],
+    state: &[T; N],
+    residuals: &[Jet<T, N, M>; R],
+    values: impl Fn(&[T; N]) -> [T; R],
+) -> Result<(), LinearizationError> {
+    let permitted = Scalar::max(T::from_f64(GIVEN), T::EPSILON.sqrt());
+    for (row, (residual, name)) in residuals.iter().zip(names).enumerate() {
+        let term = |sum: T, (slope, x): (&T, &T)| sum + (*slope * *x).abs();
+        let terms = residual.by.iter().zip(state).fold(T::ZERO, term);
+        let left = residual.value;
+        if left.abs() <= permitted * terms {
+            continue;
+        }
+        let grain = |variable: usize| {
+            let moved = |by: T| {
+                let mut there = *state;
+                if let Some(x) = there.get_mut(variable) {
+                    *x += by;
+                }
+                let there = values(&there).get(row).copied().unwrap_or(left);
+                if there.is_finite() { (there - left).abs() } else { T::ZERO }
+            };
+            rounding::grain(moved).1
+        };
+        let grain = (0..N).map(grain).fold(T::ZERO, Scalar::max);
+        if left.abs() > T::from_f64(GRAINS) * grain {
+            return Err(LinearizationError::OffConstraints { constraint: name, residual: left.to_f64() });
+        }
+    }
+    Ok(())
+}
+
 fn at<const K: usize>(kept: &[usize; K], index: usize) -> usize {
     kept.get(index).copied().unwrap_or(usize::MAX)
 }
@@ -217,7 +276,7 @@ mod tests {
         ];
         let names = Names { states: ["place", "angle", "speed"], inputs: ["force"], outputs: [] };
         let parts = Parts::<f64, 3, 1, 0, 0> { residuals: [], rates, outputs: [] };
-        linearize(&names, &[1, 2], &parts).map(|_| ())
+        linearize((&names, &[]), &[1, 2], &[0.0; 3], |_| parts).map(|_| ())
     }
 
     #[test]

@@ -2,8 +2,8 @@
 //! computed at one place is computed together, and what an iteration has to look at is here.
 
 use crate::arrays::all_finite;
-use crate::newton_return::is_last;
-use crate::projection::{holds, is_settled, largest};
+use crate::projection::{holds, largest};
+use crate::rounding::{further, grow, is_last, is_settled, sizes};
 use crate::{ProjectionError, Scalar};
 
 /// What a look at the constraints leads to.
@@ -20,36 +20,41 @@ pub enum Next {
 /// Newton's iteration for positions on which M constraints act, then one step for the velocities.
 ///
 /// Positions have arrived where [`newton`](crate::newton_return::newton) stops. Velocities have after their step where
-/// it is at most 2⁻¹³ of the largest: constraints that are affine in them then hold but for round-off, as long as
+/// each moves by at most 2⁻¹³ of itself: constraints that are affine in them then hold but for round-off, as long as
 /// their condition is below 2¹⁰. Where changes do not fall as they do near to the constraints, where velocities change
 /// by more, and where something is not finite, the way is left to iterations that lead back from further away.
 /// Lanes go together.
 #[derive(Clone, Copy, Debug)]
-pub struct NearReturn<T, const M: usize> {
-    /// The largest component of the positions at the start.
-    scale: T,
+pub struct NearReturn<T, const N: usize, const M: usize> {
+    /// The largest values of the positions so far.
+    sizes: [T; N],
     /// The largest residual at the start.
     residual: T,
     /// The residuals of the positions at the last look.
     before: [T; M],
-    /// The size of the last change of positions, and of the one before.
-    change: Option<T>,
-    preceding: Option<T>,
+    /// The last change of positions, and the one before.
+    change: Option<[T; N]>,
+    preceding: Option<[T; N]>,
+    /// How often positions move on for the derivatives that numbers carry, once they have arrived.
+    further: u32,
+    is_there: bool,
     /// Whether this is no way that is near.
     is_far: bool,
 }
 
-impl<T: Scalar, const M: usize> NearReturn<T, M> {
+impl<T: Scalar, const N: usize, const M: usize> NearReturn<T, N, M> {
     /// The way from these positions.
     #[inline]
     #[must_use]
-    pub fn from<const N: usize>(start: &[T; N]) -> Self {
+    pub fn from(start: &[T; N]) -> Self {
         Self {
-            scale: largest(start),
+            sizes: sizes(start),
             residual: T::ZERO,
             before: [T::ZERO; M],
             change: None,
             preceding: None,
+            further: further::<T>(),
+            is_there: false,
             is_far: false,
         }
     }
@@ -60,17 +65,24 @@ impl<T: Scalar, const M: usize> NearReturn<T, M> {
         if self.is_far {
             return Next::Nothing;
         }
-        let mut is_there = holds(positions);
-        if let Some(change) = self.change {
-            is_there |= is_settled(change, self.scale, self.preceding)
-                || is_last(change, self.scale, &self.before, positions);
+        if let (Some(change), false) = (&self.change, self.is_there) {
+            self.is_there = is_settled(change, &self.sizes, self.preceding.as_ref())
+                || is_last(change, &self.sizes, &self.before, positions);
             // far away, or among noise
-            self.is_far = !is_there && self.preceding.is_some_and(|preceding| !falls(preceding, change));
-        } else {
+            let falls = |preceding: &[T; N]| falls(preceding, change, &self.sizes);
+            self.is_far = !self.is_there && !self.preceding.as_ref().is_none_or(falls);
+        }
+        if self.change.is_none() {
             self.residual = largest(positions).max(largest(velocities));
         }
         self.before = *positions;
-        match (is_there, self.is_far) {
+        let is_on = holds(positions);
+        if self.is_there && !is_on && self.further > 0 {
+            self.further -= 1;
+            return Next::Positions;
+        }
+        let is_there = self.is_there || is_on;
+        match (is_there, self.is_far && !is_on) {
             (true, _) if !holds(velocities) => Next::Velocities,
             (false, false) => Next::Positions,
             _ => Next::Nothing,
@@ -79,24 +91,26 @@ impl<T: Scalar, const M: usize> NearReturn<T, M> {
 
     /// Positions after a change.
     #[inline]
-    pub fn positions<const N: usize>(&mut self, mut present: [T; N], change: [T; N]) -> [T; N] {
+    pub fn positions(&mut self, mut present: [T; N], change: [T; N]) -> [T; N] {
         self.preceding = self.change;
         for (x, change) in present.iter_mut().zip(&change) {
             *x += *change;
         }
-        self.change = Some(largest(&change));
+        grow(&mut self.sizes, &present);
+        self.change = Some(change);
         self.is_far = !all_finite::<T, _>(&present);
         present
     }
 
     /// Velocities after their change.
     #[inline]
-    pub fn velocities<const N: usize>(&mut self, mut present: [T; N], change: [T; N]) -> [T; N] {
+    pub fn velocities<const K: usize>(&mut self, mut present: [T; K], change: [T; K]) -> [T; K] {
+        let mut large = T::ZERO;
         for (v, change) in present.iter_mut().zip(&change) {
             *v += *change;
+            large = large.max((change.abs() * T::from_f64(8192.0)).select_gt(v.abs(), T::ONE, T::ZERO));
         }
-        let is_small = largest(&present).all_ge(largest(&change) * T::from_f64(8192.0));
-        self.is_far = !(is_small && all_finite::<T, _>(&present));
+        self.is_far = !(T::ZERO.all_ge(large) && all_finite::<T, _>(&present));
         present
     }
 
@@ -121,11 +135,17 @@ impl<T: Scalar, const M: usize> NearReturn<T, M> {
     }
 }
 
-/// Whether a change is, in every lane, less than half of the preceding one, or nothing.
+/// Whether a change is, in every lane, less than half of the preceding one, nothing, or rounding.
 #[inline]
-fn falls<T: Scalar>(preceding: T, change: T) -> bool {
-    let is_level = (change * T::from_f64(2.0)).select_gt(preceding, T::ONE, T::ZERO);
-    T::ZERO.all_ge(is_level)
+fn falls<T: Scalar, const N: usize>(preceding: &[T; N], change: &[T; N], sizes: &[T; N]) -> bool {
+    let mut level = T::ZERO;
+    for ((preceding, change), size) in preceding.iter().zip(change).zip(sizes) {
+        let change = change.abs();
+        let is_level = (change * T::from_f64(2.0)).select_gt(preceding.abs(), T::ONE, T::ZERO);
+        let moves = (*size + change * T::from_f64(0.125)).select_gt(*size, T::ONE, T::ZERO);
+        level = level.max(is_level * moves);
+    }
+    T::ZERO.all_ge(level)
 }
 
 #[cfg(test)]
@@ -172,6 +192,29 @@ mod tests {
         assert_eq!((looks, from_far), (2, 0));
         let mut state = [1.0, 0.0, 0.0, 3.0];
         assert_eq!((returned(&mut state), state), ((Ok(0.0), 1, 0), [1.0, 0.0, 0.0, 3.0]));
+    }
+
+    /// A coordinate in any unit, beside one that is large: looks are the same, and bits.
+    #[test]
+    fn units_matter_to_nothing() {
+        let ended = |unit: f64, large: f64| {
+            let (mut x, mut y, mut z, mut looks) = (0.6 + 1e-3, 0.8 * unit, large, 0);
+            let mut way = NearReturn::from(&[x, y, z]);
+            loop {
+                looks += 1;
+                let square = x * x + (y / unit) * (y / unit);
+                let part = -0.5 * (square - 1.0) / square;
+                if way.next(&[square - 1.0], &[]) != Next::Positions {
+                    break;
+                }
+                [x, y, z] = way.positions([x, y, z], [part * x, part * y, 0.0]);
+            }
+            ([x, y / unit].map(f64::to_bits), looks)
+        };
+        let plain = ended(1.0, 0.0);
+        for unit in [1e-100, 1e-12, 1e-3, 1e9, 1e100].map(|unit: f64| unit.log2().round().exp2()) {
+            assert_eq!((ended(unit, 0.0), ended(1.0, unit)), (plain, plain), "{unit}");
+        }
     }
 
     #[test]

@@ -2,7 +2,8 @@
 //! velocities.
 
 use crate::arrays::all_finite;
-use crate::projection::{holds, is_settled, largest};
+use crate::projection::{holds, largest};
+use crate::rounding::{are_rounding, further, grow, is_last, is_level, is_settled, sizes};
 use crate::{ProjectionError, Scalar, StateFault};
 
 /// The iterations after which a return is given up.
@@ -10,12 +11,14 @@ const MOST_ITERATIONS: u32 = 50;
 
 /// The limit of x := x + change(x) from x = start.
 ///
-/// The iteration stops where every residual is zero; where a change is of the order of rounding, or changes
-/// near that no longer fall; and where the next change would be of that order: to first order it is to this
-/// one as the residual that is left is to the one before, row by row. Near to where it leads it is one step.
-/// Where all of x is near to zero, as upright and at the origin, rounding is that of lengths inside the equations: there
-/// it stops where changes no longer fall, and jump before and behind their way. Lanes stop together, when the last one
-/// does.
+/// The iteration stops where every residual is zero; where every variable changes by rounding of its own, or by not much
+/// more and no longer less; and where the next change would be of that order: to first order it is to this one as the
+/// residual that is left is to the one before, row by row. Near to where it leads it is one step. No two variables and no
+/// two residuals are compared, so that units do not matter.
+/// Where a variable is near to zero beside others, rounding is that of the terms of the equations: there it stops where
+/// changes no longer fall and residuals are rounding beside their terms. Where all variables are near to zero, as upright
+/// and at the origin, that is rounding of lengths inside the equations: residuals jump before and behind the way of the
+/// change. Lanes stop together, when the last one does. Derivatives that numbers carry converge by further iterations.
 ///
 /// # Errors
 /// If the changes do not vanish, or one is not finite.
@@ -27,9 +30,11 @@ pub fn newton<T: Scalar, const N: usize, const M: usize>(
 ) -> Result<[T; N], ProjectionError> {
     let mut present = start;
     let mut left = residual(&present);
-    let mut scale = largest(&present);
+    let mut most = sizes(&present);
     let mut preceding = None;
     let mut iterations = 0;
+    let mut further = further::<T>();
+    let mut is_there = false;
     while !holds(&left) {
         if iterations == MOST_ITERATIONS {
             return Err(ProjectionError { iterations, residual: largest(&left).to_f64() });
@@ -44,17 +49,20 @@ pub fn newton<T: Scalar, const N: usize, const M: usize>(
         if !all_finite::<T, _>(&present) {
             return Err(ProjectionError { iterations, residual: largest(&before).to_f64() });
         }
-        let size = largest(&moved);
-        scale = scale.max(largest(&present));
-        if is_settled(size, scale, preceding) || is_last(size, scale, &before, &left) {
-            break;
+        grow(&mut most, &present);
+        let is_end = || {
+            is_settled(&moved, &most, preceding.as_ref())
+                || is_last(&moved, &most, &before, &left)
+                || (preceding.is_some_and(|preceding| is_level(&preceding, &moved))
+                    && is_rounding(&present, &moved, (&before, &left), &residual))
+        };
+        if is_there || is_end() {
+            if further == 0 {
+                break;
+            }
+            (is_there, further) = (true, further - 1);
         }
-        if preceding.is_some_and(|preceding| is_level(preceding, size))
-            && is_rounding(&present, &moved, &change)
-        {
-            break;
-        }
-        preceding = Some(size);
+        preceding = Some(moved);
     }
     Ok(present)
 }
@@ -78,82 +86,62 @@ pub fn first_iterate<T: Scalar, const N: usize>(
     step(&start, &start)
 }
 
-/// Whether, in every lane, the next change would be round-off.
-#[inline]
-pub(crate) fn is_last<T: Scalar, const M: usize>(
-    change: T,
-    scale: T,
-    before: &[T; M],
-    left: &[T; M],
-) -> bool {
-    before.iter().zip(left).all(|(before, left)| {
-        // change · left/before beside the scale, without a quotient
-        let (before, left) = (before.abs(), left.abs());
-        let whole = scale * before;
-        let beyond = (whole + change * left).select_gt(whole, T::ONE, T::ZERO);
-        T::ZERO.all_ge(beyond)
-    })
-}
-
-/// Whether a change is, in some lane, of the size of the preceding one.
-#[inline]
-fn is_level<T: Scalar>(preceding: T, change: T) -> bool {
-    let falls = (preceding * T::from_f64(0.5)).select_gt(change, T::ZERO, T::ONE);
-    let grows = change.select_gt(preceding * T::from_f64(64.0), T::ZERO, T::ONE);
-    !T::ZERO.all_ge(falls * grows)
-}
-
-/// Whether, in every lane, a change that led here was rounding: changes follow a multiple of it as those of smooth
-/// equations do, nearly linearly, and they jump before and behind its way, as those of smooth equations do at poles
-/// alone.
+/// Whether, in every lane, what is left of each equation is rounding: beside its terms, or of lengths inside of it. Then it
+/// follows a multiple of the change that led here as smooth equations do, nearly linearly, and it jumps before and behind
+/// its way, as smooth equations do at poles alone.
 #[cold]
-fn is_rounding<T: Scalar, const N: usize>(
+pub(crate) fn is_rounding<T: Scalar, const N: usize, const M: usize>(
     present: &[T; N],
     moved: &[T; N],
-    change: impl Fn(&[T; N]) -> [T; N],
+    (before, left): (&[T; M], &[T; M]),
+    residual: impl Fn(&[T; N]) -> [T; M],
 ) -> bool {
     let after = |part: T| {
         let mut there = *present;
         for (x, moved) in there.iter_mut().zip(moved) {
             *x += (part - T::ONE) * *moved;
         }
-        change(&there)
+        residual(&there)
     };
-    let size = largest(moved);
+    let is_known = are_rounding(present, moved, &residual);
     let multiple = T::from_f64(MULTIPLE);
-    let beyond = moved.map(|moved| (T::ONE - multiple) * moved);
-    let off = apart(&after(multiple), &beyond) * T::from_f64(8.0);
-    let follows = (size * multiple).select_gt(off, T::ONE, T::ZERO);
-    let jumps = [-SURROUNDINGS, 1.0].into_iter().fold(T::ONE, |jumps, near| {
-        jumps * jumps_between(after, (T::from_f64(near), T::from_f64(near + SURROUNDINGS)), size)
-    });
-    let is_moved = size.select_gt(T::ZERO, T::ONE, T::ZERO);
-    T::ZERO.all_ge(is_moved * (T::ONE - follows * jumps))
+    let beyond = after(multiple);
+    let equations = is_known.iter().zip(before.iter().zip(left)).zip(&beyond).enumerate();
+    let mut open = T::ZERO;
+    for (row, ((is_known, (before, left)), beyond)) in equations {
+        let size = before.abs().max(left.abs());
+        let is_open = size.select_gt(T::ZERO, T::ONE - *is_known, T::ZERO);
+        if T::ZERO.all_ge(is_open) {
+            continue;
+        }
+        let off = (*beyond - (T::ONE - multiple) * *before).abs() * T::from_f64(8.0);
+        let follows = (size * multiple).select_gt(off, T::ONE, T::ZERO);
+        let of_row = |part: T| after(part).get(row).copied().unwrap_or(T::ZERO);
+        let jumps = [-SURROUNDINGS, 1.0].into_iter().fold(T::ONE, |jumps, near| {
+            jumps * jumps_between(of_row, (T::from_f64(near), T::from_f64(near + SURROUNDINGS)), size)
+        });
+        open = open.max(is_open * (T::ONE - follows * jumps));
+    }
+    T::ZERO.all_ge(open)
 }
 
 /// 1 in lanes where a function jumps between two places, by no less than 1/8 of a size and far from poles, else 0.
-fn jumps_between<T: Scalar, const N: usize>(
-    function: impl Fn(T) -> [T; N],
-    (mut near, mut far): (T, T),
-    size: T,
-) -> T {
+fn jumps_between<T: Scalar>(function: impl Fn(T) -> T, (mut near, mut far): (T, T), size: T) -> T {
     let half = T::from_f64(0.5);
     // the half in which values differ more, again and again
     let (mut at_near, mut at_far) = (function(near), function(far));
     for _ in 0..HALVINGS {
         let middle = half * (near + far);
         let there = function(middle);
-        let (first, second) = (apart(&at_near, &there), apart(&there, &at_far));
+        let (first, second) = ((at_near - there).abs(), (there - at_far).abs());
         near = second.select_gt(first, middle, near);
         far = second.select_gt(first, far, middle);
-        for ((at_near, at_far), there) in at_near.iter_mut().zip(&mut at_far).zip(&there) {
-            *at_near = second.select_gt(first, *there, *at_near);
-            *at_far = second.select_gt(first, *at_far, *there);
-        }
+        at_near = second.select_gt(first, there, at_near);
+        at_far = second.select_gt(first, at_far, there);
     }
-    let jumps = (apart(&at_near, &at_far) * T::from_f64(8.0)).select_gt(size, T::ONE, T::ZERO);
+    let jumps = ((at_near - at_far).abs() * T::from_f64(8.0)).select_gt(size, T::ONE, T::ZERO);
     let pole = size * T::from_f64(4.0 * SURROUNDINGS);
-    jumps * pole.select_gt(largest(&at_near).max(largest(&at_far)), T::ONE, T::ZERO)
+    jumps * pole.select_gt(at_near.abs().max(at_far.abs()), T::ONE, T::ZERO)
 }
 
 /// A multiple of a change of the size of rounding that is beyond its noise, and nothing beside the lengths of a machine.
@@ -162,11 +150,6 @@ const MULTIPLE: f64 = 1024.0;
 const SURROUNDINGS: f64 = 32.0;
 /// How often the way is halved in the search for a jump: then its ends are neighbours among the numbers.
 const HALVINGS: u32 = 60;
-
-/// The largest difference of components.
-fn apart<T: Scalar, const N: usize>(a: &[T; N], b: &[T; N]) -> T {
-    a.iter().zip(b).fold(T::ZERO, |most, (a, b)| most.max((*a - *b).abs()))
-}
 
 /// 1, −1, or 0 where one of the numbers is.
 #[inline]
@@ -192,6 +175,7 @@ pub fn worst<T: Scalar, const M: usize>(residuals: [(&'static str, T); M]) -> St
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::Jet;
     use core::cell::Cell;
 
     /// x² + y² = 1, along the gradient.
@@ -254,6 +238,57 @@ mod tests {
             for start in [1.0, 0.7, -3.0, 1e-6, 1e-9] {
                 let end = newton([start], change, |p: &[f64; 1]| [height(p[0])]);
                 assert!(end.is_err(), "{edge} {start} {end:?}");
+            }
+        }
+    }
+
+    /// A crank and what slides on it, in any unit of each and of the equations, and beside a variable that is large.
+    #[test]
+    fn units_matter_to_nothing() {
+        let ended = |[turn, length, row]: [f64; 3], large: f64, start: [f64; 2]| {
+            let steps = Cell::new(0);
+            let residual = |&[a, s, _]: &[f64; 3]| {
+                let (a, s) = (a / turn, s / length);
+                [(a.sin() - 0.3 * s) * row, s - 0.8 - 0.5 * a.cos() * a.cos()]
+            };
+            let change = |x: &[f64; 3]| {
+                steps.set(steps.get() + 1);
+                let (a, [f, g]) = (x[0] / turn, residual(x));
+                let (slope, bend, f) = (a.cos(), a.cos() * a.sin(), f / row);
+                let change = -(f + 0.3 * g) / (slope + 0.3 * bend);
+                [change * turn, (-g - bend * change) * length, 0.0]
+            };
+            let [a, s, _] = newton([start[0] * turn, start[1] * length, large], change, residual).unwrap();
+            assert_eq!(residual(&[a, s, large]).map(|left| left.abs() < 4e-16 * row.max(1.0)), [true; 2]);
+            ([a / turn, s / length].map(f64::to_bits), steps.get())
+        };
+        for start in [[0.31, 1.2], [0.4, 0.0], [-1e-9, 1.5]] {
+            let plain = ended([1.0; 3], 0.0, start);
+            for power in [-200, -27, -3, 3, 27, 200] {
+                let unit = 2.0_f64.powi(power);
+                for units in [[unit, 1.0, 1.0], [1.0, unit, 1.0], [1.0, 1.0, unit], [unit, 1.0 / unit, unit]]
+                {
+                    assert_eq!(ended(units, 0.0, start), plain, "{units:?}");
+                }
+                assert_eq!(ended([1.0; 3], unit, start), plain, "{unit}");
+            }
+        }
+    }
+
+    /// Partial derivatives of all orders, also from a start that is on the constraint.
+    #[test]
+    fn derivatives_converge_with_the_numbers() {
+        type Twice = Jet<Jet<f64, 1>, 1>;
+        // x with x² = p, along its own axis
+        for (start, p) in [(3.0, 9.0), (2.9, 9.0), (3.0 + 1e-9, 9.0), (1.0, 9.0)] {
+            let inner = Jet { value: p, by: [1.0], by_others: [] };
+            let p = Twice { value: inner, by: [Jet::constant(1.0)], by_others: [] };
+            let residual = |x: &[Twice; 1]| [x[0] * x[0] - p];
+            let change = |x: &[Twice; 1]| [-residual(x)[0] / (x[0] + x[0])];
+            let [x] = newton([Twice::constant(Jet::constant(start))], change, residual).unwrap();
+            let found = [x.value.value, x.value.by[0], x.by[0].value, x.by[0].by[0]];
+            for (found, exact) in found.iter().zip([3.0, 1.0 / 6.0, 1.0 / 6.0, -1.0 / 108.0]) {
+                assert!((found - exact).abs() < 1e-15, "{start} {found} {exact}");
             }
         }
     }

@@ -1,6 +1,7 @@
 //! Newton's iteration by which generated code returns to a manifold.
 
 use crate::arrays::all_finite;
+use crate::rounding::{are_rounding, further, grow, is_level, is_settled, sizes};
 use crate::{ProjectionError, Scalar, StateFault};
 
 /// The iterations after which a projection is given up.
@@ -14,10 +15,12 @@ const NEAREST: u32 = 40;
 /// not after forty steps, steps from where it is lead to the manifold quadratically, and are as near
 /// as the first ones have come.
 ///
-/// The iteration stops when a step changes y by at most four rounding units of the largest component,
-/// or when changes below 5000 of them no longer halve: where the constraints are nearly dependent,
-/// a step repeats its own round-off no better. A point where every residual is zero is returned as
-/// it is. Lanes stop together, when the last one does.
+/// The iteration stops when a step changes every component by at most four rounding units of its own, or when changes below
+/// 5000 of them no longer halve: where the constraints are nearly dependent, a step repeats its own round-off no better. Where
+/// a component is near to zero beside others, it stops where changes no longer halve, and residuals and what a step makes
+/// of them are rounding beside their terms. No two components are compared, so that units do not matter. A point where
+/// every residual is zero is returned as it is. Lanes stop together, when the last one does. Derivatives that numbers carry
+/// converge as the numbers do, or from them.
 ///
 /// # Errors
 /// If the changes do not vanish, or a step is not finite.
@@ -30,19 +33,34 @@ pub fn project<T: Scalar, const N: usize, const M: usize>(
         return Ok(start);
     }
     let mut present = start;
-    let mut scale = largest(&start);
-    let mut preceding: Option<T> = None;
+    let mut most = sizes(&start);
+    let mut preceding: Option<[T; N]> = None;
     let mut iterations = 0;
-    while iterations < MOST_ITERATIONS {
+    // those that are left for derivatives, once the numbers have converged
+    let mut left: Option<u32> = None;
+    while iterations < MOST_ITERATIONS || left.is_some() {
         let next = step(if iterations < NEAREST { &start } else { &present }, &present);
         iterations += 1;
         if !all_finite::<T, _>(&next) {
             break;
         }
-        let change = next.iter().zip(&present).fold(T::ZERO, |m, (a, b)| m.max((*a - *b).abs()));
-        scale = scale.max(largest(&next));
+        let mut change = next;
+        for (change, present) in change.iter_mut().zip(&present) {
+            *change -= *present;
+        }
+        grow(&mut most, &next);
         present = next;
-        if is_settled(change, scale, preceding) {
+        let is_end = || {
+            is_settled(&change, &most, preceding.as_ref())
+                || (preceding.is_some_and(|preceding| is_level(&preceding, &change))
+                    && all_hold(&are_rounding(&present, &change, &residual)))
+        };
+        left = match left {
+            Some(left) => Some(left - 1),
+            None if is_end() => Some(further::<T>() + T::DERIVATIVES * iterations),
+            None => None,
+        };
+        if left == Some(0) {
             return Ok(present);
         }
         preceding = if iterations == NEAREST { None } else { Some(change) };
@@ -50,17 +68,24 @@ pub fn project<T: Scalar, const N: usize, const M: usize>(
     Err(refusal(iterations, &residual(&present)))
 }
 
+/// Whether all of these are 1, in every lane.
+fn all_hold<T: Scalar>(all: &[T]) -> bool {
+    all.iter().all(|one| one.all_ge(T::ONE))
+}
+
 /// How often identities of a base and position constraints, which move each other, are returned to in turn.
 pub const MOST_RETURNS: usize = 8;
 
-/// Whether, in every lane, no component has moved by more than rounding of the largest.
+/// Whether, in every lane, no component has moved by more than its rounding.
 #[must_use]
 pub fn stays<T: Scalar, const N: usize>(before: &[T; N], after: &[T; N]) -> bool {
     let mut moved = *after;
     for (moved, before) in moved.iter_mut().zip(before) {
         *moved -= *before;
     }
-    is_settled(largest(&moved), largest(after), None)
+    let mut most = sizes(before);
+    grow(&mut most, after);
+    is_settled(&moved, &most, None)
 }
 
 /// Whether nothing is left to correct.
@@ -74,7 +99,7 @@ pub fn holds<T: Scalar>(residuals: &[T]) -> bool {
 /// hold: far enough for what is rounded to single precision.
 const IDENTITY_TOLERANCE: f64 = 1e-6;
 
-/// Accepts coordinates that one step `present → next` towards their identities hardly moves.
+/// Accepts coordinates that one step `present → next` towards their identities hardly moves, beside those that it moves.
 ///
 /// # Errors
 /// The identity with the largest residual.
@@ -83,8 +108,14 @@ pub fn check_identities<T: Scalar, const N: usize, const M: usize>(
     next: [T; N],
     identities: [(&'static str, T); M],
 ) -> Result<(), StateFault> {
-    let distance = next.iter().zip(&present).fold(T::ZERO, |m, (a, b)| m.max((*a - *b).abs()));
-    if (largest(&present) * T::from_f64(IDENTITY_TOLERANCE)).all_ge(distance) {
+    // coordinates that no identity moves say nothing of how large the others are
+    let (mut distance, mut size) = (T::ZERO, T::ZERO);
+    for (next, present) in next.iter().zip(&present) {
+        let moved = (*next - *present).abs();
+        distance = distance.max(moved);
+        size = size.max(moved.select_gt(T::ZERO, present.abs(), T::ZERO));
+    }
+    if (size * T::from_f64(IDENTITY_TOLERANCE)).all_ge(distance) {
         return Ok(());
     }
     let mut worst = StateFault { identity: "", residual: 0.0 };
@@ -101,21 +132,6 @@ pub fn check_identities<T: Scalar, const N: usize, const M: usize>(
 #[inline]
 pub fn largest<T: Scalar>(x: &[T]) -> T {
     x.iter().fold(T::ZERO, |largest, x| largest.max(x.abs()))
-}
-
-/// Whether, in every lane, the change is round-off. How large that is shows in the sum with the
-/// scale: lanes have no number for it.
-#[inline]
-pub(crate) fn is_settled<T: Scalar>(change: T, scale: T, preceding: Option<T>) -> bool {
-    let beyond =
-        |fraction: f64, then: T| (scale + change * T::from_f64(fraction)).select_gt(scale, then, T::ZERO);
-    let still_falls = match preceding {
-        Some(preceding) => (preceding * T::from_f64(0.5)).select_gt(change, T::ONE, T::ZERO),
-        None => T::ONE,
-    };
-    let large = beyond(1e-4, T::ONE);
-    let open = beyond(0.125, still_falls.max(large));
-    T::ZERO.all_ge(open)
 }
 
 #[cold]
@@ -158,6 +174,40 @@ mod tests {
         let near = project([0.05, 0.9], step, curve).unwrap();
         assert!(curve(&near)[0].abs() < 1e-15, "{near:?}");
         assert!((41..=46).contains(&steps.get()), "{}", steps.get());
+    }
+
+    /// In other units of each component, and beside one that is large, steps and bits are the same.
+    #[test]
+    fn units_matter_to_nothing() {
+        let ended = |units: [f64; 2], large: f64| {
+            let steps = core::cell::Cell::new(0);
+            let curve = |x: &[f64; 3]| [(x[0] / units[0]).powi(2) + x[1] / units[1] - 1.0];
+            let step = |start: &[f64; 3], p: &[f64; 3]| {
+                steps.set(steps.get() + 1);
+                let [x0, y0] = [start[0] / units[0], start[1] / units[1]];
+                let x = p[0] / units[0];
+                let gap = 2.0 * x * (x - x0) + (p[1] / units[1] - y0) - curve(p)[0];
+                let mu = gap / (4.0 * x * x + 1.0);
+                [(x0 + mu * 2.0 * x) * units[0], (y0 + mu) * units[1], p[2]]
+            };
+            let [x, y, _] = project([0.6 * units[0], 0.7 * units[1], large], step, curve).unwrap();
+            ([x / units[0], y / units[1]].map(f64::to_bits), steps.get())
+        };
+        let plain = ended([1.0; 2], 0.0);
+        for power in [-300, -30, 30, 300] {
+            let unit = 2.0_f64.powi(power);
+            for units in [[unit, 1.0], [1.0, unit], [unit, 1.0 / unit]] {
+                assert_eq!(ended(units, 0.0), plain, "{units:?}");
+            }
+            assert_eq!(ended([1.0; 2], unit), plain, "{unit}");
+        }
+    }
+
+    #[test]
+    fn what_is_far_away_from_identities_is_not_excused_by_others() {
+        let identity = [("|g| = 1", 0.5)];
+        assert!(check_identities([1e12, 0.0, 1.5], [1e12, 0.0, 1.1], identity).is_err());
+        assert!(check_identities([1e12, 0.0, 1.0], [1e12, 0.0, 1.0 + 1e-7], identity).is_ok());
     }
 
     #[test]

@@ -41,6 +41,9 @@ pub trait Scalar:
     const ZERO: Self;
     /// The neutral element of multiplication.
     const ONE: Self;
+    /// The highest order of the partial derivatives that the number carries: 0 for a plain number, 1 for a
+    /// [`Jet`](crate::Jet) of those, 2 for a jet of jets. Iterations go on until these have converged, too.
+    const DERIVATIVES: u32 = 0;
 
     /// The nearest representable value (in every lane).
     fn from_f64(value: f64) -> Self;

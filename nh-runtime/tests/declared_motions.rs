@@ -184,6 +184,36 @@ fn steps_in_jets_contain_the_return() {
     }
 }
 
+/// Second derivatives of a return, from on the constraint and from beside it: it leads along the rope, to x l/r.
+#[test]
+fn returns_in_jets_of_jets_have_second_derivatives() {
+    type Twice = Jet<Jet<f64, 5>, 5>;
+    let variable = |index: usize, value: f64| {
+        let mut inner = Jet::<f64, 5>::constant(value);
+        inner.by[index] = 1.0;
+        let mut outer = Twice::constant(inner);
+        outer.by[index] = Jet::constant(1.0);
+        outer
+    };
+    let number = |value: f64| Twice::constant(Jet::constant(value));
+    for off in [0.0, 1e-15, 1e-9, 1e-4, 0.1] {
+        let [l, x, y] = [variable(0, 1.0), variable(1, 0.6 * (1.0 + off)), variable(2, -0.8 * (1.0 + off))];
+        let [u, v] = [variable(3, 0.8), variable(4, 0.6 + off)];
+        let system = Rope { m: number(1.0), l, g: number(9.81) };
+        let mut state = RopeState { x, y, x_dot: u, y_dot: v };
+        system.return_to_positions(number(0.0), &mut state).unwrap();
+        let r = (x * x + y * y).sqrt();
+        let along = (u * y - v * x) / (r * r);
+        let expected = [x * l / r, y * l / r, along * y, -along * x];
+        for (found, expected) in state.to_array().iter().zip(expected) {
+            let all = found.by.iter().zip(&expected.by).flat_map(|(a, b)| a.by.iter().zip(&b.by));
+            for (found, expected) in all.chain(found.value.by.iter().zip(&expected.value.by)) {
+                assert!((found - expected).abs() < 1e-13, "{off}: {found} {expected}");
+            }
+        }
+    }
+}
+
 /// The same without the derivative of its return.
 #[nonholonomic(
     base { x, y }

@@ -154,6 +154,82 @@ fn an_assembly_is_the_same_in_all_units() {
     }
 }
 
+/// The same crank on a carriage that has come far, its coordinates each in a unit of its own.
+#[nonholonomic(
+    base { crank, rod, slide, road }
+    let at = slide / unit;
+    lagrangian {
+        m / 2 * (r * der(crank))^2 + J / 2 * der(rod)^2 + m / 2 * (der(slide) / unit)^2 + M / 2 * (der(road) / far)^2
+            - m * g * r * sin(crank)
+    }
+    holonomic {
+        along: r * cos(crank) + l * cos(rod) = at;
+        across: r * sin(crank) = l * sin(rod);
+    }
+    assume { unit > 0; far > 0; }
+)]
+#[derive(Clone, Copy, Debug)]
+struct Carriage {
+    m: f64,
+    M: f64,
+    J: f64,
+    r: f64,
+    l: f64,
+    g: f64,
+    unit: f64,
+    far: f64,
+}
+
+/// From beside the constraints, and along a motion: what is found has the digits of each coordinate, whatever the others are.
+#[test]
+fn returns_are_the_same_in_all_units() {
+    let machine =
+        |unit: f64, far: f64| Carriage { m: 1.0, M: 2.0, J: 0.1, r: 0.3, l: 1.0, g: 9.81, unit, far };
+    let in_units = |state: &CarriageState, unit: f64, far: f64| {
+        let CarriageState { crank, rod, slide, road, .. } = *state;
+        let speeds = [state.crank_dot, state.rod_dot, state.slide_dot / unit, state.road_dot / far];
+        let [a, b, c, d] = speeds;
+        [crank, rod, slide / unit, road / far, a, b, c, d]
+    };
+    let ends = |unit: f64, far: f64, off: f64, crank: f64| {
+        let carriage = machine(unit, far);
+        let rod = (0.3 * crank.sin()).asin();
+        let rod_dot = 0.6 * crank.cos() / rod.cos();
+        let mut state = CarriageState {
+            crank,
+            rod: rod * (1.0 + off),
+            slide: (0.3 * crank.cos() + rod.cos()) * unit * (1.0 - 2.0 * off),
+            road: 5.0 * far,
+            crank_dot: 2.0,
+            rod_dot,
+            slide_dot: -(0.6 * crank.sin() + rod_dot * rod.sin()) * unit,
+            road_dot: 0.3 * far,
+        };
+        carriage.project(0.0, &mut state).unwrap_or_else(|error| panic!("{unit:e} {far:e} {off:e}: {error}"));
+        let left: [f64; 4] = carriage.constraint_residual(0.0, &state).into();
+        assert!(left.iter().all(|left| left.abs() < 1e-15), "{unit:e} {far:e} {off:e} {crank}: {left:?}");
+        let mut sim = Integrator::new(carriage, Rk4::new(0.01), 0.0, state);
+        sim.advance_to(1.0).unwrap_or_else(|error| panic!("{unit:e} {far:e} {off:e}: {error}"));
+        let left: [f64; 4] = carriage.constraint_residual(1.0, sim.state()).into();
+        assert!(left.iter().all(|left| left.abs() < 4e-15), "{unit:e} {far:e} {off:e} {crank}: {left:?}");
+        (in_units(&state, unit, far), in_units(sim.state(), unit, far))
+    };
+    for off in [0.0, 1e-12, 1e-7, 1e-3] {
+        for crank in [0.7, 0.0, 3.0] {
+            let plain = ends(1.0, 1.0, off, crank);
+            for (unit, far) in
+                [(1e-8, 1.0), (1e8, 1.0), (1.0, 1e12), (1e-12, 1e9), (1e12, 1e-9), (1e-30, 1e30)]
+            {
+                let found = ends(unit, far, off, crank);
+                for (a, b) in found.0.iter().zip(&plain.0).chain(found.1.iter().zip(&plain.1)) {
+                    let close = (a - b).abs() <= 2e-12 * b.abs().max(0.1);
+                    assert!(close, "{unit:e} {far:e} {off:e} {crank}: {found:?} {plain:?}");
+                }
+            }
+        }
+    }
+}
+
 /// A sleigh whose blade stands aside of its centre of mass.
 #[nonholonomic(
     basis { w, u, v }

@@ -1,6 +1,6 @@
 //! `linearize` and `trim`, and the variables that a trim can hold.
 
-use nonholonomic_core::functions::OUTPUTS;
+use nonholonomic_core::functions::{self, OUTPUTS, RESIDUAL};
 use nonholonomic_core::id::SymbolId;
 use nonholonomic_core::mechanics::Procedure;
 use nonholonomic_core::program::Program;
@@ -14,7 +14,7 @@ use super::inherent_method::Part;
 use super::layout::{Layout, local};
 use super::program::body;
 use super::record::Record;
-use super::results::residual_names;
+use super::results::Results;
 use super::setting::Context;
 use super::symbols::{Argument, Scope, parameter_places};
 use crate::syntax::ast;
@@ -23,9 +23,12 @@ use crate::syntax::ast;
 pub(super) fn emit(context: &Context, system: &System, derivative: &Program) -> Part {
     let Some(Linearization { kept, residuals }) = &system.linearization else { return Part::default() };
     let texts = system.embedding.as_ref().map_or(&[][..], |embedding| &embedding.texts);
-    let named = residual_names(system);
-    let names: Vec<&String> = named.iter().chain(texts).collect();
-    let linearize = linearize(context, kept);
+    let results = Results::of(context, system);
+    let of_constraints = results
+        .get(context, functions::Record::Residual)
+        .filter(|_| system.functions.get(&RESIDUAL).is_some_and(|residual| !residual.outputs.is_empty()));
+    let names: Vec<&String> = of_constraints.into_iter().flat_map(Record::names).chain(texts).collect();
+    let linearize = linearize(context, &names, kept);
     let trim = trim(context, &names, (kept, system.state_coordinates.len()));
     let mut items = variables(context);
     items.extend(first_order(context, system, (derivative, residuals)));
@@ -121,18 +124,27 @@ fn variables(context: &Context) -> TokenStream {
 }
 
 /// The body of `linearize`.
-fn linearize(context: &Context, kept: &[usize]) -> TokenStream {
+fn linearize(context: &Context, names: &[&String], kept: &[usize]) -> TokenStream {
     let Context { runtime, .. } = context;
     let (t, state, input) = (&context.locals.t, &context.locals.state, &context.locals.input);
+    let (all, present) = (local("all"), local("present"));
     let states = component_names(Some(&context.state));
     let inputs = component_names(context.input.as_ref());
     let outputs = component_names(context.outputs.as_ref());
+    let state_type = context.type_of(&context.state);
     let kept = kept.iter().map(|place| Literal::usize_unsuffixed(*place));
     quote! {
         #runtime::linearize(
-            &#runtime::Names { states: [#(#states),*], inputs: [#(#inputs),*], outputs: [#(#outputs),*] },
+            (
+                &#runtime::Names { states: [#(#states),*], inputs: [#(#inputs),*], outputs: [#(#outputs),*] },
+                &[#(#names),*],
+            ),
             &[#(#kept),*],
-            &#runtime::FirstOrder::first_order(self, #t, #state, #input),
+            &#runtime::State::to_array(#state),
+            |#all| {
+                let #present = <#state_type as #runtime::State>::from_array(*#all);
+                #runtime::FirstOrder::first_order(self, #t, &#present, #input)
+            },
         )
     }
 }
@@ -213,7 +225,7 @@ fn methods(context: &Context, kept: usize, linearize: &TokenStream, trim: &Token
         /// state that satisfies all constraints; the other variables and the time are held.
         ///
         /// # Errors
-        /// If a kept variable follows from the others that are kept, or its rate changes with one that is not.
+        /// If the state does not satisfy the constraints, a kept variable follows from the others that are kept, or its rate changes with one that is not.
         #visibility fn linearize(
             &self, #t: #scalar, #state: &#state_type, #input: &#input_type
         ) -> ::core::result::Result<

@@ -3,9 +3,9 @@
 use super::AssemblyError;
 use crate::arrays::all_finite;
 use crate::linear::Factors;
-use crate::newton_return::worst;
-use crate::projection::{is_settled, largest};
-use crate::{D, Real, Scalar, StateFault};
+use crate::newton_return::{is_rounding, worst};
+use crate::projection::largest;
+use crate::{D, Real, Scalar, StateFault, rounding};
 
 /// The iterations after which an assembly is given up.
 const MOST_ITERATIONS: u32 = 200;
@@ -48,8 +48,17 @@ pub(crate) fn descend<T: Real, const N: usize, const M: usize>(
         }
         settle(&trial).filter(all_finite::<T, _>)
     };
-    let (mut scale, mut preceding) = (largest(&present), None);
-    let (mut sizes, mut last_share) = (present.map(Scalar::abs), None);
+    let (mut sizes, mut last_share, mut was_full) = (present.map(Scalar::abs), None, false);
+    // what the solution of the linear equations leaves of those that hold
+    let mut floors = [T::ZERO; M];
+    let independent = |mut left: [T; M]| {
+        left.iter_mut().skip(loops.independent).for_each(|left| *left = T::ZERO);
+        left
+    };
+    let is_noise = |there: Option<[T; N]>, change: &[T; N], before: &[T; M]| {
+        let residual = |x: &[T; N]| independent(equations(x).0);
+        there.is_some_and(|x| is_rounding(&x, change, (&independent(*before), &residual(&x)), residual))
+    };
     for _ in 0..MOST_ITERATIONS {
         let left = || here.0.iter().take(loops.independent);
         if left().all(|left| *left == T::ZERO) {
@@ -59,19 +68,17 @@ pub(crate) fn descend<T: Real, const N: usize, const M: usize>(
         if !all_finite::<T, _>(&change) {
             return Err(singular(&here.0, &loops.names));
         }
-        let size = largest(&change);
-        let mut asked = Asked::new(&present, &here, &change, loops.independent);
+        let mut asked = Asked::new(&present, &here, &change, &mut floors, loops.independent);
         for (size, change) in sizes.iter_mut().zip(&change) {
             *size = Scalar::max(*size, change.abs());
         }
-        // beside the terms of the equations, and where these are nothing but rounding themselves, beside all variables
-        let share = share(&here.1, &change, &sizes, loops.independent);
+        // beside the terms of the equations, and where these are nothing but rounding themselves, beside what they come to
+        let share = asked.share(&here, &sizes, &floors);
         let still_falls = last_share.is_none_or(|last: T| share <= half * last);
         let is_settled = share <= T::from_f64(8.0) * T::EPSILON
-            || (!still_falls && is_settled(size, scale.max(size), preceding));
+            || (!still_falls && is_noise(moved(&present, &change, T::ONE), &change, &here.0));
         // so near a regular solution a step that does not take the residuals away meets their rounding
-        let is_near =
-            preceding.is_some() && (size <= T::EPSILON.sqrt() * scale || share <= T::EPSILON.sqrt());
+        let is_near = was_full && share <= T::EPSILON.sqrt();
         last_share = Some(share);
         let mut is_last = is_settled;
         let mut part = T::ONE;
@@ -99,29 +106,12 @@ pub(crate) fn descend<T: Real, const N: usize, const M: usize>(
         if is_last {
             return Ok(present);
         }
-        scale = scale.max(largest(&present));
+        was_full = part == T::ONE;
         for (size, x) in sizes.iter_mut().zip(&present) {
             *size = Scalar::max(*size, x.abs());
         }
-        preceding = (part == T::ONE).then_some(size);
     }
     Err(no_solution(&here.0, &loops.names))
-}
-
-/// The largest part of the terms of an equation, as they were so far, that a change of the variables moves.
-fn share<T: Real, const N: usize, const M: usize>(
-    slopes: &[[T; N]; M],
-    change: &[T; N],
-    sizes: &[T; N],
-    independent: usize,
-) -> T {
-    let of_row = |row: &[T; N]| {
-        let terms =
-            |of: &[T; N]| row.iter().zip(of).fold(T::ZERO, |sum, (slope, x)| sum + (*slope * *x).abs());
-        let (moved, all) = (terms(change), terms(sizes));
-        if moved > T::ZERO { moved / all } else { T::ZERO }
-    };
-    slopes.iter().take(independent).map(of_row).fold(T::ZERO, Scalar::max)
 }
 
 /// What a step is to do to one equation, in the units of the equation.
@@ -130,8 +120,8 @@ struct Share<T> {
     left: T,
     /// How much the full step moves the terms of the equation.
     weight: T,
-    /// What rounding leaves of it: by the digits of the variables and, where it holds before the step, by the solution
-    /// of the linear equations.
+    /// What rounding leaves of it: by the digits of the variables and, where it held before any step, by the solution of
+    /// the linear equations.
     rounding: T,
 }
 
@@ -148,13 +138,14 @@ impl<T: Real, const M: usize> Asked<T, M> {
         present: &[T; N],
         (left, slopes): &Linearized<T, N, M>,
         change: &[T; N],
+        floors: &mut [T; M],
         independent: usize,
     ) -> Self {
         let relative = T::from_f64(16.0) * T::EPSILON;
-        let mut rows = left.iter().zip(slopes).take(independent);
+        let mut rows = left.iter().zip(slopes).zip(floors).take(independent);
         let shares = [(); M].map(|()| {
             let mut share = Share { left: T::ZERO, weight: T::ZERO, rounding: T::ZERO };
-            let Some((left, slopes)) = rows.next() else { return share };
+            let Some(((left, slopes), floor)) = rows.next() else { return share };
             let (mut open, mut size) = (*left, T::ZERO);
             for ((slope, x), change) in slopes.iter().zip(present).zip(change) {
                 let moved = *slope * *change;
@@ -163,13 +154,37 @@ impl<T: Real, const M: usize> Asked<T, M> {
                 size += (*slope * *x).abs() + moved.abs();
             }
             share.left = *left;
-            let by_solution = if *left == T::ZERO { T::from_f64(2.0) * open.abs() } else { T::ZERO };
-            share.rounding = by_solution + relative * size;
+            let holds = left.abs() <= *floor;
+            if holds {
+                *floor = Scalar::max(*floor, T::from_f64(2.0) * open.abs());
+            }
+            share.rounding = if holds { *floor } else { T::ZERO } + relative * size;
             share
         });
         let part = |share: &Share<T>| share.left.abs() / share.weight;
         let most = shares.iter().filter(|share| share.weight > T::ZERO).map(part).fold(T::ZERO, T::max);
         Self { shares, most }
+    }
+
+    /// The largest part of the terms of an equation, as they were so far, that the step moves: but of those that held before
+    /// any step, and where nothing moves but by rounding of the solution of the linear equations.
+    fn share<const N: usize>(
+        &self,
+        (left, slopes): &Linearized<T, N, M>,
+        sizes: &[T; N],
+        floors: &[T; M],
+    ) -> T {
+        let rows = self.shares.iter().zip(floors).zip(left.iter().zip(slopes));
+        let mut most = T::ZERO;
+        for ((share, floor), (left, slopes)) in rows {
+            let is_rounding = left.abs() <= *floor && share.weight <= T::from_f64(4.0) * *floor;
+            if is_rounding || share.weight == T::ZERO {
+                continue;
+            }
+            let terms = |sum: T, (slope, size): (&T, &T)| sum + (*slope * *size).abs();
+            most = Scalar::max(most, share.weight / slopes.iter().zip(sizes).fold(T::ZERO, terms));
+        }
+        most
     }
 
     /// Adds what rounding inside the equations makes of them: by what they are off their straight line a little way along
@@ -202,7 +217,7 @@ impl<T: Real, const M: usize> Asked<T, M> {
 
 /// That equations which follow from the others do. What is left of them is compared with what moving each variable by half
 /// of its digits would do, and of those whose derivatives vanish where they hold, as the diagonal of a rotation that is to
-/// be none, with what the derivatives would be at such a distance.
+/// be none, with what the derivatives would be at such a distance, and with the rounding of numbers inside of them.
 pub(super) fn follow<T: Real, const N: usize, const M: usize>(
     equations: impl Fn(&[T; N]) -> Linearized<T, N, M>,
     loops: &Loops<N, M>,
@@ -210,28 +225,57 @@ pub(super) fn follow<T: Real, const N: usize, const M: usize>(
     start: &[T; N],
 ) -> Result<(), AssemblyError> {
     let (left, slopes) = equations(found);
-    let scale = largest(found).max(largest(start));
-    let half = scale * T::EPSILON.sqrt();
-    let change = |row: usize| {
-        let bends = |x: usize| {
-            let mut there = *found;
-            if let Some(x) = there.get_mut(x) {
-                *x += half;
-            }
-            let (_, there) = equations(&there);
-            let pairs = there
-                .get(row)
-                .into_iter()
-                .zip(slopes.get(row))
-                .flat_map(|(there, here)| there.iter().zip(here));
-            pairs.fold(T::ZERO, |sum, (there, here)| sum + (*there - *here).abs())
+    let mut sizes = *start;
+    for (size, found) in sizes.iter_mut().zip(found) {
+        *size = Scalar::max(size.abs(), found.abs());
+    }
+    let half = T::EPSILON.sqrt();
+    let there = |variable: usize, by: T| {
+        let mut there = *found;
+        if let Some(x) = there.get_mut(variable) {
+            *x += by;
+        }
+        equations(&there)
+    };
+    let weighed = |slopes: &[T; N]| {
+        slopes.iter().zip(&sizes).fold(T::ZERO, |sum, (slope, size)| sum + slope.abs() * *size)
+    };
+    // by how much the terms of an equation change over half of the digits of all variables
+    let bends = |row: usize, here: &[T; N]| {
+        let of = |(variable, size): (usize, &T)| {
+            let (_, there) = there(variable, half * *size);
+            let mut change = there.get(row).copied().unwrap_or(*here);
+            change.iter_mut().zip(here).for_each(|(there, here)| *there -= *here);
+            weighed(&change)
         };
-        (0..N).fold(T::ZERO, |sum, x| sum + bends(x))
+        sizes.iter().enumerate().map(of).fold(T::ZERO, |sum, bend| sum + bend)
+    };
+    // how little moves an equation by one variable alone, and by how much: rounding of the numbers that it is the sum of
+    let grain = |row: usize, variable: usize| {
+        let left = left.get(row).copied().unwrap_or(T::ZERO);
+        rounding::grain(|by| {
+            let there = there(variable, by).0.get(row).copied().unwrap_or(left);
+            if there.is_finite() { (there - left).abs() } else { T::ZERO }
+        })
+    };
+    // and so the variables are known no better than to what moves the equations that they come from
+    let is_rounding = |row: usize, left: T, slopes: &[T; N]| {
+        let grains = T::from_f64(GRAINS);
+        let of = |variable: usize| {
+            let of_equation = (0..loops.independent).map(|row| grain(row, variable));
+            let seen = of_equation.filter(|(_, change)| *change > T::ZERO).map(|(distance, _)| distance);
+            let known = seen.reduce(Scalar::min).unwrap_or(T::ZERO);
+            let slope = slopes.get(variable).copied().unwrap_or(T::ZERO);
+            Scalar::max(grain(row, variable).1, (slope * known).abs())
+        };
+        left.abs() <= grains * (0..N).map(of).fold(T::ZERO, Scalar::max)
     };
     let mut rows = left.iter().zip(&slopes).enumerate().skip(loops.independent);
     let open = rows.find(|(row, (left, slopes))| {
-        let slope = slopes.iter().fold(T::ZERO, |sum, slope| sum + slope.abs());
-        let holds = left.abs() <= slope * half || left.abs() <= slope * half + change(*row) * scale;
+        let explained = half * weighed(slopes);
+        let holds = left.abs() <= explained
+            || left.abs() <= explained + bends(*row, slopes)
+            || is_rounding(*row, **left, slopes);
         !holds
     });
     open.map_or(Ok(()), |(row, (left, _))| {
@@ -239,6 +283,9 @@ pub(super) fn follow<T: Real, const N: usize, const M: usize>(
         Err(AssemblyError::NoSolution { constraint, residual: left.to_f64() })
     })
 }
+
+/// So many roundings of the numbers that it is the sum of may be left of an equation that follows from others.
+const GRAINS: f64 = 16.0;
 
 /// The sign of a determinant; 0 where rounding alone keeps the matrix from being singular, with the rows and columns
 /// brought to the same size.
@@ -372,6 +419,17 @@ mod tests {
                     let left = [unit * x.sin(), unit * (x.cos() - 1.0 + rounding), y * x.sin()];
                     (left, [[unit * x.cos(), 0.0], [-unit * x.sin(), 0.0], [y * x.cos(), x.sin()]])
                 };
+                // the guess is right, or the other variable is nothing, or in any unit
+                for (start, y) in [(0.0, 0.3), (1e-17, 0.0), (0.1, 0.3e12), (-1e-20, 1e-200)] {
+                    assert_eq!(follow(equations, &loops, &[0.0, y], &[start, y]), Ok(()));
+                }
+                // x is known no better than to the rounding of 0.3
+                let beside = |x: &[f64; 2]| {
+                    let (mut left, slopes) = equations(x);
+                    left[0] = unit * ((x[0].sin() + 0.3) - 0.3);
+                    (left, slopes)
+                };
+                assert_eq!(follow(beside, &loops, &[1e-17, 0.3], &[1e-17, 0.3]), Ok(()));
                 let follows = |x: f64| follow(equations, &loops, &[x, 0.3], &[x + 0.1, 0.3]);
                 assert_eq!(follows(1e-17), Ok(()), "{power} {rounding}");
                 let error = follows(core::f64::consts::PI);
@@ -390,7 +448,7 @@ mod tests {
         for power in [0, 40, 60, 900] {
             let unit = 2.0_f64.powi(power);
             let here = ([0.5 * unit, 1.0], [[1.0, 0.0], [0.0, 1.0]]);
-            let asked = Asked::new(&[unit, 1.0], &here, &[-0.5 * unit, -1.0], 2);
+            let asked = Asked::new(&[unit, 1.0], &here, &[-0.5 * unit, -1.0], &mut [0.0; 2], 2);
             assert!(asked.is_brought(1.0, &[0.0, 0.4]), "{power}");
             assert!(!asked.is_brought(1.0, &[0.0, 1.4]), "{power}");
         }

@@ -58,7 +58,7 @@ where
     /// them come from the dense output; the last time is landed on.
     ///
     /// # Errors
-    /// As [`advance_to`](Self::advance_to); before anything moves, [`IntegrationError::UnorderedTimes`] for a time that goes
+    /// As [`advance_to`](Self::advance_to), and as [`at`](Self::at) within steps; before anything moves, [`IntegrationError::UnorderedTimes`] for a time that goes
     /// back, and [`IntegrationError::OutsideLastStep`] where the way to the last time does not lead by the first.
     pub fn sample(
         &mut self,
@@ -72,10 +72,13 @@ where
         let mut spent = Spent::default();
         loop {
             let dense = self.dense();
-            while let Some(&time) = times.peek()
-                && let Ok(state) = dense.at(time)
-            {
-                visit(time, &state);
+            while let Some(&time) = times.peek() {
+                match dense.at(time) {
+                    Ok(state) => visit(time, &state),
+                    // a step has yet to come to it
+                    Err(IntegrationError::OutsideLastStep { .. }) => break,
+                    Err(error) => return Err(error),
+                }
                 times.next();
             }
             if self.time == last {

@@ -34,6 +34,15 @@ impl<X, T: Scalar, const N: usize, const M: usize> Transition<X, T, N, M> {
         Self { state, by_state: SMatrix::from([[nan; N]; N]), by_input: SMatrix::from([[nan; N]; M]) }
     }
 
+    /// The step, if its derivatives are numbers.
+    pub(super) fn regular(self, time: T, step: T) -> Result<Self, IntegrationError> {
+        let mut entries = self.by_state.iter().chain(self.by_input.iter());
+        if entries.all(|entry| entry.is_finite()) {
+            return Ok(self);
+        }
+        Err(IntegrationError::SingularStep { time: time.to_f64(), step: step.to_f64() })
+    }
+
     /// The step with the return to position constraints that follows it, at its end.
     pub(crate) fn returned<S>(mut self, system: &S, t: T) -> Self
     where
@@ -220,8 +229,8 @@ impl<T: Real> ImplicitMidpoint<T> {
     /// Jacobian A, B at the middle of the step: (1 − h/2 A) A_d = 1 + h/2 A and (1 − h/2 A) B_d = h B.
     ///
     /// # Errors
-    /// As [`step_with_jacobian`](ImplicitMidpoint::step_with_jacobian). A singular matrix 1 − h/2 A
-    /// gives derivatives that are not finite.
+    /// As [`step_with_jacobian`](ImplicitMidpoint::step_with_jacobian), and
+    /// [`IntegrationError::SingularStep`] for a singular matrix 1 − h/2 A.
     pub fn linearized_step<S, const N: usize, const M: usize>(
         system: &S,
         t: T,
@@ -248,7 +257,8 @@ impl<T: Real> ImplicitMidpoint<T> {
         let mut by_input = SMatrix::<T, N, M>::from([[T::ZERO; N]; M]);
         solve_columns(&factors, &right, T::ONE, &mut by_state);
         solve_columns(&factors, &b, dt, &mut by_input);
-        Ok(Transition { state: end, by_state, by_input }.returned(system, t + dt))
+        let step = Transition { state: end, by_state, by_input }.regular(t, dt)?;
+        Ok(step.returned(system, t + dt))
     }
 }
 

@@ -176,3 +176,34 @@ fn a_return_comes_before_the_evaluation_at_the_end() {
     check(Interruptible::new(Dopri5::new(), |_: &Statistics| true), 6);
     check(Auto::new(), 6);
 }
+
+/// The same, which is not reached between the ends of steps after t = 1.
+struct Blocked;
+
+impl Dynamics for Blocked {
+    type State = BobState;
+    type Input = ();
+    fn derivative(&self, t: f64, state: &BobState, (): &()) -> BobState {
+        Bob.derivative(t, state, &())
+    }
+    fn has_positions(&self) -> bool {
+        true
+    }
+    fn return_to_positions(&self, t: f64, state: &mut BobState) -> Result<f64, ProjectionError> {
+        if t > 1.0 && (t * 4.0).fract() != 0.0 {
+            return Err(ProjectionError { iterations: 7, residual: 0.5 });
+        }
+        Bob.return_to_positions(t, state)
+    }
+}
+
+/// What is wrong at a time is said there, and no further step is taken.
+#[test]
+fn a_sample_that_is_not_reached_is_told_where_it_is() {
+    let mut sim = Integrator::new(Blocked, Rk4::new(0.25), 0.0, ASIDE);
+    let mut seen = 0;
+    let ended = sim.sample([0.3, 0.9, 1.25, 1.3, 1.5, 3.0], |_, _| seen += 1);
+    let error = ProjectionError { iterations: 7, residual: 0.5 };
+    assert_eq!(ended, Err(IntegrationError::Projection { time: 1.3, error }));
+    assert_eq!((seen, sim.time()), (3, 1.5));
+}

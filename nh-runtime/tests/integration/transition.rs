@@ -1,9 +1,10 @@
 //! The derivative of a step, from the emitted Jacobian, against jets through the step and against
 //! difference quotients.
 
+use nalgebra::SMatrix;
 use nonholonomic::methods::{Fixed, Tableau, Transition};
 use nonholonomic::prelude::*;
-use nonholonomic::{Jet, methods};
+use nonholonomic::{D, Jet, methods};
 
 /// A sleigh whose brake and engine make everything depend on everything, time included.
 #[nonholonomic(
@@ -249,4 +250,175 @@ fn jets_know_the_derivatives_of_all_functions() {
             );
         }
     }
+}
+
+/// x' = a x² + u and one that turns it: wherever its equations are solved, the derivatives of a step are those of
+/// difference quotients, also where the matrices at its start are far from those at its stages.
+#[test]
+fn steps_that_are_solved_have_derivatives() {
+    #[nonholonomic(
+        base { q }
+        lagrangian { der(q)^2 / 2 }
+        forces { q: u - k * q^3 - c * der(q)^3; }
+        inputs { u }
+        emit { jacobian }
+    )]
+    #[derive(Clone, Copy, Debug)]
+    struct Stiff {
+        k: f64,
+        c: f64,
+    }
+    let stiff = Stiff { k: 900.0, c: 40.0 };
+    let mut solved = 0;
+    macro_rules! compare {
+        ($($method:ident)*) => { $(
+            for step in 1..40_u32 {
+                let h = 0.02 * f64::from(step);
+                for [q, q_dot] in [[0.0, 3.0], [1.0, 0.0], [-0.2, 5.0], [0.01, -0.1]] {
+                    let start = StiffState { q, q_dot };
+                    let at = |q: f64, q_dot: f64, u: f64| {
+                        $method::linearized_step(&stiff, 0.0, h, &StiffState { q, q_dot }, &StiffInput { u })
+                    };
+                    let Ok(here) = at(start.q, start.q_dot, 0.3) else { continue };
+                    let d = 1e-5;
+                    for (column, [dq, dv, du]) in [[d, 0.0, 0.0], [0.0, d, 0.0], [0.0, 0.0, d]].into_iter().enumerate() {
+                        let (Ok(ahead), Ok(behind)) =
+                            (at(q + dq, q_dot + dv, 0.3 + du), at(q - dq, q_dot - dv, 0.3 - du))
+                        else { continue };
+                        let (ahead, behind) = (ahead.state.to_array(), behind.state.to_array());
+                        // on the same branch of the solutions
+                        if ahead.iter().zip(&behind).any(|(a, b)| (a - b).abs() > 1e-3) { continue }
+                        solved += 1;
+                        for row in 0..2 {
+                            let quotient = (ahead[row] - behind[row]) / (2.0 * d);
+                            let found =
+                                if column < 2 { here.by_state[(row, column)] } else { here.by_input[(row, 0)] };
+                            let off = (quotient - found).abs();
+                            let name = stringify!($method);
+                            assert!(off < 1e-4 * (1.0 + found.abs()), "{name} {h} {q} {q_dot}: {found} {quotient}");
+                        }
+                    }
+                }
+            }
+        )* };
+    }
+    compare!(ImplicitMidpoint GaussLegendre4 GaussLegendre6 Radau5);
+    assert!(solved > 700, "{solved}");
+}
+
+/// A spring that gets stiff within the step, at rest: the equations of the step are solved at once, and their derivatives
+/// are far from those at its start.
+#[test]
+fn derivatives_need_no_iteration_that_settles() {
+    #[nonholonomic(
+        base { q }
+        lagrangian { der(q)^2 / 2 }
+        forces { q: u - k * t * q; }
+        inputs { u }
+        emit { jacobian }
+    )]
+    #[derive(Clone, Copy, Debug)]
+    struct Spring {
+        k: f64,
+    }
+    // the first column with 60 digits
+    let rest = SpringState::default();
+    let stiff =
+        GaussLegendre4::linearized_step(&Spring { k: 1e12 }, 0.0, -1.0, &rest, &SpringInput::default())
+            .unwrap();
+    assert!((stiff.by_state[(0, 0)] - 1.000_000_000_144).abs() < 1e-14, "{stiff:?}");
+    assert!((stiff.by_state[(1, 0)] + 12.000_000_000_864).abs() < 1e-13, "{stiff:?}");
+    let root = 3.0_f64.sqrt() / 6.0;
+    let (nodes, weights) = ([0.5 - root, 0.5 + root], [[0.25, 0.25 - root], [0.25 + root, 0.25]]);
+    for (k, h) in [(1.0, 0.1), (1e3, 1.0), (-1e3, 1.0), (1e6, 2.0)] {
+        let at = |time: f64| SMatrix::<f64, 2, 2>::new(0.0, 1.0, -k * time, 0.0);
+        let (mut left, mut right) = (SMatrix::<f64, 4, 4>::identity(), SMatrix::<f64, 4, 3>::zeros());
+        for (i, row) in weights.iter().enumerate() {
+            for (j, weight) in row.iter().enumerate() {
+                let block = at(nodes[j] * h) * (h * weight);
+                for (a, b) in [(0, 0), (0, 1), (1, 0), (1, 1)] {
+                    left[(2 * i + a, 2 * j + b)] -= block[(a, b)];
+                    right[(2 * i + a, b)] += block[(a, b)];
+                }
+                right[(2 * i + 1, 2)] += h * weight;
+            }
+        }
+        let stages = left.lu().solve(&right).unwrap();
+        let mut ends = SMatrix::<f64, 2, 3>::new(1.0, 0.0, 0.0, 0.0, 1.0, h);
+        for (j, node) in nodes.iter().enumerate() {
+            for column in 0..3 {
+                let point = |row: usize| stages[(2 * j + row, column)] + f64::from(u8::from(row == column));
+                ends[(0, column)] += h / 2.0 * point(1);
+                ends[(1, column)] -= h / 2.0 * k * node * h * point(0);
+            }
+        }
+        let step =
+            GaussLegendre4::linearized_step(&Spring { k }, 0.0, h, &rest, &SpringInput::default()).unwrap();
+        for row in 0..2 {
+            for (column, found) in [step.by_state[(row, 0)], step.by_state[(row, 1)], step.by_input[(row, 0)]]
+                .into_iter()
+                .enumerate()
+            {
+                let (expected, size) = (ends[(row, column)], ends.row(row).amax());
+                assert!(
+                    (found - expected).abs() <= 1e-9 * size,
+                    "{k} {h} {row} {column}: {found} {expected}"
+                );
+            }
+        }
+        let radau = Radau5::linearized_step(&Spring { k }, 0.0, h, &rest, &SpringInput::default()).unwrap();
+        let gauss =
+            GaussLegendre6::linearized_step(&Spring { k }, 0.0, h, &rest, &SpringInput::default()).unwrap();
+        assert!(radau.by_state.iter().chain(gauss.by_state.iter()).all(|entry| entry.is_finite()));
+    }
+}
+
+/// x' = 0, whose Jacobian is none after the start.
+#[test]
+fn a_step_without_derivatives_is_an_error() {
+    #[derive(Clone, Copy)]
+    struct Place(f64);
+    impl State for Place {
+        type Scalar = f64;
+        type Dim = D<1>;
+        fn to_array(&self) -> [f64; 1] {
+            [self.0]
+        }
+        fn from_array([x]: [f64; 1]) -> Self {
+            Self(x)
+        }
+        fn names() -> [&'static str; 1] {
+            ["x"]
+        }
+    }
+    struct Rest;
+    impl Dynamics for Rest {
+        type State = Place;
+        type Input = ();
+        fn derivative(&self, _: f64, _: &Place, (): &()) -> Place {
+            Place(0.0)
+        }
+    }
+    impl Jacobian for Rest {
+        type InputDim = D<0>;
+        fn state_jacobian(&self, t: f64, _: &Place, (): &()) -> [[f64; 1]; 1] {
+            [[if t > 0.0 { f64::INFINITY } else { 0.0 }]]
+        }
+        fn input_jacobian(&self, _: f64, _: &Place, (): &()) -> [[f64; 0]; 1] {
+            [[]]
+        }
+    }
+    let expected = IntegrationError::SingularStep { time: 0.0, step: 2.0 };
+    let start = Place(1.0);
+    let ends = [
+        GaussLegendre4::linearized_step(&Rest, 0.0, 2.0, &start, &()).map(|_| ()),
+        GaussLegendre6::linearized_step(&Rest, 0.0, 2.0, &start, &()).map(|_| ()),
+        Radau5::linearized_step(&Rest, 0.0, 2.0, &start, &()).map(|_| ()),
+    ];
+    assert_eq!(ends, [const { Err(IntegrationError::SingularStep { time: 0.0, step: 2.0 }) }; 3]);
+    assert_eq!(
+        expected.to_string(),
+        "the step of length 2.0 from t = 0.0 has no derivatives: its equations are singular where they are solved, or the \
+         system's Jacobian is not finite there; take a step of another length"
+    );
 }

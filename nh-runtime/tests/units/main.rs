@@ -24,6 +24,7 @@ mod blocks;
 mod blocks_by_component;
 mod coverage;
 mod events;
+mod far_away;
 mod methods;
 mod motions;
 mod not_yet;

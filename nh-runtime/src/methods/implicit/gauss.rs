@@ -2,7 +2,9 @@
 
 use super::collocation::{Collocation, Matrices, continued};
 use super::linearization::{Analytic, FiniteDifferences, Linearization};
-use super::newton::{MOST_ITERATIONS, SLOW, Settling, check_tolerance, is_first_term, once, refusal, size};
+use super::newton::{
+    MOST_ITERATIONS, SLOW, Settling, check_tolerance, is_first_term, once, reach, refusal, size,
+};
 use super::starting_values::Misses;
 use crate::arrays::{displaced, first_non_finite};
 use crate::methods::fixed::{Fixed, OneStep};
@@ -136,7 +138,7 @@ macro_rules! constructors {
         }
 
         impl<T: Real, J> $name<T, J> {
-            /// The largest correction, relative to the largest component of the state, at which the iteration
+            /// The largest correction of a component, relative to it or to the terms of its rate, at which the iteration
             /// may stagnate; 1000 rounding units if not given. A larger one does not make it stop
             /// earlier.
             #[must_use]
@@ -153,10 +155,10 @@ constructors!(GaussLegendre6, 3);
 /// What a Gauss method keeps: the stages of the last step, and the matrices while they serve.
 pub struct Work<S: Dynamics, const N: usize> {
     /// The length of the last step, and its stages.
-    pub(super) last: Option<(ScalarOf<S>, [VecOf<S>; N])>,
+    last: Option<(ScalarOf<S>, [VecOf<S>; N])>,
     /// By how much the steps of this length missed the continued polynomial of the step before.
     misses: [Misses<VecOf<S>>; N],
-    pub(super) matrices: Option<(ScalarOf<S>, Matrices<S>)>,
+    matrices: Option<(ScalarOf<S>, Matrices<S>, VecOf<S>)>,
 }
 
 impl<S: Dynamics, const N: usize> Clone for Work<S, N> {
@@ -251,7 +253,7 @@ where
         }
         return Ok((table.nodes.map(|node| displaced(&zero, T::from_f64(node) * h, &slope)), [zero; N]));
     }
-    if work.matrices.as_ref().is_some_and(|(length, _)| *length != h) {
+    if work.matrices.as_ref().is_some_and(|(length, ..)| *length != h) {
         work.matrices = None;
     }
     let guess = work.last.as_ref().map(|(length, z)| table.extrapolated(zero, z, h / *length));
@@ -304,15 +306,15 @@ where
             statistics.evaluations += 1;
             statistics.jacobians += 1;
             statistics.factorizations += 2;
-            work.matrices = Some((h, table.matrices::<S>(&jacobian, h)));
+            work.matrices = Some((h, table.matrices::<S>(&jacobian, h), reach::<S>(&jacobian, x, h)));
         }
-        let Some((_, matrices)) = &work.matrices else { continue };
+        let Some((_, matrices, reach)) = &work.matrices else { continue };
         let before = z;
         let change = table.iterate_exactly(start, (x, rest), h, matrices, (&mut z, &mut rests));
         iterations += 1;
         statistics.iterations += 1;
         statistics.evaluations += N as u64;
-        let sizes = change.iter().zip(&z).map(|(c, z)| size(c, x, z));
+        let sizes = change.iter().zip(&z).map(|(c, z)| size(c, x, z, reach));
         let residual = sizes.fold(T::ZERO, T::max) / tolerance;
         let ratio = preceding.map(|preceding| residual / preceding);
         let is_small = residual <= T::ONE;

@@ -1,7 +1,9 @@
 //! The implicit midpoint rule.
 
 use super::linearization::{Analytic, FiniteDifferences, Linearization};
-use super::newton::{MOST_ITERATIONS, SLOW, check_tolerance, once, one_less, refusal, size, still_missing};
+use super::newton::{
+    MOST_ITERATIONS, SLOW, check_tolerance, once, one_less, reach, refusal, size, still_missing,
+};
 use super::starting_values::Misses;
 use crate::arrays::displaced;
 use crate::linear::Factors;
@@ -88,7 +90,7 @@ impl<T: Real, J> ImplicitMidpoint<T, J> {
         Self { step, scheme: Midpoint { tolerance: T::from_f64(1e3) * T::EPSILON, linearization } }
     }
 
-    /// The largest correction, relative to the largest component of the state, at which the iteration may
+    /// The largest correction of a component, relative to it or to the terms of its rate, at which the iteration may
     /// stagnate; 1000 rounding units if not given. A larger one does not make it stop earlier.
     #[must_use]
     pub fn tolerance(mut self, tolerance: T) -> Self {
@@ -162,9 +164,10 @@ impl<T: Real, J> Midpoint<T, J> {
                     self.linearization.state_jacobian(start, middle, &point, &slope, length, statistics);
                 statistics.jacobians += 1;
                 statistics.factorizations += 1;
-                work.newton = Some(Factors::new(&one_less::<DimOf<S>, _>(half, jacobian)));
+                let reach = reach::<S>(&jacobian, &x, half);
+                work.newton = Some((Factors::new(&one_less::<DimOf<S>, _>(half, jacobian)), reach));
             }
-            let Some(newton) = &work.newton else { continue };
+            let Some((newton, reach)) = &work.newton else { continue };
             let mut defect = slope;
             for (r, d) in defect.as_mut().iter_mut().zip(half_increment.as_ref()) {
                 *r = half * *r - *d;
@@ -173,7 +176,7 @@ impl<T: Real, J> Midpoint<T, J> {
             *half_increment = displaced(half_increment, T::ONE, &correction);
             iterations += 1;
             statistics.iterations += 1;
-            let residual = size(&correction, &x, half_increment) / self.tolerance;
+            let residual = size(&correction, &x, half_increment, reach) / self.tolerance;
             let ratio = preceding.map(|preceding| residual / preceding);
             let vanishes = vanishes(&correction, &x, half_increment, still_missing(ratio));
             let stagnates = ratio.is_some_and(|ratio| ratio >= T::from_f64(0.5));
@@ -225,6 +228,9 @@ fn vanishes<T: Real, V: AsRef<[T]>>(correction: &V, x: &V, increment: &V, share:
     terms.fold(true, |all, (c, (x, d))| all & (share * c.abs() <= half_unit * (x.abs() + d.abs())))
 }
 
+/// The matrix of an iteration, and what rounding reaches by it.
+type Newton<S> = (Factors<DimOf<S>, ScalarOf<S>>, VecOf<S>);
+
 /// What the midpoint rule keeps while its steps have one length.
 pub struct Work<S: Dynamics> {
     /// Half that length.
@@ -233,8 +239,8 @@ pub struct Work<S: Dynamics> {
     last: Option<VecOf<S>>,
     /// By how much the steps differed from those before.
     misses: Misses<VecOf<S>>,
-    /// The factorized matrix 1 − h/2 ∂f/∂x of Newton's iteration.
-    newton: Option<Factors<DimOf<S>, ScalarOf<S>>>,
+    /// The factorized matrix 1 − h/2 ∂f/∂x of Newton's iteration, and what rounding reaches by it.
+    newton: Option<Newton<S>>,
 }
 
 impl<S: Dynamics> Clone for Work<S> {

@@ -3,7 +3,7 @@
 use crate::arrays::{displaced, first_non_finite};
 use crate::methods::fixed::OneStep;
 use crate::methods::{Start, explain_non_finite, non_finite_derivative};
-use crate::{Dim, Dynamics, IntegrationError, Real, Scalar, ScalarOf, State, Statistics, VecOf};
+use crate::{Dim, Dynamics, IntegrationError, MatOf, Real, Scalar, ScalarOf, State, Statistics, VecOf};
 
 /// The iterations after which a solution is given up.
 pub(super) const MOST_ITERATIONS: u32 = 50;
@@ -58,13 +58,32 @@ where
     Ok(state)
 }
 
-/// The largest correction, relative to the largest |x| + |increment|, or to the least number that has all its digits; NaN if
-/// there is one.
-pub(super) fn size<T: Real, V: AsRef<[T]>>(correction: &V, x: &V, increment: &V) -> T {
-    let sizes = x.as_ref().iter().zip(increment.as_ref()).map(|(x, d)| x.abs() + d.abs());
-    let scale = sizes.fold(T::ZERO, T::max);
-    let largest = correction.as_ref().iter().fold(T::ZERO, |largest, c| largest.max(c.abs()));
-    if largest == T::ZERO { largest } else { largest / scale.max(T::MIN_POSITIVE) }
+/// How far rounding of a state reaches into each component of a correction: by the terms h |∂f/∂x| |x| of its rate, and what
+/// these are divided by.
+pub(super) fn reach<S: Dynamics>(jacobian: &MatOf<S>, x: &VecOf<S>, h: ScalarOf<S>) -> VecOf<S>
+where
+    ScalarOf<S>: Real,
+{
+    let mut reach = *x;
+    for (i, (reach, row)) in reach.as_mut().iter_mut().zip(jacobian.as_ref()).enumerate() {
+        let terms = row.as_ref().iter().zip(x.as_ref());
+        let sum = terms.fold(ScalarOf::<S>::ZERO, |sum, (entry, x)| sum + (h * *entry * *x).abs());
+        let own = row.as_ref().get(i).copied().unwrap_or(ScalarOf::<S>::ZERO);
+        *reach = sum / Scalar::max(ScalarOf::<S>::ONE, (h * own).abs());
+    }
+    reach
+}
+
+/// The largest correction of a component, relative to its |x| + |increment|, or to what rounding reaches it by, or to the
+/// least number that has all its digits; NaN if there is one. No two components are compared.
+pub(super) fn size<T: Real, V: AsRef<[T]>>(correction: &V, x: &V, increment: &V, reach: &V) -> T {
+    let sizes = x.as_ref().iter().zip(increment.as_ref()).zip(reach.as_ref());
+    let mut most = T::ZERO;
+    for (c, ((x, d), reach)) in correction.as_ref().iter().zip(sizes) {
+        let scale = Scalar::max(Scalar::max(x.abs() + d.abs(), *reach), T::MIN_POSITIVE);
+        most = most.max(if *c == T::ZERO { T::ZERO } else { c.abs() / scale });
+    }
+    most
 }
 
 /// The share of a correction that has to be within rounding, where corrections shrink by a ratio: what is missing after

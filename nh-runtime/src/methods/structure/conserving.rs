@@ -13,9 +13,13 @@ use crate::{
 /// integrals have the values that they had at the first state (Hairer, Lubich, Wanner, Geometric
 /// Numerical Integration, section IV.4). For systems with `conserved { … }` and `emit { invariants }`.
 ///
-/// The invariants stay to round-off and the order of the method stays; a symmetric method does not stay
-/// symmetric. The integrals have to be independent. Where the level is not found the step is refused:
-/// [`IntegrationError::Projection`].
+/// Nearest is measured in units of what the method's tolerance permits each component, or plainly where steps are fixed
+/// or nothing is permitted to some component: give tolerances by component where these have different units. The invariants stay to round-off and the order of the
+/// method stays; a symmetric method does not stay symmetric. The integrals have to be independent. Where the level is not
+/// found the step is refused: [`IntegrationError::Projection`].
+///
+/// Where the system has position constraints the level is gone to on these, also in an
+/// [`Integrator`](crate::Integrator) that is to leave states alone.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Conserving<M> {
     method: M,
@@ -79,7 +83,8 @@ where
         let values = memory.values.unwrap_or_else(|| start.system.invariants(start.time, start.state));
         let mut arrival = self.method.advance(start, target, &mut memory.method, statistics)?;
         let time = arrival.time.to_f64();
-        level(start.system, &mut arrival, &values)
+        let units = units::<ScalarOf<S>, _>(self.method.permitted(start.state));
+        level(start.system, &mut arrival, (&values, &units))
             .map_err(|error| IntegrationError::Projection { time, error })?;
         statistics.projections += 1;
         self.method.moved(&mut memory.method);
@@ -93,12 +98,12 @@ where
 fn level<S: Invariants>(
     system: &S,
     arrival: &mut Arrival<S>,
-    values: &Values<S>,
+    to: (&Values<S>, &VecOf<S>),
 ) -> Result<(), ProjectionError>
 where
     ScalarOf<S>: Real,
 {
-    arrival.state = returned(system, arrival, values)?;
+    arrival.state = returned(system, arrival, to)?;
     if !system.has_positions() {
         return Ok(());
     }
@@ -106,12 +111,11 @@ where
     for _ in 0..MOST_IN_TURN {
         system.return_to_positions(arrival.time, &mut arrival.state)?;
         let on_positions = arrival.state.to_array();
-        arrival.state = returned(system, arrival, values)?;
+        arrival.state = returned(system, arrival, to)?;
         let on_level = arrival.state.to_array();
-        let pairs = on_positions.as_ref().iter().zip(on_level.as_ref());
-        let moved = pairs.fold(ScalarOf::<S>::ZERO, |most, (a, b)| most.max((*a - *b).abs()));
+        let moved = length(&displaced(&on_level, -ScalarOf::<S>::ONE, &on_positions), to.1);
         let stagnates = best.is_some_and(|best| moved >= best);
-        let is_near = moved <= ScalarOf::<S>::EPSILON.sqrt() * largest(on_level.as_ref());
+        let is_near = moved <= ScalarOf::<S>::EPSILON.sqrt() * length(&on_level, to.1);
         if moved == ScalarOf::<S>::ZERO || (stagnates && is_near) {
             // the constraints hold to rounding, the level to what is left of it there
             arrival.state = S::State::from_array(on_positions);
@@ -122,11 +126,11 @@ where
     Err(ProjectionError { iterations: MOST_IN_TURN, residual: best.map_or(0.0, Scalar::to_f64) })
 }
 
-/// The point with these values: x − Gᵀ (G Gᵀ)⁻¹ (c(x) − c₀) until it stagnates.
+/// The point with these values: x − P² Gᵀ (G P² Gᵀ)⁻¹ (c(x) − c₀) until it stagnates, where P are the units of components.
 fn returned<S: Invariants>(
     system: &S,
     arrival: &Arrival<S>,
-    values: &Values<S>,
+    (values, units): (&Values<S>, &VecOf<S>),
 ) -> Result<S::State, ProjectionError>
 where
     ScalarOf<S>: Real,
@@ -145,7 +149,11 @@ where
             return Ok(state);
         }
         residual = largest(off.as_ref());
-        let (gradients, defect) = in_their_units::<S>(system.invariant_gradients(arrival.time, &state), &off);
+        let mut gradients = system.invariant_gradients(arrival.time, &state);
+        for gradient in gradients.as_mut() {
+            gradient.as_mut().iter_mut().zip(units.as_ref()).for_each(|(entry, unit)| *entry *= *unit);
+        }
+        let (gradients, defect) = in_their_units::<S>(gradients, &off);
         let mut gram = <S::Count as Dim>::mat(ScalarOf::<S>::ZERO);
         for (row, first) in gram.as_mut().iter_mut().zip(gradients.as_ref()) {
             for (entry, second) in row.as_mut().iter_mut().zip(gradients.as_ref()) {
@@ -156,7 +164,9 @@ where
         let mut moved = ScalarOf::<S>::ZERO;
         for (gradient, weight) in gradients.as_ref().iter().zip(weights.as_ref()) {
             moved = moved.max(largest(gradient.as_ref()) * weight.abs());
-            x = displaced(&x, -*weight, gradient);
+            for ((x, entry), unit) in x.as_mut().iter_mut().zip(gradient.as_ref()).zip(units.as_ref()) {
+                *x -= *weight * *entry * *unit;
+            }
         }
         if !moved.is_finite() {
             return Err(ProjectionError { iterations: iteration + 1, residual: residual.to_f64() });
@@ -164,7 +174,7 @@ where
         // far from the level Newton's iteration need not halve its corrections; near it, only round-off does not
         let round_off = ScalarOf::<S>::from_f64(64.0) * ScalarOf::<S>::EPSILON;
         let mut levels = off.as_ref().iter().zip(values.as_ref());
-        let is_near = moved <= ScalarOf::<S>::EPSILON.sqrt() * largest(x.as_ref())
+        let is_near = moved <= ScalarOf::<S>::EPSILON.sqrt() * length(&x, units)
             || levels.all(|(defect, value)| defect.abs() <= round_off * value.abs());
         let stagnates = best.is_some_and(|best| moved >= best * ScalarOf::<S>::from_f64(0.5));
         if is_near && (moved == ScalarOf::<S>::ZERO || stagnates) {
@@ -173,6 +183,21 @@ where
         best = Some(moved);
     }
     Err(ProjectionError { iterations: MOST_ITERATIONS, residual: residual.to_f64() })
+}
+
+/// Powers of two near what is permitted, as the units of components; one for all where nothing is permitted to one.
+fn units<T: Real, V: AsRef<[T]> + AsMut<[T]>>(mut permitted: V) -> V {
+    let are_units = permitted.as_ref().iter().all(|permitted| *permitted > T::ZERO && permitted.is_finite());
+    for permitted in permitted.as_mut() {
+        *permitted = if are_units { power_of_two(*permitted) } else { T::ONE };
+    }
+    permitted
+}
+
+/// The largest component, in units.
+fn length<T: Real, V: AsRef<[T]>>(x: &V, units: &V) -> T {
+    let pairs = x.as_ref().iter().zip(units.as_ref());
+    pairs.fold(T::ZERO, |most, (x, unit)| Scalar::max(most, x.abs() / *unit))
 }
 
 /// Gradients and defects, each pair in units of a power of two near its largest derivative: their products are then in
@@ -243,5 +268,47 @@ mod tests {
         let refused = sim.step();
         assert!(matches!(refused, Err(IntegrationError::Projection { .. })), "{refused:?}");
         assert!((sim.state().0[0] - 0.5).abs() == 0.0);
+    }
+
+    /// An oscillator with a unit for its place and one for its speed, powers of two.
+    #[derive(Clone, Copy)]
+    struct Oscillator([f64; 2]);
+    impl Dynamics for Oscillator {
+        type State = Pair;
+        type Input = ();
+        fn derivative(&self, _t: f64, Pair([x, v]): &Pair, (): &()) -> Pair {
+            let [place, speed] = self.0;
+            Pair([v / speed * place, -x / place * speed])
+        }
+    }
+    impl Invariants for Oscillator {
+        type Count = D<1>;
+        fn invariants(&self, _t: f64, Pair([x, v]): &Pair) -> [f64; 1] {
+            let [place, speed] = self.0;
+            [(x / place) * (x / place) + (v / speed) * (v / speed)]
+        }
+        fn invariant_gradients(&self, _t: f64, Pair([x, v]): &Pair) -> [[f64; 2]; 1] {
+            let [place, speed] = self.0;
+            [[2.0 * (x / place) / place, 2.0 * (v / speed) / speed]]
+        }
+    }
+
+    /// What is nearest is so in any units of the components, with tolerances that have these.
+    #[test]
+    fn units_of_components_matter_to_nothing() {
+        let ended = |place: f64, speed: f64| {
+            let method = Conserving::new(Dopri5::new().rtol(1e-3).atol(0.0));
+            let start = Pair([0.8 * place, 0.7 * speed]);
+            let mut sim = Integrator::new(Oscillator([place, speed]), method, 0.0, start);
+            sim.advance_to(20.0).unwrap();
+            let Pair([x, v]) = *sim.state();
+            let kept = (x / place).powi(2) + (v / speed).powi(2);
+            assert!((kept - 1.13).abs() < 1e-14, "{place} {speed}: {kept}");
+            [x / place, v / speed].map(f64::to_bits)
+        };
+        let plain = ended(1.0, 1.0);
+        for (place, speed) in [(1024.0, 1.0), (1.0, 2_f64.powi(-60)), (2_f64.powi(100), 2_f64.powi(-100))] {
+            assert_eq!(ended(place, speed), plain, "{place} {speed}");
+        }
     }
 }
