@@ -35,6 +35,7 @@ mod named_numbers;
 mod node;
 mod normal_form;
 mod number;
+mod other_root;
 mod places;
 mod polynomial_terms;
 mod prime_power;

@@ -15,6 +15,7 @@ pub(super) fn dependent_rows(
     drift: Option<&[ExprId]>,
     manifold: &Manifold,
 ) -> Option<Violation> {
+    let manifold = &with_all_roots(model, manifold, rows);
     let parts: Vec<&Manifold> = manifold.parts().collect();
     let mut found = Vec::with_capacity(parts.len());
     for part in &parts {
@@ -42,6 +43,24 @@ pub(super) fn dependent_rows(
     } else {
         dependency(model, rows, drift, index)
     })
+}
+
+/// A manifold with the parts where roots have the other sign, as far as a matrix may be another one there.
+pub(super) fn with_all_roots(model: &mut Model, manifold: &Manifold, matrix: &Matrix) -> Manifold {
+    let mut all = manifold.clone();
+    all.add_parts_of_roots_in(&mut model.graph, &matrix.concat());
+    if all.parts().count() > manifold.parts().count() {
+        let demands = where_they_hold(model);
+        all.keep_parts_with_points(&mut model.graph, &demands);
+    }
+    all
+}
+
+/// What is required of real points where the constraints hold.
+pub(super) fn where_they_hold(model: &mut Model) -> Vec<(ExprId, Demand)> {
+    let mut demands = super::assumptions::on_the_base(model);
+    demands.extend(model.positions.iter().map(|position| (position.value, Demand::Zero)));
+    demands
 }
 
 /// A row that depends on those before it.
@@ -79,16 +98,30 @@ pub(super) const ONE_PART: &str =
 
 /// ` where x = -2`.
 pub(super) fn place_of(model: &Model, manifold: &Manifold, part: &Manifold) -> String {
-    let own = manifold.own_images(part);
-    let images = own.iter().map(|(symbol, image)| {
-        format!("{} = {}", model.graph.symbols()[*symbol], shown(&model.graph, *image))
-    });
-    let images: Vec<String> = images.collect();
+    let images = equations_of(model, manifold, part.images());
     if images.is_empty() {
         " on a part of where they hold".into()
     } else {
         format!(" where {}", listed(&images))
     }
+}
+
+/// `x = -2`, for the images that not all parts have.
+fn equations_of(model: &Model, manifold: &Manifold, images: &[(SymbolId, ExprId)]) -> Vec<String> {
+    let own = manifold.own_images(images).into_iter();
+    own.map(|(symbol, image)| format!("{} = {}", model.graph.symbols()[symbol], shown(&model.graph, image)))
+        .collect()
+}
+
+/// Where constraints may hold without having been asked there, a line for each part.
+pub(crate) fn not_asked(model: &Model, manifold: &Manifold) -> Vec<String> {
+    let open = manifold.open_parts().iter().map(|part| {
+        let mut equations = equations_of(model, manifold, &part.images);
+        equations.extend(part.functions.iter().map(|function| format!("{} = 0", shown(&model.graph, *function))));
+        let place = if equations.is_empty() { "elsewhere".into() } else { format!("where {}", listed(&equations)) };
+        format!("the constraints may hold as well {place}: no points were found there, and nothing was asked of them")
+    });
+    open.collect()
 }
 
 /// A constraint whose derivative vanishes where it holds, such as a square.

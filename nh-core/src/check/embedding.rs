@@ -1,5 +1,6 @@
 //! Embedded base coordinates: the identities that they satisfy, and that the anchor keeps them.
 
+use super::assumptions::on_the_base;
 use super::evidence::{not_zero_on, shown};
 use super::kinematics::Motion;
 use crate::algebra::{Demand, Verdict};
@@ -25,8 +26,10 @@ pub fn embedding(model: &mut Model, motion: &Motion) -> Result<Manifold, Vec<Vio
         return Err(vec![violation]);
     }
     let functions: Vec<ExprId> = identities.iter().map(|identity| identity.value).collect();
-    let base = Manifold::where_zero(&mut model.graph, &functions, &coordinates)
+    let mut base = Manifold::where_zero(&mut model.graph, &functions, &coordinates)
         .map_err(|index| vec![not_parametrised(model, identities[index])])?;
+    let demands = on_the_base(model);
+    base.keep_parts_with_points(&mut model.graph, &demands);
     for identity in &identities {
         violations.extend(left_by_anchor(model, motion, &base, *identity));
     }

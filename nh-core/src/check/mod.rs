@@ -43,6 +43,7 @@ pub use claims::claims;
 pub use conservative::{moving_constraint, not_conservative};
 pub use constraints::{Constraints, constraints};
 pub use declared::{declared_expressions, declared_on};
+pub(crate) use dependence::not_asked;
 pub use domain::{Condition, domain};
 pub use embedding::embedding;
 pub use formulation::{Chosen, choose_formulation};

@@ -1,7 +1,7 @@
 //! Position constraints f(t, x) = 0: the manifold N where they hold, and that each of them says something
 //! there that the others do not.
 
-use super::dependence::combination_shown;
+use super::dependence::{combination_shown, where_they_hold};
 use super::evidence::{listed, name_of, shown};
 use super::kinematics::Motion;
 use super::no_force::position_without_force;
@@ -89,6 +89,8 @@ pub fn positions(
         Manifold::of_positions(&mut model.graph, base, &values, [&coordinates, &parameters]);
     found.unsolved = unsolved.iter().map(|index| values[*index]).collect();
     found.manifold = manifold;
+    let demands = where_they_hold(model);
+    found.manifold.keep_parts_with_points(&mut model.graph, &demands);
     found.values = values;
     let rows = jacobian(model, motion, algebroid);
     violations.extend((0..rows.len()).filter_map(|index| position_without_force(model, index)));

@@ -4,7 +4,7 @@ use super::suggestion_line::validity;
 use super::{combination, section_names, shown, suggestion};
 use crate::algebra::Graph;
 use crate::check::evidence::{counted, listed, places};
-use crate::check::{BrokenLaws, Condition, Positions, points_shown, undecided};
+use crate::check::{BrokenLaws, Condition, Positions, not_asked, points_shown, undecided};
 use crate::compile::{Derived, Proved};
 use crate::findings::{Closure, Findings};
 use crate::geometry::independent_velocities::Choice;
@@ -25,6 +25,7 @@ pub(super) fn lines(
     lines.extend(positions(model, &proved.positions));
     lines.extend(proved.chart.as_ref().map(|choice| chart(model, choice)));
     lines.push(constraints(proved, derived, findings.closure));
+    lines.extend(not_asked(model, proved.constraints.generic()));
     let (name, size) = match derived {
         Derived::Adapted { kept, .. } => ("adapted", kept.rank()),
         Derived::Projected { .. } => ("projected", model.sections.len()),
