@@ -32,6 +32,7 @@ mod matrix;
 mod memory;
 mod modular;
 mod named_numbers;
+mod no_zeros;
 mod node;
 mod normal_form;
 mod number;

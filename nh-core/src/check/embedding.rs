@@ -104,13 +104,21 @@ fn left_by_anchor(
         if verdict.is_zero() {
             continue;
         }
+        let elsewhere = match &verdict {
+            Verdict::Unknown(_) => base.part_without_zero(graph, change),
+            _ => None,
+        };
+        let (part, verdict) = match elsewhere {
+            Some((part, witness)) => (part, Verdict::NonZero(witness)),
+            None => (base.clone(), verdict),
+        };
         let change = graph.simplify(change);
         let name = &model.sections[section].name;
         let evidence = match &verdict {
             Verdict::NonZero(witness) if !has_parameters(witness, model) => {
                 format!(
                     "along `{name}` it changes at the rate {}",
-                    not_zero_on(&model.graph, change, witness, base)
+                    not_zero_on(&model.graph, change, witness, &part)
                 )
             }
             _ => format!("along `{name}` it changes at the rate {}", shown(&model.graph, change)),

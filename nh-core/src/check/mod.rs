@@ -44,7 +44,7 @@ pub use conservative::{moving_constraint, not_conservative};
 pub use constraints::{Constraints, constraints};
 pub use declared::{declared_expressions, declared_on};
 pub(crate) use dependence::not_asked;
-pub use domain::{Condition, domain};
+pub use domain::{Condition, domain, with_zeros};
 pub use embedding::embedding;
 pub use formulation::{Chosen, choose_formulation};
 pub(crate) use formulation::{eliminations, zeros};

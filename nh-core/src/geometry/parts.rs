@@ -3,7 +3,7 @@
 
 use super::manifold::{Manifold, OpenPart};
 use super::ways::ways_to_vanish;
-use crate::algebra::{Demand, Graph};
+use crate::algebra::{Demand, Graph, Verdict, Witness, sample};
 use crate::id::{ExprId, SymbolId};
 
 /// More parts are not looked at.
@@ -177,6 +177,26 @@ impl Manifold {
         !self.others.is_empty()
             && self.open.is_empty()
             && self.parts().all(|part| part.vanish(graph, &[function]))
+    }
+
+    /// A part where a function certainly does not vanish at a real point, with that point.
+    pub(crate) fn part_without_zero(&self, graph: &mut Graph, function: ExprId) -> Option<(Self, Witness)> {
+        if self.others.is_empty() {
+            return None;
+        }
+        self.parts().find_map(|part| {
+            let restricted = part.restrict(graph, function);
+            let Verdict::NonZero(witness) = graph.zero_test(restricted) else { return None };
+            let solved: Vec<SymbolId> = part.images.iter().map(|(symbol, _)| *symbol).collect();
+            let images = part.images.iter().map(|(_, image)| *image);
+            let all: Vec<ExprId> = images.chain([function]).collect();
+            let mut point = witness.clone();
+            // what the function does not depend on may have any value
+            let further = graph.symbols_in(&all).into_iter().enumerate();
+            let free = further.filter(|(_, symbol)| witness.point.iter().all(|(known, _)| known != symbol));
+            point.point.extend(free.map(|(place, symbol)| (symbol, sample(0, place))));
+            part.point(graph, &point, &solved).is_some().then(|| (part.alone(), point))
+        })
     }
 
     /// The parts that could not be solved for.

@@ -19,7 +19,7 @@ pub(super) fn lines(
     findings: &Findings,
     reason: &str,
 ) -> Vec<String> {
-    let Proved { model, motion, facts, .. } = proved;
+    let Proved { model, facts, .. } = proved;
     let mut lines = vec![algebroid(proved)];
     lines.extend(structure_equations(proved));
     lines.extend(positions(model, &proved.positions));
@@ -59,11 +59,9 @@ pub(super) fn lines(
     for condition in &findings.domain {
         lines.push(format!("the equations have a value only where {}", stated(&model.graph, *condition)));
     }
-    for divisor in &motion.divisors {
-        if model.graph.value_of(*divisor).is_none() {
-            let text = shown(&model.graph, *divisor);
-            lines.push(format!("the quasi-velocities are a chart only where {text} != 0"));
-        }
+    for divisor in &findings.chart_divisors {
+        let text = shown(&model.graph, *divisor);
+        lines.push(format!("the quasi-velocities are a chart only where {text} != 0"));
     }
     lines
 }

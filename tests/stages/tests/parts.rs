@@ -317,3 +317,27 @@ fn every_way_to_hold_is_asked() {
     let report = open.system().expect("one part is well posed").report;
     assert!(report.contains("the constraints may hold as well where x_dot = -2"), "{report}");
 }
+
+/// What is 0 on one part and not on another is refuted there, at a point of it.
+#[test]
+fn claims_are_refuted_on_other_parts() {
+    let embedded = "base { a, b } basis { u } lagrangian { m/2*u^2 } on { a^2 = (1 + b^2)^2; }";
+    for (sections, words) in [
+        (
+            format!("{embedded} anchor {{ der(a) = 2*b*u; der(b) = u; }}"),
+            "the anchor does not keep this identity",
+        ),
+        (format!("{PLANE} constraints {{ der(x)^2 = 4; }} conserved {{ c = x - 2*t; }}"), "at x_dot = -2"),
+        (
+            format!("{PLANE} constraints {{ der(x)*der(y) = 0; }} conserved {{ c = y; }}"),
+            "`c` is not conserved",
+        ),
+        (format!("{SPACE} holonomic {{ h: x^2 = 4; }} conserved {{ c = (x - 2)*y; }}"), "x = -2"),
+    ] {
+        let found = refusals(&sections);
+        assert_eq!(found.len(), 1, "{sections}: {found:?}");
+        assert!(found[0].contains(words), "{sections}: {found:?}");
+    }
+    let kept = format!("{embedded} anchor {{ der(a) = 2*b*a/(1 + b^2)*u; der(b) = u; }}");
+    assert!(refusals(&kept).is_empty(), "{:?}", refusals(&kept));
+}
