@@ -96,8 +96,12 @@ impl Manifold {
                     begun.extend(ways_from.map(|way| start.rewritten(&part, (index, way), ways.is_exact)));
                 }
                 None if !left.is_empty() => unsolved.push((start, part, left)),
-                None if start.is_exact || part.vanish(graph, functions) => solved.push(part),
-                None => {}
+                None if start.is_exact => solved.push(part),
+                None => match part.zero_tests(graph, functions) {
+                    Verdict::Zero => solved.push(part),
+                    Verdict::NonZero(_) => {}
+                    Verdict::Unknown(_) => unsolved.push((start, part, all())),
+                },
             }
         }
         let mut main = None;
@@ -112,6 +116,9 @@ impl Manifold {
         }
         if main.is_none() && solved.is_empty() && !unsolved.is_empty() {
             main = Some(unsolved.remove(0));
+        }
+        if solved.len() > 1 && solved.iter().any(|part: &Self| part.images.len() != solved[0].images.len()) {
+            solved = without_contained(graph, solved);
         }
         let mut solved = solved.into_iter();
         let (mut first, left) = match main {
@@ -159,11 +166,17 @@ impl Manifold {
     }
 
     /// Whether all of some functions vanish on it.
-    fn vanish(&self, graph: &mut Graph, functions: &[ExprId]) -> bool {
-        functions.iter().all(|function| {
+    fn zero_tests(&self, graph: &mut Graph, functions: &[ExprId]) -> Verdict {
+        let mut verdict = Verdict::Zero;
+        for function in functions {
             let restricted = self.restrict(graph, *function);
-            graph.zero_test(restricted).is_zero()
-        })
+            match graph.zero_test(restricted) {
+                Verdict::Zero => {}
+                Verdict::Unknown(why) => verdict = Verdict::Unknown(why),
+                nonzero @ Verdict::NonZero(_) => return nonzero,
+            }
+        }
+        verdict
     }
 
     /// This part, where functions vanish besides that could not be solved.
@@ -176,7 +189,7 @@ impl Manifold {
     pub(super) fn vanishes_on_all_parts(&self, graph: &mut Graph, function: ExprId) -> bool {
         !self.others.is_empty()
             && self.open.is_empty()
-            && self.parts().all(|part| part.vanish(graph, &[function]))
+            && self.parts().all(|part| part.zero_tests(graph, &[function]).is_zero())
     }
 
     /// A part where a function certainly does not vanish at a real point, with that point.
@@ -309,4 +322,23 @@ impl Start {
         let (is_exact, rewritten) = (self.is_exact && is_exact, self.rewritten + 1);
         Self { manifold: part.clone(), functions, is_exact, rewritten }
     }
+}
+
+/// The parts that are no proper parts of others, such as a line in a plane.
+fn without_contained(graph: &mut Graph, parts: Vec<Manifold>) -> Vec<Manifold> {
+    let mut kept: Vec<Manifold> = Vec::with_capacity(parts.len());
+    for part in &parts {
+        let is_contained = parts.iter().filter(|other| other.images.len() < part.images.len()).any(|other| {
+            let mut equations = Vec::with_capacity(other.images.len());
+            for (symbol, image) in &other.images {
+                let symbol = graph.symbol(*symbol);
+                equations.push(graph.formula(symbol - image));
+            }
+            part.zero_tests(graph, &equations).is_zero()
+        });
+        if !is_contained {
+            kept.push(part.clone());
+        }
+    }
+    kept
 }

@@ -293,8 +293,10 @@ impl RankSetting<'_> {
             if is_off {
                 continue;
             }
-            let set = candidate.into_iter().map(|factor| without_sign(graph, factor)).collect();
-            if !sets.contains(&set) {
+            let set: Vec<ExprId> = candidate.into_iter().map(|factor| without_sign(graph, factor)).collect();
+            let is_same =
+                |other: &Vec<ExprId>| other.len() == set.len() && set.iter().all(|e| other.contains(e));
+            if !sets.iter().any(is_same) {
                 sets.push(set);
             }
         }

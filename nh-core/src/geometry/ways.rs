@@ -50,17 +50,20 @@ fn argument(graph: &mut Graph, function: ExprId, unknowns: &[SymbolId]) -> Optio
         let value = graph.scale(-factor.recip()?, rest);
         let (argument, value) = inverse(graph, *term, value)?;
         let mut functions = vec![graph.formula(argument - value)];
-        // of an even power there are two roots
-        if is_power_of_even_order(graph, *term) {
+        // an even function has each value twice
+        if is_even(graph, *term) {
             functions.push(graph.formula(argument + value));
         }
         Some(Ways { functions, is_exact: false })
     })
 }
 
-fn is_power_of_even_order(graph: &Graph, term: ExprId) -> bool {
-    let Node::Product { factors, .. } = graph.node(term) else { return false };
-    factors.iter().any(|(_, exponent)| !exponent.has_odd_numerator())
+fn is_even(graph: &Graph, term: ExprId) -> bool {
+    match graph.node(term) {
+        Node::Apply(Function::Cosh, _) => true,
+        Node::Product { factors, .. } => factors.iter().any(|(_, exponent)| !exponent.has_odd_numerator()),
+        _ => false,
+    }
 }
 
 /// `u` and `F⁻¹(c)` for an invertible function `F(u)` with the value c.
@@ -71,9 +74,21 @@ fn inverse(graph: &mut Graph, term: ExprId, value: ExprId) -> Option<(ExprId, Ex
         Node::Apply(Function::Asin, u) => (u, graph.sin(value)),
         Node::Apply(Function::Acos, u) => (u, graph.cos(value)),
         Node::Apply(Function::Atan, u) => (u, graph.tan(value)),
+        Node::Apply(function @ (Function::Sinh | Function::Cosh), u) => {
+            let one = if function == Function::Sinh { graph.one() } else { graph.number(-1) };
+            let root = graph.formula((value.square() + one).sqrt());
+            let exponential = graph.formula(value + root);
+            (u, graph.apply(Function::Ln, exponential))
+        }
+        Node::Apply(Function::Tanh, u) => {
+            let one = graph.one();
+            let ratio = graph.formula((one + value) / (one - value));
+            let twice = graph.apply(Function::Ln, ratio);
+            (u, graph.scale(Rational::new(1, 2), twice))
+        }
         Node::Product { coefficient, factors } => {
             let [(base, exponent)] = &factors[..] else { return None };
-            if exponent.is_negative() || graph.as_symbol(*base).is_some() {
+            if exponent.is_negative() || (exponent.is_integer() && graph.as_symbol(*base).is_some()) {
                 return None;
             }
             let (base, degree) = (*base, exponent.recip()?);

@@ -285,6 +285,8 @@ fn every_way_to_hold_is_asked() {
         "holonomic { x^2 = 4; y^2 + 1 = -x; }",
         "holonomic { (x - 2)*(y - 1) = 0; } conserved { p = (x - 2)*(y - 1)*z; }",
         "holonomic { exp(x) = 1 + y^2; }",
+        "constraints { tanh(der(x)) = 1/2; }",
+        "constraints { cosh(der(x)) = 2; sinh(der(y)) = k; }",
     ] {
         let declared = declared(&format!("{SPACE} {constraints}"));
         let report = declared.system().unwrap_or_else(|why| panic!("{constraints}: {why:?}")).report;
@@ -340,4 +342,25 @@ fn claims_are_refuted_on_other_parts() {
     }
     let kept = format!("{embedded} anchor {{ der(a) = 2*b*a/(1 + b^2)*u; der(b) = u; }}");
     assert!(refusals(&kept).is_empty(), "{:?}", refusals(&kept));
+}
+
+/// A line in a plane is no part of its own, and what follows on one part is said to follow there.
+#[test]
+fn dependent_rates_are_told_where_they_are() {
+    for (constraints, words) in [
+        ("a: x*y = 0; b: x*z = 0;", "`b` follows from the position constraints before it where x = 0"),
+        ("a: x*y = 0; b: y*z = 0;", "`b` follows from the constraints before it where y = 0"),
+        (
+            "a: x*y = 0; b: x + y = 0;",
+            "`a` exerts no force: its derivative vanishes where all position constraints hold",
+        ),
+        ("a: x*y = 0; b: 2*x*y = 0;", "`b` follows from the position constraints before it\n"),
+    ] {
+        let found = refusals(&format!("{SPACE} holonomic {{ {constraints} }}"));
+        assert_eq!(found.len(), 1, "{constraints}: {found:?}");
+        assert!(found[0].contains(words), "{constraints}: {found:?}");
+    }
+    let crossing = declared(&format!("{SPACE} holonomic {{ x^2 = y^2; z^2 = y^2; }}"));
+    let report = crossing.system().expect("well posed").report;
+    assert!(report.contains("where x = 0 and z = 0, or x = 0 and y = 0, or y = 0 and z = 0;"), "{report}");
 }
