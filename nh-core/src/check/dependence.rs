@@ -1,6 +1,6 @@
 //! Dependent constraints, with the dependency shown.
 
-use super::evidence::{listed, name_of, shown};
+use super::evidence::{counted, listed, name_of, shown};
 use crate::algebra::{Demand, Graph, Matrix};
 use crate::geometry::Manifold;
 use crate::id::{ConstraintId, ExprId, Id, SymbolId};
@@ -113,15 +113,30 @@ fn equations_of(model: &Model, manifold: &Manifold, images: &[(SymbolId, ExprId)
         .collect()
 }
 
-/// Where constraints may hold without having been asked there, a line for each part.
+/// Where constraints may hold without having been asked there, a line for each part, as far as they are few.
 pub(crate) fn not_asked(model: &Model, manifold: &Manifold) -> Vec<String> {
-    let open = manifold.open_parts().iter().map(|part| {
+    const LINES: usize = 4;
+    const EQUATIONS: usize = 6;
+    let graph = &model.graph;
+    let parts = manifold.open_parts();
+    let open = parts.iter().take(LINES).map(|part| {
         let mut equations = equations_of(model, manifold, &part.images);
-        equations.extend(part.functions.iter().map(|function| format!("{} = 0", shown(&model.graph, *function))));
-        let place = if equations.is_empty() { "elsewhere".into() } else { format!("where {}", listed(&equations)) };
-        format!("the constraints may hold as well {place}: no points were found there, and nothing was asked of them")
+        let functions = part.functions.iter().filter(|function| !graph.is_literal_zero(**function));
+        equations.extend(functions.map(|function| format!("{} = 0", shown(graph, *function))));
+        let further = equations.len().saturating_sub(EQUATIONS);
+        equations.truncate(EQUATIONS);
+        equations.extend((further > 0).then(|| counted(further, "equation more", "equations more")));
+        let place =
+            if equations.is_empty() { "elsewhere".into() } else { format!("where {}", listed(&equations)) };
+        format!("the constraints may hold as well {place}: nothing was asked there")
     });
-    open.collect()
+    let mut lines: Vec<String> = open.collect();
+    let further = parts.len().saturating_sub(LINES);
+    if further > 0 {
+        let parts = counted(further, "part", "parts");
+        lines.push(format!("the constraints may hold on {parts} more, where nothing was asked"));
+    }
+    lines
 }
 
 /// A constraint whose derivative vanishes where it holds, such as a square.

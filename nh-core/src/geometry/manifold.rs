@@ -8,6 +8,10 @@ use super::common_zeros::vanish_together;
 use super::solutions::{Ease, Solved, cayley, difference, quotient, root, sphere};
 use crate::algebra::{Graph, Matrix, Node, Substitution, Verdict, Witness};
 use crate::id::{ExprId, SymbolId};
+use crate::limits::{attempt, spent};
+
+/// The work that the search for parts may take.
+const WORK: u64 = 24_000_000;
 
 /// A manifold, by symbols that are functions of the others.
 #[derive(Clone, Debug, Default)]
@@ -82,8 +86,12 @@ impl Manifold {
             }
             failed.unwrap_or_default()
         };
-        let near =
-            |graph: &mut Graph, start: &Self, functions: &[ExprId]| solve(graph, start, functions, unknowns);
+        let began = spent();
+        let near = |graph: &mut Graph, start: &Self, functions: &[ExprId]| {
+            let work = WORK.saturating_sub(spent() - began);
+            attempt(work, || solve(graph, start, functions, unknowns))
+                .unwrap_or_else(|| (start.clone(), (0..functions.len()).collect()))
+        };
         let otherwise = |graph: &mut Graph, start: &Self, functions: &[ExprId], index: usize| {
             let (part, unsolved) = solve(graph, start, functions, &[]);
             (unsolved.is_empty()).then(|| Self { in_parts: Some(functions[index]), ..part })

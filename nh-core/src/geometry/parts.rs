@@ -12,6 +12,8 @@ const PARTS: usize = 64;
 const TRIED: usize = 3 * PARTS;
 /// More functions are not put in the place of others, one after the other.
 const REWRITTEN: usize = 16;
+/// Nor more arguments in the place of functions: numbers that are roots of roots of roots take long to compare.
+const INVERTED: usize = 2;
 
 impl Manifold {
     /// This part and the others that were found, each as if it were the only one.
@@ -54,8 +56,13 @@ impl Manifold {
         mut near: impl FnMut(&mut Graph, &Self, &[ExprId]) -> (Self, Vec<usize>),
         mut otherwise: impl FnMut(&mut Graph, &Self, &[ExprId], usize) -> Option<Self>,
     ) -> (Self, Vec<usize>) {
-        let start =
-            |manifold| Start { manifold, functions: functions.to_vec(), is_exact: true, rewritten: 0 };
+        let start = |manifold| Start {
+            manifold,
+            functions: functions.to_vec(),
+            is_exact: true,
+            rewritten: 0,
+            inverted: 0,
+        };
         let mut begun: Vec<Start> = starts.into_iter().rev().map(start).collect();
         let (mut solved, mut unsolved, mut whole) = (Vec::new(), Vec::new(), None);
         let mut tried = 0;
@@ -69,7 +76,8 @@ impl Manifold {
             let (mut part, mut left) = near(graph, &start.manifold, &start.functions);
             let ways = left.iter().filter(|_| start.rewritten < REWRITTEN).find_map(|index| {
                 let function = part.restrict(graph, start.functions[*index]);
-                ways_to_vanish(graph, function, unknowns).map(|ways| (*index, function, ways))
+                let ways = ways_to_vanish(graph, function, unknowns)?;
+                (ways.is_exact || start.inverted < INVERTED).then_some((*index, function, ways))
             });
             if ways.is_none()
                 && let Some(index) = left.first()
@@ -312,6 +320,8 @@ struct Start {
     is_exact: bool,
     /// How many functions have been put in the place of others.
     rewritten: usize,
+    /// How many of these are arguments of others.
+    inverted: usize,
 }
 
 impl Start {
@@ -319,8 +329,9 @@ impl Start {
     fn rewritten(&self, part: &Manifold, (index, function): (usize, ExprId), is_exact: bool) -> Self {
         let mut functions = self.functions.clone();
         functions[index] = function;
+        let inverted = self.inverted + usize::from(!is_exact);
         let (is_exact, rewritten) = (self.is_exact && is_exact, self.rewritten + 1);
-        Self { manifold: part.clone(), functions, is_exact, rewritten }
+        Self { manifold: part.clone(), functions, is_exact, rewritten, inverted }
     }
 }
 
