@@ -3,6 +3,7 @@
 use super::assumptions::on_the_base;
 use super::evidence::{not_zero_on, shown};
 use super::kinematics::Motion;
+use super::no_force::without_slope;
 use crate::algebra::{Demand, Verdict};
 use crate::geometry::Manifold;
 use crate::id::{ExprId, Id, SectionId, SymbolId};
@@ -24,6 +25,11 @@ pub fn embedding(model: &mut Model, motion: &Motion) -> Result<Manifold, Vec<Vio
     }
     if let Some(violation) = without_real_point(model, &identities) {
         return Err(vec![violation]);
+    }
+    violations
+        .extend(identities.iter().filter_map(|identity| without_direction(model, &coordinates, *identity)));
+    if !violations.is_empty() {
+        return Err(violations);
     }
     let functions: Vec<ExprId> = identities.iter().map(|identity| identity.value).collect();
     let mut base = Manifold::where_zero(&mut model.graph, &functions, &coordinates)
@@ -73,6 +79,18 @@ fn without_real_point(model: &Model, identities: &[Located]) -> Option<Violation
             shown(&model.graph, identity.value)
         ),
         way_out: "correct it, or leave it out".into(),
+    })
+}
+
+/// An identity whose derivative vanishes where it holds, as that of a square does: there is no way back to it.
+fn without_direction(model: &mut Model, coordinates: &[SymbolId], identity: Located) -> Option<Violation> {
+    let (evidence, way_out) = without_slope(&mut model.graph, identity.value, coordinates)?;
+    Some(Violation {
+        law: Law::Embedding,
+        origin: identity.origin,
+        what: "the derivative of this identity vanishes where it holds: nothing leads back to it".into(),
+        evidence,
+        way_out: way_out.into(),
     })
 }
 

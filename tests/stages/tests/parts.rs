@@ -360,7 +360,27 @@ fn dependent_rates_are_told_where_they_are() {
         assert_eq!(found.len(), 1, "{constraints}: {found:?}");
         assert!(found[0].contains(words), "{constraints}: {found:?}");
     }
+    let gap = refusals(&format!("{SPACE} holonomic {{ x^2 = 4; }} impacts {{ f: (x + 2)*y >= 0; }}"));
+    assert!(gap.len() == 1 && gap[0].contains("where it acts: so it is where x = -2"), "{gap:?}");
+    let gap = refusals(&format!("{SPACE} holonomic {{ x^2 = 4; }} impacts {{ f: (x + 3)*y >= 0; }}"));
+    assert!(gap.is_empty(), "{gap:?}");
     let crossing = declared(&format!("{SPACE} holonomic {{ x^2 = y^2; z^2 = y^2; }}"));
     let report = crossing.system().expect("well posed").report;
     assert!(report.contains("where x = 0 and z = 0, or x = 0 and y = 0, or y = 0 and z = 0;"), "{report}");
+}
+
+/// Nothing leads back to what touches 0: such an identity defines no embedded base.
+#[test]
+fn identities_have_a_derivative_where_they_hold() {
+    let still = "base { x, y, z } basis { u } anchor { der(x) = 0; der(y) = 0; der(z) = z*u; } brackets { } \
+                 lagrangian { m/2*u^2 }";
+    for identity in ["x^2 + y^2 = 0", "(x - y)^2 = 0", "1 - cos(x) = 0", "(x^2 + y^2 - 1)^2 = 0"] {
+        let found = refusals(&format!("{still} on {{ {identity}; }}"));
+        assert_eq!(found.len(), 1, "{identity}: {found:?}");
+        assert!(found[0].starts_with("the derivative of this identity vanishes"), "{identity}: {found:?}");
+    }
+    for identity in ["x^2 + y^2 = 1", "x = y", "exp(x) = 1"] {
+        let found = refusals(&format!("{still} on {{ {identity}; }}"));
+        assert!(found.is_empty(), "{identity}: {found:?}");
+    }
 }
