@@ -76,6 +76,11 @@ impl Manifold {
         let starts = base.parts().map(Self::alone).collect();
         let (mut manifold, unsolved) =
             Self::by_parts(graph, starts, (functions, coordinates), near, |_, _, _, _| None);
+        // parts that fix parameters are none of a machine whose parameters have any values
+        manifold.others.retain(|part| {
+            let of_coordinates = |image: ExprId| graph.depends_on(image, &moving);
+            part.images.iter().all(|(symbol, image)| !parameters.contains(symbol) || of_coordinates(*image))
+        });
         manifold.open.extend(base.open.iter().cloned());
         manifold.note_roots_of(graph, functions);
         NearManifold { manifold, unsolved }

@@ -126,7 +126,7 @@ impl Manifold {
             main = Some(unsolved.remove(0));
         }
         if solved.len() > 1 && solved.iter().any(|part: &Self| part.images.len() != solved[0].images.len()) {
-            solved = without_contained(graph, solved);
+            solved = without_contained(graph, &solved);
         }
         let mut solved = solved.into_iter();
         let (mut first, left) = match main {
@@ -336,9 +336,9 @@ impl Start {
 }
 
 /// The parts that are no proper parts of others, such as a line in a plane.
-fn without_contained(graph: &mut Graph, parts: Vec<Manifold>) -> Vec<Manifold> {
+fn without_contained(graph: &mut Graph, parts: &[Manifold]) -> Vec<Manifold> {
     let mut kept: Vec<Manifold> = Vec::with_capacity(parts.len());
-    for part in &parts {
+    for part in parts {
         let is_contained = parts.iter().filter(|other| other.images.len() < part.images.len()).any(|other| {
             let mut equations = Vec::with_capacity(other.images.len());
             for (symbol, image) in &other.images {

@@ -344,7 +344,10 @@ fn claims_are_refuted_on_other_parts() {
         "base { x, y } lagrangian { m/2*(der(x)^2 + der(y)^2) - k*(x - 2)*y } holonomic { x^2 = 4; }";
     let pushed =
         declared(&format!("{pushed} symmetries {{ s: der(y); }}")).system().expect("s is in D").report;
-    assert!(pushed.contains("s: y_dot; in D, L is not invariant") && !pushed.contains("momentum of s"), "{pushed}");
+    assert!(
+        pushed.contains("s: y_dot; in D, L is not invariant") && !pushed.contains("momentum of s"),
+        "{pushed}"
+    );
     let kept = format!("{embedded} anchor {{ der(a) = 2*b*a/(1 + b^2)*u; der(b) = u; }}");
     assert!(refusals(&kept).is_empty(), "{:?}", refusals(&kept));
 }
