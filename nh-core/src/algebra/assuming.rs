@@ -7,6 +7,8 @@
 //! | `(a^2 + 2 a b + b^2)^(1/2) = ±(a + b)` | the sign of `a + b`, of symbols of which something is known |
 //! | `abs(x) = x`, `abs(x) = −x` | `x ≥ 0`, `x ≤ 0` |
 //! | `sign(x) = 1`, `sign(x) = −1` | `x > 0`, `x < 0` |
+//! | `abs(x y) = x abs(y)`, `sign(x y) = sign(y)` and their kin | the sign of `x` |
+//! | `min(x y, x z) = x min(y, z)`, and `max` | `x > 0` |
 //! | `min(x, y)`, `max(x, y)` are one of the two | the sign of `x − y` |
 //! | `a x + b x = 0` for numbers a and b | `a + b = 0`, decided as any constant is |
 
@@ -180,13 +182,46 @@ impl Graph {
     }
 
     fn assuming_function(&mut self, function: Function, x: ExprId, facts: &Facts) -> ExprId {
+        match function {
+            Function::Abs | Function::Sign => {
+                self.assuming_sign(function, x, facts).unwrap_or_else(|| self.by_factors(function, x, facts))
+            }
+            _ => self.apply(function, x),
+        }
+    }
+
+    /// The absolute value or the sign of a product, as far as the signs of factors are known: `abs(a x) = a abs(x)`.
+    fn by_factors(&mut self, function: Function, x: ExprId, facts: &Facts) -> ExprId {
+        let Node::Product { coefficient, factors } = self.node(x).clone() else {
+            return self.apply(function, x);
+        };
+        let (mut known, mut rest) = (Vec::new(), Vec::new());
+        for (base, exponent) in factors.iter().cloned() {
+            let power = self.pow(base, exponent);
+            let image = self.assuming_sign(function, power, facts);
+            image.map_or_else(
+                || rest.push((power, Rational::ONE)),
+                |image| known.push((image, Rational::ONE)),
+            );
+        }
+        if known.is_empty() {
+            return self.apply(function, x);
+        }
+        let rest = self.product(&rest);
+        let rest = self.scale(coefficient, rest);
+        known.push((self.apply(function, rest), Rational::ONE));
+        self.product(&known)
+    }
+
+    /// The absolute value or the sign of what has a known sign.
+    fn assuming_sign(&mut self, function: Function, x: ExprId, facts: &Facts) -> Option<ExprId> {
         let range = self.range(x, facts);
         match function {
-            Function::Abs if range.low >= 0.0 => x,
-            Function::Abs if range.high <= 0.0 => self.neg(x),
-            Function::Sign if range.is_positive() => self.one(),
-            Function::Sign if range.high <= 0.0 && range.nonzero => self.number(-1),
-            _ => self.apply(function, x),
+            Function::Abs if range.low >= 0.0 => Some(x),
+            Function::Abs if range.high <= 0.0 => Some(self.neg(x)),
+            Function::Sign if range.is_positive() => Some(self.one()),
+            Function::Sign if range.high <= 0.0 && range.nonzero => Some(self.number(-1)),
+            _ => None,
         }
     }
 
@@ -198,8 +233,30 @@ impl Graph {
             Function2::Min if range.high <= 0.0 => x,
             Function2::Max if range.low >= 0.0 => x,
             Function2::Max if range.high <= 0.0 => y,
-            _ => self.apply2(function, x, y),
+            Function2::Min | Function2::Max => self.without_common_factors(function, x, y, facts),
+            Function2::Atan2 => self.apply2(function, x, y),
         }
+    }
+
+    /// `max(a x, a y) = a max(x, y)` for what is not negative.
+    fn without_common_factors(&mut self, function: Function2, x: ExprId, y: ExprId, facts: &Facts) -> ExprId {
+        let factors = |graph: &Self, id: ExprId| match graph.node(id) {
+            Node::Product { factors, .. } => factors.to_vec(),
+            _ => vec![(id, Rational::ONE)],
+        };
+        let of_y = factors(self, y);
+        let mut common = factors(self, x);
+        common.retain(|(base, exponent)| {
+            let range = self.range(*base, facts);
+            of_y.contains(&(*base, exponent.clone())) && range.low >= 0.0 && range.nonzero
+        });
+        if common.is_empty() {
+            return self.apply2(function, x, y);
+        }
+        let common = self.product(&common);
+        let (x, y) = (self.div(x, common), self.div(y, common));
+        let pair = self.apply2(function, x, y);
+        self.mul(common, pair)
     }
 }
 

@@ -116,10 +116,11 @@ impl Range {
 
     /// A reciprocal never vanishes where it is defined.
     fn reciprocal(self) -> Self {
+        // the sign of a zero is not that of the range
         if self.low >= 0.0 {
-            Self { low: 1.0 / self.high, high: 1.0 / self.low.max(0.0), nonzero: true }
+            Self { low: 1.0 / self.high, high: 1.0 / self.low.abs(), nonzero: true }
         } else if self.high <= 0.0 {
-            Self { low: 1.0 / self.high.min(-0.0), high: 1.0 / self.low, nonzero: true }
+            Self { low: -1.0 / self.high.abs(), high: 1.0 / self.low, nonzero: true }
         } else {
             Self { nonzero: true, ..Self::ALL }
         }
@@ -219,6 +220,17 @@ impl Graph {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn reciprocals_keep_their_sign() {
+        let negative = Range { low: f64::NEG_INFINITY, high: 0.0, nonzero: true };
+        for high in [0.0, -0.0, -2.0] {
+            let found = Range { high, ..negative }.reciprocal();
+            assert!(found.low < 0.0 && found.high <= 0.0 && found.nonzero, "{found:?}");
+            let found = Range { low: -high, high: f64::INFINITY, nonzero: true }.reciprocal();
+            assert!(found.low >= 0.0 && found.high > 0.0 && found.nonzero, "{found:?}");
+        }
+    }
 
     #[test]
     fn what_is_proved_and_what_is_not() {

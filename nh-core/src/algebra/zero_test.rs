@@ -319,7 +319,9 @@ impl Graph {
         }
         let assumed: Vec<ExprId> = facts.expressions.keys().copied().collect();
         let mut symbols = self.symbols_in(&[&assumed[..], &[expression]].concat());
-        symbols.extend(facts.symbols.keys());
+        let further: Vec<SymbolId> =
+            facts.symbols.keys().filter(|symbol| !symbols.contains(symbol)).copied().collect();
+        symbols.extend(further);
         let found = (0..WITNESSES_UNDER_FACTS).find_map(|attempt| {
             let point: Vec<(SymbolId, f64)> =
                 symbols.iter().enumerate().map(|(i, symbol)| (*symbol, sample(attempt, i))).collect();

@@ -21,8 +21,16 @@ pub fn claims(
     for (index, claim) in claims.iter().enumerate() {
         let graph = &mut model.graph;
         let rate = flow.derivative(graph, *claim);
-        let restricted = manifold.restrict(graph, rate);
         let verdict = manifold.zero_test(graph, rate);
+        let elsewhere = match &verdict {
+            Verdict::Unknown(_) => manifold.part_without_zero(graph, rate),
+            _ => None,
+        };
+        let (manifold, verdict) = match &elsewhere {
+            Some((part, witness)) => (part, Verdict::NonZero(witness.clone())),
+            None => (manifold, verdict),
+        };
+        let restricted = manifold.restrict(graph, rate);
         let mut verdict = graph.verdict_under(restricted, facts, verdict);
         if let (Verdict::NonZero(_), Some(function)) = (&verdict, unsolved.first()) {
             let function = shown(graph, *function);

@@ -2,7 +2,7 @@
 //! told apart here.
 
 use super::assumptions::{as_on_the_base, on_the_base};
-use super::dependence::dependent_rows;
+use super::dependence::{dependent_rows, where_they_hold};
 use super::evidence::{name_of, shown};
 use super::kinematics::Motion;
 use super::no_force::constraint_without_force;
@@ -166,7 +166,10 @@ pub fn constraints(
         if let Some(violation) = constraint_without_force(model, algebroid, &residuals) {
             return Err(vec![violation]);
         }
-        let manifold = constraint_manifold(model, algebroid, base, &residuals).map_err(|v| vec![v])?;
+        let mut manifold = constraint_manifold(model, algebroid, base, &residuals).map_err(|v| vec![v])?;
+        let mut demands = where_they_hold(model);
+        demands.extend(residuals.iter().map(|residual| (*residual, Demand::Zero)));
+        manifold.keep_parts_with_points(&mut model.graph, &demands);
         violations.extend(dependent_rows(model, &jacobian, None, &manifold));
         known = Some(manifold);
     }
@@ -206,14 +209,36 @@ fn solved_over(
     residuals: &[ExprId],
     velocities: &[SymbolId],
 ) -> Result<Manifold, usize> {
+    let (mut found, mut refused) = (Vec::new(), Vec::new());
+    for part in base.parts() {
+        match solved_over_part(graph, part, residuals, velocities) {
+            Ok(manifold) => found.push(manifold),
+            Err(index) => refused.push((part, index)),
+        }
+    }
+    let mut parts = found.into_iter();
+    let Some(mut manifold) = parts.next() else { return Err(refused[0].1) };
+    for part in parts {
+        manifold.add_parts(&part);
+    }
+    manifold.add_open_parts(graph, base, refused.iter().map(|(part, _)| *part), residuals);
+    Ok(manifold)
+}
+
+/// The same over one part of the base.
+fn solved_over_part(
+    graph: &mut Graph,
+    base: &Manifold,
+    declared: &[ExprId],
+    velocities: &[SymbolId],
+) -> Result<Manifold, usize> {
     let mut unknowns: Vec<SymbolId> = graph
-        .symbols_in(residuals)
+        .symbols_in(declared)
         .into_iter()
         .filter(|symbol| !velocities.contains(symbol) && base.is_free(*symbol))
         .collect();
     unknowns.extend(velocities);
     // on the base: what vanishes there is no pivot
-    let declared = residuals;
     let residuals: Vec<ExprId> = declared.iter().map(|residual| base.restrict(graph, *residual)).collect();
     let solved = Manifold::where_zero(graph, &residuals, velocities)
         .or_else(|_| Manifold::where_zero(graph, &residuals, &unknowns))?;
@@ -221,11 +246,6 @@ fn solved_over(
     // before what the base puts for its coordinates
     manifold.note_roots_of(graph, declared);
     manifold.extend(graph, &solved);
-    for part in base.parts().skip(1) {
-        if let Ok(further) = solved_over(graph, part, declared, velocities) {
-            manifold.add_parts(&further);
-        }
-    }
     Ok(manifold)
 }
 

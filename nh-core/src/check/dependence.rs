@@ -1,6 +1,6 @@
 //! Dependent constraints, with the dependency shown.
 
-use super::evidence::{listed, name_of, shown};
+use super::evidence::{counted, listed, name_of, shown};
 use crate::algebra::{Demand, Graph, Matrix};
 use crate::geometry::Manifold;
 use crate::id::{ConstraintId, ExprId, Id, SymbolId};
@@ -15,6 +15,7 @@ pub(super) fn dependent_rows(
     drift: Option<&[ExprId]>,
     manifold: &Manifold,
 ) -> Option<Violation> {
+    let manifold = &with_all_roots(model, manifold, rows);
     let parts: Vec<&Manifold> = manifold.parts().collect();
     let mut found = Vec::with_capacity(parts.len());
     for part in &parts {
@@ -42,6 +43,24 @@ pub(super) fn dependent_rows(
     } else {
         dependency(model, rows, drift, index)
     })
+}
+
+/// A manifold with the parts where roots have the other sign, as far as a matrix may be another one there.
+pub(super) fn with_all_roots(model: &mut Model, manifold: &Manifold, matrix: &Matrix) -> Manifold {
+    let mut all = manifold.clone();
+    all.add_parts_of_roots_in(&mut model.graph, &matrix.concat());
+    if all.parts().count() > manifold.parts().count() {
+        let demands = where_they_hold(model);
+        all.keep_parts_with_points(&mut model.graph, &demands);
+    }
+    all
+}
+
+/// What is required of real points where the constraints hold.
+pub(super) fn where_they_hold(model: &mut Model) -> Vec<(ExprId, Demand)> {
+    let mut demands = super::assumptions::on_the_base(model);
+    demands.extend(model.positions.iter().map(|position| (position.value, Demand::Zero)));
+    demands
 }
 
 /// A row that depends on those before it.
@@ -79,16 +98,45 @@ pub(super) const ONE_PART: &str =
 
 /// ` where x = -2`.
 pub(super) fn place_of(model: &Model, manifold: &Manifold, part: &Manifold) -> String {
-    let own = manifold.own_images(part);
-    let images = own.iter().map(|(symbol, image)| {
-        format!("{} = {}", model.graph.symbols()[*symbol], shown(&model.graph, *image))
-    });
-    let images: Vec<String> = images.collect();
+    let images = equations_of(model, manifold, part.images());
     if images.is_empty() {
         " on a part of where they hold".into()
     } else {
         format!(" where {}", listed(&images))
     }
+}
+
+/// `x = -2`, for the images that not all parts have.
+fn equations_of(model: &Model, manifold: &Manifold, images: &[(SymbolId, ExprId)]) -> Vec<String> {
+    let own = manifold.own_images(images).into_iter();
+    own.map(|(symbol, image)| format!("{} = {}", model.graph.symbols()[symbol], shown(&model.graph, image)))
+        .collect()
+}
+
+/// Where constraints may hold without having been asked there, a line for each part, as far as they are few.
+pub(crate) fn not_asked(model: &Model, manifold: &Manifold) -> Vec<String> {
+    const LINES: usize = 4;
+    const EQUATIONS: usize = 6;
+    let graph = &model.graph;
+    let parts = manifold.open_parts();
+    let open = parts.iter().take(LINES).map(|part| {
+        let mut equations = equations_of(model, manifold, &part.images);
+        let functions = part.functions.iter().filter(|function| !graph.is_literal_zero(**function));
+        equations.extend(functions.map(|function| format!("{} = 0", shown(graph, *function))));
+        let further = equations.len().saturating_sub(EQUATIONS);
+        equations.truncate(EQUATIONS);
+        equations.extend((further > 0).then(|| counted(further, "equation more", "equations more")));
+        let place =
+            if equations.is_empty() { "elsewhere".into() } else { format!("where {}", listed(&equations)) };
+        format!("the constraints may hold as well {place}: nothing was asked there")
+    });
+    let mut lines: Vec<String> = open.collect();
+    let further = parts.len().saturating_sub(LINES);
+    if further > 0 {
+        let parts = counted(further, "part", "parts");
+        lines.push(format!("the constraints may hold on {parts} more, where nothing was asked"));
+    }
+    lines
 }
 
 /// A constraint whose derivative vanishes where it holds, such as a square.

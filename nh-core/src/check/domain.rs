@@ -38,6 +38,28 @@ pub fn domain(model: &mut Model, facts: &Facts) -> Vec<Condition> {
     open.into_iter().filter(|condition| !is_proved(&mut model.graph, *condition, &holding)).collect()
 }
 
+/// The factors of some divisors that may vanish somewhere on the base.
+#[must_use]
+pub fn with_zeros(model: &mut Model, divisors: &[ExprId]) -> Vec<ExprId> {
+    let mut left: Vec<ExprId> = Vec::new();
+    for divisor in divisors {
+        let factors = match model.graph.node(*divisor) {
+            Node::Product { factors, .. } => factors.to_vec(),
+            _ => vec![(*divisor, Rational::ONE)],
+        };
+        let bases = factors.into_iter().filter(|(_, exponent)| !exponent.is_negative()).map(|(base, _)| base);
+        let new = bases.filter(|base| model.graph.value_of(*base).is_none() && !left.contains(base));
+        let new: Vec<ExprId> = new.collect();
+        left.extend(new);
+    }
+    if left.is_empty() || left.len() > ASKED {
+        return left;
+    }
+    let holding = on_the_base(model);
+    left.retain(|divisor| !is_proved(&mut model.graph, Condition::Nonzero(*divisor), &holding));
+    left
+}
+
 /// Those that ranges alone do not prove.
 fn not_by_ranges(model: &Model, facts: &Facts) -> Vec<Condition> {
     let graph = &model.graph;

@@ -1,7 +1,9 @@
 //! Embedded base coordinates: the identities that they satisfy, and that the anchor keeps them.
 
+use super::assumptions::on_the_base;
 use super::evidence::{not_zero_on, shown};
 use super::kinematics::Motion;
+use super::no_force::without_slope;
 use crate::algebra::{Demand, Verdict};
 use crate::geometry::Manifold;
 use crate::id::{ExprId, Id, SectionId, SymbolId};
@@ -24,9 +26,16 @@ pub fn embedding(model: &mut Model, motion: &Motion) -> Result<Manifold, Vec<Vio
     if let Some(violation) = without_real_point(model, &identities) {
         return Err(vec![violation]);
     }
+    violations
+        .extend(identities.iter().filter_map(|identity| without_direction(model, &coordinates, *identity)));
+    if !violations.is_empty() {
+        return Err(violations);
+    }
     let functions: Vec<ExprId> = identities.iter().map(|identity| identity.value).collect();
-    let base = Manifold::where_zero(&mut model.graph, &functions, &coordinates)
+    let mut base = Manifold::where_zero(&mut model.graph, &functions, &coordinates)
         .map_err(|index| vec![not_parametrised(model, identities[index])])?;
+    let demands = on_the_base(model);
+    base.keep_parts_with_points(&mut model.graph, &demands);
     for identity in &identities {
         violations.extend(left_by_anchor(model, motion, &base, *identity));
     }
@@ -73,6 +82,18 @@ fn without_real_point(model: &Model, identities: &[Located]) -> Option<Violation
     })
 }
 
+/// An identity whose derivative vanishes where it holds, as that of a square does: there is no way back to it.
+fn without_direction(model: &mut Model, coordinates: &[SymbolId], identity: Located) -> Option<Violation> {
+    let (evidence, way_out) = without_slope(&mut model.graph, identity.value, coordinates)?;
+    Some(Violation {
+        law: Law::Embedding,
+        origin: identity.origin,
+        what: "the derivative of this identity vanishes where it holds: nothing leads back to it".into(),
+        evidence,
+        way_out: way_out.into(),
+    })
+}
+
 fn not_parametrised(model: &Model, identity: Located) -> Violation {
     Violation {
         law: Law::Decidable,
@@ -101,13 +122,21 @@ fn left_by_anchor(
         if verdict.is_zero() {
             continue;
         }
+        let elsewhere = match &verdict {
+            Verdict::Unknown(_) => base.part_without_zero(graph, change),
+            _ => None,
+        };
+        let (part, verdict) = match elsewhere {
+            Some((part, witness)) => (part, Verdict::NonZero(witness)),
+            None => (base.clone(), verdict),
+        };
         let change = graph.simplify(change);
         let name = &model.sections[section].name;
         let evidence = match &verdict {
             Verdict::NonZero(witness) if !has_parameters(witness, model) => {
                 format!(
                     "along `{name}` it changes at the rate {}",
-                    not_zero_on(&model.graph, change, witness, base)
+                    not_zero_on(&model.graph, change, witness, &part)
                 )
             }
             _ => format!("along `{name}` it changes at the rate {}", shown(&model.graph, change)),

@@ -1,7 +1,7 @@
 //! Whether the rows of an impact are independent of each other and of the constraints, where they act.
 
 use super::assumptions::demand;
-use super::dependence::combination_of;
+use super::dependence::{combination_of, place_of, where_they_hold};
 use super::evidence::name_of;
 use super::formulation::Chosen;
 use super::impact_rows::{Between, ImpactRow, refused};
@@ -77,19 +77,29 @@ fn follows(
     let closed: Vec<ExprId> = others.chain([&rows[row]]).filter_map(|row| row.position).collect();
     let manifold = where_closed(model, between, &closed);
     let whole: Matrix = matrix.iter().cloned().chain([rows[row].coefficients.clone()]).collect();
-    let restricted = manifold.restrict_matrix(&mut model.graph, &whole);
-    let rank = match model.graph.generic_rank(&restricted) {
-        Ok(rank) if rank == restricted.len() => return None,
-        Ok(rank) => rank,
-        Err(why) => {
-            return Some(refused(
-                rows[row].origin,
-                format!("whether `{}` follows from what holds already could not be decided", rows[row].name),
-                why,
-                "write it without roots of negative numbers and divisions by zero",
-            ));
+    let mut found = Vec::new();
+    for part in manifold.parts() {
+        let restricted = part.restrict_matrix(&mut model.graph, &whole);
+        match model.graph.generic_rank(&restricted) {
+            Ok(rank) => found.push((part, restricted, rank)),
+            Err(why) => {
+                return Some(refused(
+                    rows[row].origin,
+                    format!(
+                        "whether `{}` follows from what holds already could not be decided",
+                        rows[row].name
+                    ),
+                    why,
+                    "write it without roots of negative numbers and divisions by zero",
+                ));
+            }
         }
-    };
+    }
+    let (part, restricted, rank) = found.iter().find(|(_, restricted, rank)| *rank < restricted.len())?;
+    let (restricted, rank) = (restricted.clone(), *rank);
+    let is_everywhere = found.iter().all(|(_, restricted, rank)| *rank < restricted.len());
+    let place =
+        if is_everywhere { String::new() } else { format!(": so it is{}", place_of(model, &manifold, part)) };
     let name = format!("`{}`", rows[row].name);
     let last = restricted.last().cloned().unwrap_or_default();
     if rank < matrix.len() {
@@ -99,7 +109,7 @@ fn follows(
     if last.iter().all(|entry| model.graph.zero_test(*entry).is_zero()) {
         return Some(refused(
             rows[row].origin,
-            format!("{name} takes no impulse: the constraints permit no velocity that changes it"),
+            format!("{name} takes no impulse: the constraints permit no velocity that changes it{place}"),
             format!("the rate of {name} is 0 for all velocities that they permit where it acts"),
             "leave it out, or write it without a power: `a - b >= 0` instead of `(a - b)^2 >= 0`",
         ));
@@ -113,7 +123,7 @@ fn follows(
     let evidence = combination_of(&mut model.graph, &restricted[..matrix.len()], &last, &names, &name);
     Some(refused(
         rows[row].origin,
-        format!("{name} follows from what holds already where it acts"),
+        format!("{name} follows from what holds already where it acts{place}"),
         evidence,
         way_out,
     ))
@@ -124,7 +134,11 @@ fn follows(
 fn where_closed(model: &mut Model, between: &Between, gaps: &[ExprId]) -> Manifold {
     let coordinates: Vec<SymbolId> = model.coordinates.iter().map(|c| c.symbol).collect();
     let positions = &between.positions.manifold;
-    Manifold::of_positions(&mut model.graph, positions, gaps, [&coordinates, &[]]).manifold
+    let mut closed = Manifold::of_positions(&mut model.graph, positions, gaps, [&coordinates, &[]]).manifold;
+    let mut demands = where_they_hold(model);
+    demands.extend(gaps.iter().map(|gap| (*gap, Demand::Zero)));
+    closed.keep_parts_with_points(&mut model.graph, &demands);
+    closed
 }
 
 /// Whether what is assumed keeps gaps from being closed together.

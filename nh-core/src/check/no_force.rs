@@ -47,7 +47,11 @@ pub(super) fn constraint_without_force(
 
 /// Where a function has no slope although it vanishes, in words: a power has none where its base is 0, and what has one
 /// sign, as 1 - cos(x) and sums of squares have, has none where it touches 0. Symbols move that are not fixed.
-fn without_slope(graph: &mut Graph, function: ExprId, moving: &[SymbolId]) -> Option<(String, &'static str)> {
+pub(super) fn without_slope(
+    graph: &mut Graph,
+    function: ExprId,
+    moving: &[SymbolId],
+) -> Option<(String, &'static str)> {
     if let Some(base) = base_of_power(graph, function, moving) {
         let (function, base) = (shown(graph, function), shown(graph, base));
         return Some((format!("{function} vanishes with its derivatives where {base} = 0"), WITHOUT_POWER));

@@ -1,7 +1,7 @@
 //! Position constraints f(t, x) = 0: the manifold N where they hold, and that each of them says something
 //! there that the others do not.
 
-use super::dependence::combination_shown;
+use super::dependence::{ONE_PART, PARTS, combination_shown, place_of, where_they_hold};
 use super::evidence::{listed, name_of, shown};
 use super::kinematics::Motion;
 use super::no_force::position_without_force;
@@ -89,6 +89,8 @@ pub fn positions(
         Manifold::of_positions(&mut model.graph, base, &values, [&coordinates, &parameters]);
     found.unsolved = unsolved.iter().map(|index| values[*index]).collect();
     found.manifold = manifold;
+    let demands = where_they_hold(model);
+    found.manifold.keep_parts_with_points(&mut model.graph, &demands);
     found.values = values;
     let rows = jacobian(model, motion, algebroid);
     violations.extend((0..rows.len()).filter_map(|index| position_without_force(model, index)));
@@ -351,6 +353,23 @@ fn says_left(model: &Model, origin: Origin, name: &str, left: ExprId) -> Violati
     }
 }
 
+/// Where an equation follows by its rate from earlier ones, if it does so on one part of N and not on another.
+fn only_on_a_part(
+    model: &mut Model,
+    rows: &Matrix,
+    kept: &[usize],
+    index: usize,
+    found: &Positions,
+) -> Option<String> {
+    let matrix: Matrix = kept.iter().chain([&index]).map(|row| rows[*row].clone()).collect();
+    let graph = &mut model.graph;
+    let is_independent = found.manifold.parts().skip(1).any(|part| {
+        let restricted = part.restrict_matrix(graph, &matrix);
+        graph.generic_rank(&restricted) == Ok(matrix.len())
+    });
+    is_independent.then(|| place_of(model, &found.manifold, &found.manifold))
+}
+
 /// What becomes of an equation whose row depends on earlier ones.
 enum Follows {
     Dropped(String),
@@ -386,6 +405,16 @@ fn followed(model: &mut Model, rows: &Matrix, kept: &[usize], index: usize, foun
     if let Some(left) = left_of(model, kept, value, found) {
         return Follows::Refused(says_left(model, origin, &name, left));
     }
+    if let Some(place) = only_on_a_part(model, rows, kept, index, found) {
+        return Follows::Refused(Violation {
+            law,
+            origin,
+            what: format!("{name} follows from the position constraints before it{place}"),
+            evidence: PARTS.into(),
+            way_out: ONE_PART.into(),
+        });
+    }
+    let is_alone = rows.len() == 1;
     let graph = &mut model.graph;
     let on_manifold = |graph: &mut Graph, entry: &ExprId| found.manifold.zero_test(graph, *entry).is_zero();
     let vanishes = rows[index].iter().all(|entry| on_manifold(graph, entry));
@@ -396,8 +425,11 @@ fn followed(model: &mut Model, rows: &Matrix, kept: &[usize], index: usize, foun
         return Follows::Refused(Violation {
             law,
             origin,
-            what: format!("{name} exerts no force: its derivative vanishes where it holds"),
-            evidence: format!("the rate of {} is 0 along every section on {name}", shown(graph, value)),
+            what: format!(
+                "{name} exerts no force: its derivative vanishes where {}",
+                if is_alone { "it holds" } else { "all position constraints hold" }
+            ),
+            evidence: format!("the rate of {} is 0 along every section there", shown(graph, value)),
             way_out: "write it without the power, as `a = b` instead of `(a - b)^2 = 0`".into(),
         });
     }

@@ -1,6 +1,6 @@
 //! Regularity: the equations determine the accelerations (CLMM Theorem 3.12, (7.5)).
 
-use super::dependence::{ONE_PART, place_of};
+use super::dependence::{ONE_PART, place_of, with_all_roots};
 use super::evidence::{listed, shown};
 use crate::algebra::{Echelon, Facts, FieldPoint, Graph, Matrix, Node, Range, Residue, sample};
 use crate::geometry::Manifold;
@@ -58,6 +58,7 @@ fn judge(
     evidence: impl Fn(&[Residue]) -> String,
 ) -> Option<Violation> {
     let origin = model.lagrangian.origin;
+    let manifold = &with_all_roots(model, manifold, matrix);
     let mut found = Vec::new();
     for part in manifold.parts() {
         let restricted = part.restrict_matrix(&mut model.graph, matrix);

@@ -162,7 +162,12 @@ fn first_defect(
                 let witness = manifold.is_whole().then_some(witness);
                 return Ok(Some((graph.simplify(*function), witness)));
             }
-            Verdict::Unknown(why) => return Err(why),
+            Verdict::Unknown(why) => {
+                return match manifold.part_without_zero(graph, *function) {
+                    Some(_) => Ok(Some((graph.simplify(*function), None))),
+                    None => Err(why),
+                };
+            }
         }
     }
     Ok(None)

@@ -8,7 +8,7 @@ mod reduced_form;
 mod velocities_to_name;
 
 use crate::algebra::Demand;
-use crate::check::{Condition, domain, not_conservative, on_the_base, singular_where};
+use crate::check::{Condition, domain, not_conservative, on_the_base, singular_where, with_zeros};
 use crate::compile::{Derived, Proved};
 use crate::geometry::suggested_velocities::Suggested;
 use crate::id::{ExprId, SymbolId};
@@ -26,6 +26,8 @@ pub(crate) struct Findings {
     pub(crate) no_state_is_known: bool,
     /// Where alone the equations have a value.
     pub(crate) domain: Vec<Condition>,
+    /// Where alone the quasi-velocities are a chart: these vanish somewhere.
+    pub(crate) chart_divisors: Vec<ExprId>,
     /// Whether D is closed under the bracket; `None` where its sections are not known.
     pub(crate) closure: Option<Closure>,
     /// Factors of the determinant of the mass matrix that vanish in some states, or for some parameters.
@@ -53,6 +55,7 @@ impl Findings {
     pub(crate) fn of(proved: &mut Proved, derived: &Derived<'_>) -> Self {
         let no_state_is_known = real_states::undecided(proved);
         let domain = domain(&mut proved.model, &proved.facts);
+        let chart_divisors = with_zeros(&mut proved.model, &proved.motion.divisors);
         let closure = Closure::of(proved, derived);
         let singular_mass = singular_mass(proved, derived);
         let reduced = ReducedForm::of(proved, derived);
@@ -66,6 +69,7 @@ impl Findings {
         Self {
             no_state_is_known,
             domain,
+            chart_divisors,
             closure,
             singular_mass,
             reduced,

@@ -16,5 +16,11 @@ pub(super) fn undecided(proved: &mut Proved) -> bool {
     }
     let mut demands = on_the_base(model);
     demands.extend(equations.into_iter().map(|equation| (equation, Demand::Zero)));
-    !model.graph.real_point_is_found(&demands)
+    let graph = &mut model.graph;
+    // what is solved for is found where a search does not come near, as a single value is
+    !graph.real_point_is_found(&demands)
+        && !constraints.generic().parts().any(|part| {
+            let demands = part.demands(graph, &demands);
+            graph.real_point_is_found(&demands)
+        })
 }

@@ -69,18 +69,26 @@ impl Manifold {
         ways.extend(further);
         let moving = [coordinates, &base.chart].concat();
         let search = Search { functions, parameters, moving: &moving, ways: &ways, start: spent() };
-        let mut found = search.near(graph, base.alone());
-        found.manifold.others.extend(base.others.iter().cloned());
-        found.manifold.complete_others(|start| {
-            let part = search.near(graph, start.alone());
-            part.unsolved.is_empty().then_some(part.manifold)
+        let near = |graph: &mut Graph, start: &Self, functions: &[ExprId]| {
+            let found = Search { functions, ..search }.near(graph, start.clone());
+            (found.manifold, found.unsolved)
+        };
+        let starts = base.parts().map(Self::alone).collect();
+        let (mut manifold, unsolved) =
+            Self::by_parts(graph, starts, (functions, coordinates), near, |_, _, _, _| None);
+        // parts that fix parameters are none of a machine whose parameters have any values
+        manifold.others.retain(|part| {
+            let of_coordinates = |image: ExprId| graph.depends_on(image, &moving);
+            part.images.iter().all(|(symbol, image)| !parameters.contains(symbol) || of_coordinates(*image))
         });
-        found.manifold.note_roots_of(graph, functions);
-        found
+        manifold.open.extend(base.open.iter().cloned());
+        manifold.note_roots_of(graph, functions);
+        NearManifold { manifold, unsolved }
     }
 }
 
 /// What functions are solved for, and by which ways.
+#[derive(Clone, Copy)]
 struct Search<'a> {
     functions: &'a [ExprId],
     parameters: &'a [SymbolId],

@@ -8,6 +8,10 @@ use super::common_zeros::vanish_together;
 use super::solutions::{Ease, Solved, cayley, difference, quotient, root, sphere};
 use crate::algebra::{Graph, Matrix, Node, Substitution, Verdict, Witness};
 use crate::id::{ExprId, SymbolId};
+use crate::limits::{attempt, spent};
+
+/// The work that the search for parts may take.
+const WORK: u64 = 24_000_000;
 
 /// A manifold, by symbols that are functions of the others.
 #[derive(Clone, Debug, Default)]
@@ -17,14 +21,27 @@ pub struct Manifold {
     pub(super) chart: Vec<SymbolId>,
     /// A function of those that define it which vanishes elsewhere, too, as a product does: what holds on this manifold
     /// need not hold wherever the functions vanish.
-    in_parts: Option<ExprId>,
+    pub(super) in_parts: Option<ExprId>,
     /// What square roots of images are taken of: the other root is as good as this one.
-    radicands: Vec<ExprId>,
+    pub(super) radicands: Vec<ExprId>,
     /// A function that was solved by the root of a square, which is a function on one part of the manifold and another one on
     /// the other, and the symbols whose images may be others there.
-    by_part: Option<(ExprId, Vec<SymbolId>)>,
+    pub(super) by_part: Option<(ExprId, Vec<SymbolId>)>,
     /// The other parts that were found, each as if it were the only one.
     pub(super) others: Vec<Manifold>,
+    /// The roots that were not taken because images would divide by 0 there.
+    pub(super) not_taken: Vec<(SymbolId, ExprId)>,
+    /// Parts that could not be solved for.
+    pub(super) open: Vec<OpenPart>,
+}
+
+/// A part of a manifold that could not be solved for: there may be points of it where further functions vanish.
+#[derive(Clone, Debug)]
+pub(crate) struct OpenPart {
+    /// The symbols that are functions of the others there.
+    pub(crate) images: Vec<(SymbolId, ExprId)>,
+    /// What vanishes there besides.
+    pub(crate) functions: Vec<ExprId>,
 }
 
 impl Manifold {
@@ -49,34 +66,54 @@ impl Manifold {
         if let Some(rotations) = Self::rotations(graph, functions, unknowns) {
             return Ok(rotations);
         }
-        // a sphere takes all its coordinates; where others restrict these as well they come first
-        let orders = [[Ease::Sphere, Ease::Linear, Ease::Root], [Ease::Linear, Ease::Sphere, Ease::Root]];
-        let solve = |graph: &mut Graph, start: &Self, moving: &[SymbolId]| {
-            let first = start.solved_in_order(graph, functions, (unknowns, moving), orders[0]);
-            first.or_else(|index| {
-                start.solved_in_order(graph, functions, (unknowns, moving), orders[1]).map_err(|_| index)
-            })
+        // a sphere takes all its coordinates; where others restrict these as well they come first, and roots come before
+        // what would put powers into them
+        let orders = [
+            [Ease::Sphere, Ease::Linear, Ease::Root],
+            [Ease::Linear, Ease::Sphere, Ease::Root],
+            [Ease::Root, Ease::Linear, Ease::Sphere],
+        ];
+        let solve = |graph: &mut Graph, start: &Self, functions: &[ExprId], moving: &[SymbolId]| {
+            let mut failed: Option<(Self, Vec<usize>)> = None;
+            for order in orders {
+                let (found, index) = start.solved_in_order(graph, functions, (unknowns, moving), order);
+                let Some(index) = index else { return (found, Vec::new()) };
+                let first = failed.as_ref().map(|(_, unsolved)| unsolved.clone());
+                // where a root was taken there is another
+                if first.is_none() || !found.others.is_empty() {
+                    failed = Some((found, first.unwrap_or_else(|| vec![index])));
+                }
+            }
+            failed.unwrap_or_default()
         };
-        let solved_from = |graph: &mut Graph, start: &Self| {
-            solve(graph, start, unknowns).or_else(|index| {
-                let part = solve(graph, start, &[]);
-                part.map(|part| Self { in_parts: Some(functions[index]), ..part })
-            })
+        let began = spent();
+        let near = |graph: &mut Graph, start: &Self, functions: &[ExprId]| {
+            let work = WORK.saturating_sub(spent() - began);
+            attempt(work, || solve(graph, start, functions, unknowns))
+                .unwrap_or_else(|| (start.clone(), (0..functions.len()).collect()))
         };
-        let mut manifold = solved_from(graph, &Self::default())?;
-        manifold.complete_others(|start| solved_from(graph, start).ok());
+        let otherwise = |graph: &mut Graph, start: &Self, functions: &[ExprId], index: usize| {
+            let (part, unsolved) = solve(graph, start, functions, &[]);
+            (unsolved.is_empty()).then(|| Self { in_parts: Some(functions[index]), ..part })
+        };
+        let (mut manifold, unsolved) =
+            Self::by_parts(graph, vec![Self::default()], (functions, unknowns), near, otherwise);
+        if let Some(index) = unsolved.first() {
+            return Err(*index);
+        }
         manifold.note_roots_of(graph, functions);
         Ok(manifold)
     }
 
-    /// The same, by the easiest ways first, so that no root gets into what could be solved without.
+    /// The same, by the easiest ways first, so that no root gets into what could be solved without; and a function that
+    /// could not be solved.
     fn solved_in_order(
         &self,
         graph: &mut Graph,
         functions: &[ExprId],
         unknowns: (&[SymbolId], &[SymbolId]),
         order: [Ease; 3],
-    ) -> Result<Self, usize> {
+    ) -> (Self, Option<usize>) {
         let mut manifold = self.clone();
         let mut open: Vec<usize> = (0..functions.len()).collect();
         while !open.is_empty() {
@@ -89,10 +126,10 @@ impl Manifold {
                         .then_some(*index)
                 })
             });
-            let solved = solved.ok_or(open[0])?;
+            let Some(solved) = solved else { return (manifold, Some(open[0])) };
             open.retain(|index| *index != solved);
         }
-        Ok(manifold)
+        (manifold, None)
     }
 
     /// The intersection with a manifold that is solved for other symbols than this one, as functions
@@ -104,9 +141,10 @@ impl Manifold {
                 both.add_parts(&part.on(graph, of_other));
             }
         }
+        both.open.extend(self.open.iter().chain(&other.open).cloned());
         let mut parts = both.others.into_iter();
         if let Some(first) = parts.next() {
-            *self = Self { others: parts.collect(), ..first };
+            *self = Self { others: parts.collect(), open: both.open, ..first };
         }
     }
 
@@ -174,29 +212,10 @@ impl Manifold {
         graph.independent_rows(&restricted)
     }
 
-    /// One of some functions which has, by itself, a root that images have too: on another part of the manifold the image
-    /// has the other root, and the function has not.
-    pub(crate) fn with_a_root_of(&self, graph: &mut Graph, functions: &[ExprId]) -> Option<ExprId> {
-        if self.radicands.is_empty() {
-            return None;
-        }
-        let of_numbers = self.radicands.iter().any(|radicand| graph.symbols_in(&[*radicand]).is_empty());
-        functions.iter().copied().find(|function| {
-            // √3 has the other sign where the root of 3 has it
-            (of_numbers && graph.has_irrational_numbers(*function))
-                || graph.radicands(&[*function]).into_iter().any(|own| {
-                    let own = self.restrict(graph, own);
-                    self.radicands.iter().any(|radicand| {
-                        let product = graph.formula(own * radicand);
-                        graph.is_square_everywhere(product)
-                    })
-                })
-        })
-    }
-
     /// Takes note of functions that define it and have a root which images have too.
     pub(crate) fn note_roots_of(&mut self, graph: &mut Graph, functions: &[ExprId]) {
-        self.in_parts = self.in_parts.or_else(|| self.with_a_root_of(graph, functions));
+        self.in_parts =
+            self.in_parts.or_else(|| self.shared_root(graph, functions).map(|(function, _)| function));
     }
 
     /// Whether a function vanishes on the manifold, and wherever the functions do that define it.
@@ -208,13 +227,14 @@ impl Manifold {
             return verdict;
         }
         let by_part = self.by_part.as_ref().filter(|(_, others)| graph.depends_on(function, others));
+        let by_part = by_part.filter(|_| !self.vanishes_on_all_parts(graph, function));
         if let Some(product) = self.in_parts.or(by_part.map(|(product, _)| *product)) {
             let product = graph.text_within(product, 200);
             return Verdict::Unknown(format!(
                 "{product} = 0 holds in several ways, and it was asked in one of them"
             ));
         }
-        match self.with_a_root_of(graph, &[function]) {
+        match self.shared_root(graph, &[function]) {
             None => verdict,
             Some(_) => Verdict::Unknown(
                 "it contains a root of what the constraints are solved by a root of, and these may have the other sign"

@@ -24,6 +24,7 @@ mod rank;
 mod solutions;
 mod structure;
 pub mod suggested_velocities;
+mod ways;
 
 pub use algebroid::Algebroid;
 pub use anchor::Anchor;

@@ -47,6 +47,8 @@ impl PivotSetting<'_> {
                 &mut found.conditions
             } else if self.constraints_are_dependent_where(graph, base) {
                 &mut found.rank_drops
+            } else if graph.has_no_zeros(base, self.facts) {
+                continue;
             } else {
                 &mut found.elsewhere
             };

@@ -5,7 +5,7 @@
 //! of it comes with the places where it drops, or with the word that this is not known.
 
 use super::manifold::Manifold;
-use crate::algebra::{Demand, Facts, Graph, Matrix, Node, Rational, Substitution, Verdict};
+use crate::algebra::{Demand, Facts, Function, Graph, Matrix, Node, Rational, Substitution, Verdict};
 use crate::id::{ExprId, SymbolId};
 
 /// The rank at generic points, and where it drops.
@@ -175,22 +175,31 @@ impl RankSetting<'_> {
         let zero = graph.zero();
         let symbols: Vec<(SymbolId, ExprId)> =
             functions.iter().filter_map(|function| Some((graph.as_symbol(*function)?, zero))).collect();
+        let symbols_vanish = !symbols.is_empty();
         let mut there = Substitution::new(symbols);
-        self.residuals.iter().any(|residual| {
-            let left = there.apply(graph, *residual);
+        // the other functions are not 0 where these symbols are
+        let others = functions.iter().filter(|function| graph.as_symbol(**function).is_none());
+        let others: Vec<ExprId> = if symbols_vanish { others.copied().collect() } else { Vec::new() };
+        self.residuals.iter().chain(&others).any(|function| {
+            let left = there.apply(graph, *function);
             graph.vanishes_nowhere(left, self.facts)
         })
     }
 
     /// Whether what holds on the manifold excludes that functions vanish.
-    fn is_contradictory(&self, graph: &Graph, functions: &[ExprId]) -> bool {
+    fn is_contradictory(&self, graph: &mut Graph, functions: &[ExprId]) -> bool {
         let mut demands = graph.related_demands(self.holding, functions);
         // what is known of parameters alone is in the facts
         if !demands.iter().any(|(_, demand)| *demand == Demand::Zero) {
             return false;
         }
         demands.extend(functions.iter().map(|function| (*function, Demand::Zero)));
-        graph.contradiction(&demands).is_some()
+        if graph.contradiction(&demands).is_some() {
+            return true;
+        }
+        let cases = cases_of_circles(graph, functions);
+        cases.len() > 1
+            && cases.into_iter().all(|case| graph.contradiction(&[demands.clone(), case].concat()).is_some())
     }
 
     /// Whether AᵀA has principal minors of the size of the rank whose sum vanishes nowhere: it is the sum of
@@ -228,7 +237,9 @@ impl RankSetting<'_> {
         };
         let mut lists: Vec<Vec<ExprId>> = minors.iter().map(|minor| factors(graph, *minor)).collect();
         for list in &mut lists {
-            list.retain(|factor| !self.vanishes_nowhere(graph, *factor));
+            list.retain(|factor| {
+                !self.vanishes_nowhere(graph, *factor) && !graph.has_no_zeros(*factor, self.facts)
+            });
         }
         let Some(first) = lists.first().cloned() else { return Vec::new() };
         let common: Vec<ExprId> =
@@ -282,8 +293,10 @@ impl RankSetting<'_> {
             if is_off {
                 continue;
             }
-            let set = candidate.into_iter().map(|factor| without_sign(graph, factor)).collect();
-            if !sets.contains(&set) {
+            let set: Vec<ExprId> = candidate.into_iter().map(|factor| without_sign(graph, factor)).collect();
+            let is_same =
+                |other: &Vec<ExprId>| other.len() == set.len() && set.iter().all(|e| other.contains(e));
+            if !sets.iter().any(is_same) {
                 sets.push(set);
             }
         }
@@ -293,6 +306,28 @@ impl RankSetting<'_> {
         };
         sets.iter().filter(|set| is_needed(set)).cloned().collect()
     }
+}
+
+/// What holds besides where functions vanish, one case or the other: where a cosine is 0 the sine is 1 or −1.
+fn cases_of_circles(graph: &mut Graph, functions: &[ExprId]) -> Vec<Vec<(ExprId, Demand)>> {
+    const CIRCLES: usize = 3;
+    let partners = functions.iter().filter_map(|id| match graph.node(*id) {
+        Node::Apply(Function::Sin, angle) => Some((Function::Cos, *angle)),
+        Node::Apply(Function::Cos, angle) => Some((Function::Sin, *angle)),
+        _ => None,
+    });
+    let partners: Vec<(Function, ExprId)> = partners.take(CIRCLES).collect();
+    let one = graph.one();
+    let mut cases = vec![Vec::new()];
+    for (function, angle) in partners {
+        let partner = graph.apply(function, angle);
+        let ends = [graph.formula(partner - one), graph.formula(partner + one)];
+        let with = |case: &Vec<(ExprId, Demand)>| {
+            ends.map(|end| case.iter().copied().chain([(end, Demand::Zero)]).collect::<Vec<_>>())
+        };
+        cases = cases.iter().flat_map(with).collect();
+    }
+    cases
 }
 
 /// The set with one more member.

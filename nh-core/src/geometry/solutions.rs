@@ -121,10 +121,27 @@ pub(super) fn root(graph: &mut Graph, function: ExprId, symbol: SymbolId) -> Opt
     }
     let (bb, ac) = (graph.square(b), graph.formula(curvature * c));
     let discriminant = graph.linear_combination(&[(1.into(), bb), ((-2).into(), ac)]);
-    let (radical, minus_b) = (graph.sqrt(discriminant), graph.formula(-b));
+    let radical = root_of_square(graph, discriminant).unwrap_or_else(|| graph.sqrt(discriminant));
+    let minus_b = graph.formula(-b);
     let image = graph.formula((minus_b + radical) / curvature);
     let other = graph.formula((minus_b - radical) / curvature);
     Some(Solved { image, coefficients: vec![curvature, b, c], other: Some((discriminant, other)) })
+}
+
+/// A function of which this is the square as it is written: it is a root at all points, up to the sign, which a square
+/// root tells apart where it passes through 0.
+fn root_of_square(graph: &mut Graph, function: ExprId) -> Option<ExprId> {
+    let simple = graph.simplify(function);
+    let Node::Product { coefficient, factors } = graph.node(simple).clone() else { return None };
+    let factor = coefficient.sqrt()?;
+    let half = Rational::new(1, 2);
+    let factors: Vec<(ExprId, Rational)> =
+        factors.iter().map(|(base, exponent)| (*base, exponent.clone() * half.clone())).collect();
+    if factors.iter().any(|(_, exponent)| !exponent.is_integer()) {
+        return None;
+    }
+    let product = graph.product(&factors);
+    Some(graph.scale(factor, product))
 }
 
 /// The root of `a s^n + c`: there `s φ' = n (φ − c)`.

@@ -4,7 +4,7 @@ use super::suggestion_line::validity;
 use super::{combination, section_names, shown, suggestion};
 use crate::algebra::Graph;
 use crate::check::evidence::{counted, listed, places};
-use crate::check::{BrokenLaws, Condition, Positions, points_shown, undecided};
+use crate::check::{BrokenLaws, Condition, Positions, not_asked, points_shown, undecided};
 use crate::compile::{Derived, Proved};
 use crate::findings::{Closure, Findings};
 use crate::geometry::independent_velocities::Choice;
@@ -19,12 +19,13 @@ pub(super) fn lines(
     findings: &Findings,
     reason: &str,
 ) -> Vec<String> {
-    let Proved { model, motion, facts, .. } = proved;
+    let Proved { model, facts, .. } = proved;
     let mut lines = vec![algebroid(proved)];
     lines.extend(structure_equations(proved));
     lines.extend(positions(model, &proved.positions));
     lines.extend(proved.chart.as_ref().map(|choice| chart(model, choice)));
     lines.push(constraints(proved, derived, findings.closure));
+    lines.extend(not_asked(model, proved.constraints.generic()));
     let (name, size) = match derived {
         Derived::Adapted { kept, .. } => ("adapted", kept.rank()),
         Derived::Projected { .. } => ("projected", model.sections.len()),
@@ -58,11 +59,9 @@ pub(super) fn lines(
     for condition in &findings.domain {
         lines.push(format!("the equations have a value only where {}", stated(&model.graph, *condition)));
     }
-    for divisor in &motion.divisors {
-        if model.graph.value_of(*divisor).is_none() {
-            let text = shown(&model.graph, *divisor);
-            lines.push(format!("the quasi-velocities are a chart only where {text} != 0"));
-        }
+    for divisor in &findings.chart_divisors {
+        let text = shown(&model.graph, *divisor);
+        lines.push(format!("the quasi-velocities are a chart only where {text} != 0"));
     }
     lines
 }

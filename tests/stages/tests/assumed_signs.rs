@@ -35,6 +35,11 @@ fn claims_are_judged_where_assumptions_hold() {
         "conserved { c = (sqrt(l^2) + l)*x; } assume { l < 0; }",
         "conserved { c = (sqrt((l - k)^2) + l - k)*x; } assume { l < k; }",
         "conserved { c = (sqrt(l^2 - 2*l*k + k^2) - l + k)*x; } assume { l > k; }",
+        "forces { x: abs(x*l) - l*abs(x); } conserved { c = der(x); } assume { l > 0; }",
+        "forces { x: abs(x/l) + abs(x)/l; } conserved { c = der(x); } assume { l < 0; }",
+        "forces { x: sign(l*x*k) + sign(x); } conserved { c = der(x); } assume { l < 0; k > 0; }",
+        "forces { x: max(l*x, l*y) - l*max(x, y); } conserved { c = der(x); } assume { l > 0; }",
+        "forces { x: min(l*x*k, l*y) - l*min(k*x, y); } conserved { c = der(x); } assume { l > 0; }",
     ] {
         let refusals = refusals(&format!("{machine} {claimed}"));
         assert!(refusals.is_empty(), "{claimed}: {refusals:?}");
@@ -42,6 +47,14 @@ fn claims_are_judged_where_assumptions_hold() {
     for (claimed, words) in [
         ("conserved { c = (sqrt(l^2) - l)*x; } assume { l < 0; }", "`c` is not conserved"),
         ("conserved { c = (sqrt(l^2 - 2*l*k + k^2) - l + k)*x; } assume { l < k; }", "`c` is not conserved"),
+        (
+            "forces { x: abs(x*l) - l*abs(x); } conserved { c = der(x); } assume { l < 0; }",
+            "`c` is not conserved",
+        ),
+        (
+            "forces { x: max(l*x, l*y) - l*max(x, y); } conserved { c = der(x); } assume { l < 0; }",
+            "`c` is not conserved",
+        ),
         // true, and not decided: no point is named that the assumption excludes
         ("conserved { c = (atan(l) + atan(1/l) - pi/2)*x; } assume { l > 0; }", "could not be decided"),
     ] {

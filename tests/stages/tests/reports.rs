@@ -391,3 +391,40 @@ fn quantities_of_a_splitting_are_shown_as_long_as_they_are_short() {
     let short = snakeboard.system().expect("regular").report;
     assert!(short.contains("horizontal lift") && !short.contains(too_long), "{short}");
 }
+
+/// No zeros are told of what has none, and no choice of velocities is passed over for them.
+#[test]
+fn no_zeros_are_told_of_what_has_none() {
+    let space = "base { x, y, z } lagrangian { m / 2 * (der(x)^2 + der(y)^2 + der(z)^2) }";
+    let adapted = "can be eliminated wherever the constraints are independent";
+    for (constraints, said, unsaid) in [
+        ("constraints { (x^2 - 4 * x + 5) * der(z) = x * der(y); }", adapted, "dependent where"),
+        (
+            "constraints { (x^4 - x + 5) * der(z) = x * der(y); der(x) = y * der(z); }",
+            adapted,
+            "dependent where",
+        ),
+        (
+            "constraints { (x - sin(x) - 8) * der(z) = x * der(y); }",
+            "divides by x - sin(x) - 8",
+            "dependent where",
+        ),
+        ("holonomic { sin(x) + cos(y) = 1 / 2; }", "D is closed", "dependent where"),
+        (
+            "holonomic { sin(x) + cos(y) = 2 * a; } assume { a > 0; a < 1 / 2; }",
+            "D is closed",
+            "dependent where",
+        ),
+        ("holonomic { sin(x) + cos(y) = 2 * a; }", "dependent where cos(x) = 0 and sin(y) = 0", "undecided"),
+    ] {
+        let sections = format!("{space} {constraints}");
+        check(&[(&sections, "m: f64, a: f64", &[said], &[unsaid])]);
+    }
+    check(&[(
+        "base { x, y } velocities { u = (x^2 - 2 * x + 2) * der(x); v = x * (exp(x) - x) * der(y); }
+         lagrangian { (u^2 + v^2) / 2 }",
+        "",
+        &["a chart only where x != 0"],
+        &["2*x + 2 != 0", "exp(x) - x != 0"],
+    )]);
+}
