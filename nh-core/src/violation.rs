@@ -64,6 +64,8 @@ pub enum Law {
     Units,
     /// What has to have a Taylor series is analytic.
     Analytic,
+    /// Numbers of the equations are numbers of the scalar type.
+    Representable,
     /// The limits on the work that a declaration may take.
     Size,
     /// A question that the algebra could not decide.

@@ -343,9 +343,7 @@ impl Writer<'_> {
         let text = literal::literal(self.file.context, number).tokens.to_string().replace(' ', "");
         let (sign, digits) = text.strip_prefix('-').map_or(("", text.as_str()), |digits| ("-", digits));
         let f = self.file.suffix;
-        let digits =
-            if digits.ends_with("INFINITY") { "INFINITY".to_owned() } else { format!("{digits}{f}") };
-        if sign.is_empty() { digits } else { format!("(-{digits})") }
+        if sign.is_empty() { format!("{digits}{f}") } else { format!("(-{digits}{f})") }
     }
 
     /// `p->m`, `x->theta[0]`, `u->torque`, `t`.

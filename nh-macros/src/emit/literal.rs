@@ -1,6 +1,8 @@
 //! Exact numbers as literals.
 
 use nonholonomic_core::algebra::Rational;
+use nonholonomic_core::id::Origin;
+use nonholonomic_core::violation::{Law, Violation};
 use proc_macro2::{Literal, TokenStream};
 use quote::quote;
 
@@ -8,38 +10,72 @@ use super::infix::Expression;
 use super::setting::Context;
 use crate::syntax::ast;
 
-/// The number nearest to an exact one, as the shortest decimal that reads back as it.
+/// The number nearest to an exact one, as the shortest decimal that reads back as it. One that the type does not have is
+/// noted: what is emitted with it is refused.
 pub(super) fn literal(context: &Context, value: &Rational) -> Expression {
     let magnitude = value.abs();
-    let (digits, is_finite) = match context.layout.scalar {
+    let (digits, is_finite, is_zero) = match context.layout.scalar {
         ast::Scalar::F32 => {
             let nearest = to_f32(&magnitude);
-            (format!("{nearest:?}"), nearest.is_finite())
+            (format!("{nearest:?}"), nearest.is_finite(), nearest == 0.0)
         }
         ast::Scalar::F64 | ast::Scalar::Parameter(_) => {
             let nearest = magnitude.to_f64();
-            (format!("{nearest:?}"), nearest.is_finite())
+            (format!("{nearest:?}"), nearest.is_finite(), nearest == 0.0)
         }
     };
+    if !is_finite || (is_zero && !value.is_zero()) {
+        context.beyond.borrow_mut().insert(order_of_magnitude(&magnitude));
+    }
     let negative = value.is_negative();
     let sign = negative.then(|| quote!(-));
+    let digits = if is_finite { digits } else { String::from("0.0") };
     match digits.parse::<Literal>() {
-        Ok(literal) if is_finite => Expression::literal(quote!(#sign #literal), negative),
-        // beyond the range of the type
-        _ => {
-            let scalar = match context.layout.scalar {
-                ast::Scalar::Parameter(_) => quote!(::core::primitive::f64),
-                ast::Scalar::F32 | ast::Scalar::F64 => context.scalar.clone(),
-            };
-            Expression::literal(quote!(#sign #scalar::INFINITY), negative)
-        }
+        Ok(literal) => Expression::literal(quote!(#sign #literal), negative),
+        Err(_) => Expression::literal(quote!(0.0), false),
     }
+}
+
+/// The decimal exponent of a positive number, to the nearest.
+#[allow(clippy::cast_possible_truncation, clippy::cast_precision_loss, reason = "it is an estimate")]
+fn order_of_magnitude(value: &Rational) -> i64 {
+    let as_double = value.to_f64();
+    if as_double.is_finite() && as_double > 0.0 {
+        return as_double.log10().round() as i64;
+    }
+    let bits = value.numerator().bits() as f64 - value.denominator().bits() as f64;
+    (bits * std::f64::consts::LOG10_2).round() as i64
+}
+
+/// That a number of the programs is none of the scalar type: what is said of it, and the way out.
+pub(super) fn beyond(context: &Context) -> Option<(String, &'static str)> {
+    let exponents = context.beyond.borrow();
+    let exponent = exponents.first().filter(|exponent| **exponent < 0).or(exponents.last())?;
+    let scalar = match context.layout.scalar {
+        ast::Scalar::F32 => "f32",
+        ast::Scalar::F64 | ast::Scalar::Parameter(_) => "f64",
+    };
+    let becomes = if *exponent < 0 { "0" } else { "infinite" };
+    let what = format!(
+        "the equations have a number of the order of 10^{exponent}, which is {becomes} as `{scalar}`"
+    );
+    Some((what, "choose units in which the numbers of the declaration are of moderate size"))
+}
+
+/// The same of the system that is declared at `origin`.
+pub(super) fn beyond_range(context: &Context, origin: Origin) -> Option<Violation> {
+    let (what, way_out) = beyond(context)?;
+    let (law, evidence, way_out) = (Law::Representable, String::new(), way_out.into());
+    Some(Violation { law, origin, what, evidence, way_out })
 }
 
 /// The nearest `f32`: rounding twice can be off by one, so the neighbours are compared exactly.
 #[allow(clippy::cast_possible_truncation, reason = "the rounding is wanted")]
 fn to_f32(value: &Rational) -> f32 {
     let guess = value.to_f64() as f32;
+    if !guess.is_finite() {
+        return guess;
+    }
     let exact = |x: f32| exact(f64::from(x));
     let distance = |x: f32| exact(x).map(|x| (x - value.clone()).abs());
     let candidates = [guess.next_down(), guess, guess.next_up()];

@@ -10,6 +10,7 @@ use quote::quote;
 
 use super::layout::Layout;
 use super::lint::inherited;
+use super::literal::beyond;
 use super::program::{Body, body};
 use super::record::{Field, Record};
 use super::setting::Context;
@@ -44,6 +45,9 @@ pub(crate) fn morphism(
     let back = reduction.reconstruction.as_ref().map(|back| map.reconstruction(back));
     if context.lowering.is_refuted() {
         return Err(Diagnostic::new(declaration.extent(), REFUTED).way_out(DEFECT.to_owned()));
+    }
+    if let Some((what, way_out)) = beyond(&context) {
+        return Err(Diagnostic::new(declaration.extent(), what).way_out(way_out.to_owned()));
     }
     // one list has tokens of two declarations, on far lines
     let (of_source, of_target) = (&context.lints, &target_context.lints);

@@ -129,10 +129,13 @@ pub(crate) fn emit(system: &System, layout: &Layout) -> Result<TokenStream, Vec<
     items.extend(context.inherent(&methods));
     items.extend(editor::emit(context, system.functions.get(&VELOCITY).is_some()));
     items.extend(callback::emit(context));
-    match context.lowering.violation(model.origin) {
-        Some(violation) => Err(vec![violation]),
-        None => Ok(items),
-    }
+    let violations: Vec<Violation> = context
+        .lowering
+        .violation(model.origin)
+        .into_iter()
+        .chain(literal::beyond_range(context, model.origin))
+        .collect();
+    if violations.is_empty() { Ok(items) } else { Err(violations) }
 }
 
 /// The generated structs; that of all velocities only with the method that returns it.

@@ -1,5 +1,9 @@
 //! What every emitter needs: paths, generics, and the shapes of the generated structs.
 
+use std::cell::RefCell;
+use std::collections::BTreeSet;
+use std::rc::Rc;
+
 use nonholonomic_core::choose::Lowering;
 use nonholonomic_core::id::SymbolId;
 use proc_macro2::{Delimiter, Group, Ident, Span, TokenStream, TokenTree};
@@ -32,6 +36,8 @@ pub(super) struct Context<'a> {
     pub(super) outputs: Option<Record>,
     pub(super) locals: Locals,
     pub(super) lowering: Lowering,
+    /// The decimal exponents of numbers that the scalar type does not have.
+    pub(super) beyond: Rc<RefCell<BTreeSet<i64>>>,
     /// Whether numbers are printed with their partial derivatives, `Jet`s.
     pub(super) differentiates: bool,
 }
@@ -94,6 +100,7 @@ impl<'a> Context<'a> {
             layout,
             runtime,
             lowering: Lowering::default(),
+            beyond: Rc::default(),
             differentiates: false,
         }
     }
@@ -105,6 +112,7 @@ impl<'a> Context<'a> {
         let mut jets = Self::new(layout, in_state, &[]);
         jets.scalar = quote!(#runtime::Jet<#scalar, #n, #m>);
         jets.differentiates = true;
+        jets.beyond = Rc::clone(&self.beyond);
         jets
     }
 
