@@ -41,11 +41,29 @@ impl Manifold {
         Self { images: images.into_iter().filter(moved).collect(), ..Self::default() }
     }
 
-    /// Where all `functions` vanish, solved for some of the symbols `unknowns`.
+    /// Where all `functions` vanish, solved for some of the symbols `unknowns`. Functions that share none of these restrict
+    /// different ones, and are solved apart: so each of several rotation matrices is recognised.
     ///
     /// # Errors
     /// The index of a function that could not be solved.
     pub fn where_zero(graph: &mut Graph, functions: &[ExprId], unknowns: &[SymbolId]) -> Result<Self, usize> {
+        let groups = apart(graph, functions, unknowns);
+        if groups.len() < 2 {
+            return Self::where_all_zero(graph, functions, unknowns);
+        }
+        let mut manifold = Self::default();
+        for group in groups {
+            let of_group: Vec<ExprId> = group.iter().map(|index| functions[*index]).collect();
+            let solved =
+                Self::where_all_zero(graph, &of_group, unknowns).map_err(|position| group[position])?;
+            manifold.extend(graph, &solved);
+        }
+        manifold.note_roots_of(graph, functions);
+        Ok(manifold)
+    }
+
+    /// The same without looking for functions that share no unknown.
+    fn where_all_zero(graph: &mut Graph, functions: &[ExprId], unknowns: &[SymbolId]) -> Result<Self, usize> {
         if let Some(rotations) = Self::rotations(graph, functions, unknowns) {
             return Ok(rotations);
         }
@@ -353,6 +371,26 @@ impl Manifold {
     }
 }
 
+/// The indices of functions, in groups that share no unknown with each other.
+fn apart(graph: &Graph, functions: &[ExprId], unknowns: &[SymbolId]) -> Vec<Vec<usize>> {
+    let mut groups: Vec<(Vec<usize>, Vec<SymbolId>)> = Vec::new();
+    for (index, function) in functions.iter().enumerate() {
+        let mut joined = (vec![index], graph.symbols_in(&[*function]));
+        joined.1.retain(|symbol| unknowns.contains(symbol));
+        groups.retain_mut(|(indices, symbols)| {
+            let is_near = symbols.iter().any(|symbol| joined.1.contains(symbol));
+            if is_near {
+                joined.0.append(indices);
+                joined.1.append(symbols);
+            }
+            !is_near
+        });
+        joined.0.sort_unstable();
+        groups.push(joined);
+    }
+    groups.into_iter().map(|(indices, _)| indices).collect()
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -407,6 +445,40 @@ mod tests {
         let determinant = g.small_determinant(&matrix);
         let defect = g.formula(determinant - one);
         assert!(manifold.zero_test(&mut g, defect).is_zero());
+    }
+
+    /// Two of them, with their identities in turn, and a direction.
+    #[test]
+    fn several_embedded_families() {
+        let mut g = Graph::new();
+        let names: Vec<String> = (0..21).map(|i| format!("x{i}")).collect();
+        let all = symbols(&mut g, &names.iter().map(String::as_str).collect::<Vec<_>>());
+        let e: Vec<ExprId> = all.iter().map(|s| g.symbol(*s)).collect();
+        let one = g.one();
+        let mut identities = vec![g.inner_product(&e[18..], &e[18..])];
+        for i in 0..3 {
+            for j in i..3 {
+                for first in [0, 9] {
+                    let row = |k: usize| &e[first + 3 * k..first + 3 * k + 3];
+                    identities.push(g.inner_product(row(i), row(j)));
+                    if i == j {
+                        let last = identities.len() - 1;
+                        identities[last] = g.formula(identities[last] - one);
+                    }
+                }
+            }
+        }
+        identities[0] = g.formula(identities[0] - one);
+        let manifold = Manifold::where_zero(&mut g, &identities, &all).unwrap();
+        for first in [0, 9] {
+            let matrix: Matrix = e[first..first + 9].chunks(3).map(<[ExprId]>::to_vec).collect();
+            let determinant = g.small_determinant(&matrix);
+            let defect = g.formula(determinant - one);
+            assert!(manifold.zero_test(&mut g, defect).is_zero());
+        }
+        assert!(manifold.zero_test(&mut g, identities[0]).is_zero());
+        let height = g.formula(e[20] - one);
+        assert!(!manifold.zero_test(&mut g, height).is_zero());
     }
 
     #[test]
