@@ -36,6 +36,7 @@ pub(super) fn symmetries(
         more.extend(distribution.basis.iter().flatten());
     }
     more.extend(model.identities.iter().map(|identity| identity.value));
+    more.extend(model.positions.iter().map(|position| position.value));
     more.extend(model.calls.iter().flat_map(|call| &call.arguments));
     more.extend(model.auxiliary.iter().map(|state| state.value));
     let cyclic = cyclic_coordinates(&mut model.graph, system, &more);

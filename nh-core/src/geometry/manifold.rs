@@ -58,11 +58,29 @@ impl Manifold {
         Self { images: images.into_iter().filter(moved).collect(), ..Self::default() }
     }
 
-    /// Where all `functions` vanish, solved for some of the symbols `unknowns`.
+    /// Where all `functions` vanish, solved for some of the symbols `unknowns`. Functions that share none of these restrict
+    /// different ones, and are solved apart: so each of several rotation matrices is recognised.
     ///
     /// # Errors
     /// The index of a function that could not be solved.
     pub fn where_zero(graph: &mut Graph, functions: &[ExprId], unknowns: &[SymbolId]) -> Result<Self, usize> {
+        let groups = apart(graph, functions, unknowns);
+        if groups.len() < 2 {
+            return Self::where_all_zero(graph, functions, unknowns);
+        }
+        let mut manifold = Self::default();
+        for group in groups {
+            let of_group: Vec<ExprId> = group.iter().map(|index| functions[*index]).collect();
+            let solved =
+                Self::where_all_zero(graph, &of_group, unknowns).map_err(|position| group[position])?;
+            manifold.extend(graph, &solved);
+        }
+        manifold.note_roots_of(graph, functions);
+        Ok(manifold)
+    }
+
+    /// The same without looking for functions that share no unknown.
+    fn where_all_zero(graph: &mut Graph, functions: &[ExprId], unknowns: &[SymbolId]) -> Result<Self, usize> {
         if let Some(rotations) = Self::rotations(graph, functions, unknowns) {
             return Ok(rotations);
         }
@@ -373,70 +391,25 @@ impl Manifold {
     }
 }
 
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    fn symbols(graph: &mut Graph, names: &[&str]) -> Vec<SymbolId> {
-        names.iter().map(|name| graph.new_symbol(*name)).collect()
-    }
-
-    #[test]
-    fn the_sphere_and_a_plane_through_it() {
-        let mut g = Graph::new();
-        let all = symbols(&mut g, &["g1", "g2", "g3", "w1", "w2", "w3"]);
-        let e: Vec<ExprId> = all.iter().map(|s| g.symbol(*s)).collect();
-        let (norm, one) = (g.inner_product(&e[..3], &e[..3]), g.one());
-        let sphere = g.formula(norm - one);
-        let plane = g.inner_product(&e[..3], &e[3..]);
-        let mut manifold = Manifold::where_zero(&mut g, &[sphere], &all[..3]).unwrap();
-        let tangent = Manifold::where_zero(&mut g, &[plane], &all[3..]).unwrap();
-        manifold.extend(&mut g, &tangent);
-        // |g × w|² = |g|²|w|² − (g·w)² = |w|²
-        let mut cross = Vec::new();
-        for i in 0..3 {
-            let (j, k) = ((i + 1) % 3, (i + 2) % 3);
-            let (x, y) = (g.formula(e[j] * e[3 + k]), g.formula(e[k] * e[3 + j]));
-            cross.push(g.formula(x - y));
-        }
-        let (left, right) = (g.inner_product(&cross, &cross), g.inner_product(&e[3..], &e[3..]));
-        let defect = g.formula(left - right);
-        assert!(!g.zero_test(defect).is_zero());
-        assert!(manifold.zero_test(&mut g, defect).is_zero());
-        assert!(manifold.zero_test(&mut g, left).is_nonzero());
-    }
-
-    #[test]
-    fn rotation_matrices() {
-        let mut g = Graph::new();
-        let names: Vec<String> = (0..9).map(|i| format!("R{i}")).collect();
-        let all = symbols(&mut g, &names.iter().map(String::as_str).collect::<Vec<_>>());
-        let e: Vec<ExprId> = all.iter().map(|s| g.symbol(*s)).collect();
-        let column = |j: usize| [e[j], e[3 + j], e[6 + j]];
-        let one = g.one();
-        let mut identities = Vec::new();
-        for i in 0..3 {
-            for j in i..3 {
-                let product = g.inner_product(&column(i), &column(j));
-                identities.push(if i == j { g.formula(product - one) } else { product });
+/// The indices of functions, in groups that share no unknown with each other.
+fn apart(graph: &Graph, functions: &[ExprId], unknowns: &[SymbolId]) -> Vec<Vec<usize>> {
+    let mut groups: Vec<(Vec<usize>, Vec<SymbolId>)> = Vec::new();
+    for (index, function) in functions.iter().enumerate() {
+        let mut joined = (vec![index], graph.symbols_in(&[*function]));
+        joined.1.retain(|symbol| unknowns.contains(symbol));
+        groups.retain_mut(|(indices, symbols)| {
+            let is_near = symbols.iter().any(|symbol| joined.1.contains(symbol));
+            if is_near {
+                joined.0.append(indices);
+                joined.1.append(symbols);
             }
-        }
-        let manifold = Manifold::where_zero(&mut g, &identities, &all).unwrap();
-        // the determinant is 1
-        let matrix: Matrix = e.chunks(3).map(<[ExprId]>::to_vec).collect();
-        let determinant = g.small_determinant(&matrix);
-        let defect = g.formula(determinant - one);
-        assert!(manifold.zero_test(&mut g, defect).is_zero());
+            !is_near
+        });
+        joined.0.sort_unstable();
+        groups.push(joined);
     }
-
-    #[test]
-    fn constant_speed() {
-        let mut g = Graph::new();
-        let all = symbols(&mut g, &["x", "y", "c"]);
-        let e: Vec<ExprId> = all.iter().map(|s| g.symbol(*s)).collect();
-        let (speed, c) = (g.inner_product(&e[..2], &e[..2]), g.square(e[2]));
-        let function = g.formula(speed - c);
-        let manifold = Manifold::where_zero(&mut g, &[function], &all[..2]).unwrap();
-        assert!(manifold.zero_test(&mut g, function).is_zero());
-    }
+    groups.into_iter().map(|(indices, _)| indices).collect()
 }
+
+#[cfg(test)]
+mod manifold_tests;

@@ -9,7 +9,7 @@ use crate::id::{CoordId, ExprId, Id, SymbolId};
 const DIFFERENTIATED: u64 = 400;
 
 /// The coordinates that do not occur in L, ρ, C, the forces and `more` (the constraints, identities
-/// of the base, arguments of methods): their equations are quadratures (mathematics section 5).
+/// of the base, position constraints, arguments of methods): their equations are quadratures (mathematics section 5).
 pub fn cyclic_coordinates(graph: &mut Graph, system: &LagrangianSystem, more: &[ExprId]) -> Vec<CoordId> {
     let algebroid = &system.algebroid;
     let mut functions = vec![system.lagrangian];

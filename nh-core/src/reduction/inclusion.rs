@@ -41,6 +41,21 @@ pub(super) fn places(source: &mut Side, target: &Side, map: &BundleMap) -> Optio
     if !(is_whole(source) && is_whole(target)) || source.rank() >= target.rank() {
         return None;
     }
+    same_variables(source, target, map).into_iter().collect()
+}
+
+/// A variable of the source's state that is none of the target's, where the source has fewer velocities, as a mode has.
+pub(super) fn stranger(source: &mut Side, target: &Side, map: &BundleMap) -> Option<String> {
+    if source.rank() >= target.rank() {
+        return None;
+    }
+    let index = same_variables(source, target, map).iter().position(Option::is_none)?;
+    let symbol = source.state[index];
+    Some(source.graph().symbols()[symbol].clone())
+}
+
+/// For each variable of the source's state, the variable of the target's that is the same.
+fn same_variables(source: &mut Side, target: &Side, map: &BundleMap) -> Vec<Option<usize>> {
     let images = images(source, target, map);
     let symbols: Vec<Option<SymbolId>> =
         images.iter().map(|image| source.graph().as_symbol(*image)).collect();

@@ -2,6 +2,7 @@
 
 use super::assuming;
 use super::bundle_map::BundleMap;
+use super::inclusion;
 use super::side::Side;
 use crate::algebra::{Derivation, Matrix, Verdict};
 use crate::check::evidence::{name_of, not_zero, shown};
@@ -245,11 +246,21 @@ fn onto(source: &mut Side, target: &Side, map: &BundleMap) -> Vec<Violation> {
         Ok(rank) => format!("the rank of the map is {rank}, that of `{}` is {wanted}", target.name()),
         Err(why) => why,
     };
+    let way_out = match inclusion::stranger(source, target, map) {
+        Some(variable) => {
+            let (own, larger) = (source.name(), target.name());
+            format!(
+                "`{own}` has fewer velocities, as a mode of `{larger}` has: then each variable of its state has to be one \
+                 of `{larger}`'s, and `{variable}` is none"
+            )
+        }
+        None => "give velocities that are linearly independent".into(),
+    };
     vec![Violation {
         law: Law::Morphism,
         origin: map.origin,
         what: "the map is not onto on the fibres: some velocities are never reached".into(),
         evidence,
-        way_out: "give velocities that are linearly independent".into(),
+        way_out,
     }]
 }

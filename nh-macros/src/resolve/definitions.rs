@@ -261,23 +261,32 @@ impl Resolver {
             let what = format!("`{name}` has more than {} entries", limits::FAMILY);
             return Err(self.report(*definition, Diagnostic::new(definition.extent, what)));
         }
-        let lengths: Vec<u32> = lengths.iter().filter_map(|length| u32::try_from(*length).ok()).collect();
-        let shape = Shape::of(&lengths);
+        let counts: Vec<u32> = lengths.iter().filter_map(|length| u32::try_from(*length).ok()).collect();
+        let shape = Shape::of(&counts);
         if let Some(missing) = (0..count).find(|k| !entries.contains_key(&shape.indices(*k))) {
             let missing = shape.entry_name(name, missing);
+            let way_out = match *lengths {
+                // `n[2] = [a, b];`, as lists of names declare a family of two
+                [rows, columns]
+                    if rows == columns + 1 && entries.keys().all(|at| at.first() == Some(&columns)) =>
+                {
+                    format!("write `{name} = …;` for a vector: `{name}[{columns}]` is one entry")
+                }
+                _ => format!("add `{missing} = …;`"),
+            };
             let error = if entries.is_empty() {
                 Diagnostic::new(definition.extent, format!("`{name}` has no entries")).way_out("leave it out")
             } else {
                 Diagnostic::new(definition.extent, format!("`{missing}` is not defined"))
                     .evidence(format!("other entries of `{name}` are, and indices count from 0"))
-                    .way_out(format!("add `{missing} = …;`"))
+                    .way_out(way_out)
             };
             return Err(self.report(*definition, error));
         }
         Ok(Defined {
             name: &definition.name,
             extent: definition.extent,
-            lengths,
+            lengths: counts,
             entries: entries.values().copied().collect(),
             docs: definition.docs.clone(),
         })

@@ -128,6 +128,8 @@ where
     let mut after = *state;
     let mut impulses = [zero; R];
     let mut lost = zero;
+    // the rates of the rows that the last jump has met
+    let mut met = [None; R];
     for jump in 0..=MOST_JUMPS {
         let rows = impact.rows(system, t, &after);
         let are_finite = |index: usize| {
@@ -147,6 +149,12 @@ where
             });
             ScalarOf::<S>::from_f64(256.0) * ScalarOf::<S>::EPSILON * own * moved
         };
+        // a jump meets its rows at once: what it has left of them and no longer halves is round-off of the velocities,
+        // however small the impulses are
+        let is_left = |index: usize, s: ScalarOf<S>| {
+            let before: Option<ScalarOf<S>> = met.get(index).copied().flatten();
+            before.is_some_and(|before| s.abs() + s.abs() >= before.abs())
+        };
         let mut present = [false; R];
         let mut is_over = true;
         let mut pushes = bilateral.iter().all(|is| *is) || resting.is_some();
@@ -159,8 +167,8 @@ where
             *present = gap.is_none_or(|gap| (is_seen || gap <= closed.max(rounding)) && *s <= zero);
             pushes |= gap.is_some() && *present;
             is_over &= match gap {
-                None => s.abs() <= speed(index),
-                Some(_) => !*present || -*s <= speed(index),
+                None => s.abs() <= speed(index) || is_left(index, *s),
+                Some(_) => !*present || -*s <= speed(index) || is_left(index, *s),
             };
         }
         if !pushes || jump > 0 && (is_over || bilateral.iter().all(|is| *is)) {
@@ -172,6 +180,9 @@ where
         }
         let mut offset = rows.approach;
         offset.iter_mut().zip(&coefficients).for_each(|(s, e)| *s *= one + *e);
+        for ((met, s), present) in met.iter_mut().zip(&rows.approach).zip(&present) {
+            *met = present.then_some(*s);
+        }
         let problem = Problem { mobility: &rows.mobility, offset, present, bilateral };
         let found =
             problem.solve().map_err(|Dependent(index)| ImpactError::Dependent { row: row(index), time })?;

@@ -428,3 +428,27 @@ fn no_zeros_are_told_of_what_has_none() {
         &["2*x + 2 != 0", "exp(x) - x != 0"],
     )]);
 }
+
+/// A translation that leaves the rates of position constraints as they are, and not the positions, is none of the machine.
+#[test]
+fn what_position_constraints_tie_is_not_cyclic() {
+    check(&[
+        (
+            "base { x, y, theta } holonomic { pin: [x, y] - l * [sin(theta), -cos(theta)] = 0; }
+             lagrangian { kinetic(m, J, [x, y], theta) - m * g * y }",
+            "m: f64, J: f64, l: f64, g: f64",
+            &["position constraints: 2"],
+            &["cyclic", "translations along"],
+        ),
+        (
+            "base { sun, carrier, ring, planet, z } holonomic {
+                 outer: rs * sun + rp * planet = (rs + rp) * carrier;
+                 inner: (rs + 2 * rp) * ring - rp * planet = (rs + rp) * carrier;
+             }
+             lagrangian { J / 2 * (der(sun)^2 + der(carrier)^2 + der(ring)^2 + der(planet)^2 + der(z)^2) }",
+            "J: f64, rs: f64, rp: f64",
+            &["cyclic coordinates, each left to a quadrature: z; horizontal symmetries: z"],
+            &["quadrature: sun", "momentum equations of rank 2"],
+        ),
+    ]);
+}

@@ -9,6 +9,12 @@ const RIGHT: &str = r"
  holonomic { cross: p = l/2*along(a); roller: p[1] - l/2*sin(b) = 0; hinge: q = p + l/2*along(b); slide: dot(l*along(a) - q, [-sin(c), cos(c)]) = 0; }
  lagrangian { kinetic(m, J, l/2*along(a), a) + kinetic(m, J, p, b) + kinetic(M, K, load, c) - m*g*p[1] - M*g*load[1] })]
 struct ScissorLift { l: f64, m: f64, J: f64, M: f64, K: f64, e: f64, f: f64, g: f64 }
+#[nonholonomic(base { x, y, theta, c[3] } let e(z) = [cos(z), sin(z)];
+ let wheel[k in 0..3] = [x, y] + b*e(theta + 2*pi*k/3) - d*e(theta + c[k]);
+ constraints { for k in 0..3 { across: dot(der(wheel[k]), [-sin(theta + c[k]), cos(theta + c[k])]) = 0; } }
+ lagrangian { kinetic(m, J, [x, y] + a*e(theta), theta) + K/2*dot(der(c), der(c)) } assume { d > 0; m > 0; J > 0; K > 0; }
+ emit { splitting })]
+struct Casters { m: f64, J: f64, K: f64, a: f64, b: f64, d: f64 }
 #[nonholonomic(base { x, y, z } holonomic { flat: y = 0; b: l*(sin(x) - sin(z)) = 0; } lagrangian { m/2*(der(x)^2+der(y)^2+der(z)^2) })]
 struct LengthAsFactor { l: f64, m: f64 }
 #[nonholonomic(base { a } let p = l2 * sin(a); let q = l1 - l2 * cos(a); let r2 = p^2 + q^2;
@@ -142,7 +148,7 @@ struct ExpOfHalves { m: f64, k: f64 }
 #[test]
 fn right_declarations_are_accepted() {
     let found = declarations(RIGHT);
-    assert_eq!(found.len(), 58);
+    assert_eq!(found.len(), 59);
     let mut refused = Vec::new();
     for declaration in found {
         let errors = errors(&declaration.expanded());

@@ -59,7 +59,8 @@ fn products_with_vectors_cost_a_few_derivatives() {
     assert!(worst[1].0 <= 4.0, "{worst:?}");
 }
 
-/// A matrix has as many columns as the state has variables, most of which share their work.
+/// A matrix has as many columns as the state has variables, most of which share their work. The worst is where the
+/// derivative is shortest for what it is: halves and doubles that went into its sums made it 2 % shorter, and the matrix not.
 #[test]
 fn jacobians_of_few_velocities_cost_a_few_derivatives() {
     let mut worst = (0.0_f64, String::new());
@@ -72,7 +73,7 @@ fn jacobians_of_few_velocities_cost_a_few_derivatives() {
         }
     }
     println!("{worst:?}");
-    assert!(worst.0 <= 4.2, "{worst:?}");
+    assert!(worst.0 <= 4.26, "{worst:?}");
 }
 
 /// Every product was proved, and so was every Jacobian.

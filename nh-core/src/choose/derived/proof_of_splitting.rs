@@ -6,7 +6,7 @@ use super::place::{Place, is_regular_on, rank, spans};
 use super::procedure_derivative::solved;
 use super::{GyroscopicForm, SplittingForm};
 use crate::algebra::{Direction, Dual, Echelon, Residue, TangentPass};
-use crate::id::Id;
+use crate::id::{CoordId, Id};
 use crate::mechanics::Procedure;
 
 /// Rows of so many entries each.
@@ -15,23 +15,31 @@ fn rows(place: &Place, procedure: Option<&Procedure>, width: usize) -> Result<Ve
     Ok(place.run(procedure)?.chunks(width.max(1)).map(<[Residue]>::to_vec).collect())
 }
 
-/// Whether S has its rank here, and the metric is regular on D and on S.
+/// Whether S has its rank here, D has lifts of the unit rates that are named, and the metric is regular on D and on S.
 pub(super) fn is_regular(place: &Place, form: &SplittingForm) -> Result<bool, Defect> {
     let s = place.system().algebroid.rank().max(1);
     let distribution = place.distribution()?;
     let anchor = place.matrix(&place.system().algebroid.anchor.entries)?;
+    let rates_on_distribution = |coordinates: &[CoordId]| -> Vec<Vec<Residue>> {
+        let of_coordinate = |id: &CoordId| {
+            distribution.iter().map(|section| inner(&anchor[id.index()], section)).collect::<Vec<Residue>>()
+        };
+        coordinates.iter().map(of_coordinate).collect()
+    };
     // σ = Σ c_a B_a with ẋ = 0 over the coordinates
-    let over = form.over.iter().map(|id| {
-        distribution.iter().map(|section| inner(&anchor[id.index()], section)).collect::<Vec<Residue>>()
-    });
-    let kernel: Vec<Vec<Residue>> = Echelon::of(over.collect()).kernel(distribution.len()).collect();
+    let over = rates_on_distribution(form.over);
+    let kernel: Vec<Vec<Residue>> = Echelon::of(over).kernel(distribution.len()).collect();
     let section = |components: &Vec<Residue>| -> Vec<Residue> {
         let entry = |alpha: usize| distribution.iter().map(|section| section[alpha]).collect::<Vec<_>>();
         (0..s).map(|alpha| inner(components, &entry(alpha))).collect()
     };
     let shared: Vec<Vec<Residue>> = kernel.iter().map(section).collect();
+    // fewer coordinates than are left may have dependent rates at places where all together have not
+    let lifted = rates_on_distribution(form.coordinates);
+    let are_lifted = form.lifts.is_none() || form.is_embedded || rank(&lifted) == lifted.len();
     let mass = place.mass()?;
     Ok(shared.len() == form.vertical.map_or(0, |vertical| vertical.outputs.len() / s)
+        && are_lifted
         && is_regular_on(&mass, &distribution)
         && is_regular_on(&mass, &shared))
 }

@@ -104,6 +104,11 @@ fn coframes() {
             "`w[1]` is not defined\nother entries of `w` are, and indices count from 0\nhelp: add `w[1] = …;`",
         ),
         (
+            "base { x, y } velocities { w[2] = [der(x), der(y)]; } lagrangian { w[0]^2 }",
+            "`w[0][0]` is not defined\nother entries of `w` are, and indices count from 0\nhelp: write `w = …;` for a \
+             vector: `w[2]` is one entry",
+        ),
+        (
             "base { x, y } velocities { w[0] = der(x); w = der(y); } lagrangian { w[0]^2 }",
             "`w` has different numbers of indices\nhelp: define all of its entries in the same way",
         ),
