@@ -54,6 +54,8 @@ pub(super) struct Shared {
     pub(super) states: Vec<State>,
     /// Functions that were called.
     pub(super) called: BTreeSet<usize>,
+    /// What was said already of what lines contain.
+    pub(super) told: BTreeSet<String>,
     /// The values of functions that were called with these arguments.
     pub(super) values: BTreeMap<(usize, Vec<Array>), Option<Known>>,
     /// The functions whose values are read, the outermost first.

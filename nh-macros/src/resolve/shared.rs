@@ -206,9 +206,10 @@ impl Resolver {
             }
             if let Err(error) = self.context.check(*usage, written, at.extent()) {
                 let way: Vec<String> = path.iter().map(|name| format!("`{name}`")).collect();
-                return Err(
-                    self.report(at, error.because(format!("it is in {}", way.join(", which needs "))))
-                );
+                let error = error.because(format!("it is in {}", way.join(", which needs ")));
+                // at the first of its uses in a section
+                let is_new = self.shared.told.insert(error.to_string());
+                return Err(if is_new { self.report(at, error) } else { Reported });
             }
         }
         Ok(())

@@ -84,6 +84,10 @@ fn a_section_is_told_what_it_cannot_take() {
             "`abs` cannot be used in `lagrangian`\nit is in `f`\n`abs` has no derivative",
         ),
         (
+            "let f(z) = max(z, 0); base { x, y } lagrangian { m * (der(x)^2 + der(y)^2) - f(x) - f(y) - f(x + y) }",
+            "`max` cannot be used in `lagrangian`\nit is in `f`\n`max` has no derivative",
+        ),
+        (
             "let k = 2; constants { l = k; } base { x } lagrangian { m * der(x)^2 }",
             "the `let` `k` cannot be used in `constants`",
         ),
