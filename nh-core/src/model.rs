@@ -92,7 +92,7 @@ pub struct Model {
     /// The state variables and observables that are needed (`track`); all of them if not given.
     pub tracked: Option<Vec<(TrackedItem, Origin)>>,
     /// The variables of the state that a linearisation keeps (`linearization`); the independent ones if none is named.
-    pub linearization: Option<Vec<(SymbolId, Origin)>>,
+    pub linearization: Option<Kept>,
     /// The velocities that the user wants the adapted state to keep.
     pub independent: Option<Vec<(SymbolId, Origin)>>,
     /// The base coordinates that the user names as independent: a chart of N.
@@ -280,6 +280,15 @@ pub struct FrameDecl {
     /// The combination, with the velocity symbol of a section standing for the section.
     pub value: ExprId,
     /// Where it stands.
+    pub origin: Origin,
+}
+
+/// What a linearisation keeps (`linearization`).
+#[derive(Clone, Debug)]
+pub struct Kept {
+    /// The variables of the state that are named.
+    pub variables: Vec<(SymbolId, Origin)>,
+    /// Where the section is.
     pub origin: Origin,
 }
 

@@ -4,7 +4,7 @@ use super::proved::fence;
 use crate::functions::RESIDUAL;
 use crate::id::{Origin, SymbolId};
 use crate::mechanics::{NotDifferentiable, Procedure, jacobian};
-use crate::model::{Formulation, Kinematics};
+use crate::model::{Formulation, Kept, Kinematics};
 use crate::system::{Linearization, System};
 use crate::violation::{Law, Violation};
 
@@ -15,8 +15,8 @@ use crate::violation::{Law, Violation};
 /// Where something is kept that is not in the state, or a method of the user's has no derivative; where nothing is named
 /// and the independent variables are not known.
 pub(super) fn derive(system: &mut System) -> Result<(), Vec<Violation>> {
-    let Some(named) = system.model.linearization.clone() else { return Ok(()) };
-    let named = if named.is_empty() { independent_variables(system)? } else { named };
+    let Some(Kept { variables, origin }) = system.model.linearization.clone() else { return Ok(()) };
+    let named = if variables.is_empty() { independent_variables(system, origin)? } else { variables };
     let state = system.state();
     let mut kept = Vec::with_capacity(named.len());
     let mut refused = Vec::new();
@@ -39,10 +39,13 @@ pub(super) fn derive(system: &mut System) -> Result<(), Vec<Violation>> {
 
 /// The coordinates and velocities that the declaration names as independent, or leaves all of them independent, and the
 /// auxiliary states.
-fn independent_variables(system: &System) -> Result<Vec<(SymbolId, Origin)>, Vec<Violation>> {
+fn independent_variables(
+    system: &System,
+    section: Origin,
+) -> Result<Vec<(SymbolId, Origin)>, Vec<Violation>> {
     let model = &system.model;
     let chart = model.chart.as_ref();
-    let origin = chart.and_then(|named| named.first()).map_or(model.origin, |(_, origin)| *origin);
+    let origin = chart.and_then(|named| named.first()).map_or(section, |(_, origin)| *origin);
     let open = |what: &str, way_out: &str| Violation {
         law: Law::Linearization,
         origin,

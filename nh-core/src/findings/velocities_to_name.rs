@@ -36,7 +36,7 @@ fn kept(model: &Model) -> Vec<SectionId> {
         TrackedItem::Variable(symbol) => Some(*symbol),
         TrackedItem::Output(_) => None,
     });
-    let linearised = model.linearization.iter().flatten().map(|(symbol, _)| *symbol);
+    let linearised = model.linearization.iter().flat_map(|kept| &kept.variables).map(|(symbol, _)| *symbol);
     let named: Vec<SymbolId> = tracked.chain(linearised).collect();
     model.sections.ids().filter(|id| named.contains(&model.sections[*id].symbol)).collect()
 }

@@ -1,6 +1,7 @@
 //! What a linearisation keeps: variables of the state.
 
 use nonholonomic_core::id::{Origin, SymbolId};
+use nonholonomic_core::model::Kept;
 
 use super::resolver::Resolver;
 use super::track::STATE;
@@ -10,17 +11,15 @@ use crate::syntax::ast::{Section, Velocity};
 impl Resolver {
     /// The kept variables, each once; a family stands for its entries. None where nothing is said of them: then the
     /// independent ones are kept.
-    pub(super) fn linearization(
-        &mut self,
-        section: &Section<Option<Vec<Velocity>>>,
-    ) -> Vec<(SymbolId, Origin)> {
-        let Some(listed) = &section.body else { return Vec::new() };
+    pub(super) fn linearization(&mut self, section: &Section<Option<Vec<Velocity>>>) -> Kept {
+        let origin = self.origin(section.keyword.extent());
+        let Some(listed) = &section.body else { return Kept { variables: Vec::new(), origin } };
         if listed.is_empty() {
             let error = Diagnostic::new(section.keyword.extent(), "the linearisation keeps nothing")
                 .way_out("name variables of the state: `linearization { keep: x, der(x); }`");
             self.report(section, error);
         }
-        let mut found: Vec<(SymbolId, Origin)> = Vec::new();
+        let mut variables: Vec<(SymbolId, Origin)> = Vec::new();
         for named in listed {
             let (symbols, extent) = match named {
                 Velocity::Named(place) => (self.variables_of_state(place), place.extent),
@@ -40,13 +39,13 @@ impl Resolver {
             let Ok(symbols) = symbols else { continue };
             let origin = self.origin(extent);
             for symbol in symbols {
-                if found.iter().any(|(known, _)| *known == symbol) {
+                if variables.iter().any(|(known, _)| *known == symbol) {
                     self.report(named, Diagnostic::new(extent, "this is kept already"));
                 } else {
-                    found.push((symbol, origin));
+                    variables.push((symbol, origin));
                 }
             }
         }
-        found
+        Kept { variables, origin }
     }
 }

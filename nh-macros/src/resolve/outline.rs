@@ -73,7 +73,7 @@ impl Outline {
             identities: model.identities.len().min(MOST),
             velocities: kept(model).len(),
             has_positions: !model.positions.is_empty(),
-            kept: model.linearization.as_ref().map(|named| linearized(model, named)),
+            kept: model.linearization.as_ref().map(|kept| linearized(model, &kept.variables)),
             impacts: model.impacts.iter().map(|impact| outlined(model, impact)).collect(),
             claims_section: model.hamilton_jacobi.is_some(),
         }
