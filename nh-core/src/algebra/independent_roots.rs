@@ -83,23 +83,43 @@ impl Seen {
     }
 }
 
+/// Radicands that are those before them, written with names of intermediate results.
+struct Others {
+    /// Which of them each is.
+    same: Vec<Option<usize>>,
+    points: u32,
+}
+
+impl Others {
+    /// Takes note of values at a point; whether each is that of the radicand that it was at the points before.
+    fn take(&mut self, values: &[Residue], known: &[Residue]) -> bool {
+        self.points += 1;
+        self.same.iter_mut().zip(values).all(|(same, value)| {
+            let place = known.iter().position(|known| known == value);
+            place.is_some() && *same.get_or_insert(place.unwrap_or_default()) == place.unwrap_or_default()
+        })
+    }
+}
+
 impl Graph {
     /// The square roots in expressions, if they are proved to be independent as functions of symbols none of which is
-    /// `bound` to others, and nothing else there has branches.
+    /// `bound` to others, and nothing else there has branches. What is bound has to be one of these written otherwise: it
+    /// is given its values at a point, where they are known.
     pub(crate) fn independent_roots<'a>(
         &self,
         roots: &[ExprId],
         bound: &[SymbolId],
         pass: impl Fn(FieldPoint) -> FieldPass<'a>,
+        values_of_bound: impl Fn(FieldPoint, &[ExprId]) -> Option<Vec<Residue>>,
     ) -> Option<IndependentRoots> {
         let radicands = self.square_radicands(roots)?;
         let is_free = |radicand: &ExprId| bound.is_empty() || !self.depends_on(*radicand, bound);
-        if !radicands.iter().all(is_free) {
-            return None;
-        }
+        let (radicands, others): (Vec<ExprId>, Vec<ExprId>) = radicands.into_iter().partition(is_free);
+        let mut known_by_others = Others { same: vec![None; others.len()], points: 0 };
         let mut seen = vec![Seen::default(); radicands.len()];
         for seed in FIRST_SEED..FIRST_SEED + (TRIALS << radicands.len().min(MOST)) {
-            let mut pass = pass(FieldPoint::random(seed));
+            let point = FieldPoint::random(seed);
+            let mut pass = pass(point.clone());
             let mut values: Vec<Residue> = Vec::with_capacity(radicands.len());
             for (radicand, seen) in radicands.iter().zip(&mut seen) {
                 let Ok(value) = pass.evaluate_one(*radicand) else { break };
@@ -113,8 +133,17 @@ impl Graph {
             if seen.iter().any(Seen::is_hopeless) {
                 return None;
             }
+            let is_wanted = !others.is_empty() && known_by_others.points < POINTS_OF_EQUALS;
+            if is_wanted
+                && values.len() == radicands.len()
+                && let Some(of_others) = values_of_bound(point, &others)
+                && !known_by_others.take(&of_others, &values)
+            {
+                return None;
+            }
+            let is_open = !others.is_empty() && known_by_others.points < POINTS_OF_EQUALS;
             let distinct = seen.iter().filter(|seen| seen.same.is_none()).count();
-            if seen.iter().all(Seen::is_enough) && distinct <= MOST {
+            if !is_open && seen.iter().all(Seen::is_enough) && distinct <= MOST {
                 return Some(IndependentRoots { radicands, distinct });
             }
         }
@@ -214,8 +243,27 @@ mod tests {
     use crate::algebra::Rational;
 
     fn are_independent(graph: &Graph, roots: &[ExprId]) -> bool {
-        let found = graph.independent_roots(roots, &[], |point| FieldPass::new(graph, point, 1));
+        let found = graph.independent_roots(roots, &[], |point| FieldPass::new(graph, point, 1), |_, _| None);
         found.is_some_and(|found| !found.radicands.is_empty())
+    }
+
+    /// The root of an intermediate result is no further one where that is what another root is taken of.
+    #[test]
+    fn intermediate_results_are_recognised() {
+        let mut g = Graph::new();
+        let [x, bound] = ["x", "s"].map(|name| g.new_symbol(name));
+        let [x, name] = [x, bound].map(|symbol| g.symbol(symbol));
+        let (one, xx) = (g.one(), g.square(x));
+        let (radicand, further) = (g.formula(xx + one), g.formula(xx + one + one));
+        let roots = [radicand, name].map(|radicand| g.sqrt(radicand));
+        let pass = |point| FieldPass::new(&g, point, 1);
+        let found = |meant: ExprId| {
+            let values = |point, _: &[ExprId]| Some(vec![pass(point).evaluate_one(meant).ok()?]);
+            g.independent_roots(&roots, &[bound], pass, values).map(|roots| roots.bits())
+        };
+        assert_eq!(found(radicand), Some(2.0));
+        assert_eq!(found(further), None);
+        assert!(g.independent_roots(&roots, &[bound], pass, |_, _| None).is_none());
     }
 
     #[test]
@@ -257,6 +305,9 @@ mod tests {
         assert!(!are_independent(&g, &[nested]) && are_independent(&g, &[beside]));
         // a symbol that is bound to others may make a square of anything
         let symbols = g.symbols_in(&[y]).into_iter().collect::<Vec<_>>();
-        assert!(g.independent_roots(&[first], &symbols, |point| FieldPass::new(&g, point, 1)).is_none());
+        assert!(
+            g.independent_roots(&[first], &symbols, |point| FieldPass::new(&g, point, 1), |_, _| None)
+                .is_none()
+        );
     }
 }

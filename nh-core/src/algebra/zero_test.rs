@@ -269,7 +269,8 @@ impl Graph {
         let roots = [expression];
         let division = self.angle_division(&roots);
         let pass = |point| FieldPass::new(self, point, division);
-        self.independent_roots(&roots, &[], pass).is_some_and(|found| !found.radicands.is_empty())
+        self.independent_roots(&roots, &[], pass, |_, _| None)
+            .is_some_and(|found| !found.radicands.is_empty())
     }
 
     /// Whether the expression has a value at one of the points tried of the field, or may have one elsewhere.

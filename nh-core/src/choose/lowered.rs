@@ -89,7 +89,8 @@ fn proved_with(
         }
     };
     let has_branches = has_branches(graph, &roots);
-    let independent = if has_branches { graph.independent_roots(&roots, &bound, pass) } else { None };
+    let independent =
+        if has_branches { graph.independent_roots(&roots, &bound, pass, |_, _| None) } else { None };
     let known = independent.as_ref().map_or_else(Vec::new, |roots| roots.radicands.clone());
     let bits = if has_branches { with_branches(bits, independent.as_ref()) } else { bits };
     let mut divisions: Vec<Divisions> = Vec::new();

@@ -13,6 +13,7 @@ use crate::algebra::{
 };
 use crate::id::{ExprId, SymbolId};
 use crate::mechanics::{Definition, Procedure, ReducedEquations};
+use rustc_hash::FxHashSet;
 use std::fmt;
 
 /// The probability that something wrong passes is below 2 to the power of minus this.
@@ -85,6 +86,15 @@ impl Claim<'_> {
         }
     }
 
+    /// What it runs.
+    fn procedures(&self) -> Vec<&Procedure> {
+        match self {
+            Self::Motion(motion) => vec![*motion],
+            Self::Equations(equations, _) => vec![&equations.definitions],
+            Self::Multipliers(motion, forces, _) | Self::Reactions(motion, forces) => vec![*motion, *forces],
+        }
+    }
+
     /// The symbols of its intermediate results.
     fn defined(&self) -> Vec<SymbolId> {
         match self {
@@ -123,7 +133,13 @@ pub(crate) fn prove(graph: &Graph, reference: &Reference, claim: &Claim) -> Resu
     let division = graph.angle_division(&roots);
     let degree = claim.degree(&mut Degrees::new(graph, division));
     let bound = [reference.determined(), claim.defined()].concat();
-    let bits = bits_of_a_point(graph, (&roots, &bound), reference.degree(graph, division, degree), division)?;
+    let bits = bits_of_a_point(
+        graph,
+        (&roots, &bound),
+        &claim.procedures(),
+        reference.degree(graph, division, degree),
+        division,
+    )?;
     let radicands = Radicands::of(graph, &reference.roots(), &reference.determined());
     let outcome = at_points(
         bits,
@@ -146,7 +162,7 @@ pub(crate) fn prove_equal(graph: &Graph, one: &Procedure, other: &Procedure) -> 
     let degrees = || Degrees::new(graph, division);
     let bound = [defined(one), defined(other)].concat();
     let degree = one.degree(&mut degrees()) + other.degree(&mut degrees());
-    let bits = bits_of_a_point(graph, (&roots, &bound), degree, division)?;
+    let bits = bits_of_a_point(graph, (&roots, &bound), &[one, other], degree, division)?;
     at_points(bits, FieldPoint::random, |point| {
         let evaluate = |procedure| run(&mut FieldPass::new(graph, point.clone(), division), procedure);
         if evaluate(one)? == evaluate(other)? {
@@ -161,6 +177,7 @@ pub(crate) fn prove_equal(graph: &Graph, one: &Procedure, other: &Procedure) -> 
 pub(super) fn bits_of_a_point(
     graph: &Graph,
     (roots, bound): (&[ExprId], &[SymbolId]),
+    procedures: &[&Procedure],
     degree: f64,
     division: i64,
 ) -> Result<f64, Defect> {
@@ -169,7 +186,32 @@ pub(super) fn bits_of_a_point(
         return Ok(bits);
     }
     let pass = |point| FieldPass::new(graph, point, division);
-    Ok(with_branches(bits, graph.independent_roots(roots, bound, pass).as_ref()))
+    let values_of_bound = |point: FieldPoint, radicands: &[ExprId]| {
+        values_in(graph, (procedures, bound), (&point, division), radicands)
+    };
+    Ok(with_branches(bits, graph.independent_roots(roots, bound, pass, values_of_bound).as_ref()))
+}
+
+/// The values of expressions in intermediate results of procedures, each of the first that knows what is in it.
+fn values_in(
+    graph: &Graph,
+    (procedures, bound): (&[&Procedure], &[SymbolId]),
+    (point, division): (&FieldPoint, i64),
+    expressions: &[ExprId],
+) -> Option<Vec<Residue>> {
+    let mut values = vec![None; expressions.len()];
+    for procedure in procedures {
+        let own: FxHashSet<SymbolId> = defined(procedure).into_iter().collect();
+        let unknown: Vec<SymbolId> = bound.iter().copied().filter(|symbol| !own.contains(symbol)).collect();
+        let mut pass = FieldPass::new(graph, point.clone(), division);
+        run(&mut pass, procedure).ok()?;
+        for (value, expression) in values.iter_mut().zip(expressions) {
+            if value.is_none() && !graph.depends_on(*expression, &unknown) {
+                *value = Some(pass.evaluate_one(*expression).ok()?);
+            }
+        }
+    }
+    values.into_iter().collect()
 }
 
 /// The same without regard to roots.

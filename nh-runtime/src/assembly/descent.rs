@@ -9,6 +9,9 @@ use crate::{D, Real, Scalar, StateFault, rounding};
 
 /// The iterations after which an assembly is given up.
 const MOST_ITERATIONS: u32 = 200;
+/// So many full steps near a solution that are hardly smaller than the one before are rounding: even near a double solution
+/// each is half of that.
+const LEVEL_STEPS: u32 = 3;
 /// Where along a step rounding is looked at, in roots of the rounding unit.
 const NEAR: [f64; 4] = [1.0, 0.8, 0.6, 0.35];
 /// A step is halved so often at most.
@@ -49,6 +52,7 @@ pub(crate) fn descend<T: Real, const N: usize, const M: usize>(
         settle(&trial).filter(all_finite::<T, _>)
     };
     let (mut sizes, mut last_share, mut was_full) = (present.map(Scalar::abs), None, false);
+    let mut level_steps = 0;
     // what the solution of the linear equations leaves of those that hold
     let mut floors = [T::ZERO; M];
     let independent = |mut left: [T; M]| {
@@ -75,7 +79,12 @@ pub(crate) fn descend<T: Real, const N: usize, const M: usize>(
         // beside the terms of the equations, and where these are nothing but rounding themselves, beside what they come to
         let share = asked.share(&here, &sizes, &floors);
         let still_falls = last_share.is_none_or(|last: T| share <= half * last);
+        let is_level = was_full
+            && share <= T::EPSILON.sqrt()
+            && last_share.is_some_and(|last| share > T::from_f64(0.75) * last);
+        level_steps = if is_level { level_steps + 1 } else { 0 };
         let is_settled = share <= T::from_f64(8.0) * T::EPSILON
+            || level_steps >= LEVEL_STEPS
             || (!still_falls && is_noise(moved(&present, &change, T::ONE), &change, &here.0));
         // so near a regular solution a step that does not take the residuals away meets their rounding
         let is_near = was_full && share <= T::EPSILON.sqrt();

@@ -49,7 +49,7 @@ use nonholonomic_core::model::Model;
 use nonholonomic_core::system::System;
 use proc_macro2::TokenStream;
 use quote::quote;
-pub use record::{arms, record, references, whole_record};
+pub use record::{arms, bicycle, record, references, whole_record};
 pub use relations::{Relation, relations};
 pub use tokens::{constant, errors, length};
 

@@ -142,6 +142,23 @@ fn of_model(model: &str, source: &str) -> Text {
     Text { attribute: format!("{sections}{more}"), item: format!("struct{fields}}}") }
 }
 
+/// The benchmark bicycle by its geometry, with further sections.
+///
+/// # Panics
+/// If `tests/models` declares it no longer.
+#[must_use]
+pub fn bicycle(more: &str) -> Declaration {
+    let models = include_str!("../../models/src/lib.rs");
+    let (_, rule) = models.split_once("macro_rules! bicycle {").expect("the bicycle");
+    let (_, rest) = rule.split_once("nonholonomic(").expect("a declaration");
+    let (sections, rest) = rest.split_once("$($sections)*").expect("the end of its sections");
+    let (_, fields) = rest.split_once('{').expect("its fields");
+    let (fields, _) = fields.split_once("$(").expect("the end of its fields");
+    let fields = fields.replace("$t", "f64");
+    let source = format!("#[nonholonomic({sections} {more})] struct Bicycle {{ {fields} }}");
+    declarations(&source).into_iter().next().expect("one declaration")
+}
+
 /// A tractor with trailers in relative angles.
 fn tractor(trailers: usize) -> Text {
     let Text { attribute, item } = of_model("tractor", include_str!("../../bench/src/systems/tractor.rs"));

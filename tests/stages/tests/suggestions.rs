@@ -1,7 +1,7 @@
 //! Where the state keeps all velocities unasked, the report names some that would do: put into the declaration they are
 //! accepted, and what the report says of them comes true.
 
-use nh_stages::{Declaration, declarations};
+use nh_stages::{Declaration, bicycle, declarations};
 use nonholonomic_core::system::System;
 use proc_macro2::{TokenStream, TokenTree};
 use std::path::Path;
@@ -130,14 +130,7 @@ fn what_is_suggested_for_further_systems_is_accepted() {
 /// The benchmark bicycle, which rides straight ahead: what keeps it from falling, and its rear wheel.
 #[test]
 fn the_bicycle_keeps_lean_steer_and_the_rear_wheel() {
-    let models = include_str!("../../models/src/lib.rs");
-    let (_, rule) = models.split_once("macro_rules! bicycle {").expect("the bicycle");
-    let (_, rest) = rule.split_once("nonholonomic(").expect("a declaration");
-    let (sections, rest) = rest.split_once("$($sections)*").expect("the end of its sections");
-    let (_, fields) = rest.split_once('{').expect("its fields");
-    let (fields, _) = fields.split_once("$(").expect("the end of its fields");
-    let source = format!("#[nonholonomic({sections})] struct Bicycle {{ {} }}", fields.replace("$t", "f64"));
-    let [declaration] = declarations(&source).try_into().expect("one declaration");
+    let declaration = bicycle("");
     let system = unchosen(&declaration).system().expect("a bicycle");
     let line = line(&system).expect("a suggestion").to_owned();
     assert_eq!(

@@ -1,7 +1,7 @@
 //! What derivatives of the motion cost beside the motion: a law over the reference systems and the machines of the
 //! benchmark of record.
 
-use nh_stages::{Declaration, record, references};
+use nh_stages::{Declaration, bicycle, record, references};
 use nonholonomic_core::mechanics::Procedure;
 use nonholonomic_core::program::{Cost, schedule_grouping};
 use nonholonomic_core::system::{Side, System};
@@ -74,6 +74,14 @@ fn jacobians_of_few_velocities_cost_a_few_derivatives() {
     }
     println!("{worst:?}");
     assert!(worst.0 <= 4.26, "{worst:?}");
+}
+
+/// That of the benchmark bicycle as well, of ten thousand operations.
+#[test]
+fn long_jacobians_are_proved() {
+    let system = bicycle("emit { jacobian }").system().expect("a bicycle");
+    let decision = system.ledger.at("jacobian").expect("it was asked for");
+    assert!(decision.chosen().is_some(), "{}", system.ledger);
 }
 
 /// Every product was proved, and so was every Jacobian.

@@ -376,7 +376,7 @@ pub(crate) fn prove_derived(
     let degree = degree(graph, reference, division, (&procedures, &claim.further(), &values));
     let mut determined: Vec<SymbolId> = procedures.iter().flat_map(|procedure| defined(procedure)).collect();
     determined.extend(reference.determined().iter().chain(&solved));
-    let bits = bits_of_a_point(graph, (&roots, &determined), degree, division)?;
+    let bits = bits_of_a_point(graph, (&roots, &determined), &procedures, degree, division)?;
     let radicands = Radicands::of(graph, &roots, &determined);
     let at = |mut point: FieldPoint, images: Images| -> Result<Place, Defect> {
         let on = FieldPass::new(graph, point.clone(), division).evaluate(&values_of(images))?;

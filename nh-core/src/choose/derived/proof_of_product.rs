@@ -27,7 +27,7 @@ pub(crate) fn prove_product(
     // a derivative has at most three times the degree of its function
     let degree = terms * (3.0 * degree_of(function) + degree_of(procedure));
     let determined = [defined(function), defined(procedure)].concat();
-    let bits = bits_of_a_point(graph, (&roots, &determined), degree, division)?;
+    let bits = bits_of_a_point(graph, (&roots, &determined), &[function, procedure], degree, division)?;
     let radicands = Radicands::of(graph, &roots, &determined);
     let at = |point: FieldPoint| -> Result<(), Defect> {
         let pass = || FieldPass::new(graph, point.clone(), division);
