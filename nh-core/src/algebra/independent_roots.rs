@@ -91,12 +91,21 @@ struct Others {
 }
 
 impl Others {
+    fn of(count: usize) -> Self {
+        Self { same: vec![None; count], points: 0 }
+    }
+
+    /// Whether it is known of each.
+    fn is_known(&self) -> bool {
+        self.same.is_empty() || self.points >= POINTS_OF_EQUALS
+    }
+
     /// Takes note of values at a point; whether each is that of the radicand that it was at the points before.
     fn take(&mut self, values: &[Residue], known: &[Residue]) -> bool {
         self.points += 1;
         self.same.iter_mut().zip(values).all(|(same, value)| {
             let place = known.iter().position(|known| known == value);
-            place.is_some() && *same.get_or_insert(place.unwrap_or_default()) == place.unwrap_or_default()
+            place.is_some_and(|place| *same.get_or_insert(place) == place)
         })
     }
 }
@@ -115,7 +124,7 @@ impl Graph {
         let radicands = self.square_radicands(roots)?;
         let is_free = |radicand: &ExprId| bound.is_empty() || !self.depends_on(*radicand, bound);
         let (radicands, others): (Vec<ExprId>, Vec<ExprId>) = radicands.into_iter().partition(is_free);
-        let mut known_by_others = Others { same: vec![None; others.len()], points: 0 };
+        let mut written_otherwise = Others::of(others.len());
         let mut seen = vec![Seen::default(); radicands.len()];
         for seed in FIRST_SEED..FIRST_SEED + (TRIALS << radicands.len().min(MOST)) {
             let point = FieldPoint::random(seed);
@@ -133,17 +142,15 @@ impl Graph {
             if seen.iter().any(Seen::is_hopeless) {
                 return None;
             }
-            let is_wanted = !others.is_empty() && known_by_others.points < POINTS_OF_EQUALS;
-            if is_wanted
+            if !written_otherwise.is_known()
                 && values.len() == radicands.len()
                 && let Some(of_others) = values_of_bound(point, &others)
-                && !known_by_others.take(&of_others, &values)
+                && !written_otherwise.take(&of_others, &values)
             {
                 return None;
             }
-            let is_open = !others.is_empty() && known_by_others.points < POINTS_OF_EQUALS;
             let distinct = seen.iter().filter(|seen| seen.same.is_none()).count();
-            if !is_open && seen.iter().all(Seen::is_enough) && distinct <= MOST {
+            if written_otherwise.is_known() && seen.iter().all(Seen::is_enough) && distinct <= MOST {
                 return Some(IndependentRoots { radicands, distinct });
             }
         }

@@ -21,15 +21,7 @@ pub fn claims(
     for (index, claim) in claims.iter().enumerate() {
         let graph = &mut model.graph;
         let rate = flow.derivative(graph, *claim);
-        let verdict = manifold.zero_test(graph, rate);
-        let elsewhere = match &verdict {
-            Verdict::Unknown(_) => manifold.part_without_zero(graph, rate),
-            _ => None,
-        };
-        let (manifold, verdict) = match &elsewhere {
-            Some((part, witness)) => (part, Verdict::NonZero(witness.clone())),
-            None => (manifold, verdict),
-        };
+        let (manifold, verdict) = manifold.judged(graph, rate);
         let restricted = manifold.restrict(graph, rate);
         let mut verdict = graph.verdict_under(restricted, facts, verdict);
         if let (Verdict::NonZero(_), Some(function)) = (&verdict, unsolved.first()) {
@@ -47,7 +39,7 @@ pub fn claims(
                 not_conserved,
                 format!("its rate along the motion {}", not_zero(&model.graph, rate, witness)),
             ),
-            Verdict::NonZero(witness) => (not_conserved, on_manifold(&model.graph, rate, witness, manifold)),
+            Verdict::NonZero(witness) => (not_conserved, on_manifold(&model.graph, rate, witness, &manifold)),
             Verdict::Unknown(why) => (
                 format!("whether `{}` is conserved could not be decided", declared.name),
                 format!("its rate along the motion is {}: {why}", shown(&model.graph, rate)),

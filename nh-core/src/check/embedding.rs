@@ -118,18 +118,10 @@ fn left_by_anchor(
     for section in (0..model.sections.len()).map(SectionId::from_index) {
         let graph = &mut model.graph;
         let change = motion.anchor.along(section).apply(graph, identity.value);
-        let verdict = base.zero_test(graph, change);
+        let (part, verdict) = base.judged(graph, change);
         if verdict.is_zero() {
             continue;
         }
-        let elsewhere = match &verdict {
-            Verdict::Unknown(_) => base.part_without_zero(graph, change),
-            _ => None,
-        };
-        let (part, verdict) = match elsewhere {
-            Some((part, witness)) => (part, Verdict::NonZero(witness)),
-            None => (base.clone(), verdict),
-        };
         let change = graph.simplify(change);
         let name = &model.sections[section].name;
         let evidence = match &verdict {

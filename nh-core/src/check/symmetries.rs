@@ -156,18 +156,13 @@ fn first_defect(
     functions: &[ExprId],
 ) -> Result<Option<Defect>, String> {
     for function in functions {
-        match manifold.zero_test(graph, *function) {
-            Verdict::Zero => {}
-            Verdict::NonZero(witness) => {
-                let witness = manifold.is_whole().then_some(witness);
+        match manifold.judged(graph, *function) {
+            (_, Verdict::Zero) => {}
+            (part, Verdict::NonZero(witness)) => {
+                let witness = part.is_whole().then_some(witness);
                 return Ok(Some((graph.simplify(*function), witness)));
             }
-            Verdict::Unknown(why) => {
-                return match manifold.part_without_zero(graph, *function) {
-                    Some(_) => Ok(Some((graph.simplify(*function), None))),
-                    None => Err(why),
-                };
-            }
+            (_, Verdict::Unknown(why)) => return Err(why),
         }
     }
     Ok(None)

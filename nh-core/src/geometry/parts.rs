@@ -5,6 +5,7 @@ use super::manifold::{Manifold, OpenPart};
 use super::ways::ways_to_vanish;
 use crate::algebra::{Demand, Graph, Verdict, Witness, sample};
 use crate::id::{ExprId, SymbolId};
+use std::borrow::Cow;
 
 /// More parts are not looked at.
 const PARTS: usize = 64;
@@ -200,8 +201,20 @@ impl Manifold {
             && self.parts().all(|part| part.zero_tests(graph, &[function]).is_zero())
     }
 
+    /// What the zero test says of a function, and the part that it says it of: where the first one leaves it open, one with a
+    /// real point at which it does not vanish.
+    pub(crate) fn judged(&self, graph: &mut Graph, function: ExprId) -> (Cow<'_, Self>, Verdict) {
+        let verdict = self.zero_test(graph, function);
+        if matches!(verdict, Verdict::Unknown(_))
+            && let Some((part, witness)) = self.part_without_zero(graph, function)
+        {
+            return (Cow::Owned(part), Verdict::NonZero(witness));
+        }
+        (Cow::Borrowed(self), verdict)
+    }
+
     /// A part where a function certainly does not vanish at a real point, with that point.
-    pub(crate) fn part_without_zero(&self, graph: &mut Graph, function: ExprId) -> Option<(Self, Witness)> {
+    fn part_without_zero(&self, graph: &mut Graph, function: ExprId) -> Option<(Self, Witness)> {
         if self.others.is_empty() {
             return None;
         }

@@ -1,43 +1,28 @@
 //! Implicit steps of fixed length beside a component that is large, and in small units: equations are solved to the digits
 //! of each component, or refused wherever they are refused alone.
 
+use nonholonomic::Method;
 use nonholonomic::prelude::*;
-use nonholonomic::{D, Method};
+
+use crate::problems::Four;
 
 /// How far something has come, and something that turns in any unit.
-#[derive(Clone, Copy, Debug)]
-struct Pair([f64; 2]);
-
-impl State for Pair {
-    type Scalar = f64;
-    type Dim = D<2>;
-    fn to_array(&self) -> [f64; 2] {
-        self.0
-    }
-    fn from_array(x: [f64; 2]) -> Self {
-        Self(x)
-    }
-    fn names() -> [&'static str; 2] {
-        ["road", "turn"]
-    }
-}
-
 struct Turning {
     unit: f64,
 }
 
 impl Dynamics for Turning {
-    type State = Pair;
+    type State = Four<f64>;
     type Input = ();
-    fn derivative(&self, _t: f64, Pair([_, y]): &Pair, (): &()) -> Pair {
+    fn derivative(&self, _t: f64, Four([_, y, ..]): &Four<f64>, (): &()) -> Four<f64> {
         let y = y / self.unit;
-        Pair([0.37, (-3.0 * y * y * y + y.cos() - 2.0 * y.sin()) * self.unit])
+        Four([0.37, (-3.0 * y * y * y + y.cos() - 2.0 * y.sin()) * self.unit, 0.0, 0.0])
     }
 }
 
 fn the_same<M: Method<Turning>>(method: impl Fn() -> M) {
     let end = |road: f64, unit: f64, start: f64| {
-        let mut sim = Integrator::new(Turning { unit }, method(), 0.0, Pair([road, start * unit]));
+        let mut sim = Integrator::new(Turning { unit }, method(), 0.0, Four([road, start * unit, 0.0, 0.0]));
         let end = sim.advance_to(3.0);
         end.is_ok().then(|| sim.state().0[1] / unit)
     };
