@@ -16,6 +16,8 @@ pub struct CloseAngle<T> {
     angle: T,
     sin: T,
     cos: T,
+    /// How far an angle may be.
+    reach: T,
 }
 
 impl<T: Scalar> CloseAngle<T> {
@@ -23,7 +25,7 @@ impl<T: Scalar> CloseAngle<T> {
     #[inline]
     #[must_use]
     pub fn none() -> Self {
-        Self { angle: T::from_f64(f64::NAN), sin: T::ZERO, cos: T::ZERO }
+        Self { angle: T::ZERO, sin: T::ZERO, cos: T::ZERO, reach: T::from_f64(f64::NAN) }
     }
 
     /// Sine and cosine of an angle: by those that are kept if it is close in every lane, also beside these, else they are
@@ -33,11 +35,10 @@ impl<T: Scalar> CloseAngle<T> {
         if T::DERIVATIVES > 0 {
             return angle.sin_cos();
         }
-        let Self { sin, cos, .. } = *self;
+        let Self { sin, cos, reach, .. } = *self;
         let delta = angle - self.angle;
-        let square = delta * delta;
-        let beside = sin.abs().min(cos.abs()) * T::from_f64(0.25);
-        if T::from_f64(CLOSE).min(beside).all_ge(delta.abs()) {
+        if reach.all_ge(delta.abs()) {
+            let square = delta * delta;
             let cube = square.mul_add(T::from_f64(1.0 / 120.0), T::from_f64(-1.0 / 6.0));
             let sine = (delta * square).mul_add(cube, delta);
             let versine = square * square.mul_add(T::from_f64(-1.0 / 24.0), T::from_f64(0.5));
@@ -45,12 +46,13 @@ impl<T: Scalar> CloseAngle<T> {
         }
         // far away, or not a number
         let (sin, cos) = angle.sin_cos();
-        *self = Self { angle, sin, cos };
+        let beside = sin.abs().min(cos.abs()) * T::from_f64(0.25);
+        *self = Self { angle, sin, cos, reach: T::from_f64(CLOSE).min(beside) };
         (sin, cos)
     }
 }
 
-/// How far an angle may be.
+/// How far an angle may be at most.
 const CLOSE: f64 = 1.0 / 1024.0;
 
 #[cfg(test)]

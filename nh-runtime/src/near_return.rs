@@ -3,38 +3,59 @@
 
 use crate::arrays::all_finite;
 use crate::projection::{holds, largest};
-use crate::rounding::{further, grow, is_last, is_settled, sizes};
+use crate::rounding::{further, is_last, is_settled, left_over, sizes};
 use crate::{ProjectionError, Scalar};
 
 /// What a look at the constraints leads to.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Next {
-    /// The positions move.
+    /// The positions move, and another look follows.
     Positions,
-    /// They are where they belong, and the velocities move.
+    /// The positions move by their last digits and the velocities by what they are off here: no look follows.
+    Both,
+    /// Positions are where they belong, and the velocities move.
     Velocities,
     /// Nothing moves.
     Nothing,
 }
 
+impl Next {
+    /// Whether velocities move.
+    #[inline]
+    #[must_use]
+    pub fn moves_velocities(self) -> bool {
+        matches!(self, Self::Both | Self::Velocities)
+    }
+
+    /// Whether positions move.
+    #[inline]
+    #[must_use]
+    pub fn moves_positions(self) -> bool {
+        matches!(self, Self::Both | Self::Positions)
+    }
+}
+
 /// Newton's iteration for positions on which M constraints act, then one step for the velocities.
 ///
-/// Positions have arrived where [`newton`](crate::newton_return::newton) stops. Velocities have after their step where
-/// each moves by at most 2⁻¹³ of itself: constraints that are affine in them then hold but for round-off, as long as
-/// their condition is below 2¹⁰. Where changes do not fall as they do near to the constraints, where velocities change
-/// by more, and where something is not finite, the way is left to iterations that lead back from further away.
-/// Lanes go together.
+/// Positions have arrived where [`newton`](crate::newton_return::newton) stops, or by a step that moves each by at most 64
+/// units of its last place. Velocities move beside that step, by what they are off where it starts: what it makes of the
+/// rows of their constraints is no more of these either. They have arrived after their step where each moves by at most
+/// 2⁻¹³ of itself: constraints that are affine in them then hold but for round-off, as long as their condition is below
+/// 2¹⁰. Where changes do not fall as they do near to the constraints, where velocities change by more, and where something
+/// is not finite, the way is left to iterations that lead back from further away. Lanes go together.
 #[derive(Clone, Copy, Debug)]
 pub struct NearReturn<T, const N: usize, const M: usize> {
-    /// The largest values of the positions so far.
+    /// The sizes of the positions: where they were at first, and how far they have moved.
     sizes: [T; N],
     /// The largest residual at the start.
     residual: T,
     /// The residuals of the positions at the last look.
     before: [T; M],
     /// The last change of positions, and the one before.
-    change: Option<[T; N]>,
-    preceding: Option<[T; N]>,
+    change: [T; N],
+    preceding: [T; N],
+    /// How often positions have moved.
+    steps: u32,
     /// How often positions move on for the derivatives that numbers carry, once they have arrived.
     further: u32,
     is_there: bool,
@@ -51,8 +72,9 @@ impl<T: Scalar, const N: usize, const M: usize> NearReturn<T, N, M> {
             sizes: sizes(start),
             residual: T::ZERO,
             before: [T::ZERO; M],
-            change: None,
-            preceding: None,
+            change: [T::ZERO; N],
+            preceding: [T::ZERO; N],
+            steps: 0,
             further: further::<T>(),
             is_there: false,
             is_far: false,
@@ -65,39 +87,55 @@ impl<T: Scalar, const N: usize, const M: usize> NearReturn<T, N, M> {
         if self.is_far {
             return Next::Nothing;
         }
-        if let (Some(change), false) = (&self.change, self.is_there) {
-            self.is_there = is_settled(change, &self.sizes, self.preceding.as_ref())
-                || is_last(change, &self.sizes, &self.before, positions);
-            // far away, or among noise
-            let falls = |preceding: &[T; N]| falls(preceding, change, &self.sizes);
-            self.is_far = !self.is_there && !self.preceding.as_ref().is_none_or(falls);
-        }
-        if self.change.is_none() {
+        let is_on = holds(positions);
+        if self.steps == 0 {
             self.residual = largest(positions).max(largest(velocities));
+        } else if !(self.is_there || is_on) {
+            let left_over = left_over(&self.before, positions);
+            self.is_there = is_last(&self.change, &self.sizes, left_over);
+            // what falls by three digits is on its way
+            let falls = T::from_f64(1.0 / 1024.0).all_ge(left_over);
+            if !self.is_there && !falls {
+                self.look_closer(left_over);
+            } else if !self.is_there && T::DERIVATIVES == 0 {
+                let left_over = left_over * T::from_f64(1.0 / 128.0);
+                if is_last(&self.change, &self.sizes, left_over) {
+                    return Next::Both;
+                }
+            }
         }
         self.before = *positions;
-        let is_on = holds(positions);
         if self.is_there && !is_on && self.further > 0 {
             self.further -= 1;
             return Next::Positions;
         }
-        let is_there = self.is_there || is_on;
-        match (is_there, self.is_far && !is_on) {
+        match (self.is_there || is_on, self.is_far) {
             (true, _) if !holds(velocities) => Next::Velocities,
             (false, false) => Next::Positions,
             _ => Next::Nothing,
         }
     }
 
+    /// Whether it has arrived although more than a little is left, or is far away, or among noise.
+    #[inline(never)]
+    fn look_closer(&mut self, left_over: T) {
+        let preceding = (self.steps > 1).then_some(&self.preceding);
+        self.is_there = is_settled(&self.change, &self.sizes, preceding)
+            || (preceding.is_some() && is_held_up(&self.change, &self.sizes, left_over));
+        let falls = |preceding: &[T; N]| falls(preceding, &self.change, &self.sizes);
+        self.is_far = !self.is_there && !preceding.is_none_or(falls);
+    }
+
     /// Positions after a change.
     #[inline]
     pub fn positions(&mut self, mut present: [T; N], change: [T; N]) -> [T; N] {
         self.preceding = self.change;
-        for (x, change) in present.iter_mut().zip(&change) {
+        self.steps += 1;
+        for (size, (x, change)) in self.sizes.iter_mut().zip(present.iter_mut().zip(&change)) {
             *x += *change;
+            *size += change.abs();
         }
-        grow(&mut self.sizes, &present);
-        self.change = Some(change);
+        self.change = change;
         self.is_far = !all_finite::<T, _>(&present);
         present
     }
@@ -108,7 +146,7 @@ impl<T: Scalar, const N: usize, const M: usize> NearReturn<T, N, M> {
         let mut large = T::ZERO;
         for (v, change) in present.iter_mut().zip(&change) {
             *v += *change;
-            large = large.max((change.abs() * T::from_f64(8192.0)).select_gt(v.abs(), T::ONE, T::ZERO));
+            large += (change.abs() * T::from_f64(8192.0)).select_gt(v.abs(), T::ONE, T::ZERO);
         }
         self.is_far = !(T::ZERO.all_ge(large) && all_finite::<T, _>(&present));
         present
@@ -148,6 +186,17 @@ fn falls<T: Scalar, const N: usize>(preceding: &[T; N], change: &[T; N], sizes: 
     T::ZERO.all_ge(level)
 }
 
+/// Whether some variable has not the digits that are asked of it, a crank that has turned for long, and others would move by
+/// less than 4096 units of their last places to make up for that. They would by ever less, as it takes its share again and
+/// again.
+fn is_held_up<T: Scalar, const N: usize>(change: &[T; N], sizes: &[T; N], left_over: T) -> bool {
+    let stays = |(change, size): (&T, &T)| {
+        let change = change.abs();
+        change.all_ne(T::ZERO) && size.all_ge(*size + change)
+    };
+    change.iter().zip(sizes).any(stays) && is_last(change, sizes, left_over * T::from_f64(1.0 / 8192.0))
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -162,17 +211,18 @@ mod tests {
             looks += 1;
             let square = x * x + y * y;
             let (open, rate) = (square - 1.0, x * u + y * v);
-            match way.next(&[open], &[rate]) {
-                Next::Positions => {
-                    let part = -0.5 * open / square;
-                    [x, y] = way.positions([x, y], [part * x, part * y]);
-                }
-                Next::Velocities => {
-                    let part = -rate / square;
-                    [u, v] = way.velocities([u, v], [part * x, part * y]);
-                    break;
-                }
-                Next::Nothing => break,
+            let next = way.next(&[open], &[rate]);
+            let at = [x, y];
+            if next.moves_velocities() {
+                let part = -rate / square;
+                [u, v] = way.velocities([u, v], at.map(|x| part * x));
+            }
+            if next.moves_positions() {
+                let part = -0.5 * open / square;
+                [x, y] = way.positions(at, at.map(|x| part * x));
+            }
+            if next != Next::Positions {
+                break;
             }
         }
         let residual = way.end(given, [x, y, u, v], |_| {
@@ -214,6 +264,43 @@ mod tests {
         let plain = ended(1.0, 0.0);
         for unit in [1e-100, 1e-12, 1e-3, 1e9, 1e100].map(|unit: f64| unit.log2().round().exp2()) {
             assert_eq!((ended(unit, 0.0), ended(1.0, unit)), (plain, plain), "{unit}");
+        }
+    }
+
+    /// After one step positions are off by digits that one more sets right, without a look at them.
+    #[test]
+    fn last_digits_take_no_further_look() {
+        for off in [1e-8, 3e-8, 1e-7, 1.5e-7] {
+            let mut state = [0.6 + off, 0.8 - 0.3 * off, 8.0, -6.0 + 1e-5];
+            let (residual, looks, from_far) = returned(&mut state);
+            let [x, y, u, v] = state;
+            assert!((x * x + y * y - 1.0).abs() < 3e-16 && (x * u + y * v).abs() < 2e-14, "{state:?}");
+            assert_eq!((residual.is_ok(), looks, from_far), (true, 2, 0), "{off}");
+        }
+    }
+
+    /// A crank that has turned for long has not the digits by which a slide follows it: as many looks, and the slide is as
+    /// near to where it belongs as the crank's digits are apart.
+    #[test]
+    fn a_variable_with_fewer_digits_holds_nothing_up() {
+        for (turns, most) in [(0.0, 3), (10.0, 3), (1e3, 3), (1e5, 8)] {
+            let (mut a, mut s, mut looks) = (0.7 + core::f64::consts::TAU * turns, 0.0, 0_u32);
+            s += a.sin() + 1e-7;
+            let mut way = NearReturn::from(&[a, s]);
+            loop {
+                looks += 1;
+                let (open, slope) = (s - a.sin(), a.cos());
+                let next = way.next(&[open], &[]);
+                if next.moves_positions() {
+                    let part = -open / (1.0 + slope * slope);
+                    [a, s] = way.positions([a, s], [-slope * part, part]);
+                }
+                if next != Next::Positions {
+                    break;
+                }
+            }
+            let grain = a * f64::EPSILON;
+            assert!((s - a.sin()).abs() <= grain && !way.is_far && looks <= most, "{turns} {looks}");
         }
     }
 

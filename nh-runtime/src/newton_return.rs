@@ -3,7 +3,7 @@
 
 use crate::arrays::all_finite;
 use crate::projection::{holds, largest};
-use crate::rounding::{are_rounding, further, grow, is_last, is_level, is_settled, sizes};
+use crate::rounding::{are_rounding, further, grow, is_last, is_level, is_settled, left_over, sizes};
 use crate::{ProjectionError, Scalar, StateFault};
 
 /// The iterations after which a return is given up.
@@ -52,7 +52,7 @@ pub fn newton<T: Scalar, const N: usize, const M: usize>(
         grow(&mut most, &present);
         let is_end = || {
             is_settled(&moved, &most, preceding.as_ref())
-                || is_last(&moved, &most, &before, &left)
+                || is_last(&moved, &most, left_over(&before, &left))
                 || (preceding.is_some_and(|preceding| is_level(&preceding, &moved))
                     && is_rounding(&present, &moved, (&before, &left), &residual))
         };

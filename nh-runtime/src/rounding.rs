@@ -51,29 +51,30 @@ pub(crate) fn is_settled<T: Scalar, const N: usize>(
     T::ZERO.all_ge(open)
 }
 
-/// Whether, in every lane, the next change would be round-off: to first order it is to this one as what is left of the
-/// equations is to what was before, equation by equation.
+/// What is left of equations by what was before, of all together: infinite where one held before and does not any more.
 #[inline]
-pub(crate) fn is_last<T: Scalar, const N: usize, const M: usize>(
-    change: &[T; N],
-    sizes: &[T; N],
-    before: &[T; M],
-    left: &[T; M],
-) -> bool {
-    let mut ratio = T::ZERO;
+pub(crate) fn left_over<T: Scalar, const M: usize>(before: &[T; M], left: &[T; M]) -> T {
+    let mut sum = T::ZERO;
     for (before, left) in before.iter().zip(left) {
-        let (before, left) = (before.abs(), left.abs());
-        // what held before and does not any more says nothing of a next change
-        let none = left.select_gt(T::ZERO, T::from_f64(f64::INFINITY), T::ZERO);
-        ratio = ratio.max(before.select_gt(T::ZERO, left / before, none));
+        let left = left.abs();
+        // what holds is nothing beside nothing, too
+        sum += left.select_gt(T::ZERO, left / before.abs(), left);
     }
-    let mut open = T::ZERO;
+    sum
+}
+
+/// Whether, in every lane, the next change would be round-off: to first order it is to this one as what is left of the
+/// equations is to what was before.
+#[inline]
+pub(crate) fn is_last<T: Scalar, const N: usize>(change: &[T; N], sizes: &[T; N], left_over: T) -> bool {
+    let mut visible = T::ZERO;
     for (change, size) in change.iter().zip(sizes) {
-        // a variable that does not move, whatever the ratio is
-        let next = change.abs().select_gt(T::ZERO, change.abs() * ratio, T::ZERO);
-        open = open.max((*size + next).select_gt(*size, T::ONE, T::ZERO));
+        let change = change.abs();
+        // a variable that does not move, whatever is left
+        let next = change.select_gt(T::ZERO, change * left_over, T::ZERO);
+        visible += (*size + next) - *size;
     }
-    T::ZERO.all_ge(open)
+    T::ZERO.all_ge(visible)
 }
 
 /// Whether some variable, in some lane, changes about as much as before.
@@ -173,9 +174,11 @@ mod tests {
             assert!(is_settled(&[0.0, 1e-16 * unit], &sizes, None));
             assert!(!is_settled(&[0.0, 1e-14 * unit], &sizes, None));
             assert!(is_settled(&[0.0, 1e-14 * unit], &sizes, Some(&[0.0, 1.5e-14 * unit])));
-            assert!(is_last(&[0.0, 1e-9 * unit], &sizes, &[1.0, 0.0], &[1e-9, 0.0]));
-            assert!(!is_last(&[0.0, 1e-9 * unit], &sizes, &[1.0, 0.0], &[1e-6, 0.0]));
-            assert!(!is_last(&[0.0, 1e-9 * unit], &sizes, &[1.0, 0.0], &[1e-9, unit * 1e-9]));
+            let ends = |left: [f64; 2]| is_last(&[0.0, 1e-9 * unit], &sizes, left_over(&[1.0, 0.0], &left));
+            assert!(ends([1e-9, 0.0]));
+            assert!(!ends([1e-6, 0.0]));
+            assert!(!ends([1e-9, unit * 1e-9]));
+            assert!(!ends([f64::NAN, 0.0]) && !ends([1e-9, f64::NAN]));
         }
     }
 

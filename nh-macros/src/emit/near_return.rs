@@ -40,7 +40,7 @@ pub(super) fn body_of_return(context: &Context, system: &System, positions: &Pos
     };
     let (of_positions, of_velocities) = look.outputs.split_at(positions.count.min(look.outputs.len()));
     let (of_positions, of_velocities) = (array(of_positions), array(of_velocities));
-    let way = local("way");
+    let (way, next) = (local("way"), local("next"));
     let moves = |change: &Body, moved: &[TokenStream], how: &TokenStream| {
         let (statements, change) = (&change.statements, array(&change.outputs));
         quote!(#statements [#(#moved),*] = #way.#how([#(#moved),*], #change);)
@@ -58,11 +58,11 @@ pub(super) fn body_of_return(context: &Context, system: &System, positions: &Pos
         let mut #way = #runtime::NearReturn::from(&[#(#coordinates),*]);
         loop {
             #statements
-            match #way.next(&#of_positions, &#of_velocities) {
-                #runtime::Next::Positions => { #moves_positions }
-                #runtime::Next::Velocities => { #moves_velocities break; }
-                #runtime::Next::Nothing => break,
-            }
+            let #next = #way.next(&#of_positions, &#of_velocities);
+            // velocities first: what they are off is computed where the positions are
+            if #next.moves_velocities() { #moves_velocities }
+            if #next.moves_positions() { #moves_positions }
+            if #next != #runtime::Next::Positions { break; }
         }
         #way.end(#given, #state, |#state| Self::project(self, #t, #state))
     }
