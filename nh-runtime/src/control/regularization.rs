@@ -24,7 +24,9 @@ impl<T: Entry> Regularization<T> {
     /// Grows; says whether that may still help.
     pub(super) fn grow(&mut self) -> bool {
         let may_help = self.0 <= T::from_f64(MOST);
-        self.0 = (self.0 * T::from_f64(FACTOR)).max(T::from_f64(LEAST));
+        if may_help {
+            self.0 = (self.0 * T::from_f64(FACTOR)).max(T::from_f64(LEAST));
+        }
         may_help
     }
 
