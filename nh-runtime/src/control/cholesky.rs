@@ -3,6 +3,7 @@
 
 use nalgebra::{SMatrix, SVector};
 
+use super::square_root::with_more;
 use super::{ControlError, Entry, symmetrized};
 
 /// The factors of a positive definite matrix.
@@ -14,10 +15,12 @@ pub(super) struct Cholesky<T, const N: usize> {
 }
 
 impl<T: Entry, const N: usize> Cholesky<T, N> {
-    /// Factorizes a symmetric matrix, of which the lower triangle is read.
+    /// Factorizes a symmetric matrix, of which the lower triangle is read. A pivot that is round-off of what it was is not
+    /// positive, whatever its sign.
     pub(super) fn new(name: &'static str, a: &SMatrix<T, N, N>) -> Result<Self, ControlError> {
         let mut lower = SMatrix::<T, N, N>::zeros();
         let mut pivots = SVector::<T, N>::zeros();
+        let rounding = T::from_u32(u32::try_from(N).unwrap_or(u32::MAX)) * T::EPSILON;
         for j in 0..N {
             let dot = |rows: &SMatrix<T, N, N>, i: usize| {
                 (0..j).fold(T::ZERO, |sum, k| sum + rows[(i, k)] * (rows[(j, k)] * pivots[k]))
@@ -26,7 +29,7 @@ impl<T: Entry, const N: usize> Cholesky<T, N> {
             if !pivot.is_finite() {
                 return Err(ControlError::NotFinite { argument: name, value: pivot.to_f64() });
             }
-            if pivot <= T::ZERO {
+            if pivot <= rounding * a[(j, j)].abs() {
                 return Err(ControlError::NotDefinite { matrix: name, pivot: pivot.to_f64() });
             }
             for i in j + 1..N {
@@ -115,7 +118,11 @@ pub(super) fn semidefinite_beside<T: Entry, const N: usize>(
     Ok(())
 }
 
-/// A lower triangular L with L Lᵀ = a of a positive semidefinite matrix; its column is zero where the pivot is
+/// The lower triangular L with L Lᵀ = a of a positive semidefinite matrix.
+///
+/// The pivot is the component of which the largest share is left, so that what is divided by it is known as well as the
+/// pivot (Higham, Accuracy and Stability of Numerical Algorithms, 2002, 10.3): of two components that are one but for
+/// round-off, the second has a pivot of round-off, which says nothing of the others. Nothing is left where all shares are
 /// round-off.
 pub(super) fn root<T: Entry, const N: usize>(
     name: &'static str,
@@ -124,24 +131,32 @@ pub(super) fn root<T: Entry, const N: usize>(
     semidefinite(name, a)?;
     let count = T::from_u32(u32::try_from(N).unwrap_or(u32::MAX));
     let mut rest = symmetrized(a);
-    let mut lower = SMatrix::<T, N, N>::zeros();
-    for j in 0..N {
-        let pivot = rest[(j, j)];
+    let mut half = SMatrix::<T, N, N>::zeros();
+    let mut is_open = [true; N];
+    for step in 0..N {
         // relative to what it was, since components have units of their own
-        if pivot > count * T::EPSILON * a[(j, j)] {
-            let scale = pivot.sqrt();
-            for i in j..N {
-                lower[(i, j)] = rest[(i, j)] / scale;
-            }
-            for k in j + 1..N {
-                for i in k..N {
-                    let reduced = lower[(i, j)] * lower[(k, j)];
-                    rest[(i, k)] -= reduced;
-                }
+        let (mut most, mut chosen) = (count * T::EPSILON, None);
+        for (k, is_open) in is_open.iter().enumerate() {
+            let share = rest[(k, k)] / a[(k, k)];
+            if *is_open && a[(k, k)] > T::ZERO && share > most {
+                (most, chosen) = (share, Some((k, rest[(k, k)], rest.column(k).into_owned())));
             }
         }
+        let Some((chosen, pivot, column)) = chosen else { break };
+        let size = pivot.sqrt();
+        let column = column.map(|x| x / size);
+        for (k, is_open) in is_open.iter_mut().enumerate() {
+            *is_open &= k != chosen;
+        }
+        for ((of_column, scale), is_open) in rest.column_iter_mut().zip(&column).zip(&is_open) {
+            if *is_open {
+                of_column.into_iter().zip(&column).for_each(|(x, along)| *x -= *along * *scale);
+            }
+        }
+        half.set_column(step, &column);
     }
-    Ok(lower)
+    // by rotations of the columns
+    Ok(with_more(SMatrix::zeros(), half))
 }
 
 #[cfg(test)]
@@ -201,6 +216,50 @@ mod tests {
             let half = SMatrix::<f32, 6, 2>::from_fn(|i, _| number() * scales[i]);
             assert_eq!(semidefinite("a", &(half * half.transpose())), Ok(()));
         }
+    }
+
+    /// Components that are one but for a share, beside others, in every order and in units of their own: the squares of
+    /// the root are the matrix, to the rounding of its diagonal.
+    fn roots<T: Entry>() {
+        let mut seed = 1_u32;
+        let mut number = || {
+            seed = seed.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
+            T::from_f64(f64::from(seed) / f64::from(u32::MAX) - 0.5)
+        };
+        for exponent in 0..120 {
+            let share = T::from_f64(2.0_f64.powf(-0.5 * f64::from(exponent)));
+            for order in [[0, 1, 2, 3], [2, 1, 0, 3], [3, 0, 2, 1], [1, 2, 3, 0]] {
+                let mut half = SMatrix::<T, 4, 4>::from_fn(|_, _| number());
+                let twin = half.row(0) + half.row(1) * share;
+                half.set_row(1, &twin);
+                let half = SMatrix::<T, 4, 4>::from_fn(|i, j| half[(order[i], j)]);
+                let a = symmetrized(&super::super::squares(&half));
+                let lower = root("a", &a).unwrap();
+                assert!((0..4).all(|i| (i + 1..4).all(|j| lower[(i, j)] == T::ZERO)), "{lower:?}");
+                let off = super::super::squares(&lower) - a;
+                for i in 0..4 {
+                    for j in 0..4 {
+                        let permitted = T::from_f64(32.0) * T::EPSILON * (a[(i, i)] * a[(j, j)]).sqrt();
+                        assert!(
+                            off[(i, j)].abs() <= permitted,
+                            "{share:?} {order:?} {i} {j} {:?}",
+                            off[(i, j)]
+                        );
+                    }
+                }
+                // in units of powers of two, the same digits
+                let units = SVector::<T, 4>::from_fn(|i, _| T::from_f64([1.0, 1024.0, 0.25, 65536.0][i]));
+                let scaled = SMatrix::<T, 4, 4>::from_fn(|i, j| a[(i, j)] * units[i] * units[j]);
+                let expected = SMatrix::<T, 4, 4>::from_fn(|i, j| lower[(i, j)] * units[i]);
+                assert_eq!(root("a", &scaled), Ok(expected));
+            }
+        }
+    }
+
+    #[test]
+    fn the_squares_of_a_root_are_the_matrix() {
+        roots::<f64>();
+        roots::<f32>();
     }
 
     #[test]
