@@ -78,8 +78,9 @@ pub(super) fn semidefinite<T: Entry, const N: usize>(
 /// matrix, and an entry beside the diagonal with both of its. Where that place is zero or negative, it is the round-off
 /// of others in whatever unit: √ε of the trace is what it is compared with.
 ///
-/// Schur complements are taken by pivots that are no round-off; where a pivot vanishes, so does its
-/// column: |a_ik|² ≤ a_ii a_kk. Round-off means √ε of the scale, and more than rounding explains.
+/// Schur complements are taken by the component of which the largest share is left, as long as that is no round-off: what is
+/// divided by a small pivot that another one would have taken away is round-off beyond all digits. What is left then has to
+/// vanish. Round-off means √ε of the scale, and more than rounding explains.
 pub(super) fn semidefinite_beside<T: Entry, const N: usize>(
     larger: &SMatrix<T, N, N>,
     name: &'static str,
@@ -90,32 +91,51 @@ pub(super) fn semidefinite_beside<T: Entry, const N: usize>(
     let floor = nothing * trace(larger);
     let scales = larger.diagonal().map(|place| place.select_gt(T::ZERO, place, floor));
     let mut rest = symmetrized(a);
-    // the lowest pivot, and the widest entry in the column of one that vanishes, with their shares
-    let (mut lowest, mut widest) = ((T::ZERO, T::ZERO), (T::ZERO, T::ZERO));
-    for k in 0..N {
-        let pivot = rest[(k, k)];
-        let share = pivot / scales[k];
-        lowest = (lowest.1.select_gt(share, pivot, lowest.0), lowest.1.select_gt(share, share, lowest.1));
-        let inverse = share.select_gt(nothing, pivot.recip(), T::ZERO);
-        for j in k + 1..N {
-            let below = rest[(j, k)];
-            // squares of shares: the product of two ratios
-            let square = (below / scales[k]) * (below / scales[j]);
-            let square = share.select_gt(nothing, T::ZERO, square);
-            let wider = square.select_gt(widest.1, below.abs(), widest.0);
-            widest = (wider, square.select_gt(widest.1, square, widest.1));
-            let factor = below * inverse;
-            let along = rest.column(k).into_owned();
-            for (entry, along) in rest.column_mut(j).iter_mut().zip(&along).skip(j) {
-                *entry -= factor * *along;
+    for _ in 0..N {
+        let (mut most, mut pivot) = (nothing, T::ONE);
+        // one at the component that is chosen, if there is one, and its column
+        let (mut chosen, mut column) = (SVector::<T, N>::zeros(), SVector::<T, N>::zeros());
+        for (k, (of_column, scale)) in rest.column_iter().zip(&scales).enumerate() {
+            let place = rest[(k, k)];
+            let share = place / *scale;
+            let takes = |then: T, otherwise: T| share.select_gt(most, then, otherwise);
+            column.iter_mut().zip(of_column.iter()).for_each(|(x, here)| *x = takes(*here, *x));
+            for (j, mark) in chosen.iter_mut().enumerate() {
+                *mark = takes(if j == k { T::ONE } else { T::ZERO }, *mark);
+            }
+            (most, pivot) = (takes(share, most), takes(place, pivot));
+        }
+        for ((mut of_column, factor), of_chosen) in rest.column_iter_mut().zip(&column).zip(&chosen) {
+            let factor = *factor / pivot;
+            for ((x, along), of_row) in of_column.iter_mut().zip(&column).zip(&chosen) {
+                let less = *x - factor * *along;
+                *x = of_row.select_gt(T::ZERO, T::ZERO, of_chosen.select_gt(T::ZERO, T::ZERO, less));
             }
         }
     }
-    if widest.1 > nothing || lowest.1 < -nothing {
-        let pivot = if widest.1 > nothing { -widest.0 } else { lowest.0 };
-        return Err(ControlError::NotDefinite { matrix: name, pivot: pivot.to_f64() });
+    // the lowest place that is left, and the widest entry beside the diagonal, with their shares
+    let (mut lowest, mut widest) = ((T::ZERO, T::ZERO), (T::ZERO, T::ZERO));
+    let mut vanishes = true;
+    for k in 0..N {
+        let (place, scale) = (rest[(k, k)], scales[k]);
+        let share = place / scale;
+        lowest = (lowest.1.select_gt(share, place, lowest.0), lowest.1.select_gt(share, share, lowest.1));
+        // what is zero is none of anything
+        vanishes &= !place.all_ne(T::ZERO) || share.all_ge(-nothing);
+        for j in k + 1..N {
+            let beside = rest[(j, k)].abs();
+            // squares of shares: the product of two ratios
+            let square = (beside / scale) * (beside / scales[j]);
+            widest =
+                (square.select_gt(widest.1, beside, widest.0), square.select_gt(widest.1, square, widest.1));
+            vanishes &= !beside.all_ne(T::ZERO) || (nothing * nothing).all_ge(square);
+        }
     }
-    Ok(())
+    if vanishes {
+        return Ok(());
+    }
+    let pivot = if lowest.1 < -nothing { lowest.0 } else { -widest.0 };
+    Err(ControlError::NotDefinite { matrix: name, pivot: pivot.to_f64() })
 }
 
 /// The lower triangular L with L Lᵀ = a of a positive semidefinite matrix.
@@ -218,7 +238,7 @@ mod tests {
         }
     }
 
-    /// Components that are one but for a share, beside others, in every order and in units of their own: the squares of
+    /// Components that are nearly one, in every order and in units of their own: they are a covariance, and the squares of
     /// the root are the matrix, to the rounding of its diagonal.
     fn roots<T: Entry>() {
         let mut seed = 1_u32;
@@ -226,12 +246,16 @@ mod tests {
             seed = seed.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
             T::from_f64(f64::from(seed) / f64::from(u32::MAX) - 0.5)
         };
-        for exponent in 0..120 {
-            let share = T::from_f64(2.0_f64.powf(-0.5 * f64::from(exponent)));
+        for exponent in 0..240 {
+            let share = T::from_f64(2.0_f64.powf(-0.25 * f64::from(exponent)));
             for order in [[0, 1, 2, 3], [2, 1, 0, 3], [3, 0, 2, 1], [1, 2, 3, 0]] {
                 let mut half = SMatrix::<T, 4, 4>::from_fn(|_, _| number());
-                let twin = half.row(0) + half.row(1) * share;
-                half.set_row(1, &twin);
+                // of rank three; the second is the first but for a share, and the third but for a share what they differ by
+                half.set_column(3, &SVector::<T, 4>::zeros());
+                let second = half.row(0) + half.row(1) * share;
+                let third = half.row(1) + half.row(2) * share;
+                half.set_row(1, &second);
+                half.set_row(2, &third);
                 let half = SMatrix::<T, 4, 4>::from_fn(|i, j| half[(order[i], j)]);
                 let a = symmetrized(&super::super::squares(&half));
                 let lower = root("a", &a).unwrap();
