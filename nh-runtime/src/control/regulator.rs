@@ -143,10 +143,13 @@ impl<T: Entry, const N: usize, const M: usize> Regulator<T, N, M> {
         finite("a − b r⁻¹crossᵀ", &transition)?;
         let weight = symmetrized(&(q - cross * at_once));
         semidefinite_beside(q, "q − cross r⁻¹crossᵀ", &weight)?;
-        let shifted = Self::doubled(&transition, b, &weight, r)?;
-        let gain = shifted.gain + at_once;
+        let Self { cost, .. } = Self::doubled(&transition, b, &weight, r)?;
+        // from the cost: in the sum of its own gain and r⁻¹crossᵀ most of both may go
+        let weighed = b.transpose() * cost;
+        let heavy = Cholesky::new("r", &symmetrized(&(r + weighed * b)))?;
+        let gain = heavy.solve(&(weighed * a + cross.transpose()));
         finite("the gain of the regulator", &gain)?;
-        Ok(Self { gain, cost: shifted.cost })
+        Ok(Self { gain, cost })
     }
 
     /// The first step of a longer horizon, from the cost `next` of the rest: iterated backwards, the
