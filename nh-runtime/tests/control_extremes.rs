@@ -387,3 +387,42 @@ fn a_loop_survives() {
     assert_eq!(refused, 100);
     assert!(real.norm() < 1e-6, "{real}");
 }
+
+/// The cost |c x + d u|² + |e u|² where d and e are small: a gain that is given is that of many steps backwards from the
+/// end of a horizon, by the squares of what costs.
+#[test]
+fn cheap_inputs_that_outputs_show_at_once() {
+    let mut seed = 5_u32;
+    let mut number = || {
+        seed = seed.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
+        f64::from(seed) / f64::from(u32::MAX) * 2.0 - 1.0
+    };
+    let mut compared = 0;
+    for case in 0..150 {
+        let (scale, permitted) = [(1.0, 1e-12), (1e-3, 1e-12), (1e-6, 3e-10)][case % 3];
+        let a = SMatrix::<f64, 3, 3>::from_fn(|_, _| number());
+        let b = SMatrix::<f64, 3, 2>::from_fn(|_, _| number());
+        let c = SMatrix::<f64, 2, 3>::from_fn(|_, _| number());
+        let [d, e] = [(); 2].map(|()| SMatrix::<f64, 2, 2>::from_fn(|_, _| scale * number()));
+        let r = d.transpose() * d + e.transpose() * e;
+        let cross = c.transpose() * d;
+        let found = Regulator::stationary_with_cross(&a, &b, &(c.transpose() * c), &r, &cross);
+        let Ok(found) = found else { continue };
+        let (mut cost, mut gain) = (c.transpose() * c, SMatrix::<f64, 2, 3>::zeros());
+        for _ in 0..1000 {
+            let heavy = (r + b.transpose() * cost * b).try_inverse().unwrap();
+            let next = heavy * (b.transpose() * cost * a + cross.transpose());
+            let (closed, shown, spent) = (a - b * next, c - d * next, e * next);
+            cost = closed.transpose() * cost * closed + shown.transpose() * shown + spent.transpose() * spent;
+            let moved = (next - gain).norm();
+            gain = next;
+            if moved <= 1e-15 * gain.norm() {
+                compared += 1;
+                let off = (found.gain - gain).norm();
+                assert!(off < permitted * gain.norm(), "{case}: {off:e} of {gain}");
+                break;
+            }
+        }
+    }
+    assert!(compared > 100, "{compared}");
+}

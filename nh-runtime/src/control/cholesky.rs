@@ -3,6 +3,7 @@
 
 use nalgebra::{SMatrix, SVector};
 
+use super::square_root::with_more;
 use super::{ControlError, Entry, symmetrized};
 
 /// The factors of a positive definite matrix.
@@ -14,10 +15,12 @@ pub(super) struct Cholesky<T, const N: usize> {
 }
 
 impl<T: Entry, const N: usize> Cholesky<T, N> {
-    /// Factorizes a symmetric matrix, of which the lower triangle is read.
+    /// Factorizes a symmetric matrix, of which the lower triangle is read. A pivot that is round-off of what it was is not
+    /// positive, whatever its sign.
     pub(super) fn new(name: &'static str, a: &SMatrix<T, N, N>) -> Result<Self, ControlError> {
         let mut lower = SMatrix::<T, N, N>::zeros();
         let mut pivots = SVector::<T, N>::zeros();
+        let rounding = T::from_u32(u32::try_from(N).unwrap_or(u32::MAX)) * T::EPSILON;
         for j in 0..N {
             let dot = |rows: &SMatrix<T, N, N>, i: usize| {
                 (0..j).fold(T::ZERO, |sum, k| sum + rows[(i, k)] * (rows[(j, k)] * pivots[k]))
@@ -26,7 +29,7 @@ impl<T: Entry, const N: usize> Cholesky<T, N> {
             if !pivot.is_finite() {
                 return Err(ControlError::NotFinite { argument: name, value: pivot.to_f64() });
             }
-            if pivot <= T::ZERO {
+            if pivot <= rounding * a[(j, j)].abs() {
                 return Err(ControlError::NotDefinite { matrix: name, pivot: pivot.to_f64() });
             }
             for i in j + 1..N {
@@ -75,8 +78,9 @@ pub(super) fn semidefinite<T: Entry, const N: usize>(
 /// matrix, and an entry beside the diagonal with both of its. Where that place is zero or negative, it is the round-off
 /// of others in whatever unit: √ε of the trace is what it is compared with.
 ///
-/// Schur complements are taken by pivots that are no round-off; where a pivot vanishes, so does its
-/// column: |a_ik|² ≤ a_ii a_kk. Round-off means √ε of the scale, and more than rounding explains.
+/// Schur complements are taken by the component of which the largest share is left, as long as that is no round-off: what is
+/// divided by a small pivot that another one would have taken away is round-off beyond all digits. What is left then has to
+/// vanish. Round-off means √ε of the scale, and more than rounding explains.
 pub(super) fn semidefinite_beside<T: Entry, const N: usize>(
     larger: &SMatrix<T, N, N>,
     name: &'static str,
@@ -87,35 +91,58 @@ pub(super) fn semidefinite_beside<T: Entry, const N: usize>(
     let floor = nothing * trace(larger);
     let scales = larger.diagonal().map(|place| place.select_gt(T::ZERO, place, floor));
     let mut rest = symmetrized(a);
-    // the lowest pivot, and the widest entry in the column of one that vanishes, with their shares
-    let (mut lowest, mut widest) = ((T::ZERO, T::ZERO), (T::ZERO, T::ZERO));
-    for k in 0..N {
-        let pivot = rest[(k, k)];
-        let share = pivot / scales[k];
-        lowest = (lowest.1.select_gt(share, pivot, lowest.0), lowest.1.select_gt(share, share, lowest.1));
-        let inverse = share.select_gt(nothing, pivot.recip(), T::ZERO);
-        for j in k + 1..N {
-            let below = rest[(j, k)];
-            // squares of shares: the product of two ratios
-            let square = (below / scales[k]) * (below / scales[j]);
-            let square = share.select_gt(nothing, T::ZERO, square);
-            let wider = square.select_gt(widest.1, below.abs(), widest.0);
-            widest = (wider, square.select_gt(widest.1, square, widest.1));
-            let factor = below * inverse;
-            let along = rest.column(k).into_owned();
-            for (entry, along) in rest.column_mut(j).iter_mut().zip(&along).skip(j) {
-                *entry -= factor * *along;
+    for _ in 0..N {
+        let (mut most, mut pivot) = (nothing, T::ONE);
+        // one at the component that is chosen, if there is one, and its column
+        let (mut chosen, mut column) = (SVector::<T, N>::zeros(), SVector::<T, N>::zeros());
+        for (k, (of_column, scale)) in rest.column_iter().zip(&scales).enumerate() {
+            let place = rest[(k, k)];
+            let share = place / *scale;
+            let takes = |then: T, otherwise: T| share.select_gt(most, then, otherwise);
+            column.iter_mut().zip(of_column.iter()).for_each(|(x, here)| *x = takes(*here, *x));
+            for (j, mark) in chosen.iter_mut().enumerate() {
+                *mark = takes(if j == k { T::ONE } else { T::ZERO }, *mark);
+            }
+            (most, pivot) = (takes(share, most), takes(place, pivot));
+        }
+        for ((mut of_column, factor), of_chosen) in rest.column_iter_mut().zip(&column).zip(&chosen) {
+            let factor = *factor / pivot;
+            for ((x, along), of_row) in of_column.iter_mut().zip(&column).zip(&chosen) {
+                let less = *x - factor * *along;
+                *x = of_row.select_gt(T::ZERO, T::ZERO, of_chosen.select_gt(T::ZERO, T::ZERO, less));
             }
         }
     }
-    if widest.1 > nothing || lowest.1 < -nothing {
-        let pivot = if widest.1 > nothing { -widest.0 } else { lowest.0 };
-        return Err(ControlError::NotDefinite { matrix: name, pivot: pivot.to_f64() });
+    // the lowest place that is left, and the widest entry beside the diagonal, with their shares
+    let (mut lowest, mut widest) = ((T::ZERO, T::ZERO), (T::ZERO, T::ZERO));
+    let mut vanishes = true;
+    for k in 0..N {
+        let (place, scale) = (rest[(k, k)], scales[k]);
+        let share = place / scale;
+        lowest = (lowest.1.select_gt(share, place, lowest.0), lowest.1.select_gt(share, share, lowest.1));
+        // what is zero is none of anything
+        vanishes &= !place.all_ne(T::ZERO) || share.all_ge(-nothing);
+        for j in k + 1..N {
+            let beside = rest[(j, k)].abs();
+            // squares of shares: the product of two ratios
+            let square = (beside / scale) * (beside / scales[j]);
+            widest =
+                (square.select_gt(widest.1, beside, widest.0), square.select_gt(widest.1, square, widest.1));
+            vanishes &= !beside.all_ne(T::ZERO) || (nothing * nothing).all_ge(square);
+        }
     }
-    Ok(())
+    if vanishes {
+        return Ok(());
+    }
+    let pivot = if lowest.1 < -nothing { lowest.0 } else { -widest.0 };
+    Err(ControlError::NotDefinite { matrix: name, pivot: pivot.to_f64() })
 }
 
-/// A lower triangular L with L Lᵀ = a of a positive semidefinite matrix; its column is zero where the pivot is
+/// The lower triangular L with L Lᵀ = a of a positive semidefinite matrix.
+///
+/// The pivot is the component of which the largest share is left, so that what is divided by it is known as well as the
+/// pivot (Higham, Accuracy and Stability of Numerical Algorithms, 2002, 10.3): of two components that are one but for
+/// round-off, the second has a pivot of round-off, which says nothing of the others. Nothing is left where all shares are
 /// round-off.
 pub(super) fn root<T: Entry, const N: usize>(
     name: &'static str,
@@ -124,24 +151,32 @@ pub(super) fn root<T: Entry, const N: usize>(
     semidefinite(name, a)?;
     let count = T::from_u32(u32::try_from(N).unwrap_or(u32::MAX));
     let mut rest = symmetrized(a);
-    let mut lower = SMatrix::<T, N, N>::zeros();
-    for j in 0..N {
-        let pivot = rest[(j, j)];
+    let mut half = SMatrix::<T, N, N>::zeros();
+    let mut is_open = [true; N];
+    for step in 0..N {
         // relative to what it was, since components have units of their own
-        if pivot > count * T::EPSILON * a[(j, j)] {
-            let scale = pivot.sqrt();
-            for i in j..N {
-                lower[(i, j)] = rest[(i, j)] / scale;
-            }
-            for k in j + 1..N {
-                for i in k..N {
-                    let reduced = lower[(i, j)] * lower[(k, j)];
-                    rest[(i, k)] -= reduced;
-                }
+        let (mut most, mut chosen) = (count * T::EPSILON, None);
+        for (k, is_open) in is_open.iter().enumerate() {
+            let share = rest[(k, k)] / a[(k, k)];
+            if *is_open && a[(k, k)] > T::ZERO && share > most {
+                (most, chosen) = (share, Some((k, rest[(k, k)], rest.column(k).into_owned())));
             }
         }
+        let Some((chosen, pivot, column)) = chosen else { break };
+        let size = pivot.sqrt();
+        let column = column.map(|x| x / size);
+        for (k, is_open) in is_open.iter_mut().enumerate() {
+            *is_open &= k != chosen;
+        }
+        for ((of_column, scale), is_open) in rest.column_iter_mut().zip(&column).zip(&is_open) {
+            if *is_open {
+                of_column.into_iter().zip(&column).for_each(|(x, along)| *x -= *along * *scale);
+            }
+        }
+        half.set_column(step, &column);
     }
-    Ok(lower)
+    // by rotations of the columns
+    Ok(with_more(SMatrix::zeros(), half))
 }
 
 #[cfg(test)]
@@ -201,6 +236,54 @@ mod tests {
             let half = SMatrix::<f32, 6, 2>::from_fn(|i, _| number() * scales[i]);
             assert_eq!(semidefinite("a", &(half * half.transpose())), Ok(()));
         }
+    }
+
+    /// Components that are nearly one, in every order and in units of their own: they are a covariance, and the squares of
+    /// the root are the matrix, to the rounding of its diagonal.
+    fn roots<T: Entry>() {
+        let mut seed = 1_u32;
+        let mut number = || {
+            seed = seed.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
+            T::from_f64(f64::from(seed) / f64::from(u32::MAX) - 0.5)
+        };
+        for exponent in 0..240 {
+            let share = T::from_f64(2.0_f64.powf(-0.25 * f64::from(exponent)));
+            for order in [[0, 1, 2, 3], [2, 1, 0, 3], [3, 0, 2, 1], [1, 2, 3, 0]] {
+                let mut half = SMatrix::<T, 4, 4>::from_fn(|_, _| number());
+                // of rank three; the second is the first but for a share, and the third but for a share what they differ by
+                half.set_column(3, &SVector::<T, 4>::zeros());
+                let second = half.row(0) + half.row(1) * share;
+                let third = half.row(1) + half.row(2) * share;
+                half.set_row(1, &second);
+                half.set_row(2, &third);
+                let half = SMatrix::<T, 4, 4>::from_fn(|i, j| half[(order[i], j)]);
+                let a = symmetrized(&super::super::squares(&half));
+                let lower = root("a", &a).unwrap();
+                assert!((0..4).all(|i| (i + 1..4).all(|j| lower[(i, j)] == T::ZERO)), "{lower:?}");
+                let off = super::super::squares(&lower) - a;
+                for i in 0..4 {
+                    for j in 0..4 {
+                        let permitted = T::from_f64(32.0) * T::EPSILON * (a[(i, i)] * a[(j, j)]).sqrt();
+                        assert!(
+                            off[(i, j)].abs() <= permitted,
+                            "{share:?} {order:?} {i} {j} {:?}",
+                            off[(i, j)]
+                        );
+                    }
+                }
+                // in units of powers of two, the same digits
+                let units = SVector::<T, 4>::from_fn(|i, _| T::from_f64([1.0, 1024.0, 0.25, 65536.0][i]));
+                let scaled = SMatrix::<T, 4, 4>::from_fn(|i, j| a[(i, j)] * units[i] * units[j]);
+                let expected = SMatrix::<T, 4, 4>::from_fn(|i, j| lower[(i, j)] * units[i]);
+                assert_eq!(root("a", &scaled), Ok(expected));
+            }
+        }
+    }
+
+    #[test]
+    fn the_squares_of_a_root_are_the_matrix() {
+        roots::<f64>();
+        roots::<f32>();
     }
 
     #[test]

@@ -104,8 +104,9 @@ impl Display for ControlError {
             ),
             Self::Residual { residual } => write!(
                 f,
-                "the solution of the Riccati equation leaves {residual:.1e} of it: the problem is too \
-                 badly scaled; measure states and inputs in units that make their weights comparable"
+                "the solution of the Riccati equation leaves {residual:.1e} of it: too much grows \
+                 within a tick, or weights are too far apart, for the digits of the numbers; take a shorter tick, or \
+                 weights that are nearer to each other"
             ),
             Self::Length { slice, length, expected } => {
                 write!(f, "`{slice}` has {length} entries for {expected} ticks: give it one for each")
@@ -155,8 +156,9 @@ mod tests {
             ),
             (
                 ControlError::Residual { residual: 0.25 },
-                "the solution of the Riccati equation leaves 2.5e-1 of it: the problem is too badly scaled; \
-                 measure states and inputs in units that make their weights comparable",
+                "the solution of the Riccati equation leaves 2.5e-1 of it: too much grows within a tick, or \
+                 weights are too far apart, for the digits of the numbers; take a shorter tick, or weights that are \
+                 nearer to each other",
             ),
             (
                 ControlError::Length { slice: "states", length: 3, expected: 4 },

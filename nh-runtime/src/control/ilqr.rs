@@ -230,7 +230,12 @@ impl<T: Entry, const N: usize, const M: usize, const H: usize> Ilqr<T, N, M, H> 
             }
             share *= T::from_f64(0.5);
         }
-        self.regularization.grow();
+        // where rounding hides what was promised, the curvature is not to blame: feedback stays what it is
+        if promised > self.rounding(cost) {
+            self.regularization.grow();
+        } else {
+            self.regularization.shrink();
+        }
         Ok(Improvement { cost: before, decrease: T::ZERO, promised })
     }
 
@@ -305,6 +310,15 @@ impl<T: Entry, const N: usize, const M: usize, const H: usize> Ilqr<T, N, M, H> 
             );
         }
         Ok(promised)
+    }
+
+    /// What rounding may do to the cost of the plan: ε of its terms, for every component of every tick.
+    fn rounding(&self, cost: &impl Cost<T, N, M>) -> T {
+        let ticks = self.states.iter().zip(&self.inputs).enumerate();
+        let terms = ticks.map(|(tick, (x, u))| cost.stage(tick, x, u).abs());
+        let sum = terms.fold(cost.end(&self.end).abs(), |sum, term| sum + term);
+        let count = u32::try_from(H.saturating_mul(N + M)).unwrap_or(u32::MAX);
+        T::from_u32(count) * T::EPSILON * sum
     }
 
     /// The inputs after a share of the step, with feedback along the way, and their cost.

@@ -2,7 +2,7 @@
 
 use nalgebra::{SMatrix, SVector};
 
-use super::cholesky::{root, semidefinite};
+use super::cholesky::root;
 use super::square_root::Measured;
 use super::{ControlError, Entry, finite, squares, symmetrized};
 
@@ -56,8 +56,7 @@ impl<T: Entry, const N: usize> Estimate<T, N> {
         finite("mean", &mean)?;
         finite("transition", transition)?;
         let lower = root("covariance", &self.covariance)?;
-        semidefinite("noise", noise)?;
-        let covariance = squares(&(transition * lower)) + noise;
+        let covariance = squares(&(transition * lower)) + squares(&root("noise", noise)?);
         finite("the predicted covariance", &covariance)?;
         Ok(Self { mean, covariance: symmetrized(&covariance) })
     }

@@ -24,7 +24,9 @@ impl<T: Entry> Regularization<T> {
     /// Grows; says whether that may still help.
     pub(super) fn grow(&mut self) -> bool {
         let may_help = self.0 <= T::from_f64(MOST);
-        self.0 = (self.0 * T::from_f64(FACTOR)).max(T::from_f64(LEAST));
+        if may_help {
+            self.0 = (self.0 * T::from_f64(FACTOR)).max(T::from_f64(LEAST));
+        }
         may_help
     }
 
@@ -46,9 +48,12 @@ impl<T: Entry> Regularization<T> {
         let most = entries.fold(T::ZERO, |most, x| most.max(Scalar::abs(*x)));
         SMatrix::from_diagonal(&SVector::from_fn(|i, _| {
             let own = parts.iter().fold(T::ZERO, |own, part| own.max(Scalar::abs(part[(i, i)])));
-            let is_bounded = range[i] < T::MIN_POSITIVE.recip();
-            let by_range = if is_bounded { Scalar::abs(slope[i]) / range[i] } else { T::ZERO };
-            let size = [own, most, by_range].into_iter().find(|size| *size > T::ZERO);
+            let by_range = Scalar::abs(slope[i]) / range[i];
+            // what has no range stays where it is, and what has no bounds says nothing
+            let is_size = |size: &T| *size > T::ZERO && size.is_finite();
+            let is_bounded = is_size(&range[i]) && range[i] < T::MIN_POSITIVE.recip();
+            let by_range = if is_bounded { by_range } else { T::ZERO };
+            let size = [own, most, by_range].into_iter().find(is_size);
             size.unwrap_or(T::ZERO) * self.0
         }))
     }

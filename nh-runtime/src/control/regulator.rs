@@ -143,10 +143,13 @@ impl<T: Entry, const N: usize, const M: usize> Regulator<T, N, M> {
         finite("a − b r⁻¹crossᵀ", &transition)?;
         let weight = symmetrized(&(q - cross * at_once));
         semidefinite_beside(q, "q − cross r⁻¹crossᵀ", &weight)?;
-        let shifted = Self::doubled(&transition, b, &weight, r)?;
-        let gain = shifted.gain + at_once;
+        let Self { cost, .. } = Self::doubled(&transition, b, &weight, r)?;
+        // from the cost: in the sum of its own gain and r⁻¹crossᵀ most of both may go
+        let weighed = b.transpose() * cost;
+        let heavy = Cholesky::new("r", &symmetrized(&(r + weighed * b)))?;
+        let gain = heavy.solve(&(weighed * a + cross.transpose()));
         finite("the gain of the regulator", &gain)?;
-        Ok(Self { gain, cost: shifted.cost })
+        Ok(Self { gain, cost })
     }
 
     /// The first step of a longer horizon, from the cost `next` of the rest: iterated backwards, the
@@ -198,7 +201,10 @@ impl<T: Entry, const N: usize, const M: usize> Regulator<T, N, M> {
         -(self.gain * deviation)
     }
 
-    /// One more step of the horizon leaves the cost as it is, or the solution is none.
+    /// One more step of the horizon leaves the cost as it is, or the solution is none. What doubling has lost of it, as
+    /// where inputs cost next to nothing and 1 + reach · cost has no digits left, Newton's iteration brings back: the
+    /// cost of the gain that there is, and the gain for that cost (Kleinman, Hewer; IEEE Trans. Automatic Control 16
+    /// (1971) 382–384).
     fn checked(
         a: &SMatrix<T, N, N>,
         b: &SMatrix<T, N, M>,
@@ -206,13 +212,52 @@ impl<T: Entry, const N: usize, const M: usize> Regulator<T, N, M> {
         r: &SMatrix<T, M, M>,
         cost: &SMatrix<T, N, N>,
     ) -> Result<Self, ControlError> {
-        let regulator = Self::before(cost, a, b, q, r)?;
-        let residual = most_added(&(regulator.cost - cost), cost);
+        // a cost with which the inputs would gain is none: it is not r that is wrong
+        let nothing_of_it = |error| match error {
+            ControlError::NotDefinite { .. } => ControlError::Residual { residual: f64::INFINITY },
+            other => other,
+        };
+        let mut regulator = Self::before(cost, a, b, q, r).map_err(nothing_of_it)?;
+        let mut residual = most_added(&(regulator.cost - cost), cost);
+        // half of it at least in each: there is an end to that
+        while let Some(cost) = regulator.followed(a, b, q, r) {
+            let Ok(next) = Self::before(&cost, a, b, q, r) else { break };
+            let left = most_added(&(next.cost - cost), &cost);
+            let is_less = left + left < residual;
+            if !is_less {
+                break;
+            }
+            (regulator, residual) = (next, left);
+        }
         // half the digits of the scalar
         if residual > T::EPSILON.sqrt() {
             return Err(ControlError::Residual { residual: residual.to_f64() });
         }
         regulator.bounded(a, b)
+    }
+
+    /// What it costs to follow this gain for ever: Σ (aᵀ − Kᵀbᵀ)ᵏ (q + Kᵀ r K) (a − b K)ᵏ, by doubling. None where that
+    /// does not end within the longest horizon.
+    fn followed(
+        &self,
+        a: &SMatrix<T, N, N>,
+        b: &SMatrix<T, N, M>,
+        q: &SMatrix<T, N, N>,
+        r: &SMatrix<T, M, M>,
+    ) -> Option<SMatrix<T, N, N>> {
+        let mut closed = a - b * self.gain;
+        let mut cost = symmetrized(&(q + self.gain.transpose() * r * self.gain));
+        let (mut horizon, longest) = (T::ONE, longest_horizon::<T>());
+        while horizon < longest {
+            let more = symmetrized(&(closed.transpose() * cost * closed));
+            cost += more;
+            if most_added(&more, &cost) <= T::EPSILON {
+                return Some(cost);
+            }
+            closed *= closed;
+            horizon += horizon;
+        }
+        None
     }
 
     /// Refuses a closed loop that leaves the range of the scalar within the longest horizon: what costs nothing is
@@ -333,6 +378,44 @@ mod tests {
             assert!(regulator.cost.norm() < 1e-12 * q.norm(), "{}", regulator.cost);
         }
         assert!(decaying > 500, "{decaying}");
+    }
+
+    /// Inputs that cost next to nothing, or far more than what they save: the gain is that of many steps backwards from
+    /// the end of a horizon.
+    #[test]
+    fn cheap_and_dear_inputs() {
+        let mut seed = 7_u32;
+        let mut number = || {
+            seed = seed.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
+            f64::from(seed) / f64::from(u32::MAX) * 2.0 - 1.0
+        };
+        let mut compared = 0;
+        for case in 0..120 {
+            let a = Matrix3::from_fn(|_, _| number());
+            let b = SMatrix::<f64, 3, 2>::from_fn(|_, _| number());
+            let c = SMatrix::<f64, 2, 3>::from_fn(|_, _| number());
+            let d = Matrix2::from_fn(|_, _| number()) + Matrix2::identity() * 2.0;
+            let q = c.transpose() * c;
+            let r = d * d.transpose() * [1e-13, 1e-10, 1e-6, 1.0, 1e6, 1e10][case % 6];
+            let found =
+                Regulator::stationary(&a, &b, &q, &r).unwrap_or_else(|error| panic!("{case}: {error}"));
+            let mut last = Regulator::before(&q, &a, &b, &q, &r).unwrap();
+            let mut settled = false;
+            for _ in 0..2000 {
+                let next = Regulator::before(&last.cost, &a, &b, &q, &r).unwrap();
+                settled = (next.gain - last.gain).norm() <= 1e-15 * next.gain.norm();
+                last = next;
+                if settled {
+                    break;
+                }
+            }
+            if settled {
+                compared += 1;
+                let off = (found.gain - last.gain).norm();
+                assert!(off < 1e-11 * last.gain.norm(), "{case}: {off:e} of {}", last.gain);
+            }
+        }
+        assert!(compared > 80, "{compared}");
     }
 
     #[test]

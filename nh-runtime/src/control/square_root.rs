@@ -31,7 +31,7 @@ fn rotation<T: Entry>(a: T, b: T) -> Option<(T, T)> {
     Some((a / length, b / length))
 }
 
-/// Applies a rotation to a column of each of two matrices.
+/// Applies a rotation to a column of each of two matrices. Of the entry that it takes away, rounding may be left.
 fn rotate<T: Entry, const R: usize, const A: usize, const B: usize>(
     (cos, sin): (T, T),
     (first, i): (&mut SMatrix<T, R, A>, usize),
@@ -53,6 +53,7 @@ pub(super) fn with_more<T: Entry, const P: usize, const C: usize>(
         for k in 0..C {
             if let Some(turn) = rotation(lower[(i, i)], more[(i, k)]) {
                 rotate(turn, (&mut lower, i), (&mut more, k));
+                more[(i, k)] = T::ZERO;
             }
         }
     }
@@ -77,6 +78,7 @@ impl<T: Entry, const N: usize, const P: usize> Measured<T, N, P> {
             for k in 0..N {
                 if let Some(turn) = rotation(spread[(i, i)], seen[(i, k)]) {
                     rotate(turn, (&mut spread, i), (&mut seen, k));
+                    seen[(i, k)] = T::ZERO;
                     rotate(turn, (&mut gain, i), (&mut rest, k));
                 }
             }

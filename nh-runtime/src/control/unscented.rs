@@ -74,7 +74,7 @@ impl<T: Entry> Unscented<T> {
         mut step: impl FnMut(SVector<T, N>) -> SVector<T, N>,
         noise: &SMatrix<T, N, N>,
     ) -> Result<Estimate<T, N>, ControlError> {
-        semidefinite("noise", noise)?;
+        let noise = squares(&root("noise", noise)?);
         let points = self.points(prior)?;
         let centre = step(points.centre);
         let (plus, minus) = (points.plus.map(&mut step), points.minus.map(&mut step));

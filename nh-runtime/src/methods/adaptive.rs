@@ -117,8 +117,8 @@ impl<P, T: Real, W> Adaptive<P, T, W> {
         self
     }
 
-    /// The length of the longest step; unlimited if not given. Give it where inputs or forces act
-    /// in short pulses that a long step could miss.
+    /// The length of the longest step, which may be a hundredth longer where it lands on a target; unlimited if not
+    /// given. Give it where inputs or forces act in short pulses that a long step could miss.
     #[must_use]
     pub fn max_step(mut self, max_step: T) -> Self {
         self.control.max_step = Some(max_step);

@@ -384,6 +384,11 @@ where
     }
 
     #[inline]
+    fn keeps_positions(&self) -> bool {
+        Method::<S>::keeps_positions(&self.method)
+    }
+
+    #[inline]
     fn advance(
         &self,
         start: &Start<'_, S>,

@@ -37,7 +37,7 @@ use crate::{Dim, Dynamics, IntegrationError, Real, Scalar, State, Statistics, Ta
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Taylor<T, const P: usize = 25, W = Uniform<T>> {
     tolerance: W,
-    /// The length of the longest step.
+    /// What bounds the lengths of steps.
     control: StepControl<T>,
     order: usize,
     is_fixed: bool,
@@ -102,7 +102,8 @@ impl<T: Real, const P: usize> Taylor<T, P> {
 }
 
 impl<T: Real, const P: usize, W> Taylor<T, P, W> {
-    /// The length of the longest step; unlimited if not given.
+    /// The length of the longest step, which may be a hundredth longer where it lands on a target; unlimited if not
+    /// given.
     #[must_use]
     pub fn max_step(mut self, max_step: T) -> Self {
         self.control.max_step = Some(max_step);

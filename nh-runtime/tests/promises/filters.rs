@@ -220,3 +220,41 @@ fn the_noise_of_a_tick_is_a_covariance() {
     noises::<f64>();
     noises::<f32>();
 }
+
+/// A noise that is hardly semidefinite, or not at all, in components of any units: it is refused, or what is predicted
+/// with it has no negative variance and no correlation beyond one.
+#[test]
+fn an_accepted_noise_makes_a_covariance() {
+    let mut random = Random(3);
+    let (mut accepted, mut refused) = (0, 0);
+    let mut law = |noise: Matrix2<f64>| {
+        let certain = Estimate { mean: Vector2::zeros(), covariance: Matrix2::zeros() };
+        let extended = certain.predicted(certain.mean, &Matrix2::identity(), &noise);
+        let unscented = Unscented::default().predicted(&certain, |x| x, &noise);
+        for next in [extended, unscented] {
+            let Ok(next) = next else {
+                refused += 1;
+                assert!(matches!(next, Err(ControlError::NotDefinite { matrix: "noise", .. })), "{next:?}");
+                continue;
+            };
+            accepted += 1;
+            let p = next.covariance;
+            assert!(p[(0, 0)] >= 0.0 && p[(1, 1)] >= 0.0 && p[(0, 1)] == p[(1, 0)], "{noise} {p}");
+            let most = p[(0, 0)].sqrt() * p[(1, 1)].sqrt();
+            assert!(p[(0, 1)].abs() <= most * (1.0 + 8.0 * f64::EPSILON), "{noise} {p}");
+        }
+    };
+    for exponent in 0..60 {
+        let share = 2.0_f64.powi(-exponent);
+        for unit in [1.0, 1e-10, 1e5, 1e10] {
+            let half: Vector2<f64> = random.matrix();
+            let half = vector![half[0], half[1] * unit];
+            let square = half * half.transpose();
+            let smaller = matrix![0.0, 0.0; 0.0, share * square[(1, 1)]];
+            law(square - smaller);
+            law(square + smaller);
+            law(matrix![square[(0, 0)], 0.0; 0.0, -share * square[(1, 1)]]);
+        }
+    }
+    assert!(accepted > 200 && refused > 200, "{accepted} {refused}");
+}

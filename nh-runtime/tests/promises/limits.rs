@@ -163,3 +163,42 @@ fn limits_are_told() {
         ]
     );
 }
+
+/// No step is longer than permitted, but for a hundredth where it lands on a target.
+fn of_length<T: Real>(name: &str, longest: f64, method: impl Method<Contact<T>> + Clone) {
+    for distance in [1.0, 1.005, 1.01, 2.01, 2.5, 7.0] {
+        for sign in [1.0, -1.0] {
+            let target = T::from_f64(sign * distance * longest);
+            let mut sim = Integrator::new(contact(), method.clone(), T::ZERO, start());
+            while sim.time() != target {
+                let before = sim.time();
+                sim.step_towards(target).unwrap();
+                let length = (sim.time() - before).to_f64().abs();
+                let rounding = 2.0 * T::EPSILON.to_f64() * target.to_f64().abs();
+                let most = if sim.time() == target { 1.01 * longest } else { longest };
+                assert!(length <= most + rounding, "{name} to {target:?}: {length}");
+            }
+        }
+    }
+}
+
+#[test]
+fn steps_are_no_longer_than_permitted() {
+    macro_rules! every {
+        ($($method:expr),*) => {$(
+            of_length(stringify!($method), 0.01, $method.first_step(0.01).max_step(0.01));
+            of_length(stringify!($method), 0.01, $method.first_step(0.01_f32).max_step(0.01));
+        )*};
+    }
+    every!(
+        Bs23::new(),
+        Dopri5::new(),
+        Tsit5::new(),
+        Dop853::new(),
+        Vern9::new(),
+        Radau5::new(),
+        Rodas5P::new()
+    );
+    of_length("Taylor", 0.01, Taylor::<f64>::new().max_step(0.01));
+    of_length("Taylor", 0.01, Taylor::<f32>::new().max_step(0.01));
+}

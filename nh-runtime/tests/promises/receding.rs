@@ -113,3 +113,48 @@ fn a_shifted_plan_goes_on() {
     let improved = own.improve(&model, &cost, &aside).unwrap();
     assert_eq!(improved.cost + improved.decrease, alone);
 }
+
+/// A plan that cannot be made better stays what it is, feedback included, however often it is asked: on the way from
+/// elsewhere, and at rest in the goal.
+fn stays<T: Entry>(tolerance: f64) {
+    let c = T::from_f64;
+    let system = Balance { cart: T::ONE, pole: c(0.3), l: c(0.5), g: c(9.81), gust: T::ZERO };
+    let model = Sampled { system, start: T::ZERO, dt: c(TICK) };
+    for weight in [1.0, 1e-12, 1e12] {
+        let cost = Quadratic {
+            goal: SVector::zeros(),
+            state: vector![2.0, 10.0, 0.1, 0.1].map(|w| c(w * weight)),
+            input: vector![c(0.02 * weight)],
+            end: vector![20.0, 100.0, 5.0, 5.0].map(|w| c(w * weight)),
+        };
+        for (bound, start) in [
+            (1e3, vector![T::ZERO, T::ZERO, T::ZERO, T::ZERO]),
+            (1e3, vector![c(0.3), c(0.2), T::ZERO, c(-0.1)]),
+            (4.0, vector![c(0.3), c(0.1), T::ZERO, c(-0.1)]),
+        ] {
+            let mut plan =
+                Ilqr::<T, 4, 1, 30>::new(vector![T::ZERO]).bounds(vector![c(-bound)], vector![c(bound)]);
+            plan.improve(&model, &cost, &SVector::zeros()).unwrap();
+            for _ in 0..30 {
+                plan.improve(&model, &cost, &start).unwrap();
+            }
+            let gains = *plan.gains();
+            for _ in 0..40 {
+                let last = plan.improve(&model, &cost, &start).unwrap();
+                assert!(last.promised <= T::EPSILON.sqrt() * last.cost, "{last:?}");
+            }
+            let largest = gains.iter().flatten().fold(0.0_f64, |most, gain| most.max(gain.to_f64().abs()));
+            assert!(largest > 10.0, "{gains:?}");
+            for (now, then) in plan.gains().iter().zip(&gains) {
+                let off = (now - then).iter().fold(0.0_f64, |most, off| most.max(off.to_f64().abs()));
+                assert!(off <= tolerance * largest, "{weight} {start:?}: {now:?} {then:?}");
+            }
+        }
+    }
+}
+
+#[test]
+fn a_plan_that_cannot_be_improved_keeps_its_feedback() {
+    stays::<f64>(1e-6);
+    stays::<f32>(1e-3);
+}

@@ -4,7 +4,7 @@
 use nonholonomic::Method;
 use nonholonomic::prelude::*;
 
-use crate::systems::{Contact, contact, distance, every_adaptive, every_fixed, start};
+use crate::systems::{Contact, ContactState, contact, distance, every_adaptive, every_fixed, start};
 
 /// A run of length `length` from t₀: its end, and the steps.
 fn run<T: Real, M: Method<Contact<T>>>(
@@ -139,6 +139,32 @@ fn many_legs_are_as_long_as_one() {
     every_adaptive!(legs::<f32>);
 }
 
+/// A run that stops at ticks between its steps errs no more than one that does not: what a step leaves behind does not add
+/// up where the next one has another length.
+fn ticks(name: &str, method: impl Method<Contact<f64>> + Clone, exact: &ContactState<f64>, h: f64) {
+    let (whole, _) = run(method.clone(), 0.0, 2.0).unwrap();
+    let permitted = 1.5 * distance(whole.state(), exact) + 1e-10;
+    for share in [1.5, 3.5, 0.75, 2.25] {
+        let count = (2.0 / (share * h)).round();
+        let mut sim = Integrator::new(contact(), method.clone(), 0.0, start());
+        let mut tick = 0.0;
+        while tick < count {
+            tick += 1.0;
+            sim.set_input(());
+            sim.advance_to(2.0 * tick / count).unwrap();
+        }
+        let off = distance(sim.state(), exact);
+        assert!(off <= permitted, "{name}, ticks of {share} steps: {off:e}, {permitted:e}");
+    }
+}
+
+#[test]
+fn ticks_between_steps_cost_no_order() {
+    let (exact, _) = run(Dop853::new().rtol(1e-13).atol(1e-13), 0.0, 2.0).unwrap();
+    let h = 2.5e-3;
+    every_fixed!(|name, method| ticks(name, method, exact.state(), h), h);
+}
+
 /// The smallest times that there are, forwards and backwards.
 fn tiny<T: Real>(name: &str, method: impl Method<Contact<T>> + Clone) {
     let mut target = T::MIN_POSITIVE * T::EPSILON;
@@ -198,7 +224,7 @@ fn times_that_are_none_are_refused_and_far_ones_limited() {
 fn all_of_time<T: Real>(name: &str, method: impl Method<Contact<T>>) {
     // at rest, where steps grow as they like, over a time that is no number
     let end = T::MIN_POSITIVE.recip() * T::from_f64(3.5);
-    let rest = crate::systems::ContactState::from_array([T::ZERO; 6]);
+    let rest = ContactState::from_array([T::ZERO; 6]);
     let mut sim = Integrator::new(contact::<T>(), method, -end, rest).max_steps(2000);
     let ended = sim.advance_to(end);
     assert!(ended.is_ok() && sim.time() == end, "{name}: {ended:?} {}", sim.time().to_f64());

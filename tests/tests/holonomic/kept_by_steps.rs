@@ -1,6 +1,7 @@
 //! Steps that keep position constraints by themselves, mathematics (37) and (38): discrete gradients keep the energy with
 //! all constraints, a symmetric projection keeps the constraints and is reversible.
 
+use nonholonomic::methods::Interruptible;
 use nonholonomic::prelude::*;
 
 /// A mass on a rod.
@@ -169,6 +170,29 @@ fn symmetric_projection_is_reversible_and_keeps_the_energy_in_a_band() {
         400,
     );
     assert!(open < 1e-13, "{open:e}");
+}
+
+/// A step that ends on the constraints is not returned to them, whatever the method is wrapped in: what a return moves is
+/// what the wrapper has kept of the rounding, and of the energy.
+#[test]
+fn wrapped_methods_are_left_where_their_steps_end() {
+    fn law<M: nonholonomic::Method<Rod> + Copy>(name: &str, method: M, energy: f64) {
+        let mut sim = Integrator::new(ROD, method, 0.0, rod());
+        sim.advance_to(2.0).unwrap();
+        assert_eq!(sim.statistics().projections, 0, "{name}");
+        let (off, open, _) = kept(ROD, method, rod(), 2000);
+        assert!(off < energy && open < 1e-13, "{name}: {off:e} {open:e}");
+    }
+    let on = |_: &Statistics| true;
+    let by_energy = DiscreteGradient::new(0.05);
+    let by_symmetry = ImplicitMidpoint::new(0.02).symmetrically_projected();
+    law("discrete gradient", by_energy, 1e-13);
+    law("discrete gradient, compensated", by_energy.compensated(), 1e-13);
+    law("discrete gradient, interruptible", Interruptible::new(by_energy.compensated(), on), 1e-13);
+    law("of order 4, compensated", by_energy.fourth_order().compensated(), 1e-13);
+    let (band, _, _) = kept(ROD, by_symmetry, rod(), 400);
+    law("symmetric projection, compensated", by_symmetry.compensated(), 1.05 * band);
+    law("the same of order 4", by_symmetry.fourth_order().compensated(), band);
 }
 
 /// A rod over numbers of any kind.

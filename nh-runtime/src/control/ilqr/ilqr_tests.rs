@@ -1,6 +1,6 @@
 //! One iteration of a linear system, an optimum between bounds, and a horizon that recedes.
 
-use super::super::{Quadratic, Regulator, shooting_gradient};
+use super::super::{Expansion, Quadratic, Regulator, shooting_gradient};
 use super::*;
 use nalgebra::{Matrix2, SMatrix, matrix, vector};
 
@@ -40,6 +40,43 @@ fn of_a_linear_system_one_iteration_is_the_regulator() {
     assert!((plan.inputs()[0] - stationary.input(&start)).norm() < 1e-10);
     let again = plan.improve(&PUSHED, &cost, &start).unwrap();
     assert!(again.promised.abs() < 1e-12 && again.decrease.abs() < 1e-12);
+}
+
+/// An input that two equal bounds hold is none, whatever it costs: without any curvature, too.
+#[test]
+fn an_input_between_equal_bounds_stays_there() {
+    /// Inputs cost as much as they are.
+    struct Price(f64);
+    impl Cost<f64, 2, 1> for Price {
+        fn stage(&self, _tick: usize, _x: &SVector<f64, 2>, u: &SVector<f64, 1>) -> f64 {
+            self.0 * u[0]
+        }
+        fn stage_expansion(
+            &self,
+            _tick: usize,
+            _x: &SVector<f64, 2>,
+            _u: &SVector<f64, 1>,
+        ) -> Expansion<f64, 2, 1> {
+            Expansion { u: vector![self.0], ..Expansion::zero() }
+        }
+        fn end(&self, _x: &SVector<f64, 2>) -> f64 {
+            0.0
+        }
+        fn end_expansion(&self, _x: &SVector<f64, 2>) -> Expansion<f64, 2, 1> {
+            Expansion::zero()
+        }
+    }
+    for price in [1.0, -3.0, 0.0, 1e300] {
+        for force in [0.0, 0.5, -1e-9] {
+            let held = vector![force];
+            let mut plan = Ilqr::<f64, 2, 1, 7>::new(vector![9.0]).bounds(held, held);
+            let found = plan.solve(&PUSHED, &Price(price), &vector![1.0, 0.0], 1e-12, 5);
+            let found = found.unwrap_or_else(|error| panic!("{price} {force}: {error}"));
+            assert_eq!((found.decrease, found.promised), (0.0, 0.0));
+            assert_eq!(plan.inputs(), &[held; 7]);
+            assert_eq!(plan.gains(), &[matrix![0.0, 0.0]; 7]);
+        }
+    }
 }
 
 /// The last force moves the place after the end, and costs nothing: it is not felt.

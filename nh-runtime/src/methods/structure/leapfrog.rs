@@ -1,6 +1,6 @@
 //! The nonholonomic leapfrog method on TQ.
 
-use crate::arrays::difference;
+use crate::arrays::{difference, displaced};
 use crate::methods::{Arrival, Fixed, OneStep, Start};
 use crate::{IntegrationError, Leapfrog, Real, Scalar, ScalarOf, State, Statistics, VecOf};
 
@@ -11,8 +11,9 @@ use crate::{IntegrationError, Leapfrog, Real, Scalar, ScalarOf, State, Statistic
 ///
 /// Symmetric and reversible; without potential it keeps the energy. The velocities satisfy the
 /// constraints up to the square of the step. What they miss is reflected at every kick, so that the step is not
-/// near the identity off the constraints, and compositions have order 2 as well: there are none. For systems
-/// declared with `emit { leapfrog }`.
+/// near the identity off the constraints, and compositions have order 2 as well: there are none. Between steps of one
+/// length it cancels; where the length changes, as where a step lands on a target, the velocities are brought to the
+/// constraints first. For systems declared with `emit { leapfrog }`.
 pub type ReflectedLeapfrog<T> = Fixed<DriftKickDrift, T>;
 
 /// A step of [`ReflectedLeapfrog`].
@@ -41,26 +42,47 @@ impl<T: Real, S: Leapfrog> OneStep<S> for DriftKickDrift
 where
     S::State: State<Scalar = T>,
 {
-    type Work = ();
+    /// The length of the last step, without its sign.
+    type Work = Option<T>;
     dense_by_cubic!();
 
-    fn work(&self) {}
+    fn work(&self) -> Option<T> {
+        None
+    }
 
-    fn forget(&self, (): &mut ()) {}
+    /// What velocities miss after a step of another length stays to be taken away, whatever the input is.
+    fn forget(&self, _work: &mut Option<T>) {}
 
     fn increment(
         &self,
         start: &Start<'_, S>,
         x: &VecOf<S>,
         h: T,
-        (): &mut (),
+        work: &mut Option<T>,
         statistics: &mut Statistics,
     ) -> Result<VecOf<S>, IntegrationError> {
         let half = h * T::from_f64(0.5);
-        let middle = S::State::from_array(drifted(x, half));
+        // but for the rounding of times
+        let other = |last: T| (last - h.abs()).abs() > T::EPSILON.sqrt() * h.abs();
+        let is_of_another_length = work.is_some_and(other);
+        let from = if is_of_another_length {
+            statistics.evaluations += 1;
+            onto_constraints(start.system, x)
+        } else {
+            *x
+        };
+        let middle = S::State::from_array(drifted(&from, half));
         let kicked = start.system.kick(&middle, h).to_array();
         statistics.evaluations += 1;
         let end = drifted(&kicked, half);
+        *work = Some(h.abs());
         Ok(difference(&end, x))
     }
+}
+
+/// The mean of velocities and of what a kick without forces reflects them to: they satisfy the constraints.
+fn onto_constraints<S: Leapfrog>(system: &S, x: &VecOf<S>) -> VecOf<S> {
+    let reflected = system.kick(&S::State::from_array(*x), ScalarOf::<S>::ZERO).to_array();
+    let half = ScalarOf::<S>::from_f64(0.5);
+    displaced(x, half, &difference(&reflected, x))
 }
