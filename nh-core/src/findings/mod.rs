@@ -8,7 +8,8 @@ mod reduced_form;
 mod velocities_to_name;
 
 use crate::algebra::Demand;
-use crate::check::{Condition, domain, not_conservative, on_the_base, singular_where, with_zeros};
+use crate::algebra::{Function2, Node};
+use crate::check::{Condition, domain, domain_of, not_conservative, on_the_base, singular_where, with_zeros};
 use crate::compile::{Derived, Proved};
 use crate::geometry::suggested_velocities::Suggested;
 use crate::id::{ExprId, SymbolId};
@@ -26,6 +27,8 @@ pub(crate) struct Findings {
     pub(crate) no_state_is_known: bool,
     /// Where alone the equations have a value.
     pub(crate) domain: Vec<Condition>,
+    /// The claimed first integrals, in their order.
+    pub(crate) claims: Vec<FirstIntegral>,
     /// Where alone the quasi-velocities are a chart: these vanish somewhere.
     pub(crate) chart_divisors: Vec<ExprId>,
     /// Whether D is closed under the bracket; `None` where its sections are not known.
@@ -50,11 +53,21 @@ pub(crate) struct Findings {
     pub(crate) suggested: Option<Suggested>,
 }
 
+/// Where a claimed first integral is one.
+#[derive(Clone, Debug)]
+pub(crate) struct FirstIntegral {
+    /// Where alone it has a value, besides where the equations have.
+    pub(crate) domain: Vec<Condition>,
+    /// Whether it contains the angle of a point, which jumps by a turn.
+    pub(crate) has_turns: bool,
+}
+
 impl Findings {
     /// Finds them.
     pub(crate) fn of(proved: &mut Proved, derived: &Derived<'_>) -> Self {
         let no_state_is_known = real_states::undecided(proved);
         let domain = domain(&mut proved.model, &proved.facts);
+        let claims = first_integrals(proved, &domain);
         let chart_divisors = with_zeros(&mut proved.model, &proved.motion.divisors);
         let closure = Closure::of(proved, derived);
         let singular_mass = singular_mass(proved, derived);
@@ -69,6 +82,7 @@ impl Findings {
         Self {
             no_state_is_known,
             domain,
+            claims,
             chart_divisors,
             closure,
             singular_mass,
@@ -82,6 +96,19 @@ impl Findings {
             suggested,
         }
     }
+}
+
+fn first_integrals(proved: &mut Proved, of_equations: &[Condition]) -> Vec<FirstIntegral> {
+    let Proved { model, facts, .. } = proved;
+    let values: Vec<ExprId> = model.claims.iter().map(|claim| claim.value).collect();
+    let found = values.into_iter().map(|value| {
+        let domain = domain_of(model, facts, (&[value], 0), of_equations);
+        let graph = &model.graph;
+        let mut parts = graph.reachable(&[value]).into_iter();
+        let has_turns = parts.any(|part| matches!(graph.node(part), Node::Apply2(Function2::Atan2, ..)));
+        FirstIntegral { domain, has_turns }
+    });
+    found.collect()
 }
 
 fn singular_mass(proved: &mut Proved, derived: &Derived<'_>) -> Vec<ExprId> {
