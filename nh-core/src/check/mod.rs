@@ -57,7 +57,7 @@ pub use kinematics::{Motion, kinematics};
 pub use orthonormal::orthonormal;
 pub(crate) use parts_of_positions::points_shown;
 pub use positions::{Positions, positions};
-pub use regularity::{reduced_regularity, saddle_regularity, singular_where};
+pub use regularity::{reduced_regularity, saddle_regularity, saddle_singular_where, singular_where};
 pub(crate) use smoothness::not_smooth;
 pub use structure_equations::{BrokenLaws, structure_equations};
 pub use symmetries::{Invariance, Setting, Symmetry, no_momenta, of_cyclic_coordinates, symmetries};

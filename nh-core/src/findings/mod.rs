@@ -9,7 +9,10 @@ mod velocities_to_name;
 
 use crate::algebra::Demand;
 use crate::algebra::{Function2, Node};
-use crate::check::{Condition, domain, domain_of, not_conservative, on_the_base, singular_where, with_zeros};
+use crate::check::{
+    Condition, domain, domain_of, not_conservative, on_the_base, saddle_singular_where, singular_where,
+    with_zeros,
+};
 use crate::compile::{Derived, Proved};
 use crate::geometry::suggested_velocities::Suggested;
 use crate::id::{ExprId, SymbolId};
@@ -33,7 +36,7 @@ pub(crate) struct Findings {
     pub(crate) chart_divisors: Vec<ExprId>,
     /// Whether D is closed under the bracket; `None` where its sections are not known.
     pub(crate) closure: Option<Closure>,
-    /// Factors of the determinant of the mass matrix that vanish in some states, or for some parameters.
+    /// Factors of the determinant of the mass matrix, or of the saddle matrix, that vanish in some states, or for some parameters.
     pub(crate) singular_mass: Vec<ExprId>,
     /// What reduction theory calls the equations.
     pub(crate) reduced: ReducedForm,
@@ -112,17 +115,26 @@ fn first_integrals(proved: &mut Proved, of_equations: &[Condition]) -> Vec<First
 }
 
 fn singular_mass(proved: &mut Proved, derived: &Derived<'_>) -> Vec<ExprId> {
-    let Derived::Adapted { equations, .. } = derived else { return Vec::new() };
     let parameters = parameters(proved);
-    let found = singular_where(&mut proved.model.graph, &equations.mass, &parameters, &proved.facts);
+    let Proved { model, facts, .. } = &mut *proved;
+    let found = match derived {
+        Derived::Adapted { equations, .. } => {
+            singular_where(&mut model.graph, &equations.mass, &parameters, facts)
+        }
+        Derived::Projected { equations, .. } => {
+            saddle_singular_where(&mut model.graph, equations, &parameters, facts)
+        }
+    };
     if found.is_empty() {
         return found;
     }
-    let holding = on_the_base(&mut proved.model);
+    let mut holding = on_the_base(&mut proved.model);
+    holding.extend(proved.model.positions.iter().map(|position| (position.value, Demand::Zero)));
+    let is_free = proved.model.positions.is_empty();
     let graph = &proved.model.graph;
     let may_vanish = |factor: &ExprId| {
         // most do, and it is seen soon
-        if graph.has_both_signs(*factor, &parameters) {
+        if is_free && graph.has_both_signs(*factor, &parameters) {
             return true;
         }
         let mut demands = graph.related_demands(&holding, &[*factor]);

@@ -42,8 +42,11 @@ pub(super) fn lines(
     let parameters: Vec<SymbolId> = model.parameters.iter().map(|parameter| parameter.symbol).collect();
     for factor in &findings.singular_mass {
         let of_parameters = model.graph.depends_on(*factor, &parameters);
-        let whom =
-            if of_parameters { "for some parameters the mass matrix is" } else { "the mass matrix is" };
+        let what = match derived {
+            Derived::Adapted { .. } => "the mass matrix is",
+            Derived::Projected { .. } => "the equations are",
+        };
+        let whom = if of_parameters { format!("for some parameters {what}") } else { what.to_owned() };
         let text = shown(&model.graph, *factor);
         let place = if text.contains('…') { "its determinant" } else { text.as_str() };
         lines.push(format!("{whom} singular where {place} = 0"));
