@@ -14,7 +14,7 @@ use super::enclosure::Point;
 use super::exact::Decision;
 use super::graph::Graph;
 use super::modular::{FieldPass, FieldPoint, NoValue};
-use super::node::Node;
+use super::node::{Function, Node};
 use super::range::Facts;
 use super::square_points::Radicands;
 use super::verdict::{Verdict, Witness};
@@ -54,6 +54,10 @@ const WITNESSES_UNDER_FACTS: u64 = 400;
 /// Points tried for a witness with more digits, and these digits.
 const CLOSER_LOOKS: u64 = 8;
 const CLOSER: Bits = 256;
+/// Digits for exponentials, whose values may be far below those of floating point, and parts of an expression up to
+/// which they are looked at with so many.
+const CLOSER_TO_EXPONENTIALS: Bits = 1 << 12;
+const LARGEST_WITH_EXPONENTIALS: usize = 200;
 /// Random points with the roots of real numbers: coordinates have 20 bits, so that four leave less
 /// than (d/2²⁰)⁴ for an expression of degree d.
 const REAL_POINTS: u64 = 4;
@@ -120,7 +124,13 @@ impl Graph {
 
     /// The same of what no identity of the field has decided.
     fn decided_beyond_identities(&self, expression: ExprId, in_field: &Result<bool, NoValue>) -> Verdict {
-        if let Some(witness) = self.witness(expression).or_else(|| self.closer_witness(expression)) {
+        let witness = self.witness(expression).or_else(|| self.closer_witness(expression, CLOSER));
+        if let Some(witness) = witness {
+            return Verdict::NonZero(witness);
+        }
+        if *in_field == Ok(false)
+            && let Some(witness) = self.witness_of_exponentials(expression)
+        {
             return Verdict::NonZero(witness);
         }
         // nothing else vanishes on the reals that does not in the field, or divides by zero there and not on the reals
@@ -135,7 +145,8 @@ impl Graph {
             Ok(true) => Verdict::Zero,
             _ if may_vanish() && self.vanishes_on_reals(expression) => Verdict::Zero,
             Ok(false) => {
-                Verdict::Unknown("it is zero at every point tried, but not by any identity known here".into())
+                let why = "it could not be told from zero at any point tried, and is zero by no identity known here";
+                Verdict::Unknown(why.into())
             }
             Err(NoValue::Here) => Verdict::Unknown(
                 "it has no value at the points tried (a division by zero, or the root of a negative number)"
@@ -188,20 +199,46 @@ impl Graph {
         })
     }
 
+    /// A point where the expression is not zero, though floating point may not tell exponentials from zero there: they
+    /// have no zeros, however small they are.
+    fn witness_of_exponentials(&self, expression: ExprId) -> Option<Witness> {
+        let parts = self.reachable(&[expression]);
+        let is_exponential = |id: ExprId| matches!(self.node(id), Node::Apply(Function::Exp, _));
+        if parts.len() > LARGEST_WITH_EXPONENTIALS || !parts.iter().any(|part| is_exponential(*part)) {
+            return None;
+        }
+        // in a product the other factors decide
+        let factors: Vec<ExprId> = match self.node(expression) {
+            Node::Product { factors, .. } => factors.iter().map(|(base, _)| *base).collect(),
+            _ => vec![expression],
+        };
+        let others: Vec<ExprId> = factors.iter().copied().filter(|base| !is_exponential(*base)).collect();
+        if others.len() < factors.len() {
+            let symbols = self.symbols_in(&[expression]);
+            let found = (0..WITNESSES).find_map(|attempt| {
+                let point = point_of(&symbols, attempt);
+                let values = self.evaluate(&others, |symbol| value_at(&point, symbol));
+                let value = self.evaluate(&[expression], |symbol| value_at(&point, symbol))[0].value;
+                values.iter().all(|value| value.is_certainly_nonzero()).then_some(Witness { point, value })
+            });
+            if found.is_some() {
+                return found;
+            }
+        }
+        self.closer_witness(expression, CLOSER_TO_EXPONENTIALS)
+    }
+
     /// A point where the expression is not zero, with more digits than floating point has.
-    fn closer_witness(&self, expression: ExprId) -> Option<Witness> {
+    fn closer_witness(&self, expression: ExprId, bits: Bits) -> Option<Witness> {
         if self.reachable(&[expression]).len() > LARGEST {
             return None;
         }
         let symbols = self.symbols_in(&[expression]);
         (0..CLOSER_LOOKS).find_map(|attempt| {
-            let point: Vec<(SymbolId, f64)> =
-                symbols.iter().enumerate().map(|(i, symbol)| (*symbol, sample(attempt, i))).collect();
-            let value = |symbol| {
-                let found = point.iter().find(|(known, _)| *known == symbol);
-                found.and_then(|(_, value)| super::Rational::of_f64(*value)).unwrap_or(super::Rational::ZERO)
-            };
-            let evaluated = self.evaluate_exactly(&[expression], Point::Given(&value), CLOSER).ok()?;
+            let point = point_of(&symbols, attempt);
+            let value =
+                |symbol| super::Rational::of_f64(value_at(&point, symbol)).unwrap_or(super::Rational::ZERO);
+            let evaluated = self.evaluate_exactly(&[expression], Point::Given(&value), bits).ok()?;
             let ball = &evaluated.values[0].ball;
             ball.is_nonzero().then(|| Witness { value: ball.to_f64(), point: point.clone() })
         })
@@ -324,11 +361,8 @@ impl Graph {
             facts.symbols.keys().filter(|symbol| !symbols.contains(symbol)).copied().collect();
         symbols.extend(further);
         let found = (0..WITNESSES_UNDER_FACTS).find_map(|attempt| {
-            let point: Vec<(SymbolId, f64)> =
-                symbols.iter().enumerate().map(|(i, symbol)| (*symbol, sample(attempt, i))).collect();
-            let value =
-                |symbol| point.iter().find(|(s, _)| *s == symbol).map_or(f64::NAN, |(_, value)| *value);
-            let result = self.evaluate(&[expression], value)[0];
+            let point = point_of(&symbols, attempt);
+            let result = self.evaluate(&[expression], |symbol| value_at(&point, symbol))[0];
             (self.hold_at(facts, &point) && result.is_certainly_nonzero())
                 .then_some(Witness { value: result.value, point })
         });
@@ -347,17 +381,24 @@ impl Graph {
     pub fn witness(&self, expression: ExprId) -> Option<Witness> {
         let symbols = self.symbols_in(&[expression]);
         for attempt in 0..WITNESSES {
-            let point: Vec<(SymbolId, f64)> =
-                symbols.iter().enumerate().map(|(i, symbol)| (*symbol, sample(attempt, i))).collect();
-            let lookup =
-                |symbol| point.iter().find(|(s, _)| *s == symbol).map_or(f64::NAN, |(_, value)| *value);
-            let result = self.evaluate(&[expression], lookup)[0];
+            let point = point_of(&symbols, attempt);
+            let result = self.evaluate(&[expression], |symbol| value_at(&point, symbol))[0];
             if result.is_certainly_nonzero() {
                 return Some(Witness { value: result.value, point });
             }
         }
         None
     }
+}
+
+/// Short numbers for symbols.
+fn point_of(symbols: &[SymbolId], attempt: u64) -> Vec<(SymbolId, f64)> {
+    symbols.iter().enumerate().map(|(i, symbol)| (*symbol, sample(attempt, i))).collect()
+}
+
+/// The number for a symbol.
+fn value_at(point: &[(SymbolId, f64)], symbol: SymbolId) -> f64 {
+    point.iter().find(|(known, _)| *known == symbol).map_or(f64::NAN, |(_, value)| *value)
 }
 
 /// Values of one or two digits: first positive and of order one, then smaller, then of both signs.

@@ -1,6 +1,6 @@
 //! Claimed first integrals: their derivative along the motion vanishes on the constraint manifold.
 
-use super::evidence::{not_zero, shown};
+use super::evidence::{not_zero, seen, shown};
 use crate::algebra::{Facts, Graph, Verdict, Witness};
 use crate::geometry::Manifold;
 use crate::id::ExprId;
@@ -67,8 +67,13 @@ fn on_manifold(graph: &Graph, rate: ExprId, witness: &Witness, manifold: &Manifo
                 .map(|(symbol, value)| format!("{} = {value:.4}", graph.symbols()[*symbol]))
                 .collect();
             let value = witness.value;
+            let value = match seen(value) {
+                unseen if unseen == "not" => "not 0".to_owned(),
+                short if value.abs() < 1e-4 => short,
+                _ => format!("{value:.4}"),
+            };
             format!(
-                "its rate along the motion is {text}, where the constraints hold for example {value:.4} at {}",
+                "its rate along the motion is {text}, where the constraints hold for example {value} at {}",
                 place.join(", ")
             )
         }

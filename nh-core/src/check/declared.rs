@@ -4,7 +4,7 @@ use super::assumptions::{demand, on_the_base};
 use super::circles::by_angles;
 use super::domain::{Condition, conditions};
 use super::evidence::{listed, shown};
-use super::smoothness::not_smooth;
+use super::smoothness::{not_continuous, not_smooth};
 use crate::algebra::{Demand, Facts, Function2, Graph, Node, Rational, Substitution, Verdict};
 use crate::geometry::Manifold;
 use crate::id::{ExprId, Origin};
@@ -12,8 +12,8 @@ use crate::model::{Kinematics, Model};
 use crate::violation::{Law, Violation};
 
 /// No division by what is 0 everywhere, no root, logarithm or inverse sine of what is nowhere in their
-/// domain, for parameters as they are assumed; no `abs`, `sign`, `min` or `max`, open or in disguise, in the Lagrangian, the
-/// constraints, the anchor or the brackets.
+/// domain, for parameters as they are assumed; no `abs`, `sign`, `min` or `max`, open or in disguise, in what is
+/// differentiated and in sections, and no jumps in what is carried along motions.
 #[must_use]
 pub fn declared_expressions(model: &mut Model, facts: &Facts) -> Vec<Violation> {
     let mut violations = Vec::new();
@@ -29,8 +29,11 @@ pub fn declared_expressions(model: &mut Model, facts: &Facts) -> Vec<Violation> 
             .or_else(|| nowhere_real(&mut model.graph, facts, place, &assumed));
         violations.extend(found);
     }
-    for (what, value, origin) in differentiated {
+    for (what, value, origin) in differentiated.into_iter().chain(sections(model)) {
         violations.extend(not_smooth(model, facts, what, value, origin));
+    }
+    for (what, value, origin) in carried_along(model) {
+        violations.extend(not_continuous(model, facts, what, value, origin));
     }
     violations
 }
@@ -113,18 +116,10 @@ fn evaluated(model: &Model) -> Vec<(&'static str, ExprId, Origin)> {
     list.extend(model.outputs.iter().map(|output| ("output", output.value, output.origin)));
     let restitutions = model.impacts.iter().filter_map(|impact| impact.restitution);
     list.extend(restitutions.map(|e| ("coefficient of restitution", e.value, e.origin)));
-    list.extend(model.claims.iter().map(|claim| ("first integral", claim.value, claim.origin)));
-    for symmetry in &model.symmetries {
-        list.push(("symmetry", symmetry.value, symmetry.origin));
-        list.extend(symmetry.gauge.map(|gauge| ("function behind `up to`", gauge, symmetry.origin)));
-    }
-    let volume = model.volume.iter().filter_map(|claim| Some(("density", claim.density?, claim.origin)));
-    list.extend(volume);
-    let momenta = model.hamilton_jacobi.iter().flat_map(|claim| &claim.components);
-    list.extend(momenta.map(|(_, momentum)| ("momentum", momentum.value, momentum.origin)));
+    list.extend(carried_along(model));
+    list.extend(sections(model));
     list.extend(model.identities.iter().map(|identity| ("identity", identity.value, identity.origin)));
     list.extend(model.dropped.iter().map(|dropped| ("expression", dropped.value, dropped.origin)));
-    list.extend(model.frame.iter().map(|section| ("section", section.value, section.origin)));
     list.extend(model.routh.iter().map(|level| ("level", level.level, level.origin)));
     let arguments = |call: &crate::model::MethodCall| {
         let origin = call.origin;
@@ -136,6 +131,26 @@ fn evaluated(model: &Model) -> Vec<(&'static str, ExprId, Origin)> {
             list.push(("side of an assumption", side, assumption.origin));
         }
     }
+    list
+}
+
+/// What is claimed of motions: it has a rate along them, and no jumps.
+fn carried_along(model: &Model) -> Vec<(&'static str, ExprId, Origin)> {
+    let claims = model.claims.iter().map(|claim| ("first integral", claim.value, claim.origin));
+    let volume = model.volume.iter().filter_map(|claim| Some(("density", claim.density?, claim.origin)));
+    claims.chain(volume).collect()
+}
+
+/// Sections of E and of its dual, with the functions that belong to them.
+fn sections(model: &Model) -> Vec<(&'static str, ExprId, Origin)> {
+    let mut list: Vec<(&'static str, ExprId, Origin)> = Vec::new();
+    for symmetry in &model.symmetries {
+        list.push(("symmetry", symmetry.value, symmetry.origin));
+        list.extend(symmetry.gauge.map(|gauge| ("function behind `up to`", gauge, symmetry.origin)));
+    }
+    let momenta = model.hamilton_jacobi.iter().flat_map(|claim| &claim.components);
+    list.extend(momenta.map(|(_, momentum)| ("momentum", momentum.value, momentum.origin)));
+    list.extend(model.frame.iter().map(|section| ("section", section.value, section.origin)));
     list
 }
 

@@ -2,6 +2,7 @@
 
 use super::assumptions::on_the_base;
 use super::declared::differentiated;
+use super::evidence::shown;
 use crate::algebra::{Demand, Facts, Function, Function2, Graph, Node, Rational};
 use crate::id::{ExprId, SymbolId};
 use crate::model::Model;
@@ -23,6 +24,23 @@ pub enum Condition {
     NotBothZero(ExprId, ExprId),
 }
 
+impl Condition {
+    /// As an inequality.
+    #[must_use]
+    pub fn stated(self, graph: &Graph) -> String {
+        match self {
+            Self::Nonzero(e) => format!("{} != 0", shown(graph, e)),
+            Self::Positive(e) => format!("{} > 0", shown(graph, e)),
+            Self::NotNegative(e) => format!("{} >= 0", shown(graph, e)),
+            Self::InUnitInterval(e) => format!("|{}| <= 1", shown(graph, e)),
+            Self::InsideUnitInterval(e) => format!("|{}| < 1", shown(graph, e)),
+            Self::NotBothZero(y, x) => {
+                format!("not both {} = 0 and {} = 0", shown(graph, y), shown(graph, x))
+            }
+        }
+    }
+}
+
 /// Of more conditions it is not asked whether they hold everywhere all the same.
 const ASKED: usize = 8;
 
@@ -31,7 +49,28 @@ const ASKED: usize = 8;
 #[must_use]
 pub fn domain(model: &mut Model, facts: &Facts) -> Vec<Condition> {
     let open = not_by_ranges(model, facts);
-    if open.len() > ASKED {
+    not_proved(model, open)
+}
+
+/// The conditions under which further expressions have values, as far as the equations do not have them.
+#[must_use]
+pub fn domain_of(
+    model: &mut Model,
+    facts: &Facts,
+    (values, derivatives): (&[ExprId], u32),
+    of_equations: &[Condition],
+) -> Vec<Condition> {
+    let mut open = Vec::new();
+    add_open(model, facts, values, derivatives, &mut open);
+    open.extend(of_equations);
+    let mut open = without_implied(&open);
+    open.retain(|condition| !of_equations.contains(condition));
+    not_proved(model, open)
+}
+
+/// Those of some conditions that may fail somewhere on the base.
+fn not_proved(model: &mut Model, open: Vec<Condition>) -> Vec<Condition> {
+    if open.is_empty() || open.len() > ASKED {
         return open;
     }
     let holding = on_the_base(model);
@@ -62,25 +101,20 @@ pub fn with_zeros(model: &mut Model, divisors: &[ExprId]) -> Vec<ExprId> {
 
 /// Those that ranges alone do not prove.
 fn not_by_ranges(model: &Model, facts: &Facts) -> Vec<Condition> {
-    let graph = &model.graph;
-    let parameters: Vec<SymbolId> = model.parameters.iter().map(|parameter| parameter.symbol).collect();
-    let varies = |e: ExprId| graph.symbols_in(&[e]).iter().any(|symbol| !parameters.contains(symbol));
     let mut found: Vec<Condition> = Vec::new();
-    let mut look_at = |roots: &[ExprId], derivatives: u32| {
-        for id in graph.reachable(roots) {
-            for (expression, condition) in conditions(graph, id, derivatives) {
-                if varies(expression) && !holds(graph, condition, facts) && !found.contains(&condition) {
-                    found.push(condition);
-                }
-            }
-        }
-    };
+    let mut look_at =
+        |roots: &[ExprId], derivatives: u32| add_open(model, facts, roots, derivatives, &mut found);
     // the equations differentiate L twice, what else moves once, and forces not at all
     look_at(&[model.lagrangian.value], 2);
     let rest: Vec<ExprId> = differentiated(model).into_iter().map(|(_, value, _)| value).collect();
     look_at(&rest, 1);
     let forces: Vec<ExprId> = model.forces.iter().map(|force| force.value).collect();
     look_at(&forces, 0);
+    without_implied(&found)
+}
+
+/// Those that do not follow from others.
+fn without_implied(found: &[Condition]) -> Vec<Condition> {
     // what has to be positive need not be said to be not negative as well
     let implied = |condition: &Condition| match condition {
         Condition::NotNegative(e) | Condition::Nonzero(e) => found.contains(&Condition::Positive(*e)),
@@ -91,6 +125,20 @@ fn not_by_ranges(model: &Model, facts: &Facts) -> Vec<Condition> {
         Condition::Positive(_) | Condition::InsideUnitInterval(_) => false,
     };
     found.iter().filter(|condition| !implied(condition)).copied().collect()
+}
+
+/// Adds the conditions of expressions that are differentiated so many times, where ranges do not prove them.
+fn add_open(model: &Model, facts: &Facts, roots: &[ExprId], derivatives: u32, found: &mut Vec<Condition>) {
+    let graph = &model.graph;
+    let parameters: Vec<SymbolId> = model.parameters.iter().map(|parameter| parameter.symbol).collect();
+    let varies = |e: ExprId| graph.symbols_in(&[e]).iter().any(|symbol| !parameters.contains(symbol));
+    for id in graph.reachable(roots) {
+        for (expression, condition) in conditions(graph, id, derivatives) {
+            if varies(expression) && !holds(graph, condition, facts) && !found.contains(&condition) {
+                found.push(condition);
+            }
+        }
+    }
 }
 
 /// What one node asks of its operands if its value is differentiated so many times.

@@ -29,7 +29,7 @@ pub(crate) fn not_zero(graph: &Graph, defect: ExprId, witness: &Witness) -> Stri
     if place.is_empty() {
         format!("{shown} should be 0")
     } else {
-        format!("{shown} should be 0, but is {}{at}", short(witness.value))
+        format!("{shown} should be 0, but is {}{at}", seen(witness.value))
     }
 }
 
@@ -46,7 +46,12 @@ pub(crate) fn not_zero_on(graph: &Graph, defect: ExprId, witness: &Witness, mani
         .iter()
         .map(|(symbol, value)| format!("{} = {}", graph.symbols()[*symbol], short(*value)))
         .collect();
-    format!("{shown} should be 0, but is {} at {}", short(witness.value), place.join(", "))
+    format!("{shown} should be 0, but is {} at {}", seen(witness.value), place.join(", "))
+}
+
+/// A value that is not 0; what floating point cannot hold is not told.
+pub(super) fn seen(value: f64) -> String {
+    if value == 0.0 || !value.is_finite() { "not".into() } else { short(value) }
 }
 
 /// A number with four digits.

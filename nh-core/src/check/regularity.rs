@@ -2,12 +2,16 @@
 
 use super::dependence::{ONE_PART, place_of, with_all_roots};
 use super::evidence::{listed, shown};
-use crate::algebra::{Echelon, Facts, FieldPoint, Graph, Matrix, Node, Range, Residue, sample};
+use crate::algebra::{Echelon, Facts, FieldPoint, Graph, Matrix, Node, Range, Rational, Residue, sample};
 use crate::geometry::Manifold;
 use crate::id::{ExprId, SymbolId};
 use crate::mechanics::{ReducedEquations, SaddleEquations, uncoupled};
 use crate::model::Model;
 use crate::violation::{Law, Violation};
+
+/// Rows of a matrix that determinants are written out for, and operations in its entries.
+const SIZE: usize = 3;
+const SHORT: u64 = 300;
 
 /// C_{ab} is non-singular at generic points of the constraint manifold.
 pub fn reduced_regularity(
@@ -120,12 +124,7 @@ pub fn singular_where(
     parameters: &[SymbolId],
     facts: &Facts,
 ) -> Vec<ExprId> {
-    const SIZE: usize = 3;
-    const SHORT: u64 = 300;
-    let mut usual = facts.clone();
-    for parameter in parameters {
-        usual.symbols.entry(*parameter).or_insert(Range::POSITIVE);
-    }
+    let usual = with_positive(facts, parameters);
     let mut found: Vec<ExprId> = Vec::new();
     for block in uncoupled(graph, mass).into_iter().filter(|block| block.len() <= SIZE) {
         let inner = Graph::submatrix(mass, &block);
@@ -133,11 +132,7 @@ pub fn singular_where(
             continue;
         }
         let determinant = graph.small_determinant(&inner);
-        let factors = match graph.node(determinant).clone() {
-            Node::Product { factors, .. } => factors.to_vec(),
-            _ => vec![(determinant, 1.into())],
-        };
-        for (base, exponent) in factors {
+        for (base, exponent) in factors(graph, determinant) {
             let symbols = graph.symbols_in(&[base]);
             let of_parameters = |symbol: &SymbolId| parameters.contains(symbol);
             let varies = !symbols.iter().all(of_parameters);
@@ -150,6 +145,77 @@ pub fn singular_where(
         }
     }
     found
+}
+
+/// The same of the saddle matrix, where the mass matrix is not positive definite anyway: with such a one it is singular only
+/// where the constraints are dependent.
+pub fn saddle_singular_where(
+    graph: &mut Graph,
+    equations: &SaddleEquations,
+    parameters: &[SymbolId],
+    facts: &Facts,
+) -> Vec<ExprId> {
+    // inertias that are parameters are those of some body
+    let symbols = graph.symbols_in(&equations.mass.concat());
+    if !symbols.is_empty() && symbols.iter().all(|symbol| parameters.contains(symbol)) {
+        return Vec::new();
+    }
+    let usual = with_positive(facts, parameters);
+    // larger ones belong to larger blocks of the saddle matrix
+    let blocks = uncoupled(graph, &equations.mass).into_iter().filter(|block| block.len() < SIZE);
+    let indefinite: Vec<usize> =
+        blocks.filter(|block| !is_definite(graph, &equations.mass, block, &usual)).flatten().collect();
+    if indefinite.is_empty() {
+        return Vec::new();
+    }
+    let saddle = equations.matrix(graph);
+    let mut found: Vec<ExprId> = Vec::new();
+    for block in uncoupled(graph, &saddle).into_iter().filter(|block| block.len() <= SIZE + 1) {
+        let inner = Graph::submatrix(&saddle, &block);
+        let is_asked = block.iter().any(|row| indefinite.contains(row));
+        if !is_asked || graph.operation_count(&inner.concat()) > SHORT {
+            continue;
+        }
+        let determinant = graph.small_determinant(&inner);
+        for (base, exponent) in factors(graph, determinant) {
+            let symbols = graph.symbols_in(&[base]);
+            let varies = !symbols.iter().all(|symbol| parameters.contains(symbol));
+            let is_sure = |graph: &Graph| {
+                !symbols.iter().any(|symbol| parameters.contains(symbol))
+                    || graph.has_both_signs(base, parameters)
+            };
+            let harmless = exponent.is_negative() || graph.vanishes_nowhere(base, &usual);
+            if varies && !harmless && is_sure(graph) && !found.contains(&base) {
+                found.push(base);
+            }
+        }
+    }
+    found
+}
+
+/// The facts about a machine all of whose parameters are positive, unless these say otherwise.
+fn with_positive(facts: &Facts, parameters: &[SymbolId]) -> Facts {
+    let mut usual = facts.clone();
+    for parameter in parameters {
+        usual.symbols.entry(*parameter).or_insert(Range::POSITIVE);
+    }
+    usual
+}
+
+/// Whether rows and columns of a matrix are positive definite, as the ranges of its leading minors say.
+fn is_definite(graph: &mut Graph, matrix: &Matrix, block: &[usize], facts: &Facts) -> bool {
+    (1..=block.len()).all(|size| {
+        let minor = graph.small_determinant(&Graph::submatrix(matrix, &block[..size]));
+        graph.range(minor, facts).is_positive()
+    })
+}
+
+/// The factors of a determinant.
+fn factors(graph: &Graph, determinant: ExprId) -> Vec<(ExprId, Rational)> {
+    match graph.node(determinant) {
+        Node::Product { factors, .. } => factors.to_vec(),
+        _ => vec![(determinant, 1.into())],
+    }
 }
 
 /// Whether a factor of the determinant changes its sign, for some positive parameters, between a state where

@@ -1,36 +1,21 @@
 //! What is differentiated is smooth: it has no branches that meet with an edge, open or in disguise.
 
 use super::evidence::shown;
+use super::steps::{Order, order_at_zeros};
 use crate::algebra::{Facts, Function, Function2, Graph, Node, Rational};
 use crate::id::{ExprId, Origin, SymbolId};
 use crate::model::Model;
 use crate::violation::{Law, Violation};
 
 /// An expression with `abs`, `sign`, `min` or `max`, or with a root of a square that changes sign.
-pub(super) fn not_smooth(
+pub(crate) fn not_smooth(
     model: &mut Model,
     facts: &Facts,
     what: &str,
     value: ExprId,
     origin: Origin,
 ) -> Option<Violation> {
-    let parameters: Vec<SymbolId> = model.parameters.iter().map(|parameter| parameter.symbol).collect();
-    let graph = &mut model.graph;
-    let named = graph.reachable(&[value]).into_iter().find_map(|id| match graph.node(id) {
-        Node::Apply(function @ (Function::Abs | Function::Sign), _) => Some(function.name()),
-        Node::Apply2(function @ (Function2::Min | Function2::Max), ..) => Some(function.name()),
-        _ => None,
-    });
-    let edge = match named {
-        Some(name) => Edge {
-            uses: format!("`{name}`"),
-            evidence: format!(
-                "`{name}` has no derivative where its branches meet, and the equations need one"
-            ),
-            way_out: SMOOTH.into(),
-        },
-        None => Edge::in_disguise(graph, value, &parameters, facts)?,
-    };
+    let edge = Edge::of(model, facts, value, Wanted::Smooth)?;
     Some(Violation {
         law: Law::Smooth,
         origin,
@@ -38,6 +23,32 @@ pub(super) fn not_smooth(
         evidence: edge.evidence,
         way_out: edge.way_out,
     })
+}
+
+/// An expression that jumps and is constant on both sides, or changes sign there: an integral or a density that is none
+/// for a motion that comes by.
+pub(super) fn not_continuous(
+    model: &mut Model,
+    facts: &Facts,
+    what: &str,
+    value: ExprId,
+    origin: Origin,
+) -> Option<Violation> {
+    let edge = Edge::of(model, facts, value, Wanted::Continuous)?;
+    Some(Violation {
+        law: Law::Smooth,
+        origin,
+        what: format!("this {what} is not continuous: it uses {}", edge.uses),
+        evidence: edge.evidence,
+        way_out: edge.way_out,
+    })
+}
+
+/// What is asked of an expression.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Wanted {
+    Smooth,
+    Continuous,
 }
 
 const SMOOTH: &str = "use a smooth expression, such as sqrt(x^2 + eps^2) for abs(x); `abs`, `sign`, `min` and \
@@ -51,18 +62,48 @@ struct Edge {
 }
 
 impl Edge {
+    fn of(model: &mut Model, facts: &Facts, value: ExprId, wanted: Wanted) -> Option<Self> {
+        let parameters: Vec<SymbolId> = model.parameters.iter().map(|parameter| parameter.symbol).collect();
+        let graph = &mut model.graph;
+        let named = graph.reachable(&[value]).into_iter().find_map(|id| match graph.node(id) {
+            Node::Apply(function @ (Function::Abs | Function::Sign), _) => Some(function.name()),
+            Node::Apply2(function @ (Function2::Min | Function2::Max), ..) => Some(function.name()),
+            _ => None,
+        });
+        let Some(name) = named else { return Self::in_disguise(graph, value, wanted, &parameters, facts) };
+        Some(Self {
+            uses: format!("`{name}`"),
+            evidence: format!(
+                "`{name}` has no derivative where its branches meet, and the equations need one"
+            ),
+            way_out: SMOOTH.into(),
+        })
+    }
+
     /// That of a root of a square, or of an arc that touches its ends.
-    fn in_disguise(graph: &mut Graph, value: ExprId, parameters: &[SymbolId], facts: &Facts) -> Option<Self> {
+    fn in_disguise(
+        graph: &mut Graph,
+        value: ExprId,
+        wanted: Wanted,
+        parameters: &[SymbolId],
+        facts: &Facts,
+    ) -> Option<Self> {
         for id in graph.reachable(&[value]) {
             match graph.node(id).clone() {
                 Node::Product { factors, .. } => {
                     for (base, exponent) in factors.iter().filter(|(_, exponent)| !exponent.is_integer()) {
-                        if let Some(edge) = Self::of_root(graph, *base, exponent, parameters, facts) {
+                        let step = Self::of_quotient(graph, (id, *base), exponent, wanted, parameters, facts);
+                        if step.is_some() {
+                            return step;
+                        }
+                        if wanted == Wanted::Smooth
+                            && let Some(edge) = Self::of_root(graph, *base, exponent, parameters, facts)
+                        {
                             return Some(edge);
                         }
                     }
                 }
-                Node::Apply(function @ (Function::Asin | Function::Acos), x) => {
+                Node::Apply(function @ (Function::Asin | Function::Acos), x) if wanted == Wanted::Smooth => {
                     let (one, square) = (graph.one(), graph.square(x));
                     let rest = graph.formula(one - square);
                     let squared = squared(graph, rest, parameters, facts).map(|(inner, _)| inner);
@@ -92,6 +133,54 @@ impl Edge {
             }
         }
         None
+    }
+
+    /// That of a product in which a root of a square stands over what vanishes with it, or the other way round, as in
+    /// x/sqrt(x^2), which is the sign of x.
+    fn of_quotient(
+        graph: &mut Graph,
+        (product, base): (ExprId, ExprId),
+        exponent: &Rational,
+        wanted: Wanted,
+        parameters: &[SymbolId],
+        facts: &Facts,
+    ) -> Option<Self> {
+        // 1. what the root is a power of, and the rest of the product
+        let root = graph.pow(base, exponent.clone());
+        let rest = graph.formula(product / root);
+        let varies = graph.symbols_in(&[rest]).iter().any(|symbol| !parameters.contains(symbol));
+        if !varies {
+            return None;
+        }
+        let (inner, power) = squared(graph, base, parameters, facts)
+            .or_else(|| Some((graph.double_zero(base, parameters)?, Rational::from(2))))?;
+        let power = power * exponent.clone();
+        let is_even = power.is_integer() && !power.has_odd_numerator();
+        if is_even {
+            return None;
+        }
+        // 2. of which order the rest vanishes with it, or is infinite
+        let size = power.abs();
+        let rest = if power.is_negative() { rest } else { graph.formula(root / product) };
+        let order = order_at_zeros(graph, rest, inner, &size, parameters)?;
+        let inner = shown(graph, inner);
+        let evidence = match (order, wanted) {
+            (Order::Same, _) => {
+                format!("it is the sign of {inner} up to a factor: it jumps where {inner} = 0")
+            }
+            (Order::Higher, Wanted::Smooth) if power.is_negative() => {
+                format!("it is abs({inner}) up to a factor, or a power of that: not smooth where {inner} = 0")
+            }
+            _ => return None,
+        };
+        Some(Self {
+            uses: format!("`{}`", shown(graph, product)),
+            evidence,
+            way_out: format!(
+                "where {inner} is meant to keep its sign, write it without the root; otherwise use a smooth expression, \
+                 such as x/sqrt(x^2 + eps^2) for the sign of x"
+            ),
+        })
     }
 
     /// That of a root of a square, or of something that touches 0 as a square does.

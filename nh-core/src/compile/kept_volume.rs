@@ -6,6 +6,7 @@ use crate::algebra::{
     Echelon, FieldPoint, Function, Graph, Matrix, Node, Rational, Residue, Substitution, Verdict,
 };
 use crate::check;
+use crate::check::evidence::shown;
 use crate::functions::{DIVERGENCE, Functions, VOLUME_DENSITY};
 use crate::geometry::{ConstraintDistribution, Manifold};
 use crate::id::{ExprId, SymbolId};
@@ -50,7 +51,8 @@ pub(super) fn derive(
             let broken = check::claimed_density(model, asked, density, written_out, &mut flow, origin);
             fence(broken.into_iter().collect())?;
             let text = model.graph.text_within(density, 400);
-            lines.push(format!("the density {text} is kept (claimed, and proved)"));
+            let signs = changes_of_sign(proved, density);
+            lines.push(format!("the density {text} is kept (claimed, and proved){signs}"));
             found.add_if(&VOLUME_DENSITY, of_volume.map(|_| Procedure::of(vec![density])));
         } else {
             // 3. a density on the base
@@ -66,6 +68,23 @@ pub(super) fn derive(
     }
     found.add_if(&DIVERGENCE, of_divergence.map(|_| field));
     Ok(lines)
+}
+
+/// Where a density that is claimed has zeros between places of either sign: it is that of a volume on each side alone.
+fn changes_of_sign(proved: &mut Proved, density: ExprId) -> String {
+    let parameters: Vec<SymbolId> =
+        proved.model.parameters.iter().map(|parameter| parameter.symbol).collect();
+    let mut factors = check::with_zeros(&mut proved.model, &[density]);
+    let graph = &proved.model.graph;
+    factors.retain(|factor| graph.has_both_signs(*factor, &parameters));
+    let zeros: Vec<String> = factors.iter().map(|factor| format!("{} = 0", shown(graph, *factor))).collect();
+    match zeros.as_slice() {
+        [] => String::new(),
+        zeros => format!(
+            "; it changes its sign where {}, and is that of a volume on each side",
+            zeros.join(" or ")
+        ),
+    }
 }
 
 /// The constraint manifold as far as the state can leave it.

@@ -8,7 +8,11 @@ mod reduced_form;
 mod velocities_to_name;
 
 use crate::algebra::Demand;
-use crate::check::{Condition, domain, not_conservative, on_the_base, singular_where, with_zeros};
+use crate::algebra::{Function2, Node};
+use crate::check::{
+    Condition, domain, domain_of, not_conservative, on_the_base, saddle_singular_where, singular_where,
+    with_zeros,
+};
 use crate::compile::{Derived, Proved};
 use crate::geometry::suggested_velocities::Suggested;
 use crate::id::{ExprId, SymbolId};
@@ -26,11 +30,13 @@ pub(crate) struct Findings {
     pub(crate) no_state_is_known: bool,
     /// Where alone the equations have a value.
     pub(crate) domain: Vec<Condition>,
+    /// The claimed first integrals, in their order.
+    pub(crate) claims: Vec<FirstIntegral>,
     /// Where alone the quasi-velocities are a chart: these vanish somewhere.
     pub(crate) chart_divisors: Vec<ExprId>,
     /// Whether D is closed under the bracket; `None` where its sections are not known.
     pub(crate) closure: Option<Closure>,
-    /// Factors of the determinant of the mass matrix that vanish in some states, or for some parameters.
+    /// Factors of the determinant of the mass matrix, or of the saddle matrix, that vanish in some states, or for some parameters.
     pub(crate) singular_mass: Vec<ExprId>,
     /// What reduction theory calls the equations.
     pub(crate) reduced: ReducedForm,
@@ -50,11 +56,21 @@ pub(crate) struct Findings {
     pub(crate) suggested: Option<Suggested>,
 }
 
+/// Where a claimed first integral is one.
+#[derive(Clone, Debug)]
+pub(crate) struct FirstIntegral {
+    /// Where alone it has a value, besides where the equations have.
+    pub(crate) domain: Vec<Condition>,
+    /// Whether it contains the angle of a point, which jumps by a turn.
+    pub(crate) has_turns: bool,
+}
+
 impl Findings {
     /// Finds them.
     pub(crate) fn of(proved: &mut Proved, derived: &Derived<'_>) -> Self {
         let no_state_is_known = real_states::undecided(proved);
         let domain = domain(&mut proved.model, &proved.facts);
+        let claims = first_integrals(proved, &domain);
         let chart_divisors = with_zeros(&mut proved.model, &proved.motion.divisors);
         let closure = Closure::of(proved, derived);
         let singular_mass = singular_mass(proved, derived);
@@ -69,6 +85,7 @@ impl Findings {
         Self {
             no_state_is_known,
             domain,
+            claims,
             chart_divisors,
             closure,
             singular_mass,
@@ -84,18 +101,40 @@ impl Findings {
     }
 }
 
+fn first_integrals(proved: &mut Proved, of_equations: &[Condition]) -> Vec<FirstIntegral> {
+    let Proved { model, facts, .. } = proved;
+    let values: Vec<ExprId> = model.claims.iter().map(|claim| claim.value).collect();
+    let found = values.into_iter().map(|value| {
+        let domain = domain_of(model, facts, (&[value], 0), of_equations);
+        let graph = &model.graph;
+        let mut parts = graph.reachable(&[value]).into_iter();
+        let has_turns = parts.any(|part| matches!(graph.node(part), Node::Apply2(Function2::Atan2, ..)));
+        FirstIntegral { domain, has_turns }
+    });
+    found.collect()
+}
+
 fn singular_mass(proved: &mut Proved, derived: &Derived<'_>) -> Vec<ExprId> {
-    let Derived::Adapted { equations, .. } = derived else { return Vec::new() };
     let parameters = parameters(proved);
-    let found = singular_where(&mut proved.model.graph, &equations.mass, &parameters, &proved.facts);
+    let Proved { model, facts, .. } = &mut *proved;
+    let found = match derived {
+        Derived::Adapted { equations, .. } => {
+            singular_where(&mut model.graph, &equations.mass, &parameters, facts)
+        }
+        Derived::Projected { equations, .. } => {
+            saddle_singular_where(&mut model.graph, equations, &parameters, facts)
+        }
+    };
     if found.is_empty() {
         return found;
     }
-    let holding = on_the_base(&mut proved.model);
+    let mut holding = on_the_base(&mut proved.model);
+    holding.extend(proved.model.positions.iter().map(|position| (position.value, Demand::Zero)));
+    let is_free = proved.model.positions.is_empty();
     let graph = &proved.model.graph;
     let may_vanish = |factor: &ExprId| {
         // most do, and it is seen soon
-        if graph.has_both_signs(*factor, &parameters) {
+        if is_free && graph.has_both_signs(*factor, &parameters) {
             return true;
         }
         let mut demands = graph.related_demands(&holding, &[*factor]);

@@ -108,7 +108,8 @@ fn report(source: &mut Side, target: &Side, included: &[ExprId], undecided: &[St
         format!("{from} -> {to}"),
         String::new(),
         format!(
-            "A mode: {from} is {to} with further constraints. A morphism of Lie algebroids, (13) and (14), with a way back;"
+            "A mode: {from} is {to} with further constraints. A morphism of {}, (13) and (14), with a way back;",
+            maps::algebroids(source, target)
         ),
         "L = L' after the map, D goes into D', the forces are related.".to_owned(),
         String::new(),

@@ -248,6 +248,12 @@ fn velocities(
     Some((velocity, state))
 }
 
+/// What the map is one of: where a side breaks (2) or (3) it is no Lie algebroid.
+pub(super) fn algebroids(source: &Side, target: &Side) -> &'static str {
+    let are_lie = [source, target].iter().all(|side| side.proved.broken_laws.is_none());
+    if are_lie { "Lie algebroids" } else { "almost Lie algebroids" }
+}
+
 /// What was proved, as text.
 fn report(source: &mut Side, target: &Side, map: &BundleMap, back: Option<&Reconstruction>) -> String {
     let (from, to) = (source.name(), target.name());
@@ -256,7 +262,10 @@ fn report(source: &mut Side, target: &Side, map: &BundleMap, back: Option<&Recon
     let mut lines = vec![
         format!("{from} -> {to}"),
         String::new(),
-        format!("A morphism of Lie algebroids, {kind} (rank {rank} to {image}): CLMM 2.3, (13) and (14)."),
+        format!(
+            "A morphism of {}, {kind} (rank {rank} to {image}): CLMM 2.3, (13) and (14).",
+            algebroids(source, target)
+        ),
         "L = L' after the map, D goes onto D', the forces are related: motions go to motions, CLMM \
          Theorems 4.6 and 7.8."
             .to_owned(),

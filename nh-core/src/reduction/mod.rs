@@ -17,6 +17,8 @@ mod maps;
 mod quotient;
 mod side;
 
+use crate::check::evidence::listed;
+use crate::check::{domain, domain_of, not_smooth};
 use crate::compile::Proved;
 use crate::id::{CoordId, ExprId, InputId, Origin, ParamId, SymbolId};
 use crate::limits::{Subject, about};
@@ -111,7 +113,10 @@ pub fn reduce(source: Model, target: Model, declared: &MorphismDecl) -> Result<R
     fence(sides.filter_map(|side| on_moving_positions(side, declared.origin)).collect())?;
     // 1. Φ: parameters, base and fibres, and the target pulled back by it
     let map = BundleMap::of(&mut source, &target, declared).map_err(Refusal::Broken)?;
-    let (broken, undecided) = assumed::assumed(&mut source, &target, &map);
+    let lines = map.coordinates.iter().map(|line| ("coordinate", *line));
+    let lines: Vec<_> = lines.chain(map.velocity.iter().map(|line| ("velocity", *line))).collect();
+    fence(rough(&mut source, lines))?;
+    let (broken, mut remarks) = assumed::assumed(&mut source, &target, &map);
     fence(broken)?;
     // 2. the laws of the map, mathematics (13) and (14): onto, unless the source is a mode of the target
     let places = inclusion::places(&mut source, &target, &map);
@@ -120,14 +125,43 @@ pub fn reduce(source: Model, target: Model, declared: &MorphismDecl) -> Result<R
     // 3. what moves is related: L, D, forces
     let broken = dynamics::related(&mut source, &target, &map, places.is_none());
     fence(broken)?;
+    remarks.extend(places_of_values(&mut source, &map));
+    if [&source, &target].iter().any(|side| !side.proved.model.impacts.is_empty()) {
+        remarks.push("All of it between impacts, which it does not relate.".to_owned());
+    }
     // 4. the functions
     let related = match places {
-        Some(places) => inclusion::functions(source, &target, &map, places, &undecided)
+        Some(places) => inclusion::functions(source, &target, &map, places, &remarks)
             .map(Box::new)
             .map(Related::Inclusion),
-        None => maps::functions(source, &target, &map, &undecided).map(Box::new).map(Related::Reduction),
+        None => maps::functions(source, &target, &map, &remarks).map(Box::new).map(Related::Reduction),
     };
     related.map_err(|violation| Refusal::Broken(vec![violation]))
+}
+
+/// Lines of a map that are not smooth: motions do not go to motions where one has an edge, or jumps.
+fn rough(source: &mut Side, lines: Vec<(&str, Located)>) -> Vec<Violation> {
+    let Proved { model, facts, .. } = &mut source.proved;
+    let mut found: Vec<Violation> = Vec::new();
+    for (what, line) in lines {
+        if found.iter().all(|violation| violation.origin != line.origin) {
+            found.extend(not_smooth(model, facts, what, line.value, line.origin));
+        }
+    }
+    found
+}
+
+/// Where alone the map has a value, as far as the motion of the source has not.
+fn places_of_values(source: &mut Side, map: &BundleMap) -> Option<String> {
+    let Proved { model, facts, .. } = &mut source.proved;
+    let of_equations = domain(model, facts);
+    let lines = map.coordinates.iter().chain(&map.velocity);
+    let lines: Vec<ExprId> = lines.map(|line| line.value).collect();
+    let found = domain_of(model, facts, (&lines, 1), &of_equations);
+    let places: Vec<String> = found.iter().map(|condition| condition.stated(&model.graph)).collect();
+    (!places.is_empty()).then(|| {
+        format!("The map has a value only where {}: it relates motions that stay there.", listed(&places))
+    })
 }
 
 /// A side whose positions move: its velocities are no vector bundle over them.

@@ -79,6 +79,8 @@ pub fn quotient(model: Model, declared: &QuotientDecl) -> Result<Quotient, Refus
     let mut source = Side::of(model)?;
     about(Subject::Quotient);
     fence(super::on_moving_positions(&source, declared.origin).into_iter().collect())?;
+    let lines = declared.velocities.iter().flatten().map(|(_, line)| ("velocity", *line)).collect();
+    fence(super::rough(&mut source, lines))?;
     // 1. the frame: w = Φ y, Ψ = Φ⁻¹
     let derived = invariant_frame(&mut source, declared);
     let no_frame = derived.as_ref().err().cloned();

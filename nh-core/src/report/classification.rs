@@ -4,9 +4,9 @@ use super::suggestion_line::validity;
 use super::{combination, section_names, shown, suggestion};
 use crate::algebra::Graph;
 use crate::check::evidence::{counted, listed, places};
-use crate::check::{BrokenLaws, Condition, Positions, not_asked, points_shown, undecided};
+use crate::check::{BrokenLaws, Positions, not_asked, points_shown, undecided};
 use crate::compile::{Derived, Proved};
-use crate::findings::{Closure, Findings};
+use crate::findings::{Closure, Findings, FirstIntegral};
 use crate::geometry::independent_velocities::Choice;
 use crate::geometry::{Drops, Rank};
 use crate::id::{CoordId, SymbolId};
@@ -42,8 +42,11 @@ pub(super) fn lines(
     let parameters: Vec<SymbolId> = model.parameters.iter().map(|parameter| parameter.symbol).collect();
     for factor in &findings.singular_mass {
         let of_parameters = model.graph.depends_on(*factor, &parameters);
-        let whom =
-            if of_parameters { "for some parameters the mass matrix is" } else { "the mass matrix is" };
+        let what = match derived {
+            Derived::Adapted { .. } => "the mass matrix is",
+            Derived::Projected { .. } => "the equations are",
+        };
+        let whom = if of_parameters { format!("for some parameters {what}") } else { what.to_owned() };
         let text = shown(&model.graph, *factor);
         let place = if text.contains('…') { "its determinant" } else { text.as_str() };
         lines.push(format!("{whom} singular where {place} = 0"));
@@ -57,7 +60,7 @@ pub(super) fn lines(
         lines.push(no_state_is_known(proved));
     }
     for condition in &findings.domain {
-        lines.push(format!("the equations have a value only where {}", stated(&model.graph, *condition)));
+        lines.push(format!("the equations have a value only where {}", condition.stated(&model.graph)));
     }
     for divisor in &findings.chart_divisors {
         let text = shown(&model.graph, *divisor);
@@ -77,19 +80,6 @@ fn no_state_is_known(Proved { model, constraints, .. }: &Proved) -> String {
     format!(
         "whether {what} satisfy {equations}{assumed} was not decided: none were found, and no contradiction"
     )
-}
-
-fn stated(graph: &Graph, condition: Condition) -> String {
-    match condition {
-        Condition::Nonzero(e) => format!("{} != 0", shown(graph, e)),
-        Condition::Positive(e) => format!("{} > 0", shown(graph, e)),
-        Condition::NotNegative(e) => format!("{} >= 0", shown(graph, e)),
-        Condition::InUnitInterval(e) => format!("|{}| <= 1", shown(graph, e)),
-        Condition::InsideUnitInterval(e) => format!("|{}| < 1", shown(graph, e)),
-        Condition::NotBothZero(y, x) => {
-            format!("not both {} = 0 and {} = 0", shown(graph, y), shown(graph, x))
-        }
-    }
 }
 
 /// The kind of algebroid.
@@ -282,11 +272,31 @@ fn constant_coordinates(model: &Model, derived: &Derived<'_>) -> String {
     if constant.is_empty() { String::new() } else { format!("; constant: {}", constant.join(", ")) }
 }
 
+/// The title above what is conserved: impacts change velocities.
+pub(super) fn title_of_conserved(model: &Model) -> &'static str {
+    if model.impacts.is_empty() { "Conserved quantities" } else { "Conserved between impacts" }
+}
+
+/// That a claim is proved, and where.
+fn proved_of(graph: &Graph, claim: &FirstIntegral) -> String {
+    let places: Vec<String> = claim.domain.iter().map(|condition| condition.stated(graph)).collect();
+    let mut text = "proved".to_owned();
+    if !places.is_empty() {
+        text.extend([" for motions along which it has a value: ", &listed(&places)]);
+    }
+    if claim.has_turns {
+        text += ", up to whole turns of its angle";
+    }
+    text
+}
+
 /// What is conserved by the theorems that need no search.
 pub(super) fn conserved(proved: &Proved, findings: &Findings) -> Vec<String> {
     let model = &proved.model;
-    let mut lines: Vec<String> =
-        model.claims.iter().map(|claim| format!("{} (claimed, and proved)", claim.name)).collect();
+    let claims = model.claims.iter().zip(&findings.claims);
+    let mut lines: Vec<String> = claims
+        .map(|(claim, found)| format!("{} (claimed, and {})", claim.name, proved_of(&model.graph, found)))
+        .collect();
     if findings.keeps_energy {
         let reason =
             "CLMM Theorems 3.4 and 7.6: L does not depend on time, no power of constraints and forces";

@@ -71,7 +71,7 @@ pub(crate) fn report(
     section("Equations of motion", equations_of_motion(model, derived));
     section("Impacts", impacts);
     section("Symmetries", symmetries);
-    section("Conserved quantities", conserved);
+    section(classification::title_of_conserved(model), conserved);
     for (title, lines) in more {
         section(title, lines);
     }

@@ -9,6 +9,7 @@ use nonholonomic_core::model::Formulation;
 use proc_macro2::Ident;
 use quote::quote;
 
+use super::alike::Measured;
 use super::array::Shape;
 use super::reports::Outcome;
 use super::resolver::Resolver;
@@ -85,6 +86,15 @@ impl Resolver {
             }
             let (text, shape) = (&declared.name.text, Shape::of(&declared.lengths));
             let Ok(named) = self.enter(text, shape, Role::FrameVelocity, declared.extent) else { continue };
+            for symbol in &named.symbols {
+                // T is half the sum of their squares
+                let name = &self.graph.symbols()[*symbol];
+                let square = Measured::expected(format!("the square of `{name}`"), declared.extent);
+                let square = square.symbol(*symbol, 2);
+                let energy = Measured::expected("the kinetic energy", declared.extent).energy(1);
+                let place = std::ptr::from_ref(declared).addr();
+                self.same_unit_in("orthonormal", place, "is a part of", vec![energy, square]);
+            }
             symbols.extend(&named.symbols);
             self.scope.insert(text.clone(), Meaning::Named(Rc::new(named)));
             layout.frame.push(Family::from(declared));

@@ -24,6 +24,8 @@ pub(super) struct Named<'a> {
     pub(super) claims: &'a [OutputDecl],
     pub(super) constraints: &'a Table<ConstraintId, ConstraintDecl>,
     pub(super) symmetries: &'a [SymmetryDecl],
+    /// These have symbols, and are no sections of E.
+    pub(super) orthonormal: &'a [SymbolId],
 }
 
 /// A declared name or entry, and whether it is that of a symbol, with the text of its unit: an output may have the name
@@ -270,6 +272,7 @@ impl Resolver {
         let symbols: Vec<SymbolId> = (tables.coordinates.iter().map(|coordinate| coordinate.symbol))
             .chain(tables.sections.iter().map(|section| section.symbol))
             .chain(tables.frame.iter().map(|section| section.symbol))
+            .chain(named.orthonormal.iter().copied())
             .chain(tables.auxiliary.iter().map(|state| state.symbol))
             .chain(tables.inputs.iter().map(|input| input.symbol))
             .chain(tables.parameters.iter().map(|parameter| parameter.symbol))

@@ -154,16 +154,16 @@ impl Resolver {
             claims: &claims,
             constraints: &constraints,
             symmetries: &symmetries,
+            orthonormal: orthonormal.as_ref().map_or(&[], |(symbols, _)| symbols),
         };
         let units = sections.units.as_ref().map(|s| self.units(&s.body, &named, layout)).unwrap_or_default();
-        let origin = Self::whole();
-        let lagrangian = lagrangian.unwrap_or(Located { value: self.time(), origin });
+        let lagrangian = lagrangian.unwrap_or(Located { value: self.time(), origin: Self::whole() });
         let tables = std::mem::take(&mut self.tables);
         know_symbols(layout, &tables, orthonormal.as_ref());
         Model {
             graph: std::mem::take(&mut self.graph),
             name: declaration.structure.name.to_string(),
-            origin,
+            origin: Self::whole(),
             time: self.time,
             parameters: tables.parameters,
             coordinates: tables.coordinates,

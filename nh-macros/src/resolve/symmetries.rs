@@ -112,6 +112,17 @@ impl Resolver {
             return Err(self.report(definition, error));
         };
         let level = self.number_value(&definition.value)?;
+        let momentum = Measured::expected(format!("the momentum of `{symmetry}`"), definition.extent);
+        let momentum = momentum.energy(1).time(1);
+        let coordinate = self.tables.coordinates.iter().find(|coordinate| coordinate.name == symmetry);
+        let momentum = match (symmetries.iter().find(|section| section.name == symmetry), coordinate) {
+            (Some(section), _) => Some(momentum.expression(section.value, Kind::Sections, 1)),
+            (None, coordinate) => coordinate.map(|coordinate| momentum.symbol(coordinate.symbol, -1)),
+        };
+        if let Some(momentum) = momentum {
+            let given = self.written(&definition.value, level, None);
+            self.same_unit(definition, "is compared with", vec![momentum, given]);
+        }
         let origin = self.origin(definition.extent.to(definition.value.extent));
         Ok(RouthDecl { symmetry, level, origin })
     }

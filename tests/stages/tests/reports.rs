@@ -452,3 +452,26 @@ fn what_position_constraints_tie_is_not_cyclic() {
         ),
     ]);
 }
+
+/// Where accelerations and multipliers are not determined though the constraints are independent there; and nowhere else.
+#[test]
+fn projected_equations_say_where_they_are_singular() {
+    let on_circle = |lagrangian: &str, curve: &str| {
+        format!("base {{ x, y }} lagrangian {{ {lagrangian} }} holonomic {{ {curve}; }}")
+    };
+    let weighted = on_circle("(x^2*der(x)^2 + der(y)^2)/2", "x^2 + y^2 = 1");
+    let far = on_circle("((x - 2)^2*der(x)^2 + der(y)^2)/2", "x^2 + y^2 = 1");
+    let null = on_circle("(der(x)^2 - der(y)^2)/2", "x^2 + y^2 = 1");
+    let spacelike = on_circle("(der(x)^2 - der(y)^2)/2", "x^2 - y^2 = 1");
+    let usual = on_circle("m*(der(x)^2 + der(y)^2)/2", "x^2 + y^2 = 1");
+    let blade = "base { x, y, th } lagrangian { (x*der(x)^2 + x*der(y)^2 + der(th)^2)/2 }
+        constraints { cos(th)*der(y) = sin(th)*der(x); }";
+    check(&[
+        (&weighted, "", &["the equations are singular where x = 0\n"], &[]),
+        (&null, "", &["the equations are singular where 4*y^2 - 4*x^2 = 0\n"], &[]),
+        (blade, "", &["the equations are singular where x = 0\n"], &[]),
+        (&far, "", &[], &["singular"]),
+        (&spacelike, "", &[], &["singular"]),
+        (&usual, "m: f64", &[], &["singular"]),
+    ]);
+}

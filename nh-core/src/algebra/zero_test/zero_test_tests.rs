@@ -158,3 +158,25 @@ fn many_roots_at_once() {
         .collect();
     assert_eq!(g.generic_rank(&matrix), Ok(9));
 }
+
+/// Exponentials have no zeros, though their values are beyond the range of floating point at every point of order one.
+#[test]
+fn exponentials_beyond_floating_point_are_not_zero() {
+    let mut g = Graph::new();
+    let [x, y] = symbols(&mut g, ["x", "y"]);
+    for by in [900, 3000, 1_000_000] {
+        let exponent = g.formula(x.square() + by);
+        let opposite = g.neg(exponent);
+        for argument in [exponent, opposite] {
+            let exponential = g.apply(Function::Exp, argument);
+            let product = g.formula((x - y) * exponential);
+            assert!(g.zero_test(exponential).is_nonzero(), "{}", g.text(exponential));
+            assert!(g.zero_test(product).is_nonzero(), "{}", g.text(product));
+        }
+    }
+    // two of them that no factor has in common
+    let arguments = [x, y].map(|z| g.formula(-z.square() - 900));
+    let [one, other] = arguments.map(|argument| g.apply(Function::Exp, argument));
+    let difference = g.formula(one - 2 * other);
+    assert!(g.zero_test(difference).is_nonzero());
+}

@@ -33,7 +33,7 @@ pub(super) fn parts(
         ("Routh reduction, (22)", routh(page, findings)),
         ("Impacts, (50)", impacts(page, proved)),
         ("Symmetries and momenta, (11), (12)", symmetries(page, proved, findings)),
-        ("Conserved quantities", conserved(page, proved, findings)),
+        (classification::title_of_conserved(page.model), conserved(page, proved, findings)),
     ]
 }
 
