@@ -2,7 +2,7 @@
 
 from types import SimpleNamespace
 
-from pieces import factorised, numbered, on_the_plane, planar, several, two_by_two
+from pieces import numbered, on_the_plane, planar, several, two_by_two
 
 
 def couplings(lengths, moments, s, co, spins, turned):

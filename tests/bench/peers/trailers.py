@@ -144,7 +144,7 @@ def rear_steered(f):
         return side, yaw, hitch, across, name(across * name(1 / p.d))
 
     def solved(p, q, u):
-        side, yaw, hitch, across, spin = multiples(p, q)
+        side, yaw, *_, spin = multiples(p, q)
         omega = f.named(yaw * u.v)
         return dict(side=side * u.v, omega=omega, rd=f.named(spin * u.v - omega))
 
