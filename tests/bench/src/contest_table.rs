@@ -57,7 +57,38 @@ pub fn print_peers(rows: &[Row], peers: &[[Option<Measured>; PEERS.len()]]) {
             let [derivative, jacobian] = [1, 2].map(|which| cell(own(row, which), digits));
             println!("| {} | {derivative} | {jacobian} | {cells} |", row.name);
         }
+        print_ratios(rows, peers, own, of);
     }
+}
+
+/// Prints the ratio of the derivative, or for a peer that has Jacobians of the derivative with them, to each peer: its
+/// geometric mean over the systems that the peer has, the worst, and how many these are and how many of them are above one.
+fn print_ratios(
+    rows: &[Row],
+    peers: &[[Option<Measured>; PEERS.len()]],
+    own: impl Fn(&Row, usize) -> Option<f64>,
+    of: impl Fn(&Measured) -> Option<f64>,
+) {
+    let columns: [Vec<f64>; PEERS.len()] = std::array::from_fn(|place| {
+        let which = if PEERS[place].2 == "jacobian" { 2 } else { 1 };
+        let ratio = |(row, peers): (&Row, &[Option<Measured>; PEERS.len()])| {
+            Some(own(row, which)? / of(peers[place].as_ref()?)?)
+        };
+        rows.iter().zip(peers).filter_map(ratio).collect()
+    });
+    if columns.iter().all(Vec::is_empty) {
+        return;
+    }
+    let line = |what: &str, text: &dyn Fn(&Vec<f64>) -> String| {
+        println!("| {what} | | | {} |", columns.each_ref().map(text).join(" | "));
+    };
+    line("ours to theirs, geometric mean", &|ratios| {
+        cell(geometric_mean(ratios.iter().copied().map(Some)), 2)
+    });
+    line("ours to theirs, worst", &|ratios| cell(ratios.iter().copied().reduce(f64::max), 2));
+    line("ours more, of systems", &|ratios| {
+        format!("{} of {}", ratios.iter().filter(|ratio| **ratio > 1.0).count(), ratios.len())
+    });
 }
 
 /// Prints the derivative with its Jacobians beside that of the peer which has them, and the mean and the worst ratio.
@@ -101,5 +132,5 @@ pub fn cell(value: Option<f64>, digits: usize) -> String {
 /// The geometric mean, if every value is known.
 pub fn geometric_mean(values: impl Iterator<Item = Option<f64>>) -> Option<f64> {
     let logarithms: Vec<f64> = values.map(|value| value.map(f64::ln)).collect::<Option<_>>()?;
-    Some((logarithms.iter().sum::<f64>() / logarithms.len() as f64).exp())
+    (!logarithms.is_empty()).then(|| (logarithms.iter().sum::<f64>() / logarithms.len() as f64).exp())
 }

@@ -3,7 +3,10 @@
 //!
 //! ```sh
 //! RUSTFLAGS="-C target-cpu=x86-64-v3" cargo run --release -p nh-bench
+//! RUSTFLAGS="-C target-cpu=x86-64-v3" cargo run --release -p nh-bench -- arm "five-bar linkage"
 //! ```
+//!
+//! Words that follow choose the systems whose names begin with one of them.
 
 use std::process::ExitCode;
 
@@ -14,8 +17,8 @@ use nh_bench::program;
 use nh_bench::runner::{OWN, Run, all};
 
 fn main() -> ExitCode {
-    let evaluate = |_: &[String]| {
-        for system in all() {
+    let evaluate = |names: &[String]| {
+        for system in chosen(names)? {
             system.evaluate();
         }
         Ok(())
@@ -23,13 +26,23 @@ fn main() -> ExitCode {
     program::main(evaluate, measure)
 }
 
-fn measure() -> Result<(), String> {
-    let systems = all();
+/// The systems whose names begin with one of these; all, if there is none.
+fn chosen(names: &[String]) -> Result<Vec<Box<dyn Run>>, String> {
+    let mut systems = all();
+    if let Some(unknown) = names.iter().find(|name| systems.iter().all(|s| !s.name().starts_with(&***name))) {
+        return Err(format!("no system has a name that begins with `{unknown}`"));
+    }
+    systems.retain(|s| names.is_empty() || names.iter().any(|name| s.name().starts_with(&**name)));
+    Ok(systems)
+}
+
+fn measure(names: &[String]) -> Result<(), String> {
+    let systems = chosen(names)?;
     program::warn_without_fma();
     // 1. a comparison of different functions would mean nothing
     systems.iter().try_for_each(|system| system.compare())?;
     // 2. instructions
-    let counts = own_counts()?;
+    let counts = own_counts(names)?;
     // 3. times, and the table
     let rows: Vec<Row> = systems.iter().map(|system| row(system.as_ref(), &counts)).collect();
     print(&rows);
@@ -50,12 +63,13 @@ fn measure() -> Result<(), String> {
 }
 
 /// Instructions of everything compiled into this benchmark.
-fn own_counts() -> Result<Counts, String> {
+fn own_counts(names: &[String]) -> Result<Counts, String> {
     if !callgrind::is_present() {
         println!("valgrind is not installed: instructions are not counted\n");
         return Ok(Counts::default());
     }
-    program::count("nh-bench.callgrind", &[], |name| {
+    let names: Vec<&str> = names.iter().map(String::as_str).collect();
+    program::count("nh-bench.callgrind", &names, |name| {
         OWN.iter().any(|own| name.ends_with(own)) || name.ends_with("::derivative")
     })
 }

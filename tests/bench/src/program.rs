@@ -8,15 +8,15 @@ use crate::callgrind::{self, Counts};
 const EVALUATE: &str = "--evaluate";
 
 /// Runs a program: `evaluate`, with the arguments that follow, if it has called itself to be counted, and
-/// `measure` otherwise.
+/// `measure` with all arguments otherwise.
 pub fn main(
     evaluate: impl FnOnce(&[String]) -> Result<(), String>,
-    measure: impl FnOnce() -> Result<(), String>,
+    measure: impl FnOnce(&[String]) -> Result<(), String>,
 ) -> ExitCode {
     let arguments: Vec<String> = std::env::args().skip(1).collect();
     let result = match arguments.split_first() {
         Some((first, others)) if first == EVALUATE => evaluate(others),
-        _ => measure(),
+        _ => measure(&arguments),
     };
     match result {
         Ok(()) => ExitCode::SUCCESS,

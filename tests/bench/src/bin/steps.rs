@@ -202,7 +202,7 @@ fn main() -> ExitCode {
     program::main(evaluate, measure)
 }
 
-fn measure() -> Result<(), String> {
+fn measure(_: &[String]) -> Result<(), String> {
     let cases = cases();
     if !callgrind::is_present() {
         println!("valgrind is not there: nothing is counted");

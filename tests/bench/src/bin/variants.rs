@@ -188,7 +188,7 @@ fn main() -> ExitCode {
     program::main(evaluate, measure)
 }
 
-fn measure() -> Result<(), String> {
+fn measure(_: &[String]) -> Result<(), String> {
     let variants = variants();
     let wanted = |name: &str| variants.iter().any(|variant| name.ends_with(variant.symbol));
     let counts = program::count("nh-bench.variants.callgrind", &[], wanted)?;

@@ -156,7 +156,7 @@ fn main() -> ExitCode {
     program::main(evaluate, measure)
 }
 
-fn measure() -> Result<(), String> {
+fn measure(_: &[String]) -> Result<(), String> {
     program::warn_without_fma();
     generic::compare_all()?;
     if !callgrind::is_present() {
