@@ -191,7 +191,7 @@ mod syntax;
 /// | word | methods |
 /// |---|---|
 /// | `jacobian` | `jacobian(t, &state, &input)`, the trait `Jacobian` |
-/// | `sparse_jacobian` | `sparse_jacobian(t, &state, &input)`: its entries that are not always zero, in one array, column by column; the constants `JACOBIAN_ROWS` and `JACOBIAN_COLUMNS` say where they stand, inputs behind the state |
+/// | `sparse_jacobian` | `sparse_jacobian(t, &state, &input)`: its entries that are not always zero, in one array, column by column; the constants `JACOBIAN_ROWS` and `JACOBIAN_COLUMNS` say where they stand, inputs behind the state; `sparse_linearized(t, &state, &input)`: the derivative together with them |
 /// | `jacobian_product` | `jacobian_product(t, &state, &input, &direction, &input_direction)`: the Jacobian times a direction, a state and inputs, at the cost of about two derivatives |
 /// | `adjoint_product` | `adjoint_product(t, &state, &input, &weights)`: the transpose of the Jacobian times weights of the components of the derivative, by state and by inputs, whatever their number at the cost of a few derivatives |
 /// | `parameter_jacobian` | `parameter_jacobian(t, &state, &input)`: ∂derivative/∂parameters, a column for each number in the struct's fields, in order |

@@ -44,6 +44,11 @@ fn entries_stand_where_the_pattern_says() {
     let input = DiskInput { torque: 0.3, steer: -0.6 };
     let (a, b) = disk.jacobian(0.0, &state, &input);
     let values = disk.sparse_jacobian(0.0, &state, &input);
+    let (rates, with_rates) = disk.sparse_linearized(0.0, &state, &input);
+    assert_eq!(rates, disk.derivative(0.0, &state, &input));
+    for (with_rates, alone) in with_rates.iter().zip(&values) {
+        assert!((with_rates - alone).abs() <= 1e-15 * alone.abs(), "{with_rates} for {alone}");
+    }
     let n = a.nrows();
     let mut dense = vec![vec![0.0; n + b.ncols()]; n];
     let mut before = None;
@@ -70,7 +75,9 @@ fn entries_stand_where_the_pattern_says() {
 #[test]
 fn nothing_else_is_needed() {
     let spring = Spring { m: 2.0, k: 3.0 };
-    let values = spring.sparse_jacobian(0.0, &SpringState { x: 0.5, x_dot: 0.1 }, &());
+    let state = SpringState { x: 0.5, x_dot: 0.1 };
+    let values = spring.sparse_jacobian(0.0, &state, &());
+    assert_eq!(spring.sparse_linearized(0.0, &state, &()), (spring.derivative(0.0, &state, &()), values));
     assert_eq!((Spring::JACOBIAN_ROWS, Spring::JACOBIAN_COLUMNS), ([1, 0], [0, 1]));
     assert!(
         (values[0] + 3.0 * 3.0 * 0.25 / 2.0).abs() < 1e-15 && (values[1] - 1.0).abs() < 1e-15,

@@ -1,4 +1,5 @@
-//! The Jacobian of the derivative without its zeros: a pattern that the compiler knows, and the values in one array.
+//! The Jacobian of the derivative without its zeros, alone and with the derivative: a pattern that the compiler knows, and
+//! the values in one array.
 
 use std::collections::BTreeSet;
 
@@ -13,10 +14,12 @@ use super::program::body;
 use super::setting::Context;
 use super::symbols::Scope;
 
-/// The pattern and the method, if they are asked for.
+/// The pattern and the methods, if they are asked for.
 pub(super) fn emit(context: &Context, scope: &Scope, system: &System) -> Part {
     let is_asked = system.model.requests.iter().any(|(request, _)| *request == Request::SparseJacobian);
-    let Some(jacobian) = system.jacobian().filter(|_| is_asked) else { return Part::default() };
+    let (Some(linearized), Some(jacobian), true) = (&system.linearized, system.jacobian(), is_asked) else {
+        return Part::default();
+    };
     let inputs = context.input.as_ref().map_or(0, super::record::Record::len);
     let width = (context.state.len() + inputs).max(1);
     let graph = &system.model.graph;
@@ -25,20 +28,45 @@ pub(super) fn emit(context: &Context, scope: &Scope, system: &System) -> Part {
         entries.map(|(place, entry)| (place % width, place / width, *entry)).collect();
     entries.sort_by_key(|(column, row, _)| (*column, *row));
     let pattern: Vec<[usize; 2]> = entries.iter().map(|(column, row, _)| [*row, *column]).collect();
-    let values = entries.into_iter().map(|(.., entry)| entry).collect();
-    let program = context.lowering.program(&system.model, &jacobian.with_outputs(values));
-    let body = body(context, scope, &program);
-    let (statements, values) = (&body.statements, body.outputs.iter().map(element));
+    let values: Vec<_> = entries.into_iter().map(|(.., entry)| entry).collect();
+    // 1. alone
     let mut methods = constants(context, &pattern);
-    let body = (&body.used, &quote!(#statements [#(#values),*]));
-    methods.extend(head(context, pattern.len()).with_body(context, body.0, body.1));
-    Part { methods, programs: vec![("sparse_jacobian", program)], ..Part::default() }
+    let alone = context.lowering.program(&system.model, &jacobian.with_outputs(values.clone()));
+    let of_alone = body(context, scope, &alone);
+    let (statements, entries) = (&of_alone.statements, array(&of_alone.outputs));
+    let code = quote!(#statements #entries);
+    methods.extend(head(context, pattern.len()).with_body(context, &of_alone.used, &code));
+    // 2. with the derivative
+    let rates = linearized.outputs.iter().copied().take(context.state.len());
+    let outputs: Vec<_> = rates.chain(values).collect();
+    let together = context.lowering.program(&system.model, &linearized.with_outputs(outputs));
+    let of_both = body(context, scope, &together);
+    let (rates, entries) = of_both.outputs.split_at(context.state.len().min(of_both.outputs.len()));
+    let rates = context.state.construct(&context.state_name(), rates);
+    let (statements, entries) = (&of_both.statements, array(entries));
+    let code = quote!(#statements (#rates, #entries));
+    methods.extend(head_of_both(context, pattern.len()).with_body(context, &of_both.used, &code));
+    Part {
+        methods,
+        programs: vec![("sparse_jacobian", alone), ("sparse_linearized", together)],
+        ..Part::default()
+    }
+}
+
+/// Entries in one array.
+fn array(entries: &[TokenStream]) -> TokenStream {
+    let entries = entries.iter().map(element);
+    quote!([#(#entries),*])
 }
 
 /// The same without entries.
 pub(super) fn stub(context: &Context) -> Part {
+    let (runtime, scalar, used) = (&context.runtime, &context.scalar, BTreeSet::new());
+    let zeros = vec![quote!(<#scalar as #runtime::Scalar>::ZERO); context.state.len()];
+    let rates = context.state.construct(&context.state_name(), &zeros);
     let mut methods = constants(context, &[]);
-    methods.extend(head(context, 0).with_body(context, &BTreeSet::new(), &quote!([])));
+    methods.extend(head(context, 0).with_body(context, &used, &quote!([])));
+    methods.extend(head_of_both(context, 0).with_body(context, &used, &quote!((#rates, []))));
     Part { methods, ..Part::default() }
 }
 
@@ -53,6 +81,17 @@ fn head(context: &Context, count: usize) -> Head {
         ],
         takes_input: true,
         returns: quote!([#scalar; #count]),
+    }
+}
+
+fn head_of_both(context: &Context, count: usize) -> Head {
+    let (scalar, state) = (&context.scalar, context.type_of(&context.state));
+    let count = Literal::usize_unsuffixed(count);
+    Head {
+        name: "sparse_linearized",
+        doc: &[" The derivative together with the entries of `sparse_jacobian`."],
+        takes_input: true,
+        returns: quote!((#state, [#scalar; #count])),
     }
 }
 

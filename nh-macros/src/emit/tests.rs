@@ -123,7 +123,7 @@ fn products_with_vectors() {
         .replace("{ jacobian }", "{ sparse_jacobian , jacobian_product , adjoint_product }");
     let attribute = attribute.parse().expect("tokens");
     let items = syn::parse2::<syn::File>(crate::expand::nonholonomic(attribute, quote::quote!(#item)));
-    let is_product = |item: &syn::ImplItem| matches!(item, syn::ImplItem::Fn(f) if ["sparse_jacobian", "jacobian_product", "adjoint_product"].contains(&f.sig.ident.to_string().as_str()));
+    let is_product = |item: &syn::ImplItem| matches!(item, syn::ImplItem::Fn(f) if ["sparse_jacobian", "sparse_linearized", "jacobian_product", "adjoint_product"].contains(&f.sig.ident.to_string().as_str()));
     let functions = items.expect("a list of items").items.into_iter().filter_map(|item| match item {
         syn::Item::Impl(mut item) if item.trait_.is_none() => {
             item.items.retain(is_product);

@@ -49,6 +49,65 @@ impl Sleigh {
             e4,
         ]
     }
+    /// The derivative together with the entries of `sparse_jacobian`.
+    #[must_use]
+    #[inline]
+    pub fn sparse_linearized(
+        &self,
+        t: ::core::primitive::f64,
+        state: &SleighState,
+        input: &SleighInput,
+    ) -> (SleighState, [::core::primitive::f64; 11]) {
+        _ = t;
+        let (sin_theta, cos_theta) = ::nonholonomic::__private::Scalar::sin_cos(
+            state.theta,
+        );
+        let e1 = state.v1 * cos_theta;
+        let e2 = state.v1 * sin_theta;
+        let m_a = self.m * self.a;
+        let e3 = ::nonholonomic::__private::Scalar::mul_add(
+            m_a,
+            ::nonholonomic::__private::Scalar::mul_add(-self.b, state.omega, state.v1),
+            self.c,
+        );
+        let e4 = 1.0 / ::nonholonomic::__private::Scalar::mul_add(self.a, m_a, self.J);
+        let v_dot_0 = e4
+            * ::nonholonomic::__private::Scalar::mul_add(-state.omega, e3, input.torque);
+        let v_dot_1 = ::nonholonomic::__private::Scalar::mul_add(
+            self.b,
+            v_dot_0,
+            self.a * (state.omega * state.omega),
+        );
+        let e5 = -(m_a * state.omega);
+        let e6 = ::nonholonomic::__private::Scalar::mul_add(-self.b, e5, -e3);
+        let e7 = self.b * e4;
+        (
+            SleighState {
+                theta: state.omega,
+                x: e1,
+                y: e2,
+                omega: v_dot_0,
+                v1: v_dot_1,
+            },
+            [
+                -e2,
+                e1,
+                1.0,
+                (e4 * e6),
+                ::nonholonomic::__private::Scalar::mul_add(
+                    2.0 * self.a,
+                    state.omega,
+                    e7 * e6,
+                ),
+                cos_theta,
+                sin_theta,
+                (e4 * e5),
+                (e7 * e5),
+                e4,
+                e7,
+            ],
+        )
+    }
     /// The Jacobian of the derivative times a direction: how the derivative changes where the state
     /// changes along `direction`, and the inputs along `input_direction`.
     #[must_use]

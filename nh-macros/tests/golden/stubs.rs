@@ -691,6 +691,30 @@ impl Sleigh {
         _ = input;
         []
     }
+    /// The derivative together with the entries of `sparse_jacobian`.
+    #[must_use]
+    #[inline]
+    pub fn sparse_linearized(
+        &self,
+        t: ::core::primitive::f64,
+        state: &SleighState,
+        input: &SleighInput,
+    ) -> (SleighState, [::core::primitive::f64; 0]) {
+        _ = self;
+        _ = t;
+        _ = state;
+        _ = input;
+        (
+            SleighState {
+                theta: <::core::primitive::f64 as ::nonholonomic::__private::Scalar>::ZERO,
+                x: <::core::primitive::f64 as ::nonholonomic::__private::Scalar>::ZERO,
+                y: <::core::primitive::f64 as ::nonholonomic::__private::Scalar>::ZERO,
+                omega: <::core::primitive::f64 as ::nonholonomic::__private::Scalar>::ZERO,
+                v1: <::core::primitive::f64 as ::nonholonomic::__private::Scalar>::ZERO,
+            },
+            [],
+        )
+    }
     /// The Jacobian of the derivative times a direction: how the derivative changes where the state
     /// changes along `direction`, and the inputs along `input_direction`.
     #[must_use]

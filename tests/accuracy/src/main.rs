@@ -12,7 +12,7 @@ use nh_bench::callgrind::{self, Counts};
 use nh_bench::program;
 
 fn main() -> ExitCode {
-    program::main(evaluate, measure)
+    program::main(evaluate, |_| measure())
 }
 
 /// What is counted: the level that is named.
