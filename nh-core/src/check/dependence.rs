@@ -48,8 +48,7 @@ pub(super) fn dependent_rows(
 /// A manifold with the parts where roots have the other sign, as far as a matrix may be another one there.
 pub(super) fn with_all_roots(model: &mut Model, manifold: &Manifold, matrix: &Matrix) -> Manifold {
     let mut all = manifold.clone();
-    all.add_parts_of_roots_in(&mut model.graph, &matrix.concat());
-    if all.parts().count() > manifold.parts().count() {
+    if all.add_parts_of_roots_in(&mut model.graph, &matrix.concat()) {
         let demands = where_they_hold(model);
         all.keep_parts_with_points(&mut model.graph, &demands);
     }

@@ -3,7 +3,7 @@
 
 use super::manifold::{Manifold, OpenPart};
 use super::ways::ways_to_vanish;
-use crate::algebra::{Demand, Graph, Verdict, Witness, sample};
+use crate::algebra::{Demand, Graph, Node, Rational, Verdict, Witness, sample};
 use crate::id::{ExprId, SymbolId};
 use std::borrow::Cow;
 
@@ -264,8 +264,9 @@ impl Manifold {
     }
 
     /// Starts the parts where roots of images have the other sign, if functions have such roots by themselves: what these
-    /// are there is not known from here.
-    pub(crate) fn add_parts_of_roots_in(&mut self, graph: &mut Graph, functions: &[ExprId]) {
+    /// are there is not known from here; and parts of one sign in the place of those where roots of functions are those of
+    /// squares. Whether there are any.
+    pub(crate) fn add_parts_of_roots_in(&mut self, graph: &mut Graph, functions: &[ExprId]) -> bool {
         let mut further = Vec::new();
         for part in self.parts() {
             let Some((_, radicand)) = part.shared_root(graph, functions) else { continue };
@@ -276,8 +277,76 @@ impl Manifold {
             other.images = symbols.into_iter().zip(images).collect();
             further.push(other);
         }
+        let mut is_found = !further.is_empty();
         self.others.extend(further);
+        let is_curved = self.parts().any(|part| !part.images.is_empty());
+        let radicands = if is_curved { graph.radicands(functions) } else { Vec::new() };
+        for radicand in radicands {
+            let mut all: Vec<Self> = Vec::new();
+            for part in self.parts() {
+                let of_one_sign = part.of_one_sign(graph, radicand);
+                is_found |= !of_one_sign.is_empty();
+                let instead = if of_one_sign.is_empty() { vec![part.alone()] } else { of_one_sign };
+                let is_new = |part: &Self| all.iter().all(|known| known.images != part.images);
+                let new: Vec<Self> = instead.into_iter().filter(is_new).collect();
+                all.extend(new);
+            }
+            let mut all = all.into_iter();
+            if let Some(first) = all.next() {
+                *self = Self { others: all.collect(), open: std::mem::take(&mut self.open), ..first };
+            }
+        }
         self.others.truncate(PARTS - 1);
+        is_found
+    }
+
+    /// The parts of this one on which a root that is one of a square here has one sign: with √(1 + y²) on x² = 1 + y², where
+    /// x is that root, and where it is the other one. On this part, on which y is solved for, the root is |x|.
+    fn of_one_sign(&self, graph: &mut Graph, radicand: ExprId) -> Vec<Self> {
+        let solved: Vec<SymbolId> = self.images.iter().map(|(symbol, _)| *symbol).collect();
+        if !graph.depends_on(radicand, &solved) {
+            return Vec::new();
+        }
+        let restricted = self.restrict(graph, radicand);
+        let restricted = graph.simplify(restricted);
+        let Node::Product { coefficient, factors } = graph.node(restricted).clone() else {
+            return Vec::new();
+        };
+        let [(base, exponent)] = &*factors else { return Vec::new() };
+        let (Some(size), true) = (coefficient.sqrt(), *exponent == Rational::from(2)) else {
+            return Vec::new();
+        };
+        // the square is that of base = slope · symbol + rest
+        let symbols = graph.symbols_in(&[*base]);
+        symbols
+            .into_iter()
+            .rev()
+            .find_map(|symbol| {
+                let slope = graph.partial(*base, symbol);
+                graph.value_of(slope)?;
+                // the image that makes way for that of the symbol
+                let mut without = self.alone();
+                without.images.retain(|(_, image)| !graph.depends_on(*image, &[symbol]));
+                let moved = self.images.iter().find(|image| !without.images.contains(image))?;
+                if without.images.len() + 1 != self.images.len() {
+                    return None;
+                }
+                without.radicands.push(radicand);
+                let (root, variable) = (graph.sqrt(radicand), graph.symbol(symbol));
+                let rest = graph.formula(base - slope * variable);
+                let (size, one) = (graph.number(size.clone()), graph.one());
+                let signs = [one, graph.formula(-one)].map(|sign| {
+                    let mut part = without.clone();
+                    let image = graph.formula((sign * root / size - rest) / slope);
+                    let image = part.restrict(graph, image);
+                    part.insert(graph, symbol, image);
+                    part
+                });
+                let (symbol, image) = (graph.symbol(moved.0), moved.1);
+                let squares = graph.formula(symbol * symbol - image * image);
+                signs.iter().all(|part| part.zero_tests(graph, &[squares]).is_zero()).then(|| signs.to_vec())
+            })
+            .unwrap_or_default()
     }
 
     /// Forgets parts that have no points: those whose equations, with what is required otherwise, contradict each other.

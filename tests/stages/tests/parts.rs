@@ -13,6 +13,36 @@ fn refusals(sections: &str) -> Vec<String> {
 
 const SPACE: &str = "base { x, y, z } lagrangian { m/2*(der(x)^2 + der(y)^2 + der(z)^2) - k*z }";
 
+/// Roots that are those of a square where the constraints hold are asked with either sign of what is squared.
+#[test]
+fn roots_of_squares_are_asked_with_both_signs() {
+    let mass = |mass: &str| {
+        format!("base {{ x, y, z }} lagrangian {{ m/2*(({mass})*(der(x)^2 + der(y)^2) + der(z)^2) }}")
+    };
+    for (inertia, constraints, place) in [
+        ("x - sqrt(1 + y^2)", "holonomic { c: x^2 = 1 + y^2; }", "where x = sqrt(y^2 + 1)"),
+        ("x + sqrt(1 + y^2)", "holonomic { c: x^2 = 1 + y^2; }", "where x = -sqrt(y^2 + 1)"),
+        ("x - sqrt(1 + y)", "holonomic { c: y = x^2 - 1; }", "where x = sqrt(y + 1)"),
+        ("2*x - 3 - sqrt(1 + y)", "holonomic { c: y = (2*x - 3)^2 - 1; }", "where x = "),
+        ("x - w + sqrt(1 + y)", "holonomic { c: y = (x - w)^2 - 1; }", "where x = w - sqrt(y + 1)"),
+    ] {
+        let refusals = refusals(&format!("{} {constraints}", mass(inertia)));
+        assert_eq!(refusals.len(), 1, "{inertia}: {refusals:?}");
+        assert!(refusals[0].contains("singular") && refusals[0].contains(place), "{inertia}: {refusals:?}");
+    }
+    let row = "holonomic { c: y = x^2 - 1; } constraints { d: (x - sqrt(1 + y))*der(z) = 0; }";
+    let refused = refusals(&format!("{SPACE} {row}"));
+    assert!(refused.len() == 1 && refused[0].contains("`d` says nothing"), "{refused:?}");
+    // neither sign makes these vanish
+    for (inertia, constraints) in [
+        ("3 + x^2 - sqrt(1 + y)", "holonomic { c: y = x^2 - 1; }"),
+        ("2*x - sqrt(1 + y^2)", "holonomic { c: x^2 = 1 + y^2; }"),
+    ] {
+        let refusals = refusals(&format!("{} {constraints}", mass(inertia)));
+        assert!(refusals.is_empty(), "{inertia}: {refusals:?}");
+    }
+}
+
 /// Each claim is true where one factor vanishes and false where another does.
 #[test]
 fn claims_of_one_factor_are_refused() {
