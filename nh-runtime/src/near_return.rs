@@ -136,7 +136,7 @@ impl<T: Scalar, const N: usize, const M: usize> NearReturn<T, N, M> {
             *size += change.abs();
         }
         self.change = change;
-        self.is_far = !all_finite::<T, _>(&present);
+        self.is_far |= !all_finite::<T, _>(&present);
         present
     }
 
@@ -148,7 +148,7 @@ impl<T: Scalar, const N: usize, const M: usize> NearReturn<T, N, M> {
             *v += *change;
             large += (change.abs() * T::from_f64(8192.0)).select_gt(v.abs(), T::ONE, T::ZERO);
         }
-        self.is_far = !(T::ZERO.all_ge(large) && all_finite::<T, _>(&present));
+        self.is_far |= !(T::ZERO.all_ge(large) && all_finite::<T, _>(&present));
         present
     }
 
@@ -279,8 +279,18 @@ mod tests {
         }
     }
 
-    /// A crank that has turned for long has not the digits by which a slide follows it: as many looks, and the slide is as
-    /// near to where it belongs as the crank's digits are apart.
+    /// Where positions take their last digits and velocities are far away, these are left to others all the same.
+    #[test]
+    fn far_velocities_beside_last_digits_are_left_to_others() {
+        for velocity in [-5.0, f64::NAN] {
+            let mut state = [0.6 + 1e-7, 0.8, 8.0, velocity];
+            let (residual, looks, from_far) = returned(&mut state);
+            assert!(residual.is_err() && (looks, from_far) == (2, 1), "{velocity}: {looks} {from_far}");
+        }
+    }
+
+    /// A crank that has turned for long has not the digits by which a slide follows it: it costs no look after a thousand turns,
+    /// and the slide is as near to where it belongs as the crank's digits are apart.
     #[test]
     fn a_variable_with_fewer_digits_holds_nothing_up() {
         for (turns, most) in [(0.0, 3), (10.0, 3), (1e3, 3), (1e5, 8)] {
