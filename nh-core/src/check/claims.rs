@@ -66,11 +66,10 @@ fn on_manifold(graph: &Graph, rate: ExprId, witness: &Witness, manifold: &Manifo
                 .iter()
                 .map(|(symbol, value)| format!("{} = {value:.4}", graph.symbols()[*symbol]))
                 .collect();
-            let value = witness.value;
-            let value = match seen(value) {
-                unseen if unseen == "not" => "not 0".to_owned(),
-                short if value.abs() < 1e-4 => short,
-                _ => format!("{value:.4}"),
+            let value = match (seen(witness.value), witness.value) {
+                (None, _) => "not 0".to_owned(),
+                (Some(small), value) if value.abs() < 1e-4 => small,
+                (Some(_), value) => format!("{value:.4}"),
             };
             format!(
                 "its rate along the motion is {text}, where the constraints hold for example {value} at {}",

@@ -29,7 +29,7 @@ pub(crate) fn not_zero(graph: &Graph, defect: ExprId, witness: &Witness) -> Stri
     if place.is_empty() {
         format!("{shown} should be 0")
     } else {
-        format!("{shown} should be 0, but is {}{at}", seen(witness.value))
+        format!("{shown} should be 0, {}{at}", but_is(witness.value))
     }
 }
 
@@ -46,12 +46,17 @@ pub(crate) fn not_zero_on(graph: &Graph, defect: ExprId, witness: &Witness, mani
         .iter()
         .map(|(symbol, value)| format!("{} = {}", graph.symbols()[*symbol], short(*value)))
         .collect();
-    format!("{shown} should be 0, but is {} at {}", seen(witness.value), place.join(", "))
+    format!("{shown} should be 0, {} at {}", but_is(witness.value), place.join(", "))
 }
 
-/// A value that is not 0; what floating point cannot hold is not told.
-pub(super) fn seen(value: f64) -> String {
-    if value == 0.0 || !value.is_finite() { "not".into() } else { short(value) }
+/// A value that is not 0, unless floating point cannot hold it.
+pub(super) fn seen(value: f64) -> Option<String> {
+    (value != 0.0 && value.is_finite()).then(|| short(value))
+}
+
+/// What should be 0, `but is 3 at x = 2`.
+fn but_is(value: f64) -> String {
+    format!("but is {}", seen(value).unwrap_or_else(|| "not".into()))
 }
 
 /// A number with four digits.

@@ -16,13 +16,7 @@ pub(crate) fn not_smooth(
     origin: Origin,
 ) -> Option<Violation> {
     let edge = Edge::of(model, facts, value, Wanted::Smooth)?;
-    Some(Violation {
-        law: Law::Smooth,
-        origin,
-        what: format!("this {what} is not smooth: it uses {}", edge.uses),
-        evidence: edge.evidence,
-        way_out: edge.way_out,
-    })
+    Some(edge.violation(format!("this {what} is not smooth"), origin))
 }
 
 /// An expression that jumps and is constant on both sides, or changes sign there: an integral or a density that is none
@@ -35,13 +29,7 @@ pub(super) fn not_continuous(
     origin: Origin,
 ) -> Option<Violation> {
     let edge = Edge::of(model, facts, value, Wanted::Continuous)?;
-    Some(Violation {
-        law: Law::Smooth,
-        origin,
-        what: format!("this {what} is not continuous: it uses {}", edge.uses),
-        evidence: edge.evidence,
-        way_out: edge.way_out,
-    })
+    Some(edge.violation(format!("this {what} is not continuous"), origin))
 }
 
 /// What is asked of an expression.
@@ -62,6 +50,11 @@ struct Edge {
 }
 
 impl Edge {
+    fn violation(self, what: String, origin: Origin) -> Violation {
+        let Self { uses, evidence, way_out } = self;
+        Violation { law: Law::Smooth, origin, what: format!("{what}: it uses {uses}"), evidence, way_out }
+    }
+
     fn of(model: &mut Model, facts: &Facts, value: ExprId, wanted: Wanted) -> Option<Self> {
         let parameters: Vec<SymbolId> = model.parameters.iter().map(|parameter| parameter.symbol).collect();
         let graph = &mut model.graph;

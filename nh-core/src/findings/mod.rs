@@ -7,8 +7,7 @@ mod real_states;
 mod reduced_form;
 mod velocities_to_name;
 
-use crate::algebra::Demand;
-use crate::algebra::{Function2, Node};
+use crate::algebra::{Demand, Function2, Node};
 use crate::check::{
     Condition, domain, domain_of, not_conservative, on_the_base, saddle_singular_where, singular_where,
     with_zeros,
