@@ -181,6 +181,7 @@ pub(super) fn root<T: Entry, const N: usize>(
 
 #[cfg(test)]
 mod tests {
+    use super::super::draws::Draws;
     use super::*;
     use nalgebra::{matrix, vector};
 
@@ -226,11 +227,8 @@ mod tests {
     /// A sum of squares is semidefinite, whatever its rank and the scales in it.
     #[test]
     fn rounding_is_not_taken_for_indefiniteness() {
-        let mut seed = 1_u32;
-        let mut number = || {
-            seed = seed.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
-            <f32 as crate::Scalar>::from_f64(f64::from(seed) / f64::from(u32::MAX) - 0.5)
-        };
+        let mut draws = Draws(1);
+        let mut number = || <f32 as crate::Scalar>::from_f64(draws.draw() - 0.5);
         let scales = [1e-3, 1e-2, 0.1, 1.0, 10.0, 100.0];
         for _ in 0..1000 {
             let half = SMatrix::<f32, 6, 2>::from_fn(|i, _| number() * scales[i]);
@@ -241,11 +239,8 @@ mod tests {
     /// Components that are nearly one, in every order and in units of their own: they are a covariance, and the squares of
     /// the root are the matrix, to the rounding of its diagonal.
     fn roots<T: Entry>() {
-        let mut seed = 1_u32;
-        let mut number = || {
-            seed = seed.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
-            T::from_f64(f64::from(seed) / f64::from(u32::MAX) - 0.5)
-        };
+        let mut draws = Draws(1);
+        let mut number = || T::from_f64(draws.draw() - 0.5);
         for exponent in 0..240 {
             let share = T::from_f64(2.0_f64.powf(-0.25 * f64::from(exponent)));
             for order in [[0, 1, 2, 3], [2, 1, 0, 3], [3, 0, 2, 1], [1, 2, 3, 0]] {

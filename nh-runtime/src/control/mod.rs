@@ -95,6 +95,8 @@
 mod balance;
 mod box_quadratic;
 mod cholesky;
+#[cfg(test)]
+mod draws;
 mod fault;
 mod hold;
 mod horizon;
