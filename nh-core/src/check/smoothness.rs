@@ -16,7 +16,7 @@ pub(crate) fn not_smooth(
     origin: Origin,
 ) -> Option<Violation> {
     let edge = Edge::of(model, facts, value, Wanted::Smooth)?;
-    Some(edge.violation(format!("this {what} is not smooth"), origin))
+    Some(edge.violation(what, "smooth", origin))
 }
 
 /// An expression that jumps and is constant on both sides, or changes sign there: an integral or a density that is none
@@ -29,7 +29,7 @@ pub(super) fn not_continuous(
     origin: Origin,
 ) -> Option<Violation> {
     let edge = Edge::of(model, facts, value, Wanted::Continuous)?;
-    Some(edge.violation(format!("this {what} is not continuous"), origin))
+    Some(edge.violation(what, "continuous", origin))
 }
 
 /// What is asked of an expression.
@@ -50,9 +50,10 @@ struct Edge {
 }
 
 impl Edge {
-    fn violation(self, what: String, origin: Origin) -> Violation {
+    fn violation(self, what: &str, wanted: &str, origin: Origin) -> Violation {
         let Self { uses, evidence, way_out } = self;
-        Violation { law: Law::Smooth, origin, what: format!("{what}: it uses {uses}"), evidence, way_out }
+        let what = format!("this {what} is not {wanted}: it uses {uses}");
+        Violation { law: Law::Smooth, origin, what, evidence, way_out }
     }
 
     fn of(model: &mut Model, facts: &Facts, value: ExprId, wanted: Wanted) -> Option<Self> {
