@@ -2,6 +2,7 @@
 
 use super::gauss::Acceleration;
 use super::rates::Rates;
+use super::turning_axes::Turns;
 use super::written::in_numbers;
 use crate::algebra::{Derivation, Function, Graph, Matrix, Node, Rational, Substitution};
 use crate::id::{ExprId, SymbolId};
@@ -65,6 +66,29 @@ impl Angles {
         }
         Along { named, derivation, summed }
     }
+
+    /// The same, with the rates of all coordinates by the unknowns.
+    pub(super) fn along_by_unknowns(
+        &self,
+        graph: &mut Graph,
+        system: &LagrangianSystem,
+        (velocity, unknowns): (&[ExprId], &[ExprId]),
+        rates: &Rates,
+    ) -> Along {
+        let mut along = self.along(graph, system, velocity, unknowns, rates);
+        let algebroid = &system.algebroid;
+        let symbols = algebroid.velocity(graph);
+        let coordinates = algebroid.rates(graph, &symbols);
+        for (coordinate, rate) in algebroid.anchor.coordinates.iter().zip(coordinates) {
+            let Ok(form) = graph.linear_form(rate, &algebroid.velocities) else { continue };
+            if in_numbers(graph, &form.coefficients).is_some() && graph.is_literal_zero(form.rest) {
+                let turning = rates.changed(graph, &form.coefficients);
+                let rate = graph.inner_product(&turning, unknowns);
+                along.derivation.insert(*coordinate, rate);
+            }
+        }
+        along
+    }
 }
 
 /// d/dt along the motion at constant velocities of the state.
@@ -94,11 +118,11 @@ enum Kind {
 
 /// A velocity by others.
 #[derive(Clone, Debug)]
-struct Carried {
+pub(super) struct Carried {
     /// Its coefficients on the unknowns.
-    row: Vec<ExprId>,
+    pub(super) row: Vec<ExprId>,
     /// By whom it is carried, and how.
-    by: Vec<(usize, ExprId)>,
+    pub(super) by: Vec<(usize, ExprId)>,
     /// Its place: after the last unknown that moves it, or between this and those before.
     place: (usize, Kind),
 }
@@ -106,10 +130,10 @@ struct Carried {
 /// The unknowns, then other velocities by them.
 #[derive(Debug)]
 pub(super) struct Bodies {
-    all: Vec<Carried>,
-    unknowns: usize,
+    pub(super) all: Vec<Carried>,
+    pub(super) unknowns: usize,
     /// Which of them the rows are.
-    rows: Vec<usize>,
+    pub(super) rows: Vec<usize>,
 }
 
 /// All velocities in an order in which each is given by those before it.
@@ -131,7 +155,7 @@ pub(super) struct Dependent {
 }
 
 /// A velocity that more unknowns than this move otherwise than any neighbour belongs to no chain.
-const ALONE: usize = 3;
+pub(super) const ALONE: usize = 3;
 
 impl Bodies {
     /// Of velocities by their coefficients on unknowns; `None` where they are no chains.
@@ -154,7 +178,7 @@ impl Bodies {
                 found.rows[k] = known;
                 continue;
             }
-            let neighbour = found.neighbour(row, &moving);
+            let neighbour = found.neighbour(graph, row, &moving);
             let differing = neighbour.map_or(moving.len(), |(differing, _)| differing);
             if differing > ALONE {
                 return None;
@@ -174,7 +198,7 @@ impl Bodies {
 
     /// How many unknowns move it otherwise than what moves most alike, a joint rather than a body, if that saves
     /// anything.
-    fn neighbour(&self, row: &[ExprId], moving: &[usize]) -> Option<(usize, usize)> {
+    fn neighbour(&self, graph: &mut Graph, row: &[ExprId], moving: &[usize]) -> Option<(usize, usize)> {
         limits::spend((self.all.len() - self.unknowns) * row.len() / 64);
         let others = self.all.iter().enumerate().skip(self.unknowns);
         let nearest = others.map(|(index, other)| {
@@ -182,7 +206,11 @@ impl Bodies {
             (differing, other.place.1 == Kind::Body, index)
         });
         let nearest = nearest.min().filter(|(differing, ..)| moving.len() > 1 && *differing < moving.len());
-        nearest.map(|(differing, _, index)| (differing, index))
+        let (differing, is_body, index) = nearest?;
+        // the joint of a body may be an unknown
+        let one = graph.one();
+        let joint = moving.iter().find(|j| is_body && row[**j] == one && moving.len() <= differing + 1);
+        Some(joint.map_or((differing, index), |joint| (moving.len() - 1, *joint)))
     }
 
     /// Adds a velocity, and that of the joint through which all but the last unknown move it.
@@ -224,8 +252,9 @@ impl Bodies {
     pub(super) fn ordered(
         &self,
         graph: &mut Graph,
-        along: &mut Along,
+        (along, mut by_unknowns): (&mut Along, Option<Along>),
         (unknowns, dependent): (&[ExprId], &[Dependent]),
+        turns: &Turns,
         procedure: &mut Procedure,
     ) -> Order {
         let mut order: Vec<usize> = (0..self.all.len()).collect();
@@ -234,11 +263,22 @@ impl Bodies {
         for (place, index) in order.iter().enumerate() {
             places[*index] = place;
         }
-        let mut accelerations = Vec::with_capacity(order.len());
         let mut velocities: Vec<ExprId> = Vec::with_capacity(order.len());
         for index in &order {
+            let value = if *index < self.unknowns {
+                unknowns[*index]
+            } else {
+                let moved = self.all[*index].by.iter().map(|(j, c)| graph.formula(c * velocities[places[*j]]));
+                let moved: Vec<ExprId> = moved.collect();
+                let velocity = graph.sum(&moved);
+                procedure.define(graph, "velocity", velocity)
+            };
+            velocities.push(value);
+        }
+        let velocity_of = |index: usize| velocities[places[index]];
+        let mut accelerations = Vec::with_capacity(order.len());
+        for index in &order {
             if *index < self.unknowns {
-                velocities.push(unknowns[*index]);
                 let given = dependent.iter().find(|dependent| dependent.unknown == *index);
                 accelerations.push(given.map_or(Acceleration::Free, |Dependent { row, bias, .. }| {
                     let moving = row.iter().enumerate().filter(|(_, entry)| !graph.is_literal_zero(**entry));
@@ -247,17 +287,26 @@ impl Bodies {
                 }));
                 continue;
             }
-            let mut by = Vec::with_capacity(self.all[*index].by.len());
-            let (mut moved, mut bias) = (Vec::new(), Vec::new());
-            for (j, coefficient) in &self.all[*index].by {
-                by.push((places[*j], *coefficient));
-                let other = velocities[places[*j]];
-                moved.push(graph.formula(coefficient * other));
-                let change = along.apply(graph, *coefficient);
-                bias.push(graph.formula(change * other));
+            let carried = &self.all[*index].by;
+            let turned = turns.terms(graph, *index, self, (unknowns, &velocity_of));
+            let bias = |graph: &mut Graph, along: &mut Along| {
+                let mut terms = turned.clone();
+                for (j, coefficient) in carried {
+                    let change = along.apply(graph, *coefficient);
+                    terms.push(graph.formula(change * velocity_of(*j)));
+                }
+                graph.sum(&terms)
+            };
+            let mut shortest = bias(graph, along);
+            if let Some(by_unknowns) = by_unknowns.as_mut().filter(|_| !turned.is_empty()) {
+                let met = bias(graph, by_unknowns);
+                let met = graph.simplify(met);
+                if graph.operation_count(&[met]) < graph.operation_count(&[shortest]) {
+                    shortest = met;
+                }
             }
-            let (velocity, bias) = (graph.sum(&moved), graph.sum(&bias));
-            velocities.push(procedure.define(graph, "velocity", velocity));
+            let bias = shortest;
+            let by = carried.iter().map(|(j, coefficient)| (places[*j], *coefficient)).collect();
             accelerations.push(Acceleration::Carried { by, bias });
         }
         let place = |index: &usize| places[*index];

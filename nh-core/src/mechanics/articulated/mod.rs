@@ -8,25 +8,25 @@
 //! least among the accelerations that D admits: F_kl = ∂²F/∂u^k∂u^l, e_k is what d/dt F_k has beside F_kl u̇^l, with
 //! the curl of θ^k, and r the forces and the slope of F at u and h. Velocities of neighbouring bodies differ in few
 //! terms, u^k = u^l + Σ d_j ω^j, once rates of turning are counted absolutely (`rates.rs`), and so do accelerations
-//! (`carried.rs`). Then one body after the other leaves Z (`gauss.rs`), in a number of operations that grows like the
+//! (`carried.rs`), those of points in turning axes with what the turning adds (`turning_axes.rs`). Then one body after the other leaves Z (`gauss.rs`), in a number of operations that grows like the
 //! number of bodies.
 
 mod carried;
 mod gauss;
 mod rates;
+mod turning_axes;
 mod written;
 
 use super::euler_lagrange::LagrangianSystem;
 use super::exterior_derivative::ExteriorDerivative;
-use super::planar_points::points;
 use super::procedure::Procedure;
-use super::velocity_forms::spin;
 use crate::algebra::{Graph, Matrix, Rational, Substitution};
 use crate::geometry::ConstraintDistribution;
 use crate::id::{ExprId, SymbolId};
 use carried::{Along, Angles, Bodies, Dependent, Order};
 use gauss::GaussFunction;
 use rates::{Quantity, Rates};
+use turning_axes::{Turned, Turns};
 use written::{Written, in_numbers};
 
 /// Fewer velocities than this, beside those that constraints mix, are solved for as quickly at once.
@@ -54,10 +54,26 @@ pub fn accelerations_from_the_tips(
     let unknowns = unknowns(graph, &rates, &velocity, &mut procedure);
     let mut along = angles.along(graph, system, &velocity, &unknowns, &rates);
     let dependent = kept.dependent(graph, &rates, &mut along);
-    let order = bodies.ordered(graph, &mut along, (&unknowns, &dependent), &mut procedure);
+    let mut turned = Turned::of(graph, system, &written.forms, &velocity);
+    let turns = Turns::of(graph, &bodies, &mut turned);
+    let by_unknowns =
+        turns.any().then(|| angles.along_by_unknowns(graph, system, (&velocity, &unknowns), &rates));
+    let order = bodies.ordered(
+        graph,
+        (&mut along, by_unknowns),
+        (&unknowns, &dependent),
+        &turns,
+        &mut procedure,
+    );
     // 3. the minimum of Z
-    let problem =
-        Problem { kept: &kept, written: &written, rates: &rates, order: &order, velocity: &velocity };
+    let problem = Problem {
+        kept: &kept,
+        written: &written,
+        rates: &rates,
+        order: &order,
+        velocity: &velocity,
+        turned: &turned,
+    };
     let gauss = problem.gauss_function(graph, &mut along);
     let found = gauss.minimum(graph, &order.accelerations, &mut procedure)?;
     let mut outputs = system.algebroid.rates(graph, &velocity);
@@ -160,11 +176,12 @@ struct Problem<'s> {
     order: &'s Order,
     /// y on D.
     velocity: &'s [ExprId],
+    turned: &'s Turned,
 }
 
 impl Problem<'_> {
     fn gauss_function(&self, graph: &mut Graph, along: &mut Along) -> GaussFunction {
-        let Self { written, order, .. } = self;
+        let Self { written, order, turned, .. } = self;
         let mut gauss = GaussFunction::default();
         let symbols: Vec<SymbolId> = written.forms.forms.iter().map(|(symbol, _)| *symbol).collect();
         let mut values = written.values(&order.of_rows, &order.velocities);
@@ -188,7 +205,6 @@ impl Problem<'_> {
             gauss.push(graph, *place, push);
         }
         let momenta = values.apply_all(graph, &slopes);
-        let turned = self.turned(graph);
         for ([first, second], rate) in &turned.pairs {
             // dθ¹ = ω∧θ², dθ² = −ω∧θ¹
             let forth = graph.formula(rate * momenta[*first]);
@@ -196,7 +212,7 @@ impl Problem<'_> {
             gauss.push(graph, order.of_rows[*second], forth);
             gauss.push(graph, order.of_rows[*first], back);
         }
-        let forces = self.forces(graph, &mut values, &momenta, &turned);
+        let forces = self.forces(graph, &mut values, &momenta);
         for (unknown, force) in self.rates.changed(graph, &forces).into_iter().enumerate() {
             let push = graph.formula(-force);
             gauss.push(graph, order.of_unknowns[unknown], push);
@@ -210,9 +226,8 @@ impl Problem<'_> {
         graph: &mut Graph,
         values: &mut Substitution,
         momenta: &[ExprId],
-        turned: &Turned,
     ) -> Vec<ExprId> {
-        let Self { kept, written, velocity, .. } = self;
+        let Self { kept, written, velocity, turned, .. } = self;
         let Kept { system, distribution, independent, .. } = kept;
         let velocities = &system.algebroid.velocities;
         let images = velocities.iter().copied().zip(velocity.iter().copied());
@@ -252,37 +267,4 @@ impl Problem<'_> {
         }
         forces
     }
-
-    fn turned(&self, graph: &mut Graph) -> Turned {
-        let Self { kept: Kept { system, .. }, written: Written { forms, .. }, velocity, .. } = self;
-        let velocities = &system.algebroid.velocities;
-        let mut turned = Turned { pairs: Vec::new(), others: Vec::new() };
-        let mut curl = ExteriorDerivative::anywhere(graph, system);
-        for (k, (symbol, form)) in forms.forms.iter().enumerate() {
-            if !velocities.contains(symbol) && !curl.vanishes(graph, *form) {
-                turned.others.push(k);
-            }
-        }
-        if turned.others.is_empty() {
-            return turned;
-        }
-        for point in points(graph, velocities, forms) {
-            if !point.forms.iter().any(|k| turned.others.contains(k)) {
-                continue;
-            }
-            if let Some(spin) = spin(graph, system, forms, (point.forms, point.axes), &mut curl) {
-                let rate = graph.inner_product(&spin, velocity);
-                turned.others.retain(|k| !point.forms.contains(k));
-                turned.pairs.push((point.forms, rate));
-            }
-        }
-        turned
-    }
-}
-
-/// Forms that are not closed.
-struct Turned {
-    /// Pairs with dθ¹ = ω∧θ², dθ² = −ω∧θ¹, and ω(y).
-    pairs: Vec<([usize; 2], ExprId)>,
-    others: Vec<usize>,
 }
