@@ -168,11 +168,7 @@ fn counted(
         }
     }
     for solved in &mut result.solved {
-        for row in solved.matrix.iter_mut().chain(&mut solved.lower) {
-            *row = images.apply_all(graph, row);
-        }
-        solved.right = images.apply_all(graph, &solved.right);
-        solved.diagonal = images.apply_all(graph, &solved.diagonal);
+        solved.replace(|entry| images.apply(graph, entry));
     }
     result
 }

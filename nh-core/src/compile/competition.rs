@@ -169,7 +169,9 @@ pub(super) fn proved_derivative(
         decision.limits.retain(|limit| !limit.contains(sizes::BESIDE));
         let mut entries: Vec<Entry> = Vec::with_capacity(left.len() + alone.len());
         for Entry { form, procedure } in &alone {
-            let procedure = moving(given, &procedure.definitions, &procedure.outputs);
+            let solved = procedure.solved.clone();
+            let mut procedure = moving(given, &procedure.definitions, &procedure.outputs);
+            procedure.solved.extend(solved);
             entries.push(Entry { form, procedure });
         }
         solved_forms(graph, &left, definite, given, (&mut entries, decision));

@@ -1,6 +1,7 @@
 //! What a generated function computes, before it is scheduled.
 
-use crate::algebra::{Graph, Matrix, Node};
+use super::solved::Solved;
+use crate::algebra::{Graph, Node};
 use crate::id::{ExprId, SymbolId};
 use rustc_hash::FxHashMap;
 use std::collections::BTreeMap;
@@ -51,26 +52,6 @@ pub struct Procedure {
     pub(crate) solved: Vec<Solved>,
     /// Whether `define` puts values in place instead of naming them.
     inline: bool,
-}
-
-/// Unknowns that were solved for: `matrix · unknowns = right`, and the matrix is L D Lᵀ.
-#[derive(Clone, Debug)]
-pub(crate) struct Solved {
-    pub(crate) unknowns: Vec<SymbolId>,
-    pub(crate) matrix: Matrix,
-    pub(crate) right: Vec<ExprId>,
-    /// The rows of L left of the diagonal.
-    pub(crate) lower: Matrix,
-    /// D.
-    pub(crate) diagonal: Vec<ExprId>,
-}
-
-impl Solved {
-    /// All expressions in it.
-    pub(crate) fn expressions(&self) -> Vec<ExprId> {
-        let entries = self.matrix.iter().chain(&self.lower).flatten();
-        entries.chain(&self.right).chain(&self.diagonal).copied().collect()
-    }
 }
 
 impl Procedure {

@@ -7,7 +7,8 @@
 use super::elimination_order::elimination_order;
 use super::ldl::{Ldl, Numerators};
 use super::pair::Pair;
-use super::procedure::{Definition, Procedure, Solved};
+use super::procedure::{Definition, Procedure};
+use super::solved::{Equations, Factors, Solved};
 use super::rank_one::RankOne;
 use crate::algebra::{Graph, Matrix};
 use crate::id::{ExprId, SymbolId};
@@ -80,7 +81,9 @@ pub fn solve_symmetric(
         let unknowns = block.iter().map(|index| graph.as_symbol(solution[*index]));
         if let Some((factors, unknowns)) = factors.zip(unknowns.collect()) {
             let (lower, diagonal) = factors.into_factors();
-            procedure.solved.push(Solved { unknowns, matrix: inner, right: outer, lower, diagonal });
+            let equations = Equations::System { matrix: inner, right: outer };
+            let factors = Factors::Triangular { lower, diagonal };
+            procedure.solved.push(Solved { unknowns, equations, factors });
         }
     }
     solution

@@ -12,7 +12,7 @@ use super::tape::Tape;
 use super::vertex_order::{Edges, IsUnit, Vertex};
 use crate::algebra::{Graph, Matrix, Node, Rational};
 use crate::id::{ExprId, Id, SymbolId};
-use crate::mechanics::{Definition, NotDifferentiable, Procedure};
+use crate::mechanics::{Definition, Eliminated, NotDifferentiable, Procedure};
 use rustc_hash::FxHashMap;
 
 /// Which linear systems are differentiated as such.
@@ -332,6 +332,7 @@ impl<'p> Accumulation<'p> {
                 let diagonal = self.tape.outputs(diagonal).unwrap_or_default();
                 self.substituted(graph, (&lower, &diagonal), right)
             }
+            Closing::OneByOne { eliminated, .. } => self.pushed(graph, eliminated, right),
             Closing::Pivoted { matrix, .. } => {
                 let matrix: Matrix = matrix.iter().filter_map(|row| self.tape.outputs(row)).collect();
                 let matrix = if side == Side::Transposed { Graph::transposed(&matrix) } else { matrix };
@@ -341,6 +342,48 @@ impl<'p> Accumulation<'p> {
                 solution
             }
         }
+    }
+
+    /// The solution where variables left one after the other: what pushes a variable pushes those that it is given by.
+    fn pushed(
+        &mut self,
+        graph: &mut Graph,
+        eliminated: &[Eliminated<usize>],
+        mut right: Vec<ExprId>,
+    ) -> Vec<ExprId> {
+        let (zero, one) = (graph.zero(), graph.one());
+        let places = eliminated.first().map_or(0, |last| last.place + 1);
+        let mut pushes: Vec<Vec<ExprId>> = vec![Vec::new(); places];
+        let mut rest: Vec<ExprId> = vec![zero; places];
+        let known = |tape: &Tape, place: usize| tape.output(place).unwrap_or(zero);
+        for Eliminated { place, by, unknown } in eliminated {
+            pushes[*place].extend(unknown.map(|(unknown, _)| right[unknown]));
+            let push = graph.sum(&pushes[*place]);
+            let push = self.tape.procedure.define(graph, "", push);
+            if push == zero {
+                continue;
+            }
+            for (p, c) in by {
+                pushes[*p].push(graph.formula(known(&self.tape, *c) * push));
+            }
+            if let Some((_, pivot)) = unknown {
+                let inverse = graph.formula(one / known(&self.tape, *pivot));
+                let inverse = self.tape.procedure.define(graph, "", inverse);
+                rest[*place] = graph.formula(push * inverse);
+            }
+        }
+        let mut values = rest;
+        for Eliminated { place, by, unknown } in eliminated.iter().rev() {
+            let mut terms: Vec<ExprId> =
+                by.iter().map(|(p, c)| graph.formula(known(&self.tape, *c) * values[*p])).collect();
+            terms.push(values[*place]);
+            let value = graph.sum(&terms);
+            values[*place] = self.tape.procedure.define(graph, "", value);
+            if let Some((unknown, _)) = unknown {
+                right[*unknown] = values[*place];
+            }
+        }
+        right
     }
 
     /// The solution of L D Lᵀ x = right.

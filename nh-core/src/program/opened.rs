@@ -2,7 +2,7 @@
 
 use crate::algebra::Graph;
 use crate::id::{ExprId, SymbolId};
-use crate::mechanics::{Definition, Procedure, Solved};
+use crate::mechanics::{Definition, Eliminated, Equations, Factors, Procedure, Solved};
 use rustc_hash::FxHashMap;
 use std::collections::BTreeSet;
 use std::ops::Range;
@@ -28,6 +28,8 @@ pub(super) struct OpenSystem {
 pub(super) enum Closing {
     /// In closed form, by these values; C = L D Lᵀ, the rows of L left of the diagonal.
     Factorised { values: Range<usize>, lower: Vec<Range<usize>>, diagonal: Range<usize> },
+    /// In closed form, by these values; C is what is left of a quadratic form that variables leave one after the other.
+    OneByOne { values: Range<usize>, eliminated: Vec<Eliminated<usize>> },
     /// By elimination with pivoting.
     Pivoted { matrix: Vec<Range<usize>>, right: Range<usize> },
 }
@@ -47,7 +49,7 @@ impl Opened {
         let known: BTreeSet<SymbolId> =
             graph.symbols_in(&procedure.expressions()).into_iter().chain(values.keys().copied()).collect();
         let is_whole = |solved: &&Solved| {
-            let symbols = graph.symbols_in(&solved.expressions());
+            let symbols = solved.symbols(graph);
             solved.unknowns.iter().all(|unknown| values.contains_key(unknown))
                 && symbols.iter().all(|symbol| known.contains(symbol))
         };
@@ -61,7 +63,7 @@ impl Opened {
                 Definition::Value { symbol, .. } if cut.contains(symbol) => {
                     let place = closed.iter().position(|solved| solved.unknowns.contains(symbol));
                     if let Some(place) = place {
-                        open.factorised(graph, closed.remove(place), &values);
+                        open.closed(graph, closed.remove(place), &values);
                     }
                 }
                 Definition::Value { .. } | Definition::Call { .. } => {
@@ -103,14 +105,29 @@ impl Opened {
         (held, self.put(&rows))
     }
 
-    fn factorised(&mut self, graph: &mut Graph, solved: &Solved, values: &FxHashMap<SymbolId, ExprId>) {
-        let Solved { unknowns, matrix, right, lower, diagonal } = solved;
-        let (held, residuals) = self.residuals(graph, unknowns.len(), matrix, right);
+    fn closed(&mut self, graph: &mut Graph, solved: &Solved, values: &FxHashMap<SymbolId, ExprId>) {
+        let Solved { unknowns, equations, factors } = solved;
+        let (held, residuals) = match equations {
+            Equations::System { matrix, right } => self.residuals(graph, unknowns.len(), matrix, right),
+            Equations::Residuals { held, definitions, residuals } => {
+                self.procedure.definitions.extend(definitions.iter().cloned());
+                (held.clone(), self.put(residuals))
+            }
+        };
         let values: Vec<ExprId> =
             unknowns.iter().filter_map(|unknown| values.get(unknown)).copied().collect();
         let values = self.put(&values);
-        let lower = lower.iter().map(|row| self.put(row)).collect();
-        let closing = Closing::Factorised { values, lower, diagonal: self.put(diagonal) };
+        let closing = match factors {
+            Factors::Triangular { lower, diagonal } => {
+                let lower = lower.iter().map(|row| self.put(row)).collect();
+                Closing::Factorised { values, lower, diagonal: self.put(diagonal) }
+            }
+            Factors::OneByOne(eliminated) => {
+                let mut put = |entry: ExprId| self.put(&[entry]).start;
+                let eliminated = eliminated.iter().map(|variable| variable.map(&mut put)).collect();
+                Closing::OneByOne { values, eliminated }
+            }
+        };
         self.systems.push(OpenSystem { unknowns: unknowns.clone(), held, residuals, closing });
     }
 }

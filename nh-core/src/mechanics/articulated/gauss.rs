@@ -6,9 +6,9 @@
 //! The free ones are those of the mass matrix, so that pivots are its pivots.
 
 use crate::algebra::{Graph, Node, Rational};
-use crate::id::ExprId;
+use crate::id::{ExprId, SymbolId};
 use crate::limits;
-use crate::mechanics::Procedure;
+use crate::mechanics::{Eliminated, Equations, Factors, Procedure, Solved};
 use std::collections::BTreeMap;
 
 /// An acceleration.
@@ -52,6 +52,8 @@ pub(super) struct GaussFunction {
 struct Found {
     by: Vec<(usize, ExprId)>,
     rest: ExprId,
+    /// Q_ii, where it is free.
+    pivot: Option<ExprId>,
 }
 
 impl Collected {
@@ -62,11 +64,15 @@ impl Collected {
         }
     }
 
+    fn of_the_body(&self, graph: &mut Graph) -> ExprId {
+        let own = graph.sum(&self.own);
+        if self.own.len() > 1 { graph.simplify(own) } else { own }
+    }
+
     /// The sum, as an intermediate result unless it is short; `None` where there is nothing.
     fn total(self, graph: &mut Graph, procedure: &mut Procedure, name: &str) -> Option<Coefficient> {
         let is_own = self.carried.is_empty();
-        let own = graph.sum(&self.own);
-        let own = if self.own.len() > 1 { graph.simplify(own) } else { own };
+        let own = self.of_the_body(graph);
         let carried = graph.sum(&self.carried);
         let value = graph.formula(own + carried);
         if graph.is_literal_zero(value) {
@@ -112,6 +118,7 @@ impl GaussFunction {
         accelerations: &[Acceleration],
         procedure: &mut Procedure,
     ) -> Option<Vec<ExprId>> {
+        let equations = self.balance(graph, accelerations);
         let mut found: Vec<Found> = Vec::with_capacity(accelerations.len());
         for (i, acceleration) in accelerations.iter().enumerate().rev() {
             found.push(match acceleration {
@@ -120,16 +127,86 @@ impl GaussFunction {
             });
         }
         let mut values: Vec<ExprId> = Vec::with_capacity(accelerations.len());
-        for (i, Found { by, rest }) in found.into_iter().rev().enumerate() {
+        for (i, Found { by, rest, .. }) in found.iter().rev().enumerate() {
             let mut terms: Vec<ExprId> = Vec::with_capacity(by.len() + 1);
             for (p, coefficient) in by {
-                terms.push(graph.formula(coefficient * values[p]));
+                terms.push(graph.formula(coefficient * values[*p]));
             }
-            terms.push(rest);
+            terms.push(*rest);
             let value = graph.sum(&terms);
-            values.push(named(graph, procedure, &format!("acceleration{i}"), value));
+            let name = format!("acceleration{i}");
+            values.push(match accelerations[i] {
+                Acceleration::Free => procedure.define(graph, &name, value),
+                Acceleration::Carried { .. } => named(graph, procedure, &name, value),
+            });
+        }
+        let free: Vec<usize> =
+            (0..values.len()).filter(|i| matches!(accelerations[*i], Acceleration::Free)).collect();
+        let unknowns: Option<Vec<SymbolId>> = free.iter().map(|i| graph.as_symbol(values[*i])).collect();
+        if let Some(unknowns) = unknowns {
+            // what no unknown moves is not pushed
+            let mut is_moved = vec![false; values.len()];
+            for (i, Found { by, pivot, .. }) in found.iter().rev().enumerate() {
+                is_moved[i] = pivot.is_some() || by.iter().any(|(p, _)| is_moved[*p]);
+            }
+            let variables = (0..values.len()).rev().zip(found).filter(|(place, _)| is_moved[*place]);
+            let eliminated = variables.map(|(place, Found { mut by, pivot, .. })| {
+                by.retain(|(p, _)| is_moved[*p]);
+                let unknown = free.iter().position(|other| *other == place).zip(pivot);
+                Eliminated { place, by, unknown }
+            });
+            let factors = Factors::OneByOne(eliminated.collect());
+            procedure.solved.push(Solved { unknowns, equations, factors });
         }
         Some(values)
+    }
+
+    /// −∂Z/∂a_i for the free accelerations, which are held: forces from the last of all to the first.
+    fn balance(&self, graph: &mut Graph, accelerations: &[Acceleration]) -> Equations {
+        let mut procedure = Procedure::default();
+        let (mut held, mut values): (Vec<SymbolId>, Vec<ExprId>) = (Vec::new(), Vec::new());
+        for acceleration in accelerations {
+            let value = match acceleration {
+                Acceleration::Free => {
+                    let symbol = graph.new_symbol("");
+                    held.push(symbol);
+                    graph.symbol(symbol)
+                }
+                Acceleration::Carried { by, bias } => {
+                    let moved = by.iter().map(|(p, c)| graph.formula(c * values[*p]));
+                    let moved: Vec<ExprId> = moved.chain([*bias]).collect();
+                    let value = graph.sum(&moved);
+                    procedure.define(graph, "", value)
+                }
+            };
+            values.push(value);
+        }
+        let mut forces: Vec<Vec<ExprId>> = vec![Vec::new(); accelerations.len()];
+        for ((i, j), collected) in &self.quadratic {
+            let coefficient = collected.of_the_body(graph);
+            forces[*i].push(graph.formula(coefficient * values[*j]));
+            if i != j {
+                forces[*j].push(graph.formula(coefficient * values[*i]));
+            }
+        }
+        for (i, collected) in &self.linear {
+            forces[*i].push(collected.of_the_body(graph));
+        }
+        let mut residuals = Vec::with_capacity(held.len());
+        for (i, acceleration) in accelerations.iter().enumerate().rev() {
+            let force = graph.sum(&forces[i]);
+            match acceleration {
+                Acceleration::Free => residuals.push(graph.formula(-force)),
+                Acceleration::Carried { by, .. } => {
+                    let force = procedure.define(graph, "", force);
+                    for (p, c) in by {
+                        forces[*p].push(graph.formula(c * force));
+                    }
+                }
+            }
+        }
+        residuals.reverse();
+        Equations::Residuals { held, definitions: procedure.definitions, residuals }
     }
 
     /// Takes out all coefficients of a_i: Q_ii, the others, L_i.
@@ -190,7 +267,7 @@ impl GaussFunction {
         } else {
             procedure.define(graph, &format!("free{i}"), rest)
         };
-        Some(Found { by, rest })
+        Some(Found { by, rest, pivot: Some(pivot) })
     }
 
     /// a_i = Σ c_p a_p + b put into Z.
@@ -252,6 +329,6 @@ impl GaussFunction {
                 }
             }
         }
-        Found { by: by.to_vec(), rest: bias }
+        Found { by: by.to_vec(), rest: bias, pivot: None }
     }
 }

@@ -1,0 +1,111 @@
+//! Linear systems in procedures that were solved in closed form: what their unknowns satisfy, and the factors that they
+//! were found with, which solve for other right-hand sides as well.
+
+use super::procedure::Definition;
+use crate::algebra::{Graph, Matrix};
+use crate::id::{ExprId, SymbolId};
+use std::collections::BTreeSet;
+
+/// Unknowns that were solved for.
+#[derive(Clone, Debug)]
+pub(crate) struct Solved {
+    pub(crate) unknowns: Vec<SymbolId>,
+    pub(crate) equations: Equations,
+    pub(crate) factors: Factors,
+}
+
+/// What unknowns x satisfy, C x = f.
+#[derive(Clone, Debug)]
+pub(crate) enum Equations {
+    /// C and f.
+    System { matrix: Matrix, right: Vec<ExprId> },
+    /// f − C x in terms of symbols that are held in the place of x.
+    Residuals { held: Vec<SymbolId>, definitions: Vec<Definition>, residuals: Vec<ExprId> },
+}
+
+/// What C is made of.
+#[derive(Clone, Debug)]
+pub(crate) enum Factors {
+    /// C = L D Lᵀ.
+    Triangular {
+        /// The rows of L left of the diagonal.
+        lower: Matrix,
+        /// D.
+        diagonal: Vec<ExprId>,
+    },
+    /// Variables that leave a quadratic form one after the other; C is what is left of it for the unknowns among them.
+    OneByOne(Vec<Eliminated<ExprId>>),
+}
+
+/// A variable a, at a place among all, in terms of those that leave later: a = Σ c_p a_p, beside what moves it on its own.
+#[derive(Clone, Debug)]
+pub(crate) struct Eliminated<T> {
+    pub(crate) place: usize,
+    /// p with c_p.
+    pub(crate) by: Vec<(usize, T)>,
+    /// The unknown that it is, and what its square is multiplied by when it leaves.
+    pub(crate) unknown: Option<(usize, T)>,
+}
+
+impl<T: Copy> Eliminated<T> {
+    /// With other entries.
+    pub(crate) fn map<U>(&self, mut entry: impl FnMut(T) -> U) -> Eliminated<U> {
+        Eliminated {
+            place: self.place,
+            by: self.by.iter().map(|(p, c)| (*p, entry(*c))).collect(),
+            unknown: self.unknown.map(|(unknown, pivot)| (unknown, entry(pivot))),
+        }
+    }
+}
+
+impl Solved {
+    /// Replaces every expression in it.
+    pub(crate) fn replace(&mut self, mut image: impl FnMut(ExprId) -> ExprId) {
+        let mut all: Vec<&mut ExprId> = Vec::new();
+        match &mut self.equations {
+            Equations::System { matrix, right } => all.extend(matrix.iter_mut().flatten().chain(right)),
+            Equations::Residuals { definitions, residuals, .. } => {
+                let values = definitions.iter_mut().filter_map(|definition| match definition {
+                    Definition::Value { value, .. } => Some(value),
+                    Definition::Call { .. } | Definition::Solve { .. } => None,
+                });
+                all.extend(values.chain(residuals));
+            }
+        }
+        match &mut self.factors {
+            Factors::Triangular { lower, diagonal } => {
+                all.extend(lower.iter_mut().flatten().chain(diagonal));
+            }
+            Factors::OneByOne(eliminated) => {
+                for Eliminated { by, unknown, .. } in eliminated {
+                    all.extend(by.iter_mut().map(|(_, entry)| entry));
+                    all.extend(unknown.iter_mut().map(|(_, pivot)| pivot));
+                }
+            }
+        }
+        for entry in all {
+            *entry = image(*entry);
+        }
+    }
+
+    /// The symbols that it is made of: those of its own left out.
+    pub(crate) fn symbols(&self, graph: &Graph) -> BTreeSet<SymbolId> {
+        let mut all = Vec::new();
+        self.clone().replace(|entry| {
+            all.push(entry);
+            entry
+        });
+        let mut symbols: BTreeSet<SymbolId> = graph.symbols_in(&all).into_iter().collect();
+        if let Equations::Residuals { held, definitions, .. } = &self.equations {
+            held.iter().for_each(|symbol| {
+                symbols.remove(symbol);
+            });
+            for definition in definitions {
+                if let Definition::Value { symbol, .. } = definition {
+                    symbols.remove(symbol);
+                }
+            }
+        }
+        symbols
+    }
+}
