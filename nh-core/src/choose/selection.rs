@@ -8,7 +8,7 @@ use super::reference::Reference;
 use crate::algebra::{Accuracy, Graph};
 use crate::id::ExprId;
 use crate::mechanics::Procedure;
-use crate::program::{Cost, Program, error_growth, error_growth_apart, order, schedule_roughly};
+use crate::program::{Cost, Program, error_growth, error_growth_apart, error_growth_in_runs, order, schedule_roughly};
 
 /// What a procedure is compared by.
 #[derive(Clone, Copy, Debug)]
@@ -46,6 +46,10 @@ pub(crate) fn rate(graph: &Graph, procedures: &[Procedure]) -> Vec<Rating> {
     };
     let least = growth.iter().copied().fold(f64::INFINITY, f64::min);
     let allowed = graph.accuracy().growth().max(least);
+    let mut growth = growth;
+    if graph.accuracy() == Accuracy::Balanced {
+        acquit(&programs, allowed, &mut growth);
+    }
     let mut sound: Vec<bool> = growth.iter().map(|growth| *growth <= allowed).collect();
     keep_digits_apart(graph, &programs, &mut sound);
     let rated = programs.iter().zip(growth).zip(sound).map(|((program, growth), sound)| Rating {
@@ -55,6 +59,18 @@ pub(crate) fn rate(graph: &Graph, procedures: &[Procedure]) -> Vec<Rating> {
         growth,
     });
     rated.collect()
+}
+
+/// What bounds find fault with is run beside the best, and judged by the errors that are seen then.
+fn acquit(programs: &[Program], allowed: f64, growth: &mut [f64]) {
+    let best = (0..programs.len()).min_by(|a, b| growth[*a].total_cmp(&growth[*b]));
+    let is_large = |index: &usize| growth[*index] > allowed && growth[*index].is_finite();
+    let accused: Vec<usize> = (0..programs.len()).filter(is_large).collect();
+    let Some(best) = best.filter(|_| !accused.is_empty()) else { return };
+    let candidates: Vec<&Program> = accused.iter().map(|index| &programs[*index]).collect();
+    for (index, seen) in accused.into_iter().zip(error_growth_in_runs(&candidates, &programs[best])) {
+        growth[index] = growth[index].min(seen);
+    }
 }
 
 /// Leaves those of the sound programs that keep their digits also where parameters lie decades apart, as far as any

@@ -76,8 +76,16 @@ pub(super) fn candidates(
             bodies.push(body);
         }
     }
-    let setting =
-        Setting { system, bodies: &bodies, distribution: kept, chained: chained.as_ref(), residuals, size };
+    let mut requests = proved.model.requests.iter();
+    let setting = Setting {
+        system,
+        bodies: &bodies,
+        distribution: kept,
+        chained: chained.as_ref(),
+        residuals,
+        size,
+        is_differentiated: requests.any(|(request, _)| request.differentiates_the_motion()),
+    };
     let mut found = Candidates::default();
     let is_constrained = !kept.dependent.is_empty();
     let mut most = if is_orthonormal { Count::TOO_MANY } else { Count::new(sizes::expanded(is_constrained)) };

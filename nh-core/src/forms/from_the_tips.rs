@@ -32,6 +32,6 @@ impl Form for FromTheTips {
     }
     fn solve(&self, graph: &mut Graph, setting: &Setting) -> Option<Procedure> {
         setting.chained?;
-        accelerations_from_the_tips(graph, setting.system, setting.distribution)
+        accelerations_from_the_tips(graph, setting.system, setting.distribution, setting.is_differentiated)
     }
 }

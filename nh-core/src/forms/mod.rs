@@ -37,6 +37,8 @@ pub struct Setting<'s> {
     pub residuals: Option<&'s [ExprId]>,
     /// The operations of L, as [`Graph::operation_count`].
     pub size: Count,
+    /// Whether derivatives of the motion are asked for.
+    pub is_differentiated: bool,
 }
 
 /// One way to write the equations of motion on D, mathematics (8).

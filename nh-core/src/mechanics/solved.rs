@@ -1,7 +1,6 @@
 //! Linear systems in procedures that were solved in closed form: what their unknowns satisfy, and the factors that they
 //! were found with, which solve for other right-hand sides as well.
 
-use super::procedure::Definition;
 use crate::algebra::{Graph, Matrix};
 use crate::id::{ExprId, SymbolId};
 use std::collections::BTreeSet;
@@ -19,8 +18,13 @@ pub(crate) struct Solved {
 pub(crate) enum Equations {
     /// C and f.
     System { matrix: Matrix, right: Vec<ExprId> },
-    /// f − C x in terms of symbols that are held in the place of x.
-    Residuals { held: Vec<SymbolId>, definitions: Vec<Definition>, residuals: Vec<ExprId> },
+    /// What is left of the equations of variables that leave one after the other: of the forces on each, then of how each
+    /// is carried, both in the order in which they leave.
+    Balance {
+        /// Symbols that are held in the place of the variables, and of the forces that carry them, with their values.
+        held: Vec<(SymbolId, ExprId)>,
+        residuals: Vec<ExprId>,
+    },
 }
 
 /// What C is made of.
@@ -37,12 +41,15 @@ pub(crate) enum Factors {
     OneByOne(Vec<Eliminated<ExprId>>),
 }
 
-/// A variable a, at a place among all, in terms of those that leave later: a = Σ c_p a_p, beside what moves it on its own.
+/// A variable a, at a place among all, in terms of those that leave later: a = Σ c_p a_p + b. For an unknown, b is what
+/// pushes it over its pivot; for others it is given.
 #[derive(Clone, Debug)]
 pub(crate) struct Eliminated<T> {
     pub(crate) place: usize,
     /// p with c_p.
     pub(crate) by: Vec<(usize, T)>,
+    /// What the force on it is by the variables that are left, itself among them, if it is no unknown.
+    pub(crate) inertias: Vec<(usize, T)>,
     /// The unknown that it is, and what its square is multiplied by when it leaves.
     pub(crate) unknown: Option<(usize, T)>,
 }
@@ -53,6 +60,7 @@ impl<T: Copy> Eliminated<T> {
         Eliminated {
             place: self.place,
             by: self.by.iter().map(|(p, c)| (*p, entry(*c))).collect(),
+            inertias: self.inertias.iter().map(|(p, c)| (*p, entry(*c))).collect(),
             unknown: self.unknown.map(|(unknown, pivot)| (unknown, entry(pivot))),
         }
     }
@@ -64,12 +72,8 @@ impl Solved {
         let mut all: Vec<&mut ExprId> = Vec::new();
         match &mut self.equations {
             Equations::System { matrix, right } => all.extend(matrix.iter_mut().flatten().chain(right)),
-            Equations::Residuals { definitions, residuals, .. } => {
-                let values = definitions.iter_mut().filter_map(|definition| match definition {
-                    Definition::Value { value, .. } => Some(value),
-                    Definition::Call { .. } | Definition::Solve { .. } => None,
-                });
-                all.extend(values.chain(residuals));
+            Equations::Balance { held, residuals } => {
+                all.extend(held.iter_mut().map(|(_, value)| value).chain(residuals));
             }
         }
         match &mut self.factors {
@@ -77,8 +81,8 @@ impl Solved {
                 all.extend(lower.iter_mut().flatten().chain(diagonal));
             }
             Factors::OneByOne(eliminated) => {
-                for Eliminated { by, unknown, .. } in eliminated {
-                    all.extend(by.iter_mut().map(|(_, entry)| entry));
+                for Eliminated { by, inertias, unknown, .. } in eliminated {
+                    all.extend(by.iter_mut().chain(inertias).map(|(_, entry)| entry));
                     all.extend(unknown.iter_mut().map(|(_, pivot)| pivot));
                 }
             }
@@ -96,15 +100,10 @@ impl Solved {
             entry
         });
         let mut symbols: BTreeSet<SymbolId> = graph.symbols_in(&all).into_iter().collect();
-        if let Equations::Residuals { held, definitions, .. } = &self.equations {
-            held.iter().for_each(|symbol| {
+        if let Equations::Balance { held, .. } = &self.equations {
+            held.iter().for_each(|(symbol, _)| {
                 symbols.remove(symbol);
             });
-            for definition in definitions {
-                if let Definition::Value { symbol, .. } = definition {
-                    symbols.remove(symbol);
-                }
-            }
         }
         symbols
     }

@@ -67,6 +67,19 @@ pub enum Request {
 }
 
 impl Request {
+    /// Whether it asks for derivatives of the right-hand side.
+    #[must_use]
+    pub fn differentiates_the_motion(self) -> bool {
+        matches!(
+            self,
+            Self::Jacobian
+                | Self::SparseJacobian
+                | Self::JacobianProduct
+                | Self::AdjointProduct
+                | Self::ParameterJacobian
+        )
+    }
+
     /// The words by which `emit` asks for them.
     pub const WORDS: [(&str, Self); 30] = [
         ("jacobian", Self::Jacobian),

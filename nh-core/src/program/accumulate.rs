@@ -5,14 +5,14 @@
 //! f − C x are functions like others, and ∂x = C⁻¹ ∂(f − C x) takes the factors that x was found with. Products
 //! from the left take them as well: what x̄ is to x, C⁻ᵀ x̄ is to the residuals.
 
-use super::opened::{Closing, OpenSystem, Opened};
+use super::opened::{OpenSystem, Opened};
 use super::schedule::schedule_grouping;
 use super::step::{Program, Step};
 use super::tape::Tape;
 use super::vertex_order::{Edges, IsUnit, Vertex};
-use crate::algebra::{Graph, Matrix, Node, Rational};
+use crate::algebra::{Graph, Node, Rational};
 use crate::id::{ExprId, Id, SymbolId};
-use crate::mechanics::{Definition, Eliminated, NotDifferentiable, Procedure};
+use crate::mechanics::{NotDifferentiable, Procedure};
 use rustc_hash::FxHashMap;
 
 /// Which linear systems are differentiated as such.
@@ -60,7 +60,12 @@ pub fn accumulated(
     let rows = procedure.outputs.len();
     let mut accumulation = Accumulation::of(graph, tape, arguments, (&opened.systems, rows))?;
     let (rows, columns) = match wanted {
-        Wanted::Jacobian | Wanted::Linearized => (0..rows, 0..arguments.len()),
+        Wanted::Jacobian | Wanted::Linearized => {
+            if opened.systems.iter().any(OpenSystem::is_local) {
+                accumulation.begin_at_sums(graph, arguments.len(), rows);
+            }
+            (0..rows, 0..arguments.len())
+        }
         Wanted::AlongDirection(direction) => {
             accumulation.along(graph, direction);
             (0..rows, 0..1)
@@ -74,15 +79,16 @@ pub fn accumulated(
     };
     accumulation.eliminate(graph);
     if !matches!(wanted, Wanted::OfWeightedSum(_)) {
-        opened.systems.iter().for_each(|system| accumulation.push_forward(graph, system, columns.clone()));
+        let sums = accumulation.sums.len();
+        let all = columns.start..columns.end + sums;
+        opened.systems.iter().for_each(|system| accumulation.push_forward(graph, system, all.clone()));
     }
     let values = match wanted {
         Wanted::Linearized => accumulation.tape.outputs(&rows).unwrap_or_default(),
         _ => Vec::new(),
     };
-    let places = rows.flat_map(|row| columns.clone().map(move |column| (row, column)));
-    let entries = places.map(|(row, column)| accumulation.entry(graph, row, column));
-    let outputs = values.into_iter().chain(entries).collect();
+    let entries = rows.flat_map(|row| accumulation.row(graph, row, columns.clone()));
+    let outputs = values.into_iter().chain(entries.collect::<Vec<ExprId>>()).collect();
     Ok(Some(accumulation.tape.procedure.with_outputs(outputs)))
 }
 
@@ -114,7 +120,12 @@ struct Accumulation<'p> {
     sources: FxHashMap<Vertex, Source>,
     /// ∂x by a column, for each unknown, where it is not 0.
     columns: FxHashMap<(SymbolId, usize), ExprId>,
+    /// What stands in columns after those of the arguments: each as a sum of columns before it.
+    sums: Vec<SumOfColumns>,
 }
+
+/// ±1 times columns.
+type SumOfColumns = Vec<(usize, ExprId)>;
 
 impl<'p> Accumulation<'p> {
     /// The edges between steps that depend on arguments or unknowns and lead to outputs or residuals.
@@ -173,7 +184,7 @@ impl<'p> Accumulation<'p> {
                 rows[place] = Some(steps + row);
             }
         }
-        Ok(Self { tape, rows, edges, sources, columns: FxHashMap::default() })
+        Ok(Self { tape, rows, edges, sources, columns: FxHashMap::default(), sums: Vec::new() })
     }
 
     /// Lets all arguments change together.
@@ -236,11 +247,38 @@ impl<'p> Accumulation<'p> {
         if slopes.iter().all(|slope| graph.is_literal_zero(*slope)) {
             return;
         }
-        let solution = self.solved(graph, system, slopes, Side::Transposed);
+        let solution = system.weights(graph, &mut self.tape, slopes);
         for (place, weight) in system.residuals.clone().zip(solution) {
             if let Some(row) = self.rows[place] {
                 self.edges.put(row, end, weight);
             }
+        }
+    }
+
+    /// Lets ways begin at sums of arguments, absolute angles among relative ones, say: a system of which each equation is
+    /// about few of them has short columns for these. An argument that occurs in a sum alone has none of its own.
+    fn begin_at_sums(&mut self, graph: &mut Graph, arguments: usize, outputs: usize) {
+        let one = graph.one();
+        let minus_one = graph.formula(-one);
+        let is_output: Vec<Vertex> = self.rows[..outputs].iter().flatten().copied().collect();
+        for vertex in 0..self.tape.program.steps.len() {
+            let operands = self.edges.operands(vertex);
+            let column = |(before, weight): (&Vertex, &ExprId)| match self.sources.get(before) {
+                Some(Source::Column(column)) if *weight == one || *weight == minus_one => Some((*column, *weight)),
+                _ => None,
+            };
+            let Some(sum) = operands.iter().map(column).collect::<Option<SumOfColumns>>() else { continue };
+            let is_only_here = |before: &Vertex| {
+                let mut after = self.edges.results(*before);
+                after.all(|after| after == vertex || is_output.contains(&after))
+            };
+            if sum.len() < 2 || !operands.keys().any(is_only_here) {
+                continue;
+            }
+            let [_, out] = self.edges.take(vertex);
+            out.into_iter().for_each(|(after, weight)| self.edges.put(vertex, after, weight));
+            self.sources.insert(vertex, Source::Column(arguments + self.sums.len()));
+            self.sums.push(sum);
         }
     }
 
@@ -282,6 +320,21 @@ impl<'p> Accumulation<'p> {
         }
     }
 
+    /// The derivatives of a row by the arguments: by those of the columns that are sums of theirs.
+    fn row(&mut self, graph: &mut Graph, place: usize, arguments: std::ops::Range<usize>) -> Vec<ExprId> {
+        let all = arguments.end + self.sums.len();
+        let mut terms: Vec<Vec<ExprId>> =
+            (arguments.start..all).map(|column| vec![self.entry(graph, place, column)]).collect();
+        for (column, sum) in (arguments.end..all).zip(&self.sums).rev() {
+            let total = graph.sum(&terms[column - arguments.start]);
+            let total = self.tape.procedure.define(graph, "", total);
+            for (other, weight) in sum {
+                terms[*other - arguments.start].push(graph.formula(*weight * total));
+            }
+        }
+        terms[..arguments.len()].iter().map(|terms| graph.sum(terms)).collect()
+    }
+
     /// The derivative of a row by a column, by way of the unknowns whose derivatives are known.
     fn entry(&self, graph: &mut Graph, place: usize, column: usize) -> ExprId {
         let mut terms = Vec::new();
@@ -309,7 +362,7 @@ impl<'p> Accumulation<'p> {
             if right.iter().all(|entry| graph.is_literal_zero(*entry)) {
                 continue;
             }
-            let solution = self.solved(graph, system, right, Side::AsItStands);
+            let solution = system.changes(graph, &mut self.tape, right);
             for (unknown, value) in system.unknowns.iter().zip(solution) {
                 if !graph.is_literal_zero(value) {
                     self.columns.insert((*unknown, column), value);
@@ -317,108 +370,6 @@ impl<'p> Accumulation<'p> {
             }
         }
     }
-
-    /// The solution of a system for another right-hand side.
-    fn solved(
-        &mut self,
-        graph: &mut Graph,
-        system: &OpenSystem,
-        right: Vec<ExprId>,
-        side: Side,
-    ) -> Vec<ExprId> {
-        match &system.closing {
-            Closing::Factorised { lower, diagonal, .. } => {
-                let lower: Matrix = lower.iter().filter_map(|row| self.tape.outputs(row)).collect();
-                let diagonal = self.tape.outputs(diagonal).unwrap_or_default();
-                self.substituted(graph, (&lower, &diagonal), right)
-            }
-            Closing::OneByOne { eliminated, .. } => self.pushed(graph, eliminated, right),
-            Closing::Pivoted { matrix, .. } => {
-                let matrix: Matrix = matrix.iter().filter_map(|row| self.tape.outputs(row)).collect();
-                let matrix = if side == Side::Transposed { Graph::transposed(&matrix) } else { matrix };
-                let unknowns: Vec<SymbolId> = system.unknowns.iter().map(|_| graph.new_symbol("")).collect();
-                let solution = unknowns.iter().map(|unknown| graph.symbol(*unknown)).collect();
-                self.tape.procedure.definitions.push(Definition::Solve { unknowns, matrix, right });
-                solution
-            }
-        }
-    }
-
-    /// The solution where variables left one after the other: what pushes a variable pushes those that it is given by.
-    fn pushed(
-        &mut self,
-        graph: &mut Graph,
-        eliminated: &[Eliminated<usize>],
-        mut right: Vec<ExprId>,
-    ) -> Vec<ExprId> {
-        let (zero, one) = (graph.zero(), graph.one());
-        let places = eliminated.first().map_or(0, |last| last.place + 1);
-        let mut pushes: Vec<Vec<ExprId>> = vec![Vec::new(); places];
-        let mut rest: Vec<ExprId> = vec![zero; places];
-        let known = |tape: &Tape, place: usize| tape.output(place).unwrap_or(zero);
-        for Eliminated { place, by, unknown } in eliminated {
-            pushes[*place].extend(unknown.map(|(unknown, _)| right[unknown]));
-            let push = graph.sum(&pushes[*place]);
-            let push = self.tape.procedure.define(graph, "", push);
-            if push == zero {
-                continue;
-            }
-            for (p, c) in by {
-                pushes[*p].push(graph.formula(known(&self.tape, *c) * push));
-            }
-            if let Some((_, pivot)) = unknown {
-                let inverse = graph.formula(one / known(&self.tape, *pivot));
-                let inverse = self.tape.procedure.define(graph, "", inverse);
-                rest[*place] = graph.formula(push * inverse);
-            }
-        }
-        let mut values = rest;
-        for Eliminated { place, by, unknown } in eliminated.iter().rev() {
-            let mut terms: Vec<ExprId> =
-                by.iter().map(|(p, c)| graph.formula(known(&self.tape, *c) * values[*p])).collect();
-            terms.push(values[*place]);
-            let value = graph.sum(&terms);
-            values[*place] = self.tape.procedure.define(graph, "", value);
-            if let Some((unknown, _)) = unknown {
-                right[*unknown] = values[*place];
-            }
-        }
-        right
-    }
-
-    /// The solution of L D Lᵀ x = right.
-    fn substituted(
-        &mut self,
-        graph: &mut Graph,
-        (lower, diagonal): (&[Vec<ExprId>], &[ExprId]),
-        right: Vec<ExprId>,
-    ) -> Vec<ExprId> {
-        let one = graph.one();
-        let mut solution = right;
-        // L z = right
-        for i in 0..solution.len() {
-            let known = graph.inner_product(&lower[i], &solution[..i]);
-            let value = graph.formula(solution[i] - known);
-            solution[i] = self.tape.procedure.define(graph, "", value);
-        }
-        // Lᵀ x = D⁻¹ z
-        for i in (0..solution.len()).rev() {
-            let below: Vec<ExprId> = lower[i + 1..].iter().map(|row| row[i]).collect();
-            let known = graph.inner_product(&below, &solution[i + 1..]);
-            let inverse = graph.formula(one / diagonal[i]);
-            let inverse = self.tape.procedure.define(graph, "", inverse);
-            let value = graph.formula(solution[i] * inverse - known);
-            solution[i] = self.tape.procedure.define(graph, "", value);
-        }
-        solution
-    }
-}
-
-/// From which side a matrix is solved with.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Side {
-    AsItStands,
-    Transposed,
 }
 
 /// Adds a weight to an edge.

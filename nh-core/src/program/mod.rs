@@ -31,8 +31,10 @@ mod fuse;
 mod import;
 mod interpret;
 mod lower;
+mod measured_rounding;
 mod nary;
 mod opened;
+mod other_sides;
 mod pairs;
 #[cfg(test)]
 mod program_tests;
@@ -54,6 +56,7 @@ pub use accumulate::{Systems, Wanted, accumulated};
 pub use correct::corrected;
 pub use cost::{Cost, order};
 pub use interpret::{Arithmetic, interpret, interpret_in};
+pub use measured_rounding::error_growth_in_runs;
 pub use rounding::{error_growth, error_growth_apart, reading_in_vain, units_lost};
 pub use rule::{Factor, Inner, Rule};
 pub use schedule::{Scheduled, schedule, schedule_grouping, schedule_roughly, schedules};

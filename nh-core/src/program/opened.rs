@@ -18,10 +18,18 @@ pub(super) struct Opened {
 /// Unknowns x, with residuals f − C x; all others are places among the outputs.
 pub(super) struct OpenSystem {
     pub(super) unknowns: Vec<SymbolId>,
-    /// What stands for x in the residuals, where it does not vary.
-    pub(super) held: Vec<SymbolId>,
+    /// What stands for x in the residuals, and for what is given by x, where it does not vary.
+    pub(super) held: Vec<(SymbolId, Held)>,
     pub(super) residuals: Range<usize>,
     pub(super) closing: Closing,
+}
+
+/// The value of what is held.
+#[derive(Clone, Copy)]
+pub(super) enum Held {
+    Unknown(SymbolId),
+    /// At its place among the outputs.
+    Output(usize),
 }
 
 /// How unknowns are found, and the solution for other right-hand sides.
@@ -70,7 +78,7 @@ impl Opened {
                     open.procedure.definitions.push(definition.clone());
                 }
                 Definition::Solve { unknowns, matrix, right } => {
-                    let (held, residuals) = open.residuals(graph, unknowns.len(), matrix, right);
+                    let (held, residuals) = open.residuals(graph, unknowns, matrix, right);
                     let matrix = matrix.iter().map(|row| open.put(row)).collect();
                     let closing = Closing::Pivoted { matrix, right: open.put(right) };
                     open.systems.push(OpenSystem { unknowns: unknowns.clone(), held, residuals, closing });
@@ -91,12 +99,13 @@ impl Opened {
     fn residuals(
         &mut self,
         graph: &mut Graph,
-        unknowns: usize,
+        unknowns: &[SymbolId],
         matrix: &[Vec<ExprId>],
         right: &[ExprId],
-    ) -> (Vec<SymbolId>, Range<usize>) {
-        let held: Vec<SymbolId> = (0..unknowns).map(|_| graph.new_symbol("")).collect();
-        let values: Vec<ExprId> = held.iter().map(|held| graph.symbol(*held)).collect();
+    ) -> (Vec<(SymbolId, Held)>, Range<usize>) {
+        let held: Vec<(SymbolId, Held)> =
+            unknowns.iter().map(|unknown| (graph.new_symbol(""), Held::Unknown(*unknown))).collect();
+        let values: Vec<ExprId> = held.iter().map(|(held, _)| graph.symbol(*held)).collect();
         let mut rows = Vec::with_capacity(right.len());
         for (row, right) in matrix.iter().zip(right) {
             let product = graph.inner_product(row, &values);
@@ -108,10 +117,11 @@ impl Opened {
     fn closed(&mut self, graph: &mut Graph, solved: &Solved, values: &FxHashMap<SymbolId, ExprId>) {
         let Solved { unknowns, equations, factors } = solved;
         let (held, residuals) = match equations {
-            Equations::System { matrix, right } => self.residuals(graph, unknowns.len(), matrix, right),
-            Equations::Residuals { held, definitions, residuals } => {
-                self.procedure.definitions.extend(definitions.iter().cloned());
-                (held.clone(), self.put(residuals))
+            Equations::System { matrix, right } => self.residuals(graph, unknowns, matrix, right),
+            Equations::Balance { held, residuals } => {
+                let mut put = |value: ExprId| Held::Output(self.put(&[value]).start);
+                let held = held.iter().map(|(symbol, value)| (*symbol, put(*value))).collect();
+                (held, self.put(residuals))
             }
         };
         let values: Vec<ExprId> =

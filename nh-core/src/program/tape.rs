@@ -1,6 +1,6 @@
 //! A program as definitions, and the partial derivatives of its steps.
 
-use super::opened::{Closing, OpenSystem};
+use super::opened::{Closing, Held, OpenSystem};
 use super::step::{Program, Step, Value};
 use crate::algebra::{Graph, Matrix, Rational};
 use crate::id::{ExprId, Id, SymbolId};
@@ -41,7 +41,10 @@ impl<'p> Tape<'p> {
             methods: methods.collect(),
             is_written_out: written_out(program),
         };
-        let symbols = |system: &OpenSystem| [system.unknowns.as_slice(), &system.held].concat();
+        let symbols = |system: &OpenSystem| {
+            let held = system.held.iter().map(|(symbol, _)| *symbol);
+            system.unknowns.iter().copied().chain(held).collect::<Vec<SymbolId>>()
+        };
         let mut open: BTreeSet<SymbolId> = systems.iter().flat_map(symbols).collect();
         let mut left: Vec<Value> = program.steps.iter_ids().map(|(value, _)| value).collect();
         while !left.is_empty() || !open.is_empty() {
@@ -88,9 +91,14 @@ impl<'p> Tape<'p> {
                 }
             }
         }
-        for (unknown, held) in system.unknowns.iter().zip(&system.held) {
-            if !open.contains(unknown) && open.remove(held) {
-                let value = graph.symbol(*unknown);
+        for (held, value) in &system.held {
+            let value = match value {
+                Held::Unknown(unknown) => (!open.contains(unknown)).then(|| graph.symbol(*unknown)),
+                Held::Output(place) => self.output(*place),
+            };
+            if let Some(value) = value
+                && open.remove(held)
+            {
                 self.procedure.definitions.push(Definition::Value { symbol: *held, value });
             }
         }
@@ -99,6 +107,11 @@ impl<'p> Tape<'p> {
     /// An output, if it is known.
     pub(super) fn output(&self, place: usize) -> Option<ExprId> {
         self.values[self.program.outputs.get(place)?.index()]
+    }
+
+    /// An output of which is known that it is.
+    pub(super) fn known_output(&self, graph: &mut Graph, place: usize) -> ExprId {
+        self.output(place).unwrap_or_else(|| graph.zero())
     }
 
     /// Outputs in a row, if they are known.

@@ -35,6 +35,11 @@ impl<W: Copy> Edges<W> {
         &self.into[vertex]
     }
 
+    /// Where a vertex leads.
+    pub(super) fn results(&self, vertex: Vertex) -> impl Iterator<Item = Vertex> {
+        self.out_of[vertex].iter().copied()
+    }
+
     pub(super) fn leads_on(&self, vertex: Vertex) -> bool {
         !self.out_of[vertex].is_empty()
     }

@@ -6,9 +6,9 @@
 //! The free ones are those of the mass matrix, so that pivots are its pivots.
 
 use crate::algebra::{Graph, Node, Rational};
-use crate::id::{ExprId, SymbolId};
+use crate::id::ExprId;
 use crate::limits;
-use crate::mechanics::{Eliminated, Equations, Factors, Procedure, Solved};
+use crate::mechanics::Procedure;
 use std::collections::BTreeMap;
 
 /// An acceleration.
@@ -27,7 +27,7 @@ pub(super) enum Acceleration {
 
 /// A coefficient of Z as the terms that it collects.
 #[derive(Clone, Debug, Default)]
-struct Collected {
+pub(super) struct Collected {
     /// Of the body itself, in which sines and cosines of one angle meet.
     own: Vec<ExprId>,
     /// Of what it carries, in terms of intermediate results.
@@ -44,16 +44,18 @@ struct Coefficient {
 /// Z.
 #[derive(Debug, Default)]
 pub(super) struct GaussFunction {
-    quadratic: BTreeMap<(usize, usize), Collected>,
-    linear: BTreeMap<usize, Collected>,
+    pub(super) quadratic: BTreeMap<(usize, usize), Collected>,
+    pub(super) linear: BTreeMap<usize, Collected>,
 }
 
 /// How an eliminated acceleration follows from the earlier ones: Σ c_p a_p + b.
-struct Found {
-    by: Vec<(usize, ExprId)>,
+pub(super) struct Found {
+    pub(super) by: Vec<(usize, ExprId)>,
     rest: ExprId,
     /// Q_ii, where it is free.
-    pivot: Option<ExprId>,
+    pub(super) pivot: Option<ExprId>,
+    /// Q_ij with j, where it is carried.
+    pub(super) inertias: Vec<(usize, ExprId)>,
 }
 
 impl Collected {
@@ -64,7 +66,7 @@ impl Collected {
         }
     }
 
-    fn of_the_body(&self, graph: &mut Graph) -> ExprId {
+    pub(super) fn of_the_body(&self, graph: &mut Graph) -> ExprId {
         let own = graph.sum(&self.own);
         if self.own.len() > 1 { graph.simplify(own) } else { own }
     }
@@ -89,6 +91,14 @@ fn named(graph: &mut Graph, procedure: &mut Procedure, name: &str, value: ExprId
         Node::Sum { .. } => procedure.define(graph, name, value),
         _ => value,
     }
+}
+
+/// Where Z is least.
+pub(super) struct Minimum {
+    /// All accelerations.
+    pub(super) values: Vec<ExprId>,
+    /// How they left, the last one first.
+    pub(super) left: Vec<Found>,
 }
 
 impl GaussFunction {
@@ -117,8 +127,7 @@ impl GaussFunction {
         graph: &mut Graph,
         accelerations: &[Acceleration],
         procedure: &mut Procedure,
-    ) -> Option<Vec<ExprId>> {
-        let equations = self.balance(graph, accelerations);
+    ) -> Option<Minimum> {
         let mut found: Vec<Found> = Vec::with_capacity(accelerations.len());
         for (i, acceleration) in accelerations.iter().enumerate().rev() {
             found.push(match acceleration {
@@ -140,73 +149,7 @@ impl GaussFunction {
                 Acceleration::Carried { .. } => named(graph, procedure, &name, value),
             });
         }
-        let free: Vec<usize> =
-            (0..values.len()).filter(|i| matches!(accelerations[*i], Acceleration::Free)).collect();
-        let unknowns: Option<Vec<SymbolId>> = free.iter().map(|i| graph.as_symbol(values[*i])).collect();
-        if let Some(unknowns) = unknowns {
-            // what no unknown moves is not pushed
-            let mut is_moved = vec![false; values.len()];
-            for (i, Found { by, pivot, .. }) in found.iter().rev().enumerate() {
-                is_moved[i] = pivot.is_some() || by.iter().any(|(p, _)| is_moved[*p]);
-            }
-            let variables = (0..values.len()).rev().zip(found).filter(|(place, _)| is_moved[*place]);
-            let eliminated = variables.map(|(place, Found { mut by, pivot, .. })| {
-                by.retain(|(p, _)| is_moved[*p]);
-                let unknown = free.iter().position(|other| *other == place).zip(pivot);
-                Eliminated { place, by, unknown }
-            });
-            let factors = Factors::OneByOne(eliminated.collect());
-            procedure.solved.push(Solved { unknowns, equations, factors });
-        }
-        Some(values)
-    }
-
-    /// −∂Z/∂a_i for the free accelerations, which are held: forces from the last of all to the first.
-    fn balance(&self, graph: &mut Graph, accelerations: &[Acceleration]) -> Equations {
-        let mut procedure = Procedure::default();
-        let (mut held, mut values): (Vec<SymbolId>, Vec<ExprId>) = (Vec::new(), Vec::new());
-        for acceleration in accelerations {
-            let value = match acceleration {
-                Acceleration::Free => {
-                    let symbol = graph.new_symbol("");
-                    held.push(symbol);
-                    graph.symbol(symbol)
-                }
-                Acceleration::Carried { by, bias } => {
-                    let moved = by.iter().map(|(p, c)| graph.formula(c * values[*p]));
-                    let moved: Vec<ExprId> = moved.chain([*bias]).collect();
-                    let value = graph.sum(&moved);
-                    procedure.define(graph, "", value)
-                }
-            };
-            values.push(value);
-        }
-        let mut forces: Vec<Vec<ExprId>> = vec![Vec::new(); accelerations.len()];
-        for ((i, j), collected) in &self.quadratic {
-            let coefficient = collected.of_the_body(graph);
-            forces[*i].push(graph.formula(coefficient * values[*j]));
-            if i != j {
-                forces[*j].push(graph.formula(coefficient * values[*i]));
-            }
-        }
-        for (i, collected) in &self.linear {
-            forces[*i].push(collected.of_the_body(graph));
-        }
-        let mut residuals = Vec::with_capacity(held.len());
-        for (i, acceleration) in accelerations.iter().enumerate().rev() {
-            let force = graph.sum(&forces[i]);
-            match acceleration {
-                Acceleration::Free => residuals.push(graph.formula(-force)),
-                Acceleration::Carried { by, .. } => {
-                    let force = procedure.define(graph, "", force);
-                    for (p, c) in by {
-                        forces[*p].push(graph.formula(c * force));
-                    }
-                }
-            }
-        }
-        residuals.reverse();
-        Equations::Residuals { held, definitions: procedure.definitions, residuals }
+        Some(Minimum { values, left: found })
     }
 
     /// Takes out all coefficients of a_i: Q_ii, the others, L_i.
@@ -267,7 +210,7 @@ impl GaussFunction {
         } else {
             procedure.define(graph, &format!("free{i}"), rest)
         };
-        Some(Found { by, rest, pivot: Some(pivot) })
+        Some(Found { by, rest, pivot: Some(pivot), inertias: Vec::new() })
     }
 
     /// a_i = Σ c_p a_p + b put into Z.
@@ -280,6 +223,8 @@ impl GaussFunction {
     ) -> Found {
         let (own, others, linear) = self.taken(graph, i, procedure);
         // what is of the body itself stays in place, since much of it cancels: m c² sin² + m c² cos², d · ḋω
+        let inertias = own.iter().map(|own| (i, own.value));
+        let inertias = inertias.chain(others.iter().map(|(j, other)| (*j, other.value))).collect();
         let is_own =
             own.iter().chain(&linear).chain(others.iter().map(|(_, other)| other)).all(|found| found.is_own);
         let bias = if is_own { bias } else { procedure.define(graph, &format!("bias{i}"), bias) };
@@ -329,6 +274,6 @@ impl GaussFunction {
                 }
             }
         }
-        Found { by: by.to_vec(), rest: bias, pivot: None }
+        Found { by: by.to_vec(), rest: bias, pivot: None, inertias }
     }
 }

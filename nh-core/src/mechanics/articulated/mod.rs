@@ -11,6 +11,7 @@
 //! (`carried.rs`), those of points in turning axes with what the turning adds (`turning_axes.rs`). Then one body after the other leaves Z (`gauss.rs`), in a number of operations that grows like the
 //! number of bodies.
 
+mod balance;
 mod carried;
 mod gauss;
 mod rates;
@@ -23,8 +24,9 @@ use super::procedure::Procedure;
 use crate::algebra::{Graph, Matrix, Rational, Substitution};
 use crate::geometry::ConstraintDistribution;
 use crate::id::{ExprId, SymbolId};
+use balance::Balance;
 use carried::{Along, Angles, Bodies, Dependent, Order};
-use gauss::GaussFunction;
+use gauss::{GaussFunction, Minimum};
 use rates::{Quantity, Rates};
 use turning_axes::{Turned, Turns};
 use written::{Written, in_numbers};
@@ -34,11 +36,13 @@ const JOINTS: usize = 2;
 
 /// ẋ and v̇, where bodies carry one another; `None` where nothing is gained by it.
 ///
-/// Pivots are those of C in another order: for C that is definite.
+/// Pivots are those of C in another order: for C that is definite. Where it is to be differentiated, it says what it has
+/// solved.
 pub fn accelerations_from_the_tips(
     graph: &mut Graph,
     system: &LagrangianSystem,
     distribution: &ConstraintDistribution,
+    is_differentiated: bool,
 ) -> Option<Procedure> {
     // 1. unknowns: those that constraints mix first, then absolute rates
     let kept = Kept::of(graph, system, distribution)?;
@@ -75,7 +79,11 @@ pub fn accelerations_from_the_tips(
         turned: &turned,
     };
     let gauss = problem.gauss_function(graph, &mut along);
-    let found = gauss.minimum(graph, &order.accelerations, &mut procedure)?;
+    let balance = is_differentiated.then(|| Balance::of(graph, &gauss));
+    let Minimum { values: found, left } = gauss.minimum(graph, &order.accelerations, &mut procedure)?;
+    if let Some(balance) = balance {
+        procedure.solved.extend(balance.solved(graph, &order.accelerations, left, &found));
+    }
     let mut outputs = system.algebroid.rates(graph, &velocity);
     for section in &kept.independent {
         let terms = rates.velocities[*section].iter();
