@@ -1,7 +1,7 @@
 //! What derivatives of the motion cost beside the motion: a law over the reference systems and the machines of the
 //! benchmark of record.
 
-use nh_stages::{Declaration, bicycle, record, references};
+use nh_stages::{Declaration, arms, bicycle, record, references};
 use nonholonomic_core::mechanics::Procedure;
 use nonholonomic_core::program::{Cost, schedule_grouping};
 use nonholonomic_core::system::{Side, System};
@@ -74,6 +74,29 @@ fn jacobians_of_few_velocities_cost_a_few_derivatives() {
     }
     println!("{worst:?}");
     assert!(worst.0 <= 4.26, "{worst:?}");
+}
+
+/// Of a chain, whose bodies are solved from the last to the first: what solved them solves for derivatives as well, and
+/// a Jacobian takes a number of operations that grows like that of its entries.
+#[test]
+fn chains_are_differentiated_with_what_solved_them() {
+    let mut costs = Vec::new();
+    for links in [4, 8] {
+        let (name, declaration) = arms()
+            .into_iter()
+            .find(|(name, _)| *name == format!("arm on a skate, {links} links"))
+            .expect("it is among the arms");
+        let system = derived(declaration).expect("an arm");
+        for site in ["jacobian", "jacobian_product", "adjoint_product"] {
+            let chosen = system.ledger.at(site).and_then(|decision| decision.chosen());
+            let form = chosen.expect("it is proved").form;
+            assert_eq!(form, "differentiated step by step, with the factors of C", "{name}, {site}");
+        }
+        costs.push(cost(&system, &system.jacobian().expect("it was asked for")));
+    }
+    println!("{costs:?}");
+    assert!(costs[1] <= 4.0 * costs[0], "{costs:?}");
+    assert!(costs[0] <= 1600.0, "{costs:?}");
 }
 
 /// That of the benchmark bicycle as well, of ten thousand operations.

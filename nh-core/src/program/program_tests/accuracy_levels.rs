@@ -5,7 +5,9 @@ use crate::algebra::{Accuracy, Graph, Rational};
 use crate::choose::lowered;
 use crate::id::{ExprId, Id};
 use crate::mechanics::Procedure;
-use crate::program::{Program, Step, corrected, error_growth, error_growth_apart, interpret, schedule};
+use crate::program::{
+    Program, Step, corrected, error_growth, error_growth_apart, error_growth_in_runs, interpret, schedule,
+};
 
 #[test]
 fn corrected_sums_and_quotients_are_exact_where_rounding_would_tell() {
@@ -63,6 +65,36 @@ fn programs_that_differ_where_symbols_are_far_apart_are_told_apart() {
     let (ordinary, apart) = (error_growth(&programs), error_growth_apart(&programs));
     assert!(ordinary[0] < 64.0 && ordinary[1] < 2.0, "{ordinary:?}");
     assert!(apart[0] > 4096.0 && apart[1] < 2.0, "{apart:?}");
+}
+
+/// A vector that is turned twenty times: a bound grows with each turn, the error does not. What adds a large number and
+/// takes it away again is seen in runs as well.
+#[test]
+fn what_a_bound_finds_fault_with_is_seen_in_runs() {
+    let mut g = Graph::new();
+    let [x, y, angle, load] = symbols(&mut g, ["x", "y", "angle", "load"]);
+    let twentieth = g.scale(Rational::new(1, 20), angle);
+    let mut turned = Procedure::default();
+    let [sine, cosine] = [g.sin(twentieth), g.cos(twentieth)];
+    let [sine, cosine] = [sine, cosine].map(|value| turned.define(&mut g, "", value));
+    let (mut a, mut b) = (x, y);
+    for _ in 0..20 {
+        let next = [g.formula(cosine * a - sine * b), g.formula(sine * a + cosine * b)];
+        [a, b] = next.map(|value| turned.define(&mut g, "", value));
+    }
+    turned.outputs = vec![a, b];
+    let (sine, cosine) = (g.sin(angle), g.cos(angle));
+    let at_once = vec![g.formula(cosine * x - sine * y), g.formula(sine * x + cosine * y)];
+    let mut loaded = Procedure::default();
+    let large = g.scale(Rational::from(1000), load);
+    let sums: Vec<ExprId> = at_once.iter().map(|value| g.formula(*value + large)).collect();
+    let sums: Vec<ExprId> = sums.into_iter().map(|sum| loaded.define(&mut g, "", sum)).collect();
+    loaded.outputs = sums.iter().map(|sum| g.formula(*sum - large)).collect();
+    let programs = [turned, loaded, Procedure::of(at_once)].map(|procedure| schedule(&g, &procedure));
+    let bounds = error_growth(&programs);
+    let runs = error_growth_in_runs(&programs, &programs[2]);
+    assert!(bounds[0] > 16.0 && bounds[1] > 16.0, "{bounds:?}");
+    assert!(runs[0] < 2.0 && runs[1] > 16.0 && runs[2] < 1.1, "{runs:?}");
 }
 
 #[test]
