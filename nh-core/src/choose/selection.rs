@@ -8,7 +8,9 @@ use super::reference::Reference;
 use crate::algebra::{Accuracy, Graph};
 use crate::id::ExprId;
 use crate::mechanics::Procedure;
-use crate::program::{Cost, Program, error_growth, error_growth_apart, error_growth_in_runs, order, schedule_roughly};
+use crate::program::{
+    Cost, Program, error_growth, error_growth_apart, error_growth_in_runs, order, schedule_roughly,
+};
 
 /// What a procedure is compared by.
 #[derive(Clone, Copy, Debug)]

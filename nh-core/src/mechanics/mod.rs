@@ -57,9 +57,9 @@ pub use kinetic_metric::kinetic_metric;
 pub use momentum::Momentum;
 pub use moving_energy::moving_energy_section;
 pub use nonholonomic_connection::NonholonomicConnection;
-pub(crate) use solved::{Eliminated, Equations, Factors, Solved};
 pub use procedure::{Definition, Procedure};
 pub use projected::{SaddleEquations, saddle_equations};
+pub(crate) use solved::{Eliminated, Equations, Factors, Solved};
 pub use splitting::{Chaplygin, NotSplit, Splitting};
 pub use symmetric_solve::{Definiteness, solve_symmetric, uncoupled};
 pub use velocity_forms::{

@@ -8,8 +8,8 @@ use super::elimination_order::elimination_order;
 use super::ldl::{Ldl, Numerators};
 use super::pair::Pair;
 use super::procedure::{Definition, Procedure};
-use super::solved::{Equations, Factors, Solved};
 use super::rank_one::RankOne;
+use super::solved::{Equations, Factors, Solved};
 use crate::algebra::{Graph, Matrix};
 use crate::id::{ExprId, SymbolId};
 

@@ -264,7 +264,9 @@ impl<'p> Accumulation<'p> {
         for vertex in 0..self.tape.program.steps.len() {
             let operands = self.edges.operands(vertex);
             let column = |(before, weight): (&Vertex, &ExprId)| match self.sources.get(before) {
-                Some(Source::Column(column)) if *weight == one || *weight == minus_one => Some((*column, *weight)),
+                Some(Source::Column(column)) if *weight == one || *weight == minus_one => {
+                    Some((*column, *weight))
+                }
                 _ => None,
             };
             let Some(sum) = operands.iter().map(column).collect::<Option<SumOfColumns>>() else { continue };

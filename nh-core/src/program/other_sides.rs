@@ -40,7 +40,9 @@ impl OpenSystem {
     /// What the residuals weigh where the unknowns have these weights: C⁻ᵀ of them.
     pub(super) fn weights(&self, graph: &mut Graph, tape: &mut Tape, slopes: Vec<ExprId>) -> Vec<ExprId> {
         match &self.closing {
-            Closing::Factorised { lower, diagonal, .. } => substituted(graph, tape, (lower, diagonal), slopes),
+            Closing::Factorised { lower, diagonal, .. } => {
+                substituted(graph, tape, (lower, diagonal), slopes)
+            }
             Closing::OneByOne { eliminated, .. } => {
                 let zero = graph.zero();
                 let pushing = |variable: &Eliminated<usize>| {
@@ -69,13 +71,7 @@ impl OpenSystem {
         }
     }
 
-    fn pivoted(
-        &self,
-        graph: &mut Graph,
-        tape: &mut Tape,
-        matrix: Matrix,
-        right: Vec<ExprId>,
-    ) -> Vec<ExprId> {
+    fn pivoted(&self, graph: &mut Graph, tape: &mut Tape, matrix: Matrix, right: Vec<ExprId>) -> Vec<ExprId> {
         let unknowns: Vec<SymbolId> = self.unknowns.iter().map(|_| graph.new_symbol("")).collect();
         let solution = unknowns.iter().map(|unknown| graph.symbol(*unknown)).collect();
         tape.procedure.definitions.push(Definition::Solve { unknowns, matrix, right });

@@ -268,7 +268,8 @@ impl Bodies {
             let value = if *index < self.unknowns {
                 unknowns[*index]
             } else {
-                let moved = self.all[*index].by.iter().map(|(j, c)| graph.formula(c * velocities[places[*j]]));
+                let moved =
+                    self.all[*index].by.iter().map(|(j, c)| graph.formula(c * velocities[places[*j]]));
                 let moved: Vec<ExprId> = moved.collect();
                 let velocity = graph.sum(&moved);
                 procedure.define(graph, "velocity", velocity)

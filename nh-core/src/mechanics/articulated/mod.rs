@@ -62,13 +62,8 @@ pub fn accelerations_from_the_tips(
     let turns = Turns::of(graph, &bodies, &mut turned);
     let by_unknowns =
         turns.any().then(|| angles.along_by_unknowns(graph, system, (&velocity, &unknowns), &rates));
-    let order = bodies.ordered(
-        graph,
-        (&mut along, by_unknowns),
-        (&unknowns, &dependent),
-        &turns,
-        &mut procedure,
-    );
+    let order =
+        bodies.ordered(graph, (&mut along, by_unknowns), (&unknowns, &dependent), &turns, &mut procedure);
     // 3. the minimum of Z
     let problem = Problem {
         kept: &kept,
@@ -229,12 +224,7 @@ impl Problem<'_> {
     }
 
     /// r: the forces, the slope of F, and the brackets and curls that are not in Z otherwise.
-    fn forces(
-        &self,
-        graph: &mut Graph,
-        values: &mut Substitution,
-        momenta: &[ExprId],
-    ) -> Vec<ExprId> {
+    fn forces(&self, graph: &mut Graph, values: &mut Substitution, momenta: &[ExprId]) -> Vec<ExprId> {
         let Self { kept, written, velocity, turned, .. } = self;
         let Kept { system, distribution, independent, .. } = kept;
         let velocities = &system.algebroid.velocities;

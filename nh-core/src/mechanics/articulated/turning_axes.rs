@@ -90,9 +90,9 @@ impl Turns {
             let before = [place, other].map(|index| carrier(graph, bodies, index));
             if let [Some(first), Some(second)] = before
                 && first != second
-                && [first, second].iter().all(|index| {
-                    turns.all[*index].is_none() && bodies.rows.iter().all(|row| row != index)
-                })
+                && [first, second]
+                    .iter()
+                    .all(|index| turns.all[*index].is_none() && bodies.rows.iter().all(|row| row != index))
             {
                 let minus = graph.formula(-rate);
                 turns.all[first] = Some(Turn { other: second, rate });
