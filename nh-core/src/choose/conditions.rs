@@ -9,7 +9,7 @@
 //! of parameters and configurations for which C is, a parameter 0 among them in turn: as evidence goes, that is
 //! what C itself is called definite by.
 
-use super::pivots::{Pivots, is_multiple};
+use super::pivots::{Pivots, is_multiple, is_pivot};
 use super::proof::{Defect, FIRST_SEED, run};
 use super::reference::{Instant, Reference, inner};
 use super::zero_set::{Polynomial, numerator, place, values_for};
@@ -206,11 +206,14 @@ impl Regular<'_> {
         .into_iter()
         .flatten()
         .collect();
+        let masses = [first.mass.clone(), second.mass.clone()];
         let mut recognised: BTreeSet<ExprId> = BTreeSet::new();
         for (k, divisor) in divisors.iter().enumerate() {
             let value = [first.divisors[k], second.divisors[k]];
             let known = minors[0].iter().zip(&minors[1]).any(|(a, b)| is_multiple(value, [*a, *b]));
-            if matrices.iter_mut().any(|pivots| pivots.are_met(value)) || known {
+            // the first of a block may be divided by factor after factor
+            let is_met = matrices.iter_mut().any(|pivots| pivots.are_met(value));
+            if is_met || known || (is_definite && is_pivot(&masses, SMALL_BLOCK, value)) {
                 recognised.insert(*divisor);
             }
         }

@@ -53,15 +53,17 @@ impl Pivots {
     }
 }
 
-/// As many unknowns that touch each other are tried in every order; more stay as they are.
-const TOGETHER: usize = 9;
-
-/// Whether a quantity is a pivot of a definite matrix, at two points, whatever was eliminated before it.
-pub(super) fn is_pivot([first, second]: &[Vec<Vec<Residue>>; 2], value: [Residue; 2]) -> bool {
+/// Whether a quantity is a pivot of a definite matrix, at two points, whatever was eliminated before it: of so many
+/// unknowns at most that touch each other, which are tried in every order.
+pub(super) fn is_pivot(
+    [first, second]: &[Vec<Vec<Residue>>; 2],
+    together: usize,
+    value: [Residue; 2],
+) -> bool {
     (0..first.len()).any(|index| {
         let mut others = touching(first, index);
         others.retain(|other| *other != index);
-        others.len() < TOGETHER && is_pivot_after(first, second, index, &others, value)
+        others.len() < together && is_pivot_after(first, second, index, &others, value)
     })
 }
 

@@ -5,10 +5,14 @@
 //! round-off. Rows that are made orthogonal in the metric W⁻¹ one after the other (the modified method of
 //! Gram and Schmidt; Å. Björck, *Numerics of Gram–Schmidt orthogonalization*, Linear Algebra Appl.
 //! 197/198 (1994)) lose δ⁻¹, which is what the constraints themselves explain.
+//!
+//! Of many constraints along a chain, each row that is made orthogonal contains all before it, where J W⁻¹ Jᵀ couples
+//! neighbours alone. Where that makes them many times as long, they stay as they are.
 
 use super::procedure::Procedure;
 use crate::algebra::{Graph, Matrix};
 use crate::id::ExprId;
+use crate::limits;
 
 /// Constraints J ẏ = bias that touch each other, with their directions W⁻¹ Jᵀ.
 #[derive(Debug)]
@@ -21,7 +25,38 @@ pub(super) struct Touching {
     pub(super) bias: Vec<ExprId>,
 }
 
+/// As few constraints are made orthogonal, whatever they touch.
+const FEW: usize = 6;
+/// Rows stay as they are where they would have so many times as many entries.
+const LONGER: usize = 2;
+
 impl Touching {
+    /// Whether there are many of them, with entries that are zero in J and J W⁻¹ and not in rows that are orthogonal.
+    pub(super) fn is_sparse(&self, graph: &Graph) -> bool {
+        if self.jacobian.len() <= FEW {
+            return false;
+        }
+        let filled = |row: &Vec<ExprId>| -> Vec<bool> {
+            row.iter().map(|entry| !graph.is_literal_zero(*entry)).collect()
+        };
+        let mut rows: Vec<[Vec<bool>; 2]> =
+            self.jacobian.iter().zip(&self.reach).map(|(row, reach)| [filled(row), filled(reach)]).collect();
+        let entries = |rows: &[[Vec<bool>; 2]]| rows.iter().flatten().flatten().filter(|is| **is).count();
+        let before = entries(&rows);
+        for b in 1..rows.len() {
+            limits::spend(b * rows[b][0].len() / 64);
+            let (orthogonal, rest) = rows.split_at_mut(b);
+            for row in orthogonal {
+                if rest[0][0].iter().zip(&row[1]).any(|(one, other)| *one && *other) {
+                    for (own, other) in rest[0].iter_mut().zip(row) {
+                        own.iter_mut().zip(other).for_each(|(own, other)| *own |= *other);
+                    }
+                }
+            }
+        }
+        entries(&rows) > LONGER * before
+    }
+
     /// Moves the accelerations, which are free of these constraints, to where they hold, and returns λ.
     ///
     /// With L J' = J, L unit lower triangular, the rows of J' orthogonal: μ = Lᵀλ are the multipliers of

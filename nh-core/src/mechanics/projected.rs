@@ -10,6 +10,11 @@ use super::symmetric_solve::{Definiteness, uncoupled};
 use crate::algebra::{Accuracy, Graph, Matrix, Substitution};
 use crate::id::{ExprId, SymbolId};
 
+/// Where there are more constraints than this, it matters what they couple.
+const FEW: usize = 6;
+/// So many times fewer velocities are coupled by a mass matrix that stays by itself.
+const FEWER: usize = 4;
+
 /// `W ẏ − Jᵀ λ = force`, `J ẏ = bias`.
 #[derive(Clone, Debug)]
 pub struct SaddleEquations {
@@ -165,8 +170,8 @@ impl SaddleEquations {
 
     /// ẏ and λ, as intermediate results of the procedure; `definiteness` judges mass matrices.
     ///
-    /// By (10): λ = (J W⁻¹ Jᵀ)⁻¹ (bias − J W⁻¹ force), with one factorisation of W where W is
-    /// diagonal and definite, of the augmented matrix where that is definite, and with constraints made
+    /// By (10): λ = (J W⁻¹ Jᵀ)⁻¹ (bias − J W⁻¹ force), with one factorisation of W where W is definite, and
+    /// diagonal or much sparser than with constraints in it, of the augmented matrix where that is definite, and with constraints made
     /// orthogonal; else the saddle system is solved with numerical pivoting.
     pub fn solve(
         &self,
@@ -174,8 +179,7 @@ impl SaddleEquations {
         definiteness: impl Fn(&Graph, &Matrix) -> Definiteness,
         procedure: &mut Procedure,
     ) -> (Vec<ExprId>, Vec<ExprId>) {
-        let separate = self.jacobian.is_empty() || is_diagonal(graph, &self.mass);
-        if separate && definiteness(graph, &self.mass) == Definiteness::Definite {
+        if self.is_by_itself(graph) && definiteness(graph, &self.mass) == Definiteness::Definite {
             return self.solve_by_complement(graph, procedure);
         }
         let mut trial = procedure.clone();
@@ -226,7 +230,19 @@ impl SaddleEquations {
             let pick = |rows: &Matrix| -> Matrix { block.iter().map(|a| rows[*a].clone()).collect() };
             let outer: Vec<ExprId> = block.iter().map(|a| right[*a]).collect();
             let inner = Graph::submatrix(&complement, &block);
-            let found = if let Some(solved) = closed_form(graph, &inner, &outer) {
+            let touching = |equations: &Self| Touching {
+                jacobian: pick(&equations.jacobian),
+                reach: pick(&reach),
+                bias: block.iter().map(|a| equations.bias[*a]).collect(),
+            };
+            let solved = closed_form(graph, &inner, &outer).or_else(|| {
+                // neighbours of neighbours touch nothing here that they would touch once they are orthogonal
+                touching(self).is_sparse(graph).then(|| {
+                    let factors = Factorisation::of(graph, &inner, procedure, "s");
+                    factors.solve(graph, &outer, procedure, "lambda")
+                })
+            });
+            let found = if let Some(solved) = solved {
                 let named: Vec<ExprId> = block
                     .iter()
                     .zip(solved)
@@ -235,9 +251,7 @@ impl SaddleEquations {
                 self.react(graph, (&block, &pick(&reach)), &named, &mut accelerations, procedure);
                 named
             } else {
-                let bias = block.iter().map(|a| self.bias[*a]).collect();
-                let touching = Touching { jacobian: pick(&self.jacobian), reach: pick(&reach), bias };
-                touching.impose(graph, &mut accelerations, procedure)
+                touching(self).impose(graph, &mut accelerations, procedure)
             };
             for (a, value) in block.iter().zip(found) {
                 multipliers[*a] = value;
@@ -278,14 +292,30 @@ impl SaddleEquations {
         LoneConstraint::of(graph, (&self.mass, &self.jacobian), (&self.force, &self.bias), *a)
     }
 
+    /// Whether W is factorised without the constraints: where it is diagonal, or couples few velocities where many
+    /// constraints, weighed into it, would couple all of a chain.
+    fn is_by_itself(&self, graph: &Graph) -> bool {
+        if self.jacobian.len() <= FEW {
+            return self.jacobian.is_empty() || is_diagonal(graph, &self.mass);
+        }
+        let largest = |matrix: &Matrix| uncoupled(graph, matrix).iter().map(Vec::len).max().unwrap_or(0);
+        let mut weighed = self.mass.clone();
+        for row in &self.jacobian {
+            let touched = || row.iter().enumerate().filter(|(_, entry)| !graph.is_literal_zero(**entry));
+            for (alpha, entry) in touched() {
+                touched().for_each(|(beta, _)| weighed[alpha][beta] = *entry);
+            }
+        }
+        FEWER * largest(&self.mass) <= largest(&weighed)
+    }
+
     /// The mass matrix that [`Self::solve`] factorises, W or W + JᵀRJ; `None` where it pivots.
     pub fn factorised(
         &self,
         graph: &mut Graph,
         definiteness: impl Fn(&Graph, &Matrix) -> Definiteness,
     ) -> Option<Matrix> {
-        let separate = self.jacobian.is_empty() || is_diagonal(graph, &self.mass);
-        if separate && definiteness(graph, &self.mass) == Definiteness::Definite {
+        if self.is_by_itself(graph) && definiteness(graph, &self.mass) == Definiteness::Definite {
             return Some(self.mass.clone());
         }
         let weighed = self.augmented(graph, &mut Procedure::inline()).mass;

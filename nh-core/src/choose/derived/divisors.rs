@@ -12,6 +12,9 @@ use crate::id::{ExprId, SymbolId};
 use crate::mechanics::{Definition, Procedure};
 use std::collections::{BTreeMap, BTreeSet};
 
+/// As many unknowns that touch each other are tried in every order; more stay as they are.
+const TOGETHER: usize = 9;
+
 /// What a procedure of a claim divides by.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Divisor {
@@ -163,7 +166,7 @@ impl Asked {
         {
             // products of gradients are definite
             let matrices = [first, second].map(|rows| products(&rows));
-            open.retain(|k| pair(&divisors, *k).is_none_or(|value| !is_pivot(&matrices, value)));
+            open.retain(|k| pair(&divisors, *k).is_none_or(|value| !is_pivot(&matrices, TOGETHER, value)));
         }
         open
     }

@@ -17,6 +17,7 @@ pub(super) const FAMILIES: &[Family] = &[
     Family { name: "fast arms in pairs", source: pairs_of_arms, sizes: &[2, 5, 8, 16] },
     Family { name: "bodies in space", source: bodies, sizes: &[1, 5, 30] },
     Family { name: "closed loops", source: loops, sizes: &[1, 5, 20] },
+    Family { name: "four-bars side by side", source: four_bars, sizes: &[1, 5, 10, 20] },
     Family { name: "units of a pendulum", source: units, sizes: &[3, 10, 40] },
     Family { name: "lags one behind the other", source: lags, sizes: &[5, 50, 400] },
 ];
@@ -147,6 +148,17 @@ fn bodies(n: usize) -> String {
 }
 
 /// Particles on rods between neighbours, closed.
+/// Four-bar linkages one beside the other, each with a crank of the one before; rods with mass all along.
+fn four_bars(n: usize) -> String {
+    declared(
+        &format!(
+            "base {{ a[{cranks}], b[{n}] }} holonomic {{ for i in 0..{n} {{ [l * cos(a[i]) + l * cos(b[i]) - l * cos(a[i + 1]) - l, l * sin(a[i]) + l * sin(b[i]) - l * sin(a[i + 1])] = 0; }} }} lagrangian {{ sum(i in 0..{cranks}: m * l^2 / 6 * der(a[i])^2 - m * g * l / 2 * sin(a[i])) + sum(i in 0..{n}: m * l^2 / 2 * (der(a[i])^2 + der(b[i])^2 / 3 + cos(a[i] - b[i]) * der(a[i]) * der(b[i])) - m * g * l * (sin(a[i]) + sin(b[i]) / 2)) }}",
+            cranks = n + 1
+        ),
+        "m: f64, l: f64, g: f64",
+    )
+}
+
 fn loops(n: usize) -> String {
     let b = n + 2;
     declared(
