@@ -1,5 +1,5 @@
 //! What a further link of an arm costs: a table of the operations of the derivative of arms and pendulums, with `--space`
-//! of arms in space.
+//! of arms in space, with `--loops` of closed loops side by side.
 
 use nh_stages::families;
 use nonholonomic_core::program::{Cost, schedule_grouping};
@@ -34,6 +34,9 @@ const IN_SPACE: [&str; 5] = [
 fn main() -> Result<(), String> {
     if std::env::args().any(|argument| argument == "--space") {
         return table(&IN_SPACE, 12);
+    }
+    if std::env::args().any(|argument| argument == "--loops") {
+        return table(&["four-bars side by side"], 20);
     }
     table(&IN_THE_PLANE, 20)
 }
