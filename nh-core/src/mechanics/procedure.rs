@@ -53,23 +53,66 @@ pub struct Procedure {
     inline: bool,
 }
 
-/// Unknowns that were solved for: `matrix · unknowns = right`, and the matrix is L D Lᵀ.
+/// Unknowns that were solved for: `matrix · unknowns = right`.
 #[derive(Clone, Debug)]
 pub(crate) struct Solved {
     pub(crate) unknowns: Vec<SymbolId>,
     pub(crate) matrix: Matrix,
     pub(crate) right: Vec<ExprId>,
-    /// The rows of L left of the diagonal.
-    pub(crate) lower: Matrix,
-    /// D.
-    pub(crate) diagonal: Vec<ExprId>,
+    pub(crate) inverse: Inverse,
+}
+
+/// What the solution for other right-hand sides is found by.
+#[derive(Clone, Debug)]
+pub(crate) enum Inverse {
+    /// The matrix is L D Lᵀ.
+    Factors {
+        /// The rows of L left of the diagonal.
+        lower: Matrix,
+        /// D.
+        diagonal: Vec<ExprId>,
+    },
+    /// The rows of its inverse for the unknowns that are intermediate results.
+    Rows {
+        rows: Matrix,
+        /// The unknowns behind these, which nothing else is made of, in terms of them.
+        others: Vec<ExprId>,
+    },
 }
 
 impl Solved {
     /// All expressions in it.
     pub(crate) fn expressions(&self) -> Vec<ExprId> {
-        let entries = self.matrix.iter().chain(&self.lower).flatten();
-        entries.chain(&self.right).chain(&self.diagonal).copied().collect()
+        let (matrix, list) = self.inverse.parts();
+        let entries = self.matrix.iter().chain(matrix).flatten();
+        entries.chain(&self.right).chain(list).copied().collect()
+    }
+
+    /// Replaces all expressions in it.
+    pub(crate) fn replace(&mut self, mut image: impl FnMut(&[ExprId]) -> Vec<ExprId>) {
+        let (Inverse::Factors { lower: matrix, diagonal: list }
+        | Inverse::Rows { rows: matrix, others: list }) = &mut self.inverse;
+        for row in self.matrix.iter_mut().chain(matrix).chain([&mut self.right, list]) {
+            *row = image(row);
+        }
+    }
+
+    /// The unknowns that are intermediate results.
+    pub(crate) fn results(&self) -> &[SymbolId] {
+        let others = match &self.inverse {
+            Inverse::Factors { .. } => 0,
+            Inverse::Rows { others, .. } => others.len(),
+        };
+        &self.unknowns[..self.unknowns.len() - others]
+    }
+}
+
+impl Inverse {
+    fn parts(&self) -> (&Matrix, &Vec<ExprId>) {
+        match self {
+            Self::Factors { lower, diagonal } => (lower, diagonal),
+            Self::Rows { rows, others } => (rows, others),
+        }
     }
 }
 

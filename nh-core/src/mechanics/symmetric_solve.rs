@@ -7,7 +7,7 @@
 use super::elimination_order::elimination_order;
 use super::ldl::{Ldl, Numerators};
 use super::pair::Pair;
-use super::procedure::{Definition, Procedure, Solved};
+use super::procedure::{Definition, Inverse, Procedure, Solved};
 use super::rank_one::RankOne;
 use crate::algebra::{Graph, Matrix};
 use crate::id::{ExprId, SymbolId};
@@ -58,18 +58,23 @@ pub fn solve_symmetric(
         let block = elimination_order(graph, matrix, &block);
         let inner = Graph::submatrix(matrix, &block);
         let outer: Vec<ExprId> = block.iter().map(|i| right[*i]).collect();
-        let mut factors = None;
+        let mut inverse = None;
         let values = match (inner.len(), definiteness) {
             (1, _) => vec![graph.formula(outer[0] / inner[0][0])],
             (2, _) => {
                 let names = [0, 1].map(|k| format!("{name}_{}", block[k]));
                 let pair =
                     Pair { matrix: [inner[0][0], inner[0][1], inner[1][1]], right: [outer[0], outer[1]] };
-                pair.solve(graph, definiteness, procedure, &names).to_vec()
+                let values = pair.solve(graph, definiteness, procedure, &names).to_vec();
+                inverse = Some(Inverse::Rows { rows: pair.inverse(graph), others: Vec::new() });
+                values
             }
             (_, Definiteness::Definite) => {
                 let solution = solve_definite(graph, &inner, &outer, procedure, name);
-                factors = solution.factors;
+                inverse = solution.factors.map(|factors| {
+                    let (lower, diagonal) = factors.into_factors();
+                    Inverse::Factors { lower, diagonal }
+                });
                 solution.values
             }
             (_, Definiteness::Unknown) => solve_pivoted(graph, &inner, &outer, procedure, name),
@@ -78,9 +83,8 @@ pub fn solve_symmetric(
             solution[*index] = procedure.define(graph, &format!("{name}_{index}"), value);
         }
         let unknowns = block.iter().map(|index| graph.as_symbol(solution[*index]));
-        if let Some((factors, unknowns)) = factors.zip(unknowns.collect()) {
-            let (lower, diagonal) = factors.into_factors();
-            procedure.solved.push(Solved { unknowns, matrix: inner, right: outer, lower, diagonal });
+        if let Some((inverse, unknowns)) = inverse.zip(unknowns.collect()) {
+            procedure.solved.push(Solved { unknowns, matrix: inner, right: outer, inverse });
         }
     }
     solution

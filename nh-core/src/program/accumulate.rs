@@ -332,6 +332,18 @@ impl<'p> Accumulation<'p> {
                 let diagonal = self.tape.outputs(diagonal).unwrap_or_default();
                 self.substituted(graph, (&lower, &diagonal), right)
             }
+            Closing::Inverted { rows, .. } => {
+                let rows: Matrix = rows.iter().filter_map(|row| self.tape.outputs(row)).collect();
+                let rows = if side == Side::Transposed { Graph::transposed(&rows) } else { rows };
+                let right: Vec<ExprId> =
+                    right.iter().map(|entry| self.tape.procedure.define(graph, "", *entry)).collect();
+                let solution = rows.iter().map(|row| {
+                    // from the left nothing comes by way of the other unknowns
+                    let value = graph.inner_product(row, &right[..row.len()]);
+                    self.tape.procedure.define(graph, "", value)
+                });
+                solution.collect()
+            }
             Closing::Pivoted { matrix, .. } => {
                 let matrix: Matrix = matrix.iter().filter_map(|row| self.tape.outputs(row)).collect();
                 let matrix = if side == Side::Transposed { Graph::transposed(&matrix) } else { matrix };

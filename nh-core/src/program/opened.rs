@@ -2,7 +2,7 @@
 
 use crate::algebra::Graph;
 use crate::id::{ExprId, SymbolId};
-use crate::mechanics::{Definition, Procedure, Solved};
+use crate::mechanics::{Definition, Inverse, Procedure, Solved};
 use rustc_hash::FxHashMap;
 use std::collections::BTreeSet;
 use std::ops::Range;
@@ -28,6 +28,8 @@ pub(super) struct OpenSystem {
 pub(super) enum Closing {
     /// In closed form, by these values; C = L D Lᵀ, the rows of L left of the diagonal.
     Factorised { values: Range<usize>, lower: Vec<Range<usize>>, diagonal: Range<usize> },
+    /// In closed form, by these values; rows of C⁻¹ for the first of them, which alone others are made of.
+    Inverted { values: Range<usize>, rows: Vec<Range<usize>> },
     /// By elimination with pivoting.
     Pivoted { matrix: Vec<Range<usize>>, right: Range<usize> },
 }
@@ -48,7 +50,7 @@ impl Opened {
             graph.symbols_in(&procedure.expressions()).into_iter().chain(values.keys().copied()).collect();
         let is_whole = |solved: &&Solved| {
             let symbols = graph.symbols_in(&solved.expressions());
-            solved.unknowns.iter().all(|unknown| values.contains_key(unknown))
+            solved.results().iter().all(|unknown| values.contains_key(unknown))
                 && symbols.iter().all(|symbol| known.contains(symbol))
         };
         let mut closed: Vec<&Solved> =
@@ -61,7 +63,7 @@ impl Opened {
                 Definition::Value { symbol, .. } if cut.contains(symbol) => {
                     let place = closed.iter().position(|solved| solved.unknowns.contains(symbol));
                     if let Some(place) = place {
-                        open.factorised(graph, closed.remove(place), &values);
+                        open.closed(graph, closed.remove(place), &values);
                     }
                 }
                 Definition::Value { .. } | Definition::Call { .. } => {
@@ -103,14 +105,23 @@ impl Opened {
         (held, self.put(&rows))
     }
 
-    fn factorised(&mut self, graph: &mut Graph, solved: &Solved, values: &FxHashMap<SymbolId, ExprId>) {
-        let Solved { unknowns, matrix, right, lower, diagonal } = solved;
+    fn closed(&mut self, graph: &mut Graph, solved: &Solved, values: &FxHashMap<SymbolId, ExprId>) {
+        let Solved { unknowns, matrix, right, inverse } = solved;
         let (held, residuals) = self.residuals(graph, unknowns.len(), matrix, right);
-        let values: Vec<ExprId> =
-            unknowns.iter().filter_map(|unknown| values.get(unknown)).copied().collect();
-        let values = self.put(&values);
-        let lower = lower.iter().map(|row| self.put(row)).collect();
-        let closing = Closing::Factorised { values, lower, diagonal: self.put(diagonal) };
+        let mut values: Vec<ExprId> =
+            solved.results().iter().filter_map(|unknown| values.get(unknown)).copied().collect();
+        let closing = match inverse {
+            Inverse::Factors { lower, diagonal } => {
+                let values = self.put(&values);
+                let lower = lower.iter().map(|row| self.put(row)).collect();
+                Closing::Factorised { values, lower, diagonal: self.put(diagonal) }
+            }
+            Inverse::Rows { rows, others } => {
+                values.extend(others);
+                let values = self.put(&values);
+                Closing::Inverted { values, rows: rows.iter().map(|row| self.put(row)).collect() }
+            }
+        };
         self.systems.push(OpenSystem { unknowns: unknowns.clone(), held, residuals, closing });
     }
 }
