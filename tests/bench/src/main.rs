@@ -52,8 +52,8 @@ fn measure(names: &[String]) -> Result<(), String> {
     // 2. instructions
     let samples = systems.iter().flat_map(|system| system.data().samples);
     let numbers = samples.flat_map(|[state, input, ..]| state.into_iter().chain(input));
-    let lines: String = numbers.map(|number| format!("{number:e}\n")).collect();
-    std::fs::write(program::beside(SAMPLES)?, lines).map_err(|error| error.to_string())?;
+    let lines: Vec<String> = numbers.map(|number| format!("{number:e}")).collect();
+    std::fs::write(program::beside(SAMPLES)?, lines.join("\n")).map_err(|error| error.to_string())?;
     let counts = own_counts(names)?;
     // 3. times, and the table
     let rows: Vec<Row> = systems.iter().map(|system| row(system.as_ref(), &counts)).collect();
