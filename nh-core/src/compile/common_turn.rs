@@ -13,13 +13,32 @@ const TURN: f64 = 0.7;
 /// The share of a value, and of what it is the sum of, that rounding may take there.
 const ROUNDING: f64 = 1e-9;
 
+/// A motion that stays what it is when all angles turn together, as it was before they were counted from one of them.
+/// Its derivatives stay what they are, too. An angle that others are counted from enters nothing but the few places that it
+/// was declared in; by the differences it would enter with all others, with terms that cancel.
+pub(crate) struct BeforeCounting {
+    pub(super) motion: Procedure,
+    angles: Vec<SymbolId>,
+    from: SymbolId,
+}
+
+impl BeforeCounting {
+    /// A function that does not change either, with its angles counted.
+    pub(super) fn counted(&self, graph: &mut Graph, function: &Procedure) -> Procedure {
+        let is_turned = vec![true; function.outputs.len()];
+        counted(graph, function, (&self.angles, self.from), &is_turned)
+    }
+}
+
 /// The motion with its angles counted from the one that leaves the fewest sines, if that is proved and cheaper than the
-/// procedure as it stands. `admit` says whether a procedure is the motion.
+/// procedure as it stands. `admit` says whether a procedure is the motion; what it was is left in `before`, where all of it
+/// does not change.
 pub(super) fn counted_from_an_angle(
     graph: &mut Graph,
     procedure: &Procedure,
     coordinates: &[SymbolId],
     (admit, decisions): (impl Fn(&mut Graph, &Procedure) -> Fate, &mut Vec<Decision>),
+    before: &mut Option<BeforeCounting>,
 ) -> Option<Procedure> {
     let is_formula = |definition: &Definition| matches!(definition, Definition::Value { .. });
     if !procedure.definitions.iter().all(is_formula) {
@@ -49,7 +68,13 @@ pub(super) fn counted_from_an_angle(
         ratings[0].contender("as they are declared", ratings[0].loss()),
     ];
     decisions.push(Decision { site: "angles", contenders, limits: Vec::new() });
-    is_admitted.then(|| std::mem::take(&mut forms[best]))
+    if !is_admitted {
+        return None;
+    }
+    if is_turned.iter().all(|is_turned| *is_turned) {
+        *before = Some(BeforeCounting { motion: procedure.clone(), angles, from });
+    }
+    Some(std::mem::take(&mut forms[best]))
 }
 
 /// Every angle less one of them.
@@ -208,7 +233,7 @@ mod tests {
         let Links { graph, angles, procedure, .. } = links;
         let mut decisions = Vec::new();
         let admit = |graph: &mut Graph, other: &Procedure| fate(prove_equal(graph, procedure, other));
-        let found = counted_from_an_angle(graph, procedure, angles, (admit, &mut decisions));
+        let found = counted_from_an_angle(graph, procedure, angles, (admit, &mut decisions), &mut None);
         (found, decisions.len())
     }
 
@@ -264,7 +289,10 @@ mod tests {
         let Links { graph, angles, procedure, .. } = &mut links;
         let mut decisions = Vec::new();
         let admit = |_: &mut Graph, _: &Procedure| Fate::NotAdmitted("not proved".into());
-        assert!(counted_from_an_angle(graph, procedure, angles, (admit, &mut decisions)).is_none());
+        let mut before = None;
+        let judged = (admit, &mut decisions);
+        assert!(counted_from_an_angle(graph, procedure, angles, judged, &mut before).is_none());
+        assert!(before.is_none());
         assert_eq!(decisions.len(), 1);
     }
 }

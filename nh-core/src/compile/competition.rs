@@ -193,7 +193,10 @@ pub(super) fn proved_derivative(
                     regular.added(graph, procedure).map_or(fate, |divisor| Fate::adds(graph, divisor))
                 };
                 let judged = (admit, &mut proved.ledger.decisions);
-                return Some(counted_from_an_angle(graph, &procedure, fixed, judged).unwrap_or(procedure));
+                return Some(
+                    counted_from_an_angle(graph, &procedure, fixed, judged, &mut proved.before_counting)
+                        .unwrap_or(procedure),
+                );
             }
             // no limit, and no comparison, is by a form that is wrong
             Err(refused) => {

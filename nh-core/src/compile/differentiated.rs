@@ -1,5 +1,6 @@
 //! Jacobians that are asked for, by the cheapest of several ways.
 
+use super::common_turn::BeforeCounting;
 use super::proved::Proved;
 use crate::algebra::Graph;
 use crate::choose::{Contender, Decision, Fate, ranking, rate, sizes};
@@ -40,12 +41,12 @@ pub(super) fn requested_linearized(
     };
     let word = if request == Request::Jacobian { "jacobian" } else { "sparse_jacobian" };
     let arguments = state_and_inputs(model, velocities);
-    differentiated(
-        proved,
-        (derivative, "jacobian", Wanted::Linearized),
-        &arguments,
-        (origin, "a force", word),
-    )
+    let before = proved.before_counting.take();
+    let function = (derivative, "jacobian", Wanted::Linearized);
+    let linearized =
+        differentiated_from(proved, (function, before.as_ref()), &arguments, (origin, "a force", word));
+    proved.before_counting = before;
+    linearized
 }
 
 /// ∂outputs/∂(coordinates, velocities of the state, auxiliary states, inputs), if the declaration asks for it.
@@ -156,11 +157,21 @@ pub(super) fn requested_slopes_of_return(
 /// The derivatives of a function by its arguments: `word` asks for them.
 fn differentiated(
     proved: &mut Proved,
-    (function, site, wanted): (&Procedure, &'static str, Wanted),
+    function: (&Procedure, &'static str, Wanted),
+    arguments: &[SymbolId],
+    asked: (Origin, &str, &str),
+) -> Result<Option<Procedure>, Vec<Violation>> {
+    differentiated_from(proved, (function, None), arguments, asked)
+}
+
+/// The same, where it is known how the function was before its angles were counted from one of them.
+fn differentiated_from(
+    proved: &mut Proved,
+    ((function, site, wanted), before): ((&Procedure, &'static str, Wanted), Option<&BeforeCounting>),
     arguments: &[SymbolId],
     (origin, what, word): (Origin, &str, &str),
 ) -> Result<Option<Procedure>, Vec<Violation>> {
-    match cheapest_jacobian(&mut proved.model, (function, wanted), arguments, site) {
+    match cheapest_jacobian(&mut proved.model, (function, wanted, before), arguments, site) {
         Ok((found, decision)) => {
             proved.ledger.decisions.push(decision);
             Ok(Some(found))
@@ -186,7 +197,7 @@ fn differentiated(
 /// Where an output depends on an argument through a method of the user's whose derivative is missing.
 fn cheapest_jacobian(
     model: &mut Model,
-    (procedure, wanted): (&Procedure, Wanted),
+    (procedure, wanted, before): (&Procedure, Wanted, Option<&BeforeCounting>),
     arguments: &[SymbolId],
     site: &'static str,
 ) -> Result<(Procedure, Decision), NotDifferentiable> {
@@ -200,8 +211,10 @@ fn cheapest_jacobian(
         if size > sizes::DIFFERENTIATED_ONCE && !ways.is_empty() {
             continue;
         }
-        if let Some(found) = accumulated(graph, procedure, (arguments, &parameters), systems, wanted)? {
-            ways.push((name, found));
+        let before = before.filter(|_| systems == Systems::All);
+        let function = before.map_or(procedure, |before| &before.motion);
+        if let Some(found) = accumulated(graph, function, (arguments, &parameters), systems, wanted)? {
+            ways.push((name, before.map(|before| before.counted(graph, &found)).unwrap_or(found)));
         }
     }
     if size <= sizes::DIFFERENTIATED_AS_EXPRESSIONS || ways.is_empty() {

@@ -1,5 +1,6 @@
 //! What the stages of the derivation hand on to each other, and what they say where they end it.
 
+use super::common_turn::BeforeCounting;
 use crate::algebra::Facts;
 use crate::check::{BrokenLaws, Constraints, Impact, Kind, Motion, Positions, Symmetry};
 use crate::choose::{Fate, Ledger};
@@ -44,6 +45,8 @@ pub(crate) struct Proved {
     pub(crate) quadratures: Vec<SymbolId>,
     /// How D is split by symmetries, where that was asked for.
     pub(crate) split: Option<Split>,
+    /// The motion before its angles were counted from one of them.
+    pub(crate) before_counting: Option<BeforeCounting>,
     /// What was chosen, and from what.
     pub(crate) ledger: Ledger,
 }

@@ -119,7 +119,9 @@ pub(super) fn proved_solution(
         proved.ledger.decisions.push(decision);
         let derivative = better.unwrap_or_else(|| own.clone());
         let judged = (admit_motion, &mut proved.ledger.decisions);
-        let derivative = counted_from_an_angle(graph, &derivative, fixed, judged).unwrap_or(derivative);
+        let derivative =
+            counted_from_an_angle(graph, &derivative, fixed, judged, &mut proved.before_counting)
+                .unwrap_or(derivative);
         return Ok(Solved { derivative, regular: own, multipliers, reactions });
     }
     proved.ledger.decisions.push(decision);

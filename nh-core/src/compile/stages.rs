@@ -152,6 +152,7 @@ pub(crate) fn prove(mut model: Model) -> Result<(Proved, Chosen), Vec<Violation>
         levels,
         quadratures,
         split: None,
+        before_counting: None,
         ledger: Ledger::default(),
     };
     Ok((proved, chosen))

@@ -10,9 +10,10 @@
 
 use super::procedure::Procedure;
 use super::projected::SaddleEquations;
+use super::solved::{Equations, Factors, Solved};
 use super::symmetric_solve::{Definiteness, uncoupled};
 use crate::algebra::{Graph, Matrix};
-use crate::id::ExprId;
+use crate::id::{ExprId, SymbolId};
 
 /// Velocities and constraints that nothing couples to others.
 struct Part {
@@ -47,11 +48,12 @@ impl SaddleEquations {
         let mut accelerations = self.force.clone();
         for part in parts {
             let own = self.restricted(&part);
-            let values = match part.free_directions() {
+            let (values, rows) = match part.free_directions() {
                 Some(1) => own.along_free_direction(graph, procedure),
                 Some(_) => own.in_free_plane(graph, procedure),
-                None => own.solve(graph, definiteness, procedure).0,
+                None => (own.solve(graph, definiteness, procedure).0, Vec::new()),
             };
+            own.note_inverse(graph, &values, rows, procedure);
             for (alpha, value) in part.velocities.iter().zip(values) {
                 accelerations[*alpha] = value;
             }
@@ -90,7 +92,8 @@ impl SaddleEquations {
         }
     }
 
-    fn along_free_direction(&self, graph: &mut Graph, procedure: &mut Procedure) -> Vec<ExprId> {
+    /// ẏ, as intermediate results, and the rows of what f and b are mapped to it by.
+    fn along_free_direction(&self, graph: &mut Graph, procedure: &mut Procedure) -> (Vec<ExprId>, Matrix) {
         // 1. n
         let free = self.free_direction(graph);
         let free = named(graph, procedure, "free", free);
@@ -106,10 +109,51 @@ impl SaddleEquations {
         let one = graph.one();
         let over = graph.formula(one / inertia);
         let over = procedure.define(graph, "over", over);
-        let pairs = free.iter().zip(asked);
-        let values: Vec<ExprId> =
-            pairs.map(|(free, asked)| graph.formula((free * push + asked) * over)).collect();
-        named(graph, procedure, "y_dot", values)
+        let solution = |graph: &mut Graph, push: ExprId, asked: Vec<ExprId>| {
+            let pairs = free.iter().zip(asked);
+            pairs.map(|(free, asked)| graph.formula((free * push + asked) * over)).collect::<Vec<ExprId>>()
+        };
+        let values = solution(graph, push, asked);
+        // 4. of each component of f and b by itself
+        let mut columns = Vec::new();
+        for unit in self.units(graph) {
+            let push = graph.inner_product(&free, &unit.force);
+            let asked = unit.asked(graph, &carried, &mut Procedure::inline());
+            columns.push(solution(graph, push, asked));
+        }
+        (named(graph, procedure, "y_dot", values), Graph::transposed(&columns))
+    }
+
+    /// The equations with a 1 in the place of each component of f and b, and else zeros.
+    pub(super) fn units(&self, graph: &mut Graph) -> Vec<Self> {
+        let (velocities, constraints) = (self.force.len(), self.bias.len());
+        let unit = |mut components: Vec<ExprId>| {
+            let bias = components.split_off(velocities);
+            Self { force: components, bias, ..self.clone() }
+        };
+        graph.identity(velocities + constraints).into_iter().map(unit).collect()
+    }
+
+    /// Notes the rows G, H that f and b are mapped to ẏ by, so that it can be differentiated without its solution:
+    /// J H = 1, so that `λ = Hᵀ (W ẏ − f)`.
+    pub(super) fn note_inverse(
+        &self,
+        graph: &mut Graph,
+        values: &[ExprId],
+        rows: Matrix,
+        procedure: &mut Procedure,
+    ) {
+        let unknowns: Option<Vec<SymbolId>> = values.iter().map(|value| graph.as_symbol(*value)).collect();
+        let Some(mut unknowns) = unknowns.filter(|_| !rows.is_empty()) else { return };
+        let carried = graph.image(&self.mass, values);
+        let pairs = carried.into_iter().zip(&self.force);
+        let reaction: Vec<ExprId> = pairs.map(|(carried, force)| graph.formula(carried - *force)).collect();
+        let others = graph.image(&Graph::transposed(&rows)[values.len()..], &reaction);
+        unknowns.extend(others.iter().map(|_| graph.new_symbol("")));
+        let right = [self.force.as_slice(), &self.bias].concat();
+        let factors = Factors::Rows { rows, others };
+        let equations = Equations::System { matrix: self.matrix(graph), right };
+        procedure.solved.push(Solved { unknowns, equations, factors });
     }
 
     /// n: the row turned by a quarter, or the product of both.
@@ -206,6 +250,49 @@ mod tests {
             for (found, expected) in found.iter().zip(&expected) {
                 let defect = g.formula(*found - *expected);
                 assert!(g.zero_test(defect).is_zero(), "{velocities} velocities, {constraints} constraints");
+            }
+        }
+    }
+
+    /// Rows that are noted are those of the inverse, and the multipliers balance what is left.
+    #[test]
+    fn what_is_noted_solves_the_equations_for_other_right_hand_sides() {
+        for (velocities, constraints) in [(2, 1), (3, 2), (4, 2)] {
+            let mut g = Graph::new();
+            let saddle = equations(&mut g, velocities, constraints);
+            let mut procedure = Procedure::default();
+            let judge = |_: &Graph, _: &Matrix| Definiteness::Definite;
+            let _ = saddle.solve_along_free_directions(&mut g, &judge, &mut procedure);
+            let [
+                Solved {
+                    unknowns,
+                    equations: Equations::System { matrix, right },
+                    factors: Factors::Rows { rows, others },
+                },
+            ] = procedure.solved.as_slice()
+            else {
+                panic!("one part leaves directions free");
+            };
+            // 1. rows of the inverse
+            let columns = Graph::transposed(matrix);
+            for (i, row) in rows.iter().enumerate() {
+                for (j, column) in columns.iter().enumerate() {
+                    let entry = g.inner_product(row, column);
+                    let unit = if i == j { g.one() } else { g.zero() };
+                    let defect = g.formula(entry - unit);
+                    let defect = procedure.with_outputs(vec![defect]).written_out(&mut g)[0];
+                    assert!(g.zero_test(defect).is_zero(), "{velocities} velocities: {i}, {j}");
+                }
+            }
+            // 2. all unknowns
+            let mut solution: Vec<ExprId> =
+                unknowns[..velocities].iter().map(|unknown| g.symbol(*unknown)).collect();
+            solution.extend(others);
+            for (row, right) in matrix.iter().zip(right) {
+                let left = g.inner_product(row, &solution);
+                let defect = g.formula(left - *right);
+                let defect = procedure.with_outputs(vec![defect]).written_out(&mut g)[0];
+                assert!(g.zero_test(defect).is_zero(), "{velocities} velocities");
             }
         }
     }

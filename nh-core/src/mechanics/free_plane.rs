@@ -12,8 +12,12 @@ use crate::algebra::{Graph, Matrix};
 use crate::id::ExprId;
 
 impl SaddleEquations {
-    /// ẏ, as intermediate results.
-    pub(super) fn in_free_plane(&self, graph: &mut Graph, procedure: &mut Procedure) -> Vec<ExprId> {
+    /// ẏ, as intermediate results, and the rows of what f and b are mapped to it by.
+    pub(super) fn in_free_plane(
+        &self,
+        graph: &mut Graph,
+        procedure: &mut Procedure,
+    ) -> (Vec<ExprId>, Matrix) {
         // 1. N, M = W N W by the minors of W, and their product
         let pairs = pairs();
         let plane = self.plane(graph);
@@ -22,27 +26,35 @@ impl SaddleEquations {
         let both = graph.image(&both, &plane);
         let both = named(graph, procedure, "both", both);
         let plane = antisymmetric(graph, &pairs, &plane);
-        let back = Graph::transposed(&plane);
         let minors: Vec<ExprId> = pairs.iter().map(|(i, j)| plane[*i][*j]).collect();
         let inertia = graph.inner_product(&minors, &both);
+        let inertia = procedure.define(graph, "inertia", inertia);
         let one = graph.one();
         let over = graph.formula(one / inertia);
         let over = procedure.define(graph, "over", over);
-        // 2. −N W N f
-        let push = graph.image(&back, &self.force);
+        let dual = complementary(graph, &both);
+        let dual = antisymmetric(graph, &pairs, &dual);
+        // 2. of f and b, and of each of their components by itself
+        let solution = |graph: &mut Graph, equations: &Self, procedure: &mut Procedure| {
+            let along = equations.along(graph, &plane, procedure);
+            let between = between(graph, (&equations.jacobian, &equations.bias), procedure);
+            let asked = graph.image(&dual, &between);
+            let pairs = along.into_iter().zip(asked);
+            pairs.map(|(along, asked)| graph.formula((along + asked) * over)).collect::<Vec<ExprId>>()
+        };
+        let values = solution(graph, self, procedure);
+        let columns: Matrix =
+            self.units(graph).iter().map(|unit| solution(graph, unit, &mut Procedure::inline())).collect();
+        (named(graph, procedure, "y_dot", values), Graph::transposed(&columns))
+    }
+
+    /// −N W N f.
+    fn along(&self, graph: &mut Graph, plane: &Matrix, procedure: &mut Procedure) -> Vec<ExprId> {
+        let push = graph.image(&Graph::transposed(plane), &self.force);
         let push = named(graph, procedure, "push", push);
         let momentum = graph.image(&self.mass, &push);
         let momentum = named(graph, procedure, "momentum", momentum);
-        let along = graph.image(&plane, &momentum);
-        // 3. what the constraints ask for by themselves
-        let dual = complementary(graph, &both);
-        let between = between(graph, (&self.jacobian, &self.bias), procedure);
-        let dual = antisymmetric(graph, &pairs, &dual);
-        let asked = graph.image(&dual, &between);
-        let pairs = along.iter().zip(asked);
-        let values: Vec<ExprId> =
-            pairs.map(|(along, asked)| graph.formula((*along + asked) * over)).collect();
-        named(graph, procedure, "y_dot", values)
+        graph.image(plane, &momentum)
     }
 
     /// N_ij for i < j.

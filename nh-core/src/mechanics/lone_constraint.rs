@@ -5,7 +5,9 @@
 //!
 //! `N ẏ_α = Σ_{β≠α} W_{(αβ)} g_β (g_β f_α − g_α f_β) + W_{(α)} g_α b`, `N = Σ_α W_{(α)} g_α²`.
 
+use super::free_direction::named;
 use super::procedure::Procedure;
+use super::projected::SaddleEquations;
 use crate::algebra::{Graph, Matrix};
 use crate::id::ExprId;
 
@@ -14,7 +16,7 @@ use crate::id::ExprId;
 const MOST: usize = 3;
 
 /// One row of the constraints, and the equations that it touches.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub(super) struct LoneConstraint {
     /// The velocities whose coefficient is not zero.
     pub(super) members: Vec<usize>,
@@ -54,23 +56,65 @@ impl LoneConstraint {
         })
     }
 
-    /// ẏ_α of its members.
+    /// ẏ_α of its members, as intermediate results.
     pub(super) fn accelerations(&self, graph: &mut Graph, procedure: &mut Procedure) -> Vec<ExprId> {
         // a velocity by itself is what the constraint says
         if let [entry] = self.row.as_slice() {
             return vec![graph.formula(self.bias / entry)];
         }
-        let n = self.members.len();
         let force: Vec<ExprId> =
             self.force.iter().map(|entry| procedure.define(graph, "force", *entry)).collect();
         // 1. N
-        let others: Vec<ExprId> = (0..n).map(|alpha| self.inertias_without(graph, &[alpha])).collect();
+        let others = self.others(graph);
         let squares: Vec<ExprId> = self.row.iter().map(|entry| graph.square(*entry)).collect();
         let norm = graph.inner_product(&others, &squares);
         let one = graph.one();
         let over = graph.formula(one / norm);
         let over = procedure.define(graph, "over_norm", over);
-        // 2. what forces push out of the constraint, for every pair
+        // 2. of f and b, and of each of their components by itself
+        let values = self.response(graph, over, &force, procedure);
+        let values = named(graph, procedure, "y_dot", values);
+        let equations = self.equations(graph);
+        let mut columns = Vec::with_capacity(force.len() + 1);
+        for unit in equations.units(graph) {
+            let alone = Self { force: unit.force.clone(), bias: unit.bias[0], ..self.clone() };
+            columns.push(alone.response(graph, over, &unit.force, &mut Procedure::inline()));
+        }
+        equations.note_inverse(graph, &values, Graph::transposed(&columns), procedure);
+        values
+    }
+
+    /// The equations of its members.
+    fn equations(&self, graph: &mut Graph) -> SaddleEquations {
+        let mut mass = graph.identity(self.members.len());
+        for (alpha, inertia) in self.inertias.iter().enumerate() {
+            mass[alpha][alpha] = *inertia;
+        }
+        SaddleEquations {
+            mass,
+            force: self.force.clone(),
+            jacobian: vec![self.row.clone()],
+            bias: vec![self.bias],
+            rates: Vec::new(),
+        }
+    }
+
+    /// W_(α).
+    fn others(&self, graph: &mut Graph) -> Vec<ExprId> {
+        (0..self.members.len()).map(|alpha| self.inertias_without(graph, &[alpha])).collect()
+    }
+
+    /// ẏ_α, with N⁻¹ at hand.
+    fn response(
+        &self,
+        graph: &mut Graph,
+        over: ExprId,
+        force: &[ExprId],
+        procedure: &mut Procedure,
+    ) -> Vec<ExprId> {
+        let n = self.members.len();
+        let others = self.others(graph);
+        // 1. what forces push out of the constraint, for every pair
         let mut terms: Vec<Vec<ExprId>> = vec![Vec::new(); n];
         for alpha in 0..n {
             for beta in alpha + 1..n {
@@ -83,7 +127,7 @@ impl LoneConstraint {
                 terms[alpha].push(graph.formula(-(self.row[beta] * turn)));
             }
         }
-        // 3. what the constraint asks for by itself
+        // 2. what the constraint asks for by itself
         if !graph.is_literal_zero(self.bias) {
             let pull = graph.formula(self.bias * over);
             let pull = procedure.define(graph, "pull", pull);

@@ -2,7 +2,7 @@
 
 use super::procedure::Procedure;
 use super::symmetric_solve::Definiteness;
-use crate::algebra::{Graph, Node, Rational};
+use crate::algebra::{Graph, Matrix, Node, Rational};
 use crate::id::ExprId;
 
 /// `a x + b y = f`, `b x + d y = g`.
@@ -129,6 +129,15 @@ impl Pair {
         let first = difference_of_products(graph, (d, f), (b, g));
         let second = difference_of_products(graph, (a, g), (b, f));
         [graph.formula(first / determinant), graph.formula(second / determinant)]
+    }
+
+    /// The rows of the inverse of the matrix, by the same rule.
+    pub(super) fn inverse(self, graph: &mut Graph) -> Matrix {
+        let (zero, one) = (graph.zero(), graph.one());
+        let [first, second] =
+            [[one, zero], [zero, one]].map(|right| Self { right, ..self }.by_cramer(graph).to_vec());
+        // it is symmetric
+        vec![first, second]
     }
 
     /// Cramer's rule, with differences of products in which nothing cancels identically: `(J + m l²) m − (m l)²` as

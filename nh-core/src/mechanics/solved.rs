@@ -37,6 +37,12 @@ pub(crate) enum Factors {
         /// D.
         diagonal: Vec<ExprId>,
     },
+    /// The rows of C⁻¹ for the unknowns that are intermediate results.
+    Rows {
+        rows: Matrix,
+        /// The unknowns behind these, which nothing else is made of, in terms of them.
+        others: Vec<ExprId>,
+    },
     /// Variables that leave a quadratic form one after the other; C is what is left of it for the unknowns among them.
     OneByOne(Vec<Eliminated<ExprId>>),
 }
@@ -80,6 +86,7 @@ impl Solved {
             Factors::Triangular { lower, diagonal } => {
                 all.extend(lower.iter_mut().flatten().chain(diagonal));
             }
+            Factors::Rows { rows, others } => all.extend(rows.iter_mut().flatten().chain(others)),
             Factors::OneByOne(eliminated) => {
                 for Eliminated { by, inertias, unknown, .. } in eliminated {
                     all.extend(by.iter_mut().chain(inertias).map(|(_, entry)| entry));
@@ -90,6 +97,15 @@ impl Solved {
         for entry in all {
             *entry = image(*entry);
         }
+    }
+
+    /// The unknowns that are intermediate results.
+    pub(crate) fn results(&self) -> &[SymbolId] {
+        let others = match &self.factors {
+            Factors::Rows { others, .. } => others.len(),
+            Factors::Triangular { .. } | Factors::OneByOne(_) => 0,
+        };
+        &self.unknowns[..self.unknowns.len() - others]
     }
 
     /// The symbols that it is made of: those of its own left out.

@@ -66,11 +66,16 @@ pub fn solve_symmetric(
                 let names = [0, 1].map(|k| format!("{name}_{}", block[k]));
                 let pair =
                     Pair { matrix: [inner[0][0], inner[0][1], inner[1][1]], right: [outer[0], outer[1]] };
-                pair.solve(graph, definiteness, procedure, &names).to_vec()
+                let values = pair.solve(graph, definiteness, procedure, &names).to_vec();
+                factors = Some(Factors::Rows { rows: pair.inverse(graph), others: Vec::new() });
+                values
             }
             (_, Definiteness::Definite) => {
                 let solution = solve_definite(graph, &inner, &outer, procedure, name);
-                factors = solution.factors;
+                factors = solution.factors.map(|factors| {
+                    let (lower, diagonal) = factors.into_factors();
+                    Factors::Triangular { lower, diagonal }
+                });
                 solution.values
             }
             (_, Definiteness::Unknown) => solve_pivoted(graph, &inner, &outer, procedure, name),
@@ -80,9 +85,7 @@ pub fn solve_symmetric(
         }
         let unknowns = block.iter().map(|index| graph.as_symbol(solution[*index]));
         if let Some((factors, unknowns)) = factors.zip(unknowns.collect()) {
-            let (lower, diagonal) = factors.into_factors();
             let equations = Equations::System { matrix: inner, right: outer };
-            let factors = Factors::Triangular { lower, diagonal };
             procedure.solved.push(Solved { unknowns, equations, factors });
         }
     }

@@ -38,6 +38,8 @@ pub(super) enum Closing {
     Factorised { values: Range<usize>, lower: Vec<Range<usize>>, diagonal: Range<usize> },
     /// In closed form, by these values; C is what is left of a quadratic form that variables leave one after the other.
     OneByOne { values: Range<usize>, eliminated: Vec<Eliminated<usize>> },
+    /// In closed form, by these values; rows of C⁻¹ for the first of them, which alone others are made of.
+    Inverted { values: Range<usize>, rows: Vec<Range<usize>> },
     /// By elimination with pivoting.
     Pivoted { matrix: Vec<Range<usize>>, right: Range<usize> },
 }
@@ -58,7 +60,7 @@ impl Opened {
             graph.symbols_in(&procedure.expressions()).into_iter().chain(values.keys().copied()).collect();
         let is_whole = |solved: &&Solved| {
             let symbols = solved.symbols(graph);
-            solved.unknowns.iter().all(|unknown| values.contains_key(unknown))
+            solved.results().iter().all(|unknown| values.contains_key(unknown))
                 && symbols.iter().all(|symbol| known.contains(symbol))
         };
         let mut closed: Vec<&Solved> =
@@ -124,13 +126,19 @@ impl Opened {
                 (held, self.put(residuals))
             }
         };
-        let values: Vec<ExprId> =
-            unknowns.iter().filter_map(|unknown| values.get(unknown)).copied().collect();
+        let mut values: Vec<ExprId> =
+            solved.results().iter().filter_map(|unknown| values.get(unknown)).copied().collect();
+        if let Factors::Rows { others, .. } = factors {
+            values.extend(others);
+        }
         let values = self.put(&values);
         let closing = match factors {
             Factors::Triangular { lower, diagonal } => {
                 let lower = lower.iter().map(|row| self.put(row)).collect();
                 Closing::Factorised { values, lower, diagonal: self.put(diagonal) }
+            }
+            Factors::Rows { rows, .. } => {
+                Closing::Inverted { values, rows: rows.iter().map(|row| self.put(row)).collect() }
             }
             Factors::OneByOne(eliminated) => {
                 let mut put = |entry: ExprId| self.put(&[entry]).start;

@@ -30,6 +30,10 @@ impl OpenSystem {
                 }
                 found
             }
+            Closing::Inverted { rows, .. } => {
+                let rows: Matrix = rows.iter().filter_map(|row| tape.outputs(row)).collect();
+                multiplied(graph, tape, &rows, &residuals)
+            }
             Closing::Pivoted { matrix, .. } => {
                 let matrix: Matrix = matrix.iter().filter_map(|row| tape.outputs(row)).collect();
                 self.pivoted(graph, tape, matrix, residuals)
@@ -64,6 +68,10 @@ impl OpenSystem {
                 }
                 weights
             }
+            Closing::Inverted { rows, .. } => {
+                let rows: Matrix = rows.iter().filter_map(|row| tape.outputs(row)).collect();
+                multiplied(graph, tape, &Graph::transposed(&rows), &slopes)
+            }
             Closing::Pivoted { matrix, .. } => {
                 let matrix: Matrix = matrix.iter().filter_map(|row| tape.outputs(row)).collect();
                 self.pivoted(graph, tape, Graph::transposed(&matrix), slopes)
@@ -77,6 +85,18 @@ impl OpenSystem {
         tape.procedure.definitions.push(Definition::Solve { unknowns, matrix, right });
         solution
     }
+}
+
+/// Rows of C⁻¹, or of its transpose, times a right-hand side. From the left nothing comes by way of the unknowns that
+/// have no rows.
+fn multiplied(graph: &mut Graph, tape: &mut Tape, rows: &[Vec<ExprId>], right: &[ExprId]) -> Vec<ExprId> {
+    let right: Vec<ExprId> = right.iter().map(|entry| tape.procedure.define(graph, "", *entry)).collect();
+    let mut found = Vec::with_capacity(rows.len());
+    for row in rows {
+        let value = graph.inner_product(row, &right[..row.len()]);
+        found.push(tape.procedure.define(graph, "", value));
+    }
+    found
 }
 
 /// The solution of L D Lᵀ x = right.

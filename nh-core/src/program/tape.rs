@@ -71,7 +71,9 @@ impl<'p> Tape<'p> {
     /// Defines the unknowns of a system of which everything is known that they depend on.
     fn close(&mut self, graph: &mut Graph, system: &OpenSystem, open: &mut BTreeSet<SymbolId>) {
         match &system.closing {
-            Closing::Factorised { values, .. } | Closing::OneByOne { values, .. } => {
+            Closing::Factorised { values, .. }
+            | Closing::Inverted { values, .. }
+            | Closing::OneByOne { values, .. } => {
                 for (unknown, place) in system.unknowns.iter().zip(values.clone()) {
                     if let Some(value) = self.output(place)
                         && open.remove(unknown)

@@ -5,6 +5,7 @@ use std::ops::Range;
 
 use nonholonomic_core::mechanics::Procedure;
 use nonholonomic_core::model::Request;
+use nonholonomic_core::program::Program;
 use nonholonomic_core::system::System;
 use proc_macro2::{Literal, TokenStream};
 use quote::quote;
@@ -12,7 +13,7 @@ use quote::quote;
 use super::infix::element;
 use super::inherent_method::{Head, Part, drops};
 use super::layout::local;
-use super::program::{Body, body};
+use super::program::{Body, body, body_in_place};
 use super::setting::Context;
 use super::symbols::{Argument, Scope};
 
@@ -27,8 +28,7 @@ pub(super) fn emit(context: &Context, scope: &Scope, system: &System) -> Part {
         return Part::default();
     };
     let (n, m) = sizes(context);
-    let mut all =
-        together(context, &body(context, scope, &context.lowering.program(&system.model, linearized)));
+    let mut all = together(context, scope, &context.lowering.program(&system.model, linearized));
     all.extend(dependence(context, system, &jacobian));
     all.extend(super::slopes_of_return::method(context, system));
     let within = |columns: Range<usize>| {
@@ -161,11 +161,25 @@ fn by_input_of_none(context: &Context) -> TokenStream {
 }
 
 /// The method of the trait that computes the derivative and both matrices.
-fn together(context: &Context, body: &Body) -> TokenStream {
+fn together(context: &Context, scope: &Scope, program: &Program) -> TokenStream {
     let scalar = &context.scalar;
     let (t, state, input) = (&context.locals.t, &context.locals.state, &context.locals.input);
     let (state_type, input_type) = (context.type_of(&context.state), context.input_type());
     let (n, m) = sizes(context);
+    let all = local("all");
+    let mut places = context.state.places(&quote!(#all.0));
+    for row in (0..n).map(Literal::usize_unsuffixed) {
+        let of = |matrix: Literal, columns: usize| {
+            let (all, row) = (&all, &row);
+            (0..columns)
+                .map(Literal::usize_unsuffixed)
+                .map(move |column| quote!(#all.#matrix[#row][#column]))
+                .collect::<Vec<_>>()
+        };
+        places.extend(of(Literal::usize_unsuffixed(1), n));
+        places.extend(of(Literal::usize_unsuffixed(2), m));
+    }
+    let body = body_in_place(context, scope, program, &places);
     let (rates, matrix) = body.outputs.split_at(n.min(body.outputs.len()));
     let name = &context.state.name;
     let rates = context.state.construct(&quote!(#name), rates);
@@ -186,8 +200,9 @@ fn together(context: &Context, body: &Body) -> TokenStream {
             &self, #t: #scalar, #state: &#state_type, #input: &#input_type
         ) -> (#state_type, [[#scalar; #n]; #n], [[#scalar; #m]; #n]) {
             #drops
+            let mut #all = (#rates, #by_state, #by_input);
             #statements
-            (#rates, #by_state, #by_input)
+            #all
         }
     }
 }

@@ -7,7 +7,7 @@ use nonholonomic_core::algebra::Function;
 use nonholonomic_core::id::{SymbolId, Table};
 use nonholonomic_core::program::{Program, Step, Value};
 use proc_macro2::{Ident, Literal, Span, TokenStream};
-use quote::quote;
+use quote::{ToTokens, quote};
 
 use super::infix::{Expression, element};
 use super::intermediate_names::{Names, unknowns};
@@ -74,6 +74,31 @@ pub(super) fn body_near_angles(
     written(context, scope, program, Some(angles))
 }
 
+/// Statements that write every output to its place as soon as it is computed, so that none occupies a register until all are
+/// known; the outputs are what stands in these places before: arguments and numbers, zero where something is written.
+pub(super) fn body_in_place(
+    context: &Context,
+    scope: &Scope,
+    program: &Program,
+    places: &[TokenStream],
+) -> Body {
+    let mut writer = Writer::new(context, scope, program, None);
+    let mut before = Vec::with_capacity(places.len());
+    for (value, place) in program.outputs.iter().zip(places) {
+        let step = &program.steps[*value];
+        before.push(if step.is_leaf() {
+            writer.uses[*value] -= 1;
+            writer.step(*value, step).tokens
+        } else {
+            writer.places.entry(*value).or_default().push(place.clone());
+            // it is overwritten: a constant would be stored all the same
+            writer.used.insert(Argument::Time);
+            context.locals.t.to_token_stream()
+        });
+    }
+    Body { outputs: before, ..writer.write(&program.outputs) }
+}
+
 fn written(context: &Context, scope: &Scope, program: &Program, at_hand: Option<&Ident>) -> (Body, usize) {
     let mut writer = Writer::new(context, scope, program, at_hand);
     let body = writer.write(&program.outputs);
@@ -88,6 +113,8 @@ struct Writer<'a> {
     names: Names,
     /// How often each value is used.
     uses: Table<Value, usize>,
+    /// Where values are written as soon as they are known.
+    places: BTreeMap<Value, Vec<TokenStream>>,
     /// Which values are known already.
     known: Table<Value, bool>,
     expressions: Table<Value, Expression>,
@@ -117,6 +144,7 @@ impl<'a> Writer<'a> {
             program,
             names: Names::new(),
             uses: program.uses(),
+            places: BTreeMap::new(),
             known: program.steps.iter().map(|_| false).collect(),
             expressions: program.steps.iter().map(|_| nothing.clone()).collect(),
             pairs: BTreeMap::new(),
@@ -132,7 +160,7 @@ impl<'a> Writer<'a> {
     fn write(&mut self, outputs: &[Value]) -> Body {
         let needed = self.program.needed_by(outputs);
         for (value, step) in self.program.steps.iter_ids() {
-            if !needed[value] || self.known[value] {
+            if !needed[value] || self.known[value] || self.uses[value] == 0 {
                 continue;
             }
             let expression = self.step(value, step);
@@ -143,6 +171,10 @@ impl<'a> Writer<'a> {
             } else {
                 expression
             };
+            for place in self.places.remove(&value).into_iter().flatten() {
+                let tokens = &expression.tokens;
+                self.statements.extend(quote!(#place = #tokens;));
+            }
             self.expressions[value] = expression;
             self.known[value] = true;
         }

@@ -10,7 +10,8 @@ use quote::quote;
 
 use super::infix::element;
 use super::inherent_method::{Head, Part};
-use super::program::body;
+use super::layout::local;
+use super::program::{body, body_in_place};
 use super::setting::Context;
 use super::symbols::Scope;
 
@@ -40,11 +41,14 @@ pub(super) fn emit(context: &Context, scope: &Scope, system: &System) -> Part {
     let rates = linearized.outputs.iter().copied().take(context.state.len());
     let outputs: Vec<_> = rates.chain(values).collect();
     let together = context.lowering.program(&system.model, &linearized.with_outputs(outputs));
-    let of_both = body(context, scope, &together);
+    let all = local("all");
+    let entries = (0..pattern.len()).map(Literal::usize_unsuffixed).map(|place| quote!(#all.1[#place]));
+    let places: Vec<_> = context.state.places(&quote!(#all.0)).into_iter().chain(entries).collect();
+    let of_both = body_in_place(context, scope, &together, &places);
     let (rates, entries) = of_both.outputs.split_at(context.state.len().min(of_both.outputs.len()));
     let rates = context.state.construct(&context.state_name(), rates);
     let (statements, entries) = (&of_both.statements, array(entries));
-    let code = quote!(#statements (#rates, #entries));
+    let code = quote!(let mut #all = (#rates, #entries); #statements #all);
     methods.extend(head_of_both(context, pattern.len()).with_body(context, &of_both.used, &code));
     Part {
         methods,

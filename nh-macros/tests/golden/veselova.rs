@@ -60,12 +60,27 @@ impl Veselova {
             state.g[0] * force_3,
         );
         let turn_2 = self.I[1] * over_norm * moment_2;
+        let y_dot = ::nonholonomic::__private::Scalar::mul_add(
+            -state.g[2],
+            turn_2,
+            -(state.g[1] * turn),
+        );
         let moment_3 = ::nonholonomic::__private::Scalar::mul_add(
             -state.g[2],
             force,
             state.g[1] * force_3,
         );
         let turn_3 = self.I[0] * over_norm * moment_3;
+        let y_dot_2 = ::nonholonomic::__private::Scalar::mul_add(
+            -state.g[2],
+            turn_3,
+            state.g[0] * turn,
+        );
+        let y_dot_3 = ::nonholonomic::__private::Scalar::mul_add(
+            state.g[1],
+            turn_3,
+            state.g[0] * turn_2,
+        );
         VeselovaState {
             g: [
                 ::nonholonomic::__private::Scalar::mul_add(
@@ -84,23 +99,7 @@ impl Veselova {
                     state.g[0] * state.w[1],
                 ),
             ],
-            w: [
-                ::nonholonomic::__private::Scalar::mul_add(
-                    -state.g[2],
-                    turn_2,
-                    -(state.g[1] * turn),
-                ),
-                ::nonholonomic::__private::Scalar::mul_add(
-                    -state.g[2],
-                    turn_3,
-                    state.g[0] * turn,
-                ),
-                ::nonholonomic::__private::Scalar::mul_add(
-                    state.g[1],
-                    turn_3,
-                    state.g[0] * turn_2,
-                ),
-            ],
+            w: [y_dot, y_dot_2, y_dot_3],
         }
     }
     /// The energy y · ∂L/∂y − L.

@@ -11,7 +11,7 @@ fn same<S: Measured>(contest: &[Box<dyn Run>], order: impl Fn(&[f64]) -> Vec<f64
     let data = entry.data();
     let parameters = order(&data.parameters);
     assert_eq!(parameters.len(), S::NUMBERS.parameters, "{}", S::NAME);
-    for [state, input, by_hand] in &data.samples {
+    for [state, input, by_hand, _] in &data.samples {
         let found = S::Balanced::derivative(&parameters, state, input);
         assert_eq!(found.len(), by_hand.len(), "{}", S::NAME);
         for (found, expected) in found.iter().zip(by_hand) {

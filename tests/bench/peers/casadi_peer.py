@@ -241,16 +241,31 @@ def main(name, style, path):
         # in one function with what calls it no argument can be missing, which CasADi's C looks for
         file.write("#define CASADI_SYMBOL_EXPORT static inline\n" + generator.dump())
         file.write(f"""
+{values(function) if function.n_out() > 1 else ""}
 __attribute__((nonnull)) void peer(const double *restrict p, const double *restrict x, const double *restrict u,
                                    double *restrict dx) {{
   const double *arg[{function.sz_arg()}] = {{p, x, u}};
-  {"static double values[%d];" % function.nnz_out(1) if function.n_out() > 1 else ""}
   double *res[{function.sz_res()}] = {{{"dx, values" if function.n_out() > 1 else "dx"}}};
   casadi_int iw[{max(1, function.sz_iw())}];
   double w[{max(1, function.sz_w())}];
   casadi_peer(arg, res, iw, w, 0);
 }}
 """)
+
+
+def values(function):
+    """Where the entries of the Jacobian go, and a function that prints all of it, row by row."""
+    pattern = function.sparsity_out(1)
+    places = [-1] * pattern.numel()
+    for place, (row, column) in enumerate(zip(*pattern.get_triplet())):
+        places[row * pattern.columns() + column] = place
+    return f"""#include <stdio.h>
+static double values[{pattern.nnz()}];
+void print_jacobian(void) {{
+  static const int places[{len(places)}] = {{{", ".join(map(str, places))}}};
+  for (int i = 0; i < {len(places)}; i++) printf("%.17g\\n", places[i] < 0 ? 0.0 : values[places[i]]);
+}}
+"""
 
 
 if __name__ == "__main__":

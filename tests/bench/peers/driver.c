@@ -1,5 +1,5 @@
 /* Evaluates a generated derivative at the samples of a file:
-     driver FILE values   prints the derivatives
+     driver FILE values   prints the derivatives, each with the Jacobian of a peer that has it
      driver FILE count    evaluates once, for callgrind
      driver FILE time     prints nanoseconds per evaluation, the median of some rounds
    The file: numbers of parameters, states, inputs and samples, then parameters, then states and inputs. */
@@ -10,6 +10,9 @@
 #include <time.h>
 
 void peer(const double *p, const double *x, const double *u, double *dx);
+
+/* a peer with a Jacobian has a function of its own for this */
+__attribute__((weak)) void print_jacobian(void) {}
 
 static double now(void) {
   struct timespec t;
@@ -50,8 +53,10 @@ int main(int argc, char **argv) {
   for (int s = 0; s < ns; s++) {
     const double *x = samples + row * (size_t)s;
     peer(p, x, x + nx, dx);
-    if (!strcmp(argv[2], "values"))
+    if (!strcmp(argv[2], "values")) {
       for (int i = 0; i < nx; i++) printf("%.17g\n", dx[i]);
+      print_jacobian();
+    }
   }
   return 0;
 }

@@ -12,6 +12,8 @@ pub const SAMPLES: usize = 16;
 pub trait Contest: Dynamics<State: State<Scalar = f64>> + Sized {
     /// The derivative and its Jacobians.
     type Linearised;
+    /// The entries of the Jacobians that are not always zero.
+    type Entries: AsRef<[f64]>;
     /// The name in the tables.
     const NAME: &'static str;
     /// Parameters of ordinary size.
@@ -26,6 +28,12 @@ pub trait Contest: Dynamics<State: State<Scalar = f64>> + Sized {
     fn emitted(&self, t: f64, state: &Self::State, input: &Self::Input) -> Self::State;
     /// The emitted `linearized`: the derivative and its Jacobians.
     fn linearised(&self, t: f64, state: &Self::State, input: &Self::Input) -> Self::Linearised;
+    /// The emitted `sparse_linearized`: the derivative and the entries of its Jacobians that are not always zero.
+    fn sparse(&self, t: f64, state: &Self::State, input: &Self::Input) -> (Self::State, Self::Entries);
+    /// The Jacobians by state and inputs side by side, row by row.
+    fn jacobian(linearised: &Self::Linearised) -> Vec<f64>;
+    /// The same of the entries alone.
+    fn filled(entries: &Self::Entries) -> Vec<f64>;
     /// The derivative written by hand.
     fn by_hand(&self, t: f64, state: &Self::State, input: &Self::Input) -> Self::State;
 }
@@ -60,8 +68,17 @@ pub fn samples<S: Contest>() -> Vec<(S::State, S::Input)> {
     found
 }
 
-/// A small generator of numbers in (−1, 1): Marsaglia's xorshift.
-pub struct Random(u64);
+/// The same from their numbers.
+#[must_use]
+pub fn recorded_samples<S: Contest>(numbers: &mut Random) -> Vec<(S::State, S::Input)> {
+    (0..SAMPLES).map(|_| S::sample(numbers)).collect()
+}
+
+/// A small generator of numbers in (−1, 1): Marsaglia's xorshift. Numbers that were recorded come first.
+pub struct Random {
+    word: u64,
+    recorded: std::vec::IntoIter<f64>,
+}
 
 impl Default for Random {
     fn default() -> Self {
@@ -73,15 +90,24 @@ impl Random {
     /// The generator, from the same number always.
     #[must_use]
     pub fn new() -> Self {
-        Self(0x9e37_79b9_7f4a_7c15)
+        Self::recorded(Vec::new())
+    }
+
+    /// Numbers that were recorded.
+    #[must_use]
+    pub fn recorded(numbers: Vec<f64>) -> Self {
+        Self { word: 0x9e37_79b9_7f4a_7c15, recorded: numbers.into_iter() }
     }
 
     /// The next number.
     pub fn draw(&mut self) -> f64 {
-        self.0 ^= self.0 << 13;
-        self.0 ^= self.0 >> 7;
-        self.0 ^= self.0 << 17;
-        (self.0 >> 11) as f64 / (1_u64 << 52) as f64 - 1.0
+        if let Some(number) = self.recorded.next() {
+            return number;
+        }
+        self.word ^= self.word << 13;
+        self.word ^= self.word >> 7;
+        self.word ^= self.word << 17;
+        (self.word >> 11) as f64 / (1_u64 << 52) as f64 - 1.0
     }
 }
 
@@ -103,6 +129,7 @@ macro_rules! contest {
     ) => {
         impl $crate::contest::Contest for $System {
             type Linearised = (Self::State, [[f64; $states]; $states], [[f64; $inputs]; $states]);
+            type Entries = [f64; Self::JACOBIAN_ROWS.len()];
             const NAME: &'static str = $name;
             fn ordinary() -> Self {
                 $ordinary
@@ -125,6 +152,21 @@ macro_rules! contest {
             #[inline(never)]
             fn linearised(&self, t: f64, state: &Self::State, input: &Self::Input) -> Self::Linearised {
                 ::nonholonomic::Jacobian::linearized(self, t, state, input)
+            }
+            #[inline(never)]
+            fn sparse(&self, t: f64, state: &Self::State, input: &Self::Input) -> (Self::State, Self::Entries) {
+                self.sparse_linearized(t, state, input)
+            }
+            fn jacobian((_, by_state, by_input): &Self::Linearised) -> Vec<f64> {
+                by_state.iter().zip(by_input).flat_map(|(a, b)| a.iter().chain(b)).copied().collect()
+            }
+            fn filled(entries: &Self::Entries) -> Vec<f64> {
+                let mut all = vec![0.0; $states * ($states + $inputs)];
+                let places = Self::JACOBIAN_ROWS.into_iter().zip(Self::JACOBIAN_COLUMNS);
+                for ((row, column), entry) in places.zip(entries) {
+                    all[row * ($states + $inputs) + column] = *entry;
+                }
+                all
             }
             #[inline(never)]
             fn by_hand(&self, $t: f64, $x: &Self::State, $u: &Self::Input) -> Self::State {

@@ -1,15 +1,16 @@
 //! The tables of the benchmark, in Markdown.
 
-use crate::peers::{Measured, PEERS};
+use crate::peers::{JACOBIAN, Measured, PEERS};
+use crate::runner::OWN;
 
-/// A system's measurements: by hand, the emitted `derivative`, the emitted `jacobian` with it.
+/// A system's measurements: by hand, the emitted `derivative`, with full Jacobians, with their entries that are not zero.
 pub struct Row {
     /// The system.
     pub name: &'static str,
     /// Instructions per evaluation, where they could be counted.
-    pub instructions: [Option<f64>; 3],
+    pub instructions: [Option<f64>; OWN.len()],
     /// Nanoseconds per evaluation.
-    pub nanoseconds: [f64; 3],
+    pub nanoseconds: [f64; OWN.len()],
 }
 
 /// Prints the table and the geometric means of its ratios.
@@ -19,9 +20,9 @@ pub fn print(rows: &[Row]) {
     );
     println!("|---|--:|--:|--:|--:|--:|--:|--:|--:|--:|--:|");
     for row in rows {
-        let [by_hand, derivative, jacobian] = row.instructions;
+        let [by_hand, derivative, jacobian, _] = row.instructions;
         let counted = cells(by_hand, derivative, jacobian, 0);
-        let [by_hand, derivative, jacobian] = row.nanoseconds.map(Some);
+        let [by_hand, derivative, jacobian, _] = row.nanoseconds.map(Some);
         let timed = cells(by_hand, derivative, jacobian, 1);
         println!("| {} | {counted} | {timed} |", row.name);
     }
@@ -70,7 +71,7 @@ fn print_ratios(
     of: impl Fn(&Measured) -> Option<f64>,
 ) {
     let columns: [Vec<f64>; PEERS.len()] = std::array::from_fn(|place| {
-        let which = if PEERS[place].2 == "jacobian" { 2 } else { 1 };
+        let which = if PEERS[place].2 == JACOBIAN { 2 } else { 1 };
         let ratio = |(row, peers): (&Row, &[Option<Measured>; PEERS.len()])| {
             Some(own(row, which)? / of(peers[place].as_ref()?)?)
         };
@@ -91,21 +92,33 @@ fn print_ratios(
     });
 }
 
-/// Prints the derivative with its Jacobians beside that of the peer which has them, and the mean and the worst ratio.
+/// Prints the derivative with the entries of its Jacobians that are not always zero, and with full matrices, beside the peer
+/// that has the entries, and the means and the worst of the ratios.
 pub fn print_jacobians(rows: &[Row], peers: &[[Option<Measured>; PEERS.len()]]) {
-    let Some(place) = PEERS.iter().position(|(.., style)| *style == "jacobian") else { return };
-    println!("\n| instructions | with jacobian | {} | ratio |\n|---|--:|--:|--:|", PEERS[place].0);
-    let mut ratios = Vec::new();
+    let Some(place) = PEERS.iter().position(|(.., style)| *style == JACOBIAN) else { return };
+    println!(
+        "\n| instructions | {} | entries | ratio | matrices | ratio |\n|---|--:|--:|--:|--:|--:|",
+        PEERS[place].0
+    );
+    let mut ratios: [Vec<f64>; 2] = Default::default();
     for (row, peers) in rows.iter().zip(peers) {
-        let [_, _, ours] = row.instructions;
         let theirs = peers[place].as_ref().and_then(INSTRUCTIONS);
-        let ratio = ours.zip(theirs).map(|(ours, theirs)| ours / theirs);
-        ratios.extend(ratio);
-        println!("| {} | {} | {} | {} |", row.name, cell(ours, 0), cell(theirs, 0), cell(ratio, 2));
+        let [_, _, full, entries] = row.instructions;
+        let mut cells = Vec::new();
+        for (ours, ratios) in [entries, full].into_iter().zip(&mut ratios) {
+            let ratio = ours.zip(theirs).map(|(ours, theirs)| ours / theirs);
+            ratios.extend(ratio);
+            cells.extend([cell(ours, 0), cell(ratio, 2)]);
+        }
+        println!("| {} | {} | {} |", row.name, cell(theirs, 0), cells.join(" | "));
     }
-    let worst = ratios.iter().copied().reduce(f64::max);
-    let mean = geometric_mean(ratios.into_iter().map(Some));
-    println!("| geometric mean | | | {} |\n| worst | | | {} |", cell(mean, 2), cell(worst, 2));
+    let [entries, full] = ratios.each_ref().map(|ratios| {
+        let mean = geometric_mean(ratios.iter().copied().map(Some));
+        [cell(mean, 2), cell(ratios.iter().copied().reduce(f64::max), 2)]
+    });
+    for (what, which) in [("geometric mean", 0), ("worst", 1)] {
+        println!("| {what} | | | {} | | {} |", entries[which], full[which]);
+    }
 }
 
 const INSTRUCTIONS: fn(&Measured) -> Option<f64> = |peer| peer.instructions;

@@ -11,6 +11,7 @@
 use std::process::ExitCode;
 
 use nh_bench::callgrind::{self, Counts};
+use nh_bench::contest::Random;
 use nh_bench::contest_table::{Row, print, print_jacobians, print_peers};
 use nh_bench::peers::Workshop;
 use nh_bench::program;
@@ -18,13 +19,20 @@ use nh_bench::runner::{OWN, Run, all};
 
 fn main() -> ExitCode {
     let evaluate = |names: &[String]| {
+        let path = program::beside(SAMPLES)?;
+        let text = std::fs::read_to_string(path).map_err(|error| error.to_string())?;
+        let mut numbers = Random::recorded(text.lines().filter_map(|line| line.parse().ok()).collect());
         for system in chosen(names)? {
-            system.evaluate();
+            system.evaluate(&mut numbers);
         }
         Ok(())
     };
     program::main(evaluate, measure)
 }
+
+/// Where the numbers of all samples are left for the run that is counted: states are returned to their constraints before
+/// it, by code that valgrind may not know every instruction of.
+const SAMPLES: &str = "nh-bench.samples";
 
 /// The systems whose names begin with one of these; all, if there is none.
 fn chosen(names: &[String]) -> Result<Vec<Box<dyn Run>>, String> {
@@ -42,13 +50,16 @@ fn measure(names: &[String]) -> Result<(), String> {
     // 1. a comparison of different functions would mean nothing
     systems.iter().try_for_each(|system| system.compare())?;
     // 2. instructions
+    let samples = systems.iter().flat_map(|system| system.data().samples);
+    let numbers = samples.flat_map(|[state, input, ..]| state.into_iter().chain(input));
+    let lines: Vec<String> = numbers.map(|number| format!("{number:e}")).collect();
+    std::fs::write(program::beside(SAMPLES)?, lines.join("\n")).map_err(|error| error.to_string())?;
     let counts = own_counts(names)?;
     // 3. times, and the table
     let rows: Vec<Row> = systems.iter().map(|system| row(system.as_ref(), &counts)).collect();
     print(&rows);
     // 4. other tools, where they are installed
-    let directory =
-        std::env::current_exe().map_err(|error| error.to_string())?.with_file_name("nh-bench.peers");
+    let directory = program::beside("nh-bench.peers")?;
     match Workshop::open(&directory) {
         Ok(workshop) => {
             let peers: Result<Vec<_>, String> =

@@ -15,8 +15,11 @@ pub const PEERS: [(&str, &str, &str); 5] = [
     ("CasADi, expert", "casadi_peer", "expert"),
     ("SymPy, typed", "sympy_peer", "typed"),
     ("SymPy, expert", "sympy_peer", "expert"),
-    ("CasADi, with jacobian", "casadi_peer", "jacobian"),
+    ("CasADi, with jacobian", "casadi_peer", JACOBIAN),
 ];
+
+/// What a tool is given where it is asked for Jacobians, too.
+pub const JACOBIAN: &str = "jacobian";
 
 /// The flags of gcc: those of this benchmark, fused multiply-adds as they are used in Rust, and none that let it assume
 /// numbers to be finite or sums to be associative.
@@ -83,9 +86,13 @@ impl Workshop {
             let Some((program, derivation)) = self.build(system.name(), peer)? else { continue };
             let values = succeeds(Command::new(&program).arg(&input).arg("values"))?;
             let mut values = values.lines().map(|line| line.parse().unwrap_or(f64::NAN));
-            for [state, _, derivative] in &data.samples {
+            for [state, _, derivative, jacobian] in &data.samples {
                 let found: Vec<f64> = values.by_ref().take(state.len()).collect();
                 agree(system.name(), peer.0, &found, derivative)?;
+                if peer.2 == JACOBIAN {
+                    let found: Vec<f64> = values.by_ref().take(jacobian.len()).collect();
+                    agree(system.name(), peer.0, &found, jacobian)?;
+                }
             }
             let time = succeeds(Command::new(&program).arg(&input).arg("time"))?;
             let nanoseconds = time.trim().parse().unwrap_or(f64::NAN);
@@ -134,10 +141,10 @@ impl Workshop {
 
 /// What the driver reads: sizes, parameters, then states with inputs.
 fn text(data: &Data) -> String {
-    let Some([state, input, _]) = data.samples.first() else { return String::new() };
+    let Some([state, input, ..]) = data.samples.first() else { return String::new() };
     let mut text =
         format!("{} {} {} {}\n", data.parameters.len(), state.len(), input.len(), data.samples.len());
-    let states = data.samples.iter().flat_map(|[state, input, _]| state.iter().chain(input));
+    let states = data.samples.iter().flat_map(|[state, input, ..]| state.iter().chain(input));
     for number in data.parameters.iter().chain(states) {
         // the shortest decimals that read back as the same number
         let _ = writeln!(text, "{number:e}");

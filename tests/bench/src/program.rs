@@ -1,5 +1,6 @@
 //! What the programs of the benchmark share: they call themselves under callgrind, and end with a message.
 
+use std::path::PathBuf;
 use std::process::ExitCode;
 
 use crate::callgrind::{self, Counts};
@@ -34,10 +35,19 @@ pub fn main(
 /// What went wrong, in words.
 pub fn count(profile: &str, arguments: &[&str], wanted: impl Fn(&str) -> bool) -> Result<Counts, String> {
     let program = std::env::current_exe().map_err(|error| error.to_string())?;
-    let profile = program.with_file_name(profile);
+    let profile = beside(profile)?;
     let program = program.to_string_lossy();
     let command: Vec<&str> = [&*program, EVALUATE].into_iter().chain(arguments.iter().copied()).collect();
     callgrind::count(&command, &profile, wanted)
+}
+
+/// A file beside this program.
+///
+/// # Errors
+/// If it is not known where that is.
+pub fn beside(name: &str) -> Result<PathBuf, String> {
+    let program = std::env::current_exe().map_err(|error| error.to_string())?;
+    Ok(program.with_file_name(name))
 }
 
 /// Instructions, where this program evaluates, from each beginning of one function to that of another: their

@@ -8,7 +8,7 @@ use std::time::Instant;
 use nonholonomic::State;
 
 use crate::callgrind::Counts;
-use crate::contest::{Contest, samples};
+use crate::contest::{Contest, Random, recorded_samples, samples};
 use crate::systems::{
     arm, balancing_robot, ball, ball_with_rotors, car, chaplygin_ball, disk, elbow, finned_body, five_bar,
     four_bar, four_wheels, furuta, heavy_top, hitched_trailer, leg, pendulum, quadrotor, rattleback,
@@ -20,7 +20,7 @@ use crate::systems::{
 pub const AGREEMENT: f64 = 1e-12;
 
 /// The contestants that are compiled into the benchmark.
-pub const OWN: [&str; 3] = ["by_hand", "emitted", "linearised"];
+pub const OWN: [&str; 4] = ["by_hand", "emitted", "linearised", "sparse"];
 
 /// A system of the contest, whatever its type.
 pub trait Run {
@@ -31,14 +31,14 @@ pub trait Run {
     /// # Errors
     /// Where they differ, and by how much.
     fn compare(&self) -> Result<(), String>;
-    /// Evaluates each contestant at each sample.
-    fn evaluate(&self);
+    /// Evaluates each contestant at each sample, from the numbers that states and inputs are made of.
+    fn evaluate(&self, numbers: &mut Random);
     /// Nanoseconds per evaluation of each contestant: medians of rounds in which they take turns.
-    fn time(&self) -> [f64; 3];
+    fn time(&self) -> [f64; OWN.len()];
     /// Instructions per evaluation of each contestant, where the profile has them.
-    fn instructions(&self, counts: &Counts) -> [Option<f64>; 3];
-    /// Parameters, and for each sample the state, the inputs and the derivative by hand: what a peer
-    /// is given and compared with.
+    fn instructions(&self, counts: &Counts) -> [Option<f64>; OWN.len()];
+    /// Parameters, and for each sample the state and the inputs, the derivative by hand and the emitted Jacobians: what a
+    /// peer is given and compared with.
     fn data(&self) -> Data;
 }
 
@@ -46,8 +46,8 @@ pub trait Run {
 pub struct Data {
     /// The parameters.
     pub parameters: Vec<f64>,
-    /// State, inputs, derivative.
-    pub samples: Vec<[Vec<f64>; 3]>,
+    /// State, inputs, derivative, and its Jacobians row by row.
+    pub samples: Vec<[Vec<f64>; 4]>,
 }
 
 /// Every system of the contest.
@@ -108,31 +108,37 @@ impl<S: Contest> Run for Of<S> {
             let emitted = system.emitted(0.0, &state, &input).to_array();
             let by_hand = system.by_hand(0.0, &state, &input).to_array();
             agree(S::NAME, "emitted", emitted.as_ref(), by_hand.as_ref())?;
+            let (rates, entries) = system.sparse(0.0, &state, &input);
+            agree(S::NAME, "sparse", rates.to_array().as_ref(), by_hand.as_ref())?;
+            let full = S::jacobian(&system.linearised(0.0, &state, &input));
+            agree(S::NAME, "sparse", &S::filled(&entries), &full)?;
         }
         Ok(())
     }
 
-    fn evaluate(&self) {
+    fn evaluate(&self, numbers: &mut Random) {
         let system = S::ordinary();
-        for (state, input) in black_box(samples::<S>()) {
+        for (state, input) in black_box(recorded_samples::<S>(numbers)) {
             black_box(system.by_hand(0.0, &state, &input));
             black_box(system.emitted(0.0, &state, &input));
             black_box(system.linearised(0.0, &state, &input));
+            black_box(system.sparse(0.0, &state, &input));
         }
     }
 
-    fn time(&self) -> [f64; 3] {
+    fn time(&self) -> [f64; OWN.len()] {
         const ROUNDS: usize = 101;
-        let mut rounds: [Vec<f64>; 3] = Default::default();
+        let mut rounds: [Vec<f64>; OWN.len()] = Default::default();
         for _ in 0..ROUNDS {
             rounds[0].push(timed(S::by_hand));
             rounds[1].push(timed(S::emitted));
             rounds[2].push(timed(S::linearised));
+            rounds[3].push(timed(S::sparse));
         }
         rounds.map(median)
     }
 
-    fn instructions(&self, counts: &Counts) -> [Option<f64>; 3] {
+    fn instructions(&self, counts: &Counts) -> [Option<f64>; OWN.len()] {
         let system = type_name::<S>();
         // where it is a function of its own, as the one by hand is, not with the call of `emitted`
         let derivative = counts.get(&format!("{system}::derivative"));
@@ -146,7 +152,9 @@ impl<S: Contest> Run for Of<S> {
         let system = S::ordinary();
         let row = |(state, input): (S::State, S::Input)| {
             let derivative = system.by_hand(0.0, &state, &input);
-            [state.to_array().as_ref().to_vec(), S::inputs(&input), derivative.to_array().as_ref().to_vec()]
+            let derivative = derivative.to_array().as_ref().to_vec();
+            let jacobian = S::jacobian(&system.linearised(0.0, &state, &input));
+            [state.to_array().as_ref().to_vec(), S::inputs(&input), derivative, jacobian]
         };
         Data { parameters: system.parameters(), samples: samples::<S>().into_iter().map(row).collect() }
     }

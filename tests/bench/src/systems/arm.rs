@@ -32,7 +32,7 @@ macro_rules! arm {
             constraints { side = 0; }
             inputs { push, steer, torque[$links] }
             forces { v: push; omega: steer; for i in 0..$links { qd[i]: torque[i]; } }
-            emit { jacobian }
+            emit { jacobian, sparse_jacobian }
         )]
         #[derive(Clone, Copy, Debug)]
         pub struct $Arm {

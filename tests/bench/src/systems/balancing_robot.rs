@@ -26,7 +26,7 @@ use crate::contest::contest;
     track { x, y, th, phi, v, omega, pitch }
     inputs { right, left }
     forces { w[0]: right; w[1]: left; pitch: -right - left; }
-    emit { jacobian }
+    emit { jacobian, sparse_jacobian }
 )]
 #[derive(Clone, Copy, Debug)]
 pub struct BalancingRobot {

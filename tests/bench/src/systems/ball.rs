@@ -6,7 +6,7 @@ nh_models::ball! {
     /// The ball on the rotating table.
     #[derive(Clone, Copy, Debug)]
     pub struct Ball { m: f64, r: f64, k2: f64, Omega: f64 }
-    emit { jacobian }
+    emit { jacobian, sparse_jacobian }
 }
 
 contest! {

@@ -14,7 +14,7 @@ use crate::contest::contest;
     constraints { v = r * cross(w, g); }
     inputs { torque[3] }
     forces { for i in 0..3 { s[i]: torque[i]; } }
-    emit { jacobian }
+    emit { jacobian, sparse_jacobian }
 )]
 #[derive(Clone, Copy, Debug)]
 pub struct BallWithRotors {

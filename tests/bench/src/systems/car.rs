@@ -6,7 +6,7 @@ nh_models::car! {
     /// A car; its front wheels turn about the vertical axis together.
     #[derive(Clone, Copy, Debug)]
     pub struct Car { m: f64, J: f64, Js: f64, a: f64, L: f64 }
-    emit { jacobian }
+    emit { jacobian, sparse_jacobian }
 }
 
 contest! {

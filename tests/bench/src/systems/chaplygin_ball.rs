@@ -12,7 +12,7 @@ use crate::contest::contest;
     brackets se(3) { w[0], w[1], w[2], v[0], v[1], v[2] }
     lagrangian { sum(i in 0..3: I[i] * w[i]^2) / 2 + m / 2 * dot(v, v) }
     constraints { v = r * cross(w, g); }
-    emit { jacobian }
+    emit { jacobian, sparse_jacobian }
 )]
 #[derive(Clone, Copy, Debug)]
 pub struct ChaplyginBall {

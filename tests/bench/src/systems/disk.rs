@@ -19,7 +19,7 @@ use crate::contest::contest;
         der(y) = -r * (sin(al) * cos(psi) * der(al) + sin(psi) * w3);
     }
     independent { der(psi), der(al), der(phi) }
-    emit { jacobian }
+    emit { jacobian, sparse_jacobian }
 )]
 #[derive(Clone, Copy, Debug)]
 pub struct Disk {

@@ -21,7 +21,7 @@ use crate::contest::contest;
     }
     inputs { torque[3] }
     forces { for i in 0..3 { q[i]: torque[i]; } }
-    emit { jacobian }
+    emit { jacobian, sparse_jacobian }
 )]
 #[derive(Clone, Copy, Debug)]
 pub struct Elbow {

@@ -21,7 +21,7 @@ use crate::contest::contest;
     independent { w[0], w[1], w[2], v[0] }
     inputs { thrust, torque[3] }
     forces { v[0]: thrust; for i in 0..3 { w[i]: torque[i]; } }
-    emit { jacobian }
+    emit { jacobian, sparse_jacobian }
 )]
 #[derive(Clone, Copy, Debug)]
 pub struct FinnedBody {

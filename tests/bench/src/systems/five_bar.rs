@@ -19,7 +19,7 @@ use crate::contest::{ClosedByHand, contest};
     }
     inputs { left, right }
     forces { a: left; d: right; }
-    emit { jacobian }
+    emit { jacobian, sparse_jacobian }
 )]
 #[derive(Clone, Copy, Debug)]
 pub struct FiveBar {

@@ -19,7 +19,7 @@ use crate::contest::{ClosedByHand, contest};
     }
     inputs { torque }
     forces { a: torque; }
-    emit { jacobian }
+    emit { jacobian, sparse_jacobian }
 )]
 #[derive(Clone, Copy, Debug)]
 pub struct FourBar {

@@ -21,7 +21,7 @@ use crate::contest::contest;
     }
     inputs { torque[4] }
     forces { for k in 0..4 { s[k]: torque[k]; } }
-    emit { jacobian }
+    emit { jacobian, sparse_jacobian }
 )]
 #[derive(Clone, Copy, Debug)]
 pub struct FourWheels {

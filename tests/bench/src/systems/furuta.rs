@@ -15,7 +15,7 @@ use crate::contest::contest;
     }
     inputs { torque }
     forces { a: torque; }
-    emit { jacobian }
+    emit { jacobian, sparse_jacobian }
 )]
 #[derive(Clone, Copy, Debug)]
 pub struct Furuta {

@@ -11,7 +11,7 @@ use crate::contest::contest;
     anchor { der(g) = cross(g, w); }
     brackets so(3) { w }
     lagrangian { sum(i in 0..3: I[i] * w[i]^2) / 2 - m * gravity * dot(c, g) }
-    emit { jacobian }
+    emit { jacobian, sparse_jacobian }
 )]
 #[derive(Clone, Copy, Debug)]
 pub struct HeavyTop {

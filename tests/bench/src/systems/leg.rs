@@ -16,7 +16,7 @@ use crate::contest::contest;
     }
     inputs { torque[3] }
     forces { q[0]: torque[0] - torque[1]; q[1]: torque[1] - torque[2]; q[2]: torque[2]; }
-    emit { jacobian }
+    emit { jacobian, sparse_jacobian }
 )]
 #[derive(Clone, Copy, Debug)]
 pub struct Leg {

@@ -24,7 +24,7 @@ use crate::contest::contest;
     constraints { side = 0; }
     inputs { push, steer }
     forces { v: push; omega: steer; }
-    emit { jacobian }
+    emit { jacobian, sparse_jacobian }
 )]
 #[derive(Clone, Copy, Debug)]
 pub struct Pendulum {

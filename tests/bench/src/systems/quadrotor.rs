@@ -25,7 +25,7 @@ use crate::contest::contest;
         v[2]: (q[0]^2 - q[1]^2 - q[2]^2 + q[3]^2) * thrust;
         for i in 0..3 { w[i]: torque[i]; }
     }
-    emit { jacobian }
+    emit { jacobian, sparse_jacobian }
 )]
 #[derive(Clone, Copy, Debug)]
 pub struct Quadrotor {

@@ -20,7 +20,7 @@ use crate::contest::contest;
         let r = [-a[0]^2 * g[0] / s, -a[1]^2 * g[1] / s, h - a[2]^2 * g[2] / s];
         v = cross(r, w);
     }
-    emit { jacobian }
+    emit { jacobian, sparse_jacobian }
 )]
 #[derive(Clone, Copy, Debug)]
 pub struct Rattleback {
@@ -71,7 +71,7 @@ contest! {
             + m * gravity * dot(r, [u[0], u[1], 1]) / sqrt(1 + dot(u, u))
     }
     constraints { v = cross([-R[0] * u[0], -R[1] * u[1], (R[0] * u[0]^2 + R[1] * u[1]^2) / 2 - h], w); }
-    emit { jacobian }
+    emit { jacobian, sparse_jacobian }
 )]
 #[derive(Clone, Copy, Debug)]
 pub struct Stone {

@@ -31,7 +31,7 @@ use crate::contest::contest;
     independent { v, fd, bd }
     inputs { drive, front, rear }
     forces { v: drive; fd: front; bd: rear; }
-    emit { jacobian }
+    emit { jacobian, sparse_jacobian }
 )]
 #[derive(Clone, Copy, Debug)]
 pub struct RearSteered {

@@ -6,7 +6,7 @@ nh_models::robot! {
     /// The two-wheeled robot.
     #[derive(Clone, Copy, Debug)]
     pub struct Robot { m0: f64, m1: f64, l: f64, J: f64, J2: f64, c: f64, R: f64 }
-    emit { jacobian }
+    emit { jacobian, sparse_jacobian }
 }
 
 contest! {

@@ -19,7 +19,7 @@ use crate::contest::contest;
     independent { v, omega }
     inputs { torque }
     forces { swing: torque; }
-    emit { jacobian }
+    emit { jacobian, sparse_jacobian }
 )]
 #[derive(Clone, Copy, Debug)]
 pub struct RollerRacer {

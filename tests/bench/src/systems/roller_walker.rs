@@ -18,7 +18,7 @@ use crate::contest::contest;
     }
     inputs { torque[2] }
     forces { th: -torque[0] - torque[1]; for i in 0..2 { a[i]: torque[i]; } }
-    emit { jacobian }
+    emit { jacobian, sparse_jacobian }
 )]
 #[derive(Clone, Copy, Debug)]
 pub struct RollerWalker {

@@ -18,7 +18,7 @@ use crate::contest::contest;
     lagrangian { sum(i in 0..3: I[i] * w[i]^2 + J[i] * (w[i] + s[i])^2) / 2 }
     inputs { torque[3] }
     forces { for i in 0..3 { s[i]: torque[i]; } }
-    emit { jacobian }
+    emit { jacobian, sparse_jacobian }
 )]
 #[derive(Clone, Copy, Debug)]
 pub struct Satellite {

@@ -6,7 +6,7 @@ nh_models::sleigh! {
     /// The Chaplygin sleigh.
     #[derive(Clone, Copy, Debug)]
     pub struct Sleigh { m: f64, J: f64, a: f64, b: f64, c: f64 }
-    emit { jacobian }
+    emit { jacobian, sparse_jacobian }
 }
 
 contest! {

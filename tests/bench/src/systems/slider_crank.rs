@@ -14,7 +14,7 @@ use crate::contest::{ClosedByHand, contest};
     }
     inputs { torque, push }
     forces { a: torque; s: push; }
-    emit { jacobian }
+    emit { jacobian, sparse_jacobian }
 )]
 #[derive(Clone, Copy, Debug)]
 pub struct SliderCrank {

@@ -7,7 +7,7 @@ nh_models::snakeboard! {
     #[derive(Clone, Copy, Debug)]
     pub struct Snakeboard { m: f64, l: f64, J0: f64, J1: f64 }
     independent { u1, dpsi, dphi }
-    emit { jacobian }
+    emit { jacobian, sparse_jacobian }
 }
 
 contest! {

@@ -16,7 +16,7 @@ macro_rules! tractor {
             /// A tractor with trailers.
             #[derive(Clone, Copy, Debug)]
             pub struct $Tractor { m: [f64; $bodies], J: [f64; $bodies], d: [f64; $trailers], a: f64 }
-            emit { jacobian }
+            emit { jacobian, sparse_jacobian }
         }
 
         contest! {

@@ -6,7 +6,7 @@ nh_models::veselova! {
     /// Veselova's system.
     #[derive(Clone, Copy, Debug)]
     pub struct Veselova { I: [f64; 3], c: [f64; 3] }
-    emit { jacobian }
+    emit { jacobian, sparse_jacobian }
 }
 
 contest! {
