@@ -9,7 +9,8 @@ use crate::algebra::{Accuracy, Graph};
 use crate::id::ExprId;
 use crate::mechanics::Procedure;
 use crate::program::{
-    Cost, Program, error_growth, error_growth_apart, error_growth_in_runs, order, schedule_roughly,
+    Cost, Program, error_growth, error_growth_apart, error_growth_apart_in_runs, error_growth_in_runs, order,
+    schedule_roughly,
 };
 
 /// What a procedure is compared by.
@@ -50,7 +51,8 @@ pub(crate) fn rate(graph: &Graph, procedures: &[Procedure]) -> Vec<Rating> {
     let allowed = graph.accuracy().growth().max(least);
     let mut growth = growth;
     if graph.accuracy() == Accuracy::Balanced {
-        acquit(&programs, allowed, &mut growth);
+        let programs: Vec<&Program> = programs.iter().collect();
+        acquit(&programs, allowed, &mut growth, error_growth_in_runs);
     }
     let mut sound: Vec<bool> = growth.iter().map(|growth| *growth <= allowed).collect();
     keep_digits_apart(graph, &programs, &mut sound);
@@ -64,13 +66,18 @@ pub(crate) fn rate(graph: &Graph, procedures: &[Procedure]) -> Vec<Rating> {
 }
 
 /// What bounds find fault with is run beside the best, and judged by the errors that are seen then.
-fn acquit(programs: &[Program], allowed: f64, growth: &mut [f64]) {
+fn acquit(
+    programs: &[&Program],
+    allowed: f64,
+    growth: &mut [f64],
+    seen: impl Fn(&[&Program], &Program) -> Vec<f64>,
+) {
     let best = (0..programs.len()).min_by(|a, b| growth[*a].total_cmp(&growth[*b]));
     let is_large = |index: &usize| growth[*index] > allowed && growth[*index].is_finite();
     let accused: Vec<usize> = (0..programs.len()).filter(is_large).collect();
     let Some(best) = best.filter(|_| !accused.is_empty()) else { return };
-    let candidates: Vec<&Program> = accused.iter().map(|index| &programs[*index]).collect();
-    for (index, seen) in accused.into_iter().zip(error_growth_in_runs(&candidates, &programs[best])) {
+    let candidates: Vec<&Program> = accused.iter().map(|index| programs[*index]).collect();
+    for (index, seen) in accused.into_iter().zip(seen(&candidates, programs[best])) {
         growth[index] = growth[index].min(seen);
     }
 }
@@ -89,8 +96,11 @@ fn keep_digits_apart(graph: &Graph, programs: &[Program], sound: &mut [bool]) {
         return;
     }
     let candidates: Vec<&Program> = places.iter().map(|index| &programs[*index]).collect();
-    let growth = error_growth_apart(&candidates);
+    let mut growth = error_growth_apart(&candidates);
     let least = growth.iter().copied().fold(f64::INFINITY, f64::min);
+    if graph.accuracy() == Accuracy::Balanced {
+        acquit(&candidates, allowed.max(least), &mut growth, error_growth_apart_in_runs);
+    }
     for (index, growth) in places.into_iter().zip(growth) {
         sound[index] = growth <= allowed.max(least);
     }

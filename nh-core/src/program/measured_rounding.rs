@@ -1,10 +1,9 @@
-//! How much rounding error programs of the same value are seen to make, in single precision.
+//! How much rounding error programs of the same value are seen to make.
 
 use super::interpret::{Arithmetic, interpret_in};
-use super::rounding::sample;
+use super::rounding::{POINTS_APART, sample, sample_apart, turning, worst};
 use super::step::Program;
-use crate::algebra::{Function, Function2, Rational};
-use std::borrow::Borrow;
+use crate::algebra::{Bounded, Function, Function2, Rational};
 
 /// Points at which programs are run.
 const POINTS: u32 = 64;
@@ -17,7 +16,7 @@ const FEW: f64 = 8.0;
 /// A bound on an error grows with the length of a chain of operations also where the error does not, since it knows of
 /// no signs; what is long may have small errors all the same.
 #[must_use]
-pub fn error_growth_in_runs<P: Borrow<Program>>(programs: &[P], best: &Program) -> Vec<f64> {
+pub fn error_growth_in_runs(programs: &[&Program], best: &Program) -> Vec<f64> {
     let mut logarithms = vec![vec![0.0; best.outputs.len()]; programs.len()];
     for point in 0..POINTS {
         // parameters and states that single precision has
@@ -29,7 +28,7 @@ pub fn error_growth_in_runs<P: Borrow<Program>>(programs: &[P], best: &Program) 
         };
         let least = errors(best);
         for (sums, program) in logarithms.iter_mut().zip(programs) {
-            let errors = errors(program.borrow());
+            let errors = errors(program);
             for (((sum, error), least), exact) in sums.iter_mut().zip(errors).zip(&least).zip(&exact) {
                 let floor = FEW * f64::from(f32::EPSILON) * exact.abs();
                 if floor.is_normal() && least.is_finite() {
@@ -41,6 +40,32 @@ pub fn error_growth_in_runs<P: Borrow<Program>>(programs: &[P], best: &Program) 
     }
     let mean = |sum: f64| (sum / f64::from(POINTS)).exp();
     logarithms.into_iter().map(|sums| sums.into_iter().map(mean).fold(1.0, f64::max)).collect()
+}
+
+/// The same where symbols lie up to eight decades apart, where single precision has no numbers: in double precision, beside
+/// the results of `best` with the bounds on their errors, as [`super::error_growth_apart`] judges them.
+#[must_use]
+pub fn error_growth_apart_in_runs(programs: &[&Program], best: &Program) -> Vec<f64> {
+    let all: Vec<&Program> = programs.iter().copied().chain([best]).collect();
+    let turning = turning(&all);
+    let mut logarithms = vec![vec![Vec::new(); best.outputs.len()]; programs.len()];
+    for point in 0..POINTS_APART {
+        let at = |symbol| {
+            if turning.contains(&symbol) { sample(point, symbol) } else { sample_apart(point, symbol) }
+        };
+        let known: Vec<Bounded> = interpret_in(best, |symbol| Bounded { value: at(symbol), error: 0.0 });
+        for (logarithms, program) in logarithms.iter_mut().zip(programs) {
+            let values: Vec<f64> = interpret_in(program, at);
+            for ((logarithms, value), known) in logarithms.iter_mut().zip(values).zip(&known) {
+                let floor = known.error.max(FEW * f64::EPSILON * known.value.abs());
+                if floor.is_normal() {
+                    let growth = (value - known.value).abs() / floor;
+                    logarithms.push(if growth.is_nan() { f64::INFINITY } else { growth.max(1.0).ln() });
+                }
+            }
+        }
+    }
+    logarithms.into_iter().map(|outputs| outputs.into_iter().map(worst).fold(1.0, f64::max)).collect()
 }
 
 /// A number of single precision.

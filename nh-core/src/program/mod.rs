@@ -56,7 +56,7 @@ pub use accumulate::{Systems, Wanted, accumulated};
 pub use correct::corrected;
 pub use cost::{Cost, order};
 pub use interpret::{Arithmetic, interpret, interpret_in};
-pub use measured_rounding::error_growth_in_runs;
+pub use measured_rounding::{error_growth_apart_in_runs, error_growth_in_runs};
 pub use rounding::{error_growth, error_growth_apart, reading_in_vain, units_lost};
 pub use rule::{Factor, Inner, Rule};
 pub use schedule::{Scheduled, schedule, schedule_grouping, schedule_roughly, schedules};

@@ -45,7 +45,7 @@ pub fn error_growth<P: Borrow<Program>>(programs: &[P]) -> Vec<f64> {
 }
 
 /// Points at which parameters lie far apart.
-const POINTS_APART: u32 = 32;
+pub(super) const POINTS_APART: u32 = 32;
 /// As many of them count as a program is at its worst at.
 const WORST: usize = 3;
 
@@ -81,17 +81,18 @@ pub fn error_growth_apart<P: Borrow<Program>>(programs: &[P]) -> Vec<f64> {
             }
         }
     }
-    let worst = |mut logarithms: Vec<f64>| {
-        logarithms.sort_unstable_by(|a, b| b.total_cmp(a));
-        logarithms.truncate(WORST);
-        (logarithms.iter().sum::<f64>() / f64::from(u32::try_from(logarithms.len().max(1)).unwrap_or(1)))
-            .exp()
-    };
     logarithms.into_iter().map(|outputs| outputs.into_iter().map(worst).fold(1.0, f64::max)).collect()
 }
 
+/// The geometric mean where a program is at its worst.
+pub(super) fn worst(mut logarithms: Vec<f64>) -> f64 {
+    logarithms.sort_unstable_by(|a, b| b.total_cmp(a));
+    logarithms.truncate(WORST);
+    (logarithms.iter().sum::<f64>() / f64::from(u32::try_from(logarithms.len().max(1)).unwrap_or(1))).exp()
+}
+
 /// The symbols that arguments of functions depend on.
-fn turning<P: Borrow<Program>>(programs: &[P]) -> BTreeSet<SymbolId> {
+pub(super) fn turning<P: Borrow<Program>>(programs: &[P]) -> BTreeSet<SymbolId> {
     let mut found = BTreeSet::new();
     for program in programs {
         let marked = under_functions(program.borrow());
@@ -186,7 +187,7 @@ pub(super) fn sample(point: u32, symbol: SymbolId) -> f64 {
 
 /// A number between 10⁻⁴ and 10⁴ that the point and the symbol determine.
 #[allow(clippy::cast_precision_loss, reason = "a sample needs no more digits")]
-fn sample_apart(point: u32, symbol: SymbolId) -> f64 {
+pub(super) fn sample_apart(point: u32, symbol: SymbolId) -> f64 {
     let word = Residue::mixed(29_000 + u64::from(point), symbol.index() as u64).word();
     let unit = (word & 0xF_FFFF) as f64 / f64::from(1 << 20);
     10f64.powf(8.0 * unit - 4.0)

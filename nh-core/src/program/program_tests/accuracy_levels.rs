@@ -92,7 +92,7 @@ fn what_a_bound_finds_fault_with_is_seen_in_runs() {
     loaded.outputs = sums.iter().map(|sum| g.formula(*sum - large)).collect();
     let programs = [turned, loaded, Procedure::of(at_once)].map(|procedure| schedule(&g, &procedure));
     let bounds = error_growth(&programs);
-    let runs = error_growth_in_runs(&programs, &programs[2]);
+    let runs = error_growth_in_runs(&programs.each_ref(), &programs[2]);
     assert!(bounds[0] > 16.0 && bounds[1] > 16.0, "{bounds:?}");
     assert!(runs[0] < 2.0 && runs[1] > 16.0 && runs[2] < 1.1, "{runs:?}");
 }
