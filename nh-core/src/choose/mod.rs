@@ -23,4 +23,4 @@ pub use lowered::{Unproved, prove_program, prove_split};
 pub use lowering::{DEFECT, Lowered, Lowering, REFUTED, lowered};
 pub(crate) use proof::{Claim, Defect, prove, prove_equal};
 pub(crate) use reference::{Given, Reference};
-pub(crate) use selection::{Entry, admitted, cheapest, fate, ranking, rate};
+pub(crate) use selection::{Entry, admitted, cheapest, fate, ranking, rate, rate_derivatives};

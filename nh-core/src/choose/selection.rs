@@ -38,8 +38,17 @@ impl Rating {
     }
 }
 
-/// The ratings of procedures of the same value.
+/// The ratings of procedures of the same value: by bounds on their rounding errors.
 pub(crate) fn rate(graph: &Graph, procedures: &[Procedure]) -> Vec<Rating> {
+    rate_by(graph, procedures, false)
+}
+
+/// The ratings of derivatives of a function, which are long: what bounds find fault with is run, under `balanced`.
+pub(crate) fn rate_derivatives(graph: &Graph, procedures: &[Procedure]) -> Vec<Rating> {
+    rate_by(graph, procedures, graph.accuracy() == Accuracy::Balanced)
+}
+
+fn rate_by(graph: &Graph, procedures: &[Procedure], is_run: bool) -> Vec<Rating> {
     let programs: Vec<Program> =
         procedures.iter().map(|procedure| schedule_roughly(graph, procedure)).collect();
     let growth = error_growth(&programs).into_iter();
@@ -50,12 +59,12 @@ pub(crate) fn rate(graph: &Graph, procedures: &[Procedure]) -> Vec<Rating> {
     let least = growth.iter().copied().fold(f64::INFINITY, f64::min);
     let allowed = graph.accuracy().growth().max(least);
     let mut growth = growth;
-    if graph.accuracy() == Accuracy::Balanced {
+    if is_run {
         let programs: Vec<&Program> = programs.iter().collect();
         acquit(&programs, allowed, &mut growth, error_growth_in_runs);
     }
     let mut sound: Vec<bool> = growth.iter().map(|growth| *growth <= allowed).collect();
-    keep_digits_apart(graph, &programs, &mut sound);
+    keep_digits_apart(graph, &programs, is_run, &mut sound);
     let rated = programs.iter().zip(growth).zip(sound).map(|((program, growth), sound)| Rating {
         sound,
         order: order(program),
@@ -84,7 +93,7 @@ fn acquit(
 
 /// Leaves those of the sound programs that keep their digits also where parameters lie decades apart, as far as any
 /// does. Constants are as large as they are.
-fn keep_digits_apart(graph: &Graph, programs: &[Program], sound: &mut [bool]) {
+fn keep_digits_apart(graph: &Graph, programs: &[Program], is_run: bool, sound: &mut [bool]) {
     // what is faster may lose more there, as long as it keeps digits
     let allowed = match graph.accuracy() {
         Accuracy::Fast => return,
@@ -98,7 +107,7 @@ fn keep_digits_apart(graph: &Graph, programs: &[Program], sound: &mut [bool]) {
     let candidates: Vec<&Program> = places.iter().map(|index| &programs[*index]).collect();
     let mut growth = error_growth_apart(&candidates);
     let least = growth.iter().copied().fold(f64::INFINITY, f64::min);
-    if graph.accuracy() == Accuracy::Balanced {
+    if is_run {
         acquit(&candidates, allowed.max(least), &mut growth, error_growth_apart_in_runs);
     }
     for (index, growth) in places.into_iter().zip(growth) {

@@ -3,7 +3,7 @@
 use super::common_turn::BeforeCounting;
 use super::proved::Proved;
 use crate::algebra::Graph;
-use crate::choose::{Contender, Decision, Fate, ranking, rate, sizes};
+use crate::choose::{Contender, Decision, Fate, ranking, rate_derivatives, sizes};
 use crate::id::{ExprId, Origin, SymbolId};
 use crate::mechanics::{Definition, NotDifferentiable, Procedure, jacobian};
 use crate::model::{Model, Request};
@@ -254,7 +254,7 @@ pub(super) fn favourite(
         return (found, decision);
     }
     let (names, mut procedures): (Vec<&'static str>, Vec<Procedure>) = ways.into_iter().unzip();
-    let ratings = rate(graph, &procedures);
+    let ratings = rate_derivatives(graph, &procedures);
     let ranking = ranking(&ratings);
     for (place, index) in ranking.iter().enumerate() {
         let fate = if place == 0 { UNPROVED } else { ratings[*index].loss() };
