@@ -37,6 +37,8 @@ pub(crate) struct Findings {
     pub(crate) closure: Option<Closure>,
     /// Factors of the determinant of the mass matrix, or of the saddle matrix, that vanish in some states, or for some parameters.
     pub(crate) singular_mass: Vec<ExprId>,
+    /// The factors of its short determinants that are made of parameters alone.
+    pub(crate) parameter_factors: Vec<ExprId>,
     /// What reduction theory calls the equations.
     pub(crate) reduced: ReducedForm,
     /// The declared symmetries.
@@ -72,7 +74,7 @@ impl Findings {
         let claims = first_integrals(proved, &domain);
         let chart_divisors = with_zeros(&mut proved.model, &proved.motion.divisors);
         let closure = Closure::of(proved, derived);
-        let singular_mass = singular_mass(proved, derived);
+        let (singular_mass, parameter_factors) = singular_mass(proved, derived);
         let reduced = ReducedForm::of(proved, derived);
         let symmetries = momenta_found::symmetries(proved, derived);
         let (levels, routhian) = momenta_found::levels(proved, derived);
@@ -88,6 +90,7 @@ impl Findings {
             chart_divisors,
             closure,
             singular_mass,
+            parameter_factors,
             reduced,
             symmetries,
             levels,
@@ -113,19 +116,20 @@ fn first_integrals(proved: &mut Proved, of_equations: &[Condition]) -> Vec<First
     found.collect()
 }
 
-fn singular_mass(proved: &mut Proved, derived: &Derived<'_>) -> Vec<ExprId> {
+/// Where the mass matrix, or that of the saddle equations, is singular, and the factors of parameters alone.
+fn singular_mass(proved: &mut Proved, derived: &Derived<'_>) -> (Vec<ExprId>, Vec<ExprId>) {
     let parameters = parameters(proved);
     let Proved { model, facts, .. } = &mut *proved;
-    let found = match derived {
+    let (found, of_parameters) = match derived {
         Derived::Adapted { equations, .. } => {
             singular_where(&mut model.graph, &equations.mass, &parameters, facts)
         }
         Derived::Projected { equations, .. } => {
-            saddle_singular_where(&mut model.graph, equations, &parameters, facts)
+            (saddle_singular_where(&mut model.graph, equations, &parameters, facts), Vec::new())
         }
     };
     if found.is_empty() {
-        return found;
+        return (found, of_parameters);
     }
     let mut holding = on_the_base(&mut proved.model);
     holding.extend(proved.model.positions.iter().map(|position| (position.value, Demand::Zero)));
@@ -140,7 +144,7 @@ fn singular_mass(proved: &mut Proved, derived: &Derived<'_>) -> Vec<ExprId> {
         demands.push((*factor, Demand::Zero));
         graph.contradiction(&demands).is_none()
     };
-    found.into_iter().filter(may_vanish).collect()
+    (found.into_iter().filter(may_vanish).collect(), of_parameters)
 }
 
 /// ξ for which E_L − ξ^α p_α is conserved, where one is found (mathematics section 4).
