@@ -17,7 +17,7 @@ const SHORT: u64 = 300;
 pub fn reduced_regularity(
     model: &mut Model,
     equations: &ReducedEquations,
-    base: &Manifold,
+    base: &mut Manifold,
 ) -> Option<Violation> {
     let names: Vec<String> =
         equations.independent.iter().map(|symbol| model.graph.symbols()[*symbol].clone()).collect();
@@ -29,7 +29,7 @@ pub fn reduced_regularity(
 pub fn saddle_regularity(
     model: &mut Model,
     equations: &SaddleEquations,
-    manifold: &Manifold,
+    manifold: &mut Manifold,
 ) -> Option<Violation> {
     let matrix = equations.matrix(&mut model.graph);
     let names: Vec<String> = model.sections.iter().map(|section| section.name.clone()).collect();
@@ -53,10 +53,10 @@ fn direction(vector: &[Residue], names: &[String]) -> String {
     }
 }
 
-/// Whether a matrix is singular on a manifold, or on a part of it.
+/// Whether a matrix is singular on a manifold, or on a part of it. Parts that are too many to be asked become open.
 fn judge(
     model: &mut Model,
-    manifold: &Manifold,
+    manifold: &mut Manifold,
     matrix: &Matrix,
     what: &str,
     evidence: impl Fn(&[Residue]) -> String,

@@ -6,7 +6,7 @@ use crate::algebra::Graph;
 use crate::check::evidence::{counted, listed, places};
 use crate::check::{BrokenLaws, Positions, not_asked, points_shown, undecided};
 use crate::compile::{Derived, Proved};
-use crate::findings::{Closure, Findings, FirstIntegral};
+use crate::findings::{Closure, Findings, FirstIntegral, SingularPlace};
 use crate::geometry::independent_velocities::Choice;
 use crate::geometry::{Drops, Rank};
 use crate::id::{CoordId, SymbolId};
@@ -40,7 +40,7 @@ pub(super) fn lines(
     lines.push(format!("formulation: {name}, {coordinates} and {velocities}{auxiliary}; {reason}"));
     lines.extend(findings.suggested.as_ref().map(|suggested| suggestion(model, suggested)));
     let parameters: Vec<SymbolId> = model.parameters.iter().map(|parameter| parameter.symbol).collect();
-    for factor in &findings.singular_mass {
+    for SingularPlace { factor, exists } in &findings.singular_mass {
         let of_parameters = model.graph.depends_on(*factor, &parameters);
         let what = match derived {
             Derived::Adapted { .. } => "the mass matrix is",
@@ -49,7 +49,11 @@ pub(super) fn lines(
         let whom = if of_parameters { format!("for some parameters {what}") } else { what.to_owned() };
         let text = shown(&model.graph, *factor);
         let place = if text.contains('…') { "its determinant" } else { text.as_str() };
-        lines.push(format!("{whom} singular where {place} = 0"));
+        lines.push(if *exists {
+            format!("{whom} singular where {place} = 0")
+        } else {
+            format!("{what} singular if {place} = 0 in some state; whether it is in any was not decided")
+        });
     }
     if undecided(model, facts) {
         let doubt = "whether the assumptions can hold together was not decided: no parameters were found that satisfy \

@@ -422,3 +422,15 @@ fn identities_have_a_derivative_where_they_hold() {
         assert!(found.is_empty(), "{identity}: {found:?}");
     }
 }
+
+/// Where constraints hold on more parts than are looked at, the report says that some were not.
+#[test]
+fn parts_beyond_those_that_are_looked_at_are_told() {
+    let text = "#[nonholonomic(
+            base { x[7], y[7] }
+            lagrangian { sum(i in 0..7: (der(x[i])^2 + der(y[i])^2*(2 + sqrt(1 + y[i]^2)))/2) }
+            holonomic { for i in 0..7 { x[i]^2 = 1 + y[i]^2; } }
+        )] struct Hyperbolas {}";
+    let report = declarations(text).pop().expect("one declaration").system().expect("a system").report;
+    assert!(report.contains("parts more, where nothing was asked"), "{report}");
+}
