@@ -33,6 +33,7 @@ mod smoothness;
 mod steps;
 mod structure_equations;
 mod symmetries;
+mod values_where_unsolved;
 mod whole_base;
 
 pub use assumptions::{facts, follows, on_the_base, undecided};
