@@ -8,7 +8,7 @@ mod reduced_form;
 mod singular_places;
 mod velocities_to_name;
 
-use crate::algebra::{Function2, Node};
+use crate::algebra::{Function2, Graph, Node};
 use crate::check::{Condition, domain, domain_of, not_conservative, with_zeros};
 use crate::compile::{Derived, Proved};
 use crate::geometry::suggested_velocities::Suggested;
@@ -48,6 +48,8 @@ pub(crate) struct Findings {
     pub(crate) routhian: Option<ExprId>,
     /// Whether the energy is conserved.
     pub(crate) keeps_energy: bool,
+    /// Whether the Lagrangian contains the angle of a point, by which energies jump.
+    pub(crate) has_turns: bool,
     /// ξ of a moving energy E_L − ξ^α p_α, where the energy itself is not conserved.
     pub(crate) moving_energy: Option<Vec<ExprId>>,
     /// The symmetries whose momenta are conserved, with these.
@@ -78,6 +80,7 @@ impl Findings {
         let symmetries = momenta_found::symmetries(proved, derived);
         let (levels, routhian) = momenta_found::levels(proved, derived);
         let Proved { model, system, constraints, .. } = &mut *proved;
+        let has_turns = has_turns(&model.graph, system.lagrangian);
         let keeps_energy = not_conservative(model, system, constraints).is_none();
         let moving_energy = if keeps_energy { None } else { moving_energy(proved) };
         let conserved_momenta = momenta_found::conserved(proved, derived);
@@ -95,6 +98,7 @@ impl Findings {
             levels,
             routhian,
             keeps_energy,
+            has_turns,
             moving_energy,
             conserved_momenta,
             suggested,
@@ -107,12 +111,15 @@ fn first_integrals(proved: &mut Proved, of_equations: &[Condition]) -> Vec<First
     let values: Vec<ExprId> = model.claims.iter().map(|claim| claim.value).collect();
     let found = values.into_iter().map(|value| {
         let domain = domain_of(model, facts, (&[value], 0), of_equations);
-        let graph = &model.graph;
-        let mut parts = graph.reachable(&[value]).into_iter();
-        let has_turns = parts.any(|part| matches!(graph.node(part), Node::Apply2(Function2::Atan2, ..)));
-        FirstIntegral { domain, has_turns }
+        FirstIntegral { domain, has_turns: has_turns(&model.graph, value) }
     });
     found.collect()
+}
+
+/// Whether an expression contains the angle of a point, which jumps by a turn.
+fn has_turns(graph: &Graph, value: ExprId) -> bool {
+    let mut parts = graph.reachable(&[value]).into_iter();
+    parts.any(|part| matches!(graph.node(part), Node::Apply2(Function2::Atan2, ..)))
 }
 
 /// ξ for which E_L − ξ^α p_α is conserved, where one is found (mathematics section 4).

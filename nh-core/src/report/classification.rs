@@ -281,6 +281,9 @@ pub(super) fn title_of_conserved(model: &Model) -> &'static str {
     if model.impacts.is_empty() { "Conserved quantities" } else { "Conserved between impacts" }
 }
 
+/// What is constant along motions that go round a point, whose angle jumps.
+const TURNS: &str = ", up to whole turns of its angle";
+
 /// That a claim is proved, and where.
 fn proved_of(graph: &Graph, claim: &FirstIntegral) -> String {
     let places: Vec<String> = claim.domain.iter().map(|condition| condition.stated(graph)).collect();
@@ -289,7 +292,7 @@ fn proved_of(graph: &Graph, claim: &FirstIntegral) -> String {
         text.extend([" for motions along which it has a value: ", &listed(&places)]);
     }
     if claim.has_turns {
-        text += ", up to whole turns of its angle";
+        text += TURNS;
     }
     text
 }
@@ -304,13 +307,15 @@ pub(super) fn conserved(proved: &Proved, findings: &Findings) -> Vec<String> {
     if findings.keeps_energy {
         let reason =
             "CLMM Theorems 3.4 and 7.6: L does not depend on time, no power of constraints and forces";
-        lines.push(format!("the energy ({reason})"));
+        let turns = if findings.has_turns { TURNS } else { "" };
+        lines.push(format!("the energy{turns} ({reason})"));
     }
     lines.extend(findings.moving_energy.as_ref().map(|section| {
         let section = combination(&model.graph, section, &section_names(model));
+        let turns = if findings.has_turns { TURNS } else { "" };
         let [energy, along, momentum] = ["E", "xi", "p"].map(|name| model.graph.free_name(name));
         format!(
-            "the moving energy {energy} - {along}.{momentum} with {along} = {section} (Fassò, Sansonetto)"
+            "the moving energy {energy} - {along}.{momentum} with {along} = {section}{turns} (Fassò, Sansonetto)"
         )
     }));
     lines

@@ -434,3 +434,24 @@ fn parts_beyond_those_that_are_looked_at_are_told() {
     let report = declarations(text).pop().expect("one declaration").system().expect("a system").report;
     assert!(report.contains("parts more, where nothing was asked"), "{report}");
 }
+
+/// A position constraint that touches the embedded base has no rate where it holds, as a square has none.
+#[test]
+fn levels_that_touch_the_base_are_refused() {
+    let refusals = |position: &str| {
+        let text = format!(
+            "#[nonholonomic(base {{ g[3] }} basis {{ w[3] }} on {{ dot(g, g) = 1; }}
+                anchor {{ for i in 0..3 {{ der(g[i]) = cross(g, w)[i]; }} }} brackets so(3) {{ w }}
+                lagrangian {{ dot(w, w)/2 + w[0]^2 }} holonomic {{ {position} }}
+            )] struct Top {{}}"
+        );
+        errors(&declarations(&text).pop().expect("one declaration").expanded())
+    };
+    for position in ["g[2] = 1;", "g[0] + 1 = 0;", "g[0]*g[1] = 1/2;"] {
+        let refused = refusals(position);
+        assert!(refused.len() == 1 && refused[0].contains("exerts no force"), "{position}: {refused:?}");
+    }
+    for position in ["g[2] = 1/2;", "3*g[0] + 4*g[1] = 4;", "g[0]*g[1] = 1/3;"] {
+        assert_eq!(refusals(position), [""; 0], "{position}");
+    }
+}
