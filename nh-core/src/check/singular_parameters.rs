@@ -37,7 +37,9 @@ pub fn singular_parameters(
     let edges = edges(model);
     let graph = &mut model.graph;
     for row in matrix {
-        common_factors(graph, row).into_iter().for_each(|factor| asked.add(graph, factor));
+        for factor in common_factors(graph, row) {
+            asked.add(graph, factor);
+        }
     }
     let parts: Vec<Matrix> = manifold.parts().map(|part| part.restrict_matrix(graph, matrix)).collect();
     // 1. one parameter

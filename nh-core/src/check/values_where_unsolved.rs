@@ -37,7 +37,9 @@ fn ways(graph: &mut Graph, functions: &[ExprId], value: ExprId) -> Vec<Substitut
             _ => None,
         };
         let Some((symbol, kind)) = angle else {
-            ways.iter_mut().for_each(|way| way.insert_node(node, given));
+            for way in &mut ways {
+                way.insert_node(node, given);
+            }
             continue;
         };
         // the other one of sine and cosine, with both signs
