@@ -1,6 +1,7 @@
 //! Claimed first integrals: their derivative along the motion vanishes on the constraint manifold.
 
 use super::evidence::{not_zero, seen, shown};
+use super::values_where_unsolved::vanishes_where_unsolved;
 use crate::algebra::{Facts, Graph, Verdict, Witness};
 use crate::geometry::Manifold;
 use crate::id::ExprId;
@@ -24,6 +25,12 @@ pub fn claims(
         let (manifold, verdict) = manifold.judged(graph, rate);
         let restricted = manifold.restrict(graph, rate);
         let mut verdict = graph.verdict_under(restricted, facts, verdict);
+        if !unsolved.is_empty()
+            && !verdict.is_zero()
+            && vanishes_where_unsolved(graph, rate, (&manifold, unsolved))
+        {
+            continue;
+        }
         if let (Verdict::NonZero(_), Some(function)) = (&verdict, unsolved.first()) {
             let function = shown(graph, *function);
             verdict = Verdict::Unknown(format!(

@@ -111,6 +111,11 @@ impl Constraints {
     pub fn generic(&self) -> &Manifold {
         self.known.as_ref().unwrap_or(&self.base)
     }
+
+    /// The same, where it is found that parts of it cannot be asked.
+    pub(crate) fn generic_mut(&mut self) -> &mut Manifold {
+        self.known.as_mut().unwrap_or(&mut self.base)
+    }
 }
 
 /// One constraint, taken apart as far as it can be.
@@ -131,6 +136,7 @@ pub fn constraints(
     positions: &Positions,
 ) -> Result<Constraints, Vec<Violation>> {
     let base = &positions.manifold;
+    let mut asked = base.clone();
     let mut residuals = Vec::new();
     let mut shapes = Vec::new();
     let mut violations = Vec::new();
@@ -148,7 +154,7 @@ pub fn constraints(
     let linear = all_affine(shapes);
     // linear ones before they are solved, so that a contradiction is shown as a combination
     if let Some(linear) = &linear {
-        let dependent = dependent_rows(model, &linear.annihilator, Some(&linear.drift), base);
+        let dependent = dependent_rows(model, &linear.annihilator, Some(&linear.drift), &mut asked);
         violations.extend(dependent.or_else(|| {
             positions.part.as_ref()?;
             dependent_on_part(model, &positions.where_unsolved(), &linear.annihilator)
@@ -170,7 +176,7 @@ pub fn constraints(
         let mut demands = where_they_hold(model);
         demands.extend(residuals.iter().map(|residual| (*residual, Demand::Zero)));
         manifold.keep_parts_with_points(&mut model.graph, &demands);
-        violations.extend(dependent_rows(model, &jacobian, None, &manifold));
+        violations.extend(dependent_rows(model, &jacobian, None, &mut manifold));
         known = Some(manifold);
     }
     if violations.is_empty()
@@ -179,8 +185,11 @@ pub fn constraints(
     {
         violations.push(too_many(model));
     }
-    let base = base.clone();
-    if violations.is_empty() { Ok(Constraints { residuals, linear, base, known }) } else { Err(violations) }
+    if violations.is_empty() {
+        Ok(Constraints { residuals, linear, base: asked, known })
+    } else {
+        Err(violations)
+    }
 }
 
 fn all_affine(shapes: Vec<Shape>) -> Option<LinearConstraints> {

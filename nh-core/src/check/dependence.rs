@@ -8,14 +8,15 @@ use crate::model::Model;
 use crate::violation::{Law, Violation};
 
 /// The first constraint whose row (of Φ, or of ∂φ/∂y) is a combination of those before it on the
-/// manifold, or on a part of it; with `drift` a contradiction is told from a redundancy.
+/// manifold, or on a part of it; with `drift` a contradiction is told from a redundancy. Parts that are too many to be
+/// asked become open.
 pub(super) fn dependent_rows(
     model: &mut Model,
     rows: &Matrix,
     drift: Option<&[ExprId]>,
-    manifold: &Manifold,
+    asked: &mut Manifold,
 ) -> Option<Violation> {
-    let manifold = &with_all_roots(model, manifold, rows);
+    let manifold = &with_all_roots(model, asked, rows);
     let parts: Vec<&Manifold> = manifold.parts().collect();
     let mut found = Vec::with_capacity(parts.len());
     for part in &parts {
@@ -45,13 +46,17 @@ pub(super) fn dependent_rows(
     })
 }
 
-/// A manifold with the parts where roots have the other sign, as far as a matrix may be another one there.
-pub(super) fn with_all_roots(model: &mut Model, manifold: &Manifold, matrix: &Matrix) -> Manifold {
+/// A manifold with the parts where roots have the other sign, as far as a matrix may be another one there. Those that are
+/// too many to be asked become open parts of the manifold.
+pub(crate) fn with_all_roots(model: &mut Model, manifold: &mut Manifold, matrix: &Matrix) -> Manifold {
     let mut all = manifold.clone();
+    let open = all.without_open_parts();
     if all.add_parts_of_roots_in(&mut model.graph, &matrix.concat()) {
+        manifold.leave_open(all.without_open_parts());
         let demands = where_they_hold(model);
         all.keep_parts_with_points(&mut model.graph, &demands);
     }
+    all.leave_open(open);
     all
 }
 

@@ -45,7 +45,8 @@ impl Condition {
 const ASKED: usize = 8;
 
 /// The conditions under which anchor, brackets, Lagrangian, constraints and forces have values, as far
-/// as these do not hold everywhere by the facts. Those of parameters alone are not among them.
+/// as these do not hold everywhere by the facts. That an expression of parameters alone is not 0 is not among them, since
+/// `validate` checks it.
 #[must_use]
 pub fn domain(model: &mut Model, facts: &Facts) -> Vec<Condition> {
     let open = not_by_ranges(model, facts);
@@ -133,8 +134,14 @@ fn add_open(model: &Model, facts: &Facts, roots: &[ExprId], derivatives: u32, fo
     let parameters: Vec<SymbolId> = model.parameters.iter().map(|parameter| parameter.symbol).collect();
     let varies = |e: ExprId| graph.symbols_in(&[e]).iter().any(|symbol| !parameters.contains(symbol));
     for id in graph.reachable(roots) {
-        for (expression, condition) in conditions(graph, id, derivatives) {
-            if varies(expression) && !holds(graph, condition, facts) && !found.contains(&condition) {
+        // nothing is differentiated by parameters
+        let undifferentiated = conditions(graph, id, 0);
+        for ((expression, condition), (_, of_value)) in
+            conditions(graph, id, derivatives).into_iter().zip(undifferentiated)
+        {
+            let condition = if varies(expression) { condition } else { of_value };
+            let is_asked = varies(expression) || !matches!(condition, Condition::Nonzero(_));
+            if is_asked && !holds(graph, condition, facts) && !found.contains(&condition) {
                 found.push(condition);
             }
         }

@@ -12,7 +12,8 @@ use crate::violation::{Law, Violation};
 pub(super) fn position_without_force(model: &mut Model, index: usize) -> Option<Violation> {
     let PositionDecl { value, origin, .. } = model.positions[index];
     let coordinates: Vec<SymbolId> = model.coordinates.iter().map(|c| c.symbol).collect();
-    let (evidence, way_out) = without_slope(&mut model.graph, value, &coordinates)?;
+    let (evidence, way_out) = without_slope(&mut model.graph, value, &coordinates)
+        .or_else(|| Some((touching_the_base(model, value)?, WITHOUT_TOUCHING)))?;
     let name = name_of(model, ConstraintId::from_index(index));
     Some(Violation {
         law: Law::Independence,
@@ -43,6 +44,30 @@ pub(super) fn constraint_without_force(
         evidence,
         way_out: way_out.into(),
     })
+}
+
+/// That a function has one sign on the embedded base, in words: where it is 0 the base touches a level of it, as the plane
+/// z = 1 does the sphere, and motions on the base have no rate of it.
+fn touching_the_base(model: &mut Model, function: ExprId) -> Option<String> {
+    let holding: Vec<(ExprId, Demand)> =
+        model.identities.iter().map(|identity| (identity.value, Demand::Zero)).collect();
+    let parameters: Vec<SymbolId> = model.parameters.iter().map(|parameter| parameter.symbol).collect();
+    let graph = &mut model.graph;
+    let related = graph.related_demands(&holding, &[function]);
+    let asked = related.iter().map(|(identity, _)| *identity).chain([function]);
+    if related.is_empty() || asked.into_iter().any(|each| has_an_end(graph, each)) {
+        return None;
+    }
+    let negative = graph.formula(-function);
+    let (_, never) = [(function, "positive"), (negative, "negative")].into_iter().find(|(side, _)| {
+        let demands = [related.as_slice(), &[(*side, Demand::Positive)]].concat();
+        graph.symbols_in(&[*side]).iter().any(|symbol| !parameters.contains(symbol))
+            && graph.contradiction(&demands).is_some()
+    })?;
+    let function = shown(graph, function);
+    Some(format!(
+        "{function} is nowhere {never} on the embedded base: where it is 0, motions on the base have no rate of it"
+    ))
 }
 
 /// Where a function has no slope although it vanishes, in words: a power has none where its base is 0, and what has one
@@ -107,6 +132,9 @@ fn base_of_power(graph: &mut Graph, function: ExprId, moving: &[SymbolId]) -> Op
 
 /// What to write in the place of a power.
 const WITHOUT_POWER: &str = "write it without the power, as `a = b` instead of `(a - b)^2 = 0`";
+/// What to do where a level touches the base.
+const WITHOUT_TOUCHING: &str = "correct it: it leaves points alone at which the base is touched, which multipliers cannot hold; \
+     or declare a base that is what is left";
 /// What to write in the place of a sum of squares.
 const ONE_BY_ONE: &str =
     "write what it says, one equation for each: `a = 0; b = 0;` instead of `a^2 + b^2 = 0`";

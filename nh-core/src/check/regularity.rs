@@ -17,7 +17,7 @@ const SHORT: u64 = 300;
 pub fn reduced_regularity(
     model: &mut Model,
     equations: &ReducedEquations,
-    base: &Manifold,
+    base: &mut Manifold,
 ) -> Option<Violation> {
     let names: Vec<String> =
         equations.independent.iter().map(|symbol| model.graph.symbols()[*symbol].clone()).collect();
@@ -29,7 +29,7 @@ pub fn reduced_regularity(
 pub fn saddle_regularity(
     model: &mut Model,
     equations: &SaddleEquations,
-    manifold: &Manifold,
+    manifold: &mut Manifold,
 ) -> Option<Violation> {
     let matrix = equations.matrix(&mut model.graph);
     let names: Vec<String> = model.sections.iter().map(|section| section.name.clone()).collect();
@@ -53,10 +53,10 @@ fn direction(vector: &[Residue], names: &[String]) -> String {
     }
 }
 
-/// Whether a matrix is singular on a manifold, or on a part of it.
+/// Whether a matrix is singular on a manifold, or on a part of it. Parts that are too many to be asked become open.
 fn judge(
     model: &mut Model,
-    manifold: &Manifold,
+    manifold: &mut Manifold,
     matrix: &Matrix,
     what: &str,
     evidence: impl Fn(&[Residue]) -> String,
@@ -117,15 +117,15 @@ fn without_inertia(
 /// Where the mass matrix of a regular system is singular all the same, as far as short
 /// determinants tell: their factors that may vanish at states of a machine all of whose parameters are
 /// positive, or as the facts say. A factor in which parameters occur has to do so for a machine whose mass
-/// matrix is positive definite in some other state.
+/// matrix is positive definite in some other state. Besides, the factors of parameters alone.
 pub fn singular_where(
     graph: &mut Graph,
     mass: &Matrix,
     parameters: &[SymbolId],
     facts: &Facts,
-) -> Vec<ExprId> {
+) -> (Vec<ExprId>, Vec<ExprId>) {
     let usual = with_positive(facts, parameters);
-    let mut found: Vec<ExprId> = Vec::new();
+    let (mut found, mut of_parameters_alone): (Vec<ExprId>, Vec<ExprId>) = (Vec::new(), Vec::new());
     for block in uncoupled(graph, mass).into_iter().filter(|block| block.len() <= SIZE) {
         let inner = Graph::submatrix(mass, &block);
         if graph.operation_count(&inner.concat()) > SHORT {
@@ -136,6 +136,9 @@ pub fn singular_where(
             let symbols = graph.symbols_in(&[base]);
             let of_parameters = |symbol: &SymbolId| parameters.contains(symbol);
             let varies = !symbols.iter().all(of_parameters);
+            if !varies && !exponent.is_negative() {
+                of_parameters_alone.push(base);
+            }
             let harmless = exponent.is_negative()
                 || graph.vanishes_nowhere(base, &usual)
                 || (symbols.iter().any(of_parameters) && !changes_sign(graph, base, &inner, parameters));
@@ -144,7 +147,7 @@ pub fn singular_where(
             }
         }
     }
-    found
+    (found, of_parameters_alone)
 }
 
 /// The same of the saddle matrix, where the mass matrix is not positive definite anyway: with such a one it is singular only

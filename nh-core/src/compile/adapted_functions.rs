@@ -52,7 +52,7 @@ pub(super) fn derive(
         return Err(nothing_proved(proved.model.origin, &proved.ledger));
     };
     let equations = first.equations.clone();
-    let singular = check::reduced_regularity(&mut proved.model, &equations, &proved.positions.manifold);
+    let singular = check::reduced_regularity(&mut proved.model, &equations, proved.constraints.generic_mut());
     fence(singular.into_iter().collect())?;
     // 2. v̇
     about(Subject::Solution);

@@ -8,6 +8,7 @@ use super::phase_space_functions;
 use super::proved::{Derived, Proved};
 use super::proved_functions::{self, Given, Parts};
 use super::velocities_of_state::{parameter_divisors, requested};
+use crate::check::singular_parameters;
 use crate::choose::Reference;
 use crate::findings::Findings;
 use crate::forms::Registry;
@@ -76,6 +77,7 @@ pub(super) fn complete(
         // the basis of S is a choice, as that of D is
         conditions.extend(parameter_divisors(&mut proved.model, vertical));
     }
+    conditions.extend(of_regularity(&mut proved, &derived, (derivation.reference, &findings), &conditions));
     parts.functions.add(&OUTPUTS, observables);
     let velocities = state_velocities(&proved, &derived);
     let (formulation, rows) = match derived {
@@ -106,4 +108,21 @@ pub(super) fn complete(
     functions.add_if(&GIBBS_APPELL, derivation.gibbs_appell);
     let system = parts.into_system(proved, (formulation, velocities), derivative, &conditions, (text, lines));
     Ok(System { latex: in_tex, ..system })
+}
+
+/// What of the parameters must not vanish for the equations to determine the accelerations, beside what is known not to.
+fn of_regularity(
+    proved: &mut Proved,
+    derived: &Derived<'_>,
+    (reference, findings): (&Reference, &Findings),
+    known: &[ExprId],
+) -> Vec<ExprId> {
+    let Proved { model, facts, positions, constraints, .. } = proved;
+    let (matrix, manifold) = match derived {
+        Derived::Adapted { equations, .. } => (equations.mass.clone(), &positions.manifold),
+        Derived::Projected { equations, .. } => (equations.matrix(&mut model.graph), constraints.generic()),
+    };
+    let mut candidates: Vec<ExprId> = model.graph.divisors(&reference.roots()).into_iter().collect();
+    candidates.extend(&findings.parameter_factors);
+    singular_parameters(model, facts, (&matrix, manifold), &candidates, known)
 }

@@ -39,7 +39,7 @@ pub(super) fn derive(
     // 1. the saddle equations, proved regular on the constraint manifold
     let residuals = proved.constraints.residuals.clone();
     let equations = saddle_equations(&mut proved.model.graph, &proved.system, &residuals);
-    let singular = check::saddle_regularity(&mut proved.model, &equations, proved.constraints.generic());
+    let singular = check::saddle_regularity(&mut proved.model, &equations, proved.constraints.generic_mut());
     fence(singular.into_iter().collect())?;
     // the motion keeps the levels by itself: only the way back knows of them
     let all_residuals = levels::residuals(&mut proved)?;

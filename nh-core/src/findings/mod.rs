@@ -5,13 +5,11 @@ mod closure;
 mod momenta_found;
 mod real_states;
 mod reduced_form;
+mod singular_places;
 mod velocities_to_name;
 
-use crate::algebra::{Demand, Function2, Node};
-use crate::check::{
-    Condition, domain, domain_of, not_conservative, on_the_base, saddle_singular_where, singular_where,
-    with_zeros,
-};
+use crate::algebra::{Function2, Graph, Node};
+use crate::check::{Condition, domain, domain_of, not_conservative, with_zeros};
 use crate::compile::{Derived, Proved};
 use crate::geometry::suggested_velocities::Suggested;
 use crate::id::{ExprId, SymbolId};
@@ -21,6 +19,7 @@ pub(crate) use bracket_entries::{BracketEntries, Jacobi};
 pub(crate) use closure::Closure;
 pub(crate) use momenta_found::{LevelMomentum, Rate, SymmetryMomentum};
 pub(crate) use reduced_form::{Connection, Quantities, ReducedForm, Split};
+pub(crate) use singular_places::SingularPlace;
 
 /// What the report says beyond the declaration and the equations.
 #[derive(Clone, Debug)]
@@ -36,7 +35,9 @@ pub(crate) struct Findings {
     /// Whether D is closed under the bracket; `None` where its sections are not known.
     pub(crate) closure: Option<Closure>,
     /// Factors of the determinant of the mass matrix, or of the saddle matrix, that vanish in some states, or for some parameters.
-    pub(crate) singular_mass: Vec<ExprId>,
+    pub(crate) singular_mass: Vec<SingularPlace>,
+    /// The factors of its short determinants that are made of parameters alone.
+    pub(crate) parameter_factors: Vec<ExprId>,
     /// What reduction theory calls the equations.
     pub(crate) reduced: ReducedForm,
     /// The declared symmetries.
@@ -47,6 +48,8 @@ pub(crate) struct Findings {
     pub(crate) routhian: Option<ExprId>,
     /// Whether the energy is conserved.
     pub(crate) keeps_energy: bool,
+    /// Whether the Lagrangian contains the angle of a point, by which energies jump.
+    pub(crate) has_turns: bool,
     /// ξ of a moving energy E_L − ξ^α p_α, where the energy itself is not conserved.
     pub(crate) moving_energy: Option<Vec<ExprId>>,
     /// The symmetries whose momenta are conserved, with these.
@@ -72,11 +75,12 @@ impl Findings {
         let claims = first_integrals(proved, &domain);
         let chart_divisors = with_zeros(&mut proved.model, &proved.motion.divisors);
         let closure = Closure::of(proved, derived);
-        let singular_mass = singular_mass(proved, derived);
+        let (singular_mass, parameter_factors) = singular_places::found(proved, derived);
         let reduced = ReducedForm::of(proved, derived);
         let symmetries = momenta_found::symmetries(proved, derived);
         let (levels, routhian) = momenta_found::levels(proved, derived);
         let Proved { model, system, constraints, .. } = &mut *proved;
+        let has_turns = has_turns(&model.graph, system.lagrangian);
         let keeps_energy = not_conservative(model, system, constraints).is_none();
         let moving_energy = if keeps_energy { None } else { moving_energy(proved) };
         let conserved_momenta = momenta_found::conserved(proved, derived);
@@ -88,11 +92,13 @@ impl Findings {
             chart_divisors,
             closure,
             singular_mass,
+            parameter_factors,
             reduced,
             symmetries,
             levels,
             routhian,
             keeps_energy,
+            has_turns,
             moving_energy,
             conserved_momenta,
             suggested,
@@ -105,42 +111,15 @@ fn first_integrals(proved: &mut Proved, of_equations: &[Condition]) -> Vec<First
     let values: Vec<ExprId> = model.claims.iter().map(|claim| claim.value).collect();
     let found = values.into_iter().map(|value| {
         let domain = domain_of(model, facts, (&[value], 0), of_equations);
-        let graph = &model.graph;
-        let mut parts = graph.reachable(&[value]).into_iter();
-        let has_turns = parts.any(|part| matches!(graph.node(part), Node::Apply2(Function2::Atan2, ..)));
-        FirstIntegral { domain, has_turns }
+        FirstIntegral { domain, has_turns: has_turns(&model.graph, value) }
     });
     found.collect()
 }
 
-fn singular_mass(proved: &mut Proved, derived: &Derived<'_>) -> Vec<ExprId> {
-    let parameters = parameters(proved);
-    let Proved { model, facts, .. } = &mut *proved;
-    let found = match derived {
-        Derived::Adapted { equations, .. } => {
-            singular_where(&mut model.graph, &equations.mass, &parameters, facts)
-        }
-        Derived::Projected { equations, .. } => {
-            saddle_singular_where(&mut model.graph, equations, &parameters, facts)
-        }
-    };
-    if found.is_empty() {
-        return found;
-    }
-    let mut holding = on_the_base(&mut proved.model);
-    holding.extend(proved.model.positions.iter().map(|position| (position.value, Demand::Zero)));
-    let is_free = proved.model.positions.is_empty();
-    let graph = &proved.model.graph;
-    let may_vanish = |factor: &ExprId| {
-        // most do, and it is seen soon
-        if is_free && graph.has_both_signs(*factor, &parameters) {
-            return true;
-        }
-        let mut demands = graph.related_demands(&holding, &[*factor]);
-        demands.push((*factor, Demand::Zero));
-        graph.contradiction(&demands).is_none()
-    };
-    found.into_iter().filter(may_vanish).collect()
+/// Whether an expression contains the angle of a point, which jumps by a turn.
+fn has_turns(graph: &Graph, value: ExprId) -> bool {
+    let mut parts = graph.reachable(&[value]).into_iter();
+    parts.any(|part| matches!(graph.node(part), Node::Apply2(Function2::Atan2, ..)))
 }
 
 /// ξ for which E_L − ξ^α p_α is conserved, where one is found (mathematics section 4).

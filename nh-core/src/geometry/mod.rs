@@ -40,6 +40,7 @@ pub use lifted_points::{RowsOnPart, rows_on_parts};
 pub use manifold::Manifold;
 pub use momentum_level::MomentumLevel;
 pub use orbits::{Change, Varies, constant_along};
+pub(crate) use pivot::point_on_zero;
 pub use pivot::{PivotSetting, PivotZeros};
 pub use rank::{Drops, Rank, RankSetting};
 pub use structure::StructureFunctions;

@@ -295,9 +295,33 @@ impl Manifold {
             if let Some(first) = all.next() {
                 *self = Self { others: all.collect(), open: std::mem::take(&mut self.open), ..first };
             }
+            self.leave_open_what_is_too_much();
         }
-        self.others.truncate(PARTS - 1);
+        self.leave_open_what_is_too_much();
         is_found
+    }
+
+    /// Takes the parts beyond those that are looked at to be open.
+    fn leave_open_what_is_too_much(&mut self) {
+        let too_many = self.others.split_off((PARTS - 1).min(self.others.len()));
+        self.open
+            .extend(too_many.into_iter().map(|part| OpenPart { images: part.images, functions: Vec::new() }));
+    }
+
+    /// Takes open parts away.
+    pub(crate) fn without_open_parts(&mut self) -> Vec<OpenPart> {
+        std::mem::take(&mut self.open)
+    }
+
+    /// Takes further parts to be open.
+    pub(crate) fn leave_open(&mut self, parts: Vec<OpenPart>) {
+        for part in parts {
+            let is_known =
+                |known: &OpenPart| known.images == part.images && known.functions == part.functions;
+            if !self.open.iter().any(is_known) {
+                self.open.push(part);
+            }
+        }
     }
 
     /// The parts of this one on which a root that is one of a square here has one sign: with √(1 + y²) on x² = 1 + y², where
@@ -386,9 +410,7 @@ impl Manifold {
     pub(crate) fn add_parts(&mut self, other: &Self) {
         let parts = other.parts().map(Self::alone);
         self.others.extend(parts);
-        let too_many = self.others.split_off((PARTS - 1).min(self.others.len()));
-        self.open
-            .extend(too_many.into_iter().map(|part| OpenPart { images: part.images, functions: Vec::new() }));
+        self.leave_open_what_is_too_much();
         self.open.extend(other.open.iter().cloned());
     }
 }

@@ -105,7 +105,7 @@ impl PivotSetting<'_> {
 }
 
 /// A point of the field where the factor vanishes, for the kinds of factor that can be solved.
-fn point_on_zero(graph: &mut Graph, factor: ExprId, seed: u64) -> Option<FieldPoint> {
+pub(crate) fn point_on_zero(graph: &mut Graph, factor: ExprId, seed: u64) -> Option<FieldPoint> {
     let mut point = FieldPoint::random(seed);
     let sign = if seed.is_multiple_of(2) { Residue::ONE } else { -Residue::ONE };
     match *graph.node(factor) {

@@ -6,7 +6,7 @@ use crate::algebra::Graph;
 use crate::check::evidence::{counted, listed, places};
 use crate::check::{BrokenLaws, Positions, not_asked, points_shown, undecided};
 use crate::compile::{Derived, Proved};
-use crate::findings::{Closure, Findings, FirstIntegral};
+use crate::findings::{Closure, Findings, FirstIntegral, SingularPlace};
 use crate::geometry::independent_velocities::Choice;
 use crate::geometry::{Drops, Rank};
 use crate::id::{CoordId, SymbolId};
@@ -40,7 +40,7 @@ pub(super) fn lines(
     lines.push(format!("formulation: {name}, {coordinates} and {velocities}{auxiliary}; {reason}"));
     lines.extend(findings.suggested.as_ref().map(|suggested| suggestion(model, suggested)));
     let parameters: Vec<SymbolId> = model.parameters.iter().map(|parameter| parameter.symbol).collect();
-    for factor in &findings.singular_mass {
+    for SingularPlace { factor, exists } in &findings.singular_mass {
         let of_parameters = model.graph.depends_on(*factor, &parameters);
         let what = match derived {
             Derived::Adapted { .. } => "the mass matrix is",
@@ -49,7 +49,11 @@ pub(super) fn lines(
         let whom = if of_parameters { format!("for some parameters {what}") } else { what.to_owned() };
         let text = shown(&model.graph, *factor);
         let place = if text.contains('…') { "its determinant" } else { text.as_str() };
-        lines.push(format!("{whom} singular where {place} = 0"));
+        lines.push(if *exists {
+            format!("{whom} singular where {place} = 0")
+        } else {
+            format!("{what} singular if {place} = 0 in some state; whether it is in any was not decided")
+        });
     }
     if undecided(model, facts) {
         let doubt = "whether the assumptions can hold together was not decided: no parameters were found that satisfy \
@@ -277,6 +281,9 @@ pub(super) fn title_of_conserved(model: &Model) -> &'static str {
     if model.impacts.is_empty() { "Conserved quantities" } else { "Conserved between impacts" }
 }
 
+/// What is constant along motions that go round a point, whose angle jumps.
+const TURNS: &str = ", up to whole turns of its angle";
+
 /// That a claim is proved, and where.
 fn proved_of(graph: &Graph, claim: &FirstIntegral) -> String {
     let places: Vec<String> = claim.domain.iter().map(|condition| condition.stated(graph)).collect();
@@ -285,7 +292,7 @@ fn proved_of(graph: &Graph, claim: &FirstIntegral) -> String {
         text.extend([" for motions along which it has a value: ", &listed(&places)]);
     }
     if claim.has_turns {
-        text += ", up to whole turns of its angle";
+        text += TURNS;
     }
     text
 }
@@ -300,13 +307,15 @@ pub(super) fn conserved(proved: &Proved, findings: &Findings) -> Vec<String> {
     if findings.keeps_energy {
         let reason =
             "CLMM Theorems 3.4 and 7.6: L does not depend on time, no power of constraints and forces";
-        lines.push(format!("the energy ({reason})"));
+        let turns = if findings.has_turns { TURNS } else { "" };
+        lines.push(format!("the energy{turns} ({reason})"));
     }
     lines.extend(findings.moving_energy.as_ref().map(|section| {
         let section = combination(&model.graph, section, &section_names(model));
+        let turns = if findings.has_turns { TURNS } else { "" };
         let [energy, along, momentum] = ["E", "xi", "p"].map(|name| model.graph.free_name(name));
         format!(
-            "the moving energy {energy} - {along}.{momentum} with {along} = {section} (Fassò, Sansonetto)"
+            "the moving energy {energy} - {along}.{momentum} with {along} = {section}{turns} (Fassò, Sansonetto)"
         )
     }));
     lines

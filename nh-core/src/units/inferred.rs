@@ -1,5 +1,6 @@
 //! What is known of units in the end.
 
+use super::dimension::Dimension;
 use super::elimination::Elimination;
 use super::form::Form;
 
@@ -16,6 +17,8 @@ pub struct Quantity {
     pub name: String,
     /// Its unit.
     pub unit: Unit,
+    /// The dimension of that, if it is known.
+    pub dimension: Option<Dimension>,
 }
 
 /// What is known of a unit.
@@ -28,13 +31,16 @@ pub enum Unit {
 }
 
 impl Inferred {
+    /// What a dimension is, if it is determined.
+    #[must_use]
+    pub fn dimension(&self, form: &Form) -> Option<Dimension> {
+        self.equations.reduced(form).value().cloned()
+    }
+
     /// The unit of a dimension.
     #[must_use]
     pub fn unit(&self, form: &Form) -> Unit {
-        self.equations
-            .reduced(form)
-            .value()
-            .map_or(Unit::Free, |dimension| Unit::Known(dimension.to_string()))
+        self.dimension(form).map_or(Unit::Free, |dimension| Unit::Known(dimension.to_string()))
     }
 }
 

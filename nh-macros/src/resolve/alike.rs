@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 use std::ops::Range;
 
 use nonholonomic_core::id::{ExprId, SymbolId};
-use nonholonomic_core::units::{Dimension, Form, Kind, Unknown};
+use nonholonomic_core::units::{Dimension, Form, Kind, Reading, Unknown};
 
 use crate::report::Extent;
 
@@ -14,6 +14,8 @@ pub(super) struct Homogeneity {
     /// Whether units are given.
     pub(super) wanted: bool,
     pub(super) noted: Vec<Noted>,
+    /// What symbols have which unit, where the units of the declaration do not contradict each other.
+    pub(super) reading: Option<Reading>,
     /// For every expression that is being read: how much was noted, and used, before.
     pub(super) open: Vec<(usize, usize)>,
     /// Where in the notes the abbreviations are that were used.
@@ -23,7 +25,7 @@ pub(super) struct Homogeneity {
 }
 
 /// Things that have the same unit.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub(super) struct Noted {
     pub(super) sides: Vec<Measured>,
     pub(super) relation: &'static str,

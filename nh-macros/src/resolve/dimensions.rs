@@ -84,11 +84,13 @@ impl Resolver {
             Ok(inferred) => {
                 let known = |Unitary { said, key, form }: Unitary| {
                     let unit = declared.get(&key).map(|text| Unit::Known(text.clone()));
-                    Quantity { name: said, unit: unit.unwrap_or_else(|| inferred.unit(&form)) }
+                    let dimension = inferred.dimension(&form);
+                    Quantity { name: said, unit: unit.unwrap_or_else(|| inferred.unit(&form)), dimension }
                 };
                 let quantities: Vec<Quantity> =
                     self.measured(named, &mut reading).into_iter().map(known).collect();
                 describe(layout, &quantities);
+                self.homogeneity.reading = Some(reading);
                 quantities
             }
             Err(violations) => {

@@ -37,6 +37,7 @@ pub(crate) fn resolve_quotient(
     layout: &mut Layout,
 ) -> Result<ResolvedQuotient, Unrelated> {
     let mut resolver = Resolver::new(choices::whole(source));
+    resolver.homogeneity.wanted = source.sections.units.is_some();
     resolver.declare(source, layout);
     resolver.surroundings(source, layout);
     let mut source = resolver.model(source, layout);
@@ -58,6 +59,7 @@ pub(crate) fn resolve_quotient(
         (values, families)
     });
     resolver.unused();
+    resolver.units_of_map();
     source.graph = std::mem::take(&mut resolver.graph);
     let origin = resolver.origin(declaration.extent);
     let (coordinates, renamed) = left(layout, &dropped);

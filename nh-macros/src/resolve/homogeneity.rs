@@ -106,7 +106,7 @@ impl Resolver {
 
     /// Everything that was noted, with the dimensions of its sides.
     pub(super) fn conditions(&mut self, reading: &mut Reading) -> Vec<Condition> {
-        let noted = std::mem::take(&mut self.homogeneity.noted);
+        let noted = self.homogeneity.noted.clone();
         noted.into_iter().map(|noted| self.condition(noted, reading)).collect()
     }
 

@@ -3,7 +3,9 @@
 use nonholonomic_core::id::{ExprId, Id};
 use nonholonomic_core::model::{Located, Model};
 use nonholonomic_core::reduction::MorphismDecl;
+use nonholonomic_core::units::{Quantity, infer};
 
+use super::alike::Measured;
 use super::array::Shape;
 use super::choices;
 use super::context::Context;
@@ -50,6 +52,9 @@ struct Kind {
 /// An entry of the target's families by its position, and its value.
 type Entries = Vec<(usize, Located)>;
 
+/// The same, with the name of the entry, and where its value stands.
+type NamedEntries = Vec<(usize, String, Extent, ExprId)>;
+
 /// Resolves both declarations and the map between them.
 pub(crate) fn resolve_morphism(
     declaration: &map_syntax::MorphismDecl,
@@ -58,14 +63,16 @@ pub(crate) fn resolve_morphism(
 ) -> Result<ResolvedMorphism, Unrelated> {
     let target = resolve(target, target_layout).map_err(|_| Unrelated::IllPosed)?.model;
     let mut resolver = Resolver::new(choices::whole(source));
+    resolver.homogeneity.wanted = source.sections.units.is_some();
     resolver.declare(source, source_layout);
     resolver.surroundings(source, source_layout);
     let mut source = resolver.model(source, source_layout);
     let ill_posed = resolver.reports.any();
     resolver.graph = std::mem::take(&mut source.graph);
     resolver.share_also(&declaration.lets);
-    let declared = resolver.map(declaration, target_layout);
+    let declared = resolver.map(declaration, target_layout, &target.units);
     resolver.unused();
+    resolver.units_of_map();
     source.graph = std::mem::take(&mut resolver.graph);
     let Resolver { origins, reports, .. } = resolver;
     match reports.finish(()) {
@@ -77,10 +84,22 @@ pub(crate) fn resolve_morphism(
 
 impl Resolver {
     /// The map; what is in error is left out.
-    fn map(&mut self, declaration: &map_syntax::MorphismDecl, layout: &Layout) -> MorphismDecl {
+    fn map(
+        &mut self,
+        declaration: &map_syntax::MorphismDecl,
+        layout: &Layout,
+        units: &[Quantity],
+    ) -> MorphismDecl {
         let origin = self.origin(declaration.extent());
         let mut read = |definitions: &Definitions, families: &[Family], kind: Kind| {
-            self.quantities(declaration, definitions, families, &kind)
+            let entries = self.quantities(declaration, definitions, families, &kind);
+            entries
+                .into_iter()
+                .map(|(place, name, extent, value)| {
+                    self.has_unit_of_target(declaration, &kind, units, (&name, extent), value);
+                    (place, Located { value, origin: self.origin(extent) })
+                })
+                .collect::<Entries>()
         };
         let parameters = read(
             &declaration.parameters,
@@ -135,7 +154,7 @@ impl Resolver {
         definitions: &Definitions,
         families: &[Family],
         kind: &Kind,
-    ) -> Entries {
+    ) -> NamedEntries {
         let items = definitions.as_ref().map_or(&[][..], |section| &section.body);
         let (defined, broken) = self.definitions(kind.context, items);
         let target = &declaration.target.name;
@@ -166,8 +185,8 @@ impl Resolver {
             if let Some(found) = defined.iter().find(|defined| defined.name.text == text) {
                 if found.lengths == family.lengths {
                     let values: Vec<(ExprId, Extent)> = found.entries.clone();
-                    for (place, (value, extent)) in places.zip(values) {
-                        entries.push((place, Located { value, origin: self.origin(extent) }));
+                    for (k, (place, (value, extent))) in places.zip(values).enumerate() {
+                        entries.push((place, shape.entry_name(&text, k), extent, value));
                     }
                 } else {
                     let error = Diagnostic::new(found.extent, format!("`{text}` has another shape"))
@@ -181,10 +200,9 @@ impl Resolver {
             }
             match self.scope.get(&text).cloned() {
                 Some(Meaning::Named(named)) if kind.roles.contains(&named.role) && named.shape == shape => {
-                    let origin = self.origin(declaration.extent());
-                    for (place, symbol) in places.zip(&named.symbols) {
+                    for (k, (place, symbol)) in places.zip(&named.symbols).enumerate() {
                         let value = self.graph.symbol(*symbol);
-                        entries.push((place, Located { value, origin }));
+                        entries.push((place, shape.entry_name(&text, k), declaration.extent(), value));
                     }
                 }
                 _ if kind.implied => {}
@@ -192,6 +210,40 @@ impl Resolver {
             }
         }
         entries
+    }
+
+    /// Notes that a value has the unit which the target gives to what it is.
+    fn has_unit_of_target(
+        &mut self,
+        declaration: &map_syntax::MorphismDecl,
+        kind: &Kind,
+        units: &[Quantity],
+        (name, extent): (&str, Extent),
+        value: ExprId,
+    ) {
+        let dimension = units.iter().find(|unit| unit.name == name).and_then(|unit| unit.dimension.clone());
+        let Some(dimension) = dimension else { return };
+        let target = &declaration.target.name;
+        let expected = Measured::expected(format!("`{name}` of `{target}`"), extent).unit(dimension);
+        let given = self.shown(value, extent);
+        // each line is a place of its own
+        let (section, place) = (kind.context.keyword(), self.homogeneity.noted.len());
+        self.same_unit_in(section, place, "stands for", vec![expected, given]);
+    }
+
+    /// What expressions of a map add, compare and are, with the units of the source.
+    pub(super) fn units_of_map(&mut self) {
+        let Some(mut reading) = self.homogeneity.reading.take() else { return };
+        if self.reports.any() {
+            return;
+        }
+        let conditions = self.conditions(&mut reading);
+        if let Err(violations) = infer(&self.graph, &conditions) {
+            for violation in violations {
+                let error = self.origins.diagnostic(violation);
+                self.reports.report_missing(error);
+            }
+        }
     }
 
     /// Something of the target that is neither given nor has the name of something in the source.

@@ -156,3 +156,11 @@ fn reports_say_along_which_motions_a_claim_has_a_value() {
     let wall = report(&format!("{PLANE} impacts {{ wall: x >= 0 with restitution 1/2; }}"));
     assert!(wall.contains("Conserved between impacts\n"), "{wall}");
 }
+
+/// A potential that is an angle makes the energy jump where the angle does.
+#[test]
+fn energies_with_angles_are_kept_up_to_turns() {
+    let told = report("base { x, y } lagrangian { (der(x)^2 + der(y)^2)/2 - k*atan2(y, x) }");
+    assert!(told.contains("the energy, up to whole turns of its angle ("), "{told}");
+    assert!(report(LINE).contains("the energy ("));
+}

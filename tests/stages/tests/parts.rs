@@ -422,3 +422,36 @@ fn identities_have_a_derivative_where_they_hold() {
         assert!(found.is_empty(), "{identity}: {found:?}");
     }
 }
+
+/// Where constraints hold on more parts than are looked at, the report says that some were not.
+#[test]
+fn parts_beyond_those_that_are_looked_at_are_told() {
+    let text = "#[nonholonomic(
+            base { x[7], y[7] }
+            lagrangian { sum(i in 0..7: (der(x[i])^2 + der(y[i])^2*(2 + sqrt(1 + y[i]^2)))/2) }
+            holonomic { for i in 0..7 { x[i]^2 = 1 + y[i]^2; } }
+        )] struct Hyperbolas {}";
+    let report = declarations(text).pop().expect("one declaration").system().expect("a system").report;
+    assert!(report.contains("parts more, where nothing was asked"), "{report}");
+}
+
+/// A position constraint that touches the embedded base has no rate where it holds, as a square has none.
+#[test]
+fn levels_that_touch_the_base_are_refused() {
+    let refusals = |position: &str| {
+        let text = format!(
+            "#[nonholonomic(base {{ g[3] }} basis {{ w[3] }} on {{ dot(g, g) = 1; }}
+                anchor {{ for i in 0..3 {{ der(g[i]) = cross(g, w)[i]; }} }} brackets so(3) {{ w }}
+                lagrangian {{ dot(w, w)/2 + w[0]^2 }} holonomic {{ {position} }}
+            )] struct Top {{}}"
+        );
+        errors(&declarations(&text).pop().expect("one declaration").expanded())
+    };
+    for position in ["g[2] = 1;", "g[0] + 1 = 0;", "g[0]*g[1] = 1/2;"] {
+        let refused = refusals(position);
+        assert!(refused.len() == 1 && refused[0].contains("exerts no force"), "{position}: {refused:?}");
+    }
+    for position in ["g[2] = 1/2;", "3*g[0] + 4*g[1] = 4;", "g[0]*g[1] = 1/3;"] {
+        assert_eq!(refusals(position), [""; 0], "{position}");
+    }
+}

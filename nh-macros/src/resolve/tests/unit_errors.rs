@@ -9,7 +9,7 @@ const WAY_OUT: &str =
 
 /// The units of a declaration as `name: unit`.
 fn units(attribute: &str, item: &str) -> Vec<String> {
-    let text = |Quantity { name, unit }: Quantity| match unit {
+    let text = |Quantity { name, unit, .. }: Quantity| match unit {
         Unit::Known(unit) => format!("{name}: {unit}"),
         Unit::Free => format!("{name}: ?"),
     };
