@@ -117,9 +117,9 @@ impl Solved {
         });
         let mut symbols: BTreeSet<SymbolId> = graph.symbols_in(&all).into_iter().collect();
         if let Equations::Balance { held, .. } = &self.equations {
-            held.iter().for_each(|(symbol, _)| {
+            for (symbol, _) in held {
                 symbols.remove(symbol);
-            });
+            }
         }
         symbols
     }

@@ -278,7 +278,9 @@ impl<'p> Accumulation<'p> {
                 continue;
             }
             let [_, out] = self.edges.take(vertex);
-            out.into_iter().for_each(|(after, weight)| self.edges.put(vertex, after, weight));
+            for (after, weight) in out {
+                self.edges.put(vertex, after, weight);
+            }
             self.sources.insert(vertex, Source::Column(arguments + self.sums.len()));
             self.sums.push(sum);
         }
