@@ -201,16 +201,18 @@ where
         let point = S::State::from_array(state.0.map(|jet| jet.value));
         let (f, a, b) = self.0.linearized(t.value, &point, input);
         let f = f.to_array();
-        Jets(core::array::from_fn(|i| {
-            let mut rate = Jet { value: f[i], by: [T::ZERO; N], by_others: b[i] };
-            for (j, (a, jet)) in a[i].iter().zip(&state.0).enumerate() {
+        let mut rates = [Jet::ZERO; N];
+        for (i, (rate, ((f, a), b))) in rates.iter_mut().zip(f.iter().zip(&a).zip(&b)).enumerate() {
+            rate.value = *f;
+            rate.by_others = *b;
+            for (j, (a, jet)) in a.iter().zip(&state.0).enumerate() {
                 if S::state_depends(i, j) {
                     add(&mut rate.by, *a, &jet.by);
                     add(&mut rate.by_others, *a, &jet.by_others);
                 }
             }
-            rate
-        }))
+        }
+        Jets(rates)
     }
 }
 
