@@ -32,12 +32,12 @@ pub fn count(command: &[&str], profile: &Path, wanted: impl Fn(&str) -> bool) ->
     Ok(per_call(&text, wanted))
 }
 
-/// Instructions in this program, called with an argument, from each beginning of one function to that of
+/// Instructions in this program, called with arguments, from each beginning of one function to that of
 /// another: their names as patterns, and how often they are called in turn.
 ///
 /// # Errors
 /// What went wrong, in words.
-pub fn count_each(argument: &str, [first, second]: [&str; 2], calls: usize) -> Result<Vec<u64>, String> {
+pub fn count_each(arguments: &[&str], [first, second]: [&str; 2], calls: usize) -> Result<Vec<u64>, String> {
     let program = std::env::current_exe().map_err(|error| error.to_string())?;
     let folder = std::env::temp_dir().join(format!("nh_bench_{}", std::process::id()));
     std::fs::create_dir_all(&folder).map_err(|error| error.to_string())?;
@@ -47,7 +47,7 @@ pub fn count_each(argument: &str, [first, second]: [&str; 2], calls: usize) -> R
         // writes what has been done since it did so last
         .args([format!("--dump-before={first}"), format!("--dump-before={second}")])
         .arg(program)
-        .arg(argument)
+        .args(arguments)
         .status();
     let read = |call: usize| {
         let text = std::fs::read_to_string(folder.join(format!("profile.{call}"))).ok()?;

@@ -50,13 +50,13 @@ pub fn beside(name: &str) -> Result<PathBuf, String> {
     Ok(program.with_file_name(name))
 }
 
-/// Instructions, where this program evaluates, from each beginning of one function to that of another: their
-/// names as patterns, and how often they are called in turn.
+/// Instructions, where this program evaluates with these arguments, from each beginning of one function to that of
+/// another: their names as patterns, and how often they are called in turn.
 ///
 /// # Errors
 /// What went wrong, in words.
-pub fn count_each(functions: [&str; 2], calls: usize) -> Result<Vec<u64>, String> {
-    callgrind::count_each(EVALUATE, functions, calls)
+pub fn count_each(functions: [&str; 2], arguments: &[&str], calls: usize) -> Result<Vec<u64>, String> {
+    callgrind::count_each(&[&[EVALUATE], arguments].concat(), functions, calls)
 }
 
 /// Says so if the compiler may not use fused multiply-adds.

@@ -208,7 +208,7 @@ fn measure(_: &[String]) -> Result<(), String> {
         println!("valgrind is not there: nothing is counted");
         return Ok(());
     }
-    let counts = program::count_each(COUNTED, cases.len() * STEPS)?;
+    let counts = program::count_each(COUNTED, &[], cases.len() * STEPS)?;
     println!("| numbers | system | step as | method | least | most |");
     println!("|---|---|---|---|--:|--:|");
     let mut varying = Vec::new();

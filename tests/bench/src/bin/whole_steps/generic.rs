@@ -217,22 +217,48 @@ fn input<const N: usize, const M: usize>(place: usize) -> Jet<f64, N, M> {
     Jet { by_others, ..Jet::constant(0.3) }
 }
 
-/// Counts all steps: by rows, emitted before by hand.
-pub(crate) fn count_all() {
+/// What is counted by itself, in the order of the table: by rows, emitted before by hand; with the columns of each.
+pub(crate) const PARTS: [(&str, usize); 12] = [
+    ("sleigh", 2),
+    ("sleigh, linearized", 1),
+    ("sleigh, by hand", 2),
+    ("sleigh, by hand, linearized", 1),
+    ("snakeboard", 2),
+    ("snakeboard, linearized", 1),
+    ("snakeboard, by hand", 2),
+    ("snakeboard, by hand, linearized", 1),
+    ("veselova", 2),
+    ("veselova, linearized", 1),
+    ("veselova, by hand", 2),
+    ("veselova, by hand, linearized", 1),
+];
+
+/// Counts the steps of one part.
+pub(crate) fn count_part(part: &str) {
     let mut random = Random::new();
     let random = &mut random;
     let torque = SleighInput { torque: 0.3_f32 };
-    count(&sleigh::<f32>(), &torque, random);
-    linearized!(emitted sleigh(), SleighInput { torque: 0.3 }, 5, 1, random);
-    count(&ByHand(sleigh::<f32>()), &torque, random);
-    linearized!(by_hand sleigh(), SleighInput { torque: input(0) }, 5, 1, random);
     let torques = SnakeboardInput { rotor: 0.3_f32, steering: 0.3 };
-    count(&snakeboard::<f32>(), &torques, random);
-    linearized!(emitted snakeboard(), SnakeboardInput { rotor: 0.3, steering: 0.3 }, 8, 2, random);
-    count(&ByHand(snakeboard::<f32>()), &torques, random);
-    linearized!(by_hand snakeboard(), SnakeboardInput { rotor: input(0), steering: input(1) }, 8, 2, random);
-    count(&veselova::<f32>(), &(), random);
-    linearized!(emitted veselova(), (), 6, 0, random);
-    count(&ByHand(veselova::<f32>()), &(), random);
-    linearized!(by_hand veselova(), (), 6, 0, random);
+    match part {
+        "sleigh" => count(&sleigh::<f32>(), &torque, random),
+        "sleigh, linearized" => linearized!(emitted sleigh(), SleighInput { torque: 0.3 }, 5, 1, random),
+        "sleigh, by hand" => count(&ByHand(sleigh::<f32>()), &torque, random),
+        "sleigh, by hand, linearized" => {
+            linearized!(by_hand sleigh(), SleighInput { torque: input(0) }, 5, 1, random);
+        }
+        "snakeboard" => count(&snakeboard::<f32>(), &torques, random),
+        "snakeboard, linearized" => {
+            linearized!(emitted snakeboard(), SnakeboardInput { rotor: 0.3, steering: 0.3 }, 8, 2, random);
+        }
+        "snakeboard, by hand" => count(&ByHand(snakeboard::<f32>()), &torques, random),
+        "snakeboard, by hand, linearized" => {
+            let inputs = SnakeboardInput { rotor: input(0), steering: input(1) };
+            linearized!(by_hand snakeboard(), inputs, 8, 2, random);
+        }
+        "veselova" => count(&veselova::<f32>(), &(), random),
+        "veselova, linearized" => linearized!(emitted veselova(), (), 6, 0, random),
+        "veselova, by hand" => count(&ByHand(veselova::<f32>()), &(), random),
+        "veselova, by hand, linearized" => linearized!(by_hand veselova(), (), 6, 0, random),
+        _ => {}
+    }
 }

@@ -148,9 +148,11 @@ systems!(
 );
 
 fn main() -> ExitCode {
-    let evaluate = |_: &[String]| {
-        count_all();
-        generic::count_all();
+    let evaluate = |parts: &[String]| {
+        match parts.first() {
+            Some(part) => generic::count_part(part),
+            None => count_all(),
+        }
         Ok(())
     };
     program::main(evaluate, measure)
@@ -163,21 +165,31 @@ fn measure(_: &[String]) -> Result<(), String> {
         println!("valgrind is not there: nothing is counted");
         return Ok(());
     }
-    let own = NAMES.len() * 2 * METHODS.len() * SAMPLES;
-    let generic = generic::NAMES.len() * 2 * generic::COLUMNS.len() * SAMPLES;
-    let counts = program::count_each(COUNTED, own + generic)?;
-    let (own, generic) = counts.split_at(own);
-    print(NAMES, METHODS.map(|method| format!("`{method}`")).each_ref(), own);
+    let own = program::count_each(COUNTED, &[], NAMES.len() * 2 * METHODS.len() * SAMPLES)?;
+    let own: Vec<Option<u64>> = own.into_iter().map(Some).collect();
+    print(NAMES, METHODS.map(|method| format!("`{method}`")).each_ref(), &own);
     println!();
-    print(&generic::NAMES, generic::COLUMNS.map(str::to_owned).each_ref(), generic);
+    // each by itself: valgrind does not know every instruction that a compiler may take
+    let mut found = Vec::new();
+    for (part, columns) in generic::PARTS {
+        match program::count_each(COUNTED, &[part], columns * SAMPLES) {
+            Ok(counts) => found.extend(counts.into_iter().map(Some)),
+            Err(message) => {
+                eprintln!("{part}: {message}");
+                found.extend(std::iter::repeat_n(None, columns * SAMPLES));
+            }
+        }
+    }
+    print(&generic::NAMES, generic::COLUMNS.map(str::to_owned).each_ref(), &found);
     Ok(())
 }
 
 /// Prints a table of counts by rows, emitted before by hand, and by columns.
-fn print<const N: usize>(names: &[&str], columns: [&String; N], counts: &[u64]) {
+fn print<const N: usize>(names: &[&str], columns: [&String; N], counts: &[Option<u64>]) {
     let per_step = 1.0 / (SAMPLES as f64 * f64::from(STEPS));
-    let means: Vec<f64> =
-        counts.chunks(SAMPLES).map(|counts| counts.iter().sum::<u64>() as f64 * per_step).collect();
+    let sum = |counts: &[Option<u64>]| counts.iter().copied().sum::<Option<u64>>();
+    let means: Vec<Option<f64>> =
+        counts.chunks(SAMPLES).map(|counts| Some(sum(counts)? as f64 * per_step)).collect();
     println!(
         "| system | {} |",
         columns.map(|column| format!("{column}, by hand | emitted | ratio")).join(" | ")
@@ -188,13 +200,14 @@ fn print<const N: usize>(names: &[&str], columns: [&String; N], counts: &[u64]) 
         let (emitted, by_hand) = means.split_at(N);
         let mut cells = Vec::new();
         for ((emitted, by_hand), ratios) in emitted.iter().zip(by_hand).zip(&mut ratios) {
-            ratios.push(emitted / by_hand);
-            cells.push(format!("{by_hand:.0} | {emitted:.0} | {:.2}", emitted / by_hand));
+            let ratio = emitted.zip(*by_hand).map(|(emitted, by_hand)| emitted / by_hand);
+            ratios.push(ratio);
+            cells.push([cell(*by_hand, 0), cell(*emitted, 0), cell(ratio, 2)].join(" | "));
         }
         println!("| {name} | {} |", cells.join(" | "));
     }
-    let mean = |ratios: &Vec<f64>| cell(geometric_mean(ratios.iter().copied().map(Some)), 3);
-    let worst = |ratios: &Vec<f64>| cell(ratios.iter().copied().reduce(f64::max), 2);
+    let mean = |ratios: &Vec<Option<f64>>| cell(geometric_mean(ratios.iter().copied()), 3);
+    let worst = |ratios: &Vec<Option<f64>>| cell(ratios.iter().flatten().copied().reduce(f64::max), 2);
     println!("| geometric mean | {} |", ratios.each_ref().map(|r| format!("| | {}", mean(r))).join(" | "));
     println!("| worst | {} |", ratios.each_ref().map(|r| format!("| | {}", worst(r))).join(" | "));
 }
