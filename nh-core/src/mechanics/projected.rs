@@ -295,8 +295,11 @@ impl SaddleEquations {
     /// Whether W is factorised without the constraints: where it is diagonal, or couples few velocities where many
     /// constraints, weighed into it, would couple all of a chain.
     fn is_by_itself(&self, graph: &Graph) -> bool {
+        if self.jacobian.is_empty() || is_diagonal(graph, &self.mass) {
+            return true;
+        }
         if self.jacobian.len() <= FEW {
-            return self.jacobian.is_empty() || is_diagonal(graph, &self.mass);
+            return false;
         }
         let largest = |matrix: &Matrix| uncoupled(graph, matrix).iter().map(Vec::len).max().unwrap_or(0);
         let mut weighed = self.mass.clone();

@@ -1,6 +1,6 @@
 //! What a further body of a chain costs, in operations of the derivative: a constant, by mathematics (39).
 
-use nh_stages::families;
+use nh_stages::{declarations, families};
 use nonholonomic_core::program::{Cost, schedule_grouping};
 use nonholonomic_core::system::System;
 
@@ -59,6 +59,20 @@ fn chains_of_loops_grow_by_a_constant() {
     let more: Vec<f64> = counts.windows(2).map(|pair| pair[1] - pair[0]).collect();
     assert!(more.iter().all(|one| (one - more[0]).abs() <= more[0] / 20.0), "{counts:?}, {more:?}");
     assert!(chosen(&member("four-bars side by side", 10)).starts_with("by complement"));
+}
+
+/// Blades that nothing couples, with multipliers: each takes what one takes, however many there are.
+#[test]
+fn blades_apart_take_what_each_takes() {
+    let of = |blades: usize| {
+        let source = format!(
+            "#[nonholonomic(base {{ x[{blades}], y[{blades}], th[{blades}] }} lagrangian {{ sum(i in 0..{blades}: m/2*der(x[i])^2 + M/2*der(y[i])^2 + J/2*der(th[i])^2) }} constraints {{ for i in 0..{blades} {{ cos(th[i])*der(y[i]) = sin(th[i])*der(x[i]); }} }})] struct Blades {{ m: f64, M: f64, J: f64 }}"
+        );
+        let found = declarations(&source);
+        operations(&found.first().expect("a declaration").system().expect("regular"))
+    };
+    let (one, ten) = (of(1), of(10));
+    assert!(ten <= 10.0 * one, "{one}, {ten}");
 }
 
 const IN_SPACE: [&str; 4] =

@@ -173,6 +173,8 @@ impl Asked {
 
     pub(super) fn text(&self, graph: &Graph, index: usize) -> String {
         match self.divisors[index].1 {
+            // steps of derivatives have no names
+            Divisor::Expression(divisor) if graph.text(divisor).is_empty() => "an intermediate result".into(),
             Divisor::Expression(divisor) => graph.text(divisor),
             Divisor::Determinant(_) => "the determinant of what it solves".into(),
         }
