@@ -52,13 +52,12 @@ fn rate_by(graph: &Graph, procedures: &[Procedure], is_run: bool) -> Vec<Rating>
     let programs: Vec<Program> =
         procedures.iter().map(|procedure| schedule_roughly(graph, procedure)).collect();
     let growth = error_growth(&programs).into_iter();
-    let growth: Vec<f64> = match graph.accuracy() {
+    let mut growth: Vec<f64> = match graph.accuracy() {
         Accuracy::Fast => growth.map(|growth| if growth.is_finite() { 1.0 } else { growth }).collect(),
         Accuracy::Balanced | Accuracy::Careful => growth.collect(),
     };
     let least = growth.iter().copied().fold(f64::INFINITY, f64::min);
     let allowed = graph.accuracy().growth().max(least);
-    let mut growth = growth;
     if is_run {
         let programs: Vec<&Program> = programs.iter().collect();
         acquit(&programs, allowed, &mut growth, error_growth_in_runs);

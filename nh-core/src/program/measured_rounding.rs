@@ -1,14 +1,12 @@
 //! How much rounding error programs of the same value are seen to make.
 
 use super::interpret::{Arithmetic, interpret_in};
-use super::rounding::{POINTS_APART, sample, sample_apart, turning, worst};
+use super::rounding::{FEW, POINTS_APART, logarithm, sample, sample_apart, turning, worst};
 use super::step::Program;
 use crate::algebra::{Bounded, Function, Function2, Rational};
 
-/// Points at which programs are run.
+/// Points at which programs are run: more than bounds are compared at, since an error that is seen may be small by chance.
 const POINTS: u32 = 64;
-/// An error of so many units in the last place counts as none.
-const FEW: f64 = 8.0;
 
 /// How many times larger the rounding error of each program is than that of `best`, as far as runs in single precision
 /// show: the geometric mean over some points, for the worst of the outputs.
@@ -32,8 +30,7 @@ pub fn error_growth_in_runs(programs: &[&Program], best: &Program) -> Vec<f64> {
             for (((sum, error), least), exact) in sums.iter_mut().zip(errors).zip(&least).zip(&exact) {
                 let floor = FEW * f64::from(f32::EPSILON) * exact.abs();
                 if floor.is_normal() && least.is_finite() {
-                    let growth = error / least.max(floor);
-                    *sum += if growth.is_nan() { f64::INFINITY } else { growth.max(1.0).ln() };
+                    *sum += logarithm(error / least.max(floor));
                 }
             }
         }
@@ -59,8 +56,7 @@ pub fn error_growth_apart_in_runs(programs: &[&Program], best: &Program) -> Vec<
             for ((logarithms, value), known) in logarithms.iter_mut().zip(values).zip(&known) {
                 let floor = known.error.max(FEW * f64::EPSILON * known.value.abs());
                 if floor.is_normal() {
-                    let growth = (value - known.value).abs() / floor;
-                    logarithms.push(if growth.is_nan() { f64::INFINITY } else { growth.max(1.0).ln() });
+                    logarithms.push(logarithm((value - known.value).abs() / floor));
                 }
             }
         }

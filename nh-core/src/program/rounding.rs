@@ -7,6 +7,8 @@ use crate::id::{Id, SymbolId};
 use std::borrow::Borrow;
 use std::collections::BTreeSet;
 
+/// An error of so many units in the last place counts as none.
+pub(super) const FEW: f64 = 8.0;
 /// Points at which programs are compared.
 const POINTS: u32 = 16;
 
@@ -30,18 +32,22 @@ pub fn error_growth<P: Borrow<Program>>(programs: &[P]) -> Vec<f64> {
         for output in 0..outputs {
             let errors = values.iter().map(|values| values[output].error);
             let least = errors.filter(|error| error.is_finite()).fold(f64::INFINITY, f64::min);
-            let floor = 8.0 * f64::EPSILON * values[0][output].value.abs();
+            let floor = FEW * f64::EPSILON * values[0][output].value.abs();
             if !least.is_finite() || !floor.is_normal() {
                 continue;
             }
             for (sums, values) in logarithms.iter_mut().zip(&values) {
-                let growth = values[output].error / least.max(floor);
-                sums[output] += if growth.is_nan() { f64::INFINITY } else { growth.max(1.0).ln() };
+                sums[output] += logarithm(values[output].error / least.max(floor));
             }
         }
     }
     let mean = |sum: f64| (sum / f64::from(POINTS)).exp();
     logarithms.into_iter().map(|sums| sums.into_iter().map(mean).fold(1.0, f64::max)).collect()
+}
+
+/// The logarithm of how many times larger an error is than another; a smaller one counts as equal.
+pub(super) fn logarithm(growth: f64) -> f64 {
+    if growth.is_nan() { f64::INFINITY } else { growth.max(1.0).ln() }
 }
 
 /// Points at which parameters lie far apart.
@@ -71,13 +77,12 @@ pub fn error_growth_apart<P: Borrow<Program>>(programs: &[P]) -> Vec<f64> {
         for output in 0..outputs {
             let best = values.iter().map(|values| values[output]).filter(|value| value.error.is_finite());
             let Some(best) = best.min_by(|a, b| a.error.total_cmp(&b.error)) else { continue };
-            let floor = best.error.max(8.0 * f64::EPSILON * best.value.abs());
+            let floor = best.error.max(FEW * f64::EPSILON * best.value.abs());
             if !floor.is_normal() {
                 continue;
             }
             for (logarithms, values) in logarithms.iter_mut().zip(&values) {
-                let growth = values[output].error / floor;
-                logarithms[output].push(if growth.is_nan() { f64::INFINITY } else { growth.max(1.0).ln() });
+                logarithms[output].push(logarithm(values[output].error / floor));
             }
         }
     }

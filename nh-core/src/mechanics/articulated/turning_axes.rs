@@ -82,7 +82,8 @@ impl Turns {
                 turned.pairs.push((*forms, *rate));
                 continue;
             }
-            turns.set(graph, [first, second], *rate);
+            let minus = graph.formula(-*rate);
+            turns.set(graph, [first, second], minus);
         }
         let mut reached: Vec<usize> = (0..turns.all.len()).collect();
         while let Some(place) = reached.pop() {
@@ -94,9 +95,7 @@ impl Turns {
                     .iter()
                     .all(|index| turns.all[*index].is_none() && bodies.rows.iter().all(|row| row != index))
             {
-                let minus = graph.formula(-rate);
-                turns.all[first] = Some(Turn { other: second, rate });
-                turns.all[second] = Some(Turn { other: first, rate: minus });
+                turns.set(graph, [first, second], rate);
                 reached.extend([first, second]);
             }
         }
@@ -108,10 +107,11 @@ impl Turns {
         self.all.iter().any(Option::is_some)
     }
 
+    /// Components of one velocity, with the rate of the first.
     fn set(&mut self, graph: &mut Graph, [first, second]: [usize; 2], rate: ExprId) {
         let minus = graph.formula(-rate);
-        self.all[first] = Some(Turn { other: second, rate: minus });
-        self.all[second] = Some(Turn { other: first, rate });
+        self.all[first] = Some(Turn { other: second, rate });
+        self.all[second] = Some(Turn { other: first, rate: minus });
     }
 
     /// What the acceleration of a velocity has beside Σ ċ_p y_p: its own turning, less that of what carries it.
@@ -123,7 +123,7 @@ impl Turns {
         (unknowns, velocity): (&[ExprId], &impl Fn(usize) -> ExprId),
     ) -> Vec<ExprId> {
         let (zero, one) = (graph.zero(), graph.one());
-        let row = |place: usize| bodies.all[place].row.clone();
+        let row = |place: usize| bodies.all[place].row.as_slice();
         // a velocity that few unknowns move is written out, so that its terms meet those of Σ ċ_p y_p
         let moved = |graph: &mut Graph, row: &[ExprId]| {
             let is_short = row.iter().filter(|entry| **entry != zero).count() <= ALONE;
@@ -147,7 +147,7 @@ impl Turns {
             terms.push(graph.formula(-(coefficient * turn.rate * velocity(turn.other))));
         }
         if let Some(Turn { other, rate }) = own {
-            let value = moved(graph, &row(other)).unwrap_or_else(|| velocity(other));
+            let value = moved(graph, row(other)).unwrap_or_else(|| velocity(other));
             terms.push(graph.formula(rate * value));
         }
         terms

@@ -6,7 +6,8 @@ use crate::choose::lowered;
 use crate::id::{ExprId, Id};
 use crate::mechanics::Procedure;
 use crate::program::{
-    Program, Step, corrected, error_growth, error_growth_apart, error_growth_in_runs, interpret, schedule,
+    Program, Step, corrected, error_growth, error_growth_apart, error_growth_apart_in_runs,
+    error_growth_in_runs, interpret, schedule,
 };
 
 #[test]
@@ -95,6 +96,11 @@ fn what_a_bound_finds_fault_with_is_seen_in_runs() {
     let runs = error_growth_in_runs(&programs.each_ref(), &programs[2]);
     assert!(bounds[0] > 16.0 && bounds[1] > 16.0, "{bounds:?}");
     assert!(runs[0] < 2.0 && runs[1] > 16.0 && runs[2] < 1.1, "{runs:?}");
+    // where the load is up to eight decades larger than the vector
+    let apart = error_growth_apart(&programs);
+    let runs = error_growth_apart_in_runs(&programs.each_ref(), &programs[2]);
+    assert!(apart[0] > 16.0 && apart[1] > 1e6, "{apart:?}");
+    assert!(runs[0] < 8.0 && runs[1] > 1e6 && runs[2] < 1.1, "{runs:?}");
 }
 
 #[test]
