@@ -75,7 +75,7 @@ pub(super) fn body_near_angles(
 }
 
 /// Statements that write every output to its place as soon as it is computed, so that none occupies a register until all are
-/// known; the outputs are what stands in these places before: arguments and numbers, zero where something is written.
+/// known; the outputs are what stands in these places before: arguments and numbers, and `t` where something is written later.
 pub(super) fn body_in_place(
     context: &Context,
     scope: &Scope,
