@@ -1,17 +1,27 @@
-//! Systems over any number, with their derivatives by hand: for steps in single precision, and for steps with their
-//! derivatives, which an expert without a Jacobian takes in jets.
+//! Systems over any number, with their derivatives by hand: for steps in single precision, in lanes and with the runtime's own
+//! sine, and for steps with their derivatives, which an expert without a Jacobian takes in jets.
 
 use std::hint::black_box;
 
 use nh_bench::contest::{Random, SAMPLES};
 use nh_bench::runner::agree;
 use nonholonomic::prelude::*;
-use nonholonomic::{D, Jet};
+use nonholonomic::wide::{f32x8, f64x4};
+use nonholonomic::{D, Fast, Jet};
 
 use super::{H, STEPS, counted_steps};
 
-/// The columns: explicit steps in single precision, and `Rk4` with its derivatives.
-pub(crate) const COLUMNS: [&str; 3] = ["`Rk4`, `f32`", "`Dop853`, `f32`", "`Rk4`, `linearized_step`"];
+/// The columns: explicit steps in several numbers, and `Rk4` with its derivatives.
+pub(crate) const COLUMNS: [&str; NUMBERS + 1] = [
+    "`Rk4`, `f32`",
+    "`Dop853`, `f32`",
+    "`Rk4`, `Fast<f64>`",
+    "`Rk4`, `f64x4`",
+    "`Rk4`, `f32x8`",
+    "`Rk4`, `linearized_step`",
+];
+/// As many columns are without derivatives.
+const NUMBERS: usize = 5;
 /// The rows.
 pub(crate) const NAMES: [&str; 3] = ["sleigh", "snakeboard", "veselova"];
 
@@ -159,28 +169,47 @@ pub(crate) fn compare_all() -> Result<(), String> {
 }
 
 /// Counts explicit steps of a system from random states.
-fn count<S, T: Scalar, const N: usize>(system: &S, input: &S::Input, random: &mut Random)
-where
-    S: Dynamics<State: State<Scalar = T, Dim = D<N>>>,
-{
-    let states: [S::State; SAMPLES] =
-        std::array::from_fn(|_| S::State::from_array(std::array::from_fn(|_| T::from_f64(random.draw()))));
-    let h = T::from_f64(H);
-    for state in &states {
-        counted_steps(&mut || {
-            for _ in 0..STEPS {
-                black_box(Rk4::step(black_box(system), T::ZERO, h, black_box(state), input));
-            }
-        });
-    }
-    for state in &states {
-        counted_steps(&mut || {
-            for _ in 0..STEPS {
-                black_box(Dop853::step(black_box(system), T::ZERO, h, black_box(state), input));
-            }
-        });
-    }
+macro_rules! explicit {
+    ($system:expr, $input:expr, $T:ty, $Method:ident, $random:ident) => {{
+        let (system, input) = ($system, $input);
+        let h = <$T>::from_f64(H);
+        for _ in 0..SAMPLES {
+            let state = State::from_array(std::array::from_fn(|_| <$T>::from_f64($random.draw())));
+            counted_steps(&mut || {
+                for _ in 0..STEPS {
+                    black_box($Method::step(
+                        black_box(&system),
+                        <$T as Scalar>::ZERO,
+                        h,
+                        black_box(&state),
+                        &input,
+                    ));
+                }
+            });
+        }
+    }};
 }
+
+/// Counts the explicit steps of all columns; `system` and `input` are functions over any number.
+macro_rules! in_numbers {
+    ($wrapped:path, $system:ident, $input:path, $random:ident) => {{
+        explicit!($wrapped($system::<f32>()), $input(), f32, Rk4, $random);
+        explicit!($wrapped($system::<f32>()), $input(), f32, Dop853, $random);
+        explicit!($wrapped($system::<Fast<f64>>()), $input(), Fast<f64>, Rk4, $random);
+        explicit!($wrapped($system::<f64x4>()), $input(), f64x4, Rk4, $random);
+        explicit!($wrapped($system::<f32x8>()), $input(), f32x8, Rk4, $random);
+    }};
+}
+
+fn torque<T: Scalar>() -> SleighInput<T> {
+    SleighInput { torque: T::from_f64(0.3) }
+}
+
+fn torques<T: Scalar>() -> SnakeboardInput<T> {
+    SnakeboardInput { rotor: T::from_f64(0.3), steering: T::from_f64(0.3) }
+}
+
+fn none() {}
 
 /// Counts steps with their derivatives: emitted, or by hand in jets.
 macro_rules! linearized {
@@ -219,17 +248,17 @@ fn input<const N: usize, const M: usize>(place: usize) -> Jet<f64, N, M> {
 
 /// What is counted by itself, in the order of the table: by rows, emitted before by hand; with the columns of each.
 pub(crate) const PARTS: [(&str, usize); 12] = [
-    ("sleigh", 2),
+    ("sleigh", NUMBERS),
     ("sleigh, linearized", 1),
-    ("sleigh, by hand", 2),
+    ("sleigh, by hand", NUMBERS),
     ("sleigh, by hand, linearized", 1),
-    ("snakeboard", 2),
+    ("snakeboard", NUMBERS),
     ("snakeboard, linearized", 1),
-    ("snakeboard, by hand", 2),
+    ("snakeboard, by hand", NUMBERS),
     ("snakeboard, by hand, linearized", 1),
-    ("veselova", 2),
+    ("veselova", NUMBERS),
     ("veselova, linearized", 1),
-    ("veselova, by hand", 2),
+    ("veselova, by hand", NUMBERS),
     ("veselova, by hand, linearized", 1),
 ];
 
@@ -237,27 +266,25 @@ pub(crate) const PARTS: [(&str, usize); 12] = [
 pub(crate) fn count_part(part: &str) {
     let mut random = Random::new();
     let random = &mut random;
-    let torque = SleighInput { torque: 0.3_f32 };
-    let torques = SnakeboardInput { rotor: 0.3_f32, steering: 0.3 };
     match part {
-        "sleigh" => count(&sleigh::<f32>(), &torque, random),
+        "sleigh" => in_numbers!(std::convert::identity, sleigh, torque, random),
         "sleigh, linearized" => linearized!(emitted sleigh(), SleighInput { torque: 0.3 }, 5, 1, random),
-        "sleigh, by hand" => count(&ByHand(sleigh::<f32>()), &torque, random),
+        "sleigh, by hand" => in_numbers!(ByHand, sleigh, torque, random),
         "sleigh, by hand, linearized" => {
             linearized!(by_hand sleigh(), SleighInput { torque: input(0) }, 5, 1, random);
         }
-        "snakeboard" => count(&snakeboard::<f32>(), &torques, random),
+        "snakeboard" => in_numbers!(std::convert::identity, snakeboard, torques, random),
         "snakeboard, linearized" => {
             linearized!(emitted snakeboard(), SnakeboardInput { rotor: 0.3, steering: 0.3 }, 8, 2, random);
         }
-        "snakeboard, by hand" => count(&ByHand(snakeboard::<f32>()), &torques, random),
+        "snakeboard, by hand" => in_numbers!(ByHand, snakeboard, torques, random),
         "snakeboard, by hand, linearized" => {
             let inputs = SnakeboardInput { rotor: input(0), steering: input(1) };
             linearized!(by_hand snakeboard(), inputs, 8, 2, random);
         }
-        "veselova" => count(&veselova::<f32>(), &(), random),
+        "veselova" => in_numbers!(std::convert::identity, veselova, none, random),
         "veselova, linearized" => linearized!(emitted veselova(), (), 6, 0, random),
-        "veselova, by hand" => count(&ByHand(veselova::<f32>()), &(), random),
+        "veselova, by hand" => in_numbers!(ByHand, veselova, none, random),
         "veselova, by hand, linearized" => linearized!(by_hand veselova(), (), 6, 0, random),
         _ => {}
     }

@@ -5,12 +5,13 @@
 //! ```
 //!
 //! Steps of explicit methods are pure functions, at the states of the contest; those of implicit ones are of
-//! simulations from each of these states. Each figure is the mean over all of them. A second table has three systems
-//! in single precision, and steps with their derivatives.
+//! simulations from each of these states. Each figure is the mean over all of them. A second table has their times, a third
+//! three systems in single precision, in lanes, with the runtime's own sine, and steps with their derivatives.
 #![allow(clippy::cast_precision_loss, reason = "counts stay far below 2⁵²")]
 #![allow(non_snake_case, reason = "parameters are written as in mechanics: J, I")]
 
 mod generic;
+mod times;
 
 use std::hint::black_box;
 use std::process::ExitCode;
@@ -105,6 +106,16 @@ macro_rules! systems {
                 count(ByHand(<$System>::ordinary()), &samples::<$System>());
             )*
         }
+
+        /// Nanoseconds per step, by system: emitted before by hand, by method.
+        fn time_all() -> Vec<Option<f64>> {
+            let mut found = Vec::new();
+            $(
+                let system = <$System>::ordinary();
+                found.extend(times::in_turns(system, ByHand(system), &samples::<$System>()).map(Some));
+            )*
+            found
+        }
     };
 }
 systems!(
@@ -167,7 +178,10 @@ fn measure(_: &[String]) -> Result<(), String> {
     }
     let own = program::count_each(COUNTED, &[], NAMES.len() * 2 * METHODS.len() * SAMPLES)?;
     let own: Vec<Option<u64>> = own.into_iter().map(Some).collect();
-    print(NAMES, METHODS.map(|method| format!("`{method}`")).each_ref(), &own);
+    let methods = METHODS.map(|method| format!("`{method}`"));
+    print(NAMES, methods.each_ref(), &means(&own), 0);
+    println!();
+    print(NAMES, methods.map(|method| format!("{method}, ns")).each_ref(), &time_all(), 1);
     println!();
     // each by itself: valgrind does not know every instruction that a compiler may take
     let mut found = Vec::new();
@@ -180,16 +194,19 @@ fn measure(_: &[String]) -> Result<(), String> {
             }
         }
     }
-    print(&generic::NAMES, generic::COLUMNS.map(str::to_owned).each_ref(), &found);
+    print(&generic::NAMES, generic::COLUMNS.map(str::to_owned).each_ref(), &means(&found), 0);
     Ok(())
 }
 
-/// Prints a table of counts by rows, emitted before by hand, and by columns.
-fn print<const N: usize>(names: &[&str], columns: [&String; N], counts: &[Option<u64>]) {
+/// What a step costs of each, from what was counted from each sample.
+fn means(counts: &[Option<u64>]) -> Vec<Option<f64>> {
     let per_step = 1.0 / (SAMPLES as f64 * f64::from(STEPS));
     let sum = |counts: &[Option<u64>]| counts.iter().copied().sum::<Option<u64>>();
-    let means: Vec<Option<f64>> =
-        counts.chunks(SAMPLES).map(|counts| Some(sum(counts)? as f64 * per_step)).collect();
+    counts.chunks(SAMPLES).map(|counts| Some(sum(counts)? as f64 * per_step)).collect()
+}
+
+/// Prints a table by rows, emitted before by hand, and by columns.
+fn print<const N: usize>(names: &[&str], columns: [&String; N], means: &[Option<f64>], digits: usize) {
     println!(
         "| system | {} |",
         columns.map(|column| format!("{column}, by hand | emitted | ratio")).join(" | ")
@@ -202,7 +219,7 @@ fn print<const N: usize>(names: &[&str], columns: [&String; N], counts: &[Option
         for ((emitted, by_hand), ratios) in emitted.iter().zip(by_hand).zip(&mut ratios) {
             let ratio = emitted.zip(*by_hand).map(|(emitted, by_hand)| emitted / by_hand);
             ratios.push(ratio);
-            cells.push([cell(*by_hand, 0), cell(*emitted, 0), cell(ratio, 2)].join(" | "));
+            cells.push([cell(*by_hand, digits), cell(*emitted, digits), cell(ratio, 2)].join(" | "));
         }
         println!("| {name} | {} |", cells.join(" | "));
     }
