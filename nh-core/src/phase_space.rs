@@ -16,6 +16,8 @@ pub struct PhaseSpace {
     pub invariants: Option<InvariantForm>,
     /// The kick of the leapfrog method on TQ: outputs are the velocities after it.
     pub leapfrog: Option<StepForm>,
+    /// What a step of the variational method is made of.
+    pub variational: Option<VariationalForm>,
     /// The discrete momentum of the Euler–Poincaré–Suslov equations, a component for each velocity.
     pub euler_poincare_suslov: Option<StepForm>,
 }
@@ -46,6 +48,19 @@ pub struct StepForm {
     pub length: SymbolId,
     /// The function.
     pub map: Procedure,
+}
+
+/// What a step with a discrete Lagrangian and position constraints is made of, mathematics (62), on all of TQ.
+#[derive(Clone, Debug)]
+pub struct VariationalForm {
+    /// Outputs: ∂L/∂q, then ∂L/∂q̇.
+    pub slopes: Procedure,
+    /// Outputs: g, what the position constraints say is zero.
+    pub residual: Procedure,
+    /// A covector r, then as many numbers c as there are constraints.
+    pub given: Vec<SymbolId>,
+    /// Outputs: a with W a − r in the span of the rows of G = ∂g, and G a = c.
+    pub change: Procedure,
 }
 
 /// The almost-Poisson form of a system that conserves its energy.

@@ -209,6 +209,7 @@ mod syntax;
 /// | `symmetric_projection` | the trait `Holding` for `symmetrically_projected()`: steps of symmetric methods that keep position constraints, and those of the projected formulation |
 /// | `invariants` | the trait `Invariants` for `Conserving`: the first integrals of `conserved` and their gradients |
 /// | `leapfrog` | the trait `Leapfrog` for `ReflectedLeapfrog`: systems on TQ with constant masses, in the projected formulation |
+/// | `rattle` | the trait `DiscreteLagrangian` for `Rattle`: steps that are symplectic on position constraints; systems on TQ with all velocities in the state, without forces and constraints on velocities |
 /// | `euler_poincare_suslov` | the trait `EulerPoincareSuslov` for `DiscreteSuslov`: systems on a Lie algebra |
 /// | `c` | `C99`, a text: the generated functions as one C file, see *C* |
 /// | `latex` | `LATEX`, a text in TeX: the declaration and what was derived in the notation of papers, see *TeX* |

@@ -3,6 +3,7 @@
 //! Everything but the derivative is handed through in one place, so that no holder forgets a part: one that did not hand
 //! on the return to position constraints would drift off them without a word.
 
+use crate::discrete_lagrangian::DiscreteLagrangian;
 use crate::dynamics::{
     AlmostPoisson, Constrained, Dynamics, Energy, EulerPoincareSuslov, Invariants, Jacobian, Leapfrog,
     Observed, TaylorSeries,
@@ -149,6 +150,24 @@ macro_rules! holders {
             fn kick(&self, state: &$s::State, h: ScalarOf<$s>) -> $s::State {
                 let $this = self;
                 $system.kick(state, h)
+            }
+        }
+
+        impl<$s: DiscreteLagrangian + $($bound)*, $($other),*> DiscreteLagrangian for $holder {
+            #[inline]
+            fn lagrangian_slopes(&self, state: &$s::State) -> VecOf<$s> {
+                let $this = self;
+                $system.lagrangian_slopes(state)
+            }
+            #[inline]
+            fn position_constraints(&self, state: &$s::State) -> VecOf<$s> {
+                let $this = self;
+                $system.position_constraints(state)
+            }
+            #[inline]
+            fn constrained(&self, state: &$s::State, given: &VecOf<$s>) -> VecOf<$s> {
+                let $this = self;
+                $system.constrained(state, given)
             }
         }
 

@@ -75,6 +75,7 @@ mod complex;
 pub mod control;
 mod dense;
 mod dim;
+mod discrete_lagrangian;
 mod dynamics;
 mod elementary;
 pub mod ensemble;
@@ -122,6 +123,7 @@ pub use angle_cache::{Angle, AngleCache, AngleCached};
 pub use assembly::AssemblyError;
 pub use dense::DenseOutput;
 pub use dim::{D, Dim};
+pub use discrete_lagrangian::DiscreteLagrangian;
 pub use dynamics::TaylorSeries;
 pub use dynamics::{
     AlmostPoisson, Constrained, DimOf, Dynamics, Energy, EulerPoincareSuslov, Invariants, Jacobian, Leapfrog,
@@ -140,7 +142,7 @@ pub use linear_model::{Linearization, LinearizationError};
 pub use methods::Taylor;
 pub use methods::{
     Auto, Bs23, Conserving, Controller, DiscreteGradient, DiscreteSuslov, Dop853, Dopri5, Euler,
-    GaussLegendre4, GaussLegendre6, Heun, ImplicitMidpoint, Method, Projected, Radau5, Ralston,
+    GaussLegendre4, GaussLegendre6, Heun, ImplicitMidpoint, Method, Projected, Radau5, Ralston, Rattle,
     ReflectedLeapfrog, Rk4, Rodas5P, Tsit5, Vern9,
 };
 pub use prepared::{Prepare, Prepared};
@@ -421,10 +423,10 @@ pub mod __private {
     pub use crate::slopes_of_return::slopes_of_return;
     pub use crate::trim::{Steady, TrimError, equations, trim};
     pub use crate::{
-        AlmostPoisson, Angle, AngleCache, AngleCached, Constrained, D, Dim, Dynamics, Energy,
-        EulerPoincareSuslov, Held, Holding, Inclusion, InputFault, Invariants, Jacobian, Jet, Leapfrog,
-        NotInMode, Observed, ParameterError, ParameterFault, Prepare, Prepared, ProjectionError, Real,
-        Reconstruction, Reduction, Scalar, ScalarOf, State, StateFault, VecOf,
+        AlmostPoisson, Angle, AngleCache, AngleCached, Constrained, D, Dim, DiscreteLagrangian, Dynamics,
+        Energy, EulerPoincareSuslov, Held, Holding, Inclusion, InputFault, Invariants, Jacobian, Jet,
+        Leapfrog, NotInMode, Observed, ParameterError, ParameterFault, Prepare, Prepared, ProjectionError,
+        Real, Reconstruction, Reduction, Scalar, ScalarOf, State, StateFault, VecOf,
     };
     pub use core;
     pub use nalgebra;

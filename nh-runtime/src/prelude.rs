@@ -2,8 +2,8 @@
 
 pub use crate::methods::{
     Auto, Bs23, Conserving, DiscreteGradient, DiscreteSuslov, Dop853, Dopri5, Euler, GaussLegendre4,
-    GaussLegendre6, Heun, ImplicitMidpoint, Projected, Radau5, Ralston, ReflectedLeapfrog, Rk4, Rodas5P,
-    Tsit5, Vern9,
+    GaussLegendre6, Heun, ImplicitMidpoint, Projected, Radau5, Ralston, Rattle, ReflectedLeapfrog, Rk4,
+    Rodas5P, Tsit5, Vern9,
 };
 pub use crate::{
     AlmostPoisson, AssemblyError, Constrained, Direction, Dynamics, Energy, Event, Events, Fast, Holding,

@@ -5,7 +5,7 @@
 use std::cell::Cell;
 
 use nonholonomic::prelude::*;
-use nonholonomic::{D, Invariants, Leapfrog, Method, ProjectionError};
+use nonholonomic::{D, DiscreteLagrangian, Invariants, Leapfrog, Method, ProjectionError};
 
 /// x' = u, y' = v, u' = 0, v' = −y, of which one evaluation is spoiled.
 #[derive(Clone, Debug)]
@@ -97,6 +97,18 @@ impl<T: Real> AlmostPoisson for Spoiled<T> {
 impl<T: Real> Leapfrog for Spoiled<T> {
     fn kick(&self, Point([x, y, u, v]): &Point<T>, h: T) -> Point<T> {
         Point(self.pass([*x, *y, *u, *v - h * hidden(*y)]))
+    }
+}
+
+impl<T: Real> DiscreteLagrangian for Spoiled<T> {
+    fn lagrangian_slopes(&self, Point([_, y, u, v]): &Point<T>) -> [T; 4] {
+        self.pass([T::ZERO, -hidden(*y), hidden(*u), hidden(*v)])
+    }
+    fn position_constraints(&self, _state: &Point<T>) -> [T; 4] {
+        [T::ZERO; 4]
+    }
+    fn constrained(&self, _state: &Point<T>, [a, b, _, _]: &[T; 4]) -> [T; 4] {
+        self.pass([hidden(*a), hidden(*b), T::ZERO, T::ZERO])
     }
 }
 
@@ -223,6 +235,8 @@ fn all<T: Real>() {
     check::<T, _>("Dop853 fixed", &Dop853::fixed(h(0.1)), May::Refuse);
     check::<T, _>("Vern9 fixed", &Vern9::fixed(h(0.1)), May::Refuse);
     check::<T, _>("ReflectedLeapfrog", &ReflectedLeapfrog::new(h(0.1)), May::Refuse);
+    check::<T, _>("Rattle", &Rattle::new(h(0.1)), May::Recover);
+    check::<T, _>("Rattle of order 4", &Rattle::new(h(0.1)).fourth_order(), May::Recover);
     check::<T, _>("DiscreteSuslov of order 4", &DiscreteSuslov::new(h(0.1)).fourth_order(), May::Recover);
     check::<T, _>("Projected", &Projected::new(Rk4::new(h(0.1)), 1), May::Refuse);
     check::<T, _>("Conserving", &Conserving::new(Rk4::new(h(0.1))), May::Refuse);

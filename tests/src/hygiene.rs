@@ -108,7 +108,8 @@ pub mod shadowed {
     impl Loud for f64 {}
 
     pub use declared::{
-        Body, BodyState, Drop, DropState, Ferry, FerryState, Sleigh, SleighInput, SleighState, SleighVelocity,
+        Bob, BobState, Body, BodyState, Drop, DropState, Ferry, FerryState, Sleigh, SleighInput, SleighState,
+        SleighVelocity,
     };
 
     #[deny(warnings, missing_docs, clippy::pedantic)]
@@ -199,6 +200,25 @@ pub mod shadowed {
             pub J: f64,
             /// An energy.
             pub c: f64,
+        }
+
+        /// A mass on a rod, under names that steps may want.
+        #[::nonholonomic::nonholonomic(
+            base { given, held }
+            holonomic { velocity: given^2 + held^2 = J^2; }
+            lagrangian { (der(given)^2 + der(held)^2) / 2 - held }
+            impacts { floor: given >= J / 2 with restitution 1 / 2; }
+            outputs { slopes = given * der(held); }
+            emit {
+                rattle, symmetric_projection, discrete_gradient, jacobian, sparse_jacobian, jacobian_product,
+                adjoint_product, return_jacobian, output_jacobian, power, explain, latex, c
+            }
+        )]
+        #[derive(Clone, Copy, Debug)]
+        #[allow(non_snake_case, reason = "as in mechanics")]
+        pub struct Bob {
+            /// The length of the rod.
+            pub J: f64,
         }
 
         /// A body with a fixed point, one of whose angular velocities vanishes.

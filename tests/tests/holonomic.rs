@@ -16,6 +16,7 @@ mod holonomic {
     mod maps;
     mod pendulum;
     mod plate;
+    mod rattle;
     mod redundant;
     mod slider_crank;
     mod spatial_slider_crank;

@@ -4,7 +4,7 @@
 use nh_tests::hygiene::colliding::{Odd, OddState};
 use nh_tests::hygiene::narrow::{acceleration, oscillation};
 use nh_tests::hygiene::shadowed::{
-    Body, BodyState, Drop, DropState, Ferry, FerryState, Sleigh, SleighInput, SleighState,
+    Bob, BobState, Body, BodyState, Drop, DropState, Ferry, FerryState, Sleigh, SleighInput, SleighState,
 };
 use nh_tests::silent::{narrow, underscores};
 use nonholonomic::Energy;
@@ -48,6 +48,17 @@ fn constraints_and_projections_do_not_collide_either() {
     assert!((state.present_dot - 0.5_f64.sin() * 0.5_f64.cos()).abs() < EXACT, "{state:?}");
     assert!((ferry.multipliers(0.0, &state, &()).state - 0.5_f64.cos()).abs() < EXACT);
     assert!((ferry.reactions(0.0, &state, &()).project_dot - 0.5_f64.cos().powi(2)).abs() < EXACT);
+}
+
+#[test]
+fn position_constraints_do_not_collide_either() {
+    let bob = Bob { J: 1.0 };
+    let start = BobState { given: 0.6, held: -0.8, given_dot: 0.4, held_dot: 0.3 };
+    let mut sim = nonholonomic::Integrator::new(bob, nonholonomic::Rattle::new(0.05), 0.0, start);
+    sim.advance_to(2.0).expect("a pendulum swings");
+    let end = sim.state();
+    assert!((end.given.hypot(end.held) - 1.0).abs() < EXACT, "{end:?}");
+    assert!((bob.energy(0.0, end) - bob.energy(0.0, &start)).abs() < 1e-2, "{end:?}");
 }
 
 #[test]

@@ -79,6 +79,18 @@ struct Sleigh {
 }
 
 const CONTACT: Contact<f64> = Contact { epsilon: 0.3 };
+/// A mass on a rod.
+#[nonholonomic(
+    base { x, y }
+    holonomic { rod: x^2 + y^2 = 1; }
+    lagrangian { (der(x)^2 + der(y)^2) / 2 - g * y }
+    emit { discrete_gradient, rattle, symmetric_projection }
+)]
+#[derive(Clone, Copy, Debug)]
+struct Rod {
+    g: f64,
+}
+
 const ON_TQ: ContactOnTq = ContactOnTq { epsilon: 0.3 };
 const SUSLOV: Suslov = Suslov { I: [1.0, 2.0, 3.0], k: 0.7 };
 const SLEIGH: Sleigh = Sleigh { m: 1.0, J: 0.5, a: 0.3 };
@@ -169,6 +181,10 @@ fn methods_that_keep_structure() {
         ReflectedLeapfrog::new(0.05), ReflectedLeapfrog::new(0.05).compensated(),
         Projected::new(Rk4::new(0.02), 1), Projected::new(Dopri5::new(), 3),
         Conserving::new(Rk4::new(0.02)), Conserving::new(Vern9::new()),
+    }
+    assert_quiet_lives! { Rod { g: 1.0 }, RodState { x: 0.6, y: -0.8, x_dot: 0.4, y_dot: 0.3 };
+        Rattle::new(0.05), Rattle::new(0.05).sixth_order(), DiscreteGradient::new(0.05),
+        ImplicitMidpoint::new(0.05).symmetrically_projected().fourth_order(),
     }
     assert_quiet_lives! { SUSLOV, SuslovState { w_0: 0.6, w_1: 0.8 };
         DiscreteSuslov::new(0.05), DiscreteSuslov::new(0.05).compensated(),

@@ -13,7 +13,7 @@ use nonholonomic::{Holding, Method};
             + J[2] / 2 * der(rocker)^2
     }
     units { crank, coupler, rocker = rad; l, d = m; m = kg; J = kg m^2; }
-    emit { discrete_gradient, symmetric_projection }
+    emit { discrete_gradient, symmetric_projection, rattle }
 )]
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Linkage {
@@ -69,6 +69,8 @@ pub(crate) fn linkage() {
     line("ImplicitMidpoint", ImplicitMidpoint::new(STEP));
     line("  .symmetrically_projected()", ImplicitMidpoint::new(STEP).symmetrically_projected());
     line("    .fourth_order()", ImplicitMidpoint::new(STEP).symmetrically_projected().fourth_order());
+    line("Rattle", Rattle::new(STEP));
+    line("  .fourth_order()", Rattle::new(STEP).fourth_order());
     line("DiscreteGradient", DiscreteGradient::new(STEP));
     line("  .fourth_order()", DiscreteGradient::new(STEP).fourth_order());
     println!();

@@ -11,7 +11,7 @@ pub(super) fn beside_positions(model: &Model) -> Vec<Violation> {
     let fibres = "its fibres and orbits are those of the whole base, and motions stay on a part of it";
     let elsewhere = "leave one of them out, or declare coordinates that need no position constraint";
     let by_others = "leave it out for methods that keep the positions: `emit { discrete_gradient }` for the energy, \
-                     `emit { symmetric_projection }` for steps that lead back when they are reversed; or declare \
+                     `emit { rattle }` for the symplectic form; or declare \
                      coordinates that need no position constraint";
     let mut found = Vec::new();
     for (request, origin) in &model.requests {

@@ -26,12 +26,12 @@ pub(super) fn derive(
     Ok(())
 }
 
-fn refusal(origin: Origin, what: &str, evidence: String, way_out: &str) -> Vec<Violation> {
+pub(super) fn refusal(origin: Origin, what: &str, evidence: String, way_out: &str) -> Vec<Violation> {
     vec![Violation { law: Law::Hamiltonian, origin, what: what.into(), evidence, way_out: way_out.into() }]
 }
 
-/// What neither of the two discrete equations can do without.
-fn conservative(proved: &mut Proved, origin: Origin, what: &str) -> Result<(), Vec<Violation>> {
+/// What no discrete equation can do without.
+pub(super) fn conservative(proved: &mut Proved, origin: Origin, what: &str) -> Result<(), Vec<Violation>> {
     let Proved { model, system, constraints, .. } = proved;
     let evidence = match check::not_conservative(model, system, constraints) {
         None if constraints.linear.is_some() => {

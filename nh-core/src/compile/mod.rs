@@ -36,6 +36,7 @@ mod saddle_competition;
 mod slice;
 mod stages;
 mod strangers;
+mod variational_step;
 mod vector_products;
 mod velocities_of_state;
 mod vertical_splitting;

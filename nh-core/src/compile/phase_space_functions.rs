@@ -7,7 +7,9 @@ use super::on_request::{
 };
 use super::proved::{Derived, Proved, fence};
 use super::velocities_of_state::requested;
-use super::{connection_functions, discrete, kept_volume, momentum_equation, observed_brackets};
+use super::{
+    connection_functions, discrete, kept_volume, momentum_equation, observed_brackets, variational_step,
+};
 use crate::algebra::{Graph, Matrix, Rational, Substitution};
 use crate::check::{self, evidence::shown};
 use crate::findings::BracketEntries;
@@ -67,6 +69,7 @@ pub(super) fn derive(
     keep(connection_functions::derive(proved, derived, functions));
     keep(momentum_equation::derive(proved, derived, derivative, functions));
     keep(discrete::derive(proved, derived, &mut found));
+    keep(variational_step::derive(proved, derived, &mut found));
     keep(kept_volume::derive(proved, derived, derivative, functions).map(|lines| {
         if !lines.is_empty() {
             sections.push(("Volume", lines));
@@ -77,7 +80,7 @@ pub(super) fn derive(
 
 /// Routh reduction leaves velocities with an offset, which the forms derived here do not have.
 fn on_level(proved: &Proved) -> Option<Violation> {
-    const REQUESTS: [Request; 11] = [
+    const REQUESTS: [Request; 12] = [
         Request::OutputJacobian,
         Request::Hamiltonian,
         Request::Bracket,
@@ -87,6 +90,7 @@ fn on_level(proved: &Proved) -> Option<Violation> {
         Request::Volume,
         Request::Divergence,
         Request::Leapfrog,
+        Request::Rattle,
         Request::EulerPoincareSuslov,
         Request::Splitting,
     ];
@@ -105,11 +109,12 @@ fn on_level(proved: &Proved) -> Option<Violation> {
 
 /// Auxiliary states are no part of phase space: what is on it alone, and steps that are made from it, are refused.
 fn beyond_phase_space(proved: &Proved) -> Option<Violation> {
-    const REQUESTS: [(Request, &str); 5] = [
+    const REQUESTS: [(Request, &str); 6] = [
         (Request::Hamiltonian, "Hamilton's equations are those of (x, π)"),
         (Request::DiscreteGradient, "the step that keeps the energy moves coordinates and velocities"),
         (Request::Volume, "an invariant volume is looked for on the coordinates and velocities"),
         (Request::Leapfrog, "the leapfrog moves coordinates and velocities"),
+        (Request::Rattle, "the discrete Lagrangian is one of positions"),
         (Request::EulerPoincareSuslov, "the discrete equations move velocities"),
     ];
     let Proved { model, .. } = proved;

@@ -4,20 +4,22 @@ use super::parameters;
 use crate::compile::{Derived, Proved};
 use crate::geometry::PivotSetting;
 use crate::geometry::suggested_velocities::{Suggested, Wanted, suggested};
-use crate::id::{SectionId, SymbolId};
-use crate::model::{Model, TrackedItem};
+use crate::id::{Origin, SectionId, SymbolId};
+use crate::model::{Model, Request, TrackedItem};
 
 /// A choice that `independent` would accept, where the projected formulation is nobody's wish.
 ///
 /// Nothing is suggested where position constraints could not be solved: nothing is known then of the manifold where a
-/// pivot would have to be other than 0. Nor on levels of momenta, where the choice is another one, or beside a volume,
-/// which is claimed in the variables of the state.
+/// pivot would have to be other than 0. Nor on levels of momenta, where the choice is another one, beside a volume, which is
+/// claimed in the variables of the state, or for steps that are made of all velocities.
 pub(super) fn suggestion(proved: &mut Proved, derived: &Derived<'_>) -> Option<Suggested> {
     let Derived::Projected { .. } = derived else { return None };
     let parameters = parameters(proved);
     let Proved { model, base, constraints, positions, facts, levels, .. } = proved;
     let is_volume_given = model.volume.as_ref().is_some_and(|claim| claim.density.is_some());
     let is_asked_for = model.formulation.is_some();
+    let moves_all = |(request, _): &(Request, Origin)| matches!(request, Request::Leapfrog | Request::Rattle);
+    let is_asked_for = is_asked_for || model.requests.iter().any(moves_all);
     if is_asked_for || is_volume_given || !levels.is_empty() || !positions.unsolved.is_empty() {
         return None;
     }

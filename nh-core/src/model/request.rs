@@ -48,6 +48,8 @@ pub enum Request {
     Invariants,
     /// The leapfrog method on TQ.
     Leapfrog,
+    /// The variational method on TQ with position constraints.
+    Rattle,
     /// The discrete Euler–Poincaré–Suslov equations on a Lie algebra.
     EulerPoincareSuslov,
     /// The derivative by the Gibbs–Appell function.
@@ -81,7 +83,7 @@ impl Request {
     }
 
     /// The words by which `emit` asks for them.
-    pub const WORDS: [(&str, Self); 30] = [
+    pub const WORDS: [(&str, Self); 31] = [
         ("jacobian", Self::Jacobian),
         ("taylor", Self::Taylor),
         ("sparse_jacobian", Self::SparseJacobian),
@@ -108,6 +110,7 @@ impl Request {
         ("connection", Self::Connection),
         ("invariants", Self::Invariants),
         ("leapfrog", Self::Leapfrog),
+        ("rattle", Self::Rattle),
         ("euler_poincare_suslov", Self::EulerPoincareSuslov),
         ("explain", Self::Explain),
         ("latex", Self::Latex),

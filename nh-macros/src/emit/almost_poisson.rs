@@ -62,7 +62,7 @@ fn implementation(
     let (covector, n) = (local("covector"), Literal::usize_unsuffixed(context.state.len()));
     let held = holds.then(|| {
         quote! {
-            const HOLDS: bool = true;
+            const HOLDS: ::core::primitive::bool = true;
             #[inline]
             fn held_equations(&self, #t: #scalar, #state: &#state_type) -> #runtime::Held<#state_type> {
                 #runtime::Holding::held(self, #t, #state)

@@ -58,6 +58,7 @@ mod taylor;
 #[cfg(test)]
 mod tests;
 mod validate;
+mod variational;
 mod vector_products;
 
 use nonholonomic_core::functions::{ENERGY, VELOCITY};
@@ -104,6 +105,7 @@ pub(crate) fn emit(system: &System, layout: &Layout) -> Result<TokenStream, Vec<
         .with(almost_poisson::emit(context, scope, system))
         .with(held::emit(context, scope, system))
         .with(discrete::emit(context, system))
+        .with(variational::emit(context, scope, system))
         .with(invariants::emit(context, scope, system));
     let mut programs = vec![("derivative", &derivative)];
     programs.extend(part.programs.iter().map(|(name, program)| (*name, program)));

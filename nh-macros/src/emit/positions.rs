@@ -64,7 +64,7 @@ pub(super) fn hooks(context: &Context, system: &System) -> TokenStream {
     let residual = local("residual");
     quote! {
         #[inline]
-        fn has_positions(&self) -> bool { true }
+        fn has_positions(&self) -> ::core::primitive::bool { true }
         fn return_to_positions(
             &self, #t: #scalar, #state: &mut #state_type
         ) -> ::core::result::Result<#scalar, #runtime::ProjectionError> {

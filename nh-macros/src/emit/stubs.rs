@@ -15,7 +15,7 @@ use super::taylor;
 use super::{
     almost_poisson, angle_cache, assembly, c, callback, discrete, editor, embedding, energy, functions,
     hamiltonian, held, impact_methods, invariants, jacobian, latex, linearization, motion, observed,
-    prepared, projection, report_text, sparse_jacobian, state, validate, vector_products,
+    prepared, projection, report_text, sparse_jacobian, state, validate, variational, vector_products,
 };
 use crate::resolve::Outline;
 
@@ -76,6 +76,7 @@ fn on_request(context: &Context, outline: &Outline) -> Part {
         .with(asked(Request::DiscreteGradient, &|| almost_poisson::stub(context, holds)))
         .with(if holds { held::stub(context) } else { Part::default() })
         .with(discrete::stub(context, requests))
+        .with(asked(Request::Rattle, &|| variational::stub(context)))
         .with(invariants::stub(context, requests))
         .with(asked(Request::Hamiltonian, &|| hamiltonian::stub(context, velocities)))
         .with(asked(Request::Prepared, &|| prepared::stub(context)))

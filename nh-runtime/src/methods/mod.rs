@@ -13,8 +13,9 @@
 //! | [`Taylor`] | by the tolerance, up to 24 and more | adaptive | |
 //! | [`ImplicitMidpoint`] | 2 | fixed, stiff systems too | quadratic invariants, reversibility |
 //! | [`DiscreteGradient`] | 2 | fixed | the energy, quadratic constraints and identities, reversibility |
-//! | `.fourth_order()`, `.sixth_order()` of the two above | 4, 6 | fixed | what they keep |
+//! | `.fourth_order()`, `.sixth_order()` of the two above and of [`Rattle`] | 4, 6 | fixed | what they keep |
 //! | [`ReflectedLeapfrog`] | 2 | fixed, on TQ | reversibility; energy and constraints nearly |
+//! | [`Rattle`] | 2 | fixed, on TQ | position constraints, the symplectic form, reversibility; the energy nearly |
 //! | [`DiscreteSuslov`] | 2 | fixed, on a Lie algebra | the constraints, reversibility; the energy nearly |
 //! | [`GaussLegendre4`] | 4 | fixed, stiff systems too | quadratic invariants, reversibility |
 //! | [`GaussLegendre6`] | 6 | fixed, stiff systems too | quadratic invariants, reversibility |
@@ -78,8 +79,8 @@ pub use implicit::{
 pub use interruptible::Interruptible;
 pub use projected::Projected;
 pub use structure::{
-    Composed, Conserving, DiscreteGradient, DiscreteMomentum, DiscreteSuslov, DriftKickDrift, Gonzalez,
-    KahanLi6, ReflectedLeapfrog, Substeps, Suzuki4, Symmetric, SymmetricProjection,
+    Composed, Conserving, DiscreteAction, DiscreteGradient, DiscreteMomentum, DiscreteSuslov, DriftKickDrift,
+    Gonzalez, KahanLi6, Rattle, ReflectedLeapfrog, Substeps, Suzuki4, Symmetric, SymmetricProjection,
 };
 pub use taylor::Taylor;
 pub use transition::Transition;

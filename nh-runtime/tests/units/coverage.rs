@@ -79,6 +79,7 @@ const NO_METHODS: &[&str] = &[
     "Radau",
     "Rodas",
     "Composed",
+    "DiscreteAction",
     "DiscreteMomentum",
     "DriftKickDrift",
     "Gonzalez",

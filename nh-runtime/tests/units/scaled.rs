@@ -1,8 +1,9 @@
 //! A system in other units.
 
 use nonholonomic::{
-    AlmostPoisson, Constrained, Dim, DimOf, Dynamics, Energy, EulerPoincareSuslov, Held, Holding, Invariants,
-    Jacobian, Leapfrog, MatOf, ProjectionError, Real, Scalar, ScalarOf, State, TaylorSeries, VecOf,
+    AlmostPoisson, Constrained, Dim, DimOf, DiscreteLagrangian, Dynamics, Energy, EulerPoincareSuslov, Held,
+    Holding, Invariants, Jacobian, Leapfrog, MatOf, ProjectionError, Real, Scalar, ScalarOf, State,
+    TaylorSeries, VecOf,
 };
 
 use crate::Change;
@@ -220,6 +221,31 @@ impl<T: Real> Holding for Scaled<Problem<T>> {
 impl<S: Leapfrog> Leapfrog for Scaled<S> {
     fn kick(&self, state: &S::State, h: ScalarOf<S>) -> S::State {
         multiplied(&self.system.kick(&divided(state, &self.units), h / self.time), &self.units)
+    }
+}
+
+/// Velocities are places over times, and constraints have the unit of energies.
+impl<S: DiscreteLagrangian> DiscreteLagrangian for Scaled<S> {
+    fn lagrangian_slopes(&self, state: &S::State) -> VecOf<S> {
+        self.covector(self.system.lagrangian_slopes(&divided(state, &self.units)))
+    }
+
+    fn position_constraints(&self, state: &S::State) -> VecOf<S> {
+        let mut left = self.system.position_constraints(&divided(state, &self.units));
+        left.as_mut().iter_mut().for_each(|left| *left *= self.other);
+        left
+    }
+
+    fn constrained(&self, state: &S::State, given: &VecOf<S>) -> VecOf<S> {
+        let (mut inner, n) = (*given, given.as_ref().len() / 2);
+        for (i, given) in inner.as_mut().iter_mut().enumerate() {
+            *given *= if i < n { self.unit(n + i) } else { self.time } / self.other;
+        }
+        let mut change = self.system.constrained(&divided(state, &self.units), &inner);
+        for (i, change) in change.as_mut().iter_mut().take(n).enumerate() {
+            *change *= self.unit(n + i);
+        }
+        change
     }
 }
 

@@ -1,7 +1,10 @@
 //! The law over what keeps energies, invariants, constraints and reversibility.
 
 use nonholonomic::prelude::*;
-use nonholonomic::{D, EulerPoincareSuslov, Invariants, Leapfrog, Method, ProjectionError, ScalarOf, State};
+use nonholonomic::{
+    D, DiscreteLagrangian, EulerPoincareSuslov, Invariants, Leapfrog, Method, ProjectionError, ScalarOf,
+    State,
+};
 
 use crate::problems::{Four, Kind, Problem};
 use crate::record::{Course, recorded};
@@ -44,6 +47,26 @@ impl<T: Real> Leapfrog for Problem<T> {
         let [a, b, _, _] = self.energy_gradient(T::ZERO, state);
         let Four([x, y, u, v]) = *state;
         Four([x, y, u - h * a, v - h * b])
+    }
+}
+
+/// The planet on a wire through its start, a circle about the sun.
+impl<T: Real> DiscreteLagrangian for Problem<T> {
+    fn lagrangian_slopes(&self, state: &Four<T>) -> [T; 4] {
+        let [a, b, u, v] = self.energy_gradient(T::ZERO, state);
+        [-a, -b, u, v]
+    }
+    fn position_constraints(&self, Four([x, y, ..]): &Four<T>) -> [T; 4] {
+        [
+            (*x * *x + *y * *y - T::from_f64(0.4) * T::from_f64(0.4)) * T::from_f64(0.5),
+            T::ZERO,
+            T::ZERO,
+            T::ZERO,
+        ]
+    }
+    fn constrained(&self, Four([x, y, ..]): &Four<T>, [a, b, c, _]: &[T; 4]) -> [T; 4] {
+        let along = (*c - *x * *a - *y * *b) / (*x * *x + *y * *y);
+        [*a + along * *x, *b + along * *y, T::ZERO, T::ZERO]
     }
 }
 
@@ -194,6 +217,8 @@ impl Trial {
             change.state = [x, y, x - time, y - time];
         }
         self.of("ReflectedLeapfrog", true, planet, &course, |tau, _| ReflectedLeapfrog::new(h * tau));
+        self.of("Rattle", true, planet, &course, |tau, _| Rattle::new(h * tau));
+        self.of("Rattle, order 4", true, planet, &course, |tau, _| Rattle::new(h * tau).fourth_order());
     }
 }
 

@@ -51,6 +51,7 @@ const _: () = {
     plain::<Rodas5P<f64>>();
     plain::<DiscreteGradient<f64>>();
     plain::<DiscreteSuslov<f64>>();
+    plain::<Rattle<f64>>();
     plain::<ReflectedLeapfrog<f64>>();
     plain::<Projected<Rk4<f64>>>();
     plain::<Regulator<f32, 4, 2>>();

@@ -5,7 +5,9 @@ use nonholonomic::methods::Method;
 use nonholonomic::prelude::*;
 
 use crate::bits::{Bits, line};
-use crate::systems::{Contact, ContactOnTq, ContactOnTqState, ContactState, Suslov, SuslovState};
+use crate::systems::{
+    Contact, ContactOnTq, ContactOnTqState, ContactState, Rod, RodState, Suslov, SuslovState,
+};
 
 /// The bits of the state after five units of time.
 fn run<S, M, T>(lines: &mut Vec<String>, name: &str, system: S, start: S::State, method: M)
@@ -42,6 +44,9 @@ pub(crate) fn all<T: Real + Bits>() -> Vec<String> {
     run(lines, "Conserving(Dopri5)", on_tq, start, Conserving::new(Dopri5::new()));
     run(lines, "Projected(Rk4)", on_tq, start, Projected::new(Rk4::new(h), 2));
     run(lines, "Projected(Dopri5)", on_tq, start, Projected::new(Dopri5::new(), 1));
+    let (rod, start) = (Rod { g: number(1.0) }, RodState::from([0.6, -0.8, 0.4, 0.3].map(number)));
+    run(lines, "Rattle", rod, start, Rattle::new(h));
+    run(lines, "Rattle of fourth order", rod, start, Rattle::new(h).fourth_order());
     let suslov = Suslov { I: [1.0, 2.0, 3.0].map(number), k: number(0.7) };
     let start = SuslovState::from([0.6, 0.8].map(number));
     run(lines, "DiscreteSuslov", suslov, start, DiscreteSuslov::new(h));

@@ -81,6 +81,18 @@ pub(crate) struct ContactOnTq<T> {
     pub(crate) epsilon: T,
 }
 
+/// A mass on a rod, on TQ.
+#[nonholonomic(
+    base { x, y }
+    holonomic { rod: x^2 + y^2 = 1; }
+    lagrangian { (der(x)^2 + der(y)^2) / 2 - g * y }
+    emit { rattle }
+)]
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Rod<T> {
+    pub(crate) g: T,
+}
+
 /// Suslov's problem, on a Lie algebra.
 #[nonholonomic(
     basis { w[3] }

@@ -61,7 +61,7 @@ const EXTREME: [&str; 22] = [
 ];
 
 /// Words with a meaning of their own.
-const WORDS: [&str; 45] = [
+const WORDS: [&str; 46] = [
     "t",
     "pi",
     "der",
@@ -101,6 +101,7 @@ const WORDS: [&str; 45] = [
     "discrete_gradient",
     "invariants",
     "leapfrog",
+    "rattle",
     "momenta",
     "reactions",
     "prepared",

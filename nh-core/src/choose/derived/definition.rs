@@ -91,6 +91,11 @@ pub(super) fn is_defined(claim: &Derived, place: &mut Place) -> Result<bool, Def
         Derived::Leapfrog(_) | Derived::Held(..) => {
             return Ok(is_solvable(&place.mass()?, &place.jacobian()?));
         }
+        Derived::Variational(form) => {
+            let rows = returns::slopes(place, &form.residual.outputs, place.coordinates())?;
+            place.momenta(Direction::default())?;
+            return Ok(is_solvable(&place.mass()?, &rows));
+        }
         Derived::DiscreteMomentum(_) => _ = place.distribution()?,
         Derived::Section(_, claimed) => {
             place.values(claimed)?;

@@ -3,6 +3,7 @@
 //! numbers (`algebra/tangent.rs`), linear systems are solved there, with no rule of those that made the expressions.
 
 mod added_conditions;
+mod claimed_forms;
 mod definition;
 mod divisors;
 mod held;
@@ -26,11 +27,15 @@ use super::proof::{
 };
 use super::reference::{Reference, inner};
 use crate::algebra::{Degrees, Direction, Facts, FieldPass, FieldPoint, Graph, Node, Radicands, Residue};
-use crate::id::{CoordId, ExprId, SymbolId};
+use crate::id::{ExprId, SymbolId};
 use crate::limits;
 use crate::mechanics::{HamiltonianSide, Procedure};
-use crate::phase_space::{HeldEquations, StepForm};
+use crate::phase_space::{HeldEquations, StepForm, VariationalForm};
 use crate::system::{Embedding, ImpactForm, PositionReturn, Projection};
+pub(crate) use claimed_forms::{
+    AlmostPoissonForm, AppliedForce, BracketForm, GyroscopicForm, PowerForm, SplittingForm, ValuesForm,
+    VelocityNames,
+};
 use place::Place;
 pub(crate) use proof_of_product::prove_product;
 
@@ -87,92 +92,10 @@ pub(crate) enum Derived<'p> {
     Normalisation(&'p Embedding, &'p [ExprId]),
     /// The kick of the leapfrog.
     Leapfrog(&'p StepForm),
+    /// What a variational step is made of.
+    Variational(&'p VariationalForm),
     /// The discrete momentum on a Lie algebra.
     DiscreteMomentum(&'p StepForm),
-}
-
-/// Π applied to a covector, and the covector of the energy.
-#[derive(Clone, Copy)]
-pub(crate) struct AlmostPoissonForm<'p> {
-    pub(crate) gradient: &'p Procedure,
-    pub(crate) covector: &'p [SymbolId],
-    pub(crate) sharp: &'p Procedure,
-    pub(crate) energy: &'p Procedure,
-}
-
-/// The brackets of outputs with each other and with the energy, and what is left of their rates.
-#[derive(Clone, Copy)]
-pub(crate) struct BracketForm<'p> {
-    pub(crate) outputs: &'p Procedure,
-    pub(crate) bracket: &'p Procedure,
-    pub(crate) with_energy: &'p Procedure,
-    pub(crate) drift: &'p Procedure,
-    pub(crate) energy: &'p Procedure,
-}
-
-/// The functions of the splitting: an array without entries is none.
-#[derive(Clone, Copy)]
-pub(crate) struct SplittingForm<'p> {
-    pub(crate) vertical: Option<&'p Procedure>,
-    pub(crate) lifts: Option<&'p Procedure>,
-    pub(crate) inertia: Option<&'p Procedure>,
-    pub(crate) coefficients: Option<&'p Procedure>,
-    pub(crate) curvature: Option<&'p Procedure>,
-    pub(crate) momenta: Option<&'p Procedure>,
-    pub(crate) velocities: Option<&'p Procedure>,
-    pub(crate) force: Option<&'p Procedure>,
-    /// The coordinates of which V is the kernel.
-    pub(crate) over: &'p [CoordId],
-    /// Those of the lifts.
-    pub(crate) coordinates: &'p [CoordId],
-    /// Sections that span V, where a group is declared.
-    pub(crate) group: &'p [Vec<ExprId>],
-    pub(crate) is_embedded: bool,
-}
-
-/// The force of the curvature, with the coordinates along which it acts.
-#[derive(Clone, Copy)]
-pub(crate) struct GyroscopicForm<'p> {
-    pub(crate) force: &'p Procedure,
-    pub(crate) over: &'p [CoordId],
-}
-
-/// The power of each force, then of each constraint.
-#[derive(Clone, Copy)]
-pub(crate) struct PowerForm<'p> {
-    pub(crate) power: &'p Procedure,
-    pub(crate) energy: &'p Procedure,
-    pub(crate) forces: &'p [AppliedForce],
-    /// What may stand in the forces.
-    pub(crate) names: VelocityNames<'p>,
-    /// λ, where it is known, with the rows Φ unless these are those of the reference.
-    pub(crate) multipliers: Option<&'p Procedure>,
-    pub(crate) rows: Option<&'p [Vec<ExprId>]>,
-}
-
-/// A declared force.
-#[derive(Clone, Debug)]
-pub(crate) struct AppliedForce {
-    pub(crate) value: ExprId,
-    /// The velocity along which it acts: a combination of y, or one of the state.
-    pub(crate) along: Result<Vec<ExprId>, SymbolId>,
-}
-
-/// Declared functions, in which rates and replaced velocities may stand.
-#[derive(Clone, Copy)]
-pub(crate) struct ValuesForm<'p> {
-    pub(crate) values: &'p Procedure,
-    pub(crate) declared: &'p [ExprId],
-    pub(crate) names: VelocityNames<'p>,
-}
-
-/// What stands for velocities in declared functions, beside y.
-#[derive(Clone, Copy)]
-pub(crate) struct VelocityNames<'p> {
-    /// The symbols of ẋ.
-    pub(crate) rates: &'p [SymbolId],
-    /// Further velocities, by the rows that make them of y.
-    pub(crate) replaced: &'p [(SymbolId, Vec<ExprId>)],
 }
 
 /// The motion: rates of the state, by the state, and the time.
@@ -239,6 +162,7 @@ impl Derived<'_> {
             Self::Jump(impact, _) => vec![&impact.jump],
             Self::Normalisation(embedding, _) => vec![&embedding.step],
             Self::Leapfrog(form) | Self::DiscreteMomentum(form) => vec![&form.map],
+            Self::Variational(form) => vec![&form.slopes, &form.residual, &form.change],
         }
     }
 
@@ -338,6 +262,7 @@ impl Derived<'_> {
                 returns::is_normalised(place, embedding, identities)
             }
             Self::Leapfrog(form) => returns::is_leapfrog(place, form),
+            Self::Variational(form) => returns::is_variational(place, form),
             Self::DiscreteMomentum(form) => returns::is_discrete_momentum(place, form),
         }
     }

@@ -8,7 +8,7 @@ use super::procedure_derivative::solution;
 use crate::algebra::{Direction, Residue};
 use crate::id::{ExprId, SymbolId};
 use crate::mechanics::Procedure;
-use crate::phase_space::StepForm;
+use crate::phase_space::{StepForm, VariationalForm};
 use crate::system::{Embedding, PositionReturn, Projection};
 
 /// A matrix by its rows.
@@ -174,6 +174,22 @@ pub(super) fn is_leapfrog(place: &Place, form: &StepForm) -> Result<bool, Defect
     let rows = place.jacobian()?;
     let mean: Vec<Residue> = after.iter().zip(before).map(|(a, b)| *a + *b).collect();
     Ok(image(&rows, &mean).iter().all(|entry| *entry == Residue::ZERO) && spans(&rows, &[left]))
+}
+
+/// ∂L/∂q and p; W a − r in the span of the rows of G = ∂g, G a = c: mathematics (62).
+pub(super) fn is_variational(place: &Place, form: &VariationalForm) -> Result<bool, Defect> {
+    let gradient = place.gradient(place.system().lagrangian, place.coordinates(), &Direction::default())?;
+    let momenta = place.momenta(Direction::default())?;
+    let wanted: Vec<Residue> = gradient.iter().chain(&momenta).map(|dual| dual.value).collect();
+    let change = place.run(&form.change)?;
+    let (force, rates): (Vec<Residue>, Vec<Residue>) = {
+        let given: Vec<Residue> = form.given.iter().map(|symbol| place.pass().symbol(*symbol)).collect();
+        let (force, rates) = given.split_at(change.len());
+        (force.to_vec(), rates.to_vec())
+    };
+    let rows = slopes(place, &form.residual.outputs, place.coordinates())?;
+    let left = difference(&image(&place.mass()?, &change), &force);
+    Ok(place.run(&form.slopes)? == wanted && image(&rows, &change) == rates && spans(&rows, &[left]))
 }
 
 /// ⟨p, B_a − h/2 [y, B_a] + h²/12 [y, [y, B_a]]⟩: mathematics (27).

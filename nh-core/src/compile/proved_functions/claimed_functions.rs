@@ -119,6 +119,9 @@ pub(super) fn of_phase_space<'d>(found: &'d Derivatives, declared: &'d Declared)
     if let Some(form) = &phase_space.leapfrog {
         claims.push(("leapfrog", DerivedFunction::Leapfrog(form)));
     }
+    if let Some(form) = &phase_space.variational {
+        claims.push(("rattle", DerivedFunction::Variational(form)));
+    }
     if let Some(form) = &phase_space.euler_poincare_suslov {
         claims.push(("euler_poincare_suslov", DerivedFunction::DiscreteMomentum(form)));
     }

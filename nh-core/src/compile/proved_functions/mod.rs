@@ -117,8 +117,15 @@ impl Parts {
         }
         self.impacts.iter_mut().for_each(|impact| finish("impact", &mut impact.jump));
         self.embedding.iter_mut().for_each(|embedding| finish("normalize", &mut embedding.step));
-        let PhaseSpace { hamiltonian, almost_poisson, held, invariants, leapfrog, euler_poincare_suslov } =
-            &mut self.phase_space;
+        let PhaseSpace {
+            hamiltonian,
+            almost_poisson,
+            held,
+            invariants,
+            leapfrog,
+            variational,
+            euler_poincare_suslov,
+        } = &mut self.phase_space;
         if let Some(side) = hamiltonian {
             finish("legendre", &mut side.legendre);
             finish("inverse", &mut side.inverse);
@@ -139,6 +146,10 @@ impl Parts {
         }
         if let Some(form) = leapfrog {
             finish("leapfrog", &mut form.map);
+        }
+        if let Some(form) = variational {
+            finish("lagrangian_slopes", &mut form.slopes);
+            finish("rattle", &mut form.change);
         }
         if let Some(form) = euler_poincare_suslov {
             finish("euler_poincare_suslov", &mut form.map);

@@ -34,6 +34,7 @@ fn what_is_asked_for_is_derived_or_refused_in_words() {
             "symmetric_projection",
             "volume",
             "leapfrog",
+            "rattle",
             "euler_poincare_suslov"
         ]
     );

@@ -13,7 +13,7 @@ use nonholonomic_core::system::System;
 use super::model;
 
 /// Declarations that ask for everything between them, on D and on E, over coordinates and an embedded base.
-const DECLARED: [(&str, &str); 12] = [
+const DECLARED: [(&str, &str); 13] = [
     (
         "base { x, y, th } lagrangian { m/2*(der(x)^2 + der(y)^2) + J/2*der(th)^2 - m*g*x*sin(al) }
          constraints { blade: der(x)*sin(th) = der(y)*cos(th); } inputs { u } forces { th: u; }
@@ -70,6 +70,11 @@ const DECLARED: [(&str, &str); 12] = [
     (
         "base { x, z, y } lagrangian { (der(x)^2 + a*der(y)^2 + der(z)^2)/2 - b*y } constraints { der(z) = y*der(x); }
          holonomic { rod: x^2 + y^2 = l^2; } independent { der(x) } emit { discrete_gradient }",
+        "struct S { a: f64, b: f64, l: f64 }",
+    ),
+    (
+        "base { x, y } lagrangian { ((1 + x^2)*der(x)^2 + a*der(y)^2 + x*der(y))/2 - b*y } holonomic { rod: x^2 + y^2 = l^2; }
+         emit { rattle }",
         "struct S { a: f64, b: f64, l: f64 }",
     ),
     (
@@ -201,6 +206,7 @@ fn site(name: &str) -> &str {
         "legendre" | "inverse" | "equations" | "bracket_of_momenta" | "drift_of_momenta" => "hamiltonian",
         "velocity_return" => "position_return",
         "energy_gradient" | "sharp" => "discrete_gradient",
+        "lagrangian_slopes" => "rattle",
         "bracket_with_energy" | "drift_of_outputs" => "bracket",
         "vertical_sections"
         | "horizontal_lifts"
@@ -235,7 +241,7 @@ fn a_sign_and_a_term_of_1e_9_in_every_function() {
         }
     }
     let all: Vec<&str> = tried.iter().map(String::as_str).collect();
-    assert_eq!(all.len(), 47, "{all:?}");
+    assert_eq!(all.len(), 49, "{all:?}");
 }
 
 /// Divisors with what makes them harmless, and the text of what is 0.
@@ -280,8 +286,8 @@ const WITH_PARAMETERS: [(&str, &str, &[&str]); 5] = [
     (
         "base { x, y, z } lagrangian { (der(x)^2 + der(y)^2 + der(z)^2)/2 - (a + b*c)*z }
          holonomic { rod: x^2 + y^2 = 4; }",
-        "emit { power, multipliers }",
-        &["position_return", "power"],
+        "emit { power, multipliers, rattle }",
+        &["position_return", "power", "lagrangian_slopes", "rattle"],
     ),
     (
         "base { x, y, z } lagrangian { ((1 + y^2)*der(x)^2 + der(y)^2 + (a + b*c)*der(z)^2)/2 }",
@@ -331,7 +337,7 @@ fn a_divisor_that_may_be_zero_where_the_motion_is_regular() {
         }
     }
     assert!(wrong.is_empty(), "{}", wrong.join("\n"));
-    assert_eq!(tried.len(), 34, "{tried:?}");
+    assert_eq!(tried.len(), 36, "{tried:?}");
 }
 
 /// A divisor of a degree that is not looked for is named in the ledger, under the function that has it.

@@ -1,6 +1,6 @@
 //! What the iterations of implicit methods share: bounds, matrices, and what they say if they fail.
 
-use crate::arrays::{displaced, first_non_finite};
+use crate::arrays::{Array, displaced, first_non_finite};
 use crate::methods::fixed::OneStep;
 use crate::methods::{Start, explain_non_finite, non_finite_derivative};
 use crate::{Dim, Dynamics, IntegrationError, MatOf, Real, Scalar, ScalarOf, State, Statistics, VecOf};
@@ -17,7 +17,7 @@ const NEGLIGIBLE: f64 = 1.0 / 64.0;
 const SHORT: f64 = 8.0;
 
 /// Whether a step is so short that its first term is all of it: none, for the length zero.
-pub(super) fn is_first_term<T: Real>(h: T) -> bool {
+pub(in crate::methods) fn is_first_term<T: Real>(h: T) -> bool {
     h.abs() <= T::from_f64(SHORT) * T::MIN_POSITIVE
 }
 
@@ -76,7 +76,7 @@ where
 
 /// The largest correction of a component, relative to its |x| + |increment|, or to what rounding reaches it by, or to the
 /// least number that has all its digits; NaN if there is one. No two components are compared.
-pub(super) fn size<T: Real, V: AsRef<[T]>>(correction: &V, x: &V, increment: &V, reach: &V) -> T {
+pub(in crate::methods) fn size<T: Real, V: AsRef<[T]>>(correction: &V, x: &V, increment: &V, reach: &V) -> T {
     let sizes = x.as_ref().iter().zip(increment.as_ref()).zip(reach.as_ref());
     let mut most = T::ZERO;
     for (c, ((x, d), reach)) in correction.as_ref().iter().zip(sizes) {
@@ -138,6 +138,24 @@ impl<D: Dim, T: Real> Settling<D, T> {
         *before = *correction;
         all
     }
+}
+
+/// The sizes of the components.
+pub(in crate::methods) fn sizes<T: Real, V: Array<T>>(vector: &V) -> V {
+    let mut sizes = *vector;
+    sizes.as_mut().iter_mut().for_each(|size| *size = size.abs());
+    sizes
+}
+
+/// Whether some correction is less than half of the least one so far, which is kept: where none is, round-off is left.
+/// Each is compared with itself, since they have units of their own.
+pub(in crate::methods) fn falls<T: Real>(least: &mut [T], now: &[T]) -> bool {
+    let mut is_less = false;
+    for (least, now) in least.iter_mut().zip(now) {
+        is_less |= *now < T::from_f64(0.5) * *least;
+        *least = least.min(*now);
+    }
+    is_less
 }
 
 /// 1 − h A.

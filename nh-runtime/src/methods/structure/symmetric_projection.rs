@@ -3,9 +3,9 @@
 use super::Symmetric;
 use crate::arrays::displaced;
 use crate::held::Holding;
-use crate::methods::implicit::newton::refusal;
+use crate::methods::implicit::newton::{falls, refusal, sizes};
 use crate::methods::{Arrival, Fixed, OneStep, Start};
-use crate::{Dim, DimOf, IntegrationError, Real, Scalar, ScalarOf, State, Statistics, VecOf};
+use crate::{Dim, DimOf, IntegrationError, Real, ScalarOf, State, Statistics, VecOf};
 
 /// A step with symmetric projection, mathematics (38): the start is moved off the constraints by R(x₀) μ, the method
 /// takes its step, and R(x₁) μ with the same μ leads back to where g(x₁) = 0.
@@ -114,12 +114,12 @@ where
             let correction = last.projector().amounts(&left);
             amounts = displaced(&amounts, -half, &correction);
             iterations += 1;
-            let sizes = sizes_of::<S>(&correction);
-            if !falls(least.get_or_insert(sizes).as_mut(), sizes.as_ref()) && iterations > 1 {
+            let now = sizes(&correction);
+            if !falls(least.get_or_insert(now).as_mut(), now.as_ref()) && iterations > 1 {
                 work.amounts = amounts;
                 return Ok(change);
             }
-            let size = sizes.as_ref().iter().fold(T::ZERO, |most, size| most.max(*size));
+            let size = now.as_ref().iter().fold(T::ZERO, |most, size| most.max(*size));
             if iterations == MOST_ITERATIONS || !size.is_finite() {
                 work.amounts = DimOf::<S>::vec(T::ZERO);
                 return Err(refusal(start, h, (iterations, size), end.as_ref(), None));
@@ -130,21 +130,4 @@ where
     fn blame(&self, start: &Start<'_, S>, h: ScalarOf<S>) -> Option<IntegrationError> {
         self.base.blame(start, h)
     }
-}
-
-fn sizes_of<S: Holding>(amounts: &VecOf<S>) -> VecOf<S> {
-    let mut sizes = *amounts;
-    sizes.as_mut().iter_mut().for_each(|size| *size = (*size).abs());
-    sizes
-}
-
-/// Whether some correction is less than half of the least one so far, which is kept: where none is, round-off is left.
-/// Each is compared with itself, since they have units of their own.
-fn falls<T: Real>(least: &mut [T], now: &[T]) -> bool {
-    let mut is_less = false;
-    for (least, now) in least.iter_mut().zip(now) {
-        is_less |= *now < T::from_f64(0.5) * *least;
-        *least = least.min(*now);
-    }
-    is_less
 }

@@ -15,7 +15,11 @@ const ROUNDS: usize = 101;
 const PASSES: usize = 4;
 
 /// Nanoseconds per step of all methods: around the emitted derivative, and around that by hand.
-pub(crate) fn in_turns<E, H>(emitted: E, by_hand: H, samples: &[(E::State, E::Input)]) -> [f64; 2 * METHODS.len()]
+pub(crate) fn in_turns<E, H>(
+    emitted: E,
+    by_hand: H,
+    samples: &[(E::State, E::Input)],
+) -> [f64; 2 * METHODS.len()]
 where
     E: Dynamics<State: State<Scalar = f64>> + Copy,
     H: Dynamics<State = E::State, Input = E::Input> + Copy,

@@ -1,0 +1,200 @@
+//! The variational method with position constraints.
+
+use crate::arrays::{Array, difference, displaced};
+use crate::methods::implicit::newton::{Settling, falls, is_first_term, refusal, size, sizes};
+use crate::methods::{Arrival, Fixed, OneStep, Start, Symmetric};
+use crate::{Dim, DimOf, IntegrationError, Real, Scalar, ScalarOf, State, Statistics, Variational, VecOf};
+
+/// The method of SHAKE and RATTLE for any Lagrangian of TQ that is quadratic in the velocities, with fixed steps, of order 2,
+/// mathematics (62): the action of a step is h/2 (L(q₀, u) + L(q₁, u)) with u = (q₁ − q₀)/h, and multipliers at both ends
+/// keep the positions and the velocities on the constraints (Andersen, J. Comput. Phys. 52 (1983); Jay, SIAM J. Numer.
+/// Anal. 33 (1996); Marsden, West, Acta Numerica 10 (2001), 3.5).
+///
+/// Symplectic on the constraint manifold and symmetric, so that the energy of any motion stays in a band of the square of
+/// the step: that of a crank that goes round as well, which a symmetric method alone lets drift. Momenta of symmetries that
+/// are linear in q, as rotations are in x and y, are kept to round-off. Where the masses are constant only the multipliers
+/// are searched for; else the velocity with them, by iterations with the masses at the start, each of which gains a factor
+/// of h times the rate at which these change. Steps have to be shorter than two radians of the fastest oscillation.
+///
+/// For systems declared with `emit { variational }`; [`Statistics::evaluations`] counts the slopes of L.
+pub type Rattle<T> = Fixed<DiscreteAction<T>, T>;
+
+/// A step of [`Rattle`].
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct DiscreteAction<T> {
+    tolerance: T,
+}
+
+impl<T> Symmetric for DiscreteAction<T> {}
+
+impl<T: Real> Rattle<T> {
+    /// The method with steps of length `step`, which has to be positive and finite.
+    #[must_use]
+    pub fn new(step: T) -> Self {
+        Self { step, scheme: DiscreteAction { tolerance: T::from_f64(1e3) * T::EPSILON } }
+    }
+}
+
+/// The iterations after which a solution is given up.
+const MOST_ITERATIONS: u32 = 50;
+
+impl<T: Real, S: Variational> OneStep<S> for DiscreteAction<T>
+where
+    S::State: State<Scalar = T>,
+{
+    /// u − v₀ of the last step, from which the next search starts.
+    type Work = VecOf<S>;
+    dense_by_cubic!();
+
+    fn work(&self) -> VecOf<S> {
+        DimOf::<S>::vec(T::ZERO)
+    }
+
+    fn forget(&self, work: &mut VecOf<S>) {
+        *work = DimOf::<S>::vec(T::ZERO);
+    }
+
+    fn keeps_positions(&self) -> bool {
+        true
+    }
+
+    fn increment(
+        &self,
+        start: &Start<'_, S>,
+        x: &VecOf<S>,
+        h: T,
+        work: &mut VecOf<S>,
+        statistics: &mut Statistics,
+    ) -> Result<VecOf<S>, IntegrationError> {
+        let nought = DimOf::<S>::vec(T::ZERO);
+        let velocity = behind(x);
+        if is_first_term(h) {
+            return Ok(halves(&displaced(&nought, h, &velocity), &nought));
+        }
+        let action = Action { start, h, momentum: behind(&slopes(start.system, x)) };
+        let mut u = displaced(&velocity, T::ONE, work);
+        let (mut iterations, mut before, mut least, mut reach) = (0, None, None, None);
+        let mut settling = Settling::<DimOf<S>, T>::new();
+        loop {
+            let ends @ [_, end] = action.ends(x, &u);
+            let correction = action.correction(&ends);
+            u = displaced(&u, T::ONE, &correction);
+            statistics.evaluations += 2;
+            statistics.iterations += 1;
+            iterations += 1;
+            let moved = [correction, u].map(|rate| displaced(&nought, h, &rate));
+            let size = size(&moved[0], x, &moved[1], &nought);
+            let ratio = before.map(|before| size / before);
+            if size == T::ZERO || settling.after(&correction, &u, size <= self.tolerance, ratio) {
+                break;
+            }
+            // what rounding of the positions leaves, by the length of the step, is more than rounding of u
+            let sizes = sizes(&correction);
+            if !falls(least.get_or_insert(sizes).as_mut(), sizes.as_ref()) && iterations > 1 {
+                let reach = reach.get_or_insert_with(|| action.reach(&ends, &correction));
+                if sizes.as_ref().iter().zip(reach.as_ref()).all(|(size, reach)| size <= reach) {
+                    break;
+                }
+            }
+            if !size.is_finite() || iterations == MOST_ITERATIONS {
+                *work = nought;
+                return Err(refusal(start, h, (iterations, size / self.tolerance), end.as_ref(), None));
+            }
+            before = Some(size);
+        }
+        *work = difference(&u, &velocity);
+        let arrived = action.arrived(&action.ends(x, &u));
+        statistics.evaluations += 3;
+        Ok(halves(&displaced(&nought, h, &u), &difference(&arrived, &velocity)))
+    }
+}
+
+/// A step, as a function of u.
+struct Action<'s, S: Variational> {
+    start: &'s Start<'s, S>,
+    h: ScalarOf<S>,
+    /// p₀ = ∂L/∂q̇ at the start.
+    momentum: VecOf<S>,
+}
+
+impl<T: Real, S: Variational> Action<'_, S>
+where
+    S::State: State<Scalar = T>,
+{
+    /// (q₀, u) and (q₀ + h u, u).
+    fn ends(&self, x: &VecOf<S>, u: &VecOf<S>) -> [VecOf<S>; 2] {
+        [halves(x, u), halves(&displaced(x, self.h, u), u)]
+    }
+
+    /// What u is to be changed by, up to the difference of the masses and of the constraints at the two ends.
+    fn correction(&self, ends: &[VecOf<S>; 2]) -> VecOf<S> {
+        let Start { system, state, .. } = *self.start;
+        halves(&system.constrained(state, &self.missing(ends)), &DimOf::<S>::vec(T::ZERO))
+    }
+
+    /// How far a correction changes where the positions at the end are rounded otherwise, four units of their last places up
+    /// and down, in two patterns: what noise comes to.
+    fn reach(&self, [here, there]: &[VecOf<S>; 2], correction: &VecOf<S>) -> VecOf<S> {
+        let mut reach = DimOf::<S>::vec(T::ZERO);
+        for period in [2, 3] {
+            let mut rounded = *there;
+            let n = rounded.as_ref().len() / 2;
+            for (place, q) in rounded.as_mut().iter_mut().take(n).enumerate() {
+                let units = T::from_f64(if place % period == 0 { 4.0 } else { -4.0 });
+                *q += units * T::EPSILON * *q;
+            }
+            let change = sizes(&difference(&self.correction(&[*here, rounded]), correction));
+            reach = displaced(&reach, T::ONE, &change);
+        }
+        reach
+    }
+
+    /// p₀ + h/2 ∂L/∂q(q₀, u) − (∂L/∂q̇(q₀, u) + ∂L/∂q̇(q₁, u))/2, which multipliers of the constraints at the start make up
+    /// for, and −g(q₁)/h.
+    fn missing(&self, [here, there]: &[VecOf<S>; 2]) -> VecOf<S> {
+        let half = T::from_f64(0.5);
+        let slopes = [here, there].map(|end| slopes(self.start.system, end));
+        let [mean, other] = slopes.map(|slopes| behind(&slopes));
+        let mut force = displaced(&self.momentum, half * self.h, &slopes[0]);
+        force = displaced(&force, -half, &displaced(&mean, T::ONE, &other));
+        let open = self.start.system.position_constraints(&S::State::from_array(*there));
+        halves(&force, &displaced(&DimOf::<S>::vec(T::ZERO), -self.h.recip(), &open))
+    }
+
+    /// v₁ with ∂L/∂q̇(q₁, v₁) = h/2 ∂L/∂q(q₁, u) + (∂L/∂q̇(q₀, u) + ∂L/∂q̇(q₁, u))/2 but for multipliers of the constraints at
+    /// the end, where they are satisfied.
+    fn arrived(&self, [here, there]: &[VecOf<S>; 2]) -> VecOf<S> {
+        let (half, nought) = (T::from_f64(0.5), DimOf::<S>::vec(T::ZERO));
+        let slopes = [*here, *there, halves(there, &nought)].map(|end| slopes(self.start.system, &end));
+        let [mean, other, at_rest] = slopes.map(|slopes| behind(&slopes));
+        let momentum = displaced(
+            &displaced(&nought, half, &displaced(&mean, T::ONE, &other)),
+            half * self.h,
+            &slopes[1],
+        );
+        let given = halves(&difference(&momentum, &at_rest), &nought);
+        halves(&self.start.system.constrained(&S::State::from_array(*there), &given), &nought)
+    }
+}
+
+/// ∂L/∂q and ∂L/∂q̇.
+fn slopes<S: Variational>(system: &S, x: &VecOf<S>) -> VecOf<S> {
+    system.lagrangian_slopes(&S::State::from_array(*x))
+}
+
+/// The first halves of two arrays.
+fn halves<T: Scalar, V: Array<T>>(front: &V, behind: &V) -> V {
+    let mut whole = *front;
+    let n = whole.as_ref().len() / 2;
+    whole.as_mut().iter_mut().skip(n).zip(behind.as_ref()).for_each(|(slot, value)| *slot = *value);
+    whole
+}
+
+/// The second half of an array, in front of zeros.
+fn behind<T: Scalar, V: Array<T>>(whole: &V) -> V {
+    let mut half = *whole;
+    let n = half.as_ref().len() / 2;
+    let values = whole.as_ref().iter().skip(n).copied().chain(core::iter::repeat(T::ZERO));
+    half.as_mut().iter_mut().zip(values).for_each(|(slot, value)| *slot = value);
+    half
+}
