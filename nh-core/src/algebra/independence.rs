@@ -26,6 +26,18 @@ impl Graph {
         self.divisors(&[freed]).is_subset(&self.divisors(&[expression])).then_some(freed)
     }
 
+    /// The expression where those of the symbols vanish that it holds and does not depend on; nothing else in it changes.
+    /// `None` where it depends on all that occur, or where that divides by something else.
+    pub fn freed_of(&mut self, expression: ExprId, symbols: &[SymbolId]) -> Option<ExprId> {
+        if !self.depends_on(expression, symbols) {
+            return None;
+        }
+        let mut idle = self.seemingly_idle(expression);
+        idle.retain(|symbol| symbols.contains(symbol));
+        let freed = self.equal_at_zero(expression, &idle)?;
+        self.divisors(&[freed]).is_subset(&self.divisors(&[expression])).then_some(freed)
+    }
+
     /// What the expression divides by: the bases of negative powers.
     #[must_use]
     pub fn divisors(&self, roots: &[ExprId]) -> BTreeSet<ExprId> {
@@ -98,6 +110,27 @@ const MOVED: f64 = 0.375;
 mod tests {
     use super::*;
     use crate::algebra::Rational;
+
+    #[test]
+    fn what_is_not_felt_is_set_to_zero_among_the_symbols_that_are_named() {
+        let mut g = Graph::new();
+        let symbols = ["x", "y", "m"].map(|name| g.new_symbol(name));
+        let [x, y, m] = symbols.map(|symbol| g.symbol(symbol));
+        let (sin, cos) = (g.sin(x), g.cos(x));
+        // m (cos x − y sin x)² + m (sin x + y cos x)² is m (1 + y²)
+        let along = g.formula(cos - y * sin);
+        let across = g.formula(sin + y * cos);
+        let energy = g.formula(m * along.square() + m * across.square());
+        let freed = g.formula(m + m * y.square());
+        assert_eq!(g.freed_of(energy, &symbols[..2]), Some(freed));
+        assert_eq!(g.freed_of(energy, &symbols[1..]), None);
+        // it depends on x by the last term
+        let bent = g.formula(energy + sin);
+        assert_eq!(g.freed_of(bent, &symbols), None);
+        // 0/0 at x = 0
+        let quotient = g.formula((m * sin) / (sin * m + sin));
+        assert_eq!(g.freed_of(quotient, &symbols), None);
+    }
 
     #[test]
     fn what_cancels_is_gone() {
