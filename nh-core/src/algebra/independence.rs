@@ -12,7 +12,7 @@ impl Graph {
     ///
     /// That both are equal is proved by the zero test.
     pub fn freed(&mut self, expression: ExprId) -> Option<ExprId> {
-        let idle = self.seemingly_idle(expression);
+        let idle = self.seemingly_idle(expression, |_| true);
         let at_once = self.equal_at_zero(expression, &idle);
         let freed = at_once.or_else(|| {
             let mut freed = None;
@@ -26,16 +26,15 @@ impl Graph {
         self.divisors(&[freed]).is_subset(&self.divisors(&[expression])).then_some(freed)
     }
 
-    /// The expression where those of the symbols vanish that it holds and does not depend on; nothing else in it changes.
-    /// `None` where it depends on all that occur, or where that divides by something else.
-    pub fn freed_of(&mut self, expression: ExprId, symbols: &[SymbolId]) -> Option<ExprId> {
+    /// The expression where those of the symbols vanish that it holds and does not depend on, and these; nothing else in it
+    /// changes. `None` where it depends on all that occur, or where that divides by something else.
+    pub fn freed_of(&mut self, expression: ExprId, symbols: &[SymbolId]) -> Option<(ExprId, Vec<SymbolId>)> {
         if !self.depends_on(expression, symbols) {
             return None;
         }
-        let mut idle = self.seemingly_idle(expression);
-        idle.retain(|symbol| symbols.contains(symbol));
+        let idle = self.seemingly_idle(expression, |symbol| symbols.contains(&symbol));
         let freed = self.equal_at_zero(expression, &idle)?;
-        self.divisors(&[freed]).is_subset(&self.divisors(&[expression])).then_some(freed)
+        self.divisors(&[freed]).is_subset(&self.divisors(&[expression])).then_some((freed, idle))
     }
 
     /// What the expression divides by: the bases of negative powers.
@@ -86,19 +85,20 @@ impl Graph {
         (!self.is_undefined(value) && self.zero_test(difference).is_zero()).then_some(value)
     }
 
-    /// The symbols that occur in the expression, and whose change is not felt at a point.
-    fn seemingly_idle(&self, expression: ExprId) -> Vec<SymbolId> {
+    /// The symbols that occur in the expression, are asked about, and whose change is not felt at a point.
+    fn seemingly_idle(&self, expression: ExprId, is_asked: impl Fn(SymbolId) -> bool) -> Vec<SymbolId> {
         let roots = [expression];
         let symbols = self.symbols_in(&roots);
+        let asked: Vec<SymbolId> = symbols.iter().copied().filter(|symbol| is_asked(*symbol)).collect();
         let at = |symbol: SymbolId| sample(0, symbols.binary_search(&symbol).unwrap_or(0));
-        let points = std::iter::once(None).chain(symbols.iter().map(|symbol| Some(*symbol)));
+        let points = std::iter::once(None).chain(asked.iter().map(|symbol| Some(*symbol)));
         let points = points.map(|moved| {
             move |symbol: SymbolId| if moved == Some(symbol) { at(symbol) + MOVED } else { at(symbol) }
         });
         let mut values = self.evaluate_each(&roots, points).map(|values| values[0]);
         let Some(unmoved) = values.next() else { return Vec::new() };
         let feels = |value: super::Bounded| (value.value - unmoved.value).abs() > value.error + unmoved.error;
-        let idle = symbols.iter().zip(values).filter(|(_, value)| !feels(*value));
+        let idle = asked.iter().zip(values).filter(|(_, value)| !feels(*value));
         idle.map(|(symbol, _)| *symbol).collect()
     }
 }
@@ -122,7 +122,7 @@ mod tests {
         let across = g.formula(sin + y * cos);
         let energy = g.formula(m * along.square() + m * across.square());
         let freed = g.formula(m + m * y.square());
-        assert_eq!(g.freed_of(energy, &symbols[..2]), Some(freed));
+        assert_eq!(g.freed_of(energy, &symbols[..2]), Some((freed, vec![symbols[0]])));
         assert_eq!(g.freed_of(energy, &symbols[1..]), None);
         // it depends on x by the last term
         let bent = g.formula(energy + sin);

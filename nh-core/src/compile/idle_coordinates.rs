@@ -7,25 +7,34 @@
 use crate::id::{ExprId, SymbolId};
 use crate::model::Model;
 
-/// The Lagrangian, and the energies of bodies in it, where coordinates of which each is proved to be independent vanish.
-pub(super) fn without_idle_coordinates(model: &mut Model, lagrangian: ExprId, energies: &mut [ExprId]) -> ExprId {
+/// Operations of a Lagrangian, for each coordinate, beyond which none is tried.
+const TRIED: u64 = 10_000;
+
+/// The Lagrangian, and the energies of bodies in it, where coordinates vanish of which it is proved to be independent.
+///
+/// What only the kinetic energy is independent of stays, as the first angle of an arm that has weight: chains are found by
+/// what carries what, and their first link would be missing.
+pub(super) fn without_idle_coordinates(
+    model: &mut Model,
+    lagrangian: ExprId,
+    energies: &mut [ExprId],
+) -> ExprId {
     let coordinates: Vec<SymbolId> = model.coordinates.iter().map(|coordinate| coordinate.symbol).collect();
     let graph = &mut model.graph;
-    let freed: Vec<Option<ExprId>> =
-        energies.iter().map(|energy| graph.freed_of(*energy, &coordinates)).collect();
-    if freed.iter().all(Option::is_none) {
-        return graph.freed_of(lagrangian, &coordinates).unwrap_or(lagrangian);
+    let tried = graph.operation_count(&[lagrangian]) * coordinates.len() as u64;
+    if tried > TRIED {
+        return lagrangian;
     }
-    let kinetic = graph.sum(energies);
-    let rest = graph.formula(lagrangian - kinetic);
-    // energies that are factors, or that are subtracted, are no terms of it
-    if graph.operation_count(&[rest]) >= graph.operation_count(&[lagrangian]) {
-        return graph.freed_of(lagrangian, &coordinates).unwrap_or(lagrangian);
+    let Some((freed, idle)) = graph.freed_of(lagrangian, &coordinates) else { return lagrangian };
+    let mut images: Vec<ExprId> = Vec::with_capacity(energies.len());
+    for energy in energies.iter() {
+        match graph.freed_of(*energy, &idle) {
+            Some((freed, _)) if !graph.depends_on(freed, &idle) => images.push(freed),
+            None if !graph.depends_on(*energy, &idle) => images.push(*energy),
+            // it belongs with something else
+            _ => return lagrangian,
+        }
     }
-    let rest = graph.freed_of(rest, &coordinates).unwrap_or(rest);
-    for (energy, freed) in energies.iter_mut().zip(freed) {
-        *energy = freed.unwrap_or(*energy);
-    }
-    let kinetic = graph.sum(energies);
-    graph.formula(rest + kinetic)
+    energies.copy_from_slice(&images);
+    freed
 }

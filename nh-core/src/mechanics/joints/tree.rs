@@ -64,7 +64,8 @@ impl Tree {
     /// factors before them.
     pub(super) fn of(sheet: &mut Sheet, bodies: &[Body], coordinates: &[SymbolId]) -> Option<Self> {
         let empty = || Substitution::new([]);
-        let mut hinges = Hinges { angles: Vec::new(), named: empty(), written: empty(), by_sines: Vec::new() };
+        let mut hinges =
+            Hinges { angles: Vec::new(), named: empty(), written: empty(), by_sines: Vec::new() };
         let mut paths: Vec<Option<Vec<Hinge>>> = Vec::with_capacity(bodies.len());
         for body in bodies {
             paths.push(match &body.attitude {
