@@ -139,7 +139,7 @@ mod tests {
     #[test]
     fn what_is_noted_is_the_inverse() {
         for (velocities, blocks, is_diagonal) in
-            [(4, vec![3], true), (6, vec![2, 1], true), (3, vec![2], false)]
+            [(4, vec![3], true), (6, vec![2, 2], true), (3, vec![2], false)]
         {
             let mut g = Graph::new();
             let saddle = equations(&mut g, velocities, &blocks, is_diagonal);

@@ -5,7 +5,7 @@ use super::euler_lagrange::LagrangianSystem;
 use super::factorisation::Factorisation;
 use super::free_direction::named;
 use super::lone_constraint::LoneConstraint;
-use super::orthogonal_constraints::{Orthogonal, Touching};
+use super::orthogonal_constraints::Touching;
 use super::pair::Pair;
 use super::procedure::{Definition, Procedure};
 use super::symmetric_solve::{Definiteness, uncoupled};
@@ -276,15 +276,8 @@ impl SaddleEquations {
                     .map(|(a, value)| procedure.define(graph, &format!("lambda_{a}"), value))
                     .collect();
                 self.react(graph, (&block, &pick(&reach)), &named, &mut accelerations, procedure);
-                let alone = block.len() == 1;
-                let alone = alone.then(|| Orthogonal {
-                    reach: pick(&reach),
-                    squares: vec![inner[0][0]],
-                    lower: vec![vec![graph.zero()]],
-                });
-                inverse = inverse
-                    .zip(alone)
-                    .map(|(inverse, alone)| inverse.without(graph, &block, &alone, procedure));
+                // a constraint by itself may be solved for without pivots of W, by which its rows would divide
+                inverse = None;
                 named
             } else {
                 let (found, orthogonal) = touching(self).impose(graph, &mut accelerations, procedure);
