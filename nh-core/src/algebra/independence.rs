@@ -12,7 +12,7 @@ impl Graph {
     ///
     /// That both are equal is proved by the zero test.
     pub fn freed(&mut self, expression: ExprId) -> Option<ExprId> {
-        let idle = self.seemingly_idle(expression);
+        let idle = self.seemingly_idle(expression, |_| true);
         let at_once = self.equal_at_zero(expression, &idle);
         let freed = at_once.or_else(|| {
             let mut freed = None;
@@ -24,6 +24,17 @@ impl Graph {
         })?;
         let freed = self.simplify(freed);
         self.divisors(&[freed]).is_subset(&self.divisors(&[expression])).then_some(freed)
+    }
+
+    /// The expression where those of the symbols vanish that it holds and does not depend on, and these; nothing else in it
+    /// changes. `None` where it depends on all that occur, or where that divides by something else.
+    pub fn freed_of(&mut self, expression: ExprId, symbols: &[SymbolId]) -> Option<(ExprId, Vec<SymbolId>)> {
+        if !self.depends_on(expression, symbols) {
+            return None;
+        }
+        let idle = self.seemingly_idle(expression, |symbol| symbols.contains(&symbol));
+        let freed = self.equal_at_zero(expression, &idle)?;
+        self.divisors(&[freed]).is_subset(&self.divisors(&[expression])).then_some((freed, idle))
     }
 
     /// What the expression divides by: the bases of negative powers.
@@ -74,19 +85,20 @@ impl Graph {
         (!self.is_undefined(value) && self.zero_test(difference).is_zero()).then_some(value)
     }
 
-    /// The symbols that occur in the expression, and whose change is not felt at a point.
-    fn seemingly_idle(&self, expression: ExprId) -> Vec<SymbolId> {
+    /// The symbols that occur in the expression, are asked about, and whose change is not felt at a point.
+    fn seemingly_idle(&self, expression: ExprId, is_asked: impl Fn(SymbolId) -> bool) -> Vec<SymbolId> {
         let roots = [expression];
         let symbols = self.symbols_in(&roots);
+        let asked: Vec<SymbolId> = symbols.iter().copied().filter(|symbol| is_asked(*symbol)).collect();
         let at = |symbol: SymbolId| sample(0, symbols.binary_search(&symbol).unwrap_or(0));
-        let points = std::iter::once(None).chain(symbols.iter().map(|symbol| Some(*symbol)));
+        let points = std::iter::once(None).chain(asked.iter().map(|symbol| Some(*symbol)));
         let points = points.map(|moved| {
             move |symbol: SymbolId| if moved == Some(symbol) { at(symbol) + MOVED } else { at(symbol) }
         });
         let mut values = self.evaluate_each(&roots, points).map(|values| values[0]);
         let Some(unmoved) = values.next() else { return Vec::new() };
         let feels = |value: super::Bounded| (value.value - unmoved.value).abs() > value.error + unmoved.error;
-        let idle = symbols.iter().zip(values).filter(|(_, value)| !feels(*value));
+        let idle = asked.iter().zip(values).filter(|(_, value)| !feels(*value));
         idle.map(|(symbol, _)| *symbol).collect()
     }
 }
@@ -98,6 +110,27 @@ const MOVED: f64 = 0.375;
 mod tests {
     use super::*;
     use crate::algebra::Rational;
+
+    #[test]
+    fn what_is_not_felt_is_set_to_zero_among_the_symbols_that_are_named() {
+        let mut g = Graph::new();
+        let symbols = ["x", "y", "m"].map(|name| g.new_symbol(name));
+        let [x, y, m] = symbols.map(|symbol| g.symbol(symbol));
+        let (sin, cos) = (g.sin(x), g.cos(x));
+        // m (cos x − y sin x)² + m (sin x + y cos x)² is m (1 + y²)
+        let along = g.formula(cos - y * sin);
+        let across = g.formula(sin + y * cos);
+        let energy = g.formula(m * along.square() + m * across.square());
+        let freed = g.formula(m + m * y.square());
+        assert_eq!(g.freed_of(energy, &symbols[..2]), Some((freed, vec![symbols[0]])));
+        assert_eq!(g.freed_of(energy, &symbols[1..]), None);
+        // it depends on x by the last term
+        let bent = g.formula(energy + sin);
+        assert_eq!(g.freed_of(bent, &symbols), None);
+        // 0/0 at x = 0
+        let quotient = g.formula((m * sin) / (sin * m + sin));
+        assert_eq!(g.freed_of(quotient, &symbols), None);
+    }
 
     #[test]
     fn what_cancels_is_gone() {

@@ -204,7 +204,9 @@ fn cheapest_jacobian(
     let parameters: Vec<SymbolId> = model.parameters.iter().map(|parameter| parameter.symbol).collect();
     let graph = &mut model.graph;
     let mut decision = Decision { site, ..Decision::default() };
-    let size = graph.operation_count(&procedure.values(graph));
+    // without what only the solution for other right-hand sides is made of
+    let alone = procedure.as_far_as(graph, &procedure.outputs);
+    let size = graph.operation_count(&alone.values(graph));
     let mut ways: Vec<(&'static str, Procedure)> = Vec::new();
     for (name, systems) in [(BY_RESIDUALS, Systems::All), (BY_STEPS, Systems::Pivoted)] {
         // of what is large one way is enough
@@ -218,7 +220,7 @@ fn cheapest_jacobian(
         }
     }
     if size <= sizes::DIFFERENTIATED_AS_EXPRESSIONS || ways.is_empty() {
-        let mut found = jacobian(graph, procedure, arguments)?;
+        let mut found = jacobian(graph, &alone, arguments)?;
         if let Wanted::Linearized = wanted {
             found.outputs.splice(0..0, procedure.outputs.iter().copied());
         }

@@ -17,6 +17,7 @@ mod gibbs_appell_function;
 mod given;
 mod gyroscopic;
 mod held_equations;
+mod idle_coordinates;
 mod impact_functions;
 mod kept_volume;
 mod levels;

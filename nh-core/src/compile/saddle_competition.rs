@@ -41,6 +41,9 @@ pub(super) fn proved_solution(
     let [asks_multipliers, asks_reactions] =
         [Request::Multipliers, Request::Reactions].map(|request| requested(&proved.model, request));
     let parameters: Vec<_> = proved.model.parameters.iter().map(|parameter| parameter.symbol).collect();
+    let mut requests = proved.model.requests.iter();
+    let is_differentiated = requests.any(|(request, _)| request.differentiates_the_motion());
+    let given = &given.differentiated(is_differentiated);
     let graph = &mut proved.model.graph;
     let fixed = &proved.system.algebroid.anchor.coordinates;
     let factorised = equations.factorised(graph, judge);

@@ -1,5 +1,6 @@
 //! The way of the data: every stage takes a value and returns a value of another type.
 
+use super::idle_coordinates::without_idle_coordinates;
 use super::levels::OnLevels;
 use super::proved::{Proved, both, fence};
 use super::{
@@ -12,7 +13,7 @@ use crate::check::{self, Chosen, Constraints, Kind, Motion, Positions};
 use crate::choose::Ledger;
 use crate::forms::Registry;
 use crate::geometry::{Algebroid, ConstraintDistribution, Manifold};
-use crate::id::Id;
+use crate::id::{ExprId, Id};
 use crate::limits::{Subject, about, within_limits};
 use crate::mechanics::LagrangianSystem;
 use crate::model::{ForceDirection, Model};
@@ -189,8 +190,14 @@ fn describe(
 
 /// Puts ρ(y) for the rates and pulls forces along coordinates back.
 fn lagrangian_system(model: &mut Model, motion: &mut Motion, algebroid: Algebroid) -> LagrangianSystem {
+    let lagrangian = motion.rates.apply(&mut model.graph, model.lagrangian.value);
+    let mut energies: Vec<ExprId> =
+        model.bodies.iter().map(|body| motion.rates.apply(&mut model.graph, body.energy)).collect();
+    let lagrangian = without_idle_coordinates(model, lagrangian, &mut energies);
+    for (body, energy) in model.bodies.iter_mut().zip(energies) {
+        body.energy = energy;
+    }
     let graph = &mut model.graph;
-    let lagrangian = motion.rates.apply(graph, model.lagrangian.value);
     let zero = graph.zero();
     let mut forces = vec![zero; algebroid.rank()];
     let mut along_base = vec![zero; model.coordinates.len()];

@@ -4,6 +4,7 @@ mod adapted;
 mod articulated;
 mod body;
 mod complete_lift;
+mod constrained_inverse;
 mod cyclic;
 mod definiteness;
 mod elimination_order;

@@ -25,6 +25,17 @@ pub(super) struct Touching {
     pub(super) bias: Vec<ExprId>,
 }
 
+/// Constraints that are orthogonal in the metric W⁻¹: J' with L J' = J.
+#[derive(Debug)]
+pub(super) struct Orthogonal {
+    /// The rows of J' W⁻¹.
+    pub(super) reach: Matrix,
+    /// The diagonal of J' W⁻¹ J'ᵀ.
+    pub(super) squares: Vec<ExprId>,
+    /// L, below its diagonal of ones.
+    pub(super) lower: Matrix,
+}
+
 /// As few constraints are made orthogonal, whatever they touch.
 const FEW: usize = 6;
 /// Rows stay as they are where they would have so many times as many entries.
@@ -57,7 +68,8 @@ impl Touching {
         entries(&rows) > LONGER * before
     }
 
-    /// Moves the accelerations, which are free of these constraints, to where they hold, and returns λ.
+    /// Moves the accelerations, which are free of these constraints, to where they hold, and returns λ, and the constraints
+    /// as they were made orthogonal.
     ///
     /// With L J' = J, L unit lower triangular, the rows of J' orthogonal: μ = Lᵀλ are the multipliers of
     /// J' ẏ = L⁻¹ bias, each by itself.
@@ -66,15 +78,17 @@ impl Touching {
         graph: &mut Graph,
         accelerations: &mut [ExprId],
         procedure: &mut Procedure,
-    ) -> Vec<ExprId> {
+    ) -> (Vec<ExprId>, Orthogonal) {
         let rows = self.jacobian.len();
         let zero = graph.zero();
         let mut lower = vec![vec![zero; rows]; rows];
+        let mut squares = Vec::with_capacity(rows);
         let mut multipliers = Vec::with_capacity(rows);
         for a in 0..rows {
             // 1. every later row loses its part along this one
             let square = graph.inner_product(&self.jacobian[a], &self.reach[a]);
             let square = procedure.define(graph, "square", square);
+            squares.push(square);
             for (b, factors) in lower.iter_mut().enumerate().skip(a + 1) {
                 let along = graph.inner_product(&self.jacobian[b], &self.reach[a]);
                 if graph.is_literal_zero(along) {
@@ -104,7 +118,7 @@ impl Touching {
             let known = graph.inner_product(&column, &multipliers[a + 1..]);
             multipliers[a] = graph.formula(multipliers[a] - known);
         }
-        multipliers
+        (multipliers, Orthogonal { reach: self.reach, squares, lower })
     }
 }
 

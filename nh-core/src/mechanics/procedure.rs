@@ -50,6 +50,8 @@ pub struct Procedure {
     pub outputs: Vec<ExprId>,
     /// The linear systems among the intermediate results that are solved in closed form.
     pub(crate) solved: Vec<Solved>,
+    /// Whether it will be differentiated: what systems are solved with for other right-hand sides is noted at its cost.
+    pub(crate) is_differentiated: bool,
     /// Whether `define` puts values in place instead of naming them.
     inline: bool,
 }
@@ -94,6 +96,12 @@ impl Procedure {
     #[must_use]
     pub fn inline() -> Self {
         Self { inline: true, ..Self::default() }
+    }
+
+    /// The same, to be differentiated or not.
+    #[must_use]
+    pub(crate) fn differentiated(&self, is_differentiated: bool) -> Self {
+        Self { is_differentiated, ..self.clone() }
     }
 
     /// The same intermediate results with other outputs.

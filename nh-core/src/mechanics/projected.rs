@@ -1,7 +1,9 @@
 //! Lagrange–d'Alembert equations with multipliers on all of E: the saddle form, mathematics (9).
 
+use super::constrained_inverse::ConstrainedInverse;
 use super::euler_lagrange::LagrangianSystem;
 use super::factorisation::Factorisation;
+use super::free_direction::named;
 use super::lone_constraint::LoneConstraint;
 use super::orthogonal_constraints::Touching;
 use super::pair::Pair;
@@ -11,7 +13,7 @@ use crate::algebra::{Accuracy, Graph, Matrix, Substitution};
 use crate::id::{ExprId, SymbolId};
 
 /// Where there are more constraints than this, it matters what they couple.
-const FEW: usize = 6;
+const FEW: usize = 4;
 /// So many times fewer velocities are coupled by a mass matrix that stays by itself.
 const FEWER: usize = 4;
 
@@ -179,30 +181,53 @@ impl SaddleEquations {
         definiteness: impl Fn(&Graph, &Matrix) -> Definiteness,
         procedure: &mut Procedure,
     ) -> (Vec<ExprId>, Vec<ExprId>) {
+        let known = procedure.solved.len();
         if self.is_by_itself(graph) && definiteness(graph, &self.mass) == Definiteness::Definite {
-            return self.solve_by_complement(graph, procedure);
+            let (values, multipliers, rows) = self.solve_by_complement(graph, procedure);
+            return (self.noted(graph, values, (rows, known), procedure), multipliers);
         }
         let mut trial = procedure.clone();
         let augmented = self.augmented(graph, &mut trial);
         let written_out = self.augmented(graph, &mut Procedure::inline());
         if definiteness(graph, &written_out.mass) == Definiteness::Definite {
             *procedure = trial;
-            return augmented.solve_by_complement(graph, procedure);
+            let (values, multipliers, rows) = augmented.solve_by_complement(graph, procedure);
+            // what is weighed in adds nothing to the rows
+            return (self.noted(graph, values, (rows, known), procedure), multipliers);
         }
         self.solve_pivoted(graph, procedure)
     }
 
+    /// The accelerations as intermediate results, with the rows that f and b are mapped to them by, where these are known, in
+    /// place of what was noted of parts of the equations.
+    fn noted(
+        &self,
+        graph: &mut Graph,
+        values: Vec<ExprId>,
+        (rows, known): (Matrix, usize),
+        procedure: &mut Procedure,
+    ) -> Vec<ExprId> {
+        if rows.is_empty() {
+            return values;
+        }
+        procedure.solved.truncate(known);
+        let values = named(graph, procedure, "y_dot", values);
+        self.note_inverse(graph, &values, rows, procedure);
+        values
+    }
+
+    /// ẏ, λ, and the rows that f and b are mapped to ẏ by; none where they are not made of orthogonal constraints.
     fn solve_by_complement(
         &self,
         graph: &mut Graph,
         procedure: &mut Procedure,
-    ) -> (Vec<ExprId>, Vec<ExprId>) {
+    ) -> (Vec<ExprId>, Vec<ExprId>, Matrix) {
         // 1. W = factorised
         let factors = Factorisation::of(graph, &self.mass, procedure, "w");
         // 2. free = W⁻¹ force, reach = W⁻¹ Jᵀ
         let free = factors.solve(graph, &self.force, procedure, "free");
         if self.jacobian.is_empty() {
-            return (free, Vec::new());
+            return (free, Vec::new(), Vec::new());
         }
         let reach: Matrix =
             self.jacobian.iter().map(|row| factors.solve(graph, row, procedure, "reach")).collect();
@@ -226,6 +251,8 @@ impl SaddleEquations {
         // 4. ẏ = free + W⁻¹ Jᵀ λ, for constraints that do not touch each other one by one
         let mut accelerations = free;
         let mut multipliers = right.clone();
+        let sizes = [self.mass.len(), self.jacobian.len()];
+        let mut inverse = ConstrainedInverse::of(graph, &factors, sizes, procedure);
         for block in uncoupled(graph, &complement) {
             let pick = |rows: &Matrix| -> Matrix { block.iter().map(|a| rows[*a].clone()).collect() };
             let outer: Vec<ExprId> = block.iter().map(|a| right[*a]).collect();
@@ -249,15 +276,20 @@ impl SaddleEquations {
                     .map(|(a, value)| procedure.define(graph, &format!("lambda_{a}"), value))
                     .collect();
                 self.react(graph, (&block, &pick(&reach)), &named, &mut accelerations, procedure);
+                // a constraint by itself may be solved for without pivots of W, by which its rows would divide
+                inverse = None;
                 named
             } else {
-                touching(self).impose(graph, &mut accelerations, procedure)
+                let (found, orthogonal) = touching(self).impose(graph, &mut accelerations, procedure);
+                inverse = inverse.map(|inverse| inverse.without(graph, &block, &orthogonal, procedure));
+                found
             };
             for (a, value) in block.iter().zip(found) {
                 multipliers[*a] = value;
             }
         }
-        (accelerations, multipliers)
+        let rows = inverse.map(|inverse| inverse.rows(graph, procedure));
+        (accelerations, multipliers, rows.unwrap_or_default())
     }
 
     /// Adds the reactions of a block of constraints, with their W⁻¹ Jᵀ, to the accelerations.

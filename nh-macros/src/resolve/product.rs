@@ -10,6 +10,9 @@ use super::resolver::Resolver;
 use crate::report::Diagnostic;
 use crate::syntax::ast::{Expr, Factor};
 
+/// Entries of a diagonal that an error writes out.
+const FEW: usize = 4;
+
 impl Resolver {
     /// `a * b / c`: the numbers among the factors scale the product of the others.
     pub(super) fn product(&mut self, expr: &Expr, factors: &[(Factor, Expr)]) -> Outcome<Array> {
@@ -98,9 +101,12 @@ impl Resolver {
                 Err(self.report(at, error))
             }
             (Shape::Vector(n), Shape::Vector(_)) => {
+                let entries: Vec<String> = (0..n.min(FEW)).map(|i| format!("I[{i}]")).collect();
+                let others = if n > FEW { ", …" } else { "" };
                 let error = Diagnostic::new(at.extent.to(right.0.extent), "the product of two vectors")
                     .way_out(format!(
-                        "write `dot(u, v)` or `cross(u, v)`; a diagonal inertia is `sum(i in 0..{n}: I[i] * w[i]^2)`"
+                        "write `dot(u, v)` or `cross(u, v)`; a diagonal inertia is `diag({}{others}) * w`",
+                        entries.join(", ")
                     ));
                 Err(self.report(at, error))
             }

@@ -8,9 +8,9 @@ const REFERENCE: u64 = 692_000;
 const REFERENCES: u64 = 5_174_000;
 /// The most that a machine of the benchmark of record may take up to the pendulum, and those after it.
 const RECORD: u64 = 480_000;
-const LATER: u64 = 2_205_000;
+const LATER: u64 = 2_300_000;
 /// The most that arms of 2 to 8 links may take, in thousands: on two wheels, then on a skate.
-const ARMS: [u64; 14] = [162, 181, 341, 240, 301, 347, 423, 369, 315, 357, 399, 310, 398, 476];
+const ARMS: [u64; 14] = [162, 182, 342, 241, 302, 349, 426, 369, 315, 357, 399, 310, 398, 476];
 
 fn steps(declaration: &Declaration) -> u64 {
     let work = within_limits(|| {

@@ -2,8 +2,9 @@
 //!
 //! The attitude of a body is a product of rotations, and its place p a sum of what these turn. Two bodies share the first
 //! factors of their attitudes, as far as they turn about the same axes: a tree. What a factor turns is found where
-//! all angles are 0: there ∂p/∂a = n × C, and C is all that is carried behind the axis n, up to a part along n, which
-//! is counted among what it carries.
+//! all angles of the attitude are 0: there ∂p/∂a = n × C, and C is all that is carried behind the axis n, up to a part
+//! along n, which is counted among what it carries. Other angles, as that of an upper arm where the lower one has its
+//! attitude from the angle that it makes with space, move what carries the body like lengths.
 
 use super::inertia::Inertia;
 use super::sheet::{Sheet, Square, Vector, transposed};
@@ -49,12 +50,12 @@ enum Sine {
 }
 
 struct Hinges {
-    /// Angles, and the symbols of their sines.
-    angles: Vec<(ExprId, SymbolId)>,
+    /// Angles, and the symbols of their sines and cosines.
+    angles: Vec<(ExprId, [SymbolId; 2])>,
     /// Symbols for sines and cosines.
     named: Substitution,
-    /// All angles at 0.
-    level: Substitution,
+    /// Sines and cosines for the symbols.
+    written: Substitution,
     by_sines: Vec<(SymbolId, Derivation)>,
 }
 
@@ -63,7 +64,8 @@ impl Tree {
     /// factors before them.
     pub(super) fn of(sheet: &mut Sheet, bodies: &[Body], coordinates: &[SymbolId]) -> Option<Self> {
         let empty = || Substitution::new([]);
-        let mut hinges = Hinges { angles: Vec::new(), named: empty(), level: empty(), by_sines: Vec::new() };
+        let mut hinges =
+            Hinges { angles: Vec::new(), named: empty(), written: empty(), by_sines: Vec::new() };
         let mut paths: Vec<Option<Vec<Hinge>>> = Vec::with_capacity(bodies.len());
         for body in bodies {
             paths.push(match &body.attitude {
@@ -93,8 +95,9 @@ impl Tree {
         (body, position, path): (&Body, &Vector, &[Hinge]),
         coordinates: &[SymbolId],
     ) {
-        // what is carried behind all hinges so far, in the axes of space at angles of 0
-        let mut behind = hinges.at_level(sheet.graph, *position);
+        // what is carried behind all hinges so far, in the axes of space where the angles of the path are 0
+        let mut level = hinges.level(sheet.graph, path);
+        let mut behind = at_level(sheet.graph, &mut level, *position);
         let (zero, one) = (sheet.graph.zero(), sheet.graph.one());
         let unit = |k: usize| std::array::from_fn(|j| if j == k { one } else { zero });
         // the axes of the frame there
@@ -105,6 +108,7 @@ impl Tree {
             if let Some(sine) = hinge.sine {
                 let axis = sheet.image(&axes, &hinge.axis);
                 let slope = hinges.by_sine(sheet.graph, *position, sine);
+                let slope = at_level(sheet.graph, &mut level, slope);
                 // C = −n × (n × C) across n
                 let beyond = sheet.cross(&slope, &axis);
                 let along = sheet.dot(&axis, &behind);
@@ -115,6 +119,7 @@ impl Tree {
                 behind = sheet.difference(behind, step);
                 behind = sheet.simplified(behind);
                 offset = sheet.image(&transposed(&axes), &step);
+                offset = hinges.written_out(sheet.graph, offset);
             } else {
                 let matrix: Square =
                     std::array::from_fn(|i| std::array::from_fn(|j| hinge.matrix[3 * i + j]));
@@ -123,7 +128,8 @@ impl Tree {
             }
             frame = Some(self.frame(sheet, frame, hinge, offset));
         }
-        let mut centre = sheet.image(&transposed(&axes), &behind);
+        let centre = sheet.image(&transposed(&axes), &behind);
+        let mut centre = hinges.written_out(sheet.graph, centre);
         let moves = |graph: &Graph| centre.iter().any(|entry| graph.depends_on(*entry, coordinates));
         let place = match frame {
             Some(frame) if !moves(sheet.graph) => frame,
@@ -197,38 +203,53 @@ impl Hinges {
 
     fn symbol(&mut self, graph: &mut Graph, angle: ExprId) -> SymbolId {
         if let Some((_, known)) = self.angles.iter().find(|(other, _)| *other == angle) {
-            return *known;
+            return known[0];
         }
         let [sine, cosine] = ["sine", "cosine"].map(|name| graph.new_symbol(name));
         let images = [sine, cosine].map(|symbol| graph.symbol(symbol));
         let nodes = [Function::Sin, Function::Cos].map(|function| graph.apply(function, angle));
-        for (node, image) in nodes.into_iter().zip(images) {
+        for ((node, image), symbol) in nodes.into_iter().zip(images).zip([sine, cosine]) {
             self.named.insert_node(node, image);
+            self.written.insert(symbol, node);
         }
-        self.level.insert(sine, graph.zero());
-        self.level.insert(cosine, graph.one());
-        self.angles.push((angle, sine));
+        self.angles.push((angle, [sine, cosine]));
         sine
     }
 
-    /// Where all angles are 0.
-    fn at_level(&mut self, graph: &mut Graph, values: Vector) -> Vector {
-        values.map(|value| {
-            let value = self.level.apply(graph, value);
-            graph.simplify(value)
-        })
+    /// The angles of a path at 0. A place may depend on others as well, those of hinges beside the path: what carries it
+    /// is then moved by these.
+    fn level(&self, graph: &mut Graph, path: &[Hinge]) -> Substitution {
+        let mut level = Substitution::new([]);
+        for (_, [sine, cosine]) in &self.angles {
+            if path.iter().any(|hinge| hinge.sine == Some(*sine)) {
+                level.insert(*sine, graph.zero());
+                level.insert(*cosine, graph.one());
+            }
+        }
+        level
     }
 
-    /// The derivative by the sine of an angle, where all angles are 0.
+    /// With sines and cosines in the place of their symbols.
+    fn written_out(&mut self, graph: &mut Graph, values: Vector) -> Vector {
+        values.map(|value| self.written.apply(graph, value))
+    }
+
+    /// The derivative by the sine of an angle.
     fn by_sine(&mut self, graph: &mut Graph, values: Vector, sine: SymbolId) -> Vector {
         let known = self.by_sines.iter().position(|(symbol, _)| *symbol == sine);
         let index = known.unwrap_or_else(|| {
             self.by_sines.push((sine, Derivation::partial(graph, sine)));
             self.by_sines.len() - 1
         });
-        let slopes = values.map(|value| self.by_sines[index].1.apply(graph, value));
-        self.at_level(graph, slopes)
+        values.map(|value| self.by_sines[index].1.apply(graph, value))
     }
+}
+
+fn at_level(graph: &mut Graph, level: &mut Substitution, values: Vector) -> Vector {
+    values.map(|value| {
+        let value = level.apply(graph, value);
+        graph.simplify(value)
+    })
 }
 
 fn sine(graph: &mut Graph, angle: ExprId) -> Sine {

@@ -117,6 +117,30 @@ fn trees_of_joints_move_as_the_mass_matrix_says() {
     assert!(competed.iter().all(|competed| *competed >= 10), "{competed:?} of 12");
 }
 
+/// A link whose attitude is that of the column turned by an angle of its own, and whose place depends on that of
+/// an upper arm beside it.
+#[test]
+fn angles_counted_from_what_carries_an_upper_arm_move_the_lower_one() {
+    let bodies = "struct S { m: [f64; 3], J: [[f64; 3]; 2], l: [f64; 3], I: f64, g: f64 }";
+    for angle in ["q2", "q1 + q2"] {
+        let declared = format!(
+            "base {{ arm, q1, q2 }} let A = rot_z(arm); let R = A * rot_x(q1);
+             let elbow = A * [l[0], 0, 0] + R * [0, 0, l[1]]; let T = A * rot_x({angle}); let c = elbow + T * [0, 0, l[2]];
+             lagrangian {{ I / 2 * der(arm)^2 + kinetic(m[0], J[0], elbow, R) + kinetic(m[1], J[1], c, T) - g * (m[0] * elbow[2] + m[1] * c[2]) }}"
+        );
+        let plain = compile_with(model(&declared, bodies), &Registry::of(vec![form("along the chain")]));
+        let plain = plain.unwrap_or_else(|errors| panic!("{declared}: {errors:?}"));
+        let name = "by composite bodies";
+        let alone = compile_with(model(&declared, bodies), &Registry::of(vec![form(name)])).expect("regular");
+        let own = fates(&alone).into_iter().find(|(known, _)| *known == name);
+        let (_, fate) = own.unwrap_or_else(|| panic!("{declared}: {}", alone.ledger));
+        assert!(!matches!(fate, Fate::NotAdmitted(_)), "{declared}\n{}", alone.ledger);
+        for (one, other) in derivative_of(&plain).into_iter().zip(derivative_of(&alone)) {
+            assert!((one - other).abs() <= 1e-8 * one.abs().max(1.0), "{declared}: {one}, {other}");
+        }
+    }
+}
+
 /// A form with one of its steps changed.
 struct Planted {
     of: &'static str,

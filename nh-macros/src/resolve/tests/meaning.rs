@@ -143,7 +143,7 @@ fn shapes_are_checked() {
         (
             "q * I",
             "the product of two vectors\nhelp: write `dot(u, v)` or `cross(u, v)`; a diagonal inertia is \
-             `sum(i in 0..3: I[i] * w[i]^2)`",
+             `diag(I[0], I[1], I[2]) * w`",
         ),
         ("q^2", "a power of a vector of 3 entries\nhelp: for the square of a length write `dot(v, v)`"),
         ("x / q", "a division by a vector of 3 entries\nhelp: divide by numbers only"),
