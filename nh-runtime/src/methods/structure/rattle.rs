@@ -1,9 +1,11 @@
 //! The variational method with position constraints.
 
-use crate::arrays::{Array, difference, displaced};
+use crate::arrays::{Array, all_finite, difference, displaced, nought};
 use crate::methods::implicit::newton::{Settling, falls, is_first_term, refusal, size, sizes};
 use crate::methods::{Arrival, Fixed, OneStep, Start, Symmetric};
-use crate::{Dim, DimOf, IntegrationError, Real, Scalar, ScalarOf, State, Statistics, Variational, VecOf};
+use crate::{
+    Dim, DimOf, DiscreteLagrangian, IntegrationError, Real, Scalar, ScalarOf, State, Statistics, VecOf,
+};
 
 /// The method of SHAKE and RATTLE for any Lagrangian of TQ that is quadratic in the velocities, with fixed steps, of order 2,
 /// mathematics (62): the action of a step is h/2 (L(q₀, u) + L(q₁, u)) with u = (q₁ − q₀)/h, and multipliers at both ends
@@ -16,7 +18,7 @@ use crate::{Dim, DimOf, IntegrationError, Real, Scalar, ScalarOf, State, Statist
 /// are searched for; else the velocity with them, by iterations with the masses at the start, each of which gains a factor
 /// of h times the rate at which these change. Steps have to be shorter than two radians of the fastest oscillation.
 ///
-/// For systems declared with `emit { variational }`; [`Statistics::evaluations`] counts the slopes of L.
+/// For systems declared with `emit { rattle }`; [`Statistics::evaluations`] counts the slopes of L.
 pub type Rattle<T> = Fixed<DiscreteAction<T>, T>;
 
 /// A step of [`Rattle`].
@@ -38,7 +40,7 @@ impl<T: Real> Rattle<T> {
 /// The iterations after which a solution is given up.
 const MOST_ITERATIONS: u32 = 50;
 
-impl<T: Real, S: Variational> OneStep<S> for DiscreteAction<T>
+impl<T: Real, S: DiscreteLagrangian> OneStep<S> for DiscreteAction<T>
 where
     S::State: State<Scalar = T>,
 {
@@ -66,10 +68,10 @@ where
         work: &mut VecOf<S>,
         statistics: &mut Statistics,
     ) -> Result<VecOf<S>, IntegrationError> {
-        let nought = DimOf::<S>::vec(T::ZERO);
+        let none = DimOf::<S>::vec(T::ZERO);
         let velocity = behind(x);
         if is_first_term(h) {
-            return Ok(halves(&displaced(&nought, h, &velocity), &nought));
+            return Ok(halves(&displaced(&none, h, &velocity), &none));
         }
         let action = Action { start, h, momentum: behind(&slopes(start.system, x)) };
         let mut u = displaced(&velocity, T::ONE, work);
@@ -82,42 +84,48 @@ where
             statistics.evaluations += 2;
             statistics.iterations += 1;
             iterations += 1;
-            let moved = [correction, u].map(|rate| displaced(&nought, h, &rate));
-            let size = size(&moved[0], x, &moved[1], &nought);
+            let moved = [correction, u].map(|rate| displaced(&none, h, &rate));
+            let size = size(&moved[0], x, &moved[1], &none);
             let ratio = before.map(|before| size / before);
-            if size == T::ZERO || settling.after(&correction, &u, size <= self.tolerance, ratio) {
+            let is_finite = size.is_finite() && all_finite::<T, _>(&u);
+            if is_finite
+                && (size == T::ZERO || settling.after(&correction, &u, size <= self.tolerance, ratio))
+            {
                 break;
+            }
+            if !is_finite || iterations == MOST_ITERATIONS {
+                *work = none;
+                return Err(refusal(start, h, (iterations, size / self.tolerance), end.as_ref(), None));
             }
             // what rounding of the positions leaves, by the length of the step, is more than rounding of u
             let sizes = sizes(&correction);
             if !falls(least.get_or_insert(sizes).as_mut(), sizes.as_ref()) && iterations > 1 {
-                let reach = reach.get_or_insert_with(|| action.reach(&ends, &correction));
+                let reach = reach.get_or_insert_with(|| {
+                    statistics.evaluations += 4;
+                    action.reach(&ends, &correction)
+                });
                 if sizes.as_ref().iter().zip(reach.as_ref()).all(|(size, reach)| size <= reach) {
                     break;
                 }
-            }
-            if !size.is_finite() || iterations == MOST_ITERATIONS {
-                *work = nought;
-                return Err(refusal(start, h, (iterations, size / self.tolerance), end.as_ref(), None));
             }
             before = Some(size);
         }
         *work = difference(&u, &velocity);
         let arrived = action.arrived(&action.ends(x, &u));
-        statistics.evaluations += 3;
-        Ok(halves(&displaced(&nought, h, &u), &difference(&arrived, &velocity)))
+        statistics.evaluations += 4;
+        Ok(halves(&displaced(&none, h, &u), &difference(&arrived, &velocity)))
     }
 }
 
 /// A step, as a function of u.
-struct Action<'s, S: Variational> {
+struct Action<'s, S: DiscreteLagrangian> {
     start: &'s Start<'s, S>,
     h: ScalarOf<S>,
     /// p₀ = ∂L/∂q̇ at the start.
     momentum: VecOf<S>,
 }
 
-impl<T: Real, S: Variational> Action<'_, S>
+impl<T: Real, S: DiscreteLagrangian> Action<'_, S>
 where
     S::State: State<Scalar = T>,
 {
@@ -128,8 +136,16 @@ where
 
     /// What u is to be changed by, up to the difference of the masses and of the constraints at the two ends.
     fn correction(&self, ends: &[VecOf<S>; 2]) -> VecOf<S> {
-        let Start { system, state, .. } = *self.start;
-        halves(&system.constrained(state, &self.missing(ends)), &DimOf::<S>::vec(T::ZERO))
+        self.constrained(self.start.state, &self.missing(ends))
+    }
+
+    /// The velocities that the constraints make of what is given; no numbers where that has none, whatever the system makes
+    /// of these.
+    fn constrained(&self, at: &S::State, given: &VecOf<S>) -> VecOf<S> {
+        let mut velocities = self.start.system.constrained(at, given);
+        let without = nought(given);
+        velocities.as_mut().iter_mut().for_each(|velocity| *velocity += without);
+        halves(&velocities, &DimOf::<S>::vec(T::ZERO))
     }
 
     /// How far a correction changes where the positions at the end are rounded otherwise, four units of their last places up
@@ -164,21 +180,18 @@ where
     /// v₁ with ∂L/∂q̇(q₁, v₁) = h/2 ∂L/∂q(q₁, u) + (∂L/∂q̇(q₀, u) + ∂L/∂q̇(q₁, u))/2 but for multipliers of the constraints at
     /// the end, where they are satisfied.
     fn arrived(&self, [here, there]: &[VecOf<S>; 2]) -> VecOf<S> {
-        let (half, nought) = (T::from_f64(0.5), DimOf::<S>::vec(T::ZERO));
-        let slopes = [*here, *there, halves(there, &nought)].map(|end| slopes(self.start.system, &end));
+        let (half, rest) = (T::from_f64(0.5), DimOf::<S>::vec(T::ZERO));
+        let slopes = [*here, *there, halves(there, &rest)].map(|end| slopes(self.start.system, &end));
         let [mean, other, at_rest] = slopes.map(|slopes| behind(&slopes));
-        let momentum = displaced(
-            &displaced(&nought, half, &displaced(&mean, T::ONE, &other)),
-            half * self.h,
-            &slopes[1],
-        );
-        let given = halves(&difference(&momentum, &at_rest), &nought);
-        halves(&self.start.system.constrained(&S::State::from_array(*there), &given), &nought)
+        let momentum =
+            displaced(&displaced(&rest, half, &displaced(&mean, T::ONE, &other)), half * self.h, &slopes[1]);
+        let given = halves(&difference(&momentum, &at_rest), &rest);
+        self.constrained(&S::State::from_array(*there), &given)
     }
 }
 
 /// ∂L/∂q and ∂L/∂q̇.
-fn slopes<S: Variational>(system: &S, x: &VecOf<S>) -> VecOf<S> {
+fn slopes<S: DiscreteLagrangian>(system: &S, x: &VecOf<S>) -> VecOf<S> {
     system.lagrangian_slopes(&S::State::from_array(*x))
 }
 
