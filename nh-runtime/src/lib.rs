@@ -118,6 +118,8 @@ mod tangent;
 mod tolerance;
 mod trajectory;
 mod trim;
+#[doc(hidden)]
+pub mod unasked;
 
 pub use angle_cache::{Angle, AngleCache, AngleCached};
 pub use assembly::AssemblyError;

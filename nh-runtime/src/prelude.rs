@@ -11,6 +11,9 @@ pub use crate::{
     Real, Reconstructed, Reconstruction, Reduction, Scalar, State, Statistics, TrimError,
 };
 
+// no name: only its methods, for calls of what was not asked for
+#[doc(hidden)]
+pub use crate::unasked::Unasked as _;
 pub use crate::{Taylor, TaylorSeries};
 
 #[cfg(feature = "macros")]

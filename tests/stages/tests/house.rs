@@ -4,6 +4,8 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
 use std::path::{Path, PathBuf};
 
+use nonholonomic_core::functions::{TABLE, When};
+
 /// The root of the repository.
 fn root() -> PathBuf {
     let own = Path::new(env!("CARGO_MANIFEST_DIR"));
@@ -282,4 +284,19 @@ fn no_test_is_left_out() {
             assert!(is_taken_in || !text.contains("#[test]"), "nothing runs the tests of {}", path.display());
         }
     }
+}
+
+/// A function that is generated on request is told by name where it is called without: a line of `unasked.rs` for each.
+#[test]
+fn what_is_not_asked_for_is_told() {
+    let told = fs::read_to_string(root().join("nh-runtime/src/unasked.rs")).unwrap();
+    let asked = TABLE.iter().filter(|signature| matches!(signature.when, When::Asked(_)));
+    let untold: Vec<&str> = asked
+        .filter(|signature| {
+            let arguments = if signature.takes_input { "(t, state, input)" } else { "(t, state)" };
+            !told.contains(&format!(" {}{arguments}", signature.name))
+        })
+        .map(|signature| signature.name)
+        .collect();
+    assert!(untold.is_empty(), "called in vain without a word on how to ask for it: {untold:?}");
 }

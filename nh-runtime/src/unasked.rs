@@ -1,0 +1,122 @@
+//! Methods that a system does not have because its declaration does not ask for them: a call names the word that would.
+//!
+//! A method of the system's own comes before these, so that they are found only where there is none; and nothing has the
+//! trait that each of them needs, so that none of them can be called.
+
+use crate::{Dynamics, ScalarOf};
+
+macro_rules! unasked {
+    ($($Asks:ident, $word:literal: $($method:ident $arguments:tt),*;)*) => {
+        $(
+            /// A declaration asks for it by this word.
+            #[diagnostic::on_unimplemented(
+                message = $word,
+                label = "add it to the declaration",
+                note = "methods beyond the derivative, the energy and the velocity are generated where `emit` names them"
+            )]
+            pub trait $Asks {
+                /// What the methods return.
+                type Found;
+                /// One of them.
+                fn found(&self) -> Self::Found;
+            }
+        )*
+        /// The methods by the words that ask for them.
+        pub trait Unasked: Dynamics {
+            $($(unasked!(@method $method $arguments $Asks);)*)*
+        }
+        impl<S: Dynamics> Unasked for S {}
+    };
+    (@method $method:ident (t, state) $Asks:ident) => {
+        #[doc(hidden)]
+        fn $method(&self, _t: ScalarOf<Self>, _state: &Self::State) -> <Self as $Asks>::Found
+        where
+            Self: $Asks,
+        {
+            self.found()
+        }
+    };
+    (@method $method:ident (t, state, input) $Asks:ident) => {
+        #[doc(hidden)]
+        fn $method(&self, _t: ScalarOf<Self>, _state: &Self::State, _input: &Self::Input) -> <Self as $Asks>::Found
+        where
+            Self: $Asks,
+        {
+            self.found()
+        }
+    };
+    (@method $method:ident (t, state, input, along) $Asks:ident) => {
+        #[doc(hidden)]
+        fn $method<A: ?Sized>(
+            &self,
+            _t: ScalarOf<Self>,
+            _state: &Self::State,
+            _input: &Self::Input,
+            _along: &A,
+        ) -> <Self as $Asks>::Found
+        where
+            Self: $Asks,
+        {
+            self.found()
+        }
+    };
+}
+
+unasked! {
+    AsksMultipliers,
+        "`{Self}` is declared without `emit {{ multipliers }}`, which generates this method":
+        multipliers(t, state, input);
+    AsksReactions,
+        "`{Self}` is declared without `emit {{ reactions }}`, which generates this method":
+        reactions(t, state, input);
+    AsksMomenta,
+        "`{Self}` is declared without `emit {{ momenta }}` beside `symmetries {{ … }}`, which generates this method":
+        momenta(t, state), momentum_rates(t, state, input);
+    AsksPower,
+        "`{Self}` is declared without `emit {{ power }}`, which generates this method":
+        power(t, state, input);
+    AsksOutputJacobian,
+        "`{Self}` is declared without `emit {{ output_jacobian }}` beside `outputs {{ … }}`, which generates this method":
+        output_jacobian(t, state, input);
+    AsksParameterJacobian,
+        "`{Self}` is declared without `emit {{ parameter_jacobian }}`, which generates this method":
+        parameter_jacobian(t, state, input);
+    AsksBracket,
+        "`{Self}` is declared without `emit {{ bracket }}` beside `outputs {{ … }}`, which generates this method":
+        bracket(t, state, input), bracket_with_energy(t, state, input), drift_of_outputs(t, state, input);
+    AsksDivergence,
+        "`{Self}` is declared without `emit {{ divergence }}`, which generates this method":
+        divergence(t, state, input);
+    AsksVolume,
+        "`{Self}` is declared without `emit {{ volume }}`, which generates this method":
+        volume_density(t, state);
+    AsksConnection,
+        "`{Self}` is declared without `emit {{ connection }}`, which generates this method":
+        connection(t, state), christoffel(t, state);
+    AsksGibbsAppell,
+        "`{Self}` is declared without `emit {{ gibbs_appell }}`, which generates this method":
+        gibbs_appell(t, state, input);
+    AsksGyroscopic,
+        "`{Self}` is declared without `emit {{ gyroscopic }}`, which generates this method":
+        gyroscopic(t, state);
+    AsksSplitting,
+        "`{Self}` is declared without `emit {{ splitting }}`, which generates this method":
+        vertical_sections(t, state), horizontal_lifts(t, state), locked_inertia(t, state),
+        connection_coefficients(t, state), curvature(t, state), vertical_momenta(t, state),
+        vertical_momentum_rates(t, state, input), vertical_velocities(t, state), horizontal_force(t, state);
+    AsksJacobianProduct,
+        "`{Self}` is declared without `emit {{ jacobian_product }}`, which generates this method":
+        jacobian_product(t, state, input, along);
+    AsksAdjointProduct,
+        "`{Self}` is declared without `emit {{ adjoint_product }}`, which generates this method":
+        adjoint_product(t, state, input, along);
+    AsksHamiltonian,
+        "`{Self}` is declared without `emit {{ hamiltonian }}`, which generates this method":
+        legendre(t, state);
+    AsksSparseJacobian,
+        "`{Self}` is declared without `emit {{ sparse_jacobian }}`, which generates this method":
+        sparse_linearized(t, state, input);
+    AsksLinearization,
+        "`{Self}` is declared without `linearization {{ keep: …; }}`, which generates this method":
+        linearize(t, state, input);
+}

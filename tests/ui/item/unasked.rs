@@ -1,0 +1,15 @@
+use nonholonomic::prelude::*;
+
+#[nonholonomic(
+    base { x }
+    lagrangian { der(x)^2 / 2 }
+)]
+struct Free;
+
+fn main() {
+    let (free, state) = (Free, FreeState { x: 0.0, x_dot: 1.0 });
+    let multipliers = free.multipliers(0.0, &state, &());
+    println!("{:?}", multipliers.x);
+    let _ = free.jacobian_product(0.0, &state, &(), &[1.0, 0.0]);
+    let _ = free.linearize(0.0, &state, &());
+}
