@@ -101,7 +101,12 @@ pub fn assemble_holding<
             |x| positions(&moved(x)),
             |_, (left, slopes)| {
                 let right = lower(left.iter().take(loops.independent), is_fixed);
-                Factors::<D<N>, S::Scalar>::new(&matrix(slopes)).solve(&right)
+                let mut change = Factors::<D<N>, S::Scalar>::new(&matrix(slopes)).solve(&right);
+                // what is held stays, where rounding has reached its row as well
+                for (_, change) in change.iter_mut().enumerate().filter(|(index, _)| is_fixed(*index)) {
+                    *change = if change.is_finite() { S::Scalar::ZERO } else { *change };
+                }
+                change
             },
             |x| Some(*x),
             admits,

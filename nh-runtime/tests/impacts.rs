@@ -333,3 +333,96 @@ fn a_start_inside_that_moves_out_meets_the_ground_where_it_is() {
     let expected = (2.0 + (4.0_f64 - 2.0 * 9.81 * 0.1).sqrt()) / 9.81;
     assert!(end.unwrap() == End::Stopped && (struck.time - expected).abs() < 1e-12, "{struck:?} {expected}");
 }
+
+/// A run that ends within a few roundings of an impact has it or has it before it, and goes on from there as one that does
+/// not end.
+#[test]
+fn a_target_at_an_impact_stops_no_ball() {
+    fn check(name: &str, method: &(impl Method<Particle> + Clone)) {
+        for (height, drop) in [(0.0, 1.0), (0.0, 2.0), (10.0, 1.0), (-3.3, 0.3)] {
+            for clock in [0.0, 100.0] {
+                let ground = Ground { height, slope: 0.0, restitution: 0.5 };
+                let fall = (2.0 * drop / 9.81_f64).sqrt();
+                for units in -20..=20 {
+                    let first = clock + fall + f64::from(units) * f64::EPSILON * (clock + fall);
+                    let start = Place([0.0, height + drop, 0.0, 0.0]);
+                    let mut sim = Integrator::new(HEAVY, method.clone(), clock, start);
+                    let mut bounces = 0;
+                    for target in [first, clock + 1.5 * fall] {
+                        let end = advance_with_impacts(&mut sim, target, &ground, 0.0, |_| {
+                            bounces += 1;
+                            ControlFlow::Continue(())
+                        });
+                        let case = format!("{name} to {height} by {drop} from {clock}, {units} units off");
+                        assert!(matches!(end, Ok(End::Target)), "{case}: {end:?}");
+                    }
+                    // halfway through the second flight it is at its top
+                    let Place([_, y, _, v]) = *sim.state();
+                    assert!(bounces == 1 && v.abs() < 1e-6, "{name} to {height}, {units}: {bounces}, {v}");
+                    assert!((y - height - 0.25 * drop).abs() < 1e-6, "{name} to {height}, {units}: {y}");
+                }
+            }
+        }
+    }
+    check("Dopri5", &Dopri5::new().rtol(1e-9).atol(1e-12));
+    check("Rk4", &Rk4::new(0.01));
+    check("GaussLegendre6", &GaussLegendre6::new(0.05));
+    check("Radau5", &Radau5::new().rtol(1e-9).atol(1e-12));
+}
+
+/// A ball at rest on the ground that is pulled away from it leaves it.
+#[test]
+fn what_is_pulled_off_the_ground_leaves_it() {
+    fn check(name: &str, method: &(impl Method<Particle> + Clone)) {
+        for (height, slope) in [(0.0, 0.0), (10.0, 0.0), (-3.3, 0.0), (0.3, 0.7), (1000.0, -0.2)] {
+            for (clock, field) in [(0.0, -1.0), (0.3, -4.3), (100.0, -1e-3), (-7.0, -100.0)] {
+                for x in [0.0, 0.3] {
+                    let ground = Ground { height, slope, restitution: 0.5 };
+                    let start = Place([x, slope * x + height, 0.0, 0.0]);
+                    let particle = Particle { field, ..HEAVY };
+                    let mut sim = Integrator::new(particle, method.clone(), clock, start);
+                    let case = format!("{name}, at {height}, slope {slope}, from {clock} by {field}");
+                    let end = advance_with_impacts(&mut sim, clock + 0.5, &ground, 0.0, |struck| {
+                        panic!("{case}: {struck:?}")
+                    });
+                    assert!(matches!(end, Ok(End::Target)), "{case}: {end:?}");
+                    let risen = sim.state().0[1] - start.0[1];
+                    assert!((risen + field * 0.125).abs() < 1e-9 * (1.0 + height.abs()), "{case}: {risen}");
+                }
+            }
+        }
+    }
+    check("Dopri5", &Dopri5::new().rtol(1e-9).atol(1e-12));
+    check("Rk4", &Rk4::new(0.01));
+    check("GaussLegendre6", &GaussLegendre6::new(0.05));
+    check("Radau5", &Radau5::new().rtol(1e-9).atol(1e-12));
+}
+
+#[test]
+fn impacts_are_not_undone() {
+    let ground = Ground { height: 0.0, slope: 0.0, restitution: 1.0 };
+    let mut sim = Integrator::new(HEAVY, Dopri5::new(), 0.0, Place([0.0, 1.0, 0.0, 0.0]));
+    let run = |sim: &mut Integrator<_, _>, target| {
+        advance_with_impacts(sim, target, &ground, 0.0, |_| ControlFlow::Continue(()))
+    };
+    assert_eq!(run(&mut sim, 1.0), Ok(End::Target));
+    let there = *sim.state();
+    let refused = run(&mut sim, 0.25).unwrap_err();
+    assert_eq!((sim.time(), *sim.state()), (1.0, there));
+    assert_eq!(
+        refused.to_string(),
+        "the way from t = 1.0 to 0.25 leads back in time, where impacts cannot be undone: start before them, or go back \
+         to the last one with `advance_to`"
+    );
+    assert_eq!(run(&mut sim, 1.0), Ok(End::Target));
+}
+
+#[test]
+fn a_gap_that_is_no_number_is_no_open_one() {
+    let ground = Ground { height: 0.0, slope: 0.0, restitution: 1.0 };
+    for y in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
+        let refused = strike(&HEAVY, &ground, 0.5, &Place([0.0, y, 0.0, -1.0]), 0.0);
+        let expected = ImpactError::NotFinite { row: "ground", time: 0.5 };
+        assert!(matches!(refused, Err(error) if error == expected), "{refused:?}");
+    }
+}

@@ -14,6 +14,7 @@ mod holonomic {
     mod long_runs;
     mod long_swing;
     mod maps;
+    mod out_of_reach;
     mod pendulum;
     mod plate;
     mod rattle;

@@ -12,44 +12,13 @@ use nonholonomic_core::system::System;
 use proc_macro2::TokenStream;
 use quote::quote;
 
+use super::c_names::{Names, snake};
 use super::layout::plain;
 use super::literal;
 use super::record::Record;
 use super::setting::Context;
 use super::symbols::{Argument, Scope};
 use crate::syntax::ast;
-
-/// Words that C keeps for itself and Rust does not, and names that its headers define.
-const KEPT: [&str; 28] = [
-    "auto",
-    "case",
-    "char",
-    "default",
-    "double",
-    "float",
-    "goto",
-    "inline",
-    "int",
-    "long",
-    "register",
-    "restrict",
-    "short",
-    "signed",
-    "sizeof",
-    "switch",
-    "typedef",
-    "union",
-    "unsigned",
-    "void",
-    "volatile",
-    "asm",
-    "bool",
-    "complex",
-    "imaginary",
-    "INFINITY",
-    "NAN",
-    "HUGE_VAL",
-];
 
 /// `const C99`, if it is asked for.
 pub(super) fn constant(
@@ -61,7 +30,7 @@ pub(super) fn constant(
     if !system.model.requests.iter().any(|(request, _)| *request == Request::C) {
         return TokenStream::new();
     }
-    let file = File::new(context, scope, &system.model);
+    let file = File::new(context, scope, &system.model, programs);
     with_text(context, &file.text(programs))
 }
 
@@ -88,6 +57,11 @@ struct File<'a> {
     name: String,
     /// What the names of functions begin with.
     prefix: String,
+    types: Names,
+    /// Parameters, components of the state, and inputs.
+    fields: Names,
+    /// Methods of the struct, which the user writes in C.
+    methods: Names,
 }
 
 /// A function, with what its prototype takes.
@@ -98,11 +72,31 @@ struct Method {
 }
 
 impl<'a> File<'a> {
-    fn new(context: &'a Context<'a>, scope: &'a Scope<'a>, model: &'a Model) -> Self {
+    fn new(
+        context: &'a Context<'a>,
+        scope: &'a Scope<'a>,
+        model: &'a Model,
+        programs: &[(&str, &Program)],
+    ) -> Self {
         let is_single = matches!(context.layout.scalar, ast::Scalar::F32);
-        let name = identifier(&plain(&context.layout.name));
         let (scalar, suffix) = if is_single { ("float", "f") } else { ("double", "") };
-        Self { context, scope, model, scalar, suffix, prefix: snake(&name), name }
+        let records = || [Some(&context.state), context.input.as_ref()].into_iter().flatten();
+        let declared = records().flat_map(Record::declared).map(|(name, _)| name);
+        let parameters = context.layout.parameters.iter().map(|family| plain(&family.ident));
+        let fields = Names::new(parameters.chain(declared), &[]);
+        let steps = programs.iter().flat_map(|(_, program)| program.steps.iter());
+        let called =
+            steps.filter_map(
+                |step| if let Step::Call { method, .. } = step { Some(method.clone()) } else { None },
+            );
+        let functions = programs.iter().map(|(name, _)| *name).filter(|name| is_written(name));
+        let functions: Vec<String> = functions.map(str::to_owned).collect();
+        let methods = Names::new(called, &functions);
+        let types = records().map(|record| plain(&record.name)).chain([plain(&context.layout.name)]);
+        // what functions call their arguments and results
+        let types = Names::new(types, &["p", "t", "x", "u", "rate", "result"].map(str::to_owned));
+        let name = types.of(&plain(&context.layout.name));
+        Self { context, scope, model, scalar, suffix, prefix: snake(&name), name, types, fields, methods }
     }
 
     fn text(&self, programs: &[(&str, &Program)]) -> String {
@@ -139,7 +133,7 @@ impl<'a> File<'a> {
         let mut text = self.record(&self.name, &parameters);
         let records = [Some(&self.context.state), self.context.input.as_ref()];
         for record in records.into_iter().flatten() {
-            text.push_str(&self.record(&identifier(&plain(&record.name)), &record.declared()));
+            text.push_str(&self.record(&self.type_name(record), &record.declared()));
         }
         text
     }
@@ -148,7 +142,7 @@ impl<'a> File<'a> {
         let scalar = self.scalar;
         let mut text = "typedef struct {\n".to_owned();
         for (field, lengths) in fields {
-            _ = write!(text, "    {scalar} {}", identifier(field));
+            _ = write!(text, "    {scalar} {}", self.fields.of(field));
             for length in *lengths {
                 _ = write!(text, "[{length}]");
             }
@@ -178,8 +172,20 @@ impl<'a> File<'a> {
         lines.into_iter().collect()
     }
 
+    /// A method of the struct.
     fn method_name(&self, name: &str) -> String {
-        format!("{}_{}", self.prefix, identifier(name))
+        format!("{}_{}", self.prefix, self.methods.of(name))
+    }
+
+    fn type_name(&self, record: &Record) -> String {
+        self.types.of(&plain(&record.name))
+    }
+
+    /// The components of a record, without the dot.
+    fn places(&self, record: &Record) -> Vec<String> {
+        let text = |place: &TokenStream| place.to_string().replace(' ', "");
+        let places = record.places(&TokenStream::new());
+        places.iter().map(|place| self.fields.place(text(place).trim_start_matches('.'))).collect()
     }
 
     /// Multiply-adds, signs, and linear systems, as far as they occur.
@@ -228,10 +234,10 @@ impl<'a> File<'a> {
 
     /// The function that a program becomes; none where it takes more than time, state and input.
     fn method(&self, name: &str, program: &Program) -> Option<Method> {
-        let signature = TABLE.iter().find(|signature| signature.name == name);
-        if signature.is_none() && !["derivative", "jacobian"].contains(&name) {
+        if !is_written(name) {
             return None;
         }
+        let signature = TABLE.iter().find(|signature| signature.name == name);
         let takes_input =
             signature.is_none_or(|signature| signature.takes_input) && self.context.input.is_some();
         let mut writer =
@@ -241,12 +247,12 @@ impl<'a> File<'a> {
             writer.values.push(expression);
         }
         let Writer { values, used, mut body, .. } = writer;
-        let state = identifier(&plain(&self.context.state.name));
+        let state = self.type_name(&self.context.state);
         let (struct_name, scalar) = (&self.name, self.scalar);
         let mut arguments = format!("const {struct_name} *p, {scalar} t, const {state} *x");
         let mut unused = vec![(Argument::This, "p"), (Argument::Time, "t"), (Argument::State, "x")];
         if takes_input {
-            let input = self.context.input.as_ref().map(|record| identifier(&plain(&record.name)))?;
+            let input = self.context.input.as_ref().map(|record| self.type_name(record))?;
             _ = write!(arguments, ", const {input} *u");
             unused.push((Argument::Input, "u"));
         }
@@ -256,7 +262,7 @@ impl<'a> File<'a> {
         let outputs: Vec<&String> = program.outputs.iter().map(|output| &values[*output]).collect();
         if name == "derivative" {
             _ = write!(arguments, ", {state} *rate");
-            for (place, value) in places(&self.context.state).iter().zip(outputs) {
+            for (place, value) in self.places(&self.context.state).iter().zip(outputs) {
                 _ = writeln!(body, "    rate->{place} = {value};");
             }
         } else {
@@ -268,8 +274,13 @@ impl<'a> File<'a> {
                 _ = writeln!(body, "    result[0] = 0.0{};", self.suffix);
             }
         }
-        Some(Method { name: self.method_name(name), arguments, body })
+        Some(Method { name: format!("{}_{name}", self.prefix), arguments, body })
     }
+}
+
+/// Whether a program with this name is a function of the file.
+fn is_written(name: &str) -> bool {
+    ["derivative", "jacobian"].contains(&name) || TABLE.iter().any(|signature| signature.name == name)
 }
 
 /// One function.
@@ -360,7 +371,7 @@ impl Writer<'_> {
         let text = place.to_string().replace(' ', "");
         Some(match text.split_once('.') {
             None => pointer.to_owned(),
-            Some((_, field)) => format!("{pointer}->{}", place_of(field)),
+            Some((_, field)) => format!("{pointer}->{}", self.file.fields.place(field)),
         })
     }
 
@@ -432,43 +443,3 @@ static void solve_SIZE(SCALAR a[SIZE][SIZE], SCALAR b[SIZE])
 }
 
 ";
-
-/// The components of a record, without the dot.
-fn places(record: &Record) -> Vec<String> {
-    let places = record.places(&TokenStream::new());
-    places.iter().map(|place| place_of(place.to_string().replace(' ', "").trim_start_matches('.'))).collect()
-}
-
-/// `theta[0]`, with a name that C accepts.
-fn place_of(place: &str) -> String {
-    let (name, indices) = place.find('[').map_or((place, ""), |at| place.split_at(at));
-    format!("{}{indices}", identifier(name.trim_start_matches("r#")))
-}
-
-/// A name that C accepts: letters beyond ASCII by their numbers, an underscore behind words that C keeps.
-fn identifier(name: &str) -> String {
-    let mut text = String::new();
-    for c in name.chars() {
-        if c.is_ascii_alphanumeric() || c == '_' {
-            text.push(c);
-        } else {
-            _ = write!(text, "u{:04x}", u32::from(c));
-        }
-    }
-    if KEPT.contains(&text.as_str()) {
-        text.push('_');
-    }
-    text
-}
-
-/// `chaplygin_sleigh` for `ChaplyginSleigh`.
-fn snake(name: &str) -> String {
-    let mut text = String::new();
-    for (k, c) in name.chars().enumerate() {
-        if c.is_ascii_uppercase() && k > 0 && !text.ends_with('_') {
-            text.push('_');
-        }
-        text.push(c.to_ascii_lowercase());
-    }
-    text
-}

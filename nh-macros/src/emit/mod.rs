@@ -8,6 +8,7 @@ mod almost_poisson;
 mod angle_cache;
 mod assembly;
 mod c;
+mod c_names;
 mod callback;
 mod collisions;
 mod discrete;

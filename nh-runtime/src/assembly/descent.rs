@@ -14,6 +14,8 @@ const MOST_ITERATIONS: u32 = 200;
 const LEVEL_STEPS: u32 = 3;
 /// Where along a step rounding is looked at, in roots of the rounding unit.
 const NEAR: [f64; 4] = [1.0, 0.8, 0.6, 0.35];
+/// By how much rounding inside of equations may exceed what has been seen of it.
+const UNSEEN: f64 = 1024.0;
 /// A step is halved so often at most.
 const MOST_HALVINGS: u32 = 40;
 
@@ -73,11 +75,9 @@ pub(crate) fn descend<T: Real, const N: usize, const M: usize>(
             return Err(singular(&here.0, &loops.names));
         }
         let mut asked = Asked::new(&present, &here, &change, &mut floors, loops.independent);
-        for (size, change) in sizes.iter_mut().zip(&change) {
-            *size = Scalar::max(*size, change.abs());
-        }
-        // beside the terms of the equations, and where these are nothing but rounding themselves, beside what they come to
-        let share = asked.share(&here, &sizes, &floors);
+        // beside the terms of the equations, and where these are nothing but rounding themselves, beside what they come to;
+        // how far a step would lead that is not taken says nothing of them afterwards
+        let share = asked.share(&here, &larger(&sizes, &change), &floors);
         let still_falls = last_share.is_none_or(|last: T| share <= half * last);
         let is_level = was_full
             && share <= T::EPSILON.sqrt()
@@ -100,7 +100,7 @@ pub(crate) fn descend<T: Real, const N: usize, const M: usize>(
             }
             accepted = trial.filter(|(_, there)| {
                 let falls = asked.is_brought(part, &there.0);
-                is_last |= !falls && is_near;
+                is_last |= !falls && is_near && asked.may_be_rounding(&there.0);
                 admits(&there.1) && (falls || is_last)
             });
             if accepted.is_some() {
@@ -116,11 +116,17 @@ pub(crate) fn descend<T: Real, const N: usize, const M: usize>(
             return Ok(present);
         }
         was_full = part == T::ONE;
-        for (size, x) in sizes.iter_mut().zip(&present) {
-            *size = Scalar::max(*size, x.abs());
-        }
+        sizes = larger(start, &present);
     }
     Err(no_solution(&here.0, &loops.names))
+}
+
+/// The larger sizes of two.
+fn larger<T: Real, const N: usize>(a: &[T; N], b: &[T; N]) -> [T; N] {
+    core::array::from_fn(|index| {
+        let of = |list: &[T; N]| list.get(index).map_or(T::ZERO, |x| x.abs());
+        Scalar::max(of(a), of(b))
+    })
 }
 
 /// What a step is to do to one equation, in the units of the equation.
@@ -175,7 +181,7 @@ impl<T: Real, const M: usize> Asked<T, M> {
         Self { shares, most }
     }
 
-    /// The largest part of the terms of an equation, as they were so far, that the step moves: but of those that held before
+    /// The largest part of the terms of an equation, at the start and here, that the step moves: but of those that held before
     /// any step, and where nothing moves but by rounding of the solution of the linear equations.
     fn share<const N: usize>(
         &self,
@@ -207,6 +213,16 @@ impl<T: Real, const M: usize> Asked<T, M> {
                 share.rounding = Scalar::max(share.rounding, T::from_f64(4.0) * noise);
             }
         }
+    }
+
+    /// Whether what is left of the equations may be rounding: of those that the step knows digits of, no more than is left
+    /// of the others by rounding that has not been seen.
+    fn may_be_rounding(&self, there: &[T; M]) -> bool {
+        let half = T::EPSILON.sqrt();
+        let mut moved = self.shares.iter().zip(there).filter(|(share, _)| share.weight > T::ZERO);
+        moved.all(|(share, there)| {
+            share.left.abs() <= half * share.weight || there.abs() <= T::from_f64(UNSEEN) * share.rounding
+        })
     }
 
     /// Whether a part of the step brought the equations to where it should: what is left of them is what a step in part

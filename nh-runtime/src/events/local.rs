@@ -33,6 +33,11 @@ impl<T: Real> Local<T> {
         value.abs() <= T::from_f64(RESOLUTION) * passed + T::from_f64(ROUNDINGS) * self.rounding
     }
 
+    /// Whether rounding hides, after a share of the step, how a function has changed that was hardly zero at its start.
+    pub(super) fn hides(&self, share: T, at_start: Option<T>, value: T) -> bool {
+        value.abs() <= at_start.unwrap_or(T::ZERO).abs() + T::from_f64(ROUNDINGS) * self.rounding(share)
+    }
+
     /// What rounding makes of the function after a share of the step.
     pub(super) fn rounding(&self, share: T) -> T {
         self.spread.mul_add(share, self.rounding)

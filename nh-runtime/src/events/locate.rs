@@ -1,5 +1,6 @@
 //! Where in time an event function changes its sign between two points.
 
+use super::start::Sides;
 use super::{Events, Side, Station, crossing, settled};
 use crate::{Direction, IntegrationError, Real};
 
@@ -8,14 +9,16 @@ pub(super) fn find<T: Real, F, const N: usize>(
     events: &Events<F, N>,
     index: usize,
     [here, there]: [Station<T, N>; 2],
-    sides: &mut [Side; N],
+    sides: &mut Sides<T, N>,
     values_at: &impl Fn(T) -> Result<[T; N], IntegrationError>,
 ) -> Result<Option<(T, Direction)>, IntegrationError> {
-    let (Some(from), Some(&old), Some(&value), Some(wanted)) =
-        (sides.get_mut(index), here.values.get(index), there.values.get(index), events.directions.get(index))
+    let (Some(&old), Some(&value), Some(wanted)) =
+        (here.values.get(index), there.values.get(index), events.directions.get(index))
     else {
         return Ok(None);
     };
+    let tells = sides.tells(index, (there.time, value));
+    let Some(from) = sides.of.get_mut(index).filter(|_| tells) else { return Ok(None) };
     let before = *from;
     let direction = crossing(before, value);
     *from = settled(before, value);

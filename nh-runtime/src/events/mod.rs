@@ -22,7 +22,8 @@ use crate::{Direction, Dynamics, IntegrationError, Integrator, Real, Scalar, Sca
 ///
 /// A function that is zero has changed its sign when it reaches zero. Where it starts from zero, it takes the
 /// sign that it moves to, which is no event: the sign of its rate of change, or the first sign that it shows if
-/// that vanishes. A function that reaches zero and stays there has one event, and another one where it turns back.
+/// that vanishes. It has left zero where it shows that by more than rounding, in this step or a later one.
+/// A function that reaches zero and stays there has one event, and another one where it turns back.
 /// After a [`reset`](Integrator::reset), zero is whatever a function leaves or passes
 /// within the resolution of time, so that a state that was put onto a contact starts from it.
 ///

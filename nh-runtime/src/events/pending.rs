@@ -14,19 +14,18 @@ pub(super) struct Pending<T, const N: usize> {
 }
 
 impl<T: Real, const N: usize> Pending<T, N> {
-    /// Those of a step that begins at `start`; the sides are then those at the second station.
+    /// Those of a step; the sides are then those at the second station.
     pub(super) fn between<F>(
         events: &Events<F, N>,
         stations: [Station<T, N>; 2],
-        start: T,
         sides: &mut Sides<T, N>,
         values_at: impl Fn(T) -> Result<[T; N], IntegrationError>,
     ) -> Result<Self, IntegrationError> {
         let mut found = [None; N];
         let all = sides.of;
         for (index, (slot, from)) in found.iter_mut().zip(all).enumerate() {
-            let change = find(events, index, stations, &mut sides.of, &values_at)?;
-            if change.is_some_and(|(time, _)| sides.is_echo(index, from, (start, time))) {
+            let change = find(events, index, stations, sides, &values_at)?;
+            if change.is_some_and(|(time, _)| sides.is_echo(index, from, time)) {
                 sides.of.iter_mut().skip(index).take(1).for_each(|side| *side = from);
             } else {
                 *slot = change;

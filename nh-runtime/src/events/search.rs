@@ -68,7 +68,7 @@ where
                     Some(time) => evaluate(time)?.1,
                     None => there,
                 };
-                let mut pending = Pending::between(events, [*here, to], start, sides, values_at)?;
+                let mut pending = Pending::between(events, [*here, to], sides, values_at)?;
                 while let Some(first) = pending.first(forwards) {
                     let mut time = first;
                     if pending.are_several() {
@@ -155,17 +155,19 @@ pub(super) fn print<T: Real, const N: usize>(values: &[T; N]) -> u64 {
     values.iter().fold(0, |print: u64, value| print.rotate_left(7) ^ value.to_f64().to_bits())
 }
 
-/// Takes note at a stop of a function that has left zero where a state was given, and is back: an error where such
-/// flights do not end.
+/// Takes note at a stop, in a step with this beginning, of a function that has left zero where a state was given, and is
+/// back: an error where such flights do not end.
 fn ends_flight<T: Real, const N: usize>(
     stop: &mut Stop<T>,
-    (index, start): (usize, T),
+    (index, step): (usize, T),
     sides: &Sides<T, N>,
     values_at: &impl Fn(T) -> Result<[T; N], IntegrationError>,
 ) -> Result<(), IntegrationError> {
+    let start = sides.begin.time;
     let flight = (stop.time - start).abs();
     let rounding = sides.local(index).rounding(flight / stop.length.abs());
-    let height = midway(index, (start, stop.time), values_at)?.abs();
+    // a step before this one has shown nothing of the flight
+    let height = midway(index, (step, stop.time), values_at)?.abs();
     let is_hidden = [NO_HEIGHT, SHORT_HEIGHT].map(|roundings| height <= T::from_f64(roundings) * rounding);
     if stop.ends_flight(Flight { start, is_hidden }, sides.stop.as_ref()) {
         return Ok(());

@@ -5,7 +5,7 @@ use super::search::print;
 use super::{Events, Side, Station, before, beyond, reached, side};
 use crate::methods::Method;
 use crate::stop::Stop;
-use crate::{Direction, Dynamics, IntegrationError, Integrator, Real, ScalarOf};
+use crate::{Direction, Dynamics, IntegrationError, Integrator, Real, Scalar, ScalarOf};
 
 /// The sides of the functions at the start of a step.
 #[derive(Clone, Copy)]
@@ -13,6 +13,12 @@ pub(super) struct Sides<T, const N: usize> {
     pub(super) of: [Side; N],
     /// Those that have just left zero.
     pub(super) leaving: [bool; N],
+    /// Those among them that have shown where they have gone.
+    shown: [bool; N],
+    /// Where they left.
+    pub(super) begin: Station<T, N>,
+    /// The length of the first step from there.
+    length: T,
     /// Whether the state there was given, rather than reached.
     pub(super) is_given: bool,
     /// The stop there.
@@ -22,15 +28,28 @@ pub(super) struct Sides<T, const N: usize> {
 }
 
 impl<T: Real, const N: usize> Sides<T, N> {
-    /// Forgets the start of the run.
+    /// Forgets the start of the run, unless a function has yet to show where it has gone from there.
     pub(super) fn go_on(&mut self) {
-        *self = Self {
-            of: self.of,
-            leaving: [false; N],
-            is_given: false,
-            stop: None,
-            local: [Local::UNKNOWN; N],
-        };
+        self.leaving.iter_mut().zip(&self.shown).for_each(|(leaving, shown)| *leaving &= !shown);
+        if !self.leaving.contains(&true) {
+            self.is_given = false;
+            self.stop = None;
+            self.local = [Local::UNKNOWN; N];
+        }
+    }
+
+    /// Whether the value of a function at a time tells a side: it does not where the function has left zero and is no
+    /// farther from there than it was, but for rounding.
+    pub(super) fn tells(&mut self, index: usize, (time, value): (T, T)) -> bool {
+        let share = (time - self.begin.time).abs() / self.length;
+        let is_hidden = self.local(index).hides(share, self.begin.values.get(index).copied(), value);
+        match (self.leaving.get(index), self.shown.get_mut(index)) {
+            (Some(true), Some(shown)) => {
+                *shown |= !is_hidden;
+                *shown
+            }
+            _ => true,
+        }
     }
 
     /// Whether a function has left zero where a state was given.
@@ -45,11 +64,11 @@ impl<T: Real, const N: usize> Sides<T, N> {
 
     /// Whether a change from this side so soon after the start is round-off that follows an event which has been
     /// reported.
-    pub(super) fn is_echo(&self, index: usize, from: Side, (start, time): (T, T)) -> bool {
+    pub(super) fn is_echo(&self, index: usize, from: Side, time: T) -> bool {
         let just_left = !self.is_given && self.leaving.get(index) == Some(&true);
         let stays = matches!(from, Side::OnFromBelow | Side::OnFromAbove);
-        let unit = self.stop.map_or(Stop::resolution(start, time), |stop| stop.unit);
-        just_left && !stays && (time - start).abs() <= self.local(index).blur(unit)
+        let unit = self.stop.map_or(Stop::resolution(self.begin.time, time), |stop| stop.unit);
+        just_left && !stays && (time - self.begin.time).abs() <= self.local(index).blur(unit)
     }
 }
 
@@ -81,6 +100,9 @@ where
         let mut sides = Sides {
             of: here.values.map(side),
             leaving: [false; N],
+            shown: [false; N],
+            begin: *here,
+            length: (self.time() - here.time).abs(),
             is_given,
             stop,
             local: [Local::UNKNOWN; N],

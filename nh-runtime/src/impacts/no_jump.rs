@@ -19,7 +19,7 @@ pub enum ImpactError {
         /// How many.
         rows: usize,
     },
-    /// A number of a row is infinite or not a number.
+    /// A number of a row, its gap among them, is infinite or not a number.
     NotFinite {
         /// The row.
         row: &'static str,
@@ -41,6 +41,14 @@ pub enum ImpactError {
         time: f64,
         /// How many jumps were made in one instant.
         jumps: u32,
+    },
+    /// The way to the target leads back in time, and what a motion was before an impact cannot be told from what it is
+    /// after it: all that lands ends alike.
+    Backwards {
+        /// The time.
+        time: f64,
+        /// The target.
+        target: f64,
     },
     /// A step between two impacts.
     Integration(IntegrationError),
@@ -71,6 +79,11 @@ impl Display for ImpactError {
                 f,
                 "the row `{row}` still closes at t = {time:?} after {jumps} jumps in one instant: give less \
                  restitution, or let the rows land together"
+            ),
+            Self::Backwards { time, target } => write!(
+                f,
+                "the way from t = {time:?} to {target:?} leads back in time, where impacts cannot be undone: start before \
+                 them, or go back to the last one with `advance_to`"
             ),
             Self::Integration(error) => error.fmt(f),
         }

@@ -118,6 +118,9 @@ where
     let time = t.to_f64();
     let row = |index: usize| impact.names().get(index).copied().unwrap_or_default();
     let mut gaps = impact.gaps(system, t, state);
+    if let Some(index) = gaps.iter().position(|gap| gap.is_some_and(|gap| !gap.is_finite())) {
+        return Err(ImpactError::NotFinite { row: row(index), time });
+    }
     if let Some(gap) = resting.and_then(|row| gaps.get_mut(row)) {
         *gap = None;
     }
@@ -199,7 +202,7 @@ where
     Ok(Struck { time: t, before: *state, after, impulses, lost })
 }
 
-/// Takes steps to `target`, and makes the jump of `impact` wherever a gap closes, and at the start where one is closed and
+/// Takes steps to `target`, which is not before the time, and makes the jump of `impact` wherever a gap closes, and at the start where one is closed and
 /// does not open; `visit` sees each and may end the run there. Statistics, input and step length go on from jump to jump,
 /// and the limits on steps and evaluations hold for the whole call.
 ///
@@ -221,6 +224,10 @@ where
     sim.admit_target(target)?;
     if sim.time() == target {
         return Ok(End::Target);
+    }
+    if target < sim.time() {
+        let [time, target] = [sim.time(), target].map(|time: ScalarOf<S>| time.to_f64());
+        return Err(ImpactError::Backwards { time, target });
     }
     let system = sim.system().clone();
     let strike_at = |time: ScalarOf<S>, state: &S::State, contact| {

@@ -7,6 +7,7 @@ mod domains;
 mod events;
 mod extremes;
 mod filters;
+mod leaving;
 mod limits;
 mod receding;
 mod rounded_events;

@@ -156,6 +156,52 @@ fn methods_are_prototypes_and_single_precision_is_float() {
     compiled("single", &text, &["-c", "-Wdouble-promotion"]);
 }
 
+/// Words of C that Rust lets stand, or lets stand behind `r#`, numbers of `math.h`, letters beyond ASCII, and the names that
+/// become of these.
+#[test]
+fn names_that_c_keeps_are_told_from_one_another() {
+    let fields = [
+        "double",
+        "double_",
+        "r#const",
+        "r#enum",
+        "r#do",
+        "r#typeof",
+        "_Bool",
+        "FP_NAN",
+        "HUGE_VALF",
+        "M_PI",
+        "unix",
+        "é",
+        "u00e9",
+        "p",
+        "x1",
+        "v0",
+    ];
+    let sum = fields.join(" + ");
+    let declared = fields.map(|field| format!("{field}: f64")).join(", ");
+    let source = format!(
+        "#[nonholonomic(
+            base {{ short, short_, r#static[2] }} inputs {{ long, long_ }}
+            lagrangian {{ ({sum}) / 2 * (der(short)^2 + der(short_)^2 + dot(der(r#static), der(r#static))) }}
+            forces {{ short: long * self.int(short_) + self.int_(short); short_: long_ + self.derivative(short); }}
+            emit {{ c }}
+        )]
+        struct Kept {{ {declared} }}"
+    );
+    let declaration = &declarations(&source)[0];
+    assert_eq!(declaration.system().err(), None);
+    let text = text_of(declaration);
+    for (k, standard) in ["-std=c99", "-std=gnu99", "-std=gnu17", "-std=c2x"].into_iter().enumerate() {
+        compiled(&format!("kept{k}"), &text, &["-c", standard]);
+    }
+    for line in
+        ["double double_;", "double double__;", "double static_[2];", "double kept_derivative_(const Kept *p"]
+    {
+        assert!(text.contains(line), "{line}: {text}");
+    }
+}
+
 #[test]
 fn a_type_parameter_is_refused() {
     let source =
