@@ -8,7 +8,8 @@ use crate::arrays::first_non_finite;
 use crate::linear::Factors;
 use crate::{D, ProjectionError, Real, Scalar, State, StateFault};
 pub(crate) use descent::descend;
-use descent::{Linearized, follow, lower, no_solution, sign, singular, square};
+use descent::{Linearized, follow, lower, sign, square};
+use failure::{no_solution, singular};
 
 pub use descent::Loops;
 pub use failure::AssemblyError;
@@ -185,6 +186,7 @@ fn at_rates<S: State<Scalar: Real>, const N: usize, const V: usize, const R: usi
         | AssemblyError::Singular { constraint, residual } => {
             AssemblyError::Velocities { constraint, residual }
         }
+        AssemblyError::NoValue { .. } => error,
         _ => velocities(fault(state)),
     })
 }

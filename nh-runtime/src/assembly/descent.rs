@@ -1,11 +1,12 @@
 //! Newton's iteration with steps that are halved until residuals fall.
 
 use super::AssemblyError;
+use super::failure::{no_solution, singular};
 use crate::arrays::all_finite;
 use crate::linear::Factors;
-use crate::newton_return::{is_rounding, worst};
+use crate::newton_return::is_rounding;
 use crate::projection::largest;
-use crate::{D, Real, Scalar, StateFault, rounding};
+use crate::{D, Real, Scalar, rounding};
 
 /// The iterations after which an assembly is given up.
 const MOST_ITERATIONS: u32 = 200;
@@ -360,24 +361,6 @@ pub(super) fn lower<'a, T: Real, const N: usize>(
         *place = -*left;
     }
     right
-}
-
-fn named<T: Real, const M: usize>(left: &[T; M], names: &[&'static str; M]) -> StateFault {
-    let mut pairs = names.iter().zip(left);
-    worst([(); M].map(|()| pairs.next().map_or(("", T::ZERO), |(name, left)| (*name, *left))))
-}
-
-pub(super) fn no_solution<T: Real, const M: usize>(
-    left: &[T; M],
-    names: &[&'static str; M],
-) -> AssemblyError {
-    let StateFault { identity, residual } = named(left, names);
-    AssemblyError::NoSolution { constraint: identity, residual }
-}
-
-pub(super) fn singular<T: Real, const M: usize>(left: &[T; M], names: &[&'static str; M]) -> AssemblyError {
-    let StateFault { identity, residual } = named(left, names);
-    AssemblyError::Singular { constraint: identity, residual }
 }
 
 #[cfg(test)]

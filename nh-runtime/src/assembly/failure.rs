@@ -3,6 +3,9 @@
 use core::error::Error;
 use core::fmt::{self, Display, Formatter};
 
+use crate::newton_return::worst;
+use crate::{Real, StateFault};
+
 /// Why a machine could not be assembled: what `assemble` and `assemble_holding` of a system with `holonomic` give.
 ///
 /// Residuals have the units of their constraints, left-hand side less right-hand side.
@@ -38,6 +41,13 @@ pub enum AssemblyError {
         /// The first such component.
         component: &'static str,
         /// Its value.
+        value: f64,
+    },
+    /// A constraint has no value where the search is.
+    NoValue {
+        /// The constraint.
+        constraint: &'static str,
+        /// Its value: infinite, or not a number.
         value: f64,
     },
     /// The coordinates that are held leave more than the constraints determine.
@@ -93,6 +103,11 @@ impl Display for AssemblyError {
             Self::NonFiniteGuess { component, value } => {
                 write!(f, "the component `{component}` of the guess is {value:?}: give finite numbers")
             }
+            Self::NoValue { constraint, value } => write!(
+                f,
+                "`{constraint}` is {value:?} there: the time or a parameter may be no number, or the guess is where it \
+                 has no value"
+            ),
             Self::TooFewHeld { held, needed } => write!(
                 f,
                 "of the coordinates that the position constraints depend on {held} are held, which leaves others \
@@ -128,3 +143,29 @@ impl Display for AssemblyError {
 }
 
 impl Error for AssemblyError {}
+
+/// The largest residual.
+fn named<T: Real, const M: usize>(left: &[T; M], names: &[&'static str; M]) -> StateFault {
+    let mut pairs = names.iter().zip(left);
+    worst([(); M].map(|()| pairs.next().map_or(("", T::ZERO), |(name, left)| (*name, *left))))
+}
+
+/// Where a search ended without a solution.
+pub(super) fn no_solution<T: Real, const M: usize>(
+    left: &[T; M],
+    names: &[&'static str; M],
+) -> AssemblyError {
+    let StateFault { identity, residual } = named(left, names);
+    without_value(identity, residual).unwrap_or(AssemblyError::NoSolution { constraint: identity, residual })
+}
+
+/// Where it does not know where to go.
+pub(super) fn singular<T: Real, const M: usize>(left: &[T; M], names: &[&'static str; M]) -> AssemblyError {
+    let StateFault { identity, residual } = named(left, names);
+    without_value(identity, residual).unwrap_or(AssemblyError::Singular { constraint: identity, residual })
+}
+
+/// That a residual is none.
+fn without_value(constraint: &'static str, value: f64) -> Option<AssemblyError> {
+    (!value.is_finite()).then_some(AssemblyError::NoValue { constraint, value })
+}

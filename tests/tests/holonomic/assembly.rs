@@ -96,12 +96,44 @@ fn what_cannot_be_assembled_is_said() {
     assert!(matches!(error, AssemblyError::NonFiniteGuess { component: "b_dot", .. }), "{error:?}");
 }
 
+/// A rope that is let out.
+#[nonholonomic(
+    base { x, y }
+    holonomic { rope: x^2 + y^2 = (l + t)^2; }
+    lagrangian { (der(x)^2 + der(y)^2) / 2 }
+)]
+#[derive(Clone, Copy, Debug)]
+struct Rope {
+    l: f64,
+}
+
+#[test]
+fn a_time_or_a_parameter_that_is_no_number_is_told() {
+    let guess = RopeState { x: 0.6, y: -1.0, ..Default::default() };
+    for number in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
+        let (broken, rope) = (Rope { l: number }, Rope { l: 1.0 });
+        let errors = [
+            broken.assemble(0.0, &guess),
+            broken.assemble_holding(0.0, &guess, &[RopeCoordinate::x]),
+            rope.assemble(number, &guess),
+            rope.assemble_holding(number, &guess, &[RopeCoordinate::x]),
+        ];
+        for error in errors.map(Result::unwrap_err) {
+            assert!(matches!(error, AssemblyError::NoValue { constraint: "rope", .. }), "{error:?}");
+        }
+    }
+}
+
 #[test]
 fn errors_say_what_to_do() {
     let texts = [
         (
             AssemblyError::NonFiniteGuess { component: "a", value: f64::INFINITY },
             "`a` of the guess is inf: give finite",
+        ),
+        (
+            AssemblyError::NoValue { constraint: "closure[0]", value: f64::INFINITY },
+            "`closure[0]` is inf there: the time or a parameter may be no number",
         ),
         (
             AssemblyError::TooFewHeld { held: 0, needed: 1 },
