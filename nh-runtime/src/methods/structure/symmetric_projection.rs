@@ -12,11 +12,11 @@ use crate::{Dim, DimOf, IntegrationError, Real, ScalarOf, State, Statistics, Vec
 ///
 /// The step is its own inverse with the time reversed, as the method is; a return after the step is not. So the energy of
 /// a motion that is its own reverse, as a swing is, stays within a band where a return makes it drift. That of one that is
-/// not, as of a crank that goes round, drifts here too, but less; [`DiscreteGradient`](crate::DiscreteGradient) keeps it.
+/// not, as of a crank that goes round, drifts here too, but less; [`DiscreteGradient`](crate::DiscreteGradient) keeps it,
+/// [`Rattle`](crate::Rattle) keeps it in a band.
 ///
 /// Hairer, Symmetric projection methods for differential equations on manifolds, BIT 40 (2000); Hairer, Lubich, Wanner,
-/// Geometric Numerical Integration, V.4.1. RATTLE (Andersen 1983) does the like to the leapfrog, by kicks of the velocities
-/// alone. For systems declared with `emit { symmetric_projection }`.
+/// Geometric Numerical Integration, V.4.1. For systems declared with `emit { symmetric_projection }`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SymmetricProjection<P> {
     base: P,
