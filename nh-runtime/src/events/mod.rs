@@ -292,3 +292,8 @@ where
         Ok(None)
     }
 }
+
+/// What tells functions from others: their values somewhere.
+fn print<T: Real, const N: usize>(values: &[T; N]) -> u64 {
+    values.iter().fold(0, |print: u64, value| print.rotate_left(7) ^ value.to_f64().to_bits())
+}

@@ -6,7 +6,7 @@ use super::local::Local;
 use super::pending::Pending;
 use super::start::{Sides, midway};
 use super::turns::double_changes;
-use super::{Event, EventOf, Events, Side, Station, crossing, side};
+use super::{Event, EventOf, Events, Side, Station, crossing, print, side};
 use crate::methods::{Method, Start};
 use crate::stop::{Flight, NO_HEIGHT, SHORT_HEIGHT, Stop};
 use crate::{Direction, Dynamics, IntegrationError, Integrator, Real, ScalarOf};
@@ -148,11 +148,6 @@ fn note_coming<T: Real, const N: usize>(stop: &mut Stop<T>, local: &[Local<T>; N
             }
         }
     }
-}
-
-/// What tells functions from others: their values somewhere.
-pub(super) fn print<T: Real, const N: usize>(values: &[T; N]) -> u64 {
-    values.iter().fold(0, |print: u64, value| print.rotate_left(7) ^ value.to_f64().to_bits())
 }
 
 /// Takes note at a stop, in a step with this beginning, of a function that has left zero where a state was given, and is

@@ -2,8 +2,7 @@
 
 use core::ops::ControlFlow;
 
-use super::search::print;
-use super::{Event, EventOf, Events, Side, Station};
+use super::{Event, EventOf, Events, Side, Station, print};
 use crate::methods::{Method, Start};
 use crate::stop::bit;
 use crate::{Direction, Dynamics, Integrator, Real, ScalarOf};

@@ -1,8 +1,7 @@
 //! On which side of zero event functions start.
 
 use super::local::Local;
-use super::search::print;
-use super::{Events, Side, Station, before, beyond, reached, side};
+use super::{Events, Side, Station, before, beyond, print, reached, side};
 use crate::methods::Method;
 use crate::stop::Stop;
 use crate::{Direction, Dynamics, IntegrationError, Integrator, Real, Scalar, ScalarOf};

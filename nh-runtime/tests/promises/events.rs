@@ -5,6 +5,8 @@ use core::ops::ControlFlow;
 use nonholonomic::prelude::*;
 use nonholonomic::{D, Method};
 
+use crate::systems::every_kind;
+
 /// Two balls above a floor.
 #[derive(Clone, Copy)]
 struct Balls<T> {
@@ -41,29 +43,9 @@ impl<T: Real> Dynamics for Balls<T> {
 
 /// Calls a law with methods of every kind.
 macro_rules! methods {
-    ($law:expr, $number:ty) => {{
-        let h = <$number as Scalar>::from_f64(0.1);
-        macro_rules! call {
-            ($method:expr) => {
-                $law(stringify!($method), $method)
-            };
-        }
-        call!(Heun::new(h));
-        call!(Rk4::new(h));
-        call!(Rk4::new(h).compensated());
-        call!(Dop853::fixed(h));
-        call!(ImplicitMidpoint::new(h));
-        call!(GaussLegendre4::new(h));
-        call!(GaussLegendre6::new(h));
-        call!(Bs23::new());
-        call!(Dopri5::new());
-        call!(Tsit5::new());
-        call!(Dop853::new());
-        call!(Vern9::new());
-        call!(Radau5::new());
-        call!(Rodas5P::new());
-        call!(Auto::new());
-    }};
+    ($law:expr, $number:ty) => {
+        every_kind!($law, <$number as Scalar>::from_f64(0.1))
+    };
 }
 
 /// A ball that loses speed at every impact, until the impacts accumulate; the other one stays far above.

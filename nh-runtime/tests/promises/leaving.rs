@@ -4,6 +4,8 @@
 use nonholonomic::prelude::*;
 use nonholonomic::{D, Method};
 
+use crate::systems::every_kind;
+
 /// A particle on a line with a constant acceleration.
 #[derive(Clone, Copy)]
 struct Thrown<T> {
@@ -40,28 +42,9 @@ impl<T: Real> Dynamics for Thrown<T> {
 
 /// Calls a law with methods of every kind.
 macro_rules! methods {
-    ($law:expr, $number:ty) => {{
-        let h = <$number as Scalar>::from_f64(0.02);
-        macro_rules! call {
-            ($method:expr) => {
-                $law(stringify!($method), $method)
-            };
-        }
-        call!(Heun::new(h));
-        call!(Rk4::new(h));
-        call!(Rk4::new(h).compensated());
-        call!(Dop853::fixed(h));
-        call!(ImplicitMidpoint::new(h));
-        call!(GaussLegendre4::new(h));
-        call!(Bs23::new());
-        call!(Dopri5::new());
-        call!(Tsit5::new());
-        call!(Dop853::new());
-        call!(Vern9::new());
-        call!(Radau5::new());
-        call!(Rodas5P::new());
-        call!(Auto::new());
-    }};
+    ($law:expr, $number:ty) => {
+        every_kind!($law, <$number as Scalar>::from_f64(0.02))
+    };
 }
 
 /// Runs that start where a function is zero, moving or at rest, and end within a few roundings of the start's time or of

@@ -87,4 +87,31 @@ macro_rules! every_adaptive {
     }};
 }
 
-pub(crate) use {every_adaptive, every_fixed};
+/// Calls a law with methods of every kind, those of fixed step with steps of length `h`.
+macro_rules! every_kind {
+    ($law:expr, $h:expr) => {{
+        let h = $h;
+        macro_rules! call {
+            ($method:expr) => {
+                $law(stringify!($method), $method)
+            };
+        }
+        call!(Heun::new(h));
+        call!(Rk4::new(h));
+        call!(Rk4::new(h).compensated());
+        call!(Dop853::fixed(h));
+        call!(ImplicitMidpoint::new(h));
+        call!(GaussLegendre4::new(h));
+        call!(GaussLegendre6::new(h));
+        call!(Bs23::new());
+        call!(Dopri5::new());
+        call!(Tsit5::new());
+        call!(Dop853::new());
+        call!(Vern9::new());
+        call!(Radau5::new());
+        call!(Rodas5P::new());
+        call!(Auto::new());
+    }};
+}
+
+pub(crate) use {every_adaptive, every_fixed, every_kind};
