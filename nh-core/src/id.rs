@@ -14,12 +14,12 @@ pub trait Id: Copy + Eq + Ord + 'static {
 }
 
 macro_rules! ids {
-    ($($(#[$doc:meta])* $name:ident;)*) => {$(
+    ($($(#[$doc:meta])* $visibility:vis struct $name:ident;)*) => {$(
         $(#[$doc])*
         #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
-        pub struct $name(u32);
+        $visibility struct $name(u32);
 
-        impl Id for $name {
+        impl $crate::id::Id for $name {
             const FIRST: Self = Self(0);
             #[inline(always)]
             #[allow(clippy::cast_possible_truncation, reason = "it fits")]
@@ -36,25 +36,27 @@ macro_rules! ids {
     )*};
 }
 
+pub(crate) use ids;
+
 ids! {
     /// A node of the expression graph. Operands have smaller ids than what is built from them.
-    ExprId;
+    pub struct ExprId;
     /// A name that stands for a number: a coordinate, velocity, parameter, input or the time.
-    SymbolId;
+    pub struct SymbolId;
     /// A number that has a name.
-    ConstantId;
+    pub struct ConstantId;
     /// A base coordinate `x^i`.
-    CoordId;
+    pub struct CoordId;
     /// A section `e_α` of the declared basis, and its quasi-velocity `y^α`.
-    SectionId;
+    pub struct SectionId;
     /// A scalar parameter: a field of the struct, or one entry of an array field.
-    ParamId;
+    pub struct ParamId;
     /// A control input `u`.
-    InputId;
+    pub struct InputId;
     /// A declared constraint.
-    ConstraintId;
+    pub struct ConstraintId;
     /// A place in the declaration, known only to the front end.
-    Origin;
+    pub struct Origin;
 }
 
 /// A vector indexed by one kind of id.

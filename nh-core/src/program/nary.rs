@@ -1,24 +1,15 @@
 //! Sums and products of any number of operands, on which the search for shared work runs.
 
 use crate::algebra::{Function, Function2, Rational};
-use crate::id::{ConstantId, Id, SymbolId, Table};
+use crate::id::{ConstantId, Id, SymbolId, Table, ids};
 use crate::limits;
 use rustc_hash::{FxHashMap, FxHashSet};
 use std::collections::hash_map::Entry;
 use std::rc::Rc;
 
-/// An expression of the arena.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
-pub(super) struct Term(u32);
-
-impl Id for Term {
-    const FIRST: Self = Self(0);
-    fn from_index(index: usize) -> Self {
-        Self(u32::try_from(index).expect("fewer than 2^32 terms"))
-    }
-    fn index(self) -> usize {
-        self.0 as usize
-    }
+ids! {
+    /// An expression of the arena.
+    pub(super) struct Term;
 }
 
 /// What a term is made of.

@@ -1,21 +1,12 @@
 //! The instructions of a straight-line program.
 
 use crate::algebra::{Function, Function2, Rational};
-use crate::id::{Id, SymbolId, Table};
+use crate::id::{Id, SymbolId, Table, ids};
 use std::collections::BTreeMap;
 
-/// The result of a step.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
-pub struct Value(u32);
-
-impl Id for Value {
-    const FIRST: Self = Self(0);
-    fn from_index(index: usize) -> Self {
-        Self(u32::try_from(index).expect("fewer than 2^32 steps"))
-    }
-    fn index(self) -> usize {
-        self.0 as usize
-    }
+ids! {
+    /// The result of a step.
+    pub struct Value;
 }
 
 /// One instruction. Operands are results of earlier steps.
