@@ -84,7 +84,7 @@ fn variational(
         })
         .collect();
     let given: Vec<SymbolId> = (0..coordinates.len() + positions.len())
-        .map(|place| graph.new_symbol(&format!("given_{place}")))
+        .map(|place| graph.new_symbol(format!("given_{place}")))
         .collect();
     let values: Vec<ExprId> = given.iter().map(|symbol| graph.symbol(*symbol)).collect();
     let (force, bias) = values.split_at(coordinates.len());
