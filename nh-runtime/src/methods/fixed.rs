@@ -243,8 +243,10 @@ where
         let mut steps = 0;
         // within so many steps from here is one that fails, once a stride has: halving them finds it
         let mut failing = u64::MAX;
+        // strides grow, so that one that fails has not been much longer than the way to it
+        let mut longest = FIRST_STRIDE;
         while place.time != target && steps < limit {
-            let most = (limit - steps - 1).min(if failing == u64::MAX { failing } else { (failing - 1) / 2 });
+            let most = (limit - steps - 1).min(if failing == u64::MAX { longest } else { (failing - 1) / 2 });
             let mut leapt = None;
             if P::DIRECT
                 && let Some(stride) = memory.grid.stride(place.time, self.step, target, most)
@@ -264,6 +266,7 @@ where
                 (place.time, place.state) = (stride.time(stride.steps), reached);
                 steps += length;
                 failing = left(failing, length);
+                longest = longest.saturating_mul(2);
             }
             let start = Start { system, input, time: place.time, state: &place.state };
             match (self.advance(&start, Some(target), memory, statistics), leapt) {
@@ -293,6 +296,9 @@ where
         self.scheme.interpolate(dense, start, arrival, time)
     }
 }
+
+/// The steps of the first stride of a run.
+const FIRST_STRIDE: u64 = 64;
 
 /// Within how many steps one fails after some of them did not: within any number, if it was none of those.
 #[inline]

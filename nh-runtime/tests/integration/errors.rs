@@ -127,7 +127,7 @@ fn a_derivative_that_is_not_finite_stops_every_method() {
     );
 }
 
-/// However far the target is, a run that fails on its way costs no more than about as many steps as there are to it, and
+/// However far the target is, a run that fails on its way costs no more than a few times the steps that it has taken, and
 /// statistics count what was evaluated.
 #[test]
 fn a_run_that_fails_is_not_repeated_for_each_of_its_steps() {
@@ -147,7 +147,8 @@ fn a_run_that_fails_is_not_repeated_for_each_of_its_steps() {
             let reached = f64::from(steps).copysign(target);
             assert_eq!((sim.time(), sim.state().x), (reached, reached), "{failing} {target}");
             let (counted, calls) = (sim.statistics(), CALLS.get());
-            assert!(counted.steps == u64::from(steps) && calls <= 2600, "{failing}: {calls} {counted:?}");
+            let few = 4 * u64::from(steps) + 200;
+            assert!(counted.steps == u64::from(steps) && calls <= few, "{failing}: {calls} {counted:?}");
             // one more to explain what has happened
             assert!(calls - counted.evaluations <= 2, "{failing}: {calls} {counted:?}");
             // and the last step is that of the length of one, however it was found
