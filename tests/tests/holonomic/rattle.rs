@@ -209,9 +209,9 @@ fn orders_are_two_and_four() {
         *sim.state()
     };
     let error = |end: FourBarState| (end.a - exact.a).abs().max((end.a_dot - exact.a_dot).abs() / 20.0);
-    let second = [100, 200]
+    let second = [100_u32, 200]
         .map(|steps| error(after(LINKAGE, Rattle::new(0.6 / f64::from(steps)), turning(), steps as usize)));
-    let fourth = [100, 200].map(|steps| {
+    let fourth = [100_u32, 200].map(|steps| {
         error(after(LINKAGE, Rattle::new(0.6 / f64::from(steps)).fourth_order(), turning(), steps as usize))
     });
     let orders = [second, fourth].map(|[coarse, fine]| (coarse / fine).log2());
