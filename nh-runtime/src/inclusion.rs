@@ -1,6 +1,5 @@
 //! Modes: a system that is another one with further constraints.
 
-use core::cmp::Ordering;
 use core::error::Error;
 use core::fmt::{self, Display, Formatter};
 
@@ -38,7 +37,7 @@ pub trait Inclusion<W: Dynamics>: Dynamics {
 pub struct NotInMode<X> {
     /// The variable that is off by most.
     pub variable: &'static str,
-    /// By how much.
+    /// By how much; no number where it has infinite or no value, or where the mode does not get there.
     pub residual: f64,
     /// By how much each variable is off.
     pub residuals: X,
@@ -85,15 +84,14 @@ where
     let largest =
         |from: usize, to: usize| sizes.clone().skip(from).take(to - from.min(to)).fold(zero, W::Scalar::max);
     let scales = [largest(0, coordinates), largest(coordinates, given.as_ref().len())];
-    let mut worst: Option<(usize, W::Scalar)> = None;
-    for (index, residual) in residuals.as_ref().iter().enumerate() {
+    // what is no number is off, and no measure of others
+    let broken = residuals.as_ref().iter().position(|residual| !residual.is_finite());
+    let mut worst = broken.map(|index| (index, zero));
+    for (index, residual) in residuals.as_ref().iter().enumerate().filter(|_| broken.is_none()) {
         let [of_coordinates, of_velocities] = scales;
         let scale = if index < coordinates { of_coordinates } else { of_velocities };
-        // what is no number is off, too
-        let is_met = residual.abs() <= tolerance * scale;
         let share = residual.abs() / scale;
-        let is_least = |known| matches!(share.partial_cmp(&known), Some(Ordering::Less | Ordering::Equal));
-        if !is_met && worst.is_none_or(|(_, known)| !is_least(known)) {
+        if residual.abs() > tolerance * scale && worst.is_none_or(|(_, known)| share > known) {
             worst = Some((index, share));
         }
     }

@@ -160,7 +160,8 @@ impl<S: Dynamics, M: Method<S>> Integrator<S, M> {
     }
 
     /// Starts anew from another state and time, with the same system, method and input. The
-    /// statistics start anew too.
+    /// statistics start anew too. At the time of an event at which the integration has stopped, other events of that
+    /// instant that have not been reported are, if their functions still go through zero there.
     pub fn reset(&mut self, t0: ScalarOf<S>, state: S::State) {
         self.time = t0;
         self.state = state;

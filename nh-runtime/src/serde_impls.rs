@@ -14,7 +14,7 @@ macro_rules! __nh_serde_impls {
         const _: () = {
             mod mirror {
                 #[derive($crate::__private::serde::Serialize, $crate::__private::serde::Deserialize)]
-                #[serde(crate = $path, rename = $text)]
+                #[serde(crate = $path, rename = $text, expecting = $text)]
                 pub(super) struct Mirror $(<$t>)? { $(pub(super) $field: $type,)* }
             }
             #[automatically_derived]

@@ -108,6 +108,28 @@ fn a_mode_is_included_and_restricted() {
     assert!(ROLLING.restrict(0.0, &FlyingState { y: f64::NAN, ..wheel }).is_err());
 }
 
+/// What is infinite or no number is off, is what is named, and measures nothing else.
+#[test]
+fn what_is_no_number_is_in_no_mode() {
+    let rolling = RollingState { x: 1.2, phi: 0.4, phi_dot: 3.0 };
+    let whole = ROLLING.include(0.0, &rolling).to_array();
+    for component in 0..6 {
+        for value in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
+            let mut given = whole;
+            given[component] = value;
+            let error = ROLLING.restrict(0.0, &FlyingState::from(given)).unwrap_err();
+            let index = FlyingState::names().iter().position(|name| *name == error.variable).unwrap();
+            // what follows from a variable may be named for it
+            assert!(
+                !error.residual.is_finite() && !error.residuals.to_array()[index].is_finite(),
+                "{error:?}"
+            );
+            let follows = index == component || (component == 5 && index == 3);
+            assert!(follows, "{component} {value}: {error:?}");
+        }
+    }
+}
+
 #[test]
 fn an_impact_leads_into_a_mode() {
     let falling = FlyingState { x: 0.0, y: 0.5, phi: 0.4, x_dot: 2.0, y_dot: -1.0, phi_dot: -1.0 };

@@ -15,6 +15,10 @@ use crate::{Fast, Scalar};
 /// same kernel, multiply-adds are fused in both or in neither. The other elementary functions are
 /// evaluated lane after lane.
 ///
+/// What is iterated until it settles, `project` and `normalize` to equations of the state, goes on until the last lane
+/// has: the others take further steps and equal single numbers to rounding, and where one lane does not arrive there is an
+/// error for all, with every lane as it was. Steps of a method make one correction, and equal those of numbers.
+///
 /// ```
 /// use nonholonomic::{Lanes, Scalar};
 ///

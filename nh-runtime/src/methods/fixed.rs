@@ -241,30 +241,49 @@ where
         statistics: &mut Statistics,
     ) -> Result<u64, IntegrationError> {
         let mut steps = 0;
+        // within so many steps from here is one that fails, once a stride has: halving them finds it
+        let mut failing = u64::MAX;
+        // strides grow, so that one that fails has not been much longer than the way to it
+        let mut longest = FIRST_STRIDE;
         while place.time != target && steps < limit {
+            let most = (limit - steps - 1).min(if failing == u64::MAX { longest } else { (failing - 1) / 2 });
+            let mut leapt = None;
             if P::DIRECT
-                && let Some(stride) = memory.grid.stride(place.time, self.step, target, limit - steps - 1)
+                && let Some(stride) = memory.grid.stride(place.time, self.step, target, most)
             {
-                let begun = *statistics;
                 let work = &mut memory.work;
                 let reached = stride_along(&stride, (system, input), place, |start, x| {
                     let increment = self.scheme.increment(start, x, stride.step, work, statistics)?;
                     Ok(displaced(x, T::ONE, &increment))
                 });
-                if let Some(reached) = reached {
-                    memory.grid = stride.end();
-                    (place.time, place.state) = (stride.time(stride.steps), reached);
-                    steps += u64::from(stride.steps);
-                    statistics.steps += u64::from(stride.steps);
-                } else {
-                    *statistics = begun;
-                }
+                let length = u64::from(stride.steps);
+                let Some(reached) = reached else {
+                    failing = length;
+                    continue;
+                };
+                leapt = Some((place.time, place.state, memory.grid, length));
+                memory.grid = stride.end();
+                (place.time, place.state) = (stride.time(stride.steps), reached);
+                steps += length;
+                failing = left(failing, length);
+                longest = longest.saturating_mul(2);
             }
             let start = Start { system, input, time: place.time, state: &place.state };
-            let arrival = self.advance(&start, Some(target), memory, statistics)?;
-            place.move_to(arrival);
-            statistics.steps += 1;
-            steps += 1;
+            match (self.advance(&start, Some(target), memory, statistics), leapt) {
+                (Ok(arrival), leapt) => {
+                    place.move_to(arrival);
+                    statistics.steps += leapt.map_or(1, |(.., length)| length + 1);
+                    steps += 1;
+                    failing = left(failing, 1);
+                }
+                // the step before is to be known: the way is gone again, and ends in single steps
+                (Err(_), Some((time, state, grid, length))) => {
+                    (place.time, place.state, memory.grid) = (time, state, grid);
+                    steps -= length;
+                    failing = length + 1;
+                }
+                (Err(error), None) => return Err(error),
+            }
         }
         Ok(steps)
     }
@@ -276,6 +295,16 @@ where
     fn interpolate(&self, dense: &P::Dense, start: &Start<'_, S>, arrival: &Arrival<S>, time: T) -> S::State {
         self.scheme.interpolate(dense, start, arrival, time)
     }
+}
+
+/// The steps of the first stride of a run.
+const FIRST_STRIDE: u64 = 64;
+
+/// Within how many steps one fails after some of them did not: within any number, if it was none of those.
+#[inline]
+fn left(failing: u64, done: u64) -> u64 {
+    let left = failing.saturating_sub(done);
+    if failing == u64::MAX || left == 0 { u64::MAX } else { left }
 }
 
 /// The state after several steps, which is not looked at before their end: what is not finite stays so

@@ -127,6 +127,38 @@ fn a_derivative_that_is_not_finite_stops_every_method() {
     );
 }
 
+/// However far the target is, a run that fails on its way costs no more than a few times the steps that it has taken, and
+/// statistics count what was evaluated.
+#[test]
+fn a_run_that_fails_is_not_repeated_for_each_of_its_steps() {
+    thread_local!(static CALLS: std::cell::Cell<u64> = const { std::cell::Cell::new(0) });
+    for (failing, steps) in
+        [(1.0, 2_u32), (37.0, 38), (499.5, 500), (996.5, 997), (997.0, 998), (998.5, 999), (1000.0, 1000)]
+    {
+        for target in [1000.0, -1000.0] {
+            let system = Scalar1(|t, x, limit| {
+                CALLS.set(CALLS.get() + 1);
+                if t.abs() > limit { f64::NAN } else { x * 0.0 + 1.0 }
+            });
+            CALLS.set(0);
+            let mut sim = Integrator::new(system, Euler::new(1.0), 0.0, Line { x: 0.0 });
+            sim.set_input(Torque { torque: failing });
+            assert_eq!(sim.advance_to(target).is_err(), steps < 1000, "{failing}");
+            let reached = f64::from(steps).copysign(target);
+            assert_eq!((sim.time(), sim.state().x), (reached, reached), "{failing} {target}");
+            let (counted, calls) = (sim.statistics(), CALLS.get());
+            let few = 4 * u64::from(steps) + 200;
+            assert!(counted.steps == u64::from(steps) && calls <= few, "{failing}: {calls} {counted:?}");
+            // one more to explain what has happened
+            assert!(calls - counted.evaluations <= 2, "{failing}: {calls} {counted:?}");
+            // and the last step is that of the length of one, however it was found
+            let from = reached - 1.0_f64.copysign(target);
+            assert_eq!(sim.at(from), Ok(Line { x: from }), "{failing}");
+            assert!(sim.at(from - 0.25_f64.copysign(target)).is_err(), "{failing}");
+        }
+    }
+}
+
 #[test]
 fn a_stage_cannot_hide_a_nan() {
     // not a number at the third stage of the first attempt, and blind to NaN in the state

@@ -70,3 +70,29 @@ fn lanes_are_projected_together() {
     linkage::<f64x4>().project(f64x4::from(0.0), &mut lanes).unwrap();
     assert!(open(&lanes) < 1e-14, "{:e}", open(&lanes));
 }
+
+/// The lanes that were there already stay to rounding, and one that does not arrive leaves all as they were.
+#[test]
+fn lanes_that_wait_for_others_equal_numbers_to_rounding() {
+    let mut numbers = starts();
+    for (state, off) in numbers.iter_mut().zip([1e-2, 1e-9, 0.0, 1e-4]) {
+        state.rocker += Fast(off);
+    }
+    let mut lanes = packed(&numbers);
+    linkage::<f64x4>().project(f64x4::from(0.0), &mut lanes).unwrap();
+    let alone = numbers.map(|mut state| {
+        linkage().project(Fast(0.0), &mut state).unwrap();
+        state
+    });
+    for (ours, theirs) in lanes.to_array().iter().zip(packed(&alone).to_array()) {
+        for lane in 0..4 {
+            let off = (ours.lane(lane) - theirs.lane(lane)).abs();
+            assert!(off <= 1e-13 * theirs.lane(lane).abs().max(1.0), "{ours:?} {theirs:?}");
+        }
+    }
+    numbers[2].coupler = Fast(f64::NAN);
+    let mut broken = packed(&numbers);
+    assert!(linkage::<f64x4>().project(f64x4::from(0.0), &mut broken).is_err());
+    let bits = |state: &LinkageState<f64x4>| state.to_array().map(|x| x.to_array().map(f64::to_bits));
+    assert_eq!(bits(&broken), bits(&packed(&numbers)));
+}

@@ -241,3 +241,66 @@ fn a_crank_after_many_turns_steps_on() {
     let slow = FourBarState { a_dot: 1e-9, b_dot: begun.b_dot * 5e-11, c_dot: begun.c_dot * 5e-11, ..begun };
     _ = after(FourBar { k: 0.0, ..LINKAGE }, Rattle::new(0.003), slow, 100);
 }
+
+/// A step during which nothing moves by a digit changes no velocity, whatever rounding of the positions is by its length.
+#[test]
+fn steps_that_positions_do_not_resolve_keep_velocities() {
+    for h in [1e-18, 1e-20, 1e-30, 1e-100, 1e-300] {
+        let end = after(ROD, Rattle::new(h), hanging(), 20);
+        for (found, wanted) in end.to_array().iter().zip(hanging().to_array()) {
+            assert!((found - wanted).abs() < 1e-14, "{h:e}: {end:?}");
+        }
+        let end = after(LINKAGE, Rattle::new(h).fourth_order(), turning(), 20);
+        for (found, wanted) in end.to_array().iter().zip(turning().to_array()) {
+            assert!((found - wanted).abs() < 1e-12, "{h:e}: {end:?}");
+        }
+    }
+    // from rest, half of the force acts within the step and half at its end
+    let held = RodState { x_dot: 0.0, y_dot: 0.0, z_dot: 0.0, ..hanging() };
+    let end = after(ROD, Rattle::new(1e-30), held, 20);
+    let RodState { x, z, .. } = held;
+    let [fall, swing] =
+        [-(1.0 - z * z / (ROD.l * ROD.l)), x * z / (ROD.l * ROD.l)].map(|share| share * ROD.g * 2e-29);
+    assert!((end.z_dot / fall - 1.0).abs() < 1e-12 && (end.x_dot / swing - 1.0).abs() < 1e-12, "{end:?}");
+}
+
+/// A parallelogram, whose coupler does not turn: what is left of its closure is rounding of sines that cancel.
+#[nonholonomic(
+    base { a, b, c }
+    let along(angle) = [cos(angle), sin(angle)];
+    holonomic {
+        same: a = c;
+        closure: l * along(a) + d * along(b) = l * along(c) + [d, 0];
+        redundant;
+    }
+    lagrangian { J / 2 * (der(a)^2 + der(b)^2 + der(c)^2) - k * sin(a) }
+    emit { rattle }
+)]
+#[derive(Clone, Copy, Debug)]
+struct Parallelogram {
+    l: f64,
+    d: f64,
+    J: f64,
+    k: f64,
+}
+
+#[test]
+fn a_coordinate_at_zero_has_the_digits_of_the_terms_of_its_equations() {
+    let system = Parallelogram { l: 1.0, d: 2.0, J: 0.3, k: 1.0 };
+    for (h, rate) in [(0.001, 2.0), (0.001, 0.0), (0.01, 2.0), (0.01, 0.0), (0.1, 2.0)] {
+        let start = ParallelogramState { a: 0.7, c: 0.7, a_dot: rate, c_dot: rate, ..Default::default() };
+        let (_, open) = kept(system, Rattle::new(h), start, 3000);
+        assert!(open < 1e-12, "{h} {rate}: {open:e}");
+    }
+}
+
+/// A velocity beside one that is larger by more than its digits: momenta are sums of both.
+#[test]
+fn a_slow_velocity_has_the_digits_of_the_terms_of_its_momentum() {
+    let start = LinksState { p_dot: 1e-8, q_dot: 1e3, ..LinksState::default() };
+    for method in [Rattle::new(1e-9), Rattle::new(1e-7), Rattle::new(1e-5)] {
+        let end = after(Links { g: 9.81 }, method, start, 1000);
+        assert!((end.q_dot / 1e3 - 1.0).abs() < 0.5, "{end:?}");
+        _ = after(Links { g: 9.81 }, method.fourth_order(), start, 300);
+    }
+}

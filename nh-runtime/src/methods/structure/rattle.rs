@@ -73,13 +73,19 @@ where
         if is_first_term(h) {
             return Ok(halves(&displaced(&none, h, &velocity), &none));
         }
-        let action = Action { start, h, momentum: behind(&slopes(start.system, x)) };
+        let mut action = Action { start, h, momentum: behind(&slopes(start.system, x)), hidden: none };
         let mut u = displaced(&velocity, T::ONE, work);
         let (mut iterations, mut before, mut least, mut reach) = (0, None, None, None);
         let mut settling = Settling::<DimOf<S>, T>::new();
         loop {
             let ends @ [_, end] = action.ends(x, &u);
-            let correction = action.correction(&ends);
+            let mut correction = action.correction(&ends);
+            // where it is more than the velocities, rounding of the positions by a short step may be all of it
+            if iterations == 0 && is_beyond(&correction, &u) {
+                action.hidden = action.hidden(&end);
+                correction = action.correction(&ends);
+                statistics.evaluations += 2;
+            }
             u = displaced(&u, T::ONE, &correction);
             statistics.evaluations += 2;
             statistics.iterations += 1;
@@ -101,7 +107,7 @@ where
             let sizes = sizes(&correction);
             if !falls(least.get_or_insert(sizes).as_mut(), sizes.as_ref()) && iterations > 1 {
                 let reach = reach.get_or_insert_with(|| {
-                    statistics.evaluations += 4;
+                    statistics.evaluations += 7;
                     action.reach(&ends, &correction)
                 });
                 if sizes.as_ref().iter().zip(reach.as_ref()).all(|(size, reach)| size <= reach) {
@@ -123,6 +129,8 @@ struct Action<'s, S: DiscreteLagrangian> {
     h: ScalarOf<S>,
     /// p₀ = ∂L/∂q̇ at the start.
     momentum: VecOf<S>,
+    /// Up to which size constraints hold as well as positions have digits, where they did at first; else zero.
+    hidden: VecOf<S>,
 }
 
 impl<T: Real, S: DiscreteLagrangian> Action<'_, S>
@@ -148,21 +156,57 @@ where
         halves(&velocities, &DimOf::<S>::vec(T::ZERO))
     }
 
-    /// How far a correction changes where the positions at the end are rounded otherwise, four units of their last places up
-    /// and down, in two patterns: what noise comes to.
+    /// How far rounding reaches into a correction, in two patterns: that of the positions at the end, four units of their
+    /// last places up and down, and that of the momenta and the constraints beside their terms. What noise comes to.
     fn reach(&self, [here, there]: &[VecOf<S>; 2], correction: &VecOf<S>) -> VecOf<S> {
-        let mut reach = DimOf::<S>::vec(T::ZERO);
-        for period in [2, 3] {
-            let mut rounded = *there;
-            let n = rounded.as_ref().len() / 2;
-            for (place, q) in rounded.as_mut().iter_mut().take(n).enumerate() {
-                let units = T::from_f64(if place % period == 0 { 4.0 } else { -4.0 });
-                *q += units * T::EPSILON * *q;
-            }
-            let change = sizes(&difference(&self.correction(&[*here, rounded]), correction));
-            reach = displaced(&reach, T::ONE, &change);
+        let none = DimOf::<S>::vec(T::ZERO);
+        let noise = halves(&self.noise(there), &displaced(&none, self.h.recip(), &self.blur(there)));
+        let mut reach = none;
+        for period in PERIODS {
+            let rounded = halves(&apart(there, few::<T>(), period), &behind(there));
+            let change = difference(&self.correction(&[*here, rounded]), correction);
+            let of_terms = self.constrained(self.start.state, &signed(&noise, period));
+            reach = displaced(&displaced(&reach, T::ONE, &sizes(&change)), T::ONE, &sizes(&of_terms));
         }
         reach
+    }
+
+    /// What rounding makes of the momenta: four units of what they are the sum of, which moving the velocities apart shows.
+    fn noise(&self, there: &VecOf<S>) -> VecOf<S> {
+        let momentum = |u: &VecOf<S>| behind(&slopes(self.start.system, &halves(there, u)));
+        let u = behind(there);
+        let mut noise = displaced(&DimOf::<S>::vec(T::ZERO), few(), &sizes(&self.momentum));
+        add_changes(&mut noise, &momentum(&u), T::from_f64(PART), |period, part| {
+            momentum(&apart(&u, part, period))
+        });
+        noise
+    }
+
+    /// The constraints that are open by no more than rounding, by how much that is.
+    fn hidden(&self, there: &VecOf<S>) -> VecOf<S> {
+        let mut hidden = self.blur(there);
+        for (hidden, open) in hidden.as_mut().iter_mut().zip(self.open(there).as_ref()) {
+            *hidden = if open.abs() <= *hidden { *hidden } else { T::ZERO };
+        }
+        hidden
+    }
+
+    /// g(q), in front of zeros.
+    fn open(&self, at: &VecOf<S>) -> VecOf<S> {
+        self.start.system.position_constraints(&S::State::from_array(*at))
+    }
+
+    /// What rounding makes of the constraints: four units of the last places of the positions, and of what equations are
+    /// the sum of, which moving the positions far apart shows.
+    fn blur(&self, there: &VecOf<S>) -> VecOf<S> {
+        let open = |x: &VecOf<S>| self.open(x);
+        let (here, mut blur) = (open(there), DimOf::<S>::vec(T::ZERO));
+        for part in [T::from_f64(PART), few()] {
+            add_changes(&mut blur, &here, part, |period, part| {
+                open(&halves(&apart(there, part, period), &behind(there)))
+            });
+        }
+        blur
     }
 
     /// p₀ + h/2 ∂L/∂q(q₀, u) − (∂L/∂q̇(q₀, u) + ∂L/∂q̇(q₁, u))/2, which multipliers of the constraints at the start make up
@@ -173,7 +217,10 @@ where
         let [mean, other] = slopes.map(|slopes| behind(&slopes));
         let mut force = displaced(&self.momentum, half * self.h, &slopes[0]);
         force = displaced(&force, -half, &displaced(&mean, T::ONE, &other));
-        let open = self.start.system.position_constraints(&S::State::from_array(*there));
+        let mut open = self.open(there);
+        for (open, blur) in open.as_mut().iter_mut().zip(self.hidden.as_ref()) {
+            *open = if open.abs() <= *blur { T::ZERO } else { *open };
+        }
         halves(&force, &displaced(&DimOf::<S>::vec(T::ZERO), -self.h.recip(), &open))
     }
 
@@ -188,6 +235,47 @@ where
         let given = halves(&difference(&momentum, &at_rest), &rest);
         self.constrained(&S::State::from_array(*there), &given)
     }
+}
+
+/// The patterns in which numbers are moved apart: those at multiples of a period up, the others down.
+const PERIODS: [usize; 2] = [2, 3];
+/// The part of numbers by which they are moved apart so that the terms of a sum show, also where it has a turning point.
+const PART: f64 = 1.0 / 8.0;
+
+/// Four units of the last place of 1.
+fn few<T: Real>() -> T {
+    T::from_f64(4.0) * T::EPSILON
+}
+
+/// Numbers with the signs of a pattern.
+fn signed<T: Real, V: Array<T>>(numbers: &V, period: usize) -> V {
+    let mut signed = *numbers;
+    let n = (signed.as_ref().len() / 2).max(1);
+    for (place, number) in signed.as_mut().iter_mut().enumerate() {
+        *number = if (place % n).is_multiple_of(period) { *number } else { -*number };
+    }
+    signed
+}
+
+/// Numbers moved apart by a part of each.
+fn apart<T: Real, V: Array<T>>(numbers: &V, part: T, period: usize) -> V {
+    displaced(numbers, part, &signed(numbers, period))
+}
+
+/// Adds what moving apart makes of functions, by four units of what is moved by; what is no number there says nothing.
+fn add_changes<T: Real, V: Array<T>>(sum: &mut V, here: &V, part: T, moved: impl Fn(usize, T) -> V) {
+    for period in PERIODS {
+        let there = moved(period, part);
+        for (sum, (there, here)) in sum.as_mut().iter_mut().zip(there.as_ref().iter().zip(here.as_ref())) {
+            let change = (*there - *here).abs() * (few::<T>() / part);
+            *sum += if change.is_finite() { change } else { T::ZERO };
+        }
+    }
+}
+
+/// Whether some number is larger than the other.
+fn is_beyond<T: Real, V: Array<T>>(numbers: &V, others: &V) -> bool {
+    numbers.as_ref().iter().zip(others.as_ref()).any(|(number, other)| number.abs() > other.abs())
 }
 
 /// ∂L/∂q and ∂L/∂q̇.
