@@ -185,6 +185,7 @@ where
     B::State: crate::State<Scalar = ScalarOf<A>>,
     C: Dynamics,
 {
+    /// That of the last stage; those before have their own.
     const REPORT: &'static str = <B as Reduction<C>>::REPORT;
 
     fn reduced(&self) -> C {
