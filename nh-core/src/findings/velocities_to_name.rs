@@ -4,8 +4,8 @@ use super::parameters;
 use crate::compile::{Derived, Proved};
 use crate::geometry::PivotSetting;
 use crate::geometry::suggested_velocities::{Suggested, Wanted, suggested};
-use crate::id::{Origin, SectionId, SymbolId};
-use crate::model::{Model, Request, TrackedItem};
+use crate::id::{SectionId, SymbolId};
+use crate::model::{Model, TrackedItem};
 
 /// A choice that `independent` would accept, where the projected formulation is nobody's wish.
 ///
@@ -18,8 +18,8 @@ pub(super) fn suggestion(proved: &mut Proved, derived: &Derived<'_>) -> Option<S
     let Proved { model, base, constraints, positions, facts, levels, .. } = proved;
     let is_volume_given = model.volume.as_ref().is_some_and(|claim| claim.density.is_some());
     let is_asked_for = model.formulation.is_some();
-    let moves_all = |(request, _): &(Request, Origin)| matches!(request, Request::Leapfrog | Request::Rattle);
-    let is_asked_for = is_asked_for || model.requests.iter().any(moves_all);
+    let is_asked_for =
+        is_asked_for || model.requests.iter().any(|(request, _)| request.keeps_all_velocities());
     if is_asked_for || is_volume_given || !levels.is_empty() || !positions.unsolved.is_empty() {
         return None;
     }

@@ -82,6 +82,12 @@ impl Request {
         )
     }
 
+    /// Whether it asks for steps that are made of all velocities, so that the state has to keep them.
+    #[must_use]
+    pub fn keeps_all_velocities(self) -> bool {
+        matches!(self, Self::Leapfrog | Self::Rattle)
+    }
+
     /// The words by which `emit` asks for them.
     pub const WORDS: [(&str, Self); 31] = [
         ("jacobian", Self::Jacobian),

@@ -106,7 +106,7 @@ impl Display for AssemblyError {
             Self::NoValue { constraint, value } => write!(
                 f,
                 "`{constraint}` is {value:?} there: the time or a parameter may be no number, or the guess is where it \
-                 has no value"
+                 has no value: give finite ones, or guess elsewhere"
             ),
             Self::TooFewHeld { held, needed } => write!(
                 f,

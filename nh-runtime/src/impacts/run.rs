@@ -202,9 +202,9 @@ where
     Ok(Struck { time: t, before: *state, after, impulses, lost })
 }
 
-/// Takes steps to `target`, which is not before the time, and makes the jump of `impact` wherever a gap closes, and at the start where one is closed and
-/// does not open; `visit` sees each and may end the run there. Statistics, input and step length go on from jump to jump,
-/// and the limits on steps and evaluations hold for the whole call.
+/// Takes steps to `target`, which is not before the time, and makes the jump of `impact` wherever a gap closes, and at the
+/// start where one is closed and does not open; `visit` sees each and may end the run there. Statistics, input and step
+/// length go on from jump to jump, and the limits on steps and evaluations hold for the whole call.
 ///
 /// # Errors
 /// [`ImpactError`]; state and time are those before the impact, or of the last good step.

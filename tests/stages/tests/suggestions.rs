@@ -2,7 +2,6 @@
 //! accepted, and what the report says of them comes true.
 
 use nh_stages::{Declaration, bicycle, declarations};
-use nonholonomic_core::model::Request;
 use nonholonomic_core::system::System;
 use proc_macro2::{TokenStream, TokenTree};
 use std::path::Path;
@@ -87,10 +86,9 @@ fn assert_right(found: impl Iterator<Item = Declaration>, least: usize) {
             let is_excepted = excepted.iter().any(|reason| report.contains(reason));
             // levels of momenta, a density that is claimed of the whole state, and steps that are made of all velocities
             let model = &system.model;
-            let makes_steps =
-                |(request, _): &(Request, _)| matches!(request, Request::Leapfrog | Request::Rattle);
-            let is_about_state =
-                !model.routh.is_empty() || model.volume.is_some() || model.requests.iter().any(makes_steps);
+            let is_about_state = !model.routh.is_empty()
+                || model.volume.is_some()
+                || model.requests.iter().any(|(request, _)| request.keeps_all_velocities());
             let has_to_be = is_by_default && !is_excepted && !is_about_state;
             has_to_be.then(|| "nothing is suggested".to_owned())
         };

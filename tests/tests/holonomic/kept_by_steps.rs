@@ -78,6 +78,23 @@ where
     S::State: State<Scalar = f64>,
     M: nonholonomic::Method<S>,
 {
+    kept_of(system, method, start, steps, |t, state| system.equations(t, state))
+}
+
+/// The same, with these residuals.
+pub(super) fn kept_of<S, M, R>(
+    system: S,
+    method: M,
+    start: S::State,
+    steps: usize,
+    residuals: impl Fn(f64, &S::State) -> R,
+) -> (f64, f64, S::State)
+where
+    S: Energy<Input = ()> + Copy,
+    S::State: State<Scalar = f64>,
+    M: nonholonomic::Method<S>,
+    R: AsRef<[f64]>,
+{
     let energy = system.energy(0.0, &start);
     let mut sim = Integrator::new(system, method, 0.0, start);
     let (mut worst, mut open) = (0.0_f64, 0.0_f64);
@@ -85,8 +102,7 @@ where
         sim.step().unwrap();
         let (t, state) = (sim.time(), sim.state());
         worst = worst.max((system.energy(t, state) - energy).abs());
-        let residuals = system.equations(t, state);
-        open = residuals.as_ref().iter().fold(open, |open, residual| open.max(residual.abs()));
+        open = residuals(t, state).as_ref().iter().fold(open, |open, residual| open.max(residual.abs()));
     }
     (worst, open, *sim.state())
 }

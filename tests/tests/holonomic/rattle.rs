@@ -4,6 +4,7 @@ use nonholonomic::DiscreteLagrangian;
 use nonholonomic::prelude::*;
 
 use super::four_bar::LENGTHS;
+use super::kept_by_steps::kept_of;
 
 /// A four-bar linkage whose masses change along the motion.
 #[nonholonomic(
@@ -89,16 +90,10 @@ where
     S::State: State<Scalar = f64>,
     M: nonholonomic::Method<S>,
 {
-    let energy = system.energy(0.0, &start);
-    let mut sim = Integrator::new(system, method, 0.0, start);
-    let (mut worst, mut open) = (0.0_f64, 0.0_f64);
-    for _ in 0..steps {
-        sim.step().unwrap();
-        worst = worst.max((system.energy(0.0, sim.state()) / energy - 1.0).abs());
-        let left = system.position_constraints(sim.state());
-        open = left.as_ref().iter().fold(open, |open, left| open.max(left.abs()));
-    }
-    (worst, open)
+    let energy = system.energy(0.0, &start).abs();
+    let (worst, open, _) =
+        kept_of(system, method, start, steps, |_, state| system.position_constraints(state));
+    (worst / energy, open)
 }
 
 #[test]
