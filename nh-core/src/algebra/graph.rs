@@ -35,6 +35,8 @@ pub struct Graph {
     pub(super) cancelling: Cancelling,
     /// How much rounding error rewriting may cost.
     accuracy: Accuracy,
+    /// Symbols that are functions of others at all states.
+    embedded: Rc<[(SymbolId, ExprId)]>,
     /// Room for terms or factors that are being collected: most are found to be known.
     spare: Vec<Vec<(ExprId, Rational)>>,
     /// The partial derivatives that were taken: momenta are asked for again and again.
@@ -67,6 +69,17 @@ impl Graph {
     /// Chooses how much rounding error rewriting may cost, from now on.
     pub fn set_accuracy(&mut self, accuracy: Accuracy) {
         self.accuracy = accuracy;
+    }
+
+    /// The coordinates of an embedded base that are functions of the others, and of parameters of a chart.
+    #[must_use]
+    pub fn embedded(&self) -> Rc<[(SymbolId, ExprId)]> {
+        self.embedded.clone()
+    }
+
+    /// Says which coordinates are such functions: forms are compared there from now on.
+    pub fn set_embedded(&mut self, images: &[(SymbolId, ExprId)]) {
+        self.embedded = images.into();
     }
 
     /// Introduces a symbol. Names serve messages and printing; two symbols are never the same.

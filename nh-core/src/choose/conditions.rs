@@ -9,6 +9,7 @@
 //! of parameters and configurations for which C is, a parameter 0 among them in turn: as evidence goes, that is
 //! what C itself is called definite by.
 
+use super::ground::Ground;
 use super::pivots::{Pivots, is_multiple, is_pivot};
 use super::proof::{Defect, FIRST_SEED, run};
 use super::reference::{Instant, Reference, inner};
@@ -17,7 +18,9 @@ use crate::algebra::{
     Echelon, Facts, FieldPoint, Graph, Matrix, Residue, Substitution, determinant_in_field,
 };
 use crate::id::{ExprId, SymbolId};
-use crate::mechanics::{DefiniteSets, Definiteness, Definition, Procedure, keeps_its_sign, uncoupled};
+use crate::mechanics::{
+    DefiniteSets, Definiteness, Definition, OtherAxes, Procedure, keeps_its_sign, uncoupled,
+};
 use rustc_hash::FxHashMap;
 use std::collections::BTreeSet;
 use varied::{Arguments, Varied};
@@ -36,6 +39,8 @@ pub(crate) struct Regular<'r> {
     pub(crate) definiteness: Definiteness,
     /// J, where the solution has multipliers: the saddle matrix is regular.
     pub(crate) jacobian: &'r Matrix,
+    /// Axes along which velocities are eliminated, beside their own.
+    pub(crate) turned: &'r [OtherAxes],
     pub(crate) parameters: &'r [SymbolId],
     pub(crate) facts: &'r Facts,
 }
@@ -45,17 +50,19 @@ struct Sample {
     divisors: Vec<Residue>,
     mass: Vec<Vec<Residue>>,
     jacobian: Vec<Vec<Residue>>,
+    /// The mass matrix along other axes.
+    turned: Vec<Vec<Residue>>,
     /// What may not vanish anyway.
     declared: Vec<Residue>,
 }
 
 /// Values of all divisors that are asked for, along lines of one symbol.
-struct Lines {
+struct Lines<'g> {
     asked: Vec<ExprId>,
     /// What may not vanish anyway.
     declared: Vec<ExprId>,
     arguments: Arguments,
-    division: i64,
+    ground: &'g Ground,
     /// The unknowns that the mass matrix couples.
     blocks: Vec<Vec<usize>>,
     known: FxHashMap<Varied, Line>,
@@ -104,20 +111,17 @@ impl Regular<'_> {
         if left.is_empty() {
             return None;
         }
-        // 2. pivots, at two points
+        let grounds = {
+            let division = self.division(graph, procedure);
+            let expressions = [roots, procedure.expressions()].concat();
+            let base = Ground::base(graph, &expressions, division);
+            [Some(Ground::whole(division)), base]
+        };
         let declared: Vec<ExprId> = declared.into_iter().collect();
-        let recognised = self.recognised(graph, procedure, &declared, &divisors);
-        left.retain(|divisor| !recognised.contains(divisor));
-        if left.is_empty() {
-            return None;
+        for ground in grounds.iter().flatten() {
+            let known = (declared.as_slice(), divisors.as_slice());
+            left = self.vanishing(graph, (procedure, ground), known, left);
         }
-        // 3. zeros in one symbol after the other
-        let procedure = &procedure.as_far_as(graph, &left);
-        let (arguments, division) =
-            (Arguments::of(graph, procedure, &declared), self.division(graph, procedure));
-        let (asked, blocks) = (left.clone(), uncoupled(graph, self.mass));
-        let mut lines = Lines { asked, declared, arguments, division, blocks, known: FxHashMap::default() };
-        left.retain(|divisor| !self.vanishes_with_others(graph, procedure, &mut lines, *divisor));
         // 4. signs, where C is definite
         let mut known = DefiniteSets::default();
         left.into_iter().find(|divisor| {
@@ -126,6 +130,33 @@ impl Regular<'_> {
             self.definiteness == Definiteness::Unknown
                 || !keeps_its_sign(graph, matrix, whole, self.parameters, self.facts)
         })
+    }
+
+    /// The divisors of which nothing says that they vanish only where something does that may not.
+    fn vanishing(
+        &self,
+        graph: &mut Graph,
+        (procedure, ground): (&Procedure, &Ground),
+        (declared, divisors): (&[ExprId], &[ExprId]),
+        mut left: Vec<ExprId>,
+    ) -> Vec<ExprId> {
+        if left.is_empty() {
+            return left;
+        }
+        // 2. pivots, at two points
+        let recognised = self.recognised(graph, procedure, (declared, divisors), ground);
+        left.retain(|divisor| !recognised.contains(divisor));
+        if left.is_empty() {
+            return left;
+        }
+        // 3. zeros in one symbol after the other
+        let procedure = &procedure.as_far_as(graph, &left);
+        let arguments = Arguments::of(graph, procedure, declared);
+        let (asked, blocks) = (left.clone(), uncoupled(graph, self.mass));
+        let declared = declared.to_vec();
+        let mut lines = Lines { asked, declared, arguments, ground, blocks, known: FxHashMap::default() };
+        left.retain(|divisor| !self.vanishes_with_others(graph, procedure, &mut lines, *divisor));
+        left
     }
 
     /// The same of a function that is derived from a motion, which is judged by itself.
@@ -146,10 +177,10 @@ impl Regular<'_> {
         graph: &Graph,
         procedure: &Procedure,
         (divisors, declared): (&[ExprId], &[ExprId]),
-        point: FieldPoint,
-        division: i64,
+        (point, ground): (FieldPoint, &Ground),
     ) -> Result<Sample, Defect> {
-        let mut instant: Instant = self.reference.at(graph, point, division)?;
+        let point = ground.point(graph, point)?;
+        let mut instant: Instant = self.reference.at(graph, point, ground.division())?;
         run(&mut instant.pass, &procedure.with_outputs(Vec::new()))?;
         let divisors = instant.pass.evaluate(divisors)?;
         let declared = instant.pass.evaluate(declared)?;
@@ -158,7 +189,12 @@ impl Regular<'_> {
         let mass = rows.collect::<Result<Vec<_>, Defect>>()?;
         let rows = self.jacobian.iter().map(|row| Ok(instant.pass.evaluate(row)?));
         let jacobian = rows.collect::<Result<Vec<_>, Defect>>()?;
-        Ok(Sample { divisors, mass, jacobian, declared })
+        let mut turned = mass.clone();
+        for OtherAxes { velocities, matrix, .. } in self.turned {
+            let matrix = matrix.iter().map(|row| Ok(instant.pass.evaluate(row)?));
+            turn(&mut turned, velocities, &matrix.collect::<Result<Vec<_>, Defect>>()?);
+        }
+        Ok(Sample { divisors, mass, jacobian, turned, declared })
     }
 
     fn division(&self, graph: &Graph, procedure: &Procedure) -> i64 {
@@ -172,15 +208,14 @@ impl Regular<'_> {
         &self,
         graph: &Graph,
         procedure: &Procedure,
-        declared: &[ExprId],
-        divisors: &[ExprId],
+        (declared, divisors): (&[ExprId], &[ExprId]),
+        ground: &Ground,
     ) -> BTreeSet<ExprId> {
-        let division = self.division(graph, procedure);
         let blocks = uncoupled(graph, self.mass);
         let mut samples = Vec::new();
         for seed in FIRST_SEED..FIRST_SEED + PATIENCE {
             let point = FieldPoint::random(seed);
-            if let Ok(sample) = self.sampled(graph, procedure, (divisors, declared), point, division) {
+            if let Ok(sample) = self.sampled(graph, procedure, (divisors, declared), (point, ground)) {
                 samples.push(sample);
             }
             if samples.len() == 2 {
@@ -202,6 +237,7 @@ impl Regular<'_> {
         let mut matrices: Vec<Pivots> = [
             pivots([first, second].map(|sample| Some(sample.mass.clone()))),
             pivots([first, second].map(Sample::complement)),
+            pivots([first, second].map(|sample| Some(sample.turned.clone()))),
         ]
         .into_iter()
         .flatten()
@@ -211,8 +247,8 @@ impl Regular<'_> {
         for (k, divisor) in divisors.iter().enumerate() {
             let value = [first.divisors[k], second.divisors[k]];
             let known = minors[0].iter().zip(&minors[1]).any(|(a, b)| is_multiple(value, [*a, *b]));
-            // the first of a block may be divided by factor after factor
-            let is_met = matrices.iter_mut().any(|pivots| pivots.are_met(value));
+            // the first of a block may be divided by factor after factor; each of the matrices goes on by it
+            let is_met = matrices.iter_mut().fold(false, |is_met, pivots| pivots.are_met(value) | is_met);
             if is_met || known || (is_definite && is_pivot(&masses, SMALL_BLOCK, value)) {
                 recognised.insert(*divisor);
             }
@@ -251,7 +287,7 @@ impl Regular<'_> {
         &self,
         graph: &Graph,
         procedure: &Procedure,
-        lines: &mut Lines,
+        lines: &mut Lines<'_>,
         divisor: ExprId,
     ) -> bool {
         let mut symbols = procedure.depends_on(graph, &[divisor]);
@@ -259,6 +295,7 @@ impl Regular<'_> {
             Definition::Value { symbol, .. } | Definition::Call { symbol, .. } => _ = symbols.remove(symbol),
             Definition::Solve { unknowns, .. } => symbols.retain(|symbol| !unknowns.contains(symbol)),
         });
+        let symbols = lines.ground.variables(graph, symbols.into_iter().collect());
         let all: Vec<Varied> = symbols.iter().flat_map(|symbol| lines.arguments.ways(*symbol)).collect();
         all.into_iter().all(|varied| self.factors_are_known(graph, procedure, lines, divisor, varied))
     }
@@ -267,7 +304,7 @@ impl Regular<'_> {
         &self,
         graph: &Graph,
         procedure: &Procedure,
-        lines: &mut Lines,
+        lines: &mut Lines<'_>,
         divisor: ExprId,
         varied: Varied,
     ) -> bool {
@@ -303,15 +340,15 @@ impl Regular<'_> {
         &self,
         graph: &Graph,
         procedure: &Procedure,
-        lines: &'l mut Lines,
+        lines: &'l mut Lines<'_>,
         varied: Varied,
         places: usize,
     ) -> Option<&'l [(Vec<Residue>, Vec<Residue>)]> {
-        let Lines { asked, declared, arguments, division, blocks, known } = lines;
+        let Lines { asked, declared, arguments, ground, blocks, known } = lines;
         let line = known.entry(varied).or_default();
         while line.values.len() < places && line.seed < SEEDS {
             let point = varied.point(arguments, place(line.values.len()), line.seed);
-            if let Ok(sample) = self.sampled(graph, procedure, (asked, declared), point, *division) {
+            if let Ok(sample) = self.sampled(graph, procedure, (asked, declared), (point, ground)) {
                 let others = self.minors(blocks, &sample);
                 line.values.push((sample.divisors, others));
             } else {
@@ -323,6 +360,21 @@ impl Regular<'_> {
             }
         }
         line.values.get(..places).or_else(|| line.most.get(..places))
+    }
+}
+
+/// PᵀMP for v̇ = P u̇, where P has a block E: definite with M, as E is a rotation.
+fn turn(mass: &mut [Vec<Residue>], velocities: &[usize; 3], matrix: &[Vec<Residue>]) {
+    let turned = |values: [Residue; 3], k: usize| {
+        matrix.iter().zip(values).fold(Residue::ZERO, |sum, (row, value)| sum + row[k] * value)
+    };
+    for row in mass.iter_mut() {
+        let values = velocities.map(|a| row[a]);
+        velocities.iter().enumerate().for_each(|(k, a)| row[*a] = turned(values, k));
+    }
+    for column in 0..mass.len() {
+        let values = velocities.map(|a| mass[a][column]);
+        velocities.iter().enumerate().for_each(|(k, a)| mass[*a][column] = turned(values, k));
     }
 }
 

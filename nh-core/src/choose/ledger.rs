@@ -51,6 +51,8 @@ pub struct Proof {
     pub points: u64,
     /// The probability that something else passes, as a power of two: log₂ of one over it.
     pub bits: f64,
+    /// Whether the points are those of the embedded base: elsewhere it need not hold.
+    pub is_on_base: bool,
 }
 
 impl Ledger {
@@ -88,8 +90,9 @@ impl fmt::Display for Ledger {
                     write!(f, ", rounding {rounding:.2}")?;
                 }
                 match fate {
-                    Fate::Chosen(Proof { points, bits }) => {
-                        writeln!(f, ": chosen, proved at {points} points to 2^-{bits:.0}")?;
+                    Fate::Chosen(Proof { points, bits, is_on_base }) => {
+                        let whose = if *is_on_base { " of the base" } else { "" };
+                        writeln!(f, ": chosen, proved at {points} points{whose} to 2^-{bits:.0}")?;
                     }
                     Fate::NotAdmitted(reason) => writeln!(f, ": not admitted: {reason}")?,
                     Fate::Lost(reason) => writeln!(f, ": {reason}")?,

@@ -200,7 +200,7 @@ fn loses_digits(graph: &Graph, plain: &Program, program: &Program) -> bool {
     }
     let programs = [plain, program];
     let loses = |growth: Vec<f64>| growth[1] > SLACK * growth[0];
-    loses(error_growth(&programs)) || loses(error_growth_apart(&programs))
+    loses(error_growth(graph, &programs)) || loses(error_growth_apart(graph, &programs))
 }
 
 /// How much larger rounding errors may be by that, which is how far bounds of equal errors are apart.
@@ -236,7 +236,7 @@ mod tests {
             procedure: procedure.clone(),
             has_corrections: false,
             program: schedule(&graph, procedure),
-            outcome: Ok(Proof { points: 7, bits: 100.0 }),
+            outcome: Ok(Proof { points: 7, bits: 100.0, is_on_base: false }),
         };
         let whole = known(&procedure);
         assert!(whole.program.steps.len() >= TAKEN_FROM);

@@ -3,6 +3,7 @@
 mod conditions;
 mod derived;
 mod divisions;
+mod ground;
 mod ledger;
 mod lowered;
 mod lowering;

@@ -6,6 +6,7 @@
 //! and by one half only where there are roots that are not proved to be independent (`algebra/independent_roots.rs`), between
 //! whose branches the field chooses by chance.
 
+use super::ground::Ground;
 use super::ledger::Proof;
 use super::reference::{Balance, Instant, Reference, inner};
 use crate::algebra::{
@@ -131,25 +132,33 @@ impl Claim<'_> {
 pub(crate) fn prove(graph: &Graph, reference: &Reference, claim: &Claim) -> Result<Proof, Defect> {
     let roots = [reference.roots(), claim.roots()].concat();
     let division = graph.angle_division(&roots);
+    let asked = (roots.as_slice(), division);
+    let outcome = prove_on(graph, (reference, claim), asked, &Ground::whole(division));
+    let Err(Defect::Wrong(_)) = outcome else { return outcome };
+    let Some(base) = Ground::base(graph, &roots, division) else { return outcome };
+    Ok(Proof { is_on_base: true, ..prove_on(graph, (reference, claim), asked, &base)? })
+}
+
+fn prove_on(
+    graph: &Graph,
+    (reference, claim): (&Reference, &Claim),
+    (roots, division): (&[ExprId], i64),
+    ground: &Ground,
+) -> Result<Proof, Defect> {
     let degree = claim.degree(&mut Degrees::new(graph, division));
+    let degree = reference.degree(graph, division, degree) * ground.degree(graph);
     let bound = [reference.determined(), claim.defined()].concat();
-    let bits = bits_of_a_point(
-        graph,
-        (&roots, &bound),
-        &claim.procedures(),
-        reference.degree(graph, division, degree),
-        division,
-    )?;
+    let bits = bits_of_a_point(graph, (roots, &bound), &claim.procedures(), degree, division)?;
     let radicands = Radicands::of(graph, &reference.roots(), &reference.determined());
     let outcome = at_points(
         bits,
         |seed| radicands.point_in(seed, |point| FieldPass::new(graph, point, division)),
         |point| {
-            let mut instant = reference.at(graph, point, division)?;
+            let mut instant = reference.at(graph, ground.point(graph, point)?, division)?;
             judge(&mut instant, reference, claim)
         },
     );
-    unless_roots_are_missing(graph, &roots, outcome)
+    unless_roots_are_missing(graph, roots, outcome)
 }
 
 /// Proves that two procedures with the same symbols compute the same.
@@ -255,7 +264,7 @@ pub(super) fn at_points(
     point: impl Fn(u64) -> FieldPoint,
     mut ask: impl FnMut(FieldPoint) -> Result<(), Defect>,
 ) -> Result<Proof, Defect> {
-    let mut proof = Proof { points: 0, bits: 0.0 };
+    let mut proof = Proof { points: 0, bits: 0.0, is_on_base: false };
     for seed in FIRST_SEED..FIRST_SEED + PATIENCE {
         match ask(point(seed)) {
             Ok(()) => {

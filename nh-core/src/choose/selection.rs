@@ -51,7 +51,7 @@ pub(crate) fn rate_derivatives(graph: &Graph, procedures: &[Procedure]) -> Vec<R
 fn rate_by(graph: &Graph, procedures: &[Procedure], is_run: bool) -> Vec<Rating> {
     let programs: Vec<Program> =
         procedures.iter().map(|procedure| schedule_roughly(graph, procedure)).collect();
-    let growth = error_growth(&programs).into_iter();
+    let growth = error_growth(graph, &programs).into_iter();
     let mut growth: Vec<f64> = match graph.accuracy() {
         Accuracy::Fast => growth.map(|growth| if growth.is_finite() { 1.0 } else { growth }).collect(),
         Accuracy::Balanced | Accuracy::Careful => growth.collect(),
@@ -60,7 +60,7 @@ fn rate_by(graph: &Graph, procedures: &[Procedure], is_run: bool) -> Vec<Rating>
     let allowed = graph.accuracy().growth().max(least);
     if is_run {
         let programs: Vec<&Program> = programs.iter().collect();
-        acquit(&programs, allowed, &mut growth, error_growth_in_runs);
+        acquit(&programs, allowed, &mut growth, |asked, best| error_growth_in_runs(graph, asked, best));
     }
     let mut sound: Vec<bool> = growth.iter().map(|growth| *growth <= allowed).collect();
     keep_digits_apart(graph, &programs, is_run, &mut sound);
@@ -104,10 +104,11 @@ fn keep_digits_apart(graph: &Graph, programs: &[Program], is_run: bool, sound: &
         return;
     }
     let candidates: Vec<&Program> = places.iter().map(|index| &programs[*index]).collect();
-    let mut growth = error_growth_apart(&candidates);
+    let mut growth = error_growth_apart(graph, &candidates);
     let least = growth.iter().copied().fold(f64::INFINITY, f64::min);
     if is_run {
-        acquit(&candidates, allowed.max(least), &mut growth, error_growth_apart_in_runs);
+        let seen = |asked: &[&Program], best: &Program| error_growth_apart_in_runs(graph, asked, best);
+        acquit(&candidates, allowed.max(least), &mut growth, seen);
     }
     for (index, growth) in places.into_iter().zip(growth) {
         sound[index] = growth <= allowed.max(least);

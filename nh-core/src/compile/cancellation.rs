@@ -123,7 +123,7 @@ impl Rated {
         let pairs = || self.lost.iter().zip(&other.lost);
         let is_better = pairs().any(|(before, after)| *before > LOST && MUCH * after < *before);
         let is_worse = pairs().any(|(before, after)| *after > allowed * before.max(FEW));
-        if is_better && !is_worse && error_growth(&[&self.program, &other.program])[1] <= allowed {
+        if is_better && !is_worse && error_growth(graph, &[&self.program, &other.program])[1] <= allowed {
             *self = other;
         }
     }

@@ -14,7 +14,8 @@ use crate::forms::{Form, Registry, Setting};
 use crate::geometry::ConstraintDistribution;
 use crate::id::ExprId;
 use crate::mechanics::{
-    Definiteness, Definition, Procedure, ReducedEquations, definiteness, reduced_equations, solve_symmetric,
+    Definiteness, Definition, OtherAxes, Procedure, ReducedEquations, definiteness, reduced_equations,
+    solve_symmetric,
 };
 use crate::model::Body;
 
@@ -35,6 +36,8 @@ pub(super) fn reference(
 pub(super) struct Candidates {
     pub(super) equations: Vec<Candidate>,
     solved: Vec<Entry>,
+    /// Along which axes they eliminate velocities.
+    turned: Vec<OtherAxes>,
 }
 
 /// Equations with the name of their form.
@@ -95,7 +98,12 @@ pub(super) fn candidates(
             decision.limits.push(format!("{name}: the Lagrangian has {size} operations, more than {most}"));
             continue;
         }
-        if let Some(procedure) = form.solve(graph, &setting) {
+        if let Some((procedure, turned)) = form.solve(graph, &setting) {
+            for axes in turned {
+                if found.turned.iter().all(|known| known.velocities != axes.velocities) {
+                    found.turned.push(axes);
+                }
+            }
             most = most.min(form.others_expand_up_to(&setting));
             found.solved.push(Entry { form: form.name(), procedure });
         }
@@ -153,7 +161,7 @@ pub(super) fn proved_derivative(
     given: &Procedure,
     decision: &mut Decision,
 ) -> Option<Procedure> {
-    let Candidates { equations: candidates, solved: alone } = candidates;
+    let Candidates { equations: candidates, solved: alone, turned } = candidates;
     decision.site = "derivative";
     let parameters: Vec<_> = proved.model.parameters.iter().map(|parameter| parameter.symbol).collect();
     let graph = &mut proved.model.graph;
@@ -167,6 +175,7 @@ pub(super) fn proved_derivative(
         mass: &shown.mass,
         definiteness: definite,
         jacobian: &Vec::new(),
+        turned,
         parameters: &parameters,
         facts,
     };

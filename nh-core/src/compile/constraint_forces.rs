@@ -99,7 +99,8 @@ fn proved_forces(
     let definiteness = definiteness(graph, mass, &parameters, &proved.facts);
     let (jacobian, facts) = (&Matrix::new(), &proved.facts);
     let parameters = &parameters;
-    let regular = Regular { reference, definitions, mass, definiteness, jacobian, parameters, facts };
+    let regular =
+        Regular { reference, definitions, mass, definiteness, jacobian, turned: &[], parameters, facts };
     let short = without_cancellation(graph, &derived);
     let mut decision = Decision { site: site.name, ..Decision::default() };
     let forms = [("written out", short), ("by the accelerations", Some(derived)), ("with pivoting", pivoted)];

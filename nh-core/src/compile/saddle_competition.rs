@@ -54,6 +54,7 @@ pub(super) fn proved_solution(
         mass,
         definiteness: Definiteness::Definite,
         jacobian: &equations.jacobian,
+        turned: &[],
         parameters: &parameters,
         facts: &proved.facts,
     });

@@ -91,6 +91,7 @@ pub(crate) fn prove(mut model: Model) -> Result<(Proved, Chosen), Vec<Violation>
     // 3. the embedded base, which the anchor keeps; the brackets, declared or derived
     about(Subject::Embedding);
     let base = check::embedding(&mut model, &motion)?;
+    model.graph.set_embedded(base.rational_chart().unwrap_or_default());
     fence(check::declared_on(&mut model, &facts, &base, &[]))?;
     fence(check::claimed(&mut model, &base))?;
     about(Subject::Brackets);

@@ -4,7 +4,7 @@ use super::{Form, Setting};
 use crate::algebra::Graph;
 use crate::choose::sizes;
 use crate::count::Count;
-use crate::mechanics::{Procedure, ReducedEquations, accelerations_from_the_tips};
+use crate::mechanics::{OtherAxes, Procedure, ReducedEquations, accelerations_from_the_tips};
 
 pub(super) struct FromTheTips;
 
@@ -30,8 +30,10 @@ impl Form for FromTheTips {
     fn derive(&self, _: &mut Graph, _: &Setting) -> Option<ReducedEquations> {
         None
     }
-    fn solve(&self, graph: &mut Graph, setting: &Setting) -> Option<Procedure> {
+    fn solve(&self, graph: &mut Graph, setting: &Setting) -> Option<(Procedure, Vec<OtherAxes>)> {
         setting.chained?;
-        accelerations_from_the_tips(graph, setting.system, setting.distribution, setting.is_differentiated)
+        let (system, distribution) = (setting.system, setting.distribution);
+        let found = accelerations_from_the_tips(graph, system, distribution, setting.is_differentiated)?;
+        Some((found, Vec::new()))
     }
 }

@@ -2,10 +2,11 @@
 
 use super::{Form, Setting};
 use crate::algebra::Graph;
-use crate::mechanics::{Elimination, Procedure, ReducedEquations, accelerations_of_joints};
+use crate::mechanics::{Elimination, OtherAxes, Procedure, ReducedEquations, accelerations_of_joints};
 
 const CONDITION: &str = "where C is definite, bodies in space are declared by `kinetic` with products of rotations \
-                         about axes, and no level determines a velocity";
+                         about axes and of attitudes that turn as velocities of the state, and no level determines a \
+                         velocity";
 
 /// By articulated inertias: velocities leave at their joints, the last of a chain first.
 pub(super) struct JointByJoint;
@@ -13,7 +14,11 @@ pub(super) struct JointByJoint;
 /// By the mass matrix of all velocities, from the inertias of all that a joint carries.
 pub(super) struct ByCompositeBodies;
 
-fn solve(graph: &mut Graph, setting: &Setting, elimination: Elimination) -> Option<Procedure> {
+fn solve(
+    graph: &mut Graph,
+    setting: &Setting,
+    elimination: Elimination,
+) -> Option<(Procedure, Vec<OtherAxes>)> {
     setting.chained?;
     accelerations_of_joints(graph, (setting.system, setting.bodies), setting.distribution, elimination)
 }
@@ -34,7 +39,7 @@ impl Form for JointByJoint {
     fn derive(&self, _: &mut Graph, _: &Setting) -> Option<ReducedEquations> {
         None
     }
-    fn solve(&self, graph: &mut Graph, setting: &Setting) -> Option<Procedure> {
+    fn solve(&self, graph: &mut Graph, setting: &Setting) -> Option<(Procedure, Vec<OtherAxes>)> {
         solve(graph, setting, Elimination::Everywhere)
     }
 }
@@ -55,7 +60,7 @@ impl Form for ByCompositeBodies {
     fn derive(&self, _: &mut Graph, _: &Setting) -> Option<ReducedEquations> {
         None
     }
-    fn solve(&self, graph: &mut Graph, setting: &Setting) -> Option<Procedure> {
+    fn solve(&self, graph: &mut Graph, setting: &Setting) -> Option<(Procedure, Vec<OtherAxes>)> {
         solve(graph, setting, Elimination::Nowhere)
     }
 }

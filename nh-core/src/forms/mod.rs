@@ -18,7 +18,9 @@ use crate::algebra::{Graph, Matrix};
 use crate::count::Count;
 use crate::geometry::ConstraintDistribution;
 use crate::id::ExprId;
-use crate::mechanics::{Definiteness, LagrangianSystem, Procedure, ReducedEquations, SaddleEquations};
+use crate::mechanics::{
+    Definiteness, LagrangianSystem, OtherAxes, Procedure, ReducedEquations, SaddleEquations,
+};
 use crate::model::Body;
 use std::fmt;
 
@@ -61,8 +63,9 @@ pub trait Form: Sync {
     fn rank(&self) -> u8;
     /// The equations; `None` where the form does not exist, or is known not to be worth while.
     fn derive(&self, graph: &mut Graph, setting: &Setting) -> Option<ReducedEquations>;
-    /// ẋ and v̇ where C is definite, of a form that has no C and f of its own.
-    fn solve(&self, _graph: &mut Graph, _setting: &Setting) -> Option<Procedure> {
+    /// ẋ and v̇ where C is definite, of a form that has no C and f of its own, and along which axes it eliminates
+    /// velocities, if not their own.
+    fn solve(&self, _graph: &mut Graph, _setting: &Setting) -> Option<(Procedure, Vec<OtherAxes>)> {
         None
     }
 }

@@ -210,6 +210,14 @@ impl Manifold {
         self.images.is_empty()
     }
 
+    /// The images, where they are rational functions of parameters that reach a dense part of the whole manifold.
+    #[must_use]
+    pub fn rational_chart(&self) -> Option<&[(SymbolId, ExprId)]> {
+        let is_one = self.others.is_empty() && self.open.is_empty() && self.not_taken.is_empty();
+        let is_rational = self.radicands.is_empty() && self.in_parts.is_none() && self.by_part.is_none();
+        (is_one && is_rational).then_some(self.images.as_slice())
+    }
+
     /// The restriction of a function.
     pub fn restrict(&self, graph: &mut Graph, function: ExprId) -> ExprId {
         Substitution::new(self.images.iter().copied()).apply(graph, function)

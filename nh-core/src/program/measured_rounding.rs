@@ -1,9 +1,9 @@
 //! How much rounding error programs of the same value are seen to make.
 
 use super::interpret::{Arithmetic, interpret_in};
-use super::rounding::{FEW, POINTS_APART, logarithm, sample, sample_apart, turning, worst};
+use super::rounding::{FEW, OnBase, POINTS_APART, logarithm, turning, worst};
 use super::step::Program;
-use crate::algebra::{Bounded, Function, Function2, Rational};
+use crate::algebra::{Bounded, Function, Function2, Graph, Rational};
 
 /// Points at which programs are run: more than bounds are compared at, since an error that is seen may be small by chance.
 const POINTS: u32 = 64;
@@ -14,11 +14,12 @@ const POINTS: u32 = 64;
 /// A bound on an error grows with the length of a chain of operations also where the error does not, since it knows of
 /// no signs; what is long may have small errors all the same.
 #[must_use]
-pub fn error_growth_in_runs(programs: &[&Program], best: &Program) -> Vec<f64> {
+pub fn error_growth_in_runs(graph: &Graph, programs: &[&Program], best: &Program) -> Vec<f64> {
     let mut logarithms = vec![vec![0.0; best.outputs.len()]; programs.len()];
     for point in 0..POINTS {
         // parameters and states that single precision has
-        let at = |symbol| Single::near(sample(point, symbol));
+        let on_base = OnBase::at(graph, point);
+        let at = |symbol| Single::near(on_base.sample(symbol));
         let exact: Vec<f64> = interpret_in(best, |symbol| f64::from(at(symbol).0));
         let errors = |program: &Program| -> Vec<f64> {
             let values: Vec<Single> = interpret_in(program, at);
@@ -42,14 +43,13 @@ pub fn error_growth_in_runs(programs: &[&Program], best: &Program) -> Vec<f64> {
 /// The same where symbols lie up to eight decades apart, where single precision has no numbers: in double precision, beside
 /// the results of `best` with the bounds on their errors, as [`super::error_growth_apart`] judges them.
 #[must_use]
-pub fn error_growth_apart_in_runs(programs: &[&Program], best: &Program) -> Vec<f64> {
+pub fn error_growth_apart_in_runs(graph: &Graph, programs: &[&Program], best: &Program) -> Vec<f64> {
     let all: Vec<&Program> = programs.iter().copied().chain([best]).collect();
     let turning = turning(&all);
     let mut logarithms = vec![vec![Vec::new(); best.outputs.len()]; programs.len()];
     for point in 0..POINTS_APART {
-        let at = |symbol| {
-            if turning.contains(&symbol) { sample(point, symbol) } else { sample_apart(point, symbol) }
-        };
+        let on_base = OnBase::at(graph, point);
+        let at = |symbol| on_base.sample_apart(symbol, &turning);
         let known: Vec<Bounded> = interpret_in(best, |symbol| Bounded { value: at(symbol), error: 0.0 });
         for (logarithms, program) in logarithms.iter_mut().zip(programs) {
             let values: Vec<f64> = interpret_in(program, at);

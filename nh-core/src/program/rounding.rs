@@ -2,8 +2,8 @@
 
 use super::interpret::{Arithmetic, interpret_in};
 use super::step::{Program, Step};
-use crate::algebra::{Bounded, Function, Function2, Rational, Residue};
-use crate::id::{Id, SymbolId};
+use crate::algebra::{Bounded, Function, Function2, Graph, Rational, Residue};
+use crate::id::{ExprId, Id, SymbolId};
 use std::borrow::Borrow;
 use std::collections::BTreeSet;
 
@@ -18,17 +18,14 @@ const POINTS: u32 = 16;
 /// An error below a few units in the last place of the value counts as that. The mean, since at a point
 /// where a value happens to be small the bounds of any two programs are far apart.
 #[must_use]
-pub fn error_growth<P: Borrow<Program>>(programs: &[P]) -> Vec<f64> {
+pub fn error_growth<P: Borrow<Program>>(graph: &Graph, programs: &[P]) -> Vec<f64> {
     let outputs = programs.iter().map(|program| program.borrow().outputs.len()).min().unwrap_or(0);
     let mut logarithms = vec![vec![0.0; outputs]; programs.len()];
     for point in 0..POINTS {
-        let values: Vec<Vec<Bounded>> = programs
-            .iter()
-            .map(|program| {
-                let at = |symbol| Bounded { value: sample(point, symbol), error: 0.0 };
-                interpret_in(program.borrow(), at)
-            })
-            .collect();
+        let on_base = OnBase::at(graph, point);
+        let at = |symbol| Bounded { value: on_base.sample(symbol), error: 0.0 };
+        let values: Vec<Vec<Bounded>> =
+            programs.iter().map(|program| interpret_in(program.borrow(), at)).collect();
         for output in 0..outputs {
             let errors = values.iter().map(|values| values[output].error);
             let least = errors.filter(|error| error.is_finite()).fold(f64::INFINITY, f64::min);
@@ -62,14 +59,13 @@ const WORST: usize = 3;
 /// Programs that are alike at ordinary sizes differ there by as many digits as there are: what forms a small difference
 /// of large terms keeps nothing of it.
 #[must_use]
-pub fn error_growth_apart<P: Borrow<Program>>(programs: &[P]) -> Vec<f64> {
+pub fn error_growth_apart<P: Borrow<Program>>(graph: &Graph, programs: &[P]) -> Vec<f64> {
     let outputs = programs.iter().map(|program| program.borrow().outputs.len()).min().unwrap_or(0);
     let turning = turning(programs);
     let mut logarithms = vec![vec![Vec::new(); outputs]; programs.len()];
     for point in 0..POINTS_APART {
-        let at = |symbol| {
-            if turning.contains(&symbol) { sample(point, symbol) } else { sample_apart(point, symbol) }
-        };
+        let on_base = OnBase::at(graph, point);
+        let at = |symbol| on_base.sample_apart(symbol, &turning);
         let values: Vec<Vec<Bounded>> = programs
             .iter()
             .map(|program| interpret_in(program.borrow(), |symbol| Bounded { value: at(symbol), error: 0.0 }))
@@ -190,9 +186,45 @@ pub(super) fn sample(point: u32, symbol: SymbolId) -> f64 {
     2f64.powf(6.0 * unit - 3.0)
 }
 
+/// The coordinates of an embedded base at a point.
+pub(super) struct OnBase {
+    point: u32,
+    values: Vec<(SymbolId, f64)>,
+}
+
+impl OnBase {
+    pub(super) fn at(graph: &Graph, point: u32) -> Self {
+        let images = graph.embedded();
+        if images.is_empty() {
+            return Self { point, values: Vec::new() };
+        }
+        let roots: Vec<ExprId> = images.iter().map(|(_, image)| *image).collect();
+        let values = graph.evaluate(&roots, |symbol| sample(point, symbol));
+        let symbols = images.iter().map(|(symbol, _)| *symbol);
+        Self { point, values: symbols.zip(values.iter().map(|bounded| bounded.value)).collect() }
+    }
+
+    fn known(&self, symbol: SymbolId) -> Option<f64> {
+        self.values.iter().find(|(known, _)| *known == symbol).map(|(_, value)| *value)
+    }
+
+    /// The value of a symbol at the point, of ordinary size.
+    pub(super) fn sample(&self, symbol: SymbolId) -> f64 {
+        self.known(symbol).unwrap_or_else(|| sample(self.point, symbol))
+    }
+
+    /// The same far from those of others, unless functions depend on it.
+    pub(super) fn sample_apart(&self, symbol: SymbolId, turning: &BTreeSet<SymbolId>) -> f64 {
+        let is_ordinary = turning.contains(&symbol);
+        self.known(symbol).unwrap_or_else(|| {
+            if is_ordinary { sample(self.point, symbol) } else { sample_apart(self.point, symbol) }
+        })
+    }
+}
+
 /// A number between 10⁻⁴ and 10⁴ that the point and the symbol determine.
 #[allow(clippy::cast_precision_loss, reason = "a sample needs no more digits")]
-pub(super) fn sample_apart(point: u32, symbol: SymbolId) -> f64 {
+fn sample_apart(point: u32, symbol: SymbolId) -> f64 {
     let word = Residue::mixed(29_000 + u64::from(point), symbol.index() as u64).word();
     let unit = (word & 0xF_FFFF) as f64 / f64::from(1 << 20);
     10f64.powf(8.0 * unit - 4.0)

@@ -148,6 +148,8 @@ impl Resolver {
             };
             let symbols = named.symbols.clone();
             self.scope.insert(family.name.text.clone(), Meaning::Named(Rc::new(named)));
+            let rate: Vec<_> = family.entries.iter().map(|(value, _)| *value).collect();
+            self.spins(&rate, &symbols);
             layout.velocities.push(family.family());
             for ((value, extent), symbol) in family.entries.iter().zip(symbols) {
                 let name = format!("`{}`", self.graph.symbols()[symbol]);

@@ -3,6 +3,7 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use nonholonomic_core::algebra::Graph;
+use nonholonomic_core::geometry::Manifold;
 use nonholonomic_core::id::{CoordId, ExprId, Id, InputId, Origin, ParamId, SectionId, SymbolId, Table};
 use nonholonomic_core::model::{
     AuxiliaryDecl, Body, Claimed, Coordinate, FrameDecl, Input, Located, MethodCall, Parameter, Section,
@@ -59,6 +60,10 @@ pub(super) struct Resolver {
     pub(super) shared: Shared,
     /// ẋ^i in the quasi-velocities, where the anchor is given and was read.
     pub(super) anchor_lines: Option<Vec<(SymbolId, ExprId)>>,
+    /// What vanishes on an embedded base.
+    pub(super) identities: Vec<ExprId>,
+    /// The base, once it was asked for.
+    pub(super) embedding: Option<Manifold>,
     /// Matrices that are rotations.
     pub(super) rotations: Rotations,
     /// What has to vanish on the base.
@@ -96,6 +101,8 @@ impl Resolver {
             context: Context::Lagrangian,
             shared: Shared::default(),
             anchor_lines: None,
+            identities: Vec::new(),
+            embedding: None,
             rotations: Rotations::default(),
             claimed: Vec::new(),
             symmetric: Vec::new(),

@@ -7,7 +7,7 @@
 use std::rc::Rc;
 
 use nonholonomic_core::algebra::{Function, Rational};
-use nonholonomic_core::id::{ExprId, SymbolId};
+use nonholonomic_core::id::ExprId;
 use nonholonomic_core::model::{Claimed, Turn};
 
 use super::alike::Measured;
@@ -124,6 +124,7 @@ impl Resolver {
         if r.shape != Shape::Matrix(3, 3) {
             return Err(self.wrong_shapes(expr, takes, &[r]));
         }
+        self.factored(expr, r)?;
         if let Some(turns) = self.rotations.known.get(&r.entries).cloned() {
             return self.rate_of_turns(expr, &turns, in_body);
         }
@@ -157,7 +158,13 @@ impl Resolver {
         let zero = self.graph.zero();
         let mut sum = Array::vector(vec![zero; 3]);
         // in the body from the left, in space from the right: what is carried is turned on the way
-        let order: Vec<&Turn> = if in_body { turns.iter().collect() } else { turns.iter().rev().collect() };
+        let mut order: Vec<&Turn> =
+            if in_body { turns.iter().collect() } else { turns.iter().rev().collect() };
+        if in_body && let Some((first, rate)) = self.rotations.spinning(turns) {
+            self.check_usage(expr, Usage::Velocity, "body_rate(…)", expr.extent)?;
+            order.drain(..first);
+            sum = Array::vector(rate);
+        }
         for turn in order {
             let matrix = Array { shape: Shape::Matrix(3, 3), entries: turn.matrix.clone() };
             let own = self.rate_of_turn(expr, turn, &matrix, in_body)?;
@@ -171,6 +178,9 @@ impl Resolver {
                 );
             }
             sum = Array::vector(entries);
+        }
+        if in_body {
+            self.rotations.rates.insert(sum.entries.clone(), turns.to_vec());
         }
         Ok(sum)
     }
@@ -191,49 +201,6 @@ impl Resolver {
         }
         let rate = self.rate_of_value(expr, matrix.clone())?;
         self.skew_rate(expr, matrix, &rate, in_body)
-    }
-
-    /// An attitude made of coordinates whose anchor turns it: Ṙ = R ω̂, or Ṙ = Ω̂ R, is read off where R is 1,
-    /// and proved everywhere.
-    fn rate_of_attitude(&mut self, expr: &Expr, r: &Array, in_body: bool) -> Outcome<Option<Array>> {
-        let symbols: Option<Vec<SymbolId>> =
-            r.entries.iter().map(|entry| self.graph.as_symbol(*entry)).collect();
-        let Some(symbols) = symbols else { return Ok(None) };
-        let rate = self.rate_of_value(expr, r.clone())?;
-        let Some(rate) = self.along_anchor(&rate) else { return Ok(None) };
-        let (zero, one) = (self.graph.zero(), self.graph.one());
-        let at_identity = symbols.iter().enumerate().map(|(k, symbol)| {
-            let value = if k % 4 == 0 { one } else { zero };
-            (*symbol, value)
-        });
-        let mut substitution = nonholonomic_core::algebra::Substitution::new(at_identity);
-        let entries = substitution.apply_all(&mut self.graph, &rate.entries);
-        let omega = self.vee(expr, &Array { shape: Shape::Matrix(3, 3), entries })?;
-        let hat = self.hat(expr, &omega)?;
-        for body in [true, false] {
-            let (left, right) = if body { (r, &hat) } else { (&hat, r) };
-            let mut holds = true;
-            for (k, known) in rate.entries.iter().enumerate() {
-                let row = &left.entries[3 * (k / 3)..3 * (k / 3) + 3];
-                let turned = self.inner_product(expr, row, &right.column(k % 3))?;
-                let defect = self.difference(expr, *known, turned)?;
-                holds = holds && self.graph.zero_test(defect).is_zero();
-            }
-            if !holds {
-                continue;
-            }
-            self.check_usage(expr, Usage::Velocity, "body_rate(…)", expr.extent)?;
-            if body == in_body {
-                return Ok(Some(omega));
-            }
-            let mut entries = Vec::with_capacity(3);
-            for k in 0..3 {
-                let row = if in_body { r.column(k) } else { r.entries[3 * k..3 * k + 3].to_vec() };
-                entries.push(self.inner_product(expr, &row, &omega.entries)?);
-            }
-            return Ok(Some(Array::vector(entries)));
-        }
-        Ok(None)
     }
 
     /// That a matrix is a rotation is proved on the base: RᵀR = 1, det R = 1.

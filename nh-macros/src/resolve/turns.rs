@@ -19,16 +19,33 @@ pub(super) struct Rotations {
     pub(super) known: BTreeMap<Vec<ExprId>, Rc<Vec<Turn>>>,
     /// Matrices that are claimed to be rotations, so that the claim stands once.
     pub(super) claimed: Vec<Vec<ExprId>>,
+    /// Products of matrices of which nothing is known.
+    pub(super) products: BTreeMap<Vec<ExprId>, [Array; 2]>,
+    /// The angular velocities of attitudes that an anchor turns, if it does, and whether they are along the axes of the body.
+    pub(super) spins: BTreeMap<Vec<ExprId>, Option<(Array, bool)>>,
+    /// The rates of products of rotations, along the axes of what they turn.
+    pub(super) rates: BTreeMap<Vec<ExprId>, Vec<Turn>>,
+    /// Products of rotations whose rates are velocities of the state.
+    pub(super) spinning: Vec<(Vec<Turn>, Vec<ExprId>)>,
 }
 
 impl Rotations {
     /// A product of two of them is one; so it is with one of them alone, if the other factor is a rotation.
     pub(super) fn multiplied(&mut self, left: &Array, right: &Array, product: &Array) {
         let cube = Shape::Matrix(3, 3);
-        let known = [left, right].map(|factor| self.known.get(&factor.entries).cloned());
-        if known.iter().all(Option::is_none) || left.shape != cube || right.shape != cube {
+        if left.shape != cube || right.shape != cube {
             return;
         }
+        if [left, right].iter().all(|factor| !self.known.contains_key(&factor.entries)) {
+            self.products.insert(product.entries.clone(), [left.clone(), right.clone()]);
+            return;
+        }
+        self.join(left, right, product);
+    }
+
+    /// The factors of a product of two rotations.
+    pub(super) fn join(&mut self, left: &Array, right: &Array, product: &Array) {
+        let known = [left, right].map(|factor| self.known.get(&factor.entries).cloned());
         let turns = known.into_iter().zip([left, right]).flat_map(|(known, factor)| match known {
             Some(turns) => turns.to_vec(),
             None => vec![Turn { matrix: factor.entries.clone(), about: None }],
@@ -42,6 +59,13 @@ impl Rotations {
             turns
         };
         self.known.insert(product.entries.clone(), Rc::new(turns));
+    }
+
+    /// How many of the first factors turn as velocities of the state, with these.
+    pub(super) fn spinning(&self, turns: &[Turn]) -> Option<(usize, Vec<ExprId>)> {
+        let mut known = self.spinning.iter();
+        let (factors, rate) = known.find(|(factors, _)| turns.starts_with(factors))?;
+        Some((factors.len(), rate.clone()))
     }
 
     /// The transposed of one is one.

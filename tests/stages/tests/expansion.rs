@@ -5,7 +5,7 @@ use nonholonomic_core::limits::{spent, within_limits};
 
 /// The most that a reference system may take, and all of them together.
 const REFERENCE: u64 = 692_000;
-const REFERENCES: u64 = 5_174_000;
+const REFERENCES: u64 = 5_220_000;
 /// The most that a machine of the benchmark of record may take up to the pendulum, and those after it.
 const RECORD: u64 = 480_000;
 const LATER: u64 = 2_300_000;

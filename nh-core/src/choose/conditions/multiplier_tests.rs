@@ -50,6 +50,7 @@ fn a_parameter_that_may_be_zero_is_none_of_theirs() {
         mass: &weighed,
         definiteness: Definiteness::Definite,
         jacobian: &equations.jacobian,
+        turned: &[],
         parameters: &parameters,
         facts: &Facts::default(),
     };
@@ -84,6 +85,7 @@ fn exponentials_vary_by_themselves() {
         mass: &equations.mass,
         definiteness: Definiteness::Definite,
         jacobian: &equations.jacobian,
+        turned: &[],
         parameters: &parameters,
         facts: &Facts::default(),
     };

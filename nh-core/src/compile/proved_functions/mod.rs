@@ -237,6 +237,13 @@ pub(super) fn prove(
                 proof = prove(proved, &images);
             }
         }
+        let base = proved.model.graph.embedded();
+        if let Err(Defect::Wrong(_)) = proof
+            && !base.is_empty()
+        {
+            let images = [&base, at.as_slice()].concat();
+            proof = prove(proved, &images).map(|(found, limit)| (Proof { is_on_base: true, ..found }, limit));
+        }
         let fate = match proof {
             Ok((proof, undecided)) => {
                 decision.limits.extend(undecided);

@@ -6,12 +6,17 @@
 //! articulated inertia, so that a further body of a chain costs a constant. The velocities of all other frames have a
 //! mass matrix, by the inertias of all that these carry.
 
+mod free_turn;
+mod hinges;
 mod inertia;
 mod motion;
+mod other_axes;
 mod sheet;
 mod tree;
 mod turning;
 mod weight;
+
+pub use other_axes::OtherAxes;
 
 use super::adapted::reduced_equations;
 use super::body::Body;
@@ -38,25 +43,27 @@ pub enum Elimination {
 
 /// ẋ and v̇ of bodies in space; `None` where they are not declared as such.
 ///
-/// Pivots are those of C in another order: for C that is definite.
+/// Pivots are those of C in another order, along the axes that are returned: for C that is definite.
 pub fn accelerations_of_joints(
     graph: &mut Graph,
     (system, bodies): (&LagrangianSystem, &[Body]),
     distribution: &ConstraintDistribution,
     elimination: Elimination,
-) -> Option<Procedure> {
+) -> Option<(Procedure, Vec<OtherAxes>)> {
     let independent = distribution.independent.len();
     if bodies.len() < 2 || !distribution.eliminated.is_empty() {
         return None;
     }
     let mut sheet = Sheet::new(graph);
     // 1. what carries what, and how it moves
-    let tree = Tree::of(&mut sheet, bodies, &system.algebroid.anchor.coordinates)?;
+    let tree = Tree::of(&mut sheet, bodies, &system.algebroid)?;
     let Fall { acceleration, rest } = Fall::of(sheet.graph, system, bodies)?;
-    let motions = motions(&mut sheet, system, distribution, (&tree, acceleration))?;
+    let mut motions = motions(&mut sheet, system, distribution, (&tree, acceleration))?;
     // 2. what is not of bodies
     let others = LagrangianSystem { lagrangian: rest, ..system.clone() };
-    let others = reduced_equations(sheet.graph, &others, distribution);
+    let mut others = reduced_equations(sheet.graph, &others, distribution);
+    let turned = OtherAxes::of(&mut sheet, &tree, &mut motions, &others.mass);
+    turned.iter().for_each(|axes| axes.turn_forces(&mut sheet, &mut others.force));
     let mut joints = Joints {
         tree: &tree,
         motions: &motions,
@@ -83,11 +90,12 @@ pub fn accelerations_of_joints(
         accelerations[*a] = value;
     }
     joints.outwards(&mut sheet, &mut accelerations);
+    turned.iter().for_each(|axes| axes.turn_accelerations(&mut sheet, &mut accelerations));
     let Sheet { graph, procedure, .. } = sheet;
     let mut outputs = system.algebroid.rates(graph, &distribution.velocity);
     outputs.extend(accelerations);
     let whole = procedure.with_outputs(outputs);
-    Some(whole.as_far_as(graph, &whole.outputs))
+    Some((whole.as_far_as(graph, &whole.outputs), turned))
 }
 
 /// A velocity that left at its joint: v̇ = rest − Σ shares · accelerations of what carries the joint.

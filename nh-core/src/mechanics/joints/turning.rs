@@ -17,14 +17,14 @@ pub(super) enum Turning {
 
 impl Turning {
     /// About n, of length 1.
-    pub(super) fn about(graph: &mut Graph, n: &Vector, angle: ExprId, matrix: &[ExprId]) -> Self {
+    pub(super) fn about(graph: &mut Graph, n: &Vector, angle: ExprId, matrix: &Square) -> Self {
         let (sin, cos) = (graph.apply(Function::Sin, angle), graph.apply(Function::Cos, angle));
         let moving: Vec<usize> = (0..3).filter(|k| !graph.is_literal_zero(n[*k])).collect();
         if let [axis] = moving.as_slice() {
             let sin = graph.formula(n[*axis] * sin);
             return Self::About { axis: *axis, sin, cos };
         }
-        Self::Matrix(std::array::from_fn(|i| std::array::from_fn(|j| matrix[3 * i + j])))
+        Self::Matrix(*matrix)
     }
 
     /// E u.

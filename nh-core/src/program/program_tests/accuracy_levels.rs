@@ -63,7 +63,7 @@ fn programs_that_differ_where_symbols_are_far_apart_are_told_apart() {
     let (rest, square) = (g.formula(m * cart), g.square(l));
     let short = Procedure::of(vec![g.formula(j + rest * square / mass)]);
     let programs = [schedule(&g, &procedure), schedule(&g, &short)];
-    let (ordinary, apart) = (error_growth(&programs), error_growth_apart(&programs));
+    let (ordinary, apart) = (error_growth(&g, &programs), error_growth_apart(&g, &programs));
     assert!(ordinary[0] < 64.0 && ordinary[1] < 2.0, "{ordinary:?}");
     assert!(apart[0] > 4096.0 && apart[1] < 2.0, "{apart:?}");
 }
@@ -92,13 +92,13 @@ fn what_a_bound_finds_fault_with_is_seen_in_runs() {
     let sums: Vec<ExprId> = sums.into_iter().map(|sum| loaded.define(&mut g, "", sum)).collect();
     loaded.outputs = sums.iter().map(|sum| g.formula(*sum - large)).collect();
     let programs = [turned, loaded, Procedure::of(at_once)].map(|procedure| schedule(&g, &procedure));
-    let bounds = error_growth(&programs);
-    let runs = error_growth_in_runs(&programs.each_ref(), &programs[2]);
+    let bounds = error_growth(&g, &programs);
+    let runs = error_growth_in_runs(&g, &programs.each_ref(), &programs[2]);
     assert!(bounds[0] > 16.0 && bounds[1] > 16.0, "{bounds:?}");
     assert!(runs[0] < 2.0 && runs[1] > 16.0 && runs[2] < 1.1, "{runs:?}");
     // where the load is up to eight decades larger than the vector
-    let apart = error_growth_apart(&programs);
-    let runs = error_growth_apart_in_runs(&programs.each_ref(), &programs[2]);
+    let apart = error_growth_apart(&g, &programs);
+    let runs = error_growth_apart_in_runs(&g, &programs.each_ref(), &programs[2]);
     assert!(apart[0] > 16.0 && apart[1] > 1e6, "{apart:?}");
     assert!(runs[0] < 8.0 && runs[1] > 1e6 && runs[2] < 1.1, "{runs:?}");
 }
@@ -175,6 +175,6 @@ fn a_form_that_cancels_has_the_larger_error() {
     let two = Rational::from(2);
     let expanded = g.linear_combination(&[(Rational::ONE, x2), (-two, xy), (Rational::ONE, y2)]);
     let programs = [square, expanded].map(|form| schedule(&g, &Procedure::of(vec![form])));
-    let growth = error_growth(&programs);
+    let growth = error_growth(&g, &programs);
     assert!(growth[0] <= 1.0 && growth[1] > 4.0, "{growth:?}");
 }

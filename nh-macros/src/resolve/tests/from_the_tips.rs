@@ -5,7 +5,7 @@ use nonholonomic_core::algebra::{Graph, Rational};
 use nonholonomic_core::choose::Fate;
 use nonholonomic_core::compile::{compile, compile_with};
 use nonholonomic_core::forms::{Form, Registry, Setting};
-use nonholonomic_core::mechanics::{Definition, Procedure, ReducedEquations};
+use nonholonomic_core::mechanics::{Definition, OtherAxes, Procedure, ReducedEquations};
 
 use super::proved::{Dice, planar_tree};
 use super::{derivative_of, fates, model};
@@ -61,10 +61,10 @@ impl Form for Planted {
     fn derive(&self, _: &mut Graph, _: &Setting) -> Option<ReducedEquations> {
         None
     }
-    fn solve(&self, graph: &mut Graph, setting: &Setting) -> Option<Procedure> {
-        let mut procedure = form().solve(graph, setting)?;
+    fn solve(&self, graph: &mut Graph, setting: &Setting) -> Option<(Procedure, Vec<OtherAxes>)> {
+        let (mut procedure, axes) = form().solve(graph, setting)?;
         (self.slip)(graph, procedure.definitions.get_mut(self.step)?);
-        Some(procedure)
+        Some((procedure, axes))
     }
 }
 

@@ -7,7 +7,7 @@ use nonholonomic_core::algebra::{Graph, Rational};
 use nonholonomic_core::choose::Fate;
 use nonholonomic_core::compile::compile_with;
 use nonholonomic_core::forms::{Form, Registry, Setting};
-use nonholonomic_core::mechanics::{Definition, Procedure, ReducedEquations};
+use nonholonomic_core::mechanics::{Definition, OtherAxes, Procedure, ReducedEquations};
 
 use super::proved::Dice;
 use super::{derivative_of, fates, model};
@@ -164,10 +164,10 @@ impl Form for Planted {
     fn derive(&self, _: &mut Graph, _: &Setting) -> Option<ReducedEquations> {
         None
     }
-    fn solve(&self, graph: &mut Graph, setting: &Setting) -> Option<Procedure> {
-        let mut procedure = form(self.of).solve(graph, setting)?;
+    fn solve(&self, graph: &mut Graph, setting: &Setting) -> Option<(Procedure, Vec<OtherAxes>)> {
+        let (mut procedure, axes) = form(self.of).solve(graph, setting)?;
         (self.slip)(graph, procedure.definitions.get_mut(self.step)?);
-        Some(procedure)
+        Some((procedure, axes))
     }
 }
 
@@ -180,13 +180,41 @@ fn value(definition: &mut Definition) -> &mut nonholonomic_core::id::ExprId {
 
 #[test]
 fn every_step_that_is_changed_is_noticed() {
-    let declared = "base { q[4] }
+    changes_are_noticed(
+        "base { q[4] }
         let A = rot_z(q[0]); let B = A * rot_y(q[1]); let C = B * rot_x(q[2]); let D = C * rot_y(q[3]);
         let b = [0, 0, l[0]] + B * [0, s[0], l[1]]; let c = b + C * [l[2], 0, s[1]]; let d = c + D * [0, 0, l[3]];
         lagrangian {
             kinetic(m[0], J[0], [0, 0, l[0]], A) + kinetic(m[1], J[1], b, B) + kinetic(m[2], K, c, C)
             + kinetic(m[3], J[3], d, D) - g * (m[1] * b[2] + m[2] * c[2] + m[3] * d[2])
-        } inputs { u } forces { q[1]: u; }";
+        } inputs { u } forces { q[1]: u; }",
+    );
+}
+
+/// On a body that turns freely, and moves along the axes of space.
+#[test]
+fn every_step_behind_a_free_attitude_that_is_changed_is_noticed() {
+    changes_are_noticed(
+        "base { p[3], q[4], a } on { dot(q, q) = 1; } basis { w[3], v[3], h }
+        anchor {
+            der(q) = [
+                -(q[1] * w[0] + q[2] * w[1] + q[3] * w[2]) / 2, (q[0] * w[0] + q[2] * w[2] - q[3] * w[1]) / 2,
+                (q[0] * w[1] + q[3] * w[0] - q[1] * w[2]) / 2, (q[0] * w[2] + q[1] * w[1] - q[2] * w[0]) / 2
+            ];
+            der(p) = v; der(a) = h;
+        }
+        let R = [
+            [1 - 2 * (q[2]^2 + q[3]^2), 2 * (q[1] * q[2] - q[0] * q[3]), 2 * (q[1] * q[3] + q[0] * q[2])],
+            [2 * (q[1] * q[2] + q[0] * q[3]), 1 - 2 * (q[1]^2 + q[3]^2), 2 * (q[2] * q[3] - q[0] * q[1])],
+            [2 * (q[1] * q[3] - q[0] * q[2]), 2 * (q[2] * q[3] + q[0] * q[1]), 1 - 2 * (q[1]^2 + q[2]^2)]
+        ];
+        let A = R * rot_y(a); let c = p + R * [l[0], s[0], l[1]] + A * [l[2], 0, s[1]];
+        lagrangian { kinetic(m[0], J[0], p, R) + kinetic(m[1], K, c, A) - g * (m[0] * p[2] + m[1] * c[2]) }
+        inputs { u } forces { h: u; }",
+    );
+}
+
+fn changes_are_noticed(declared: &str) {
     let slips: [fn(&mut Graph, &mut Definition); 2] = [
         |graph, definition| {
             let value = value(definition);

@@ -8,6 +8,7 @@ mod catalogue;
 mod ceilings;
 mod constants;
 mod cross_checks;
+mod free_bodies;
 mod from_the_tips;
 mod fuzz;
 mod hostile_sizes;
@@ -90,8 +91,15 @@ fn of_name(name: &str) -> f64 {
 /// The derivative at a point.
 fn derivative_of(system: &System) -> Vec<f64> {
     let program = schedule(&system.model.graph, &system.derivative);
+    // a quaternion has length 1
+    let unit = [("q[0]", 0.5), ("q[1]", -0.1), ("q[2]", 0.7), ("q[3]", 0.5)];
+    let is_embedded = !system.model.identities.is_empty();
     interpret(&program, |symbol: SymbolId| {
-        0.3 + 0.17 * f64::from(u32::try_from(symbol.index() % 11).expect("small"))
+        let name = &system.model.graph.symbols()[symbol];
+        match unit.iter().find(|(known, _)| is_embedded && known == name) {
+            Some((_, value)) => *value,
+            None => 0.3 + 0.17 * f64::from(u32::try_from(symbol.index() % 11).expect("small")),
+        }
     })
 }
 

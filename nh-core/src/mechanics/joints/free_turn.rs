@@ -1,0 +1,200 @@
+//! Attitudes that turn freely: their angular velocities are velocities of the state.
+
+use super::sheet::{Square, Vector};
+use crate::algebra::{Graph, Rational, Substitution};
+use crate::geometry::Algebroid;
+use crate::id::{ExprId, Id, SectionId, SymbolId};
+
+/// An attitude E, by a quaternion, a matrix or angles, of which some sections turn it about its own axes, or about those of
+/// what carries it: Eᵀ ρ(e_α)E = n̂_α, or ρ(e_α)E Eᵀ = n̂_α, with numbers n_α.
+///
+/// Where E = 1 both say the same; which of them holds is told by the brackets, as n is a morphism onto so(3):
+/// n[e_α, e_β] = ± n_α × n_β, with + for its own axes.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(super) struct FreeTurn {
+    /// E, from its own axes to those of what carries it.
+    pub(super) matrix: Square,
+    /// The sections that turn it, with n_α.
+    pub(super) rates: Vec<(usize, Vector)>,
+    pub(super) axes: Axes,
+    /// Where E = 1.
+    level: Vec<(SymbolId, ExprId)>,
+    /// How the symbols of E move there as it turns about each of its axes.
+    tangents: [Vec<(SymbolId, ExprId)>; 3],
+}
+
+/// Whose axes those of a rotation are.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Axes {
+    /// Of what turns.
+    Own,
+    /// Of what carries it.
+    Carrier,
+}
+
+impl FreeTurn {
+    /// `None` where no three sections turn the attitude, each about one axis.
+    pub(super) fn of(graph: &mut Graph, matrix: &[ExprId], algebroid: &Algebroid) -> Option<Self> {
+        let anchor = &algebroid.anchor;
+        let occurring = graph.symbols_in(matrix);
+        let moving: Vec<usize> =
+            (0..anchor.coordinates.len()).filter(|k| occurring.contains(&anchor.coordinates[*k])).collect();
+        let symbols: Vec<SymbolId> = moving.iter().map(|k| anchor.coordinates[*k]).collect();
+        let level = levels(graph, matrix, &symbols).into_iter().find(|level| is_one(graph, matrix, level))?;
+        let mut at_level = Substitution::new(level.iter().copied());
+        let mut rates: Vec<(usize, Vector)> = Vec::new();
+        for alpha in algebroid.sections() {
+            let mut along = anchor.along(alpha);
+            let moved = along.apply_all(graph, matrix);
+            let moved: Vec<ExprId> = at_level.apply_all(graph, &moved);
+            let moved: Vec<ExprId> = moved.into_iter().map(|entry| graph.simplify(entry)).collect();
+            let rate = vee(graph, &moved)?;
+            if rate.iter().any(|entry| !graph.is_literal_zero(*entry)) {
+                rates.push((alpha.index(), rate));
+            }
+        }
+        let tangents = (0..3).map(|k| {
+            let (alpha, speed) = rates.iter().find_map(|(alpha, rate)| {
+                let others = [(k + 1) % 3, (k + 2) % 3];
+                let is_alone = others.iter().all(|other| graph.is_literal_zero(rate[*other]));
+                is_alone.then_some((*alpha, rate[k]))
+            })?;
+            let shifts = moving.iter().map(|i| {
+                let shift = at_level.apply(graph, anchor.entries[*i][alpha]);
+                (anchor.coordinates[*i], graph.formula(shift / speed))
+            });
+            Some(shifts.collect::<Vec<_>>())
+        });
+        let tangents: [Vec<_>; 3] = tangents.collect::<Option<Vec<_>>>()?.try_into().ok()?;
+        let axes = axes(graph, algebroid, &rates)?;
+        let matrix = std::array::from_fn(|i| std::array::from_fn(|j| matrix[3 * i + j]));
+        Some(Self { matrix, rates, axes, level, tangents })
+    }
+
+    /// Whether the sections turn the attitude in this way at all places, which is proved.
+    pub(super) fn is_everywhere(&self, graph: &mut Graph, algebroid: &Algebroid) -> bool {
+        algebroid.sections().all(|alpha| {
+            let mut along = algebroid.anchor.along(alpha);
+            let moved: Square = self.matrix.map(|row| row.map(|entry| along.apply(graph, entry)));
+            let known = self.rates.iter().find(|(other, _)| *other == alpha.index());
+            let rate = known.map_or([graph.zero(); 3], |(_, rate)| *rate);
+            (0..3).all(|k| {
+                let (i, j) = ((k + 1) % 3, (k + 2) % 3);
+                let factors: [[ExprId; 2]; 3] = std::array::from_fn(|l| match self.axes {
+                    Axes::Own => [self.matrix[l][j], moved[l][i]],
+                    Axes::Carrier => [moved[j][l], self.matrix[i][l]],
+                });
+                let [one, other] = [0, 1].map(|side| factors.map(|pair| pair[side]));
+                let found = graph.inner_product(&one, &other);
+                let difference = graph.formula(found - rate[k]);
+                graph.zero_test(difference).is_zero()
+            })
+        })
+    }
+
+    /// Of angles, with symbols for their sines and cosines in their place.
+    pub(super) fn by_sines(
+        mut self,
+        (zero, one): (ExprId, ExprId),
+        sine_and_cosine: impl Fn(SymbolId) -> Option<[SymbolId; 2]>,
+    ) -> Option<Self> {
+        let mut level = Vec::new();
+        for (symbol, _) in &self.level {
+            let [sine, cosine] = sine_and_cosine(*symbol)?;
+            level.extend([(sine, zero), (cosine, one)]);
+        }
+        self.level = level;
+        for (symbol, _) in self.tangents.iter_mut().flatten() {
+            [*symbol, _] = sine_and_cosine(*symbol)?;
+        }
+        Some(self)
+    }
+
+    /// The symbols that the attitude depends on, with their values where it is 1.
+    pub(super) fn level(&self) -> &[(SymbolId, ExprId)] {
+        &self.level
+    }
+
+    /// How the symbols move as the attitude turns about an axis there.
+    pub(super) fn tangent(&self, axis: usize) -> impl Iterator<Item = (SymbolId, ExprId)> + '_ {
+        self.tangents[axis].iter().copied()
+    }
+}
+
+/// Where an attitude may be 1: a matrix there; a quaternion at one of four points; angles at 0.
+fn levels(graph: &mut Graph, matrix: &[ExprId], symbols: &[SymbolId]) -> Vec<Vec<(SymbolId, ExprId)>> {
+    let (zero, one) = (graph.zero(), graph.one());
+    let entries: Option<Vec<SymbolId>> = matrix.iter().map(|entry| graph.as_symbol(*entry)).collect();
+    if let (Some(entries), 9) = (entries, symbols.len()) {
+        let value = |k: usize| if k.is_multiple_of(4) { one } else { zero };
+        return vec![entries.iter().enumerate().map(|(k, symbol)| (*symbol, value(k))).collect()];
+    }
+    match symbols.len() {
+        3 => vec![symbols.iter().map(|symbol| (*symbol, zero)).collect()],
+        4 => (0..4)
+            .map(|real| {
+                let value = |k: usize| if k == real { one } else { zero };
+                symbols.iter().enumerate().map(|(k, symbol)| (*symbol, value(k))).collect()
+            })
+            .collect(),
+        _ => Vec::new(),
+    }
+}
+
+fn is_one(graph: &mut Graph, matrix: &[ExprId], level: &[(SymbolId, ExprId)]) -> bool {
+    let mut at_level = Substitution::new(level.iter().copied());
+    matrix.iter().enumerate().all(|(k, entry)| {
+        let value = at_level.apply(graph, *entry);
+        let value = graph.simplify(value);
+        let wanted = if k.is_multiple_of(4) { Rational::ONE } else { Rational::ZERO };
+        graph.as_number(value) == Some(&wanted)
+    })
+}
+
+/// ω of a matrix ω̂ of numbers.
+fn vee(graph: &mut Graph, matrix: &[ExprId]) -> Option<Vector> {
+    let number = |i: usize, j: usize| graph.as_number(matrix[3 * i + j]).cloned();
+    let mut rate: Vec<Rational> = Vec::with_capacity(3);
+    for k in 0..3 {
+        let (i, j) = ((k + 1) % 3, (k + 2) % 3);
+        let (own, other) = (number(j, i)?, number(i, j)?);
+        if !number(k, k)?.is_zero() || own != -other {
+            return None;
+        }
+        rate.push(own);
+    }
+    let rate: [Rational; 3] = rate.try_into().ok()?;
+    Some(rate.map(|entry| graph.number(entry)))
+}
+
+/// n[e_α, e_β] = ± n_α × n_β, as numbers.
+fn axes(graph: &mut Graph, algebroid: &Algebroid, rates: &[(usize, Vector)]) -> Option<Axes> {
+    let mut own = true;
+    let mut carrier = true;
+    let rate_of = |graph: &mut Graph, alpha: SectionId| {
+        let known = rates.iter().find(|(other, _)| *other == alpha.index());
+        known.map_or([graph.zero(); 3], |(_, rate)| *rate)
+    };
+    for alpha in algebroid.sections() {
+        for beta in algebroid.sections().skip(alpha.index() + 1) {
+            let (n, m) = (rate_of(graph, alpha), rate_of(graph, beta));
+            for k in 0..3 {
+                let (i, j) = ((k + 1) % 3, (k + 2) % 3);
+                let mut sum = graph.zero();
+                for (gamma, rate) in rates {
+                    let structure =
+                        algebroid.structure.get(graph, SectionId::from_index(*gamma), alpha, beta);
+                    sum = graph.formula(sum + structure * rate[k]);
+                }
+                let product = graph.formula(n[i] * m[j] - n[j] * m[i]);
+                own &= sum == product;
+                carrier &= sum == graph.formula(-product);
+            }
+        }
+    }
+    match (own, carrier) {
+        (true, _) => Some(Axes::Own),
+        (false, true) => Some(Axes::Carrier),
+        (false, false) => None,
+    }
+}
