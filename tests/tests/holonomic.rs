@@ -23,6 +23,7 @@ mod holonomic {
     mod spatial_slider_crank;
     mod squeezer;
     mod steered_bicycle;
+    mod steps_of_any_length;
     mod stewart;
     mod volumes;
     mod windows;
