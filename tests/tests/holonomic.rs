@@ -25,6 +25,7 @@ mod holonomic {
     mod steered_bicycle;
     mod steps_of_any_length;
     mod stewart;
+    mod upright_coin;
     mod volumes;
     mod windows;
 }
