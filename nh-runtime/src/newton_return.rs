@@ -126,7 +126,11 @@ pub(crate) fn is_rounding<T: Scalar, const N: usize, const M: usize>(
 }
 
 /// 1 in lanes where a function jumps between two places, by no less than 1/8 of a size and far from poles, else 0.
-fn jumps_between<T: Scalar>(function: impl Fn(T) -> T, (mut near, mut far): (T, T), size: T) -> T {
+pub(crate) fn jumps_between<T: Scalar>(
+    mut function: impl FnMut(T) -> T,
+    (mut near, mut far): (T, T),
+    size: T,
+) -> T {
     let half = T::from_f64(0.5);
     // the half in which values differ more, again and again
     let (mut at_near, mut at_far) = (function(near), function(far));
@@ -145,9 +149,9 @@ fn jumps_between<T: Scalar>(function: impl Fn(T) -> T, (mut near, mut far): (T, 
 }
 
 /// A multiple of a change of the size of rounding that is beyond its noise, and nothing beside the lengths of a machine.
-const MULTIPLE: f64 = 1024.0;
+pub(crate) const MULTIPLE: f64 = 1024.0;
 /// How many changes before and behind one are searched for jumps: a few steps of rounding.
-const SURROUNDINGS: f64 = 32.0;
+pub(crate) const SURROUNDINGS: f64 = 32.0;
 /// How often the way is halved in the search for a jump: then its ends are neighbours among the numbers.
 const HALVINGS: u32 = 60;
 

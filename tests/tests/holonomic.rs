@@ -23,7 +23,9 @@ mod holonomic {
     mod spatial_slider_crank;
     mod squeezer;
     mod steered_bicycle;
+    mod steps_of_any_length;
     mod stewart;
+    mod upright_coin;
     mod volumes;
     mod windows;
 }

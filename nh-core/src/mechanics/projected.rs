@@ -9,7 +9,7 @@ use super::orthogonal_constraints::Touching;
 use super::pair::Pair;
 use super::procedure::{Definition, Procedure};
 use super::symmetric_solve::{Definiteness, uncoupled};
-use crate::algebra::{Accuracy, Graph, Matrix, Substitution};
+use crate::algebra::{Accuracy, Facts, Graph, Matrix, Substitution};
 use crate::id::{ExprId, SymbolId};
 
 /// Where there are more constraints than this, it matters what they couple.
@@ -170,6 +170,29 @@ impl SaddleEquations {
         result
     }
 
+    /// Whether all weights are finite where no constraint vanishes. Where one moves coordinates without inertia alone, as
+    /// those of a contact, it has none; that may be so at a place, such as where a coin stands upright on top of a cylinder.
+    fn is_weighed_everywhere(&self, graph: &mut Graph) -> bool {
+        let nothing = Facts::default();
+        self.jacobian.iter().all(|row| {
+            let (mut inert, mut massless) = (Vec::new(), false);
+            for (alpha, entry) in row.iter().enumerate().filter(|(_, entry)| !graph.is_literal_zero(**entry))
+            {
+                if graph.is_literal_zero(self.mass[alpha][alpha]) {
+                    massless = true;
+                } else {
+                    inert.push(*entry);
+                }
+            }
+            let squares: Vec<ExprId> = inert.iter().map(|entry| graph.square(*entry)).collect();
+            let sum = graph.sum(&squares);
+            let sum = graph.simplify(sum);
+            !massless
+                || inert.is_empty()
+                || inert.iter().chain([&sum]).any(|entry| graph.vanishes_nowhere(*entry, &nothing))
+        })
+    }
+
     /// ẏ and λ, as intermediate results of the procedure; `definiteness` judges mass matrices.
     ///
     /// By (10): λ = (J W⁻¹ Jᵀ)⁻¹ (bias − J W⁻¹ force), with one factorisation of W where W is definite, and
@@ -185,6 +208,9 @@ impl SaddleEquations {
         if self.is_by_itself(graph) && definiteness(graph, &self.mass) == Definiteness::Definite {
             let (values, multipliers, rows) = self.solve_by_complement(graph, procedure);
             return (self.noted(graph, values, (rows, known), procedure), multipliers);
+        }
+        if !self.is_weighed_everywhere(graph) {
+            return self.solve_pivoted(graph, procedure);
         }
         let mut trial = procedure.clone();
         let augmented = self.augmented(graph, &mut trial);
@@ -352,6 +378,9 @@ impl SaddleEquations {
     ) -> Option<Matrix> {
         if self.is_by_itself(graph) && definiteness(graph, &self.mass) == Definiteness::Definite {
             return Some(self.mass.clone());
+        }
+        if !self.is_weighed_everywhere(graph) {
+            return None;
         }
         let weighed = self.augmented(graph, &mut Procedure::inline()).mass;
         (definiteness(graph, &weighed) == Definiteness::Definite).then_some(weighed)

@@ -98,6 +98,7 @@ pub(crate) fn descend<T: Real, const N: usize, const M: usize>(
             let trial = trial.map(|trial| (trial, equations(&trial)));
             if part == T::ONE && trial.as_ref().is_some_and(|(_, there)| !asked.is_brought(part, &there.0)) {
                 asked.note_noise(|part| moved(&present, &change, part).map(|x| equations(&x).0));
+                asked.note_rounding(&rounding::are_rounding(&present, &change, |x| equations(x).0));
             }
             accepted = trial.filter(|(_, there)| {
                 let falls = asked.is_brought(part, &there.0);
@@ -213,6 +214,15 @@ impl<T: Real, const M: usize> Asked<T, M> {
                 let noise = (*there - (T::ONE - part) * share.left).abs();
                 share.rounding = Scalar::max(share.rounding, T::from_f64(4.0) * noise);
             }
+        }
+    }
+
+    /// Takes over which equations are rounding, and what the step makes of them. They do not hold up the others: of a
+    /// variable that is zero where the search leads to, each step may change all digits.
+    fn note_rounding(&mut self, are: &[T; M]) {
+        for (share, is) in self.shares.iter_mut().zip(are) {
+            let most = T::from_f64(16.0) * Scalar::max(share.left.abs(), share.weight);
+            share.rounding = Scalar::max(share.rounding, *is * most);
         }
     }
 

@@ -57,6 +57,7 @@ mod grid;
 mod implicit;
 mod interruptible;
 mod leg;
+mod plateau;
 mod projected;
 mod structure;
 mod taylor;

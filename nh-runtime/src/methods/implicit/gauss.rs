@@ -3,11 +3,12 @@
 use super::collocation::{Collocation, Matrices, continued};
 use super::linearization::{Analytic, FiniteDifferences, Linearization};
 use super::newton::{
-    MOST_ITERATIONS, SLOW, Settling, check_tolerance, is_first_term, once, reach, refusal, size,
+    MOST_ITERATIONS, SLOW, Settling, check_tolerance, exceeds, is_first_term, once, reach, refusal, size,
 };
 use super::starting_values::Misses;
 use crate::arrays::{displaced, first_non_finite};
 use crate::methods::fixed::{Fixed, OneStep};
+use crate::methods::plateau::{Plateau, largest_of};
 use crate::methods::{Arrival, Start};
 use crate::{Dim, DimOf, Dynamics, IntegrationError, Real, Scalar, ScalarOf, State, Statistics, VecOf};
 
@@ -298,6 +299,7 @@ where
     let mut preceding: Option<T> = None;
     let mut rests = [zero; N];
     let mut settling = [Settling::<DimOf<S>, T>::new(); N];
+    let mut plateaus = [Plateau::<VecOf<S>, T>::new(); N];
     let mut iterations = 0;
     loop {
         if work.matrices.is_none() {
@@ -309,7 +311,7 @@ where
             work.matrices = Some((h, table.matrices::<S>(&jacobian, h), reach::<S>(&jacobian, x, h)));
         }
         let Some((_, matrices, reach)) = &work.matrices else { continue };
-        let before = z;
+        let before = (z, rests);
         let change = table.iterate_exactly(start, (x, rest), h, matrices, (&mut z, &mut rests));
         iterations += 1;
         statistics.iterations += 1;
@@ -323,10 +325,26 @@ where
         if all || (is_small && iterations >= MOST_ITERATIONS) {
             return Ok((z, rests));
         }
+        let levels = plateaus.iter_mut().zip(&change).map(|(plateau, c)| plateau.is_level(c, residual));
+        if levels.fold(true, |all, level| all & level) && residual > T::ONE {
+            let ahead = |part: T| {
+                let (mut z, mut rests) = before;
+                z.iter_mut().zip(&change).for_each(|(z, c)| *z = displaced(z, part, c));
+                table.iterate_exactly(start, (x, rest), h, matrices, (&mut z, &mut rests))
+            };
+            let mut stages = plateaus.iter().zip(change.iter().zip(&z)).enumerate();
+            if stages.all(|(stage, (plateau, (c, z)))| {
+                let of_stage = |part| ahead(part).get(stage).copied().unwrap_or(zero);
+                let permitted = T::EPSILON.sqrt() * largest_of([x, z]);
+                plateau.is_rounding(c, permitted, |row| exceeds(row, (c, x, z, reach), tolerance), of_stage)
+            }) {
+                return Ok((z, rests));
+            }
+        }
         if !residual.is_finite() || iterations >= MOST_ITERATIONS {
             if !retry {
                 let reached = displaced(x, T::ONE, &table.increment(zero, &z, &rests));
-                let stages = table.nodes.iter().zip(&before);
+                let stages = table.nodes.iter().zip(&before.0);
                 let at = |node: f64| start.time + T::from_f64(node) * h;
                 let from = stages.map(|(node, z)| (at(*node), displaced(x, T::ONE, z)));
                 return Err(refusal(start, h, (iterations, residual), reached.as_ref(), from));
@@ -335,6 +353,7 @@ where
             (z, rests) = ([zero; N], [zero; N]);
             (work.matrices, preceding, iterations) = (None, None, 0);
             settling = [Settling::new(); N];
+            plateaus = [Plateau::new(); N];
             continue;
         }
         if ratio.is_some_and(|ratio| ratio >= T::from_f64(SLOW)) && residual > T::ONE && retry {

@@ -2,12 +2,13 @@
 
 use super::linearization::{Analytic, FiniteDifferences, Linearization};
 use super::newton::{
-    MOST_ITERATIONS, SLOW, check_tolerance, once, one_less, reach, refusal, size, still_missing,
+    MOST_ITERATIONS, SLOW, check_tolerance, exceeds, once, one_less, reach, refusal, size, still_missing,
 };
 use super::starting_values::Misses;
 use crate::arrays::displaced;
 use crate::linear::Factors;
 use crate::methods::fixed::{Fixed, OneStep};
+use crate::methods::plateau::Plateau;
 use crate::methods::{Arrival, Start};
 use crate::{
     Dim, DimOf, Dynamics, IntegrationError, Jacobian, Real, Scalar, ScalarOf, State, Statistics, VecOf,
@@ -154,6 +155,7 @@ impl<T: Real, J> Midpoint<T, J> {
         let mut iterations = 0;
         // before the first correction: the larger of the state, and of what the slope there moves it
         let mut usual: Option<T> = None;
+        let mut plateau = Plateau::new();
         loop {
             let point = displaced(&x, T::ONE, &displaced(half_increment, T::ONE, rest));
             let slope = start.derivative_at(middle, point);
@@ -168,11 +170,8 @@ impl<T: Real, J> Midpoint<T, J> {
                 work.newton = Some((Factors::new(&one_less::<DimOf<S>, _>(half, jacobian)), reach));
             }
             let Some((newton, reach)) = &work.newton else { continue };
-            let mut defect = slope;
-            for (r, d) in defect.as_mut().iter_mut().zip(half_increment.as_ref()) {
-                *r = half * *r - *d;
-            }
-            let correction = newton.solve(&defect);
+            let correction = corrected(newton, half, &slope, half_increment);
+            let before = *half_increment;
             *half_increment = displaced(half_increment, T::ONE, &correction);
             iterations += 1;
             statistics.iterations += 1;
@@ -188,6 +187,19 @@ impl<T: Real, J> Midpoint<T, J> {
                 }
                 return Ok(());
             }
+            if plateau.is_level(&correction, residual) && residual > T::ONE {
+                let ahead = |part: T| {
+                    let there = displaced(&before, part, &correction);
+                    let slope =
+                        start.derivative_at(middle, displaced(&x, T::ONE, &displaced(&there, T::ONE, rest)));
+                    corrected(newton, half, &slope, &there)
+                };
+                let is_open = |row| exceeds(row, (&correction, &x, &before, reach), self.tolerance);
+                let permitted = T::EPSILON.sqrt() * usual;
+                if plateau.is_rounding(&correction, permitted, is_open, ahead) {
+                    return Ok(());
+                }
+            }
             if !residual.is_finite() || iterations >= MOST_ITERATIONS {
                 if !retry {
                     let reached = displaced(&x, T::from_f64(2.0), half_increment);
@@ -198,6 +210,7 @@ impl<T: Real, J> Midpoint<T, J> {
                 *half_increment = DimOf::<S>::vec(T::ZERO);
                 work.newton = None;
                 preceding = None;
+                plateau = Plateau::new();
                 iterations = 0;
                 continue;
             }
@@ -207,6 +220,20 @@ impl<T: Real, J> Midpoint<T, J> {
             preceding = Some(residual);
         }
     }
+}
+
+/// What half an increment is to be changed by, where this is the slope.
+fn corrected<D: Dim, T: Real>(
+    newton: &Factors<D, T>,
+    half: T,
+    slope: &D::Vec<T>,
+    increment: &D::Vec<T>,
+) -> D::Vec<T> {
+    let mut defect = *slope;
+    for (r, d) in defect.as_mut().iter_mut().zip(increment.as_ref()) {
+        *r = half * *r - *d;
+    }
+    newton.solve(&defect)
 }
 
 /// The largest absolute value of a component; NaN if there is one.

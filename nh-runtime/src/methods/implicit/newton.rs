@@ -86,6 +86,16 @@ pub(in crate::methods) fn size<T: Real, V: AsRef<[T]>>(correction: &V, x: &V, in
     most
 }
 
+/// Whether a component of a correction is more than the same measures permit.
+pub(in crate::methods) fn exceeds<T: Real, V: AsRef<[T]>>(
+    row: usize,
+    (correction, x, increment, reach): (&V, &V, &V, &V),
+    tolerance: T,
+) -> bool {
+    let of = |list: &V| list.as_ref().get(row).map_or(T::ZERO, |entry| entry.abs());
+    of(correction) > tolerance * Scalar::max(Scalar::max(of(x) + of(increment), of(reach)), T::MIN_POSITIVE)
+}
+
 /// The share of a correction that has to be within rounding, where corrections shrink by a ratio: what is missing after
 /// this one is the rest of a geometric series, which may come to a hundredth of a rounding unit. The whole, where the
 /// ratio is not known yet.

@@ -7,7 +7,8 @@ use step::{Along, Parts, Step, dot};
 use super::Symmetric;
 use crate::arrays::displaced;
 use crate::linear::Factors;
-use crate::methods::implicit::newton::{SLOW, check_tolerance, once, one_less, refusal};
+use crate::methods::implicit::newton::{SLOW, check_tolerance, exceeds, once, one_less, refusal};
+use crate::methods::plateau::{Plateau, largest_of};
 use crate::methods::{Analytic, Arrival, FiniteDifferences, Fixed, Linearization, OneStep, Start};
 use crate::{AlmostPoisson, DimOf, Dynamics, IntegrationError, Real, ScalarOf, State, Statistics, VecOf};
 
@@ -172,6 +173,7 @@ impl<T: Real, J> Gonzalez<T, J> {
         let most = (T::EPSILON * T::EPSILON).recip();
         let (mut best, mut stalled, mut iterations) = (most, 0, 0);
         let (mut settled, mut noise) = (None, None);
+        let mut plateau = Plateau::new();
         loop {
             let (_, factors) = match matrix {
                 Some(matrix) => matrix,
@@ -206,6 +208,16 @@ impl<T: Real, J> Gonzalez<T, J> {
             if size == T::ZERO || (stalled >= STALLED && size <= bearable) {
                 break;
             }
+            let ahead =
+                |part: T| factors.solve(&step.defect(&displaced(&before, part, &correction), settled).0);
+            let permitted = T::EPSILON.sqrt() * largest_of([step.x, &change]);
+            let is_open = |row| exceeds(row, (&correction, step.x, &change, &change), self.tolerance);
+            if plateau.is_level(&correction, size)
+                && size > bearable
+                && plateau.is_rounding(&correction, permitted, is_open, ahead)
+            {
+                break;
+            }
             if !size.is_finite() || iterations >= MOST_ITERATIONS {
                 if !retry {
                     let reached = displaced(step.x, T::ONE, &change);
@@ -215,6 +227,7 @@ impl<T: Real, J> Gonzalez<T, J> {
                 }
                 (retry, matrix, best, stalled, iterations) = (false, None, most, 0, 0);
                 (settled, noise) = (None, None);
+                plateau = Plateau::new();
                 change = DimOf::<S>::vec(T::ZERO);
                 continue;
             }

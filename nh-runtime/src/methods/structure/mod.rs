@@ -1,5 +1,6 @@
 //! Methods that keep what the flow keeps.
 
+mod blur;
 mod composition;
 mod conserving;
 mod discrete_gradient;

@@ -1,7 +1,9 @@
 //! The variational method with position constraints.
 
+use super::blur::{PART, PERIODS, add_changes, apart, blur, few, signed};
 use crate::arrays::{Array, all_finite, difference, displaced, nought};
-use crate::methods::implicit::newton::{Settling, falls, is_first_term, refusal, size, sizes};
+use crate::methods::implicit::newton::{Settling, exceeds, falls, is_first_term, refusal, size, sizes};
+use crate::methods::plateau::{Plateau, largest_of};
 use crate::methods::{Arrival, Fixed, OneStep, Start, Symmetric};
 use crate::{
     Dim, DimOf, DiscreteLagrangian, IntegrationError, Real, Scalar, ScalarOf, State, Statistics, VecOf,
@@ -77,7 +79,9 @@ where
         let mut u = displaced(&velocity, T::ONE, work);
         let (mut iterations, mut before, mut least, mut reach) = (0, None, None, None);
         let mut settling = Settling::<DimOf<S>, T>::new();
+        let mut plateau = Plateau::new();
         loop {
+            let from = u;
             let ends @ [_, end] = action.ends(x, &u);
             let mut correction = action.correction(&ends);
             // where it is more than the velocities, rounding of the positions by a short step may be all of it
@@ -113,6 +117,15 @@ where
                 if sizes.as_ref().iter().zip(reach.as_ref()).all(|(size, reach)| size <= reach) {
                     break;
                 }
+            }
+            let ahead = |part: T| action.correction(&action.ends(x, &displaced(&from, part, &correction)));
+            let permitted = T::EPSILON.sqrt() * largest_of([&displaced(&none, h.recip(), x), &u]);
+            let is_open = |row| exceeds(row, (&moved[0], x, &moved[1], &none), self.tolerance);
+            if plateau.is_level(&correction, size)
+                && size > self.tolerance
+                && plateau.is_rounding(&correction, permitted, is_open, ahead)
+            {
+                break;
             }
             before = Some(size);
         }
@@ -196,17 +209,9 @@ where
         self.start.system.position_constraints(&S::State::from_array(*at))
     }
 
-    /// What rounding makes of the constraints: four units of the last places of the positions, and of what equations are
-    /// the sum of, which moving the positions far apart shows.
+    /// What rounding makes of the constraints.
     fn blur(&self, there: &VecOf<S>) -> VecOf<S> {
-        let open = |x: &VecOf<S>| self.open(x);
-        let (here, mut blur) = (open(there), DimOf::<S>::vec(T::ZERO));
-        for part in [T::from_f64(PART), few()] {
-            add_changes(&mut blur, &here, part, |period, part| {
-                open(&halves(&apart(there, part, period), &behind(there)))
-            });
-        }
-        blur
+        blur(there, there, |x| self.open(x))
     }
 
     /// p₀ + h/2 ∂L/∂q(q₀, u) − (∂L/∂q̇(q₀, u) + ∂L/∂q̇(q₁, u))/2, which multipliers of the constraints at the start make up
@@ -234,42 +239,6 @@ where
             displaced(&displaced(&rest, half, &displaced(&mean, T::ONE, &other)), half * self.h, &slopes[1]);
         let given = halves(&difference(&momentum, &at_rest), &rest);
         self.constrained(&S::State::from_array(*there), &given)
-    }
-}
-
-/// The patterns in which numbers are moved apart: those at multiples of a period up, the others down.
-const PERIODS: [usize; 2] = [2, 3];
-/// The part of numbers by which they are moved apart so that the terms of a sum show, also where it has a turning point.
-const PART: f64 = 1.0 / 8.0;
-
-/// Four units of the last place of 1.
-fn few<T: Real>() -> T {
-    T::from_f64(4.0) * T::EPSILON
-}
-
-/// Numbers with the signs of a pattern.
-fn signed<T: Real, V: Array<T>>(numbers: &V, period: usize) -> V {
-    let mut signed = *numbers;
-    let n = (signed.as_ref().len() / 2).max(1);
-    for (place, number) in signed.as_mut().iter_mut().enumerate() {
-        *number = if (place % n).is_multiple_of(period) { *number } else { -*number };
-    }
-    signed
-}
-
-/// Numbers moved apart by a part of each.
-fn apart<T: Real, V: Array<T>>(numbers: &V, part: T, period: usize) -> V {
-    displaced(numbers, part, &signed(numbers, period))
-}
-
-/// Adds what moving apart makes of functions, by four units of what is moved by; what is no number there says nothing.
-fn add_changes<T: Real, V: Array<T>>(sum: &mut V, here: &V, part: T, moved: impl Fn(usize, T) -> V) {
-    for period in PERIODS {
-        let there = moved(period, part);
-        for (sum, (there, here)) in sum.as_mut().iter_mut().zip(there.as_ref().iter().zip(here.as_ref())) {
-            let change = (*there - *here).abs() * (few::<T>() / part);
-            *sum += if change.is_finite() { change } else { T::ZERO };
-        }
     }
 }
 

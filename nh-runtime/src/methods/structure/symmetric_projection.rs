@@ -1,11 +1,13 @@
 //! Symmetric methods that stay on the constraints.
 
 use super::Symmetric;
+use super::blur::{blur, is_within};
 use crate::arrays::displaced;
-use crate::held::Holding;
-use crate::methods::implicit::newton::{falls, refusal, sizes};
+use crate::held::{Held, Holding};
+use crate::methods::implicit::newton::{self, falls, refusal, sizes};
+use crate::methods::plateau::{Plateau, largest_of};
 use crate::methods::{Arrival, Fixed, OneStep, Start};
-use crate::{Dim, DimOf, IntegrationError, Real, ScalarOf, State, Statistics, VecOf};
+use crate::{Dim, DimOf, IntegrationError, Real, Scalar, ScalarOf, State, Statistics, VecOf};
 
 /// A step with symmetric projection, mathematics (38): the start is moved off the constraints by R(x₀) μ, the method
 /// takes its step, and R(x₁) μ with the same μ leads back to where g(x₁) = 0.
@@ -49,6 +51,55 @@ impl<S: Holding, K: Copy> Copy for Work<S, K> {}
 /// The iterations after which a solution is given up.
 const MOST_ITERATIONS: u32 = 50;
 
+/// A step with both moves by some μ.
+struct Way<S: Holding> {
+    change: VecOf<S>,
+    end: VecOf<S>,
+    /// What is left of the equations at the end, and what they ask of μ there.
+    left: VecOf<S>,
+    correction: VecOf<S>,
+}
+
+impl<P> SymmetricProjection<P> {
+    /// R(x₀) μ, the step, R(x₁) μ.
+    fn way<S: Holding>(
+        &self,
+        (start, x, h): (&Start<'_, S>, &VecOf<S>, ScalarOf<S>),
+        (first, last): (&Held<S::State>, &mut Held<S::State>),
+        amounts: &VecOf<S>,
+        (work, statistics): (&mut P::Work, &mut Statistics),
+    ) -> Result<Way<S>, IntegrationError>
+    where
+        P: OneStep<S>,
+        ScalarOf<S>: Real,
+    {
+        let Start { system, input, time, .. } = *start;
+        let one = ScalarOf::<S>::ONE;
+        let mut change = first.along(amounts);
+        let here = displaced(x, one, &change);
+        let state = S::State::from_array(here);
+        let within =
+            self.base.increment(&Start { system, input, time, state: &state }, &here, h, work, statistics)?;
+        change = displaced(&change, one, &within);
+        let reached = displaced(x, one, &displaced(&change, one, &last.along(amounts)));
+        *last = system.held(time + h, &S::State::from_array(reached));
+        change = displaced(&change, one, &last.along(amounts));
+        let end = displaced(x, one, &change);
+        let left = system.equations(time + h, &S::State::from_array(end));
+        Ok(Way { change, end, left, correction: last.projector().amounts(&left) })
+    }
+}
+
+/// What rounding of the step and of their terms makes of the equations.
+fn of_rounding<S: Holding>((start, x, h): (&Start<'_, S>, &VecOf<S>, ScalarOf<S>), way: &Way<S>) -> VecOf<S>
+where
+    ScalarOf<S>: Real,
+{
+    let open = |x: &VecOf<S>| start.system.equations(start.time + h, &S::State::from_array(*x));
+    let moved = displaced(&sizes(x), ScalarOf::<S>::ONE, &sizes(&way.change));
+    blur(&way.end, &moved, open)
+}
+
 impl<T: Real, S: Holding, P: OneStep<S>> OneStep<S> for SymmetricProjection<P>
 where
     S::State: State<Scalar = T>,
@@ -90,39 +141,46 @@ where
         work: &mut Self::Work,
         statistics: &mut Statistics,
     ) -> Result<VecOf<S>, IntegrationError> {
-        let Start { system, input, time, state } = *start;
-        let first = system.held(time, state);
+        let first = start.system.held(start.time, start.state);
         let mut last = first;
         let mut amounts = work.amounts;
         let mut least: Option<VecOf<S>> = None;
+        let mut plateau = Plateau::new();
         let half = T::from_f64(0.5);
         let mut iterations = 0;
         loop {
-            // R(x₀) μ, the step, R(x₁) μ
-            let mut change = first.along(&amounts);
-            let here = displaced(x, T::ONE, &change);
-            let state = S::State::from_array(here);
-            let moved = Start { system, input, time, state: &state };
-            let within = self.base.increment(&moved, &here, h, &mut work.base, statistics)?;
-            change = displaced(&change, T::ONE, &within);
-            let reached = displaced(x, T::ONE, &displaced(&change, T::ONE, &last.along(&amounts)));
-            last = system.held(time + h, &S::State::from_array(reached));
-            change = displaced(&change, T::ONE, &last.along(&amounts));
-            let end = displaced(x, T::ONE, &change);
-            let left = system.equations(time + h, &S::State::from_array(end));
-            // both moves change g by μ, to first order
-            let correction = last.projector().amounts(&left);
-            amounts = displaced(&amounts, -half, &correction);
+            let way = self.way((start, x, h), (&first, &mut last), &amounts, (&mut work.base, statistics))?;
             iterations += 1;
-            let now = sizes(&correction);
-            if !falls(least.get_or_insert(now).as_mut(), now.as_ref()) && iterations > 1 {
-                work.amounts = amounts;
-                return Ok(change);
-            }
+            let now = sizes(&way.correction);
             let size = now.as_ref().iter().fold(T::ZERO, |most, size| most.max(*size));
+            // what is no longer less than before is not yet rounding: the one before was less by accident, or all lead away
+            let is_less = falls(least.get_or_insert(now).as_mut(), now.as_ref()) || iterations == 1;
+            let is_level = plateau.is_level(&way.correction, size);
+            let blur = if is_less { DimOf::<S>::vec(T::ZERO) } else { of_rounding((start, x, h), &way) };
+            let is_open = |row| !is_within(row, &way.left, &blur);
+            let mut is_there = !is_less && (0..DimOf::<S>::N).all(|row| !is_open(row));
+            let moved = largest_of([&last.along(&way.correction); 2]);
+            let is_small = moved <= T::EPSILON.sqrt().sqrt() * largest_of([x, &way.change]);
+            if !is_there && is_level && is_small {
+                let mut base = self.base.work();
+                is_there = plateau.is_rounding(&way.correction, size, is_open, |part| {
+                    let further = displaced(&amounts, -half * part, &way.correction);
+                    let work = (&mut base, &mut *statistics);
+                    let way = self.way((start, x, h), (&first, &mut { last }), &further, work);
+                    way.map_or(DimOf::<S>::vec(T::from_f64(f64::NAN)), |way| way.correction)
+                });
+            }
+            // both moves change g by μ, to first order
+            amounts = displaced(&amounts, -half, &way.correction);
+            if is_there {
+                work.amounts = amounts;
+                return Ok(way.change);
+            }
             if iterations == MOST_ITERATIONS || !size.is_finite() {
-                work.amounts = DimOf::<S>::vec(T::ZERO);
-                return Err(refusal(start, h, (iterations, size), end.as_ref(), None));
+                let (none, moved) = (DimOf::<S>::vec(T::ZERO), last.along(&way.correction));
+                work.amounts = none;
+                let residual = newton::size(&moved, x, &way.change, &none) / (T::from_f64(1e3) * T::EPSILON);
+                return Err(refusal(start, h, (iterations, residual), way.end.as_ref(), None));
             }
         }
     }
