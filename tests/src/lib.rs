@@ -13,3 +13,4 @@ pub mod systems;
 pub mod trajectories;
 pub mod twins;
 pub mod values;
+pub mod vectors;

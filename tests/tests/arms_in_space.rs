@@ -3,6 +3,7 @@
 
 use nh_tests::linear::solved;
 use nh_tests::random::Random;
+use nh_tests::vectors::{Square, Vector, cross, image, plus, product, transposed};
 use nonholonomic::prelude::*;
 
 const BODIES: usize = 6;
@@ -45,32 +46,6 @@ struct Arms<T> {
 const PARENTS: [Option<usize>; BODIES] = [None, Some(0), Some(1), Some(2), Some(1), Some(4)];
 const AXES: [[f64; 3]; BODIES] =
     [[0.0, 0.0, 1.0], [0.0, 1.0, 0.0], [0.0, 1.0, 0.0], [0.6, 0.0, 0.8], [1.0, 0.0, 0.0], [0.0, 0.0, 1.0]];
-
-type Vector = [f64; 3];
-type Square = [Vector; 3];
-
-fn cross(a: Vector, b: Vector) -> Vector {
-    std::array::from_fn(|i| {
-        let (j, k) = ((i + 1) % 3, (i + 2) % 3);
-        a[j] * b[k] - a[k] * b[j]
-    })
-}
-
-fn plus(a: Vector, b: Vector) -> Vector {
-    std::array::from_fn(|i| a[i] + b[i])
-}
-
-fn image(a: &Square, u: Vector) -> Vector {
-    std::array::from_fn(|i| (0..3).map(|j| a[i][j] * u[j]).sum())
-}
-
-fn product(a: &Square, b: &Square) -> Square {
-    std::array::from_fn(|i| std::array::from_fn(|j| (0..3).map(|k| a[i][k] * b[k][j]).sum()))
-}
-
-fn transposed(a: &Square) -> Square {
-    std::array::from_fn(|i| std::array::from_fn(|j| a[j][i]))
-}
 
 /// û, with û w = u × w.
 fn hat(u: Vector) -> Square {

@@ -3,41 +3,16 @@
 #![allow(non_snake_case, reason = "parameters are written as in mechanics: M")]
 
 use nh_tests::random::Random;
+use nh_tests::vectors::{Square, Vector, cross, dot, image, plus, product, transposed};
 use nonholonomic::prelude::*;
 
-type Vector = [f64; 3];
-type Square = [Vector; 3];
-
-fn cross(a: Vector, b: Vector) -> Vector {
-    std::array::from_fn(|i| {
-        let (j, k) = ((i + 1) % 3, (i + 2) % 3);
-        a[j] * b[k] - a[k] * b[j]
-    })
-}
-
-fn plus(a: Vector, b: Vector) -> Vector {
-    std::array::from_fn(|i| a[i] + b[i])
+/// Aᵀ u.
+fn back(a: &Square, u: Vector) -> Vector {
+    image(&transposed(a), u)
 }
 
 fn scaled(factor: f64, a: Vector) -> Vector {
     a.map(|entry| factor * entry)
-}
-
-fn dot(a: Vector, b: Vector) -> f64 {
-    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
-}
-
-fn image(a: &Square, u: Vector) -> Vector {
-    std::array::from_fn(|i| dot(a[i], u))
-}
-
-/// Aᵀ u.
-fn back(a: &Square, u: Vector) -> Vector {
-    std::array::from_fn(|i| (0..3).map(|j| a[j][i] * u[j]).sum())
-}
-
-fn product(a: &Square, b: &Square) -> Square {
-    std::array::from_fn(|i| std::array::from_fn(|j| (0..3).map(|k| a[i][k] * b[k][j]).sum()))
 }
 
 /// The rotation of a quaternion of length 1.
