@@ -370,11 +370,14 @@ fn turn(mass: &mut [Vec<Residue>], velocities: &[usize; 3], matrix: &[Vec<Residu
     };
     for row in mass.iter_mut() {
         let values = velocities.map(|a| row[a]);
-        velocities.iter().enumerate().for_each(|(k, a)| row[*a] = turned(values, k));
+        for (k, a) in velocities.iter().enumerate() {
+            row[*a] = turned(values, k);
+        }
     }
-    for column in 0..mass.len() {
-        let values = velocities.map(|a| mass[a][column]);
-        velocities.iter().enumerate().for_each(|(k, a)| mass[*a][column] = turned(values, k));
+    let [x, y, z] = velocities.map(|a| mass[a].clone());
+    for (k, a) in velocities.iter().enumerate() {
+        let columns = x.iter().zip(&y).zip(&z);
+        mass[*a] = columns.map(|((x, y), z)| turned([*x, *y, *z], k)).collect();
     }
 }
 

@@ -35,6 +35,7 @@ impl Resolver {
             }
             Ok(())
         });
+        self.identities = found.iter().map(|identity| identity.value).collect();
         found
     }
 

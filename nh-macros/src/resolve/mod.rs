@@ -109,7 +109,6 @@ impl Resolver {
         let sections = &declaration.sections;
         let kinematics = self.kinematics(declaration, layout);
         let identities = sections.on.as_ref().map(|s| self.identities(&s.body)).unwrap_or_default();
-        self.identities = identities.iter().map(|identity| identity.value).collect();
         let brackets = self.brackets(&sections.brackets);
         layout.frame = sections.frame.as_ref().map(|s| self.frame(&s.body)).unwrap_or_default();
         let distribution = sections.distribution.as_ref().map(|section| self.distribution(section));

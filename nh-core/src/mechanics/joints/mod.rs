@@ -63,7 +63,9 @@ pub fn accelerations_of_joints(
     let others = LagrangianSystem { lagrangian: rest, ..system.clone() };
     let mut others = reduced_equations(sheet.graph, &others, distribution);
     let turned = OtherAxes::of(&mut sheet, &tree, &mut motions, &others.mass);
-    turned.iter().for_each(|axes| axes.turn_forces(&mut sheet, &mut others.force));
+    for axes in &turned {
+        axes.turn_forces(&mut sheet, &mut others.force);
+    }
     let mut joints = Joints {
         tree: &tree,
         motions: &motions,
@@ -90,7 +92,9 @@ pub fn accelerations_of_joints(
         accelerations[*a] = value;
     }
     joints.outwards(&mut sheet, &mut accelerations);
-    turned.iter().for_each(|axes| axes.turn_accelerations(&mut sheet, &mut accelerations));
+    for axes in &turned {
+        axes.turn_accelerations(&mut sheet, &mut accelerations);
+    }
     let Sheet { graph, procedure, .. } = sheet;
     let mut outputs = system.algebroid.rates(graph, &distribution.velocity);
     outputs.extend(accelerations);

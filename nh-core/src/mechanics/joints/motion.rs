@@ -91,7 +91,7 @@ impl Rates<'_> {
                 let rate = self.of_sections(sheet, &free.rates)?;
                 Some(match free.axes {
                     Axes::Own => rate,
-                    Axes::Carrier => outward(sheet, frame, rate),
+                    Axes::Carrier => outward(sheet, frame, &rate),
                 })
             }
         }
@@ -108,7 +108,7 @@ impl Rates<'_> {
         if frame.slide.is_empty() {
             let rate = self.of(sheet, &frame.offset)?;
             let inner = twice_crossed(sheet, before, &rate.value);
-            let Rate { columns, change, .. } = outward(sheet, frame, rate);
+            let Rate { columns, change, .. } = outward(sheet, frame, &rate);
             return Some(Shift { columns, inner, outer: change });
         }
         // ṙ = E u, Eᵀ r̈ = u̇ + w × u
@@ -126,7 +126,7 @@ fn twice_crossed(sheet: &mut Sheet, a: &Vector, b: &Vector) -> Vector {
 }
 
 /// A rate in the carrier's axes, in those of the frame.
-fn outward(sheet: &mut Sheet, frame: &Frame, rate: Rate) -> Rate {
+fn outward(sheet: &mut Sheet, frame: &Frame, rate: &Rate) -> Rate {
     let mut columns: [Vec<ExprId>; 3] = Default::default();
     for a in 0..rate.columns[0].len() {
         let column: Vector = std::array::from_fn(|k| rate.columns[k][a]);

@@ -30,7 +30,8 @@ fn main() -> std::io::Result<()> {
     for (name, declaration) in chosen {
         if is_asked("--times") {
             let [(one, steps), (two, _)] = [(); 2].map(|()| cost(&declaration));
-            println!("{:8.1}  {steps:9}  {name}", one.min(two));
+            let refused = if declaration.system().is_ok() { "" } else { ", refused" };
+            println!("{:8.1}  {steps:9}  {name}{refused}", one.min(two));
             continue;
         }
         match declaration.system() {
