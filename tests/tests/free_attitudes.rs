@@ -181,9 +181,9 @@ macro_rules! spacecraft {
         impl Spacecraft for $name {
             const DERIVED: &'static str = Self::DERIVATION;
             fn rates(craft: &Craft, motion: &Motion) -> Rates {
+                type Input = <$name as Dynamics>::Input;
                 let Craft { M, I, m, J, b, l, c, g } = *craft;
                 let machine = $name { M, I, m, J, b, l, c, g };
-                type Input = <$name as Dynamics>::Input;
                 let state = $state(motion);
                 $rates(motion, machine.derivative(0.0, &state, &Input { torque: TORQUE }))
             }
