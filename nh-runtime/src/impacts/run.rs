@@ -166,6 +166,10 @@ where
         {
             let rounding = sizes.get(index).map_or(zero, |size| ScalarOf::<S>::EPSILON.sqrt() * *size)
                 + ScalarOf::<S>::from_f64(64.0) * ScalarOf::<S>::EPSILON * (*s * t).abs();
+            // which gaps are closed is not known where it is no number, as at no time
+            if gap.is_some() && !rounding.is_finite() {
+                return Err(ImpactError::NotFinite { row: row(index), time });
+            }
             let is_seen = touching.get(index) == Some(&true);
             *present = gap.is_none_or(|gap| (is_seen || gap <= closed.max(rounding)) && *s <= zero);
             pushes |= gap.is_some() && *present;

@@ -56,6 +56,22 @@ fn a_ball_that_is_away_or_separates_stays_as_it_is() {
     }
 }
 
+/// Gaps are closed up to the rounding of what a row moves by in the time: where that is no number, nothing is known of them.
+#[test]
+fn at_no_time_no_jump_is_made() {
+    let falling = BallState { y: 0.0, y_dot: -2.0, ..BallState::default() };
+    let above = BallState { y: 0.5, ..falling };
+    for t in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
+        for state in [falling, above] {
+            let error = BALL.impact_floor(t, &state).unwrap_err();
+            assert!(matches!(error, ImpactError::NotFinite { row: "floor", .. }), "{t}: {error}");
+        }
+    }
+    // so fast that it may have been anywhere
+    let fast = BallState { y: 0.5, y_dot: -1e200, ..falling };
+    assert!(matches!(BALL.impact_floor(1e200, &fast), Err(ImpactError::NotFinite { .. })));
+}
+
 #[test]
 fn bounces_without_end_are_an_event_and_no_fall_through_the_ground() {
     let start = BallState { y: 1.0, x_dot: 0.5, ..BallState::default() };
