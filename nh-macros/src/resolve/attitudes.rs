@@ -8,6 +8,7 @@ use super::array::{Array, Shape};
 use super::context::Usage;
 use super::reports::Outcome;
 use super::resolver::Resolver;
+use super::turns::MOST;
 use crate::syntax::ast::Expr;
 
 /// Symbols with the values at which an attitude is 1.
@@ -95,12 +96,19 @@ impl Resolver {
 
     /// Takes a product apart whose factors are both attitudes that the anchor turns, or products of rotations.
     pub(super) fn factored(&mut self, expr: &Expr, r: &Array) -> Outcome<()> {
+        self.factored_within(expr, r, MOST)
+    }
+
+    /// The same of so many products of products at most.
+    fn factored_within(&mut self, expr: &Expr, r: &Array, most: usize) -> Outcome<()> {
         if self.rotations.known.contains_key(&r.entries) {
             return Ok(());
         }
         let Some([left, right]) = self.rotations.products.get(&r.entries).cloned() else { return Ok(()) };
         for factor in [&left, &right] {
-            self.factored(expr, factor)?;
+            if most > 0 {
+                self.factored_within(expr, factor, most - 1)?;
+            }
             if !self.rotations.known.contains_key(&factor.entries) && self.spin(expr, factor)?.is_none() {
                 return Ok(());
             }

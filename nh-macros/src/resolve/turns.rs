@@ -11,7 +11,7 @@ use nonholonomic_core::model::Turn;
 use super::array::{Array, Shape};
 
 /// More turns one after the other than joints in a row: products of products of them would be told apart for ever.
-const MOST: usize = 64;
+pub(super) const MOST: usize = 64;
 
 /// Matrices that are known to be products of rotations about axes.
 #[derive(Debug, Default)]

@@ -42,7 +42,7 @@ pub(super) struct Hinges {
     by_symbols: Vec<(SymbolId, Derivation)>,
 }
 
-/// A body with the factors of its attitude; `None` of a point that has none.
+/// The factors of a body's attitude; `None` of a point, which has none.
 pub(super) type Path = Option<Vec<Hinge>>;
 
 impl Hinge {

@@ -46,6 +46,18 @@ fn matrices() {
 const LONG: &str = "the numbers in this expression become too long";
 
 /// Two hundred abbreviations, each made of the one before it, which is `@`.
+/// A matrix that is asked for what it is made of has been multiplied thousands of times.
+#[test]
+fn products_of_products() {
+    let steps =
+        joined((1..3000).map(|k| format!("let A{k} = A{} * [[1, 0, 0], [0, 1, 0], [0, 0, 1]];", k - 1)));
+    let attribute = format!(
+        "base {{ q[4] }} let A0 = [[q[0], q[1], 0], [0, q[2], 0], [0, 0, q[3]]]; {steps}
+         lagrangian {{ kinetic(1, 1, [q[0], q[1], q[2]], A2999) }}"
+    );
+    assert!(first_lines(&attribute, "struct S;").is_empty());
+}
+
 fn doubling(start: &str, step: &str) -> String {
     let line = |k: i32| format!("let a{k} = {};", step.replace('@', &format!("a{}", k - 1)));
     let lines = joined((1..200).map(line));
