@@ -4,7 +4,7 @@ use super::assumptions::on_the_base;
 use super::evidence::{not_zero_on, shown};
 use super::kinematics::Motion;
 use super::no_force::without_slope;
-use crate::algebra::{Demand, Verdict};
+use crate::algebra::{Demand, Graph, Verdict};
 use crate::geometry::Manifold;
 use crate::id::{ExprId, Id, SectionId, SymbolId};
 use crate::model::{Kinematics, Located, Model};
@@ -67,7 +67,9 @@ fn stranger(model: &Model, coordinates: &[SymbolId], identity: Located) -> Optio
 fn without_real_point(model: &Model, identities: &[Located]) -> Option<Violation> {
     let demands: Vec<(ExprId, Demand)> =
         identities.iter().map(|identity| (identity.value, Demand::Zero)).collect();
-    let count = (1..=demands.len()).find(|count| model.graph.contradiction(&demands[..*count]).is_some())?;
+    let is_refuted =
+        |count: &usize| model.graph.contradiction(&touching(&model.graph, &demands[..*count])).is_some();
+    let count = (1..=demands.len()).find(is_refuted)?;
     let identity = identities[count - 1];
     let together = if count == 1 { "" } else { " together with the identities before it" };
     Some(Violation {
@@ -80,6 +82,29 @@ fn without_real_point(model: &Model, identities: &[Located]) -> Option<Violation
         ),
         way_out: "correct it, or leave it out".into(),
     })
+}
+
+/// The last demand with those that share symbols with it, also through others: where the rest can be met does not depend
+/// on it.
+fn touching(graph: &Graph, demands: &[(ExprId, Demand)]) -> Vec<(ExprId, Demand)> {
+    let Some(((last, demand), before)) = demands.split_last() else { return Vec::new() };
+    let mut symbols = graph.symbols_in(&[*last]);
+    let mut left: Vec<(ExprId, Demand)> = before.to_vec();
+    let mut found: Vec<(ExprId, Demand)> = Vec::new();
+    loop {
+        let is_near = |(value, _): &(ExprId, Demand)| {
+            graph.symbols_in(&[*value]).iter().any(|symbol| symbols.contains(symbol))
+        };
+        let (near, rest): (Vec<_>, Vec<_>) = left.into_iter().partition(is_near);
+        if near.is_empty() {
+            break;
+        }
+        symbols.extend(near.iter().flat_map(|(value, _)| graph.symbols_in(&[*value])));
+        found.extend(near);
+        left = rest;
+    }
+    found.push((*last, *demand));
+    found
 }
 
 /// An identity whose derivative vanishes where it holds, as that of a square does: there is no way back to it.

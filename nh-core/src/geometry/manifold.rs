@@ -220,6 +220,9 @@ impl Manifold {
 
     /// The restriction of a function.
     pub fn restrict(&self, graph: &mut Graph, function: ExprId) -> ExprId {
+        if graph.as_number(function).is_some() {
+            return function;
+        }
         Substitution::new(self.images.iter().copied()).apply(graph, function)
     }
 

@@ -52,6 +52,7 @@ fn work_has_ceilings() {
         ("so(n)", 16, 2_080),
         ("closed loops", 5, 1_065),
         ("bodies in space", 5, 565),
+        ("bodies by quaternions", 6, 474),
         ("long vectors", 300, 3_625),
         ("shared lets that double in functions", 40, 2_395),
     ] {

@@ -167,29 +167,35 @@ fn vee(graph: &mut Graph, matrix: &[ExprId]) -> Option<Vector> {
     Some(rate.map(|entry| graph.number(entry)))
 }
 
-/// n[e_α, e_β] = ± n_α × n_β, as numbers.
+/// n[e_α, e_β] = ± n_α × n_β, as numbers: of two that turn the attitude, and 0 of others.
 fn axes(graph: &mut Graph, algebroid: &Algebroid, rates: &[(usize, Vector)]) -> Option<Axes> {
-    let mut own = true;
-    let mut carrier = true;
-    let rate_of = |graph: &mut Graph, alpha: SectionId| {
-        let known = rates.iter().find(|(other, _)| *other == alpha.index());
-        known.map_or([graph.zero(); 3], |(_, rate)| *rate)
-    };
-    for alpha in algebroid.sections() {
-        for beta in algebroid.sections().skip(alpha.index() + 1) {
-            let (n, m) = (rate_of(graph, alpha), rate_of(graph, beta));
-            for k in 0..3 {
-                let (i, j) = ((k + 1) % 3, (k + 2) % 3);
-                let mut sum = graph.zero();
-                for (gamma, rate) in rates {
-                    let structure =
-                        algebroid.structure.get(graph, SectionId::from_index(*gamma), alpha, beta);
-                    sum = graph.formula(sum + structure * rate[k]);
-                }
-                let product = graph.formula(n[i] * m[j] - n[j] * m[i]);
-                own &= sum == product;
-                carrier &= sum == graph.formula(-product);
-            }
+    let rate_of = |section: SectionId| rates.iter().find(|(other, _)| *other == section.index());
+    let none = [graph.zero(); 3];
+    let mut brackets: Vec<([usize; 2], Vector)> = Vec::new();
+    for (first, (alpha, _)) in rates.iter().enumerate() {
+        brackets.extend(rates[first + 1..].iter().map(|(beta, _)| ([*alpha, *beta], none)));
+    }
+    for (alpha, beta, gamma, component) in algebroid.structure.terms() {
+        let Some((_, rate)) = rate_of(gamma) else { continue };
+        let pair = [alpha.index(), beta.index()];
+        let place = brackets.iter().position(|(known, _)| *known == pair).unwrap_or_else(|| {
+            brackets.push((pair, none));
+            brackets.len() - 1
+        });
+        let sum = &mut brackets[place].1;
+        for (sum, entry) in sum.iter_mut().zip(rate) {
+            *sum = graph.formula(*sum + component * *entry);
+        }
+    }
+    let (mut own, mut carrier) = (true, true);
+    for (pair, bracket) in brackets {
+        let [n, m] =
+            pair.map(|section| rate_of(SectionId::from_index(section)).map_or(none, |(_, rate)| *rate));
+        for (k, entry) in bracket.into_iter().enumerate() {
+            let (i, j) = ((k + 1) % 3, (k + 2) % 3);
+            let product = graph.formula(n[i] * m[j] - n[j] * m[i]);
+            own &= entry == product;
+            carrier &= entry == graph.formula(-product);
         }
     }
     match (own, carrier) {

@@ -2,7 +2,7 @@
 
 use std::fmt::Write;
 
-use super::{Family, declared};
+use super::{Family, declared, separated};
 
 pub(super) const FAMILIES: &[Family] = &[
     Family { name: "pendulum, absolute angles", source: absolute, sizes: &[5, 10, 20, 40] },
@@ -16,6 +16,7 @@ pub(super) const FAMILIES: &[Family] = &[
     Family { name: "arm in a vertical plane", source: vertical_arm, sizes: &[2, 5, 8, 16] },
     Family { name: "fast arms in pairs", source: pairs_of_arms, sizes: &[2, 5, 8, 16] },
     Family { name: "bodies in space", source: bodies, sizes: &[1, 5, 30] },
+    Family { name: "bodies by quaternions", source: bodies_by_quaternions, sizes: &[1, 6, 20] },
     Family { name: "closed loops", source: loops, sizes: &[1, 5, 20] },
     Family { name: "four-bars side by side", source: four_bars, sizes: &[1, 5, 10, 20] },
     Family { name: "units of a pendulum", source: units, sizes: &[3, 10, 40] },
@@ -142,6 +143,28 @@ fn bodies(n: usize) -> String {
                 ))
                 .collect::<Vec<_>>()
                 .join(" + ")
+        ),
+        "m: f64, I: [f64; 3], s: f64",
+    )
+}
+
+/// Bodies with springs between neighbours, their attitudes by quaternions.
+fn bodies_by_quaternions(n: usize) -> String {
+    let bodies = separated(n, " + ", |i| format!("kinetic(m, I, p[{i}], turned(q[{i}]))"));
+    declared(
+        &format!(
+            "base {{ p[{n}][3], q[{n}][4] }} on {{ for i in 0..{n} {{ dot(q[i], q[i]) = 1; }} }} basis {{ w[{n}][3], v[{n}][3] }}
+             let rates(e, z) = [
+                 -(e[1] * z[0] + e[2] * z[1] + e[3] * z[2]) / 2, (e[0] * z[0] + e[2] * z[2] - e[3] * z[1]) / 2,
+                 (e[0] * z[1] + e[3] * z[0] - e[1] * z[2]) / 2, (e[0] * z[2] + e[1] * z[1] - e[2] * z[0]) / 2
+             ];
+             let turned(e) = [
+                 [1 - 2 * (e[2]^2 + e[3]^2), 2 * (e[1] * e[2] - e[0] * e[3]), 2 * (e[1] * e[3] + e[0] * e[2])],
+                 [2 * (e[1] * e[2] + e[0] * e[3]), 1 - 2 * (e[1]^2 + e[3]^2), 2 * (e[2] * e[3] - e[0] * e[1])],
+                 [2 * (e[1] * e[3] - e[0] * e[2]), 2 * (e[2] * e[3] + e[0] * e[1]), 1 - 2 * (e[1]^2 + e[2]^2)]
+             ];
+             anchor {{ for i in 0..{n} {{ der(p[i]) = v[i]; der(q[i]) = rates(q[i], w[i]); }} }}
+             lagrangian {{ {bodies} - sum(i in 1..{n}, k in 0..3: s / 2 * (p[i][k] - p[i - 1][k])^2) }}"
         ),
         "m: f64, I: [f64; 3], s: f64",
     )
