@@ -87,24 +87,24 @@ fn without_real_point(model: &Model, identities: &[Located]) -> Option<Violation
 /// The last demand with those that share symbols with it, also through others: where the rest can be met does not depend
 /// on it.
 fn touching(graph: &Graph, demands: &[(ExprId, Demand)]) -> Vec<(ExprId, Demand)> {
-    let Some(((last, demand), before)) = demands.split_last() else { return Vec::new() };
-    let mut symbols = graph.symbols_in(&[*last]);
-    let mut left: Vec<(ExprId, Demand)> = before.to_vec();
-    let mut found: Vec<(ExprId, Demand)> = Vec::new();
+    let Some((last, before)) = demands.split_last() else { return Vec::new() };
+    let mut symbols = graph.symbols_in(&[last.0]);
+    let mut is_near = vec![false; before.len()];
     loop {
-        let is_near = |(value, _): &(ExprId, Demand)| {
-            graph.symbols_in(&[*value]).iter().any(|symbol| symbols.contains(symbol))
-        };
-        let (near, rest): (Vec<_>, Vec<_>) = left.into_iter().partition(is_near);
-        if near.is_empty() {
+        let mut grows = false;
+        for ((value, _), is_near) in before.iter().zip(&mut is_near).filter(|(_, is_near)| !**is_near) {
+            let own = graph.symbols_in(&[*value]);
+            if own.iter().any(|symbol| symbols.contains(symbol)) {
+                symbols.extend(own);
+                (*is_near, grows) = (true, true);
+            }
+        }
+        if !grows {
             break;
         }
-        symbols.extend(near.iter().flat_map(|(value, _)| graph.symbols_in(&[*value])));
-        found.extend(near);
-        left = rest;
     }
-    found.push((*last, *demand));
-    found
+    let near = before.iter().zip(is_near).filter(|(_, is_near)| *is_near).map(|(demand, _)| *demand);
+    near.chain([*last]).collect()
 }
 
 /// An identity whose derivative vanishes where it holds, as that of a square does: there is no way back to it.
