@@ -1,7 +1,7 @@
 //! Attitudes that turn freely: their angular velocities are velocities of the state.
 
 use super::sheet::{Square, Vector};
-use crate::algebra::{Graph, Rational, Substitution};
+use crate::algebra::{Derivation, Graph, Rational, Substitution};
 use crate::geometry::Algebroid;
 use crate::id::{ExprId, Id, SectionId, SymbolId};
 
@@ -42,28 +42,42 @@ impl FreeTurn {
         let symbols: Vec<SymbolId> = moving.iter().map(|k| anchor.coordinates[*k]).collect();
         let level = levels(graph, matrix, &symbols).into_iter().find(|level| is_one(graph, matrix, level))?;
         let mut at_level = Substitution::new(level.iter().copied());
+        let mut value_at_level = |graph: &mut Graph, value: ExprId| {
+            let value = at_level.apply(graph, value);
+            graph.simplify(value)
+        };
+        let slopes: Vec<Vec<ExprId>> = symbols
+            .iter()
+            .map(|symbol| {
+                let slopes = Derivation::partial(graph, *symbol).apply_all(graph, matrix);
+                slopes.into_iter().map(|slope| value_at_level(graph, slope)).collect()
+            })
+            .collect();
+        // a chart that is singular there has no numbers for what moves its coordinates
         let mut rates: Vec<(usize, Vector)> = Vec::new();
+        let mut shifts: Vec<Vec<ExprId>> = Vec::new();
         for alpha in algebroid.sections() {
-            let mut along = anchor.along(alpha);
-            let moved = along.apply_all(graph, matrix);
-            let moved: Vec<ExprId> = at_level.apply_all(graph, &moved);
-            let moved: Vec<ExprId> = moved.into_iter().map(|entry| graph.simplify(entry)).collect();
+            let own = moving.iter().map(|i| value_at_level(graph, anchor.entries[*i][alpha.index()]));
+            let own: Vec<ExprId> = own.collect();
+            let moved = (0..matrix.len()).map(|k| {
+                let slopes: Vec<ExprId> = slopes.iter().map(|slopes| slopes[k]).collect();
+                graph.inner_product(&slopes, &own)
+            });
+            let moved: Vec<ExprId> = moved.collect();
             let rate = vee(graph, &moved)?;
             if rate.iter().any(|entry| !graph.is_literal_zero(*entry)) {
                 rates.push((alpha.index(), rate));
+                shifts.push(own);
             }
         }
         let tangents = (0..3).map(|k| {
-            let (alpha, speed) = rates.iter().find_map(|(alpha, rate)| {
-                let others = [(k + 1) % 3, (k + 2) % 3];
-                let is_alone = others.iter().all(|other| graph.is_literal_zero(rate[*other]));
-                is_alone.then_some((*alpha, rate[k]))
-            })?;
-            let shifts = moving.iter().map(|i| {
-                let shift = at_level.apply(graph, anchor.entries[*i][alpha]);
-                (anchor.coordinates[*i], graph.formula(shift / speed))
-            });
-            Some(shifts.collect::<Vec<_>>())
+            let is_alone = |(_, rate): &(usize, Vector)| {
+                (0..3).all(|other| graph.is_literal_zero(rate[other]) != (other == k))
+            };
+            let place = rates.iter().position(is_alone)?;
+            let speed = rates[place].1[k];
+            let shifts = symbols.iter().zip(&shifts[place]);
+            Some(shifts.map(|(symbol, shift)| (*symbol, graph.formula(shift / speed))).collect::<Vec<_>>())
         });
         let tangents: [Vec<_>; 3] = tangents.collect::<Option<Vec<_>>>()?.try_into().ok()?;
         let axes = axes(graph, algebroid, &rates)?;
