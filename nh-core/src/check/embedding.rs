@@ -201,3 +201,29 @@ fn has_parameters(witness: &crate::algebra::Witness, model: &Model) -> bool {
         .collect();
     witness.point.iter().any(|(symbol, _)| !known.contains(symbol))
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// a² + b² = 1, c² + d² = 1, b² + e² = 1 and e² + 1 = a² are asked together but for the second.
+    #[test]
+    fn identities_are_asked_with_those_that_touch_them_through_others() {
+        let mut g = Graph::new();
+        let squares = ["a", "b", "c", "d", "e"].map(|name| {
+            let symbol = g.new_symbol(name);
+            let value = g.symbol(symbol);
+            g.square(value)
+        });
+        let [a, b, c, d, e] = squares;
+        let one = g.one();
+        let values = [a + b - one, c + d - one, b + e - one, e + one - a].map(|value| g.formula(value));
+        let demands = values.map(|value| (value, Demand::Zero));
+        assert_eq!(touching(&g, &demands), [demands[0], demands[2], demands[3]]);
+        assert_eq!(touching(&g, &demands[..2]), [demands[1]]);
+        // the first and the third leave e² = a², which the last denies
+        assert!(g.contradiction(&touching(&g, &demands)).is_some());
+        assert!(g.contradiction(&touching(&g, &demands[..3])).is_none());
+        assert!(g.contradiction(&[demands[0], demands[3]]).is_none());
+    }
+}

@@ -132,33 +132,23 @@ impl Claim<'_> {
 pub(crate) fn prove(graph: &Graph, reference: &Reference, claim: &Claim) -> Result<Proof, Defect> {
     let roots = [reference.roots(), claim.roots()].concat();
     let division = graph.angle_division(&roots);
-    let asked = (roots.as_slice(), division);
-    let outcome = prove_on(graph, (reference, claim), asked, &Ground::whole(division));
-    let Err(Defect::Wrong(_)) = outcome else { return outcome };
-    let Some(base) = Ground::base(graph, &roots, division) else { return outcome };
-    Ok(Proof { is_on_base: true, ..prove_on(graph, (reference, claim), asked, &base)? })
-}
-
-fn prove_on(
-    graph: &Graph,
-    (reference, claim): (&Reference, &Claim),
-    (roots, division): (&[ExprId], i64),
-    ground: &Ground,
-) -> Result<Proof, Defect> {
-    let degree = claim.degree(&mut Degrees::new(graph, division));
-    let degree = reference.degree(graph, division, degree) * ground.degree(graph);
+    let degree = reference.degree(graph, division, claim.degree(&mut Degrees::new(graph, division)));
     let bound = [reference.determined(), claim.defined()].concat();
-    let bits = bits_of_a_point(graph, (roots, &bound), &claim.procedures(), degree, division)?;
     let radicands = Radicands::of(graph, &reference.roots(), &reference.determined());
-    let outcome = at_points(
-        bits,
-        |seed| radicands.point_in(seed, |point| FieldPass::new(graph, point, division)),
-        |point| {
+    let prove_on = |ground: &Ground| {
+        let degree = degree * ground.degree(graph);
+        let bits = bits_of_a_point(graph, (&roots, &bound), &claim.procedures(), degree, division)?;
+        let point = |seed| radicands.point_in(seed, |point| FieldPass::new(graph, point, division));
+        let outcome = at_points(bits, point, |point| {
             let mut instant = reference.at(graph, ground.point(graph, point)?, division)?;
             judge(&mut instant, reference, claim)
-        },
-    );
-    unless_roots_are_missing(graph, roots, outcome)
+        });
+        unless_roots_are_missing(graph, &roots, outcome)
+    };
+    let outcome = prove_on(&Ground::whole(division));
+    let Err(Defect::Wrong(_)) = outcome else { return outcome };
+    let Some(base) = Ground::base(graph, &roots, division) else { return outcome };
+    Ok(Proof { is_on_base: true, ..prove_on(&base)? })
 }
 
 /// Proves that two procedures with the same symbols compute the same.

@@ -53,7 +53,7 @@ pub use flow::Flow;
 pub use gibbs_appell::GibbsAppell;
 pub use hamiltonian::{Drift, HamiltonianSide, NoInverse, NonholonomicBracket, hamiltonian_side};
 pub use jacobian::{NotDifferentiable, derivative_along, divergence, jacobian};
-pub use joints::{Elimination, OtherAxes, accelerations_of_joints};
+pub use joints::{Elimination, OtherAxes, accelerations_of_joints, where_attitude_is_one};
 pub use kinetic_metric::kinetic_metric;
 pub use momentum::Momentum;
 pub use moving_energy::moving_energy_section;

@@ -1,8 +1,9 @@
 //! Attitudes whose rates are velocities of the state: what turns them is read off, and not differentiated.
 
-use nonholonomic_core::algebra::{Graph, Rational, Substitution};
+use nonholonomic_core::algebra::Substitution;
 use nonholonomic_core::geometry::Manifold;
 use nonholonomic_core::id::{ExprId, SymbolId};
+use nonholonomic_core::mechanics::where_attitude_is_one;
 
 use super::array::{Array, Shape};
 use super::context::Usage;
@@ -10,9 +11,6 @@ use super::reports::Outcome;
 use super::resolver::Resolver;
 use super::turns::MOST;
 use crate::syntax::ast::Expr;
-
-/// Symbols with the values at which an attitude is 1.
-type Level = Vec<(SymbolId, ExprId)>;
 
 impl Resolver {
     /// An attitude made of coordinates whose anchor turns it: Ṙ = R ω̂, or Ṙ = Ω̂ R, is read off where R is 1,
@@ -57,7 +55,9 @@ impl Resolver {
             .map(|declared| declared.symbol)
             .filter(|symbol| symbols.contains(symbol))
             .collect();
-        let Some(level) = level(&mut self.graph, &r.entries, &moving) else { return Ok(None) };
+        let Some(level) = where_attitude_is_one(&mut self.graph, &r.entries, &moving) else {
+            return Ok(None);
+        };
         let rate = self.rate_of_value(expr, r.clone())?;
         let Some(rate) = self.along_anchor(&rate) else { return Ok(None) };
         let entries = Substitution::new(level).apply_all(&mut self.graph, &rate.entries);
@@ -124,27 +124,4 @@ impl Resolver {
             self.rotations.spinning.push((turns, velocities));
         }
     }
-}
-
-/// Where an attitude of these coordinates is 1: a matrix there; a quaternion at one of four points.
-fn level(graph: &mut Graph, matrix: &[ExprId], coordinates: &[SymbolId]) -> Option<Level> {
-    let (zero, one) = (graph.zero(), graph.one());
-    let entries: Option<Vec<SymbolId>> = matrix.iter().map(|entry| graph.as_symbol(*entry)).collect();
-    if let Some(entries) = entries {
-        let value = |k: usize| if k.is_multiple_of(4) { one } else { zero };
-        return Some(entries.into_iter().enumerate().map(|(k, symbol)| (symbol, value(k))).collect());
-    }
-    if coordinates.len() != 4 {
-        return None;
-    }
-    (0..4).find_map(|real| {
-        let value = |k: usize| if k == real { one } else { zero };
-        let level: Level = coordinates.iter().enumerate().map(|(k, symbol)| (*symbol, value(k))).collect();
-        let values = Substitution::new(level.iter().copied()).apply_all(graph, matrix);
-        let is_one = values.iter().enumerate().all(|(k, value)| {
-            let wanted = if k.is_multiple_of(4) { Rational::ONE } else { Rational::ZERO };
-            graph.as_number(*value) == Some(&wanted)
-        });
-        is_one.then_some(level)
-    })
 }

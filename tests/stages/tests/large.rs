@@ -51,7 +51,7 @@ fn work_has_ceilings() {
         ("dense anchor of parameters", 30, 14_800),
         ("so(n)", 16, 2_080),
         ("closed loops", 5, 1_065),
-        ("bodies in space", 5, 565),
+        ("bodies in space", 5, 562),
         ("bodies by quaternions", 6, 474),
         ("long vectors", 300, 3_625),
         ("shared lets that double in functions", 40, 2_395),

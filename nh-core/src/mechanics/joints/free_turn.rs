@@ -40,7 +40,8 @@ impl FreeTurn {
         let moving: Vec<usize> =
             (0..anchor.coordinates.len()).filter(|k| occurring.contains(&anchor.coordinates[*k])).collect();
         let symbols: Vec<SymbolId> = moving.iter().map(|k| anchor.coordinates[*k]).collect();
-        let level = levels(graph, matrix, &symbols).into_iter().find(|level| is_one(graph, matrix, level))?;
+        let level = where_attitude_is_one(graph, matrix, &symbols)
+            .or_else(|| where_angles_are_zero(graph, matrix, &symbols))?;
         let mut at_level = Substitution::new(level.iter().copied());
         let mut value_at_level = |graph: &mut Graph, value: ExprId| {
             let value = at_level.apply(graph, value);
@@ -135,24 +136,38 @@ impl FreeTurn {
     }
 }
 
-/// Where an attitude may be 1: a matrix there; a quaternion at one of four points; angles at 0.
-fn levels(graph: &mut Graph, matrix: &[ExprId], symbols: &[SymbolId]) -> Vec<Vec<(SymbolId, ExprId)>> {
+/// Where an attitude that depends on these symbols is 1: a matrix of coordinates there, a quaternion at one of four points;
+/// `None` of others.
+pub fn where_attitude_is_one(
+    graph: &mut Graph,
+    matrix: &[ExprId],
+    symbols: &[SymbolId],
+) -> Option<Vec<(SymbolId, ExprId)>> {
     let (zero, one) = (graph.zero(), graph.one());
     let entries: Option<Vec<SymbolId>> = matrix.iter().map(|entry| graph.as_symbol(*entry)).collect();
-    if let (Some(entries), 9) = (entries, symbols.len()) {
-        let value = |k: usize| if k.is_multiple_of(4) { one } else { zero };
-        return vec![entries.iter().enumerate().map(|(k, symbol)| (*symbol, value(k))).collect()];
+    let mut levels: Vec<Vec<(SymbolId, ExprId)>> = Vec::new();
+    let unit = |number: bool| if number { one } else { zero };
+    if let Some(entries) = entries {
+        levels.push(
+            entries.iter().enumerate().map(|(k, symbol)| (*symbol, unit(k.is_multiple_of(4)))).collect(),
+        );
+    } else if symbols.len() == 4 {
+        levels.extend((0..4).map(|real| {
+            symbols.iter().enumerate().map(|(k, symbol)| (*symbol, unit(k == real))).collect::<Vec<_>>()
+        }));
     }
-    match symbols.len() {
-        3 => vec![symbols.iter().map(|symbol| (*symbol, zero)).collect()],
-        4 => (0..4)
-            .map(|real| {
-                let value = |k: usize| if k == real { one } else { zero };
-                symbols.iter().enumerate().map(|(k, symbol)| (*symbol, value(k))).collect()
-            })
-            .collect(),
-        _ => Vec::new(),
-    }
+    levels.into_iter().find(|level| is_one(graph, matrix, level))
+}
+
+/// The same of angles, which are 0.
+fn where_angles_are_zero(
+    graph: &mut Graph,
+    matrix: &[ExprId],
+    symbols: &[SymbolId],
+) -> Option<Vec<(SymbolId, ExprId)>> {
+    let zero = graph.zero();
+    let level: Vec<(SymbolId, ExprId)> = symbols.iter().map(|symbol| (*symbol, zero)).collect();
+    is_one(graph, matrix, &level).then_some(level)
 }
 
 fn is_one(graph: &mut Graph, matrix: &[ExprId], level: &[(SymbolId, ExprId)]) -> bool {

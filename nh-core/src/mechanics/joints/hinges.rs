@@ -152,14 +152,14 @@ impl Hinges {
     }
 
     fn joined(&self, graph: &mut Graph, three: &[Hinge], algebroid: &Algebroid) -> Option<Hinge> {
-        let angles: Option<Vec<ExprId>> = three
-            .iter()
-            .map(|hinge| match &hinge.kind {
-                Kind::About { angle, .. } => Some(*angle),
-                _ => None,
-            })
-            .collect();
-        let angles = angles?;
+        let mut angles: Vec<ExprId> = Vec::with_capacity(3);
+        for hinge in three {
+            let Kind::About { angle, .. } = hinge.kind else { return None };
+            if has_own_rate(graph, angle, algebroid) {
+                return None;
+            }
+            angles.push(angle);
+        }
         let [first, second, third] = [0, 1, 2].map(|k| three[k].matrix);
         let both = product(graph, &first, &second);
         let matrix = product(graph, &both, &third);
@@ -232,6 +232,15 @@ impl Kind {
             _ => false,
         }
     }
+}
+
+/// Whether the rate of an angle is a velocity of the state, or a number of them.
+fn has_own_rate(graph: &Graph, angle: ExprId, algebroid: &Algebroid) -> bool {
+    let anchor = &algebroid.anchor;
+    let place =
+        graph.as_symbol(angle).and_then(|symbol| anchor.coordinates.iter().position(|x| *x == symbol));
+    let row = place.map(|place| anchor.entries[place].iter().filter(|entry| !graph.is_literal_zero(**entry)));
+    row.is_some_and(|mut row| row.all(|entry| graph.as_number(*entry).is_some()))
 }
 
 fn product(graph: &mut Graph, a: &Square, b: &Square) -> Square {

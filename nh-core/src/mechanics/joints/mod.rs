@@ -16,6 +16,7 @@ mod tree;
 mod turning;
 mod weight;
 
+pub use free_turn::where_attitude_is_one;
 pub use other_axes::OtherAxes;
 
 use super::adapted::reduced_equations;
