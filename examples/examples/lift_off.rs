@@ -131,7 +131,7 @@ fn descend(skier: Sliding) -> Result<Descent, IntegrationError> {
             reaction: None,
         };
         let events = Events::new(|_, s: &FlyingState, (): &()| [s.y - skier.ground(s.x)])
-            .directions([Direction::Falling]);
+            .directions([Direction::Closing]);
         let landing = loop {
             if let Some(event) = flight.advance_until(flight.time() + 0.02, &events)? {
                 break event;

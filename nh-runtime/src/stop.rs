@@ -12,6 +12,9 @@ pub enum Direction {
     Rising,
     /// From positive to negative.
     Falling,
+    /// The same of a gap, which nothing takes below zero: where a state is given at zero or below it, it comes down from
+    /// there too, unless it rises, and that is an event. What rests on the ground meets it at once.
+    Closing,
 }
 
 /// A stop at events: bits of the functions, of the first 128.
@@ -55,6 +58,8 @@ pub(crate) struct Flight<T> {
     pub(crate) start: T,
     /// Whether it got no farther than rounding shows it: by [`NO_HEIGHT`] and [`SHORT_HEIGHT`].
     pub(crate) is_hidden: [bool; 2],
+    /// Whether it was no flight, but begins with a contact that has not been met yet.
+    pub(crate) is_contact: bool,
 }
 
 pub(crate) fn bit(index: usize) -> u128 {
@@ -86,7 +91,8 @@ impl<T: Real> Stop<T> {
         if is_short || length <= T::from_f64(SHORT_FLIGHT) * unit {
             self.short_flights = before.map_or(0, |stop| stop.short_flights) + 1;
         }
-        !is_none && length > T::from_f64(NO_FLIGHT) * unit && self.short_flights <= MOST_SHORT_FLIGHTS
+        let is_flight = !is_none && length > T::from_f64(NO_FLIGHT) * unit;
+        (is_flight || flight.is_contact) && self.short_flights <= MOST_SHORT_FLIGHTS
     }
 
     /// A rounding unit of time on a flight.

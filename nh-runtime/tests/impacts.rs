@@ -426,3 +426,41 @@ fn a_gap_that_is_no_number_is_no_open_one() {
         assert!(matches!(refused, Err(error) if error == expected), "{refused:?}");
     }
 }
+
+#[test]
+fn a_row_that_no_impulse_moves_ahead_is_told_as_such() {
+    let walls = Walls { normals: [[0.0, 1.0]], bilateral: false, restitution: 0.5 };
+    let falling = Place([0.0, 0.0, 0.0, -1.0]);
+    let negative = Particle { mass: -0.25, ..HEAVY };
+    let refused = strike(&negative, &walls, 0.5, &falling, 0.0).unwrap_err();
+    assert_eq!(
+        refused.to_string(),
+        "an impulse of 1 along the row `first` changes its rate by -4.0 at t = 0.5, which has to be positive: look for a \
+         mass that is not, and for constraints that hold the row"
+    );
+    // what takes no part is not asked
+    let rising = Place([0.0, 1.0, 0.0, 1.0]);
+    assert_eq!(strike(&negative, &walls, 0.5, &rising, 0.0).unwrap().after, rising);
+    let nowhere = Walls { normals: [[0.0, 0.0]], ..walls };
+    let refused = strike(&HEAVY, &nowhere, 0.5, &falling, 0.0);
+    assert!(matches!(refused, Err(ImpactError::NoResponse { response: 0.0, .. })), "{refused:?}");
+}
+
+#[test]
+fn the_gap_up_to_which_a_row_is_closed_is_a_length() {
+    let ground = Ground { height: 0.0, slope: 0.0, restitution: 1.0 };
+    let start = Place([0.0, 1.0, 0.0, -1.0]);
+    for closed in [f64::NAN, f64::INFINITY, -1e-3] {
+        let refused = strike(&HEAVY, &ground, 0.5, &start, closed).unwrap_err();
+        assert_eq!(
+            refused.to_string(),
+            format!(
+                "the gap up to which a row is closed is {closed:?}, but has to be a finite number that is not negative"
+            )
+        );
+        let mut sim = Integrator::new(HEAVY, Dopri5::new(), 0.0, start);
+        let run = advance_with_impacts(&mut sim, 1.0, &ground, closed, |_| ControlFlow::Continue(()));
+        assert!(matches!(run, Err(ImpactError::Closed { .. })), "{run:?}");
+        assert_eq!((sim.time(), *sim.state()), (0.0, start));
+    }
+}

@@ -11,3 +11,5 @@ mod ball;
 mod contacts;
 #[path = "impacts/formulations.rs"]
 mod formulations;
+#[path = "impacts/several_items.rs"]
+mod several_items;

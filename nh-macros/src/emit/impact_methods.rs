@@ -149,7 +149,8 @@ fn event_method(context: &Context, outline: &OutlinedImpact, body: &TokenStream)
     let count = Literal::usize_unsuffixed(outline.positions);
     let result = if outline.positions == 1 { quote!(#scalar) } else { quote!([#scalar; #count]) };
     let what = if outline.positions == 1 { "gap" } else { "gaps" };
-    let doc = format!(" The {what} of the impact `{}`, falling through 0 where it happens.", outline.label);
+    let doc =
+        format!(" The {what} of the impact `{}`, for events in the direction `Closing`.", outline.label);
     quote! {
         #[doc = #doc]
         #[must_use]

@@ -187,7 +187,7 @@ impl Wheel {
             },
         ))
     }
-    /// The gap of the impact `touch`, falling through 0 where it happens.
+    /// The gap of the impact `touch`, for events in the direction `Closing`.
     #[must_use]
     #[inline]
     fn event_touch(

@@ -68,7 +68,7 @@ where
     /// // a ball that is thrown up and bounces three times
     /// let start = BallState { height: 0.0, speed: 5.0 };
     /// let mut sim = Integrator::new(Ball, Dopri5::new(), 0.0, start);
-    /// let ground = Events::new(|_, x: &BallState, (): &()| [x.height]).directions([Direction::Falling]);
+    /// let ground = Events::new(|_, x: &BallState, (): &()| [x.height]).directions([Direction::Closing]);
     /// let mut bounces = 0;
     /// let ended = sim.advance_acting(100.0, &ground, |sim, impact| {
     ///     bounces += 1;

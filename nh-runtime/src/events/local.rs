@@ -33,6 +33,11 @@ impl<T: Real> Local<T> {
         value.abs() <= T::from_f64(RESOLUTION) * passed + T::from_f64(ROUNDINGS) * self.rounding
     }
 
+    /// Whether a function with this value may be zero, for all that one can tell somewhere within the step.
+    pub(super) fn may_be_zero(&self, unit: T, value: T) -> bool {
+        value.abs() <= T::from_f64(ROUNDINGS) * self.rounding(T::ONE) || self.is_zero(unit, value)
+    }
+
     /// Whether rounding hides, after a share of the step, how a function has changed that was hardly zero at its start.
     pub(super) fn hides(&self, share: T, at_start: Option<T>, value: T) -> bool {
         value.abs() <= at_start.unwrap_or(T::ZERO).abs() + T::from_f64(ROUNDINGS) * self.rounding(share)

@@ -33,7 +33,11 @@ pub(super) fn find<T: Real, F, const N: usize>(
 
 /// Whether a change in this direction is an event.
 pub(super) fn is_wanted(wanted: Direction, direction: Direction) -> bool {
-    wanted == Direction::Either || wanted == direction
+    match wanted {
+        Direction::Either => true,
+        Direction::Closing => direction == Direction::Falling,
+        _ => wanted == direction,
+    }
 }
 
 /// A point at which a function that leaves zero shows the side that it moves to: nearer and nearer to where it left,

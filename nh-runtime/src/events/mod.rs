@@ -25,7 +25,8 @@ use crate::{Direction, Dynamics, IntegrationError, Integrator, Real, Scalar, Sca
 /// that vanishes. It has left zero where it shows that by more than rounding, in this step or a later one.
 /// A function that reaches zero and stays there has one event, and another one where it turns back.
 /// After a [`reset`](Integrator::reset), zero is whatever a function leaves or passes
-/// within the resolution of time, so that a state that was put onto a contact starts from it.
+/// within the resolution of time, so that a state that was put onto a contact starts from it. What rests on the contact
+/// falls from there without an event, unless its gap is looked at as [`Direction::Closing`].
 ///
 /// Every step is looked at where it ends and at some [`samples`](Self::samples) within it, and where these show
 /// that a function comes near to zero and turns, there too. A function that changes its sign twice without
@@ -35,8 +36,6 @@ pub struct Events<F, const N: usize> {
     functions: F,
     directions: [Direction; N],
     samples: u32,
-    /// Whether a function that is zero where a state is given comes from above: as a gap does, which nothing enters.
-    comes_from_above: bool,
 }
 
 /// A change of sign.
@@ -64,19 +63,13 @@ impl<F, const N: usize> Events<F, N> {
         F: Fn(T, &X, &U) -> [T; N],
     {
         const { assert!(N <= MOST_FUNCTIONS, "at most 128 event functions are told apart: give fewer to one run") };
-        Self { functions, directions: [Direction::Either; N], samples: 3, comes_from_above: false }
+        Self { functions, directions: [Direction::Either; N], samples: 3 }
     }
 
     /// The events of each function are changes of its sign in this direction only.
     #[must_use]
     pub fn directions(mut self, directions: [Direction; N]) -> Self {
         self.directions = directions;
-        self
-    }
-
-    /// Of functions that nothing takes below zero: from zero they come down, too.
-    pub(crate) fn coming_from_above(mut self) -> Self {
-        self.comes_from_above = true;
         self
     }
 
@@ -207,7 +200,7 @@ where
     /// // a ball that is thrown up and bounces
     /// let start = BallState { height: 0.0, speed: 5.0 };
     /// let mut sim = Integrator::new(Ball, Dopri5::new(), 0.0, start);
-    /// let ground = Events::new(|_, x: &BallState, (): &()| [x.height]).directions([Direction::Falling]);
+    /// let ground = Events::new(|_, x: &BallState, (): &()| [x.height]).directions([Direction::Closing]);
     /// let mut bounces = 0;
     /// while let Some(impact) = sim.advance_until(3.0, &ground)? {
     ///     bounces += 1;

@@ -60,6 +60,20 @@ impl<T: Real, const N: usize> Pending<T, N> {
         with_it.fold(first, |a, b| if before(a, b) { b } else { a })
     }
 
+    /// Whether the functions that have changed their sign before a time, where they have these values, may be zero there:
+    /// what leaves zero with hardly any speed is soon away from it all the same.
+    pub(super) fn may_wait(
+        &self,
+        (forwards, time): (bool, T),
+        values: &[T; N],
+        local: &[Local<T>; N],
+        unit: T,
+    ) -> bool {
+        let has_changed = |(found, _): (T, Direction)| if forwards { found < time } else { found > time };
+        let mut each = self.found.iter().zip(values).zip(local);
+        each.all(|((found, value), local)| !found.is_some_and(has_changed) || local.may_be_zero(unit, *value))
+    }
+
     /// Takes out what happens until then, and what the values at that time show to have happened.
     pub(super) fn take(&mut self, forwards: bool, until: T, values: &[T; N]) -> [Option<Direction>; N] {
         let mut taken = [None; N];

@@ -30,13 +30,15 @@ where
     {
         let (start, end) = (here.time, self.time());
         let forwards = start < end;
-        let last = events.station::<S>(end, self.state(), self.input())?;
+        let reached = events.station::<S>(end, self.state(), self.input())?;
+        let contacts = *sides;
+        let last = contacts.over_contacts(reached);
         let mut ends = sides.of.iter().zip(&last.values);
         if events.samples == 0
             && !ends.any(|(from, value)| *from == Side::On || crossing(*from, *value).is_some())
         {
-            *here = last;
-            sides.go_on();
+            *here = reached;
+            sides.go_on(&reached.values);
             return Ok(None);
         }
         let dense = self.dense();
@@ -44,39 +46,47 @@ where
             let state = dense.at(time)?;
             Ok((state, events.station::<S>(time, &state, self.input())?))
         };
-        let values_at = |time| Ok(evaluate(time)?.1.values);
+        let station_at =
+            |time| -> Result<_, IntegrationError> { Ok(contacts.over_contacts(evaluate(time)?.1)) };
+        let values_at = |time| Ok(station_at(time)?.values);
         let parts = events.samples + 1;
         let sampled = |part: u32| -> Result<Option<Station<_, N>>, IntegrationError> {
             if part >= parts {
                 return Ok((part == parts).then_some(last));
             }
             let share = ScalarOf::<S>::from_u32(part) / ScalarOf::<S>::from_u32(parts);
-            Ok(Some(evaluate(start + (end - start) * share)?.1))
+            Ok(Some(station_at(start + (end - start) * share)?))
         };
         let mut before = None;
+        let mut begun = contacts.over_contacts(*here);
         let mut next = sampled(1)?;
         for part in 1..=parts {
             let Some(there) = next else { break };
             next = sampled(part + 1)?;
-            let around = [before.as_ref(), Some(&*here), Some(&there), next.as_ref()];
+            let around = [before.as_ref(), Some(&begun), Some(&there), next.as_ref()];
             let mut turns = Turns(double_changes(&sides.of, around, values_at)?);
-            before = Some(*here);
+            before = Some(begun);
             // from turn to turn of the functions between the two
             loop {
                 let turn = turns.next(forwards);
                 let to = match turn {
-                    Some(time) => evaluate(time)?.1,
+                    Some(time) => station_at(time)?,
                     None => there,
                 };
-                let mut pending = Pending::between(events, [*here, to], sides, values_at)?;
+                let mut pending = Pending::between(events, [begun, to], sides, values_at)?;
                 while let Some(first) = pending.first(forwards) {
                     let mut time = first;
                     if pending.are_several() {
                         let (state, station) = evaluate(first)?;
                         let local = self.local_at(events, &state, &station, end - start);
-                        time = pending.instant(forwards, first, &local, Stop::resolution(start, end));
+                        let unit = Stop::resolution(start, end);
+                        let last = pending.instant(forwards, first, &local, unit);
+                        if pending.may_wait((forwards, last), &values_at(last)?, &local, unit) {
+                            time = last;
+                        }
                     }
                     let (state, station) = evaluate(time)?;
+                    let over = contacts.over_contacts(station);
                     let mut stop = Stop::new(time, [start, end]);
                     let mut stopped = None;
                     let mut report = |changes: [Option<Direction>; N], stop: &mut Stop<_>| {
@@ -91,7 +101,7 @@ where
                         }
                         stopped
                     };
-                    let taken = pending.take(forwards, time, &station.values);
+                    let taken = pending.take(forwards, time, &over.values);
                     for index in (0..N).filter(|index| taken.get(*index).is_some_and(Option::is_some)) {
                         if sides.is_flight(index) {
                             ends_flight(&mut stop, (index, start), sides, &values_at)?;
@@ -100,8 +110,8 @@ where
                     if report(taken, &mut stop).is_some() {
                         if N > 1 {
                             let local = self.local_at(events, &state, &station, end - start);
-                            report(pending.unseen(events, &station.values, &local, stop.unit), &mut stop);
-                            note_coming(&mut stop, &local, &station);
+                            report(pending.unseen(events, &over.values, &local, stop.unit), &mut stop);
+                            note_coming(&mut stop, &local, &over);
                         }
                         stop.print = print(&station.values);
                         self.stand_at(time, state);
@@ -109,13 +119,14 @@ where
                         return Ok(stopped);
                     }
                 }
-                *here = to;
+                begun = to;
                 if turn.is_none() {
                     break;
                 }
             }
         }
-        sides.go_on();
+        *here = reached;
+        sides.go_on(&reached.values);
         Ok(None)
     }
 
@@ -163,8 +174,9 @@ fn ends_flight<T: Real, const N: usize>(
     let rounding = sides.local(index).rounding(flight / stop.length.abs());
     // a step before this one has shown nothing of the flight
     let height = midway(index, (step, stop.time), values_at)?.abs();
+    let is_contact = sides.is_first_contact(index);
     let is_hidden = [NO_HEIGHT, SHORT_HEIGHT].map(|roundings| height <= T::from_f64(roundings) * rounding);
-    if stop.ends_flight(Flight { start, is_hidden }, sides.stop.as_ref()) {
+    if stop.ends_flight(Flight { start, is_hidden, is_contact }, sides.stop.as_ref()) {
         return Ok(());
     }
     // a parabola's slope where it leaves zero is four times its height over its length

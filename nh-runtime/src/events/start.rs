@@ -20,6 +20,10 @@ pub(super) struct Sides<T, const N: usize> {
     length: T,
     /// Whether the state there was given, rather than reached.
     pub(super) is_given: bool,
+    /// The gaps that were closed there.
+    closed: [bool; N],
+    /// How far below zero these were, until they are out of that.
+    depths: [T; N],
     /// The stop there.
     pub(super) stop: Option<Stop<T>>,
     /// The functions there.
@@ -28,7 +32,9 @@ pub(super) struct Sides<T, const N: usize> {
 
 impl<T: Real, const N: usize> Sides<T, N> {
     /// Forgets the start of the run, unless a function has yet to show where it has gone from there.
-    pub(super) fn go_on(&mut self) {
+    pub(super) fn go_on(&mut self, values: &[T; N]) {
+        let depths = self.depths.iter_mut().zip(values);
+        depths.filter(|(_, value)| **value > T::ZERO).for_each(|(depth, _)| *depth = T::ZERO);
         self.leaving.iter_mut().zip(&self.shown).for_each(|(leaving, shown)| *leaving &= !shown);
         if !self.leaving.contains(&true) {
             self.is_given = false;
@@ -51,9 +57,26 @@ impl<T: Real, const N: usize> Sides<T, N> {
         }
     }
 
-    /// Whether a function has left zero where a state was given.
+    /// Whether a function has left zero where a state was given, or a gap that was closed.
     pub(super) fn is_flight(&self, index: usize) -> bool {
-        self.is_given && self.leaving.get(index) == Some(&true)
+        (self.is_given || self.was_closed(index)) && self.leaving.get(index) == Some(&true)
+    }
+
+    /// Whether it is a gap that was closed at the start.
+    fn was_closed(&self, index: usize) -> bool {
+        self.closed.get(index) == Some(&true)
+    }
+
+    /// The functions, of which gaps count from where they were closed.
+    pub(super) fn over_contacts(&self, mut station: Station<T, N>) -> Station<T, N> {
+        station.values.iter_mut().zip(self.depths).for_each(|(value, depth)| *value -= depth);
+        station
+    }
+
+    /// Whether it is a gap that closes from the start, where it has not been met.
+    pub(super) fn is_first_contact(&self, index: usize) -> bool {
+        let is_met = self.stop.is_some_and(|stop| stop.crossed(index).is_some());
+        self.was_closed(index) && !is_met && self.local(index).rate.is_some_and(|rate| rate < T::ZERO)
     }
 
     /// The function at the start.
@@ -64,7 +87,7 @@ impl<T: Real, const N: usize> Sides<T, N> {
     /// Whether a change from this side so soon after the start is round-off that follows an event which has been
     /// reported.
     pub(super) fn is_echo(&self, index: usize, from: Side, time: T) -> bool {
-        let just_left = !self.is_given && self.leaving.get(index) == Some(&true);
+        let just_left = !self.is_given && !self.was_closed(index) && self.leaving.get(index) == Some(&true);
         let stays = matches!(from, Side::OnFromBelow | Side::OnFromAbove);
         let unit = self.stop.map_or(Stop::resolution(self.begin.time, time), |stop| stop.unit);
         just_left && !stays && (time - self.begin.time).abs() <= self.local(index).blur(unit)
@@ -103,10 +126,14 @@ where
             begin: *here,
             length: (self.time() - here.time).abs(),
             is_given,
+            closed: [false; N],
+            depths: [ScalarOf::<S>::ZERO; N],
             stop,
             local: [Local::UNKNOWN; N],
         };
-        let on_its_way = !is_given && stop.is_none() && !sides.of.contains(&Side::On);
+        let mut gaps = sides.of.iter().zip(&events.directions);
+        let is_within = gaps.any(|(side, wanted)| *wanted == Direction::Closing && *side == Side::Below);
+        let on_its_way = !is_given && stop.is_none() && !is_within && !sides.of.contains(&Side::On);
         let Some((start, arrival)) = self.last_step().filter(|_| !on_its_way) else { return sides };
         let unit = stop.map_or(Stop::resolution(start.time, start.time), |stop| stop.unit);
         sides.local = events.local(&start, (arrival.time - start.time, &arrival.state), &here.values);
@@ -114,6 +141,7 @@ where
         let is_unmoved = stop.is_some_and(|stop| stop.print == print(&here.values));
         let each = sides.of.iter_mut().zip(&mut sides.leaving).zip(here.values.iter().zip(&sides.local));
         for (index, ((side_of, leaving), (value, local))) in each.enumerate() {
+            let is_gap = events.directions.get(index) == Some(&Direction::Closing);
             let crossed = stop.and_then(|stop| stop.crossed(index));
             let is_zero = local.is_zero(unit, *value) || (is_unmoved && crossed.is_some());
             // what has changed its sign here may show the old one by round-off
@@ -130,17 +158,25 @@ where
                 *side_of = before(coming);
                 continue;
             }
-            *leaving = *side_of == Side::On || (is_zero && (is_given || has_crossed));
+            // how far below zero a gap is does not matter: it is closed, and leaves from there
+            let is_closed = is_gap && (is_zero || *side_of != Side::Above);
+            *leaving = *side_of == Side::On || (is_zero && (is_given || has_crossed)) || is_closed;
             if !*leaving {
                 continue;
             }
             *side_of = match (local.rate, crossed) {
-                _ if events.comes_from_above && is_given => Side::Above,
+                _ if is_closed => Side::Above,
                 (Some(rate), _) => side(rate),
                 (None, Some(direction)) if !is_given && *side_of == Side::On => reached(direction),
                 (None, _) => Side::On,
             };
+            if is_closed {
+                sides.closed.iter_mut().skip(index).take(1).for_each(|closed| *closed = true);
+                let below = value.min(ScalarOf::<S>::ZERO);
+                sides.depths.iter_mut().skip(index).take(1).for_each(|depth| *depth = below);
+            }
         }
+        sides.begin = sides.over_contacts(sides.begin);
         sides
     }
 }

@@ -1,6 +1,6 @@
 //! The impulses of rows that push and never pull.
 
-use super::MOST_ROWS;
+use super::{ImpactError, MOST_ROWS};
 use crate::Real;
 
 /// What there is to solve: 0 ≤ μ ⊥ K μ + q ≥ 0 over the unilateral rows, K μ + q = 0 over the bilateral ones.
@@ -12,15 +12,33 @@ pub(super) struct Problem<'a, T, const R: usize> {
     pub(super) bilateral: [bool; R],
 }
 
-/// A row whose impulse is not determined.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) struct Dependent(pub(super) usize);
+/// Why there is no impulse of a row.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum NoImpulse<T> {
+    /// It depends on the rows before it.
+    Dependent(usize),
+    /// Its impulse does not move it ahead, but by this.
+    NoResponse(usize, T),
+}
+
+impl<T: Real> NoImpulse<T> {
+    /// The same with the name of the row.
+    pub(super) fn told<const R: usize>(self, names: [&'static str; R], time: f64) -> ImpactError {
+        let row = |index: usize| names.get(index).copied().unwrap_or_default();
+        match self {
+            Self::Dependent(index) => ImpactError::Dependent { row: row(index), time },
+            Self::NoResponse(index, response) => {
+                ImpactError::NoResponse { row: row(index), time, response: response.to_f64() }
+            }
+        }
+    }
+}
 
 impl<T: Real, const R: usize> Problem<'_, T, R> {
     /// The impulses: of all choices of the rows that push, the one that is violated least. With a positive definite K
     /// exactly one is not violated at all (Cottle, Pang, Stone, The Linear Complementarity Problem, 3.1.6), but by
     /// rounding.
-    pub(super) fn solve(&self) -> Result<[T; R], Dependent> {
+    pub(super) fn solve(&self) -> Result<[T; R], NoImpulse<T>> {
         let mut best: Option<(T, [T; R])> = None;
         let mut dependent = None;
         for choice in 0..1_u32 << R.min(MOST_ROWS) {
@@ -48,13 +66,13 @@ impl<T: Real, const R: usize> Problem<'_, T, R> {
         }
         match (best, dependent) {
             (Some((violation, impulses)), None) if violation.is_finite() => Ok(impulses),
-            (_, row) => Err(row.unwrap_or(Dependent(0))),
+            (_, row) => Err(row.unwrap_or(NoImpulse::Dependent(0))),
         }
     }
 
     /// The impulses with which these rows are met: K μ = −q by LDLᵀ, in which a pivot that is rounding shows a row
     /// that depends on those before it.
-    fn with(&self, active: &[bool; R]) -> Result<[T; R], Dependent> {
+    fn with(&self, active: &[bool; R]) -> Result<[T; R], NoImpulse<T>> {
         let mut matrix = *self.mobility;
         let mut right = self.offset.map(|q| -q);
         for k in 0..R {
@@ -64,9 +82,12 @@ impl<T: Real, const R: usize> Problem<'_, T, R> {
             let (Some(&row), Some(&value)) = (matrix.get(k), right.get(k)) else { break };
             let pivot = at(&row, k);
             let size = self.mobility.get(k).map_or(T::ZERO, |row| at(row, k));
+            if size <= T::ZERO {
+                return Err(NoImpulse::NoResponse(k, size));
+            }
             // what is no number is no pivot either
             if !pivot.is_finite() || pivot <= T::from_f64(64.0) * T::EPSILON * size {
-                return Err(Dependent(k));
+                return Err(NoImpulse::Dependent(k));
             }
             for (i, (others, right)) in matrix.iter_mut().zip(right.iter_mut()).enumerate() {
                 if i == k || !at(active, i) {
@@ -163,6 +184,6 @@ mod tests {
         let mobility = [[1.0, 2.0], [2.0, 4.0]];
         let problem =
             Problem { mobility: &mobility, offset: [-1.0, -2.0], present: [true; 2], bilateral: [true; 2] };
-        assert_eq!(problem.solve(), Err(Dependent(1)));
+        assert_eq!(problem.solve(), Err(NoImpulse::Dependent(1)));
     }
 }

@@ -14,6 +14,11 @@ pub enum ImpactError {
         /// Its value.
         value: f64,
     },
+    /// The gap up to which a row is closed is negative or no finite number.
+    Closed {
+        /// Its value.
+        value: f64,
+    },
     /// There are more rows than are tried in all combinations.
     TooManyRows {
         /// How many.
@@ -25,6 +30,15 @@ pub enum ImpactError {
         row: &'static str,
         /// The time.
         time: f64,
+    },
+    /// The impulse of a row does not move it ahead, n M⁻¹ nᵀ ≤ 0 on the constraints.
+    NoResponse {
+        /// The row.
+        row: &'static str,
+        /// The time.
+        time: f64,
+        /// The change of its rate by an impulse of 1.
+        response: f64,
     },
     /// A row is a combination of others on the constraints, so that its impulse is not determined.
     Dependent {
@@ -60,6 +74,10 @@ impl Display for ImpactError {
             Self::Restitution { value } => {
                 write!(f, "the coefficient of restitution is {value:?}, but has to be from 0 to 1")
             }
+            Self::Closed { value } => write!(
+                f,
+                "the gap up to which a row is closed is {value:?}, but has to be a finite number that is not negative"
+            ),
             Self::TooManyRows { rows } => write!(
                 f,
                 "the impact has {rows} rows, more than the six that are tried in all combinations: tell those apart \
@@ -69,6 +87,11 @@ impl Display for ImpactError {
                 f,
                 "the row `{row}` has a number that is not finite at t = {time:?}: look at the last good state, and \
                  at the parameters"
+            ),
+            Self::NoResponse { row, time, response } => write!(
+                f,
+                "an impulse of 1 along the row `{row}` changes its rate by {response:?} at t = {time:?}, which has to be \
+                 positive: look for a mass that is not, and for constraints that hold the row"
             ),
             Self::Dependent { row, time } => write!(
                 f,

@@ -1,9 +1,8 @@
 //! The jump, and an integration from jump to jump.
 
-use core::cell::Cell;
 use core::ops::ControlFlow;
 
-use super::complementarity::{Dependent, Problem};
+use super::complementarity::Problem;
 use super::{Impact, ImpactError, MOST_ROWS};
 use crate::arrays::{all_finite, displaced};
 use crate::integrator::Spent;
@@ -97,6 +96,20 @@ struct Place<'a, S: Dynamics> {
     closed: ScalarOf<S>,
 }
 
+/// Refuses what no jump can be made with.
+fn admit<T: Real, const R: usize>(restitution: T, closed: T) -> Result<(), ImpactError> {
+    if R > MOST_ROWS {
+        return Err(ImpactError::TooManyRows { rows: R });
+    }
+    if !(restitution >= T::ZERO && restitution <= T::ONE) {
+        return Err(ImpactError::Restitution { value: restitution.to_f64() });
+    }
+    if !(closed >= T::ZERO && closed.is_finite()) {
+        return Err(ImpactError::Closed { value: closed.to_f64() });
+    }
+    Ok(())
+}
+
 /// The jump with this coefficient of restitution.
 fn struck<S: Dynamics, I: Impact<S, R>, const R: usize>(
     place: &Place<'_, S>,
@@ -109,12 +122,7 @@ where
 {
     let Place { system, time: t, state, closed } = *place;
     let (zero, one) = (ScalarOf::<S>::ZERO, ScalarOf::<S>::ONE);
-    if R > MOST_ROWS {
-        return Err(ImpactError::TooManyRows { rows: R });
-    }
-    if !(restitution >= zero && restitution <= one) {
-        return Err(ImpactError::Restitution { value: restitution.to_f64() });
-    }
+    admit::<_, R>(restitution, closed)?;
     let time = t.to_f64();
     let row = |index: usize| impact.names().get(index).copied().unwrap_or_default();
     let mut gaps = impact.gaps(system, t, state);
@@ -191,8 +199,7 @@ where
             *met = present.then_some(*s);
         }
         let problem = Problem { mobility: &rows.mobility, offset, present, bilateral };
-        let found =
-            problem.solve().map_err(|Dependent(index)| ImpactError::Dependent { row: row(index), time })?;
+        let found = problem.solve().map_err(|none| none.told(impact.names(), time))?;
         let mut x = after.to_array();
         for ((impulse, response), sum) in found.iter().zip(&rows.response).zip(&mut impulses) {
             x = displaced(&x, *impulse, response);
@@ -248,27 +255,10 @@ where
             }
         }
     }
-    // how deep in its contact each row starts or has been left, until it has been out of it
-    let depths_at = |t: ScalarOf<S>, state: &S::State| {
-        gaps(t, state).map(|gap| gap.unwrap_or_default().min(ScalarOf::<S>::ZERO))
+    let gap_or_open = |t: ScalarOf<S>, state: &S::State, _: &S::Input| {
+        gaps(t, state).map(|gap| gap.unwrap_or(ScalarOf::<S>::ONE))
     };
-    let depths = Cell::new(depths_at(sim.time(), sim.state()));
-    let over = |t: ScalarOf<S>, state: &S::State, _: &S::Input| {
-        let mut gaps = gaps(t, state).map(|gap| gap.unwrap_or(ScalarOf::<S>::ONE));
-        gaps.iter_mut().zip(depths.get()).for_each(|(gap, depth)| *gap -= depth);
-        gaps
-    };
-    let leave = |sim: &Integrator<S, M>| {
-        let mut left = depths.get();
-        for (depth, gap) in left.iter_mut().zip(gaps(sim.time(), sim.state())) {
-            if gap.is_some_and(|gap| gap > ScalarOf::<S>::ZERO) {
-                *depth = ScalarOf::<S>::ZERO;
-            }
-        }
-        depths.set(left);
-        Ok(())
-    };
-    let events = Events::new(over).directions([Direction::Falling; R]).coming_from_above();
+    let events = Events::new(gap_or_open).directions([Direction::Closing; R]);
     let mut spent = Spent::default();
     loop {
         let mut touching = [false; R];
@@ -276,11 +266,10 @@ where
             touching.iter_mut().skip(event.index).take(1).for_each(|row| *row = true);
             ControlFlow::Break(())
         };
-        match sim.watch((target, &mut spent), &events, false, note, leave) {
+        match sim.watch((target, &mut spent), &events, false, note, |_| Ok(())) {
             Ok(None) => return Ok(End::Target),
             Ok(Some(_)) => {
                 let struck = strike_at(sim.time(), sim.state(), Contact { resting: None, touching })?;
-                depths.set(depths_at(struck.time, &struck.after));
                 sim.set_state(struck.after);
                 if visit(&struck).is_break() {
                     return Ok(End::Stopped);

@@ -216,7 +216,7 @@ where
             T::from_f64(SAME_TIME) * T::EPSILON * terms.fold(T::ZERO, |sum, term| sum + term.abs());
         let arrives = match direction {
             Direction::Rising => along > resolved,
-            Direction::Falling => along < -resolved,
+            Direction::Falling | Direction::Closing => along < -resolved,
             Direction::Either => along.abs() > resolved,
         };
         // what rounding makes of a function that is zero now

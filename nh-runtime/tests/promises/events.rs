@@ -9,14 +9,14 @@ use crate::systems::every_kind;
 
 /// Two balls above a floor.
 #[derive(Clone, Copy)]
-struct Balls<T> {
-    g: T,
+pub(crate) struct Balls<T> {
+    pub(crate) g: T,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq)]
-struct Flight<T> {
-    height: [T; 2],
-    speed: [T; 2],
+pub(crate) struct Flight<T> {
+    pub(crate) height: [T; 2],
+    pub(crate) speed: [T; 2],
 }
 
 impl<T: Real> State for Flight<T> {

@@ -3,6 +3,7 @@
 #![allow(clippy::float_cmp)] // exact times are meant
 #![allow(clippy::needless_pass_by_value)] // one macro calls all laws, with methods as values
 
+mod closing;
 mod domains;
 mod events;
 mod extremes;
