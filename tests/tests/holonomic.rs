@@ -4,6 +4,7 @@
 mod holonomic {
     mod assembly;
     mod car_axis;
+    mod collinear_cell;
     mod delta;
     mod equal_parts;
     mod five_bar;

@@ -1,10 +1,12 @@
 //! The return to position constraints: at the start, after every step.
 
+use core::fmt;
+
 use super::{Integrator, Spent};
 use crate::arrays::first_non_finite;
 use crate::methods::{Arrival, Method, Start, component};
 use crate::{
-    Dynamics, IntegrationError, ProjectionError, Real, Scalar, ScalarOf, State, StateFault, Statistics,
+    Dynamics, IntegrationError, ProjectionError, Real, Scalar, ScalarOf, State, StateFault, Statistics, VecOf,
 };
 
 impl<S: Dynamics, M: Method<S>> Integrator<S, M>
@@ -56,39 +58,59 @@ where
 }
 
 /// How a state was returned to position constraints.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Returned<T> {
+pub struct Returned<S: Dynamics> {
     /// The largest residual that was found.
-    pub residual: T,
-    /// How far the component was moved that was moved farthest.
-    pub correction: T,
+    pub residual: ScalarOf<S>,
+    /// How far each component was moved.
+    pub corrections: VecOf<S>,
     /// Whether anything was moved, what goes beside the state included.
     pub is_moved: bool,
 }
 
-impl<T: Real> Returned<T> {
+impl<S: Dynamics> Clone for Returned<S> {
+    fn clone(&self) -> Self {
+        *self
+    }
+}
+impl<S: Dynamics> Copy for Returned<S> {}
+
+impl<S: Dynamics> fmt::Debug for Returned<S> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Self { residual, corrections, is_moved } = self;
+        let mut named = f.debug_struct("Returned");
+        named.field("residual", residual).field("corrections", &corrections.as_ref());
+        named.field("is_moved", is_moved).finish()
+    }
+}
+
+impl<S: Dynamics> Returned<S>
+where
+    ScalarOf<S>: Real,
+{
     /// Returns a state.
     ///
     /// # Errors
     /// If it is not reached where the constraints hold.
     #[inline]
-    pub(crate) fn of<S: Dynamics>(system: &S, t: T, state: &mut S::State) -> Result<Self, ProjectionError>
-    where
-        S::State: State<Scalar = T>,
-    {
+    pub(crate) fn of(system: &S, t: ScalarOf<S>, state: &mut S::State) -> Result<Self, ProjectionError> {
         let before = *state;
         let residual = system.return_to_positions(t, state)?;
-        let moved = system.correction(&before, state);
-        let correction = moved.as_ref().iter().copied().fold(T::ZERO, T::max);
+        let corrections = system.correction(&before, state);
         let after = state.to_array();
         let before = before.to_array();
         let is_moved = before.as_ref() != after.as_ref();
         let is_finite =
-            first_non_finite(moved.as_ref()).is_none() && first_non_finite(after.as_ref()).is_none();
+            first_non_finite(corrections.as_ref()).is_none() && first_non_finite(after.as_ref()).is_none();
         if !residual.is_finite() || !is_finite {
             return Err(ProjectionError { iterations: 0, residual: residual.to_f64() });
         }
-        Ok(Self { residual, correction, is_moved })
+        Ok(Self { residual, corrections, is_moved })
+    }
+
+    /// How far the component was moved that was moved farthest.
+    #[must_use]
+    pub fn correction(&self) -> ScalarOf<S> {
+        self.corrections.as_ref().iter().copied().fold(ScalarOf::<S>::ZERO, ScalarOf::<S>::max)
     }
 }
 
@@ -118,7 +140,7 @@ where
     };
     statistics.projections += 1;
     statistics.last_residual = returned.residual.to_f64();
-    statistics.largest_correction = statistics.largest_correction.max(returned.correction.to_f64());
+    statistics.largest_correction = statistics.largest_correction.max(returned.correction().to_f64());
     Ok(arrival)
 }
 

@@ -8,17 +8,18 @@ use super::leg::Leg;
 use super::trial::{Scheme, Trial};
 use super::{Arrival, Method, Place, Start, Step, component, non_finite_derivative};
 use crate::arrays::{all_finite, first_non_finite};
+use crate::integrator::Returned;
 use crate::step_control::{Controller, Past, StepControl};
 use crate::stiffness::Stiffness;
 use crate::tolerance::{PerComponent, Tolerance, Uniform, norm};
-use crate::{Dynamics, IntegrationError, Real, Scalar, State, Statistics, VecOf};
+use crate::{Dynamics, IntegrationError, ProjectionError, Real, Scalar, State, Statistics, VecOf};
 
 /// A method that chooses the lengths of its steps from an estimate of their errors: `P` computes the
 /// step and the estimate, `T` is the type of numbers, `W` the kind of the tolerances.
 ///
 /// The length of the next step follows from the errors of the last ones by the law of its
 /// [`Controller`]. A step with an error beyond the tolerance is rejected and repeated with a shorter one,
-/// and the step after that does not grow. A step is stretched by up to 1 % or shortened to land on a
+/// and the step after that does not grow; how far its end has come off position constraints counts as error. A step is stretched by up to 1 % or shortened to land on a
 /// target, and what a target has cut short does not shorten the steps after it. The first step goes by the time over
 /// which the solution varies; at rest, by a millionth of the distance to the target, of the longest step or of the time.
 ///
@@ -138,6 +139,13 @@ impl<P: Default, T: Real> Default for Adaptive<P, T> {
     fn default() -> Self {
         Self::new()
     }
+}
+
+/// The end of a step that was returned to position constraints.
+struct Moved<S: Dynamics> {
+    returned: Returned<S>,
+    /// Whether the scheme knows where it is.
+    is_known: bool,
 }
 
 /// What an adaptive method remembers.
@@ -294,13 +302,18 @@ impl<P, T: Real, W> Adaptive<P, T, W> {
             }
             let (scheme, tolerance, work) = (&self.scheme, &self.tolerance, &mut memory.work);
             let (trial, returned) = if RETURN {
-                scheme.attempt_and_return::<KEEP, _>(start, leg.length, tolerance, work, statistics)
+                self.returned::<KEEP, S>(start, &leg, &mut memory.work, statistics)
             } else {
-                (scheme.attempt::<KEEP, _>(start, leg.length, tolerance, work, statistics), None)
+                (scheme.attempt::<KEEP, _>(start, leg.length, tolerance, work, statistics), Ok(None))
             };
             let length = leg.length.abs();
-            if trial.error <= T::ONE {
+            if trial.error <= T::ONE
+                && let Ok(returned) = returned
+            {
                 self.scheme.accept::<KEEP>(start, leg.length, &mut memory.work);
+                if returned.as_ref().is_some_and(|moved| !moved.is_known) {
+                    self.scheme.moved(&mut memory.work);
+                }
                 let (factor, past) =
                     controller.after_success(length, trial.error, &memory.past, P::ERROR_ORDER);
                 let next = length * factor;
@@ -313,10 +326,16 @@ impl<P, T: Real, W> Adaptive<P, T, W> {
                 if memory.stiffness.count(leg.length) {
                     self.scheme.watch(&mut memory.work);
                 }
-                return Ok((Arrival { time: leg.time, state: S::State::from_array(trial.state) }, returned));
+                return Ok((
+                    Arrival { time: leg.time, state: S::State::from_array(trial.state) },
+                    returned.map(|moved| moved.returned),
+                ));
             }
             statistics.rejected += 1;
             if h <= shortest {
+                if let Err(error) = returned {
+                    return Err(IntegrationError::Projection { time: leg.time.to_f64(), error });
+                }
                 return Err(self.refusal(start, leg.length, &trial, &memory.work));
             }
             rejected = true;
@@ -326,6 +345,44 @@ impl<P, T: Real, W> Adaptive<P, T, W> {
             };
             h = shorter.max(shortest);
         }
+    }
+
+    /// A step that ends where position constraints hold: how far its end had come off them is error, too.
+    #[inline]
+    fn returned<const KEEP: bool, S: Dynamics>(
+        &self,
+        start: &Start<'_, S>,
+        leg: &Leg<T>,
+        work: &mut P::Work,
+        statistics: &mut Statistics,
+    ) -> (Trial<S>, Result<Option<Moved<S>>, ProjectionError>)
+    where
+        S::State: State<Scalar = T>,
+        P: Scheme<S>,
+        W: Tolerance<S::State>,
+    {
+        let (scheme, tolerance) = (&self.scheme, &self.tolerance);
+        let (mut trial, returned) =
+            scheme.attempt_and_return::<KEEP, _>(start, leg.length, tolerance, work, statistics);
+        // what has no error estimate has no end either
+        if !trial.error.is_finite() || trial.error > T::ONE {
+            return (trial, Ok(None));
+        }
+        let moved = if let Some(returned) = returned {
+            Moved { returned, is_known: true }
+        } else {
+            let mut end = S::State::from_array(trial.state);
+            match Returned::of(start.system, leg.time, &mut end) {
+                Ok(returned) => {
+                    trial.state = end.to_array();
+                    Moved { returned, is_known: !returned.is_moved }
+                }
+                Err(error) => return (trial, Err(error)),
+            }
+        };
+        let off = norm(tolerance, &moved.returned.corrections, &start.state.to_array(), &trial.state);
+        trial.error = trial.error.max(off);
+        (trial, Ok(Some(moved)))
     }
 
     /// Looks whether the step before was as long as stability permits: how far derivatives at two states at its end are

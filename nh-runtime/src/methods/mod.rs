@@ -181,7 +181,7 @@ impl<S: Dynamics> Clone for Arrival<S> {
 impl<S: Dynamics> Copy for Arrival<S> {}
 
 /// Where a step has led to, and how it was returned to position constraints, if it was.
-pub type Step<S> = (Arrival<S>, Option<Returned<ScalarOf<S>>>);
+pub type Step<S> = (Arrival<S>, Option<Returned<S>>);
 
 /// Where an integration stands, and where its last step came from.
 pub struct Place<S: Dynamics> {

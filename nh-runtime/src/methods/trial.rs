@@ -67,7 +67,7 @@ pub trait Scheme<S: Dynamics>: Copy {
         tolerance: &W,
         work: &mut Self::Work,
         statistics: &mut Statistics,
-    ) -> (Trial<S>, Option<Returned<ScalarOf<S>>>) {
+    ) -> (Trial<S>, Option<Returned<S>>) {
         (self.attempt::<KEEP, W>(start, h, tolerance, work, statistics), None)
     }
 

@@ -243,7 +243,7 @@ where
         tolerance: &W,
         work: &mut Work<S, P>,
         statistics: &mut Statistics,
-    ) -> (Trial<S>, Option<Returned<ScalarOf<S>>>) {
+    ) -> (Trial<S>, Option<Returned<S>>) {
         let mut returned = None;
         let trial = step_of::<KEEP, S, P, W>(start, h, tolerance, work, statistics, |state| {
             let mut end = S::State::from_array(*state);
