@@ -169,7 +169,7 @@ impl Wheel {
         include: impl Fn(f64, &S::State) -> FlyingState,
     ) -> Result<(f64, FlyingState), Box<dyn Error>> {
         let events =
-            Events::new(|t, x: &S::State, _: &S::Input| functions(t, x)).directions([Direction::Falling; N]);
+            Events::new(|t, x: &S::State, _: &S::Input| functions(t, x)).directions([Direction::Closing; N]);
         let mut sim = Integrator::new(system, Dopri5::new().rtol(1e-10).atol(1e-12), start, state);
         loop {
             let next = (sim.time() + TICK).min(END);
