@@ -21,6 +21,7 @@ use nonholonomic::prelude::*;
         J / 2 * der(crank)^2 + m / 2 * (dot(der(b), der(b)) + dot(der(d), der(d)) + dot(der(p), der(p)))
             - m * g * (b[1] + d[1] + p[1])
     }
+    emit { taylor }
 )]
 #[derive(Clone, Copy, Debug)]
 struct Cell {
@@ -85,5 +86,6 @@ fn no_energy_is_lost_where_links_come_to_lie_in_line() {
     keeps_its_energy("Bs23", |tolerance| Bs23::new().rtol(tolerance).atol(tolerance));
     keeps_its_energy("Radau5", |tolerance| Radau5::new().rtol(tolerance).atol(tolerance));
     keeps_its_energy("Rodas5P", |tolerance| Rodas5P::new().rtol(tolerance).atol(tolerance));
+    keeps_its_energy("Taylor", |tolerance| Taylor::new().rtol(tolerance).atol(tolerance));
     keeps_its_energy("Auto", |tolerance| Auto::new().rtol(tolerance).atol(tolerance));
 }
