@@ -25,7 +25,8 @@ pub trait Jumps<const N: usize, const K: usize, const E: usize> {
     /// The state after the event of this number.
     fn reset<A: Scalar>(&self, event: usize, t: A, state: &[A; N], by: &[A; K]) -> [A; N];
 
-    /// In which direction each function passes zero where it is an event: falling, unless said otherwise.
+    /// In which direction each function passes zero where it is an event: falling, unless said otherwise. What may come to
+    /// rest on a gap has to say [`Direction::Closing`], or falls through it.
     fn directions(&self) -> [Direction; E] {
         [Direction::Falling; E]
     }
@@ -85,6 +86,7 @@ type JumpedOf<S, T, const K: usize> = Jumped<T, <S as Dynamics>::State, K>;
 ///     fn reset<A: Scalar>(&self, _event: usize, _t: A, [height, speed]: &[A; 2], by: &[A; 2]) -> [A; 2] {
 ///         [*height, -(A::from_f64(self.restitution) + by[1]) * *speed]
 ///     }
+///     fn directions(&self) -> [Direction; 1] { [Direction::Closing] }
 /// }
 ///
 /// # fn main() -> Result<(), Box<dyn core::error::Error>> {
