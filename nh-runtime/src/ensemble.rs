@@ -43,6 +43,12 @@ pub struct Member<S: Dynamics, M: Method<S>, E = IntegrationError> {
     pub outcome: Result<(), E>,
 }
 
+impl<S: Dynamics + Clone, M: Method<S> + Clone, E: Clone> Clone for Member<S, M, E> {
+    fn clone(&self) -> Self {
+        Self { sim: self.sim.clone(), outcome: self.outcome.clone() }
+    }
+}
+
 impl<S: Dynamics, M: Method<S>, E: fmt::Debug> fmt::Debug for Member<S, M, E>
 where
     S::State: fmt::Debug,

@@ -34,6 +34,7 @@ pub trait Inclusion<W: Dynamics>: Dynamics {
 
 /// A state that is not in a mode.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct NotInMode<X> {
     /// The variable that is off by most.
     pub variable: &'static str,

@@ -53,6 +53,7 @@ const ROUNDING: f64 = 4096.0;
 /// # Ok::<(), nonholonomic::LinearizationError>(())
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct Linearization<T, const K: usize, const M: usize, const P: usize> {
     /// In row i, the derivatives of ż_i by the variables z.
     pub a: SMatrix<T, K, K>,

@@ -10,6 +10,7 @@ use crate::{D, Dynamics, Jet, Real, State};
 
 /// δż = A δz + B δu: a motion to first order, in coordinates z of the manifold where the constraints hold.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct OnConstraints<T, const K: usize, const M: usize> {
     /// In row i, the derivatives of ż_i by the coordinates z.
     pub a: SMatrix<T, K, K>,
@@ -77,7 +78,8 @@ impl Error for ChartError {}
 /// changes of the state that keep all constraints and change one z by 1 each.
 ///
 /// The system computes with [`Jet`]s, whose partial derivatives are exact; the state has to be where its constraints
-/// hold, and the inputs are numbers and what makes the system's inputs of them (`PendulumInput::from`). `chart` lists the components z by their numbers. The eigenvalues of A do not depend on the choice at
+/// hold. `input` has the numbers of the inputs, and `named` makes the system's inputs of them (`PendulumInput::from`).
+/// `chart` lists the components z by their numbers. The eigenvalues of A do not depend on the choice at
 /// equilibria and relative equilibria. Systems over an embedded base (`on`) are not meant.
 ///
 /// # Errors
@@ -99,7 +101,7 @@ impl Error for ChartError {}
 ///
 /// let pendulum = Pendulum { m: 2.0, l: 0.5, g: 9.81 }.map(Jet::<f64, 4>::constant);
 /// // hanging, by its deflection and the rate of that
-/// let found = linearize_on_constraints(&pendulum, 0.0, &[0.0, -0.5, 0.0, 0.0], (&[], |[]| ()), &[0, 2])?;
+/// let found = linearize_on_constraints(&pendulum, 0.0, &[0.0, -0.5, 0.0, 0.0], &[], |[]| (), &[0, 2])?;
 /// assert!((found.a[(1, 0)] + 9.81 / 0.5).abs() < 1e-13);
 /// # impl<T> Pendulum<T> {
 /// #     fn map<U>(self, f: impl Fn(T) -> U) -> Pendulum<U> { Pendulum { m: f(self.m), l: f(self.l), g: f(self.g) } }
@@ -110,7 +112,8 @@ pub fn linearize_on_constraints<S, T, const N: usize, const M: usize, const K: u
     system: &S,
     t: T,
     state: &[T; N],
-    (input, named): (&[T; M], impl FnOnce([Jet<T, N, M>; M]) -> S::Input),
+    input: &[T; M],
+    named: impl FnOnce([Jet<T, N, M>; M]) -> S::Input,
     chart: &[usize; K],
 ) -> Result<OnConstraints<T, K, M>, ChartError>
 where

@@ -27,6 +27,15 @@ macro_rules! unasked {
         }
         impl<S: Dynamics> Unasked for S {}
     };
+    (@method $method:ident () $Asks:ident) => {
+        #[doc(hidden)]
+        fn $method(&self) -> <Self as $Asks>::Found
+        where
+            Self: $Asks,
+        {
+            self.found()
+        }
+    };
     (@method $method:ident (t, state) $Asks:ident) => {
         #[doc(hidden)]
         fn $method(&self, _t: ScalarOf<Self>, _state: &Self::State) -> <Self as $Asks>::Found
@@ -60,9 +69,28 @@ macro_rules! unasked {
             self.found()
         }
     };
+    (@method $method:ident (t, state, input, along, input_along) $Asks:ident) => {
+        #[doc(hidden)]
+        fn $method<A: ?Sized, B: ?Sized>(
+            &self,
+            _t: ScalarOf<Self>,
+            _state: &Self::State,
+            _input: &Self::Input,
+            _along: &A,
+            _input_along: &B,
+        ) -> <Self as $Asks>::Found
+        where
+            Self: $Asks,
+        {
+            self.found()
+        }
+    };
 }
 
 unasked! {
+    AsksJacobian,
+        "`{Self}` is declared without `emit {{ jacobian }}`, which generates this method":
+        jacobian(t, state, input);
     AsksMultipliers,
         "`{Self}` is declared without `emit {{ multipliers }}`, which generates this method":
         multipliers(t, state, input);
@@ -106,7 +134,7 @@ unasked! {
         vertical_momentum_rates(t, state, input), vertical_velocities(t, state), horizontal_force(t, state);
     AsksJacobianProduct,
         "`{Self}` is declared without `emit {{ jacobian_product }}`, which generates this method":
-        jacobian_product(t, state, input, along);
+        jacobian_product(t, state, input, along, input_along);
     AsksAdjointProduct,
         "`{Self}` is declared without `emit {{ adjoint_product }}`, which generates this method":
         adjoint_product(t, state, input, along);
@@ -115,7 +143,13 @@ unasked! {
         legendre(t, state);
     AsksSparseJacobian,
         "`{Self}` is declared without `emit {{ sparse_jacobian }}`, which generates this method":
-        sparse_linearized(t, state, input);
+        sparse_jacobian(t, state, input), sparse_linearized(t, state, input);
+    AsksPrepared,
+        "`{Self}` is declared without `emit {{ prepared }}`, which generates this method":
+        prepare();
+    AsksAngleCache,
+        "`{Self}` is declared without `emit {{ angle_cache }}`, which generates this method":
+        with_angle_cache();
     AsksLinearization,
         "`{Self}` is declared without `linearization {{ keep: …; }}`, which generates this method":
         linearize(t, state, input);

@@ -32,7 +32,7 @@ const BALANCE: [usize; 4] = [3, 4, 7, 8];
 fn balance(g: f64, speed: f64) -> (Matrix4<f64>, f64) {
     let system = bicycle::<Jet<f64, 11>>(g);
     let state = straight(speed).to_array();
-    let found = linearize_on_constraints(&system, 0.0, &state, (&[], |[]| ()), &CHART).unwrap();
+    let found = linearize_on_constraints(&system, 0.0, &state, &[], |[]| (), &CHART).unwrap();
     let others = (0..10).filter(|column| !BALANCE.contains(column));
     let strange =
         others.flat_map(|column| [7, 8].map(|row| found.a[(row, column)].abs())).fold(0.0, f64::max);
@@ -177,10 +177,10 @@ fn what_is_no_chart_is_refused() {
     let system = bicycle::<Jet<f64, 11>>(GRAVITY);
     let state = straight(5.0).to_array();
     let refused = |chart: &[usize; 10]| {
-        linearize_on_constraints(&system, 0.0, &state, (&[], |[]| ()), chart).unwrap_err()
+        linearize_on_constraints(&system, 0.0, &state, &[], |[]| (), chart).unwrap_err()
     };
     assert_eq!(refused(&[0, 1, 2, 3, 5, 6, 7, 8, 9, 11]), ChartError::NoSuchComponent { index: 11 });
-    let few = linearize_on_constraints(&system, 0.0, &state, (&[], |[]| ()), &[3, 5, 8, 9]);
+    let few = linearize_on_constraints(&system, 0.0, &state, &[], |[]| (), &[3, 5, 8, 9]);
     assert_eq!(few.unwrap_err(), ChartError::WrongNumber { chosen: 4, free: 10 });
     assert!(
         few.unwrap_err().to_string().contains("4 components are chosen where the constraints leave 10 free")

@@ -225,9 +225,9 @@ struct Ball<T> {
 fn charts_that_determine_nothing_are_refused_and_others_know_no_units() {
     for a in [0.1, 0.3, 0.7, 1.3, -2.9] {
         let plane = Plane::<Jet<f64, 8>> { a: Jet::constant(a), k: Jet::constant(2.0) };
-        let found = linearize_on_constraints(&plane, 0.0, &[0.0; 8], (&[], |[]| ()), &[2, 3, 6, 7]);
+        let found = linearize_on_constraints(&plane, 0.0, &[0.0; 8], &[], |[]| (), &[2, 3, 6, 7]);
         assert_eq!(found.map(|_| ()), Err(ChartError::Singular), "{a}");
-        let other = linearize_on_constraints(&plane, 0.0, &[0.0; 8], (&[], |[]| ()), &[0, 3, 4, 7]);
+        let other = linearize_on_constraints(&plane, 0.0, &[0.0; 8], &[], |[]| (), &[0, 3, 4, 7]);
         assert!(other.is_ok(), "{a}: {other:?}");
     }
     let found = |time: f64, length: f64| {
@@ -236,7 +236,7 @@ fn charts_that_determine_nothing_are_refused_and_others_know_no_units() {
         let speed = length / time;
         // on the rope, across it
         let state = [0.3 * length, -0.4 * length, 0.0, 0.4 * speed, 0.3 * speed, 0.7 * speed];
-        let linear = linearize_on_constraints(&ball, 0.0, &state, (&[], |[]| ()), &[0, 2, 3, 5])
+        let linear = linearize_on_constraints(&ball, 0.0, &state, &[], |[]| (), &[0, 2, 3, 5])
             .unwrap_or_else(|error| panic!("{time:e} {length:e}: {error}"));
         let units = [length, length, speed, speed];
         core::array::from_fn::<_, 16, _>(|k| linear.a[(k / 4, k % 4)] * time * units[k % 4] / units[k / 4])
@@ -309,7 +309,8 @@ fn steps_are_differentiated_with_their_return() {
         &plain,
         0.0,
         0.1,
-        (&start, &input),
+        &start,
+        &input,
         |_| [1.0, -2.0, 0.5, 3.0, 1.0],
         |_, _, _| nalgebra::SMatrix::<f64, 5, 0>::zeros(),
     );

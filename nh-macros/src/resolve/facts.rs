@@ -2,6 +2,7 @@
 //! and what is asked for beyond the default.
 
 use nonholonomic_core::algebra::Rational;
+use nonholonomic_core::functions::{TABLE, When};
 use nonholonomic_core::id::{ExprId, Origin, SymbolId};
 use nonholonomic_core::model::{
     Assumption, Located, OutputDecl, Relation, Request, SectionClaim, VolumeClaim,
@@ -19,8 +20,42 @@ use crate::syntax::ast::{self, Comparison, Definition, Equation, Item, Momentum,
 /// Longest side of an assumption shown, in bytes.
 const SHOWN: usize = 160;
 
-/// What is generated anyway.
-const GENERATED: [&str; 5] = ["derivative", "energy", "velocity", "outputs", "validate"];
+/// What is generated anyway, beside the functions of the table.
+const GENERATED: [&str; 2] = ["derivative", "validate"];
+/// What sections generate, beside the functions of the table.
+const OF_SECTIONS: [(&str, &str); 4] = [
+    ("linearize", "linearization"),
+    ("trim", "linearization"),
+    ("normalize", "on"),
+    ("assemble", "holonomic"),
+];
+
+/// What is wrong where a function that is no word of `emit` stands there: what generates it is something else.
+fn generated_otherwise(name: &Name) -> Option<Diagnostic> {
+    let text = name.text.as_str();
+    let says = |what: &str| Diagnostic::new(name.extent(), format!("`{text}` is generated {what}"));
+    let anyway = || says("without being asked for").way_out("leave it out");
+    let by_section = |section: &str| {
+        says(&format!("by `{section} {{ … }}`")).way_out("declare that section, and leave this out")
+    };
+    let by_word = |asked: Request| {
+        let (word, _) = Request::WORDS.iter().find(|(_, request)| *request == asked)?;
+        Some(says(&format!("by `{word}`")).way_out(format!("write `{word}`")))
+    };
+    if GENERATED.contains(&text) {
+        return Some(anyway());
+    }
+    if let Some((_, section)) = OF_SECTIONS.iter().find(|(known, _)| *known == text) {
+        return Some(by_section(section));
+    }
+    match TABLE.iter().find(|signature| signature.name == text)?.when {
+        When::Always | When::WithOutputs | When::WithConstraints => Some(anyway()),
+        When::Asked(request) => by_word(request),
+        When::WithSymmetries => by_word(Request::Momenta),
+        When::WithSection => Some(by_section("hamilton_jacobi")),
+        When::WithQuadratures => Some(by_section("routh")),
+    }
+}
 
 impl Resolver {
     /// f = 0 on the embedded base; vectors entry by entry.
@@ -163,12 +198,8 @@ impl Resolver {
         for name in names {
             let text = name.text.as_str();
             let Some((_, request)) = Request::WORDS.iter().find(|(known, _)| *known == text) else {
-                if GENERATED.contains(&text) {
-                    let error = Diagnostic::new(
-                        name.extent(),
-                        format!("`{text}` is generated without being asked for"),
-                    );
-                    self.report(name, error.way_out("leave it out"));
+                if let Some(error) = generated_otherwise(name) {
+                    self.report(name, error);
                     continue;
                 }
                 let all = Request::WORDS.map(|(known, _)| format!("`{known}`")).join(", ");

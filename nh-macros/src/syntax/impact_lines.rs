@@ -34,6 +34,9 @@ impl Stream {
 
     /// `with restitution e`, if it is there.
     fn restitution(&mut self) -> Result<Option<Expr>, Diagnostic> {
+        if self.at_word("restitution") {
+            return Err(Diagnostic::new(self.here(), "`with` is missing before `restitution`").way_out(READS));
+        }
         if !self.eat_word("with") {
             return Ok(None);
         }

@@ -177,6 +177,12 @@ fn errors_in_lines_are_explained() {
             "an operator or a `;` is missing between `0` and `v`\nhelp: a product is written `0 * v`".to_owned(),
         ),
         ("constraints { a = b = c }", "expected `;`, found `=`".to_owned()),
+        (
+            "impacts { floor: y >= 0 restitution e; }",
+            "`with` is missing before `restitution`\nhelp: an impact reads `floor: h >= 0 with restitution e;` or \
+             `blade: u = 0, w = 0;`"
+                .to_owned(),
+        ),
         ("outputs { speed: 3 }", "expected `=`, found `:`\nhelp: a definition reads `name = …;`".to_owned()),
         ("outputs { R[0][1][2] = 3 }", "a third index\nhelp: families have one or two indices".to_owned()),
         ("symmetries { w }", "expected `:` after `w`\nhelp: a symmetry reads `label: …;`".to_owned()),

@@ -46,6 +46,7 @@ pub struct Ilqr<T, const N: usize, const M: usize, const H: usize> {
 
 /// What an iteration did.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct Improvement<T> {
     /// The cost after it.
     pub cost: T,

@@ -18,6 +18,7 @@ pub struct Estimate<T, const N: usize> {
 
 /// An estimate after a measurement.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct Correction<T, const N: usize> {
     /// What is known now.
     pub estimate: Estimate<T, N>,

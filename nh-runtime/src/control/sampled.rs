@@ -83,7 +83,7 @@ where
         let none = |_, _: &S::State, _: &S::Input| SMatrix::<T, N, 0>::from([[T::ZERO; N]; 0]);
         let covector = |_: &S::State| (*covector).into();
         let back =
-            Rk4::pulled_back_step(&self.system, self.time(tick), self.dt, (&state, &input), covector, none);
+            Rk4::pulled_back_step(&self.system, self.time(tick), self.dt, &state, &input, covector, none);
         (SVector::from(back.by_state), SVector::from(back.by_input))
     }
 }

@@ -40,6 +40,7 @@ pub struct Events<F, const N: usize> {
 
 /// A change of sign.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct Event<T, X> {
     /// Which of the functions.
     pub index: usize,

@@ -214,7 +214,10 @@ where
 }
 
 /// Takes steps to `target`, which is not before the time, and makes the jump of `impact` wherever a gap closes, and at the
-/// start where one is closed and does not open; `visit` sees each and may end the run there. Statistics, input and step
+/// start where one is closed and does not open; `visit` sees each and may end the run there. `closed` is the largest gap that
+/// counts as closed, in the units of the gaps: 0 unless a gap is known to that alone, since rounding is allowed for without it.
+/// A start beyond a gap, where it is negative, counts as closed too, and nothing takes it back: a run that ends there as
+/// [`End::Accumulated`] stands where it was put. Statistics, input and step
 /// length go on from jump to jump, and the limits on steps and evaluations hold for the whole call.
 ///
 /// # Errors

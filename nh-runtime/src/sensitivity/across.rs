@@ -37,6 +37,7 @@ const SAME_TIME: f64 = 64.0;
 
 /// A jump that was made.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct Jumped<T, X, const K: usize> {
     /// Which event.
     pub event: usize,

@@ -50,6 +50,7 @@ pub trait Objective<S: Dynamics, const N: usize, const M: usize> {
 
 /// The gradient of a cost; that by the inputs stands in the slice that was given for it.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct Gradient<X, T, const N: usize, const Q: usize = 0> {
     /// The cost.
     pub value: T,
@@ -253,7 +254,7 @@ where
             };
             let parameters = |t: T, x: &S::State, u: &S::Input| (self.parameters)(self.system, t, x, u);
             let back: PulledBack<_, T, N, M, Q> =
-                Fixed::<P, T>::pulled_back_step(self.system, t, h, (state, input), covector, parameters);
+                Fixed::<P, T>::pulled_back_step(self.system, t, h, state, input, covector, parameters);
             let running = objective.running(tick, t, state, input);
             *value = running.value.mul_add(h, *value);
             *by_start = back.by_state;

@@ -27,6 +27,7 @@ pub struct Crossing<T, const N: usize, const K: usize> {
 
 /// The columns after an event, and how its time changes.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct AfterEvent<T, const N: usize, const K: usize> {
     /// X⁺.
     pub columns: [[T; N]; K],

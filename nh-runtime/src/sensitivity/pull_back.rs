@@ -8,6 +8,7 @@ use crate::{D, Jacobian, Scalar, State};
 
 /// What the derivative of a step, transposed, makes of a covector λ at its end.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct PulledBack<X, T, const N: usize, const M: usize, const Q: usize = 0> {
     /// The state at the end of the step.
     pub state: X,
@@ -43,7 +44,7 @@ impl<P: Tableau, T: Scalar> Fixed<P, T> {
     /// let oscillator = Oscillator { m: 1.0, k: 4.0 };
     /// let (start, input) = (OscillatorState { x: 1.0, x_dot: 0.0 }, OscillatorInput { push: 0.5 });
     /// let step = Rk4::linearized_step(&oscillator, 0.0, 0.1, &start, &input);
-    /// let back = Rk4::pulled_back_step(&oscillator, 0.0, 0.1, (&start, &input), |_end| [1.0, 0.0], |t, x, u| {
+    /// let back = Rk4::pulled_back_step(&oscillator, 0.0, 0.1, &start, &input, |_end| [1.0, 0.0], |t, x, u| {
     ///     oscillator.parameter_jacobian(t, x, u)
     /// });
     /// assert!((back.by_state[1] - step.by_state[(0, 1)]).abs() < 1e-16);
@@ -60,7 +61,8 @@ impl<P: Tableau, T: Scalar> Fixed<P, T> {
         system: &S,
         t: T,
         dt: T,
-        (state, input): (&S::State, &S::Input),
+        state: &S::State,
+        input: &S::Input,
         covector: impl FnOnce(&S::State) -> [T; N],
         parameters: impl Fn(T, &S::State, &S::Input) -> SMatrix<T, N, Q>,
     ) -> PulledBack<S::State, T, N, M, Q>

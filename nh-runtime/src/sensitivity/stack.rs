@@ -1,5 +1,7 @@
 //! The components of a state with those of its columns, as one array.
 
+use core::fmt;
+
 use crate::dim::sealed;
 use crate::{D, Dim};
 
@@ -61,6 +63,15 @@ where
     }
 }
 impl<T: Copy + 'static, const N: usize, const K: usize> Copy for Stacked<T, N, K> where D<K>: Columns {}
+
+impl<T: Copy + fmt::Debug + 'static, const N: usize, const K: usize> fmt::Debug for Stacked<T, N, K>
+where
+    D<K>: Columns,
+{
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_list().entries(self.as_ref()).finish()
+    }
+}
 
 impl<T: Copy + 'static, const N: usize, const K: usize> AsRef<[T]> for Stacked<T, N, K>
 where

@@ -26,6 +26,7 @@ fn public_types_are_debug() {
     is_debug::<(Analytic, FiniteDifferences, Uniform<f64>)>();
     is_debug::<Interruptible<Rk4<f64>, fn(&Statistics) -> bool>>();
     is_debug::<Compensated<nonholonomic::methods::Kutta4, f64>>();
+    is_debug::<nonholonomic::sensitivity::Stacked<f64, 2, 1>>();
     is_debug::<(Taylor<f64>, Radau5<f64>, Rodas5P<f64>, GaussLegendre6<f64>, Conserving<Rk4<f64>>)>();
 }
 

@@ -28,7 +28,9 @@ fn seen(members: &[Swing]) -> Vec<Seen> {
 #[test]
 fn a_member_runs_as_if_it_were_alone() {
     let mut all = members();
+    let mut copies = all.clone();
     let arrived = ensemble::advance_to(&mut all, 2.0);
+    assert_eq!((ensemble::advance_to(&mut copies, 2.0), seen(&copies)), (arrived, seen(&all)));
     let mut alone = members();
     for member in &mut alone {
         member.outcome = member.sim.advance_to(2.0);

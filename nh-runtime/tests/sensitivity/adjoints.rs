@@ -130,7 +130,8 @@ fn covectors_times_columns_are_constant() {
             &Free,
             0.1 * k as f64,
             0.1,
-            (&place.state, &()),
+            &place.state,
+            &(),
             |_| covector,
             |_, _, ()| SMatrix::<f64, 2, 0>::zeros(),
         );

@@ -127,7 +127,8 @@ fn backwards<P: Tableau>(kind: Kind, change: &Change) -> Told {
         &run.system,
         run.from,
         run.step,
-        (&run.start, &()),
+        &run.start,
+        &(),
         |_| units.map(|unit| 1.0 / unit),
         |_, _, ()| SMatrix::zeros(),
     );

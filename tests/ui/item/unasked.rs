@@ -10,6 +10,6 @@ fn main() {
     let (free, state) = (Free, FreeState { x: 0.0, x_dot: 1.0 });
     let multipliers = free.multipliers(0.0, &state, &());
     println!("{:?}", multipliers.x);
-    let _ = free.jacobian_product(0.0, &state, &(), &[1.0, 0.0]);
+    let _ = free.jacobian_product(0.0, &state, &(), &state, &());
     let _ = free.linearize(0.0, &state, &());
 }
