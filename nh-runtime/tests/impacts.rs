@@ -325,7 +325,7 @@ fn a_start_inside_that_moves_out_meets_the_ground_where_it_is() {
     let start = Place([0.0, -0.1, 0.0, 2.0]);
     let mut sim = Integrator::new(HEAVY, Rk4::new(0.01), 0.0, start);
     let mut first = None;
-    let end = advance_with_impacts(&mut sim, 1.0, &ground, 0.0, |struck| {
+    let end = advance_with_impacts(&mut sim, 1.0, &ground, 0.1, |struck| {
         first = Some(*struck);
         ControlFlow::Break(())
     });
@@ -462,5 +462,23 @@ fn the_gap_up_to_which_a_row_is_closed_is_a_length() {
         let run = advance_with_impacts(&mut sim, 1.0, &ground, closed, |_| ControlFlow::Continue(()));
         assert!(matches!(run, Err(ImpactError::Closed { .. })), "{run:?}");
         assert_eq!((sim.time(), *sim.state()), (0.0, start));
+    }
+}
+
+#[test]
+fn a_run_does_not_start_beyond_a_gap() {
+    let ground = Ground { height: 0.0, slope: 0.0, restitution: 0.5 };
+    let run = |y: f64, closed: f64| {
+        let mut sim = Integrator::new(HEAVY, Dopri5::new(), 0.0, Place([3.0, y, 0.0, 1.0]));
+        advance_with_impacts(&mut sim, 5.0, &ground, closed, |_| ControlFlow::Continue(()))
+    };
+    assert_eq!(
+        run(-0.5, 0.0).unwrap_err().to_string(),
+        "the gap of the row `ground` is -0.5 at t = 0.0, where the run starts: start where no gap is negative, or say how \
+         far it may be by `closed`"
+    );
+    // within rounding, or what was said
+    for (y, closed) in [(-1e-9, 0.0), (-1e-3, 2e-3)] {
+        assert!(matches!(run(y, closed), Ok(End::Accumulated { row: 0, .. })), "{y}");
     }
 }

@@ -31,6 +31,15 @@ pub enum ImpactError {
         /// The time.
         time: f64,
     },
+    /// A run starts where a gap is negative, by more than rounding and what counts as closed.
+    Beyond {
+        /// The row.
+        row: &'static str,
+        /// The time.
+        time: f64,
+        /// The gap.
+        gap: f64,
+    },
     /// The impulse of a row does not move it ahead, n M⁻¹ nᵀ ≤ 0 on the constraints.
     NoResponse {
         /// The row.
@@ -87,6 +96,11 @@ impl Display for ImpactError {
                 f,
                 "the row `{row}` has a number that is not finite at t = {time:?}: look at the last good state, and \
                  at the parameters"
+            ),
+            Self::Beyond { row, time, gap } => write!(
+                f,
+                "the gap of the row `{row}` is {gap:?} at t = {time:?}, where the run starts: start where no gap is \
+                 negative, or say how far it may be by `closed`"
             ),
             Self::NoResponse { row, time, response } => write!(
                 f,

@@ -213,12 +213,34 @@ where
     Ok(Struck { time: t, before: *state, after, impulses, lost })
 }
 
+/// Refuses a start beyond a gap: nothing would lead back from there.
+fn admit_start<S: Dynamics, I: Impact<S, R>, const R: usize>(
+    place: &Place<'_, S>,
+    impact: &I,
+) -> Result<(), ImpactError>
+where
+    ScalarOf<S>: Real,
+{
+    let Place { system, time, state, closed } = *place;
+    let zero = ScalarOf::<S>::ZERO;
+    let largest = state.to_array().as_ref().iter().fold(zero, |most, x| most.max(x.abs()));
+    let gaps = impact.gaps(system, time, state);
+    for ((gap, size), row) in gaps.iter().zip(impact.sizes(system, time, state)).zip(impact.names()) {
+        // where nothing is said of the terms, the state tells what is small
+        let size = if size > zero { size } else { largest };
+        let allowed = closed.max(ScalarOf::<S>::EPSILON.sqrt() * size);
+        if let Some(gap) = gap.filter(|gap| *gap < -allowed) {
+            return Err(ImpactError::Beyond { row, time: time.to_f64(), gap: gap.to_f64() });
+        }
+    }
+    Ok(())
+}
+
 /// Takes steps to `target`, which is not before the time, and makes the jump of `impact` wherever a gap closes, and at the
 /// start where one is closed and does not open; `visit` sees each and may end the run there. `closed` is the largest gap that
 /// counts as closed, in the units of the gaps: 0 unless a gap is known to that alone, since rounding is allowed for without it.
-/// A start beyond a gap, where it is negative, counts as closed too, and nothing takes it back: a run that ends there as
-/// [`End::Accumulated`] stands where it was put. Statistics, input and step
-/// length go on from jump to jump, and the limits on steps and evaluations hold for the whole call.
+/// A start with a gap that is negative by more than that is refused. Statistics, input and step length go on from jump to
+/// jump, and the limits on steps and evaluations hold for the whole call.
 ///
 /// # Errors
 /// [`ImpactError`]; state and time are those before the impact, or of the last good step.
@@ -250,6 +272,7 @@ where
     };
     let gaps = |t: ScalarOf<S>, state: &S::State| impact.gaps(&system, t, state);
     if gaps(sim.time(), sim.state()).iter().any(Option::is_some) {
+        admit_start(&Place { system: &system, time: sim.time(), state: sim.state(), closed }, impact)?;
         let struck = strike_at(sim.time(), sim.state(), Contact::unseen())?;
         if struck.impulses.iter().any(|impulse| *impulse != ScalarOf::<S>::ZERO) {
             sim.set_state(struck.after);

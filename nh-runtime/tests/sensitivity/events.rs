@@ -220,7 +220,7 @@ fn bounces_without_end_are_told() {
     let motion = motion(9.81);
     let start = motion.start(&Numbers([0.0, 1.0, 0.0, 0.0])).unwrap();
     for restitution in [0.5, 0.0] {
-        let mut sim = Integrator::new(motion.clone(), Dopri5::new(), 0.0, start);
+        let mut sim = Integrator::new(motion, Dopri5::new(), 0.0, start);
         let ground = Ground { restitution, lift: 0.0, wall: 1.0 };
         let found = advance_across(&mut sim, 5.0, &ground, |_| ControlFlow::Continue(()));
         assert!(
