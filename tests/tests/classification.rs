@@ -27,8 +27,8 @@ system! { Drift { m: f64 }
     constraints { der(z) = der(x) + 1; }
 }
 
-// A frame of commuting fields.
-system! { Commuting { m: f64 }
+// A frame of commuting fields, and a parameter that nothing depends on.
+system! { Commuting { m: f64, k: f64 }
     base { x, y }
     basis { a, b }
     anchor { der(x) = exp(x) * a; der(y) = b; }
@@ -222,6 +222,8 @@ fn reports() {
             assert!(report.contains(line), "{line}\n{report}");
         }
     }
+    assert!(Commuting::REPORT.contains("Unused parameters\n  k stands in no expression"));
+    assert!(!Leaves::REPORT.contains("Unused parameters"));
     // what is false of them
     for (report, words) in [
         (Leaves::REPORT, "nonholonomic"),
