@@ -219,6 +219,8 @@ pub struct ImpactForm {
     pub places: Vec<Option<usize>>,
     /// Which rows push and never pull.
     pub unilateral: Vec<bool>,
+    /// Whether the rows and the constraints are homogeneous in the velocities: b = 0.
+    pub is_homogeneous: bool,
     /// Outputs: h of each row on positions.
     pub gaps: Procedure,
     /// Outputs: x^i ∂_i h, row by row, by which a gap is known up to rounding.

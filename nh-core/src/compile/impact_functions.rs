@@ -48,6 +48,7 @@ fn jump(
     equations: &SaddleEquations,
     impact: &Impact,
 ) -> ImpactForm {
+    let is_homogeneous = is_homogeneous(proved, impact);
     let parameters: Vec<SymbolId> =
         proved.model.parameters.iter().map(|parameter| parameter.symbol).collect();
     let coordinates: Vec<SymbolId> = proved.model.coordinates.iter().map(|c| c.symbol).collect();
@@ -112,9 +113,21 @@ fn jump(
         names: impact.rows.iter().map(|row| row.name.clone()).collect(),
         places: impact.rows.iter().map(place).collect(),
         unilateral: impact.rows.iter().map(|row| row.is_unilateral).collect(),
+        is_homogeneous,
         gaps: Procedure::of(gaps),
         terms: Procedure::of(terms),
         restitution: Procedure::of(vec![impact.restitution.unwrap_or(zero)]),
         jump: procedure,
     }
+}
+
+/// Whether nothing moves by itself: the rows and the constraints vanish with the velocities.
+fn is_homogeneous(proved: &mut Proved, impact: &Impact) -> bool {
+    let Proved { model, system, constraints, base, .. } = proved;
+    let graph = &mut model.graph;
+    let zero = graph.zero();
+    let mut at_rest = Substitution::new(system.algebroid.velocities.iter().map(|velocity| (*velocity, zero)));
+    let drift = constraints.linear.iter().flat_map(|linear| linear.drift.iter().copied());
+    let own: Vec<ExprId> = impact.rows.iter().map(|row| at_rest.apply(graph, row.form)).collect();
+    own.into_iter().chain(drift).all(|bias| base.zero_test(graph, bias).is_zero())
 }

@@ -200,6 +200,7 @@ fn implementation(
     let restitution = run(&impact.restitution);
     let (e_statements, e) = (&restitution.statements, &restitution.outputs);
     let bounces = impact.places.iter().map(Option::is_some);
+    let is_homogeneous = impact.is_homogeneous;
     let (gaps, sizes) =
         (closed(context, impact, outline, &this), sizes(context, impact, &run(&impact.terms)));
     let jump = run(&impact.jump);
@@ -233,6 +234,7 @@ fn implementation(
                 #(#e)*
             }
             fn bounces(&self) -> [::core::primitive::bool; #rows] { [#(#bounces),*] }
+            fn is_homogeneous(&self) -> ::core::primitive::bool { #is_homogeneous }
             #sizes
             #gaps
             fn rows(

@@ -18,6 +18,9 @@ impl ::nonholonomic::__private::impacts::Impact<Wheel, 2> for WheelTouchImpact {
     fn bounces(&self) -> [::core::primitive::bool; 2] {
         [true, false]
     }
+    fn is_homogeneous(&self) -> ::core::primitive::bool {
+        true
+    }
     fn sizes(
         &self,
         system: &Wheel,
@@ -107,6 +110,9 @@ impl ::nonholonomic::__private::impacts::Impact<Wheel, 1> for WheelStopImpact {
     }
     fn bounces(&self) -> [::core::primitive::bool; 1] {
         [false]
+    }
+    fn is_homogeneous(&self) -> ::core::primitive::bool {
+        true
     }
     fn sizes(
         &self,

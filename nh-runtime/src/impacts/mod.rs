@@ -90,6 +90,12 @@ pub trait Impact<S: Dynamics, const R: usize> {
         [true; R]
     }
 
+    /// Whether the rows and the constraints of the system vanish with the velocities: nothing moves by itself, as a turning
+    /// table does. Then a jump says what energy it loses; nothing is said of it unless this is.
+    fn is_homogeneous(&self) -> bool {
+        false
+    }
+
     /// The size of the terms of which each gap is the difference: a gap that is within the root of the machine's epsilon
     /// of that is closed. 0 unless said otherwise.
     fn sizes(&self, system: &S, t: ScalarOf<S>, state: &S::State) -> [ScalarOf<S>; R] {

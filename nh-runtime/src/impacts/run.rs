@@ -26,9 +26,9 @@ pub struct Struck<T, X, const R: usize> {
     pub after: X,
     /// The impulse of each row.
     pub impulses: [T; R],
-    /// The energy that is lost where the rows and the constraints are homogeneous, −½ (1 − e) μᵀs of each jump: with
-    /// one e for all rows, ½ (1 − e)/(1 + e) μᵀKμ.
-    pub lost: T,
+    /// The energy that is lost, −½ (1 − e) μᵀs of each jump: with one e for all rows, ½ (1 − e)/(1 + e) μᵀKμ. `None` where
+    /// rows or constraints are not homogeneous, and what moves by itself does work: ask the energies before and after.
+    pub lost: Option<T>,
 }
 
 /// How an integration with impacts has ended.
@@ -210,6 +210,7 @@ where
         lost += ScalarOf::<S>::from_f64(0.5) * worked;
         after = S::State::from_array(x);
     }
+    let lost = impact.is_homogeneous().then_some(lost);
     Ok(Struck { time: t, before: *state, after, impulses, lost })
 }
 
