@@ -40,7 +40,7 @@ impl<T: Real, const R: usize> Problem<'_, T, R> {
     /// rounding.
     pub(super) fn solve(&self) -> Result<[T; R], NoImpulse<T>> {
         let mut best: Option<(T, [T; R])> = None;
-        let mut dependent = None;
+        let mut without = None;
         for choice in 0..1_u32 << R.min(MOST_ROWS) {
             let is_chosen = |row: usize| choice >> row & 1 == 1;
             let mut active = [false; R];
@@ -61,12 +61,12 @@ impl<T: Real, const R: usize> Problem<'_, T, R> {
                         best = Some((violation, impulses));
                     }
                 }
-                Err(row) => dependent = Some(row),
+                Err(none) => without = Some(none),
             }
         }
-        match (best, dependent) {
+        match (best, without) {
             (Some((violation, impulses)), None) if violation.is_finite() => Ok(impulses),
-            (_, row) => Err(row.unwrap_or(NoImpulse::Dependent(0))),
+            (_, none) => Err(none.unwrap_or(NoImpulse::Dependent(0))),
         }
     }
 

@@ -19,8 +19,9 @@ use crate::{Dynamics, IntegrationError, ProjectionError, Real, Scalar, State, St
 ///
 /// The length of the next step follows from the errors of the last ones by the law of its
 /// [`Controller`]. A step with an error beyond the tolerance is rejected and repeated with a shorter one,
-/// and the step after that does not grow; how far its end has come off position constraints counts as error. A step is stretched by up to 1 % or shortened to land on a
-/// target, and what a target has cut short does not shorten the steps after it. The first step goes by the time over
+/// and the step after that does not grow; how far its end has come off position constraints counts as error.
+/// A step is stretched by up to 1 % or shortened to land on a target, and what a target has cut short does not shorten
+/// the steps after it. The first step goes by the time over
 /// which the solution varies; at rest, by a millionth of the distance to the target, of the longest step or of the time.
 ///
 /// Named by its methods: [`Bs23`](crate::Bs23), [`Dopri5`](crate::Dopri5), ….
@@ -377,7 +378,10 @@ impl<P, T: Real, W> Adaptive<P, T, W> {
                     trial.state = end.to_array();
                     Moved { returned, is_known: !returned.is_moved }
                 }
-                Err(error) => return (trial, Err(error)),
+                Err(error) => {
+                    trial.error = T::from_f64(f64::INFINITY);
+                    return (trial, Err(error));
+                }
             }
         };
         let off = norm(tolerance, &moved.returned.corrections, &start.state.to_array(), &trial.state);

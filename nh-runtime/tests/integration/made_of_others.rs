@@ -197,6 +197,26 @@ impl Dynamics for Blocked {
     }
 }
 
+/// Where no end of a step finds back to the constraints, steps are shortened as fast as control permits.
+fn stops_before_it(name: &str, method: impl Method<Blocked>) {
+    let mut sim = Integrator::new(Blocked, method, 0.0, ASIDE);
+    let ended = sim.advance_to(3.0);
+    let error = ProjectionError { iterations: 7, residual: 0.5 };
+    let is_told = matches!(ended, Err(IntegrationError::Projection { error: found, .. }) if found == error);
+    let rejected = sim.statistics().rejected;
+    assert!(is_told && (sim.time() - 1.0).abs() < 1e-12 && rejected < 100, "{name}: {ended:?}, {rejected}");
+}
+
+#[test]
+fn steps_that_do_not_find_back_are_shortened_until_there_are_none() {
+    stops_before_it("Dopri5", Dopri5::new());
+    stops_before_it("Bs23", Bs23::new());
+    stops_before_it("Dop853", Dop853::new());
+    stops_before_it("Radau5", Radau5::new());
+    stops_before_it("Rodas5P", Rodas5P::new());
+    stops_before_it("Auto", Auto::new());
+}
+
 /// What is wrong at a time is said there, and no further step is taken.
 #[test]
 fn a_sample_that_is_not_reached_is_told_where_it_is() {
