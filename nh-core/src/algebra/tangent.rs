@@ -55,7 +55,8 @@ impl std::ops::Mul for Dual {
 pub(crate) struct TangentPass<'p, 'a> {
     pass: &'p mut FieldPass<'a>,
     direction: Direction,
-    rates: IdMap<ExprId, Residue>,
+    /// Nothing of what contains no symbol that moves: that has a rate of 0 even where the function of it has no slope.
+    rates: IdMap<ExprId, Option<Residue>>,
 }
 
 impl<'p, 'a> TangentPass<'p, 'a> {
@@ -82,13 +83,15 @@ impl<'p, 'a> TangentPass<'p, 'a> {
     pub(crate) fn duals(&mut self, roots: &[ExprId]) -> Result<Vec<Dual>, NoValue> {
         self.pass.evaluate(roots)?;
         for id in self.pass.graph.reachable_beyond(roots, |id| self.rates.contains_key(&id)) {
-            let mut rate = Residue::ZERO;
+            let mut rate = None;
             if let Node::Symbol(symbol) = self.pass.graph.node(id) {
-                rate = self.direction.get(symbol).copied().unwrap_or(rate);
-            } else if self.pass.graph.node(id).operands().any(|x| self.rates[&x] != Residue::ZERO) {
+                rate = self.direction.get(symbol).copied().filter(|rate| *rate != Residue::ZERO);
+            } else if self.pass.graph.node(id).operands().any(|x| self.rates[&x].is_some()) {
+                let mut sum = Residue::ZERO;
                 for (operand, slope) in self.slopes(id)? {
-                    rate = rate + slope.value * self.rates[&operand];
+                    sum = sum + slope.value * self.rate(operand);
                 }
+                rate = Some(sum);
             }
             self.rates.insert(id, rate);
         }
@@ -122,7 +125,11 @@ impl<'p, 'a> TangentPass<'p, 'a> {
     }
 
     fn dual(&self, id: ExprId) -> Dual {
-        Dual { value: self.pass.known[&id], rate: self.rates[&id] }
+        Dual { value: self.pass.known[&id], rate: self.rate(id) }
+    }
+
+    fn rate(&self, id: ExprId) -> Residue {
+        self.rates[&id].unwrap_or(Residue::ZERO)
     }
 
     /// The partial derivatives of a node by its operands.
@@ -172,10 +179,9 @@ impl<'p, 'a> TangentPass<'p, 'a> {
             return Ok(self.dual(base));
         }
         let value = self.pass.power(base, exponent)?;
-        let along = self.rates[&base];
-        if along == Residue::ZERO || exponent.is_zero() {
+        let Some(along) = self.rates[&base].filter(|_| !exponent.is_zero()) else {
             return Ok(Dual::constant(value));
-        }
+        };
         let lowered = self.pass.power(base, &(exponent.clone() - Rational::ONE))?;
         Ok(Dual { value, rate: residue(exponent)? * lowered * along })
     }
@@ -313,6 +319,27 @@ mod tests {
                 compared += 1;
             }
             assert!(compared > 10, "{}: {compared} points", g.text(expression));
+        }
+    }
+
+    #[test]
+    fn a_root_has_no_slope_where_it_is_zero_unless_nothing_in_it_moves() {
+        let mut g = Graph::new();
+        let (x, y) = (g.new_symbol("x"), g.new_symbol("y"));
+        let (ex, ey) = (g.symbol(x), g.symbol(y));
+        let (square, shifted) = (g.mul(ex, ex), g.mul(ex, ey));
+        let half = Rational::new(1, 2);
+        // |x|, whose radicand has a slope of 0 at x = 0, and √(xy)
+        for (radicand, moves_y) in [(square, false), (shifted, true)] {
+            let root = g.pow(radicand, half.clone());
+            for along in [x, y] {
+                let mut point = FieldPoint::random(3);
+                point.chosen.insert(x, Residue::ZERO);
+                let mut pass = FieldPass::new(&g, point, g.angle_division(&[root]));
+                let direction = [(along, Residue::ONE)].into_iter().collect();
+                let dual = TangentPass::new(&mut pass, direction).duals(&[root]);
+                assert_eq!(dual.is_ok(), along == y && !moves_y);
+            }
         }
     }
 }

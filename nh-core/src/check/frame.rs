@@ -177,7 +177,10 @@ pub fn spanned_distribution(
     base: &Manifold,
 ) -> Result<Option<ConstraintDistribution>, Vec<Violation>> {
     let Some(spanning) = model.distribution.clone() else { return Ok(None) };
-    if let Some(violation) = excluded(model, &spanning).or_else(|| undetermined_reactions(model)) {
+    let refused = excluded(model, &spanning)
+        .or_else(|| nameless_multipliers(model, &spanning))
+        .or_else(|| undetermined_reactions(model));
+    if let Some(violation) = refused {
         return Err(vec![violation]);
     }
     let rows = frame_components(model)?;
@@ -239,17 +242,39 @@ fn excluded(model: &Model, spanning: &[(SymbolId, Origin)]) -> Option<Violation>
     let named = named.and_then(|named| named.first());
     let named = named.map(|(_, origin)| ("`independent`", *origin));
     let (what, origin) = constraint.or(formulation).or(named)?;
-    let names: Vec<&str> = spanning.iter().map(|(s, _)| model.graph.symbols()[*s].as_str()).collect();
     Some(Violation {
         law: Law::Choice,
         origin,
         what: format!("{what} beside `distribution`"),
         evidence: format!(
             "D is the span of {} already, and the state keeps their velocities",
-            listed(&names)
+            names_of(model, spanning)
         ),
         way_out: "keep one of the two descriptions".into(),
     })
+}
+
+/// A multiplier belongs to a constraint, and of a D that is spanned none is declared.
+fn nameless_multipliers(model: &Model, spanning: &[(SymbolId, Origin)]) -> Option<Violation> {
+    let (_, origin) = *model.requests.iter().find(|(request, _)| *request == Request::Multipliers)?;
+    Some(Violation {
+        law: Law::Choice,
+        origin,
+        what: "there are no multipliers of a distribution that is spanned".into(),
+        evidence: format!(
+            "D is the span of {}, and no constraint is declared that a multiplier would belong to",
+            names_of(model, spanning)
+        ),
+        way_out: "ask for `reactions`, the forces of constraint along the sections, or state `constraints { … }` in \
+                  place of `distribution`"
+            .into(),
+    })
+}
+
+/// The sections that span D, for a message.
+fn names_of(model: &Model, spanning: &[(SymbolId, Origin)]) -> String {
+    let names: Vec<&str> = spanning.iter().map(|(s, _)| model.graph.symbols()[*s].as_str()).collect();
+    listed(&names)
 }
 
 /// A force along a spanning section acts on D alone, so that the reactions are not determined.

@@ -25,6 +25,8 @@ pub(super) fn held_equations(proved: &mut Proved, derived: &Derived<'_>) -> Held
                 (0..count).map(|row| section_on_all(graph, equations, row, &judge, &mut map)).collect();
             (residuals.to_vec(), sections)
         }
+        // the velocities of the state satisfy the constraints on velocities by themselves
+        Derived::Adapted { .. } if positions.is_empty() => (Vec::new(), Matrix::new()),
         Derived::Adapted { distribution, .. } => {
             let saddle = saddle_equations(graph, &proved.system, &residuals);
             let mut restriction = distribution.restriction(graph, &proved.system.algebroid.velocities);

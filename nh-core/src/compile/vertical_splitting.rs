@@ -27,6 +27,8 @@ pub(crate) struct Reduced {
     pub(crate) names: Vec<String>,
     /// Sections that span V, in the declared basis, where they are those of a group.
     pub(crate) group: Vec<Vec<ExprId>>,
+    /// Whether the state keeps all velocities: then no choice of some of D is made for what is a function of them.
+    keeps_all: bool,
 }
 
 impl Reduced {
@@ -40,6 +42,7 @@ impl Reduced {
         distribution: Option<&ConstraintDistribution>,
     ) -> Result<Self, String> {
         let velocities = proved.system.algebroid.velocities.clone();
+        let keeps_all = distribution.is_none();
         let distribution = match distribution {
             Some(distribution) => distribution.clone(),
             None => proved
@@ -64,9 +67,10 @@ impl Reduced {
         let is_injective = proved.model.graph.generic_rank(&anchor)? == velocities.len();
         if is_injective && !translations {
             let generators = with_translations(proved, &sections, |id| moving.contains(&id));
-            return in_invariant_frame(proved, &distribution, &generators).map_err(|why| {
+            let reduced = in_invariant_frame(proved, &distribution, &generators).map_err(|why| {
                 format!("no frame of sections that commute with the declared symmetries: {why}")
-            });
+            })?;
+            return Ok(Self { keeps_all, ..reduced });
         }
         let splitting =
             Splitting::of(&mut proved.model.graph, &proved.system, &distribution, &group, &proved.base)
@@ -78,7 +82,7 @@ impl Reduced {
             Vec::new()
         };
         let system = proved.system.clone();
-        Ok(Self { system, distribution, splitting, frame: None, names, group: generators })
+        Ok(Self { system, distribution, splitting, frame: None, names, group: generators, keeps_all })
     }
 
     /// L̄, K and ⟨J, K⟩ of a Chaplygin system.
@@ -88,7 +92,12 @@ impl Reduced {
         }
         let rate = |id: &CoordId| proved.model.coordinates[*id].rate;
         let rates: Vec<SymbolId> = self.splitting.coordinates.iter().map(rate).collect();
-        Chaplygin::of(&mut proved.model.graph, &self.system, &self.distribution, &self.splitting, &rates)
+        let graph = &mut proved.model.graph;
+        let mut distribution = self.distribution.clone();
+        if self.keeps_all {
+            distribution.velocity = self.system.algebroid.velocity(graph);
+        }
+        Chaplygin::of(graph, &self.system, &distribution, &self.splitting, &rates)
     }
 
     /// A section in the declared basis.
@@ -221,7 +230,7 @@ fn in_invariant_frame(
     let splitting = Splitting::of(&mut model.graph, &system, &distribution, &group, base)
         .map_err(|why| not_split(proved, why))?;
     let group = generators.to_vec();
-    Ok(Reduced { system, distribution, splitting, frame: Some(frame), names, group })
+    Ok(Reduced { system, distribution, splitting, frame: Some(frame), names, group, keeps_all: false })
 }
 
 /// The system in the frame, without the coordinates along the group.

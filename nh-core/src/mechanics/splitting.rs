@@ -232,8 +232,8 @@ pub struct Chaplygin {
     pub curvature: Vec<Vec<ExprId>>,
     /// L̄ = L∘h at the rates ẋ^i.
     pub lagrangian: ExprId,
-    /// ⟨J, K⟩_i = −p(K_ij) ẋ^j on D, in the velocities of D: the force on the right of the
-    /// Euler–Lagrange equations of L̄.
+    /// ⟨J, K⟩_i = −p(K_ij) ẋ^j on D, in the symbols by which D has its velocity: the force on the right of
+    /// the Euler–Lagrange equations of L̄.
     pub force: Vec<ExprId>,
 }
 
@@ -284,7 +284,7 @@ impl Chaplygin {
         let images = algebroid.velocities.iter().copied().zip(velocity);
         let lagrangian = Substitution::new(images).apply(graph, system.lagrangian);
         let lagrangian = graph.simplify(lagrangian);
-        // 4. −p(K_ij) ẋ^j, with ẋ = ρ(B v)
+        // 4. −p(K_ij) ẋ^j, with ẋ = ρ(y)
         let mut restriction = distribution.restriction(graph, &algebroid.velocities);
         let momenta = system.momenta(graph);
         let momenta = restriction.apply_all(graph, &momenta);

@@ -76,7 +76,7 @@ fn expansion(work: u64, expanded: impl Fn() -> TokenStream) -> Result<Verdict, D
         if message.lines().any(is_cut_off) || message.trim().is_empty() {
             return Err(Defect::Empty(message.clone()));
         }
-        if ["not known here", "internal", "unwrap", "ExprId", "SymbolId"]
+        if ["not known here", "internal", "unwrap", "ExprId", "SymbolId", "defect of the derivation"]
             .iter()
             .any(|word| message.contains(word))
         {

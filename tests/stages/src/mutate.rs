@@ -1,6 +1,7 @@
 //! Declarations that are changed here and there: most are ill-posed, and all have to be refused in words or compiled.
 
 use crate::{Declaration, Relation};
+use nonholonomic_core::model::Request;
 use proc_macro2::{Group, Ident, Literal, Punct, Spacing, Span, TokenStream, TokenTree};
 
 /// Random numbers that are the same in every run: SplitMix64.
@@ -60,8 +61,8 @@ const EXTREME: [&str; 22] = [
     "99999999999999999999999999999999999999999999999999999999",
 ];
 
-/// Words with a meaning of their own.
-const WORDS: [&str; 46] = [
+/// Words with a meaning of their own, but for those of `emit`.
+const WORDS: [&str; 27] = [
     "t",
     "pi",
     "der",
@@ -89,25 +90,6 @@ const WORDS: [&str; 46] = [
     "adapted",
     "careful",
     "fast",
-    "jacobian",
-    "taylor",
-    "hamiltonian",
-    "bracket",
-    "connection",
-    "divergence",
-    "splitting",
-    "multipliers",
-    "gibbs_appell",
-    "discrete_gradient",
-    "invariants",
-    "leapfrog",
-    "rattle",
-    "momenta",
-    "reactions",
-    "prepared",
-    "angle_cache",
-    "parameter_jacobian",
-    "gyroscopic",
 ];
 
 /// What the declarations of a collection are made of.
@@ -189,6 +171,10 @@ impl Collection {
             declaration.attribute = match random.below(8) {
                 0 => self.spliced(declaration.attribute, random),
                 1 => self.without_a_section(declaration.attribute, random),
+                2 => match random.pick(&Request::WORDS) {
+                    Some((word, _)) => declaration.asking_for(word).attribute,
+                    None => declaration.attribute,
+                },
                 _ => {
                     let places = count(&declaration.attribute);
                     let mut place = random.below(places);

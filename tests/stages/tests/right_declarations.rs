@@ -51,6 +51,23 @@ struct Ellipse { m: f64, g: f64, a: f64, c: f64 }
 struct ArcSum { m: f64, g: f64 }
 #[nonholonomic(base { s } let x = ln(cosh(s)); let y = 2*atan(tanh(s/2)); lagrangian { m/2*(der(x)^2+der(y)^2) } conserved { e = m/2*(tanh(s)^2*der(s)^2 + der(s)^2/cosh(s)^2); })]
 struct Catenary { m: f64 }
+#[nonholonomic(base { x, q1, q2 } let elbow = [x + l*sin(q1), l*cos(q1)]; let tip = elbow + [l*sin(q2), l*cos(q2)];
+ lagrangian { cart/2*der(x)^2 + kinetic(m, J, elbow, q1) + kinetic(m, J, tip, q2) } outputs { reach = norm(tip - [x, 0]); }
+ assume { cart > 0; m > 0; J > 0; l > 0; } emit { output_jacobian, bracket })]
+struct Reach { cart: f64, m: f64, J: f64, l: f64 }
+#[nonholonomic(base { a, x, y } basis { omega, v1, v2 }
+ anchor { der(a) = omega; der(x) = v1*cos(a) - v2*sin(a); der(y) = v1*sin(a) + v2*cos(a); }
+ lagrangian { J/2*omega^2 + m/2*(v1^2 + (v2 + c*omega)^2) } constraints { edge: v2 = 0; }
+ outputs { speed = sqrt(v1^2 + v2^2); } emit { output_jacobian, bracket })]
+struct SpeedOfASleigh { J: f64, m: f64, c: f64 }
+#[nonholonomic(base { a, x, y } lagrangian { J/2*der(a)^2 + m/2*(der(x)^2 + der(y)^2) - m*g*x }
+ constraints { blade: sin(a)*der(x) = cos(a)*der(y); } emit { gyroscopic })]
+struct SkateOnAnIncline { J: f64, m: f64, g: f64 }
+#[nonholonomic(base { x, y } lagrangian { m*der(y)^2/2 - m*sqrt(1 - der(x)^2) } emit { power })]
+struct Relativistic { m: f64 }
+#[nonholonomic(base { x } basis { w[3] } anchor { der(x) = w[2]; } brackets so(3) { w } almost;
+ lagrangian { dot(w, I*w)/2 - k*x^2 } emit { connection })]
+struct FullInertia { I: [[f64; 3]; 3], k: f64 }
 #[nonholonomic(base { s } let x = asin(tanh(s)); lagrangian { m/2*der(x)^2 } conserved { p = m*der(s)/cosh(s); })]
 struct Gudermann { m: f64 }
 #[nonholonomic(base { s } let x = 2*atan(exp(s)); lagrangian { m/2*der(x)^2 } conserved { p = m*der(s)/cosh(s); })]
@@ -148,7 +165,7 @@ struct ExpOfHalves { m: f64, k: f64 }
 #[test]
 fn right_declarations_are_accepted() {
     let found = declarations(RIGHT);
-    assert_eq!(found.len(), 59);
+    assert_eq!(found.len(), 64);
     let mut refused = Vec::new();
     for declaration in found {
         let errors = errors(&declaration.expanded());

@@ -45,6 +45,7 @@ pub(super) fn is_defined(claim: &Derived, place: &mut Place) -> Result<bool, Def
         Derived::Splitting(form) => return proof_of_splitting::is_regular(place, &form),
         Derived::Gyroscopic(form) => _ = proof_of_splitting::gyroscopic(place, &form)?,
         Derived::Power(form) => {
+            place.instant.energy()?;
             let mut pass = form.names.known(place)?;
             for force in form.forces {
                 pass.evaluate(&[force.value])?;
