@@ -141,6 +141,8 @@ where
     let mut lost = zero;
     // the rates of the rows that the last jump has met
     let mut met = [None; R];
+    // rows that have landed stay in, or two that close each other by turns would come to an end in no number of jumps
+    let mut landed = [false; R];
     for jump in 0..=MOST_JUMPS {
         let rows = impact.rows(system, t, &after);
         let are_finite = |index: usize| {
@@ -179,7 +181,9 @@ where
                 return Err(ImpactError::NotFinite { row: row(index), time });
             }
             let is_seen = touching.get(index) == Some(&true);
-            *present = gap.is_none_or(|gap| (is_seen || gap <= closed.max(rounding)) && *s <= zero);
+            let has_landed = landed.get(index) == Some(&true);
+            let may_push = *s <= zero || has_landed;
+            *present = gap.is_none_or(|gap| (is_seen || gap <= closed.max(rounding)) && may_push);
             pushes |= gap.is_some() && *present;
             is_over &= match gap {
                 None => s.abs() <= speed(index) || is_left(index, *s),
@@ -197,6 +201,9 @@ where
         offset.iter_mut().zip(&coefficients).for_each(|(s, e)| *s *= one + *e);
         for ((met, s), present) in met.iter_mut().zip(&rows.approach).zip(&present) {
             *met = present.then_some(*s);
+        }
+        for ((landed, e), present) in landed.iter_mut().zip(&coefficients).zip(&present) {
+            *landed |= *present && *e == zero;
         }
         let problem = Problem { mobility: &rows.mobility, offset, present, bilateral };
         let found = problem.solve().map_err(|none| none.told(impact.names(), time))?;

@@ -8,7 +8,7 @@ use super::crossing::{AfterEvent, Passage};
 use super::motion::{Variational, WithColumns};
 use super::no_derivative::SensitivityError;
 use super::stack::Columns;
-use crate::arrays::all_finite;
+use crate::arrays::{all_finite, displaced};
 use crate::integrator::Spent;
 use crate::methods::Method;
 use crate::{D, Direction, Dynamics, Event, Events, Integrator, Jacobian, Jet, Real, Scalar, State};
@@ -34,6 +34,9 @@ pub trait Jumps<const N: usize, const K: usize, const E: usize> {
 
 /// Another event happens at the same time if its function is zero but for so many roundings of its terms.
 const SAME_TIME: f64 = 64.0;
+
+/// A motion grazes if its rate turns within the time in which the function passes so many roundings of its terms.
+const GRAZES: f64 = 4.0;
 
 /// A jump that was made.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -61,7 +64,8 @@ type JumpedOf<S, T, const K: usize> = Jumped<T, <S as Dynamics>::State, K>;
 /// not yet done. Jumps of declared `impacts` are written anew for `Jumps`, as their generated form is one of numbers.
 ///
 /// # Errors
-/// [`SensitivityError::Grazing`], [`SensitivityError::Simultaneous`], [`SensitivityError::NotFinite`] with the integration
+/// [`SensitivityError::Grazing`], where the event function, within its rounding, only touches zero;
+/// [`SensitivityError::Simultaneous`], [`SensitivityError::NotFinite`]: with the integration
 /// standing at the event before its jump; and what [`Integrator::advance_watching`] says, with the limits on steps and
 /// evaluations for the whole call.
 ///
@@ -170,6 +174,13 @@ where
     }
 }
 
+/// The size of the terms of a function that is zero, whose roundings it is known to; `along` is its rate.
+fn size_at_zero<T: Real, const N: usize>(gradient: &Jet<T, N, 1>, (along, time): (T, T), x: &[T; N]) -> T {
+    let terms =
+        gradient.by.iter().zip(x).map(|(by, x)| *by * *x).chain(gradient.by_others.map(|by| by * time));
+    terms.fold((along * time).abs(), |sum, term| sum + term.abs())
+}
+
 /// The jump at an event.
 fn jumped<S, F, T, J, const N: usize, const M: usize, const Q: usize, const K: usize, const E: usize>(
     motion: &Variational<S, F, K>,
@@ -222,17 +233,29 @@ where
             Direction::Falling | Direction::Closing => along < -resolved,
             Direction::Either => along.abs() > resolved,
         };
-        // what rounding makes of a function that is zero now
-        let sizes =
-            gradient.by.iter().zip(&x).map(|(by, x)| *by * *x).chain(gradient.by_others.map(|by| by * time));
-        let size = sizes.fold((along * time).abs(), |sum, term| sum + term.abs());
+        let size = size_at_zero(gradient, (along, time), &x);
         if arrives && function.value.abs() <= T::from_f64(SAME_TIME) * T::EPSILON * size {
             return Err(SensitivityError::Simultaneous { events: [event, other], time: time.to_f64() });
         }
     }
-    let terms = gradients.get(event).copied().unwrap_or_default();
-    let terms = terms.by.iter().zip(&rate).map(|(by, rate)| *by * *rate).chain(terms.by_others);
+    let gradient = gradients.get(event).copied().unwrap_or_default();
+    let terms = gradient.by.iter().zip(&rate).map(|(by, rate)| *by * *rate).chain(gradient.by_others);
+    let terms = terms.fold(T::ZERO, |sum, term| sum + term.abs());
     let [along] = function.by_others;
+    // where the event is known to roundings alone, a motion that touches shows some rate all the same
+    let passing = T::from_f64(GRAZES) * T::EPSILON * size_at_zero(&gradient, (along, time), &x) / along.abs();
+    let turns = |delay: T| {
+        let there = displaced(&x, delay, &rate);
+        let slope = motion.system.derivative(time + delay, &S::State::from_array(there), input).to_array();
+        let mut state = there.map(Jet::<T, K, 1>::constant);
+        state.iter_mut().zip(slope).for_each(|(jet, slope)| jet.by_others = [slope]);
+        let clock = Jet { by_others: [T::ONE], ..Jet::constant(time + delay) };
+        let functions = jumps.events(clock, &state, &[Jet::ZERO; K]);
+        functions.get(event).is_some_and(|Jet { by_others: [then], .. }| *then * along <= T::ZERO)
+    };
+    if turns(passing) || turns(-passing) {
+        return Err(SensitivityError::Grazing { event, time: time.to_f64(), rate: (along / terms).to_f64() });
+    }
     let mut columns = [[T::ZERO; N]; K];
     for (k, column) in columns.iter_mut().enumerate() {
         for (entry, component) in column.iter_mut().zip(&reset) {
@@ -241,7 +264,7 @@ where
     }
     let AfterEvent { columns, times } = Passage {
         rate: along,
-        size: terms.fold(T::ZERO, |sum, term| sum + term.abs()),
+        size: terms,
         event: function.by,
         reset: columns,
         along: reset.map(|Jet { by_others: [along], .. }| along),

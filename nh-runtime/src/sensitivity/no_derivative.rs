@@ -21,7 +21,8 @@ pub enum SensitivityError {
     /// The system has position constraints to which states are returned, and the return is not differentiated: not by
     /// parameters, and by states not without `emit { return_jacobian }`.
     Returned,
-    /// The motion only touches where an event function is zero, so that the time of the event has no derivative.
+    /// The motion only touches where an event function is zero, or crosses there by no more than rounding before it turns, so
+    /// that the time of the event has no derivative.
     Grazing {
         /// The event.
         event: usize,
@@ -74,8 +75,9 @@ impl Display for SensitivityError {
             ),
             Self::Grazing { event, time, rate } => write!(
                 f,
-                "at t = {time:?} the event function {event} changes at {rate:.1e} of the size of its terms: the motion \
-                 touches its zeros, and the time of the event has no derivative"
+                "at t = {time:?} the motion touches the zeros of the event function {event} and, but for rounding, does not \
+                 cross them, so that the time of the event has no derivative: it changes at {rate:.1e} of the size of its \
+                 terms"
             ),
             Self::Simultaneous { events: [first, second], time } => write!(
                 f,

@@ -214,6 +214,41 @@ fn what_has_no_derivative_is_refused() {
     assert!((sim.time() - 1.0).abs() < 1e-9);
 }
 
+/// A ceiling at this height.
+struct Ceiling(f64);
+
+impl Jumps<4, 5, 1> for Ceiling {
+    fn events<A: Scalar>(&self, _t: A, [_, y, _, _]: &[A; 4], _by: &[A; 5]) -> [A; 1] {
+        [A::from_f64(self.0) - *y]
+    }
+    fn reset<A: Scalar>(&self, _event: usize, _t: A, [x, y, vx, vy]: &[A; 4], _by: &[A; 5]) -> [A; 4] {
+        [*x, *y, *vx, -*vy]
+    }
+}
+
+/// Thrown to the height of a ceiling and no farther, the ball crosses it by rounding, at some rate; thrown a little farther
+/// it knocks against it.
+#[test]
+fn what_turns_within_rounding_grazes() {
+    for (unit, clock) in [(1.0, 0.0), (1e-9, 0.0), (1e9, 0.0), (1.0, 100.0)] {
+        let ended = |ceiling: f64| {
+            let motion = motion(2.0 * unit);
+            let start = motion.start(&Numbers([0.0, 0.5 * unit, 0.0, 2.0 * unit])).unwrap();
+            let mut sim = Integrator::new(motion, Dopri5::new(), clock, start);
+            advance_across(&mut sim, clock + 1.3, &Ceiling(ceiling * unit), |_| ControlFlow::Break(()))
+        };
+        let found = ended(1.5);
+        assert!(
+            matches!(found, Ok(None) | Err(SensitivityError::Grazing { event: 0, .. })),
+            "{unit:e}, {clock}: {found:?}"
+        );
+        // the speed there is 2 √1e-8, and the time changes by what the height changes over that
+        let knock = ended(1.5 - 1e-8).unwrap().unwrap();
+        let [by_height, ..] = knock.time_by;
+        assert!((by_height * unit * 2e-4 + 1.0).abs() < 1e-3, "{unit:e}, {clock}: {by_height}");
+    }
+}
+
 /// A bouncing ball that comes to rest ends in an error, as there is no motion beyond.
 #[test]
 fn bounces_without_end_are_told() {
