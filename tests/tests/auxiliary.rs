@@ -113,3 +113,39 @@ fn a_clock_is_as_good_as_the_time() {
         rate
     );
 }
+
+/// A mass on a circle, pushed by a force that lags behind what is asked for.
+#[nonholonomic(
+    base       { x, y }
+    lagrangian { m / 2 * (der(x)^2 + der(y)^2) - m * g * y }
+    holonomic  { circle: x^2 + y^2 = l^2; }
+    inputs     { wanted }
+    auxiliary  { der(push) = (wanted - push) / lag; }
+    forces     { x: push; }
+    emit       { symmetric_projection }
+)]
+#[derive(Clone, Copy, Debug)]
+struct Pushed {
+    m: f64,
+    g: f64,
+    l: f64,
+    lag: f64,
+}
+
+#[test]
+fn a_symmetric_projection_leaves_auxiliary_states_to_their_equations() {
+    let pushed = Pushed { m: 1.0, g: 9.81, l: 1.0, lag: 0.3 };
+    let start = PushedState { x: 0.0, y: -1.0, x_dot: 1.5, y_dot: 0.0, push: 0.0 };
+    let method = ImplicitMidpoint::new(0.01).symmetrically_projected();
+    let mut sim = Integrator::new(pushed, method, 0.0, start);
+    sim.set_input(PushedInput { wanted: 2.0 });
+    sim.advance_to(3.0).expect("a step");
+    let state = sim.state();
+    // the midpoint rule multiplies what is left by (1 − z/2) / (1 + z/2) with z = h / lag
+    let half: f64 = 0.01 / 0.3 / 2.0;
+    let left = ((1.0 - half) / (1.0 + half)).powi(300);
+    assert!((state.push - 2.0 * (1.0 - left)).abs() < 1e-11, "{}", state.push);
+    let residual = pushed.constraint_residual(3.0, state);
+    assert!(residual.circle.abs() < 1e-12, "{residual:?}");
+    assert!(state.x.abs() > 0.05, "it is pushed aside: {}", state.x);
+}

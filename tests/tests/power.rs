@@ -143,3 +143,20 @@ fn output_jacobians_are_slopes_of_the_outputs() {
         }
     }
 }
+
+/// Nothing does work on it, whatever its numbers are.
+#[nonholonomic(
+    base       { x }
+    lagrangian { m / 2 * der(x)^2 }
+    emit       { power }
+)]
+#[derive(Clone, Copy, Debug)]
+struct Free<T> {
+    m: T,
+}
+
+#[test]
+fn what_nothing_acts_on_has_no_power() {
+    let state = FreeState { x: 0.5_f32, x_dot: 2.0 };
+    assert_eq!(Free { m: 3.0_f32 }.power(0.0, &state, &()).total::<f32>(), 0.0);
+}

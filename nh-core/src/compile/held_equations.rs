@@ -1,6 +1,6 @@
 //! The equations that a step can keep by itself, each with the direction in which it is corrected.
 
-use super::on_request::{judge, state};
+use super::on_request::{judge, whole_state};
 use super::proved::{Derived, Proved};
 use crate::algebra::{Graph, Matrix};
 use crate::geometry::ConstraintDistribution;
@@ -12,7 +12,7 @@ use crate::phase_space::HeldEquations;
 /// directions R with ∂g R = 1 up to the slopes of velocity constraints by positions, mathematics (37): a position
 /// constraint is corrected along ρ(w), one on velocities along w, with W w in the span of the rows of J, J w = 1 in its row.
 pub(super) fn held_equations(proved: &mut Proved, derived: &Derived<'_>) -> HeldEquations {
-    let arguments = state(proved, derived);
+    let arguments = whole_state(proved, derived);
     let positions: Vec<ExprId> = proved.model.positions.iter().map(|position| position.value).collect();
     let residuals = proved.constraints.residuals.clone();
     let judge = judge(proved);
@@ -49,6 +49,8 @@ pub(super) fn held_equations(proved: &mut Proved, derived: &Derived<'_>) -> Held
         if row < in_state.len() {
             let mut direction = vec![graph.zero(); coordinates];
             direction.extend(section);
+            // auxiliary states stay where they are
+            direction.resize(arguments.len(), graph.zero());
             along_fibre.push(direction);
         }
     }
@@ -62,7 +64,7 @@ pub(super) fn held_equations(proved: &mut Proved, derived: &Derived<'_>) -> Held
     }
     let directions = along_base.into_iter().chain(along_fibre).flatten();
     map.outputs = values.iter().copied().chain(gradients).chain(directions).collect();
-    HeldEquations { functions: values, map }
+    HeldEquations { functions: values, state: arguments, map }
 }
 
 /// w by multipliers.

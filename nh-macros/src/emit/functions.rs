@@ -127,7 +127,7 @@ impl Printer<'_> {
                     #runtime::nalgebra::SMatrix<#scalar, #rows, #inputs>,
                 )}
             }
-            Shape::Power => power::type_of(self.context),
+            Shape::Power => power::type_of(self.context, &self.results),
         }
     }
 

@@ -62,10 +62,13 @@ fn parts<'a>(context: &'a Context, results: &'a Results) -> Vec<(Ident, &'a Reco
     parts.into_iter().filter_map(part).collect()
 }
 
-/// `SleighPower`, or `SleighPower<T>`.
-pub(super) fn type_of(context: &Context) -> TokenStream {
+/// `SleighPower`, or `SleighPower<T>` where it has fields.
+pub(super) fn type_of(context: &Context, results: &Results) -> TokenStream {
     let name = &context.layout.types.power;
-    context.parameter().map_or_else(|| quote!(#name), |parameter| quote!(#name<#parameter>))
+    match context.parameter() {
+        Some(parameter) if !parts(context, results).is_empty() => quote!(#name<#parameter>),
+        _ => quote!(#name),
+    }
 }
 
 /// The struct, and `total`.
@@ -83,9 +86,11 @@ pub(super) fn item(context: &Context, results: &Results) -> TokenStream {
     let sum = terms.reduce(|sum, term| quote!(#sum + #term));
     let sum = sum.unwrap_or_else(|| quote!(<#scalar as #runtime::Scalar>::ZERO));
     let receiver = if parts.is_empty() { quote!(_ = self;) } else { TokenStream::new() };
-    let (impl_generics, type_of) = (context.record_impl_generics(), type_of(context));
-    // derived with a parameter, linters would ask for `Eq`, which floating-point numbers have not
-    let generics = if parts.is_empty() { TokenStream::new() } else { generics };
+    let (impl_generics, type_of) = (context.record_impl_generics(), type_of(context, results));
+    // without fields the numbers are those of the method alone
+    let none = TokenStream::new();
+    let (generics, impl_generics, own) =
+        if parts.is_empty() { (&none, &none, &impl_generics) } else { (&generics, &impl_generics, &none) };
     quote! {
         #[doc = #doc]
         #[derive(::core::clone::Clone, ::core::marker::Copy, ::core::fmt::Debug, ::core::default::Default)]
@@ -97,7 +102,7 @@ pub(super) fn item(context: &Context, results: &Results) -> TokenStream {
             /// The sum of all of them: the rate of the energy, but for what the Lagrangian changes with the time.
             #[inline]
             #[must_use]
-            #visibility fn total(&self) -> #scalar {
+            #visibility fn total #own (&self) -> #scalar {
                 #receiver
                 #sum
             }
