@@ -21,6 +21,17 @@ fn every_word_of_emit_is_derived_or_refused_beside_every_other_section() {
     every_second_from(1);
 }
 
+#[test]
+fn every_word_is_compiled_with_all_others() {
+    let together = include_str!("../../tests/asked_for_together.rs");
+    let words: BTreeSet<&str> = together.split(|c: char| c != '_' && !c.is_alphanumeric()).collect();
+    // texts are compared as such: `latex.rs`, `c99.rs`, `explain.rs`
+    let texts = [Request::Latex, Request::C, Request::Explain];
+    for (word, request) in Request::WORDS {
+        assert!(words.contains(word) || texts.contains(&request), "{word}");
+    }
+}
+
 fn every_second_from(first: usize) {
     let short = declarations(&SHORTEST);
     let (mut derived, mut refused) = (0, 0);
