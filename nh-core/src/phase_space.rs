@@ -27,8 +27,6 @@ pub struct PhaseSpace {
 pub struct HeldEquations {
     /// g.
     pub functions: Vec<ExprId>,
-    /// The variables of the state: coordinates, velocities, auxiliary states.
-    pub state: Vec<SymbolId>,
     /// Outputs: g, the derivatives of each by the variables of the state, and of each the direction in which it is
     /// corrected.
     pub map: Procedure,

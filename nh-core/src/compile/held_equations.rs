@@ -64,7 +64,7 @@ pub(super) fn held_equations(proved: &mut Proved, derived: &Derived<'_>) -> Held
     }
     let directions = along_base.into_iter().chain(along_fibre).flatten();
     map.outputs = values.iter().copied().chain(gradients).chain(directions).collect();
-    HeldEquations { functions: values, state: arguments, map }
+    HeldEquations { functions: values, map }
 }
 
 /// w by multipliers.

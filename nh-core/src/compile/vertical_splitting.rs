@@ -67,10 +67,9 @@ impl Reduced {
         let is_injective = proved.model.graph.generic_rank(&anchor)? == velocities.len();
         if is_injective && !translations {
             let generators = with_translations(proved, &sections, |id| moving.contains(&id));
-            let reduced = in_invariant_frame(proved, &distribution, &generators).map_err(|why| {
+            return in_invariant_frame(proved, (&distribution, keeps_all), &generators).map_err(|why| {
                 format!("no frame of sections that commute with the declared symmetries: {why}")
-            })?;
-            return Ok(Self { keeps_all, ..reduced });
+            });
         }
         let splitting =
             Splitting::of(&mut proved.model.graph, &proved.system, &distribution, &group, &proved.base)
@@ -187,7 +186,7 @@ pub(crate) fn moved(graph: &mut Graph, anchor: &Anchor, generators: &[Vec<ExprId
 /// Why there is none.
 fn in_invariant_frame(
     proved: &mut Proved,
-    distribution: &ConstraintDistribution,
+    (distribution, keeps_all): (&ConstraintDistribution, bool),
     generators: &[Vec<ExprId>],
 ) -> Result<Reduced, String> {
     if !proved.system.forces_on_distribution.is_empty() {
@@ -230,7 +229,7 @@ fn in_invariant_frame(
     let splitting = Splitting::of(&mut model.graph, &system, &distribution, &group, base)
         .map_err(|why| not_split(proved, why))?;
     let group = generators.to_vec();
-    Ok(Reduced { system, distribution, splitting, frame: Some(frame), names, group, keeps_all: false })
+    Ok(Reduced { system, distribution, splitting, frame: Some(frame), names, group, keeps_all })
 }
 
 /// The system in the frame, without the coordinates along the group.

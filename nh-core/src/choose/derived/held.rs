@@ -15,11 +15,11 @@ pub(super) fn are_held(place: &Place, held: &HeldEquations, positions: usize) ->
     let coordinates = place.coordinates();
     let is_reduced = place.reference.is_reduced();
     let velocities = if is_reduced { place.reference.state() } else { &place.system().algebroid.velocities };
-    let own = [coordinates, velocities].concat();
-    let Some(auxiliary) = held.state.strip_prefix(own.as_slice()) else { return Ok(false) };
-    let resting = vec![Residue::ZERO; auxiliary.len()];
+    // coordinates, velocities, and what rests in a correction: auxiliary states
+    let state = place.motion.state;
+    let resting = vec![Residue::ZERO; state.len().saturating_sub(coordinates.len() + velocities.len())];
     let mut wanted = place.values(&held.functions)?;
-    wanted.extend(slopes(place, &held.functions, &held.state)?.into_iter().flatten());
+    wanted.extend(slopes(place, &held.functions, state)?.into_iter().flatten());
     let (mass, rows) = (place.mass()?, place.jacobian()?);
     let anchor = place.matrix(&place.system().algebroid.anchor.entries)?;
     let none = vec![Residue::ZERO; rows.len()];
