@@ -12,9 +12,9 @@ use rustc_hash::FxHashMap;
 /// Pairs of points between which zeros are looked for, and places between each.
 const PAIRS: u64 = 12;
 const PLACES: u32 = 16;
-/// Points among which one is looked for where the kinetic energy is definite: where an inertia is a matrix of parameters,
-/// few of them have it so.
-const TRIES: u64 = 400;
+/// Entries of mass matrices that are computed in search of a point where the kinetic energy is definite: where an inertia
+/// is a matrix of parameters, few points have it so, and those matrices are small.
+const ENTRIES: usize = 4000;
 /// Steps by which a zero is found to the last digits.
 const STEPS: u32 = 48;
 /// What is so small beside the values at the ends is a zero.
@@ -62,7 +62,9 @@ impl<'q> RealPoints<'q> {
         let (motion, is_definite) = (motion.derivative, false);
         let mut points =
             Self { graph, procedures, motion, images, allowed, declared, system, symbols, is_definite };
-        points.is_definite = (0..TRIES).any(|seed| points.energy_is_definite(&points.between(seed, 0.0)));
+        let size = system.algebroid.velocities.len().max(1);
+        let tries = PAIRS.max((ENTRIES / (size * size)) as u64);
+        points.is_definite = (0..tries).any(|seed| points.energy_is_definite(&points.between(seed, 0.0)));
         points
     }
 
