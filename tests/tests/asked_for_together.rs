@@ -1,21 +1,24 @@
 //! Everything that `emit` can be asked for, asked for together, on short systems with each section of the language, over
 //! any scalar where they have parameters: what is generated compiles. `nh-stages`, `tests/requests.rs`, sees to it
-//! that no word is missing here.
+//! that no word and no section is missing here.
 #![allow(dead_code, non_snake_case, reason = "compiled, not called; J and I are letters of mechanics")]
 
 use nonholonomic::prelude::*;
 
 #[nonholonomic(
-    base { x }
-    lagrangian { der(x) ^ 2 / 2 }
+    basis { u, v }
+    brackets { }
+    lagrangian { m / 2 * (u ^ 2 + v ^ 2) }
     emit {
         jacobian, taylor, sparse_jacobian, jacobian_product, adjoint_product, parameter_jacobian, power, prepared,
-        angle_cache, momenta, splitting, gibbs_appell, hamiltonian, discrete_gradient, divergence, volume, connection,
-        rattle
+        angle_cache, splitting, gibbs_appell, hamiltonian, discrete_gradient, divergence, volume, connection,
+        euler_poincare_suslov
     }
 )]
 #[derive(Clone, Copy)]
-struct Free;
+struct Abelian<T> {
+    m: T,
+}
 
 #[nonholonomic(
     base { a, x, y }
@@ -31,21 +34,6 @@ struct Skate<T> {
     J: T,
     m: T,
     g: T,
-}
-
-#[nonholonomic(
-    base { x }
-    lagrangian { m / 2 * der(x) ^ 2 - k / 2 * x ^ 2 }
-    linearization { }
-    emit {
-        jacobian, taylor, sparse_jacobian, jacobian_product, adjoint_product, parameter_jacobian, power, prepared,
-        angle_cache, gibbs_appell, hamiltonian, discrete_gradient, divergence, volume, connection, rattle
-    }
-)]
-#[derive(Clone, Copy)]
-struct Held<T> {
-    m: T,
-    k: T,
 }
 
 #[nonholonomic(
@@ -110,17 +98,28 @@ struct Towed<T> {
 #[nonholonomic(
     base { x }
     lagrangian { m / 2 * der(x) ^ 2 }
-    forces { x: push - c * der(x); }
+    forces { x: push - self.drag(der(x)); }
     inputs { push }
+    derivative { drag: [self.slope]; }
+    linearization { keep: x, der(x); }
     emit {
-        jacobian, taylor, sparse_jacobian, jacobian_product, adjoint_product, parameter_jacobian, power, prepared,
-        angle_cache, momenta, splitting, gibbs_appell, hamiltonian, divergence, connection
+        jacobian, sparse_jacobian, jacobian_product, adjoint_product, power, prepared, angle_cache, momenta, splitting,
+        gibbs_appell, hamiltonian, divergence, connection
     }
 )]
 #[derive(Clone, Copy)]
 struct Pushed<T> {
     m: T,
     c: T,
+}
+
+impl<T: Scalar> Pushed<T> {
+    fn drag(&self, speed: T) -> T {
+        self.c * speed * speed.abs()
+    }
+    fn slope(&self, speed: T) -> T {
+        (self.c + self.c) * speed.abs()
+    }
 }
 
 #[nonholonomic(

@@ -114,6 +114,41 @@ fn a_clock_is_as_good_as_the_time() {
     );
 }
 
+/// A skate that a servo turns: an auxiliary state is the drift of a constraint that the state keeps.
+#[nonholonomic(
+    base        { x, y, heading }
+    lagrangian  { m / 2 * (der(x)^2 + der(y)^2) + J / 2 * der(heading)^2 }
+    constraints { blade: der(x) * sin(heading) = der(y) * cos(heading); servo: der(heading) = turn; }
+    inputs      { wanted }
+    auxiliary   { der(turn) = (wanted - turn) / lag; }
+    formulation { projected }
+    emit        { symmetric_projection }
+)]
+#[derive(Clone, Copy, Debug)]
+struct Servo {
+    m: f64,
+    J: f64,
+    lag: f64,
+}
+
+#[test]
+fn a_symmetric_projection_follows_a_drift_that_is_an_auxiliary_state() {
+    let servo = Servo { m: 2.0, J: 0.3, lag: 0.5 };
+    let start =
+        ServoState { x: 0.0, y: 0.0, heading: 0.0, x_dot: 1.0, y_dot: 0.0, heading_dot: 0.0, turn: 0.0 };
+    let method = ImplicitMidpoint::new(0.01).symmetrically_projected();
+    let mut sim = Integrator::new(servo, method, 0.0, start);
+    sim.set_input(ServoInput { wanted: 1.5 });
+    sim.advance_to(2.0).expect("a step");
+    let state = sim.state();
+    let residual = servo.constraint_residual(2.0, state);
+    assert!(residual.blade.abs() < 1e-12 && residual.servo.abs() < 1e-12, "{residual:?}");
+    // the heading is the integral of the turn, and the speed along it stays
+    let heading = 1.5 * (2.0 - 0.5 * (1.0 - (-4.0_f64).exp()));
+    assert!((state.heading - heading).abs() < 1e-4, "{} for {heading}", state.heading);
+    assert!((state.x_dot.hypot(state.y_dot) - 1.0).abs() < 1e-4, "{state:?}");
+}
+
 /// A mass on a circle, pushed by a force that lags behind what is asked for.
 #[nonholonomic(
     base       { x, y }

@@ -3,7 +3,7 @@
 
 use nh_stages::{Declaration, Verdict, collected, declarations, errors, judged};
 use nonholonomic_core::model::Request;
-use proc_macro2::TokenTree;
+use proc_macro2::{Delimiter, TokenStream, TokenTree};
 use std::collections::BTreeSet;
 use std::fmt::Write;
 use std::sync::LazyLock;
@@ -23,13 +23,17 @@ fn every_word_of_emit_is_derived_or_refused_beside_every_other_section() {
 
 #[test]
 fn every_word_is_compiled_with_all_others() {
-    let together = include_str!("../../tests/asked_for_together.rs");
-    let words: BTreeSet<&str> = together.split(|c: char| c != '_' && !c.is_alphanumeric()).collect();
+    let together = declarations(include_str!("../../tests/asked_for_together.rs"));
+    let words: BTreeSet<String> = together.iter().flat_map(asked).collect();
     // texts are compared as such: `latex.rs`, `c99.rs`, `explain.rs`
     let texts = [Request::Latex, Request::C, Request::Explain];
     for (word, request) in Request::WORDS {
         assert!(words.contains(word) || texts.contains(&request), "{word}");
     }
+    let compiled: BTreeSet<String> = together.iter().flat_map(sections).collect();
+    let all: BTreeSet<String> = declarations(&SHORTEST).iter().flat_map(sections).collect();
+    let missing: Vec<&String> = all.difference(&compiled).collect();
+    assert!(missing.is_empty(), "{missing:?}");
 }
 
 fn every_second_from(first: usize) {
@@ -76,14 +80,22 @@ static SHORTEST: LazyLock<String> = LazyLock::new(|| {
 
 /// The words before braces.
 fn sections(declaration: &Declaration) -> Vec<String> {
+    groups(declaration).into_iter().map(|(name, _)| name).filter(|name| name != "emit").collect()
+}
+
+/// The words of `emit`.
+fn asked(declaration: &Declaration) -> Vec<String> {
+    let emit = groups(declaration).into_iter().filter(|(name, _)| name == "emit");
+    emit.flat_map(|(_, words)| words).map(|word| word.to_string()).collect()
+}
+
+fn groups(declaration: &Declaration) -> Vec<(String, TokenStream)> {
     let tokens: Vec<TokenTree> = declaration.attribute.clone().into_iter().collect();
-    let mut found = Vec::new();
-    for pair in tokens.windows(2) {
-        if let [TokenTree::Ident(name), TokenTree::Group(_)] = pair
-            && *name != "emit"
-        {
-            found.push(name.to_string());
+    let named = |pair: &[TokenTree]| match pair {
+        [TokenTree::Ident(name), TokenTree::Group(group)] if group.delimiter() == Delimiter::Brace => {
+            Some((name.to_string(), group.stream()))
         }
-    }
-    found
+        _ => None,
+    };
+    tokens.windows(2).filter_map(named).collect()
 }
