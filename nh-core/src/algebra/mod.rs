@@ -45,6 +45,7 @@ mod product_to_sum;
 mod range;
 mod real_points;
 mod real_rank;
+mod regular_points;
 mod residue_steps;
 mod simplex;
 mod solved_equations;

@@ -20,8 +20,54 @@ const ENTRIES_PER_STEP: usize = 8;
 /// Multipliers y ≥ 0 for which Σ y (inequality) is `0 ≥ c` with c < 0 hidden in it, or `0 > 0`. `None`
 /// where there are none, or none were found in time.
 pub(super) fn contradiction(inequalities: &[Inequality]) -> Option<Vec<Rational>> {
-    // least Σ y b with Σ y A = 0, Σ y = 1
+    let used = those_that_balance(inequalities);
+    let balanced: Vec<Inequality> = used.iter().map(|index| inequalities[*index].clone()).collect();
+    let found = contradiction_of_all(&balanced)?;
+    let mut multipliers = vec![Rational::ZERO; inequalities.len()];
+    for (index, multiplier) in used.into_iter().zip(found) {
+        multipliers[index] = multiplier;
+    }
+    Some(multipliers)
+}
+
+/// Those that can have multipliers. A variable of which all coefficients have one sign excludes those that have it, and
+/// one that an equation alone has, the two inequalities that it stands for: their multiples would cancel each other.
+fn those_that_balance(inequalities: &[Inequality]) -> Vec<usize> {
     let variables = inequalities.first().map_or(0, |first| first.coefficients.len());
+    let mut used: Vec<usize> = (0..inequalities.len()).collect();
+    loop {
+        let before = used.len();
+        for variable in 0..variables {
+            limits::spend(used.len() / ENTRIES_PER_STEP);
+            let coefficient = |index: &usize| &inequalities[*index].coefficients[variable];
+            let with: Vec<usize> =
+                used.iter().copied().filter(|index| !coefficient(index).is_zero()).collect();
+            let negative = with.iter().filter(|index| coefficient(index).is_negative()).count();
+            let is_unbalanced =
+                negative == 0 || negative == with.len() || is_an_equation(&with, inequalities);
+            if !with.is_empty() && is_unbalanced {
+                used.retain(|index| !with.contains(index));
+            }
+        }
+        if used.len() == before {
+            return used;
+        }
+    }
+}
+
+/// Whether these are an expression and its negative, neither below 0.
+fn is_an_equation(of: &[usize], inequalities: &[Inequality]) -> bool {
+    let [one, other] = of else { return false };
+    let (one, other) = (&inequalities[*one], &inequalities[*other]);
+    let entries =
+        |row: &Inequality| row.coefficients.iter().chain([&row.constant]).cloned().collect::<Vec<_>>();
+    !one.strict && !other.strict && entries(one).into_iter().zip(entries(other)).all(|(a, b)| a == -b)
+}
+
+/// The same, of inequalities that are all looked at.
+fn contradiction_of_all(inequalities: &[Inequality]) -> Option<Vec<Rational>> {
+    // least Σ y b with Σ y A = 0, Σ y = 1
+    let variables = inequalities.first()?.coefficients.len();
     let column =
         |row: &Inequality| row.coefficients.iter().cloned().chain([Rational::ONE]).collect::<Vec<_>>();
     let columns: Vec<Vec<Rational>> = inequalities.iter().map(column).collect();
@@ -183,5 +229,44 @@ mod tests {
         let gap = [inequality([1, 0, 0], -1, false), inequality([-1, 0, 0], 0, false)];
         assert!(contradiction(&gap).is_some());
         assert!(contradiction(&[]).is_none());
+    }
+
+    #[test]
+    fn what_cannot_balance_makes_no_difference() {
+        let mut state = 1_u32;
+        let mut digit = |size: u32| {
+            state = state.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
+            i64::from((state >> 16) % size) - i64::from(size / 2)
+        };
+        let (mut contradictory, mut fewer) = (0, 0);
+        for _ in 0..2000 {
+            let mut rows = Vec::new();
+            for _ in 0..3 + digit(3) {
+                let row = inequality([digit(3), digit(3), digit(3)], digit(5), digit(2) == 0);
+                let is_equation = digit(3) == 0;
+                rows.push(Inequality { strict: row.strict && !is_equation, ..row.clone() });
+                if is_equation {
+                    let coefficients = row.coefficients.into_iter().map(|c| -c).collect();
+                    rows.push(Inequality { coefficients, constant: -row.constant, strict: false });
+                }
+            }
+            let found = contradiction(&rows);
+            assert_eq!(found.is_some(), contradiction_of_all(&rows).is_some(), "{rows:?}");
+            fewer += usize::from(those_that_balance(&rows).len() < rows.len());
+            let Some(multipliers) = found else { continue };
+            contradictory += 1;
+            let sum = |entry: fn(&Inequality) -> Vec<Rational>| {
+                let terms = rows.iter().zip(&multipliers).map(|(row, y)| {
+                    entry(row).into_iter().map(|value| value * y.clone()).collect::<Vec<_>>()
+                });
+                terms.reduce(|sum, term| sum.into_iter().zip(term).map(|(a, b)| a + b).collect()).unwrap()
+            };
+            assert!(multipliers.iter().all(|y| !y.is_negative()));
+            assert!(sum(|row| row.coefficients.clone()).iter().all(Rational::is_zero));
+            let constant = sum(|row| vec![row.constant.clone()]).remove(0);
+            let is_strict = rows.iter().zip(&multipliers).any(|(row, y)| row.strict && !y.is_zero());
+            assert!(constant.is_negative() || (constant.is_zero() && is_strict));
+        }
+        assert!(contradictory > 100 && fewer > 500, "{contradictory} {fewer}");
     }
 }
