@@ -10,6 +10,7 @@ mod extremes;
 mod filters;
 mod leaving;
 mod limits;
+mod own_systems;
 mod receding;
 mod rounded_events;
 mod starts;
