@@ -55,7 +55,10 @@ impl Graph {
         let met = |(polynomial, (_, demand)): (&Terms, &(ExprId, Demand))| {
             is_met_by_constant(polynomial, *demand) && polynomial.keys().all(has_symbol)
         };
-        if polynomials.iter().zip(demands).all(met) || self.are_met_at_a_corner(&polynomials, demands) {
+        if polynomials.iter().zip(demands).all(met)
+            || self.are_met_at_a_corner(&polynomials, demands)
+            || self.are_met_at_a_regular_point(demands)
+        {
             return None;
         }
         let demanded: Vec<Demand> = demands.iter().map(|(_, demand)| *demand).collect();

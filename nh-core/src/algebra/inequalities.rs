@@ -6,8 +6,8 @@
 //! And non-negative multiples of the inequalities, with the squares of sums and differences of their
 //! variables, may add up to `0 > 0` (`simplex.rs`), as they are or where functions have their extreme values
 //! (`bounded_terms.rs`), or where the equations among them are solved (`solved_equations.rs`). Points that satisfy all of
-//! them are looked for first (`regular_points.rs` where there are equations). A system that none of them refutes is
-//! *not* known to have a solution.
+//! them are looked for before what is dear: some that are at hand, and where there are equations, those that Newton's steps
+//! lead to (`regular_points.rs`). A system that none of them refutes is *not* known to have a solution.
 
 use super::combination::negative;
 use super::enclosure::Point;
@@ -83,7 +83,7 @@ impl Graph {
     /// A proof that no values of the symbols satisfy all demands, if one is found.
     #[must_use]
     pub fn contradiction(&self, demands: &[(ExprId, Demand)]) -> Option<Contradiction> {
-        if self.are_met_somewhere(demands) || self.are_met_at_a_regular_point(demands) {
+        if self.are_met_somewhere(demands) {
             return None;
         }
         let mut known = Known::default();

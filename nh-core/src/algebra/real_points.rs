@@ -4,7 +4,7 @@
 //! *The Levenberg–Marquardt algorithm*, 1978), from several places. What is found is met as far as rounding tells, and
 //! proves nothing; where nothing is found, it is not known that anything is there, and the report says so.
 
-use super::eliminated::eliminated;
+use super::eliminated::{least_step, product};
 use super::evaluate::{Bounded, Evaluator};
 use super::graph::Graph;
 use super::inequalities::Demand;
@@ -159,22 +159,10 @@ impl Search {
             .chunks(self.symbols.len())
             .map(|row| row.iter().map(|slope| slope.value).collect())
             .collect();
-        let product = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(x, y)| x * y).sum::<f64>();
         let mean = rows.iter().map(|row| product(row, row)).sum::<f64>()
             / f64::from(u32::try_from(rows.len()).ok()?);
-        let mut matrix: Vec<Vec<f64>> =
-            rows.iter().map(|row| rows.iter().map(|other| product(row, other)).collect()).collect();
-        for (k, row) in matrix.iter_mut().enumerate() {
-            row[k] += damping * mean;
-        }
-        for (row, f) in matrix.iter_mut().zip(&f) {
-            row.push(f.value);
-        }
-        limits::spend(rows.len().pow(3));
-        let (_, weights) = eliminated(matrix);
-        let step =
-            (0..self.symbols.len()).map(|k| rows.iter().zip(&weights).map(|(row, w)| row[k] * w).sum());
-        Some(step.collect::<Vec<f64>>()).filter(|step| step.iter().all(|dx| dx.is_finite()))
+        let (_, step) = least_step(&rows, f.iter().map(|f| f.value), damping * mean);
+        Some(step).filter(|step| step.iter().all(|dx| dx.is_finite()))
     }
 }
 

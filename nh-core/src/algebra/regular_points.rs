@@ -6,13 +6,12 @@
 //! met by more than a last step could change: a solution is then near it (L. V. Kantorovich's theorem, of which the second
 //! derivatives are not bounded here). It refuses nothing and is told nowhere.
 
-use super::eliminated::eliminated;
+use super::eliminated::{least_step, product};
 use super::evaluate::{Bounded, Evaluator};
 use super::graph::Graph;
 use super::inequalities::Demand;
 use super::zero_test::sample;
 use crate::id::{ExprId, SymbolId};
-use crate::limits;
 
 /// The places that Newton's steps start from.
 const PLACES: u64 = 2;
@@ -42,7 +41,7 @@ struct Search<'a> {
 }
 
 impl Graph {
-    /// Whether a regular point is found where demands are met that are equations, or among which there are some.
+    /// Whether a regular point is found where demands are met of which some are equations.
     pub(super) fn are_met_at_a_regular_point(&self, demands: &[(ExprId, Demand)]) -> bool {
         let (equations, others): (Vec<_>, Vec<_>) =
             demands.iter().copied().partition(|(_, demand)| *demand == Demand::Zero);
@@ -58,7 +57,7 @@ impl Graph {
             start: vec![0.0; symbols.len()],
             symbols,
         };
-        (0..PLACES).any(|place| search.succeeds_from(place).is_some())
+        (0..PLACES).any(|place| search.succeeds_from(place))
     }
 }
 
@@ -68,42 +67,43 @@ impl Search<'_> {
         self.all.at(|symbol| symbols.iter().position(|known| *known == symbol).map_or(0.0, |k| point[k]))
     }
 
-    fn succeeds_from(&mut self, place: u64) -> Option<()> {
-        let starts = (0..STARTS).map(|attempt| {
-            let seed = place + PLACES * attempt;
-            let number = |index| sample(seed, index);
-            let signed = |index| if attempt.is_multiple_of(2) { number(index).abs() } else { number(index) };
-            (0..self.symbols.len()).map(signed).collect::<Vec<f64>>()
-        });
-        let starts: Vec<Vec<f64>> = starts.collect();
-        let mut point = starts.into_iter().find(|start| {
-            let values = self.at(start);
-            self.are_met_well(&values)
-        })?;
+    fn succeeds_from(&mut self, place: u64) -> bool {
+        let Some((mut point, mut values)) = self.begun(place) else { return false };
         self.start.clone_from(&point);
-        let mut last = f64::INFINITY;
-        for _ in 0..STEPS {
-            let values = self.at(&point);
+        let mut permitted = f64::INFINITY;
+        for step in 0..STEPS {
             let equations = &values[..self.equations];
             if !equations.iter().all(|f| f.value.is_finite() && f.error > 0.0 && f.error.is_finite()) {
-                return None;
+                return false;
             }
             let are_met = equations.iter().all(|f| f.value.abs() <= ROUNDINGS * f.error);
             let left = equations.iter().map(|f| (f.value / terms_of(f)).abs()).fold(0.0, f64::max);
-            // what does not come nearer in a step is given up, unless it is only at its first
-            if !are_met && left > 0.9 * last {
-                return None;
+            if !are_met && left > permitted {
+                return false;
             }
-            last = if last.is_infinite() { 2.0 * left } else { left };
-            let step = self.step(&point, &values)?;
+            // from far away the first one may lead beyond
+            permitted = if step == 0 { 1.8 * left } else { 0.9 * left };
+            let Some(change) = self.step(&point, &values) else { return false };
             if are_met {
-                return self.are_met_well(&values).then_some(());
+                return self.are_met_well(&values);
             }
-            for (x, dx) in point.iter_mut().zip(step) {
+            for (x, dx) in point.iter_mut().zip(change) {
                 *x -= dx;
             }
+            values = self.at(&point);
         }
-        None
+        false
+    }
+
+    /// A point where the inequalities are met, with the values there.
+    fn begun(&mut self, place: u64) -> Option<(Vec<f64>, Vec<Bounded>)> {
+        (0..STARTS).find_map(|attempt| {
+            let number = |index| sample(place + PLACES * attempt, index);
+            let signed = |index| if attempt.is_multiple_of(2) { number(index).abs() } else { number(index) };
+            let point: Vec<f64> = (0..self.symbols.len()).map(signed).collect();
+            let values = self.at(&point);
+            self.are_met_well(&values).then_some((point, values))
+        })
     }
 
     /// Whether inequalities are met by more than what is near could change.
@@ -118,10 +118,9 @@ impl Search<'_> {
         })
     }
 
-    /// Jᵀ (J Jᵀ)⁻¹ f where the slopes are steep and independent.
+    /// The least step that leads to where the equations hold, if their slopes are steep and independent.
     fn step(&mut self, point: &[f64], values: &[Bounded]) -> Option<Vec<f64>> {
-        let size = self.equations;
-        let mut slopes = vec![vec![0.0; self.symbols.len()]; size];
+        let mut slopes = vec![vec![0.0; self.symbols.len()]; self.equations];
         for k in 0..self.symbols.len() {
             let mut moved = point.to_vec();
             moved[k] += MOVED * self.start[k];
@@ -130,8 +129,7 @@ impl Search<'_> {
                 row[k] = (g.value - f.value) / MOVED;
             }
         }
-        let length = |row: &[f64]| row.iter().map(|slope| slope * slope).sum::<f64>().sqrt();
-        let lengths: Vec<f64> = slopes.iter().map(|row| length(row)).collect();
+        let lengths: Vec<f64> = slopes.iter().map(|row| product(row, row).sqrt()).collect();
         if !lengths.iter().zip(values).all(|(length, f)| *length > STEEP * terms_of(f)) {
             return None;
         }
@@ -140,21 +138,10 @@ impl Search<'_> {
                 *slope /= length;
             }
         }
-        let product = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(x, y)| x * y).sum::<f64>();
-        let with_value = |(row, (f, length)): (&Vec<f64>, (&Bounded, &f64))| {
-            let products = slopes.iter().map(|other| product(row, other));
-            products.chain([f.value / length]).collect::<Vec<f64>>()
-        };
-        limits::spend(size.pow(3));
-        let (determinant, weights) =
-            eliminated(slopes.iter().zip(values.iter().zip(&lengths)).map(with_value).collect());
-        if determinant.is_nan() || determinant <= INDEPENDENT {
-            return None;
-        }
-        let along =
-            |k: usize| slopes.iter().zip(&weights).map(|(row, w)| row[k] * w).sum::<f64>() * self.start[k];
-        Some((0..self.symbols.len()).map(along).collect::<Vec<f64>>())
-            .filter(|step| step.iter().all(|dx| dx.is_finite()))
+        let along_slopes = values.iter().zip(&lengths).map(|(f, length)| f.value / length);
+        let (determinant, step) = least_step(&slopes, along_slopes, 0.0);
+        let step: Vec<f64> = step.iter().zip(&self.start).map(|(dx, measure)| dx * measure).collect();
+        (determinant > INDEPENDENT && step.iter().all(|dx| dx.is_finite())).then_some(step)
     }
 }
 
@@ -166,6 +153,7 @@ fn terms_of(value: &Bounded) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::algebra::{Function, Rational};
 
     #[test]
     fn what_is_met_regularly_is_seen_and_nothing_else_is() {
@@ -174,9 +162,8 @@ mod tests {
             let symbol = g.new_symbol(name);
             g.symbol(symbol)
         });
-        let (one, two, tiny) =
-            (g.one(), g.number(2), g.number(crate::algebra::Rational::new(1, 10_i64.pow(17))));
-        let (sin, cos, exp) = (g.sin(x), g.cos(y), g.apply(crate::algebra::Function::Exp, x));
+        let (one, two, tiny) = (g.one(), g.number(2), g.number(Rational::new(1, 10_i64.pow(17))));
+        let (sin, cos, exp) = (g.sin(x), g.cos(y), g.apply(Function::Exp, x));
         for (is_found, equations) in [
             (true, vec![g.formula(x * x + y * y - a * a)]),
             (true, vec![g.formula(x * x + y * y - a * a), g.formula(x - y)]),
@@ -192,11 +179,42 @@ mod tests {
             (false, vec![g.formula(exp - one + a * a), g.formula(x - y * y)]),
             // there is, and it is not regular
             (false, vec![g.formula(sin - one)]),
+            // what is near to it does not meet a > 0
+            (false, vec![g.formula(a + one)]),
+            // one that is, however small
+            (true, vec![g.formula(a - tiny * x * x)]),
         ] {
             let mut demands: Vec<(ExprId, Demand)> =
                 equations.iter().map(|equation| (*equation, Demand::Zero)).collect();
             demands.push((a, Demand::Positive));
             assert_eq!(g.are_met_at_a_regular_point(&demands), is_found, "{:?}", g.text(equations[0]));
+        }
+    }
+
+    /// At the very points that are tried, by less than rounding shows.
+    #[test]
+    fn what_nearly_holds_at_a_singular_point_is_not_taken_for_met() {
+        let mut g = Graph::new();
+        let [x, y] = ["x", "y"].map(|name| {
+            let symbol = g.new_symbol(name);
+            g.symbol(symbol)
+        });
+        let number = |value: f64| Rational::of_f64(value).unwrap();
+        let tiny = Rational::new(1, 10_i64.pow(17));
+        for place in 0..PLACES {
+            let [a, b] = [0, 1].map(|index| number(sample(place, index).abs()));
+            // (x − a)² + 10⁻¹⁷
+            let (square, middle) = (g.square(x), g.scale(a.clone() + a.clone(), x));
+            let above = g.number(a.clone() * a.clone() + tiny.clone());
+            let touching = g.formula(square - middle + above);
+            assert!(!g.are_met_at_a_regular_point(&[(touching, Demand::Zero)]));
+            // x − y = a − b, and nearly the same once more
+            let (near, difference) = (Rational::new(10_001, 10_000), a.clone() - b.clone());
+            let (scaled, other) = (g.scale(near.clone(), y), g.number(a - near * b + tiny.clone()));
+            let difference = g.number(difference);
+            let lines = [g.formula(x - y - difference), g.formula(x - scaled - other)];
+            assert!(!g.are_met_at_a_regular_point(&lines.map(|line| (line, Demand::Zero))));
+            assert!(g.are_met_at_a_regular_point(&[(lines[0], Demand::Zero)]));
         }
     }
 }
