@@ -168,8 +168,9 @@ pub fn worst<T: Scalar, const M: usize>(residuals: [(&'static str, T); M]) -> St
     let mut worst = StateFault { identity: "", residual: 0.0 };
     for (identity, residual) in residuals {
         let residual = residual.to_f64();
-        let is_worse = residual.abs() > worst.residual.abs() || !residual.is_finite();
-        if worst.identity.is_empty() || is_worse {
+        // what is no number is worse than any number, and nothing is worse
+        let is_worse = residual.is_nan() || residual.abs() > worst.residual.abs();
+        if worst.identity.is_empty() || (is_worse && !worst.residual.is_nan()) {
             worst = StateFault { identity, residual };
         }
     }

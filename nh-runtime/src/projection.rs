@@ -1,6 +1,7 @@
 //! Newton's iteration by which generated code returns to a manifold.
 
 use crate::arrays::all_finite;
+use crate::newton_return::worst;
 use crate::rounding::{are_rounding, further, grow, is_level, is_settled, sizes};
 use crate::{ProjectionError, Scalar, StateFault};
 
@@ -118,14 +119,7 @@ pub fn check_identities<T: Scalar, const N: usize, const M: usize>(
     if (size * T::from_f64(IDENTITY_TOLERANCE)).all_ge(distance) {
         return Ok(());
     }
-    let mut worst = StateFault { identity: "", residual: 0.0 };
-    for (identity, residual) in identities {
-        let residual = residual.to_f64();
-        if worst.identity.is_empty() || residual.abs() > worst.residual.abs() {
-            worst = StateFault { identity, residual };
-        }
-    }
-    Err(worst)
+    Err(worst(identities))
 }
 
 /// The largest absolute value.
@@ -219,6 +213,18 @@ mod tests {
         assert_eq!(check(4.1e-6), Err(StateFault { identity: "a = 0", residual: 0.1 }));
         assert_eq!(check(0.5), Err(StateFault { identity: "b = 0", residual: -0.5 }));
         assert!(check(f64::NAN).is_err());
+    }
+
+    #[test]
+    fn an_identity_that_is_no_number_is_named_wherever_it_stands() {
+        let nan = ("c = 0", f64::NAN);
+        for (present, next) in [([3.0, 4.0], [f64::NAN, 4.0]), ([3.0, 4.0], [3.0, f64::NAN])] {
+            let (a, b) = (("a = 0", 0.1), ("b = 0", f64::INFINITY));
+            for identities in [[a, b, nan], [a, nan, b], [nan, a, b]] {
+                let fault = check_identities(present, next, identities).unwrap_err();
+                assert!(fault.identity == "c = 0" && fault.residual.is_nan(), "{fault:?}");
+            }
+        }
     }
 
     #[test]
