@@ -1,6 +1,6 @@
 //! The table.
 
-use nh_bench::callgrind::Counts;
+use nh_counted::callgrind::Counts;
 
 use crate::measured::{LEVELS, Study};
 use crate::places::REGIMES;

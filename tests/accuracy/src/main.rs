@@ -8,8 +8,8 @@ use std::process::ExitCode;
 
 use nh_accuracy::measured::LEVELS;
 use nh_accuracy::{errors_by_level, systems};
-use nh_bench::callgrind::{self, Counts};
-use nh_bench::program;
+use nh_counted::callgrind::{self, Counts};
+use nh_counted::program;
 
 fn main() -> ExitCode {
     program::main(evaluate, |_| measure())

@@ -2,7 +2,7 @@
 
 use std::hint::black_box;
 
-use nh_bench::callgrind::Counts;
+use nh_counted::callgrind::Counts;
 use nonholonomic::Scalar;
 
 use crate::DoubleDouble;

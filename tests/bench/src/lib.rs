@@ -1,10 +1,8 @@
 //! The parts of the benchmark of record: the contestants, and what measures them.
 #![allow(clippy::cast_precision_loss, reason = "counts stay far below 2⁵²")]
 
-pub mod callgrind;
 pub mod contest;
 pub mod contest_table;
 pub mod peers;
-pub mod program;
 pub mod runner;
 pub mod systems;

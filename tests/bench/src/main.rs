@@ -10,12 +10,12 @@
 
 use std::process::ExitCode;
 
-use nh_bench::callgrind::{self, Counts};
 use nh_bench::contest::Random;
 use nh_bench::contest_table::{Row, print, print_jacobians, print_peers};
 use nh_bench::peers::Workshop;
-use nh_bench::program;
 use nh_bench::runner::{OWN, Run, all};
+use nh_counted::callgrind::{self, Counts};
+use nh_counted::program;
 
 fn main() -> ExitCode {
     let evaluate = |names: &[String]| {

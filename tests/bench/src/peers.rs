@@ -6,8 +6,8 @@ use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 use std::time::{Duration, Instant};
 
-use crate::callgrind;
 use crate::runner::{Data, Run, agree};
+use nh_counted::callgrind;
 
 /// A tool, and what it is given: constraints as typed, or an expert's elimination by hand.
 pub const PEERS: [(&str, &str, &str); 5] = [

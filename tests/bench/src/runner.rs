@@ -7,7 +7,6 @@ use std::time::Instant;
 
 use nonholonomic::State;
 
-use crate::callgrind::Counts;
 use crate::contest::{Contest, Random, recorded_samples, samples};
 use crate::systems::{
     arm, balancing_robot, ball, ball_with_rotors, car, chaplygin_ball, disk, elbow, finned_body, five_bar,
@@ -15,6 +14,7 @@ use crate::systems::{
     rear_steered, robot, roller_racer, roller_walker, satellite, sleigh, slider_crank, snakeboard, tractor,
     veselova,
 };
+use nh_counted::callgrind::Counts;
 
 /// Values of different contestants agree to this, relative to numbers of ordinary size.
 pub const AGREEMENT: f64 = 1e-12;

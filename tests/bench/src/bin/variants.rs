@@ -10,7 +10,7 @@ use std::hint::black_box;
 use std::process::ExitCode;
 
 use nh_bench::contest::Random;
-use nh_bench::program;
+use nh_counted::program;
 use nonholonomic::Dim;
 use nonholonomic::prelude::*;
 

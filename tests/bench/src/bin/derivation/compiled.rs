@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 use std::time::Instant;
 
-use nh_bench::callgrind;
+use nh_counted::callgrind;
 
 use crate::expand;
 use crate::families::Declaration;

@@ -24,7 +24,7 @@ use nh_bench::systems::{
     rear_steered, robot, roller_racer, roller_walker, satellite, sleigh, slider_crank, snakeboard, tractor,
     veselova,
 };
-use nh_bench::{callgrind, program};
+use nh_counted::{callgrind, program};
 use nonholonomic::Method;
 use nonholonomic::prelude::*;
 

@@ -3,15 +3,15 @@
 //! or the program fails; the platform's sine and the iterations of implicit methods are shown beside them.
 //!
 //! ```sh
-//! cargo run --release -p nh-bench --bin steps
+//! cargo run --release -p nh-counted --bin steps
 //! ```
 #![allow(non_snake_case, reason = "parameters are written as in mechanics: J, R")]
 
 use std::hint::black_box;
 use std::process::ExitCode;
 
-use nh_bench::contest::Random;
-use nh_bench::{callgrind, program};
+use nh_counted::random::Random;
+use nh_counted::{callgrind, program};
 use nonholonomic::methods::Method;
 use nonholonomic::prelude::*;
 use nonholonomic::{Dim, ScalarOf, VecOf};
