@@ -17,6 +17,7 @@
 //!   - \rho^i_\alpha \partial_i L + \partial_t p_\alpha = \Upsilon_\alpha + \lambda_A \Phi^A_\alpha
 //! \end{gathered}
 //! ```
+#![warn(missing_debug_implementations)]
 
 pub mod algebra;
 pub mod check;

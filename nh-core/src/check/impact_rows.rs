@@ -45,6 +45,7 @@ pub struct ImpactRow {
 const MOST_ROWS: usize = 6;
 
 /// Where impacts happen: the system between them.
+#[derive(Debug)]
 pub struct Between<'a> {
     /// How it moves.
     pub motion: &'a mut Motion,

@@ -56,6 +56,7 @@ impl Symmetry {
 }
 
 /// What a section is judged by.
+#[derive(Debug)]
 pub struct Setting<'a> {
     /// The Lagrangian system.
     pub system: &'a LagrangianSystem,

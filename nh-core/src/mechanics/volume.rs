@@ -26,6 +26,7 @@ pub struct ModularSection {
 }
 
 /// What the search for a density needs.
+#[derive(Debug)]
 pub struct VolumeSetting<'a> {
     /// div Γ on the constraint manifold, as a function of (t, x, v).
     pub divergence: ExprId,

@@ -9,6 +9,7 @@ use crate::mechanics::{
 };
 
 /// R_L in (x, v), as a procedure's intermediate results.
+#[derive(Debug)]
 pub struct Drift {
     /// z: the part of the velocity that is orthogonal to D in the kinetic metric.
     pub normal: Vec<ExprId>,
