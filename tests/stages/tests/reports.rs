@@ -487,3 +487,9 @@ fn the_group_is_named_where_it_is_not_all_that_is_cyclic() {
         (&plane, "E: f64, R: f64", &["a Chaplygin system", "; the group: translations along x, y\n"], &[]),
     ]);
 }
+
+#[test]
+fn a_gap_changes_at_its_rate() {
+    let ball = "base { h } lagrangian { der(h)^2/2 - h } impacts { floor: h >= 0; }";
+    check(&[(ball, "", &["floor: h >= 0, changing at the rate h_dot"], &["closing at the rate h_dot"])]);
+}
