@@ -10,7 +10,7 @@ use super::node::{Function, Function2, Node};
 use super::number::Rational;
 use crate::id::{ExprId, SymbolId};
 use crate::id_map::IdMap;
-use rustc_hash::FxHashMap;
+use rustc_hash::{FxHashMap, FxHashSet};
 
 /// A direction: the rates of symbols. The others rest.
 pub(crate) type Direction = FxHashMap<SymbolId, Residue>;
@@ -104,11 +104,23 @@ impl<'p, 'a> TangentPass<'p, 'a> {
     /// As [`FieldPass::evaluate`].
     pub(crate) fn gradient(&mut self, root: ExprId, symbols: &[SymbolId]) -> Result<Vec<Dual>, NoValue> {
         self.duals(&[root])?;
-        let order = self.pass.graph.reachable(&[root]);
+        let graph = self.pass.graph;
+        let order = graph.reachable(&[root]);
+        // what none of the symbols moves needs no slope, and may have none: the arc of the cosine at -1
+        let mut moved: FxHashSet<ExprId> = FxHashSet::default();
+        for id in &order {
+            let moves = match graph.node(*id) {
+                Node::Symbol(symbol) => symbols.contains(symbol),
+                node => node.operands().any(|operand| moved.contains(&operand)),
+            };
+            if moves {
+                moved.insert(*id);
+            }
+        }
         let mut adjoints: FxHashMap<ExprId, Dual> = FxHashMap::default();
         let mut found: FxHashMap<SymbolId, Dual> = FxHashMap::default();
         adjoints.insert(root, Dual::constant(Residue::ONE));
-        for id in order.into_iter().rev() {
+        for id in order.into_iter().rev().filter(|id| moved.contains(id)) {
             let Some(adjoint) = adjoints.remove(&id).filter(|adjoint| *adjoint != Dual::ZERO) else {
                 continue;
             };
@@ -341,5 +353,19 @@ mod tests {
                 assert_eq!(dual.is_ok(), along == y && !moves_y);
             }
         }
+    }
+
+    #[test]
+    fn what_no_symbol_moves_needs_no_slope() {
+        let mut g = Graph::new();
+        let x = g.new_symbol("x");
+        let (ex, ending) = (g.symbol(x), g.number(-1));
+        // the graph of the arc of the cosine ends at -1, upright
+        let arc = g.apply(Function::Acos, ending);
+        let root = g.mul(arc, ex);
+        let mut pass = FieldPass::new(&g, FieldPoint::random(3), g.angle_division(&[root]));
+        let value = pass.evaluate(&[arc]).expect("it has a value")[0];
+        let slopes = TangentPass::new(&mut pass, Direction::default()).gradient(root, &[x]);
+        assert_eq!(slopes, Ok(vec![Dual::constant(value)]));
     }
 }

@@ -20,16 +20,23 @@ pub fn declared_expressions(model: &mut Model, facts: &Facts) -> Vec<Violation> 
     let differentiated = differentiated(model);
     let others = evaluated(model);
     let assumptions = model.assumptions.clone();
-    let demands = assumptions.iter().map(|assumption| demand(&mut model.graph, assumption)).collect();
+    let mut demands: Vec<_> = assumptions.iter().map(|fact| demand(&mut model.graph, fact)).collect();
+    // anything follows from a contradiction, which is reported by itself
+    if model.graph.contradiction(&demands).is_some() {
+        demands.clear();
+    }
     let assumed = Premises { demands, place: "" };
+    let mut unreal: Vec<ExprId> = Vec::new();
     for (what, value, origin) in differentiated.iter().chain(&others).copied() {
         let place = Place { what, value, origin };
         let found = undefined(&model.graph, place)
             .or_else(|| vanishing(&mut model.graph, place, &Manifold::whole(), ""))
             .or_else(|| nowhere_real(&mut model.graph, facts, place, &assumed));
+        unreal.extend(found.iter().map(|_| value));
         violations.extend(found);
     }
-    for (what, value, origin) in differentiated.into_iter().chain(sections(model)) {
+    let has_values = |(_, value, _): &(&str, ExprId, Origin)| !unreal.contains(value);
+    for (what, value, origin) in differentiated.into_iter().chain(sections(model)).filter(has_values) {
         violations.extend(not_smooth(model, facts, what, value, origin));
     }
     for (what, value, origin) in carried_along(model) {
@@ -237,7 +244,8 @@ fn nowhere_real(graph: &mut Graph, facts: &Facts, place: Place, premises: &Premi
         for (argument, condition) in conditions(graph, id, 0) {
             let demands = demands(graph, argument, condition);
             // a square root of a sum of squares is left alone: only what has signs is asked about
-            let is_signed = matches!(condition, Condition::Positive(_) | Condition::NotNegative(_));
+            let is_open = matches!(condition, Condition::Positive(_));
+            let is_signed = is_open || matches!(condition, Condition::NotNegative(_));
             let holds_anyway = !on.is_empty() && is_signed && graph.range(argument, facts).is_not_negative();
             if demands.is_empty() || holds_anyway {
                 continue;
@@ -250,7 +258,18 @@ fn nowhere_real(graph: &mut Graph, facts: &Facts, place: Place, premises: &Premi
                 let as_assumed =
                     if by_itself || !on.is_empty() { "" } else { ", for parameters as they are assumed" };
                 let evidence = never(graph, id, argument) + as_assumed;
-                return Some(violation(format!("this {what} has no real value anywhere{on}"), evidence));
+                // the root of -x^2 has a value at 0, and none around it
+                let edges = demands.iter().map(|(expression, wanted)| match wanted {
+                    Demand::Positive if !is_open => (*expression, Demand::NotNegative),
+                    _ => (*expression, *wanted),
+                });
+                let closed: Vec<_> = assumed.iter().copied().chain(edges).collect();
+                let has = if graph.contradiction(&closed).is_some() {
+                    "no real value anywhere"
+                } else {
+                    "real values on no open set"
+                };
+                return Some(violation(format!("this {what} has {has}{on}"), evidence));
             }
             for (expression, _) in &demands {
                 texts.push(format!("{} > 0", shown(graph, *expression)));
@@ -278,7 +297,9 @@ fn demands(graph: &mut Graph, argument: ExprId, condition: Condition) -> Vec<(Ex
         Condition::InUnitInterval(e) | Condition::InsideUnitInterval(e) => {
             let one = graph.one();
             let (below, above) = (graph.formula(one - e), graph.formula(one + e));
-            vec![(below, inside), (above, inside)]
+            // what is 1 everywhere by an identity has its arc
+            let within: Vec<_> = [below, above].into_iter().map(|side| (side, inside)).collect();
+            within.into_iter().filter(|(side, _)| !varies || !graph.zero_test(*side).is_zero()).collect()
         }
     }
 }

@@ -176,6 +176,13 @@ pub(super) fn conditions(graph: &Graph, id: ExprId, derivatives: u32) -> Vec<(Ex
 /// Whether the contrary contradicts what holds at every point of the base.
 fn is_proved(graph: &mut Graph, condition: Condition, holding: &[(ExprId, Demand)]) -> bool {
     let one = graph.one();
+    if let Condition::InsideUnitInterval(e) = condition {
+        let ends = [graph.formula(one - e), graph.formula(one + e)];
+        // the arc of what is 1 everywhere by an identity is a number, which has a slope
+        if ends.into_iter().any(|end| graph.zero_test(end).is_zero()) {
+            return true;
+        }
+    }
     let ways: Vec<Vec<(ExprId, Demand)>> = match condition {
         Condition::Nonzero(e) => vec![vec![(e, Demand::Zero)]],
         Condition::Positive(e) => vec![vec![(graph.formula(-e), Demand::NotNegative)]],

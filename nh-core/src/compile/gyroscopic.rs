@@ -19,27 +19,40 @@ pub(super) fn derive(
     distribution: Option<&ConstraintDistribution>,
 ) -> Result<(Vec<SymbolId>, Option<Procedure>), Vec<Violation>> {
     let Some(origin) = asked(&proved.model, Request::Gyroscopic) else { return Ok(Default::default()) };
-    let blame = |evidence: String| {
+    let refused = |evidence: String, way_out: &str| {
         vec![Violation {
             law: Law::Symmetry,
             origin,
             what: "this is no Chaplygin system, whose constraints act as a gyroscopic force".into(),
             evidence,
-            way_out: "declare it on the algebroid of its symmetry group, or leave `gyroscopic` out".into(),
+            way_out: format!("{way_out}, or leave `gyroscopic` out"),
         }]
     };
+    let blame = |evidence| refused(evidence, "declare it on the algebroid of its symmetry group");
     if let Some(level) = proved.levels.first() {
         return Err(blame(format!("`routh` puts the momentum of `{}` on a level", level.name)));
     }
     let reduced = Reduced::of(proved, distribution).map_err(&blame)?;
     let Some(found) = reduced.chaplygin(proved) else {
-        let Splitting { horizontal, coordinates, .. } = &reduced.splitting;
+        let Splitting { horizontal, coordinates, by_group, .. } = &reduced.splitting;
         let (shared, m) = (reduced.splitting.shared(), coordinates.len());
-        return Err(blame(if shared > 0 {
-            format!("D meets the kernel of the anchor in rank {shared}: there are momentum equations")
-        } else {
-            format!("the anchor maps D to rank {horizontal} of {m}")
-        }));
+        let group = reduced.group_in_words(proved);
+        return Err(match (by_group, shared > 0) {
+            (true, true) => refused(
+                format!(
+                    "D meets the directions of the group in rank {shared}: there are momentum equations; the group: {group}"
+                ),
+                "name the sections of a group that D does not meet in `symmetries { … }`",
+            ),
+            (true, false) => refused(
+                format!("modulo the group, D has rank {horizontal} of {m}; the group: {group}"),
+                "name the sections of a larger group in `symmetries { … }`",
+            ),
+            (false, true) => blame(format!(
+                "D meets the kernel of the anchor in rank {shared}: there are momentum equations"
+            )),
+            (false, false) => blame(format!("the anchor maps D to rank {horizontal} of {m}")),
+        });
     };
     let mut restriction = match distribution {
         Some(distribution) => {

@@ -99,6 +99,21 @@ impl Reduced {
         Chaplygin::of(graph, &self.system, &distribution, &self.splitting, &rates)
     }
 
+    /// The group that V is along, in words.
+    pub(crate) fn group_in_words(&self, proved: &Proved) -> String {
+        if self.frame.is_some() {
+            return "the declared symmetries of L and D, with the cyclic coordinates that they move".into();
+        }
+        let kept = |id: &CoordId| self.splitting.coordinates.contains(id);
+        if !proved.symmetries.cyclic.iter().any(kept) {
+            return "translations along the cyclic coordinates".into();
+        }
+        let ids = (0..proved.model.coordinates.len()).map(CoordId::from_index);
+        let names: Vec<&str> =
+            ids.filter(|id| !kept(id)).map(|id| proved.model.coordinates[id].name.as_str()).collect();
+        format!("translations along {}", names.join(", "))
+    }
+
     /// A section in the declared basis.
     pub(crate) fn declared(&self, graph: &mut Graph, section: &[ExprId]) -> Vec<ExprId> {
         let Some(frame) = &self.frame else { return section.to_vec() };

@@ -12,7 +12,7 @@ pub(super) fn lines(proved: &Proved) -> Vec<String> {
             let rate = graph.text_within(row.form, SHOWN);
             lines.push(match row.position {
                 Some(gap) if row.is_unilateral => {
-                    format!("{}: {} >= 0, closing at the rate {rate}", row.name, shown(graph, gap))
+                    format!("{}: {} >= 0, changing at the rate {rate}", row.name, shown(graph, gap))
                 }
                 Some(gap) => format!("{}: {} = 0, at the rate {rate}", row.name, shown(graph, gap)),
                 None => format!("{}: {rate} = 0 afterwards", row.name),

@@ -24,7 +24,7 @@ pub(super) fn name(proved: &Proved, form: &ReducedForm) -> Option<String> {
 }
 
 fn name_of_split(proved: &Proved, split: &Split) -> String {
-    let Reduced { splitting, frame, .. } = &split.reduced;
+    let splitting = &split.reduced.splitting;
     let more = more_shared(&proved.model.graph, &split.larger);
     let coordinates: Vec<&str> =
         splitting.coordinates.iter().map(|id| proved.model.coordinates[*id].name.as_str()).collect();
@@ -54,13 +54,10 @@ fn name_of_split(proved: &Proved, split: &Split) -> String {
         format!("Lagrange–d'Alembert–Poincaré: S = D ∩ V, {v}, has rank {shared}{more}; {assumption}")
     };
     let declared = proved.symmetries.declared.iter().any(|symmetry| symmetry.keeps_constraints);
-    let group = match (splitting.by_group, frame.is_some()) {
-        (false, _) if declared => "; the declared symmetries are left aside",
-        (false, _) => "",
-        (true, false) => "; the group: translations along the cyclic coordinates",
-        (true, true) => {
-            "; the group: the declared symmetries of L and D, with the cyclic coordinates that they move"
-        }
+    let group = match splitting.by_group {
+        false if declared => "; the declared symmetries are left aside".into(),
+        false => String::new(),
+        true => format!("; the group: {}", split.reduced.group_in_words(proved)),
     };
     format!("equations: {name}{group}")
 }
@@ -72,7 +69,7 @@ fn more_shared(graph: &Graph, larger: &Drops) -> String {
         Drops::Where(_) => {
             places(graph, larger).map_or_else(String::new, |places| format!(" (more where {places})"))
         }
-        Drops::Undecided => " at generic points".into(),
+        Drops::Undecided => ", at generic points".into(),
     }
 }
 

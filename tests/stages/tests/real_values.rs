@@ -67,7 +67,10 @@ const UNDEFINED: [&str; 59] = [
 ];
 
 /// Functions with one somewhere.
-const DEFINED: [&str; 29] = [
+const DEFINED: [&str; 32] = [
+    "acos(-1)*x",
+    "asin(1)*x^2",
+    "acos(cos(x)^2 + sin(x)^2)*y",
     "sqrt(sin(x)+cos(x)+3/2)",
     "sqrt(3*sin(x)+4*cos(x)-4)",
     "ln(sin(x)+cos(x)+sin(y)+cos(y)-2)",
@@ -276,8 +279,9 @@ fn found(attribute: &str) -> Vec<String> {
 
 /// Whether declarations are refused with words about real values, or accepted; names those that are not.
 fn assert_judged(list: impl IntoIterator<Item = String>, refused: bool) {
-    const WORDS: [&str; 8] = [
+    const WORDS: [&str; 9] = [
         "no real value",
+        "real values on no open set",
         "defined nowhere",
         "contradict",
         "exclude",
@@ -337,6 +341,35 @@ fn constraints_and_identities_have_real_points_or_are_refused() {
     let identity =
         |on: &&str| format!("base {{ c, s }} on {{ {on} }} lagrangian {{ (der(c)^2 + der(s)^2)/2 }}");
     assert_judged(NO_BASE.iter().map(identity), true);
+}
+
+#[test]
+fn what_has_values_at_single_points_is_said_to() {
+    for (function, words) in [
+        ("sqrt(2*x*y - x^2 - y^2)", "real values on no open set"),
+        ("asin(x^2 + 1)", "real values on no open set"),
+        ("ln(-x^2)", "no real value anywhere"),
+        ("sqrt(-x^2 - 1)", "no real value anywhere"),
+    ] {
+        let errors = found(&potential((function, "")));
+        // nothing more is said of what has no values
+        assert!(errors.len() == 1 && errors[0].contains(words), "{function}: {errors:?}");
+    }
+}
+
+#[test]
+fn nothing_is_said_to_follow_from_a_contradiction() {
+    let errors = found(&potential(("x", "a > 0; b > 0; a + b < 2*sqrt(a*b);")));
+    assert!(errors.len() == 1 && errors[0].contains("is contradictory"), "{errors:?}");
+}
+
+#[test]
+fn an_arc_of_one_asks_for_nothing() {
+    let attribute = potential(("acos(cos(x)^2 + sin(x)^2)*y", ""));
+    let source = format!("#[nonholonomic({attribute})] struct S {{ a: f64 }}");
+    let [declaration] = declarations(&source).try_into().expect("one declaration");
+    let report = declaration.system().expect("it is well-posed").report;
+    assert!(!report.contains("have a value only where"), "{report}");
 }
 
 #[test]
