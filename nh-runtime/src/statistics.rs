@@ -6,7 +6,8 @@
 pub struct Statistics {
     /// The steps taken.
     pub steps: u64,
-    /// The steps tried and rejected, because of the error estimate or a stage that is not finite.
+    /// The steps tried and rejected, because of the error estimate, of a correction beyond the tolerance or of a stage that
+    /// is not finite.
     pub rejected: u64,
     /// The evaluations of the derivative, those for Jacobians included.
     pub evaluations: u64,
@@ -24,7 +25,8 @@ pub struct Statistics {
     pub switches: u64,
     /// The projections to the constraints, those included that found nothing to correct.
     pub projections: u64,
-    /// The largest change that a projection has made to a component of the state.
+    /// The largest change that a projection has made to a component of the state. Methods that choose their steps keep what
+    /// each adds to it to their tolerance; where steps are fixed nothing bounds it, and it is to be looked at.
     pub largest_correction: f64,
     /// The largest constraint residual that the last projection found, before it corrected it.
     pub last_residual: f64,

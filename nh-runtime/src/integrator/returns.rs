@@ -4,7 +4,8 @@ use core::fmt;
 
 use super::{Integrator, Spent};
 use crate::arrays::first_non_finite;
-use crate::methods::{Arrival, Method, Start, component};
+use crate::methods::{Arrival, Method, Return, Start, ToPositions, component};
+use crate::newton_return::product_of_signs;
 use crate::{
     Dynamics, IntegrationError, ProjectionError, Real, Scalar, ScalarOf, State, StateFault, Statistics, VecOf,
 };
@@ -57,7 +58,7 @@ where
     }
 }
 
-/// How a state was returned to position constraints.
+/// How a state was returned to where it belongs.
 pub struct Returned<S: Dynamics> {
     /// The largest residual that was found.
     pub residual: ScalarOf<S>,
@@ -87,14 +88,18 @@ impl<S: Dynamics> Returned<S>
 where
     ScalarOf<S>: Real,
 {
-    /// Returns a state.
+    /// Returns a state by a function that moves it and gives the largest residual that it found.
     ///
     /// # Errors
-    /// If it is not reached where the constraints hold.
+    /// If the function says so, or leads to what is no number.
     #[inline]
-    pub(crate) fn of(system: &S, t: ScalarOf<S>, state: &mut S::State) -> Result<Self, ProjectionError> {
+    pub(crate) fn of(
+        system: &S,
+        state: &mut S::State,
+        go: impl FnOnce(&mut S::State) -> Result<ScalarOf<S>, ProjectionError>,
+    ) -> Result<Self, ProjectionError> {
         let before = *state;
-        let residual = system.return_to_positions(t, state)?;
+        let residual = go(state)?;
         let corrections = system.correction(&before, state);
         let after = state.to_array();
         let before = before.to_array();
@@ -124,11 +129,12 @@ pub(super) fn advance<S: Dynamics, M: Method<S>>(
 where
     ScalarOf<S>: Real,
 {
-    let (mut arrival, returned) = method.advance_and_return(start, target, memory, statistics)?;
+    let (mut arrival, returned) =
+        method.advance_and_return(start, target, &ToPositions, memory, statistics)?;
     let returned = if let Some(returned) = returned {
         returned
     } else {
-        let returned = Returned::of(start.system, arrival.time, &mut arrival.state);
+        let returned = ToPositions.state(start.system, arrival.time, &mut arrival.state);
         let returned = returned.map_err(|error| {
             method.forget(memory);
             IntegrationError::Projection { time: arrival.time.to_f64(), error }
@@ -156,7 +162,8 @@ where
 {
     let before = start.system.side(start.time, start.state);
     let after = start.system.side(arrival.time, &arrival.state);
-    if before * after < ScalarOf::<S>::ZERO {
+    // the product of the numbers themselves may be too small to have a sign; what is not a number is on neither side
+    if !product_of_signs([before, after]).all_ge(ScalarOf::<S>::ZERO) {
         method.forget(memory);
         let (time, step) = (start.time.to_f64(), (arrival.time - start.time).to_f64());
         return Err(IntegrationError::DeadCentre { time, step });

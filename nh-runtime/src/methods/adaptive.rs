@@ -6,7 +6,7 @@ use super::first_step::first_length;
 use super::fixed::Fixed;
 use super::leg::Leg;
 use super::trial::{Scheme, Trial};
-use super::{Arrival, Method, Place, Start, Step, component, non_finite_derivative};
+use super::{Arrival, Method, Place, Return, Start, Step, ToPositions, component, non_finite_derivative};
 use crate::arrays::{all_finite, first_non_finite};
 use crate::integrator::Returned;
 use crate::step_control::{Controller, Past, StepControl};
@@ -19,7 +19,8 @@ use crate::{Dynamics, IntegrationError, ProjectionError, Real, Scalar, State, St
 ///
 /// The length of the next step follows from the errors of the last ones by the law of its
 /// [`Controller`]. A step with an error beyond the tolerance is rejected and repeated with a shorter one,
-/// and the step after that does not grow; how far its end has come off position constraints counts as error.
+/// and the step after that does not grow; how far its end has come off position constraints, or where [`Projected`](super::Projected) projects it to, counts as
+/// error.
 /// A step is stretched by up to 1 % or shortened to land on a target, and what a target has cut short does not shorten
 /// the steps after it. The first step goes by the time over
 /// which the solution varies; at rest, by a millionth of the distance to the target, of the longest step or of the time.
@@ -142,7 +143,7 @@ impl<P: Default, T: Real> Default for Adaptive<P, T> {
     }
 }
 
-/// The end of a step that was returned to position constraints.
+/// The end of a step that was returned to where it belongs.
 struct Moved<S: Dynamics> {
     returned: Returned<S>,
     /// Whether the scheme knows where it is.
@@ -200,6 +201,11 @@ where
         self.scheme.moved(&mut memory.work);
     }
 
+    #[inline]
+    fn judges(&self) -> bool {
+        true
+    }
+
     fn check(&self) -> Result<(), IntegrationError> {
         self.tolerance.check()?;
         self.control.check()
@@ -217,18 +223,19 @@ where
         memory: &mut Self::Memory,
         statistics: &mut Statistics,
     ) -> Result<Arrival<S>, IntegrationError> {
-        Ok(self.take::<true, false, S>(start, target, memory, statistics)?.0)
+        Ok(self.take::<true, false, S, _>(start, target, &ToPositions, memory, statistics)?.0)
     }
 
     #[inline]
-    fn advance_and_return(
+    fn advance_and_return<R: Return<S>>(
         &self,
         start: &Start<'_, S>,
         target: Option<T>,
+        by: &R,
         memory: &mut Self::Memory,
         statistics: &mut Statistics,
     ) -> Result<Step<S>, IntegrationError> {
-        self.take::<true, true, S>(start, target, memory, statistics)
+        self.take::<true, true, S, _>(start, target, by, memory, statistics)
     }
 
     #[inline]
@@ -244,7 +251,8 @@ where
         let mut steps = 0;
         while place.time != target && steps < limit {
             let start = Start { system, input, time: place.time, state: &place.state };
-            let (arrival, _) = self.take::<false, false, S>(&start, Some(target), memory, statistics)?;
+            let (arrival, _) =
+                self.take::<false, false, S, _>(&start, Some(target), &ToPositions, memory, statistics)?;
             place.move_to(arrival);
             statistics.steps += 1;
             steps += 1;
@@ -262,12 +270,13 @@ where
 }
 
 impl<P, T: Real, W> Adaptive<P, T, W> {
-    /// Takes one step with error control, and returns it to position constraints before its last stage if it is to.
+    /// Takes one step with error control, and returns its end `by` this before its last stage if it is to.
     #[inline]
-    pub(super) fn take<const KEEP: bool, const RETURN: bool, S: Dynamics>(
+    pub(super) fn take<const KEEP: bool, const RETURN: bool, S: Dynamics, R: Return<S>>(
         &self,
         start: &Start<'_, S>,
         target: Option<T>,
+        by: &R,
         memory: &mut Memory<T, P::Work>,
         statistics: &mut Statistics,
     ) -> Result<Step<S>, IntegrationError>
@@ -303,7 +312,7 @@ impl<P, T: Real, W> Adaptive<P, T, W> {
             }
             let (scheme, tolerance, work) = (&self.scheme, &self.tolerance, &mut memory.work);
             let (trial, returned) = if RETURN {
-                self.returned::<KEEP, S>(start, &leg, &mut memory.work, statistics)
+                self.returned::<KEEP, S, R>(start, &leg, by, &mut memory.work, statistics)
             } else {
                 (scheme.attempt::<KEEP, _>(start, leg.length, tolerance, work, statistics), Ok(None))
             };
@@ -348,12 +357,13 @@ impl<P, T: Real, W> Adaptive<P, T, W> {
         }
     }
 
-    /// A step that ends where position constraints hold: how far its end had come off them is error, too.
+    /// A step that ends where its end belongs: how far it had come off is error, too.
     #[inline]
-    fn returned<const KEEP: bool, S: Dynamics>(
+    fn returned<const KEEP: bool, S: Dynamics, R: Return<S>>(
         &self,
         start: &Start<'_, S>,
         leg: &Leg<T>,
+        by: &R,
         work: &mut P::Work,
         statistics: &mut Statistics,
     ) -> (Trial<S>, Result<Option<Moved<S>>, ProjectionError>)
@@ -364,7 +374,7 @@ impl<P, T: Real, W> Adaptive<P, T, W> {
     {
         let (scheme, tolerance) = (&self.scheme, &self.tolerance);
         let (mut trial, returned) =
-            scheme.attempt_and_return::<KEEP, _>(start, leg.length, tolerance, work, statistics);
+            scheme.attempt_and_return::<KEEP, _, R>(start, leg.length, tolerance, by, work, statistics);
         // what has no error estimate has no end either
         if !trial.error.is_finite() || trial.error > T::ONE {
             return (trial, Ok(None));
@@ -373,7 +383,7 @@ impl<P, T: Real, W> Adaptive<P, T, W> {
             Moved { returned, is_known: true }
         } else {
             let mut end = S::State::from_array(trial.state);
-            match Returned::of(start.system, leg.time, &mut end) {
+            match by.state(start.system, leg.time, &mut end) {
                 Ok(returned) => {
                     trial.state = end.to_array();
                     Moved { returned, is_known: !returned.is_moved }
@@ -384,7 +394,7 @@ impl<P, T: Real, W> Adaptive<P, T, W> {
                 }
             }
         };
-        let off = norm(tolerance, &moved.returned.corrections, &start.state.to_array(), &trial.state);
+        let off = by.error(tolerance, &moved.returned, start.state, &trial.state);
         trial.error = trial.error.max(off);
         (trial, Ok(Some(moved)))
     }

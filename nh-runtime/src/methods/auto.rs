@@ -2,7 +2,7 @@
 
 use super::adaptive::{Adaptive, Memory as Remembered};
 use super::trial::Scheme;
-use super::{Arrival, Method, Radau, Start, Step, Tsitouras5};
+use super::{Arrival, Method, Radau, Return, Start, Step, ToPositions, Tsitouras5};
 use crate::arrays::{Array, difference};
 use crate::methods::FiniteDifferences;
 use crate::tolerance::{Tolerance, Uniform, norm};
@@ -170,6 +170,11 @@ where
         Method::<S>::moved(&self.implicit, &mut memory.implicit);
     }
 
+    #[inline]
+    fn judges(&self) -> bool {
+        true
+    }
+
     fn check(&self) -> Result<(), IntegrationError> {
         Method::<S>::check(&self.explicit)?;
         Method::<S>::check(&self.implicit)
@@ -186,17 +191,18 @@ where
         memory: &mut Self::Memory,
         statistics: &mut Statistics,
     ) -> Result<Arrival<S>, IntegrationError> {
-        Ok(self.take::<false, S>(start, target, memory, statistics)?.0)
+        Ok(self.take::<false, S, _>(start, target, &ToPositions, memory, statistics)?.0)
     }
 
-    fn advance_and_return(
+    fn advance_and_return<R: Return<S>>(
         &self,
         start: &Start<'_, S>,
         target: Option<T>,
+        by: &R,
         memory: &mut Self::Memory,
         statistics: &mut Statistics,
     ) -> Result<Step<S>, IntegrationError> {
-        self.take::<true, S>(start, target, memory, statistics)
+        self.take::<true, S, _>(start, target, by, memory, statistics)
     }
 
     fn dense(&self, memory: &Self::Memory, start: &Start<'_, S>, arrival: &Arrival<S>) -> Self::Dense {
@@ -222,11 +228,12 @@ where
 }
 
 impl<T: Real, W, P, Q> Auto<T, W, P, Q> {
-    /// Takes one step by the method that is at work.
-    fn take<const RETURN: bool, S: Dynamics>(
+    /// Takes one step by the method that is at work, and returns its end `by` this if it is to.
+    fn take<const RETURN: bool, S: Dynamics, R: Return<S>>(
         &self,
         start: &Start<'_, S>,
         target: Option<T>,
+        by: &R,
         memory: &mut MemoryOf<S, P, Q>,
         statistics: &mut Statistics,
     ) -> Result<Step<S>, IntegrationError>
@@ -237,7 +244,13 @@ impl<T: Real, W, P, Q> Auto<T, W, P, Q> {
         Q: Scheme<S>,
     {
         if !memory.is_implicit {
-            match self.explicit.take::<true, RETURN, S>(start, target, &mut memory.explicit, statistics) {
+            match self.explicit.take::<true, RETURN, S, R>(
+                start,
+                target,
+                by,
+                &mut memory.explicit,
+                statistics,
+            ) {
                 Ok(step) => {
                     memory.was_implicit = false;
                     if memory.explicit.is_stiff() {
@@ -249,7 +262,8 @@ impl<T: Real, W, P, Q> Auto<T, W, P, Q> {
                 Err(error) => return Err(error),
             }
         }
-        let step = self.implicit.take::<true, RETURN, S>(start, target, &mut memory.implicit, statistics)?;
+        let step =
+            self.implicit.take::<true, RETURN, S, R>(start, target, by, &mut memory.implicit, statistics)?;
         memory.was_implicit = true;
         memory.steps_left -= 1;
         if memory.steps_left == 0 {

@@ -39,6 +39,11 @@ macro_rules! handed_on {
             $keeps
         }
 
+        #[inline]
+        fn judges(&self) -> bool {
+            self.method.judges()
+        }
+
         fn permitted(&self, state: &S::State) -> VecOf<S>
         where
             ScalarOf<S>: Real,

@@ -1,6 +1,6 @@
 //! Any method, asked before each step whether to go on.
 
-use super::{Arrival, Method, Place, Start, Step};
+use super::{Arrival, Method, Place, Return, Start, Step};
 use crate::{Dynamics, IntegrationError, Real, Scalar, ScalarOf, Statistics, VecOf};
 
 /// A method that asks, before each of its steps, whether it may go on: for limits that the crate knows nothing of,
@@ -90,15 +90,16 @@ impl<S: Dynamics, M: Method<S>, F: Fn(&Statistics) -> bool> Method<S> for Interr
         self.method.advance(start, target, &mut memory.method, statistics)
     }
 
-    fn advance_and_return(
+    fn advance_and_return<R: Return<S>>(
         &self,
         start: &Start<'_, S>,
         target: Option<ScalarOf<S>>,
+        by: &R,
         memory: &mut Self::Memory,
         statistics: &mut Statistics,
     ) -> Result<Step<S>, IntegrationError> {
         self.ask(start.time, statistics)?;
-        self.method.advance_and_return(start, target, &mut memory.method, statistics)
+        self.method.advance_and_return(start, target, by, &mut memory.method, statistics)
     }
 
     fn travel(

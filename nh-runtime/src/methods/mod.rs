@@ -59,6 +59,7 @@ mod interruptible;
 mod leg;
 mod plateau;
 mod projected;
+mod return_to;
 mod structure;
 mod taylor;
 mod transition;
@@ -79,6 +80,7 @@ pub use implicit::{
 };
 pub use interruptible::Interruptible;
 pub use projected::Projected;
+pub use return_to::{Return, ToPositions};
 pub use structure::{
     Composed, Conserving, DiscreteAction, DiscreteGradient, DiscreteMomentum, DiscreteSuslov, DriftKickDrift,
     Gonzalez, KahanLi6, Rattle, ReflectedLeapfrog, Substeps, Suzuki4, Symmetric, SymmetricProjection,
@@ -180,7 +182,7 @@ impl<S: Dynamics> Clone for Arrival<S> {
 }
 impl<S: Dynamics> Copy for Arrival<S> {}
 
-/// Where a step has led to, and how it was returned to position constraints, if it was.
+/// Where a step has led to, and how its end was returned to where it belongs, if it was.
 pub type Step<S> = (Arrival<S>, Option<Returned<S>>);
 
 /// Where an integration stands, and where its last step came from.
@@ -261,6 +263,13 @@ pub trait Method<S: Dynamics> {
         false
     }
 
+    /// Whether how far the end of a step has come off where it belongs counts as error, as in methods that choose their
+    /// steps.
+    #[inline]
+    fn judges(&self) -> bool {
+        false
+    }
+
     /// Checks the settings.
     ///
     /// # Errors
@@ -291,18 +300,21 @@ pub trait Method<S: Dynamics> {
         statistics: &mut Statistics,
     ) -> Result<Arrival<S>, IntegrationError>;
 
-    /// As [`advance`](Self::advance), where the state at the end is to be returned to position constraints, and how that
-    /// was done, if it was: a method that evaluates the derivative at the end of a step returns the state before that.
+    /// As [`advance`](Self::advance), where the state at the end is to be returned `by` this, and how that was done, if it
+    /// was: a method that evaluates the derivative at the end of a step returns the state before that, and one that
+    /// chooses its steps counts as error how far they have come off.
     ///
     /// # Errors
     /// As [`advance`](Self::advance); a state that cannot be returned is left to the caller.
-    fn advance_and_return(
+    fn advance_and_return<R: Return<S>>(
         &self,
         start: &Start<'_, S>,
         target: Option<ScalarOf<S>>,
+        by: &R,
         memory: &mut Self::Memory,
         statistics: &mut Statistics,
     ) -> Result<Step<S>, IntegrationError> {
+        let _ = by;
         Ok((self.advance(start, target, memory, statistics)?, None))
     }
 

@@ -1,10 +1,14 @@
 //! Any method, with a return to the constraint manifold every few steps.
 
-use super::{Arrival, Method, Place, Start, component};
+use core::cell::Cell;
+
+use super::{Arrival, Method, Place, Return, Returned, Start, Step, ToPositions, component};
+use crate::arrays::difference;
 use crate::projection::largest;
+use crate::tolerance::{Tolerance, norm};
 use crate::{
-    Constrained, Dim, DimOf, IntegrationError, ProjectionError, Real, Scalar, ScalarOf, State, Statistics,
-    VecOf,
+    Constrained, Dim, DimOf, Dynamics, IntegrationError, ProjectionError, Real, Scalar, ScalarOf, State,
+    Statistics, VecOf,
 };
 
 /// A method whose state is projected back to the constraint manifold after every few steps.
@@ -12,10 +16,16 @@ use crate::{
 /// In the projected formulation the constraints are invariants of the equations, as the identities of
 /// embedded coordinates are in every one, and a numerical solution drifts off them by the method's
 /// error (Hairer, Lubich, Wanner, Geometric Numerical
-/// Integration, section IV.4). The projection keeps the order of the method. It comes after the
-/// method's own error estimate, changes the state at the end of a step and nothing before it, and
-/// makes the method drop what it has stored of that state alone; dense output leads to the corrected
-/// state. [`Statistics`] say how often that happened and how much it changed.
+/// Integration, section IV.4). The projection keeps the order of the method. It changes the
+/// state at the end of a step and nothing before it, and makes the method drop what it has stored of that state alone;
+/// dense output leads to the corrected state. [`Statistics`] say how often that happened and how much it changed.
+///
+/// Of a method that chooses its steps, the drift counts as error: a step that makes the correction larger by more than
+/// the tolerance, in the norm of that, is rejected and repeated shorter, as is one whose projection is due and does not
+/// find back. So that this is known of every step, how a projection would move its end is computed also where none is due.
+/// Steps of fixed length are not judged, as there is nothing to compare with, nor are those of a
+/// [`Conserving`](crate::Conserving) method: any correction is made there, and [`Statistics::largest_correction`] tells of
+/// it.
 ///
 /// A start that a return to the constraints would move by more than the method's tolerance in some component,
 /// or √ε of the state's size where steps are fixed, is refused: [`IntegrationError::InconsistentStart`]. Call the
@@ -79,18 +89,76 @@ impl<M> Projected<M> {
 
 /// What the method remembers, and the steps since the last projection.
 #[derive(Clone, Copy)]
-pub struct Memory<M> {
+pub struct Memory<M, X> {
     method: M,
     steps: u32,
     /// Whether the start has been found on the constraints.
     started: bool,
+    /// How a projection would move the state at the end of the last step.
+    drift: X,
+}
+
+/// What the end of a step is returned by: to where it belongs otherwise, and where it is `due` by a projection.
+struct Drifted<'a, S: Dynamics, R> {
+    /// How a projection would move the start.
+    from: &'a VecOf<S>,
+    is_due: bool,
+    first: Option<&'a R>,
+    /// How a projection has moved the end, or would move it.
+    to: Cell<VecOf<S>>,
+    returned: Cell<Option<Returned<S>>>,
+}
+
+impl<S: Constrained, R: Return<S>> Return<S> for Drifted<'_, S, R> {
+    fn state(&self, system: &S, t: ScalarOf<S>, state: &mut S::State) -> Result<Returned<S>, ProjectionError>
+    where
+        ScalarOf<S>: Real,
+    {
+        Returned::of(system, state, |state| {
+            let returned = self.first.map(|first| first.state(system, t, state)).transpose()?;
+            self.returned.set(returned);
+            let otherwise = returned.map_or(ScalarOf::<S>::ZERO, |returned| returned.residual);
+            let mut moved = *state;
+            let residual = largest::<ScalarOf<S>>(system.constraint_residual(t, state).as_ref());
+            let projected = system.project(t, &mut moved);
+            if self.is_due {
+                projected?;
+            }
+            // where a state that is not moved has no way back, nothing is known of its drift
+            let to = projected.map_or(*self.from, |()| difference(&moved.to_array(), &state.to_array()));
+            self.to.set(to);
+            if self.is_due {
+                *state = moved;
+                return Ok(residual.max(otherwise));
+            }
+            Ok(otherwise)
+        })
+    }
+
+    fn error<W: Tolerance<S::State>>(
+        &self,
+        tolerance: &W,
+        _returned: &Returned<S>,
+        start: &S::State,
+        end: &VecOf<S>,
+    ) -> ScalarOf<S>
+    where
+        ScalarOf<S>: Real,
+    {
+        let size = |drift| norm(tolerance, drift, &start.to_array(), end);
+        let added = size(&self.to.get()) - size(self.from);
+        match (self.first, self.returned.get()) {
+            (Some(first), Some(returned)) => added.max(first.error(tolerance, &returned, start, end)),
+            _ => added,
+        }
+    }
 }
 
 impl<S: Constrained, M: Method<S>> Method<S> for Projected<M>
 where
     ScalarOf<S>: Real,
 {
-    type Memory = Memory<M::Memory>;
+    type Memory = Memory<M::Memory, VecOf<S>>;
 
     handed_on!(
         forget {}
@@ -106,7 +174,12 @@ where
     );
 
     fn memory(&self) -> Self::Memory {
-        Memory { method: self.method.memory(), steps: 0, started: false }
+        Memory {
+            method: self.method.memory(),
+            steps: 0,
+            started: false,
+            drift: DimOf::<S>::vec(ScalarOf::<S>::ZERO),
+        }
     }
 
     fn check(&self) -> Result<(), IntegrationError> {
@@ -129,23 +202,26 @@ where
         memory: &mut Self::Memory,
         statistics: &mut Statistics,
     ) -> Result<Arrival<S>, IntegrationError> {
-        if !memory.started {
-            self.admit(start)?;
-            memory.started = true;
+        let projections = statistics.projections;
+        let (arrival, returned) = self.take(start, target, None::<&ToPositions>, memory, statistics)?;
+        if let Some(returned) = returned
+            && statistics.projections > projections
+        {
+            statistics.last_residual = returned.residual.to_f64();
+            statistics.largest_correction = statistics.largest_correction.max(returned.correction().to_f64());
         }
-        let mut arrival = self.method.advance(start, target, &mut memory.method, statistics)?;
-        if memory.steps + 1 < self.every {
-            memory.steps += 1;
-            return Ok(arrival);
-        }
-        let corrected = correct(start.system, &mut arrival, statistics);
-        if !matches!(corrected, Ok(false)) {
-            // the state at the end is not the one that the method has led to
-            self.method.moved(&mut memory.method);
-        }
-        corrected?;
-        memory.steps = 0;
         Ok(arrival)
+    }
+
+    fn advance_and_return<R: Return<S>>(
+        &self,
+        start: &Start<'_, S>,
+        target: Option<ScalarOf<S>>,
+        by: &R,
+        memory: &mut Self::Memory,
+        statistics: &mut Statistics,
+    ) -> Result<Step<S>, IntegrationError> {
+        self.take(start, target, Some(by), memory, statistics)
     }
 
     #[inline]
@@ -158,14 +234,12 @@ where
         memory: &mut Self::Memory,
         statistics: &mut Statistics,
     ) -> Result<u64, IntegrationError> {
-        if !memory.started {
-            self.admit(&Start { system, input, time: place.time, state: &place.state })?;
-            memory.started = true;
-        }
+        self.begin(&Start { system, input, time: place.time, state: &place.state }, memory)?;
         let mut done = 0;
         while place.time != target && done < limit {
-            // all steps to the next projection but its own
-            let free = u64::from(self.every - 1 - memory.steps).min(limit - done);
+            // all steps to the next projection but its own, if nothing has to be known of each
+            let free = if self.method.judges() { 0 } else { self.every - 1 - memory.steps };
+            let free = u64::from(free).min(limit - done);
             let leg = (target, free);
             let before = statistics.steps;
             let taken = self.method.travel(system, input, place, leg, &mut memory.method, statistics);
@@ -185,9 +259,68 @@ where
 }
 
 impl<M> Projected<M> {
-    /// Refuses a start that a projection would move by more than is permitted.
+    /// Looks at a new start.
+    #[inline]
+    fn begin<S: Constrained>(
+        &self,
+        start: &Start<'_, S>,
+        memory: &mut Memory<M::Memory, VecOf<S>>,
+    ) -> Result<(), IntegrationError>
+    where
+        M: Method<S>,
+        ScalarOf<S>: Real,
+    {
+        if !memory.started {
+            memory.drift = self.admit(start)?;
+            memory.started = true;
+        }
+        Ok(())
+    }
+
+    /// Takes a step, and returns its end to where it belongs otherwise, and to the constraints where that is due.
+    #[inline]
+    fn take<S: Constrained, R: Return<S>>(
+        &self,
+        start: &Start<'_, S>,
+        target: Option<ScalarOf<S>>,
+        first: Option<&R>,
+        memory: &mut Memory<M::Memory, VecOf<S>>,
+        statistics: &mut Statistics,
+    ) -> Result<Step<S>, IntegrationError>
+    where
+        M: Method<S>,
+        ScalarOf<S>: Real,
+    {
+        self.begin(start, memory)?;
+        let from = memory.drift;
+        let is_due = memory.steps + 1 >= self.every;
+        let by = Drifted { from: &from, is_due, first, to: Cell::new(from), returned: Cell::new(None) };
+        let (mut arrival, mut returned) =
+            self.method.advance_and_return(start, target, &by, &mut memory.method, statistics)?;
+        if !is_due {
+            // a method that does not judge has returned nothing, and leaves that to the caller
+            memory.drift = by.to.get();
+            memory.steps += 1;
+            return Ok((arrival, returned));
+        }
+        if returned.is_none() {
+            let found = by.state(start.system, arrival.time, &mut arrival.state);
+            if !found.as_ref().is_ok_and(|found| !found.is_moved) {
+                // the state at the end is not the one that the method has led to
+                self.method.moved(&mut memory.method);
+            }
+            let time = arrival.time.to_f64();
+            returned = Some(found.map_err(|error| IntegrationError::Projection { time, error })?);
+        }
+        statistics.projections += 1;
+        memory.steps = 0;
+        memory.drift = DimOf::<S>::vec(ScalarOf::<S>::ZERO);
+        Ok((arrival, returned))
+    }
+
+    /// Refuses a start that a projection would move by more than is permitted, and says how it would move it.
     #[cold]
-    fn admit<S: Constrained>(&self, start: &Start<'_, S>) -> Result<(), IntegrationError>
+    fn admit<S: Constrained>(&self, start: &Start<'_, S>) -> Result<VecOf<S>, IntegrationError>
     where
         M: Method<S>,
         ScalarOf<S>: Real,
@@ -199,7 +332,7 @@ impl<M> Projected<M> {
         };
         let (constraint, residual) = sizes.fold((0, ScalarOf::<S>::ZERO), worse);
         if residual == ScalarOf::<S>::ZERO {
-            return Ok(());
+            return Ok(DimOf::<S>::vec(ScalarOf::<S>::ZERO));
         }
         let mut moved = *start.state;
         start
@@ -222,34 +355,6 @@ impl<M> Projected<M> {
                 });
             }
         }
-        Ok(())
+        Ok(difference(&after, &before))
     }
-}
-
-/// Projects the end of a step, and says whether that has changed it.
-fn correct<S: Constrained>(
-    system: &S,
-    arrival: &mut Arrival<S>,
-    statistics: &mut Statistics,
-) -> Result<bool, IntegrationError>
-where
-    ScalarOf<S>: Real,
-{
-    let before = arrival.state.to_array();
-    let residual = largest::<ScalarOf<S>>(system.constraint_residual(arrival.time, &arrival.state).as_ref());
-    system
-        .project(arrival.time, &mut arrival.state)
-        .map_err(|error| IntegrationError::Projection { time: arrival.time.to_f64(), error })?;
-    let after = arrival.state.to_array();
-    let pairs = before.as_ref().iter().zip(after.as_ref());
-    let correction =
-        pairs.fold(ScalarOf::<S>::ZERO, |largest, (before, after)| largest.max((*after - *before).abs()));
-    if !residual.is_finite() || !correction.is_finite() {
-        let error = ProjectionError { iterations: 0, residual: residual.to_f64() };
-        return Err(IntegrationError::Projection { time: arrival.time.to_f64(), error });
-    }
-    statistics.projections += 1;
-    statistics.last_residual = residual.to_f64();
-    statistics.largest_correction = statistics.largest_correction.max(correction.to_f64());
-    Ok(correction != ScalarOf::<S>::ZERO)
 }

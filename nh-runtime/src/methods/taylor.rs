@@ -7,7 +7,7 @@ use step_series::Series;
 use super::first_step::first_length;
 use super::fixed::rounding;
 use super::leg::Leg;
-use super::{Arrival, Method, Start, component, non_finite_derivative};
+use super::{Arrival, Method, Return, Start, Step, ToPositions, component, non_finite_derivative};
 use crate::arrays::{all_finite, difference, displaced, first_non_finite};
 use crate::step_control::StepControl;
 use crate::tolerance::{PerComponent, Tolerance, Uniform, norm};
@@ -178,6 +178,11 @@ where
         memory.carry = crate::DimOf::<S>::vec(T::ZERO);
     }
 
+    #[inline]
+    fn judges(&self) -> bool {
+        true
+    }
+
     fn check(&self) -> Result<(), IntegrationError> {
         self.tolerance.check()?;
         self.control.check()?;
@@ -204,57 +209,19 @@ where
         memory: &mut Self::Memory,
         statistics: &mut Statistics,
     ) -> Result<Arrival<S>, IntegrationError> {
-        let shortest = self.control.least(start.time)?;
-        let mut unit = match memory.next {
-            Some(unit) => unit,
-            None => self.first_unit(start, target, statistics)?,
-        };
-        let [_, next] = &mut memory.series;
-        let length = loop {
-            statistics.evaluations += 1;
-            next.unit = unit;
-            let Start { system, input, time, state } = *start;
-            let terms = next.terms.get_mut(..=self.order).unwrap_or_default();
-            system.expand(time, state, input, unit, terms, &mut memory.workspace);
-            if let Some(length) = self.length(next) {
-                break length;
-            }
-            if unit <= shortest {
-                return Err(refusal(start, &next.terms, unit));
-            }
-            statistics.rejected += 1;
-            unit = (unit * T::from_f64(SHRINK)).max(shortest);
-        };
-        let mut proposed = self.control.limited(length).max(shortest);
-        let x = start.state.to_array();
-        let (leg, change, reached) = loop {
-            let leg = Leg::new(start.time, proposed, target);
-            if !leg.time.is_finite() {
-                return Err(IntegrationError::NonFiniteTime { time: leg.time.to_f64() });
-            }
-            let change = displaced(&next.change::<S>(self.order, leg.length), T::ONE, &memory.carry);
-            let reached = displaced(&x, T::ONE, &change);
-            if !all_finite::<T, _>(&reached) {
-                return Err(refusal(start, &next.terms, leg.length));
-            }
-            let excess = self.excess(start, next, leg.length);
-            if excess <= T::ONE {
-                break (leg, change, reached);
-            }
-            if proposed <= shortest {
-                let (time, step) = (start.time.to_f64(), leg.length.to_f64());
-                return Err(IntegrationError::StepUnderflow { time, step, error: excess.to_f64() });
-            }
-            statistics.rejected += 1;
-            let share = (excess.ln() * per(self.order + 1)).exp().recip();
-            let [least, most] = SHORTER.map(T::from_f64);
-            let share = if share >= least { share.min(most) } else { least };
-            proposed = (proposed.min(leg.length.abs()) * share).max(shortest);
-        };
-        memory.carry = rounding(&x, &change, &reached);
-        memory.series.swap(0, 1);
-        memory.next = Some(proposed);
-        Ok(Arrival { time: leg.time, state: S::State::from_array(reached) })
+        Ok(self.take::<false, S, _>(start, target, &ToPositions, memory, statistics)?.0)
+    }
+
+    #[inline]
+    fn advance_and_return<R: Return<S>>(
+        &self,
+        start: &Start<'_, S>,
+        target: Option<T>,
+        by: &R,
+        memory: &mut Self::Memory,
+        statistics: &mut Statistics,
+    ) -> Result<Step<S>, IntegrationError> {
+        self.take::<true, S, _>(start, target, by, memory, statistics)
     }
 
     fn dense(&self, memory: &Self::Memory, _start: &Start<'_, S>, _arrival: &Arrival<S>) -> Self::Dense {
@@ -282,6 +249,94 @@ where
 }
 
 impl<T: Real, const P: usize, W> Taylor<T, P, W> {
+    /// Takes one step, and returns its end `by` this if it is to.
+    #[inline]
+    fn take<const RETURN: bool, S: TaylorSeries, R: Return<S>>(
+        &self,
+        start: &Start<'_, S>,
+        target: Option<T>,
+        by: &R,
+        memory: &mut Memory<S::State, S::Workspace<P>, P>,
+        statistics: &mut Statistics,
+    ) -> Result<Step<S>, IntegrationError>
+    where
+        S::State: State<Scalar = T>,
+        W: Tolerance<S::State>,
+    {
+        let shortest = self.control.least(start.time)?;
+        let mut unit = match memory.next {
+            Some(unit) => unit,
+            None => self.first_unit(start, target, statistics)?,
+        };
+        let [_, next] = &mut memory.series;
+        let length = loop {
+            statistics.evaluations += 1;
+            next.unit = unit;
+            let Start { system, input, time, state } = *start;
+            let terms = next.terms.get_mut(..=self.order).unwrap_or_default();
+            system.expand(time, state, input, unit, terms, &mut memory.workspace);
+            if let Some(length) = self.length(next) {
+                break length;
+            }
+            if unit <= shortest {
+                return Err(refusal(start, &next.terms, unit));
+            }
+            statistics.rejected += 1;
+            unit = (unit * T::from_f64(SHRINK)).max(shortest);
+        };
+        let mut proposed = self.control.limited(length).max(shortest);
+        let x = start.state.to_array();
+        let (leg, change, reached, returned) = loop {
+            let leg = Leg::new(start.time, proposed, target);
+            if !leg.time.is_finite() {
+                return Err(IntegrationError::NonFiniteTime { time: leg.time.to_f64() });
+            }
+            let change = displaced(&next.change::<S>(self.order, leg.length), T::ONE, &memory.carry);
+            let reached = displaced(&x, T::ONE, &change);
+            if !all_finite::<T, _>(&reached) {
+                return Err(refusal(start, &next.terms, leg.length));
+            }
+            let mut excess = self.excess(start, next, leg.length);
+            let (mut end, mut returned) = (S::State::from_array(reached), Ok(None));
+            if RETURN && excess <= T::ONE {
+                returned = by.state(start.system, leg.time, &mut end).map(Some);
+                excess = match &returned {
+                    Ok(Some(returned)) => {
+                        excess.max(by.error(&self.tolerance, returned, start.state, &end.to_array()))
+                    }
+                    _ => T::from_f64(f64::INFINITY),
+                };
+            }
+            if excess <= T::ONE
+                && let Ok(returned) = returned
+            {
+                break (leg, change, reached, returned.map(|returned| (end, returned)));
+            }
+            if proposed <= shortest {
+                if let Err(error) = returned {
+                    return Err(IntegrationError::Projection { time: leg.time.to_f64(), error });
+                }
+                let (time, step) = (start.time.to_f64(), leg.length.to_f64());
+                return Err(IntegrationError::StepUnderflow { time, step, error: excess.to_f64() });
+            }
+            statistics.rejected += 1;
+            let share = (excess.ln() * per(self.order + 1)).exp().recip();
+            let [least, most] = SHORTER.map(T::from_f64);
+            let share = if share >= least { share.min(most) } else { least };
+            proposed = (proposed.min(leg.length.abs()) * share).max(shortest);
+        };
+        memory.carry = rounding(&x, &change, &reached);
+        memory.series.swap(0, 1);
+        memory.next = Some(proposed);
+        let Some((state, returned)) = returned else {
+            return Ok((Arrival { time: leg.time, state: S::State::from_array(reached) }, None));
+        };
+        if returned.is_moved {
+            memory.carry = crate::DimOf::<S>::vec(T::ZERO);
+        }
+        Ok((Arrival { time: leg.time, state }, Some(returned)))
+    }
+
     /// The unit of time of the very first series.
     #[cold]
     fn first_unit<S: Dynamics>(

@@ -2,7 +2,7 @@
 
 use core::fmt;
 
-use super::{Arrival, Start};
+use super::{Arrival, Return, Start};
 use crate::integrator::Returned;
 use crate::step_control::Controller;
 use crate::tolerance::Tolerance;
@@ -58,16 +58,18 @@ pub trait Scheme<S: Dynamics>: Copy {
         statistics: &mut Statistics,
     ) -> Trial<S>;
 
-    /// The same, with its end where position constraints hold, if the method has to evaluate the derivative there: then
+    /// The same, with its end returned to where it belongs, if the method has to evaluate the derivative there: then
     /// that is the one that the next step starts with.
-    fn attempt_and_return<const KEEP: bool, W: Tolerance<S::State>>(
+    fn attempt_and_return<const KEEP: bool, W: Tolerance<S::State>, R: Return<S>>(
         &self,
         start: &Start<'_, S>,
         h: ScalarOf<S>,
         tolerance: &W,
+        by: &R,
         work: &mut Self::Work,
         statistics: &mut Statistics,
     ) -> (Trial<S>, Option<Returned<S>>) {
+        let _ = by;
         (self.attempt::<KEEP, W>(start, h, tolerance, work, statistics), None)
     }
 

@@ -272,3 +272,37 @@ fn the_outside_of_the_last_step_is_refused() {
         "there is no state at t = 0.75, since the last step went from 0.0 to 0.5: ask within it"
     );
 }
+
+/// A system with position constraints, and with a side at the start and one afterwards.
+struct Sided([f64; 2]);
+
+impl Dynamics for Sided {
+    type State = Plane<f64>;
+    type Input = ();
+    fn derivative(&self, _t: f64, _state: &Plane<f64>, (): &()) -> Plane<f64> {
+        Plane { q: 1.0, p: 0.0 }
+    }
+    fn has_positions(&self) -> bool {
+        true
+    }
+    fn side(&self, t: f64, _state: &Plane<f64>) -> f64 {
+        let Self([before, after]) = *self;
+        if t == 0.0 { before } else { after }
+    }
+}
+
+/// Sides are compared by their signs, however small the numbers are, and what is not a number is on neither side.
+#[test]
+fn a_step_that_changes_sides_is_refused() {
+    let stepped = |sides| {
+        let mut sim = Integrator::new(Sided(sides), Rk4::new(0.1), 0.0, Plane { q: 0.0, p: 0.0 });
+        sim.step()
+    };
+    for sides in [[1.0, -1.0], [1e-200, -1e-200], [-1e-200, 1e-200], [1.0, f64::NAN], [f64::NAN, 1.0]] {
+        let refused = stepped(sides);
+        assert!(matches!(refused, Err(IntegrationError::DeadCentre { .. })), "{sides:?}: {refused:?}");
+    }
+    for sides in [[1.0, 1.0], [1e-200, 2e-200], [-1e-300, -1e300], [1.0, 0.0], [0.0, -1.0]] {
+        assert_eq!(stepped(sides), Ok(()), "{sides:?}");
+    }
+}

@@ -81,7 +81,7 @@ fn the_cadence_is_kept_and_counts_steps() {
 
 #[test]
 fn a_correction_renews_the_stored_derivative() {
-    // a step of Dormand and Prince's method takes six evaluations, and one more after a correction
+    // a step of Dormand and Prince's method takes six evaluations, the last of them where the correction has led to
     let cost = |every| {
         let method = Dopri5::new().rtol(1e-6).first_step(0.1).max_step(0.1);
         let mut sim = circling(Projected::new(method, every));
@@ -91,7 +91,7 @@ fn a_correction_renews_the_stored_derivative() {
         sim.statistics().evaluations
     };
     assert_eq!(cost(1000), 601);
-    assert!((648..=650).contains(&cost(2)), "{}", cost(2));
+    assert_eq!(cost(2), 601);
     // and the steps are those of a fresh integration from the corrected state
     let method = Dopri5::new().rtol(1e-3).first_step(0.1).max_step(0.1);
     let mut sim = circling(Projected::new(method, 1));

@@ -4,6 +4,7 @@
 #![allow(clippy::needless_pass_by_value)] // one macro calls all laws, with methods as values
 
 mod closing;
+mod corrections;
 mod domains;
 mod events;
 mod extremes;

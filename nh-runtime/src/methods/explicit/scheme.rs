@@ -4,7 +4,7 @@ use super::tableau::{Dense, FEW, Pair, Tableau, interpolate};
 use crate::arrays::{all_finite, difference, displaced, first_non_finite, nought};
 use crate::integrator::Returned;
 use crate::methods::fixed::OneStep;
-use crate::methods::{Arrival, Scheme, Start, Trial, non_finite_derivative};
+use crate::methods::{Arrival, Return, Scheme, Start, Trial, non_finite_derivative};
 use crate::tolerance::{Tolerance, norm};
 use crate::{Dim, DimOf, Dynamics, IntegrationError, Real, Scalar, ScalarOf, State, Statistics, VecOf};
 
@@ -236,18 +236,19 @@ where
     }
 
     #[inline]
-    fn attempt_and_return<const KEEP: bool, W: Tolerance<S::State>>(
+    fn attempt_and_return<const KEEP: bool, W: Tolerance<S::State>, R: Return<S>>(
         &self,
         start: &Start<'_, S>,
         h: ScalarOf<S>,
         tolerance: &W,
+        by: &R,
         work: &mut Work<S, P>,
         statistics: &mut Statistics,
     ) -> (Trial<S>, Option<Returned<S>>) {
         let mut returned = None;
         let trial = step_of::<KEEP, S, P, W>(start, h, tolerance, work, statistics, |state| {
             let mut end = S::State::from_array(*state);
-            returned = Returned::of(start.system, start.time + h, &mut end).ok();
+            returned = by.state(start.system, start.time + h, &mut end).ok();
             if returned.is_some() {
                 *state = end.to_array();
             }
