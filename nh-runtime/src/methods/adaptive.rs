@@ -19,8 +19,8 @@ use crate::{Dynamics, IntegrationError, ProjectionError, Real, Scalar, State, St
 ///
 /// The length of the next step follows from the errors of the last ones by the law of its
 /// [`Controller`]. A step with an error beyond the tolerance is rejected and repeated with a shorter one,
-/// and the step after that does not grow; how far its end has come off position constraints, or where [`Projected`](super::Projected) projects it to, counts as
-/// error.
+/// and the step after that does not grow; how far its end has come off position constraints, or is moved by
+/// [`Projected`](super::Projected), counts as error.
 /// A step is stretched by up to 1 % or shortened to land on a target, and what a target has cut short does not shorten
 /// the steps after it. The first step goes by the time over
 /// which the solution varies; at rest, by a millionth of the distance to the target, of the longest step or of the time.
