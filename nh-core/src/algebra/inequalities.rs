@@ -1,8 +1,10 @@
 //! Whether inequalities contradict each other, over all real values of their symbols.
 //!
-//! Four proofs are tried. Intervals are propagated through every part of the expressions, from the
-//! symbols to the whole and back (F. Benhamou, F. Goualard, L. Granvilliers, J.-F. Puget, *Revising hull and box
-//! consistency*, ICLP 1999). Quadratic polynomials have the least value that completing squares gives.
+//! Six proofs are tried. The product of products that are positive is positive (`sign_parity.rs`). Intervals are
+//! propagated through every part of the expressions, from the symbols to the whole and back (F. Benhamou, F. Goualard,
+//! L. Granvilliers, J.-F. Puget, *Revising hull and box consistency*, ICLP 1999). The arithmetic mean of positive products
+//! is not below the geometric one (`mean_inequality.rs`). Quadratic polynomials have the least value that completing
+//! squares gives.
 //! And non-negative multiples of the inequalities, with the squares of sums and differences of their
 //! variables, may add up to `0 > 0` (`simplex.rs`), as they are or where functions have their extreme values
 //! (`bounded_terms.rs`), or where the equations among them are solved (`solved_equations.rs`). Points that satisfy all of
@@ -71,6 +73,7 @@ const MANY: usize = 40;
 /// Steps of work after which intervals are left as wide as they are.
 const PROPAGATED: u64 = 1_000_000;
 
+/// What intervals the parts of expressions are in.
 pub(super) type Known = FxHashMap<ExprId, Interval>;
 
 /// A sum: the range of a part of it, and other terms with their coefficients.
@@ -85,6 +88,9 @@ impl Graph {
     pub fn contradiction(&self, demands: &[(ExprId, Demand)]) -> Option<Contradiction> {
         if self.are_met_somewhere(demands) {
             return None;
+        }
+        if self.have_no_signs(demands) {
+            return Some(Contradiction::Together);
         }
         let mut known = Known::default();
         if let Err(index) = self.propagate_for_a_while(demands, &mut known) {

@@ -8,12 +8,13 @@
 //! | `cosh u ≥ 1 + u²/2`, `cosh u ± sinh u > 0` | – |
 //! | `exp u ≥ c (1 + u − ln c)` for c = 1/2, 1, 2, `exp u > 0`, `exp u exp −u = 1` | – |
 //! | `ln u ≤ u/c − 1 + ln c`, `ln u ≤ 2 (√u/c − 1 + ln c)`, `u > 0` | where the logarithm is defined |
+//! | `−π/2 < atan u < π/2`, `−π/2 ≤ asin u ≤ π/2`, `0 ≤ acos u ≤ π`, `−π ≤ atan2(u, v) ≤ π` | beside π, and where they are defined |
 //! | `√u ≥ 0`, `(√u)² = u` | where the root is defined |
 
 use super::combination::negative;
 use super::graph::Graph;
 use super::inequalities::Demand;
-use super::node::{Function, Node};
+use super::node::{Function, Function2, Node};
 use super::number::Rational;
 use super::polynomial_terms::{Monomial, Terms, multiplied, product_of, sum_of};
 use crate::id::ExprId;
@@ -36,6 +37,17 @@ fn scaled(polynomial: &Terms, factor: &Rational) -> Terms {
     polynomial.iter().map(|(monomial, c)| (monomial.clone(), c.clone() * factor.clone())).collect()
 }
 
+/// Between which multiples of π/2 the values of an arc are, and whether they are strictly.
+fn reach(arc: &Node) -> Option<([i64; 2], Demand)> {
+    Some(match arc {
+        Node::Apply(Function::Atan, _) => ([-1, 1], Demand::Positive),
+        Node::Apply(Function::Asin, _) => ([-1, 1], Demand::NotNegative),
+        Node::Apply(Function::Acos, _) => ([0, 2], Demand::NotNegative),
+        Node::Apply2(Function2::Atan2, ..) => ([-2, 2], Demand::NotNegative),
+        _ => return None,
+    })
+}
+
 fn constant(value: Rational) -> Terms {
     if value.is_zero() { Terms::new() } else { Terms::from([(Monomial::new(), value)]) }
 }
@@ -52,9 +64,20 @@ impl Graph {
         let mut found: Vec<(Terms, Demand)> = Vec::new();
         let half = Rational::new(1, 2);
         let mut arguments: BTreeSet<(Function, ExprId)> = BTreeSet::new();
+        let pi = parts.iter().map(|(part, _)| *part).find(|part| *self.node(*part) == Node::Pi);
         for (part, exponent) in parts.into_iter().take(FUNCTIONS) {
             if exponent == half {
                 found.extend(self.known_of_root(part));
+            }
+            if let (Some(pi), Some(([low, high], demand))) = (pi, reach(self.node(part))) {
+                let from = |sign: i64, end: i64| {
+                    let value = Terms::from([(power(part, 1), Rational::from(sign))]);
+                    match end {
+                        0 => value,
+                        _ => sum_of(&value, &Terms::from([(power(pi, 1), Rational::new(-sign * end, 2))])),
+                    }
+                };
+                found.extend([(from(1, low), demand), (from(-1, high), demand)]);
             }
             let Node::Apply(function, x) = self.node(part) else { continue };
             let paired = match function {

@@ -113,7 +113,16 @@ const UNDEFINED_AS_ASSUMED: [(&str, &str); 3] = [
 const DEFINED_AS_ASSUMED: [(&str, &str); 1] = [("sqrt(a*sin(x)+a*cos(x)-a)", "a > 0;")];
 
 /// Assumptions that no numbers satisfy.
-const CONTRADICTORY: [&str; 46] = [
+const CONTRADICTORY: [&str; 55] = [
+    "a/b + b/a < 2; a > 0; b > 0;",
+    "a + b + c < 3*(a*b*c)^(1/3); a > 0; b > 0; c > 0;",
+    "a^2 + 2/a < 2.9; a > 0;",
+    "a/b > 0; b^3*c > 0; a/c < 0;",
+    "a*b > 0; b*c > 0; c*m < 0; a*m > 0;",
+    "atan(a) > pi/2;",
+    "acos(a) > pi;",
+    "asin(a) + 2*atan(b) >= 3*pi/2;",
+    "atan2(a, b) > pi;",
     "a*sin(b) > c; a > 0; c > a;",
     "a*sin(b) + a*cos(c) > 2*a; a > 0;",
     "a*tanh(b) >= a; a > 0;",
@@ -163,7 +172,13 @@ const CONTRADICTORY: [&str; 46] = [
 ];
 
 /// Assumptions that some do.
-const CONSISTENT: [&str; 16] = [
+const CONSISTENT: [&str; 22] = [
+    "a/b + b/a <= 2; a > 0; b > 0;",
+    "a + b + c < 3.1*(a*b*c)^(1/3); a > 0; b > 0; c > 0;",
+    "a^2 + 2/a < 3.1; a > 0;",
+    "a*b < 0; b*c < 0; c*m < 0; a*m < 0;",
+    "atan(a) > 3/2; atan(a) < pi/2;",
+    "acos(a) >= pi;",
     "a*sin(b) > c; a > 0; c > a/2;",
     "a*tanh(b) >= c; a > 0; c > a - 1;",
     "a^2+b^2 < 1; a+b > 7/5;",
@@ -271,7 +286,7 @@ const DEFINED_THERE: [(&str, &str); 5] = [
 const NO_BASE: [&str; 3] = ["c^2+s^2 = -1;", "c^4+s^4 = c*s - 1;", "c^2+s^2 = 2*c - 2;"];
 
 fn found(attribute: &str) -> Vec<String> {
-    let fields = if attribute.contains("base { c,") { "" } else { "a: f64, b: f64, c: f64" };
+    let fields = if attribute.contains("base { c,") { "" } else { "a: f64, b: f64, c: f64, m: f64" };
     let source = format!("#[nonholonomic({attribute})] struct S {{ {fields} }}");
     let [declaration] = declarations(&source).try_into().expect("one declaration");
     errors(&declaration.expanded())
