@@ -48,11 +48,13 @@ pub(super) fn lines(
         };
         let whom = if of_parameters { format!("for some parameters {what}") } else { what.to_owned() };
         let text = shown(&model.graph, *factor);
-        let place = if text.contains('…') { "its determinant" } else { text.as_str() };
-        lines.push(if *exists {
-            format!("{whom} singular where {place} = 0")
-        } else {
-            format!("{what} singular if {place} = 0 in some state; whether it is in any was not decided")
+        lines.push(match (exists, text.contains('…')) {
+            (true, false) => format!("{whom} singular where {text} = 0"),
+            (true, true) => format!("{whom} singular in some states; the condition is too long to be shown"),
+            (false, false) => {
+                format!("{what} singular if {text} = 0 in some state; whether it is in any was not decided")
+            }
+            (false, true) => format!("whether {what} singular in some state was not decided"),
         });
     }
     if undecided(model, facts) {

@@ -466,7 +466,12 @@ fn projected_equations_say_where_they_are_singular() {
     let usual = on_circle("m*(der(x)^2 + der(y)^2)/2", "x^2 + y^2 = 1");
     let blade = "base { x, y, th } lagrangian { (x*der(x)^2 + x*der(y)^2 + der(th)^2)/2 }
         constraints { cos(th)*der(y) = sin(th)*der(x); }";
+    let crane = "base { x, y, z } lagrangian { (trolley + bridge*cos(x) + hoist*cos(y))/2*der(x)^2 + hoist*sin(y)*der(y)*der(z)
+        + (trolley*sin(x) + bridge*sin(y) + hoist*cos(x)*sin(y))*der(x)*der(y) + (trolley + bridge*sin(x)*cos(z))/2*der(z)^2
+        + (trolley + bridge*cos(2*x) + hoist*sin(3*y))/2*der(y)^2 + (bridge*sin(z) + hoist*cos(y))*der(x)*der(z) }";
+    let too_long = "the mass matrix is singular in some states; the condition is too long to be shown\n";
     check(&[
+        (crane, "trolley: f64, bridge: f64, hoist: f64", &[too_long], &["determinant"]),
         (&weighted, "", &["the equations are singular where x = 0\n"], &[]),
         (&null, "", &["the equations are singular where 4*y^2 - 4*x^2 = 0\n"], &[]),
         (blade, "", &["the equations are singular where x = 0\n"], &[]),
