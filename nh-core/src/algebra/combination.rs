@@ -44,12 +44,6 @@ impl Graph {
     ) -> Option<Contradiction> {
         let declared: Option<Vec<Terms>> = demands.iter().map(|(id, _)| self.polynomial_terms(*id)).collect();
         let declared = declared?;
-        let is_below = |(polynomial, (_, demand)): (&Terms, &(ExprId, Demand))| {
-            self.is_below_its_mean(polynomial, *demand, intervals)
-        };
-        if declared.iter().zip(demands).any(is_below) {
-            return Some(Contradiction::Together);
-        }
         let polynomials: Option<Vec<Terms>> =
             declared.iter().map(|polynomial| self.without_denominators(polynomial.clone())).collect();
         let polynomials = polynomials?;

@@ -1,13 +1,13 @@
 //! Whether inequalities contradict each other, over all real values of their symbols.
 //!
-//! Six proofs are tried. The product of products that are positive is positive (`sign_parity.rs`). Intervals are
-//! propagated through every part of the expressions, from the symbols to the whole and back (F. Benhamou, F. Goualard,
-//! L. Granvilliers, J.-F. Puget, *Revising hull and box consistency*, ICLP 1999). The arithmetic mean of positive products
-//! is not below the geometric one (`mean_inequality.rs`). Quadratic polynomials have the least value that completing
-//! squares gives.
+//! Six proofs are tried. Intervals are propagated through every part of the expressions, from the
+//! symbols to the whole and back (F. Benhamou, F. Goualard, L. Granvilliers, J.-F. Puget, *Revising hull and box
+//! consistency*, ICLP 1999). Quadratic polynomials have the least value that completing squares gives.
 //! And non-negative multiples of the inequalities, with the squares of sums and differences of their
 //! variables, may add up to `0 > 0` (`simplex.rs`), as they are or where functions have their extreme values
-//! (`bounded_terms.rs`), or where the equations among them are solved (`solved_equations.rs`). Points that satisfy all of
+//! (`bounded_terms.rs`), or where the equations among them are solved (`solved_equations.rs`). The arithmetic mean of
+//! positive products is not below the geometric one (`mean_inequality.rs`), and the product of what is positive is
+//! positive (`sign_parity.rs`). Points that satisfy all of
 //! them are looked for before what is dear: some that are at hand, and where there are equations, those that Newton's steps
 //! lead to (`regular_points.rs`). A system that none of them refutes is *not* known to have a solution.
 
@@ -89,14 +89,16 @@ impl Graph {
         if self.are_met_somewhere(demands) {
             return None;
         }
-        if self.have_no_signs(demands) {
-            return Some(Contradiction::Together);
-        }
         let mut known = Known::default();
         if let Err(index) = self.propagate_for_a_while(demands, &mut known) {
             return Some(Contradiction::Nowhere(index));
         }
-        self.combination(demands, &known)
+        let is_below = |(id, demand): &(ExprId, Demand)| {
+            self.polynomial_terms(*id).is_some_and(|terms| self.is_below_its_mean(&terms, *demand, &known))
+        };
+        // last, since these say less of the reason than the others
+        let excluded = || demands.iter().any(is_below) || self.have_no_signs(demands);
+        self.combination(demands, &known).or_else(|| excluded().then_some(Contradiction::Together))
     }
 
     /// Those demands that are about expressions, or about what others of them are about.
