@@ -2,18 +2,16 @@
 //! means, Σ cᵢ mᵢ ≥ Π (cᵢ/λᵢ)^λᵢ · m, where cᵢ, mᵢ > 0 and m = Π mᵢ^λᵢ, Σ λᵢ = 1 (B. Reznick, *Forms derived from the
 //! arithmetic-geometric inequality*, Math. Ann. 283, 1989).
 
+use super::combination::negative;
 use super::graph::Graph;
 use super::inequalities::{Demand, Known};
 use super::node::Node;
 use super::number::Rational;
-use super::polynomial_terms::{Monomial, Terms};
+use super::polynomial_terms::{Monomial, Terms, product_of, sum_of};
 use super::simplex::{Inequality, contradiction};
 use crate::id::ExprId;
 use num_integer::Integer;
-use std::collections::{BTreeMap, BTreeSet};
-
-/// The exponents of parts that are positive.
-type Exponents = BTreeMap<ExprId, Rational>;
+use std::collections::BTreeSet;
 
 /// The common denominator of weights up to which their powers are compared.
 const DENOMINATOR: i64 = 24;
@@ -22,59 +20,50 @@ impl Graph {
     /// Whether a polynomial is not as demanded, since one product is all that is above zero in it, and the others have a
     /// mean that is as large.
     pub(super) fn is_below_its_mean(&self, polynomial: &Terms, demand: Demand, known: &Known) -> bool {
-        let mut terms: BTreeMap<Exponents, Rational> = BTreeMap::new();
+        let mut terms = Terms::new();
         for (monomial, coefficient) in polynomial {
-            let Some(exponents) = self.exponents(monomial, known) else { return false };
-            let sum = terms.remove(&exponents).unwrap_or(Rational::ZERO) + coefficient.clone();
-            if !sum.is_zero() {
-                terms.insert(exponents, sum);
-            }
+            let Some(monomial) = self.positive_parts(monomial, known) else { return false };
+            terms = sum_of(&terms, &Terms::from([(monomial, coefficient.clone())]));
         }
         match demand {
             Demand::Positive => is_below(&terms, false),
             Demand::NotNegative => is_below(&terms, true),
-            Demand::Zero => {
-                let negative = terms.iter().map(|(exponents, c)| (exponents.clone(), -c.clone())).collect();
-                is_below(&terms, true) || is_below(&negative, true)
-            }
+            Demand::Zero => is_below(&terms, true) || is_below(&negative(&terms), true),
             Demand::Nonzero => false,
         }
     }
 
-    /// The exponents of a product of what is known to be positive.
-    fn exponents(&self, monomial: &Monomial, known: &Known) -> Option<Exponents> {
-        let mut exponents = Exponents::new();
-        let mut open: Vec<(ExprId, Rational)> = monomial.clone();
-        while let Some((part, exponent)) = open.pop() {
-            match self.node(part) {
+    /// A product of what is known to be positive, with products among its parts multiplied out.
+    fn positive_parts(&self, monomial: &Monomial, known: &Known) -> Option<Monomial> {
+        let mut product = Monomial::new();
+        for (part, exponent) in monomial {
+            let inside = match self.node(*part) {
                 Node::Product { coefficient, factors } if coefficient.is_one() => {
-                    let inside = factors.iter().map(|(base, e)| (*base, e.clone() * exponent.clone()));
-                    open.extend(inside);
+                    let powers = factors.iter().map(|(base, e)| (*base, e.clone() * exponent.clone()));
+                    self.positive_parts(&powers.collect(), known)?
                 }
                 _ => {
-                    let interval = known.get(&part)?;
-                    if !(interval.is_not_negative() && interval.is_nonzero()) {
-                        return None;
-                    }
-                    let sum = exponents.remove(&part).unwrap_or(Rational::ZERO) + exponent;
-                    if !sum.is_zero() {
-                        exponents.insert(part, sum);
-                    }
+                    let interval = known.get(part)?;
+                    let is_positive = interval.is_not_negative() && interval.is_nonzero();
+                    is_positive.then(|| vec![(*part, exponent.clone())])?
                 }
-            }
+            };
+            product = product_of(&product, &inside);
         }
-        Some(exponents)
+        Some(product)
     }
 }
 
 /// Whether products with coefficients add up to nothing above zero, or to what is below.
-fn is_below(terms: &BTreeMap<Exponents, Rational>, strictly: bool) -> bool {
+fn is_below(terms: &Terms, strictly: bool) -> bool {
     let (below, above): (Vec<_>, Vec<_>) = terms.iter().partition(|(_, c)| c.is_negative());
     let [(product, most)] = above.as_slice() else { return false };
     let Some(weights) = weights(&below, product) else { return false };
     let used = || below.iter().zip(&weights).filter(|(_, weight)| !weight.is_zero());
     let common = used().try_fold(1_i64, |common, (_, weight)| {
-        let common = common.lcm(&weight.to_small()?.1);
+        let denominator = weight.to_small()?.1;
+        // a large one has no multiple that is a number of the machine
+        let common = (denominator <= DENOMINATOR).then(|| common.lcm(&denominator))?;
         (common <= DENOMINATOR).then_some(common)
     });
     let Some(common) = common else { return false };
@@ -92,17 +81,19 @@ fn is_below(terms: &BTreeMap<Exponents, Rational>, strictly: bool) -> bool {
 }
 
 /// Weights λᵢ ≥ 0 that add up to one, with the product as the weighted geometric mean.
-fn weights(of: &[(&Exponents, &Rational)], product: &Exponents) -> Option<Vec<Rational>> {
-    let parts: BTreeSet<&ExprId> =
-        of.iter().flat_map(|(exponents, _)| exponents.keys()).chain(product.keys()).collect();
-    let exponent =
-        |exponents: &Exponents, part: &ExprId| exponents.get(part).cloned().unwrap_or(Rational::ZERO);
+fn weights(of: &[(&Monomial, &Rational)], product: &Monomial) -> Option<Vec<Rational>> {
+    let monomials = of.iter().map(|(monomial, _)| *monomial).chain([product]);
+    let parts: BTreeSet<ExprId> = monomials.flatten().map(|(part, _)| *part).collect();
+    let exponent = |monomial: &Monomial, part: ExprId| {
+        let found = monomial.iter().find(|(known, _)| *known == part);
+        found.map_or(Rational::ZERO, |(_, exponent)| exponent.clone())
+    };
     let differences: Vec<Inequality> = of
         .iter()
-        .map(|(exponents, _)| Inequality {
+        .map(|(monomial, _)| Inequality {
             coefficients: parts
                 .iter()
-                .map(|part| exponent(exponents, part) - exponent(product, part))
+                .map(|part| exponent(monomial, *part) - exponent(product, *part))
                 .collect(),
             constant: Rational::ZERO,
             strict: true,
@@ -162,5 +153,23 @@ mod tests {
             demands.push((g.linear_combination(&terms), demand));
             assert_eq!(g.contradiction(&demands).is_some(), is_contradictory, "{demand:?} {terms:?}");
         }
+    }
+    #[test]
+    fn weights_of_large_denominators_are_left_alone() {
+        let mut g = Graph::new();
+        let [u, a] = ["u", "a"].map(|name| {
+            let symbol = g.new_symbol(name);
+            g.symbol(symbol)
+        });
+        // the weights are 1/3, a small one, and what is left; three times the denominator of the small one is too large
+        let small = Rational::new(1, 9_000_000_000_000_000_001);
+        let left = Rational::new(2, 3) - small.clone();
+        let terms = Terms::from([
+            (vec![], Rational::ONE),
+            (vec![(u, Rational::from(-2))], Rational::MINUS_ONE),
+            (vec![(u, Rational::ONE), (a, -left)], Rational::MINUS_ONE),
+            (vec![(u, Rational::ONE), (a, small)], Rational::MINUS_ONE),
+        ]);
+        assert!(!is_below(&terms, false));
     }
 }
