@@ -118,20 +118,18 @@ impl<S: Constrained, R: Return<S>> Return<S> for Drifted<'_, S, R> {
             let returned = self.first.map(|first| first.state(system, t, state)).transpose()?;
             self.returned.set(returned);
             let otherwise = returned.map_or(ScalarOf::<S>::ZERO, |returned| returned.residual);
-            let mut moved = *state;
-            let residual = largest::<ScalarOf<S>>(system.constraint_residual(t, state).as_ref());
+            let before = *state;
+            let mut moved = before;
             let projected = system.project(t, &mut moved);
-            if self.is_due {
-                projected?;
-            }
             // where a state that is not moved has no way back, nothing is known of its drift
-            let to = projected.map_or(*self.from, |()| difference(&moved.to_array(), &state.to_array()));
+            let to = projected.map_or(*self.from, |()| difference(&moved.to_array(), &before.to_array()));
             self.to.set(to);
-            if self.is_due {
-                *state = moved;
-                return Ok(residual.max(otherwise));
+            if !self.is_due {
+                return Ok(otherwise);
             }
-            Ok(otherwise)
+            projected?;
+            *state = moved;
+            Ok(largest::<ScalarOf<S>>(system.constraint_residual(t, &before).as_ref()).max(otherwise))
         })
     }
 
