@@ -166,10 +166,11 @@ pub struct PositionReturn {
 /// The derivatives of one step back to position constraints, row by row.
 #[derive(Clone, Debug)]
 pub struct SlopesOfReturn {
-    /// Those of the changes of the coordinates by the coordinates.
+    /// Those of the changes of the coordinates by the components of the state.
     pub positions: Procedure,
-    /// Those of the change of velocities by the coordinates and the velocities; with a [`Projection`] those of the next
-    /// velocities by the coordinates, by the starting velocities and by the present ones; `None` where they stay.
+    /// Those of the change of velocities by the components of the state, with the coordinates where they have moved; with
+    /// a [`Projection`] those of the next velocities, by the coordinates, the starting velocities, and the rest of the
+    /// state; `None` where they stay.
     pub velocities: Option<Procedure>,
 }
 

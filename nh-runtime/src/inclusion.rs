@@ -24,9 +24,9 @@ pub trait Inclusion<W: Dynamics>: Dynamics {
     ///
     /// # Errors
     /// [`NotInMode`] where the further constraints do not hold: to the root of the machine's epsilon, coordinates against
-    /// the largest coordinate and velocities against the largest velocity. A mode that has equations for its state is
-    /// [projected](Constrained::project) to them: off is what that moves by more. Where it does not get there, residuals
-    /// are no numbers.
+    /// the largest coordinate, velocities against the largest velocity and each auxiliary state against itself. A mode that
+    /// has equations for its state is [projected](Constrained::project) to them: off is what that moves by more. Where it
+    /// does not get there, residuals are no numbers.
     fn restrict(&self, t: ScalarOf<Self>, state: &W::State) -> Result<Self::State, NotInMode<W::State>>
     where
         ScalarOf<W>: Real;
@@ -67,12 +67,17 @@ pub fn returned<S: Constrained>(mode: &S, t: ScalarOf<S>, mut own: S::State) -> 
     S::State::from_array(components)
 }
 
-/// `own`, if it is what `state` is made of: `included` is what it gives, `coordinates` is how many of the components are
-/// no velocities.
+/// `own`, if it is what `state` is made of: `included` is what it gives. The components are so many coordinates, so many
+/// velocities, and then auxiliary states, which have units of their own.
 ///
 /// # Errors
 /// [`NotInMode`].
-pub fn restricted<X, W: State>(own: X, included: &W, state: &W, coordinates: usize) -> Result<X, NotInMode<W>>
+pub fn restricted<X, W: State>(
+    own: X,
+    included: &W,
+    state: &W,
+    [coordinates, velocities]: [usize; 2],
+) -> Result<X, NotInMode<W>>
 where
     W::Scalar: Real,
 {
@@ -82,15 +87,20 @@ where
     residuals.as_mut().iter_mut().zip(wanted.as_ref()).for_each(|(residual, wanted)| *residual -= *wanted);
     let both = given.as_ref().iter().zip(wanted.as_ref());
     let sizes = both.map(|(a, b)| a.abs().max(b.abs()));
-    let largest =
-        |from: usize, to: usize| sizes.clone().skip(from).take(to - from.min(to)).fold(zero, W::Scalar::max);
-    let scales = [largest(0, coordinates), largest(coordinates, given.as_ref().len())];
+    let largest = |from: usize, count: usize| sizes.clone().skip(from).take(count).fold(zero, W::Scalar::max);
+    let scales = [largest(0, coordinates), largest(coordinates, velocities)];
     // what is no number is off, and no measure of others
     let broken = residuals.as_ref().iter().position(|residual| !residual.is_finite());
     let mut worst = broken.map(|index| (index, zero));
     for (index, residual) in residuals.as_ref().iter().enumerate().filter(|_| broken.is_none()) {
         let [of_coordinates, of_velocities] = scales;
-        let scale = if index < coordinates { of_coordinates } else { of_velocities };
+        let scale = if index < coordinates {
+            of_coordinates
+        } else if index < coordinates + velocities {
+            of_velocities
+        } else {
+            largest(index, 1)
+        };
         let share = residual.abs() / scale;
         if residual.abs() > tolerance * scale && worst.is_none_or(|(_, known)| share > known) {
             worst = Some((index, share));

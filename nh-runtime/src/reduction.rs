@@ -4,7 +4,7 @@ use core::fmt;
 use core::marker::PhantomData;
 
 use crate::error::{InputFault, ParameterError, ProjectionError, StateFault};
-use crate::{Dynamics, ScalarOf};
+use crate::{Dynamics, Scalar, ScalarOf};
 
 /// A system whose motion is carried to that of `R` by a map that was proved to do so.
 ///
@@ -108,7 +108,7 @@ where
     }
 
     fn has_positions(&self) -> bool {
-        self.full.has_positions()
+        self.full.has_positions() || self.reduced.has_positions()
     }
 
     fn return_to_positions(
@@ -118,15 +118,18 @@ where
     ) -> Result<ScalarOf<F>, ProjectionError> {
         let mut state = self.full.reconstruct(t, joint);
         let residual = self.full.return_to_positions(t, &mut state)?;
+        // what the full system meets by its choice of coordinates, the reduced state may have come off
+        let of_reduced = self.reduced.return_to_positions(t, &mut F::reduced_part(joint))?;
+        let residual = residual.max(of_reduced);
         // what holds keeps the digits that it has
-        if residual != <ScalarOf<F> as crate::Scalar>::ZERO {
+        if residual != ScalarOf::<F>::ZERO {
             *joint = self.full.join(t, &state);
         }
         Ok(residual)
     }
 
     fn correct_positions(&self, t: ScalarOf<F>, joint: &mut F::Joint) {
-        if self.full.has_positions() {
+        if self.has_positions() {
             let mut state = self.full.reconstruct(t, joint);
             self.full.correct_positions(t, &mut state);
             *joint = self.full.join(t, &state);
@@ -138,7 +141,11 @@ where
     }
 
     fn worst_constraint(&self, t: ScalarOf<F>, joint: &F::Joint) -> StateFault {
-        self.full.worst_constraint(t, &self.full.reconstruct(t, joint))
+        let fault = self.full.worst_constraint(t, &self.full.reconstruct(t, joint));
+        if fault.residual == 0.0 {
+            return self.reduced.worst_constraint(t, &F::reduced_part(joint));
+        }
+        fault
     }
 
     fn check_input(&self, input: &R::Input) -> Result<(), InputFault> {

@@ -159,3 +159,49 @@ fn friction_by_the_load_is_what_the_multiplier_says() {
         assert_eq!(slipping.restrict(0.0, &whole), Ok(state));
     }
 }
+
+/// A body that is blown along by a pressure that builds up, in the air.
+#[nonholonomic(
+    base { x, y }
+    inputs { pump }
+    auxiliary { der(pressure) = (pump - pressure) / lag; }
+    lagrangian { m / 2 * (der(x)^2 + der(y)^2) - m * g * y }
+    forces { x: area * pressure; }
+)]
+#[derive(Clone, Copy, Debug)]
+struct Blown {
+    m: f64,
+    g: f64,
+    area: f64,
+    lag: f64,
+}
+
+/// The same on the ground.
+#[nonholonomic(
+    base { x }
+    inputs { pump }
+    auxiliary { der(pressure) = (pump - pressure) / lag; }
+    lagrangian { m / 2 * der(x)^2 }
+    forces { x: area * pressure; }
+)]
+#[derive(Clone, Copy, Debug)]
+struct Gliding {
+    m: f64,
+    g: f64,
+    area: f64,
+    lag: f64,
+}
+
+morphism! { Gliding -> Blown { base { x = x; y = 0; } } }
+
+/// A pressure in pascals is no measure of speeds.
+#[test]
+fn auxiliary_states_are_no_measure_of_velocities() {
+    let gliding = Gliding { m: 1.0, g: 9.81, area: 1e-6, lag: 1.0 };
+    let falling = BlownState { x: 1.0, y: 0.0, x_dot: 1.0, y_dot: -1.0, pressure: 1e9 };
+    let refused = gliding.restrict(0.0, &falling).unwrap_err();
+    assert_eq!((refused.variable, refused.residual), ("y_dot", -1.0));
+    let state = gliding.restrict(0.0, &BlownState { y_dot: 0.0, ..falling }).expect("it glides");
+    assert_eq!((state.x_dot, state.pressure), (1.0, 1e9));
+    assert!(gliding.restrict(0.0, &BlownState { y_dot: 0.0, pressure: f64::NAN, ..falling }).is_err());
+}

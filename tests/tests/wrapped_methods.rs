@@ -3,6 +3,8 @@
 
 mod wrapped_methods {
     mod columns_of_returns;
+    mod reconstructions;
+    mod returns_by_the_whole_state;
 }
 
 use core::ops::ControlFlow;

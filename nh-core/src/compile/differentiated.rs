@@ -113,6 +113,15 @@ pub(super) fn requested_parameter_jacobian(
     differentiated(proved, (derivative, "parameter_jacobian", Wanted::Jacobian), &arguments, asked)
 }
 
+/// What the steps back to position constraints depend on: the coordinates, the velocities where a projection starts, and
+/// the rest of the state. Constraints may contain auxiliary states, and masses velocities.
+pub(super) fn returned(model: &Model, started: &[SymbolId], velocities: &[SymbolId]) -> Vec<SymbolId> {
+    let coordinates = model.coordinates.iter().map(|coordinate| coordinate.symbol);
+    let auxiliary = model.auxiliary.iter().map(|state| state.symbol);
+    let velocities = started.iter().chain(velocities).copied();
+    coordinates.chain(velocities).chain(auxiliary).collect()
+}
+
 /// The derivatives of one step back to position constraints, if the declaration asks for them.
 ///
 /// # Errors
@@ -137,15 +146,14 @@ pub(super) fn requested_slopes_of_return(
         let way_out = "write `emit { jacobian, return_jacobian }`";
         return refused("the derivative of the return goes with that of the motion", way_out);
     }
-    let coordinates: Vec<SymbolId> = model.coordinates.iter().map(|coordinate| coordinate.symbol).collect();
-    let started = projection.iter().flat_map(|projection| projection.start.iter().copied());
-    let moved: Vec<SymbolId> =
-        coordinates.iter().copied().chain(started).chain(velocities.iter().copied()).collect();
+    let started: Vec<SymbolId> =
+        projection.iter().flat_map(|projection| projection.start.iter().copied()).collect();
+    let [state, moved] = [&[][..], started.as_slice()].map(|started| returned(model, started, velocities));
     let mut slopes = |step: &Procedure, site, arguments: &[SymbolId]| {
         let asked = (origin, "a position constraint", "return_jacobian");
         differentiated(proved, (step, site, Wanted::Jacobian), arguments, asked)
     };
-    let of_positions = slopes(&positions.step, SLOPES_OF_POSITIONS, &coordinates)?;
+    let of_positions = slopes(&positions.step, SLOPES_OF_POSITIONS, &state)?;
     let of_velocities = match projection.map(|projection| &projection.step).or(positions.velocities.as_ref())
     {
         None => None,

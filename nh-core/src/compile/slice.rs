@@ -166,12 +166,14 @@ pub(super) fn restrict(system: &mut System, whole: &[SymbolId], needed: &BTreeSe
         positions.step.outputs = rows(&positions.step.outputs[..coordinates]);
         if let Some(slopes) = &mut positions.slopes {
             let matrix = &slopes.positions.outputs;
-            let kept = matrix.chunks(coordinates.max(1)).enumerate().filter(|(row, _)| is_kept(*row));
+            let kept = matrix.chunks(whole.len().max(1)).enumerate().filter(|(row, _)| is_kept(*row));
             slopes.positions.outputs = kept.flat_map(|(_, row)| rows(row)).collect();
             if let Some(by) = &mut slopes.velocities {
                 let started = system.projection.as_ref().map_or(0, |projection| projection.start.len());
-                let width = coordinates + started + system.state_velocities.len();
-                let is_here = |column: &usize| *column >= coordinates || is_kept(*column);
+                let width = whole.len() + started;
+                let is_start = |column: &usize| (coordinates..coordinates + started).contains(column);
+                let place = |column: usize| if column < coordinates { column } else { column - started };
+                let is_here = |column: &usize| is_start(column) || is_kept(place(*column));
                 let columns: Vec<usize> = (0..width).filter(is_here).collect();
                 let entry = |row: &[ExprId], column: &usize| row.get(*column).copied();
                 by.outputs = by

@@ -1,6 +1,7 @@
 //! The functions of a proved inclusion of a mode.
 
 use nonholonomic_core::choose::{DEFECT, REFUTED};
+use nonholonomic_core::id::SymbolId;
 use nonholonomic_core::reduction::Inclusion;
 use proc_macro2::{Literal, TokenStream};
 use quote::quote;
@@ -78,14 +79,11 @@ fn functions(inclusion: &Inclusion, context: &Context, target: &Context, types: 
     // 3. and back
     let (all, own) = (local("all"), local("own"));
     let places = inclusion.places.iter().map(|place| Literal::usize_unsuffixed(*place));
-    let coordinates = target.layout.coordinate_symbols.len();
-    let coordinates = inclusion
-        .target_state
-        .iter()
-        .take_while(|s| target.layout.coordinate_symbols.contains(s))
-        .count()
-        .min(coordinates);
-    let coordinates = Literal::usize_unsuffixed(coordinates);
+    let count_of = |known: &[SymbolId]| inclusion.target_state.iter().filter(|s| known.contains(s)).count();
+    let coordinates = count_of(&target.layout.coordinate_symbols);
+    let others = coordinates + count_of(&target.layout.auxiliary_symbols);
+    let velocities = inclusion.target_state.len().saturating_sub(others);
+    let [coordinates, velocities] = [coordinates, velocities].map(Literal::usize_unsuffixed);
     let bound = context.parameter().map(|parameter| quote!(where #parameter: #runtime::Real));
     let returned = inclusion.has_equations.then(|| quote!(let #own = #runtime::returned(self, #t, #own);));
     let restrict = quote! {
@@ -97,9 +95,8 @@ fn functions(inclusion: &Inclusion, context: &Context, target: &Context, types: 
             let #all = #runtime::State::to_array(#state);
             let #own = <<Self as #dynamics>::State as #runtime::State>::from_array([#(#all[#places]),*]);
             #returned
-            #runtime::restricted(
-                #own, &<Self as #runtime::Inclusion<#whole_type>>::include(self, #t, &#own), #state, #coordinates
-            )
+            let #all = <Self as #runtime::Inclusion<#whole_type>>::include(self, #t, &#own);
+            #runtime::restricted(#own, &#all, #state, [#coordinates, #velocities])
         }
     };
     implement(

@@ -22,7 +22,7 @@ pub(super) fn method(context: &Context, system: &System) -> Option<TokenStream> 
     let places = context.state.places(state);
     let (coordinates, rest) = places.split_at(system.state_coordinates.len().min(places.len()));
     let velocities = &rest[..system.state_velocities.len().min(rest.len())];
-    let (count, all) = (coordinates.len(), Literal::usize_unsuffixed(places.len()));
+    let all = Literal::usize_unsuffixed(places.len());
     let [present, moved, of_positions, of_velocities] =
         ["present", "moved", "of_positions", "of_velocities"].map(local);
     let at = |procedure: &Procedure, argument: &Ident, width: usize| {
@@ -31,7 +31,7 @@ pub(super) fn method(context: &Context, system: &System) -> Option<TokenStream> 
         of_array(context, system, procedure, (scope, argument), width)
     };
     let start = quote!([#(#coordinates),*]);
-    let by_coordinates = at(&slopes.positions, &present, count);
+    let by_coordinates = at(&slopes.positions, &present, places.len());
     let (moves, by_velocities) = if let Some(by) = &slopes.velocities {
         let change = at(&positions.step, &present, 1);
         // where a projection starts are the velocities of the state
@@ -40,12 +40,12 @@ pub(super) fn method(context: &Context, system: &System) -> Option<TokenStream> 
         let scope = Scope::new(context, &system.model, &system.state())
             .with_places(Argument::State, &started, velocities.to_vec())
             .with_array(Argument::Present, &moved, &system.state_coordinates);
-        let width = count + started.len() + velocities.len();
+        let width = places.len() + started.len();
         let by = of_array(context, system, by, (scope, &moved), width);
         let moves = quote!(let #moved = #runtime::corrected(#start, #change););
         (moves, quote!((#by)(&#moved)))
     } else {
-        let width = Literal::usize_unsuffixed(count);
+        let width = all.clone();
         (TokenStream::new(), quote!([[<#scalar as #runtime::Scalar>::ZERO; #width]; 0]))
     };
     Some(quote! {

@@ -51,7 +51,7 @@ pub(super) fn of_state<'d>(
         let claim = DerivedFunction::Return(positions, declared.constraints, given.residuals);
         claims.push(("position_return", claim));
         if let Some(slopes) = &positions.slopes {
-            let claim = DerivedFunction::Jacobian(&positions.step, &slopes.positions, &declared.coordinates);
+            let claim = DerivedFunction::Jacobian(&positions.step, &slopes.positions, &declared.state);
             claims.push((SLOPES_OF_POSITIONS, claim));
             let step = parts.projection.as_ref().map(|projection| &projection.step);
             if let (Some(step), Some(by)) = (step.or(positions.velocities.as_ref()), &slopes.velocities) {

@@ -1,6 +1,7 @@
 //! What claims refer to that the functions do not hold themselves: the declared data, as they are written.
 
 use super::super::Proved;
+use super::super::differentiated::returned;
 use super::super::kept_volume::vanishing;
 use super::Derivatives;
 use crate::choose::AppliedForce;
@@ -12,8 +13,7 @@ pub(super) struct Declared {
     /// The variables of the state, then the inputs.
     pub(super) arguments: Vec<SymbolId>,
     pub(super) state: Vec<SymbolId>,
-    pub(super) coordinates: Vec<SymbolId>,
-    /// The coordinates, the velocities where a projection starts, and those of the state.
+    /// The coordinates, the velocities where a projection starts, and the rest of the state.
     pub(super) moved: Vec<SymbolId>,
     pub(super) parameters: Vec<SymbolId>,
     /// The symbols of ẋ.
@@ -64,9 +64,8 @@ impl Declared {
             let gauge = model.symmetries.iter().find(|symmetry| symmetry.name == *name);
             Some((symmetry.section.clone(), gauge.and_then(|symmetry| symmetry.gauge)))
         };
-        let started = parts.projection.iter().flat_map(|projection| projection.start.iter().copied());
-        let moved = coordinates.iter().copied().chain(started).chain(given.velocities.iter().copied());
-        let moved = moved.collect();
+        let started = parts.projection.as_ref().map_or(&[][..], |projection| &projection.start);
+        let moved = returned(model, started, given.velocities);
         let place = |symbol: &SymbolId| coordinates.iter().position(|known| known == symbol);
         let on_positions = model.positions.iter().chain(&positions.redundant).map(|position| position.value);
         Self {
@@ -85,7 +84,6 @@ impl Declared {
             residuals: on_positions.chain(given.residuals.iter().copied()).collect(),
             impacts,
             constraints: constraints.residuals.len(),
-            coordinates,
         }
     }
 }
