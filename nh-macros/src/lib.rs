@@ -52,13 +52,13 @@ mod syntax;
 /// | `velocities { w = r^2 * der(phi); … }` | quasi-velocities by a coframe, instead of `basis` and `anchor` | |
 /// | `brackets { [a, b] = c; }` | [e_α, e_β]; pairs not listed vanish, the mirror follows | derived from the anchor where it is injective |
 /// | `brackets so(3) { w }` | a known algebra for the sections named; may be combined with others | |
-/// | `frame { h = d1 - A * xi; }` | new sections as combinations of the declared ones; other sections may use them | |
+/// | `frame { h = d1 - A * xi; }` | new sections as combinations of the declared ones; other sections may use them. Without `distribution` each takes the place of a declared one, whose velocity then stands for its expression; a section that stays keeps its name, which means its velocity in the new basis: `frame { …; p = xi; }` keeps `xi` apart | |
 /// | `almost;` | of the declared brackets neither the Jacobi identity (3) nor (2), that the anchor is a homomorphism, is demanded; the report says which of them hold | both are proved |
 /// | `lagrangian { let …; L }` | L(t, x, y) | an error |
 /// | `holonomic { label: lhs = rhs; }` | position constraints, at will dependent on the time; generates `assemble` and `assemble_holding`; `redundant;` permits equations that follow from others | none |
 /// | `constraints { label: lhs = rhs; }` | linear, affine or nonlinear in the velocities, at will dependent on the time | none |
 /// | `impacts { floor: h >= 0 with restitution e; blade: u = 0, w = 0; }` | jumps of the velocities: gaps that close, and equations that hold afterwards; what acts together stands in one item; generates `impact_floor`, `event_floor` and a type for `advance_with_impacts` | none |
-/// | `distribution { s, dpsi }` | sections that span the allowed velocities, instead of linear constraints | |
+/// | `distribution { s, dpsi }`, `{ der(x) }` | sections that span the allowed velocities, instead of linear constraints; combinations get a name in `frame` | |
 /// | `forces { omega: …; x: …; }` | generalized forces along a section or a coordinate | none |
 /// | `inputs { torque }` | control inputs, constant within a step | none |
 /// | `outputs { speed = …; }` | named observables | none |

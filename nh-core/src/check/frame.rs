@@ -217,6 +217,9 @@ pub fn spanned_distribution(
             way_out: "leave it out: the sections that span D are independent".into(),
         }]);
     }
+    if let Some(violation) = two_meanings(model, &spanning, &restricted, algebroid) {
+        return Err(vec![violation]);
+    }
     motion.named.extend(new.into_iter().zip(rows));
     let annihilator = annihilator(model, &basis, rank);
     let drift = vec![model.graph.zero(); annihilator.len()];
@@ -224,6 +227,38 @@ pub fn spanned_distribution(
     let constraints = LinearConstraints { annihilator, drift };
     let independent = spanning.into_iter().map(|(symbol, _)| symbol).collect();
     Ok(Some(ConstraintDistribution::spanned(&mut model.graph, constraints, independent, basis)))
+}
+
+/// A declared section that spans D beside another one with a part along it: the velocity along it that the state would
+/// keep is not the quasi-velocity of that name.
+fn two_meanings(
+    model: &Model,
+    spanning: &[(SymbolId, Origin)],
+    basis: &Matrix,
+    algebroid: &Algebroid,
+) -> Option<Violation> {
+    let graph = &model.graph;
+    for (index, (symbol, origin)) in spanning.iter().enumerate() {
+        let Some(place) = algebroid.velocities.iter().position(|velocity| velocity == symbol) else {
+            continue;
+        };
+        let others = basis.iter().enumerate().filter(|(other, _)| *other != index);
+        let mut along = others.map(|(other, row)| (other, row[place]));
+        let Some((other, part)) = along.find(|(_, part)| !graph.zero_test(*part).is_zero()) else { continue };
+        let (name, second) = (&graph.symbols()[*symbol], &graph.symbols()[spanning[other].0]);
+        return Some(Violation {
+            law: Law::Frame,
+            origin: *origin,
+            what: format!("`{name}` would mean two velocities"),
+            evidence: format!(
+                "the section `{second}` has the part {} along it, so that the velocity along `{name}` in D is not the \
+                 quasi-velocity `{name}`",
+                shown(graph, part)
+            ),
+            way_out: format!("give the section a name of its own, `frame {{ s = {name}; }}`, and list `s`"),
+        });
+    }
+    None
 }
 
 /// What a distribution by span leaves no room for.

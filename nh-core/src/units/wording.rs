@@ -99,7 +99,16 @@ fn twice(
     let relation = conditions[here.condition].relation;
     let mut evidence = vec![format!("here {} {relation} {}", left.text, right.text)];
     evidence.extend(listed(conditions, &there));
-    let way_out = format!("give the unit of {name} in `units` to see which of these is wrong");
+    let way_out = match unknown {
+        Unknown::Method(_) | Unknown::Argument(..) => {
+            "in all calls of a method an argument has one unit, and so has the value: correct one of them, or call \
+             another method"
+                .into()
+        }
+        Unknown::Symbol(_) | Unknown::Constant(_) | Unknown::Lagrangian => {
+            format!("give the unit of {name} in `units` to see which of these is wrong")
+        }
+    };
     let origin = left.origin;
     let evidence = evidence.join("\n");
     let mut found = vec![Violation { law: Law::Units, origin, what, evidence, way_out }];

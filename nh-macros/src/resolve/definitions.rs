@@ -265,11 +265,23 @@ impl Resolver {
         let shape = Shape::of(&counts);
         if let Some(missing) = (0..count).find(|k| !entries.contains_key(&shape.indices(*k))) {
             let missing = shape.entry_name(name, missing);
+            // `n[2] = [a, b];`, as lists of names declare a family of two: of auxiliary states, a third one counts
+            let one = |at: usize| entries.keys().all(|indices| indices.first() == Some(&at));
+            let is_auxiliary = self.context == Context::Auxiliary;
             let way_out = match *lengths {
-                // `n[2] = [a, b];`, as lists of names declare a family of two
                 [rows, columns]
-                    if rows == columns + 1 && entries.keys().all(|at| at.first() == Some(&columns)) =>
+                    if is_auxiliary
+                        && definition.subscripts.len() == 1
+                        && (columns..=columns + 1).contains(&rows)
+                        && one(rows - 1) =>
                 {
+                    let count = rows - 1;
+                    format!(
+                        "write `der({name}[0..{count}]) = …;` for a vector: `{name}[{count}]` is one entry"
+                    )
+                }
+                _ if is_auxiliary => format!("add `der({missing}) = …;`"),
+                [rows, columns] if rows == columns + 1 && one(columns) => {
                     format!("write `{name} = …;` for a vector: `{name}[{columns}]` is one entry")
                 }
                 _ => format!("add `{missing} = …;`"),

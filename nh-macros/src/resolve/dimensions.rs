@@ -52,15 +52,21 @@ impl Resolver {
         self.defaults(lines);
         let mut declared = Declared::new();
         let mut given = BTreeSet::new();
+        let upper = self.symmetric.iter().map(|(upper, _)| self.tables.parameters[*upper].symbol);
+        let on_both_sides: BTreeSet<String> =
+            upper.map(|symbol| self.graph.symbols()[symbol].clone()).collect();
         for line in lines {
             let unit = self.unit(&line.factors);
             for place in &line.places {
                 // a name in error was reported; the others go on
                 let Ok((is_free, measured)) = self.unit_of(place, named) else { continue };
                 let Ok((dimension, text)) = &unit else { continue };
+                let are_several = measured.len() > 1;
                 for (name, side) in measured {
+                    // the rows of a symmetric matrix share entries, whose units have to agree
+                    let is_shared = are_several && on_both_sides.contains(&name);
                     let key = (name, is_free);
-                    if !given.insert(key.clone()) {
+                    if !given.insert(key.clone()) && !is_shared {
                         let name = &key.0;
                         let what = format!("the unit of `{name}` is given twice");
                         self.report(place, Diagnostic::new(place.extent, what).way_out("keep one of them"));

@@ -12,7 +12,7 @@ use super::resolver::Resolver;
 use super::scope::{Meaning, Role};
 use crate::emit::Family;
 use crate::report::Diagnostic;
-use crate::syntax::ast::{Definition, Item, Place, Section};
+use crate::syntax::ast::{Definition, Item, Section, Velocity};
 
 impl Resolver {
     /// The sections of a frame, whose names have a meaning from here on, and their families.
@@ -44,7 +44,7 @@ impl Resolver {
     }
 
     /// The sections that span D, each once.
-    pub(super) fn distribution(&mut self, section: &Section<Vec<Place>>) -> Vec<(SymbolId, Origin)> {
+    pub(super) fn distribution(&mut self, section: &Section<Vec<Velocity>>) -> Vec<(SymbolId, Origin)> {
         if section.body.is_empty() {
             let error = Diagnostic::new(
                 section.keyword.extent(),
@@ -55,17 +55,16 @@ impl Resolver {
         }
         let mut found = Vec::new();
         let mut seen = BTreeSet::new();
-        for place in &section.body {
-            let Ok(symbols) = self.section_velocities(place) else { continue };
-            let origin = self.origin(place.extent);
+        for entry in &section.body {
+            let Ok((symbols, extent)) = self.velocities(entry) else { continue };
+            let origin = self.origin(extent);
             for symbol in symbols {
                 if seen.insert(symbol) {
                     found.push((symbol, origin));
                 } else {
                     let name = &self.graph.symbols()[symbol];
-                    let error =
-                        Diagnostic::new(place.extent, format!("the section `{name}` is listed twice"));
-                    self.report(place, error);
+                    let error = Diagnostic::new(extent, format!("the section `{name}` is listed twice"));
+                    self.report(entry, error);
                 }
             }
         }

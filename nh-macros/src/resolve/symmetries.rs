@@ -2,6 +2,7 @@
 
 use std::collections::BTreeSet;
 
+use nonholonomic_core::id::ExprId;
 use nonholonomic_core::model::{RouthDecl, SymmetryDecl};
 use nonholonomic_core::units::Kind;
 
@@ -68,7 +69,7 @@ fn entry_label(label: &str, around: &[i64], indices: &[usize]) -> String {
 }
 
 impl Resolver {
-    /// Momenta that become parameters.
+    /// Momenta that become parameters, vectors entry by entry.
     pub(super) fn routh(
         &mut self,
         items: &[Item<Definition>],
@@ -76,19 +77,20 @@ impl Resolver {
     ) -> Vec<RouthDecl> {
         let mut found: Vec<RouthDecl> = Vec::new();
         self.section(Context::Routh, items, &mut |this, definition| {
-            let level = this.level(definition, symmetries)?;
-            if found.iter().any(|earlier| earlier.symmetry == level.symmetry) {
-                let what = format!("the momentum of `{}` is on two levels", level.symmetry);
-                return Err(this.report(definition, Diagnostic::new(definition.extent, what)));
+            for level in this.levels(definition, symmetries)? {
+                if found.iter().any(|earlier| earlier.symmetry == level.symmetry) {
+                    let what = format!("the momentum of `{}` is on two levels", level.symmetry);
+                    return Err(this.report(definition, Diagnostic::new(definition.extent, what)));
+                }
+                found.push(level);
             }
-            found.push(level);
             Ok(())
         });
         found
     }
 
-    /// `spin = mu`: a label of `symmetries`, or a coordinate.
-    fn level(&mut self, definition: &Definition, symmetries: &[SymmetryDecl]) -> Outcome<RouthDecl> {
+    /// `spin = mu`: a label of `symmetries` or a coordinate, or a vector of them.
+    fn levels(&mut self, definition: &Definition, symmetries: &[SymmetryDecl]) -> Outcome<Vec<RouthDecl>> {
         let (mut entry, mut label) = (definition.name.text.clone(), definition.name.text.clone());
         for subscript in &definition.subscripts {
             let Subscript::Entry(index) = subscript else {
@@ -100,18 +102,51 @@ impl Resolver {
             entry.extend(["[", &index.to_string(), "]"]);
             label.extend(["_", &index.to_string()]);
         }
-        let labels = symmetries.iter().map(|symmetry| symmetry.name.as_str());
-        let coordinates = self.tables.coordinates.iter().map(|coordinate| coordinate.name.as_str());
-        let known: Vec<&str> = labels.chain(coordinates).collect();
-        let Some(symmetry) = [entry, label].into_iter().find(|name| known.contains(&name.as_str())) else {
+        let labels = symmetries.iter().map(|symmetry| symmetry.name.clone());
+        let coordinates = self.tables.coordinates.iter().map(|coordinate| coordinate.name.clone());
+        let known: Vec<String> = labels.chain(coordinates).collect();
+        let is_known = |name: &String| known.contains(name);
+        let names: Vec<String> = match [&entry, &label].into_iter().find(|name| is_known(name)) {
+            Some(name) => vec![name.clone()],
+            None => {
+                let entries = (0..).map(|k: usize| format!("{entry}[{k}]")).take_while(is_known);
+                let labels = (0..).map(|k: usize| format!("{label}_{k}")).take_while(is_known);
+                let entries: Vec<String> = entries.collect();
+                if entries.is_empty() { labels.collect() } else { entries }
+            }
+        };
+        if names.is_empty() {
             let name = &definition.name.text;
             let what = format!("`{name}` is neither a symmetry nor a coordinate");
-            let way_out = did_you_mean(name, known.iter().copied())
+            let way_out = did_you_mean(name, known.iter().map(String::as_str))
                 .unwrap_or_else(|| "declare its section: `symmetries { spin: omega; }`".to_owned());
             let error = Diagnostic::new(definition.extent, what).way_out(way_out);
             return Err(self.report(definition, error));
+        }
+        let value = self.value(&definition.value)?;
+        let values = if names == [entry] || names == [label] {
+            vec![self.as_number(&definition.value, &value)?]
+        } else {
+            let shape = Shape::Vector(names.len());
+            let Some(value) = self.in_shape(&value, shape) else {
+                let error = Diagnostic::new(definition.value.extent, "the two sides have different shapes")
+                    .evidence(format!("on the left is {shape}, on the right {}", value.shape));
+                return Err(self.report(definition, error));
+            };
+            value.entries
         };
-        let level = self.number_value(&definition.value)?;
+        let levels = names.into_iter().zip(values);
+        Ok(levels.map(|(symmetry, level)| self.level(definition, symmetries, symmetry, level)).collect())
+    }
+
+    /// The momentum of a symmetry or of a coordinate on its level.
+    fn level(
+        &mut self,
+        definition: &Definition,
+        symmetries: &[SymmetryDecl],
+        symmetry: String,
+        level: ExprId,
+    ) -> RouthDecl {
         let momentum = Measured::expected(format!("the momentum of `{symmetry}`"), definition.extent);
         let momentum = momentum.energy(1).time(1);
         let coordinate = self.tables.coordinates.iter().find(|coordinate| coordinate.name == symmetry);
@@ -124,6 +159,6 @@ impl Resolver {
             self.same_unit(definition, "is compared with", vec![momentum, given]);
         }
         let origin = self.origin(definition.extent.to(definition.value.extent));
-        Ok(RouthDecl { symmetry, level, origin })
+        RouthDecl { symmetry, level, origin }
     }
 }

@@ -60,7 +60,7 @@ pub(crate) struct Sections {
     /// `impacts`: what velocities jump to.
     pub(crate) impacts: Option<Section<Vec<Item<ImpactLine>>>>,
     /// `distribution`: sections that span the constraint distribution.
-    pub(crate) distribution: Option<Section<Vec<Place>>>,
+    pub(crate) distribution: Option<Section<Vec<Velocity>>>,
     /// `forces`: a generalized force along a section or a base coordinate.
     pub(crate) forces: Option<Section<Vec<Item<Force>>>>,
     /// `inputs`: the control inputs.

@@ -169,6 +169,11 @@ fn habits_are_corrected() {
         ("a && b", "conditions are not joined with `&&`\nhelp: write one condition per line, ended with `;`"),
         ("a || b", "conditions are not joined with `||`\nhelp: write one condition per line, ended with `;`"),
         ("a < b", "a comparison has no place here\nhelp: facts about parameters stand in `assume`"),
+        (
+            "a >= 0",
+            "a comparison has no place here\nhelp: facts about parameters stand in `assume`, gaps that close in \
+             `impacts { stop: x >= 0; }`",
+        ),
         ("a % b", "`%` is not an operator\nhelp: expressions have `+ - * / ^`"),
         ("!a", "`!` is not an operator\nhelp: expressions have `+ - * / ^`"),
         ("|a|", "`|` is not an operator\nhelp: a length is written `sqrt(dot(v, v))`, a magnitude `abs(x)`"),

@@ -216,6 +216,8 @@ fn is_plain(token: &TokenTree) -> bool {
 
 /// Marks that mean something in Rust or on paper, but nothing here.
 fn mark(stream: &Stream) -> Option<Diagnostic> {
+    const GAP: &str =
+        "facts about parameters stand in `assume`, gaps that close in `impacts { stop: x >= 0; }`";
     const MARKS: [(&str, &str, &str); 22] = [
         ("==", "`==` is not part of an equation", "write a single `=`"),
         ("**", "`**` is not an operator", "write `^` for a power"),
@@ -225,8 +227,8 @@ fn mark(stream: &Stream) -> Option<Diagnostic> {
         ("..", "a range has no place here", "ranges stand in `sum`, `for` and `let x[i in 0..4]`"),
         ("=>", "`=>` has no place here", "an equation is written with `=`, a force with `:`"),
         ("!=", "a comparison has no place here", "facts about parameters stand in `assume`"),
-        ("<=", "a comparison has no place here", "facts about parameters stand in `assume`"),
-        (">=", "a comparison has no place here", "facts about parameters stand in `assume`"),
+        ("<=", "a comparison has no place here", GAP),
+        (">=", "a comparison has no place here", GAP),
         ("<", "a comparison has no place here", "facts about parameters stand in `assume`"),
         (">", "a comparison has no place here", "facts about parameters stand in `assume`"),
         ("'", "a prime is not part of a name", "the velocity of `x` is written `der(x)`"),

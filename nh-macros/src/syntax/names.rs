@@ -158,10 +158,37 @@ impl Stream {
 
     /// A velocity: `v1`, `w[0]`, `der(x)`.
     pub(crate) fn velocity(&mut self) -> Result<Velocity, Diagnostic> {
+        self.velocity_or("the name of a velocity")
+    }
+
+    fn velocity_or(&mut self, expected: &str) -> Result<Velocity, Diagnostic> {
         match self.der()? {
             Some((place, extent)) => Ok(Velocity::Der(place, extent)),
-            None => Ok(Velocity::Named(self.place("the name of a velocity")?)),
+            None => Ok(Velocity::Named(self.place(expected)?)),
         }
+    }
+
+    /// A section that spans the constraint distribution, by its name: what is combined has a name in `frame`.
+    pub(crate) fn spanning_section(&mut self) -> Result<Velocity, Diagnostic> {
+        let start = self.position();
+        let is_operator =
+            |token: &TokenTree| ['+', '-', '*', '/', '^'].iter().any(|mark| is_mark(token, *mark));
+        let combined = |stream: &mut Self| {
+            while stream.advance().is_some() {}
+            Diagnostic::new(stream.since(start), "the sections that span D are listed by their names")
+                .way_out("name the combination: `frame { s = …; } distribution { s }`")
+        };
+        // a sign or a factor in front, as in `-v`, `2 * v` and `(a + b) * v`
+        let begins = |token: &TokenTree| match token {
+            TokenTree::Literal(_) => true,
+            TokenTree::Group(group) => group.delimiter() == Delimiter::Parenthesis,
+            token => is_operator(token),
+        };
+        if self.peek().is_some_and(begins) {
+            return Err(combined(self));
+        }
+        let section = self.velocity_or("a section")?;
+        if self.peek().is_some_and(is_operator) { Err(combined(self)) } else { Ok(section) }
     }
 
     /// `der(x)`, if that is next.

@@ -234,6 +234,16 @@ fn errors_in_lists_are_explained() {
         ("inputs { u v }", "a comma is missing before this name"),
         ("inputs { u = 2 }", "expected `,` or the end of the list, found `=`"),
         (
+            "distribution { u + v }",
+            "the sections that span D are listed by their names\nhelp: name the combination: `frame { s = …; } \
+             distribution { s }`",
+        ),
+        (
+            "distribution { 2 * der(x), v }",
+            "the sections that span D are listed by their names\nhelp: name the combination: `frame { s = …; } \
+             distribution { s }`",
+        ),
+        (
             "inputs { u: f64 }",
             "names in a list have no type\nhelp: write the name alone: every number is of the scalar type of the \
              struct",

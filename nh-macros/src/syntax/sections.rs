@@ -162,7 +162,7 @@ fn fill(sections: &mut Sections, keyword: Name, algebra: Option<Algebra>, body: 
         }
         "impacts" => s.impacts = Section::some(keyword, items(body, errors, &Stream::impact_line)),
         "distribution" => {
-            s.distribution = Section::some(keyword, list(body, errors, |entry| entry.place("a section")));
+            s.distribution = Section::some(keyword, list(body, errors, Stream::spanning_section));
         }
         "forces" => s.forces = Section::some(keyword, items(body, errors, &Stream::force)),
         "inputs" => s.inputs = Section::some(keyword, list(body, errors, Stream::declared)),

@@ -5,7 +5,7 @@ use std::fmt;
 use proc_macro2::{Delimiter, Group, Ident, Span, TokenStream, TokenTree};
 use quote::{ToTokens, quote};
 use syn::spanned::Spanned;
-use syn::{Data, DeriveInput, Fields, GenericParam, Type};
+use syn::{Data, DeriveInput, Fields, Type};
 
 use super::ast::{Declared, Name, Scalar, StructDecl};
 use super::names::{check_lengths, is_mark};
@@ -83,14 +83,13 @@ pub(crate) fn structure(item: TokenStream, errors: &mut Errors) -> Option<Struct
                 .way_out("`#[nh(skip)]` before a field leaves that field alone"),
         );
     }
-    for parameter in &input.generics.params {
-        if let GenericParam::Const(parameter) = parameter {
-            errors.push(
-                Diagnostic::new(of(parameter), "const parameters are not supported")
-                    .way_out("the equations are derived for fixed sizes: write the number"),
-            );
-        }
+    for parameter in input.generics.const_params() {
+        errors.push(
+            Diagnostic::new(of(parameter), "const parameters are not supported")
+                .way_out("the equations are derived for fixed sizes: write the number"),
+        );
     }
+    let constants: Vec<&Ident> = input.generics.const_params().map(|parameter| &parameter.ident).collect();
     let mut reader = FieldReader { generics: &input.generics, scalar: None };
     let mut parameters = Vec::new();
     let mut skipped = Vec::new();
@@ -98,6 +97,8 @@ pub(crate) fn structure(item: TokenStream, errors: &mut Errors) -> Option<Struct
         match reader.field(field) {
             Ok(Some(parameter)) => parameters.push(parameter),
             Ok(None) => skipped.extend(field.ident.clone().map(Name::new)),
+            // of the parameter that gives the length it was said
+            Err(_) if constants.iter().any(|constant| names(&field.ty, constant)) => {}
             Err(error) => errors.push(error),
         }
     }
@@ -140,6 +141,18 @@ fn no_struct(item: &TokenStream) -> Option<Diagnostic> {
     Some(Diagnostic::new(Extent::at(span), what).way_out(
         "`#[nonholonomic]` stands before the struct of the parameters: `struct Sleigh { m: f64, a: f64 }`",
     ))
+}
+
+/// Whether a name stands in a syntax tree.
+fn names(tokens: &impl ToTokens, name: &Ident) -> bool {
+    fn within(tokens: TokenStream, name: &Ident) -> bool {
+        tokens.into_iter().any(|token| match token {
+            TokenTree::Ident(ident) => ident == *name,
+            TokenTree::Group(group) => within(group.stream(), name),
+            _ => false,
+        })
+    }
+    within(tokens.to_token_stream(), name)
 }
 
 /// The extent of a syntax tree.

@@ -116,6 +116,15 @@ fn generics_that_cannot_work_are_refused() {
             "const parameters are not supported\nhelp: the equations are derived for fixed sizes: write the number"
         ]
     );
+    // whatever has that length is not said to be wrong as well
+    assert_eq!(
+        refused("struct S<const N: usize> { a: [f64; N], b: [[f64; 2]; { N + 1 }], c: u8 }"),
+        [
+            "const parameters are not supported\nhelp: the equations are derived for fixed sizes: write the number",
+            "`u8` is not the type of a parameter\nhelp: parameters are `f64`, `f32` or a type parameter, or arrays of \
+             it; a field marked `#[nh(skip)]` is left alone"
+        ]
+    );
     assert_eq!(
         refused("#[nh(skip)] struct S;"),
         ["`nh` attributes belong to fields\nhelp: `#[nh(skip)]` before a field leaves that field alone"]

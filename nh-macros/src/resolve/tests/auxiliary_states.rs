@@ -77,7 +77,17 @@ fn lines_that_declare_nothing_are_errors() {
         ),
         (
             "der(lag[1]) = x;",
-            "`lag[0]` is not defined\nother entries of `lag` are, and indices count from 0\nhelp: add `lag[0] = …;`",
+            "`lag[0]` is not defined\nother entries of `lag` are, and indices count from 0\nhelp: add `der(lag[0]) = …;`",
+        ),
+        (
+            "der(lag[2]) = -lag;",
+            "`lag[0][0]` is not defined\nother entries of `lag` are, and indices count from 0\nhelp: write \
+             `der(lag[0..2]) = …;` for a vector: `lag[2]` is one entry",
+        ),
+        (
+            "der(lag[2]) = [x, 1];",
+            "`lag[0][0]` is not defined\nother entries of `lag` are, and indices count from 0\nhelp: write \
+             `der(lag[0..2]) = …;` for a vector: `lag[2]` is one entry",
         ),
     ];
     for (line, text) in cases {

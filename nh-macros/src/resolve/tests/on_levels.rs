@@ -1,5 +1,6 @@
 //! Everything that can be asked for, beside levels of momenta: derived, or refused in the field's words.
 
+use super::{messages, model};
 use crate::expand::nonholonomic;
 use nonholonomic_core::model::Request;
 
@@ -119,4 +120,31 @@ fn which_velocities_the_levels_determine() {
         let found = outcome(&attribute);
         assert!(found.contains(expected), "{attribute}\n{found}");
     }
+}
+
+#[test]
+fn vectors_of_momenta_are_on_vectors_of_levels() {
+    let level = |routh: &str| {
+        let symmetries = "symmetries { shift: der(q[0..2]); } lagrangian { m/2*dot(der(q), der(q)) }";
+        model(
+            &format!("base {{ q[3] }} {symmetries} routh {{ {routh} }}"),
+            "struct S { m: f64, mu: [f64; 2], k: f64 }",
+        )
+        .routh
+        .iter()
+        .map(|level| level.symmetry.clone())
+        .collect::<Vec<_>>()
+    };
+    assert_eq!(level("shift = mu;"), ["shift_0", "shift_1"]);
+    assert_eq!(level("shift = [k, 2 * k]; q[2] = 0;"), ["shift_0", "shift_1", "q[2]"]);
+    assert_eq!(level("q = [mu[0], mu[1], k];"), ["q[0]", "q[1]", "q[2]"]);
+    assert_eq!(level("q = 0;"), ["q[0]", "q[1]", "q[2]"]);
+    let refused = messages(
+        "base { q[3] } lagrangian { m/2*dot(der(q), der(q)) } routh { q = m; }",
+        "struct S { m: f64 }",
+    );
+    assert_eq!(
+        refused,
+        ["the two sides have different shapes\non the left is a vector of 3 entries, on the right a number"]
+    );
 }

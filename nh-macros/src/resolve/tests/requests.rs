@@ -105,4 +105,8 @@ fn tracked_variables_and_outputs() {
     let spanned = of(&format!("{text} distribution {{ }}"));
     let nothing = "help: name the sections that span D, or leave `distribution` out";
     assert_eq!(spanned, [format!("no section spans the distribution: nothing can move\n{nothing}")]);
+    // where the sections are those of the coordinates, they are named by these, as in `independent`
+    assert_eq!(of(&format!("{text} distribution {{ der(x) }}")), Vec::<String>::new());
+    let coordinate = "`x` is a base coordinate, not a velocity\nhelp: write `der(x)`";
+    assert_eq!(of(&format!("{text} distribution {{ x }}")), [coordinate]);
 }

@@ -170,6 +170,19 @@ fn contradictions_are_said() {
             ],
         ),
         (
+            "base { x } lagrangian { m / 2 * der(x)^2 } forces { x: self.f(t) - self.f(x); }
+             units { x = m; m = kg; }",
+            vec![
+                "the units contradict each other: argument 1 of `self.f` would be m here, s elsewhere\n\
+                 here `x` is argument 1 of `self.f`\n\
+                 in `forces` `t` is argument 1 of `self.f`\n\
+                 help: in all calls of a method an argument has one unit, and so has the value: correct one of them, \
+                 or call another method"
+                    .to_owned(),
+                "argument 1 of `self.f` would be s here\n`t` is argument 1 of `self.f`".to_owned(),
+            ],
+        ),
+        (
             "base { x } lagrangian { m / 2 * der(x)^2 } units { x = m; x_dot = m/s^2; }",
             vec![
                 "the units do not fit: its unit in `units` is m s⁻², `x_dot` is m s⁻¹\n\
@@ -181,6 +194,23 @@ fn contradictions_are_said() {
     ] {
         assert_eq!(messages(attribute, item), expected, "{attribute}");
     }
+}
+
+#[test]
+fn symmetric_matrices_have_units_as_a_whole_and_by_rows() {
+    let item = "struct S { #[nh(symmetric)] I: [[f64; 2]; 2] }";
+    let of = |lines: &str| {
+        let machine = "base { q[2] } lagrangian { dot(der(q), I * der(q)) / 2 }";
+        messages(&format!("{machine} units {{ {lines} }}"), item)
+    };
+    assert_eq!(of("I = kg m^2;"), Vec::<String>::new());
+    assert_eq!(of("I[0], I[1] = kg m^2;"), Vec::<String>::new());
+    assert_eq!(of("I[0][0] = kg m^2; I[0][1] = kg m; I[1][1] = kg;"), Vec::<String>::new());
+    let twice = "the unit of `I[0][1]` is given twice\nhelp: keep one of them";
+    assert_eq!(of("I[0][1] = kg m; I[1][0] = kg m;"), [twice]);
+    let apart = of("I[0] = kg m^2; I[1] = kg;");
+    let disagree = "the units do not fit: its unit in `units` is kg, `I[0][1]` is kg m²";
+    assert!(apart.first().is_some_and(|error| error.starts_with(disagree)), "{apart:?}");
 }
 
 #[test]
