@@ -100,3 +100,32 @@ fn odd_names_and_narrow_items_compute_what_others_do() {
     assert!((rate.w___dot + 2.0).abs() < EXACT, "{rate:?}");
     assert!((rate.__ - 6.0).abs() < EXACT, "{rate:?}");
 }
+
+/// A mass on a spring, by names that a parameter of generated functions has otherwise.
+mod names_of_parameters {
+    use nonholonomic::prelude::*;
+
+    #[nonholonomic(
+        base { x }
+        lagrangian { m / 2 * der(x)^2 - k / 2 * x^2 }
+        forces { x: push; }
+        inputs { push }
+        names { state = COUNT; input = NUMBER; }
+        emit { taylor }
+    )]
+    #[derive(Clone, Copy, Debug)]
+    #[allow(clippy::upper_case_acronyms, reason = "the names are the point")]
+    pub struct P<TERMS> {
+        pub m: TERMS,
+        pub k: TERMS,
+    }
+}
+
+#[test]
+fn constant_parameters_hide_no_types() {
+    use names_of_parameters::{COUNT, NUMBER, P};
+    let [start, rate, half] =
+        P { m: 2.0_f64, k: 8.0 }.taylor(0.0, &COUNT { x: 1.0, x_dot: 0.5 }, &NUMBER { push: 0.0 });
+    assert!((start.x - 1.0).abs() < EXACT && (rate.x - 0.5).abs() < EXACT, "{start:?} {rate:?}");
+    assert!((half.x + 2.0).abs() < EXACT, "{half:?}");
+}
