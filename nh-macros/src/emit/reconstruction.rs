@@ -83,7 +83,7 @@ impl Map<'_> {
 
     /// A name of a struct that hides neither of the two systems, which are named where it is declared, nor their scalar.
     fn name_beside(&self, name: &str) -> Ident {
-        let systems = [&self.types.source, &self.types.target].into_iter().flat_map(|system| system.clone());
+        let systems = [&self.types.source, &self.types.target].into_iter().cloned().flatten();
         let mut taken: Vec<String> = systems.map(|token| token.to_string()).collect();
         taken.extend(self.context.parameter().map(ToString::to_string));
         let others = ["The", "This", "Its"].map(|before| format!("{before}{name}"));
