@@ -9,7 +9,8 @@ pub struct Statistics {
     /// The steps tried and rejected, because of the error estimate, of a correction beyond the tolerance or of a stage that
     /// is not finite.
     pub rejected: u64,
-    /// The evaluations of the derivative, those for Jacobians included.
+    /// The evaluations of the derivative in steps that were tried, those for Jacobians included. Not counted is what
+    /// dense output, events and the words of an error take beside these.
     pub evaluations: u64,
     /// The Jacobians formed.
     pub jacobians: u64,

@@ -100,3 +100,58 @@ fn odd_names_and_narrow_items_compute_what_others_do() {
     assert!((rate.w___dot + 2.0).abs() < EXACT, "{rate:?}");
     assert!((rate.__ - 6.0).abs() < EXACT, "{rate:?}");
 }
+
+/// A mass on a spring, by names that a parameter of generated functions has otherwise.
+mod names_of_parameters {
+    use nonholonomic::prelude::*;
+
+    #[nonholonomic(
+        base { x }
+        lagrangian { m / 2 * der(x)^2 - k / 2 * x^2 }
+        forces { x: push; }
+        inputs { push }
+        names { state = COUNT; input = NUMBER; }
+        emit { taylor }
+    )]
+    #[derive(Clone, Copy, Debug)]
+    #[allow(clippy::upper_case_acronyms, reason = "the names are the point")]
+    pub struct P<TERMS> {
+        pub m: TERMS,
+        pub k: TERMS,
+    }
+}
+
+#[test]
+fn constant_parameters_hide_no_types() {
+    use names_of_parameters::{COUNT, NUMBER, P};
+    let [start, rate, half] =
+        P { m: 2.0_f64, k: 8.0 }.taylor(0.0, &COUNT { x: 1.0, x_dot: 0.5 }, &NUMBER { push: 0.0 });
+    assert!((start.x - 1.0).abs() < EXACT && (rate.x - 0.5).abs() < EXACT, "{start:?} {rate:?}");
+    assert!((half.x + 2.0).abs() < EXACT, "{half:?}");
+}
+
+/// Systems by names that structs of a reconstruction have otherwise.
+mod names_of_reconstructions {
+    use nonholonomic::prelude::*;
+
+    #[nonholonomic(base { x, y } lagrangian { m / 2 * (der(x)^2 + der(y)^2) - k / 2 * x^2 })]
+    #[derive(Clone, Copy, Debug)]
+    pub struct Joint {
+        pub m: f64,
+        pub k: f64,
+    }
+
+    quotient! { Joint -> #[derive(Clone, Copy, Debug)] pub struct Group by { y } }
+}
+
+#[test]
+fn structs_of_reconstructions_hide_no_systems() {
+    use names_of_reconstructions::{Group, Joint, JointState};
+    use nonholonomic::{Integrator, Reconstructed, Vern9};
+    let motion = Reconstructed::<Joint, Group>::new(Joint { m: 2.0, k: 8.0 });
+    let start = motion.start(0.0, &JointState { x: 1.0, y: 0.5, x_dot: 0.0, y_dot: 2.0 });
+    let mut sim = Integrator::new(motion, Vern9::new().rtol(1e-12).atol(1e-12), 0.0, start);
+    sim.advance_to(1.0).expect("a smooth motion");
+    let end = motion.full_state(1.0, sim.state());
+    assert!((end.x - 2.0_f64.cos()).abs() < 1e-9 && (end.y - 2.5).abs() < 1e-9, "{end:?}");
+}

@@ -104,7 +104,7 @@ pub(super) fn implement(
 
 /// The two structs as types, with the scalar that they share.
 pub(super) struct Types {
-    source: TokenStream,
+    pub(super) source: TokenStream,
     pub(super) target: TokenStream,
     /// The target as it is constructed.
     pub(super) target_path: TokenStream,

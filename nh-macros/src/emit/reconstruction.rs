@@ -1,7 +1,7 @@
 //! The way back from a reduction: the dropped coordinates, and the joint state with them.
 
 use nonholonomic_core::reduction::Reconstruction;
-use proc_macro2::{Literal, TokenStream};
+use proc_macro2::{Ident, Literal, TokenStream};
 use quote::{format_ident, quote};
 
 use super::layout::local;
@@ -20,8 +20,8 @@ impl Map<'_> {
         let group = self.group(back);
         let group_type = self.group_type(&group);
         let group_record = (group.len() > 0).then(|| group.emit(self.context));
-        let joint_type = self.joint(&group);
-        let (joint_struct, joint_type) = joint_type;
+        let joint_name = self.name_beside("Joint");
+        let (joint_struct, joint_type) = self.joint(&joint_name, &group);
         let model = &self.reduction.source;
         let in_state = Scope::new(self.context, model, &self.reduction.state);
         let in_joint = Scope::new(self.context, model, &[])
@@ -56,7 +56,7 @@ impl Map<'_> {
             &quote! {
                 type Joint = #joint_type;
                 fn join(&self, #t: #scalar, #state: &<Self as #dynamics>::State) -> #joint_type {
-                    Joint {
+                    #joint_name {
                         reduced: <Self as #runtime::Reduction<#target>>::reduce(self, #t, #state),
                         group: #group_of_state,
                     }
@@ -70,7 +70,7 @@ impl Map<'_> {
                     &self, #t: #scalar, #joint: &#joint_type, #reduced_rate: &<#target as #dynamics>::State
                 ) -> #joint_type {
                     #drop_rates #rate_statements
-                    Joint { reduced: *#reduced_rate, group: #rates }
+                    #joint_name { reduced: *#reduced_rate, group: #rates }
                 }
                 fn reconstruct(&self, #t: #scalar, #joint: &#joint_type) -> <Self as #dynamics>::State {
                     #drop_full #full_statements
@@ -81,12 +81,23 @@ impl Map<'_> {
         quote!(#group_record #joint_struct #implementation)
     }
 
+    /// A name of a struct that hides neither of the two systems, which are named where it is declared, nor their scalar.
+    fn name_beside(&self, name: &str) -> Ident {
+        let systems = [&self.types.source, &self.types.target].into_iter().cloned().flatten();
+        let mut taken: Vec<String> = systems.map(|token| token.to_string()).collect();
+        taken.extend(self.context.parameter().map(ToString::to_string));
+        let others = ["The", "This", "Its"].map(|before| format!("{before}{name}"));
+        let free = others.iter().map(String::as_str).find(|other| !taken.iter().any(|known| known == other));
+        let is_free = !taken.iter().any(|known| known == name);
+        format_ident!("{}", if is_free { name } else { free.unwrap_or(name) })
+    }
+
     /// The struct of the dropped coordinates.
     fn group(&self, back: &Reconstruction) -> Record {
         let layout = self.context.layout;
         let all = Context::new(layout, &back.dropped, &[]);
         Record {
-            name: format_ident!("Group"),
+            name: self.name_beside("Group"),
             doc: "The coordinates that the reduction drops.".into(),
             fields: all.state.fields,
         }
@@ -98,7 +109,7 @@ impl Map<'_> {
     }
 
     /// The joint state, and its type.
-    fn joint(&self, group: &Record) -> (TokenStream, TokenStream) {
+    fn joint(&self, name: &Ident, group: &Record) -> (TokenStream, TokenStream) {
         let Context { runtime, scalar, .. } = self.context;
         let target = &self.types.target;
         let (impl_generics, generics) =
@@ -125,14 +136,14 @@ impl Map<'_> {
         let tokens = quote! {
             /// The reduced state, and the coordinates that the reduction drops.
             #[derive(::core::clone::Clone, ::core::marker::Copy, ::core::fmt::Debug)]
-            pub struct Joint #impl_generics {
+            pub struct #name #impl_generics {
                 /// The reduced state.
                 pub reduced: #reduced,
                 /// The dropped coordinates.
                 pub group: #group_type,
             }
             #[automatically_derived]
-            impl #impl_generics #runtime::State for Joint #generics {
+            impl #impl_generics #runtime::State for #name #generics {
                 type Scalar = #scalar;
                 type Dim = #runtime::D<#length>;
                 fn to_array(&self) -> [#scalar; #length] {
@@ -154,6 +165,6 @@ impl Map<'_> {
                 }
             }
         };
-        (tokens, quote!(Joint #generics))
+        (tokens, quote!(#name #generics))
     }
 }

@@ -62,10 +62,13 @@ pub(super) fn stub(context: &Context) -> Part {
     }
 }
 
-/// The name of the constant parameter, unlike that of the scalar.
+/// The name of the constant parameter, unlike those of the scalar and of the types beside it, which it would hide.
 fn terms(context: &Context) -> Ident {
-    let taken = |name: &str| context.parameter().is_some_and(|parameter| parameter == name);
-    Ident::new(if taken("P") { "TERMS" } else { "P" }, Span::call_site())
+    let types = [&context.layout.name, &context.layout.types.state, &context.layout.types.input];
+    let is_taken = |name: &str| types.into_iter().chain(context.parameter()).any(|taken| taken == name);
+    let names = ["P", "TERMS", "COUNT", "NUMBER", "LENGTH"];
+    let free = names.into_iter().find(|name| !is_taken(name)).unwrap_or("P");
+    Ident::new(free, Span::call_site())
 }
 
 /// The inherent method.

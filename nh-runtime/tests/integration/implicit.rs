@@ -161,3 +161,41 @@ fn tolerances_are_followed() {
         }
     }
 }
+
+/// A weight that swings about the lowest point, which is a length away from where angles are counted, and counts calls.
+struct Swinging<'a> {
+    calls: &'a core::cell::Cell<u64>,
+}
+
+impl Dynamics for Swinging<'_> {
+    type State = Plane<f64>;
+    type Input = ();
+    fn derivative(&self, _t: f64, x: &Plane<f64>, (): &()) -> Plane<f64> {
+        self.calls.set(self.calls.get() + 1);
+        Plane { q: x.p, p: -((x.q + 1.0) - 1.0) }
+    }
+}
+
+/// Where corrections no longer fall an iteration looks around whether they are rounding, which is part of what it costs.
+#[test]
+fn what_the_end_of_an_iteration_looks_at_is_counted() {
+    fn counts(method: impl for<'a> Method<Swinging<'a>>, start: Plane<f64>) {
+        let calls = core::cell::Cell::new(0);
+        let mut sim = Integrator::new(Swinging { calls: &calls }, method, 0.0, start);
+        for _ in 0..50 {
+            if sim.step().is_err() {
+                break;
+            }
+            assert_eq!(sim.statistics().evaluations, calls.get(), "{start:?} {:?}", sim.statistics());
+        }
+    }
+    for q in [1e-9, 1e-14, 1e-15, 1e-16] {
+        for p in [0.0, 1e-16, 1e-12] {
+            for h in [0.3, 0.1, 0.01] {
+                counts(ImplicitMidpoint::new(h), Plane { q, p });
+                counts(GaussLegendre4::new(h), Plane { q, p });
+                counts(GaussLegendre6::new(h), Plane { q, p });
+            }
+        }
+    }
+}

@@ -50,10 +50,11 @@ fn differentiates<const N: usize>(
             there[column] += by * step;
             function(there)
         };
-        let [a, b, c, d] = [at(-2.0), at(-1.0), at(1.0), at(2.0)];
-        for row in 0..N {
-            let slope = (a[row] - 8.0 * b[row] + 8.0 * c[row] - d[row]) / (12.0 * step);
-            let found = slopes[row][column];
+        let ends = [-2.0, -1.0, 1.0, 2.0].map(at);
+        for (row, slopes) in slopes.iter().enumerate() {
+            let [a, b, c, d] = ends.map(|end| end[row]);
+            let slope = (a - 8.0 * b + 8.0 * c - d) / (12.0 * step);
+            let found = slopes[column];
             assert!((found - slope).abs() < 1e-9, "{row} by {column}: {found} and not {slope}");
         }
     }

@@ -327,7 +327,8 @@ where
         }
         let levels = plateaus.iter_mut().zip(&change).map(|(plateau, c)| plateau.is_level(c, residual));
         if levels.fold(true, |all, level| all & level) && residual > T::ONE {
-            let ahead = |part: T| {
+            let mut ahead = |part: T| {
+                statistics.evaluations += N as u64;
                 let (mut z, mut rests) = before;
                 z.iter_mut().zip(&change).for_each(|(z, c)| *z = displaced(z, part, c));
                 table.iterate_exactly(start, (x, rest), h, matrices, (&mut z, &mut rests))

@@ -189,6 +189,7 @@ impl<T: Real, J> Midpoint<T, J> {
             }
             if plateau.is_level(&correction, residual) && residual > T::ONE {
                 let ahead = |part: T| {
+                    statistics.evaluations += 1;
                     let there = displaced(&before, part, &correction);
                     let slope =
                         start.derivative_at(middle, displaced(&x, T::ONE, &displaced(&there, T::ONE, rest)));

@@ -193,8 +193,10 @@ impl<T: Real, J> Gonzalez<T, J> {
             stalled = if ratio < T::from_f64(0.5) { 0 } else { stalled + 1 };
             let mut bearable = T::ONE;
             if stalled > 0 {
-                let [by_direction, by_change] =
-                    *noise.get_or_insert_with(|| self.noise(step, &change, &factors));
+                let [by_direction, by_change] = *noise.get_or_insert_with(|| {
+                    statistics.evaluations += 1;
+                    self.noise(step, &change, &factors)
+                });
                 // what round-off leaves of the energy goes the way on which it makes less of itself
                 let is_quieter = by_change < by_direction || !by_direction.is_finite();
                 if settled.is_none() && size <= T::ONE && is_quieter {
@@ -208,8 +210,10 @@ impl<T: Real, J> Gonzalez<T, J> {
             if size == T::ZERO || (stalled >= STALLED && size <= bearable) {
                 break;
             }
-            let ahead =
-                |part: T| factors.solve(&step.defect(&displaced(&before, part, &correction), settled).0);
+            let ahead = |part: T| {
+                statistics.evaluations += 1;
+                factors.solve(&step.defect(&displaced(&before, part, &correction), settled).0)
+            };
             let permitted = T::EPSILON.sqrt() * largest_of([step.x, &change]);
             let is_open = |row| exceeds(row, (&correction, step.x, &change, &change), self.tolerance);
             if plateau.is_level(&correction, size)

@@ -118,7 +118,10 @@ where
                     break;
                 }
             }
-            let ahead = |part: T| action.correction(&action.ends(x, &displaced(&from, part, &correction)));
+            let ahead = |part: T| {
+                statistics.evaluations += 2;
+                action.correction(&action.ends(x, &displaced(&from, part, &correction)))
+            };
             let permitted = T::EPSILON.sqrt() * largest_of([&displaced(&none, h.recip(), x), &u]);
             let is_open = |row| exceeds(row, (&moved[0], x, &moved[1], &none), self.tolerance);
             if plateau.is_level(&correction, size)
