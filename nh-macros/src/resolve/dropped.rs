@@ -42,7 +42,7 @@ pub(crate) fn resolve_quotient(
     resolver.surroundings(source, layout);
     let mut source = resolver.model(source, layout);
     let ill_posed = resolver.reports.any();
-    resolver.graph = std::mem::take(&mut source.graph);
+    resolver.read_on(&mut source);
     resolver.share_also(&declaration.lets);
     let dropped = resolver.dropped(declaration);
     let velocities = declaration.velocities.as_ref().map(|section| {

@@ -11,7 +11,7 @@ use super::choices;
 use super::context::Context;
 use super::origins::Origins;
 use super::resolve;
-use super::resolver::Resolver;
+use super::resolver::{Resolver, Tables};
 use super::scope::{Meaning, Role};
 use crate::emit::{Family, Layout};
 use crate::report::{Diagnostic, Extent};
@@ -68,7 +68,7 @@ pub(crate) fn resolve_morphism(
     resolver.surroundings(source, source_layout);
     let mut source = resolver.model(source, source_layout);
     let ill_posed = resolver.reports.any();
-    resolver.graph = std::mem::take(&mut source.graph);
+    resolver.read_on(&mut source);
     resolver.share_also(&declaration.lets);
     let declared = resolver.map(declaration, target_layout, &target.units);
     resolver.unused();
@@ -83,6 +83,19 @@ pub(crate) fn resolve_morphism(
 }
 
 impl Resolver {
+    /// Goes on behind the declaration of a system, in its names: `der` of an expression asks what its symbols are.
+    pub(super) fn read_on(&mut self, source: &mut Model) {
+        self.graph = std::mem::take(&mut source.graph);
+        self.tables = Tables {
+            parameters: source.parameters.clone(),
+            coordinates: source.coordinates.clone(),
+            sections: source.sections.clone(),
+            inputs: source.inputs.clone(),
+            auxiliary: source.auxiliary.clone(),
+            frame: source.frame.clone(),
+        };
+    }
+
     /// The map; what is in error is left out.
     fn map(
         &mut self,

@@ -106,14 +106,14 @@ impl Resolver {
         let coordinates = self.tables.coordinates.iter().map(|coordinate| coordinate.name.clone());
         let known: Vec<String> = labels.chain(coordinates).collect();
         let is_known = |name: &String| known.contains(name);
-        let names: Vec<String> = match [&entry, &label].into_iter().find(|name| is_known(name)) {
-            Some(name) => vec![name.clone()],
-            None => {
-                let entries = (0..).map(|k: usize| format!("{entry}[{k}]")).take_while(is_known);
-                let labels = (0..).map(|k: usize| format!("{label}_{k}")).take_while(is_known);
-                let entries: Vec<String> = entries.collect();
-                if entries.is_empty() { labels.collect() } else { entries }
-            }
+        let alone = [&entry, &label].into_iter().find(|name| is_known(name));
+        let names: Vec<String> = if let Some(name) = alone {
+            vec![name.clone()]
+        } else {
+            let entries = (0..).map(|k: usize| format!("{entry}[{k}]")).take_while(is_known);
+            let labels = (0..).map(|k: usize| format!("{label}_{k}")).take_while(is_known);
+            let entries: Vec<String> = entries.collect();
+            if entries.is_empty() { labels.collect() } else { entries }
         };
         if names.is_empty() {
             let name = &definition.name.text;

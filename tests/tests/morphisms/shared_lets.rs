@@ -54,6 +54,60 @@ morphism! {
     }
 }
 
+/// A body about its centre of mass, by angles.
+#[nonholonomic(
+    base { yaw, pitch, roll }
+    let attitude = rot_z(yaw) * rot_y(pitch) * rot_x(roll);
+    lagrangian { dot(body_rate(attitude), diag(A, B, C) * body_rate(attitude)) / 2 }
+    assume { A > 0; B > 0; C > 0; }
+)]
+#[derive(Clone, Copy, Debug)]
+struct Turning {
+    A: f64,
+    B: f64,
+    C: f64,
+}
+
+quotient! {
+    Turning ->
+    /// By its rate in its own axes.
+    #[derive(Clone, Copy, Debug)]
+    struct InItsAxes by { yaw, pitch, roll } {
+        velocities { w = body_rate(attitude); }
+    }
+}
+
+/// Euler's equations.
+#[nonholonomic(
+    basis { w[3] }
+    brackets so(3) { w }
+    lagrangian { (A * w[0]^2 + B * w[1]^2 + C * w[2]^2) / 2 }
+)]
+#[derive(Clone, Copy, Debug)]
+struct Euler {
+    A: f64,
+    B: f64,
+    C: f64,
+}
+
+morphism! {
+    Turning -> Euler {
+        let turned = der(attitude);
+        velocities { w = vee(transpose(attitude) * turned); }
+    }
+}
+
+#[test]
+fn rates_of_expressions_are_velocities_of_maps_and_quotients() {
+    let body = Turning { A: 1.0, B: 2.0, C: 4.0 };
+    let state = TurningState { yaw_dot: 0.3, pitch_dot: -0.7, roll_dot: 0.9, ..TurningState::default() };
+    let in_its_axes: InItsAxesState = Reduction::<InItsAxes>::reduce(&body, 0.0, &state);
+    let mapped: EulerState = Reduction::<Euler>::reduce(&body, 0.0, &state);
+    assert_eq!((in_its_axes.w, mapped.w), ([0.9, -0.7, 0.3], [0.9, -0.7, 0.3]));
+    let rate = Euler { A: 1.0, B: 2.0, C: 4.0 }.derivative(0.0, &mapped, &());
+    assert!((rate.w[0] - 2.0 * 0.7 * 0.3).abs() < 1e-15);
+}
+
 #[test]
 fn lets_of_the_full_system_and_of_the_new_one() {
     let sleigh = Sleigh { m: 1.3, J: 0.7, a: 0.4 };
