@@ -372,6 +372,8 @@ pub struct ConstraintDecl {
     pub residual: ExprId,
     /// The left-hand side, if it is a velocity or `der(x)` alone that is absent on the right.
     pub solved_for: Option<SymbolId>,
+    /// Whether it is one of several entries of a vector equation.
+    pub is_entry: bool,
     /// Where it stands.
     pub origin: Origin,
 }

@@ -115,7 +115,7 @@ mod names_of_parameters {
     )]
     #[derive(Clone, Copy, Debug)]
     #[allow(clippy::upper_case_acronyms, reason = "the names are the point")]
-    pub struct P<TERMS> {
+    pub(crate) struct P<TERMS> {
         pub m: TERMS,
         pub k: TERMS,
     }
@@ -136,12 +136,12 @@ mod names_of_reconstructions {
 
     #[nonholonomic(base { x, y } lagrangian { m / 2 * (der(x)^2 + der(y)^2) - k / 2 * x^2 })]
     #[derive(Clone, Copy, Debug)]
-    pub struct Joint {
+    pub(crate) struct Joint {
         pub m: f64,
         pub k: f64,
     }
 
-    quotient! { Joint -> #[derive(Clone, Copy, Debug)] pub struct Group by { y } }
+    quotient! { Joint -> #[derive(Clone, Copy, Debug)] pub(crate) struct Group by { y } }
 }
 
 #[test]

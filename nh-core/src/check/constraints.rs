@@ -3,6 +3,7 @@
 
 use super::assumptions::{as_on_the_base, on_the_base};
 use super::dependence::{dependent_rows, where_they_hold};
+use super::empty_entries::{Equation, empty_entries, told};
 use super::evidence::{name_of, shown};
 use super::kinematics::Motion;
 use super::no_force::constraint_without_force;
@@ -10,8 +11,8 @@ use super::parts_of_positions::dependent_on_part;
 use super::positions::Positions;
 use crate::algebra::{Demand, Facts, Graph, Matrix, NotLinear};
 use crate::geometry::{Algebroid, ConstraintDistribution, LinearConstraints, Manifold, Rank, RankSetting};
-use crate::id::{ConstraintId, ExprId, Id, Origin, SectionId, SymbolId};
-use crate::model::Model;
+use crate::id::{ConstraintId, ExprId, Id, Origin, SectionId, SymbolId, Table};
+use crate::model::{ConstraintDecl, Model};
 use crate::violation::{Law, Violation};
 
 /// Constraints φ^A(t, x, y) = 0, proved independent.
@@ -24,6 +25,8 @@ pub struct Constraints {
     /// The embedded base, and the constraint manifold over it where it is known already.
     base: Manifold,
     known: Option<Manifold>,
+    /// Entries of vector equations that say nothing: for the report.
+    pub dropped: Vec<String>,
 }
 
 impl Constraints {
@@ -39,7 +42,7 @@ impl Constraints {
         let mut manifold = Manifold::of_images(graph, images);
         manifold.extend(graph, base);
         let linear = Some(distribution.constraints.clone());
-        Self { residuals: Vec::new(), linear, base: base.clone(), known: Some(manifold) }
+        Self { residuals: Vec::new(), linear, base: base.clone(), known: Some(manifold), dropped: Vec::new() }
     }
 
     /// D by velocities that the constraints determine at most points, for questions whose answer is
@@ -137,16 +140,14 @@ pub fn constraints(
 ) -> Result<Constraints, Vec<Violation>> {
     let base = &positions.manifold;
     let mut asked = base.clone();
-    let mut residuals = Vec::new();
     let mut shapes = Vec::new();
     let mut violations = Vec::new();
-    for id in model.constraints.ids() {
-        let residual = motion.rates.apply(&mut model.graph, model.constraints[id].residual);
+    let (residuals, dropped) = in_quasi_velocities(model, motion, positions);
+    for (id, residual) in model.constraints.ids().zip(residuals.iter().copied()) {
         match shape(model, algebroid, base, id, residual) {
             Ok(shape) => shapes.push(shape),
             Err(violation) => violations.push(violation),
         }
-        residuals.push(residual);
     }
     if !violations.is_empty() {
         return Err(violations);
@@ -186,10 +187,41 @@ pub fn constraints(
         violations.push(too_many(model));
     }
     if violations.is_empty() {
-        Ok(Constraints { residuals, linear, base: asked, known })
+        Ok(Constraints { residuals, linear, base: asked, known, dropped })
     } else {
         Err(violations)
     }
+}
+
+/// φ^A in quasi-velocities, without the entries of vector equations that are 0 = 0, and what is said of these.
+fn in_quasi_velocities(
+    model: &mut Model,
+    motion: &mut Motion,
+    positions: &Positions,
+) -> (Vec<ExprId>, Vec<String>) {
+    let declared: Vec<ConstraintDecl> = model.constraints.iter().cloned().collect();
+    let equations = declared.iter().map(|constraint| Equation {
+        value: motion.rates.apply(&mut model.graph, constraint.residual),
+        is_entry: constraint.is_entry,
+        origin: constraint.origin,
+    });
+    let equations: Vec<Equation> = equations.collect();
+    // the rates of position constraints stand first, and those have been looked at
+    let rates = model.positions.len();
+    let mut empty = vec![false; rates];
+    empty.extend(empty_entries(&mut model.graph, &positions.manifold, &equations[rates..]));
+    let ids = model.constraints.ids().zip(&empty).filter(|(_, is_empty)| **is_empty);
+    let dropped: Vec<String> = ids.map(|(id, _)| told(&name_of(model, id))).collect();
+    let mut kept = Table::new();
+    let mut residuals = Vec::new();
+    for ((constraint, equation), _) in
+        declared.into_iter().zip(equations).zip(empty).filter(|(_, empty)| !empty)
+    {
+        kept.push(constraint);
+        residuals.push(equation.value);
+    }
+    model.constraints = kept;
+    (residuals, dropped)
 }
 
 fn all_affine(shapes: Vec<Shape>) -> Option<LinearConstraints> {

@@ -14,6 +14,7 @@ mod declared;
 mod dependence;
 mod domain;
 mod embedding;
+mod empty_entries;
 pub(crate) mod evidence;
 mod formulation;
 mod frame;

@@ -2,6 +2,7 @@
 //! there that the others do not.
 
 use super::dependence::{ONE_PART, PARTS, combination_shown, place_of, where_they_hold};
+use super::empty_entries::{Equation, empty_entries, told};
 use super::evidence::{listed, name_of, shown};
 use super::kinematics::Motion;
 use super::no_force::position_without_force;
@@ -125,17 +126,18 @@ fn jacobian(model: &mut Model, motion: &mut Motion, algebroid: &Algebroid) -> Ma
 
 /// Leaves out entries of vector equations that are 0 = 0.
 fn drop_empty_entries(model: &mut Model, base: &Manifold, found: &mut Positions) {
-    let mut kept = Vec::new();
-    for index in 0..model.positions.len() {
-        let position = &model.positions[index];
-        let (value, is_entry) = (position.value, position.is_entry);
-        if is_entry && base.zero_test(&mut model.graph, value).is_zero() {
-            let name = name_of(model, ConstraintId::from_index(index));
-            found.dropped.push(format!("{name} is left out: its sides are equal everywhere"));
-        } else {
-            kept.push(index);
-        }
-    }
+    let equations = model.positions.iter();
+    let equations: Vec<Equation> = equations
+        .map(|PositionDecl { value, is_entry, origin, .. }| Equation {
+            value: *value,
+            is_entry: *is_entry,
+            origin: *origin,
+        })
+        .collect();
+    let empty = empty_entries(&mut model.graph, base, &equations);
+    let (left_out, kept): (Vec<usize>, Vec<usize>) = (0..empty.len()).partition(|index| empty[*index]);
+    let named = left_out.into_iter().map(|index| told(&name_of(model, ConstraintId::from_index(index))));
+    found.dropped.extend(named);
     keep(model, &kept);
 }
 

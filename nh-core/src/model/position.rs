@@ -31,6 +31,13 @@ impl PositionDecl {
             seeds.push((coordinate.symbol, graph.symbol(coordinate.rate)));
         }
         let residual = Derivation::new(seeds).apply(graph, self.value);
-        ConstraintDecl { label: self.label.clone(), residual, solved_for: None, origin: self.origin }
+        let Self { label, is_entry, origin, .. } = self;
+        ConstraintDecl {
+            label: label.clone(),
+            residual,
+            solved_for: None,
+            is_entry: *is_entry,
+            origin: *origin,
+        }
     }
 }

@@ -25,6 +25,7 @@ pub(super) fn lines(
     lines.extend(positions(model, &proved.positions));
     lines.extend(proved.chart.as_ref().map(|choice| chart(model, choice)));
     lines.push(constraints(proved, derived, findings.closure));
+    lines.extend(proved.constraints.dropped.iter().cloned());
     lines.extend(not_asked(model, proved.constraints.generic()));
     let (name, size) = match derived {
         Derived::Adapted { kept, .. } => ("adapted", kept.rank()),

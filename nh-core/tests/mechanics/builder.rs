@@ -172,6 +172,7 @@ impl Builder {
             label: None,
             residual,
             solved_for: None,
+            is_entry: false,
             origin: origin(),
         });
     }

@@ -289,6 +289,7 @@ pub(crate) fn trailers(relative: bool, drift: bool) -> Model {
             label: None,
             residual,
             solved_for: None,
+            is_entry: false,
             origin: origin(),
         });
     }

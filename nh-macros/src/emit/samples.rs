@@ -304,7 +304,13 @@ pub(crate) fn rails_system(layout: &Layout) -> System {
     let mut system = b.system(&[0, 1, 2], procedures, &[]);
     for (residual, label) in residual.iter().zip([None, Some("type".to_owned())]) {
         let (residual, origin) = (*residual, system.model.origin);
-        system.model.constraints.push(ConstraintDecl { label, residual, solved_for: None, origin });
+        system.model.constraints.push(ConstraintDecl {
+            label,
+            residual,
+            solved_for: None,
+            is_entry: false,
+            origin,
+        });
     }
     system.formulation = Formulation::Projected;
     system.functions.add(&RESIDUAL, Procedure::of(residual.to_vec()));

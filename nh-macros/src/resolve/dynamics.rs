@@ -72,7 +72,7 @@ impl Resolver {
             let entry = self.value(left).ok()?.as_number()?;
             self.solved_for(left, entry, residual, lone).ok()?
         });
-        ConstraintDecl { label: None, residual, solved_for, origin: Self::whole() }
+        ConstraintDecl { label: None, residual, solved_for, is_entry: false, origin: Self::whole() }
     }
 
     fn constraint(
@@ -84,6 +84,7 @@ impl Resolver {
         let (left, right) = self.sides(equation)?;
         let origin = self.origin(equation.extent);
         let around = self.scope.loop_values();
+        let is_entry = left.entries.len() > 1;
         let mut found = Vec::new();
         for (k, (left_entry, right_entry)) in left.entries.iter().zip(&right.entries).enumerate() {
             let indices = left.shape.indices(k);
@@ -94,7 +95,7 @@ impl Resolver {
                 Shape::Number => self.solved_for(&equation.left, *left_entry, *right_entry, lone)?,
                 _ => None,
             };
-            found.push(ConstraintDecl { label, residual, solved_for, origin });
+            found.push(ConstraintDecl { label, residual, solved_for, is_entry, origin });
         }
         Ok(found)
     }

@@ -39,7 +39,9 @@ pub trait Linearization<S: Dynamics>: Copy {
 ///
 /// The increments are √ε times the size of the component: the larger of its value and of its change in a step. A
 /// component that is nearly zero in both may be on its way to become large: where its increment shows nothing, a
-/// share of the largest component does. There is no other scale, so that the quotients do not depend on units.
+/// share of the largest component does, and what a step changes is bounded by it. There is no other scale: quotients do not
+/// depend on a unit that all components share; where these have different ones, as they do where a component is nearly zero,
+/// they differ within the digits that quotients have.
 ///
 /// Such quotients have half the digits. Where the error of a step rests on the Jacobian, and a column without the
 /// other half would move some component by more than a hundredth of its permitted error, a central difference over
