@@ -244,7 +244,8 @@ mod syntax;
 ///   reduced Lagrangian.
 /// - In general `emit { splitting }` gives, all at `(t, &state)` and those that are not empty:
 ///   `vertical_sections`, a basis S of D ∩ V; `horizontal_lifts` h of unit rates to D, orthogonal to S in
-///   the kinetic metric, for the coordinates that the report names; `locked_inertia` ⟨S, S⟩;
+///   the kinetic metric, for the coordinates that the report names; `locked_inertia` ⟨S, S⟩ (where the metric
+///   depends on the time or on velocities there is none, and h are any such lifts);
 ///   `connection_coefficients`, the brackets [h, S] as `[κ][ρ]`; `curvature`, the brackets [h, h];
 ///   `vertical_momenta` p(S) and their rates `vertical_momentum_rates(t, &state, &input)`, the momentum
 ///   equation; `vertical_velocities`, the components along S; `horizontal_force`, what curvature and

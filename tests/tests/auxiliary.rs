@@ -184,3 +184,33 @@ fn a_symmetric_projection_leaves_auxiliary_states_to_their_equations() {
     assert!(residual.circle.abs() < 1e-12, "{residual:?}");
     assert!(state.x.abs() > 0.05, "it is pushed aside: {}", state.x);
 }
+
+/// A mass behind two lags: the rate of the first is made of that of the second, which is declared behind it and calls a method.
+#[nonholonomic(
+    base        { x }
+    lagrangian  { m / 2 * der(x)^2 }
+    inputs      { wanted }
+    auxiliary   { der(first) = der(second) + x; der(second) = self.limited(wanted) - second; der(third) = 3 * second; }
+    forces      { x: first; }
+    emit        { gibbs_appell }
+)]
+#[derive(Clone, Copy, Debug)]
+struct Lagging {
+    m: f64,
+}
+
+impl Lagging {
+    fn limited(self, wanted: f64) -> f64 {
+        wanted.clamp(-1.0, 1.0)
+    }
+}
+
+#[test]
+fn rates_are_declared_in_any_order() {
+    let lagging = Lagging { m: 2.0 };
+    let state = LaggingState { x: 0.5, x_dot: 0.25, first: 4.0, second: -0.75, third: 0.0 };
+    let rates = LaggingState { x: 0.25, x_dot: 2.0, first: 2.25, second: 1.75, third: -2.25 };
+    let input = LaggingInput { wanted: 3.0 };
+    assert_eq!(lagging.derivative(0.0, &state, &input), rates);
+    assert_eq!(lagging.gibbs_appell(0.0, &state, &input), rates);
+}

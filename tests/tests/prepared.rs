@@ -172,3 +172,27 @@ fn a_motion_with_angles_at_hand_is_the_same() {
         assert!((run - near).abs() < 1e-11, "{run} {near}");
     }
 }
+
+/// A mass that is pushed by the sine of an angle which is made of other sines.
+#[nonholonomic(
+    base       { x }
+    lagrangian { m / 2 * der(x)^2 }
+    forces     { x: -sin(k + sin(cos(x))); }
+    emit       { angle_cache }
+)]
+#[derive(Clone, Copy, Debug)]
+struct Nested {
+    m: f64,
+    k: f64,
+}
+
+#[test]
+fn angles_at_hand_are_made_of_others() {
+    let nested = Nested { m: 1.0, k: 0.2 };
+    let near = nested.with_angle_cache();
+    for place in 0..20 {
+        let state = NestedState { x: 0.3 + 0.01 * f64::from(place), x_dot: 0.5 };
+        let change = near.derivative(0.0, &state, &()).x_dot - nested.derivative(0.0, &state, &()).x_dot;
+        assert!(change.abs() < 1e-14, "{place}: {change:e}");
+    }
+}

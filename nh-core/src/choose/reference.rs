@@ -203,8 +203,7 @@ impl Reference {
                 return Err(Defect::Wrong("a velocity has two values".into()));
             }
         }
-        let clock = &self.system.clock;
-        let mut moving = vec![(clock.time, Residue::ONE)];
+        let mut values = Vec::with_capacity(self.given.len());
         for given in &self.given {
             let (value, what) = match given {
                 Given::Call { method, arguments, .. } => {
@@ -218,9 +217,15 @@ impl Reference {
             if !pass.choose(given.symbol(), value) {
                 return Err(Defect::Wrong(format!("{what} has two values")));
             }
-            let state = clock.auxiliary.iter().find(|(_, rate)| *rate == given.symbol());
-            moving.extend(state.map(|(state, _)| (*state, value)));
+            values.push((given.symbol(), value));
         }
+        // rates are given in the order in which they can be computed, and stand in that of the declaration
+        let clock = &self.system.clock;
+        let auxiliary = clock.auxiliary.iter().filter_map(|(state, rate)| {
+            let (_, value) = values.iter().find(|(symbol, _)| symbol == rate)?;
+            Some((*state, *value))
+        });
+        let moving = [(clock.time, Residue::ONE)].into_iter().chain(auxiliary).collect();
         // 2. ẋ = ρ y
         let rates = algebroid.anchor.entries.iter().map(|row| Ok(inner(&pass.evaluate(row)?, &y)));
         let rates = rates.collect::<Result<Vec<Residue>, Defect>>()?;
@@ -270,7 +275,7 @@ impl Instant<'_, '_> {
         &self.y
     }
 
-    /// The rates ż of auxiliary states.
+    /// The rates ż of auxiliary states, in the order of their declaration.
     pub(crate) fn auxiliary_rates(&self) -> Vec<Residue> {
         self.clock[1..].iter().map(|(_, rate)| *rate).collect()
     }

@@ -323,7 +323,8 @@ pub static HORIZONTAL_LIFTS: Signature = Signature {
     name: "horizontal_lifts",
     doc: &[
         " The horizontal lifts h_κ of the nonholonomic connection: sections of the constraint distribution",
-        " over the unit rates of the coordinates that the report names, orthogonal to S in the kinetic metric.",
+        " over the unit rates of the coordinates that the report names, orthogonal to S in the kinetic metric",
+        " where this is a function of the coordinates alone.",
     ],
     takes_input: false,
     shape: Shape::Array(&[Size::Lifted, Size::Sections]),

@@ -165,7 +165,10 @@ impl<'a> Writer<'a> {
             }
             let expression = self.step(value, step);
             let shared = self.uses[value] > 1 || self.program.names.contains_key(&value);
-            let expression = if self.is_stored(step) && (shared || expression.size >= LONGEST) {
+            // angles at hand are borrowed one after the other: none inside of another's argument
+            let borrows =
+                self.at_hand.is_some() && matches!(step, Step::Apply(Function::Sin | Function::Cos, _));
+            let expression = if self.is_stored(step) && (shared || borrows || expression.size >= LONGEST) {
                 let name = self.names.of(self.program, value, self.scope);
                 self.bind(&name, &expression)
             } else {

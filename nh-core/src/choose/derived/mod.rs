@@ -8,6 +8,7 @@ mod definition;
 mod divisors;
 mod held;
 mod jumps;
+mod kinetic_energy;
 mod place;
 mod procedure_derivative;
 mod proof_of_bracket;

@@ -3,6 +3,7 @@
 
 use super::super::proof::defined;
 use super::divisors::Divisor;
+use super::kinetic_energy::KineticEnergy;
 use super::{Allowed, Derived, Images, Motion};
 use crate::algebra::{Graph, Range, Residue, eliminated};
 use crate::id::{ExprId, Id, SymbolId};
@@ -36,7 +37,7 @@ pub(super) struct RealPoints<'q> {
     allowed: &'q Allowed<'q>,
     /// What may not vanish where the declaration has a value.
     declared: Vec<ExprId>,
-    system: &'q LagrangianSystem,
+    energy: KineticEnergy<'q>,
     symbols: Vec<SymbolId>,
     /// Whether the kinetic energy is definite at some of the random points.
     is_definite: bool,
@@ -59,9 +60,9 @@ impl<'q> RealPoints<'q> {
         let mut symbols = graph.symbols_in(&[declared, &roots, &images_of, &further].concat());
         symbols.retain(|symbol| !named.contains(symbol));
         let declared = graph.divisors(declared).into_iter().collect();
-        let (motion, is_definite) = (motion.derivative, false);
+        let (motion, is_definite, energy) = (motion.derivative, false, KineticEnergy::of(graph, system));
         let mut points =
-            Self { graph, procedures, motion, images, allowed, declared, system, symbols, is_definite };
+            Self { graph, procedures, motion, images, allowed, declared, energy, symbols, is_definite };
         let size = system.algebroid.velocities.len().max(1);
         let tries = PAIRS.max((ENTRIES / (size * size)) as u64);
         points.is_definite = (0..tries).any(|seed| points.energy_is_definite(&points.between(seed, 0.0)));
@@ -198,30 +199,8 @@ impl<'q> RealPoints<'q> {
             && motion.outputs.iter().all(|output| is_finite(self.value(*output, &values)))
     }
 
-    /// Whether ∂²L/∂y² is positive definite, by differences: they are exact where L is quadratic.
     fn energy_is_definite(&self, values: &Values) -> bool {
-        let velocities = &self.system.algebroid.velocities;
-        let at = |steps: &[(SymbolId, f64)]| {
-            let mut moved = values.clone();
-            for (velocity, step) in steps {
-                *moved.entry(*velocity).or_insert(0.0) += step;
-            }
-            self.value(self.system.lagrangian, &moved)
-        };
-        let rest = at(&[]);
-        let entry = |a: &SymbolId, b: &SymbolId| {
-            if a == b {
-                at(&[(*a, 1.0)]) + at(&[(*a, -1.0)]) - 2.0 * rest
-            } else {
-                at(&[(*a, 1.0), (*b, 1.0)]) - at(&[(*a, 1.0)]) - at(&[(*b, 1.0)]) + rest
-            }
-        };
-        let rows: Vec<Vec<f64>> =
-            velocities.iter().map(|a| velocities.iter().map(|b| entry(a, b)).collect()).collect();
-        (1..=rows.len()).all(|size| {
-            let minor: Vec<Vec<f64>> = rows[..size].iter().map(|row| row[..size].to_vec()).collect();
-            eliminated(minor).0 > 0.0
-        })
+        self.energy.is_definite(|symbol| values.get(&symbol).copied().unwrap_or(0.0))
     }
 }
 
