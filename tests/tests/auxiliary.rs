@@ -201,7 +201,7 @@ struct Lagging {
 
 impl Lagging {
     fn limited(self, wanted: f64) -> f64 {
-        wanted.clamp(-1.0, 1.0)
+        wanted.clamp(-self.m / 2.0, self.m / 2.0)
     }
 }
 

@@ -129,11 +129,34 @@ impl FieldPass<'_> {
         list
     }
 
+    /// What a symbol stands for.
+    fn image(&self, x: ExprId) -> Option<ExprId> {
+        self.images.get(&self.graph.as_symbol(x)?).copied()
+    }
+
+    /// The terms of a sum, or of what a symbol stands for, as field values with coefficients.
+    fn summands(&self, x: ExprId) -> Option<Vec<(Residue, Rational)>> {
+        if let Some(image) = self.image(x) {
+            let terms = self.normal_terms(image).into_iter();
+            return Some(terms.map(|(_, value, coefficient)| (value, coefficient)).collect());
+        }
+        let Node::Sum { constant, terms } = self.graph.node(x) else { return None };
+        let of = |(term, coefficient): &(ExprId, Rational)| {
+            let factor = self.graph.angle_factor(*term).unwrap_or(Rational::ONE);
+            (self.known[term] * over(factor.clone()), coefficient.clone() * factor)
+        };
+        let number = (!constant.is_zero()).then(|| (Residue::ONE, constant.clone()));
+        Some(terms.iter().map(of).chain(number).collect())
+    }
+
     /// Multiplies out the positive powers of sums in a product, within a budget.
     fn expanded(&self, term: ExprId, scale: &Rational) -> Vec<(Option<ExprId>, Residue, Rational)> {
+        if let Some(image) = self.image(term) {
+            let terms = self.normal_terms(image).into_iter();
+            return terms.map(|(alone, value, c)| (alone, value, c * scale.clone())).collect();
+        }
         let whole = |coefficient: Rational, value: Residue| vec![(Some(term), value, coefficient)];
         let constant = self.graph.angle_factor(term);
-        let over = |number: Rational| Residue::of(&number).and_then(Residue::inverse).unwrap_or(Residue::ONE);
         let unit = over(constant.clone().unwrap_or(Rational::ONE));
         let Node::Product { coefficient, factors } = self.graph.node(term) else {
             return whole(scale.clone(), self.known[&term] * unit);
@@ -146,23 +169,16 @@ impl FieldPass<'_> {
         let factors: Vec<_> = factors.iter().filter(|factor| !is_coefficient(factor)).collect();
         for (base, exponent) in &factors {
             let times = exponent.to_i64().filter(|n| (1..=4).contains(n)).unwrap_or(0);
-            if let (Node::Sum { constant, terms }, 1..) = (self.graph.node(*base), times) {
+            if let (Some(terms), 1..) = (self.summands(*base), times) {
                 for _ in 0..times {
                     if list.len() * (terms.len() + 1) > BUDGET {
                         return whole(scale.clone(), self.known[&term] * unit);
                     }
-                    let mut next = Vec::new();
-                    for (value, c) in &list {
-                        next.extend(terms.iter().map(|(t, d)| {
-                            let factor = self.graph.angle_factor(*t).unwrap_or(Rational::ONE);
-                            let of_rest = *value * self.known[t] * over(factor.clone());
-                            (of_rest, c.clone() * d.clone() * factor)
-                        }));
-                        if !constant.is_zero() {
-                            next.push((*value, c.clone() * constant.clone()));
-                        }
-                    }
-                    list = next;
+                    let times_terms = |(value, c): &(Residue, Rational)| {
+                        let times = terms.iter().map(|(t, d)| (*value * *t, c.clone() * d.clone()));
+                        times.collect::<Vec<_>>()
+                    };
+                    list = list.iter().flat_map(times_terms).collect();
                 }
             } else if let Ok(power) = self.power(*base, exponent) {
                 for (value, _) in &mut list {
@@ -303,6 +319,11 @@ impl FieldPass<'_> {
             None => Ok((value * Residue::of(coefficient).ok_or(NoValue::Here)?, self.division)),
         }
     }
+}
+
+/// 1 over a number, or 1 where the field has none.
+fn over(number: Rational) -> Residue {
+    Residue::of(&number).and_then(Residue::inverse).unwrap_or(Residue::ONE)
 }
 
 /// `(cos π/12, sin π/12)`. Either choice of either root gives a point whose sixth power is (0, 1).

@@ -100,6 +100,8 @@ pub(crate) struct FieldPass<'a> {
     pub(super) circles: IdMap<ExprId, (Residue, Residue)>,
     /// The arguments of the exponentials that have occurred, by the magnitudes of their values.
     pub(super) logarithms: FxHashMap<u64, Residue>,
+    /// What symbols stand for: in sines and exponentials they count as that.
+    pub(super) images: FxHashMap<SymbolId, ExprId>,
     /// Whether functions are those of the values of their arguments alone.
     by_value: bool,
     /// Whether sines of arcs are algebraic, as exponentials of logarithms are, and logarithms of products sums.
@@ -130,9 +132,21 @@ pub(super) enum Stream {
 impl<'a> FieldPass<'a> {
     /// At a point; `division` is the [`Graph::angle_division`] of all that will be evaluated.
     pub(crate) fn new(graph: &'a Graph, point: FieldPoint, division: i64) -> Self {
-        let (known, open, units, circles, logarithms) = Default::default();
+        let (known, open, units, circles, logarithms, images) = Default::default();
         let (by_value, relates_arcs) = (false, true);
-        Self { graph, point, division, known, open, units, circles, logarithms, by_value, relates_arcs }
+        Self {
+            graph,
+            point,
+            division,
+            known,
+            open,
+            units,
+            circles,
+            logarithms,
+            images,
+            by_value,
+            relates_arcs,
+        }
     }
 
     /// The same with arcs and logarithms as kernels of their values: what is written in other steps has these.
@@ -257,6 +271,15 @@ impl<'a> FieldPass<'a> {
     #[must_use]
     pub(crate) fn choose(&mut self, symbol: SymbolId, value: Residue) -> bool {
         *self.point.chosen.entry(symbol).or_insert(value) == value
+    }
+
+    /// Gives a symbol the value of an expression that has one, and says that it stands for it: sin(w) is sin(a + b) where
+    /// w is a + b. Whether no other value was chosen before.
+    pub(crate) fn choose_image(&mut self, symbol: SymbolId, image: ExprId) -> bool {
+        if self.graph.as_symbol(image) != Some(symbol) {
+            self.images.insert(symbol, image);
+        }
+        self.choose(symbol, self.known[&image])
     }
 
     /// The value of a function that is no formula, of its arguments' values alone.

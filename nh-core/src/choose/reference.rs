@@ -166,8 +166,9 @@ impl Reference {
         let sections: Vec<ExprId> =
             self.velocities.sections.iter().flat_map(|(_, section)| section.iter().copied()).collect();
         let section = degrees.most(&sections);
-        // 2. at y: each of its velocities has the degree of the longest
-        let y = degrees.most(&self.velocities.all);
+        // 2. at y: each of its velocities has the degree of the longest, inside of sines that of its terms
+        let turns = |velocity: &ExprId| graph.angle_turns(*velocity, division);
+        let y = self.velocities.all.iter().map(turns).fold(degrees.most(&self.velocities.all), f64::max);
         let x_dot = (s * (anchor + y)).max(given * y);
         let y_dot = (n + s) * (2.0 * y + x_dot.max(accelerations));
         // 3. second derivatives of L along the motion, brackets, forces; the constraints' gradient
@@ -194,27 +195,31 @@ impl Reference {
         // 1. y, and what is called with it
         let y = pass.evaluate(&self.velocities.all)?;
         let determined: Vec<ExprId> = self.velocities.determined.iter().map(|(_, value)| *value).collect();
-        let determined = pass.evaluate(&determined)?;
-        let symbols = self.velocities.determined.iter().map(|(symbol, _)| *symbol);
-        for (symbol, value) in
-            symbols.zip(determined).chain(algebroid.velocities.iter().copied().zip(y.clone()))
-        {
-            if !pass.choose(symbol, value) {
+        pass.evaluate(&determined)?;
+        let velocities = algebroid.velocities.iter().copied().zip(self.velocities.all.iter().copied());
+        for (symbol, image) in self.velocities.determined.iter().copied().chain(velocities) {
+            if !pass.choose_image(symbol, image) {
                 return Err(Defect::Wrong("a velocity has two values".into()));
             }
         }
         let mut values = Vec::with_capacity(self.given.len());
         for given in &self.given {
-            let (value, what) = match given {
+            let (value, is_one, what) = match given {
                 Given::Call { method, arguments, .. } => {
                     let arguments = pass.evaluate(arguments)?;
-                    (pass.kernel(method, &arguments), format!("`{method}`"))
+                    let value = pass.kernel(method, &arguments);
+                    (value, pass.choose(given.symbol(), value), format!("`{method}`"))
                 }
-                Given::Rate { value, .. } => {
-                    (pass.evaluate(&[*value])?[0], "the rate of an auxiliary state".to_owned())
+                Given::Rate { symbol, value } => {
+                    let computed = pass.evaluate(&[*value])?[0];
+                    (
+                        computed,
+                        pass.choose_image(*symbol, *value),
+                        "the rate of an auxiliary state".to_owned(),
+                    )
                 }
             };
-            if !pass.choose(given.symbol(), value) {
+            if !is_one {
                 return Err(Defect::Wrong(format!("{what} has two values")));
             }
             values.push((given.symbol(), value));

@@ -1,5 +1,5 @@
 //! Declarations that are right and unusual: arcs inside of sines, logarithms of products, roots of roots, redundant
-//! angles, other coordinates.
+//! angles, other coordinates, sines and exponentials of velocities that constraints determine.
 
 use nh_stages::{declarations, errors};
 
@@ -160,12 +160,34 @@ struct LnOfTanh { m: f64, k: f64 }
 struct ArcsOfOnePoint { m: f64, k: f64 }
 #[nonholonomic(base { x } lagrangian { m/2*der(x)^2 - k*x*exp(3*ln(1+x^2)/2) } conserved { e = m/2*der(x)^2 + k*x*(1+x^2)^(3/2); })]
 struct ExpOfHalves { m: f64, k: f64 }
+#[nonholonomic(base { x, phi, y } lagrangian { m/2*(der(x)^2 + der(y)^2) + J/2*der(phi)^2 }
+ constraints { der(x) = r*der(phi) + q*der(y); } forces { x: -c*tanh(k*der(x)); } outputs { o = sin(der(x)); p = exp(der(x)); })]
+struct SmoothFriction { m: f64, J: f64, r: f64, q: f64, c: f64, k: f64 }
+#[nonholonomic(base { x, phi } lagrangian { m/2*der(x)^2 + J/2*der(phi)^2 } constraints { der(x) = 2*r*der(phi)/3; }
+ forces { x: -c*sin(k*der(x)) - c*exp(-der(x)/2); })]
+struct RateWithAFactor { m: f64, J: f64, r: f64, c: f64, k: f64 }
+#[nonholonomic(base { x, y, z, phi } lagrangian { m/2*(der(x)^2 + der(y)^2 + der(z)^2) + J/2*der(phi)^2 }
+ constraints { der(x) = r*der(phi) + q*der(y); der(z) = der(x) - 2*der(y) + 1; } forces { z: -c*tanh(k*der(z)*x); })]
+struct RateOfARate { m: f64, J: f64, r: f64, q: f64, c: f64, k: f64 }
+#[nonholonomic(base { x, y, th } basis { v, side, w }
+ anchor { der(x) = v*cos(th) - side*sin(th); der(y) = v*sin(th) + side*cos(th); der(th) = w; }
+ lagrangian { m/2*(v^2 + side^2) + J/2*w^2 } constraints { side = a*w + b*v; }
+ forces { v: -c*tanh(k*side^2); } outputs { o = exp(side) + sin(2*side); })]
+struct SquareOfASlip { m: f64, J: f64, a: f64, b: f64, c: f64, k: f64 }
+#[nonholonomic(base { x, y } auxiliary { der(s) = a*x + b*y; der(w) = sin(k*der(s)) - w; }
+ lagrangian { m/2*(der(x)^2 + der(y)^2) } forces { x: -c*exp(der(s)) - w; })]
+struct RatesOfAuxiliaryStates { m: f64, a: f64, b: f64, c: f64, k: f64 }
+#[nonholonomic(base { x, y } lagrangian { m*cosh(der(x)) + m/2*der(y)^2 } constraints { der(x) = a*der(y) + b*y*der(y); })]
+struct EnergyOfARate { m: f64, a: f64, b: f64 }
+#[nonholonomic(base { x, a } holonomic { rod: x = l*sin(a); } independent { der(a) }
+ lagrangian { m/2*der(x)^2 + J/2*der(a)^2 } forces { x: -c*tanh(k*der(x)); } outputs { s = sin(der(x)); })]
+struct FrictionInALoop { m: f64, J: f64, l: f64, c: f64, k: f64 }
 ";
 
 #[test]
 fn right_declarations_are_accepted() {
     let found = declarations(RIGHT);
-    assert_eq!(found.len(), 64);
+    assert_eq!(found.len(), 71);
     let mut refused = Vec::new();
     for declaration in found {
         let errors = errors(&declaration.expanded());

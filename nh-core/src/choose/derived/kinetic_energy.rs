@@ -128,7 +128,7 @@ mod tests {
         let energy = KineticEnergy::of(&graph, &system);
         assert!(matches!(energy, KineticEnergy::Entries(..)));
         assert!(!energy.is_definite(|_| 0.0) && energy.is_definite(|_| 1.0));
-        let (graph, system) = on_a_line(|graph, v| graph.square(v));
+        let (graph, system) = on_a_line(Graph::square);
         let energy = KineticEnergy::of(&graph, &system);
         assert!(matches!(energy, KineticEnergy::Quadratic(..)) && energy.is_definite(|_| 0.5));
     }
