@@ -143,7 +143,7 @@ impl FieldPass<'_> {
         let Node::Sum { constant, terms } = self.graph.node(x) else { return None };
         let of = |(term, coefficient): &(ExprId, Rational)| {
             let factor = self.graph.angle_factor(*term).unwrap_or(Rational::ONE);
-            (self.known[term] * over(factor.clone()), coefficient.clone() * factor)
+            (self.known[term] * over(&factor), coefficient.clone() * factor)
         };
         let number = (!constant.is_zero()).then(|| (Residue::ONE, constant.clone()));
         Some(terms.iter().map(of).chain(number).collect())
@@ -157,11 +157,11 @@ impl FieldPass<'_> {
         }
         let whole = |coefficient: Rational, value: Residue| vec![(Some(term), value, coefficient)];
         let constant = self.graph.angle_factor(term);
-        let unit = over(constant.clone().unwrap_or(Rational::ONE));
+        let unit = over(constant.as_ref().unwrap_or(&Rational::ONE));
         let Node::Product { coefficient, factors } = self.graph.node(term) else {
             return whole(scale.clone(), self.known[&term] * unit);
         };
-        let unit = over(coefficient.clone()) * unit;
+        let unit = over(coefficient) * unit;
         let mut list = vec![(Residue::ONE, scale.clone())];
         let is_coefficient = |(base, exponent): &&(ExprId, Rational)| {
             constant.is_some() && exponent.is_integer() && self.graph.value_of(*base).is_some()
@@ -169,7 +169,8 @@ impl FieldPass<'_> {
         let factors: Vec<_> = factors.iter().filter(|factor| !is_coefficient(factor)).collect();
         for (base, exponent) in &factors {
             let times = exponent.to_i64().filter(|n| (1..=4).contains(n)).unwrap_or(0);
-            if let (Some(terms), 1..) = (self.summands(*base), times) {
+            let terms = if times > 0 { self.summands(*base) } else { None };
+            if let Some(terms) = terms {
                 for _ in 0..times {
                     if list.len() * (terms.len() + 1) > BUDGET {
                         return whole(scale.clone(), self.known[&term] * unit);
@@ -187,7 +188,7 @@ impl FieldPass<'_> {
             }
         }
         let alone = match factors.as_slice() {
-            [(base, exponent)] if exponent.is_one() => Some(*base),
+            [(base, exponent)] if exponent.is_one() && self.image(*base).is_none() => Some(*base),
             _ => None,
         };
         list.into_iter().map(|(value, c)| (alone, value, c)).collect()
@@ -322,8 +323,8 @@ impl FieldPass<'_> {
 }
 
 /// 1 over a number, or 1 where the field has none.
-fn over(number: Rational) -> Residue {
-    Residue::of(&number).and_then(Residue::inverse).unwrap_or(Residue::ONE)
+fn over(number: &Rational) -> Residue {
+    Residue::of(number).and_then(Residue::inverse).unwrap_or(Residue::ONE)
 }
 
 /// `(cos π/12, sin π/12)`. Either choice of either root gives a point whose sixth power is (0, 1).
