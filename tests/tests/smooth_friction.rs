@@ -38,7 +38,7 @@ fn friction_of_a_determined_velocity() {
         for (found, expected) in [rate.phi_dot, rate.y_dot].iter().zip(expected) {
             assert!((found - expected).abs() < 1e-14, "{found} {expected}");
         }
-        let outputs = belt.outputs(0.0, &state);
+        let outputs = belt.outputs(0.0, &state, &());
         assert!((outputs.wave - (2.0 * x_dot).sin()).abs() < 1e-15);
         assert!((outputs.growth - (x_dot / 2.0).exp()).abs() < 4e-15);
     }
