@@ -141,12 +141,28 @@ impl FieldPass<'_> {
             return Some(terms.map(|(_, value, coefficient)| (value, coefficient)).collect());
         }
         let Node::Sum { constant, terms } = self.graph.node(x) else { return None };
-        let of = |(term, coefficient): &(ExprId, Rational)| {
-            let factor = self.graph.angle_factor(*term).unwrap_or(Rational::ONE);
-            (self.known[term] * over(&factor), coefficient.clone() * factor)
-        };
-        let number = (!constant.is_zero()).then(|| (Residue::ONE, constant.clone()));
-        Some(terms.iter().map(of).chain(number).collect())
+        let mut list: Vec<_> =
+            (!constant.is_zero()).then(|| (Residue::ONE, constant.clone())).into_iter().collect();
+        for (term, coefficient) in terms.iter() {
+            if self.multiplies_out(*term) {
+                let terms = self.expanded(*term, coefficient).into_iter();
+                list.extend(terms.map(|(_, value, coefficient)| (value, coefficient)));
+            } else {
+                let factor = self.graph.angle_factor(*term).unwrap_or(Rational::ONE);
+                list.push((self.known[term] * over(&factor), coefficient.clone() * factor));
+            }
+        }
+        Some(list)
+    }
+
+    /// Whether a term has a factor that is a sum, or stands for something else.
+    fn multiplies_out(&self, term: ExprId) -> bool {
+        let is_image = |x: ExprId| self.image(x).is_some();
+        let is_sum = |x: ExprId| matches!(self.graph.node(x), Node::Sum { .. });
+        match self.graph.node(term) {
+            Node::Product { factors, .. } => factors.iter().any(|(base, _)| is_sum(*base) || is_image(*base)),
+            _ => is_image(term),
+        }
     }
 
     /// Multiplies out the positive powers of sums in a product, within a budget.
