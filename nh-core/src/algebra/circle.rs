@@ -111,7 +111,7 @@ const LONGEST_DENOMINATOR: i64 = 1000;
 /// Terms that a product of sums in an angle is multiplied out to at most.
 const BUDGET: usize = 256;
 /// The same, with coefficients of up to 2¹⁶ each.
-const EXPANDED_TERMS: f64 = 16_777_216.0;
+pub(super) const EXPANDED_TERMS: f64 = 16_777_216.0;
 /// Common denominators of coefficients in angles are shorter than this.
 const LARGEST_DIVISION: i64 = 1 << 20;
 

@@ -4,13 +4,14 @@
 //! A function of degree d that is not zero vanishes at a random point of the field of P elements with
 //! probability d/P at most (Schwartz, Zippel).
 
+use super::circle::EXPANDED_TERMS;
 use super::graph::Graph;
 use super::node::{Function, Node};
 use super::number::Rational;
 use crate::id::{ExprId, Id, SymbolId};
 use crate::id_map::IdMap;
 use crate::limits;
-use rustc_hash::FxHashMap;
+use rustc_hash::{FxHashMap, FxHashSet};
 use std::rc::Rc;
 
 /// A bound on the degree of a function N Π D^k: N is a polynomial, and so are the D, of which the numerators of
@@ -78,12 +79,31 @@ pub(crate) struct Degrees<'a> {
     named: FxHashMap<SymbolId, Degree>,
     /// The degrees of the D.
     sizes: IdMap<Factor, f64>,
+    /// Symbols that stand for expressions.
+    images: FxHashSet<SymbolId>,
 }
 
 impl<'a> Degrees<'a> {
     pub(crate) fn new(graph: &'a Graph, division: i64) -> Self {
-        let (known, named, sizes) = Default::default();
-        Self { graph, division, known, named, sizes }
+        let (known, named, sizes, images) = Default::default();
+        Self { graph, division, known, named, sizes, images }
+    }
+
+    /// Symbols that stand for expressions: in sines and exponentials they are multiplied out.
+    pub(crate) fn stand_for_others(&mut self, symbols: impl Iterator<Item = SymbolId>) {
+        self.images.extend(symbols);
+    }
+
+    /// How many times a point of the circle is multiplied for an angle.
+    fn turns(&self, x: ExprId) -> f64 {
+        let is_image =
+            |x: ExprId| self.graph.as_symbol(x).is_some_and(|symbol| self.images.contains(&symbol));
+        let terms = if self.images.is_empty() { Vec::new() } else { self.graph.terms_of_angle(x) };
+        let has_image = terms.iter().any(|(term, _)| match self.graph.node(*term) {
+            Node::Product { factors, .. } => factors.iter().any(|(base, _)| is_image(*base)),
+            _ => is_image(*term),
+        });
+        self.graph.angle_turns(x, self.division) * if has_image { EXPANDED_TERMS } else { 1.0 }
     }
 
     /// Gives a symbol the bound of its value before it occurs.
@@ -240,7 +260,7 @@ impl<'a> Degrees<'a> {
             | Function::Tanh => {
                 let inside = self.graph.inside_arcs(x);
                 let inside = inside.iter().map(|u| self.size(&self.known[u])).sum::<f64>();
-                let turns = 2.0 * self.graph.angle_turns(x, self.division);
+                let turns = 2.0 * self.turns(x);
                 self.quotient(Factor::node(x), turns * (1.0 + inside))
             }
             Function::Asin

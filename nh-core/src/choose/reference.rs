@@ -140,6 +140,7 @@ impl Reference {
     /// A bound on the degree of (6) along sections, for accelerations of a degree.
     pub(crate) fn degree(&self, graph: &Graph, division: i64, accelerations: f64) -> f64 {
         let mut degrees = Degrees::new(graph, division);
+        degrees.stand_for_others(self.determined().into_iter());
         let LagrangianSystem { algebroid, lagrangian, forces, forces_on_distribution, clock } = &self.system;
         let s = count(algebroid.rank());
         let n = count(algebroid.anchor.coordinates.len() + clock.auxiliary.len());
@@ -166,9 +167,8 @@ impl Reference {
         let sections: Vec<ExprId> =
             self.velocities.sections.iter().flat_map(|(_, section)| section.iter().copied()).collect();
         let section = degrees.most(&sections);
-        // 2. at y: each of its velocities has the degree of the longest, inside of sines that of its terms
-        let turns = |velocity: &ExprId| graph.angle_turns(*velocity, division);
-        let y = self.velocities.all.iter().map(turns).fold(degrees.most(&self.velocities.all), f64::max);
+        // 2. at y: each of its velocities has the degree of the longest
+        let y = degrees.most(&self.velocities.all);
         let x_dot = (s * (anchor + y)).max(given * y);
         let y_dot = (n + s) * (2.0 * y + x_dot.max(accelerations));
         // 3. second derivatives of L along the motion, brackets, forces; the constraints' gradient
