@@ -155,12 +155,11 @@ impl FieldPass<'_> {
         Some(list)
     }
 
-    /// Whether a term has a factor that is a sum, or stands for something else.
+    /// Whether a term has a factor that stands for something else.
     fn multiplies_out(&self, term: ExprId) -> bool {
         let is_image = |x: ExprId| self.image(x).is_some();
-        let is_sum = |x: ExprId| matches!(self.graph.node(x), Node::Sum { .. });
         match self.graph.node(term) {
-            Node::Product { factors, .. } => factors.iter().any(|(base, _)| is_sum(*base) || is_image(*base)),
+            Node::Product { factors, .. } => factors.iter().any(|(base, _)| is_image(*base)),
             _ => is_image(term),
         }
     }
