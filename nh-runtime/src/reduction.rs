@@ -4,6 +4,7 @@ use core::fmt;
 use core::marker::PhantomData;
 
 use crate::error::{InputFault, ParameterError, ProjectionError, StateFault};
+use crate::newton_return::worst;
 use crate::{Dynamics, Scalar, ScalarOf};
 
 /// A system whose motion is carried to that of `R` by a map that was proved to do so.
@@ -141,11 +142,9 @@ where
     }
 
     fn worst_constraint(&self, t: ScalarOf<F>, joint: &F::Joint) -> StateFault {
-        let fault = self.full.worst_constraint(t, &self.full.reconstruct(t, joint));
-        if fault.residual == 0.0 {
-            return self.reduced.worst_constraint(t, &F::reduced_part(joint));
-        }
-        fault
+        let of_full = self.full.worst_constraint(t, &self.full.reconstruct(t, joint));
+        let of_reduced = self.reduced.worst_constraint(t, &F::reduced_part(joint));
+        worst([of_full, of_reduced].map(|fault| (fault.identity, fault.residual)))
     }
 
     fn check_input(&self, input: &R::Input) -> Result<(), InputFault> {

@@ -6,7 +6,7 @@ use super::graph::Graph;
 use super::modular::{FieldPass, NoValue, Stream, Value};
 use super::node::{Function, Function2, Node};
 use super::number::Rational;
-use crate::id::ExprId;
+use crate::id::{ExprId, SymbolId};
 use num_integer::Integer;
 use num_traits::ToPrimitive;
 
@@ -60,6 +60,15 @@ impl Graph {
     pub(crate) fn terms_of_angle(&self, x: ExprId) -> Vec<(ExprId, Rational)> {
         let terms = self.angle_terms(x).into_iter();
         terms.filter_map(|(term, coefficient)| Some((term?, coefficient))).collect()
+    }
+
+    /// Whether a term is such a symbol, or has it for a factor.
+    pub(super) fn has_factor(&self, term: ExprId, is_one: impl Fn(SymbolId) -> bool) -> bool {
+        let is_one = |x: ExprId| self.as_symbol(x).is_some_and(&is_one);
+        match self.node(term) {
+            Node::Product { factors, .. } => factors.iter().any(|(base, _)| is_one(*base)),
+            _ => is_one(term),
+        }
     }
 
     /// How many times units of the circle, or of the exponential, are multiplied at most for an argument.
@@ -129,22 +138,27 @@ impl FieldPass<'_> {
         list
     }
 
-    /// What a symbol stands for.
-    fn image(&self, x: ExprId) -> Option<ExprId> {
-        self.images.get(&self.graph.as_symbol(x)?).copied()
+    /// Whether a term is a symbol that stands for something else, or has one for a factor.
+    fn has_image(&self, term: ExprId) -> bool {
+        self.graph.has_factor(term, |symbol| self.images.contains_key(&symbol))
+    }
+
+    /// The terms of what a symbol stands for, within the budget.
+    fn terms_of_image(&self, x: ExprId) -> Option<Vec<(Option<ExprId>, Residue, Rational)>> {
+        let image = self.images.get(&self.graph.as_symbol(x)?)?;
+        Some(self.normal_terms(*image)).filter(|terms| terms.len() <= BUDGET)
     }
 
     /// The terms of a sum, or of what a symbol stands for, as field values with coefficients.
     fn summands(&self, x: ExprId) -> Option<Vec<(Residue, Rational)>> {
-        if let Some(image) = self.image(x) {
-            let terms = self.normal_terms(image).into_iter();
-            return Some(terms.map(|(_, value, coefficient)| (value, coefficient)).collect());
+        if let Some(terms) = self.terms_of_image(x) {
+            return Some(terms.into_iter().map(|(_, value, coefficient)| (value, coefficient)).collect());
         }
         let Node::Sum { constant, terms } = self.graph.node(x) else { return None };
         let mut list: Vec<_> =
             (!constant.is_zero()).then(|| (Residue::ONE, constant.clone())).into_iter().collect();
         for (term, coefficient) in terms.iter() {
-            if self.multiplies_out(*term) {
+            if self.has_image(*term) {
                 let terms = self.expanded(*term, coefficient).into_iter();
                 list.extend(terms.map(|(_, value, coefficient)| (value, coefficient)));
             } else {
@@ -155,20 +169,10 @@ impl FieldPass<'_> {
         Some(list)
     }
 
-    /// Whether a term has a factor that stands for something else.
-    fn multiplies_out(&self, term: ExprId) -> bool {
-        let is_image = |x: ExprId| self.image(x).is_some();
-        match self.graph.node(term) {
-            Node::Product { factors, .. } => factors.iter().any(|(base, _)| is_image(*base)),
-            _ => is_image(term),
-        }
-    }
-
     /// Multiplies out the positive powers of sums in a product, within a budget.
     fn expanded(&self, term: ExprId, scale: &Rational) -> Vec<(Option<ExprId>, Residue, Rational)> {
-        if let Some(image) = self.image(term) {
-            let terms = self.normal_terms(image).into_iter();
-            return terms.map(|(alone, value, c)| (alone, value, c * scale.clone())).collect();
+        if let Some(terms) = self.terms_of_image(term) {
+            return terms.into_iter().map(|(alone, value, c)| (alone, value, c * scale.clone())).collect();
         }
         let whole = |coefficient: Rational, value: Residue| vec![(Some(term), value, coefficient)];
         let constant = self.graph.angle_factor(term);
@@ -203,7 +207,7 @@ impl FieldPass<'_> {
             }
         }
         let alone = match factors.as_slice() {
-            [(base, exponent)] if exponent.is_one() && self.image(*base).is_none() => Some(*base),
+            [(base, exponent)] if exponent.is_one() && !self.has_image(*base) => Some(*base),
             _ => None,
         };
         list.into_iter().map(|(value, c)| (alone, value, c)).collect()

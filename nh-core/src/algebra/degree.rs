@@ -89,20 +89,21 @@ impl<'a> Degrees<'a> {
         Self { graph, division, known, named, sizes, images }
     }
 
-    /// Symbols that stand for expressions: in sines and exponentials they are multiplied out.
-    pub(crate) fn stand_for_others(&mut self, symbols: impl Iterator<Item = SymbolId>) {
-        self.images.extend(symbols);
+    /// The same where symbols stand for expressions: in sines and exponentials these are multiplied out.
+    pub(crate) fn with_images(
+        graph: &'a Graph,
+        division: i64,
+        images: impl Iterator<Item = (SymbolId, ExprId)>,
+    ) -> Self {
+        let others = images.filter(|(symbol, image)| graph.as_symbol(*image) != Some(*symbol));
+        Self { images: others.map(|(symbol, _)| symbol).collect(), ..Self::new(graph, division) }
     }
 
     /// How many times a point of the circle is multiplied for an angle.
     fn turns(&self, x: ExprId) -> f64 {
-        let is_image =
-            |x: ExprId| self.graph.as_symbol(x).is_some_and(|symbol| self.images.contains(&symbol));
+        let is_image = |symbol| self.images.contains(&symbol);
         let terms = if self.images.is_empty() { Vec::new() } else { self.graph.terms_of_angle(x) };
-        let has_image = terms.iter().any(|(term, _)| match self.graph.node(*term) {
-            Node::Product { factors, .. } => factors.iter().any(|(base, _)| is_image(*base)),
-            _ => is_image(*term),
-        });
+        let has_image = terms.iter().any(|(term, _)| self.graph.has_factor(*term, is_image));
         self.graph.angle_turns(x, self.division) * if has_image { EXPANDED_TERMS } else { 1.0 }
     }
 

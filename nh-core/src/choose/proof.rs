@@ -132,7 +132,7 @@ impl Claim<'_> {
 pub(crate) fn prove(graph: &Graph, reference: &Reference, claim: &Claim) -> Result<Proof, Defect> {
     let roots = [reference.roots(), claim.roots()].concat();
     let division = graph.angle_division(&roots);
-    let degree = reference.degree(graph, division, claim.degree(&mut Degrees::new(graph, division)));
+    let degree = reference.degree(graph, division, claim.degree(&mut reference.degrees(graph, division)));
     let bound = [reference.determined(), claim.defined()].concat();
     let radicands = Radicands::of(graph, &reference.roots(), &reference.determined());
     let prove_on = |ground: &Ground| {

@@ -137,10 +137,25 @@ impl Reference {
         roots
     }
 
+    /// Velocities of the declaration and those that constraints determine, with what they are in those of the state.
+    fn velocities_by_the_state(&self) -> impl Iterator<Item = (SymbolId, ExprId)> {
+        let Velocities { all, determined, .. } = &self.velocities;
+        let declared = self.system.algebroid.velocities.iter().copied();
+        determined.iter().copied().chain(declared.zip(all.iter().copied()))
+    }
+
+    /// Bounds on degrees where velocities and rates stand for what they are made of, as they do at points.
+    pub(crate) fn degrees<'g>(&self, graph: &'g Graph, division: i64) -> Degrees<'g> {
+        let rates = self.given.iter().filter_map(|given| match given {
+            Given::Rate { symbol, value } => Some((*symbol, *value)),
+            Given::Call { .. } => None,
+        });
+        Degrees::with_images(graph, division, self.velocities_by_the_state().chain(rates))
+    }
+
     /// A bound on the degree of (6) along sections, for accelerations of a degree.
     pub(crate) fn degree(&self, graph: &Graph, division: i64, accelerations: f64) -> f64 {
-        let mut degrees = Degrees::new(graph, division);
-        degrees.stand_for_others(self.determined().into_iter());
+        let mut degrees = self.degrees(graph, division);
         let LagrangianSystem { algebroid, lagrangian, forces, forces_on_distribution, clock } = &self.system;
         let s = count(algebroid.rank());
         let n = count(algebroid.anchor.coordinates.len() + clock.auxiliary.len());
@@ -196,8 +211,7 @@ impl Reference {
         let y = pass.evaluate(&self.velocities.all)?;
         let determined: Vec<ExprId> = self.velocities.determined.iter().map(|(_, value)| *value).collect();
         pass.evaluate(&determined)?;
-        let velocities = algebroid.velocities.iter().copied().zip(self.velocities.all.iter().copied());
-        for (symbol, image) in self.velocities.determined.iter().copied().chain(velocities) {
+        for (symbol, image) in self.velocities_by_the_state() {
             if !pass.choose_image(symbol, image) {
                 return Err(Defect::Wrong("a velocity has two values".into()));
             }

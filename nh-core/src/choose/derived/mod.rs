@@ -27,7 +27,7 @@ use super::proof::{
     Defect, FIRST_SEED, at_points, bits_of_a_point, defined, has_branches, run, unless_roots_are_missing,
 };
 use super::reference::{Reference, inner};
-use crate::algebra::{Degrees, Direction, Facts, FieldPass, FieldPoint, Graph, Node, Radicands, Residue};
+use crate::algebra::{Direction, Facts, FieldPass, FieldPoint, Graph, Node, Radicands, Residue};
 use crate::id::{ExprId, SymbolId};
 use crate::limits;
 use crate::mechanics::{HamiltonianSide, Procedure};
@@ -358,11 +358,11 @@ fn degree(
     division: i64,
     (procedures, further, images): (&[&Procedure], &[ExprId], &[ExprId]),
 ) -> f64 {
-    let mut degrees = Degrees::new(graph, division);
+    let mut degrees = reference.degrees(graph, division);
     let own: f64 = procedures.iter().map(|procedure| procedure.degree(&mut degrees)).sum();
     let functions = if further.is_empty() { 0.0 } else { degrees.most(further) };
     let declared = reference.degree(graph, division, own);
-    let at = if images.is_empty() { 1.0 } else { 1.0 + Degrees::new(graph, division).most(images) };
+    let at = if images.is_empty() { 1.0 } else { 1.0 + reference.degrees(graph, division).most(images) };
     let algebroid = &reference.system().algebroid;
     let equations =
         2 * (algebroid.rank() + algebroid.anchor.coordinates.len() + reference.residuals().len()) + 1;
