@@ -177,6 +177,10 @@ struct SquareOfASlip { m: f64, J: f64, a: f64, b: f64, c: f64, k: f64 }
 #[nonholonomic(base { x, y } auxiliary { der(s) = a*x + b*y; der(w) = sin(k*der(s)) - w; }
  lagrangian { m/2*(der(x)^2 + der(y)^2) } forces { x: -c*exp(der(s)) - w; })]
 struct RatesOfAuxiliaryStates { m: f64, a: f64, b: f64, c: f64, k: f64 }
+#[nonholonomic(base { x, y } auxiliary { der(s) = a*x + b*der(y); der(w) = der(s) - w; }
+ lagrangian { m/2*(der(x)^2 + der(y)^2) } constraints { der(y) = c*der(x); }
+ forces { x: -c*exp(k*der(s)) + sin(der(w)); } outputs { o = tanh(der(w)); } emit { jacobian, multipliers, power })]
+struct JacobianOfARate { m: f64, a: f64, b: f64, c: f64, k: f64 }
 #[nonholonomic(base { x, y } lagrangian { m*cosh(der(x)) + m/2*der(y)^2 } constraints { der(x) = a*der(y) + b*y*der(y); })]
 struct EnergyOfARate { m: f64, a: f64, b: f64 }
 #[nonholonomic(base { x, a } holonomic { rod: x = l*sin(a); } independent { der(a) }
@@ -191,7 +195,7 @@ struct FrictionInTheWorldsAxes { m: f64, J: f64, c: f64, k: f64 }
 #[test]
 fn right_declarations_are_accepted() {
     let found = declarations(RIGHT);
-    assert_eq!(found.len(), 72);
+    assert_eq!(found.len(), 73);
     let mut refused = Vec::new();
     for declaration in found {
         let errors = errors(&declaration.expanded());
