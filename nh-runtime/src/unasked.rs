@@ -128,7 +128,7 @@ unasked! {
         "`{Self}` is declared without `emit {{ gyroscopic }}`, which generates this method":
         gyroscopic(t, state);
     AsksSplitting,
-        "`{Self}` is declared without `emit {{ splitting }}`, which generates this method":
+        "`{Self}` is declared without `emit {{ splitting }}`, or this method would give nothing":
         vertical_sections(t, state), horizontal_lifts(t, state), locked_inertia(t, state),
         connection_coefficients(t, state), curvature(t, state), vertical_momenta(t, state),
         vertical_momentum_rates(t, state, input), vertical_velocities(t, state), horizontal_force(t, state);

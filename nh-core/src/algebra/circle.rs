@@ -119,20 +119,22 @@ impl Graph {
 const LONGEST_DENOMINATOR: i64 = 1000;
 /// Terms that a product of sums in an angle is multiplied out to at most.
 const BUDGET: usize = 256;
+/// Levels of sums inside of products inside of sums that are multiplied out: a chain of them doubles its work with each.
+const DEEPEST: u32 = 3;
 /// The same, with coefficients of up to 2¹⁶ each.
 pub(super) const EXPANDED_TERMS: f64 = 16_777_216.0;
 /// Common denominators of coefficients in angles are shorter than this.
 const LARGEST_DIVISION: i64 = 1 << 20;
 
 impl FieldPass<'_> {
-    /// The terms of an angle, products of sums multiplied out, as field values with coefficients; those that are one
-    /// expression times a number with it.
-    fn normal_terms(&self, x: ExprId) -> Vec<(Option<ExprId>, Residue, Rational)> {
+    /// The terms of an angle, products of sums multiplied out down to so many levels, as field values with coefficients;
+    /// those that are one expression times a number with it.
+    fn normal_terms(&self, x: ExprId, levels: u32) -> Vec<(Option<ExprId>, Residue, Rational)> {
         let mut list = Vec::new();
         for (term, coefficient) in self.graph.angle_terms(x) {
             match term {
                 None => list.push((None, Residue::ONE, coefficient)),
-                Some(term) => list.extend(self.expanded(term, &coefficient)),
+                Some(term) => list.extend(self.expanded(term, &coefficient, levels)),
             }
         }
         list
@@ -144,22 +146,22 @@ impl FieldPass<'_> {
     }
 
     /// The terms of what a symbol stands for, within the budget.
-    fn terms_of_image(&self, x: ExprId) -> Option<Vec<(Option<ExprId>, Residue, Rational)>> {
+    fn terms_of_image(&self, x: ExprId, levels: u32) -> Option<Vec<(Option<ExprId>, Residue, Rational)>> {
         let image = self.images.get(&self.graph.as_symbol(x)?)?;
-        Some(self.normal_terms(*image)).filter(|terms| terms.len() <= BUDGET)
+        Some(self.normal_terms(*image, levels)).filter(|terms| terms.len() <= BUDGET)
     }
 
     /// The terms of a sum, or of what a symbol stands for, as field values with coefficients.
-    fn summands(&self, x: ExprId) -> Option<Vec<(Residue, Rational)>> {
-        if let Some(terms) = self.terms_of_image(x) {
+    fn summands(&self, x: ExprId, levels: u32) -> Option<Vec<(Residue, Rational)>> {
+        if let Some(terms) = self.terms_of_image(x, levels) {
             return Some(terms.into_iter().map(|(_, value, coefficient)| (value, coefficient)).collect());
         }
         let Node::Sum { constant, terms } = self.graph.node(x) else { return None };
         let mut list: Vec<_> =
             (!constant.is_zero()).then(|| (Residue::ONE, constant.clone())).into_iter().collect();
         for (term, coefficient) in terms.iter() {
-            if self.has_image(*term) {
-                let terms = self.expanded(*term, coefficient).into_iter();
+            if self.multiplies_out(*term, levels) {
+                let terms = self.expanded(*term, coefficient, levels.saturating_sub(1)).into_iter();
                 list.extend(terms.map(|(_, value, coefficient)| (value, coefficient)));
             } else {
                 let factor = self.graph.angle_factor(*term).unwrap_or(Rational::ONE);
@@ -169,9 +171,18 @@ impl FieldPass<'_> {
         Some(list)
     }
 
+    /// Whether a term of a sum inside of a product has a factor that stands for something else, or one that is a sum
+    /// itself where levels are left.
+    fn multiplies_out(&self, term: ExprId, levels: u32) -> bool {
+        let is_sum = |x: ExprId| matches!(self.graph.node(x), Node::Sum { .. });
+        let has_sum = matches!(self.graph.node(term), Node::Product { factors, .. }
+            if factors.iter().any(|(base, _)| is_sum(*base)));
+        self.has_image(term) || levels > 0 && has_sum
+    }
+
     /// Multiplies out the positive powers of sums in a product, within a budget.
-    fn expanded(&self, term: ExprId, scale: &Rational) -> Vec<(Option<ExprId>, Residue, Rational)> {
-        if let Some(terms) = self.terms_of_image(term) {
+    fn expanded(&self, term: ExprId, scale: &Rational, levels: u32) -> Vec<(Option<ExprId>, Residue, Rational)> {
+        if let Some(terms) = self.terms_of_image(term, levels) {
             return terms.into_iter().map(|(alone, value, c)| (alone, value, c * scale.clone())).collect();
         }
         let whole = |coefficient: Rational, value: Residue| vec![(Some(term), value, coefficient)];
@@ -188,7 +199,7 @@ impl FieldPass<'_> {
         let factors: Vec<_> = factors.iter().filter(|factor| !is_coefficient(factor)).collect();
         for (base, exponent) in &factors {
             let times = exponent.to_i64().filter(|n| (1..=4).contains(n)).unwrap_or(0);
-            let terms = if times > 0 { self.summands(*base) } else { None };
+            let terms = if times > 0 { self.summands(*base, levels) } else { None };
             if let Some(terms) = terms {
                 for _ in 0..times {
                     if list.len() * (terms.len() + 1) > BUDGET {
@@ -220,7 +231,7 @@ impl FieldPass<'_> {
         }
         let mut turned = (Residue::ONE, Residue::ZERO);
         let pi = self.pi();
-        for (alone, value, coefficient) in self.normal_terms(x) {
+        for (alone, value, coefficient) in self.normal_terms(x, DEEPEST) {
             if value == pi
                 && let Some(twelfths) = (coefficient.clone() * Rational::from(12)).to_i64()
             {
@@ -275,7 +286,7 @@ impl FieldPass<'_> {
 
     pub(super) fn exponential(&self, x: ExprId) -> Value {
         let mut product = Residue::ONE;
-        for (alone, value, coefficient) in self.normal_terms(x) {
+        for (alone, value, coefficient) in self.normal_terms(x, DEEPEST) {
             if self.relates_arcs
                 && let Some(Node::Apply(Function::Ln, inside)) = alone.map(|alone| self.graph.node(alone))
                 && self.known.contains_key(inside)

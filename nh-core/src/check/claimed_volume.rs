@@ -28,14 +28,20 @@ pub fn volume(
     let none = "no volume with a density on the base is invariant";
     match verdict {
         Volume::Kept(density) => Ok(density.clone()),
-        Volume::None(section) => Err(blame(
-            none,
-            format!(
-                "the modular section, up to a change of density, is {}: it is d^D of no function on the base",
-                modular_section(&model.graph, section)
-            ),
-            "correct the parameters for which this should hold, or leave `volume` out",
-        )),
+        Volume::None(section) => {
+            let symbols = model.graph.symbols_in(&section.components);
+            let depends = model.parameters.iter().any(|parameter| symbols.contains(&parameter.symbol));
+            let correct =
+                if depends { "correct the parameters for which this should hold, or " } else { "" };
+            Err(blame(
+                none,
+                format!(
+                    "the modular section, up to a change of density, is {}: it is d^D of no function on the base",
+                    modular_section(&model.graph, section)
+                ),
+                &format!("{correct}leave `volume` out"),
+            ))
+        }
         Volume::Nonlinear => Err(blame(
             none,
             format!(

@@ -1,9 +1,10 @@
 //! Constraints that exert no force: where they hold their derivative vanishes, and no multiplier says what keeps them.
 
+use super::assumptions::on_the_base;
 use super::domain::{Condition, conditions, holds};
 use super::evidence::{name_of, shown};
 use crate::algebra::{Demand, Facts, Graph, Node, Rational};
-use crate::geometry::Algebroid;
+use crate::geometry::{Algebroid, Manifold};
 use crate::id::{ConstraintId, ExprId, Id, SymbolId};
 use crate::model::{Model, PositionDecl};
 use crate::violation::{Law, Violation};
@@ -21,6 +22,24 @@ pub(super) fn position_without_force(model: &mut Model, index: usize) -> Option<
         what: format!("{name} exerts no force: its derivative vanishes where it holds"),
         evidence,
         way_out: way_out.into(),
+    })
+}
+
+/// Position constraints that hold together where they touch alone, as the sphere x^2 + y^2 + z^2 = 1 and the plane z = 1 do:
+/// independent ones leave room of more dimensions.
+pub(super) fn touching_each_other(model: &mut Model, manifold: &Manifold) -> Option<Violation> {
+    let demands = on_the_base(model);
+    let radicand = manifold.touching(&mut model.graph, &demands)?;
+    Some(Violation {
+        law: Law::Independence,
+        origin: model.positions.last()?.origin,
+        what: "the position constraints touch where they hold: none of their forces is determined there".into(),
+        evidence: format!(
+            "solved for coordinates they contain the root of {}, which is positive nowhere: they hold where it is 0 alone, \
+             and constraints that are independent leave more room",
+            shown(&model.graph, radicand)
+        ),
+        way_out: "correct one of them, or write what they leave, one equation for each: `x = 0; y = 0;`".into(),
     })
 }
 

@@ -1,11 +1,12 @@
 //! Position constraints f(t, x) = 0: the manifold N where they hold, and that each of them says something
 //! there that the others do not.
 
+use super::assumptions::on_the_base;
 use super::dependence::{ONE_PART, PARTS, combination_shown, place_of, where_they_hold};
 use super::empty_entries::{Equation, empty_entries, told};
 use super::evidence::{listed, name_of, shown};
 use super::kinematics::Motion;
-use super::no_force::position_without_force;
+use super::no_force::{position_without_force, touching_each_other};
 use super::parts_of_positions::{Unsolved, part_of_positions, rates_on_part, unknown_motion};
 use super::whole_base::beside_positions;
 use crate::algebra::{Demand, Graph, Matrix};
@@ -95,6 +96,9 @@ pub fn positions(
     found.values = values;
     let rows = jacobian(model, motion, algebroid);
     violations.extend((0..rows.len()).filter_map(|index| position_without_force(model, index)));
+    if violations.is_empty() {
+        violations.extend(touching_each_other(model, &found.manifold));
+    }
     if !violations.is_empty() {
         return Err(violations);
     }
@@ -214,7 +218,7 @@ fn says_nothing(
 
 /// Equations that no real positions of the base satisfy together, for parameters as they are assumed.
 fn without_real_point(model: &mut Model, found: &Positions) -> Option<Violation> {
-    let mut demands = super::assumptions::on_the_base(model);
+    let mut demands = on_the_base(model);
     let is_alone = demands.is_empty();
     for index in 0..model.positions.len() {
         let PositionDecl { value, origin, .. } = model.positions[index];

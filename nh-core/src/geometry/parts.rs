@@ -398,6 +398,22 @@ impl Manifold {
         self.open = open;
     }
 
+    /// What a root is taken of in every part and is positive nowhere where something is required: there the functions touch,
+    /// and leave no more than the points where it is 0. That of the first part.
+    pub(crate) fn touching(&self, graph: &mut Graph, demands: &[(ExprId, Demand)]) -> Option<ExprId> {
+        if !self.open.is_empty() {
+            return None;
+        }
+        let mut touching = self.parts().map(|part| {
+            part.radicands.iter().copied().find(|radicand| {
+                let demands = [demands, &[(*radicand, Demand::Positive)]].concat();
+                graph.zero_test(*radicand).is_nonzero() && graph.contradiction(&demands).is_some()
+            })
+        });
+        let first = touching.next()??;
+        touching.all(|radicand| radicand.is_some()).then_some(first)
+    }
+
     /// This part alone.
     pub(crate) fn alone(&self) -> Self {
         let mut part = self.clone();

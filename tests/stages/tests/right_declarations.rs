@@ -190,12 +190,20 @@ struct FrictionInALoop { m: f64, J: f64, l: f64, c: f64, k: f64 }
  anchor { der(x) = v*cos(th) - side*sin(th); der(y) = v*sin(th) + side*cos(th); der(th) = w; }
  lagrangian { m/2*(v^2 + side^2) + J/2*w^2 } constraints { side = 0; } forces { x: -c*tanh(k*der(x)); y: -c*tanh(k*der(y)); })]
 struct FrictionInTheWorldsAxes { m: f64, J: f64, c: f64, k: f64 }
+#[nonholonomic(base { x, phi, y } lagrangian { m/2*(der(x)^2 + der(y)^2) + J/2*der(phi)^2 }
+ constraints { der(x) = r*der(phi)*(1 + s*(x + y)^2); } forces { x: -c*tanh(k*(der(x) + der(y))^3); })]
+struct CubeOfASum { m: f64, J: f64, r: f64, c: f64, k: f64, s: f64 }
+#[nonholonomic(base { a, b, c }
+ holonomic { closure: [l1*cos(a) + l2*cos(b) - l3*cos(c) - d, l1*sin(a) + l2*sin(b) - l3*sin(c)] = 0; }
+ lagrangian { J/2*(der(a)^2 + der(b)^2 + der(c)^2) } independent { der(a) }
+ forces { a: -f*tanh(k*(der(a) - der(b))); b: f*tanh(k*(der(a) - der(b))); c: -f*tanh(k*der(c)); })]
+struct FrictionInItsJoints { l1: f64, l2: f64, l3: f64, d: f64, J: f64, f: f64, k: f64 }
 ";
 
 #[test]
 fn right_declarations_are_accepted() {
     let found = declarations(RIGHT);
-    assert_eq!(found.len(), 73);
+    assert_eq!(found.len(), 75);
     let mut refused = Vec::new();
     for declaration in found {
         let errors = errors(&declaration.expanded());
