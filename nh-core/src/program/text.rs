@@ -3,23 +3,15 @@
 use super::step::{Program, Step, Value};
 use crate::algebra::Graph;
 use crate::id::Id;
+use std::collections::BTreeMap;
 use std::fmt::Write;
 
 impl Program {
     /// The steps with the names of the graph's symbols: numbers and symbols stand where they are used.
     #[must_use]
     pub fn text(&self, graph: &Graph) -> String {
-        let name = |value: &Value| -> String {
-            match &self.steps[*value] {
-                Step::Constant(number) => number.to_string(),
-                Step::Pi => "pi".into(),
-                Step::Load(symbol) => graph.symbols()[*symbol].clone(),
-                _ => match self.names.get(value) {
-                    Some(symbol) => graph.symbols()[*symbol].clone(),
-                    None => format!("s{}", value.index()),
-                },
-            }
-        };
+        let names = self.names_in_text(graph);
+        let name = |value: &Value| names[value].clone();
         let list = |values: &[Value]| values.iter().map(name).collect::<Vec<_>>().join(", ");
         let mut text = String::new();
         for (value, step) in self.steps.iter_ids().filter(|(_, step)| !step.is_leaf()) {
@@ -56,6 +48,35 @@ impl Program {
         let _ = writeln!(text, "-> {}", list(&self.outputs));
         text
     }
+
+    /// What each value is called: by its symbol or its place, numbered where that was a name before.
+    fn names_in_text(&self, graph: &Graph) -> BTreeMap<Value, String> {
+        let mut taken: BTreeMap<String, usize> = BTreeMap::new();
+        let mut names = BTreeMap::new();
+        let (leaves, others): (Vec<_>, Vec<_>) = self.steps.iter_ids().partition(|(_, step)| step.is_leaf());
+        for (value, step) in leaves {
+            let name = match step {
+                Step::Load(symbol) => graph.symbols()[*symbol].clone(),
+                Step::Constant(number) => number.to_string(),
+                _ => "pi".into(),
+            };
+            taken.insert(name.clone(), 1);
+            names.insert(value, name);
+        }
+        for (value, _) in others {
+            let symbol = self.names.get(&value).map(|symbol| graph.symbols()[*symbol].clone());
+            let stem = symbol.unwrap_or_else(|| format!("s{}", value.index()));
+            let mut name = stem.clone();
+            while taken.contains_key(&name) {
+                let count = taken.entry(stem.clone()).or_insert(1);
+                *count += 1;
+                name = format!("{stem}_{count}");
+            }
+            taken.insert(name.clone(), 1);
+            names.insert(value, name);
+        }
+        names
+    }
 }
 
 #[cfg(test)]
@@ -81,5 +102,26 @@ mod tests {
                 && text.lines().last().unwrap().starts_with("-> s"),
             "{text}"
         );
+    }
+
+    #[test]
+    fn no_name_is_given_twice() {
+        let mut g = Graph::new();
+        let [x, y, moved] = ["x", "y", "moved"].map(|name| {
+            let symbol = g.new_symbol(name);
+            g.symbol(symbol)
+        });
+        let mut procedure = Procedure::default();
+        let [first, second] = [x, y].map(|variable| {
+            let square = g.formula(variable * variable + moved);
+            procedure.define(&mut g, "moved", square)
+        });
+        procedure.outputs = vec![g.formula(first * second + first), g.formula(first * second + second)];
+        let text = schedule(&g, &procedure).text(&g);
+        let mut names: Vec<&str> = text.lines().filter_map(|line| Some(line.split_once(" = ")?.0)).collect();
+        let count = names.len();
+        names.sort_unstable();
+        names.dedup();
+        assert!(names.len() == count && names.contains(&"moved_2") && !names.contains(&"moved"), "{text}");
     }
 }
