@@ -181,7 +181,12 @@ impl FieldPass<'_> {
     }
 
     /// Multiplies out the positive powers of sums in a product, within a budget.
-    fn expanded(&self, term: ExprId, scale: &Rational, levels: u32) -> Vec<(Option<ExprId>, Residue, Rational)> {
+    fn expanded(
+        &self,
+        term: ExprId,
+        scale: &Rational,
+        levels: u32,
+    ) -> Vec<(Option<ExprId>, Residue, Rational)> {
         if let Some(terms) = self.terms_of_image(term, levels) {
             return terms.into_iter().map(|(alone, value, c)| (alone, value, c * scale.clone())).collect();
         }

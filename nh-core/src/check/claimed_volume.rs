@@ -31,8 +31,7 @@ pub fn volume(
         Volume::None(section) => {
             let symbols = model.graph.symbols_in(&section.components);
             let depends = model.parameters.iter().any(|parameter| symbols.contains(&parameter.symbol));
-            let correct =
-                if depends { "correct the parameters for which this should hold, or " } else { "" };
+            let correct = if depends { "correct the parameters for which this should hold, or " } else { "" };
             Err(blame(
                 none,
                 format!(

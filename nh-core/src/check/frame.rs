@@ -120,6 +120,13 @@ pub fn change_to_frame(
         motion.replaced.push((old[*place], change.sections[*place].clone()));
         motion.named.push((old[*place], change.velocities.iter().map(|row| row[*place]).collect()));
     }
+    for stays in (0..rank).filter(|place| !places.contains(place)) {
+        let differs = graph.formula(replaced[stays] - new[stays]);
+        if !graph.zero_test(differs).is_zero() {
+            let was = graph.simplify(replaced[stays]);
+            motion.shifted.push((old[stays], was));
+        }
+    }
     motion.anchor = changed.anchor.clone();
     Ok(changed)
 }

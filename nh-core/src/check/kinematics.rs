@@ -23,6 +23,8 @@ pub struct Motion {
     pub replaced: Vec<(SymbolId, Vec<ExprId>)>,
     /// Sections with a name that are not in the basis, with their components in it.
     pub named: Vec<(SymbolId, Vec<ExprId>)>,
+    /// Declared velocities that stay in the basis of the frame with another value, and what they were, in the new ones.
+    pub shifted: Vec<(SymbolId, ExprId)>,
 }
 
 /// Reads the anchor off the declaration.
@@ -58,6 +60,7 @@ fn tangent(model: &mut Model) -> Motion {
         divisors: Vec::new(),
         replaced: Vec::new(),
         named: Vec::new(),
+        shifted: Vec::new(),
     }
 }
 
@@ -92,7 +95,15 @@ fn declared_anchor(model: &mut Model, lines: &[AnchorDecl]) -> Result<Motion, Ve
     }
     let anchor = Anchor { entries, coordinates: coordinates(model), rank: model.sections.len() };
     let rates = rate_substitution(model, &anchor);
-    Ok(Motion { anchor, rates, coframe: None, divisors: Vec::new(), replaced: Vec::new(), named: Vec::new() })
+    Ok(Motion {
+        anchor,
+        rates,
+        coframe: None,
+        divisors: Vec::new(),
+        replaced: Vec::new(),
+        named: Vec::new(),
+        shifted: Vec::new(),
+    })
 }
 
 /// The coefficients of an expression that must be linear and homogeneous in `variables`, with
@@ -206,6 +217,7 @@ fn inverted_coframe(model: &mut Model, rows: &[Located]) -> Result<Motion, Vec<V
         divisors: solution.divisors,
         replaced: Vec::new(),
         named: Vec::new(),
+        shifted: Vec::new(),
     })
 }
 

@@ -9,7 +9,7 @@ use crate::compile::{Derived, Proved};
 use crate::findings::{Closure, Findings, FirstIntegral, SingularPlace};
 use crate::geometry::independent_velocities::Choice;
 use crate::geometry::{Drops, Rank};
-use crate::id::{CoordId, SymbolId};
+use crate::id::{CoordId, ExprId, SymbolId};
 use crate::model::{Kinematics, Model};
 
 /// The classification, a line for each property.
@@ -21,6 +21,7 @@ pub(super) fn lines(
 ) -> Vec<String> {
     let Proved { model, facts, .. } = proved;
     let mut lines = vec![algebroid(proved)];
+    lines.extend(shifted(proved));
     lines.extend(structure_equations(proved));
     lines.extend(positions(model, &proved.positions));
     lines.extend(proved.chart.as_ref().map(|choice| chart(model, choice)));
@@ -102,6 +103,18 @@ fn algebroid(proved: &Proved) -> String {
         "an almost Lie algebroid".into()
     };
     format!("algebroid: {name}, rank {s} over a base of dimension {dimension}{embedded}")
+}
+
+/// Velocities with a declared name that the frame gives another value: its sections take the place of others.
+fn shifted(Proved { model, motion, .. }: &Proved) -> Vec<String> {
+    let line = |(symbol, was): &(SymbolId, ExprId)| {
+        let name = &model.graph.symbols()[*symbol];
+        format!(
+            "`{name}` is the velocity along {name} in the basis of the frame: that in the declared basis is {}",
+            shown(&model.graph, *was)
+        )
+    };
+    motion.shifted.iter().map(line).collect()
 }
 
 /// Which of the structure equations hold where none is demanded.
