@@ -71,19 +71,18 @@ impl Graph {
         }
     }
 
-    /// How many times units of the circle, or of the exponential, are multiplied at most for an argument.
-    pub(crate) fn angle_turns(&self, x: ExprId, division: i64) -> f64 {
-        let is_sum = |(base, _): &(ExprId, Rational)| matches!(self.node(*base), Node::Sum { .. });
-        let mut turns = 0.0;
-        for (term, coefficient) in self.angle_terms(x) {
-            let scaled = coefficient * Rational::from(division);
-            let times = scaled.to_i64().map_or(Rational::from(division), |_| scaled.abs());
-            let expands = term.is_some_and(
-                |term| matches!(self.node(term), Node::Product { factors, .. } if factors.iter().any(is_sum)),
-            );
-            turns += times.to_f64() * if expands { EXPANDED_TERMS } else { 1.0 };
-        }
-        turns
+    /// Whether a term of a sum inside of a product has a factor that stands for something else, or one that is a sum
+    /// itself where levels are left.
+    pub(super) fn multiplies_out(
+        &self,
+        term: ExprId,
+        levels: u32,
+        is_image: impl Fn(SymbolId) -> bool,
+    ) -> bool {
+        let is_sum = |x: ExprId| matches!(self.node(x), Node::Sum { .. });
+        let has_sum = matches!(self.node(term), Node::Product { factors, .. }
+            if factors.iter().any(|(base, _)| is_sum(*base)));
+        levels > 0 && has_sum || self.has_factor(term, is_image)
     }
 
     /// What stands in the arcs and logarithms that are terms of an argument: points above it are made of their values.
@@ -118,11 +117,9 @@ impl Graph {
 /// Denominators of constants in angles up to which these are numbers: common denominators stay short.
 const LONGEST_DENOMINATOR: i64 = 1000;
 /// Terms that a product of sums in an angle is multiplied out to at most.
-const BUDGET: usize = 256;
+pub(super) const BUDGET: u16 = 256;
 /// Levels of sums inside of products inside of sums that are multiplied out: a chain of them doubles its work with each.
-const DEEPEST: u32 = 3;
-/// The same, with coefficients of up to 2¹⁶ each.
-pub(super) const EXPANDED_TERMS: f64 = 16_777_216.0;
+pub(super) const DEEPEST: u32 = 3;
 /// Common denominators of coefficients in angles are shorter than this.
 const LARGEST_DIVISION: i64 = 1 << 20;
 
@@ -148,7 +145,7 @@ impl FieldPass<'_> {
     /// The terms of what a symbol stands for, within the budget.
     fn terms_of_image(&self, x: ExprId, levels: u32) -> Option<Vec<(Option<ExprId>, Residue, Rational)>> {
         let image = self.images.get(&self.graph.as_symbol(x)?)?;
-        Some(self.normal_terms(*image, levels)).filter(|terms| terms.len() <= BUDGET)
+        Some(self.normal_terms(*image, levels)).filter(|terms| terms.len() <= usize::from(BUDGET))
     }
 
     /// The terms of a sum, or of what a symbol stands for, as field values with coefficients.
@@ -160,7 +157,7 @@ impl FieldPass<'_> {
         let mut list: Vec<_> =
             (!constant.is_zero()).then(|| (Residue::ONE, constant.clone())).into_iter().collect();
         for (term, coefficient) in terms.iter() {
-            if self.multiplies_out(*term, levels) {
+            if self.graph.multiplies_out(*term, levels, |symbol| self.images.contains_key(&symbol)) {
                 let terms = self.expanded(*term, coefficient, levels.saturating_sub(1)).into_iter();
                 list.extend(terms.map(|(_, value, coefficient)| (value, coefficient)));
             } else {
@@ -169,15 +166,6 @@ impl FieldPass<'_> {
             }
         }
         Some(list)
-    }
-
-    /// Whether a term of a sum inside of a product has a factor that stands for something else, or one that is a sum
-    /// itself where levels are left.
-    fn multiplies_out(&self, term: ExprId, levels: u32) -> bool {
-        let is_sum = |x: ExprId| matches!(self.graph.node(x), Node::Sum { .. });
-        let has_sum = matches!(self.graph.node(term), Node::Product { factors, .. }
-            if factors.iter().any(|(base, _)| is_sum(*base)));
-        self.has_image(term) || levels > 0 && has_sum
     }
 
     /// Multiplies out the positive powers of sums in a product, within a budget.
@@ -203,11 +191,10 @@ impl FieldPass<'_> {
         };
         let factors: Vec<_> = factors.iter().filter(|factor| !is_coefficient(factor)).collect();
         for (base, exponent) in &factors {
-            let times = exponent.to_i64().filter(|n| (1..=4).contains(n)).unwrap_or(0);
-            let terms = if times > 0 { self.summands(*base, levels) } else { None };
-            if let Some(terms) = terms {
+            let times = times_multiplied_out(exponent);
+            if let (Some(times), Some(terms)) = (times, times.and_then(|_| self.summands(*base, levels))) {
                 for _ in 0..times {
-                    if list.len() * (terms.len() + 1) > BUDGET {
+                    if list.len() * (terms.len() + 1) > usize::from(BUDGET) {
                         return whole(scale.clone(), self.known[&term] * unit);
                     }
                     let times_terms = |(value, c): &(Residue, Rational)| {
@@ -355,6 +342,11 @@ impl FieldPass<'_> {
             None => Ok((value * Residue::of(coefficient).ok_or(NoValue::Here)?, self.division)),
         }
     }
+}
+
+/// How many times a sum is multiplied out that has this exponent, if it is.
+pub(super) fn times_multiplied_out(exponent: &Rational) -> Option<i32> {
+    exponent.to_i64().filter(|times| (1..=4).contains(times)).and_then(|times| i32::try_from(times).ok())
 }
 
 /// 1 over a number, or 1 where the field has none.

@@ -4,14 +4,13 @@
 //! A function of degree d that is not zero vanishes at a random point of the field of P elements with
 //! probability d/P at most (Schwartz, Zippel).
 
-use super::circle::EXPANDED_TERMS;
 use super::graph::Graph;
 use super::node::{Function, Node};
 use super::number::Rational;
 use crate::id::{ExprId, Id, SymbolId};
 use crate::id_map::IdMap;
 use crate::limits;
-use rustc_hash::{FxHashMap, FxHashSet};
+use rustc_hash::FxHashMap;
 use std::rc::Rc;
 
 /// A bound on the degree of a function N Π D^k: N is a polynomial, and so are the D, of which the numerators of
@@ -80,7 +79,7 @@ pub(crate) struct Degrees<'a> {
     /// The degrees of the D.
     sizes: IdMap<Factor, f64>,
     /// Symbols that stand for expressions.
-    images: FxHashSet<SymbolId>,
+    images: FxHashMap<SymbolId, ExprId>,
 }
 
 impl<'a> Degrees<'a> {
@@ -96,15 +95,12 @@ impl<'a> Degrees<'a> {
         images: impl Iterator<Item = (SymbolId, ExprId)>,
     ) -> Self {
         let others = images.filter(|(symbol, image)| graph.as_symbol(*image) != Some(*symbol));
-        Self { images: others.map(|(symbol, _)| symbol).collect(), ..Self::new(graph, division) }
+        Self { images: others.collect(), ..Self::new(graph, division) }
     }
 
     /// How many times a point of the circle is multiplied for an angle.
     fn turns(&self, x: ExprId) -> f64 {
-        let is_image = |symbol| self.images.contains(&symbol);
-        let terms = if self.images.is_empty() { Vec::new() } else { self.graph.terms_of_angle(x) };
-        let has_image = terms.iter().any(|(term, _)| self.graph.has_factor(*term, is_image));
-        self.graph.angle_turns(x, self.division) * if has_image { EXPANDED_TERMS } else { 1.0 }
+        self.graph.angle_turns(x, self.division, &self.images)
     }
 
     /// Gives a symbol the bound of its value before it occurs.

@@ -58,6 +58,7 @@ mod sum;
 mod tangent;
 mod transcendental;
 mod transplant;
+mod turns;
 mod verdict;
 mod visited;
 mod zero_test;

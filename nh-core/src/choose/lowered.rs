@@ -380,8 +380,10 @@ fn degree_of(graph: &Graph, program: &Program, angles: Option<&Angles>, division
                 arguments = arguments.max(degrees.size(&known[*pair]));
                 let argument = applied(program, step).map_or(*pair, |(_, argument)| argument);
                 let expression = angles.and_then(|angles| Some((angles, *angles.arguments.get(&argument)?)));
-                let turns =
-                    expression.map_or(1.0, |(angles, x)| angles.graph.angle_turns(x, division).max(1.0));
+                let turns_of = |(angles, x): (&Angles, ExprId)| {
+                    angles.graph.angle_turns(x, division, &FxHashMap::default()).max(1.0)
+                };
+                let turns = expression.map_or(1.0, turns_of);
                 degrees.quotient_at(argument.index(), 2.0 * turns)
             }
             Step::Load(_) | Step::Apply2(..) | Step::Call { .. } => Degree::polynomial(1.0),
