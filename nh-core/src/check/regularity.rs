@@ -74,8 +74,13 @@ fn judge(
                     origin,
                     what: "whether the mass matrix is regular could not be decided".into(),
                     evidence: why,
-                    way_out: "write the Lagrangian without roots of negative numbers and divisions by zero"
-                        .into(),
+                    way_out: if manifold.is_whole() {
+                        "write the Lagrangian without roots of negative numbers and divisions by zero".into()
+                    } else {
+                        "write the Lagrangian, and what holds of positions, without roots of negative numbers and \
+                         divisions by zero; equations that only touch each other leave no points to try"
+                            .into()
+                    },
                 });
             }
         }
