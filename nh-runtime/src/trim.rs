@@ -92,14 +92,20 @@ impl<const N: usize, const W: usize, const Q: usize> Steady<N, W, Q> {
         component < self.coordinates && !self.is_kept(component)
     }
 
-    /// The components that the constraints determine at the guess by the others: those that are not kept first.
-    fn dependent<T: Real>(&self, near: &Near<T, W, Q>, held: &[bool; W]) -> [bool; W] {
+    /// The components that the constraints determine at the guess by the others, those that are not kept first; and of which
+    /// of them the rates follow. That of a kept one does not where it goes with a coordinate that may run on.
+    fn dependent<T: Real>(&self, near: &Near<T, W, Q>, held: &[bool; W]) -> [[bool; W]; 2] {
         let is_held = |column: usize| held.get(column).copied().unwrap_or(true);
         let phase =
             |column: usize| (column < N && !is_held(column)).then_some(u8::from(self.is_kept(column)));
         let constraints = near.only(|row| row < Self::CONSTRAINTS);
         let reduced = reduce(&constraints.linear(|column| phase(column).is_some()), |_| true, phase);
-        core::array::from_fn(|column| reduced.is_pivot(column))
+        let runs_with = |column: usize, other: usize| {
+            self.is_loose(other) && !reduced.is_pivot(other) && reduced.depends(column, other)
+        };
+        let runs = |column: usize| self.is_kept(column) && (0..N).any(|other| runs_with(column, other));
+        let dependent = core::array::from_fn(|column| reduced.is_pivot(column));
+        [dependent, core::array::from_fn(|column| reduced.is_pivot(column) && !runs(column))]
     }
 
     /// Whether an equation is a constraint or the rate of what is kept.
@@ -107,11 +113,10 @@ impl<const N: usize, const W: usize, const Q: usize> Steady<N, W, Q> {
         equation.checked_sub(Self::CONSTRAINTS).is_none_or(|component| self.is_kept(component))
     }
 
-    /// Whether an equation is asked for: a constraint, or the rate of what is to be steady. Rates of what follows from
-    /// the constraints follow, too.
-    fn is_asked(&self, equation: usize, dependent: &[bool; W]) -> bool {
+    /// Whether an equation is asked for: a constraint, or the rate of what is to be steady, unless that follows.
+    fn is_asked(&self, equation: usize, follows: &[bool; W]) -> bool {
         let Some(component) = equation.checked_sub(Self::CONSTRAINTS) else { return true };
-        !self.is_loose(component) && !dependent.get(component).copied().unwrap_or(false)
+        !self.is_loose(component) && !follows.get(component).copied().unwrap_or(false)
     }
 }
 
@@ -138,7 +143,7 @@ pub fn trim<T: Real, const N: usize, const W: usize, const Q: usize>(
         return Err(TrimError::NotFinite);
     }
     let at_guess = near(guess);
-    let dependent = steady.dependent(&at_guess, held);
+    let [dependent, follows] = steady.dependent(&at_guess, held);
     let is_free = |column: usize| {
         let is = |list: &[bool; W]| list.get(column).copied().unwrap_or(false);
         !is(held) && (is(&dependent) || !steady.is_loose(column))
@@ -148,7 +153,7 @@ pub fn trim<T: Real, const N: usize, const W: usize, const Q: usize>(
         let open = (0..W).find(|column| is_free(*column) && !reduced.is_pivot(*column));
         open.map(|column| reduced.first_of_family(column))
     };
-    let is_asked = |row: usize| steady.is_asked(row, &dependent);
+    let is_asked = |row: usize| steady.is_asked(row, &follows);
     // constraints and kept rates first: those of the others may follow, and then are poor equations to solve
     let solved = |near: &Near<T, W, Q>| {
         reduce(&near.linear(is_free), |row| steady.is_first(row), |column| is_free(column).then_some(0))
@@ -161,9 +166,19 @@ pub fn trim<T: Real, const N: usize, const W: usize, const Q: usize>(
         if !is_finite(there) {
             return [T::from_f64(f64::NAN); W];
         }
-        let reduced = solved(&near(x).only(is_taken));
+        let near = near(x).only(is_taken);
+        let reduced = solved(&near);
         undetermined.set(family(&reduced));
-        if undetermined.get().is_some() { [T::from_f64(f64::NAN); W] } else { reduced.solution() }
+        if undetermined.get().is_some() {
+            return [T::from_f64(f64::NAN); W];
+        }
+        // rounding of what changes by much stands in what hardly changes, until it is solved for what it leaves
+        let change = reduced.solution();
+        let refined = solved(&near.after(&change)).solution();
+        core::array::from_fn(|column| {
+            let of = |list: &[T; W]| list.get(column).copied().unwrap_or(T::ZERO);
+            of(&change) + of(&refined)
+        })
     };
     let loops = Loops { names: steady.equations, independent: Q, depends: [true; W] };
     let found = descend(guess, taken, step, |x| Some(*x), |_| true, &loops);
@@ -194,6 +209,15 @@ struct Near<T, const W: usize, const Q: usize> {
 impl<T: Real, const W: usize, const Q: usize> Near<T, W, Q> {
     fn new(x: &[T; W], equations: impl Fn(&[T; W]) -> Equations<T, W, Q>) -> Self {
         Self { here: equations(x), nearby: beside(x).map(|x| equations(&x).1) }
+    }
+
+    /// The equations with what a change leaves of them, to first order.
+    fn after(&self, change: &[T; W]) -> Self {
+        let (mut left, slopes) = self.here;
+        for (left, slopes) in left.iter_mut().zip(&slopes) {
+            *left = slopes.iter().zip(change).fold(*left, |sum, (slope, by)| sum + *slope * *by);
+        }
+        Self { here: (left, slopes), nearby: self.nearby }
     }
 
     /// Some of the equations.

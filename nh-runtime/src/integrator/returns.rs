@@ -136,7 +136,7 @@ where
     } else {
         let returned = ToPositions.state(start.system, arrival.time, &mut arrival.state);
         let returned = returned.map_err(|error| {
-            method.forget(memory);
+            method.stand(memory);
             IntegrationError::Projection { time: arrival.time.to_f64(), error }
         })?;
         if returned.is_moved {
@@ -164,7 +164,7 @@ where
     let after = start.system.side(arrival.time, &arrival.state);
     // the product of the numbers themselves may be too small to have a sign; what is not a number is on neither side
     if !product_of_signs([before, after]).all_ge(ScalarOf::<S>::ZERO) {
-        method.forget(memory);
+        method.stand(memory);
         let (time, step) = (start.time.to_f64(), (arrival.time - start.time).to_f64());
         return Err(IntegrationError::DeadCentre { time, step });
     }

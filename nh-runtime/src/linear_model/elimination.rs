@@ -175,12 +175,14 @@ impl<T: Real, const N: usize, const R: usize> Reduced<T, N, R> {
 
     /// The first column that moves along the family of solutions in which a column that is not solved for does.
     pub(crate) fn first_of_family(&self, column: usize) -> usize {
-        let moves = |other: usize| {
-            let Some(row) = self.pivots.iter().position(|pivot| *pivot == Some(other)) else { return false };
-            let of = |matrix: &[[T; N]; R]| matrix.get(row).and_then(|row| row.get(column)).copied();
-            of(&self.rows).zip(of(&self.errors)).is_some_and(|(entry, error)| entry.abs() > error)
-        };
-        (0..column).find(|other| moves(*other)).unwrap_or(column)
+        (0..column).find(|other| self.depends(*other, column)).unwrap_or(column)
+    }
+
+    /// Whether what is solved for changes with a column that is not, by more than rounding.
+    pub(crate) fn depends(&self, solved: usize, column: usize) -> bool {
+        let row = self.pivots.iter().position(|pivot| *pivot == Some(solved));
+        let of = |matrix: &[[T; N]; R]| matrix.get(row?).and_then(|row| row.get(column)).copied();
+        of(&self.rows).zip(of(&self.errors)).is_some_and(|(entry, error)| entry.abs() > error)
     }
 
     /// By how much what is solved for changes with a column that is not.

@@ -308,7 +308,9 @@ impl<T: Real, W, P, Q> Auto<T, W, P, Q> {
         let mut beside = x;
         let apart = permitted.as_ref().iter().zip(memory.direction.as_ref());
         for (beside, (&permitted, &direction)) in beside.as_mut().iter_mut().zip(apart) {
-            *beside = direction.mul_add(permitted, *beside);
+            if is_unit(permitted) {
+                *beside = direction.mul_add(permitted, *beside);
+            }
         }
         statistics.evaluations += 2;
         let change =
@@ -327,12 +329,17 @@ impl<T: Real, W, P, Q> Auto<T, W, P, Q> {
     }
 }
 
-/// A change of the derivative as a direction: in units of the tolerance, its largest component 1. Where there is no change,
-/// all components alike.
+/// Whether a permitted error is a unit: nothing is none, nor is infinity, where a component is not looked at.
+fn is_unit<T: Real>(permitted: T) -> bool {
+    permitted > T::ZERO && permitted.is_finite()
+}
+
+/// A change of the derivative as a direction: in units of the tolerance, its largest component 1, and 0 where that gives
+/// none. Where there is no change, all components alike.
 fn of_length_one<T: Real, V: Array<T>>(change: &V, permitted: &V) -> V {
     let mut direction = *change;
     for (direction, &permitted) in direction.as_mut().iter_mut().zip(permitted.as_ref()) {
-        *direction = *direction / permitted;
+        *direction = if is_unit(permitted) { *direction / permitted } else { T::ZERO };
     }
     let largest = direction.as_ref().iter().fold(T::ZERO, |largest, x| largest.max(x.abs()));
     for direction in direction.as_mut() {

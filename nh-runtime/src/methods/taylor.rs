@@ -152,6 +152,8 @@ const SHRINK: f64 = 1e-3;
 pub struct Memory<X: State, W, const P: usize> {
     /// The last series, and the one that the next step writes.
     series: [Series<X, P>; 2],
+    /// Where in time the last one begins.
+    begun: X::Scalar,
     /// The unit of the next series: the length of the last step as the series would have it.
     next: Option<X::Scalar>,
     /// What rounding has taken from the state.
@@ -169,7 +171,13 @@ where
     fn memory(&self) -> Self::Memory {
         let zero = S::State::from_array(crate::DimOf::<S>::vec(T::ZERO));
         let empty = Series { terms: [zero; P], unit: T::ONE };
-        Memory { series: [empty; 2], next: None, carry: zero.to_array(), workspace: S::Workspace::default() }
+        Memory {
+            series: [empty; 2],
+            begun: T::from_f64(f64::NAN),
+            next: None,
+            carry: zero.to_array(),
+            workspace: S::Workspace::default(),
+        }
     }
 
     /// The series belongs to the last step, of which the dense output is asked for later.
@@ -224,9 +232,17 @@ where
         self.take::<true, S, _>(start, target, by, memory, statistics)
     }
 
-    fn dense(&self, memory: &Self::Memory, _start: &Start<'_, S>, _arrival: &Arrival<S>) -> Self::Dense {
+    fn dense(&self, memory: &Self::Memory, start: &Start<'_, S>, arrival: &Arrival<S>) -> Self::Dense {
         let [last, _] = memory.series;
-        last
+        if memory.begun == start.time {
+            return last;
+        }
+        // another step has been computed since, and was not taken
+        let mut again = Series { unit: (arrival.time - start.time).abs(), ..last };
+        let Start { system, input, time, state } = *start;
+        let terms = again.terms.get_mut(..=self.order).unwrap_or_default();
+        system.expand(time, state, input, again.unit, terms, &mut S::Workspace::<P>::default());
+        again
     }
 
     /// The sum, and in proportion to the time what the arrival has been corrected by.
@@ -327,6 +343,7 @@ impl<T: Real, const P: usize, W> Taylor<T, P, W> {
         };
         memory.carry = rounding(&x, &change, &reached);
         memory.series.swap(0, 1);
+        memory.begun = start.time;
         memory.next = Some(proposed);
         let Some((state, returned)) = returned else {
             return Ok((Arrival { time: leg.time, state: S::State::from_array(reached) }, None));

@@ -134,6 +134,7 @@ where
     J: Jumps<N, K, E>,
 {
     let values = |t: T, x: &WithColumns<S::State, K>| jumps.events(t, &x.state.to_array(), &[T::ZERO; K]);
+    let forwards = target >= sim.time();
     // how far beyond zero, by rounding, each function has been left
     let mut depths = [T::ZERO; E];
     let mut spent = Spent::default();
@@ -159,7 +160,7 @@ where
         if let Some(other) = second {
             return Err(SensitivityError::Simultaneous { events: [event, other], time: time.to_f64() });
         }
-        let jumped = jumped(sim.system(), sim.input(), jumps, (event, time), *sim.state())?;
+        let jumped = jumped((sim.system(), sim.input(), forwards), jumps, (event, time), *sim.state())?;
         let left =
             [&jumped.before, &jumped.after].map(|x| values(time, x).get(event).copied().unwrap_or(T::ZERO));
         if let (Some(depth), [before, after]) = (depths.get_mut(event), left) {
@@ -181,10 +182,9 @@ fn size_at_zero<T: Real, const N: usize>(gradient: &Jet<T, N, 1>, (along, time):
     terms.fold((along * time).abs(), |sum, term| sum + term.abs())
 }
 
-/// The jump at an event.
+/// The jump at an event of a run in this direction of time.
 fn jumped<S, F, T, J, const N: usize, const M: usize, const Q: usize, const K: usize, const E: usize>(
-    motion: &Variational<S, F, K>,
-    input: &S::Input,
+    (motion, input, forwards): (&Variational<S, F, K>, &S::Input, bool),
     jumps: &J,
     (event, time): (usize, T),
     before: WithColumns<S::State, K>,
@@ -228,10 +228,12 @@ where
         let terms = gradient.by.iter().zip(&rate).map(|(by, rate)| *by * *rate).chain(gradient.by_others);
         let resolved =
             T::from_f64(SAME_TIME) * T::EPSILON * terms.fold(T::ZERO, |sum, term| sum + term.abs());
+        // a function rises or falls in the direction in which the run goes
+        let ahead = if forwards { along } else { -along };
         let arrives = match direction {
-            Direction::Rising => along > resolved,
-            Direction::Falling | Direction::Closing => along < -resolved,
-            Direction::Either => along.abs() > resolved,
+            Direction::Rising => ahead > resolved,
+            Direction::Falling | Direction::Closing => ahead < -resolved,
+            Direction::Either => ahead.abs() > resolved,
         };
         let size = size_at_zero(gradient, (along, time), &x);
         if arrives && function.value.abs() <= T::from_f64(SAME_TIME) * T::EPSILON * size {

@@ -76,8 +76,9 @@ pub type NoParameters<S, T, const N: usize> =
 /// Implicit methods solve it like any other system, with a Jacobian by differences of (K + 1) times the size: for few
 /// columns. [`advance`](Self::advance) differentiates the steps of an implicit method without that.
 ///
-/// Where the system returns to position constraints, its state does; the columns stay as they are computed, tangent to
-/// the constraints to the error of the method.
+/// Where the system returns to position constraints, its state does, and with `emit { return_jacobian }` columns by starts
+/// and inputs go through the return. Those by parameters, on which the constraints may depend, and all without it stay
+/// as they are computed, tangent to the constraints to the error of the method.
 ///
 /// ```
 /// use nonholonomic::prelude::*;

@@ -3,7 +3,9 @@
 use nonholonomic::Method;
 use nonholonomic::prelude::*;
 
-use crate::systems::{Driven, FreeBody, Line, Pendulum, Plane, Spin, Stiff, Torque, VanDerPol, distance};
+use crate::systems::{
+    Driven, FreeBody, Line, Pendulum, Plane, Scalar1, Spin, Stiff, Torque, VanDerPol, distance,
+};
 
 const START: Plane<f64> = Plane { q: 1.0, p: 0.0 };
 
@@ -198,4 +200,23 @@ fn what_the_end_of_an_iteration_looks_at_is_counted() {
             }
         }
     }
+}
+
+/// A force that jumps where a run begins: what it is behind that place is nothing to the run, in either direction of time.
+#[test]
+fn an_equation_ends_where_a_run_begins() {
+    fn check<M: Method<Scalar1> + Copy>(name: &str, method: M) {
+        let forwards = Scalar1(|t, x, _| if t < 1.0 { 100.0 } else { -x });
+        let backwards = Scalar1(|t, x, _| if t > 1.0 { 100.0 } else { x });
+        for (system, target) in [(forwards, 2.0), (backwards, 0.0)] {
+            let mut sim = Integrator::new(system, method, 1.0, Line { x: 1.0 });
+            sim.advance_to(target).unwrap_or_else(|error| panic!("{name} to {target}: {error}"));
+            assert!((sim.state().x - (-1.0_f64).exp()).abs() < 1e-5, "{name} to {target}: {:?}", sim.state());
+            assert!(sim.statistics().rejected < 3, "{name} to {target}: {:?}", sim.statistics());
+        }
+    }
+    check("Rodas5P", Rodas5P::new());
+    check("Radau5", Radau5::new());
+    check("Auto", Auto::new());
+    check("Dopri5", Dopri5::new());
 }

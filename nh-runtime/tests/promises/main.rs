@@ -13,6 +13,7 @@ mod leaving;
 mod limits;
 mod own_systems;
 mod receding;
+mod refused;
 mod rounded_events;
 mod starts;
 mod systems;

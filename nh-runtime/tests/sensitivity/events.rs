@@ -214,6 +214,29 @@ fn what_has_no_derivative_is_refused() {
     assert!((sim.time() - 1.0).abs() < 1e-9);
 }
 
+/// Floor and wall that are reached within rounding of one another have no order, in either direction of time; and what
+/// leaves the floor while the wall is met is no event.
+#[test]
+fn events_within_rounding_are_at_one_time_forwards_and_backwards() {
+    let ended = |ahead: f64, place: f64, [along, up]: [f64; 2], height: f64| {
+        let motion = motion(2.0);
+        let start = motion.start(&Numbers([place, height, ahead * along, ahead * up])).unwrap();
+        let mut sim = Integrator::new(motion, Dop853::new().rtol(1e-12), 0.0, start);
+        let corner = Ground { restitution: 0.5, lift: 0.0, wall: 1.0 };
+        advance_across(&mut sim, ahead * 1.5, &corner, |_| ControlFlow::Continue(()))
+    };
+    for ahead in [1.0, -1.0] {
+        for off in -90..90 {
+            let place = 0.3 + f64::from(off) * 1.1e-16;
+            let found = ended(ahead, place, [0.7, 0.0], 1.0);
+            assert!(matches!(found, Err(SensitivityError::Simultaneous { .. })), "{ahead} {off}: {found:?}");
+        }
+        // thrown from the floor at the wall
+        let found = ended(ahead, 1.0 - 1e-17, [1.0, 2.0], 0.0);
+        assert_eq!(found, Ok(None), "{ahead}");
+    }
+}
+
 /// A ceiling at this height.
 struct Ceiling(f64);
 

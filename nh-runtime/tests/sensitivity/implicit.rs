@@ -1,8 +1,9 @@
 //! Columns along the steps of implicit methods.
 
-use nonholonomic::methods::Method;
+use nonholonomic::methods::{Auto, Method, Uniform};
 use nonholonomic::prelude::*;
 use nonholonomic::sensitivity::{By, ColumnTolerance, LinearizedStep, Variational};
+use nonholonomic::{D, Jacobian};
 
 use crate::models::{Free, Numbers, Pendulum, Push, close};
 
@@ -102,4 +103,42 @@ fn the_wrapped_system_is_one_for_implicit_methods() {
     for (found, expected) in sim.state().columns.iter().zip(exact()) {
         assert!(found.0.iter().zip(expected.0).all(|(a, b)| (a - b).abs() < 1e-6), "{found:?} {expected:?}");
     }
+}
+
+/// What follows another component in no time, and shows that only where the two are moved apart.
+#[derive(Clone, Copy, Debug)]
+struct Follows;
+
+impl Dynamics for Follows {
+    type State = Numbers<f64, 2>;
+    type Input = ();
+    fn derivative(&self, t: f64, Numbers([x, y]): &Numbers<f64, 2>, (): &()) -> Numbers<f64, 2> {
+        Numbers([-1e5 * (x - 1.000_01 * y), t.cos() - y])
+    }
+}
+
+impl Jacobian for Follows {
+    type InputDim = D<0>;
+    fn state_jacobian(&self, _t: f64, _x: &Numbers<f64, 2>, (): &()) -> [[f64; 2]; 2] {
+        [[-1e5, 1e5 * 1.000_01], [0.0, -1.0]]
+    }
+    fn input_jacobian(&self, _t: f64, _x: &Numbers<f64, 2>, (): &()) -> [[f64; 0]; 2] {
+        [[]; 2]
+    }
+}
+
+/// Columns that are not looked at have no part in the choice of the method either.
+#[test]
+fn columns_that_are_not_looked_at_switch_no_method() {
+    let uniform = Uniform::of(1e-6, 1e-6);
+    let mut alone = Integrator::new(Follows, Auto::new().rtol(1e-6), 0.0, Numbers([0.4, 0.4]));
+    alone.advance_to(30.0).unwrap();
+    let motion = Variational::new(Follows, [By::Start(0), By::Start(1)]);
+    let start = motion.start(&Numbers([0.4, 0.4])).unwrap();
+    let tolerance = ColumnTolerance::of_state(uniform);
+    let method = Auto::of(Tsit5::new().tolerance(tolerance), Radau5::new().tolerance(tolerance));
+    let mut sim = Integrator::new(motion, method, 0.0, start);
+    sim.advance_to(30.0).unwrap();
+    assert_eq!((alone.statistics().switches, sim.statistics().switches), (1, 1));
+    assert_eq!(sim.statistics().steps, alone.statistics().steps);
 }

@@ -73,7 +73,7 @@ impl<S: Dynamics> Clone for Work<S> {
 }
 impl<S: Dynamics> Copy for Work<S> {}
 
-/// The change of f by time alone, forwards or else backwards, and over which time. This is a share of the step that
+/// The change of f by time alone, in the direction of the step or else against it, and over which time. This is a share of the step that
 /// the quotient is meant for: √ε of it, and more where time is too coarse. The quotient itself, with the square of
 /// the unit of time, may be out of range where its contribution to the step is not.
 fn by_time<S: Dynamics>(
@@ -87,7 +87,8 @@ where
 {
     let x = start.state.to_array();
     let coarseness = (start.time / h).abs().max(ScalarOf::<S>::ONE);
-    let delta = h.abs() * (ScalarOf::<S>::EPSILON * coarseness).sqrt();
+    // behind the start the equation may be another one
+    let delta = h * (ScalarOf::<S>::EPSILON * coarseness).sqrt();
     for delta in [delta, -delta] {
         let there = start.time + delta;
         let mut slope = start.derivative_at(there, x);

@@ -84,8 +84,11 @@ where
         let mut arrival = self.method.advance(start, target, &mut memory.method, statistics)?;
         let time = arrival.time.to_f64();
         let units = units::<ScalarOf<S>, _>(self.method.permitted(start.state));
-        level(start.system, &mut arrival, (&values, &units))
-            .map_err(|error| IntegrationError::Projection { time, error })?;
+        if let Err(error) = level(start.system, &mut arrival, (&values, &units)) {
+            // the method has gone on to an end that is not taken
+            self.method.stand(&mut memory.method);
+            return Err(IntegrationError::Projection { time, error });
+        }
         statistics.projections += 1;
         self.method.moved(&mut memory.method);
         memory.values = Some(values);
@@ -226,7 +229,7 @@ fn dot<S: Invariants>(a: &VecOf<S>, b: &VecOf<S>) -> ScalarOf<S> {
 mod tests {
     use crate::pair::Pair;
     use crate::prelude::*;
-    use crate::{D, Invariants};
+    use crate::{D, Invariants, Method};
 
     /// x' = 1, which keeps no power of x; what is stated is that xⁿ + drift t is kept.
     #[derive(Clone, Copy)]
@@ -268,6 +271,48 @@ mod tests {
         let refused = sim.step();
         assert!(matches!(refused, Err(IntegrationError::Projection { .. })), "{refused:?}");
         assert!((sim.state().0[0] - 0.5).abs() == 0.0);
+    }
+
+    /// An oscillator whose energy nobody knows after some time.
+    #[derive(Clone, Copy)]
+    struct Until(f64);
+    impl Dynamics for Until {
+        type State = Pair;
+        type Input = ();
+        fn derivative(&self, _t: f64, Pair([x, v]): &Pair, (): &()) -> Pair {
+            Pair([*v, -x])
+        }
+    }
+    impl Invariants for Until {
+        type Count = D<1>;
+        fn invariants(&self, t: f64, Pair([x, v]): &Pair) -> [f64; 1] {
+            [if t > self.0 { f64::NAN } else { x * x + v * v }]
+        }
+        fn invariant_gradients(&self, _t: f64, Pair([x, v]): &Pair) -> [[f64; 2]; 1] {
+            [[2.0 * x, 2.0 * v]]
+        }
+    }
+
+    /// A step that ends where there is no level is not taken: the next one, nearer, is that of a run without it.
+    #[test]
+    fn a_step_that_is_not_taken_leaves_nothing_behind() {
+        fn check<M: Method<Until> + Copy>(name: &str, method: M) {
+            let run = |ends: &[f64]| {
+                let start = Pair([0.8, 0.7]);
+                let mut sim = Integrator::new(Until(0.5), Conserving::new(method), 0.0, start);
+                let refused = ends.iter().filter(|end| sim.step_towards(**end).is_err()).count();
+                (refused, sim.time(), sim.state().0.map(f64::to_bits))
+            };
+            let (none, time, state) = run(&[0.25]);
+            assert_eq!((none, time), (0, 0.25), "{name}");
+            assert_eq!(run(&[1.0, 0.25]), (1, time, state), "{name}");
+        }
+        macro_rules! adaptive {
+            ($($name:ident)*) => {$(check(stringify!($name), $name::new().rtol(0.1).first_step(1.0));)*};
+        }
+        adaptive! { Bs23 Dopri5 Tsit5 Dop853 Vern9 Radau5 Rodas5P }
+        check("Rk4, compensated", Rk4::new(1.0).compensated());
+        check("GaussLegendre4", GaussLegendre4::new(1.0));
     }
 
     /// An oscillator with a unit for its place and one for its speed, powers of two.
