@@ -178,6 +178,7 @@ impl Resolver {
             almost: sections.almost.is_some(),
             calls: std::mem::take(&mut self.calls),
             dropped: std::mem::take(&mut self.dropped),
+            shortened: Vec::new(),
             claimed: std::mem::take(&mut self.claimed),
             symmetric: std::mem::take(&mut self.symmetric),
             bodies: std::mem::take(&mut self.bodies),

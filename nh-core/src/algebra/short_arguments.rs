@@ -1,0 +1,70 @@
+//! Arguments of functions in their short form: `sin((m x + n x)/(m + n))` is `sin(x)`.
+//!
+//! Expressions that are derived are simplified, inside of functions as well, and the zero test knows identities between
+//! arguments that are polynomials. So the others are put in their short form where they are declared: what is derived
+//! and what is compared with it then contain the same functions.
+
+use super::graph::Graph;
+use super::node::Node;
+use super::number::Rational;
+use crate::id::ExprId;
+use rustc_hash::FxHashSet;
+
+impl Graph {
+    /// An argument of a function, or what it is equal to with fewer operations.
+    pub(super) fn short_argument(&mut self, x: ExprId) -> ExprId {
+        if self.is_polynomial(x) {
+            return x;
+        }
+        let short = self.simplify(x);
+        if self.operation_count(&[short]) < self.operation_count(&[x]) { short } else { x }
+    }
+
+    /// Whether sums and products of symbols and numbers are all that there is.
+    fn is_polynomial(&self, x: ExprId) -> bool {
+        let (mut open, mut seen) = (vec![x], FxHashSet::default());
+        while let Some(id) = open.pop() {
+            let (parts, are_powers) = match self.node(id) {
+                Node::Apply(..) | Node::Apply2(..) => return false,
+                Node::Sum { terms, .. } => (terms, false),
+                Node::Product { factors, .. } => (factors, true),
+                _ => continue,
+            };
+            let is_power = |exponent: &Rational| exponent.is_integer() && !exponent.is_negative();
+            if are_powers && !parts.iter().all(|(_, exponent)| is_power(exponent)) {
+                return false;
+            }
+            open.extend(parts.iter().map(|(part, _)| *part).filter(|part| seen.insert(*part)));
+        }
+        true
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::algebra::{Facts, Function};
+
+    #[test]
+    fn arguments_lose_what_cancels() {
+        let mut g = Graph::new();
+        let [m, n, x] = ["m", "n", "x"].map(|name| g.new_symbol(name)).map(|symbol| g.symbol(symbol));
+        let mean = g.formula((m * x + n * x) / (m + n));
+        let (sin, cos, two) = (g.sin(x), g.cos(x), g.number(2));
+        let one = g.formula(sin * sin + cos * cos);
+        let turned = g.formula(x * one);
+        let sum = g.formula(m * x + n * x);
+        let functions = [(mean, x), (turned, x), (sum, sum), (x, x)].map(|(long, short)| {
+            let (long, short) = (g.apply(Function::Exp, long), g.apply(Function::Exp, short));
+            let nested = g.formula(two * long + x);
+            (nested, g.formula(two * short + x))
+        });
+        for (long, short) in functions {
+            assert_eq!(g.assuming(&[long], &Facts::default()), [short]);
+        }
+        let mut long = Vec::new();
+        let exponentials = [mean, sum].map(|x| g.apply(Function::Exp, x));
+        g.assuming_and_noting(&exponentials, &Facts::default(), &mut long);
+        assert_eq!(long, [mean]);
+    }
+}
