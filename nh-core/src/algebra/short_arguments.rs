@@ -13,30 +13,41 @@ use rustc_hash::FxHashSet;
 impl Graph {
     /// An argument of a function, or what it is equal to with fewer operations.
     pub(super) fn short_argument(&mut self, x: ExprId) -> ExprId {
-        if self.is_polynomial(x) {
+        if !self.may_cancel(x) {
             return x;
         }
         let short = self.simplify(x);
         if self.operation_count(&[short]) < self.operation_count(&[x]) { short } else { x }
     }
 
-    /// Whether sums and products of symbols and numbers are all that there is.
-    fn is_polynomial(&self, x: ExprId) -> bool {
+    /// Whether there are terms, and divisions or products with functions, of which some may cancel.
+    fn may_cancel(&self, x: ExprId) -> bool {
         let (mut open, mut seen) = (vec![x], FxHashSet::default());
+        let [mut has_sums, mut has_divisions, mut has_functions, mut has_products] = [false; 4];
         while let Some(id) = open.pop() {
-            let (parts, are_powers) = match self.node(id) {
-                Node::Apply(..) | Node::Apply2(..) => return false,
-                Node::Sum { terms, .. } => (terms, false),
-                Node::Product { factors, .. } => (factors, true),
+            let parts = match self.node(id) {
+                Node::Sum { terms, .. } => {
+                    has_sums = true;
+                    terms
+                }
+                Node::Product { factors, .. } => {
+                    let is_atom = |(base, _): &(ExprId, Rational)| self.as_symbol(*base).is_some();
+                    let is_one = |(_, exponent): &(ExprId, Rational)| exponent.is_one();
+                    has_divisions |= factors.iter().any(|(_, exponent)| exponent.is_negative());
+                    has_products |=
+                        !factors.iter().all(is_atom) && (factors.len() > 1 || !factors.iter().all(is_one));
+                    factors
+                }
+                // what stands inside of it was looked at before
+                Node::Apply(..) | Node::Apply2(..) => {
+                    has_functions = true;
+                    continue;
+                }
                 _ => continue,
             };
-            let is_power = |exponent: &Rational| exponent.is_integer() && !exponent.is_negative();
-            if are_powers && !parts.iter().all(|(_, exponent)| is_power(exponent)) {
-                return false;
-            }
             open.extend(parts.iter().map(|(part, _)| *part).filter(|part| seen.insert(*part)));
         }
-        true
+        has_sums && (has_divisions || (has_functions && has_products))
     }
 }
 
