@@ -126,9 +126,7 @@ impl Resolver {
             self.auxiliary(&section.body);
         }
         let outputs = sections.outputs.as_ref().map(|s| self.outputs(&s.body, layout)).unwrap_or_default();
-        if let Some(section) = &sections.derivative {
-            self.derivatives(&section.body);
-        }
+        sections.derivative.iter().for_each(|section| self.derivatives(&section.body));
         layout.methods = std::mem::take(&mut self.methods);
         let claims = sections.conserved.as_ref().map(|s| self.claims(&s.body)).unwrap_or_default();
         let symmetries = sections.symmetries.as_ref().map(|s| self.symmetries(&s.body)).unwrap_or_default();
