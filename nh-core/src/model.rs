@@ -41,6 +41,9 @@ pub struct Model {
     pub identities: Vec<Located>,
     /// What drops out of the declaration, as factors of 0 do, and has to be defined all the same.
     pub dropped: Vec<Located>,
+    /// Arguments of functions that have a shorter form, which stands in their place: where they have no value, neither have
+    /// the equations.
+    pub shortened: Vec<ExprId>,
     /// What has to vanish on the base for words of the declaration to have their meaning.
     pub claimed: Vec<Claimed>,
     /// Entries of symmetric matrices that are one parameter: that above the diagonal, which is read, and that below.
@@ -118,32 +121,38 @@ impl Model {
     /// Rewrites what is declared by the identities that hold under the facts.
     pub(crate) fn assume(&mut self, facts: &Facts) {
         let graph = &mut self.graph;
-        let mut rewrite = |value: &mut ExprId| *value = graph.assuming(&[*value], facts)[0];
-        rewrite(&mut self.lagrangian.value);
-        self.bodies.iter_mut().for_each(|body| rewrite(&mut body.energy));
-        self.positions.iter_mut().for_each(|position| rewrite(&mut position.value));
-        self.constraints.iter_mut().for_each(|constraint| rewrite(&mut constraint.residual));
+        // what has another form in the equations is noted, and what has one beside them is not
+        let (equations, beside) = (&mut Vec::new(), &mut Vec::new());
+        let mut rewrite = |value: &mut ExprId, long: &mut Vec<ExprId>| {
+            *value = graph.assuming_and_noting(&[*value], facts, long)[0];
+        };
+        rewrite(&mut self.lagrangian.value, equations);
+        self.bodies.iter_mut().for_each(|body| rewrite(&mut body.energy, equations));
+        self.positions.iter_mut().for_each(|position| rewrite(&mut position.value, equations));
+        self.constraints.iter_mut().for_each(|constraint| rewrite(&mut constraint.residual, equations));
         for impact in &mut self.impacts {
-            impact.rows.iter_mut().for_each(|row| rewrite(&mut row.value));
-            impact.restitution.iter_mut().for_each(|restitution| rewrite(&mut restitution.value));
+            impact.rows.iter_mut().for_each(|row| rewrite(&mut row.value, equations));
+            impact.restitution.iter_mut().for_each(|restitution| rewrite(&mut restitution.value, equations));
         }
-        self.forces.iter_mut().for_each(|force| rewrite(&mut force.value));
-        self.auxiliary.iter_mut().for_each(|state| rewrite(&mut state.value));
-        self.outputs.iter_mut().for_each(|output| rewrite(&mut output.value));
-        self.claims.iter_mut().for_each(|claim| rewrite(&mut claim.value));
+        self.forces.iter_mut().for_each(|force| rewrite(&mut force.value, equations));
+        self.auxiliary.iter_mut().for_each(|state| rewrite(&mut state.value, equations));
+        self.outputs.iter_mut().for_each(|output| rewrite(&mut output.value, beside));
+        self.claims.iter_mut().for_each(|claim| rewrite(&mut claim.value, beside));
         for symmetry in &mut self.symmetries {
-            rewrite(&mut symmetry.value);
-            symmetry.gauge.iter_mut().for_each(&mut rewrite);
+            rewrite(&mut symmetry.value, beside);
+            symmetry.gauge.iter_mut().for_each(|gauge| rewrite(gauge, beside));
         }
-        self.volume.iter_mut().filter_map(|claim| claim.density.as_mut()).for_each(&mut rewrite);
+        let densities = self.volume.iter_mut().filter_map(|claim| claim.density.as_mut());
+        densities.for_each(|density| rewrite(density, beside));
         let sections = self.hamilton_jacobi.iter_mut().flat_map(|claim| &mut claim.components);
-        sections.for_each(|(_, component)| rewrite(&mut component.value));
-        self.brackets.iter_mut().for_each(|bracket| rewrite(&mut bracket.value));
+        sections.for_each(|(_, component)| rewrite(&mut component.value, beside));
+        self.brackets.iter_mut().for_each(|bracket| rewrite(&mut bracket.value, equations));
         match &mut self.kinematics {
             Kinematics::Tangent => {}
-            Kinematics::Anchor(lines) => lines.iter_mut().for_each(|line| rewrite(&mut line.rate)),
-            Kinematics::Coframe(rows) => rows.iter_mut().for_each(|row| rewrite(&mut row.value)),
+            Kinematics::Anchor(lines) => lines.iter_mut().for_each(|line| rewrite(&mut line.rate, equations)),
+            Kinematics::Coframe(rows) => rows.iter_mut().for_each(|row| rewrite(&mut row.value, equations)),
         }
+        self.shortened.append(equations);
     }
 }
 

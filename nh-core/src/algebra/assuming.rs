@@ -10,6 +10,7 @@
 //! | `abs(x y) = x abs(y)`, `sign(x y) = sign(y)` and their kin | the sign of `x` |
 //! | `min(x y, x z) = x min(y, z)`, and `max` | `x > 0` |
 //! | `min(x, y)`, `max(x, y)` are one of the two | the sign of `x − y` |
+//! | `sin(x) = sin(y)` and its kin | `x = y`, of fewer operations |
 //! | `a x + b x = 0` for numbers a and b | `a + b = 0`, decided as any constant is |
 
 use super::graph::Graph;
@@ -23,11 +24,21 @@ use rustc_hash::FxHashSet;
 impl Graph {
     /// The expressions with these identities applied throughout.
     pub fn assuming(&mut self, roots: &[ExprId], facts: &Facts) -> Vec<ExprId> {
+        self.assuming_and_noting(roots, facts, &mut Vec::new())
+    }
+
+    /// The same; the arguments that became shorter are noted, as they were.
+    pub(crate) fn assuming_and_noting(
+        &mut self,
+        roots: &[ExprId],
+        facts: &Facts,
+        long: &mut Vec<ExprId>,
+    ) -> Vec<ExprId> {
         let mut known: IdMap<ExprId, ExprId> = IdMap::default();
         let order = self.reachable(roots);
         let has_numbers = self.have_irrational_numbers(&order);
         for id in order {
-            let mut image = self.assuming_node(id, &known, facts);
+            let mut image = self.assuming_node(id, &known, facts, long);
             if has_numbers && matches!(self.node(image), Node::Sum { .. }) {
                 image = self.without_vanishing_numbers(image);
             }
@@ -36,7 +47,13 @@ impl Graph {
         roots.iter().map(|root| known[root]).collect()
     }
 
-    fn assuming_node(&mut self, id: ExprId, known: &IdMap<ExprId, ExprId>, facts: &Facts) -> ExprId {
+    fn assuming_node(
+        &mut self,
+        id: ExprId,
+        known: &IdMap<ExprId, ExprId>,
+        facts: &Facts,
+        long: &mut Vec<ExprId>,
+    ) -> ExprId {
         match self.node(id).clone() {
             Node::Number(_) | Node::Pi | Node::Constant(_) | Node::Symbol(_) => id,
             Node::Sum { constant, terms } => {
@@ -53,7 +70,7 @@ impl Graph {
                 let product = self.product(&powers);
                 self.scale(coefficient, product)
             }
-            Node::Apply(function, x) => self.assuming_function(function, known[&x], facts),
+            Node::Apply(function, x) => self.assuming_function(function, known[&x], facts, long),
             Node::Apply2(function, x, y) => self.assuming_pair(function, known[&x], known[&y], facts),
         }
     }
@@ -181,12 +198,24 @@ impl Graph {
         signed.map(|root| (ratio, root))
     }
 
-    fn assuming_function(&mut self, function: Function, x: ExprId, facts: &Facts) -> ExprId {
+    fn assuming_function(
+        &mut self,
+        function: Function,
+        x: ExprId,
+        facts: &Facts,
+        long: &mut Vec<ExprId>,
+    ) -> ExprId {
         match function {
             Function::Abs | Function::Sign => {
                 self.assuming_sign(function, x, facts).unwrap_or_else(|| self.by_factors(function, x, facts))
             }
-            _ => self.apply(function, x),
+            _ => {
+                let short = self.short_argument(x);
+                if short != x {
+                    long.push(x);
+                }
+                self.apply(function, short)
+            }
         }
     }
 

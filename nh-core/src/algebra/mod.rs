@@ -48,6 +48,7 @@ mod real_points;
 mod real_rank;
 mod regular_points;
 mod residue_steps;
+mod short_arguments;
 mod sign_parity;
 mod simplex;
 mod solved_equations;

@@ -107,7 +107,8 @@ fn not_by_ranges(model: &Model, facts: &Facts) -> Vec<Condition> {
         |roots: &[ExprId], derivatives: u32| add_open(model, facts, roots, derivatives, &mut found);
     // the equations differentiate L twice, what else moves once, and forces not at all
     look_at(&[model.lagrangian.value], 2);
-    let rest: Vec<ExprId> = differentiated(model).into_iter().map(|(_, value, _)| value).collect();
+    let mut rest: Vec<ExprId> = differentiated(model).into_iter().map(|(_, value, _)| value).collect();
+    rest.extend(&model.shortened);
     look_at(&rest, 1);
     let forces: Vec<ExprId> = model.forces.iter().map(|force| force.value).collect();
     look_at(&forces, 0);

@@ -201,6 +201,9 @@ pub fn spanned_distribution(
             way_out: "write it in the declared quasi-velocities".into(),
         }]);
     }
+    if let Some(violation) = velocity_outside(model, &spanning) {
+        return Err(vec![violation]);
+    }
     let rank = algebroid.rank();
     let graph = &mut model.graph;
     let mut basis: Matrix = Vec::new();
@@ -234,6 +237,39 @@ pub fn spanned_distribution(
     let constraints = LinearConstraints { annihilator, drift };
     let independent = spanning.into_iter().map(|(symbol, _)| symbol).collect();
     Ok(Some(ConstraintDistribution::spanned(&mut model.graph, constraints, independent, basis)))
+}
+
+/// An expression with the velocity of a section of the frame that does not span D: motions have none along it.
+fn velocity_outside(model: &Model, spanning: &[(SymbolId, Origin)]) -> Option<Violation> {
+    let graph = &model.graph;
+    let mut others = model
+        .frame
+        .iter()
+        .map(|declaration| declaration.symbol)
+        .filter(|symbol| spanning.iter().all(|(other, _)| other != symbol));
+    let outputs = model.outputs.iter().chain(&model.claims).map(|output| (output.value, output.origin));
+    let densities = model.volume.iter().filter_map(|claim| Some((claim.density?, claim.origin)));
+    let forces = model.forces.iter().map(|force| (force.value, force.origin));
+    let auxiliary = model.auxiliary.iter().map(|state| (state.value, state.origin));
+    let calls =
+        model.calls.iter().flat_map(|call| call.arguments.iter().map(|argument| (*argument, call.origin)));
+    let rows = model.impacts.iter().flat_map(|impact| &impact.rows).map(|row| (row.value, row.origin));
+    let written: Vec<(ExprId, Origin)> =
+        outputs.chain(densities).chain(forces).chain(auxiliary).chain(calls).chain(rows).collect();
+    let (symbol, origin) = others.find_map(|symbol| {
+        let place = written.iter().find(|(value, _)| graph.depends_on(*value, &[symbol]));
+        place.map(|(_, origin)| (symbol, *origin))
+    })?;
+    let name = &graph.symbols()[symbol];
+    Some(Violation {
+        law: Law::Frame,
+        origin,
+        what: format!("`{name}` is no velocity of a motion"),
+        evidence: format!("D is the span of {}, and `{name}` is not among these", names_of(model, spanning)),
+        way_out:
+            "write it in the velocities of the sections that span D, or in the declared quasi-velocities"
+                .into(),
+    })
 }
 
 /// A declared section that spans D beside another one with a part along it: the velocity along it that the state would

@@ -122,7 +122,8 @@ fn of_regularity(
         Derived::Adapted { equations, .. } => (equations.mass.clone(), &positions.manifold),
         Derived::Projected { equations, .. } => (equations.matrix(&mut model.graph), constraints.generic()),
     };
-    let mut candidates: Vec<ExprId> = model.graph.divisors(&reference.roots()).into_iter().collect();
+    let declared = [reference.roots(), model.shortened.clone()].concat();
+    let mut candidates: Vec<ExprId> = model.graph.divisors(&declared).into_iter().collect();
     candidates.extend(&findings.parameter_factors);
     singular_parameters(model, facts, (&matrix, manifold), &candidates, known)
 }

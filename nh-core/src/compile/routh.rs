@@ -77,7 +77,9 @@ fn not_cyclic(model: &mut Model, name: &str) -> String {
     let change = graph.partial(model.lagrangian.value, symbol);
     let change = graph.simplify(change);
     if graph.is_literal_zero(change) {
-        return "the anchor, the constraints or the forces depend on it, or no section moves it alone".into();
+        return "the anchor, the constraints or the forces depend on it, or the anchor does not tell which section moves it \
+                alone"
+            .into();
     }
     format!("the Lagrangian depends on it, at the rate {}", shown(graph, change))
 }

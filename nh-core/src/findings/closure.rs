@@ -1,14 +1,13 @@
 //! Whether D is closed under the bracket: whether the constraints are holonomic.
 
 use crate::compile::{Derived, Proved};
+use crate::geometry::Involution;
 
-/// How D lies to the brackets of its sections.
+/// Whether D is closed under the bracket.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Closure {
-    /// The brackets of its sections are in D.
-    Closed,
-    /// One is not.
-    NotClosed,
+    /// How it lies to the brackets of its sections.
+    Decided(Involution),
     /// That was not decided.
     Undecided,
 }
@@ -29,10 +28,7 @@ impl Closure {
             }
         };
         let base = constraints.base();
-        Some(match distribution.is_holonomic(&mut model.graph, &system.algebroid, &system.clock, base) {
-            Some(true) => Self::Closed,
-            Some(false) => Self::NotClosed,
-            None => Self::Undecided,
-        })
+        let found = distribution.involution(&mut model.graph, &system.algebroid, &system.clock, base);
+        Some(found.map_or(Self::Undecided, Self::Decided))
     }
 }

@@ -54,6 +54,17 @@ fn linear_velocity(
     linear.into_iter().zip(offset).map(|(y, offset)| graph.formula(y + offset)).collect()
 }
 
+/// How D lies to the brackets of its sections.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Involution {
+    /// They are in D.
+    Closed,
+    /// One is not.
+    NotClosed,
+    /// The bracket of one with ∂_t + y₀ is not.
+    NotClosedInTime,
+}
+
 impl ConstraintDistribution {
     /// All of E.
     pub fn unconstrained(graph: &mut Graph, velocities: &[SymbolId]) -> Self {
@@ -287,23 +298,23 @@ impl ConstraintDistribution {
     /// C^A_{ab} = 0 in an adapted frame (CLMM Remark 3.3), and, where there is a drift or a
     /// dependence on time, under the bracket with ∂_t + y₀ as well. `None` where that could not be
     /// decided.
-    pub fn is_holonomic(
+    pub fn involution(
         &self,
         graph: &mut Graph,
         algebroid: &Algebroid,
         clock: &Clock,
         base: &Manifold,
-    ) -> Option<bool> {
-        limits::attempt(limits::REMARK, || self.is_closed(graph, algebroid, clock, base)).flatten()
+    ) -> Option<Involution> {
+        limits::attempt(limits::REMARK, || self.decided(graph, algebroid, clock, base)).flatten()
     }
 
-    fn is_closed(
+    fn decided(
         &self,
         graph: &mut Graph,
         algebroid: &Algebroid,
         clock: &Clock,
         base: &Manifold,
-    ) -> Option<bool> {
+    ) -> Option<Involution> {
         let mut undecided = false;
         for a in 0..self.rank() {
             let section = self.section(a);
@@ -323,12 +334,13 @@ impl ConstraintDistribution {
                     let component = graph.inner_product(row, &bracket);
                     match base.zero_test(graph, component) {
                         Verdict::Zero => {}
-                        Verdict::NonZero(_) => return Some(false),
+                        Verdict::NonZero(_) if b < self.rank() => return Some(Involution::NotClosed),
+                        Verdict::NonZero(_) => return Some(Involution::NotClosedInTime),
                         Verdict::Unknown(_) => undecided = true,
                     }
                 }
             }
         }
-        (!undecided).then_some(true)
+        (!undecided).then_some(Involution::Closed)
     }
 }

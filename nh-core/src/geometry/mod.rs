@@ -31,7 +31,7 @@ pub use anchor::Anchor;
 pub use change_of_basis::ChangeOfBasis;
 pub use clock::Clock;
 pub use connection::{Christoffel, koszul};
-pub use distribution::{ConstraintDistribution, LinearConstraints};
+pub use distribution::{ConstraintDistribution, Involution, LinearConstraints};
 pub use fibres::Fibres;
 pub use invariant_frame::InvariantFrame;
 pub use known_algebra::{KnownAlgebra, KnownBracket};

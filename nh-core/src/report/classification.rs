@@ -8,7 +8,7 @@ use crate::check::{BrokenLaws, Positions, not_asked, points_shown, undecided};
 use crate::compile::{Derived, Proved};
 use crate::findings::{Closure, Findings, FirstIntegral, SingularPlace};
 use crate::geometry::independent_velocities::Choice;
-use crate::geometry::{Drops, Rank};
+use crate::geometry::{Drops, Involution, Rank};
 use crate::id::{CoordId, ExprId, SymbolId};
 use crate::model::{Kinematics, Model};
 
@@ -249,18 +249,22 @@ fn constraints(proved: &Proved, derived: &Derived<'_>, closure: Option<Closure>)
     // the fields of closed sections are in involution where (2) holds
     let is_integrable = proved.broken_laws.homomorphism.is_none();
     let holonomic = match (closure, is_integrable) {
-        (Some(Closure::Closed), true) => {
+        (Some(Closure::Decided(Involution::Closed)), true) => {
             let constant = constant_coordinates(model, derived);
             format!("; D is closed under the bracket (holonomic){constant}")
         }
-        (Some(Closure::Closed), false) => {
+        (Some(Closure::Decided(Involution::Closed)), false) => {
             format!("; D is closed under the bracket{}", constant_coordinates(model, derived))
         }
-        (Some(Closure::NotClosed), _) => {
-            // with a drift, or as time passes, it is the bracket with the drift that may lead out of D
-            let with_drift = if kind == "affine" { " with the drift" } else { "" };
+        (Some(Closure::Decided(open)), _) => {
+            // with a drift, or as time passes, it is the bracket with these that leads out of D
+            let with = match (open, kind) {
+                (Involution::NotClosedInTime, "affine") => " with the drift",
+                (Involution::NotClosedInTime, _) => ", as it changes with the time,",
+                _ => "",
+            };
             let nonholonomic = if is_integrable { " (nonholonomic)" } else { "" };
-            format!("; D{with_drift} is not closed under the bracket{nonholonomic}")
+            format!("; D{with} is not closed under the bracket{nonholonomic}")
         }
         (Some(Closure::Undecided) | None, _) => String::new(),
     };

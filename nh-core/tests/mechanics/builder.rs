@@ -63,6 +63,7 @@ impl Builder {
             identities: Vec::new(),
             calls: Vec::new(),
             dropped: Vec::new(),
+            shortened: Vec::new(),
             claimed: Vec::new(),
             symmetric: Vec::new(),
             bodies: Vec::new(),

@@ -104,6 +104,7 @@ impl Builder {
             routh: Vec::new(),
             calls: Vec::new(),
             dropped: Vec::new(),
+            shortened: Vec::new(),
             claimed: Vec::new(),
             symmetric: Vec::new(),
             bodies: Vec::new(),

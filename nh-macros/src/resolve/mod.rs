@@ -126,9 +126,7 @@ impl Resolver {
             self.auxiliary(&section.body);
         }
         let outputs = sections.outputs.as_ref().map(|s| self.outputs(&s.body, layout)).unwrap_or_default();
-        if let Some(section) = &sections.derivative {
-            self.derivatives(&section.body);
-        }
+        sections.derivative.iter().for_each(|section| self.derivatives(&section.body));
         layout.methods = std::mem::take(&mut self.methods);
         let claims = sections.conserved.as_ref().map(|s| self.claims(&s.body)).unwrap_or_default();
         let symmetries = sections.symmetries.as_ref().map(|s| self.symmetries(&s.body)).unwrap_or_default();
@@ -178,6 +176,7 @@ impl Resolver {
             almost: sections.almost.is_some(),
             calls: std::mem::take(&mut self.calls),
             dropped: std::mem::take(&mut self.dropped),
+            shortened: Vec::new(),
             claimed: std::mem::take(&mut self.claimed),
             symmetric: std::mem::take(&mut self.symmetric),
             bodies: std::mem::take(&mut self.bodies),

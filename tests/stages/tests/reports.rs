@@ -64,15 +64,27 @@ fn no_rank_is_said_to_drop_where_nothing_is() {
     ]);
 }
 
-/// With a drift it is the bracket with the drift that leaves D: D itself, along x and th, is closed.
+/// With a drift it is the bracket with the drift that leaves D: D itself, along x and th, is closed. So is D at every
+/// instant where its rows have coefficients of the time alone.
 #[test]
 fn what_is_not_closed_is_named() {
-    check(&[(
-        "base { x, y, th } lagrangian { (der(x)^2 + der(y)^2 + der(th)^2) / 2 } constraints { der(y) = v * sin(th); }",
-        "v: f64",
-        &["D with the drift is not closed under the bracket (nonholonomic)"],
-        &["; D is not closed"],
-    )]);
+    let lagrangian = "base { x, y, th } lagrangian { (der(x)^2 + der(y)^2 + der(th)^2) / 2 }";
+    let declared = |constraint: &str| format!("{lagrangian} constraints {{ {constraint}; }}");
+    check(&[
+        (
+            &declared("der(y) = v * sin(th)"),
+            "v: f64",
+            &["D with the drift is not closed under the bracket (nonholonomic)"],
+            &["; D is not closed"],
+        ),
+        (
+            &declared("der(y) = v * sin(t) * der(x)"),
+            "v: f64",
+            &["; D, as it changes with the time, is not closed under the bracket (nonholonomic)"],
+            &["; D is not closed"],
+        ),
+        (&declared("der(y) = th * der(x)"), "", &["; D is not closed under the bracket (nonholonomic)"], &[]),
+    ]);
 }
 
 #[test]
@@ -497,4 +509,22 @@ fn the_group_is_named_where_it_is_not_all_that_is_cyclic() {
 fn a_gap_changes_at_its_rate() {
     let ball = "base { h } lagrangian { der(h)^2/2 - h } impacts { floor: h >= 0; }";
     check(&[(ball, "", &["floor: h >= 0, changing at the rate h_dot"], &["closing at the rate h_dot"])]);
+}
+
+/// Functions whose arguments are equal, as the mean of equal places is, are one, and ask for values of all that is declared.
+#[test]
+fn functions_have_short_arguments() {
+    let lagrangian =
+        |potential: &str| format!("base {{ x, y }} lagrangian {{ (der(x)^2 + der(y)^2) / 2 + {potential} }}");
+    let mean = format!("{} emit {{ jacobian }}", lagrangian("k * cos((m * x + n * x) / (m + n))"));
+    check(&[
+        (&mean, "m: f64, n: f64, k: f64", &["der(x_dot) = -k*sin(x)\n"], &[]),
+        (
+            &lagrangian("sin(x^2 / (x + y) + x*y / (x + y))"),
+            "",
+            &["der(x_dot) = cos(x)\n", "the equations have a value only where x + y != 0"],
+            &[],
+        ),
+        (&lagrangian("x * exp(y * (sin(y)^2 + cos(y)^2))"), "", &["der(x_dot) = exp(y)\n"], &[]),
+    ]);
 }
