@@ -96,10 +96,21 @@ impl Resolver {
 
     /// What an equation says is 0: left − right.
     pub(super) fn residual(&mut self, equation: &Equation, left: ExprId, right: ExprId) -> Outcome<ExprId> {
+        self.signed_residual(equation, left, right, Rational::ONE)
+    }
+
+    /// left − right with a sign.
+    pub(super) fn signed_residual(
+        &mut self,
+        equation: &Equation,
+        left: ExprId,
+        right: ExprId,
+        sign: Rational,
+    ) -> Outcome<ExprId> {
         let sides =
             vec![self.written(&equation.left, left, None), self.written(&equation.right, right, None)];
         self.same_unit(equation, "equals", sides);
-        let terms = vec![(Rational::ONE, left), (Rational::MINUS_ONE, right)];
+        let terms = vec![(sign.clone(), left), (-sign, right)];
         self.combination_of(&equation.left, terms)
     }
 
