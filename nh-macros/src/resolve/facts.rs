@@ -119,9 +119,9 @@ impl Resolver {
         let (defined, _) = self.definitions(Context::Conserved, items);
         let mut found = Vec::new();
         for family in &defined {
-            for (k, (value, extent)) in family.entries.iter().enumerate() {
+            for (k, entry) in family.entries.iter().enumerate() {
                 let name = family.shape().entry_name(&family.name.text, k);
-                found.push(OutputDecl { name, value: *value, origin: self.origin(*extent) });
+                found.push(OutputDecl { name, value: entry.value, origin: self.origin(entry.extent) });
             }
         }
         found

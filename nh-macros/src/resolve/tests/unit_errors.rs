@@ -257,3 +257,19 @@ fn parameters_in_no_expression_are_known() {
     assert_eq!(resolved.model.idle, ["G", "k"]);
     assert!(layout.idle.contains("k"));
 }
+
+/// A rate of a family is written once, and what is wrong with it is told once.
+#[test]
+fn a_line_of_a_family_is_told_once() {
+    let found = messages(
+        "base { x } lagrangian { m / 2 * der(x)^2 } auxiliary { der(s[i in 0..3]) = x - s[i]; } units { s = kg; x = m; }",
+        "struct S { m: f64 }",
+    );
+    assert_eq!(found.len(), 1, "{found:#?}");
+    let found = messages(
+        "base { x, y } velocities { v[i in 0..2] = der(x) + (1 - 2 * i) * der(y); }
+         lagrangian { m / 2 * dot(v, v) } units { x, y = m; v = kg; }",
+        "struct S { m: f64 }",
+    );
+    assert_eq!(found.len(), 1, "{found:#?}");
+}
