@@ -258,6 +258,24 @@ fn parameters_in_no_expression_are_known() {
     assert!(layout.idle.contains("k"));
 }
 
+/// One error was made in what has the name: `units` says nothing of it, and goes on.
+#[test]
+fn names_in_error_are_not_unknown() {
+    let of = |line: &str, units: &str| {
+        let attribute = format!(
+            "base {{ x, y }} lagrangian {{ m / 2 * (der(x)^2 + der(y)^2) }}
+             constraints {{ for i in 0..1 {{ roll: der(x) = der(y) + i * {line}; }} }}
+             outputs {{ power[0..2] = [m, {line}]; }} conserved {{ spin = {line}; }} units {{ {units} }}"
+        );
+        let found = messages(&attribute, "struct S { m: f64 }");
+        found.iter().map(|message| message.lines().next().unwrap_or_default().to_owned()).collect::<Vec<_>>()
+    };
+    let unknown = "unknown name `mm`";
+    assert_eq!(of("mm", "power = W; roll = N; spin = 1;"), [unknown; 3]);
+    assert_eq!(of("mm", "power = W; pwoer = W;"), [unknown, unknown, unknown, "unknown name `pwoer`"]);
+    assert_eq!(of("m", "power[2] = W;"), ["`power` has no such entry"]);
+}
+
 /// A rate of a family is written once, and what is wrong with it is told once.
 #[test]
 fn a_line_of_a_family_is_told_once() {
