@@ -158,7 +158,8 @@ impl Resolver {
             Refused::Unknown => {
                 let error = Diagnostic::new(factor.name.extent(), format!("unknown unit `{name}`"));
                 let known = format!("known are {}", UNITS.join(" "));
-                match did_you_mean(name, UNITS) {
+                let question = joined(name).map(|written| format!("write `{written}`"));
+                match question.or_else(|| did_you_mean(name, UNITS)) {
                     Some(question) => error.evidence(known).way_out(question),
                     None => error.way_out(known),
                 }
@@ -349,4 +350,17 @@ fn describe(layout: &mut Layout, quantities: &[Quantity]) {
             family.units = units.unwrap_or_default();
         }
     }
+}
+
+/// Two units without a space between them, or a unit with its power, as they are written.
+fn joined(name: &str) -> Option<String> {
+    (1..name.len()).filter_map(|at| name.split_at_checked(at)).find_map(|(unit, rest)| {
+        let is_unit = |text: &str| UNITS.contains(&text);
+        let is_power = rest.chars().all(|c| c.is_ascii_digit());
+        match rest {
+            _ if !is_unit(unit) => None,
+            _ if is_power => Some(format!("{unit}^{rest}")),
+            _ => is_unit(rest).then(|| format!("{unit} {rest}")),
+        }
+    })
 }

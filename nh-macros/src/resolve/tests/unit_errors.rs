@@ -229,6 +229,7 @@ fn units_that_are_none_are_refused() {
         ("x = 10 m;", "the number `10` in a unit"),
         ("m = kg/m/s;", "a unit has one `/`, in front of its last factor"),
         ("x = m^200;", "this exponent is too large"),
+        ("der(x) = m/s;", "the unit of a rate is not declared: it follows"),
     ] {
         assert_eq!(of(line).as_deref(), Some(expected), "{line}");
     }
@@ -290,4 +291,15 @@ fn a_line_of_a_family_is_told_once() {
         "struct S { m: f64 }",
     );
     assert_eq!(found.len(), 1, "{found:#?}");
+}
+
+#[test]
+fn units_without_a_space_are_understood() {
+    for (written, meant) in [("Nm", "N m"), ("m2", "m^2"), ("kgm", "kg m")] {
+        let attribute = format!("base {{ x }} lagrangian {{ m * der(x)^2 }} units {{ m = {written}; }}");
+        let [found] = &messages(&attribute, "struct S { m: f64 }")[..] else {
+            panic!("one error: {written}")
+        };
+        assert!(found.ends_with(&format!("help: write `{meant}`")), "{found}");
+    }
 }
