@@ -1,5 +1,7 @@
 //! The stages in order, and what is emitted when one of them fails.
 
+use std::collections::BTreeSet;
+
 use proc_macro2::TokenStream;
 use quote::quote;
 
@@ -48,11 +50,17 @@ pub(crate) fn nonholonomic(attribute: TokenStream, item: TokenStream) -> TokenSt
             Some(error) => return with_errors(&[error], &syntax::without_own_attributes(item)),
         },
         Ok(Err(violations)) => {
-            violations.into_iter().map(|violation| origins.diagnostic(violation)).collect()
+            told_once(violations.into_iter().map(|violation| origins.diagnostic(violation)))
         }
         Err(too_large) => vec![declaration.too_large(too_large)],
     };
     with_errors(&errors, &stubs(&layout, &outline))
+}
+
+/// The errors without those that say of another entry what was said of a line already: a line of a `for` is written once.
+fn told_once(errors: impl Iterator<Item = Diagnostic>) -> Vec<Diagnostic> {
+    let mut told = BTreeSet::new();
+    errors.filter(|error| told.insert(error.of_any_entry())).collect()
 }
 
 /// Errors, and what stands beside them.
@@ -93,6 +101,20 @@ mod tests {
             assert!(text.contains(error), "{text}");
             assert!(text.contains("struct SState"), "{text}");
         }
+    }
+
+    #[test]
+    fn a_line_of_a_loop_has_one_error() {
+        let text = expanded(
+            "base { q[3], x } lagrangian { dot(der(q), der(q)) + der(x)^2 }
+             constraints { for i in 0..3 { c: q[i] = 0; } d: x = 0; }",
+            "struct S;",
+        );
+        assert_eq!(text.matches("compile_error!").count(), 2, "{text}");
+        assert!(
+            text.contains("`c[0]` has no velocities") && text.contains("`d` has no velocities"),
+            "{text}"
+        );
     }
 
     #[test]

@@ -59,6 +59,19 @@ impl Diagnostic {
         Self { extent, message: Box::new(message) }
     }
 
+    /// Where it points and what it says, whichever entry of a family it is about.
+    pub(crate) fn of_any_entry(&self) -> (String, String) {
+        let Extent { first, last } = self.extent;
+        let mut what = String::new();
+        for (k, part) in self.message.what.split('[').enumerate() {
+            let behind =
+                part.split_once(']').filter(|(index, _)| k > 0 && index.chars().all(|c| c.is_ascii_digit()));
+            let separator = if k > 0 && behind.is_none() { "[" } else { "" };
+            what.extend([separator, behind.map_or(part, |(_, rest)| rest)]);
+        }
+        (format!("{first:?} {last:?}"), what)
+    }
+
     /// And this shows it.
     pub(crate) fn evidence(mut self, evidence: impl Into<String>) -> Self {
         self.message.evidence = Some(evidence.into());

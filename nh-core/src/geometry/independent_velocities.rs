@@ -65,6 +65,25 @@ impl Samples {
             .map(Self)
     }
 
+    /// The sets of as many velocities as there are constraints, those that are `required` in all of them and the last
+    /// declared ones first. What stands in no constraint is in none.
+    fn candidates(&self, rank: usize, required: &[SectionId]) -> impl Iterator<Item = Vec<SectionId>> {
+        let rows = || self.0.iter().flatten();
+        let occurs = |column: SectionId| rows().any(|row| row[column.index()] != Residue::ZERO);
+        let columns = (0..rank).map(SectionId::from_index);
+        let free: Vec<SectionId> =
+            columns.filter(|column| !required.contains(column) && occurs(*column)).collect();
+        let size = self.0.first().map_or(0, Vec::len);
+        let subsets = size.checked_sub(required.len()).map(|size| Subsets::of(free.len(), size));
+        let required = required.to_vec();
+        subsets.into_iter().flatten().map(move |subset| {
+            let chosen = subset.into_iter().map(|k| free[k.index()]);
+            let mut members: Vec<SectionId> = required.iter().copied().chain(chosen).collect();
+            members.sort_unstable();
+            members
+        })
+    }
+
     /// Whether the columns are independent at generic points.
     fn are_independent<I: Id>(&self, columns: &[I]) -> bool {
         self.0.iter().any(|rows| {
@@ -109,10 +128,8 @@ pub fn search(
     let rounds: &[&[SectionId]] = if preferred.is_empty() { &[&[]] } else { &[preferred, &[]] };
     for required in rounds {
         let mut studied = 0;
-        for dependent in Subsets::of(rank, setting.annihilator.len()).take(LIMIT) {
-            if !required.iter().all(|section| dependent.contains(section))
-                || !samples.are_independent(&dependent)
-            {
+        for dependent in samples.candidates(rank, required).take(LIMIT) {
+            if !samples.are_independent(&dependent) {
                 continue;
             }
             studied += 1;
@@ -195,6 +212,39 @@ mod tests {
         assert_eq!(all, [[2, 3], [1, 3], [0, 3], [1, 2], [0, 2], [0, 1]]);
         assert_eq!(Subsets::of(3, 0).count(), 1);
         assert_eq!(Subsets::of(2, 3).count(), 0);
+    }
+
+    #[test]
+    fn few_of_many_velocities_are_found() {
+        // forty velocities, of which the first ones are equal
+        let mut g = Graph::new();
+        let (zero, one) = (g.zero(), g.one());
+        let minus = g.formula(-one);
+        let row = |k: usize| {
+            (0..40)
+                .map(|c| {
+                    if c == k {
+                        one
+                    } else if c == k + 1 {
+                        minus
+                    } else {
+                        zero
+                    }
+                })
+                .collect()
+        };
+        let annihilator: Vec<Vec<ExprId>> = (0..3).map(row).collect();
+        let facts = Facts::default();
+        let setting =
+            PivotSetting { annihilator: &annihilator, on_base: &annihilator, parameters: &[], facts: &facts };
+        let found = |g: &mut Graph, preferred: &[usize]| {
+            let preferred: Vec<_> = preferred.iter().map(|k| SectionId::from_index(*k)).collect();
+            let choice = search(g, &setting, &preferred, 40).unwrap().unwrap();
+            choice.dependent.into_iter().map(Id::index).collect::<Vec<_>>()
+        };
+        assert_eq!(found(&mut g, &[]), [1, 2, 3]);
+        assert_eq!(found(&mut g, &[0, 1, 2]), [0, 1, 2]);
+        assert_eq!(found(&mut g, &[1]), [1, 2, 3]);
     }
 
     #[test]

@@ -100,9 +100,10 @@ impl<'a> File<'a> {
     }
 
     fn text(&self, programs: &[(&str, &Program)]) -> String {
-        let methods: Vec<Method> =
-            programs.iter().filter_map(|(name, program)| self.method(name, program)).collect();
-        let used: Vec<&Program> = programs.iter().map(|(_, program)| *program).collect();
+        // what other programs need would be defined and not used
+        let written =
+            programs.iter().filter_map(|(name, program)| Some((self.method(name, program)?, *program)));
+        let (methods, used): (Vec<Method>, Vec<&Program>) = written.unzip();
         let mut text = format!(
             "/* {}: generated from its declaration. C99, needs nothing but libm; no memory is allocated.\n   Compile \
              without contraction of products and sums (-std=c99 of GCC is) for the same bits everywhere. */\n\

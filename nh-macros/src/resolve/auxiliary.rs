@@ -8,10 +8,11 @@ use nonholonomic_core::model::AuxiliaryDecl;
 use super::alike::Measured;
 use super::array::Shape;
 use super::context::Context;
+use super::definitions::Entry;
 use super::resolver::Resolver;
 use super::scope::{Meaning, Named, Role};
 use crate::emit::{Family, Layout};
-use crate::report::{Diagnostic, Extent};
+use crate::report::Diagnostic;
 use crate::syntax::ast::{Definition, Expr, ExprKind, Item, Section, Subscript};
 
 /// A family while its left sides are read.
@@ -160,16 +161,16 @@ impl Resolver {
         }
     }
 
-    fn enter_rates(&mut self, named: &Named, entries: &[(nonholonomic_core::id::ExprId, Extent)]) {
-        for (k, (value, extent)) in entries.iter().enumerate() {
-            let origin = self.origin(*extent);
+    fn enter_rates(&mut self, named: &Named, entries: &[Entry]) {
+        for (k, Entry { value, extent, place }) in entries.iter().copied().enumerate() {
+            let origin = self.origin(extent);
             let symbol = named.symbols[k];
             let text = format!("`der({})`", self.graph.symbols()[symbol]);
-            let expected = Measured::expected(text, *extent).symbol(symbol, 1).time(-1);
-            let given = self.shown(*value, *extent);
-            self.same_unit(value, "equals", vec![expected, given]);
+            let expected = Measured::expected(text, extent).symbol(symbol, 1).time(-1);
+            let given = self.shown(value, extent);
+            self.same_unit_of(place, "equals", vec![expected, given]);
             if let Some(state) = self.tables.auxiliary.get_mut(named.first + k) {
-                *state = AuxiliaryDecl { value: *value, origin, ..state.clone() };
+                *state = AuxiliaryDecl { value, origin, ..state.clone() };
             }
         }
     }

@@ -279,8 +279,15 @@ impl Resolver {
     pub(super) fn not_a_function(&mut self, name: &Name) -> Reported {
         let text = &name.text;
         let error = if self.scope.get(text).is_some() {
+            let has_entries = match self.scope.get(text) {
+                Some(Meaning::Named(named)) => named.shape != Shape::Number,
+                Some(Meaning::Value(value)) => value.shape != Shape::Number,
+                _ => false,
+            };
+            let entry =
+                if has_entries { format!("an entry is written `{text}[…]`, ") } else { String::new() };
             Diagnostic::new(name.extent(), format!("`{text}` is not a function"))
-                .way_out(format!("for a product write `{text} * (…)`"))
+                .way_out(format!("{entry}for a product write `{text} * (…)`"))
         } else {
             let known = FUNCTIONS.into_iter().chain(["sum", "dot", "cross"]).chain(tensor_names());
             let known: Vec<&str> = known.chain(self.scope.functions()).collect();
@@ -289,9 +296,12 @@ impl Resolver {
                 _ if text == "ddot" => "accelerations follow from the equations; `der(x)` is a velocity".to_owned(),
                 Some((_, ours)) => format!("write `{ours}`"),
                 None => did_you_mean(text, known).unwrap_or_else(|| {
-                    "functions are sin, cos, tan, asin, acos, atan, atan2, sinh, cosh, tanh, exp, ln, sqrt, dot, \
-                     cross, and in `forces` and `outputs` also abs, sign, min, max"
-                        .to_owned()
+                    let tensors: Vec<&str> = tensor_names().collect();
+                    format!(
+                        "functions are sin, cos, tan, asin, acos, atan, atan2, sinh, cosh, tanh, exp, ln, sqrt, dot, \
+                         cross, {}, and in `forces` and `outputs` also abs, sign, min, max",
+                        tensors.join(", ")
+                    )
                 }),
             };
             Diagnostic::new(name.extent(), format!("unknown function `{text}`")).way_out(way_out)

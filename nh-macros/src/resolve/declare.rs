@@ -16,7 +16,7 @@ use super::scope::{Meaning, Named, Numbers, Role};
 use super::statements;
 use crate::emit::{Family, Layout};
 use crate::report::Diagnostic;
-use crate::syntax::ast::{self, Declared, Definition, Name, SystemDecl};
+use crate::syntax::ast::{self, Declared, Definition, Name, PositionLine, SystemDecl};
 
 /// Coordinates or velocities of a system: matrices of this size are inverted.
 pub(super) const DIMENSION: usize = 512;
@@ -49,6 +49,7 @@ impl Resolver {
         }
         let names = sections.outputs.iter().flat_map(|s| statements::statements(&s.body));
         self.scope.outputs = names.map(|definition| definition.name.text.clone()).collect();
+        self.scope.labels = labels(sections).map(|name| name.text.clone()).collect();
     }
 
     /// A list of names, and those that are in order.
@@ -272,4 +273,18 @@ impl Resolver {
         self.report(declared, error);
         true
     }
+}
+
+/// The labels of constraints and symmetries, and the names of claims.
+fn labels(sections: &ast::Sections) -> impl Iterator<Item = &Name> {
+    let constraints = sections.constraints.iter().flat_map(|s| statements::statements(&s.body));
+    let positions = sections.holonomic.iter().flat_map(|s| statements::statements(&s.body));
+    let positions = positions.filter_map(|line| match line {
+        PositionLine::Equation(equation) => Some(&**equation),
+        PositionLine::Redundant(_) => None,
+    });
+    let symmetries = sections.symmetries.iter().flat_map(|s| statements::statements(&s.body));
+    let claims = sections.conserved.iter().flat_map(|s| statements::statements(&s.body));
+    let equations = constraints.chain(positions).filter_map(|equation| equation.label.as_ref());
+    equations.chain(symmetries.map(|line| &line.label)).chain(claims.map(|claim| &claim.name))
 }

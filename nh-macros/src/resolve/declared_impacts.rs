@@ -1,5 +1,6 @@
 //! What velocities jump to.
 
+use nonholonomic_core::algebra::Rational;
 use nonholonomic_core::model::{ImpactDecl, ImpactRowDecl, Located};
 
 use super::alike::Measured;
@@ -8,7 +9,7 @@ use super::reports::Outcome;
 use super::resolver::Resolver;
 
 use crate::report::Diagnostic;
-use crate::syntax::ast::{Equation, ImpactLine, Item};
+use crate::syntax::ast::{ImpactLine, ImpactRow, Item};
 
 impl Resolver {
     /// The impacts; rows of one label that stand in a `for` act together.
@@ -45,7 +46,7 @@ impl Resolver {
         let mut rows = Vec::new();
         let mut outcome = Ok(());
         for row in &line.rows {
-            match self.impact_row(&row.sides, row.is_unilateral) {
+            match self.impact_row(row) {
                 Ok(entries) => rows.extend(entries),
                 Err(reported) => outcome = Err(reported),
             }
@@ -67,14 +68,16 @@ impl Resolver {
         Ok(ImpactDecl { label: line.label.text.clone(), rows, restitution: restitution?, origin })
     }
 
-    /// left − right, vectors entry by entry.
-    fn impact_row(&mut self, sides: &Equation, is_unilateral: bool) -> Outcome<Vec<ImpactRowDecl>> {
+    /// left − right, or right − left where the right side is the larger one; vectors entry by entry.
+    fn impact_row(&mut self, row: &ImpactRow) -> Outcome<Vec<ImpactRowDecl>> {
+        let ImpactRow { sides, is_unilateral, is_turned } = row;
         let (left, right) = self.sides(sides)?;
+        let sign = if *is_turned { Rational::MINUS_ONE } else { Rational::ONE };
         let origin = self.origin(sides.extent);
         let mut rows = Vec::new();
         for (left, right) in left.entries.iter().zip(&right.entries) {
-            let value = self.residual(sides, *left, *right)?;
-            rows.push(ImpactRowDecl { value, is_unilateral, origin });
+            let value = self.signed_residual(sides, *left, *right, sign.clone())?;
+            rows.push(ImpactRowDecl { value, is_unilateral: *is_unilateral, origin });
         }
         Ok(rows)
     }

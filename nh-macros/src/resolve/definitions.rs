@@ -18,6 +18,17 @@ use crate::report::{Diagnostic, Extent};
 use crate::syntax::ast::{Definition, Expr, ExprKind, Item, Name, Subscript};
 use crate::syntax::limits;
 
+/// What a definition says of one entry.
+#[derive(Clone, Copy)]
+pub(super) struct Entry {
+    /// What it stands for.
+    pub(super) value: ExprId,
+    /// The definition.
+    pub(super) extent: Extent,
+    /// Where the definition is in memory: the same for all entries that it gives.
+    pub(super) place: usize,
+}
+
 /// A family that definitions imply.
 pub(super) struct Defined<'a> {
     /// Its name where it is first defined.
@@ -26,8 +37,8 @@ pub(super) struct Defined<'a> {
     pub(super) extent: Extent,
     /// The lengths of its indices.
     pub(super) lengths: Vec<u32>,
-    /// What its entries stand for and where, row by row.
-    pub(super) entries: Vec<(ExprId, Extent)>,
+    /// Its entries, row by row.
+    pub(super) entries: Vec<Entry>,
     /// Its documentation: that of the first definition.
     pub(super) docs: proc_macro2::TokenStream,
 }
@@ -71,7 +82,7 @@ fn filled(slots: &[Slot], indices: &[usize]) -> Vec<usize> {
 /// A family while its definitions are read.
 struct Growing<'a> {
     definition: &'a Definition,
-    entries: BTreeMap<Vec<usize>, (ExprId, Extent)>,
+    entries: BTreeMap<Vec<usize>, Entry>,
     /// How many indices the entries have.
     rank: Option<usize>,
     broken: bool,
@@ -220,6 +231,7 @@ impl Resolver {
         let value = self.in_parts(definition, before, value)?;
         let whole = definition.extent.to(definition.value.extent);
         let name = &definition.name.text;
+        let place = std::ptr::from_ref(definition).addr();
         for (k, entry) in value.entries.iter().enumerate() {
             let indices = filled(before, &value.shape.indices(k));
             if indices.len() > 2 {
@@ -234,7 +246,8 @@ impl Resolver {
                 return Err(self.report(definition, error));
             }
             let written = indices.iter().fold(name.clone(), |text, index| format!("{text}[{index}]"));
-            if growing.entries.insert(indices, (*entry, whole)).is_some() {
+            let entry = Entry { value: *entry, extent: whole, place };
+            if growing.entries.insert(indices, entry).is_some() {
                 let error = Diagnostic::new(definition.extent, format!("`{written}` is defined twice"))
                     .way_out("keep one of the definitions");
                 return Err(self.report(definition, error));

@@ -158,7 +158,8 @@ impl Resolver {
             Refused::Unknown => {
                 let error = Diagnostic::new(factor.name.extent(), format!("unknown unit `{name}`"));
                 let known = format!("known are {}", UNITS.join(" "));
-                match did_you_mean(name, UNITS) {
+                let question = joined(name).map(|written| format!("write `{written}`"));
+                match question.or_else(|| did_you_mean(name, UNITS)) {
                     Some(question) => error.evidence(known).way_out(question),
                     None => error.way_out(known),
                 }
@@ -228,6 +229,9 @@ impl Resolver {
         if !found.is_empty() {
             return Ok(found);
         }
+        if self.scope.outputs.contains(text) || self.scope.labels.contains(text) {
+            return Err(self.no_entry(place, &known));
+        }
         let error = self.scope.unknown(&place.name);
         let error = match did_you_mean(text, known.iter().map(String::as_str).chain(["lagrangian"])) {
             Some(question) => {
@@ -236,6 +240,21 @@ impl Resolver {
             None => error,
         };
         Err(self.report(place, error))
+    }
+
+    /// An index that an output or a label does not have. One in error was reported, and has no entries.
+    fn no_entry(&mut self, place: &Place, known: &[String]) -> Reported {
+        let text = &place.name.text;
+        let is_of = |name: &&String| {
+            name.strip_prefix(text).is_some_and(|rest| rest.is_empty() || rest.starts_with(['[', '_']))
+        };
+        let entries: Vec<&str> = known.iter().filter(is_of).map(String::as_str).collect();
+        if entries.is_empty() && self.reports.any() {
+            return Reported;
+        }
+        let error = Diagnostic::new(place.extent, format!("`{text}` has no such entry"));
+        let way_out = format!("name it without an index: `{text}`");
+        self.report(place, error.way_out(way_out))
     }
 
     /// What has a name but no symbol, and what it is: (7), λ times φ is a power; the momentum of a section has its unit
@@ -331,4 +350,17 @@ fn describe(layout: &mut Layout, quantities: &[Quantity]) {
             family.units = units.unwrap_or_default();
         }
     }
+}
+
+/// Two units without a space between them, or a unit with its power, as they are written.
+fn joined(name: &str) -> Option<String> {
+    (1..name.len()).filter_map(|at| name.split_at_checked(at)).find_map(|(unit, rest)| {
+        let is_unit = |text: &str| UNITS.contains(&text);
+        let is_power = rest.chars().all(|c| c.is_ascii_digit());
+        match rest {
+            _ if !is_unit(unit) => None,
+            _ if is_power => Some(format!("{unit}^{rest}")),
+            _ => is_unit(rest).then(|| format!("{unit} {rest}")),
+        }
+    })
 }

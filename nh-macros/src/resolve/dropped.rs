@@ -50,9 +50,9 @@ pub(crate) fn resolve_quotient(
         let mut values = Vec::new();
         let mut families = Vec::new();
         for family in &defined {
-            for (k, (value, extent)) in family.entries.iter().enumerate() {
+            for (k, entry) in family.entries.iter().enumerate() {
                 let name = family.shape().entry_name(&family.name.text, k);
-                values.push((name, Located { value: *value, origin: resolver.origin(*extent) }));
+                values.push((name, Located { value: entry.value, origin: resolver.origin(entry.extent) }));
             }
             families.push(family.family());
         }

@@ -227,9 +227,9 @@ impl Resolver {
         let mut found = Vec::new();
         for family in &defined {
             layout.outputs.push(family.family());
-            for (k, (value, extent)) in family.entries.iter().enumerate() {
+            for (k, entry) in family.entries.iter().enumerate() {
                 let name = family.shape().entry_name(&family.name.text, k);
-                found.push(OutputDecl { name, value: *value, origin: self.origin(*extent) });
+                found.push(OutputDecl { name, value: entry.value, origin: self.origin(entry.extent) });
             }
         }
         found

@@ -96,10 +96,21 @@ impl Resolver {
 
     /// What an equation says is 0: left − right.
     pub(super) fn residual(&mut self, equation: &Equation, left: ExprId, right: ExprId) -> Outcome<ExprId> {
+        self.signed_residual(equation, left, right, Rational::ONE)
+    }
+
+    /// left − right with a sign.
+    pub(super) fn signed_residual(
+        &mut self,
+        equation: &Equation,
+        left: ExprId,
+        right: ExprId,
+        sign: Rational,
+    ) -> Outcome<ExprId> {
         let sides =
             vec![self.written(&equation.left, left, None), self.written(&equation.right, right, None)];
         self.same_unit(equation, "equals", sides);
-        let terms = vec![(Rational::ONE, left), (Rational::MINUS_ONE, right)];
+        let terms = vec![(sign.clone(), left), (-sign, right)];
         self.combination_of(&equation.left, terms)
     }
 
@@ -108,9 +119,9 @@ impl Resolver {
         let (defined, _) = self.definitions(Context::Conserved, items);
         let mut found = Vec::new();
         for family in &defined {
-            for (k, (value, extent)) in family.entries.iter().enumerate() {
+            for (k, entry) in family.entries.iter().enumerate() {
                 let name = family.shape().entry_name(&family.name.text, k);
-                found.push(OutputDecl { name, value: *value, origin: self.origin(*extent) });
+                found.push(OutputDecl { name, value: entry.value, origin: self.origin(entry.extent) });
             }
         }
         found

@@ -8,6 +8,7 @@ use nonholonomic_core::model::FrameDecl;
 
 use super::alike::Measured;
 use super::context::Context;
+use super::definitions::Entry;
 use super::resolver::Resolver;
 use super::scope::{Meaning, Role};
 use crate::emit::Family;
@@ -29,13 +30,13 @@ impl Resolver {
             let Ok(named) = self.enter(text, family.shape(), Role::FrameVelocity, family.extent) else {
                 continue;
             };
-            for (k, (value, extent)) in family.entries.iter().enumerate() {
+            for (k, Entry { value, extent, place }) in family.entries.iter().copied().enumerate() {
                 let name = family.shape().entry_name(text, k);
-                let origin = self.origin(*extent);
-                let expected = Measured::expected(format!("the section `{name}`"), *extent);
-                let given = self.shown(*value, *extent);
-                self.same_unit(value, "equals", vec![expected.section(named.symbols[k]), given]);
-                self.tables.frame.push(FrameDecl { name, symbol: named.symbols[k], value: *value, origin });
+                let origin = self.origin(extent);
+                let expected = Measured::expected(format!("the section `{name}`"), extent);
+                let given = self.shown(value, extent);
+                self.same_unit_of(place, "equals", vec![expected.section(named.symbols[k]), given]);
+                self.tables.frame.push(FrameDecl { name, symbol: named.symbols[k], value, origin });
             }
             self.scope.insert(text.clone(), Meaning::Named(Rc::new(named)));
             families.push(family.family());

@@ -76,8 +76,12 @@ impl Resolver {
     /// Notes that things have the same unit; what is expected comes first. `relation` is how the later ones belong
     /// to the first, and `node` the part of the declaration that says so.
     pub(super) fn same_unit<N>(&mut self, node: &N, relation: &'static str, sides: Vec<Measured>) {
-        let section = self.context.keyword();
-        self.same_unit_in(section, std::ptr::from_ref(node).addr(), relation, sides);
+        self.same_unit_of(std::ptr::from_ref(node).addr(), relation, sides);
+    }
+
+    /// The same of a part of the declaration by where it is in memory. One contradiction of each is told.
+    pub(super) fn same_unit_of(&mut self, place: usize, relation: &'static str, sides: Vec<Measured>) {
+        self.same_unit_in(self.context.keyword(), place, relation, sides);
     }
 
     /// The same for a line of `units`, which stands in no section.

@@ -9,6 +9,7 @@ use nonholonomic_core::model::{AnchorDecl, Kinematics, Located};
 use super::alike::Measured;
 use super::array::{Part, Shape};
 use super::context::Context;
+use super::definitions::Entry;
 use super::reports::Outcome;
 use super::resolver::Resolver;
 use super::scope::{Meaning, Role};
@@ -148,15 +149,15 @@ impl Resolver {
             };
             let symbols = named.symbols.clone();
             self.scope.insert(family.name.text.clone(), Meaning::Named(Rc::new(named)));
-            let rate: Vec<_> = family.entries.iter().map(|(value, _)| *value).collect();
+            let rate: Vec<_> = family.entries.iter().map(|entry| entry.value).collect();
             self.spins(&rate, &symbols);
             layout.velocities.push(family.family());
-            for ((value, extent), symbol) in family.entries.iter().zip(symbols) {
+            for (Entry { value, extent, place }, symbol) in family.entries.iter().copied().zip(symbols) {
                 let name = format!("`{}`", self.graph.symbols()[symbol]);
-                let expected = Measured::expected(name, *extent).symbol(symbol, 1);
-                let given = self.shown(*value, *extent);
-                self.same_unit(value, "equals", vec![expected, given]);
-                rows.push(Located { value: *value, origin: self.origin(*extent) });
+                let expected = Measured::expected(name, extent).symbol(symbol, 1);
+                let given = self.shown(value, extent);
+                self.same_unit_of(place, "equals", vec![expected, given]);
+                rows.push(Located { value, origin: self.origin(extent) });
             }
         }
         let wanted = self.tables.coordinates.len();

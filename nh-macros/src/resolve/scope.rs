@@ -129,6 +129,8 @@ pub(super) struct Scope {
     pub(super) pending: BTreeSet<String>,
     /// The names of outputs, which no expression can use.
     pub(super) outputs: BTreeSet<String>,
+    /// Labels and the names of claims, as they are written.
+    pub(super) labels: BTreeSet<String>,
     /// Fields that are left alone.
     pub(super) skipped: BTreeSet<String>,
     /// Names of lets inside sections, with the section.
@@ -144,6 +146,7 @@ impl Scope {
             locals: Vec::new(),
             pending: BTreeSet::new(),
             outputs: BTreeSet::new(),
+            labels: BTreeSet::new(),
             skipped: BTreeSet::new(),
             elsewhere: BTreeMap::new(),
         }

@@ -92,6 +92,12 @@ impl Resolver {
 
     fn not_trackable(&mut self, place: &Place, outputs: &[OutputDecl]) -> super::reports::Reported {
         let text = &place.name.text;
+        let family = format!("{text}[");
+        let is_known = outputs.iter().any(|output| output.name == *text || output.name.starts_with(&family));
+        if !is_known && self.scope.outputs.contains(text) {
+            // it is in error, which was reported
+            return super::reports::Reported;
+        }
         let what = format!("`{text}` is neither a state variable nor an output");
         let error = Diagnostic::new(place.extent, what);
         let names = outputs.iter().map(|output| output.name.as_str());

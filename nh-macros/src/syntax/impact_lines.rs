@@ -54,7 +54,7 @@ impl Stream {
 
     fn impact_row(&mut self) -> Result<ImpactRow, Diagnostic> {
         let start = self.position();
-        let first = self.expression()?;
+        let left = self.expression()?;
         let (is_unilateral, is_turned) = if self.eat(">=") {
             (true, false)
         } else if self.eat("<=") {
@@ -68,10 +68,9 @@ impl Stream {
         } else {
             return Err(habits::unexpected(self, "`>=` or `=`").or_way_out(READS));
         };
-        let second = self.expression()?;
-        let (left, right) = if is_turned { (second, first) } else { (first, second) };
+        let right = self.expression()?;
         let sides =
             Equation { docs: TokenStream::new(), label: None, left, right, extent: self.since(start) };
-        Ok(ImpactRow { sides, is_unilateral })
+        Ok(ImpactRow { sides, is_unilateral, is_turned })
     }
 }

@@ -20,6 +20,11 @@ impl Stream {
         self.docs()?;
         let mut places = Vec::new();
         loop {
+            if let Some((of, extent)) = self.der()? {
+                let of = of.name.text;
+                return Err(Diagnostic::new(extent, "the unit of a rate is not declared: it follows")
+                    .way_out(format!("leave it out: it is the unit of `{of}` over that of `t`")));
+            }
             places.push(self.place("a declared name").map_err(|error| error.or_way_out(READS))?);
             if !self.eat(",") {
                 break;

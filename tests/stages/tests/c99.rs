@@ -142,6 +142,47 @@ fn c_computes_what_the_programs_say() {
     }
 }
 
+/// A linkage that keeps one velocity: functions that are not written in C solve for all of them.
+const LINKAGE: &str = "
+#[nonholonomic(
+    base { a, b, c, e, f }
+    inputs { torque }
+    let u(q) = [cos(q), sin(q)];
+    let P = l[0] * u(a);
+    let Q = [d[0], 0] + l[2] * u(c);
+    let S = P + tri[0] * u(b) + tri[1] * u(b + pi / 2);
+    let Z = [d[0] + d[1], 0] + l[4] * u(f);
+    holonomic {
+        first: P + l[1] * u(b) - Q = 0;
+        second: S + l[3] * u(e) - Z = 0;
+    }
+    lagrangian {
+        kinetic(m[0], J[0], P / 2, a) + kinetic(m[1], J[1], (P + Q) / 2, b) + kinetic(m[2], J[2], [d[0], 0] + l[2] / 2 * u(c), c)
+        + kinetic(m[3], J[3], (S + Z) / 2, e) + kinetic(m[4], J[4], Z - l[4] / 2 * u(f), f)
+        - g * (m[0] * P[1] + m[1] * (P[1] + Q[1]) + m[2] * Q[1] + m[3] * (S[1] + Z[1]) + m[4] * Z[1]) / 2
+        - k / 2 * (f - pi / 2)^2
+    }
+    forces { a: torque; }
+    independent { a, der(a) }
+    linearization { }
+    outputs { height = S[1]; rise = der(S[1]); }
+    emit { jacobian, multipliers, reactions, power, c, explain, return_jacobian }
+)]
+#[derive(Clone, Copy, Debug)]
+struct Watt { d: [f64; 2], l: [f64; 5], tri: [f64; 2], m: [f64; 5], J: [f64; 5], g: f64, k: f64 }
+";
+
+/// What the functions that are written do not need is not there: a compiler would warn of it.
+#[test]
+fn no_helper_is_idle() {
+    let text = text_of(&declarations(LINKAGE)[0]);
+    let helpers = text.lines().filter_map(|line| line.strip_prefix("static ")?.split('(').next());
+    for helper in helpers.filter_map(|line| line.split(' ').next_back()) {
+        assert!(text.matches(&format!("{helper}(")).count() > 1, "{helper}\n{text}");
+    }
+    compiled("linkage", &text, &["-c"]);
+}
+
 #[test]
 fn methods_are_prototypes_and_single_precision_is_float() {
     let source = "

@@ -1,5 +1,5 @@
 //! Entries of vector equations that are 0 = 0 are left out, and told in the report; an equation of which nothing is left
-//! is refused.
+//! is refused. And which velocities of many constraints leave out.
 
 use nh_stages::declarations;
 
@@ -46,4 +46,17 @@ fn an_equation_of_which_nothing_is_left_is_refused() {
     let one = lost.replace("0*y", "y - z");
     let report = read(&one).expect("one of two is left");
     assert!(report.contains("`l[0]` is left out: its sides are equal everywhere"), "{report}");
+}
+
+/// Whichever velocities of many are in constraints, those that can be eliminated are found.
+#[test]
+fn a_choice_among_many_velocities_is_found() {
+    for row in ["der(z[j]) = der(z[j + 1])", "der(z[j]) - der(z[j + 1]) = 0"] {
+        let source = format!(
+            "#[nonholonomic(base {{ z[36] }} lagrangian {{ m / 2 * dot(der(z), der(z)) }}
+             constraints {{ for j in 6..9 {{ row: {row}; }} }} assume {{ m > 0; }})] struct Masses {{ m: f64 }}"
+        );
+        let report = declarations(&source)[0].system().expect("in order").report.to_string();
+        assert!(report.contains("adapted, 36 coordinates and 33 velocities"), "{report}");
+    }
 }

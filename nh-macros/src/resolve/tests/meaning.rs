@@ -223,5 +223,12 @@ fn calls_and_powers_are_checked() {
     ] {
         assert_eq!(of(expression), [message], "{expression}");
     }
-    assert!(of("quux(x)")[0].starts_with("unknown function `quux`\nhelp: functions are sin, cos"));
+    let of_family = messages("base { q[2] } lagrangian { q(0) }", STRUCT);
+    assert_eq!(
+        of_family,
+        ["`q` is not a function\nhelp: an entry is written `q[…]`, for a product write `q * (…)`"]
+    );
+    let unknown = of("quux(x)");
+    assert!(unknown[0].starts_with("unknown function `quux`\nhelp: functions are sin, cos"), "{unknown:?}");
+    assert!(unknown[0].contains(", transpose,") && unknown[0].contains(", kinetic,"), "{unknown:?}");
 }

@@ -265,6 +265,21 @@ fn forces() {
     ]);
 }
 
+/// The larger side is the right one of `<=`; what is said of sides is said of them as they are written.
+#[test]
+fn sides_of_impacts() {
+    assert_errors(&[
+        (
+            "base { q[3] } lagrangian { 1 } impacts { wall: q <= m; }",
+            "the two sides have different shapes\non the left is a vector of 3 entries, on the right a number",
+        ),
+        (
+            "base { q[3] } lagrangian { 1 } impacts { wall: q >= m; }",
+            "the two sides have different shapes\non the left is a vector of 3 entries, on the right a number",
+        ),
+    ]);
+}
+
 #[test]
 fn outputs() {
     let (resolved, layout) = resolved(

@@ -229,6 +229,7 @@ fn units_that_are_none_are_refused() {
         ("x = 10 m;", "the number `10` in a unit"),
         ("m = kg/m/s;", "a unit has one `/`, in front of its last factor"),
         ("x = m^200;", "this exponent is too large"),
+        ("der(x) = m/s;", "the unit of a rate is not declared: it follows"),
     ] {
         assert_eq!(of(line).as_deref(), Some(expected), "{line}");
     }
@@ -256,4 +257,49 @@ fn parameters_in_no_expression_are_known() {
     .expect("in order");
     assert_eq!(resolved.model.idle, ["G", "k"]);
     assert!(layout.idle.contains("k"));
+}
+
+/// One error was made in what has the name: `units` says nothing of it, and goes on.
+#[test]
+fn names_in_error_are_not_unknown() {
+    let of = |line: &str, units: &str| {
+        let attribute = format!(
+            "base {{ x, y }} lagrangian {{ m / 2 * (der(x)^2 + der(y)^2) }}
+             constraints {{ for i in 0..1 {{ roll: der(x) = der(y) + i * {line}; }} }}
+             outputs {{ power[0..2] = [m, {line}]; }} conserved {{ spin = {line}; }} units {{ {units} }}"
+        );
+        let found = messages(&attribute, "struct S { m: f64 }");
+        found.iter().map(|message| message.lines().next().unwrap_or_default().to_owned()).collect::<Vec<_>>()
+    };
+    let unknown = "unknown name `mm`";
+    assert_eq!(of("mm", "power = W; roll = N; spin = 1;"), [unknown; 3]);
+    assert_eq!(of("mm", "power = W; pwoer = W;"), [unknown, unknown, unknown, "unknown name `pwoer`"]);
+    assert_eq!(of("m", "power[2] = W;"), ["`power` has no such entry"]);
+}
+
+/// A rate of a family is written once, and what is wrong with it is told once.
+#[test]
+fn a_line_of_a_family_is_told_once() {
+    let found = messages(
+        "base { x } lagrangian { m / 2 * der(x)^2 } auxiliary { der(s[i in 0..3]) = x - s[i]; } units { s = kg; x = m; }",
+        "struct S { m: f64 }",
+    );
+    assert_eq!(found.len(), 1, "{found:#?}");
+    let found = messages(
+        "base { x, y } velocities { v[i in 0..2] = der(x) + (1 - 2 * i) * der(y); }
+         lagrangian { m / 2 * dot(v, v) } units { x, y = m; v = kg; }",
+        "struct S { m: f64 }",
+    );
+    assert_eq!(found.len(), 1, "{found:#?}");
+}
+
+#[test]
+fn units_without_a_space_are_understood() {
+    for (written, meant) in [("Nm", "N m"), ("m2", "m^2"), ("kgm", "kg m")] {
+        let attribute = format!("base {{ x }} lagrangian {{ m * der(x)^2 }} units {{ m = {written}; }}");
+        let [found] = &messages(&attribute, "struct S { m: f64 }")[..] else {
+            panic!("one error: {written}")
+        };
+        assert!(found.ends_with(&format!("help: write `{meant}`")), "{found}");
+    }
 }

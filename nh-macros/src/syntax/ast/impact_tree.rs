@@ -13,11 +13,13 @@ pub(crate) struct ImpactLine {
     pub(crate) restitution: Option<Expr>,
 }
 
-/// One row: `left = right`, or `left >= right`.
+/// One row: `left = right`, `left >= right` or `left <= right`.
 #[derive(Debug)]
 pub(crate) struct ImpactRow {
-    /// Both sides, the larger one of an inequality on the left.
+    /// Both sides as they are written.
     pub(crate) sides: Equation,
     /// Whether it is an inequality.
     pub(crate) is_unilateral: bool,
+    /// Whether the right side is the larger one.
+    pub(crate) is_turned: bool,
 }
