@@ -196,7 +196,8 @@ pub fn trim<T: Real, const N: usize, const W: usize, const Q: usize>(
     if let Some(column) = family(&reduced) {
         return Err(TrimError::Undetermined { variable: name(&steady.variables, column) });
     }
-    agree(steady, &end.here, |row| reduced.is_open(row), (guess, &found))?;
+    // nor was anything solved from what was left open where the search began
+    agree(steady, &end.here, |row| reduced.is_open(row) || !is_taken(row), (guess, &found))?;
     Ok(found)
 }
 

@@ -54,3 +54,35 @@ fn a_weight_that_is_to_rise_is_not_at_rest() {
         assert!(matches!(found, Err(TrimError::NoSolution { .. })), "{x} {rate}: {found:?}");
     }
 }
+
+/// A top on a sphere of directions, driven.
+#[nonholonomic(
+    base { g[3] }
+    basis { w[3] }
+    anchor { der(g) = cross(g, w); }
+    brackets so(3) { w[0], w[1], w[2] }
+    on { dot(g, g) = 1; }
+    lagrangian { (A * w[0]^2 + B * w[1]^2 + C * w[2]^2) / 2 - M * g[2] - N * g[0] }
+    inputs { u[3] }
+    forces { for i in 0..3 { w[i]: u[i] - d * w[i]; } }
+    linearization { keep: g[0], g[1], w; }
+)]
+#[derive(Clone, Copy, Debug)]
+struct Top {
+    A: f64,
+    B: f64,
+    C: f64,
+    M: f64,
+    N: f64,
+    d: f64,
+}
+
+/// Where more is held than leaves a solution, that is said: a state with rates that were left out at the start was given back.
+#[test]
+fn what_is_found_satisfies_all_equations() {
+    use TopVariable::{g_1, u_0, u_1, w_1};
+    let top = Top { A: 1.1, B: 0.7, C: 1.6, M: 0.8, N: -0.4, d: 0.2 };
+    let guess = TopState { g: [1.0, 0.0, 0.0], w: [0.0, 1.0, 0.0] };
+    let found = top.trim(0.0, &guess, &TopInput { u: [1.0, 0.0, 1.0] }, &[g_1, w_1, u_0, u_1]);
+    assert!(matches!(found, Err(TrimError::NoSolution { .. })), "{found:?}");
+}
