@@ -197,7 +197,8 @@ impl Resolver {
             first = places.end;
             if let Some(found) = defined.iter().find(|defined| defined.name.text == text) {
                 if found.lengths == family.lengths {
-                    let values: Vec<_> = found.entries.iter().map(|entry| (entry.value, entry.extent)).collect();
+                    let values: Vec<_> =
+                        found.entries.iter().map(|entry| (entry.value, entry.extent)).collect();
                     for (k, (place, (value, extent))) in places.zip(values).enumerate() {
                         entries.push((place, shape.entry_name(&text, k), extent, value));
                     }
