@@ -504,27 +504,3 @@ fn the_group_is_named_where_it_is_not_all_that_is_cyclic() {
         (&plane, "E: f64, R: f64", &["a Chaplygin system", "; the group: translations along x, y\n"], &[]),
     ]);
 }
-
-#[test]
-fn a_gap_changes_at_its_rate() {
-    let ball = "base { h } lagrangian { der(h)^2/2 - h } impacts { floor: h >= 0; }";
-    check(&[(ball, "", &["floor: h >= 0, changing at the rate h_dot"], &["closing at the rate h_dot"])]);
-}
-
-/// Functions whose arguments are equal, as the mean of equal places is, are one, and ask for values of all that is declared.
-#[test]
-fn functions_have_short_arguments() {
-    let lagrangian =
-        |potential: &str| format!("base {{ x, y }} lagrangian {{ (der(x)^2 + der(y)^2) / 2 + {potential} }}");
-    let mean = format!("{} emit {{ jacobian }}", lagrangian("k * cos((m * x + n * x) / (m + n))"));
-    check(&[
-        (&mean, "m: f64, n: f64, k: f64", &["der(x_dot) = -k*sin(x)\n"], &[]),
-        (
-            &lagrangian("sin(x^2 / (x + y) + x*y / (x + y))"),
-            "",
-            &["der(x_dot) = cos(x)\n", "the equations have a value only where x + y != 0"],
-            &[],
-        ),
-        (&lagrangian("x * exp(y * (sin(y)^2 + cos(y)^2))"), "", &["der(x_dot) = exp(y)\n"], &[]),
-    ]);
-}

@@ -1,0 +1,55 @@
+//! What reports tell of names, gaps and functions.
+
+use nh_stages::declarations;
+
+const FIELDS: &str = "m: f64, a: f64";
+
+fn report(sections: &str, fields: &str) -> String {
+    let text = format!("#[nonholonomic({sections})]\nstruct Machine {{ {fields} }}");
+    declarations(&text)[0].system().unwrap_or_else(|errors| panic!("{errors:?}")).report
+}
+
+/// A section of the frame takes the place of a declared one, and velocities along the others change with it.
+#[test]
+fn reports_say_which_velocities_keep_their_name_and_have_another_value() {
+    let declared =
+        "base { x, y } basis { u, v } anchor { der(x) = u; der(y) = v; } lagrangian { m/2*(u^2 + v^2) }";
+    let told = |frame: &str| {
+        let report = report(&format!("{declared} frame {{ {frame} }}"), FIELDS);
+        let lines = report.lines().filter(|line| line.contains("in the basis of the frame"));
+        lines.map(|line| line.trim().to_owned()).collect::<Vec<_>>()
+    };
+    assert_eq!(
+        told("h = u + a*v;"),
+        ["`v` is the velocity along v in the basis of the frame: that in the declared basis is v + a*h"]
+    );
+    assert!(told("h = 2*u;").is_empty());
+    assert!(told("h = u + a*v; k = v - a*u;").is_empty());
+    let rates =
+        report("base { x, y } lagrangian { m/2*(der(x)^2 + der(y)^2) } frame { roll = x_dot + a*y_dot; }");
+    assert!(rates.contains("`y_dot` is the velocity along y_dot in the basis of the frame"), "{rates}");
+    assert!(rates.contains("is y_dot + a*roll"), "{rates}");
+}
+
+#[test]
+fn a_gap_changes_at_its_rate() {
+    let report = report("base { h } lagrangian { der(h)^2/2 - h } impacts { floor: h >= 0; }", "");
+    assert!(report.contains("floor: h >= 0, changing at the rate h_dot"), "{report}");
+    assert!(!report.contains("closing at the rate h_dot"), "{report}");
+}
+
+/// Functions whose arguments are equal, as the mean of equal places is, are one, and ask for values of all that is declared.
+#[test]
+fn functions_have_short_arguments() {
+    let told = |potential: &str, fields: &str, further: &str| {
+        let lagrangian = format!("base {{ x, y }} lagrangian {{ (der(x)^2 + der(y)^2) / 2 + {potential} }}");
+        report(&format!("{lagrangian} {further}"), fields)
+    };
+    let mean = told("k * cos((m * x + n * x) / (m + n))", "m: f64, n: f64, k: f64", "emit { jacobian }");
+    assert!(mean.contains("der(x_dot) = -k*sin(x)\n"), "{mean}");
+    let shares = told("sin(x^2 / (x + y) + x*y / (x + y))", "", "");
+    assert!(shares.contains("der(x_dot) = cos(x)\n"), "{shares}");
+    assert!(shares.contains("the equations have a value only where x + y != 0"), "{shares}");
+    let squares = told("x * exp(y * (sin(y)^2 + cos(y)^2))", "", "");
+    assert!(squares.contains("der(x_dot) = exp(y)\n"), "{squares}");
+}
