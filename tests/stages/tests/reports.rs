@@ -492,15 +492,3 @@ fn projected_equations_say_where_they_are_singular() {
         (&usual, "m: f64", &[], &["singular"]),
     ]);
 }
-
-#[test]
-fn the_group_is_named_where_it_is_not_all_that_is_cyclic() {
-    let disk = "base { x, y, phi, psi } \
-                lagrangian { (der(x)^2 + der(y)^2 + der(psi)^2 + der(phi)^2)/2 + E * cos(phi) } \
-                constraints { der(x) = R * cos(phi) * der(psi); der(y) = R * sin(phi) * der(psi); }";
-    let plane = format!("{disk} symmetries {{ east: der(x); north: der(y); }}");
-    check(&[
-        (disk, "E: f64, R: f64", &["; the group: translations along the cyclic coordinates"], &[]),
-        (&plane, "E: f64, R: f64", &["a Chaplygin system", "; the group: translations along x, y\n"], &[]),
-    ]);
-}

@@ -1,4 +1,4 @@
-//! What reports tell of names, gaps and functions.
+//! What reports tell of names, groups, gaps and functions.
 
 use nh_stages::declarations;
 
@@ -29,6 +29,18 @@ fn reports_say_which_velocities_keep_their_name_and_have_another_value() {
         report("base { x, y } lagrangian { m/2*(der(x)^2 + der(y)^2) } frame { roll = x_dot + a*y_dot; }");
     assert!(rates.contains("`y_dot` is the velocity along y_dot in the basis of the frame"), "{rates}");
     assert!(rates.contains("is y_dot + a*roll"), "{rates}");
+}
+
+#[test]
+fn the_group_is_named_where_it_is_not_all_that_is_cyclic() {
+    let disk = "base { x, y, phi, psi } \
+                lagrangian { (der(x)^2 + der(y)^2 + der(psi)^2 + der(phi)^2)/2 + E * cos(phi) } \
+                constraints { der(x) = R * cos(phi) * der(psi); der(y) = R * sin(phi) * der(psi); }";
+    let cyclic = report(disk, "E: f64, R: f64");
+    assert!(cyclic.contains("; the group: translations along the cyclic coordinates"), "{cyclic}");
+    let plane = report(&format!("{disk} symmetries {{ east: der(x); north: der(y); }}"), "E: f64, R: f64");
+    assert!(plane.contains("a Chaplygin system"), "{plane}");
+    assert!(plane.contains("; the group: translations along x, y\n"), "{plane}");
 }
 
 #[test]
