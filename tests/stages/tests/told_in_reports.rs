@@ -25,8 +25,10 @@ fn reports_say_which_velocities_keep_their_name_and_have_another_value() {
     );
     assert!(told("h = 2*u;").is_empty());
     assert!(told("h = u + a*v; k = v - a*u;").is_empty());
-    let rates =
-        report("base { x, y } lagrangian { m/2*(der(x)^2 + der(y)^2) } frame { roll = x_dot + a*y_dot; }");
+    let rates = report(
+        "base { x, y } lagrangian { m/2*(der(x)^2 + der(y)^2) } frame { roll = x_dot + a*y_dot; }",
+        FIELDS,
+    );
     assert!(rates.contains("`y_dot` is the velocity along y_dot in the basis of the frame"), "{rates}");
     assert!(rates.contains("is y_dot + a*roll"), "{rates}");
 }
