@@ -208,7 +208,10 @@ fn reports() {
         ),
         (
             Turning::REPORT,
-            ["D is not closed under the bracket (nonholonomic)\n", "the energy (CLMM Theorems 3.4"],
+            [
+                "; D, as it changes with the time, is not closed under the bracket (nonholonomic)\n",
+                "the energy (CLMM Theorems 3.4",
+            ],
         ),
         (
             Advected::REPORT,
