@@ -26,48 +26,48 @@ impl Graph {
         turns
     }
 
-    /// The sum of the magnitudes of the coefficients that a term is multiplied out to at most, if it is.
+    /// The sum of the magnitudes of the coefficients that a term is multiplied out to at most, if it is: 1 at least, as it
+    /// stays whole where that takes too many terms.
     fn expanded_weight(
         &self,
         term: ExprId,
         levels: u32,
         images: &FxHashMap<SymbolId, ExprId>,
     ) -> Option<f64> {
-        if let Some(image) = self.as_symbol(term).and_then(|symbol| images.get(&symbol)) {
-            return Some(self.terms_weight(*image, levels, images));
-        }
-        let Node::Product { factors, .. } = self.node(term) else { return None };
-        let mut weight = None;
-        for (base, exponent) in factors.iter() {
-            let inside = match self.as_symbol(*base) {
-                Some(symbol) => images.get(&symbol).map(|image| self.terms_weight(*image, levels, images)),
-                None => matches!(self.node(*base), Node::Sum { .. })
-                    .then(|| self.sum_weight(*base, levels, images)),
+        let of_image = |symbol| {
+            let image = images.get(&symbol)?;
+            Some(self.terms_weight(*image, |term| self.expanded_weight(term, levels, images)))
+        };
+        // a sum inside of a product
+        let of_sum = |x: ExprId| {
+            let is_multiplied_out =
+                |term| self.multiplies_out(term, levels, |symbol| images.contains_key(&symbol));
+            let inside = |term| {
+                let levels = levels.saturating_sub(1);
+                is_multiplied_out(term).then(|| self.expanded_weight(term, levels, images)).flatten()
             };
-            if let (Some(inside), Some(times)) = (inside, times_multiplied_out(exponent)) {
-                weight = Some(weight.unwrap_or(1.0) * inside.powi(times));
+            matches!(self.node(x), Node::Sum { .. }).then(|| self.terms_weight(x, inside))
+        };
+        let of = |x: ExprId| self.as_symbol(x).map_or_else(|| of_sum(x), of_image);
+        let weight = match self.node(term) {
+            Node::Product { factors, .. } => {
+                let multiplied_out = factors.iter().filter_map(|(base, exponent)| {
+                    let times = times_multiplied_out(exponent)?;
+                    Some(of(*base)?.powi(times))
+                });
+                multiplied_out.reduce(|product, weight| product * weight)?
             }
-        }
-        weight
+            _ => of_image(self.as_symbol(term)?)?,
+        };
+        Some(weight.max(1.0))
     }
 
-    /// The same of all terms of an argument together.
-    fn terms_weight(&self, x: ExprId, levels: u32, images: &FxHashMap<SymbolId, ExprId>) -> f64 {
-        let weights = self.angle_terms(x).into_iter().map(|(term, coefficient)| {
-            let inside = term.and_then(|term| self.expanded_weight(term, levels, images)).unwrap_or(1.0);
-            coefficient.abs().to_f64() * inside
-        });
-        weights.sum()
-    }
-
-    /// The same of a sum inside of a product.
-    fn sum_weight(&self, x: ExprId, levels: u32, images: &FxHashMap<SymbolId, ExprId>) -> f64 {
-        let is_image = |symbol| images.contains_key(&symbol);
-        let weights = self.angle_terms(x).into_iter().map(|(term, coefficient)| {
-            let inside = term.filter(|term| self.multiplies_out(*term, levels, is_image));
-            let inside = inside.and_then(|term| self.expanded_weight(term, levels.saturating_sub(1), images));
-            coefficient.abs().to_f64() * inside.unwrap_or(1.0)
-        });
+    /// The magnitudes of the coefficients of terms, each times what is inside of the term, or 1.
+    fn terms_weight(&self, x: ExprId, inside: impl Fn(ExprId) -> Option<f64>) -> f64 {
+        let weights = self
+            .angle_terms(x)
+            .into_iter()
+            .map(|(term, coefficient)| coefficient.abs().to_f64() * term.and_then(&inside).unwrap_or(1.0));
         weights.sum()
     }
 }
@@ -99,6 +99,11 @@ mod tests {
         let with_image = g.formula(k * image * image * image);
         assert_eq!(g.angle_turns(with_image, 1, &images).to_bits(), (27.0 + beside).to_bits());
         assert_eq!(g.angle_turns(with_image, 1, &none).to_bits(), 1.0_f64.to_bits());
+        // what stays whole has all of its turns
+        let halves = g.formula(a * Rational::new(1, 2) + b * Rational::new(1, 4));
+        let images: FxHashMap<_, _> = [(v, halves)].into_iter().collect();
+        let thousand = g.formula(with_image * Rational::from(1000));
+        assert!(g.angle_turns(thousand, 1, &images) >= 1000.0);
     }
 
     /// Each of a chain of products of sums is above two of the one before.

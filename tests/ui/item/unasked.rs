@@ -12,4 +12,5 @@ fn main() {
     println!("{:?}", multipliers.x);
     let _ = free.jacobian_product(0.0, &state, &(), &state, &());
     let _ = free.linearize(0.0, &state, &());
+    let _ = free.curvature(0.0, &state);
 }

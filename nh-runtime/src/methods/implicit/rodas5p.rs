@@ -73,9 +73,9 @@ impl<S: Dynamics> Clone for Work<S> {
 }
 impl<S: Dynamics> Copy for Work<S> {}
 
-/// The change of f by time alone, in the direction of the step or else against it, and over which time. This is a share of the step that
-/// the quotient is meant for: √ε of it, and more where time is too coarse. The quotient itself, with the square of
-/// the unit of time, may be out of range where its contribution to the step is not.
+/// The change of f by time alone, in the direction of the step or else against it, and over which time. This is a share of
+/// the step that the quotient is meant for: √ε of it, and more where time is too coarse. The quotient itself, with the
+/// square of the unit of time, may be out of range where its contribution to the step is not.
 fn by_time<S: Dynamics>(
     start: &Start<'_, S>,
     first: &VecOf<S>,
