@@ -33,8 +33,7 @@ pub(super) fn touching_each_other(model: &mut Model, manifold: &Manifold) -> Opt
     Some(Violation {
         law: Law::Independence,
         origin: model.positions.last()?.origin,
-        what: "the position constraints touch where they hold: none of their forces is determined there"
-            .into(),
+        what: "the position constraints touch where they hold: their derivatives are dependent there".into(),
         evidence: format!(
             "solved for coordinates they contain the root of {}, which is positive nowhere: they hold where it is 0 alone, \
              and constraints that are independent leave more room",
