@@ -47,8 +47,13 @@ fn the_group_is_named_where_it_is_not_all_that_is_cyclic() {
 
 #[test]
 fn a_gap_changes_at_its_rate() {
-    let report = report("base { h } lagrangian { der(h)^2/2 - h } impacts { floor: h >= 0; }", "");
+    let report = report(
+        "base { h } lagrangian { der(h)^2/2 - h } impacts { floor: h >= 0; ceiling: h <= a; }",
+        "a: f64",
+    );
     assert!(report.contains("floor: h >= 0, changing at the rate h_dot"), "{report}");
+    // the larger side less the other
+    assert!(report.contains("ceiling: a - h >= 0, changing at the rate -h_dot"), "{report}");
     assert!(!report.contains("closing at the rate h_dot"), "{report}");
 }
 

@@ -100,6 +100,9 @@ fn tracked_variables_and_outputs() {
         ]
     );
     assert_eq!(with("x, x"), ["this is tracked already"]);
+    // an output in error is known all the same
+    let broken = of("base { x } lagrangian { 1 } outputs { b = missing; } track { x, b }");
+    assert!(broken.len() == 1 && broken[0].starts_with("unknown name `missing`"), "{broken:?}");
     let nothing = "help: name the state variables and outputs that are needed, or leave the section out";
     assert_eq!(with(""), [format!("nothing is tracked\n{nothing}")]);
     let spanned = of(&format!("{text} distribution {{ }}"));
