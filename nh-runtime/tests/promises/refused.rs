@@ -6,10 +6,11 @@ use nonholonomic::{Constrained, D, Invariants, Jacobian, Method, ProjectionError
 
 use crate::systems::every_kind;
 
-/// A point that goes round, and behind a time is on the other side of a dead centre.
+/// A point that goes round, and behind a time is on the other side of a dead centre, or where no return leads back.
 #[derive(Clone, Copy, Debug)]
 struct Round<T> {
     until: T,
+    lost: T,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -37,6 +38,9 @@ impl<T: Real> Dynamics for Round<T> {
     }
     fn has_positions(&self) -> bool {
         true
+    }
+    fn return_to_positions(&self, t: T, _state: &mut Place<T>) -> Result<T, ProjectionError> {
+        if t > self.lost { Err(ProjectionError { iterations: 1, residual: 1.0 }) } else { Ok(T::ZERO) }
     }
     fn side(&self, t: T, _state: &Place<T>) -> T {
         if t > self.until { -T::ONE } else { T::ONE }
@@ -96,7 +100,7 @@ impl<T: Real> Constrained for Round<T> {
 
 /// Goes on until a step leads past the dead centre.
 fn law<T: Real>(name: &str, method: impl Method<Round<T>> + Clone) {
-    let system = Round { until: T::from_f64(2.0) };
+    let system = Round { until: T::from_f64(2.0), lost: T::from_f64(f64::INFINITY) };
     let mut sim = Integrator::new(system, method, T::ZERO, Place([T::ZERO, T::ONE]));
     let mut before = T::ZERO;
     loop {
@@ -147,4 +151,20 @@ fn all<T: Real>() {
 fn a_step_past_a_dead_centre_leaves_nothing_behind() {
     all::<f64>();
     all::<f32>();
+}
+
+/// What rounding took from the end of a step that is refused is not carried on.
+#[test]
+fn a_refused_step_carries_no_rounding_on() {
+    for system in [Round { until: 0.5, lost: f64::INFINITY }, Round { until: f64::INFINITY, lost: 0.5 }] {
+        let run = |ends: &[f64]| {
+            let start = Place([0.8, 0.7]);
+            let mut sim = Integrator::new(system, Rk4::new(1.0).compensated(), 0.0, start);
+            let refused = ends.iter().filter(|end| sim.step_towards(**end).is_err()).count();
+            (refused, sim.state().0.map(f64::to_bits))
+        };
+        let (none, state) = run(&[0.25]);
+        assert_eq!(none, 0, "{system:?}");
+        assert_eq!(run(&[1.0, 0.25]), (1, state), "{system:?}");
+    }
 }
