@@ -14,7 +14,7 @@ use super::verdict::Verdict;
 use super::visited::Visited;
 use crate::id::{ExprId, SymbolId, Table};
 use crate::limits;
-use rustc_hash::{FxHashMap, FxHasher};
+use rustc_hash::{FxHashMap, FxHashSet, FxHasher};
 use std::cell::RefCell;
 use std::hash::{Hash, Hasher};
 use std::rc::Rc;
@@ -43,6 +43,8 @@ pub struct Graph {
     pub(super) partials: FxHashMap<(ExprId, SymbolId), ExprId>,
     /// What the zero test has said.
     pub(super) verdicts: RefCell<FxHashMap<ExprId, Verdict>>,
+    /// What vanishes on the reals and by no identity that the field knows.
+    pub(super) zeros_by_values: RefCell<FxHashSet<ExprId>>,
     pub(super) visited: RefCell<Visited>,
 }
 

@@ -10,7 +10,8 @@ impl Graph {
     /// The expression where symbols that it does not depend on vanish, simplified: `(cos²θ + sin²θ) J` is
     /// `J`. `None` where it depends on all that occur, or where that divides by something else.
     ///
-    /// That both are equal is proved by the zero test.
+    /// That both are equal is proved by the zero test, from identities that the field knows: proofs of what is computed
+    /// know no others.
     pub fn freed(&mut self, expression: ExprId) -> Option<ExprId> {
         let idle = self.seemingly_idle(expression, |_| true);
         let at_once = self.equal_at_zero(expression, &idle);
@@ -82,7 +83,7 @@ impl Graph {
         }
         let value = self.at_zero(expression, symbols);
         let difference = self.sub(expression, value);
-        (!self.is_undefined(value) && self.zero_test(difference).is_zero()).then_some(value)
+        (!self.is_undefined(value) && self.vanishes_by_identity(difference)).then_some(value)
     }
 
     /// The symbols that occur in the expression, are asked about, and whose change is not felt at a point.

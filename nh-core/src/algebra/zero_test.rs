@@ -143,7 +143,7 @@ impl Graph {
         match in_field {
             // the sign of a root on the reals had the last word: `sqrt(x^2) − x`
             Ok(true) => Verdict::Zero,
-            _ if may_vanish() && self.vanishes_on_reals(expression) => Verdict::Zero,
+            _ if may_vanish() && self.vanishes_on_reals(expression) => self.zero_by_values(expression),
             Ok(false) => {
                 let why = "it could not be told from zero at any point tried, and is zero by no identity known here";
                 Verdict::Unknown(why.into())
@@ -158,6 +158,8 @@ impl Graph {
 
     /// Decides an expression without symbols.
     fn decided_number(&self, expression: ExprId) -> Verdict {
+        let by_identity =
+            || !self.has_roots(expression) && self.vanishes_in_field(expression, false) == Ok(true);
         let mut bits = 128;
         let mut seen = 0;
         let mut most = DIGITS_WITHOUT_BOUND;
@@ -172,7 +174,8 @@ impl Graph {
                     }
                     seen = bits;
                     match value.form.as_ref().map(|form| form.decided(evaluated.degree, bits)) {
-                        Some(Ok(Decision::Zero)) => return Verdict::Zero,
+                        Some(Ok(Decision::Zero)) if by_identity() => return Verdict::Zero,
+                        Some(Ok(Decision::Zero)) => return self.zero_by_values(expression),
                         Some(Ok(Decision::Digits(wanted))) => {
                             most = MOST_DIGITS;
                             next = next.max(wanted);
@@ -188,10 +191,11 @@ impl Graph {
             }
             bits = next;
         }
-        let by_identity =
-            !self.has_roots(expression) && self.vanishes_in_field(expression, false) == Ok(true);
-        if seen > 0 && (by_identity || self.vanishes_on_reals(expression)) {
+        if seen > 0 && by_identity() {
             return Verdict::Zero;
+        }
+        if seen > 0 && self.vanishes_on_reals(expression) {
+            return self.zero_by_values(expression);
         }
         Verdict::Unknown(match seen {
             0 => "its value is beyond the numbers that can be compared with zero".into(),
@@ -313,6 +317,18 @@ impl Graph {
     /// Whether the expression has a value at one of the points tried of the field, or may have one elsewhere.
     pub(crate) fn has_value(&self, expression: ExprId) -> bool {
         self.vanishes_in_field(expression, self.has_roots(expression)) != Err(NoValue::Here)
+    }
+
+    /// Whether the expression vanishes by what the field knows of functions as well, and not by their values on the reals
+    /// alone, as `atan2(x, 1) − atan(x)` does: what is derived by no other identity can be proved in the field.
+    pub(crate) fn vanishes_by_identity(&self, expression: ExprId) -> bool {
+        self.zero_test(expression).is_zero() && !self.zeros_by_values.borrow().contains(&expression)
+    }
+
+    /// The verdict on what vanishes by its values.
+    fn zero_by_values(&self, expression: ExprId) -> Verdict {
+        self.zeros_by_values.borrow_mut().insert(expression);
+        Verdict::Zero
     }
 
     /// Whether the expression vanishes at every point tried of the field.

@@ -40,6 +40,6 @@ fn fibre_derivative(graph: &mut Graph, function: ExprId, velocities: &[SymbolId]
 fn degree(graph: &mut Graph, function: ExprId, fibre: ExprId) -> Option<i64> {
     [2, 0, 1, 4, 3].into_iter().find(|degree| {
         let defect = graph.linear_combination(&[(1.into(), fibre), (Rational::from(-*degree), function)]);
-        graph.zero_test(defect).is_zero()
+        graph.vanishes_by_identity(defect)
     })
 }

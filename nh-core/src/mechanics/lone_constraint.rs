@@ -35,7 +35,7 @@ impl LoneConstraint {
         (force, bias): (&[ExprId], &[ExprId]),
         a: usize,
     ) -> Option<Self> {
-        let vanishes = |entry: ExprId| graph.zero_test(entry).is_zero();
+        let vanishes = |entry: ExprId| graph.vanishes_by_identity(entry);
         let members: Vec<usize> =
             (0..mass.len()).filter(|alpha| !graph.is_literal_zero(jacobian[a][*alpha])).collect();
         let is_alone = |alpha: &usize| {

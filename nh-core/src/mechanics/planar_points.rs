@@ -42,7 +42,7 @@ pub(super) fn points(graph: &mut Graph, velocities: &[SymbolId], of: &VelocityFo
         let inertia = graph.partial(slope, *symbol);
         let u = graph.symbol(*symbol);
         let rest = graph.formula(slope - inertia * u);
-        if !graph.depends_on(inertia, &symbols) && graph.zero_test(rest).is_zero() {
+        if !graph.depends_on(inertia, &symbols) && graph.vanishes_by_identity(rest) {
             let coefficients = partials.iter_mut().map(|partial| partial.apply(graph, *form)).collect();
             squares.push((k, inertia, coefficients));
         }

@@ -81,7 +81,7 @@ pub fn saddle_equations(
 fn is_diagonal(graph: &Graph, matrix: &Matrix) -> bool {
     let entries =
         matrix.iter().enumerate().flat_map(|(i, row)| row.iter().enumerate().map(move |(j, e)| (i, j, e)));
-    entries.into_iter().all(|(i, j, entry)| i == j || graph.zero_test(*entry).is_zero())
+    entries.into_iter().all(|(i, j, entry)| i == j || graph.vanishes_by_identity(*entry))
 }
 
 fn negated(graph: &mut Graph, list: &[ExprId]) -> Vec<ExprId> {
@@ -147,7 +147,7 @@ impl SaddleEquations {
                 }
                 let sum = graph.sum(&terms);
                 let one = graph.one();
-                let weight = if graph.zero_test(sum).is_zero() { one } else { graph.formula(one / sum) };
+                let weight = if graph.vanishes_by_identity(sum) { one } else { graph.formula(one / sum) };
                 // the squares of a unit vector are one: what they do not leave need not cancel later. Brought over
                 // a common denominator, inertias that are far apart would lose digits.
                 let short = graph.simplify(weight);

@@ -94,7 +94,7 @@ fn multiple(graph: &mut Graph, value: ExprId, independent: &[SymbolId]) -> Optio
     let [velocity] = moving.as_slice() else { return None };
     let partial = graph.partial(value, *velocity);
     let rest = graph.at_zero(value, &[*velocity]);
-    let is_multiple = !graph.depends_on(partial, &[*velocity]) && graph.zero_test(rest).is_zero();
+    let is_multiple = !graph.depends_on(partial, &[*velocity]) && graph.vanishes_by_identity(rest);
     is_multiple.then_some((*velocity, partial))
 }
 

@@ -30,7 +30,7 @@ pub fn uncoupled(graph: &Graph, matrix: &[Vec<ExprId>]) -> Vec<Vec<usize>> {
     for (i, row) in matrix.iter().enumerate() {
         for (j, entry) in row.iter().enumerate().skip(i + 1) {
             let (low, high) = (block_of[i].min(block_of[j]), block_of[i].max(block_of[j]));
-            if low != high && !graph.zero_test(*entry).is_zero() {
+            if low != high && !graph.vanishes_by_identity(*entry) {
                 for block in &mut block_of {
                     if *block == high {
                         *block = low;

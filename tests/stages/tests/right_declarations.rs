@@ -198,12 +198,21 @@ struct CubeOfASum { m: f64, J: f64, r: f64, c: f64, k: f64, s: f64 }
  lagrangian { J/2*(der(a)^2 + der(b)^2 + der(c)^2) } independent { der(a) }
  forces { a: -f*tanh(k*(der(a) - der(b))); b: f*tanh(k*(der(a) - der(b))); c: -f*tanh(k*der(c)); })]
 struct FrictionInItsJoints { l1: f64, l2: f64, l3: f64, d: f64, J: f64, f: f64, k: f64 }
+#[nonholonomic(base { x, y }
+ lagrangian { m/2*(der(x)^2 + der(y)^2) - k*y^2 + atan2(2*sin(x), 2*cos(x)) - atan2(sin(x), cos(x)) })]
+struct IdleByValues { m: f64, k: f64 }
+#[nonholonomic(base { x, y, z } lagrangian { m/2*(der(x)^2 + der(y)^2 + der(z)^2)
+ + (ln(2 + 2*x^2) - ln(1 + x^2) - ln(2))*der(z) + y^2*(atan2(x, 1) - atan(x)) })]
+struct HomogeneousByValues { m: f64 }
+#[nonholonomic(base { x, y, z } lagrangian { m/2*(der(x)^2 + der(y)^2) + der(z)^2 - y^2 - z^2
+ + (atan(z) - asin(z/sqrt(1 + z^2)))*(der(x)*der(y) + y) } emit { jacobian, gibbs_appell })]
+struct UncoupledByValues { m: f64 }
 ";
 
 #[test]
 fn right_declarations_are_accepted() {
     let found = declarations(RIGHT);
-    assert_eq!(found.len(), 75);
+    assert_eq!(found.len(), 78);
     let mut refused = Vec::new();
     for declaration in found {
         let errors = errors(&declaration.expanded());

@@ -29,7 +29,7 @@ pub(super) fn normal_velocity(
     procedure: &mut Procedure,
 ) -> Vec<ExprId> {
     let offset = &distribution.offset;
-    if offset.iter().all(|entry| graph.zero_test(*entry).is_zero()) {
+    if offset.iter().all(|entry| graph.vanishes_by_identity(*entry)) {
         return vec![graph.zero(); offset.len()];
     }
     // 1. W y₀, with W on the constraint manifold
