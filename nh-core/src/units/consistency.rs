@@ -1,6 +1,6 @@
 //! All conditions of a declaration together: what follows of units, or what contradicts what.
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 use std::ops::Range;
 
 use super::elimination::{Elimination, Taken};
@@ -36,6 +36,9 @@ pub struct Condition {
     /// The conditions that stand inside this one, and in what it is made of.
     pub within: Vec<Range<usize>>,
 }
+
+/// The place of what is taken for granted and stands nowhere.
+pub const USUAL: usize = 0;
 
 impl Condition {
     /// Whether it is a line of `units`.
@@ -74,20 +77,76 @@ pub struct Conflict {
 /// What follows of units.
 ///
 /// # Errors
-/// Every contradiction, shown by an irreducible set of terms.
+/// Every contradiction, shown by an irreducible set of terms; or a line of `units` that
+/// contradicts several terms.
 pub fn infer(graph: &Graph, conditions: &[Condition]) -> Result<Inferred, Vec<Violation>> {
-    let mut search = Search::default();
-    let (declared, written): (Vec<usize>, Vec<usize>) =
-        (0..conditions.len()).partition(|k| conditions[*k].is_declared());
-    for k in declared.into_iter().chain(written) {
-        search.take(conditions, k);
-    }
+    let search = Search::of(conditions, |_| true);
     if search.conflicts.is_empty() {
         return Ok(Inferred { equations: search.elimination });
     }
-    let worded =
-        search.conflicts.iter().flat_map(|conflict| wording::violations(graph, conditions, conflict));
-    Err(worded.collect())
+    let (wrong, rest) = wrong_lines(conditions, search);
+    let wrong = wrong.iter().map(|lines| wording::wrong_lines(conditions, lines, &rest.elimination));
+    let others = rest.conflicts.iter().flat_map(|conflict| wording::violations(graph, conditions, conflict));
+    Err(wrong.chain(others).collect())
+}
+
+/// A line of `units` that contradicts several terms.
+pub(super) struct WrongLine {
+    /// The conditions of its names.
+    pub(super) names: Vec<usize>,
+    /// Those that are in a contradiction, one at least.
+    pub(super) contradicted: BTreeSet<usize>,
+    /// What is contradicted no longer without it.
+    pub(super) terms: Vec<Equation>,
+    /// What the rest says.
+    pub(super) rest: Elimination,
+}
+
+/// Lines of `units` without each of which there are several contradictions less, each with others that may be to blame
+/// instead; and what is left without them.
+fn wrong_lines(conditions: &[Condition], mut search: Search) -> (Vec<Vec<WrongLine>>, Search) {
+    let mut found: Vec<Vec<WrongLine>> = Vec::new();
+    let mut left_out = BTreeSet::new();
+    while search.conflicts.len() > 1 {
+        let mut tried: Vec<(usize, Involved, Search)> = Vec::new();
+        for (place, involved) in search.lines_in_conflicts(conditions) {
+            let kept =
+                |condition: &Condition| condition.place != place && !left_out.contains(&condition.place);
+            tried.push((place, involved, Search::of(conditions, kept)));
+        }
+        let gain = |rest: &Search| search.conflicts.len().saturating_sub(rest.conflicts.len());
+        let best = tried.iter().map(|(.., rest)| gain(rest)).max().unwrap_or_default();
+        if best < 2 {
+            break;
+        }
+        tried.retain(|(_, _, rest)| gain(rest) == best);
+        let terms = tried[0].1.terms.clone();
+        tried.retain(|(_, involved, _)| !involved.terms.is_disjoint(&terms));
+        let line = |(place, involved, rest): &(usize, Involved, Search)| {
+            let last = |conflict: &Conflict| conflict.equations.first().copied();
+            let is_its = |equation: &Equation| involved.terms.contains(&equation.condition);
+            let is_named = |k: &usize| conditions[*k].is_declared() && conditions[*k].place == *place;
+            WrongLine {
+                names: (0..conditions.len()).filter(is_named).collect(),
+                contradicted: involved.names.clone(),
+                terms: search.conflicts.iter().filter_map(last).filter(is_its).collect(),
+                rest: rest.elimination.clone(),
+            }
+        };
+        found.push(tried.iter().map(line).collect());
+        left_out.insert(tried[0].0);
+        search = tried.swap_remove(0).2;
+    }
+    (found, search)
+}
+
+/// What a line of `units` has to do with contradictions.
+#[derive(Default)]
+struct Involved {
+    /// The conditions of its names that are in one.
+    names: BTreeSet<usize>,
+    /// The conditions that were met last in these.
+    terms: BTreeSet<usize>,
 }
 
 #[derive(Default)]
@@ -102,6 +161,34 @@ struct Search {
 }
 
 impl Search {
+    /// All conditions that are `kept`, the lines of `units` first.
+    fn of(conditions: &[Condition], kept: impl Fn(&Condition) -> bool) -> Self {
+        let mut search = Self::default();
+        let all = (0..conditions.len()).filter(|k| kept(&conditions[*k]));
+        let (declared, written): (Vec<usize>, Vec<usize>) = all.partition(|k| conditions[*k].is_declared());
+        for k in declared.into_iter().chain(written) {
+            search.take(conditions, k);
+        }
+        search
+    }
+
+    /// The lines of `units` that are in a contradiction, by their places.
+    fn lines_in_conflicts(&self, conditions: &[Condition]) -> BTreeMap<usize, Involved> {
+        let mut found: BTreeMap<usize, Involved> = BTreeMap::new();
+        for conflict in &self.conflicts {
+            for line in &conflict.declared {
+                let place = conditions[line.condition].place;
+                // what is usual stands in no line
+                if place != USUAL {
+                    let involved = found.entry(place).or_default();
+                    involved.names.insert(line.condition);
+                    involved.terms.extend(conflict.equations.first().map(|equation| equation.condition));
+                }
+            }
+        }
+        found
+    }
+
     fn take(&mut self, conditions: &[Condition], k: usize) {
         let condition = &conditions[k];
         // what is made of a contradiction contradicts much: one of them is said

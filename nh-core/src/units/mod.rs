@@ -13,7 +13,7 @@ mod inferred;
 mod reading;
 mod wording;
 
-pub use consistency::{Condition, Conflict, Side, infer};
+pub use consistency::{Condition, Conflict, Side, USUAL, infer};
 pub use dimension::{Dimension, Refused, UNITS, raised};
 pub use form::{Form, Unknown};
 pub(crate) use inferred::lines;

@@ -2,11 +2,12 @@
 
 use std::collections::BTreeSet;
 
-use super::consistency::{Condition, Conflict, Equation, given, solved};
+use super::consistency::{Condition, Conflict, Equation, Side, WrongLine, given, solved};
 use super::dimension::Dimension;
 use super::elimination::Elimination;
 use super::form::Unknown;
 use crate::algebra::Graph;
+use crate::id::Origin;
 use crate::violation::{Law, Violation};
 
 /// Names whose units are shown, and terms.
@@ -31,11 +32,86 @@ pub(super) fn violations(graph: &Graph, conditions: &[Condition], conflict: &Con
     vec![violation]
 }
 
+/// A line of `units` that contradicts several terms, by the units that these have without it; or several lines of which
+/// one does.
+pub(super) fn wrong_lines(conditions: &[Condition], lines: &[WrongLine], rest: &Elimination) -> Violation {
+    let told: Vec<Blamed> = match lines {
+        [line] => vec![Blamed::of(conditions, line, rest)],
+        several => several.iter().map(|line| Blamed::of(conditions, line, &line.rest)).collect(),
+    };
+    let what = match told.as_slice() {
+        [Blamed { names, units, .. }] => format!("the unit of {names} does not fit: it is {units}"),
+        several => {
+            let each =
+                several.iter().map(|Blamed { names, units, .. }| format!("that of {names} is {units}"));
+            format!("one of these units does not fit: {}", each.collect::<Vec<_>>().join("; "))
+        }
+    };
+    let way_out = if told.iter().all(|blamed| blamed.follows) {
+        "correct it, or leave it out: it follows from the rest; or correct each of these terms"
+    } else {
+        "correct it: without it the rest has no contradiction; or correct each of these terms"
+    };
+    let mut terms: Vec<Equation> = Vec::new();
+    for term in lines.iter().flat_map(|line| &line.terms) {
+        if terms.iter().all(|known| known.condition != term.condition) {
+            terms.push(*term);
+        }
+    }
+    let evidence = listed(conditions, &terms).join("\n");
+    Violation { law: Law::Units, origin: told[0].origin, what, evidence, way_out: way_out.into() }
+}
+
+/// The names in a line of `units` that are wrong there.
+struct Blamed {
+    names: String,
+    units: String,
+    /// Whether their units follow from the rest.
+    follows: bool,
+    origin: Origin,
+}
+
+impl Blamed {
+    fn of(conditions: &[Condition], line: &WrongLine, rest: &Elimination) -> Self {
+        // what is expected, its unit, is said first
+        let sides = |k: &usize| -> (&Side, &Side) {
+            let sides = &conditions[*k].sides;
+            (&sides[0], &sides[sides.len() - 1])
+        };
+        let of = |side: &Side| rest.reduced(side.form.as_ref()?).value().cloned();
+        let unit = line.names.first().and_then(|k| of(sides(k).0)).unwrap_or_default();
+        let elsewhere = |k: &usize| Some((*k, of(sides(k).1).filter(|found| *found != unit)?));
+        let known: Vec<(usize, Dimension)> = line.names.iter().filter_map(elsewhere).collect();
+        let blamed: Vec<usize> = match known.as_slice() {
+            [] => line.contradicted.iter().copied().collect(),
+            known => known.iter().map(|(k, _)| *k).collect(),
+        };
+        let names: Vec<&str> = blamed.iter().map(|k| sides(k).1.text.as_str()).collect();
+        let by_rest = match known.as_slice() {
+            [] => String::new(),
+            [(_, first), others @ ..] if others.iter().all(|(_, other)| other == first) => {
+                format!(", and {} by all the rest", said(first))
+            }
+            several => {
+                let each = several.iter().map(|(k, unit)| format!("{} is {}", sides(k).1.text, said(unit)));
+                format!(", and by all the rest {}", each.collect::<Vec<_>>().join(", "))
+            }
+        };
+        Self {
+            names: names.join(", "),
+            units: format!("{} in `units`{by_rest}", said(&unit)),
+            follows: !known.is_empty(),
+            // a line is in a contradiction by one of its names at least
+            origin: sides(&blamed[0]).1.origin,
+        }
+    }
+}
+
 /// One equation whose sides have different units by what `units` says.
 fn unequal(graph: &Graph, conditions: &[Condition], equation: Equation, given: &Elimination) -> Violation {
     let condition = &conditions[equation.condition];
     let (left, right) = (&condition.sides[equation.left], &condition.sides[equation.right]);
-    let dimension = |side: &super::Side| given.reduced(side.form.as_ref()?).value().cloned();
+    let dimension = |side: &Side| given.reduced(side.form.as_ref()?).value().cloned();
     // what is expected is said first
     let (first, second) = if equation.left < equation.right { (left, right) } else { (right, left) };
     let what = if let (Some(a), Some(b)) = (dimension(first), dimension(second)) {
@@ -56,7 +132,7 @@ fn unequal(graph: &Graph, conditions: &[Condition], equation: Equation, given: &
 }
 
 /// The units of the names in two terms.
-fn units_of_names(graph: &Graph, sides: [&super::Side; 2], given: &Elimination) -> Vec<String> {
+fn units_of_names(graph: &Graph, sides: [&Side; 2], given: &Elimination) -> Vec<String> {
     let unknowns: BTreeSet<&Unknown> =
         sides.iter().filter_map(|side| side.form.as_ref()).flat_map(|form| form.unknowns.keys()).collect();
     let named = unknowns.into_iter().filter_map(|unknown| {
@@ -134,9 +210,16 @@ fn listed(conditions: &[Condition], equations: &[Equation]) -> Vec<String> {
         let (left, right) = (&condition.sides[equation.left], &condition.sides[equation.right]);
         format!("in `{}` {} {} {}", condition.section, left.text, condition.relation, right.text)
     };
-    let mut lines: Vec<String> = equations.iter().take(SHOWN).map(line).collect();
-    if equations.len() > SHOWN {
-        lines.push(format!("and {} more", equations.len() - SHOWN));
+    let mut lines: Vec<String> = Vec::new();
+    for line in equations.iter().map(line) {
+        if !lines.contains(&line) {
+            lines.push(line);
+        }
+    }
+    let more = lines.len().saturating_sub(SHOWN);
+    lines.truncate(SHOWN);
+    if more > 0 {
+        lines.push(format!("and {more} more"));
     }
     lines
 }

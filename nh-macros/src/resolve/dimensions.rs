@@ -6,7 +6,7 @@ use nonholonomic_core::algebra::Rational;
 use nonholonomic_core::id::{ConstraintId, SymbolId, Table};
 use nonholonomic_core::model::{ConstraintDecl, OutputDecl, SymmetryDecl};
 use nonholonomic_core::units::{
-    Dimension, Form, Kind, Quantity, Reading, Refused, UNITS, Unit, Unknown, infer, raised,
+    Dimension, Form, Kind, Quantity, Reading, Refused, UNITS, USUAL, Unit, Unknown, infer, raised,
 };
 
 use super::alike::Measured;
@@ -77,7 +77,7 @@ impl Resolver {
                         Measured::expected("its unit in `units`", place.extent).unit(dimension.clone());
                     // what follows from expressions is compared with them, when these have been looked at
                     let section = if is_free { "" } else { "units" };
-                    self.same_unit_in(section, std::ptr::from_ref(place).addr(), "is", vec![unit, side]);
+                    self.same_unit_in(section, std::ptr::from_ref(line).addr(), "is", vec![unit, side]);
                 }
             }
         }
@@ -120,7 +120,7 @@ impl Resolver {
                 let side = Measured::expected(text, whole);
                 let side = if name == "t" { side.time(1) } else { side.energy(1) };
                 let expected = Measured::expected("its usual unit", whole).unit(unit);
-                self.same_unit_in("", 0, "is", vec![expected, side]);
+                self.same_unit_in("", USUAL, "is", vec![expected, side]);
             }
         }
     }

@@ -208,9 +208,37 @@ fn symmetric_matrices_have_units_as_a_whole_and_by_rows() {
     assert_eq!(of("I[0][0] = kg m^2; I[0][1] = kg m; I[1][1] = kg;"), Vec::<String>::new());
     let twice = "the unit of `I[0][1]` is given twice\nhelp: keep one of them";
     assert_eq!(of("I[0][1] = kg m; I[1][0] = kg m;"), [twice]);
-    let apart = of("I[0] = kg m^2; I[1] = kg;");
-    let disagree = "the units do not fit: its unit in `units` is kg, `I[0][1]` is kg m²";
-    assert!(apart.first().is_some_and(|error| error.starts_with(disagree)), "{apart:?}");
+    let disagree = "one of these units does not fit: that of `I[0][0]`, `I[0][1]` is kg m² in `units`, and kg by all the \
+                    rest; that of `I[0][1]`, `I[1][1]` is kg in `units`, and kg m² by all the rest\n\
+                    in `lagrangian` `q_dot[1]*I[1][1]` is added to `q_dot[0]*I[0][1]`\n\
+                    help: correct it, or leave it out: it follows from the rest; or correct each of these terms";
+    assert_eq!(of("I[0] = kg m^2; I[1] = kg;"), [disagree]);
+}
+
+/// A line of `units` that contradicts several terms is one error; a contradiction beside it is another.
+#[test]
+fn a_wrong_line_is_one_error() {
+    let of = |lines: &str| {
+        let machine = "base { x, th } lagrangian { m / 2 * der(x)^2 + J / 2 * der(th)^2 - k * (1 - cos(th)) }
+            inputs { left, right } forces { x: (left + right) / r - d * sin(th); th: (right - left) * b / r; }
+            outputs { s = sin(th) + c; }";
+        let item = "struct S { m: f64, J: f64, k: f64, r: f64, b: f64, c: f64, d: f64 }";
+        messages(&format!("{machine} units {{ m = kg; {lines} }}"), item)
+    };
+    assert_eq!(of("x, b, r = m; th = rad; left, right = N m;"), Vec::<String>::new());
+    let turns = "in `lagrangian` `th` is the argument of a function\n\
+                 in `forces` `th` is the argument of a function\n\
+                 in `forces` `(right - left)*b/r` is the force along `th`\n\
+                 in `outputs` `th` is the argument of a function\n\
+                 help: correct it, or leave it out: it follows from the rest; or correct each of these terms";
+    let wrong = format!(
+        "the unit of `th` does not fit: it is m in `units`, and a pure number by all the rest\n{turns}"
+    );
+    assert_eq!(of("x, b, r, th = m; left, right = N m;"), std::slice::from_ref(&wrong));
+    let other = format!(
+        "the units do not fit: `sin(th)` is a pure number, `c` is s\n`c` is added to `sin(th)`\n{WAY_OUT}"
+    );
+    assert_eq!(of("x, b, r, th = m; left, right = N m; c = s;"), [wrong, other]);
 }
 
 #[test]
