@@ -269,11 +269,16 @@ macro_rules! holders {
         }
 
         impl<$s: FirstOrder + $($bound)*, $($other),*> FirstOrder for $holder {
+            type Residuals = $s::Residuals;
             type Parts = $s::Parts;
 
             fn first_order(&self, t: ScalarOf<$s>, state: &$s::State, input: &$s::Input) -> $s::Parts {
                 let $this = self;
                 $system.first_order(t, state, input)
+            }
+            fn residuals(&self, t: ScalarOf<$s>, state: &$s::State, input: &$s::Input) -> $s::Residuals {
+                let $this = self;
+                $system.residuals(t, state, input)
             }
         }
     )*};

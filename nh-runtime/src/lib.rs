@@ -416,7 +416,7 @@ pub mod __private {
     pub use crate::inclusion::{restricted, returned};
     pub use crate::linear::{inverse_pivoted, solve_pivoted, times};
     pub use crate::linear_model::{
-        FirstOrder, Linearization, LinearizationError, Names, Parts, linearize, variables,
+        Directed, FirstOrder, Linearization, LinearizationError, Names, Parts, linearize, to_first_order,
     };
     pub use crate::near_return::{NearReturn, Next};
     pub use crate::newton_return::{corrected, first_iterate, newton, product_of_signs, worst};

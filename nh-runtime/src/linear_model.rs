@@ -1,5 +1,6 @@
 //! Linearisation where constraints hold, by named variables: what `linearization { keep: …; }` generates stands on it.
 
+mod directions;
 mod elimination;
 mod linearization_error;
 mod scales;
@@ -7,6 +8,7 @@ mod scales;
 use nalgebra::SMatrix;
 
 use crate::{Dynamics, Jet, Real, Scalar, ScalarOf, rounding};
+pub use directions::{Directed, to_first_order};
 pub(crate) use elimination::{Reduced, Uncertain, beside, reduce};
 pub use linearization_error::LinearizationError;
 use scales::Scales;
@@ -82,40 +84,30 @@ pub struct Names<const N: usize, const M: usize, const P: usize> {
     pub outputs: [&'static str; P],
 }
 
-/// A motion with its outputs and with what vanishes on the constraint manifold, to first order in N components of the
-/// state and M inputs.
+/// A motion of N components of a state with its outputs and with what vanishes on the constraint manifold, as numbers `J`
+/// that carry derivatives.
 #[derive(Clone, Copy, Debug)]
-pub struct Parts<T, const N: usize, const M: usize, const R: usize, const P: usize> {
+pub struct Parts<J, const N: usize, const R: usize, const P: usize> {
     /// What vanishes on the manifold.
-    pub residuals: [Jet<T, N, M>; R],
+    pub residuals: [J; R],
     /// The rates of the components.
-    pub rates: [Jet<T, N, M>; N],
+    pub rates: [J; N],
     /// The outputs.
-    pub outputs: [Jet<T, N, M>; P],
+    pub outputs: [J; P],
 }
 
 /// A system that gives these.
 pub trait FirstOrder: Dynamics {
+    /// What vanishes on the manifold.
+    type Residuals;
     /// [`Parts`] of its numbers of components.
     type Parts;
 
     /// Everything to first order at a state.
     fn first_order(&self, t: ScalarOf<Self>, state: &Self::State, input: &Self::Input) -> Self::Parts;
-}
 
-/// Components of the state and inputs as variables.
-#[must_use]
-pub fn variables<T: Scalar, const N: usize, const M: usize>(
-    state: [T; N],
-    input: [T; M],
-) -> ([Jet<T, N, M>; N], [Jet<T, N, M>; M]) {
-    let mut inputs = input.map(Jet::constant);
-    for (index, input) in inputs.iter_mut().enumerate() {
-        if let Some(own) = input.by_others.get_mut(index) {
-            *own = T::ONE;
-        }
-    }
-    (Jet::variables(state), inputs)
+    /// What vanishes on the manifold, without derivatives.
+    fn residuals(&self, t: ScalarOf<Self>, state: &Self::State, input: &Self::Input) -> Self::Residuals;
 }
 
 /// The linearisation in the components `kept`: mathematics (36).
@@ -135,11 +127,12 @@ pub fn linearize<
     (names, constraint_names): (&Names<N, M, P>, &[&'static str; R]),
     kept: &[usize; K],
     state: &[T; N],
-    parts: impl Fn(&[T; N]) -> Parts<T, N, M, R, P>,
+    parts: impl FnOnce(&[T; N]) -> Parts<Jet<T, N, M>, N, R, P>,
+    residuals_at: impl Fn(&[T; N]) -> [T; R],
 ) -> Result<Linearization<T, K, M, P>, LinearizationError> {
     let all = parts(state);
     check_numbers(names, constraint_names, &all)?;
-    check_constraints(constraint_names, state, &all.residuals, |x| parts(x).residuals.map(|jet| jet.value))?;
+    check_constraints(constraint_names, state, &all.residuals, residuals_at)?;
     let Parts { residuals, rates, outputs } = &all;
     let constraints = residuals.map(|residual| residual.by);
     let (by_state, by_input) = (rates.map(|rate| rate.by), rates.map(|rate| rate.by_others));
@@ -199,7 +192,7 @@ pub fn linearize<
 fn check_numbers<T: Real, const N: usize, const M: usize, const R: usize, const P: usize>(
     names: &Names<N, M, P>,
     constraints: &[&'static str; R],
-    Parts { residuals, rates, outputs }: &Parts<T, N, M, R, P>,
+    Parts { residuals, rates, outputs }: &Parts<Jet<T, N, M>, N, R, P>,
 ) -> Result<(), LinearizationError> {
     let named = residuals.iter().zip(constraints);
     let mut all = named.chain(rates.iter().zip(&names.states)).chain(outputs.iter().zip(&names.outputs));
@@ -276,8 +269,8 @@ mod tests {
             jet([spring, -2.0 / unit, -0.3], by_input),
         ];
         let names = Names { states: ["place", "angle", "speed"], inputs: ["force"], outputs: [] };
-        let parts = Parts::<f64, 3, 1, 0, 0> { residuals: [], rates, outputs: [] };
-        linearize((&names, &[]), &[1, 2], &[0.0; 3], |_| parts).map(|_| ())
+        let parts = Parts::<_, 3, 0, 0> { residuals: [], rates, outputs: [] };
+        linearize((&names, &[]), &[1, 2], &[0.0; 3], |_| parts, |_| []).map(|_| ())
     }
 
     #[test]

@@ -280,7 +280,7 @@ pub fn equations<
     const W: usize,
     const Q: usize,
 >(
-    Parts { residuals, rates, .. }: &Parts<T, N, M, R, P>,
+    Parts { residuals, rates, .. }: &Parts<Jet<T, N, M>, N, R, P>,
 ) -> ([T; Q], [[T; W]; Q]) {
     let mut all = residuals.iter().chain(rates);
     let jets: [Jet<T, N, M>; Q] = core::array::from_fn(|_| all.next().copied().unwrap_or_default());

@@ -5,7 +5,7 @@ use nonholonomic_core::id::SymbolId;
 use nonholonomic_core::mechanics::Procedure;
 use nonholonomic_core::program::Program;
 use nonholonomic_core::system::{Linearization, System};
-use proc_macro2::{Literal, TokenStream};
+use proc_macro2::{Ident, Literal, TokenStream};
 use quote::quote;
 
 use super::assembly::by_name;
@@ -45,19 +45,22 @@ fn first_order(
     let [n, m, p] = sizes(context);
     let layout = &Layout { scalar: ast::Scalar::Parameter(local("Number")), ..context.layout.clone() };
     let in_state = system.state();
-    let jets = &context.with_jets(layout, &in_state, n, m);
+    let jets = &context.with_jets(layout, &in_state);
     let (of_state, of_input) = (local("of_state"), local("of_input"));
     let (model, t) = (&system.model, &locals.t);
     let constant = |place: &TokenStream| quote!(#runtime::Jet::constant(#place));
-    let parameters: Vec<SymbolId> = model.parameters.iter().map(|parameter| parameter.symbol).collect();
     let places = parameter_places(context).iter().map(constant).collect();
-    let inputs: Vec<SymbolId> = model.inputs.iter().map(|input| input.symbol).collect();
-    let scope = &Scope::new(jets, model, &in_state)
-        .with_places(Argument::This, &parameters, places)
-        .with_places(Argument::Time, &[model.time], vec![constant(&quote!(#t))])
-        .with_array(Argument::State, &of_state, &in_state)
-        .with_array(Argument::Input, &of_input, &inputs);
+    let names = (&of_state, &of_input);
+    let scope =
+        &with_variables(Scope::new(jets, model, &in_state), system, names, places, constant(&quote!(#t)));
+    let plain = Scope::new(context, model, &in_state);
+    let plain = &with_variables(plain, system, names, parameter_places(context), quote!(#t));
     let residuals = context.lowering.program(model, residuals);
+    let values = {
+        let body = body(context, plain, &residuals);
+        let (statements, values) = (&body.statements, body.outputs.iter().map(element));
+        quote!(#statements [#(#values),*])
+    };
     let outputs = system.functions.get(&OUTPUTS).cloned().unwrap_or_default();
     let outputs = context.lowering.program(model, &outputs);
     let [residuals, rates, outputs] = [&residuals, derivative, &outputs].map(|program| {
@@ -70,18 +73,44 @@ fn first_order(
     let [n, m, p] = [n, m, p].map(Literal::usize_unsuffixed);
     let (state, input) = (&locals.state, &locals.input);
     let (state_type, input_type) = (context.type_of(&context.state), context.input_type());
-    let given = if inputs.is_empty() { quote!([]) } else { quote!(::core::convert::From::from(*#input)) };
+    let given =
+        if model.inputs.is_empty() { quote!([]) } else { quote!(::core::convert::From::from(*#input)) };
     let body = quote! {
-        type Parts = #runtime::Parts<#scalar, #n, #m, #count, #p>;
+        type Residuals = [#scalar; #count];
+        type Parts = #runtime::Parts<#runtime::Jet<#scalar, #n, #m>, #n, #count, #p>;
         fn first_order(&self, #t: #scalar, #state: &#state_type, #input: &#input_type) -> Self::Parts {
             _ = (#t, #input);
-            let (#of_state, #of_input) =
-                #runtime::variables::<#scalar, #n, #m>(#runtime::State::to_array(#state), #given);
+            #runtime::to_first_order(#runtime::State::to_array(#state), #given, |#of_state, #of_input| {
+                _ = (#of_state, #of_input);
+                #runtime::Parts { residuals: #residuals, rates: #rates, outputs: #outputs }
+            })
+        }
+        fn residuals(&self, #t: #scalar, #state: &#state_type, #input: &#input_type) -> Self::Residuals {
+            _ = (#t, #input);
+            let (#of_state, #of_input): (_, [#scalar; #m]) = (#runtime::State::to_array(#state), #given);
             _ = (#of_state, #of_input);
-            #runtime::Parts { residuals: #residuals, rates: #rates, outputs: #outputs }
+            #values
         }
     };
     context.implement(&quote!(#runtime::FirstOrder), &body)
+}
+
+/// What parameters and the time stand for, and components of the state and inputs in arrays.
+fn with_variables<'a>(
+    scope: Scope<'a>,
+    system: &'a System,
+    (of_state, of_input): (&Ident, &Ident),
+    parameters: Vec<TokenStream>,
+    time: TokenStream,
+) -> Scope<'a> {
+    let model = &system.model;
+    let of_parameters: Vec<SymbolId> = model.parameters.iter().map(|parameter| parameter.symbol).collect();
+    let inputs: Vec<SymbolId> = model.inputs.iter().map(|input| input.symbol).collect();
+    scope
+        .with_places(Argument::This, &of_parameters, parameters)
+        .with_places(Argument::Time, &[model.time], vec![time])
+        .with_array(Argument::State, of_state, &system.state())
+        .with_array(Argument::Input, of_input, &inputs)
 }
 
 /// The same for a declaration in error, where nothing is found.
@@ -144,6 +173,10 @@ fn linearize(context: &Context, names: &[&String], kept: &[usize]) -> TokenStrea
             |#all| {
                 let #present = <#state_type as #runtime::State>::from_array(*#all);
                 #runtime::FirstOrder::first_order(self, #t, &#present, #input)
+            },
+            |#all| {
+                let #present = <#state_type as #runtime::State>::from_array(*#all);
+                #runtime::FirstOrder::residuals(self, #t, &#present, #input)
             },
         )
     }

@@ -105,12 +105,11 @@ impl<'a> Context<'a> {
         }
     }
 
-    /// The same where every number is one with `n` and `m` partial derivatives; `layout` is to have a type parameter.
-    pub(super) fn with_jets(&self, layout: &'a Layout, in_state: &[SymbolId], n: usize, m: usize) -> Self {
+    /// The same where every number is one with derivatives in some directions; `layout` is to have a type parameter.
+    pub(super) fn with_jets(&self, layout: &'a Layout, in_state: &[SymbolId]) -> Self {
         let (runtime, scalar) = (&self.runtime, &self.scalar);
-        let [n, m] = [n, m].map(proc_macro2::Literal::usize_unsuffixed);
         let mut jets = Self::new(layout, in_state, &[]);
-        jets.scalar = quote!(#runtime::Jet<#scalar, #n, #m>);
+        jets.scalar = quote!(#runtime::Directed<#scalar>);
         jets.differentiates = true;
         jets.beyond = Rc::clone(&self.beyond);
         jets
