@@ -56,8 +56,12 @@ pub(super) fn derive(
     let graph = &mut proved.model.graph;
     let reference = Reference::projected(graph, &proved.system, declared, residuals.clone());
     gibbs_appell_function::prove_it(&mut proved, &reference, gibbs_appell.as_ref())?;
-    let Solved { derivative, regular, multipliers, reactions } =
+    let Solved { derivative, regular, multipliers, reactions, is_pivoted } =
         proved_solution(&mut proved, registry, &equations, (&reference, &given), &judge)?;
+    // what the motion cannot divide by everywhere, nothing beside it divides by
+    let judge = |graph: &Graph, matrix: &Matrix| {
+        if is_pivoted { by_pivots(graph, matrix) } else { judge(graph, matrix) }
+    };
     // 3. E_L, y and the observables
     about(Subject::Requests);
     let graph = &mut proved.model.graph;
@@ -104,7 +108,7 @@ pub(super) fn derive(
         let equations = (&on_levels, all_residuals.as_slice());
         projection(&mut proved.model, &velocities, equations, &judge, is_free)
     });
-    let impacts = impact_functions::projected(&mut proved, &equations);
+    let impacts = impact_functions::projected(&mut proved, &equations, &judge);
     // 6. what both formulations end with
     functions.add(&ENERGY, Procedure::of(vec![energy]));
     functions.add(&VELOCITY, Procedure::of(velocity));
