@@ -60,14 +60,27 @@ impl Metric for Ferry {
     base { x, y, z, w }
     lagrangian { (der(x)^2 + (m + x) * der(y)^2 + x^2 * der(z)^2 + der(w)^2) / 2 }
     constraints {
-        x * der(x) + (x^2 - 1) * der(y) + x * y * der(z) + (x - 1) * der(w) = 0;
+        a * x * der(x) + (x^2 - 1) * der(y) + x * y * der(z) + (x - a) * der(w) = 0;
         (x - y) * der(x) + sin(x) * y * der(y) + (x - y) * der(z) + (x^2 + 1) * der(w) = 0;
-        x * der(x) + y * der(y) + sqrt(1 + x^2) * der(z) + (x^2 - 1) * der(w) = 0;
+        a * x * der(x) + y * der(y) + sqrt(1 + x^2) * der(z) + (x^2 - 1) * der(w) = 0;
     }
     assume { m > 0; }
 )]
 #[derive(Clone, Copy, Debug)]
 struct Linkage {
+    m: f64,
+    a: f64,
+}
+
+/// The same with one constraint.
+#[nonholonomic(
+    base { x, y, z, w }
+    lagrangian { (der(x)^2 + (m + x) * der(y)^2 + x^2 * der(z)^2 + der(w)^2) / 2 }
+    constraints { y * der(x) + cos(x) * der(y) + (x - y) * der(z) + (x^2 - 1) * der(w) = 0; }
+    assume { m > 0; }
+)]
+#[derive(Clone, Copy, Debug)]
+struct Slider {
     m: f64,
 }
 
@@ -215,7 +228,7 @@ fn residuals_have_the_names_of_the_constraints() {
 
 #[test]
 fn states_return_where_only_the_constraints_make_the_equations_regular() {
-    let linkage = Linkage { m: 2.0 };
+    let linkage = Linkage { m: 2.0, a: 0.7 };
     for x in [0.0, -2.0] {
         let mut state =
             LinkageState { x, y: 0.7, x_dot: 0.4, y_dot: 0.3, z_dot: -0.2, w_dot: 0.1, ..Default::default() };
@@ -227,6 +240,21 @@ fn states_return_where_only_the_constraints_make_the_equations_regular() {
         assert!(left < 1e-15 && moved < 1.0, "{x}: {left:e} {moved}");
         let rates = linkage.derivative(0.0, &state, &());
         assert!(unpacked(&rates).iter().all(|rate| rate.is_finite()), "{rates:?}");
+    }
+}
+
+#[test]
+fn motions_go_through_places_where_only_the_constraints_make_them_regular() {
+    let slider = Slider { m: 2.0 };
+    let at = |x: f64| {
+        let mut state =
+            SliderState { x, y: 0.7, x_dot: 0.4, y_dot: 0.3, z_dot: -0.2, w_dot: 0.1, ..Default::default() };
+        slider.project(0.0, &mut state).unwrap();
+        (unpacked(&state), unpacked(&slider.derivative(0.0, &state, &())))
+    };
+    let ((state, rates), (near, rates_near)) = (at(0.0), at(1e-7));
+    for (value, near) in state.iter().chain(&rates).zip(near.iter().chain(&rates_near)) {
+        assert!((value - near).abs() < 1e-5, "{state:?} {rates:?} {rates_near:?}");
     }
 }
 
