@@ -26,8 +26,6 @@ pub(super) struct Solved {
     pub(super) regular: Procedure,
     pub(super) multipliers: Procedure,
     pub(super) reactions: Procedure,
-    /// Whether the motion by (10) would divide by what may vanish where W and the constraints are regular.
-    pub(super) is_pivoted: bool,
 }
 
 /// The solution of the saddle equations that is proved to be what is declared: by elimination without pivoting where
@@ -128,7 +126,8 @@ pub(super) fn proved_solution(
         let derivative =
             counted_from_an_angle(graph, &derivative, fixed, judged, &mut proved.before_counting)
                 .unwrap_or(derivative);
-        return Ok(Solved { derivative, regular: own, multipliers, reactions, is_pivoted });
+        proved.is_pivoted = is_pivoted;
+        return Ok(Solved { derivative, regular: own, multipliers, reactions });
     }
     proved.ledger.decisions.push(decision);
     Err(nothing_proved(proved.model.origin, &proved.ledger))
