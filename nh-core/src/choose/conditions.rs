@@ -128,15 +128,15 @@ impl Regular<'_> {
         let diagonal = diagonal.filter(|entry| !matches!(graph.node(*entry), Node::Sum { .. }));
         let mut holes: Vec<ExprId> = diagonal.flat_map(|entry| factors_of(graph, entry)).collect();
         let is_parameter = |symbol: &SymbolId| self.parameters.contains(symbol);
-        holes.retain(|factor| match graph.as_symbol(*factor) {
+        holes.retain(|factor| {
             // most are inertias
-            Some(symbol) => !is_parameter(&symbol),
-            None => {
-                let symbols = graph.symbols_in(&[*factor]);
-                !symbols.is_empty()
-                    && !symbols.iter().any(is_parameter)
-                    && !graph.vanishes_nowhere(*factor, self.facts)
+            if let Some(symbol) = graph.as_symbol(*factor) {
+                return !is_parameter(&symbol);
             }
+            let symbols = graph.symbols_in(&[*factor]);
+            !symbols.is_empty()
+                && !symbols.iter().any(is_parameter)
+                && !graph.vanishes_nowhere(*factor, self.facts)
         });
         holes
     }
