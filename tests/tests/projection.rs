@@ -54,6 +54,36 @@ impl Metric for Ferry {
     }
 }
 
+/// At x = 0 the kinetic energy leaves a velocity out, and at x = -m it is not definite: the constraints determine the motion
+/// there, and lead back.
+#[nonholonomic(
+    base { x, y, z, w }
+    lagrangian { (der(x)^2 + (m + x) * der(y)^2 + x^2 * der(z)^2 + der(w)^2) / 2 }
+    constraints {
+        a * x * der(x) + (x^2 - 1) * der(y) + x * y * der(z) + (x - a) * der(w) = 0;
+        (x - y) * der(x) + sin(x) * y * der(y) + (x - y) * der(z) + (x^2 + 1) * der(w) = 0;
+        a * x * der(x) + y * der(y) + sqrt(1 + x^2) * der(z) + (x^2 - 1) * der(w) = 0;
+    }
+    assume { m > 0; }
+)]
+#[derive(Clone, Copy, Debug)]
+struct Linkage {
+    m: f64,
+    a: f64,
+}
+
+/// The same with one constraint.
+#[nonholonomic(
+    base { x, y, z, w }
+    lagrangian { (der(x)^2 + (m + x) * der(y)^2 + x^2 * der(z)^2 + der(w)^2) / 2 }
+    constraints { y * der(x) + cos(x) * der(y) + (x - y) * der(z) + (x^2 - 1) * der(w) = 0; }
+    assume { m > 0; }
+)]
+#[derive(Clone, Copy, Debug)]
+struct Slider {
+    m: f64,
+}
+
 impl Metric for SnakeboardOnThePlane {
     fn momentum(&self, _: &SnakeboardOnThePlaneState, v: &[f64]) -> Vec<f64> {
         let Self { m, l, J0, J1 } = *self;
@@ -194,6 +224,38 @@ fn residuals_have_the_names_of_the_constraints() {
     let state = SnakeboardOnThePlaneState { y_dot: 1.0, theta_dot: 1.0, ..Default::default() };
     let residual = BOARD.constraint_residual(0.0, &state);
     assert!((residual.wheel_back - 0.7).abs() < 1e-15 && (residual.wheel_front - 1.3).abs() < 1e-15);
+}
+
+#[test]
+fn states_return_where_only_the_constraints_make_the_equations_regular() {
+    let linkage = Linkage { m: 2.0, a: 0.7 };
+    for x in [0.0, -2.0] {
+        let mut state =
+            LinkageState { x, y: 0.7, x_dot: 0.4, y_dot: 0.3, z_dot: -0.2, w_dot: 0.1, ..Default::default() };
+        let before = unpacked(&state);
+        linkage.project(0.0, &mut state).unwrap();
+        let left = largest(&residuals(&linkage, 0.0, &state));
+        let moved =
+            largest(&unpacked(&state)[4..].iter().zip(&before[4..]).map(|(a, b)| a - b).collect::<Vec<_>>());
+        assert!(left < 1e-15 && moved < 1.0, "{x}: {left:e} {moved}");
+        let rates = linkage.derivative(0.0, &state, &());
+        assert!(unpacked(&rates).iter().all(|rate| rate.is_finite()), "{rates:?}");
+    }
+}
+
+#[test]
+fn motions_go_through_places_where_only_the_constraints_make_them_regular() {
+    let slider = Slider { m: 2.0 };
+    let at = |x: f64| {
+        let mut state =
+            SliderState { x, y: 0.7, x_dot: 0.4, y_dot: 0.3, z_dot: -0.2, w_dot: 0.1, ..Default::default() };
+        slider.project(0.0, &mut state).unwrap();
+        (unpacked(&state), unpacked(&slider.derivative(0.0, &state, &())))
+    };
+    let ((state, rates), (near, rates_near)) = (at(0.0), at(1e-7));
+    for (value, near) in state.iter().chain(&rates).zip(near.iter().chain(&rates_near)) {
+        assert!((value - near).abs() < 1e-5, "{state:?} {rates:?} {rates_near:?}");
+    }
 }
 
 #[test]

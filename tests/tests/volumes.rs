@@ -134,6 +134,20 @@ struct Top {
     C: f64,
 }
 
+/// A damped particle on a blade by the Lagrangian of Caldirola and Kanai: its divergence is a number, and its density, the mass,
+/// depends on the time.
+#[nonholonomic(
+    base { x, y, z }
+    lagrangian { exp(2 * c * t) * ((der(x)^2 + der(y)^2 + der(z)^2) / 2 - sin(x)) }
+    constraints { der(z) = y * der(x); }
+    volume;
+    emit { volume, divergence }
+)]
+#[derive(Clone, Copy, Debug)]
+struct Damped {
+    c: f64,
+}
+
 /// Checks mathematics (19).
 #[test]
 fn verdicts() {
@@ -159,6 +173,11 @@ fn densities_and_divergences() {
     let state = ParticleState { y: 0.5, x_dot: 0.3, y_dot: 0.7, ..Default::default() };
     // −d/dt log √(1 + y²)
     assert!((Particle.divergence(0.0, &state, &()) + 0.5 * 0.7 / 1.25).abs() < 1e-15);
+    let (damped, state) =
+        (Damped { c: 0.3 }, DampedState { y: 0.5, x_dot: 0.3, y_dot: 0.7, ..Default::default() });
+    let density = (4.0_f64 * 0.3 * 2.0).exp() * 1.25_f64.sqrt();
+    assert!((damped.volume_density(2.0, &state) / density - 1.0).abs() < 1e-15);
+    assert!((damped.divergence(2.0, &state, &()) + 4.0 * 0.3 + 0.5 * 0.7 / 1.25).abs() < 1e-15);
     let top = Top { A: 1.0, B: 2.0, C: 3.0 };
     let state = TopState { R: [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]], w: [0.3, 0.4, -0.5] };
     assert!(top.divergence(0.0, &state, &()).abs() < 1e-15);

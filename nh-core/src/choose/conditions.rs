@@ -7,7 +7,9 @@
 //! matrix; and any whose zeros are zeros of these. The last is asked in one symbol after
 //! the other: the numerator of a divisor, found from its values, has no factor but theirs. What is left is admitted where C is definite if it has one sign at all samples
 //! of parameters and configurations for which C is, a parameter 0 among them in turn: as evidence goes, that is
-//! what C itself is called definite by.
+//! what C itself is called definite by. Where there are multipliers, a mass matrix with a factor on its diagonal that vanishes at
+//! places, as r² of polar coordinates, is not taken to be definite where it is divided by that factor: constraints may make
+//! up for it.
 
 use super::ground::Ground;
 use super::pivots::{Pivots, is_multiple, is_pivot};
@@ -15,7 +17,7 @@ use super::proof::{Defect, FIRST_SEED, run};
 use super::reference::{Instant, Reference, inner};
 use super::zero_set::{Polynomial, numerator, place, values_for};
 use crate::algebra::{
-    Echelon, Facts, FieldPoint, Graph, Matrix, Residue, Substitution, determinant_in_field,
+    Echelon, Facts, FieldPoint, Graph, Matrix, Node, Residue, Substitution, determinant_in_field,
 };
 use crate::id::{ExprId, SymbolId};
 use crate::mechanics::{
@@ -92,9 +94,59 @@ const SEEDS: u64 = 48;
 /// Points tried where one has no value.
 const PATIENCE: u64 = 4096;
 
+/// What a product is made of.
+fn factors_of(graph: &Graph, product: ExprId) -> Vec<ExprId> {
+    match graph.node(product) {
+        Node::Product { factors, .. } => factors.iter().map(|(base, _)| *base).collect(),
+        _ => vec![product],
+    }
+}
+
 impl Regular<'_> {
     /// What a procedure divides by that may vanish where the declared equations are regular.
     pub(crate) fn added(&self, graph: &mut Graph, procedure: &Procedure) -> Option<ExprId> {
+        self.added_among(graph, procedure, |_, _| true).or_else(|| self.added_in_holes(graph, procedure))
+    }
+
+    /// The same where constraints make up for a mass matrix that is singular at places whatever the parameters are, as
+    /// that of polar coordinates: definite in general, its pivots vanish there.
+    fn added_in_holes(&self, graph: &mut Graph, procedure: &Procedure) -> Option<ExprId> {
+        let holes = if self.jacobian.is_empty() { Vec::new() } else { self.holes(graph) };
+        if holes.is_empty() || self.definiteness == Definiteness::Unknown {
+            return None;
+        }
+        let unknown = Regular { definiteness: Definiteness::Unknown, ..*self };
+        unknown.added_among(graph, procedure, |graph, divisor| {
+            factors_of(graph, divisor).iter().any(|factor| holes.contains(factor))
+        })
+    }
+
+    /// Factors of the diagonal of W that have no parameters, and may vanish.
+    fn holes(&self, graph: &Graph) -> Vec<ExprId> {
+        let diagonal = self.mass.iter().enumerate().map(|(k, row)| row[k]);
+        // sums are inertias, nearly always: they are taken to be as definite as samples say
+        let diagonal = diagonal.filter(|entry| !matches!(graph.node(*entry), Node::Sum { .. }));
+        let mut holes: Vec<ExprId> = diagonal.flat_map(|entry| factors_of(graph, entry)).collect();
+        let is_parameter = |symbol: &SymbolId| self.parameters.contains(symbol);
+        holes.retain(|factor| {
+            // most are inertias
+            if let Some(symbol) = graph.as_symbol(*factor) {
+                return !is_parameter(&symbol);
+            }
+            let symbols = graph.symbols_in(&[*factor]);
+            !symbols.is_empty()
+                && !symbols.iter().any(is_parameter)
+                && !graph.vanishes_nowhere(*factor, self.facts)
+        });
+        holes
+    }
+
+    fn added_among(
+        &self,
+        graph: &mut Graph,
+        procedure: &Procedure,
+        is_asked: impl Fn(&Graph, ExprId) -> bool,
+    ) -> Option<ExprId> {
         // 1. divisors of the declaration, and those that the facts keep from zero
         let roots = self.reference.roots();
         let declared = graph.singularities(&roots);
@@ -104,7 +156,7 @@ impl Regular<'_> {
         for divisor in &divisors {
             let whole = written.apply(graph, *divisor);
             let is_known = declared.contains(divisor) || declared.contains(&whole);
-            if !is_known && !graph.vanishes_nowhere(whole, self.facts) {
+            if !is_known && is_asked(graph, whole) && !graph.vanishes_nowhere(whole, self.facts) {
                 left.push(*divisor);
             }
         }

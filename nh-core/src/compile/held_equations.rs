@@ -1,6 +1,6 @@
 //! The equations that a step can keep by itself, each with the direction in which it is corrected.
 
-use super::on_request::{judge, whole_state};
+use super::on_request::{judge_beside, whole_state};
 use super::proved::{Derived, Proved};
 use crate::algebra::{Graph, Matrix};
 use crate::geometry::ConstraintDistribution;
@@ -15,7 +15,7 @@ pub(super) fn held_equations(proved: &mut Proved, derived: &Derived<'_>) -> Held
     let arguments = whole_state(proved, derived);
     let positions: Vec<ExprId> = proved.model.positions.iter().map(|position| position.value).collect();
     let residuals = proved.constraints.residuals.clone();
-    let judge = judge(proved);
+    let judge = judge_beside(proved);
     let graph = &mut proved.model.graph;
     let (mut map, mut along_base, mut along_fibre) = (Procedure::default(), Matrix::new(), Matrix::new());
     let (in_state, sections) = match derived {

@@ -5,8 +5,11 @@ use crate::algebra::{Graph, Matrix, Substitution};
 use crate::check::Impact;
 use crate::geometry::ConstraintDistribution;
 use crate::id::{ExprId, SymbolId};
-use crate::mechanics::{Procedure, SaddleEquations, definiteness, kinetic_metric};
+use crate::mechanics::{Definiteness, Procedure, SaddleEquations, definiteness, kinetic_metric};
 use crate::system::ImpactForm;
+
+/// Whether a mass matrix may be divided by.
+type Judge<'a> = dyn Fn(&Graph, &Matrix) -> Definiteness + 'a;
 
 /// The impacts in the velocities v of D: C (v⁺ − v⁻) = Nᵀμ with N = ΨB, mathematics (50).
 pub(super) fn adapted(
@@ -19,13 +22,21 @@ pub(super) fn adapted(
     }
     let mass = kinetic_metric(&mut proved.model.graph, &proved.system, &distribution.sections());
     let mass = mass.iter().map(|row| restriction.apply_all(&mut proved.model.graph, row)).collect();
-    jumps(proved, restriction, &on_distribution(mass, Matrix::new()))
+    let parameters: Vec<SymbolId> =
+        proved.model.parameters.iter().map(|parameter| parameter.symbol).collect();
+    let facts = proved.facts.clone();
+    let judge = |graph: &Graph, matrix: &Matrix| definiteness(graph, matrix, &parameters, &facts);
+    jumps(proved, restriction, &on_distribution(mass, Matrix::new()), &judge)
 }
 
 /// The impacts in all velocities: W (y⁺ − y⁻) − Jᵀλ = Ψᵀμ, J (y⁺ − y⁻) = 0.
-pub(super) fn projected(proved: &mut Proved, equations: &SaddleEquations) -> Vec<ImpactForm> {
+pub(super) fn projected(
+    proved: &mut Proved,
+    equations: &SaddleEquations,
+    judge: &Judge<'_>,
+) -> Vec<ImpactForm> {
     let kept = on_distribution(equations.mass.clone(), equations.jacobian.clone());
-    jumps(proved, &mut Substitution::new([]), &kept)
+    jumps(proved, &mut Substitution::new([]), &kept, judge)
 }
 
 /// What is to be solved for each row.
@@ -37,23 +48,20 @@ fn jumps(
     proved: &mut Proved,
     restriction: &mut Substitution,
     equations: &SaddleEquations,
+    judge: &Judge<'_>,
 ) -> Vec<ImpactForm> {
     let impacts = proved.impacts.clone();
-    impacts.iter().map(|impact| jump(proved, restriction, equations, impact)).collect()
+    impacts.iter().map(|impact| jump(proved, restriction, (equations, judge), impact)).collect()
 }
 
 fn jump(
     proved: &mut Proved,
     restriction: &mut Substitution,
-    equations: &SaddleEquations,
+    (equations, judge): (&SaddleEquations, &Judge<'_>),
     impact: &Impact,
 ) -> ImpactForm {
     let is_homogeneous = is_homogeneous(proved, impact);
-    let parameters: Vec<SymbolId> =
-        proved.model.parameters.iter().map(|parameter| parameter.symbol).collect();
     let coordinates: Vec<SymbolId> = proved.model.coordinates.iter().map(|c| c.symbol).collect();
-    let facts = proved.facts.clone();
-    let judge = |graph: &Graph, matrix: &Matrix| definiteness(graph, matrix, &parameters, &facts);
     let graph = &mut proved.model.graph;
     let mut procedure = Procedure::default();
     let approach: Vec<ExprId> = impact

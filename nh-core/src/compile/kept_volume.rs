@@ -242,8 +242,10 @@ fn decide(proved: &mut Proved, derived: &Derived<'_>, derivative: &Procedure, di
     let divergence = distribution.restriction(graph, &velocities).apply(graph, divergence);
     let divergence = graph.simplify(divergence);
     let time = proved.system.clock.time;
-    let depends_on_time =
-        graph.depends_on(divergence, &[time]) || graph.symbols_in(&distribution.velocity).contains(&time);
+    // det C may depend on it where the divergence does not: it is exp(c*t), say
+    let depends_on_time = graph.depends_on(divergence, &[time])
+        || graph.symbols_in(&distribution.velocity).contains(&time)
+        || graph.symbols_in(&on_base).contains(&time);
     let anchor = &proved.system.algebroid.anchor;
     let mut fields: Matrix =
         (0..distribution.rank()).map(|a| anchor.vector_field(graph, &distribution.section(a))).collect();

@@ -25,6 +25,12 @@ pub(super) fn judge(proved: &Proved) -> impl Fn(&Graph, &Matrix) -> Definiteness
     move |graph, matrix| definiteness(graph, matrix, &parameters, &facts)
 }
 
+/// The same for what is solved beside the motion: what that cannot divide by everywhere, nothing beside it divides by.
+pub(super) fn judge_beside(proved: &Proved) -> impl Fn(&Graph, &Matrix) -> Definiteness + use<> {
+    let (judge, is_pivoted) = (judge(proved), proved.is_pivoted);
+    move |graph, matrix| if is_pivoted { Definiteness::Unknown } else { judge(graph, matrix) }
+}
+
 /// The velocities of the state.
 pub(super) fn state_velocities(proved: &Proved, derived: &Derived<'_>) -> Vec<SymbolId> {
     match derived {

@@ -2,8 +2,8 @@
 
 use super::held_equations::held_equations;
 use super::on_request::{
-    asked, calls_of, energy_gradient, judge, nonholonomic_bracket, not_differentiable, shortened, state,
-    whole_state,
+    asked, calls_of, energy_gradient, judge, judge_beside, nonholonomic_bracket, not_differentiable,
+    shortened, state, whole_state,
 };
 use super::proved::{Derived, Proved, fence};
 use super::velocities_of_state::requested;
@@ -224,7 +224,7 @@ fn almost_poisson(
         }]);
     }
     let arguments = state(proved, derived);
-    let judge = judge(proved);
+    let judge = judge_beside(proved);
     let bracket = nonholonomic_bracket(proved, derived);
     let graph = &mut proved.model.graph;
     let gradient = energy_gradient(graph, &proved.system, derived, &arguments);

@@ -8,6 +8,7 @@ use super::gyroscopic;
 use super::impact_functions;
 use super::levels;
 use super::momenta::momenta;
+use super::on_request;
 use super::position_return::position_return;
 use super::power::{power, work_of_constraints};
 use super::proved::{Derived, Proved, fence};
@@ -23,9 +24,7 @@ use crate::forms::Registry;
 use crate::functions::{ENERGY, GYROSCOPIC, OUTPUT_JACOBIAN, PARAMETER_JACOBIAN, POWER, RESIDUAL, VELOCITY};
 use crate::id::{ExprId, SymbolId};
 use crate::limits::{Subject, about};
-use crate::mechanics::{
-    Definiteness, Flow, Procedure, SaddleEquations, definiteness, energy, saddle_equations,
-};
+use crate::mechanics::{Definiteness, Flow, Procedure, SaddleEquations, energy, saddle_equations};
 use crate::model::Model;
 use crate::system::{Projection, System};
 use crate::violation::Violation;
@@ -46,9 +45,8 @@ pub(super) fn derive(
     let on_levels = saddle_equations(&mut proved.model.graph, &proved.system, &all_residuals);
     // 2. ẏ and λ
     about(Subject::Solution);
-    let parameters: Vec<_> = proved.model.parameters.iter().map(|parameter| parameter.symbol).collect();
     let facts = proved.facts.clone();
-    let judge = |graph: &Graph, matrix: &Matrix| definiteness(graph, matrix, &parameters, &facts);
+    let judge = on_request::judge(&proved);
     let mut everywhere = Substitution::new([]);
     let given = given::definitions(&mut proved.model, &mut proved.motion, &mut everywhere);
     let gibbs_appell = gibbs_appell_function::with_multipliers(&mut proved, &equations, &given);
@@ -58,6 +56,7 @@ pub(super) fn derive(
     gibbs_appell_function::prove_it(&mut proved, &reference, gibbs_appell.as_ref())?;
     let Solved { derivative, regular, multipliers, reactions } =
         proved_solution(&mut proved, registry, &equations, (&reference, &given), &judge)?;
+    let judge = on_request::judge_beside(&proved);
     // 3. E_L, y and the observables
     about(Subject::Requests);
     let graph = &mut proved.model.graph;
@@ -92,7 +91,7 @@ pub(super) fn derive(
     let moving = (velocities.as_slice(), velocity.as_slice(), all_residuals.as_slice());
     let rates = change(&mut proved.model.graph, &velocities, &on_levels, &all_residuals);
     let found = (&equations, rates.clone());
-    let mut positions = position_return(&mut proved, found, &mut everywhere, moving, judge);
+    let mut positions = position_return(&mut proved, found, &mut everywhere, moving, &judge);
     if let Some(found) = &positions
         && [&found.step].into_iter().chain(&found.velocities).any(|step| is_free(&mut proved.model, step))
     {
@@ -104,7 +103,7 @@ pub(super) fn derive(
         let equations = (&on_levels, all_residuals.as_slice());
         projection(&mut proved.model, &velocities, equations, &judge, is_free)
     });
-    let impacts = impact_functions::projected(&mut proved, &equations);
+    let impacts = impact_functions::projected(&mut proved, &equations, &judge);
     // 6. what both formulations end with
     functions.add(&ENERGY, Procedure::of(vec![energy]));
     functions.add(&VELOCITY, Procedure::of(velocity));

@@ -45,6 +45,9 @@ pub(crate) struct Proved {
     pub(crate) quadratures: Vec<SymbolId>,
     /// How D is split by symmetries, where that was asked for.
     pub(crate) split: Option<Split>,
+    /// Whether the equations with multipliers are solved with numerical pivots, as (10) would divide by what may vanish where
+    /// they are regular.
+    pub(crate) is_pivoted: bool,
     /// The motion before its angles were counted from one of them.
     pub(crate) before_counting: Option<BeforeCounting>,
     /// What was chosen, and from what.

@@ -126,6 +126,7 @@ pub(super) fn proved_solution(
         let derivative =
             counted_from_an_angle(graph, &derivative, fixed, judged, &mut proved.before_counting)
                 .unwrap_or(derivative);
+        proved.is_pivoted = is_pivoted;
         return Ok(Solved { derivative, regular: own, multipliers, reactions });
     }
     proved.ledger.decisions.push(decision);

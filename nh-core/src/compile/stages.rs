@@ -154,6 +154,7 @@ pub(crate) fn prove(mut model: Model) -> Result<(Proved, Chosen), Vec<Violation>
         levels,
         quadratures,
         split: None,
+        is_pivoted: false,
         before_counting: None,
         ledger: Ledger::default(),
     };

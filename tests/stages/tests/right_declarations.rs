@@ -30,6 +30,10 @@ struct AtThePole { J: f64, k: f64 }
 #[nonholonomic(base { x, y } holonomic { circle: x^2 + y^2 = l^2; }
  lagrangian { m/2*(der(x)^2 + der(y)^2) - k*sqrt(2*l^2 + h^2 + 2*l*y) })]
 struct Spring { m: f64, k: f64, l: f64, h: f64 }
+#[nonholonomic(base { x, y, z } lagrangian { ((x-1)^2*der(x)^2 + (m+x)*der(y)^2 + sin(x)^2*der(z)^2)/2 - k*sqrt(x) }
+ constraints { der(x) + (1-cos(x))*der(y) + (x-a)*der(z) = 0; x*y*der(x) + (2+sin(y))*der(y) + a*x*der(z) = 0; } assume { m>0; }
+ emit { symmetric_projection } auxiliary { der(q) = (a - q)*m; })]
+struct HeldByConstraints { a: f64, m: f64, c: f64, k: f64 }
 #[nonholonomic(base { a } let s = asin(r*sin(a)/l);
  lagrangian { J/2*der(a)^2 + K/2*der(s)^2 })]
 struct Crank { r: f64, l: f64, J: f64, K: f64 }
@@ -212,7 +216,7 @@ struct UncoupledByValues { m: f64 }
 #[test]
 fn right_declarations_are_accepted() {
     let found = declarations(RIGHT);
-    assert_eq!(found.len(), 78);
+    assert_eq!(found.len(), 79);
     let mut refused = Vec::new();
     for declaration in found {
         let errors = errors(&declaration.expanded());
