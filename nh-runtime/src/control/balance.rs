@@ -10,7 +10,8 @@ const MOST_SWEEPS: usize = 64;
 
 /// D⁻¹ A D and D, diagonal and of powers of two, such that rows and columns beside the diagonal are of one size up to a
 /// factor of two (Parlett, Reinsch, Numer. Math. 13 (1969) 293–304): how often a matrix is squared, and what is round-off
-/// in it, should not depend on the units of its components.
+/// in it, should not depend on the units of its components. Those that nothing depends on, as a place on the speed alone,
+/// and those that depend on nothing have one of both: that becomes a share of 1.
 pub(super) fn balanced<T: Entry, const N: usize>(a: &SMatrix<T, N, N>) -> (SMatrix<T, N, N>, SVector<T, N>) {
     let (mut a, mut units) = (*a, SVector::<T, N>::repeat(T::ONE));
     for _ in 0..MOST_SWEEPS {
@@ -60,11 +61,12 @@ fn each_beside<T: Entry, const N: usize>(
     }
 }
 
-/// The power of two by which a column grows and its row shrinks, so that both are of one size up to a factor of two.
+/// The power of two by which a column grows and its row shrinks, so that both are of one size up to a factor of two, and
+/// one without the other more than 1/8 and at most 1/4: not so large that it would have to be halved.
 fn unit<T: Entry>(row: T, column: T) -> T {
     let mut unit = T::ONE;
+    let (two, four, quarter) = (T::from_f64(2.0), T::from_f64(4.0), T::from_f64(0.25));
     if row > T::ZERO && column > T::ZERO {
-        let (two, four) = (T::from_f64(2.0), T::from_f64(4.0));
         // row/unit and column·unit, in steps of two: no square, which may be out of range
         let (mut row, mut column) = (row, column);
         while row / column >= four {
@@ -72,6 +74,17 @@ fn unit<T: Entry>(row: T, column: T) -> T {
         }
         while column / row >= four {
             (row, column, unit) = (row * two, column / two, unit / two);
+        }
+    } else if row > T::ZERO || column > T::ZERO {
+        let mut size = if row > T::ZERO { row } else { column };
+        while size > quarter {
+            (size, unit) = (size / two, unit * two);
+        }
+        while size + size <= quarter {
+            (size, unit) = (size * two, unit / two);
+        }
+        if column > T::ZERO {
+            unit = unit.recip();
         }
     }
     unit

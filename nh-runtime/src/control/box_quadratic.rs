@@ -1,5 +1,6 @@
 //! A convex quadratic between bounds: the projected Newton method (Bertsekas, SIAM J. Control Optim.
-//! 20 (1982) 221–246, as used by Tassa, Mansard, Todorov, ICRA 2014).
+//! 20 (1982) 221–246, as used by Tassa, Mansard, Todorov, ICRA 2014), with the steps of an active set (Nocedal, Wright,
+//! Numerical Optimization, 2006, section 16.5) where what bounds leave of Newton's step does not lead down.
 
 use nalgebra::{SMatrix, SVector};
 
@@ -11,8 +12,6 @@ use crate::Scalar;
 pub(super) const CURVATURE: &str = "the second derivative by the input";
 /// Iterations that a problem may take; each fixes the set of active bounds anew.
 const MOST_ITERATIONS: u32 = 40;
-/// Halvings of a step along the projection.
-const MOST_HALVINGS: u32 = 30;
 
 /// The minimum of ½ uᵀQu + qᵀu between bounds.
 pub(super) struct Minimum<T, const M: usize> {
@@ -44,19 +43,13 @@ pub(super) fn minimum<T: Entry, const M: usize>(
         if ended == Some(free) {
             return Ok(Minimum { at, free, factors });
         }
-        let target = SVector::from_fn(|i, _| if is(free, i) { -gradient[i] } else { T::ZERO });
-        let newton = factors.solve(&target);
-        // Newton's step on the free components ends there, unless it meets a bound
-        let here = value(&at);
+        let newton = inwards(hessian, &gradient, free, &at, [lower, upper])?;
+        // Newton's step on the free components ends there, unless it meets a bound: behind that it goes on along the bounds
+        // if this leads as far down as was promised, and ends there otherwise, which is down however bent the function is
+        let promised = gradient.dot(&newton);
         let mut next = clamp(at + newton);
-        let mut share = T::ONE;
-        for _ in 0..MOST_HALVINGS {
-            // Armijo's condition along the projection
-            if value(&next) <= here - T::from_f64(0.1) * gradient.dot(&(at - next)) {
-                break;
-            }
-            share *= T::from_f64(0.5);
-            next = clamp(at + newton * share);
+        if next != at + newton && value(&next) > value(&at) + T::from_f64(0.1) * promised {
+            next = clamp(up_to_a_bound(&at, &newton, [lower, upper]));
         }
         let moved = (next - at).map(Scalar::abs);
         size = size.zip_map(&next, |size, next| size.max(Scalar::abs(next)));
@@ -71,6 +64,43 @@ pub(super) fn minimum<T: Entry, const M: usize>(
     let free = held_by_none(&at, &gradient, lower, upper);
     let factors = Cholesky::new(CURVATURE, &masked(hessian, free))?;
     Ok(Minimum { at, free, factors })
+}
+
+/// Newton's step on the free components, less those that stand at a bound and would leave by it: they are held as well.
+/// Of what is free some component always moves away from its bound, as the step goes down.
+fn inwards<T: Entry, const M: usize>(
+    hessian: &SMatrix<T, M, M>,
+    gradient: &SVector<T, M>,
+    mut free: [bool; M],
+    at: &SVector<T, M>,
+    [lower, upper]: [&SVector<T, M>; 2],
+) -> Result<SVector<T, M>, ControlError> {
+    loop {
+        let target = SVector::from_fn(|i, _| if is(free, i) { -gradient[i] } else { T::ZERO });
+        let newton = Cholesky::new(CURVATURE, &masked(hessian, free))?.solve(&target);
+        let leaves = |i: usize| {
+            let is_down = newton[i] < T::ZERO && at[i] <= lower[i];
+            is_down || (newton[i] > T::ZERO && at[i] >= upper[i])
+        };
+        let Some(leaving) = (0..M).find(|i| is(free, *i) && leaves(*i)) else { return Ok(newton) };
+        free.iter_mut().skip(leaving).take(1).for_each(|free| *free = false);
+    }
+}
+
+/// Where a step comes to the first bound, or ends.
+fn up_to_a_bound<T: Entry, const M: usize>(
+    at: &SVector<T, M>,
+    step: &SVector<T, M>,
+    [lower, upper]: [&SVector<T, M>; 2],
+) -> SVector<T, M> {
+    let bound = |i: usize| if step[i] < T::ZERO { lower[i] } else { upper[i] };
+    let to_bound = |i: usize| if step[i] == T::ZERO { T::ONE } else { (bound(i) - at[i]) / step[i] };
+    let shares = SVector::<T, M>::from_fn(|i, _| to_bound(i));
+    let share = shares.iter().fold(T::ONE, |least, share| if *share < least { *share } else { least });
+    // on the bound, not beside it by rounding
+    SVector::from_fn(|i, _| {
+        if step[i] != T::ZERO && shares[i] <= share { bound(i) } else { at[i] + step[i] * share }
+    })
 }
 
 pub(super) fn between<T: Entry>(u: T, low: T, high: T) -> T {
@@ -107,6 +137,7 @@ fn masked<T: Entry, const M: usize>(hessian: &SMatrix<T, M, M>, free: [bool; M])
 
 #[cfg(test)]
 mod tests {
+    use super::super::draws::Draws;
     use super::*;
     use nalgebra::{matrix, vector};
 
@@ -125,6 +156,30 @@ mod tests {
                     let u = vector![-1.0 + 1.3 * f64::from(i) / 40.0, -0.5 + 2.5 * f64::from(j) / 40.0];
                     assert!(value(found.at, q) <= value(u, q) + 1e-12, "{q} {u} {}", found.at);
                 }
+            }
+        }
+    }
+
+    /// Between bounds no component wants to move at the minimum, however unlike the curvatures are, and what bounds leave
+    /// of Newton's step may lead upwards.
+    #[test]
+    fn it_is_found_however_unlike_the_curvatures_are() {
+        let mut draws = Draws(1);
+        for _ in 0..2000 {
+            let mut half = SMatrix::<f64, 6, 6>::from_fn(|_, _| draws.draw() - 0.5);
+            for mut column in half.column_iter_mut() {
+                column *= 10.0_f64.powf(4.0 * draws.draw() - 2.0);
+            }
+            let hessian = super::super::symmetrized(&super::super::squares(&half));
+            let size = hessian.trace().sqrt();
+            let slope = SVector::<f64, 6>::from_fn(|_, _| (draws.draw() - 0.5) * size);
+            let lower = SVector::<f64, 6>::from_fn(|_, _| (0.2 - draws.draw()).min(0.0));
+            let upper = SVector::<f64, 6>::from_fn(|_, _| draws.draw());
+            let Ok(found) = minimum(&hessian, &slope, [&lower, &upper], &SVector::zeros()) else { continue };
+            let gradient = hessian * found.at + slope;
+            for i in 0..6 {
+                let wanted = between(found.at[i] - gradient[i] / hessian[(i, i)], lower[i], upper[i]);
+                assert!((wanted - found.at[i]).abs() < 1e-6, "{hessian} {slope} {}", found.at);
             }
         }
     }

@@ -12,6 +12,9 @@ const ROUNDINGS: f64 = 8.0;
 /// Changes of sign within so many rounding units of time, and of the functions, happen at the same time.
 const SAME_TIME: f64 = 4.0;
 
+/// What is displaced by fewer rounding units shows nothing but these.
+const LEAST_DISPLACEMENT: f64 = 64.0;
+
 /// An event function near a state.
 #[derive(Clone, Copy)]
 pub(super) struct Local<T> {
@@ -127,10 +130,18 @@ impl<T: Real> Gathered<T> {
     }
 }
 
+/// How far a component of this size is displaced that goes this way in a step: as far again beyond its rounding unit as that
+/// stays behind the way, on which functions are as bent as samples show. The root of the rounding unit of what begins at zero.
+fn displacement<T: Real>(size: T, way: T) -> T {
+    let share = (T::EPSILON * (way / size)).sqrt();
+    let resolved = T::from_f64(LEAST_DISPLACEMENT) * T::EPSILON;
+    size * share.select_gt(resolved, share, resolved)
+}
+
 impl<F, const N: usize> Events<F, N> {
     /// The functions near a state in a step of this length that leads to the state `beyond`, by central differences: with
-    /// every component of the state and the time displaced by the root of the rounding unit of its size, or of its way;
-    /// and along the tangent where that leaves the rate open.
+    /// every component of the state and the time displaced by the root of its rounding unit times its way in the step; and
+    /// along the tangent where that leaves the rate open.
     pub(super) fn local<S: Dynamics>(
         &self,
         start: &Start<'_, S>,
@@ -152,23 +163,24 @@ impl<F, const N: usize> Events<F, N> {
                 one.add(*value, [a, b], distance, component);
             }
         };
-        let root = ScalarOf::<S>::EPSILON.sqrt();
         let beyond = beyond.to_array();
         let components = x.as_ref().iter().zip(beyond.as_ref()).zip(slope.as_ref());
         for (index, ((here, beyond), rate)) in components.enumerate() {
             let component = Component { size: here.abs(), way: (*beyond - *here).abs(), rate: *rate * ahead };
-            let distance = root * larger(*here, larger(*beyond, *rate * length));
+            let ahead_by = *rate * length;
+            let distance =
+                displacement(larger(*here, larger(*beyond, ahead_by)), larger(component.way, ahead_by));
             if distance > zero && distance.is_finite() {
-                let at = |displacement: ScalarOf<S>| {
+                let at = |by: ScalarOf<S>| {
                     let mut there = x;
-                    there.as_mut().iter_mut().skip(index).take(1).for_each(|x| *x += displacement);
+                    there.as_mut().iter_mut().skip(index).take(1).for_each(|x| *x += by);
                     (self.functions)(start.time, &S::State::from_array(there), start.input)
                 };
                 add([at(distance), at(-distance)], distance, component);
             }
         }
         let clock = Component { size: start.time.abs(), way: zero, rate: ahead };
-        let distance = root * larger(start.time, length);
+        let distance = displacement(larger(start.time, length), length.abs());
         let at = |time: ScalarOf<S>| (self.functions)(time, start.state, start.input);
         add([at(start.time + distance), at(start.time - distance)], distance, clock);
         let mut local = gathered.map(|one| one.local());

@@ -113,3 +113,35 @@ fn what_comes_back_to_zero_has_one_event_however_short_the_first_leg_was() {
     methods!(comes_back::<f64>, f64);
     methods!(comes_back::<f32>, f32);
 }
+
+/// Marks along a way that begins far away, or late: functions that bend between them have one event at each, in turn.
+fn passes_marks<T: Real>(name: &str, method: impl Method<Thrown<T>> + Clone) {
+    let c = T::from_f64;
+    let between = |way: T| (way - T::ONE) * (way - c(1.5)) * (way - c(3.0));
+    let resolved = [1.0, 1e3, 1e6, 1e9].into_iter().filter(|far| far * T::EPSILON.to_f64() < 1e-3);
+    for (origin, late) in resolved.flat_map(|far| [(far, 0.0), (-far, 0.0), (0.0, far), (0.0, -far)]) {
+        let (origin, late) = (c(origin), c(late));
+        let start = Flight { place: origin, speed: T::ONE };
+        let mut sim = Integrator::new(Thrown { acceleration: T::ZERO }, method.clone(), late, start);
+        let marks = Events::new(|t, x: &Flight<T>, (): &()| [between(x.place - origin), between(t - late)])
+            .samples(16);
+        let mut times = [const { Vec::new() }; 2];
+        while let Some(event) = sim.advance_until(late + c(4.0), &marks).unwrap() {
+            let rises = times[event.index].len() % 2 == 0;
+            let expected = if rises { Direction::Rising } else { Direction::Falling };
+            assert_eq!(event.direction, expected, "{name}, {origin:?}, {late:?}: {event:?}");
+            times[event.index].push((event.time - late).to_f64());
+        }
+        for times in times {
+            let is_near = |(time, mark): (&f64, f64)| (time - mark).abs() < 0.05;
+            let are_all = times.len() == 3 && times.iter().zip([1.0, 1.5, 3.0]).all(is_near);
+            assert!(are_all, "{name}, {origin:?}, {late:?}: {times:?}");
+        }
+    }
+}
+
+#[test]
+fn marks_near_one_another_are_passed_once_however_far_away_or_late() {
+    methods!(passes_marks::<f64>, f64);
+    methods!(passes_marks::<f32>, f32);
+}
