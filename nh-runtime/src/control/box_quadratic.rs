@@ -43,7 +43,7 @@ pub(super) fn minimum<T: Entry, const M: usize>(
         if ended == Some(free) {
             return Ok(Minimum { at, free, factors });
         }
-        let newton = inwards(hessian, &gradient, free, &at, [lower, upper])?;
+        let newton = inwards(hessian, &gradient, (free, &factors), &at, [lower, upper])?;
         // Newton's step on the free components ends there, unless it meets a bound: behind that it goes on along the bounds
         // if this leads as far down as was promised, and ends there otherwise, which is down however bent the function is
         let promised = gradient.dot(&newton);
@@ -71,19 +71,21 @@ pub(super) fn minimum<T: Entry, const M: usize>(
 fn inwards<T: Entry, const M: usize>(
     hessian: &SMatrix<T, M, M>,
     gradient: &SVector<T, M>,
-    mut free: [bool; M],
+    (mut free, factors): ([bool; M], &Cholesky<T, M>),
     at: &SVector<T, M>,
     [lower, upper]: [&SVector<T, M>; 2],
 ) -> Result<SVector<T, M>, ControlError> {
+    let mut of_fewer = None;
     loop {
         let target = SVector::from_fn(|i, _| if is(free, i) { -gradient[i] } else { T::ZERO });
-        let newton = Cholesky::new(CURVATURE, &masked(hessian, free))?.solve(&target);
+        let newton = of_fewer.as_ref().unwrap_or(factors).solve(&target);
         let leaves = |i: usize| {
             let is_down = newton[i] < T::ZERO && at[i] <= lower[i];
             is_down || (newton[i] > T::ZERO && at[i] >= upper[i])
         };
         let Some(leaving) = (0..M).find(|i| is(free, *i) && leaves(*i)) else { return Ok(newton) };
         free.iter_mut().skip(leaving).take(1).for_each(|free| *free = false);
+        of_fewer = Some(Cholesky::new(CURVATURE, &masked(hessian, free))?);
     }
 }
 
