@@ -5,34 +5,41 @@ use std::fs;
 
 use super::{root, sources, words};
 
+/// The lists of methods, each in one file or the other.
+const METHODS: [&[&str]; 6] = [
+    &["nh-runtime/tests/promises/systems.rs", "nh-runtime/tests/promises/own_systems.rs"],
+    &["nh-runtime/tests/extremes.rs", "nh-runtime/tests/structure_extremes.rs"],
+    &["nh-runtime/tests/non_finite.rs"],
+    &["tests/bounded/src/methods.rs", "tests/bounded/src/structure.rs"],
+    &["tests/bounded/src/main.rs"],
+    &["tests/tests/no_allocation_methods.rs"],
+];
+
+/// The lists of tables of explicit methods.
+const TABLES: [&[&str]; 3] = [
+    &["nh-runtime/src/methods/explicit/order_conditions.rs"],
+    &["nh-runtime/tests/sensitivity/columns.rs"],
+    &["nh-runtime/tests/sensitivity/adjoints.rs"],
+];
+
+/// The statements of a file, without comments and imports, which try nothing.
+fn code(file: &&str) -> String {
+    let text = fs::read_to_string(root().join(file)).unwrap();
+    let lines: Vec<&str> = text.lines().filter(|line| !line.trim_start().starts_with("//")).collect();
+    let code = lines.join("\n");
+    code.split(';').filter(|statement| !statement.trim_start().starts_with("use ")).collect()
+}
+
+/// The names that a file takes out of a module of its own.
+fn exported(file: &str, module: &str) -> Vec<String> {
+    let text = fs::read_to_string(root().join(file)).unwrap();
+    let (_, list) = text.split_once(&format!("pub use {module}::{{")).unwrap();
+    words(list.split_once('}').unwrap().0).map(str::to_owned).collect()
+}
+
 /// A method of integration, and the table of an explicit one, is in every list over which a law of all methods is tried.
 #[test]
 fn every_method_is_in_every_list() {
-    let code = |file: &&str| -> String {
-        let text = fs::read_to_string(root().join(file)).unwrap();
-        let is_code = |line: &&str| !line.trim_start().starts_with("//");
-        let code: String = text.lines().filter(is_code).map(|line| format!("{line}\n")).collect();
-        // imports try nothing
-        code.split(';').filter(|statement| !statement.trim_start().starts_with("use ")).collect()
-    };
-    let exported = |file: &str, module: &str| -> Vec<String> {
-        let text = fs::read_to_string(root().join(file)).unwrap();
-        let (_, list) = text.split_once(&format!("pub use {module}::{{")).unwrap();
-        words(list.split_once('}').unwrap().0).map(str::to_owned).collect()
-    };
-    const METHODS: [&[&str]; 6] = [
-        &["nh-runtime/tests/promises/systems.rs", "nh-runtime/tests/promises/own_systems.rs"],
-        &["nh-runtime/tests/extremes.rs", "nh-runtime/tests/structure_extremes.rs"],
-        &["nh-runtime/tests/non_finite.rs"],
-        &["tests/bounded/src/methods.rs", "tests/bounded/src/structure.rs"],
-        &["tests/bounded/src/main.rs"],
-        &["tests/tests/no_allocation_methods.rs"],
-    ];
-    const TABLES: [&[&str]; 3] = [
-        &["nh-runtime/src/methods/explicit/order_conditions.rs"],
-        &["nh-runtime/tests/sensitivity/columns.rs"],
-        &["nh-runtime/tests/sensitivity/adjoints.rs"],
-    ];
     let methods = exported("nh-runtime/src/lib.rs", "methods");
     let tables = exported("nh-runtime/src/methods/mod.rs", "explicit");
     let mut missing: Vec<String> = Vec::new();

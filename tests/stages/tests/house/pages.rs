@@ -145,6 +145,26 @@ fn pages_name_commands_that_exist() {
     assert!(missing.is_empty(), "{}", missing.join("\n"));
 }
 
+/// Each package of the tests has its line in both tables of folders.
+#[test]
+fn every_package_has_a_room() {
+    let pages = ["ARCHITECTURE.md", "tests/README.md"];
+    let [rooms, tests] = pages.map(|page| fs::read_to_string(root().join(page)).unwrap());
+    let mut missing = Vec::new();
+    for entry in fs::read_dir(root().join("tests")).unwrap() {
+        let path = entry.unwrap().path();
+        if !path.join("Cargo.toml").exists() {
+            continue;
+        }
+        let folder = format!("`tests/{}`", path.file_name().unwrap_or_default().to_string_lossy());
+        missing.extend(pages.iter().zip([&rooms, &tests]).filter_map(|(page, text)| {
+            let is_there = text.lines().any(|line| line.starts_with('|') && line.contains(&folder));
+            (!is_there).then(|| format!("{page}: {folder}"))
+        }));
+    }
+    assert!(missing.is_empty(), "{}", missing.join("\n"));
+}
+
 /// What pages link to is a file, with the heading that is named.
 #[test]
 fn pages_link_to_what_exists() {
