@@ -60,6 +60,7 @@ mod syntax;
 /// | `impacts { floor: h >= 0 with restitution e; blade: u = 0, w = 0; }` | jumps of the velocities: gaps that close, and equations that hold afterwards; what acts together stands in one item; generates `impact_floor`, `event_floor` and a type for `advance_with_impacts` | none |
 /// | `distribution { s, dpsi }`, `{ der(x) }` | sections that span the allowed velocities, instead of linear constraints; combinations get a name in `frame` | |
 /// | `forces { omega: …; x: …; }` | generalized forces along a section or a coordinate | none |
+/// | `auxiliary { der(current) = (volts - R * current) / Lc; }` | states without inertia, by their rates: currents, lags, filters; forces and constraints may depend on them | none |
 /// | `inputs { torque }` | control inputs, constant within a step | none |
 /// | `outputs { speed = …; }` | named observables | none |
 /// | `conserved { spin = …; }` | claimed first integrals, proved or refused | |
@@ -77,7 +78,7 @@ mod syntax;
 /// | `linearization { keep: v, omega; }` | the variables of the state in which `linearize` gives a linear model on the constraint manifold, and which are steady where `trim` finds a steady motion | `linearization { }`: the independent ones |
 /// | `track { v, speed }` | the state variables and outputs that matter: what does not flow into them is neither stored nor computed | everything |
 /// | `derivative { motor: [self.motor_speed]; }` | the partial derivatives of a method used in a force, for `emit { jacobian }` | |
-/// | `names { state = RobotState; }` | names of generated types, by their roles | `…State` and so on |
+/// | `names { state = RobotState; }` | names of generated types, by their roles: `state`, `velocity`, `input`, `outputs`, `multipliers`, `reactions`, `residual`, `momenta`, `phase`, `quadratures`, `gyroscopic`, `power`, `impulses`, and the lists of names `coordinate` and `variable` | `…State` and so on |
 /// | `crate { ::runtime }` | the path of the runtime where the dependency is renamed | `::nonholonomic` |
 ///
 /// # Expressions
@@ -194,10 +195,13 @@ mod syntax;
 /// | `sparse_jacobian` | `sparse_jacobian(t, &state, &input)`: its entries that are not always zero, in one array, column by column; the constants `JACOBIAN_ROWS` and `JACOBIAN_COLUMNS` say where they stand, inputs behind the state; `sparse_linearized(t, &state, &input)`: the derivative together with them |
 /// | `jacobian_product` | `jacobian_product(t, &state, &input, &direction, &input_direction)`: the Jacobian times a direction, a state and inputs, at the cost of about two derivatives |
 /// | `adjoint_product` | `adjoint_product(t, &state, &input, &weights)`: the transpose of the Jacobian times weights of the components of the derivative, by state and by inputs, whatever their number at the cost of a few derivatives |
+/// | `output_jacobian` | `output_jacobian(t, &state, &input)`: ∂outputs/∂state and ∂outputs/∂input, the matrices C and D |
+/// | `return_jacobian` | `return_jacobian(t, &state)` of the trait `Jacobian`, beside `jacobian` and `holonomic`: the derivative of the return to position constraints, by which steps that end with it are differentiated |
 /// | `parameter_jacobian` | `parameter_jacobian(t, &state, &input)`: ∂derivative/∂parameters, a column for each number in the struct's fields, in order |
 /// | `angle_cache` | `with_angle_cache()`: a value of the type `AngleCached…`, the same system, which takes sines and cosines from those of angles nearby, with errors of two units in the last place of 1; the struct has to be `Copy` |
 /// | `prepared` | `prepare()`: a `Copy` value of the type `Prepared…`, the same system with what depends on parameters alone computed once; the struct has to be `Copy` |
 /// | `multipliers`, `reactions` | `multipliers(t, &state, &input)`, `reactions(…)` |
+/// | `power` | `power(t, &state, &input)`: the power of each force and of each constraint; the energy changes at the rate of their `total()`, less that at which L depends on the time |
 /// | `momenta` | `momenta(t, &state)`, `momentum_rates(t, &state, &input)` |
 /// | `gyroscopic` | `gyroscopic(t, &state)` of a Chaplygin system: see *Splitting* |
 /// | `splitting` | the nonholonomic connection and the momentum equation: see *Splitting* |

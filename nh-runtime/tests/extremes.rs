@@ -227,6 +227,7 @@ fn hostile_numbers_are_refused_at_once() {
     check(Taylor::new());
     check(Radau5::new());
     check(Rodas5P::new());
+    check(Auto::new());
     check(ImplicitMidpoint::new(0.01).fourth_order());
 }
 

@@ -116,6 +116,63 @@ fn scales_of_mass_time_and_length() {
     );
 }
 
+/// A weight on a rod.
+#[nonholonomic(
+    base { x, y }
+    lagrangian { m / 2 * (der(x)^2 + der(y)^2) - k * l * y }
+    holonomic { rod: x^2 + y^2 = l^2; }
+    emit { rattle }
+)]
+#[derive(Clone, Copy, Debug)]
+struct Rod<T> {
+    m: T,
+    k: T,
+    l: T,
+}
+
+/// As a motion of the contact oscillator, that of the weight is the same at every scale.
+#[test]
+fn scales_of_a_constrained_motion() {
+    let run = |[m, k, l]: [f64; 3], of_order: u32| -> [f64; 5] {
+        let frequency = (k / m).sqrt();
+        let system = Rod { m, k, l };
+        let [x_dot, y_dot] = [0.4, 0.3].map(|rate| rate * l * frequency);
+        let start = RodState { x: 0.6 * l, y: -0.8 * l, x_dot, y_dot };
+        let rattle = Rattle::new(0.05 / frequency);
+        let end = 12.0 / frequency;
+        let reached = match of_order {
+            2 => at(system, start, rattle, end),
+            4 => at(system, start, rattle.fourth_order(), end),
+            _ => at(system, start, rattle.sixth_order(), end),
+        };
+        let off = (reached.x.hypot(reached.y) / l - 1.0).abs();
+        assert!(off < 1e-14, "{m:e} {k:e} {l:e}, order {of_order}: {off:e}");
+        let speed = l * frequency;
+        let kept = system.energy(0.0, &reached) - system.energy(0.0, &start);
+        [reached.x / l, reached.y / l, reached.x_dot / speed, reached.y_dot / speed, kept / (k * l * l)]
+    };
+    for (of_order, error) in [(2, 1e-2), (4, 1e-4), (6, 1e-5)] {
+        let one = run([1.0; 3], of_order);
+        assert!(one[4].abs() < error, "order {of_order}: {one:?}");
+        for m in [1e-9, 1e9] {
+            for k in [1e-9, 1e9] {
+                for l in [1e-6, 1e6] {
+                    let other = run([m, k, l], of_order);
+                    let off = one.iter().zip(other).map(|(one, other)| (one - other).abs());
+                    let off = off.fold(0.0, f64::max);
+                    assert!(off < 1e-11, "{m:e} {k:e} {l:e}, order {of_order}: {off:e}");
+                }
+            }
+        }
+    }
+}
+
+fn at<M: Method<Rod<f64>>>(system: Rod<f64>, start: RodState<f64>, method: M, t: f64) -> RodState<f64> {
+    let mut sim = Integrator::new(system, method, 0.0, start);
+    sim.advance_to(t).unwrap();
+    *sim.state()
+}
+
 #[test]
 fn inertias_of_any_ratio() {
     for ratio in [1e-9, 1e-3, 1e3, 1e9] {

@@ -151,8 +151,11 @@ impl Search {
         keeps && self.is_allowed(point)
     }
 
-    /// Jᵀ (J Jᵀ + μ)⁻¹ f.
+    /// Jᵀ (J Jᵀ + μ)⁻¹ f; nothing where there is nothing that could move.
     fn step(&mut self, point: &[f64], damping: f64) -> Option<Vec<f64>> {
+        if self.symbols.is_empty() {
+            return None;
+        }
         let f = Self::at(&mut self.equations, &self.symbols, point);
         let slopes = Self::at(&mut self.slopes, &self.symbols, point);
         let rows: Vec<Vec<f64>> = slopes
@@ -198,5 +201,11 @@ mod tests {
         let (square, five) = (g.square(y), g.number(25));
         let speed = g.formula(square - five);
         assert!(g.real_point_is_found(&[(x, Demand::Zero), (speed, Demand::Zero)]));
+        // nothing that could move, and nothing to be met
+        assert!(!g.real_point_is_found(&[(five, Demand::Zero)]));
+        assert!(g.real_point_is_found(&[(five, Demand::Positive)]) && g.real_point_is_found(&[]));
+        assert!(g.real_point_is_found(&[(a, Demand::Positive)]));
+        let negative = g.formula(-square - five);
+        assert!(!g.real_point_is_found(&[(negative, Demand::Positive)]));
     }
 }

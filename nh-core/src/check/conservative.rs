@@ -1,11 +1,11 @@
-//! Whether the energy is conserved, term by term: dE_L/dt = Υ_α y^α + λ_A y^α ∂φ^A/∂y^α − ∂_tL
-//! (mathematics section 4; CLMM Theorems 3.4, 7.6).
+//! Whether the energy is conserved, term by term of mathematics (41):
+//! dE_L/dt = Υ_α y^α + λ_A y^α ∂φ^A/∂y^α − ∂_tL (CLMM Theorems 3.4, 7.6).
 
 use super::constraints::Constraints;
 use super::evidence::shown;
 use crate::geometry::Clock;
 use crate::id::ExprId;
-use crate::mechanics::LagrangianSystem;
+use crate::mechanics::{LagrangianSystem, fibre_derivative};
 use crate::model::Model;
 
 /// What keeps the energy from being conserved, in words; `None` if every term of its rate vanishes.
@@ -33,16 +33,7 @@ pub fn not_conservative(
         let power = if let Some(linear) = &constraints.linear {
             linear.drift[index]
         } else {
-            let velocities = system.algebroid.velocities.clone();
-            let terms: Vec<ExprId> = velocities
-                .iter()
-                .map(|symbol| {
-                    let partial = graph.partial(*residual, *symbol);
-                    let velocity = graph.symbol(*symbol);
-                    graph.formula(velocity * partial)
-                })
-                .collect();
-            graph.sum(&terms)
+            fibre_derivative(graph, *residual, &system.algebroid.velocities)
         };
         if !constraints.generic().zero_test(graph, power).is_zero() {
             let text = shown(graph, *residual);

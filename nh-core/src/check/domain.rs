@@ -204,6 +204,7 @@ fn is_proved(graph: &mut Graph, condition: Condition, holding: &[(ExprId, Demand
     })
 }
 
+/// Whether ranges prove it, by facts about parameters.
 pub(super) fn holds(graph: &Graph, condition: Condition, facts: &Facts) -> bool {
     match condition {
         Condition::Nonzero(e) => graph.vanishes_nowhere(e, facts),

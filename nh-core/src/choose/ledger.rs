@@ -16,7 +16,7 @@ pub struct Decision {
     pub site: &'static str,
     /// The forms that were looked at.
     pub contenders: Vec<Contender>,
-    /// What was left aside for its size, with the limit.
+    /// What was left aside for its size, with the limit, and what could not be proved or decided.
     pub limits: Vec<String>,
 }
 
@@ -36,11 +36,11 @@ pub struct Contender {
 /// What became of a contender.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Fate {
-    /// It is emitted, and proved to be equal to the declared equations.
+    /// It is emitted, and proved: a motion by the declared equations, any other function by its definition.
     Chosen(Proof),
     /// It was not admitted, and why.
     NotAdmitted(String),
-    /// It was not looked at any further: why it could not win.
+    /// It was not looked at any further, nor proved: why it could not win.
     Lost(&'static str),
 }
 

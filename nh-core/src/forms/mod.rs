@@ -1,8 +1,9 @@
 //! Forms of the equations of motion: different arithmetic for the same C v̇ = f.
 //!
 //! A form is a file here and a line in [`Registry::standard`]. What it derives is compared with what the others
-//! derive, and proved against the declaration before it may be emitted (`choose`): a form cannot make the
-//! equations wrong, and need not be right for every declaration.
+//! derive, and the best of them is proved against the declaration before it may be emitted (`choose`); where it is
+//! refused, what is left is compared anew. So a form cannot make the equations wrong, need not be right for every
+//! declaration, and is not known to be right where it lost.
 
 mod along_chain;
 mod along_free_directions;

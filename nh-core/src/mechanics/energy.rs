@@ -23,8 +23,8 @@ pub fn energy(graph: &mut Graph, system: &LagrangianSystem) -> ExprId {
     graph.linear_combination(&summands)
 }
 
-/// `y^α ∂f/∂y^α`.
-fn fibre_derivative(graph: &mut Graph, function: ExprId, velocities: &[SymbolId]) -> ExprId {
+/// y^α ∂f/∂y^α, the derivative along the fibre.
+pub fn fibre_derivative(graph: &mut Graph, function: ExprId, velocities: &[SymbolId]) -> ExprId {
     let summands: Vec<ExprId> = velocities
         .iter()
         .map(|symbol| {

@@ -46,7 +46,7 @@ pub use body::{Attitude, Body, Inertia, Turn};
 pub use complete_lift::complete_lift;
 pub use cyclic::{cyclic_coordinates, translation, translations};
 pub use definiteness::{DefiniteSets, definiteness, keeps_its_sign};
-pub use energy::energy;
+pub use energy::{energy, fibre_derivative};
 pub use euler_lagrange::{ForceBalance, LagrangianSystem};
 pub use factorisation::Factorisation;
 pub use flow::Flow;

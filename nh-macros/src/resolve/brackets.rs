@@ -97,9 +97,7 @@ impl Resolver {
             let (left, right) = (sections[bracket.left], sections[bracket.right]);
             for (_, term) in &terms {
                 let expected = self.bracket_of(left, right, written.extent);
-                let given =
-                    Measured::expected(format!("`{}`", self.graph.text_within(*term, 60)), written.extent)
-                        .expression(*term, Kind::Sections, 1);
+                let given = self.shown_as(*term, written.extent, Kind::Sections);
                 self.same_unit_in("brackets", ptr::from_ref(written).addr(), "equals", vec![expected, given]);
             }
             found.push(BracketDecl { left, right, value, origin, known });

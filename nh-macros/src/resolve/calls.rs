@@ -293,14 +293,20 @@ impl Resolver {
             let known: Vec<&str> = known.chain(self.scope.functions()).collect();
             let elsewhere = ELSEWHERE.iter().find(|(other, _)| other == text);
             let way_out = match elsewhere {
-                _ if text == "ddot" => "accelerations follow from the equations; `der(x)` is a velocity".to_owned(),
+                _ if text == "ddot" => {
+                    "accelerations follow from the equations; `der(x)` is a velocity".to_owned()
+                }
                 Some((_, ours)) => format!("write `{ours}`"),
                 None => did_you_mean(text, known).unwrap_or_else(|| {
-                    let tensors: Vec<&str> = tensor_names().collect();
+                    let branches = |word: &&str| Called::named(word).is_some_and(|called| called.branches());
+                    let (branching, smooth): (Vec<&str>, Vec<&str>) =
+                        FUNCTIONS.into_iter().filter(|word| *word != "der").partition(branches);
+                    let smooth: Vec<&str> =
+                        smooth.into_iter().chain(["dot", "cross"]).chain(tensor_names()).collect();
                     format!(
-                        "functions are sin, cos, tan, asin, acos, atan, atan2, sinh, cosh, tanh, exp, ln, sqrt, dot, \
-                         cross, {}, and in `forces` and `outputs` also abs, sign, min, max",
-                        tensors.join(", ")
+                        "functions are {}, and in `forces` and `outputs` also {}",
+                        smooth.join(", "),
+                        branching.join(", ")
                     )
                 }),
             };

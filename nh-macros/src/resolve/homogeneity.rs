@@ -47,7 +47,7 @@ impl Resolver {
         used.extend(abbreviations.get(name).into_iter().flatten().cloned());
     }
 
-    /// It has been read.
+    /// What was about to be read, since [`Resolver::open_conditions`], has been.
     pub(super) fn close_conditions(&mut self) {
         self.homogeneity.open.pop();
     }
@@ -66,11 +66,16 @@ impl Resolver {
 
     /// A value in the words of the graph.
     pub(super) fn shown(&self, value: ExprId, extent: Extent) -> Measured {
+        self.shown_as(value, extent, self.kind())
+    }
+
+    /// The same, where velocities stand for this.
+    pub(super) fn shown_as(&self, value: ExprId, extent: Extent, kind: Kind) -> Measured {
         let mut measured = Measured::expected(String::new(), extent);
         if self.homogeneity.wanted {
             measured.text = format!("`{}`", self.graph.text_within(value, SHOWN));
         }
-        measured.expression(value, self.kind(), 1)
+        measured.expression(value, kind, 1)
     }
 
     /// Notes that things have the same unit; what is expected comes first. `relation` is how the later ones belong

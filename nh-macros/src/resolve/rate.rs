@@ -126,7 +126,7 @@ impl Resolver {
         Rate::Unknown("a velocity")
     }
 
-    /// An acceleration, or the rate of an input.
+    /// Reports that a symbol has no known rate, being what the noun says.
     fn no_rate(&mut self, of: &Expr, symbol: SymbolId, noun: &str) -> Reported {
         let name = &self.graph.symbols()[symbol];
         let way_out = match noun {

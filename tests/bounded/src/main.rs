@@ -49,11 +49,14 @@ const _: () = {
     plain::<GaussLegendre6<f64>>();
     plain::<Radau5<f64>>();
     plain::<Rodas5P<f64>>();
+    plain::<Auto<f64>>();
+    plain::<Taylor<f64>>();
     plain::<DiscreteGradient<f64>>();
     plain::<DiscreteSuslov<f64>>();
     plain::<Rattle<f64>>();
     plain::<ReflectedLeapfrog<f64>>();
     plain::<Projected<Rk4<f64>>>();
+    plain::<Conserving<Rk4<f64>>>();
     plain::<Regulator<f32, 4, 2>>();
     plain::<Estimate<Fast<f32>, 4>>();
     plain::<Correction<f64, 4>>();

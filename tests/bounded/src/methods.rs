@@ -1,4 +1,4 @@
-//! A run by every method, and a tick of every building block of a controller: the bits of what comes out.
+//! A run by every method that takes any system, and a tick of every building block of a controller: the bits of what comes out.
 
 use nalgebra::{Matrix1, Matrix4, RowVector4, SMatrix, Vector1, Vector4, Vector5};
 use nonholonomic::control::{
@@ -56,6 +56,7 @@ pub(crate) fn all() -> Vec<String> {
     run(lines, "Vern9", Vern9::new());
     run(lines, "Radau5", Radau5::new());
     run(lines, "Rodas5P", Rodas5P::new());
+    run(lines, "Auto", Auto::new());
     let done = (controls::<f64>(lines), controls::<f32>(lines));
     assert_eq!(done, (Ok(()), Ok(())));
     core::mem::take(lines)

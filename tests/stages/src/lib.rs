@@ -45,6 +45,8 @@ pub use declarations::{Declaration, declarations};
 pub use judge::{Defect, Verdict, judged, judged_relation};
 pub use large::{Family, families};
 pub use mutate::{Collection, Random, minimised, minimised_relation};
+use nonholonomic_core::compile::compile_with;
+use nonholonomic_core::forms::Registry;
 use nonholonomic_core::model::Model;
 use nonholonomic_core::system::System;
 use proc_macro2::TokenStream;
@@ -96,9 +98,17 @@ impl Declaration {
     /// # Errors
     /// The messages of the errors.
     pub fn system(&self) -> Result<System, Vec<String>> {
+        self.system_by(&Registry::standard())
+    }
+
+    /// The same with the forms of a registry.
+    ///
+    /// # Errors
+    /// The messages of the errors.
+    pub fn system_by(&self, registry: &Registry) -> Result<System, Vec<String>> {
         let (resolved, _) = self.resolved()?;
         let origins = resolved.origins;
-        nonholonomic_core::compile::compile(resolved.model).map_err(|violations| {
+        compile_with(resolved.model, registry).map_err(|violations| {
             violations.into_iter().map(|violation| origins.diagnostic(violation).to_string()).collect()
         })
     }

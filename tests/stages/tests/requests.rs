@@ -36,6 +36,19 @@ fn every_word_is_compiled_with_all_others() {
     assert!(missing.is_empty(), "{missing:?}");
 }
 
+/// A function that is derived has a definition that it is proved by.
+#[test]
+fn nothing_is_derived_without_a_definition() {
+    for declaration in declarations(include_str!("../../tests/asked_for_together.rs")) {
+        let system = declaration.system().unwrap_or_else(|_| panic!("{}", declaration.attribute));
+        let without = system.ledger.decisions.iter().filter(|decision| {
+            decision.limits.iter().any(|limit| limit.contains("no definition is given for it"))
+        });
+        let without: Vec<&str> = without.map(|decision| decision.site).collect();
+        assert!(without.is_empty(), "{}: {without:?}", declaration.attribute);
+    }
+}
+
 fn every_second_from(first: usize) {
     let short = declarations(&SHORTEST);
     let (mut derived, mut refused) = (0, 0);

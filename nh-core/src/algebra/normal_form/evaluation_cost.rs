@@ -17,7 +17,7 @@ impl Graph {
     ///
     /// A sum costs its terms less one and its coefficients, a product its factors less one, a
     /// power its chain of multiplications, a root 6, all denominators of a product together one
-    /// division for 5, a function 20 – sine and cosine of one angle together once. Whatever
+    /// division for 5, a function 20 – sine and cosine of one angle together once – but |x|, a sign, min and max 1. Whatever
     /// occurs several times counts once.
     #[must_use]
     pub fn operation_count(&self, roots: &[ExprId]) -> Count {

@@ -122,7 +122,8 @@ pub(crate) struct Allowed<'f> {
 pub(crate) type Images<'p> = &'p [(SymbolId, ExprId)];
 
 impl Derived<'_> {
-    fn procedures(&self) -> Vec<&Procedure> {
+    /// The functions that it is about.
+    pub(crate) fn procedures(&self) -> Vec<&Procedure> {
         match *self {
             Self::Jacobian(a, b, _)
             | Self::Linearized(a, b, _)

@@ -24,6 +24,7 @@ use crate::system::{Embedding, ImpactForm, PositionReturn, Projection, System};
 use crate::violation::{Law, Violation};
 use claimed_functions::{of_geometry, of_motion, of_phase_space, of_state};
 use declared_data::Declared;
+use std::ptr;
 
 /// What functions are derived from.
 pub(super) struct Given<'d> {
@@ -208,6 +209,7 @@ pub(super) fn prove(
     claims.extend(of_motion(found, &declared, names));
     claims.extend(of_phase_space(found, &declared));
     claims.extend(of_geometry(found, &declared, split.as_ref()));
+    let unclaimed = unclaimed(&parts.functions, &claims);
     let mut manifold: Option<Manifold> = None;
     let mut refuted = Vec::new();
     for (site, claim) in claims {
@@ -266,7 +268,18 @@ pub(super) fn prove(
         }
         proved.ledger.decisions.push(decision);
     }
+    let limit = || vec!["not proved: no definition is given for it".to_owned()];
+    let without = unclaimed.into_iter().map(|site| Decision { site, limits: limit(), ..Decision::default() });
+    proved.ledger.decisions.extend(without);
     if refuted.is_empty() { Ok(parts) } else { Err(refuted) }
+}
+
+/// The functions that no claim is about.
+fn unclaimed(functions: &Functions, claims: &Claims) -> Vec<&'static str> {
+    let claimed: Vec<&Procedure> = claims.iter().flat_map(|(_, claim)| claim.procedures()).collect();
+    let is_claimed = |procedure: &Procedure| claimed.iter().any(|one| ptr::eq(*one, procedure));
+    let without = functions.iter().filter(|function| !is_claimed(&function.procedure));
+    without.map(|function| function.signature.name).collect()
 }
 
 /// A function that is not what its definition says.

@@ -179,6 +179,7 @@ where
             if iterations == MOST_ITERATIONS || !size.is_finite() {
                 let (none, moved) = (DimOf::<S>::vec(T::ZERO), last.along(&way.correction));
                 work.amounts = none;
+                // in units of the tolerance that the iterations of other methods have
                 let residual = newton::size(&moved, x, &way.change, &none) / (T::from_f64(1e3) * T::EPSILON);
                 return Err(refusal(start, h, (iterations, residual), way.end.as_ref(), None));
             }

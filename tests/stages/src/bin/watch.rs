@@ -3,7 +3,8 @@
 //! file, or with `-`, it reads the standard input; with `--family NAME SIZE …` it takes the members of a growing
 //! family, and with `--all [NAME …]` the reference systems, the machines of the benchmark of record and the arms.
 //! With `--explain` it prints besides which forms competed for each function, and the program of the derivative,
-//! step by step; with `--times` only what each expansion costs: milliseconds on the processor's clock, the lesser of
+//! step by step; with `--form="NAME"` one form of the equations alone competes, so that it is proved also where others are
+//! cheaper; with `--times` only what each expansion costs: milliseconds on the processor's clock, the lesser of
 //! two runs, and counted steps of work.
 
 use std::io::{Error, Read};
@@ -11,6 +12,7 @@ use std::time::Instant;
 
 use nh_stages::{Declaration, arms, declarations, families, references, whole_record};
 use nonholonomic_core::choose::{Lowered, lowered};
+use nonholonomic_core::forms::Registry;
 use nonholonomic_core::limits::{processor_time, spent, timed, within_limits};
 use nonholonomic_core::mechanics::Procedure;
 use nonholonomic_core::program::Cost;
@@ -20,6 +22,7 @@ fn main() -> std::io::Result<()> {
     let (options, arguments): (Vec<String>, Vec<String>) =
         std::env::args().skip(1).partition(|argument| argument.starts_with("--"));
     let is_asked = |wanted: &str| options.iter().any(|option| option == wanted);
+    let registry = registry(&options)?;
     let chosen = if is_asked("--all") {
         named([references(), whole_record(), arms()].concat(), &arguments)
     } else if is_asked("--family") {
@@ -34,7 +37,7 @@ fn main() -> std::io::Result<()> {
             println!("{:8.1}  {steps:9}  {name}{refused}", one.min(two));
             continue;
         }
-        match declaration.system() {
+        match declaration.system_by(&registry) {
             Ok(system) => {
                 println!("{}", system.report);
                 if is_asked("--explain") {
@@ -45,6 +48,21 @@ fn main() -> std::io::Result<()> {
         }
     }
     Ok(())
+}
+
+/// All forms, or the one that is asked for.
+fn registry(options: &[String]) -> std::io::Result<Registry> {
+    let all = Registry::standard();
+    let Some(wanted) = options.iter().find_map(|option| option.strip_prefix("--form=")) else {
+        return Ok(all);
+    };
+    let forms: Vec<_> = all.forms().iter().copied().filter(|form| form.name() == wanted).collect();
+    let solutions: Vec<_> =
+        all.solutions().iter().copied().filter(|solution| solution.name() == wanted).collect();
+    if forms.is_empty() && solutions.is_empty() {
+        return Err(Error::other(format!("no form is called {wanted:?}; there are {all:?}")));
+    }
+    Ok(Registry::of(forms).solving(solutions))
 }
 
 /// The declarations of a file, or those of them that are named.
