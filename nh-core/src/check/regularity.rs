@@ -218,6 +218,9 @@ fn is_definite(graph: &mut Graph, matrix: &Matrix, block: &[usize], facts: &Fact
     })
 }
 
+/// Sizes of parameters that are tried: powers of two up to one and a half times this, and down to as many.
+const SIZES: f64 = 4.0;
+
 /// The factors of a determinant.
 fn factors(graph: &Graph, determinant: ExprId) -> Vec<(ExprId, Rational)> {
     match graph.node(determinant) {
@@ -230,34 +233,51 @@ fn factors(graph: &Graph, determinant: ExprId) -> Vec<(ExprId, Rational)> {
 /// the mass matrix is positive definite and another.
 fn changes_sign(graph: &mut Graph, factor: ExprId, mass: &Matrix, parameters: &[SymbolId]) -> bool {
     const MACHINES: u64 = 16;
+    const OF_ALL_SIZES: u64 = 8;
     const STATES: u64 = 8;
+    let symbols = graph.symbols_in(&[&[factor], mass.concat().as_slice()].concat());
+    let value = |machine: u64, state: u64, symbol: SymbolId| {
+        let index = symbols.iter().position(|known| *known == symbol).unwrap_or_default();
+        if parameters.contains(&symbol) {
+            // of like size first, then of all sizes
+            let size = if machine < MACHINES { 0.0 } else { SIZES * sample(4 * machine + 2, index) };
+            sample(4 * machine, index) * size.exp2()
+        } else {
+            4.0 * sample(4 * (STATES * machine + state) + 2, index)
+        }
+    };
     let mut minors: Vec<ExprId> = Vec::new();
-    for size in 1..=mass.len() {
-        let leading: Vec<usize> = (0..size).collect();
-        minors.push(graph.small_determinant(&Graph::submatrix(mass, &leading)));
-    }
-    let roots: Vec<ExprId> = std::iter::once(factor).chain(minors).collect();
-    let symbols = graph.symbols_in(&roots);
-    (0..MACHINES).any(|machine| {
-        let (mut definite, mut signs) = (None, [false; 2]);
-        for state in 0..STATES {
-            let value = |symbol: SymbolId| {
-                let index = symbols.iter().position(|known| *known == symbol).unwrap_or_default();
-                if parameters.contains(&symbol) {
-                    sample(4 * machine, index)
-                } else {
-                    4.0 * sample(4 * (STATES * machine + state) + 2, index)
+    let mut next = 0;
+    loop {
+        // 1. a machine for which the factor has both signs
+        let mut evaluator = graph.evaluator(&[factor]);
+        let found = (next..MACHINES + OF_ALL_SIZES).find_map(|machine| {
+            let (mut states, mut signs) = (Vec::new(), [false; 2]);
+            for state in 0..STATES {
+                let found = evaluator.at(|symbol| value(machine, state, symbol))[0];
+                if found.is_certainly_nonzero() {
+                    signs[usize::from(found.value > 0.0)] = true;
+                    states.push(state);
                 }
-            };
-            let values = graph.evaluate(&roots, value);
-            let is_positive = values[0].value > 0.0;
-            if values[0].is_certainly_nonzero() {
-                signs[usize::from(is_positive)] = true;
             }
-            if values[1..].iter().all(|minor| minor.value > 0.0 && minor.is_certainly_nonzero()) {
-                definite = Some(is_positive);
+            (signs == [true; 2]).then_some((machine, states))
+        });
+        let Some((machine, states)) = found else { return false };
+        // 2. whose mass matrix is definite in one of these states: in another the factor has the other sign
+        if minors.is_empty() {
+            for size in 1..=mass.len() {
+                let leading: Vec<usize> = (0..size).collect();
+                minors.push(graph.small_determinant(&Graph::submatrix(mass, &leading)));
             }
         }
-        definite.is_some_and(|side| signs[usize::from(!side)])
-    })
+        let mut evaluator = graph.evaluator(&minors);
+        let is_definite = |state: &u64| {
+            let values = evaluator.at(|symbol| value(machine, *state, symbol));
+            values.iter().all(|minor| minor.value > 0.0 && minor.is_certainly_nonzero())
+        };
+        if states.iter().any(is_definite) {
+            return true;
+        }
+        next = machine + 1;
+    }
 }
