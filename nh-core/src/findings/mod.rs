@@ -2,6 +2,7 @@
 
 mod bracket_entries;
 mod closure;
+mod held_forces;
 mod momenta_found;
 mod real_states;
 mod reduced_form;
@@ -56,6 +57,8 @@ pub(crate) struct Findings {
     pub(crate) conserved_momenta: Vec<(String, ExprId)>,
     /// The velocities that the declaration might name, where the state keeps all of them unasked.
     pub(crate) suggested: Option<Suggested>,
+    /// What forces act along that constraints hold.
+    pub(crate) held_forces: Vec<String>,
 }
 
 /// Where a claimed first integral is one.
@@ -85,6 +88,7 @@ impl Findings {
         let moving_energy = if keeps_energy { None } else { moving_energy(proved) };
         let conserved_momenta = momenta_found::conserved(proved, derived);
         let suggested = velocities_to_name::suggestion(proved, derived);
+        let held_forces = held_forces::found(proved, derived);
         Self {
             no_state_is_known,
             domain,
@@ -102,6 +106,7 @@ impl Findings {
             moving_energy,
             conserved_momenta,
             suggested,
+            held_forces,
         }
     }
 }

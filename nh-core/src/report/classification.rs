@@ -41,6 +41,9 @@ pub(super) fn lines(
     };
     lines.push(format!("formulation: {name}, {coordinates} and {velocities}{auxiliary}; {reason}"));
     lines.extend(findings.suggested.as_ref().map(|suggested| suggestion(model, suggested)));
+    lines.extend(findings.held_forces.iter().map(|along| {
+        format!("the force along {along} does not act on the motion: D leads nowhere along it")
+    }));
     let parameters: Vec<SymbolId> = model.parameters.iter().map(|parameter| parameter.symbol).collect();
     for SingularPlace { factor, exists } in &findings.singular_mass {
         let of_parameters = model.graph.depends_on(*factor, &parameters);

@@ -33,6 +33,40 @@ fn reports_say_which_velocities_keep_their_name_and_have_another_value() {
     assert!(rates.contains("is y_dot + a*roll"), "{rates}");
 }
 
+/// A motor on what constraints hold moves nothing.
+#[test]
+fn forces_that_do_not_act_on_the_motion_are_told() {
+    let told = |sections: &str| {
+        let report = report(sections, FIELDS);
+        let lines = report.lines().filter(|line| line.contains("does not act on the motion"));
+        lines.map(|line| line.trim().to_owned()).collect::<Vec<_>>()
+    };
+    let held =
+        |along: &str| format!("the force along {along} does not act on the motion: D leads nowhere along it");
+    let skate = "base { x, y, th } basis { v, w, side }
+        anchor { der(x) = v*cos(th) - side*sin(th); der(y) = v*sin(th) + side*cos(th); der(th) = w; }
+        lagrangian { m/2*(v^2 + side^2) + a/2*w^2 } inputs { u }";
+    assert_eq!(
+        told(&format!("{skate} constraints {{ side = 0; }} forces {{ side: u; v: u; w: -w; x: u; }}")),
+        [held("side")]
+    );
+    assert_eq!(
+        told(&format!("{skate} constraints {{ side = a*w; }} forces {{ side: u; v: u; }}")),
+        Vec::<String>::new()
+    );
+    // along what is moved, and not moved freely
+    let belt = "base { x, y } lagrangian { m/2*(der(x)^2 + der(y)^2) } constraints { der(y) = a; } forces { y: -m; x: m; }";
+    assert_eq!(told(belt), [held("y_dot")]);
+    assert_eq!(told(&format!("{belt} formulation {{ projected }}")), [held("y_dot")]);
+    let framed = "base { x, y, th } lagrangian { m/2*(der(x)^2 + der(y)^2) + a/2*der(th)^2 }
+        frame { h = cos(th)*x_dot + sin(th)*y_dot; s = cos(th)*y_dot - sin(th)*x_dot; c = th_dot; }";
+    assert_eq!(
+        told(&format!("{framed} distribution {{ h, c }} forces {{ s: m; h: m; c: a; }}")),
+        [held("s")]
+    );
+    assert_eq!(told(&format!("{framed} forces {{ s: m; h: m; }}")), Vec::<String>::new());
+}
+
 #[test]
 fn the_group_is_named_where_it_is_not_all_that_is_cyclic() {
     let disk = "base { x, y, phi, psi } \
