@@ -147,7 +147,7 @@ impl SaddleEquations {
                 }
                 let sum = graph.sum(&terms);
                 let one = graph.one();
-                let weight = if graph.vanishes_by_identity(sum) { one } else { graph.formula(one / sum) };
+                let weight = if graph.zero_test(sum).is_zero() { one } else { graph.formula(one / sum) };
                 // the squares of a unit vector are one: what they do not leave need not cancel later. Brought over
                 // a common denominator, inertias that are far apart would lose digits.
                 let short = graph.simplify(weight);
