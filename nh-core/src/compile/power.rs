@@ -3,9 +3,9 @@
 use super::proved::Proved;
 use super::velocities_of_state::{in_state, requested};
 use crate::algebra::Substitution;
-use crate::id::{ExprId, Id};
+use crate::id::ExprId;
 use crate::mechanics::{Definition, Procedure};
-use crate::model::{ForceDirection, Request};
+use crate::model::Request;
 
 /// y^α ∂φ^A/∂y^α of each constraint, −b^A where φ^A is affine: 0 where it is homogeneous. Empty where nobody asks
 /// for the power.
@@ -48,33 +48,25 @@ pub(super) fn power(
     if !requested(&proved.model, Request::Power) {
         return None;
     }
-    let Proved { model, motion, system, .. } = proved;
-    let forces = model.forces.clone();
+    let forces = proved.model.forces.clone();
     let mut outputs = Vec::with_capacity(forces.len() + work.len());
     // 1. Υ_α y^α, or Q_i ẋ^i
     for force in forces {
+        let along = proved.along(&force.direction);
+        let Proved { model, motion, system, .. } = &mut *proved;
         let graph = &mut model.graph;
-        let velocity = match force.direction {
-            ForceDirection::Coordinate(coordinate) => {
+        let velocity = match along {
+            Ok(row) => {
                 let velocity = system.algebroid.velocity(graph);
-                let row = system.algebroid.anchor.entries[coordinate.index()].clone();
                 graph.inner_product(&row, &velocity)
             }
-            ForceDirection::Section(symbol) => {
-                match motion.replaced.iter().find(|(replaced, _)| *replaced == symbol) {
-                    Some((_, row)) if !system.algebroid.velocities.contains(&symbol) => {
-                        let velocity = system.algebroid.velocity(graph);
-                        graph.inner_product(row, &velocity)
-                    }
-                    _ => graph.symbol(symbol),
-                }
-            }
+            Err(velocity) => graph.symbol(velocity),
         };
         let power = graph.formula(force.value * velocity);
         outputs.push(in_state(graph, motion, restriction, power));
     }
     // 2. λ_A y^α ∂φ^A/∂y^α
-    let graph = &mut model.graph;
+    let graph = &mut proved.model.graph;
     for (index, work) in work.iter().enumerate() {
         let work = restriction.apply(graph, *work);
         let multiplier = multipliers.outputs.get(index).copied().unwrap_or_else(|| graph.zero());

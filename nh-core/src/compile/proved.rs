@@ -6,9 +6,9 @@ use crate::check::{BrokenLaws, Constraints, Impact, Kind, Motion, Positions, Sym
 use crate::choose::{Fate, Ledger};
 use crate::geometry::independent_velocities::Choice;
 use crate::geometry::{ConstraintDistribution, Manifold, Rank};
-use crate::id::{CoordId, ExprId, Origin, SymbolId};
+use crate::id::{CoordId, ExprId, Id, Origin, SymbolId};
 use crate::mechanics::{LagrangianSystem, ReducedEquations, SaddleEquations};
-use crate::model::{Formulation, Model};
+use crate::model::{ForceDirection, Formulation, Model};
 use crate::violation::{Law, Violation};
 
 /// What the later stages share.
@@ -90,6 +90,33 @@ pub(crate) struct Split {
     /// Sections that span V, where they are those of a group.
     pub(crate) group: Vec<Vec<ExprId>>,
     pub(crate) is_embedded: bool,
+}
+
+impl Proved {
+    /// The row that makes of y what a force acts along; a section of the frame that spans D, by its velocity, which is one
+    /// of the state. D leads nowhere along the others.
+    pub(crate) fn along(&mut self, direction: &ForceDirection) -> Result<Vec<ExprId>, SymbolId> {
+        let algebroid = &self.system.algebroid;
+        let symbol = match direction {
+            ForceDirection::Coordinate(coordinate) => {
+                return Ok(algebroid.anchor.entries[coordinate.index()].clone());
+            }
+            ForceDirection::Section(symbol) => *symbol,
+        };
+        if let Some(alpha) = algebroid.velocities.iter().position(|velocity| *velocity == symbol) {
+            let mut row = vec![self.model.graph.zero(); algebroid.rank()];
+            row[alpha] = self.model.graph.one();
+            return Ok(row);
+        }
+        if let Some((_, row)) = self.motion.replaced.iter().find(|(replaced, _)| *replaced == symbol) {
+            return Ok(row.clone());
+        }
+        let mut spanning = self.model.distribution.iter().flatten();
+        if spanning.any(|(section, _)| *section == symbol) {
+            return Err(symbol);
+        }
+        Ok(vec![self.model.graph.zero(); algebroid.rank()])
+    }
 }
 
 /// The derived objects that the report shows.

@@ -211,12 +211,16 @@ struct HomogeneousByValues { m: f64 }
 #[nonholonomic(base { x, y, z } lagrangian { m/2*(der(x)^2 + der(y)^2) + der(z)^2 - y^2 - z^2
  + (atan(z) - asin(z/sqrt(1 + z^2)))*(der(x)*der(y) + y) } emit { jacobian, gibbs_appell })]
 struct UncoupledByValues { m: f64 }
+#[nonholonomic(base { x, y, th } lagrangian { m/2*(der(x)^2 + der(y)^2) + J/2*der(th)^2 }
+ frame { h = cos(th)*x_dot + sin(th)*y_dot; s = cos(th)*y_dot - sin(th)*x_dot; c = th_dot; } distribution { h, c }
+ forces { s: -k*y; h: k; } emit { power })]
+struct PowerBesideTheDistribution { m: f64, J: f64, k: f64 }
 ";
 
 #[test]
 fn right_declarations_are_accepted() {
     let found = declarations(RIGHT);
-    assert_eq!(found.len(), 79);
+    assert_eq!(found.len(), 80);
     let mut refused = Vec::new();
     for declaration in found {
         let errors = errors(&declaration.expanded());

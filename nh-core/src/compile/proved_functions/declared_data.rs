@@ -6,7 +6,7 @@ use super::super::kept_volume::vanishing;
 use super::Derivatives;
 use crate::choose::AppliedForce;
 use crate::id::{CoordId, ExprId, Id, SymbolId};
-use crate::model::{ForceDecl, ForceDirection};
+use crate::model::ForceDecl;
 
 /// The declared data.
 pub(super) struct Declared {
@@ -90,19 +90,8 @@ impl Declared {
 
 /// The forces with the velocities along which they act.
 fn forces(proved: &mut Proved) -> Vec<AppliedForce> {
-    let Proved { model, motion, system, .. } = proved;
-    let algebroid = &system.algebroid;
-    let units = model.graph.identity(algebroid.rank());
-    let along = |direction: &ForceDirection| match direction {
-        ForceDirection::Coordinate(coordinate) => Ok(algebroid.anchor.entries[coordinate.index()].clone()),
-        ForceDirection::Section(symbol) => {
-            if let Some(alpha) = algebroid.velocities.iter().position(|velocity| velocity == symbol) {
-                return Ok(units[alpha].clone());
-            }
-            let replaced = motion.replaced.iter().find(|(replaced, _)| replaced == symbol);
-            replaced.map(|(_, row)| row.clone()).ok_or(*symbol)
-        }
-    };
-    let force = |force: &ForceDecl| AppliedForce { value: force.value, along: along(&force.direction) };
-    model.forces.iter().map(force).collect()
+    let forces = proved.model.forces.clone();
+    let force =
+        |force: &ForceDecl| AppliedForce { value: force.value, along: proved.along(&force.direction) };
+    forces.iter().map(force).collect()
 }
