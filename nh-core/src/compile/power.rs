@@ -52,7 +52,7 @@ pub(super) fn power(
     let mut outputs = Vec::with_capacity(forces.len() + work.len());
     // 1. Υ_α y^α, or Q_i ẋ^i
     for force in forces {
-        let along = proved.along(&force.direction);
+        let along = proved.along(force.direction);
         let Proved { model, motion, system, .. } = &mut *proved;
         let graph = &mut model.graph;
         let velocity = match along {

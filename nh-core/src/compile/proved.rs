@@ -95,13 +95,13 @@ pub(crate) struct Split {
 impl Proved {
     /// The row that makes of y what a force acts along; a section of the frame that spans D, by its velocity, which is one
     /// of the state. D leads nowhere along the others.
-    pub(crate) fn along(&mut self, direction: &ForceDirection) -> Result<Vec<ExprId>, SymbolId> {
+    pub(crate) fn along(&mut self, direction: ForceDirection) -> Result<Vec<ExprId>, SymbolId> {
         let algebroid = &self.system.algebroid;
         let symbol = match direction {
             ForceDirection::Coordinate(coordinate) => {
                 return Ok(algebroid.anchor.entries[coordinate.index()].clone());
             }
-            ForceDirection::Section(symbol) => *symbol,
+            ForceDirection::Section(symbol) => symbol,
         };
         if let Some(alpha) = algebroid.velocities.iter().position(|velocity| *velocity == symbol) {
             let mut row = vec![self.model.graph.zero(); algebroid.rank()];

@@ -25,7 +25,7 @@ pub(super) fn found(proved: &mut Proved, derived: &Derived<'_>) -> Vec<String> {
     let sections: Vec<Vec<ExprId>> = (0..distribution.rank()).map(|a| distribution.section(a)).collect();
     let mut found: Vec<String> = Vec::new();
     for force in forces {
-        let Ok(row) = proved.along(&force.direction) else { continue };
+        let Ok(row) = proved.along(force.direction) else { continue };
         let name = match force.direction {
             ForceDirection::Coordinate(coordinate) => &proved.model.coordinates[coordinate].name,
             ForceDirection::Section(symbol) => &proved.model.graph.symbols()[symbol],

@@ -102,40 +102,54 @@ pub(super) struct WrongLine {
     pub(super) rest: Elimination,
 }
 
+/// Lines in contradictions beyond which none is left out: each takes all conditions up anew.
+const MOST_LINES: usize = 64;
+
 /// Lines of `units` without each of which there are several contradictions less, each with others that may be to blame
 /// instead; and what is left without them.
 fn wrong_lines(conditions: &[Condition], mut search: Search) -> (Vec<Vec<WrongLine>>, Search) {
     let mut found: Vec<Vec<WrongLine>> = Vec::new();
     let mut left_out = BTreeSet::new();
     while search.conflicts.len() > 1 {
+        let lines = search.lines_in_conflicts(conditions);
+        if lines.len() > MOST_LINES {
+            break;
+        }
+        // 1. without each of them, what helps most first
         let mut tried: Vec<(usize, Involved, Search)> = Vec::new();
-        for (place, involved) in search.lines_in_conflicts(conditions) {
+        for (place, involved) in lines {
             let kept =
                 |condition: &Condition| condition.place != place && !left_out.contains(&condition.place);
             tried.push((place, involved, Search::of(conditions, kept)));
         }
         let gain = |rest: &Search| search.conflicts.len().saturating_sub(rest.conflicts.len());
-        let best = tried.iter().map(|(.., rest)| gain(rest)).max().unwrap_or_default();
-        if best < 2 {
+        tried.retain(|(.., rest)| gain(rest) > 1);
+        tried.sort_by_key(|(.., rest)| rest.conflicts.len());
+        // 2. those that have no contradiction in common are wrong beside each other, those of one gain that have, instead
+        let mut told: BTreeSet<usize> = BTreeSet::new();
+        let before = found.len();
+        for (index, (place, involved, rest)) in tried.iter().enumerate() {
+            if !involved.terms.is_disjoint(&told) {
+                continue;
+            }
+            let others = tried[index..].iter();
+            let instead = others.filter(|(_, other, without)| {
+                gain(without) == gain(rest)
+                    && !other.terms.is_disjoint(&involved.terms)
+                    && other.terms.is_disjoint(&told)
+            });
+            let instead: Vec<&(usize, Involved, Search)> = instead.collect();
+            let line = |(place, involved, rest): &&(usize, Involved, Search)| {
+                search.wrong_line(conditions, *place, involved, rest)
+            };
+            found.push(instead.iter().map(line).collect());
+            told.extend(instead.iter().flat_map(|(_, other, _)| other.terms.iter().copied()));
+            left_out.insert(*place);
+        }
+        if found.len() == before {
             break;
         }
-        tried.retain(|(_, _, rest)| gain(rest) == best);
-        let terms = tried[0].1.terms.clone();
-        tried.retain(|(_, involved, _)| !involved.terms.is_disjoint(&terms));
-        let line = |(place, involved, rest): &(usize, Involved, Search)| {
-            let last = |conflict: &Conflict| conflict.equations.first().copied();
-            let is_its = |equation: &Equation| involved.terms.contains(&equation.condition);
-            let is_named = |k: &usize| conditions[*k].is_declared() && conditions[*k].place == *place;
-            WrongLine {
-                names: (0..conditions.len()).filter(is_named).collect(),
-                contradicted: involved.names.clone(),
-                terms: search.conflicts.iter().filter_map(last).filter(is_its).collect(),
-                rest: rest.elimination.clone(),
-            }
-        };
-        found.push(tried.iter().map(line).collect());
-        left_out.insert(tried[0].0);
-        search = tried.swap_remove(0).2;
+        search = Search::of(conditions, |condition| !left_out.contains(&condition.place));
     }
     (found, search)
 }
@@ -187,6 +201,25 @@ impl Search {
             }
         }
         found
+    }
+
+    /// A line that contradicts the terms of these contradictions, and what the rest says.
+    fn wrong_line(
+        &self,
+        conditions: &[Condition],
+        place: usize,
+        involved: &Involved,
+        rest: &Self,
+    ) -> WrongLine {
+        let last = |conflict: &Conflict| conflict.equations.first().copied();
+        let is_its = |equation: &Equation| involved.terms.contains(&equation.condition);
+        let is_named = |k: &usize| conditions[*k].is_declared() && conditions[*k].place == place;
+        WrongLine {
+            names: (0..conditions.len()).filter(is_named).collect(),
+            contradicted: involved.names.clone(),
+            terms: self.conflicts.iter().filter_map(last).filter(is_its).collect(),
+            rest: rest.elimination.clone(),
+        }
     }
 
     fn take(&mut self, conditions: &[Condition], k: usize) {

@@ -91,7 +91,6 @@ impl Declared {
 /// The forces with the velocities along which they act.
 fn forces(proved: &mut Proved) -> Vec<AppliedForce> {
     let forces = proved.model.forces.clone();
-    let force =
-        |force: &ForceDecl| AppliedForce { value: force.value, along: proved.along(&force.direction) };
+    let force = |force: &ForceDecl| AppliedForce { value: force.value, along: proved.along(force.direction) };
     forces.iter().map(force).collect()
 }

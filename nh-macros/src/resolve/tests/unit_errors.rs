@@ -196,6 +196,22 @@ fn contradictions_are_said() {
     }
 }
 
+/// As many lines as can be meant to be right are looked at; with more of them each contradiction is told by itself.
+#[test]
+fn many_wrong_lines_are_told_without_a_search() {
+    let errors = |count: usize| {
+        let all = |text: &dyn Fn(usize) -> String| (0..count).map(text).collect::<Vec<_>>();
+        let (names, lines) = (all(&|k| format!("q{k}")), all(&|k| format!("q{k} = m;")));
+        let terms = all(&|k| format!("J[{k}] / 2 * der(q{k})^2 - k[{k}] * cos(q{k}) - h[{k}] * sin(q{k})"));
+        let machine = format!("base {{ {} }} lagrangian {{ {} }}", names.join(", "), terms.join(" + "));
+        let item = format!("struct S {{ J: [f64; {count}], k: [f64; {count}], h: [f64; {count}] }}");
+        let found = messages(&format!("{machine} units {{ {} }}", lines.join(" ")), &item);
+        found.iter().filter(|error| error.contains("is the argument of a function")).count()
+    };
+    assert_eq!(errors(64), 64);
+    assert_eq!(errors(65), 130);
+}
+
 #[test]
 fn symmetric_matrices_have_units_as_a_whole_and_by_rows() {
     let item = "struct S { #[nh(symmetric)] I: [[f64; 2]; 2] }";
