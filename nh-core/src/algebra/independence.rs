@@ -2,6 +2,7 @@
 
 use super::graph::Graph;
 use super::node::{Function, Function2, Node};
+use super::number::Rational;
 use super::zero_test::sample;
 use crate::id::{ExprId, SymbolId};
 use std::collections::BTreeSet;
@@ -36,6 +37,15 @@ impl Graph {
         let idle = self.seemingly_idle(expression, |symbol| symbols.contains(&symbol));
         let freed = self.equal_at_zero(expression, &idle)?;
         self.divisors(&[freed]).is_subset(&self.divisors(&[expression])).then_some((freed, idle))
+    }
+
+    /// The bases of a product with their exponents; anything else is its own.
+    #[must_use]
+    pub fn factors(&self, expression: ExprId) -> Vec<(ExprId, Rational)> {
+        match self.node(expression) {
+            Node::Product { factors, .. } => factors.to_vec(),
+            _ => vec![(expression, Rational::ONE)],
+        }
     }
 
     /// What the expression divides by: the bases of negative powers.
@@ -110,7 +120,6 @@ const MOVED: f64 = 0.375;
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::algebra::Rational;
 
     #[test]
     fn what_is_not_felt_is_set_to_zero_among_the_symbols_that_are_named() {

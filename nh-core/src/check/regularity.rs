@@ -2,7 +2,7 @@
 
 use super::dependence::{ONE_PART, place_of, with_all_roots};
 use super::evidence::{listed, shown};
-use crate::algebra::{Echelon, Facts, FieldPoint, Graph, Matrix, Node, Range, Rational, Residue, sample};
+use crate::algebra::{Echelon, Facts, FieldPoint, Graph, Matrix, Range, Residue, sample};
 use crate::geometry::Manifold;
 use crate::id::{ExprId, SymbolId};
 use crate::mechanics::{ReducedEquations, SaddleEquations, uncoupled};
@@ -137,7 +137,7 @@ pub fn singular_where(
             continue;
         }
         let determinant = graph.small_determinant(&inner);
-        for (base, exponent) in factors(graph, determinant) {
+        for (base, exponent) in graph.factors(determinant) {
             let symbols = graph.symbols_in(&[base]);
             let of_parameters = |symbol: &SymbolId| parameters.contains(symbol);
             let varies = !symbols.iter().all(of_parameters);
@@ -185,7 +185,7 @@ pub fn saddle_singular_where(
             continue;
         }
         let determinant = graph.small_determinant(&inner);
-        for (base, exponent) in factors(graph, determinant) {
+        for (base, exponent) in graph.factors(determinant) {
             let symbols = graph.symbols_in(&[base]);
             let varies = !symbols.iter().all(|symbol| parameters.contains(symbol));
             let is_sure = |graph: &Graph| {
@@ -220,14 +220,6 @@ fn is_definite(graph: &mut Graph, matrix: &Matrix, block: &[usize], facts: &Fact
 
 /// Sizes of parameters that are tried: powers of two up to one and a half times this, and down to as many.
 const SIZES: f64 = 4.0;
-
-/// The factors of a determinant.
-fn factors(graph: &Graph, determinant: ExprId) -> Vec<(ExprId, Rational)> {
-    match graph.node(determinant) {
-        Node::Product { factors, .. } => factors.to_vec(),
-        _ => vec![(determinant, 1.into())],
-    }
-}
 
 /// Whether a factor of the determinant changes its sign, for some positive parameters, between a state where
 /// the mass matrix is positive definite and another.

@@ -94,14 +94,6 @@ const SEEDS: u64 = 48;
 /// Points tried where one has no value.
 const PATIENCE: u64 = 4096;
 
-/// What a product is made of.
-fn factors_of(graph: &Graph, product: ExprId) -> Vec<ExprId> {
-    match graph.node(product) {
-        Node::Product { factors, .. } => factors.iter().map(|(base, _)| *base).collect(),
-        _ => vec![product],
-    }
-}
-
 impl Regular<'_> {
     /// What a procedure divides by that may vanish where the declared equations are regular.
     pub(crate) fn added(&self, graph: &mut Graph, procedure: &Procedure) -> Option<ExprId> {
@@ -117,7 +109,7 @@ impl Regular<'_> {
         }
         let unknown = Regular { definiteness: Definiteness::Unknown, ..*self };
         unknown.added_among(graph, procedure, |graph, divisor| {
-            factors_of(graph, divisor).iter().any(|factor| holes.contains(factor))
+            graph.factors(divisor).iter().any(|(factor, _)| holes.contains(factor))
         })
     }
 
@@ -126,7 +118,8 @@ impl Regular<'_> {
         let diagonal = self.mass.iter().enumerate().map(|(k, row)| row[k]);
         // sums are inertias, nearly always: they are taken to be as definite as samples say
         let diagonal = diagonal.filter(|entry| !matches!(graph.node(*entry), Node::Sum { .. }));
-        let mut holes: Vec<ExprId> = diagonal.flat_map(|entry| factors_of(graph, entry)).collect();
+        let factors = diagonal.flat_map(|entry| graph.factors(entry));
+        let mut holes: Vec<ExprId> = factors.map(|(factor, _)| factor).collect();
         let is_parameter = |symbol: &SymbolId| self.parameters.contains(symbol);
         holes.retain(|factor| {
             // most are inertias

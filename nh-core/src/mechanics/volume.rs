@@ -132,7 +132,7 @@ fn candidates(graph: &Graph, setting: &VolumeSetting<'_>, section: &ModularSecti
     };
     // factors of what is hinted at, then every factor of M, then what these are made of
     for hint in &setting.hints {
-        factors(graph, *hint).into_iter().for_each(&mut consider);
+        graph.factors(*hint).into_iter().for_each(|(factor, _)| consider(factor));
     }
     let reachable = graph.reachable(&section.components);
     for id in reachable.iter().rev() {
@@ -149,13 +149,6 @@ fn candidates(graph: &Graph, setting: &VolumeSetting<'_>, section: &ModularSecti
         }
     }
     found
-}
-
-fn factors(graph: &Graph, expression: ExprId) -> Vec<ExprId> {
-    match graph.node(expression) {
-        Node::Product { factors, .. } => factors.iter().map(|(base, _)| *base).collect(),
-        _ => vec![expression],
-    }
 }
 
 /// ρ(B_a) f for each a.
