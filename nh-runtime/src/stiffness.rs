@@ -55,9 +55,14 @@ impl<T: Real> Stiffness<T> {
                 (self.strikes, self.passes) = (0, 0);
             }
         }
-        if self.strikes > 0 {
+        if self.is_suspected() {
             self.steps_left = 0;
         }
+        self.is_suspected()
+    }
+
+    /// Whether each step is watched.
+    pub(crate) fn is_suspected(&self) -> bool {
         self.strikes > 0
     }
 

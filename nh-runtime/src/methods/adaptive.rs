@@ -413,10 +413,11 @@ impl<P, T: Real, W> Adaptive<P, T, W> {
         P: Scheme<S>,
         W: Tolerance<S::State>,
     {
-        let rate = self.scheme.spread(start, &mut memory.work).map(|(apart, derivatives_apart)| {
-            let x = start.state.to_array();
-            let size = |e| norm(&self.tolerance, e, &x, &x);
-            size(&derivatives_apart) / size(&apart)
+        let in_a_row = memory.stiffness.is_suspected();
+        let rate = self.scheme.spread(start, in_a_row, &mut memory.work).map(|spread| {
+            // what swings is small at times, and then less of an error is permitted: by that alone the estimate would be large
+            let size = |e| norm(&self.tolerance, e, &spread.largest, &spread.largest);
+            size(&spread.derivatives) / size(&spread.states)
         });
         if memory.stiffness.judge(rate, T::from_f64(P::HELD)) {
             self.scheme.watch(&mut memory.work);

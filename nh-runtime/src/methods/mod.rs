@@ -87,7 +87,7 @@ pub use structure::{
 };
 pub use taylor::Taylor;
 pub use transition::Transition;
-pub use trial::{Scheme, Trial};
+pub use trial::{Scheme, Spread, Trial};
 
 pub(crate) use explicit::stages_of;
 

@@ -8,6 +8,17 @@ use crate::step_control::Controller;
 use crate::tolerance::Tolerance;
 use crate::{Dynamics, Real, ScalarOf, Statistics, VecOf};
 
+/// How far apart two states are, for an estimate of the largest eigenvalue.
+#[derive(Clone, Copy, Debug)]
+pub struct Spread<V> {
+    /// Their difference.
+    pub states: V,
+    /// That of the derivatives there.
+    pub derivatives: V,
+    /// The largest components, without signs, at the steps that were looked at in a row until now.
+    pub largest: V,
+}
+
 /// How an adaptive method computes a step and its error.
 pub trait Scheme<S: Dynamics>: Copy {
     /// One more than the order of the error estimate.
@@ -95,10 +106,15 @@ pub trait Scheme<S: Dynamics>: Copy {
         let _ = work;
     }
 
-    /// The difference between two states at the start, one of which was a stage of the step before, and that of the
-    /// derivatives there: once, after a step that was watched.
-    fn spread(&self, start: &Start<'_, S>, work: &mut Self::Work) -> Option<(VecOf<S>, VecOf<S>)> {
-        let _ = (start, work);
+    /// How far apart two states at the start are, one of which was a stage of the step before: once, after a step that was
+    /// watched, the last of several `in_a_row`, or the first.
+    fn spread(
+        &self,
+        start: &Start<'_, S>,
+        in_a_row: bool,
+        work: &mut Self::Work,
+    ) -> Option<Spread<VecOf<S>>> {
+        let _ = (start, in_a_row, work);
         None
     }
 

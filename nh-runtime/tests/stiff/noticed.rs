@@ -57,6 +57,30 @@ fn fast_decay_is_noticed_by_every_explicit_method_that_looks() {
 }
 
 #[test]
+fn it_is_noticed_where_hardly_more_than_rounding_is_permitted() {
+    fn check<M: Method<Oscillator> + Copy + core::fmt::Debug>(method: M) {
+        let mut sim = Integrator::new(Oscillator, method, 0.0, Pair(2.0, -0.66));
+        sim.advance_to(1e-3).unwrap();
+        assert!(sim.statistics().stiff_at.is_some(), "{method:?}");
+    }
+    /// Van der Pol's, in the time of its slow parts.
+    struct Oscillator;
+    impl Dynamics for Oscillator {
+        type State = Pair<f64>;
+        type Input = ();
+        fn derivative(&self, _: f64, &Pair(x, v): &Pair<f64>, (): &()) -> Pair<f64> {
+            Pair(v, ((1.0 - x * x) * v - x) * 1e6)
+        }
+    }
+    for rtol in [1e-4, 1e-6, 1e-8, 1e-10, 1e-11, 1e-12] {
+        check(Dopri5::new().rtol(rtol));
+        check(Tsit5::new().rtol(rtol));
+        check(Dop853::new().rtol(rtol));
+        check(Vern9::new().rtol(rtol));
+    }
+}
+
+#[test]
 fn slow_decay_is_not_stiff() {
     for rate in [0.1, 1.0, 3.0] {
         assert_eq!(noticed::<f64, _>(rate, Dopri5::new().rtol(1e-10)), None, "{rate}");
@@ -88,6 +112,61 @@ fn fast_swings_are_not_stiff() {
         let mut sim = Integrator::new(Swing(rate), Dop853::new().rtol(1e-4), 0.0, Pair(1.0, 0.0));
         sim.advance_to(1000.0 / rate).unwrap();
         assert_eq!(sim.statistics().stiff_at, None, "{rate}");
+    }
+}
+
+/// Two swings, the second of which goes round once while the first does so `ratio` times.
+struct Swings {
+    ratio: f64,
+}
+
+impl Dynamics for Swings {
+    type State = Four;
+    type Input = ();
+    fn derivative(&self, _: f64, &Four([a, b, c, d]): &Four, (): &()) -> Four {
+        Four([b * self.ratio, -a * self.ratio, d, -c])
+    }
+}
+
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Four([f64; 4]);
+
+impl State for Four {
+    type Scalar = f64;
+    type Dim = D<4>;
+    fn to_array(&self) -> [f64; 4] {
+        self.0
+    }
+    fn from_array(components: [f64; 4]) -> Self {
+        Self(components)
+    }
+    fn names() -> [&'static str; 4] {
+        ["a", "b", "c", "d"]
+    }
+}
+
+#[test]
+fn swings_are_not_stiff_however_little_is_permitted_where_they_cross_zero() {
+    fn check<M: Method<Swings> + Copy + core::fmt::Debug>(method: M) {
+        for (sizes, ratio) in [([1.0, 1.0], 1.0), ([1.0, 1e-3], 7.3), ([1e4, 1.0], 0.13), ([1.0, 1e3], 2.6)] {
+            let start = Four([0.6 * sizes[0], 0.8 * sizes[0], sizes[1], 0.0]);
+            let told = format!("{method:?}: {sizes:?}, {ratio}");
+            let mut sim = Integrator::new(Swings { ratio }, method, 0.0, start);
+            sim.advance_to(1000.0 / ratio.max(1.0)).unwrap();
+            let Statistics { stiff_at, switches, .. } = sim.statistics();
+            assert_eq!((stiff_at, switches), (None, 0), "{told}");
+        }
+    }
+    for digits in 3..10 {
+        let rtol = 10.0_f64.powi(-digits);
+        for share in [1.0, 1e-3, 1e-6, 0.0] {
+            let atol = rtol * share;
+            check(Dopri5::new().rtol(rtol).atol(atol));
+            check(Tsit5::new().rtol(rtol).atol(atol));
+            check(Dop853::new().rtol(rtol).atol(atol));
+            check(Vern9::new().rtol(rtol).atol(atol));
+            check(Auto::new().rtol(rtol).atol(atol));
+        }
     }
 }
 

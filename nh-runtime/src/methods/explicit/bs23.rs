@@ -16,6 +16,6 @@ tableau! {
 }
 
 embedded! {
-    BogackiShampine3: error order 3, first same as last true, held at 2.4;
+    BogackiShampine3: error order 3, first same as last true, held at 2.25;
     error [k1: -5.0 / 72.0, k2: 1.0 / 12.0, k3: 1.0 / 9.0] last [-1.0 / 8.0];
 }

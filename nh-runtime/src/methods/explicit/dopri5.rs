@@ -29,7 +29,7 @@ tableau! {
 }
 
 embedded! {
-    DormandPrince5: error order 5, first same as last true, held at 3.25;
+    DormandPrince5: error order 5, first same as last true, held at 2.97;
     error [
         k1: 71.0 / 57600.0, k3: -71.0 / 16695.0, k4: 71.0 / 1920.0, k5: -17253.0 / 339_200.0, k6: 22.0 / 525.0
     ] last [-1.0 / 40.0];

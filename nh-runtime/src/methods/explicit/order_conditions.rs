@@ -177,7 +177,7 @@ fn reach<P: Coefficients>() -> f64 {
 fn steps_are_held_within_the_stable_interval() {
     fn check<P: Coefficients + super::Pair>(stable: f64) {
         let reach = reach::<P>();
-        assert!((reach - stable).abs() < 1e-4 && P::HELD < reach, "{:?}: {reach}", P::default());
+        assert!((reach - stable).abs() < 1e-4 && P::HELD < 0.9 * reach, "{:?}: {reach}", P::default());
     }
     // those of the method alone; the error estimate, which is a method too, holds steps back before
     check::<BogackiShampine3>(2.512_75);

@@ -4,7 +4,7 @@ use super::tableau::{Dense, FEW, Pair, Tableau, interpolate};
 use crate::arrays::{all_finite, difference, displaced, first_non_finite, nought};
 use crate::integrator::Returned;
 use crate::methods::fixed::OneStep;
-use crate::methods::{Arrival, Return, Scheme, Start, Trial, non_finite_derivative};
+use crate::methods::{Arrival, Return, Scheme, Spread, Start, Trial, non_finite_derivative};
 use crate::tolerance::{Tolerance, norm};
 use crate::{Dim, DimOf, Dynamics, IntegrationError, Real, Scalar, ScalarOf, State, Statistics, VecOf};
 
@@ -123,6 +123,8 @@ pub struct Work<S: Dynamics, P: Tableau> {
     is_watched: bool,
     /// State and derivative at the last stage of the step looked at.
     beside: Option<(VecOf<S>, VecOf<S>)>,
+    /// The largest components, without signs, at the ends of steps looked at in a row.
+    largest: VecOf<S>,
 }
 
 impl<S: Dynamics, P: Tableau> Clone for Work<S, P> {
@@ -180,7 +182,16 @@ where
         let never = ScalarOf::<S>::from_f64(f64::NAN);
         let (first, last) = (zero::<S>(), zero::<S>());
         let step = (never, never);
-        Work { first, stages: P::room(first), last, current: false, step, is_watched: false, beside: None }
+        Work {
+            first,
+            stages: P::room(first),
+            last,
+            current: false,
+            step,
+            is_watched: false,
+            beside: None,
+            largest: zero::<S>(),
+        }
     }
 
     #[inline]
@@ -198,9 +209,25 @@ where
         work.is_watched = true;
     }
 
-    fn spread(&self, start: &Start<'_, S>, work: &mut Work<S, P>) -> Option<(VecOf<S>, VecOf<S>)> {
-        let (state, derivative) = work.beside.take()?;
-        Some((difference(&start.state.to_array(), &state), difference(&work.first, &derivative)))
+    fn spread(
+        &self,
+        start: &Start<'_, S>,
+        in_a_row: bool,
+        work: &mut Work<S, P>,
+    ) -> Option<Spread<VecOf<S>>> {
+        let (beside, derivative) = work.beside.take()?;
+        let x = start.state.to_array();
+        if !in_a_row {
+            work.largest = zero::<S>();
+        }
+        for (largest, x) in work.largest.as_mut().iter_mut().zip(x.as_ref()) {
+            *largest = largest.max(x.abs());
+        }
+        Some(Spread {
+            states: difference(&x, &beside),
+            derivatives: difference(&work.first, &derivative),
+            largest: work.largest,
+        })
     }
 
     #[inline]

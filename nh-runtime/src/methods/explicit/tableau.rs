@@ -70,8 +70,8 @@ pub trait Tableau: Copy + Default + Debug + PartialEq + 'static {
 pub trait Pair: Tableau {
     /// One more than the order of the estimate: the power of h that the error goes with.
     const ERROR_ORDER: u32;
-    /// Steps that stability holds back, by a fast decay at the rate λ, are longer than this over λ: a little less than what
-    /// the error estimate lets them grow to, which is at most the stable interval of the negative real axis.
+    /// Steps that stability holds back, by a fast decay at the rate λ, are longer than this over λ: nine tenths of the stable
+    /// interval of the negative real axis, where the error estimate lets steps grow to its end; less where it does not.
     const HELD: f64;
     /// Whether the estimate uses the derivative at the end, which is the next step's first.
     const FIRST_SAME_AS_LAST: bool;

@@ -31,7 +31,7 @@ tableau! {
 }
 
 embedded! {
-    Tsitouras5: error order 5, first same as last true, held at 3.45;
+    Tsitouras5: error order 5, first same as last true, held at 3.15;
     error [
         k1: -0.001_780_011_052_225_771_4, k2: -0.000_816_434_459_656_746_9, k3: 0.007_880_878_010_261_995,
         k4: -0.144_711_007_173_262_9, k5: 0.582_357_165_452_555_2, k6: -0.458_082_105_929_186_97
