@@ -269,12 +269,8 @@ impl Graph {
 
     /// `max(a x, a y) = a max(x, y)` for what is not negative.
     fn without_common_factors(&mut self, function: Function2, x: ExprId, y: ExprId, facts: &Facts) -> ExprId {
-        let factors = |graph: &Self, id: ExprId| match graph.node(id) {
-            Node::Product { factors, .. } => factors.to_vec(),
-            _ => vec![(id, Rational::ONE)],
-        };
-        let of_y = factors(self, y);
-        let mut common = factors(self, x);
+        let of_y = self.factors(y);
+        let mut common = self.factors(x);
         common.retain(|(base, exponent)| {
             let range = self.range(*base, facts);
             of_y.contains(&(*base, exponent.clone())) && range.low >= 0.0 && range.nonzero

@@ -89,11 +89,7 @@ impl Graph {
     pub(crate) fn inside_arcs(&self, x: ExprId) -> Vec<ExprId> {
         let mut found = Vec::new();
         for (term, _) in self.terms_of_angle(x) {
-            let parts = match self.node(term) {
-                Node::Product { factors, .. } => factors.iter().map(|(base, _)| *base).collect(),
-                _ => vec![term],
-            };
-            for part in parts {
+            for (part, _) in self.factors(term) {
                 match self.node(part) {
                     Node::Apply(Function::Asin | Function::Acos | Function::Atan | Function::Ln, u) => {
                         found.push(*u);

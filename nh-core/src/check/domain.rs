@@ -83,11 +83,8 @@ fn not_proved(model: &mut Model, open: Vec<Condition>) -> Vec<Condition> {
 pub fn with_zeros(model: &mut Model, divisors: &[ExprId]) -> Vec<ExprId> {
     let mut left: Vec<ExprId> = Vec::new();
     for divisor in divisors {
-        let factors = match model.graph.node(*divisor) {
-            Node::Product { factors, .. } => factors.to_vec(),
-            _ => vec![(*divisor, Rational::ONE)],
-        };
-        let bases = factors.into_iter().filter(|(_, exponent)| !exponent.is_negative()).map(|(base, _)| base);
+        let factors = model.graph.factors(*divisor).into_iter();
+        let bases = factors.filter(|(_, exponent)| !exponent.is_negative()).map(|(base, _)| base);
         let new = bases.filter(|base| model.graph.value_of(*base).is_none() && !left.contains(base));
         let new: Vec<ExprId> = new.collect();
         left.extend(new);

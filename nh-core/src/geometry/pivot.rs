@@ -34,12 +34,8 @@ impl PivotSetting<'_> {
     pub fn zeros(&self, graph: &mut Graph, pivot: ExprId) -> PivotZeros {
         let simple = graph.simplify(pivot);
         let simple = self.without_coordinates(graph, simple).unwrap_or(simple);
-        let factors = match graph.node(simple) {
-            Node::Product { factors, .. } => factors.to_vec(),
-            _ => vec![(simple, 1.into())],
-        };
         let mut found = PivotZeros::default();
-        for (base, exponent) in factors {
+        for (base, exponent) in graph.factors(simple) {
             if exponent.is_negative() || self.vanishes_nowhere(graph, base) {
                 continue;
             }

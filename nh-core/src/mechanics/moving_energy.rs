@@ -2,7 +2,7 @@
 
 use super::complete_lift::complete_lift;
 use super::euler_lagrange::LagrangianSystem;
-use crate::algebra::{Echelon, FieldPoint, Graph, Node, Rational, Residue};
+use crate::algebra::{Echelon, FieldPoint, Graph, Residue};
 use crate::geometry::{LinearConstraints, Manifold};
 use crate::id::{ExprId, Id, SymbolId};
 
@@ -102,14 +102,8 @@ fn scales(graph: &mut Graph, constraints: &LinearConstraints, parameters: &[Symb
     let mut scales = vec![graph.one()];
     for drift in &constraints.drift {
         for (term, _) in graph.as_linear(*drift).1 {
-            let factors: Vec<(ExprId, Rational)> = match graph.node(term).clone() {
-                Node::Product { factors, .. } => factors.to_vec(),
-                _ => vec![(term, Rational::ONE)],
-            };
-            let kept: Vec<(ExprId, Rational)> = factors
-                .into_iter()
-                .filter(|(base, _)| graph.symbols_in(&[*base]).iter().all(|s| parameters.contains(s)))
-                .collect();
+            let mut kept = graph.factors(term);
+            kept.retain(|(base, _)| graph.symbols_in(&[*base]).iter().all(|s| parameters.contains(s)));
             scales.push(graph.product(&kept));
         }
     }
