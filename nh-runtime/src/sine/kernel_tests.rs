@@ -85,9 +85,12 @@ fn error(x: f64, [sin, cos]: [Double; 2]) -> f64 {
     ulps(ours.0, sin, 53).max(ulps(ours.1, cos, 53))
 }
 
-/// The larger error in single precision, where the platform's double precision is the reference.
+/// The larger error in single precision, where the platform's double precision is the reference, or the first terms of the
+/// series: of nearly half of all numbers these have all digits of double precision, in a fraction of the time.
 fn single_error(x: f32) -> f64 {
-    let (ours, exact) = (sin_cos(x), f64::from(x).sin_cos());
+    let (ours, wide) = (sin_cos(x), f64::from(x));
+    let is_small = x.abs() < 1.0 / 8192.0;
+    let exact = if is_small { (wide - wide.powi(3) / 6.0, 1.0 - wide.powi(2) / 2.0) } else { wide.sin_cos() };
     ulps(ours.0.into(), Double(exact.0, 0.0), 24).max(ulps(ours.1.into(), Double(exact.1, 0.0), 24))
 }
 
