@@ -13,8 +13,6 @@
 //! numbers, and the bound that the tests hold it to is 1.6.
 
 mod far;
-#[cfg(test)]
-mod kernel_tests;
 
 use crate::Scalar;
 
@@ -144,3 +142,28 @@ macro_rules! primitive {
 
 primitive!(f64);
 primitive!(f32);
+
+#[cfg(test)]
+mod tests {
+    use super::Sine;
+
+    #[test]
+    #[allow(clippy::float_cmp)] // exactly 0 is meant
+    fn the_parts_add_up_and_are_as_short_as_they_must_be() {
+        /// π/2 in three numbers.
+        const HALF_PI: [f64; 3] =
+            [core::f64::consts::FRAC_PI_2, 6.123_233_995_736_766e-17, -1.497_384_904_859_169_8e-33];
+        fn lengths<T: Sine>(digits: &[i32]) {
+            for (part, digits) in T::NEGATIVE_HALF_PI.iter().zip(digits) {
+                assert_eq!((part * 2.0_f64.powi(*digits)).fract(), 0.0, "{part:e}");
+            }
+            let ([a, b, c, d], [first, second, third]) = (T::NEGATIVE_HALF_PI, HALF_PI);
+            // each sum but the last ones is exact
+            let rest = first + a + b + c + second + d + third;
+            assert!(rest.abs() < 2.0_f64.powi(-digits[2] - 23), "{rest:e}");
+        }
+        // the last digit of the first three parts
+        lengths::<f64>(&[32, 53, 86]);
+        lengths::<f32>(&[11, 24, 36]);
+    }
+}
