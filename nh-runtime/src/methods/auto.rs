@@ -12,8 +12,8 @@ use crate::{Dim, DimOf, Dynamics, IntegrationError, Real, ScalarOf, State, Stati
 /// it no longer is.
 ///
 /// Stiffness is noticed as the explicit method does it ([`Statistics::stiff_at`]), or by steps that become too
-/// short. While the implicit method steps, the largest eigenvalue is estimated after every fifth of them, by two
-/// evaluations and one step of power iteration; once three estimates in a row leave steps half as long as
+/// short. While the implicit method steps, the largest eigenvalue is estimated after every fifth of them, by three
+/// evaluations and two steps of power iteration; once three estimates in a row leave steps half as long as
 /// stability permits, the explicit method goes on. Both keep the same tolerances if they are set here.
 /// [`Statistics::switches`] counts the changes.
 ///
@@ -90,6 +90,8 @@ impl<T: Real, P, Q> Auto<T, Uniform<T>, P, Q> {
 
 /// An estimate is made after so many implicit steps.
 const EVERY: u32 = 5;
+/// So many steps of power iteration make one: the root of their product is for two.
+const IN_A_ROW: u32 = 2;
 /// So many calm ones in a row lead back.
 const CALM: u32 = 3;
 /// And an explicit step may then be this share of what stability permits.
@@ -305,19 +307,24 @@ impl<T: Real, W, P, Q> Auto<T, W, P, Q> {
         let tolerance = &self.implicit.tolerance;
         let x = arrival.state.to_array();
         let permitted = tolerance.permitted(&x);
-        let mut beside = x;
-        let apart = permitted.as_ref().iter().zip(memory.direction.as_ref());
-        for (beside, (&permitted, &direction)) in beside.as_mut().iter_mut().zip(apart) {
-            if is_unit(permitted) {
-                *beside = direction.mul_add(permitted, *beside);
+        let here = start.derivative_at(arrival.time, x);
+        let size = |e: &VecOf<S>| norm(tolerance, e, &x, &x);
+        statistics.evaluations += 1 + u64::from(IN_A_ROW);
+        // what swings turns its direction by a right angle, which changes the lengths of both by the units of components
+        // alone: two steps lead back to it, and by their mean the units are gone
+        let mut rate = T::ONE;
+        for _ in 0..IN_A_ROW {
+            let mut beside = x;
+            let apart = permitted.as_ref().iter().zip(memory.direction.as_ref());
+            for (beside, (&permitted, &direction)) in beside.as_mut().iter_mut().zip(apart) {
+                if is_unit(permitted) {
+                    *beside = direction.mul_add(permitted, *beside);
+                }
             }
+            let change = difference(&start.derivative_at(arrival.time, beside), &here);
+            rate *= (size(&change) / size(&difference(&beside, &x))).sqrt();
+            memory.direction = of_length_one(&change, &permitted);
         }
-        statistics.evaluations += 2;
-        let change =
-            difference(&start.derivative_at(arrival.time, beside), &start.derivative_at(arrival.time, x));
-        let size = |e| norm(tolerance, e, &x, &x);
-        let rate = size(&change) / size(&difference(&beside, &x));
-        memory.direction = of_length_one(&change, &permitted);
         let length = (arrival.time - start.time).abs();
         let bound = T::from_f64(SHARE * P::HELD);
         memory.calm = if length * rate <= bound { memory.calm + 1 } else { 0 };
