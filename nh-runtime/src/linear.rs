@@ -123,15 +123,20 @@ pub(crate) struct Factors<Dm: Dim, F: Copy + 'static> {
 }
 
 impl<Dm: Dim, F: Entry> Factors<Dm, F> {
-    /// Factorizes `a`. A singular matrix gives solutions with components that are not finite.
+    /// Factorizes `a`. A singular matrix gives solutions with components that are not finite, and so does one with entries that
+    /// are not: divided by infinity, what is left of an equation would be nothing, and count as solved.
     pub(crate) fn new(a: &Dm::Mat<F>) -> Self {
         let mut lu = *a;
         let mut rows = Dm::vec(0_usize);
         let mut scales = Dm::vec(F::Real::ZERO);
         let numbered = rows.as_mut().iter_mut().zip(scales.as_mut());
-        for (i, ((row, s), a)) in numbered.zip(a.as_ref()).enumerate() {
+        for (i, ((row, s), a)) in numbered.zip(lu.as_mut()).enumerate() {
             *row = i;
             *s = a.as_ref().iter().fold(F::Real::ZERO, |largest, x| largest.max(x.size())).recip();
+            if *s == F::Real::ZERO {
+                // infinite entries become no numbers
+                a.as_mut().iter_mut().for_each(|x| *x = *x * F::NOUGHT);
+            }
         }
         for k in 0..Dm::N {
             let mut below = lu.as_mut().iter_mut().skip(k);
@@ -262,6 +267,20 @@ mod tests {
         assert_eq!(sign([[0.0, 2.0, 0.0], [0.0, 0.0, 3.0], [1.0, 0.0, 0.0]]), 1);
         assert_eq!(sign([[0.0, 2.0, 0.0], [0.0, 0.0, -3.0], [1.0, 0.0, 0.0]]), -1);
         assert_eq!(sign([[1.0, 2.0, 0.0], [2.0, 4.0, 0.0], [0.0, 0.0, 1.0]]), 0);
+    }
+
+    #[test]
+    fn infinite_entries_leave_no_solution() {
+        let infinite = f64::INFINITY;
+        for a in [
+            [[infinite, 0.0], [0.0, 1.0]],
+            [[1.0, -infinite], [0.0, 1.0]],
+            [[1.0, 0.0], [infinite, 1.0]],
+            [[1.0, 2.0], [3.0, f64::NAN]],
+        ] {
+            let x = Factors::<D<2>, f64>::new(&a).solve(&[1.0, 1.0]);
+            assert!(x.iter().any(|x| !x.is_finite()), "{a:?}: {x:?}");
+        }
     }
 
     #[test]

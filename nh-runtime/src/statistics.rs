@@ -24,11 +24,13 @@ pub struct Statistics {
     pub stiff_at: Option<f64>,
     /// How often [`Auto`](crate::methods::Auto) has gone from explicit to implicit steps, or back.
     pub switches: u64,
-    /// The projections to the constraints, those included that found nothing to correct.
+    /// The projections to the constraints, or to the level of a [`Conserving`](crate::Conserving) method, those included that
+    /// found nothing to correct.
     pub projections: u64,
     /// The largest change that a projection has made to a component of the state. Methods that choose their steps keep what
-    /// each adds to it to their tolerance; where steps are fixed nothing bounds it, and it is to be looked at.
+    /// each adds to it to their tolerance; where steps are fixed, or a level is returned to, nothing bounds it, and it is to be
+    /// looked at.
     pub largest_correction: f64,
-    /// The largest constraint residual that the last projection found, before it corrected it.
+    /// The largest constraint residual that the last projection to constraints found, before it corrected it.
     pub last_residual: f64,
 }

@@ -1,5 +1,8 @@
 //! Linear-quadratic regulation: the discrete-time Riccati equation.
 
+#[cfg(test)]
+mod cheap_inputs;
+
 use nalgebra::{SMatrix, SVector};
 
 use super::cholesky::{Cholesky, semidefinite, semidefinite_beside};
@@ -82,6 +85,8 @@ impl<T: Entry, const N: usize, const M: usize> Regulator<T, N, M> {
         let mut cost = symmetrized(q);
         let settled = T::from_f64(8.0) * T::EPSILON;
         let mut change = T::ONE;
+        // the cost to which least was added
+        let mut calmest = (T::ONE, cost);
         let mut iterations = 0;
         let (mut horizon, longest) = (T::ONE, longest_horizon::<T>());
         while horizon < longest && change.is_finite() {
@@ -97,10 +102,19 @@ impl<T: Entry, const N: usize, const M: usize> Regulator<T, N, M> {
             if change <= settled {
                 return Self::checked(a, b, q, r, &cost);
             }
+            if change < calmest.0 {
+                calmest = (change, cost);
+            }
         }
         if iterations == 1 {
             // beyond the range of the scalar at once, rather than by growing
             finite("the cost of the regulator", &cost)?;
+        }
+        // rounding of what cheap inputs reach hides that what they do not reach decays, if slowly: with the gain it shows
+        if let Ok(regulator) = Self::checked(a, b, q, r, &calmest.1)
+            && regulator.followed(a, b, q, r).is_some()
+        {
+            return Ok(regulator);
         }
         Err(ControlError::NotStabilizable { iterations, change: change.to_f64() })
     }
@@ -376,41 +390,6 @@ mod tests {
             assert!(regulator.cost.norm() < 1e-12 * q.norm(), "{}", regulator.cost);
         }
         assert!(decaying > 500, "{decaying}");
-    }
-
-    /// Inputs that cost next to nothing, or far more than what they save: the gain is that of many steps backwards from
-    /// the end of a horizon.
-    #[test]
-    fn cheap_and_dear_inputs() {
-        let mut draws = Draws(7);
-        let mut number = || draws.draw() * 2.0 - 1.0;
-        let mut compared = 0;
-        for case in 0..120 {
-            let a = Matrix3::from_fn(|_, _| number());
-            let b = SMatrix::<f64, 3, 2>::from_fn(|_, _| number());
-            let c = SMatrix::<f64, 2, 3>::from_fn(|_, _| number());
-            let d = Matrix2::from_fn(|_, _| number()) + Matrix2::identity() * 2.0;
-            let q = c.transpose() * c;
-            let r = d * d.transpose() * [1e-13, 1e-10, 1e-6, 1.0, 1e6, 1e10][case % 6];
-            let found =
-                Regulator::stationary(&a, &b, &q, &r).unwrap_or_else(|error| panic!("{case}: {error}"));
-            let mut last = Regulator::before(&q, &a, &b, &q, &r).unwrap();
-            let mut settled = false;
-            for _ in 0..2000 {
-                let next = Regulator::before(&last.cost, &a, &b, &q, &r).unwrap();
-                settled = (next.gain - last.gain).norm() <= 1e-15 * next.gain.norm();
-                last = next;
-                if settled {
-                    break;
-                }
-            }
-            if settled {
-                compared += 1;
-                let off = (found.gain - last.gain).norm();
-                assert!(off < 1e-11 * last.gain.norm(), "{case}: {off:e} of {}", last.gain);
-            }
-        }
-        assert!(compared > 80, "{compared}");
     }
 
     #[test]

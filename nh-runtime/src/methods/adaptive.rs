@@ -5,6 +5,7 @@ use super::explicit::Tableau;
 use super::first_step::first_length;
 use super::fixed::Fixed;
 use super::leg::Leg;
+use super::power_iteration::{largest_rate, of_length_one};
 use super::trial::{Scheme, Trial};
 use super::{Arrival, Method, Place, Return, Start, Step, ToPositions, component, non_finite_derivative};
 use crate::arrays::{all_finite, first_non_finite};
@@ -400,7 +401,8 @@ impl<P, T: Real, W> Adaptive<P, T, W> {
     }
 
     /// Looks whether the step before was as long as stability permits: how far derivatives at two states at its end are
-    /// apart for the distance of these, both in units of the tolerance, is an estimate of the largest eigenvalue.
+    /// apart for the distance of these, both in units of the tolerance, is an estimate of the largest eigenvalue. Where such
+    /// estimates tell of stiffness a better one confirms it.
     #[cold]
     #[inline(never)]
     fn look_for_stiffness<S: Dynamics>(
@@ -414,12 +416,22 @@ impl<P, T: Real, W> Adaptive<P, T, W> {
         W: Tolerance<S::State>,
     {
         let in_a_row = memory.stiffness.is_suspected();
-        let rate = self.scheme.spread(start, in_a_row, &mut memory.work).map(|spread| {
+        let held = T::from_f64(P::HELD);
+        let spread = self.scheme.spread(start, in_a_row, &mut memory.work);
+        let rate = spread.as_ref().map(|spread| {
             // what swings is small at times, and then less of an error is permitted: by that alone the estimate would be large
             let size = |e| norm(&self.tolerance, e, &spread.largest, &spread.largest);
             size(&spread.derivatives) / size(&spread.states)
         });
-        if memory.stiffness.judge(rate, T::from_f64(P::HELD)) {
+        let is_watched = memory.stiffness.judge(rate, held);
+        if memory.stiffness.is_to_be_confirmed()
+            && let Some(spread) = spread
+        {
+            let permitted = self.tolerance.permitted(&start.state.to_array());
+            let mut direction = of_length_one(&spread.derivatives, &permitted);
+            memory.stiffness.confirm(largest_rate(start, &self.tolerance, &mut direction, statistics), held);
+        }
+        if is_watched && memory.stiffness.is_suspected() {
             self.scheme.watch(&mut memory.work);
         }
         if memory.stiffness.is_certain() && statistics.stiff_at.is_none() {

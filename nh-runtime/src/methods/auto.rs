@@ -1,19 +1,19 @@
 //! An explicit method where the equations allow it, an implicit one where they are stiff.
 
 use super::adaptive::{Adaptive, Memory as Remembered};
+use super::power_iteration::largest_rate;
 use super::trial::Scheme;
 use super::{Arrival, Method, Radau, Return, Start, Step, ToPositions, Tsitouras5};
-use crate::arrays::{Array, difference};
 use crate::methods::FiniteDifferences;
-use crate::tolerance::{Tolerance, Uniform, norm};
+use crate::tolerance::{Tolerance, Uniform};
 use crate::{Dim, DimOf, Dynamics, IntegrationError, Real, ScalarOf, State, Statistics, VecOf};
 
 /// An adaptive method that begins explicitly, goes on implicitly where that is held back by stability, and comes back where
 /// it no longer is.
 ///
 /// Stiffness is noticed as the explicit method does it ([`Statistics::stiff_at`]), or by steps that become too
-/// short. While the implicit method steps, the largest eigenvalue is estimated after every fifth of them, by two
-/// evaluations and one step of power iteration; once three estimates in a row leave steps half as long as
+/// short. While the implicit method steps, the largest eigenvalue is estimated after every fifth of them, by three
+/// evaluations and two steps of power iteration; once three estimates in a row leave steps half as long as
 /// stability permits, the explicit method goes on. Both keep the same tolerances if they are set here.
 /// [`Statistics::switches`] counts the changes.
 ///
@@ -302,22 +302,9 @@ impl<T: Real, W, P, Q> Auto<T, W, P, Q> {
         P: Scheme<S>,
         Q: Scheme<S>,
     {
-        let tolerance = &self.implicit.tolerance;
-        let x = arrival.state.to_array();
-        let permitted = tolerance.permitted(&x);
-        let mut beside = x;
-        let apart = permitted.as_ref().iter().zip(memory.direction.as_ref());
-        for (beside, (&permitted, &direction)) in beside.as_mut().iter_mut().zip(apart) {
-            if is_unit(permitted) {
-                *beside = direction.mul_add(permitted, *beside);
-            }
-        }
-        statistics.evaluations += 2;
-        let change =
-            difference(&start.derivative_at(arrival.time, beside), &start.derivative_at(arrival.time, x));
-        let size = |e| norm(tolerance, e, &x, &x);
-        let rate = size(&change) / size(&difference(&beside, &x));
-        memory.direction = of_length_one(&change, &permitted);
+        let Start { system, input, .. } = *start;
+        let here = Start { system, input, time: arrival.time, state: &arrival.state };
+        let rate = largest_rate(&here, &self.implicit.tolerance, &mut memory.direction, statistics);
         let length = (arrival.time - start.time).abs();
         let bound = T::from_f64(SHARE * P::HELD);
         memory.calm = if length * rate <= bound { memory.calm + 1 } else { 0 };
@@ -327,23 +314,4 @@ impl<T: Real, W, P, Q> Auto<T, W, P, Q> {
             memory.explicit = Method::<S>::memory(&self.explicit).proposing(Some(length));
         }
     }
-}
-
-/// Whether a permitted error is a unit: nothing is none, nor is infinity, where a component is not looked at.
-fn is_unit<T: Real>(permitted: T) -> bool {
-    permitted > T::ZERO && permitted.is_finite()
-}
-
-/// A change of the derivative as a direction: in units of the tolerance, its largest component 1, and 0 where that gives
-/// none. Where there is no change, all components alike.
-fn of_length_one<T: Real, V: Array<T>>(change: &V, permitted: &V) -> V {
-    let mut direction = *change;
-    for (direction, &permitted) in direction.as_mut().iter_mut().zip(permitted.as_ref()) {
-        *direction = if is_unit(permitted) { *direction / permitted } else { T::ZERO };
-    }
-    let largest = direction.as_ref().iter().fold(T::ZERO, |largest, x| largest.max(x.abs()));
-    for direction in direction.as_mut() {
-        *direction = if largest > T::ZERO && largest.is_finite() { *direction / largest } else { T::ONE };
-    }
-    direction
 }

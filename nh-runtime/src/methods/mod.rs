@@ -58,6 +58,7 @@ mod implicit;
 mod interruptible;
 mod leg;
 mod plateau;
+mod power_iteration;
 mod projected;
 mod return_to;
 mod structure;

@@ -186,7 +186,12 @@ where
     ScalarOf<S>: Real,
 {
     let Some(kept) = segment.at(time) else { return Ok(()) };
-    let permitted = sim.method().permitted(state);
+    // by what a component is at either end of the step, as its error is judged: where it passes zero less is permitted
+    let mut permitted = sim.method().permitted(state);
+    for end in [segment.first(), segment.last()] {
+        let at_end = sim.method().permitted(&end);
+        permitted.as_mut().iter_mut().zip(at_end.as_ref()).for_each(|(most, here)| *most = most.max(*here));
+    }
     // how many roundings of the clock stand in a rounding of the step
     let (from, to) = (segment.from(), segment.to());
     let clock = from.abs().max(to.abs()) / (to - from).abs();

@@ -190,3 +190,32 @@ fn the_time_scales_with_its_unit() {
     assert_eq!(at(1.0).to_bits(), at(2.0_f64.powi(300)).to_bits());
     assert_eq!(at(1.0).to_bits(), at(2.0_f64.powi(-200)).to_bits());
 }
+
+/// A swing whose second component is so small that its tolerance is the absolute one: by differences of states that are
+/// apart by chance its derivative changes by turns much and little, in units of the tolerance.
+#[test]
+fn swings_are_not_stiff_in_whatever_units() {
+    struct Swing(f64);
+    impl Dynamics for Swing {
+        type State = Pair<f64>;
+        type Input = ();
+        fn derivative(&self, t: f64, &Pair(x, y): &Pair<f64>, (): &()) -> Pair<f64> {
+            Pair(y / self.0 + 0.3 * (2.0 * t).sin(), -x * self.0)
+        }
+    }
+    fn check<M: Method<Swing> + Copy + core::fmt::Debug>(unit: f64, method: M) {
+        let mut sim = Integrator::new(Swing(unit), method, 0.0, Pair(1.0, 0.5 * unit));
+        sim.advance_to(500.0).unwrap();
+        let Statistics { stiff_at, switches, .. } = sim.statistics();
+        assert_eq!((stiff_at, switches), (None, 0), "{unit} {method:?}");
+    }
+    for unit in [1.0, 0.1, 0.03, 0.01] {
+        for rtol in [1e-3, 1e-4, 1e-5] {
+            check(unit, Dopri5::new().rtol(rtol));
+            check(unit, Tsit5::new().rtol(rtol));
+            check(unit, Dop853::new().rtol(rtol));
+            check(unit, Vern9::new().rtol(rtol * 0.1));
+            check(unit, Auto::new().rtol(rtol));
+        }
+    }
+}

@@ -85,6 +85,21 @@ fn it_comes_back_where_stiffness_ends() {
     assert_eq!(cost.switches, 8, "{cost:?}");
 }
 
+/// A direction that turns is as long in one component as in the other in no units: an estimate by one step of it is the
+/// larger or the smaller of two, by turns.
+#[test]
+fn it_comes_back_to_what_swings_in_any_units() {
+    for frequency in [3.0, 30.0, 300.0] {
+        for method in [Auto::new(), Auto::new().atol(0.0), Auto::new().atol(1e-12)] {
+            let damping = |t: f64| if t < 1.0 { 1e3 * frequency } else { 0.0 };
+            let swing = |t: f64, Pair(x, y): Pair| Pair(y, -damping(t) * y - frequency * frequency * x);
+            let start = Pair(1.0 / frequency, 0.0);
+            let (_, cost) = end(swing, method, start, 1.0 + 100.0 / frequency);
+            assert_eq!(cost.switches, 2, "{frequency} {method:?}: {cost:?}");
+        }
+    }
+}
+
 #[test]
 fn the_oscillator_is_right_and_cheaper_than_either_alone() {
     let mu = 200.0;

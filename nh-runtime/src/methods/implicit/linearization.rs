@@ -49,7 +49,8 @@ pub trait Linearization<S: Dynamics>: Copy {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct FiniteDifferences;
 
-/// The system's own Jacobian.
+/// The system's own Jacobian; where it is not finite while the derivative is, as that of √x at zero, the difference quotients
+/// of [`FiniteDifferences`] take its place.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Analytic;
 
@@ -60,18 +61,25 @@ const ROUND_OFF: f64 = 16.0;
 /// The share of the permitted error that the rounding of a Jacobian may come to.
 const NEGLIGIBLE: f64 = 0.01;
 
-impl<S: Jacobian> Linearization<S> for Analytic {
+impl<S: Jacobian> Linearization<S> for Analytic
+where
+    ScalarOf<S>: Real,
+{
     #[inline]
     fn state_jacobian(
         &self,
         start: &Start<'_, S>,
         time: ScalarOf<S>,
         point: &VecOf<S>,
-        _slope: &VecOf<S>,
-        _h: ScalarOf<S>,
-        _statistics: &mut Statistics,
+        slope: &VecOf<S>,
+        h: ScalarOf<S>,
+        statistics: &mut Statistics,
     ) -> MatOf<S> {
-        start.system.state_jacobian(time, &S::State::from_array(*point), start.input)
+        let own = start.system.state_jacobian(time, &S::State::from_array(*point), start.input);
+        if own.as_ref().iter().all(all_finite::<ScalarOf<S>, _>) {
+            return own;
+        }
+        quotients(&Place { start, time, point, slope }, h, None, statistics)
     }
 }
 

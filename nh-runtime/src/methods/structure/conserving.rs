@@ -84,12 +84,15 @@ where
         let mut arrival = self.method.advance(start, target, &mut memory.method, statistics)?;
         let time = arrival.time.to_f64();
         let units = units::<ScalarOf<S>, _>(self.method.permitted(start.state));
+        let before = arrival.state;
         if let Err(error) = level(start.system, &mut arrival, (&values, &units)) {
             // the method has gone on to an end that is not taken
             self.method.stand(&mut memory.method);
             return Err(IntegrationError::Projection { time, error });
         }
         statistics.projections += 1;
+        let correction = largest(start.system.correction(&before, &arrival.state).as_ref()).to_f64();
+        statistics.largest_correction = statistics.largest_correction.max(correction);
         self.method.moved(&mut memory.method);
         memory.values = Some(values);
         Ok(arrival)
@@ -256,12 +259,14 @@ mod tests {
 
     /// From x = 10 to 0.01, where corrections of a fourth power fall by a quarter at a time.
     #[test]
-    fn a_level_is_reached_from_far_away() {
+    fn a_level_is_reached_from_far_away_and_how_far_is_told() {
         let start = Pair([0.01, 0.0]);
         let wrong = Wrong { power: 4, drift: 0.0 };
         let mut sim = Integrator::new(wrong, Conserving::new(Rk4::new(10.0)), 0.0, start);
         sim.step().unwrap();
         assert!((sim.state().0[0] - 0.01).abs() < 1e-15, "{:?}", sim.state());
+        let Statistics { projections, largest_correction, .. } = sim.statistics();
+        assert!(projections == 1 && (largest_correction - 10.0).abs() < 1e-14, "{largest_correction}");
     }
 
     #[test]
