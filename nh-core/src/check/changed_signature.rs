@@ -13,13 +13,17 @@ const STATES: u64 = 6;
 /// Operations of a matrix that is looked at.
 const LENGTH: u64 = 1000;
 
-/// Whether something but parameters occurs in a matrix.
+/// Different entries of a matrix that are looked at.
+const ENTRIES: usize = 100;
+
+/// Whether something but parameters may occur in a matrix: of many entries it is not asked.
 pub(super) fn varies(graph: &Graph, matrix: &Matrix, parameters: &[SymbolId]) -> bool {
     // what was made last is made of most
     let mut entries = matrix.concat();
     entries.sort_unstable_by(|a, b| b.cmp(a));
     entries.dedup();
-    entries.into_iter().any(|entry| graph.has_symbol(entry, |symbol| !parameters.contains(&symbol)))
+    entries.len() > ENTRIES
+        || entries.into_iter().any(|entry| graph.has_symbol(entry, |symbol| !parameters.contains(&symbol)))
 }
 
 fn is_positive(facts: &Facts, symbol: SymbolId) -> bool {

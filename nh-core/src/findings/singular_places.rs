@@ -29,6 +29,9 @@ pub(crate) struct LongBlock {
     pub(crate) is_singular: bool,
 }
 
+/// Rows of a block up to which the signs of its eigenvalues are looked at.
+const ROWS: usize = 8;
+
 /// What is known of where the equations are singular.
 #[derive(Clone, Debug)]
 pub(crate) struct SingularPlaces {
@@ -56,7 +59,7 @@ pub(super) fn found(proved: &mut Proved, derived: &Derived<'_>, has_values: bool
     let matrix = match derived {
         Derived::Adapted { equations, .. }
             if has_values
-                && !found.long.is_empty()
+                && found.long.iter().any(|block| block.len() <= ROWS)
                 && !is_sum_of_squares(graph, lagrangian, velocities, &usual)
                 && !has_turns(graph, lagrangian)
                 && holding(proved).is_empty() =>
@@ -67,6 +70,7 @@ pub(super) fn found(proved: &mut Proved, derived: &Derived<'_>, has_values: bool
     };
     let Proved { model, facts, .. } = &*proved;
     let is_singular = |block: &Vec<usize>| {
+        let matrix = matrix.filter(|_| block.len() <= ROWS);
         let inner = matrix.map(|matrix| Graph::submatrix(matrix, block));
         inner.is_some_and(|inner| changes_signature(&model.graph, &inner, &parameters, facts))
     };
