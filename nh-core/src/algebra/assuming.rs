@@ -11,7 +11,7 @@
 //! | `min(x y, x z) = x min(y, z)`, and `max` | `x > 0` |
 //! | `min(x, y)`, `max(x, y)` are one of the two | the sign of `x − y` |
 //! | `sin(x) = sin(y)` and its kin | `x = y`, of fewer operations |
-//! | `a x + b x = 0` for numbers a and b | `a + b = 0`, decided as any constant is |
+//! | `a x + b x = 0` for numbers, roots, arcs and logarithms a and b | `a + b = 0` by their values, though by no identity |
 
 use super::graph::Graph;
 use super::node::{Function, Function2, Node};
@@ -20,6 +20,9 @@ use super::range::Facts;
 use crate::id::{ExprId, SymbolId};
 use crate::id_map::IdMap;
 use rustc_hash::FxHashSet;
+
+/// Parts with their coefficients, and what all of them are multiplied by.
+type Group = (ExprId, Vec<(Rational, ExprId)>);
 
 impl Graph {
     /// The expressions with these identities applied throughout.
@@ -36,11 +39,12 @@ impl Graph {
     ) -> Vec<ExprId> {
         let mut known: IdMap<ExprId, ExprId> = IdMap::default();
         let order = self.reachable(roots);
-        let has_numbers = self.have_irrational_numbers(&order);
+        let may_vanish =
+            self.have_irrational_numbers(&order) || order.iter().any(|id| self.is_node_beyond_field(*id));
         for id in order {
             let mut image = self.assuming_node(id, &known, facts, long);
-            if has_numbers && matches!(self.node(image), Node::Sum { .. }) {
-                image = self.without_vanishing_numbers(image);
+            if may_vanish && matches!(self.node(image), Node::Sum { .. }) {
+                image = self.without_vanishing_terms(image);
             }
             known.insert(id, image);
         }
@@ -93,51 +97,62 @@ impl Graph {
         false
     }
 
-    /// A sum without the terms whose coefficients are numbers that add up to 0 although no identity of sums says so,
-    /// as `cos(π/5) − (1 + √5)/4` does.
-    fn without_vanishing_numbers(&mut self, sum: ExprId) -> ExprId {
-        // 1. each term as a number times something that varies
+    /// A sum without the terms whose coefficients add up to 0 although no identity of sums says so, as the numbers
+    /// `cos(π/5) − (1 + √5)/4` and the functions `atan2(x, 1) − atan(x)` do.
+    fn without_vanishing_terms(&mut self, sum: ExprId) -> ExprId {
+        // 1. each term as what has values of its own on the reals times the rest
         let (constant, terms) = self.as_linear(sum);
         let one = self.one();
-        let mut groups: Vec<(ExprId, Vec<(Rational, ExprId)>)> = vec![(one, vec![(constant, one)])];
+        let mut groups: Vec<Group> = vec![(one, vec![(constant, one)])];
         for (term, coefficient) in terms {
-            let (number, varying) = self.number_in(term);
-            match groups.iter_mut().find(|(key, _)| *key == varying) {
-                Some((_, numbers)) => numbers.push((coefficient, number)),
-                None => groups.push((varying, vec![(coefficient, number)])),
+            let (own, rest) = self.valued_in(term);
+            match groups.iter_mut().find(|(key, _)| *key == rest) {
+                Some((_, parts)) => parts.push((coefficient, own)),
+                None => groups.push((rest, vec![(coefficient, own)])),
             }
         }
         // 2. whether these add up to 0
         let mut left = Vec::with_capacity(groups.len());
         let mut is_shorter = false;
-        for (varying, numbers) in groups {
-            let number = self.linear_combination(&numbers);
-            if self.value_of(number).is_none() && self.zero_test(number).is_zero() {
+        for (rest, parts) in groups {
+            let is_sum = parts.len() > 1;
+            let whole = self.linear_combination(&parts);
+            if is_sum && self.vanishes_by_value(whole) {
                 is_shorter = true;
             } else {
-                left.extend(
-                    numbers.into_iter().map(|(coefficient, number)| (coefficient, self.mul(number, varying))),
-                );
+                left.extend(parts.into_iter().map(|(coefficient, own)| (coefficient, self.mul(own, rest))));
             }
         }
         if is_shorter { self.linear_combination(&left) } else { sum }
     }
 
-    /// A term as a number times what varies.
-    fn number_in(&mut self, term: ExprId) -> (ExprId, ExprId) {
+    /// Whether a sum is zero, but not as it stands; what a point of floating point tells from zero is not asked further.
+    fn vanishes_by_value(&self, sum: ExprId) -> bool {
+        self.value_of(sum).is_none() && self.witness(sum).is_none() && self.zero_test(sum).is_zero()
+    }
+
+    /// A term as what is a number, or has values on the reals that no identity of the field tells, times the rest.
+    fn valued_in(&mut self, term: ExprId) -> (ExprId, ExprId) {
         let one = self.one();
+        let has_own = |graph: &Self, part: ExprId| {
+            graph.symbols_in(&[part]).is_empty() || graph.is_beyond_field(&[part])
+        };
         if self.symbols_in(&[term]).is_empty() {
             return (term, one);
         }
-        let Node::Product { coefficient, factors } = self.node(term).clone() else { return (one, term) };
-        let (numbers, varying): (Vec<_>, Vec<_>) =
-            factors.iter().cloned().partition(|(base, _)| self.symbols_in(&[*base]).is_empty());
-        if numbers.is_empty() {
+        let Node::Product { coefficient, factors } = self.node(term).clone() else {
+            return if has_own(self, term) { (term, one) } else { (one, term) };
+        };
+        let (own, rest): (Vec<_>, Vec<_>) = factors
+            .iter()
+            .cloned()
+            .partition(|(base, exponent)| !exponent.is_integer() || has_own(self, *base));
+        if own.is_empty() {
             return (one, term);
         }
-        let number = self.product(&numbers);
-        let varying = self.product(&varying);
-        (self.scale(coefficient, number), varying)
+        let own = self.product(&own);
+        let rest = self.product(&rest);
+        (self.scale(coefficient, own), rest)
     }
 
     /// Takes factors that are not negative out of a root.
@@ -303,6 +318,18 @@ mod tests {
         assert!(!g.is_literal_zero(sum));
         let [short, rest] = g.assuming(&[sum, more], &Facts::default())[..] else { panic!("two") };
         assert!(g.is_literal_zero(short) && rest == y, "{}", g.text(rest));
+    }
+
+    #[test]
+    fn functions_that_cancel_by_their_values_leave_nothing() {
+        let mut g = Graph::new();
+        let (x, y) = (g.new_symbol("x"), g.new_symbol("y"));
+        let (x, y, one) = (g.symbol(x), g.symbol(y), g.one());
+        let (arc, angle) = (g.apply(Function::Atan, x), g.apply2(Function2::Atan2, x, one));
+        let sum = g.formula(angle * y - arc * y + y * y);
+        let other = g.formula(angle * y - arc * x);
+        let square = g.square(y);
+        assert_eq!(g.assuming(&[sum, other], &Facts::default()), [square, other]);
     }
 
     #[test]

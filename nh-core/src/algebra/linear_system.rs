@@ -29,11 +29,18 @@ impl Graph {
     /// structurally singular; otherwise it must be generically regular.
     pub fn solve_linear(&mut self, matrix: &[Vec<ExprId>], right: &[Vec<ExprId>]) -> Option<Solution> {
         let n = matrix.len();
-        let pattern: Vec<Vec<bool>> = matrix
+        let nonzero: Vec<Vec<bool>> = matrix
             .iter()
             .map(|row| row.iter().map(|entry| !self.zero_test(*entry).is_zero()).collect())
             .collect();
-        let blocks = triangular_blocks(&pattern)?;
+        // what is 0 by its values alone is no pivot, and is not left out either: in the field it is not 0
+        let touches = |(entry, nonzero): (&ExprId, &bool)| *nonzero || !self.vanishes_by_identity(*entry);
+        let touching: Vec<Vec<bool>> = matrix
+            .iter()
+            .zip(&nonzero)
+            .map(|(row, nonzero)| row.iter().zip(nonzero).map(touches).collect())
+            .collect();
+        let blocks = matched_blocks(&nonzero, &touching)?;
         let columns = right.first().map_or(0, Vec::len);
         let zero = self.zero();
         let mut values = vec![vec![zero; columns]; n];
@@ -196,13 +203,18 @@ impl Graph {
 /// The equations and unknowns of each block of a matrix by where its entries are not 0, each block after those that
 /// it needs; `None` where no choice of entries makes the matrix regular.
 pub(crate) fn triangular_blocks(pattern: &[Vec<bool>]) -> Option<Vec<(Vec<usize>, Vec<usize>)>> {
+    matched_blocks(pattern, pattern)
+}
+
+/// The same by the entries that equations may be matched by, and by those that they touch unknowns with.
+fn matched_blocks(pattern: &[Vec<bool>], touching: &[Vec<bool>]) -> Option<Vec<(Vec<usize>, Vec<usize>)>> {
     let row_of = perfect_matching(pattern)?;
     let with_rows = |block: Vec<usize>| {
         let mut rows: Vec<usize> = block.iter().map(|unknown| row_of[*unknown]).collect();
         rows.sort_unstable();
         (rows, block)
     };
-    Some(blocks(pattern, &row_of).into_iter().map(with_rows).collect())
+    Some(blocks(touching, &row_of).into_iter().map(with_rows).collect())
 }
 
 /// A row for each column along non-zero entries (augmenting paths).

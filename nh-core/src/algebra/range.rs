@@ -163,7 +163,7 @@ impl Range {
 
 impl Graph {
     /// Whether facts hold at a point, as far as it has values for their symbols.
-    pub(super) fn hold_at(&self, facts: &Facts, point: &[(SymbolId, f64)]) -> bool {
+    pub(crate) fn hold_at(&self, facts: &Facts, point: &[(SymbolId, f64)]) -> bool {
         let value =
             |symbol| point.iter().find(|(known, _)| *known == symbol).map_or(f64::NAN, |(_, value)| *value);
         let of_symbols = facts.symbols.iter().map(|(symbol, range)| (value(*symbol), range));

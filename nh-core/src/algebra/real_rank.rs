@@ -30,24 +30,29 @@ impl Graph {
     pub(super) fn is_beyond_field(&self, roots: &[ExprId]) -> bool {
         let mut found = false;
         self.each_reachable(roots, |id| {
-            found |= match self.node(id) {
-                Node::Product { factors, .. } => factors.iter().any(|(_, exponent)| !exponent.is_integer()),
-                Node::Pi
-                | Node::Apply2(..)
-                | Node::Apply(
-                    Function::Ln
-                    | Function::Asin
-                    | Function::Acos
-                    | Function::Atan
-                    | Function::Abs
-                    | Function::Sign,
-                    _,
-                ) => true,
-                _ => false,
-            };
+            found |= self.is_node_beyond_field(id);
             !found
         });
         found
+    }
+
+    /// The same of a node, whatever its operands are.
+    pub(super) fn is_node_beyond_field(&self, id: ExprId) -> bool {
+        match self.node(id) {
+            Node::Product { factors, .. } => factors.iter().any(|(_, exponent)| !exponent.is_integer()),
+            Node::Pi
+            | Node::Apply2(..)
+            | Node::Apply(
+                Function::Ln
+                | Function::Asin
+                | Function::Acos
+                | Function::Atan
+                | Function::Abs
+                | Function::Sign,
+                _,
+            ) => true,
+            _ => false,
+        }
     }
 
     /// The rank at generic points of a matrix for which the field found `in_field`.

@@ -226,9 +226,14 @@ impl Graph {
     /// Whether any of `symbols` occurs in `expression`.
     #[must_use]
     pub fn depends_on(&self, expression: ExprId, symbols: &[SymbolId]) -> bool {
+        self.has_symbol(expression, |symbol| symbols.contains(&symbol))
+    }
+
+    /// Whether a symbol of some kind occurs.
+    pub(crate) fn has_symbol(&self, expression: ExprId, is_wanted: impl Fn(SymbolId) -> bool) -> bool {
         let mut occurs = false;
         self.each_reachable(&[expression], |id| {
-            occurs |= self.as_symbol(id).is_some_and(|symbol| symbols.contains(&symbol));
+            occurs |= self.as_symbol(id).is_some_and(&is_wanted);
             !occurs
         });
         occurs

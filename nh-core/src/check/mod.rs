@@ -3,6 +3,7 @@
 mod assumptions;
 mod auxiliary;
 mod brackets;
+mod changed_signature;
 mod chart;
 mod circles;
 mod claimed;
@@ -40,6 +41,7 @@ mod whole_base;
 pub use assumptions::{facts, follows, on_the_base, undecided};
 pub use auxiliary::rates_in_a_circle;
 pub use brackets::structure_functions;
+pub(crate) use changed_signature::{changes_signature, is_sum_of_squares};
 pub use chart::chart;
 pub use claimed::claimed;
 pub use claimed_volume::{claimed_density, volume};
@@ -60,7 +62,10 @@ pub use kinematics::{Motion, kinematics};
 pub use orthonormal::orthonormal;
 pub(crate) use parts_of_positions::points_shown;
 pub use positions::{Positions, positions};
-pub use regularity::{reduced_regularity, saddle_regularity, saddle_singular_where, singular_where};
+pub(crate) use regularity::with_positive;
+pub use regularity::{
+    SingularFactors, reduced_regularity, saddle_regularity, saddle_singular_where, singular_where,
+};
 pub use singular_parameters::singular_parameters;
 pub(crate) use smoothness::not_smooth;
 pub use structure_equations::{BrokenLaws, structure_equations};

@@ -1,5 +1,6 @@
 //! Regularity: the equations determine the accelerations (CLMM Theorem 3.12, (7.5)).
 
+use super::changed_signature::varies;
 use super::dependence::{ONE_PART, place_of, with_all_roots};
 use super::evidence::{listed, shown};
 use crate::algebra::{Echelon, Facts, FieldPoint, Graph, Matrix, Range, Residue, sample};
@@ -119,6 +120,17 @@ fn without_inertia(
     hidden.map_or_else(String::new, |entry| format!("{} is 0", shown(graph, *entry)))
 }
 
+/// What determinants of the equations tell of where these are singular.
+#[derive(Clone, Debug, Default)]
+pub struct SingularFactors {
+    /// Their factors that may vanish in some state.
+    pub varying: Vec<ExprId>,
+    /// Their factors that are made of parameters alone.
+    pub of_parameters: Vec<ExprId>,
+    /// The rows of blocks that vary with the state, and whose determinants are too long to be written out.
+    pub long: Vec<Vec<usize>>,
+}
+
 /// Where the mass matrix of a regular system is singular all the same, as far as short
 /// determinants tell: their factors that may vanish at states of a machine all of whose parameters are
 /// positive, or as the facts say. A factor in which parameters occur has to do so for a machine whose mass
@@ -128,12 +140,16 @@ pub fn singular_where(
     mass: &Matrix,
     parameters: &[SymbolId],
     facts: &Facts,
-) -> (Vec<ExprId>, Vec<ExprId>) {
+) -> SingularFactors {
     let usual = with_positive(facts, parameters);
     let (mut found, mut of_parameters_alone): (Vec<ExprId>, Vec<ExprId>) = (Vec::new(), Vec::new());
-    for block in uncoupled(graph, mass).into_iter().filter(|block| block.len() <= SIZE) {
+    let mut long = Vec::new();
+    for block in uncoupled(graph, mass) {
         let inner = Graph::submatrix(mass, &block);
-        if graph.operation_count(&inner.concat()) > SHORT {
+        if block.len() > SIZE || graph.operation_count(&inner.concat()) > SHORT {
+            if varies(graph, &inner, parameters) {
+                long.push(block);
+            }
             continue;
         }
         let determinant = graph.small_determinant(&inner);
@@ -152,7 +168,7 @@ pub fn singular_where(
             }
         }
     }
-    (found, of_parameters_alone)
+    SingularFactors { varying: found, of_parameters: of_parameters_alone, long }
 }
 
 /// The same of the saddle matrix, where the mass matrix is not positive definite anyway: with such a one it is singular only
@@ -162,26 +178,36 @@ pub fn saddle_singular_where(
     equations: &SaddleEquations,
     parameters: &[SymbolId],
     facts: &Facts,
-) -> Vec<ExprId> {
+) -> SingularFactors {
     // inertias that are parameters are those of some body
     let symbols = graph.symbols_in(&equations.mass.concat());
     if !symbols.is_empty() && symbols.iter().all(|symbol| parameters.contains(symbol)) {
-        return Vec::new();
+        return SingularFactors::default();
     }
     let usual = with_positive(facts, parameters);
     // larger ones belong to larger blocks of the saddle matrix
-    let blocks = uncoupled(graph, &equations.mass).into_iter().filter(|block| block.len() < SIZE);
-    let indefinite: Vec<usize> =
-        blocks.filter(|block| !is_definite(graph, &equations.mass, block, &usual)).flatten().collect();
+    let (short, mut long): (Vec<_>, Vec<_>) =
+        uncoupled(graph, &equations.mass).into_iter().partition(|block| block.len() < SIZE);
+    long.retain(|block| varies(graph, &Graph::submatrix(&equations.mass, block), parameters));
+    let indefinite: Vec<usize> = short
+        .into_iter()
+        .filter(|block| !is_definite(graph, &equations.mass, block, &usual))
+        .flatten()
+        .collect();
     if indefinite.is_empty() {
-        return Vec::new();
+        return SingularFactors { long, ..SingularFactors::default() };
     }
     let saddle = equations.matrix(graph);
     let mut found: Vec<ExprId> = Vec::new();
-    for block in uncoupled(graph, &saddle).into_iter().filter(|block| block.len() <= SIZE + 1) {
+    for block in uncoupled(graph, &saddle) {
+        if !block.iter().any(|row| indefinite.contains(row)) {
+            continue;
+        }
         let inner = Graph::submatrix(&saddle, &block);
-        let is_asked = block.iter().any(|row| indefinite.contains(row));
-        if !is_asked || graph.operation_count(&inner.concat()) > SHORT {
+        if block.len() > SIZE + 1 || graph.operation_count(&inner.concat()) > SHORT {
+            if varies(graph, &inner, parameters) {
+                long.push(block);
+            }
             continue;
         }
         let determinant = graph.small_determinant(&inner);
@@ -198,11 +224,11 @@ pub fn saddle_singular_where(
             }
         }
     }
-    found
+    SingularFactors { varying: found, of_parameters: Vec::new(), long }
 }
 
 /// The facts about a machine all of whose parameters are positive, unless these say otherwise.
-fn with_positive(facts: &Facts, parameters: &[SymbolId]) -> Facts {
+pub(crate) fn with_positive(facts: &Facts, parameters: &[SymbolId]) -> Facts {
     let mut usual = facts.clone();
     for parameter in parameters {
         usual.symbols.entry(*parameter).or_insert(Range::POSITIVE);
@@ -221,6 +247,24 @@ fn is_definite(graph: &mut Graph, matrix: &Matrix, block: &[usize], facts: &Fact
 /// Sizes of parameters that are tried: powers of two up to one and a half times this, and down to as many.
 const SIZES: f64 = 4.0;
 
+/// A number for one of these symbols: of a machine, whose parameters are positive and may be of all sizes, and of one of
+/// so many states.
+pub(super) fn machine(
+    symbols: &[SymbolId],
+    parameters: &[SymbolId],
+    (machine, of_all_sizes): (u64, bool),
+    (states, state): (u64, u64),
+    symbol: SymbolId,
+) -> f64 {
+    let index = symbols.iter().position(|known| *known == symbol).unwrap_or(symbols.len());
+    if parameters.contains(&symbol) {
+        let size = if of_all_sizes { SIZES * sample(4 * machine + 2, index) } else { 0.0 };
+        sample(4 * machine, index) * size.exp2()
+    } else {
+        4.0 * sample(4 * (states * machine + state) + 2, index)
+    }
+}
+
 /// Whether a factor of the determinant changes its sign, for some positive parameters, between a state where
 /// the mass matrix is positive definite and another.
 fn changes_sign(graph: &mut Graph, factor: ExprId, mass: &Matrix, parameters: &[SymbolId]) -> bool {
@@ -228,15 +272,9 @@ fn changes_sign(graph: &mut Graph, factor: ExprId, mass: &Matrix, parameters: &[
     const OF_ALL_SIZES: u64 = 8;
     const STATES: u64 = 8;
     let symbols = graph.symbols_in(&[&[factor], mass.concat().as_slice()].concat());
-    let value = |machine: u64, state: u64, symbol: SymbolId| {
-        let index = symbols.iter().position(|known| *known == symbol).unwrap_or_default();
-        if parameters.contains(&symbol) {
-            // of like size first, then of all sizes
-            let size = if machine < MACHINES { 0.0 } else { SIZES * sample(4 * machine + 2, index) };
-            sample(4 * machine, index) * size.exp2()
-        } else {
-            4.0 * sample(4 * (STATES * machine + state) + 2, index)
-        }
+    let value = |number: u64, state: u64, symbol: SymbolId| {
+        // of like size first, then of all sizes
+        machine(&symbols, parameters, (number, number >= MACHINES), (STATES, state), symbol)
     };
     let mut minors: Vec<ExprId> = Vec::new();
     let mut next = 0;

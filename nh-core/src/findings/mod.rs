@@ -20,7 +20,8 @@ pub(crate) use bracket_entries::{BracketEntries, Jacobi};
 pub(crate) use closure::Closure;
 pub(crate) use momenta_found::{LevelMomentum, Rate, SymmetryMomentum};
 pub(crate) use reduced_form::{Connection, Quantities, ReducedForm, Split};
-pub(crate) use singular_places::SingularPlace;
+use singular_places::SingularPlaces;
+pub(crate) use singular_places::{LongBlock, SingularPlace};
 
 /// What the report says beyond the declaration and the equations.
 #[derive(Clone, Debug)]
@@ -37,6 +38,8 @@ pub(crate) struct Findings {
     pub(crate) closure: Option<Closure>,
     /// Factors of the determinant of the mass matrix, or of the saddle matrix, that vanish in some states, or for some parameters.
     pub(crate) singular_mass: Vec<SingularPlace>,
+    /// Blocks of the same whose determinants are too long to be written out.
+    pub(crate) long_blocks: Vec<LongBlock>,
     /// The factors of its short determinants that are made of parameters alone.
     pub(crate) parameter_factors: Vec<ExprId>,
     /// What reduction theory calls the equations.
@@ -49,7 +52,7 @@ pub(crate) struct Findings {
     pub(crate) routhian: Option<ExprId>,
     /// Whether the energy is conserved.
     pub(crate) keeps_energy: bool,
-    /// Whether the Lagrangian contains the angle of a point, by which energies jump.
+    /// Whether an energy is conserved and the Lagrangian contains the angle of a point, by which energies jump.
     pub(crate) has_turns: bool,
     /// ξ of a moving energy E_L − ξ^α p_α, where the energy itself is not conserved.
     pub(crate) moving_energy: Option<Vec<ExprId>>,
@@ -78,14 +81,17 @@ impl Findings {
         let claims = first_integrals(proved, &domain);
         let chart_divisors = with_zeros(&mut proved.model, &proved.motion.divisors);
         let closure = Closure::of(proved, derived);
-        let (singular_mass, parameter_factors) = singular_places::found(proved, derived);
+        let SingularPlaces { places: singular_mass, of_parameters: parameter_factors, long: long_blocks } =
+            singular_places::found(proved, derived, domain.is_empty());
         let reduced = ReducedForm::of(proved, derived);
         let symmetries = momenta_found::symmetries(proved, derived);
         let (levels, routhian) = momenta_found::levels(proved, derived);
         let Proved { model, system, constraints, .. } = &mut *proved;
-        let has_turns = has_turns(&model.graph, system.lagrangian);
         let keeps_energy = not_conservative(model, system, constraints).is_none();
+        let lagrangian = system.lagrangian;
         let moving_energy = if keeps_energy { None } else { moving_energy(proved) };
+        let tells_energy = keeps_energy || moving_energy.is_some();
+        let has_turns = tells_energy && has_turns(&proved.model.graph, lagrangian);
         let conserved_momenta = momenta_found::conserved(proved, derived);
         let suggested = velocities_to_name::suggestion(proved, derived);
         let held_forces = held_forces::found(proved, derived);
@@ -96,6 +102,7 @@ impl Findings {
             chart_divisors,
             closure,
             singular_mass,
+            long_blocks,
             parameter_factors,
             reduced,
             symmetries,
@@ -122,7 +129,7 @@ fn first_integrals(proved: &mut Proved, of_equations: &[Condition]) -> Vec<First
 }
 
 /// Whether an expression contains the angle of a point, which jumps by a turn.
-fn has_turns(graph: &Graph, value: ExprId) -> bool {
+pub(super) fn has_turns(graph: &Graph, value: ExprId) -> bool {
     let mut parts = graph.reachable(&[value]).into_iter();
     parts.any(|part| matches!(graph.node(part), Node::Apply2(Function2::Atan2, ..)))
 }

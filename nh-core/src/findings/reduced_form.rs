@@ -107,7 +107,7 @@ fn not_onto(proved: &mut Proved, reduced: &Reduced) -> Vec<ExprId> {
     let Proved { model, facts, .. } = proved;
     let Reduced { system, distribution, splitting, .. } = reduced;
     if let Some(on_vertical) = splitting.constraints_on_vertical(&model.graph, system, distribution) {
-        let found = singular_where(&mut model.graph, &on_vertical, &parameters, facts).0;
+        let found = singular_where(&mut model.graph, &on_vertical, &parameters, facts).varying;
         if !found.is_empty() {
             return found;
         }
@@ -116,7 +116,7 @@ fn not_onto(proved: &mut Proved, reduced: &Reduced) -> Vec<ExprId> {
         return not_onto_embedded(proved, reduced);
     }
     let projection = splitting.projection(&mut model.graph, system, distribution);
-    singular_where(&mut model.graph, &projection, &parameters, facts).0
+    singular_where(&mut model.graph, &projection, &parameters, facts).varying
 }
 
 /// Where S = D ∩ V is larger than at generic points: where the constraints and the rates of the coordinates
@@ -143,7 +143,7 @@ fn not_onto_embedded(proved: &mut Proved, reduced: &Reduced) -> Vec<ExprId> {
     };
     let rows = &distribution.constraints.annihilator;
     let on_vertical: Matrix = vertical.vertical.iter().map(|section| graph.image(rows, section)).collect();
-    let mut found = singular_where(graph, &on_vertical, &parameters, facts).0;
+    let mut found = singular_where(graph, &on_vertical, &parameters, facts).varying;
     found.retain(|factor| !is_constant_on(graph, base, *factor));
     found
 }

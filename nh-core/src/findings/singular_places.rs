@@ -1,7 +1,11 @@
 //! Where the equations do not determine the accelerations, although they do in general.
 
+use super::has_turns;
 use crate::algebra::{Demand, Graph};
-use crate::check::{on_the_base, saddle_singular_where, singular_where, with_all_roots};
+use crate::check::{
+    changes_signature, is_sum_of_squares, on_the_base, saddle_singular_where, singular_where, with_all_roots,
+    with_positive,
+};
 use crate::compile::{Derived, Proved};
 use crate::id::{ExprId, SymbolId};
 
@@ -15,26 +19,70 @@ pub(crate) struct SingularPlace {
     pub(crate) exists: bool,
 }
 
-/// Where the mass matrix, or that of the saddle equations, is singular; and the factors of determinants that are made of
-/// parameters alone.
-pub(super) fn found(proved: &mut Proved, derived: &Derived<'_>) -> (Vec<SingularPlace>, Vec<ExprId>) {
+/// Rows of the equations that hang together, with a determinant that is too long to be written out and varies with the
+/// state.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct LongBlock {
+    /// How many they are.
+    pub(crate) rows: usize,
+    /// Whether they are singular in some states of some machine.
+    pub(crate) is_singular: bool,
+}
+
+/// Rows of a block up to which the signs of its eigenvalues are looked at.
+const ROWS: usize = 8;
+
+/// What is known of where the equations are singular.
+#[derive(Clone, Debug)]
+pub(crate) struct SingularPlaces {
+    /// Where the mass matrix is, or that of the saddle equations.
+    pub(crate) places: Vec<SingularPlace>,
+    /// The factors of determinants that are made of parameters alone.
+    pub(crate) of_parameters: Vec<ExprId>,
+    /// What was not looked at in this way.
+    pub(crate) long: Vec<LongBlock>,
+}
+
+/// Where the mass matrix, or that of the saddle equations, is singular, of equations that have values everywhere or not.
+pub(super) fn found(proved: &mut Proved, derived: &Derived<'_>, has_values: bool) -> SingularPlaces {
     let parameters: Vec<SymbolId> =
         proved.model.parameters.iter().map(|parameter| parameter.symbol).collect();
-    let Proved { model, facts, .. } = &mut *proved;
-    let (factors, of_parameters) = match derived {
-        Derived::Adapted { equations, .. } => {
-            singular_where(&mut model.graph, &equations.mass, &parameters, facts)
-        }
-        Derived::Projected { equations, .. } => {
-            (saddle_singular_where(&mut model.graph, equations, &parameters, facts), Vec::new())
-        }
+    let Proved { model, facts, system, .. } = &mut *proved;
+    let graph = &mut model.graph;
+    let found = match derived {
+        Derived::Adapted { equations, .. } => singular_where(graph, &equations.mass, &parameters, facts),
+        Derived::Projected { equations, .. } => saddle_singular_where(graph, equations, &parameters, facts),
     };
-    if factors.is_empty() {
-        return (Vec::new(), of_parameters);
+    let usual = with_positive(facts, &parameters);
+    let (lagrangian, velocities) = (system.lagrangian, &system.algebroid.velocities);
+    // 1. what is continuous in states that are connected, and may have another signature elsewhere
+    let matrix = match derived {
+        Derived::Adapted { equations, .. }
+            if has_values
+                && found.long.iter().any(|block| block.len() <= ROWS)
+                && !is_sum_of_squares(graph, lagrangian, velocities, &usual)
+                && !has_turns(graph, lagrangian)
+                && holding(proved).is_empty() =>
+        {
+            Some(&equations.mass)
+        }
+        _ => None,
+    };
+    let Proved { model, facts, .. } = &*proved;
+    let is_singular = |block: &Vec<usize>| {
+        let matrix = matrix.filter(|_| block.len() <= ROWS);
+        let inner = matrix.map(|matrix| Graph::submatrix(matrix, block));
+        inner.is_some_and(|inner| changes_signature(&model.graph, &inner, &parameters, facts))
+    };
+    let blocks = found.long.iter();
+    let long = blocks.map(|block| LongBlock { rows: block.len(), is_singular: is_singular(block) }).collect();
+    // 2. factors of short determinants
+    if found.varying.is_empty() {
+        return SingularPlaces { places: Vec::new(), of_parameters: found.of_parameters, long };
     }
     let holding = holding(proved);
-    let places = factors.into_iter().filter_map(|factor| place(proved, &holding, &parameters, factor));
-    (places.collect(), of_parameters)
+    let places = found.varying.into_iter().filter_map(|factor| place(proved, &holding, &parameters, factor));
+    SingularPlaces { places: places.collect(), of_parameters: found.of_parameters, long }
 }
 
 /// What every state satisfies.

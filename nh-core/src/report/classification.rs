@@ -6,7 +6,7 @@ use crate::algebra::Graph;
 use crate::check::evidence::{counted, listed, places};
 use crate::check::{BrokenLaws, Positions, not_asked, points_shown, undecided};
 use crate::compile::{Derived, Proved};
-use crate::findings::{Closure, Findings, FirstIntegral, SingularPlace};
+use crate::findings::{Closure, Findings, FirstIntegral, LongBlock, SingularPlace};
 use crate::geometry::independent_velocities::Choice;
 use crate::geometry::{Drops, Involution, Rank};
 use crate::id::{CoordId, ExprId, SymbolId};
@@ -62,6 +62,7 @@ pub(super) fn lines(
             (false, true) => format!("whether {what} singular in some state was not decided"),
         });
     }
+    lines.extend(long_blocks(&findings.long_blocks, derived));
     if undecided(model, facts) {
         let doubt = "whether the assumptions can hold together was not decided: no parameters were found that satisfy \
                      all of them, and no contradiction";
@@ -78,6 +79,31 @@ pub(super) fn lines(
         lines.push(format!("the quasi-velocities are a chart only where {text} != 0"));
     }
     lines
+}
+
+/// What is known of equations whose determinants are too long to be written out.
+fn long_blocks(blocks: &[LongBlock], derived: &Derived<'_>) -> Vec<String> {
+    let what = match derived {
+        Derived::Adapted { .. } => "the mass matrix",
+        Derived::Projected { .. } => "the matrix of accelerations and multipliers",
+    };
+    let singular = blocks.iter().filter(|block| block.is_singular).map(|block| {
+        format!(
+            "for some parameters {what} is singular in some states: eigenvalues of its block of {} coupled rows change \
+             their sign",
+            block.rows
+        )
+    });
+    let open: Vec<String> =
+        blocks.iter().filter(|block| !block.is_singular).map(|block| block.rows.to_string()).collect();
+    let open = (!open.is_empty()).then(|| {
+        let which = if open.len() == 1 { "the block" } else { "blocks" };
+        format!(
+            "in which states {what} may be singular was not asked of {which} of {} coupled rows",
+            open.join(" and ")
+        )
+    });
+    singular.chain(open).collect()
 }
 
 /// That nothing contradicts the equations, and nothing is known to satisfy them.

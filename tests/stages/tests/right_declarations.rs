@@ -215,12 +215,18 @@ struct UncoupledByValues { m: f64 }
  frame { h = cos(th)*x_dot + sin(th)*y_dot; s = cos(th)*y_dot - sin(th)*x_dot; c = th_dot; } distribution { h, c }
  forces { s: -k*y; h: k; } emit { power })]
 struct PowerBesideTheDistribution { m: f64, J: f64, k: f64 }
+#[nonholonomic(base { x, y, z } lagrangian { m/2*(der(x)^2 + der(y)^2 + der(z)^2) + (atan2(x, 1) - atan(x))*der(x)*der(y) }
+ constraints { der(z) = y*der(x); } emit { splitting })]
+struct SplitByValues { m: f64 }
+#[nonholonomic(base { x, y, z } constraints { der(z) = y*der(x); } emit { splitting }
+ lagrangian { m/2*((der(x) + k*atan2(y, 1)*der(y))^2 + der(y)^2 + der(z)^2) - m*k*atan(y)*der(x)*der(y) })]
+struct SplitByValuesOfAMetric { m: f64, k: f64 }
 ";
 
 #[test]
 fn right_declarations_are_accepted() {
     let found = declarations(RIGHT);
-    assert_eq!(found.len(), 80);
+    assert_eq!(found.len(), 82);
     let mut refused = Vec::new();
     for declaration in found {
         let errors = errors(&declaration.expanded());

@@ -53,6 +53,29 @@ fn singular_states_that_are_told_exist() {
             "base { x, y } lagrangian { a*(der(x)^2 + der(y)^2)/2 + cos(x)/12*der(x)*der(y) }",
             "for some parameters the mass matrix is singular where a^2 - cos(x)^2/144 = 0",
         ),
+        // determinants that are not written out: eigenvalues that change their sign, or do not, or were not asked
+        (
+            "base { q[4] } lagrangian { dot(der(q), der(q))/2 \
+             + a*sin(q[0])*(der(q[0])*der(q[1]) + der(q[1])*der(q[2]) + der(q[2])*der(q[3])) }",
+            "for some parameters the mass matrix is singular in some states: eigenvalues of its block of 4 coupled rows \
+             change their sign",
+        ),
+        (
+            "base { q[4] } lagrangian { dot(der(q), der(q))/2 \
+             + sin(q[0])/4*(der(q[0])*der(q[1]) + der(q[1])*der(q[2]) + der(q[2])*der(q[3])) }",
+            "in which states the mass matrix may be singular was not asked of the block of 4 coupled rows",
+        ),
+        (
+            "base { q[4] } lagrangian { dot(der(q), der(q))/2 \
+             + a*(der(q[0])*der(q[1]) + der(q[1])*der(q[2]) + der(q[2])*der(q[3])) }",
+            "",
+        ),
+        // beside a pole, signs change there, too
+        (
+            "base { q[4] } lagrangian { dot(der(q), der(q))/2 \
+             + a/q[0]*(der(q[0])*der(q[1]) + der(q[1])*der(q[2]) + der(q[2])*der(q[3])) }",
+            "in which states the mass matrix may be singular was not asked of the block of 4 coupled rows",
+        ),
     ] {
         assert_eq!(told(sections), expected, "{sections}");
     }
