@@ -44,6 +44,10 @@ impl<T: Entry, const N: usize, const M: usize> Regulator<T, N, M> {
     /// What costs nothing is left alone: a place that is not weighed may drift. It is refused where it grows so that
     /// it leaves the range of the scalar within that time.
     ///
+    /// Both are said of modes that rounding leaves alone, as coordinates do that are such modes. In coordinates that mix
+    /// them with others it makes what neither decays nor grows do either, or cost something: some of those that are to be
+    /// refused are accepted there, and of places that may drift many are refused.
+    ///
     /// ```
     /// use nalgebra::matrix;
     /// use nonholonomic::control::Regulator;

@@ -20,6 +20,10 @@ use crate::{
 /// state at the end of a step and nothing before it, and makes the method drop what it has stored of that state alone;
 /// dense output leads to the corrected state. [`Statistics`] say how often that happened and how much it changed.
 ///
+/// States within a step, those of events among them, are on the constraints always. Where the end of a step is not projected
+/// the motion therefore jumps there by its drift, and a [`Trajectory`](crate::Trajectory), which goes on from states within a
+/// step to its end, is kept of methods that project after each.
+///
 /// Of a method that chooses its steps, the drift counts as error: a step that makes the correction larger by more than
 /// the tolerance, in the norm of that, is rejected and repeated shorter, as is one whose projection is due and does not
 /// find back. So that this is known of every step, how a projection would move its end is computed also where none is due.
@@ -162,7 +166,7 @@ where
         forget {}
         restart { started = false }
         keeps_positions { |this| this.method.keeps_positions() }
-        // what events and samples are given satisfies the constraints as ends of steps do, or is nothing
+        // what events and samples are given satisfies the constraints, as projected ends of steps do, or is nothing
         interpolated { |start, time, state| {
             match start.system.project(time, &mut state) {
                 Ok(()) => state,

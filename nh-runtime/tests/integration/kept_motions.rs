@@ -102,7 +102,9 @@ fn too_few_states_are_refused_and_the_step_is_taken_back() {
     };
     assert!(difference > permitted);
     assert!(
-        error.to_string().contains("keep more states of each step, as in `Trajectory<_, _, 6>`"),
+        error
+            .to_string()
+            .contains("keep more states of each step, as in `Trajectory<_, _, 6>`; of a `Projected` method"),
         "{error}"
     );
     let stands = motion.end().unwrap_or(0.0);
