@@ -19,7 +19,8 @@ pub struct Statistics {
     /// The iterations of implicit methods.
     pub iterations: u64,
     /// The time at which an explicit adaptive method has noticed that the equations are stiff: fifteen times its steps were
-    /// about as long as stability permits, and not as the tolerance does. An implicit method, or
+    /// about as long as stability permits, and not as the tolerance does, and a better estimate of the largest eigenvalue has
+    /// confirmed it. An implicit method, or
     /// [`Auto`](crate::methods::Auto), takes longer steps then. [`Bs23`](crate::Bs23) and methods of fixed step do not look.
     pub stiff_at: Option<f64>,
     /// How often [`Auto`](crate::methods::Auto) has gone from explicit to implicit steps, or back.

@@ -71,7 +71,7 @@ impl Display for RecordingError {
                 f,
                 "the polynomial through {nodes} states of a step is {difference:?} away from the dense output in \
                  `{component}` at t = {time:?}, where the method's tolerance permits {permitted:?}: keep more states \
-                 of each step, as in `Trajectory<_, _, {}>`; of a `Projected` method project after each step, as others jump",
+                 of each step, as in `Trajectory<_, _, {}>`, or, of a `Projected` method that does not, project after each step",
                 nodes.saturating_mul(2)
             ),
         }

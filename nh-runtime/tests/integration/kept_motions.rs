@@ -6,7 +6,8 @@ use std::ops::ControlFlow;
 use nonholonomic::prelude::*;
 use nonholonomic::{Method, RecordingError, Segment, Trajectory};
 
-use crate::systems::{Driven, Pendulum, Plane, Torque};
+use crate::projected::circling;
+use crate::systems::{Driven, Pendulum, Plane, Spring, Torque};
 
 const START: Plane<f64> = Plane { q: 1.0, p: 0.0 };
 
@@ -102,9 +103,7 @@ fn too_few_states_are_refused_and_the_step_is_taken_back() {
     };
     assert!(difference > permitted);
     assert!(
-        error
-            .to_string()
-            .contains("keep more states of each step, as in `Trajectory<_, _, 6>`; of a `Projected` method"),
+        error.to_string().contains("keep more states of each step, as in `Trajectory<_, _, 6>`"),
         "{error}"
     );
     let stands = motion.end().unwrap_or(0.0);
@@ -209,18 +208,28 @@ fn other_units_give_the_same_bits() {
 /// An oscillator with a relative tolerance alone: where it passes zero, a step may err by as much as before and after.
 #[test]
 fn what_passes_zero_is_kept() {
-    struct Spring;
-    impl Dynamics for Spring {
-        type State = Plane<f64>;
-        type Input = ();
-        fn derivative(&self, _t: f64, x: &Plane<f64>, (): &()) -> Plane<f64> {
-            Plane { q: x.p, p: -x.q }
-        }
-    }
     for phase in 0..200 {
         let (p, q) = (f64::from(phase) * 0.0314).sin_cos();
         let mut sim = Integrator::new(Spring, Vern9::new().rtol(1e-6).atol(0.0), 0.0, Plane { q, p });
         let mut motion: Trajectory<Plane<f64>, _> = Trajectory::new(Vec::new());
         sim.record(20.0, &mut motion).unwrap_or_else(|error| panic!("{phase}: {error}"));
     }
+}
+
+/// Where the end of a step is not projected, and what lies within is, more states of each step are no way out.
+#[test]
+fn of_seldom_projections_it_is_told_what_to_do() {
+    for every in [2, 3, 7] {
+        let mut sim = circling(Projected::new(Rk4::new(0.2), every));
+        let mut motion: Trajectory<Plane<f64>, _, 24> = Trajectory::new(Vec::new());
+        let error = sim.record(5.0, &mut motion).unwrap_err();
+        assert!(matches!(error, RecordingError::TooFewNodes { .. }), "{error:?}");
+        let told = error.to_string();
+        assert!(
+            told.ends_with("or, of a `Projected` method that does not, project after each step"),
+            "{told}"
+        );
+    }
+    let mut motion: Trajectory<Plane<f64>, _, 24> = Trajectory::new(Vec::new());
+    circling(Projected::new(Rk4::new(0.2), 1)).record(5.0, &mut motion).unwrap();
 }

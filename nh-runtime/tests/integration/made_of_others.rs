@@ -5,7 +5,7 @@ use nonholonomic::methods::Interruptible;
 use nonholonomic::prelude::*;
 use nonholonomic::{D, Invariants, Method, ProjectionError, Statistics};
 
-use crate::systems::Plane;
+use crate::systems::{Plane, Spring};
 
 /// A pendulum of length 1 in x and y, with g = 1: the velocities are accelerated along the circle, and drift off it.
 #[derive(Clone, Copy)]
@@ -124,15 +124,6 @@ fn a_level_is_kept_through_returns() {
 /// What rounding has taken from a large state is nothing of a small one.
 #[test]
 fn another_state_starts_without_what_the_last_one_lost() {
-    #[derive(Clone, Copy)]
-    struct Spring;
-    impl Dynamics for Spring {
-        type State = Plane<f64>;
-        type Input = ();
-        fn derivative(&self, _t: f64, x: &Plane<f64>, (): &()) -> Plane<f64> {
-            Plane { q: x.p, p: -x.q }
-        }
-    }
     fn check<M: Method<Spring> + Copy>(method: M) {
         let small = Plane { q: 1e-10, p: 0.0 };
         let mut sim = Integrator::new(Spring, method, 0.0, Plane { q: 1e10, p: 0.3 });

@@ -7,7 +7,7 @@ use crate::systems::Plane;
 
 /// q' = p, p' = −q on the circle q² + p² = 1.
 #[derive(Clone, Copy)]
-struct Circle {
+pub(crate) struct Circle {
     /// The radius below which projections fail.
     least: f64,
 }
@@ -37,7 +37,7 @@ impl Constrained for Circle {
 
 const START: Plane<f64> = Plane { q: 1.0, p: 0.0 };
 
-fn circling<M: Method<Circle>>(method: M) -> Integrator<Circle, M> {
+pub(crate) fn circling<M: Method<Circle>>(method: M) -> Integrator<Circle, M> {
     Integrator::new(Circle { least: 0.5 }, method, 0.0, START)
 }
 

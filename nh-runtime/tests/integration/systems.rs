@@ -54,6 +54,18 @@ impl Dynamics for Driven {
     }
 }
 
+/// q' = p, p' = −q.
+#[derive(Clone, Copy)]
+pub(crate) struct Spring;
+
+impl Dynamics for Spring {
+    type State = Plane<f64>;
+    type Input = ();
+    fn derivative(&self, _t: f64, x: &Plane<f64>, (): &()) -> Plane<f64> {
+        Plane { q: x.p, p: -x.q }
+    }
+}
+
 /// A pendulum with a torque, of any scalar type.
 #[derive(Clone, Copy)]
 pub(crate) struct Pendulum<T> {

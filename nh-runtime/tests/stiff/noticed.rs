@@ -3,6 +3,8 @@
 use nonholonomic::prelude::*;
 use nonholonomic::{D, Method};
 
+use crate::problems::{Numbers, Problem, VanDerPol};
+
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct Pair<T>(T, T);
 
@@ -58,19 +60,10 @@ fn fast_decay_is_noticed_by_every_explicit_method_that_looks() {
 
 #[test]
 fn it_is_noticed_where_hardly_more_than_rounding_is_permitted() {
-    fn check<M: Method<Oscillator> + Copy + core::fmt::Debug>(method: M) {
-        let mut sim = Integrator::new(Oscillator, method, 0.0, Pair(2.0, -0.66));
+    fn check<M: Method<VanDerPol> + Copy + core::fmt::Debug>(method: M) {
+        let mut sim = Integrator::new(VanDerPol, method, 0.0, Numbers(VanDerPol::START));
         sim.advance_to(1e-3).unwrap();
         assert!(sim.statistics().stiff_at.is_some(), "{method:?}");
-    }
-    /// Van der Pol's, in the time of its slow parts.
-    struct Oscillator;
-    impl Dynamics for Oscillator {
-        type State = Pair<f64>;
-        type Input = ();
-        fn derivative(&self, _: f64, &Pair(x, v): &Pair<f64>, (): &()) -> Pair<f64> {
-            Pair(v, ((1.0 - x * x) * v - x) * 1e6)
-        }
     }
     for rtol in [1e-4, 1e-6, 1e-8, 1e-10, 1e-11, 1e-12] {
         check(Dopri5::new().rtol(rtol));
@@ -121,27 +114,10 @@ struct Swings {
 }
 
 impl Dynamics for Swings {
-    type State = Four;
+    type State = Numbers<4>;
     type Input = ();
-    fn derivative(&self, _: f64, &Four([a, b, c, d]): &Four, (): &()) -> Four {
-        Four([b * self.ratio, -a * self.ratio, d, -c])
-    }
-}
-
-#[derive(Clone, Copy, Debug, PartialEq)]
-struct Four([f64; 4]);
-
-impl State for Four {
-    type Scalar = f64;
-    type Dim = D<4>;
-    fn to_array(&self) -> [f64; 4] {
-        self.0
-    }
-    fn from_array(components: [f64; 4]) -> Self {
-        Self(components)
-    }
-    fn names() -> [&'static str; 4] {
-        ["a", "b", "c", "d"]
+    fn derivative(&self, _: f64, &Numbers([a, b, c, d]): &Numbers<4>, (): &()) -> Numbers<4> {
+        Numbers([b * self.ratio, -a * self.ratio, d, -c])
     }
 }
 
@@ -149,7 +125,7 @@ impl State for Four {
 fn swings_are_not_stiff_however_little_is_permitted_where_they_cross_zero() {
     fn check<M: Method<Swings> + Copy + core::fmt::Debug>(method: M) {
         for (sizes, ratio) in [([1.0, 1.0], 1.0), ([1.0, 1e-3], 7.3), ([1e4, 1.0], 0.13), ([1.0, 1e3], 2.6)] {
-            let start = Four([0.6 * sizes[0], 0.8 * sizes[0], sizes[1], 0.0]);
+            let start = Numbers([0.6 * sizes[0], 0.8 * sizes[0], sizes[1], 0.0]);
             let told = format!("{method:?}: {sizes:?}, {ratio}");
             let mut sim = Integrator::new(Swings { ratio }, method, 0.0, start);
             sim.advance_to(1000.0 / ratio.max(1.0)).unwrap();
