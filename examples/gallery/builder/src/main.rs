@@ -2,13 +2,14 @@
 //! static files in `site`, which any server of files shows.
 
 use std::error::Error;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 use std::{env, fs};
 
 fn main() -> Result<(), Box<dyn Error>> {
     let gallery = Path::new(env!("CARGO_MANIFEST_DIR")).join("..");
-    let target = gallery.join("target");
+    // where this program was built, whose packages are the same
+    let target = env::var_os("CARGO_TARGET_DIR").map_or_else(|| gallery.join("target"), PathBuf::from);
     let cargo = env::var("CARGO").unwrap_or_else(|_| "cargo".to_owned());
     let built = Command::new(cargo)
         .current_dir(&gallery)
