@@ -1,6 +1,7 @@
 //! The rules of the house, held against its files: formula numbers, directions of imports, lengths of files; what pages
 //! say; that nothing is missing in a list.
 
+mod least_versions;
 mod lists;
 mod pages;
 
