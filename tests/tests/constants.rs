@@ -116,3 +116,48 @@ fn constants_are_handed_on_to_a_quotient() {
     assert!((Turning {}.outputs(0.0, &reduced, &()).p + 1.3 * 0.6).abs() < 1e-15);
     assert!(Turning::REPORT.contains("J[1] = 7/10"), "{}", Turning::REPORT);
 }
+
+/// Declares a motion whose mass, force and phase are numbers in which all digits of double precision cancel, or most.
+macro_rules! near {
+    ($Near:ident, { $($accuracy:tt)* }, $T:ident) => {
+        #[nonholonomic(
+            base { x }
+            lagrangian {
+                10^12 * (m - exp(pi * sqrt(163)) + 262537412640768744) * der(x)^2 / 2
+                    + 10^9 * (sqrt(2) - 1.41421356) * sin(x) + 10^18 * (atan(1 / 10^6) - 1 / 10^6) * x
+            }
+            emit { jacobian, taylor }
+            $($accuracy)*
+        )]
+        #[derive(Clone, Copy, Debug)]
+        struct $Near<$T> { m: $T }
+    };
+}
+
+near!(Fast, { accuracy { fast } }, T);
+near!(Balanced, {}, T);
+near!(Careful, { accuracy { careful } }, T);
+
+#[test]
+fn numbers_that_cancel_keep_their_digits() {
+    // to sixty digits: 7.4993·10⁻¹³, 2.3731·10⁻⁹, −3.3333·10⁻¹⁹
+    let (mass, force, push) = (0.749_927_402_801_814_3, 2.373_095_048_801_688_7, -0.333_333_333_333_133_3);
+    for x in [0.2_f64, 0.7, 2.5] {
+        for m in [0.0, 1e-12] {
+            let expected = (force * x.cos() + push) / (1e12 * m + mass);
+            let found = [
+                Fast { m }.derivative(0.0, &FastState { x, x_dot: 0.0 }, &()).x_dot,
+                Balanced { m }.derivative(0.0, &BalancedState { x, x_dot: 0.0 }, &()).x_dot,
+                Careful { m }.derivative(0.0, &CarefulState { x, x_dot: 0.0 }, &()).x_dot,
+                Balanced { m }.taylor::<3>(0.0, &BalancedState { x, x_dot: 0.0 }, &())[1].x_dot,
+            ];
+            for found in found {
+                assert!((found - expected).abs() < 8.0 * f64::EPSILON * expected.abs(), "{found} {expected}");
+            }
+        }
+        #[allow(clippy::cast_possible_truncation, reason = "the rounding is wanted")]
+        let (x, expected) = (x as f32, ((force * x.cos() + push) / mass) as f32);
+        let found = Balanced { m: 0.0_f32 }.derivative(0.0, &BalancedState { x, x_dot: 0.0 }, &()).x_dot;
+        assert!((found - expected).abs() < 8.0 * f32::EPSILON * expected.abs(), "{found} {expected}");
+    }
+}

@@ -63,7 +63,7 @@ fn the_force_of_the_robots_constraints() {
     for line in [
         "rates of psi1, psi2; the group: the declared symmetries of L and D, with the cyclic coordinates \
          that they move\n",
-        "invariant frame: body_x = (cos(theta))*x_dot + (sin(theta))*y_dot\n",
+        "velocity in the invariant frame: body_x = (cos(theta))*x_dot + (sin(theta))*y_dot\n",
     ] {
         assert!(report.contains(line), "{line}\n{report}");
     }

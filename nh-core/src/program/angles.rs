@@ -8,7 +8,7 @@
 //! sines of sums and those of their parts, each rounded for itself, do not break what cancels by the theorems.
 
 use super::nary::{Arena, Nary, Term};
-use crate::algebra::{Function, Rational};
+use crate::algebra::{Function, Rational, Residue};
 use crate::id::Id;
 use rustc_hash::{FxHashMap, FxHashSet};
 use std::collections::BTreeMap;
@@ -17,10 +17,16 @@ use std::rc::Rc;
 /// An angle as a combination of terms that are no sums.
 type Form = BTreeMap<Term, Rational>;
 
+/// Of so many pairs of angles it is asked whether one is the sum of the other and a third: of four hundred angles it is of
+/// all. Of more, what is found before is shared.
+const PAIRS: usize = 200_000;
+
 /// An angle whose sine or cosine is needed.
 struct Angle {
     term: Term,
     form: Form,
+    /// The value of the form at random numbers in the place of its terms: that of a sum is the sum of those of its parts.
+    value: Residue,
     /// How many sines and cosines are nested in it.
     depth: usize,
 }
@@ -41,14 +47,15 @@ pub(super) fn share_angles(arena: &mut Arena) -> bool {
 /// The two are nested no deeper than the angle itself: none of them contains its sine, nor one that is
 /// taken from it.
 fn from_other_angles(arena: &mut Arena, angles: &[Angle]) -> Vec<Term> {
-    let mut with_form: FxHashMap<&Form, Vec<usize>> = FxHashMap::default();
+    let mut with_value: FxHashMap<u64, Vec<usize>> = FxHashMap::default();
     for (index, angle) in angles.iter().enumerate() {
-        with_form.entry(&angle.form).or_default().push(index);
+        with_value.entry(angle.value.word()).or_default().push(index);
     }
     let mut order: Vec<usize> = (0..angles.len()).collect();
     order.sort_by_key(|index| std::cmp::Reverse(angles[*index].form.len()));
     let mut is_part = vec![false; angles.len()];
     let mut is_whole = vec![false; angles.len()];
+    let mut pairs = 0;
     for whole in order {
         if is_part[whole] {
             continue;
@@ -56,12 +63,19 @@ fn from_other_angles(arena: &mut Arena, angles: &[Angle]) -> Vec<Term> {
         let free = |index: &usize| {
             *index != whole && !is_whole[*index] && angles[*index].depth <= angles[whole].depth
         };
-        let found = (0..angles.len()).filter(free).find_map(|first| {
+        let firsts = (0..angles.len()).filter(free).take(PAIRS - pairs).inspect(|_| pairs += 1);
+        let found = { firsts }.find_map(|first| {
             let signs = [(false, false), (false, true), (true, false), (true, true)];
             let others = signs.into_iter().flat_map(|(minus, minus_first)| {
-                let rest = combination(&angles[whole].form, minus, &angles[first].form, minus == minus_first);
-                let others = with_form.get(&rest).into_iter().flatten().copied();
-                others.map(move |second| (second, minus, minus_first))
+                let signed = |value: Residue, is_minus: bool| if is_minus { -value } else { value };
+                let [whole, first] = [&angles[whole], &angles[first]];
+                let minus_rest = minus == minus_first;
+                let rest = signed(whole.value, minus) + signed(first.value, minus_rest);
+                let others = with_value.get(&rest.word()).into_iter().flatten().copied();
+                let is_rest = move |second: &usize| {
+                    angles[*second].form == combination(&whole.form, minus, &first.form, minus_rest)
+                };
+                others.filter(is_rest).map(move |second| (second, minus, minus_first))
             });
             let (second, minus, minus_first) =
                 others.filter(|(second, ..)| *second >= first && free(second)).min()?;
@@ -111,7 +125,9 @@ fn angles(arena: &Arena) -> Vec<Angle> {
         if let Nary::Apply(Function::Sin | Function::Cos, angle) = *arena.get(term)
             && known.insert(angle)
         {
-            angles.push(Angle { term: angle, form: form(arena, angle), depth: depths[angle.index()] });
+            let form = form(arena, angle);
+            let value = value(&form);
+            angles.push(Angle { term: angle, form, value, depth: depths[angle.index()] });
         }
     }
     angles
@@ -129,6 +145,15 @@ fn depths(arena: &Arena) -> Vec<usize> {
         depths[term.index()] = inside + usize::from(own);
     }
     depths
+}
+
+/// The value of a form at random numbers in the place of its terms.
+fn value(form: &Form) -> Residue {
+    let parts = form.iter().map(|(term, coefficient)| {
+        let coefficient = Residue::of(coefficient).unwrap_or(Residue::ZERO);
+        coefficient * Residue::mixed(47_000, term.index() as u64)
+    });
+    parts.fold(Residue::ZERO, |sum, part| sum + part)
 }
 
 fn form(arena: &Arena, angle: Term) -> Form {

@@ -18,7 +18,8 @@
 //! error of their function, and pass on that of the angle. Where a program divides, what elimination leaves of light
 //! inertias beside heavy ones may be smaller than an ulp of what they are made of: there the sine and the cosine of an
 //! angle are brought back to the circle, mathematics (60), and solutions of linear systems are refined, mathematics
-//! (61). Other functions and methods of the user's take corrected operands.
+//! (61). Other functions and methods of the user's take corrected operands. What numbers alone give only with rounding errors
+//! has none, since it becomes a number ([`Program::known_numbers`]).
 
 use super::fuse::fuse;
 use super::lower::{rename, without_dead_steps};
@@ -34,8 +35,9 @@ pub fn corrected(program: &Program) -> Program {
     let (steps, may_cancel, images) = Default::default();
     let mut corrector = Corrector { steps, may_cancel, images, defects: BTreeMap::new() };
     let pairs = pairs_beside_quotients(program);
+    let known = program.known_numbers();
     for (value, step) in program.steps.iter_ids() {
-        let image = corrector.step(step);
+        let image = if known.contains_key(&value) { corrector.as_it_is(step) } else { corrector.step(step) };
         corrector.images.push(image);
         if pairs.contains(&value) {
             corrector.turn_back(image.value);
@@ -200,6 +202,12 @@ impl Corrector {
         }
         let image = |old: Value| wholes.iter().find(|(o, _)| *o == old).map_or(old, |(_, new)| *new);
         self.exact(rename(step, &image))
+    }
+
+    /// A step that becomes a number.
+    fn as_it_is(&mut self, step: &Step) -> Estimate {
+        let step = rename(step, &|operand| self.of(operand).value);
+        self.exact(step)
     }
 
     fn exact(&mut self, step: Step) -> Estimate {

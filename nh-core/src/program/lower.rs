@@ -32,11 +32,13 @@ pub(super) fn lower(arena: &Arena) -> Program {
         known: FxHashMap::with_capacity_and_hasher(arena.len(), FxBuildHasher),
         values: vec![None; arena.len()],
         fixed: vec![false; arena.len()],
+        numbers: vec![false; arena.len()],
         names: BTreeMap::new(),
         operands: Vec::new(),
     };
     for term in arena.operands_first(&roots) {
         lowering.fixed[term.index()] = lowering.is_fixed(term);
+        lowering.numbers[term.index()] = lowering.is_of_numbers(term);
         let value = lowering.term(term, &is_used);
         if let Nary::Symbol(symbol) = arena.get(term) {
             lowering.note_name(value, *symbol);
@@ -61,6 +63,8 @@ struct Lowering<'a> {
     values: Vec<Option<Value>>,
     /// Which terms are made of numbers and parameters alone.
     fixed: Vec<bool>,
+    /// Which are made of numbers alone.
+    numbers: Vec<bool>,
     names: BTreeMap<Value, SymbolId>,
     /// Room for the operands of the present term.
     operands: Vec<Term>,
@@ -94,6 +98,17 @@ impl Lowering<'_> {
                 self.operands.iter().all(|operand| self.fixed[operand.index()])
             }
         }
+    }
+
+    /// Of a term of which [`Self::is_fixed`] has just told whether it is fixed.
+    fn is_of_numbers(&self, term: Term) -> bool {
+        let loads = match self.arena.get(term) {
+            Nary::Symbol(symbol) => !matches!(self.arena.sources.get(symbol), Some(Source::Value(_))),
+            _ => false,
+        };
+        self.fixed[term.index()]
+            && !loads
+            && self.operands.iter().all(|operand| self.numbers[operand.index()])
     }
 
     /// The value of a term that comes earlier.
@@ -255,18 +270,20 @@ impl Lowering<'_> {
             negative: *negative,
             is_product: self.uses[term.index()] == 1 && matches!(self.arena.get(*term), Nary::Product(_)),
         };
-        let (fixed, varying): (Vec<_>, Vec<_>) =
-            operands.iter().partition(|(term, _)| self.fixed[term.index()]);
-        let Operand { value, negative, .. } = if fixed.len() > 1 && !varying.is_empty() {
-            let (fixed, varying): (Vec<_>, Vec<_>) =
-                (fixed.into_iter().map(of).collect(), varying.into_iter().map(of).collect());
-            let first = self.signed_sum(&fixed);
-            let all: Vec<_> = std::iter::once(first).chain(varying).collect();
-            self.signed_sum(&all)
-        } else {
-            let all: Vec<_> = operands.iter().map(of).collect();
-            self.signed_sum(&all)
-        };
+        // numbers meet each other first, then parameters, then what varies
+        let mut all: Vec<(Operand, [bool; 2])> = operands
+            .iter()
+            .map(|operand| (of(operand), [&self.numbers, &self.fixed].map(|of| of[operand.0.index()])))
+            .collect();
+        for kind in 0..2 {
+            let (alike, others): (Vec<_>, Vec<_>) = all.iter().partition(|(_, is)| is[kind]);
+            if alike.len() > 1 && !others.is_empty() {
+                let alike: Vec<_> = alike.into_iter().map(|(operand, _)| operand).collect();
+                all = std::iter::once((self.signed_sum(&alike), [true; 2])).chain(others).collect();
+            }
+        }
+        let all: Vec<_> = all.into_iter().map(|(operand, _)| operand).collect();
+        let Operand { value, negative, .. } = self.signed_sum(&all);
         if negative { self.negative(value) } else { value }
     }
 

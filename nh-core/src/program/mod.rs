@@ -14,7 +14,8 @@
 //! [`accumulated`] differentiates step by step: `opened` leaves the unknowns of linear systems free, `tape` has the
 //! partial derivatives of all steps, `vertex_order` says in which order they are multiplied.
 //!
-//! Constants become numbers before 2 or after it (`fold`), or at last (`lower`), whichever is cheapest.
+//! Constants become numbers before 2 or after it (`fold`), or at last (`lower`), whichever is cheapest. What numbers alone
+//! give only with rounding errors becomes a number when it is printed (`known_numbers`).
 //!
 //! [`corrected`] makes a program carry its rounding errors along; [`error_growth`] compares programs by
 //! theirs, and [`units_lost`] finds terms that cancel identically. [`Recurrences`] extend a program from numbers to power series in the time.
@@ -30,6 +31,7 @@ mod fold;
 mod fuse;
 mod import;
 mod interpret;
+mod known_numbers;
 mod lower;
 mod measured_rounding;
 mod nary;

@@ -13,6 +13,7 @@ mod coincidences;
 mod derivatives;
 mod exponents;
 mod kept_digits;
+mod numbers_alone;
 mod shared_pairs;
 mod sums_at_scales;
 

@@ -97,7 +97,9 @@ fn frame(model: &Model, reduced: &Reduced) -> Vec<String> {
     let velocities = reduced.names.iter().zip(&frame.change.velocities);
     let changed = velocities.filter(|(name, _)| !declared.contains(name));
     changed
-        .map(|(name, row)| format!("invariant frame: {name} = {}", combination(&model.graph, row, &declared)))
+        .map(|(name, row)| {
+            format!("velocity in the invariant frame: {name} = {}", combination(&model.graph, row, &declared))
+        })
         .collect()
 }
 

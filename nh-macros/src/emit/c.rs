@@ -241,6 +241,8 @@ impl<'a> File<'a> {
         let signature = TABLE.iter().find(|signature| signature.name == name);
         let takes_input =
             signature.is_none_or(|signature| signature.takes_input) && self.context.input.is_some();
+        let program = program.with_known_numbers();
+        let program = &program.giving(&program.outputs);
         let mut writer =
             Writer { file: self, program, values: Table::new(), used: BTreeSet::new(), body: String::new() };
         for (value, step) in program.steps.iter_ids() {

@@ -44,6 +44,7 @@ pub(super) fn body_in_branches(
     program: &Program,
     (groups, angles): (&[usize], &Ident),
 ) -> (Body, Vec<Body>, usize) {
+    let program = &*program.with_known_numbers();
     let mut outputs = program.outputs.as_slice();
     let mut next = |count: usize| {
         let (group, rest) = outputs.split_at(count.min(outputs.len()));
@@ -82,6 +83,7 @@ pub(super) fn body_in_place(
     program: &Program,
     places: &[TokenStream],
 ) -> Body {
+    let program = &*program.with_known_numbers();
     let mut writer = Writer::new(context, scope, program, None);
     let mut before = Vec::with_capacity(places.len());
     for (value, place) in program.outputs.iter().zip(places) {
@@ -100,6 +102,7 @@ pub(super) fn body_in_place(
 }
 
 fn written(context: &Context, scope: &Scope, program: &Program, at_hand: Option<&Ident>) -> (Body, usize) {
+    let program = &*program.with_known_numbers();
     let mut writer = Writer::new(context, scope, program, at_hand);
     let body = writer.write(&program.outputs);
     (body, writer.angles)

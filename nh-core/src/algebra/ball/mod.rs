@@ -113,6 +113,18 @@ impl Ball {
         Rational::from_big(self.middle.clone(), BigInt::one() << self.bits).map_or(f64::NAN, |q| q.to_f64())
     }
 
+    /// The midpoint to 80 binary digits, where 72 of them are known.
+    pub(super) fn leading_digits(&self) -> Option<Rational> {
+        const GIVEN: u64 = 80;
+        const KNOWN: u64 = 72;
+        let length = self.middle.bits();
+        if self.radius.bits() + KNOWN > length {
+            return None;
+        }
+        let spare = length.saturating_sub(GIVEN).min(self.bits);
+        Rational::from_big(&self.middle >> spare, BigInt::one() << (self.bits - spare))
+    }
+
     fn checked(self) -> Enclosed {
         if self.middle.bits() + self.radius.bits() > LONGEST { Err(NoBall::TooLong) } else { Ok(self) }
     }

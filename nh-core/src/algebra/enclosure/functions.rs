@@ -234,7 +234,7 @@ impl Pass<'_> {
 }
 
 /// A function of every number of a ball.
-fn of_function(function: Function, x: &Ball) -> Enclosed {
+pub(in super::super) fn of_function(function: Function, x: &Ball) -> Enclosed {
     match function {
         Function::Sin => x.sine(),
         Function::Cos => x.cosine(),

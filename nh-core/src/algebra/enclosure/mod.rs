@@ -17,6 +17,7 @@ use super::node::{Function, Function2, Node};
 use super::number::Rational;
 use crate::id::{ExprId, Id, SymbolId};
 use crate::limits;
+pub(super) use functions::of_function;
 use rustc_hash::{FxHashMap, FxHashSet};
 
 /// Where an expression is evaluated.

@@ -22,6 +22,7 @@ pub(super) const FAMILIES: &[Family] = &[
     },
     Family { name: "mass that is a chain", source: mass_chain, sizes: &[10, 40, 140] },
     Family { name: "sum of sines", source: sines, sizes: &[100, 1000, 4000] },
+    Family { name: "sum of sines of odd multiples", source: odd_sines, sizes: &[100, 2000] },
     Family { name: "sum of shifted sines", source: shifted, sizes: &[100, 1000, 4000] },
     Family { name: "sum of powers", source: powers, sizes: &[30, 300, 1000] },
     Family { name: "power of a sum", source: |n| multinomial(n, 40), sizes: &[3, 10, 100] },
@@ -85,6 +86,14 @@ fn mass_chain(n: usize) -> String {
 fn sines(n: usize) -> String {
     declared(
         &format!("base {{ x }} lagrangian {{ m / 2 * der(x)^2 - sum(i in 0..{n}: sin(i * x)) }}"),
+        "m: f64",
+    )
+}
+
+/// Of no two of the angles the sum is a third one.
+fn odd_sines(n: usize) -> String {
+    declared(
+        &format!("base {{ x }} lagrangian {{ m / 2 * der(x)^2 - sum(i in 0..{n}: sin((2 * i + 1) * x)) }}"),
         "m: f64",
     )
 }

@@ -194,3 +194,21 @@ fn pages_link_to_what_exists() {
     assert!(seen > 15, "{seen}");
     assert!(missing.is_empty(), "{}", missing.join("\n"));
 }
+
+/// Who depends on the runtime alone has its nalgebra without that crate's macros, which documentation is compiled with.
+#[test]
+fn examples_take_no_macros_from_the_nalgebra_of_the_runtime() {
+    let folder = root().join("nh-runtime/src");
+    let guide = fs::read_dir(folder.join("guide")).unwrap().map(|entry| entry.unwrap().path());
+    let pages = guide.map(|path| (fs::read_to_string(&path).unwrap(), path));
+    let files = sources(&folder).into_iter().map(|(path, text)| (text, path));
+    let mut found = 0;
+    for (text, path) in pages.chain(files) {
+        for line in text.lines().filter(|line| line.contains("nonholonomic::nalgebra::")) {
+            found += 1;
+            let is_macro = |word: &str| ["vector", "matrix", "point", "stack"].contains(&word);
+            assert!(!words(line).any(is_macro), "{}: {line}", path.display());
+        }
+    }
+    assert!(found > 0, "the pages are elsewhere");
+}
