@@ -12,11 +12,13 @@ mod holonomic {
     mod hoop;
     mod kept_by_steps;
     mod kept_levels;
+    mod level_table;
     mod long_runs;
     mod long_swing;
     mod maps;
     mod out_of_reach;
     mod pendulum;
+    mod pins_in_line;
     mod plate;
     mod rattle;
     mod redundant;
