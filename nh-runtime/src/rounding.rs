@@ -158,16 +158,7 @@ pub(crate) fn without_noise<T: Scalar, const N: usize, const M: usize>(
     change: impl Fn(&[T; N]) -> [T; N],
     residual: impl Fn(&[T; N]) -> [T; M],
 ) -> Option<[T; N]> {
-    let (mut zeroed, mut others) = (*present, *moved);
-    let mut any = T::ZERO;
-    for ((x, moved), change) in zeroed.iter_mut().zip(&mut others).zip(moved) {
-        // three digits of it at most
-        let change = change.abs() * T::from_f64(1024.0);
-        let size = x.abs();
-        any = any.max(change.select_gt(size, size, T::ZERO));
-        *x = change.select_gt(size, T::ZERO, *x);
-        *moved = change.select_gt(size, T::ZERO, *moved);
-    }
+    let (zeroed, others) = without_digits(present, moved)?;
     let is_noise = || {
         let mut other = T::ZERO;
         let (here, few) = (change(present), few_roundings::<T>());
@@ -184,7 +175,7 @@ pub(crate) fn without_noise<T: Scalar, const N: usize, const M: usize>(
         T::ZERO.all_ge(other)
     };
     let holds = || are_rounding(&zeroed, &others, &residual).iter().all(|one| one.all_ge(T::ONE));
-    let is_left = !T::ZERO.all_ge(any) && !is_nothing(&others);
+    let is_left = !is_nothing(&others);
     let is_still = || is_settled(&others, &sizes(present), Some(preceding));
     let is_met = || {
         let mut open = T::ZERO;
@@ -207,6 +198,33 @@ pub(crate) fn without_noise<T: Scalar, const N: usize, const M: usize>(
         T::ZERO.all_ge(open)
     };
     (is_left && is_still() && holds() && is_met() && is_noise()).then_some(zeroed)
+}
+
+/// The variables, and their changes, with zero in the place of those that changed by no less than 2⁻¹⁰ of themselves; none if
+/// there are none of these, in any lane.
+fn without_digits<T: Scalar, const N: usize>(present: &[T; N], moved: &[T; N]) -> Option<([T; N], [T; N])> {
+    let (mut zeroed, mut others) = (*present, *moved);
+    let mut any = T::ZERO;
+    for ((x, moved), change) in zeroed.iter_mut().zip(&mut others).zip(moved) {
+        let change = change.abs() * T::from_f64(1024.0);
+        let size = x.abs();
+        any = any.max(change.select_gt(size, size, T::ZERO));
+        *x = change.select_gt(size, T::ZERO, *x);
+        *moved = change.select_gt(size, T::ZERO, *moved);
+    }
+    (!T::ZERO.all_ge(any)).then_some((zeroed, others))
+}
+
+/// The variables with zero in the place of those that the next change leaves no digits of, where the equations hold so as well:
+/// velocities of a machine at rest, which a search comes near to without end.
+pub(crate) fn with_zeros<T: Scalar, const N: usize, const M: usize>(
+    present: [T; N],
+    change: &[T; N],
+    residual: impl Fn(&[T; N]) -> [T; M],
+) -> [T; N] {
+    let zeroed = without_digits(&present, change).map(|(zeroed, _)| zeroed);
+    let holds = |x: &[T; N]| are_rounding(x, &[T::ZERO; N], &residual).iter().all(|one| one.all_ge(T::ONE));
+    zeroed.filter(holds).unwrap_or(present)
 }
 
 /// Whether all are zero, in every lane.

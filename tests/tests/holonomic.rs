@@ -5,6 +5,7 @@ mod holonomic {
     mod assembly;
     mod car_axis;
     mod collinear_cell;
+    mod coming_to_rest;
     mod delta;
     mod equal_parts;
     mod five_bar;
