@@ -182,7 +182,7 @@ pub fn trim<T: Real, const N: usize, const W: usize, const Q: usize>(
         })
     };
     let loops = Loops { names: steady.equations, independent: Q, depends: [true; W] };
-    let found = descend(guess, taken, &step, |x| Some(*x), |_| true, &loops);
+    let found = descend(guess, taken, step, |x| Some(*x), |_| true, &loops);
     // what comes to rest has come there
     let found = found.map(|found| with_zeros(found, &step(&found, &taken(&found)), |x| taken(x).0));
     let found = found.map_err(|error| match (undetermined.get(), error) {
