@@ -3,7 +3,9 @@
 
 use crate::arrays::all_finite;
 use crate::projection::{holds, largest};
-use crate::rounding::{are_rounding, further, grow, is_last, is_level, is_settled, left_over, sizes};
+use crate::rounding::{
+    are_rounding, further, grow, is_last, is_level, is_settled, left_over, sizes, without_noise,
+};
 use crate::{ProjectionError, Scalar, StateFault};
 
 /// The iterations after which a return is given up.
@@ -18,7 +20,8 @@ const MOST_ITERATIONS: u32 = 50;
 /// Where a variable is near to zero beside others, rounding is that of the terms of the equations: there it stops where
 /// changes no longer fall and residuals are rounding beside their terms. Where all variables are near to zero, as upright
 /// and at the origin, that is rounding of lengths inside the equations: residuals jump before and behind the way of the
-/// change. Lanes stop together, when the last one does. Derivatives that numbers carry converge by further iterations.
+/// change. A variable that rounding of the others changes by as much as it is becomes zero where the equations hold then: the
+/// table of a lift that stays level, of which each step leaves rounding of rounding. Lanes stop together, when the last one does. Derivatives that numbers carry converge by further iterations.
 ///
 /// # Errors
 /// If the changes do not vanish, or one is not finite.
@@ -61,6 +64,15 @@ pub fn newton<T: Scalar, const N: usize, const M: usize>(
                 break;
             }
             (is_there, further) = (true, further - 1);
+        } else if further == 0 {
+            let of_level = |preceding: [T; N]| {
+                let steps = (&preceding, &moved);
+                is_level(steps.0, steps.1).then(|| without_noise(&present, steps, &change, &residual))?
+            };
+            if let Some(zeroed) = preceding.and_then(of_level) {
+                present = zeroed;
+                break;
+            }
         }
         preceding = Some(moved);
     }
@@ -227,6 +239,29 @@ mod tests {
                 let change = |p: &[f64; 1]| [-square(p[0]) / (if root { p[0] } else { 2.0 * p[0] })];
                 let end = newton([start * height.sqrt()], change, never);
                 assert!(end.is_err(), "{height} {root} {start} {end:?}");
+            }
+        }
+    }
+
+    /// A table that stays level beside a height of rounding: each step leaves rounding of that in its angle.
+    #[test]
+    fn rounding_of_rounding_is_nothing() {
+        let height = |x: f64| ((x + 0.3) - 0.6) + 2e-17;
+        for unit in [1.0, 1e100, 1e-100] {
+            let residual = |p: &[f64; 3]| [height(p[0]), p[1] / unit, p[2], (p[1] / unit) * p[2]];
+            let signs = Cell::new(1.0);
+            let change = |p: &[f64; 3]| {
+                signs.set(-signs.get());
+                let noise = 1e-17 * signs.get() * height(p[0]);
+                [-height(p[0]), noise * unit - p[1], noise - p[2]]
+            };
+            // where nothing tells of them but their squares they are what is looked for
+            let of_squares = |p: &[f64; 3]| residual(p).map(|left| left * left);
+            assert!(newton([0.3, 1e-33 * unit, -1e-33], change, of_squares).is_err());
+            for start in [[0.3 + 1e-9, 0.0, 0.0], [0.3, 1e-33 * unit, -1e-33], [0.31, 0.3 * unit, 1e-3]] {
+                let [x, angle, other] = newton(start, change, residual).unwrap();
+                assert!((x - 0.3).abs() < 2e-16 && angle.abs() < 1e-30 * unit, "{start:?} {x} {angle}");
+                assert!(other.abs() < 1e-30, "{start:?} {other}");
             }
         }
     }

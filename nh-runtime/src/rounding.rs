@@ -121,22 +121,13 @@ pub(crate) fn are_rounding<T: Scalar, const N: usize, const M: usize>(
     residual: impl Fn(&[T; N]) -> [T; M],
 ) -> [T; M] {
     let here = residual(present);
-    let is_long = T::ONE + T::from_f64(1.0 / 1_099_511_627_776.0);
-    let of_precision =
-        |long: f64, short: f64| is_long.select_gt(T::ONE, T::from_f64(long), T::from_f64(short));
     // half of the digits, and by how much a change is enlarged to be seen
-    let part = of_precision(1.0 / 67_108_864.0, 1.0 / 4096.0);
+    let part = half_of_the_digits();
     let multiple = of_precision(1_048_576.0, 256.0);
-    let few = of_precision(1.0 / 2_251_799_813_685_248.0, 1.0 / 4_194_304.0);
+    let few = few_roundings();
     let (mut terms, mut changes, mut noise) = ([T::ZERO; M], [T::ZERO; M], [T::ZERO; M]);
     for pattern in 0..PATTERNS {
-        let displaced = |direction: &[T; N], by: T| {
-            let mut there = *present;
-            for (index, (x, along)) in (0_u32..).zip(there.iter_mut().zip(direction)) {
-                *x += by * T::from_f64(weight(index, pattern)) * *along;
-            }
-            residual(&there)
-        };
+        let displaced = |direction: &[T; N], by: T| residual(&displaced(present, direction, by, pattern));
         let note = |most: &mut [T; M], there: [T; M], unit: T| {
             for (most, (there, here)) in most.iter_mut().zip(there.iter().zip(&here)) {
                 *most = most.max((*there - *here).abs() / unit);
@@ -154,6 +145,121 @@ pub(crate) fn are_rounding<T: Scalar, const N: usize, const M: usize>(
         *all = most.select_gt(T::from_f64(8.0) * *noise, is_beside_terms, T::ONE);
     }
     all
+}
+
+/// The variables with zero in the place of those that changed by as much as they are, where the others change by rounding, all
+/// equations are rounding beside their terms then, some equation passes zero there with each of them, and a few roundings of the variables alter the change of those by as much, in every lane. What linear
+/// equations leave of such a variable is rounding of the other ones, which no further step makes less, and no term of
+/// its own equation tells of.
+#[cold]
+pub(crate) fn without_noise<T: Scalar, const N: usize, const M: usize>(
+    present: &[T; N],
+    (preceding, moved): (&[T; N], &[T; N]),
+    change: impl Fn(&[T; N]) -> [T; N],
+    residual: impl Fn(&[T; N]) -> [T; M],
+) -> Option<[T; N]> {
+    let (zeroed, others) = without_digits(present, moved)?;
+    let is_noise = || {
+        let mut other = T::ZERO;
+        let (here, few) = (change(present), few_roundings::<T>());
+        let mut noise = [T::ZERO; N];
+        for pattern in 0..PATTERNS {
+            let there = change(&displaced(present, present, few, pattern));
+            for (noise, (there, here)) in noise.iter_mut().zip(there.iter().zip(&here)) {
+                *noise = noise.max((*there - *here).abs());
+            }
+        }
+        for (noise, (all, kept)) in noise.iter().zip(moved.iter().zip(&others)) {
+            other = other.max((*all - *kept).abs().select_gt(*noise * T::from_f64(8.0), T::ONE, T::ZERO));
+        }
+        T::ZERO.all_ge(other)
+    };
+    let holds = || are_rounding(&zeroed, &others, &residual).iter().all(|one| one.all_ge(T::ONE));
+    let is_left = !is_nothing(&others);
+    let is_still = || is_settled(&others, &sizes(present), Some(preceding));
+    let is_met = || {
+        let mut open = T::ZERO;
+        let here = residual(&zeroed);
+        for (variable, (all, kept)) in moved.iter().zip(&others).enumerate() {
+            let by = (*all - *kept) * T::from_f64(1024.0);
+            let there = |by: T| {
+                let mut there = zeroed;
+                there.iter_mut().skip(variable).take(1).for_each(|x| *x += by);
+                residual(&there)
+            };
+            let rows = here.iter().zip(there(by)).zip(there(-by));
+            let crosses = rows.fold(T::ZERO, |crosses, ((here, ahead), behind)| {
+                let (ahead, behind) = (ahead - *here, behind - *here);
+                let bend = (ahead + behind).abs() * T::from_f64(8.0);
+                crosses.max(ahead.abs().select_gt(bend, T::ONE, T::ZERO))
+            });
+            open = open.max(by.abs().select_gt(T::ZERO, T::ONE - crosses, T::ZERO));
+        }
+        T::ZERO.all_ge(open)
+    };
+    (is_left && is_still() && holds() && is_met() && is_noise()).then_some(zeroed)
+}
+
+/// The variables, and their changes, with zero in the place of those that changed by no less than 2⁻¹⁰ of themselves; none if
+/// there are none of these, in any lane.
+fn without_digits<T: Scalar, const N: usize>(present: &[T; N], moved: &[T; N]) -> Option<([T; N], [T; N])> {
+    let (mut zeroed, mut others) = (*present, *moved);
+    let mut any = T::ZERO;
+    for ((x, moved), change) in zeroed.iter_mut().zip(&mut others).zip(moved) {
+        let change = change.abs() * T::from_f64(1024.0);
+        let size = x.abs();
+        any = any.max(change.select_gt(size, size, T::ZERO));
+        *x = change.select_gt(size, T::ZERO, *x);
+        *moved = change.select_gt(size, T::ZERO, *moved);
+    }
+    (!T::ZERO.all_ge(any)).then_some((zeroed, others))
+}
+
+/// The variables with zero in the place of those that the next change leaves no digits of, where the equations hold so as well:
+/// velocities of a machine at rest, which a search comes near to without end.
+pub(crate) fn with_zeros<T: Scalar, const N: usize, const M: usize>(
+    present: [T; N],
+    change: &[T; N],
+    residual: impl Fn(&[T; N]) -> [T; M],
+) -> [T; N] {
+    let zeroed = without_digits(&present, change).map(|(zeroed, _)| zeroed);
+    let holds = |x: &[T; N]| are_rounding(x, &[T::ZERO; N], &residual).iter().all(|one| one.all_ge(T::ONE));
+    zeroed.filter(holds).unwrap_or(present)
+}
+
+/// Whether all are zero, in every lane.
+fn is_nothing<T: Scalar>(all: &[T]) -> bool {
+    all.iter().all(|x| T::ZERO.all_ge(x.abs()))
+}
+
+/// Whether numbers have as many digits as `f64`, else as `f32`: the first of two, or the second.
+fn of_precision<T: Scalar>(long: f64, short: f64) -> T {
+    let is_long = T::ONE + T::from_f64(1.0 / 1_099_511_627_776.0);
+    is_long.select_gt(T::ONE, T::from_f64(long), T::from_f64(short))
+}
+
+/// The root of a rounding of 1.
+pub(crate) fn half_of_the_digits<T: Scalar>() -> T {
+    of_precision(1.0 / 67_108_864.0, 1.0 / 4096.0)
+}
+
+/// A few roundings of 1.
+fn few_roundings<T: Scalar>() -> T {
+    of_precision(1.0 / 2_251_799_813_685_248.0, 1.0 / 4_194_304.0)
+}
+
+/// The variables, moved along a direction, each by a number of its own.
+pub(crate) fn displaced<T: Scalar, const N: usize>(
+    present: &[T; N],
+    direction: &[T; N],
+    by: T,
+    pattern: u32,
+) -> [T; N] {
+    let mut there = *present;
+    for (index, (x, along)) in (0_u32..).zip(there.iter_mut().zip(direction)) {
+        *x += by * T::from_f64(weight(index, pattern)) * *along;
+    }
+    there
 }
 
 /// A number between 1 and 2, or −2 and −1, for each variable and pattern.

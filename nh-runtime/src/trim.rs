@@ -7,6 +7,7 @@ use core::fmt::{self, Display, Formatter};
 use crate::arrays::{all_finite, first_non_finite};
 use crate::assembly::{AssemblyError, Loops, descend};
 use crate::linear_model::{Parts, Reduced, Uncertain, beside, reduce};
+use crate::rounding::with_zeros;
 use crate::{Jet, Real};
 
 /// Why no steady motion was found.
@@ -182,6 +183,8 @@ pub fn trim<T: Real, const N: usize, const W: usize, const Q: usize>(
     };
     let loops = Loops { names: steady.equations, independent: Q, depends: [true; W] };
     let found = descend(guess, taken, step, |x| Some(*x), |_| true, &loops);
+    // what comes to rest has come there
+    let found = found.map(|found| with_zeros(found, &step(&found, &taken(&found)), |x| taken(x).0));
     let found = found.map_err(|error| match (undetermined.get(), error) {
         (Some(column), _) => TrimError::Undetermined { variable: name(&steady.variables, column) },
         (

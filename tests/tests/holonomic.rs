@@ -5,6 +5,7 @@ mod holonomic {
     mod assembly;
     mod car_axis;
     mod collinear_cell;
+    mod coming_to_rest;
     mod delta;
     mod equal_parts;
     mod five_bar;
@@ -12,11 +13,13 @@ mod holonomic {
     mod hoop;
     mod kept_by_steps;
     mod kept_levels;
+    mod level_table;
     mod long_runs;
     mod long_swing;
     mod maps;
     mod out_of_reach;
     mod pendulum;
+    mod pins_in_line;
     mod plate;
     mod rattle;
     mod redundant;

@@ -111,7 +111,14 @@ pub(crate) fn descend<T: Real, const N: usize, const M: usize>(
             part *= half;
         }
         let Some((next, there)) = accepted else {
-            return Err(no_solution(&here.0, &loops.names));
+            let further = |x: &[T; N]| step(x, &equations(x));
+            let zeroed = rounding::without_noise(&present, (&change, &change), further, |x| {
+                independent(equations(x).0)
+            });
+            // terms that move by far more than there is to correct cancel, since the equations are dependent there
+            let is_singular = asked.most <= T::EPSILON.sqrt();
+            let error = if is_singular { singular } else { no_solution };
+            return zeroed.ok_or_else(|| error(&here.0, &loops.names));
         };
         (present, here) = (next, there);
         if is_last {

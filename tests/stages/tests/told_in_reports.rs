@@ -33,6 +33,22 @@ fn reports_say_which_velocities_keep_their_name_and_have_another_value() {
     assert!(rates.contains("is y_dot + a*roll"), "{rates}");
 }
 
+/// What constraints say of velocities may be the rate of positions.
+#[test]
+fn integrable_constraints_are_pointed_to_holonomic() {
+    let is_told = |sections: &str| report(sections, FIELDS).contains("written in `holonomic`");
+    let space = "base { x, y, z } lagrangian { m/2*(der(x)^2 + der(y)^2 + der(z)^2) }";
+    assert!(is_told(&format!("{space} constraints {{ x*der(x) + y*der(y) = 0; }}")));
+    assert!(is_told(&format!("{space} constraints {{ der(y) = a*der(x); }}")));
+    assert!(is_told(&format!("{space} holonomic {{ z = a; }} constraints {{ x*der(x) + y*der(y) = 0; }}")));
+    assert!(!is_told(&format!("{space} constraints {{ der(z) = x*der(y); }}")));
+    assert!(!is_told(&format!("{space} holonomic {{ x^2 + y^2 = a^2; }}")));
+    assert!(!is_told(&format!("{space} distribution {{ der(x), der(y) }}")));
+    // no angles are there for a body that turns about one axis
+    let body = "basis { p, q, r } brackets so(3) { p, q, r } lagrangian { m/2*(p^2 + 2*q^2 + a*r^2) }";
+    assert!(!is_told(&format!("{body} constraints {{ p = 0; q = 0; }}")));
+}
+
 /// A motor on what constraints hold moves nothing.
 #[test]
 fn forces_that_do_not_act_on_the_motion_are_told() {
