@@ -26,7 +26,7 @@ const NEAREST: u32 = 40;
 /// converge as the numbers do, or from them.
 ///
 /// Where constraints are dependent, steps that do not change any more may lead anywhere. So what is left of each equation is
-/// asked to be less than half of the digits of what the largest component makes of it.
+/// asked to be less than half of the digits of what the components make of it.
 ///
 /// # Errors
 /// If the changes do not vanish, a step is not finite, or the equations are not met.
@@ -51,21 +51,29 @@ pub fn project<T: Scalar, const N: usize, const M: usize>(
     Err(refusal(MOST_ITERATIONS, &residual(&refined)))
 }
 
-/// Whether, in every lane, what is left of each equation is less than what the largest of the variables makes of it by half of
-/// the digits.
+/// Whether, in every lane, what is left of each equation is less by half of the digits than what the largest variable makes of
+/// it, and than what it was at the start or what the largest variable there makes of it: where steps lead far away, those at
+/// the end make enough of anything, and those at the start where they were far away.
 fn is_met<T: Scalar, const N: usize, const M: usize>(
     start: &[T; N],
     end: &[T; N],
     residual: impl Fn(&[T; N]) -> [T; M],
 ) -> bool {
     let left = residual(end);
-    let along = [largest(start).max(largest(end)); N];
-    let mut terms = [T::ZERO; M];
-    for pattern in 0..2 {
-        let there = residual(&displaced(end, &along, T::ONE, pattern));
-        for (terms, (there, here)) in terms.iter_mut().zip(there.iter().zip(&left)) {
-            *terms = terms.max((*there - *here).abs());
+    let raised = |most: [T; M], by: T| {
+        let mut terms = most;
+        for pattern in 0..2 {
+            let there = residual(&displaced(end, &[by; N], T::ONE, pattern));
+            for (terms, (there, here)) in terms.iter_mut().zip(there.iter().zip(&left)) {
+                *terms = terms.max((*there - *here).abs());
+            }
         }
+        terms
+    };
+    let before = raised(residual(start).map(|left| left.abs()), largest(start));
+    let mut terms = raised([T::ZERO; M], largest(end));
+    for (terms, before) in terms.iter_mut().zip(&before) {
+        *terms = before.select_gt(*terms, *terms, *before);
     }
     let half = half_of_the_digits::<T>();
     let open = left
@@ -215,6 +223,13 @@ mod tests {
         };
         let [x, y] = project([0.2, 0.1], rough, rows).unwrap();
         assert!((x + y - 1.0).abs() < 1e-15, "{x} {y}");
+        // nor far away, where variables make enough of any residual
+        let far = |_: &[f64; 2], _: &[f64; 2]| [1e20, 1.1 - 1e20];
+        let open = |[x, y]: &[f64; 2]| [x + y - 1.0, 0.1];
+        assert!(project([0.2, 0.1], far, open).is_err());
+        assert!(project([1e30, 0.1], |_, _| [0.9, 0.1], |[x, y]: &[f64; 2]| [x + y - 1.1, *x]).is_err());
+        // a start at rest is set in motion
+        assert!(project([0.0; 2], |_, _| [0.5; 2], rows).is_ok());
     }
 
     #[test]
