@@ -70,7 +70,7 @@ fn is_met<T: Scalar, const N: usize, const M: usize>(
         }
         terms
     };
-    let before = raised(residual(start).map(|left| left.abs()), largest(start));
+    let before = raised(residual(start).map(T::abs), largest(start));
     let mut terms = raised([T::ZERO; M], largest(end));
     for (terms, before) in terms.iter_mut().zip(&before) {
         *terms = before.select_gt(*terms, *terms, *before);
