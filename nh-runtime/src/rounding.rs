@@ -147,10 +147,10 @@ pub(crate) fn are_rounding<T: Scalar, const N: usize, const M: usize>(
     all
 }
 
-/// The variables with zero in the place of those that changed by as much as they are, where the others change by rounding, all
-/// equations are rounding beside their terms then, some equation passes zero there with each of them, and a few roundings of the variables alter the change of those by as much, in every lane. What linear
-/// equations leave of such a variable is rounding of the other ones, which no further step makes less, and no term of
-/// its own equation tells of.
+/// The variables with zero in the place of those that changed by as much as they are: where the others change by rounding, all
+/// equations are rounding beside their terms with these zeros, some equation passes zero there with each of them, and a few
+/// roundings of the variables alter the change of each by an eighth of it or more. What is left of such a variable is rounding
+/// of the other ones, which no further step makes less, and no term of its own equation tells of.
 #[cold]
 pub(crate) fn without_noise<T: Scalar, const N: usize, const M: usize>(
     present: &[T; N],
