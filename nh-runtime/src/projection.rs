@@ -40,26 +40,36 @@ pub fn project<T: Scalar, const N: usize, const M: usize>(
     }
     let found = converge(start, NEAREST, &step, &residual)?;
     // derivatives stay with the numbers that they belong to
-    if T::DERIVATIVES > 0 || is_met(&start, &found, &residual) {
+    if T::DERIVATIVES > 0 {
         return Ok(found);
     }
-    // where constraints are nearly dependent a step has few digits, and where they are it leads anywhere
+    let left = of_its_terms(&start, &found, &residual);
+    if half_of_the_digits::<T>().all_ge(left) {
+        return Ok(found);
+    }
+    // where constraints are nearly dependent a step has few digits, and where they are it has none and leads anywhere
+    if !T::from_f64(0.125).all_ge(left) {
+        return Err(refusal(NEAREST, &residual(&found)));
+    }
     let refined = converge(found, 0, &step, &residual)?;
-    if is_met(&start, &refined, &residual) {
+    if half_of_the_digits::<T>().all_ge(of_its_terms(&start, &refined, &residual)) {
         return Ok(refined);
     }
     Err(refusal(MOST_ITERATIONS, &residual(&refined)))
 }
 
-/// Whether, in every lane, what is left of each equation is less by half of the digits than what the largest variable makes of
-/// it, and than what it was at the start or what the largest variable there makes of it: where steps lead far away, those at
-/// the end make enough of anything, and those at the start where they were far away.
-fn is_met<T: Scalar, const N: usize, const M: usize>(
+/// The largest part, among equations, that what is left of one is of its terms: of what the largest variable makes of it, and of
+/// what it was at the start or what the largest variable there makes of it. Where steps lead far away, variables at the end make
+/// enough of anything, and those at the start where they were far away.
+fn of_its_terms<T: Scalar, const N: usize, const M: usize>(
     start: &[T; N],
     end: &[T; N],
     residual: impl Fn(&[T; N]) -> [T; M],
-) -> bool {
+) -> T {
     let left = residual(end);
+    if !all_finite(&left) {
+        return T::ONE;
+    }
     let raised = |most: [T; M], by: T| {
         let mut terms = most;
         for pattern in 0..2 {
@@ -71,16 +81,14 @@ fn is_met<T: Scalar, const N: usize, const M: usize>(
         terms
     };
     let before = raised(residual(start).map(T::abs), largest(start));
-    let mut terms = raised([T::ZERO; M], largest(end));
-    for (terms, before) in terms.iter_mut().zip(&before) {
-        *terms = before.select_gt(*terms, *terms, *before);
+    let terms = raised([T::ZERO; M], largest(end));
+    let mut part = T::ZERO;
+    for ((left, terms), before) in left.iter().zip(&terms).zip(&before) {
+        let terms = before.select_gt(*terms, *terms, *before);
+        let of_terms = terms.select_gt(T::ZERO, left.abs() / terms, T::ONE);
+        part = part.max(left.abs().select_gt(T::ZERO, of_terms, T::ZERO));
     }
-    let half = half_of_the_digits::<T>();
-    let open = left
-        .iter()
-        .zip(&terms)
-        .fold(T::ZERO, |open, (left, terms)| open.max(left.abs().select_gt(*terms * half, T::ONE, T::ZERO)));
-    T::ZERO.all_ge(open)
+    part
 }
 
 /// The limit of y := step(start, y) from y = start for some iterations, and of y := step(y, y) after these.

@@ -150,10 +150,8 @@ fn a_snakeboard_is_driven_through_a_quarter_turn() {
                 else {
                     panic!("{error:?}");
                 };
-                // or in the second of the fixed steps after it, of which the first starts on constraints that hold
-                let near = 0.02_f64.max(2.01 / 64.0 * phi_dot / PI);
                 let turn = quarter(time);
-                assert!(turn.min(1.0 - turn) < near, "{turn} {error:?}");
+                assert!(turn.min(1.0 - turn) < 0.02, "{turn} {error:?}");
             }
         }
     }

@@ -30,11 +30,11 @@ impl Program {
             let is_number = !matches!(step, Step::SinCos(_) | Step::Solve { .. } | Step::Component(..));
             is_constant[value.index()] && is_number && !step.is_leaf()
         });
-        let mut computed = self.clone();
-        computed.outputs = are_computed.map(|(value, _)| value).collect();
-        if computed.outputs.is_empty() {
+        let outputs: Vec<Value> = are_computed.map(|(value, _)| value).collect();
+        if outputs.is_empty() {
             return BTreeMap::new();
         }
+        let mut computed = Self { outputs, ..self.clone() };
         let bounds = interpret_in(&computed, |_| Bounded::number(&Rational::ZERO));
         let bounds: Vec<_> = computed.outputs.iter().copied().zip(bounds).collect();
         let loses = |bounded: &Bounded| {
