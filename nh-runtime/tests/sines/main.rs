@@ -1,7 +1,7 @@
 //! The error of the runtime's own sine and cosine, which [`Fast`] numbers share with lanes, in units in the last place,
 //! against references of twice the digits.
 //!
-//! Over every number of f32 and fifty million of f64, two and a half minutes of processor time, shared by all cores:
+//! Over every number of f32 and fifty million of f64, two minutes of processor time, shared by all cores:
 //!
 //! ```sh
 //! cargo test --release -p nonholonomic --test sines -- --nocapture
