@@ -373,11 +373,15 @@ fn off_constraints(
     (component, correction): (&str, f64),
     way_out: &str,
 ) -> fmt::Result {
-    write!(
-        f,
-        "the given state leaves a residual of {residual:?} in {place}, and a return to the constraints would move \
-         `{component}` by {correction:?}: give a state that satisfies them, or {way_out} it first"
-    )
+    write!(f, "the given state leaves a residual of {residual:?} in {place}, and ")?;
+    if correction.is_finite() {
+        write!(f, "a return to the constraints would move `{component}` by {correction:?}")?;
+    } else {
+        f.write_str(
+            "no return to the constraints was found from there: their rates may be dependent at such a state, or it is far off",
+        )?;
+    }
+    write!(f, ": give a state that satisfies them, or {way_out} it first")
 }
 
 impl Error for IntegrationError {

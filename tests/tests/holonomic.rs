@@ -9,6 +9,7 @@ mod holonomic {
     mod delta;
     mod equal_parts;
     mod five_bar;
+    mod folded_links;
     mod four_bar;
     mod hoop;
     mod kept_by_steps;

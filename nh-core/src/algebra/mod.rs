@@ -49,6 +49,7 @@ mod real_points;
 mod real_rank;
 mod regular_points;
 mod residue_steps;
+mod shared_terms;
 mod short_arguments;
 mod sign_parity;
 mod signature;

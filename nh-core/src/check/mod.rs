@@ -60,7 +60,7 @@ pub use impact_rows::{Between, Impact, ImpactRow, impacts};
 pub use kind::Kind;
 pub use kinematics::{Motion, kinematics};
 pub use orthonormal::orthonormal;
-pub(crate) use parts_of_positions::points_shown;
+pub(crate) use parts_of_positions::{LesserPart, points_shown};
 pub use positions::{Positions, positions};
 pub(crate) use regularity::with_positive;
 pub use regularity::{

@@ -1,8 +1,9 @@
 //! Position constraints that could not be solved for anything: which of them, and of the constraints on velocities beside
 //! them, are independent is asked at points of N that are found modulo powers of primes.
 
+use super::dependence::place_of;
 use super::evidence::{listed, name_of};
-use crate::algebra::Matrix;
+use crate::algebra::{Graph, Matrix, Node};
 use crate::geometry::{Manifold, NearManifold, RowsOnPart, rows_on_parts};
 use crate::id::{ConstraintId, ExprId, Id, SymbolId};
 use crate::limits::attempt;
@@ -60,6 +61,59 @@ fn chosen_part(parts: Vec<RowsOnPart>, sections: usize) -> (Option<RowsOnPart>, 
     elsewhere.sort_unstable();
     elsewhere.dedup();
     (parts.into_iter().find(|part| Some(part.rows.len()) == chosen), elsewhere)
+}
+
+/// A part of N that is not the one that is meant.
+#[derive(Clone, Debug)]
+pub struct LesserPart {
+    /// ` where s = 0`; none if only points of it were found.
+    pub place: Option<String>,
+    /// How many rates are independent there.
+    pub rank: usize,
+}
+
+/// Takes the parts of N away where fewer rates are independent than on another on which something moves, as where the
+/// links of a rhombus are folded onto one another; as with [`chosen_part`], with how many are independent where that was
+/// asked at points. There multipliers are not determined, which is noticed. An equation that is written as a product says
+/// "this or that", and no part is taken away: which is meant can be written.
+///
+/// # Errors
+/// Why a rank could not be found.
+pub(super) fn without_lesser_parts(
+    model: &mut Model,
+    manifold: &mut Manifold,
+    rows: &Matrix,
+    at_points: Option<usize>,
+) -> Result<Vec<LesserPart>, String> {
+    let moving: Vec<SymbolId> = model.coordinates.iter().map(|coordinate| coordinate.symbol).collect();
+    if model.positions.iter().any(|position| is_product(&model.graph, position.value, &moving)) {
+        return Ok(Vec::new());
+    }
+    let mut ranks = Vec::new();
+    for part in manifold.parts() {
+        let restricted = part.restrict_matrix(&mut model.graph, rows);
+        ranks.push(model.graph.generic_rank(&restricted)?);
+    }
+    let most = |limit: usize| ranks.iter().copied().filter(|rank| *rank < limit).max();
+    let meant = at_points.or_else(|| most(model.sections.len())).or_else(|| most(usize::MAX)).unwrap_or(0);
+    if ranks.iter().all(|rank| *rank < meant) {
+        return Ok(Vec::new());
+    }
+    let lesser = manifold.parts().zip(&ranks).filter(|(_, rank)| **rank < meant);
+    let lesser = lesser.map(|(part, rank)| {
+        let is_named = !manifold.own_images(part.images()).is_empty();
+        LesserPart { place: is_named.then(|| place_of(model, manifold, part)), rank: *rank }
+    });
+    let lesser: Vec<LesserPart> = lesser.collect();
+    let mut is_kept = ranks.iter().map(|rank| *rank >= meant);
+    manifold.keep_parts(|_| is_kept.next().unwrap_or(true));
+    Ok(lesser)
+}
+
+/// Whether a function is written as a product of several that vanish.
+fn is_product(graph: &Graph, function: ExprId, moving: &[SymbolId]) -> bool {
+    let Node::Product { factors, .. } = graph.node(function) else { return false };
+    factors.iter().filter(|(base, power)| !power.is_negative() && graph.depends_on(*base, moving)).count() > 1
 }
 
 /// So many equations that nothing moves where they are independent, which they were not asked to be on N.

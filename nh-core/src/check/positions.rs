@@ -7,7 +7,9 @@ use super::empty_entries::{Equation, empty_entries, told};
 use super::evidence::{listed, name_of, shown};
 use super::kinematics::Motion;
 use super::no_force::{position_without_force, touching_each_other};
-use super::parts_of_positions::{Unsolved, part_of_positions, rates_on_part, unknown_motion};
+use super::parts_of_positions::{
+    LesserPart, Unsolved, part_of_positions, rates_on_part, unknown_motion, without_lesser_parts,
+};
 use super::whole_base::beside_positions;
 use crate::algebra::{Demand, Graph, Matrix};
 use crate::geometry::{Algebroid, Manifold, NearManifold, RowsOnPart};
@@ -28,8 +30,8 @@ pub struct Positions {
     pub unsolved: Vec<ExprId>,
     /// The part of N where it was asked which are independent, if some were not solved and points were found.
     pub part: Option<RowsOnPart>,
-    /// How many are independent on other parts that points were found of.
-    pub elsewhere: Vec<usize>,
+    /// Other parts, on which fewer are independent.
+    pub elsewhere: Vec<LesserPart>,
     /// A^a_α = ρ^i_α ∂_i f^a, a row for each of the independent ones.
     pub jacobian: Matrix,
     /// How many rates are independent, and how many dimensions the equations take away, if these are more: then one of
@@ -102,9 +104,18 @@ pub fn positions(
     if !violations.is_empty() {
         return Err(violations);
     }
+    let mut counts = Vec::new();
     if !found.unsolved.is_empty() {
-        (found.part, found.elsewhere) = part_of_positions(model, &found.where_unsolved(), &rows);
+        (found.part, counts) = part_of_positions(model, &found.where_unsolved(), &rows);
     }
+    if found.unsolved.is_empty() || found.part.is_some() {
+        let at_points = found.part.as_ref().map(|part| part.rows.len());
+        if let Ok(lesser) = without_lesser_parts(model, &mut found.manifold, &rows, at_points) {
+            found.elsewhere = lesser;
+        }
+    }
+    counts.retain(|count| found.elsewhere.iter().all(|lesser| lesser.rank != *count));
+    found.elsewhere.extend(counts.into_iter().map(|rank| LesserPart { place: None, rank }));
     independent(model, &rows, &mut found)?;
     if !found.unsolved.is_empty() && found.part.is_none() && model.positions.len() >= model.sections.len() {
         return Err(vec![unknown_motion(model)]);

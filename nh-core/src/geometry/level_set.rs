@@ -6,6 +6,7 @@
 
 use super::manifold::Manifold;
 use super::solutions::Ease;
+use super::ways::ways_to_vanish;
 use crate::algebra::{Graph, Node, Verdict, sample};
 use crate::id::{ExprId, SymbolId};
 use crate::limits::{attempt, spent};
@@ -34,8 +35,7 @@ impl Manifold {
         [coordinates, parameters]: [&[SymbolId]; 2],
     ) -> NearManifold {
         let charted: Vec<SymbolId> = parameters.iter().chain(&base.chart).copied().collect();
-        let further: [(Ease, &[SymbolId]); 3] =
-            [(Ease::Linear, &charted), (Ease::Root, &charted), (Ease::Root, coordinates)];
+        let further: [Way; 3] = [(Ease::Linear, &charted), (Ease::Root, &charted), (Ease::Root, coordinates)];
         Self::by_ways(graph, base, functions, [coordinates, parameters], &further)
     }
 
@@ -51,16 +51,36 @@ impl Manifold {
     }
 
     /// Where functions vanish, each solved for a coordinate by a division, lengths before angles, or in the first of
-    /// some further ways.
+    /// some further ways: without the terms that they share, if all can be solved then.
     fn by_ways(
         graph: &mut Graph,
         base: &Self,
         functions: &[ExprId],
+        symbols: [&[SymbolId]; 2],
+        further: &[Way],
+    ) -> NearManifold {
+        let shorter = less_one_another(graph, functions);
+        let mut found = None;
+        if shorter != functions {
+            let apart = Self::in_order(graph, base, &shorter, symbols, (further, Roots::AfterProducts));
+            found = apart.unsolved.is_empty().then_some(apart);
+        }
+        let mut found = found
+            .unwrap_or_else(|| Self::in_order(graph, base, functions, symbols, (further, Roots::Always)));
+        found.manifold.note_roots_of(graph, functions);
+        found
+    }
+
+    /// The same of functions as they are, with roots taken late or wherever nothing easier is left.
+    fn in_order(
+        graph: &mut Graph,
+        base: &Self,
+        functions: &[ExprId],
         [coordinates, parameters]: [&[SymbolId]; 2],
-        further: &[(Ease, &[SymbolId])],
+        (further, roots): (&[Way], Roots),
     ) -> NearManifold {
         let (angles, lengths) = angles_and_lengths(graph, functions, coordinates);
-        let mut ways: Vec<(Ease, &[SymbolId])> = vec![
+        let mut ways: Vec<Way> = vec![
             (Ease::Number, &lengths),
             (Ease::Number, &angles),
             (Ease::Linear, &lengths),
@@ -68,7 +88,7 @@ impl Manifold {
         ];
         ways.extend(further);
         let moving = [coordinates, &base.chart].concat();
-        let search = Search { functions, parameters, moving: &moving, ways: &ways, start: spent() };
+        let search = Search { functions, parameters, moving: &moving, ways: &ways, roots, start: spent() };
         let near = |graph: &mut Graph, start: &Self, functions: &[ExprId]| {
             let found = Search { functions, ..search }.near(graph, start.clone());
             (found.manifold, found.unsolved)
@@ -82,10 +102,34 @@ impl Manifold {
             part.images.iter().all(|(symbol, image)| !parameters.contains(symbol) || of_coordinates(*image))
         });
         manifold.open.extend(base.open.iter().cloned());
-        manifold.note_roots_of(graph, functions);
         NearManifold { manifold, unsolved }
     }
 }
+
+/// When roots are taken.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Roots {
+    /// Where no function that is left is a product: its factors may do without.
+    AfterProducts,
+    Always,
+}
+
+/// Functions, each less multiples of earlier ones as far as it depends on less then: so no root gets into what all of them say
+/// of a few.
+fn less_one_another(graph: &mut Graph, functions: &[ExprId]) -> Vec<ExprId> {
+    let mut found: Vec<ExprId> = Vec::with_capacity(functions.len());
+    for function in functions {
+        let mut left = *function;
+        for earlier in &found {
+            left = graph.less_a_multiple(left, *earlier).unwrap_or(left);
+        }
+        found.push(left);
+    }
+    found
+}
+
+/// How functions are solved, and for what.
+type Way<'a> = (Ease, &'a [SymbolId]);
 
 /// What functions are solved for, and by which ways.
 #[derive(Clone, Copy)]
@@ -93,7 +137,8 @@ struct Search<'a> {
     functions: &'a [ExprId],
     parameters: &'a [SymbolId],
     moving: &'a [SymbolId],
-    ways: &'a [(Ease, &'a [SymbolId])],
+    ways: &'a [Way<'a>],
+    roots: Roots,
     start: u64,
 }
 
@@ -119,17 +164,40 @@ impl Search<'_> {
             .map(|index| (*index, manifold.restrict(graph, self.functions[*index])))
             .collect();
         let holds = restricted.iter().find(|(_, function)| graph.zero_test(*function) == Verdict::Zero);
-        let solved = holds.map(|(index, _)| *index).or_else(|| {
-            self.ways.iter().find_map(|(ease, unknowns)| {
-                let solved = restricted.iter().find(|(_, function)| {
-                    let is_meant =
-                        |graph: &mut Graph, solution| is_meant(graph, *function, solution, self.parameters);
-                    manifold.solve(graph, *function, (unknowns, self.moving), *ease, &is_meant)
+        if let Some((index, _)) = holds {
+            return Some((*index, manifold));
+        }
+        let (roots, divisions): (Vec<Way>, Vec<Way>) =
+            self.ways.iter().partition(|(ease, _)| matches!(ease, Ease::Root));
+        let mut solved = self.solved(graph, &mut manifold, &restricted, &divisions);
+        if solved.is_none() {
+            let waits = self.roots == Roots::AfterProducts
+                && restricted.iter().any(|(_, function)| {
+                    ways_to_vanish(graph, *function, self.moving).is_some_and(|ways| ways.is_exact)
                 });
-                solved.map(|(index, _)| *index)
-            })
-        });
+            if !waits {
+                solved = self.solved(graph, &mut manifold, &restricted, &roots);
+            }
+        }
         solved.map(|index| (index, manifold))
+    }
+
+    /// The first of some functions on a manifold that is solved in the first of some ways.
+    fn solved(
+        &self,
+        graph: &mut Graph,
+        manifold: &mut Manifold,
+        restricted: &[(usize, ExprId)],
+        ways: &[Way],
+    ) -> Option<usize> {
+        ways.iter().find_map(|(ease, unknowns)| {
+            let solved = restricted.iter().find(|(_, function)| {
+                let is_meant =
+                    |graph: &mut Graph, solution| is_meant(graph, *function, solution, self.parameters);
+                manifold.solve(graph, *function, (unknowns, self.moving), *ease, &is_meant)
+            });
+            solved.map(|(index, _)| *index)
+        })
     }
 }
 

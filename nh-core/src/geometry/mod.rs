@@ -19,6 +19,7 @@ mod manifold;
 mod momentum_level;
 mod orbits;
 mod parts;
+mod parts_with_points;
 mod pivot;
 mod rank;
 mod solutions;

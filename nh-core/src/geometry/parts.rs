@@ -108,8 +108,9 @@ impl Manifold {
                 None if start.is_exact => solved.push(part),
                 None => match part.zero_tests(graph, functions) {
                     Verdict::Zero => solved.push(part),
-                    Verdict::NonZero(_) => {}
-                    Verdict::Unknown(_) => unsolved.push((start, part, all())),
+                    // with |z| for a root of z² they may vanish for one sign of z and not for the other
+                    Verdict::NonZero(_) if !part.has_roots_of_squares(graph) => {}
+                    _ => unsolved.push((start, part, all())),
                 },
             }
         }
@@ -186,6 +187,12 @@ impl Manifold {
             }
         }
         verdict
+    }
+
+    /// Whether images have roots of what is a square, so that they are other functions elsewhere.
+    fn has_roots_of_squares(&self, graph: &Graph) -> bool {
+        let images: Vec<ExprId> = self.images.iter().map(|(_, image)| *image).collect();
+        graph.radicands(&images).into_iter().any(|radicand| graph.is_square_everywhere(radicand))
     }
 
     /// This part, where functions vanish besides that could not be solved.
@@ -270,12 +277,7 @@ impl Manifold {
         let mut further = Vec::new();
         for part in self.parts() {
             let Some((_, radicand)) = part.shared_root(graph, functions) else { continue };
-            let mut other = part.alone();
-            let (symbols, images): (Vec<SymbolId>, Vec<ExprId>) = other.images.iter().copied().unzip();
-            let images = graph.with_the_other_root(&images, radicand);
-            other.radicands = graph.with_the_other_root(&other.radicands, radicand);
-            other.images = symbols.into_iter().zip(images).collect();
-            further.push(other);
+            further.push(part.with_the_other_root(graph, radicand));
         }
         let mut is_found = !further.is_empty();
         self.others.extend(further);
@@ -371,31 +373,6 @@ impl Manifold {
                 signs.iter().all(|part| part.zero_tests(graph, &[squares]).is_zero()).then(|| signs.to_vec())
             })
             .unwrap_or_default()
-    }
-
-    /// Forgets parts that have no points: those whose equations, with what is required otherwise, contradict each other.
-    pub(crate) fn keep_parts_with_points(&mut self, graph: &mut Graph, demands: &[(ExprId, Demand)]) {
-        if self.others.is_empty() && self.open.is_empty() {
-            return;
-        }
-        let mut has_points = |images: &[(SymbolId, ExprId)], functions: &[ExprId], radicands: &[ExprId]| {
-            let mut all = demands.to_vec();
-            for (symbol, image) in images {
-                let symbol = graph.symbol(*symbol);
-                all.push((graph.formula(symbol - image), Demand::Zero));
-            }
-            all.extend(functions.iter().map(|function| (*function, Demand::Zero)));
-            all.extend(radicands.iter().map(|radicand| (*radicand, Demand::NotNegative)));
-            graph.contradiction(&all).is_none()
-        };
-        let mut open = std::mem::take(&mut self.open);
-        open.retain(|part| has_points(&part.images, &part.functions, &[]));
-        let mut parts: Vec<Self> = self.parts().map(Self::alone).collect();
-        parts.retain(|part| has_points(&part.images, &[], &part.radicands));
-        if let Some(first) = (!parts.is_empty()).then(|| parts.remove(0)) {
-            *self = Self { others: parts, ..first };
-        }
-        self.open = open;
     }
 
     /// What a root is taken of in every part and is positive nowhere where something is required: there the functions touch,

@@ -4,7 +4,7 @@ use super::suggestion_line::validity;
 use super::{combination, section_names, shown, suggestion};
 use crate::algebra::Graph;
 use crate::check::evidence::{counted, listed, places};
-use crate::check::{BrokenLaws, Positions, not_asked, points_shown, undecided};
+use crate::check::{BrokenLaws, LesserPart, Positions, not_asked, points_shown, undecided};
 use crate::compile::{Derived, Proved};
 use crate::findings::{Closure, Findings, FirstIntegral, LongBlock, SingularPlace};
 use crate::geometry::independent_velocities::Choice;
@@ -236,15 +236,10 @@ fn positions(model: &Model, positions: &Positions) -> Vec<String> {
              asked without {unsolved} of them, which could not be solved for coordinates or parameters",
             points_shown(part)
         ));
-        for count in &positions.elsewhere {
-            lines.push(format!(
-                "they hold as well on another part of the base, where {count} of the rates are independent: what \
-                 is said is said of the part where {} are",
-                part.rows.len()
-            ));
-        }
+        lines.extend(elsewhere(positions));
         return lines;
     }
+    lines.extend(elsewhere(positions));
     for value in &positions.unsolved {
         lines.push(format!(
             "no points were found where {} = 0: what is said to hold there was asked without it",
@@ -252,6 +247,18 @@ fn positions(model: &Model, positions: &Positions) -> Vec<String> {
         ));
     }
     lines
+}
+
+/// Parts of N that are not meant, a line for each.
+fn elsewhere(positions: &Positions) -> impl Iterator<Item = String> {
+    let meant = positions.jacobian.len();
+    positions.elsewhere.iter().map(move |LesserPart { place, rank }| {
+        let place = place.as_deref().unwrap_or(" on another part of the base");
+        format!(
+            "they hold as well{place}, with {rank} of the rates independent there: what is said is said of the part \
+             where {meant} are"
+        )
+    })
 }
 
 /// The chart that the declaration names, and where it is one.

@@ -455,3 +455,40 @@ fn levels_that_touch_the_base_are_refused() {
         assert_eq!(refusals(position), [""; 0], "{position}");
     }
 }
+
+/// Bars of one length may lie on one another, where fewer rates are independent: that is told. Which factor of a product is
+/// meant can be written, and is asked.
+#[test]
+fn folded_bars_are_told() {
+    let plane =
+        "base { x, y, u, v, s } lagrangian { (der(x)^2 + der(y)^2 + der(u)^2 + der(v)^2 + der(s)^2)/2 }";
+    let space = "base { x, y, z, u, v, r, s }
+        lagrangian { (der(x)^2 + der(y)^2 + der(z)^2 + der(u)^2 + der(v)^2 + der(r)^2 + der(s)^2)/2 }";
+    for machine in [
+        format!(
+            "{plane} holonomic {{ x^2 + y^2 = k^2; x^2 + (y - s)^2 = k^2; u^2 + v^2 = k^2; u^2 + (v - s)^2 = k^2; }}"
+        ),
+        // the links first, and the load upside down
+        format!(
+            "{plane} holonomic {{ x^2 + (y + s)^2 = k^2; u^2 + (v + s)^2 = k^2; x^2 + y^2 = k^2; u^2 + v^2 = k^2; }}"
+        ),
+        format!(
+            "{space} holonomic {{ x^2 + y^2 + z^2 = k^2; x^2 + y^2 + (z + s)^2 = k^2; u^2 + v^2 + r^2 = k^2;
+                u^2 + v^2 + (r + s)^2 = k^2; }}"
+        ),
+    ] {
+        let machine = format!("{machine} assume {{ k > 0; }}");
+        let report = declared(&machine).system().unwrap_or_else(|why| panic!("{machine}: {why:?}")).report;
+        let told = report.lines().find(|line| line.contains("they hold as well where")).unwrap_or_default();
+        let rest = "with 3 of the rates independent there: what is said is said of the part where 4 are";
+        assert!(told.contains("s = 0") && told.contains(rest), "{report}");
+    }
+    let one = format!(
+        "{plane} holonomic {{ x^2 + y^2 = k^2; s*(s - 2*y) = 0; u^2 + v^2 = k^2; s*(s - 2*v) = 0; }}"
+    );
+    let found = refusals(&one);
+    assert!(
+        found.len() == 1 && found[0].contains("follows from the constraints before it where s = 0"),
+        "{found:?}"
+    );
+}
