@@ -122,3 +122,18 @@ fn functions_have_short_arguments() {
     let squares = told("x * exp(y * (sin(y)^2 + cos(y)^2))", "", "");
     assert!(squares.contains("der(x_dot) = exp(y)\n"), "{squares}");
 }
+
+/// Rates of auxiliary states have values or have none like forces.
+#[test]
+fn rates_of_auxiliary_states_say_where_they_have_a_value() {
+    let told = |rate: &str| {
+        let sections = "base { x } lagrangian { m/2*der(x)^2 } forces { x: -z; }";
+        report(&format!("{sections} auxiliary {{ der(z) = {rate}; }}"), FIELDS)
+    };
+    let power = told("m*der(x) - a*z^(3/2)");
+    assert!(power.contains("the equations have a value only where z >= 0\n"), "{power}");
+    let slip = told("a*atan(z/der(x))");
+    assert!(slip.contains("the equations have a value only where x_dot != 0\n"), "{slip}");
+    let smooth = told("m*der(x) - a*z/sqrt(1 + z^2)");
+    assert!(!smooth.contains("have a value only where"), "{smooth}");
+}
