@@ -147,11 +147,12 @@ impl Resolver {
             }
             None => {
                 let roles = [Role::Velocity, Role::ImpliedVelocity, Role::FrameVelocity, Role::Coordinate];
-                Diagnostic::new(extent, format!("a force along the unknown direction `{text}`")).way_out(
-                    self.scope.did_you_mean(text, &roles).unwrap_or_else(|| {
-                        "a force acts along a section of the basis or along a base coordinate".to_owned()
-                    }),
-                )
+                let what = format!("a force along the unknown direction `{text}`");
+                let way_out = self.scope.did_you_mean(text, &roles).unwrap_or_else(|| {
+                    "a force acts along a section of the basis or along a base coordinate".to_owned()
+                });
+                let error = Diagnostic::new(extent, what).way_out(way_out);
+                return Err(self.reports.report_unknown(place, text, error));
             }
         };
         Err(self.report(place, error))
