@@ -137,3 +137,21 @@ fn rates_of_auxiliary_states_say_where_they_have_a_value() {
     let smooth = told("m*der(x) - a*z/sqrt(1 + z^2)");
     assert!(!smooth.contains("have a value only where"), "{smooth}");
 }
+
+/// What cancels in an output is not stored for its sake.
+#[test]
+fn the_speed_of_a_point_does_not_keep_the_heading() {
+    let tracked = |output: &str| {
+        let sections = "base { x, y, yaw } basis { u, s, w }
+            anchor { der(x) = u*cos(yaw) - s*sin(yaw); der(y) = u*sin(yaw) + s*cos(yaw); der(yaw) = w; }
+            let p = [x, y];
+            lagrangian { m/2*(u^2 + s^2) + a/2*w^2 + m*a*w*s } constraints { blade: s = 0; }";
+        let report = report(&format!("{sections} outputs {{ speed = {output}; }} track {{ speed }}"), FIELDS);
+        let lines: Vec<&str> = report.lines().skip_while(|line| *line != "Tracked variables").collect();
+        lines[1].trim().to_owned()
+    };
+    for output in ["norm(der(p))", "dot(der(p), der(p))", "cos(yaw)*der(x) + sin(yaw)*der(y)"] {
+        assert_eq!(tracked(output), "u, w", "{output}");
+    }
+    assert_eq!(tracked("der(x)"), "yaw, u, w");
+}
