@@ -4,6 +4,7 @@ use nonholonomic_core::algebra::Rational;
 use nonholonomic_core::id::ExprId;
 use nonholonomic_core::model::{Attitude, Body, Inertia, Turn};
 
+use super::alike::Measured;
 use super::array::{Array, Shape};
 use super::reports::Outcome;
 use super::resolver::Resolver;
@@ -102,6 +103,10 @@ impl Resolver {
         let mass = self.of_parameters(at, "the mass of a body", number)?;
         for entry in &inertia.entries {
             self.of_parameters(expr, "the inertia of a body", *entry)?;
+            self.moment(expr, *entry);
+        }
+        if r.shape == Shape::Number {
+            self.angle(expr, r.entries[0]);
         }
         let rate = self.body_rate(expr, r)?;
         let momentum = match inertia.shape {
@@ -152,6 +157,15 @@ impl Resolver {
                  `m / 2 * dot(der(p), der(p))`",
             );
         Err(self.report(at, error))
+    }
+
+    /// A moment of inertia times the square of a rate is an energy, whether the body ever turns about its axis or not.
+    fn moment(&mut self, expr: &Expr, entry: ExprId) {
+        if !self.graph.is_literal_zero(entry) {
+            let expected = Measured::expected("a moment of inertia", expr.extent).energy(1).time(2);
+            let given = self.shown(entry, expr.extent);
+            self.same_unit(expr, "is", vec![expected, given]);
+        }
     }
 
     /// The rotations that an attitude is the product of.

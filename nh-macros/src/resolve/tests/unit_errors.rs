@@ -358,3 +358,23 @@ fn units_without_a_space_are_understood() {
         assert!(found.ends_with(&format!("help: write `{meant}`")), "{found}");
     }
 }
+
+/// Whether a body turns about an axis or not, its moment about that has the unit of one.
+#[test]
+fn bodies_have_moments_of_inertia() {
+    let item = "struct S { m: f64, I: [f64; 3], J: f64 }";
+    let upright = "base { x, yaw } lagrangian { kinetic(m, I, [x, 0, 0], rot_z(yaw)) }";
+    let found = units(&format!("{upright} units {{ x = m; m = kg; }}"), item);
+    for entry in ["I[0]: kg m²", "I[1]: kg m²", "I[2]: kg m²"] {
+        assert!(found.contains(&entry.to_owned()), "{found:?}");
+    }
+    let refused = |machine: &str, text: &str| {
+        let found = messages(&format!("{machine} units {{ x = m; m = kg; I = kg m^2; }}"), item);
+        assert_eq!(found.len(), 1, "{found:?}");
+        assert!(found[0].contains(text), "{found:?}");
+    };
+    let wrong = "base { x, yaw } lagrangian { kinetic(m, [m, I[1], I[2]], [x, 0, 0], rot_z(yaw)) }";
+    refused(wrong, "`m` is a moment of inertia");
+    // a length in the place of the angle
+    refused("base { x, y } lagrangian { kinetic(m, J, [x, y], x) }", "`x` is m");
+}
