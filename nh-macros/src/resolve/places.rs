@@ -65,9 +65,10 @@ impl Resolver {
                 .way_out("name one of the quasi-velocities"),
             None => {
                 let error = Diagnostic::new(extent, format!("there is no section `{text}`"));
-                error.way_out(self.scope.did_you_mean(text, &VELOCITIES).unwrap_or_else(|| {
+                let way_out = self.scope.did_you_mean(text, &VELOCITIES).unwrap_or_else(|| {
                     "sections are declared in `basis { omega, v1 }` or by `velocities`".to_owned()
-                }))
+                });
+                return self.reports.report_unknown(place, text, error.way_out(way_out));
             }
         };
         self.report(place, error)

@@ -69,9 +69,24 @@ fn a_missing_name_is_one_error() {
             "there is no base coordinate `centre`\n`centre` stands in one more place\nhelp: did you mean `center`?"
                 .to_owned(),
         ),
+        (
+            "base { x } basis { v, w } anchor { der(x) = v; } brackets { [v, c] = w; [w, c] = v; } lagrangian { m * (v^2 + w^2 + c^2) }",
+            "there is no section `c`\n`c` stands in 2 more places\nhelp: sections are declared in `basis { omega, v1 }` \
+             or by `velocities`"
+                .to_owned(),
+        ),
+        (
+            "base { x } lagrangian { m * der(x)^2 - k * x } track { k } linearization { keep: k; }",
+            format!("unknown name `k`\n`k` stands in 2 more places\nhelp: {DECLARE}"),
+        ),
     ] {
         assert_eq!(of(attribute), [message], "{attribute}");
     }
+    let called = of("base { x } lagrangian { m * der(x)^2 - h(x) } outputs { a = h(x); b = der(h(x)); }");
+    assert!(
+        called.len() == 1 && called[0].starts_with("unknown function `h`\n`h` stands in 2 more places\n"),
+        "{called:?}"
+    );
     let two = of("base { x } lagrangian { a1 + b1 + a1 + b1 }");
     assert_eq!(two.len(), 2, "{two:?}");
 }
