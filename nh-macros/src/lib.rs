@@ -119,7 +119,7 @@ mod syntax;
 /// | `body_rate(R)`, `space_rate(R)` | the angular velocity in the axes of the body, and of space; of an angle in the plane its rate |
 /// | `velocity_at(p, R, c)` | the velocity of the material point that is at `c`, of a body with the attitude `R` whose point `p` is known |
 /// | `kinetic(m, p)` | the kinetic energy of a material point, in space or in the plane |
-/// | `kinetic(m, I, p, R)` | the kinetic energy of a rigid body with its centre of mass at `p`: in space `R` is a rotation matrix, `I` a number, a vector (principal moments) or a matrix in the axes of the body; in the plane `R` is an angle and `I` a number |
+/// | `kinetic(m, I, p, R)` | the kinetic energy of a rigid body with its centre of mass at `p`: in space `R` is a rotation matrix, `I` a number, a vector (principal moments) or a matrix in the axes of the body; in the plane `R` is an angle and `I` a number. Masses and inertias are expressions of parameters |
 ///
 /// A field marked `#[nh(symmetric)]`, a square matrix, has one parameter for the entries (i, j) and (j, i): that above the
 /// diagonal is read, and `validate` compares the two.

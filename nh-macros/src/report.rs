@@ -163,6 +163,18 @@ impl Errors {
         self.collected.push(error.into());
     }
 
+    /// How many there are.
+    pub(crate) fn len(&self) -> usize {
+        self.collected.len()
+    }
+
+    /// Says more about an error, which is known by how many were there before it.
+    pub(crate) fn because(&mut self, error: usize, evidence: String) {
+        if let Some(known) = self.collected.get_mut(error) {
+            *known = known.clone().because(evidence);
+        }
+    }
+
     /// The value, or its error is added.
     pub(crate) fn keep<T>(&mut self, result: Result<T, Diagnostic>) -> Option<T> {
         result.map_err(|error| self.push(error)).ok()

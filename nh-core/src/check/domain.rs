@@ -44,9 +44,9 @@ impl Condition {
 /// Of more conditions it is not asked whether they hold everywhere all the same.
 const ASKED: usize = 8;
 
-/// The conditions under which anchor, brackets, Lagrangian, constraints and forces have values, as far
-/// as these do not hold everywhere by the facts. That an expression of parameters alone is not 0 is not among them, since
-/// `validate` checks it.
+/// The conditions under which anchor, brackets, Lagrangian, constraints, forces and rates of auxiliary states have
+/// values, as far as these do not hold everywhere by the facts. That an expression of parameters alone is not 0 is not
+/// among them, since `validate` checks it.
 #[must_use]
 pub fn domain(model: &mut Model, facts: &Facts) -> Vec<Condition> {
     let open = not_by_ranges(model, facts);
@@ -102,13 +102,14 @@ fn not_by_ranges(model: &Model, facts: &Facts) -> Vec<Condition> {
     let mut found: Vec<Condition> = Vec::new();
     let mut look_at =
         |roots: &[ExprId], derivatives: u32| add_open(model, facts, roots, derivatives, &mut found);
-    // the equations differentiate L twice, what else moves once, and forces not at all
+    // the equations differentiate L twice, what else moves once, and forces and rates of auxiliary states not at all
     look_at(&[model.lagrangian.value], 2);
     let mut rest: Vec<ExprId> = differentiated(model).into_iter().map(|(_, value, _)| value).collect();
     rest.extend(&model.shortened);
     look_at(&rest, 1);
-    let forces: Vec<ExprId> = model.forces.iter().map(|force| force.value).collect();
-    look_at(&forces, 0);
+    let forces = model.forces.iter().map(|force| force.value);
+    let given: Vec<ExprId> = forces.chain(model.auxiliary.iter().map(|state| state.value)).collect();
+    look_at(&given, 0);
     without_implied(&found)
 }
 

@@ -24,9 +24,25 @@ pub(super) fn observables(
     let graph = &mut model.graph;
     let mut outputs = Vec::with_capacity(model.outputs.len());
     for output in &model.outputs {
-        outputs.push(in_state(graph, motion, restriction, output.value));
+        let value = in_state(graph, motion, restriction, output.value);
+        outputs.push(without_what_cancels(graph, value));
     }
     given.with_outputs(outputs)
+}
+
+/// Expressions with more operations than this are left as they are declared.
+const SHORT: u64 = 240;
+
+/// A value by fewer variables, where some cancel: the length of a velocity does not depend on the heading in whose axes it
+/// is declared.
+fn without_what_cancels(graph: &mut Graph, value: ExprId) -> ExprId {
+    if graph.operation_count(&[value]) > SHORT {
+        return value;
+    }
+    let simplified = graph.simplify(value);
+    let is_shorter = graph.operation_count(&[simplified]) < graph.operation_count(&[value])
+        && graph.symbols_in(&[simplified]).len() < graph.symbols_in(&[value]).len();
+    if is_shorter && graph.error_growth(simplified, value) <= 4.0 { simplified } else { value }
 }
 
 /// A declared expression in the coordinates and velocities of the state.

@@ -4,9 +4,11 @@ use nonholonomic_core::algebra::Rational;
 use nonholonomic_core::id::ExprId;
 use nonholonomic_core::model::{Attitude, Body, Inertia, Turn};
 
+use super::alike::Measured;
 use super::array::{Array, Shape};
 use super::reports::Outcome;
 use super::resolver::Resolver;
+use crate::report::Diagnostic;
 use crate::syntax::ast::Expr;
 
 /// What `velocity_at` takes.
@@ -53,7 +55,8 @@ impl Resolver {
         mass: (&Expr, &Array),
         p: &Array,
     ) -> Outcome<Array> {
-        let mass = self.as_number(mass.0, mass.1)?;
+        let number = self.as_number(mass.0, mass.1)?;
+        let mass = self.of_parameters(mass.0, "the mass of a point", number)?;
         if !matches!(p.shape, Shape::Vector(2 | 3)) {
             return Err(self.wrong_shapes(
                 expr,
@@ -83,19 +86,28 @@ impl Resolver {
         p: &Array,
         r: &Array,
     ) -> Outcome<Array> {
-        let mass = self.as_number(mass.0, mass.1)?;
+        let at = mass.0;
+        let number = self.as_number(at, mass.1)?;
         let position = match r.shape {
             Shape::Matrix(3, 3) => Shape::Vector(3),
             Shape::Number => Shape::Vector(2),
-            _ => return Err(self.no_attitude(expr, BODY, &[inertia, p, r])),
+            _ => return Err(self.no_attitude(expr, BODY, &[mass.1, inertia, p, r])),
         };
         let fits = matches!(
             (r.shape, inertia.shape),
             (_, Shape::Number) | (Shape::Matrix(..), Shape::Vector(3) | Shape::Matrix(3, 3))
         );
         let (Some(p), true) = (self.in_shape(p, position), fits) else {
-            return Err(self.no_attitude(expr, BODY, &[inertia, p, r]));
+            return Err(self.no_attitude(expr, BODY, &[mass.1, inertia, p, r]));
         };
+        let mass = self.of_parameters(at, "the mass of a body", number)?;
+        for entry in &inertia.entries {
+            self.of_parameters(expr, "the inertia of a body", *entry)?;
+            self.moment(expr, *entry);
+        }
+        if r.shape == Shape::Number {
+            self.angle(expr, r.entries[0]);
+        }
         let rate = self.body_rate(expr, r)?;
         let momentum = match inertia.shape {
             Shape::Number => {
@@ -132,6 +144,28 @@ impl Resolver {
         let energy = self.sum_of(expr, vec![(Rational::ONE, along), (Rational::new(1, 2), turning)])?;
         self.bodies.push(Body { mass, inertia, position: p.entries.clone(), attitude, energy, origin });
         Ok(Array::number(energy))
+    }
+
+    /// A mass or a moment of inertia, which is the same wherever the body is: a place in its stead is a slip.
+    fn of_parameters(&mut self, at: &Expr, what: &str, value: ExprId) -> Outcome<ExprId> {
+        let Some(symbol) = self.moving_symbol(value) else { return Ok(value) };
+        let name = self.graph.symbols()[symbol].clone();
+        let error = Diagnostic::new(at.extent, format!("{what} is an expression of parameters"))
+            .evidence(format!("it depends on `{name}`"))
+            .way_out(
+                "`kinetic` takes `(m, p)` or `(m, I, p, R)` in this order; what moves mass about is written out, as in \
+                 `m / 2 * dot(der(p), der(p))`",
+            );
+        Err(self.report(at, error))
+    }
+
+    /// A moment of inertia times the square of a rate is an energy, whether the body ever turns about its axis or not.
+    fn moment(&mut self, expr: &Expr, entry: ExprId) {
+        if !self.graph.is_literal_zero(entry) {
+            let expected = Measured::expected("a moment of inertia", expr.extent).energy(1).time(2);
+            let given = self.shown(entry, expr.extent);
+            self.same_unit(expr, "is", vec![expected, given]);
+        }
     }
 
     /// The rotations that an attitude is the product of.

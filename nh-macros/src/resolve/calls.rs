@@ -304,13 +304,15 @@ impl Resolver {
                     let smooth: Vec<&str> =
                         smooth.into_iter().chain(["dot", "cross"]).chain(tensor_names()).collect();
                     format!(
-                        "functions are {}, and in `forces` and `outputs` also {}",
+                        "functions are {}, and in `forces` and `outputs` also {}; one of yours stands between the \
+                         sections: `let {text}(a) = …;`",
                         smooth.join(", "),
                         branching.join(", ")
                     )
                 }),
             };
-            Diagnostic::new(name.extent(), format!("unknown function `{text}`")).way_out(way_out)
+            let error = Diagnostic::new(name.extent(), format!("unknown function `{text}`")).way_out(way_out);
+            return self.reports.report_unknown(name, text, error);
         };
         self.report(name, error)
     }

@@ -3,7 +3,7 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use nonholonomic_core::algebra::Rational;
-use nonholonomic_core::id::{ConstraintId, SymbolId, Table};
+use nonholonomic_core::id::{ConstraintId, ParamId, SymbolId, Table};
 use nonholonomic_core::model::{ConstraintDecl, OutputDecl, SymmetryDecl};
 use nonholonomic_core::units::{
     Dimension, Form, Kind, Quantity, Reading, Refused, UNITS, USUAL, Unit, Unknown, infer, raised,
@@ -239,7 +239,7 @@ impl Resolver {
             }
             None => error,
         };
-        Err(self.report(place, error))
+        Err(self.reports.report_unknown(place, text, error))
     }
 
     /// An index that an output or a label does not have. One in error was reported, and has no entries.
@@ -306,9 +306,17 @@ impl Resolver {
             .collect();
         let name = |symbol: &SymbolId| self.graph.symbols()[*symbol].clone();
         let of_symbol = |name: String, form: Form| Unitary { said: name.clone(), key: (name, true), form };
+        // of a symmetric matrix the entries above the diagonal are read, and those below are the same
+        let of = |id: ParamId| tables.parameters[id].symbol;
+        let above: BTreeMap<SymbolId, SymbolId> =
+            self.symmetric.iter().map(|(upper, lower)| (of(*lower), of(*upper))).collect();
         let mut found: Vec<Unitary> = symbols
             .iter()
-            .map(|symbol| of_symbol(name(symbol), reading.symbol(*symbol, Kind::Velocities)))
+            .map(|symbol| {
+                let read = above.get(symbol).unwrap_or(symbol);
+                let form = reading.symbol(*read, Kind::Velocities);
+                Unitary { said: name(symbol), ..of_symbol(name(read), form) }
+            })
             .collect();
         for (id, constant) in self.graph.constants().iter_ids() {
             found.push(of_symbol(constant.name.clone(), Form::of(Unknown::Constant(id))));

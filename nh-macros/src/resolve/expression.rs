@@ -109,7 +109,7 @@ impl Resolver {
                 return Err(self.not_yet_defined(expr, name));
             }
             let error = self.scope.unknown(name);
-            return Err(self.report(expr, error));
+            return Err(self.reports.report_unknown(expr, &name.text, error));
         };
         let meaning = match meaning {
             Meaning::Shared(_) if self.context == Context::Constants => {
@@ -226,20 +226,27 @@ impl Resolver {
             }
             Some(Meaning::Broken) => return Err(Reported),
             None => {
+                if self.scope.is_known_elsewhere(text) {
+                    let error = self.scope.unknown(&place.name);
+                    return Err(self.reports.report_unknown(place, text, error));
+                }
                 let error = Diagnostic::new(at, format!("there is no base coordinate `{text}`"));
-                error.way_out(
-                    self.scope
-                        .did_you_mean(text, &[Role::Coordinate])
+                let nearest = self.scope.did_you_mean(text, &[Role::Coordinate]);
+                let error = error.way_out(
+                    nearest
+                        .or_else(|| self.scope.nearest(text))
                         .unwrap_or_else(|| "base coordinates are declared in `base { x, y }`".to_owned()),
-                )
+                );
+                return Err(self.reports.report_unknown(place, text, error));
             }
             Some(meaning) => {
                 let (what, way_out) = match meaning {
                     Meaning::Named(named) => match named.role {
                         Role::Parameter => ("a parameter, whose derivative is 0", "leave the term out"),
-                        Role::Input => {
-                            ("an input", "derivatives of inputs are not known; make it a base coordinate")
-                        }
+                        Role::Input => (
+                            "an input",
+                            "inputs have no known rates; an auxiliary state has: `auxiliary { der(z) = …; }`",
+                        ),
                         Role::Auxiliary => {
                             ("an auxiliary state", "its rate is given in `auxiliary`, and nowhere else")
                         }

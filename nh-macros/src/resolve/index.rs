@@ -71,7 +71,7 @@ impl Resolver {
             }
             None => {
                 let error = self.scope.unknown(name);
-                Err(self.report(expr, error))
+                Err(self.reports.report_unknown(expr, &name.text, error))
             }
         }
     }

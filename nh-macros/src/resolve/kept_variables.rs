@@ -33,7 +33,12 @@ impl Resolver {
                 let error = Diagnostic::new(extent, format!("`{text}` is no variable of the state"));
                 let question = self.scope.did_you_mean(text, &STATE);
                 let known = "`keep` names coordinates, velocities and auxiliary states";
-                self.report(named, error.way_out(question.unwrap_or_else(|| known.to_owned())));
+                let error = error.way_out(question.unwrap_or_else(|| known.to_owned()));
+                if self.scope.get(text).is_some() {
+                    self.report(named, error);
+                } else {
+                    self.reports.report_unknown(named, text, error);
+                }
                 continue;
             };
             let Ok(symbols) = symbols else { continue };

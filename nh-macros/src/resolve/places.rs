@@ -65,9 +65,10 @@ impl Resolver {
                 .way_out("name one of the quasi-velocities"),
             None => {
                 let error = Diagnostic::new(extent, format!("there is no section `{text}`"));
-                error.way_out(self.scope.did_you_mean(text, &VELOCITIES).unwrap_or_else(|| {
+                let way_out = self.scope.did_you_mean(text, &VELOCITIES).unwrap_or_else(|| {
                     "sections are declared in `basis { omega, v1 }` or by `velocities`".to_owned()
-                }))
+                });
+                return self.reports.report_unknown(place, text, error.way_out(way_out));
             }
         };
         self.report(place, error)
@@ -147,11 +148,12 @@ impl Resolver {
             }
             None => {
                 let roles = [Role::Velocity, Role::ImpliedVelocity, Role::FrameVelocity, Role::Coordinate];
-                Diagnostic::new(extent, format!("a force along the unknown direction `{text}`")).way_out(
-                    self.scope.did_you_mean(text, &roles).unwrap_or_else(|| {
-                        "a force acts along a section of the basis or along a base coordinate".to_owned()
-                    }),
-                )
+                let what = format!("a force along the unknown direction `{text}`");
+                let way_out = self.scope.did_you_mean(text, &roles).unwrap_or_else(|| {
+                    "a force acts along a section of the basis or along a base coordinate".to_owned()
+                });
+                let error = Diagnostic::new(extent, what).way_out(way_out);
+                return Err(self.reports.report_unknown(place, text, error));
             }
         };
         Err(self.report(place, error))

@@ -66,6 +66,14 @@ impl Resolver {
         symbols.into_iter().any(|symbol| !matches!(self.rate_of(symbol), Rate::Constant))
     }
 
+    /// What a value depends on that the motion changes, beside the time.
+    pub(super) fn moving_symbol(&mut self, value: ExprId) -> Option<SymbolId> {
+        let symbols = self.graph.symbols_in(&[value]);
+        symbols
+            .into_iter()
+            .find(|symbol| *symbol != self.time && !matches!(self.rate_of(*symbol), Rate::Constant))
+    }
+
     /// A name that stands alone in `der(…)`, unless it is that of a value.
     fn lone_coordinate(&self, of: &Expr) -> Option<Place> {
         let (name, indices) = match &of.kind {

@@ -1,7 +1,7 @@
 //! Errors of this stage: each place in the declaration is reported once, however often `for` and
 //! `sum` come by, and whatever an error spoils is not reported again.
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 
 use crate::report::{Diagnostic, Errors, Extent};
 use crate::syntax::ast::Expr;
@@ -26,6 +26,8 @@ pub(super) struct Reports {
     errors: Errors,
     /// Places reported already: address and size of the node, which lives as long as the stage.
     places: BTreeSet<(usize, usize)>,
+    /// Unknown names: how many errors there were before that about it, and in how many more places it stands.
+    unknown: BTreeMap<String, (usize, usize)>,
     steps: usize,
     /// What is added to errors at present: the arguments of the function that is read.
     note: Option<String>,
@@ -34,7 +36,13 @@ pub(super) struct Reports {
 impl Reports {
     /// Nothing reported, nothing spent.
     pub(super) fn new() -> Self {
-        Self { errors: Errors::new(), places: BTreeSet::new(), steps: STEPS, note: None }
+        Self {
+            errors: Errors::new(),
+            places: BTreeSet::new(),
+            unknown: BTreeMap::new(),
+            steps: STEPS,
+            note: None,
+        }
     }
 
     /// Reports an error about a node of the declaration, unless there was one.
@@ -49,6 +57,22 @@ impl Reports {
             self.steps = 0;
         }
         Reported
+    }
+
+    /// Reports a name that stands for nothing, where it stands first: a declaration that is missing is one mistake,
+    /// however often what it declares is used.
+    pub(super) fn report_unknown<T>(&mut self, node: &T, name: &str, error: Diagnostic) -> Reported {
+        let place = (std::ptr::from_ref(node).addr(), size_of::<T>());
+        if let Some((_, more)) = self.unknown.get_mut(name) {
+            *more += usize::from(self.places.insert(place));
+            return Reported;
+        }
+        let before = self.errors.len();
+        let reported = self.report(node, error);
+        if self.errors.len() > before {
+            self.unknown.insert(name.to_owned(), (before, 0));
+        }
+        reported
     }
 
     /// Adds this to errors from here on; what was added before is given back.
@@ -95,7 +119,14 @@ impl Reports {
     }
 
     /// The value if nothing went wrong, else the errors.
-    pub(super) fn finish<T>(self, value: T) -> Result<T, Vec<Diagnostic>> {
+    pub(super) fn finish<T>(mut self, value: T) -> Result<T, Vec<Diagnostic>> {
+        for (name, (error, more)) in self.unknown {
+            if more > 0 {
+                let places =
+                    if more == 1 { "one more place".to_owned() } else { format!("{more} more places") };
+                self.errors.because(error, format!("`{name}` stands in {places}"));
+            }
+        }
         self.errors.finish(value)
     }
 }

@@ -94,7 +94,7 @@ impl Resolver {
     }
 
     /// An angle is a pure number.
-    fn angle(&mut self, expr: &Expr, angle: ExprId) {
+    pub(super) fn angle(&mut self, expr: &Expr, angle: ExprId) {
         let expected = Measured::expected("the angle of a rotation", expr.extent);
         let given = self.shown(angle, expr.extent);
         self.same_unit(expr, "is", vec![expected, given]);

@@ -247,13 +247,24 @@ impl Scope {
         if of_coordinate("_ddot").is_some() {
             return error.way_out("accelerations are what is derived; they cannot be used");
         }
-        let locals = self.locals.iter().map(|(known, _)| known.as_str());
-        let globals = self.globals.keys().map(String::as_str);
-        error.way_out(did_you_mean(text, locals.chain(globals).take(COMPARED)).unwrap_or_else(|| {
-            "parameters are fields of the struct; other names are declared in `base`, `basis` or `inputs`, \
-             or by a `let` before they are used"
+        error.way_out(self.nearest(text).unwrap_or_else(|| {
+            "parameters are fields of the struct; other names are declared in `base`, `basis`, `inputs` or \
+             `auxiliary`, or by a `let`"
                 .to_owned()
         }))
+    }
+
+    /// Whether a name means something that expressions here have no use of: a skipped field, an output, a `let` of
+    /// another section.
+    pub(super) fn is_known_elsewhere(&self, name: &str) -> bool {
+        self.skipped.contains(name) || self.outputs.contains(name) || self.elsewhere.contains_key(name)
+    }
+
+    /// The known name that is nearest to an unknown one.
+    pub(super) fn nearest(&self, name: &str) -> Option<String> {
+        let locals = self.locals.iter().map(|(known, _)| known.as_str());
+        let globals = self.globals.keys().map(String::as_str);
+        did_you_mean(name, locals.chain(globals).take(COMPARED))
     }
 
     /// The names of functions.

@@ -97,12 +97,18 @@ impl Resolver {
 
     /// The array whose entries stand at these indices.
     fn assembled(&mut self, line: &Let, entries: Vec<(Vec<i64>, Array)>) -> Outcome<Array> {
-        let mut shape = entries.first().map_or(Shape::Number, |(_, first)| first.shape);
+        let of_entry = entries.first().map_or(Shape::Number, |(_, first)| first.shape);
+        let mut shape = of_entry;
         let lengths = self.lengths(&line.binders, &entries)?;
         for length in lengths.iter().rev() {
             let Some(more) = shape.times(*length) else {
+                let name = &line.name.text;
                 let error = Diagnostic::new(line.extent, "a `let` has at most two indices")
-                    .way_out("leave out an index, or define single entries");
+                    .evidence(format!("each of its entries is {of_entry}"))
+                    .way_out(format!(
+                        "make it a function, `let {name}(a) = …;` between the sections, whose argument is what differs, \
+                         or define single entries"
+                    ));
                 return Err(self.report(line, error));
             };
             shape = more;

@@ -103,7 +103,11 @@ impl Resolver {
         let names = outputs.iter().map(|output| output.name.as_str());
         let question = did_you_mean(text, names).or_else(|| self.scope.did_you_mean(text, &STATE));
         let known = "`track` names coordinates, velocities and outputs";
-        self.report(place, error.way_out(question.unwrap_or_else(|| known.to_owned())))
+        let error = error.way_out(question.unwrap_or_else(|| known.to_owned()));
+        if self.scope.get(text).is_some() {
+            return self.report(place, error);
+        }
+        self.reports.report_unknown(place, text, error)
     }
 }
 

@@ -36,7 +36,7 @@ impl Resolver {
                     match self.scope.get(&name.text) {
                         None => {
                             let error = self.scope.unknown(name);
-                            self.report(name, error);
+                            self.reports.report_unknown(name, &name.text, error);
                         }
                         Some(Meaning::Function(place)) => {
                             let place = *place;

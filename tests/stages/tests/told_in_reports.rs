@@ -122,3 +122,36 @@ fn functions_have_short_arguments() {
     let squares = told("x * exp(y * (sin(y)^2 + cos(y)^2))", "", "");
     assert!(squares.contains("der(x_dot) = exp(y)\n"), "{squares}");
 }
+
+/// Rates of auxiliary states have values or have none like forces.
+#[test]
+fn rates_of_auxiliary_states_say_where_they_have_a_value() {
+    let told = |rate: &str| {
+        let sections = "base { x } lagrangian { m/2*der(x)^2 } forces { x: -z; }";
+        report(&format!("{sections} auxiliary {{ der(z) = {rate}; }}"), FIELDS)
+    };
+    let power = told("m*der(x) - a*z^(3/2)");
+    assert!(power.contains("the equations have a value only where z >= 0\n"), "{power}");
+    let slip = told("a*atan(z/der(x))");
+    assert!(slip.contains("the equations have a value only where x_dot != 0\n"), "{slip}");
+    let smooth = told("m*der(x) - a*z/sqrt(1 + z^2)");
+    assert!(!smooth.contains("have a value only where"), "{smooth}");
+}
+
+/// What cancels in an output is not stored for its sake.
+#[test]
+fn the_speed_of_a_point_does_not_keep_the_heading() {
+    let tracked = |output: &str| {
+        let sections = "base { x, y, yaw } basis { u, s, w }
+            anchor { der(x) = u*cos(yaw) - s*sin(yaw); der(y) = u*sin(yaw) + s*cos(yaw); der(yaw) = w; }
+            let p = [x, y];
+            lagrangian { m/2*(u^2 + s^2) + a/2*w^2 + m*a*w*s } constraints { blade: s = 0; }";
+        let report = report(&format!("{sections} outputs {{ speed = {output}; }} track {{ speed }}"), FIELDS);
+        let lines: Vec<&str> = report.lines().skip_while(|line| *line != "Tracked variables").collect();
+        lines[1].trim().to_owned()
+    };
+    for output in ["norm(der(p))", "dot(der(p), der(p))", "cos(yaw)*der(x) + sin(yaw)*der(y)"] {
+        assert_eq!(tracked(output), "u, w", "{output}");
+    }
+    assert_eq!(tracked("der(x)"), "yaw, u, w");
+}

@@ -178,14 +178,18 @@ fn shapes_are_shown() {
     starts(
         "",
         "kinetic(m, q, [x, y], x)",
-        "`kinetic` takes a mass, an inertia, the centre of mass and the attitude\nthese are a vector of 3 entries, a \
-         vector of 2 entries, a number",
+        "`kinetic` takes a mass, an inertia, the centre of mass and the attitude\nthese are a number, a vector of 3 \
+         entries, a vector of 2 entries, a number",
     );
     starts(
         "",
         "kinetic(m, 1, q)",
         "`kinetic` takes 2 or 4 arguments, and 3 are given\nhelp: write `kinetic(m, p)` or",
     );
+    let parameters = "an expression of parameters\nit depends on `q[0]`\nhelp: `kinetic` takes `(m, p)` or";
+    starts("", "kinetic(m, q, A[0], A)", &format!("the inertia of a body is {parameters}"));
+    starts("", "kinetic(m * q[0], A[0], q, rot_z(x))", &format!("the mass of a body is {parameters}"));
+    starts("", "kinetic(dot(q, q), [x, y])", &format!("the mass of a point is {parameters}"));
     starts(
         "",
         "kinetic(m, x)",

@@ -179,7 +179,8 @@ fn shapes_are_checked() {
         ),
         (
             "let s[i in 0..3] = A; s[0][0]",
-            "a `let` has at most two indices\nhelp: leave out an index, or define single entries",
+            "a `let` has at most two indices\neach of its entries is a matrix of 3 × 3 entries\nhelp: make it a function, \
+             `let s(a) = …;` between the sections, whose argument is what differs, or define single entries",
         ),
     ] {
         assert_eq!(of(expression), [message], "{expression}");

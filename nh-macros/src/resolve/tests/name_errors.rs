@@ -6,8 +6,8 @@ fn of(attribute: &str) -> Vec<String> {
     messages(attribute, "struct S { m: f64, J: [f64; 2], #[nh(skip)] tag: u8 }")
 }
 
-const DECLARE: &str = "parameters are fields of the struct; other names are declared in `base`, `basis` or \
-                       `inputs`, or by a `let` before they are used";
+const DECLARE: &str = "parameters are fields of the struct; other names are declared in `base`, `basis`, `inputs` or \
+                       `auxiliary`, or by a `let`";
 
 #[test]
 fn unknown_names() {
@@ -52,6 +52,45 @@ fn unknown_names() {
     }
 }
 
+/// What is not declared is one mistake, in whatever places it stands.
+#[test]
+fn a_missing_name_is_one_error() {
+    for (attribute, message) in [
+        (
+            "let p = [x, z]; let q = [z, x]; base { x } lagrangian { kinetic(m, p) + kinetic(m, q) } forces { x: z * der(z); z: 1; }",
+            format!("unknown name `z`\n`z` stands in 4 more places\nhelp: {DECLARE}"),
+        ),
+        (
+            "base { x } lagrangian { sum(i in 0..2: J[i] * centre) } outputs { a = der(centre); }",
+            format!("unknown name `centre`\n`centre` stands in one more place\nhelp: {DECLARE}"),
+        ),
+        (
+            "let center = x; base { x } lagrangian { m * x } outputs { a = der(centre); b = centre; }",
+            "there is no base coordinate `centre`\n`centre` stands in one more place\nhelp: did you mean `center`?"
+                .to_owned(),
+        ),
+        (
+            "base { x } basis { v, w } anchor { der(x) = v; } brackets { [v, c] = w; [w, c] = v; } lagrangian { m * (v^2 + w^2 + c^2) }",
+            "there is no section `c`\n`c` stands in 2 more places\nhelp: sections are declared in `basis { omega, v1 }` \
+             or by `velocities`"
+                .to_owned(),
+        ),
+        (
+            "base { x } lagrangian { m * der(x)^2 - k * x } track { k } linearization { keep: k; }",
+            format!("unknown name `k`\n`k` stands in 2 more places\nhelp: {DECLARE}"),
+        ),
+    ] {
+        assert_eq!(of(attribute), [message], "{attribute}");
+    }
+    let called = of("base { x } lagrangian { m * der(x)^2 - h(x) } outputs { a = h(x); b = der(h(x)); }");
+    assert!(
+        called.len() == 1 && called[0].starts_with("unknown function `h`\n`h` stands in 2 more places\n"),
+        "{called:?}"
+    );
+    let two = of("base { x } lagrangian { a1 + b1 + a1 + b1 }");
+    assert_eq!(two.len(), 2, "{two:?}");
+}
+
 #[test]
 fn what_has_no_derivative() {
     for (inside, what, way_out) in [
@@ -59,7 +98,7 @@ fn what_has_no_derivative() {
         ("x_dot", "a velocity", "accelerations are what is derived; they cannot be used"),
         ("t", "the time, whose derivative is 1", "write `1`"),
         ("pi", "a constant", "leave the term out"),
-        ("u", "an input", "derivatives of inputs are not known; make it a base coordinate"),
+        ("u", "an input", "inputs have no known rates; an auxiliary state has: `auxiliary { der(z) = …; }`"),
     ] {
         assert_eq!(
             of(&format!("base {{ x }} inputs {{ u }} lagrangian {{ der({inside}) }}")),

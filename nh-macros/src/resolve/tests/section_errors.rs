@@ -118,7 +118,7 @@ fn coframes() {
         ),
         (
             "base { x } velocities { v = oops; } lagrangian { v * v }",
-            "unknown name `oops`\nhelp: parameters are fields of the struct; other names are declared in `base`, `basis` or `inputs`, or by a `let` before they are used",
+            "unknown name `oops`\nhelp: parameters are fields of the struct; other names are declared in `base`, `basis`, `inputs` or `auxiliary`, or by a `let`",
         ),
     ]);
 }
