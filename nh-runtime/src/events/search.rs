@@ -1,10 +1,11 @@
 //! The events within a step.
 
+use core::cell::Cell;
 use core::ops::ControlFlow;
 
 use super::local::Local;
 use super::pending::Pending;
-use super::start::{Sides, midway};
+use super::start::{Contacts, Sides, midway};
 use super::turns::double_changes;
 use super::{Event, EventOf, Events, Side, Station, crossing, print, side};
 use crate::methods::{Method, Start};
@@ -31,11 +32,11 @@ where
         let (start, end) = (here.time, self.time());
         let forwards = start < end;
         let reached = events.station::<S>(end, self.state(), self.input())?;
-        let contacts = *sides;
-        let last = contacts.over_contacts(reached);
-        let mut ends = sides.of.iter().zip(&last.values);
+        let contacts = Cell::new(sides.contacts());
+        let over = |station| contacts.get().over(station);
+        let mut ends = sides.of.iter().zip(over(reached).values);
         if events.samples == 0
-            && !ends.any(|(from, value)| *from == Side::On || crossing(*from, *value).is_some())
+            && !ends.any(|(from, value)| *from == Side::On || crossing(*from, value).is_some())
         {
             *here = reached;
             sides.go_on(&reached.values);
@@ -46,25 +47,25 @@ where
             let state = dense.at(time)?;
             Ok((state, events.station::<S>(time, &state, self.input())?))
         };
-        let station_at =
-            |time| -> Result<_, IntegrationError> { Ok(contacts.over_contacts(evaluate(time)?.1)) };
-        let values_at = |time| Ok(station_at(time)?.values);
+        let station_at = |time| -> Result<_, IntegrationError> { Ok(evaluate(time)?.1) };
+        let raw_at = |time| Ok(station_at(time)?.values);
+        let values_at = |time| Ok(over(station_at(time)?).values);
         let parts = events.samples + 1;
         let sampled = |part: u32| -> Result<Option<Station<_, N>>, IntegrationError> {
             if part >= parts {
-                return Ok((part == parts).then_some(last));
+                return Ok((part == parts).then_some(reached));
             }
             let share = ScalarOf::<S>::from_u32(part) / ScalarOf::<S>::from_u32(parts);
             Ok(Some(station_at(start + (end - start) * share)?))
         };
         let mut before = None;
-        let mut begun = contacts.over_contacts(*here);
+        let mut begun = *here;
         let mut next = sampled(1)?;
         for part in 1..=parts {
             let Some(there) = next else { break };
             next = sampled(part + 1)?;
-            let around = [before.as_ref(), Some(&begun), Some(&there), next.as_ref()];
-            let mut turns = Turns(double_changes(&sides.of, around, values_at)?);
+            let around = [before, Some(begun), Some(there), next];
+            let mut turns = Turns::between(&sides.of, &contacts.get(), around, raw_at)?;
             before = Some(begun);
             // from turn to turn of the functions between the two
             loop {
@@ -73,7 +74,7 @@ where
                     Some(time) => station_at(time)?,
                     None => there,
                 };
-                let mut pending = Pending::between(events, [begun, to], sides, values_at)?;
+                let mut pending = Pending::between(events, [begun, to].map(over), sides, values_at)?;
                 while let Some(first) = pending.first(forwards) {
                     let mut time = first;
                     if pending.are_several() {
@@ -86,7 +87,7 @@ where
                         }
                     }
                     let (state, station) = evaluate(time)?;
-                    let over = contacts.over_contacts(station);
+                    let there = over(station);
                     let mut stop = Stop::new(time, [start, end]);
                     let mut stopped = None;
                     let mut report = |changes: [Option<Direction>; N], stop: &mut Stop<_>| {
@@ -101,7 +102,7 @@ where
                         }
                         stopped
                     };
-                    let taken = pending.take(forwards, time, &over.values);
+                    let taken = pending.take(forwards, time, &there.values);
                     for index in (0..N).filter(|index| taken.get(*index).is_some_and(Option::is_some)) {
                         if sides.is_flight(index) {
                             ends_flight(&mut stop, (index, start), sides, &values_at)?;
@@ -110,8 +111,8 @@ where
                     if report(taken, &mut stop).is_some() {
                         if N > 1 {
                             let local = self.local_at(events, &state, &station, end - start);
-                            report(pending.unseen(events, &over.values, &local, stop.unit), &mut stop);
-                            note_coming(&mut stop, &local, &over);
+                            report(pending.unseen(events, &there.values, &local, stop.unit), &mut stop);
+                            note_coming(&mut stop, &local, &there);
                         }
                         stop.print = print(&station.values);
                         self.stand_at(time, state);
@@ -120,6 +121,7 @@ where
                     }
                 }
                 begun = to;
+                contacts.set(sides.leave_contacts(&to.values));
                 if turn.is_none() {
                     break;
                 }
@@ -195,6 +197,25 @@ fn ends_flight<T: Real, const N: usize>(
 struct Turns<T, const N: usize>([Option<T>; N]);
 
 impl<T: Real, const N: usize> Turns<T, N> {
+    /// Those between the second and the third of these stations: where functions change their sign twice, and where gaps are
+    /// open that were closed below zero and have closed again.
+    fn between(
+        sides: &[Side; N],
+        contacts: &Contacts<T, N>,
+        around: [Option<Station<T, N>>; 4],
+        values_at: impl Fn(T) -> Result<[T; N], IntegrationError>,
+    ) -> Result<Self, IntegrationError> {
+        let over = |station| contacts.over(station);
+        let counted = around.map(|station| station.map(over));
+        let counted_at = |time| values_at(time).map(|values| over(Station { time, values }).values);
+        let mut times = double_changes(sides, counted.each_ref().map(Option::as_ref), counted_at)?;
+        if let [_, Some(here), Some(there), _] = &around {
+            let left = contacts.left([here, there], values_at)?;
+            times.iter_mut().zip(left).for_each(|(time, left)| *time = time.or(left));
+        }
+        Ok(Self(times))
+    }
+
     /// Takes out the first of them.
     fn next(&mut self, forwards: bool) -> Option<T> {
         let before = |a: T, b: T| if forwards { a < b } else { a > b };

@@ -33,8 +33,7 @@ pub(super) struct Sides<T, const N: usize> {
 impl<T: Real, const N: usize> Sides<T, N> {
     /// Forgets the start of the run, unless a function has yet to show where it has gone from there.
     pub(super) fn go_on(&mut self, values: &[T; N]) {
-        let depths = self.depths.iter_mut().zip(values);
-        depths.filter(|(_, value)| **value > T::ZERO).for_each(|(depth, _)| *depth = T::ZERO);
+        self.leave_contacts(values);
         self.leaving.iter_mut().zip(&self.shown).for_each(|(leaving, shown)| *leaving &= !shown);
         if !self.leaving.contains(&true) {
             self.is_given = false;
@@ -67,10 +66,16 @@ impl<T: Real, const N: usize> Sides<T, N> {
         self.closed.get(index) == Some(&true)
     }
 
-    /// The functions, of which gaps count from where they were closed.
-    pub(super) fn over_contacts(&self, mut station: Station<T, N>) -> Station<T, N> {
-        station.values.iter_mut().zip(self.depths).for_each(|(value, depth)| *value -= depth);
-        station
+    /// How far below zero the gaps are that were closed.
+    pub(super) fn contacts(&self) -> Contacts<T, N> {
+        Contacts(self.depths)
+    }
+
+    /// Gaps that are open count from zero again; what is left of the others.
+    pub(super) fn leave_contacts(&mut self, values: &[T; N]) -> Contacts<T, N> {
+        let depths = self.depths.iter_mut().zip(values);
+        depths.filter(|(_, value)| **value > T::ZERO).for_each(|(depth, _)| *depth = T::ZERO);
+        self.contacts()
     }
 
     /// Whether it is a gap that closes from the start, where it has not been met.
@@ -91,6 +96,44 @@ impl<T: Real, const N: usize> Sides<T, N> {
         let stays = matches!(from, Side::OnFromBelow | Side::OnFromAbove);
         let unit = self.stop.map_or(Stop::resolution(self.begin.time, time), |stop| stop.unit);
         just_left && !stays && (time - self.begin.time).abs() <= self.local(index).blur(unit)
+    }
+}
+
+/// How far below zero gaps were where they were closed, until they open beyond that.
+#[derive(Clone, Copy)]
+pub(super) struct Contacts<T, const N: usize>([T; N]);
+
+impl<T: Real, const N: usize> Contacts<T, N> {
+    /// The functions, of which gaps count from where they were closed.
+    pub(super) fn over(&self, mut station: Station<T, N>) -> Station<T, N> {
+        station.values.iter_mut().zip(self.0).for_each(|(value, depth)| *value -= depth);
+        station
+    }
+
+    /// For each gap that was closed below zero, a time between two stations at which it is open, if it has closed again at
+    /// the second: nearer and nearer to the first, as far as time resolves it.
+    pub(super) fn left(
+        &self,
+        [here, there]: [&Station<T, N>; 2],
+        values_at: impl Fn(T) -> Result<[T; N], IntegrationError>,
+    ) -> Result<[Option<T>; N], IntegrationError> {
+        let mut times = [None; N];
+        for (index, (time, depth)) in times.iter_mut().zip(self.0).enumerate() {
+            let is_closed = there.values.get(index).is_some_and(|value| *value <= T::ZERO);
+            if depth >= T::ZERO || !is_closed {
+                continue;
+            }
+            let mut distance = there.time - here.time;
+            while here.time + distance != here.time {
+                distance *= T::from_f64(0.5);
+                let values = values_at(here.time + distance)?;
+                if values.get(index).is_some_and(|value| *value > T::ZERO) {
+                    *time = Some(here.time + distance);
+                    break;
+                }
+            }
+        }
+        Ok(times)
     }
 }
 
@@ -176,7 +219,7 @@ where
                 sides.depths.iter_mut().skip(index).take(1).for_each(|depth| *depth = below);
             }
         }
-        sides.begin = sides.over_contacts(sides.begin);
+        sides.begin = sides.contacts().over(sides.begin);
         sides
     }
 }
