@@ -425,6 +425,6 @@ pub trait Constrained: Dynamics {
     /// velocities along the kinetic energy's orthogonal complement of the constraint distribution.
     ///
     /// # Errors
-    /// If the manifold is not reached; the state is then as it was.
+    /// If the manifold is not reached, in lanes by any of them; the state is then as it was, in all of them.
     fn project(&self, t: ScalarOf<Self>, state: &mut Self::State) -> Result<(), ProjectionError>;
 }

@@ -337,9 +337,19 @@ where
         spent: &mut Spent,
         target: ScalarOf<S>,
     ) -> Result<(), IntegrationError> {
+        self.step_in_sight(spent, [target; 2])
+    }
+
+    /// The same on the way to a target with a step that leads no farther than to a time before it.
+    #[inline]
+    pub(crate) fn step_in_sight(
+        &mut self,
+        spent: &mut Spent,
+        [target, sight]: [ScalarOf<S>; 2],
+    ) -> Result<(), IntegrationError> {
         self.permit(spent, target)?;
         let begun = self.statistics;
-        self.step_towards(target)?;
+        self.step_towards(sight)?;
         spent.steps += self.statistics.steps - begun.steps;
         spent.evaluations += self.statistics.evaluations - begun.evaluations;
         Ok(())

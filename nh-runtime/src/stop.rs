@@ -25,6 +25,8 @@ pub(crate) struct Stop<T> {
     pub(crate) length: T,
     /// A rounding unit of time in that step.
     pub(crate) unit: T,
+    /// How long the motion to it was, from the stop before or from where the run began.
+    pub(crate) flight: T,
     /// Those that have changed their sign there.
     rising: u128,
     falling: u128,
@@ -73,6 +75,7 @@ impl<T: Real> Stop<T> {
             time,
             length,
             unit,
+            flight: T::ZERO,
             rising: 0,
             falling: 0,
             owed: 0,

@@ -15,7 +15,7 @@ use core::ops::ControlFlow;
 
 use crate::integrator::Spent;
 use crate::methods::Method;
-use crate::stop::MOST_FUNCTIONS;
+use crate::stop::{MOST_FUNCTIONS, Stop};
 use crate::{Direction, Dynamics, IntegrationError, Integrator, Real, Scalar, ScalarOf};
 
 /// `N` event functions, given as one closure of time, state and input, and what to look for.
@@ -268,15 +268,22 @@ where
             return Ok(Some(event));
         }
         let is_given = self.last_step().is_none();
-        let stop = self.stop();
+        let (begun, stop) = (self.time(), self.stop());
         let mut sides = None;
         while self.time() != target {
-            self.step_within(spent, target)?;
+            let sight = self.in_sight(begun, stop, target);
+            self.step_in_sight(spent, [target, sight])?;
             let sides = sides.get_or_insert_with(|| self.beginning(events, &here, stop, is_given));
             let looked = self.look_back(events, &mut here, sides, one, &mut visit);
             match looked.map_err(E::from).and_then(|event| kept(self).map(|()| event)) {
                 Ok(None) => {}
-                Ok(event) => return Ok(event),
+                Ok(event) => {
+                    if let Some(mut stop) = self.stop() {
+                        stop.flight = (stop.time - begun).abs();
+                        self.set_stop(stop);
+                    }
+                    return Ok(event);
+                }
                 Err(error) => {
                     self.take_back();
                     return Err(error);
@@ -286,6 +293,32 @@ where
         Ok(None)
     }
 }
+
+impl<S: Dynamics, M: Method<S>> Integrator<S, M>
+where
+    ScalarOf<S>: Real,
+{
+    /// How far a step may lead, of methods that choose its length, after a stop at which this call began.
+    fn in_sight(
+        &self,
+        begun: ScalarOf<S>,
+        stop: Option<Stop<ScalarOf<S>>>,
+        target: ScalarOf<S>,
+    ) -> ScalarOf<S> {
+        let zero = ScalarOf::<S>::ZERO;
+        let flight = stop.map_or(zero, |stop| stop.flight);
+        let (time, is_chosen) = (self.time(), self.method().judges());
+        let sight = ScalarOf::<S>::from_f64(SIGHT) * flight.max((time - begun).abs());
+        if !is_chosen || flight == zero || (target - time).abs() <= sight {
+            return target;
+        }
+        if time < target { time + sight } else { time - sight }
+    }
+}
+
+/// A step after a stop leads at most so many times as far as the motion before it did, or the motion since then. Where the error
+/// leaves a step any length, as in free fall, its end would be so far off that what it rounds is seen at the next stop.
+const SIGHT: f64 = 4.0;
 
 /// What tells functions from others: their values somewhere.
 fn print<T: Real, const N: usize>(values: &[T; N]) -> u64 {
