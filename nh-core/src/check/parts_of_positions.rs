@@ -86,7 +86,8 @@ pub(super) fn without_lesser_parts(
     at_points: Option<usize>,
 ) -> Result<Vec<LesserPart>, String> {
     let moving: Vec<SymbolId> = model.coordinates.iter().map(|coordinate| coordinate.symbol).collect();
-    if model.positions.iter().any(|position| is_product(&model.graph, position.value, &moving)) {
+    let is_whole = manifold.parts().nth(1).is_none();
+    if is_whole || model.positions.iter().any(|position| is_product(&model.graph, position.value, &moving)) {
         return Ok(Vec::new());
     }
     let mut ranks = Vec::new();
