@@ -375,13 +375,18 @@ fn off_constraints(
 ) -> fmt::Result {
     write!(f, "the given state leaves a residual of {residual:?} in {place}, and ")?;
     if correction.is_finite() {
-        write!(f, "a return to the constraints would move `{component}` by {correction:?}")?;
+        write!(
+            f,
+            "a return to the constraints would move `{component}` by {correction:?}: give a state that satisfies \
+             them, or {way_out} it first"
+        )
     } else {
-        f.write_str(
-            "no return to the constraints was found from there: their rates may be dependent at such a state, or it is far off",
-        )?;
+        write!(
+            f,
+            "no return to the constraints was found from there: their rates may be dependent at such a state, or it \
+             is far off. Begin beside it, or {way_out} it first"
+        )
     }
-    write!(f, ": give a state that satisfies them, or {way_out} it first")
 }
 
 impl Error for IntegrationError {

@@ -25,7 +25,7 @@ pub(crate) struct Stop<T> {
     pub(crate) length: T,
     /// A rounding unit of time in that step.
     pub(crate) unit: T,
-    /// How long the motion to it was, from the stop before or from where the run began.
+    /// How long the motion to it was, from where the call began that came to it: at the stop before, for the most part.
     pub(crate) flight: T,
     /// Those that have changed their sign there.
     rising: u128,

@@ -75,30 +75,29 @@ pub struct LesserPart {
 /// Takes the parts of N away where fewer rates are independent than on another on which something moves, as where the
 /// links of a rhombus are folded onto one another; as with [`chosen_part`], with how many are independent where that was
 /// asked at points. There multipliers are not determined, which is noticed. An equation that is written as a product says
-/// "this or that", and no part is taken away: which is meant can be written.
-///
-/// # Errors
-/// Why a rank could not be found.
+/// "this or that", and no part is taken away: which is meant can be written. Nor is one where ranks cannot be found, of which
+/// the question for independent rates then speaks.
 pub(super) fn without_lesser_parts(
     model: &mut Model,
     manifold: &mut Manifold,
     rows: &Matrix,
     at_points: Option<usize>,
-) -> Result<Vec<LesserPart>, String> {
+) -> Vec<LesserPart> {
     let moving: Vec<SymbolId> = model.coordinates.iter().map(|coordinate| coordinate.symbol).collect();
     let is_whole = manifold.parts().nth(1).is_none();
     if is_whole || model.positions.iter().any(|position| is_product(&model.graph, position.value, &moving)) {
-        return Ok(Vec::new());
+        return Vec::new();
     }
     let mut ranks = Vec::new();
     for part in manifold.parts() {
         let restricted = part.restrict_matrix(&mut model.graph, rows);
-        ranks.push(model.graph.generic_rank(&restricted)?);
+        let Ok(rank) = model.graph.generic_rank(&restricted) else { return Vec::new() };
+        ranks.push(rank);
     }
     let most = |limit: usize| ranks.iter().copied().filter(|rank| *rank < limit).max();
     let meant = at_points.or_else(|| most(model.sections.len())).or_else(|| most(usize::MAX)).unwrap_or(0);
     if ranks.iter().all(|rank| *rank < meant) {
-        return Ok(Vec::new());
+        return Vec::new();
     }
     let lesser = manifold.parts().zip(&ranks).filter(|(_, rank)| **rank < meant);
     let lesser = lesser.map(|(part, rank)| {
@@ -108,7 +107,7 @@ pub(super) fn without_lesser_parts(
     let lesser: Vec<LesserPart> = lesser.collect();
     let mut is_kept = ranks.iter().map(|rank| *rank >= meant);
     manifold.keep_parts(|_| is_kept.next().unwrap_or(true));
-    Ok(lesser)
+    lesser
 }
 
 /// Whether a function is written as a product of several that vanish.

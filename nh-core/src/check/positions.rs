@@ -110,9 +110,7 @@ pub fn positions(
     }
     if found.unsolved.is_empty() || found.part.is_some() {
         let at_points = found.part.as_ref().map(|part| part.rows.len());
-        if let Ok(lesser) = without_lesser_parts(model, &mut found.manifold, &rows, at_points) {
-            found.elsewhere = lesser;
-        }
+        found.elsewhere = without_lesser_parts(model, &mut found.manifold, &rows, at_points);
     }
     counts.retain(|count| found.elsewhere.iter().all(|lesser| lesser.rank != *count));
     found.elsewhere.extend(counts.into_iter().map(|rank| LesserPart { place: None, rank }));

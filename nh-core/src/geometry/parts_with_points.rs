@@ -13,18 +13,13 @@ impl Manifold {
         if self.others.is_empty() && self.open.is_empty() {
             return;
         }
-        let mut open = std::mem::take(&mut self.open);
-        open.retain(|part| has_points(graph, demands, (&part.images, &part.functions, &[])));
+        self.open.retain(|part| has_points(graph, demands, (&part.images, &part.functions, &[])));
         let parts: Vec<Self> = self.parts().map(Self::alone).collect();
         let mut with_points = Vec::with_capacity(parts.len());
         for part in parts {
             with_points.extend(part.with_points(graph, demands));
         }
-        if !with_points.is_empty() {
-            let first = with_points.remove(0);
-            *self = Self { others: with_points, ..first };
-        }
-        self.open = open;
+        self.become_parts(with_points);
     }
 
     /// This part if it has points, or the one where roots have other signs: a root of what is no square is written with one
@@ -59,9 +54,14 @@ impl Manifold {
 
     /// Forgets the other parts, if there are any of these.
     pub(crate) fn keep_parts(&mut self, is_kept: impl FnMut(&Self) -> bool) {
-        let open = std::mem::take(&mut self.open);
         let mut parts: Vec<Self> = self.parts().map(Self::alone).collect();
         parts.retain(is_kept);
+        self.become_parts(parts);
+    }
+
+    /// Takes these parts in the place of those that it has, if there are any; open ones stay.
+    fn become_parts(&mut self, mut parts: Vec<Self>) {
+        let open = std::mem::take(&mut self.open);
         if let Some(first) = (!parts.is_empty()).then(|| parts.remove(0)) {
             *self = Self { others: parts, ..first };
         }
