@@ -19,3 +19,4 @@ pub use form::{Form, Unknown};
 pub(crate) use inferred::lines;
 pub use inferred::{Inferred, Quantity, Unit};
 pub use reading::{Kind, Reading};
+pub use wording::IN_UNITS;

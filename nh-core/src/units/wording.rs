@@ -62,6 +62,9 @@ pub(super) fn wrong_lines(conditions: &[Condition], lines: &[WrongLine], rest: &
     Violation { law: Law::Units, origin: told[0].origin, what, evidence, way_out: way_out.into() }
 }
 
+/// How the unit that a line of `units` gives is called: the first side of a condition.
+pub const IN_UNITS: &str = "its unit in `units`";
+
 /// The names in a line of `units` that are wrong there.
 struct Blamed {
     names: String,
@@ -114,18 +117,23 @@ fn unequal(graph: &Graph, conditions: &[Condition], equation: Equation, given: &
     let dimension = |side: &Side| given.reduced(side.form.as_ref()?).value().cloned();
     // what is expected is said first
     let (first, second) = if equation.left < equation.right { (left, right) } else { (right, left) };
+    let is_given = first.text == IN_UNITS;
     let what = if let (Some(a), Some(b)) = (dimension(first), dimension(second)) {
-        format!("the units do not fit: {} is {}, {} is {}", first.text, said(&a), second.text, said(&b))
+        let (a, b) = (said(&a), said(&b));
+        if is_given {
+            format!("the units do not fit: {} is {b}, and {a} in `units`", second.text)
+        } else {
+            format!("the units do not fit: {} is {a}, {} is {b}", first.text, second.text)
+        }
     } else {
         let quotient = equation.of(conditions).map(|(_, _, quotient)| given.reduced(&quotient));
         let by = quotient.and_then(|quotient| quotient.value().cloned()).unwrap_or_default();
         format!("the units do not fit: {} is {} times {}", left.text, said(&by), right.text)
     };
-    let mut evidence = format!("{} {} {}", left.text, condition.relation, right.text);
-    let units = units_of_names(graph, [left, right], given);
-    if !units.is_empty() {
-        evidence = format!("{evidence}; {}", units.join(", "));
-    }
+    let relation = format!("{} {} {}", left.text, condition.relation, right.text);
+    let units = units_of_names(graph, [left, right], given).join(", ");
+    let parts = [if is_given { String::new() } else { relation }, units];
+    let evidence = parts.into_iter().filter(|part| !part.is_empty()).collect::<Vec<_>>().join("; ");
     let way_out =
         "a factor is missing, is too much or has a wrong power, or `units` gives a name a wrong unit";
     Violation { law: Law::Units, origin: left.origin, what, evidence, way_out: way_out.into() }

@@ -111,6 +111,7 @@ impl Resolver {
                 .keep(&definition.name, check_reserved(&definition.name))
                 .and_then(|()| this.define(definition, &definition.subscripts, &mut Vec::new(), growing));
             growing.broken |= outcome.is_err();
+            this.abbreviates(&definition.name.text);
             outcome
         });
         let (mut defined, mut broken) = (Vec::new(), Vec::new());

@@ -6,7 +6,7 @@ use nonholonomic_core::algebra::Rational;
 use nonholonomic_core::id::{ConstraintId, ParamId, SymbolId, Table};
 use nonholonomic_core::model::{ConstraintDecl, OutputDecl, SymmetryDecl};
 use nonholonomic_core::units::{
-    Dimension, Form, Kind, Quantity, Reading, Refused, UNITS, USUAL, Unit, Unknown, infer, raised,
+    Dimension, Form, IN_UNITS, Kind, Quantity, Reading, Refused, UNITS, USUAL, Unit, Unknown, infer, raised,
 };
 
 use super::alike::Measured;
@@ -73,11 +73,17 @@ impl Resolver {
                         continue;
                     }
                     declared.insert(key, text.clone());
-                    let unit =
-                        Measured::expected("its unit in `units`", place.extent).unit(dimension.clone());
+                    let unit = Measured::expected(IN_UNITS, place.extent).unit(dimension.clone());
+                    self.open_conditions();
                     // what follows from expressions is compared with them, when these have been looked at
-                    let section = if is_free { "" } else { "units" };
+                    let section = if is_free {
+                        ""
+                    } else {
+                        self.uses_abbreviation(&place.name.text);
+                        "units"
+                    };
                     self.same_unit_in(section, std::ptr::from_ref(line).addr(), "is", vec![unit, side]);
+                    self.close_conditions();
                 }
             }
         }

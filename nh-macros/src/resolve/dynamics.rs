@@ -56,6 +56,9 @@ impl Resolver {
                 found.push(placeholder);
             })?;
             found.extend(constraints);
+            if let Some(label) = &equation.label {
+                this.abbreviates(&label.text);
+            }
             Ok(())
         });
         for left in lost {

@@ -31,7 +31,12 @@ impl Resolver {
         let (mut found, mut redundant) = (Vec::new(), None);
         self.section(Context::Holonomic, items, &mut |this, line| {
             match line {
-                PositionLine::Equation(equation) => found.extend(this.position(equation, labels)?),
+                PositionLine::Equation(equation) => {
+                    found.extend(this.position(equation, labels)?);
+                    if let Some(label) = &equation.label {
+                        this.abbreviates(&label.text);
+                    }
+                }
                 PositionLine::Redundant(extent) => redundant = Some(this.origin(*extent)),
             }
             Ok(())

@@ -33,7 +33,8 @@ impl Resolver {
         open.push((noted.len(), used.len()));
     }
 
-    /// Whatever was noted since the last [`Resolver::open_conditions`] is about this abbreviation.
+    /// Whatever was noted since the last [`Resolver::open_conditions`] is about this name: an abbreviation, or an output, a
+    /// claim or a label.
     pub(super) fn abbreviates(&mut self, name: &str) {
         if self.homogeneity.wanted {
             let within = self.homogeneity.within();

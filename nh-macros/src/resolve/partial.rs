@@ -45,6 +45,7 @@ impl Resolver {
             self.scope.rebind(&name, meaning);
         }
         let ((variables, shape), value) = (variables?, value?);
+        self.depends_on_time_itself(expr, &value, &variables)?;
         let value = self.with_rates_known(of, value, &variables, &stood_for)?;
         let gradient = self.gradient(expr, &value, &variables, shape)?;
         if stood_for.is_empty() {
@@ -109,6 +110,21 @@ impl Resolver {
         let is_velocity = tables.sections.iter().any(|section| section.symbol == symbol);
         let is_call = self.calls.iter().any(|call| call.symbol == symbol);
         arguments.iter().any(|(known, _)| *known == symbol) || is_velocity || !(is_rate || is_call)
+    }
+
+    /// Refuses ∂/∂t of what moves and does not depend on the time itself: it is zero, and what is meant is a rate.
+    fn depends_on_time_itself(&mut self, expr: &Expr, value: &Array, variables: &[SymbolId]) -> Outcome<()> {
+        if variables != [self.time]
+            || self.graph.symbols_in(&value.entries).contains(&self.time)
+            || !self.moves(value)
+        {
+            return Ok(());
+        }
+        let error =
+            Diagnostic::new(expr.extent, "this derivative is zero: `t` is not in what is differentiated")
+                .evidence("`diff` holds coordinates and velocities fixed")
+                .way_out("`der(…)` is the rate along the motion");
+        Err(self.report(expr, error))
     }
 
     /// Puts ρ(y) for the rates in a value, which depend on coordinates, parameters and velocities.

@@ -21,7 +21,9 @@ impl Resolver {
         let mut found = Vec::new();
         let mut labels = BTreeSet::new();
         self.section(Context::Symmetries, items, &mut |this, symmetry| {
-            this.symmetry(symmetry, &mut labels).map(|sections| found.extend(sections))
+            let sections = this.symmetry(symmetry, &mut labels);
+            this.abbreviates(&symmetry.label.text);
+            sections.map(|sections| found.extend(sections))
         });
         found
     }

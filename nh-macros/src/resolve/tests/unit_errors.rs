@@ -185,7 +185,7 @@ fn contradictions_are_said() {
         (
             "base { x } lagrangian { m / 2 * der(x)^2 } units { x = m; x_dot = m/s^2; }",
             vec![
-                "the units do not fit: its unit in `units` is m s⁻², `x_dot` is m s⁻¹\n\
+                "the units do not fit: `x_dot` is m s⁻¹, and m s⁻² in `units`\n\
                  the units of `t`, `x`, `x_dot` belong together\n\
                  help: leave one of them out: it follows from the others"
                     .to_owned(),
@@ -194,6 +194,36 @@ fn contradictions_are_said() {
     ] {
         assert_eq!(messages(attribute, item), expected, "{attribute}");
     }
+}
+
+/// A sum with a wrong term has the unit of none: what `units` says of its name is compared when it is right.
+#[test]
+fn a_wrong_term_is_told_once() {
+    let item = "struct S { m: f64, k: f64, l: f64 }";
+    let of = |sections: &str, unit: &str| {
+        let attribute = format!(
+            "base {{ x, y }} lagrangian {{ m / 2 * (der(x)^2 + der(y)^2) - k / 2 * x^2 }} {sections}
+             units {{ x = m; y = m; m = kg; k = N/m; l = m; it = {unit}; }}"
+        );
+        messages(&attribute, item)
+    };
+    for (sections, unit) in [
+        ("outputs { it = m * der(x) + k * x; }", "N"),
+        ("outputs { it = [m * der(x) + k * x, k * x]; }", "N"),
+        ("conserved { it = k / 2 * y + k / 2 * x^2; }", "J"),
+        ("constraints { it: der(x) + y = l * der(y); }", "N s"),
+        ("holonomic { it: x + y * l = l; }", "N/m"),
+        ("symmetries { it: der(x) + y * der(y) + der(y); }", "J s/m"),
+    ] {
+        let found = of(sections, unit);
+        assert_eq!(found.len(), 1, "{sections}: {found:?}");
+        assert!(!found[0].contains("`units`\n"), "{sections}: {found:?}");
+    }
+    let found = of("outputs { it = k * x; }", "J");
+    assert_eq!(
+        found,
+        [format!("the units do not fit: `it` is N, and J in `units`\n`k` is N m⁻¹, `x` is m\n{WAY_OUT}")]
+    );
 }
 
 /// As many lines as can be meant to be right are looked at; with more of them each contradiction is told by itself.
