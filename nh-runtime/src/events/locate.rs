@@ -1,19 +1,19 @@
 //! Where in time an event function changes its sign between two points.
 
 use super::start::Sides;
-use super::{Events, Side, Station, crossing, settled};
+use super::{Side, Station, Within, crossing, settled};
 use crate::{Direction, IntegrationError, Real};
 
 /// The change of sign of a function between two stations, if it is wanted; its side is then that at the second.
-pub(super) fn find<T: Real, F, const N: usize>(
-    events: &Events<F, N>,
+pub(super) fn find<T: Real, const N: usize>(
+    directions: &[Direction; N],
     index: usize,
     [here, there]: [Station<T, N>; 2],
     sides: &mut Sides<T, N>,
-    values_at: &impl Fn(T) -> Result<[T; N], IntegrationError>,
+    values_at: Within<'_, [T; N], T>,
 ) -> Result<Option<(T, Direction)>, IntegrationError> {
     let (Some(&old), Some(&value), Some(wanted)) =
-        (here.values.get(index), there.values.get(index), events.directions.get(index))
+        (here.values.get(index), there.values.get(index), directions.get(index))
     else {
         return Ok(None);
     };
@@ -27,7 +27,7 @@ pub(super) fn find<T: Real, F, const N: usize>(
     };
     let value_at = |time| values_at(time).map(|values| values.get(index).copied().unwrap_or(value));
     let start = in_flight(before, ((here.time, old), there.time), &value_at)?;
-    let time = locate(before, (start, (there.time, value)), value_at)?;
+    let time = locate(before, (start, (there.time, value)), &value_at)?;
     Ok(Some((time, direction)))
 }
 
@@ -45,7 +45,7 @@ pub(super) fn is_wanted(wanted: Direction, direction: Direction) -> bool {
 fn in_flight<T: Real>(
     to: Side,
     ((time, value), end): ((T, T), T),
-    value_at: &impl Fn(T) -> Result<T, IntegrationError>,
+    value_at: Within<'_, T, T>,
 ) -> Result<(T, T), IntegrationError> {
     let half = T::from_f64(0.5);
     let mut distance = end - time;
@@ -66,7 +66,7 @@ fn in_flight<T: Real>(
 fn locate<T: Real>(
     from: Side,
     (mut before, mut after): ((T, T), (T, T)),
-    value_at: impl Fn(T) -> Result<T, IntegrationError>,
+    value_at: Within<'_, T, T>,
 ) -> Result<T, IntegrationError> {
     let half = T::from_f64(0.5);
     let mut kept_after = false;
@@ -122,18 +122,18 @@ mod tests {
     #[test]
     fn the_first_of_many_zeros_is_found_and_one_alone_at_once() {
         let clamped = |t: f64| Ok((1.0 - t).max(0.0));
-        let time = locate(Side::Above, ((0.0, 1.0), (4.0, 0.0)), clamped).unwrap();
+        let time = locate(Side::Above, ((0.0, 1.0), (4.0, 0.0)), &clamped).unwrap();
         assert!((time - 1.0).abs() <= f64::EPSILON, "{time:?}");
         // backwards in time, and with a jump
         let stepped = |t: f64| Ok(if t > 1.3 { -2.0 } else { 0.0 });
-        let time = locate(Side::Below, ((5.0, -2.0), (-1.0, 0.0)), stepped).unwrap();
+        let time = locate(Side::Below, ((5.0, -2.0), (-1.0, 0.0)), &stepped).unwrap();
         assert!((time - 1.3).abs() <= 2.0 * f64::EPSILON, "{time:?}");
         let count = Cell::new(0);
         let line = |t: f64| {
             count.set(count.get() + 1);
             Ok(t - 0.5)
         };
-        assert_eq!(locate(Side::Below, ((0.0, -0.5), (1.0, 0.5)), line), Ok(0.5));
+        assert_eq!(locate(Side::Below, ((0.0, -0.5), (1.0, 0.5)), &line), Ok(0.5));
         assert!(count.get() < 4, "{count:?}");
     }
 }

@@ -84,6 +84,18 @@ impl<F, const N: usize> Events<F, N> {
     }
 }
 
+/// Functions of events behind one type, so that what looks for their zeros is compiled once for all of them.
+type Watched<'a, S, const N: usize> = Events<FunctionsOf<'a, S, N>, N>;
+
+type FunctionsOf<'a, S, const N: usize> =
+    &'a dyn Fn(ScalarOf<S>, &<S as Dynamics>::State, &<S as Dynamics>::Input) -> [ScalarOf<S>; N];
+
+/// Who is told of events, and may stop there.
+type Visit<'a, S> = &'a mut dyn FnMut(&EventOf<S>) -> ControlFlow<()>;
+
+/// What functions are at a time within a step, behind one type as well.
+type Within<'a, V, T> = &'a dyn Fn(T) -> Result<V, IntegrationError>;
+
 /// A sign. A function that has reached zero has changed it, and stays zero or goes on, or turns back, which is another
 /// change.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -147,6 +159,13 @@ fn reached(direction: Direction) -> Side {
 }
 
 impl<F, const N: usize> Events<F, N> {
+    fn watched<S: Dynamics>(&self) -> Watched<'_, S, N>
+    where
+        F: Fn(ScalarOf<S>, &S::State, &S::Input) -> [ScalarOf<S>; N],
+    {
+        Events { functions: &self.functions, directions: self.directions, samples: self.samples }
+    }
+
     /// The values of the functions.
     fn station<S: Dynamics>(
         &self,
@@ -264,7 +283,7 @@ where
     {
         self.admit_target(target)?;
         let mut here = events.station::<S>(self.time(), self.state(), self.input())?;
-        if let Some(event) = self.pay_owed(events, &here, one, &mut visit) {
+        if let Some(event) = self.pay_owed(&events.watched::<S>(), &here, one, &mut visit) {
             return Ok(Some(event));
         }
         let is_given = self.last_step().is_none();
@@ -273,7 +292,8 @@ where
         while self.time() != target {
             let sight = self.in_sight(begun, stop, target);
             self.step_in_sight(spent, [target, sight])?;
-            let sides = sides.get_or_insert_with(|| self.beginning(events, &here, stop, is_given));
+            let sides =
+                sides.get_or_insert_with(|| self.beginning(&events.watched::<S>(), &here, stop, is_given));
             let looked = self.look_back(events, &mut here, sides, one, &mut visit);
             match looked.map_err(E::from).and_then(|event| kept(self).map(|()| event)) {
                 Ok(None) => {}

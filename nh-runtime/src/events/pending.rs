@@ -3,7 +3,7 @@
 use super::local::Local;
 use super::locate::{find, is_wanted};
 use super::start::Sides;
-use super::{Events, Side, Station, beyond, crossing, reached};
+use super::{Side, Station, Within, beyond, crossing, reached};
 use crate::{Direction, IntegrationError, Real};
 
 /// The sign changes between two stations that are still to be reported, each with its time.
@@ -15,16 +15,16 @@ pub(super) struct Pending<T, const N: usize> {
 
 impl<T: Real, const N: usize> Pending<T, N> {
     /// Those of a step; the sides are then those at the second station.
-    pub(super) fn between<F>(
-        events: &Events<F, N>,
+    pub(super) fn between(
+        directions: &[Direction; N],
         stations: [Station<T, N>; 2],
         sides: &mut Sides<T, N>,
-        values_at: impl Fn(T) -> Result<[T; N], IntegrationError>,
+        values_at: Within<'_, [T; N], T>,
     ) -> Result<Self, IntegrationError> {
         let mut found = [None; N];
         let all = sides.of;
         for (index, (slot, from)) in found.iter_mut().zip(all).enumerate() {
-            let change = find(events, index, stations, sides, &values_at)?;
+            let change = find(directions, index, stations, sides, values_at)?;
             if change.is_some_and(|(time, _)| sides.is_echo(index, from, time)) {
                 sides.of.iter_mut().skip(index).take(1).for_each(|side| *side = from);
             } else {
@@ -93,15 +93,15 @@ impl<T: Real, const N: usize> Pending<T, N> {
 
     /// Changes of sign that the values at a stop show beyond doubt although they have not been found: of functions that
     /// have changed it twice since. `unit` is a rounding unit of time.
-    pub(super) fn unseen<F>(
+    pub(super) fn unseen(
         &self,
-        events: &Events<F, N>,
+        directions: &[Direction; N],
         values: &[T; N],
         local: &[Local<T>; N],
         unit: T,
     ) -> [Option<Direction>; N] {
         let mut seen = [None; N];
-        let each = self.from.iter().zip(&events.directions).zip(values.iter().zip(local)).zip(&mut seen);
+        let each = self.from.iter().zip(directions).zip(values.iter().zip(local)).zip(&mut seen);
         for (((from, wanted), (value, local)), seen) in each {
             *seen = crossing(*from, *value)
                 .filter(|direction| is_wanted(*wanted, *direction) && !local.is_zero(unit, *value));

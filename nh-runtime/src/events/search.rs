@@ -1,13 +1,12 @@
 //! The events within a step.
 
 use core::cell::Cell;
-use core::ops::ControlFlow;
 
 use super::local::Local;
 use super::pending::Pending;
 use super::start::{Contacts, Sides, midway};
 use super::turns::double_changes;
-use super::{Event, EventOf, Events, Side, Station, crossing, print, side};
+use super::{Event, EventOf, Events, Side, Station, Visit, Watched, Within, crossing, print, side};
 use crate::methods::{Method, Start};
 use crate::stop::{Flight, NO_HEIGHT, SHORT_HEIGHT, Stop};
 use crate::{Direction, Dynamics, IntegrationError, Integrator, Real, ScalarOf};
@@ -24,24 +23,40 @@ where
         here: &mut Station<ScalarOf<S>, N>,
         sides: &mut Sides<ScalarOf<S>, N>,
         one: bool,
-        visit: &mut impl FnMut(&EventOf<S>) -> ControlFlow<()>,
+        visit: Visit<'_, S>,
     ) -> Result<Option<EventOf<S>>, IntegrationError>
     where
         F: Fn(ScalarOf<S>, &S::State, &S::Input) -> [ScalarOf<S>; N],
     {
-        let (start, end) = (here.time, self.time());
+        let reached = events.station::<S>(self.time(), self.state(), self.input())?;
+        let over = sides.contacts().over(reached);
+        let mut ends = sides.of.iter().zip(over.values);
+        let is_looked_into = events.samples > 0
+            || ends.any(|(from, value)| *from == Side::On || crossing(*from, value).is_some());
+        if is_looked_into {
+            let stopped = self.look_into(&events.watched::<S>(), [*here, reached], sides, one, visit)?;
+            if stopped.is_some() {
+                return Ok(stopped);
+            }
+        }
+        *here = reached;
+        sides.go_on(&reached.values);
+        Ok(None)
+    }
+
+    /// Looks for events in the last step, between these stations.
+    fn look_into<const N: usize>(
+        &mut self,
+        events: &Watched<'_, S, N>,
+        [here, reached]: [Station<ScalarOf<S>, N>; 2],
+        sides: &mut Sides<ScalarOf<S>, N>,
+        one: bool,
+        visit: Visit<'_, S>,
+    ) -> Result<Option<EventOf<S>>, IntegrationError> {
+        let (start, end) = (here.time, reached.time);
         let forwards = start < end;
-        let reached = events.station::<S>(end, self.state(), self.input())?;
         let contacts = Cell::new(sides.contacts());
         let over = |station| contacts.get().over(station);
-        let mut ends = sides.of.iter().zip(over(reached).values);
-        if events.samples == 0
-            && !ends.any(|(from, value)| *from == Side::On || crossing(*from, value).is_some())
-        {
-            *here = reached;
-            sides.go_on(&reached.values);
-            return Ok(None);
-        }
         let dense = self.dense();
         let evaluate = |time: ScalarOf<S>| -> Result<_, IntegrationError> {
             let state = dense.at(time)?;
@@ -59,13 +74,13 @@ where
             Ok(Some(station_at(start + (end - start) * share)?))
         };
         let mut before = None;
-        let mut begun = *here;
+        let mut begun = here;
         let mut next = sampled(1)?;
         for part in 1..=parts {
             let Some(there) = next else { break };
             next = sampled(part + 1)?;
             let around = [before, Some(begun), Some(there), next];
-            let mut turns = Turns::between(&sides.of, &contacts.get(), around, raw_at)?;
+            let mut turns = Turns::between(&sides.of, &contacts.get(), around, &raw_at)?;
             before = Some(begun);
             // from turn to turn of the functions between the two
             loop {
@@ -74,7 +89,8 @@ where
                     Some(time) => station_at(time)?,
                     None => there,
                 };
-                let mut pending = Pending::between(events, [begun, to].map(over), sides, values_at)?;
+                let mut pending =
+                    Pending::between(&events.directions, [begun, to].map(over), sides, &values_at)?;
                 while let Some(first) = pending.first(forwards) {
                     let mut time = first;
                     if pending.are_several() {
@@ -111,7 +127,10 @@ where
                     if report(taken, &mut stop).is_some() {
                         if N > 1 {
                             let local = self.local_at(events, &state, &station, end - start);
-                            report(pending.unseen(events, &there.values, &local, stop.unit), &mut stop);
+                            report(
+                                pending.unseen(&events.directions, &there.values, &local, stop.unit),
+                                &mut stop,
+                            );
                             note_coming(&mut stop, &local, &there);
                         }
                         stop.print = print(&station.values);
@@ -127,22 +146,17 @@ where
                 }
             }
         }
-        *here = reached;
-        sides.go_on(&reached.values);
         Ok(None)
     }
 
     /// The functions at a state within the last step.
-    fn local_at<F, const N: usize>(
+    fn local_at<const N: usize>(
         &self,
-        events: &Events<F, N>,
+        events: &Watched<'_, S, N>,
         state: &S::State,
         here: &Station<ScalarOf<S>, N>,
         length: ScalarOf<S>,
-    ) -> [Local<ScalarOf<S>>; N]
-    where
-        F: Fn(ScalarOf<S>, &S::State, &S::Input) -> [ScalarOf<S>; N],
-    {
+    ) -> [Local<ScalarOf<S>>; N] {
         let start = Start { system: self.system(), input: self.input(), time: here.time, state };
         events.local(&start, (length, self.state()), &here.values)
     }
@@ -169,7 +183,7 @@ fn ends_flight<T: Real, const N: usize>(
     stop: &mut Stop<T>,
     (index, step): (usize, T),
     sides: &Sides<T, N>,
-    values_at: &impl Fn(T) -> Result<[T; N], IntegrationError>,
+    values_at: Within<'_, [T; N], T>,
 ) -> Result<(), IntegrationError> {
     let start = sides.begin.time;
     let flight = (stop.time - start).abs();
@@ -203,12 +217,12 @@ impl<T: Real, const N: usize> Turns<T, N> {
         sides: &[Side; N],
         contacts: &Contacts<T, N>,
         around: [Option<Station<T, N>>; 4],
-        values_at: impl Fn(T) -> Result<[T; N], IntegrationError>,
+        values_at: Within<'_, [T; N], T>,
     ) -> Result<Self, IntegrationError> {
         let over = |station| contacts.over(station);
         let counted = around.map(|station| station.map(over));
         let counted_at = |time| values_at(time).map(|values| over(Station { time, values }).values);
-        let mut times = double_changes(sides, counted.each_ref().map(Option::as_ref), counted_at)?;
+        let mut times = double_changes(sides, counted.each_ref().map(Option::as_ref), &counted_at)?;
         if let [_, Some(here), Some(there), _] = &around {
             let left = contacts.left([here, there], values_at)?;
             times.iter_mut().zip(left).for_each(|(time, left)| *time = time.or(left));

@@ -1,8 +1,6 @@
 //! Where an integration has stopped at events, and which of them are still to be reported.
 
-use core::ops::ControlFlow;
-
-use super::{Event, EventOf, Events, Side, Station, print};
+use super::{Event, EventOf, Side, Station, Visit, Watched, print};
 use crate::methods::{Method, Start};
 use crate::stop::bit;
 use crate::{Direction, Dynamics, Integrator, Real, ScalarOf};
@@ -13,16 +11,13 @@ where
 {
     /// Reports what happened where the integration stands and has not been reported; where another state has been given
     /// there, of that only where a function is still on its way through zero. The event that it stops at.
-    pub(super) fn pay_owed<F, const N: usize>(
+    pub(super) fn pay_owed<const N: usize>(
         &mut self,
-        events: &Events<F, N>,
+        events: &Watched<'_, S, N>,
         here: &Station<ScalarOf<S>, N>,
         one: bool,
-        visit: &mut impl FnMut(&EventOf<S>) -> ControlFlow<()>,
-    ) -> Option<EventOf<S>>
-    where
-        F: Fn(ScalarOf<S>, &S::State, &S::Input) -> [ScalarOf<S>; N],
-    {
+        visit: Visit<'_, S>,
+    ) -> Option<EventOf<S>> {
         let mut stop = self.stop().filter(|stop| stop.owed != 0)?;
         let start =
             Start { system: self.system(), input: self.input(), time: self.time(), state: self.state() };

@@ -1,7 +1,7 @@
 //! On which side of zero event functions start.
 
 use super::local::Local;
-use super::{Events, Side, Station, before, beyond, print, reached, side};
+use super::{Side, Station, Watched, Within, before, beyond, print, reached, side};
 use crate::methods::Method;
 use crate::stop::Stop;
 use crate::{Direction, Dynamics, IntegrationError, Integrator, Real, Scalar, ScalarOf};
@@ -115,7 +115,7 @@ impl<T: Real, const N: usize> Contacts<T, N> {
     pub(super) fn left(
         &self,
         [here, there]: [&Station<T, N>; 2],
-        values_at: impl Fn(T) -> Result<[T; N], IntegrationError>,
+        values_at: Within<'_, [T; N], T>,
     ) -> Result<[Option<T>; N], IntegrationError> {
         let mut times = [None; N];
         for (index, (time, depth)) in times.iter_mut().zip(self.0).enumerate() {
@@ -141,7 +141,7 @@ impl<T: Real, const N: usize> Contacts<T, N> {
 pub(super) fn midway<T: Real, const N: usize>(
     index: usize,
     (start, end): (T, T),
-    values_at: &impl Fn(T) -> Result<[T; N], IntegrationError>,
+    values_at: Within<'_, [T; N], T>,
 ) -> Result<T, IntegrationError> {
     let values = values_at(start + (end - start) * T::from_f64(0.5))?;
     Ok(values.get(index).copied().unwrap_or(T::ZERO))
@@ -152,16 +152,13 @@ where
     ScalarOf<S>: Real,
 {
     /// The sides at the start of the last step, the first of a run. The state there was given, or reached.
-    pub(super) fn beginning<F, const N: usize>(
+    pub(super) fn beginning<const N: usize>(
         &self,
-        events: &Events<F, N>,
+        events: &Watched<'_, S, N>,
         here: &Station<ScalarOf<S>, N>,
         stop: Option<Stop<ScalarOf<S>>>,
         is_given: bool,
-    ) -> Sides<ScalarOf<S>, N>
-    where
-        F: Fn(ScalarOf<S>, &S::State, &S::Input) -> [ScalarOf<S>; N],
-    {
+    ) -> Sides<ScalarOf<S>, N> {
         let mut sides = Sides {
             of: here.values.map(side),
             leaving: [false; N],

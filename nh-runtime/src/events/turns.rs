@@ -1,6 +1,6 @@
 //! Where an event function comes near to zero and turns, between two points that show one sign.
 
-use super::{Side, Station, crossing, side};
+use super::{Side, Station, Within, crossing, side};
 use crate::{IntegrationError, Real};
 
 /// A time and the value of a function there.
@@ -36,7 +36,7 @@ fn within<T: Real>(a: T, time: T, b: T) -> bool {
 fn other_side<T: Real>(
     from: Side,
     [before, a, b, after]: [Option<Point<T>>; 4],
-    value_at: impl Fn(T) -> Result<T, IntegrationError>,
+    value_at: Within<'_, T, T>,
 ) -> Result<Option<T>, IntegrationError> {
     let (Some(a), Some(b)) = (a, b) else { return Ok(None) };
     for mut triple in
@@ -64,7 +64,7 @@ fn other_side<T: Real>(
 pub(super) fn double_changes<T: Real, const N: usize>(
     sides: &[Side; N],
     stations: [Option<&Station<T, N>>; 4],
-    values_at: impl Fn(T) -> Result<[T; N], IntegrationError>,
+    values_at: Within<'_, [T; N], T>,
 ) -> Result<[Option<T>; N], IntegrationError> {
     let mut times = [None; N];
     for (index, (time, from)) in times.iter_mut().zip(sides).enumerate() {
@@ -74,7 +74,7 @@ pub(super) fn double_changes<T: Real, const N: usize>(
             continue;
         }
         let value_at = |time| values_at(time).map(|values| values.get(index).copied().unwrap_or(T::ZERO));
-        *time = other_side(*from, points, value_at)?;
+        *time = other_side(*from, points, &value_at)?;
     }
     Ok(times)
 }
