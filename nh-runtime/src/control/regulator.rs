@@ -110,8 +110,10 @@ impl<T: Entry, const N: usize, const M: usize> Regulator<T, N, M> {
                 calmest = (change, cost);
             }
         }
-        if iterations == 1 {
-            // beyond the range of the scalar at once, rather than by growing
+        // at once, rather than by growing: beyond the range of the scalar, or 1 + reach · cost had no inverse in its digits
+        let has_ended_at_once = iterations == 1;
+        let has_no_inverse = has_ended_at_once && cost.iter().any(|entry| entry.to_f64().is_nan());
+        if has_ended_at_once && !has_no_inverse {
             finite("the cost of the regulator", &cost)?;
         }
         // rounding of what cheap inputs reach hides that what they do not reach decays, if slowly: with the gain it shows
@@ -119,6 +121,9 @@ impl<T: Entry, const N: usize, const M: usize> Regulator<T, N, M> {
             && regulator.followed(a, b, q, r).is_some()
         {
             return Ok(regulator);
+        }
+        if has_no_inverse {
+            return Err(ControlError::Residual { residual: f64::INFINITY });
         }
         Err(ControlError::NotStabilizable { iterations, change: change.to_f64() })
     }

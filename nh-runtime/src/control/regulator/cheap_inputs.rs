@@ -1,6 +1,6 @@
 //! Regulators of inputs that cost next to nothing, or far more than what they save.
 
-use nalgebra::{Matrix2, Matrix3, SMatrix};
+use nalgebra::{Matrix2, Matrix3, SMatrix, matrix, vector};
 
 use super::super::draws::Draws;
 use super::Regulator;
@@ -60,4 +60,19 @@ fn what_no_input_reaches_may_decay_slowly_however_cheap_inputs_are() {
             assert!((cost - found.cost).norm() < 1e-9 * cost.norm(), "{decay} {case}: {cost}");
         }
     }
+}
+
+/// Inputs so cheap that 1 + reach · cost has no inverse in the digits of the numbers: the gain is that of many steps backwards
+/// from the end of a horizon.
+#[test]
+fn inputs_that_cost_next_to_nothing_need_no_inverse() {
+    let a = matrix![6e-2_f64, 8e4; 2e-6, 0.1];
+    let b = vector![2.4e11, -4.9e6];
+    let (q, r) = (matrix![2.2e-12, -1.2e-7; -1.2e-7, 6.55e-2], matrix![1.1e-13]);
+    let found = Regulator::stationary(&a, &b, &q, &r).unwrap();
+    let mut last = Regulator::before(&q, &a, &b, &q, &r).unwrap();
+    for _ in 0..200 {
+        last = Regulator::before(&last.cost, &a, &b, &q, &r).unwrap();
+    }
+    assert!((found.gain - last.gain).norm() < 1e-12 * last.gain.norm(), "{} for {}", found.gain, last.gain);
 }
