@@ -38,21 +38,28 @@ pub(super) fn touching_each_other(model: &mut Model, manifold: &Manifold) -> Opt
     touch(model, evidence)
 }
 
-/// Position constraints of which multiples add up to a function of one sign, or to a power: where they hold it is 0 and has
-/// no derivative, so that theirs are dependent. Three bars that are as long together as their pins are apart say so.
+/// Position constraints of which multiples add up to a function of one sign, or to a power. Three bars that are as long
+/// together as their pins are apart say so.
 pub(super) fn touching_as_multiples(model: &mut Model) -> Option<Violation> {
-    let demands = on_the_base(model);
     let values: Vec<ExprId> = model.positions.iter().map(|position| position.value).collect();
+    let why = multiples_without_slope(model, &values)?;
+    touch(model, format!("multiples of them add up to what has no slope: {why}"))
+}
+
+/// Why functions have dependent derivatives wherever they are 0, in words: multiples of them add up to a function of one
+/// sign, or to a power, which has none where it is 0.
+pub(super) fn multiples_without_slope(model: &mut Model, functions: &[ExprId]) -> Option<String> {
+    let demands = on_the_base(model);
     let coordinates: Vec<SymbolId> = model.coordinates.iter().map(|c| c.symbol).collect();
     let graph = &mut model.graph;
-    let combinations = graph.combinations_without_slope(&values, &demands);
+    let combinations = graph.combinations_without_slope(functions, &demands);
     let (why, _) = combinations.into_iter().find_map(|combination| {
         let combination = graph.simplify(combination);
         // of a product one factor may be 0 with a slope, and another without
         let is_asked = factors_that_vary(graph, combination, &coordinates) == 1;
         is_asked.then(|| without_slope(graph, combination, &coordinates))?
     })?;
-    touch(model, format!("multiples of them add up to what has no slope: {why}"))
+    Some(why)
 }
 
 /// That position constraints touch.

@@ -50,6 +50,11 @@ impl Positions {
         Self { manifold: base.clone(), base: base.clone(), ..Self::default() }
     }
 
+    /// The embedded base.
+    pub(super) fn base(&self) -> &Manifold {
+        &self.base
+    }
+
     /// What was not solved, on the base.
     pub(super) fn where_unsolved(&self) -> Unsolved<'_> {
         Unsolved { values: &self.values, base: &self.base }
