@@ -35,6 +35,9 @@ impl Next {
     }
 }
 
+/// The steps after which a way is no near one: it began where rounding was some ten times as large.
+const MOST_STEPS: u32 = 8;
+
 /// Newton's iteration for positions on which M constraints act, then one step for the velocities.
 ///
 /// Positions have arrived where [`newton`](crate::newton_return::newton) stops, or by a step that moves each by at most 64
@@ -123,7 +126,7 @@ impl<T: Scalar, const N: usize, const M: usize> NearReturn<T, N, M> {
         self.is_there = is_settled(&self.change, &self.sizes, preceding)
             || (preceding.is_some() && is_held_up(&self.change, &self.sizes, left_over));
         let falls = |preceding: &[T; N]| falls(preceding, &self.change, &self.sizes);
-        self.is_far = !self.is_there && !preceding.is_none_or(falls);
+        self.is_far = self.steps > MOST_STEPS || (!self.is_there && !preceding.is_none_or(falls));
     }
 
     /// Positions after a change.
@@ -333,6 +336,16 @@ mod tests {
             let (residual, _, from_far) = returned(&mut state);
             assert!(residual.unwrap_err().iterations == 7 && from_far == 1, "{start:?}");
             assert_eq!(state.map(f64::to_bits), start.map(f64::to_bits));
+        }
+    }
+
+    /// Each step halves the distance, and rounding where it began would be taken for that of the circle.
+    #[test]
+    fn a_way_of_many_halvings_is_left_to_others() {
+        for (power, most) in [(2, 0), (20, 1), (60, 1)] {
+            let far = 2.0_f64.powi(power);
+            let (_, _, from_far) = returned(&mut [0.6 * far, 0.8 * far, 8.0, -6.0]);
+            assert_eq!(from_far, most, "{power}");
         }
     }
 

@@ -18,7 +18,8 @@ const MOST_ITERATIONS: u32 = 50;
 /// residual that is left is to the one before, row by row. Near to where it leads it is one step. No two variables and no
 /// two residuals are compared, so that units do not matter.
 /// Where a variable is near to zero beside others, rounding is that of the terms of the equations: there it stops where
-/// changes no longer fall and residuals are rounding beside their terms. Where all variables are near to zero, as upright
+/// changes no longer fall and residuals are rounding beside their terms. Where one has come from eight times as far, its
+/// rounding there is none here: it goes on while more than rounding is left of equations, and halves. Where all variables are near to zero, as upright
 /// and at the origin, that is rounding of lengths inside the equations: residuals jump before and behind the way of the
 /// change. A variable that rounding of the others changes by as much as it is becomes zero where the equations hold then: the
 /// table of a lift that stays level, of which each step leaves rounding of rounding. Lanes stop together, when the last one does. Derivatives that numbers carry converge by further iterations.
@@ -59,7 +60,10 @@ pub fn newton<T: Scalar, const N: usize, const M: usize>(
                 || (preceding.is_some_and(|preceding| is_level(&preceding, &moved))
                     && is_rounding(&present, &moved, (&before, &left), &residual))
         };
-        if is_there || is_end() {
+        // rounding of where a way began is not that of where it leads
+        let is_on_its_way =
+            || is_far(&most, &present) && still_falls(&present, &moved, (&before, &left), &residual);
+        if is_there || (is_end() && !is_on_its_way()) {
             if further == 0 {
                 break;
             }
@@ -77,6 +81,33 @@ pub fn newton<T: Scalar, const N: usize, const M: usize>(
         preceding = Some(moved);
     }
     Ok(present)
+}
+
+/// Whether some variable, in some lane, is small beside where it has been.
+fn is_far<T: Scalar, const N: usize>(most: &[T; N], present: &[T; N]) -> bool {
+    let mut any = T::ZERO;
+    for (most, present) in most.iter().zip(present) {
+        any = any.max(most.select_gt(present.abs() * T::from_f64(FAR), T::ONE, T::ZERO));
+    }
+    !T::ZERO.all_ge(any)
+}
+
+/// Whether what is left of some equation, in some lane, is no rounding beside its terms and less than half of what was before.
+#[cold]
+fn still_falls<T: Scalar, const N: usize, const M: usize>(
+    present: &[T; N],
+    moved: &[T; N],
+    (before, left): (&[T; M], &[T; M]),
+    residual: impl Fn(&[T; N]) -> [T; M],
+) -> bool {
+    let mut any = T::ZERO;
+    for (is_known, (before, left)) in
+        are_rounding(present, moved, residual).iter().zip(before.iter().zip(left))
+    {
+        let halves = (before.abs() * T::from_f64(0.5)).select_gt(left.abs(), T::ONE, T::ZERO);
+        any = any.max(halves * (T::ONE - *is_known));
+    }
+    !T::ZERO.all_ge(any)
 }
 
 /// x + change(x).
@@ -160,6 +191,8 @@ pub(crate) fn jumps_between<T: Scalar>(
     jumps * pole.select_gt(at_near.abs().max(at_far.abs()), T::ONE, T::ZERO)
 }
 
+/// How many times smaller than where it has been a variable may be for rounding there to be rounding here.
+const FAR: f64 = 8.0;
 /// A multiple of a change of the size of rounding that is beyond its noise, and nothing beside the lengths of a machine.
 pub(crate) const MULTIPLE: f64 = 1024.0;
 /// How many changes before and behind one are searched for jumps: a few steps of rounding.
@@ -202,6 +235,19 @@ mod tests {
     fn change(p: &[f64; 2]) -> [f64; 2] {
         let factor = circle(p)[0] / (2.0 * (p[0] * p[0] + p[1] * p[1]));
         [-factor * p[0], -factor * p[1]]
+    }
+
+    /// What is rounding of a place that is far away is not rounding of the circle.
+    #[test]
+    fn from_far_away_it_ends_on_the_circle_or_nowhere() {
+        for power in 0..100 {
+            let far = 2.0_f64.powi(power);
+            let Ok([x, y]) = newton([0.6 * far, 0.8 * far], change, circle) else {
+                assert!(power > 44, "{power}");
+                continue;
+            };
+            assert!((x * x + y * y - 1.0).abs() < 4e-15, "{power}: {x} {y}");
+        }
     }
 
     #[test]

@@ -7,6 +7,7 @@ mod bounded_terms;
 mod branches;
 mod circle;
 mod combination;
+mod constant_multipliers;
 mod constants;
 mod degree;
 mod derivative;

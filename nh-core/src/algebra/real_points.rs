@@ -34,8 +34,8 @@ const DISTANCE: f64 = 1e-4;
 const WORK: u64 = 20_000_000;
 
 /// Equations with what moves them.
-struct Search {
-    symbols: Vec<SymbolId>,
+pub(super) struct Search {
+    pub(super) symbols: Vec<SymbolId>,
     equations: Evaluator,
     /// ∂f/∂symbol, a row for each equation.
     slopes: Evaluator,
@@ -46,52 +46,58 @@ struct Search {
 impl Graph {
     /// Whether real values are found that satisfy the demands, as far as rounding tells.
     pub fn real_point_is_found(&mut self, demands: &[(ExprId, Demand)]) -> bool {
-        let (equations, others): (Vec<_>, Vec<_>) =
-            demands.iter().copied().partition(|(_, demand)| *demand == Demand::Zero);
-        let equations: Vec<ExprId> = equations.into_iter().map(|(equation, _)| equation).collect();
-        let (others, wanted): (Vec<ExprId>, Vec<Demand>) = others.into_iter().unzip();
-        let all: Vec<ExprId> = demands.iter().map(|(id, _)| *id).collect();
-        let symbols = self.symbols_in(&all);
         let found = limits::attempt(WORK, || {
-            let mut slopes = Vec::with_capacity(equations.len() * symbols.len());
-            for equation in &equations {
-                slopes.extend(symbols.iter().map(|symbol| self.partial(*equation, *symbol)));
-            }
-            let mut search = Search {
-                equations: self.evaluator(&equations),
-                slopes: self.evaluator(&slopes),
-                inequalities: self.evaluator(&others),
-                symbols,
-                demands: wanted,
-            };
-            (0..PLACES).any(|place| search.succeeds_from(place))
+            let mut search = Search::of(self, demands);
+            (0..PLACES).any(|place| search.point_from(place).is_some())
         });
         found.unwrap_or(false)
     }
 }
 
 impl Search {
+    /// The search for where demands are met.
+    pub(super) fn of(graph: &mut Graph, demands: &[(ExprId, Demand)]) -> Self {
+        let (equations, others): (Vec<_>, Vec<_>) =
+            demands.iter().copied().partition(|(_, demand)| *demand == Demand::Zero);
+        let equations: Vec<ExprId> = equations.into_iter().map(|(equation, _)| equation).collect();
+        let (others, demands): (Vec<ExprId>, Vec<Demand>) = others.into_iter().unzip();
+        let all: Vec<ExprId> = equations.iter().chain(&others).copied().collect();
+        let symbols = graph.symbols_in(&all);
+        let mut slopes = Vec::with_capacity(equations.len() * symbols.len());
+        for equation in &equations {
+            slopes.extend(symbols.iter().map(|symbol| graph.partial(*equation, *symbol)));
+        }
+        Self {
+            equations: graph.evaluator(&equations),
+            slopes: graph.evaluator(&slopes),
+            inequalities: graph.evaluator(&others),
+            symbols,
+            demands,
+        }
+    }
+
     fn at(evaluator: &mut Evaluator, symbols: &[SymbolId], point: &[f64]) -> Vec<Bounded> {
         evaluator.at(|symbol| symbols.iter().position(|known| *known == symbol).map_or(0.0, |k| point[k]))
     }
 
-    fn succeeds_from(&mut self, place: u64) -> bool {
+    /// Where they are met, looked for from one of the places.
+    pub(super) fn point_from(&mut self, place: u64) -> Option<Vec<f64>> {
         let starts = (0..MACHINES).map(|machine| self.start(place, machine)).collect::<Vec<_>>();
         let met = starts.iter().find(|start| self.is_allowed(start)).cloned();
-        let Some(mut point) = met.or_else(|| starts.into_iter().next()) else { return false };
+        let mut point = met.or_else(|| starts.into_iter().next())?;
         let start = point.clone();
-        let Some(mut size) = self.size(&point) else { return false };
+        let mut size = self.size(&point)?;
         let first = size;
         let mut damping = DAMPING;
         for _ in 0..STEPS {
             if self.is_met(&point) && self.is_allowed(&point) {
-                return true;
+                return Some(point);
             }
-            let Some(step) = self.step(&point, damping) else { return false };
+            let step = self.step(&point, damping)?;
             // where a factor is zero its product is as good as zero near to that
             let is_near = step.iter().zip(&start).all(|(dx, x)| dx.abs() <= NEAR * x.abs());
             if is_near && size <= NEAR * NEAR * first && self.keeps_its_distance(&point, &start) {
-                return true;
+                return Some(point);
             }
             let next: Vec<f64> = point.iter().zip(&step).map(|(x, dx)| x - dx).collect();
             match self.size(&next) {
@@ -105,7 +111,7 @@ impl Search {
                 break;
             }
         }
-        self.is_met(&point) && self.is_allowed(&point)
+        (self.is_met(&point) && self.is_allowed(&point)).then_some(point)
     }
 
     /// A place to start from: numbers of one or two digits, some of them from other decades.
@@ -151,17 +157,20 @@ impl Search {
         keeps && self.is_allowed(point)
     }
 
+    /// J, a row for each equation.
+    pub(super) fn slopes_at(&mut self, point: &[f64]) -> Vec<Vec<f64>> {
+        let slopes = Self::at(&mut self.slopes, &self.symbols, point);
+        let rows = slopes.chunks(self.symbols.len().max(1));
+        rows.map(|row| row.iter().map(|slope| slope.value).collect()).collect()
+    }
+
     /// Jᵀ (J Jᵀ + μ)⁻¹ f; nothing where there is nothing that could move.
     fn step(&mut self, point: &[f64], damping: f64) -> Option<Vec<f64>> {
         if self.symbols.is_empty() {
             return None;
         }
         let f = Self::at(&mut self.equations, &self.symbols, point);
-        let slopes = Self::at(&mut self.slopes, &self.symbols, point);
-        let rows: Vec<Vec<f64>> = slopes
-            .chunks(self.symbols.len())
-            .map(|row| row.iter().map(|slope| slope.value).collect())
-            .collect();
+        let rows = self.slopes_at(point);
         let mean = rows.iter().map(|row| product(row, row)).sum::<f64>()
             / f64::from(u32::try_from(rows.len()).ok()?);
         let (_, step) = least_step(&rows, f.iter().map(|f| f.value), damping * mean);

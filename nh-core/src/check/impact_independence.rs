@@ -1,10 +1,11 @@
 //! Whether the rows of an impact are independent of each other and of the constraints, where they act.
 
-use super::assumptions::demand;
+use super::assumptions::{demand, on_the_base};
 use super::dependence::{combination_of, place_of, where_they_hold};
-use super::evidence::name_of;
+use super::evidence::{name_of, shown};
 use super::formulation::Chosen;
 use super::impact_rows::{Between, ImpactRow, refused};
+use super::no_force::{multiples_without_slope, without_slope};
 use crate::algebra::{Demand, Matrix};
 use crate::geometry::Manifold;
 use crate::id::{ExprId, SymbolId};
@@ -95,7 +96,12 @@ fn follows(
             }
         }
     }
-    let (part, restricted, rank) = found.iter().find(|(_, restricted, rank)| *rank < restricted.len())?;
+    let Some((part, restricted, rank)) = found.iter().find(|(_, restricted, rank)| *rank < restricted.len())
+    else {
+        let why = touching(model, &rows[row], &closed, &manifold)?;
+        let what = format!("`{}` only touches where it is closed: it takes no impulse there", rows[row].name);
+        return Some(refused(rows[row].origin, what, why, "correct it, or leave it out"));
+    };
     let (restricted, rank) = (restricted.clone(), *rank);
     let is_everywhere = found.iter().all(|(_, restricted, rank)| *rank < restricted.len());
     let place =
@@ -129,12 +135,43 @@ fn follows(
     ))
 }
 
+/// Why the gap of a row only touches 0, by itself or where constraints hold and others are closed, in words.
+fn touching(model: &mut Model, row: &ImpactRow, closed: &[ExprId], manifold: &Manifold) -> Option<String> {
+    let gap = row.position?;
+    let coordinates: Vec<SymbolId> = model.coordinates.iter().map(|c| c.symbol).collect();
+    if let Some((why, _)) = without_slope(&mut model.graph, gap, &coordinates) {
+        return Some(why);
+    }
+    let demands = on_the_base(model);
+    if let Some(radicand) = manifold.touching(&mut model.graph, &demands) {
+        let radicand = shown(&model.graph, radicand);
+        return Some(format!(
+            "solved for coordinates, what holds there contains the root of {radicand}, which is positive nowhere"
+        ));
+    }
+    let positions = model.positions.iter().map(|position| position.value);
+    let values: Vec<ExprId> = positions.chain(closed.iter().copied()).collect();
+    let why = multiples_without_slope(model, &values)?;
+    Some(format!("multiples of gaps and position constraints add up to what has no slope: {why}"))
+}
+
 /// Where the position constraints hold and gaps are closed, as far as that is solved for coordinates: parameters keep
 /// their freedom, since what is refused has to be wrong for all of them.
 fn where_closed(model: &mut Model, between: &Between, gaps: &[ExprId]) -> Manifold {
     let coordinates: Vec<SymbolId> = model.coordinates.iter().map(|c| c.symbol).collect();
     let positions = &between.positions.manifold;
-    let mut closed = Manifold::of_positions(&mut model.graph, positions, gaps, [&coordinates, &[]]).manifold;
+    let parameters: Vec<SymbolId> = model.parameters.iter().map(|parameter| parameter.symbol).collect();
+    let mut closed = None;
+    if positions.images().iter().any(|(symbol, _)| parameters.contains(symbol)) {
+        let values = model.positions.iter().map(|position| position.value);
+        let values: Vec<ExprId> = values.chain(gaps.iter().copied()).collect();
+        let base = between.positions.base();
+        let found = Manifold::of_positions(&mut model.graph, base, &values, [&coordinates, &[]]);
+        closed = found.unsolved.is_empty().then_some(found.manifold);
+    }
+    let mut closed = closed.unwrap_or_else(|| {
+        Manifold::of_positions(&mut model.graph, positions, gaps, [&coordinates, &[]]).manifold
+    });
     let mut demands = where_they_hold(model);
     demands.extend(gaps.iter().map(|gap| (*gap, Demand::Zero)));
     closed.keep_parts_with_points(&mut model.graph, &demands);

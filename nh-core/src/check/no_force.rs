@@ -30,18 +30,58 @@ pub(super) fn position_without_force(model: &mut Model, index: usize) -> Option<
 pub(super) fn touching_each_other(model: &mut Model, manifold: &Manifold) -> Option<Violation> {
     let demands = on_the_base(model);
     let radicand = manifold.touching(&mut model.graph, &demands)?;
+    let evidence = format!(
+        "solved for coordinates they contain the root of {}, which is positive nowhere: they hold where it is 0 alone, \
+         and constraints that are independent leave more room",
+        shown(&model.graph, radicand)
+    );
+    touch(model, evidence)
+}
+
+/// Position constraints of which multiples add up to a function of one sign, or to a power. Three bars that are as long
+/// together as their pins are apart say so.
+pub(super) fn touching_as_multiples(model: &mut Model) -> Option<Violation> {
+    let values: Vec<ExprId> = model.positions.iter().map(|position| position.value).collect();
+    let why = multiples_without_slope(model, &values)?;
+    touch(model, format!("multiples of them add up to what has no slope: {why}"))
+}
+
+/// Why functions have dependent derivatives wherever they are 0, in words: multiples of them add up to a function of one
+/// sign, or to a power, which has none where it is 0.
+pub(super) fn multiples_without_slope(model: &mut Model, functions: &[ExprId]) -> Option<String> {
+    let demands = on_the_base(model);
+    let coordinates: Vec<SymbolId> = model.coordinates.iter().map(|c| c.symbol).collect();
+    let graph = &mut model.graph;
+    let combinations = graph.combinations_without_slope(functions, &demands);
+    let (why, _) = combinations.into_iter().find_map(|combination| {
+        let combination = graph.simplify(combination);
+        // of a product one factor may be 0 with a slope, and another without
+        let is_asked = factors_that_vary(graph, combination, &coordinates) == 1;
+        is_asked.then(|| without_slope(graph, combination, &coordinates))?
+    })?;
+    Some(why)
+}
+
+/// That position constraints touch.
+fn touch(model: &Model, evidence: String) -> Option<Violation> {
     Some(Violation {
         law: Law::Independence,
         origin: model.positions.last()?.origin,
         what: "the position constraints touch where they hold: their derivatives are dependent there".into(),
-        evidence: format!(
-            "solved for coordinates they contain the root of {}, which is positive nowhere: they hold where it is 0 alone, \
-             and constraints that are independent leave more room",
-            shown(&model.graph, radicand)
-        ),
+        evidence,
         way_out: "correct one of them, or write what they leave, one equation for each: `x = 0; y = 0;`"
             .into(),
     })
+}
+
+/// How many factors of a function change as symbols move.
+fn factors_that_vary(graph: &Graph, function: ExprId, moving: &[SymbolId]) -> usize {
+    match graph.node(function) {
+        Node::Product { factors, .. } => {
+            factors.iter().filter(|(base, _)| graph.depends_on(*base, moving)).count()
+        }
+        _ => usize::from(graph.depends_on(function, moving)),
+    }
 }
 
 /// A constraint whose derivative with respect to the velocities vanishes where it holds, as that of a square does.

@@ -6,7 +6,7 @@ use super::dependence::{ONE_PART, PARTS, combination_shown, place_of, where_they
 use super::empty_entries::{Equation, empty_entries, told};
 use super::evidence::{listed, name_of, shown};
 use super::kinematics::Motion;
-use super::no_force::{position_without_force, touching_each_other};
+use super::no_force::{position_without_force, touching_as_multiples, touching_each_other};
 use super::parts_of_positions::{
     LesserPart, Unsolved, part_of_positions, rates_on_part, unknown_motion, without_lesser_parts,
 };
@@ -48,6 +48,11 @@ impl Positions {
     #[must_use]
     pub fn none(base: &Manifold) -> Self {
         Self { manifold: base.clone(), base: base.clone(), ..Self::default() }
+    }
+
+    /// The embedded base.
+    pub(super) fn base(&self) -> &Manifold {
+        &self.base
     }
 
     /// What was not solved, on the base.
@@ -115,6 +120,9 @@ pub fn positions(
     counts.retain(|count| found.elsewhere.iter().all(|lesser| lesser.rank != *count));
     found.elsewhere.extend(counts.into_iter().map(|rank| LesserPart { place: None, rank }));
     independent(model, &rows, &mut found)?;
+    if let Some(violation) = touching_as_multiples(model) {
+        return Err(vec![violation]);
+    }
     if !found.unsolved.is_empty() && found.part.is_none() && model.positions.len() >= model.sections.len() {
         return Err(vec![unknown_motion(model)]);
     }

@@ -73,12 +73,19 @@ impl Display for SensitivityError {
                  differentiated: by states it is with `emit {{ jacobian, return_jacobian }}`; by parameters integrate \
                  `Variational`, or steps over `Jet` numbers, which contain the return"
             ),
-            Self::Grazing { event, time, rate } => write!(
-                f,
-                "at t = {time:?} the motion touches the zeros of the event function {event} and, but for rounding, does not \
-                 cross them, so that the time of the event has no derivative: it changes at {rate:.1e} of the size of its \
-                 terms"
-            ),
+            Self::Grazing { event, time, rate } => {
+                write!(
+                    f,
+                    "at t = {time:?} the motion touches the zeros of the event function {event} and, but for rounding, does \
+                     not cross them, so that the time of the event has no derivative: "
+                )?;
+                // of one term it is all, however small that is
+                if rate.abs() < 1e-6 {
+                    write!(f, "it changes at {rate:.1e} of the size of its terms")
+                } else {
+                    f.write_str("its rate turns within the time in which it is rounding")
+                }
+            }
             Self::Simultaneous { events: [first, second], time } => write!(
                 f,
                 "the events {first} and {second} happen together at t = {time:?}: what follows depends on their order, and \
@@ -110,5 +117,18 @@ impl Error for SensitivityError {
 impl From<IntegrationError> for SensitivityError {
     fn from(error: IntegrationError) -> Self {
         Self::Integration(error)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::format;
+
+    #[test]
+    fn a_rate_of_one_term_is_not_said_to_be_small() {
+        let told = |rate| format!("{}", SensitivityError::Grazing { event: 0, time: 2.0, rate });
+        assert!(told(1e-17).ends_with("it changes at 1.0e-17 of the size of its terms"));
+        assert!(told(-1.0).ends_with("its rate turns within the time in which it is rounding"));
     }
 }

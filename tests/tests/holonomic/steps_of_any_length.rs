@@ -86,3 +86,24 @@ fn small_swings_about_the_origin_go_on() {
         assert_eq!(ended, [200; 5], "{size}");
     }
 }
+
+/// Explicit steps lead as far away as they are long, and are returned from there.
+#[test]
+fn every_return_ends_on_the_constraints_or_is_refused() {
+    for (size, time) in [(1.0, 1.0), (1e-30, 1e10)] {
+        let swing = Swing { m: 0.7, g: 9.81 * size / time / time, l: size, h: 0.0 };
+        let start = SwingState { x: size, y: 0.0, x_dot: 0.0, y_dot: size / time };
+        for share in [0.1, 0.3, 0.5, 1.0, 2.0, 3.0, 10.0, 1e3, 1e9] {
+            let mut sim = Integrator::new(swing, Rk4::new(share * time), 0.0, start);
+            for step in 0..50 {
+                if sim.step().is_err() {
+                    break;
+                }
+                let (left, state) = (swing.constraint_residual(sim.time(), sim.state()), sim.state());
+                let speed = state.x_dot.hypot(state.y_dot);
+                let open = (left.rod / size.powi(2)).abs().max((left.rod_dot / (size * speed)).abs());
+                assert!(open < 1e-13, "{share}, step {step}: {open:e} at {state:?}");
+            }
+        }
+    }
+}
