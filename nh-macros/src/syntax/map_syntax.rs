@@ -120,6 +120,9 @@ fn header(stream: &mut Stream) -> Result<(SystemPath, SystemPath, Group), Diagno
     Ok((source, target, body))
 }
 
+/// Words of Rust in front of a path.
+const ABOVE: [&str; 3] = ["crate", "self", "super"];
+
 /// `models::Sleigh`
 pub(crate) fn path(stream: &mut Stream) -> Result<SystemPath, Diagnostic> {
     let start = stream.position();
@@ -129,7 +132,12 @@ pub(crate) fn path(stream: &mut Stream) -> Result<SystemPath, Diagnostic> {
         let Some(name) = stream.eat_ident() else {
             return Err(stream.expected("the name of a system").way_out(READS));
         };
-        if stream.eat("::") {
+        let goes_on = stream.eat("::");
+        let is_above = goes_on && ABOVE.contains(&name.to_string().as_str());
+        if !is_above {
+            Name::new(name.clone()).check_word("the name of a system")?;
+        }
+        if goes_on {
             continue;
         }
         if stream.at_marks("<") {
