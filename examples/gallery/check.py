@@ -79,12 +79,39 @@ def tiles(path):
     return [round(sums[tile] / counts[tile] / 255, 3) for tile in sorted(sums)]
 
 
+# as the guidelines for accessible pages ask of small text
+CONTRAST = 4.5
+
+
+def brightness(colour):
+    """The relative luminance of `#rrggbb`."""
+    parts = [int(colour[at:at + 2], 16) / 255 for at in (1, 3, 5)]
+    linear = [part / 12.92 if part <= 0.04045 else ((part + 0.055) / 1.055) ** 2.4 for part in parts]
+    return sum(weight * part for weight, part in zip((0.2126, 0.7152, 0.0722), linear))
+
+
+def faint_words(style):
+    """Colours of text that are too near to what is behind it, in the light and in the dark."""
+    # `color` of the page, and `fill` of the words of a diagram
+    written = set(re.findall(r"(?:[{;]\s*color:|text\.\w+ \{ fill:)\s*var\(--(\w+)\)", style)) - {"paper"}
+    faults = []
+    for scheme in re.findall(r":root \{(.*?)\}", style, re.S):
+        colours = dict(re.findall(r"--(\w+): (#\w{6});", scheme))
+        for name in sorted(written):
+            for behind in ("paper", "card"):
+                dark, light = sorted([brightness(colours[name]), brightness(colours[behind])])
+                ratio = (light + 0.05) / (dark + 0.05)
+                if ratio < CONTRAST:
+                    faults.append(f"text of the colour {name} has a contrast of {ratio:.1f} to {behind}")
+    return faults
+
+
 def main():
     handler = functools.partial(Quiet, directory=SITE)
     server = http.server.ThreadingHTTPServer(("127.0.0.1", 0), handler)
     threading.Thread(target=server.serve_forever, daemon=True).start()
     address = f"http://127.0.0.1:{server.server_address[1]}"
-    faults = []
+    faults = faint_words((HERE / "web" / "style.css").read_text())
 
     page, spoken = browser("--virtual-time-budget=20000", "--window-size=390,844", "--dump-dom", f"{address}/?check")
     faults += spoken

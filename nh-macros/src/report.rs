@@ -50,12 +50,14 @@ struct Message {
     what: String,
     evidence: Option<String>,
     way_out: Option<String>,
+    /// A word that is told of once, however often it stands.
+    word: Option<String>,
 }
 
 impl Diagnostic {
     /// Something is wrong here.
     pub(crate) fn new(extent: Extent, what: impl Into<String>) -> Self {
-        let message = Message { what: what.into(), evidence: None, way_out: None };
+        let message = Message { what: what.into(), evidence: None, way_out: None, word: None };
         Self { extent, message: Box::new(message) }
     }
 
@@ -90,6 +92,12 @@ impl Diagnostic {
     /// And this is what to do.
     pub(crate) fn way_out(mut self, way_out: impl Into<String>) -> Self {
         self.message.way_out = Some(way_out.into());
+        self
+    }
+
+    /// And it is about this word, wherever it stands.
+    pub(crate) fn about_word(mut self, word: &str) -> Self {
+        self.message.word = Some(word.to_owned());
         self
     }
 
@@ -158,9 +166,13 @@ impl Errors {
         Self::default()
     }
 
-    /// Adds an error and goes on.
+    /// Adds an error and goes on; one about a word that was told of is left out.
     pub(crate) fn push(&mut self, error: impl Into<Diagnostic>) {
-        self.collected.push(error.into());
+        let error = error.into();
+        let word = &error.message.word;
+        if word.is_none() || !self.collected.iter().any(|known| known.message.word == *word) {
+            self.collected.push(error);
+        }
     }
 
     /// How many there are.
@@ -199,6 +211,17 @@ mod tests {
 
     fn some(what: &str) -> Diagnostic {
         Diagnostic::new(Extent::at(Span::call_site()), what)
+    }
+
+    #[test]
+    fn a_word_is_told_of_once() {
+        let mut errors = Errors::new();
+        for word in ["type", "type", "fn"] {
+            errors.push(some("kept").about_word(word));
+        }
+        errors.push(some("other"));
+        errors.push(some("other"));
+        assert_eq!(errors.finish(()).unwrap_err().len(), 4);
     }
 
     #[test]

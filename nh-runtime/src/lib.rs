@@ -91,6 +91,7 @@ mod inclusion;
 mod integration_error;
 mod integrator;
 mod jet;
+mod kept_parameters;
 mod lanes;
 mod linear;
 mod linear_model;
@@ -414,6 +415,7 @@ pub mod __private {
     pub use crate::close_angle::CloseAngle;
     pub use crate::impacts;
     pub use crate::inclusion::{restricted, returned};
+    pub use crate::kept_parameters::kept_parameters;
     pub use crate::linear::{inverse_pivoted, solve_pivoted, times};
     pub use crate::linear_model::{
         Directed, FirstOrder, Linearization, LinearizationError, Names, Parts, linearize, to_first_order,

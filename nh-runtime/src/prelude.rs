@@ -11,9 +11,9 @@ pub use crate::{
     Real, Reconstructed, Reconstruction, Reduction, Scalar, State, Statistics, TrimError,
 };
 
-// no name: only its methods, for calls of what was not asked for
+// no names: only what they hold, for uses of what was not asked for
 #[doc(hidden)]
-pub use crate::unasked::Unasked as _;
+pub use crate::unasked::{TextInC as _, TextInTex as _, TextOfDerivation as _, Unasked as _};
 pub use crate::{Taylor, TaylorSeries};
 
 #[cfg(feature = "macros")]

@@ -1,7 +1,8 @@
-//! Methods that a system does not have because its declaration does not ask for them: a call names the word that would.
+//! Methods and texts that a system does not have because its declaration does not ask for them: a use of one names the
+//! word that would.
 //!
-//! A method of the system's own comes before these, so that they are found only where there is none; and nothing has the
-//! trait that each of them needs, so that none of them can be called.
+//! What is the system's own comes before these, so that they are found only where there is none; and nothing has the
+//! trait that each of them needs, so that none of them can be used.
 
 use crate::{Dynamics, ScalarOf};
 
@@ -12,7 +13,7 @@ macro_rules! unasked {
             #[diagnostic::on_unimplemented(
                 message = $word,
                 label = "add it to the declaration",
-                note = "methods beyond the derivative, the energy and the velocity are generated where `emit` names them"
+                note = "what goes beyond the derivative, the energy and the velocity is generated where `emit` names it or a section needs it"
             )]
             pub trait $Asks {
                 /// What the methods return.
@@ -36,6 +37,15 @@ macro_rules! unasked {
             self.found()
         }
     };
+    (@method $method:ident (mut state) $Asks:ident) => {
+        #[doc(hidden)]
+        fn $method(&self, _state: &mut Self::State) -> <Self as $Asks>::Found
+        where
+            Self: $Asks,
+        {
+            self.found()
+        }
+    };
     (@method $method:ident (t, state) $Asks:ident) => {
         #[doc(hidden)]
         fn $method(&self, _t: ScalarOf<Self>, _state: &Self::State) -> <Self as $Asks>::Found
@@ -48,6 +58,15 @@ macro_rules! unasked {
     (@method $method:ident (t, state, input) $Asks:ident) => {
         #[doc(hidden)]
         fn $method(&self, _t: ScalarOf<Self>, _state: &Self::State, _input: &Self::Input) -> <Self as $Asks>::Found
+        where
+            Self: $Asks,
+        {
+            self.found()
+        }
+    };
+    (@method $method:ident (t, state, held) $Asks:ident) => {
+        #[doc(hidden)]
+        fn $method<A: ?Sized>(&self, _t: ScalarOf<Self>, _state: &Self::State, _held: &A) -> <Self as $Asks>::Found
         where
             Self: $Asks,
         {
@@ -152,5 +171,45 @@ unasked! {
         with_angle_cache();
     AsksLinearization,
         "`{Self}` is declared without `linearization {{ keep: …; }}`, which generates this method":
-        linearize(t, state, input);
+        linearize(t, state, input), trim(t, state, input, along);
+    AsksAssembly,
+        "`{Self}` is declared without `holonomic {{ … }}`, which generates this method":
+        assemble(t, state), assemble_holding(t, state, held);
+    AsksNormalization,
+        "`{Self}` is declared without `on {{ … }}`, which generates this method":
+        normalize(mut state);
+}
+
+macro_rules! unasked_texts {
+    ($($Asks:ident, $Text:ident, $word:literal: $text:ident;)*) => {
+        $(
+            /// A declaration asks for it by this word.
+            #[diagnostic::on_unimplemented(
+                message = $word,
+                label = "add it to the declaration",
+                note = "texts beyond `REPORT` are generated where `emit` names them"
+            )]
+            pub trait $Asks {}
+            /// A text by the word that asks for it.
+            pub trait $Text {
+                #[doc(hidden)]
+                const $text: &'static str;
+            }
+            impl<S: $Asks> $Text for S {
+                const $text: &'static str = "";
+            }
+        )*
+    };
+}
+
+unasked_texts! {
+    AsksC, TextInC,
+        "`{Self}` is declared without `emit {{ c }}`, which generates this text":
+        C99;
+    AsksExplanation, TextOfDerivation,
+        "`{Self}` is declared without `emit {{ explain }}`, which generates this text":
+        DERIVATION;
+    AsksLatex, TextInTex,
+        "`{Self}` is declared without `emit {{ latex }}`, which generates this text":
+        LATEX;
 }

@@ -17,6 +17,7 @@ mod holonomic {
     mod level_table;
     mod long_runs;
     mod long_swing;
+    mod loose_tolerances;
     mod maps;
     mod out_of_reach;
     mod pendulum;

@@ -12,7 +12,7 @@ use super::inherent_method::{Part, drops};
 use super::layout::local;
 use super::motion::inlining;
 use super::program::body_near_angles;
-use super::setting::Context;
+use super::setting::{Context, copy_of_parameters};
 use super::symbols::Scope;
 
 /// `AngleCachedSleigh` and `with_angle_cache`, if they are asked for.
@@ -49,12 +49,13 @@ fn items(context: &Context, count: usize, inlining: &TokenStream, derivative: &T
     let doc = format!(" [`{name}`] with the sines and cosines of its angles at hand.");
     // angles are compared: lanes have no order
     let is_real = context.parameter().map(|parameter| quote!(where #parameter: #runtime::Real));
+    let copy = copy_of_parameters(context);
     let methods = quote! {
         /// The same system, which takes sines and cosines from those of angles nearby.
         #[must_use]
         #[inline]
         #visibility fn with_angle_cache(&self) -> #runtime::AngleCached<Self> #is_real {
-            #runtime::AngleCached::new(*self)
+            #runtime::AngleCached::new(#copy)
         }
     };
     let implementation = context.implement_for_reals(

@@ -13,7 +13,7 @@ use super::inherent_method::{Part, drops};
 use super::layout::local;
 use super::motion::inlining;
 use super::program::body;
-use super::setting::Context;
+use super::setting::{Context, copy_of_parameters};
 use super::symbols::{Argument, Scope};
 
 /// `PreparedSleigh` and `prepare`, if they are asked for.
@@ -70,12 +70,13 @@ fn items(
         format!(" [`{name}`] with what depends on its parameters alone computed ahead."),
         format!(" The same system as the [`{name}`] that it was made from, parameters included."),
     ];
+    let copy = copy_of_parameters(context);
     let methods = quote! {
         #[doc = #doc_of_prepare]
         #[must_use]
         #[inline]
         #visibility fn prepare(&self) -> #runtime::Prepared<Self> {
-            #runtime::Prepared::new(*self)
+            #runtime::Prepared::new(#copy)
         }
     };
     let implementation = context.implement(

@@ -207,6 +207,13 @@ impl<'a> Context<'a> {
     }
 }
 
+/// A copy of the parameters, for what is kept beside them; told at the name of the struct where there is none.
+pub(super) fn copy_of_parameters(context: &Context) -> TokenStream {
+    let runtime = &context.runtime;
+    let this = Ident::new("self", context.layout.name.span().resolved_at(Span::call_site()));
+    quote!(#runtime::kept_parameters(#this))
+}
+
 /// The fields of the coordinates among some symbols.
 pub(super) fn coordinate_fields(layout: &Layout, symbols: &[SymbolId], what: &str) -> Vec<Field> {
     entry_fields(layout.coordinates.iter(), &layout.coordinate_symbols, symbols, what)

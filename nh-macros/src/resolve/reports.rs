@@ -26,8 +26,9 @@ pub(super) struct Reports {
     errors: Errors,
     /// Places reported already: address and size of the node, which lives as long as the stage.
     places: BTreeSet<(usize, usize)>,
-    /// Unknown names: how many errors there were before that about it, and in how many more places it stands.
-    unknown: BTreeMap<String, (usize, usize)>,
+    /// Mistakes that are told once: what is written there, how many errors there were before that about it, and in how
+    /// many more places it stands.
+    told_once: BTreeMap<String, (String, usize, usize)>,
     steps: usize,
     /// What is added to errors at present: the arguments of the function that is read.
     note: Option<String>,
@@ -39,7 +40,7 @@ impl Reports {
         Self {
             errors: Errors::new(),
             places: BTreeSet::new(),
-            unknown: BTreeMap::new(),
+            told_once: BTreeMap::new(),
             steps: STEPS,
             note: None,
         }
@@ -62,15 +63,31 @@ impl Reports {
     /// Reports a name that stands for nothing, where it stands first: a declaration that is missing is one mistake,
     /// however often what it declares is used.
     pub(super) fn report_unknown<T>(&mut self, node: &T, name: &str, error: Diagnostic) -> Reported {
+        self.report_once(node, name, (String::new(), error))
+    }
+
+    /// Reports what is `written` in a section that has no place for it, where it stands there first.
+    pub(super) fn report_unsuited<T>(
+        &mut self,
+        node: &T,
+        written: &str,
+        (section, error): (&str, Diagnostic),
+    ) -> Reported {
+        self.report_once(node, written, (format!(" in {section}"), error))
+    }
+
+    /// Reports a mistake at its first place: what is written there, with what tells it from others in the same words.
+    fn report_once<T>(&mut self, node: &T, written: &str, (of, error): (String, Diagnostic)) -> Reported {
         let place = (std::ptr::from_ref(node).addr(), size_of::<T>());
-        if let Some((_, more)) = self.unknown.get_mut(name) {
+        let mistake = format!("{written}{of}");
+        if let Some((_, _, more)) = self.told_once.get_mut(&mistake) {
             *more += usize::from(self.places.insert(place));
             return Reported;
         }
         let before = self.errors.len();
         let reported = self.report(node, error);
         if self.errors.len() > before {
-            self.unknown.insert(name.to_owned(), (before, 0));
+            self.told_once.insert(mistake, (written.to_owned(), before, 0));
         }
         reported
     }
@@ -120,11 +137,11 @@ impl Reports {
 
     /// The value if nothing went wrong, else the errors.
     pub(super) fn finish<T>(mut self, value: T) -> Result<T, Vec<Diagnostic>> {
-        for (name, (error, more)) in self.unknown {
+        for (written, error, more) in self.told_once.into_values() {
             if more > 0 {
                 let places =
                     if more == 1 { "one more place".to_owned() } else { format!("{more} more places") };
-                self.errors.because(error, format!("`{name}` stands in {places}"));
+                self.errors.because(error, format!("`{written}` stands in {places}"));
             }
         }
         self.errors.finish(value)

@@ -152,8 +152,10 @@ impl Resolver {
             self.shared.record(usage, written);
             return Ok(());
         }
-        let checked = self.context.check(usage, written, at);
-        self.keep(node, checked)
+        let context = self.context;
+        context
+            .check(usage, written, at)
+            .map_err(|error| self.reports.report_unsuited(node, written, (context.keyword(), error)))
     }
 
     /// Runs `body` once for all values of the variables; a later range may use earlier variables.

@@ -6,11 +6,26 @@ use crate::report::{Diagnostic, Errors, Extent};
 /// After this point the sections that are needed are there, and none contradicts another.
 pub(crate) fn check(declaration: &SystemDecl) -> Result<(), Vec<Diagnostic>> {
     let mut errors = Errors::new();
-    require_lagrangian(declaration, &mut errors);
-    require_motion(declaration, &mut errors);
+    if is_empty(declaration) {
+        let name = &declaration.structure.name;
+        errors.push(
+            Diagnostic::new(Extent::at(name.span()), format!("`{name}` has no declaration")).way_out(
+                "say what moves, and how: `#[nonholonomic(base { x } lagrangian { m / 2 * der(x)^2 })]`",
+            ),
+        );
+    } else {
+        require_lagrangian(declaration, &mut errors);
+        require_motion(declaration, &mut errors);
+    }
     refuse_two_frames(declaration, &mut errors);
     require_basis(declaration, &mut errors);
     errors.finish(())
+}
+
+/// Whether neither what moves nor how is said, as by an attribute without parentheses.
+fn is_empty(declaration: &SystemDecl) -> bool {
+    let s = &declaration.sections;
+    s.lagrangian.is_none() && s.base.is_none() && s.basis.is_none() && s.velocities.is_none()
 }
 
 /// Without a Lagrangian there is no system.
@@ -96,6 +111,14 @@ mod tests {
             ["`velocities` without `base`\nvelocities are defined by derivatives of base \
               coordinates\nhelp: add `base { x, y }`"]
         );
+    }
+
+    #[test]
+    fn an_empty_declaration_is_one_error() {
+        let told = "`S` has no declaration\nhelp: say what moves, and how: \
+                    `#[nonholonomic(base { x } lagrangian { m / 2 * der(x)^2 })]`";
+        assert_eq!(messages("", "struct S;"), [told]);
+        assert_eq!(messages("assume { m > 0; }", "struct S { m: f64 }"), [told]);
     }
 
     #[test]

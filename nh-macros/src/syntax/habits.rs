@@ -186,7 +186,12 @@ pub(crate) fn unexpected(stream: &Stream, wanted: &str) -> Diagnostic {
             }
         }
         (_, Some(TokenTree::Punct(mark))) if mark.as_char() == ',' && wanted == END => {
-            stream.expected(wanted).way_out("lines end with `;`, and a second `let` is a line of its own")
+            let error = stream.expected(wanted);
+            if stream.begins_with("let") {
+                error.way_out("lines end with `;`, and a second `let` is a line of its own")
+            } else {
+                error.way_out("lines end with `;`: write it in place of the comma")
+            }
         }
         _ => stream.expected(wanted),
     }

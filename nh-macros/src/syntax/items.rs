@@ -33,6 +33,19 @@ fn block<T>(body: &Group, blocks: u32, errors: &mut Errors, statement: Statement
     found
 }
 
+/// The Lagrangian is an expression, not an equation: `L = …` is refused.
+fn named(chunk: &Stream) -> Result<(), Diagnostic> {
+    let (Some(TokenTree::Ident(name)), Some(TokenTree::Punct(mark))) = (chunk.peek(), chunk.peek_at(1))
+    else {
+        return Ok(());
+    };
+    if mark.as_char() != '=' {
+        return Ok(());
+    }
+    Err(Diagnostic::new(Extent::at(mark.span()), "the Lagrangian has no name")
+        .way_out(format!("leave out `{name} =`: the section holds the expression alone")))
+}
+
 /// `let …; expr`, where only the expression at the end is no `let`.
 pub(crate) fn lagrangian(body: &Group, errors: &mut Errors) -> Option<Lagrangian> {
     let mut lets = Vec::new();
@@ -58,7 +71,7 @@ pub(crate) fn lagrangian(body: &Group, errors: &mut Errors) -> Option<Lagrangian
                     .way_out("the Lagrangian is one expression; name parts of it with `let`"),
             );
         }
-        let parsed = chunk.docs().and_then(|_| chunk.last_expression(END));
+        let parsed = chunk.docs().and_then(|_| named(&chunk)).and_then(|()| chunk.last_expression(END));
         value = Some(errors.keep(parsed));
     }
     if value.is_none() && !in_error {

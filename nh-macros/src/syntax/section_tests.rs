@@ -165,7 +165,7 @@ fn errors_in_lines_are_explained() {
         ),
         (
             "forces { w: 1, x: 2 }",
-            "expected `;`, found `,`\nhelp: lines end with `;`, and a second `let` is a line of its own".to_owned(),
+            "expected `;`, found `,`\nhelp: lines end with `;`: write it in place of the comma".to_owned(),
         ),
         (
             "constraints { w }",

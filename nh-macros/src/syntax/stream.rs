@@ -106,6 +106,11 @@ impl Stream {
         matches!(self.peek(), Some(TokenTree::Ident(ident)) if ident == word)
     }
 
+    /// Whether this word is the first of all, consumed or not.
+    pub(crate) fn begins_with(&self, word: &str) -> bool {
+        matches!(self.tokens.first(), Some(TokenTree::Ident(ident)) if ident == word)
+    }
+
     /// Consumes this word if it is next.
     pub(crate) fn eat_word(&mut self, word: &str) -> bool {
         let found = self.at_word(word);
@@ -209,7 +214,8 @@ impl Name {
             let error = Diagnostic::new(
                 self.extent(),
                 format!("expected {role}, found `{word}`, a word that Rust keeps for itself"),
-            );
+            )
+            .about_word(&word);
             return Err(match word.as_str() {
                 "_" | "self" | "Self" | "super" | "crate" | "$crate" => error.way_out("choose another name"),
                 _ => error.way_out(format!("choose another name, or write `r#{word}`")),

@@ -20,6 +20,11 @@ pub struct Fixed<P, T> {
 }
 
 /// How a method of fixed step computes a step.
+#[diagnostic::on_unimplemented(
+    message = "`{Self}` takes no steps of `{S}`",
+    label = "not a method for this system",
+    note = "a method `.with_jacobian()` needs the trait `Jacobian`: add `emit {{ jacobian }}` to the declaration of the system"
+)]
 pub trait OneStep<S: Dynamics>: Copy {
     /// What is kept from step to step.
     type Work: Copy;

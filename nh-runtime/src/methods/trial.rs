@@ -20,6 +20,11 @@ pub struct Spread<V> {
 }
 
 /// How an adaptive method computes a step and its error.
+#[diagnostic::on_unimplemented(
+    message = "`{Self}` takes no steps of `{S}`",
+    label = "not a method for this system",
+    note = "a method `.with_jacobian()` needs the trait `Jacobian`: add `emit {{ jacobian }}` to the declaration of the system"
+)]
 pub trait Scheme<S: Dynamics>: Copy {
     /// One more than the order of the error estimate.
     const ERROR_ORDER: u32;

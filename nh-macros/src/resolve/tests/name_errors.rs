@@ -91,6 +91,24 @@ fn a_missing_name_is_one_error() {
     assert_eq!(two.len(), 2, "{two:?}");
 }
 
+/// A section that has no place for something is one mistake, on both sides of an equation and in all of its lines.
+#[test]
+fn what_has_no_place_is_one_error() {
+    let told = of(
+        "base { x, y } lagrangian { m * (der(x)^2 + der(y)^2) } holonomic { der(x) = der(y); m * der(y) = 1; }",
+    );
+    assert!(
+        told.len() == 1
+            && told[0]
+                .starts_with("`der(…)` cannot be used in `holonomic`\n`der(…)` stands in 2 more places\n"),
+        "{told:?}"
+    );
+    // an input elsewhere is another
+    let two =
+        of("base { x, y } inputs { u } lagrangian { u * der(x)^2 - u * y } constraints { der(x) = u; }");
+    assert_eq!(two.len(), 2, "{two:?}");
+}
+
 #[test]
 fn what_has_no_derivative() {
     for (inside, what, way_out) in [

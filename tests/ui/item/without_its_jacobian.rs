@@ -1,0 +1,14 @@
+use nonholonomic::prelude::*;
+
+#[nonholonomic(
+    base { x }
+    lagrangian { der(x)^2 / 2 }
+)]
+#[derive(Clone, Copy)]
+struct Free;
+
+fn main() {
+    let start = FreeState { x: 0.0, x_dot: 1.0 };
+    let _ = Integrator::new(Free, Radau5::new().with_jacobian(), 0.0, start);
+    let _ = Integrator::new(Free, ImplicitMidpoint::new(0.1).with_jacobian(), 0.0, start);
+}
