@@ -209,9 +209,9 @@ impl Graph {
         }
     }
 
-    /// The expression without its content, which has the same zeros.
+    /// The expression without its content, as far as that is positive: it has the same zeros.
     pub fn without_content(&mut self, id: ExprId) -> ExprId {
-        match self.content(id).recip() {
+        match self.content(id).abs().recip() {
             Some(factor) => self.scale(factor, id),
             None => id,
         }
