@@ -189,6 +189,12 @@ impl Rational {
         }
     }
 
+    /// Whether this is an even integer.
+    #[must_use]
+    pub fn is_even(&self) -> bool {
+        self.is_integer() && !self.has_odd_numerator()
+    }
+
     /// Whether this is below 0.
     #[must_use]
     pub fn is_negative(&self) -> bool {

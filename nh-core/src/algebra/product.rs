@@ -4,6 +4,7 @@
 //! |---|---|
 //! | `x^a · x^b = x^(a+b)`, `x^0 = 1` | where the left side is defined; this only removes divisions and roots |
 //! | `(x^a)^b = x^(ab)` | `b` an integer, or the numerator of `a` odd |
+//! | `(x^a y^c)^b = x^(ab) y^(cb)` | `a`, `c`, `ab` and `cb` are even, so that no sign is lost |
 //! | `(c·x·y)^b = c^b x^b y^b` | `b` an integer; otherwise only `c > 0` is taken out, as far as its root is rational |
 //! | `c · (a + b) = ca + cb` | `c` a number |
 //! | `(2a + 2b)^n · x = 2^n (a + b)^n x` | sums among factors are primitive, their first coefficient positive; `n` an integer, or `2` a positive number as far as its root is rational |
@@ -127,15 +128,7 @@ impl Graph {
             Node::Product { coefficient, factors } if exponent.is_integer() => {
                 let (coefficient, factors) = (coefficient.clone(), factors.clone());
                 self.collect_number(&coefficient, exponent, into);
-                for (inner, power) in factors.iter() {
-                    // an integer power of a root can uncover a number or a product again
-                    let power = power.clone() * exponent.clone();
-                    if power.is_integer() && !matches!(self.node(*inner), Node::Symbol(_)) {
-                        self.collect_factor(*inner, &power, into);
-                    } else {
-                        into.powers.push((*inner, power));
-                    }
-                }
+                self.collect_powers(&factors, exponent, into);
             }
             Node::Product { coefficient, factors } => {
                 let (coefficient, factors) = (coefficient.clone(), factors.clone());
@@ -143,6 +136,19 @@ impl Graph {
             }
             Node::Sum { .. } => self.collect_sum(base, exponent, into),
             _ => into.powers.push((base, exponent.clone())),
+        }
+    }
+
+    /// `Π (x^a)^exponent` as the product of `x^(a exponent)`.
+    fn collect_powers(&mut self, factors: &[(ExprId, Rational)], exponent: &Rational, into: &mut Factors) {
+        for (inner, power) in factors {
+            // an integer power of a root can uncover a number or a product again
+            let power = power.clone() * exponent.clone();
+            if power.is_integer() && !matches!(self.node(*inner), Node::Symbol(_)) {
+                self.collect_factor(*inner, &power, into);
+            } else {
+                into.powers.push((*inner, power));
+            }
         }
     }
 
@@ -166,6 +172,12 @@ impl Graph {
         exponent: &Rational,
         into: &mut Factors,
     ) {
+        let keeps_signs = |power: &Rational| power.is_even() && (power.clone() * exponent.clone()).is_even();
+        if !coefficient.is_negative() && factors.iter().all(|(_, power)| keeps_signs(power)) {
+            self.collect_number(coefficient, exponent, into);
+            self.collect_powers(factors, exponent, into);
+            return;
+        }
         let (outside, inside) = split_power(coefficient, exponent);
         into.coefficient = into.coefficient.clone() * outside;
         match factors {
@@ -194,6 +206,14 @@ impl Graph {
                 into.powers.push((primitive, exponent.clone()));
             }
             None => into.powers.push((base, exponent.clone())),
+        }
+    }
+
+    /// The expression without its content, as far as that is positive: it has the same zeros.
+    pub fn without_content(&mut self, id: ExprId) -> ExprId {
+        match self.content(id).abs().recip() {
+            Some(factor) => self.scale(factor, id),
+            None => id,
         }
     }
 
@@ -339,6 +359,25 @@ mod tests {
         let four = g.scale(Rational::from(4), squared);
         let (two, root) = (g.sqrt(four), g.sqrt(squared));
         assert_eq!(two, g.scale(Rational::from(2), root));
+    }
+
+    #[test]
+    fn even_roots_of_even_powers_are_powers_where_they_are_even() {
+        let mut g = Graph::new();
+        let (x, y) = symbols(&mut g);
+        let (apart, fourth) = (g.sub(x, y), Rational::from(4));
+        let product = g.product(&[(x, fourth.clone()), (apart, fourth.clone())]);
+        let twice = g.scale(Rational::from(2), product);
+        let root = g.sqrt(twice);
+        assert_eq!(g.text(root), "x^2*(x - y)^2*sqrt(2)");
+        let sixth = g.pow(x, Rational::from(6));
+        assert_eq!(g.pow(sixth, Rational::new(-1, 3)), g.pow(x, Rational::from(-2)));
+        let negative = g.scale(Rational::MINUS_ONE, sixth);
+        for (base, exponent) in [(sixth, (1, 2)), (product, (1, 4)), (negative, (1, 3))] {
+            let root = g.pow(base, Rational::new(exponent.0, exponent.1));
+            let text = g.text(root);
+            assert!(text.contains("sqrt(") || text.contains("^(1/"), "{text}");
+        }
     }
 
     #[test]

@@ -2,6 +2,7 @@
 //! constrained, or of an embedded base.
 
 use super::evidence::{counted, listed};
+use super::formulation::reached;
 use super::positions::Positions;
 use crate::algebra::{Facts, Matrix};
 use crate::geometry::PivotSetting;
@@ -32,7 +33,11 @@ pub fn chart(
     let parameters: Vec<SymbolId> = model.parameters.iter().map(|parameter| parameter.symbol).collect();
     let on_base = positions.manifold.restrict_matrix(&mut model.graph, &rows);
     let setting = PivotSetting { annihilator: &rows, on_base: &on_base, parameters: &parameters, facts };
-    let judged = judge(&mut model.graph, &setting, &dependent).map_err(|why| vec![undecided(origin, why)])?;
+    let mut judged =
+        judge(&mut model.graph, &setting, &dependent).map_err(|why| vec![undecided(origin, why)])?;
+    if let Some(choice) = &mut judged {
+        choice.breaks_down = reached(model, &choice.breaks_down);
+    }
     judged.map(Some).ok_or_else(|| {
         let names: Vec<String> =
             dependent.iter().map(|id| format!("`{}`", model.coordinates[*id].name)).collect();

@@ -1,10 +1,11 @@
 //! The formulation, and the velocities that the adapted state keeps.
 
+use super::assumptions::on_the_base;
 use super::constraints::Constraints;
 use super::evidence::{counted, listed, shown};
-use crate::algebra::{Facts, Graph};
+use crate::algebra::{Demand, Facts, Graph};
 use crate::geometry::independent_velocities::{Choice, NoChoice, Subsets, judge, search};
-use crate::geometry::{ConstraintDistribution, LinearConstraints, Manifold, PivotSetting};
+use crate::geometry::{ConstraintDistribution, LinearConstraints, Manifold, PivotSetting, is_excluded};
 use crate::id::{ExprId, Id, Origin, SectionId, SymbolId};
 use crate::model::{Formulation, Model};
 use crate::violation::{Law, Violation};
@@ -205,13 +206,24 @@ fn judged(
     let mut first = None;
     for places in Subsets::of(dependent.len(), setting.annihilator.len()).take(LIMIT) {
         let some: Vec<SectionId> = places.iter().map(|place| dependent[place.index()]).collect();
-        let judged = judge(&mut model.graph, setting, &some).map_err(|why| undecided(model, why))?;
+        let mut judged = judge(&mut model.graph, setting, &some).map_err(|why| undecided(model, why))?;
+        if let Some(choice) = &mut judged {
+            choice.breaks_down = reached(model, &choice.breaks_down);
+        }
         if judged.as_ref().is_some_and(|choice| choice.breaks_down.is_empty()) {
             return Ok(judged);
         }
         first = first.or(judged);
     }
     Ok(first)
+}
+
+/// Those functions that what holds does not keep from 0.
+pub(super) fn reached(model: &mut Model, functions: &[ExprId]) -> Vec<ExprId> {
+    let mut holding = on_the_base(model);
+    holding.extend(model.positions.iter().map(|position| (position.value, Demand::Zero)));
+    let is_reached = |function: &&ExprId| !is_excluded(&mut model.graph, &holding, &[**function]);
+    functions.iter().filter(is_reached).copied().collect()
 }
 
 /// `a = 0 or b = 0`.

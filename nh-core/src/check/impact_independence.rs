@@ -61,6 +61,23 @@ fn holding(model: &Model, between: &Between) -> (Matrix, Vec<String>) {
     }
 }
 
+/// What to do about a row that takes no impulse.
+fn without_impulse(model: &mut Model, velocities: &[SymbolId], row: &ImpactRow) -> &'static str {
+    let graph = &mut model.graph;
+    if row.coefficients.iter().all(|entry| graph.zero_test(*entry).is_zero()) {
+        let is_constant = velocities.iter().all(|velocity| {
+            let along = graph.partial(row.form, *velocity);
+            graph.zero_test(along).is_zero()
+        });
+        return if row.is_unilateral && is_constant {
+            "write a gap between positions, which motions open and close: `h >= 0`"
+        } else {
+            "leave it out"
+        };
+    }
+    "leave it out, or write it without a power: `a - b >= 0` instead of `(a - b)^2 >= 0`"
+}
+
 /// That a row is a combination of others where all of them act.
 fn follows(
     model: &mut Model,
@@ -117,7 +134,7 @@ fn follows(
             rows[row].origin,
             format!("{name} takes no impulse: the constraints permit no velocity that changes it{place}"),
             format!("the rate of {name} is 0 for all velocities that they permit where it acts"),
-            "leave it out, or write it without a power: `a - b >= 0` instead of `(a - b)^2 >= 0`",
+            without_impulse(model, &between.system.algebroid.velocities, &rows[row]),
         ));
     }
     let may_be_apart = rows[row].is_unilateral && before.iter().any(|other| rows[*other].is_unilateral);

@@ -195,13 +195,16 @@ impl Edge {
         let uses = format!("`{}`", shown(graph, whole));
         if let Some((inner, power)) = squared(graph, base, parameters, facts) {
             let power = power * exponent.clone();
-            let inner = shown(graph, inner);
-            let as_power = if power.is_one() { String::new() } else { format!("^({power})") };
+            let signed = graph.pow(inner, power.clone());
+            let (inner, signed) = (shown(graph, inner), shown(graph, signed));
+            let as_power = power_text(&power);
             return has_edge(&power).then(|| Self {
                 uses,
-                evidence: format!("it is abs({inner}){as_power} up to a factor: not smooth where {inner} = 0"),
+                evidence: format!(
+                    "it is abs({inner}){as_power} up to a factor: not smooth where {inner} = 0"
+                ),
                 way_out: format!(
-                    "where it is meant to keep its sign, write {inner}{as_power} instead of the root; otherwise use \
+                    "where it is meant to keep its sign, write {signed} instead of the root; otherwise use \
                      a smooth expression, such as sqrt(x^2 + eps^2) for abs(x)"
                 ),
             });
@@ -219,7 +222,7 @@ impl Edge {
         let (touching, inner) = touching.filter(|_| has_edge(&power))?;
         let place =
             if touching == inner { String::new() } else { format!(" at {} = 0", shown(graph, inner)) };
-        let as_power = if power.is_one() { String::new() } else { format!("^({power})") };
+        let as_power = power_text(&power);
         Some(Self {
             uses,
             evidence: format!(
@@ -232,6 +235,17 @@ impl Edge {
                       for abs(x)"
                 .into(),
         })
+    }
+}
+
+/// What stands behind a base to raise it to a power.
+fn power_text(power: &Rational) -> String {
+    if power.is_one() {
+        String::new()
+    } else if power.is_integer() {
+        format!("^{power}")
+    } else {
+        format!("^({power})")
     }
 }
 

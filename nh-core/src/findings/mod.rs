@@ -3,6 +3,7 @@
 mod bracket_entries;
 mod closure;
 mod held_forces;
+mod integrable;
 mod momenta_found;
 mod real_states;
 mod reduced_form;
@@ -18,6 +19,7 @@ use crate::mechanics::moving_energy_section;
 
 pub(crate) use bracket_entries::{BracketEntries, Jacobi};
 pub(crate) use closure::Closure;
+pub(crate) use integrable::Integrable;
 pub(crate) use momenta_found::{LevelMomentum, Rate, SymmetryMomentum};
 pub(crate) use reduced_form::{Connection, Quantities, ReducedForm, Split};
 use singular_places::SingularPlaces;
@@ -36,6 +38,8 @@ pub(crate) struct Findings {
     pub(crate) chart_divisors: Vec<ExprId>,
     /// Whether D is closed under the bracket; `None` where its sections are not known.
     pub(crate) closure: Option<Closure>,
+    /// Whether the constraints on velocities are the rates of equations between positions.
+    pub(crate) integrable: Integrable,
     /// Factors of the determinant of the mass matrix, or of the saddle matrix, that vanish in some states, or for some parameters.
     pub(crate) singular_mass: Vec<SingularPlace>,
     /// Blocks of the same whose determinants are too long to be written out.
@@ -81,6 +85,7 @@ impl Findings {
         let claims = first_integrals(proved, &domain);
         let chart_divisors = with_zeros(&mut proved.model, &proved.motion.divisors);
         let closure = Closure::of(proved, derived);
+        let integrable = integrable::found(proved, closure);
         let SingularPlaces { places: singular_mass, of_parameters: parameter_factors, long: long_blocks } =
             singular_places::found(proved, derived, domain.is_empty());
         let reduced = ReducedForm::of(proved, derived);
@@ -101,6 +106,7 @@ impl Findings {
             claims,
             chart_divisors,
             closure,
+            integrable,
             singular_mass,
             long_blocks,
             parameter_factors,

@@ -93,14 +93,7 @@ fn routhian(proved: &mut Proved, derived: &Derived<'_>) -> Option<ExprId> {
 
 fn found(proved: &mut Proved, restriction: &mut Substitution, symmetry: &Symmetry) -> SymmetryMomentum {
     let free = proved.constraints.linear.as_ref().is_some_and(|linear| linear.annihilator.is_empty());
-    let kind = match (symmetry.in_distribution(), symmetry.keeps_lagrangian, symmetry.keeps_constraints) {
-        (_, Invariance::Broken, _) if free => "L is not invariant",
-        _ if free => "a symmetry: L is invariant",
-        (true, Invariance::Broken, _) => "in D, L is not invariant",
-        (true, _, false) => "in D, L is invariant, D is not",
-        (true, _, true) => "a horizontal symmetry: in D, which is invariant, and so is L",
-        (false, ..) => "a symmetry of L and D that is not in D: the forces of constraint change its momentum",
-    };
+    let kind = kind(free, symmetry);
     let momentum = on_constraints(proved, restriction, symmetry.momentum.value);
     let rate = if symmetry.is_conserved {
         Some(Rate::Zero)
@@ -111,6 +104,33 @@ fn found(proved: &mut Proved, restriction: &mut Substitution, symmetry: &Symmetr
         None
     };
     SymmetryMomentum { name: symmetry.name.clone(), section: symmetry.section.clone(), kind, momentum, rate }
+}
+
+/// What a section leaves as it is. `free`: there are no constraints.
+fn kind(free: bool, symmetry: &Symmetry) -> &'static str {
+    let invariance = (symmetry.keeps_lagrangian, symmetry.momentum.has_gauge);
+    match (symmetry.in_distribution(), invariance, symmetry.keeps_constraints) {
+        (_, (Invariance::Broken, _), _) if free => "L is not invariant",
+        (_, (_, false), _) if free => "a symmetry: L is invariant",
+        (_, (_, true), _) if free => {
+            "a symmetry: L is invariant up to the rate of the function in the momentum"
+        }
+        (true, (Invariance::Broken, _), _) => "in D, L is not invariant",
+        (true, (_, false), false) => "in D, L is invariant, D is not",
+        (true, (_, true), false) => {
+            "in D, L is invariant up to the rate of the function in the momentum, D is not invariant"
+        }
+        (true, (_, false), true) => "a horizontal symmetry: in D, which is invariant, and so is L",
+        (true, (_, true), true) => {
+            "a horizontal symmetry: in D, which is invariant, and so is L up to the rate of the function in the momentum"
+        }
+        (false, (_, false), _) => {
+            "a symmetry of L and D that is not in D: the forces of constraint change its momentum"
+        }
+        (false, (_, true), _) => {
+            "a symmetry of D, and of L up to the rate of the function in the momentum, that is not in D: the forces of constraint change its momentum"
+        }
+    }
 }
 
 fn on_constraints(proved: &mut Proved, restriction: &mut Substitution, function: ExprId) -> ExprId {

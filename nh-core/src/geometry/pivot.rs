@@ -48,7 +48,7 @@ impl PivotSetting<'_> {
             } else {
                 &mut found.elsewhere
             };
-            kind.push(base);
+            kind.push(graph.without_content(base));
         }
         found
     }

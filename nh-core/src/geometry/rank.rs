@@ -4,8 +4,9 @@
 //! a reader takes them for claims about all points. Every such rank is therefore asked here, and what is said
 //! of it comes with the places where it drops, or with the word that this is not known.
 
+use super::excluded::is_excluded;
 use super::manifold::Manifold;
-use crate::algebra::{Demand, Facts, Function, Graph, Matrix, Node, Rational, Substitution, Verdict};
+use crate::algebra::{Demand, Facts, Graph, Matrix, Node, Rational, Substitution, Verdict};
 use crate::id::{ExprId, SymbolId};
 
 /// The rank at generic points, and where it drops.
@@ -138,14 +139,19 @@ impl RankSetting<'_> {
 
     /// An equal expression of parameters on the manifold, if there is one.
     fn constant(&self, graph: &mut Graph, expression: ExprId) -> Option<ExprId> {
+        self.constant_from(graph, expression, &[0, 1, 2])
+    }
+
+    /// The same, with what it is where all that varies is the first of these numbers at which it is defined.
+    fn constant_from(&self, graph: &mut Graph, expression: ExprId, numbers: &[i64]) -> Option<ExprId> {
         let restricted = self.manifold.restrict(graph, expression);
         let varying: Vec<SymbolId> = graph
             .symbols_in(&[restricted])
             .into_iter()
             .filter(|symbol| !self.parameters.contains(symbol))
             .collect();
-        for number in [0, 1, 2] {
-            let value = graph.number(number);
+        for number in numbers {
+            let value = graph.number(*number);
             let fixed =
                 Substitution::new(varying.iter().map(|symbol| (*symbol, value))).apply(graph, restricted);
             if !graph.is_undefined(fixed) {
@@ -167,7 +173,22 @@ impl RankSetting<'_> {
         }
         let restricted = self.manifold.restrict(graph, sum);
         let restricted = graph.simplify(restricted);
-        graph.vanishes_nowhere(restricted, self.facts)
+        if graph.vanishes_nowhere(restricted, self.facts) {
+            return true;
+        }
+        // where a parameter was solved for, as the radius of a circle, the sum may be a multiple of its square
+        self.parameters.iter().any(|symbol| {
+            let parameter = graph.symbol(*symbol);
+            if !graph.vanishes_nowhere(parameter, self.facts)
+                || self.manifold.restrict(graph, parameter) == parameter
+            {
+                return false;
+            }
+            // where coordinates are 0 the ratio is 0/0
+            let ratio = graph.formula(sum / parameter.square());
+            let value = self.constant_from(graph, ratio, &[1, 2]);
+            value.is_some_and(|value| graph.vanishes_nowhere(value, self.facts))
+        })
     }
 
     /// Whether the manifold has no point where functions vanish, as far as those that are symbols tell.
@@ -184,22 +205,6 @@ impl RankSetting<'_> {
             let left = there.apply(graph, *function);
             graph.vanishes_nowhere(left, self.facts)
         })
-    }
-
-    /// Whether what holds on the manifold excludes that functions vanish.
-    fn is_contradictory(&self, graph: &mut Graph, functions: &[ExprId]) -> bool {
-        let mut demands = graph.related_demands(self.holding, functions);
-        // what is known of parameters alone is in the facts
-        if !demands.iter().any(|(_, demand)| *demand == Demand::Zero) {
-            return false;
-        }
-        demands.extend(functions.iter().map(|function| (*function, Demand::Zero)));
-        if graph.contradiction(&demands).is_some() {
-            return true;
-        }
-        let cases = cases_of_circles(graph, functions);
-        cases.len() > 1
-            && cases.into_iter().all(|case| graph.contradiction(&[demands.clone(), case].concat()).is_some())
     }
 
     /// Whether AᵀA has principal minors of the size of the rank whose sum vanishes nowhere: it is the sum of
@@ -235,6 +240,7 @@ impl RankSetting<'_> {
                 _ => vec![minor],
             }
         };
+        let minors: Vec<ExprId> = minors.iter().map(|minor| graph.without_content(*minor)).collect();
         let mut lists: Vec<Vec<ExprId>> = minors.iter().map(|minor| factors(graph, *minor)).collect();
         for list in &mut lists {
             list.retain(|factor| {
@@ -246,7 +252,7 @@ impl RankSetting<'_> {
             first.into_iter().filter(|factor| lists.iter().all(|list| list.contains(factor))).collect();
         let mut sets: Vec<Vec<ExprId>> = common
             .iter()
-            .filter(|factor| !self.is_contradictory(graph, &[**factor]))
+            .filter(|factor| !is_excluded(graph, self.holding, &[**factor]))
             .map(|factor| vec![*factor])
             .collect();
         // what is left of each minor: factors that may vanish, of which one does
@@ -289,7 +295,7 @@ impl RankSetting<'_> {
         for candidate in candidates {
             let is_off = self.vanish_nowhere_together(graph, &candidate)
                 || self.is_off_the_manifold(graph, &candidate)
-                || self.is_contradictory(graph, &candidate);
+                || is_excluded(graph, self.holding, &candidate);
             if is_off {
                 continue;
             }
@@ -306,28 +312,6 @@ impl RankSetting<'_> {
         };
         sets.iter().filter(|set| is_needed(set)).cloned().collect()
     }
-}
-
-/// What holds besides where functions vanish, one case or the other: where a cosine is 0 the sine is 1 or −1.
-fn cases_of_circles(graph: &mut Graph, functions: &[ExprId]) -> Vec<Vec<(ExprId, Demand)>> {
-    const CIRCLES: usize = 3;
-    let partners = functions.iter().filter_map(|id| match graph.node(*id) {
-        Node::Apply(Function::Sin, angle) => Some((Function::Cos, *angle)),
-        Node::Apply(Function::Cos, angle) => Some((Function::Sin, *angle)),
-        _ => None,
-    });
-    let partners: Vec<(Function, ExprId)> = partners.take(CIRCLES).collect();
-    let one = graph.one();
-    let mut cases = vec![Vec::new()];
-    for (function, angle) in partners {
-        let partner = graph.apply(function, angle);
-        let ends = [graph.formula(partner - one), graph.formula(partner + one)];
-        let with = |case: &Vec<(ExprId, Demand)>| {
-            ends.map(|end| case.iter().copied().chain([(end, Demand::Zero)]).collect::<Vec<_>>())
-        };
-        cases = cases.iter().flat_map(with).collect();
-    }
-    cases
 }
 
 /// The set with one more member.

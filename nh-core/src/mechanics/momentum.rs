@@ -2,7 +2,7 @@
 
 use super::complete_lift::complete_lift;
 use super::euler_lagrange::LagrangianSystem;
-use crate::algebra::Graph;
+use crate::algebra::{Graph, Rational};
 use crate::geometry::ConstraintDistribution;
 use crate::id::ExprId;
 
@@ -15,6 +15,8 @@ pub struct Momentum {
     pub variation: ExprId,
     /// σ^α Υ_α: what the forces do.
     pub work: ExprId,
+    /// Whether there is an f that is not 0.
+    pub has_gauge: bool,
 }
 
 impl Momentum {
@@ -53,7 +55,8 @@ impl Momentum {
                 }
             }
         }
-        Self { value, variation, work }
+        let has_gauge = gauge.is_some_and(|gauge| !graph.as_number(gauge).is_some_and(Rational::is_zero));
+        Self { value, variation, work, has_gauge }
     }
 
     /// The right side of the momentum equation.

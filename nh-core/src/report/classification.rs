@@ -6,7 +6,7 @@ use crate::algebra::Graph;
 use crate::check::evidence::{counted, listed, places};
 use crate::check::{BrokenLaws, LesserPart, Positions, not_asked, points_shown, undecided};
 use crate::compile::{Derived, Proved};
-use crate::findings::{Closure, Findings, FirstIntegral, LongBlock, SingularPlace};
+use crate::findings::{Closure, Findings, FirstIntegral, Integrable, LongBlock, SingularPlace};
 use crate::geometry::independent_velocities::Choice;
 use crate::geometry::{Drops, Involution, Rank};
 use crate::id::{CoordId, ExprId, SymbolId};
@@ -26,7 +26,13 @@ pub(super) fn lines(
     lines.extend(positions(model, &proved.positions));
     lines.extend(proved.chart.as_ref().map(|choice| chart(model, choice)));
     lines.push(constraints(proved, derived, findings.closure));
-    lines.extend(positions_in_disguise(proved, findings.closure));
+    if findings.integrable == Integrable::Yes {
+        lines.push(
+            "they are integrable: equations between positions have these as their rates, and are kept by every run \
+             where they are written in `holonomic`"
+                .into(),
+        );
+    }
     lines.extend(proved.constraints.dropped.iter().cloned());
     lines.extend(not_asked(model, proved.constraints.generic()));
     let (name, size) = match derived {
@@ -306,23 +312,6 @@ fn constraints(proved: &Proved, derived: &Derived<'_>, closure: Option<Closure>)
         (Some(Closure::Undecided) | None, _) => String::new(),
     };
     format!("{what}{holonomic}")
-}
-
-/// That constraints on velocities are the rates of positions. Where there are more velocities than coordinates they need not be:
-/// a body that turns about one axis has no angle in the base.
-fn positions_in_disguise(proved: &Proved, closure: Option<Closure>) -> Option<String> {
-    let model = &proved.model;
-    let of_velocities = model.constraints.len() > model.positions.len()
-        && model.distribution.is_none()
-        && model.routh.is_empty();
-    let is_integrable = proved.broken_laws.homomorphism.is_none()
-        && matches!(closure, Some(Closure::Decided(Involution::Closed)))
-        && model.sections.len() <= model.coordinates.len();
-    (of_velocities && is_integrable).then(|| {
-        "they are integrable: equations between positions have these as their rates, and are kept by every run where they \
-         are written in `holonomic`"
-            .into()
-    })
 }
 
 /// Where the constraints are dependent.

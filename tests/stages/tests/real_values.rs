@@ -394,3 +394,14 @@ fn functions_are_asked_where_positions_may_be() {
     assert_judged(there(&UNDEFINED_THERE), true);
     assert_judged(there(&DEFINED_THERE), false);
 }
+
+/// Roots of even powers are powers where these are even: they have a value where what they are made of is 0, too.
+#[test]
+fn even_roots_of_even_powers_have_a_value_everywhere() {
+    let potential = "k*sqrt((a*x - y)^4) + ((x*y)^6)^(1/3) + sqrt(2*x^4*y^8)";
+    let text = format!(
+        "#[nonholonomic(base {{ x, y }} lagrangian {{ (der(x)^2 + der(y)^2)/2 - {potential} }})]\nstruct Flat {{ k: f64, a: f64 }}"
+    );
+    let report = declarations(&text)[0].system().unwrap_or_else(|errors| panic!("{errors:?}")).report;
+    assert!(!report.contains("only where"), "{report}");
+}

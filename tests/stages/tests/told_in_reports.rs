@@ -47,6 +47,34 @@ fn integrable_constraints_are_pointed_to_holonomic() {
     // no angles are there for a body that turns about one axis
     let body = "basis { p, q, r } brackets so(3) { p, q, r } lagrangian { m/2*(p^2 + 2*q^2 + a*r^2) }";
     assert!(!is_told(&format!("{body} constraints {{ p = 0; q = 0; }}")));
+    let sphere = "base { g[3] } on { dot(g, g) = 1; } basis { w[3] } brackets so(3) { w } anchor { der(g) = cross(g, w); } \
+        lagrangian { dot(w, w) }";
+    assert!(!is_told(&format!("{sphere} constraints {{ w[0] = 0; w[1] = 0; }}")));
+    assert!(is_told(&format!("{sphere} constraints {{ der(g[2]) = 0; }}")));
+    let carried = "base { x, y, p } basis { u, v, w } anchor { der(x) = u; der(y) = v; der(p) = 0; } \
+        lagrangian { m*(u^2 + v^2 + p^2*w^2) }";
+    assert!(!is_told(&format!("{carried} constraints {{ w = 0; }}")));
+    assert!(is_told(&format!("{carried} constraints {{ u = a*v; }}")));
+    // an auxiliary state stands in no position constraint
+    let commanded = format!("{space} auxiliary {{ der(rate) = a; }} constraints {{ der(x) = rate; }}");
+    assert!(!is_told(&commanded));
+}
+
+/// A function behind `up to` is what the Lagrangian changes by.
+#[test]
+fn lagrangians_that_change_by_a_rate_are_not_called_invariant() {
+    let report = report(
+        "base { x, z } lagrangian { m/2*(der(x)^2 + der(z)^2) } \
+         symmetries { boost: t*der(x) up to m*x; shift: der(z) up to 0; }",
+        FIELDS,
+    );
+    let line = |name: &str| report.lines().find(|line| line.trim().starts_with(name)).map(str::to_owned);
+    let boost = line("boost:").expect("a line of its own");
+    assert!(boost.contains("L is invariant up to the rate of the function in the momentum"), "{boost}");
+    assert_eq!(
+        line("shift:").as_deref(),
+        Some("  shift: z_dot; a symmetry: L is invariant; der(m*z_dot) = 0")
+    );
 }
 
 /// A motor on what constraints hold moves nothing.
@@ -154,4 +182,26 @@ fn the_speed_of_a_point_does_not_keep_the_heading() {
         assert_eq!(tracked(output), "u, w", "{output}");
     }
     assert_eq!(tracked("der(x)"), "yaw, u, w");
+}
+
+/// Where nothing can be, no rank drops and no velocities break down.
+#[test]
+fn places_that_cannot_be_are_not_told() {
+    let told = |sections: &str| {
+        let report = report(sections, "m: f64, R: f64, W: f64, l: f64, r: f64");
+        let lines =
+            report.lines().filter(|line| line.contains("dependent where") || line.contains("break down"));
+        lines.map(|line| line.trim().to_owned()).collect::<Vec<_>>()
+    };
+    let hoop = "base { x, y, z } lagrangian { m*(der(x)^2 + der(y)^2 + der(z)^2) } assume { R > 0; }
+        holonomic { ball: x^2 + y^2 + z^2 = R^2; plane:";
+    assert_eq!(told(&format!("{hoop} x*sin(W) - y*cos(W) = 0; }}")), [""; 0]);
+    assert_eq!(told(&format!("{hoop} x*sin(W*t) - y*cos(W*t) = 0; }}")), [""; 0]);
+    let [edge] = told(&format!("{hoop} x^2 + y^2 = R*x; }}")).try_into().expect("Viviani's curve");
+    assert!(edge.contains("they are dependent where y = 0 and z = 0"), "{edge}");
+    let crank = "base { a, s } lagrangian { m*(der(a)^2 + der(s)^2) } independent { der(a) }
+        holonomic { rod: (s - r*cos(a))^2 + (r*sin(a))^2 = l^2; }";
+    assert_eq!(told(&format!("{crank} assume {{ r > 0; l > r; }}")), [""; 0]);
+    let [short] = told(&format!("{crank} assume {{ l > 0; l < r; }}")).try_into().expect("dead centres");
+    assert!(short.contains("they break down where s - r*cos(a) = 0"), "{short}");
 }
