@@ -106,6 +106,8 @@ pub struct Model {
     pub formulation: Option<(Formulation, Origin)>,
     /// The fields of the struct that stand in no expression.
     pub idle: Vec<String>,
+    /// The inputs that do.
+    pub idle_inputs: Vec<String>,
     /// The units of what is declared, if `units` gives some.
     pub units: Vec<Quantity>,
 }

@@ -330,7 +330,7 @@ impl Hanging {
 #[test]
 fn methods_are_differentiated_by_the_declared_methods() {
     let hanging = Hanging { m: 2.0, g: 10.0 };
-    let held = [HangingVariable::stretch];
+    let held = [HangingCoordinate::stretch];
     let (state, _) = hanging.trim(0.0, &HangingState::default(), &HangingInput::default(), &held).unwrap();
     // x + x³ = 10
     assert!((state.x - 2.0).abs() < 1e-15, "{state:?}");

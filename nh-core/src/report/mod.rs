@@ -60,13 +60,14 @@ pub(crate) fn report(
     section("Classification", classification);
     section("Constants", constants(&model.graph));
     section("Units", units::lines(&model.units));
-    section("Unused parameters", unused(model));
+    section("Unused parameters", unused(&model.idle));
+    section("Unused inputs", unused(&model.idle_inputs));
     section("Conditions on the parameters", nonzero(&model.graph, conditions));
     section("Anchor (kinematic equations)", anchor(model, system));
     section("Structure functions", structure_functions(model, system));
     section("Constraint distribution", distribution(model, derived));
     section("Splitting of D", splitting);
-    section("Mass matrix", mass_matrix(model, derived));
+    section("Mass matrix", mass_matrix(proved, derived));
     section("Routh reduction", routh);
     section("Equations of motion", equations_of_motion(model, derived));
     section("Impacts", impacts);
@@ -89,9 +90,8 @@ fn nonzero(graph: &Graph, conditions: &[ExprId]) -> Vec<String> {
     lines
 }
 
-/// The fields that stand in no expression.
-fn unused(model: &Model) -> Vec<String> {
-    model.idle.iter().map(|name| format!("{name} stands in no expression")).collect()
+fn unused(names: &[String]) -> Vec<String> {
+    names.iter().map(|name| format!("{name} stands in no expression")).collect()
 }
 
 /// `m = 13/10`
@@ -201,7 +201,8 @@ fn distribution(model: &Model, derived: &Derived<'_>) -> Vec<String> {
     }
 }
 
-fn mass_matrix(model: &Model, derived: &Derived<'_>) -> Vec<String> {
+fn mass_matrix(proved: &Proved, derived: &Derived<'_>) -> Vec<String> {
+    let Proved { model, facts, .. } = proved;
     let (matrix, names): (_, Vec<String>) = match derived {
         Derived::Adapted { equations, kept, .. } => (
             &equations.mass,
@@ -209,13 +210,23 @@ fn mass_matrix(model: &Model, derived: &Derived<'_>) -> Vec<String> {
         ),
         Derived::Projected { equations, .. } => (&equations.mass, section_names(model)),
     };
-    let mut lines = Vec::new();
+    let (mut lines, mut negative) = (Vec::new(), Vec::new());
     for (a, row) in matrix.iter().enumerate() {
         for (b, entry) in row.iter().enumerate().skip(a) {
             if !model.graph.is_literal_zero(*entry) {
                 lines.push(format!("({}, {}): {}", names[a], names[b], shown(&model.graph, *entry)));
             }
         }
+        let range = model.graph.range(row[a], facts);
+        if range.nonzero && range.high <= 0.0 {
+            negative.push(format!("({0}, {0})", names[a]));
+        }
+    }
+    if !negative.is_empty() {
+        let entries = negative.join(", ");
+        lines.push(format!(
+            "negative everywhere: {entries}; L is the kinetic energy less the potential energy"
+        ));
     }
     lines
 }

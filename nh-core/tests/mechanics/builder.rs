@@ -95,6 +95,7 @@ impl Builder {
             formulation: None,
             units: Vec::new(),
             idle: Vec::new(),
+            idle_inputs: Vec::new(),
         };
         Self { model }
     }

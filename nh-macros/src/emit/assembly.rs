@@ -24,11 +24,12 @@ pub(super) fn emit(context: &Context, scope: &Scope, system: &System) -> Part {
         &holding(context, scope, system, positions),
         &loops,
     );
-    Part { methods, items: coordinates(context, &system.state_coordinates), ..Part::default() }
+    let has_variables = system.linearization.is_some();
+    Part { methods, items: coordinates(context, &system.state_coordinates, has_variables), ..Part::default() }
 }
 
 /// The same with nothing to do.
-pub(super) fn stub(context: &Context, in_state: &[SymbolId]) -> Part {
+pub(super) fn stub(context: &Context, in_state: &[SymbolId], has_variables: bool) -> Part {
     let guess = local("guess");
     let same = quote!(::core::result::Result::Ok(*#guess));
     let held = local("held");
@@ -39,11 +40,14 @@ pub(super) fn stub(context: &Context, in_state: &[SymbolId]) -> Part {
         &quote!(_ = (self, #t, #held); #same),
         &TokenStream::new(),
     );
-    Part { methods, items: coordinates(context, in_state), ..Part::default() }
+    Part { methods, items: coordinates(context, in_state, has_variables), ..Part::default() }
 }
 
-/// The enum of the coordinates in the state.
-fn coordinates(context: &Context, in_state: &[SymbolId]) -> TokenStream {
+/// The enum of the coordinates in the state; where that of all variables of the state is generated they are among them, first.
+fn coordinates(context: &Context, in_state: &[SymbolId], has_variables: bool) -> TokenStream {
+    if has_variables {
+        return TokenStream::new();
+    }
     let Context { layout, .. } = context;
     let doc = format!(" The base coordinates of [`{}`], by their names in the declaration.", layout.name);
     let fields = coordinate_fields(layout, in_state, "coordinate");
@@ -199,7 +203,7 @@ fn methods(
             &self, #t: #scalar, #guess: &#state_type
         ) -> ::core::result::Result<#state_type, #runtime::AssemblyError> #bound { #loops #nothing_held }
 
-        /// Finds the coordinates that are not held, and the velocities.
+        /// Finds the coordinates that are not held, and the velocities. Only coordinates can be held.
         ///
         /// The coordinates in `held` keep their values exactly. Of those that the position constraints depend on there
         /// have to be as many as these leave free; the others follow, on the branch of the guess. Where as many are held

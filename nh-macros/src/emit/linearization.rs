@@ -149,7 +149,16 @@ fn variables(context: &Context) -> TokenStream {
     );
     let state = context.state.fields.iter().map(|field| ("variable", field));
     let inputs = context.input.iter().flat_map(|record| &record.fields).map(|field| ("input", field));
-    by_name(context, &layout.types.variable, &doc, state.chain(inputs))
+    let (name, coordinates) = (&layout.types.variable, &layout.types.coordinate);
+    let all = by_name(context, name, &doc, state.chain(inputs));
+    let visibility = &context.visibility;
+    let doc = format!(" The base coordinates of [`{}`] by name: they are among its variables.", layout.name);
+    quote! {
+        #all
+        #[doc = #doc]
+        #[allow(dead_code)]
+        #visibility type #coordinates = #name;
+    }
 }
 
 /// The body of `linearize`.

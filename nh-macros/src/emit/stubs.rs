@@ -69,7 +69,7 @@ fn on_request(context: &Context, outline: &Outline) -> Part {
         .with(embedding::stub(context, identities))
         .with(projection::stub(context, identities, constraints))
         .with(if outline.has_positions {
-            assembly::stub(context, &outline.in_state)
+            assembly::stub(context, &outline.in_state, outline.kept.is_some())
         } else {
             Part::default()
         })

@@ -134,15 +134,14 @@ impl Resolver {
         let part = self.part(&whole, shape, indices)?;
         match meaning {
             Meaning::Named(named) => {
+                if matches!(named.role, Role::Input | Role::Parameter) {
+                    self.mentioned.insert(name.text.clone());
+                }
                 let usage = match named.role {
                     Role::Velocity | Role::ImpliedVelocity | Role::FrameVelocity => Some(Usage::Velocity),
                     Role::Input => Some(Usage::Input),
                     Role::Auxiliary => Some(Usage::Auxiliary),
-                    Role::Parameter => {
-                        self.mentioned.insert(name.text.clone());
-                        None
-                    }
-                    Role::Coordinate => None,
+                    Role::Parameter | Role::Coordinate => None,
                 };
                 if let Some(usage) = usage {
                     self.check_usage(expr, usage, &name.text, expr.extent)?;

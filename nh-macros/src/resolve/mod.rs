@@ -104,6 +104,13 @@ impl Resolver {
         fields.filter(|name| !self.mentioned.contains(name)).collect()
     }
 
+    /// The inputs that stand in no expression.
+    fn idle_inputs(&self, declaration: &SystemDecl) -> Vec<String> {
+        let declared = declaration.sections.inputs.iter().flat_map(|section| &section.body);
+        let names = declared.map(|declared| declared.name.text.clone());
+        names.filter(|name| !self.mentioned.contains(name)).collect()
+    }
+
     /// The model, of which parts in error are left out.
     fn model(&mut self, declaration: &SystemDecl, layout: &mut Layout) -> Model {
         let sections = &declaration.sections;
@@ -204,6 +211,7 @@ impl Resolver {
             formulation,
             units,
             idle: layout.idle.iter().cloned().collect(),
+            idle_inputs: self.idle_inputs(declaration),
         }
     }
 }

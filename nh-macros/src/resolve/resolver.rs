@@ -74,7 +74,7 @@ pub(super) struct Resolver {
     pub(super) bodies: Vec<Body>,
     /// What drops out of the declaration.
     pub(super) dropped: Vec<Located>,
-    /// Parameters that stand in an expression, by the names of their fields.
+    /// Parameters and inputs that stand in an expression, by their names.
     pub(super) mentioned: BTreeSet<String>,
     /// What has to have the same unit.
     pub(super) homogeneity: Homogeneity,

@@ -205,3 +205,23 @@ fn places_that_cannot_be_are_not_told() {
     let [short] = told(&format!("{crank} assume {{ l > 0; l < r; }}")).try_into().expect("dead centres");
     assert!(short.contains("they break down where s - r*cos(a) = 0"), "{short}");
 }
+
+/// A slip that is no error is seen: an input that acts nowhere, and a kinetic energy of the wrong sign.
+#[test]
+fn what_may_be_a_slip_is_told() {
+    let told = |sections: &str| report(&format!("base {{ x, y }} {sections}"), FIELDS);
+    let wrong = told(
+        "lagrangian { a*x - m/2*der(x)^2 - a/2*der(y)^2 } inputs { push, pull[2] } forces { x: pull[0]; } assume { m > 0; }",
+    );
+    assert!(wrong.contains("Unused inputs\n  push stands in no expression\n"), "{wrong}");
+    assert!(
+        wrong.contains(
+            "  negative everywhere: (x_dot, x_dot); L is the kinetic energy less the potential energy\n"
+        ),
+        "{wrong}"
+    );
+    let right = told(
+        "lagrangian { m/2*der(x)^2 + a/2*der(y)^2 - x } inputs { push } forces { x: push; } assume { m > 0; }",
+    );
+    assert!(!right.contains("Unused inputs") && !right.contains("negative everywhere"), "{right}");
+}

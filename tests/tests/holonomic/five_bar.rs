@@ -88,17 +88,13 @@ fn torques_that_hold_the_robot() {
     state[..4].copy_from_slice(&PLACE);
     let guess = FiveBarState::from(state);
     let robot = FiveBar::MODEL;
-    let hold = [FiveBarVariable::left, FiveBarVariable::right];
+    // one list for both methods
+    let hold = [FiveBarCoordinate::left, FiveBarCoordinate::right];
     let (held, input) = robot.trim(0.0, &guess, &FiveBarInput::default(), &hold).unwrap();
     // virtual work: the torque of a crank is the slope of the weight's height over its angle
     let height = |left: f64, right: f64| {
         let moved = FiveBarState { left, right, ..guess };
-        robot.energy(
-            0.0,
-            &robot
-                .assemble_holding(0.0, &moved, &[FiveBarCoordinate::left, FiveBarCoordinate::right])
-                .unwrap(),
-        )
+        robot.energy(0.0, &robot.assemble_holding(0.0, &moved, &hold).unwrap())
     };
     let h = 1e-4;
     let slopes = [

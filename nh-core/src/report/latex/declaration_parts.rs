@@ -249,7 +249,7 @@ fn outputs(page: &Page<'_>) -> String {
         text.push_str("A volume with this density is claimed to be invariant, and proved:\n");
         text.push_str(&equations(vec![equation(&Typeset::new(r"\mu", 600), page.formula(volume))]));
     }
-    let idle = &page.model.idle;
-    let unused = idle.iter().map(|name| format!("{name} stands in no expression")).collect::<Vec<_>>();
+    let idle = page.model.idle.iter().chain(&page.model.idle_inputs);
+    let unused = idle.map(|name| format!("{name} stands in no expression")).collect::<Vec<_>>();
     text + &items(&unused)
 }

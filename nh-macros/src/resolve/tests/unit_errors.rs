@@ -344,6 +344,15 @@ fn parameters_in_no_expression_are_known() {
     assert!(layout.idle.contains("k"));
 }
 
+#[test]
+fn inputs_in_no_expression_are_known() {
+    let model = model(
+        "base { x } inputs { u, v[2], w, s } lagrangian { m / 2 * der(x)^2 } forces { x: u + v[1]; } outputs { it = w; }",
+        "struct S { m: f64 }",
+    );
+    assert_eq!(model.idle_inputs, ["s"]);
+}
+
 /// One error was made in what has the name: `units` says nothing of it, and goes on.
 #[test]
 fn names_in_error_are_not_unknown() {
