@@ -11,7 +11,7 @@ mod routhian;
 mod suggestion_line;
 mod symmetry;
 
-use crate::algebra::Graph;
+use crate::algebra::{Facts, Graph, Node};
 use crate::compile::{Derived, Proved};
 use crate::findings::Findings;
 use crate::id::{ExprId, Id};
@@ -217,8 +217,7 @@ fn mass_matrix(proved: &Proved, derived: &Derived<'_>) -> Vec<String> {
                 lines.push(format!("({}, {}): {}", names[a], names[b], shown(&model.graph, *entry)));
             }
         }
-        let range = model.graph.range(row[a], facts);
-        if range.nonzero && range.high <= 0.0 {
+        if is_negative(&model.graph, row[a], facts) {
             negative.push(format!("({0}, {0})", names[a]));
         }
     }
@@ -229,4 +228,16 @@ fn mass_matrix(proved: &Proved, derived: &Derived<'_>) -> Vec<String> {
         ));
     }
     lines
+}
+
+/// Whether an expression is negative by what is known of the parameters; asked of those that have a minus in front.
+fn is_negative(graph: &Graph, expression: ExprId, facts: &Facts) -> bool {
+    let has_minus = match graph.node(expression) {
+        Node::Number(value) => value.is_negative(),
+        Node::Product { coefficient, .. } => coefficient.is_negative(),
+        Node::Sum { terms, .. } => terms.iter().any(|(_, coefficient)| coefficient.is_negative()),
+        _ => false,
+    };
+    let range = has_minus.then(|| graph.range(expression, facts));
+    range.is_some_and(|range| range.nonzero && range.high <= 0.0)
 }
