@@ -210,10 +210,10 @@ fn a_wrong_term_is_told_once() {
     for (sections, unit) in [
         ("outputs { it = m * der(x) + k * x; }", "N"),
         ("outputs { it = [m * der(x) + k * x, k * x]; }", "N"),
-        ("conserved { it = k / 2 * y + k / 2 * x^2; }", "J"),
+        ("conserved { it = k / 2 * y + k / 2 * x^2; }", "N"),
         ("constraints { it: der(x) + y = l * der(y); }", "N s"),
         ("holonomic { it: x + y * l = l; }", "N/m"),
-        ("symmetries { it: der(x) + y * der(y) + der(y); }", "J s/m"),
+        ("symmetries { it: y * der(y) + der(x) + der(y); }", "J s"),
     ] {
         let found = of(sections, unit);
         assert_eq!(found.len(), 1, "{sections}: {found:?}");
