@@ -12,4 +12,6 @@ fn main() {
     let _ = Free.jacobian(0.0, &state, &());
     let _ = Free.sparse_jacobian(0.0, &state, &());
     let _ = Free.prepare().derivative(0.0, &state, &());
+    let _ = Integrator::new(Free, Radau5::new().with_jacobian(), 0.0, state);
+    let _ = Integrator::new(Free, ImplicitMidpoint::new(0.1).with_jacobian(), 0.0, state);
 }
