@@ -3,6 +3,7 @@
 use super::assumptions::on_the_base;
 use super::domain::{Condition, conditions, holds};
 use super::evidence::{name_of, shown};
+use super::parts_of_positions::vanishing_factors;
 use crate::algebra::{Demand, Facts, Graph, Node, Rational};
 use crate::geometry::{Algebroid, Manifold};
 use crate::id::{ConstraintId, ExprId, Id, SymbolId};
@@ -56,7 +57,7 @@ pub(super) fn multiples_without_slope(model: &mut Model, functions: &[ExprId]) -
     let (why, _) = combinations.into_iter().find_map(|combination| {
         let combination = graph.simplify(combination);
         // of a product one factor may be 0 with a slope, and another without
-        let is_asked = factors_that_vary(graph, combination, &coordinates) == 1;
+        let is_asked = vanishing_factors(graph, combination, &coordinates) == 1;
         is_asked.then(|| without_slope(graph, combination, &coordinates))?
     })?;
     Some(why)
@@ -72,16 +73,6 @@ fn touch(model: &Model, evidence: String) -> Option<Violation> {
         way_out: "correct one of them, or write what they leave, one equation for each: `x = 0; y = 0;`"
             .into(),
     })
-}
-
-/// How many factors of a function change as symbols move.
-fn factors_that_vary(graph: &Graph, function: ExprId, moving: &[SymbolId]) -> usize {
-    match graph.node(function) {
-        Node::Product { factors, .. } => {
-            factors.iter().filter(|(base, _)| graph.depends_on(*base, moving)).count()
-        }
-        _ => usize::from(graph.depends_on(function, moving)),
-    }
 }
 
 /// A constraint whose derivative with respect to the velocities vanishes where it holds, as that of a square does.

@@ -85,7 +85,8 @@ pub(super) fn without_lesser_parts(
 ) -> Vec<LesserPart> {
     let moving: Vec<SymbolId> = model.coordinates.iter().map(|coordinate| coordinate.symbol).collect();
     let is_whole = manifold.parts().nth(1).is_none();
-    if is_whole || model.positions.iter().any(|position| is_product(&model.graph, position.value, &moving)) {
+    let is_product = |value| vanishing_factors(&model.graph, value, &moving) > 1;
+    if is_whole || model.positions.iter().any(|position| is_product(position.value)) {
         return Vec::new();
     }
     let mut ranks = Vec::new();
@@ -110,10 +111,12 @@ pub(super) fn without_lesser_parts(
     lesser
 }
 
-/// Whether a function is written as a product of several that vanish.
-fn is_product(graph: &Graph, function: ExprId, moving: &[SymbolId]) -> bool {
-    let Node::Product { factors, .. } = graph.node(function) else { return false };
-    factors.iter().filter(|(base, power)| !power.is_negative() && graph.depends_on(*base, moving)).count() > 1
+/// How many factors a function is written as that change as symbols move, and may vanish.
+pub(super) fn vanishing_factors(graph: &Graph, function: ExprId, moving: &[SymbolId]) -> usize {
+    let Node::Product { factors, .. } = graph.node(function) else {
+        return usize::from(graph.depends_on(function, moving));
+    };
+    factors.iter().filter(|(base, power)| !power.is_negative() && graph.depends_on(*base, moving)).count()
 }
 
 /// So many equations that nothing moves where they are independent, which they were not asked to be on N.
