@@ -7,11 +7,13 @@
 //! jump, and ends it with [`End::Accumulated`] where the jumps come without end, as those of a ball that comes to rest.
 
 mod complementarity;
+mod jumps;
 mod no_jump;
 mod run;
 
+pub use jumps::{Struck, strike};
 pub use no_jump::ImpactError;
-pub use run::{End, Struck, advance_with_impacts, strike};
+pub use run::{End, advance_with_impacts};
 
 use crate::{Dynamics, Scalar, ScalarOf, VecOf};
 
