@@ -177,7 +177,7 @@ impl<T: Scalar, const N: usize, const M: usize> NearReturn<T, N, M> {
 }
 
 /// Whether a change is, in every lane, less than half of the preceding one, nothing, or rounding.
-#[inline]
+#[inline(never)]
 fn falls<T: Scalar, const N: usize>(preceding: &[T; N], change: &[T; N], sizes: &[T; N]) -> bool {
     let mut level = T::ZERO;
     for ((preceding, change), size) in preceding.iter().zip(change).zip(sizes) {
@@ -192,6 +192,7 @@ fn falls<T: Scalar, const N: usize>(preceding: &[T; N], change: &[T; N], sizes: 
 /// Whether some variable has not the digits that are asked of it, a crank that has turned for long, and others would move by
 /// less than 4096 units of their last places to make up for that. They would by ever less, as it takes its share again and
 /// again.
+#[inline(never)]
 fn is_held_up<T: Scalar, const N: usize>(change: &[T; N], sizes: &[T; N], left_over: T) -> bool {
     let stays = |(change, size): (&T, &T)| {
         let change = change.abs();
